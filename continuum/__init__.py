@@ -1,0 +1,1 @@
+"""The equations of fluids and their solutions on grids."""

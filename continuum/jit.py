@@ -1,0 +1,70 @@
+"""numba's settings, once, and formulas that are chosen by the type of what a scene lists.
+
+Import this module before numba: it puts the disk cache of compiled code in a folder named after the
+sources, because numba itself notices a change only in the file of the compiled function and would go on
+using an old formula of another module.
+"""
+import hashlib
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def source_hash() -> str:
+    """Hash of the sources of all packages that hold compiled code."""
+    digest = hashlib.sha256()
+    for path in sorted([*ROOT.glob("continuum/**/*.py"), *ROOT.glob("particles/**/*.py")]):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:12]
+
+
+os.environ.setdefault("NUMBA_CACHE_DIR", str(ROOT / ".numba_cache" / source_hash()))
+
+import numba  # noqa: E402  (the cache folder must be known first)
+from numba.extending import overload, register_jitable  # noqa: E402
+
+# NaN must stay NaN (divergence is looked for), so not the whole of fastmath
+FASTMATH = {"contract", "reassoc", "arcp", "nsz"}
+OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": FASTMATH}
+
+#: compiled, kept on disk, free of Python's lock so that threads can share the rows of one loop
+jit = numba.njit(cache=True, nogil=True, **OPTIONS)
+#: plain arithmetic that serves numbers, arrays and compiled code alike
+formula = register_jitable(**OPTIONS)
+
+
+def generic(stub: Callable) -> Any:
+    """A function whose formula is chosen by the type of its first argument (a NamedTuple).
+
+    ``@pressure.of(IdealGas)`` adds a formula; calling works from Python and from compiled code.
+
+    Raises
+    ------
+    TypeError
+        No formula is known for that type.
+    """
+    table: dict[type, Callable] = {}
+
+    def call(first, *rest):
+        if type(first) not in table:
+            known = ", ".join(kind.__name__ for kind in table)
+            raise TypeError(f"{stub.__name__}({type(first).__name__}, ...) is not defined: it knows {known}; "
+                            f"add a formula with @{stub.__name__}.of({type(first).__name__})")
+        return table[type(first)](first, *rest)
+
+    @overload(call, strict=False, jit_options=OPTIONS)
+    def _(first, *rest):
+        return table.get(getattr(first, "instance_class", None))
+
+    def of(kind: type) -> Callable:
+        def register(function: Callable) -> Callable:
+            table[kind] = function
+            return function
+        return register
+
+    call.__doc__, call.__name__ = stub.__doc__, stub.__name__
+    call.of, call.kinds = of, table  # type: ignore[attr-defined]
+    return call

@@ -1,0 +1,1 @@
+"""Fluids as particles: weights, pair sums, walls, methods and the one time loop."""
