@@ -1,0 +1,178 @@
+"""The scene that every solver meets: a fluid between two plates, heated from below [KHP95, Secs IV-VI].
+
+Lengths in units of sigma, y in (-L/2, L/2) upwards, x in (-aspect L/2, aspect L/2); mean density 1; gravity is
+chosen so that the motionless state has exactly constant density. Nothing here solves anything: grids and particles
+read it.
+"""
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import (
+    ConstEta,
+    IdealGas,
+    check_state,
+    conductivity,
+    energy,
+    expansivity,
+    thermal_pressure,
+    viscosity,
+)
+
+
+class Periodic(NamedTuple):
+    """Periodic in x with period aspect L; rolls come in pairs."""
+
+    def rolls(self, x, y, width, L, count):
+        """Velocities of KHP95, Sec. VI (count = 2, aspect 2); as printed they are not free of divergence."""
+        if count < 2 or count % 2:
+            raise ValueError(f"rolls between periodic sides come in pairs, got {count}: give an even number")
+        k = np.pi*count/width
+        return np.sin(k*x)*np.sin(2*np.pi*y/L), np.cos(k*x)*np.cos(np.pi*y/L)
+
+
+class Walls(NamedTuple):
+    """No-slip walls at x = -+ aspect L/2 too, their temperature linear in y    [KHP95, Fig. 6]"""
+
+    def rolls(self, x, y, width, L, count):
+        """v = (psi_y, -psi_x), psi = cos(a) sin(count (a + pi/2)) cos^2(pi y/L), a = pi x/width: no slip."""
+        if count < 1:
+            raise ValueError(f"a box with four walls holds at least one roll, got {count}")
+        a, b = np.pi*x/width, np.pi*y/L
+        s, c = np.sin(count*(a + np.pi/2)), np.cos(count*(a + np.pi/2))
+        slope = np.pi/width*(count*np.cos(a)*c - np.sin(a)*s)
+        return -np.pi/L*np.cos(a)*s*np.sin(2*b), -slope*np.cos(b)**2
+
+
+@dataclass(frozen=True, kw_only=True)
+class RayleighBenard:
+    """A layer of fluid heated from below.
+
+    Parameters
+    ----------
+    ra : Rayleigh number g alpha L^3 dT/(nu kappa) at density 1 and mean temperature, kappa = k/(rho C_V).
+    eos : equation of state of `continuum.fluid`.
+    transport : class of the transport law: ConstEta, ConstNu, ...; its numbers follow from `ra` and `pr`.
+    L : height in sigma; energies do not depend on it (it fixes the units of length and time only).
+    aspect : width / height.
+    T_hot, T_cold : temperatures of the plates at y = -L/2 and y = +L/2.
+    sides : Periodic() or Walls().
+    pr : nu/kappa; 1 is KHP95's eta = k where C_V = 1.
+    """
+    ra: float
+    eos: Any = IdealGas()  # noqa: RUF009  (immutable)
+    transport: type = ConstEta
+    L: float = 50.0
+    aspect: float = 2.0
+    T_hot: float = 1.5
+    T_cold: float = 0.5
+    sides: Any = field(default_factory=Periodic)
+    pr: float = 1.0
+
+    def __post_init__(self):
+        self._check_numbers()
+        for T in (self.T_hot, self.T_cold):
+            check_state(self.eos, 1.0, energy(self.eos, 1.0, T))
+        eta = float(viscosity(self.law, 1.0, self.T_mean))
+        if not np.isclose(eta, self.eta) or not np.isclose(conductivity(self.law, 1.0, self.T_mean), self.k):
+            raise ValueError(f"{self.transport.__name__} gives eta = {eta:.6g} at rho = 1, T = {self.T_mean}, but "
+                             f"Ra = {self.ra} needs {self.eta:.6g}: choose temperatures with the law's own mean")
+
+    def _check_numbers(self):
+        if not self.ra > 0:
+            raise ValueError(f"Ra must be positive, got {self.ra}: the lower plate is the hot one")
+        if not self.pr > 0:
+            raise ValueError(f"Pr = nu/kappa must be positive, got {self.pr}")
+        if not (self.L > 0 and self.aspect > 0):
+            raise ValueError(f"L and aspect must be positive, got L = {self.L}, aspect = {self.aspect}")
+        if not self.T_hot > self.T_cold > 0:
+            raise ValueError(f"temperatures must obey T_hot > T_cold > 0, got {self.T_hot} and {self.T_cold}")
+        if not isinstance(self.sides, (Periodic, Walls)):
+            raise ValueError(f"sides must be Periodic() or Walls(), got {self.sides!r}")
+
+    @property
+    def width(self) -> float:
+        return self.aspect*self.L
+
+    @property
+    def dT(self) -> float:
+        return self.T_hot - self.T_cold
+
+    @property
+    def T_mean(self) -> float:
+        return (self.T_hot + self.T_cold)/2
+
+    @property
+    def g(self) -> float:
+        """Gravity that balances (dP/dT)_rho dT/dy at density 1    [KHP95, Sec. IV]"""
+        return float(thermal_pressure(self.eos, 1.0, self.T_mean))*self.dT/self.L
+
+    @property
+    def alpha(self) -> float:
+        """Thermal expansion -(1/rho)(drho/dT)_P at density 1 and mean temperature."""
+        return float(expansivity(self.eos, 1.0, self.T_mean))
+
+    @property
+    def nu(self) -> float:
+        """Kinematic viscosity, sigma^2 per unit of time."""
+        return float(np.sqrt(self.pr*self.g*self.alpha*self.dT*self.L**3/self.ra))
+
+    @property
+    def kappa(self) -> float:
+        """Thermal diffusivity k/(rho C_V)."""
+        return self.nu/self.pr
+
+    @property
+    def eta(self) -> float:
+        """Shear viscosity at density 1."""
+        return self.nu
+
+    @property
+    def k(self) -> float:
+        """Heat conductivity at density 1."""
+        return self.kappa*self.eos.cv
+
+    @property
+    def law(self) -> Any:
+        """The transport law with its numbers, for `viscosity` and `conductivity`."""
+        known = {"eta": self.eta, "k": self.k, "nu": self.nu, "kappa": self.kappa, "cv": self.eos.cv}
+        return self.transport(**{name: known[name] for name in self.transport._fields if name in known})
+
+    @property
+    def viscous_time(self) -> float:
+        """L^2/nu, the time after which a flow far from onset is steady."""
+        return self.L**2/self.nu
+
+    @property
+    def free_fall(self) -> float:
+        """sqrt(g alpha dT L), the unit of velocity of Boussinesq solutions; 1 for the ideal gas."""
+        return float(np.sqrt(self.g*self.alpha*self.dT*self.L))
+
+    def T(self, y):
+        """Conduction profile: linear, and at density 1 an exact solution without motion (constant k)."""
+        return self.T_mean - self.dT*np.asarray(y)/self.L
+
+    def e(self, y):
+        """Energy per mass of the motionless state."""
+        return energy(self.eos, 1.0, self.T(y))
+
+    def flow(self, x, y, ke: float, rolls: int | None = None):
+        """Velocities (v_x, v_y) of the initial rolls with kinetic energy `ke` per mass (density 1).
+
+        `rolls` counts them along x; default: as many as are about as wide as high, in pairs if periodic.
+        """
+        if not ke >= 0:
+            raise ValueError(f"the kinetic energy of the initial rolls cannot be negative, got {ke}")
+        if rolls is None:
+            step = 2 if isinstance(self.sides, Periodic) else 1
+            rolls = step*max(1, round(self.aspect/step))
+        u, v = self.sides.rolls(np.asarray(x), np.asarray(y), self.width, self.L, rolls)
+        scale = np.sqrt(ke/self._roll_energy(rolls))
+        return scale*u, scale*v
+
+    def _roll_energy(self, rolls: int) -> float:
+        """Mean v^2/2 of the pattern; the midpoint rule is exact for its few harmonics."""
+        mid = (np.arange(8*(rolls + 2)) + 0.5)/(8*(rolls + 2)) - 0.5
+        u, v = self.sides.rolls(mid*self.width, mid[:, None]*self.L, self.width, self.L, rolls)
+        return float(np.mean(u**2 + v**2)/2)
