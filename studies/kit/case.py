@@ -1,0 +1,126 @@
+"""A case: one computation with all its parameters, and what it hands back."""
+import dataclasses
+import json
+import sys
+from collections.abc import Callable, Iterator
+from enum import Enum
+from functools import cached_property
+from pathlib import Path
+from types import ModuleType
+from typing import Any, ClassVar
+
+from studies.kit import source
+
+#: called with the fraction done, in [0, 1]
+Report = Callable[[float], None]
+
+
+@dataclasses.dataclass(frozen=True)
+class Outcome:
+    """What a case found: rows (column -> value) for each table by name."""
+
+    rows: dict[str, list[dict[str, Any]]]
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Case:
+    """Base of all cases; a subclass is a frozen keyword-only dataclass whose fields are the parameters.
+
+    Fields may be numbers, strings, tuples, dicts, enums, NamedTuples, dataclasses, and functions or classes
+    of a module. The result must depend on nothing else than these and the code.
+    """
+
+    #: modules the result depends on that the class does not name itself (the ones it names are found)
+    code: ClassVar[tuple[ModuleType | str, ...]] = ()
+    #: True for timings: the case then has the machine to itself
+    alone: ClassVar[bool] = False
+
+    @property
+    def cost(self) -> float:
+        """Estimated CPU seconds: longest cases start first, and the time left is reckoned from it."""
+        return 1.0
+
+    @property
+    def label(self) -> str:
+        """A few words for the progress line and for messages."""
+        values = [getattr(self, field.name) for field in dataclasses.fields(self)]
+        return " ".join([type(self).__name__, *(f"{v:g}" if isinstance(v, float) else str(v) for v in values)])
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        """Compute. ``folder`` is for checkpoints: it is kept until the case is finished."""
+        raise NotImplementedError(f"{type(self).__name__} needs run(self, report, folder) -> Outcome")
+
+    @cached_property
+    def key(self) -> str:
+        """Hash of the parameters and of all code that the result depends on."""
+        path, names, modules = origin(self)
+        own = source.part(path, names)
+        here = module_of(path) or ""
+        for statement in own:
+            modules |= {name for name in source.imports(statement, here) if source.find(name)}
+        modules |= {getattr(module, "__name__", str(module)) for module in self.code}
+        modules.discard(here)
+        pieces = [(name, source.parse(file)) for name, file in sorted(source.closure(modules).items())]
+        return source.digest(json.dumps(parameters(self), sort_keys=True), *own,
+                             *(piece for pair in pieces for piece in pair))
+
+
+def parameters(value: Any) -> Any:
+    """Parameters as JSON: exact (floats by repr), the type of every record with it."""
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        fields = {field.name: parameters(getattr(value, field.name)) for field in dataclasses.fields(value)}
+        return {"": type(value).__qualname__, **fields}
+    if isinstance(value, Enum):
+        return {"": type(value).__qualname__, "name": value.name}
+    if isinstance(value, tuple) and hasattr(value, "_asdict"):
+        return {"": type(value).__qualname__, **{k: parameters(v) for k, v in value._asdict().items()}}
+    if isinstance(value, tuple | list):
+        return [parameters(item) for item in value]
+    if isinstance(value, dict):
+        return {"": "dict", **{str(k): parameters(v) for k, v in value.items()}}
+    if value is None or isinstance(value, bool | int | float | str):
+        return value
+    if hasattr(value, "__qualname__") and "<" not in value.__qualname__:
+        main = value.__module__ in ("__main__", "__mp_main__")
+        return {"": value.__qualname__, "module": module_of(file_of(value)) if main else value.__module__}
+    raise TypeError(f"a case cannot hold {value!r}: use numbers, texts, tuples, NamedTuples, dataclasses, "
+                    "enums, or functions and classes of a module")
+
+
+def origin(case: Case) -> tuple[Path, set[str], set[str]]:
+    """File of the case's class; names in it, and modules elsewhere, that class and parameters come from."""
+    path = file_of(type(case))
+    assert path is not None, "a class with fields has a file"
+    names, modules = set(), set()
+    for kind in (*type(case).__mro__, *kinds(case)):
+        file = file_of(kind)
+        if file == path:
+            names.add(kind.__qualname__.split(".")[0])
+        elif file and (name := module_of(file)) and source.find(name):
+            modules.add(name)
+    return path, names, modules
+
+
+def kinds(value: Any) -> Iterator[Any]:
+    """Types of all parameters, nested ones too, and parameters that are functions or classes themselves."""
+    yield value if hasattr(value, "__qualname__") else type(value)
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        value = [getattr(value, field.name) for field in dataclasses.fields(value)]
+    if isinstance(value, dict):
+        value = list(value.values())
+    if isinstance(value, tuple | list):
+        for item in value:
+            yield from kinds(item)
+
+
+def file_of(thing: Any) -> Path | None:
+    """File that a class or function is written in, None for built-in ones."""
+    file = getattr(sys.modules.get(thing.__module__ or ""), "__file__", None)
+    return Path(file).resolve() if file else None
+
+
+def module_of(path: Path | None) -> str | None:
+    """Dotted name of a file below the root: ``python -m studies.rb`` calls itself __main__."""
+    if path is None or not path.is_relative_to(source.ROOT):
+        return None
+    return ".".join(path.relative_to(source.ROOT).with_suffix("").parts).removesuffix(".__init__")

@@ -1,0 +1,146 @@
+"""Claims: what a paper says, what was measured, and the verdict.
+
+With measured value m, its 95 % interval [m - err, m + err] and the accepted range [low, high]:
+
+- ``holds``        the whole interval lies in the range;
+- ``fails``        the whole interval lies outside, on one side;
+- ``undecidable``  a limit of the range lies in the interval, or nothing could be measured.
+
+A point estimate inside the range is not enough for ``holds``: with a large error bar it would hold by
+ignorance, and a better measurement could turn the verdict round. This way either verdict is wrong in 2.5 % of
+cases at most, and more computing moves an undecidable claim one way or the other.
+"""
+import math
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from studies.kit import provenance
+from studies.kit.csvfile import read, write
+from studies.kit.stats import Measured
+from studies.kit.table import Tables
+
+COLUMNS = ("id", "source", "statement", "printed", "measured", "err", "verdict", "reason", "study")
+NAMED = re.compile(r"(KHP95|RR98)\b|[A-Z].*\b(1[89]|20)\d\d\b", re.IGNORECASE)
+
+
+class CannotTell(Exception):
+    """Raised by a claim's ``value``: the tables at hand do not decide it, for the reason given."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Claim:
+    """One statement of a paper, testable or not.
+
+    ``value(tables)`` gives (value, err), err the half width of the 95 % interval. Accepted is ``expect`` +-
+    ``within``, or ``at_least``, or ``at_most``, or both of these; ``because`` says where these limits come
+    from. What cannot be tested has ``undecidable="reason"`` in their place.
+    """
+
+    id: str
+    source: str
+    statement: str
+    printed: str = ""
+    value: Callable[[Tables], Measured | tuple[float, float]] | None = None
+    expect: float | None = None
+    within: float | None = None
+    at_least: float = -math.inf
+    at_most: float = math.inf
+    because: str = ""
+    undecidable: str = ""
+
+    def __post_init__(self):
+        if not NAMED.match(self.source):
+            raise ValueError(f"claim {self.id}: source {self.source!r} is not a citation: begin with KHP95, "
+                             "RR98 or an author and a year")
+        if not self.undecidable.strip():
+            self.check_testable()
+        elif self.value:
+            raise ValueError(f"claim {self.id} has a value and is declared undecidable: keep one of them")
+
+    def check_testable(self) -> None:
+        """A claim that is tested has a value, limits and a reason for these."""
+        if not self.because.strip():
+            raise ValueError(f"claim {self.id} has no reason for its tolerance: because= says why this wide")
+        if self.value is None:
+            raise ValueError(f"claim {self.id} has no value: give value=, or undecidable= with the reason")
+        pair = (self.expect is not None) + (self.within is not None)
+        sided = self.at_least > -math.inf or self.at_most < math.inf
+        if pair == 1 or (pair == 2) == sided or not self.low <= self.high:
+            raise ValueError(f"claim {self.id} accepts [{self.low}, {self.high}]: give expect= with within= "
+                             ">= 0, or at_least=, or at_most=, or both of these")
+
+    @property
+    def low(self) -> float:
+        """Least accepted value."""
+        return self.at_least if self.expect is None or self.within is None else self.expect - self.within
+
+    @property
+    def high(self) -> float:
+        """Largest accepted value."""
+        return self.at_most if self.expect is None or self.within is None else self.expect + self.within
+
+    @property
+    def accepted(self) -> str:
+        """The accepted range in words."""
+        if self.expect is not None:
+            return f"accepted {self.expect:.6g} +- {self.within:.3g}"
+        words = [f"at least {self.at_least:.6g}"]*math.isfinite(self.at_least)
+        return "accepted " + " and ".join(words + [f"at most {self.at_most:.6g}"]*math.isfinite(self.at_most))
+
+
+def verdict(claim: Claim, value: float, err: float) -> str:
+    """``holds``, ``fails`` or ``undecidable`` by the rule at the head of this file."""
+    if err < 0:
+        raise ValueError(f"claim {claim.id}: err is {err}, but half the width of an interval is not negative")
+    if claim.low <= value - err and value + err <= claim.high:
+        return "holds"
+    if value - err > claim.high or value + err < claim.low:
+        return "fails"
+    return "undecidable"
+
+
+def judge(claims: Sequence[Claim], tables: Tables, study: str) -> list[dict[str, Any]]:
+    """One row a claim, with the columns of results/claims.csv."""
+    names = [claim.id for claim in claims]
+    if twice := sorted({name for name in names if names.count(name) > 1}):
+        raise ValueError(f"two claims of study {study} are called {', '.join(twice)}: an id names one claim")
+    return [{"id": claim.id, "source": claim.source, "statement": claim.statement, "printed": claim.printed,
+             "study": study, **judged(claim, tables)} for claim in claims]
+
+
+def judged(claim: Claim, tables: Tables) -> dict[str, Any]:
+    """Measured value, error, verdict and reason of one claim."""
+    unknown = {"measured": math.nan, "err": math.nan, "verdict": "undecidable"}
+    if claim.value is None:
+        return {**unknown, "reason": claim.undecidable}
+    try:
+        value, err = map(float, claim.value(tables))
+    except CannotTell as why:
+        return {**unknown, "reason": str(why)}
+    except Exception as error:
+        error.add_note(f"while judging claim {claim.id}")
+        raise
+    said = verdict(claim, value, err)
+    limit = "a limit lies within the error: " if said == "undecidable" else ""
+    reason = f"{limit}{claim.accepted}: {claim.because}"
+    return {"measured": value, "err": err, "verdict": said, "reason": reason}
+
+
+def put_claims(path: Path, rows: Sequence[dict[str, Any]], study: str) -> None:
+    """Replace the claims of one study in results/claims.csv; those of others stay."""
+    old = read(path, COLUMNS) if path.exists() else pd.DataFrame(columns=list(COLUMNS))
+    others = old[old["study"] != study]
+    new = pd.DataFrame(rows, columns=list(COLUMNS))
+    frame = pd.concat([part for part in (others, new) if len(part)]) if len(others) + len(new) else new
+    write(path, frame.sort_values(["study", "id"]), head=claims_head())
+
+
+def claims_head() -> Iterator[str]:
+    """What the columns mean."""
+    yield f"commit {provenance.commit()}"
+    yield "err is the half width of the 95 % interval; the rule of the verdicts is in studies/kit/claim.py"

@@ -1,0 +1,72 @@
+"""CSV with a head of comments: where the numbers come from, and which columns are text."""
+import os
+from collections.abc import Iterable
+from pathlib import Path
+
+import pandas as pd
+
+
+def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
+    """A table from CSV; empty text is "", an empty number NaN.
+
+    Raises
+    ------
+    FileNotFoundError, ValueError
+        There is no such file, or it lacks some of ``columns``.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise FileNotFoundError(f"{path} does not exist: make study-{path.parent.name} writes it")
+    names, text = pd.read_csv(path, comment="#", nrows=0).columns, text_columns(path)
+    if lost := [column for column in columns if column not in names]:
+        raise ValueError(f"{path} has no column {', '.join(lost)}: it was written by other code; "
+                         "remove it and run the study again")
+    return pd.read_csv(path, comment="#", dtype=dict.fromkeys(text, str), keep_default_na=False,
+                       na_values={name: ["", "nan"] for name in names if name not in text})
+
+
+def text_columns(path: Path) -> list[str]:
+    """The columns that the head names as text: a column of empty texts does not tell by itself."""
+    begin = "# text columns:"
+    with path.open() as lines:
+        found = [line.removeprefix(begin).strip().split(", ") for line in lines if line.startswith(begin)]
+    return [name for name in found[0] if name] if found else []
+
+
+def write(path: Path, frame: pd.DataFrame, *, head: Iterable[str]) -> None:
+    """CSV below ``head``, one comment a line. A table that did not change keeps the head it was written with.
+
+    Raises
+    ------
+    ValueError
+        A column mixes text and numbers, or a text holds the sign of a comment.
+    """
+    text = [str(name) for name in frame if is_text(frame[name], path)]
+    frame = frame.assign(**{name: frame[name].fillna("") for name in text})
+    body = f"# text columns: {', '.join(text)}\n" + frame.to_csv(index=False, float_format="%.9g")
+    if not (path.exists() and path.read_text().endswith(body)):
+        write_atomic(path, "".join(f"# {line}\n" for line in head) + body)
+
+
+def is_text(column: pd.Series, path: Path) -> bool:
+    """True for text, False for numbers; anything in between is refused."""
+    there = column.dropna()
+    texts = [value for value in there if isinstance(value, str)]
+    if texts and len(texts) < len(there):
+        raise ValueError(f"column {column.name} of {path.name} mixes numbers with text such as {texts[0]!r}: "
+                         "write infinity as math.inf, nothing as None")
+    if comments := [value for value in texts if "#" in value]:
+        raise ValueError(f"column {column.name} of {path.name} holds {comments[0]!r}: # begins a comment in "
+                         "a CSV; use another sign")
+    return bool(texts)
+
+
+def write_atomic(path: Path, text: str) -> None:
+    """The whole text or nothing: an interrupt or a full disk leaves the old file as it was."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        part.write_text(text)
+        os.replace(part, path)
+    finally:
+        part.unlink(missing_ok=True)

@@ -1,0 +1,52 @@
+"""One look for all figures: told apart by colour, marker and line, so that they read in grey too."""
+import io
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+from cycler import cycler
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+#: Okabe and Ito's colours, which colour-blind readers can tell apart
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#F0E442")
+MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
+LINES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), (0, (8, 3)))
+
+matplotlib.rcParams.update({
+    "axes.prop_cycle": cycler(color=COLOURS) + cycler(marker=MARKERS) + cycler(linestyle=LINES),
+    "axes.grid": True, "axes.titlesize": 10, "grid.alpha": 0.3, "font.size": 10, "legend.fontsize": 8,
+    "legend.frameon": False, "lines.markersize": 5, "lines.linewidth": 1.2, "errorbar.capsize": 2.5,
+    "savefig.dpi": 150, "figure.dpi": 100, "image.cmap": "viridis",
+})
+
+
+def figure(rows: int = 1, columns: int = 1, *, width: float = 4.5, height: float = 3.4,
+           **more: Any) -> tuple[Figure, Any]:
+    """A figure of rows x columns axes, each ``width`` x ``height`` inches; axes as from plt.subplots."""
+    page = Figure(figsize=(width*columns, height*rows), layout="constrained")
+    return page, page.subplots(rows, columns, **more)
+
+
+def look(number: int) -> dict[str, Any]:
+    """Colour, marker and line of series ``number``, for a series that looks the same in every figure."""
+    number %= len(COLOURS)
+    return {"color": COLOURS[number], "marker": MARKERS[number], "linestyle": LINES[number]}
+
+
+def errorbar(axes: Axes, x: Sequence[float], y: Sequence[float], err: Sequence[float], *, number: int = 0,
+             label: str = "", **more: Any) -> None:
+    """Points with their 95 % intervals; no line unless ``linestyle`` is given."""
+    axes.errorbar(x, y, yerr=err, label=label, **{**look(number), "linestyle": "none", **more})
+
+
+def save(page: Figure, path: Path) -> None:
+    """Write a PNG, all or nothing; the same figure gives the same bytes."""
+    picture = io.BytesIO()
+    page.savefig(picture, format="png", metadata={"Software": None})
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_name(f".{path.name}.{os.getpid()}")
+    part.write_bytes(picture.getvalue())
+    os.replace(part, path)

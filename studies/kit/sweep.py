@@ -1,0 +1,108 @@
+"""All cases of a study: those already finished are read, the others run, and tables get their rows."""
+import sys
+from collections.abc import Iterable, Sequence
+from concurrent.futures import Executor
+from pathlib import Path
+from typing import Any
+
+from studies.kit.case import Case
+from studies.kit.keep import Failure, kept
+from studies.kit.source import ROOT
+from studies.kit.table import Table, Tables, check_size, merge, read
+from studies.kit.workers import Bar, run_here, run_there
+
+RESULTS = ROOT / "results"
+
+
+class CasesFailed(Exception):
+    """Some cases raised; the tables hold what the others found."""
+
+
+class Interrupted(KeyboardInterrupt):
+    """The user stopped the study; finished cases are kept."""
+
+
+def sweep(cases: Iterable[Case], *, tables: Sequence[Table], study: str, size: str, workers: int = 2,
+          out: Path = RESULTS, executor: Executor | None = None) -> Tables:
+    """Run the cases that are not finished yet, merge all rows into ``out/study/*.csv`` and read these back.
+
+    ``workers=1`` runs in this process. ``executor`` may be any that takes ``submit`` (then without
+    fractions of running cases in the bar).
+
+    Raises
+    ------
+    CasesFailed, Interrupted
+        When everything that could be saved is saved.
+    """
+    check_size(size)
+    check_workers(workers)
+    folder = out / "raw" / study
+    wanted = list({case.key: case for case in cases}.values())
+    failures = run(wanted, folder, study, workers, executor)
+    if any(failure.disk_full for failure in failures):
+        raise CasesFailed(f"the disk is full: make room where {folder} lies; {count(wanted, folder)}")
+    result = put(collect(wanted, folder), tables, study, size, out)
+    if failures:
+        raise CasesFailed(f"{len(failures)} of {len(wanted)} cases failed, the tables hold the others:\n"
+                          + "\n".join(map(str, failures)))
+    return result
+
+
+def check_workers(workers: int) -> None:
+    """Refuse what cannot work."""
+    if workers < 1:
+        raise ValueError(f"workers must be at least 1, got {workers}: 2 uses two cores")
+
+
+def run(wanted: Sequence[Case], folder: Path, study: str, workers: int,
+        executor: Executor | None) -> list[Failure]:
+    """Run the cases that are not kept, the longest first; a full disk stops all of them."""
+    todo = sorted((case for case in wanted if kept(case, folder) is None), key=lambda case: -case.cost)
+    bar, failures = Bar(todo, study), []
+    try:
+        here = workers == 1 and executor is None
+        running = run_here(todo, folder, bar) if here else run_there(todo, folder, bar, workers, executor)
+        for failure in running:
+            failures.append(failure)
+            if failure.disk_full:
+                break
+    except KeyboardInterrupt:
+        raise Interrupted(f"interrupted: {count(wanted, folder)}") from None
+    finally:
+        bar.bar.close()
+    return failures
+
+
+def count(cases: Sequence[Case], folder: Path) -> str:
+    """What is kept, and how to go on."""
+    done = sum(kept(case, folder) is not None for case in cases)
+    return f"{done} of {len(cases)} cases are finished and kept, the same command goes on from there"
+
+
+def collect(cases: Sequence[Case], folder: Path) -> dict[str, list[dict[str, Any]]]:
+    """Rows of all finished cases, by table."""
+    rows: dict[str, list[dict[str, Any]]] = {}
+    for case in cases:
+        for name, new in (kept(case, folder) or {}).items():
+            rows.setdefault(name, []).extend(new)
+    return rows
+
+
+def put(rows: dict[str, list[dict[str, Any]]], tables: Sequence[Table], study: str, size: str,
+        out: Path) -> Tables:
+    """Merge rows into the tables of a study and read all of these that exist."""
+    known = {table.name: table for table in tables}
+    if unknown := sorted(set(rows) - set(known)):
+        raise ValueError(f"no table {', '.join(unknown)} in study {study}: it has {', '.join(known)}")
+    for name, new in rows.items():
+        _, better = merge(out / study / f"{name}.csv", known[name], new, size=size,
+                          command=f"make study-{study} SIZE={size}")
+        if better:
+            print(f"{study}/{name}.csv: {better} rows of a better size than {size} stay", file=sys.stderr)
+    return load(tables, study, out)
+
+
+def load(tables: Sequence[Table], study: str, out: Path = RESULTS) -> Tables:
+    """The tables of a study that have been written, from CSV."""
+    paths = [(table, out / study / f"{table.name}.csv") for table in tables]
+    return Tables({table.name: read(path, table.columns) for table, path in paths if path.exists()})

@@ -1,0 +1,116 @@
+"""Tables: columns fixed, rows from cases merged into what is there.
+
+A row of a better size (quick < paper < fine) is never replaced by one of a lesser size.
+"""
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from numbers import Real
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from studies.kit import provenance
+from studies.kit.csvfile import read, write
+
+__all__ = ["SIZES", "Table", "Tables", "check_size", "merge", "read"]
+
+SIZES = ("quick", "paper", "fine")
+#: columns that a row may have besides those of its table
+SPENT = ("seed", "threads", "cpu_s", "compile_s")
+#: columns that every row gets
+STAMP = ("size", "commit")
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table by name: its columns, and those (``key``) in which no two rows agree."""
+
+    name: str
+    key: Sequence[str]
+    columns: Sequence[str]
+
+    def __post_init__(self):
+        lost = [column for column in self.key if column not in self.columns]
+        if lost or not self.key:
+            raise ValueError(f"table {self.name} has key {list(self.key)}: a key is some of the columns, "
+                             f"{', '.join(self.columns)}")
+
+
+class Tables(dict[str, pd.DataFrame]):
+    """Tables by name, as read from CSV."""
+
+    def __missing__(self, name: str) -> pd.DataFrame:
+        raise KeyError(f"no table {name!r} among {', '.join(self) or 'none'}: list it in the study's tables")
+
+
+def check_size(size: str) -> str:
+    """``size`` itself.
+
+    Raises
+    ------
+    ValueError
+        It is none of the three.
+    """
+    if size not in SIZES:
+        raise ValueError(f"unknown size {size!r}: choose one of {', '.join(SIZES)}, as in SIZE=quick")
+    return size
+
+
+def merge(path: Path, table: Table, rows: Sequence[dict[str, Any]], *, size: str,
+          command: str = "") -> tuple[pd.DataFrame, int]:
+    """Put ``rows`` into the CSV at ``path``; the table as it then is, and how many better rows stayed.
+
+    Raises
+    ------
+    ValueError
+        Rows lack key columns, have unknown columns, or two of them have the same key.
+    """
+    check_size(size)
+    new = pd.DataFrame([{"commit": provenance.commit(), **row, "size": size} for row in rows])
+    check_rows(table, new)
+    old = read(path, [*table.columns, *STAMP]) if path.exists() else pd.DataFrame()
+    chosen = best(pd.concat([part for part in (old, new) if len(part)], ignore_index=True), table.key)
+    spent = [column for column in SPENT if column in chosen and column not in table.columns]
+    frame = chosen.reindex(columns=[*table.columns, *spent, *STAMP])
+    write(path, frame.sort_values(list(table.key), kind="stable"), head=head(command))
+    return read(path), len(new) - int((chosen.index >= len(old)).sum())
+
+
+def best(frame: pd.DataFrame, key: Sequence[str]) -> pd.DataFrame:
+    """One row a key: the best size, the last of equals."""
+    order = frame["size"].map(SIZES.index).sort_values(kind="stable").index
+    return frame.loc[order[~identity(frame, key)[order].duplicated(keep="last")]]
+
+
+def check_rows(table: Table, new: pd.DataFrame) -> None:
+    """Refuse rows that would make the table ambiguous."""
+    if unknown := sorted({*new.columns} - {*table.columns, *SPENT, *STAMP}):
+        raise ValueError(f"table {table.name} has no column {', '.join(unknown)}: "
+                         f"it has {', '.join(table.columns)}")
+    if lost := [name for name in table.key if name not in new.columns or new[name].isna().any()]:
+        raise ValueError(f"rows of table {table.name} lack {', '.join(lost)}: every row needs its whole key")
+    names = identity(new, table.key)
+    if names.duplicated().any():
+        raise ValueError(f"two rows of table {table.name} have the key {names[names.duplicated()].iloc[0]}: "
+                         f"({', '.join(table.key)}) must tell them apart")
+
+
+def identity(frame: pd.DataFrame, key: Sequence[str]) -> pd.Series:
+    """The key of each row as one text, numbers as they are written, so that old and new rows compare."""
+    return frame[list(key)].map(as_text).agg(", ".join, axis=1)
+
+
+def as_text(value: Any) -> str:
+    """A number as it stands in the CSV (9 digits; whole numbers in full), anything else as it is."""
+    if not isinstance(value, Real):
+        return str(value)
+    return f"{value:.0f}" if float(value).is_integer() else f"{value:.9g}"
+
+
+def head(command: str) -> Iterator[str]:
+    """Lines on where a table comes from."""
+    yield f"commit {provenance.commit()}"
+    yield provenance.versions()
+    yield provenance.cpu()
+    yield f"{provenance.now()}, {command}"
