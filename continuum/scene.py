@@ -1,10 +1,10 @@
 """The scene that every solver meets: a fluid between two plates, heated from below [KHP95, Secs IV-VI].
 
-Lengths in units of sigma, y in (-L/2, L/2) upwards, x in (-aspect L/2, aspect L/2); mean density 1; gravity is
-chosen so that the motionless state has exactly constant density. Nothing here solves anything: grids and particles
-read it.
+Lengths in units of sigma, y in (-L/2, L/2) upwards, x in (-aspect L/2, aspect L/2); mean density 1; gravity
+is chosen so that the motionless state has exactly constant density. Nothing here solves anything: grids and
+particles read it.
 """
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,6 +24,12 @@ from continuum.fluid import (
 class Periodic(NamedTuple):
     """Periodic in x with period aspect L; rolls come in pairs."""
 
+    def __eq__(self, other):
+        return type(self) is type(other)  # as tuples, all empty ones are equal
+
+    def __ne__(self, other):
+        return not self == other
+
     def rolls(self, x, y, width, L, count):
         """Velocities of KHP95, Sec. VI (count = 2, aspect 2); as printed they are not free of divergence."""
         if count < 2 or count % 2:
@@ -34,6 +40,12 @@ class Periodic(NamedTuple):
 
 class Walls(NamedTuple):
     """No-slip walls at x = -+ aspect L/2 too, their temperature linear in y    [KHP95, Fig. 6]"""
+
+    def __eq__(self, other):
+        return type(self) is type(other)
+
+    def __ne__(self, other):
+        return not self == other
 
     def rolls(self, x, y, width, L, count):
         """v = (psi_y, -psi_x), psi = cos(a) sin(count (a + pi/2)) cos^2(pi y/L), a = pi x/width: no slip."""
@@ -62,12 +74,12 @@ class RayleighBenard:
     """
     ra: float
     eos: Any = IdealGas()  # noqa: RUF009  (immutable)
-    transport: type = ConstEta
+    transport: Any = ConstEta
     L: float = 50.0
     aspect: float = 2.0
     T_hot: float = 1.5
     T_cold: float = 0.5
-    sides: Any = field(default_factory=Periodic)
+    sides: Any = Periodic()  # noqa: RUF009
     pr: float = 1.0
 
     def __post_init__(self):
@@ -76,8 +88,9 @@ class RayleighBenard:
             check_state(self.eos, 1.0, energy(self.eos, 1.0, T))
         eta = float(viscosity(self.law, 1.0, self.T_mean))
         if not np.isclose(eta, self.eta) or not np.isclose(conductivity(self.law, 1.0, self.T_mean), self.k):
-            raise ValueError(f"{self.transport.__name__} gives eta = {eta:.6g} at rho = 1, T = {self.T_mean}, but "
-                             f"Ra = {self.ra} needs {self.eta:.6g}: choose temperatures with the law's own mean")
+            raise ValueError(
+                f"{self.transport.__name__} gives eta = {eta:.6g} at rho = 1, T = {self.T_mean}, but Ra = "
+                f"{self.ra} needs {self.eta:.6g}: choose temperatures around the one that the law refers to")
 
     def _check_numbers(self):
         if not self.ra > 0:

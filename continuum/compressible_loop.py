@@ -1,0 +1,217 @@
+"""The compiled loop of the compressible grid [KHP95, Sec. V]: v, e at nodes; rho, P, Q in cells; centred differences.
+
+One block `S[field, j, i]` holds the state; j counts rows upwards, i columns to the right. Nodes are (1..ny+1, 1..nx+1),
+the outer ones on the walls; between periodic sides node nx+1 is node 1. Cell (j, i) has node (j, i) as its lower left
+corner, cells are (1..ny, 1..nx). What lies outside are ghosts: `fill` makes them, the loop knows no walls.
+"""
+from typing import NamedTuple
+
+from continuum.fluid import conductivity, energy, pressure, stress, temperature, viscosity
+from continuum.jit import generic, jit
+from continuum.scene import Periodic, Walls
+
+VX, VY, E, RHO = range(4)
+FIELDS = ("v_x", "v_y", "e", "rho")
+BULK_VISCOSITY = 0.0  # [KHP95, Sec. II]
+
+
+class Box(NamedTuple):
+    """Spacing of the grid, gravity, temperatures of the plates, first column of nodes that moves."""
+    h: float
+    g: float
+    T_hot: float
+    T_cold: float
+    first: int
+
+
+# --- ghosts and walls -------------------------------------------------------------------------------------
+
+
+class FluxForm(NamedTuple):
+    """d rho/dt = -div(rho v): mass goes from cell to cell and is conserved to round-off."""
+
+
+class PaperForm(NamedTuple):
+    """d rho/dt = -rho div v - v.grad rho, density 1 in the cells just outside of the walls    [KHP95, Sec. V]"""
+
+
+@generic
+def outside(form, near, next_):
+    """Density in the cell behind a wall, from those of the two cells before it."""
+
+
+outside.of(FluxForm)(lambda form, near, next_: 2*near - next_)
+outside.of(PaperForm)(lambda form, near, next_: 1.0)
+
+
+@jit
+def fill_plates(eos, form, box, S):
+    """Ghost densities behind the plates, then the energy of the plates' nodes from their temperature."""
+    ny, nx = S.shape[1] - 2, S.shape[2] - 2
+    rho = S[RHO]
+    for i in range(nx + 2):
+        rho[0, i], rho[ny + 1, i] = outside(form, rho[1, i], rho[2, i]), outside(form, rho[ny, i], rho[ny - 1, i])
+    for i in range(1, nx + 2):
+        S[E, 1, i] = energy(eos, node_density(rho, 1, i), box.T_hot)
+        S[E, ny + 1, i] = energy(eos, node_density(rho, ny + 1, i), box.T_cold)
+
+
+@jit
+def node_density(rho, j, i):
+    """Mean of the four cells around a node."""
+    return 0.25*((rho[j - 1, i - 1] + rho[j - 1, i]) + (rho[j, i - 1] + rho[j, i]))
+
+
+@generic
+def fill(sides, eos, form, box, S):
+    """Ghosts and wall values of the state."""
+
+
+@fill.of(Periodic)
+def _(sides, eos, form, box, S):
+    nx = S.shape[2] - 2
+    S[:, :, 0], S[:, :, nx + 1] = S[:, :, nx], S[:, :, 1]
+    fill_plates(eos, form, box, S)
+    S[E, :, 0] = S[E, :, nx]
+
+
+@fill.of(Walls)
+def _(sides, eos, form, box, S):
+    ny, nx = S.shape[1] - 2, S.shape[2] - 2
+    rho = S[RHO]
+    for j in range(1, ny + 1):
+        rho[j, 0], rho[j, nx + 1] = outside(form, rho[j, 1], rho[j, 2]), outside(form, rho[j, nx], rho[j, nx - 1])
+    fill_plates(eos, form, box, S)
+    for j in range(2, ny + 1):
+        T = box.T_hot + (box.T_cold - box.T_hot)*(j - 1)/ny
+        for i in (1, nx + 1):
+            S[E, j, i] = energy(eos, node_density(rho, j, i), T)
+
+
+# --- rates ------------------------------------------------------------------------------------------------
+
+
+@generic
+def density_rate(form, S, n, j, i):
+    """d rho/dt times 2 h in cell (j, i); n[j % 2, i] is the density at node (j, i)."""
+
+
+@density_rate.of(FluxForm)
+def _(form, S, n, j, i):
+    a, b = j % 2, (j + 1) % 2
+    return (n[a, i]*(S[VX, j, i] + S[VY, j, i]) - n[a, i + 1]*(S[VX, j, i + 1] - S[VY, j, i + 1])
+            + n[b, i]*(S[VX, j + 1, i] - S[VY, j + 1, i]) - n[b, i + 1]*(S[VX, j + 1, i + 1] + S[VY, j + 1, i + 1]))
+
+
+@density_rate.of(PaperForm)
+def _(form, S, n, j, i):
+    rho = S[RHO]
+    (vx, vx_x, _), (vy, _, vy_y) = corners(S[VX], j, i), corners(S[VY], j, i)
+    return -(rho[j, i]*(vx_x + vy_y)
+             + vx*(rho[j, i + 1] - rho[j, i - 1]) + vy*(rho[j + 1, i] - rho[j - 1, i]))
+
+
+@jit
+def corners(f, j, i):
+    """Mean over the corners of cell (j, i) and differences along x and y, times 2 h."""
+    sw, se, nw, ne = f[j, i], f[j, i + 1], f[j + 1, i], f[j + 1, i + 1]
+    up, down = ne - sw, se - nw
+    return 0.25*((sw + ne) + (se + nw)), up + down, up - down
+
+
+@jit
+def node_row(eos, S, n, T, j):
+    """Density and temperature at the nodes of row j."""
+    for i in range(1, S.shape[2]):
+        n[i] = node_density(S[RHO], j, i)
+        T[i] = temperature(eos, n[i], S[E, j, i])
+
+
+@jit
+def cell_row(eos, law, form, box, S, n, T, cell, out, j):
+    """Stress sigma - P, heat flux and work (sigma - P):grad v in the cells of row j; their density's rate."""
+    to_slope = 0.5/box.h
+    rho, nx = S[RHO], S.shape[2] - 2
+    a, b = j % 2, (j + 1) % 2
+    for i in range(1, nx + 1):
+        _, xx, yx = corners(S[VX], j, i)
+        _, xy, yy = corners(S[VY], j, i)
+        e = 0.25*((S[E, j, i] + S[E, j + 1, i + 1]) + (S[E, j, i + 1] + S[E, j + 1, i]))
+        up, down = T[b, i + 1] - T[a, i], T[a, i + 1] - T[b, i]
+        theta = temperature(eos, rho[j, i], e)
+        eta, k = viscosity(law, rho[j, i], theta), conductivity(law, rho[j, i], theta)
+        P = pressure(eos, rho[j, i], e)
+        sxx, sxy, syy = stress(to_slope*eta, BULK_VISCOSITY, xx, xy, yx, yy)
+        sxx, syy = sxx - P, syy - P
+        cell[0, i], cell[1, i], cell[2, i] = sxx, sxy, syy
+        cell[3, i], cell[4, i] = to_slope*k*(up + down), to_slope*k*(up - down)
+        cell[5, i] = sxx*xx + sxy*(xy + yx) + syy*yy
+        out[RHO, j, i] = to_slope*density_rate(form, S, n, j, i)
+    cell[:, 0] = cell[:, nx]
+
+
+@jit
+def rate_row(box, S, n, low, high, out, j):
+    """dv/dt = -v.grad v + (div sigma - grad P)/rho - g, de/dt = -v.grad e + (work - div Q)/rho at nodes of row j."""
+    to_slope = 0.5/box.h
+    for i in range(box.first, S.shape[2] - 1):
+        vx, vy, per_mass = S[VX, j, i], S[VY, j, i], 1/n[i]
+        xx_up, xx_down = high[0, i] - low[0, i - 1], low[0, i] - high[0, i - 1]
+        xy_up, xy_down = high[1, i] - low[1, i - 1], low[1, i] - high[1, i - 1]
+        yy_up, yy_down = high[2, i] - low[2, i - 1], low[2, i] - high[2, i - 1]
+        qx_up, qx_down = high[3, i] - low[3, i - 1], low[3, i] - high[3, i - 1]
+        qy_up, qy_down = high[4, i] - low[4, i - 1], low[4, i] - high[4, i - 1]
+        work = 0.5*((high[5, i] + low[5, i - 1]) + (low[5, i] + high[5, i - 1]))
+        fx = (xx_up + xx_down) + (xy_up - xy_down)
+        fy = (xy_up + xy_down) + (yy_up - yy_down)
+        heat = (qx_up + qx_down) + (qy_up - qy_down) + 0.5*work
+        out[VX, j, i] = to_slope*(fx*per_mass - along(S[VX], vx, vy, j, i))
+        out[VY, j, i] = to_slope*(fy*per_mass - along(S[VY], vx, vy, j, i)) - box.g
+        out[E, j, i] = to_slope*(heat*per_mass - along(S[E], vx, vy, j, i))
+
+
+@jit
+def along(f, vx, vy, j, i):
+    """v.grad f at node (j, i), times 2 h."""
+    return vx*(f[j, i + 1] - f[j, i - 1]) + vy*(f[j + 1, i] - f[j - 1, i])
+
+
+@jit
+def rates(sides, eos, law, form, box, S, rows, out):
+    """d/dt of the state; three rows of `rows[2, 8, nx + 2]` pass over the grid, nothing else is stored."""
+    fill(sides, eos, form, box, S)
+    n, T, cell = rows[:, 6], rows[:, 7], rows[:, :6]
+    node_row(eos, S, n[1], T[1], 1)
+    for j in range(1, S.shape[1] - 1):
+        above, here = (j + 1) % 2, j % 2
+        node_row(eos, S, n[above], T[above], j + 1)
+        cell_row(eos, law, form, box, S, n, T, cell[here], out, j)
+        if j > 1:
+            rate_row(box, S, n[here], cell[above], cell[here], out, j)
+
+
+# --- time -------------------------------------------------------------------------------------------------
+
+
+@jit
+def blend(a, b, s, out):
+    """out = a + s b"""
+    for f in range(a.shape[0]):
+        for j in range(a.shape[1]):
+            for i in range(a.shape[2]):
+                out[f, j, i] = a[f, j, i] + s*b[f, j, i]
+
+
+@jit
+def advance(sides, eos, law, form, box, S, work, rows, dt, steps):
+    """Classical fourth-order Runge-Kutta steps; `work[3]` blocks like S, their wall rates zero."""
+    rate, stage, total = work[0], work[1], work[2]
+    for _ in range(steps):
+        rates(sides, eos, law, form, box, S, rows, rate)
+        blend(S, rate, dt/6, total)
+        for to_stage, weight in ((0.5, 1/3), (0.5, 1/3), (1.0, 1/6)):
+            blend(S, rate, to_stage*dt, stage)
+            rates(sides, eos, law, form, box, stage, rows, rate)
+            blend(total, rate, weight*dt, total)
+        blend(total, rate, 0.0, S)
+    fill(sides, eos, form, box, S)
