@@ -32,6 +32,8 @@ OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": FASTMATH}
 
 #: compiled, kept on disk, free of Python's lock so that threads can share the rows of one loop
 jit = numba.njit(cache=True, nogil=True, **OPTIONS)
+#: the same with sums in the order that is written: LLVM then leaves the gathers of a short loop scalar, twice as fast
+ordered = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=FASTMATH - {"reassoc"})
 #: plain arithmetic that serves numbers, arrays and compiled code alike
 formula = register_jitable(**OPTIONS)
 

@@ -1,0 +1,1 @@
+"""Particle methods: the stages of a paper's scheme, in its order."""

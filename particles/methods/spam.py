@@ -1,0 +1,238 @@
+"""Smooth-particle applied mechanics as printed [KHP95, Sec. II], and its named variants.
+
+Three sums: density; gradients of v and T; divergence of P/rho^2 and Q/rho^2. The variants are objects in place of the
+printed choice: `ArithmeticGradients()` for the mean density, `Direct` for `Nested` transport, `LessStatic(...)` for
+the whole pressure, another weight.
+"""
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import conductivity, energy, pressure, stress, temperature, viscosity
+from continuum.jit import formula, jit
+from particles.pairs import sweep
+from particles.surroundings import Surroundings
+from particles.team import Team
+from particles.terms import ArithmeticGradients, DirectFluxes, Fluxes, Gradients, partner_factor, row_factor
+from particles.walls import image_pressure
+
+Moving = np.dtype([(name, "f8") for name in ("vx", "vy", "T", "s")])
+Flux = np.dtype([(name, "f8") for name in ("vx", "vy", "xx", "xy", "yy", "qx", "qy", "unused")])  # one cache line
+DirectState = np.dtype([(name, "f8") for name in ("x", "y", "vx", "vy", "T", "P_rho2", "irho", "eta", "k")])
+
+
+class LessStatic(NamedTuple):
+    """Subtract `fraction` of the static pressure P0 - rho0 g y from P, and its support from gravity.
+
+    The continuum equations stay the same; of the background pressure that holds the particles on a lattice
+    [KHP95, Sec. IV] less is left. fraction = 0 is the printed scheme.
+    """
+    fraction: float
+    P0: float
+    rho0: float = 1.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spam:
+    """A smooth-particle fluid.
+
+    Parameters
+    ----------
+    weight : of `particles.weights`, e.g. ``Lucy.of(h=3)`` (range 3 sigma).
+    eos, law : equation of state and transport law of `continuum.fluid`.
+    walls : tuple of walls; box : (width, height) of the fluid, centred on the origin.
+    g : gravity, downwards; m : mass of every particle.
+    gradients, transport, static : the printed choices unless a variant is given.
+    skin : of the neighbour list, in sigma.
+    """
+    weight: Any
+    eos: Any
+    law: Any
+    walls: tuple
+    box: tuple[float, float]
+    g: float = 0.0
+    m: float = 1.0
+    gradients: Gradients | ArithmeticGradients = Gradients()  # noqa: RUF009 (immutable)
+    transport: "type[Nested] | type[Direct]" = None  # type: ignore[assignment]  (Nested, set below)
+    static: LessStatic = LessStatic(0.0, 0.0)  # noqa: RUF009
+    skin: float = 0.6
+
+    fields = ("x", "y", "vx", "vy", "e")
+
+    def __post_init__(self):
+        if not self.m > 0:
+            raise ValueError(f"the mass of a particle must be positive, got {self.m}: total mass / number of particles")
+        if self.transport is None:
+            object.__setattr__(self, "transport", Nested)
+
+    def start(self, n: int, team: Team) -> "Nested | Direct":
+        """The sums of n particles, with their arrays.
+
+        Raises
+        ------
+        ValueError
+            There are no particles, or the weight is wider than half of the box.
+        """
+        if n < 1:
+            raise ValueError(f"there are no particles (n = {n}): a run needs at least one")
+        return self.transport(self, n, team)
+
+
+class Sums:
+    """What both kinds of transport share: arrays, the density sum and the equations of state."""
+
+    def __init__(self, method: Spam, n: int, team: Team):
+        self.method, self.team, self.n = method, team, n
+        self.around = Surroundings(method.weight, method.walls, n, method.box, skin=method.skin, team=team)
+        self.gradient, self.pull = np.zeros((self.around.rows, 6)), np.empty((self.around.rows, 3))
+        self.less, self.moving = np.empty(0), np.empty(0, Moving)
+
+    def densities(self, state: np.ndarray) -> None:
+        """First sum, equations of state, motion and pressure of the images."""
+        around, method = self.around, self.method
+        around.place(state, method.m)
+        if len(self.less) != len(around.x):
+            self.allocate(len(around.x))
+        self.team(_thermal, around.rows, self.n, state, method.eos, method.static, method.g, around.y, around.rho,
+                  around.vx, around.vy, around.T, around.P, self.less)
+        around.move()
+        for wall, parent, first, last in around.blocks:
+            _image_pressures(first, last, wall, parent, method.eos, method.static, method.g, around.y, around.rho,
+                             around.T, around.P, self.less)
+
+    def allocate(self, points: int) -> None:
+        """Arrays over all points, whose number changes with the lists."""
+        self.less, self.moving = np.empty(points), np.empty(points, Moving)
+
+    def gradients(self) -> None:
+        """Second sum: self.gradient (rows, 6) = dvx/dx, dvy/dx, dT/dx, dvx/dy, dvy/dy, dT/dy."""
+        around, kind = self.around, self.method.gradients
+        self.team(_moving, len(around.x), kind, around.vx, around.vy, around.T, around.rho, self.moving)
+        self.team(sweep, around.rows, kind, self.moving, around.pairs, self.gradient)
+        self.team(_scale, around.rows, kind, around.rho, self.gradient)
+
+    def finish(self, state: np.ndarray, out: np.ndarray) -> None:
+        """Rates of the particles from the third sum, gravity and what the static pressure was left out of."""
+        self.team(_rates, self.n, state, self.pull, self.around.rho, self.gradient, self.method.g, self.method.static, out)
+
+
+class Nested(Sums):
+    """Stress and heat flux from the gradients of the second sum, their divergence in the third    [KHP95, Sec. II]"""
+
+    def allocate(self, points: int) -> None:
+        super().allocate(points)
+        self.flux = np.empty(points, Flux)
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(x, y, vx, vy, e)/dt of a state (5, n), written to `out`."""
+        around, method = self.around, self.method
+        self.densities(state)
+        self.gradients()
+        self.team(_fluxes, around.rows, method.law, around.rho, around.vx, around.vy, around.T, self.less, self.gradient,
+                  self.flux)
+        for _, parent, first, last in around.blocks:
+            _image_fluxes(first, last, parent, around.rho, around.vx, around.vy, self.less, self.flux)
+        self.team(sweep, self.n, Fluxes(), self.flux, around.pairs, self.pull)
+        self.finish(state, out)
+
+
+class Direct(Sums):
+    """Viscosity and conduction from differences along each pair: no gradients, unless the static pressure needs div v."""
+
+    def allocate(self, points: int) -> None:
+        super().allocate(points)
+        self.records = np.empty(points, DirectState)
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(x, y, vx, vy, e)/dt of a state (5, n), written to `out`."""
+        around, method = self.around, self.method
+        self.densities(state)
+        if method.static.fraction:
+            self.gradients()
+        self.team(_direct, len(around.x), method.law, around.x, around.y, around.rho, around.vx, around.vy, around.T,
+                  self.less, self.records)
+        self.team(sweep, self.n, DirectFluxes(), self.records, around.pairs, self.pull)
+        self.finish(state, out)
+
+
+@jit
+def _thermal(first, last, n, state, eos, static, g, y, rho, vx, vy, T, P, less):
+    for i in range(first, last):
+        if i < n:
+            vx[i], vy[i] = state[2, i], state[3, i]
+            T[i], P[i] = temperature(eos, rho[i], state[4, i]), pressure(eos, rho[i], state[4, i])
+        else:
+            P[i] = pressure(eos, rho[i], energy(eos, rho[i], T[i]))
+        less[i] = P[i] - _static(static, g, y[i])
+
+
+@formula
+def _static(static, g, y):
+    """The part of the static pressure that is left out."""
+    return static.fraction*(static.P0 - static.rho0*g*y)
+
+
+@jit
+def _image_pressures(first, last, wall, parent, eos, static, g, y, rho, T, P, less):
+    for i in range(first, last):
+        p = parent[i - first]
+        own = pressure(eos, rho[i], energy(eos, rho[i], T[i]))
+        P[i] = image_pressure(wall, own, P[p])
+        less[i] = image_pressure(wall, own - _static(static, g, y[i]), less[p])
+
+
+@jit
+def _moving(first, last, kind, vx, vy, T, rho, moving):
+    for i in range(first, last):
+        a = moving[i]
+        a.vx, a.vy, a.T, a.s = vx[i], vy[i], T[i], partner_factor(kind, rho[i])
+
+
+@jit
+def _scale(first, last, kind, rho, gradient):
+    for i in range(first, last):
+        factor = row_factor(kind, rho[i])
+        for c in range(6):
+            gradient[i, c] *= factor
+
+
+@jit
+def _fluxes(first, last, law, rho, vx, vy, T, less, gradient, flux):
+    """P/rho^2 and Q/rho^2 with P = (P - static) I - stress, Q = -k grad T."""
+    for i in range(first, last):
+        xx, yx, Tx, xy, yy, Ty = gradient[i]  # xy: dvx/dy
+        sxx, sxy, syy = stress(viscosity(law, rho[i], T[i]), 0.0, xx, yx, xy, yy)
+        k, f, a = conductivity(law, rho[i], T[i]), 1/rho[i]**2, flux[i]
+        a.vx, a.vy = vx[i], vy[i]
+        a.xx, a.xy, a.yy = (less[i] - sxx)*f, -sxy*f, (less[i] - syy)*f
+        a.qx, a.qy = -k*Tx*f, -k*Ty*f
+
+
+@jit
+def _image_fluxes(first, last, parent, rho, vx, vy, less, flux):
+    """Stress and heat flux copied from the parents, pressure by the wall's rule    [KHP95, Sec. IV]"""
+    for i in range(first, last):
+        p = parent[i - first]
+        a, b, f = flux[i], flux[p], (less[i] - less[p])/rho[i]**2
+        a.vx, a.vy = vx[i], vy[i]
+        a.xx, a.xy, a.yy, a.qx, a.qy = b.xx + f, b.xy, b.yy + f, b.qx, b.qy
+
+
+@jit
+def _direct(first, last, law, x, y, rho, vx, vy, T, less, records):
+    for i in range(first, last):
+        a = records[i]
+        a.x, a.y, a.vx, a.vy, a.T = x[i], y[i], vx[i], vy[i], T[i]
+        a.P_rho2, a.irho = less[i]/rho[i]**2, 1/rho[i]
+        a.eta, a.k = viscosity(law, rho[i], T[i]), conductivity(law, rho[i], T[i])
+
+
+@jit
+def _rates(first, last, state, pull, rho, gradient, g, static, out):
+    """Gravity, and the work of the static pressure that the pair sum left out."""
+    for i in range(first, last):
+        out[0, i], out[1, i] = state[2, i], state[3, i]
+        out[2, i] = pull[i, 0]
+        out[3, i] = pull[i, 1] - g*(1 - static.fraction*static.rho0/rho[i])
+        out[4, i] = pull[i, 2] - _static(static, g, state[1, i])/rho[i]*(gradient[i, 0] + gradient[i, 4])

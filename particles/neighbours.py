@@ -1,0 +1,90 @@
+"""Who may be near whom: cell order, linked cells and a Verlet list with skin.
+
+The list of row i holds all points within `reach` = range + skin of it, both directions (j in the list of i and i in
+that of j), so that each row of a pair sum is written by one thread only and does not depend on their number.
+Indices are unsigned: a signed one costs numba three instructions at every use, for Python's negative indices.
+"""
+from typing import NamedTuple
+
+import numpy as np
+
+from continuum.jit import jit
+
+u64 = np.uint64
+ONE = u64(1)
+
+
+class Cells(NamedTuple):
+    """Points sorted into square cells: cell c holds order[start[c]:start[c+1]], at x, y."""
+    left: float
+    bottom: float
+    side: float
+    columns: int
+    rows: int
+    start: np.ndarray
+    order: np.ndarray
+    x: np.ndarray
+    y: np.ndarray
+
+
+@jit
+def _count_sort(x, y, left, bottom, side, columns, start, cell, order):
+    """Stable counting sort of points by cell, row by row."""
+    for i in range(len(x)):
+        c = int((y[i] - bottom)/side)*columns + int((x[i] - left)/side)
+        cell[i] = c
+        start[c + 1] += 1
+    for c in range(len(start) - 1):
+        start[c + 1] += start[c]
+    fill = start[:-1].copy()
+    for i in range(len(x)):
+        order[fill[cell[i]]] = i
+        fill[cell[i]] += 1
+
+
+def sort_into_cells(x: np.ndarray, y: np.ndarray, side: float) -> Cells:
+    """Linked cells [KHP95, Ref. 13] over the bounding box of the points (N,), with two empty cells around it."""
+    left, bottom = x.min() - 2*side, y.min() - 2*side
+    columns, rows = (int((q.max() - low)/side) + 4 for q, low in ((x, left), (y, bottom)))
+    if columns*rows > 64*len(x) + 4096:
+        raise FloatingPointError(f"the points spread over {columns} x {rows} cells, far more than their number {len(x)}: "
+                                 "some have left the box; lower the step or put an elastic wall behind each wall")
+    start, order = np.zeros(columns*rows + 1, np.int64), np.empty(len(x), np.uint32)
+    _count_sort(x, y, left, bottom, side, columns, start, np.empty(len(x), np.int64), order)
+    return Cells(left, bottom, side, columns, rows, start, order, x[order], y[order])
+
+
+@jit
+def list_rows(first, last, cells, x, y, reach, capacity, start, length, listed):
+    """Write the Verlet lists of rows first..last behind each other, from first*capacity on; False if they do not fit.
+
+    `capacity` is the room per row: the caller grows it and repeats.
+    """
+    far2, used, end_of_room = reach*reach, first*capacity, last*capacity
+    for i in range(first, last):
+        cx, cy = int((x[i] - cells.left)/cells.side), int((y[i] - cells.bottom)/cells.side)
+        start[i] = u64(used)
+        for row in range(cy - 2, cy + 3):
+            begin = cells.start[row*cells.columns + cx - 2]
+            end = cells.start[row*cells.columns + cx + 3]
+            if used + end - begin > end_of_room:
+                return False
+            k = u64(used)
+            for m in range(u64(begin), u64(end)):
+                dx, dy = cells.x[m] - x[i], cells.y[m] - y[i]
+                j = cells.order[m]
+                listed[k] = j
+                k += u64((dx*dx + dy*dy < far2) & (j != i))
+            used = np.int64(k)
+        length[i] = used - np.int64(start[i])
+    return True
+
+
+@jit
+def farthest(x, y, anchor_x, anchor_y):
+    """Largest distance of a point from where it was when the list was made."""
+    far2 = 0.0
+    for i in range(len(anchor_x)):
+        dx, dy = x[i] - anchor_x[i], y[i] - anchor_y[i]
+        far2 = max(far2, dx*dx + dy*dy)
+    return np.sqrt(far2)

@@ -1,0 +1,106 @@
+"""The only pair loops: `weigh` finds the pairs in range and their weights, `sweep` sums pair terms over them."""
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.jit import generic, jit, ordered, overload
+from particles.neighbours import ONE, u64
+from particles.weights import shape, slope
+
+
+class Pairs(NamedTuple):
+    """Verlet lists (start, length, listed) and of row i the pairs in range: near, wx, wy [start[i]:start[i] + count[i]].
+
+    (wx, wy) is the gradient of m w(r_ij) with respect to r_i.
+    """
+    start: np.ndarray
+    length: np.ndarray
+    listed: np.ndarray
+    count: np.ndarray
+    near: np.ndarray
+    wx: np.ndarray
+    wy: np.ndarray
+
+
+class Pair(NamedTuple):
+    """What a pair term knows of a pair: the gradient of m w(r_ab) with respect to r_a."""
+    wx: float
+    wy: float
+
+
+@jit
+def weigh(first, last, weight, m, x, y, pairs, rho):
+    """rho_i = sum_j m w(r_ij), the particle itself included, and grad_i m w(r_ij), for rows first..last.
+
+    The list is compressed without a branch, which would be mispredicted for one entry in three; the square roots
+    follow in a loop of their own over what is left, which LLVM turns into vector instructions.
+    """
+    h2, per_h, per_slope = weight.h*weight.h, 1/weight.h, m*weight.scale/weight.h**2
+    r2 = np.empty(pairs.length[first:last].max() + 1)
+    for i in range(u64(first), u64(last)):
+        xi, yi, begin, n = x[i], y[i], pairs.start[i], u64(0)
+        for k in range(begin, begin + pairs.length[i]):
+            j = pairs.listed[k]
+            dx, dy = xi - x[j], yi - y[j]
+            d2 = dx*dx + dy*dy
+            pairs.near[begin + n] = j
+            pairs.wx[begin + n] = dx
+            pairs.wy[begin + n] = dy
+            r2[n] = d2
+            n += u64(d2 < h2)
+        total = shape(weight, 0.0)
+        for k in range(n):
+            q = np.sqrt(r2[k])*per_h
+            total += shape(weight, q)
+            f = per_slope*slope(weight, q)
+            pairs.wx[begin + k] *= f
+            pairs.wy[begin + k] *= f
+        pairs.count[i] = n
+        rho[i] = m*weight.scale*total
+
+
+@generic
+def rate(term, a, b, ab):
+    """What the pair (a, b) adds to the sum of a: a tuple of numbers from two particle records and their Pair."""
+
+
+@generic
+def nothing(term):
+    """The empty sum of a term: a tuple of zeros."""
+
+
+def add(one: tuple, other: tuple) -> Any:
+    """Element by element."""
+
+
+def store(out: np.ndarray, i: int, k: int, values: tuple) -> Any:
+    """out[i, k:] = values."""
+
+
+@overload(add)
+def _(one, other):
+    if len(one) == 1:
+        return lambda one, other: (one[0] + other[0],)
+    return lambda one, other: (one[0] + other[0],) + add(one[1:], other[1:])  # noqa: RUF005 (numba)
+
+
+@overload(store)
+def _(out, i, k, values):
+    if len(values) == 1:
+        def impl(out, i, k, values):
+            out[i, k] = values[0]
+    else:
+        def impl(out, i, k, values):
+            out[i, k] = values[0]
+            store(out, i, k + ONE, values[1:])
+    return impl
+
+
+@ordered
+def sweep(first, last, term, particle, pairs, out):
+    """out[i] = sum of rate(term, i, j, ij) over the pairs of rows first..last; `particle` is a structured array."""
+    for i in range(u64(first), u64(last)):
+        a, total, begin = particle[i], nothing(term), pairs.start[i]
+        for k in range(begin, begin + pairs.count[i]):
+            total = add(total, rate(term, a, particle[pairs.near[k]], Pair(pairs.wx[k], pairs.wy[k])))
+        store(out, i, u64(0), total)

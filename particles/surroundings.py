@@ -1,0 +1,98 @@
+"""Everything that the pair loops need besides the particles: fixed particles, ghosts of the walls, lists, pairs.
+
+Points are numbered particles first, then fixed particles, then ghosts wall by wall; only the first two have rows.
+"""
+import numpy as np
+
+from particles.neighbours import farthest, list_rows, sort_into_cells
+from particles.pairs import Pairs, weigh
+from particles.team import Team
+from particles.walls import fixed_points, move_images, parents, place_images
+from particles.walls.periodic import wrap
+
+EMPTY = np.empty(0)
+
+
+class Surroundings:
+    """Fixed particles, ghosts, neighbour lists and pairs of N particles between walls.
+
+    Attributes
+    ----------
+    x, y, vx, vy, T, rho, P : (points,) fields of all points; of the particles written by the method.
+    pairs : lists and pairs in range of the `rows` particles and fixed particles.
+    blocks : (wall, parents, first, last) of the ghosts, in the order in which they are filled.
+    """
+
+    def __init__(self, weight, walls, n: int, box: tuple[float, float], *, skin: float, team: Team):
+        if not skin > 0:
+            raise ValueError(f"the skin of the neighbour list must be positive, got {skin}: 0.2 h is a good start")
+        if 2*weight.h > min(box):
+            raise ValueError(f"the weight's diameter 2 h = {2*weight.h:g} is wider than the box {box[0]:g} x {box[1]:g}: "
+                             "take more particles or a shorter range")
+        self.weight, self.walls, self.skin, self.team, self.n = weight, walls, skin, team, n
+        held = [fixed_points(wall, *box) for wall in walls]
+        self._fixed = tuple(np.concatenate([h[c] for h in held] or [EMPTY]) for c in range(3))
+        self.rows = n + len(self._fixed[0])
+        self.anchor = np.full((2, n), np.nan)
+        self.room, self.lists_made = 48, 0
+
+    def must_relist(self, state: np.ndarray, dt: float) -> bool:
+        """True if some particle may leave half of the skin within the coming step."""
+        if np.isnan(self.anchor[0, 0]):
+            return True
+        fastest = np.sqrt((state[2]**2 + state[3]**2).max())
+        return farthest(state[0], state[1], *self.anchor) + 1.05*fastest*dt > self.skin/2
+
+    def relist(self, state: np.ndarray, ids: np.ndarray) -> None:
+        """Wrap the particles into the box, put them in the order of cells (in place) and make lists anew."""
+        wrap(self.walls, state[0])
+        order = sort_into_cells(state[0], state[1], self.reach/2).order
+        state[:], ids[:] = state[:, order], ids[order]
+        self.make_lists(state[:2])
+
+    @property
+    def reach(self) -> float:
+        return self.weight.h + self.skin
+
+    def make_lists(self, anchor: np.ndarray) -> None:
+        """Ghosts and lists for particles at `anchor` (2, n), which a restart takes from its checkpoint."""
+        self.anchor, self.lists_made = anchor.copy(), self.lists_made + 1
+        x, y = (np.concatenate([a, f]) for a, f in zip(anchor, self._fixed, strict=False))
+        self.blocks = []
+        for wall in self.walls:
+            parent, first = parents(wall, x, y, self.reach), len(x)
+            x, y = np.append(x, np.empty(len(parent))), np.append(y, np.empty(len(parent)))
+            place_images(first, len(x), wall, parent, x, y)
+            self.blocks.append((wall, parent, first, len(x)))
+        self.x, self.y = x, y
+        self.vx, self.vy, self.T, self.rho, self.P = (np.zeros(len(x)) for _ in range(5))
+        self.T[self.n:self.rows] = self._fixed[2]
+        self._fill_lists(x, y)
+
+    def _fill_lists(self, x, y):
+        cells = sort_into_cells(x, y, self.reach/2)
+        while True:
+            start, length = np.empty(self.rows, np.uint64), np.empty(self.rows, np.uint32)
+            listed = np.empty(self.rows*self.room, np.uint32)
+            if all(self.team(list_rows, self.rows, cells, x, y, self.reach, self.room, start, length, listed)):
+                break
+            self.room = int(1.3*self.room) + 1
+            if self.room > 2000:
+                raise FloatingPointError("more than 2000 neighbours per particle: the particles have collapsed onto each "
+                                         "other; lower the step or the pressure's attraction")
+        near, wx, wy = np.empty_like(listed), np.empty(len(listed)), np.empty(len(listed))
+        self.pairs = Pairs(start, length, listed, np.empty(self.rows, np.uint32), near, wx, wy)
+
+    def place(self, state: np.ndarray, m: float) -> None:
+        """Positions of all points and, over the pairs in range, density of the rows and of their images."""
+        self.x[:self.n], self.y[:self.n] = state[0], state[1]
+        for wall, parent, first, last in self.blocks:
+            place_images(first, last, wall, parent, self.x, self.y)
+        self.team(weigh, self.rows, self.weight, m, self.x, self.y, self.pairs, self.rho)
+        for _, parent, first, last in self.blocks:
+            self.rho[first:last] = self.rho[parent]
+
+    def move(self) -> None:
+        """Velocities and temperatures of the images from those of their parents."""
+        for wall, parent, first, last in self.blocks:
+            move_images(first, last, wall, parent, self.x, self.y, self.vx, self.vy, self.T)

@@ -1,0 +1,25 @@
+"""Threads that share the rows of a loop."""
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+
+class Team:
+    """Calls a compiled function(first, last, ...) on equal ranges of rows, one per thread.
+
+    Each row is computed by one thread in the same way whatever their number, so results do not depend on it.
+    """
+
+    def __init__(self, threads: int = 1):
+        if threads < 1:
+            raise ValueError(f"the number of threads must be at least 1, got {threads}")
+        self.threads = threads
+        self._pool = ThreadPoolExecutor(threads - 1) if threads > 1 else None
+
+    def __call__(self, function: Callable, rows: int, *arguments: Any) -> list:
+        """Results of function(first, last, *arguments) over all ranges."""
+        if self._pool is None or rows < 64*self.threads:
+            return [function(0, rows, *arguments)]
+        cuts = [rows*t//self.threads for t in range(self.threads + 1)]
+        others = [self._pool.submit(function, a, b, *arguments) for a, b in zip(cuts[1:-1], cuts[2:], strict=True)]
+        return [function(0, cuts[1], *arguments), *(other.result() for other in others)]

@@ -1,0 +1,52 @@
+"""Walls: what is beyond the fluid, as particles. The pair loops know nothing of them.
+
+A wall is a NamedTuple. It makes ghosts, each the image of a parent (a fluid particle, a fixed one or a ghost of an
+earlier wall), and keeps the particles inside. One kind of wall a file; each gives formulas for the generics below.
+"""
+from continuum.jit import generic, jit
+
+
+@generic
+def parents(wall, x, y, reach):
+    """Indices of the points within `reach` of the wall, which need an image; once per neighbour list."""
+
+
+@generic
+def image_point(wall, x, y):
+    """(x, y) of the image."""
+
+
+@generic
+def image_motion(wall, x, y, vx, vy, T):
+    """(vx, vy, T) of the image at (x, y) from velocity and temperature of the parent."""
+
+
+@generic
+def image_pressure(wall, own, copied):
+    """The image's pressure: from its `own` density and temperature, or `copied` from the parent."""
+
+
+@generic
+def confine(wall, state):
+    """Reflect elastically what has crossed the wall, state rows (x, y, vx, vy, e); the number of reflections."""
+
+
+@generic
+def fixed_points(wall, width, height):
+    """(x, y, T), each (F,), of the particles that the wall holds in place; none for walls of images."""
+
+
+@jit
+def place_images(first, last, wall, parent, x, y):
+    """Positions of ghosts first..last of one wall."""
+    for g in range(first, last):
+        p = parent[g - first]
+        x[g], y[g] = image_point(wall, x[p], y[p])
+
+
+@jit
+def move_images(first, last, wall, parent, x, y, vx, vy, T):
+    """Velocities and temperatures of ghosts first..last of one wall."""
+    for g in range(first, last):
+        p = parent[g - first]
+        vx[g], vy[g], T[g] = image_motion(wall, x[g], y[g], vx[p], vy[p], T[p])

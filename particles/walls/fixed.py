@@ -1,0 +1,42 @@
+"""Rows of fixed particles behind a plate [KHP95, Fig. 2], with a leak-proof elastic wall in the plate."""
+from typing import NamedTuple
+
+import numpy as np
+
+from particles.walls import confine, fixed_points, image_motion, image_point, image_pressure, parents
+from particles.walls.mirror import _reflect
+
+
+class FixedRows(NamedTuple):
+    """`rows` rows of particles at rest behind a plate across y, spaced by `spacing` from half a spacing on.
+
+    Their temperature is extrapolated linearly from the plate: T + slope (y - at).
+    """
+    at: float
+    inner: float
+    T: float
+    slope: float
+    rows: int
+    spacing: float
+
+
+def fixed_plates(height: float, T_hot: float, T_cold: float, rows: int = 6, spacing: float = 1.0) -> tuple:
+    """Hot plate below, cold one above; their rows go on with the conduction profile. Two ranges are six rows."""
+    slope = (T_cold - T_hot)/height
+    return (FixedRows(-height/2, 1.0, T_hot, slope, rows, spacing), FixedRows(height/2, -1.0, T_cold, slope, rows, spacing))
+
+
+@fixed_points.of(FixedRows)
+def _(wall, width, height):
+    columns = round(width/wall.spacing)
+    x = (np.arange(columns) + 0.5)*wall.spacing - width/2
+    y = wall.at - wall.inner*(np.arange(wall.rows) + 0.5)*wall.spacing
+    x, y = (q.ravel() for q in np.meshgrid(x, y))
+    return x, y, wall.T + wall.slope*(y - wall.at)
+
+
+parents.of(FixedRows)(lambda wall, x, y, reach: np.empty(0, np.int64))
+image_point.of(FixedRows)(lambda wall, x, y: (x, y))
+image_motion.of(FixedRows)(lambda wall, x, y, vx, vy, T: (vx, vy, T))
+image_pressure.of(FixedRows)(lambda wall, own, copied: copied)
+confine.of(FixedRows)(lambda wall, state: _reflect(state[1], state[3], wall.at, wall.inner))

@@ -1,0 +1,102 @@
+"""Mirror images behind a rigid plate [KHP95, Fig. 3], with an elastic wall in the plate."""
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.jit import generic, jit
+from particles.walls import confine, fixed_points, image_motion, image_point, image_pressure, parents
+
+
+class AtWall(NamedTuple):
+    """Images at rest with the wall's temperature: velocity and temperature are *specified*    [KHP95, Fig. 3]"""
+
+
+class Odd(NamedTuple):
+    """Images with v -> -v and T -> 2 T_w - T: the mean of particle and image is the wall's value."""
+
+
+class Copied(NamedTuple):
+    """The image has the pressure of its particle    [KHP95, Sec. IV: fluxes of images match]"""
+
+
+class Own(NamedTuple):
+    """The image's pressure follows from its own density and temperature."""
+
+
+class Mirror(NamedTuple):
+    """A plate across `axis` (0: x, 1: y) at coordinate `at`, the fluid on its `inner` side (+1 or -1).
+
+    Its temperature is T + slope * (coordinate along the plate).
+    """
+    axis: int
+    at: float
+    inner: float
+    T: float
+    slope: float
+    rule: Any
+    pressure: Any
+
+
+def plates(height: float, T_hot: float, T_cold: float, rule=AtWall(), pressure=Copied()) -> tuple:  # noqa: B008
+    """Hot plate below at -height/2, cold one above."""
+    return (Mirror(1, -height/2, 1.0, T_hot, 0.0, rule, pressure),
+            Mirror(1, height/2, -1.0, T_cold, 0.0, rule, pressure))
+
+
+def sides(width: float, T_mean: float, slope: float, rule=AtWall(), pressure=Copied()) -> tuple:  # noqa: B008
+    """Left and right walls whose temperature is linear in y    [KHP95, Fig. 6]"""
+    return (Mirror(0, -width/2, 1.0, T_mean, slope, rule, pressure),
+            Mirror(0, width/2, -1.0, T_mean, slope, rule, pressure))
+
+
+@generic
+def velocity_and_temperature(rule, wall_T, vx, vy, T):
+    """(vx, vy, T) of the image by one of the rules."""
+
+
+@generic
+def choose(pressure, own, copied):
+    """One of the two pressures."""
+
+
+velocity_and_temperature.of(AtWall)(lambda rule, wall_T, vx, vy, T: (0.0, 0.0, wall_T))
+velocity_and_temperature.of(Odd)(lambda rule, wall_T, vx, vy, T: (-vx, -vy, 2*wall_T - T))
+choose.of(Copied)(lambda pressure, own, copied: copied)
+choose.of(Own)(lambda pressure, own, copied: own)
+
+
+@parents.of(Mirror)
+def _(wall, x, y, reach):
+    depth = wall.inner*((x if wall.axis == 0 else y) - wall.at)
+    return np.flatnonzero(np.abs(depth) <= reach)
+
+
+@image_point.of(Mirror)
+def _(wall, x, y):
+    return (2*wall.at - x, y) if wall.axis == 0 else (x, 2*wall.at - y)
+
+
+@image_motion.of(Mirror)
+def _(wall, x, y, vx, vy, T):
+    along = y if wall.axis == 0 else x
+    return velocity_and_temperature(wall.rule, wall.T + wall.slope*along, vx, vy, T)
+
+
+image_pressure.of(Mirror)(lambda wall, own, copied: choose(wall.pressure, own, copied))
+fixed_points.of(Mirror)(lambda wall, width, height: (np.empty(0), np.empty(0), np.empty(0)))
+
+
+@confine.of(Mirror)
+def _(wall, state):
+    return _reflect(state[wall.axis], state[2 + wall.axis], wall.at, wall.inner)
+
+
+@jit
+def _reflect(q, v, at, inner):
+    count = 0
+    for i in range(len(q)):
+        if (q[i] - at)*inner < 0:
+            q[i] = 2*at - q[i]
+            v[i] = -v[i]
+            count += 1
+    return count
