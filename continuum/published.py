@@ -1,0 +1,73 @@
+"""Numbers printed in papers: ``published("khp95-ke-5000")`` is 0.00340 with uncertainty, units and place.
+
+One file a paper, published/<paper>.csv; its head tells how the numbers were read and the known misprints.
+An id begins with the name of its file. A new reference is a new file; nothing else changes.
+"""
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cache
+from pathlib import Path
+
+import pandas as pd
+
+FOLDER = Path(__file__).with_suffix("")     # no __init__.py in it: as a package it would hide this module
+
+
+@dataclass(frozen=True)
+class Value:
+    """One printed number; ``uncertainty`` is 0 where it is a definition or a choice."""
+    value: float
+    uncertainty: float
+    units: str
+    source: str
+    note: str
+
+
+def names() -> list[str]:
+    """The papers whose numbers are here."""
+    return sorted(path.stem for path in FOLDER.glob("*.csv"))
+
+
+@cache
+def read(name: str) -> pd.DataFrame:
+    """The file of a paper, read once."""
+    return pd.read_csv(FOLDER/f"{name}.csv", comment="#", keep_default_na=False,
+                       dtype={"value": float, "uncertainty": float, "symbol": str, "units": str, "note": str})
+
+
+def table(name: str) -> pd.DataFrame:
+    """All numbers of a paper: id, quantity, symbol, value, uncertainty, units, source, reading, note.
+
+    Raises
+    ------
+    ValueError
+        No file of that name.
+    """
+    if name not in names():
+        raise ValueError(f"no published numbers of {name!r}: there are {', '.join(names())}; "
+                         f"a new paper is a new file in {FOLDER.parent.name}/{FOLDER.name}/")
+    return read(name).copy()
+
+
+@cache
+def numbers() -> dict[str, Value]:
+    """Every number by its id."""
+    fields = list(Value.__dataclass_fields__)
+    return {row["id"]: Value(**{name: row[name] for name in fields})
+            for paper in names() for row in read(paper).to_dict("records")}
+
+
+def published(key: str) -> Value:
+    """The number with this id, e.g. "chandrasekhar-ra-rigid".
+
+    Raises
+    ------
+    ValueError
+        Unknown id; the message names those that are written most alike.
+    """
+    if key not in numbers():
+        close = get_close_matches(key, numbers(), n=5)
+        raise ValueError(f"no published number {key!r}: " + (
+            f"did you mean {', '.join(close)}?" if close else
+            f"ids begin with {', '.join(names())}; table({names()[0]!r}) lists those of one paper"))
+    return numbers()[key]
