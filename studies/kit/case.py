@@ -44,7 +44,8 @@ class Case:
     def label(self) -> str:
         """A few words for the progress line and for messages."""
         values = [getattr(self, field.name) for field in dataclasses.fields(self)]
-        return " ".join([type(self).__name__, *(f"{v:g}" if isinstance(v, float) else str(v) for v in values)])
+        words = [f"{value:g}" if isinstance(value, float) else str(value) for value in values]
+        return " ".join([type(self).__name__, *words])
 
     def run(self, report: Report, folder: Path) -> Outcome:
         """Compute. ``folder`` is for checkpoints: it is kept until the case is finished."""

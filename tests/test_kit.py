@@ -1,0 +1,198 @@
+"""Nothing finished is lost, nothing stale is taken for finished."""
+import errno
+import json
+import math
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from studies.kit import source
+from studies.kit.case import Case, Outcome
+from studies.kit.keep import kept
+from studies.kit.sweep import CasesFailed, Interrupted, sweep
+from studies.kit.table import Table, read
+
+SQUARES = Table("squares", key=["x", "note"], columns=["x", "note", "y"])
+
+
+class Lens(NamedTuple):
+    power: float
+
+
+EYE = Lens(2.0)
+
+
+def squared(x):
+    return x*x
+
+
+def unrelated(x):
+    return x
+
+
+@dataclass(frozen=True, kw_only=True)
+class Square(Case):
+    x: float
+    log: str = ""
+    lens: Lens = EYE
+    trouble: str = ""
+
+    @property
+    def cost(self) -> float:
+        return 1 + self.x
+
+    def run(self, report, folder):
+        report(0.5)
+        with open(self.log, "a") as log:
+            log.write(f"{self.x:g} ")
+        if self.trouble == "interrupt" and not (folder / "checkpoint").exists():
+            (folder / "checkpoint").write_text("half")
+            raise KeyboardInterrupt
+        if self.trouble == "full":
+            raise OSError(errno.ENOSPC, "No space left on device")
+        if self.trouble == "bug":
+            raise ZeroDivisionError("x is off")
+        return Outcome({"squares": [{"x": self.x, "note": "", "y": np.float64(squared(self.x))}]})
+
+
+class Bench:
+    """A sweep in a folder of its own, in this process, that remembers what ran."""
+
+    def __init__(self, folder: Path):
+        self.folder, self.log = folder, folder / "log"
+
+    def cases(self, *xs, **more):
+        return [Square(x=float(x), log=str(self.log), **more) for x in xs]
+
+    def sweep(self, cases, size="paper"):
+        return sweep(cases, tables=[SQUARES], study="toy", size=size, workers=1, out=self.folder)
+
+    def ran(self):
+        text = self.log.read_text() if self.log.exists() else ""
+        self.log.unlink(missing_ok=True)
+        return text.split()
+
+
+@pytest.fixture
+def bench(tmp_path):
+    return Bench(tmp_path)
+
+
+# --- finished work is kept, and only that ---------------------------------------------------------------
+
+def test_a_finished_case_is_not_run_again_and_the_longest_starts_first(bench):
+    first = bench.sweep(bench.cases(1, 3, 2, 3))
+    assert bench.ran() == ["3", "2", "1"]
+    second = bench.sweep(bench.cases(1, 2, 3, 4))
+    assert bench.ran() == ["4"]
+    assert list(first["squares"].y) == [1, 4, 9] and list(second["squares"].y) == [1, 4, 9, 16]
+
+
+def test_an_interrupted_study_goes_on_where_it_stopped(bench):
+    cases = bench.cases(3) + bench.cases(2, trouble="interrupt") + bench.cases(1)
+    with pytest.raises(Interrupted, match="1 of 3 cases are finished and kept, the same command goes on"):
+        bench.sweep(cases)
+    assert bench.ran() == ["3", "2"]
+    assert list(bench.sweep(cases)["squares"].y) == [1, 4, 9]
+    assert bench.ran() == ["2", "1"], "the checkpoint of case 2 was there, case 3 was kept"
+    assert not [path for path in (bench.folder / "raw/toy").iterdir() if path.is_dir()], "scratch folders go"
+
+
+@pytest.mark.parametrize("content", ["", "{\"rows\": ", "[]", "{\"commit\": \"a\", \"rows\": [1]}"])
+def test_a_kept_outcome_that_is_damaged_is_reported_and_run_again(bench, content, capsys):
+    case, = bench.cases(2)
+    bench.sweep([case])
+    (bench.folder / f"raw/toy/{case.key}.json").write_text(content)
+    bench.ran()
+    assert list(bench.sweep([case])["squares"].y) == [4]
+    assert bench.ran() == ["2"]
+    assert capsys.readouterr().err.count("is run again") == 1
+
+
+def test_a_case_that_raises_leaves_the_others_and_tells_where_the_story_is(bench):
+    with pytest.raises(CasesFailed) as told:
+        bench.sweep(bench.cases(1, 3) + bench.cases(2, trouble="bug"))
+    text = str(told.value)
+    story = Path(text.split("traceback: ")[1])
+    assert "1 of 3 cases failed" in text and "ZeroDivisionError: x is off" in text
+    assert "x is off" in story.read_text() and "in run" in story.read_text()
+    assert list(read(bench.folder / "toy/squares.csv").y) == [1, 9]
+
+
+def test_a_full_disk_stops_the_study_and_keeps_what_is_finished(bench):
+    with pytest.raises(CasesFailed, match=r"the disk is full: make room .* 1 of 3 cases are finished"):
+        bench.sweep(bench.cases(3) + bench.cases(2, trouble="full") + bench.cases(1))
+    assert bench.ran() == ["3", "2"]
+
+
+def test_unknown_size_names_the_three(bench):
+    with pytest.raises(ValueError, match="'huge': choose one of quick, paper, fine"):
+        bench.sweep([], size="huge")
+
+
+def test_what_is_kept_can_be_read_by_people(bench):
+    case, = bench.cases(2)
+    bench.sweep([case])
+    content = json.loads((bench.folder / f"raw/toy/{case.key}.json").read_text())
+    assert content["case"]["x"] == 2.0 and content["case"]["lens"] == {"": "Lens", "power": 2.0}
+    assert {"commit", "versions", "date"} <= set(content)
+    assert kept(case, bench.folder / "raw/toy") == {
+        "squares": [{"x": 2.0, "note": "", "y": 4.0, "commit": content["commit"]}]}
+
+
+# --- what a result depends on ---------------------------------------------------------------------------
+
+def test_the_key_of_a_case_is_that_of_its_parameters():
+    base = Square(x=0.1)
+    others = [base, replace(base, x=math.nextafter(0.1, 1)), replace(base, lens=Lens(3.0)),
+              replace(base, log="b")]
+    assert len({case.key for case in others}) == len(others)
+    assert Square(x=0.1).key == base.key
+    with pytest.raises(TypeError, match="a case cannot hold"):
+        _ = replace(base, lens=lambda: 0).key
+
+
+def test_the_key_covers_what_the_class_uses_from_its_own_file_and_nothing_else():
+    text = {ast_name(node) for node in source.part(Path(__file__).resolve(), {"Square"})}
+    assert {"Square", "squared", "Lens"} <= text
+    assert not {"unrelated", "Bench"} & text
+
+
+def ast_name(node):
+    return next(iter(source.defines(node)), "")
+
+
+@pytest.fixture
+def tree(tmp_path):
+    """A small repository: a uses b through a relative import, b uses the package deep; c stands alone."""
+    files = {"continuum/__init__.py": "", "continuum/a.py": "from .b import f\nimport numpy\n",
+             "continuum/b.py": "def f():\n    'Doc.'\n    from particles.deep import g\n    return g\n",
+             "continuum/c.py": "", "particles/__init__.py": "", "particles/deep/leaf.py": "",
+             "particles/deep/__init__.py": "from . import leaf\n",
+             "studies/__init__.py": "", "studies/kit/__init__.py": "",
+             "studies/one.py": "from continuum import a\nfrom studies.kit import case\n"}
+    for name, text in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+    return tmp_path
+
+
+def test_imports_are_followed_through_our_packages_only(tree):
+    assert set(source.closure(["studies.one"], tree)) == {
+        "studies.one", "studies", "continuum", "continuum.a", "continuum.b", "particles", "particles.deep",
+        "particles.deep.leaf"}
+    with pytest.raises(ValueError, match=r"continuum\.d is not a module of"):
+        source.closure(["continuum.d"], tree)
+
+
+def test_comments_and_docstrings_do_not_change_a_result(tree):
+    def hashed(text):
+        source.parse.cache_clear()
+        (tree / "continuum/b.py").write_text(text)
+        return source.digest(source.parse(tree / "continuum/b.py"))
+    first, same, other = map(hashed, ["def f():\n    'Doc.'\n    return 1\n", "# why\ndef f(): return  1\n",
+                                      "def f():\n    return 2\n"])
+    assert first == same != other

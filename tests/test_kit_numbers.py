@@ -1,0 +1,95 @@
+"""Error bars cover the truth as often as they say, compiling is counted apart, figures repeat."""
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+from studies.kit import figure, stats, timing
+
+
+def autoregressive(phi, n, runs, seed):
+    """Series x(t+1) = phi x(t) + noise, started steady: mean 0, variance 1, tau = (1 + phi)/(2 (1 - phi))."""
+    rng = np.random.default_rng(seed)
+    noise = rng.standard_normal((n, runs))*math.sqrt(1 - phi**2)
+    series = np.empty((n, runs))
+    series[0] = rng.standard_normal(runs)
+    for t in range(1, n):
+        series[t] = phi*series[t - 1] + noise[t]
+    return series.T
+
+
+@pytest.mark.parametrize("phi", [0.5, 0.8, 0.9])
+def test_correlation_time_of_a_known_process(phi):
+    series = autoregressive(phi, 4000, 200, seed=1)
+    tau = (1 + phi)/(2*(1 - phi))
+    found = [stats.window_and_tau(x)[1] for x in series]
+    # statistics 4 sd/sqrt(200); bias: the window cuts exp(-6) = 0.25 % off, the rest is second order in tau/n
+    assert abs(np.mean(found) - tau) < 4*np.std(found)/math.sqrt(200) + 0.01*tau
+    counts = np.array([stats.n_eff(x) for x in series])
+    assert np.median(counts) == pytest.approx(2000/tau, rel=0.05)
+
+
+def test_white_noise_is_worth_its_samples_and_no_more():
+    """tau is never below 1/2, so by chance it lies above, by less than a standard deviation of its estimate."""
+    found = [stats.window_and_tau(x) for x in autoregressive(0.0, 4000, 200, seed=1)]
+    deviation = math.sqrt(2*(2*max(window for window, _ in found) + 1)/4000)
+    assert min(tau for _, tau in found) >= 0.5
+    assert np.mean([tau for _, tau in found]) < 0.5*(1 + deviation)
+
+
+@pytest.mark.parametrize(("phi", "n"), [(0.0, 100), (0.9, 2000), (0.9, 400), (0.98, 4000)])
+def test_intervals_cover_the_truth_as_often_as_they_say(phi, n):
+    means = [stats.mean(x) for x in autoregressive(phi, n, 1000, seed=2)]
+    covered = np.mean([abs(value) <= err for value, err in means])
+    # binomial: sqrt(0.95 0.05/1000) = 0.007; 3 of these below, and with few independent samples the t factor
+    # errs on the safe side
+    assert 0.93 <= covered <= 0.99
+
+
+def test_the_error_over_seeds_is_honest_with_and_without_scatter_between_runs():
+    rng, inner = np.random.default_rng(3), 0.3
+    for scatter, most in ((0.0, 1.0), (1.0, 0.97)):
+        covered = 0
+        for _ in range(2000):
+            runs = [(rng.normal(0, scatter) + rng.normal(0, inner), 1.96*inner) for _ in range(3)]
+            value, err = stats.combine(runs)
+            covered += abs(value) <= err
+        # never less than 95 % (binomial 0.005, 3 of these); without scatter the larger of two covers more
+        assert 0.935 <= covered/2000 <= most
+
+
+def test_means_of_what_does_not_fluctuate_or_is_too_short():
+    assert stats.mean(np.full(50, 0.3)) == (0.3, 0.0)
+    assert stats.n_eff(np.full(50, 0.3)) == 50
+    assert stats.combine([(1.0, 0.2)]) == (1.0, 0.2)
+    for wrong in (np.ones(9), [1.0]*20 + [math.nan]):
+        with pytest.raises(ValueError, match="at least 10, all finite"):
+            stats.mean(wrong)
+    with pytest.raises(ValueError, match="no runs"):
+        stats.combine([])
+
+
+def test_a_figure_drawn_twice_is_the_same_file(tmp_path):
+    def draw(path):
+        page, axes = figure.figure()
+        figure.errorbar(axes, [1, 2], [1, 2], [0.1, 0.1], number=1, label="a")
+        figure.save(page, path)
+        return path.read_bytes()
+    assert draw(tmp_path / "a.png") == draw(tmp_path / "b.png")
+    looks = [figure.look(number) for number in range(len(figure.COLOURS))]
+    assert all(a[word] != b[word] for a, b in itertools.combinations(looks, 2) for word in a)
+
+
+def test_compiling_is_counted_apart_and_once():
+    import numba
+    double = numba.njit(lambda x: 2*x)
+    result, compiling, _ = timing.compile_and_run_seconds(lambda: double(2))
+    assert result == 4 and compiling > 0
+    assert timing.compile_and_run_seconds(lambda: double(3))[1] == 0.0, "nothing is compiled twice"
+    with pytest.raises(ValueError, match="at least 3, got 2"):
+        timing.median_seconds(lambda: None, repeats=2)
+    calls = []
+    ticks = iter([0, 1, 10, 12, 20, 29])
+    assert timing.median_seconds(lambda: calls.append(0), 3, clock=lambda: next(ticks)) == (2, 2)
+    assert len(calls) == 4, "one call that does not count"

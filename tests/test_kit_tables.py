@@ -1,0 +1,150 @@
+"""Tables keep the better row and read back as written; verdicts mean what they say."""
+import errno
+import math
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from studies.kit import csvfile
+from studies.kit.claim import CannotTell, Claim, judge, put_claims, verdict
+from studies.kit.table import Table, Tables, merge, read
+
+SQUARES = Table("squares", key=["x", "note"], columns=["x", "note", "y"])
+
+
+def row(x, y, note="", **more):
+    return {"x": x, "note": note, "y": y, **more}
+
+
+def test_a_row_of_a_better_size_stays_and_equal_sizes_take_the_newer(tmp_path):
+    path = tmp_path / "squares.csv"
+    merge(path, SQUARES, [row(1/3, 1.0), row(2, 1.0)], size="paper")
+    merge(path, SQUARES, [row(2, 2.0), row(3, 2.0)], size="fine")
+    frame, better = merge(path, SQUARES, [row(1/3, 3.0), row(2, 3.0), row(4, 3.0)], size="paper")
+    assert better == 1
+    assert list(zip(frame.x.round(2), frame.y, frame["size"])) == [
+        (0.33, 3.0, "paper"), (2, 2.0, "fine"), (3, 2.0, "fine"), (4, 3.0, "paper")]
+
+
+def test_empty_text_reads_back_as_text_and_numbers_as_numbers(tmp_path):
+    path = tmp_path / "squares.csv"
+    merge(path, SQUARES, [row(math.inf, None, seed=3), row(2, 1e-7), row(2, 5.0, "nan")], size="quick")
+    for frame in (read(path), read(path, SQUARES.columns)):
+        assert list(frame.note) == ["", "nan", ""] and list(frame.x) == [2, 2, math.inf]
+        assert list(frame.y[:2]) == [1e-7, 5.0] and math.isnan(frame.y[2])
+        assert frame.seed[2] == 3
+    head = path.read_text().split("x,note")[0]
+    assert all(word in head for word in ("# commit", "numpy", "numba", "py-pde", "cores", "UTC"))
+
+
+def test_a_table_does_not_depend_on_the_order_of_rows_and_stays_when_nothing_changed(tmp_path):
+    one, two, rows = tmp_path / "one.csv", tmp_path / "two.csv", [row(x, x*x/7) for x in (3, 1, 2)]
+    for path, order in ((one, rows), (two, rows[::-1])):
+        merge(path, SQUARES, order, size="quick")
+    assert one.read_text() == two.read_text()
+    text = one.read_text()
+    merge(one, SQUARES, rows, size="quick", command="something else")
+    assert one.read_text() == text
+
+
+@pytest.mark.parametrize(("rows", "words"), [
+    ([row(1, 1), row(1.0, 2)], "two rows of table squares have the key 1"),
+    ([row(1, 1, speed=3)], "has no column speed"),
+    ([{"note": "", "y": 1}], "lack x"),
+    ([row("inf", 1), row(2, 1)], "mixes numbers with text such as 'inf'"),
+    ([row(1, 1, "no. #2")], "begins a comment")])
+def test_rows_that_do_not_fit_are_refused(tmp_path, rows, words):
+    with pytest.raises((ValueError, TypeError), match=words):
+        merge(tmp_path / "squares.csv", SQUARES, rows, size="quick")
+
+
+def test_a_missing_column_or_file_is_named(tmp_path):
+    path = tmp_path / "rb" / "energy.csv"
+    with pytest.raises(FileNotFoundError, match="make study-rb writes it"):
+        read(path)
+    csvfile.write(path, pd.DataFrame({"x": [1]}), head=[])
+    with pytest.raises(ValueError, match=r"energy\.csv has no column y, z"):
+        read(path, ["x", "y", "z"])
+
+
+def test_a_table_that_cannot_be_written_stays_as_it_was(tmp_path, monkeypatch):
+    path = tmp_path / "squares.csv"
+    merge(path, SQUARES, [row(1, 1)], size="quick")
+    text = path.read_text()
+
+    def full(self, text):
+        raise OSError(errno.ENOSPC, "No space left on device")
+    monkeypatch.setattr(Path, "write_text", full)
+    with pytest.raises(OSError, match="No space"):
+        merge(path, SQUARES, [row(1, 2)], size="quick")
+    assert path.read_text() == text and [p.name for p in tmp_path.iterdir()] == ["squares.csv"]
+
+
+# --- claims ---------------------------------------------------------------------------------------------
+
+def claim(**more):
+    base = dict(source="KHP95, Sec. V", statement="K is 1", printed="1.0", value=lambda tables: (1.0, 0.1))
+    return Claim(**{"id": "c", "because": "one printed digit", **base, **more})
+
+
+@pytest.mark.parametrize(("limits", "value", "err", "expected"), [
+    ({"expect": 1.0, "within": 0.5}, 1.25, 0.25, "holds"),             # the interval just fits
+    ({"expect": 1.0, "within": 0.5}, 1.25, 0.5, "undecidable"),        # inside, but not known to be
+    ({"expect": 1.0, "within": 0.5}, 1.75, 0.5, "undecidable"),        # outside, but not known to be
+    ({"expect": 1.0, "within": 0.5}, 1.75, 0.125, "fails"),
+    ({"expect": 1.0, "within": 0.5}, 0.25, 0.125, "fails"),
+    ({"expect": 1.0, "within": 0.5}, 1.0, 9.0, "undecidable"),         # knows nothing
+    ({"at_least": 2.0}, 2.5, 0.5, "holds"), ({"at_least": 2.0}, 2.5, 0.75, "undecidable"),
+    ({"at_least": 2.0}, 1.0, 0.5, "fails"), ({"at_most": 2.0}, 1.0, 0.5, "holds"),
+    ({"at_most": 2.0}, 3.0, 0.5, "fails"), ({"at_least": 1.0, "at_most": 2.0}, 1.5, 0.25, "holds"),
+    ({"expect": 1.0, "within": 0.5}, math.nan, 0.1, "undecidable"),
+    ({"expect": 1.0, "within": 0.5}, 9.0, math.nan, "undecidable")])
+def test_a_verdict_needs_the_whole_interval(limits, value, err, expected):
+    assert verdict(claim(**limits), value, err) == expected
+
+
+def test_wrong_verdicts_are_rarer_than_one_in_twenty():
+    """A true value exactly at the limit: 'fails' and 'holds' each by chance in 2.5 % of trials."""
+    rng, at_limit = np.random.default_rng(7), claim(expect=0.0, within=1.0)
+    said = [verdict(at_limit, 1.0 + 0.1*z, 1.96*0.1) for z in rng.standard_normal(4000)]
+    # binomial: sqrt(0.025 0.975/4000) = 0.0025; 4 of these
+    for word in ("holds", "fails"):
+        assert abs(said.count(word)/4000 - 0.025) < 0.01
+
+
+@pytest.mark.parametrize(("wrong", "words"), [
+    ({"because": " "}, "no reason for its tolerance"), ({"source": "a friend"}, "not a citation"),
+    ({"value": None}, "no value"), ({"within": None}, "give expect= with within="),
+    ({"at_least": 1.0}, "give expect= with within="), ({"within": -1.0}, ">= 0"),
+    ({"undecidable": "not printed"}, "keep one of them")])
+def test_a_claim_without_source_reason_or_limits_is_refused(wrong, words):
+    with pytest.raises(ValueError, match=words):
+        claim(**{"expect": 1.0, "within": 0.5, **wrong})
+
+
+def test_claims_of_other_studies_stay(tmp_path):
+    path, limits = tmp_path / "claims.csv", {"expect": 1.0, "within": 0.5}
+
+    def cannot(tables):
+        raise CannotTell("run SIZE=paper")
+    old = [claim(id="a", **limits), claim(id="b", source="de Vahl Davis (1983)", value=cannot, **limits)]
+    put_claims(path, judge(old, Tables(), "rb"), "rb")
+    put_claims(path, judge([claim(id="z", **limits)], Tables(), "speed"), "speed")
+    open_claim = Claim(id="d", source="RR98, Eq. 5", statement="smooth", undecidable="no number is printed")
+    put_claims(path, judge([old[1], open_claim], Tables(), "rb"), "rb")
+    frame = read(path)
+    assert " ".join(frame.columns) == "id source statement printed measured err verdict reason study"
+    assert list(zip(frame.study, frame.id, frame.verdict, frame.reason)) == [
+        ("rb", "b", "undecidable", "run SIZE=paper"), ("rb", "d", "undecidable", "no number is printed"),
+        ("speed", "z", "holds", "accepted 1 +- 0.5: one printed digit")]
+
+
+def test_a_claim_whose_table_is_missing_says_so():
+    broken = claim(value=lambda tables: tables["energy"], expect=1.0, within=0.5)
+    with pytest.raises(KeyError, match="no table 'energy'") as told:
+        judge([broken], Tables(), "rb")
+    assert told.value.__notes__ == ["while judging claim c"]
+    with pytest.raises(ValueError, match="two claims of study rb are called c"):
+        judge([broken, broken], Tables(), "rb")
