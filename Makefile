@@ -28,10 +28,10 @@ figures-%: .venv/ready  ## draw the figures of a study again, from its tables on
 
 studies: $(studies:%=study-%)  ## all studies, one after the other
 
-# one thread for the linear algebra library: more only get in each other's way on small matrices
+# two processes, each with one thread for linear algebra; a file stays in one, which has its fixtures
 test: export OMP_NUM_THREADS ?= 1
-test: .venv/ready  ## the tests
-	$(run) -m pytest $(ARGS)
+test: .venv/ready  ## the tests, on two cores
+	$(run) -m pytest -n 2 --dist loadfile $(ARGS)
 
 lint: .venv/ready  ## ruff
 	$(run) -m ruff check .

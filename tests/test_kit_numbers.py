@@ -31,7 +31,7 @@ def test_correlation_time_of_a_known_process(phi):
 
 
 def test_white_noise_is_worth_its_samples_and_no_more():
-    """tau is never below 1/2, so by chance it lies above, by less than a standard deviation of its estimate."""
+    """tau is never below 1/2; so by chance it lies above, by less than one standard deviation."""
     found = [stats.window_and_tau(x) for x in autoregressive(0.0, 4000, 200, seed=1)]
     deviation = math.sqrt(2*(2*max(window for window, _ in found) + 1)/4000)
     assert min(tau for _, tau in found) >= 0.5
