@@ -16,6 +16,7 @@ from studies.kit.table import read
 TOY = '''
 import os, time
 from dataclasses import dataclass
+from typing import ClassVar
 from continuum import law
 from studies.kit.case import Case, Outcome
 from studies.kit.claim import Claim
@@ -36,6 +37,10 @@ class Run(Case):
             os._exit(9)
         return Outcome({"cubes": [{"x": self.x, "y": law.power(self.x)}]})
 
+class Timed(Run):
+    alone: ClassVar[bool] = True
+    cost = 99.0
+
 def figures(tables):
     page, axes = figure()
     axes.plot(tables["cubes"].x, tables["cubes"].y)
@@ -44,13 +49,13 @@ def figures(tables):
 claim = Claim(id="grows", source="KHP95, Sec. V", statement="cubes grow", at_least=8,
               value=lambda tables: (tables["cubes"].y.max(), 0.0), because="2 is in the table")
 if __name__ == "__main__":
-    main(Study(name="toy", cases=lambda size: [Run(x=x) for x in (0.0, 1.0, 2.0, 3.0)], figures=figures,
-               tables=[Table("cubes", key=["x"], columns=["x", "y"])], claims=[claim]))
+    main(Study(name="toy", cases=lambda size: [Timed(x=4.0), *(Run(x=x) for x in (0., 1., 2., 3.))],
+               figures=figures, tables=[Table("cubes", key=["x"], columns=["x", "y"])], claims=[claim]))
 '''
 
 
 class Toy:
-    """A repository with one study, whose case 2 waits until told to go."""
+    """A repository with one study: case 2 waits until told to go, 3 dies if told to, 4 runs alone."""
 
     def __init__(self, folder: Path):
         self.folder = folder
@@ -74,7 +79,7 @@ class Toy:
         """Cases that ran since last asked, and the threads that they were allowed."""
         words = (self.folder / "log").read_text().split() if (self.folder / "log").exists() else []
         (self.folder / "log").unlink(missing_ok=True)
-        return sorted(words[::2]), set(words[1::2])
+        return words[::2], set(words[1::2])
 
 
 def test_a_study_from_the_command_line(tmp_path):
@@ -88,27 +93,29 @@ def test_a_study_from_the_command_line(tmp_path):
     os.killpg(process.pid, signal.SIGINT)    # as Ctrl-C does: to the study and to its workers
     text = process.communicate(timeout=30)[0]
     assert process.returncode == 130
-    assert "3 of 4 cases are finished and kept, the same command goes on from there" in text
+    assert "3 of 5 cases are finished and kept, the same command goes on from there" in text
     assert "Traceback" not in text and "KeyboardInterrupt" not in text
-    assert toy.ran() == (["0", "1", "2", "3"], {"1"})
+    ran, threads = toy.ran()
+    assert sorted(ran) == ["0", "1", "2", "3"] and threads == {"1"}, "4 times itself: it waits for the others"
 
     (tmp_path / "go").touch()
     code, text = toy.run()
-    assert code == 0 and toy.ran()[0] == ["2"]
-    assert "holds" in text and "measured 27 +- 0" in text
-    assert list(read(tmp_path / "results/toy/cubes.csv").y) == [0, 1, 8, 27]
+    assert code == 0 and toy.ran()[0] == ["2", "4"]
+    assert "holds" in text and "measured 64 +- 0" in text
+    assert list(read(tmp_path / "results/toy/cubes.csv").y) == [0, 1, 8, 27, 64]
     assert (tmp_path / "results/toy/cubes.png").exists()
     assert list(read(tmp_path / "results/claims.csv").verdict) == ["holds"]
 
     (tmp_path / "continuum/law.py").write_text("def power(x):\n    return 2*x**3\n")
     (tmp_path / "die").touch()
     code, text = toy.run()
-    assert code == 1 and toy.ran()[0].count("3") == 1
+    ran = toy.ran()[0]
+    assert code == 1 and ran.count("3") == 1 and ran[-1] == "4"
     assert "Run 3: its worker process died" in text
     (tmp_path / "die").unlink()
     code, text = toy.run()
     assert code == 0 and "3" in toy.ran()[0]
-    assert list(read(tmp_path / "results/toy/cubes.csv").y) == [0, 2, 16, 54], "other code, other results"
+    assert list(read(tmp_path / "results/toy/cubes.csv").y) == [0, 2, 16, 54, 128], "other code"
 
 
 @pytest.mark.parametrize(("words", "rule"), [(["--size", "huge"], "choose one of quick, paper, fine"),

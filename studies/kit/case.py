@@ -61,9 +61,8 @@ class Case:
             modules |= {name for name in source.imports(statement, here) if source.find(name)}
         modules |= {getattr(module, "__name__", str(module)) for module in self.code}
         modules.discard(here)
-        pieces = [(name, source.parse(file)) for name, file in sorted(source.closure(modules).items())]
-        return source.digest(json.dumps(parameters(self), sort_keys=True), *own,
-                             *(piece for pair in pieces for piece in pair))
+        values = json.dumps(parameters(self), sort_keys=True)
+        return source.digest(values, *own, source.code_hash(frozenset(modules)))
 
 
 def parameters(value: Any) -> Any:

@@ -15,15 +15,15 @@ from studies.kit.csvfile import write_atomic
 
 @dataclass(frozen=True)
 class Failure:
-    """A case that raised: what it was, what it said, the file with the whole story."""
+    """A case that did not finish: what it was, why, the file with the whole story."""
 
     label: str
     message: str
-    path: Path
+    path: Path | None = None
     disk_full: bool = False
 
     def __str__(self) -> str:
-        return f"  {self.label}: {self.message}\n    traceback: {self.path}"
+        return f"  {self.label}: {self.message}" + (f"\n    traceback: {self.path}" if self.path else "")
 
 
 def run_and_keep(case: Case, folder: Path, report: Report) -> Failure | None:

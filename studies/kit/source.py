@@ -38,6 +38,13 @@ def closure(modules: Iterable[str], root: Path = ROOT) -> dict[str, Path]:
     return found
 
 
+@cache
+def code_hash(modules: frozenset[str], root: Path = ROOT) -> str:
+    """Hash of ``modules`` and of all that they import from our own packages."""
+    found = sorted(closure(modules, root).items())
+    return digest(*(piece for name, path in found for piece in (name, parse(path))))
+
+
 def find(name: str, root: Path = ROOT) -> Path | None:
     """File of a module of our own packages; None for other names and for studies.kit."""
     if name.split(".")[0] not in PACKAGES or f"{name}.".startswith(f"{CARRIERS}."):

@@ -1,4 +1,5 @@
 """Cases onto worker processes, one thread each, with a bar that knows what is left."""
+import dataclasses
 import multiprocessing
 import os
 import signal
@@ -61,7 +62,10 @@ def run_there(cases: Sequence[Case], folder: Path, bar: Bar, workers: int,
         while numbers:
             with executor_of(bar, min(count, len(numbers)), given) as pool:
                 lost = yield from drain(pool, cases, numbers, folder, bar)
-            numbers = [number for number in lost if bar.done[number] == 0]
+            again = [number for number in lost if bar.done[number] == 0]
+            if set(again) == set(numbers):
+                raise RuntimeError("worker processes end before they run a case: --workers 1 shows why")
+            numbers = again
 
 
 @contextmanager
@@ -95,7 +99,7 @@ def drain(pool: Executor, cases: Sequence[Case], numbers: Sequence[int], folder:
                 lost.append(number)
                 if bar.done[number] > 0:
                     yield Failure(cases[number].label, "its worker process died, perhaps for want of memory: "
-                                  "fewer workers need less (--workers 1)", folder / cases[number].key)
+                                  "fewer workers need less (--workers 1)")
             elif failure := task.result():
                 yield failure
             bar.done[number] = 0.0 if number in lost and bar.done[number] == 0 else 1.0
@@ -104,11 +108,13 @@ def drain(pool: Executor, cases: Sequence[Case], numbers: Sequence[int], folder:
 
 
 def run_one(number: int, case: Case, folder: Path) -> Failure | None:
-    """In a worker: run case ``number`` of the study."""
+    """In a worker: run case ``number`` of the study, with the code that the study began with."""
     def report(fraction: float) -> None:
         if shared:
             shared[number] = min(max(fraction, 1e-9), 1 - 1e-9)
     report(0.0)
+    if dataclasses.replace(case).key != case.key:
+        return Failure(case.label, "the code was changed before this worker loaded it: start the study again")
     return run_and_keep(case, folder, report)
 
 
