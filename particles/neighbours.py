@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from continuum.jit import jit
+from particles.team import Team
 
 u64 = np.uint64
 ONE = u64(1)
@@ -55,10 +56,11 @@ def sort_into_cells(x: np.ndarray, y: np.ndarray, side: float) -> Cells:
 
 
 @jit
-def list_rows(first, last, cells, x, y, reach, capacity, start, length, listed):
+def list_rows(first, last, cells, x, y, reach, itself, capacity, start, length, listed):
     """Write the Verlet lists of rows first..last behind each other, from first*capacity on; False if they do not fit.
 
-    `capacity` is the room per row: the caller grows it and repeats.
+    `capacity` is the room per row: the caller grows it and repeats. Row i is the listed point i + `itself`, which is
+    left out.
     """
     far2, used, end_of_room = reach*reach, first*capacity, last*capacity
     for i in range(first, last):
@@ -74,10 +76,35 @@ def list_rows(first, last, cells, x, y, reach, capacity, start, length, listed):
                 dx, dy = cells.x[m] - x[i], cells.y[m] - y[i]
                 j = cells.order[m]
                 listed[k] = j
-                k += u64((dx*dx + dy*dy < far2) & (j != i))
+                k += u64((dx*dx + dy*dy < far2) & (j != i + itself))
             used = np.int64(k)
         length[i] = used - np.int64(start[i])
     return True
+
+
+def make_lists(team: Team, cells: Cells, x: np.ndarray, y: np.ndarray, reach: float, itself: int) -> tuple:
+    """(start, length, listed) of all points of `cells` within `reach` of (x, y), but for point i + `itself` of row i.
+
+    Raises
+    ------
+    FloatingPointError
+        There are more than 2000 neighbours of each: the particles have collapsed.
+    """
+    rows, room = len(x), 4 + int(1.1*np.pi*reach**2*_density(cells))
+    while room < 2000:
+        start, length = np.empty(rows, np.uint64), np.empty(rows, np.uint32)
+        listed = np.empty(rows*room, np.uint32)
+        if all(team(list_rows, rows, cells, x, y, reach, itself, room, start, length, listed)):
+            return start, length, listed
+        room = int(1.3*room) + 1
+    raise FloatingPointError(f"more than {int(room/1.3)} neighbours within {reach:g} of each particle: they have collapsed "
+                             "onto each other; lower the step or the attraction in the pressure")
+
+
+def _density(cells: Cells) -> float:
+    """Points per area of the cells that hold any."""
+    occupied = np.count_nonzero(np.diff(cells.start))
+    return len(cells.x)/max(occupied, 1)/cells.side**2
 
 
 @jit

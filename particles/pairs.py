@@ -104,3 +104,17 @@ def sweep(first, last, term, particle, pairs, out):
         for k in range(begin, begin + pairs.count[i]):
             total = add(total, rate(term, a, particle[pairs.near[k]], Pair(pairs.wx[k], pairs.wy[k])))
         store(out, i, u64(0), total)
+
+
+@jit
+def interpolate(first, last, weight, m, at_x, at_y, lists, x, y, values, out):
+    """out[i] = sum_j m values[j] w(|r_i - r_j|) over the listed points j of place i; `values` (points, columns)."""
+    start, length, listed = lists
+    for i in range(u64(first), u64(last)):
+        out[i] = 0.0
+        for k in range(start[i], start[i] + length[i]):
+            j = listed[k]
+            r = np.sqrt((at_x[i] - x[j])**2 + (at_y[i] - y[j])**2)
+            w = m*weight.scale*shape(weight, min(r/weight.h, 1.0))
+            for c in range(values.shape[1]):
+                out[i, c] += w*values[j, c]

@@ -4,13 +4,19 @@ Points are numbered particles first, then fixed particles, then ghosts wall by w
 """
 import numpy as np
 
-from particles.neighbours import farthest, list_rows, sort_into_cells
+from particles.neighbours import farthest, make_lists, sort_into_cells
 from particles.pairs import Pairs, weigh
 from particles.team import Team
 from particles.walls import fixed_points, move_images, parents, place_images
 from particles.walls.periodic import wrap
 
 EMPTY = np.empty(0)
+MARGIN = 1.25  # a particle may speed up within a step by this factor before the lists miss a pair
+
+
+def fastest(state: np.ndarray) -> float:
+    """The largest speed of a state (x, y, vx, vy, e)."""
+    return float(np.sqrt((state[2]**2 + state[3]**2).max()))
 
 
 class Surroundings:
@@ -33,18 +39,32 @@ class Surroundings:
         held = [fixed_points(wall, *box) for wall in walls]
         self._fixed = tuple(np.concatenate([h[c] for h in held] or [EMPTY]) for c in range(3))
         self.rows = n + len(self._fixed[0])
-        self.anchor = np.full((2, n), np.nan)
-        self.room, self.lists_made = 48, 0
+        self.anchor: np.ndarray | None = None
+        self.lists_made = 0
 
     def must_relist(self, state: np.ndarray, dt: float) -> bool:
         """True if some particle may leave half of the skin within the coming step."""
-        if np.isnan(self.anchor[0, 0]):
-            return True
-        fastest = np.sqrt((state[2]**2 + state[3]**2).max())
-        return farthest(state[0], state[1], *self.anchor) + 1.05*fastest*dt > self.skin/2
+        return self.anchor is None or self.moved(state) + MARGIN*fastest(state)*dt > self.skin/2
 
-    def relist(self, state: np.ndarray, ids: np.ndarray) -> None:
-        """Wrap the particles into the box, put them in the order of cells (in place) and make lists anew."""
+    def moved(self, state: np.ndarray) -> float:
+        """The farthest that any particle has moved since the lists were made."""
+        return farthest(state[0], state[1], *self.anchor)
+
+    def forget(self) -> None:
+        """Make lists anew before the next step."""
+        self.anchor = None
+
+    def relist(self, state: np.ndarray, ids: np.ndarray, dt: float) -> None:
+        """Wrap the particles into the box, put them in the order of cells (in place) and make lists anew.
+
+        The skin grows when the fastest particle would outrun it within one step.
+        """
+        stride = MARGIN*fastest(state)*dt
+        if not stride < self.weight.h:
+            raise FloatingPointError(f"a particle at speed {fastest(state):.4g} would cross the weight's range "
+                                     f"{self.weight.h:g} within one step")
+        if 2*stride > self.skin:
+            self.skin = 2.4*stride
         wrap(self.walls, state[0])
         order = sort_into_cells(state[0], state[1], self.reach/2).order
         state[:], ids[:] = state[:, order], ids[order]
@@ -71,15 +91,7 @@ class Surroundings:
 
     def _fill_lists(self, x, y):
         cells = sort_into_cells(x, y, self.reach/2)
-        while True:
-            start, length = np.empty(self.rows, np.uint64), np.empty(self.rows, np.uint32)
-            listed = np.empty(self.rows*self.room, np.uint32)
-            if all(self.team(list_rows, self.rows, cells, x, y, self.reach, self.room, start, length, listed)):
-                break
-            self.room = int(1.3*self.room) + 1
-            if self.room > 2000:
-                raise FloatingPointError("more than 2000 neighbours per particle: the particles have collapsed onto each "
-                                         "other; lower the step or the pressure's attraction")
+        start, length, listed = make_lists(self.team, cells, x[:self.rows], y[:self.rows], self.reach, 0)
         near, wx, wy = np.empty_like(listed), np.empty(len(listed)), np.empty(len(listed))
         self.pairs = Pairs(start, length, listed, np.empty(self.rows, np.uint32), near, wx, wy)
 

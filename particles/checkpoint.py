@@ -1,0 +1,77 @@
+"""Checkpoints of a run as HDF5: written beside and then renamed, so the last good one survives whatever happens."""
+import hashlib
+import os
+from errno import ENOSPC
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import h5py
+import numpy as np
+
+from continuum.jit import source_hash
+
+SCALARS = ("step", "samples", "reflections", "skin", "cpu_s", "compile_s")
+
+if TYPE_CHECKING:
+    from particles.run import Plan, Run
+
+
+def _identity(method: Any, plan: "Plan", start: np.ndarray) -> dict[str, str]:
+    """What must be the same for a restart to be the same run."""
+    words = f"{method!r} dt={plan.dt!r} every={plan.every} mean_from={plan.mean_from!r} {[*plan.series]} {[*plan.means]}"
+    return {"code": source_hash(), "parameters": words, "start": hashlib.sha256(start.tobytes()).hexdigest()}
+
+
+def save(path: Path, method: Any, plan: "Plan", start: np.ndarray, now: "Run") -> None:
+    """Write the run to `path`; on a full disk the former checkpoint stays and OSError says so."""
+    beside = path.with_suffix(".part")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        with h5py.File(beside, "w") as file:
+            file.attrs.update(_identity(method, plan, start))
+            for name in SCALARS:
+                file.attrs[name] = getattr(now, name)
+            for name in ("state", "ids", "anchor", "times"):
+                file[name] = getattr(now, name)
+            for group, values in (("series", now.series), ("sums", now.sums)):
+                for name, value in values.items():
+                    file[f"{group}/{name}"] = value
+        os.replace(beside, path)
+    except OSError as error:
+        beside.unlink(missing_ok=True)
+        why = "the disk is full" if error.errno == ENOSPC or "No space" in str(error) else str(error)
+        raise OSError(f"cannot write checkpoint {path.name} at step {now.step}: {why}; the former one is kept, make room "
+                      "and start again to go on from it") from error
+
+
+def load(path: Path | None, method: Any, plan: "Plan", start: np.ndarray) -> "Run | None":
+    """The run stored at `path`, or None if there is none.
+
+    Raises
+    ------
+    ValueError
+        The file is unreadable, or of other code, parameters or particles.
+    """
+    from particles.run import Run
+    if path is None or not path.exists():
+        return None
+    try:
+        with h5py.File(path, "r") as file:
+            _same(path, dict(file.attrs), _identity(method, plan, start))
+            numbers = {name: file.attrs[name].item() for name in SCALARS}
+            arrays = {name: file[name][()] for name in ("state", "ids", "anchor")}
+            groups = {g: {name: item[()] for name, item in file.get(g, {}).items()} for g in ("series", "sums")}
+            times = list(file["times"][()])
+    except (OSError, KeyError) as error:
+        raise ValueError(f"checkpoint {path.name} cannot be read ({error}): delete it to start the run anew") from error
+    series = {name: list(values) for name, values in groups["series"].items()}
+    return Run(**arrays, **numbers, times=times, series=series, sums=groups["sums"])
+
+
+def _same(path: Path, stored: dict, wanted: dict[str, str]) -> None:
+    for what, value in wanted.items():
+        had = str(stored.get(what))
+        if had != value:
+            at = max(0, len(os.path.commonprefix([had, value])) - 20)
+            raise ValueError(f"checkpoint {path.name} is of other {what}: it has ...{had[at:at + 60]}..., this run "
+                             f"...{value[at:at + 60]}...; delete it to start anew, or run what it was made with")

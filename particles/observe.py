@@ -1,0 +1,114 @@
+"""What is measured on particles. Each function takes the sums of a method, with densities and gradients of the state, and
+the state (5, n) = x, y, vx, vy, e; the run calls it with both up to date.
+
+KHP95's text compares (rho/2)<v>^2 of the smoothed field with the grid but does not say which energy its figures show, so
+all three are kept: Kp of the particles, Kg of the smoothed field, Kfl = Kp - Kg of their fluctuations.
+"""
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import conductivity, energy, stress, temperature, viscosity
+from particles.neighbours import make_lists, sort_into_cells
+from particles.pairs import interpolate
+
+
+class Fields(NamedTuple):
+    """Smoothed density, velocity, energy per mass and temperature at some places, each in the places' shape."""
+    rho: np.ndarray
+    vx: np.ndarray
+    vy: np.ndarray
+    e: np.ndarray
+    T: np.ndarray
+
+
+def fields_at(sums: Any, state: np.ndarray, x: np.ndarray, y: np.ndarray) -> Fields:
+    """rho = sum m w, rho v = sum m v w, rho e = sum m e w at places (x, y)    [KHP95, Sec. II]"""
+    around, method = sums.around, sums.method
+    e = np.concatenate([state[4], energy(method.eos, around.rho[sums.n:], around.T[sums.n:])])
+    values = np.stack([np.ones_like(e), around.vx, around.vy, e], axis=1)
+    out = np.empty((np.size(x), 4))
+    cells = sort_into_cells(around.x, around.y, method.weight.h/2)
+    places = np.ravel(x).astype(float), np.ravel(y).astype(float)
+    lists = make_lists(sums.team, cells, *places, method.weight.h, 2*len(e))
+    sums.team(interpolate, len(out), method.weight, method.m, *places, lists, around.x, around.y, values, out)
+    rho, vx, vy, e = (column.reshape(np.shape(x)) for column in out.T)
+    return Fields(rho, vx/rho, vy/rho, e/rho, temperature(method.eos, rho, e/rho))
+
+
+def particle_kinetic(sums: Any, state: np.ndarray) -> float:
+    """Kp: kinetic energy per mass of the particles."""
+    return float(0.5*np.mean(state[2]**2 + state[3]**2))
+
+
+def field_kinetic(sums: Any, state: np.ndarray) -> float:
+    """Kg: kinetic energy per mass of the smoothed field <v> at the particles    [KHP95, Sec. VI]"""
+    at = fields_at(sums, state, state[0], state[1])
+    return float(0.5*np.mean(at.vx**2 + at.vy**2))
+
+
+def heat_flow(sums: Any, state: np.ndarray) -> float:
+    """Mean upward flux of total energy Q_y + rho v_y (e + P/rho + v^2/2 + g y) - (stress.v)_y, per area.
+
+    In a steady flow its mean over every height is the same, so that divided by k dT/L it is the Nusselt number.
+    """
+    n, around, method = sums.n, sums.around, sums.method
+    x, y, vx, vy, e = state
+    rho, T = around.rho[:n], around.T[:n]
+    gx_vx, gx_vy, _, gy_vx, gy_vy, gy_T = sums.gradient[:n].T
+    _, sxy, syy = stress(viscosity(method.law, rho, T), 0.0, gx_vx, gx_vy, gy_vx, gy_vy)
+    carried = rho*vy*(e + around.P[:n]/rho + (vx**2 + vy**2)/2 + method.g*y)
+    flux = carried - conductivity(method.law, rho, T)*gy_T - sxy*vx - syy*vy
+    return float(np.sum(flux*method.m/rho)/(method.box[0]*method.box[1]))
+
+
+def conserved(sums: Any, state: np.ndarray) -> np.ndarray:
+    """(4,): mass, momentum in x and y, and energy (kinetic, internal and m g y)."""
+    m, (_, y, vx, vy, e) = sums.method.m, state
+    total = np.sum(0.5*(vx**2 + vy**2) + e + sums.method.g*y)
+    return m*np.array([state.shape[1], vx.sum(), vy.sum(), total])
+
+
+def total_energy(sums: Any, state: np.ndarray) -> float:
+    """Kinetic, internal and m g y."""
+    return float(conserved(sums, state)[3])
+
+
+class Grid(NamedTuple):
+    """Places on a regular grid of cell centres over the box, ready for `Plan.means`: (5, rows, columns)."""
+    x: np.ndarray
+    y: np.ndarray
+
+    @classmethod
+    def over(cls, box: tuple[float, float], rows: int) -> "Grid":
+        """`rows` places over the height, square cells; KHP95's Fig. 12 has 30 x 60."""
+        columns = round(rows*box[0]/box[1])
+        x, y = (np.arange(columns) + 0.5)*box[0]/columns - box[0]/2, (np.arange(rows) + 0.5)*box[1]/rows - box[1]/2
+        return cls(*np.meshgrid(x, y))
+
+    def __call__(self, sums: Any, state: np.ndarray) -> np.ndarray:
+        return np.stack(fields_at(sums, state, self.x, self.y))
+
+
+class Profile(NamedTuple):
+    """Horizontal means over `bins` layers of the height: (4, bins) = density, temperature, vy^2 and vy T."""
+    bins: int
+
+    def __call__(self, sums: Any, state: np.ndarray) -> np.ndarray:
+        width, height = sums.method.box
+        layer = np.clip(((state[1] + height/2)/height*self.bins).astype(int), 0, self.bins - 1)
+        T, vy = sums.around.T[:sums.n], state[3]
+        count, *totals = (np.bincount(layer, q, self.bins) for q in (np.ones_like(vy), T, vy**2, vy*T))
+        rho = sums.method.m*count/(width*height/self.bins)
+        return np.stack([rho, *(total/np.maximum(count, 1) for total in totals)])
+
+
+def wall_layers(sums: Any, state: np.ndarray) -> np.ndarray:
+    """(2, 2): density (particles per area times m) and mean temperature within one spacing of the lower and upper plate."""
+    width, height = sums.method.box
+    depth = np.sqrt(width*height/sums.n)
+    rows = []
+    for distance in (state[1] + height/2, height/2 - state[1]):
+        near = distance < depth
+        rows.append([sums.method.m*near.sum()/(width*depth), sums.around.T[:sums.n][near].mean() if near.any() else np.nan])
+    return np.array(rows)

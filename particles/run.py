@@ -1,0 +1,184 @@
+"""The only time loop: list upkeep, step, walls, divergence check, records, checkpoint, progress."""
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from time import monotonic, process_time
+from typing import Any
+
+import numpy as np
+
+from continuum.fluid import valid
+from particles.checkpoint import load, save
+from particles.integrators import RK4
+from particles.limits import step_limit
+from particles.team import Team
+from particles.walls import confine
+
+Quantity = Callable[[Any, np.ndarray], Any]  # (sums of the method, state) -> number or array
+
+
+class Divergence(FloatingPointError):
+    """The run left the domain of finite, valid states."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """What a run does besides stepping.
+
+    dt, steps : time step and their number.
+    series : numbers recorded every `every` steps; means : arrays averaged every `every` steps from time `mean_from` on.
+    checkpoint : file, written every `checkpoint_seconds` and at an interrupt; a run that finds it goes on from there,
+    bitwise as if it had not been interrupted.
+    """
+    dt: float
+    steps: int
+    series: Mapping[str, Quantity] = field(default_factory=dict)
+    means: Mapping[str, Quantity] = field(default_factory=dict)
+    every: int = 10
+    mean_from: float = 0.0
+    checkpoint: Path | None = None
+    checkpoint_seconds: float = 20.0
+    threads: int = 1
+
+    def __post_init__(self):
+        if not self.dt > 0 or self.steps < 0 or self.every < 1:
+            raise ValueError(f"need dt > 0, steps >= 0, every >= 1, got dt = {self.dt}, steps = {self.steps}, "
+                             f"every = {self.every}")
+
+
+@dataclass(kw_only=True)
+class Run:
+    """A run at some step: state (5, n) = x, y, vx, vy, e in the order of `ids`; series and means so far."""
+    state: np.ndarray
+    ids: np.ndarray
+    step: int = 0
+    anchor: np.ndarray | None = None
+    skin: float = 0.0
+    times: list[float] = field(default_factory=list)
+    series: dict[str, list[float]] = field(default_factory=dict)
+    sums: dict[str, np.ndarray] = field(default_factory=dict)
+    samples: int = 0
+    reflections: int = 0
+    cpu_s: float = 0.0
+    compile_s: float = 0.0
+
+    @property
+    def means(self) -> dict[str, np.ndarray]:
+        """Averages over the samples since `mean_from`."""
+        return {name: total/max(self.samples, 1) for name, total in self.sums.items()}
+
+    def by_id(self) -> np.ndarray:
+        """The state in the order in which the particles were given, whatever the lists have done to it."""
+        return self.state[:, np.argsort(self.ids)]
+
+
+def run(method: Any, start: np.ndarray, plan: Plan, progress: Callable[[float], None] | None = None) -> Run:
+    """Advance the particles `start` (5, n) by the plan; `progress` is told the fraction done.
+
+    Raises
+    ------
+    ValueError
+        The step is above the stability limit, a state is invalid at the start, or the checkpoint is of other code or
+        other parameters.
+    Divergence
+        A field is not finite or outside of the equation of state's validity; names step, time, field and particle.
+    """
+    _check_start(method, start, plan)
+    team = Team(plan.threads)
+    now = load(plan.checkpoint, method, plan, start) or Run(state=start.copy(), ids=np.arange(start.shape[1]))
+    sums, integrator = method.start(start.shape[1], team), RK4(start.shape, team)
+    if now.anchor is not None:
+        sums.around.skin = now.skin
+        sums.around.make_lists(now.anchor)
+    began, saved = process_time(), monotonic()
+    now.compile_s += _first_evaluation(sums, now)
+    began += process_time() - began
+    try:
+        while now.step < plan.steps:
+            _advance(method, plan, sums, integrator, now)
+            if progress is not None and now.step % 16 == 0:
+                progress(now.step/plan.steps)
+            if plan.checkpoint is not None and monotonic() - saved > plan.checkpoint_seconds:
+                now.cpu_s, began = now.cpu_s + process_time() - began, process_time()
+                save(plan.checkpoint, method, plan, start, now)
+                saved = monotonic()
+    except KeyboardInterrupt:
+        if plan.checkpoint is not None:
+            save(plan.checkpoint, method, plan, start, now)
+        raise
+    now.cpu_s += process_time() - began
+    return now
+
+
+def _first_evaluation(sums, now: Run) -> float:
+    """Seconds of the first evaluation, which loads or compiles the code, on a copy of the particles."""
+    began, state, anchor = process_time(), now.state.copy(), now.anchor
+    if anchor is None:
+        sums.around.relist(state, now.ids.copy(), 0.0)
+    sums.rates(state, np.empty_like(state))
+    if anchor is None:
+        sums.around.forget()
+    return process_time() - began
+
+
+def _advance(method, plan: Plan, sums, integrator, now: Run) -> None:
+    if sums.around.must_relist(now.state, plan.dt):
+        try:
+            sums.around.relist(now.state, now.ids, plan.dt)
+        except FloatingPointError as error:
+            raise Divergence(f"diverged at step {now.step}, time {now.step*plan.dt:g}: {error}; {_way_out(plan)}") from error
+        now.anchor, now.skin = sums.around.anchor, sums.around.skin
+    integrator.step(sums.rates, now.state, plan.dt)
+    now.reflections += sum(confine(wall, now.state) for wall in method.walls)
+    now.step += 1
+    _check(method, plan, sums, now)
+    if now.step % plan.every == 0:
+        _record(plan, sums, now)
+
+
+def _record(plan: Plan, sums, now: Run) -> None:
+    sums.densities(now.state)
+    sums.gradients()
+    now.times.append(now.step*plan.dt)
+    for name, quantity in plan.series.items():
+        now.series.setdefault(name, []).append(float(quantity(sums, now.state)))
+    if now.times[-1] > plan.mean_from:
+        now.samples += 1
+        for name, quantity in plan.means.items():
+            now.sums[name] = now.sums.get(name, 0.0) + np.asarray(quantity(sums, now.state))
+
+
+def _check_start(method, start: np.ndarray, plan: Plan) -> None:
+    if start.ndim != 2 or start.shape[0] != 5 or start.shape[1] < 1:
+        raise ValueError(f"particles are an array (5, n) of {', '.join(method.fields)} with n >= 1, got {start.shape}")
+    if not np.isfinite(start).all():
+        raise ValueError("the particles at the start are not finite: " + _where(method, start))
+    limit = step_limit(method, start[4])
+    if plan.dt > limit:
+        raise ValueError(f"dt = {plan.dt:g} is above the stability limit {limit:.3g} of RK4 for these particles: "
+                         f"take at most {0.8*limit:.2g}")
+
+
+def _where(method, state: np.ndarray, ids: np.ndarray | None = None) -> str:
+    row, i = np.argwhere(~np.isfinite(state))[0]
+    return f"{method.fields[row]} = {state[row, i]} of particle {i if ids is None else ids[i]}"
+
+
+def _way_out(plan: Plan) -> str:
+    return f"halve dt = {plan.dt:g}, or start from a smoother state; the last checkpoint is kept"
+
+
+def _check(method, plan: Plan, sums, now: Run) -> None:
+    """Raise Divergence if the state is not finite, moved too far, or left the equation of state."""
+    when = f"step {now.step}, time {now.step*plan.dt:g}"
+    way_out = _way_out(plan)
+    if not np.isfinite(now.state).all():
+        raise Divergence(f"diverged at {when}: {_where(method, now.state, now.ids)}; {way_out}")
+    rho, e = sums.around.rho[:sums.n], now.state[4]
+    good = valid(method.eos, rho, e)
+    if not good.all():
+        i = int(np.argmin(good))
+        raise Divergence(f"at {when} particle {now.ids[i]} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of "
+                         f"{type(method.eos).__name__}; {way_out}")
+    if sums.around.moved(now.state) > sums.around.skin/2:
+        raise Divergence(f"at {when} a particle sped up by more than a quarter within one step; {way_out}")
