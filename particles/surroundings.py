@@ -65,7 +65,7 @@ class Surroundings:
                                      f"{self.weight.h:g} within one step")
         if 2*stride > self.skin:
             self.skin = 2.4*stride
-        wrap(self.walls, state[0])
+        wrap(self.walls, state)
         order = sort_into_cells(state[0], state[1], self.reach/2).order
         state[:], ids[:] = state[:, order], ids[order]
         self.make_lists(state[:2])
