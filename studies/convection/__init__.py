@@ -1,0 +1,1 @@
+"""Cases, tables, figures and claims on convection, shared by the studies `rb` and `onset`."""

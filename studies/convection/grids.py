@@ -1,0 +1,84 @@
+"""Grid references as cases: the compressible gas, Boussinesq, and both in py-pde."""
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from continuum.compressible import Solution, run, steady_on
+from continuum.compressible_fields import initial, interpolate
+from continuum.scene import RayleighBenard
+from continuum.steady import Steady, Time
+from particles.observe import Grid
+from studies.convection.spam import START_ENERGY
+from studies.convection.tables import scene_columns
+from studies.kit.case import Case, Outcome, Report
+
+
+def energies(scene: RayleighBenard, solution: Solution, **more) -> dict:
+    """Row of `kinetic_energy` of one compressible solution."""
+    plates = solution.nusselt
+    return {"method": "compressible", "variant": "flux-form", **scene_columns(scene), "resolution": solution.rows,
+            "particles": 0, "seed": 0, "ke": solution.ke, "ke_err": 2*solution.ke_err, "ke_field": solution.ke,
+            "ke_field_err": 2*solution.ke_err, "ke_fluctuation": 0.0, "nu": solution.nu,
+            "nu_err": abs(plates.bottom - plates.top), "rolls": solution.rolls, "free_fall": scene.free_fall,
+            "mass_drift": solution.mass_drift, "converged": solution.converged, "dt": solution.dt, "steps": solution.steps,
+            "t_end": solution.t, "cpu_s": solution.cpu_s, "compile_s": solution.compile_s, "threads": 1, **more}
+
+
+@dataclass(frozen=True, kw_only=True)
+class CompressibleSteady(Case):
+    """Steady states on ever finer grids, each started from the one before; the finest one's fields on request."""
+    scene: RayleighBenard
+    sizes: tuple[int, ...]
+    rtol: float = 1e-5
+    keep: str = ""
+
+    @property
+    def cost(self) -> float:
+        return sum(2e-5*rows**3 for rows in self.sizes)*(2 if self.scene.ra < 2500 else 1) + 3
+
+    @property
+    def label(self) -> str:
+        where = scene_columns(self.scene)
+        return f"compressible {where['eos']} {where['transport']} {where['sides']} Ra {self.scene.ra:g}, rows {self.sizes}"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        solutions = steady_on(self.scene, self.sizes, until=Steady(rtol=self.rtol), progress=report)
+        rows = {"kinetic_energy": [energies(self.scene, s) for s in solutions]}
+        if self.keep:
+            rows["fields"] = fields(self.scene, solutions[-1])
+        return Outcome(rows)
+
+
+def fields(scene: RayleighBenard, solution: Solution) -> list[dict]:
+    """The fields at the places where particles' fields are kept."""
+    point = {"method": "compressible", "variant": "flux-form", **scene_columns(scene), "resolution": solution.rows, "seed": 0}
+    grid = Grid.over((scene.width, scene.L), 30)
+    at = interpolate(solution.fields, grid.x, grid.y)
+    columns = (grid.x/scene.L, grid.y/scene.L, at.rho, at.T, at.vx, at.vy)
+    names = ("x", "y", "rho", "T", "vx", "vy")
+    return [{**point, **dict(zip(names, map(float, row), strict=True))}
+            for row in zip(*(np.ravel(c) for c in columns), strict=True)]
+
+
+@dataclass(frozen=True, kw_only=True)
+class CompressibleApproach(Case):
+    """K(t) from the rolls of Sec. VI    [KHP95, Fig. 8]"""
+    scene: RayleighBenard
+    rows: int = 50
+    t_end: float = 4500.0
+
+    @property
+    def cost(self) -> float:
+        return 3e-4*self.rows**3*self.t_end/4500 + 3
+
+    @property
+    def label(self) -> str:
+        return f"compressible approach Ra {self.scene.ra:g}, rows {self.rows}"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        scene = self.scene
+        solution = run(scene, self.rows, until=Time(self.t_end, 300), start=initial(scene, self.rows, START_ENERGY), progress=report)
+        point = {"method": "compressible", "variant": "flux-form", **scene_columns(scene), "resolution": self.rows, "seed": 0}
+        return Outcome({"history": [{**point, "t": t, "t_viscous": t/scene.viscous_time, "ke": ke, "ke_field": ke}
+                                    for t, ke in zip(solution.series.t, solution.series.ke, strict=True)]})

@@ -1,0 +1,44 @@
+"""Tables of the study `rb`: fixed columns, in which all solvers meet.
+
+Energies are per mass in KHP95's units, m = kB = sigma = epsilon = 1 with dT = 1 (free-fall units for the ideal gas, where
+`free_fall`, the unit of velocity sqrt(g alpha dT L), is 1; Boussinesq rows are in free-fall units). Lengths in heights
+L, times in L^2/eta where not said otherwise. Every `_err` is the half width of a 95 % interval.
+"""
+from studies.kit.table import Table
+
+POINT = ["method", "variant", "eos", "transport", "sides", "ra", "pr", "resolution"]
+
+KINETIC = Table(
+    "kinetic_energy", key=[*POINT, "seed"],
+    columns=[*POINT, "particles", "seed", "ke", "ke_err", "ke_field", "ke_field_err", "ke_fluctuation", "nu", "nu_err", "rolls",
+             "free_fall", "mass_drift", "converged", "dt", "steps", "t_end", "cpu_s", "compile_s", "threads"])
+#: means over seeds: ke, ke_field, nu with the larger of the errors within runs and between seeds
+MEANS = Table("means", key=POINT, columns=[*POINT, "particles", "seeds", "ke", "ke_err", "ke_field", "ke_field_err",
+                                           "ke_fluctuation", "nu", "nu_err", "rolls"])
+#: approach to the steady state [KHP95, Fig. 8]; t in units of time, not L^2/eta
+HISTORY = Table("history", key=[*POINT, "seed", "t"], columns=[*POINT, "seed", "t", "t_viscous", "ke", "ke_field"])
+#: steady fields on KHP95's 30 x 60 places [Figs 9, 12]; x, y in units of L; particles: means over the second half
+FIELDS = Table("fields", key=[*POINT, "seed", "x", "y"],
+               columns=[*POINT, "seed", "x", "y", "rho", "T", "vx", "vy"])
+#: particles at the end of a run [Figs 2, 3, 7, 12]; kind: fluid, fixed or image
+PARTICLES = Table("particles", key=[*POINT, "seed", "number"],
+                  columns=[*POINT, "seed", "number", "kind", "x", "y", "vx", "vy"])
+PROFILES = Table("profiles", key=[*POINT, "seed", "y"], columns=[*POINT, "seed", "y", "rho", "T", "vy2", "vyT"])
+WALLS = Table("walls", key=[*POINT, "seed", "plate"],
+              columns=[*POINT, "seed", "plate", "T_wall", "T_layer", "rho_layer", "reflections"])
+#: seconds of one step, measured alone on the machine
+COST = Table("cost", key=["method", "variant", "eos", "sides", "resolution"],
+             columns=["method", "variant", "eos", "sides", "resolution", "points", "step_s", "step_s_err", "dt", "threads"])
+#: error against cost, derived
+ERRORS = Table("errors", key=POINT, columns=[*POINT, "particles", "ke", "ke_err", "reference", "reference_err", "error",
+                                             "error_err", "energy", "cpu_s"])
+
+ALL = (KINETIC, MEANS, HISTORY, FIELDS, PARTICLES, PROFILES, WALLS, COST, ERRORS)
+EOS_NAMES = {"IdealGas": "ideal", "VanDerWaals": "vdw", "DenseFluid": "dense"}
+TRANSPORT_NAMES = {"ConstEta": "const-eta", "ConstNu": "const-nu"}
+
+
+def scene_columns(scene) -> dict:
+    """The columns of a row that name the scene."""
+    return {"eos": EOS_NAMES[type(scene.eos).__name__], "transport": TRANSPORT_NAMES[scene.transport.__name__],
+            "sides": type(scene.sides).__name__.lower(), "ra": float(scene.ra), "pr": float(scene.pr)}
