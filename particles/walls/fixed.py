@@ -21,15 +21,25 @@ class FixedRows(NamedTuple):
 
 
 def fixed_plates(height: float, T_hot: float, T_cold: float, rows: int = 6, spacing: float = 1.0) -> tuple:
-    """Hot plate below, cold one above; their rows go on with the conduction profile. Two ranges are six rows."""
+    """Hot plate below, cold one above; their rows go on with the conduction profile. Two ranges are six rows.
+
+    Raises
+    ------
+    ValueError
+        The profile reaches T = 0 within the rows above the cold plate.
+    """
     slope = (T_cold - T_hot)/height
+    last = T_cold + slope*(rows - 0.5)*spacing
+    if not last > 0:
+        raise ValueError(f"the last of {rows} fixed rows would have T = {last:.4g}, extrapolated from T_cold = {T_cold:g} with "
+                         f"slope {slope:.4g}: it must be positive; take a higher box, fewer rows or a smaller difference")
     return (FixedRows(-height/2, 1.0, T_hot, slope, rows, spacing), FixedRows(height/2, -1.0, T_cold, slope, rows, spacing))
 
 
 @fixed_points.of(FixedRows)
 def _(wall, width, height):
     columns = round(width/wall.spacing)
-    x = (np.arange(columns) + 0.5)*wall.spacing - width/2
+    x = (np.arange(columns) + 0.5)*width/columns - width/2  # so that they fit a periodic box of any width
     y = wall.at - wall.inner*(np.arange(wall.rows) + 0.5)*wall.spacing
     x, y = (q.ravel() for q in np.meshgrid(x, y))
     return x, y, wall.T + wall.slope*(y - wall.at)

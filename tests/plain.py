@@ -1,0 +1,211 @@
+"""The slow readable twin of `particles`: KHP95's sums as numpy double sums, without lists, cells or compiled code.
+
+It shares only the NamedTuples that describe a scene with particles/; every formula here is written a second time,
+weights as they are printed (r in units of sigma, range 3 sigma), walls as images of all particles, one by one.
+"""
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import conductivity, energy, pressure, temperature, viscosity
+from particles.methods.spam import Direct, Spam
+from particles.terms import ArithmeticGradients
+from particles.walls.fixed import FixedRows
+from particles.walls.mirror import Mirror, Odd, Own
+from particles.walls.periodic import Shift
+from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
+
+# --- weights in 2D: w(r) and dw/dr inside of the range -----------------------------------------------------
+
+
+def lucy(r, h):
+    s, sigma = 3*r/h, h/3
+    A = 5/(9*np.pi*sigma**2)
+    return A*(1 + s)*(1 - s/3)**3, A/sigma*((1 - s/3)**3 - (1 + s)*(1 - s/3)**2)
+
+
+def monaghan(r, h):
+    s, sigma = 3*r/h, h/3
+    A, inner = 40/(63*np.pi*sigma**2), s < 1.5
+    w = np.where(inner, A*(1 - 2/3*s**2 + 2/9*s**3), 2*A*(1 - s/3)**3)
+    return w, np.where(inner, A/sigma*(-4/3*s + 2/3*s**2), -2*A/sigma*(1 - s/3)**2)
+
+
+def wendland(norm, power, *c):
+    """norm/h^2 (1 - q)^power (c0 + c1 q + ...)."""
+    def weight(r, h):
+        q, poly = r/h, np.polynomial.Polynomial(c)
+        w = norm/h**2*(1 - q)**power*poly(q)
+        return w, norm/h**3*((1 - q)**power*poly.deriv()(q) - power*(1 - q)**(power - 1)*poly(q))
+    return weight
+
+
+PRINTED = {Lucy: lucy, Monaghan: monaghan, WendlandC2: wendland(7/np.pi, 4, 1, 4),
+           WendlandC4: wendland(9/np.pi, 6, 1, 6, 35/3), WendlandC6: wendland(78/(7*np.pi), 8, 1, 8, 25, 32)}
+
+
+# --- points: particles, fixed particles, images -----------------------------------------------------------
+
+
+class Image(NamedTuple):
+    wall: Any
+    of: int
+
+
+class Points(NamedTuple):
+    """All points; made[i] is None for a row (particle or fixed particle), else an Image. v is (points, 2)."""
+    x: np.ndarray
+    made: list
+    v: np.ndarray
+    T: np.ndarray
+    rho: np.ndarray
+    P: np.ndarray  # less the static part
+    rows: int
+
+
+def fixed(wall, box):
+    """(x, y, T) of the particles of fixed rows behind a plate."""
+    found = []
+    if isinstance(wall, FixedRows):
+        for row in range(wall.rows):
+            y = wall.at - wall.inner*wall.spacing*(row + 0.5)
+            for column in range(round(box[0]/wall.spacing)):
+                found.append((-box[0]/2 + (column + 0.5)*box[0]/round(box[0]/wall.spacing), y,
+                              wall.T + wall.slope*(y - wall.at)))
+    return found
+
+
+def images(method: Spam, x: np.ndarray):
+    """Positions (points, 2) with all images that can be within range, and how each was made."""
+    x, made = [tuple(p) for p in x], [None]*len(x)
+    for wall in method.walls:
+        if isinstance(wall, FixedRows):
+            continue
+        for p in range(len(x)):
+            if isinstance(wall, Shift) and shifted(p, wall.axis, made):
+                continue
+            image = list(x[p])
+            image[wall.axis] = image[wall.axis] + wall.by if isinstance(wall, Shift) else 2*wall.at - image[wall.axis]
+            if abs(image[wall.axis]) <= method.box[wall.axis]/2 + 1.01*method.weight.h:
+                x.append(tuple(image))
+                made.append(Image(wall, p))
+    return np.array(x), made
+
+
+def shifted(p: int, axis: int, made: list) -> bool:
+    """True if point p is already a periodic image along that axis."""
+    while made[p] is not None:
+        if isinstance(made[p].wall, Shift) and made[p].wall.axis == axis:
+            return True
+        p = made[p].of
+    return False
+
+
+def static_pressure(method: Spam, y):
+    """The part of the pressure that is left out."""
+    return method.static.fraction*(method.static.P0 - method.static.rho0*method.g*y)
+
+
+def points(method: Spam, state: np.ndarray) -> Points:
+    """Positions, velocities, temperatures, densities and pressures of everything."""
+    n = state.shape[1]
+    held = [p for wall in method.walls for p in fixed(wall, method.box)]
+    x, made = images(method, np.array([*state[:2].T, *((p[0], p[1]) for p in held)]))
+    rows = n + len(held)
+    v, T, rho, P = np.zeros((len(x), 2)), np.zeros(len(x)), np.zeros(len(x)), np.zeros(len(x))
+    w, _ = pairs(method, x, rows)
+    rho[:rows] = method.m*w.sum(axis=1)
+    v[:n], T[n:rows] = state[2:4].T, [p[2] for p in held]
+    e = np.append(state[4], energy(method.eos, rho[n:rows], T[n:rows]))
+    T[:n] = temperature(method.eos, rho[:n], e[:n])
+    P[:rows] = pressure(method.eos, rho[:rows], e) - static_pressure(method, x[:rows, 1])
+    for i, image in enumerate(made):
+        if image is not None:
+            rho[i] = rho[image.of]
+            v[i], T[i] = motion(image, x[i], v[image.of], T[image.of])
+            P[i] = P[image.of]
+            if isinstance(image.wall, Mirror) and isinstance(image.wall.pressure, Own):
+                P[i] = pressure(method.eos, rho[i], energy(method.eos, rho[i], T[i])) - static_pressure(method, x[i, 1])
+    return Points(x, made, v, T, rho, P, rows)
+
+
+def motion(image: Image, x, v, T):
+    """Velocity and temperature of the image at x of a point with v and T."""
+    wall = image.wall
+    if isinstance(wall, Shift):
+        return v, T
+    wall_T = wall.T + wall.slope*x[1 - wall.axis]
+    return (-v, 2*wall_T - T) if isinstance(wall.rule, Odd) else (np.zeros(2), wall_T)
+
+
+def pairs(method: Spam, x: np.ndarray, rows: int):
+    """w_ij (rows, points) and its gradient with respect to r_i (rows, points, 2)."""
+    d = x[:rows, None, :] - x[None, :, :]
+    r = np.sqrt((d**2).sum(axis=2))
+    w, slope = PRINTED[type(method.weight)](r, method.weight.h)
+    inside = r < method.weight.h
+    return np.where(inside, w, 0), np.where(inside, slope/np.where(r > 0, r, 1), 0)[:, :, None]*d
+
+
+# --- the three sums -----------------------------------------------------------------------------------------
+
+
+class Rates(NamedTuple):
+    """rho (rows,), grad_v[i, a, b] = d_a v_b and grad_T[i, a] (rows, ...), and d(x, y, vx, vy, e)/dt (5, n)."""
+    rho: np.ndarray
+    grad_v: np.ndarray
+    grad_T: np.ndarray
+    out: np.ndarray
+
+
+def rates(method: Spam, state: np.ndarray) -> Rates:
+    """All three sums of KHP95, Sec. II, or of the variants that the method names."""
+    p, n = points(method, state), state.shape[1]
+    _, grad_w = pairs(method, p.x, p.rows)
+    grad_v, grad_T = gradients(method, p, grad_w)
+    exchange = direct if method.transport is Direct else nested
+    a, heat = exchange(method, p, grad_w[:n], grad_v, grad_T)
+    rho = p.rho[:n]
+    a[:, 1] -= method.g*(1 - method.static.fraction*method.static.rho0/rho)
+    heat -= static_pressure(method, state[1])/rho*np.trace(grad_v[:n], axis1=1, axis2=2)
+    return Rates(p.rho[:p.rows], grad_v, grad_T, np.array([*state[2:4], *a.T, heat]))
+
+
+def gradients(method: Spam, p: Points, grad_w):
+    """(grad v)_i = sum_j m (v_j - v_i)/rho_ij grad_i w_ij, likewise of T."""
+    one, other = p.rho[:p.rows, None], p.rho[None, :]
+    mean = (one + other)/2 if isinstance(method.gradients, ArithmeticGradients) else np.sqrt(one*other)
+    dv, dT = p.v[None] - p.v[:p.rows, None], p.T[None] - p.T[:p.rows, None]
+    return (method.m*np.einsum("ijb,ij,ija->iab", dv, 1/mean, grad_w),
+            method.m*np.einsum("ij,ij,ija->ia", dT, 1/mean, grad_w))
+
+
+def nested(method: Spam, p: Points, grad_w, grad_v, grad_T):
+    """Acceleration and heating from P/rho^2 and Q/rho^2 of both partners."""
+    n, eye = len(grad_w), np.eye(2)
+    tensor, heat = np.zeros((len(p.x), 2, 2)), np.zeros((len(p.x), 2))
+    for i in range(p.rows):
+        eta, k = viscosity(method.law, p.rho[i], p.T[i]), conductivity(method.law, p.rho[i], p.T[i])
+        stress = eta*(grad_v[i] + grad_v[i].T - eye*np.trace(grad_v[i]))
+        tensor[i], heat[i] = (p.P[i]*eye - stress)/p.rho[i]**2, -k*grad_T[i]/p.rho[i]**2
+    for i, image in enumerate(p.made):
+        if image is not None:
+            tensor[i] = tensor[image.of] + (p.P[i] - p.P[image.of])*eye/p.rho[i]**2
+            heat[i] = heat[image.of]
+    force = np.einsum("ijab,ijb->ija", tensor[:n, None] + tensor[None], grad_w)
+    dv = p.v[None] - p.v[:n, None]
+    conduction = np.einsum("ija,ija->i", heat[:n, None] + heat[None], grad_w)
+    return -method.m*force.sum(axis=1), -method.m*(0.5*np.einsum("ija,ija->i", force, dv) + conduction)
+
+
+def direct(method: Spam, p: Points, grad_w, grad_v, grad_T):
+    """Pressure from both partners; viscosity and conduction from differences along the pair (Morris, Brookshaw)."""
+    n, P = len(grad_w), p.P/p.rho**2
+    eta, k = (np.array([f(method.law, rho, T) for rho, T in zip(p.rho, p.T)]) for f in (viscosity, conductivity))
+    d = p.x[:n, None] - p.x[None]
+    r2 = (d**2).sum(axis=2)
+    F = np.einsum("ija,ija->ij", d, grad_w)/np.where(r2 > 0, r2, 1)/p.rho[:n, None]/p.rho[None]
+    dv, dT = p.v[:n, None] - p.v[None], p.T[:n, None] - p.T[None]
+    force = -(P[:n, None] + P[None])[:, :, None]*grad_w + ((eta[:n, None] + eta[None])*F)[:, :, None]*dv
+    heat = -0.5*np.einsum("ija,ija->ij", force, dv) + (k[:n, None] + k[None])*F*dT
+    return method.m*force.sum(axis=1), method.m*heat.sum(axis=1)
