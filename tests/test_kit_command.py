@@ -14,7 +14,7 @@ from studies.kit.study import Study, main
 from studies.kit.table import read
 
 TOY = '''
-import os, time
+import os, signal, time
 from dataclasses import dataclass
 from typing import ClassVar
 from continuum import law
@@ -28,8 +28,9 @@ from studies.kit.table import Table
 class Run(Case):
     x: float
     def run(self, report, folder):
+        deaf = signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, [])
         with open("log", "a") as log:
-            log.write(f"{self.x:g} {os.environ['OMP_NUM_THREADS']} ")
+            log.write(f"{self.x:g} {os.environ['OMP_NUM_THREADS']}{' deaf'*deaf}\\n")
         if self.x == 2 and not os.path.exists("go"):
             open("waiting", "w").close()
             time.sleep(60)
@@ -68,7 +69,8 @@ class Toy:
 
     def start(self, *words):
         return subprocess.Popen([sys.executable, "-m", "studies.toy", *words], cwd=self.folder, text=True,
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
+                                env={**os.environ, "OMP_NUM_THREADS": "2"})
 
     def run(self, *words):
         process = self.start(*words)
@@ -76,10 +78,10 @@ class Toy:
         return process.returncode, text
 
     def ran(self):
-        """Cases that ran since last asked, and the threads that they were allowed."""
-        words = (self.folder / "log").read_text().split() if (self.folder / "log").exists() else []
+        """Cases that ran since last asked, and how their workers were set up."""
+        lines = (self.folder / "log").read_text().splitlines() if (self.folder / "log").exists() else []
         (self.folder / "log").unlink(missing_ok=True)
-        return words[::2], set(words[1::2])
+        return [line.split()[0] for line in lines], {line.split(" ", 1)[1] for line in lines}
 
 
 def test_a_study_from_the_command_line(tmp_path):
@@ -95,8 +97,9 @@ def test_a_study_from_the_command_line(tmp_path):
     assert process.returncode == 130
     assert "3 of 5 cases are finished and kept, the same command goes on from there" in text
     assert "Traceback" not in text and "KeyboardInterrupt" not in text
-    ran, threads = toy.ran()
-    assert sorted(ran) == ["0", "1", "2", "3"] and threads == {"1"}, "4 times itself: it waits for the others"
+    ran, workers = toy.ran()
+    assert sorted(ran) == ["0", "1", "2", "3"], "4 times itself: it waits for the others"
+    assert workers == {"1 deaf"}, "one thread each, and Ctrl-C is left to the study"
 
     (tmp_path / "go").touch()
     code, text = toy.run()

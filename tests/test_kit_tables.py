@@ -75,6 +75,7 @@ def test_a_table_that_cannot_be_written_stays_as_it_was(tmp_path, monkeypatch):
     text = path.read_text()
 
     def full(self, text):
+        self.write_bytes(text[:100].encode())
         raise OSError(errno.ENOSPC, "No space left on device")
     monkeypatch.setattr(Path, "write_text", full)
     with pytest.raises(OSError, match="No space"):
