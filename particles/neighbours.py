@@ -45,11 +45,13 @@ def _count_sort(x, y, left, bottom, side, columns, start, cell, order):
 
 def sort_into_cells(x: np.ndarray, y: np.ndarray, side: float) -> Cells:
     """Linked cells [KHP95, Ref. 13] over the bounding box of the points (N,), with two empty cells around it."""
-    left, bottom = x.min() - 2*side, y.min() - 2*side
-    columns, rows = (int((q.max() - low)/side) + 4 for q, low in ((x, left), (y, bottom)))
-    if columns*rows > 64*len(x) + 4096:
-        raise FloatingPointError(f"the points spread over {columns} x {rows} cells, far more than their number {len(x)}: "
-                                 "some have left the box; lower the step or put an elastic wall behind each wall")
+    left, bottom = float(x.min()) - 2*side, float(y.min()) - 2*side
+    across, up = ((float(q.max()) - low)/side + 4 for q, low in ((x, left), (y, bottom)))
+    if not across*up <= 64*len(x) + 4096:
+        raise FloatingPointError(
+            f"the points spread over {across:.4g} x {up:.4g} cells, far more than their number {len(x)}: some have left "
+            "the box; lower the step or put an elastic wall behind each wall")
+    columns, rows = int(across), int(up)
     start, order = np.zeros(columns*rows + 1, np.int64), np.empty(len(x), np.uint32)
     _count_sort(x, y, left, bottom, side, columns, start, np.empty(len(x), np.int64), order)
     return Cells(left, bottom, side, columns, rows, start, order, x[order], y[order])
@@ -64,7 +66,9 @@ def list_rows(first, last, cells, x, y, reach, itself, capacity, start, length, 
     """
     far2, used, end_of_room = reach*reach, first*capacity, last*capacity
     for i in range(first, last):
-        cx, cy = int((x[i] - cells.left)/cells.side), int((y[i] - cells.bottom)/cells.side)
+        # a place that is outside of all cells looks into the nearest ones
+        cx = min(max(int((x[i] - cells.left)/cells.side), 2), cells.columns - 3)
+        cy = min(max(int((y[i] - cells.bottom)/cells.side), 2), cells.rows - 3)
         start[i] = u64(used)
         for row in range(cy - 2, cy + 3):
             begin = cells.start[row*cells.columns + cx - 2]

@@ -1,0 +1,121 @@
+"""Neighbour lists hold exactly the points within reach, whatever the points and the threads; clear errors otherwise."""
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from scipy.spatial import cKDTree
+
+from particles.neighbours import farthest, make_lists, sort_into_cells
+from particles.team import Team
+
+
+def listed(x, y, reach, threads=1, rows=None, side=None):
+    """The set of neighbours of each of the first `rows` points."""
+    rows = len(x) if rows is None else rows
+    cells = sort_into_cells(x, y, reach/2 if side is None else side)
+    start, length, near = make_lists(Team(threads), cells, x[:rows], y[:rows], reach, 0)
+    found = [near[int(s):int(s) + n] for s, n in zip(start, length)]
+    assert all(len(set(row)) == len(row) for row in found)
+    return [set(map(int, row)) for row in found]
+
+
+def within(x, y, reach):
+    """The same from a k-d tree; the last bit of the distance is decided as the lists do it."""
+    points = np.stack([x, y], axis=1)
+    near = cKDTree(points).query_ball_point(points, reach*(1 + 1e-9))
+    return [{j for j in row if j != i and (x[j] - x[i])**2 + (y[j] - y[i])**2 < reach*reach}
+            for i, row in enumerate(near)]
+
+
+def scattered(seed, n):
+    return np.random.default_rng(seed).uniform(-7, 7, (2, n))
+
+
+def clustered(seed, n):
+    rng = np.random.default_rng(seed)
+    return rng.uniform(-7, 7, (2, 5))[:, rng.integers(0, 5, n)] + rng.normal(0, 0.3, (2, n))
+
+
+def lattice(seed, n):
+    # whole numbers: many distances equal the reach to the last bit, many points lie on the borders of cells
+    side = int(np.sqrt(n))
+    return np.stack([q.ravel() for q in np.meshgrid(np.arange(side), np.arange(side))]).astype(float)
+
+
+@pytest.mark.parametrize("points", [scattered, clustered, lattice])
+@pytest.mark.parametrize("reach", [1.0, 2.0, 3.6])
+def test_lists_equal_those_of_a_tree(points, reach):
+    x, y = points(1, 400)
+    assert listed(x, y, reach) == within(x, y, reach)
+
+
+@given(st.lists(st.tuples(st.floats(-20, 20), st.floats(-3, 3)), min_size=1, max_size=40), st.floats(0.5, 5))
+@settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+def test_lists_equal_those_of_a_tree_for_any_points(points, reach):
+    x, y = np.array(points).T.copy()
+    assert listed(x, y, reach) == within(x, y, reach)
+
+
+@pytest.mark.parametrize("threads", [2, 3])
+def test_order_of_the_lists_does_not_depend_on_threads(threads):
+    x, y = clustered(2, 500)
+    cells = sort_into_cells(x, y, 1.0)
+
+    def rows(count):
+        start, length, near = make_lists(Team(count), cells, x, y, 2.0, 0)
+        return [near[int(s):int(s) + n].tolist() for s, n in zip(start, length)]
+    assert rows(threads) == rows(1)
+
+
+def test_only_rows_have_lists():
+    x, y = scattered(3, 300)
+    assert listed(x, y, 2.0, rows=100) == within(x, y, 2.0)[:100]
+
+
+def test_places_outside_of_all_points_have_their_neighbours():
+    # fields are evaluated on grids that may reach beyond the particles, which may even have left a void
+    x, y = scattered(4, 200)
+    at = np.array([[-9.0, 9.0, 0.0, 0.0, -400.0, 7.5], [0.0, 0.0, -9.0, 60.0, 400.0, 7.5]])
+    start, length, near = make_lists(Team(), sort_into_cells(x, y, 1.5), at[0], at[1], 3.0, 1000)
+    for i in range(at.shape[1]):
+        d2 = (x - at[0, i])**2 + (y - at[1, i])**2
+        assert sorted(near[int(start[i]):int(start[i]) + length[i]]) == np.flatnonzero(d2 < 9).tolist()
+    assert length.min() == 0 < length.max()
+
+
+def test_cells_hold_every_point_once_and_in_order():
+    x, y = scattered(5, 300)
+    cells = sort_into_cells(x, y, 1.3)
+    assert sorted(cells.order) == list(range(300))
+    for c in range(cells.columns*cells.rows):
+        members = cells.order[cells.start[c]:cells.start[c + 1]]
+        assert (np.diff(members.astype(int)) > 0).all()  # a stable sort: results are reproducible
+        assert ((x[members] - cells.left)//1.3 == c % cells.columns).all()
+        assert ((y[members] - cells.bottom)//1.3 == c//cells.columns).all()
+
+
+def test_one_point_and_points_in_one_place():
+    assert listed(np.zeros(1), np.zeros(1), 1.0) == [set()]
+    assert listed(np.ones(3), np.ones(3), 1.0) == [{1, 2}, {0, 2}, {0, 1}]
+
+
+def test_farthest():
+    x, y = scattered(6, 50)
+    moved = x.copy()
+    moved[17] += 3.0
+    y2 = y + 0.5
+    assert farthest(moved, y2, x, y) == pytest.approx(np.hypot(3.0, 0.5), rel=1e-14)
+
+
+def test_collapsed_particles_are_an_error():
+    x, y = np.random.default_rng(7).uniform(-0.01, 0.01, (2, 2500))
+    with pytest.raises(FloatingPointError, match="neighbours within 1 of each particle: they have collapsed"):
+        listed(x, y, 1.0)
+
+
+@pytest.mark.parametrize("far", [1e6, 1e300, np.inf, np.nan])
+def test_far_flung_particles_are_an_error(far):
+    x, y = scattered(8, 100)
+    x[50] = far
+    with pytest.raises(FloatingPointError, match="left the box; lower the step or put an elastic wall"):
+        sort_into_cells(x, y, 1.0)

@@ -1,0 +1,117 @@
+"""Laws of every weight in the registry: unit integral, slope, range, smoothness; printed formulas; errors."""
+import numpy as np
+import plain
+import pytest
+from scipy.special import j0
+
+from particles.weights import WEIGHTS, Lucy, Monaghan, shape, slope, value_and_slope
+
+weights = pytest.mark.parametrize("kind", WEIGHTS.values(), ids=WEIGHTS)
+SPHERE = {1: 2.0, 2: 2*np.pi, 3: 4*np.pi}
+# Gauss-Legendre, 20 points on each side of the B-spline's knot: exact for the polynomials, up to degree 14 here
+NODES, GAUSS = np.polynomial.legendre.leggauss(20)
+Q, DQ = np.concatenate([(NODES + 1)/4, (NODES + 3)/4]), np.concatenate([GAUSS, GAUSS])/4
+
+
+def w(weight, r):
+    return np.array([value_and_slope(weight, s)[0] for s in np.atleast_1d(r)])
+
+
+def dw(weight, r):
+    return np.array([s*value_and_slope(weight, s)[1] for s in np.atleast_1d(r)])
+
+
+@weights
+@pytest.mark.parametrize("d", [1, 2, 3])
+def test_integral_is_one(kind, d):
+    weight = kind.of(h=1.7, d=d)
+    r = weight.h*Q
+    # the constructor's quadrature is asked for 1e-13
+    assert np.sum(SPHERE[d]*r**(d - 1)*w(weight, r)*weight.h*DQ) == pytest.approx(1, abs=1e-12)
+
+
+@weights
+def test_slope_is_the_derivative(kind):
+    weight, step = kind.of(h=3.0), 1e-6
+    r = 3.0*Q
+    # central difference: w''' step^2/6 ~ 1e-12 and round-off 1e-16/step ~ 1e-10, on slopes of about 0.1
+    difference = (w(weight, r + step) - w(weight, r - step))/(2*step)
+    assert dw(weight, r) == pytest.approx(difference, abs=1e-9)
+
+
+@weights
+def test_zero_at_and_beyond_the_range(kind):
+    # the pair loops have no branch for the cut-off: both formulas must vanish at q = 1 by themselves
+    assert shape(kind.of(h=2.0), 1.0) == 0 and slope(kind.of(h=2.0), 1.0) == 0
+    assert value_and_slope(kind.of(h=2.0), 2.5) == (0, 0)
+
+
+@weights
+def test_positive_and_falling_inside(kind):
+    assert (w(kind.of(h=1.0), Q) > 0).all() and (dw(kind.of(h=1.0), Q) < 0).all()
+
+
+@pytest.mark.parametrize("kind", plain.PRINTED)
+def test_equals_the_printed_formula_in_2d(kind):
+    h = 2.9
+    value, derivative = plain.PRINTED[kind](h*Q, h)
+    # round-off of (1 - q)^8 (32 q^3 + ...) near q = 1 is relative to the largest value
+    assert w(kind.of(h=h), h*Q) == pytest.approx(value, abs=1e-13*value.max())
+    assert dw(kind.of(h=h), h*Q) == pytest.approx(derivative, abs=1e-13*abs(derivative).max())
+
+
+def test_heights_at_the_centre():
+    # KHP95, Sec. II, sigma = 1: 5/(9 pi) and 40/(63 pi)
+    assert w(Lucy.of(h=3.0), 0.0) == pytest.approx(5/(9*np.pi), rel=1e-12)
+    assert w(Monaghan.of(h=3.0), 0.0) == pytest.approx(40/(63*np.pi), rel=1e-12)
+
+
+def second(kind, q):
+    """phi'' on a line through the centre, by a central difference that does not straddle a knot."""
+    step, weight = 1e-7, kind.of(h=1.0)
+    return ((q + step)*slope(weight, q + step) - (q - step)*slope(weight, q - step))/(2*step)
+
+
+@weights
+@pytest.mark.parametrize("knot", [0.5, 1.0])
+def test_second_derivative_is_continuous(kind, knot):
+    # KHP95, Sec. II: "continuous first and second derivatives for all r". The difference across a knot falls in
+    # proportion to the distance, with phi''' (at most 300 for C6) as factor, so it is no jump.
+    for distance in (1e-2, 1e-3):
+        beyond = second(kind, knot + distance) if knot < 1 else 0.0
+        assert abs(second(kind, knot - distance) - beyond) < 2*300*distance
+
+
+@weights
+def test_second_derivative_is_continuous_through_the_centre(kind):
+    # along a line through the centre phi' is odd: phi' must vanish there, phi'/q have a finite limit
+    assert slope(kind.of(h=1.0), 0.0) == pytest.approx(second(kind, 1e-4), rel=2e-3)
+
+
+@pytest.mark.parametrize("kind, knot, jump", [(Lucy, 1.0, 24.0), (Monaghan, 0.5, -48.0), (Monaghan, 1.0, 12.0)])
+def test_third_derivative_jumps(kind, knot, jump):
+    # what limits the order of the time step when pairs cross these distances: see test_spam_in_time
+    d = 1e-3
+
+    def third(q):
+        return (second(kind, q + d/2) - second(kind, q - d/2))/d
+    beyond = third(knot + d) if knot < 1 else 0.0
+    assert beyond - third(knot - d) == pytest.approx(jump, rel=0.02)
+
+
+@pytest.mark.parametrize("kind, positive", [(k, name.startswith("wendland")) for name, k in WEIGHTS.items()])
+def test_only_wendland_weights_have_a_positive_transform(kind, positive):
+    # the 2D transform at k h up to 60; where it is negative, particles pair. Lucy reaches -6e-6, the B-spline -6e-5
+    fine = (np.arange(4000) + 0.5)/4000
+    values = np.array([shape(kind.of(h=1.0), q) for q in fine])
+    k = np.linspace(0.5, 60, 239)
+    transform = j0(np.outer(k, fine))@(values*fine)/4000
+    # the smallest positive value, of C6 at k h = 60, is 4e-9: nothing here is near zero by round-off
+    assert (transform.min() > 0) == positive
+
+
+@pytest.mark.parametrize("h, d, words", [(0.0, 2, "must be positive, got 0.0"), (-1.0, 2, "KHP95 use h = 3 sigma"),
+                                         (np.nan, 2, "positive, got nan"), (3.0, 4, "d = 1, 2, 3 .*got d = 4")])
+def test_errors(h, d, words):
+    with pytest.raises(ValueError, match=words):
+        Lucy.of(h=h, d=d)
