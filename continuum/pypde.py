@@ -1,0 +1,246 @@
+"""Convection solved with py-pde: the Boussinesq layer and the compressible gas, one driver for both.
+
+    solve_gas(RayleighBenard(ra=1e4), rows=32)
+    solve_boussinesq(ra=5000, pr=7, rows=32, until=Time(100), start=Rolls(ke=1e-6))
+
+The equations are in `pypde_boussinesq` and `pypde_gas`: second order in space, different from the other grids of this
+package in unknowns and placing. py-pde brings grids, boundary conditions, differences, the stepping in compiled code
+and the trackers that record, report and stop.
+"""
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.interpolate import RectBivariateSpline
+
+from continuum.compressible import DivergedError, Series
+from continuum.jit import jit
+from continuum.pypde_boussinesq import Boussinesq
+from continuum.pypde_gas import Gas
+from continuum.scene import RayleighBenard
+from continuum.steady import Steady
+
+# continuum.jit comes before everything that loads numba
+# isort: split
+from pde import FieldCollection
+from pde.solvers import RungeKuttaSolver
+from pde.trackers import ConstantInterrupts, FinishedSimulation
+from pde.trackers.base import TrackerBase
+
+SAFETY = 0.8            # of the stability limit, which is taken at density 1 and velocity 1
+STILL = 1e-12           # K of a fluid at rest
+Until = Any             # Steady or Time of continuum.steady
+Progress = Callable[[float], None]
+
+
+class Rolls(NamedTuple):
+    """A start: rolls of kinetic energy `ke` per mass, `count` of them along x (by default two in a box of width 2)."""
+    ke: float = 0.0018
+    count: int | None = None
+
+
+class Nusselt(NamedTuple):
+    """Heat per conduction: in at the bottom, out at the top, upwards on average over the volume."""
+    bottom: float
+    top: float
+    volume: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Solution:
+    """What a run ended with.
+
+    `ke` is K at the end with what is left of its decay added, `ke_err` the size of that (not the error of the grid),
+    both in free-fall units for the Boussinesq layer and in those of the scene for the gas; the three of `nusselt`
+    agree to the error of the grid when steady; `mass_drift` is relative (0 for the Boussinesq layer).
+    """
+    equation: Boussinesq | Gas
+    state: np.ndarray = field(repr=False)
+    t: float
+    series: Series = field(repr=False)
+    ke: float
+    ke_err: float
+    nusselt: Nusselt
+    rolls: int
+    mass_drift: float
+    converged: bool
+    dt: float
+    steps: int
+    cpu_s: float
+    compile_s: float
+
+    @property
+    def ra(self) -> float:
+        return self.equation.ra
+
+    @property
+    def pr(self) -> float:
+        return self.equation.pr
+
+    @property
+    def rows(self) -> int:
+        return self.equation.rows
+
+    @property
+    def nu(self) -> float:
+        """Mean Nusselt number of the two plates."""
+        return (self.nusselt.bottom + self.nusselt.top)/2
+
+    @property
+    def fields(self) -> dict[str, np.ndarray]:
+        """x, y and the fields at common points, each (columns, rows of points)."""
+        return self.equation.fields(self.state)
+
+
+# --- what users call --------------------------------------------------------------------------------------
+
+
+def solve_boussinesq(*, ra: float, pr: float, rows: int, aspect: float = 2.0, **options) -> Solution:
+    """Boussinesq convection between rigid plates on `rows` rows of square cells, periodic in x; options of `solve`."""
+    return solve(Boussinesq(ra=ra, pr=pr, rows=rows, aspect=aspect), **options)
+
+
+def solve_gas(scene: RayleighBenard, rows: int, **options) -> Solution:
+    """The compressible fluid of a scene between periodic sides on `rows` rows of square cells; options of `solve`."""
+    return solve(Gas(scene, rows), **options)
+
+
+def solve(equation: Any, *, until: Until = Steady(), start: Rolls | Solution = Rolls(),  # noqa: B008
+          dt: float | None = None, backend: str = "numba", progress: Progress | None = None) -> Solution:
+    """Solve an equation.
+
+    Parameters
+    ----------
+    equation : Boussinesq or Gas.
+    until : Steady(rtol=...) or Time(t_end) of `continuum.steady`.
+    start : Rolls(ke, count), or a solution of the same box on any grid.
+    dt : largest step (by default 0.8 of the stability limit); the one taken divides the time between samples.
+    backend : "numba", which compiles for some seconds at every call, or "numpy".
+    progress : called with the fraction done.
+
+    Raises
+    ------
+    ValueError
+        dt above the stability limit; a start from another box.
+    DivergedError
+        Says when and where.
+    """
+    data = equation.rolls(*start) if isinstance(start, Rolls) else onto(equation, start)
+    interval = until.interval(equation)
+    count = math.ceil(interval/choose_step(equation, dt)*(1 - 1e-12))
+    watch = Watch(equation, until, interval, interval/count, progress)
+    try:
+        state, info = equation.solve(equation.state(data), t_range=math.inf, dt=interval/count, tracker=[watch],
+                                     solver=StageLoop, backend=backend, ret_info=True)
+    finally:
+        restore_interrupt(equation)
+    return finish(equation, watch, state.data, info)
+
+
+def choose_step(equation: Any, dt: float | None) -> float:
+    """The step that is asked for, or a safe one."""
+    limit = equation.step_limit()
+    if dt is None:
+        return SAFETY*limit
+    if not 0 < dt <= limit:
+        raise ValueError(f"dt = {dt:.4g} must be positive and not above the stability limit {limit:.4g}: "
+                         "lower or omit it")
+    return dt
+
+
+def restore_interrupt(equation: Any) -> None:
+    """py-pde takes Ctrl-C for an early end and returns the state: make it an interrupt again."""
+    if equation.diagnostics.get("controller", {}).get("stop_reason") == "User interrupted simulation":
+        raise KeyboardInterrupt
+
+
+def finish(equation: Any, watch: "Watch", data: np.ndarray, info: dict) -> Solution:
+    """What the run measured and what it cost."""
+    ke, ke_err = watch.until.estimate(watch.ke)
+    series = Series(*np.array(watch.samples).T)
+    seconds = info["controller"]["profiler"]
+    v = equation.rising(data)
+    return Solution(
+        equation=equation, state=data.copy(), t=watch.samples[-1][0], series=series, ke=ke, ke_err=ke_err,
+        nusselt=Nusselt(*equation.nusselt(data)), rolls=0 if watch.ke[-1] < STILL else count_rolls(v),
+        mass_drift=series.mass[-1]/series.mass[0] - 1, converged=watch.until.settled(watch.ke),
+        dt=info["solver"]["dt"], steps=info["solver"]["steps"], cpu_s=seconds["solver"] + seconds["tracker"],
+        compile_s=seconds["compilation"])
+
+
+def count_rolls(v: np.ndarray) -> int:
+    """Changes of sign of the vertical velocity along the periodic mid-height; below 5 % of its largest it is zero."""
+    up = v[np.abs(v) > 0.05*np.abs(v).max()] > 0
+    return int(np.sum(up != np.roll(up, 1)))
+
+
+def onto(equation: Any, start: Solution) -> np.ndarray:
+    """The state of a solution on the grid of another equation: cubic splines through its points and ghosts."""
+    old = start.equation
+    if type(old) is not type(equation) or not np.allclose(old.grid_box, equation.grid_box):
+        raise ValueError(f"start is a {type(old).__name__} in a box {old.grid_box}, the equation a "
+                         f"{type(equation).__name__} in {equation.grid_box}: start from rolls or from the same box")
+    full = old.padded(start.state)
+    return equation.repaired(np.array([
+        RectBivariateSpline(*old.points(n), f)(*(p[1:-1] for p in equation.points(n)))
+        for n, f in enumerate(full[:len(start.state)])]))
+
+
+# --- what py-pde calls ------------------------------------------------------------------------------------
+
+
+class Watch(TrackerBase):
+    """Records t, K, Nu, mass; checks the state; reports progress; ends the run when its rule says so."""
+
+    def __init__(self, equation: Any, until: Until, interval: float, dt: float, progress: Progress | None):
+        super().__init__(interrupts=ConstantInterrupts(interval))
+        self.equation, self.until, self.dt, self.progress = equation, until, dt, progress
+        self.samples: list[tuple[float, float, float, float]] = []
+
+    @property
+    def ke(self) -> list[float]:
+        return [s[1] for s in self.samples]
+
+    def handle(self, field: Any, t: float) -> None:
+        """Called by py-pde at every sample."""
+        if trouble := self.equation.trouble(field.data):
+            raise DivergedError(f"diverged before t = {t:.6g} (step {round(t/self.dt)}, dt = {self.dt:.4g}): "
+                                f"{trouble}; take more rows (thinner cells) or a smaller dt")
+        self.samples.append((t, *self.equation.measure(field.data)))
+        if self.progress:
+            self.progress(self.until.fraction(self.equation, self.ke))
+        if self.until.done(self.equation, self.ke):
+            raise FinishedSimulation("rule to stop is met")
+
+
+class StageLoop(RungeKuttaSolver):
+    """Classical Runge-Kutta steps with a loop over the stages.
+
+    py-pde's own writes the rate in four times, which takes 15 s to compile instead of 4.
+    """
+
+    name = "runge-kutta stage loop"
+
+    def _make_single_step_fixed_dt(self, state: FieldCollection, dt: float) -> Callable:
+        rate = self.backend.make_pde_rhs(self.pde, state)
+
+        def single_step(data, t):
+            total, stage = data.copy(), data.copy()
+            for to_stage, weight in ((0.5, 1/6), (0.5, 1/3), (1.0, 1/3), (0.0, 1/6)):
+                advance(data, rate(stage, t), dt*to_stage, dt*weight, stage, total)
+            data[:] = total
+            return data
+
+        return single_step
+
+
+@jit
+def advance(data, rate, to_stage, weight, stage, total):
+    """stage = data + to_stage rate; total += weight rate"""
+    for f in range(data.shape[0]):
+        for i in range(data.shape[1]):
+            for j in range(data.shape[2]):
+                total[f, i, j] += weight*rate[f, i, j]
+                stage[f, i, j] = data[f, i, j] + to_stage*rate[f, i, j]
