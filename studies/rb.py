@@ -10,9 +10,10 @@ from collections.abc import Iterator
 from continuum.fluid import ConstNu, IdealGas, VanDerWaals
 from continuum.scene import Periodic, RayleighBenard, Walls
 from studies.convection import tables
+from studies.convection.cost import CompressibleStep, SpamStep
 from studies.convection.derive import derive
 
-from studies.convection.grids import CompressibleApproach, CompressibleSteady
+from studies.convection.grids import BoussinesqSteady, CompressibleApproach, CompressibleSteady
 from studies.convection.spam import PRINTED, VARIANTS, SpamRun, Variant
 from studies.kit.case import Case
 from studies.kit.study import Study, main
@@ -21,7 +22,8 @@ LAYER = {"aspect": 2.0, "sides": Periodic()}     # Fig. 5
 BOX = {"aspect": 1.0, "sides": Walls()}          # Fig. 6
 IDEAL, NU, VDW = {"eos": IdealGas()}, {"transport": ConstNu}, {"eos": VanDerWaals()}
 SEEDS = (1, 2, 3)
-RA = (1500.0, 2500.0, 5000.0, 10000.0, 20000.0)
+RA = (1500.0, 2500.0, 5000.0, 10000.0, 20000.0)  # of the particles
+LINE = (1500.0, 1750.0, 2000.0, 2500.0, 3000.0, 3500.0, 4200.0, 5000.0, 6000.0, 6830.0, 10000.0, 20000.0)  # of the grids
 
 
 def spam(ra: float, rows: int, seeds=SEEDS, variant: Variant = PRINTED, t_end=4500.0, mean_from=2000.0, keep="",
@@ -47,26 +49,41 @@ def cases(size: str) -> list[Case]:
 def quick() -> Iterator[Case]:
     for ra in (1500.0, 5000.0, 10000.0):
         yield gas(ra, (12, 16, 24))
+        yield BoussinesqSteady(ra=ra, pr=2.0, sizes=(12, 16, 24))
         yield from spam(ra, 16, t_end=900.0, mean_from=400.0, keep="all" if ra == 10000 else "")
     yield CompressibleApproach(scene=RayleighBenard(ra=1e4), rows=16, t_end=900.0)
+    yield from speed((16,), (12, 16, 24))
+
+
+def speed(particle_rows: tuple[int, ...], grid_rows: tuple[int, ...]) -> Iterator[Case]:
+    """What a step costs, measured alone."""
+    for rows in particle_rows:
+        yield SpamStep(scene=RayleighBenard(ra=1e4, L=float(rows)))
+    for rows in grid_rows:
+        yield CompressibleStep(scene=RayleighBenard(ra=1e4), rows=rows)
 
 
 def paper() -> Iterator[Case]:
     """Figs 5, 6, 8, 9, 12 and the numbers of Sec. VI."""
-    for ra in RA:
+    for ra in LINE:
         yield gas(ra, (24, 32, 48), keep="fields" if ra == 10000 else "")
+        yield BoussinesqSteady(ra=ra, pr=2.0)
+        yield BoussinesqSteady(ra=ra, pr=1.0)
+    for ra in RA:
         yield from spam(ra, 50, keep={1e4: "all", 5e3: "fields"}.get(ra, ""))
         yield from spam(ra, 35)
         yield from spam(ra, 25)
-    for ra in (2500.0, 5000.0, 10000.0):
+    for ra in (2000.0, 2500.0, 3500.0, 5000.0, 6830.0, 10000.0):
         yield gas(ra, (24, 32, 48), **NU)
-        yield from spam(ra, 50, **NU)
         yield gas(ra, (24, 32, 48), **VDW)
+    for ra in (2500.0, 5000.0, 10000.0):
+        yield from spam(ra, 50, **NU)
         yield from spam(ra, 50, keep="fields" if ra == 10000 else "", **VDW)
     for ra in (5000.0, 7000.0, 10000.0, 20000.0):
         yield gas(ra, (24, 32, 48), **BOX)
         for rows in (40, 28, 20):
             yield from spam(ra, rows, **BOX)
+    yield from speed((16, 25, 35, 50, 70), (16, 24, 32, 48, 64))
     yield CompressibleApproach(scene=RayleighBenard(ra=1e4))
     yield from spam(10000.0, 50, variant=VARIANTS["printed-fixed-rows"], keep="all")
     yield from spam(10000.0, 16, seeds=(1,), keep="all", **VDW)      # Fig. 7: 512 particles

@@ -11,6 +11,7 @@ from studies.kit.stats import combine
 from studies.kit.table import Tables
 
 GRIDS = ("compressible", "boussinesq", "pypde-boussinesq", "pypde-compressible")
+MACHINE = ["method", "variant", "eos", "sides", "resolution"]
 SERIES = [name for name in POINT if name != "resolution"]
 
 
@@ -18,7 +19,7 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     """All derived rows of the study."""
     limits = list(extrapolated(tables["kinetic_energy"]))
     kinetic = pd.concat([tables["kinetic_energy"], pd.DataFrame(limits)], ignore_index=True)
-    return {"kinetic_energy": limits, "means": list(over_seeds(kinetic)), "errors": list(errors(kinetic))}
+    return {"kinetic_energy": limits, "means": list(over_seeds(kinetic)), "errors": list(errors(kinetic, tables.get("cost", pd.DataFrame(columns=[*MACHINE, "step_s"]))))}
 
 
 def finite(frame: pd.DataFrame) -> pd.DataFrame:
@@ -59,8 +60,13 @@ def over_seeds(kinetic: pd.DataFrame) -> Iterator[dict[str, Any]]:
                "ke_fluctuation": group["ke_fluctuation"].mean(), "rolls": rolls}
 
 
-def errors(kinetic: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    """Relative error of each gas point against the compressible limit of its scene, with what it cost."""
+def errors(kinetic: pd.DataFrame, cost: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """Relative error of each gas point against the compressible limit of its scene, with what it cost.
+
+    CPU seconds are steps times the seconds of one step measured alone on the machine, where there is such a row;
+    else those of the run itself, which shared the machine.
+    """
+    step_s = {tuple(row[name] for name in MACHINE): row["step_s"] for _, row in cost.iterrows()}
     scene = ["eos", "transport", "sides", "ra", "pr"]
     gas = kinetic[kinetic["eos"] != ""]
     reference = gas[(gas["method"] == "compressible") & ~np.isfinite(gas["resolution"].astype(float))].set_index(scene)
@@ -70,7 +76,8 @@ def errors(kinetic: pd.DataFrame) -> Iterator[dict[str, Any]]:
             continue
         ref = reference.loc[where]
         group = gas.loc[(gas[POINT] == pd.Series({name: row[name] for name in POINT})).all(axis=1)]
+        machine = tuple(row[name] for name in MACHINE)
         relative = np.hypot(row["ke_err"], ref["ke_err"])/ref["ke"]
         yield {**{name: row[name] for name in (*POINT, "particles", "ke", "ke_err")}, "reference": ref["ke"],
                "reference_err": ref["ke_err"], "error": row["ke"]/ref["ke"] - 1, "error_err": relative, "energy": "Kp",
-               "cpu_s": group["cpu_s"].mean()}
+               "cpu_s": float(step_s[machine]*group["steps"].mean() if machine in step_s else group["cpu_s"].mean())}

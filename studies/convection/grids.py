@@ -1,9 +1,11 @@
 """Grid references as cases: the compressible gas, Boussinesq, and both in py-pde."""
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
+from continuum import boussinesq
 from continuum.compressible import Solution, run, steady_on
 from continuum.compressible_fields import initial, interpolate
 from continuum.scene import RayleighBenard
@@ -12,6 +14,7 @@ from particles.observe import Grid
 from studies.convection.spam import START_ENERGY
 from studies.convection.tables import scene_columns
 from studies.kit.case import Case, Outcome, Report
+from studies.kit.timing import compile_and_run_seconds
 
 
 def energies(scene: RayleighBenard, solution: Solution, **more) -> dict:
@@ -82,3 +85,44 @@ class CompressibleApproach(Case):
         point = {"method": "compressible", "variant": "flux-form", **scene_columns(scene), "resolution": self.rows, "seed": 0}
         return Outcome({"history": [{**point, "t": t, "t_viscous": t/scene.viscous_time, "ke": ke, "ke_field": ke}
                                     for t, ke in zip(solution.series.t, solution.series.ke, strict=True)]})
+
+
+@dataclass(frozen=True, kw_only=True)
+class BoussinesqSteady(Case):
+    """The periodic pair of rolls (as one roll between planes of symmetry) in the Boussinesq fluid, on ever finer grids.
+
+    Below onset Newton's method ends at rest, and one grid tells as much as three.
+    """
+    ra: float
+    pr: float
+    sizes: tuple[int, ...] = (32, 48, 64)
+
+    @property
+    def cost(self) -> float:
+        return sum(1e-3*rows**2 for rows in self.sizes)
+
+    @property
+    def label(self) -> str:
+        return f"boussinesq Ra {self.ra:g}, Pr {self.pr:g}, rows {self.sizes}"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        rows, state = [], None
+        for number, size in enumerate(self.sizes):
+            case = boussinesq.Case(ra=self.ra, pr=self.pr, box=boussinesq.HALF_LAYER, rows=size)
+            (state, compile_s, cpu_s) = compile_and_run_seconds(partial(boussinesq.steady, case, state))
+            rows.append(self._row(state, size, cpu_s, compile_s))
+            report((number + 1)/len(self.sizes))
+        return Outcome({"kinetic_energy": rows})
+
+    def _row(self, state: boussinesq.State, rows: int, cpu_s: float, compile_s: float) -> dict:
+        seen = state.observe()
+        return {**boussinesq_point("boussinesq", "mac", self.ra, self.pr), "resolution": rows, "ke": seen.K,
+                "ke_field": seen.K, "nu": (seen.nu_bottom + seen.nu_top)/2, "nu_err": abs(seen.nu_bottom - seen.nu_top),
+                "rolls": 2*state.rolls, "steps": len(state.residuals) - 1, "cpu_s": cpu_s, "compile_s": compile_s}
+
+
+def boussinesq_point(method: str, variant: str, ra: float, pr: float) -> dict:
+    """Columns that all Boussinesq rows share; their state is steady to round-off."""
+    return {"method": method, "variant": variant, "eos": "", "transport": "", "sides": "periodic", "ra": ra, "pr": pr,
+            "particles": 0, "seed": 0, "ke_err": 0.0, "ke_field_err": 0.0, "ke_fluctuation": 0.0, "free_fall": 1.0,
+            "mass_drift": 0.0, "converged": True, "dt": 0.0, "t_end": 0.0, "threads": 1}

@@ -1,0 +1,64 @@
+"""Seconds of one step of each method, measured while nothing else runs."""
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar
+
+import numpy as np
+
+from continuum.compressible import March, choose_step
+from continuum.compressible_fields import block, initial
+from continuum.compressible_loop import FluxForm
+from continuum.scene import RayleighBenard
+from particles.run import Plan, run
+from studies.convection.spam import PRINTED, SpamRun, Variant, method, start
+from studies.convection.tables import scene_columns
+from studies.kit.case import Case, Outcome, Report
+from studies.kit.timing import median_seconds
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpamStep(Case):
+    """A particle step with list upkeep, in the developing rolls of the start."""
+    scene: RayleighBenard
+    variant: Variant = PRINTED
+    alone: ClassVar[bool] = True
+
+    @property
+    def cost(self) -> float:
+        return 9*20*SpamRun(scene=self.scene, t_end=1.0).cost + 2
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        one = SpamRun(scene=self.scene, variant=self.variant)
+        chosen, particles = method(self.scene, self.variant), start(self.scene, 1)
+        warm = run(chosen, particles, Plan(dt=one.dt, steps=50))
+        steps = max(10, round(40000/one.particles))
+        seconds = median_seconds(lambda: run(chosen, warm.state, Plan(dt=one.dt, steps=steps)))
+        return Outcome({"cost": [row("spam", self.variant.name, self.scene, one.particles, one.dt, seconds, steps)]})
+
+
+@dataclass(frozen=True, kw_only=True)
+class CompressibleStep(Case):
+    """A step of the compressible grid."""
+    scene: RayleighBenard
+    rows: int
+    alone: ClassVar[bool] = True
+
+    @property
+    def cost(self) -> float:
+        return 1e-4*self.rows**2 + 2
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        S = block(initial(self.scene, self.rows))
+        march, steps = March(self.scene, S, FluxForm(), choose_step(self.scene, S, None)), max(10, 400000//self.rows**2)
+        seconds = median_seconds(lambda: march.go(steps))
+        scene = self.scene
+        return Outcome({"cost": [row("compressible", "flux-form", scene, self.rows**2*round(scene.aspect), march.dt, seconds,
+                                     steps, rows=self.rows)]})
+
+
+def row(name: str, variant: str, scene, points: int, dt: float, seconds, steps: int, rows: int = 0) -> dict:
+    """Row of the table `cost`."""
+    where = scene_columns(scene)
+    return {"method": name, "variant": variant, "eos": where["eos"], "sides": where["sides"],
+            "resolution": rows or round(scene.L), "points": points, "step_s": seconds.median/steps,
+            "step_s_err": float(2*seconds.spread/steps/np.sqrt(7)), "dt": dt, "threads": 1}

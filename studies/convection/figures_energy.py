@@ -1,0 +1,184 @@
+"""Kinetic energy against Ra^-1/2 and against time: the README's figure and KHP95's Figs 5, 6, 8."""
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from continuum.published import published
+from studies.convection.pick import (
+    BOX,
+    ENERGY,
+    GRID,
+    KIND,
+    LAYER,
+    RA_C,
+    SPAM,
+    STILL,
+    finest,
+    nearest,
+    particles,
+    ra_axis,
+    reference,
+    rows,
+    straight_line,
+)
+from studies.kit.figure import figure
+from studies.kit.table import Tables
+
+ENERGIES = (("kp", "ke", r"$K_p$, all particles"), ("kg", "ke_field", r"$K_g$, smoothed field"))
+
+
+def main(tables: Tables) -> Figure | None:
+    """Grid, straight line, Boussinesq, particles and the printed numbers in one picture."""
+    limit, spam = reference(tables, **LAYER), particles(tables, **LAYER)
+    if limit.empty and spam.empty:
+        return None
+    page, axes = figure(width=7, height=4.6)
+    grid(axes, limit, "compressible grid, extrapolated")
+    fitted_line(axes, limit)
+    boussinesq(axes, tables)
+    by_resolution(axes, spam)
+    printed_numbers(axes)
+    axes.set(title="Convection of an ideal gas: are smooth particles on the grid's line?", ylabel=ENERGY, ylim=(0, None))
+    ra_axis(axes)
+    axes.legend(loc="upper right")
+    return page
+
+
+def grid(axes: Axes, limit: pd.DataFrame, label: str, **more: Any) -> None:
+    """Line and markers of an extrapolated grid; the line stops where motion dies out."""
+    if len(limit):
+        axes.errorbar(limit["ra"]**-0.5, limit["ke"], limit["ke_err"], label=label, **KIND["grid"] | more)
+
+
+def fitted_line(axes: Axes, limit: pd.DataFrame) -> None:
+    """The straight line between Ra_c and 4 Ra_c, dotted beyond."""
+    found = straight_line(limit)
+    if found is None:
+        return
+    x = np.array([(4*RA_C)**-0.5, -found[1]/found[0]])
+    axes.plot(x, np.polyval(found, x), color="0.55", lw=5, alpha=0.5, marker="", ls="-", zorder=0,
+              label=r"line fitted from Ra$_c$ to 4 Ra$_c$, dotted beyond")
+    beyond = np.array([limit["ra"].max()**-0.5, x[0]])
+    axes.plot(beyond, np.polyval(found, beyond), color="0.4", lw=1.5, marker="", ls=":", zorder=0)
+
+
+def boussinesq(axes: Axes, tables: Tables) -> None:
+    """K_ff(Ra, Pr = 2)/2: at gamma = 2 half of the gradient is adiabatic and heat travels isobarically."""
+    there = rows(tables, "means", method="boussinesq", sides="periodic", pr=2, resolution=np.inf)
+    if len(there):
+        axes.errorbar(there["ra"]**-0.5, there["ke"]/2, there["ke_err"]/2, label="Boussinesq, Pr = 2, halved",
+                      **KIND["boussinesq"] | {"markerfacecolor": "none", "markersize": 8})
+
+
+def by_resolution(axes: Axes, spam: pd.DataFrame) -> None:
+    """Kp and Kg of the printed scheme; coarser ones smaller, paler and a little aside."""
+    sizes = sorted(spam["resolution"].unique(), reverse=True)
+    for kind, column, label in ENERGIES:
+        for number, size in enumerate(sizes):
+            group = spam[spam["resolution"] == size]
+            axes.errorbar(group["ra"]**-0.5 + 1.5e-4*number, group[column], group[f"{column}_err"],
+                          label=f"{label}: {told(spam, sizes)}" if number == 0 else "", zorder=4 - number,
+                          **KIND[kind] | {"linestyle": "none", "markersize": 7 - 1.5*number, "alpha": max(0.35, 1 - 0.3*number)})
+
+
+def told(spam: pd.DataFrame, sizes: list[float]) -> str:
+    """Numbers of particles by size, the same at every Ra."""
+    counts = [f"{spam.loc[spam['resolution'] == size, 'particles'].iloc[0]:.0f}" for size in sizes]
+    return f"N = {counts[0]}" + (f" (smaller: {', '.join(counts[1:])})" if counts[1:] else "")
+
+
+def printed_numbers(axes: Axes) -> None:
+    """KHP95's four numbers."""
+    for end, marker, label in (("", "o", "KHP95, grid, printed"), ("-spam", "D", "KHP95, 5000 particles, printed")):
+        found = [published(f"khp95-ke-{ra}{end}") for ra in (5000, 10000)]
+        axes.errorbar([5000**-0.5, 10000**-0.5], [f.value for f in found], [f.uncertainty for f in found], marker=marker,
+                      label=label, **KIND["khp"])
+
+
+def fig5(tables: Tables) -> Figure | None:
+    """Ideal gas with both transports, van der Waals gas; grid and the most particles."""
+    vdw, const_nu = LAYER | {"eos": "vdw"}, LAYER | {"transport": "const-nu"}
+    panels = [("ideal gas", (("constant $\\eta$", LAYER, {}), ("constant $\\nu$", const_nu, OPEN))),
+              ("van der Waals gas", (("constant $\\eta$", vdw, {}),))]
+    panels = [(title, series) for title, series in panels if any(there(tables, scene) for _, scene, _ in series)]
+    if not panels:
+        return None
+    page, all_axes = figure(1, len(panels), width=5, height=4, sharey=True, squeeze=False)
+    for axes, (title, series) in zip(all_axes[0], panels):
+        for name, scene, more in series:
+            pair(axes, tables, scene, name, **more)
+        axes.set_title(title)
+        finish(axes)
+    all_axes[0, 0].set_ylabel(ENERGY)
+    page.suptitle("Kinetic energy in the layer of aspect 2, grid and particles    [KHP95, Fig. 5]", fontsize=10)
+    return page
+
+
+OPEN = {"linestyle": "--", "markerfacecolor": "white"}
+
+
+def there(tables: Tables, scene: dict[str, Any]) -> bool:
+    return not (reference(tables, **scene).empty and particles(tables, **scene).empty)
+
+
+def pair(axes: Axes, tables: Tables, scene: dict[str, Any], name: str, **more: Any) -> None:
+    """Grid of a scene and Kp, Kg of its finest particles."""
+    spam = finest(particles(tables, **scene))
+    grid(axes, reference(tables, **scene), f"grid, {name}", **more)
+    for kind, column, label in ENERGIES if len(spam) else ():
+        axes.errorbar(spam["ra"]**-0.5, spam[column], spam[f"{column}_err"], label=f"{label}, {name}",
+                      **KIND[kind] | more | {"linestyle": "none"})
+
+
+def finish(axes: Axes) -> None:
+    axes.set_ylim(0, None)
+    ra_axis(axes)
+    axes.legend(loc="upper right")
+
+
+def fig6(tables: Tables) -> Figure | None:
+    """The square box with four walls."""
+    if not there(tables, BOX):
+        return None
+    page, axes = figure(width=6, height=4.2)
+    grid(axes, reference(tables, **BOX), "compressible grid, extrapolated")
+    by_resolution(axes, particles(tables, **BOX))
+    axes.set(title="Square box with four walls, ideal gas: grid and particles    [KHP95, Fig. 6]", ylabel=ENERGY)
+    finish(axes)
+    return page
+
+
+def fig8(tables: Tables) -> Figure | None:
+    """Approach to the steady state at Ra = 10 000, or what is nearest to it."""
+    spam = finest(nearest(rows(tables, "history", **SPAM, **LAYER)))
+    cells = finest(nearest(rows(tables, "history", **GRID, **LAYER)))
+    if spam.empty and cells.empty:
+        return None
+    page, axes = figure(width=7, height=4.2)
+    unit = viscous_time(spam if len(spam) else cells)
+    for kind, column, label in ENERGIES:
+        for number, (_, run) in enumerate(spam.groupby("seed")):
+            axes.plot(run["t_viscous"]*unit, run[column], label=f"{label}, one line a seed" if number == 0 else "",
+                      **KIND[kind] | {"marker": "", "lw": 0.9, "alpha": 0.8, "linestyle": ("-", "--", ":")[number % 3]})
+    axes.plot(cells["t_viscous"]*unit, cells["ke"], label="compressible grid", **KIND["grid"] | {"marker": "", "lw": 2.2})
+    time_axes(axes, unit)
+    ra = max([*spam["ra"], *cells["ra"]])
+    axes.set(title=f"Approach to steady rolls at Ra = {ra:g}, grid and particles    [KHP95, Fig. 8]", ylabel=ENERGY, ylim=(0, None))
+    axes.legend(loc="lower right")
+    return page
+
+
+def viscous_time(history: pd.DataFrame) -> float:
+    """L^2/eta in units of time, from any row after the start."""
+    last = history.loc[history["t_viscous"].idxmax()]
+    return last["t"]/last["t_viscous"]
+
+
+def time_axes(axes: Axes, unit: float) -> None:
+    top = axes.secondary_xaxis("top", functions=(lambda t: t/unit, lambda t: t*unit))
+    top.set_xlabel(r"time  [$L^2/\eta$]")
+    axes.set_xlabel(r"time  [$(m\sigma^2/\varepsilon)^{1/2}$]")
+    axes.set_xlim(0, None)
