@@ -1,58 +1,63 @@
-"""Extrapolation to infinitely fine grids: observed order, limit and its uncertainty."""
+"""Observed order, limit and its uncertainty from values on three or more grids."""
 from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
 
-LOWEST, HIGHEST = 0.3, 8.0  # orders outside of this range are no orders
+ORDERS = 0.1, 12.0      # between which an observed order is looked for
 
 
 class Extrapolated(NamedTuple):
-    """Observed order of convergence (NaN if there is none), limit, and half width of its 95 % interval."""
+    """Order seen on the three finest grids (nan if their values do not converge), limit, and its uncertainty."""
     order: float
     limit: float
     error: float
 
 
-def richardson(values: Sequence[float] | np.ndarray, sizes: Sequence[float] | np.ndarray, *,
-               expected: float = 2.0) -> Extrapolated:
-    """Fit f = limit + C h^order to the three finest of three or more grids with h = 1/size, any ratios.
+def richardson(values: Sequence[float], sizes: Sequence[float], *, order: float = 2.0,
+               step: float = 2.0) -> Extrapolated:
+    """Limit of values for h = 1/size -> 0, sizes being cells per length in any order and ratio.
 
-    The error is the larger of two: how far the limit moves when the expected order replaces the observed one, and
-    how far it moves when the finest grid is left out (four grids or more). Without an observed order the limit is that
-    of the expected order and the error the last difference.
-
-    Raises
-    ------
-    ValueError
-        Fewer than three grids, two of one size, or values that are not finite.
+    The three finest grids give f + a h^order + b h^(order + step); centred differences have step = 2, most other
+    schemes 1. The error is the larger of the distances to two other limits: that of the two finest grids with
+    a alone, and that of all three with the order they show. Values that do not approach each other have the
+    finest one for their limit and their spread for its error.
     """
-    order = np.argsort(sizes)
-    f, n = np.asarray(values, dtype=float)[order], np.asarray(sizes, dtype=float)[order]
-    if len(f) < 3 or (np.diff(n) <= 0).any() or not np.isfinite(f).all():
-        raise ValueError(f"extrapolation needs finite values on three grids of different size or more, got {f.tolist()} "
-                         f"on {n.tolist()}: run another resolution")
-    seen, plain = _order(f[-3:], 1/n[-3:]), _limit(f[-2:], 1/n[-2:], expected)
+    f, h = finest(values, sizes)
+    seen = observed_order(f, h)
     if np.isnan(seen):
-        return Extrapolated(seen, plain, abs(f[-1] - f[-2]))
-    limit = _limit(f[-2:], 1/n[-2:], seen)
-    coarser = _limit(f[-3:-1], 1/n[-3:-1], expected) if len(f) > 3 else limit
-    return Extrapolated(seen, limit, max(abs(limit - plain), abs(limit - coarser)))
+        return Extrapolated(order=seen, limit=float(f[-1]), error=float(np.ptp(f)))
+    limit = eliminate(f, h, order, order + step)
+    others = [eliminate(f[1:], h[1:], p) for p in (order, seen)]
+    return Extrapolated(order=seen, limit=limit, error=max(abs(limit - other) for other in others))
 
 
-def _limit(f: np.ndarray, h: np.ndarray, order: float) -> float:
-    return float(f[1] + (f[1] - f[0])*h[1]**order/(h[0]**order - h[1]**order))
+def finest(values: Sequence[float], sizes: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
+    """The values and spacings of the three finest grids, coarse to fine."""
+    f, n = np.asarray(values, float), np.asarray(sizes, float)
+    if f.shape != n.shape or f.ndim != 1 or len(set(n)) < 3 or len(set(n)) < len(n):
+        raise ValueError(f"{f.size} values on sizes {n.tolist()}: give one value for each of three or more "
+                         "different sizes")
+    if not (np.isfinite(f).all() and (n > 0).all()):
+        raise ValueError(f"values {f.tolist()} on sizes {n.tolist()}: values must be finite, sizes positive; leave "
+                         "out the grid that failed")
+    last = np.argsort(n)[-3:]
+    return f[last], 1/n[last]
 
 
-def _order(f: np.ndarray, h: np.ndarray) -> float:
-    """Order p with (f1 - f2)/(f2 - f3) = (h1^p - h2^p)/(h2^p - h3^p), NaN if there is none."""
-    before, last = f[0] - f[1], f[1] - f[2]
-    if abs(last) <= 1e-13*np.abs(f).max():
-        return np.nan
+def eliminate(f: np.ndarray, h: np.ndarray, *powers: float) -> float:
+    """The constant of f = constant + sum of a_p h^p, one grid more than powers."""
+    terms = [(h/h[-1])**p for p in powers]      # relative to the finest: keeps the system well scaled
+    return float(np.linalg.solve(np.array([np.ones(len(h)), *terms]).T, f)[0])
 
-    def mismatch(p: float) -> float:
-        return before/last - (h[0]**p - h[1]**p)/(h[1]**p - h[2]**p)
 
-    low, high = mismatch(LOWEST), mismatch(HIGHEST)
-    return float(brentq(mismatch, LOWEST, HIGHEST)) if low*high < 0 else np.nan
+def observed_order(f: np.ndarray, h: np.ndarray) -> float:
+    """p of f + a h^p through three grids, nan if there is none in ORDERS."""
+    coarse, fine = f[0] - f[1], f[1] - f[2]
+
+    def misfit(p):
+        r = h/h[2]
+        return coarse*(r[1]**p - 1) - fine*(r[0]**p - r[1]**p)
+    low, high = misfit(ORDERS[0]), misfit(ORDERS[1])
+    return float(brentq(misfit, *ORDERS)) if low*high < 0 else float("nan")

@@ -1,0 +1,183 @@
+"""Staggered (MAC) discretisation of a box of Boussinesq fluid: what bounds it, and the assembled operators.
+
+x runs along the plates over `columns` cells, y across over `rows` cells; the height is 1. T sits in cells, u on
+faces between neighbours in x, v on those between neighbours in y, the streamfunction psi on corners. Faces in a
+wall carry no unknown: their normal velocity is zero. A state is a vector q = (u, v, T), each in C order (x, y).
+
+Diffusion is the five-point sum with mirrored values beyond a wall; advection is the centred flux form, a sum of
+products D[(A q)(B q)]. With div v = 0 in each cell advection makes neither v^2 nor T^2: the discrete flow keeps
+the energy balances of the exact one, and Nu from the plates, from <vT> and from both dissipations are equal.
+"""
+from dataclasses import dataclass
+from enum import Enum
+from functools import lru_cache
+
+import numpy as np
+from scipy import sparse
+
+
+class End(Enum):
+    """What happens to a quantity (velocity along the end, or temperature) at both ends of an axis."""
+    PERIODIC = "continues at the other end"
+    MIRROR = "is even about the end: free slip, insulated"
+    WALL = "is given on the end: no slip, fixed temperature"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Edges:
+    """Both ends of one axis, for flow and for heat; T on a WALL is low (or high) + ramp*position along it."""
+    flow: End
+    heat: End
+    low: float = 0.0
+    high: float = 0.0
+    ramp: float = 0.0
+
+    def __post_init__(self):
+        if (self.flow is End.PERIODIC) != (self.heat is End.PERIODIC):
+            raise ValueError(f"flow is {self.flow}, heat is {self.heat}: an axis is periodic in both or in none")
+
+
+PLATES = Edges(flow=End.WALL, heat=End.WALL, low=0.5, high=-0.5)
+FREE_PLATES = Edges(flow=End.MIRROR, heat=End.WALL, low=0.5, high=-0.5)
+PERIODIC = Edges(flow=End.PERIODIC, heat=End.PERIODIC)
+SYMMETRY = Edges(flow=End.MIRROR, heat=End.MIRROR)
+INSULATED = Edges(flow=End.WALL, heat=End.MIRROR)
+CONDUCTING = Edges(flow=End.WALL, heat=End.WALL, low=0.5, high=0.5, ramp=-1.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Box:
+    """Width in heights, sides (left, right), plates (bottom, top). T is +1/2 on what is hot, -1/2 on what is cold"""
+    width: float = 1.0
+    sides: Edges = SYMMETRY
+    plates: Edges = PLATES
+
+    def __post_init__(self):
+        if not 0 < self.width < np.inf:
+            raise ValueError(f"width must be positive and finite, got {self.width}: it counts heights")
+        if self.plates.heat is End.PERIODIC:
+            raise ValueError("plates cannot be periodic: give PLATES, FREE_PLATES or INSULATED")
+        if End.WALL not in (self.sides.heat, self.plates.heat):
+            raise ValueError("no wall has a temperature: fix it on the plates or on the sides")
+
+
+HALF_LAYER = Box(width=1.0, sides=SYMMETRY)         # half of the aspect-2 periodic box: one roll of its pair
+LAYER = Box(width=2.0, sides=PERIODIC)
+SQUARE = Box(width=1.0, sides=INSULATED)
+CONDUCTING_SQUARE = Box(width=1.0, sides=CONDUCTING)
+CAVITY = Box(width=1.0, plates=INSULATED,           # de Vahl Davis: hot left side, cold right side
+             sides=Edges(flow=End.WALL, heat=End.WALL, low=0.5, high=-0.5))
+
+
+class Axis:
+    """Differences and means along one axis of n cells; `faces` leaves out those in a wall."""
+
+    def __init__(self, cells: int, length: float, periodic: bool):
+        self.cells, self.h = cells, length/cells
+        self.faces = cells if periodic else cells - 1
+        self.centre = (np.arange(cells) + 0.5)*self.h
+        self.face = (np.arange(self.faces) + 1.0)*self.h
+        left = sparse.eye_array(self.faces, cells)
+        right = sparse.eye_array(self.faces, cells, k=1)
+        if periodic:
+            right = right + sparse.eye_array(cells, cells, k=1-cells)
+        self.grad = ((right - left)/self.h).tocsr()     # faces <- cells
+        self.mean = ((right + left)/2).tocsr()
+        self.div = (-self.grad.T).tocsr()               # cells <- faces, zero in the walls
+        self.back = self.mean.T.tocsr()
+
+    def bend(self, end: End) -> sparse.csr_array:
+        """Second difference of what sits in cells; 2 T_wall - T lies beyond a WALL, T_wall counts elsewhere."""
+        return self.div@self.grad - 2*sparse.diags_array(self.wall(1.0, 1.0)*(end is End.WALL))/self.h
+
+    def bend_faces(self) -> sparse.csr_array:
+        """Second difference of what sits on faces and vanishes in the walls."""
+        return self.grad@self.div
+
+    def wall(self, low: float, high: float) -> np.ndarray:
+        """low/h in the first cell, high/h in the last: the divergence of a flux that enters there."""
+        return np.r_[low, np.zeros(self.cells - 2), high]/self.h
+
+
+class Mac:
+    """The assembled operators of one box on one grid. Multiply `lap` by nu, nu, kappa."""
+
+    def __init__(self, box: Box, rows: int, columns: int):
+        self.box = box
+        x = self.x = Axis(columns, box.width, box.sides.flow is End.PERIODIC)
+        y = self.y = Axis(rows, 1.0, False)
+        self.periodic = x.faces == x.cells
+        self.points = (x.face, y.centre), (x.centre, y.face), (x.centre, y.centre)
+        self.shapes = [(len(a), len(b)) for a, b in self.points]
+        self.ends = np.cumsum([a*b for a, b in self.shapes])
+        self.cell = x.h*y.h/box.width                   # share of one cell in the box
+        self.lap = self.diffusion()
+        self.wall = np.r_[np.zeros(self.ends[1]), self.wall_heat().ravel()]
+        self.lift = self.place((1, 2, cross(columns, y.mean)))
+        self.A, self.B, self.D = self.advection()
+        self.div = sparse.hstack([cross(x.div, rows), cross(columns, y.div)]).tocsr()
+        self.grad = (-self.div.T).tocsr()               # of the pressure, onto (u, v)
+        self.curl = sparse.vstack([cross(x.faces, y.div), -cross(x.div, y.faces)]).tocsr()
+
+    def split(self, q: np.ndarray) -> list[np.ndarray]:
+        """Views (u, v, T) of a state vector, each (x, y)."""
+        return [part.reshape(shape) for part, shape in zip(np.split(q, self.ends[:-1]), self.shapes)]
+
+    def place(self, *blocks) -> sparse.csr_array:
+        """The matrix on q with the given (row, column, block) of the three parts, zero elsewhere."""
+        size = [a*b for a, b in self.shapes]
+        table = [[sparse.csr_array((m, n)) for n in size] for m in size]
+        for row, column, block in blocks:
+            table[row][column] = block
+        return stack(table)
+
+    def diffusion(self) -> sparse.csr_array:
+        """Lap of u, v, T; the homogeneous part."""
+        x, y, sides, plates = self.x, self.y, self.box.sides, self.box.plates
+        u = cross(x.bend_faces(), y.cells) + cross(x.faces, y.bend(plates.flow))
+        v = cross(x.bend(sides.flow), y.faces) + cross(x.cells, y.bend_faces())
+        T = cross(x.bend(sides.heat), y.cells) + cross(x.cells, y.bend(plates.heat))
+        return self.place((0, 0, u), (1, 1, v), (2, 2, T))
+
+    def wall_heat(self) -> np.ndarray:
+        """What the temperatures of the walls add to Lap T, (columns, rows)."""
+        def part(edges, across, along):
+            enters = across.wall(edges.low, edges.high)[:, None] + np.outer(across.wall(1, 1), edges.ramp*along)
+            return 2/across.h*enters*(edges.heat is End.WALL)
+        x, y = self.x, self.y
+        return part(self.box.sides, x, y.centre) + part(self.box.plates, y, x.centre).T
+
+    def advection(self) -> tuple[sparse.csr_array, sparse.csr_array, sparse.csr_array]:
+        """A, B, D of -D[(A q)(B q)]; the fluxes are uu, vv (in cells), uv (on corners), uT, vT (on faces)."""
+        x, y = self.x, self.y
+        u_x, v_y = cross(x.back, y.cells), cross(x.cells, y.back)
+        u_y, v_x = cross(x.faces, y.mean), cross(x.mean, y.faces)
+        T_x, T_y = cross(x.mean, y.cells), cross(x.cells, y.mean)
+        u, v = (sparse.eye_array(a*b) for a, b in self.shapes[:2])
+        no_T = sparse.csr_array((u_x.shape[0], T_x.shape[1]))
+        A = [[u_x, None, no_T], [None, v_y, None], [u_y, None, None], [u, None, None], [None, v, None]]
+        B = [[u_x, None, None], [None, v_y, None], [None, v_x, None], [None, None, T_x], [None, None, T_y]]
+        D = [[cross(x.grad, y.cells), None, cross(x.faces, y.div), None, None],
+             [None, cross(x.cells, y.grad), cross(x.div, y.faces), None, None],
+             [None, None, None, cross(x.div, y.cells), cross(x.cells, y.div)]]
+        return stack(A), stack(B), stack(D)
+
+
+def stack(blocks: list) -> sparse.csr_array:
+    """One matrix from rows of blocks, None for zero."""
+    return sparse.block_array(blocks).tocsr()
+
+
+def cross(x, y) -> sparse.csr_array:
+    """Operator x on the first index and y on the second; a number n stands for the identity of that size."""
+    x, y = (sparse.eye_array(part) if isinstance(part, int) else part for part in (x, y))
+    return sparse.kron(x, y).tocsr()
+
+
+@lru_cache(maxsize=8)
+def mac(box: Box, rows: int, columns: int) -> Mac:
+    """The operators, assembled once for each box and grid."""
+    for name, cells in (("rows", rows), ("columns", columns)):
+        if cells < 8 or cells % 2:
+            raise ValueError(f"{name} must be even and at least 8, got {cells}: the middle of the box is a face")
+    return Mac(box, rows, columns)
