@@ -12,7 +12,6 @@ from continuum.scene import Periodic, RayleighBenard, Walls
 from studies.convection import tables
 from studies.convection.cost import CompressibleStep, SpamStep
 from studies.convection.derive import derive
-
 from studies.convection.grids import BoussinesqSteady, CompressibleApproach, CompressibleSteady
 from studies.convection.spam import PRINTED, VARIANTS, SpamRun, Variant
 from studies.kit.case import Case

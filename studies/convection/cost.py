@@ -10,8 +10,8 @@ from continuum.compressible_fields import block, initial
 from continuum.compressible_loop import FluxForm
 from continuum.scene import RayleighBenard
 from particles.run import Plan, run
+from studies.convection.names import scene_columns
 from studies.convection.spam import PRINTED, SpamRun, Variant, method, start
-from studies.convection.tables import scene_columns
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.timing import median_seconds
 

@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from continuum.richardson import richardson
 
+from continuum.richardson import richardson
 from studies.convection.tables import POINT
 from studies.kit.stats import combine
 from studies.kit.table import Tables
@@ -17,9 +17,11 @@ SERIES = [name for name in POINT if name != "resolution"]
 
 def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     """All derived rows of the study."""
-    limits = list(extrapolated(tables["kinetic_energy"]))
-    kinetic = pd.concat([tables["kinetic_energy"], pd.DataFrame(limits)], ignore_index=True)
-    return {"kinetic_energy": limits, "means": list(over_seeds(kinetic)), "errors": list(errors(kinetic, tables.get("cost", pd.DataFrame(columns=[*MACHINE, "step_s"]))))}
+    runs = finite(tables["kinetic_energy"])
+    limits = list(extrapolated(runs))
+    everything = pd.concat([runs, pd.DataFrame(limits)], ignore_index=True) if limits else runs
+    cost = tables.get("cost", pd.DataFrame(columns=[*MACHINE, "step_s"]))
+    return {"kinetic_energy": limits, "means": list(over_seeds(everything)), "errors": list(errors(everything, cost))}
 
 
 def finite(frame: pd.DataFrame) -> pd.DataFrame:
@@ -27,9 +29,8 @@ def finite(frame: pd.DataFrame) -> pd.DataFrame:
     return frame[np.isfinite(frame["resolution"].astype(float))]
 
 
-def extrapolated(kinetic: pd.DataFrame) -> Iterator[dict[str, Any]]:
+def extrapolated(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """One row `resolution = inf` of each grid series with three converged resolutions or more, one state in all."""
-    rows = finite(kinetic)
     rows = rows[rows["method"].isin(GRIDS) & rows["converged"].astype(str).eq("True")]
     for point, group in rows.groupby(SERIES, dropna=False):
         if len(group) < 3 or group["rolls"].nunique() > 1:
@@ -37,7 +38,8 @@ def extrapolated(kinetic: pd.DataFrame) -> Iterator[dict[str, Any]]:
         finest = group.sort_values("resolution").iloc[-1].to_dict()
         sizes = group["resolution"].astype(int).to_numpy()
         ke, nu = (limit(group[name].to_numpy(), group[f"{name}_err"].to_numpy(), sizes) for name in ("ke", "nu"))
-        kept = {name: finest[name] for name in ("seed", "particles", "rolls", "free_fall", "ke_fluctuation", "converged", "threads")}
+        kept = {name: finest[name] for name in ("seed", "particles", "rolls", "free_fall", "ke_fluctuation", "converged",
+                                                "threads")}
         yield {**dict(zip(SERIES, point, strict=True)), **kept, "resolution": np.inf, "ke": ke[0], "ke_err": ke[1],
                "ke_field": ke[0], "ke_field_err": ke[1], "nu": nu[0], "nu_err": nu[1], "cpu_s": group["cpu_s"].sum(),
                "compile_s": group["compile_s"].sum()}

@@ -15,7 +15,6 @@ from studies.convection.pick import (
     LAYER,
     RA_C,
     SPAM,
-    STILL,
     finest,
     nearest,
     particles,
@@ -49,8 +48,10 @@ def main(tables: Tables) -> Figure | None:
 
 def grid(axes: Axes, limit: pd.DataFrame, label: str, **more: Any) -> None:
     """Line and markers of an extrapolated grid; the line stops where motion dies out."""
-    if len(limit):
-        axes.errorbar(limit["ra"]**-0.5, limit["ke"], limit["ke_err"], label=label, **KIND["grid"] | more)
+    moving, still = limit[limit["ke"] > STILL], limit[limit["ke"] <= STILL]
+    if len(moving):
+        axes.errorbar(moving["ra"]**-0.5, moving["ke"], moving["ke_err"], label=label, **KIND["grid"] | more)
+        axes.plot(still["ra"]**-0.5, still["ke"], **KIND["grid"] | more | {"linestyle": "none"}, clip_on=False)
 
 
 def fitted_line(axes: Axes, limit: pd.DataFrame) -> None:
@@ -167,7 +168,7 @@ def fig8(tables: Tables) -> Figure | None:
     time_axes(axes, unit)
     ra = max([*spam["ra"], *cells["ra"]])
     axes.set(title=f"Approach to steady rolls at Ra = {ra:g}, grid and particles    [KHP95, Fig. 8]", ylabel=ENERGY, ylim=(0, None))
-    axes.legend(loc="lower right")
+    axes.legend(loc="upper right")
     return page
 
 

@@ -11,8 +11,7 @@ from continuum.compressible_fields import initial, interpolate
 from continuum.scene import RayleighBenard
 from continuum.steady import Steady, Time
 from particles.observe import Grid
-from studies.convection.spam import START_ENERGY
-from studies.convection.tables import scene_columns
+from studies.convection.names import START_ENERGY, scene_columns
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.timing import compile_and_run_seconds
 

@@ -16,11 +16,10 @@ from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import AtWall, Copied, Odd, Own, plates, sides
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
-from studies.convection.tables import scene_columns
+from studies.convection.names import START_ENERGY, scene_columns
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import mean
 
-START_ENERGY = 9/5000  # per mass [KHP95, Fig. 9]
 JITTER = 0.2           # of the lattice at the start, in spacings: a perfect one stays frozen in places
 STEP = 0.6             # in spacings per sound speed of the ideal gas at T = 1
 

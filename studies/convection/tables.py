@@ -1,7 +1,7 @@
 """Tables of the study `rb`: fixed columns, in which all solvers meet.
 
-Energies are per mass in KHP95's units, m = kB = sigma = epsilon = 1 with dT = 1 (free-fall units for the ideal gas, where
-`free_fall`, the unit of velocity sqrt(g alpha dT L), is 1; Boussinesq rows are in free-fall units). Lengths in heights
+Energies are per mass in KHP95's units, m = kB = sigma = epsilon = 1 with dT = 1 (free-fall units for the ideal gas,
+where `free_fall`, the unit of velocity sqrt(g alpha dT L), is 1; Boussinesq rows are in free-fall units). Lengths in heights
 L, times in L^2/eta where not said otherwise. Every `_err` is the half width of a 95 % interval.
 """
 from studies.kit.table import Table
@@ -10,8 +10,8 @@ POINT = ["method", "variant", "eos", "transport", "sides", "ra", "pr", "resoluti
 
 KINETIC = Table(
     "kinetic_energy", key=[*POINT, "seed"],
-    columns=[*POINT, "particles", "seed", "ke", "ke_err", "ke_field", "ke_field_err", "ke_fluctuation", "nu", "nu_err", "rolls",
-             "free_fall", "mass_drift", "converged", "dt", "steps", "t_end", "cpu_s", "compile_s", "threads"])
+    columns=[*POINT, "particles", "seed", "ke", "ke_err", "ke_field", "ke_field_err", "ke_fluctuation", "nu", "nu_err",
+             "rolls", "free_fall", "mass_drift", "converged", "dt", "steps", "t_end", "cpu_s", "compile_s", "threads"])
 #: means over seeds: ke, ke_field, nu with the larger of the errors within runs and between seeds
 MEANS = Table("means", key=POINT, columns=[*POINT, "particles", "seeds", "ke", "ke_err", "ke_field", "ke_field_err",
                                            "ke_fluctuation", "nu", "nu_err", "rolls"])
@@ -28,17 +28,10 @@ WALLS = Table("walls", key=[*POINT, "seed", "plate"],
               columns=[*POINT, "seed", "plate", "T_wall", "T_layer", "rho_layer", "reflections"])
 #: seconds of one step, measured alone on the machine
 COST = Table("cost", key=["method", "variant", "eos", "sides", "resolution"],
-             columns=["method", "variant", "eos", "sides", "resolution", "points", "step_s", "step_s_err", "dt", "threads"])
+             columns=["method", "variant", "eos", "sides", "resolution", "points", "step_s", "step_s_err", "dt",
+                      "threads"])
 #: error against cost, derived
 ERRORS = Table("errors", key=POINT, columns=[*POINT, "particles", "ke", "ke_err", "reference", "reference_err", "error",
                                              "error_err", "energy", "cpu_s"])
 
 ALL = (KINETIC, MEANS, HISTORY, FIELDS, PARTICLES, PROFILES, WALLS, COST, ERRORS)
-EOS_NAMES = {"IdealGas": "ideal", "VanDerWaals": "vdw", "DenseFluid": "dense"}
-TRANSPORT_NAMES = {"ConstEta": "const-eta", "ConstNu": "const-nu"}
-
-
-def scene_columns(scene) -> dict:
-    """The columns of a row that name the scene."""
-    return {"eos": EOS_NAMES[type(scene.eos).__name__], "transport": TRANSPORT_NAMES[scene.transport.__name__],
-            "sides": type(scene.sides).__name__.lower(), "ra": float(scene.ra), "pr": float(scene.pr)}

@@ -1,0 +1,165 @@
+"""Views of the flow: particles as arrows, fields as contours, profiles [KHP95, Figs 2, 3, 7, 9, 12]."""
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from studies.convection.pick import GRID, KIND, LAYER, SPAM, finest, nearest, rows
+from studies.kit.figure import figure
+from studies.kit.table import Tables
+
+FIXED_ROWS = SPAM | {"variant": "printed-fixed-rows"}
+#: column, name with unit, what to see
+CONTOURS = (("rho", r"density  [$m/\sigma^2$]"), ("T", r"temperature  [$\varepsilon/(m k_B)$]"))
+
+
+def fig2_3(tables: Tables) -> Figure | None:
+    """Arrows of particles, what is behind the walls as open circles."""
+    panels = [(one_run(tables, "particles", **who, **LAYER), title) for who, title in
+              ((FIXED_ROWS, "rows of fixed particles behind the plates    [KHP95, Fig. 2]"),
+               (SPAM, "images of the particles behind the plates    [KHP95, Fig. 3]"))]
+    panels = [(run, title) for run, title in panels if len(run)]
+    if not panels:
+        return None
+    page, all_axes = figure(len(panels), 1, width=9, height=5.2, squeeze=False)
+    for axes, (run, title) in zip(all_axes[:, 0], panels):
+        arrows(axes, fluid(run))
+        behind_plates(axes, run)
+        box(axes, run, f"{heading(run)}: {title}")
+    return page
+
+
+def one_run(tables: Tables, name: str, ra: float = 1e4, **wanted: Any) -> pd.DataFrame:
+    """Rows of the finest run nearest to Ra, its first seed."""
+    run = finest(nearest(rows(tables, name, **wanted), ra))
+    return run[run["seed"] == run["seed"].min()]
+
+
+def fluid(run: pd.DataFrame) -> pd.DataFrame:
+    return run[run["kind"] == "fluid"]
+
+
+def heading(run: pd.DataFrame) -> str:
+    """How many particles at which Ra."""
+    return f"{len(fluid(run))} particles, Ra = {run['ra'].iloc[0]:g}"
+
+
+def arrows(axes: Axes, at: pd.DataFrame, color: str = "black") -> None:
+    """Velocities; the fastest 1 % are longer than two spacings."""
+    speed, spacing = np.quantile(np.hypot(at["vx"], at["vy"]), 0.99), (np.ptp(at["x"])*np.ptp(at["y"])/len(at))**0.5
+    axes.quiver(at["x"], at["y"], at["vx"], at["vy"], color=color, angles="xy", scale_units="xy", scale=speed/(2*spacing),
+                width=0.0012, headwidth=4, headlength=5, headaxislength=4.5)
+
+
+def behind_plates(axes: Axes, run: pd.DataFrame) -> None:
+    """Open circles at fixed and image particles; copies of the periodic sides are left out."""
+    half = half_width(run)
+    others = run[(run["kind"] != "fluid") & (run["y"].abs() > 0.5) & (run["x"].abs() <= half)]
+    axes.plot(others["x"], others["y"], "o", markersize=2.2, markerfacecolor="none", markeredgewidth=0.4, color="#D55E00")
+
+
+def half_width(run: pd.DataFrame) -> float:
+    """Half of the aspect ratio, a multiple of 1/2."""
+    return float(np.ceil(2*run.loc[run["kind"] == "fluid", "x"].abs().max() - 1e-9)/2) if "kind" in run else 1.0
+
+
+def box(axes: Axes, run: pd.DataFrame, title: str) -> None:
+    """Equal scales, plates as lines."""
+    for y in (-0.5, 0.5):
+        axes.axhline(y, color="0.3", lw=1, marker="", ls="-")
+    half = half_width(run)
+    axes.set(aspect="equal", xlim=(-half, half), xlabel="$x/L$", ylabel="$y/L$", title=title)
+    axes.grid(False)
+
+
+def fig7(tables: Tables) -> Figure | None:
+    """Few van der Waals particles already roll."""
+    runs = rows(tables, "particles", **SPAM, **LAYER | {"eos": "vdw"})
+    run = nearest(runs[runs["resolution"] == runs["resolution"].min()])
+    run = run[run["seed"] == run["seed"].min()]
+    if run.empty:
+        return None
+    page, axes = figure(width=7, height=3.9)
+    arrows(axes, fluid(run))
+    box(axes, run, f"{heading(run)}, van der Waals gas: rolls at one instant    [KHP95, Fig. 7]")
+    return page
+
+
+def fig9(tables: Tables) -> Figure | None:
+    """Density (upper) and temperature (lower), grid (left) and particles (right), same levels."""
+    spam = one_run(tables, "fields", **SPAM, **LAYER)
+    cells = one_run(tables, "fields", **GRID, **LAYER)
+    sides = [(run, title) for run, title in ((cells, "grid"), (spam, "particles, mean")) if len(run)]
+    if not sides or len({run["ra"].iloc[0] for run, _ in sides}) > 1:
+        return None
+    page, all_axes = figure(2, len(sides), width=4.6, height=2.5, squeeze=False, sharex=True, sharey=True)
+    for line, (column, label) in zip(all_axes, CONTOURS):
+        levels = common_levels([run[column] for run, _ in sides])
+        for axes, (run, title) in zip(line, sides):
+            drawn = contours(axes, run, column, levels)
+            axes.set_title(f"{title}, {run['resolution'].iloc[0]:.0f} rows")
+        page.colorbar(drawn, ax=line, label=label, shrink=0.9)
+    for axes in all_axes[-1]:
+        axes.set_xlabel("$x/L$")
+    for axes in all_axes[:, 0]:
+        axes.set_ylabel("$y/L$")
+    ra = sides[0][0]["ra"].iloc[0]
+    page.suptitle(f"Steady density and temperature at Ra = {ra:g}, same levels left and right    [KHP95, Fig. 9]", fontsize=10)
+    return page
+
+
+def common_levels(columns: list[pd.Series]) -> np.ndarray:
+    """About a dozen levels over the range of both."""
+    low, high = min(c.min() for c in columns), max(c.max() for c in columns)
+    return np.linspace(low, high, 13)
+
+
+def on_grid(run: pd.DataFrame, column: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """x, y and a field (y, x) from rows."""
+    field = run.pivot(index="y", columns="x", values=column)
+    return field.columns.to_numpy(float), field.index.to_numpy(float), field.to_numpy(float)
+
+
+def contours(axes: Axes, run: pd.DataFrame, column: str, levels: np.ndarray) -> Any:
+    """Filled contours with lines, which remain in grey."""
+    x, y, field = on_grid(run, column)
+    drawn = axes.contourf(x, y, field, levels)
+    axes.contour(x, y, field, levels, colors="black", linewidths=0.4)
+    axes.set(aspect="equal")
+    axes.grid(False)
+    return drawn
+
+
+def fig12(tables: Tables) -> Figure | None:
+    """The same run as particles and as a smoothed field."""
+    run, field = (one_run(tables, name, **SPAM, **LAYER) for name in ("particles", "fields"))
+    if run.empty or field.empty:
+        return None
+    page, (upper, lower) = figure(2, 1, width=9, height=4.8)
+    arrows(upper, fluid(run))
+    box(upper, run, f"{heading(run)}, at one instant    [KHP95, Fig. 12]")
+    arrows(lower, field)
+    box(lower, field, f"smoothed velocity at {len(field)} places, mean over the second half of the run")
+    return page
+
+
+def profiles(tables: Tables) -> Figure | None:
+    """Horizontal means of temperature and density over the height."""
+    spam, cells = one_run(tables, "fields", **SPAM, **LAYER), one_run(tables, "fields", **GRID, **LAYER)
+    if spam.empty and cells.empty:
+        return None
+    page, both = figure(1, 2, width=4, height=4.2, sharey=True)
+    for axes, (column, label) in zip(both, reversed(CONTOURS)):
+        for kind, run, name in (("grid", cells, "compressible grid"), ("kp", spam, "particles")):
+            if len(run):
+                mean = run.groupby("y")[column].mean()
+                axes.plot(mean, mean.index, label=name, **KIND[kind] | {"markersize": 3.5})
+        axes.set_xlabel(f"horizontal mean {label}")
+    both[0].plot([1.5, 0.5], [-0.5, 0.5], color="0.6", marker="", ls=":", label="conduction")
+    both[1].axvline(1, color="0.6", marker="", ls=":")
+    both[0].set(ylabel="$y/L$", ylim=(-0.5, 0.5))
+    both[0].legend()
+    page.suptitle(f"Layers at the plates, Ra = {max([*spam['ra'], *cells['ra']]):g}: grid and particles", fontsize=10)
+    return page
