@@ -1,8 +1,9 @@
-"""The compiled loop of the compressible grid [KHP95, Sec. V]: v, e at nodes; rho, P, Q in cells; centred differences.
+"""The compiled loop of the compressible grid [KHP95, Sec. V]: v, e at nodes; rho, P, Q in cells.
 
-One block `S[field, j, i]` holds the state; j counts rows upwards, i columns to the right. Nodes are (1..ny+1, 1..nx+1),
-the outer ones on the walls; between periodic sides node nx+1 is node 1. Cell (j, i) has node (j, i) as its lower left
-corner, cells are (1..ny, 1..nx). What lies outside are ghosts: `fill` makes them, the loop knows no walls.
+One block `S[field, j, i]` holds the state; j counts rows upwards, i columns to the right. Nodes are
+(1..ny+1, 1..nx+1), the outer ones on the walls; between periodic sides node nx+1 is node 1. Cell (j, i) has
+node (j, i) as its lower left corner, cells are (1..ny, 1..nx). What lies outside are ghosts: `fill` makes
+them, the loop knows no walls. All differences are centred.
 """
 from typing import NamedTuple
 
@@ -32,7 +33,7 @@ class FluxForm(NamedTuple):
 
 
 class PaperForm(NamedTuple):
-    """d rho/dt = -rho div v - v.grad rho, density 1 in the cells just outside of the walls    [KHP95, Sec. V]"""
+    """d rho/dt = -rho div v - v.grad rho, density 1 in the cells outside of the walls    [KHP95, Sec. V]"""
 
 
 @generic
@@ -50,7 +51,8 @@ def fill_plates(eos, form, box, S):
     ny, nx = S.shape[1] - 2, S.shape[2] - 2
     rho = S[RHO]
     for i in range(nx + 2):
-        rho[0, i], rho[ny + 1, i] = outside(form, rho[1, i], rho[2, i]), outside(form, rho[ny, i], rho[ny - 1, i])
+        rho[0, i] = outside(form, rho[1, i], rho[2, i])
+        rho[ny + 1, i] = outside(form, rho[ny, i], rho[ny - 1, i])
     for i in range(1, nx + 2):
         S[E, 1, i] = energy(eos, node_density(rho, 1, i), box.T_hot)
         S[E, ny + 1, i] = energy(eos, node_density(rho, ny + 1, i), box.T_cold)
@@ -80,7 +82,8 @@ def _(sides, eos, form, box, S):
     ny, nx = S.shape[1] - 2, S.shape[2] - 2
     rho = S[RHO]
     for j in range(1, ny + 1):
-        rho[j, 0], rho[j, nx + 1] = outside(form, rho[j, 1], rho[j, 2]), outside(form, rho[j, nx], rho[j, nx - 1])
+        rho[j, 0] = outside(form, rho[j, 1], rho[j, 2])
+        rho[j, nx + 1] = outside(form, rho[j, nx], rho[j, nx - 1])
     fill_plates(eos, form, box, S)
     for j in range(2, ny + 1):
         T = box.T_hot + (box.T_cold - box.T_hot)*(j - 1)/ny
@@ -98,9 +101,9 @@ def density_rate(form, S, n, j, i):
 
 @density_rate.of(FluxForm)
 def _(form, S, n, j, i):
-    a, b = j % 2, (j + 1) % 2
-    return (n[a, i]*(S[VX, j, i] + S[VY, j, i]) - n[a, i + 1]*(S[VX, j, i + 1] - S[VY, j, i + 1])
-            + n[b, i]*(S[VX, j + 1, i] - S[VY, j + 1, i]) - n[b, i + 1]*(S[VX, j + 1, i + 1] + S[VY, j + 1, i + 1]))
+    vx, vy, a, b = S[VX], S[VY], j % 2, (j + 1) % 2
+    return (n[a, i]*(vx[j, i] + vy[j, i]) - n[a, i + 1]*(vx[j, i + 1] - vy[j, i + 1])
+            + n[b, i]*(vx[j + 1, i] - vy[j + 1, i]) - n[b, i + 1]*(vx[j + 1, i + 1] + vy[j + 1, i + 1]))
 
 
 @density_rate.of(PaperForm)
@@ -152,7 +155,7 @@ def cell_row(eos, law, form, box, S, n, T, cell, out, j):
 
 @jit
 def rate_row(box, S, n, low, high, out, j):
-    """dv/dt = -v.grad v + (div sigma - grad P)/rho - g, de/dt = -v.grad e + (work - div Q)/rho at nodes of row j."""
+    """dv/dt = -v.grad v + div(sigma - P)/rho - g, de/dt = -v.grad e + (work - div Q)/rho at nodes."""
     to_slope = 0.5/box.h
     for i in range(box.first, S.shape[2] - 1):
         vx, vy, per_mass = S[VX, j, i], S[VY, j, i], 1/n[i]
@@ -205,13 +208,11 @@ def blend(a, b, s, out):
 @jit
 def advance(sides, eos, law, form, box, S, work, rows, dt, steps):
     """Classical fourth-order Runge-Kutta steps; `work[3]` blocks like S, their wall rates zero."""
-    rate, stage, total = work[0], work[1], work[2]
+    rate, stage, start = work[0], work[1], work[2]
     for _ in range(steps):
-        rates(sides, eos, law, form, box, S, rows, rate)
-        blend(S, rate, dt/6, total)
-        for to_stage, weight in ((0.5, 1/3), (0.5, 1/3), (1.0, 1/6)):
-            blend(S, rate, to_stage*dt, stage)
+        start[:] = S
+        for to_stage, weight in ((0.0, 1/6), (0.5, 1/3), (0.5, 1/3), (1.0, 1/6)):
+            blend(start, rate, to_stage*dt, stage)
             rates(sides, eos, law, form, box, stage, rows, rate)
-            blend(total, rate, weight*dt, total)
-        blend(total, rate, 0.0, S)
+            blend(S, rate, weight*dt, S)
     fill(sides, eos, form, box, S)

@@ -28,7 +28,7 @@ class VanDerWaals(NamedTuple):
 class DenseFluid(NamedTuple):
     """Quadratic fit to molecular dynamics about rho = 1, T = 1, e = 1.443    [KHP95, Eq. 3]
 
-    The printed T(rho, e) and e(rho, T) are separate expansions: each inverts the other only to first order,
+    The printed T(rho, e) and e(rho, T) are separate expansions: at rho = 1, T(rho, e(rho, T)) - 1 is 1.05 (T - 1),
     and P and e satisfy the Maxwell relation not even at the reference state [KHP95, Sec. IV].
     """
     cv: float = 1.5

@@ -1,0 +1,228 @@
+"""Constitutive relations: each law over every equation of state and transport law found in `continuum.fluid`."""
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+from continuum.fluid import (
+    EQUATIONS_OF_STATE,
+    ConstEta,
+    ConstNu,
+    DenseFluid,
+    IdealGas,
+    PowerLaw,
+    VanDerWaals,
+    check_state,
+    conductivity,
+    energy,
+    expansivity,
+    pressure,
+    pressure_slopes,
+    sound_speed,
+    stress,
+    stress_tensor,
+    temperature,
+    thermal_pressure,
+    valid,
+    viscosity,
+)
+from continuum.jit import jit
+
+RHO, T = (q.ravel() for q in np.meshgrid([0.7, 0.9, 1.0, 1.15], [0.6, 1.0, 1.4]))
+CONSISTENT = {"ideal", "vdw"}
+ROUND_OFF = 1e-13  # a few dozen operations on numbers of order 10
+
+every_eos = pytest.mark.parametrize("eos", EQUATIONS_OF_STATE.values(), ids=EQUATIONS_OF_STATE)
+consistent = pytest.mark.parametrize("eos", [EQUATIONS_OF_STATE[name] for name in sorted(CONSISTENT)])
+
+
+def slope(f, x):
+    """df/dx by a complex step: exact to round-off."""
+    return np.imag(f(x + 1e-40j))/1e-40
+
+
+def isentrope(eos, rho, e, to):
+    """Energy at density `to` along de/drho = P/rho^2."""
+    path = solve_ivp(lambda r, u: pressure(eos, r, u)/r**2, (rho, to), [e], rtol=1e-13, atol=1e-14)
+    return path.y[0, -1]
+
+
+@every_eos
+def test_slopes_of_the_pressure(eos):
+    e = energy(eos, RHO, T)
+    by_rho, by_e = pressure_slopes(eos, RHO, e)
+    np.testing.assert_allclose(by_rho, slope(lambda r: pressure(eos, r, e), RHO), rtol=ROUND_OFF)
+    np.testing.assert_allclose(by_e*np.ones_like(e), slope(lambda u: pressure(eos, RHO, u), e), rtol=ROUND_OFF)
+
+
+@every_eos
+def test_sound_speed_from_the_slopes_of_pressure(eos):
+    e = energy(eos, RHO, T)
+    P = pressure(eos, RHO, e)
+    c2 = slope(lambda r: pressure(eos, r, e), RHO) + P/RHO**2*slope(lambda u: pressure(eos, RHO, u), e)
+    np.testing.assert_allclose(sound_speed(eos, RHO, e)**2, c2, rtol=ROUND_OFF)
+
+
+@every_eos
+@pytest.mark.parametrize("state", [(0.9, 0.7), (1.0, 1.0), (1.1, 1.3)])
+def test_sound_speed_is_the_slope_along_an_isentrope(eos, state):
+    rho, e, step = state[0], energy(eos, *state), 2e-3
+    P = [pressure(eos, r, isentrope(eos, rho, e, r)) for r in rho + step*np.array([-2, -1, 1, 2])]
+    # five-point rule: the error is step^4 P'''''/30, below 1e-9 of c^2 for these polynomials and fractions
+    c2 = (P[0] - 8*P[1] + 8*P[2] - P[3])/(12*step)
+    assert sound_speed(eos, rho, e)**2 == pytest.approx(c2, rel=1e-8)
+
+
+@consistent
+def test_temperature_inverts_energy(eos):
+    np.testing.assert_allclose(temperature(eos, RHO, energy(eos, RHO, T)), T, rtol=ROUND_OFF)
+
+
+def test_temperature_of_the_dense_fluid_is_five_percent_off():
+    eos = DenseFluid()
+    assert temperature(eos, 1.0, energy(eos, 1.0, 1.0)) == pytest.approx(1.0, abs=ROUND_OFF)
+    # along rho = 1 the printed slopes are 0.7 and 1.5: their product should be 1
+    assert temperature(eos, 1.0, energy(eos, 1.0, 1.5)) == pytest.approx(1 + 1.05*0.5, rel=ROUND_OFF)
+    # along T = 1 a change of density should leave the temperature alone: -1 + 0.7 x 1.5
+    drift = slope(lambda r: temperature(eos, r, energy(eos, r, 1.0)), 1.0)
+    assert drift == pytest.approx(0.05, rel=1e-12)
+
+
+def maxwell(eos, rho, theta):
+    """Both sides of (dE/dV)_T = T (dP/dT)_V - P for one particle, V = 1/rho."""
+    P_T = slope(lambda q: pressure(eos, rho, energy(eos, rho, q)), theta)
+    return -rho**2*slope(lambda r: energy(eos, r, theta), rho), theta*P_T - pressure(eos, rho, energy(eos, rho, theta))
+
+
+@consistent
+def test_maxwell_relation(eos):
+    left, right = maxwell(eos, RHO, T)
+    # absolute: for the ideal gas both sides are zero
+    np.testing.assert_allclose(left, right, atol=10*ROUND_OFF)
+
+
+def test_maxwell_relation_fails_for_the_dense_fluid_as_printed():
+    # KHP95, Sec. IV: dE/dV = -1.5 against d(beta P)/d(beta) = 1.25 at the reference state
+    left, right = maxwell(DenseFluid(), 1.0, 1.0)
+    assert (left, right) == (pytest.approx(-1.5, rel=1e-12), pytest.approx(-1.25, rel=1e-12))
+
+
+@every_eos
+def test_thermal_pressure(eos):
+    P_T = slope(lambda q: pressure(eos, RHO, energy(eos, RHO, q)), T)
+    np.testing.assert_allclose(thermal_pressure(eos, RHO, T), P_T, rtol=ROUND_OFF)
+
+
+@every_eos
+@pytest.mark.parametrize("state", [(1.0, 1.0), (0.9, 1.3)])
+def test_expansivity_is_the_shrinking_of_density_at_constant_pressure(eos, state):
+    rho, theta = state
+    P, step = pressure(eos, rho, energy(eos, rho, theta)), 1e-3
+    hot, cold = (brentq(lambda r, q=theta + s: pressure(eos, r, energy(eos, r, q)) - P, 0.9*rho, 1.1*rho, xtol=1e-14)
+                 for s in (step, -step))
+    # central difference: relative error of order step^2 and the 1e-10 of the inner difference
+    assert expansivity(eos, rho, theta) == pytest.approx(-(hot - cold)/(2*step*rho), rel=1e-5)
+
+
+def test_expansivity_known():
+    # 1e-9: its inner central difference of step 1e-6 leaves round-off 1e-10
+    assert expansivity(IdealGas(), 1.0, 0.8) == pytest.approx(1/0.8, rel=1e-9)
+    assert expansivity(VanDerWaals(), 1.0, 1.0) == pytest.approx(2/3, rel=1e-9)
+
+
+def test_critical_point_of_van_der_waals():
+    # KHP95, Sec. IV: density 2/3, temperature 8/27; there the isotherm has no slope and no curvature
+    eos = VanDerWaals()
+
+    def isotherm_slope(rho):
+        return slope(lambda r: pressure(eos, r, energy(eos, r, 8/27)), rho)
+
+    assert isotherm_slope(2/3) == pytest.approx(0, abs=ROUND_OFF)
+    # the slope has a double zero: a difference over 1e-4 is its third derivative times 1e-8/6, of order 1e-8
+    assert (isotherm_slope(2/3 + 1e-4) - isotherm_slope(2/3 - 1e-4))/2e-4 == pytest.approx(0, abs=1e-6)
+    assert isotherm_slope(0.6) > 0 and isotherm_slope(0.75) > 0
+
+
+# --- validity ---------------------------------------------------------------------------------------------
+
+
+@every_eos
+def test_the_states_of_the_paper_are_valid(eos):
+    check_state(eos, RHO, energy(eos, RHO, T))
+    assert valid(eos, RHO, energy(eos, RHO, T)).all()
+
+
+@pytest.mark.parametrize(("eos", "rho", "e", "words"), [
+    (VanDerWaals(), 2.0, 1.0, "rho b = 1 must stay below 1"),
+    (VanDerWaals(), 1.0, -0.6, "VanDerWaals"),
+    (IdealGas(), 1.0, -0.1, "e = -0.1"),
+    (IdealGas(), -1.0, 1.0, "rho = -1"),
+    (DenseFluid(), 1.0, -1.0, "DenseFluid"),
+    (IdealGas(), 1.0, np.nan, "e = nan"),
+])
+def test_a_state_outside_is_refused(eos, rho, e, words):
+    with pytest.raises(ValueError, match=words):
+        check_state(eos, rho, e)
+
+
+def test_the_first_bad_state_is_named():
+    with pytest.raises(ValueError, match=r"e = -3 \(item 3\)"):
+        check_state(IdealGas(), np.ones((2, 3)), np.array([[1.0, 2, 3], [-3, 1, -1]]))
+
+
+# --- transport and stress ---------------------------------------------------------------------------------
+
+
+def test_transport_laws():
+    eta, nu = ConstEta(eta=0.5, k=0.7), ConstNu(nu=0.5, kappa=0.7, cv=1.5)
+    assert (viscosity(eta, 0.8, 1.2), conductivity(eta, 0.8, 1.2)) == (0.5, 0.7)
+    assert viscosity(nu, 0.8, 1.2)/0.8 == pytest.approx(0.5, rel=1e-15)
+    assert conductivity(nu, 0.8, 1.2)/(0.8*1.5) == pytest.approx(0.7, rel=1e-15)
+    power = PowerLaw(eta=0.5, k=0.7, m=1.0, n=0.5)
+    assert viscosity(power, 2.0, 4.0) == pytest.approx(0.5*2*2, rel=1e-15)
+    assert conductivity(power, 2.0, 4.0) == pytest.approx(0.7*2*2, rel=1e-15)
+
+
+def test_stress_is_the_two_dimensional_tensor():
+    grad = np.random.default_rng(1).normal(size=(20, 2, 2))  # grad[a, b] = d_a v_b
+    full = stress_tensor(0.3, 0.2, grad)
+    xx, xy, yy = stress(0.3, 0.2, grad[:, 0, 0], grad[:, 0, 1], grad[:, 1, 0], grad[:, 1, 1])
+    np.testing.assert_allclose([xx, xy, yy], [full[:, 0, 0], full[:, 0, 1], full[:, 1, 1]], atol=ROUND_OFF)
+
+
+@pytest.mark.parametrize("d", [1, 2, 3])
+def test_shear_stress_is_symmetric_and_without_trace(d):
+    grad = np.random.default_rng(2).normal(size=(20, d, d))
+    shear = stress_tensor(0.3, 0.0, grad)
+    np.testing.assert_allclose(shear, np.swapaxes(shear, -1, -2), atol=ROUND_OFF)
+    np.testing.assert_allclose(np.trace(shear, axis1=-2, axis2=-1), 0, atol=ROUND_OFF)
+
+
+@pytest.mark.parametrize("d", [2, 3])
+def test_rotation_makes_no_stress_and_expansion_only_bulk_stress(d):
+    spin = np.random.default_rng(3).normal(size=(d, d))
+    np.testing.assert_allclose(stress_tensor(0.3, 0.2, spin - spin.T), 0, atol=ROUND_OFF)
+    np.testing.assert_allclose(stress_tensor(0.3, 0.2, np.eye(d)), 0.2*d*np.eye(d), atol=ROUND_OFF)
+
+
+# --- formulas chosen by type ------------------------------------------------------------------------------
+
+
+@jit
+def compiled(eos, law, rho, e):
+    theta = temperature(eos, rho, e)
+    return pressure(eos, rho, e), theta, energy(eos, rho, theta), viscosity(law, rho, theta)
+
+
+@every_eos
+def test_compiled_code_uses_the_same_formulas(eos):
+    rho, e = 0.9, energy(eos, 0.9, 1.2)
+    plain = compiled.py_func(eos, ConstNu(0.5, 0.5), rho, e)
+    np.testing.assert_allclose(compiled(eos, ConstNu(0.5, 0.5), rho, e), plain, rtol=ROUND_OFF)
+
+
+def test_an_unknown_type_is_refused_with_what_is_known():
+    class Steam(tuple):
+        pass
+    with pytest.raises(TypeError, match=r"pressure\(Steam.*it knows IdealGas, VanDerWaals, DenseFluid; add a formula"):
+        pressure(Steam(), 1.0, 1.0)
