@@ -1,0 +1,58 @@
+"""Small crowds of particles for the tests: made, evaluated and advanced without the time loop of runs."""
+import numpy as np
+
+from continuum.fluid import IdealGas, energy
+from particles.integrators import RK4
+from particles.methods.spam import Spam
+from particles.team import Team
+from particles.walls.periodic import periodic
+
+
+def lattice(box, columns: int, rows: int) -> np.ndarray:
+    """(2, n) centres of a lattice that fills the box."""
+    x, y = np.meshgrid((np.arange(columns) + 0.5)/columns - 0.5, (np.arange(rows) + 0.5)/rows - 0.5)
+    return np.array([x.ravel()*box[0], y.ravel()*box[1]])
+
+
+def crowd(box, columns: int, rows: int, eos=IdealGas(), jitter=0.25, seed=0) -> np.ndarray:  # noqa: B008
+    """A lattice shaken by +-jitter, v of 0.3 and T of 0.8 to 1.2 at random: state (5, n)."""
+    rng, n = np.random.default_rng(seed), columns*rows
+    r = lattice(box, columns, rows) + rng.uniform(-jitter, jitter, (2, n))
+    return np.array([*r, *rng.normal(0, 0.3, (2, n)), energy(eos, 1.0, rng.uniform(0.8, 1.2, n))])
+
+
+def everywhere(box) -> tuple:
+    """Walls of a box that is periodic in x and y."""
+    return periodic(box[0]) + periodic(box[1], axis=1)
+
+
+def prepare(method: Spam, state: np.ndarray, threads: int = 1):
+    """The method's sums with lists, the state in the order of their cells, and which particle is where."""
+    state, ids, sums = state.copy(), np.arange(state.shape[1]), method.start(state.shape[1], Team(threads))
+    sums.around.relist(state, ids, 0.0)
+    return sums, state, ids
+
+
+def rates(method: Spam, state: np.ndarray, threads: int = 1) -> np.ndarray:
+    """d(state)/dt in the order of the state."""
+    sums, ordered, ids = prepare(method, state, threads)
+    out = np.empty_like(ordered)
+    sums.rates(ordered, out)
+    return out[:, np.argsort(ids)]
+
+
+def advance(method: Spam, state: np.ndarray, dt: float, steps: int, threads: int = 1) -> np.ndarray:
+    """The state after some steps of RK4, without reflections, in the order in which it was given."""
+    sums, now, ids = prepare(method, state, threads)
+    integrator = RK4(now.shape, sums.team)
+    for _ in range(steps):
+        if sums.around.must_relist(now, dt):
+            sums.around.relist(now, ids, dt)
+        integrator.step(sums.rates, now, dt)
+    return now[:, np.argsort(ids)]
+
+
+def total_energy(method: Spam, state: np.ndarray) -> float:
+    """Kinetic, internal and m g y."""
+    _, y, vx, vy, e = state
+    return method.m*float(np.sum(0.5*(vx**2 + vy**2) + e + method.g*y))

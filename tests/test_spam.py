@@ -1,0 +1,194 @@
+"""The rates of SPAM: equal to the slow twin in every variant, conservative, the same for every observer and thread."""
+from typing import Any, NamedTuple
+
+import numpy as np
+import plain
+import pytest
+from crowd import crowd, everywhere, prepare, rates
+
+from continuum.fluid import EQUATIONS_OF_STATE, ConstEta, ConstNu, DenseFluid, IdealGas, PowerLaw, VanDerWaals
+from particles.methods.spam import Direct, LessStatic, Nested, Spam
+from particles.terms import ArithmeticGradients
+from particles.walls.fixed import fixed_plates
+from particles.walls.mirror import AtWall, Copied, Odd, Own, plates, sides
+from particles.walls.periodic import periodic
+from particles.weights import WEIGHTS, Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
+
+BOX = (9.0, 8.0)
+COLUMNS, ROWS = 11, 9
+MASS = BOX[0]*BOX[1]/(COLUMNS*ROWS)  # neither the mass nor the spacing is 1
+HOT, COLD = 1.2, 0.8
+ETA, NU, POWER = ConstEta(0.4, 0.3), ConstNu(0.4, 0.3), PowerLaw(0.4, 0.3, 0.5, 0.5)
+PERIODIC = periodic(BOX[0])
+
+
+def closed(rule, pressure):
+    """Four mirrors."""
+    return sides(BOX[0], 1.0, -0.05, rule, pressure) + plates(BOX[1], HOT, COLD, rule, pressure)
+
+
+class Variant(NamedTuple):
+    weight: type
+    eos: Any
+    law: Any
+    walls: tuple
+    other: dict = {}  # noqa: RUF012
+
+
+FIXED = fixed_plates(BOX[1], HOT, COLD, rows=6, spacing=0.9)
+# every weight, equation of state, law, wall, rule and variant at least twice, in different company
+VARIANTS = {
+    "printed": Variant(Lucy, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD)),
+    "monaghan": Variant(Monaghan, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD)),
+    "odd, own": Variant(Monaghan, VanDerWaals(), NU, PERIODIC + plates(BOX[1], HOT, COLD, Odd(), Own())),
+    "four walls": Variant(WendlandC2, DenseFluid(), ETA, closed(AtWall(), Own())),
+    "four odd walls": Variant(WendlandC4, IdealGas(), NU, closed(Odd(), Copied()), {"gradients": ArithmeticGradients()}),
+    "fixed": Variant(WendlandC6, VanDerWaals(), POWER, PERIODIC + FIXED),
+    "fixed between mirrors": Variant(Lucy, DenseFluid(), NU, FIXED + sides(BOX[0], 1.0, -0.05, Odd(), Own())),
+    "no walls": Variant(WendlandC4, VanDerWaals(), POWER, everywhere(BOX)),
+    "arithmetic": Variant(Lucy, IdealGas(), ETA, everywhere(BOX), {"gradients": ArithmeticGradients()}),
+    "direct": Variant(Lucy, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD), {"transport": Direct}),
+    "direct, less static": Variant(Monaghan, DenseFluid(), NU, PERIODIC + FIXED,
+                                   {"transport": Direct, "static": LessStatic(0.6, 1.2, 1.1)}),
+    "less static": Variant(WendlandC2, VanDerWaals(), NU, closed(Odd(), Own()), {"static": LessStatic(1.0, 1.2, 1.1)}),
+    "half static": Variant(WendlandC6, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD),
+                           {"static": LessStatic(0.5, 1.2, 0.9)}),
+}
+
+
+def method(variant: Variant, h=3.0) -> Spam:
+    return Spam(weight=variant.weight.of(h=h), eos=variant.eos, law=variant.law, walls=variant.walls, box=BOX, g=0.05,
+                m=MASS, **variant.other)
+
+
+def close(fast, slow):
+    """Largest difference, relative to the largest value."""
+    return abs(fast - slow).max()/abs(slow).max()
+
+
+@pytest.mark.parametrize("name", VARIANTS)
+def test_equals_the_slow_twin(name):
+    # both add about 30 terms a pair sum in double precision: round-off is 1e-15 of the largest term, and the sums
+    # cancel to a few per cent of their terms
+    spam = method(VARIANTS[name])
+    sums, state, _ = prepare(spam, crowd(BOX, COLUMNS, ROWS, spam.eos))
+    out = np.empty_like(state)
+    sums.rates(state, out)
+    sums.gradients()
+    slow, gradient = plain.rates(spam, state), sums.gradient.reshape(-1, 2, 3)
+    assert close(sums.around.rho[:sums.around.rows], slow.rho) < 1e-12
+    assert close(gradient[:, :, :2], slow.grad_v) < 1e-12
+    assert close(gradient[:, :, 2], slow.grad_T) < 1e-12
+    for fast, exact in zip(out, slow.out):
+        assert close(fast, exact) < 1e-12
+
+
+def test_every_weight_and_equation_of_state_has_met_the_twin():
+    assert {v.weight for v in VARIANTS.values()} == set(WEIGHTS.values())
+    assert {type(v.eos) for v in VARIANTS.values()} == {type(eos) for eos in EQUATIONS_OF_STATE.values()}
+
+
+# --- laws of a box without walls ---------------------------------------------------------------------------
+
+
+def free(weight=Lucy, eos=IdealGas(), law=ETA, **other) -> Spam:  # noqa: B008
+    return Spam(weight=weight.of(h=3.0), eos=eos, law=law, walls=everywhere(BOX), box=BOX, m=MASS, **other)
+
+
+COMPANY = [free(weight, eos, ETA) for weight, eos in zip(WEIGHTS.values(), [*EQUATIONS_OF_STATE.values()]*2)]
+COMPANY += [free(gradients=ArithmeticGradients()), free(transport=Direct), free(WendlandC2, VanDerWaals(), POWER)]
+each = pytest.mark.parametrize("spam", COMPANY, ids=lambda s: " ".join(
+    [type(s.weight).__name__, type(s.eos).__name__, type(s.law).__name__, type(s.gradients).__name__, s.transport.__name__]))
+
+
+@each
+def test_momentum_and_energy_are_exchanged_only(spam):
+    # what one particle gains its partner loses: the sum over 99 particles of 30 terms each is round-off, 1e-16 of
+    # the terms, which are ten times larger than the rates
+    state = crowd(BOX, COLUMNS, ROWS, spam.eos)
+    _, _, ax, ay, heat = rates(spam, state)
+    power = state[2]*ax + state[3]*ay + heat
+    for rate in (ax, ay, power):
+        assert abs(rate.sum()) < 1e-14*30*abs(rate).sum()
+        assert abs(rate).max() > 1e-3
+
+
+@each
+def test_galilean_invariance(spam):
+    state = crowd(BOX, COLUMNS, ROWS, spam.eos)
+    moving = state.copy()
+    moving[2] += 7.0
+    moving[3] -= 3.0
+    # velocities of 7 lose a digit in their differences
+    assert close(rates(spam, moving)[2:], rates(spam, state)[2:]) < 1e-13
+
+
+@each
+def test_same_for_whoever_counts_the_particles(spam):
+    state = crowd(BOX, COLUMNS, ROWS, spam.eos)
+    order = np.random.default_rng(1).permutation(state.shape[1])
+    assert close(rates(spam, state[:, order]), rates(spam, state)[:, order]) < 1e-13
+
+
+@each
+def test_same_for_whoever_turns_the_box(spam):
+    square = Spam(**{**vars(spam), "box": (8.0, 8.0), "walls": everywhere((8.0, 8.0))})
+    state = crowd((8.0, 8.0), 9, 9, spam.eos)
+
+    def turn(rows):
+        x, y, u, v, e = rows
+        return np.array([-y, x, -v, u, e])
+    assert close(rates(square, turn(state)), turn(rates(square, state))) < 1e-13
+
+
+def test_same_through_the_seam():
+    # moved by any distance, half of the particles see their neighbours through other sides
+    state = crowd(BOX, COLUMNS, ROWS)
+    moved = state.copy()
+    moved[0] += 4.3
+    moved[1] -= 3.9
+    assert close(rates(free(), moved), rates(free(), state)) < 1e-13
+
+
+@pytest.mark.parametrize("side", [-4.5, 4.5, np.nextafter(-4.5, -5), np.nextafter(4.5, 5)])
+def test_a_particle_on_the_seam_has_all_its_neighbours(side):
+    state = crowd(BOX, COLUMNS, ROWS)
+    state[0, 7] = side
+    _, _, ax, ay, _ = rates(free(), state)
+    assert abs(ax.sum()) < 1e-12 and abs(ay.sum()) < 1e-12  # a missing image costs its whole force, about 0.1
+
+
+@pytest.mark.parametrize("skin", [0.05, 1.0, 4.0])
+def test_same_for_every_skin(skin):
+    state = crowd(BOX, COLUMNS, ROWS)
+    assert close(rates(free(skin=skin), state), rates(free(), state)) < 1e-13
+
+
+# 198 to 1001 rows: a thread is used from 64 rows on; odd numbers leave remainders to vector instructions
+@pytest.mark.parametrize("columns, rows", [(18, 11), (25, 25), (77, 13)])
+@pytest.mark.parametrize("name", ["printed", "direct"])
+def test_threads_do_not_change_a_bit(columns, rows, name):
+    box = (float(columns), float(rows))
+    walls = periodic(box[0]) + plates(box[1], HOT, COLD)
+    spam = Spam(weight=Lucy.of(h=3.0), eos=IdealGas(), law=ETA, walls=walls, box=box, g=0.05,
+                transport=VARIANTS[name].other.get("transport", Nested))
+    state = crowd(box, columns, rows)
+    one = rates(spam, state)
+    for threads in (2, 3):
+        assert (rates(spam, state, threads) == one).all()
+
+
+# --- errors ------------------------------------------------------------------------------------------------
+
+
+def test_errors_name_value_rule_and_way_out():
+    with pytest.raises(ValueError, match=r"mass of a particle must be positive, got 0\.0"):
+        Spam(weight=Lucy.of(h=3.0), eos=IdealGas(), law=ETA, walls=(), box=BOX, m=0.0)
+    with pytest.raises(ValueError, match=r"no particles \(n = 0\)"):
+        prepare(free(), np.empty((5, 0)))
+    with pytest.raises(ValueError, match="2 h = 6 is wider than the box 5 x 8: take more particles or a shorter range"):
+        prepare(Spam(**{**vars(free()), "box": (5.0, 8.0)}), crowd(BOX, 3, 3))
+    with pytest.raises(ValueError, match="skin of the neighbour list must be positive, got 0"):
+        prepare(free(skin=0.0), crowd(BOX, 3, 3))
+    with pytest.raises(ValueError, match="threads must be at least 1, got 0"):
+        rates(free(), crowd(BOX, 3, 3), threads=0)
