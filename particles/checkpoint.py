@@ -72,6 +72,7 @@ def _same(path: Path, stored: dict, wanted: dict[str, str]) -> None:
     for what, value in wanted.items():
         had = str(stored.get(what))
         if had != value:
-            at = max(0, len(os.path.commonprefix([had, value])) - 20)
+            same = next((k for k, (a, b) in enumerate(zip(had, value, strict=False)) if a != b), 0)
+            at = max(0, same - 20)
             raise ValueError(f"checkpoint {path.name} is of other {what}: it has ...{had[at:at + 60]}..., this run "
                              f"...{value[at:at + 60]}...; delete it to start anew, or run what it was made with")

@@ -53,7 +53,7 @@ def heat_flow(sums: Any, state: np.ndarray) -> float:
     In a steady flow its mean over every height is the same, so that divided by k dT/L it is the Nusselt number.
     """
     n, around, method = sums.n, sums.around, sums.method
-    x, y, vx, vy, e = state
+    _, y, vx, vy, e = state
     rho, T = around.rho[:n], around.T[:n]
     gx_vx, gx_vy, _, gy_vx, gy_vy, gy_T = sums.gradient[:n].T
     _, sxy, syy = stress(viscosity(method.law, rho, T), 0.0, gx_vx, gx_vy, gy_vx, gy_vy)

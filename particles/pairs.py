@@ -81,7 +81,7 @@ def store(out: np.ndarray, i: int, k: int, values: tuple) -> Any:
 def _(one, other):
     if len(one) == 1:
         return lambda one, other: (one[0] + other[0],)
-    return lambda one, other: (one[0] + other[0],) + add(one[1:], other[1:])  # noqa: RUF005 (numba)
+    return lambda one, other: (one[0] + other[0],) + add(one[1:], other[1:])
 
 
 @overload(store)

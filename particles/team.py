@@ -1,6 +1,7 @@
 """Threads that share the rows of a loop."""
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
 from typing import Any
 
 
@@ -21,5 +22,5 @@ class Team:
         if self._pool is None or rows < 64*self.threads:
             return [function(0, rows, *arguments)]
         cuts = [rows*t//self.threads for t in range(self.threads + 1)]
-        others = [self._pool.submit(function, a, b, *arguments) for a, b in zip(cuts[1:-1], cuts[2:], strict=True)]
+        others = [self._pool.submit(function, a, b, *arguments) for a, b in pairwise(cuts[1:])]
         return [function(0, cuts[1], *arguments), *(other.result() for other in others)]

@@ -1,0 +1,107 @@
+"""What is measured on particles, against sums written out and states with known answers."""
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from particles.observe import (
+    Grid,
+    Profile,
+    conserved,
+    field_kinetic,
+    fields_at,
+    heat_flow,
+    particle_kinetic,
+    wall_layers,
+)
+from particles.team import Team
+from particles.vtk import write_grid, write_particles
+from particles.weights import value_and_slope
+from tests.scenes import small
+
+
+@pytest.fixture(scope="module")
+def measured():
+    """(sums, state) with densities and gradients of the start."""
+    method, state = small()
+    sums = method.start(state.shape[1], Team(1))
+    sums.around.relist(state, np.arange(state.shape[1]), 0.0)
+    sums.densities(state)
+    sums.gradients()
+    return sums, state
+
+
+def test_fields_are_the_sums_of_the_paper(measured):
+    sums, state = measured
+    x, y = np.array([0.3, -7.9, 4.0]), np.array([0.1, -3.9, 3.99])
+    around, found = sums.around, fields_at(sums, state, x, y)
+    for k in range(3):
+        r = np.hypot(around.x - x[k], around.y - y[k])
+        w = np.array([value_and_slope(sums.method.weight, d)[0] for d in r])
+        rho = w.sum()
+        expected = (rho, w@around.vx/rho, w@around.vy/rho)
+        # sums of some 30 terms in another order
+        np.testing.assert_allclose([found.rho[k], found.vx[k], found.vy[k]], expected, rtol=1e-13, atol=1e-15)
+
+
+def test_fields_at_particles_give_their_densities(measured):
+    sums, state = measured
+    np.testing.assert_allclose(fields_at(sums, state, *state[:2]).rho, sums.around.rho[:sums.n], rtol=1e-13)
+
+
+def test_smoothing_takes_energy(measured):
+    assert 0 < field_kinetic(*measured) < particle_kinetic(*measured)
+
+
+def test_heat_flow_of_rest_is_conduction():
+    """A lattice at rest carries k dT/L; away from the plates the sums take the slope of a linear T to 0.5 %."""
+    method, state = small(rows=24)
+    state[2:4] = 0
+    sums = method.start(state.shape[1], Team(1))
+    sums.around.relist(state, np.arange(state.shape[1]), 0.0)
+    sums.densities(state)
+    sums.gradients()
+    inner = np.abs(state[1]) < 12 - 3
+    slope = sums.gradient[:sums.n][inner, 5].mean()
+    assert slope == pytest.approx(-1/24, rel=0.02)     # jitter of 0.2 over 864 particles: measured 0.4 %
+    k = method.law.k
+    unit = k/24
+    edge = k*np.sum(-sums.gradient[:sums.n, 5]/sums.around.rho[:sums.n])/(48*24)/unit
+    assert heat_flow(sums, state)/unit == pytest.approx(edge, rel=1e-12)
+
+
+def test_conserved_sums(measured):
+    sums, state = measured
+    mass, px, py, energy = conserved(sums, state)
+    assert mass == state.shape[1]
+    assert (px, py) == pytest.approx((state[2].sum(), state[3].sum()))
+    assert energy == pytest.approx(np.sum((state[2]**2 + state[3]**2)/2 + state[4] + sums.method.g*state[1]))
+
+
+def test_profile_of_a_linear_temperature(measured):
+    sums, state = measured
+    rho, T, _, _ = Profile(8)(sums, state)
+    assert rho.mean() == pytest.approx(1.0, rel=1e-12)
+    assert np.polyfit(np.arange(8), T, 1)[0] == pytest.approx(-1/8, rel=0.02)   # jitter 0.2/sqrt(3*16*8) a layer
+
+
+def test_wall_layers_see_hot_and_cold(measured):
+    lower, upper = wall_layers(*measured)
+    assert lower[1] > 1.3 and upper[1] < 0.7
+    assert lower[0] == pytest.approx(1.0, abs=0.3)
+
+
+def test_paraview_files_hold_what_was_given(measured, tmp_path):
+    sums, state = measured
+    write_particles(tmp_path/"p.vtp", state, rho=sums.around.rho[:sums.n])
+    root = ElementTree.parse(tmp_path/"p.vtp").getroot()
+    arrays = {a.get("Name"): np.array(a.text.split(), float) for a in root.iter("DataArray")}
+    assert root.get("type") == "PolyData"
+    np.testing.assert_allclose(arrays["Points"].reshape(-1, 3)[:, :2], state[:2].T, rtol=1e-8)    # 9 digits written
+    np.testing.assert_allclose(arrays["rho"], sums.around.rho[:sums.n], rtol=1e-8)
+    grid = Grid.over(sums.method.box, 4)
+    values = grid(sums, state)
+    write_grid(tmp_path/"g.vti", grid.x, grid.y, dict(zip(("rho", "vx", "vy", "e", "T"), values, strict=True)))
+    image = ElementTree.parse(tmp_path/"g.vti").getroot()
+    assert image.find("ImageData").get("WholeExtent") == "0 7 0 3 0 0"
+    assert {a.get("Name") for a in image.iter("DataArray")} == {"v", "rho", "e", "T"}

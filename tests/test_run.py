@@ -1,0 +1,157 @@
+"""The time loop: what is interrupted goes on bitwise, what diverges says where, what cannot work is refused."""
+import errno
+from dataclasses import replace
+
+import h5py
+import numpy as np
+import pytest
+
+from continuum.fluid import VanDerWaals
+from particles import checkpoint
+from particles.observe import Grid, Profile, field_kinetic, heat_flow, particle_kinetic
+from particles.run import Divergence, Plan, Run, _check, run
+from particles.team import Team
+from particles.weights import Lucy
+from tests.scenes import small
+
+PLAN = Plan(dt=0.6, steps=60, every=5, series={"kp": particle_kinetic, "kg": field_kinetic, "heat": heat_flow},
+            means={"grid": Grid(*np.meshgrid([-2.0, 0.0, 2.0], [-1.0, 1.0])), "profile": Profile(4)}, mean_from=10.0)
+
+
+@pytest.fixture(scope="module")
+def uninterrupted():
+    method, start = small()
+    return run(method, start, PLAN)
+
+
+def stop_half_way(fraction: float) -> None:
+    if fraction > 0.5:
+        raise KeyboardInterrupt
+
+
+def test_interrupted_run_goes_on_bitwise(tmp_path, uninterrupted):
+    method, start = small()
+    plan = replace(PLAN, checkpoint=tmp_path/"run.h5", checkpoint_seconds=1e9)
+    with pytest.raises(KeyboardInterrupt):
+        run(method, start, plan, stop_half_way)
+    done = run(method, start, plan)
+    assert np.array_equal(done.state, uninterrupted.state)
+    assert np.array_equal(done.ids, uninterrupted.ids)
+    assert done.series == uninterrupted.series
+    assert all(np.array_equal(done.means[name], uninterrupted.means[name]) for name in done.means)
+
+
+def test_checkpoints_on_the_way_change_nothing(tmp_path, uninterrupted):
+    method, start = small()
+    done = run(method, start, replace(PLAN, checkpoint=tmp_path/"run.h5", checkpoint_seconds=0.0))
+    assert np.array_equal(done.state, uninterrupted.state)
+
+
+def test_threads_change_nothing(uninterrupted):
+    method, start = small()
+    assert np.array_equal(run(method, start, replace(PLAN, threads=2)).state, uninterrupted.state)
+
+
+def test_by_id_undoes_the_order_of_cells(uninterrupted):
+    _, start = small()
+    # in 36 units of time no particle crosses the box, so that each is nearest to where it started
+    assert np.abs(uninterrupted.by_id()[1] - start[1]).max() < 6.0
+
+
+def half_done(tmp_path, **other):
+    method, start = small()
+    plan = replace(PLAN, checkpoint=tmp_path/"run.h5", checkpoint_seconds=1e9)
+    with pytest.raises(KeyboardInterrupt):
+        run(method, start, plan, stop_half_way)
+    return method, start, replace(plan, **other)
+
+
+def test_checkpoint_of_other_parameters_is_refused(tmp_path):
+    method, start, plan = half_done(tmp_path)
+    with pytest.raises(ValueError, match=r"other parameters.*delete it to start anew"):
+        run(replace(method, g=2*method.g), start, plan)
+    with pytest.raises(ValueError, match="other parameters"):
+        run(method, start, replace(plan, dt=0.5))
+    with pytest.raises(ValueError, match="other start"):
+        run(method, start[:, ::-1].copy(), plan)
+
+
+def test_checkpoint_of_other_code_is_refused(tmp_path, monkeypatch):
+    method, start, plan = half_done(tmp_path)
+    monkeypatch.setattr(checkpoint, "source_hash", lambda: "another")
+    with pytest.raises(ValueError, match="other code"):
+        run(method, start, plan)
+
+
+def test_broken_checkpoint_says_so(tmp_path):
+    method, start, plan = half_done(tmp_path)
+    plan.checkpoint.write_bytes(plan.checkpoint.read_bytes()[:1000])
+    with pytest.raises(ValueError, match=r"cannot be read.*delete it"):
+        run(method, start, plan)
+
+
+def test_full_disk_keeps_the_last_checkpoint(tmp_path, monkeypatch):
+    method, start, plan = half_done(tmp_path, checkpoint_seconds=0.0)
+    before = plan.checkpoint.read_bytes()
+
+    def full(*arguments, **more):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(h5py.Group, "__setitem__", full)
+    with pytest.raises(OSError, match=r"disk is full; the former one is kept"):
+        run(method, start, plan)
+    assert plan.checkpoint.read_bytes() == before
+    assert [path.name for path in tmp_path.iterdir()] == ["run.h5"]
+
+
+def test_divergence_names_step_time_field_and_particle(monkeypatch):
+    method, start = small()
+    monkeypatch.setattr("particles.run.step_limit", lambda *known: np.inf)
+    with pytest.raises(Divergence, match=r"step \d+, time .*particle.*halve dt"):
+        run(method, start, replace(PLAN, dt=4.0))     # twice the limit
+
+
+def test_not_finite_field_is_named():
+    method, start = small()
+    sums = method.start(start.shape[1], Team(1))
+    now = Run(state=start.copy(), ids=np.arange(start.shape[1])[::-1], step=3)
+    now.state[2, 5] = np.nan
+    with pytest.raises(Divergence, match=rf"step 3, time 1.8: vx = nan of particle {start.shape[1] - 6}"):
+        _check(method, PLAN, sums, now)
+
+
+def test_energy_below_zero_is_refused_at_the_start():
+    method, start = small()
+    start[4, 7] = -50.0
+    with pytest.raises(ValueError, match=r"e = -50 \(item 7\) is outside the validity"):
+        run(method, start, PLAN)
+
+
+def test_particle_too_fast_for_the_step_is_divergence():
+    method, start = small()
+    start[3, 7] = 1e6
+    with pytest.raises(Divergence, match=r"step 0, time 0: a particle at speed .* halve dt"):
+        run(method, start, PLAN)
+
+
+def test_invalid_van_der_waals_state_is_divergence():
+    method, start = small(eos=VanDerWaals())
+    start[:2, :40] *= 0.2    # rho b >= 1 in the middle
+    with pytest.raises(Divergence, match="outside the validity of VanDerWaals"):
+        run(method, start, replace(PLAN, dt=0.01))
+
+
+@pytest.mark.parametrize(("change", "message"), [
+    (lambda m, s: (m, s[:, :0], PLAN), r"particles are an array \(5, n\).*n >= 1"),
+    (lambda m, s: (m, np.full_like(s, np.nan), PLAN), "not finite"),
+    (lambda m, s: (m, s, replace(PLAN, dt=5.0)), r"dt = 5 is above the stability limit .* take at most"),
+    (lambda m, s: (replace(m, weight=Lucy.of(5.0)), s, PLAN), "wider than the box"),
+])
+def test_what_cannot_work_is_refused(change, message):
+    with pytest.raises(ValueError, match=message):
+        run(*change(*small()))
+
+
+def test_plan_refuses_no_step():
+    with pytest.raises(ValueError, match="dt > 0"):
+        replace(PLAN, dt=0.0)
