@@ -12,7 +12,7 @@ from continuum.scene import Periodic, RayleighBenard, Walls
 from studies.convection import tables
 from studies.convection.cost import CompressibleStep, SpamStep
 from studies.convection.derive import derive
-from studies.convection.grids import BoussinesqSteady, CompressibleApproach, CompressibleSteady
+from studies.convection.grids import BoussinesqSteady, CompressibleApproach, CompressibleSteady, PypdeSteady
 from studies.convection.spam import PRINTED, VARIANTS, SpamRun, Variant
 from studies.kit.case import Case
 from studies.kit.study import Study, main
@@ -22,7 +22,8 @@ BOX = {"aspect": 1.0, "sides": Walls()}          # Fig. 6
 IDEAL, NU, VDW = {"eos": IdealGas()}, {"transport": ConstNu}, {"eos": VanDerWaals()}
 SEEDS = (1, 2, 3)
 RA = (1500.0, 2500.0, 5000.0, 10000.0, 20000.0)  # of the particles
-LINE = (1500.0, 1750.0, 2000.0, 2500.0, 3000.0, 3500.0, 4200.0, 5000.0, 6000.0, 6830.0, 10000.0, 20000.0)  # of the grids
+LINE = (1500.0, 1750.0, 2000.0, 2500.0, 3000.0, 3500.0, 4200.0, 5000.0, 6000.0, 6830.0, 10000.0, 20000.0,
+        50000.0)  # of the grids
 
 
 def spam(ra: float, rows: int, seeds=SEEDS, variant: Variant = PRINTED, t_end=4500.0, mean_from=2000.0, keep="",
@@ -51,6 +52,8 @@ def quick() -> Iterator[Case]:
         yield BoussinesqSteady(ra=ra, pr=2.0, sizes=(12, 16, 24))
         yield from spam(ra, 16, t_end=900.0, mean_from=400.0, keep="all" if ra == 10000 else "")
     yield CompressibleApproach(scene=RayleighBenard(ra=1e4), rows=16, t_end=900.0)
+    yield PypdeSteady(ra=5000.0, pr=2.0, sizes=(12, 16, 24))
+    yield PypdeSteady(ra=5000.0, scene=RayleighBenard(ra=5000.0), sizes=(12, 16, 24))
     yield from speed((16,), (12, 16, 24))
 
 
@@ -66,8 +69,8 @@ def paper() -> Iterator[Case]:
     """Figs 5, 6, 8, 9, 12 and the numbers of Sec. VI."""
     for ra in LINE:
         yield gas(ra, (24, 32, 48), keep="fields" if ra == 10000 else "")
-        yield BoussinesqSteady(ra=ra, pr=2.0)
-        yield BoussinesqSteady(ra=ra, pr=1.0)
+        for pr in (0.71, 1.0, 2.0, 7.0):
+            yield BoussinesqSteady(ra=ra, pr=pr)
     for ra in RA:
         yield from spam(ra, 50, keep={1e4: "all", 5e3: "fields"}.get(ra, ""))
         yield from spam(ra, 35)
@@ -82,6 +85,10 @@ def paper() -> Iterator[Case]:
         yield gas(ra, (24, 32, 48), **BOX)
         for rows in (40, 28, 20):
             yield from spam(ra, rows, **BOX)
+    for ra in (5000.0, 10000.0):
+        yield PypdeSteady(ra=ra, scene=RayleighBenard(ra=ra), sizes=(16, 24, 32, 48))
+        for pr in (1.0, 7.0):
+            yield PypdeSteady(ra=ra, pr=pr, sizes=(16, 24, 32, 48))
     yield from speed((16, 25, 35, 50, 70), (16, 24, 32, 48, 64))
     yield CompressibleApproach(scene=RayleighBenard(ra=1e4))
     yield from spam(10000.0, 50, variant=VARIANTS["printed-fixed-rows"], keep="all")

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from continuum import boussinesq
+from continuum import boussinesq, pypde
 from continuum.compressible import Solution, run, steady_on
 from continuum.compressible_fields import initial, interpolate
 from continuum.scene import RayleighBenard
@@ -125,3 +125,44 @@ def boussinesq_point(method: str, variant: str, ra: float, pr: float) -> dict:
     return {"method": method, "variant": variant, "eos": "", "transport": "", "sides": "periodic", "ra": ra, "pr": pr,
             "particles": 0, "seed": 0, "ke_err": 0.0, "ke_field_err": 0.0, "ke_fluctuation": 0.0, "free_fall": 1.0,
             "mass_drift": 0.0, "converged": True, "dt": 0.0, "t_end": 0.0, "threads": 1}
+
+
+@dataclass(frozen=True, kw_only=True)
+class PypdeSteady(Case):
+    """Steady states of py-pde's Boussinesq layer (`scene` None) or compressible gas on ever finer grids."""
+    ra: float
+    pr: float = 1.0
+    scene: RayleighBenard | None = None
+    sizes: tuple[int, ...] = (16, 24, 32)
+
+    @property
+    def cost(self) -> float:
+        return sum(5 + 6e-5*rows**3 for rows in self.sizes)
+
+    @property
+    def label(self) -> str:
+        return f"py-pde {'boussinesq' if self.scene is None else 'gas'} Ra {self.ra:g}, Pr {self.pr:g}, rows {self.sizes}"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        rows, last = [], None
+        for number, size in enumerate(self.sizes):
+            last = self._solve(size, {} if last is None else {"start": last})
+            rows.append(self._row(last))
+            report((number + 1)/len(self.sizes))
+        return Outcome({"kinetic_energy": rows})
+
+    def _solve(self, rows: int, start: dict) -> pypde.Solution:
+        if self.scene is None:
+            return pypde.solve_boussinesq(ra=self.ra, pr=self.pr, rows=rows, **start)
+        return pypde.solve_gas(self.scene, rows, **start)
+
+    def _row(self, solution: pypde.Solution) -> dict:
+        point = boussinesq_point("pypde-boussinesq", "vorticity", self.ra, self.pr)
+        if self.scene is not None:
+            point |= {"method": "pypde-compressible", "variant": "conservative", **scene_columns(self.scene),
+                      "free_fall": self.scene.free_fall}
+        seen = solution.nusselt
+        return {**point, "resolution": solution.rows, "ke": solution.ke, "ke_err": 2*solution.ke_err, "ke_field": solution.ke,
+                "ke_field_err": 2*solution.ke_err, "nu": solution.nu, "nu_err": abs(seen.bottom - seen.top), "rolls": solution.rolls,
+                "mass_drift": solution.mass_drift, "converged": solution.converged, "dt": solution.dt, "steps": solution.steps,
+                "t_end": solution.t, "cpu_s": solution.cpu_s, "compile_s": solution.compile_s}
