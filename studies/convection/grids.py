@@ -80,7 +80,8 @@ class CompressibleApproach(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         scene = self.scene
-        solution = run(scene, self.rows, until=Time(self.t_end, 300), start=initial(scene, self.rows, START_ENERGY), progress=report)
+        start = initial(scene, self.rows, START_ENERGY)
+        solution = run(scene, self.rows, until=Time(self.t_end, 300), start=start, progress=report)
         point = {"method": "compressible", "variant": "flux-form", **scene_columns(scene), "resolution": self.rows, "seed": 0}
         return Outcome({"history": [{**point, "t": t, "t_viscous": t/scene.viscous_time, "ke": ke, "ke_field": ke}
                                     for t, ke in zip(solution.series.t, solution.series.ke, strict=True)]})
@@ -163,6 +164,6 @@ class PypdeSteady(Case):
                       "free_fall": self.scene.free_fall}
         seen = solution.nusselt
         return {**point, "resolution": solution.rows, "ke": solution.ke, "ke_err": 2*solution.ke_err, "ke_field": solution.ke,
-                "ke_field_err": 2*solution.ke_err, "nu": solution.nu, "nu_err": abs(seen.bottom - seen.top), "rolls": solution.rolls,
-                "mass_drift": solution.mass_drift, "converged": solution.converged, "dt": solution.dt, "steps": solution.steps,
+                "ke_field_err": 2*solution.ke_err, "nu": solution.nu, "nu_err": abs(seen.bottom - seen.top),
+                "rolls": solution.rolls, "mass_drift": solution.mass_drift, "converged": solution.converged, "dt": solution.dt, "steps": solution.steps,
                 "t_end": solution.t, "cpu_s": solution.cpu_s, "compile_s": solution.compile_s}
