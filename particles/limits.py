@@ -8,7 +8,7 @@ Linearised about rest at uniform rho and e, with p = P/rho^2, S(k) = sum_r grad 
 
 where k2 stands for the wave number squared: |m S/rho|^2 in nested sums, (2 m/rho) sum_r (-w'/r)(1 - cos k.r) in direct
 ones. Sound is in S, the stiffness of pairs in D. Walls and gravity are left out. Particles off the lattice oscillate
-faster: by up to a quarter at complete disorder, 1 to 20 % once they have settled.
+faster: by 1 (Wendland C2), 10 (Lucy) or 21 % (B-spline) once they have settled, by up to 40 % where they lie at random.
 """
 from functools import cache
 from typing import Any, NamedTuple
@@ -38,7 +38,7 @@ def step_limit(method: Spam, e: Any, rho: float = 1.0) -> float:
     """
     check_state(method.eos, rho, e)
     symbols = lattice_sums(method.weight, method.m, rho, zone(np.sqrt(method.m/rho)))
-    return min(_largest_step(waves(method, symbols, float(extreme))) for extreme in {np.min(e), np.max(e)})
+    return min(largest_step(waves(method, symbols, float(extreme))) for extreme in {np.min(e), np.max(e)})
 
 
 def zone(a: float, points: int = 33) -> np.ndarray:
@@ -99,7 +99,7 @@ def _thermal_slopes(eos, rho: float, e: float) -> tuple[float, float]:
             (temperature(eos, rho, e + d) - temperature(eos, rho, e - d))/(2*d))
 
 
-def _largest_step(eigenvalues: np.ndarray) -> float:
+def largest_step(eigenvalues: np.ndarray) -> float:
     """The step that brings the first eigenvalue to the edge of RK4's region; what grows by itself counts as neutral."""
     decay, omega = np.maximum(-eigenvalues.real, 0), np.abs(eigenvalues.imag)
     size = np.hypot(decay, omega)
