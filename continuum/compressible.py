@@ -27,7 +27,7 @@ from continuum.compressible_fields import (
     wall_flux,
 )
 from continuum.compressible_loop import FIELDS, RHO, VX, VY, Box, E, FluxForm, advance
-from continuum.fluid import check_state, conductivity, sound_speed, temperature, valid, viscosity
+from continuum.fluid import check_state, conductivity, pressure, pressure_slopes, temperature, valid, viscosity
 from continuum.scene import Periodic
 from continuum.steady import Steady
 
@@ -97,13 +97,21 @@ class Limits(NamedTuple):
 
 
 def limits(scene, S: np.ndarray) -> Limits:
-    """From the largest sound speed, velocity and diffusivity; compact differences see wave numbers to 2/h."""
+    """From the fastest wave and the largest diffusivity; compact differences see wave numbers to 2/h."""
     h, rho, (vx, vy, e) = scene.L/(S.shape[1] - 2), node_densities(S), (S[f, 1:, 1:] for f in (VX, VY, E))
     T = temperature(scene.eos, rho, e)
     T_e = (temperature(scene.eos, rho, e + 1e-6) - T)/1e-6
     spread = np.maximum(viscosity(scene.law, rho, T), conductivity(scene.law, rho, T)*T_e)/rho
-    fast = 2*sound_speed(scene.eos, rho, e) + np.abs(vx) + np.abs(vy)
+    fast = 2*sound_of_grid(scene.eos, rho, e) + np.abs(vx) + np.abs(vy)
     return Limits(RK4_SOUND*h/float(np.max(fast)), RK4_DECAY*h**2/(4*float(np.max(spread))))
+
+
+def sound_of_grid(eos, rho, e):
+    """Largest omega h/2: omega^2 = (4/h^2) s (P_rho + (1 - s) P P_e/rho^2), 0 < s < 1, e being averaged to cells."""
+    a, b = pressure_slopes(eos, rho, e)
+    b = b*pressure(eos, rho, e)/rho**2
+    inside = np.where(b > a, b, a)  # the maximum over s lies inside if b > a, else at s = 1
+    return (a + inside)/(2*np.sqrt(inside))
 
 
 def choose_step(scene, S: np.ndarray, dt: float | None) -> float:

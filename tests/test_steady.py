@@ -1,0 +1,68 @@
+"""When a run stops: what is left of a decay is known before one difference is small."""
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from continuum.steady import Steady, Time, left
+
+SCENE = SimpleNamespace(viscous_time=100.0)
+
+
+def stopped(rule, ke_of_t):
+    """Samples until the rule stops, and their last time in units of L^2/nu."""
+    ke = [ke_of_t(0.0)]
+    while not rule.done(SCENE, ke):
+        ke.append(ke_of_t(len(ke)*rule.interval(SCENE)/SCENE.viscous_time))
+    return np.array(ke), (len(ke) - 1)*rule.interval(SCENE)/SCENE.viscous_time
+
+
+@pytest.mark.parametrize("ratio", [0.5, 0.99, -0.7])
+def test_what_is_left_of_a_geometric_decay(ratio):
+    means = 2 + ratio**np.arange(10)
+    assert left(means) == pytest.approx(2 - means[-1], rel=1e-9)  # differences of numbers of order 1
+
+
+def test_nothing_is_known_of_what_does_not_decay():
+    assert left(np.array([1.0, 2.0])) == np.inf
+    assert left(np.array([1.0, 2.0, 3.0])) == np.inf
+    assert left(np.array([1.0, 2.0, 4.0])) == np.inf
+
+
+@pytest.mark.parametrize("slow", [0.3, 3.0])
+@pytest.mark.parametrize("sound", [0.0, 1e-3])
+def test_a_decay_is_followed_to_its_end(slow, sound):
+    """Also where one difference of blocks is thirty times smaller than what is left, and sound rides on K."""
+    rule = Steady(rtol=1e-4)
+    ke, t = stopped(rule, lambda t: 1 + np.exp(-t/slow) + sound*np.exp(-5*t)*np.sin(2000*t))
+    value, error = rule.estimate(ke)
+    assert rule.settled(ke) and rule.fraction(SCENE, ke) == 1
+    assert np.exp(-t/slow) < 2e-4  # the mean of the last block is half a block older than its end
+    assert abs(value - 1) < 1e-4 and abs(value - 1) < 2*error + 1e-9
+
+
+def test_an_oscillation_does_not_count_as_steady():
+    rule = Steady(longest=5)
+    ke, t = stopped(rule, lambda t: 1 + 0.1*np.sin(2*np.pi*t))
+    value, error = rule.estimate(ke)
+    assert not rule.settled(ke) and t == pytest.approx(5, rel=0.05)
+    assert value == pytest.approx(1, abs=0.05) and error > 0.05  # half a period may be missing of the mean
+
+
+def test_a_flow_that_dies_ends_at_zero():
+    ke, _ = stopped(Steady(), lambda t: 1e-3*np.exp(-3*t))
+    assert Steady().estimate(ke)[0] == pytest.approx(0, abs=1e-9)
+
+
+def test_a_given_time():
+    ke, t = stopped(Time(50.0, samples=10), lambda t: t)
+    assert len(ke) == 11 and t == pytest.approx(0.5, rel=1e-12)
+    assert Time(50.0, samples=10).fraction(SCENE, ke) == 1 and not Time(50.0).settled(ke)
+    assert Time(50.0, samples=10).estimate(ke) == (pytest.approx(0.5), pytest.approx(0.05))
+
+
+def test_bad_rules_are_refused():
+    with pytest.raises(ValueError, match="t_end"):
+        Time(0.0)
+    with pytest.raises(ValueError, match="rtol"):
+        Steady(rtol=0.0)
