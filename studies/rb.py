@@ -12,6 +12,7 @@ from continuum.scene import Periodic, RayleighBenard, Walls
 from studies.convection import tables
 from studies.convection.cost import CompressibleStep, SpamStep
 from studies.convection.derive import derive
+from studies.convection.figures import figures
 from studies.convection.grids import BoussinesqSteady, CompressibleApproach, CompressibleSteady, PypdeSteady
 from studies.convection.spam import PRINTED, VARIANTS, SpamRun, Variant
 from studies.kit.case import Case
@@ -107,7 +108,7 @@ def fine() -> Iterator[Case]:
         yield from spam(ra, 100, t_end=9000.0, mean_from=4000.0)
 
 
-STUDY = Study(name="rb", cases=cases, tables=tables.ALL, derive=derive)
+STUDY = Study(name="rb", cases=cases, tables=tables.ALL, derive=derive, figures=figures)
 
 if __name__ == "__main__":
     main(STUDY)

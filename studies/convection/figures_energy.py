@@ -1,4 +1,5 @@
 """Kinetic energy against Ra^-1/2 and against time: the README's figure and KHP95's Figs 5, 6, 8."""
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -12,10 +13,13 @@ from studies.convection.pick import (
     ENERGY,
     GRID,
     KIND,
+    LABELS,
     LAYER,
     RA_C,
     SPAM,
+    STILL,
     finest,
+    groups,
     nearest,
     particles,
     ra_axis,
@@ -26,12 +30,13 @@ from studies.convection.pick import (
 from studies.kit.figure import figure
 from studies.kit.table import Tables
 
-ENERGIES = (("kp", "ke", r"$K_p$, all particles"), ("kg", "ke_field", r"$K_g$, smoothed field"))
+ENERGIES = (("kp", "ke", LABELS["kp"]), ("kg", "ke_field", LABELS["kg"]))
 
 
 def main(tables: Tables) -> Figure | None:
     """Grid, straight line, Boussinesq, particles and the printed numbers in one picture."""
     limit, spam = reference(tables, **LAYER), particles(tables, **LAYER)
+    spam = spam[spam["particles"] <= 5000]   # as many as KHP95 had, and fewer
     if limit.empty and spam.empty:
         return None
     page, axes = figure(width=7, height=4.6)
@@ -40,9 +45,8 @@ def main(tables: Tables) -> Figure | None:
     boussinesq(axes, tables)
     by_resolution(axes, spam)
     printed_numbers(axes)
-    axes.set(title="Convection of an ideal gas: are smooth particles on the grid's line?", ylabel=ENERGY, ylim=(0, None))
-    ra_axis(axes)
-    axes.legend(loc="upper right")
+    axes.set(title="Convection of an ideal gas: are smooth particles on the grid's line?", ylabel=ENERGY)
+    finish(axes)
     return page
 
 
@@ -51,7 +55,7 @@ def grid(axes: Axes, limit: pd.DataFrame, label: str, **more: Any) -> None:
     moving, still = limit[limit["ke"] > STILL], limit[limit["ke"] <= STILL]
     if len(moving):
         axes.errorbar(moving["ra"]**-0.5, moving["ke"], moving["ke_err"], label=label, **KIND["grid"] | more)
-        axes.plot(still["ra"]**-0.5, still["ke"], **KIND["grid"] | more | {"linestyle": "none"}, clip_on=False)
+        axes.plot(still["ra"]**-0.5, still["ke"], **KIND["grid"] | more | {"linestyle": "none"})
 
 
 def fitted_line(axes: Axes, limit: pd.DataFrame) -> None:
@@ -60,6 +64,9 @@ def fitted_line(axes: Axes, limit: pd.DataFrame) -> None:
     if found is None:
         return
     x = np.array([(4*RA_C)**-0.5, -found[1]/found[0]])
+    axes.axvline(RA_C**-0.5, color="0.4", lw=0.8, marker="", ls="--", zorder=0)
+    axes.annotate(f"onset, linear theory: {RA_C:.0f}", (RA_C**-0.5, 0.3), xycoords=("data", "axes fraction"),
+                  xytext=(3, 0), textcoords="offset points", rotation=90, ha="left", va="center", fontsize=8)
     axes.plot(x, np.polyval(found, x), color="0.55", lw=5, alpha=0.5, marker="", ls="-", zorder=0,
               label=r"line fitted from Ra$_c$ to 4 Ra$_c$, dotted beyond")
     beyond = np.array([limit["ra"].max()**-0.5, x[0]])
@@ -80,9 +87,9 @@ def by_resolution(axes: Axes, spam: pd.DataFrame) -> None:
     for kind, column, label in ENERGIES:
         for number, size in enumerate(sizes):
             group = spam[spam["resolution"] == size]
-            axes.errorbar(group["ra"]**-0.5 + 1.5e-4*number, group[column], group[f"{column}_err"],
-                          label=f"{label}: {told(spam, sizes)}" if number == 0 else "", zorder=4 - number,
-                          **KIND[kind] | {"linestyle": "none", "markersize": 7 - 1.5*number, "alpha": max(0.35, 1 - 0.3*number)})
+            style = {"linestyle": "none", "markersize": 7 - 1.5*number, "alpha": max(0.35, 1 - 0.3*number)}
+            axes.errorbar(group["ra"]**-0.5 + 2.5e-4*number, group[column], group[f"{column}_err"], zorder=4 - number,
+                          label=f"{label}: {told(spam, sizes)}" if number == 0 else "", **KIND[kind] | style)
 
 
 def told(spam: pd.DataFrame, sizes: list[float]) -> str:
@@ -95,8 +102,8 @@ def printed_numbers(axes: Axes) -> None:
     """KHP95's four numbers."""
     for end, marker, label in (("", "o", "KHP95, grid, printed"), ("-spam", "D", "KHP95, 5000 particles, printed")):
         found = [published(f"khp95-ke-{ra}{end}") for ra in (5000, 10000)]
-        axes.errorbar([5000**-0.5, 10000**-0.5], [f.value for f in found], [f.uncertainty for f in found], marker=marker,
-                      label=label, **KIND["khp"])
+        axes.errorbar([5000**-0.5, 10000**-0.5], [f.value for f in found], [f.uncertainty for f in found],
+                      marker=marker, label=label, **KIND["khp"])
 
 
 def fig5(tables: Tables) -> Figure | None:
@@ -135,7 +142,9 @@ def pair(axes: Axes, tables: Tables, scene: dict[str, Any], name: str, **more: A
 
 
 def finish(axes: Axes) -> None:
-    axes.set_ylim(0, None)
+    """Both axes and the legend; a little room below zero, where motion has died out."""
+    top = axes.get_ylim()[1]
+    axes.set_ylim(-0.02*top, top)
     ra_axis(axes)
     axes.legend(loc="upper right")
 
@@ -161,25 +170,27 @@ def fig8(tables: Tables) -> Figure | None:
     page, axes = figure(width=7, height=4.2)
     unit = viscous_time(spam if len(spam) else cells)
     for kind, column, label in ENERGIES:
-        for number, (_, run) in enumerate(spam.groupby("seed")):
+        for number, (_, run) in enumerate(groups(spam, "seed")):
+            style = {"marker": "", "lw": 0.9, "alpha": 0.8, "linestyle": ("-", "--", ":")[number % 3]}
             axes.plot(run["t_viscous"]*unit, run[column], label=f"{label}, one line a seed" if number == 0 else "",
-                      **KIND[kind] | {"marker": "", "lw": 0.9, "alpha": 0.8, "linestyle": ("-", "--", ":")[number % 3]})
-    axes.plot(cells["t_viscous"]*unit, cells["ke"], label="compressible grid", **KIND["grid"] | {"marker": "", "lw": 2.2})
+                      **KIND[kind] | style)
+    axes.plot(cells["t_viscous"]*unit, cells["ke"], label="compressible grid",
+              **KIND["grid"] | {"marker": "", "lw": 2.2})
     time_axes(axes, unit)
     ra = max([*spam["ra"], *cells["ra"]])
-    axes.set(title=f"Approach to steady rolls at Ra = {ra:g}, grid and particles    [KHP95, Fig. 8]", ylabel=ENERGY, ylim=(0, None))
+    axes.set(title=f"Approach to steady rolls at Ra = {ra:g}, grid and particles    [KHP95, Fig. 8]",
+             ylabel=ENERGY, ylim=(0, None))
     axes.legend(loc="upper right")
     return page
 
 
 def viscous_time(history: pd.DataFrame) -> float:
     """L^2/eta in units of time, from any row after the start."""
-    last = history.loc[history["t_viscous"].idxmax()]
-    return last["t"]/last["t_viscous"]
+    return float(history["t"].max()/history["t_viscous"].max())
 
 
 def time_axes(axes: Axes, unit: float) -> None:
-    top = axes.secondary_xaxis("top", functions=(lambda t: t/unit, lambda t: t*unit))
+    top = axes.secondary_xaxis("top", functions=(partial(np.multiply, 1/unit), partial(np.multiply, unit)))
     top.set_xlabel(r"time  [$L^2/\eta$]")
     axes.set_xlabel(r"time  [$(m\sigma^2/\varepsilon)^{1/2}$]")
     axes.set_xlim(0, None)

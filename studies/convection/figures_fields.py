@@ -5,7 +5,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
+from continuum.published import published
 from studies.convection.pick import GRID, KIND, LAYER, SPAM, finest, nearest, rows
 from studies.kit.figure import figure
 from studies.kit.table import Tables
@@ -25,15 +27,15 @@ def fig2_3(tables: Tables) -> Figure | None:
         return None
     page, all_axes = figure(len(panels), 1, width=9, height=5.2, squeeze=False)
     for axes, (run, title) in zip(all_axes[:, 0], panels):
-        arrows(axes, fluid(run))
+        arrows(axes, fluid(run), arrow_scale(fluid(run)))
         behind_plates(axes, run)
         box(axes, run, f"{heading(run)}: {title}")
     return page
 
 
-def one_run(tables: Tables, name: str, ra: float = 1e4, **wanted: Any) -> pd.DataFrame:
-    """Rows of the finest run nearest to Ra, its first seed."""
-    run = finest(nearest(rows(tables, name, **wanted), ra))
+def one_run(tables: Tables, name: str, **wanted: Any) -> pd.DataFrame:
+    """Rows of the finest run nearest to Ra = 10 000, its first seed."""
+    run = finest(nearest(rows(tables, name, **wanted)))
     return run[run["seed"] == run["seed"].min()]
 
 
@@ -46,10 +48,15 @@ def heading(run: pd.DataFrame) -> str:
     return f"{len(fluid(run))} particles, Ra = {run['ra'].iloc[0]:g}"
 
 
-def arrows(axes: Axes, at: pd.DataFrame, color: str = "black") -> None:
-    """Velocities; the fastest 1 % are longer than two spacings."""
-    speed, spacing = np.quantile(np.hypot(at["vx"], at["vy"]), 0.99), (np.ptp(at["x"])*np.ptp(at["y"])/len(at))**0.5
-    axes.quiver(at["x"], at["y"], at["vx"], at["vy"], color=color, angles="xy", scale_units="xy", scale=speed/(2*spacing),
+def arrow_scale(at: pd.DataFrame) -> float:
+    """Velocity of an arrow as long as L: the fastest 1 % of the particles have arrows longer than 2.5 spacings."""
+    spacing = (np.ptp(at["x"])*np.ptp(at["y"])/len(at))**0.5
+    return float(np.quantile(np.hypot(at["vx"], at["vy"]), 0.99)/(2.5*spacing))
+
+
+def arrows(axes: Axes, at: pd.DataFrame, scale: float) -> None:
+    """Velocities."""
+    axes.quiver(at["x"], at["y"], at["vx"], at["vy"], color="black", angles="xy", scale_units="xy", scale=scale,
                 width=0.0012, headwidth=4, headlength=5, headaxislength=4.5)
 
 
@@ -57,7 +64,8 @@ def behind_plates(axes: Axes, run: pd.DataFrame) -> None:
     """Open circles at fixed and image particles; copies of the periodic sides are left out."""
     half = half_width(run)
     others = run[(run["kind"] != "fluid") & (run["y"].abs() > 0.5) & (run["x"].abs() <= half)]
-    axes.plot(others["x"], others["y"], "o", markersize=2.2, markerfacecolor="none", markeredgewidth=0.4, color="#D55E00")
+    axes.plot(others["x"], others["y"], "o", markersize=2.2, markerfacecolor="none", markeredgewidth=0.4,
+              color="#D55E00")
 
 
 def half_width(run: pd.DataFrame) -> float:
@@ -82,7 +90,7 @@ def fig7(tables: Tables) -> Figure | None:
     if run.empty:
         return None
     page, axes = figure(width=7, height=3.9)
-    arrows(axes, fluid(run))
+    arrows(axes, fluid(run), arrow_scale(fluid(run)))
     box(axes, run, f"{heading(run)}, van der Waals gas: rolls at one instant    [KHP95, Fig. 7]")
     return page
 
@@ -106,14 +114,14 @@ def fig9(tables: Tables) -> Figure | None:
     for axes in all_axes[:, 0]:
         axes.set_ylabel("$y/L$")
     ra = sides[0][0]["ra"].iloc[0]
-    page.suptitle(f"Steady density and temperature at Ra = {ra:g}, same levels left and right    [KHP95, Fig. 9]", fontsize=10)
+    page.suptitle(f"Steady density and temperature at Ra = {ra:g}, same levels left and right    [KHP95, Fig. 9]",
+                  fontsize=10)
     return page
 
 
 def common_levels(columns: list[pd.Series]) -> np.ndarray:
-    """About a dozen levels over the range of both."""
-    low, high = min(c.min() for c in columns), max(c.max() for c in columns)
-    return np.linspace(low, high, 13)
+    """About a dozen round levels over the range of both."""
+    return np.asarray(MaxNLocator(14).tick_values(min(c.min() for c in columns), max(c.max() for c in columns)))
 
 
 def on_grid(run: pd.DataFrame, column: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -138,10 +146,13 @@ def fig12(tables: Tables) -> Figure | None:
     if run.empty or field.empty:
         return None
     page, (upper, lower) = figure(2, 1, width=9, height=4.8)
-    arrows(upper, fluid(run))
+    scale = arrow_scale(fluid(run))
+    arrows(upper, fluid(run), scale)
     box(upper, run, f"{heading(run)}, at one instant    [KHP95, Fig. 12]")
-    arrows(lower, field)
-    box(lower, field, f"smoothed velocity at {len(field)} places, mean over the second half of the run")
+    arrows(lower, field, scale)
+    box(lower, field, f"smoothed velocity at {len(field)} places, mean over the second half of the run, same scale")
+    for axes in (upper, lower):
+        axes.set_ylim(-0.54, 0.54)
     return page
 
 
@@ -157,7 +168,8 @@ def profiles(tables: Tables) -> Figure | None:
                 mean = run.groupby("y")[column].mean()
                 axes.plot(mean, mean.index, label=name, **KIND[kind] | {"markersize": 3.5})
         axes.set_xlabel(f"horizontal mean {label}")
-    both[0].plot([1.5, 0.5], [-0.5, 0.5], color="0.6", marker="", ls=":", label="conduction")
+    hot, cold = (published(f"khp95-temperature-{plate}").value for plate in ("hot", "cold"))
+    both[0].plot([hot, cold], [-0.5, 0.5], color="0.6", marker="", ls=":", label="conduction")
     both[1].axvline(1, color="0.6", marker="", ls=":")
     both[0].set(ylabel="$y/L$", ylim=(-0.5, 0.5))
     both[0].legend()

@@ -24,7 +24,9 @@ STILL = 1e-6
 #: the same kind of row looks the same in every figure
 KIND = {"grid": {**look(0), "color": "black"}, "kp": look(1), "kg": {**look(2), "color": "#0072B2"},
         "boussinesq": {**look(3), "linestyle": "none"}, "pypde": {**look(4), "linestyle": "none"},
-        "khp": {"color": "black", "linestyle": "none", "markerfacecolor": "white", "markersize": 8, "zorder": 5}}
+        "khp": {"color": "black", "linestyle": "none", "markerfacecolor": "none", "markersize": 9,
+                "markeredgewidth": 1.4, "zorder": 5}}
+LABELS = {"kp": "$K_p$, all particles", "kg": "$K_g$, smoothed field"}
 ENERGY = r"kinetic energy per mass $K$  [$\varepsilon/m$]"
 
 
@@ -32,8 +34,10 @@ def rows(tables: Tables, name: str, **wanted: Any) -> pd.DataFrame:
     """Rows of a table where each column has the wanted value; none if there is no such table."""
     frame = tables.get(name)
     if frame is None:
-        return pd.DataFrame(columns=COLUMNS[name])
-    return frame[np.logical_and.reduce([np.ones(len(frame), bool), *(frame[key] == value for key, value in wanted.items())])]
+        return pd.DataFrame(columns=list(COLUMNS[name]))
+    for column, value in wanted.items():
+        frame = frame[frame[column] == value]
+    return frame
 
 
 def reference(tables: Tables, **scene: Any) -> pd.DataFrame:
@@ -44,6 +48,11 @@ def reference(tables: Tables, **scene: Any) -> pd.DataFrame:
 def particles(tables: Tables, **scene: Any) -> pd.DataFrame:
     """The printed scheme, means over seeds, by resolution and Ra."""
     return rows(tables, "means", **(SPAM | scene)).sort_values(["resolution", "ra"])
+
+
+def groups(frame: pd.DataFrame, by: str | list[str]) -> list[tuple[Any, pd.DataFrame]]:
+    """(value, its rows), values ascending."""
+    return list(frame.groupby(by))
 
 
 def finest(frame: pd.DataFrame) -> pd.DataFrame:
@@ -57,10 +66,10 @@ def nearest(frame: pd.DataFrame, ra: float = 1e4) -> pd.DataFrame:
     return frame[frame["ra"] == there[np.argmin(np.abs(there - ra))]] if len(there) else frame
 
 
-def over_seeds(frame: pd.DataFrame, by: str | list[str], value: str) -> pd.DataFrame:
+def over_seeds(frame: pd.DataFrame, by: list[str], value: str) -> pd.DataFrame:
     """Mean and `err` over seeds of a column that has no error of its own: the scatter between seeds."""
-    found = [(*np.atleast_1d(key), *combine([(x, 0.0) for x in group[value]])) for key, group in frame.groupby(by)]
-    return pd.DataFrame(found, columns=[*([by] if isinstance(by, str) else by), value, "err"]).infer_objects()
+    found = [(*key, *combine([(x, 0.0) for x in group[value]])) for key, group in groups(frame, by)]
+    return pd.DataFrame(found, columns=[*by, value, "err"])
 
 
 def errors_of_k(tables: Tables, **scene: Any) -> pd.DataFrame:
@@ -80,7 +89,7 @@ def errors_of_k(tables: Tables, **scene: Any) -> pd.DataFrame:
 
 
 def straight_line(limit: pd.DataFrame) -> np.ndarray | None:
-    """(slope, constant) of K against Ra^-1/2 between Ra_c and 4 Ra_c, None for fewer than two rows    [KHP95, Sec. V]"""
+    """(slope, constant) of K over Ra^-1/2 from Ra_c to 4 Ra_c, None for fewer than two rows    [KHP95, Sec. V]"""
     inside = limit[(limit["ra"] > RA_C) & (limit["ra"] <= 4*RA_C) & (limit["ke"] > STILL)]
     return np.polyfit(inside["ra"]**-0.5, inside["ke"], 1) if len(inside) > 1 else None
 
