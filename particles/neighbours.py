@@ -107,7 +107,7 @@ def make_lists(team: Team, cells: Cells, x: np.ndarray, y: np.ndarray, reach: fl
 
 def _density(cells: Cells) -> float:
     """Points per area of the cells that hold any."""
-    occupied = np.count_nonzero(np.diff(cells.start))
+    occupied = int(np.count_nonzero(np.diff(cells.start)))
     return len(cells.x)/max(occupied, 1)/cells.side**2
 
 
