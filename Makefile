@@ -44,7 +44,7 @@ notebooks: .venv/ready  ## run every notebook in results/
 	else echo 'no notebooks in results/ yet'; fi
 
 bench: .venv/ready-bench  ## speed, beside public codes, in one run
-	LD_LIBRARY_PATH=$(CURDIR)/.venv/lib:$$LD_LIBRARY_PATH $(run) -m bench $(ARGS)
+	$(run) -m bench.spam_speed $(ARGS)
 
 clean:  ## remove caches; .venv and finished cases (results/raw) stay
 	rm -rf .numba_cache .pytest_cache .mypy_cache .ruff_cache .benchmarks

@@ -1,0 +1,1 @@
+"""Speed, beside public codes, in one run."""
