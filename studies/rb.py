@@ -101,7 +101,8 @@ def fine() -> Iterator[Case]:
     for variant in VARIANTS.values():
         for ra in (5000.0, 10000.0):
             for rows in (25, 50):
-                if variant != PRINTED:
+                in_paper = variant.name == "printed-fixed-rows" and (ra, rows) == (10000.0, 50)
+                if variant != PRINTED and not in_paper:
                     yield from spam(ra, rows, variant=variant)
     for ra in (5000.0, 10000.0):
         yield from spam(ra, 70, t_end=6300.0, mean_from=2800.0)
