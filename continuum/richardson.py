@@ -6,6 +6,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 ORDERS = 0.1, 12.0      # between which an observed order is looked for
+NEAR = 0.25             # of the assumed order: the grids are fine enough for it
 
 
 class Extrapolated(NamedTuple):
@@ -21,15 +22,19 @@ def richardson(values: Sequence[float], sizes: Sequence[float], *, order: float 
 
     The three finest grids give f + a h^order + b h^(order + step); centred differences have step = 2, most other
     schemes 1. The error is the larger of the distances to two other limits: that of the two finest grids with
-    a alone, and that of all three with the order they show. Values that do not approach each other have the
-    finest one for their limit and their spread for its error.
+    a alone, and that of the two with the order they show. Where that order is more than NEAR off, its own limit
+    is given, with the whole distance to the finest grid for its error; where there is none, the finest value
+    with twice the spread of all three.
     """
     f, h = finest(values, sizes)
     seen = observed_order(f, h)
     if np.isnan(seen):
-        return Extrapolated(order=seen, limit=float(f[-1]), error=float(np.ptp(f)))
+        return Extrapolated(order=seen, limit=float(f[-1]), error=2*float(np.ptp(f)))
+    own = eliminate(f[1:], h[1:], seen)
+    if abs(seen - order) > NEAR:
+        return Extrapolated(order=seen, limit=own, error=abs(own - float(f[-1])))
     limit = eliminate(f, h, order, order + step)
-    others = [eliminate(f[1:], h[1:], p) for p in (order, seen)]
+    others = own, eliminate(f[1:], h[1:], order)
     return Extrapolated(order=seen, limit=limit, error=max(abs(limit - other) for other in others))
 
 

@@ -1,31 +1,49 @@
-"""Extrapolation gives back what a known error law was made of."""
+"""Extrapolation to h = 0: exact on what it assumes, honest on what it does not."""
 import numpy as np
 import pytest
 
 from continuum.richardson import richardson
 
-
-@pytest.mark.parametrize("order", [1.0, 2.0, 4.0])
-@pytest.mark.parametrize("sizes", [(16, 24, 32), (10, 13, 40), (48, 32, 24, 16)])
-def test_finds_order_and_limit_of_a_pure_power(order, sizes):
-    found = richardson([3.0 + 5.0*n**-order for n in sizes], sizes)
-    assert found.order == pytest.approx(order, abs=1e-7)     # brentq's tolerance times the differences' cancellation
-    assert found.limit == pytest.approx(3.0, abs=1e-9)
+SIZES = [20, 30, 48]    # no common ratio
 
 
-def test_error_covers_the_next_order():
-    # a second-order law with a fourth-order tail, as centred differences have
-    sizes = np.array([16, 24, 32, 48])
-    found = richardson(1 + 3/sizes**2 - 200/sizes**4, sizes)
-    assert abs(found.limit - 1) <= found.error
+def test_exact_for_two_terms_whatever_the_ratio_and_the_sequence():
+    values = [3 + 5/n**2 - 70/n**4 for n in SIZES]
+    for order in ([0, 1, 2], [2, 0, 1]):
+        result = richardson([values[i] for i in order], [SIZES[i] for i in order])
+        assert result.limit == pytest.approx(3, abs=1e-13)      # round-off of values near 3
 
 
-def test_no_order_where_values_swing():
-    found = richardson([1.0, 2.0, 1.5], [8, 16, 32])
-    assert np.isnan(found.order)
-    assert found.error == 0.5
+@pytest.mark.parametrize("p", [0.5, 1.0, 2.0, 4.0])
+def test_sees_the_order(p):
+    result = richardson([1 + 2/n**p for n in SIZES], SIZES)
+    assert result.order == pytest.approx(p, abs=1e-9)           # root finder's 1e-12, differences of 1e-5
 
 
-def test_refuses_two_grids():
-    with pytest.raises(ValueError, match="three grids"):
+@pytest.mark.parametrize("p", [1.0, 2.0, 3.0, 4.0])
+@pytest.mark.parametrize("step", [0.5, 1.0, 2.0])
+@pytest.mark.parametrize("b", [-4.0, 0.0, 4.0, 16.0])
+def test_error_covers_the_true_limit_also_where_order_and_step_are_not_the_assumed_ones(p, step, b):
+    """Below first order it need not: there values may turn round between the grids."""
+    result = richardson([1 + 2/n**p + b/n**(p + step) for n in SIZES], SIZES)
+    assert abs(result.limit - 1) <= result.error + 1e-14
+
+
+def test_only_the_three_finest_count():
+    values = [3 + 5/n**2 for n in SIZES]
+    assert richardson([99.0, *values], [8, *SIZES]) == richardson(values, SIZES)
+
+
+def test_values_that_do_not_converge_have_their_spread_for_error():
+    result = richardson([1.0, 2.0, 1.0], SIZES)
+    assert np.isnan(result.order) and result.limit == 1.0 and result.error == 2.0
+    assert richardson([2.0, 2.0, 2.0], SIZES).error == 0.0
+
+
+def test_refuses_too_few_and_broken_grids():
+    with pytest.raises(ValueError, match="three or more different sizes"):
         richardson([1.0, 2.0], [8, 16])
+    with pytest.raises(ValueError, match="three or more different sizes"):
+        richardson([1.0, 2.0, 3.0], [8, 16, 16])
+    with pytest.raises(ValueError, match="must be finite"):
+        richardson([1.0, 2.0, float("nan")], SIZES)

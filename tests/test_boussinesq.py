@@ -1,0 +1,388 @@
+"""The staggered Boussinesq solver: exact discrete laws, order, published cavities, agreement of its two drivers."""
+import numpy as np
+import pytest
+
+from continuum import linear
+from continuum.boussinesq import (
+    CAVITY,
+    CONDUCTING_SQUARE,
+    FREE_PLATES,
+    HALF_LAYER,
+    LAYER,
+    SQUARE,
+    Box,
+    Case,
+    Edges,
+    End,
+    NewtonFailed,
+    State,
+    Unstable,
+    growth_rates,
+    khp95,
+    rest,
+    roll,
+    steady,
+    transient,
+)
+from continuum.projection import Projection, change_left
+from continuum.richardson import richardson
+from continuum.spectral import solvers
+
+FREE_HALF = Box(width=1.3, plates=FREE_PLATES)
+CLOSED = {"half layer": HALF_LAYER, "free plates": FREE_HALF, "square": SQUARE, "conducting": CONDUCTING_SQUARE,
+          "cavity": CAVITY}
+BOXES = {**CLOSED, "layer": LAYER}
+every_box = pytest.mark.parametrize("box", BOXES.values(), ids=BOXES)
+every_closed_box = pytest.mark.parametrize("box", CLOSED.values(), ids=CLOSED)
+
+
+def random_state(case: Case) -> State:
+    """Noise without divergence, of size 1."""
+    mac, rng = case.mac, np.random.default_rng(7)
+    psi = rng.standard_normal(mac.curl.shape[1])*mac.x.h
+    return State(case=case, q=np.r_[mac.curl@psi, rng.standard_normal(case.rows*case.columns)])
+
+
+# --- exact laws of the discrete equations -----------------------------------------------------------------
+
+
+@every_box
+def test_advection_makes_neither_kinetic_energy_nor_temperature_variance(box):
+    case = Case(ra=1e4, pr=2, box=box, rows=16)
+    mac, state = case.mac, random_state(case)
+    assert np.max(np.abs(mac.div@state.q[:mac.ends[1]])) < 1e-12        # round-off of differences over h
+    for change in mac.split(state.q*(mac.D@((mac.A@state.q)*(mac.B@state.q)))):
+        assert np.sum(np.abs(change)) > 1
+        assert abs(np.sum(change)) < 1e-13*np.sum(np.abs(change))       # round-off, in u^2, v^2, T^2 each
+
+
+@every_box
+@pytest.mark.parametrize("unknown", range(4), ids=["u", "v", "T", "p"])
+def test_fast_solves_invert_the_assembled_operators(box, unknown):
+    case = Case(ra=1e4, pr=2, box=box, rows=12, columns=20)
+    mac, rng = case.mac, np.random.default_rng(3)
+    shape = [*mac.shapes, mac.shapes[2]][unknown]
+    if unknown < 3:
+        part = slice(*np.r_[0, mac.ends][unknown:unknown + 2])
+        lap, a, b = mac.lap[part, part], 1.0, -0.03
+    else:
+        lap, a, b = mac.div@mac.grad, 0.0, 1.0
+    f = rng.standard_normal(shape)
+    f -= f.mean()*(unknown == 3)
+    back = solvers(mac)[unknown]((a*f.ravel() + b*(lap@f.ravel())).reshape(shape), a, b)
+    assert back == pytest.approx(f, abs=1e-12)      # round-off times the condition of 20^2
+
+
+@pytest.mark.parametrize("pr", [0.3, 7.0])
+@pytest.mark.parametrize("box", [HALF_LAYER, FREE_HALF, SQUARE], ids=["half layer", "free plates", "square"])
+def test_five_ways_to_the_nusselt_number_agree_exactly(box, pr):
+    seen = steady(Case(ra=8000, pr=pr, box=box, rows=16)).observe()
+    assert seen.nu_bottom > 1.5
+    others = [seen.nu_top, seen.nu_convective, seen.nu_thermal, seen.nu_kinetic, seen.wall_power]
+    assert others == pytest.approx([seen.nu_bottom]*5, rel=1e-10)       # what Newton's last step leaves
+
+
+@every_closed_box
+def test_heat_and_work_balance_in_every_box(box):
+    seen = steady(Case(ra=3e4, pr=0.71, box=box, rows=16)).observe()
+    assert seen.nu_thermal == pytest.approx(seen.wall_power, rel=1e-10)     # what Newton's last step leaves
+    assert seen.nu_kinetic == pytest.approx(seen.nu_convective, rel=1e-10)
+
+
+def test_plate_gradient_agrees_with_a_one_sided_difference_to_its_truncation():
+    """Three points, not the half cell: they differ by h^2 T_yyy/6, whose mean over a plate is zero, and by h^3."""
+    gaps = []
+    for rows in (32, 64):
+        state = steady(Case(ra=1e4, pr=1, rows=rows))
+        T, h = state.parts[2].mean(axis=0), 1/rows
+        one_sided = (8*0.5 - 9*T[0] + T[1])/(3*h)
+        gaps.append(abs(one_sided - state.observe().nu_bottom))
+    assert gaps[0]/gaps[1] == pytest.approx(8, abs=0.5)     # next term is h^2 relative to it, and tens of times it
+
+
+def test_rates_of_change_are_those_of_the_equations_to_second_order():
+    """psi = sin(pi x) sin(pi y)^2, T = cos(pi x) sin(pi y)^2 + 1/2 - y: every term worked out by hand."""
+    errors = []
+    for rows in (32, 64):
+        case = Case(ra=500.0, pr=7.0, box=LAYER, rows=rows)
+        s = [lambda y, m=m: [np.sin(np.pi*y)**2, np.pi*np.sin(2*np.pi*y), 2*np.pi**2*np.cos(2*np.pi*y),
+                             -4*np.pi**3*np.sin(2*np.pi*y)][m] for m in range(4)]
+        points = [np.meshgrid(np.pi*x, y, indexing="ij") for x, y in case.mac.points]
+        (ux, uy), (vx, vy), (Tx, Ty) = points
+        u, v = np.sin(ux)*s[1](uy), -np.pi*np.cos(vx)*s[0](vy)
+        T = np.cos(Tx)*s[0](Ty) + 0.5 - Ty
+        q = np.concatenate([f.ravel() for f in (u, v, T)])
+        flow = Projection(case, q)
+        found = case.mac.split(flow.diffuse(q) + flow.drive(q))
+        exact = (-np.pi*np.sin(ux)*np.cos(ux)*(s[1](uy)**2 - s[0](uy)*s[2](uy))
+                 + case.nu*np.sin(ux)*(s[3](uy) - np.pi**2*s[1](uy)),
+                 -np.pi**2*s[0](vy)*s[1](vy) - case.nu*np.pi*np.cos(vx)*(s[2](vy) - np.pi**2*s[0](vy))
+                 + np.cos(vx)*s[0](vy) + 0.5 - vy,
+                 np.pi*s[0](Ty)*s[1](Ty) - np.pi*np.cos(Tx)*s[0](Ty)
+                 + case.kappa*np.cos(Tx)*(s[2](Ty) - np.pi**2*s[0](Ty)))
+        # cells at a plate are of lower order one by one (not in the solution): compare inside
+        errors.append([np.max(np.abs(a - b)[:, 2:-2]) for a, b in zip(found, exact)])
+    assert np.divide(*errors) == pytest.approx([4, 4, 4], abs=0.3)      # next order is h^2 relative, and 30 times it
+
+
+def test_shear_decays_by_nu_and_heat_by_kappa():
+    """Both are exact solutions: u(y) alone, and T(y) alone, whose pressure carries its weight."""
+    case = Case(ra=900.0, pr=9.0, box=LAYER, rows=16)
+    mac = case.mac
+    u, v, T = rest(case).parts
+    start = State(case=case, q=np.concatenate([
+        (u + np.sin(np.pi*mac.y.centre)).ravel(), v.ravel(), (T + 0.1*np.sin(2*np.pi*mac.y.centre)).ravel()]))
+    end = transient(case, start, until=1.0, dt=0.01, within=0).state
+    for part, n, diffusivity, first in ((0, 1, 0.1, u), (2, 2, 1/90, T)):
+        rate = diffusivity*(2*mac.y.cells*np.sin(np.pi*n/2/mac.y.cells))**2
+        left = (end.parts[part] - first)/(start.parts[part] - first)
+        assert left == pytest.approx(np.exp(-rate), rel=(0.01*rate)**2)     # trapezoidal rule: rate^3 dt^2/12
+
+
+# --- accuracy ---------------------------------------------------------------------------------------------
+
+
+def k_and_nu(case: Case, sizes, rolls: int = 1) -> list:
+    """Extrapolated K and Nu (at the bottom, or at the left side of a cavity)."""
+    rows, start = [], None
+    for size in sizes:
+        start = steady(Case(ra=case.ra, pr=case.pr, box=case.box, rows=size), start)
+        seen = start.observe()
+        rows.append((seen.K, seen.nu_left if case.box is CAVITY else seen.nu_bottom))
+    return [richardson(values, sizes) for values in zip(*rows)]
+
+
+@pytest.mark.parametrize("ra, pr", [(2000, 7), (10_000, 0.71), (50_000, 1), (50_000, 2)])
+def test_second_order_and_extrapolated_to_1e_4(ra, pr):
+    """Against a finer triple; its own uncertainty is 100 times smaller than what is asked."""
+    case = Case(ra=ra, pr=pr)
+    for coarse, fine in zip(k_and_nu(case, (32, 48, 64)), k_and_nu(case, (48, 64, 96))):
+        assert abs(coarse.order - 2) < 0.1 and abs(fine.order - 2) < 0.1
+        assert fine.error < 1e-5*fine.limit
+        assert abs(coarse.limit - fine.limit) < 1e-4*fine.limit
+        assert abs(coarse.limit - fine.limit) < coarse.error + fine.error
+
+
+@pytest.mark.parametrize("ra, nusselt, sizes", [(1e3, 1.118, (24, 32, 48)), (1e4, 2.243, (24, 32, 48)),
+                                                (1e5, 4.519, (32, 48, 64)), (1e6, 8.800, (48, 64, 96))])
+def test_side_heated_cavity_of_de_vahl_davis(ra, nusselt, sizes):
+    nu = k_and_nu(Case(ra=ra, pr=0.71, box=CAVITY), sizes)[1]
+    assert nu.limit == pytest.approx(nusselt, rel=5e-3)         # the uncertainty of the published numbers
+    assert nu.error < 5e-3*nusselt
+
+
+@pytest.mark.parametrize("ra, nusselt", [(1e4, 2.158), (1e5, 3.910)])
+def test_square_heated_from_below(ra, nusselt):
+    nu = k_and_nu(Case(ra=ra, pr=0.71, box=SQUARE), (32, 48, 64))[1]
+    assert nu.limit == pytest.approx(nusselt, abs=6e-4)         # half a unit of the last figure printed, and ours
+
+
+@pytest.mark.parametrize("ra, pr", [(3000.0, 7.0), (1500.0, 0.5)])
+def test_growth_at_rest_converges_to_linear_theory(ra, pr):
+    """nu and kappa are not exchangeable between rigid plates: this sees either solver have them swapped."""
+    exact = linear.growth_rate(ra=ra, pr=pr, k=np.pi)
+    assert abs(exact - linear.growth_rate(ra=ra, pr=1/pr, k=np.pi)) > 5e-3
+    grown = [growth_rates(rest(Case(ra=ra, pr=pr, rows=rows)))[0].real for rows in (16, 24, 32)]
+    seen = richardson(grown, (16, 24, 32))
+    assert abs(seen.order - 2) < 0.1
+    assert seen.limit == pytest.approx(exact, abs=2e-5)         # h^6 terms of 16 rows; distance at 32 rows is 1e-3
+    assert seen.limit == pytest.approx(exact, abs=seen.error)
+
+
+# --- the two drivers --------------------------------------------------------------------------------------
+
+
+@every_closed_box
+def test_transient_ends_in_the_steady_state_of_newton(box):
+    case = Case(ra=8000, pr=0.71, box=box, rows=16)
+    series = transient(case, roll(case), within=1e-6)
+    state = steady(case)
+    assert series.settled and 0 <= series.left < 1e-6
+    assert series.K[-1] == pytest.approx(state.K, rel=2e-6)     # twice what the run says is left
+    assert series.state.q == pytest.approx(state.q, abs=1e-6)
+    assert series.state.rolls == state.rolls == 1
+
+
+def test_newton_forgets_a_start_that_is_not_free_of_divergence():
+    case = Case(ra=5000, pr=2, rows=16)
+    coarse = steady(Case(ra=2500, pr=1, rows=12))
+    start = coarse.on(case)
+    assert np.max(np.abs(case.mac.div@start.q[:case.mac.ends[1]])) > 1e-6
+    assert steady(case, coarse).q == pytest.approx(steady(case).q, abs=1e-9)        # Newton's tolerance
+
+
+def test_time_step_is_of_second_order():
+    case = Case(ra=2e4, pr=0.5, box=SQUARE, rows=16)
+    start = transient(case, roll(case), until=1.0, dt=0.01, within=0).state
+    ends = [transient(case, start, until=2.0, dt=2.0/steps, within=0).state.q for steps in (50, 100, 200)]
+    ratio = np.linalg.norm(ends[0] - ends[1])/np.linalg.norm(ends[1] - ends[2])
+    assert np.log2(ratio) == pytest.approx(2, abs=0.15)     # first step is Euler's: third order, still seen
+
+
+def test_growth_measured_in_time_is_the_eigenvalue_of_the_same_grid():
+    case = Case(ra=3000, pr=7, rows=16)
+    still = rest(case)
+    seed = State(case=case, q=still.q + 1e-4*(roll(case).q - still.q))
+    series = transient(case, seed, until=60.0, dt=0.02, within=0)
+    eigenvalue = growth_rates(still)[0].real
+    # others have decayed by exp(-0.15*30) more; K stays below 1e-6 of the saturated one until t = 50
+    assert series.growth(after=40, before=50) == pytest.approx(eigenvalue, rel=1e-3)
+
+
+@pytest.mark.parametrize("rolls", [1, 2])
+def test_one_and_two_pairs_of_rolls_are_both_stable_in_the_periodic_box(rolls):
+    half = Case(ra=10_000, pr=1, rows=16)
+    state = steady(half, roll(half, rolls))
+    assert state.rolls == rolls and growth_rates(state)[0].real < -0.01
+    whole = state.unfold()
+    noise = 0.02*random_state(whole.case).q
+    series = transient(whole.case, State(case=whole.case, q=whole.q + noise), within=1e-5)
+    assert series.settled and series.state.rolls == whole.rolls == 2*rolls
+    assert series.K[-1] == pytest.approx(state.K, rel=2e-5)     # twice what the run says is left
+
+
+def test_unfolded_half_is_steady_in_the_periodic_box():
+    state = steady(Case(ra=10_000, pr=2, rows=16)).unfold()
+    series = transient(state.case, state, until=2.0, within=0)
+    assert series.state.q == pytest.approx(state.q, abs=1e-11)      # grows from round-off only
+    assert state.observe() == pytest.approx(steady(Case(ra=10_000, pr=2, rows=16)).observe(), rel=1e-12)
+
+
+def test_what_is_left_of_a_slow_decay_is_not_taken_for_its_last_change():
+    """Near onset a block changes K by a small part of what is left of it."""
+    t = np.linspace(0, 100, 1001)
+    for rate in (0.003, 0.03):
+        K = 0.5 - 0.4*np.exp(-rate*t)
+        mean = K[-20:].mean()
+        # a geometric series exactly: only round-off, amplified by 1/(rate*block)^2
+        assert change_left(np.array([t, K]).T, block=2.0) == pytest.approx((0.5 - mean)/mean, rel=1e-6)
+    assert change_left(np.array([t, 0.5 + 1e-3*np.sin(t)]).T, block=2.0) > 1e-5
+    assert change_left(np.array([t, np.exp(0.1*t)]).T, block=2.0) == np.inf
+
+
+def test_below_onset_everything_comes_to_rest():
+    case = Case(ra=1500, pr=0.3, rows=16)
+    assert steady(case).rolls == 0
+    series = transient(case, roll(case))
+    assert series.settled and series.K[-1] < 1e-12 and series.state.rolls == 0
+
+
+# --- starts and classification ----------------------------------------------------------------------------
+
+
+@every_box
+@pytest.mark.parametrize("rolls", [1, 2, 3, 4])
+def test_rolls_are_counted(box, rolls):
+    case = Case(ra=5000, pr=1, box=box, rows=16)
+    if box is LAYER and rolls % 2:
+        with pytest.raises(ValueError, match=f"{rolls} rolls do not fit"):
+            roll(case, rolls)
+    else:
+        start = roll(case, rolls)
+        assert start.rolls == rolls
+        # its rolls have flattened the mean profile: more heat at the plates than by conduction
+        assert start.observe().nu_bottom > 1 or box is CAVITY
+    assert rest(case).rolls == 0
+
+
+def test_a_roll_with_two_centres_is_one_and_stacked_rolls_are_two():
+    """At Ra = 1e5 the psi of the cavity has two extrema of one sign."""
+    assert steady(Case(ra=1e5, pr=0.71, box=CAVITY, rows=32)).rolls == 1
+    case = Case(ra=5000, pr=1, box=SQUARE, rows=16)
+    psi = np.outer(np.sin(np.pi*case.mac.x.face), np.sin(2*np.pi*case.mac.y.face))
+    assert State(case=case, q=np.r_[case.mac.curl@psi.ravel(), rest(case).parts[2].ravel()]).rolls == 2
+
+
+def test_start_of_khp95_rises_in_the_middle_with_the_energy_asked_for():
+    case = Case(ra=10_000, pr=1, box=LAYER, rows=16)
+    state = khp95(case, 0.002)
+    v = state.centred()[1][:, 8]
+    assert state.K == pytest.approx(0.002, rel=1e-12)
+    assert abs(np.argmax(v) - 15.5) == 0.5 and v[0] < 0        # two middle columns of 32
+    assert transient(case, state, until=1.0).state.rolls == 2
+
+
+def test_resampling_is_of_high_order():
+    fine, coarse = Case(ra=1e4, pr=1, box=LAYER, rows=32), Case(ra=1e4, pr=1, box=LAYER, rows=16)
+    for part, exact in zip(roll(coarse, 2).on(fine).parts, roll(fine, 2).parts):
+        # cubic splines err by a few (k h)^4/384, k = 2 pi; cells at plates are extended by a constant
+        assert np.max(np.abs(part - exact)[:, 2:-2]) < 1e-2*np.max(np.abs(exact))
+
+
+def test_progress_goes_from_0_to_1():
+    seen: list[float] = []
+    case = Case(ra=5000, pr=1, rows=16)
+    transient(case, roll(case), until=3.0, progress=seen.append)
+    assert seen == sorted(seen) and 0 < seen[0] < seen[-1] == 1
+    steps: list[float] = []
+    state = steady(case, progress=steps.append)
+    assert len(steps) == len(state.residuals) - 1 and steps == sorted(steps)
+    assert state.residuals[-1] < 1e-9 < 0.1 < state.residuals[0]
+
+
+# --- bad input --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("bad, rule", [
+    ({"ra": 0}, "Ra must be positive and finite, got 0"), ({"ra": -3.0}, "the lower plate is the hot one"),
+    ({"pr": 0.0}, "Pr must be positive"), ({"pr": float("inf")}, "Pr must be positive and finite, got inf"),
+    ({"rows": 15}, "rows must be even and at least 8, got 15"), ({"rows": 4}, "rows must be even and at least 8"),
+    ({"rows": 16, "columns": 7}, "columns must be even"),
+])
+def test_refuses_bad_cases(bad, rule):
+    with pytest.raises(ValueError, match=rule):
+        Case(**{"ra": 5000.0, "pr": 1.0, **bad})
+
+
+def test_refuses_bad_boxes():
+    with pytest.raises(ValueError, match="width must be positive"):
+        Box(width=0.0)
+    with pytest.raises(ValueError, match="no wall has a temperature"):
+        Box(plates=Edges(flow=End.WALL, heat=End.MIRROR))
+    with pytest.raises(ValueError, match="periodic in both or in none"):
+        Edges(flow=End.PERIODIC, heat=End.WALL)
+    with pytest.raises(ValueError, match="plates cannot be periodic"):
+        Box(plates=Edges(flow=End.PERIODIC, heat=End.PERIODIC))
+
+
+def test_refuses_bad_states_and_runs():
+    case = Case(ra=5000, pr=1, rows=16)
+    broken = rest(case).q.copy()
+    broken[-1] = np.nan
+    with pytest.raises(ValueError, match="T is not finite at t = 0"):
+        State(case=case, q=broken)
+    with pytest.raises(ValueError, match=r"use state.on\(case\)"):
+        State(case=Case(ra=5000, pr=1, rows=32), q=rest(case).q)
+    with pytest.raises(ValueError, match="resample only within one box"):
+        steady(Case(ra=5000, pr=1, box=SQUARE, rows=16), rest(case))
+    with pytest.raises(ValueError, match="solve the half"):
+        steady(Case(ra=5000, pr=1, box=LAYER, rows=16))
+    with pytest.raises(ValueError, match="3 rolls do not fit"):
+        roll(Case(ra=5000, pr=1, box=LAYER, rows=16), 3)
+    with pytest.raises(ValueError, match="only a box with SYMMETRY sides"):
+        rest(Case(ra=5000, pr=1, box=SQUARE, rows=16)).unfold()
+    with pytest.raises(ValueError, match="need LAYER"):
+        khp95(case, 0.001)
+    with pytest.raises(ValueError, match="a slope needs 3"):
+        transient(case, rest(case), until=0.1).growth(after=5)
+
+
+@pytest.mark.parametrize("bad, rule", [({"until": -1.0}, "until must be positive"), ({"dt": 0.0}, "dt must be positive"),
+                                       ({"cfl": 1.5}, "advection is unstable above"),
+                                       ({"block": 0.01}, "K is recorded so often")])
+def test_refuses_bad_marching(bad, rule):
+    case = Case(ra=5000, pr=1, rows=16)
+    with pytest.raises(ValueError, match=rule):
+        transient(case, roll(case), **bad)
+
+
+def test_too_long_a_step_is_refused_with_the_step_that_would_do():
+    case = Case(ra=1e4, pr=1, rows=32)
+    with pytest.raises(Unstable, match=r"CFL number is .* above 0.8: take dt below 0.0"):
+        transient(case, roll(case), dt=0.5)
+
+
+def test_newton_that_fails_says_so():
+    """On 8 rows a layer at Ra = 1e8 has no steady state that the steps reach."""
+    with pytest.raises(NewtonFailed, match=r"no steady state in \d+ steps at Ra = 100000000.0.*smaller"):
+        steady(Case(ra=1e8, pr=0.01, rows=8))
