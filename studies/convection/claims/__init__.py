@@ -1,0 +1,9 @@
+"""Every number and statement of KHP95 on convection, judged by the tables of study `rb` or by arithmetic.
+
+One module a theme, each with its CLAIMS; `read`, `lines`, `histories`, `snapshots`, `lattices`, `sums` and `newton`
+are what their values are made of. Claims on critical Rayleigh numbers are judged by the study `onset`.
+"""
+from studies.convection.claims import flow, fluids, freezing, grid, open, printed, spam, weights
+
+THEMES = (weights, fluids, printed, grid, spam, flow, freezing, open)
+RB_CLAIMS = tuple(claim for theme in THEMES for claim in theme.CLAIMS)

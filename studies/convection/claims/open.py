@@ -1,0 +1,61 @@
+"""Statements of KHP95 on convection that neither print nor runs here decide; each with the reason."""
+from studies.convection.claims.read import select
+from studies.kit.claim import CannotTell, Claim
+from studies.kit.stats import Measured
+from studies.kit.table import Tables
+
+
+def most_particles(tables: Tables) -> Measured:
+    """Particles of the largest run whose step was timed."""
+    points = float(select(tables, "cost", method="spam")["points"].max())
+    if points < 1e6:
+        raise CannotTell(f"the largest run that was timed has {points:.0f} particles: make bench has a million")
+    return Measured(points, 0.0)
+
+
+def undecided(name: str, place: str, statement: str, reason: str, printed: str = "") -> Claim:
+    return Claim(id=f"khp95-{name}", source=f"KHP95 {place}", statement=statement, printed=printed, undecidable=reason)
+
+
+DRAWN = "it is in a drawing only, no number is printed"
+CLAIMS = (
+    Claim(id="khp95-million", source="KHP95 Sec. VI", printed="a million", at_least=1e6, value=most_particles,
+          statement="a million particles could be used", because="the printed number; machines have grown since"),
+    undecided("fig5-values", "Fig. 5", "kinetic energies of the points", DRAWN),
+    undecided("fig6-values", "Fig. 6", "kinetic energies and Rayleigh numbers of the points", DRAWN),
+    undecided("fig8-curve", "Fig. 8", "kinetic energy against time",
+              f"{DRAWN}; runs here are compared with the grid here"),
+    undecided("ra-extrapolated", "Sec. V", "the converged critical Rayleigh numbers of both transport choices",
+              "the numbers are not printed; what the procedure gives is judged in the study onset",
+              "five significant figures"),
+    undecided("goldhirsch", "Sec. IV",
+              "Goldhirsch, Pelz and Orszag did not estimate the critical Rayleigh number of the square",
+              "a statement on another paper; the study onset gives 5012 for conducting sides"),
+    undecided("fig10-dense", "Fig. 10", "the dense fluid convects in the square between temperatures 10 and 0.5",
+              "far outside of the equation of state, a fit about T = 1 whose T(n, u) does not invert its u(n, T) "
+              "there, and the gravity that gives Ra 350 000 is not the one of Sec. IV", "350 000"),
+    undecided("fig11-growth", "Sec. VI, Fig. 11", "a shocked interface grows as linear theory says, within 2 %",
+              "amplitude, wavelength and strength of the shock are not printed; no convection", "2%"),
+    undecided("timestep", "Secs II, V", "time steps of particles and grid", "none is printed"),
+    undecided("realistic-walls", "Sec. II", 'mirror images are more "realistic" than fixed rows',
+              "no measure of it; both walls are compared with the grid in the energy claims"),
+    undecided("agreement", "Sec. VI", "agreement is completely satisfactory where the pressure is low",
+              "a judgement; the numbers are in the energy, velocity and freezing claims"),
+    undecided("robust-meshes", "Sec. VII", "particles avoid grid tangling and mesh instabilities",
+              "true of any method without a mesh, and nothing to measure in these flows"),
+    undecided("phonons", "Sec. VII", "density fluctuations follow the Debye spectrum",
+              "no thermal start is defined, and the paper measures nothing"),
+    undecided("flux-continuous", "Sec. IV",
+              "image values match those of their parents, so that fluxes are continuous at the walls",
+              "a rule, not a result; a copied flux has no divergence across the wall, so that particles there feel "
+              "neither drag nor cooling: the claims on walls tell what comes of it"),
+    undecided("list-cost", "Sec. II", "finding neighbours takes a time proportional to N ln N",
+              "from 10 000 to a million particles ln N adds 0.09 to the exponent of N, less than caches do; linked "
+              "cells take N for a given density", "N ln N"),
+    undecided("most-time", "Sec. II", "finding the pairs takes most of the time",
+              "it depends on how often lists are renewed, which is not printed; make bench tells the share here"),
+    undecided("viscoelastic", "Sec. III", "smooth particles bring an artificial viscosity and elasticity",
+              "spurious moduli are claims of their own; the viscosity belongs to simple flows with exact answers"),
+    undecided("fewer-than-atoms", "Sec. VII", "convection needs far fewer smooth particles than atoms",
+              "no molecular dynamics is run here and no number is printed"),
+)

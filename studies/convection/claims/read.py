@@ -1,0 +1,112 @@
+"""Rows of the study's tables, asked for in words. What no table has yet is said in a sentence (CannotTell).
+
+KHP95's 5000 particles are 50 rows of 100, so `height=50`; grids extrapolated to infinitely fine have height inf.
+"""
+from collections.abc import Callable
+from functools import cache
+from math import hypot, inf, pi
+
+import pandas as pd
+
+from continuum.linear import critical_ra
+from studies.kit.claim import CannotTell
+from studies.kit.stats import Measured
+from studies.kit.table import Tables
+
+Value = Callable[[Tables], Measured]
+#: Prandtl number nu/kappa, kappa = k/(rho C_V), that KHP95's eta = k means
+PRANDTL = {"ideal": 1.0, "vdw": 1.0, "dense": 1.5}
+
+
+def exact(number: Callable[[], float], err: float = 0.0) -> Value:
+    """A value that needs no table; computed when the claim is judged."""
+    return lambda tables: Measured(float(number()), err)
+
+
+def select(tables: Tables, name: str, **where) -> pd.DataFrame:
+    """The rows of a table in which all columns are as said.
+
+    Raises
+    ------
+    CannotTell
+        There are none.
+    """
+    wanted = ", ".join(f"{column} {value:g}" if isinstance(value, float | int) else f"{column} {value}"
+                       for column, value in where.items())
+    frame = tables.get(name, pd.DataFrame())
+    if not set(where) <= set(frame.columns):
+        raise CannotTell(f"not run yet: table {name} is to have {wanted}; make study-rb, or its SIZE=fine, fills it")
+    for column, value in where.items():
+        frame = frame[frame[column] == value]
+    if frame.empty:
+        raise CannotTell(f"not run yet: table {name} has no row of {wanted}; a larger SIZE of the study may run it")
+    return frame
+
+
+def scene(ra: float, eos="ideal", transport="const-eta", sides="periodic", pr: float | None = None) -> dict:
+    """The columns of a scene; KHP95's eta = k unless `pr` is given."""
+    return {"eos": eos, "transport": transport, "sides": sides, "ra": float(ra), "pr": pr or PRANDTL[eos]}
+
+
+def particles(ra: float, height: int = 50, variant="printed", **where) -> dict:
+    """The columns of smooth particles, `height` rows of them."""
+    return {"method": "spam", "variant": variant, "resolution": float(height), **scene(ra, **where)}
+
+
+def grid(ra: float, height: float = inf, variant="flux-form", **where) -> dict:
+    """The columns of the compressible grid."""
+    return {"method": "compressible", "variant": variant, "resolution": float(height), **scene(ra, **where)}
+
+
+def mean(tables: Tables, point: dict, column: str = "ke") -> Measured:
+    """A column of `means` at one point, with its error where it has one."""
+    row = select(tables, "means", **point).iloc[0]
+    return Measured(float(row[column]), float(row.get(f"{column}_err", 0.0)))
+
+
+def limit(tables: Tables, ra: float, column: str = "ke", **where) -> Measured:
+    """The compressible grid extrapolated to infinitely fine: K, or another column of `means`."""
+    return mean(tables, grid(ra, **where), column)
+
+
+def limit_of(ra: float, column: str = "ke", **where) -> Value:
+    """The same as a value function."""
+    return lambda tables: limit(tables, ra, column, **where)
+
+
+def mean_of(point: dict, column: str) -> Value:
+    """A column of `means` at one point, as a value function."""
+    return lambda tables: mean(tables, point, column)
+
+
+def ratio(a: Measured, b: Measured) -> Measured:
+    """a/b with its error.
+
+    Raises
+    ------
+    CannotTell
+        b is not told from zero.
+    """
+    if abs(b.value) <= b.err:
+        raise CannotTell(f"a ratio to {b.value:.3g} +- {b.err:.2g}, which is not told from zero")
+    return Measured(a.value/b.value, hypot(a.err, a.value/b.value*b.err)/abs(b.value))
+
+
+def off(a: Measured, centre: float = 1.0) -> Measured:
+    """|a - centre|."""
+    return Measured(abs(a.value - centre), a.err)
+
+
+def largest(found: list[Measured]) -> Measured:
+    """The largest, with the largest error among them."""
+    return Measured(max(m.value for m in found), max(m.err for m in found))
+
+
+@cache
+def onset(sides: str) -> float:
+    """Critical Rayleigh number of the Boussinesq fluid in the box: of a pair of rolls, of one roll in the square."""
+    return critical_ra(pi) if sides == "periodic" else SQUARE
+
+
+#: square, sides conducting: Chebyshev eigenproblem, 14 to 22 points agree to 8 figures; study `onset` measures it again
+SQUARE = 5011.71

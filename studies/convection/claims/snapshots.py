@@ -1,0 +1,140 @@
+"""Particles at the end of a run and mean fields on a grid of places: what the tables `particles` and `fields` tell."""
+from dataclasses import dataclass
+from functools import cached_property
+from math import sqrt
+
+import numpy as np
+import pandas as pd
+from scipy.spatial import cKDTree
+
+from studies.convection.claims.lattices import LUCY, RANGE
+from studies.convection.claims.read import select
+from studies.kit.claim import CannotTell
+from studies.kit.stats import Measured
+from studies.kit.table import Tables
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """Positions and velocities (points, 2) in spacings, the `n` fluid particles first, then fixed ones and images."""
+    x: np.ndarray
+    v: np.ndarray
+    n: int
+    height: float
+
+    @cached_property
+    def tree(self) -> cKDTree:
+        return cKDTree(self.x)
+
+    @cached_property
+    def bulk(self) -> np.ndarray:
+        """Fluid particles farther than the range of the weight from the plates."""
+        return np.flatnonzero(np.abs(self.x[:self.n, 1]) < self.height/2 - RANGE)
+
+    @cached_property
+    def smoothed(self) -> np.ndarray:
+        """(n, 2): field velocity <v> = sum v_j w / sum w at the fluid particles    [KHP95, Sec. II]"""
+        near = cKDTree(self.x[:self.n]).sparse_distance_matrix(self.tree, RANGE, output_type="ndarray")
+        w = LUCY(near["v"])
+        sums = [np.bincount(near["i"], w*q[near["j"]], self.n) for q in (*self.v.T, np.ones(len(self.x)))]
+        return np.stack([sums[0]/sums[2], sums[1]/sums[2]], axis=1)
+
+    @property
+    def neighbours(self) -> Measured:
+        """Mean number within the range; counts of particles that share neighbours are one sample."""
+        counts = self.tree.query_ball_point(self.x[self.bulk], RANGE, return_length=True) - 1
+        return Measured(float(counts.mean()), 1.96*counts.std()/sqrt(max(1.0, len(counts)/counts.mean())))
+
+    @property
+    def spacing(self) -> Measured:
+        """Distance where the first peak of the pair distribution is, by bins of 0.1."""
+        edges = np.arange(0.3, 2.01, 0.1)
+        near = cKDTree(self.x[self.bulk]).sparse_distance_matrix(self.tree, 2.0, output_type="ndarray")["v"]
+        counts, _ = np.histogram(near, edges)
+        peak = np.argmax(counts/np.diff(edges**2))
+        return Measured(float(edges[peak] + 0.05), 0.05)
+
+    @property
+    def pairing(self) -> Measured:
+        """Median of second over first neighbour distance; partners of a pair are one sample."""
+        distances, _ = self.tree.query(self.x[self.bulk], 3)
+        _, first, second = np.transpose(distances)
+        low, middle, high = np.quantile(second/first, 0.5 + 0.98/sqrt(len(first)/2)*np.array([-1, 0, 1]))
+        return Measured(float(middle), float(high - low)/2)
+
+    @property
+    def occupancy(self) -> float:
+        """Particles a site: bulk particles joined with those closer than half a spacing."""
+        return 1 + float(np.median(self.tree.query_ball_point(self.x[self.bulk], 0.5, return_length=True) - 1))
+
+    @property
+    def noise(self) -> np.ndarray:
+        """(n, 2): v - <v>."""
+        return self.v[:self.n] - self.smoothed
+
+
+def snapshot(tables: Tables, point: dict) -> Snapshot:
+    """The particles of the first seed that kept them."""
+    frame = select(tables, "particles", **point)
+    frame = frame[frame["seed"] == frame["seed"].min()]
+    frame = pd.concat([frame[frame["kind"] == "fluid"], frame[frame["kind"] != "fluid"]])
+    height = float(point["resolution"])
+    return Snapshot(frame[["x", "y"]].to_numpy(float)*height, frame[["vx", "vy"]].to_numpy(float),
+                    int((frame["kind"] == "fluid").sum()), height)
+
+
+# --- fields -----------------------------------------------------------------------------------------------
+
+Fields = dict[str, np.ndarray]
+
+
+def fields(tables: Tables, point: dict, finest: bool = False) -> Fields:
+    """rho, T, vx, vy (rows, columns) on the places of Fig. 12, shifted along x so that warm fluid rises at column 0."""
+    where = {k: v for k, v in point.items() if not (finest and k == "resolution")}
+    frame = select(tables, "fields", **where)
+    frame = frame[(frame["resolution"] == frame["resolution"].max()) & (frame["seed"] == frame["seed"].min())]
+    shape = frame["y"].nunique(), frame["x"].nunique()
+    frame = frame.sort_values(["y", "x"])
+    return upright({name: frame[name].to_numpy(float).reshape(shape) for name in ("rho", "T", "vx", "vy")})
+
+
+def upright(at: Fields) -> Fields:
+    """The same flow with the crest of the first harmonic of vy at column 0: rolls may lie anywhere along x."""
+    shift = np.angle(np.fft.rfft(at["vy"].mean(axis=0))[1])
+    columns = at["vy"].shape[1]
+    turn = np.exp(-1j*shift*np.arange(columns//2 + 1))
+    return {name: np.fft.irfft(np.fft.rfft(f, axis=1)*turn, columns, axis=1) for name, f in at.items()}
+
+
+def mirrored(at: Fields) -> Fields:
+    """The flow seen in a mirror at column 0, which does not change two equal rolls."""
+    return {name: (-1 if name == "vx" else 1)*np.roll(f[:, ::-1], 1, axis=1) for name, f in at.items()}
+
+
+def difference(one: Fields, other: Fields, names: tuple[str, ...]) -> Measured:
+    """Root mean square of one - other over places, summed over the named fields.
+
+    Both flows are symmetric in the mirror; what is not symmetric in the difference is noise, and as much of it is in
+    the symmetric part: that is the error.
+    """
+    if one["T"].shape != other["T"].shape:
+        raise CannotTell(f"fields are kept on {one['T'].shape} and {other['T'].shape} places: nothing to compare")
+    a, b = ({name: at[name] - reference[name] for name in names}
+            for at, reference in ((one, other), (mirrored(one), mirrored(other))))
+    even, odd = (sqrt(sum(np.mean(((a[name] + sign*b[name])/2)**2) for name in names)) for sign in (1, -1))
+    return Measured(even, odd)
+
+
+def velocity_error(tables: Tables, particles: dict, grid: dict) -> Measured:
+    """Rms difference of velocity fields over the grid's rms velocity."""
+    one, other = fields(tables, particles), fields(tables, grid, finest=True)
+    size = sqrt(np.mean(other["vx"]**2 + other["vy"]**2))
+    found = difference(one, other, ("vx", "vy"))
+    return Measured(found.value/size, found.err/size)
+
+
+def contour_error(tables: Tables, particles: dict, grid: dict, name: str) -> Measured:
+    """Rms difference of a field over the range that the grid's has."""
+    one, other = fields(tables, particles), fields(tables, grid, finest=True)
+    found = difference(one, other, (name,))
+    return Measured(found.value/float(np.ptp(other[name])), found.err/float(np.ptp(other[name])))

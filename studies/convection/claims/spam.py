@@ -1,0 +1,172 @@
+"""Claims about the energies of smooth particles against the grid's    [KHP95, Sec. VI]
+
+The text squares the smoothed velocity, (rho/2)<v>^2, so K is that of the field where nothing else is said; the printed
+numbers may be of the particles themselves, and which wall gave them is not said: each has its row.
+"""
+from collections.abc import Iterator
+from contextlib import suppress
+from itertools import product
+from math import sqrt
+
+import numpy as np
+import pandas as pd
+
+from studies.convection.claims.lines import STILL
+from studies.convection.claims.printed import as_printed
+from studies.convection.claims.read import Value, grid, largest, limit, mean, mean_of, off, particles, ratio, select
+from studies.kit.claim import CannotTell, Claim
+from studies.kit.stats import Measured
+from studies.kit.table import Tables
+
+Points = list[tuple[float, dict]]
+WALLS = {"": ("printed", "mirror images"), "-fixed-rows": ("printed-fixed-rows", "fixed rows")}
+ENERGIES = {"": ("ke_field", "energy of the field"), "-particles": ("ke", "energy of the particles")}
+
+
+def error(tables: Tables, ra: float, height: int = 50, variant="printed", energy="ke_field", **where) -> Measured:
+    """|K_particles/K_grid - 1|, the grid extrapolated."""
+    return off(ratio(mean(tables, particles(ra, height, variant, **where), energy), limit(tables, ra, **where)))
+
+
+def error_of(ra: float, variant: str, energy: str) -> Value:
+    """The same as a value function."""
+    return lambda tables: error(tables, ra, variant=variant, energy=energy)
+
+
+def velocity(tables: Tables, ra: float, height: int = 50, **where) -> Measured:
+    """|1 - (K_particles/K_grid)^(1/2)|, the paper's way to an error of velocity."""
+    found = ratio(mean(tables, particles(ra, height, **where), "ke_field"), limit(tables, ra, **where))
+    return Measured(abs(1 - sqrt(found.value)), found.err/2/sqrt(found.value))
+
+
+def worst_velocity(points: Points, height: int = 50) -> Value:
+    """The largest of these errors over points (Ra, scene)."""
+    return lambda tables: largest([velocity(tables, ra, height, **where) for ra, where in points])
+
+
+def share(**where) -> Value:
+    """K of 512 particles at Ra 10 000 over the grid's."""
+    return lambda tables: ratio(mean(tables, particles(1e4, 16, **where), "ke_field"), limit(tables, 1e4, **where))
+
+
+def relative_noise(tables: Tables, ra: float) -> Measured:
+    """Energy of the fluctuations over that of the field, 5000 particles."""
+    point = particles(ra)
+    return ratio(mean(tables, point, "ke_fluctuation"), mean(tables, point, "ke_field"))
+
+
+def relative_err(tables: Tables) -> Measured:
+    """Error of the mean K at Ra 2500 over K, all seeds together."""
+    found = mean(tables, particles(2500), "ke_field")
+    return Measured(found.err/found.value, 0.0)
+
+
+def variants(one: str, other: str) -> Value:
+    """|K/K - 1| of two variants at Ra 10 000, the largest particle number that both have."""
+    def value(tables: Tables) -> Measured:
+        heights = [set(select(tables, "means", **without_height(name))["resolution"]) for name in (one, other)]
+        if not (both := heights[0] & heights[1]):
+            raise CannotTell(f"{one} and {other} were run with different numbers of particles only")
+        return off(ratio(*(mean(tables, particles(1e4, int(max(both)), name), "ke_field") for name in (one, other))))
+    return value
+
+
+def without_height(variant: str) -> dict:
+    """Columns of smooth particles at Ra 10 000, of any number."""
+    return {k: v for k, v in particles(1e4, variant=variant).items() if k != "resolution"}
+
+
+def freedoms(tables: Tables) -> Measured:
+    """Numbers of particles (5 each) over those of a grid with the same error of K (4 a cell), the least over scenes."""
+    frame = select(tables, "means", method="spam", variant="printed", transport="const-eta", eos="ideal")
+    found = []
+    for _, row in frame.iterrows():
+        with suppress(CannotTell):
+            found.append(freedom(tables, row))
+    if not found:
+        raise CannotTell("no smooth particles have grids of the same scene beside them")
+    return min(found)
+
+
+def freedom(tables: Tables, row: pd.Series) -> Measured:
+    """The same of one point of particles; the grid's error is of second order, on no fewer rows than were run."""
+    where = {"sides": row["sides"]}
+    end = limit(tables, row["ra"], **where)
+    frame = select(tables, "means", **{k: v for k, v in grid(row["ra"], **where).items() if k != "resolution"})
+    run = frame[np.isfinite(frame["resolution"])].sort_values("resolution")
+    mine = off(ratio(Measured(row["ke_field"], row["ke_field_err"]), end))
+    if run.empty or end.value < STILL:
+        raise CannotTell(f"no grid convects at Ra {row['ra']:g}")
+    constant = abs(run["ke"].iloc[-1]/end.value - 1)*run["resolution"].iloc[-1]**2
+    area = 2 if row["sides"] == "periodic" else 1
+    cells = area*max(constant/mine.value, run["resolution"].iloc[0]**2)
+    share = float(5*row["particles"]/(4*cells))
+    return Measured(share, share*mine.err/mine.value if cells > area*run["resolution"].iloc[0]**2 else 0.0)
+
+
+def energies() -> Iterator[Claim]:
+    """The printed K and its error, for both Ra, energies and walls."""
+    for ra, text in ((5000, "0.003 0"), (10000, "0.004 6")):
+        for (wall, (variant, walls)), (of, (energy, kind)) in product(WALLS.items(), ENERGIES.items()):
+            said = f"5000 particles, Lucy, Ra {ra}, {walls}, {kind}"
+            yield Claim(id=f"khp95-spam-ke-{ra}{of}{wall}", source="KHP95 Sec. VI", printed=text,
+                        statement=f"K of {said}", value=mean_of(particles(ra, variant=variant), energy),
+                        **as_printed(f"ke-{ra}-spam"), because="half of the last printed digit")
+            yield Claim(id=f"khp95-energy-error-{ra}{of}{wall}", source="KHP95 Sec. VI", printed="10%", at_most=0.105,
+                        statement=f"energy errors no worse than 10 %: {said}", because="two digits are printed",
+                        value=error_of(ra, variant, energy))
+
+
+PAIR: Points = [(5000.0, {}), (10000.0, {})]
+FIG5: Points = list(product((2500.0, 5000.0, 10000.0), ({"eos": "vdw"}, {"transport": "const-nu"})))
+FIG6: Points = [(ra, {"sides": "walls"}) for ra in (7000.0, 10000.0, 20000.0)]
+FIVE = '"about 5 %": half as much again'
+CLAIMS = (
+    *energies(),
+    Claim(id="khp95-velocity-error-5000", source="KHP95 Sec. VI", printed="5%", at_most=0.075, because=FIVE,
+          statement="velocity errors of the order of 5 % at Ra 5000, from energies as in the paper",
+          value=lambda tables: velocity(tables, 5000)),
+    Claim(id="khp95-velocity-error-10000", source="KHP95 Sec. VI", printed="5%", at_most=0.075, because=FIVE,
+          statement="velocity errors of the order of 5 % at Ra 10 000, from energies as in the paper",
+          value=lambda tables: velocity(tables, 10000)),
+    Claim(id="khp95-velocity-abstract", source="KHP95 abstract, Secs I, VII", printed="a few percent", at_most=0.05,
+          statement="velocity errors of a few percent: the larger of those at Ra 5000 and 10 000, from energies",
+          value=worst_velocity(PAIR), because="a few are five at most"),
+    Claim(id="khp95-fig5-points", source="KHP95 Sec. VI, Fig. 5", printed="about 5%", at_most=0.075, because=FIVE,
+          statement="velocities of van der Waals and constant-nu particles are good to about 5 %, Ra 2500 to 10 000: "
+                    "the worst, from energies", value=worst_velocity(FIG5)),
+    Claim(id="khp95-fig6-points", source="KHP95 Sec. VI, Fig. 6", printed="about 5%", at_most=0.075, because=FIVE,
+          statement="velocities of 1600 particles in the square are good to about 5 %, Ra 7000 to 20 000: the worst, "
+                    "from energies", value=worst_velocity(FIG6, 40)),
+    Claim(id="khp95-ra2500-fluctuations", source="KHP95 Sec. VI", printed="relatively large", at_least=2,
+          statement="fluctuations at Ra 2500 are relatively large: their energy over the field's, over the same at Ra "
+                    "10 000", value=lambda tables: ratio(relative_noise(tables, 2500), relative_noise(tables, 10000)),
+          because='"relatively large" has no number: twice'),
+    Claim(id="khp95-ra2500-usable", source="KHP95 Sec. VI", printed="abandoned", at_least=0.1, value=relative_err,
+          statement="fluctuations prevent a comparison at Ra 2500: error of the mean K over K",
+          because="smaller than the 10 % that they find at higher Ra, a comparison is possible"),
+    Claim(id="khp95-walls-both", source="KHP95 Secs II, IV", printed="two natural ways", at_most=0.1,
+          statement="fixed rows and mirror images are both natural boundaries: K between them at Ra 10 000",
+          value=variants("printed-fixed-rows", "printed"),
+          because="10 % is the paper's error of K; it does not tell which wall it used"),
+    Claim(id="khp95-mean-geometric", source="KHP95 Sec. II", printed="either", at_most=0.01,
+          statement="the mean density may be arithmetic or geometric: K between them at Ra 10 000",
+          value=variants("arithmetic-mean", "printed"), because="1 % is what they say that fluctuations disguise"),
+    Claim(id="khp95-weight-same", source="KHP95 Sec. IV", printed="both", at_most=0.1,
+          statement="Lucy's and Monaghan's weights both simulate convection: K between them at Ra 10 000",
+          value=variants("printed-monaghan", "printed"), because="10 % is the paper's error of K"),
+    Claim(id="khp95-fewer-freedoms", source="KHP95 Sec. VII", printed="many fewer", at_most=1, value=freedoms,
+          statement="sometimes particles need fewer numbers than an equally accurate grid: ratio in the case that "
+                    "suits them best",
+          because="fewer is below 1; a bound from below where the coarsest grid that was run is better already"),
+    Claim(id="khp95-500-particles", source="KHP95 Sec. VI", printed="five hundred", at_least=0.5,
+          statement="some 500 particles make convincing currents: K of 512, ideal gas, Ra 10 000, over the grid's",
+          value=share(), because='"convincing" has no number: half of the energy'),
+    Claim(id="khp95-500-particles-vdw", source="KHP95 Sec. VI, Fig. 7", printed="five hundred", at_least=0.5,
+          statement="some 500 particles make convincing currents: K of 512, van der Waals, Ra 10 000, over the grid's",
+          because='"convincing" has no number: half of the energy; Ra of Fig. 7 is not printed',
+          value=share(eos="vdw")),
+    Claim(id="khp95-fig7-runs", source="KHP95 Fig. 7", printed="two rolls", expect=2, within=0,
+          statement="512 van der Waals particles convect with two rolls, Ra 10 000",
+          because="a whole number; Ra is not printed", value=mean_of(particles(1e4, 16, eos="vdw"), "rolls")),
+)
