@@ -57,7 +57,7 @@ def generic(stub: Callable) -> Any:
                             f"add a formula with @{stub.__name__}.of({type(first).__name__})")
         return table[type(first)](first, *rest)
 
-    @overload(call, strict=False, jit_options=OPTIONS)
+    @overload(call, strict=False, jit_options=OPTIONS)  # type: ignore[arg-type]
     def _(first, *rest):
         return table.get(getattr(first, "instance_class", None))
 

@@ -9,14 +9,14 @@ from particles.weights import shape, slope
 
 
 class Pairs(NamedTuple):
-    """Verlet lists (start, length, listed) and of row i the pairs in range: near, wx, wy [start[i]:start[i] + count[i]].
+    """Verlet lists (start, length, listed) and of row i the pairs in range: near, wx, wy [start[i]:start[i] + taken[i]].
 
     (wx, wy) is the gradient of m w(r_ij) with respect to r_i.
     """
     start: np.ndarray
     length: np.ndarray
     listed: np.ndarray
-    count: np.ndarray
+    taken: np.ndarray
     near: np.ndarray
     wx: np.ndarray
     wy: np.ndarray
@@ -55,7 +55,7 @@ def weigh(first, last, weight, m, x, y, pairs, rho):
             f = per_slope*slope(weight, q)
             pairs.wx[begin + k] *= f
             pairs.wy[begin + k] *= f
-        pairs.count[i] = n
+        pairs.taken[i] = n
         rho[i] = m*weight.scale*total
 
 
@@ -101,7 +101,7 @@ def sweep(first, last, term, particle, pairs, out):
     """out[i] = sum of rate(term, i, j, ij) over the pairs of rows first..last; `particle` is a structured array."""
     for i in range(u64(first), u64(last)):
         a, total, begin = particle[i], nothing(term), pairs.start[i]
-        for k in range(begin, begin + pairs.count[i]):
+        for k in range(begin, begin + pairs.taken[i]):
             total = add(total, rate(term, a, particle[pairs.near[k]], Pair(pairs.wx[k], pairs.wy[k])))
         store(out, i, u64(0), total)
 

@@ -14,7 +14,7 @@ from particles.limits import step_limit
 from particles.team import Team
 from particles.walls import confine
 
-Quantity = Callable[[Any, np.ndarray], Any]  # (sums of the method, state) -> number or array
+Quantity = Callable[..., Any]  # (sums of the method, state) -> number or array
 
 
 class Divergence(FloatingPointError):
@@ -33,7 +33,7 @@ class Plan:
     dt: float
     steps: int
     series: Mapping[str, Quantity] = field(default_factory=dict)
-    means: Mapping[str, Quantity] = field(default_factory=dict)
+    means: Mapping[str, Any] = field(default_factory=dict)
     every: int = 10
     mean_from: float = 0.0
     checkpoint: Path | None = None

@@ -36,8 +36,8 @@ class Surroundings:
             raise ValueError(f"the weight's diameter 2 h = {2*weight.h:g} is wider than the box {box[0]:g} x {box[1]:g}: "
                              "take more particles or a shorter range")
         self.weight, self.walls, self.skin, self.team, self.n = weight, walls, skin, team, n
-        held = [fixed_points(wall, *box) for wall in walls]
-        self._fixed = tuple(np.concatenate([h[c] for h in held] or [EMPTY]) for c in range(3))
+        held = [fixed_points(wall, *box) for wall in walls] or [(EMPTY, EMPTY, EMPTY)]
+        self._fixed = tuple(np.concatenate(column) for column in zip(*held, strict=True))
         self.rows = n + len(self._fixed[0])
         self.anchor: np.ndarray | None = None
         self.lists_made = 0
@@ -48,6 +48,7 @@ class Surroundings:
 
     def moved(self, state: np.ndarray) -> float:
         """The farthest that any particle has moved since the lists were made."""
+        assert self.anchor is not None, "lists come before steps"
         return farthest(state[0], state[1], *self.anchor)
 
     def forget(self) -> None:

@@ -30,8 +30,13 @@ def unit_integral(phi: Callable[[float], float], d: int) -> float:
     return sphere*quad(lambda q: phi(q)*q**(d - 1), 0, 1, points=[0.5], epsabs=1e-13, epsrel=1e-13)[0]
 
 
-class Weight:
-    """What all weights share; a mixin of the NamedTuples below."""
+class _Fields(NamedTuple):
+    h: float        # range, w(r >= h) = 0
+    scale: float    # w(r) = scale phi(r/h)
+
+
+class Weight(_Fields):
+    """What all weights share."""
 
     @classmethod
     def of(cls, h: float, d: int = 2):
@@ -50,28 +55,23 @@ class Weight:
         return cls(h, 1/(unit_integral(lambda q: phi(None, q), d)*h**d))
 
 
-class _Fields(NamedTuple):
-    h: float        # range, w(r >= h) = 0
-    scale: float    # w(r) = scale phi(r/h)
-
-
-class Lucy(_Fields, Weight):
+class Lucy(Weight):
     """(5/pi h^2) (1 + 3q)(1 - q)^3 in 2D    [KHP95, Sec. II, Fig. 1]"""
 
 
-class Monaghan(_Fields, Weight):
+class Monaghan(Weight):
     """Cubic B-spline, (40/7 pi h^2)(1 - 6q^2 + 6q^3), 2(1 - q)^3 from q = 1/2 on, in 2D    [KHP95, Sec. II, Fig. 1]"""
 
 
-class WendlandC2(_Fields, Weight):
+class WendlandC2(Weight):
     """(1 - q)^4 (1 + 4q): positive Fourier transform, no pairing."""
 
 
-class WendlandC4(_Fields, Weight):
+class WendlandC4(Weight):
     """(1 - q)^6 (1 + 6q + 35 q^2/3)."""
 
 
-class WendlandC6(_Fields, Weight):
+class WendlandC6(Weight):
     """(1 - q)^8 (1 + 8q + 25 q^2 + 32 q^3)."""
 
 

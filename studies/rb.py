@@ -6,8 +6,9 @@ path small, `fine` (hours) all variants, walls, resolutions.
 Writes results/rb/*.csv and *.png and the rows of study rb in results/claims.csv.
 """
 from collections.abc import Iterator
+from typing import Any
 
-from continuum.fluid import ConstNu, IdealGas, VanDerWaals
+from continuum.fluid import ConstNu, VanDerWaals
 from continuum.scene import Periodic, RayleighBenard, Walls
 from studies.convection import tables
 from studies.convection.cost import CompressibleStep, SpamStep
@@ -18,9 +19,10 @@ from studies.convection.spam import PRINTED, VARIANTS, SpamRun, Variant
 from studies.kit.case import Case
 from studies.kit.study import Study, main
 
-LAYER = {"aspect": 2.0, "sides": Periodic()}     # Fig. 5
-BOX = {"aspect": 1.0, "sides": Walls()}          # Fig. 6
-IDEAL, NU, VDW = {"eos": IdealGas()}, {"transport": ConstNu}, {"eos": VanDerWaals()}
+LAYER: dict[str, Any] = {"aspect": 2.0, "sides": Periodic()}     # Fig. 5
+BOX: dict[str, Any] = {"aspect": 1.0, "sides": Walls()}          # Fig. 6
+NU: dict[str, Any] = {"transport": ConstNu}
+VDW: dict[str, Any] = {"eos": VanDerWaals()}
 SEEDS = (1, 2, 3)
 RA = (1500.0, 2500.0, 5000.0, 10000.0, 20000.0)  # of the particles
 LINE = (1500.0, 1750.0, 2000.0, 2500.0, 3000.0, 3500.0, 4200.0, 5000.0, 6000.0, 6830.0, 10000.0, 20000.0,

@@ -54,7 +54,7 @@ class Spam:
     g: float = 0.0
     m: float = 1.0
     gradients: Gradients | ArithmeticGradients = Gradients()  # noqa: RUF009 (immutable)
-    transport: "type[Nested] | type[Direct]" = None  # type: ignore[assignment]  (Nested, set below)
+    transport: "type[Nested] | type[Direct] | None" = None
     static: LessStatic = LessStatic(0.0, 0.0)  # noqa: RUF009
     skin: float = 0.6
 
@@ -63,7 +63,7 @@ class Spam:
     def __post_init__(self):
         if not self.m > 0:
             raise ValueError(f"the mass of a particle must be positive, got {self.m}: total mass / number of particles")
-        if self.transport is None:
+        if self.transport is None:      # the class is written below
             object.__setattr__(self, "transport", Nested)
 
     def start(self, n: int, team: Team) -> "Nested | Direct":
@@ -76,7 +76,7 @@ class Spam:
         """
         if n < 1:
             raise ValueError(f"there are no particles (n = {n}): a run needs at least one")
-        return self.transport(self, n, team)
+        return (self.transport or Nested)(self, n, team)
 
 
 class Sums:

@@ -47,7 +47,7 @@ def extrapolated(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
 
 def limit(values: np.ndarray, errs: np.ndarray, sizes: np.ndarray) -> tuple[float, float]:
     """Extrapolated value; its error has a part of the grid and one of the values' own (in time)."""
-    found = richardson(values, sizes)
+    found = richardson(list(values), list(sizes))
     return float(found.limit), float(np.hypot(found.error, 2*errs.max()))
 
 

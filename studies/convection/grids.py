@@ -106,11 +106,13 @@ class BoussinesqSteady(Case):
         return f"boussinesq Ra {self.ra:g}, Pr {self.pr:g}, rows {self.sizes}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        rows, state = [], None
+        rows: list[dict] = []
+        state: boussinesq.State | None = None
         for number, size in enumerate(self.sizes):
             case = boussinesq.Case(ra=self.ra, pr=self.pr, box=boussinesq.HALF_LAYER, rows=size)
-            (state, compile_s, cpu_s) = compile_and_run_seconds(partial(boussinesq.steady, case, state))
-            rows.append(self._row(state, size, cpu_s, compile_s))
+            found, compile_s, cpu_s = compile_and_run_seconds(partial(boussinesq.steady, case, state))
+            rows.append(self._row(found, size, cpu_s, compile_s))
+            state = found
             report((number + 1)/len(self.sizes))
         return Outcome({"kinetic_energy": rows})
 

@@ -55,7 +55,7 @@ def fixed_rows(scene):
 class Variant(NamedTuple):
     """One way to build the method; the defaults are the scheme as printed with the walls of Fig. 3."""
     name: str
-    weight: type = Lucy
+    weight: Any = Lucy
     h: float = 3.0
     walls: Callable = images
     gradients: Any = Gradients()
