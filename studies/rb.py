@@ -8,7 +8,7 @@ Writes results/rb/*.csv and *.png and the rows of study rb in results/claims.csv
 from collections.abc import Iterator
 from typing import Any
 
-from continuum.fluid import ConstNu, VanDerWaals
+from continuum.fluid import ConstNu, DenseFluid, VanDerWaals
 from continuum.scene import Periodic, RayleighBenard, Walls
 from studies.convection import tables
 from studies.convection.cost import CompressibleStep, SpamStep
@@ -23,6 +23,7 @@ LAYER: dict[str, Any] = {"aspect": 2.0, "sides": Periodic()}     # Fig. 5
 BOX: dict[str, Any] = {"aspect": 1.0, "sides": Walls()}          # Fig. 6
 NU: dict[str, Any] = {"transport": ConstNu}
 VDW: dict[str, Any] = {"eos": VanDerWaals()}
+DENSE: dict[str, Any] = {"eos": DenseFluid(), "pr": 1.5}    # C_V = 1.5: pr = 1.5 is the printed eta = k
 SEEDS = (1, 2, 3)
 RA = (1500.0, 2500.0, 5000.0, 10000.0, 20000.0)  # of the particles
 LINE = (1500.0, 1750.0, 2000.0, 2500.0, 3000.0, 3500.0, 4200.0, 5000.0, 6000.0, 6830.0, 10000.0, 20000.0,
@@ -96,6 +97,9 @@ def paper() -> Iterator[Case]:
     yield CompressibleApproach(scene=RayleighBenard(ra=1e4))
     yield from spam(10000.0, 50, variant=VARIANTS["printed-fixed-rows"], keep="all")
     yield from spam(10000.0, 16, seeds=(1,), keep="all", **VDW)      # Fig. 7: 512 particles
+    yield gas(3000.0, (16, 24, 32), **DENSE)
+    for name in ("printed", "printed-monaghan"):                     # Fig. 4: 512 particles, frozen
+        yield from spam(3000.0, 16, variant=VARIANTS[name], keep="all", **DENSE)
 
 
 def fine() -> Iterator[Case]:
