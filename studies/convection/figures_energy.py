@@ -64,7 +64,7 @@ def fitted_line(axes: Axes, limit: pd.DataFrame) -> None:
     if found is None:
         return
     x = np.array([(4*RA_C)**-0.5, -found[1]/found[0]])
-    axes.axvline(RA_C**-0.5, color="0.4", lw=0.8, marker="", ls="--", zorder=0)
+    axes.axvline(RA_C**-0.5, ymax=0.6, color="0.4", lw=0.8, marker="", ls="--", zorder=0)
     axes.annotate(f"onset, linear theory: {RA_C:.0f}", (RA_C**-0.5, 0.3), xycoords=("data", "axes fraction"),
                   xytext=(3, 0), textcoords="offset points", rotation=90, ha="left", va="center", fontsize=8)
     axes.plot(x, np.polyval(found, x), color="0.55", lw=5, alpha=0.5, marker="", ls="-", zorder=0,
@@ -103,7 +103,7 @@ def printed_numbers(axes: Axes) -> None:
     for end, marker, label in (("", "o", "KHP95, grid, printed"), ("-spam", "D", "KHP95, 5000 particles, printed")):
         found = [published(f"khp95-ke-{ra}{end}") for ra in (5000, 10000)]
         axes.errorbar([5000**-0.5, 10000**-0.5], [f.value for f in found], [f.uncertainty for f in found],
-                      marker=marker, label=label, **KIND["khp"])
+                      marker=marker, label=label, capsize=0, **KIND["khp"])
 
 
 def fig5(tables: Tables) -> Figure | None:
@@ -121,7 +121,7 @@ def fig5(tables: Tables) -> Figure | None:
         axes.set_title(title)
         finish(axes)
     all_axes[0, 0].set_ylabel(ENERGY)
-    page.suptitle("Kinetic energy in the layer of aspect 2, grid and particles    [KHP95, Fig. 5]", fontsize=10)
+    page.suptitle("Layer of aspect 2: grid and particles    [KHP95, Fig. 5]", fontsize=10)
     return page
 
 
@@ -174,8 +174,9 @@ def fig8(tables: Tables) -> Figure | None:
             style = {"marker": "", "lw": 0.9, "alpha": 0.8, "linestyle": ("-", "--", ":")[number % 3]}
             axes.plot(run["t_viscous"]*unit, run[column], label=f"{label}, one line a seed" if number == 0 else "",
                       **KIND[kind] | style)
-    axes.plot(cells["t_viscous"]*unit, cells["ke"], label="compressible grid",
-              **KIND["grid"] | {"marker": "", "lw": 2.2})
+    if len(cells):
+        axes.plot(cells["t_viscous"]*unit, cells["ke"], label="compressible grid",
+                  **KIND["grid"] | {"marker": "", "lw": 2.2})
     time_axes(axes, unit)
     ra = max([*spam["ra"], *cells["ra"]])
     axes.set(title=f"Approach to steady rolls at Ra = {ra:g}, grid and particles    [KHP95, Fig. 8]",

@@ -40,8 +40,8 @@ def convergence(tables: Tables) -> Figure | None:
         floor(axes, group)
         loglog(axes, f"Ra = {ra:g}", "rows over the height $L$")
         plain_ticks(axes, group["resolution"])
-    all_axes[0, 0].set_ylabel(r"relative error of $K$,  $|K/K_\mathrm{grid} - 1|$")
-    page.suptitle("Does the kinetic energy converge? Open marks: too small. Reference: grid extrapolated", fontsize=10)
+    all_axes[0, 0].set_ylabel(r"relative error  $|K/K_\mathrm{grid, extrapolated} - 1|$")
+    page.suptitle("Does $K$ converge? Open marks: $K$ too small", fontsize=10)
     return page
 
 
@@ -109,10 +109,10 @@ def cost(tables: Tables) -> Figure | None:
             dear(axes, series.sort_values("resolution"), energy, label, style)
         floor(axes, group)
         loglog(axes, f"Ra = {ra:g}, numbers: rows over the height", "CPU seconds without compiling")
-        axes.set_ylabel(r"relative error of $K$,  $|K/K_\mathrm{grid} - 1|$")
+        axes.set_ylabel(r"relative error  $|K/K_\mathrm{grid, extrapolated} - 1|$")
     if len(steps):
         step_cost(all_axes[0, -1], steps)
-    page.suptitle("What does an error of the kinetic energy cost? Open marks: $K$ too small", fontsize=10)
+    page.suptitle("What does an error of $K$ cost? Open marks: $K$ too small", fontsize=10)
     return page
 
 

@@ -25,7 +25,7 @@ def fig2_3(tables: Tables) -> Figure | None:
     panels = [(run, title) for run, title in panels if len(run)]
     if not panels:
         return None
-    page, all_axes = figure(len(panels), 1, width=9, height=5.2, squeeze=False)
+    page, all_axes = figure(len(panels), 1, width=7, height=4.4, squeeze=False, sharex=True, sharey=True)
     for axes, (run, title) in zip(all_axes[:, 0], panels):
         arrows(axes, fluid(run), arrow_scale(fluid(run)))
         behind_plates(axes, run)
@@ -84,14 +84,34 @@ def box(axes: Axes, run: pd.DataFrame, title: str) -> None:
 
 def fig7(tables: Tables) -> Figure | None:
     """Few van der Waals particles already roll."""
-    runs = rows(tables, "particles", **SPAM, **LAYER | {"eos": "vdw"})
+    run, field = (coarsest(rows(tables, name, **SPAM, **LAYER | {"eos": "vdw"})) for name in ("particles", "fields"))
+    return two_views(run, field, "van der Waals gas, at one instant    [KHP95, Fig. 7]")
+
+
+def coarsest(runs: pd.DataFrame) -> pd.DataFrame:
+    """Rows of the run with the fewest particles nearest to Ra = 10 000, its first seed."""
     run = nearest(runs[runs["resolution"] == runs["resolution"].min()])
-    run = run[run["seed"] == run["seed"].min()]
-    if run.empty:
+    return run[run["seed"] == run["seed"].min()]
+
+
+def fig12(tables: Tables) -> Figure | None:
+    """The same run as particles and as a smoothed field."""
+    run, field = (one_run(tables, name, **SPAM, **LAYER) for name in ("particles", "fields"))
+    return two_views(run, field, "at one instant    [KHP95, Fig. 12]")
+
+
+def two_views(run: pd.DataFrame, field: pd.DataFrame, title: str) -> Figure | None:
+    """Particles above, below them the smoothed field of the same run in the same scale."""
+    if run.empty or field.empty or run["resolution"].iloc[0] != field["resolution"].iloc[0]:
         return None
-    page, axes = figure(width=7, height=3.9)
-    arrows(axes, fluid(run), arrow_scale(fluid(run)))
-    box(axes, run, f"{heading(run)}, van der Waals gas: rolls at one instant    [KHP95, Fig. 7]")
+    page, (upper, lower) = figure(2, 1, width=7, height=3.75)
+    scale = arrow_scale(fluid(run))
+    arrows(upper, fluid(run), scale)
+    box(upper, run, f"{heading(run)}, {title}")
+    arrows(lower, field, scale)
+    box(lower, field, f"smoothed velocity at {len(field)} places, mean over the second half of the run, same scale")
+    for axes in (upper, lower):
+        axes.set_ylim(-0.54, 0.54)
     return page
 
 
@@ -114,8 +134,7 @@ def fig9(tables: Tables) -> Figure | None:
     for axes in all_axes[:, 0]:
         axes.set_ylabel("$y/L$")
     ra = sides[0][0]["ra"].iloc[0]
-    page.suptitle(f"Steady density and temperature at Ra = {ra:g}, same levels left and right    [KHP95, Fig. 9]",
-                  fontsize=10)
+    page.suptitle(f"Density and temperature, steady, Ra = {ra:g}    [KHP95, Fig. 9]", fontsize=10)
     return page
 
 
@@ -138,22 +157,6 @@ def contours(axes: Axes, run: pd.DataFrame, column: str, levels: np.ndarray) -> 
     axes.set(aspect="equal")
     axes.grid(False)
     return drawn
-
-
-def fig12(tables: Tables) -> Figure | None:
-    """The same run as particles and as a smoothed field."""
-    run, field = (one_run(tables, name, **SPAM, **LAYER) for name in ("particles", "fields"))
-    if run.empty or field.empty:
-        return None
-    page, (upper, lower) = figure(2, 1, width=9, height=4.8)
-    scale = arrow_scale(fluid(run))
-    arrows(upper, fluid(run), scale)
-    box(upper, run, f"{heading(run)}, at one instant    [KHP95, Fig. 12]")
-    arrows(lower, field, scale)
-    box(lower, field, f"smoothed velocity at {len(field)} places, mean over the second half of the run, same scale")
-    for axes in (upper, lower):
-        axes.set_ylim(-0.54, 0.54)
-    return page
 
 
 def profiles(tables: Tables) -> Figure | None:

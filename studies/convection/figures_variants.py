@@ -82,11 +82,11 @@ def references(axes: Any, tables: Tables, ra: float, size: float) -> None:
         axes[1].axvline(nu, **style)
     fields = rows(tables, "fields", **GRID, **LAYER, ra=ra)
     mean = fields.groupby("y")[["rho", "T"]].mean()
-    for edge, inward in ((mean, 1), (mean.iloc[::-1], -1)) if len(mean) > 1 else ():
+    for plate, edge, inward in (("lower", mean, 1), ("upper", mean.iloc[::-1], -1)) if len(mean) > 1 else ():
         step = (inward*(edge.index[1] - edge.index[0]), 0.5 + inward*edge.index[0] - 0.5/size)
         at = edge.iloc[0] - (edge.iloc[1] - edge.iloc[0])*step[1]/step[0]
-        axes[2].axvline(at["rho"], **style)
-        axes[3].axvline(at["T"], **style)
+        for one, name in zip(axes[2:], ("rho", "T")):
+            one.axvline(at[name], **style | {"color": PLATES[plate]["color"], "ls": "--"})
 
 
 def variants(tables: Tables) -> Figure | None:
@@ -103,8 +103,9 @@ def variants(tables: Tables) -> Figure | None:
         for energy, label in LABELS.items():
             dots(axes, names, group, energy, f"{energy}_err", label, KIND[energy], scale=100)
         axes.set(title=f"Ra = {ra:g}", xlabel=r"error of $K$ against the grid  [%]")
-    page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2,
+                title=sizes(found), title_fontsize=8)
     all_axes[0, 0].set_yticks(range(len(names)), labels=names)
     all_axes[0, 0].set(ylabel="variant", ylim=(len(names) - 0.5, -0.5))
-    page.suptitle(f"Which change of the printed scheme helps? {sizes(found)}", fontsize=10)
+    page.suptitle("Which change of the printed scheme helps?", fontsize=10)
     return page
