@@ -13,7 +13,7 @@ from scipy.interpolate import RectBivariateSpline
 from scipy.ndimage import label
 
 from continuum.linear import positive
-from continuum.mac import HALF_LAYER, PERIODIC, SYMMETRY, Box, End, Mac, mac
+from continuum.mac import HALF_LAYER, PERIODIC, SYMMETRY, Box, End, Mac, check_grid, mac
 
 STILL = 1e-12       # K of a fluid at rest: rolls at onset have 1e-2 (1 - sqrt(Ra_c/Ra))
 
@@ -30,7 +30,7 @@ class Case:
     def __post_init__(self):
         positive(Ra=self.ra, Pr=self.pr)
         object.__setattr__(self, "columns", self.columns or 2*round(self.box.width*self.rows/2))
-        assert self.mac
+        check_grid(self.rows, self.columns)
 
     @property
     def nu(self) -> float:
@@ -153,7 +153,7 @@ class State:
         """The same fields on another grid or at another Ra, Pr; cubic splines, not exactly free of divergence."""
         if case.box != self.case.box:
             raise ValueError(f"state is of {self.case.box}, the case has {case.box}: resample only within one box")
-        if case.mac is self.case.mac:
+        if (case.rows, case.columns) == (self.case.rows, self.case.columns):
             return replace(self, case=case, residuals=())
         old, new = self.case.mac, case.mac
         parts = [resample(f, a, b, old) for f, a, b in zip(self.parts, old.points, new.points)]

@@ -268,7 +268,7 @@ def test_settles_near_onset_where_decay_is_slow():
 
 
 def test_below_onset_everything_comes_to_rest():
-    case = Case(ra=1500, pr=0.3, rows=16)
+    case = Case(ra=1000, pr=1, rows=16)
     assert steady(case).rolls == 0
     series = transient(case, roll(case))
     assert series.settled and series.K[-1] < 1e-12 and series.state.rolls == 0
