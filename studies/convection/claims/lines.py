@@ -31,11 +31,16 @@ class Line:
     def residuals(self) -> np.ndarray:
         return self.y - np.polyval(self.coefficients, self.x)
 
-    def at(self, x: float) -> Measured:
-        """The line read at x; error from the scatter about it, or from the points' own errors if that is more."""
-        n, far = len(self.x), (x - self.x.mean())**2/np.sum((self.x - self.x.mean())**2)
-        scatter = stdtrit(n - 2, 0.975)*np.sqrt(np.sum(self.residuals**2)/(n - 2))
-        return Measured(float(np.polyval(self.coefficients, x)), float(max(scatter, self.err.max())*np.sqrt(1/n + far)))
+    def at(self, x: float, spread: float = 0.0) -> Measured:
+        """The line read at x; error from that of the points, or from a `spread` of points if that is more."""
+        far = (x - self.x.mean())**2/np.sum((self.x - self.x.mean())**2)
+        err = max(spread, self.err.max())*np.sqrt(1/len(self.x) + far)
+        return Measured(float(np.polyval(self.coefficients, x)), float(err))
+
+    def other(self, x: float) -> Measured:
+        """The same, if the line were drawn through other points with the same scatter."""
+        n = len(self.x)
+        return self.at(x, float(stdtrit(n - 2, 0.975)*np.sqrt(np.sum(self.residuals**2)/(n - 2))))
 
     @property
     def bend(self) -> Measured:
@@ -71,13 +76,13 @@ def straightness(**where) -> Value:
 
 
 def read_at(ra: float, **where) -> Value:
-    """K of the line from 1.2 to 4 times onset, read at `ra`."""
-    return lambda tables: line(tables, low=1.2, **where).at(ra**-0.5)
+    """K of the line from 1.2 to 4 times onset, read at `ra`; which Ra the paper drew it through is not said."""
+    return lambda tables: line(tables, low=1.2, **where).other(ra**-0.5)
 
 
 def beyond(tables: Tables) -> Measured:
     """K at Ra 10 000, which is 5.9 times onset, over what the line from 1.2 to 4 times onset gives there, less 1."""
-    found = ratio(limit(tables, 1e4), read_at(1e4)(tables))
+    found = ratio(limit(tables, 1e4), line(tables, low=1.2).at(1e4**-0.5))
     return Measured(found.value - 1, found.err)
 
 
@@ -107,7 +112,7 @@ def against_cells(which: str) -> Value:
         err = max(f.err.max()/(np.ptp(f.x) if which == "slope" else 1) for f in found)
         values = np.array([f.coefficients[["slope", "intercept"].index(which)] for f in found])
         bend = Line(np.array(sizes)**-2.0, values, np.full(len(sizes), err)).bend
-        return Measured(bend.value/np.ptp(values), bend.err/np.ptp(values))
+        return ratio(bend, Measured(float(np.ptp(values)), err))
     return value
 
 
