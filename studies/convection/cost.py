@@ -25,7 +25,7 @@ class SpamStep(Case):
 
     @property
     def cost(self) -> float:
-        return 9*20*SpamRun(scene=self.scene, t_end=1.0).cost + 2
+        return 8*max(40000, 10*self.scene.L**2*self.scene.aspect)*4*300e-9 + 4
 
     def run(self, report: Report, folder: Path) -> Outcome:
         one = SpamRun(scene=self.scene, variant=self.variant)
