@@ -11,6 +11,7 @@ from typing import Any
 from continuum.fluid import ConstNu, DenseFluid, VanDerWaals
 from continuum.scene import Periodic, RayleighBenard, Walls
 from studies.convection import tables
+from studies.convection.claims import RB_CLAIMS
 from studies.convection.cost import CompressibleStep, SpamStep
 from studies.convection.derive import derive
 from studies.convection.figures import figures
@@ -115,7 +116,7 @@ def fine() -> Iterator[Case]:
         yield from spam(ra, 100, t_end=9000.0, mean_from=4000.0)
 
 
-STUDY = Study(name="rb", cases=cases, tables=tables.ALL, derive=derive, figures=figures)
+STUDY = Study(name="rb", cases=cases, tables=tables.ALL, derive=derive, figures=figures, claims=RB_CLAIMS)
 
 if __name__ == "__main__":
     main(STUDY)
