@@ -24,7 +24,6 @@ from continuum.steady import Steady
 
 # continuum.jit comes before everything that loads numba
 # isort: split
-from pde import FieldCollection
 from pde.solvers import RungeKuttaSolver
 from pde.trackers import ConstantInterrupts, FinishedSimulation
 from pde.trackers.base import TrackerBase
@@ -36,9 +35,9 @@ Progress = Callable[[float], None]
 
 
 class Rolls(NamedTuple):
-    """A start: rolls of kinetic energy `ke` per mass, `count` of them along x (by default two in a box of width 2)."""
+    """A start: rolls of kinetic energy `ke` per mass, `number` of them along x (by default two in a box of width 2)."""
     ke: float = 0.0018
-    count: int | None = None
+    number: int | None = None
 
 
 class Nusselt(NamedTuple):
@@ -115,7 +114,7 @@ def solve(equation: Any, *, until: Until = Steady(), start: Rolls | Solution = R
     ----------
     equation : Boussinesq or Gas.
     until : Steady(rtol=...) or Time(t_end) of `continuum.steady`.
-    start : Rolls(ke, count), or a solution of the same box on any grid.
+    start : Rolls(ke, number), or a solution of the same box on any grid.
     dt : largest step (by default 0.8 of the stability limit); the one taken divides the time between samples.
     backend : "numba", which compiles for some seconds at every call, or "numpy".
     progress : called with the fraction done.
@@ -182,10 +181,11 @@ def onto(equation: Any, start: Solution) -> np.ndarray:
     if type(old) is not type(equation) or not np.allclose(old.grid_box, equation.grid_box):
         raise ValueError(f"start is a {type(old).__name__} in a box {old.grid_box}, the equation a "
                          f"{type(equation).__name__} in {equation.grid_box}: start from rolls or from the same box")
-    full = old.padded(start.state)
-    return equation.repaired(np.array([
-        RectBivariateSpline(*old.points(n), f)(*(p[1:-1] for p in equation.points(n)))
-        for n, f in enumerate(full[:len(start.state)])]))
+    parts = []
+    for n, f in enumerate(old.padded(start.state)[:len(start.state)]):
+        x, y = equation.points(n)
+        parts.append(RectBivariateSpline(*old.points(n), f)(x[1:-1], y[1:-1]))
+    return equation.repaired(np.array(parts))
 
 
 # --- what py-pde calls ------------------------------------------------------------------------------------
@@ -223,7 +223,7 @@ class StageLoop(RungeKuttaSolver):
 
     name = "runge-kutta stage loop"
 
-    def _make_single_step_fixed_dt(self, state: FieldCollection, dt: float) -> Callable:
+    def _make_single_step_fixed_dt(self, state: Any, dt: float) -> Callable:
         rate = self.backend.make_pde_rhs(self.pde, state)
 
         def single_step(data, t):
