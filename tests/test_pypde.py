@@ -19,9 +19,10 @@ from continuum.fluid import (
     viscosity,
 )
 from continuum.linear import growth_rate
-from continuum.pypde import Rolls, RungeKuttaSolver, StageLoop, onto, solve, solve_boussinesq, solve_gas
+from continuum.pypde import Rolls, onto, solve, solve_boussinesq, solve_gas
 from continuum.pypde_boussinesq import Boussinesq
 from continuum.pypde_gas import RHO, VX, VY, E, Gas
+from continuum.pypde_march import RungeKuttaSolver, StageLoop
 from continuum.richardson import richardson
 from continuum.scene import RayleighBenard, Walls
 from continuum.steady import Steady, Time
