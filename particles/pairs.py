@@ -36,25 +36,20 @@ def weigh(first, last, weight, m, x, y, pairs, rho):
     follow in a loop of their own over what is left, which LLVM turns into vector instructions.
     """
     h2, per_h, per_slope = weight.h*weight.h, 1/weight.h, m*weight.scale/weight.h**2
-    r2 = np.empty(pairs.length[first:last].max() + 1)
     for i in range(u64(first), u64(last)):
         xi, yi, begin, n = x[i], y[i], pairs.start[i], u64(0)
         for k in range(begin, begin + pairs.length[i]):
             j = pairs.listed[k]
             dx, dy = xi - x[j], yi - y[j]
-            d2 = dx*dx + dy*dy
-            pairs.near[begin + n] = j
-            pairs.wx[begin + n] = dx
-            pairs.wy[begin + n] = dy
-            r2[n] = d2
-            n += u64(d2 < h2)
+            pairs.near[begin + n], pairs.wx[begin + n], pairs.wy[begin + n] = j, dx, dy
+            n += u64(dx*dx + dy*dy < h2)
         total = shape(weight, 0.0)
-        for k in range(n):
-            q = np.sqrt(r2[k])*per_h
+        for k in range(begin, begin + n):
+            dx, dy = pairs.wx[k], pairs.wy[k]
+            q = np.sqrt(dx*dx + dy*dy)*per_h
             total += shape(weight, q)
             f = per_slope*slope(weight, q)
-            pairs.wx[begin + k] *= f
-            pairs.wy[begin + k] *= f
+            pairs.wx[k], pairs.wy[k] = f*dx, f*dy
         pairs.taken[i] = n
         rho[i] = m*weight.scale*total
 
