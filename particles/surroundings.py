@@ -91,7 +91,7 @@ class Surroundings:
         self._fill_lists(x, y)
 
     def _fill_lists(self, x, y):
-        cells = sort_into_cells(x, y, self.reach/2)
+        cells = sort_into_cells(x, y, self.reach)
         start, length, listed = make_lists(self.team, cells, x[:self.rows], y[:self.rows], self.reach, 0)
         near, wx, wy = np.empty_like(listed), np.empty(len(listed)), np.empty(len(listed))
         self.pairs = Pairs(start, length, listed, np.empty(self.rows, np.uint32), near, wx, wy)
