@@ -32,8 +32,29 @@ OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": FASTMATH}
 
 #: compiled, kept on disk, free of Python's lock so that threads can share the rows of one loop
 jit = numba.njit(cache=True, nogil=True, **OPTIONS)
-#: the same with sums in the order that is written: LLVM then leaves the gathers of a short loop scalar, twice as fast
-ordered = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=FASTMATH - {"reassoc"})
+
+
+def lanes(function: Callable) -> Any:
+    """Compile with sums in the order that is written and with LLVM's SLP vectoriser, as `sweep` wants it.
+
+    SLP puts equal operations on neighbouring fields of a record into one vector instruction. numba leaves it off since
+    LLVM 14 miscompiled with it, so it is on here only, for loops that tests hold against a slow twin. Reassociation
+    would make LLVM gather the fields of several partners instead, which is twice as slow.
+    """
+    compiled = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=FASTMATH - {"reassoc"})(function)
+    plain = compiled.compile
+
+    def compile_with_slp(signature):
+        before, numba.config.SLP_VECTORIZE = numba.config.SLP_VECTORIZE, 1
+        try:
+            return plain(signature)
+        finally:
+            numba.config.SLP_VECTORIZE = before
+
+    compiled.compile = compile_with_slp
+    return compiled
+
+
 #: plain arithmetic that serves numbers, arrays and compiled code alike
 formula = register_jitable(**OPTIONS)
 

@@ -3,7 +3,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.jit import generic, jit, ordered, overload
+from continuum.jit import generic, jit, lanes, overload
 from particles.neighbours import ONE, u64
 from particles.weights import shape, slope
 
@@ -91,7 +91,7 @@ def _(out, i, k, values):
     return impl
 
 
-@ordered
+@lanes
 def sweep(first, last, term, particle, pairs, out):
     """out[i] = sum of rate(term, i, j, ij) over the pairs of rows first..last; `particle` is a structured array."""
     for i in range(u64(first), u64(last)):

@@ -4,7 +4,9 @@ The papers' symbols: a, b are the two particles, (ab.wx, ab.wy) = grad_a m w(r_a
 """
 from typing import NamedTuple
 
-from continuum.jit import generic
+import numpy as np
+
+from continuum.jit import formula, generic
 from particles.pairs import nothing, rate
 
 
@@ -20,19 +22,12 @@ class ArithmeticGradients(NamedTuple):
 
 
 @generic
-def partner_factor(term, rho):
-    """What the record of a partner holds as s, so that its share of 1/rho_ab costs nothing in the loop."""
+def density_factor(term, rho):
+    """What the records hold as s, so that 1/rho_ab costs little in the loop."""
 
 
-@generic
-def row_factor(term, rho):
-    """The row's share of 1/rho_ab, after the sum."""
-
-
-partner_factor.of(Gradients)(lambda term, rho: rho**-0.5)
-row_factor.of(Gradients)(lambda term, rho: rho**-0.5)
-partner_factor.of(ArithmeticGradients)(lambda term, rho: rho)
-row_factor.of(ArithmeticGradients)(lambda term, rho: 1.0)
+density_factor.of(Gradients)(lambda term, rho: 1/np.sqrt(rho))
+density_factor.of(ArithmeticGradients)(lambda term, rho: rho)
 
 
 class Fluxes(NamedTuple):
@@ -43,32 +38,37 @@ class Fluxes(NamedTuple):
     """
 
 
-nothing.of(Gradients)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-nothing.of(ArithmeticGradients)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-nothing.of(Fluxes)(lambda term: (0.0, 0.0, 0.0))
+nothing.of(Gradients)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+nothing.of(ArithmeticGradients)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+nothing.of(Fluxes)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0))
 
 
 @rate.of(Gradients)
 def _(term, a, b, ab):
-    x, y = b.s*ab.wx, b.s*ab.wy
-    u, v, T = b.vx - a.vx, b.vy - a.vy, b.T - a.T
-    return u*x, v*x, T*x, u*y, v*y, T*y
+    return _differences(a, b, a.s*b.s*ab.wx, a.s*b.s*ab.wy)
 
 
 @rate.of(ArithmeticGradients)
 def _(term, a, b, ab):
     f = 2/(a.s + b.s)
-    x, y = f*ab.wx, f*ab.wy
-    u, v, T = b.vx - a.vx, b.vy - a.vy, b.T - a.T
-    return u*x, v*x, T*x, u*y, v*y, T*y
+    return _differences(a, b, f*ab.wx, f*ab.wy)
+
+
+@formula
+def _differences(a, b, x, y):
+    """Differences of vx, vy, T times x, then times y. That of s is there to make them four, one vector register."""
+    u, v, T, s = b.vx - a.vx, b.vy - a.vy, b.T - a.T, b.s - a.s
+    return u*x, v*x, T*x, s*x, u*y, v*y, T*y, s*y
 
 
 @rate.of(Fluxes)
 def _(term, a, b, ab):
-    fx = (a.xx + b.xx)*ab.wx + (a.xy + b.xy)*ab.wy
+    # four equal sums in one vector register; the fourth is not used
+    fx = (a.xx + b.xx)*ab.wx + (a.yx + b.yx)*ab.wy
     fy = (a.xy + b.xy)*ab.wx + (a.yy + b.yy)*ab.wy
     q = (a.qx + b.qx)*ab.wx + (a.qy + b.qy)*ab.wy
-    return -fx, -fy, -0.5*((b.vx - a.vx)*fx + (b.vy - a.vy)*fy) - q
+    v = (a.vx + b.vx)*ab.wx + (a.vy + b.vy)*ab.wy
+    return -fx, -fy, -q, -v, -0.5*((b.vx - a.vx)*fx + (b.vy - a.vy)*fy)
 
 
 class DirectFluxes(NamedTuple):

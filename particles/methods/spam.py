@@ -14,11 +14,11 @@ from continuum.jit import formula, jit
 from particles.pairs import sweep
 from particles.surroundings import Surroundings
 from particles.team import Team
-from particles.terms import ArithmeticGradients, DirectFluxes, Fluxes, Gradients, partner_factor, row_factor
+from particles.terms import ArithmeticGradients, DirectFluxes, Fluxes, Gradients, density_factor
 from particles.walls import image_pressure
 
 Moving = np.dtype([(name, "f8") for name in ("vx", "vy", "T", "s")])
-Flux = np.dtype([(name, "f8") for name in ("vx", "vy", "xx", "xy", "yy", "qx", "qy", "unused")])  # one cache line
+Flux = np.dtype([(name, "f8") for name in ("xx", "xy", "qx", "vx", "yx", "yy", "qy", "vy")])  # one cache line
 DirectState = np.dtype([(name, "f8") for name in ("x", "y", "vx", "vy", "T", "P_rho2", "irho", "eta", "k")])
 
 
@@ -85,7 +85,7 @@ class Sums:
     def __init__(self, method: Spam, n: int, team: Team):
         self.method, self.team, self.n = method, team, n
         self.around = Surroundings(method.weight, method.walls, n, method.box, skin=method.skin, team=team)
-        self.gradient, self.pull = np.zeros((self.around.rows, 6)), np.empty((self.around.rows, 3))
+        self.slopes, self.pull = np.zeros((self.around.rows, 8)), np.zeros((self.around.rows, 5))
         self.less, self.moving = np.empty(0), np.empty(0, Moving)
 
     def densities(self, state: np.ndarray) -> None:
@@ -106,15 +106,19 @@ class Sums:
         self.less, self.moving = np.empty(points), np.empty(points, Moving)
 
     def gradients(self) -> None:
-        """Second sum: self.gradient (rows, 6) = dvx/dx, dvy/dx, dT/dx, dvx/dy, dvy/dy, dT/dy."""
+        """Second sum: self.slopes (rows, 8)."""
         around, kind = self.around, self.method.gradients
         self.team(_moving, len(around.x), kind, around.vx, around.vy, around.T, around.rho, self.moving)
-        self.team(sweep, around.rows, kind, self.moving, around.pairs, self.gradient)
-        self.team(_scale, around.rows, kind, around.rho, self.gradient)
+        self.team(sweep, around.rows, kind, self.moving, around.pairs, self.slopes)
+
+    @property
+    def gradient(self) -> np.ndarray:
+        """(rows, 6): dvx/dx, dvy/dx, dT/dx, dvx/dy, dvy/dy, dT/dy."""
+        return self.slopes.reshape(-1, 2, 4)[:, :, :3].reshape(-1, 6)
 
     def finish(self, state: np.ndarray, out: np.ndarray) -> None:
         """Rates of the particles from the third sum, gravity and what the static pressure was left out of."""
-        self.team(_rates, self.n, state, self.pull, self.around.rho, self.gradient, self.method.g, self.method.static, out)
+        self.team(_rates, self.n, state, self.pull, self.around.rho, self.slopes, self.method.g, self.method.static, out)
 
 
 class Nested(Sums):
@@ -129,7 +133,7 @@ class Nested(Sums):
         around, method = self.around, self.method
         self.densities(state)
         self.gradients()
-        self.team(_fluxes, around.rows, method.law, around.rho, around.vx, around.vy, around.T, self.less, self.gradient,
+        self.team(_fluxes, around.rows, method.law, around.rho, around.vx, around.vy, around.T, self.less, self.slopes,
                   self.flux)
         for _, parent, first, last in around.blocks:
             _image_fluxes(first, last, parent, around.rho, around.vx, around.vy, self.less, self.flux)
@@ -186,26 +190,18 @@ def _image_pressures(first, last, wall, parent, eos, static, g, y, rho, T, P, le
 def _moving(first, last, kind, vx, vy, T, rho, moving):
     for i in range(first, last):
         a = moving[i]
-        a.vx, a.vy, a.T, a.s = vx[i], vy[i], T[i], partner_factor(kind, rho[i])
+        a.vx, a.vy, a.T, a.s = vx[i], vy[i], T[i], density_factor(kind, rho[i])
 
 
 @jit
-def _scale(first, last, kind, rho, gradient):
-    for i in range(first, last):
-        factor = row_factor(kind, rho[i])
-        for c in range(6):
-            gradient[i, c] *= factor
-
-
-@jit
-def _fluxes(first, last, law, rho, vx, vy, T, less, gradient, flux):
+def _fluxes(first, last, law, rho, vx, vy, T, less, slopes, flux):
     """P/rho^2 and Q/rho^2 with P = (P - static) I - stress, Q = -k grad T."""
     for i in range(first, last):
-        xx, yx, Tx, xy, yy, Ty = gradient[i]  # xy: dvx/dy
+        xx, yx, Tx, _, xy, yy, Ty, _ = slopes[i]  # xy: dvx/dy
         sxx, sxy, syy = stress(viscosity(law, rho[i], T[i]), 0.0, xx, yx, xy, yy)
         k, f, a = conductivity(law, rho[i], T[i]), 1/rho[i]**2, flux[i]
         a.vx, a.vy = vx[i], vy[i]
-        a.xx, a.xy, a.yy = (less[i] - sxx)*f, -sxy*f, (less[i] - syy)*f
+        a.xx, a.xy, a.yx, a.yy = (less[i] - sxx)*f, -sxy*f, -sxy*f, (less[i] - syy)*f
         a.qx, a.qy = -k*Tx*f, -k*Ty*f
 
 
@@ -216,7 +212,7 @@ def _image_fluxes(first, last, parent, rho, vx, vy, less, flux):
         p = parent[i - first]
         a, b, f = flux[i], flux[p], (less[i] - less[p])/rho[i]**2
         a.vx, a.vy = vx[i], vy[i]
-        a.xx, a.xy, a.yy, a.qx, a.qy = b.xx + f, b.xy, b.yy + f, b.qx, b.qy
+        a.xx, a.xy, a.yx, a.yy, a.qx, a.qy = b.xx + f, b.xy, b.yx, b.yy + f, b.qx, b.qy
 
 
 @jit
@@ -229,10 +225,10 @@ def _direct(first, last, law, x, y, rho, vx, vy, T, less, records):
 
 
 @jit
-def _rates(first, last, state, pull, rho, gradient, g, static, out):
+def _rates(first, last, state, pull, rho, slopes, g, static, out):
     """Gravity, and the work of the static pressure that the pair sum left out."""
     for i in range(first, last):
         out[0, i], out[1, i] = state[2, i], state[3, i]
         out[2, i] = pull[i, 0]
         out[3, i] = pull[i, 1] - g*(1 - static.fraction*static.rho0/rho[i])
-        out[4, i] = pull[i, 2] - _static(static, g, state[1, i])/rho[i]*(gradient[i, 0] + gradient[i, 4])
+        out[4, i] = pull[i, 2] + pull[i, 4] - _static(static, g, state[1, i])/rho[i]*(slopes[i, 0] + slopes[i, 5])
