@@ -24,7 +24,24 @@ def source_hash() -> str:
 os.environ.setdefault("NUMBA_CACHE_DIR", str(ROOT / ".numba_cache" / source_hash()))
 
 import numba  # noqa: E402  (the cache folder must be known first)
+from numba.core import caching  # noqa: E402
 from numba.extending import overload, register_jitable  # noqa: E402
+
+_load_index = caching.IndexDataCacheFile._load_index
+
+
+def _load_index_if_known(file: Any) -> dict:
+    """numba's index of compiled code; empty if it names types of another program, such as somebody's own weight.
+
+    numba would stop with an ImportError, and so would every other program that runs the same function.
+    """
+    try:
+        return _load_index(file)
+    except (ImportError, AttributeError):
+        return {}
+
+
+setattr(caching.IndexDataCacheFile, "_load_index", _load_index_if_known)  # noqa: B010  (mypy allows it so)
 
 # NaN must stay NaN (divergence is looked for), so not the whole of fastmath
 FASTMATH = {"contract", "reassoc", "arcp", "nsz"}
@@ -41,7 +58,7 @@ def lanes(function: Callable) -> Any:
     LLVM 14 miscompiled with it, so it is on here only, for loops that tests hold against a slow twin. Reassociation
     would make LLVM gather the fields of several partners instead, which is twice as slow.
     """
-    compiled = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=FASTMATH - {"reassoc"})(function)
+    compiled: Any = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=FASTMATH - {"reassoc"})(function)
     plain = compiled.compile
 
     def compile_with_slp(signature):
