@@ -162,7 +162,7 @@ class PypdeSteady(Case):
     def _row(self, solution: pypde.Solution) -> dict:
         point = boussinesq_point("pypde-boussinesq", "vorticity", self.ra, self.pr)
         if self.scene is not None:
-            point |= {"method": "pypde-compressible", "variant": "conservative", **scene_columns(self.scene),
+            point |= {"method": "pypde-compressible", "variant": "staggered", **scene_columns(self.scene),
                       "free_fall": self.scene.free_fall}
         seen = solution.nusselt
         return {**point, "resolution": solution.rows, "ke": solution.ke, "ke_err": 2*solution.ke_err, "ke_field": solution.ke,
