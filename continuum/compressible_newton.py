@@ -24,7 +24,8 @@ from continuum.scene import Periodic
 
 REACH = 2       # of a node or cell in rates, in rows and columns
 STEP = 1e-5     # of the differences: their error is about its square, and round-off over it
-STEPS = 30
+RELAX = 2.0     # the implicit steps that lead to Newton's are RELAX/(largest rate of change) free-fall times long
+STEPS = 80
 STILL = 1e-10   # square of the share of the velocity below which a disturbance is a change of mass only
 
 
@@ -140,22 +141,23 @@ def steady(scene, rows: int, start: Fields | None = None, *, within: float = 1e-
     NewtonFailed
         No convergence.
     """
-    equations = Discrete(scene, rows)
+    equations, unit = Discrete(scene, rows), scene.L/scene.free_fall
     q = equations.unknowns(block(initial(scene, rows) if start is None else onto(scene, rows, start)))
     changes: list[float] = []
     while not changes or changes[-1] > within:
-        change = newton_step(equations, q)
-        q, size = q + change, float(np.abs(change).max())
-        changes.append(size)
-        if not size < 1e3 or len(changes) == STEPS:
+        rates = equations.rates(q)
+        change = step(equations, q, rates, RELAX*unit/max(largest(rates)*unit, within**2))
+        q = q + change
+        changes.append(largest(change))
+        if not changes[-1] < 1e3 or len(changes) == STEPS:
             raise NewtonFailed(f"no steady state at Ra = {scene.ra:g} on {rows} rows, last changes "
                                f"{', '.join(f'{c:.1e}' for c in changes[-4:])}: start from one nearby in Ra, or from a run in time")
     fields, S = equations.fields(q)
     return Steady(fields, kinetic_energy(S), count_rolls(fields), tuple(changes))
 
 
-def newton_step(equations: Discrete, q: np.ndarray) -> np.ndarray:
-    """The change of q.
+def step(equations: Discrete, q: np.ndarray, rates: np.ndarray, dt: float) -> np.ndarray:
+    """The change of q in an implicit step; dt = inf makes it Newton's.
 
     Of the rates of densities one follows from the others for each kept sum. It gives way to "no change of this density",
     and what such a change alone would do, `free`, is added so that the sums are kept; their own rows would fill the factors.
@@ -166,10 +168,15 @@ def newton_step(equations: Discrete, q: np.ndarray) -> np.ndarray:
     mask[spare] = 0
     units = np.zeros((len(q), len(spare)))
     units[spare, range(len(spare))] = 1
-    lu = splu((sparse.diags_array(mask)@equations.jacobian(q) + sparse.diags_array(1 - mask)).tocsc())
-    change = lu.solve(-mask*equations.rates(q))
-    free = lu.solve(units)
+    slopes = sparse.diags_array(mask)@equations.jacobian(q)
+    lu = splu((sparse.diags_array(np.where(mask, 1/dt, 1.0)) - slopes).tocsc())
+    change, free = lu.solve(mask*rates), lu.solve(units)
     return change - free@np.linalg.solve(kept@free, kept@(q + change))
+
+
+def largest(a: np.ndarray) -> float:
+    """Largest magnitude."""
+    return float(np.abs(a).max())
 
 
 def growth_rate(scene, rows: int, near: float = 0.3) -> float:
