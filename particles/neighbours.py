@@ -11,8 +11,9 @@ import numpy as np
 from continuum.jit import jit
 from particles.team import Team
 
-u64 = np.uint64
+u32, u64 = np.uint32, np.uint64
 ONE = u64(1)
+NOTHING = np.empty(0, u32)
 
 
 class Cells(NamedTuple):
@@ -52,7 +53,7 @@ def sort_into_cells(x: np.ndarray, y: np.ndarray, side: float) -> Cells:
             f"the points spread over {across:.4g} x {up:.4g} cells, far more than their number {len(x)}: some have left "
             "the box; lower the step or put an elastic wall behind each wall")
     columns, rows = int(across), int(up)
-    start, order = np.zeros(columns*rows + 1, np.int64), np.empty(len(x), np.uint32)
+    start, order = np.zeros(columns*rows + 1, np.int64), np.empty(len(x), u32)
     _count_sort(x, y, left, bottom, side, columns, start, np.empty(len(x), np.int64), order)
     return Cells(left, bottom, side, columns, rows, start, order, x[order], y[order])
 
@@ -79,7 +80,7 @@ def list_rows(first, last, cells, x, y, reach, itself, capacity, start, length, 
     """
     ring = int(np.ceil(reach/cells.side))
     most = (2*ring + 1)**2*np.diff(cells.start).max()
-    near_x, near_y, near, close = np.empty(most), np.empty(most), np.empty(most, np.uint32), np.empty(most, np.uint32)
+    near_x, near_y, near, close = np.empty(most), np.empty(most), np.empty(most, u32), np.empty(most, u32)
     far2, used, end_of_room, home, count = reach*reach, u64(first*capacity), u64(last*capacity), -1, u64(0)
     for i in range(u64(first), u64(last)):
         # a place that is outside of all cells looks into the nearest ones
@@ -102,8 +103,11 @@ def list_rows(first, last, cells, x, y, reach, itself, capacity, start, length, 
     return True
 
 
-def make_lists(team: Team, cells: Cells, x: np.ndarray, y: np.ndarray, reach: float, itself: int) -> tuple:
+def make_lists(team: Team, cells: Cells, x: np.ndarray, y: np.ndarray, reach: float, itself: int,
+               listed: np.ndarray = NOTHING) -> tuple:
     """(start, length, listed) of all points of `cells` within `reach` of (x, y), but for point i + `itself` of row i.
+
+    An array `listed` of earlier lists is used again where it has room: new memory costs more than to write to it.
 
     Raises
     ------
@@ -112,8 +116,9 @@ def make_lists(team: Team, cells: Cells, x: np.ndarray, y: np.ndarray, reach: fl
     """
     rows, room = len(x), 4 + int(1.1*np.pi*reach**2*_density(cells))
     while room < 2000:
-        start, length = np.empty(rows, np.uint64), np.empty(rows, np.uint32)
-        listed = np.empty(rows*room, np.uint32)
+        start, length = np.empty(rows, np.uint64), np.empty(rows, u32)
+        if len(listed) < rows*room:
+            listed = np.empty(int(1.1*rows*room), u32)
         if all(team(list_rows, rows, cells, x, y, reach, itself, room, start, length, listed)):
             return start, length, listed
         room = int(1.3*room) + 1

@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.jit import generic, jit, lanes, overload
-from particles.neighbours import ONE, u64
+from particles.neighbours import ONE, u32, u64
 from particles.weights import shape, slope
 
 
@@ -20,6 +20,12 @@ class Pairs(NamedTuple):
     near: np.ndarray
     wx: np.ndarray
     wy: np.ndarray
+
+
+def empty_pairs(rows: int, entries: int) -> Pairs:
+    """Arrays for lists with so many entries in all."""
+    start, (length, taken), (listed, near) = np.empty(rows, u64), np.empty((2, rows), u32), np.empty((2, entries), u32)
+    return Pairs(start, length, listed, taken, near, *np.empty((2, entries)))
 
 
 class Pair(NamedTuple):

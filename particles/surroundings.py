@@ -5,7 +5,7 @@ Points are numbered particles first, then fixed particles, then ghosts wall by w
 import numpy as np
 
 from particles.neighbours import farthest, make_lists, sort_into_cells
-from particles.pairs import Pairs, weigh
+from particles.pairs import empty_pairs, weigh
 from particles.team import Team
 from particles.walls import fixed_points, move_images, parents, place_images
 from particles.walls.periodic import wrap
@@ -40,7 +40,7 @@ class Surroundings:
         self._fixed = tuple(np.concatenate(column) for column in zip(*held, strict=True))
         self.rows = n + len(self._fixed[0])
         self.anchor: np.ndarray | None = None
-        self.lists_made = 0
+        self.pairs, self.lists_made = empty_pairs(self.rows, 0), 0
 
     def must_relist(self, state: np.ndarray, dt: float) -> bool:
         """True if some particle may leave half of the skin within the coming step."""
@@ -92,9 +92,12 @@ class Surroundings:
 
     def _fill_lists(self, x, y):
         cells = sort_into_cells(x, y, self.reach)
-        start, length, listed = make_lists(self.team, cells, x[:self.rows], y[:self.rows], self.reach, 0)
-        near, wx, wy = np.empty_like(listed), np.empty(len(listed)), np.empty(len(listed))
-        self.pairs = Pairs(start, length, listed, np.empty(self.rows, np.uint32), near, wx, wy)
+        rows, old = slice(self.rows), self.pairs
+        start, length, listed = make_lists(self.team, cells, x[rows], y[rows], self.reach, 0, old.listed)
+        if listed is old.listed:
+            self.pairs = old._replace(start=start, length=length)
+        else:
+            self.pairs = empty_pairs(self.rows, len(listed))._replace(start=start, length=length, listed=listed)
 
     def place(self, state: np.ndarray, m: float) -> None:
         """Positions of all points and, over the pairs in range, density of the rows and of their images."""

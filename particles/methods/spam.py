@@ -56,7 +56,7 @@ class Spam:
     gradients: Gradients | ArithmeticGradients = Gradients()  # noqa: RUF009 (immutable)
     transport: "type[Nested] | type[Direct] | None" = None
     static: LessStatic = LessStatic(0.0, 0.0)  # noqa: RUF009
-    skin: float = 0.6
+    skin: float = 0.7
 
     fields = ("x", "y", "vx", "vy", "e")
 
@@ -226,9 +226,11 @@ def _direct(first, last, law, x, y, rho, vx, vy, T, less, records):
 
 @jit
 def _rates(first, last, state, pull, rho, slopes, g, static, out):
-    """Gravity, and the work of the static pressure that the pair sum left out."""
+    """Rates of the particles; if the pair sums left out some static pressure, its support of gravity and its work."""
     for i in range(first, last):
         out[0, i], out[1, i] = state[2, i], state[3, i]
-        out[2, i] = pull[i, 0]
-        out[3, i] = pull[i, 1] - g*(1 - static.fraction*static.rho0/rho[i])
-        out[4, i] = pull[i, 2] + pull[i, 4] - _static(static, g, state[1, i])/rho[i]*(slopes[i, 0] + slopes[i, 5])
+        out[2, i], out[3, i], out[4, i] = pull[i, 0], pull[i, 1] - g, pull[i, 2] + pull[i, 4]
+    if static.fraction != 0:
+        for i in range(first, last):
+            out[3, i] += g*static.fraction*static.rho0/rho[i]
+            out[4, i] -= _static(static, g, state[1, i])/rho[i]*(slopes[i, 0] + slopes[i, 5])
