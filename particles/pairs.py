@@ -9,13 +9,15 @@ from particles.weights import shape, slope
 
 
 class Pairs(NamedTuple):
-    """Verlet lists (start, length, listed) and of row i the pairs in range: near, wx, wy [start[i]:start[i] + taken[i]].
+    """Verlet lists, listed[start[i]:start[i] + length[i]] of row i, and of them the pairs in range.
 
-    (wx, wy) is the gradient of m w(r_ij) with respect to r_i.
+    The pairs of row i are near, wx, wy [first[i]:first[i] + taken[i]]; (wx, wy) is the gradient of m w(r_ij) with
+    respect to r_i.
     """
     start: np.ndarray
     length: np.ndarray
     listed: np.ndarray
+    first: np.ndarray
     taken: np.ndarray
     near: np.ndarray
     wx: np.ndarray
@@ -24,8 +26,9 @@ class Pairs(NamedTuple):
 
 def empty_pairs(rows: int, entries: int) -> Pairs:
     """Arrays for lists with so many entries in all."""
-    start, (length, taken), (listed, near) = np.empty(rows, u64), np.empty((2, rows), u32), np.empty((2, entries), u32)
-    return Pairs(start, length, listed, taken, near, *np.empty((2, entries)))
+    (start, first), (length, taken) = np.empty((2, rows), u64), np.empty((2, rows), u32)
+    listed, near = np.empty((2, entries), u32)
+    return Pairs(start, length, listed, first, taken, near, *np.empty((2, entries)))
 
 
 class Pair(NamedTuple):
@@ -42,22 +45,23 @@ def weigh(first, last, weight, m, x, y, pairs, rho):
     follow in a loop of their own over what is left, which LLVM turns into vector instructions.
     """
     h2, per_h, per_slope = weight.h*weight.h, 1/weight.h, m*weight.scale/weight.h**2
+    begin = pairs.start[first] if first < last else u64(0)
     for i in range(u64(first), u64(last)):
-        xi, yi, begin, n = x[i], y[i], pairs.start[i], u64(0)
-        for k in range(begin, begin + pairs.length[i]):
+        xi, yi, end = x[i], y[i], begin
+        for k in range(pairs.start[i], pairs.start[i] + pairs.length[i]):
             j = pairs.listed[k]
             dx, dy = xi - x[j], yi - y[j]
-            pairs.near[begin + n], pairs.wx[begin + n], pairs.wy[begin + n] = j, dx, dy
-            n += u64(dx*dx + dy*dy < h2)
+            pairs.near[end], pairs.wx[end], pairs.wy[end] = j, dx, dy
+            end += u64(dx*dx + dy*dy < h2)
         total = shape(weight, 0.0)
-        for k in range(begin, begin + n):
+        for k in range(begin, end):
             dx, dy = pairs.wx[k], pairs.wy[k]
             q = np.sqrt(dx*dx + dy*dy)*per_h
             total += shape(weight, q)
             f = per_slope*slope(weight, q)
             pairs.wx[k], pairs.wy[k] = f*dx, f*dy
-        pairs.taken[i] = n
         rho[i] = m*weight.scale*total
+        pairs.first[i], pairs.taken[i], begin = begin, end - begin, end
 
 
 @generic
@@ -101,7 +105,7 @@ def _(out, i, k, values):
 def sweep(first, last, term, particle, pairs, out):
     """out[i] = sum of rate(term, i, j, ij) over the pairs of rows first..last; `particle` is a structured array."""
     for i in range(u64(first), u64(last)):
-        a, total, begin = particle[i], nothing(term), pairs.start[i]
+        a, total, begin = particle[i], nothing(term), pairs.first[i]
         for k in range(begin, begin + pairs.taken[i]):
             total = add(total, rate(term, a, particle[pairs.near[k]], Pair(pairs.wx[k], pairs.wy[k])))
         store(out, i, u64(0), total)
