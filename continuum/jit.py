@@ -23,7 +23,8 @@ def source_hash() -> str:
 
 os.environ.setdefault("NUMBA_CACHE_DIR", str(ROOT / ".numba_cache" / source_hash()))
 
-import numba  # noqa: E402  (the cache folder must be known first)
+import llvmlite.binding  # noqa: E402  (the cache folder must be known first)
+import numba  # noqa: E402
 from numba.core import caching  # noqa: E402
 from numba.extending import overload, register_jitable  # noqa: E402
 
@@ -49,6 +50,8 @@ OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": FASTMATH}
 
 #: compiled, kept on disk, free of Python's lock so that threads can share the rows of one loop
 jit = numba.njit(cache=True, nogil=True, **OPTIONS)
+#: four float64 a vector: with eight, `lanes` spends more on putting them together than it saves
+llvmlite.binding.set_option("fluidized-grid", "-slp-max-reg-size=256")
 
 
 def lanes(function: Callable) -> Any:
