@@ -255,6 +255,14 @@ def test_slopes_in_the_legend_are_those_of_the_rows(full):
     assert any("K_g" in label and "slope -1.1" in label for label in left.get_legend_handles_labels()[1])
 
 
+def test_only_particles_that_stand_still_where_the_grid_convects_are_called_frozen(full):
+    assert "frozen" not in texts(figures.ALL["main"](full))      # at Ra = 1500 the grid is at rest, too
+    mean = full["means"].copy()
+    mean.loc[mean["method"].eq("spam") & mean["ra"].eq(2500.0), "ke_field"] = 1e-7
+    words = [found.get_text() for found in figures.ALL["main"](Tables(full | {"means": mean})).findobj(Text)]
+    assert sum("frozen" in word for word in words) == 1
+
+
 def test_circles_are_what_is_behind_the_plates(full):
     upper, lower = figures.ALL["fig2_3"](full).axes
     for axes in (upper, lower):

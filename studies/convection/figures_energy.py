@@ -44,6 +44,7 @@ def main(tables: Tables) -> Figure | None:
     fitted_line(axes, limit)
     boussinesq(axes, tables)
     by_resolution(axes, spam)
+    name_frozen(axes, limit, spam)
     printed_numbers(axes)
     axes.set(title="Convection of an ideal gas: are smooth particles on the grid's line?", ylabel=ENERGY)
     finish(axes)
@@ -90,6 +91,14 @@ def by_resolution(axes: Axes, spam: pd.DataFrame) -> None:
             style = {"linestyle": "none", "markersize": 7 - 1.5*number, "alpha": max(0.35, 1 - 0.3*number)}
             axes.errorbar(group["ra"]**-0.5 + 2.5e-4*number, group[column], group[f"{column}_err"], zorder=4 - number,
                           label=f"{label}: {told(spam, sizes)}" if number == 0 else "", **KIND[kind] | style)
+
+
+def name_frozen(axes: Axes, limit: pd.DataFrame, spam: pd.DataFrame) -> None:
+    """A word where the grid convects and the finest particles stand still on a lattice."""
+    grid_ke = finest(spam)["ra"].map(limit.set_index("ra")["ke"])
+    for ra in finest(spam).loc[(grid_ke > STILL) & (finest(spam)["ke_field"] < 0.01*grid_ke), "ra"]:
+        axes.annotate("particles\nfrozen", (ra**-0.5, 0), xytext=(0, 8), textcoords="offset points", ha="center",
+                      fontsize=8)
 
 
 def told(spam: pd.DataFrame, sizes: list[float]) -> str:
@@ -156,6 +165,7 @@ def fig6(tables: Tables) -> Figure | None:
     page, axes = figure(width=6, height=4.2)
     grid(axes, reference(tables, **BOX), "compressible grid, extrapolated")
     by_resolution(axes, particles(tables, **BOX))
+    name_frozen(axes, reference(tables, **BOX), particles(tables, **BOX))
     axes.set(title="Square box with four walls, ideal gas: grid and particles    [KHP95, Fig. 6]", ylabel=ENERGY)
     finish(axes)
     return page
