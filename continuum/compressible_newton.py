@@ -11,6 +11,7 @@ unknowns five nodes apart meet in no rate, so that a hundred pairs of evaluation
 The grid keeps two sums of densities, whatever the flow: the mass, and the sum with signs that alternate like the squares
 of a chessboard, which no node sees. Both are zero deviations at the start of a run and constraints of Newton's method.
 """
+from dataclasses import replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -20,12 +21,14 @@ from scipy.sparse.linalg import eigs, splu
 
 from continuum.compressible_fields import Fields, block, count_rolls, initial, kinetic_energy, onto, unblock
 from continuum.compressible_loop import RHO, VX, VY, Box, E, FluxForm, fill, rates
+from continuum.fluid import energy
 from continuum.scene import Periodic
 
 REACH = 2       # of a node or cell in rates, in rows and columns
 STEP = 1e-5     # of the differences: their error is about its square, and round-off over it
-RELAX = 2.0     # the implicit steps that lead to Newton's are RELAX/(largest rate of change) free-fall times long
-STEPS = 80
+RELAX = 1.0     # the implicit steps that lead to Newton's are RELAX/(largest rate of change) free-fall times long
+STEPS = 60
+WEAK = 5e-4     # K of rolls to start from, in free-fall units: from KHP95's, cold and stronger, it may end in other states
 STILL = 1e-10   # square of the share of the velocity below which a disturbance is a change of mass only
 
 
@@ -130,8 +133,23 @@ class Discrete:
         return unblock(self.scene, S), S
 
 
+def heat_of_rolls(scene, vy: np.ndarray) -> np.ndarray:
+    """Temperature at which conduction takes what slow rolls as wide as high bring: kappa (2 pi^2/L^2) T' = v_y dT/L.
+
+    Gas carries half of it (adiabatic gradient) and conducts as much less (isobaric heat): the factors cancel.
+    """
+    return vy*scene.dT*scene.L/(2*np.pi**2*scene.kappa)
+
+
+def warm_rolls(scene, rows: int, ke: float) -> Fields:
+    """KHP95's initial rolls of kinetic energy `ke` per mass, with their heat."""
+    fields = initial(scene, rows, ke)
+    T = fields.at.T + heat_of_rolls(scene, fields.at.vy)
+    return replace(fields, at=fields.at._replace(T=T, e=energy(scene.eos, fields.at.rho, T)))
+
+
 def steady(scene, rows: int, start: Fields | None = None, *, within: float = 1e-9) -> Steady:
-    """The steady state that Newton's method finds from start (KHP95's rolls by default), of any grid or Ra.
+    """The steady state that Newton's method finds from start, of any grid or Ra; by default from weak warm rolls.
 
     It ends when no unknown changes by more than `within`; the error is then about its square. It is at rest below
     onset.
@@ -142,7 +160,8 @@ def steady(scene, rows: int, start: Fields | None = None, *, within: float = 1e-
         No convergence.
     """
     equations, unit = Discrete(scene, rows), scene.L/scene.free_fall
-    q = equations.unknowns(block(initial(scene, rows) if start is None else onto(scene, rows, start)))
+    start = warm_rolls(scene, rows, WEAK*scene.free_fall**2) if start is None else onto(scene, rows, start)
+    q = equations.unknowns(block(start))
     changes: list[float] = []
     while not changes or changes[-1] > within:
         rates = equations.rates(q)
@@ -150,8 +169,9 @@ def steady(scene, rows: int, start: Fields | None = None, *, within: float = 1e-
         q = q + change
         changes.append(largest(change))
         if not changes[-1] < 1e3 or len(changes) == STEPS:
-            raise NewtonFailed(f"no steady state at Ra = {scene.ra:g} on {rows} rows, last changes "
-                               f"{', '.join(f'{c:.1e}' for c in changes[-4:])}: start from one nearby in Ra, or from a run in time")
+            last = ", ".join(f"{size:.1e}" for size in changes[-4:])
+            raise NewtonFailed(f"no steady state at Ra = {scene.ra:g} on {rows} rows, last changes {last}: start from one "
+                               "nearby in Ra, or from a run in time")
     fields, S = equations.fields(q)
     return Steady(fields, kinetic_energy(S), count_rolls(fields), tuple(changes))
 

@@ -1,0 +1,166 @@
+"""From growth rates and energies to critical Rayleigh numbers."""
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from continuum.richardson import richardson
+from studies.convection.onset_cases import BOX_NAMES, LINES
+from studies.convection.onset_digits import figures_given
+from studies.convection.onset_tables import POINT
+from studies.kit.stats import Measured, combine
+from studies.kit.table import Tables
+
+SERIES = POINT[:-1]
+
+class Line(NamedTuple):
+    """K = slope Ra^-1/2 + intercept; `err` of its zero as the scatter of the points would have it."""
+    slope: float
+    intercept: float
+    err: float
+    residual: float
+    points: int
+
+    @property
+    def ra_c(self) -> float:
+        return (self.slope/self.intercept)**2
+
+
+def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
+    """All derived rows of the study."""
+    critical, lines = [], []
+    if "growth_rates" in tables:
+        critical += list(from_growth(tables["growth_rates"]))
+        critical += list(small_differences(pd.DataFrame(critical)))
+    if "energies" in tables:
+        lines = list(all_lines(tables["energies"]))
+        critical += [critical_row(row, row["ra_c"], row["err"], " (K line, L^-2 extrapolated)" if np.isinf(row["resolution"])
+                                  else " (K line)", way="line", reach=row["reach"]) for row in lines]
+    known = tables["critical_ra"][tables["critical_ra"]["method"] == "linear"] if "critical_ra" in tables else pd.DataFrame()
+    everything = pd.concat([known, pd.DataFrame(critical)], ignore_index=True)
+    return {"lines": lines, "critical_ra": critical, "figures": list(figures_given(everything))}
+
+
+def critical_row(at: Any, value: float, err: float, suffix: str, *, way: str, reach: float = 0.0, ke_start: float = 0.0,
+                 **more: Any) -> dict[str, Any]:
+    """Row of `critical_ra` at the point of another row."""
+    return {**{name: at[name] for name in POINT}, "quantity": BOX_NAMES[at["sides"]] + suffix, "value": value, "err": err,
+            "way": way, "reach": reach, "ke_start": ke_start, **more}
+
+
+# --- growth rates -----------------------------------------------------------------------------------------
+
+
+def from_growth(rates: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """Ra where sigma crosses zero: for each grid and start, and extrapolated over three grids or more."""
+    for key, group in rates[rates["method"] != "linear"].groupby([*SERIES, "way", "ke_start"], dropna=False):
+        way, ke_start = key[-2:]
+        found = [critical_row(one.iloc[0], *zero, " (growth rates)", way=way, ke_start=ke_start)
+                 for _, one in group.groupby("resolution") if (zero := crossing(means(one), way)) is not None]
+        yield from found
+        if way == "operator" and len(found) > 2:
+            value, err = limit(found)
+            yield {**found[-1], "resolution": np.inf, "value": value, "err": err}
+
+
+def means(runs: pd.DataFrame) -> pd.DataFrame:
+    """Mean sigma over seeds at each Ra."""
+    rows = [(ra, *combine(list(zip(group["sigma"], group["err"])))) for ra, group in runs.groupby("ra")]
+    return pd.DataFrame(rows, columns=["ra", "sigma", "err"])
+
+
+def crossing(rates: pd.DataFrame, way: str) -> Measured | None:
+    """Zero of sigma(Ra), None if there is none within the Ra at hand."""
+    if not rates["sigma"].min() < 0 < rates["sigma"].max() or len(rates) < 2:
+        return None
+    return smooth_zero(rates) if way == "operator" else nearby_zero(rates)
+
+
+def smooth_zero(rates: pd.DataFrame) -> Measured:
+    """From the polynomial Ra(sigma) through all points; err is what the farthest point changes, and the errors of sigma."""
+    rates = rates.iloc[np.argsort(np.abs(rates["sigma"]))]
+    sigma, ra = rates["sigma"].to_numpy(), rates["ra"].to_numpy()
+    value, other = interpolated(sigma, ra), interpolated(sigma[:-1], ra[:-1])
+    return Measured(value, abs(value - other) + rates["err"].max()*abs(np.diff(ra)[0]/np.diff(sigma)[0]))
+
+
+def interpolated(sigma: np.ndarray, ra: np.ndarray) -> float:
+    """Lagrange's polynomial at sigma = 0."""
+    return float(sum(r*np.prod([-other/(s - other) for other in sigma if other != s]) for s, r in zip(sigma, ra)))
+
+
+def nearby_zero(rates: pd.DataFrame) -> Measured:
+    """From the straight line between the neighbours of zero.
+
+    err has the errors of both, and a quarter of their distance in Ra where the next neighbours show that sigma(Ra) bends
+    by as much (two points alone do not tell).
+    """
+    sigma, ra, err = (rates[name].to_numpy() for name in ("sigma", "ra", "err"))
+    low = np.flatnonzero(sigma < 0)[-1]         # noise may cross zero more than once: the last is taken
+    high = low + 1 if low + 1 < len(ra) else low - 1
+    slope, share = (ra[high] - ra[low])/(sigma[high] - sigma[low]), sigma[high]/(sigma[high] - sigma[low])
+    value = ra[low]*share + ra[high]*(1 - share)
+    noise = abs(slope)*np.hypot(err[low]*share, err[high]*(1 - share))
+    near = np.argsort(np.abs(ra - value))[:3]
+    bend = abs(interpolated(sigma[near], ra[near]) - value) if len(near) == 3 and np.ptp(np.sign(np.diff(sigma))) == 0 else np.inf
+    return Measured(float(value), float(np.hypot(noise, min(bend, abs(ra[high] - ra[low])/4))))
+
+
+def limit(rows: list[dict[str, Any]]) -> Measured:
+    """Extrapolated over grids."""
+    found = richardson([row["value"] for row in rows], [row["resolution"] for row in rows])
+    return Measured(found.limit, found.error + 3*max(row["err"] for row in rows))
+
+
+def small_differences(critical: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """Limit dT -> 0 of the gas: even in dT, because turning the box upside down changes the sign of dT alone."""
+    rows = critical[np.isinf(critical["resolution"]) & (critical["eos"] != "")]
+    for _, group in rows.groupby(["method", "eos", "transport", "sides"]):
+        group = group.sort_values("dT")
+        if len(group) > 2:
+            found = richardson(group["value"], 1/group["dT"])
+            yield {**group.iloc[0].to_dict(), "dT": 0.0, "value": found.limit, "err": found.error + group["err"].max()}
+
+
+# --- lines ------------------------------------------------------------------------------------------------
+
+
+def all_lines(energies: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """K against Ra^-1/2 for each reach and grid, and with slope and intercept extrapolated in L^-2    [KHP95, Sec. V]"""
+    for key, series in energies.groupby(SERIES, dropna=False):
+        at = dict(zip(SERIES, key))
+        for share, shares in LINES.items():
+            chosen = series[series["share"].round(6).isin(shares)]
+            lines = {size: straight(group) for size, group in chosen.groupby("resolution") if len(group) > 2}
+            for size, line in lines.items():
+                yield line_row(at, share, float(size), line)
+            if len(lines) > 2:
+                yield line_row(at, share, np.inf, without_grid(lines))
+
+
+def line_row(at: dict[str, Any], share: float, size: float, line: Line) -> dict[str, Any]:
+    return {**at, "resolution": size, "reach": round((1 - share)**-2, 3), "points": line.points, "slope": line.slope,
+            "intercept": line.intercept, "ra_c": line.ra_c, "err": line.err, "residual": line.residual}
+
+
+def straight(points: pd.DataFrame) -> Line:
+    """Least squares."""
+    x, K = points["ra"].to_numpy()**-0.5, points["ke"].to_numpy()
+    (slope, intercept), cov = np.polyfit(x, K, 1, cov=True)
+    residual = np.abs(K - slope*x - intercept).max()/K.max()
+    # of (slope/intercept)^2, to first order, at 95 %
+    toward = 2*(slope/intercept)**2*np.array([1/slope, -1/intercept])
+    return Line(float(slope), float(intercept), float(2*np.sqrt(toward@cov@toward)), float(residual), len(x))
+
+
+def without_grid(lines: dict[float, Line]) -> Line:
+    """Slopes and intercepts linear in L^-2, L in cells; err is that of the lines and what the coarsest grid changes."""
+    sizes, found = np.array(list(lines)), list(lines.values())
+
+    def extrapolated(first: int) -> Line:
+        slope, intercept = (np.polyfit(sizes[first:]**-2.0, [getattr(line, name) for line in found[first:]], 1)[1]
+                            for name in ("slope", "intercept"))
+        return Line(float(slope), float(intercept), found[-1].err, found[-1].residual, found[-1].points)
+    line, other = extrapolated(0), extrapolated(1)
+    return line._replace(err=float(np.hypot(line.err, abs(line.ra_c - other.ra_c))))

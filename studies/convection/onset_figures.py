@@ -1,0 +1,151 @@
+"""Figures of the study `onset`, from its tables alone; what the tables lack is left out."""
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from studies.convection.onset_tables import ALL
+from studies.convection.pick import ENERGY, ra_axis
+from studies.kit.figure import COLOURS, LINES, MARKERS, errorbar, figure, look
+from studies.kit.table import Tables
+
+COLUMNS = {table.name: table.columns for table in ALL}
+GAS = {"method": "compressible", "eos": "ideal", "transport": "const-eta", "dT": 1.0, "sides": "periodic"}
+LAYER = {"sides": "periodic"}
+PR = {"linear": 2.0, "boussinesq": 2.0, "pypde-boussinesq": 2.0}
+#: series of growth rates: label -> rows
+GRIDS = {
+    "Boussinesq, staggered": {"method": "boussinesq", **LAYER},
+    "Boussinesq, py-pde": {"method": "pypde-boussinesq", **LAYER},
+    r"gas, $\eta$ constant": GAS,
+    r"gas, $\nu$ constant": {**GAS, "transport": "const-nu"},
+    r"gas, $\eta$ constant, py-pde": {**GAS, "method": "pypde-compressible"},
+    "van der Waals": {**GAS, "eos": "vdw"},
+}
+WIDE, NARROW = (1350.0, 3500.0), (1550.0, 1860.0)
+
+
+def rows(tables: Tables, name: str, **wanted: Any) -> pd.DataFrame:
+    """Rows of a table where each column has the wanted value; none if there is no such table."""
+    frame = tables.get(name)
+    if frame is None:
+        return pd.DataFrame(columns=COLUMNS[name])
+    return frame[np.logical_and.reduce([np.ones(len(frame), bool), *(frame[key] == value for key, value in wanted.items())])]
+
+
+def figures(tables: Tables) -> dict[str, Figure]:
+    """The figures for which there are rows."""
+    drawn = {"growth": growth(tables), "line": line(tables), "figures_given": figures_given(tables)}
+    return {name: page for name, page in drawn.items() if page is not None}
+
+
+# --- growth rates -----------------------------------------------------------------------------------------
+
+
+def growth(tables: Tables) -> Figure | None:
+    """sigma against Ra: weak rolls on all grids with linear theory; stronger rolls of particles and of the gas."""
+    if rows(tables, "growth_rates", way="operator").empty:
+        return None
+    page, (weak, strong) = figure(1, 2, width=5.6, height=4.4)
+    theory(weak, tables)
+    for number, (label, wanted) in enumerate(GRIDS.items()):
+        found = rows(tables, "growth_rates", way="operator", **wanted)
+        found = found[(found["resolution"] == found["resolution"].max()) & found["ra"].between(*NARROW)].sort_values("ra")
+        weak.plot(found["ra"], found["sigma"], **{**look(number), "linestyle": "none"}, label=label)
+    weak.set_title("disturbances of the fluid at rest, finest grids")
+    theory(strong, tables, low=1/np.sqrt(2))
+    finite(strong, tables)
+    strong.set_title("rolls of finite strength, within a factor 2")
+    for axes in (weak, strong):
+        axes.axhline(0, color="black", linewidth=0.6, linestyle="-", marker="")
+        axes.set(xlabel="Rayleigh number Ra", ylabel=r"growth rate $\sigma$  [1/free-fall time]")
+        axes.legend()
+    weak.set_xlim(*NARROW)
+    weak.set_ylim(-0.02, 0.03)
+    return page
+
+
+def theory(axes: Axes, tables: Tables, low: float = 1.0) -> None:
+    """Boussinesq fluid of Pr = 2, also in the gas's free-fall times: of half the gradient, sqrt 2 longer."""
+    found = rows(tables, "growth_rates", method="linear", pr=2.0).sort_values("ra")
+    for factor, style, label in ((1.0, "-", "linear theory, Pr = 2"), (1/np.sqrt(2), "--", r"the same $/\sqrt{2}$")):
+        if factor <= low:
+            axes.plot(found["ra"], factor*found["sigma"], color="black", linestyle=style, marker="", label=label)
+
+
+def finite(axes: Axes, tables: Tables) -> None:
+    """Means over seeds of runs, for each kind, number of particle rows and strength."""
+    runs = rows(tables, "growth_rates", way="run")
+    runs = runs[(runs["ke_start"] > 1e-6) & runs["ra"].between(*WIDE)]
+    for number, ((method, variant, size, ke), group) in enumerate(runs.groupby(["method", "variant", "resolution", "ke_start"])):
+        mean = group.groupby("ra")["sigma"]
+        spread = mean.std().fillna(0)/np.sqrt(mean.count())
+        name = f"{variant}, {size:.0f} rows" if method == "spam" else f"gas grid, {size:.0f} rows"
+        errorbar(axes, mean.mean().index, mean.mean(), 2*spread, number=number, label=f"{name}, $K_0$ = {ke:g}",
+                 color=COLOURS[number % len(COLOURS)], linestyle=LINES[number % len(LINES)])
+
+
+# --- straight lines ---------------------------------------------------------------------------------------
+
+
+def line(tables: Tables) -> Figure | None:
+    """K against Ra^-1/2 on KHP95's grids with its lines; where they and growth rates put Ra_c, against L^-2."""
+    K = rows(tables, "energies", **GAS)
+    if K.empty:
+        return None
+    page, (left, right) = figure(1, 2, width=5.6, height=4.4)
+    far = rows(tables, "lines", **GAS)
+    far = far[far["reach"] == far["reach"].max()].sort_values("resolution")
+    for number, (_, at) in enumerate(far.iterrows()):
+        points = K[K["resolution"] == at["resolution"]]
+        x = np.array([K["ra"].max()**-0.5, at["ra_c"]**-0.5])
+        colour = "black" if np.isinf(at["resolution"]) else COLOURS[number]
+        name = r"$L \to \infty$" if np.isinf(at["resolution"]) else f"L = {at['resolution']:.0f} cells"
+        left.plot(points["ra"]**-0.5, points["ke"], color=colour, marker=MARKERS[number], linestyle="none")
+        left.plot(x, at["slope"]*x + at["intercept"], color=colour, linestyle="-", marker="",
+                  label=f"{name}: zero at {at['ra_c']:.1f}")
+    left.set(ylabel=ENERGY, ylim=(0, None))
+    ra_axis(left)
+    left.legend(title="gas, $\\eta$ constant, line to 4 Ra$_c$")
+    zeros(right, tables)
+    return page
+
+
+def zeros(axes: Axes, tables: Tables) -> None:
+    """Ra_c of lines of each reach and of growth rates."""
+    found = rows(tables, "critical_ra", **GAS)
+    found = found[(found["way"] != "run") & (found["resolution"] >= 24)]
+    for number, ((way, reach), group) in enumerate(found.groupby(["way", "reach"], sort=True)):
+        group = group.sort_values("resolution")
+        label = "growth rates" if way == "operator" else f"line to {reach:g} Ra$_c$"
+        errorbar(axes, group["resolution"]**-2.0*1e3, group["value"], 0*group["err"], number=number, label=label, linestyle="-")
+    known = rows(tables, "critical_ra", method="linear", quantity="ra_c periodic aspect 2")
+    for value in known["value"]:
+        axes.axhline(value, color="black", linestyle=":", marker="", label=f"Boussinesq, {value:.2f}")
+    axes.set(xlabel=r"$10^3\,L^{-2}$, L in cells", ylabel=r"Ra$_c$")
+    axes.legend()
+
+
+# --- figures ----------------------------------------------------------------------------------------------
+
+
+def figures_given(tables: Tables) -> Figure | None:
+    """Correct figures of Ra_c by each way and scene."""
+    found = rows(tables, "figures", sides="periodic")
+    found = found[found["dT"].isin([0.0, 1.0])]
+    if found.empty:
+        return None
+    ways = sorted(found["way"].unique(), key=lambda way: found.loc[found["way"] == way, "figures"].median())
+    page, axes = figure(width=7.5, height=1.2 + 0.26*len(ways))
+    scenes = [name for name, _ in found.groupby(["method", "eos", "transport"])]
+    for number, scene in enumerate(scenes):
+        part = found[(found[["method", "eos", "transport"]] == list(scene)).all(axis=1)]
+        label = " ".join(filter(None, scene))
+        axes.plot(part["figures"], [ways.index(way) for way in part["way"]], **{**look(number), "linestyle": "none"}, label=label)
+    axes.axvline(-np.log10(0.05/1708), color="black", linestyle="--", marker="", label="five significant figures of 1708")
+    axes.set_yticks(range(len(ways)), labels=ways)
+    axes.set_xlabel(r"correct figures of Ra$_c$:  $-\log_{10}$ of the relative error")
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    return page

@@ -1,0 +1,25 @@
+"""Tables of the study `onset`: growth rates, energies near onset, their straight lines, critical Rayleigh numbers.
+
+Growth rates are of the velocity, per free-fall time; K in units of the scene as in `tables`. Every `err` is the half
+width of a 95 % interval or, of a grid, the bound that its extrapolation gives. `dT` is over the mean temperature, 0 for
+Boussinesq and for limits; `resolution` is rows per height, `inf` where extrapolated.
+"""
+from studies.kit.table import Table
+
+POINT = ["method", "variant", "eos", "transport", "dT", "sides", "pr", "resolution"]
+#: `way` is `operator` (from the linearised rates), `run` (a run in time from rolls of energy `ke_start`)
+GROWTH = Table("growth_rates", key=[*POINT, "way", "ke_start", "seed", "ra"],
+               columns=[*POINT, "way", "ke_start", "seed", "ra", "sigma", "err", "ke_end"])
+#: steady K; `share` is 1 - sqrt(Ra_c/Ra) with the grid's own Ra_c
+ENERGIES = Table("energies", key=[*POINT, "share"], columns=[*POINT, "share", "ra", "ke", "rolls"])
+#: K = slope Ra^-1/2 + intercept up to `reach` Ra_c; `residual` is the largest distance from it over the largest K
+LINES = Table("lines", key=[*POINT, "reach"],
+              columns=[*POINT, "reach", "points", "slope", "intercept", "ra_c", "err", "residual"])
+#: `way` as in growth_rates, or `eigenvalue` or `line`; `reach` is 0 but for lines, `ke_start` but for runs
+CRITICAL = Table("critical_ra", key=["quantity", *POINT, "way", "reach", "ke_start"],
+                 columns=["method", "quantity", "value", "err", *POINT[1:], "way", "reach", "ke_start"])
+#: correct figures, -log10 of the relative distance from `reference`, or of `err` where that is larger
+FIGURES = Table("figures", key=["way", *POINT[:-1]],
+                columns=["way", *POINT[:-1], "value", "err", "reference", "figures"])
+
+ALL = (GROWTH, ENERGIES, LINES, CRITICAL, FIGURES)
