@@ -30,4 +30,5 @@ class RK4:
         for weight, forward in ((1/6, dt/2), (1/3, dt/2), (1/3, dt), (1/6, 0.0)):
             rates(stage, k)
             self._team(_stage, y.size, y.ravel(), k.ravel(), total.ravel(), stage.ravel(), weight, forward)
-        y += dt*total
+        total *= dt
+        y += total
