@@ -17,6 +17,8 @@ SERIES = [name for name in POINT if name != "resolution"]
 
 def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     """All derived rows of the study."""
+    if "kinetic_energy" not in tables:
+        return {}
     runs = finite(tables["kinetic_energy"])
     limits = list(extrapolated(runs))
     everything = pd.concat([runs, pd.DataFrame(limits)], ignore_index=True) if limits else runs

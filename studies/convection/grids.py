@@ -167,5 +167,6 @@ class PypdeSteady(Case):
         seen = solution.nusselt
         return {**point, "resolution": solution.rows, "ke": solution.ke, "ke_err": 2*solution.ke_err, "ke_field": solution.ke,
                 "ke_field_err": 2*solution.ke_err, "nu": solution.nu, "nu_err": abs(seen.bottom - seen.top),
-                "rolls": solution.rolls, "mass_drift": solution.mass_drift, "converged": solution.converged, "dt": solution.dt, "steps": solution.steps,
-                "t_end": solution.t, "cpu_s": solution.cpu_s, "compile_s": solution.compile_s}
+                "rolls": solution.rolls, "mass_drift": solution.mass_drift, "converged": solution.converged,
+                "dt": solution.dt, "steps": solution.steps, "t_end": solution.t, "cpu_s": solution.cpu_s,
+                "compile_s": solution.compile_s}

@@ -41,10 +41,24 @@ class Study:
     claims: Sequence[Claim] = ()
 
     def run(self, size: str, *, workers: int = 2, out: Path = RESULTS) -> Tables:
-        """Cases to tables, derived rows among them."""
-        tables = sweep(self.cases(check_size(size)), tables=self.tables, study=self.name, size=size,
-                       workers=workers, out=out)
-        return put(dict(self.derive(tables)), self.tables, self.name, size, out)
+        """Cases to tables, derived rows among them.
+
+        Raises
+        ------
+        CasesFailed
+            After all that the finished cases give has been derived and written: one that diverges costs its own row.
+        """
+        failed = None
+        try:
+            tables = sweep(self.cases(check_size(size)), tables=self.tables, study=self.name, size=size,
+                           workers=workers, out=out)
+        except CasesFailed as error:
+            failed, tables = error, load(self.tables, self.name, out)
+        if tables:
+            tables = put(dict(self.derive(tables)), self.tables, self.name, size, out)
+        if failed:
+            raise failed
+        return tables
 
     def draw(self, out: Path = RESULTS) -> list[Path]:
         """Figures from the tables on disk."""
@@ -100,8 +114,12 @@ def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
 
 def perform(study: Study, words: argparse.Namespace) -> int:
     """Run what was asked for and say where it is."""
+    failed = None
     if words.command == "run":
-        study.run(words.size, workers=words.workers, out=words.out)
+        try:
+            study.run(words.size, workers=words.workers, out=words.out)
+        except CasesFailed as error:
+            failed = error
     if words.command in ("run", "figures"):
         for path in study.draw(words.out):
             say(f"figure  {shown(path)}")
@@ -110,6 +128,8 @@ def perform(study: Study, words: argparse.Namespace) -> int:
             print(verdict_line(row))
     for table in study.tables:
         say(f"table   {shown(words.out / study.name / f'{table.name}.csv')}")
+    if failed:
+        raise failed
     return 0
 
 
