@@ -26,7 +26,7 @@ DIFFERENCES = (1.0, 0.5, 0.25, 0.1)
 NEAR = (1500.0, 1600.0, 1650.0, 1700.0, 1750.0, 1800.0, 1900.0)
 NEAR_SQUARE = (4700.0, 4900.0, 5000.0, 5100.0, 5300.0)
 GRIDS = (16, 24, 32, 48, 64)
-RUN_RA = (1600.0, 1700.0, 1800.0)
+RUN_RA = (1600.0, 1650.0, 1700.0, 1750.0, 1800.0)
 STRONG = (1400.0, 1600.0, 1700.0, 1800.0, 2000.0, 2200.0, 2400.0, 2600.0, 2800.0, 3000.0, 3400.0)
 SHARES = tuple(sorted({share for line in LINES.values() for share in line}))
 LESS_STATIC = VARIANTS["less-static-90"]
@@ -53,11 +53,12 @@ def square_growth(sizes=GRIDS) -> Iterator[Growth]:
         yield Growth(method="compressible", scene=scene(transport=transport, **SQUARE), sizes=sizes, ras=NEAR_SQUARE)
 
 
-def runs(methods=("boussinesq", "compressible", "pypde-boussinesq", "pypde-compressible"), rows=16) -> Iterator[GrowthRun]:
+def runs(methods=("boussinesq", "compressible", "pypde-boussinesq", "pypde-compressible"), rows=16,
+         ras=RUN_RA) -> Iterator[GrowthRun]:
     """Weak rolls in runs in time, to be compared with the same grid's linearised rates."""
     for method in methods:
         pr = PR if method.endswith("boussinesq") else 1.0
-        for ra in RUN_RA:
+        for ra in ras:
             yield GrowthRun(method=method, scene=RayleighBenard(ra=ra, pr=pr), rows=rows)
 
 
@@ -79,7 +80,8 @@ def energies(sizes=(30, 40, 50, 60), shares=SHARES) -> Iterator[Energies]:
         yield Energies(method="boussinesq", scene=scene(pr=PR), rows=rows, shares=shares)
         for fluid in FLUIDS[:3]:
             yield Energies(method="compressible", scene=scene(**fluid), rows=rows, shares=shares)
-        yield Energies(method="compressible", scene=scene(**SQUARE), rows=rows, shares=shares)
+        for more in (SQUARE, {"dT": 0.1}, {"dT": 0.1, "transport": ConstNu}):
+            yield Energies(method="compressible", scene=scene(**more), rows=rows, shares=shares if more is SQUARE else LINES[0.5])
 
 
 def cases(size: str) -> list[Case]:
@@ -93,7 +95,7 @@ def quick() -> Iterator[Case]:
     yield LinearTheory(ras=tuple(sorted({*NEAR, *STRONG})), prs=(1.0, PR))
     yield from growth((12, 16, 24), differences=(1.0, 0.5, 0.25))
     yield from square_growth((12, 16, 24))
-    yield from runs(("boussinesq", "compressible"), rows=12)
+    yield from runs(("boussinesq", "compressible"), rows=12, ras=RUN_RA[::2])
     yield from energies((12, 16, 24), LINES[0.5][1::2])
     yield from strong(4e-4, STRONG[::3], rows=16)
     for variant in (PRINTED, LESS_STATIC):

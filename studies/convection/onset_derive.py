@@ -13,6 +13,8 @@ from studies.kit.stats import Measured, combine
 from studies.kit.table import Tables
 
 SERIES = POINT[:-1]
+DRAWS = 400
+WEAK = 1e-6     # K of rolls that are too weak to act on themselves
 
 class Line(NamedTuple):
     """K = slope Ra^-1/2 + intercept; `err` of its zero as the scatter of the points would have it."""
@@ -56,8 +58,9 @@ def from_growth(rates: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """Ra where sigma crosses zero: for each grid and start, and extrapolated over three grids or more."""
     for key, group in rates[rates["method"] != "linear"].groupby([*SERIES, "way", "ke_start"], dropna=False):
         way, ke_start = key[-2:]
-        found = [critical_row(one.iloc[0], *zero, " (growth rates)", way=way, ke_start=ke_start)
-                 for _, one in group.groupby("resolution") if (zero := crossing(means(one), way)) is not None]
+        find = smooth_zero if ke_start < WEAK else nearby_zero
+        found = [critical_row(one.iloc[0], *find(rates), " (growth rates)", way=way, ke_start=ke_start)
+                 for _, one in group.groupby("resolution") if crosses(rates := means(one))]
         yield from found
         if way == "operator" and len(found) > 2:
             value, err = limit(found)
@@ -70,11 +73,9 @@ def means(runs: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["ra", "sigma", "err"])
 
 
-def crossing(rates: pd.DataFrame, way: str) -> Measured | None:
-    """Zero of sigma(Ra), None if there is none within the Ra at hand."""
-    if not rates["sigma"].min() < 0 < rates["sigma"].max() or len(rates) < 2:
-        return None
-    return smooth_zero(rates) if way == "operator" else nearby_zero(rates)
+def crosses(rates: pd.DataFrame) -> bool:
+    """True if there is growth and decay, at three Ra or more."""
+    return len(rates) > 2 and bool(rates["sigma"].min() < 0 < rates["sigma"].max())
 
 
 def smooth_zero(rates: pd.DataFrame) -> Measured:
@@ -91,20 +92,26 @@ def interpolated(sigma: np.ndarray, ra: np.ndarray) -> float:
 
 
 def nearby_zero(rates: pd.DataFrame) -> Measured:
-    """From the straight line between the neighbours of zero.
+    """From straight lines between neighbours; of several crossings, which noise makes, the middle one.
 
-    err has the errors of both, and a quarter of their distance in Ra where the next neighbours show that sigma(Ra) bends
-    by as much (two points alone do not tell).
+    The error is that of the same on DRAWS samples with noise like the errors, and of the bend: what a parabola through
+    the three nearest Ra changes, at most a quarter of the distance of neighbours.
     """
-    sigma, ra, err = (rates[name].to_numpy() for name in ("sigma", "ra", "err"))
-    low = np.flatnonzero(sigma < 0)[-1]         # noise may cross zero more than once: the last is taken
-    high = low + 1 if low + 1 < len(ra) else low - 1
-    slope, share = (ra[high] - ra[low])/(sigma[high] - sigma[low]), sigma[high]/(sigma[high] - sigma[low])
-    value = ra[low]*share + ra[high]*(1 - share)
-    noise = abs(slope)*np.hypot(err[low]*share, err[high]*(1 - share))
-    near = np.argsort(np.abs(ra - value))[:3]
-    bend = abs(interpolated(sigma[near], ra[near]) - value) if len(near) == 3 and np.ptp(np.sign(np.diff(sigma))) == 0 else np.inf
-    return Measured(float(value), float(np.hypot(noise, min(bend, abs(ra[high] - ra[low])/4))))
+    ra, sigma = rates["ra"].to_numpy(), rates["sigma"].to_numpy()
+    value, rng = middle_crossing(ra, sigma), np.random.default_rng(1)
+    noise = rates["err"].to_numpy()/2*rng.normal(size=(DRAWS, len(ra)))
+    low, high = np.quantile([middle_crossing(ra, sigma + one) for one in noise], [0.025, 0.975])
+    near, step = np.argsort(np.abs(ra - value))[:3], np.diff(ra).max()
+    bend = min(abs(interpolated(sigma[near], ra[near]) - value), step/4)
+    return Measured(value, float(np.hypot(max(value - low, high - value), bend)))
+
+
+def middle_crossing(ra: np.ndarray, sigma: np.ndarray) -> float:
+    """The median of the zeros of the lines between neighbours; where there is none, the end towards which it lies."""
+    at = np.flatnonzero(sigma[1:]*sigma[:-1] < 0)
+    if not len(at):
+        return float(ra[0] if sigma.sum() > 0 else ra[-1])
+    return float(np.median(ra[at] - sigma[at]*(ra[at + 1] - ra[at])/(sigma[at + 1] - sigma[at])))
 
 
 def limit(rows: list[dict[str, Any]]) -> Measured:

@@ -70,7 +70,7 @@ def growth(tables: Tables) -> Figure | None:
 def theory(axes: Axes, tables: Tables, low: float = 1.0) -> None:
     """Boussinesq fluid of Pr = 2, also in the gas's free-fall times: of half the gradient, sqrt 2 longer."""
     found = rows(tables, "growth_rates", method="linear", pr=2.0).sort_values("ra")
-    for factor, style, label in ((1.0, "-", "linear theory, Pr = 2"), (1/np.sqrt(2), "--", r"the same $/\sqrt{2}$")):
+    for factor, style, label in ((1.0, "-", "linear theory, Pr = 2"), (1/np.sqrt(2), "--", r"linear theory, $/\sqrt{2}$")):
         if factor <= low:
             axes.plot(found["ra"], factor*found["sigma"], color="black", linestyle=style, marker="", label=label)
 
@@ -139,11 +139,12 @@ def figures_given(tables: Tables) -> Figure | None:
         return None
     ways = sorted(found["way"].unique(), key=lambda way: found.loc[found["way"] == way, "figures"].median())
     page, axes = figure(width=7.5, height=1.2 + 0.26*len(ways))
-    scenes = [name for name, _ in found.groupby(["method", "eos", "transport"])]
-    for number, scene in enumerate(scenes):
-        part = found[(found[["method", "eos", "transport"]] == list(scene)).all(axis=1)]
-        label = " ".join(filter(None, scene))
-        axes.plot(part["figures"], [ways.index(way) for way in part["way"]], **{**look(number), "linestyle": "none"}, label=label)
+    scenes = [name for name, _ in found.groupby(["eos", "transport"])]
+    methods = sorted(found["method"].unique())
+    for (method, *scene), part in found.groupby(["method", "eos", "transport"]):
+        label = " ".join(filter(None, (method, *scene)))
+        axes.plot(part["figures"], [ways.index(way) for way in part["way"]], linestyle="none", label=label,
+                  color=COLOURS[scenes.index(tuple(scene))], marker=MARKERS[methods.index(method)], markerfacecolor="none")
     axes.axvline(-np.log10(0.05/1708), color="black", linestyle="--", marker="", label="five significant figures of 1708")
     axes.set_yticks(range(len(ways)), labels=ways)
     axes.set_xlabel(r"correct figures of Ra$_c$:  $-\log_{10}$ of the relative error")
