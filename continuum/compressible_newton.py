@@ -98,9 +98,7 @@ class Discrete:
     def pattern(self) -> sparse.csc_array:
         """Which rate depends on which unknown, at most."""
         fields, height, width = self.rest.shape
-        near = [sparse.diags_array([np.ones(n - abs(d)) for d in range(-REACH, REACH + 1)],
-                                   offsets=range(-REACH, REACH + 1), shape=(n, n)) for n in (height, width)]
-        meet = sparse.kron(np.ones((fields, fields)), sparse.kron(*near)).tocsr()
+        meet = sparse.kron(np.ones((fields, fields)), sparse.kron(near(height), near(width))).tocsr()
         places, mirrors = (np.ravel_multi_index(tuple(at), self.rest.shape) for at in (self.places, self.mirrors))
         return ((meet[places][:, places] + meet[places][:, mirrors]) > 0).tocsc()
 
@@ -131,6 +129,12 @@ class Discrete:
         sides, eos, _, form, box = self.laws
         fill(sides, eos, form, box, S)
         return unblock(self.scene, S), S
+
+
+def near(n: int) -> sparse.coo_array:
+    """Which of n rows or columns are within reach of which."""
+    distance = np.abs(np.subtract.outer(np.arange(n), np.arange(n)))
+    return sparse.coo_array(1.0*(distance <= REACH))
 
 
 def heat_of_rolls(scene, vy: np.ndarray) -> np.ndarray:

@@ -7,10 +7,12 @@ Sizes: `quick` (a minute) and `paper` (minutes, two cores) have all grids and th
 more particles and weaker rolls. Writes results/onset/*.csv and *.png and the rows of study onset in results/claims.csv.
 """
 from collections.abc import Iterator
+from typing import Any
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, VanDerWaals
 from continuum.scene import Periodic, RayleighBenard, Walls
 from studies.convection import onset_tables
+from studies.convection.claims_onset import ONSET_CLAIMS
 from studies.convection.onset_cases import LINES, Energies, Growth, GrowthRun, LinearTheory, SpamGrowth
 from studies.convection.onset_derive import derive
 from studies.convection.onset_figures import figures
@@ -18,9 +20,10 @@ from studies.convection.spam import PRINTED, VARIANTS, Variant
 from studies.kit.case import Case
 from studies.kit.study import Study, main
 
-LAYER = {"aspect": 2.0, "sides": Periodic()}
-SQUARE = {"aspect": 1.0, "sides": Walls()}
-FLUIDS = [{"eos": eos, "transport": law} for eos in (IdealGas(), VanDerWaals()) for law in (ConstEta, ConstNu)]
+LAYER: dict[str, Any] = {"aspect": 2.0, "sides": Periodic()}
+SQUARE: dict[str, Any] = {"aspect": 1.0, "sides": Walls()}
+FLUIDS: list[dict[str, Any]] = [{"eos": eos, "transport": law} for eos in (IdealGas(), VanDerWaals())
+                                for law in (ConstEta, ConstNu)]
 PR = 2.0            # of Boussinesq fluids; heat moves isobarically in the gas, whose nu = kappa makes 2 of it
 DIFFERENCES = (1.0, 0.5, 0.25, 0.1)
 NEAR = (1500.0, 1600.0, 1650.0, 1700.0, 1750.0, 1800.0, 1900.0)
@@ -80,7 +83,8 @@ def energies(sizes=(30, 40, 50, 60), shares=SHARES) -> Iterator[Energies]:
         yield Energies(method="boussinesq", scene=scene(pr=PR), rows=rows, shares=shares)
         for fluid in FLUIDS[:3]:
             yield Energies(method="compressible", scene=scene(**fluid), rows=rows, shares=shares)
-        for more in (SQUARE, {"dT": 0.1}, {"dT": 0.1, "transport": ConstNu}):
+        variants: tuple[dict[str, Any], ...] = (SQUARE, {"dT": 0.1}, {"dT": 0.1, "transport": ConstNu})
+        for more in variants:
             yield Energies(method="compressible", scene=scene(**more), rows=rows, shares=shares if more is SQUARE else LINES[0.5])
 
 
@@ -122,7 +126,8 @@ def fine() -> Iterator[Case]:
             yield from particles(1e-4, rows, (1600.0, 2000.0, 2400.0, 2800.0, 3400.0, 4200.0, 5000.0), variant=variant)
 
 
-STUDY = Study(name="onset", cases=cases, tables=onset_tables.ALL, derive=derive, figures=figures)
+STUDY = Study(name="onset", cases=cases, tables=onset_tables.ALL, derive=derive, figures=figures,
+              claims=ONSET_CLAIMS)
 
 if __name__ == "__main__":
     main(STUDY)

@@ -1,6 +1,8 @@
 """The study `onset` as cases: the eigenvalue problem, growth rates of grids and particles, energies near onset."""
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -226,4 +228,4 @@ def boussinesq_state(scene: RayleighBenard, rows: int, before: boussinesq.State 
     return state, state.K, (1 + half)*state.rolls
 
 
-STEADY = {"compressible": gas_state, "boussinesq": boussinesq_state}
+STEADY: dict[str, Callable[..., tuple[Any, float, int]]] = {"compressible": gas_state, "boussinesq": boussinesq_state}

@@ -4,6 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
+from scipy.special import stdtrit
 
 from continuum.richardson import richardson
 from studies.convection.onset_cases import BOX_NAMES, LINES
@@ -12,9 +13,11 @@ from studies.convection.onset_tables import POINT
 from studies.kit.stats import Measured, combine
 from studies.kit.table import Tables
 
+Rows = dict[str, list[dict[str, Any]]]
 SERIES = POINT[:-1]
 DRAWS = 400
 WEAK = 1e-6     # K of rolls that are too weak to act on themselves
+
 
 class Line(NamedTuple):
     """K = slope Ra^-1/2 + intercept; `err` of its zero as the scatter of the points would have it."""
@@ -29,26 +32,39 @@ class Line(NamedTuple):
         return (self.slope/self.intercept)**2
 
 
-def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
+def derive(tables: Tables) -> Rows:
     """All derived rows of the study."""
-    critical, lines = [], []
+    critical, limits, lines = [], [], []
     if "growth_rates" in tables:
         critical += list(from_growth(tables["growth_rates"]))
         critical += list(small_differences(pd.DataFrame(critical)))
     if "energies" in tables:
-        lines = list(all_lines(tables["energies"]))
-        critical += [critical_row(row, row["ra_c"], row["err"], " (K line, L^-2 extrapolated)" if np.isinf(row["resolution"])
-                                  else " (K line)", way="line", reach=row["reach"]) for row in lines]
+        single = tables["energies"][np.isfinite(tables["energies"]["resolution"])]
+        limits = list(extrapolated_energies(single))
+        lines = list(all_lines(single, pd.DataFrame(limits, columns=single.columns)))
+        critical += [critical_row(line, line["ra_c"], line["err"], way="line", reach=line["reach"], lines=line["lines"])
+                     for line in lines]
     known = tables["critical_ra"][tables["critical_ra"]["method"] == "linear"] if "critical_ra" in tables else pd.DataFrame()
     everything = pd.concat([known, pd.DataFrame(critical)], ignore_index=True)
-    return {"lines": lines, "critical_ra": critical, "figures": list(figures_given(everything))}
+    return {"energies": limits, "lines": lines, "critical_ra": critical, "figures": list(figures_given(everything))}
 
 
-def critical_row(at: Any, value: float, err: float, suffix: str, *, way: str, reach: float = 0.0, ke_start: float = 0.0,
-                 **more: Any) -> dict[str, Any]:
+def critical_row(at: Any, value: float, err: float, *, way: str, reach: float = 0.0, ke_start: float = 0.0,
+                 lines: str = "") -> dict[str, Any]:
     """Row of `critical_ra` at the point of another row."""
-    return {**{name: at[name] for name in POINT}, "quantity": BOX_NAMES[at["sides"]] + suffix, "value": value, "err": err,
-            "way": way, "reach": reach, "ke_start": ke_start, **more}
+    return {**{name: at[name] for name in POINT}, "quantity": quantity(at, way, reach, ke_start, lines), "value": value,
+            "err": err, "way": way, "reach": reach, "ke_start": ke_start}
+
+
+def quantity(at: Any, way: str, reach: float, ke_start: float, lines: str) -> str:
+    """Words that tell a row from all others of its method."""
+    differs = [at["variant"]*(at["variant"] not in ("", "printed")), at["eos"]*(at["eos"] not in ("", "ideal")),
+               at["transport"]*(at["transport"] not in ("", "const-eta")),
+               f"dT {at['dT']:g}"*bool(at["eos"] and at["dT"] != 1)]
+    near = f" to {reach:g} Ra_c"*bool(reach and reach != 4)
+    how = [f"K line{near}" if reach else "growth rates", f"run from K = {ke_start:g}"*(way == "run"), lines,
+           f"{at['resolution']:.0f} rows"*bool(np.isfinite(at["resolution"]))]
+    return ", ".join(filter(None, [BOX_NAMES[at["sides"]], *differs])) + f" ({', '.join(filter(None, how))})"
 
 
 # --- growth rates -----------------------------------------------------------------------------------------
@@ -56,15 +72,14 @@ def critical_row(at: Any, value: float, err: float, suffix: str, *, way: str, re
 
 def from_growth(rates: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """Ra where sigma crosses zero: for each grid and start, and extrapolated over three grids or more."""
-    for key, group in rates[rates["method"] != "linear"].groupby([*SERIES, "way", "ke_start"], dropna=False):
-        way, ke_start = key[-2:]
+    for _, group in rates[rates["method"] != "linear"].groupby([*SERIES, "way", "ke_start"], dropna=False):
+        way, ke_start = str(group["way"].iloc[0]), float(group["ke_start"].iloc[0])
         find = smooth_zero if ke_start < WEAK else nearby_zero
-        found = [critical_row(one.iloc[0], *find(rates), " (growth rates)", way=way, ke_start=ke_start)
+        found = [critical_row(one.iloc[0], *find(rates), way=way, ke_start=ke_start)
                  for _, one in group.groupby("resolution") if crosses(rates := means(one))]
         yield from found
         if way == "operator" and len(found) > 2:
-            value, err = limit(found)
-            yield {**found[-1], "resolution": np.inf, "value": value, "err": err}
+            yield critical_row({**found[-1], "resolution": np.inf}, *limit(found), way=way)
 
 
 def means(runs: pd.DataFrame) -> pd.DataFrame:
@@ -126,29 +141,44 @@ def small_differences(critical: pd.DataFrame) -> Iterator[dict[str, Any]]:
     for _, group in rows.groupby(["method", "eos", "transport", "sides"]):
         group = group.sort_values("dT")
         if len(group) > 2:
-            found = richardson(group["value"], 1/group["dT"])
-            yield {**group.iloc[0].to_dict(), "dT": 0.0, "value": found.limit, "err": found.error + group["err"].max()}
+            found = richardson(group["value"].tolist(), (1/group["dT"]).tolist())
+            yield critical_row({**group.iloc[0].to_dict(), "dT": 0.0}, found.limit, found.error + group["err"].max(),
+                               way="operator")
 
 
 # --- lines ------------------------------------------------------------------------------------------------
 
 
-def all_lines(energies: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    """K against Ra^-1/2 for each reach and grid, and with slope and intercept extrapolated in L^-2    [KHP95, Sec. V]"""
+def extrapolated_energies(energies: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """Ra and K at each share, over three grids or more with the same rolls."""
+    for _, group in energies.groupby([*SERIES, "share"], dropna=False):
+        if len(group) > 2 and group["rolls"].nunique() == 1:
+            ra, ke = (richardson(group[name].tolist(), group["resolution"].tolist()).limit for name in ("ra", "ke"))
+            same = {name: group[name].iloc[-1] for name in (*SERIES, "share", "rolls")}
+            yield {**same, "resolution": np.inf, "ra": ra, "ke": ke}
+
+
+def all_lines(energies: pd.DataFrame, limits: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """K against Ra^-1/2 for each reach and grid, with slope and intercept extrapolated in L^-2 as in KHP95, Sec. V, and
+    through points that were extrapolated each."""
     for key, series in energies.groupby(SERIES, dropna=False):
         at = dict(zip(SERIES, key))
+        points = limits[(limits[SERIES] == list(key)).all(axis=1)]
         for share, shares in LINES.items():
-            chosen = series[series["share"].round(6).isin(shares)]
-            lines = {size: straight(group) for size, group in chosen.groupby("resolution") if len(group) > 2}
+            inside = series[series["share"].round(6).isin(shares)]
+            lines = {float(size): straight(group) for size, group in inside.groupby("resolution")     # type: ignore[arg-type]
+                     if len(group) > 2}
             for size, line in lines.items():
-                yield line_row(at, share, float(size), line)
+                yield line_row(at, share, size, line)
             if len(lines) > 2:
-                yield line_row(at, share, np.inf, without_grid(lines))
+                yield line_row(at, share, np.inf, straight(points[points["share"].round(6).isin(shares)]))
+                yield line_row(at, share, np.inf, without_grid(lines), "L^-2 extrapolated")
 
 
-def line_row(at: dict[str, Any], share: float, size: float, line: Line) -> dict[str, Any]:
-    return {**at, "resolution": size, "reach": round((1 - share)**-2, 3), "points": line.points, "slope": line.slope,
-            "intercept": line.intercept, "ra_c": line.ra_c, "err": line.err, "residual": line.residual}
+def line_row(at: dict[Any, Any], share: float, size: float, line: Line, lines: str = "") -> dict[str, Any]:
+    """Row of `lines`; `lines` says how a line without a grid was found from those of grids."""
+    return {**at, "resolution": size, "reach": round((1 - share)**-2, 3), "lines": lines, "points": line.points,
+            "slope": line.slope, "intercept": line.intercept, "ra_c": line.ra_c, "err": line.err, "residual": line.residual}
 
 
 def straight(points: pd.DataFrame) -> Line:
@@ -158,7 +188,8 @@ def straight(points: pd.DataFrame) -> Line:
     residual = np.abs(K - slope*x - intercept).max()/K.max()
     # of (slope/intercept)^2, to first order, at 95 %
     toward = 2*(slope/intercept)**2*np.array([1/slope, -1/intercept])
-    return Line(float(slope), float(intercept), float(2*np.sqrt(toward@cov@toward)), float(residual), len(x))
+    wide = stdtrit(len(x) - 2, 0.975)*np.sqrt(toward@cov@toward)
+    return Line(float(slope), float(intercept), float(wide), float(residual), len(x))
 
 
 def without_grid(lines: dict[float, Line]) -> Line:

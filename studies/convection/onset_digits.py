@@ -44,6 +44,8 @@ def reference_of(at: dict[str, Any], critical: pd.DataFrame) -> float | None:
 def in_words(row: pd.Series) -> str:
     """How the number was found."""
     grid = "extrapolated" if np.isinf(row["resolution"]) else f"{row['resolution']:.0f} rows"
+    if row["way"] == "line" and np.isinf(row["resolution"]):
+        grid = "lines extrapolated" if "L^-2" in row["quantity"] else "points extrapolated"
     what = {"operator": "growth rates", "line": f"K line to {row['reach']:.3g} Ra_c",
             "run": f"runs from K = {row['ke_start']:g}"}[row["way"]]
     return f"{what}, {grid}"

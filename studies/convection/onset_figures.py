@@ -16,7 +16,7 @@ GAS = {"method": "compressible", "eos": "ideal", "transport": "const-eta", "dT":
 LAYER = {"sides": "periodic"}
 PR = {"linear": 2.0, "boussinesq": 2.0, "pypde-boussinesq": 2.0}
 #: series of growth rates: label -> rows
-GRIDS = {
+GRIDS: dict[str, dict[str, Any]] = {
     "Boussinesq, staggered": {"method": "boussinesq", **LAYER},
     "Boussinesq, py-pde": {"method": "pypde-boussinesq", **LAYER},
     r"gas, $\eta$ constant": GAS,
@@ -31,7 +31,7 @@ def rows(tables: Tables, name: str, **wanted: Any) -> pd.DataFrame:
     """Rows of a table where each column has the wanted value; none if there is no such table."""
     frame = tables.get(name)
     if frame is None:
-        return pd.DataFrame(columns=COLUMNS[name])
+        return pd.DataFrame(columns=list(COLUMNS[name]))
     return frame[np.logical_and.reduce([np.ones(len(frame), bool), *(frame[key] == value for key, value in wanted.items())])]
 
 
@@ -80,10 +80,11 @@ def finite(axes: Axes, tables: Tables) -> None:
     runs = rows(tables, "growth_rates", way="run")
     runs = runs[(runs["ke_start"] > 1e-6) & runs["ra"].between(*WIDE)]
     for number, ((method, variant, size, ke), group) in enumerate(runs.groupby(["method", "variant", "resolution", "ke_start"])):
-        mean = group.groupby("ra")["sigma"]
-        spread = mean.std().fillna(0)/np.sqrt(mean.count())
+        of_ra = [(ra, one["sigma"].mean(), one["sigma"].std()/np.sqrt(len(one)) if len(one) > 1 else 0.0)
+                 for ra, one in group.groupby("ra")]
+        ra, sigma, spread = np.array(of_ra).T
         name = f"{variant}, {size:.0f} rows" if method == "spam" else f"gas grid, {size:.0f} rows"
-        errorbar(axes, mean.mean().index, mean.mean(), 2*spread, number=number, label=f"{name}, $K_0$ = {ke:g}",
+        errorbar(axes, list(ra), list(sigma), list(2*spread), number=number, label=f"{name}, $K_0$ = {ke:g}",
                  color=COLOURS[number % len(COLOURS)], linestyle=LINES[number % len(LINES)])
 
 
@@ -97,7 +98,8 @@ def line(tables: Tables) -> Figure | None:
         return None
     page, (left, right) = figure(1, 2, width=5.6, height=4.4)
     far = rows(tables, "lines", **GAS)
-    far = far[far["reach"] == far["reach"].max()].sort_values("resolution")
+    khp95 = np.isfinite(far["resolution"]) | (far["lines"] != "")
+    far = far[khp95 & (far["reach"] == far["reach"].max())].sort_values("resolution")
     for number, (_, at) in enumerate(far.iterrows()):
         points = K[K["resolution"] == at["resolution"]]
         x = np.array([K["ra"].max()**-0.5, at["ra_c"]**-0.5])
@@ -116,7 +118,8 @@ def line(tables: Tables) -> Figure | None:
 def zeros(axes: Axes, tables: Tables) -> None:
     """Ra_c of lines of each reach and of growth rates."""
     found = rows(tables, "critical_ra", **GAS)
-    found = found[(found["way"] != "run") & (found["resolution"] >= 24)]
+    single = np.isfinite(found["resolution"]) | (found["way"] == "operator") | found["quantity"].str.contains("L^-2", regex=False)
+    found = found[(found["way"] != "run") & (found["resolution"] >= 24) & single]
     for number, ((way, reach), group) in enumerate(found.groupby(["way", "reach"], sort=True)):
         group = group.sort_values("resolution")
         label = "growth rates" if way == "operator" else f"line to {reach:g} Ra$_c$"
@@ -142,7 +145,7 @@ def figures_given(tables: Tables) -> Figure | None:
     scenes = [name for name, _ in found.groupby(["eos", "transport"])]
     methods = sorted(found["method"].unique())
     for (method, *scene), part in found.groupby(["method", "eos", "transport"]):
-        label = " ".join(filter(None, (method, *scene)))
+        label = " ".join(str(word) for word in (method, *scene) if word)
         axes.plot(part["figures"], [ways.index(way) for way in part["way"]], linestyle="none", label=label,
                   color=COLOURS[scenes.index(tuple(scene))], marker=MARKERS[methods.index(method)], markerfacecolor="none")
     axes.axvline(-np.log10(0.05/1708), color="black", linestyle="--", marker="", label="five significant figures of 1708")

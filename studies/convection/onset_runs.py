@@ -1,6 +1,7 @@
 """Rolls that grow or die in runs of the time-dependent solvers: amplitude against time, from rolls of any energy."""
 from collections.abc import Callable
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -88,11 +89,12 @@ RUNS: dict[str, Callable[[RayleighBenard, int, float, float, Report], History]] 
 # --- particles --------------------------------------------------------------------------------------------
 
 
-class RollOf(NamedTuple):
+@dataclass(frozen=True)
+class RollOf:
     """Amplitude of v_y along cos or sin(2 pi x/width) cos(pi y/height), from the particles."""
     wave: Callable
 
-    def __call__(self, sums, state: np.ndarray) -> float:
+    def __call__(self, sums: Any, state: np.ndarray) -> float:
         width, height = sums.method.box
         return 4*float(np.mean(state[3]*self.wave(2*np.pi*state[0]/width)*np.cos(np.pi*state[1]/height)))
 

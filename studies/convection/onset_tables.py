@@ -10,13 +10,16 @@ POINT = ["method", "variant", "eos", "transport", "dT", "sides", "pr", "resoluti
 #: `way` is `operator` (from the linearised rates), `run` (a run in time from rolls of energy `ke_start`)
 GROWTH = Table("growth_rates", key=[*POINT, "way", "ke_start", "seed", "ra"],
                columns=[*POINT, "way", "ke_start", "seed", "ra", "sigma", "err", "ke_end"])
-#: steady K; `share` is 1 - sqrt(Ra_c/Ra) with the grid's own Ra_c
+#: steady K; `share` is 1 - sqrt(Ra_c/Ra) with the grid's own Ra_c; extrapolated rows have extrapolated ra and ke
 ENERGIES = Table("energies", key=[*POINT, "share"], columns=[*POINT, "share", "ra", "ke", "rolls"])
 #: K = slope Ra^-1/2 + intercept up to `reach` Ra_c; `residual` is the largest distance from it over the largest K
-LINES = Table("lines", key=[*POINT, "reach"],
-              columns=[*POINT, "reach", "points", "slope", "intercept", "ra_c", "err", "residual"])
-#: `way` as in growth_rates, or `eigenvalue` or `line`; `reach` is 0 but for lines, `ke_start` but for runs
-CRITICAL = Table("critical_ra", key=["quantity", *POINT, "way", "reach", "ke_start"],
+#: `lines` says how slope and intercept without a grid were found: from those of grids, or through extrapolated points ("")
+LINES = Table("lines", key=[*POINT, "reach", "lines"],
+              columns=[*POINT, "reach", "lines", "points", "slope", "intercept", "ra_c", "err", "residual"])
+#: `quantity` alone tells rows of a method apart: the box, what differs from the ideal gas with constant eta and dT = 1,
+#: and in brackets how it was found, extrapolated where no rows are named. The rest are the same in columns: `way` as in
+#: growth_rates, or `eigenvalue` or `line`; `reach` is 0 but for lines, `ke_start` but for runs
+CRITICAL = Table("critical_ra", key=["method", "quantity"],
                  columns=["method", "quantity", "value", "err", *POINT[1:], "way", "reach", "ke_start"])
 #: correct figures, -log10 of the relative distance from `reference`, or of `err` where that is larger
 FIGURES = Table("figures", key=["way", *POINT[:-1]],
