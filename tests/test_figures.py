@@ -11,6 +11,7 @@ import pytest
 from matplotlib.text import Text
 
 from studies.convection import figures, pick, tables
+from studies.convection.figures_errors import power
 from studies.kit.source import ROOT
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables, merge
@@ -261,6 +262,16 @@ def test_only_particles_that_stand_still_where_the_grid_convects_are_called_froz
     mean.loc[mean["method"].eq("spam") & mean["ra"].eq(2500.0), "ke_field"] = 1e-7
     words = [found.get_text() for found in figures.ALL["main"](Tables(full | {"means": mean})).findobj(Text)]
     assert sum("frozen" in word for word in words) == 1
+
+
+def test_a_slope_is_as_uncertain_as_its_points_scatter():
+    n = np.array([25.0, 35.0, 50.0])
+    fit, err = power(n, 3/n, 0.1*3/n)
+    assert fit[0] == pytest.approx(-1.0, abs=1e-12)             # an exact power law
+    spread = np.sqrt(np.sum((np.log(n) - np.log(n).mean())**2))
+    assert err == pytest.approx(0.1/spread, rel=1e-9)           # equal relative errors: sigma/sqrt(sum (x - <x>)^2)
+    _, scattered = power(n, np.array([0.25, 0.19, 0.21]), np.full(3, 0.002))
+    assert scattered > 5*power(n, 3/n, 0.01*3/n)[1]             # no power law: 12 % off, errors of 1 %
 
 
 def test_circles_are_what_is_behind_the_plates(full):

@@ -51,11 +51,21 @@ def powers(axes: Axes, series: pd.DataFrame, energy: str, label: str, style: dic
     n, error = series["resolution"].to_numpy(float), series[energy].to_numpy(float)
     err = series[f"{energy}_err"].to_numpy(float)
     if len(n) > 1 and abs(np.sign(error).sum()) == len(n):     # errors that change sign have no power
-        weight = np.abs(error)/np.maximum(err, 1e-6*np.abs(error))
-        fit, cov = np.polyfit(np.log(n), np.log(np.abs(error)), 1, w=weight, cov="unscaled")
+        fit, slope_err = power(n, np.abs(error), err)
         axes.plot(n, np.exp(np.polyval(fit, np.log(n))), **style | {"marker": "", "lw": 0.8})
-        label += f": slope {fit[0]:.1f}" + (f" $\\pm$ {cov[0, 0]**0.5:.1f}" if cov[0, 0] > 0.05**2 else "")
+        label += f": slope {fit[0]:.1f}" + (f" $\\pm$ {slope_err:.1f}" if slope_err > 0.05 else "")
     signed(axes, n, error, err, label=label, **style)
+
+
+def power(n: np.ndarray, size: np.ndarray, err: np.ndarray) -> tuple[np.ndarray, float]:
+    """(slope, constant) of log size over log n, and the half width of the slope's 95 % interval.
+
+    Where the points scatter about the line by more than their errors, the interval is as much wider.
+    """
+    weight = size/np.maximum(err, 1e-6*size)
+    fit, cov = np.polyfit(np.log(n), np.log(size), 1, w=weight, cov="unscaled")
+    chi2 = float(np.sum((1.96*weight*(np.log(size) - np.polyval(fit, np.log(n))))**2))
+    return fit, float(np.sqrt(cov[0, 0]*max(1.0, chi2/max(1, len(n) - 2))))
 
 
 def signed(axes: Axes, x: np.ndarray, error: np.ndarray, err: np.ndarray, label: str, **style: Any) -> None:
@@ -131,8 +141,10 @@ def dear(axes: Axes, series: pd.DataFrame, energy: str, label: str, style: dict)
     x, error = series["cpu_s"].to_numpy(float), series[energy].to_numpy(float)
     axes.plot(x, np.abs(error), **style | {"marker": "", "lw": 0.8})
     signed(axes, x, error, series[f"{energy}_err"].to_numpy(float), label=label, **style)
+    below = -10 if energy == "kp" and style is KIND["kp"] else 4
     for at, value, size in zip(x, np.abs(error), series["resolution"]):
-        axes.annotate(f"{size:.0f}", (at, value), xytext=(5, 4), textcoords="offset points", fontsize=7)
+        axes.annotate(f"{size:.0f}", (at, value), xytext=(5, below), textcoords="offset points", fontsize=7)
+    axes.margins(x=0.12)
 
 
 def step_cost(axes: Axes, steps: pd.DataFrame) -> None:

@@ -131,10 +131,11 @@ def fig9(tables: Tables) -> Figure | None:
         page.colorbar(drawn, ax=line, label=label, shrink=0.9)
     for axes in all_axes[-1]:
         axes.set_xlabel("$x/L$")
+        axes.locator_params(axis="x", nbins=5)
     for axes in all_axes[:, 0]:
         axes.set_ylabel("$y/L$")
     ra = sides[0][0]["ra"].iloc[0]
-    page.suptitle(f"Density and temperature, steady, Ra = {ra:g}    [KHP95, Fig. 9]", fontsize=10)
+    page.suptitle(f"Density and temperature, Ra = {ra:g}, same levels    [KHP95, Fig. 9]", fontsize=10)
     return page
 
 

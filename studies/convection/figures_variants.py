@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from continuum.published import published
 from studies.convection.figures_errors import RA_SHOWN
 from studies.convection.pick import GRID, KIND, LABELS, LAYER, errors_of_k, groups, nearest, over_seeds, reference, rows
 from studies.kit.figure import figure, look
@@ -17,8 +18,9 @@ WALLS = {"printed": "images at rest, $T_w$", "printed-fixed-rows": "fixed rows",
          "walls-odd": "images $-v$, $2T_w - T$", "walls-own-pressure": "images at rest, own $P$",
          "walls-odd-own-pressure": "images $-v$, own $P$"}
 PLATES = {"lower": {**look(1), "marker": "^"}, "upper": {**look(0), "marker": "v"}}
+HEAT = {"lower": "hot", "upper": "cold"}
 XLABELS = (r"kinetic energy $K$  [$10^{-3}\varepsilon/m$]", "Nusselt number", r"density in the layer  [$m/\sigma^2$]",
-           r"temperature in the layer  [$\varepsilon/(m k_B)$]")
+           r"$|T_\mathrm{layer} - T_\mathrm{plate}|$  [$\varepsilon/(m k_B)$]")
 
 
 def walls(tables: Tables) -> Figure | None:
@@ -39,6 +41,7 @@ def walls(tables: Tables) -> Figure | None:
     for one, xlabel in zip(axes, XLABELS):
         one.set_xlabel(xlabel, fontsize=9)
         one.xaxis.set_major_locator(MaxNLocator(5))
+        one.margins(x=0.1)
         if one.get_legend_handles_labels()[0]:
             one.legend(loc="best", fontsize=7)
     axes[0].set_yticks(range(len(names)), labels=[WALLS[name] for name in names])
@@ -65,11 +68,12 @@ def dots(axes: Axes, names: list[str], found: pd.DataFrame, column: str, err: st
 
 
 def layers(axes: Any, names: list[str], found: pd.DataFrame, means: pd.DataFrame) -> None:
-    """Density and temperature at the hot and the cold plate, means over seeds."""
+    """Density and jump of the temperature at the hot and the cold plate, means over seeds."""
     found = found[found["variant"].isin(names) & found["resolution"].isin(means["resolution"])]
+    found = found.assign(jump=(found["T_layer"] - found["T_wall"]).abs())
     for plate, style in PLATES.items():
         at = found[found["plate"] == plate]
-        for one, column in zip(axes, ("rho_layer", "T_layer")) if len(at) else ():
+        for one, column in zip(axes, ("rho_layer", "jump")) if len(at) else ():
             dots(one, names, over_seeds(at, ["variant", "resolution"], column), column, "err", f"{plate} plate", style)
 
 
@@ -85,8 +89,9 @@ def references(axes: Any, tables: Tables, ra: float, size: float) -> None:
     for plate, edge, inward in (("lower", mean, 1), ("upper", mean.iloc[::-1], -1)) if len(mean) > 1 else ():
         step = (inward*(edge.index[1] - edge.index[0]), 0.5 + inward*edge.index[0] - 0.5/size)
         at = edge.iloc[0] - (edge.iloc[1] - edge.iloc[0])*step[1]/step[0]
-        for one, name in zip(axes[2:], ("rho", "T")):
-            one.axvline(at[name], **style | {"color": PLATES[plate]["color"], "ls": "--"})
+        jump = abs(at["T"] - published(f"khp95-temperature-{HEAT[plate]}").value)
+        for one, value in zip(axes[2:], (at["rho"], jump)):
+            one.axvline(value, **style | {"color": PLATES[plate]["color"], "ls": "--"})
 
 
 def variants(tables: Tables) -> Figure | None:
