@@ -109,7 +109,7 @@ def two_views(run: pd.DataFrame, field: pd.DataFrame, title: str) -> Figure | No
     arrows(upper, fluid(run), scale)
     box(upper, run, f"{heading(run)}, {title}")
     arrows(lower, field, scale)
-    box(lower, field, f"smoothed velocity at {len(field)} places, mean over the second half of the run, same scale")
+    box(lower, field, f"smoothed velocity at {len(field)} places, mean over the later part of the run, same scale")
     for axes in (upper, lower):
         axes.set_ylim(-0.54, 0.54)
     return page
