@@ -1,5 +1,6 @@
 """CPU seconds of one step of each method, measured while no other case runs."""
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from time import process_time
 from typing import ClassVar
@@ -34,7 +35,7 @@ class SpamStep(Case):
         warm = run(chosen, particles, Plan(dt=one.dt, steps=50))
         steps = max(10, round(40000/one.particles))
         # the difference of two lengths leaves out what every run pays once: lists, first evaluation, step limit
-        short, long = (median_seconds(lambda n=n: run(chosen, warm.state, Plan(dt=one.dt, steps=n)), clock=process_time)
+        short, long = (median_seconds(partial(run, chosen, warm.state, Plan(dt=one.dt, steps=n)), clock=process_time)
                        for n in (steps, 3*steps))
         seconds = Seconds(long.median - short.median, float(np.hypot(long.spread, short.spread)))
         return Outcome({"cost": [row("spam", self.variant.name, self.scene, one.particles, one.dt, seconds, 2*steps)]})
