@@ -13,6 +13,7 @@ from studies.kit.table import Tables
 
 DENSE: dict = {"eos": "dense"}
 LONG = 20.0     # L^2/eta: "very long times"
+RINGING = 2.0   # L^2/eta, after half of which what is left of the start is gone
 WILD = 5e4      # "higher values" of Ra begin here
 
 
@@ -47,11 +48,15 @@ def paper_form(tables: Tables) -> Measured:
 
 
 def scatter(tables: Tables, height: float) -> Measured:
-    """Relative standard deviation of K(t) in the second half of runs at Ra 50 000 or more, the largest."""
+    """Relative standard deviation of K(t) in the last half of runs at Ra 50 000 or more, the largest.
+
+    Runs are 2 L^2/eta or longer: shorter ones still ring from their start.
+    """
     frame = select(tables, "history", method="compressible", variant="flux-form", resolution=height, eos="ideal")
-    wild = frame[frame["ra"] >= WILD]
+    longest = frame.groupby(["ra", "transport", "sides"])["t_viscous"].transform("max")
+    wild = frame[(frame["ra"] >= WILD) & (longest >= RINGING)]
     if wild.empty:
-        raise CannotTell(f"the grid's K(t) was not run at Ra {WILD:g} or more: SIZE=fine may run it")
+        raise CannotTell(f"the grid's K(t) was not run at Ra {WILD:g} or more over {RINGING:g} L^2/eta: SIZE=fine may")
     runs = [History(group["t"].to_numpy(float), group["ke"].to_numpy(float))
             for _, group in wild.sort_values("t").groupby(["ra", "transport", "sides"])]
     return Measured(max(run.scatter for run in runs), 0.0)

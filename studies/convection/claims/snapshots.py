@@ -125,6 +125,17 @@ def difference(one: Fields, other: Fields, names: tuple[str, ...]) -> Measured:
     return Measured(even, odd)
 
 
+def mean_flow(tables: Tables, particles: dict) -> Measured:
+    """Kinetic energy per mass of the time's mean velocities: of what flows, noise averaged out.
+
+    The mirror-symmetric part; the energy of the rest is the error. If rolls wander in that time, it is a lower bound.
+    """
+    at = fields(tables, particles)
+    even, odd = ({name: (f + sign*mirrored(at)[name])/2 for name, f in at.items()} for sign in (1, -1))
+    found = [0.5*float(np.mean(at["rho"]*(part["vx"]**2 + part["vy"]**2))/np.mean(at["rho"])) for part in (even, odd)]
+    return Measured(found[0], found[1])
+
+
 def velocity_error(tables: Tables, particles: dict, grid: dict) -> Measured:
     """Rms difference of velocity fields over the grid's rms velocity."""
     one, other = fields(tables, particles), fields(tables, grid, finest=True)
