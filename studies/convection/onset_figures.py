@@ -53,7 +53,7 @@ def growth(tables: Tables) -> Figure | None:
     for number, (label, wanted) in enumerate(GRIDS.items()):
         found = rows(tables, "growth_rates", way="operator", **wanted)
         found = found[(found["resolution"] == found["resolution"].max()) & found["ra"].between(*NARROW)].sort_values("ra")
-        weak.plot(found["ra"], found["sigma"], **{**look(number), "linestyle": "none"}, label=label)
+        weak.plot(found["ra"], found["sigma"], **{**look(number), "linestyle": "none"}, markerfacecolor="none", label=label)
     weak.set_title("disturbances of the fluid at rest, finest grids")
     theory(strong, tables, low=1/np.sqrt(2))
     finite(strong, tables)
