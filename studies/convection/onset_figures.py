@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from studies.convection.onset_tables import ALL
 from studies.convection.pick import ENERGY, ra_axis
-from studies.kit.figure import COLOURS, LINES, MARKERS, errorbar, figure, look
+from studies.kit.figure import COLOURS, MARKERS, errorbar, figure, look
 from studies.kit.table import Tables
 
 COLUMNS = {table.name: table.columns for table in ALL}
@@ -24,7 +24,7 @@ GRIDS: dict[str, dict[str, Any]] = {
     r"gas, $\eta$ constant, py-pde": {**GAS, "method": "pypde-compressible"},
     "van der Waals": {**GAS, "eos": "vdw"},
 }
-WIDE, NARROW = (1350.0, 3500.0), (1550.0, 1860.0)
+WIDE, NARROW = (950.0, 3500.0), (1550.0, 1860.0)
 
 
 def rows(tables: Tables, name: str, **wanted: Any) -> pd.DataFrame:
@@ -61,7 +61,8 @@ def growth(tables: Tables) -> Figure | None:
     for axes in (weak, strong):
         axes.axhline(0, color="black", linewidth=0.6, linestyle="-", marker="")
         axes.set(xlabel="Rayleigh number Ra", ylabel=r"growth rate $\sigma$  [1/free-fall time]")
-        axes.legend()
+    weak.legend()
+    strong.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     weak.set_xlim(*NARROW)
     weak.set_ylim(-0.02, 0.03)
     return page
@@ -79,13 +80,16 @@ def finite(axes: Axes, tables: Tables) -> None:
     """Means over seeds of runs, for each kind, number of particle rows and strength."""
     runs = rows(tables, "growth_rates", way="run")
     runs = runs[(runs["ke_start"] > 1e-6) & runs["ra"].between(*WIDE)]
-    for number, ((method, variant, size, ke), group) in enumerate(runs.groupby(["method", "variant", "resolution", "ke_start"])):
+    kinds, sizes = sorted(runs["variant"].unique()), sorted(runs["resolution"].unique())
+    for (method, variant, size, ke), group in runs.groupby(["method", "variant", "resolution", "ke_start"]):
         of_ra = [(ra, one["sigma"].mean(), one["sigma"].std()/np.sqrt(len(one)) if len(one) > 1 else 0.0)
                  for ra, one in group.groupby("ra")]
         ra, sigma, spread = np.array(of_ra).T
         name = f"{variant}, {size:.0f} rows" if method == "spam" else f"gas grid, {size:.0f} rows"
-        errorbar(axes, list(ra), list(sigma), list(2*spread), number=number, label=f"{name}, $K_0$ = {ke:g}",
-                 color=COLOURS[number % len(COLOURS)], linestyle=LINES[number % len(LINES)])
+        strongest = ke == runs["ke_start"].max()
+        errorbar(axes, list(ra), list(sigma), list(2*spread), label=f"{name}, $K_0$ = {ke:g}",
+                 color=COLOURS[kinds.index(variant)], marker=MARKERS[sizes.index(size)],
+                 linestyle="-" if strongest else ":", markerfacecolor=None if strongest else "none")
 
 
 # --- straight lines ---------------------------------------------------------------------------------------
