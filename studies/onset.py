@@ -3,8 +3,9 @@ by the zero of the straight line of K against Ra^-1/2, extrapolated in L^-2 (KHP
 really give?
 
 Scaling: growth rates per free-fall time, energies in KHP95's units; nothing depends on L.
-Sizes: `quick` (a minute) and `paper` (minutes, two cores) have all grids and the particles at 25 rows, `fine` (half an hour)
-more particles and weaker rolls. Writes results/onset/*.csv and *.png and the rows of study onset in results/claims.csv.
+Sizes: `quick` (a minute) and `paper` (six minutes on two cores) have all grids and the particles at 16 and at 25 rows,
+`fine` (twelve) more particles and weaker rolls. Writes results/onset/*.csv and *.png and the rows of study onset in
+results/claims.csv.
 """
 from collections.abc import Iterator
 from typing import Any
