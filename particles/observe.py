@@ -10,7 +10,7 @@ import numpy as np
 
 from continuum.fluid import conductivity, energy, stress, temperature, viscosity
 from particles.neighbours import make_lists, sort_into_cells
-from particles.pairs import interpolate
+from particles.pairs import Pairs, interpolate, sweep
 
 
 class Fields(NamedTuple):
@@ -60,6 +60,38 @@ def heat_flow(sums: Any, state: np.ndarray) -> float:
     carried = rho*vy*(e + around.P[:n]/rho + (vx**2 + vy**2)/2 + method.g*y)
     flux = carried - conductivity(method.law, rho, T)*gy_T - sxy*vx - syy*vy
     return float(np.sum(flux*method.m/rho)/(method.box[0]*method.box[1]))
+
+
+class PlateHeat(NamedTuple):
+    """Energy per area and time that fluid particles get from what is behind a plate: side -1 the lower, +1 the upper one.
+
+    The part of the third sum that comes from images and fixed particles there, its work included. In a steady flow lower
+    and upper plate exchange what `heat_flow` carries: an independent way to the Nusselt number. Gravity takes no part.
+    """
+    side: int
+
+    def __call__(self, sums: Any, state: np.ndarray) -> float:
+        """From densities and gradients that are up to date."""
+        term, records = sums.exchange()
+        pull = np.zeros((sums.around.rows, sums.pull.shape[1]))
+        sums.team(sweep, sums.n, term, records, pairs_behind(sums, self.side), pull)
+        ax, ay, heat, _, work = pull[:sums.n].T
+        return float(sums.method.m*np.sum(state[2]*ax + state[3]*ay + heat + work)/sums.method.box[0])
+
+
+def pairs_behind(sums: Any, side: int) -> Pairs:
+    """The pairs of fluid particles with what is behind the lower (-1) or upper (+1) plate."""
+    around, pairs, half = sums.around, sums.around.pairs, sums.method.box[1]/2
+    rows = np.flatnonzero(side*around.y[:sums.n] > half - sums.method.weight.h)
+    taken = pairs.taken[rows].astype(np.int64)
+    offset = np.cumsum(taken) - taken
+    entry = np.arange(taken.sum()) + np.repeat(pairs.first[rows].astype(np.int64) - offset, taken)
+    behind = side*around.y[pairs.near[entry]] > half
+    count = np.bincount(np.repeat(np.arange(len(rows)), taken)[behind], minlength=len(rows))
+    first, new = np.zeros_like(pairs.first), np.zeros_like(pairs.taken)
+    first[rows], new[rows] = np.cumsum(count) - count, count
+    return pairs._replace(first=first, taken=new, near=pairs.near[entry[behind]], wx=pairs.wx[entry[behind]],
+                          wy=pairs.wy[entry[behind]])
 
 
 def conserved(sums: Any, state: np.ndarray) -> np.ndarray:

@@ -6,6 +6,7 @@ import pytest
 
 from particles.observe import (
     Grid,
+    PlateHeat,
     Profile,
     conserved,
     field_kinetic,
@@ -17,6 +18,7 @@ from particles.observe import (
 from particles.team import Team
 from particles.vtk import write_grid, write_particles
 from particles.weights import value_and_slope
+from studies.convection.spam import VARIANTS
 from tests.scenes import small
 
 
@@ -105,3 +107,19 @@ def test_paraview_files_hold_what_was_given(measured, tmp_path):
     image = ElementTree.parse(tmp_path/"g.vti").getroot()
     assert image.find("ImageData").get("WholeExtent") == "0 7 0 3 0 0"
     assert {a.get("Name") for a in image.iter("DataArray")} == {"v", "rho", "e", "T"}
+
+
+@pytest.mark.parametrize("name", ["printed", "printed-fixed-rows", "walls-odd-own-pressure", "direct"])
+def test_plates_give_all_the_energy_that_the_fluid_gains(name):
+    """Between particles the sums conserve energy: kinetic, internal and m g y change by what the plates exchange."""
+    method, state = small(VARIANTS[name], rows=12)
+    sums, rates = method.start(state.shape[1], Team(1)), np.empty_like(state)
+    sums.around.relist(state, np.arange(state.shape[1]), 0.0)
+    sums.rates(state, rates)
+    gained = state[2]*rates[2] + state[3]*rates[3] + rates[4] + method.g*rates[1]
+    sums.densities(state)
+    sums.gradients()
+    lower, upper = (PlateHeat(side)(sums, state)*method.box[0] for side in (-1, 1))
+    assert min(abs(lower), abs(upper)) > 1e-3*np.abs(gained).sum()
+    # 288 energies and some 300 pairs a plate, summed in another order
+    assert lower + upper == pytest.approx(gained.sum(), abs=1e-13*np.abs(gained).sum())
