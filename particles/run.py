@@ -18,7 +18,12 @@ Quantity = Callable[..., Any]  # (sums of the method, state) -> number or array
 
 
 class Divergence(FloatingPointError):
-    """The run left the domain of finite, valid states."""
+    """The run left the domain of finite, valid states at `step`."""
+    step: int
+
+    def __init__(self, step: int, message: str):
+        super().__init__(message)
+        self.step = step
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -126,7 +131,8 @@ def _advance(method, plan: Plan, sums, integrator, now: Run) -> None:
         try:
             sums.around.relist(now.state, now.ids, plan.dt)
         except FloatingPointError as error:
-            raise Divergence(f"diverged at step {now.step}, time {now.step*plan.dt:g}: {error}; {_way_out(plan)}") from error
+            message = f"diverged at step {now.step}, time {now.step*plan.dt:g}: {error}; {_way_out(plan)}"
+            raise Divergence(now.step, message) from error
         now.anchor, now.skin = sums.around.anchor, sums.around.skin
     integrator.step(sums.rates, now.state, plan.dt)
     now.reflections += sum(confine(wall, now.state) for wall in method.walls)
@@ -173,12 +179,12 @@ def _check(method, plan: Plan, sums, now: Run) -> None:
     when = f"step {now.step}, time {now.step*plan.dt:g}"
     way_out = _way_out(plan)
     if not np.isfinite(now.state).all():
-        raise Divergence(f"diverged at {when}: {_where(method, now.state, now.ids)}; {way_out}")
+        raise Divergence(now.step, f"diverged at {when}: {_where(method, now.state, now.ids)}; {way_out}")
     rho, e = sums.around.rho[:sums.n], now.state[4]
     good = valid(method.eos, rho, e)
     if not good.all():
         i = int(np.argmin(good))
-        raise Divergence(f"at {when} particle {now.ids[i]} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of "
-                         f"{type(method.eos).__name__}; {way_out}")
+        raise Divergence(now.step, f"at {when} particle {now.ids[i]} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the "
+                                   f"validity of {type(method.eos).__name__}; {way_out}")
     if sums.around.moved(now.state) > sums.around.skin/2:
-        raise Divergence(f"at {when} a particle sped up by more than a quarter within one step; {way_out}")
+        raise Divergence(now.step, f"at {when} a particle sped up by more than a quarter within one step; {way_out}")

@@ -1,27 +1,34 @@
 """Smooth particles in the Rayleigh-Benard scene: the printed scheme, its variants, and one run as a case."""
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import energy, pressure, sound_speed
+from continuum.fluid import energy, pressure
 from continuum.scene import Periodic, RayleighBenard
+from particles.limits import step_limit
 from particles.methods.spam import Direct, LessStatic, Nested, Spam
-from particles.observe import Fields, Grid, Profile, field_kinetic, heat_flow, particle_kinetic, wall_layers
-from particles.run import Plan, Run, run
+from particles.observe import Fields, Grid, PlateHeat, Profile, field_kinetic, heat_flow, particle_kinetic, wall_layers
+from particles.run import Divergence, Plan, Run, run
+from particles.team import Team
 from particles.terms import ArithmeticGradients, Gradients
+from particles.vtk import write_grid, write_particles
 from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import AtWall, Copied, Odd, Own, plates, sides
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
 from studies.convection.names import START_ENERGY, scene_columns
 from studies.kit.case import Case, Outcome, Report
-from studies.kit.stats import mean
+from studies.kit.stats import mean, settled
 
 JITTER = 0.2           # of the lattice at the start, in spacings: a perfect one stays frozen in places
-STEP = 0.6             # in spacings per sound speed of the ideal gas at T = 1
+#: time step over its stability limit: RK4 damps the fastest waves of the lattice by (0.22 x 2.83)^6/144 = 0.04 % a step.
+#: A third of the limit, dt = 0.6 for the printed scheme, cools the noise of 16 rows so that K is a fifth too low.
+OF_LIMIT = 0.22
+RECORDS = 8            # a time L/free_fall
 
 
 def images(scene: RayleighBenard, rule: Any = AtWall(), pressure_rule: Any = Copied()) -> tuple:  # noqa: B008
@@ -61,11 +68,13 @@ class Variant(NamedTuple):
     gradients: Any = Gradients()
     transport: type = Nested
     fraction: float = 0.0
+    step: float = OF_LIMIT
 
 
 PRINTED = Variant("printed")
 VARIANTS = {v.name: v for v in (
     PRINTED,
+    Variant("printed-half-step", step=OF_LIMIT/2),
     Variant("printed-fixed-rows", walls=fixed_rows),
     Variant("printed-monaghan", weight=Monaghan),
     Variant("walls-odd", walls=images_odd),
@@ -73,6 +82,8 @@ VARIANTS = {v.name: v for v in (
     Variant("walls-odd-own-pressure", walls=images_odd_own),
     Variant("arithmetic-mean", gradients=ArithmeticGradients()),
     Variant("direct", transport=Direct),
+    Variant("more-static-400", fraction=-4.0),
+    Variant("more-static-100", fraction=-1.0),
     Variant("less-static-50", fraction=0.5),
     Variant("less-static-90", fraction=0.9),
     Variant("direct-less-static-90", transport=Direct, fraction=0.9),
@@ -80,6 +91,7 @@ VARIANTS = {v.name: v for v in (
     Variant("wendland-c4", weight=WendlandC4),
     Variant("wendland-c6", weight=WendlandC6),
     Variant("range-4", h=4.0),
+    Variant("range-6", h=6.0),
 )}
 
 
@@ -88,6 +100,12 @@ def method(scene: RayleighBenard, variant: Variant) -> Spam:
     static = LessStatic(variant.fraction, float(pressure(scene.eos, 1.0, energy(scene.eos, 1.0, scene.T_mean))))
     return Spam(weight=variant.weight.of(variant.h), eos=scene.eos, law=scene.law, walls=variant.walls(scene),
                 box=(scene.width, scene.L), g=scene.g, gradients=variant.gradients, transport=variant.transport, static=static)
+
+
+@cache
+def step(scene: RayleighBenard, variant: Variant) -> float:
+    """Time step of a variant, in units of time: its fraction of the stability limit."""
+    return variant.step*step_limit(method(scene, variant), energy(scene.eos, 1.0, np.array([scene.T_cold, scene.T_hot])))
 
 
 def start(scene: RayleighBenard, seed: int) -> np.ndarray:
@@ -104,23 +122,27 @@ def start(scene: RayleighBenard, seed: int) -> np.ndarray:
 class SpamRun(Case):
     """One run of smooth particles.
 
-    scene : with L = particle rows over the height (unit spacing). t_end, mean_from : units of time, averages are taken
-    after `mean_from`. keep : "" for energies only, "fields" for the mean fields and profile, too, "all" for the
-    particles at the end besides.
+    scene : with L = particle rows over the height (unit spacing). t_end, mean_from : in free-fall times L/free_fall,
+    averages are taken after `mean_from`. keep : "" for energies only, "fields" for the mean fields and profile, too, "all"
+    for the particles at the end besides, the last two in files for ParaView, too. A run that diverges is a result: its
+    row has no energies and the time of the failure.
     """
     scene: RayleighBenard
     variant: Variant = PRINTED
     seed: int = 1
-    t_end: float = 4500.0
-    mean_from: float = 2000.0
+    t_end: float = 90.0
+    mean_from: float = 40.0
     keep: str = ""
-    dt_factor: float = 1.0
 
     @property
     def dt(self) -> float:
-        """0.6 for the ideal gas, in proportion to 1/c for others."""
-        c = sound_speed(self.scene.eos, 1.0, energy(self.scene.eos, 1.0, self.scene.T_mean))
-        return float(self.dt_factor*STEP*np.sqrt(2)/c)
+        """A fraction of the stability limit of lattice waves at the temperatures of the plates."""
+        return step(self.scene, self.variant)
+
+    @property
+    def unit(self) -> float:
+        """Free-fall time."""
+        return self.scene.L/self.scene.free_fall
 
     @property
     def particles(self) -> int:
@@ -128,7 +150,7 @@ class SpamRun(Case):
 
     @property
     def cost(self) -> float:
-        return self.t_end/self.dt*4*self.particles*260e-9*(self.variant.h/3)**2 + 2
+        return self.t_end*self.unit/self.dt*4*self.particles*230e-9*(self.variant.h/3)**2 + 2
 
     @property
     def label(self) -> str:
@@ -136,13 +158,21 @@ class SpamRun(Case):
         return f"spam {self.variant.name} {where['eos']} Ra {self.scene.ra:g}, {self.particles} particles, seed {self.seed}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        plan = Plan(dt=self.dt, steps=round(self.t_end/self.dt), mean_from=self.mean_from,
-                    series={"kp": particle_kinetic, "kg": field_kinetic, "heat": heat_flow},
-                    means={"grid": self._grid, "profile": Profile(round(self.scene.L)), "walls": wall_layers},
-                    checkpoint=folder/"run.h5")
-        chosen = method(self.scene, self.variant)
-        done = run(chosen, start(self.scene, self.seed), plan, report)
+        chosen, plan = method(self.scene, self.variant), self.plan(folder)
+        try:
+            done = run(chosen, start(self.scene, self.seed), plan, report)
+        except Divergence as error:
+            return Outcome({"kinetic_energy": [self._diverged(plan, error.step)]})
+        if self.keep == "all":
+            self._draw(done, folder)
         return Outcome({name: list(rows) for name, rows in self._tables(chosen, done, plan).items()})
+
+    def plan(self, folder: Path) -> Plan:
+        """Steps, and what is recorded on the way."""
+        series = {"kp": particle_kinetic, "kg": field_kinetic, "heat": heat_flow, "lower": PlateHeat(-1), "upper": PlateHeat(1)}
+        return Plan(dt=self.dt, steps=round(self.t_end*self.unit/self.dt), mean_from=self.mean_from*self.unit, series=series,
+                    means={"grid": self._grid, "profile": Profile(round(self.scene.L)), "walls": wall_layers},
+                    every=max(1, round(self.unit/RECORDS/self.dt)), checkpoint=folder/"run.h5")
 
     @property
     def _grid(self) -> Grid:
@@ -163,14 +193,28 @@ class SpamRun(Case):
         return rows
 
     def _energies(self, done: Run, plan: Plan) -> dict:
-        late = np.array(done.times) > self.mean_from
-        kp, kg, heat = (mean(np.array(done.series[name])[late]) for name in ("kp", "kg", "heat"))
-        unit = self.scene.k*self.scene.dT/self.scene.L
-        return {**self.point, "particles": self.particles, "ke": kp.value, "ke_err": kp.err, "ke_field": kg.value,
-                "ke_field_err": kg.err, "ke_fluctuation": kp.value - kg.value, "nu": heat.value/unit, "nu_err": heat.err/unit,
-                "rolls": self._rolls(done), "free_fall": self.scene.free_fall, "mass_drift": 0.0, "converged": True,
-                "dt": plan.dt, "steps": plan.steps, "t_end": self.t_end, "cpu_s": done.cpu_s, "compile_s": done.compile_s,
-                "threads": 1}
+        (kp, steady), (kg, too), (heat, _) = (settled(self._late(done, name)) for name in ("kp", "kg", "heat"))
+        return {**self.point, **self._spent(plan), "ke": kp.value, "ke_err": kp.err, "ke_field": kg.value,
+                "ke_field_err": kg.err, "ke_fluctuation": kp.value - kg.value, "nu": heat.value/self._heat_unit,
+                "nu_err": heat.err/self._heat_unit, "rolls": self._rolls(done), "converged": steady and too,
+                "steps": plan.steps, "t_end": plan.steps*plan.dt, "cpu_s": done.cpu_s, "compile_s": done.compile_s}
+
+    def _diverged(self, plan: Plan, steps: int) -> dict:
+        empty = dict.fromkeys(("ke", "ke_err", "ke_field", "ke_field_err", "ke_fluctuation", "nu", "nu_err", "cpu_s"), np.nan)
+        return {**self.point, **self._spent(plan), **empty, "rolls": 0, "converged": False, "steps": steps,
+                "t_end": steps*plan.dt, "compile_s": 0.0}
+
+    def _spent(self, plan: Plan) -> dict:
+        return {"particles": self.particles, "free_fall": self.scene.free_fall, "mass_drift": 0.0, "dt": plan.dt, "threads": 1}
+
+    @property
+    def _heat_unit(self) -> float:
+        """Conduction alone, per area."""
+        return self.scene.k*self.scene.dT/self.scene.L
+
+    def _late(self, done: Run, name: str) -> np.ndarray:
+        """A series after `mean_from`."""
+        return np.array(done.series[name])[np.array(done.times) > self.mean_from*self.unit]
 
     def _rolls(self, done: Run) -> int:
         """Changes of sign of the mean vy along mid-height that stand out of the noise (a fifth of its largest value)."""
@@ -182,14 +226,17 @@ class SpamRun(Case):
         return int(np.sum(up[1:] != up[:-1]) + (isinstance(self.scene.sides, Periodic) and up[-1] != up[0]))
 
     def _walls(self, done: Run) -> list[dict]:
-        layers = done.means["walls"]
-        temperatures = (("lower", self.scene.T_hot), ("upper", self.scene.T_cold))
+        """Layers at the plates, and heat in at the lower, out at the upper one."""
+        plates = (("lower", self.scene.T_hot, 1), ("upper", self.scene.T_cold, -1))
         return [{**self.point, "plate": plate, "T_wall": T, "rho_layer": layer[0], "T_layer": layer[1],
-                 "reflections": done.reflections} for (plate, T), layer in zip(temperatures, layers, strict=True)]
+                 "reflections": done.reflections, "nu_plate": sign*heat.value/self._heat_unit,
+                 "nu_plate_err": heat.err/self._heat_unit}
+                for (plate, T, sign), layer in zip(plates, done.means["walls"], strict=True)
+                for heat in [mean(self._late(done, plate))]]
 
     def _history(self, done: Run) -> list[dict]:
-        """At most 200 samples."""
-        every = max(1, len(done.times)//200)
+        """Some 240 samples where fields are kept, 40 elsewhere."""
+        every = max(1, len(done.times)//(240 if self.keep else 40))
         samples = zip(done.times, done.series["kp"], done.series["kg"], strict=True)
         return [{**self.point, "t": t, "t_viscous": t/self.scene.viscous_time, "ke": kp, "ke_field": kg}
                 for t, kp, kg in list(samples)[::every]]
@@ -208,13 +255,26 @@ class SpamRun(Case):
                 for at, rho, T, vy2, vyT in zip(y, *done.means["profile"].tolist(), strict=True)]
 
     def _particles(self, chosen: Spam, done: Run) -> list[dict]:
-        """Fluid particles and what is behind the walls, with velocities, at the end."""
-        from particles.team import Team
-        sums, state = chosen.start(self.particles, Team(1)), done.state.copy()
-        sums.around.relist(state, done.ids.copy(), 0.0)
-        sums.densities(state)
-        around = sums.around
+        """Fluid particles and what is behind the walls, with velocities and temperatures, at the end."""
+        sums, _ = at_end(chosen, done)
+        around, L = sums.around, self.scene.L
         kinds = ["fluid"]*sums.n + ["fixed"]*(around.rows - sums.n) + ["image"]*(len(around.x) - around.rows)
-        L = self.scene.L
-        return [{**self.point, "number": i, "kind": kind, "x": x/L, "y": y/L, "vx": vx, "vy": vy}
-                for i, (kind, x, y, vx, vy) in enumerate(zip(kinds, around.x, around.y, around.vx, around.vy, strict=True))]
+        columns = (kinds, around.x/L, around.y/L, around.vx, around.vy, around.T)
+        names = ("kind", "x", "y", "vx", "vy", "T")
+        return [{**self.point, "number": i, **dict(zip(names, row, strict=True))}
+                for i, row in enumerate(zip(*columns, strict=True))]
+
+    def _draw(self, done: Run, folder: Path) -> None:
+        """Particles at the end and mean fields as files for ParaView."""
+        (sums, state), grid = at_end(method(self.scene, self.variant), done), self._grid
+        n = sums.n
+        write_particles(folder/"particles.vtp", state, rho=sums.around.rho[:n], T=sums.around.T[:n])
+        write_grid(folder/"fields.vti", grid.x, grid.y, Fields(*done.means["grid"])._asdict())
+
+
+def at_end(chosen: Spam, done: Run) -> tuple[Any, np.ndarray]:
+    """(sums, state): the last state in the order of new lists, with densities, motion and images."""
+    sums, state = chosen.start(done.state.shape[1], Team(1)), done.state.copy()
+    sums.around.relist(state, done.ids.copy(), 0.0)
+    sums.densities(state)
+    return sums, state

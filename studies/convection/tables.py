@@ -22,16 +22,19 @@ FIELDS = Table("fields", key=[*POINT, "seed", "x", "y"],
                columns=[*POINT, "seed", "x", "y", "rho", "T", "vx", "vy"])
 #: particles at the end of a run [Figs 2, 3, 7, 12]; kind: fluid, fixed or image
 PARTICLES = Table("particles", key=[*POINT, "seed", "number"],
-                  columns=[*POINT, "seed", "number", "kind", "x", "y", "vx", "vy"])
+                  columns=[*POINT, "seed", "number", "kind", "x", "y", "vx", "vy", "T"])
 PROFILES = Table("profiles", key=[*POINT, "seed", "y"], columns=[*POINT, "seed", "y", "rho", "T", "vy2", "vyT"])
 WALLS = Table("walls", key=[*POINT, "seed", "plate"],
-              columns=[*POINT, "seed", "plate", "T_wall", "T_layer", "rho_layer", "reflections"])
+              columns=[*POINT, "seed", "plate", "T_wall", "T_layer", "rho_layer", "reflections", "nu_plate", "nu_plate_err"])
 #: seconds of one step, measured alone on the machine
 COST = Table("cost", key=["method", "variant", "eos", "sides", "resolution"],
              columns=["method", "variant", "eos", "sides", "resolution", "points", "step_s", "step_s_err", "dt",
                       "threads"])
 #: error against cost, derived
-ERRORS = Table("errors", key=POINT, columns=[*POINT, "particles", "ke", "ke_err", "reference", "reference_err", "error",
+ERRORS = Table("errors", key=[*POINT, "energy"], columns=[*POINT, "particles", "ke", "ke_err", "reference", "reference_err", "error",
                                              "error_err", "energy", "cpu_s"])
+#: K of the finest grid's field, and of that field smoothed with a weight of range h spacings, `rows` of them a height
+SMOOTHED = Table("smoothed", key=[*POINT, "weight", "h", "rows"],
+                 columns=[*POINT, "weight", "h", "rows", "ke", "ke_smoothed"])
 
-ALL = (KINETIC, MEANS, HISTORY, FIELDS, PARTICLES, PROFILES, WALLS, COST, ERRORS)
+ALL = (KINETIC, MEANS, HISTORY, FIELDS, PARTICLES, PROFILES, WALLS, COST, SMOOTHED, ERRORS)

@@ -65,6 +65,20 @@ def mean(x: Sequence[float] | np.ndarray) -> Measured:
     return Measured(float(x.mean()), float(stdtrit(freedom, 0.975)*x.std()*np.sqrt(2*tau/len(x))))
 
 
+def settled(x: Sequence[float] | np.ndarray) -> tuple[Measured, bool]:
+    """Mean of a series and whether its halves agree; where they do not, half of their difference is in the error.
+
+    Two halves of a steady series differ by more than 1.5 times the root of the sum of squares of their 95 % intervals
+    once in 300 times.
+    """
+    x = np.asarray(x, dtype=float)
+    whole, (first, last) = mean(x), (mean(half) for half in np.array_split(x, 2))
+    apart = abs(first.value - last.value)
+    if apart <= 1.5*np.hypot(first.err, last.err):
+        return whole, True
+    return Measured(whole.value, float(np.hypot(whole.err, apart/2))), False
+
+
 def combine(runs: Sequence[tuple[float, float]]) -> Measured:
     """Mean over seeds from (value, err) of each run; the error is the larger of two.
 
