@@ -1,17 +1,31 @@
 """Claims about the flow of smooth particles: fields, approach to the steady state, neighbours    [KHP95]"""
+from collections.abc import Callable
+from math import inf
+
 import numpy as np
 
 from studies.convection.claims.histories import History, distance, histories, over_seeds
 from studies.convection.claims.lattices import RANGE
 from studies.convection.claims.printed import as_printed
-from studies.convection.claims.read import Value, grid, limit, particles, ratio, select
+from studies.convection.claims.read import Value, diverged, grid, limit, particles, ratio, same_flow, select
 from studies.convection.claims.snapshots import Snapshot, contour_error, snapshot, velocity_error
 from studies.convection.claims.spam import error
 from studies.kit.claim import CannotTell, Claim
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
 
-STEADY = particles(1e4)
+STEADY, ROWS = particles(1e4), particles(1e4, variant="printed-fixed-rows")
+PARTICLES, WIDTH = 5000, 100
+
+
+def against(measure: Callable[..., Measured], ra: float, *names: str) -> Value:
+    """An error of the mean fields of 5000 particles against the grid's, of the same flow."""
+    def value(tables: Tables) -> Measured:
+        point = particles(ra)
+        kept = int(select(tables, "fields", **point)["seed"].min())
+        same_flow(tables, point, grid(ra), kept)
+        return measure(tables, point, grid(ra), *names)
+    return value
 
 
 def seen(measure, point: dict = STEADY) -> Value:
@@ -22,25 +36,15 @@ def seen(measure, point: dict = STEADY) -> Value:
     return value
 
 
-def outside(at: Snapshot) -> int:
-    """Fluid particles beyond a plate."""
-    return int((np.abs(at.x[:at.n, 1]) > at.height/2).sum())
-
-
 def views(at: Snapshot) -> float:
     """Rms of v - <v> at the particles over rms v."""
     return float(np.sqrt(np.mean(at.noise**2)/np.mean(at.v[:at.n]**2)))
 
 
-def kurtosis(at: Snapshot) -> Measured:
-    """Of both components of v - <v> in the bulk; 3 for a normal distribution."""
-    noise = at.noise[at.bulk].ravel()
-    return Measured(float(np.mean(noise**4)/np.mean(noise**2)**2), float(1.96*np.sqrt(24/len(noise))))
-
-
 def approach(energy: str) -> Value:
     """Largest |K_particles(t) - K_grid(t)| at Ra 10 000 over the grid's steady K."""
     def value(tables: Tables) -> Measured:
+        same_flow(tables, STEADY, grid(1e4))
         other = histories(tables, grid(1e4, 50), "ke")[0]
         return distance(histories(tables, STEADY, energy), other, limit(tables, 1e4).value)
     return value
@@ -48,6 +52,7 @@ def approach(energy: str) -> Value:
 
 def settling(tables: Tables) -> Measured:
     """Times of approach at Ra 10 000, particles over grid."""
+    same_flow(tables, STEADY, grid(1e4))
     other = histories(tables, grid(1e4, 50), "ke")[0].settling
     if not other > 0:
         raise CannotTell("the grid's K(t) was near its steady value all the time: no time of approach")
@@ -60,35 +65,49 @@ def fluctuation(tables: Tables) -> Measured:
 
 
 def high(tables: Tables) -> float:
-    """The largest Ra >= 50 000 of smooth particles of 50 rows or more.
+    """The largest Ra >= 50 000 of smooth particles of 50 rows, whether they came to the end or not.
 
     Raises
     ------
     CannotTell
         None was run.
     """
-    frame = select(tables, "means", **{k: v for k, v in particles(1e4).items() if k != "ra"})
+    frame = select(tables, "kinetic_energy", **{k: v for k, v in particles(1e4).items() if k != "ra"})
     if frame["ra"].max() < 5e4:
         raise CannotTell(f"smooth particles were run up to Ra {frame['ra'].max():g} only, not 50 000 or more")
     return float(frame["ra"].max())
 
 
 def robust(tables: Tables) -> Measured:
-    """Relative change of K between the third and last quarter of the run at the highest Ra."""
-    runs: list[History] = histories(tables, particles(high(tables)))
+    """Relative change of K between the third and last quarter of the run at the highest Ra; no bound if it diverged."""
+    point = particles(high(tables))
+    if diverged(tables, point):
+        return Measured(inf, 0.0)
+    runs: list[History] = histories(tables, point)
     return over_seeds([run.drift for run in runs])
 
 
-def layer(tables: Tables) -> Measured:
-    """Density within one spacing of the plates over the mean density, fixed rows, Ra 10 000, both plates."""
-    frame = select(tables, "walls", **particles(1e4, variant="printed-fixed-rows"))
-    return over_seeds(frame.groupby("seed")["rho_layer"].mean().tolist())
+def bounces(variant: str) -> Value:
+    """Particles that the elastic wall turned back, a particle and run, Ra 10 000."""
+    def value(tables: Tables) -> Measured:
+        frame = select(tables, "walls", **particles(1e4, variant=variant))
+        return over_seeds((frame.groupby("seed")["reflections"].first()/PARTICLES).tolist())
+    return value
 
 
-def bounces(tables: Tables) -> Measured:
-    """Reflections at the wall behind fixed rows, a particle and run."""
-    frame = select(tables, "walls", **particles(1e4, variant="printed-fixed-rows"))
-    return over_seeds((frame.groupby("seed")["reflections"].first()/5000).tolist())
+def carried(tables: Tables) -> Measured:
+    """Share of the pressure on the plates that fixed rows carry, Ra 10 000: not the impacts on the elastic wall.
+
+    An impact gives 2 m |v_y|, here twice the largest speed among the particles at the end; P = rho T of the layer.
+    """
+    at = snapshot(tables, ROWS)
+    fastest = float(np.sqrt((at.v[:at.n]**2).sum(axis=1).max()))
+    shares = []
+    for seed, plates in select(tables, "walls", **ROWS).groupby("seed"):
+        time = float(select(tables, "kinetic_energy", **ROWS, seed=seed)["t_end"].iloc[0])
+        impacts = 2*fastest*plates["reflections"].iloc[0]/(time*2*WIDTH)
+        shares.append(float(1 - impacts/(plates["rho_layer"]*plates["T_layer"]).mean()))
+    return over_seeds(shares)
 
 
 NO_SINGLE = "Lucy's single particles have 1.3, pairs 2 or more"
@@ -102,23 +121,23 @@ CLAIMS = (
           because='"about", one digit'),
     Claim(id="khp95-velocity-field-10000", source="KHP95 Sec. VI", printed="5%", at_most=0.075,
           statement="velocity errors of the order of 5 % at Ra 10 000, place by place: rms difference of mean fields, "
-                    "rolls aligned, over rms velocity", value=lambda tables: velocity_error(tables, STEADY, grid(1e4)),
+                    "rolls aligned, over rms velocity", value=against(velocity_error, 1e4),
           because='"of the order of", one digit: half as much again'),
     Claim(id="khp95-velocity-field-5000", source="KHP95 Sec. VI", printed="5%", at_most=0.075,
           statement="velocity errors of the order of 5 % at Ra 5000, place by place: rms difference of mean fields, "
                     "rolls aligned, over rms velocity",
-          value=lambda tables: velocity_error(tables, particles(5e3), grid(5e3)),
+          value=against(velocity_error, 5e3),
           because='"of the order of", one digit: half as much again'),
     Claim(id="khp95-within-percent", source="KHP95 Sec. VII", printed="a few percent", at_most=0.05,
           statement="results are within a few percent of converged solutions: velocities place by place, Ra 10 000",
-          value=lambda tables: velocity_error(tables, STEADY, grid(1e4)), because="a few are five at most"),
+          value=against(velocity_error, 1e4), because="a few are five at most"),
     Claim(id="khp95-fig9-temperature", source="KHP95 Sec. VI, Fig. 9", printed="good agreement", at_most=0.05,
           statement="temperatures of particles and grid agree at Ra 10 000: rms difference over the whole range",
-          value=lambda tables: contour_error(tables, STEADY, grid(1e4), "T"),
+          value=against(contour_error, 1e4, "T"),
           because="no number is printed: a few percent"),
     Claim(id="khp95-fig9-density", source="KHP95 Sec. VI, Fig. 9", printed="good agreement", at_most=0.1,
           statement="densities of particles and grid agree at Ra 10 000: rms difference over the grid's range",
-          value=lambda tables: contour_error(tables, STEADY, grid(1e4), "rho"),
+          value=against(contour_error, 1e4, "rho"),
           because="no number is printed: one contour of ten"),
     Claim(id="khp95-approach", source="KHP95 Sec. VI, Fig. 8", printed="a few percent", at_most=0.05,
           value=approach("ke_field"),
@@ -135,23 +154,22 @@ CLAIMS = (
           value=fluctuation,
           statement="fluctuations disguise errors of less than 1 %: standard deviation of K(t) over K, 5000 "
                     "particles, Ra 10 000", because='"about", one digit, as an upper bound: twice'),
-    Claim(id="khp95-fluctuation-definition", source="KHP95 Sec. VI", printed="analog of kinetic temperature", expect=3,
-          within=0.3,
-          statement="velocities about the field are like those of molecules: kurtosis of v - <v>, 3 for a normal "
-                    "distribution", value=seen(kurtosis), because="no number is printed: 10 %"),
     Claim(id="khp95-fig12-views", source="KHP95 Fig. 12", printed="two equivalent views", at_most=0.1,
           value=seen(views),
           statement="particle velocities and averaged velocities are equivalent: rms difference over rms velocity, Ra "
                     "10 000", because="no number is printed: what an arrow's length shows"),
-    Claim(id="khp95-walls-leakproof", source="KHP95 Sec. II", printed="leak-proof", expect=0, within=0,
-          statement="fixed rows with an elastic wall behind them lose no particle: number outside at the end",
-          value=seen(outside, particles(1e4, variant="printed-fixed-rows")), because="a whole number"),
-    Claim(id="khp95-rows-repel", source="KHP95 Sec. II", printed="capable of repelling", at_most=0, value=bounces,
-          statement="fixed rows repel approaching particles by themselves: reflections at the wall, a particle and run",
-          because="none would need the wall"),
-    Claim(id="khp95-rows-high-density", source="KHP95 Sec. II", printed="high-density", at_least=1, value=layer,
-          statement="fixed rows are a region of high density: density of the fluid within one spacing of them over "
-                    "the mean", because="higher than the mean"),
+    Claim(id="khp95-walls-leakproof", source="KHP95 Sec. II", printed="as well as a leak-proof wall",
+          at_least=1/PARTICLES, value=bounces("printed-fixed-rows"),
+          statement="fixed rows need a leak-proof wall besides: particles that it turned back, a particle and run, Ra 10 "
+                    "000", because="one particle that would have been lost"),
+    Claim(id="khp95-images-instead", source="KHP95 Sec. II", printed="use instead", at_most=0, value=bounces("printed"),
+          statement="mirror images take the place of the leak-proof wall, too: particles that one behind them turned "
+                    "back, a particle and run, Ra 10 000", because="none would be lost without it"),
+    Claim(id="khp95-rows-repel", source="KHP95 Sec. II", printed="capable of repelling", at_least=0.5, value=carried,
+          statement="fixed rows, here at the fluid's density, are capable of repelling: share of the pressure on the "
+                    "plates that they carry and not the elastic wall",
+          because='"capable" has no number: more than half; the share is a lower bound, all impacts are taken to be as '
+                  "fast as the fastest particle"),
     Claim(id="khp95-monaghan-pairs", source="KHP95 Sec. VI, Fig. 10", printed="pairs", at_least=2, because=NO_SINGLE,
           statement="with Monaghan's weight particles move in pairs: median of second over first neighbour distance, "
                     "Ra 10 000", value=seen(lambda at: at.pairing, particles(1e4, variant="printed-monaghan"))),

@@ -34,9 +34,10 @@ class History(NamedTuple):
 
     @property
     def settling(self) -> float:
-        """When K, averaged over five samples, is near its late mean for good."""
-        smooth = np.convolve(self.ke, np.full(5, 0.2), "same")
-        far = np.abs(smooth[:-2]/self.late.mean() - 1) > NEAR
+        """When K, averaged over a fortieth of the run, is near its late mean for good."""
+        n = max(1, len(self.ke)//40)
+        smooth = np.convolve(self.ke, np.full(n, 1/n), "same")[:len(self.ke) - n//2]
+        far = np.abs(smooth/self.late.mean() - 1) > NEAR
         return float(self.t[np.flatnonzero(far)[-1]]) if far.any() else 0.0
 
 

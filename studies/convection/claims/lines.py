@@ -3,9 +3,11 @@ from dataclasses import dataclass
 from math import inf
 
 import numpy as np
+import pandas as pd
 from scipy.special import stdtrit
 
-from studies.convection.claims.read import Value, grid, limit, off, onset, ratio, select
+from continuum.richardson import richardson
+from studies.convection.claims.read import Value, grid, limit, onset, ratio, select
 from studies.kit.claim import CannotTell
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
@@ -116,19 +118,32 @@ def against_cells(which: str) -> Value:
     return value
 
 
-def cells_for(digit: float, ra: float) -> Value:
-    """Cells that K needs to come within `digit` of its limit, by second order from the finest grid that was run."""
-    def value(tables: Tables) -> Measured:
-        fine, height = finest(tables, ra)
-        error = off(fine, (end := limit(tables, ra)).value)
-        return Measured(2*height**2*error.value/digit, 2*height**2*(fine.err + end.err)/digit)
-    return value
+def extrapolated(tables: Tables, ra: float, cells: float) -> Measured:
+    """K of an infinitely fine grid from the three finest grids of two squares with so many cells at most.
+
+    Raises
+    ------
+    CannotTell
+        There are fewer than three.
+    """
+    frame = finite_grids(tables, ra)
+    frame = frame[2*frame["resolution"]**2 <= cells]
+    if len(frame) < 3:
+        raise CannotTell(f"{len(frame)} grids of {cells:g} cells at most were run at Ra {ra:g}, a limit takes three")
+    found = richardson(list(frame["ke"]), list(frame["resolution"]))
+    return Measured(found.limit, found.error + 2*float(frame["ke_err"].max()))
+
+
+def finite_grids(tables: Tables, ra: float, **where) -> pd.DataFrame:
+    """Rows of `means` of the grids of one scene that are not extrapolated."""
+    frame = select(tables, "means", **{k: v for k, v in grid(ra, **where).items() if k != "resolution"})
+    return frame[np.isfinite(frame["resolution"])]
 
 
 def finest(tables: Tables, ra: float, cells: tuple[float, float] = (0, inf), **where) -> tuple[Measured, float]:
     """K and rows of the finest grid of two squares with so many cells, at least and at most."""
-    frame = select(tables, "means", **{k: v for k, v in grid(ra, **where).items() if k != "resolution"})
-    frame = frame[np.isfinite(frame["resolution"]) & (2*frame["resolution"]**2).between(*cells)]
+    frame = finite_grids(tables, ra, **where)
+    frame = frame[(2*frame["resolution"]**2).between(*cells)]
     if frame.empty:
         raise CannotTell(f"no grid of {cells[0]:g} to {cells[1]:g} cells was run at Ra {ra:g}")
     row = frame.sort_values("resolution").iloc[-1]

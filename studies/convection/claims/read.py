@@ -2,7 +2,7 @@
 
 KHP95's 5000 particles are 50 rows of 100, so `height=50`; grids extrapolated to infinitely fine have height inf.
 """
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cache
 from math import hypot, inf, pi
 
@@ -23,8 +23,8 @@ def exact(number: Callable[[], float], err: float = 0.0) -> Value:
     return lambda tables: Measured(float(number()), err)
 
 
-def select(tables: Tables, name: str, **where) -> pd.DataFrame:
-    """The rows of a table in which all columns are as said.
+def select(tables: Tables, name: str, need: str = "", **where) -> pd.DataFrame:
+    """The rows of a table in which all columns are as said; `need` names a column that the table is to have besides.
 
     Raises
     ------
@@ -40,6 +40,8 @@ def select(tables: Tables, name: str, **where) -> pd.DataFrame:
         frame = frame[frame[column] == value]
     if frame.empty:
         raise CannotTell(f"not run yet: table {name} has no row of {wanted}; a larger SIZE of the study may run it")
+    if need and need not in frame:
+        raise CannotTell(f"table {name} was written without its column {need}: run the study again")
     return frame
 
 
@@ -58,10 +60,58 @@ def grid(ra: float, height: float = inf, variant="flux-form", **where) -> dict:
     return {"method": "compressible", "variant": variant, "resolution": float(height), **scene(ra, **where)}
 
 
+def diverged(tables: Tables, point: dict, which: Callable[[Iterable[bool]], bool] = any) -> bool:
+    """Whether any or all runs of a point diverged: their rows have no energy."""
+    try:
+        return which(select(tables, "kinetic_energy", **point)["ke"].isna())
+    except CannotTell:
+        return False
+
+
 def mean(tables: Tables, point: dict, column: str = "ke") -> Measured:
     """A column of `means` at one point, with its error where it has one."""
+    if diverged(tables, point, all):
+        raise CannotTell(f"all runs of {point['method']}, {point['variant']} at Ra {point['ra']:g} diverged")
     row = select(tables, "means", **point).iloc[0]
     return Measured(float(row[column]), float(row.get(f"{column}_err", 0.0)))
+
+
+def shared_height(tables: Tables, ra: float, *variants: str) -> int:
+    """Most rows of particles that all these variants have at one Ra.
+
+    Raises
+    ------
+    CannotTell
+        One was not run, or they have no number in common.
+    """
+    points = [{k: v for k, v in particles(ra, variant=name).items() if k != "resolution"} for name in variants]
+    shared = set.intersection(*(set(select(tables, "means", **point)["resolution"]) for point in points))
+    if not shared:
+        raise CannotTell(f"{' and '.join(variants)} were run with different numbers of particles only")
+    return int(max(shared))
+
+
+def rolls(tables: Tables, point: dict, seed: int | None = None) -> int:
+    """Rolls of a flow: of one seed, or of the seeds of which the mean is made."""
+    if seed is None:
+        return int(select(tables, "means", **point)["rolls"].iloc[0])
+    return int(select(tables, "kinetic_energy", **point, seed=seed)["rolls"].iloc[0])
+
+
+def same_flow(tables: Tables, one: dict, other: dict, seed: int | None = None) -> None:
+    """Refuse to compare two flows with different rolls; `seed` says which run of `one`, if not the mean.
+
+    No rolls are no other flow: where motion has died, the energies tell.
+
+    Raises
+    ------
+    CannotTell
+        Their rolls differ.
+    """
+    a, b = rolls(tables, one, seed), rolls(tables, other)
+    if a != b and min(a, b) > 0:
+        raise CannotTell(f"{a} rolls against {b} at Ra {one['ra']:g}: another flow, whose energy and velocities say nothing "
+                         "on errors")
 
 
 def limit(tables: Tables, ra: float, column: str = "ke", **where) -> Measured:

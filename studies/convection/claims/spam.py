@@ -12,20 +12,40 @@ import pandas as pd
 
 from studies.convection.claims.lines import STILL, finest
 from studies.convection.claims.printed import as_printed
-from studies.convection.claims.read import Value, largest, limit, mean, mean_of, off, particles, ratio, select
+from studies.convection.claims.read import (
+    Value,
+    grid,
+    largest,
+    limit,
+    mean,
+    mean_of,
+    off,
+    particles,
+    ratio,
+    rolls,
+    same_flow,
+    select,
+    shared_height,
+)
 from studies.kit.claim import CannotTell, Claim
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
 
-Points = list[tuple[float, dict]]
 COARSEST = 8        # rows of the coarsest grid that the solver takes
 WALLS = {"": ("printed", "mirror images"), "-fixed-rows": ("printed-fixed-rows", "fixed rows")}
 ENERGIES = {"": ("ke_field", "energy of the field"), "-particles": ("ke", "energy of the particles")}
 
 
-def error(tables: Tables, ra: float, height: int = 50, variant="printed", energy="ke_field", **where) -> Measured:
-    """|K_particles/K_grid - 1|, the grid extrapolated."""
-    return off(ratio(mean(tables, particles(ra, height, variant, **where), energy), limit(tables, ra, **where)))
+def against_grid(tables: Tables, ra: float, height: int = 50, variant="printed", energy="ke_field", **where) -> Measured:
+    """K_particles/K_grid of the same flow, the grid extrapolated."""
+    point = particles(ra, height, variant, **where)
+    same_flow(tables, point, grid(ra, **where))
+    return ratio(mean(tables, point, energy), limit(tables, ra, **where))
+
+
+def error(tables: Tables, ra: float, **where) -> Measured:
+    """|K_particles/K_grid - 1|."""
+    return off(against_grid(tables, ra, **where))
 
 
 def error_of(ra: float, variant: str, energy: str) -> Value:
@@ -35,18 +55,18 @@ def error_of(ra: float, variant: str, energy: str) -> Value:
 
 def velocity(tables: Tables, ra: float, height: int = 50, **where) -> Measured:
     """|1 - (K_particles/K_grid)^(1/2)|, the paper's way to an error of velocity."""
-    found = ratio(mean(tables, particles(ra, height, **where), "ke_field"), limit(tables, ra, **where))
+    found = against_grid(tables, ra, height, **where)
     return Measured(abs(1 - sqrt(found.value)), found.err/2/sqrt(found.value))
 
 
-def worst_velocity(points: Points, height: int = 50) -> Value:
-    """The largest of these errors over points (Ra, scene)."""
-    return lambda tables: largest([velocity(tables, ra, height, **where) for ra, where in points])
+def images_worse(tables: Tables) -> Measured:
+    """Error of K with mirror images over that with fixed rows, Ra 10 000."""
+    return ratio(error(tables, 1e4), error(tables, 1e4, variant="printed-fixed-rows"))
 
 
 def share(**where) -> Value:
     """K of 512 particles at Ra 10 000 over the grid's."""
-    return lambda tables: ratio(mean(tables, particles(1e4, 16, **where), "ke_field"), limit(tables, 1e4, **where))
+    return lambda tables: against_grid(tables, 1e4, 16, **where)
 
 
 def relative_noise(tables: Tables, ra: float) -> Measured:
@@ -63,16 +83,11 @@ def relative_err(tables: Tables) -> Measured:
 def variants(one: str, other: str) -> Value:
     """|K/K - 1| of two variants at Ra 10 000, the largest particle number that both have."""
     def value(tables: Tables) -> Measured:
-        heights = [set(select(tables, "means", **without_height(name))["resolution"]) for name in (one, other)]
-        if not (both := heights[0] & heights[1]):
-            raise CannotTell(f"{one} and {other} were run with different numbers of particles only")
-        return off(ratio(*(mean(tables, particles(1e4, int(max(both)), name), "ke_field") for name in (one, other))))
+        height = shared_height(tables, 1e4, one, other)
+        a, b = (particles(1e4, height, name) for name in (one, other))
+        same_flow(tables, a, b)
+        return off(ratio(mean(tables, a, "ke_field"), mean(tables, b, "ke_field")))
     return value
-
-
-def without_height(variant: str) -> dict:
-    """Columns of smooth particles at Ra 10 000, of any number."""
-    return {k: v for k, v in particles(1e4, variant=variant).items() if k != "resolution"}
 
 
 def freedoms(tables: Tables) -> Measured:
@@ -81,7 +96,8 @@ def freedoms(tables: Tables) -> Measured:
     found = []
     for ra, sides in sorted({*zip(frame["ra"], frame["sides"], strict=True)}):
         with suppress(CannotTell):
-            runs = frame[(frame["ra"] == ra) & (frame["sides"] == sides)]
+            flow = rolls(tables, grid(ra, sides=sides))
+            runs = frame[(frame["ra"] == ra) & (frame["sides"] == sides) & (frame["rolls"] == flow)]
             found += freedom(tables, ra, sides, runs.sort_values("particles"))
     if not found:
         raise CannotTell("no smooth particles that flow have grids of the same scene beside them")
@@ -108,6 +124,21 @@ def freedom(tables: Tables, ra: float, sides: str, runs: pd.DataFrame) -> list[M
     return found
 
 
+def figure_points() -> Iterator[Claim]:
+    """Velocity errors of the particles in Figs 5 and 6, whose Ra are not printed."""
+    def of(ra: float, height: int, **where) -> Value:
+        return lambda tables: velocity(tables, ra, height, **where)
+    said = {"vdw": ("van der Waals", {"eos": "vdw"}), "nu": ("constant nu", {"transport": "const-nu"})}
+    for ra, (name, (words, where)) in product((5000, 10000), said.items()):
+        yield Claim(id=f"khp95-fig5-{name}-{ra}", source="KHP95 Sec. VI, Fig. 5", printed="about 5%", at_most=0.075,
+                    statement=f"velocities of 5000 particles, {words}, are good to about 5 % at Ra {ra}, from energies",
+                    because=SOME, value=of(ra, 50, **where))
+    for ra in (10000, 20000):
+        yield Claim(id=f"khp95-fig6-{ra}", source="KHP95 Sec. VI, Fig. 6", printed="about 5%", at_most=0.075,
+                    statement=f"velocities of 1600 particles in the square are good to about 5 % at Ra {ra}, from energies",
+                    because=SOME, value=of(ra, 40, sides="walls"))
+
+
 def energies() -> Iterator[Claim]:
     """The printed K and its error, for both Ra, energies and walls."""
     for ra, text in ((5000, "0.003 0"), (10000, "0.004 6")):
@@ -121,9 +152,6 @@ def energies() -> Iterator[Claim]:
                         value=error_of(ra, variant, energy))
 
 
-PAIR: Points = [(5000.0, {}), (10000.0, {})]
-FIG5: Points = list(product((5000.0, 10000.0), ({"eos": "vdw"}, {"transport": "const-nu"})))
-FIG6: Points = [(ra, {"sides": "walls"}) for ra in (10000.0, 20000.0)]
 SOME = '"about 5 %": half as much again; Ra of the points is not printed, near onset particles do not flow at all'
 FIVE = '"about 5 %": half as much again'
 CLAIMS = (
@@ -136,13 +164,8 @@ CLAIMS = (
           value=lambda tables: velocity(tables, 10000)),
     Claim(id="khp95-velocity-abstract", source="KHP95 abstract, Secs I, VII", printed="a few percent", at_most=0.05,
           statement="velocity errors of a few percent: the larger of those at Ra 5000 and 10 000, from energies",
-          value=worst_velocity(PAIR), because="a few are five at most"),
-    Claim(id="khp95-fig5-points", source="KHP95 Sec. VI, Fig. 5", printed="about 5%", at_most=0.075, because=SOME,
-          statement="velocities of van der Waals and constant-nu particles are good to about 5 %, Ra 5000 and 10 000: "
-                    "the worst, from energies", value=worst_velocity(FIG5)),
-    Claim(id="khp95-fig6-points", source="KHP95 Sec. VI, Fig. 6", printed="about 5%", at_most=0.075, because=SOME,
-          statement="velocities of 1600 particles in the square are good to about 5 %, Ra 10 000 and 20 000: the "
-                    "worst, from energies", value=worst_velocity(FIG6, 40)),
+          value=lambda tables: largest([velocity(tables, ra) for ra in (5e3, 1e4)]), because="a few are five at most"),
+    *figure_points(),
     Claim(id="khp95-ra2500-fluctuations", source="KHP95 Sec. VI", printed="relatively large", at_least=2,
           statement="fluctuations at Ra 2500 are relatively large: their energy over the field's, over the same at Ra "
                     "10 000", value=lambda tables: ratio(relative_noise(tables, 2500), relative_noise(tables, 10000)),
@@ -159,6 +182,9 @@ CLAIMS = (
           statement="fixed rows and mirror images are both natural boundaries: K between them at Ra 10 000",
           value=variants("printed-fixed-rows", "printed"),
           because="10 % is the paper's error of K; it does not tell which wall it used"),
+    Claim(id="khp95-realistic-walls", source="KHP95 Sec. II", printed='more "realistic"', at_most=1, value=images_worse,
+          statement='mirror images are more "realistic" than fixed rows: error of the field\'s K with images over that with '
+                    "rows, Ra 10 000", because="realistic is what is nearer to the gas; equal errors are 1"),
     Claim(id="khp95-mean-geometric", source="KHP95 Sec. II", printed="either", at_most=0.01,
           statement="the mean density may be arithmetic or geometric: K between them at Ra 10 000",
           value=variants("arithmetic-mean", "printed"), because="1 % is what they say that fluctuations disguise"),

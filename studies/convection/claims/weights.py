@@ -1,5 +1,6 @@
 """Claims about weights, lattices of particles, and smooth particles as molecules    [KHP95, Secs II-IV]"""
 from collections.abc import Callable
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -14,7 +15,11 @@ from studies.kit.stats import Measured
 from studies.kit.table import Tables
 
 SITES = (1, 2, 3, 4)
-STEPS = (8, 16, 32, 64)     # of a time 4.8: dt from 0.6, the largest stable one, down
+TIME = 4.8
+STEPS = (8, 16, 32, 64)         # of that time: dt from 0.6, the largest stable one, down
+SMALL = (64, 128, 256, 512)     # dt from 0.075 down
+AS_RUN = 12                     # dt = 0.4, as in the study's runs
+SEEDS = (1, 2, 3, 4, 5, 6)
 
 
 def roughest(orders: tuple[int, ...]) -> float:
@@ -77,16 +82,36 @@ def not_conserved(momentum: bool) -> float:
     return float(np.abs(terms.sum(axis=1) if momentum else terms.sum()).max()/np.abs(terms).sum())
 
 
+@cache
+def end(seed: int, steps: int, **law) -> np.ndarray:
+    """State at the end of TIME, by so many steps; kept, because several claims ask for the same."""
+    return sums.march(sums.start(seed), TIME/steps, steps, **law)
+
+
 def order(error: Callable[[np.ndarray, list[np.ndarray]], list[float]], steps: tuple[int, ...], **law) -> Value:
-    """Slope of log error against log dt, mean over three starts; `error` gets the start and the ends for all steps."""
+    """Slope of log error against log dt, mean over starts; `error` gets the start and the ends for all steps."""
     def value(tables: Tables) -> Measured:
         found = []
-        for seed in (1, 2, 3):
-            start = sums.start(seed)
-            errors = error(start, [sums.march(start, 4.8/n, n, **law) for n in steps])
+        for seed in SEEDS:
+            errors = error(sums.start(seed), [end(seed, n, **law) for n in steps])
             found.append(-np.polyfit(np.log(steps[:len(errors)]), np.log(errors), 1)[0])
         return over_seeds(found)
     return value
+
+
+def against_midpoint(tables: Tables) -> Measured:
+    """Error of the state by Runge-Kutta of order 4, dt = 0.4, over that of order 2 with as many evaluations."""
+    found = []
+    for seed in SEEDS:
+        true, fourth = end(seed, SMALL[-1], eta=0.3), end(seed, AS_RUN, eta=0.3)
+        second = sums.march_midpoint(sums.start(seed), TIME/(2*AS_RUN), 2*AS_RUN, eta=0.3)
+        found.append(distance(fourth, true)/distance(second, true))
+    return over_seeds(found)
+
+
+def distance(one: np.ndarray, other: np.ndarray) -> float:
+    """Root mean square of the difference of two states."""
+    return float(np.sqrt(np.mean((one - other)**2)))
 
 
 def energy_drift() -> float:
@@ -94,7 +119,7 @@ def energy_drift() -> float:
     def kinetic(state: np.ndarray) -> float:
         return float((state[2:4]**2).sum()/2)
     start = sums.start()
-    end = sums.march(start, 0.075, 64, pressure=sums.quadratic)
+    end = sums.march(start, TIME/64, 64, pressure=sums.quadratic)
     total = [kinetic(state) + sums.densities(state).sum() for state in (start, end)]
     return float(abs(total[1] - total[0])/kinetic(start))
 
@@ -102,15 +127,17 @@ def energy_drift() -> float:
 def return_error(start: np.ndarray, ends: list[np.ndarray]) -> list[float]:
     """Distance from the start after as many steps with all velocities turned; P = rho^2."""
     turned = [end*np.array([1, 1, -1, -1, 1])[:, None] for end in ends]
-    back = [sums.march(end, 4.8/n, n, pressure=sums.quadratic) for end, n in zip(turned, STEPS, strict=False)]
+    back = [sums.march(end, TIME/n, n, pressure=sums.quadratic) for end, n in zip(turned, STEPS, strict=False)]
     return [float(np.abs(b[:2] - start[:2]).max()) for b in back]
 
 
 def step_error(start: np.ndarray, ends: list[np.ndarray]) -> list[float]:
     """Distance between the ends of one step size and of half of it."""
-    return [float(np.sqrt(np.mean((a - b)**2))) for a, b in pairwise(ends)]
+    return [distance(a, b) for a, b in pairwise(ends)]
 
 
+HALF_WAY = ("half-way between 4 and the 3 that must come in the end: third derivatives of both weights jump at the range, so "
+            "each pair that crosses it leaves a velocity error of dt^3, of either sign")
 HEXAGONAL = "statement is about symmetric lattices: the hexagonal one, on which smooth particles freeze"
 CLAIMS = (
     Claim(id="khp95-lucy-normalised", source="KHP95 Sec. II", printed="1",
@@ -140,6 +167,11 @@ CLAIMS = (
           statement="spurious shear modulus over bulk modulus, square lattice (on which runs begin), ideal gas, the "
                     "stiffer of both weights and two shears", value=exact(lambda: stiffest("square")),
           because='"of the order of", one digit: twice as much; the modulus is negative there, the lattice unstable'),
+    Claim(id="khp95-viscoelastic", source="KHP95 Sec. III", printed="spurious elastic constants", at_least=1e-6,
+          statement="smooth particles bring an artificial elasticity: spurious shear modulus over bulk modulus of Lucy's "
+                    "weight, hexagonal lattice, ideal gas",
+          value=exact(lambda: np.abs(shear_moduli(LUCY, "hexagonal")).max()),
+          because="a fluid has none; differences over strains of 1e-3 leave 1e-9"),
     Claim(id="khp95-spurious-decay", source="KHP95 Secs II, III", printed="rapid convergence", at_most=0.1,
           statement="spurious shear moduli vanish rapidly as the range grows: at 6 sigma over at 3 sigma, hexagonal "
                     "lattice", value=exact(lambda: decay("hexagonal")),
@@ -180,9 +212,13 @@ CLAIMS = (
     Claim(id="khp95-conservation-energy", source="KHP95 Sec. II", printed="exact",
           statement="the sums conserve energy exactly, viscosity and conduction included, periodic box",
           value=exact(lambda: not_conserved(momentum=False)), at_most=1e-13, because="round-off of some 1000 terms"),
-    Claim(id="khp95-rk4-efficient", source="KHP95 Sec. II", printed="fourth-order", at_least=3.8,
-          statement="smooth weights let fourth-order Runge-Kutta be so: order in dt of the state after t = 4.8, dt "
-                    "0.6 to 0.15", value=order(step_error, STEPS, eta=0.3),
-          because="0.2 below 4 for steps that are not small; each pair that crosses r = h, where third derivatives "
-                  "jump, leaves an error of third order: as dt falls on the order goes to 3"),
+    Claim(id="khp95-rk4-efficient", source="KHP95 Sec. II", printed="efficient", at_most=1, value=against_midpoint,
+          statement="fourth-order Runge-Kutta is efficient: error after t = 4.8 with dt = 0.4 over that of second order "
+                    "(midpoint) with as many evaluations", because="less error for the same work"),
+    Claim(id="khp95-rk4-order", source="KHP95 Sec. II", printed="fourth-order", at_least=3.5,
+          statement="smooth weights let fourth-order Runge-Kutta be so at steps as in runs: order in dt of the state "
+                    "after t = 4.8, dt 0.6 to 0.15", value=order(step_error, STEPS, eta=0.3), because=HALF_WAY),
+    Claim(id="khp95-rk4-order-small", source="KHP95 Sec. II", printed="fourth-order", at_least=3.5,
+          statement="smooth weights let fourth-order Runge-Kutta be so as dt vanishes: order in dt of the state after t "
+                    "= 4.8, dt 0.075 to 0.019", value=order(step_error, SMALL, eta=0.3), because=HALF_WAY),
 )
