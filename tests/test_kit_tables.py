@@ -49,6 +49,16 @@ def test_a_table_does_not_depend_on_the_order_of_rows_and_stays_when_nothing_cha
     assert one.read_text() == text
 
 
+def test_no_rows_leave_a_table_as_it_is_or_make_an_empty_one_that_takes_rows_later(tmp_path):
+    path = tmp_path / "squares.csv"
+    frame, better = merge(path, SQUARES, [], size="paper")
+    assert (len(frame), better) == (0, 0) and list(frame.columns) == ["x", "note", "y", "size", "commit"]
+    merge(path, SQUARES, [row(2, 4.0)], size="paper")
+    text = path.read_text()
+    frame, better = merge(path, SQUARES, [], size="fine", command="something else")
+    assert (list(frame.x), list(frame.note), better) == ([2], [""], 0) and path.read_text() == text
+
+
 @pytest.mark.parametrize(("rows", "words"), [
     ([row(1, 1), row(1.0, 2)], "two rows of table squares have the key 1"),
     ([row(1, 1, speed=3)], "has no column speed"),

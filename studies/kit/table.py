@@ -61,12 +61,16 @@ def merge(path: Path, table: Table, rows: Sequence[dict[str, Any]], *, size: str
           command: str = "") -> tuple[pd.DataFrame, int]:
     """Put ``rows`` into the CSV at ``path``; the table as it then is, and how many better rows stayed.
 
+    No rows leave the table as it is; where there is none yet they make an empty one.
+
     Raises
     ------
     ValueError
         Rows lack key columns, have unknown columns, or two of them have the same key.
     """
     check_size(size)
+    if not rows:
+        return none_new(path, table, command), 0
     new = pd.DataFrame([{"commit": provenance.commit(), **row, "size": size} for row in rows])
     check_rows(table, new)
     old = read(path, [*table.columns, *STAMP]) if path.exists() else pd.DataFrame()
@@ -75,6 +79,14 @@ def merge(path: Path, table: Table, rows: Sequence[dict[str, Any]], *, size: str
     frame = chosen.reindex(columns=[*table.columns, *spent, *STAMP])
     write(path, frame.sort_values(list(table.key), kind="stable"), head=head(command))
     return read(path), len(new) - int((chosen.index >= len(old)).sum())
+
+
+def none_new(path: Path, table: Table, command: str) -> pd.DataFrame:
+    """The table as it is, or an empty one."""
+    columns = [*table.columns, *STAMP]
+    if not path.exists():
+        write(path, pd.DataFrame(columns=columns), head=head(command))
+    return read(path, columns)
 
 
 def best(frame: pd.DataFrame, key: Sequence[str]) -> pd.DataFrame:
