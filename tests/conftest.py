@@ -1,2 +1,15 @@
-"""Before any test: numba's cache folder must be set before numba is loaded."""
-import continuum.jit  # noqa: F401
+"""Before any test: a cache folder of compiled code that belongs to the tests.
+
+Its name holds the hash of the sources, but what a test changes at run time is in no source: a gas or weight of its own
+ends in the index of library functions (every later run would throw that index away and compile again), and a
+patched formula or constant would be kept under the key of the true one.
+"""
+import os
+
+import numba
+
+import continuum.jit  # noqa: F401  (names the folder for users)
+
+# workers and subprocesses inherit it, hence once only
+os.environ["NUMBA_CACHE_DIR"] = os.environ["NUMBA_CACHE_DIR"].removesuffix("-tests") + "-tests"
+numba.config.reload_config()
