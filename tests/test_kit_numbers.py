@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from studies.kit import figure, stats, timing
 
@@ -68,6 +69,22 @@ def test_means_of_what_does_not_fluctuate_or_is_too_short():
             stats.mean(wrong)
     with pytest.raises(ValueError, match="no runs"):
         stats.combine([])
+
+
+def test_fewer_colours_leave_the_picture_as_it_looks(tmp_path):
+    """White stays white, greys stay as they are, blends of colours along edges move by some of 255 steps."""
+    page, axes = figure.figure()
+    for number in range(len(figure.COLOURS)):
+        figure.errorbar(axes, range(9), np.arange(9) + number, np.ones(9), number=number, linestyle="-")
+    figure.save(page, tmp_path / "small.png")
+    page.savefig(tmp_path / "full.png")
+    small, full = (np.asarray(Image.open(tmp_path / f"{name}.png").convert("RGB")).astype(int) for name in ("small", "full"))
+    off = np.abs(small - full).max(axis=2)
+    assert (off[(full == 255).all(axis=2)] == 0).all()
+    # the colours share the palette: 32 entries each, half of them for blends with white, thus 16 steps apart; only
+    # the few pixels where lines cross have blends of their own
+    assert np.quantile(off, 0.999) <= 255/(256/len(figure.COLOURS)/2)
+    assert (tmp_path / "small.png").stat().st_size < (tmp_path / "full.png").stat().st_size/2
 
 
 def test_a_figure_drawn_twice_is_the_same_file(tmp_path):

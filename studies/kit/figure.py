@@ -9,6 +9,7 @@ import matplotlib
 from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from PIL import Image
 
 #: Okabe and Ito's colours, which colour-blind readers can tell apart
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#F0E442")
@@ -42,11 +43,26 @@ def errorbar(axes: Axes, x: Sequence[float], y: Sequence[float], err: Sequence[f
     axes.errorbar(x, y, yerr=err, label=label, **{**look(number), "linestyle": "none", **more})
 
 
+def below(axes: Axes, **more: Any) -> None:
+    """The legend below the axes, where it covers no data."""
+    axes.legend(**{"loc": "upper center", "bbox_to_anchor": (0.5, -0.14), **more})
+
+
 def save(page: Figure, path: Path) -> None:
     """Write a PNG, all or nothing; the same figure gives the same bytes."""
-    picture = io.BytesIO()
-    page.savefig(picture, format="png", metadata={"Software": None})
+    picture = compact(page)
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f".{path.name}.{os.getpid()}")
-    part.write_bytes(picture.getvalue())
+    part.write_bytes(picture)
     os.replace(part, path)
+
+
+def compact(page: Figure) -> bytes:
+    """A PNG of 256 colours, a third as large: only blends of colours along edges move, by less than the eye sees."""
+    full, small = io.BytesIO(), io.BytesIO()
+    page.savefig(full, format="png")
+    picture = Image.open(full)
+    # kmeans moves each colour of the palette to the mean of the pixels that get it
+    fewer = picture.convert("RGB").quantize(256, kmeans=1, dither=Image.Dither.NONE)
+    fewer.save(small, "png", optimize=True, dpi=picture.info["dpi"])
+    return small.getvalue()
