@@ -18,6 +18,8 @@ from studies.convection.pick import (
     RA_C,
     SPAM,
     STILL,
+    TIME,
+    cross_out,
     finest,
     groups,
     nearest,
@@ -27,19 +29,22 @@ from studies.convection.pick import (
     rows,
     straight_line,
 )
-from studies.kit.figure import figure
+from studies.kit.figure import below, figure
 from studies.kit.table import Tables
 
 ENERGIES = (("kp", "ke", LABELS["kp"]), ("kg", "ke_field", LABELS["kg"]))
+KHP95_PARTICLES = 5000
+#: how far marks at the same Ra are moved apart, in Ra^-1/2
+ASIDE = 2.5e-4
 
 
 def main(tables: Tables) -> Figure | None:
     """Grid, straight line, Boussinesq, particles and the printed numbers in one picture."""
     limit, spam = reference(tables, **LAYER), particles(tables, **LAYER)
-    spam = spam[spam["particles"] <= 5000]   # as many as KHP95 had, and fewer
+    spam = spam[spam["particles"] <= KHP95_PARTICLES]
     if limit.empty and spam.empty:
         return None
-    page, axes = figure(width=7, height=4.6)
+    page, axes = figure(width=7, height=5.4)
     grid(axes, limit, "compressible grid, extrapolated")
     fitted_line(axes, limit)
     boussinesq(axes, tables)
@@ -47,7 +52,7 @@ def main(tables: Tables) -> Figure | None:
     name_frozen(axes, limit, spam)
     printed_numbers(axes)
     axes.set(title="Convection of an ideal gas: are smooth particles on the grid's line?", ylabel=ENERGY)
-    finish(axes)
+    finish(axes, told(spam))
     return page
 
 
@@ -83,14 +88,16 @@ def boussinesq(axes: Axes, tables: Tables) -> None:
 
 
 def by_resolution(axes: Axes, spam: pd.DataFrame) -> None:
-    """Kp and Kg of the printed scheme; coarser ones smaller, paler and a little aside."""
+    """Kp and Kg of the printed scheme; coarser ones smaller, paler and a little to the right."""
     sizes = sorted(spam["resolution"].unique(), reverse=True)
     for kind, column, label in ENERGIES:
         for number, size in enumerate(sizes):
             group = spam[spam["resolution"] == size]
-            style = {"linestyle": "none", "markersize": 7 - 1.5*number, "alpha": max(0.35, 1 - 0.3*number)}
-            axes.errorbar(group["ra"]**-0.5 + 2.5e-4*number, group[column], group[f"{column}_err"], zorder=4 - number,
-                          label=f"{label}: {told(spam, sizes)}" if number == 0 else "", **KIND[kind] | style)
+            style = {"linestyle": "none", "markersize": max(2.5, 7 - 1.5*number), "alpha": max(0.35, 1 - 0.3*number)}
+            x = group["ra"]**-0.5 + ASIDE*number
+            axes.errorbar(x, group[column], group[f"{column}_err"], zorder=4 - number,
+                          label=label if number == 0 else "", **KIND[kind] | style)
+            cross_out(axes, x, group[column], group["steady"])
 
 
 def name_frozen(axes: Axes, limit: pd.DataFrame, spam: pd.DataFrame) -> None:
@@ -101,33 +108,36 @@ def name_frozen(axes: Axes, limit: pd.DataFrame, spam: pd.DataFrame) -> None:
                       fontsize=8)
 
 
-def told(spam: pd.DataFrame, sizes: list[float]) -> str:
+def told(spam: pd.DataFrame) -> str:
     """Numbers of particles by size, the same at every Ra."""
-    counts = [f"{spam.loc[spam['resolution'] == size, 'particles'].iloc[0]:.0f}" for size in sizes]
-    return f"N = {counts[0]}" + (f" (smaller: {', '.join(counts[1:])})" if counts[1:] else "")
+    counts = [f"{number:.0f}" for number in sorted(spam["particles"].unique(), reverse=True)]
+    smaller = f"; smaller and moved right: {', '.join(counts[1:])}" if counts[1:] else ""
+    return f"; {counts[0]} particles{smaller}" if counts else ""
 
 
 def printed_numbers(axes: Axes) -> None:
     """KHP95's four numbers, a little aside of ours."""
     for end, marker, label in (("", "o", "KHP95, grid"), ("-spam", "D", "KHP95, 5000 particles")):
         found = [published(f"khp95-ke-{ra}{end}") for ra in (5000, 10000)]
-        axes.errorbar([5000**-0.5 - 3e-4, 10000**-0.5 - 3e-4], [f.value for f in found], [f.uncertainty for f in found],
+        axes.errorbar([5000**-0.5 - ASIDE, 10000**-0.5 - ASIDE], [f.value for f in found], [f.uncertainty for f in found],
                       marker=marker, label=f"{label}, printed (moved left)", capsize=0, **KIND["khp"])
 
 
 def fig5(tables: Tables) -> Figure | None:
     """Ideal gas with both transports, van der Waals gas; grid and the most particles."""
     vdw, const_nu = LAYER | {"eos": "vdw"}, LAYER | {"transport": "const-nu"}
-    panels = [("ideal gas", (("constant $\\eta$", LAYER, {}), ("constant $\\nu$", const_nu, OPEN))),
+    panels = [("ideal gas; particles at constant $\\nu$ moved right",
+               (("constant $\\eta$", LAYER, {}), ("constant $\\nu$", const_nu, OPEN))),
               ("van der Waals gas", (("constant $\\eta$", vdw, {}),))]
     panels = [(title, series) for title, series in panels if any(there(tables, scene) for _, scene, _ in series)]
     if not panels:
         return None
-    page, all_axes = figure(1, len(panels), width=5, height=4, sharey=True, squeeze=False)
+    page, all_axes = figure(1, len(panels), width=5, height=4.6, sharex=True, sharey=True, squeeze=False)
     for axes, (title, series) in zip(all_axes[0], panels):
-        for name, scene, more in series:
-            pair(axes, tables, scene, name, **more)
+        for number, (name, scene, more) in enumerate(series):
+            pair(axes, tables, scene, name, ASIDE*number, **more)
         axes.set_title(title)
+    for axes in all_axes[0]:
         finish(axes)
     all_axes[0, 0].set_ylabel(ENERGY)
     page.suptitle("Layer of aspect 2: grid and particles    [KHP95, Fig. 5]", fontsize=10)
@@ -141,41 +151,45 @@ def there(tables: Tables, scene: dict[str, Any]) -> bool:
     return not (reference(tables, **scene).empty and particles(tables, **scene).empty)
 
 
-def pair(axes: Axes, tables: Tables, scene: dict[str, Any], name: str, **more: Any) -> None:
-    """Grid of a scene and Kp, Kg of its finest particles."""
-    spam = finest(particles(tables, **scene))
+def pair(axes: Axes, tables: Tables, scene: dict[str, Any], name: str, aside: float, **more: Any) -> None:
+    """Grid of a scene and Kp, Kg of its finest particles, as many as KHP95 had or fewer."""
+    spam = particles(tables, **scene)
+    spam = finest(spam[spam["particles"] <= KHP95_PARTICLES])
     grid(axes, reference(tables, **scene), f"grid, {name}", **more)
     if not more:
         name_frozen(axes, reference(tables, **scene), spam)
     for kind, column, label in ENERGIES if len(spam) else ():
-        axes.errorbar(spam["ra"]**-0.5, spam[column], spam[f"{column}_err"], label=f"{label}, {name}",
+        axes.errorbar(spam["ra"]**-0.5 + aside, spam[column], spam[f"{column}_err"], label=f"{label}, {name}",
                       **KIND[kind] | more | {"linestyle": "none"})
+        cross_out(axes, spam["ra"]**-0.5 + aside, spam[column], spam["steady"])
 
 
-def finish(axes: Axes) -> None:
-    """Both axes and the legend; a little room below zero, where motion has died out."""
+def finish(axes: Axes, note: str = "") -> None:
+    """Both axes and the legend below; a little room below zero, where motion has died out."""
     top = axes.get_ylim()[1]
     axes.set_ylim(-0.02*top, top)
     ra_axis(axes)
-    axes.legend(loc="upper right")
+    below(axes, ncols=2, title=f"bars: 95 % intervals{note}", title_fontsize=8)
 
 
 def fig6(tables: Tables) -> Figure | None:
     """The square box with four walls."""
     if not there(tables, BOX):
         return None
-    page, axes = figure(width=6, height=4.2)
+    page, axes = figure(width=6.4, height=4.8)
     grid(axes, reference(tables, **BOX), "compressible grid, extrapolated")
-    by_resolution(axes, particles(tables, **BOX))
-    name_frozen(axes, reference(tables, **BOX), particles(tables, **BOX))
+    spam = particles(tables, **BOX)
+    by_resolution(axes, spam)
+    name_frozen(axes, reference(tables, **BOX), spam)
     axes.set(title="Square box with four walls, ideal gas: grid and particles    [KHP95, Fig. 6]", ylabel=ENERGY)
-    finish(axes)
+    finish(axes, told(spam))
     return page
 
 
 def fig8(tables: Tables) -> Figure | None:
     """Approach to the steady state at Ra = 10 000, or what is nearest to it."""
-    spam = finest(nearest(rows(tables, "history", **SPAM, **LAYER)))
+    spam = nearest(rows(tables, "history", **SPAM, **LAYER))
+    spam = finest(spam[spam["resolution"] <= 50])     # KHP95's 5000 particles; finer runs keep few samples
     cells = finest(nearest(rows(tables, "history", **GRID, **LAYER)))
     if spam.empty and cells.empty:
         return None
@@ -186,15 +200,23 @@ def fig8(tables: Tables) -> Figure | None:
             style = {"marker": "", "lw": 0.9, "alpha": 0.8, "linestyle": ("-", "--", ":")[number % 3]}
             axes.plot(run["t_viscous"]*unit, run[column], label=f"{label}, one line a seed" if number == 0 else "",
                       **KIND[kind] | style)
+            if number == 0:
+                name_line(axes, run["t_viscous"]*unit, run[column], label.split(",")[0])
     if len(cells):
         axes.plot(cells["t_viscous"]*unit, cells["ke"], label="compressible grid",
                   **KIND["grid"] | {"marker": "", "lw": 2.2})
+        name_line(axes, cells["t_viscous"]*unit, cells["ke"], "grid")
     time_axes(axes, unit)
     ra = max([*spam["ra"], *cells["ra"]])
     axes.set(title=f"Approach to steady rolls at Ra = {ra:g}, grid and particles    [KHP95, Fig. 8]",
              ylabel=ENERGY, ylim=(0, None))
     axes.legend(loc="upper right")
     return page
+
+
+def name_line(axes: Axes, t: pd.Series, y: pd.Series, name: str) -> None:
+    """A name where a line ends: colours alone do not tell lines in grey."""
+    axes.annotate(name, (t.max(), y.iloc[t.argmax()]), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8)
 
 
 def viscous_time(history: pd.DataFrame) -> float:
@@ -205,5 +227,5 @@ def viscous_time(history: pd.DataFrame) -> float:
 def time_axes(axes: Axes, unit: float) -> None:
     top = axes.secondary_xaxis("top", functions=(partial(np.multiply, 1/unit), partial(np.multiply, unit)))
     top.set_xlabel(r"time  [$L^2/\eta$]")
-    axes.set_xlabel(r"time  [$(m\sigma^2/\varepsilon)^{1/2}$]")
-    axes.set_xlim(0, None)
+    axes.set_xlabel(f"time  [{TIME}]")
+    axes.set_xlim(0, 1.07*axes.dataLim.x1)      # room for names

@@ -25,11 +25,12 @@ def fig2_3(tables: Tables) -> Figure | None:
     panels = [(run, title) for run, title in panels if len(run)]
     if not panels:
         return None
-    page, all_axes = figure(len(panels), 1, width=7, height=4.4, squeeze=False, sharex=True, sharey=True)
+    page, all_axes = figure(len(panels), 1, width=7, height=4.4, squeeze=False, sharey=True)
+    scale = max(arrow_scale(fluid(run)) for run, _ in panels)
     for axes, (run, title) in zip(all_axes[:, 0], panels):
-        arrows(axes, fluid(run), arrow_scale(fluid(run)))
+        arrows(axes, fluid(run), scale)
         behind_plates(axes, run)
-        box(axes, run, f"{heading(run)}: {title}")
+        box(axes, run, f"{heading(run)}: {title}", scale)
     return page
 
 
@@ -73,12 +74,13 @@ def half_width(run: pd.DataFrame) -> float:
     return float(np.ceil(2*run.loc[run["kind"] == "fluid", "x"].abs().max() - 1e-9)/2) if "kind" in run else 1.0
 
 
-def box(axes: Axes, run: pd.DataFrame, title: str) -> None:
-    """Equal scales, plates as lines."""
+def box(axes: Axes, run: pd.DataFrame, title: str, scale: float) -> None:
+    """Equal scales, plates as lines; how fast an arrow is."""
     for y in (-0.5, 0.5):
         axes.axhline(y, color="0.3", lw=1, marker="", ls="-")
     half = half_width(run)
-    axes.set(aspect="equal", xlim=(-half, half), xlabel="$x/L$", ylabel="$y/L$", title=title)
+    axes.set(aspect="equal", xlim=(-half, half), ylabel="$y/L$", title=title,
+             xlabel=rf"$x/L$;  an arrow of length $L/10$ is {scale/10:.2g} $(\varepsilon/m)^{{1/2}}$")
     axes.grid(False)
 
 
@@ -107,9 +109,9 @@ def two_views(run: pd.DataFrame, field: pd.DataFrame, title: str) -> Figure | No
     page, (upper, lower) = figure(2, 1, width=7, height=3.75)
     scale = arrow_scale(fluid(run))
     arrows(upper, fluid(run), scale)
-    box(upper, run, f"{heading(run)}, {title}")
+    box(upper, run, f"{heading(run)}, {title}", scale)
     arrows(lower, field, scale)
-    box(lower, field, f"smoothed velocity at {len(field)} places, mean over the later part of the run, same scale")
+    box(lower, field, f"smoothed velocity at {len(field)} places, mean over the later part of the run", scale)
     for axes in (upper, lower):
         axes.set_ylim(-0.54, 0.54)
     return page
@@ -170,7 +172,8 @@ def profiles(tables: Tables) -> Figure | None:
         for kind, run, name in (("grid", cells, "compressible grid"), ("kp", spam, "particles")):
             if len(run):
                 mean = run.groupby("y")[column].mean()
-                axes.plot(mean, mean.index, label=name, **KIND[kind] | {"markersize": 3.5})
+                axes.plot(mean, mean.index, label=f"{name}, {run['resolution'].iloc[0]:.0f} rows",
+                          **KIND[kind] | {"markersize": 3.5})
         axes.set_xlabel(f"horizontal mean {label}")
     hot, cold = (published(f"khp95-temperature-{plate}").value for plate in ("hot", "cold"))
     both[0].plot([hot, cold], [-0.5, 0.5], color="0.6", marker="", ls=":", label="conduction")

@@ -6,7 +6,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from continuum.published import published
-from studies.convection.tables import ALL
+from studies.convection.tables import ALL, POINT
 from studies.kit.figure import look
 from studies.kit.stats import combine
 from studies.kit.table import Tables
@@ -27,6 +27,9 @@ KIND = {"grid": {**look(0), "color": "black"}, "kp": look(1), "kg": {**look(2), 
         "khp": {"color": "black", "linestyle": "none", "markerfacecolor": "none", "markersize": 9,
                 "markeredgewidth": 1.4, "zorder": 5}}
 LABELS = {"kp": "$K_p$, all particles", "kg": "$K_g$, smoothed field"}
+UNSETTLED: dict[str, Any] = {"color": "black", "linestyle": "none", "marker": "x", "markersize": 8, "zorder": 6}
+NOT_STEADY = "not steady: halves of the mean differ"
+TIME = r"$(m\sigma^2/\varepsilon)^{1/2}$"
 ENERGY = r"kinetic energy per mass $K$  [$\varepsilon/m$]"
 
 
@@ -46,8 +49,38 @@ def reference(tables: Tables, **scene: Any) -> pd.DataFrame:
 
 
 def particles(tables: Tables, **scene: Any) -> pd.DataFrame:
-    """The printed scheme, means over seeds, by resolution and Ra."""
-    return rows(tables, "means", **(SPAM | scene)).sort_values(["resolution", "ra"])
+    """The printed scheme, means over seeds, by resolution and Ra; `steady` says that every seed has settled."""
+    found = rows(tables, "means", **(SPAM | scene)).sort_values(["resolution", "ra"])
+    return found.assign(steady=steady(tables, found))
+
+
+def errors(tables: Tables, **scene: Any) -> pd.DataFrame:
+    """Relative errors of K by method, resolution and energy (Kp or Kg), with `steady`."""
+    found = rows(tables, "errors", **scene)
+    return found.assign(steady=steady(tables, found))
+
+
+def settled(runs: pd.DataFrame) -> pd.Series:
+    """Column `converged` of `kinetic_energy` as truth, whether read from CSV or made."""
+    return runs["converged"].astype(str).eq("True")
+
+
+def steady(tables: Tables, points: pd.DataFrame) -> pd.Series:
+    """For each point whether all its runs have settled; a point whose runs are not told counts as settled."""
+    runs = rows(tables, "kinetic_energy")
+    runs = runs[~settled(runs) & runs["ke"].notna()]
+    restless = pd.MultiIndex.from_frame(runs[POINT])
+    return pd.Series(~pd.MultiIndex.from_frame(points[POINT]).isin(restless), index=points.index)
+
+
+def diverged(tables: Tables, **scene: Any) -> pd.DataFrame:
+    """Particle points at which runs diverged: `t` of the first, `lost` of `seeds`."""
+    runs = rows(tables, "kinetic_energy", **scene)
+    runs = runs[runs["method"] == SPAM["method"]]
+    found = [{**dict(zip(POINT, point)), "t": group.loc[group["ke"].isna(), "t_end"].min(),
+              "lost": int(group["ke"].isna().sum()), "seeds": len(group)} for point, group in groups(runs, POINT)]
+    found = [row for row in found if row["lost"]]
+    return pd.DataFrame(found, columns=[*POINT, "t", "lost", "seeds"])
 
 
 def groups(frame: pd.DataFrame, by: str | list[str]) -> list[tuple[Any, pd.DataFrame]]:
@@ -66,32 +99,25 @@ def nearest(frame: pd.DataFrame, ra: float = 1e4) -> pd.DataFrame:
     return frame[frame["ra"] == there[np.argmin(np.abs(there - ra))]] if len(there) else frame
 
 
-def over_seeds(frame: pd.DataFrame, by: list[str], value: str) -> pd.DataFrame:
-    """Mean and `err` over seeds of a column that has no error of its own: the scatter between seeds."""
-    found = [(*key, *combine([(x, 0.0) for x in group[value]])) for key, group in groups(frame, by)]
+def over_seeds(frame: pd.DataFrame, by: list[str], value: str, err: str = "") -> pd.DataFrame:
+    """Mean and `err` over seeds: the scatter between them or, if that is larger, the column of errors within runs."""
+    frame = frame[frame[value].notna()]
+    within = frame[err] if err else pd.Series(0.0, index=frame.index)
+    found = [(*key, *combine(list(zip(group[value], within[group.index])))) for key, group in groups(frame, by)]
     return pd.DataFrame(found, columns=[*by, value, "err"])
-
-
-def errors_of_k(tables: Tables, **scene: Any) -> pd.DataFrame:
-    """Columns `kp`, `kp_err`, `kg`, `kg_err`: relative errors of all gas rows against the extrapolated grid.
-
-    Rows of all methods and resolutions that are not extrapolated, where the grid convects and the reference exists.
-    """
-    limit = reference(tables, **scene).set_index("ra")
-    gas = rows(tables, "means", **scene)
-    gas = gas[np.isfinite(gas["resolution"].astype(float)) & gas["ra"].isin(limit.index[limit["ke"] > STILL])]
-    ref = limit.loc[gas["ra"]]
-    columns = {}
-    for new, old in (("kp", "ke"), ("kg", "ke_field")):
-        columns[new] = gas[old].to_numpy()/ref["ke"].to_numpy() - 1
-        columns[f"{new}_err"] = np.hypot(gas[f"{old}_err"].to_numpy(), ref["ke_err"].to_numpy())/ref["ke"].to_numpy()
-    return gas.assign(**columns)
 
 
 def straight_line(limit: pd.DataFrame) -> np.ndarray | None:
     """(slope, constant) of K over Ra^-1/2 from Ra_c to 4 Ra_c, None for fewer than two rows    [KHP95, Sec. V]"""
     inside = limit[(limit["ra"] > RA_C) & (limit["ra"] <= 4*RA_C) & (limit["ke"] > STILL)]
     return np.polyfit(inside["ra"]**-0.5, inside["ke"], 1) if len(inside) > 1 else None
+
+
+def cross_out(axes: Axes, x: pd.Series, y: pd.Series, steady: pd.Series) -> None:
+    """A cross on each mark whose runs have not settled; one entry in the legend."""
+    if not steady.all():
+        told = axes.get_legend_handles_labels()[1]
+        axes.plot(x[~steady], y[~steady], **UNSETTLED, label="" if NOT_STEADY in told else NOT_STEADY)
 
 
 def ra_axis(axes: Axes) -> None:
