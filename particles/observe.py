@@ -65,14 +65,17 @@ def heat_flow(sums: Any, state: np.ndarray) -> float:
 class PlateHeat(NamedTuple):
     """Energy per area and time that fluid particles get from what is behind a plate: side -1 the lower, +1 the upper one.
 
-    The part of the third sum that comes from images and fixed particles there, its work included. In a steady flow lower
-    and upper plate exchange what `heat_flow` carries: an independent way to the Nusselt number. Gravity takes no part.
+    The part of the third sum that comes from images and fixed particles there: heat and viscous work, and the work of
+    pressure if wanted. In a steady flow lower and upper plate exchange what `heat_flow` carries: an independent way to the
+    Nusselt number. Pressure does no work on resting plates, but particles that turned are only seen after their turn, when
+    pressure drives them: with it the mean over samples is off in the first order of dt.
     """
     side: int
+    pressure: bool = False
 
     def __call__(self, sums: Any, state: np.ndarray) -> float:
         """From densities and gradients that are up to date."""
-        term, records = sums.exchange()
+        term, records = sums.exchange(self.pressure)
         pull = np.zeros((sums.around.rows, sums.pull.shape[1]))
         sums.team(sweep, sums.n, term, records, pairs_behind(sums, self.side), pull)
         ax, ay, heat, _, work = pull[:sums.n].T

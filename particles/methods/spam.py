@@ -129,13 +129,13 @@ class Nested(Sums):
         super().allocate(points)
         self.flux = np.empty(points, Flux)
 
-    def exchange(self) -> tuple[Any, np.ndarray]:
-        """Term and records of the third sum, from densities and gradients that are up to date."""
-        around, method = self.around, self.method
-        self.team(_fluxes, around.rows, method.law, around.rho, around.vx, around.vy, around.T, self.less, self.slopes,
+    def exchange(self, pressure: bool = True) -> tuple[Any, np.ndarray]:
+        """Term and records of the third sum, from densities and gradients that are up to date; without pressure on wish."""
+        around, method, less = self.around, self.method, self.less if pressure else np.zeros_like(self.less)
+        self.team(_fluxes, around.rows, method.law, around.rho, around.vx, around.vy, around.T, less, self.slopes,
                   self.flux)
         for _, parent, first, last in around.blocks:
-            _image_fluxes(first, last, parent, around.rho, around.vx, around.vy, self.less, self.flux)
+            _image_fluxes(first, last, parent, around.rho, around.vx, around.vy, less, self.flux)
         return Fluxes(), self.flux
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
@@ -153,11 +153,11 @@ class Direct(Sums):
         super().allocate(points)
         self.records = np.empty(points, DirectState)
 
-    def exchange(self) -> tuple[Any, np.ndarray]:
-        """Term and records of the third sum, from densities that are up to date."""
-        around = self.around
+    def exchange(self, pressure: bool = True) -> tuple[Any, np.ndarray]:
+        """Term and records of the third sum, from densities that are up to date; without pressure on wish."""
+        around, less = self.around, self.less if pressure else np.zeros_like(self.less)
         self.team(_direct, len(around.x), self.method.law, around.x, around.y, around.rho, around.vx, around.vy, around.T,
-                  self.less, self.records)
+                  less, self.records)
         return DirectFluxes(), self.records
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
