@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from studies.convection.onset_tables import ALL
 from studies.convection.pick import ENERGY, ra_axis
 from studies.kit.figure import COLOURS, MARKERS, errorbar, figure, look
+from studies.kit.stats import combine
 from studies.kit.table import Tables
 
 COLUMNS = {table.name: table.columns for table in ALL}
@@ -24,6 +25,8 @@ GRIDS: dict[str, dict[str, Any]] = {
     r"gas, $\eta$ constant, py-pde": {**GAS, "method": "pypde-compressible"},
     "van der Waals": {**GAS, "eos": "vdw"},
 }
+#: of finite rolls: colour and line tell the method or variant, marks the rows, open marks weaker rolls
+KIND_LINES = (":", "--", "-", "-.")
 WIDE, NARROW = (950.0, 3500.0), (1550.0, 1860.0)
 
 
@@ -57,7 +60,7 @@ def growth(tables: Tables) -> Figure | None:
     weak.set_title("disturbances of the fluid at rest, finest grids")
     theory(strong, tables, low=1/np.sqrt(2))
     finite(strong, tables)
-    strong.set_title("rolls of finite strength, within a factor 2")
+    strong.set_title("rolls of finite strength, within a factor 2; bars: 95 % over seeds")
     for axes in (weak, strong):
         axes.axhline(0, color="black", linewidth=0.6, linestyle="-", marker="")
         axes.set(xlabel="Rayleigh number Ra", ylabel=r"growth rate $\sigma$  [1/free-fall time]")
@@ -81,58 +84,68 @@ def finite(axes: Axes, tables: Tables) -> None:
     runs = rows(tables, "growth_rates", way="run")
     runs = runs[(runs["ke_start"] > 1e-6) & runs["ra"].between(*WIDE)]
     kinds, sizes = sorted(runs["variant"].unique()), sorted(runs["resolution"].unique())
+    strongest = runs["ke_start"].max()
     for (method, variant, size, ke), group in runs.groupby(["method", "variant", "resolution", "ke_start"]):
-        of_ra = [(ra, one["sigma"].mean(), one["sigma"].std()/np.sqrt(len(one)) if len(one) > 1 else 0.0)
-                 for ra, one in group.groupby("ra")]
-        ra, sigma, spread = np.array(of_ra).T
+        of_ra = [(ra, *combine(list(zip(one["sigma"], one["err"])))) for ra, one in group.groupby("ra")]
+        ra, sigma, err = np.array(of_ra).T
         name = f"{variant}, {size:.0f} rows" if method == "spam" else f"gas grid, {size:.0f} rows"
-        strongest = ke == runs["ke_start"].max()
-        errorbar(axes, list(ra), list(sigma), list(2*spread), label=f"{name}, $K_0$ = {ke:g}",
+        errorbar(axes, list(ra), list(sigma), list(err), label=f"{name}, $K_0$ = {ke:g}",
                  color=COLOURS[kinds.index(variant)], marker=MARKERS[sizes.index(size)],
-                 linestyle="-" if strongest else ":", markerfacecolor=None if strongest else "none")
+                 linestyle=KIND_LINES[kinds.index(variant)], markerfacecolor=None if ke == strongest else "none")
 
 
 # --- straight lines ---------------------------------------------------------------------------------------
 
 
 def line(tables: Tables) -> Figure | None:
-    """K against Ra^-1/2 on KHP95's grids with its lines; where they and growth rates put Ra_c, against L^-2."""
+    """K against Ra^-1/2 on KHP95's grids with its lines, how far K is from the line; where they and growth rates put Ra_c."""
     K = rows(tables, "energies", **GAS)
     if K.empty:
         return None
-    page, (left, right) = figure(1, 2, width=5.6, height=4.4)
+    page = Figure(figsize=(11.2, 5.2), layout="constrained")
+    axes = page.subplot_mosaic([["K", "zeros"], ["rest", "zeros"]], height_ratios=(3, 1))
     far = rows(tables, "lines", **GAS)
     khp95 = np.isfinite(far["resolution"]) | (far["lines"] != "")
     far = far[khp95 & (far["reach"] == far["reach"].max())].sort_values("resolution")
     for number, (_, at) in enumerate(far.iterrows()):
-        points = K[K["resolution"] == at["resolution"]]
-        x = np.array([K["ra"].max()**-0.5, at["ra_c"]**-0.5])
-        colour = "black" if np.isinf(at["resolution"]) else COLOURS[number]
-        name = r"$L \to \infty$" if np.isinf(at["resolution"]) else f"L = {at['resolution']:.0f} cells"
-        left.plot(points["ra"]**-0.5, points["ke"], color=colour, marker=MARKERS[number], linestyle="none")
-        left.plot(x, at["slope"]*x + at["intercept"], color=colour, linestyle="-", marker="",
-                  label=f"{name}: zero at {at['ra_c']:.1f}")
-    left.set(ylabel=ENERGY, ylim=(0, None))
-    ra_axis(left)
-    left.legend(title="gas, $\\eta$ constant, line to 4 Ra$_c$")
-    zeros(right, tables)
+        one_line(axes["K"], axes["rest"], K[K["resolution"] == at["resolution"]], at, number)
+    axes["K"].set(ylabel=ENERGY, ylim=(0, None))
+    axes["rest"].axhline(0, color="black", linewidth=0.6, linestyle="-", marker="")
+    axes["rest"].set(xlabel=r"$\mathrm{Ra}^{-1/2}$", xlim=axes["K"].get_xlim(), ylabel="off the line\n[% of largest $K$]")
+    ra_axis(axes["K"])
+    axes["K"].set(xlabel="")
+    axes["K"].legend(title="gas, $\\eta$ constant, line to 4 Ra$_c$")
+    zeros(axes["zeros"], tables)
     return page
 
 
+def one_line(upper: Axes, lower: Axes, points: pd.DataFrame, at: pd.Series, number: int) -> None:
+    """K of one grid with its line; below, what is left, in per cent of the largest K."""
+    x = np.array([points["ra"].max()**-0.5, at["ra_c"]**-0.5])
+    limit = np.isinf(at["resolution"])
+    look_of: dict[str, Any] = {"color": "black" if limit else COLOURS[number], "marker": MARKERS[number]}
+    name = r"$L \to \infty$" if limit else f"L = {at['resolution']:.0f} cells"
+    upper.plot(points["ra"]**-0.5, points["ke"], linestyle="none", **look_of, label=f"{name}: zero at {at['ra_c']:.1f}")
+    upper.plot(x, at["slope"]*x + at["intercept"], **look_of | {"linestyle": "-", "marker": ""})
+    rest = points["ke"] - at["slope"]*points["ra"]**-0.5 - at["intercept"]
+    lower.plot(points["ra"]**-0.5, 100*rest/points["ke"].max(), linestyle="none", **look_of, markerfacecolor="none")
+
+
 def zeros(axes: Axes, tables: Tables) -> None:
-    """Ra_c of lines of each reach and of growth rates."""
+    """Ra_c of lines of each reach and of growth rates; the interval of a line, alike at all L, once."""
     found = rows(tables, "critical_ra", **GAS)
     single = np.isfinite(found["resolution"]) | (found["way"] == "operator") | found["quantity"].str.contains("L^-2", regex=False)
     found = found[(found["way"] != "run") & (found["resolution"] >= 24) & single]
     for number, ((way, reach), group) in enumerate(found.groupby(["way", "reach"], sort=True)):
         group = group.sort_values("resolution")
         label = "growth rates" if way == "operator" else f"line to {reach:g} Ra$_c$"
-        errorbar(axes, group["resolution"]**-2.0*1e3, group["value"], 0*group["err"], number=number, label=label, linestyle="-")
+        err = group["err"].where(np.isinf(group["resolution"]), 0.0)
+        errorbar(axes, group["resolution"]**-2.0*1e3, group["value"], err, number=number, label=label)
     known = rows(tables, "critical_ra", method="linear", quantity="ra_c periodic aspect 2")
     for value in known["value"]:
         axes.axhline(value, color="black", linestyle=":", marker="", label=f"Boussinesq, {value:.2f}")
     axes.set(xlabel=r"$10^3\,L^{-2}$, L in cells", ylabel=r"Ra$_c$")
-    axes.legend()
+    axes.legend(title=r"bars at $L \to \infty$: 95 %, scatter about the line", title_fontsize=8)
 
 
 # --- figures ----------------------------------------------------------------------------------------------
@@ -145,15 +158,18 @@ def figures_given(tables: Tables) -> Figure | None:
     if found.empty:
         return None
     ways = sorted(found["way"].unique(), key=lambda way: found.loc[found["way"] == way, "figures"].median())
-    page, axes = figure(width=7.5, height=1.2 + 0.26*len(ways))
+    page, axes = figure(width=7.5, height=1.2 + 0.36*len(ways))
     scenes = [name for name, _ in found.groupby(["eos", "transport"])]
     methods = sorted(found["method"].unique())
     for (method, *scene), part in found.groupby(["method", "eos", "transport"]):
         label = " ".join(str(word) for word in (method, *scene) if word)
-        axes.plot(part["figures"], [ways.index(way) for way in part["way"]], linestyle="none", label=label,
-                  color=COLOURS[scenes.index(tuple(scene))], marker=MARKERS[methods.index(method)], markerfacecolor="none")
+        number = scenes.index(tuple(scene))
+        aside = 0.6*((number + 0.5)/len(scenes) - 0.5)        # marks of one way under each other, not on each other
+        axes.plot(part["figures"], [ways.index(way) + aside for way in part["way"]], linestyle="none", label=label,
+                  color=COLOURS[number], marker=MARKERS[methods.index(method)], markerfacecolor="none")
     axes.axvline(-np.log10(0.05/1708), color="black", linestyle="--", marker="", label="five significant figures of 1708")
-    axes.set_yticks(range(len(ways)), labels=ways)
+    axes.set_yticks(range(len(ways)), labels=[way.replace("Ra_c", "Ra$_c$") for way in ways])
+    axes.set(ylim=(-0.6, len(ways) - 0.4))
     axes.set_xlabel(r"correct figures of Ra$_c$:  $-\log_{10}$ of the relative error")
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     return page
