@@ -8,9 +8,10 @@ import warnings
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.container import ErrorbarContainer
 from matplotlib.text import Text
 
-from studies.convection import figures, pick, tables
+from studies.convection import figures, onset_figures, onset_tables, pick, tables
 from studies.convection.figures_errors import power
 from studies.kit.source import ROOT
 from studies.kit.sweep import RESULTS, load
@@ -375,3 +376,18 @@ def test_the_committed_tables_give_the_committed_figures():
         pytest.skip("no tables of rb committed yet: make study-rb writes them")
     committed = {path.stem for path in (RESULTS/"rb").glob("*.png")}
     assert committed <= set(figures.figures(known))
+
+
+def test_the_onset_draws_its_committed_figures_too():
+    """With the interval of each line's zero that the table has."""
+    known = load(onset_tables.ALL, "onset")
+    if not known:
+        pytest.skip("no tables of onset committed yet: make study-onset writes them")
+    pages = onset_figures.figures(known)
+    assert {path.stem for path in (RESULTS/"onset").glob("*.png")} == set(pages)
+    zeros = next(axes for axes in pages["line"].axes if axes.get_ylabel() == "Ra$_c$")
+    bars = [np.ptp(bar[:, 1]) for drawn in zeros.containers if isinstance(drawn, ErrorbarContainer)
+            for bar in drawn[2][0].get_segments()]
+    lines = onset_figures.rows(known, "critical_ra", **onset_figures.GAS, way="line")
+    widest = lines.loc[np.isinf(lines["resolution"]) & lines["quantity"].str.contains("extrapolated"), "err"].max()
+    assert max(bars) == pytest.approx(2*widest)

@@ -25,6 +25,8 @@ from studies.kit.table import Tables
 
 #: Rayleigh numbers that have a panel
 RA_SHOWN = (5000, 10000)
+#: grids with another number of rolls or other temperatures, which the flow of the particles is not compared with
+OTHER_FLOWS = ("two-rolls", "fig10")
 #: an error with what it is relative to: the grid, for Kg its field smoothed as the particles smooth theirs
 RELATIVE = r"relative error  $|K_p/K - 1|$, $|K_g/K_\mathrm{smoothed} - 1|$"
 #: K_s of the printed weight, see the table `smoothed`
@@ -51,6 +53,7 @@ def convergence(tables: Tables) -> Figure | None:
 def shown(found: pd.DataFrame) -> list[tuple[float, pd.DataFrame]]:
     """The Rayleigh numbers of the panels, each with its rows of grids and of the printed particles."""
     printed = found[(found["method"] != "spam") | (found["variant"] == SPAM["variant"])]
+    printed = printed[~printed["variant"].isin(OTHER_FLOWS)]
     return [(ra, group) for ra, group in groups(printed, "ra") if ra in RA_SHOWN]
 
 
@@ -144,12 +147,15 @@ def cost(tables: Tables) -> Figure | None:
 
 def methods(found: pd.DataFrame) -> Iterator[tuple[pd.DataFrame, str, dict]]:
     """(rows by resolution, label, look) of each method: particles twice, for Kp and Kg, each grid once."""
+    others = 0
     for (method, variant, energy), series in groups(found.sort_values("resolution"), ["method", "variant", "energy"]):
         if method == "spam":
             yield series, LABELS[energy.lower()], KIND[energy.lower()]
-        elif energy == "Kp":                     # the field is all that a grid has
-            own = (method, variant) == tuple(GRID.values())
-            yield series, "compressible grid" if own else f"{method}, {variant}", KIND["grid" if own else "pypde"]
+        elif (method, variant) == tuple(GRID.values()) and energy == "Kp":      # the field is all that a grid has
+            yield series, "compressible grid", KIND["grid"]
+        elif energy == "Kp":
+            yield series, f"{method}, {variant}", look(4 + others)
+            others += 1
 
 
 def dear(axes: Axes, series: pd.DataFrame, label: str, style: dict) -> None:

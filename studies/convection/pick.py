@@ -23,7 +23,7 @@ STILL = 1e-6
 
 #: the same kind of row looks the same in every figure
 KIND = {"grid": {**look(0), "color": "black"}, "kp": look(1), "kg": {**look(2), "color": "#0072B2"},
-        "boussinesq": {**look(3), "linestyle": "none"}, "pypde": look(4),
+        "boussinesq": {**look(3), "linestyle": "none"},
         "khp": {"color": "black", "linestyle": "none", "markerfacecolor": "none", "markersize": 9,
                 "markeredgewidth": 1.4, "zorder": 5}}
 LABELS = {"kp": "$K_p$, all particles", "kg": "$K_g$, smoothed field"}
