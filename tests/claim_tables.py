@@ -94,7 +94,7 @@ def measured(point: dict) -> dict:
     ke = share*(straight(point["ra"]) + 1e-3) + 0.01/point["resolution"]**2*(1 + 50/math.sqrt(point["ra"]))
     return {**point, "particles": 2*min(point["resolution"], 100)**2, "seed": 1, "seeds": 3, "ke": ke, "ke_err": 1e-8,
             "ke_field": 0.9*ke, "ke_field_err": 1e-8, "ke_fluctuation": 1e-4, "nu": 1.5, "nu_err": 0.01,
-            "rolls": 1 if point["sides"] == "walls" else 2, "mass_drift": 1e-4, "t_end": 5000.0}
+            "rolls": 1 if point["sides"] == "walls" else 2, "mass_drift": 1e-4, "t_end": 5000.0, "converged": True}
 
 
 def history(point: dict, seed: int) -> pd.DataFrame:

@@ -25,12 +25,28 @@ def test_a_run_that_diverged_has_no_energy():
 
 @pytest.mark.parametrize(("change", "said"), [(0.01, "holds"), (0.1, "fails")])
 def test_half_of_the_step_is_compared_at_all_rayleigh_numbers_that_flow(change, said):
-    both = [{**particles(ra, 25, name), "ke": ke, "ke_err": 1e-8}
+    both = [{**particles(ra, 25, name), "ke": ke, "ke_err": 0.001*ke}
             for name, changed in (("printed", 0), ("printed-half-step", change))
             for ra, ke in ((2500.0, 1e-6*(1 + 9*changed)), (5e3, 0.003), (1e4, 0.0045*(1 - changed)))]
-    assert verdict("own-half-step-25", means(both)) == said
-    assert verdict("own-half-step-50", means(both)) == "undecidable"
-    assert "where little flows" in judged("own-half-step-25", means(both[3:4]))["reason"]
+    tables = with_runs(both)
+    assert verdict("own-half-step-25", tables) == said
+    assert judged("own-half-step-25", tables)["err"] == pytest.approx(0.001*math.sqrt(2/3), rel=0.02)     # three seeds
+    assert verdict("own-half-step-50", tables) == "undecidable"
+    assert "where little flows" in judged("own-half-step-25", with_runs(both[3:4]))["reason"]
+
+
+def with_runs(points: list[dict]) -> Tables:
+    """Three seeds of each point with its K, one more that diverged, one in another flow; in `means` a larger error."""
+    seeds = [{"seed": seed} for seed in (1, 2, 3)] + [{"seed": 4, "ke": math.nan}, {"seed": 5, "rolls": 4, "ke": 1.0}]
+    runs = pd.DataFrame([{**point, "rolls": 2, "ke_field": 0.9*point["ke"], "ke_field_err": 0.9*point["ke_err"], **seed}
+                         for point in points for seed in seeds])
+    return Tables({**means([{**point, "ke_err": point["ke"]} for point in points]), "kinetic_energy": runs})
+
+
+@pytest.mark.parametrize(("rolls", "steady", "said"), [(1, False, "holds"), (2, True, "fails"), (2, False, "undecidable")])
+def test_two_rolls_that_still_change_are_no_answer(rolls, steady, said):
+    row = {**grid(7e3, 32, "two-rolls", sides="walls"), "ke": 0.001, "rolls": rolls, "converged": steady, "t_end": 9000.0}
+    assert verdict("khp95-one-roll-square", Tables({"kinetic_energy": pd.DataFrame([row])})) == said
 
 
 def test_what_smoothing_takes_is_told_from_what_is_lost():
