@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from studies.convection.claims import RB_CLAIMS, lattices
+from studies.convection.claims.grid import PYPDE
 from studies.convection.claims.read import grid, onset, particles
 from studies.kit.claim import judge
 from studies.kit.table import Tables
@@ -84,13 +85,13 @@ def points() -> list[dict]:
              for (ra, where), rows in itertools.product(scenes, (24, 32, 48, 50, 100, math.inf))]
     runs = [particles(ra, rows, variant, **where)
             for (ra, where), rows, variant in itertools.product(scenes, (16, 25, 40, 50), VARIANTS)]
-    return [*grids, *runs, grid(1e4, 48, "paper-form"), grid(67150.3, 48, "fig10", sides="walls"),
+    return [*grids, *runs, PYPDE, grid(1e4, 48, "paper-form"), grid(67150.3, 48, "fig10", sides="walls"),
             grid(67150.3, 48, "fig10", sides="walls", eos="dense"), grid(7000, 48, "two-rolls", sides="walls")]
 
 
 def measured(point: dict) -> dict:
     """Columns of `means` and `kinetic_energy` at any point: frozen under high pressure, else some flow."""
-    share = 1 if point["method"] == "compressible" else 0.2 if point["variant"] == "more-static-400" else 0.8
+    share = 1 if point["method"] != "spam" else 0.2 if point["variant"] == "more-static-400" else 0.8
     ke = share*(straight(point["ra"]) + 1e-3) + 0.01/point["resolution"]**2*(1 + 50/math.sqrt(point["ra"]))
     return {**point, "particles": 2*min(point["resolution"], 100)**2, "seed": 1, "seeds": 3, "ke": ke, "ke_err": 1e-8,
             "ke_field": 0.9*ke, "ke_field_err": 1e-8, "ke_fluctuation": 1e-4, "nu": 1.5, "nu_err": 0.01,
