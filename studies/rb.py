@@ -6,16 +6,19 @@ path small, `fine` (hours) all variants, walls, resolutions.
 Writes results/rb/*.csv and *.png and the rows of study rb in results/claims.csv.
 """
 from collections.abc import Iterator
+from itertools import product
 from typing import Any
 
 from continuum.fluid import ConstNu, DenseFluid, VanDerWaals
 from continuum.scene import Periodic, RayleighBenard, Walls
+from particles.weights import Lucy
 from studies.convection import tables
 from studies.convection.claims import RB_CLAIMS
 from studies.convection.cost import CompressibleStep, SpamStep
 from studies.convection.derive import derive
 from studies.convection.figures import figures
 from studies.convection.grids import BoussinesqSteady, CompressibleApproach, CompressibleSteady, PypdeSteady
+from studies.convection.smoothing import Smoothing
 from studies.convection.spam import PRINTED, VARIANTS, SpamRun, Variant
 from studies.kit.case import Case
 from studies.kit.study import Study, main
@@ -31,7 +34,7 @@ LINE = (1500.0, 1750.0, 2000.0, 2500.0, 3000.0, 3500.0, 4200.0, 5000.0, 6000.0, 
         50000.0)  # of the grids
 
 
-def spam(ra: float, rows: int, seeds=SEEDS, variant: Variant = PRINTED, t_end=4500.0, mean_from=2000.0, keep="",
+def spam(ra: float, rows: int, seeds=SEEDS, variant: Variant = PRINTED, keep="", t_end=90.0, mean_from=40.0,
          **scene) -> Iterator[SpamRun]:
     """The same point for several seeds; only the first keeps its fields or particles."""
     where = RayleighBenard(ra=ra, L=float(rows), **(LAYER | scene))
@@ -40,8 +43,20 @@ def spam(ra: float, rows: int, seeds=SEEDS, variant: Variant = PRINTED, t_end=45
                       keep=keep if seed == seeds[0] else "")
 
 
-def gas(ra: float, sizes: tuple[int, ...], keep="", **scene) -> CompressibleSteady:
-    return CompressibleSteady(scene=RayleighBenard(ra=ra, **(LAYER | scene)), sizes=sizes, keep=keep)
+def gas(ra: float, sizes: tuple[int, ...], keep="", variant="flux-form", longest=60.0, **scene) -> CompressibleSteady:
+    """Steady states on grids, seen through the weights of the particles that are compared with them."""
+    where = RayleighBenard(ra=ra, **(LAYER | scene))
+    smooth = seen_by(where) if variant == "flux-form" else ()
+    return CompressibleSteady(scene=where, sizes=sizes, keep=keep, variant=variant, longest=longest, smooth=smooth)
+
+
+def seen_by(scene: RayleighBenard) -> tuple[Smoothing, ...]:
+    """The printed weight at all numbers of particles, those of the variants where these are run."""
+    square = isinstance(scene.sides, Walls)
+    lucy = [Smoothing(Lucy, 3.0, rows) for rows in ((20, 28, 40) if square else (16, 25, 35, 50, 70, 100))]
+    kinds = {(v.weight, v.h) for v in VARIANTS.values()} - {(Lucy, 3.0)}
+    others = [Smoothing(*kind, rows) for kind in sorted(kinds, key=str) for rows in (16, 25, 50)]
+    return (*lucy, *others) if scene.ra in (3e3, 5e3, 1e4) and not square else tuple(lucy)
 
 
 def cases(size: str) -> list[Case]:
@@ -55,8 +70,8 @@ def quick() -> Iterator[Case]:
     for ra in (1500.0, 5000.0, 10000.0):
         yield gas(ra, (12, 16, 24))
         yield BoussinesqSteady(ra=ra, pr=2.0, sizes=(12, 16, 24))
-        yield from spam(ra, 16, t_end=900.0, mean_from=400.0, keep="all" if ra == 10000 else "")
-    yield CompressibleApproach(scene=RayleighBenard(ra=1e4), rows=16, t_end=900.0)
+        yield from spam(ra, 16, t_end=60.0, mean_from=25.0, keep="all" if ra == 10000 else "")
+    yield CompressibleApproach(scene=RayleighBenard(ra=1e4), rows=16)
     yield PypdeSteady(ra=5000.0, pr=2.0, sizes=(12, 16, 24))
     yield PypdeSteady(ra=5000.0, scene=RayleighBenard(ra=5000.0), sizes=(12, 16, 24))
     yield from speed((16,), (12, 16, 24))
@@ -71,49 +86,86 @@ def speed(particle_rows: tuple[int, ...], grid_rows: tuple[int, ...]) -> Iterato
 
 
 def paper() -> Iterator[Case]:
-    """Figs 5, 6, 8, 9, 12 and the numbers of Sec. VI."""
+    """What the main figure and the verdicts on printed numbers need."""
+    yield from grids()
+    yield from layers()
+    yield from squares()
+    yield from others()
+    yield from speed((16, 25, 35, 50, 70), (16, 24, 32, 48, 64))
+
+
+def grids() -> Iterator[Case]:
+    """References of the layer: the lines of Fig. 5, Boussinesq, py-pde, the approach of Fig. 8."""
     for ra in LINE:
-        yield gas(ra, (24, 32, 48), keep="fields" if ra == 10000 else "")
+        yield gas(ra, (24, 32, 48), keep="fields" if ra in (3e3, 5e3, 1e4) else "")
         for pr in (0.71, 1.0, 2.0, 7.0):
             yield BoussinesqSteady(ra=ra, pr=pr)
-    for ra in RA:
-        yield from spam(ra, 50, keep={1e4: "all", 5e3: "fields"}.get(ra, ""))
-        yield from spam(ra, 35)
-        yield from spam(ra, 25)
-    for ra in (2000.0, 2500.0, 3500.0, 5000.0, 6830.0, 10000.0):
+    for ra in (2000.0, 2500.0, 3000.0, 3500.0, 5000.0, 6830.0, 10000.0):
         yield gas(ra, (24, 32, 48), **NU)
         yield gas(ra, (24, 32, 48), **VDW)
-    for ra in (2500.0, 5000.0, 10000.0):
-        yield from spam(ra, 50, **NU)
-        yield from spam(ra, 50, keep="fields" if ra == 10000 else "", **VDW)
-    for ra in (5000.0, 7000.0, 10000.0, 20000.0):
-        yield gas(ra, (24, 32, 48), **BOX)
-        for rows in (40, 28, 20):
-            yield from spam(ra, rows, **BOX)
     for ra in (5000.0, 10000.0):
         yield PypdeSteady(ra=ra, scene=RayleighBenard(ra=ra), sizes=(16, 24, 32, 48))
         for pr in (1.0, 7.0):
             yield PypdeSteady(ra=ra, pr=pr, sizes=(16, 24, 32, 48))
-    yield from speed((16, 25, 35, 50, 70), (16, 24, 32, 48, 64))
     yield CompressibleApproach(scene=RayleighBenard(ra=1e4))
-    yield from spam(10000.0, 50, variant=VARIANTS["printed-fixed-rows"], keep="all")
-    yield from spam(10000.0, 16, seeds=(1,), keep="all", **VDW)      # Fig. 7: 512 particles
+    yield gas(1e4, (16, 24, 32, 48), variant="paper-form")
+
+
+def layers() -> Iterator[Case]:
+    """Particles in the layer, Figs 2, 3, 5, 8, 9, 12: numbers, fluids, walls; half of the time step."""
+    for ra in RA:
+        yield from spam(ra, 50, keep={1e4: "all", 5e3: "fields", 2.5e3: "fields"}.get(ra, ""))
+        yield from spam(ra, 35)
+        yield from spam(ra, 25)
+    for ra in (5000.0, 10000.0):
+        yield from spam(ra, 50, **NU)
+        yield from spam(ra, 50, keep="fields" if ra == 10000 else "", **VDW)
+        yield from spam(ra, 50, variant=VARIANTS["printed-fixed-rows"], keep="all" if ra == 10000 else "")
+    for rows in (16, 25, 50):
+        yield from spam(1e4, rows, variant=VARIANTS["printed-half-step"])
+
+
+def squares() -> Iterator[Case]:
+    """The square box of Fig. 6. Onset is at 5012; far above it the flow takes longer to settle."""
+    for ra in (3500.0, 6000.0, 7000.0, 8000.0, 10000.0, 14000.0, 20000.0):
+        yield gas(ra, (24, 32, 48), **BOX)
+    for ra in (3500.0, 7000.0, 10000.0, 20000.0):
+        start = 80.0 if ra == 20000 else 40.0
+        for rows in (40, 28, 20):
+            yield from spam(ra, rows, t_end=2.25*start, mean_from=start, **BOX)
+    yield gas(7000.0, (24, 32), variant="two-rolls", **BOX)
+
+
+def others() -> Iterator[Case]:
+    """512 particles: of Fig. 7, of the frozen dense fluid of Fig. 4, and of gases that should not freeze there."""
+    for ra, keep in ((1e4, "all"), (3e3, "all")):
+        yield from spam(ra, 16, keep=keep)
+        yield from spam(ra, 16, keep=keep, **VDW)
     yield gas(3000.0, (16, 24, 32), **DENSE)
-    for name in ("printed", "printed-monaghan"):                     # Fig. 4: 512 particles, frozen
+    for name in ("printed", "printed-monaghan"):
         yield from spam(3000.0, 16, variant=VARIANTS[name], keep="all", **DENSE)
 
 
 def fine() -> Iterator[Case]:
-    """Every variant at two sizes, finer particles, more Rayleigh numbers."""
-    for variant in VARIANTS.values():
-        for ra in (5000.0, 10000.0):
-            for rows in (25, 50):
-                in_paper = variant.name == "printed-fixed-rows" and (ra, rows) == (10000.0, 50)
-                if variant != PRINTED and not in_paper:
-                    yield from spam(ra, rows, variant=variant)
-    for ra in (5000.0, 10000.0):
-        yield from spam(ra, 70, t_end=6300.0, mean_from=2800.0)
-        yield from spam(ra, 100, t_end=9000.0, mean_from=4000.0)
+    """Every variant at two sizes (of pressure at two Ra), finer particles, higher Rayleigh numbers, long runs of the grid."""
+    for name in sorted(set(VARIANTS) - {"printed", "printed-half-step"}):
+        variant = VARIANTS[name]
+        yield from spam(1e4, 25, variant=variant)
+        if name != "printed-fixed-rows":
+            yield from spam(1e4, 50, variant=variant, keep="all" if name == "printed-monaghan" else "")
+        if variant.fraction:
+            yield from spam(5e3, 50, variant=variant)
+    for ra in (2500.0, 10000.0):
+        yield from spam(ra, 70)
+    yield from spam(1e4, 100, seeds=(1, 2))
+    yield from spam(3000.0, 16, variant=VARIANTS["range-6"], keep="all", **DENSE)
+    for ra in (5e4, 1e5):
+        yield from spam(ra, 50, t_end=180.0, mean_from=90.0)
+    yield gas(1e5, (32, 48, 64))
+    yield gas(67150.0, (32, 48), variant="fig10", longest=6.0, T_hot=10.0, T_cold=0.5, **BOX)
+    for ra, rows in product((5e4, 2e5), (50, 100)):
+        yield CompressibleApproach(scene=RayleighBenard(ra=ra), rows=rows, t_end=2.1*ra**0.5)    # 2.1 L^2/eta
+    yield CompressibleApproach(scene=RayleighBenard(ra=3e3, **DENSE), rows=24, t_end=22*(3000/1.5)**0.5)
 
 
 STUDY = Study(name="rb", cases=cases, tables=tables.ALL, derive=derive, figures=figures, claims=RB_CLAIMS)

@@ -1,11 +1,12 @@
 """Rows that follow from other rows: grids extrapolated, means over seeds, errors against the reference."""
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from continuum.richardson import richardson
+from studies.convection.spam import VARIANTS
 from studies.convection.tables import POINT
 from studies.kit.stats import combine
 from studies.kit.table import Tables
@@ -13,6 +14,10 @@ from studies.kit.table import Tables
 GRIDS = ("compressible", "boussinesq", "pypde-boussinesq", "pypde-compressible")
 MACHINE = ["method", "variant", "eos", "sides", "resolution"]
 SERIES = [name for name in POINT if name != "resolution"]
+SCENE = ["eos", "transport", "sides", "ra", "pr"]
+ENERGIES = ("ke", "ke_field", "nu")
+HALF = "printed-half-step"
+STILL = 1e-6        # K of a grid that does not convect
 
 
 def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
@@ -22,13 +27,13 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     runs = finite(tables["kinetic_energy"])
     limits = list(extrapolated(runs))
     everything = pd.concat([runs, pd.DataFrame(limits)], ignore_index=True) if limits else runs
-    cost = tables.get("cost", pd.DataFrame(columns=[*MACHINE, "step_s"]))
-    return {"kinetic_energy": limits, "means": list(over_seeds(everything)), "errors": list(errors(everything, cost))}
+    means = list(over_seeds(everything))
+    return {"kinetic_energy": limits, "means": means, "errors": list(errors(runs, pd.DataFrame(means), tables))}
 
 
 def finite(frame: pd.DataFrame) -> pd.DataFrame:
-    """Rows of real runs, not extrapolated ones."""
-    return frame[np.isfinite(frame["resolution"].astype(float))]
+    """Rows of real runs that did not diverge, not extrapolated ones."""
+    return frame[np.isfinite(frame["resolution"].astype(float)) & frame["ke"].notna()]
 
 
 def extrapolated(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
@@ -54,34 +59,101 @@ def limit(values: np.ndarray, errs: np.ndarray, sizes: np.ndarray) -> tuple[floa
 
 
 def over_seeds(kinetic: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    """Means over the seeds of each particle point; grid rows pass as they are."""
+    """Means over the seeds of each particle point that settled in its commonest number of rolls; grid rows pass as they are.
+
+    To the error of particles belongs what half of the time step changes.
+    """
+    shifts = step_shifts(kinetic)
     for point, group in kinetic.groupby(POINT, dropna=False):
         row = dict(zip(POINT, point, strict=True))
-        for name in ("ke", "ke_field", "nu"):
-            row[name], row[f"{name}_err"] = combine(list(zip(group[name], group[f"{name}_err"], strict=True)))
-        rolls = group["rolls"].mode().iloc[0]
-        yield {**row, "particles": group["particles"].iloc[0], "seeds": len(group),
-               "ke_fluctuation": group["ke_fluctuation"].mean(), "rolls": rolls}
+        same = group[group["rolls"] == group["rolls"].mode().iloc[0]]
+        for name in ENERGIES:
+            value, err = combine(list(zip(same[name], same[f"{name}_err"], strict=True)))
+            row[name], row[f"{name}_err"] = value, float(np.hypot(err, value*shift(shifts, row, name)))
+        yield {**row, "particles": same["particles"].iloc[0], "seeds": len(same),
+               "ke_fluctuation": same["ke_fluctuation"].mean(), "rolls": same["rolls"].iloc[0]}
 
 
-def errors(kinetic: pd.DataFrame, cost: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    """Relative error of each gas point against the compressible limit of its scene, with what it cost.
+def step_shifts(kinetic: pd.DataFrame) -> dict[float, dict[str, float]]:
+    """Resolution -> how much of K and Nu half of the time step changes, relative, at the same point."""
+    found: dict[float, dict[str, float]] = {}
+    for _, half in kinetic[kinetic["variant"] == HALF].groupby(POINT, dropna=False):
+        first = half.iloc[0]
+        whole = kinetic[(kinetic["variant"] == "printed") & (kinetic[SCENE] == first[SCENE]).all(axis=1)
+                        & (kinetic["resolution"] == first["resolution"])]
+        if len(whole):
+            found[float(first["resolution"])] = {name: abs(half[name].mean()/whole[name].mean() - 1) for name in ENERGIES}
+    return found
 
-    CPU seconds are steps times the seconds of one step measured alone on the machine, where there is such a row;
-    else those of the run itself, which shared the machine.
+
+def shift(shifts: dict[float, dict[str, float]], row: Mapping[Any, Any], name: str) -> float:
+    """The one of the next coarser resolution that has one; none for grids, whose steady states have no step."""
+    coarser = [rows for rows in shifts if rows <= float(row["resolution"])]
+    return shifts[max(coarser)][name] if row["method"] == "spam" and coarser else 0.0
+
+
+def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> Iterator[dict[str, Any]]:
+    """Relative errors of K against the compressible limit of the scene, with what they cost.
+
+    Kp, of all particles, is compared with the grid's K; Kg, of the smoothed field, with K of the grid's field smoothed by the
+    same weight: smoothing alone is no error of the flow.
     """
-    step_s = {tuple(row[name] for name in MACHINE): row["step_s"] for _, row in cost.iterrows()}
-    scene = ["eos", "transport", "sides", "ra", "pr"]
-    gas = kinetic[kinetic["eos"] != ""]
-    reference = gas[(gas["method"] == "compressible") & ~np.isfinite(gas["resolution"].astype(float))].set_index(scene)
-    for row in over_seeds(finite(gas)):
-        where = tuple(row[name] for name in scene)
-        if where not in reference.index or reference.loc[where, "ke"] < 1e-6:
+    if means.empty:
+        return
+    limits = means[(means["method"] == "compressible") & (means["variant"] == "flux-form")
+                   & ~np.isfinite(means["resolution"].astype(float)) & (means["ke"] > STILL)].set_index(SCENE)
+    seen, seconds = smoothing_factors(tables), step_seconds(tables)
+    for row in means[(means["eos"] != "") & np.isfinite(means["resolution"].astype(float))].to_dict("records"):
+        where = tuple(row[name] for name in SCENE)
+        if where not in limits.index:
             continue
-        ref = reference.loc[where]
-        group = gas.loc[(gas[POINT] == pd.Series({name: row[name] for name in POINT})).all(axis=1)]
-        machine = tuple(row[name] for name in MACHINE)
-        relative = np.hypot(row["ke_err"], ref["ke_err"])/ref["ke"]
-        yield {**{name: row[name] for name in (*POINT, "particles", "ke", "ke_err")}, "reference": ref["ke"],
-               "reference_err": ref["ke_err"], "error": row["ke"]/ref["ke"] - 1, "error_err": relative, "energy": "Kp",
-               "cpu_s": float(step_s[machine]*group["steps"].mean() if machine in step_s else group["cpu_s"].mean())}
+        limit = limits.loc[where]
+        cpu_s = cost(runs, row, seconds)
+        yield error(row, "Kp", row["ke"], row["ke_err"], limit, 1.0, cpu_s)
+        if row["method"] == "spam" and (*where, *view(row)) in seen:
+            yield error(row, "Kg", row["ke_field"], row["ke_field_err"], limit, seen[(*where, *view(row))], cpu_s)
+
+
+def error(row: Mapping[Any, Any], energy: str, ke: float, ke_err: float, limit: pd.Series, factor: float,
+          cpu_s: float) -> dict[str, Any]:
+    """A row of the table `errors`; the reference is the grid's limit times `factor`."""
+    reference, reference_err = limit["ke"]*factor, limit["ke_err"]*factor
+    return {**{name: row[name] for name in (*POINT, "particles")}, "energy": energy, "ke": ke, "ke_err": ke_err,
+            "reference": reference, "reference_err": reference_err, "error": ke/reference - 1,
+            "error_err": float(np.hypot(ke_err, ke/reference*reference_err)/reference), "cpu_s": cpu_s}
+
+
+def smoothing_factors(tables: Tables) -> dict[tuple, float]:
+    """(scene, weight, h, rows) -> K of the smoothed field over K."""
+    if "smoothed" not in tables:
+        return {}
+    return {(*(row[name] for name in SCENE), row["weight"], float(row["h"]), int(row["rows"])): row["ke_smoothed"]/row["ke"]
+            for row in tables["smoothed"].to_dict("records")}
+
+
+def view(row: Mapping[Any, Any]) -> tuple[str, float, int]:
+    """(weight, h, rows) of a particle point."""
+    variant = VARIANTS[row["variant"]]
+    return variant.weight.__name__, variant.h, int(row["resolution"])
+
+
+def step_seconds(tables: Tables) -> dict[tuple, float]:
+    """Seconds of a step, measured alone on the machine."""
+    if "cost" not in tables:
+        return {}
+    return {tuple(row[name] for name in MACHINE): row["step_s"] for row in tables["cost"].to_dict("records")}
+
+
+def cost(runs: pd.DataFrame, row: Mapping[Any, Any], seconds: dict[tuple, float]) -> float:
+    """CPU seconds of what a mean is made of: all seeds of particles; a grid with the coarser ones that it starts from.
+
+    Steps times the seconds of one step measured alone where there is such a row, else what the run took beside others.
+    """
+    same = [name for name in POINT if name != "resolution"]
+    group = runs[(runs[same] == pd.Series({name: row[name] for name in same})).all(axis=1)]
+    if row["method"] == "spam":
+        group = group[group["resolution"] == row["resolution"]]
+    group = group[group["resolution"] <= row["resolution"]]
+    machine = [tuple(run[name] for name in MACHINE) for run in group.to_dict("records")]
+    return float(sum(steps*seconds[m] if m in seconds else cpu_s
+                     for m, steps, cpu_s in zip(machine, group["steps"], group["cpu_s"], strict=True)))

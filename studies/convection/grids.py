@@ -2,29 +2,46 @@
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from continuum import boussinesq, pypde
 from continuum.compressible import Solution, run, steady_on
 from continuum.compressible_fields import initial, interpolate
+from continuum.compressible_loop import FluxForm, PaperForm
 from continuum.scene import RayleighBenard
 from continuum.steady import Steady, Time
 from particles.observe import Grid
 from studies.convection.names import START_ENERGY, scene_columns
+from studies.convection.smoothing import Smoothing, smoothed_rows
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.timing import compile_and_run_seconds
 
 
-def energies(scene: RayleighBenard, solution: Solution, **more) -> dict:
+class Form(NamedTuple):
+    """One way to solve the gas on a grid: its continuity equation, the rolls of the start (None: as the scene has it)."""
+    continuity: Any = FluxForm()
+    rolls: int | None = None
+
+
+#: "fig10" is a scene of its own temperatures, told apart from others by this name only
+FORMS = {"flux-form": Form(), "paper-form": Form(PaperForm()), "two-rolls": Form(rolls=2), "fig10": Form(rolls=2)}
+
+
+def point(scene: RayleighBenard, solution: Solution, variant: str) -> dict:
+    """Key columns of a row of one compressible solution."""
+    return {"method": "compressible", "variant": variant, **scene_columns(scene), "resolution": solution.rows}
+
+
+def energies(scene: RayleighBenard, solution: Solution, variant: str) -> dict:
     """Row of `kinetic_energy` of one compressible solution."""
-    return {"method": "compressible", "variant": "flux-form", **scene_columns(scene), "resolution": solution.rows,
-            "particles": 0, "seed": 0, "ke": solution.ke, "ke_err": 2*solution.ke_err, "ke_field": solution.ke,
+    return {**point(scene, solution, variant), "particles": 0, "seed": 0, "ke": solution.ke,
+            "ke_err": 2*solution.ke_err, "ke_field": solution.ke,
             "ke_field_err": 2*solution.ke_err, "ke_fluctuation": 0.0, "nu": solution.nu,
             "nu_err": settling(solution), "rolls": solution.rolls, "free_fall": scene.free_fall,
             "mass_drift": solution.mass_drift, "converged": solution.converged, "dt": solution.dt, "steps": solution.steps,
-            "t_end": solution.t, "cpu_s": solution.cpu_s, "compile_s": solution.compile_s, "threads": 1, **more}
+            "t_end": solution.t, "cpu_s": solution.cpu_s, "compile_s": solution.compile_s, "threads": 1}
 
 
 def settling(solution: Any) -> float:
@@ -39,6 +56,9 @@ class CompressibleSteady(Case):
     sizes: tuple[int, ...]
     rtol: float = 1e-5
     keep: str = ""
+    smooth: tuple[Smoothing, ...] = ()
+    variant: str = "flux-form"
+    longest: float = 60.0
 
     @property
     def cost(self) -> float:
@@ -47,37 +67,43 @@ class CompressibleSteady(Case):
     @property
     def label(self) -> str:
         where = scene_columns(self.scene)
-        return f"compressible {where['eos']} {where['transport']} {where['sides']} Ra {self.scene.ra:g}, rows {self.sizes}"
+        return (f"compressible {self.variant} {where['eos']} {where['transport']} {where['sides']} Ra {self.scene.ra:g}, "
+                f"rows {self.sizes}")
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        solutions = steady_on(self.scene, self.sizes, until=Steady(rtol=self.rtol), progress=report)
-        rows = {"kinetic_energy": [energies(self.scene, s) for s in solutions]}
+        form = FORMS[self.variant]
+        first = initial(self.scene, self.sizes[0], START_ENERGY, form.rolls)
+        solutions = steady_on(self.scene, self.sizes, start=first, continuity=form.continuity,
+                              until=Steady(rtol=self.rtol, longest=self.longest), progress=report)
+        rows = {"kinetic_energy": [energies(self.scene, s, self.variant) for s in solutions]}
+        finest = point(self.scene, solutions[-1], self.variant)
+        if self.smooth:
+            rows["smoothed"] = list(smoothed_rows(finest, solutions[-1].fields, self.smooth))
         if self.keep:
-            rows["fields"] = fields(self.scene, solutions[-1])
+            rows["fields"] = fields(self.scene, solutions[-1], finest)
         return Outcome(rows)
 
 
-def fields(scene: RayleighBenard, solution: Solution) -> list[dict]:
+def fields(scene: RayleighBenard, solution: Solution, point: dict) -> list[dict]:
     """The fields at the places where particles' fields are kept."""
-    point = {"method": "compressible", "variant": "flux-form", **scene_columns(scene), "resolution": solution.rows, "seed": 0}
     grid = Grid.over((scene.width, scene.L), 30)
     at = interpolate(solution.fields, grid.x, grid.y)
     columns = (grid.x/scene.L, grid.y/scene.L, at.rho, at.T, at.vx, at.vy)
     names = ("x", "y", "rho", "T", "vx", "vy")
-    return [{**point, **dict(zip(names, map(float, row), strict=True))}
+    return [{**point, "seed": 0, **dict(zip(names, map(float, row), strict=True))}
             for row in zip(*(np.ravel(c) for c in columns), strict=True)]
 
 
 @dataclass(frozen=True, kw_only=True)
 class CompressibleApproach(Case):
-    """K(t) from the rolls of Sec. VI    [KHP95, Fig. 8]"""
+    """K(t) from the rolls of Sec. VI, until t_end in free-fall times    [KHP95, Fig. 8]"""
     scene: RayleighBenard
     rows: int = 50
-    t_end: float = 4500.0
+    t_end: float = 90.0
 
     @property
     def cost(self) -> float:
-        return 3e-4*self.rows**3*self.t_end/4500 + 3
+        return 4e-5*self.rows**3*self.t_end/90 + 3
 
     @property
     def label(self) -> str:
@@ -85,10 +111,10 @@ class CompressibleApproach(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         scene = self.scene
-        start = initial(scene, self.rows, START_ENERGY)
-        solution = run(scene, self.rows, until=Time(self.t_end, 300), start=start, progress=report)
-        point = {"method": "compressible", "variant": "flux-form", **scene_columns(scene), "resolution": self.rows, "seed": 0}
-        return Outcome({"history": [{**point, "t": t, "t_viscous": t/scene.viscous_time, "ke": ke, "ke_field": ke}
+        start, t_end = initial(scene, self.rows, START_ENERGY), self.t_end*scene.L/scene.free_fall
+        solution = run(scene, self.rows, until=Time(t_end, 300), start=start, progress=report)
+        key = {**point(scene, solution, "flux-form"), "seed": 0}
+        return Outcome({"history": [{**key, "t": t, "t_viscous": t/scene.viscous_time, "ke": ke, "ke_field": ke}
                                     for t, ke in zip(solution.series.t, solution.series.ke, strict=True)]})
 
 
@@ -169,7 +195,8 @@ class PypdeSteady(Case):
         if self.scene is not None:
             point |= {"method": "pypde-compressible", "variant": "staggered", **scene_columns(self.scene),
                       "free_fall": self.scene.free_fall}
-        return {**point, "resolution": solution.rows, "ke": solution.ke, "ke_err": 2*solution.ke_err, "ke_field": solution.ke,
+        return {**point, "resolution": solution.rows, "ke": solution.ke,
+            "ke_err": 2*solution.ke_err, "ke_field": solution.ke,
                 "ke_field_err": 2*solution.ke_err, "nu": solution.nu, "nu_err": settling(solution),
                 "rolls": solution.rolls, "mass_drift": solution.mass_drift, "converged": solution.converged,
                 "dt": solution.dt, "steps": solution.steps, "t_end": solution.t, "cpu_s": solution.cpu_s,

@@ -170,7 +170,8 @@ class SpamRun(Case):
 
     def plan(self, folder: Path) -> Plan:
         """Steps, and what is recorded on the way."""
-        series = {"kp": particle_kinetic, "kg": field_kinetic, "heat": heat_flow, "lower": PlateHeat(-1), "upper": PlateHeat(1)}
+        series: dict[str, Any] = {"kp": particle_kinetic, "kg": field_kinetic, "heat": heat_flow, "lower": PlateHeat(-1),
+                                  "upper": PlateHeat(1)}
         return Plan(dt=self.dt, steps=round(self.t_end*self.unit/self.dt), mean_from=self.mean_from*self.unit, series=series,
                     means={"grid": self._grid, "profile": Profile(round(self.scene.L)), "walls": wall_layers},
                     every=max(1, round(self.unit/RECORDS/self.dt)), checkpoint=folder/"run.h5")
