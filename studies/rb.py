@@ -36,11 +36,11 @@ LINE = (1500.0, 1750.0, 2000.0, 2500.0, 3000.0, 3500.0, 4200.0, 5000.0, 6000.0, 
 
 def spam(ra: float, rows: int, seeds=SEEDS, variant: Variant = PRINTED, keep="", t_end=90.0, mean_from=40.0,
          **scene) -> Iterator[SpamRun]:
-    """The same point for several seeds; only the first keeps its fields or particles."""
+    """The same point for several seeds; only the first keeps its fields or particles, the others K(t)."""
     where = RayleighBenard(ra=ra, L=float(rows), **(LAYER | scene))
     for seed in seeds:
         yield SpamRun(scene=where, variant=variant, seed=seed, t_end=t_end, mean_from=mean_from,
-                      keep=keep if seed == seeds[0] else "")
+                      keep=keep if seed == seeds[0] else keep and "history")
 
 
 def gas(ra: float, sizes: tuple[int, ...], keep="", variant="flux-form", longest=60.0, **scene) -> CompressibleSteady:

@@ -124,9 +124,9 @@ class SpamRun(Case):
     """One run of smooth particles.
 
     scene : with L = particle rows over the height (unit spacing). t_end, mean_from : in free-fall times L/free_fall,
-    averages are taken after `mean_from`. keep : "" for energies only, "fields" for the mean fields and profile, too, "all"
-    for the particles at the end besides, the last two in files for ParaView, too. A run that diverges is a result: its
-    row has no energies and the time of the failure.
+    averages are taken after `mean_from`. keep : "" for energies only, "history" for K(t) in detail, "fields" for the mean
+    fields and profile besides, "all" for the particles at the end besides, then in files for ParaView, too. A run that
+    diverges is a result: its row has no energies and the time of the failure.
     """
     scene: RayleighBenard
     variant: Variant = PRINTED
@@ -165,7 +165,7 @@ class SpamRun(Case):
         except Divergence as error:
             return Outcome({"kinetic_energy": [self._diverged(plan, error.step)]})
         if self.keep == "all":
-            self._draw(done, folder)
+            self._draw(done, folder.parent/"paraview")
         return Outcome({name: list(rows) for name, rows in self._tables(chosen, done, plan).items()})
 
     def plan(self, folder: Path) -> Plan:
@@ -188,7 +188,7 @@ class SpamRun(Case):
 
     def _tables(self, chosen: Spam, done: Run, plan: Plan) -> dict:
         rows = {"kinetic_energy": [self._energies(done, plan)], "walls": self._walls(done), "history": self._history(done)}
-        if self.keep:
+        if self.keep in ("fields", "all"):
             rows |= {"fields": self._fields(done), "profiles": self._profiles(done)}
         if self.keep == "all":
             rows["particles"] = self._particles(chosen, done)
@@ -237,7 +237,7 @@ class SpamRun(Case):
                 for heat in [mean(self._late(done, plate))]]
 
     def _history(self, done: Run) -> list[dict]:
-        """Some 240 samples where fields are kept, 40 elsewhere."""
+        """Some 240 samples where more than energies is kept, 40 elsewhere."""
         every = max(1, len(done.times)//(240 if self.keep else 40))
         samples = zip(done.times, done.series["kp"], done.series["kg"], strict=True)
         return [{**self.point, "t": t, "t_viscous": t/self.scene.viscous_time, "ke": kp, "ke_field": kg}
@@ -267,11 +267,12 @@ class SpamRun(Case):
                 for i, row in enumerate(zip(*columns, strict=True))]
 
     def _draw(self, done: Run, folder: Path) -> None:
-        """Particles at the end and mean fields as files for ParaView."""
+        """Particles at the end and mean fields as files for ParaView, which stay when the case is finished."""
         (sums, state), grid = at_end(method(self.scene, self.variant), done), self._grid
-        n = sums.n
-        write_particles(folder/"particles.vtp", state, rho=sums.around.rho[:n], T=sums.around.T[:n])
-        write_grid(folder/"fields.vti", grid.x, grid.y, Fields(*done.means["grid"])._asdict())
+        n, name = sums.n, "-".join(str(self.point[column]) for column in ("variant", "eos", "ra", "resolution", "seed"))
+        folder.mkdir(parents=True, exist_ok=True)
+        write_particles(folder/f"{name}.vtp", state, rho=sums.around.rho[:n], T=sums.around.T[:n])
+        write_grid(folder/f"{name}.vti", grid.x, grid.y, Fields(*done.means["grid"])._asdict())
 
 
 def at_end(chosen: Spam, done: Run) -> tuple[Any, np.ndarray]:
