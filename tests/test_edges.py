@@ -1,0 +1,132 @@
+"""Edges of every maker: antisymmetry by construction, closure, linear exactness, skewness where they are claimed."""
+import numpy as np
+import pytest
+
+from particles.edges import MAKERS, delaunay, plain, printed, renormalised
+from particles.interpolants import Exponential, Gaussian, W, f, moment, reach
+from particles.points import jittered, lattice, of_positions, off_lattice, pairs, random, relaxed
+from particles.weights import WEIGHTS, Lucy, WendlandC2
+
+COUNTS = {1: (20,), 2: (10, 12), 3: (6, 6, 7)}
+CLOSE = ("closed", "exact", "delaunay")
+LINEAR = ("exact", "delaunay")
+
+
+def points(kind: str, d: int):
+    counts = COUNTS[d]
+    return {"lattice": lambda: lattice(counts), "jittered": lambda: jittered(counts, 0.2, 1),
+            "random": lambda: random(counts, 0.5, 2)}[kind]()
+
+
+def make(name: str, at):
+    return MAKERS[name](at, WendlandC2.of(h=2.7 if at.d < 3 else 2.2, d=at.d))
+
+
+CASES = [(name, kind, d) for name in MAKERS for kind in ("lattice", "jittered", "random") for d in (1, 2, 3)
+         if not (name == "delaunay" and (d == 1 or (d == 3 and kind == "lattice")))]
+
+
+@pytest.mark.parametrize(("name", "kind", "d"), CASES)
+def test_exchange_conserves_and_sees_no_gradient_in_a_constant(name, kind, d):
+    edges = make(name, points(kind, d))
+    F = np.random.default_rng(0).normal(size=(edges.n, d))
+    size = np.abs(edges.S).sum()
+    assert abs((edges.V*edges.div(F)).sum()) < 1e-13*size
+    assert np.abs(edges.grad(np.ones(edges.n))).max()*edges.V.min() < 1e-13*size/edges.n*10
+    assert abs((edges.V*edges.lap(F[:, 0])).sum()) < 1e-13*edges.k.sum()
+    for D, G in zip(edges.D, edges.G, strict=True):
+        assert np.abs(D + G.T).max() < 1e-15*size
+
+
+@pytest.mark.parametrize(("name", "kind", "d"), [c for c in CASES if c[0] in CLOSE])
+def test_edges_close(name, kind, d):
+    edges = make(name, points(kind, d))
+    # solves with a condition number of some 1e3
+    assert np.abs(edges.closure).max() < 1e-11*np.abs(edges.S).max()
+
+
+@pytest.mark.parametrize(("name", "kind", "d"), [c for c in CASES if c[0] in LINEAR])
+def test_edges_are_exact_on_linear_fields(name, kind, d):
+    edges = make(name, points(kind, d))
+    assert np.abs(edges.linear - np.eye(d)).max() < 1e-10
+
+
+@pytest.mark.parametrize(("kind", "d"), [c[1:] for c in CASES if c[0] == "delaunay"])
+def test_delaunay_volumes_fill_the_box(kind, d):
+    at = points(kind, d)
+    edges = delaunay(at)
+    assert edges.V.sum() == pytest.approx(np.prod(at.box), rel=1e-12)
+    assert edges.V.min() > 0
+
+
+def test_plain_gradient_is_that_of_the_smoothed_field():
+    """Symbol i k f^(k) [RR98 Eqs 1, 3] on a lattice fine enough that sums are integrals."""
+    at, weight = lattice((64,)), Lucy.of(h=12.0, d=1)
+    edges = renormalised(at, weight)
+    k = 2*np.pi/64*3
+    r = (np.arange(20000) + 0.5)/20000*12
+    transform = 2*np.sum(f(weight, r)*np.cos(k*r))*12/20000
+    found = edges.grad(np.sin(k*at.x[:, 0]))[:, 0]
+    np.testing.assert_allclose(found, k*transform*np.cos(k*at.x[:, 0]), atol=2e-4*k)
+
+
+@pytest.mark.parametrize("d", [2, 3])
+def test_equation_29_multiplies_gradients_by_its_predicted_factor(d):
+    """Summed over a lattice it is int |S_d| r^(d-1) a^(1-d) W r dV/d = (|S_d|/d) M_d (r0/a)^(d-1): 4 pi/3 M_3 (r0/a)^2 in 3D."""
+    at = lattice((48, 48) if d == 2 else (14, 14, 14))
+    weight = Lucy.of(h=6.0, d=d)
+    factor = renormalised(at, weight).linear[0, 0, 0]/1.0
+    measured = printed(at, weight).linear[0, 0, 0]/factor
+    predicted = 2*np.pi**(d/2)/{2: 1.0, 3: np.pi**0.5/2}[d]*moment(weight, d, d)*6.0**(d - 1)/d
+    assert measured == pytest.approx(predicted, rel=0.02)
+
+
+@pytest.mark.parametrize("d", [1, 2, 3])
+@pytest.mark.parametrize("kind", [*WEIGHTS.values(), Exponential, Gaussian])
+def test_first_moment_is_the_dimension(kind, d):
+    weight = kind.of(h=1.7, d=d) if hasattr(kind, "of") else kind(0.6, d)
+    assert moment(weight, 1, d) == pytest.approx(d, rel=1e-9)
+    r = np.linspace(0.05, min(1.6, reach(weight)), 7)
+    # W = -f' by central differences: h^2 f''' is 1e-8 of f'
+    slope = (f(weight, r + 1e-5) - f(weight, r - 1e-5))/2e-5
+    np.testing.assert_allclose(W(weight, r), -slope, rtol=1e-5, atol=1e-8)
+
+
+@pytest.mark.parametrize(("d", "third"), [(1, 6.0), (2, 8.0), (3, 10.0)])
+def test_third_moment_of_the_exponential_weight(d, third):
+    assert moment(Exponential(0.4, d), 3, d) == pytest.approx(third, rel=1e-8)
+
+
+def test_a_weight_of_another_dimension_is_refused():
+    with pytest.raises(ValueError, match=r"M_1 = .* which must be 2"):
+        plain(lattice((10, 10)), Lucy.of(h=2.0, d=3))
+
+
+def test_overlapping_points_and_points_outside_are_refused():
+    at = lattice((6, 6))
+    twice = at.x.copy()
+    twice[7] = twice[8]
+    with pytest.raises(ValueError, match="points 7 and 8 overlap"):
+        pairs(of_positions(twice, at.box), 2.0)
+    far = at.x.copy()
+    far[3, 1] = 9.0
+    with pytest.raises(ValueError, match=r"point 3 .* outside"):
+        of_positions(far, at.box)
+
+
+def test_a_lattice_in_space_has_no_triangulation_of_its_own():
+    with pytest.raises(ValueError, match="flat simplex"):
+        delaunay(lattice((6, 6, 6)))
+
+
+def test_points_in_parts_cannot_be_closed():
+    x = np.concatenate([lattice((3, 3)).x - 6, lattice((3, 3)).x + 6])
+    with pytest.raises(ValueError, match="2 parts"):
+        MAKERS["closed"](of_positions(x, (24.0, 24.0)), WendlandC2.of(h=2.0))
+
+
+def test_relaxed_points_are_regular_but_no_lattice():
+    weight = WendlandC2.of(h=3.0)
+    at = relaxed(random((10, 10), 0.5, 3), weight)
+    assert np.abs(renormalised(at, weight).closure).max() < 0.05
+    assert off_lattice(lattice((8, 8))) < 1e-12 < 0.2 < off_lattice(at)
