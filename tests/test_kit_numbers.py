@@ -120,3 +120,18 @@ def test_the_interval_of_a_measured_step_covers_the_truth_as_often_as_it_says():
     covered = np.mean(np.abs(median) < SPREAD_TO_ERR*(high - low)/2)
     # the quartiles of 7 know sigma less well than t with 6 degrees of freedom takes for granted: up to 2 % are lost
     assert 0.93 < covered < 0.97
+
+
+def test_a_series_that_drifts_is_not_settled_and_says_so_in_its_error():
+    rng, n = np.random.default_rng(0), 400
+    flat = rng.normal(1.0, 0.1, n)
+    rising = flat + np.linspace(0, 0.4, n)
+    (value, err), steady = stats.settled(flat)
+    assert steady and (value, err) == stats.mean(flat)
+    (_, wide), steady = stats.settled(rising)
+    assert not steady and wide > 0.09          # half of what the halves differ by, 0.2
+
+
+def test_few_steady_series_are_called_drifting():
+    rng = np.random.default_rng(1)
+    assert sum(not stats.settled(rng.normal(size=200))[1] for _ in range(500)) <= 8     # 0.3 % expected, 1.6 % once in 10^4

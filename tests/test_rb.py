@@ -127,3 +127,13 @@ def test_errors_follow_from_kinetic_energies(kinetic):
     row = errors[(errors["method"] == "compressible") & (errors["ra"] == 10000) & (errors["eos"] == "ideal")
                  & (errors["transport"] == "const-eta") & (errors["sides"] == "periodic")].iloc[0]
     assert row["error"] == pytest.approx(row["ke"]/limit(kinetic, "compressible", 10000.0)["ke"] - 1, rel=1e-6)
+
+
+def test_a_run_that_diverges_is_a_row_without_energies(tmp_path):
+    """Images with T -> 2 T_w - T and a pressure of their own get T < 0 behind the cold plate."""
+    where = rb.RayleighBenard(ra=1e4, L=20.0)
+    case = spam.SpamRun(scene=where, variant=spam.VARIANTS["walls-odd-own-pressure"])
+    [row] = case.run(lambda done: None, tmp_path).rows["kinetic_energy"]
+    assert np.isnan([row["ke"], row["ke_field"], row["nu"]]).all()
+    assert not row["converged"] and 0 < row["steps"] < case.plan(tmp_path).steps
+    assert row["t_end"] == pytest.approx(row["steps"]*row["dt"])

@@ -1,0 +1,69 @@
+"""Rows that follow from rows: seeds, rolls, halved steps, costs, errors against what particles can see."""
+import numpy as np
+import pandas as pd
+import pytest
+
+from studies.convection.derive import HALF, derive, over_seeds
+from studies.convection.tables import POINT
+from studies.kit.table import Tables
+
+AT = {"eos": "ideal", "transport": "const-eta", "sides": "periodic", "ra": 1e4, "pr": 1.0}
+
+
+def spam(rows=50, seed=1, ke=4.0, kg=3.0, rolls=2, variant="printed", **more):
+    return {"method": "spam", "variant": variant, **AT, "resolution": rows, "particles": 2*rows**2, "seed": seed, "ke": ke,
+            "ke_err": 0.1, "ke_field": kg, "ke_field_err": 0.1, "ke_fluctuation": ke - kg, "nu": 2.0, "nu_err": 0.1,
+            "rolls": rolls, "converged": True, "steps": 100, "cpu_s": 9.0, **more}
+
+
+def grid(rows, ke, steps=10):
+    return {**spam(rows, 0, ke, ke, 2, "flux-form"), "method": "compressible", "particles": 0, "ke_err": 0.0, "nu_err": 0.0,
+            "ke_field_err": 0.0, "ke_fluctuation": 0.0, "steps": steps, "free_fall": 1.0, "threads": 1, "compile_s": 0.0}
+
+
+def means(*rows):
+    return pd.DataFrame(over_seeds(pd.DataFrame(rows))).set_index(["variant", "resolution"])
+
+
+def test_seeds_in_other_rolls_are_left_out():
+    found = means(spam(seed=1, ke=4.0), spam(seed=2, ke=4.2), spam(seed=3, ke=9.0, rolls=4)).loc[("printed", 50)]
+    assert (found["seeds"], found["rolls"]) == (2, 2)
+    assert found["ke"] == pytest.approx(4.1)
+
+
+def test_error_has_what_half_of_the_step_changes():
+    rows = [spam(25, ke=4.0), spam(25, ke=5.0, kg=3.0, variant=HALF), spam(50), spam(16)]
+    found = means(*rows)["ke_err"]
+    assert found[("printed", 25)] == pytest.approx(np.hypot(0.1, 4.0*0.25))
+    assert found[("printed", 50)] == pytest.approx(np.hypot(0.1, 4.0*0.25))      # that of the next coarser one
+    assert found[("printed", 16)] == pytest.approx(0.1)                         # nothing is known of coarser ones
+    assert means(*rows)["ke_field_err"][("printed", 25)] == pytest.approx(0.1)   # the field did not change
+
+
+def tables(*rows, **others):
+    return Tables({"kinetic_energy": pd.DataFrame(rows), **{name: pd.DataFrame(r) for name, r in others.items()}})
+
+
+def test_smoothed_energy_is_judged_by_what_the_weight_leaves_of_the_grid():
+    grids = [grid(rows, 5.0*(1 + 1/rows**2)) for rows in (16, 24, 32)]
+    seen = [{**{k: grids[0][k] for k in POINT}, "weight": "Lucy", "h": 3.0, "rows": 50, "ke": 5.0, "ke_smoothed": 4.0}]
+    found = pd.DataFrame(derive(tables(*grids, spam(ke=5.5, kg=3.0), smoothed=seen))["errors"])
+    errors = found[found["method"] == "spam"].set_index("energy")["error"]
+    assert errors["Kp"] == pytest.approx(0.1, abs=1e-3)        # the grid's limit is 5
+    assert errors["Kg"] == pytest.approx(3/4 - 1, abs=1e-3)
+
+
+def test_cost_counts_all_seeds_and_the_coarser_grids():
+    grids = [grid(rows, 5.0*(1 + 1/rows**2), steps) for rows, steps in ((16, 10), (24, 20), (32, 30))]
+    steps = [{"method": "compressible", "variant": "flux-form", "eos": "ideal", "sides": "periodic", "resolution": rows,
+              "step_s": s} for rows, s in ((16, 1.0), (24, 2.0), (32, 3.0))]
+    found = pd.DataFrame(derive(tables(*grids, spam(seed=1), spam(seed=2), cost=steps))["errors"])
+    cpu = found.set_index(["method", "resolution"])["cpu_s"]
+    assert cpu[("compressible", 24)] == pytest.approx(10*1 + 20*2)
+    assert cpu[("spam", 50)] == pytest.approx(18.0)            # no step of it was measured alone: what the runs took
+
+
+def test_runs_that_diverged_are_in_no_mean():
+    broken = spam(seed=2, ke=np.nan, kg=np.nan, rolls=0, converged=False)
+    found = pd.DataFrame(derive(tables(spam(seed=1), broken))["means"])
+    assert len(found) == 1 and found["seeds"].iloc[0] == 1 and found["ke"].iloc[0] == 4.0
