@@ -1,0 +1,190 @@
+"""Discretized integral hydrodynamics: mass, momentum and energy exchanged over edges, in d dimensions    [RR98, Sec. III]
+
+The state (2 + d, n) holds densities rho, p^alpha = rho v^alpha, total energy eps per volume; RR98's m_i, p_i, eps_i are these
+times the volume V_i (Eq. 26). What leaves point i over an edge is what point j gains:
+
+    mass       1/2 S.(rho_i v_j + rho_j v_i)                                                   [Eq. 34]
+    momentum   1/2 S.{(p_i v_j + p_j v_i) + (P_ij + P_ji) 1 - (pi_ij + pi_ji)}                   [Eq. 35]
+    energy     1/2 S.{(eps_i v_j + eps_j v_i) + (P_ij v_i + P_ji v_j) - (pi_ij.v_i + pi_ji.v_j) + (J_ij + J_ji)}    [Eq. 36]
+
+with P_ij = P(rho_i, T_j), and stress and heat current nested (Eqs 37, 38) or pairwise (Eq. 51).
+"""
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import conductivity, energy, pressure, stress_tensor, temperature, valid, viscosity
+from particles.edges import Edges
+
+
+class Flow(NamedTuple):
+    """What follows from a state: rho (n,), v (n, d), T (n,), eps (n,), P (n,)."""
+    rho: np.ndarray
+    v: np.ndarray
+    T: np.ndarray
+    eps: np.ndarray
+    P: np.ndarray
+
+
+class Fluxes(NamedTuple):
+    """What leaves the first point of each edge: mass (E,), momentum (E, d), energy (E,)."""
+    mass: np.ndarray
+    momentum: np.ndarray
+    energy: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Nested:
+    """Stress and heat current of Eqs 37, 38: pi_ij = eta_i E(grad v_j), J_ij = -kappa_i grad T_j.
+
+    differences : the inner sum takes v_k - v_j, exact on uniform flow, instead of v_k as printed; the same on a lattice.
+    """
+    differences: bool = True
+
+    def fluxes(self, dih: "Dih", flow: Flow) -> Fluxes:
+        """Through all edges."""
+        edges = dih.edges
+        i, j, eta, zeta, kappa = edges.i, edges.j, *dih.coefficients(flow)
+        slope = self.gradient(edges, flow.v)
+        one, other = stress_tensor(eta[i], zeta[i], slope[j]), stress_tensor(eta[j], zeta[j], slope[i])
+        heat = self.gradient(edges, flow.T[:, None])[:, :, 0]
+        half = edges.S/2
+        momentum = -np.einsum("eb,eab->ea", half, one + other)
+        work = np.einsum("eb,eab,ea->e", half, one, flow.v[i]) + np.einsum("eb,eab,ea->e", half, other, flow.v[j])
+        current = -kappa[i, None]*heat[j] - kappa[j, None]*heat[i]
+        return Fluxes(np.zeros(len(i)), momentum, (half*current).sum(axis=1) - work)
+
+    def gradient(self, edges: Edges, f: np.ndarray) -> np.ndarray:
+        """(n, d, m) of f (n, m): by differences, or -sum_k w_jk e_jk f_k as printed."""
+        matrices = edges.G if self.differences else [S/2 for S in edges.areas]
+        return np.stack([M@f for M in matrices], axis=1)/edges.V[:, None, None]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pairwise:
+    """Forces along edges [Eq. 51]: k [(A/d)(v_j - v_i) + (B/d) e e.(v_j - v_i)], heat k kappa (T_j - T_i).
+
+    A = d [eta (1/2 + 1/d) - zeta/2], B = d (d + 2)/2 [eta (1 - 2/d) + zeta]: both viscosities can be chosen, against RR98.
+    mended : with the flux F = eta (v.grad) v - (2 eta/d - zeta) v div v, whose divergence is what the work of such forces lacks
+    of the viscous heating; without it even a rigid rotation heats.
+    """
+    mended: bool = True
+
+    def fluxes(self, dih: "Dih", flow: Flow) -> Fluxes:
+        """Through all edges.
+
+        Raises
+        ------
+        ValueError
+            A bulk viscosity that would make one of the two frictions negative.
+        """
+        edges, d = dih.edges, dih.edges.d
+        i, j, eta, zeta, kappa = edges.i, edges.j, *(mean(q, edges) for q in dih.coefficients(flow))
+        check_bulk(eta, zeta, d)
+        A, B = eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
+        dv = flow.v[j] - flow.v[i]
+        e = edges.apart/np.sqrt((edges.apart**2).sum(axis=1))[:, None]
+        force = edges.k[:, None]*(A[:, None]*dv + B[:, None]*e*(e*dv).sum(axis=1)[:, None])
+        work = (force*(flow.v[i] + flow.v[j])).sum(axis=1)/2
+        heat = edges.k*kappa*(flow.T[j] - flow.T[i])
+        total = -work - heat
+        if self.mended:
+            F = self.lacking(dih, flow)
+            total = total - (edges.S*(F[i] + F[j])).sum(axis=1)/2
+        return Fluxes(np.zeros(len(i)), -force, total)
+
+    def lacking(self, dih: "Dih", flow: Flow) -> np.ndarray:
+        """F (n, d), whose divergence belongs to the energy."""
+        edges, d = dih.edges, dih.edges.d
+        eta, zeta, _ = dih.coefficients(flow)
+        slope = np.stack([G@flow.v for G in edges.G], axis=1)/edges.V[:, None, None]      # [n, a, b] = d_a v_b
+        along = np.einsum("na,nab->nb", flow.v, slope)
+        div = np.einsum("naa->n", slope)
+        return eta[:, None]*along - ((2*eta/d - zeta)*div)[:, None]*flow.v
+
+
+def check_bulk(eta: np.ndarray, zeta: np.ndarray, d: int) -> None:
+    """Frictions A and B of an edge must not be negative; on a line both act along it and only their sum, zeta, counts."""
+    low, high = (0*eta, np.inf + 0*eta) if d == 1 else (-eta*(1 - 2/d), eta*(1 + 2/d))
+    bad = np.flatnonzero((zeta < low - 1e-12*eta) | (zeta > high + 1e-12*eta))
+    if len(bad):
+        k = bad[0]
+        raise ValueError(f"bulk viscosity {zeta[k]:.4g} with shear viscosity {eta[k]:.4g} is outside of what forces along edges "
+                         f"allow in {d} dimensions, {low[k]:.4g} to {high[k]:.4g}: take nested transport (Eqs 37, 38)")
+
+
+def mean(q: np.ndarray, edges: Edges) -> np.ndarray:
+    """Means over the two points of each edge."""
+    return (q[edges.i] + q[edges.j])/2
+
+
+@dataclass(frozen=True, kw_only=True)
+class Dih:
+    """A fluid on fixed points.
+
+    edges : of `particles.edges`. eos, law : of `continuum.fluid`. zeta : bulk viscosity. transport : Nested or Pairwise.
+    """
+    edges: Edges
+    eos: Any
+    law: Any
+    zeta: float = 0.0
+    transport: Any = Pairwise()
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """Names of the rows of a state."""
+        return ("rho", *("px", "py", "pz")[:self.edges.d], "eps")
+
+    def state(self, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
+        """(2 + d, n) of densities (n,), velocities (n, d), temperatures (n,)."""
+        internal = energy(self.eos, rho, T)*np.ones_like(rho)
+        return np.stack([rho, *(rho[:, None]*v).T, rho*(internal + (v**2).sum(axis=1)/2)])
+
+    def flow(self, state: np.ndarray) -> Flow:
+        """Fields of a state.
+
+        Raises
+        ------
+        FloatingPointError
+            A density or an energy is outside of the validity of the equation of state; names the point.
+        """
+        rho, eps = state[0], state[-1]
+        with np.errstate(all="ignore"):
+            v = (state[1:-1]/rho).T
+            e = eps/rho - (v**2).sum(axis=1)/2
+            good = np.isfinite(e) & valid(self.eos, rho, e)
+        if not good.all():
+            i = int(np.argmin(good))
+            raise FloatingPointError(f"point {i} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of "
+                                     f"{type(self.eos).__name__}: take a shorter step, more viscosity or a smoother start")
+        return Flow(rho, v, temperature(self.eos, rho, e), eps, pressure(self.eos, rho, e))
+
+    def coefficients(self, flow: Flow) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """(eta, zeta, kappa), each (n,)."""
+        one = np.ones_like(flow.rho)
+        return viscosity(self.law, flow.rho, flow.T)*one, self.zeta*one, conductivity(self.law, flow.rho, flow.T)*one
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(state)/dt, written to `out`    [Eqs 34-36]"""
+        flow = self.flow(state)
+        carried, spread = self.convection(flow), self.transport.fluxes(self, flow)
+        edges = self.edges
+        rows = (carried.mass + spread.mass, *(carried.momentum + spread.momentum).T, carried.energy + spread.energy)
+        for row, flux in zip(out, rows, strict=True):
+            row[:] = (np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n))/edges.V
+
+    def convection(self, flow: Flow) -> Fluxes:
+        """Brackets of Eqs 34-36 without stress and heat."""
+        edges = self.edges
+        i, j, half = edges.i, edges.j, edges.S/2
+        to_j, to_i = (half*flow.v[j]).sum(axis=1), (half*flow.v[i]).sum(axis=1)      # S.v_j/2, S.v_i/2
+        p = flow.rho[:, None]*flow.v
+        P_ij, P_ji = (pressure(self.eos, flow.rho[a], energy(self.eos, flow.rho[a], flow.T[b])) for a, b in ((i, j), (j, i)))
+        mass = flow.rho[i]*to_j + flow.rho[j]*to_i
+        momentum = p[i]*to_j[:, None] + p[j]*to_i[:, None] + half*(P_ij + P_ji)[:, None]
+        return Fluxes(mass, momentum, flow.eps[i]*to_j + flow.eps[j]*to_i + P_ij*to_i + P_ji*to_j)
+
+    def conserved(self, state: np.ndarray) -> np.ndarray:
+        """Mass, momentum and energy of all points, (2 + d,)."""
+        return state@self.edges.V
