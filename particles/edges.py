@@ -22,7 +22,7 @@ from scipy.sparse.linalg import spsolve
 from scipy.spatial import Delaunay
 
 from particles.interpolants import W, check, reach, sphere
-from particles.points import Points, pairs
+from particles.points import Points, of_positions, pairs
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -165,7 +165,7 @@ def check_connected(edges: Edges) -> None:
                          "smallest): take a wider weight or more points")
 
 
-def delaunay(points: Points) -> Edges:
+def delaunay(points: Points, weight: Any = None) -> Edges:
     """P1 elements on the Delaunay triangulation: S_ij = A_ij - A_ji, A_ij = int phi_i grad phi_j, V_i = int phi_i.
 
     Closed and exact on linear fields on any points; the conductances are those of P1, (cot + cot)/2 in 2D. d = 2, 3.
@@ -203,14 +203,20 @@ def _assembled(points: Points, corner: np.ndarray, x: np.ndarray, volume: np.nda
     S = (volume[:, None, None]/(d + 1)*(slopes[:, b] - slopes[:, a])).reshape(-1, d)
     k = -(volume[:, None]*np.einsum("tea,tea->te", slopes[:, a], slopes[:, b])).ravel()
     apart = (x[:, b] - x[:, a]).reshape(-1, d)
-    turn = i > j
-    S[turn], apart[turn] = -S[turn], -apart[turn]
-    i, j = np.minimum(i, j), np.maximum(i, j)
-    # two points may be joined in two directions where the box is a few spacings wide: told apart by where they lead
-    keys = np.column_stack([i, j, np.round(apart/points.a*1e6).astype(np.int64)])
+    return combined(i, j, S, k, apart, V, points.a)
+
+
+def combined(i: np.ndarray, j: np.ndarray, S: np.ndarray, k: np.ndarray, apart: np.ndarray, V: np.ndarray, a: float) -> Edges:
+    """Edges with i < j, those that join the same points added up.
+
+    Two points may be joined in two directions where the box is a few spacings wide: told apart by where they lead.
+    """
+    turn = np.where(i > j, -1.0, 1.0)[:, None]
+    S, apart, i, j = turn*S, turn*apart, np.minimum(i, j), np.maximum(i, j)
+    keys = np.column_stack([i, j, np.round(apart/a*1e6).astype(np.int64)])
     _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     sums = [np.bincount(inverse.ravel(), q, len(first)) for q in (*S.T, k)]
-    return Edges(i=i[first], j=j[first], S=np.stack(sums[:d], axis=1), k=sums[d], apart=apart[first], V=V)
+    return Edges(i=i[first], j=j[first], S=np.stack(sums[:-1], axis=1), k=sums[-1], apart=apart[first], V=V)
 
 
 def _with_images(points: Points) -> tuple[np.ndarray, np.ndarray]:
@@ -271,7 +277,49 @@ def _constraints(edges: Edges) -> sparse.csr_array:
                             shape=((1 + edges.d)*n, len(e)))
 
 
-#: by name; each makes edges of points and a weight, `delaunay` of points alone
-MAKERS: dict[str, Callable[[Points, Any], Edges]] = {
-    "printed": printed, "plain": plain, "renormalised": renormalised, "closed": closed, "exact": exact,
-    "delaunay": lambda points, weight: delaunay(points)}
+#: by name; each makes edges of points and a weight, which `delaunay` does not use
+MAKERS: dict[str, Callable[[Points, Any], Edges]] = {"printed": printed, "plain": plain, "renormalised": renormalised,
+                                                     "closed": closed, "exact": exact, "delaunay": delaunay}
+
+
+MIRROR = np.array([1.0, -1.0])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Beyond:
+    """Edges from points i to the mirror images of points `parent` behind plate 0 (lower) or 1 (upper), each one way only."""
+    i: np.ndarray
+    parent: np.ndarray
+    S: np.ndarray
+    k: np.ndarray
+    apart: np.ndarray
+    plate: np.ndarray
+
+
+def symmetric(edges: Edges, a: float) -> Edges:
+    """Mean of edges and their mirror image in y = 0, where point m + n/2 is the image of point m."""
+    half = edges.n//2
+    i, j = ((q + half) % edges.n for q in (edges.i, edges.j))
+    joined = np.concatenate
+    return combined(joined([edges.i, i]), joined([edges.j, j]), joined([edges.S, edges.S*MIRROR])/2, joined([edges.k]*2)/2,
+                    joined([edges.apart, edges.apart*MIRROR]), (edges.V + np.roll(edges.V, half))/2, a)
+
+
+def between_plates(make: Callable[[Points, Any], Edges], x: np.ndarray, width: float, height: float,
+                   weight: Any) -> tuple[Edges, Beyond]:
+    """Edges among points x (n, 2), periodic in x, and to their mirror images in the plates y = -+ height/2.
+
+    The maker sees points and images together, a box twice as high that is periodic. What it makes is averaged with its own
+    mirror image (two points and their images lie on one circle: a triangulation has to choose one of two diagonals).
+    """
+    n, shift = len(x), np.array([0.0, height/2])
+    lower = x - shift                                        # -height < y < 0; the upper plate is at 0, the lower at the edge
+    points = of_positions(np.concatenate([lower, lower*MIRROR]), (width, 2*height))
+    edges = symmetric(make(points, weight), points.a)
+    ours, images = (edges.i < n) & (edges.j < n), (edges.i < n) != (edges.j < n)
+    inner = Edges(**{name: getattr(edges, name)[ours] for name in ("i", "j", "S", "k", "apart")}, V=edges.V[:n])
+    turn = np.where(edges.i[images] < n, 1.0, -1.0)
+    i, parent = np.minimum(edges.i, edges.j)[images], np.maximum(edges.i, edges.j)[images] - n
+    S, apart = turn[:, None]*edges.S[images], turn[:, None]*edges.apart[images]
+    upper = lower[i, 1] + apart[:, 1] > 0
+    return inner, Beyond(i=i, parent=parent, S=S, k=edges.k[images], apart=apart, plate=upper.astype(int))

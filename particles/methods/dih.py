@@ -27,11 +27,32 @@ class Flow(NamedTuple):
     P: np.ndarray
 
 
+class Coefficients(NamedTuple):
+    """Shear and bulk viscosity, conductivity, each (n,)."""
+    eta: np.ndarray
+    zeta: np.ndarray
+    kappa: np.ndarray
+
+
 class Fluxes(NamedTuple):
     """What leaves the first point of each edge: mass (E,), momentum (E, d), energy (E,)."""
     mass: np.ndarray
     momentum: np.ndarray
     energy: np.ndarray
+
+
+def take(flow: Flow, points: np.ndarray) -> Flow:
+    """The fields of some points."""
+    return Flow(*(field[points] for field in flow))
+
+
+def carried(eos: Any, S: np.ndarray, a: Flow, b: Flow, weight: Any = 0.0) -> Fluxes:
+    """Brackets of Eqs 34-36 without stress and heat, from points a to b; `weight` is added to the pressure in b."""
+    half = S/2
+    to_b, to_a = (half*b.v).sum(axis=1), (half*a.v).sum(axis=1)      # S.v_b/2, S.v_a/2
+    P_ab, P_ba = pressure(eos, a.rho, energy(eos, a.rho, b.T)), pressure(eos, b.rho, energy(eos, b.rho, a.T))
+    momentum = (a.rho*to_b)[:, None]*a.v + (b.rho*to_a)[:, None]*b.v + half*(P_ab + P_ba + weight)[:, None]
+    return Fluxes(a.rho*to_b + b.rho*to_a, momentum, a.eps*to_b + b.eps*to_a + (P_ab + weight)*to_a + P_ba*to_b)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,29 +100,31 @@ class Pairwise:
         ValueError
             A bulk viscosity that would make one of the two frictions negative.
         """
-        edges, d = dih.edges, dih.edges.d
-        i, j, eta, zeta, kappa = edges.i, edges.j, *(mean(q, edges) for q in dih.coefficients(flow))
-        check_bulk(eta, zeta, d)
-        A, B = eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
-        dv = flow.v[j] - flow.v[i]
-        e = edges.apart/np.sqrt((edges.apart**2).sum(axis=1))[:, None]
-        force = edges.k[:, None]*(A[:, None]*dv + B[:, None]*e*(e*dv).sum(axis=1)[:, None])
-        work = (force*(flow.v[i] + flow.v[j])).sum(axis=1)/2
-        heat = edges.k*kappa*(flow.T[j] - flow.T[i])
-        total = -work - heat
+        edges, coefficients = dih.edges, dih.coefficients(flow)
+        check_bulk(coefficients.eta, coefficients.zeta, edges.d)
+        found = along(edges, means(coefficients, edges.i, edges.j), take(flow, edges.i), take(flow, edges.j))
         if self.mended:
-            F = self.lacking(dih, flow)
-            total = total - (edges.S*(F[i] + F[j])).sum(axis=1)/2
-        return Fluxes(np.zeros(len(i)), -force, total)
+            slope = np.stack([G@flow.v for G in edges.G], axis=1)/edges.V[:, None, None]      # [n, a, b] = d_a v_b
+            F = lacking(coefficients, flow.v, slope)
+            found = found._replace(energy=found.energy - (edges.S*(F[edges.i] + F[edges.j])).sum(axis=1)/2)
+        return found
 
-    def lacking(self, dih: "Dih", flow: Flow) -> np.ndarray:
-        """F (n, d), whose divergence belongs to the energy."""
-        edges, d = dih.edges, dih.edges.d
-        eta, zeta, _ = dih.coefficients(flow)
-        slope = np.stack([G@flow.v for G in edges.G], axis=1)/edges.V[:, None, None]      # [n, a, b] = d_a v_b
-        along = np.einsum("na,nab->nb", flow.v, slope)
-        div = np.einsum("naa->n", slope)
-        return eta[:, None]*along - ((2*eta/d - zeta)*div)[:, None]*flow.v
+
+def along(edges: Any, coefficients: Coefficients, a: Flow, b: Flow) -> Fluxes:
+    """Friction and heat along edges (with k and apart), from points a to b    [Eq. 51]"""
+    d, (eta, zeta, kappa) = edges.apart.shape[1], coefficients
+    A, B = eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
+    dv, e = b.v - a.v, edges.apart/np.sqrt((edges.apart**2).sum(axis=1))[:, None]
+    force = edges.k[:, None]*(A[:, None]*dv + B[:, None]*e*(e*dv).sum(axis=1)[:, None])
+    work, heat = (force*(a.v + b.v)).sum(axis=1)/2, edges.k*kappa*(b.T - a.T)
+    return Fluxes(np.zeros(len(heat)), -force, -work - heat)
+
+
+def lacking(coefficients: Coefficients, v: np.ndarray, slope: np.ndarray) -> np.ndarray:
+    """F = eta (v.grad) v - (2 eta/d - zeta) v div v, (n, d), from v (n, d) and slope[n, a, b] = d_a v_b."""
+    d, (eta, zeta, _) = v.shape[1], coefficients
+    div = np.einsum("naa->n", slope)
+    return eta[:, None]*np.einsum("na,nab->nb", v, slope) - ((2*eta/d - zeta)*div)[:, None]*v
 
 
 def check_bulk(eta: np.ndarray, zeta: np.ndarray, d: int) -> None:
@@ -114,9 +137,14 @@ def check_bulk(eta: np.ndarray, zeta: np.ndarray, d: int) -> None:
                          f"allow in {d} dimensions, {low[k]:.4g} to {high[k]:.4g}: take nested transport (Eqs 37, 38)")
 
 
-def mean(q: np.ndarray, edges: Edges) -> np.ndarray:
-    """Means over the two points of each edge."""
-    return (q[edges.i] + q[edges.j])/2
+def rows(one: Fluxes, other: Fluxes) -> list[np.ndarray]:
+    """The sum of two fluxes, row by row of the state."""
+    return [one.mass + other.mass, *(one.momentum + other.momentum).T, one.energy + other.energy]
+
+
+def means(q: Coefficients, i: np.ndarray, j: np.ndarray) -> Coefficients:
+    """Means over two points each."""
+    return Coefficients(*((c[i] + c[j])/2 for c in q))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -160,30 +188,20 @@ class Dih:
                                      f"{type(self.eos).__name__}: take a shorter step, more viscosity or a smoother start")
         return Flow(rho, v, temperature(self.eos, rho, e), eps, pressure(self.eos, rho, e))
 
-    def coefficients(self, flow: Flow) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """(eta, zeta, kappa), each (n,)."""
+    def coefficients(self, flow: Flow) -> Coefficients:
+        """Of all points."""
         one = np.ones_like(flow.rho)
-        return viscosity(self.law, flow.rho, flow.T)*one, self.zeta*one, conductivity(self.law, flow.rho, flow.T)*one
+        return Coefficients(viscosity(self.law, flow.rho, flow.T)*one, self.zeta*one,
+                            conductivity(self.law, flow.rho, flow.T)*one)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt, written to `out`    [Eqs 34-36]"""
         flow = self.flow(state)
-        carried, spread = self.convection(flow), self.transport.fluxes(self, flow)
         edges = self.edges
-        rows = (carried.mass + spread.mass, *(carried.momentum + spread.momentum).T, carried.energy + spread.energy)
-        for row, flux in zip(out, rows, strict=True):
+        moved = carried(self.eos, edges.S, take(flow, edges.i), take(flow, edges.j))
+        spread = self.transport.fluxes(self, flow)
+        for row, flux in zip(out, rows(moved, spread), strict=True):
             row[:] = (np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n))/edges.V
-
-    def convection(self, flow: Flow) -> Fluxes:
-        """Brackets of Eqs 34-36 without stress and heat."""
-        edges = self.edges
-        i, j, half = edges.i, edges.j, edges.S/2
-        to_j, to_i = (half*flow.v[j]).sum(axis=1), (half*flow.v[i]).sum(axis=1)      # S.v_j/2, S.v_i/2
-        p = flow.rho[:, None]*flow.v
-        P_ij, P_ji = (pressure(self.eos, flow.rho[a], energy(self.eos, flow.rho[a], flow.T[b])) for a, b in ((i, j), (j, i)))
-        mass = flow.rho[i]*to_j + flow.rho[j]*to_i
-        momentum = p[i]*to_j[:, None] + p[j]*to_i[:, None] + half*(P_ij + P_ji)[:, None]
-        return Fluxes(mass, momentum, flow.eps[i]*to_j + flow.eps[j]*to_i + P_ij*to_i + P_ji*to_j)
 
     def conserved(self, state: np.ndarray) -> np.ndarray:
         """Mass, momentum and energy of all points, (2 + d,)."""
