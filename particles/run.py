@@ -7,12 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from continuum.fluid import valid
 from particles.checkpoint import load, save
 from particles.integrators import RK4
-from particles.limits import step_limit
+from particles.limits import limit_of
 from particles.team import Team
-from particles.walls import confine
 
 Quantity = Callable[..., Any]  # (sums of the method, state) -> number or array
 
@@ -53,7 +51,10 @@ class Plan:
 
 @dataclass(kw_only=True)
 class Run:
-    """A run at some step: state (5, n) = x, y, vx, vy, e in the order of `ids`; series and means so far."""
+    """A run at some step: state (fields, n) in the order of `ids`; series and means so far.
+
+    anchor, skin : where moving particles were, and how far they may go, when their lists were made.
+    """
     state: np.ndarray
     ids: np.ndarray
     step: int = 0
@@ -78,7 +79,7 @@ class Run:
 
 
 def run(method: Any, start: np.ndarray, plan: Plan, progress: Callable[[float], None] | None = None) -> Run:
-    """Advance the particles `start` (5, n) by the plan; `progress` is told the fraction done.
+    """Advance the particles or points `start` (fields, n) by the plan; `progress` is told the fraction done.
 
     Raises
     ------
@@ -92,9 +93,7 @@ def run(method: Any, start: np.ndarray, plan: Plan, progress: Callable[[float], 
     team = Team(plan.threads)
     now = load(plan.checkpoint, method, plan, start) or Run(state=start.copy(), ids=np.arange(start.shape[1]))
     sums, integrator = method.start(start.shape[1], team), RK4(start.shape, team)
-    if now.anchor is not None:
-        sums.around.skin = now.skin
-        sums.around.make_lists(now.anchor)
+    sums.resume(now)
     began, saved = process_time(), monotonic()
     now.compile_s += _first_evaluation(sums, now)
     began += process_time() - began
@@ -116,26 +115,20 @@ def run(method: Any, start: np.ndarray, plan: Plan, progress: Callable[[float], 
 
 
 def _first_evaluation(sums, now: Run) -> float:
-    """Seconds of the first evaluation, which loads or compiles the code, on a copy of the particles."""
-    began, state, anchor = process_time(), now.state.copy(), now.anchor
-    if anchor is None:
-        sums.around.relist(state, now.ids.copy(), 0.0)
-    sums.rates(state, np.empty_like(state))
-    if anchor is None:
-        sums.around.forget()
+    """Seconds of the first evaluation, which loads or compiles the code."""
+    began = process_time()
+    sums.try_out(now)
     return process_time() - began
 
 
 def _advance(method, plan: Plan, sums, integrator, now: Run) -> None:
-    if sums.around.must_relist(now.state, plan.dt):
-        try:
-            sums.around.relist(now.state, now.ids, plan.dt)
-        except FloatingPointError as error:
-            message = f"diverged at step {now.step}, time {now.step*plan.dt:g}: {error}; {_way_out(plan)}"
-            raise Divergence(now.step, message) from error
-        now.anchor, now.skin = sums.around.anchor, sums.around.skin
-    integrator.step(sums.rates, now.state, plan.dt)
-    now.reflections += sum(confine(wall, now.state) for wall in method.walls)
+    try:
+        sums.make_ready(now, plan.dt)
+        integrator.step(sums.rates, now.state, plan.dt)
+    except FloatingPointError as error:
+        message = f"diverged at step {now.step}, time {now.step*plan.dt:g}: {error}; {_way_out(plan)}"
+        raise Divergence(now.step, message) from error
+    now.reflections += sums.confine(now.state)
     now.step += 1
     _check(method, plan, sums, now)
     if now.step % plan.every == 0:
@@ -143,8 +136,7 @@ def _advance(method, plan: Plan, sums, integrator, now: Run) -> None:
 
 
 def _record(plan: Plan, sums, now: Run) -> None:
-    sums.densities(now.state)
-    sums.gradients()
+    sums.look_at(now.state)
     now.times.append(now.step*plan.dt)
     for name, quantity in plan.series.items():
         now.series.setdefault(name, []).append(float(quantity(sums, now.state)))
@@ -155,11 +147,12 @@ def _record(plan: Plan, sums, now: Run) -> None:
 
 
 def _check_start(method, start: np.ndarray, plan: Plan) -> None:
-    if start.ndim != 2 or start.shape[0] != 5 or start.shape[1] < 1:
-        raise ValueError(f"particles are an array (5, n) of {', '.join(method.fields)} with n >= 1, got {start.shape}")
+    rows = len(method.fields)
+    if start.ndim != 2 or start.shape[0] != rows or start.shape[1] < 1:
+        raise ValueError(f"particles are an array ({rows}, n) of {', '.join(method.fields)} with n >= 1, got {start.shape}")
     if not np.isfinite(start).all():
         raise ValueError("the particles at the start are not finite: " + _where(method, start))
-    limit = step_limit(method, start[4])
+    limit = limit_of(method, start)
     if plan.dt > limit:
         raise ValueError(f"dt = {plan.dt:g} is above the stability limit {limit:.3g} of RK4 for these particles: "
                          f"take at most {0.8*limit:.2g}")
@@ -175,16 +168,10 @@ def _way_out(plan: Plan) -> str:
 
 
 def _check(method, plan: Plan, sums, now: Run) -> None:
-    """Raise Divergence if the state is not finite, moved too far, or left the equation of state."""
+    """Raise Divergence if the state is not finite or not one that the method can go on with."""
     when = f"step {now.step}, time {now.step*plan.dt:g}"
     way_out = _way_out(plan)
     if not np.isfinite(now.state).all():
         raise Divergence(now.step, f"diverged at {when}: {_where(method, now.state, now.ids)}; {way_out}")
-    rho, e = sums.around.rho[:sums.n], now.state[4]
-    good = valid(method.eos, rho, e)
-    if not good.all():
-        i = int(np.argmin(good))
-        raise Divergence(now.step, f"at {when} particle {now.ids[i]} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the "
-                                   f"validity of {type(method.eos).__name__}; {way_out}")
-    if sums.around.moved(now.state) > sums.around.skin/2:
-        raise Divergence(now.step, f"at {when} a particle sped up by more than a quarter within one step; {way_out}")
+    if fault := sums.fault(now.state, now.ids):
+        raise Divergence(now.step, f"at {when} {fault}; {way_out}")

@@ -106,7 +106,7 @@ def test_full_disk_keeps_the_last_checkpoint(tmp_path, monkeypatch):
 
 def test_divergence_names_step_time_field_and_particle(monkeypatch):
     method, start = small()
-    monkeypatch.setattr("particles.run.step_limit", lambda *known: np.inf)
+    monkeypatch.setattr("particles.run.limit_of", lambda *known: np.inf)
     with pytest.raises(Divergence, match=r"step \d+, time .*particle.*halve dt"):
         run(method, start, replace(PLAN, dt=4.0))     # twice the limit
 

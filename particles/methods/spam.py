@@ -4,18 +4,19 @@ Three sums: density; gradients of v and T; divergence of P/rho^2 and Q/rho^2. Th
 printed choice: `ArithmeticGradients()` for the mean density, `Direct` for `Nested` transport, `LessStatic(...)` for
 the whole pressure, another weight.
 """
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import conductivity, energy, pressure, stress, temperature, viscosity
+from continuum.fluid import conductivity, energy, pressure, stress, temperature, valid, viscosity
 from continuum.jit import formula, jit
 from particles.pairs import sweep
 from particles.surroundings import Surroundings
 from particles.team import Team
 from particles.terms import ArithmeticGradients, DirectFluxes, Fluxes, Gradients, density_factor
-from particles.walls import image_pressure
+from particles.walls import confine, image_pressure
 
 Moving = np.dtype([(name, "f8") for name in ("vx", "vy", "T", "s")])
 Flux = np.dtype([(name, "f8") for name in ("xx", "xy", "qx", "vx", "yx", "yy", "qy", "vy")])  # one cache line
@@ -80,8 +81,8 @@ class Spam:
         return (self.transport or Nested)(self, n, team)
 
 
-class Sums:
-    """What both kinds of transport share: arrays, the density sum and the equations of state."""
+class Sums(ABC):
+    """What both kinds of transport share: arrays, the density sum, the equations of state, what the time loop asks for."""
 
     def __init__(self, method: Spam, n: int, team: Team):
         self.method, self.team, self.n = method, team, n
@@ -101,6 +102,57 @@ class Sums:
         for wall, parent, first, last in around.blocks:
             _image_pressures(first, last, wall, parent, method.eos, method.static, method.g, around.y, around.rho,
                              around.T, around.P, self.less)
+
+    @abstractmethod
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(state)/dt, written to `out`."""
+
+    def look_at(self, state: np.ndarray) -> None:
+        """Densities and gradients of a state, for whatever is measured on it."""
+        self.densities(state)
+        self.gradients()
+
+    def resume(self, now: Any) -> None:
+        """Lists as a restarted run had them."""
+        if now.anchor is not None:
+            self.around.skin = now.skin
+            self.around.make_lists(now.anchor)
+
+    def try_out(self, now: Any) -> None:
+        """One evaluation on a copy of the particles, which leaves no trace."""
+        state, fresh = now.state.copy(), now.anchor is None
+        if fresh:
+            self.around.relist(state, now.ids.copy(), 0.0)
+        self.rates(state, np.empty_like(state))
+        if fresh:
+            self.around.forget()
+
+    def make_ready(self, now: Any, dt: float) -> None:
+        """New lists if particles may leave the old ones within the step; the particles are then in the order of cells.
+
+        Raises
+        ------
+        FloatingPointError
+            A particle is too fast for any list.
+        """
+        if self.around.must_relist(now.state, dt):
+            self.around.relist(now.state, now.ids, dt)
+            now.anchor, now.skin = self.around.anchor, self.around.skin
+
+    def confine(self, state: np.ndarray) -> int:
+        """Reflect particles beyond walls; their number."""
+        return sum(confine(wall, state) for wall in self.method.walls)
+
+    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
+        """What is wrong with a finite state after a step; empty if nothing is."""
+        rho, e, eos = self.around.rho[:self.n], state[4], self.method.eos
+        good = valid(eos, rho, e)
+        if not good.all():
+            i = int(np.argmin(good))
+            return (f"particle {ids[i]} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of "
+                    f"{type(eos).__name__}")
+        far = self.around.moved(state) > self.around.skin/2
+        return "a particle sped up by more than a quarter within one step" if far else ""
 
     def allocate(self, points: int) -> None:
         """Arrays over all points, whose number changes with the lists."""
@@ -140,8 +192,7 @@ class Nested(Sums):
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(x, y, vx, vy, e)/dt of a state (5, n), written to `out`."""
-        self.densities(state)
-        self.gradients()
+        self.look_at(state)
         self.team(sweep, self.n, *self.exchange(), self.around.pairs, self.pull)
         self.finish(state, out)
 
