@@ -32,7 +32,7 @@ def save(path: Path, method: Any, plan: "Plan", start: np.ndarray, now: "Run") -
             for name in SCALARS:
                 file.attrs[name] = getattr(now, name)
             for name in ("state", "ids", "anchor", "times"):
-                file[name] = getattr(now, name)
+                file[name] = [] if getattr(now, name) is None else getattr(now, name)
             for group, values in (("series", now.series), ("sums", now.sums)):
                 for name, value in values.items():
                     file[f"{group}/{name}"] = value
@@ -60,6 +60,7 @@ def load(path: Path | None, method: Any, plan: "Plan", start: np.ndarray) -> "Ru
             _same(path, dict(file.attrs), _identity(method, plan, start))
             numbers = {name: file.attrs[name].item() for name in SCALARS}
             arrays = {name: file[name][()] for name in ("state", "ids", "anchor")}
+            arrays["anchor"] = arrays["anchor"] if arrays["anchor"].size else None    # fixed points have none
             groups = {g: {name: item[()] for name, item in file.get(g, {}).items()} for g in ("series", "sums")}
             times = list(file["times"][()])
     except (OSError, KeyError) as error:

@@ -24,6 +24,16 @@ class Pairs(NamedTuple):
     wy: np.ndarray
 
 
+class Stored(NamedTuple):
+    """Edges of fixed points: those of row i are near, sx, sy, k [first[i]:first[i] + taken[i]]; (sx, sy) is S_ij/2."""
+    first: np.ndarray
+    taken: np.ndarray
+    near: np.ndarray
+    sx: np.ndarray
+    sy: np.ndarray
+    k: np.ndarray
+
+
 def empty_pairs(rows: int, entries: int) -> Pairs:
     """Arrays for lists with so many entries in all."""
     (start, first), (length, taken) = np.empty((2, rows), u64), np.empty((2, rows), u32)
@@ -35,6 +45,22 @@ class Pair(NamedTuple):
     """What a pair term knows of a pair: the gradient of m w(r_ab) with respect to r_a."""
     wx: float
     wy: float
+
+
+class Edge(NamedTuple):
+    """What an exchange knows of an edge: half of its area vector S_ab/2 and its conductance k."""
+    sx: float
+    sy: float
+    k: float
+
+
+@generic
+def between(pairs, k):
+    """The k-th pair as a term wants it."""
+
+
+between.of(Pairs)(lambda pairs, k: Pair(pairs.wx[k], pairs.wy[k]))
+between.of(Stored)(lambda pairs, k: Edge(pairs.sx[k], pairs.sy[k], pairs.k[k]))
 
 
 @jit
@@ -107,7 +133,7 @@ def sweep(first, last, term, particle, pairs, out):
     for i in range(u64(first), u64(last)):
         a, total, begin = particle[i], nothing(term), pairs.first[i]
         for k in range(begin, begin + pairs.taken[i]):
-            total = add(total, rate(term, a, particle[pairs.near[k]], Pair(pairs.wx[k], pairs.wy[k])))
+            total = add(total, rate(term, a, particle[pairs.near[k]], between(pairs, k)))
         store(out, i, u64(0), total)
 
 

@@ -1,77 +1,230 @@
-"""Discretized integral hydrodynamics between two rigid plates, walls that RR98 leaves open.
+"""Discretized integral hydrodynamics on fixed points of a layer, compiled: the terms of `dih` over stored edges, in 2D.
 
-Convection and pressure see a plate without friction, so that the divergence stays the adjoint of the gradient: images have
-rho, T, eps and the velocity along the plate of their parents, the velocity across it reversed, and a pressure that goes on
-hydrostatically. Friction and heat see images with -v and 2 T_w - T. Any other mixture lets sound grow.
+Between plates, which RR98 leaves open, convection and pressure see images without friction, so that the divergence stays the
+adjoint of the gradient: rho, T, eps and the velocity along the plate of their parents, the velocity across it reversed, and a
+pressure that goes on hydrostatically. Friction and heat see images with -v and 2 T_w - T. Any other mixture lets sound grow.
 """
 from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
-from scipy import sparse
 
-from particles.edges import Beyond
-from particles.methods.dih import Coefficients, Dih, Flow, Fluxes, Pairwise, along, carried, lacking, means, rows, take
+from continuum.fluid import conductivity, energy, pressure, sound_speed, temperature, valid, viscosity
+from continuum.jit import formula, jit
+from particles.edges import Beyond, Edges
+from particles.limits import limit_of
+from particles.neighbours import u32, u64
+from particles.pairs import Stored, nothing, rate, sweep
+from particles.team import Team
 
-SLIP = np.array([1.0, -1.0])
+#: seen by convection and pressure: vx .. eps, hydro; by friction and heat: ux, uy, Td; F mends the heating
+Point = np.dtype([(name, "f8") for name in ("rho", "vx", "vy", "T", "eps", "ux", "uy", "Td", "eta", "k", "Fx", "Fy", "hydro")])
+
+
+class Exchange(NamedTuple):
+    """Brackets of Eqs 34-36 with P_ab = P(rho_a, T_b), friction and heat along the edge [Eq. 51, zeta = 0], and F."""
+    eos: Any
+
+
+class Differences(NamedTuple):
+    """V grad v by differences: d_x u, d_y u, d_x v, d_y v."""
+
+
+nothing.of(Exchange)(lambda term: (0.0, 0.0, 0.0, 0.0))
+nothing.of(Differences)(lambda term: (0.0, 0.0, 0.0, 0.0))
+
+
+@formula
+def _pressure(eos, rho, T):
+    return pressure(eos, rho, energy(eos, rho, T))
+
+
+@rate.of(Exchange)
+def _(term, a, b, ab):
+    to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy       # S.v/2
+    P_ab, P_ba = _pressure(term.eos, a.rho, b.T) + b.hydro, _pressure(term.eos, b.rho, a.T)
+    from_a, from_b, P = a.rho*to_b, b.rho*to_a, P_ab + P_ba
+    f, du, dv = 0.5*(a.eta + b.eta)*ab.k, b.ux - a.ux, b.uy - a.uy
+    through = a.eps*to_b + b.eps*to_a + P_ab*to_a + P_ba*to_b
+    friction = f*0.5*(du*(a.ux + b.ux) + dv*(a.uy + b.uy)) + 0.5*(a.k + b.k)*ab.k*(b.Td - a.Td)
+    mend = ab.sx*(a.Fx + b.Fx) + ab.sy*(a.Fy + b.Fy)
+    return (-from_a - from_b, f*du - from_a*a.vx - from_b*b.vx - ab.sx*P, f*dv - from_a*a.vy - from_b*b.vy - ab.sy*P,
+            friction + mend - through)
+
+
+@rate.of(Differences)
+def _(term, a, b, ab):
+    du, dv = b.ux - a.ux, b.uy - a.uy
+    return ab.sx*du, ab.sy*du, ab.sx*dv, ab.sy*dv
 
 
 @dataclass(frozen=True, kw_only=True)
-class Layer(Dih):
-    """A fluid on fixed points between two plates under gravity, in 2D; friction and heat along edges.
+class Layer:
+    """A fluid on fixed points x (n, 2), periodic in x, between plates at T_plates (lower, upper) under gravity g.
 
-    beyond : edges to images. T_plates : of the lower and the upper plate. g : gravity, downwards. y : heights of the points.
+    edges, beyond : of `edges.between_plates`. mended : the heating of friction along edges as it should be; False as Eq. 51 has
+    it, which heats even a rigid rotation.
     """
+    x: np.ndarray
+    edges: Edges
     beyond: Beyond
+    eos: Any
+    law: Any
     T_plates: tuple[float, float]
     g: float
-    y: np.ndarray
+    mended: bool = True
+
+    fields = ("rho", "px", "py", "eps")
+
+    def __repr__(self) -> str:
+        """What tells a checkpoint's method from another: edges by their sums."""
+        sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.x, self.edges.S, self.edges.k, self.beyond.S))
+        return f"Layer({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.T_plates}, {self.g}, {self.mended})"
+
+    def state(self, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
+        """(4, n) of densities, velocities (n, 2), temperatures (n,)."""
+        rho = rho*np.ones(len(self.x))
+        return np.stack([rho, *(rho[:, None]*v).T, rho*(energy(self.eos, rho, T) + (v**2).sum(axis=1)/2)])
+
+    def start(self, n: int, team: Team) -> "Exchanging":
+        """The sums over stored edges.
+
+        Raises
+        ------
+        ValueError
+            The state has not as many points as there are.
+        """
+        if n != len(self.x):
+            raise ValueError(f"a state of {n} points for {len(self.x)} fixed ones: make it with `state`")
+        return Exchanging(self, team)
+
+
+@limit_of.register
+def _(method: Layer, start: np.ndarray) -> float:
+    """RK4: sound (c times the largest wave number that edges see) and diffusion (the largest eigenvalue of V lap), bounded by
+
+    row sums.
+    """
+    edges, beyond, rho = method.edges, method.beyond, start[0]
+    e = start[3]/rho - (start[1]**2 + start[2]**2)/(2*rho**2)
+    T, n = temperature(method.eos, rho, e), edges.n
+    ends = ((edges.i, edges), (edges.j, edges), (beyond.i, beyond))
+    area = sum(np.bincount(end, np.sqrt((some.S**2).sum(axis=1))/2, n) for end, some in ends)/edges.V
+    spread = sum(np.bincount(end, np.abs(some.k), n) for end, some in ends)/edges.V
+    slope = temperature(method.eos, rho, e + 1e-6) - T
+    chi = np.maximum(viscosity(method.law, rho, T), conductivity(method.law, rho, T)*slope/1e-6)/rho
+    fast = sound_speed(method.eos, rho, e) + np.sqrt(start[1]**2 + start[2]**2)/rho
+    return float(1/(np.max(fast*area)/2.8 + np.max(2*chi*spread)/2.78))
+
+
+class Exchanging:
+    """The compiled sums of a layer, with what the time loop asks for."""
+
+    def __init__(self, method: Layer, team: Team):
+        self.method, self.team, self.n = method, team, len(method.x)
+        beyond = method.beyond
+        ghosts, self.ghost = np.unique(np.stack([beyond.parent, beyond.plate]), axis=1, return_inverse=True)
+        self.parent, self.plate = ghosts
+        # twice the distance to the plate: how much higher the parent lies than its image
+        half = (method.x[beyond.i, 1] + beyond.apart[:, 1] - method.x[beyond.parent, 1])
+        self.rise = np.zeros(len(self.parent))
+        self.rise[self.ghost.ravel()] = -half
+        self.edges = stored(method.edges, beyond, self.n + self.ghost.ravel())
+        self.points = np.zeros(self.n + len(self.parent), Point)
+        self.slopes, self.total = np.empty((self.n, 4)), np.empty((self.n, 4))
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt, written to `out`    [Eqs 34-36, 51]"""
-        flow, edges, beyond = self.flow(state), self.edges, self.beyond
-        coefficients = self.coefficients(flow)
-        inner = along(edges, means(coefficients, edges.i, edges.j), take(flow, edges.i), take(flow, edges.j))
-        outer = self._friction(flow, coefficients)
-        if self.mended:
-            F = lacking(coefficients, flow.v, self._slope(flow.v))
-            inner = inner._replace(energy=inner.energy - (edges.S*(F[edges.i] + F[edges.j])).sum(axis=1)/2)
-            outer = outer._replace(energy=outer.energy - (beyond.S*(F[beyond.i] + SLIP*F[beyond.parent])).sum(axis=1)/2)
-        through = rows(carried(self.eos, edges.S, take(flow, edges.i), take(flow, edges.j)), inner)
-        for row, flux, lost in zip(out, through, rows(self._slipping(flow), outer), strict=True):
-            row[:] = np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n)
-            row[:] = (row - np.bincount(beyond.i, lost, edges.n))/edges.V
-        out[2] -= self.g*flow.rho
-        out[3] -= self.g*flow.rho*flow.v[:, 1]
+        """d(state)/dt of a state (4, n), written to `out`    [Eqs 34-36, 51]"""
+        method = self.method
+        self.look_at(state)
+        self.team(sweep, self.n, Exchange(method.eos), self.points, self.edges, self.total)
+        self.team(_rates, self.n, self.total, self.method.edges.V, self.points, method.g, out)
 
-    @property
-    def mended(self) -> bool:
-        """Is the heating of friction along edges mended?"""
-        return isinstance(self.transport, Pairwise) and self.transport.mended
+    def look_at(self, state: np.ndarray) -> None:
+        """Fields of all points and images, and F."""
+        method, points = self.method, self.points
+        self.team(_fields, self.n, state, method.eos, method.law, points)
+        _images(self.parent, self.plate, self.rise, np.array(method.T_plates), method.g, points, self.n)
+        if method.mended:
+            self.team(sweep, self.n, Differences(), points, self.edges, self.slopes)
+            self.team(_lacking, self.n, self.slopes, method.edges.V, points)
+            _image_lacking(self.parent, points, self.n)
 
-    def _slipping(self, flow: Flow) -> Fluxes:
-        """What convection and pressure take through the plates' edges: no mass and no energy in all."""
-        beyond, parent = self.beyond, take(flow, self.beyond.parent)
-        image = parent._replace(v=parent.v*SLIP)
-        depth = self._depth()
-        return carried(self.eos, beyond.S, take(flow, beyond.i), image, weight=parent.rho*self.g*depth)
+    def resume(self, now: Any) -> None:
+        """Fixed points have no lists to make again."""
 
-    def _depth(self) -> np.ndarray:
-        """How much higher the parents lie than their images."""
-        y = self.y
-        return y[self.beyond.parent] - (y[self.beyond.i] + self.beyond.apart[:, 1])
+    def try_out(self, now: Any) -> None:
+        """One evaluation that leaves no trace."""
+        self.rates(now.state, np.empty_like(now.state))
 
-    def _friction(self, flow: Flow, coefficients: Coefficients) -> Fluxes:
-        """Friction and heat of images with -v and 2 T_w - T."""
-        beyond, parent = self.beyond, take(flow, self.beyond.parent)
-        image = parent._replace(v=-parent.v, T=2*np.array(self.T_plates)[beyond.plate] - parent.T)
-        return along(beyond, means(coefficients, beyond.i, beyond.parent), take(flow, beyond.i), image)
+    def make_ready(self, now: Any, dt: float) -> None:
+        """Nothing: edges are made once."""
 
-    def _slope(self, v: np.ndarray) -> np.ndarray:
-        """(n, 2, 2) of differences, images with -v."""
-        edges, beyond = self.edges, self.beyond
-        inside = np.stack([G@v for G in edges.G], axis=1)
-        jump = -v[beyond.parent] - v[beyond.i]
-        half = 0.5*beyond.S[:, :, None]*jump[:, None, :]
-        spread = sparse.csr_array((np.ones(len(beyond.i)), (beyond.i, np.arange(len(beyond.i)))), shape=(edges.n, len(beyond.i)))
-        outside = (spread@half.reshape(len(half), 4)).reshape(-1, 2, 2)
-        return (inside + outside)/edges.V[:, None, None]
+    def confine(self, state: np.ndarray) -> int:
+        """Nothing moves."""
+        return 0
+
+    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
+        """The first point outside of the equation of state; empty if there is none."""
+        rho, e = state[0], (state[3] - (state[1]**2 + state[2]**2)/(2*state[0]))/state[0]
+        good = valid(self.method.eos, rho, e)
+        if good.all():
+            return ""
+        i = int(np.argmin(good))
+        return f"point {i} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of {type(self.method.eos).__name__}"
+
+
+def stored(edges: Edges, beyond: Beyond, image: np.ndarray) -> Stored:
+    """Edges by rows: those to other points, in both directions, and those to images, numbered `image`."""
+    rows = np.concatenate([edges.i, edges.j, beyond.i])
+    near = np.concatenate([edges.j, edges.i, image])
+    order = np.lexsort((near, rows))
+    S = np.concatenate([edges.S, -edges.S, beyond.S])[order]/2
+    k = np.concatenate([edges.k, edges.k, beyond.k])[order]
+    taken = np.bincount(rows, minlength=edges.n)
+    first = np.cumsum(taken) - taken
+    return Stored(first.astype(u64), taken.astype(u32), near[order].astype(u32), S[:, 0].copy(), S[:, 1].copy(), k)
+
+
+@jit
+def _fields(first, last, state, eos, law, points):
+    for i in range(first, last):
+        a, rho = points[i], state[0, i]
+        a.rho, a.vx, a.vy, a.eps = rho, state[1, i]/rho, state[2, i]/rho, state[3, i]
+        a.T = temperature(eos, rho, a.eps/rho - 0.5*(a.vx**2 + a.vy**2))
+        a.ux, a.uy, a.Td = a.vx, a.vy, a.T
+        a.eta, a.k = viscosity(law, rho, a.T), conductivity(law, rho, a.T)
+
+
+@jit
+def _images(parent, plate, rise, T_plates, g, points, n):
+    for m in range(len(parent)):
+        a, b = points[parent[m]], points[n + m]
+        b.rho, b.vx, b.vy, b.T, b.eps = a.rho, a.vx, -a.vy, a.T, a.eps
+        b.ux, b.uy, b.Td, b.eta, b.k = -a.ux, -a.uy, 2*T_plates[plate[m]] - a.Td, a.eta, a.k
+        b.hydro = a.rho*g*rise[m]
+
+
+@jit
+def _lacking(first, last, slopes, V, points):
+    """F = eta (v u_y - u v_y, u v_x - v u_x), in 2D without bulk viscosity."""
+    for i in range(first, last):
+        a, f = points[i], points[i].eta/V[i]
+        ux, uy, vx, vy = slopes[i]
+        a.Fx, a.Fy = f*(a.vy*uy - a.vx*vy), f*(a.vx*vx - a.vy*ux)
+
+
+@jit
+def _image_lacking(parent, points, n):
+    """No energy through the plate: F along it even, across it odd."""
+    for m in range(len(parent)):
+        a, b = points[parent[m]], points[n + m]
+        b.Fx, b.Fy = a.Fx, -a.Fy
+
+
+@jit
+def _rates(first, last, total, V, points, g, out):
+    for i in range(first, last):
+        a = points[i]
+        out[0, i], out[1, i] = total[i, 0]/V[i], total[i, 1]/V[i]
+        out[2, i], out[3, i] = total[i, 2]/V[i] - g*a.rho, total[i, 3]/V[i] - g*a.rho*a.vy
