@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
-from scipy.sparse.linalg import spsolve
+from scipy.sparse.linalg import eigsh, spsolve, svds
 from scipy.spatial import Delaunay
 
 from particles.interpolants import W, check, reach, sphere
@@ -81,6 +81,15 @@ class Edges:
     def G(self) -> list[sparse.csr_array]:
         """V grad f = G f with differences f_j - f_i: G = -D^T."""
         return [sparse.csr_array((S - sparse.diags_array(c))/2) for S, c in zip(self.areas, self.closure.T, strict=True)]
+
+    @cached_property
+    def fastest(self) -> tuple[float, float]:
+        """Largest frequency of sound over its speed, and largest rate of diffusion over the diffusivity."""
+        root = sparse.diags_array(1/np.sqrt(self.V))
+        slopes = sparse.vstack([root@G@root for G in self.G])
+        sound = svds(slopes, k=1, return_singular_vectors=False, random_state=0)
+        spread = eigsh(root@self.laplacian@root, k=1, which="LM", return_eigenvectors=False, v0=np.cos(np.arange(self.n)))
+        return float(sound[0]), float(-spread[0])
 
     def div(self, F: np.ndarray) -> np.ndarray:
         """Divergence of F (n, d)."""
