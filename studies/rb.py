@@ -125,6 +125,19 @@ def layers() -> Iterator[Case]:
         yield from spam(1e4, rows, variant=VARIANTS["printed-half-step"])
 
 
+def checks() -> Iterator[Case]:
+    """Does the start decide whether particles flow, the time step what other fluids and boxes do?"""
+    flow, half = VARIANTS["printed-from-flow"], VARIANTS["printed-half-step"]
+    for rows in (25, 35, 50):
+        yield from spam(2500.0, rows, variant=flow, keep="history", t_end=150.0, mean_from=100.0)
+    yield from spam(7000.0, 40, variant=flow, keep="history", t_end=150.0, mean_from=100.0, **BOX)
+    yield from spam(3000.0, 16, variant=half, **DENSE)
+    yield from spam(3000.0, 16, variant=half, **VDW)
+    yield from spam(1e4, 50, variant=half)
+    yield from spam(1e4, 50, variant=half, **VDW)
+    yield from spam(1e4, 40, variant=half, **BOX)
+
+
 def squares() -> Iterator[Case]:
     """The square box of Fig. 6. Onset is at 5012; far above it the flow takes longer to settle."""
     for ra in (3500.0, 6000.0, 7000.0, 8000.0, 10000.0, 14000.0, 20000.0):
@@ -148,14 +161,14 @@ def others() -> Iterator[Case]:
 
 def fine() -> Iterator[Case]:
     """Every variant at two sizes (of pressure at two Ra), finer particles, higher Rayleigh numbers, long runs of the grid."""
-    for name in sorted(set(VARIANTS) - {"printed", "printed-half-step"}):
+    for name in sorted(set(VARIANTS) - {"printed", "printed-half-step", "printed-from-flow"}):
         variant = VARIANTS[name]
         yield from spam(1e4, 25, variant=variant)
         if name != "printed-fixed-rows":
             yield from spam(1e4, 50, variant=variant, keep="all" if name == "printed-monaghan" else "")
         if variant.fraction:
             yield from spam(5e3, 50, variant=variant)
-    yield from spam(1e4, 50, variant=VARIANTS["printed-half-step"])
+    yield from checks()
     for ra in (2500.0, 10000.0):
         yield from spam(ra, 70)
     yield from spam(1e4, 100, seeds=(1, 2))

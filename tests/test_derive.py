@@ -27,15 +27,15 @@ def means(*rows):
 
 def test_seeds_in_other_rolls_are_left_out():
     found = means(spam(seed=1, ke=4.0), spam(seed=2, ke=4.2), spam(seed=3, ke=9.0, rolls=4)).loc[("printed", 50)]
-    assert (found["seeds"], found["rolls"]) == (2, 2)
+    assert (found["seeds"], found["mixed"], found["rolls"]) == (2, 1, 2)
     assert found["ke"] == pytest.approx(4.1)
 
 
 def test_error_has_what_half_of_the_step_changes():
     rows = [spam(25, ke=4.0), spam(25, ke=5.0, kg=3.0, variant=HALF), spam(50), spam(16)]
     found = means(*rows)["ke_err"]
-    assert found[("printed", 25)] == pytest.approx(np.hypot(0.1, 4.0*0.25))
-    assert found[("printed", 50)] == pytest.approx(np.hypot(0.1, 4.0*0.25))      # that of the next coarser one
+    assert found[("printed", 25)] == pytest.approx(np.hypot(0.1, 2*4.0*0.25))
+    assert found[("printed", 50)] == pytest.approx(np.hypot(0.1, 2*4.0*0.25))      # that of the next coarser one
     assert found[("printed", 16)] == pytest.approx(0.1)                         # nothing is known of coarser ones
     assert means(*rows)["ke_field_err"][("printed", 25)] == pytest.approx(0.1)   # the field did not change
 
@@ -49,6 +49,7 @@ def test_smoothed_energy_is_judged_by_what_the_weight_leaves_of_the_grid():
     seen = [{**{k: grids[0][k] for k in POINT}, "weight": "Lucy", "h": 3.0, "rows": 50, "ke": 5.0, "ke_smoothed": 4.0}]
     found = pd.DataFrame(derive(tables(*grids, spam(ke=5.5, kg=3.0), smoothed=seen))["errors"])
     errors = found[found["method"] == "spam"].set_index("energy")["error"]
+    assert errors["Nu"] == pytest.approx(0.0, abs=1e-12)
     assert errors["Kp"] == pytest.approx(0.1, abs=1e-3)        # the grid's limit is 5
     assert errors["Kg"] == pytest.approx(3/4 - 1, abs=1e-3)
 
@@ -58,7 +59,7 @@ def test_cost_counts_all_seeds_and_the_coarser_grids():
     steps = [{"method": "compressible", "variant": "flux-form", "eos": "ideal", "sides": "periodic", "resolution": rows,
               "step_s": s} for rows, s in ((16, 1.0), (24, 2.0), (32, 3.0))]
     found = pd.DataFrame(derive(tables(*grids, spam(seed=1), spam(seed=2), cost=steps))["errors"])
-    cpu = found.set_index(["method", "resolution"])["cpu_s"]
+    cpu = found[found["energy"] == "Kp"].set_index(["method", "resolution"])["cpu_s"]
     assert cpu[("compressible", 24)] == pytest.approx(10*1 + 20*2)
     assert cpu[("spam", 50)] == pytest.approx(18.0)            # no step of it was measured alone: what the runs took
 
@@ -67,3 +68,13 @@ def test_runs_that_diverged_are_in_no_mean():
     broken = spam(seed=2, ke=np.nan, kg=np.nan, rolls=0, converged=False)
     found = pd.DataFrame(derive(tables(spam(seed=1), broken))["means"])
     assert len(found) == 1 and found["seeds"].iloc[0] == 1 and found["ke"].iloc[0] == 4.0
+
+
+def test_the_step_of_another_fluid_counts_only_where_its_own_is_unknown():
+    dense = {"eos": "dense"}
+    rows = [spam(25), spam(25, ke=5.0, variant=HALF), spam(25, **dense), spam(25, ke=8.0, variant=HALF, **dense),
+            spam(25, sides="walls")]
+    found = pd.DataFrame(over_seeds(pd.DataFrame(rows)))
+    found = found[found["variant"] == "printed"].set_index(["eos", "sides"])["ke_err"]
+    assert found["dense", "periodic"] == pytest.approx(np.hypot(0.1, 2*4.0*1.0))
+    assert found["ideal", "walls"] >= np.hypot(0.1, 2*4.0*0.25) - 1e-12

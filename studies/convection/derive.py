@@ -61,7 +61,7 @@ def limit(values: np.ndarray, errs: np.ndarray, sizes: np.ndarray) -> tuple[floa
 def over_seeds(kinetic: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """Means over the seeds of each particle point that settled in its commonest number of rolls; grid rows pass as they are.
 
-    To the error of particles belongs what half of the time step changes.
+    To the error of particles belongs twice what half of the time step changes: its error is of first order, from the walls.
     """
     shifts = step_shifts(kinetic)
     for point, group in kinetic.groupby(POINT, dropna=False):
@@ -69,27 +69,34 @@ def over_seeds(kinetic: pd.DataFrame) -> Iterator[dict[str, Any]]:
         same = group[group["rolls"] == group["rolls"].mode().iloc[0]]
         for name in ENERGIES:
             value, err = combine(list(zip(same[name], same[f"{name}_err"], strict=True)))
-            row[name], row[f"{name}_err"] = value, float(np.hypot(err, value*shift(shifts, row, name)))
-        yield {**row, "particles": same["particles"].iloc[0], "seeds": len(same),
+            row[name], row[f"{name}_err"] = value, float(np.hypot(err, 2*value*shift(shifts, row, name)))
+        yield {**row, "particles": same["particles"].iloc[0], "seeds": len(same), "mixed": len(group) - len(same),
                "ke_fluctuation": same["ke_fluctuation"].mean(), "rolls": same["rolls"].iloc[0]}
 
 
-def step_shifts(kinetic: pd.DataFrame) -> dict[float, dict[str, float]]:
-    """Resolution -> how much of K and Nu half of the time step changes, relative, at the same point."""
-    found: dict[float, dict[str, float]] = {}
+def step_shifts(kinetic: pd.DataFrame) -> list[tuple[dict[str, Any], dict[str, float]]]:
+    """(point, how much of K and Nu half of the time step changes there, relative)."""
+    found = []
     for _, half in kinetic[kinetic["variant"] == HALF].groupby(POINT, dropna=False):
         first = half.iloc[0]
         whole = kinetic[(kinetic["variant"] == "printed") & (kinetic[SCENE] == first[SCENE]).all(axis=1)
                         & (kinetic["resolution"] == first["resolution"])]
         if len(whole):
-            found[float(first["resolution"])] = {name: abs(half[name].mean()/whole[name].mean() - 1) for name in ENERGIES}
+            change = {name: float(abs(half[name].mean()/whole[name].mean() - 1)) for name in ENERGIES}
+            found.append(({str(column): value for column, value in first.items()}, change))
     return found
 
 
-def shift(shifts: dict[float, dict[str, float]], row: Mapping[Any, Any], name: str) -> float:
-    """The one of the next coarser resolution that has one; none for grids, whose steady states have no step."""
-    coarser = [rows for rows in shifts if rows <= float(row["resolution"])]
-    return shifts[max(coarser)][name] if row["method"] == "spam" and coarser else 0.0
+def shift(shifts: list[tuple[dict[str, Any], dict[str, float]]], row: dict[str, Any], name: str) -> float:
+    """The one of the next coarser resolution of the same fluid and box, or else of any; none for grids and fixed points.
+
+    Steady states of grids do not depend on the step.
+    """
+    if row["method"] != "spam":
+        return 0.0
+    coarser = [(at, change[name]) for at, change in shifts if at["resolution"] <= float(row["resolution"])]
+    alike = [one for one in coarser if all(one[0][column] == row[column] for column in ("eos", "sides"))] or coarser
+    return max(alike, key=lambda one: one[0]["resolution"])[1] if alike else 0.0
 
 
 def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> Iterator[dict[str, Any]]:
@@ -109,6 +116,8 @@ def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> Iterator[
             continue
         limit = limits.loc[where]
         cpu_s = cost(runs, row, seconds)
+        yield error(row, "Nu", row["nu"], row["nu_err"], limit[["nu", "nu_err"]].set_axis(["ke", "ke_err"]),
+                    1.0, cpu_s)
         yield error(row, "Kp", row["ke"], row["ke_err"], limit, 1.0, cpu_s)
         if row["method"] == "spam" and (*where, *view(row)) in seen:
             yield error(row, "Kg", row["ke_field"], row["ke_field_err"], limit, seen[(*where, *view(row))], cpu_s)

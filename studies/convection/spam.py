@@ -7,6 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from continuum.compressible import steady_on
+from continuum.compressible_fields import interpolate
 from continuum.fluid import energy, pressure
 from continuum.scene import Periodic, RayleighBenard
 from particles.limits import step_limit
@@ -60,8 +62,17 @@ def fixed_rows(scene):
     return (*fixed_plates(scene.L, scene.T_hot, scene.T_cold), *periodic(scene.width))
 
 
+def developed(scene, x, y):
+    """(vx, vy, T) of the grid's steady flow at (x, y): not every state that can go on is reached from weak rolls."""
+    at = interpolate(steady_on(scene, (16, 24))[-1].fields, x, y)
+    return at.vx, at.vy, at.T
+
+
 class Variant(NamedTuple):
-    """One way to build the method; the defaults are the scheme as printed with the walls of Fig. 3."""
+    """One way to build the method; the defaults are the scheme as printed with the walls of Fig. 3.
+
+    begin : (scene, x, y) -> (vx, vy, T) at the start; None for the rolls of Sec. VI and a linear temperature.
+    """
     name: str
     weight: Any = Lucy
     h: float = 3.0
@@ -70,12 +81,14 @@ class Variant(NamedTuple):
     transport: type = Nested
     fraction: float = 0.0
     step: float = OF_LIMIT
+    begin: Callable | None = None
 
 
 PRINTED = Variant("printed")
 VARIANTS = {v.name: v for v in (
     PRINTED,
     Variant("printed-half-step", step=OF_LIMIT/2),
+    Variant("printed-from-flow", begin=developed),
     Variant("printed-fixed-rows", walls=fixed_rows),
     Variant("printed-monaghan", weight=Monaghan),
     Variant("walls-odd", walls=images_odd),
@@ -109,14 +122,17 @@ def step(scene: RayleighBenard, variant: Variant) -> float:
     return variant.step*step_limit(method(scene, variant), energy(scene.eos, 1.0, np.array([scene.T_cold, scene.T_hot])))
 
 
-def start(scene: RayleighBenard, seed: int) -> np.ndarray:
-    """State (5, n): jittered square lattice, rolls of Sec. VI, linear temperature    [KHP95]"""
+def start(scene: RayleighBenard, seed: int, begin: Callable | None = None) -> np.ndarray:
+    """State (5, n): jittered square lattice with rolls of Sec. VI and linear temperature [KHP95], or as `begin` has it."""
     columns, rows = round(scene.width), round(scene.L)
     x, y = np.meshgrid(np.arange(columns) + 0.5 - scene.width/2, np.arange(rows) + 0.5 - scene.L/2)
     shift = np.random.default_rng(seed).uniform(-JITTER, JITTER, (2, columns*rows))
     x, y = x.ravel() + shift[0], y.ravel() + shift[1]
-    vx, vy = scene.flow(x, y, START_ENERGY)
-    return np.array([x, y, vx, vy, energy(scene.eos, 1.0, scene.T(y))])
+    if begin is None:
+        (vx, vy), T = scene.flow(x, y, START_ENERGY), scene.T(y)
+    else:
+        vx, vy, T = begin(scene, x, np.clip(y, -scene.L/2, scene.L/2))
+    return np.array([x, y, vx, vy, energy(scene.eos, 1.0, T)])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -161,7 +177,7 @@ class SpamRun(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         chosen, plan = method(self.scene, self.variant), self.plan(folder)
         try:
-            done = run(chosen, start(self.scene, self.seed), plan, report)
+            done = run(chosen, start(self.scene, self.seed, self.variant.begin), plan, report)
         except Divergence as error:
             return Outcome({"kinetic_energy": [self._diverged(plan, error.step)]})
         if self.keep == "all":

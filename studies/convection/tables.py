@@ -13,8 +13,8 @@ KINETIC = Table(
     columns=[*POINT, "particles", "seed", "ke", "ke_err", "ke_field", "ke_field_err", "ke_fluctuation", "nu", "nu_err",
              "rolls", "free_fall", "mass_drift", "converged", "dt", "steps", "t_end", "cpu_s", "compile_s", "threads"])
 #: means over the `seeds` that settled in the commonest number of rolls: the error is the larger of those within runs and
-#: between seeds, and what half of the time step changes
-MEANS = Table("means", key=POINT, columns=[*POINT, "particles", "seeds", "ke", "ke_err", "ke_field", "ke_field_err",
+#: between seeds, and twice what half of the time step changes; `mixed` counts seeds that ended in other rolls
+MEANS = Table("means", key=POINT, columns=[*POINT, "particles", "seeds", "mixed", "ke", "ke_err", "ke_field", "ke_field_err",
                                            "ke_fluctuation", "nu", "nu_err", "rolls"])
 #: approach to the steady state [KHP95, Fig. 8]; t in units of time, not L^2/eta
 HISTORY = Table("history", key=[*POINT, "seed", "t"], columns=[*POINT, "seed", "t", "t_viscous", "ke", "ke_field"])
@@ -31,7 +31,8 @@ WALLS = Table("walls", key=[*POINT, "seed", "plate"],
 COST = Table("cost", key=["method", "variant", "eos", "sides", "resolution"],
              columns=["method", "variant", "eos", "sides", "resolution", "points", "step_s", "step_s_err", "dt",
                       "threads"])
-#: error against cost, derived; energy Kp: of all particles against the grid, Kg: smoothed against the grid smoothed alike
+#: error against cost, derived; energy Kp: of all particles against the grid, Kg: smoothed against the grid smoothed alike,
+#: Nu: the Nusselt number (then ke, reference are Nusselt numbers)
 ERRORS = Table("errors", key=[*POINT, "energy"], columns=[
     *POINT, "energy", "particles", "ke", "ke_err", "reference", "reference_err", "error", "error_err", "cpu_s"])
 #: K of the finest grid's field, and of that field smoothed with a weight of range h spacings, `rows` of them a height
