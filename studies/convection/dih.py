@@ -1,0 +1,151 @@
+"""Discretized integral hydrodynamics on fixed points in the Rayleigh-Benard scene: one run as a case    [RR98, Sec. III]"""
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.scene import Periodic, RayleighBenard
+from particles.edges import between_plates, closed, delaunay, exact, plain, renormalised
+from particles.limits import limit_of
+from particles.methods.layer import Exchanging, Layer
+from particles.points import lattice, wrapped
+from particles.run import Divergence, Plan, Run, run
+from particles.weights import Lucy, WendlandC2
+from studies.convection.names import START_ENERGY, scene_columns
+from studies.kit.case import Case, Outcome, Report
+
+OF_LIMIT = 0.8          # of the step to its stability limit: the flow is steady, its errors are of space alone
+FROM_PLATE = 0.25       # of a spacing: jittered points come no nearer to a plate
+
+
+class Scheme(NamedTuple):
+    """One way to make points and edges; `size`: jitter in spacings."""
+    name: str
+    make: Callable = renormalised
+    weight: Any = Lucy
+    h: float = 2.0
+    size: float = 0.0
+    mended: bool = True
+
+
+SCHEMES = {s.name: s for s in (
+    Scheme("fixed-lattice"),
+    Scheme("fixed-lattice-printed-heat", mended=False),     # Eq. 51 with the work of its forces as the only heating
+    Scheme("fixed-lattice-h3", h=3.0),
+    Scheme("fixed-jittered-delaunay", delaunay, size=0.3),
+    Scheme("fixed-jittered-exact", exact, WendlandC2, 3.0, 0.3),
+    Scheme("fixed-jittered-closed", closed, WendlandC2, 3.0, 0.3),
+    Scheme("fixed-jittered-plain", plain, WendlandC2, 3.0, 0.3),
+)}
+
+
+def positions(scene: RayleighBenard, size: float, seed: int) -> np.ndarray:
+    """Points (n, 2) of unit spacing: a lattice, every coordinate shifted by up to `size`."""
+    box = np.array([scene.width, scene.L])
+    x = lattice((round(scene.width), round(scene.L))).x
+    x = wrapped(x + np.random.default_rng(seed).uniform(-size, size, x.shape), box)
+    x[:, 1] = np.clip(x[:, 1], -scene.L/2 + FROM_PLATE, scene.L/2 - FROM_PLATE)
+    return x
+
+
+def layer(scene: RayleighBenard, scheme: Scheme, seed: int) -> Layer:
+    """The method of unit spacing: a scene of L = rows spacings."""
+    if not isinstance(scene.sides, Periodic):
+        raise ValueError("fixed points have plates above and below only: take a scene with periodic sides")
+    x = positions(scene, scheme.size, seed)
+    edges, beyond = between_plates(scheme.make, x, scene.width, scene.L, scheme.weight.of(h=scheme.h))
+    return Layer(x=x, edges=edges, beyond=beyond, eos=scene.eos, law=scene.law, T_plates=(scene.T_hot, scene.T_cold), g=scene.g,
+                 mended=scheme.mended)
+
+
+def start(scene: RayleighBenard, method: Layer) -> np.ndarray:
+    """State (4, n): rolls of Sec. VI, linear temperature, density 1    [KHP95]"""
+    x, y = method.x.T
+    return method.state(1.0, np.stack(scene.flow(x, y, START_ENERGY), axis=1), scene.T(y))
+
+
+def kinetic(sums: Exchanging, state: np.ndarray) -> float:
+    """K per mass."""
+    V = sums.method.edges.V
+    return float(0.5*V@((state[1]**2 + state[2]**2)/state[0])/(V@state[0]))
+
+
+class PlateHeat(NamedTuple):
+    """Heat that enters the fluid through a plate (0: lower, 1: upper), per time."""
+    plate: int
+
+    def __call__(self, sums: Exchanging, state: np.ndarray) -> float:
+        """Over all edges to images behind the plate."""
+        beyond, points, here = sums.method.beyond, sums.points, sums.method.beyond.plate == self.plate
+        a, b = points[beyond.i[here]], points[sums.n + sums.ghost.ravel()[here]]
+        return float(np.sum(beyond.k[here]*(a["k"] + b["k"])/2*(b["Td"] - a["Td"])))
+
+
+@dataclass(frozen=True, kw_only=True)
+class DihRun(Case):
+    """One run on fixed points until t_end in free-fall times, when nothing changes any more."""
+    scene: RayleighBenard
+    scheme: Scheme = SCHEMES["fixed-lattice"]
+    seed: int = 1
+    t_end: float = 150.0
+
+    @property
+    def points(self) -> int:
+        return round(self.scene.width)*round(self.scene.L)
+
+    @property
+    def cost(self) -> float:
+        steps = self.t_end*self.scene.L/self.scene.free_fall/max(0.2, 1.1 - self.scene.L/100)
+        return steps*4*self.points*100e-9*(self.scheme.h/2)**2 + 5
+
+    @property
+    def label(self) -> str:
+        return f"dih {self.scheme.name} Ra {self.scene.ra:g}, {self.points} points, seed {self.seed}"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        method = layer(self.scene, self.scheme, self.seed)
+        first, unit = start(self.scene, method), self.scene.L/self.scene.free_fall
+        dt = OF_LIMIT*limit_of(method, first)
+        series: dict[str, Any] = {"ke": kinetic, "lower": PlateHeat(0), "upper": PlateHeat(1)}
+        plan = Plan(dt=dt, steps=round(self.t_end*unit/dt), series=series, every=max(1, round(unit/4/dt)),
+                    checkpoint=folder/"run.h5")
+        try:
+            done = run(method, first, plan, report)
+        except Divergence as error:
+            return Outcome({"kinetic_energy": [{**self._key, **dict.fromkeys(VALUES, np.nan), "dt": dt, "rolls": 0,
+                                                "converged": False, "steps": error.step, "t_end": error.step*dt,
+                                                "cpu_s": np.nan, "compile_s": 0.0, "mass_drift": 0.0}]})
+        return Outcome({"kinetic_energy": [self._row(method, done, plan, first)]})
+
+    @property
+    def _key(self) -> dict:
+        return {"method": "dih", "variant": self.scheme.name, **scene_columns(self.scene), "resolution": round(self.scene.L),
+                "seed": self.seed, "particles": self.points, "free_fall": self.scene.free_fall, "threads": 1}
+
+    def _row(self, method: Layer, done: Run, plan: Plan, first: np.ndarray) -> dict:
+        """The last values; errors are what the last tenth of the time changed."""
+        unit, V = self.scene.k*self.scene.dT/self.scene.L*self.scene.width, method.edges.V
+        ke, lower, upper = (np.array(done.series[name]) for name in ("ke", "lower", "upper"))
+        nu = (lower - upper)/2/unit
+        late = slice(-max(2, len(ke)//10), None)
+        err, nu_err = float(np.ptp(ke[late])), float(np.ptp(nu[late]) + abs(lower[-1] + upper[-1])/2/unit)
+        return {**self._key, "ke": ke[-1], "ke_err": err, "ke_field": ke[-1], "ke_field_err": err, "ke_fluctuation": 0.0,
+                "nu": nu[-1], "nu_err": nu_err, "rolls": rolls(self.scene, method.x, done.state),
+                "mass_drift": float(V@done.state[0]/(V@first[0]) - 1), "converged": bool(err < 1e-3*ke[-1] + 1e-7),
+                "dt": plan.dt, "steps": plan.steps, "t_end": plan.steps*plan.dt, "cpu_s": done.cpu_s,
+                "compile_s": done.compile_s}
+
+
+VALUES = ("ke", "ke_err", "ke_field", "ke_field_err", "ke_fluctuation", "nu", "nu_err")
+
+
+def rolls(scene: RayleighBenard, x: np.ndarray, state: np.ndarray) -> int:
+    """Twice the strongest harmonic of vy along x at mid-height; 0 at rest."""
+    middle = np.abs(x[:, 1]) < scene.L/8
+    vy = (state[2]/state[0])[middle]
+    if np.abs(vy).max() < 1e-4*scene.free_fall:
+        return 0
+    size = [abs(np.mean(vy*np.exp(-2j*np.pi*m*x[middle, 0]/scene.width))) for m in range(1, 7)]
+    return 2*(1 + int(np.argmax(size)))
