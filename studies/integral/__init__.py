@@ -1,0 +1,1 @@
+"""Discretized integral hydrodynamics under test    [RR98]"""

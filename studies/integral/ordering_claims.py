@@ -1,0 +1,135 @@
+"""What RR98 says of its operators, judged    [RR98 Eqs 2, 5, 6, 29, 31, 32, 45]"""
+from collections.abc import Callable
+from math import pi
+
+import numpy as np
+
+from particles.edges import plain, printed
+from particles.interpolants import Exponential, f, moment, sphere
+from particles.points import lattice
+from particles.weights import WEIGHTS, Lucy
+from studies.kit.claim import CannotTell, Claim
+from studies.kit.stats import Measured
+from studies.kit.table import Tables
+
+Value = Callable[[Tables], Measured]
+
+
+def exact(number: Callable[[], float]) -> Value:
+    """A number that needs no table."""
+    return lambda tables: Measured(float(number()), 0.0)
+
+
+def first_moments() -> float:
+    """Largest |M_1/d - 1| of all weights in 1, 2 and 3 dimensions."""
+    compact = [(kind.of(h=1.3, d=d), d) for kind in WEIGHTS.values() for d in (1, 2, 3)]
+    return max(abs(moment(weight, 1, d)/d - 1) for weight, d in (*compact, *((Exponential(0.3, d), d) for d in (1, 2, 3))))
+
+
+def third_factor() -> float:
+    """Factor before the third derivatives in 3D: 1 - f^(k), the symbol's error at small k, over 3 k^2 r0^2 M_3/15."""
+    weight, k = Lucy.of(h=1.0, d=3), 0.05
+    r = (np.arange(20000) + 0.5)/20000
+    transform = float(np.sum(4*pi*r**2*f(weight, r)*np.sin(k*r)/(k*r))/20000)
+    return (1 - transform)/(3*k**2*moment(weight, 3, 3)/15)
+
+
+def printed_factor(d: int) -> float:
+    """Gradient of a linear field with Eq. 29, h = 6 a, over the prediction (|S_d|/d) M_d (h/a)^(d-1)."""
+    at = lattice((48, 48) if d == 2 else (14, 14, 14))
+    weight = Lucy.of(h=6.0, d=d)
+    return float(printed(at, weight).linear[0, 0, 0])/(sphere(d)*moment(weight, d, d)*6.0**(d - 1)/d)
+
+
+def printed_gradient(d: int) -> float:
+    """Gradient of a linear field with Eq. 29, which should be 1."""
+    at = lattice((48, 48) if d == 2 else (14, 14, 14))
+    return float(printed(at, Lucy.of(h=3.0, d=d)).linear[0, 0, 0])
+
+
+def plain_gradient() -> float:
+    """|gradient - 1| of a linear field with plain quadrature W dV, 3D, h = 3 a."""
+    return abs(float(plain(lattice((14, 14, 14)), Lucy.of(h=3.0, d=3)).linear[0, 0, 0]) - 1)
+
+
+def slope(points: str, fixed: str, at: float, operator: str = "gradient", maker: str = "renormalised") -> Value:
+    """A slope of the table."""
+    def value(tables: Tables) -> Measured:
+        frame = tables["slopes"] if "slopes" in tables else None
+        wanted = {"maker": maker, "weight": "Lucy", "points": points, "fixed": fixed, "at": at, "operator": operator}
+        if frame is not None:
+            for column, what in wanted.items():
+                frame = frame[frame[column] == what]
+        if frame is None or frame.empty:
+            raise CannotTell(f"not run yet: no slope of {', '.join(map(str, wanted.values()))}; SIZE=paper has it")
+        return Measured(float(frame["slope"].iloc[0]), float(frame["slope_err"].iloc[0]))
+    return value
+
+
+def wider(points: str, operator: str = "gradient") -> Value:
+    """Error with h = 3 a over that with h = 1.2 a (shorter than the diagonal of the lattice), wavelength 32 a."""
+    def value(tables: Tables) -> Measured:
+        wide, narrow = (error(tables, points, h, operator) for h in (3.0, 1.2))
+        ratio = wide.value/narrow.value
+        return Measured(ratio, ratio*float(np.hypot(wide.err/wide.value, narrow.err/narrow.value)))
+    return value
+
+
+def error(tables: Tables, points: str, h: float, operator: str) -> Measured:
+    """Error of Lucy's weight, renormalised, wavelength 32 a."""
+    if "means" not in tables:
+        raise CannotTell("not run yet: make study-ordering fills the table")
+    frame = tables["means"]
+    frame = frame[(frame["maker"] == "renormalised") & (frame["weight"] == "Lucy") & (frame["points"] == points)
+                  & (frame["h"] == h) & (frame["wavelength"] == 32)]
+    if frame.empty:
+        raise CannotTell(f"not run yet: no error on {points} points with h = {h:g}; SIZE=paper has it")
+    return Measured(float(frame[operator].iloc[0]), float(frame[f"{operator}_err"].iloc[0]))
+
+
+CLAIMS = (
+    Claim(id="rr98-eq2-first-moment", source="RR98 Eq. 2", printed="3", at_most=1e-9, value=exact(first_moments),
+          statement="W = -f' of a normalised f has M_1 = d: all weights, 1 to 3 dimensions, largest relative difference",
+          because="quadrature to 1e-12"),
+    Claim(id="rr98-eq5-factor", source="RR98 Eq. 5", printed="1/2", expect=1/2, within=1e-3, value=exact(third_factor),
+          statement="the factor before the third derivatives in the gradient's expansion: from the transform of Lucy's weight in "
+                    "3D at small k", because="the next term is 1e-4; Taylor's factor is 1/6, so that the error is M_3 r0^2/30"),
+    Claim(id="rr98-eq6-order", source="RR98 Eq. 6", printed="r0^2", expect=2, within=0.05,
+          value=slope("lattice", "h/a", 3.0),
+          statement="the gradient's error is of second order in r0/lambda on a lattice: slope at h = 3 a, renormalised",
+          because="the issue's target; next order at h/lambda <= 0.2 shifts it by some 0.03"),
+    Claim(id="rr98-eq29-moments-2d", source="RR98 Eq. 29", printed="correct moments", expect=1, within=0.02,
+          value=exact(lambda: printed_gradient(2)), because="2 %: lattice sums with h = 3 a are good to that",
+          statement="the printed discretisation of W gives the right first moment: gradient of a linear field, 2D lattice"),
+    Claim(id="rr98-eq29-moments-3d", source="RR98 Eq. 29", printed="correct moments", expect=1, within=0.02,
+          value=exact(lambda: printed_gradient(3)), because="2 %: lattice sums with h = 3 a are good to that",
+          statement="the printed discretisation of W gives the right first moment: gradient of a linear field, 3D lattice"),
+    Claim(id="rr98-eq29-factor-2d", source="RR98 Eq. 29", expect=1, within=0.02, value=exact(lambda: printed_factor(2)),
+          statement="it multiplies gradients by (|S_d|/d) M_d (r0/a)^(d-1): over that factor in 2D, h = 6 a",
+          because="sums over a lattice stand for integrals to 2 % at h = 6 a"),
+    Claim(id="rr98-eq29-factor-3d", source="RR98 Eq. 29", expect=1, within=0.02, value=exact(lambda: printed_factor(3)),
+          statement="it multiplies gradients by (4 pi/3) M_3 (r0/a)^2 in 3D, over that factor, h = 6 a",
+          because="sums over a lattice stand for integrals to 2 % at h = 6 a"),
+    Claim(id="rr98-plain-quadrature", source="RR98 Sec. III", printed="cannot simply change", at_least=0.1,
+          value=exact(plain_gradient), because="a tenth would be a reason not to",
+          statement="one cannot put W(r_ij) dV for W dr, the moments would be wrong: error of the gradient of a linear field, 3D "
+                    "lattice, h = 3 a"),
+    Claim(id="rr98-eq31-third-moment", source="RR98 Eq. 31", expect=10, within=1e-6, because="quadrature",
+          value=exact(lambda: moment(Exponential(1.0, 3), 3, 3)),
+          statement="M_3 of the exponential weight, from which the error M_3 r0^2/30 follows: 10 in 3D"),
+    Claim(id="rr98-eq45-lattice", source="RR98 Eq. 45", printed="(dV)^(1/3) < r0", at_most=1, value=wider("lattice"),
+          statement="the spacing must be smaller than r0: error of the gradient with h = 3 a over that with h = 1.2 a, lattice, "
+                    "wavelength 32 a", because="if the ordering governs, the wider weight is better"),
+    Claim(id="rr98-eq45-jittered", source="RR98 Eq. 45", printed="(dV)^(1/3) < r0", at_most=1, value=wider("jittered-0.3"),
+          statement="the spacing must be smaller than r0: error of the gradient with h = 3 a over that with h = 1.2 a, points "
+                    "jittered by 0.3 a, wavelength 32 a", because="if the ordering governs, the wider weight is better"),
+    Claim(id="rr98-eq45-lambda", source="RR98 Eq. 45", printed="r0 < lambda", expect=2, within=0.1,
+          value=slope("lattice", "a", 64.0),
+          statement="r0 must be smaller than lambda: slope of the gradient's error in r0/lambda at fixed spacing, lattice",
+          because="0.1: weights of 2 to 6 spacings, whose sums differ by some per cent from integrals"),
+    Claim(id="rr98-continuum-limit-jittered", source="RR98 Sec. III", printed="continuum limit", at_least=0.5,
+          value=slope("jittered-0.3", "h/a", 3.0),
+          statement="r0 -> 0 with a < r0 gives the continuum limit also off a lattice: slope of the gradient's error at h = 3 a, "
+                    "points jittered by 0.3 a, renormalised",
+          because="an error that falls at least as the square root of h/lambda"),
+)

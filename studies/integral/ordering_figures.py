@@ -1,0 +1,66 @@
+"""Figures of the study ordering, from its tables."""
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from studies.kit.figure import below, errorbar, figure
+from studies.kit.table import Tables
+
+KINDS = ("lattice", "jittered-0.1", "jittered-0.3", "random", "relaxed")
+MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
+
+
+def figures(tables: Tables) -> dict[str, Figure]:
+    """What the tables allow."""
+    if "means" not in tables:
+        return {}
+    return {"surface": surface(tables["means"]), "makers": makers(tables["means"])}
+
+
+def surface(means: pd.DataFrame) -> Figure:
+    """Error of the gradient over the range of the weight, one curve a wavelength; the ordering of Eq. 45 is between the ends."""
+    chosen = means[(means["maker"] == "renormalised") & (means["weight"] == "Lucy")]
+    kinds = [kind for kind in KINDS if kind in set(chosen["points"])]
+    page, rows = figure(2, len(kinds), width=2.6, height=2.9, sharex=True, sharey="row", squeeze=False)
+    for column, kind in enumerate(kinds):
+        for row, operator in zip(rows, ("gradient", "laplacian"), strict=True):
+            axes = row[column]
+            for number, (wavelength, group) in enumerate(chosen[chosen["points"] == kind].groupby("wavelength")):
+                group = group.sort_values("h")
+                errorbar(axes, *columns(group, "h", operator), number=number, linestyle="-",
+                         label=rf"$\lambda$ = {wavelength} $a$")
+            axes.set(xscale="log", yscale="log")
+            axes.set_xticks([1.2, 2, 3, 4, 6], labels=["1.2", "2", "3", "4", "6"])
+            axes.minorticks_off()
+        rows[0, column].set_title(kind)
+        rows[1, column].set_xlabel("range of the weight $h/a$")
+    rows[0, 0].set_ylabel("relative rms error of grad")
+    rows[1, 0].set_ylabel("relative rms error of Laplacian")
+    below(rows[1, len(kinds)//2], ncols=6, bbox_to_anchor=(0.5, -0.25))
+    page.suptitle("Must $a < r_0 < \\lambda$ hold?  Lucy's weight, renormalised; bars: 95 % over point sets", fontsize=10)
+    return page
+
+
+def columns(group: pd.DataFrame, x: str, y: str) -> list[list[float]]:
+    """x, y and the error of y."""
+    return [group[name].tolist() for name in (x, y, f"{y}_err")]
+
+
+def makers(means: pd.DataFrame) -> Figure:
+    """Errors of all makers of edges as points get finer, on a lattice and on jittered points."""
+    page, (left, right) = figure(1, 2, width=4.2, height=4.2, sharey=True)
+    for axes, kind in ((left, "lattice"), (right, "jittered-0.3")):
+        for number, maker in enumerate(MAKERS):
+            some = means[(means["maker"] == maker) & (means["points"] == kind) & (means["weight"] == "Lucy")]
+            group = some[some["h"] == (3.0 if 3.0 in set(some["h"]) else 2.0)].sort_values("wavelength")
+            if len(group):
+                errorbar(axes, *columns(group, "wavelength", "gradient"), number=number, linestyle="-",
+                         label=maker + ("" if maker == "delaunay" else ", $h = 3a$"))
+        x = np.array([16.0, 96.0])
+        axes.plot(x, 0.35*(16/x)**2, color="grey", linestyle=":", marker="", label=r"$\lambda^{-2}$")
+        axes.set(xscale="log", yscale="log", title=kind, xlabel=r"wavelength $\lambda/a$")
+        axes.set_xticks([16, 24, 32, 48, 64, 96], labels=["16", "24", "32", "48", "64", "96"])
+        axes.minorticks_off()
+        below(axes, ncols=2, bbox_to_anchor=(0.5, -0.18))
+    left.set_ylabel("relative rms error of grad")
+    return page
