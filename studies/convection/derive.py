@@ -115,6 +115,8 @@ def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> Iterator[
         if where not in limits.index:
             continue
         limit = limits.loc[where]
+        if row["method"] != "spam" and row["rolls"] != limit["rolls"]:
+            continue        # another flow
         cpu_s = cost(runs, row, seconds)
         yield error(row, "Nu", row["nu"], row["nu_err"], limit[["nu", "nu_err"]].set_axis(["ke", "ke_err"]),
                     1.0, cpu_s)
