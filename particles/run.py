@@ -1,18 +1,24 @@
 """The only time loop: list upkeep, step, walls, divergence check, records, checkpoint, progress."""
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from math import inf
+from numbers import Real
 from pathlib import Path
 from time import monotonic, process_time
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from particles.checkpoint import load, save
 from particles.integrators import RK4
 from particles.limits import limit_of
+from particles.surroundings import outside
 from particles.team import Team
 
 Quantity = Callable[..., Any]  # (sums of the method, state) -> number or array
+#: of the step limit: what is stable where moving particles lie at random (see `limits`), what the studies take
+RANDOM, STUDIES = 1/1.4, 0.22
 
 
 class Divergence(FloatingPointError):
@@ -30,6 +36,7 @@ class Plan:
 
     dt, steps : time step and their number.
     series : numbers recorded every `every` steps; means : arrays averaged every `every` steps from time `mean_from` on.
+    Steps beyond the last multiple of `every` are not recorded, so that samples are equally far apart.
     checkpoint : file, written every `checkpoint_seconds` and at an interrupt; a run that finds it goes on from there,
     bitwise as if it had not been interrupted.
     """
@@ -44,9 +51,24 @@ class Plan:
     threads: int = 1
 
     def __post_init__(self):
-        if not self.dt > 0 or self.steps < 0 or self.every < 1:
-            raise ValueError(f"need dt > 0, steps >= 0, every >= 1, got dt = {self.dt}, steps = {self.steps}, "
-                             f"every = {self.every}")
+        numbers = f"got dt = {self.dt!r}, steps = {self.steps!r}, every = {self.every!r}"
+        if not all(isinstance(number, Real) for number in (self.dt, self.steps, self.every)):
+            raise TypeError(f"dt, steps and every are numbers, {numbers}")
+        if not (0 < self.dt < inf and self.steps >= 0 and self.every >= 1):
+            raise ValueError(f"need dt > 0 and finite, steps >= 0, every >= 1, {numbers}")
+        if not (float(self.steps).is_integer() and float(self.every).is_integer()):
+            raise ValueError(f"steps and every count steps, {numbers}: give whole numbers, such as steps = round(t_end/dt)")
+        self._check_records()
+
+    def _check_records(self):
+        """Refuse what would be asked for and never recorded."""
+        last = self.steps//self.every*self.every
+        if (self.series or self.means) and not last:
+            raise ValueError(f"{self.steps} steps, recorded every {self.every}, leave {', '.join((*self.series, *self.means))} "
+                             f"without a record: take at least {self.every} steps, or a smaller `every`")
+        if self.means and not last*self.dt > self.mean_from:
+            raise ValueError(f"means from time {self.mean_from:g} on have no sample: the last record is at {last*self.dt:g}; "
+                             "take more steps, or an earlier `mean_from`")
 
 
 @dataclass(kw_only=True)
@@ -78,17 +100,18 @@ class Run:
         return self.state[:, np.argsort(self.ids)]
 
 
-def run(method: Any, start: np.ndarray, plan: Plan, progress: Callable[[float], None] | None = None) -> Run:
-    """Advance the particles or points `start` (fields, n) by the plan; `progress` is told the fraction done.
+def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], None] | None = None) -> Run:
+    """Advance the particles or points `start`, array-like (fields, n), by the plan; `progress` is told the fraction done.
 
     Raises
     ------
     ValueError
-        The step is above the stability limit, a state is invalid at the start, or the checkpoint is of other code or
-        other parameters.
+        The step is above the stability limit, a state is invalid or a particle beyond a wall at the start, or the
+        checkpoint is of other code or other parameters.
     Divergence
         A field is not finite or outside of the equation of state's validity; names step, time, field and particle.
     """
+    start = _particles(method, start)
     _check_start(method, start, plan)
     team = Team(plan.threads)
     now = load(plan.checkpoint, method, plan, start) or Run(state=start.copy(), ids=np.arange(start.shape[1]))
@@ -146,16 +169,32 @@ def _record(plan: Plan, sums, now: Run) -> None:
             now.sums[name] = now.sums.get(name, 0.0) + np.asarray(quantity(sums, now.state))
 
 
+def _particles(method, start: ArrayLike) -> np.ndarray:
+    """The start as an array (fields, n) of float64."""
+    wanted = f"particles are an array ({len(method.fields)}, n) of {', '.join(method.fields)} with n >= 1"
+    try:
+        state = np.asarray(start, float)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{wanted}, got a {type(start).__name__} that is none: {error}") from error
+    if state.ndim != 2 or state.shape[0] != len(method.fields) or state.shape[1] < 1:
+        raise ValueError(f"{wanted}, got {state.shape}")
+    return state
+
+
 def _check_start(method, start: np.ndarray, plan: Plan) -> None:
-    rows = len(method.fields)
-    if start.ndim != 2 or start.shape[0] != rows or start.shape[1] < 1:
-        raise ValueError(f"particles are an array ({rows}, n) of {', '.join(method.fields)} with n >= 1, got {start.shape}")
     if not np.isfinite(start).all():
         raise ValueError("the particles at the start are not finite: " + _where(method, start))
+    walls = getattr(method, "walls", ())     # a method on fixed points has none
+    if len(lost := outside(walls, start)):
+        i, (width, height) = lost[0], method.box
+        raise ValueError(f"particle {i} at ({start[0, i]:g}, {start[1, i]:g}) is beyond a wall of the box |x| <= {width/2:g}, "
+                         f"|y| <= {height/2:g} ({len(lost)} of {start.shape[1]} are): the box is centred on the origin; move "
+                         "them inside")
     limit = limit_of(method, start)
     if plan.dt > limit:
-        raise ValueError(f"dt = {plan.dt:g} is above the stability limit {limit:.3g} of RK4 for these particles: "
-                         f"take at most {0.8*limit:.2g}")
+        raise ValueError(f"dt = {plan.dt:g} is above the stability limit {limit:.3g} of RK4 for these particles: what is below "
+                         f"is stable, below {RANDOM*limit:.2g} also where they lie at random; the studies take {STUDIES} of "
+                         f"the limit, {STUDIES*limit:.2g}, because errors at plates grow with dt")
 
 
 def _where(method, state: np.ndarray, ids: np.ndarray | None = None) -> str:
@@ -164,7 +203,8 @@ def _where(method, state: np.ndarray, ids: np.ndarray | None = None) -> str:
 
 
 def _way_out(plan: Plan) -> str:
-    return f"halve dt = {plan.dt:g}, or start from a smoother state; the last checkpoint is kept"
+    kept = "" if plan.checkpoint is None else "; the last checkpoint is kept"
+    return f"halve dt = {plan.dt:g}, or start from a smoother state{kept}"
 
 
 def _check(method, plan: Plan, sums, now: Run) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 from particles.neighbours import farthest, make_lists, sort_into_cells
 from particles.pairs import empty_pairs, weigh
 from particles.team import Team
-from particles.walls import fixed_points, move_images, parents, place_images
+from particles.walls import confine, fixed_points, move_images, parents, place_images
 from particles.walls.periodic import wrap
 
 EMPTY = np.empty(0)
@@ -17,6 +17,17 @@ MARGIN = 1.25  # a particle may speed up within a step by this factor before the
 def fastest(state: np.ndarray) -> float:
     """The largest speed of a state (x, y, vx, vy, e)."""
     return float(np.sqrt((state[2]**2 + state[3]**2).max()))
+
+
+def outside(walls: tuple, state: np.ndarray) -> np.ndarray:
+    """Numbers of the particles that lie beyond walls: those that these would reflect.
+
+    Periodic sides have no beyond; what has left through them is wrapped.
+    """
+    inside = state.copy()
+    for wall in walls:
+        confine(wall, inside)
+    return np.flatnonzero((inside[:2] != state[:2]).any(axis=0))
 
 
 class Surroundings:

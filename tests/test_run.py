@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 
 from continuum.fluid import VanDerWaals
+from continuum.scene import Walls
 from particles import checkpoint
 from particles.observe import Grid, Profile, field_kinetic, heat_flow, particle_kinetic
-from particles.run import Divergence, Plan, Run, _check, run
+from particles.run import RANDOM, STUDIES, Divergence, Plan, Run, _check, run
 from particles.team import Team
 from particles.weights import Lucy
+from studies.convection.spam import OF_LIMIT, images, images_odd
 from tests.scenes import small
 
 PLAN = Plan(dt=0.6, steps=60, every=5, series={"kp": particle_kinetic, "kg": field_kinetic, "heat": heat_flow},
@@ -107,8 +109,16 @@ def test_full_disk_keeps_the_last_checkpoint(tmp_path, monkeypatch):
 def test_divergence_names_step_time_field_and_particle(monkeypatch):
     method, start = small()
     monkeypatch.setattr("particles.run.limit_of", lambda *known: np.inf)
-    with pytest.raises(Divergence, match=r"step \d+, time .*particle.*halve dt"):
+    with pytest.raises(Divergence, match=r"step \d+, time .*particle.*halve dt") as told:
         run(method, start, replace(PLAN, dt=4.0))     # twice the limit
+    assert "checkpoint" not in str(told.value)        # there is none
+
+
+def test_divergence_tells_of_the_checkpoint_that_is_kept(tmp_path):
+    method, start = small()
+    start[3, 7] = 1e6
+    with pytest.raises(Divergence, match="the last checkpoint is kept"):
+        run(method, start, replace(PLAN, checkpoint=tmp_path/"run.h5"))
 
 
 def test_not_finite_field_is_named():
@@ -138,13 +148,14 @@ def test_invalid_van_der_waals_state_is_divergence():
     method, start = small(eos=VanDerWaals())
     start[:2, :40] *= 0.2    # rho b >= 1 in the middle
     with pytest.raises(Divergence, match="outside the validity of VanDerWaals"):
-        run(method, start, replace(PLAN, dt=0.01))
+        run(method, start, replace(PLAN, dt=0.01, mean_from=0.0))
 
 
 @pytest.mark.parametrize(("change", "message"), [
     (lambda m, s: (m, s[:, :0], PLAN), r"particles are an array \(5, n\).*n >= 1"),
     (lambda m, s: (m, np.full_like(s, np.nan), PLAN), "not finite"),
-    (lambda m, s: (m, s, replace(PLAN, dt=5.0)), r"dt = 5 is above the stability limit .* take at most"),
+    (lambda m, s: (m, s.T, PLAN), r"particles are an array \(5, n\) of x, y, vx, vy, e .* got \(128, 5\)"),
+    (lambda m, s: (m, [[1.0, 2.0], [3.0]], PLAN), r"particles are an array \(5, n\).*got a list that is none"),
     (lambda m, s: (replace(m, weight=Lucy.of(5.0)), s, PLAN), "wider than the box"),
 ])
 def test_what_cannot_work_is_refused(change, message):
@@ -152,6 +163,73 @@ def test_what_cannot_work_is_refused(change, message):
         run(*change(*small()))
 
 
-def test_plan_refuses_no_step():
-    with pytest.raises(ValueError, match="dt > 0"):
-        replace(PLAN, dt=0.0)
+def test_a_step_above_the_limit_is_told_what_is_stable_and_what_the_studies_take():
+    method, start = small()
+    with pytest.raises(ValueError, match=r"dt = 5 is above the stability limit (\S+) of RK4 .* below (\S+) also where they lie "
+                                         r"at random; the studies take (\S+) of the limit, (\S+),") as told:
+        run(method, start, replace(PLAN, dt=5.0))
+    words = str(told.value).replace(",", "").split()
+    limit = float(words[words.index("limit") + 1])
+    # two and three digits are told
+    assert float(words[words.index("also") - 1]) == pytest.approx(RANDOM*limit, rel=0.05)
+    assert f"{STUDIES} of the limit {STUDIES*limit:.2g}" in " ".join(words)
+    assert STUDIES == OF_LIMIT
+
+
+# --- where a run begins, and what it is asked for ----------------------------------------------------------
+
+
+def test_any_array_like_may_start_a_run(uninterrupted):
+    method, start = small()
+    one = run(method, start, replace(PLAN, steps=20, means={})).state
+    assert np.array_equal(run(method, start.tolist(), replace(PLAN, steps=20, means={})).state, one)
+    assert np.array_equal(run(method, np.asfortranarray(start), replace(PLAN, steps=20, means={})).state, one)
+
+
+@pytest.mark.parametrize("walls", [images, images_odd])
+@pytest.mark.parametrize(("axis", "shift"), [(1, 4.0), (1, -0.9), (1, 100.0)])
+def test_particles_beyond_a_wall_at_the_start_are_named_with_place_and_box(walls, axis, shift):
+    method, start = small()
+    start[axis] += shift
+    i = int(np.argmax(abs(start[axis]) > 4))
+    x, y = start[:2, i]
+    with pytest.raises(ValueError, match=rf"particle {i} at \({x:g}, {y:g}\) is beyond a wall of the box \|x\| <= 8, "
+                                         rf"\|y\| <= 4 \({(abs(start[axis]) > 4).sum()} of 128 are\).*centred on the origin"):
+        run(method, start, PLAN)
+
+
+def test_particles_beyond_a_side_wall_are_named_too_and_periodic_sides_have_no_beyond():
+    method, start = small(sides=Walls(), aspect=2.0)
+    start[0, 3] = 8.5
+    with pytest.raises(ValueError, match=r"particle 3 at \(8\.5, .*beyond a wall"):
+        run(method, start, PLAN)
+    method, start = small()
+    moved = start + np.array([[method.box[0]], [0], [0], [0], [0]])
+    plan = replace(PLAN, steps=10, means={})
+    # one period further the remainder is rounded: 1e-16 of 24, grown by what ten steps do to it
+    np.testing.assert_allclose(run(method, moved, plan).by_id(), run(method, start, plan).by_id(), atol=1e-12)
+
+
+@pytest.mark.parametrize(("change", "kind", "message"), [
+    ({"dt": 0.0}, ValueError, "dt > 0"), ({"dt": np.inf}, ValueError, "dt > 0 and finite"),
+    ({"steps": -1}, ValueError, "steps >= 0"), ({"every": 0}, ValueError, "every >= 1"),
+    ({"steps": 10.5}, ValueError, r"steps = 10\.5.*give whole numbers, such as steps = round"),
+    ({"every": 2.5}, ValueError, r"every = 2\.5.*whole numbers"), ({"steps": np.nan}, ValueError, "steps >= 0"),
+    ({"dt": "0.5"}, TypeError, r"are numbers, got dt = '0\.5'"),
+    ({"steps": 4}, ValueError, r"4 steps, recorded every 5, leave kp, kg, heat, grid, profile without a record: take at least 5"),
+    ({"steps": 0}, ValueError, "without a record"),
+    ({"mean_from": 36.0}, ValueError, r"means from time 36 on have no sample: the last record is at 36; take more steps"),
+])
+def test_plan_refuses_what_cannot_be_done(change, kind, message):
+    with pytest.raises(kind, match=message):
+        replace(PLAN, **change)
+
+
+def test_plans_without_records_may_be_as_short_as_they_like():
+    assert Plan(dt=0.5, steps=0).steps == 0 and Plan(dt=0.5, steps=1e2).steps == 100
+
+
+def test_every_series_that_a_plan_allows_has_a_sample():
+    method, start = small()
+    done = run(method, start, Plan(dt=0.4, steps=7, every=5, series={"kp": particle_kinetic}, means={"profile": Profile(4)}))
+    assert len(done.times) == len(done.series["kp"]) == done.samples == 1
