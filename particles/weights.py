@@ -5,7 +5,8 @@ loop needs no branch: `shape` phi(q) and `slope` phi'(q)/q, which is finite at q
 """
 from collections.abc import Callable
 from functools import cache
-from math import gamma, pi
+from math import gamma, inf, isfinite, pi
+from numbers import Real
 from typing import NamedTuple
 
 from scipy.integrate import quad
@@ -23,11 +24,68 @@ def slope(weight, q):
     """phi'(q)/q, not normalised."""
 
 
+Formula = Callable[[None, float], float]
+#: where the slope is held against a difference: beside the knots of splines, which are fractions
+PLACES, STEP = (0.1370, 0.3891, 0.6129, 0.8713), 1e-5
+#: of the largest value: expanded polynomials with coefficients in the thousands cancel to this at q = 1
+ROUND_OFF = 1e-12
+#: of the steepest slope: the difference is good to phi''' STEP^2/6 = 2e-8 for phi''' = 1000 phi', and round-off 1e-10
+DIFFERENCE = 1e-6
+
+
 @cache
-def unit_integral(phi: Callable[[float], float], d: int) -> float:
+def unit_integral(phi: Formula, d: int) -> float:
     """Integral of phi(|x|) over the unit ball in d dimensions."""
     sphere = 2*pi**(d/2)/gamma(d/2)
-    return sphere*quad(lambda q: phi(q)*q**(d - 1), 0, 1, points=[0.5], epsabs=1e-13, epsrel=1e-13)[0]
+    return sphere*quad(lambda q: phi(None, q)*q**(d - 1), 0, 1, points=[0.5], epsabs=1e-13, epsrel=1e-13)[0]
+
+
+def formulas(kind: type) -> tuple[Formula, Formula]:
+    """(phi(q), phi'(q)/q) of a kind of weight.
+
+    Raises
+    ------
+    TypeError
+        One of them is missing.
+    """
+    wanted = (("shape", shape.kinds, "phi(q), q = r/h"), ("slope", slope.kinds, "phi'(q)/q"))
+    if lacking := [(name, text) for name, known, text in wanted if kind not in known]:
+        add = " and ".join(f"{name}.of({kind.__name__})(lambda weight, q: ...) with {text}" for name, text in lacking)
+        raise TypeError(f"{kind.__name__} has no {' and no '.join(name for name, _ in lacking)}: add {add}, as in "
+                        "particles/weights.py")
+    return shape.kinds[kind], slope.kinds[kind]
+
+
+@cache
+def check_formulas(name: str, phi: Formula, over_q: Formula) -> None:
+    """Refuse formulas that the pair loops, which have no branch for the range, would take without a word.
+
+    Raises
+    ------
+    ValueError
+        phi or phi' is not zero at q = 1, phi'/q not finite at q = 0, or not the derivative of phi over q.
+    """
+    largest, steepest = (max(abs(f(None, q)) for q in PLACES) for f in (phi, over_q))
+    for what, edge, size in (("phi", phi(None, 1.0), largest), ("phi'/q", over_q(None, 1.0), steepest)):
+        if not abs(edge) <= ROUND_OFF*size:
+            raise ValueError(f"{what} of {name} is {edge:.6g} at q = 1, where it must be zero: pairs beyond the range would "
+                             "feel it; let phi end in (1 - q)^2 or a higher power")
+    if not isfinite(centre := _or_nan(over_q, 0.0)):
+        raise ValueError(f"phi'/q of {name} is {centre} at q = 0, where a particle meets itself: let phi begin as 1 - c q^2, and "
+                         "write its slope without a division by q")
+    found = [(q, q*over_q(None, q), (phi(None, q + STEP) - phi(None, q - STEP))/(2*STEP)) for q in PLACES]
+    for q, given, difference in found:
+        if not abs(given - difference) <= DIFFERENCE*max(abs(d) for _, _, d in found):
+            raise ValueError(f"slope of {name} is {given/q:.6g} at q = {q}, but phi'(q)/q there is {difference/q:.6g}: give the "
+                             "derivative of phi, divided by q")
+
+
+def _or_nan(f: Formula, q: float) -> float:
+    """f(q), not a number where it divides by zero, as Python raises there."""
+    try:
+        return float(f(None, q))
+    except ZeroDivisionError:
+        return float("nan")
 
 
 class _Fields(NamedTuple):
@@ -44,15 +102,20 @@ class Weight(_Fields):
 
         Raises
         ------
+        TypeError
+            h is not a number, or a formula is missing.
         ValueError
-            h is not positive or d is not 1, 2 or 3.
+            h is not positive and finite, d is not 1, 2 or 3, or the formulas do not fit each other.
         """
-        if not h > 0:
-            raise ValueError(f"the range h of a weight must be positive, got {h}: KHP95 use h = 3 sigma")
+        if not isinstance(h, Real):
+            raise TypeError(f"the range h of a weight must be a number, got {h!r}: KHP95 use h = 3 sigma")
+        if not 0 < h < inf:
+            raise ValueError(f"the range h of a weight must be positive and finite, got {h}: KHP95 use h = 3 sigma")
         if d not in (1, 2, 3):
             raise ValueError(f"weights exist in d = 1, 2, 3 dimensions, got d = {d}")
-        phi = shape.kinds[cls]
-        return cls(h, 1/(unit_integral(lambda q: phi(None, q), d)*h**d))
+        phi, over_q = formulas(cls)
+        check_formulas(cls.__name__, phi, over_q)
+        return cls(h, 1/(unit_integral(phi, d)*h**d))
 
 
 class Lucy(Weight):
