@@ -79,6 +79,14 @@ def lanes(function: Callable) -> Any:
 formula = register_jitable(**OPTIONS)
 
 
+def made(kind: type) -> str:
+    """How an object of a class is written: `VanDerWaals()`, `ConstEta(eta=..., k=...)`, `Lucy.of(...)`."""
+    if hasattr(kind, "of"):
+        return f"{kind.__name__}.of(...)"
+    needed = [name for name in getattr(kind, "_fields", ()) if name not in getattr(kind, "_field_defaults", {})]
+    return f"{kind.__name__}({', '.join(f'{name}=...' for name in needed)})"
+
+
 def generic(stub: Callable) -> Any:
     """A function whose formula is chosen by the type of its first argument (a NamedTuple).
 
@@ -87,13 +95,15 @@ def generic(stub: Callable) -> Any:
     Raises
     ------
     TypeError
-        No formula is known for that type.
+        No formula is known for that type, or a class was given in place of an object.
     """
     table: dict[type, Callable] = {}
 
     def call(first, *rest):
         if type(first) not in table:
             known = ", ".join(kind.__name__ for kind in table)
+            if isinstance(first, type):
+                raise TypeError(f"{stub.__name__} needs an object, got the class {first.__name__} itself: give {made(first)}")
             raise TypeError(f"{stub.__name__}({type(first).__name__}, ...) is not defined: it knows {known}; "
                             f"add a formula with @{stub.__name__}.of({type(first).__name__})")
         return table[type(first)](first, *rest)

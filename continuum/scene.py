@@ -5,6 +5,8 @@ is chosen so that the motionless state has exactly constant density. Nothing her
 particles read it.
 """
 from dataclasses import dataclass
+from math import inf
+from numbers import Real
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -84,6 +86,7 @@ class RayleighBenard:
 
     def __post_init__(self):
         self._check_numbers()
+        self._check_objects()
         for T in (self.T_hot, self.T_cold):
             check_state(self.eos, 1.0, energy(self.eos, 1.0, T))
         eta = float(viscosity(self.law, 1.0, self.T_mean))
@@ -93,16 +96,25 @@ class RayleighBenard:
                 f"{self.ra} needs {self.eta:.6g}: choose temperatures around the one that the law refers to")
 
     def _check_numbers(self):
-        if not self.ra > 0:
-            raise ValueError(f"Ra must be positive, got {self.ra}: the lower plate is the hot one")
-        if not self.pr > 0:
-            raise ValueError(f"Pr = nu/kappa must be positive, got {self.pr}")
-        if not (self.L > 0 and self.aspect > 0):
-            raise ValueError(f"L and aspect must be positive, got L = {self.L}, aspect = {self.aspect}")
-        if not self.T_hot > self.T_cold > 0:
-            raise ValueError(f"temperatures must obey T_hot > T_cold > 0, got {self.T_hot} and {self.T_cold}")
+        for name in ("ra", "pr", "L", "aspect", "T_hot", "T_cold"):
+            if not isinstance(value := getattr(self, name), Real):
+                raise TypeError(f"{name} must be a number, got {value!r}: give it without quotes or brackets, as in ra=1e4")
+        if not 0 < self.ra < inf:
+            raise ValueError(f"Ra must be positive and finite, got {self.ra}: the lower plate is the hot one")
+        if not 0 < self.pr < inf:
+            raise ValueError(f"Pr = nu/kappa must be positive and finite, got {self.pr}")
+        if not (0 < self.L < inf and 0 < self.aspect < inf):
+            raise ValueError(f"L and aspect must be positive and finite, got L = {self.L}, aspect = {self.aspect}: "
+                             "KHP95 use a height of 50 sigma and twice that width")
+        if not inf > self.T_hot > self.T_cold > 0:
+            raise ValueError(f"temperatures must be finite and obey T_hot > T_cold > 0, got {self.T_hot} and {self.T_cold}")
+
+    def _check_objects(self):
         if not isinstance(self.sides, (Periodic, Walls)):
             raise ValueError(f"sides must be Periodic() or Walls(), got {self.sides!r}")
+        if not isinstance(self.transport, type):
+            raise TypeError(f"transport must be a class, got {self.transport!r}: give {type(self.transport).__name__}, its "
+                            "numbers follow from ra and pr")
 
     @property
     def width(self) -> float:

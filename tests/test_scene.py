@@ -2,8 +2,9 @@
 import numpy as np
 import pytest
 
-from continuum.fluid import EQUATIONS_OF_STATE, ConstNu, PowerLaw, VanDerWaals, conductivity, pressure, viscosity
+from continuum.fluid import EQUATIONS_OF_STATE, ConstNu, IdealGas, PowerLaw, VanDerWaals, conductivity, pressure, viscosity
 from continuum.scene import Periodic, RayleighBenard, Walls
+from particles.weights import Lucy
 
 every_eos = pytest.mark.parametrize("eos", EQUATIONS_OF_STATE.values(), ids=EQUATIONS_OF_STATE)
 
@@ -74,7 +75,7 @@ def test_scenes_with_different_sides_differ():
 
 
 @pytest.mark.parametrize(("wrong", "words"), [
-    ({"ra": 0.0}, "Ra must be positive, got 0"), ({"ra": -1.0}, "Ra must be positive"),
+    ({"ra": 0.0}, "Ra must be positive and finite, got 0"), ({"ra": -1.0}, "Ra must be positive"),
     ({"ra": np.nan}, "Ra must be positive"), ({"pr": 0.0}, "Pr"), ({"L": 0.0}, "L and aspect"),
     ({"aspect": -1.0}, "L and aspect"), ({"T_hot": 0.4}, "T_hot > T_cold > 0"),
     ({"sides": "walls"}, "Periodic"), ({"eos": VanDerWaals(b=1.0)}, "rho b = 1"),
@@ -92,3 +93,31 @@ def test_rolls_that_do_not_fit_are_refused():
         RayleighBenard(ra=1.0, sides=Walls()).flow(0.0, 0.0, 0.1, 0)
     with pytest.raises(ValueError, match="negative"):
         RayleighBenard(ra=1.0).flow(0.0, 0.0, -0.1)
+
+
+@pytest.mark.parametrize(("wrong", "kind", "words"), [
+    ({"ra": np.inf}, ValueError, "Ra must be positive and finite, got inf"), ({"pr": np.inf}, ValueError, "finite, got inf"),
+    ({"L": np.inf}, ValueError, "L = inf"), ({"L": np.nan}, ValueError, "L = nan"),
+    ({"aspect": np.inf}, ValueError, "aspect = inf"),
+    ({"T_hot": np.inf}, ValueError, "finite and obey"), ({"T_cold": np.nan}, ValueError, "finite and obey"),
+    ({"ra": "1e4"}, TypeError, "ra must be a number, got '1e4': give it without quotes"),
+    ({"L": [50]}, TypeError, "L must be a number"),
+    ({"eos": VanDerWaals}, TypeError, r"needs an object, got the class VanDerWaals itself: give VanDerWaals\(\)"),
+    ({"transport": ConstNu(0.1, 0.1)}, TypeError, "transport must be a class, .* give ConstNu, its numbers follow"),
+])
+def test_what_is_no_finite_number_or_no_object_is_refused(wrong, kind, words):
+    with pytest.raises(kind, match=words):
+        RayleighBenard(**{"ra": 1000.0, **wrong})
+
+
+def test_numbers_of_any_kind_make_a_scene():
+    assert RayleighBenard(ra=np.float64(1e4), L=np.int64(50), pr=1) == RayleighBenard(ra=1e4)
+
+
+@pytest.mark.parametrize(("kind", "way_out"), [(IdealGas, r"IdealGas\(\)"), (ConstNu, r"ConstNu\(nu=\.\.\., kappa=\.\.\.\)"),
+                                              (Lucy, r"Lucy\.of\(\.\.\.\)")])
+def test_a_class_in_place_of_an_object_is_told_from_an_unknown_kind(kind, way_out):
+    with pytest.raises(TypeError, match=f"pressure needs an object, got the class {kind.__name__} itself: give {way_out}$"):
+        pressure(kind, 1.0, 1.0)
+    with pytest.raises(TypeError, match=r"pressure\(int, \.\.\.\) is not defined: it knows IdealGas, .*add a formula"):
+        pressure(3, 1.0, 1.0)
