@@ -13,18 +13,29 @@ export PYTHONPATH := $(CURDIR)
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help studies test lint types notebooks bench clean
+.PHONY: help env studies test lint types notebooks bench clean $(studies:%=study-%) $(studies:%=figures-%)
 
+# a line for each name that % stands for
 help:  ## this list
 	@echo 'make TARGET [SIZE=quick|paper|fine] [ARGS="--workers 1"] [PYTHON=python3]'
-	@sed -n 's/^\([a-z%-]*\):.*  ## \(.*\)/  \1\t\2/p' Makefile | expand -t 14
-	@echo 'studies: $(studies)'
+	@awk -v names='$(studies)' '{ sub(/^[$$][(].*[)]: /, "") } /^[a-z%-]+:.*  ## / { \
+		text = $$0; sub(/.*  ## /, "", text); target = $$1; sub(/:$$/, "", target); \
+		n = target ~ /%/ ? split(names, name, " ") : 1; \
+		for (i = 1; i <= n; i++) { one = target; sub(/%/, name[i], one); printf "  %-18s%s\n", one, text } }' Makefile
+	@echo '  ARGS="--only TEXT" runs the cases of a study with this text in their label, such as the name of a variant'
+	@echo '  SIZE=quick writes to results/quick'
 
-study-%: .venv/ready  ## one study: cases, tables, figures, verdicts (study-rb); goes on where it stopped
+$(studies:%=study-%): study-%: .venv/ready  ## cases, tables, figures, verdicts of a study; goes on where it stopped
 	$(run) -m studies.$* $(ARGS)
 
-figures-%: .venv/ready  ## draw the figures of a study again, from its tables only
+$(studies:%=figures-%): figures-%: .venv/ready  ## its figures again, from its tables only
 	$(run) -m studies.$* figures $(ARGS)
+
+# any other name, before something is set up for it
+study-% figures-%:
+	@echo 'no study $*: there are $(studies)' >&2; exit 2
+
+env: .venv/ready  ## set up .venv and nothing else
 
 studies: $(studies:%=study-%)  ## all studies, one after the other
 

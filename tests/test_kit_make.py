@@ -1,0 +1,55 @@
+"""make: names that exist before anything is set up, and a list of them."""
+import shutil
+import subprocess
+
+import pytest
+
+from studies.kit import source
+
+pytestmark = pytest.mark.skipif(not shutil.which("make"), reason="no make")
+MAIN = "if __name__ == '__main__':\n    pass\n"
+
+
+@pytest.fixture
+def make(tmp_path):
+    """make in a repository of the studies one and two, and a module that is none; nothing can be set up in it."""
+    shutil.copy(source.ROOT / "Makefile", tmp_path)
+    (tmp_path / "studies").mkdir()
+    (tmp_path / "requirements.lock").touch()
+    for name, text in {"one": MAIN, "two": MAIN, "__init__": ""}.items():
+        (tmp_path / f"studies/{name}.py").write_text(text)
+
+    def run(*words: str) -> tuple[int, str]:
+        done = subprocess.run(["make", *words, "PYTHON=false"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True)
+        return done.returncode, done.stdout
+    return run
+
+
+@pytest.mark.parametrize("target", ["study-three", "figures-three"])
+def test_an_unknown_study_is_told_those_that_exist_before_anything_is_set_up(make, target, tmp_path):
+    code, text = make(target)
+    assert code != 0 and "no study three: there are one two" in text
+    assert "Setting up" not in text and not (tmp_path / ".venv").exists()
+
+
+def test_a_known_study_needs_the_environment_first(make):
+    code, text = make("study-one")
+    assert code != 0 and "no study" not in text and ".venv/ready" in text
+
+
+def test_help_lists_every_target_by_the_name_that_is_typed(make):
+    code, text = make()
+    assert code == 0 and "%" not in text
+    listed = [line.split()[0] for line in text.splitlines() if line.startswith("  ")]
+    assert {"study-one", "study-two", "figures-one", "figures-two", "env", "test", "help"} <= set(listed)
+    assert "one" not in listed
+
+
+def test_env_sets_up_and_does_nothing_else(make, tmp_path):
+    (tmp_path / ".venv").mkdir()
+    (tmp_path / ".venv/ready").touch()
+    assert make("env")[0] == 0
+    (tmp_path / ".venv/ready").unlink()
+    code, text = make("env")
+    assert code != 0 and ".venv/ready" in text
