@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from studies.kit import source
-from studies.kit.case import Case, Outcome
+from studies.kit.case import Case, Outcome, word
 from studies.kit.keep import kept
 from studies.kit.sweep import CasesFailed, Interrupted, sweep
 from studies.kit.table import Table, read
@@ -24,6 +24,12 @@ class Lens(NamedTuple):
 
 
 EYE = Lens(2.0)
+
+
+class Mixed(NamedTuple):
+    of: object = math.sqrt
+    lens: Lens = EYE
+    kind: type = Path
 
 
 def squared(x):
@@ -149,6 +155,13 @@ def test_what_is_kept_can_be_read_by_people(bench):
     assert {"commit", "versions", "date"} <= set(content)
     assert kept(case, bench.folder / "raw/toy") == {
         "squares": [{"x": 2.0, "note": "", "y": 4.0, "commit": content["commit"]}]}
+
+
+def test_a_label_has_the_parameters_as_people_write_them():
+    assert Square(x=0.1, log="b").label == "Square 0.1 b Lens(power=2) "
+    assert word(Mixed()) == "Mixed()"
+    assert word(Mixed(of=unrelated, lens=Lens(3.0), kind=Lens)) == "Mixed(of=unrelated, lens=Lens(power=3), kind=Lens)"
+    assert word((1, 2)) == "(1, 2)" and word(1e5) == "100000"
 
 
 # --- what a result depends on ---------------------------------------------------------------------------

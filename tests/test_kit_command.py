@@ -1,17 +1,22 @@
 """A study as it is typed: workers, Ctrl-C, a worker that dies, code that changed, words that are wrong."""
+import errno
 import os
 import shutil
 import signal
 import subprocess
 import sys
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
-from studies.kit import source
+from studies.kit import source, study, sweep
+from studies.kit.case import Case, Outcome
+from studies.kit.claim import Claim
+from studies.kit.figure import figure
 from studies.kit.study import Study, main
-from studies.kit.table import read
+from studies.kit.table import Table, read
 
 TOY = '''
 import os, signal, time
@@ -128,3 +133,151 @@ def test_what_is_not_understood_is_said_before_anything_runs(words, rule, capsys
     with pytest.raises(SystemExit, match="2"):
         main(Study(name="toy", cases=lambda size: pytest.fail("ran"), tables=[]), words)
     assert rule in capsys.readouterr().err
+
+
+# --- in this process ------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cube(Case):
+    x: float
+    name: str = "plain"
+
+    def run(self, report, folder):
+        return Outcome({"cubes": [{"x": self.x, "y": self.x**3}]})
+
+
+def derive(tables):
+    """Each row halved, and the sum of all."""
+    frame = tables["cubes"]
+    return {"halves": [{"x": row.x, "half": row.y/2} for row in frame.itertuples()] + [{"x": -1, "half": frame.y.sum()}]}
+
+
+def drawn(tables):
+    page, axes = figure()
+    axes.plot(tables["cubes"].x, tables["cubes"].y)
+    return {"cubes": page}
+
+
+CUBES = Study(name="toy", cases=lambda size: [Cube(x=1.0), Cube(x=1/3), Cube(x=7.0, name="Quartic")],
+              derive=derive, figures=drawn,
+              tables=[Table("cubes", key=["x"], columns=["x", "y"]), Table("halves", key=["x"], columns=["x", "half"]),
+                      Table("never", key=["x"], columns=["x"])],
+              claims=[Claim(id="grows", source="KHP95, Sec. V", statement="cubes grow", at_least=1, because="1 is in the table",
+                            value=lambda tables: (tables["cubes"].y.max(), 0.0))])
+
+
+@pytest.fixture
+def typed(tmp_path, monkeypatch, capsys):
+    """What a command does: exit status and all that it prints; its results are in tmp_path/results."""
+    monkeypatch.delenv("SIZE", raising=False)
+    monkeypatch.setattr(study, "RESULTS", tmp_path / "results")
+    monkeypatch.chdir(tmp_path)
+
+    def type_(*words):
+        with pytest.raises(SystemExit) as ended:
+            main(CUBES, [*words, "--workers", "1"])
+        said = capsys.readouterr()
+        return ended.value.code, said.out + said.err
+    return type_
+
+
+def sizes(path):
+    frame = read(path)
+    return dict(zip(frame.x.round(2), frame["size"]))
+
+
+def test_only_runs_what_has_the_text_in_its_label_and_leaves_other_rows_as_they_were(typed, tmp_path):
+    toy = tmp_path / "results/toy"
+    code, text = typed("--size", "fine", "--only", "quartic")
+    assert code == 0 and list(read(toy / "cubes.csv").x) == [7], "Quartic, whatever the capitals"
+    assert "python -m studies.toy --size fine --only quartic" in (toy / "cubes.csv").read_text()
+    assert (toy / "cubes.png").exists() and "holds" in text
+
+    (toy / "cubes.csv").unlink(), (toy / "halves.csv").unlink()
+    assert typed("--only", "plain")[0] == 0
+    assert sizes(toy / "cubes.csv") == {1: "paper", 0.33: "paper"}
+    before = read(toy / "halves.csv")
+    assert typed("--size", "fine", "--only", "quartic")[0] == 0
+    assert sizes(toy / "cubes.csv") == {1: "paper", 0.33: "paper", 7: "fine"}
+    # the sum has changed and 7 is new: what follows from rows that did not run is not called fine
+    assert sizes(toy / "halves.csv") == {-1: "fine", 0.33: "paper", 1: "paper", 7: "fine"}
+    assert list(read(toy / "halves.csv").half.round(6)) == [344.037037, 0.018519, 0.5, 171.5] and len(before) == 3
+    assert typed("--size", "fine")[0] == 0
+    assert set(sizes(toy / "halves.csv").values()) == {"fine"}
+
+
+def test_only_that_matches_nothing_names_labels_that_exist(typed, tmp_path):
+    code, text = typed("--only", "quintic")
+    assert code == 2 and not (tmp_path / "results/toy").exists()
+    assert text == ("toy: no case of size paper has 'quintic' in its label; some of its 3 labels are: Cube 1 plain; "
+                    "Cube 0.333333 plain; Cube 7 Quartic\n")
+    code, text = typed("figures", "--only", "plain")
+    assert code == 2 and "--only chooses what to run, figures reads whole tables" in text
+
+
+def test_quick_leaves_the_tables_of_other_sizes_alone(typed, tmp_path):
+    typed("--size", "paper")
+    before = {path: path.read_bytes() for path in (tmp_path / "results").rglob("*") if path.is_file()}
+    code, text = typed("--size", "quick")
+    assert code == 0 and text.endswith("size quick: all of it is in results/quick, what is in results stays as it is\n")
+    for command in ("figures", "claims"):
+        assert typed(command, "--size", "quick")[0] == 0
+    quick = tmp_path / "results/quick"
+    assert {path: path.read_bytes() for path in before} == before
+    assert {path.name for path in (quick / "toy").iterdir()} == {"cubes.csv", "halves.csv", "cubes.png"}
+    assert (quick / "claims.csv").exists() and len(list((quick / "raw/toy").glob("*.json"))) == 3
+    assert CUBES.run("quick", workers=1, only="quartic").keys() == {"cubes", "halves"}
+    assert sizes(quick / "toy/cubes.csv")[7] == "quick"
+    assert {path: path.read_bytes() for path in before} == before
+
+
+def test_the_repository_ignores_what_quick_writes():
+    path = study.results("quick").relative_to(source.ROOT)
+    assert f"{path}/" in (source.ROOT / ".gitignore").read_text().splitlines()
+    assert study.results("paper") == study.results("fine") == sweep.RESULTS
+
+
+@pytest.mark.parametrize(("words", "way"), [
+    ([], "results/toy: run make study-toy first"), (["--size", "fine"], "results/toy: run make study-toy first"),
+    (["--size", "quick"], "results/quick/toy: run make study-toy SIZE=quick first"),
+    (["--out", "here"], "here/toy: run python -m studies.toy --size paper --out here first")])
+@pytest.mark.parametrize("command", ["figures", "claims"])
+def test_without_tables_nothing_is_drawn_or_judged(typed, tmp_path, command, words, way):
+    code, text = typed(command, *words)
+    assert (code, text) == (1, f"toy: no table in {way}\n") and not list(tmp_path.iterdir())
+
+
+def test_only_tables_that_exist_are_listed(typed):
+    typed()
+    for command in ("run", "figures", "claims"):
+        told = [line.split()[1] for line in typed(command)[1].splitlines() if line.startswith("table")]
+        assert told == ["results/toy/cubes.csv", "results/toy/halves.csv"]
+
+
+def test_an_out_that_is_no_folder_is_one_line(typed, tmp_path):
+    (tmp_path / "file").touch()
+    for command in ("run", "figures"):
+        code, text = typed(command, "--out", "file")
+        assert code == 2 and text.splitlines()[-1].endswith("error: --out file is a file: give a folder")
+    code, text = typed("--out", "file/below")
+    assert code == 2 and "--out file/below cannot be made (Not a directory): give another folder" in text.splitlines()[-1]
+
+
+@pytest.mark.parametrize(("number", "words"), [
+    (errno.EROFS, "claims.csv cannot be written: give --out another folder"),
+    (errno.EACCES, "claims.csv cannot be written"), (errno.ENOSPC, "the disk is full")])
+def test_what_cannot_be_written_is_one_line(typed, monkeypatch, number, words):
+    def refused(*arguments):
+        raise OSError(number, os.strerror(number), "claims.csv")
+    monkeypatch.setattr(study, "put_claims", refused)
+    code, text = typed()
+    assert code == 1 and text.splitlines()[-1].startswith(f"toy: {words}")
+
+
+def test_any_other_trouble_of_the_system_is_shown_in_full(monkeypatch, tmp_path):
+    def broken(*arguments):
+        raise OSError(errno.EIO, "Input/output error")
+    monkeypatch.setattr(study, "put_claims", broken)
+    with pytest.raises(OSError, match="Input/output"):
+        main(CUBES, ["--workers", "1", "--out", str(tmp_path)])

@@ -9,7 +9,7 @@ import pytest
 
 from studies.kit import csvfile
 from studies.kit.claim import CannotTell, Claim, judge, put_claims, verdict
-from studies.kit.table import Table, Tables, merge, read
+from studies.kit.table import Table, Tables, changed, merge, read
 
 SQUARES = Table("squares", key=["x", "note"], columns=["x", "note", "y"])
 
@@ -47,6 +47,16 @@ def test_a_table_does_not_depend_on_the_order_of_rows_and_stays_when_nothing_cha
     text = one.read_text()
     merge(one, SQUARES, rows, size="quick", command="something else")
     assert one.read_text() == text
+
+
+def test_rows_that_stand_in_a_table_are_told_from_those_that_changed(tmp_path):
+    path = tmp_path / "squares.csv"
+    rows = [row(1/3, 1e-7/3), row(2, np.float64(4)), row(math.inf, math.nan), row(4, True, "a, b"), row(5, None)]
+    assert changed(path, SQUARES, rows) == rows
+    merge(path, SQUARES, [{**one, "seed": 3} for one in rows], size="quick")
+    assert changed(path, SQUARES, rows) == []
+    other = [row(1/3, 1.0001e-7/3), row(2, 4, "new"), row(6, 1.0)]
+    assert changed(path, SQUARES, [*rows, *other]) == other and changed(path, SQUARES, []) == []
 
 
 def test_no_rows_leave_a_table_as_it_is_or_make_an_empty_one_that_takes_rows_later(tmp_path):

@@ -44,8 +44,7 @@ class Case:
     def label(self) -> str:
         """A few words for the progress line and for messages."""
         values = [getattr(self, field.name) for field in dataclasses.fields(self)]
-        words = [f"{value:g}" if isinstance(value, float) else str(value) for value in values]
-        return " ".join([type(self).__name__, *words])
+        return " ".join([type(self).__name__, *map(word, values)])
 
     def run(self, report: Report, folder: Path) -> Outcome:
         """Compute. ``folder`` is for checkpoints: it is kept until the case is finished."""
@@ -63,6 +62,23 @@ class Case:
         modules.discard(here)
         values = json.dumps(parameters(self), sort_keys=True)
         return source.digest(values, *own, source.code_hash(frozenset(modules)))
+
+
+def word(value: Any) -> str:
+    """A parameter as people write it: of a record what differs from its defaults, of a function or class the name."""
+    if isinstance(value, float):
+        return f"{value:g}"
+    if hasattr(value, "__qualname__"):
+        return str(value.__qualname__)
+    kind: Any = type(value)
+    if dataclasses.is_dataclass(kind):
+        usual: dict[str, Any] = {field.name: field.default for field in dataclasses.fields(kind)}
+    elif hasattr(kind, "_field_defaults"):
+        usual = {name: kind._field_defaults.get(name, dataclasses.MISSING) for name in kind._fields}
+    else:
+        return str(value)
+    own = [f"{name}={word(getattr(value, name))}" for name, default in usual.items() if getattr(value, name) != default]
+    return f"{kind.__name__}({', '.join(own)})"
 
 
 def parameters(value: Any) -> Any:

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pandas as pd
 
+DIGITS = "%.9g"     # of numbers in tables
+
 
 def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
     """A table from CSV; empty text is "", an empty number NaN.
@@ -43,7 +45,7 @@ def write(path: Path, frame: pd.DataFrame, *, head: Iterable[str]) -> None:
     """
     text = [str(name) for name in frame if is_text(frame[name], path)]
     frame = frame.assign(**{name: frame[name].fillna("") for name in text})
-    body = f"# text columns: {', '.join(text)}\n" + frame.to_csv(index=False, float_format="%.9g")
+    body = f"# text columns: {', '.join(text)}\n" + frame.to_csv(index=False, float_format=DIGITS)
     if not (path.exists() and path.read_text().endswith(body)):
         write_atomic(path, "".join(f"# {line}\n" for line in head) + body)
 

@@ -16,10 +16,24 @@ from matplotlib.figure import Figure
 from studies.kit.case import Case
 from studies.kit.claim import Claim, judge, put_claims
 from studies.kit.figure import save
-from studies.kit.sweep import RESULTS, CasesFailed, Interrupted, check_workers, load, put, sweep
+from studies.kit.sweep import (
+    RESULTS,
+    CasesFailed,
+    Interrupted,
+    NoSuchCase,
+    check_workers,
+    command,
+    load,
+    put_derived,
+    sweep,
+)
 from studies.kit.table import SIZES, Table, Tables, check_size
 
 Rows = Mapping[str, list[dict[str, Any]]]
+#: number of the system's error -> what to do about it
+DISK = {errno.ENOSPC: "the disk is full; make room where {out} lies; finished cases are kept, the same command goes on from "
+                      "there",
+        **dict.fromkeys((errno.EACCES, errno.EPERM, errno.EROFS), "{file} cannot be written: give --out another folder")}
 
 
 def nothing(tables: Tables) -> dict[str, Any]:
@@ -40,22 +54,24 @@ class Study:
     figures: Callable[[Tables], Mapping[str, Figure]] = nothing
     claims: Sequence[Claim] = ()
 
-    def run(self, size: str, *, workers: int = 2, out: Path = RESULTS) -> Tables:
-        """Cases to tables, derived rows among them.
+    def run(self, size: str, *, workers: int = 2, out: Path | None = None, only: str = "") -> Tables:
+        """Cases to tables, derived rows among them; ``only`` those with this text in their label.
 
         Raises
         ------
+        NoSuchCase
+            No label contains ``only``.
         CasesFailed
             After all that the finished cases give has been derived and written: one that diverges costs its own row.
         """
-        failed = None
+        failed, out = None, out or results(size)
         try:
             tables = sweep(self.cases(check_size(size)), tables=self.tables, study=self.name, size=size,
-                           workers=workers, out=out)
+                           workers=workers, out=out, only=only)
         except CasesFailed as error:
             failed, tables = error, load(self.tables, self.name, out)
         if tables:
-            tables = put(dict(self.derive(tables)), self.tables, self.name, size, out)
+            tables = put_derived(self.derive(tables), self.tables, self.name, size, out, only)
         if failed:
             raise failed
         return tables
@@ -76,6 +92,11 @@ class Study:
         return rows
 
 
+def results(size: str) -> Path:
+    """Where a size goes unless told otherwise: quick is for trying out and leaves the tables of the others alone."""
+    return RESULTS / "quick" if size == "quick" else RESULTS
+
+
 def main(study: Study, arguments: Sequence[str] | None = None) -> None:
     """The command line of a study; ends with 0, or 1 (failed), 2 (not understood), 130 (interrupted)."""
     words = parse(study, arguments)
@@ -86,30 +107,47 @@ def main(study: Study, arguments: Sequence[str] | None = None) -> None:
         sys.exit(say(f"\n{stop}", 130))
     except KeyboardInterrupt:
         sys.exit(say("\ninterrupted: finished cases are kept, the same command goes on from there", 130))
+    except NoSuchCase as error:
+        sys.exit(say(f"{study.name}: {error}", 2))
     except (CasesFailed, FileNotFoundError) as error:
         sys.exit(say(f"{study.name}: {error}", 1))
     except OSError as error:
-        if error.errno != errno.ENOSPC:
+        if error.errno not in DISK:
             raise
-        sys.exit(say(f"{study.name}: the disk is full; make room where {words.out} lies; finished cases are "
-                     "kept, the same command goes on from there", 1))
+        sys.exit(say(f"{study.name}: {DISK[error.errno].format(out=words.out, file=error.filename)}", 1))
 
 
 def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
-    """Command, size (default: SIZE of the environment, else paper) and workers."""
+    """Command, size (default: SIZE of the environment, else paper), workers, folder, which cases."""
     parser = argparse.ArgumentParser(prog=f"python -m studies.{study.name}")
     add, size = parser.add_argument, os.environ.get("SIZE") or "paper"
     add("command", nargs="?", default="run", choices=["run", "figures", "claims"])
     add("--size", default=size, help=f"{', '.join(SIZES)} (default: {size})")
     add("--workers", type=int, default=2, help="processes; 1 computes in this one (default: 2)")
-    add("--out", type=Path, default=RESULTS, help="where tables and figures go (default: results)")
+    add("--out", type=Path, help="where tables and figures go (default: results; of size quick: results/quick)")
+    add("--only", default="", metavar="TEXT", help="run only cases with this text in their label, such as a variant's name")
     words = parser.parse_args(arguments)
     try:
         check_size(words.size)
         check_workers(words.workers)
+        if words.only and words.command != "run":
+            raise ValueError(f"--only chooses what to run, {words.command} reads whole tables: leave it out")
+        words.usual, words.out = words.out is None, words.out or results(words.size)
+        check_out(words.out, make=words.command == "run")
     except ValueError as error:
         parser.error(str(error))
     return words
+
+
+def check_out(out: Path, *, make: bool) -> None:
+    """Refuse what is no folder; make it on wish."""
+    if out.exists() and not out.is_dir():
+        raise ValueError(f"--out {out} is a file: give a folder")
+    try:
+        if make:
+            out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ValueError(f"--out {out} cannot be made ({error.strerror}): give another folder") from error
 
 
 def perform(study: Study, words: argparse.Namespace) -> int:
@@ -117,20 +155,37 @@ def perform(study: Study, words: argparse.Namespace) -> int:
     failed = None
     if words.command == "run":
         try:
-            study.run(words.size, workers=words.workers, out=words.out)
+            study.run(words.size, workers=words.workers, out=words.out, only=words.only)
         except CasesFailed as error:
             failed = error
+    elif not written(study, words.out):
+        raise FileNotFoundError(f"no table in {shown(words.out / study.name)}: run {first(study, words)} first")
     if words.command in ("run", "figures"):
         for path in study.draw(words.out):
             say(f"figure  {shown(path)}")
     if words.command in ("run", "claims"):
         for row in study.judge(words.out):
             print(verdict_line(row))
-    for table in study.tables:
-        say(f"table   {shown(words.out / study.name / f'{table.name}.csv')}")
+    for path in written(study, words.out):
+        say(f"table   {shown(path)}")
+    if words.usual and words.out != RESULTS:
+        say(f"size {words.size}: all of it is in {shown(words.out)}, what is in {shown(RESULTS)} stays as it is")
     if failed:
         raise failed
     return 0
+
+
+def written(study: Study, out: Path) -> list[Path]:
+    """The tables that exist."""
+    paths = [out / study.name / f"{table.name}.csv" for table in study.tables]
+    return [path for path in paths if path.exists()]
+
+
+def first(study: Study, words: argparse.Namespace) -> str:
+    """What makes the tables that are wanted."""
+    if not words.usual:
+        return f"python -m studies.{study.name} --size {words.size} --out {words.out}"
+    return f"make study-{study.name}" if words.out == RESULTS else command(study.name, words.size)
 
 
 def verdict_line(row: Mapping[str, Any]) -> str:

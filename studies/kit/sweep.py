@@ -1,6 +1,7 @@
 """All cases of a study: those already finished are read, the others run, and tables get their rows."""
+import shlex
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any
@@ -8,14 +9,19 @@ from typing import Any
 from studies.kit.case import Case
 from studies.kit.keep import Failure, kept
 from studies.kit.source import ROOT
-from studies.kit.table import Table, Tables, check_size, merge, read
+from studies.kit.table import Table, Tables, changed, check_size, merge, read
 from studies.kit.workers import Bar, run_here, run_there
 
 RESULTS = ROOT / "results"
+LABELS = 5      # of those that exist, told to who asked for one that does not
 
 
 class CasesFailed(Exception):
     """Some cases raised; the tables hold what the others found."""
+
+
+class NoSuchCase(Exception):
+    """No case of the study has the text that was asked for in its label."""
 
 
 class Interrupted(KeyboardInterrupt):
@@ -23,29 +29,42 @@ class Interrupted(KeyboardInterrupt):
 
 
 def sweep(cases: Iterable[Case], *, tables: Sequence[Table], study: str, size: str, workers: int = 2,
-          out: Path = RESULTS, executor: Executor | None = None) -> Tables:
+          out: Path = RESULTS, executor: Executor | None = None, only: str = "") -> Tables:
     """Run the cases that are not finished yet, merge all rows into ``out/study/*.csv`` and read these back.
 
     ``workers=1`` runs in this process. ``executor`` may be any that takes ``submit`` (then without
-    fractions of running cases in the bar).
+    fractions of running cases in the bar). ``only`` leaves out cases without this text in their label.
 
     Raises
     ------
+    NoSuchCase
+        There is none with the text, or no case at all.
     CasesFailed, Interrupted
         When everything that could be saved is saved.
     """
     check_size(size)
     check_workers(workers)
     folder = out / "raw" / study
-    wanted = list({case.key: case for case in cases}.values())
+    wanted = list({case.key: case for case in labelled(list(cases), only, size)}.values())
     failures = run(wanted, folder, study, workers, executor)
     if any(failure.disk_full for failure in failures):
         raise CasesFailed(f"the disk is full: make room where {folder} lies; {count(wanted, folder)}")
-    result = put(collect(wanted, folder), tables, study, size, out)
+    result = put(collect(wanted, folder), tables, study, size, out, only)
     if failures:
         raise CasesFailed(f"{len(failures)} of {len(wanted)} cases failed, the tables hold the others:\n"
                           + "\n".join(map(str, failures)))
     return result
+
+
+def labelled(cases: Sequence[Case], only: str, size: str) -> Sequence[Case]:
+    """The cases whose label contains a text, in capitals or not."""
+    found = [case for case in cases if only.casefold() in case.label.casefold()]
+    if only and not found:
+        labels = list(dict.fromkeys(case.label for case in cases))
+        some = labels[::max(1, len(labels)//LABELS)][:LABELS]
+        raise NoSuchCase(f"no case of size {size} has {only!r} in its label; some of its {len(labels)} labels are: "
+                         f"{'; '.join(some) or 'none'}")
+    return found
 
 
 def check_workers(workers: int) -> None:
@@ -88,18 +107,35 @@ def collect(cases: Sequence[Case], folder: Path) -> dict[str, list[dict[str, Any
     return rows
 
 
-def put(rows: dict[str, list[dict[str, Any]]], tables: Sequence[Table], study: str, size: str,
-        out: Path) -> Tables:
+def put(rows: Mapping[str, list[dict[str, Any]]], tables: Sequence[Table], study: str, size: str,
+        out: Path, only: str = "") -> Tables:
     """Merge rows into the tables of a study and read all of these that exist."""
     known = {table.name: table for table in tables}
     if unknown := sorted(set(rows) - set(known)):
         raise ValueError(f"no table {', '.join(unknown)} in study {study}: it has {', '.join(known)}")
     for name, new in rows.items():
-        _, better = merge(out / study / f"{name}.csv", known[name], new, size=size,
-                          command=f"make study-{study} SIZE={size}")
+        _, better = merge(out / study / f"{name}.csv", known[name], new, size=size, command=command(study, size, only))
         if better:
             print(f"{study}/{name}.csv: {better} rows of a better size than {size} stay", file=sys.stderr)
     return load(tables, study, out)
+
+
+def put_derived(rows: Mapping[str, list[dict[str, Any]]], tables: Sequence[Table], study: str, size: str,
+                out: Path, only: str = "") -> Tables:
+    """The same for rows that follow from whole tables.
+
+    When ``only`` some cases ran, rows that came out as they were keep size and commit: what they follow from has not run.
+    """
+    if only:
+        known = {table.name: table for table in tables}
+        rows = {name: changed(out / study / f"{name}.csv", known[name], new) if name in known else new
+                for name, new in rows.items()}
+    return put(rows, tables, study, size, out, only)
+
+
+def command(study: str, size: str, only: str = "") -> str:
+    """What makes the tables."""
+    return f"python -m studies.{study} --size {size} --only {shlex.quote(only)}" if only else f"make study-{study} SIZE={size}"
 
 
 def load(tables: Sequence[Table], study: str, out: Path = RESULTS) -> Tables:

@@ -11,9 +11,9 @@ from typing import Any
 import pandas as pd
 
 from studies.kit import provenance
-from studies.kit.csvfile import read, write
+from studies.kit.csvfile import DIGITS, read, write
 
-__all__ = ["SIZES", "Table", "Tables", "check_size", "merge", "read"]
+__all__ = ["SIZES", "Table", "Tables", "changed", "check_size", "merge", "read"]
 
 SIZES = ("quick", "paper", "fine")
 #: columns that a row may have besides those of its table
@@ -79,6 +79,20 @@ def merge(path: Path, table: Table, rows: Sequence[dict[str, Any]], *, size: str
     frame = chosen.reindex(columns=[*table.columns, *spent, *STAMP])
     write(path, frame.sort_values(list(table.key), kind="stable"), head=head(command))
     return read(path), len(new) - int((chosen.index >= len(old)).sum())
+
+
+def changed(path: Path, table: Table, rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Those of ``rows`` that do not stand in the CSV at ``path`` as they are."""
+    if not path.exists():
+        return list(rows)
+    old, new = (lines(frame.reindex(columns=list(table.columns))) for frame in (read(path, table.columns), pd.DataFrame(rows)))
+    there = set(old)
+    return [row for row, line in zip(rows, new) if line not in there]
+
+
+def lines(frame: pd.DataFrame) -> list[str]:
+    """Rows as they are written."""
+    return frame.to_csv(index=False, header=False, float_format=DIGITS).splitlines()
 
 
 def none_new(path: Path, table: Table, command: str) -> pd.DataFrame:
