@@ -24,11 +24,28 @@ def verdict(name: str, tables: Tables) -> str:
     return judged(name, tables)["verdict"]
 
 
-def means(rows: list[dict]) -> Tables:
-    """A table `means` from points and K."""
-    full = [{"particles": 0, "seeds": 3, "rolls": 2, "ke_fluctuation": 1e-4, "nu": 1.5, "nu_err": 0.0,
+def means(rows: list[dict], kept: float = 1.0) -> Tables:
+    """Tables `means` from points and K, and `errors` of particles' fields: smoothing leaves `kept` of the grid's K."""
+    full = [{"particles": 0, "seeds": 3, "mixed": 0, "rolls": 2, "ke_fluctuation": 1e-4, "nu": 1.5, "nu_err": 0.0,
              "ke_field": row["ke"], "ke_field_err": row["ke_err"], **row} for row in rows]
-    return Tables({"means": pd.DataFrame(full)})
+    return Tables({"means": pd.DataFrame(full), "errors": errors(pd.DataFrame(full), kept)})
+
+
+def errors(means: pd.DataFrame, kept: float) -> pd.DataFrame:
+    """Rows Kg of the table `errors`: the particles of `means` against the extrapolated grid of the same scene."""
+    scene = ["eos", "transport", "sides", "ra", "pr"]
+    limits = means[np.isinf(means["resolution"]) & (means["variant"] == "flux-form")].set_index(scene)["ke"]*kept
+    found = [{**row, "energy": "Kg", "reference": limits[where], "reference_err": 0.0,
+              "error": row["ke_field"]/limits[where] - 1, "error_err": row["ke_field_err"]/limits[where]}
+             for row in means[means["method"] == "spam"].to_dict("records")
+             for where in [tuple(row[name] for name in scene)] if where in limits.index]
+    return pd.DataFrame(found, columns=[*means.columns, "energy", "reference", "reference_err", "error", "error_err"])
+
+
+def seeds(point: dict, ke: tuple[float, ...], **more) -> pd.DataFrame:
+    """Rows of `kinetic_energy`, one a seed with its K."""
+    return pd.DataFrame([{**point, "seed": seed, "ke": k, "ke_err": 1e-3*k, "ke_field": k, "ke_field_err": 1e-3*k, "rolls": 2,
+                          "ke_fluctuation": 1e-4, "converged": True, **more} for seed, k in enumerate(ke, 1)])
 
 
 def straight(ra: float, bend: float = 0.0) -> float:
@@ -74,8 +91,8 @@ def crystal(per_site: int, height: float = 30.0) -> pd.DataFrame:
 
 SCENES: list[dict] = [{}, {"transport": "const-nu"}, {"eos": "vdw"}, {"eos": "dense"}, {"sides": "walls"}]
 MANY = (2000.0, 2500.0, 3000.0, 3500.0, 4200.0, 5000.0, 6000.0, 6830.0, 7000.0, 10000.0, 14000.0, 20000.0, 5e4)
-VARIANTS = ("printed", "printed-half-step", "printed-fixed-rows", "printed-monaghan", "arithmetic-mean", "range-6",
-            "less-static-50", "more-static-100", "more-static-400")
+VARIANTS = ("printed", "printed-half-step", "printed-from-flow", "printed-fixed-rows", "printed-monaghan",
+            "arithmetic-mean", "range-6", "less-static-50", "more-static-100", "more-static-400")
 
 
 def points() -> list[dict]:
@@ -93,8 +110,8 @@ def measured(point: dict) -> dict:
     """Columns of `means` and `kinetic_energy` at any point: frozen under high pressure, else some flow."""
     share = 1 if point["method"] != "spam" else 0.2 if point["variant"] == "more-static-400" else 0.8
     ke = share*(straight(point["ra"]) + 1e-3) + 0.01/point["resolution"]**2*(1 + 50/math.sqrt(point["ra"]))
-    return {**point, "particles": 2*min(point["resolution"], 100)**2, "seed": 1, "seeds": 3, "ke": ke, "ke_err": 1e-8,
-            "ke_field": 0.9*ke, "ke_field_err": 1e-8, "ke_fluctuation": 1e-4, "nu": 1.5, "nu_err": 0.01,
+    return {**point, "particles": 2*min(point["resolution"], 100)**2, "seed": 1, "seeds": 3, "mixed": 0,
+            "ke": ke, "ke_err": 1e-8, "ke_field": 0.9*ke, "ke_field_err": 1e-8, "ke_fluctuation": 1e-4, "nu": 1.5, "nu_err": 0.01,
             "rolls": 1 if point["sides"] == "walls" else 2, "mass_drift": 1e-4, "t_end": 5000.0, "converged": True}
 
 
@@ -115,14 +132,12 @@ def everything() -> Tables:
     fixed = particles(1e4, variant="printed-fixed-rows")
     frozen = [particles(3000, 16, variant, eos="dense") for variant in ("printed", "printed-monaghan")]
     ends = [particles(1e4), fixed, particles(1e4, variant="printed-monaghan"), *frozen]
-    layers = [{**point, "seed": seed, "plate": plate, "rho_layer": 1 + 0.1*seed, "T_layer": 1.0, "reflections": 9*seed,
+    layers = [{**point, "seed": seed, "plate": plate, "rho_layer": 1 + 0.1*seed, "T_layer": 1.0, "reflections": 0,
                "nu_plate": 1.5 + 0.01*seed}
               for point in (fixed, particles(5e3), particles(1e4)) for seed in (1, 2) for plate in ("lower", "upper")]
-    smoothed = [{**grid(ra, 48), "weight": "Lucy", "h": 3.0, "rows": 50, "ke": 0.004, "ke_smoothed": 0.0036}
-                for ra in (5e3, 1e4)]
     return Tables(
         means=means, kinetic_energy=pd.concat([means, means[means["method"] == "spam"].assign(seed=2)]),
-        walls=pd.DataFrame(layers), smoothed=pd.DataFrame(smoothed),
+        walls=pd.DataFrame(layers), errors=errors(means, 0.9),
         history=pd.concat([history(point, seed)
                            for point in runs for seed in (1, 2)[:1 + (point["method"] == "spam")]]),
         fields=pd.concat([kept(point, flow(0.1, 0.9), point["resolution"]) for point in kept_runs]),

@@ -8,10 +8,10 @@ import pytest
 from studies.convection.claims import RB_CLAIMS, histories, snapshots
 from studies.convection.claims.grid import PYPDE
 from studies.convection.claims.read import grid, particles
-from studies.kit.claim import judge
+from studies.kit.claim import CannotTell, judge
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
-from tests.claim_tables import BY_ID, crystal, everything, flow, grids, judged, kept, means, straight, verdict
+from tests.claim_tables import BY_ID, crystal, everything, flow, grids, judged, kept, means, seeds, straight, verdict
 
 # --- lines ------------------------------------------------------------------------------------------------------
 
@@ -67,17 +67,37 @@ def test_velocity_errors_are_half_of_small_energy_errors():
 
 def test_flows_with_other_rolls_are_not_compared():
     def said(rolls: int) -> dict:
-        rows = grids() + [{**particles(1e4), "ke": 0.0, "ke_field": 0.2*0.0048, "ke_err": 1e-7, "rolls": rolls}]
+        rows = grids() + [{**particles(1e4), "ke": 0.3*0.0048, "ke_field": 0.2*0.0048, "ke_err": 1e-7, "rolls": rolls}]
         return judged("khp95-energy-error-10000", means(rows))
     assert said(2)["verdict"] == "fails"
     assert said(4)["verdict"] == "undecidable" and "4 rolls against 2" in said(4)["reason"]
     assert said(0)["verdict"] == "fails"        # at rest: not another flow but none
 
 
+def test_printed_energies_meet_the_grid_as_it_is_and_the_flow_the_grid_smoothed_alike():
+    """The weight leaves 0.8 of K, the particles' field has 0.76."""
+    tables = means([*grids(), {**particles(1e4), "ke": 0.76*straight(1e4), "ke_err": 0.0}], kept=0.8)
+    assert judged("khp95-energy-error-10000", tables)["measured"] == pytest.approx(0.24, rel=1e-6)
+    assert judged("own-smoothed-10000", tables)["measured"] == pytest.approx(0.05, rel=1e-6)
+    few = means([*grids(), {**particles(1e4, 16), "ke": 0.44*straight(1e4), "ke_err": 0.0}], kept=0.8)
+    assert verdict("khp95-500-particles", few) == "holds"
+    assert "no row of" in judged("khp95-500-particles", Tables({**few, "errors": few["errors"][:0]}))["reason"]
+
+
+def test_seeds_in_different_flows_decide_nothing():
+    row = {**particles(1e4), "ke": 0.9*straight(1e4), "ke_err": 0.0, "seeds": 2, "mixed": 1}
+    for name in ("khp95-energy-error-10000", "own-smoothed-10000", "khp95-walls-both"):
+        tables = means([*grids(), row, {**row, "variant": "printed-fixed-rows", "mixed": 0}])
+        assert "1 of 3 seeds of printed" in judged(name, tables)["reason"], name
+    old = means([*grids(), row])
+    old["means"] = old["means"].drop(columns="mixed")
+    assert verdict("khp95-energy-error-10000", old) == "holds"       # a table from before tells nothing of it
+
+
 def test_fields_are_compared_wherever_their_rolls_lie():
-    def error(**changes) -> Measured:
+    def error(ke: tuple[float, ...] = (0.005, 0.005), **changes) -> Measured:
         both = kept(grid(1e4), flow(0.0), 48.0), kept(particles(1e4), flow(**changes), 50.0)
-        tables = Tables({"fields": pd.concat(both)})
+        tables = Tables({"fields": pd.concat(both), **one_point(particles(1e4), ke)})
         return snapshots.velocity_error(tables, particles(1e4), grid(1e4))
     assert error(shift=0.123) == pytest.approx((0.0, 0.0), abs=1e-12)     # few harmonics: exact but for round-off
     assert error(shift=0.123, share=0.8) == pytest.approx((0.2, 0.0), abs=1e-12)
@@ -85,14 +105,52 @@ def test_fields_are_compared_wherever_their_rolls_lie():
     size = math.sqrt(np.mean(flow(0)["vx"]**2 + flow(0)["vy"]**2))
     for part in (value, err):       # noise of two components is half even, half odd; 3600 samples: 2 % each
         assert part == pytest.approx(0.01/size, rel=0.08)
+    # three seeds, 10 % apart: t(2) = 4.303 times 10 % of K is half of that in velocity, and K's own error is 2 %
+    assert error(ke=(0.0045, 0.005, 0.0055), shift=0.1).err == pytest.approx(math.hypot(4.3027*0.1, 0.02)/2, rel=1e-4)
+    with pytest.raises(CannotTell, match="one seed"):
+        error(ke=(0.005,), shift=0.1)
+
+
+def one_point(point: dict, ke: tuple[float, ...]) -> Tables:
+    """Seeds of a point and their mean, its error 2 % where seeds differ."""
+    row = {**point, "ke": np.mean(ke), "ke_err": 0.02*np.mean(ke)*(np.ptp(ke) > 0)}
+    return Tables({**means([row]), "kinetic_energy": seeds(point, ke)})
+
+
+SHIFTED = 2e-3      # how the largest value over 60 places moves with a shift by a part of one: 1 - cos(pi/60)
+
+
+def test_density_at_the_plates_is_judged_apart_from_that_of_the_box():
+    """The particles' density is 0.15 of the grid's range too high next to the upper plate only."""
+    at = flow(0.0)
+    span = np.ptp(at["rho"])
+    at["rho"][-1] += 0.15*span
+    both = kept(grid(1e4), flow(0.0), 48.0), kept(particles(1e4), at, 50.0)
+    tables = Tables({"fields": pd.concat(both), **one_point(particles(1e4), (0.005, 0.005))})
+    at_plates, whole = (error(tables, particles(1e4), grid(1e4), "rho").value
+                        for error in (snapshots.edge_error, snapshots.contour_error))
+    assert (at_plates, whole) == pytest.approx((0.15, 0.15/math.sqrt(30)), rel=SHIFTED)
+
+
+@pytest.mark.parametrize(("more", "said"), [(0.02, "holds"), (0.15, "fails")])
+def test_particles_are_counted_along_the_plates(more, said):
+    """rho = 1 + 0.1 y/L in horizontal mean: 0.951 and 1.049 half a spacing of 50 rows from the plates."""
+    span = np.ptp(flow(0)["rho"])
+    layers = pd.DataFrame([{**particles(1e4), "seed": seed, "plate": plate, "rho_layer": rho + change*span}
+                           for plate, rho, change in (("lower", 0.951, 0), ("upper", 1.049, more)) for seed in (1, 2)])
+    rows = means(grids() + [{**particles(1e4), "ke": 0.004, "ke_err": 0.0}])
+    found = judged("khp95-wall-layer-density", Tables({**rows, "walls": layers, "fields": kept(grid(1e4), flow(0.0), 48.0)}))
+    assert found["measured"] == pytest.approx(more, rel=SHIFTED) and found["verdict"] == said
 
 
 def test_the_mean_flow_is_told_from_noise():
-    def energy(**changes) -> Measured:
-        return snapshots.mean_flow(Tables({"fields": kept(particles(3000), flow(**changes), 50.0)}), particles(3000))
+    def energy(ke: tuple[float, ...] = (0.002, 0.002), **changes) -> Measured:
+        tables = Tables({"fields": kept(particles(3000), flow(**changes), 50.0), **one_point(particles(3000), ke)})
+        return snapshots.mean_flow(tables, particles(3000))
     at = flow(0.123)
     direct = 0.5*np.mean(at["rho"]*(at["vx"]**2 + at["vy"]**2))     # mean density is 1
     assert energy(shift=0.123) == pytest.approx((direct, 0.0), abs=1e-12)
+    assert energy(ke=(0.0018, 0.002, 0.0022), shift=0.1).err == pytest.approx(direct*math.hypot(4.3027*0.1, 0.02), rel=1e-4)
     value, err = energy(shift=0.0, share=0.0, noise=0.01)
     assert value == pytest.approx(0.5*0.01**2, rel=0.1) and err == pytest.approx(0.5*0.01**2, rel=0.1)  # 3600 samples
 

@@ -11,7 +11,7 @@ import pytest
 from matplotlib.container import ErrorbarContainer
 from matplotlib.text import Text
 
-from studies.convection import figures, onset_figures, onset_tables, pick, tables
+from studies.convection import figures, figures_fields, figures_time, onset_figures, onset_tables, pick, tables
 from studies.convection.figures_errors import power
 from studies.kit.source import ROOT
 from studies.kit.sweep import RESULTS, load
@@ -177,6 +177,11 @@ def errors(mean):
                     "particles": row["particles"], "ke": row[column], "ke_err": row[f"{column}_err"], "reference": left*ref,
                     "reference_err": 0.0, "error": row[column]/(left*ref) - 1, "error_err": row[f"{column}_err"]/ref,
                     "energy": energy, "cpu_s": 1e-3*row["resolution"]**3}
+        if ref:
+            yield {name: row[name] for name in tables.POINT} | {
+                "particles": row["particles"], "ke": 1.5, "ke_err": 0.0, "reference": 1.5, "reference_err": 0.0,
+                "error": -7.5/row["resolution"]**1.5, "error_err": 0.01/row["resolution"], "energy": "Nu",
+                "cpu_s": 1e-3*row["resolution"]**3}
 
 
 def smoothed():
@@ -299,6 +304,49 @@ def test_the_smoothed_reference_is_a_line(full):
     assert line.get_ydata() == pytest.approx([60/rows**2 for rows in (25, 35, 50)], rel=1e-5)     # 9 digits in the CSV
 
 
+def test_heat_transport_converges_beside_k(full):
+    """Errors of the Nusselt number of particles alone, where there are any, and only where errors are drawn against rows."""
+    words = texts(figures.ALL["convergence"](full))
+    assert words.count("Nusselt number, particles: slope -1.5") == 2 and "heat transport" in words
+    without = Tables(full | {"errors": full["errors"][full["errors"]["energy"] != "Nu"]})
+    assert "Nu" not in texts(figures.ALL["convergence"](without))
+    for name in ("cost", "variants"):
+        assert pixels(figures.ALL[name](without)) == pixels(figures.ALL[name](full)), name
+
+
+def test_two_views_are_of_one_instant(full):
+    """<v> by a double sum over all particles, images too; a mean field is not asked for."""
+    run = full["particles"][full["particles"]["variant"].eq("printed") & full["particles"]["eos"].eq("ideal")]
+    found = figures_fields.smoothed(run)
+    assert len(found) == 12*24
+    r = np.hypot(*(found[[name]].to_numpy() - run[name].to_numpy() for name in ("x", "y")))*12/3     # in ranges
+    w = np.where(r < 1, (1 + 3*r)*(1 - r)**3, 0)
+    for name in ("vx", "vy"):
+        assert found[name].to_numpy() == pytest.approx(w@run[name].to_numpy()/w.sum(axis=1), abs=1e-14)     # sums of 30 terms
+    for name in ("fig7", "fig12"):
+        page = figures.ALL[name](Tables({"particles": full["particles"]}))
+        assert texts(page).count("instant") == 2 and "mean" not in texts(page)
+
+
+def test_a_lag_is_told_from_a_difference():
+    """The same K(t), a tenth less and 150 later: early, K changes by more than that."""
+    t = np.linspace(0, 4500, 301)
+    cells = pd.DataFrame({"t": t, "ke": 2 + np.sin(t/300)*np.exp(-t/1000)})
+    late = pd.Series(np.interp(t - 150, t, cells["ke"]))
+    shift, least = figures_time.lag(pd.Series(t), 0.9*late, cells)
+    assert figures_time.apart(pd.Series(t), late, cells, 150.0) == pytest.approx(0, abs=1e-12)
+    assert shift == pytest.approx(150, abs=30)                  # two samples
+    assert least < 0.16 < figures_time.apart(pd.Series(t), 0.9*late, cells)     # 0.1 of K, which is 1.5 times the last at most
+
+
+def test_particles_from_the_grids_flow_are_marked_apart(full):
+    started = full["means"][full["means"]["variant"].eq("printed") & full["means"]["ra"].eq(2500.0)]
+    more = Tables(full | {"means": pd.concat([full["means"], started.assign(variant="printed-from-flow")])})
+    for name in ("main", "fig6"):
+        told = [texts(figures.ALL[name](known)).count("started from the grid's flow") for known in (full, more)]
+        assert told == [0, 1], name
+
+
 def test_variants_that_diverged_stand_in_words(full):
     """In place of all points of one variant, beside those of another that lost a seed."""
     told = [found.get_text() for found in figures.ALL["variants"](full).findobj(Text) if "diverged" in found.get_text()]
@@ -329,8 +377,8 @@ def test_points_that_have_not_settled_are_crossed_and_the_legend_says_so(full, n
         marks = [line for axes in page.axes for line in axes.lines if line.get_marker() == "x"]
         return sum(len(line.get_xdata()) for line in marks), texts(page).count(pick.NOT_STEADY)
     found, told = crosses(full)
-    # Kp and Kg: one printed point at 10 000; besides it range-6 at two sizes and two Ra
-    assert (found, told) == ((2*4, 1) if name == "variants" else (2, 1))
+    # Kp and Kg, among errors against rows Nu, too: one printed point at 10 000; besides it range-6 at two sizes and two Ra
+    assert (found, told) == ({"variants": 2*4, "convergence": 3}.get(name, 2), 1)
     settled = Tables(full | {"kinetic_energy": full["kinetic_energy"].assign(converged=True)})
     assert crosses(settled) == (0, 0)
 

@@ -1,5 +1,4 @@
-"""Kinetic energy against Ra^-1/2 and against time: the README's figure and KHP95's Figs 5, 6, 8."""
-from functools import partial
+"""Kinetic energy against Ra^-1/2: the README's figure and KHP95's Figs 5, 6."""
 from typing import Any
 
 import numpy as np
@@ -11,18 +10,14 @@ from continuum.published import published
 from studies.convection.pick import (
     BOX,
     ENERGY,
-    GRID,
+    FROM_FLOW,
     KIND,
     LABELS,
     LAYER,
     RA_C,
-    SPAM,
     STILL,
-    TIME,
     cross_out,
     finest,
-    groups,
-    nearest,
     particles,
     ra_axis,
     reference,
@@ -50,6 +45,7 @@ def main(tables: Tables) -> Figure | None:
     boussinesq(axes, tables)
     by_resolution(axes, spam)
     name_frozen(axes, limit, spam)
+    from_flow(axes, tables, LAYER)
     printed_numbers(axes)
     axes.set(title="Convection of an ideal gas: are smooth particles on the grid's line?", ylabel=ENERGY)
     finish(axes, told(spam))
@@ -101,11 +97,22 @@ def by_resolution(axes: Axes, spam: pd.DataFrame) -> None:
 
 
 def name_frozen(axes: Axes, limit: pd.DataFrame, spam: pd.DataFrame) -> None:
-    """A word where the grid convects and the finest particles stand still on a lattice."""
+    """A word where the grid convects and the finest particles, which start from weak rolls, stand still on a lattice."""
     grid_ke = finest(spam)["ra"].map(limit.set_index("ra")["ke"])
     for ra in finest(spam).loc[(grid_ke > STILL) & (finest(spam)["ke_field"] < 0.01*grid_ke), "ra"]:
-        axes.annotate("particles frozen", (ra**-0.5, 0), xytext=(-6, 1), textcoords="offset points", ha="right",
+        axes.annotate("frozen, from weak rolls", (ra**-0.5, 0), xytext=(-6, 1), textcoords="offset points", ha="right",
                       fontsize=8)
+
+
+def from_flow(axes: Axes, tables: Tables, scene: dict[str, Any]) -> None:
+    """Kg of particles that start from the grid's steady flow; coarser ones smaller and a little to the right."""
+    spam = particles(tables, **scene, **FROM_FLOW)
+    for number, size in enumerate(sorted(spam["resolution"].unique(), reverse=True)):
+        group = spam[spam["resolution"] == size]
+        x, more = group["ra"]**-0.5 + ASIDE*number, {"markersize": max(3, 7 - 1.5*number), "markerfacecolor": "white"}
+        axes.errorbar(x, group["ke_field"], group["ke_field_err"], zorder=6 - number,
+                      label="$K_g$, started from the grid's flow" if number == 0 else "", **KIND["from-flow"] | more)
+        cross_out(axes, x, group["ke_field"], group["steady"])
 
 
 def told(spam: pd.DataFrame) -> str:
@@ -181,51 +188,7 @@ def fig6(tables: Tables) -> Figure | None:
     spam = particles(tables, **BOX)
     by_resolution(axes, spam)
     name_frozen(axes, reference(tables, **BOX), spam)
+    from_flow(axes, tables, BOX)
     axes.set(title="Square box with four walls, ideal gas: grid and particles    [KHP95, Fig. 6]", ylabel=ENERGY)
     finish(axes, told(spam))
     return page
-
-
-def fig8(tables: Tables) -> Figure | None:
-    """Approach to the steady state at Ra = 10 000, or what is nearest to it."""
-    spam = nearest(rows(tables, "history", **SPAM, **LAYER))
-    spam = finest(spam[spam["resolution"] <= 50])     # KHP95's 5000 particles; finer runs keep few samples
-    cells = finest(nearest(rows(tables, "history", **GRID, **LAYER)))
-    if spam.empty and cells.empty:
-        return None
-    page, axes = figure(width=7, height=4.2)
-    unit = viscous_time(spam if len(spam) else cells)
-    for kind, column, label in ENERGIES:
-        for number, (_, run) in enumerate(groups(spam, "seed")):
-            style = {"marker": "", "lw": 0.9, "alpha": 0.8, "linestyle": ("-", "--", ":")[number % 3]}
-            axes.plot(run["t_viscous"]*unit, run[column], label=f"{label}, one line a seed" if number == 0 else "",
-                      **KIND[kind] | style)
-            if number == 0:
-                name_line(axes, run["t_viscous"]*unit, run[column], label.split(",")[0])
-    if len(cells):
-        axes.plot(cells["t_viscous"]*unit, cells["ke"], label="compressible grid",
-                  **KIND["grid"] | {"marker": "", "lw": 2.2})
-        name_line(axes, cells["t_viscous"]*unit, cells["ke"], "grid")
-    time_axes(axes, unit)
-    ra = max([*spam["ra"], *cells["ra"]])
-    axes.set(title=f"Approach to steady rolls at Ra = {ra:g}, grid and particles    [KHP95, Fig. 8]",
-             ylabel=ENERGY, ylim=(0, None))
-    axes.legend(loc="upper right")
-    return page
-
-
-def name_line(axes: Axes, t: pd.Series, y: pd.Series, name: str) -> None:
-    """A name where a line ends: colours alone do not tell lines in grey."""
-    axes.annotate(name, (t.max(), y.iloc[t.argmax()]), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8)
-
-
-def viscous_time(history: pd.DataFrame) -> float:
-    """L^2/eta in units of time, from any row after the start."""
-    return float(history["t"].max()/history["t_viscous"].max())
-
-
-def time_axes(axes: Axes, unit: float) -> None:
-    top = axes.secondary_xaxis("top", functions=(partial(np.multiply, 1/unit), partial(np.multiply, unit)))
-    top.set_xlabel(r"time  [$L^2/\eta$]")
-    axes.set_xlabel(f"time  [{TIME}]")
-    axes.set_xlim(0, 1.07*axes.dataLim.x1)      # room for names

@@ -1,4 +1,4 @@
-"""How wrong and how dear: errors of K against resolution and cost; the noise of the particles."""
+"""How wrong and how dear: errors of K and of heat transport against resolution, of K against cost; the particles' noise."""
 from collections.abc import Iterator
 from typing import Any
 
@@ -13,10 +13,12 @@ from studies.convection.pick import (
     KIND,
     LABELS,
     LAYER,
+    NUSSELT,
     SPAM,
     cross_out,
     errors,
     groups,
+    of_energy,
     over_seeds,
     rows,
 )
@@ -34,8 +36,9 @@ PRINTED_WEIGHT = {"weight": "Lucy", "h": 3}
 
 
 def convergence(tables: Tables) -> Figure | None:
-    """Relative errors of Kp and Kg against rows over the height, and what smoothing alone takes from the grid."""
-    panels = shown(errors(tables, **LAYER))
+    """Relative errors of Kp, Kg and Nu against rows over the height, and what smoothing alone takes from the grid."""
+    found = errors(tables, **LAYER)
+    panels = shown(found[(found["method"] == SPAM["method"]) | (found["energy"] == "Kp")])
     if not panels:
         return None
     page, all_axes = figure(1, len(panels), width=5, height=5.4, sharey=True, squeeze=False)
@@ -45,8 +48,10 @@ def convergence(tables: Tables) -> Figure | None:
         floor(axes, pd.concat([group["error"].abs(), smoothing(axes, tables, ra)]))
         loglog(axes, f"Ra = {ra:g}", "rows over the height $L$")
         plain_ticks(axes, group["resolution"])
-    all_axes[0, 0].set_ylabel(RELATIVE)
-    page.suptitle("Does $K$ converge?\nOpen marks: $K$ too small; bars: 95 % intervals", fontsize=10)
+    heat = any("Nu" in set(group["energy"]) for _, group in panels)
+    all_axes[0, 0].set_ylabel(RELATIVE + (r", $|\mathrm{Nu}_p/\mathrm{Nu} - 1|$" if heat else ""), fontsize=9)
+    page.suptitle(f"Does $K$ converge{', does the heat transport' if heat else ''}?\n"
+                  "Open marks: too small; bars: 95 % intervals", fontsize=10)
     return page
 
 
@@ -127,7 +132,7 @@ def plain_ticks(axes: Axes, values: Any) -> None:
 
 def cost(tables: Tables) -> Figure | None:
     """Relative errors of Kp and Kg against CPU seconds; how long a step takes, measured alone, where that is known."""
-    panels, steps = shown(errors(tables, **LAYER)), rows(tables, "cost")
+    panels, steps = shown(of_energy(errors(tables, **LAYER))), rows(tables, "cost")
     count = len(panels) + (len(steps) > 0)
     if not count:
         return None
@@ -146,11 +151,11 @@ def cost(tables: Tables) -> Figure | None:
 
 
 def methods(found: pd.DataFrame) -> Iterator[tuple[pd.DataFrame, str, dict]]:
-    """(rows by resolution, label, look) of each method: particles twice, for Kp and Kg, each grid once."""
+    """(rows by resolution, label, look) of each method: particles for Kp, Kg and Nu, each grid once."""
     others = 0
     for (method, variant, energy), series in groups(found.sort_values("resolution"), ["method", "variant", "energy"]):
         if method == "spam":
-            yield series, LABELS[energy.lower()], KIND[energy.lower()]
+            yield series, (LABELS | NUSSELT)[energy.lower()], KIND[energy.lower()]
         elif (method, variant) == tuple(GRID.values()) and energy == "Kp":      # the field is all that a grid has
             yield series, "compressible grid", KIND["grid"]
         elif energy == "Kp":

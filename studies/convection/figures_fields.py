@@ -6,12 +6,15 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
+from scipy.spatial import cKDTree
 
 from continuum.published import published
 from studies.convection.pick import GRID, KIND, LAYER, SPAM, finest, nearest, rows
 from studies.kit.figure import figure
 from studies.kit.table import Tables
 
+PLACES = 30     # over the height: 1800 in all [KHP95, Fig. 12]
+RANGE = 3.0     # of Lucy's weight, in spacings
 FIXED_ROWS = SPAM | {"variant": "printed-fixed-rows"}
 #: column, name with unit, what to see
 CONTOURS = (("rho", r"density  [$m/\sigma^2$]"), ("T", r"temperature  [$\varepsilon/(m k_B)$]"))
@@ -86,8 +89,8 @@ def box(axes: Axes, run: pd.DataFrame, title: str, scale: float) -> None:
 
 def fig7(tables: Tables) -> Figure | None:
     """Few van der Waals particles already roll."""
-    run, field = (coarsest(rows(tables, name, **SPAM, **LAYER | {"eos": "vdw"})) for name in ("particles", "fields"))
-    return two_views(run, field, "van der Waals gas, at one instant    [KHP95, Fig. 7]")
+    run = coarsest(rows(tables, "particles", **SPAM, **LAYER | {"eos": "vdw"}))
+    return two_views(run, "van der Waals gas, at one instant    [KHP95, Fig. 7]")
 
 
 def coarsest(runs: pd.DataFrame) -> pd.DataFrame:
@@ -97,24 +100,42 @@ def coarsest(runs: pd.DataFrame) -> pd.DataFrame:
 
 
 def fig12(tables: Tables) -> Figure | None:
-    """The same run as particles and as a smoothed field."""
-    run, field = (one_run(tables, name, **SPAM, **LAYER) for name in ("particles", "fields"))
-    return two_views(run, field, "at one instant    [KHP95, Fig. 12]")
+    """The same instant as particles and as a smoothed field."""
+    return two_views(one_run(tables, "particles", **SPAM, **LAYER), "at one instant    [KHP95, Fig. 12]")
 
 
-def two_views(run: pd.DataFrame, field: pd.DataFrame, title: str) -> Figure | None:
-    """Particles above, below them the smoothed field of the same run in the same scale."""
-    if run.empty or field.empty or run["resolution"].iloc[0] != field["resolution"].iloc[0]:
+def two_views(run: pd.DataFrame, title: str) -> Figure | None:
+    """Particles above, below them their velocities of the same instant smoothed by the weight, in the same scale."""
+    if run.empty:
         return None
+    field = smoothed(run)
     page, (upper, lower) = figure(2, 1, width=7, height=3.75)
     scale = arrow_scale(fluid(run))
     arrows(upper, fluid(run), scale)
     box(upper, run, f"{heading(run)}, {title}", scale)
     arrows(lower, field, scale)
-    box(lower, field, f"smoothed velocity at {len(field)} places, mean over the later part of the run", scale)
+    box(lower, field, f"the same instant, smoothed: $\\langle v \\rangle$ at {len(field)} places", scale)
     for axes in (upper, lower):
         axes.set_ylim(-0.54, 0.54)
     return page
+
+
+def smoothed(run: pd.DataFrame) -> pd.DataFrame:
+    """<v> = sum v w/sum w at the places of Fig. 12, or at as many as there are particles; Lucy's weight    [KHP95, Sec. II]
+
+    Particles behind plates and sides are in the sums, as in a run.
+    """
+    half, spacing = half_width(run), 1/float(run["resolution"].iloc[0])
+    rows = min(PLACES, round(1/spacing))
+    columns = round(2*half*rows)
+    x, y = (q.ravel() for q in np.meshgrid((np.arange(columns) + 0.5)/rows - half, (np.arange(rows) + 0.5)/rows - 0.5))
+    at, around = (cKDTree(np.stack(points, axis=1)) for points in ((x, y), (run["x"], run["y"])))
+    near = at.sparse_distance_matrix(around, RANGE*spacing, output_type="ndarray")
+    q = near["v"]/(RANGE*spacing)
+    w = (1 + 3*q)*(1 - q)**3
+    vx, vy, ones = (np.bincount(near["i"], w*v[near["j"]], len(x))
+                    for v in (run["vx"].to_numpy(float), run["vy"].to_numpy(float), np.ones(len(run))))
+    return pd.DataFrame({"x": x, "y": y, "vx": vx/ones, "vy": vy/ones})
 
 
 def fig9(tables: Tables) -> Figure | None:

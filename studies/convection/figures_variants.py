@@ -22,6 +22,7 @@ from studies.convection.pick import (
     errors,
     groups,
     nearest,
+    of_energy,
     over_seeds,
     reference,
     rows,
@@ -156,7 +157,7 @@ def references(axes: Any, tables: Tables, ra: float, size: float) -> None:
 
 def variants(tables: Tables) -> Figure | None:
     """Errors of Kp and Kg of every variant."""
-    found, lost = (at_sizes(frame) for frame in (errors(tables, method="spam", **LAYER), diverged(tables, **LAYER)))
+    found, lost = (at_sizes(frame) for frame in (of_energy(errors(tables, method="spam", **LAYER)), diverged(tables, **LAYER)))
     names = sorted({*found["variant"], *lost["variant"]}, key=lambda name: (name != "printed", name))
     if len(names) < 2:
         return None
@@ -187,8 +188,8 @@ def one_ra(axes: Axes, names: list[str], found: pd.DataFrame, lost: pd.DataFrame
     order = sizes_of(found, lost)
     inside = found["error"].abs() <= WIDEST/100
     for energy, label in LABELS.items():
-        of_energy = found[inside & (found["energy"].str.lower() == energy)]
-        dots(axes, names, of_energy, "error", "error_err", label, KIND[energy], 100, order)
+        one = found[inside & (found["energy"].str.lower() == energy)]
+        dots(axes, names, one, "error", "error_err", label, KIND[energy], 100, order)
     for (variant, size), rest in groups(found[~inside], ["variant", "resolution"]):
         told = ", ".join(f"${name[0]}_{name[1]}$ {100*error:+.0f} %" for name, error in zip(rest["energy"], rest["error"]))
         say(axes, names.index(variant) + LOWER*order.index(size), 0.98, f"{told} $\\rightarrow$")

@@ -17,6 +17,7 @@ LAYER = {"eos": "ideal", "transport": "const-eta", "sides": "periodic", "pr": 1}
 BOX = {**LAYER, "sides": "walls"}
 GRID = {"method": "compressible", "variant": "flux-form"}
 SPAM = {"method": "spam", "variant": "printed"}
+FROM_FLOW = {"variant": "printed-from-flow"}     # the same, but started from the grid's steady flow
 RA_C = published("chandrasekhar-ra-rigid").value
 #: energies below are none: motion has died out
 STILL = 1e-6
@@ -24,9 +25,12 @@ STILL = 1e-6
 #: the same kind of row looks the same in every figure
 KIND = {"grid": {**look(0), "color": "black"}, "kp": look(1), "kg": {**look(2), "color": "#0072B2"},
         "boussinesq": {**look(3), "linestyle": "none"},
+        "nu": {**look(3), "linestyle": "-."}, "from-flow": {**look(4), "color": "#0072B2", "linestyle": "none"},
         "khp": {"color": "black", "linestyle": "none", "markerfacecolor": "none", "markersize": 9,
                 "markeredgewidth": 1.4, "zorder": 5}}
 LABELS = {"kp": "$K_p$, all particles", "kg": "$K_g$, smoothed field"}
+#: of the column `energy` of `errors`, besides
+NUSSELT = {"nu": "Nusselt number, particles"}
 UNSETTLED: dict[str, Any] = {"color": "black", "linestyle": "none", "marker": "x", "markersize": 8, "zorder": 6}
 NOT_STEADY = "not steady: halves of the mean differ"
 TIME = r"$(m\sigma^2/\varepsilon)^{1/2}$"
@@ -55,9 +59,14 @@ def particles(tables: Tables, **scene: Any) -> pd.DataFrame:
 
 
 def errors(tables: Tables, **scene: Any) -> pd.DataFrame:
-    """Relative errors of K by method, resolution and energy (Kp or Kg), with `steady`."""
+    """Relative errors by method, resolution and energy (Kp, Kg or Nu), with `steady`."""
     found = rows(tables, "errors", **scene)
     return found.assign(steady=steady(tables, found))
+
+
+def of_energy(found: pd.DataFrame) -> pd.DataFrame:
+    """Those of K alone."""
+    return found[found["energy"].str.lower().isin(LABELS)]
 
 
 def settled(runs: pd.DataFrame) -> pd.Series:

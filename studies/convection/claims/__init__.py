@@ -3,7 +3,20 @@
 One module a theme, each with its CLAIMS; `read`, `lines`, `histories`, `snapshots`, `lattices`, `sums` and `newton`
 are what their values are made of. Claims on critical Rayleigh numbers are judged by the study `onset`.
 """
-from studies.convection.claims import flow, fluids, freezing, grid, open, own, printed, spam, weights
+from studies.convection.claims import (
+    flow,
+    fluids,
+    freedoms,
+    freezing,
+    grid,
+    open,
+    own,
+    printed,
+    spam,
+    square,
+    starts,
+    weights,
+)
 
-THEMES = (weights, fluids, printed, grid, spam, flow, freezing, own, open)
+THEMES = (weights, fluids, printed, grid, square, spam, starts, freedoms, flow, freezing, own, open)
 RB_CLAIMS = tuple(claim for theme in THEMES for claim in theme.CLAIMS)

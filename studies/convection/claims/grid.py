@@ -5,9 +5,20 @@ import numpy as np
 import pandas as pd
 
 from studies.convection.claims.histories import History, histories
-from studies.convection.claims.lines import STILL, against_cells, beyond, extrapolated, finest, line, read_at, straightness
+from studies.convection.claims.lines import against_cells, beyond, extrapolated, finest, line, read_at, straightness
 from studies.convection.claims.printed import as_printed, number
-from studies.convection.claims.read import Value, grid, largest, limit, limit_of, mean, off, ratio, scene, select
+from studies.convection.claims.read import (
+    grid,
+    largest,
+    limit,
+    limit_of,
+    mean,
+    off,
+    ratio,
+    rolls_of,
+    scene,
+    select,
+)
 from studies.kit.claim import CannotTell, Claim
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
@@ -116,38 +127,6 @@ def grid_of(frame) -> dict:
     return {name: row[name] for name in ("method", "variant", "eos", "transport", "sides", "ra", "pr", "resolution")}
 
 
-def in_square(tables: Tables, variant: str, **where) -> pd.Series:
-    """The finest grid of a variant in the square."""
-    frame = finished(tables, variant=variant, sides="walls", **where)
-    frame = frame[np.isfinite(frame["resolution"])].sort_values("resolution")
-    if frame.empty:
-        raise CannotTell(f"variant {variant} of the grid has extrapolated rows only")
-    return frame.iloc[-1]
-
-
-def square_rolls(variant: str, **where) -> Value:
-    """Its rolls."""
-    return lambda tables: Measured(float(in_square(tables, variant, **where)["rolls"]), 0.0)
-
-
-def rolls_left(tables: Tables) -> Measured:
-    """Rolls at Ra 7000 after a start with two; two tell nothing while they still change."""
-    row = in_square(tables, "two-rolls", ra=7000.0)
-    if row["rolls"] == 2 and str(row["converged"]) != "True":
-        raise CannotTell(f"the two rolls of the start are still there at t = {row['t_end']:.0f}, but not steady")
-    return Measured(float(row["rolls"]), 0.0)
-
-
-def hot_dense(tables: Tables) -> Measured:
-    """K of the dense fluid between the temperatures of Fig. 10."""
-    try:
-        row = in_square(tables, "fig10", eos="dense")
-    except CannotTell as why:
-        raise CannotTell(f"{why}; T = 10 is far outside of the equation of state, a fit about T = 1 whose T(n, u) does not "
-                         "invert its u(n, T) there, and the gravity that gives Ra 350 000 is not the one of Sec. IV") from None
-    return Measured(float(row["ke"]), float(row["ke_err"]))
-
-
 LAST = "half of the last printed digit"
 ALMOST = ('"almost exactly" has no number: 1 %, what Sec. VI says that the fluctuations disguise of the particles which the '
           "line is there to be compared with")
@@ -220,22 +199,13 @@ CLAIMS = (
           because="second order; if it stays, it is the flow"),
     Claim(id="khp95-transient-grid", source="KHP95 Fig. 8", printed="two rolls",
           statement="the printed initial rolls lead to a steady state of two rolls at Ra 10 000",
-          value=limit_of(1e4, "rolls"), **as_printed("fig8-rolls"), because="a whole number"),
+          value=rolls_of(grid(1e4)), **as_printed("fig8-rolls"), because="a whole number"),
     Claim(id="khp95-fig9-time", source="KHP95 Figs 8, 9, 12", printed="5000", at_most=0.01,
           statement="the flow at Ra 10 000 is steady by t = 5000: change of K from 4000 on", value=steady_by_5000,
           because="no number is printed: 1 %, the size of the fluctuations of particles"),
     Claim(id="khp95-heat-transport", source="KHP95 Sec. IV", printed="more efficiently", at_least=1,
           statement="convection carries heat better than conduction alone: Nusselt number at Ra 10 000",
           value=limit_of(1e4, "nu"), because="conduction alone is 1"),
-    Claim(id="khp95-two-rolls-square", source="KHP95 Sec. VI, Fig. 10", printed="two rolls",
-          statement="the ideal gas of Fig. 10 in the square convects with two rolls, on the grid",
-          value=square_rolls("fig10", eos="ideal"), **as_printed("fig10-rolls"), because="a whole number"),
-    Claim(id="khp95-fig10-dense", source="KHP95 Sec. VI, Fig. 10", printed="dense fluid", at_least=STILL, value=hot_dense,
-          statement="the dense fluid flows in the square between temperatures 10 and 0.5: K of the grid at the Ra of the "
-                    "ideal gas", because="above what is left of rest"),
-    Claim(id="khp95-one-roll-square", source="KHP95 Sec. VI, Fig. 10", printed="one",
-          statement="two rolls in the square give way to one near onset: rolls at Ra 7000 after a start with two",
-          value=rolls_left, expect=1, within=0, because="a whole number"),
     Claim(id="khp95-dense-divergence", source="KHP95 Sec. IV", printed="slow divergence", at_least=1e-3,
           statement="grid runs of the dense fluid slowly diverge at very long times: change of K over a quarter of 20 "
                     "L^2/eta", value=drift,

@@ -3,9 +3,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from studies.convection.claims.read import select
+from studies.convection.claims.read import over_seeds, select
 from studies.kit.claim import CannotTell
-from studies.kit.stats import Measured, combine
+from studies.kit.stats import Measured
 from studies.kit.table import Tables
 
 NEAR = 0.05     # of the steady value: particles' K fluctuates by 1 % or 2 %, a narrower band would time the noise
@@ -54,19 +54,6 @@ def histories(tables: Tables, point: dict, energy: str = "ke_field") -> list[His
     if min(len(h.t) for h in found) < 20:
         raise CannotTell("a history has fewer than 20 samples: nothing to judge by")
     return found
-
-
-def over_seeds(values: list[float]) -> Measured:
-    """Mean and error over seeds.
-
-    Raises
-    ------
-    CannotTell
-        Only one.
-    """
-    if len(values) < 2:
-        raise CannotTell("one seed was run: there is no error bar without a second")
-    return combine([(value, 0.0) for value in values])
 
 
 def distance(particles: list[History], grid: History, unit: float) -> Measured:

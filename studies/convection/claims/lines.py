@@ -7,13 +7,12 @@ import pandas as pd
 from scipy.special import stdtrit
 
 from continuum.richardson import richardson
-from studies.convection.claims.read import Value, grid, limit, onset, ratio, select
+from studies.convection.claims.read import STILL, Value, grid, limit, onset, ratio, select
 from studies.kit.claim import CannotTell
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
 
 LEAST = 5           # points of a line: three are left to tell how straight it is
-STILL = 1e-6        # K of a grid whose onset lies a little higher
 ONE_STATE = {"periodic": 2, "walls": 1}  # rolls of the states that make a line
 
 

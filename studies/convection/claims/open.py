@@ -44,6 +44,9 @@ CLAIMS = (
               "<v^2> - <v>^2, the analog of a kinetic temperature",
               "a definition is neither right nor wrong; how large they are is a claim of its own, and each energy table has a "
               "column ke_fluctuation"),
+    undecided("fig12-views", "Fig. 12", "velocities of particles and averaged velocities are equivalent views of a flow",
+              '"equivalent" has no number, and averaging is to take the noise away: how much of it there is, is another claim',
+              "two equivalent views"),
     undecided("agreement", "Sec. VI", "agreement is completely satisfactory where the pressure is low",
               "a judgement; the numbers are in the energy, velocity and freezing claims"),
     undecided("robust-meshes", "Sec. VII", "particles avoid grid tangling and mesh instabilities",

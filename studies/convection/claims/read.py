@@ -2,7 +2,7 @@
 
 KHP95's 5000 particles are 50 rows of 100, so `height=50`; grids extrapolated to infinitely fine have height inf.
 """
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 from math import hypot, inf, pi
 
@@ -10,10 +10,14 @@ import pandas as pd
 
 from continuum.linear import critical_ra
 from studies.kit.claim import CannotTell
-from studies.kit.stats import Measured
+from studies.kit.stats import Measured, combine
 from studies.kit.table import Tables
 
 Value = Callable[[Tables], Measured]
+STILL = 1e-6        # K of a grid whose onset lies a little higher: nothing flows, and rolls are of round-off
+#: which K of the grid a claim takes, for its reason: two yardsticks are in use
+PLAIN = "against the grid's K as it is, as the paper compares"
+ALIKE = "against K of the grid's field smoothed by the same weight"
 #: Prandtl number nu/kappa, kappa = k/(rho C_V), that KHP95's eta = k means
 PRANDTL = {"ideal": 1.0, "vdw": 1.0, "dense": 1.5}
 
@@ -70,10 +74,38 @@ def diverged(tables: Tables, point: dict, which: Callable[[Iterable[bool]], bool
 
 def mean(tables: Tables, point: dict, column: str = "ke") -> Measured:
     """A column of `means` at one point, with its error where it has one."""
+    row = one_flow(tables, point)
+    return Measured(float(row[column]), float(row.get(f"{column}_err", 0.0)))
+
+
+def one_flow(tables: Tables, point: dict) -> pd.Series:
+    """The row of `means` of one point.
+
+    Raises
+    ------
+    CannotTell
+        All runs diverged, or seeds ended in different flows: which one the point has is then a matter of chance.
+    """
     if diverged(tables, point, all):
         raise CannotTell(f"all runs of {point['method']}, {point['variant']} at Ra {point['ra']:g} diverged")
     row = select(tables, "means", **point).iloc[0]
-    return Measured(float(row[column]), float(row.get(f"{column}_err", 0.0)))
+    if row.get("mixed", 0) > 0:
+        raise CannotTell(f"{row['mixed']:.0f} of {row['mixed'] + row['seeds']:.0f} seeds of {point['variant']}, "
+                         f"{point['resolution']:g} rows, ended with another number of rolls than the {row['rolls']:.0f} of the "
+                         f"others at Ra {point['ra']:g}: which flow belongs to the point is not decided")
+    return row
+
+
+def alike(tables: Tables, point: dict) -> Measured:
+    """K of the grid's field smoothed as the particles of `point` smooth theirs: what Kg is to be if the flow is right."""
+    row = select(tables, "errors", energy="Kg", **point).iloc[0]
+    return Measured(float(row["reference"]), float(row["reference_err"]))
+
+
+def settled(tables: Tables, point: dict) -> bool:
+    """Whether the halves of K agree in all runs of a point that did not diverge."""
+    frame = select(tables, "kinetic_energy", **point)
+    return bool(frame.loc[frame["ke"].notna(), "converged"].astype(str).eq("True").all())
 
 
 def shared_height(tables: Tables, ra: float, *variants: str) -> int:
@@ -92,10 +124,27 @@ def shared_height(tables: Tables, ra: float, *variants: str) -> int:
 
 
 def rolls(tables: Tables, point: dict, seed: int | None = None) -> int:
-    """Rolls of a flow: of one seed, or of the seeds of which the mean is made."""
-    if seed is None:
-        return int(select(tables, "means", **point)["rolls"].iloc[0])
-    return int(select(tables, "kinetic_energy", **point, seed=seed)["rolls"].iloc[0])
+    """Rolls of a flow: of one seed, or of the seeds of which the mean is made; none where motion has died."""
+    row = one_flow(tables, point) if seed is None else select(tables, "kinetic_energy", **point, seed=seed).iloc[0]
+    return int(row["rolls"]) if row["ke"] > STILL else 0
+
+
+def rolls_of(point: dict) -> Value:
+    """The same as a value function that refuses what has died."""
+    return lambda tables: moving(one_flow(tables, point))
+
+
+def moving(row: pd.Series) -> Measured:
+    """Rolls in a row of `means` or `kinetic_energy`.
+
+    Raises
+    ------
+    CannotTell
+        Nothing moves.
+    """
+    if not row["ke"] > STILL:
+        raise CannotTell(f"K is {row['ke']:.1g} at the end: the flow has died, rolls would be those of round-off")
+    return Measured(float(row["rolls"]), 0.0)
 
 
 def same_flow(tables: Tables, one: dict, other: dict, seed: int | None = None) -> None:
@@ -129,6 +178,26 @@ def mean_of(point: dict, column: str) -> Value:
     return lambda tables: mean(tables, point, column)
 
 
+def over_runs(tables: Tables, point: dict, energy: str) -> Measured:
+    """Mean of the runs of a point that have its rolls, its error from statistics alone: in `means` that of the step is added."""
+    frame = select(tables, "kinetic_energy", **point)
+    frame = frame[frame["ke"].notna() & (frame["rolls"] == one_flow(tables, point)["rolls"])]
+    return combine(list(zip(frame[energy], frame[f"{energy}_err"], strict=True)))
+
+
+def over_seeds(values: Sequence[float]) -> Measured:
+    """Mean and error over seeds.
+
+    Raises
+    ------
+    CannotTell
+        Only one.
+    """
+    if len(values) < 2:
+        raise CannotTell("one seed was run: there is no error bar without a second")
+    return combine([(value, 0.0) for value in values])
+
+
 def ratio(a: Measured, b: Measured) -> Measured:
     """a/b with its error.
 
@@ -147,9 +216,9 @@ def off(a: Measured, centre: float = 1.0) -> Measured:
     return Measured(abs(a.value - centre), a.err)
 
 
-def largest(found: list[Measured]) -> Measured:
-    """The largest, with the largest error among them."""
-    return Measured(max(m.value for m in found), max(m.err for m in found))
+def largest(found: list[Measured], over: float = 1.0) -> Measured:
+    """The largest, with the largest error among them, in units of `over`."""
+    return Measured(max(m.value for m in found)/over, max(m.err for m in found)/over)
 
 
 @cache

@@ -1,14 +1,15 @@
 """Particles at the end of a run and mean fields on a grid of places: what the tables `particles` and `fields` tell."""
 from dataclasses import dataclass
 from functools import cached_property
-from math import sqrt
+from math import hypot, sqrt
 
 import numpy as np
 import pandas as pd
 from scipy.spatial import cKDTree
+from scipy.special import stdtrit
 
 from studies.convection.claims.lattices import LUCY, RANGE
-from studies.convection.claims.read import select
+from studies.convection.claims.read import largest, mean, select
 from studies.kit.claim import CannotTell
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
@@ -125,27 +126,62 @@ def difference(one: Fields, other: Fields, names: tuple[str, ...]) -> Measured:
     return Measured(even, odd)
 
 
+def one_seed(tables: Tables, particles: dict) -> float:
+    """Relative 95 % interval with which K of one seed, whose fields are kept, stands for the point.
+
+    The scatter of Kg between seeds with its t factor, and the error of their mean, to which that of the time step belongs.
+    """
+    whole, seeds = mean(tables, particles, "ke_field"), select(tables, "kinetic_energy", **particles)["ke_field"].dropna()
+    if len(seeds) < 2:
+        raise CannotTell("one seed was run: there is no error bar without a second")
+    return hypot(float(stdtrit(len(seeds) - 1, 0.975)*seeds.std(ddof=1)), whole.err)/whole.value
+
+
 def mean_flow(tables: Tables, particles: dict) -> Measured:
     """Kinetic energy per mass of the time's mean velocities: of what flows, noise averaged out.
 
-    The mirror-symmetric part; the energy of the rest is the error. If rolls wander in that time, it is a lower bound.
+    The mirror-symmetric part; the energy of the rest is in the error, beside what other seeds may have. If rolls wander in
+    that time, it is a lower bound.
     """
     at = fields(tables, particles)
     even, odd = ({name: (f + sign*mirrored(at)[name])/2 for name, f in at.items()} for sign in (1, -1))
     found = [0.5*float(np.mean(at["rho"]*(part["vx"]**2 + part["vy"]**2))/np.mean(at["rho"])) for part in (even, odd)]
-    return Measured(found[0], found[1])
+    return Measured(found[0], hypot(found[1], found[0]*one_seed(tables, particles)))
+
+
+def moved(tables: Tables, particles: dict, at: Fields, names: tuple[str, ...]) -> float:
+    """How far the named fields may lie in other seeds: rms over places, summed over the fields.
+
+    A relative error d of K moves velocities by d/2; what they carry is taken to move in proportion to its distance from the
+    motionless state, rho = 1, T = 1 - y/L.
+    """
+    y = (np.arange(len(at["T"])) + 0.5)[:, None]/len(at["T"]) - 0.5
+    rest = {"rho": 1.0, "T": 1 - y, "vx": 0.0, "vy": 0.0}
+    return one_seed(tables, particles)/2*sqrt(sum(np.mean((at[name] - rest[name])**2) for name in names))
 
 
 def velocity_error(tables: Tables, particles: dict, grid: dict) -> Measured:
     """Rms difference of velocity fields over the grid's rms velocity."""
     one, other = fields(tables, particles), fields(tables, grid, finest=True)
-    size = sqrt(np.mean(other["vx"]**2 + other["vy"]**2))
-    found = difference(one, other, ("vx", "vy"))
-    return Measured(found.value/size, found.err/size)
+    size, found = sqrt(np.mean(other["vx"]**2 + other["vy"]**2)), difference(one, other, ("vx", "vy"))
+    return Measured(found.value/size, hypot(found.err, moved(tables, particles, one, ("vx", "vy")))/size)
 
 
 def contour_error(tables: Tables, particles: dict, grid: dict, name: str) -> Measured:
     """Rms difference of a field over the range that the grid's has."""
     one, other = fields(tables, particles), fields(tables, grid, finest=True)
-    found = difference(one, other, (name,))
-    return Measured(found.value/float(np.ptp(other[name])), found.err/float(np.ptp(other[name])))
+    size, found = float(np.ptp(other[name])), difference(one, other, (name,))
+    return Measured(found.value/size, hypot(found.err, moved(tables, particles, one, (name,)))/size)
+
+
+def along(at: Fields, row: int) -> Fields:
+    """Only one row of places."""
+    return {name: f[[row]] for name, f in at.items()}
+
+
+def edge_error(tables: Tables, particles: dict, grid: dict, name: str) -> Measured:
+    """The same over the places next to a plate, of both plates the worse one."""
+    one, other = fields(tables, particles), fields(tables, grid, finest=True)
+    size, seeds = float(np.ptp(other[name])), moved(tables, particles, one, (name,))
+    found = [difference(along(one, row), along(other, row), (name,)) for row in (0, -1)]
+    return largest([Measured(at.value/size, hypot(at.err, seeds)/size) for at in found])

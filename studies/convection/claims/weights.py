@@ -6,10 +6,9 @@ from itertools import pairwise
 import numpy as np
 
 from studies.convection.claims import sums
-from studies.convection.claims.histories import over_seeds
 from studies.convection.claims.lattices import BOTH, KINDS, LUCY, MONAGHAN, RANGE, Printed, density, shear_moduli
 from studies.convection.claims.printed import as_printed
-from studies.convection.claims.read import Value, exact
+from studies.convection.claims.read import Value, exact, over_seeds
 from studies.kit.claim import Claim
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
