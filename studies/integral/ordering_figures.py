@@ -20,23 +20,24 @@ def figures(tables: Tables) -> dict[str, Figure]:
 def surface(means: pd.DataFrame) -> Figure:
     """Error of the gradient over the range of the weight, one curve a wavelength; the ordering of Eq. 45 is between the ends."""
     chosen = means[(means["maker"] == "renormalised") & (means["weight"] == "Lucy")]
-    kinds = [kind for kind in KINDS if kind in set(chosen["points"])]
-    page, rows = figure(2, len(kinds), width=2.6, height=2.9, sharex=True, sharey="row", squeeze=False)
+    kinds, waves = [kind for kind in KINDS if kind in set(chosen["points"])], sorted(set(chosen["wavelength"]))
+    page, rows = figure(2, len(kinds), width=2.4, height=3.0, sharex=True, sharey="row", squeeze=False)
     for column, kind in enumerate(kinds):
         for row, operator in zip(rows, ("gradient", "laplacian"), strict=True):
             axes = row[column]
-            for number, (wavelength, group) in enumerate(chosen[chosen["points"] == kind].groupby("wavelength")):
-                group = group.sort_values("h")
-                errorbar(axes, *columns(group, "h", operator), number=number, linestyle="-",
+            for wavelength, group in chosen[chosen["points"] == kind].groupby("wavelength"):
+                errorbar(axes, *columns(group.sort_values("h"), "h", operator), number=waves.index(wavelength), linestyle="-",
                          label=rf"$\lambda$ = {wavelength} $a$")
             axes.set(xscale="log", yscale="log")
             axes.set_xticks([1.2, 2, 3, 4, 6], labels=["1.2", "2", "3", "4", "6"])
             axes.minorticks_off()
         rows[0, column].set_title(kind)
-        rows[1, column].set_xlabel("range of the weight $h/a$")
+        rows[1, column].set_xlabel("range $h/a$")
     rows[0, 0].set_ylabel("relative rms error of grad")
     rows[1, 0].set_ylabel("relative rms error of Laplacian")
-    below(rows[1, len(kinds)//2], ncols=6, bbox_to_anchor=(0.5, -0.25))
+    known = dict(pair for axes in rows.ravel() for pair in zip(*axes.get_legend_handles_labels()[::-1]))
+    page.legend([known[name] for name in sorted(known, key=lambda name: float(name.split()[-2]))],
+                sorted(known, key=lambda name: float(name.split()[-2])), loc="outside lower center", ncols=len(known))
     page.suptitle("Must $a < r_0 < \\lambda$ hold?  Lucy's weight, renormalised; bars: 95 % over point sets", fontsize=10)
     return page
 
