@@ -7,7 +7,7 @@ Writes results/ordering/*.csv and *.png and the rows of study ordering in result
 from collections.abc import Iterator
 from itertools import product
 
-from particles.edges import MAKERS
+from particles.makers import MAKERS
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.integral import ordering_claims, ordering_derive, ordering_figures, tables
 from studies.integral.operators import DISORDERS, OperatorErrors

@@ -3,7 +3,7 @@
 Scaling: spacing, mass and kB are 1, L = particle rows, g = dT/L, eta from Ra: energies then do not depend on L.
 Sizes: `paper` (half an hour on two cores) has what the main figure and the verdicts need, `quick` (minutes) the same
 path small, `fine` (hours) all variants, walls, resolutions.
-Writes results/rb/*.csv and *.png and the rows of study rb in results/claims.csv.
+Writes results/rb/*.csv and *.png and the rows of study rb in results/claims.csv; `quick` the same in results/quick.
 """
 from collections.abc import Iterator
 from itertools import product

@@ -3,8 +3,8 @@ import numpy as np
 import pytest
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, VanDerWaals
-from particles.edges import MAKERS
 from particles.integrators import RK4
+from particles.makers import MAKERS
 from particles.methods.dih import Dih, Nested, Pairwise
 from particles.points import jittered, lattice
 from particles.team import Team

@@ -2,9 +2,10 @@
 import numpy as np
 import pytest
 
-from particles.edges import MAKERS, delaunay, plain, printed, renormalised
 from particles.interpolants import Exponential, Gaussian, W, f, moment, reach
+from particles.makers import MAKERS, plain, printed, renormalised
 from particles.points import jittered, lattice, of_positions, off_lattice, pairs, random, relaxed
+from particles.triangulation import delaunay
 from particles.weights import WEIGHTS, Lucy, WendlandC2
 
 COUNTS = {1: (20,), 2: (10, 12), 3: (6, 6, 7)}
@@ -32,7 +33,7 @@ def test_exchange_conserves_and_sees_no_gradient_in_a_constant(name, kind, d):
     F = np.random.default_rng(0).normal(size=(edges.n, d))
     size = np.abs(edges.S).sum()
     assert abs((edges.V*edges.div(F)).sum()) < 1e-13*size
-    assert np.abs(edges.grad(np.ones(edges.n))).max()*edges.V.min() < 1e-13*size/edges.n*10
+    assert np.abs(edges.grad(np.ones(edges.n))).max()*edges.V.min() < 1e-12*size/edges.n
     assert abs((edges.V*edges.lap(F[:, 0])).sum()) < 1e-13*edges.k.sum()
     for D, G in zip(edges.D, edges.G, strict=True):
         assert np.abs(D + G.T).max() < 1e-15*size
@@ -128,5 +129,6 @@ def test_points_in_parts_cannot_be_closed():
 def test_relaxed_points_are_regular_but_no_lattice():
     weight = WendlandC2.of(h=3.0)
     at = relaxed(random((10, 10), 0.5, 3), weight)
-    assert np.abs(renormalised(at, weight).closure).max() < 0.05
+    # 2 c V^2 with a |c| < 2e-3, a component at most, times what renormalising adds
+    assert np.abs(renormalised(at, weight).closure).max() < 5e-3
     assert off_lattice(lattice((8, 8))) < 1e-12 < 0.2 < off_lattice(at)

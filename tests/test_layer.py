@@ -7,13 +7,15 @@ from plain_layer import PlainLayer
 
 from continuum.fluid import IdealGas, VanDerWaals
 from continuum.scene import RayleighBenard
-from particles.edges import between_plates, delaunay, exact, renormalised
+from particles.edges import between_plates
 from particles.limits import limit_of
+from particles.makers import exact, renormalised
 from particles.methods.dih import Pairwise
 from particles.methods.layer import Layer
 from particles.points import jittered, lattice
 from particles.run import Plan, run
 from particles.team import Team
+from particles.triangulation import delaunay
 from particles.weights import Lucy
 
 ROWS = 10
@@ -70,10 +72,7 @@ def test_the_motionless_state_stays_to_round_off():
     """Linear T at density 1 is an exact solution of the discrete equations on a lattice, too: images go on with it."""
     fluid, x, scene = layer()
     found = rates(fluid, fluid.state(np.ones(len(x)), 0*x, scene.T(x[:, 1])))
-    # hydrostatic images: the pressure of the parents plus rho g times the distance is linear in y to first order only
-    assert np.abs(found[[0, 3]]).max() < 1e-13
-    assert np.abs(found[1]).max() < 1e-13
-    assert np.abs(found[2]).max() < 0.2*scene.g
+    assert np.abs(found).max() < 1e-14        # sums of 12 pressures of 1.5: measured 8e-16
 
 
 def test_sound_between_adjoint_walls_does_not_grow():
@@ -103,7 +102,7 @@ def test_convection_of_few_points_is_near_the_grid():
     assert state[0].sum() == pytest.approx(start[0].sum(), rel=1e-14)
 
 
-def test_a_step_above_the_limit_grows_and_is_refused():
+def test_a_step_above_the_limit_is_refused():
     fluid, x, scene = layer(rows=12)
     start = fluid.state(1.0, np.stack(scene.flow(*x.T, 9/5000), axis=1), scene.T(x[:, 1]))
     with pytest.raises(ValueError, match="above the stability limit"):

@@ -64,7 +64,7 @@ def test_sizes_nest():
     assert set(keys["paper"]) <= set(keys["fine"])
 
 
-def test_paper_holds_what_the_issue_asks_for():
+def test_paper_holds_the_points_of_the_printed_figures():
     runs = [case for case in rb.cases("paper") if isinstance(case, spam.SpamRun)]
     points = {(round(r.scene.L), r.scene.ra, type(r.scene.eos).__name__, r.particles) for r in runs}
     assert {(50, 5000, "IdealGas", 5000), (50, 10000, "IdealGas", 5000), (50, 10000, "VanDerWaals", 5000),
@@ -110,7 +110,7 @@ def test_compressible_limits_are_good_to_a_thousandth(kinetic):
     rows = kinetic[(kinetic["method"] == "compressible") & np.isinf(kinetic["resolution"].astype(float))
                    & (kinetic["ke"] > 1e-4) & (kinetic["ra"] <= 10000)]
     assert len(rows) > 10
-    assert (rows["ke_err"]/rows["ke"]).max() < 1e-3     # the issue's target
+    assert (rows["ke_err"]/rows["ke"]).max() < 1e-3     # a tenth of what decides claims on K
 
 
 @committed

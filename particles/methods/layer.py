@@ -119,10 +119,9 @@ class Exchanging:
         beyond = method.beyond
         ghosts, self.ghost = np.unique(np.stack([beyond.parent, beyond.plate]), axis=1, return_inverse=True)
         self.parent, self.plate = ghosts
-        # twice the distance to the plate: how much higher the parent lies than its image
-        half = (method.x[beyond.i, 1] + beyond.apart[:, 1] - method.x[beyond.parent, 1])
-        self.rise = np.zeros(len(self.parent))
-        self.rise[self.ghost.ravel()] = -half
+        image_y = method.x[beyond.i, 1] + beyond.apart[:, 1]
+        self.rise = np.zeros(len(self.parent))      # how much higher a parent lies than its image
+        self.rise[self.ghost.ravel()] = method.x[beyond.parent, 1] - image_y
         self.edges = stored(method.edges, beyond, self.n + self.ghost.ravel())
         self.points = np.zeros(self.n + len(self.parent), Point)
         self.slopes, self.total = np.empty((self.n, 4)), np.empty((self.n, 4))

@@ -7,11 +7,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.scene import Periodic, RayleighBenard
-from particles.edges import between_plates, closed, delaunay, exact, plain, renormalised
+from particles.edges import between_plates
 from particles.limits import limit_of
+from particles.makers import closed, exact, plain, renormalised
 from particles.methods.layer import Exchanging, Layer
 from particles.points import lattice, wrapped
 from particles.run import Divergence, Plan, Run, run
+from particles.triangulation import delaunay
 from particles.weights import Lucy, WendlandC2
 from studies.convection.names import START_ENERGY, scene_columns
 from studies.kit.case import Case, Outcome, Report

@@ -43,7 +43,8 @@ DISORDERS = {d.name: d for d in (Disorder("lattice", on_lattice), Disorder("jitt
 class OperatorErrors(Case):
     """Relative rms errors of gradient and Laplacian of a plane wave along x, in 2D.
 
-    make : of `particles.edges.MAKERS`. weight : class, its range h in spacings; wavelength in spacings.
+    make : of `particles.makers.MAKERS`. weight : class, its range h in spacings; wavelength in spacings. Where no edges of the
+    kind exist the row has no errors.
     """
     maker: str
     make: Callable[[Points, Any], Edges]
@@ -63,13 +64,16 @@ class OperatorErrors(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         points = self.disorder.make((self.wavelength, BREADTH), self.disorder.size, self.seed)
-        edges = self.make(points, self.weight.of(h=self.h))
+        key = {"maker": self.maker, "weight": self.weight.__name__, "h": self.h, "points": self.disorder.name,
+               "wavelength": self.wavelength, "seed": self.seed, "a_over_h": 1/self.h, "h_over_lambda": self.h/self.wavelength}
+        try:
+            edges = self.make(points, self.weight.of(h=self.h))
+        except ArithmeticError:     # no such edges exist on these points: that is a result
+            return Outcome({"operators": [{**key, **dict.fromkeys(("gradient", "laplacian", "closure", "linear"), np.nan)}]})
         gradient, laplacian = wave_errors(edges, points.x[:, 0], 2*np.pi/self.wavelength)
-        row = {"maker": self.maker, "weight": self.weight.__name__, "h": self.h, "points": self.disorder.name,
-               "wavelength": self.wavelength, "seed": self.seed, "a_over_h": 1/self.h, "h_over_lambda": self.h/self.wavelength,
-               "gradient": gradient, "laplacian": laplacian, "closure": float(np.abs(edges.closure).max()),
-               "linear": float(np.abs(edges.linear - np.eye(2)).max())}
-        return Outcome({"operators": [row]})
+        return Outcome({"operators": [{**key, "gradient": gradient, "laplacian": laplacian,
+                                       "closure": float(np.abs(edges.closure).max()),
+                                       "linear": float(np.abs(edges.linear - np.eye(2)).max())}]})
 
 
 def wave_errors(edges: Edges, x: np.ndarray, k: float) -> tuple[float, float]:

@@ -18,7 +18,8 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     """Derived rows of the study."""
     if "operators" not in tables:
         return {}
-    means = list(over_seeds(tables["operators"]))
+    rows = tables["operators"]
+    means = list(over_seeds(rows[rows["gradient"].notna()]))
     return {"means": means, "slopes": list(slopes(pd.DataFrame(means)))}
 
 
