@@ -176,7 +176,9 @@ def fine() -> Iterator[Case]:
     for ra in (5e4, 1e5):
         yield from spam(ra, 50, t_end=180.0, mean_from=90.0)
     yield gas(1e5, (32, 48, 64), longest=4.0)        # the flow itself oscillates: means over its last half
-    yield gas(67150.0, (32, 48), variant="fig10", longest=6.0, T_hot=10.0, T_cold=0.5, **BOX)
+    hot: dict[str, Any] = {"variant": "fig10", "longest": 6.0, "T_hot": 10.0, "T_cold": 0.5}
+    yield gas(67150.0, (32, 48), **hot, **BOX)
+    yield gas(67150.0, (32, 48), **hot, **BOX, **DENSE)
     for ra, rows in product((5e4, 2e5), (50, 100)):
         yield CompressibleApproach(scene=RayleighBenard(ra=ra), rows=rows, t_end=2.1*ra**0.5)    # 2.1 L^2/eta
     yield CompressibleApproach(scene=RayleighBenard(ra=3e3, **DENSE), rows=24, t_end=22*(3000/1.5)**0.5)

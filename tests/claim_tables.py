@@ -27,7 +27,8 @@ def verdict(name: str, tables: Tables) -> str:
 def means(rows: list[dict], kept: float = 1.0) -> Tables:
     """Tables `means` from points and K, and `errors` of particles' fields: smoothing leaves `kept` of the grid's K."""
     full = [{"particles": 0, "seeds": 3, "mixed": 0, "rolls": 2, "ke_fluctuation": 1e-4, "nu": 1.5, "nu_err": 0.0,
-             "ke_field": row["ke"], "ke_field_err": row["ke_err"], **row} for row in rows]
+             "ke_field": row["ke"], "ke_field_err": row["ke_err"], "ke_mean": row["ke"],
+             "ke_mean_err": row["ke_err"], **row} for row in rows]
     return Tables({"means": pd.DataFrame(full), "errors": errors(pd.DataFrame(full), kept)})
 
 
@@ -44,7 +45,8 @@ def errors(means: pd.DataFrame, kept: float) -> pd.DataFrame:
 
 def seeds(point: dict, ke: tuple[float, ...], **more) -> pd.DataFrame:
     """Rows of `kinetic_energy`, one a seed with its K."""
-    return pd.DataFrame([{**point, "seed": seed, "ke": k, "ke_err": 1e-3*k, "ke_field": k, "ke_field_err": 1e-3*k, "rolls": 2,
+    return pd.DataFrame([{**point, "seed": seed, "ke": k, "ke_err": 1e-3*k, "ke_field": k, "ke_field_err": 1e-3*k, "ke_mean": k,
+                          "ke_mean_err": 1e-3*k, "rolls": 2,
                           "ke_fluctuation": 1e-4, "converged": True, **more} for seed, k in enumerate(ke, 1)])
 
 
@@ -111,7 +113,8 @@ def measured(point: dict) -> dict:
     share = 1 if point["method"] != "spam" else 0.2 if point["variant"] == "more-static-400" else 0.8
     ke = share*(straight(point["ra"]) + 1e-3) + 0.01/point["resolution"]**2*(1 + 50/math.sqrt(point["ra"]))
     return {**point, "particles": 2*min(point["resolution"], 100)**2, "seed": 1, "seeds": 3, "mixed": 0,
-            "ke": ke, "ke_err": 1e-8, "ke_field": 0.9*ke, "ke_field_err": 1e-8, "ke_fluctuation": 1e-4, "nu": 1.5, "nu_err": 0.01,
+            "ke": ke, "ke_err": 1e-8, "ke_field": 0.9*ke, "ke_field_err": 1e-8, "ke_mean": 0.9*ke,
+            "ke_mean_err": 1e-8, "ke_fluctuation": 1e-4, "nu": 1.5, "nu_err": 0.01,
             "rolls": 1 if point["sides"] == "walls" else 2, "mass_drift": 1e-4, "t_end": 5000.0, "converged": True}
 
 
@@ -120,6 +123,11 @@ def history(point: dict, seed: int) -> pd.DataFrame:
     t = np.linspace(0, 4500, 60)
     ke = 0.004*(1 - np.exp(-t/300/seed))*(1 + 0.1*np.sin(t)*(point["ra"] == 5e4))
     return pd.DataFrame({**point, "seed": seed, "t": t, "t_viscous": t/200, "ke": ke + 1e-4, "ke_field": ke})
+
+
+def seen(ra: float, kept: float) -> pd.DataFrame:
+    """The finest grid's K as 50 rows of the printed weight see it: the share `kept` of it."""
+    return pd.DataFrame([{**grid(ra, 48), "weight": "Lucy", "h": 3.0, "rows": 50, "ke": 1.0, "ke_smoothed": kept}])
 
 
 def everything() -> Tables:
@@ -141,4 +149,5 @@ def everything() -> Tables:
         history=pd.concat([history(point, seed)
                            for point in runs for seed in (1, 2)[:1 + (point["method"] == "spam")]]),
         fields=pd.concat([kept(point, flow(0.1, 0.9), point["resolution"]) for point in kept_runs]),
+        smoothed=seen(5e4, 0.9),
         particles=pd.concat([crystal(1).assign(T=1.0, **point) for point in ends]))

@@ -12,13 +12,15 @@ AT = {"eos": "ideal", "transport": "const-eta", "sides": "periodic", "ra": 1e4, 
 
 def spam(rows=50, seed=1, ke=4.0, kg=3.0, rolls=2, variant="printed", **more):
     return {"method": "spam", "variant": variant, **AT, "resolution": rows, "particles": 2*rows**2, "seed": seed, "ke": ke,
-            "ke_err": 0.1, "ke_field": kg, "ke_field_err": 0.1, "ke_fluctuation": ke - kg, "nu": 2.0, "nu_err": 0.1,
-            "rolls": rolls, "converged": True, "steps": 100, "cpu_s": 9.0, **more}
+            "ke_err": 0.1, "ke_field": kg, "ke_field_err": 0.1, "ke_mean": kg, "ke_mean_err": 0.1,
+            "ke_fluctuation": ke - kg, "nu": 2.0, "nu_err": 0.1, "rolls": rolls,
+            "converged": True, "steps": 100, "cpu_s": 9.0, **more}
 
 
 def grid(rows, ke, steps=10):
     return {**spam(rows, 0, ke, ke, 2, "flux-form"), "method": "compressible", "particles": 0, "ke_err": 0.0, "nu_err": 0.0,
-            "ke_field_err": 0.0, "ke_fluctuation": 0.0, "steps": steps, "free_fall": 1.0, "threads": 1, "compile_s": 0.0}
+            "ke_field_err": 0.0, "ke_mean_err": 0.0,
+            "ke_fluctuation": 0.0, "steps": steps, "free_fall": 1.0, "threads": 1, "compile_s": 0.0}
 
 
 def means(*rows):

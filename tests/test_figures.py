@@ -13,6 +13,7 @@ from matplotlib.text import Text
 
 from studies.convection import figures, figures_fields, figures_time, onset_figures, onset_tables, pick, tables
 from studies.convection.figures_errors import power
+from studies.convection.names import VALUES
 from studies.kit.source import ROOT
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables, merge
@@ -43,7 +44,8 @@ def k(ra, scene="layer"):
 
 def energies(method, scene, ra, resolution, kp, kg, seed=0, **more):
     return {**point(method, scene, ra, resolution), "particles": 0, "seed": seed, "ke": kp, "ke_err": 0.02*kp,
-            "ke_field": kg, "ke_field_err": 0.02*kg, "ke_fluctuation": kp - kg, "nu": 1 + 100*kg, "nu_err": 0.02,
+            "ke_field": kg, "ke_field_err": 0.02*kg, "ke_mean": kg, "ke_mean_err": 0.02*kg,
+            "ke_fluctuation": kp - kg, "nu": 1 + 100*kg, "nu_err": 0.02,
             "rolls": 2, "converged": True, "t_end": 4500.0, "cpu_s": 1e-4*resolution**3, **more}
 
 
@@ -90,7 +92,7 @@ def kinetic():
 def fallen(variant, ra, rows):
     """Rows of runs that diverged, as the study writes them."""
     for row in spam_rows(variant, "layer", ra, rows):
-        yield row | dict.fromkeys(("ke", "ke_err", "ke_field", "ke_field_err", "ke_fluctuation", "nu", "nu_err", "cpu_s"),
+        yield row | dict.fromkeys((*VALUES, "cpu_s"),
                                   math.nan) | {"rolls": 0, "converged": False, "t_end": 30.0 + row["seed"]}
 
 
@@ -109,7 +111,7 @@ def means(runs):
     for _, group in pd.DataFrame(runs).dropna(subset="ke").groupby(tables.POINT):
         row = group.iloc[0].to_dict()
         yield {name: row[name] for name in tables.MEANS.columns if name in row} | {
-            "seeds": len(group), **{name: group[name].mean() for name in ("ke", "ke_field", "nu", "ke_fluctuation")}}
+            "seeds": len(group), **{name: group[name].mean() for name in ("ke", "ke_field", "ke_mean", "nu", "ke_fluctuation")}}
 
 
 def history():

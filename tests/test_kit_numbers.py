@@ -134,6 +134,11 @@ def test_a_series_that_changes_says_so_in_its_error():
     assert wide > 0.19
 
 
+def test_halves_may_be_too_far_apart_for_any_noise():
+    slow = 1 + 0.5*np.cos(np.pi*np.arange(400)/400)       # half a wave: its correlation time is as long as the series
+    assert stats.settled(slow)[1] and not stats.settled(slow, most=0.3)[1]      # halves 1 +- 1/pi
+
+
 def test_few_steady_series_are_called_drifting():
     rng = np.random.default_rng(1)
     assert sum(not stats.settled(rng.normal(size=200))[1] for _ in range(500)) <= 8     # 0.3 % expected, 1.6 % once in 10^4

@@ -32,6 +32,10 @@ class SpamStep(Case):
     alone: ClassVar[bool] = True
 
     @property
+    def label(self) -> str:
+        return f"seconds of a step, spam {self.variant.name} {scene_columns(self.scene)['eos']}, {self.scene.L:g} rows"
+
+    @property
     def cost(self) -> float:
         return 32*max(40000, 10*self.scene.L**2*self.scene.aspect)*4*300e-9 + 4
 
@@ -53,6 +57,10 @@ class CompressibleStep(Case):
     scene: RayleighBenard
     rows: int
     alone: ClassVar[bool] = True
+
+    @property
+    def label(self) -> str:
+        return f"seconds of a step, compressible {scene_columns(self.scene)['eos']}, {self.rows} rows"
 
     @property
     def cost(self) -> float:

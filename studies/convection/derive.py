@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from continuum.richardson import richardson
+from studies.convection.names import one_energy
 from studies.convection.spam import VARIANTS
 from studies.convection.tables import POINT
 from studies.kit.stats import combine
@@ -15,7 +16,7 @@ GRIDS = ("compressible", "boussinesq", "pypde-boussinesq", "pypde-compressible")
 MACHINE = ["method", "variant", "eos", "sides", "resolution"]
 SERIES = [name for name in POINT if name != "resolution"]
 SCENE = ["eos", "transport", "sides", "ra", "pr"]
-ENERGIES = ("ke", "ke_field", "nu")
+ENERGIES = ("ke", "ke_field", "ke_mean", "nu")
 HALF = "printed-half-step"
 STILL = 1e-6        # K of a grid that does not convect
 
@@ -45,11 +46,9 @@ def extrapolated(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
         finest = group.sort_values("resolution").iloc[-1].to_dict()
         sizes = group["resolution"].astype(int).to_numpy()
         ke, nu = (limit(group[name].to_numpy(), group[f"{name}_err"].to_numpy(), sizes) for name in ("ke", "nu"))
-        kept = {name: finest[name] for name in ("seed", "particles", "rolls", "free_fall", "ke_fluctuation", "converged",
-                                                "threads")}
-        yield {**dict(zip(SERIES, point, strict=True)), **kept, "resolution": np.inf, "ke": ke[0], "ke_err": ke[1],
-               "ke_field": ke[0], "ke_field_err": ke[1], "nu": nu[0], "nu_err": nu[1], "cpu_s": group["cpu_s"].sum(),
-               "compile_s": group["compile_s"].sum()}
+        kept = {name: finest[name] for name in ("seed", "particles", "rolls", "free_fall", "converged", "threads")}
+        yield {**dict(zip(SERIES, point, strict=True)), **kept, "resolution": np.inf, **one_energy(*ke), "nu": nu[0],
+               "nu_err": nu[1], "cpu_s": group["cpu_s"].sum(), "compile_s": group["compile_s"].sum()}
 
 
 def limit(values: np.ndarray, errs: np.ndarray, sizes: np.ndarray) -> tuple[float, float]:

@@ -15,7 +15,7 @@ from particles.points import lattice, wrapped
 from particles.run import Divergence, Plan, Run, run
 from particles.triangulation import delaunay
 from particles.weights import Lucy, WendlandC2
-from studies.convection.names import START_ENERGY, scene_columns
+from studies.convection.names import START_ENERGY, VALUES, one_energy, scene_columns
 from studies.kit.case import Case, Outcome, Report
 
 OF_LIMIT = 0.8          # of the step to its stability limit: the flow is steady, its errors are of space alone
@@ -133,14 +133,11 @@ class DihRun(Case):
         nu = (lower - upper)/2/unit
         late = slice(-max(2, len(ke)//10), None)
         err, nu_err = float(np.ptp(ke[late])), float(np.ptp(nu[late]) + abs(lower[-1] + upper[-1])/2/unit)
-        return {**self._key, "ke": ke[-1], "ke_err": err, "ke_field": ke[-1], "ke_field_err": err, "ke_fluctuation": 0.0,
-                "nu": nu[-1], "nu_err": nu_err, "rolls": rolls(self.scene, method.x, done.state),
+        return {**self._key, **one_energy(ke[-1], err), "nu": nu[-1], "nu_err": nu_err,
+                "rolls": rolls(self.scene, method.x, done.state),
                 "mass_drift": float(V@done.state[0]/(V@first[0]) - 1), "converged": bool(err < 1e-3*ke[-1] + 1e-7),
                 "dt": plan.dt, "steps": plan.steps, "t_end": plan.steps*plan.dt, "cpu_s": done.cpu_s,
                 "compile_s": done.compile_s}
-
-
-VALUES = ("ke", "ke_err", "ke_field", "ke_field_err", "ke_fluctuation", "nu", "nu_err")
 
 
 def rolls(scene: RayleighBenard, x: np.ndarray, state: np.ndarray) -> int:

@@ -13,7 +13,7 @@ from continuum.compressible_loop import FluxForm, PaperForm
 from continuum.scene import RayleighBenard
 from continuum.steady import Steady, Time
 from particles.observe import Grid
-from studies.convection.names import START_ENERGY, scene_columns
+from studies.convection.names import START_ENERGY, one_energy, scene_columns
 from studies.convection.smoothing import Smoothing, smoothed_rows
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.timing import compile_and_run_seconds
@@ -53,8 +53,7 @@ def point(scene: RayleighBenard, solution: Solution, variant: str) -> dict:
 def energies(scene: RayleighBenard, solution: Solution, variant: str) -> dict:
     """Row of `kinetic_energy` of one compressible solution."""
     err = 2*solution.ke_err
-    return {**point(scene, solution, variant), "particles": 0, "seed": 0, "ke": solution.ke, "ke_err": err,
-            "ke_field": solution.ke, "ke_field_err": err, "ke_fluctuation": 0.0, "nu": solution.nu,
+    return {**point(scene, solution, variant), "particles": 0, "seed": 0, **one_energy(solution.ke, err), "nu": solution.nu,
             "nu_err": settling(solution), "rolls": solution.rolls if solution.ke > STILL else 0,
             "free_fall": scene.free_fall, "mass_drift": solution.mass_drift, "converged": solution.converged,
             "dt": solution.dt, "steps": solution.steps, "t_end": solution.t, "cpu_s": solution.cpu_s,
@@ -166,15 +165,15 @@ class BoussinesqSteady(Case):
 
     def _row(self, state: boussinesq.State, rows: int, cpu_s: float, compile_s: float) -> dict:
         seen = state.observe()
-        return {**boussinesq_point("boussinesq", "mac", self.ra, self.pr), "resolution": rows, "ke": seen.K,
-                "ke_field": seen.K, "nu": (seen.nu_bottom + seen.nu_top)/2, "nu_err": abs(seen.nu_bottom - seen.nu_top),
+        return {**boussinesq_point("boussinesq", "mac", self.ra, self.pr), "resolution": rows, **one_energy(seen.K, 0.0),
+                "nu": (seen.nu_bottom + seen.nu_top)/2, "nu_err": abs(seen.nu_bottom - seen.nu_top),
                 "rolls": 2*state.rolls, "steps": len(state.residuals) - 1, "cpu_s": cpu_s, "compile_s": compile_s}
 
 
 def boussinesq_point(method: str, variant: str, ra: float, pr: float) -> dict:
     """Columns that all Boussinesq rows share; their state is steady to round-off."""
     return {"method": method, "variant": variant, "eos": "", "transport": "", "sides": "periodic", "ra": ra, "pr": pr,
-            "particles": 0, "seed": 0, "ke_err": 0.0, "ke_field_err": 0.0, "ke_fluctuation": 0.0, "free_fall": 1.0,
+            "particles": 0, "seed": 0, "free_fall": 1.0,
             "mass_drift": 0.0, "converged": True, "dt": 0.0, "t_end": 0.0, "threads": 1}
 
 
@@ -212,9 +211,7 @@ class PypdeSteady(Case):
         if self.scene is not None:
             point |= {"method": "pypde-compressible", "variant": "staggered", **scene_columns(self.scene),
                       "free_fall": self.scene.free_fall}
-        return {**point, "resolution": solution.rows, "ke": solution.ke,
-            "ke_err": 2*solution.ke_err, "ke_field": solution.ke,
-                "ke_field_err": 2*solution.ke_err, "nu": solution.nu, "nu_err": settling(solution),
-                "rolls": solution.rolls, "mass_drift": solution.mass_drift, "converged": solution.converged,
-                "dt": solution.dt, "steps": solution.steps, "t_end": solution.t, "cpu_s": solution.cpu_s,
-                "compile_s": solution.compile_s}
+        return {**point, "resolution": solution.rows, **one_energy(solution.ke, 2*solution.ke_err), "nu": solution.nu,
+                "nu_err": settling(solution), "rolls": solution.rolls, "mass_drift": solution.mass_drift,
+                "converged": solution.converged, "dt": solution.dt, "steps": solution.steps, "t_end": solution.t,
+                "cpu_s": solution.cpu_s, "compile_s": solution.compile_s}

@@ -4,7 +4,14 @@ from typing import Any
 START_ENERGY = 9/5000  # kinetic energy per mass of the initial rolls [KHP95, Fig. 9]
 EOS_NAMES = {"IdealGas": "ideal", "VanDerWaals": "vdw", "DenseFluid": "dense"}
 TRANSPORT_NAMES = {"ConstEta": "const-eta", "ConstNu": "const-nu"}
+#: what a row of `kinetic_energy` is there for; not finite where a run diverged
+VALUES = ("ke", "ke_err", "ke_field", "ke_field_err", "ke_mean", "ke_mean_err", "ke_fluctuation", "nu", "nu_err")
 
+
+def one_energy(ke: float, err: float) -> dict[str, float]:
+    """The columns of energies where points do not fluctuate: particles, field and mean flow have the same one."""
+    return {**dict.fromkeys(("ke", "ke_field", "ke_mean"), ke), **dict.fromkeys(("ke_err", "ke_field_err", "ke_mean_err"), err),
+            "ke_fluctuation": 0.0}
 
 
 def scene_columns(scene: Any) -> dict[str, Any]:

@@ -22,7 +22,8 @@ from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import AtWall, Copied, Odd, Own, plates, sides
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
-from studies.convection.names import START_ENERGY, scene_columns
+from studies.convection.names import START_ENERGY, VALUES, scene_columns
+from studies.convection.symmetry import flowing
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import mean, settled
 
@@ -32,6 +33,7 @@ JITTER = 0.2           # of the lattice at the start, in spacings: a perfect one
 #: step raises the Nusselt number by 4 % at 16 rows, 0.6 % at 25, 0.2 % at 50.
 OF_LIMIT = 0.22
 RECORDS = 8            # a time L/free_fall
+HALVES = 0.3           # of K: if halves of the averaging time differ by more, the flow is not steady
 
 
 def images(scene: RayleighBenard, rule: Any = AtWall(), pressure_rule: Any = Copied()) -> tuple:  # noqa: B008
@@ -211,14 +213,17 @@ class SpamRun(Case):
         return rows
 
     def _energies(self, done: Run, plan: Plan) -> dict:
-        (kp, steady), (kg, too), (heat, _) = (settled(self._late(done, name)) for name in ("kp", "kg", "heat"))
+        (kp, steady), (kg, too), (heat, _) = (settled(self._late(done, name), HALVES) for name in ("kp", "kg", "heat"))
+        fields = Fields(*done.means["grid"])._asdict()
+        flow = flowing({name: fields[name] for name in ("rho", "vx", "vy")}, isinstance(self.scene.sides, Periodic))
         return {**self.point, **self._spent(plan), "ke": kp.value, "ke_err": kp.err, "ke_field": kg.value,
-                "ke_field_err": kg.err, "ke_fluctuation": kp.value - kg.value, "nu": heat.value/self._heat_unit,
+                "ke_field_err": kg.err, "ke_mean": flow.value, "ke_mean_err": flow.err,
+                "ke_fluctuation": kp.value - kg.value, "nu": heat.value/self._heat_unit,
                 "nu_err": heat.err/self._heat_unit, "rolls": self._rolls(done), "converged": steady and too,
                 "steps": plan.steps, "t_end": plan.steps*plan.dt, "cpu_s": done.cpu_s, "compile_s": done.compile_s}
 
     def _diverged(self, plan: Plan, steps: int) -> dict:
-        empty = dict.fromkeys(("ke", "ke_err", "ke_field", "ke_field_err", "ke_fluctuation", "nu", "nu_err", "cpu_s"), np.nan)
+        empty = dict.fromkeys((*VALUES, "cpu_s"), np.nan)
         return {**self.point, **self._spent(plan), **empty, "rolls": 0, "converged": False, "steps": steps,
                 "t_end": steps*plan.dt, "compile_s": 0.0}
 

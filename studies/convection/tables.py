@@ -1,8 +1,9 @@
 """Tables of the study `rb`: fixed columns, in which all solvers meet.
 
 Energies are per mass in KHP95's units, m = kB = sigma = epsilon = 1 with dT = 1 (free-fall units for the ideal gas,
-where `free_fall`, the unit of velocity sqrt(g alpha dT L), is 1; Boussinesq rows are in free-fall units). Lengths in heights
-L, times in L^2/eta where not said otherwise. Every `_err` is the half width of a 95 % interval.
+where `free_fall`, the unit of velocity sqrt(g alpha dT L), is 1; Boussinesq rows are in free-fall units). `ke` is of
+all particles, `ke_field` of the smoothed field, `ke_mean` of velocities averaged over time. Lengths in heights L, times in
+L^2/eta where not said otherwise. Every `_err` is the half width of a 95 % interval.
 """
 from studies.kit.table import Table
 
@@ -10,12 +11,13 @@ POINT = ["method", "variant", "eos", "transport", "sides", "ra", "pr", "resoluti
 
 KINETIC = Table(
     "kinetic_energy", key=[*POINT, "seed"],
-    columns=[*POINT, "particles", "seed", "ke", "ke_err", "ke_field", "ke_field_err", "ke_fluctuation", "nu", "nu_err",
-             "rolls", "free_fall", "mass_drift", "converged", "dt", "steps", "t_end", "cpu_s", "compile_s", "threads"])
+    columns=[*POINT, "particles", "seed", "ke", "ke_err", "ke_field", "ke_field_err", "ke_mean", "ke_mean_err",
+             "ke_fluctuation", "nu", "nu_err", "rolls", "free_fall", "mass_drift", "converged", "dt", "steps", "t_end",
+             "cpu_s", "compile_s", "threads"])
 #: means over the `seeds` that settled in the commonest number of rolls: the error is the larger of those within runs and
 #: between seeds, and twice what half of the time step changes; `mixed` counts seeds that ended in other rolls
 MEANS = Table("means", key=POINT, columns=[*POINT, "particles", "seeds", "mixed", "ke", "ke_err", "ke_field", "ke_field_err",
-                                           "ke_fluctuation", "nu", "nu_err", "rolls"])
+                                           "ke_mean", "ke_mean_err", "ke_fluctuation", "nu", "nu_err", "rolls"])
 #: approach to the steady state [KHP95, Fig. 8]; t in units of time, not L^2/eta
 HISTORY = Table("history", key=[*POINT, "seed", "t"], columns=[*POINT, "seed", "t", "t_viscous", "ke", "ke_field"])
 #: steady fields on KHP95's 30 x 60 places [Figs 9, 12]; x, y in units of L; particles: means over the second half

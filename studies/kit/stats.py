@@ -65,16 +65,17 @@ def mean(x: Sequence[float] | np.ndarray) -> Measured:
     return Measured(float(x.mean()), float(stdtrit(freedom, 0.975)*x.std()*np.sqrt(2*tau/len(x))))
 
 
-def settled(x: Sequence[float] | np.ndarray) -> tuple[Measured, bool]:
+def settled(x: Sequence[float] | np.ndarray, most: float = np.inf) -> tuple[Measured, bool]:
     """Mean of a series and whether its halves agree; where they do not, half of their difference is in the error.
 
     Two halves of a steady series differ by more than 1.5 times the root of the sum of squares of their 95 % intervals
-    once in 300 times.
+    once in 300 times. Where noise is as long as the series these intervals exclude nothing: halves that differ by more than
+    the fraction `most` of the mean do not agree, either.
     """
     x = np.asarray(x, dtype=float)
     whole, (first, last) = mean(x), (mean(half) for half in np.array_split(x, 2))
     apart = abs(first.value - last.value)
-    if apart <= 1.5*np.hypot(first.err, last.err):
+    if apart <= 1.5*np.hypot(first.err, last.err) and apart <= most*abs(whole.value):
         return whole, True
     return Measured(whole.value, float(np.hypot(whole.err, apart/2))), False
 

@@ -1,6 +1,6 @@
 """Claims about the flow of smooth particles: fields, approach to the steady state, neighbours    [KHP95]"""
 from collections.abc import Callable, Hashable
-from math import inf
+from math import hypot, inf
 
 import numpy as np
 
@@ -14,9 +14,12 @@ from studies.convection.claims.read import (
     grid,
     largest,
     limit,
+    mean,
+    off,
     over_seeds,
     particles,
     ratio,
+    rolls,
     same_flow,
     select,
 )
@@ -28,7 +31,6 @@ from studies.convection.claims.snapshots import (
     snapshot,
     velocity_error,
 )
-from studies.convection.claims.spam import error
 from studies.kit.claim import CannotTell, Claim
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
@@ -99,6 +101,25 @@ def robust(tables: Tables) -> Measured:
         return Measured(inf, 0.0)
     runs: list[History] = histories(tables, point)
     return over_seeds([run.drift for run in runs])
+
+
+def right_at_high(tables: Tables) -> Measured:
+    """|Kg/K - 1| at the highest Ra, K of the finest grid smoothed alike, its error what it differs from the next one.
+
+    The grid's flow may oscillate there for good: then it is not extrapolated.
+    """
+    ra = high(tables)
+    point = {name: value for name, value in grid(ra).items() if name != "resolution"}
+    frame = select(tables, "kinetic_energy", **point)
+    frame = frame[frame["resolution"] < inf].sort_values("resolution")
+    if len(frame) < 2:
+        raise CannotTell(f"the grid was run with one resolution at Ra {ra:g}: a reference needs two")
+    fine, err = float(frame["ke"].iloc[-1]), hypot(frame["ke"].diff().iloc[-1], frame["ke_err"].iloc[-1])
+    if rolls(tables, particles(ra)) != int(frame["rolls"].iloc[-1]):
+        raise CannotTell(f"particles and grid have different numbers of rolls at Ra {ra:g}: another flow")
+    seen = select(tables, "smoothed", weight="Lucy", h=3.0, rows=50, **{k: v for k, v in point.items() if k != "variant"})
+    factor = float((seen["ke_smoothed"]/seen["ke"]).iloc[-1])
+    return off(ratio(mean(tables, particles(ra), "ke_field"), Measured(factor*fine, factor*err)))
 
 
 def losses(variant: str) -> Value:
@@ -225,6 +246,6 @@ CLAIMS = (
                     "highest Ra",
           because="finite and steady within their errors of a few percent; whether right is another claim"),
     Claim(id="khp95-robust-right", source="KHP95 Secs VI, VII", printed="solutions", at_most=0.1,
-          statement="what particles give at high Ra solves the equations: |K_particles/K_grid - 1| at the highest Ra",
-          because=f"10 % is the paper's error of K; {ALIKE}", value=lambda tables: error(tables, high(tables))),
+          statement="what particles give at high Ra solves the equations: |Kg/K_grid - 1| at the highest Ra, the finest grid",
+          because=f"10 % is the paper's error of K; {ALIKE}", value=right_at_high),
 )

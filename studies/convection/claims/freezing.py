@@ -26,7 +26,7 @@ from studies.convection.claims.read import (
     select,
     shared_height,
 )
-from studies.convection.claims.snapshots import mean_flow, snapshot
+from studies.convection.claims.snapshots import snapshot
 from studies.convection.spam import PRINTED, VARIANTS
 from studies.kit.claim import CannotTell, Claim
 from studies.kit.stats import Measured
@@ -40,7 +40,7 @@ MELTING = float(LUCY(0.9) - LUCY(1.0))
 def flows(ra: float, height: int = 16, variant="printed", **where) -> Value:
     """K of the particles' mean flow over the grid's smoothed alike: 1 where they flow, 0 where they only rattle."""
     point = particles(ra, height, variant, **where)
-    return lambda tables: ratio(mean_flow(tables, point), alike(tables, point))
+    return lambda tables: ratio(mean(tables, point, "ke_mean"), alike(tables, point))
 
 
 def field(ra: float, variant: str, height: int) -> Value:

@@ -10,6 +10,7 @@ from scipy.special import stdtrit
 
 from studies.convection.claims.lattices import LUCY, RANGE
 from studies.convection.claims.read import largest, mean, select
+from studies.convection.symmetry import Fields, mirrored, upright
 from studies.kit.claim import CannotTell
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
@@ -86,9 +87,6 @@ def snapshot(tables: Tables, point: dict) -> Snapshot:
 
 # --- fields -----------------------------------------------------------------------------------------------
 
-Fields = dict[str, np.ndarray]
-
-
 def fields(tables: Tables, point: dict, finest: bool = False) -> Fields:
     """rho, T, vx, vy (rows, columns) on the places of Fig. 12, shifted along x so that warm fluid rises at column 0."""
     where = {k: v for k, v in point.items() if not (finest and k == "resolution")}
@@ -97,19 +95,6 @@ def fields(tables: Tables, point: dict, finest: bool = False) -> Fields:
     shape = frame["y"].nunique(), frame["x"].nunique()
     frame = frame.sort_values(["y", "x"])
     return upright({name: frame[name].to_numpy(float).reshape(shape) for name in ("rho", "T", "vx", "vy")})
-
-
-def upright(at: Fields) -> Fields:
-    """The same flow with the crest of the first harmonic of vy at column 0: rolls may lie anywhere along x."""
-    shift = np.angle(np.fft.rfft(at["vy"].mean(axis=0))[1])
-    columns = at["vy"].shape[1]
-    turn = np.exp(-1j*shift*np.arange(columns//2 + 1))
-    return {name: np.fft.irfft(np.fft.rfft(f, axis=1)*turn, columns, axis=1) for name, f in at.items()}
-
-
-def mirrored(at: Fields) -> Fields:
-    """The flow seen in a mirror at column 0, which does not change two equal rolls."""
-    return {name: (-1 if name == "vx" else 1)*np.roll(f[:, ::-1], 1, axis=1) for name, f in at.items()}
 
 
 def difference(one: Fields, other: Fields, names: tuple[str, ...]) -> Measured:
@@ -135,18 +120,6 @@ def one_seed(tables: Tables, particles: dict) -> float:
     if len(seeds) < 2:
         raise CannotTell("one seed was run: there is no error bar without a second")
     return hypot(float(stdtrit(len(seeds) - 1, 0.975)*seeds.std(ddof=1)), whole.err)/whole.value
-
-
-def mean_flow(tables: Tables, particles: dict) -> Measured:
-    """Kinetic energy per mass of the time's mean velocities: of what flows, noise averaged out.
-
-    The mirror-symmetric part; the energy of the rest is in the error, beside what other seeds may have. If rolls wander in
-    that time, it is a lower bound.
-    """
-    at = fields(tables, particles)
-    even, odd = ({name: (f + sign*mirrored(at)[name])/2 for name, f in at.items()} for sign in (1, -1))
-    found = [0.5*float(np.mean(at["rho"]*(part["vx"]**2 + part["vy"]**2))/np.mean(at["rho"])) for part in (even, odd)]
-    return Measured(found[0], hypot(found[1], found[0]*one_seed(tables, particles)))
 
 
 def moved(tables: Tables, particles: dict, at: Fields, names: tuple[str, ...]) -> float:
