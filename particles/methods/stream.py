@@ -1,0 +1,236 @@
+"""Discretized integral hydrodynamics on fixed points around bodies, compiled: the terms of `layer`, periodic, in 2D.
+
+Held points (`particles.bodies`) are walls and bodies: they exchange mass with the fluid, so that their density follows, and keep
+their velocity and temperature. What they receive of momentum is the force on them, exactly what the fluid lost.
+
+Slow flow around bodies feeds patterns of pressure that no gradient sees, as finite elements of equal order do, and creeps towards
+a drag that is too high. A filter of the density, chi of some 0.05 a^2 c^2/nu (c^2 = dP/drho at constant T), ends that.
+"""
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import conductivity, energy, temperature, valid, viscosity
+from continuum.jit import jit
+from particles.bodies import Held
+from particles.edges import Beyond, Edges
+from particles.limits import limit_of
+from particles.methods.layer import Differences, Exchange, Layer, Point, stored
+from particles.pairs import nothing, rate, sweep
+from particles.team import Team
+
+NOWHERE = np.empty(0, int)
+NONE_BEYOND = Beyond(i=NOWHERE, parent=NOWHERE, S=np.empty((0, 2)), k=np.empty(0), apart=np.empty((0, 2)), plate=NOWHERE)
+
+
+class Filter(NamedTuple):
+    """Mass chi k_ab (rho_a - rho_b) leaves a for b, with the mean velocity and internal energy of both: conserves all."""
+    chi: float
+
+
+nothing.of(Filter)(lambda term: (0.0, 0.0, 0.0, 0.0))
+
+
+@rate.of(Filter)
+def _(term, a, b, ab):
+    mass = term.chi*ab.k*(b.rho - a.rho)
+    inner = a.eps/a.rho + b.eps/b.rho - 0.5*((a.vx - b.vx)**2 + (a.vy - b.vy)**2)
+    return mass, 0.5*mass*(a.vx + b.vx), 0.5*mass*(a.vy + b.vy), 0.5*mass*inner
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stream:
+    """A fluid on fixed points x (n, 2), periodic, driven by a force `push` per mass, around points that are `held`.
+
+    Friction goes along edges [RR98 Eq. 51], its heating as it should be (`dih.Pairwise`, mended). chi : diffusivity of the filter
+    of the density, 0 for none.
+    """
+    x: np.ndarray
+    edges: Edges
+    eos: Any
+    law: Any
+    held: Held
+    push: tuple[float, float] = (0.0, 0.0)
+    chi: float = 0.0
+
+    fields = ("rho", "px", "py", "eps")
+
+    def __post_init__(self):
+        if not self.chi >= 0:
+            raise ValueError(f"the filter's diffusivity chi must not be negative, got {self.chi}: 0.05 a^2 c^2/nu is enough")
+
+    def __repr__(self) -> str:
+        """What tells a checkpoint's method from another: edges by their sums."""
+        sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.x, self.edges.S, self.edges.k, *self.held))
+        return f"Stream({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.push}, {self.chi})"
+
+    def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
+        """(4, n) of densities, velocities (n, 2), temperatures; held points get their own where they have one."""
+        rho, T, v = rho*np.ones(len(self.x)), T*np.ones(len(self.x)), v.copy()
+        v[self.held.which] = self.held.v
+        warm = np.isfinite(self.held.T)
+        T[self.held.which[warm]] = self.held.T[warm]
+        return states(self.eos, rho, v, T)
+
+    def start(self, n: int, team: Team) -> "Streaming":
+        """The sums over stored edges.
+
+        Raises
+        ------
+        ValueError
+            The state has not as many points as there are.
+        """
+        check_number(n, len(self.x))
+        return Streaming(self, team)
+
+
+limit_of.register(Stream, limit_of.dispatch(Layer))
+
+
+def states(eos: Any, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
+    """(4, n) of densities, velocities (n, 2), temperatures."""
+    return np.stack([rho, *(rho[:, None]*v).T, rho*(energy(eos, rho, T) + (v**2).sum(axis=1)/2)])
+
+
+def check_number(n: int, points: int) -> None:
+    """Refuse a state of other points."""
+    if n != points:
+        raise ValueError(f"a state of {n} points for {points} fixed ones: make it with `state`")
+
+
+class Summing:
+    """What the time loop asks of sums over edges of points that stay."""
+    method: Any
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(state)/dt, written to `out`."""
+        raise NotImplementedError
+
+    def resume(self, now: Any) -> None:
+        """Fixed points have no lists to make again."""
+
+    def try_out(self, now: Any) -> None:
+        """One evaluation that leaves no trace."""
+        self.rates(now.state, np.empty_like(now.state))
+
+    def make_ready(self, now: Any, dt: float) -> None:
+        """Nothing: edges are made once."""
+
+    def confine(self, state: np.ndarray) -> int:
+        """Nothing moves."""
+        return 0
+
+    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
+        """The first point outside of the equation of state; empty if there is none."""
+        rho, e = state[0], (state[3] - (state[1]**2 + state[2]**2)/(2*state[0]))/state[0]
+        good = valid(self.method.eos, rho, e)
+        if good.all():
+            return ""
+        i = int(np.argmin(good))
+        return f"point {i} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of {type(self.method.eos).__name__}"
+
+
+class Streaming(Summing):
+    """The compiled sums of a stream. received (m, 3): momentum and energy that each held point takes, per time."""
+
+    def __init__(self, method: Stream, team: Team):
+        self.method, self.team, self.n = method, team, len(method.x)
+        self.edges = stored(insulated(method.edges, method.held.which), NONE_BEYOND, NOWHERE)
+        self.points = np.zeros(self.n, Point)
+        self.slopes, self.total = np.empty((self.n, 4)), np.empty((self.n, 4))
+        self.filtered = np.empty((self.n, 4)) if method.chi else None
+        self.received = np.zeros((len(method.held.which), 3))
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(state)/dt of a state (4, n), written to `out`    [Eqs 34-36, 51]"""
+        method = self.method
+        self.look_at(state)
+        self.team(sweep, self.n, Exchange(method.eos), self.points, self.edges, self.total)
+        if self.filtered is not None:
+            self.team(sweep, self.n, Filter(method.chi), self.points, self.edges, self.filtered)
+            self.total += self.filtered
+        self.team(driven, self.n, self.total, method.edges.V, self.points, np.array(method.push), out)
+        keep(method.eos, *method.held, self.total, method.edges.V, self.points, self.received, out)
+
+    def look_at(self, state: np.ndarray) -> None:
+        """Fields of all points, and F."""
+        method, points = self.method, self.points
+        self.team(read, self.n, state, method.eos, method.law, points)
+        hold(method.eos, method.law, *method.held, points)
+        self.team(sweep, self.n, Differences(), points, self.edges, self.slopes)
+        self.team(lacking, self.n, self.slopes, method.edges.V, points)
+
+    def force(self, state: np.ndarray) -> np.ndarray:
+        """(fx, fy, heat and work) that all held points take together from the fluid, per time."""
+        self.rates(state, np.empty_like(state))
+        return self.received.sum(axis=0)
+
+
+def insulated(edges: Edges, which: np.ndarray) -> Edges:
+    """Edges without friction and heat between held points: a body is no fluid."""
+    inside = np.zeros(edges.n, bool)
+    inside[which] = True
+    return replace(edges, k=np.where(inside[edges.i] & inside[edges.j], 0.0, edges.k))
+
+
+@jit
+def read(first, last, state, eos, law, points):
+    """Fields of points first..last."""
+    for i in range(first, last):
+        a, rho = points[i], state[0, i]
+        a.rho, a.vx, a.vy, a.eps = rho, state[1, i]/rho, state[2, i]/rho, state[3, i]
+        a.T = temperature(eos, rho, a.eps/rho - 0.5*(a.vx**2 + a.vy**2))
+        a.ux, a.uy, a.Td = a.vx, a.vy, a.T
+        a.eta, a.k = viscosity(law, rho, a.T), conductivity(law, rho, a.T)
+
+
+@jit
+def hold(eos, law, which, v, T, points):
+    """Held points have their own velocity and temperature, to the last digit."""
+    for m in range(len(which)):
+        a = points[which[m]]
+        a.vx, a.vy = v[m, 0], v[m, 1]
+        a.ux, a.uy = a.vx, a.vy
+        if T[m] == T[m]:        # not nan
+            a.T, a.Td = T[m], T[m]
+            a.eps = a.rho*(energy(eos, a.rho, a.T) + 0.5*(a.vx**2 + a.vy**2))
+            a.eta, a.k = viscosity(law, a.rho, a.T), conductivity(law, a.rho, a.T)
+
+
+@jit
+def lacking(first, last, slopes, V, points):
+    """F = eta (v u_y - u v_y, u v_x - v u_x), in 2D without bulk viscosity: `dih.lacking`."""
+    for i in range(first, last):
+        a, f = points[i], points[i].eta/V[i]
+        ux, uy, vx, vy = slopes[i]
+        a.Fx, a.Fy = f*(a.vy*uy - a.vx*vy), f*(a.vx*vx - a.vy*ux)
+
+
+@jit
+def driven(first, last, total, V, points, push, out):
+    """Rates of free points: what edges bring, and the force per mass."""
+    for i in range(first, last):
+        a = points[i]
+        out[0, i], out[1, i] = total[i, 0]/V[i], total[i, 1]/V[i] + push[0]*a.rho
+        out[2, i] = total[i, 2]/V[i] + push[1]*a.rho
+        out[3, i] = total[i, 3]/V[i] + (push[0]*a.vx + push[1]*a.vy)*a.rho
+
+
+@jit
+def keep(eos, which, v, T, total, V, points, received, out):
+    """Rates of held points, whose density alone is free, and what they take besides mass.
+
+    Whoever holds an adiabatic body that moves does work on it, which is no heat.
+    """
+    for m in range(len(which)):
+        i, (vx, vy) = which[m], v[m]
+        mass, rho, d = total[i, 0], points[i].rho, 1e-6*points[i].rho
+        fx, fy = total[i, 1] - vx*mass, total[i, 2] - vy*mass
+        taken = fx*vx + fy*vy
+        if T[m] == T[m]:
+            # d(rho e)/d(rho) at constant T: exact to round-off for an ideal gas, to 1e-10 for others
+            slope = ((rho + d)*energy(eos, rho + d, T[m]) - (rho - d)*energy(eos, rho - d, T[m]))/(2*d) + 0.5*(vx**2 + vy**2)
+            taken = total[i, 3] - slope*mass
+        received[m, 0], received[m, 1], received[m, 2] = fx, fy, taken
+        out[0, i], out[1, i], out[2, i], out[3, i] = mass/V[i], vx*mass/V[i], vy*mass/V[i], (total[i, 3] - taken)/V[i]

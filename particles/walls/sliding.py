@@ -1,0 +1,132 @@
+"""Lees-Edwards sides for fixed points: the images above and below slide past, faster by rate times height    [RR98, Sec. IV]
+
+The points of a lattice stay where they are; their images above have slid by s = rate height t = (m + theta) a along x. A point
+sees, at each place of the lattice beyond the side, the two images next to it: one edge with the share 1 - theta of S and k, one
+with theta. Why so:
+- i sees j with the share with which j sees i, so nothing is lost; edges close at every s, as those of the lattice do; volumes
+  stay. Edges made anew of the slid points would do neither: those of a weight are open between two places of the lattice, where a
+  uniform pressure would push, and those of a triangulation change the volumes, and so the mass, whenever a diagonal flips.
+- no share is negative, so friction never feeds a motion; shares change continuously, so does what is exchanged.
+- it is linear interpolation between images: second order in the spacing, as all the rest.
+Each point exchanges in its own frame with images that move at their own speed, v + rate height: nothing depends on which of two
+boxes is called the one at rest. Each sum over edges through the side, of S_x times a field of one of their ends, vanishes (edges
+are mirror images of each other in x), hence what both sides count, each in its frame, is the same.
+"""
+from typing import NamedTuple
+
+import numpy as np
+
+from continuum.jit import jit
+from particles.edges import Edges
+from particles.neighbours import u32, u64
+from particles.pairs import Stored
+from particles.points import Points
+
+SYMMETRIC = 1e-12       # of S through the side: round-off of some ten edges
+
+
+class Through(NamedTuple):
+    """Entries of the stored edges that lead through a side: which, up (1) or down (-1), share 1 - theta (0) or theta (1);
+
+    S/2 and k of the whole edge; column and row of the place of the lattice to which it leads.
+    """
+    entry: np.ndarray
+    up: np.ndarray
+    second: np.ndarray
+    sx: np.ndarray
+    sy: np.ndarray
+    k: np.ndarray
+    column: np.ndarray
+    row: np.ndarray
+
+
+class Sides(NamedTuple):
+    """Stored edges among the points and to images n.. of points `parent`, which are `up` (1) or down (-1).
+
+    number[0] and number[1]: which image below and above a point has. through: what has to follow the sliding.
+    """
+    edges: Stored
+    through: Through
+    parent: np.ndarray
+    up: np.ndarray
+    number: np.ndarray
+    counts: tuple[int, int]
+
+
+def sides(points: Points, edges: Edges) -> Sides:
+    """Edges of a periodic lattice with sliding images in place of the periodic ones above and below.
+
+    Raises
+    ------
+    ValueError
+        The points are no lattice, or its edges are not their own mirror images in x.
+    """
+    counts = check_lattice(points)
+    check_mirror(points, edges)
+    i, j = np.concatenate([edges.i, edges.j]), np.concatenate([edges.j, edges.i])
+    S, k = np.concatenate([edges.S, -edges.S])/2, np.concatenate([edges.k, edges.k])
+    up = crossing(points, edges)
+    up = np.concatenate([up, -up])
+    split = np.concatenate([np.arange(len(i)), np.flatnonzero(up)])       # edges through a side stand there twice
+    second = np.arange(len(split)) >= len(i)
+    order = np.lexsort((j[split], i[split]))
+    split, second = split[order], second[order]
+    i, j, S, k, up = (q[split] for q in (i, j, S, k, up))
+    taken = np.bincount(i, minlength=points.n)
+    stored = Stored((np.cumsum(taken) - taken).astype(u64), taken.astype(u32), j.astype(u32), S[:, 0].copy(), S[:, 1].copy(), k)
+    entry = np.flatnonzero(up)
+    through = Through(entry, up[entry], second[entry].astype(int), S[entry, 0], S[entry, 1], k[entry],
+                      j[entry]//counts[1], j[entry] % counts[1])
+    return Sides(stored, through, *images(through, counts), counts)
+
+
+def images(through: Through, counts: tuple[int, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Parents of the images, which way they lie, and their numbers (2, n): all points of the rows that edges lead to."""
+    n = counts[0]*counts[1]
+    column, sides = np.arange(counts[0])[:, None]*counts[1], (-1, 1)
+    found = [(column + np.unique(through.row[through.up == side])).ravel() for side in sides]
+    parent, up = np.concatenate(found), np.repeat(sides, [len(points) for points in found])
+    number = np.zeros((2, n), int)
+    number[(up + 1)//2, parent] = n + np.arange(len(parent))
+    return parent, up, number
+
+
+def check_lattice(points: Points) -> tuple[int, int]:
+    """Columns and rows of a lattice whose points are numbered column by column."""
+    columns, rows = (len(np.unique(np.round(q/points.a, 6))) for q in points.x.T)
+    place = np.stack([np.repeat(np.arange(columns), rows), np.tile(np.arange(rows), columns)], axis=1)
+    if columns*rows != points.n or np.abs(points.x - points.x[0] - place*points.a).max() > 1e-9*points.a:
+        raise ValueError(f"{points.n} points in {columns} different columns and {rows} rows are no square lattice: sliding sides "
+                         "need one, made by `points.lattice`")
+    return columns, rows
+
+
+def crossing(points: Points, edges: Edges) -> np.ndarray:
+    """1 for edges i -> j through the upper side, -1 through the lower, 0 for others."""
+    beyond = (points.x[edges.i] + edges.apart - points.x[edges.j])[:, 1]
+    return np.round(beyond/points.box[1]).astype(int)
+
+
+def check_mirror(points: Points, edges: Edges) -> None:
+    """Refuse edges whose S_x through the side do not add up to zero at every point."""
+    through = crossing(points, edges) != 0
+    ends, pull = np.concatenate([edges.i[through], edges.j[through]]), np.tile(edges.S[through, 0], 2)
+    pull[len(pull)//2:] *= -1
+    worst = np.abs(np.bincount(ends, pull, points.n)).max()
+    if worst > SYMMETRIC*np.abs(edges.S).sum(axis=1).max():
+        raise ValueError(f"edges through the side have a sum of S_x of {worst:.3g} at a point, which must be zero: momentum "
+                         "would be lost; take edges of a weight, not of a triangulation, whose diagonals lean one way")
+
+
+@jit
+def slide(offset, through, number, columns, rows, edges):
+    """Let the images above have slid by `offset` spacings."""
+    m = int(np.floor(offset))
+    theta = offset - m
+    for e in range(len(through.entry)):
+        entry, up, second = through.entry[e], through.up[e], through.second[e]
+        share = theta if second else 1 - theta
+        edges.sx[entry], edges.sy[entry] = share*through.sx[e], share*through.sy[e]
+        edges.k[entry] = share*through.k[e]
+        parent = ((through.column[e] - up*(m + second)) % columns)*rows + through.row[e]
+        edges.near[entry] = number[(up + 1)//2, parent]

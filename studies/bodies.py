@@ -1,0 +1,66 @@
+"""Which of the boundaries that RR98 leaves open can be had with fixed points, and how good are they?
+
+Sliding sides (Lees and Edwards), rows of fixed points as a wall, frozen points as a rigid body: homogeneous shear, a wave that it
+turns, driven flow between rows, and the drag of a cylinder in a square array against Sangani & Acrivos (1982). Units of KHP95,
+the spacing is 1. Paper size takes two to three minutes of one core.
+Writes results/bodies/*.csv and *.png and the rows of study bodies in results/claims.csv.
+"""
+from collections.abc import Iterator
+
+from particles.makers import renormalised
+from particles.triangulation import delaunay
+from studies.integral import bodies_claims, bodies_derive, bodies_figures, bodies_tables
+from studies.integral.bodies_drag import SPEED, VARIANTS, CylinderDrag
+from studies.integral.bodies_shear import FixedRows, MovingRows, SlidingShear, TurningWave
+from studies.kit.case import Case
+from studies.kit.study import Study, main
+
+MAKERS = (("renormalised", renormalised, 2.0), ("renormalised", renormalised, 3.0), ("delaunay", delaunay, 2.0))
+SMOOTH, SCATTERED = (24, 32, 48, 64), (16, 20, 24, 28, 32, 36, 40, 48)     # sizes where the error is smooth, and where it is not
+SHOWN = (12, 32)
+
+
+def cases(size: str) -> list[Case]:
+    """`quick` has small sizes, at one solid fraction, too few and too small to extrapolate drags from."""
+    if size == "quick":
+        return [*sides((12, 16, 24)), *walls((12, 16)), *drags("surface", 0.1, (12, 16)), *drags("frozen", 0.1, (12, 16))]
+    return [*sides((16, 24, 32, 48, 64)), *walls((12, 16, 24, 32)), *array()]
+
+
+def sides(sizes: tuple[int, ...]) -> Iterator[Case]:
+    """Sliding sides, and rows that move."""
+    for rows in sizes:
+        yield TurningWave(rows=rows)
+    for rows in sizes[:3]:
+        yield from (SlidingShear(rows=rows), MovingRows(rows=rows))
+
+
+def walls(sizes: tuple[int, ...]) -> Iterator[Case]:
+    """Flow between fixed rows."""
+    for maker, make, h in MAKERS:
+        yield from (FixedRows(maker=maker, make=make, h=h, rows=rows) for rows in sizes)
+
+
+def array() -> Iterator[Case]:
+    """All drags: one stream four times as fast."""
+    for fraction in (0.1, 0.3):
+        yield from drags("surface", fraction, SMOOTH)
+        yield from drags("surface-unfiltered", fraction, SMOOTH[:3])
+        yield from drags("frozen", fraction, SCATTERED)
+        yield from drags("frozen-grown", fraction, SCATTERED)
+    yield from drags("frozen-h3", 0.1, SCATTERED)
+    yield CylinderDrag(variant=VARIANTS["surface"], fraction=0.1, rows=24, speed=4*SPEED)
+
+
+def drags(name: str, fraction: float, sizes: tuple[int, ...]) -> Iterator[Case]:
+    """Drags of one variant; two streams of each size are shown."""
+    for rows in sizes:
+        yield CylinderDrag(variant=VARIANTS[name], fraction=fraction, rows=rows,
+                           shows=name in ("surface", "frozen") and fraction == 0.1 and rows in SHOWN)
+
+
+STUDY = Study(name="bodies", cases=cases, tables=bodies_tables.ALL, derive=bodies_derive.derive, figures=bodies_figures.figures,
+              claims=bodies_claims.CLAIMS)
+
+if __name__ == "__main__":
+    main(STUDY)

@@ -1,0 +1,67 @@
+"""Drags extrapolated to infinitely fine points, and orders of errors."""
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from scipy.special import stdtrit
+
+from continuum.richardson import richardson
+from studies.integral.ordering_derive import line
+from studies.kit.stats import Measured, combine
+from studies.kit.table import Tables
+
+LEAST = 3           # sizes of a limit
+WIDE = 4.0          # spacings: of a smaller radius the circle is too coarse a polygon for an order to show
+SLOW = 0.01         # Reynolds number below which a drag is that of flow without inertia
+SMOOTH = ("surface", "surface-unfiltered")      # their errors are of second order; a staircase's scatter
+
+
+def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
+    """Derived rows of the study."""
+    rows: dict[str, list[dict[str, Any]]] = {}
+    if "drag" in tables:
+        rows["limits"] = list(limits(tables["drag"]))
+    if "wave" in tables and len(tables["wave"]) >= LEAST:
+        rows["orders"] = [order("turning wave", tables["wave"], "error")]
+    return rows
+
+
+def limits(drags: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """One row a variant and solid fraction."""
+    chosen = drags[(drags["reynolds"] < SLOW) & (drags["radius"] > WIDE)]
+    for (variant, fraction), group in chosen.groupby(["variant", "fraction"]):
+        if len(group) < LEAST:
+            continue
+        drag, rows = group["drag"].to_numpy(), group["rows"].to_numpy(float)
+        print_, print_err = group["published"].iloc[0], group["published_err"].iloc[0]
+        seen, found = smooth_limit(drag, rows) if variant in SMOOTH else (np.nan, intercept(1/rows, drag))
+        err = float(np.hypot(found.err, group["drag_err"].max()))       # what was not steady yet adds to it
+        slope = line(np.log(rows), np.log(np.abs(group["error"])))
+        known = group["offset"].notna().all()
+        offset = combine([(value, 0.0) for value in group["offset"]]) if known else Measured(np.nan, np.nan)
+        yield {"variant": variant, "fraction": fraction, "sizes": len(group), "limit": found.value, "limit_err": err,
+               "order": seen, "error": found.value/print_ - 1,
+               "error_err": float(np.hypot(err, found.value/print_*print_err)/print_),
+               "slope": slope[0], "slope_err": slope[1], "offset": offset.value, "offset_err": offset.err}
+
+
+def smooth_limit(drag: np.ndarray, rows: np.ndarray) -> tuple[float, Measured]:
+    """Order seen on the three finest sizes, and the limit."""
+    found = richardson(drag.tolist(), rows.tolist(), order=2.0, step=1.0)
+    return found.order, Measured(found.limit, found.error)
+
+
+def intercept(x: np.ndarray, y: np.ndarray) -> Measured:
+    """Value at x = 0 of a line by least squares, its 95 % interval from the scatter about the line."""
+    n = len(x)
+    slope, constant = np.polyfit(x, y, 1)
+    rest = np.sum((y - slope*x - constant)**2)/(n - 2)
+    err = stdtrit(n - 2, 0.975)*np.sqrt(rest*(1/n + x.mean()**2/np.sum((x - x.mean())**2)))
+    return Measured(float(constant), float(err))
+
+
+def order(what: str, frame: pd.DataFrame, column: str) -> dict[str, Any]:
+    """Order of an error in the spacing."""
+    slope, err = line(np.log(frame["rows"].to_numpy(float)), np.log(frame[column].to_numpy()))
+    return {"what": what, "sizes": len(frame), "order": -slope, "order_err": err}
