@@ -1,0 +1,125 @@
+"""Sums of the scheme in d dimensions, edge by edge in numpy, over long runs as cases    [RR98 Eqs 34-38]
+
+With bulk viscosity, with the inner sums of Eq. 37 as printed, and with a pressure that is not symmetric in ij, which cannot
+conserve.
+"""
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import ConstEta, IdealGas, energy, pressure
+from particles.edges import Edges
+from particles.integrators import RK4
+from particles.methods.dih import Dih, Nested, Pairwise
+from particles.points import Points
+from particles.team import Team
+from studies.integral.conservation_layers import EVERYTHING
+from studies.integral.conservation_sums import ROUND_OFF, Watch, exact_sums, kinetic, parts, random_fields
+from studies.integral.operators import Disorder
+from studies.kit.case import Case, Outcome, Report
+
+COUNTS = {1: (32,), 2: (8, 8), 3: (4, 4, 4)}
+ETA, SIZE = 0.1, 0.1
+OF_LIMIT = 0.5
+
+
+@dataclass(frozen=True, kw_only=True)
+class OneSided(Dih):
+    """The pressure of an edge taken as P_ij + P_ij by its first point and P_ji + P_ji by its second: not symmetric in ij."""
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(state)/dt, written to `out`; the first point gets P_ij - P_ji more, the second as much, instead of its negative."""
+        super().rates(state, out)
+        flow, edges = self.flow(state), self.edges
+        i, j, half = edges.i, edges.j, edges.S/2
+        P_ij, P_ji = (pressure(self.eos, flow.rho[a], energy(self.eos, flow.rho[a], flow.T[b])) for a, b in ((i, j), (j, i)))
+        more = (P_ij - P_ji)[:, None]*half
+        for row, flux in zip(out[1:-1], more.T, strict=True):
+            row -= (np.bincount(i, flux, edges.n) + np.bincount(j, flux, edges.n))/edges.V
+
+
+class Form(NamedTuple):
+    """A mode: which kind of fluid, its transport, whether it claims to conserve."""
+    name: str
+    kind: Callable[..., Dih] = Dih
+    transport: Any = Pairwise()
+    claimed: str = EVERYTHING
+
+
+FORMS = {form.name: form for form in (Form("pairwise"), Form("unmended", transport=Pairwise(mended=False)),
+                                      Form("nested", transport=Nested()),
+                                      Form("printed", transport=Nested(differences=False)),
+                                      Form("one-sided", OneSided, claimed="mass energy"))}
+
+
+@dataclass(frozen=True, kw_only=True)
+class DihDrift(Case):
+    """A long run from a random start in d dimensions."""
+    form: Form
+    d: int
+    maker: str
+    make: Callable[[Points, Any], Edges]
+    weight: Any
+    h: float
+    disorder: Disorder
+    zeta: float = 0.0
+    steps: int = 10_000
+    seed: int = 1
+
+    @property
+    def cost(self) -> float:
+        return self.steps*{1: 5e-4, 2: 1.5e-3, 3: 1.5e-3}[self.d]
+
+    @property
+    def label(self) -> str:
+        return f"dih {self.form.name} {self.d}D {self.maker} h {self.h:g}, {self.disorder.name}, zeta {self.zeta:g}"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        points = self.disorder.make(COUNTS[self.d], self.disorder.size, self.seed)
+        fluid = self.form.kind(edges=self.make(points, self.weight.of(h=self.h, d=self.d)), eos=IdealGas(),
+                               law=ConstEta(ETA, ETA), zeta=self.zeta, transport=self.form.transport)
+        state = fluid.state(*random_fields(points, SIZE, self.seed))
+        V, dt, integrator = fluid.edges.V, OF_LIMIT*step_limit(fluid, state), RK4(state.shape, Team(1))
+        watch, reached = Watch(lambda now: exact_sums(V, now), sizes(V, state)), self.steps
+        watch(state)
+        begin = kinetic(V*state[0], V*state[1:-1])
+        for before, number in parts(self.steps):
+            taken = advance(integrator, fluid, state, dt, number)
+            if taken < number:
+                reached = before + taken
+                break
+            watch(state)
+            report((before + number)/self.steps)
+        motion = kinetic(V*state[0], V*state[1:-1])/begin
+        return Outcome({"drift": [{
+            "scheme": "dih", "mode": self.form.name, "d": self.d, "maker": self.maker, "weight": self.weight.__name__,
+            "h": self.h, "points": self.disorder.name, "wall": "periodic", "zeta": self.zeta, "seed": self.seed, "n": points.n,
+            "steps": self.steps, "reached": reached, "claimed": self.form.claimed, "mass": watch.worst[0],
+            "momentum": watch.worst[1:-1].max(), "energy": watch.worst[-1], "volume": np.nan, "err": ROUND_OFF,
+            "motion": motion}]})
+
+
+def advance(integrator: RK4, fluid: Dih, state: np.ndarray, dt: float, steps: int) -> int:
+    """Steps taken, in place, until the end or until the fluid is none any more."""
+    for step in range(steps):
+        try:
+            integrator.step(fluid, state, dt)
+        except FloatingPointError:
+            return step
+    return steps
+
+
+def sizes(V: np.ndarray, state: np.ndarray) -> np.ndarray:
+    """Over which changes are told: mass, sum of |momentum| for each direction, energy."""
+    momentum = V@np.sqrt((state[1:-1]**2).sum(axis=0))
+    return np.array([V@state[0], *[momentum]*(len(state) - 2), V@state[-1]])
+
+
+def step_limit(fluid: Dih, state: np.ndarray) -> float:
+    """RK4: the fastest sound and the fastest diffusion that the edges know, at the hottest point."""
+    flow, (sound, spread) = fluid.flow(state), fluid.edges.fastest
+    fast = np.sqrt(2*flow.T.max()) + np.sqrt((flow.v**2).sum(axis=1)).max()
+    return float(1/(fast*sound/2.82 + (2*ETA + fluid.zeta)/flow.rho.min()*spread/2.78))

@@ -1,0 +1,93 @@
+"""Sums of the conservative scheme on moving points over long runs, as cases: RR98's moving volumes (Eqs 46-48) keep none"""
+from dataclasses import dataclass
+from math import fsum
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from continuum.fluid import ConstEta, IdealGas
+from particles.limits import limit_of
+from particles.methods.moving import EXCHANGED, Ingredients, Moving
+from particles.points import Points, of_positions
+from particles.run import Divergence, Plan, run
+from particles.walls.mirror import plates
+from particles.walls.periodic import periodic
+from particles.weights import WendlandC2
+from studies.integral.conservation_layers import FROM_PLATE, MODES, OF_LIMIT, SIDE, WALLS, Wall
+from studies.integral.conservation_sums import ROUND_OFF, Watch, kinetic, parts, random_fields
+from studies.integral.operators import DISORDERS, Disorder
+from studies.kit.case import Case, Outcome, Report
+
+H = 3.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class MovingDrift(Case):
+    """A long run from a random start, on SIDE^2 points that move."""
+    name: str = "pairwise"
+    ingredients: Ingredients = Ingredients()  # noqa: RUF009 (immutable)
+    disorder: Disorder = DISORDERS["jittered-0.3"]
+    wall: Wall = WALLS["periodic"]
+    steps: int = 10_000
+    seed: int = 1
+
+    @property
+    def cost(self) -> float:
+        return 2e-3*self.steps
+
+    @property
+    def label(self) -> str:
+        return f"moving {self.name}, {self.disorder.name}, {self.wall.name}, seed {self.seed}"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        points, eta = self.points(), MODES["pairwise"].eta
+        inside = plates(SIDE, 1.0, 1.0) if self.wall.plates else periodic(SIDE, 1)
+        method = Moving(weight=WendlandC2.of(h=H), eos=IdealGas(), law=ConstEta(eta, eta), box=(SIDE, SIDE),
+                        walls=(*inside, *periodic(SIDE)), ingredients=self.ingredients)
+        rho, v, T = random_fields(points, MODES["pairwise"].size, self.seed)
+        state, reached = method.state(points.x, v, rho, T), self.steps
+        watch, dt, begin = self.watch(state), OF_LIMIT*limit_of(method, state), motion(state)
+        watch(state)
+        for before, number in parts(self.steps):
+            if dt > limit_of(method, state):        # it has heated: sound outruns the step
+                reached = before
+                break
+            try:
+                state = run(method, state, Plan(dt=dt, steps=number)).state
+            except Divergence as end:
+                reached = before + end.step
+                break
+            watch(state)
+            report((before + number)/self.steps)
+        return Outcome({"drift": [self._row(watch.worst, reached, motion(state)/begin)]})
+
+    def points(self) -> Points:
+        """In the box, away from plates."""
+        at = self.disorder.make((SIDE, SIDE), self.disorder.size, self.seed)
+        edge = SIDE/2 - FROM_PLATE*self.wall.plates
+        return of_positions(np.stack([at.x[:, 0], np.clip(at.x[:, 1], -edge, edge)], axis=1), at.box)
+
+    def watch(self, state: np.ndarray) -> Watch:
+        """Mass, momentum along both axes (between plates along them only), energy, volume."""
+        px, py, m, V, E = state[EXCHANGED]
+        kept, momentum = [2, 0, 4, 3] if self.wall.plates else [2, 0, 1, 4, 3], np.hypot(px, py).sum()
+        size = np.array([momentum, momentum, m.sum(), V.sum(), E.sum()])[kept]
+        return Watch(lambda now: np.array([fsum(row) for row in now[EXCHANGED][kept]]), size)
+
+    def _row(self, worst: np.ndarray, reached: int, moved: float) -> dict[str, Any]:
+        claimed = "mass volume" if self.wall.plates else "mass momentum energy volume"
+        return {"scheme": "moving", "mode": self.name, "d": 2, "maker": "faces", "weight": "WendlandC2", "h": H,
+                "points": self.disorder.name, "wall": self.wall.name, "zeta": 0.0, "seed": self.seed, "n": SIDE**2,
+                "steps": self.steps, "reached": reached, "claimed": claimed, "mass": worst[0],
+                "momentum": worst[1:-2].max(), "energy": worst[-2], "volume": worst[-1], "err": ROUND_OFF, "motion": moved}
+
+
+def motion(state: np.ndarray) -> float:
+    """Kinetic energy."""
+    px, py, m, _, _ = state[EXCHANGED]
+    return kinetic(m, np.stack([px, py]))
+
+
+#: of the study: in a box and between plates
+CASES = (MovingDrift(), MovingDrift(wall=WALLS["plates"]))
