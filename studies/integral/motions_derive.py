@@ -21,7 +21,7 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
 
 
 def limits(euler: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    """Zero of the parabola through growth at 1/2, 1 and 2 times the predicted limit."""
+    """Zero of the parabola through growth at 1/2, 1 and 3/2 times the predicted limit."""
     for (transport, wavelength), group in euler.groupby(["transport", "wavelength"]):
         if len(group) >= 3:
             parabola = np.polyfit(group["dt_over_limit"], group["growth"], 2)

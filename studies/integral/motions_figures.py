@@ -26,7 +26,7 @@ def speeds(patterns: pd.DataFrame, sound: pd.DataFrame) -> Figure:
     """How fast a density pattern goes on a stream, and sound."""
     page, (left, right) = figure(1, 2, width=4.4, height=4.0)
     patterns = patterns[patterns["pattern"] == "density"]
-    sound = sound[sound["bracket"] == "none"]
+    sound = sound[(sound["bracket"] == "none") & (sound["weight"] == "Lucy")]
     for number, name in enumerate(MOTIONS):
         for axes, frame in ((left, patterns), (right, sound)):
             group = frame[frame["motion"] == name].sort_values("wavelength")

@@ -4,9 +4,10 @@ from studies.kit.table import Table
 #: speed of a pattern on a uniform stream, over the stream's; predicted: by sums over the lattice; smoothed: f^(k) of the weight
 PATTERNS = Table("patterns", key=["motion", "pattern", "h", "wavelength"],
                  columns=["motion", "pattern", "h", "wavelength", "speed", "speed_err", "predicted", "smoothed"])
-#: sound over c, at the wave number that the lattice sees and as it is
-SOUND = Table("sound", key=["motion", "bracket", "h", "wavelength"],
-              columns=["motion", "bracket", "h", "wavelength", "speed", "speed_err", "predicted", "gradient"])
+#: sound over c; gradient: wave number seen on the lattice, over k; stiffness: of a lattice moved
+SOUND = Table("sound", key=["motion", "bracket", "weight", "h", "wavelength"],
+              columns=["motion", "bracket", "weight", "h", "wavelength", "speed", "speed_err", "predicted", "gradient",
+                       "stiffness"])
 #: growth rate of sound on fixed points with forward Euler
 EULER = Table("euler", key=["transport", "wavelength", "dt_over_limit"],
               columns=["transport", "wavelength", "dt_over_limit", "growth", "growth_err", "predicted"])

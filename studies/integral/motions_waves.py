@@ -72,7 +72,7 @@ PREDICTED = {"literal": lambda f, g: 2*f*f + 2*g, "convective": lambda f, g: 2*f
 
 @dataclass(frozen=True, kw_only=True)
 class Sound(Case):
-    """Speed of standing sound without viscosity over c; bracket: of `ConstantMass`, else none.
+    """Speed of standing sound without viscosity over c; bracket: of `ConstantMass`, else none. weight : class.
 
     The error is what the halves of the run, two periods, differ by.
     """
@@ -80,16 +80,17 @@ class Sound(Case):
     kind: type
     wavelength: int
     bracket: Any = None
+    weight: Any = Lucy
     h: float = 3.0
     dt: float = 0.2
 
     @property
     def cost(self) -> float:
-        return 2e-5*self.wavelength**2/self.dt
+        return 2e-6*self.wavelength**2*self.h**2/self.dt
 
     @property
     def label(self) -> str:
-        return f"sound {self.motion} {self.name}, wavelength {self.wavelength}, h {self.h:g}"
+        return f"sound {self.motion} {self.name}, {self.weight.__name__} h {self.h:g}, wavelength {self.wavelength}"
 
     @property
     def name(self) -> str:
@@ -97,8 +98,8 @@ class Sound(Case):
         return "none" if self.bracket is None else type(self.bracket).__name__ + "".join(f" {p:g}" for p in self.bracket)
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        at, k = strip(self.wavelength), 2*np.pi/self.wavelength
-        weight, wave = Lucy.of(h=self.h), np.sin(k*at.x[:, 0])
+        at, k = strip(self.wavelength, 2*int(self.h) + 2), 2*np.pi/self.wavelength
+        weight, wave = self.weight.of(h=self.h), np.sin(k*at.x[:, 0])
         method = moving(self.kind, at, weight, **({} if self.bracket is None else {"bracket": self.bracket}))
         v, one = np.stack([AMPLITUDE*wave, 0*wave], axis=1), np.ones(at.n)
         steps = round(2*self.wavelength/C/self.dt)
@@ -106,6 +107,7 @@ class Sound(Case):
         speed = by_halves(np.array(seen), lambda part: rate(part, self.dt).imag/(k*C))
         f, g = seen_slope(weight, at, k), seen_stiffness(weight, at, k)
         lost = sum(self.bracket) if self.bracket else 0.0      # a + b of Eq. 50 takes (a + b) P/rho off c^2
-        return Outcome({"sound": [{"motion": self.motion, "bracket": self.name, "h": self.h, "wavelength": self.wavelength,
-                                   "speed": speed.value, "speed_err": speed.err, "gradient": f,
+        return Outcome({"sound": [{"motion": self.motion, "bracket": self.name, "weight": self.weight.__name__, "h": self.h,
+                                   "wavelength": self.wavelength, "speed": speed.value, "speed_err": speed.err, "gradient": f,
+                                   "stiffness": g,
                                    "predicted": np.sqrt((PREDICTED[self.motion](f, g) - lost*f*f)/2)}]})

@@ -1,0 +1,328 @@
+"""Motions of points: conservation, the identity of Eqs 46-48 with 49, speeds against lattice sums, steps, filter; the study."""
+import numpy as np
+import pytest
+
+import studies.motions as motions
+from continuum.fluid import ConstEta, IdealGas
+from particles.integrators import RK4, Euler, TwoStep
+from particles.makers import renormalised
+from particles.methods.dih import Dih, Nested, Pairwise
+from particles.methods.motions import MOTIONS, Carried, ConstantMass, Convective, Filtered, Literal, Powers
+from particles.points import jittered, lattice
+from particles.team import Team
+from particles.weights import WEIGHTS, Lucy, WendlandC2
+from studies.integral import motions_derive, motions_tables
+from studies.integral.motions_scene import C, by_halves, march, moving, rate, roots, seen_slope, transform
+from studies.kit.claim import judge
+from studies.kit.sweep import RESULTS, load
+from studies.kit.table import read
+
+COUNTS = {1: (14,), 2: (7, 8), 3: (5, 5, 5)}
+TRANSPORT = {"nested": Nested(), "pairwise": Pairwise(mended=False), "mended": Pairwise(),
+             "filtered": Filtered(chi=0.2), "corrected": Filtered(chi=0.2, corrected=True)}
+
+
+def made(kind, d=2, size=0.15, weight=WendlandC2, transport="pairwise", eta=0.2, **more):
+    at = jittered(COUNTS[d], size, 3)
+    weight = weight.of(h=2.7 if d < 3 else 2.2, d=d)
+    return moving(kind, at, weight, ConstEta(eta, eta), transport=TRANSPORT[transport], **more), at
+
+
+def crowd(method, at, seed=0):
+    rng = np.random.default_rng(seed)
+    return method.state(at.x, rng.uniform(0.9, 1.1, at.n), rng.normal(0, 0.2, (at.n, at.d)), rng.uniform(0.9, 1.1, at.n))
+
+
+def rates(method, state):
+    out = np.full_like(state, np.nan)
+    method.rates(state, out)
+    return out
+
+
+def after(method, state, steps, dt, integrator=RK4):
+    state = state.copy()
+    march(method, state, dt, steps, lambda state: None, integrator)
+    return state
+
+
+# --- what is conserved ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("transport", TRANSPORT)
+@pytest.mark.parametrize("d", [1, 2, 3])
+@pytest.mark.parametrize("kind", [Literal, ConstantMass])
+def test_mass_momentum_and_energy_stay_while_points_move(kind, d, transport):
+    method, at = made(kind, d, transport=transport)
+    state = crowd(method, at)
+    moved = after(method, state, 5, 0.1)
+    assert np.abs(moved[:d] - state[:d]).max() > 0.05
+    # 5 steps of 4 stages, some 30 terms each
+    assert np.abs(method.conserved(moved) - method.conserved(state)).max() < 1e-14*at.n
+
+
+@pytest.mark.parametrize("integrator", [Euler, TwoStep, RK4])
+def test_every_integrator_conserves_in_literal_motion(integrator):
+    method, at = made(Literal)
+    state = crowd(method, at)
+    assert np.abs(method.conserved(after(method, state, 20, 0.02, integrator)) - method.conserved(state)).max() < 1e-14*at.n
+
+
+def test_equations_46_to_48_on_equal_volumes_conserve_nothing():
+    method, at = made(Convective)
+    state = crowd(method, at)
+    lost = np.abs(method.conserved(after(method, state, 5, 0.1)) - method.conserved(state))
+    assert (lost > 1e-6*at.n).all()
+
+
+def test_volumes_that_go_with_the_flow_give_it_all_back_but_the_error_of_time_steps():
+    """rho V is a product of two fields, each good to dt^4: halving the steps takes the drift down 16 times."""
+    method, at = made(Carried)
+    state = crowd(method, at)
+    drift = [np.abs(method.conserved(after(method, state, n, 1.0/n)) - method.conserved(state)).max() for n in (8, 16)]
+    assert drift[0] < 1e-4*at.n
+    assert np.log2(drift[0]/drift[1]) > 3.5
+
+
+# --- the equations among each other ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("transport", ["nested", "pairwise"])
+@pytest.mark.parametrize("d", [1, 2, 3])
+@pytest.mark.parametrize("eta", [0.0, 1e-4, 1.0])
+def test_equations_46_and_47_are_equation_49(eta, d, transport):
+    """m dv/dt = dp/dt - v dm/dt, term by term, at any Reynolds number."""
+    found = {}
+    for kind in (Convective, Carried, ConstantMass):
+        method, at = made(kind, d, transport=transport, eta=eta)
+        state = crowd(method, at)
+        out = rates(method, state)
+        found[kind] = (out[d + 1:2*d + 1] - method.velocity(state)*out[d])/state[d]
+    for kind in (Convective, Carried):
+        np.testing.assert_allclose(found[kind], found[ConstantMass], rtol=0, atol=1e-13*np.abs(found[kind]).max())
+
+
+def test_literal_motion_is_fixed_points_that_are_moved():
+    method, at = made(Literal)
+    state = crowd(method, at)
+    edges = renormalised(at, method.weight)
+    scale = edges.k.sum()/method.fluid(at.x, at.V).edges.k.sum()
+    assert scale == pytest.approx(1, rel=1e-12)
+    fixed, out = Dih(edges=edges, eos=IdealGas(), law=method.law, transport=method.transport), rates(method, state)
+    np.testing.assert_allclose(out[2:], rates(fixed, state[2:]), rtol=0, atol=1e-12)
+    np.testing.assert_array_equal(out[:2], state[3:5]/state[2])
+
+
+def test_equations_46_to_48_add_printed_sums():
+    """-sum_j W_ij e_ij.v_i q_j, written out pair by pair for one point."""
+    method, at = made(Convective)
+    state = crowd(method, at)
+    dih, v, i = method.fluid(at.x, at.V), method.velocity(state).T, 11
+    added = rates(method, state)[2:-1, i] - rates(dih, state[2:-1])[:, i]
+    expected, edges = np.zeros(4), dih.edges
+    for a, b, S in zip(edges.i, edges.j, edges.S, strict=True):
+        if i in (a, b):
+            j, sign = (b, 1) if i == a else (a, -1)       # S/2V = -W e_ij
+            expected += sign*(S@v[i])/2/at.V[i]*state[2:-1, j]
+    np.testing.assert_allclose(added, expected, rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize(("a", "b"), [(0.0, 0.0), (1.0, -1.0), (1.0, 0.0), (2.0, 0.0), (0.5, 1.0)])
+def test_equation_50_pushes_by_the_gradient_of_pressure_over_a_power_of_the_density(a, b):
+    at = lattice((32, 7))
+    method, k = moving(ConstantMass, at, Lucy.of(h=3.0), ConstEta(0.0, 0.0), bracket=Powers(a, b)), 2*np.pi/32
+    x, size = at.x[:, 0], 1e-5
+    rho, T = 1 + size*np.cos(k*x), 1 + 0.5*size*np.cos(k*x)
+    found = rates(method, method.state(at.x, rho, 0*at.x, T))[3]
+    f = seen_slope(Lucy.of(h=3.0), at, k)
+    expected = f*(1.5 - (a + b))*size*k*np.sin(k*x)      # P/rho^(a+b) = 1 + (1.5 - a - b) size cos kx
+    np.testing.assert_allclose(found, expected, rtol=0, atol=4*size**2*k)
+
+
+@pytest.mark.parametrize("bracket", [Powers(), Powers(1.0, -1.0)])
+def test_internal_energy_changes_by_pressure_times_the_growth_of_volumes_only(bracket):
+    """Without viscosity; for a + b = 0 and one density."""
+    method, at = made(ConstantMass, eta=0.0, bracket=bracket)
+    rng = np.random.default_rng(1)
+    v, T = rng.normal(0, 0.2, (at.n, 2)), rng.uniform(0.9, 1.1, at.n)
+    state = method.state(at.x, np.ones(at.n), v, T)
+    out = rates(method, state)
+    heat = out[5] - (v.T*out[3:5]).sum(axis=0)
+    np.testing.assert_allclose(heat, -T*out[6], rtol=0, atol=1e-14)
+
+
+# --- waves ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("motion", MOTIONS)
+def test_patterns_on_a_stream_go_at_predicted_speeds(motion, tmp_path):
+    case = motions.Pattern(motion=motion, kind=MOTIONS[motion], pattern="density", wavelength=8, time=2.0)
+    [row] = case.run(lambda done: None, tmp_path).rows["patterns"]
+    assert row["speed"] == pytest.approx(row["predicted"], rel=1e-7)      # amplitude 1e-4, squared; RK4
+    assert row["predicted"] == pytest.approx(1 + (motion == "literal")*row["smoothed"], rel=2e-3)
+
+
+@pytest.mark.parametrize("motion", MOTIONS)
+def test_sound_on_moving_points_goes_at_predicted_speeds(motion, tmp_path):
+    case = motions.Sound(motion=motion, kind=MOTIONS[motion], wavelength=8)
+    [row] = case.run(lambda done: None, tmp_path).rows["sound"]
+    # of the square of the amplitude, 1e-8, over the change of c that resonance of its double can make
+    assert row["speed"] == pytest.approx(row["predicted"], rel=1e-3)
+
+
+def test_transform_of_a_weight_is_one_for_long_waves_and_falls_as_its_second_moment():
+    weight, k = Lucy.of(h=3.0), 0.05
+    # <r^2> of Lucy's weight in the plane: 2 pi 5/pi int (1 + 3q)(1 - q)^3 q^3 dq h^2 = 10 (1/140 + 3/280) h^2 = 5/28 h^2
+    assert transform(weight, k) == pytest.approx(1 - k*k/4*9*5/28, abs=2e-4)
+
+
+def test_roots_of_a_wave_that_grows():
+    t = np.arange(40)*0.3
+    found = rate(np.exp(0.02*t)*np.cos(1.1*t + 0.4), 0.3)
+    assert found == pytest.approx(0.02 + 1.1j, abs=1e-9)
+    assert sorted(abs(roots(0.9**np.arange(20) + 0.5**np.arange(20)))) == pytest.approx([0.5, 0.9])
+    assert by_halves(np.arange(10.0), np.mean) == (4.5, 5.0)
+
+
+# --- steps ----------------------------------------------------------------------------------------------------
+
+
+def test_two_steps_are_equations_40_and_41():
+    method, at = made(Literal)
+    state, dt = crowd(method, at), 0.05
+    k, moved = rates(method, state), after(method, state, 1, dt, TwoStep)
+    fields = state[2:] + dt*k[2:]
+    np.testing.assert_allclose(moved[2:], fields, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(moved[:2], state[:2] + dt*fields[1:3]/fields[0], rtol=0, atol=1e-15)
+    old = after(method, state, 1, dt, Euler)
+    np.testing.assert_allclose(old, state + dt*k, rtol=0, atol=1e-15)
+
+
+def test_on_fixed_points_two_steps_are_eulers():
+    at = lattice((7, 7))
+    dih = Dih(edges=renormalised(at, Lucy.of(h=3.0)), eos=IdealGas(), law=ConstEta(0.1, 0.1))
+    rng, ends = np.random.default_rng(0), []
+    start = dih.state(rng.uniform(0.9, 1.1, at.n), rng.normal(0, 0.1, (at.n, 2)), np.ones(at.n))
+    for integrator in (Euler, TwoStep):
+        state = start.copy()
+        stepper = integrator(state.shape, Team(1))
+        stepper.step(dih, state, 0.1)
+        ends.append(state)
+    np.testing.assert_array_equal(*ends)
+
+
+@pytest.mark.parametrize(("of_limit", "sign"), [(0.9, -1), (1.1, 1)])
+def test_forward_euler_lets_sound_grow_beyond_its_limit(of_limit, sign, tmp_path):
+    case = motions.Growth(name="nested", transport=Nested(), wavelength=16, of_limit=of_limit)
+    [row] = case.run(lambda done: None, tmp_path).rows["euler"]
+    assert np.sign(row["growth"]) == sign
+    # (D k/c)^2 = 3e-3, left out of the prediction, is of the damping, ten times the difference of dt from the limit
+    assert row["growth"] == pytest.approx(row["predicted"], rel=0.05)
+
+
+# --- filter ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("corrected", [False, True])
+def test_the_filter_sees_density_alternate_and_leaves_a_uniform_one(corrected):
+    at = lattice((8, 8))
+    filtered = Filtered(chi=0.3, transport=Pairwise(mended=False), corrected=corrected)
+    plain, dih = (Dih(edges=renormalised(at, Lucy.of(h=3.0)), eos=IdealGas(), law=ConstEta(0.0, 0.0), transport=transport)
+                  for transport in (filtered.transport, filtered))
+    corner = np.cos(np.pi*(at.x - 0.5)).prod(axis=1)
+    state = dih.state(1 + 0.01*corner, np.full((at.n, 2), 0.1), np.ones(at.n))
+    k2 = -float((dih.edges.lap(corner)/corner)[0])
+    found = rates(dih, state) - rates(plain, state)
+    np.testing.assert_allclose(found[0], -0.3*k2*0.01*corner, rtol=0, atol=1e-15)
+    np.testing.assert_allclose(found[1:3], 0.1*found[[0, 0]], rtol=0, atol=1e-15)      # its momentum goes with it
+    np.testing.assert_allclose(found[3], (1 + 0.01)*found[0], rtol=0, atol=1e-15)      # and e + v^2/2
+    even = dih.state(np.ones(at.n), 0*at.x, 1 + 0.01*corner)
+    np.testing.assert_allclose(rates(dih, even), rates(plain, even), rtol=0, atol=1e-16)      # 14 terms of 1e-18
+    assert np.abs(rates(plain, state)[0]).max() < 1e-16      # no gradient sees it
+
+
+# --- bad input ------------------------------------------------------------------------------------------------
+
+
+def test_what_cannot_be_moved_is_refused():
+    at = lattice((7, 7))
+    with pytest.raises(ValueError, match="M_1 = "):
+        moving(Literal, at, Lucy.of(h=3.0, d=3))
+    with pytest.raises(ValueError, match=r"must not be negative, got -1"):
+        Filtered(chi=-1)
+    method = moving(Literal, at, Lucy.of(h=3.0))
+    state = method.state(at.x, np.ones(at.n), 0*at.x, np.ones(at.n))
+    state[1, 5] = np.nan
+    with pytest.raises(FloatingPointError, match=r"point 5 is at .* take a shorter step"):
+        rates(method, state)
+    state[1, 5], state[2, 6] = 0.3, -1.0
+    with pytest.raises(FloatingPointError, match=r"point 6 has rho = -1"):
+        rates(method, state)
+
+
+@pytest.mark.parametrize("weight", WEIGHTS.values())
+@pytest.mark.parametrize("kind", [Literal, Convective])
+def test_every_weight_can_move_points(kind, weight):
+    method, at = made(kind, weight=weight)
+    state = after(method, crowd(method, at), 3, 0.05, TwoStep)
+    assert np.isfinite(state).all()
+    assert len(method.fields) == len(state)
+
+
+# --- the study ------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def quick(tmp_path_factory):
+    out = tmp_path_factory.mktemp("results")
+    return motions.STUDY.run("quick", workers=1, out=out), out
+
+
+def test_quick_rebuild_writes_tables_figures_and_verdicts(quick):
+    found, out = quick
+    for table in motions_tables.ALL:
+        assert set(table.columns) <= set(found[table.name].columns) and len(found[table.name])
+    assert len(motions.STUDY.draw(out)) == 4
+    assert {row["id"] for row in motions.STUDY.judge(out)} == {claim.id for claim in motions.STUDY.claims}
+
+
+def test_the_limit_is_the_zero_of_the_growth(quick):
+    """On a parabola it is exact: growth (x - 1.02)(1 + 0.1 x)."""
+    euler = quick[0]["euler"].query("transport == 'nested'").copy()
+    x = euler["dt_over_limit"]
+    euler["growth"], euler["growth_err"] = (x - 1.02)*(1 + 0.1*x), 0.011
+    [row] = motions_derive.limits(euler)
+    assert row["limit"] == pytest.approx(1.02, rel=1e-9)
+    assert row["limit_err"] == pytest.approx(0.011/1.102, rel=1e-9)
+
+
+def test_every_equation_of_motion_has_a_claim():
+    for n in (39, 40, 41, 46, 47, 48, 49, 50):
+        assert any(claim.id.startswith(f"rr98-eq{n}-") for claim in motions.STUDY.claims), n
+
+
+committed = pytest.mark.skipif(not (RESULTS/"motions"/"conservation.csv").exists(), reason="no tables are committed yet")
+
+
+@committed
+def test_committed_verdicts_follow_from_committed_tables():
+    rows = {row["id"]: row["verdict"] for row in judge(motions.STUDY.claims, load(motions_tables.ALL, "motions"), "motions")}
+    kept = read(RESULTS/"claims.csv")
+    kept = kept[kept["study"] == "motions"]
+    assert dict(zip(kept["id"], kept["verdict"], strict=True)) == rows
+
+
+@committed
+def test_committed_motions_that_rr98_says_conserve_do_so_to_round_off():
+    drift = read(RESULTS/"motions"/"conservation.csv", motions_tables.CONSERVATION.columns)
+    assert (drift["steps"] == 10000).all()
+    exchanging = drift[drift["motion"].isin(["literal", "constant-mass"])]
+    assert exchanging["drift"].max() < 1e-13 < 1e-5 < drift[drift["motion"] == "convective"]["drift"].min()
+
+
+@committed
+def test_committed_sound_is_that_of_the_lattice():
+    sound = read(RESULTS/"motions"/"sound.csv", motions_tables.SOUND.columns)
+    long = sound[(sound["wavelength"] == 32) & (sound["weight"] == "Lucy")]
+    assert len(long) == len(MOTIONS)
+    np.testing.assert_allclose(long["speed"], long["predicted"], rtol=2e-5)      # (omega dt)^4/120, amplitude squared
+    assert C**2 == pytest.approx(2)
