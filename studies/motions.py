@@ -56,7 +56,8 @@ def steps(wavelengths: tuple[int, ...], coarser: int = 1) -> Iterator[Case]:
                      history=wavelength == middle(wavelengths))
         if wavelength == middle(wavelengths):
             yield Growth(name="pairwise", transport=ALONG, wavelength=wavelength, of_limit=of_limit)
-    yield from (Share(integrator=name, dt=dt) for name, dt in product(("euler", "two-step"), (0.1, 0.05)[:1 if coarser > 1 else 2]))
+    some = (0.1, 0.05) if coarser == 1 else (0.1,)
+    yield from (Share(integrator=name, dt=dt) for name, dt in product(("euler", "two-step"), some))
     yield from (Places(motion=NAMES[flow.kind], flow=replace(flow, steps=flow.steps//coarser)) for flow in MOVED)
 
 

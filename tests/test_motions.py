@@ -12,7 +12,7 @@ from particles.points import jittered, lattice
 from particles.team import Team
 from particles.weights import WEIGHTS, Lucy, WendlandC2
 from studies.integral import motions_derive, motions_tables
-from studies.integral.motions_scene import C, by_halves, march, moving, rate, roots, seen_slope, transform
+from studies.integral.motions_scene import by_halves, march, moving, rate, roots, seen_slope, transform
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import read
@@ -322,7 +322,10 @@ def test_committed_motions_that_rr98_says_conserve_do_so_to_round_off():
 @committed
 def test_committed_sound_is_that_of_the_lattice():
     sound = read(RESULTS/"motions"/"sound.csv", motions_tables.SOUND.columns)
-    long = sound[(sound["wavelength"] == 32) & (sound["weight"] == "Lucy")]
-    assert len(long) == len(MOTIONS)
-    np.testing.assert_allclose(long["speed"], long["predicted"], rtol=2e-5)      # (omega dt)^4/120, amplitude squared
-    assert C**2 == pytest.approx(2)
+    long = sound[sound["wavelength"] == 32]
+    # the third derivative of Lucy's weight jumps at h = 3 a, where neighbours are: linear in displacements, which are 3e-4;
+    # without that (omega dt)^4/120
+    for weight, rows, rtol in (("Lucy", len(MOTIONS), 1e-4), ("WendlandC2", 3, 1e-6)):
+        some = long[long["weight"] == weight]
+        assert len(some) == rows
+        np.testing.assert_allclose(some["speed"], some["predicted"], rtol=rtol)

@@ -168,7 +168,8 @@ CLAIMS = (
     Claim(id="rr98-eq39-sound-lattice", source="RR98 Eqs 34-36, 39", expect=1, within=1e-4,
           value=over("sound", "speed", "predicted", motion="literal", bracket="none", weight="Lucy", wavelength=32),
           statement="the same factor from sums over the lattice: speed over sqrt(f^2 + 2 g/gamma), f of the gradient, g of "
-                    "moved points, wavelength 32 a", because=f"1e-5 are left by time steps (omega dt)^4/120; {HALVES}"),
+                    "moved points, wavelength 32 a",
+          because=f"neighbours at r = h, where w has a jump in its third derivative, leave 1e-5; {HALVES}"),
     Claim(id="rr98-eq39-convective", source="RR98 Eqs 39, 46", expect=1, within=1e-6,
           value=cell("patterns", "speed", motion="convective", **PATTERN),
           statement="dr/dt = v with Eqs 46-48: speed of a density pattern over that of the stream that carries it, wavelength "
@@ -302,11 +303,11 @@ CLAIMS = (
     Claim(id="rr98-eq34-filter-cost", source="RR98 Eq. 34", at_most=0.01,
           value=cell("filter", "lost", filter="plain", mode="wave 32", h=3.0),
           statement="the plain filter, chi = 0.1 a c, spares waves: share of a density wave of 32 a that is gone when sound "
-                    "has crossed it", because="1 %: of the error that h = 3 a makes of such a wave anyhow"),
+                    "has crossed it", because="1 %: h = 3 a itself takes 1.5 % off the gradient of such a wave"),
     Claim(id="rr98-eq34-filter-corrected", source="RR98 Eq. 34", at_most=0.01,
           value=cell("filter", "lost", filter="corrected", mode="wave 32", h=3.0),
           statement="the corrected filter, chi = 0.1 a c, spares waves: share of a density wave of 32 a that is gone when "
-                    "sound has crossed it", because="1 %: of the error that h = 3 a makes of such a wave anyhow"),
+                    "sound has crossed it", because="1 %: h = 3 a itself takes 1.5 % off the gradient of such a wave"),
     Claim(id="rr98-eq34-filter-order", source="RR98 Eq. 34", expect=4, within=0.1, value=fourth,
           statement="the corrected filter damps as k^4: slope between wavelengths of 32 and 64 a",
           because=f"0.1: the next order takes 0.03; {HALVES}"),

@@ -35,7 +35,7 @@ def speeds(patterns: pd.DataFrame, sound: pd.DataFrame) -> Figure:
     left.set(ylabel="speed of the pattern over the stream's", title="density pattern on a uniform stream")
     right.set(ylabel="speed of sound over $c$", title="standing sound")
     right.axhline(np.sqrt(2), color="grey", linewidth=0.6)
-    right.annotate(r"$\sqrt{2}$", (8, np.sqrt(2)), textcoords="offset points", xytext=(0, 3))
+    right.annotate(r"$\sqrt{2}$", (8, np.sqrt(2)), textcoords="offset points", xytext=(0, -14))
     for axes in (left, right):
         axes.set(xlabel=r"wavelength $\lambda/a$", xscale="log")
         axes.set_xticks(sorted(set(sound["wavelength"])), labels=[f"{w:g}" for w in sorted(set(sound["wavelength"]))])
@@ -47,7 +47,7 @@ def speeds(patterns: pd.DataFrame, sound: pd.DataFrame) -> Figure:
 
 def steps(euler: pd.DataFrame, history: pd.DataFrame, places: pd.DataFrame) -> Figure:
     """Forward Euler and sound on fixed points; places of points that move."""
-    page, (left, middle, right) = figure(1, 3, width=4.0, height=4.0)
+    page, (left, middle, right) = figure(1, 3, width=4.4, height=4.8)
     nested = euler[euler["transport"] == "nested"]
     for number, (wavelength, group) in enumerate(nested.groupby("wavelength")):
         k2 = (2*np.pi/group["wavelength"])**2
@@ -65,10 +65,12 @@ def steps(euler: pd.DataFrame, history: pd.DataFrame, places: pd.DataFrame) -> F
                yscale="log", ylim=(0.02, None))
     for number, ((motion, flow, integrator), group) in enumerate(places.groupby(["motion", "flow", "integrator"])):
         errorbar(right, *(group.sort_values("dt")[c].tolist() for c in ("dt", "error", "error_err")), number=number,
-                 linestyle="-", label=f"{motion}, {flow}, {integrator}")
+                 linestyle="-", label=f"{motion},\n{flow}, {integrator}")
     right.set(xlabel=r"$\Delta t$", ylabel="rms error of places/displacement", xscale="log", yscale="log", title="Eqs 40, 41")
-    for axes, columns in ((left, 2), (middle, 1), (right, 1)):
-        below(axes, ncols=columns)
+    right.set_xticks([0.03, 0.1, 0.3], labels=["0.03", "0.1", "0.3"])
+    right.minorticks_off()
+    for axes, columns in ((left, 2), (middle, 1), (right, 2)):
+        below(axes, ncols=columns, bbox_to_anchor=(0.5, -0.16))
     return page
 
 
@@ -82,7 +84,7 @@ def conservation(drifts: pd.DataFrame) -> Figure:
         chosen = drifts[drifts["quantity"] == quantity]
         axes.plot(chosen["drift"].clip(lower=1e-17), names[chosen.index].map(order.index), linestyle="none",
                   marker="os^"[number], label=quantity)
-    axes.set(xscale="log", xlabel=f"largest relative drift in {drifts['steps'].max():g} steps; none is drawn at 1e-17")
+    axes.set(xscale="log", xlabel=f"largest relative drift in {drifts['steps'].max():g} steps (0 at 1e-17)")
     axes.set_yticks(range(len(order)), labels=order)
     axes.axvline(1e-13, color="grey", linestyle=":")
     below(axes, ncols=3)
@@ -101,7 +103,7 @@ def brackets(forces: pd.DataFrame, filters: pd.DataFrame) -> Figure:
         group = group.sort_values("k")
         errorbar(right, *(group[c].tolist() for c in ("k", "rate", "rate_err")), number=number, label=f"{name} filter")
         right.plot(group["k"], group["predicted"], color="grey", linestyle=":", marker="")
-    right.set(xscale="log", yscale="log", xlabel="wave number $k a$; the last alternates from point to point",
+    right.set(xscale="log", yscale="log", xlabel="wave number $k a$, largest at the corner",
               ylabel=r"decay rate of density over $\chi$", title="$h = 3a$; without a filter: none")
     for axes in (left, right):
         below(axes, ncols=2)
