@@ -11,10 +11,11 @@ from itertools import product
 from math import inf
 
 from particles.integrators import RK4, TwoStep
-from particles.methods.dih import Nested, Pairwise
+from particles.methods.dih import Nested
 from particles.methods.motions import MOTIONS, ConstantMass, Powers
 from particles.weights import WEIGHTS, Lucy, WendlandC2
 from studies.integral import motions_claims, motions_derive, motions_figures, motions_tables
+from studies.integral.motions_scene import ALONG
 from studies.integral.motions_steps import MOVED, Growth, Places, Share
 from studies.integral.motions_sums import Brackets, Conservation, FilterRun, Identity, Signs
 from studies.integral.motions_waves import Pattern, Sound
@@ -23,7 +24,7 @@ from studies.kit.study import Study, main
 
 CONSTANTS = ((0.0, 0.0), (1.0, -1.0), (2.0, -2.0), (0.0, -1.0), (1.0, 0.0), (2.0, 0.0), (1.0, 1.0), (3.0, 0.0))
 NAMES = {kind: name for name, kind in MOTIONS.items()}
-NESTED, ALONG = Nested(), Pairwise(mended=False)
+NESTED = Nested()
 
 
 def cases(size: str) -> list[Case]:

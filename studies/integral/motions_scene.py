@@ -7,11 +7,13 @@ from continuum.fluid import ConstEta, IdealGas
 from particles.integrators import RK4
 from particles.interpolants import f, reach
 from particles.limits import lattice_sums
+from particles.methods.dih import Pairwise
 from particles.methods.motions import scale_of
 from particles.points import Points, lattice
 from particles.team import Team
 from studies.kit.stats import Measured
 
+ALONG = Pairwise(mended=False)
 GAS, STILL, C = IdealGas(), ConstEta(0.0, 0.0), np.sqrt(2.0)      # c^2 = gamma P/rho = 2 at rho = T = 1
 AMPLITUDE = 1e-4        # of waves: what is quadratic in it is 1e-4 of what is linear, and does not have the wave's length
 BREADTH = 8             # spacings across a wave: more than twice the widest weight
@@ -23,8 +25,9 @@ def strip(wavelength: int, breadth: int = BREADTH) -> Points:
 
 
 def moving(kind: Any, at: Points, weight: Any, law: Any = STILL, **more: Any) -> Any:
-    """A motion of `motions` on points, edges renormalised on them."""
-    return kind(box=tuple(at.box), weight=weight, eos=GAS, law=law, scale=scale_of(at, weight), **more)
+    """A motion of `motions` on points, edges renormalised on them; transport along edges, whose heating most runs do not need."""
+    settings = {"transport": ALONG, **more}
+    return kind(box=tuple(at.box), weight=weight, eos=GAS, law=law, scale=scale_of(at, weight), **settings)
 
 
 def march(method: Any, state: np.ndarray, dt: float, steps: int, look: Any, integrator: Any = RK4) -> list[Any]:

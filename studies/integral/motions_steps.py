@@ -8,7 +8,7 @@ import numpy as np
 from continuum.fluid import ConstEta
 from particles.integrators import RK4, Euler, TwoStep
 from particles.makers import renormalised
-from particles.methods.dih import Dih
+from particles.methods.dih import Dih, Pairwise
 from particles.methods.motions import ConstantMass, Literal
 from particles.points import lattice
 from particles.weights import Lucy
@@ -172,7 +172,7 @@ class Places(Case):
     def places(self, integrator: Any, steps: int) -> np.ndarray:
         """Positions (n, 2) at the end."""
         at = lattice(self.flow.counts)
-        method = moving(self.flow.kind, at, Lucy.of(h=self.h), self.flow.law)
+        method = moving(self.flow.kind, at, Lucy.of(h=self.h), self.flow.law, transport=Pairwise())
         state = method.state(at.x, *FLOWS[self.flow.name](at.x, at.box))
         march(method, state, self.flow.time/steps, steps, lambda state: None, integrator)
         return state[:2].T.copy()

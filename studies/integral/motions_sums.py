@@ -7,17 +7,16 @@ import numpy as np
 
 from continuum.fluid import ConstEta
 from particles.makers import renormalised
-from particles.methods.dih import Dih, Pairwise
+from particles.methods.dih import Dih
 from particles.methods.motions import ConstantMass, Convective, Filtered, Literal, Powers, convected
 from particles.points import Points, jittered, lattice
 from particles.team import Team
 from particles.weights import Lucy
-from studies.integral.motions_scene import AMPLITUDE, GAS, STILL, C, amplitude, by_halves, march, moving, seen_slope, strip
+from studies.integral.motions_scene import ALONG, AMPLITUDE, GAS, STILL, C, amplitude, by_halves, march, moving, seen_slope, strip
 from studies.kit.case import Case, Outcome, Report
 
 SIDE = 6            # spacings of the box of long runs
 POINTS = {"lattice": 0.0, "jittered-0.1": 0.1}
-PLAIN = Pairwise(mended=False)
 
 
 def crowd(at: Points, seed: int = 0) -> tuple[np.ndarray, ...]:
@@ -59,7 +58,7 @@ class Conservation(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         at = jittered((SIDE, SIDE), POINTS[self.points], 1)
-        transport = Filtered(chi=self.chi, transport=PLAIN) if self.chi else PLAIN
+        transport = Filtered(chi=self.chi, transport=ALONG) if self.chi else ALONG
         method = moving(self.kind, at, self.weight.of(h=self.h), ConstEta(0.2, 0.2), transport=transport)
         state = method.state(at.x, *stirred(at))
         stepper, sums, d = self.integrator(state.shape, Team(1)), [method.conserved(state)], at.d
@@ -173,7 +172,7 @@ class FilterRun(Case):
         k = np.pi if corner else 2*np.pi/self.wavelength
         shape = np.cos(np.pi*(at.x - 0.5)).prod(axis=1) if corner else np.cos(k*at.x[:, 0])
         edges = renormalised(at, Lucy.of(h=self.h))
-        transport = Filtered(chi=self.chi, transport=PLAIN, corrected=self.corrected) if self.chi else PLAIN
+        transport = Filtered(chi=self.chi, transport=ALONG, corrected=self.corrected) if self.chi else ALONG
         dih, rho, one = Dih(edges=edges, eos=GAS, law=STILL, transport=transport), 1 + AMPLITUDE*shape, np.ones(at.n)
         T = one if corner else 1/rho
         seen = march(dih, dih.state(rho, 0*at.x, T), self.dt, round(self.time/self.dt),
@@ -192,7 +191,7 @@ class FilterRun(Case):
 def seen_square(dih: Dih, corrected: bool, shape: np.ndarray) -> float:
     """k^2 as the filter sees it: -lap of a wave over the wave, less what a linear density explains."""
     edges = dih.edges
-    filtered = replace(dih, transport=Filtered(chi=1.0, transport=PLAIN, corrected=corrected))
+    filtered = replace(dih, transport=Filtered(chi=1.0, transport=ALONG, corrected=corrected))
     flow = filtered.flow(filtered.state(1 + AMPLITUDE*shape, np.zeros((edges.n, edges.d)), np.ones(edges.n)))
     left = filtered.transport.fluxes(filtered, flow).mass
     lost = np.bincount(edges.i, left, edges.n) - np.bincount(edges.j, left, edges.n)
