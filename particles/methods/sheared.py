@@ -36,7 +36,7 @@ class Sheared:
     fields = ("rho", "px", "py", "eps", "slid")
 
     def __post_init__(self):
-        assert self.sides.counts[0] > 0        # makes them: what is wrong with the points is told here
+        _ = self.sides      # what is wrong with points or edges is told here
 
     @cached_property
     def sides(self) -> Sides:

@@ -59,10 +59,10 @@ def sides(points: Points, edges: Edges) -> Sides:
     Raises
     ------
     ValueError
-        The points are no lattice, or its edges are not their own mirror images in x.
+        The points are no lattice, or its edges are not alike in all columns and mirror images of each other in x.
     """
     counts = check_lattice(points)
-    check_mirror(points, edges)
+    check_alike(points, edges, counts)
     i, j = np.concatenate([edges.i, edges.j]), np.concatenate([edges.j, edges.i])
     S, k = np.concatenate([edges.S, -edges.S])/2, np.concatenate([edges.k, edges.k])
     up = crossing(points, edges)
@@ -107,15 +107,23 @@ def crossing(points: Points, edges: Edges) -> np.ndarray:
     return np.round(beyond/points.box[1]).astype(int)
 
 
-def check_mirror(points: Points, edges: Edges) -> None:
-    """Refuse edges whose S_x through the side do not add up to zero at every point."""
-    through = crossing(points, edges) != 0
-    ends, pull = np.concatenate([edges.i[through], edges.j[through]]), np.tile(edges.S[through, 0], 2)
-    pull[len(pull)//2:] *= -1
-    worst = np.abs(np.bincount(ends, pull, points.n)).max()
-    if worst > SYMMETRIC*np.abs(edges.S).sum(axis=1).max():
-        raise ValueError(f"edges through the side have a sum of S_x of {worst:.3g} at a point, which must be zero: momentum "
-                         "would be lost; take edges of a weight, not of a triangulation, whose diagonals lean one way")
+def check_alike(points: Points, edges: Edges, counts: tuple[int, int]) -> None:
+    """Refuse edges through the side that differ from column to column, or whose S_x do not add up to zero at a point."""
+    up = crossing(points, edges)
+    turn, through = np.where(up < 0, -1.0, 1.0)[up != 0, None], up != 0
+    S, apart = turn*edges.S[through], turn*edges.apart[through]
+    below = np.where(turn[:, 0] > 0, edges.i[through], edges.j[through])
+    kinds = np.column_stack([below % counts[1], np.round(apart/points.a).astype(int)])
+    _, kind, number = np.unique(kinds, axis=0, return_inverse=True, return_counts=True)
+    mean = np.stack([np.bincount(kind.ravel(), s)/number for s in S.T], axis=1)
+    size = np.abs(edges.S).sum(axis=1).max()
+    if (number != counts[0]).any() or np.abs(S - mean[kind.ravel()]).max() > SYMMETRIC*size:
+        raise ValueError("edges through the side differ from column to column, so that a point would not see another as that "
+                         "sees it when images slide: take edges of a weight, not of a triangulation, which chooses diagonals")
+    worst = np.abs(np.bincount(below, S[:, 0], points.n)).max()
+    if worst > SYMMETRIC*size:
+        raise ValueError(f"edges through the side have a sum of S_x of {worst:.3g} at a point, which must be zero or momentum is "
+                         "lost: take edges that are their own mirror images in x, such as those of a weight")
 
 
 @jit

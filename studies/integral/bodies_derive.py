@@ -6,15 +6,14 @@ import numpy as np
 import pandas as pd
 from scipy.special import stdtrit
 
-from continuum.richardson import richardson
 from studies.integral.ordering_derive import line
 from studies.kit.stats import Measured, combine
 from studies.kit.table import Tables
 
 LEAST = 3           # sizes of a limit
 WIDE = 4.0          # spacings: of a smaller radius the circle is too coarse a polygon for an order to show
-SLOW = 0.01         # Reynolds number below which a drag is that of flow without inertia
-SMOOTH = ("surface", "surface-unfiltered")      # their errors are of second order; a staircase's scatter
+SLOW = 1e-3         # Mach number of the streams whose drags are compared with print
+ORDERS = {"surface": 2, "surface-unfiltered": 2}        # of the drag's error in the spacing; of a staircase 1
 
 
 def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
@@ -29,27 +28,21 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
 
 def limits(drags: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """One row a variant and solid fraction."""
-    chosen = drags[(drags["reynolds"] < SLOW) & (drags["radius"] > WIDE)]
+    chosen = drags[(drags["mach"] < SLOW) & (drags["radius"] > WIDE)]
     for (variant, fraction), group in chosen.groupby(["variant", "fraction"]):
         if len(group) < LEAST:
             continue
         drag, rows = group["drag"].to_numpy(), group["rows"].to_numpy(float)
         print_, print_err = group["published"].iloc[0], group["published_err"].iloc[0]
-        seen, found = smooth_limit(drag, rows) if variant in SMOOTH else (np.nan, intercept(1/rows, drag))
+        found = intercept(rows**-ORDERS.get(str(variant), 1), drag)
         err = float(np.hypot(found.err, group["drag_err"].max()))       # what was not steady yet adds to it
         slope = line(np.log(rows), np.log(np.abs(group["error"])))
         known = group["offset"].notna().all()
         offset = combine([(value, 0.0) for value in group["offset"]]) if known else Measured(np.nan, np.nan)
         yield {"variant": variant, "fraction": fraction, "sizes": len(group), "limit": found.value, "limit_err": err,
-               "order": seen, "error": found.value/print_ - 1,
+               "error": found.value/print_ - 1,
                "error_err": float(np.hypot(err, found.value/print_*print_err)/print_),
                "slope": slope[0], "slope_err": slope[1], "offset": offset.value, "offset_err": offset.err}
-
-
-def smooth_limit(drag: np.ndarray, rows: np.ndarray) -> tuple[float, Measured]:
-    """Order seen on the three finest sizes, and the limit."""
-    found = richardson(drag.tolist(), rows.tolist(), order=2.0, step=1.0)
-    return found.order, Measured(found.limit, found.error)
 
 
 def intercept(x: np.ndarray, y: np.ndarray) -> Measured:

@@ -10,7 +10,7 @@ from studies.kit.table import Tables
 
 NAMES = {"surface": "points on the surface", "surface-unfiltered": "the same without filter", "frozen": "frozen lattice points",
          "frozen-grown": "frozen, half a spacing more", "frozen-h3": "frozen, $h = 3a$"}
-SLOW = 0.01
+SLOW = 1e-3
 
 
 def figures(tables: Tables) -> dict[str, Figure]:
@@ -58,7 +58,7 @@ def draw_stream(panel, some: pd.DataFrame) -> None:
 
 def drags(drag: pd.DataFrame) -> Figure:
     """Error of the drag against the published value over the resolution, one panel a solid fraction."""
-    slow = drag[drag["reynolds"] < SLOW]
+    slow = drag[drag["mach"] < SLOW]
     fractions = sorted(set(slow["fraction"]))
     page, axes = figure(1, len(fractions), width=4.4, height=4.2, squeeze=False, sharey=True)
     for panel, fraction in zip(axes[0], fractions, strict=True):
@@ -71,7 +71,7 @@ def drags(drag: pd.DataFrame) -> Figure:
         for power, style, at in ((1, ":", 60.0), (2, "--", 16.0)):
             panel.plot(across, at*across**-power, color="grey", linestyle=style, marker="", label=f"$(a/R)^{power}$")
         panel.set(xscale="log", yscale="log", title=f"solid fraction {fraction:g}", xlabel="radius $R/a$")
-        panel.set_xticks([3, 5, 10, 20], labels=["3", "5", "10", "20"])
+        panel.set_xticks([4, 6, 10, 20], labels=["4", "6", "10", "20"])
         panel.minorticks_off()
         below(panel, ncols=2, bbox_to_anchor=(0.5, -0.16))
     axes[0, 0].set_ylabel("|error| of the drag, %")

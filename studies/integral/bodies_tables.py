@@ -8,10 +8,10 @@ DRAGS = ["variant", "fraction", "rows"]
 DRAG = Table("drag", key=[*DRAGS, "reynolds"],
              columns=[*DRAGS, "radius", "points", "drag", "drag_err", "published", "published_err", "error", "error_err",
                       "balance", "offset", "reynolds", "mach", "density_range", "dt", "steps"])
-#: extrapolated to infinitely fine points: by Richardson where the error is smooth (order: what its three finest sizes show), by a
-#: line in 1/rows where it scatters (order nan); error: against print; slope: d ln |error|/d ln rows; offset: mean over sizes
+#: extrapolated to infinitely fine points by a line in rows^-2 (points on the surface) or 1/rows (staircases), error from the
+#: scatter about it; error: against print; slope: d ln |error|/d ln rows; offset: mean over sizes
 LIMITS = Table("limits", key=["variant", "fraction"],
-               columns=["variant", "fraction", "sizes", "limit", "limit_err", "order", "error", "error_err", "slope", "slope_err",
+               columns=["variant", "fraction", "sizes", "limit", "limit_err", "error", "error_err", "slope", "slope_err",
                         "offset", "offset_err"])
 #: points and velocities of one stream, in units of the mean velocity; held: 1 for points of the body
 FIELD = Table("field", key=["variant", "fraction", "rows", "point"],
