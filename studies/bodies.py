@@ -16,7 +16,8 @@ from studies.kit.case import Case
 from studies.kit.study import Study, main
 
 MAKERS = (("renormalised", renormalised, 2.0), ("renormalised", renormalised, 3.0), ("delaunay", delaunay, 2.0))
-SMOOTH, SCATTERED = (24, 28, 32, 36, 40, 48, 56), tuple(range(24, 50, 2))     # sizes where errors are smooth, where they are not
+SMOOTH = (24, 28, 32, 36, 40, 44, 48, 52, 56)      # sizes where errors are smooth, and where they are not
+SCATTERED = tuple(range(24, 50, 2))
 SHOWN = (12, 32)
 
 
