@@ -21,7 +21,7 @@ from studies.integral.conservation_sums import ROUND_OFF, Watch, exact_sums, kin
 from studies.integral.operators import Disorder
 from studies.kit.case import Case, Outcome, Report
 
-COUNTS = {1: (32,), 2: (8, 8), 3: (4, 4, 4)}
+COUNTS = {1: (32,), 2: (6, 6), 3: (4, 4, 4)}
 ETA, SIZE = 0.1, 0.1
 OF_LIMIT = 0.5
 

@@ -45,7 +45,7 @@ class MovingDrift(Case):
         inside = plates(SIDE, 1.0, 1.0) if self.wall.plates else periodic(SIDE, 1)
         method = Moving(weight=WendlandC2.of(h=H), eos=IdealGas(), law=ConstEta(eta, eta), box=(SIDE, SIDE),
                         walls=(*inside, *periodic(SIDE)), ingredients=self.ingredients)
-        rho, v, T = random_fields(points, MODES["pairwise"].size, self.seed)
+        rho, v, T = random_fields(points, MODES["pairwise"].size, self.seed, self.wall.plates)
         state, reached = method.state(points.x, v, rho, T), self.steps
         watch, dt, begin = self.watch(state), OF_LIMIT*limit_of(method, state), motion(state)
         watch(state)

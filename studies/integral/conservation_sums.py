@@ -23,11 +23,12 @@ def smooth(points: Points, size: float, rng: np.random.Generator) -> np.ndarray:
     return size*np.sqrt(2/len(turns))*np.cos(phase)@rng.normal(size=len(turns))
 
 
-def random_fields(points: Points, size: float, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """rho (n,), v (n, d) in a light wind, T (n,)."""
+def random_fields(points: Points, size: float, seed: int, plates: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """rho (n,), v (n, d) in a light wind, between plates along these, T (n,)."""
     rng = np.random.default_rng(seed)
     rho, T, *v = (smooth(points, size, rng) for _ in range(2 + points.d))
-    return 1 + rho, np.stack(v, axis=1) + np.array(WIND[:points.d]), 1 + T
+    wind = WIND[:1] + (0.0,)*(points.d - 1) if plates else WIND[:points.d]
+    return 1 + rho, np.stack(v, axis=1) + np.array(wind), 1 + T
 
 
 def exact_sums(V: np.ndarray, state: np.ndarray) -> np.ndarray:
