@@ -3,7 +3,7 @@
 Small waves of density, velocity and temperature decay on lattices and on irregular points: what comes out is held against the
 lattice symbol, in closed form from the weight, and against the continuum. Couette and Poiseuille flow start from rest between
 plates and are held against their series. Units: spacing a = 1, rho = T = 1, ideal gas with C_V = 1 in 2D. Paper size takes
-about two minutes. Writes results/transport/*.csv and *.png and the rows of study transport in results/claims.csv.
+about three minutes. Writes results/transport/*.csv and *.png and the rows of study transport in results/claims.csv.
 """
 from collections.abc import Iterator
 from itertools import product
@@ -20,6 +20,7 @@ from studies.kit.study import Study, main
 
 ZETA = 0.2
 SEEDS = (1, 2, 3)
+LONG = 32           # spacings: longer waves on irregular points cost seconds each
 JITTER = 0.2        # spacings, of points between plates
 #: transport and bulk viscosity: forces along edges share out the two viscosities with zeta > 0 only in 2D
 GASES = (("nested", ZETA), ("pairwise", 0.0), ("pairwise", ZETA))
@@ -36,8 +37,10 @@ def on_lattice(wavelengths: tuple[int, ...]) -> Iterator[Case]:
 
 
 def irregular(wavelengths: tuple[int, ...]) -> Iterator[Case]:
-    """Points jittered by 0.3 a, three sets each."""
+    """Points jittered by 0.3 a, three sets each; the longest waves with the least that Eq. 51 can be."""
     for (transport, zeta), maker, n, seed in product(GASES, ("delaunay", "exact"), wavelengths, SEEDS):
+        if n > LONG and (transport, zeta) != GASES[1]:
+            continue
         yield Decay(transport=transport, zeta=zeta, maker=maker, make=MAKERS[maker], weight=Lucy, h=3.0,
                     disorder=DISORDERS["jittered-0.3"], counts=(n, 12), seed=seed)
 
@@ -53,7 +56,7 @@ def cases(size: str) -> list[Case]:
     """`quick` has three short wavelengths, one kind of irregular points and layers of few rows."""
     if size == "quick":
         return [*on_lattice((16, 24, 32)), *list(irregular((16,)))[:3], *shear((8, 12, 16), (8,))]
-    return [*on_lattice((8, 16, 24, 32, 48, 64)), *irregular((16, 24, 32)), *shear((8, 16, 32, 64), (8, 16, 32, 48))]
+    return [*on_lattice((8, 16, 24, 32, 48, 64)), *irregular((16, 24, 32, 48)), *shear((8, 16, 32, 64), (8, 16, 32, 48))]
 
 
 STUDY = Study(name="transport", cases=cases, tables=transport_tables.ALL, derive=transport_derive.derive,

@@ -24,18 +24,17 @@ def figures(tables: Tables) -> dict[str, Figure]:
 
 
 def drift(rows: pd.DataFrame) -> Figure:
-    """Changes of all sums in all runs that reached the end, one column a scheme, mode and wall."""
+    """Changes of claimed sums in runs that reached the end, of others in all runs; one column a scheme, mode and wall."""
     page, axes = figure(1, 1, width=9.0, height=5.0)
     names = [f"{scheme} {mode}\n{wall}" for scheme, mode, wall in zip(rows["scheme"], rows["mode"], rows["wall"], strict=True)]
     rows, order = rows.assign(column=names), sorted(set(names))
-    whole = finished(rows)
     for number, name in enumerate(SUMS):
-        x = np.array([order.index(column) for column in whole["column"]]) + 0.15*(number - 1.5)
-        claimed = np.array([name in text.split() for text in whole["claimed"]])
-        for chosen, fill in ((claimed, "full"), (~claimed, "none")):
-            y = np.maximum(whole[name].to_numpy()[chosen], LEAST)
-            errorbar(axes, x[chosen].tolist(), y.tolist(), [0.0]*int(chosen.sum()), number=number, fillstyle=fill,
+        claimed = np.array([name in text.split() for text in rows["claimed"]], bool)
+        for chosen, fill in ((finished(rows[claimed]), "full"), (rows[~claimed], "none")):
+            x = [order.index(column) + 0.15*(number - 1.5) for column in chosen["column"]]
+            errorbar(axes, x, np.maximum(chosen[name], LEAST).tolist(), [0.0]*len(x), number=number, fillstyle=fill,
                      label=name if fill == "full" else "")
+    axes.set_xlim(-0.6, len(order) - 0.4)
     axes.axhline(1e-13, color="grey", linestyle=":")
     axes.set(yscale="log", ylabel="largest relative change over the run")
     axes.set_xticks(range(len(order)), labels=order, rotation=60, ha="right", fontsize=8)
@@ -57,6 +56,6 @@ def sound(rows: pd.DataFrame) -> Figure:
         axes.set(yscale="log", title=TITLES[bracket])
         axes.set_ylim(LEAST/3, 300)
         axes.set_xticks(range(len(MAKERS)), labels=MAKERS, rotation=45, ha="right")
-        below(axes, ncols=2, bbox_to_anchor=(0.5, -0.3))
     both[0].set_ylabel("fastest growth of sound per period")
+    page.legend(*both[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return page

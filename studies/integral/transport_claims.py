@@ -158,6 +158,13 @@ CLAIMS = (
           value=farthest(("viscosity", "conductivity"), **IRREGULAR, **NESTED), because="1 %",
           statement="on points jittered by 0.3 a with Delaunay edges nested transport has the viscosity and the conductivity put "
                     "in for endless waves: largest relative difference"),
+    Claim(id="rr98-transport-irregular-delaunay", source="RR98 Eq. 51", expect=2, within=0.2, because="second order",
+          value=order("conductivity", **IRREGULAR, transport="pairwise", zeta=0.0),
+          statement="heat along Delaunay edges on points jittered by 0.3 a: order of the conductivity's error in 1/wavelength"),
+    Claim(id="rr98-transport-irregular-exact", source="RR98 Eq. 51", expect=2, within=0.2, because="second order",
+          value=order("conductivity", **{**IRREGULAR, "maker": "exact"}, transport="pairwise", zeta=0.0),
+          statement="heat along edges of a weight, made exact on linear fields, h = 3 a, on points jittered by 0.3 a: order of "
+                    "the conductivity's error in 1/wavelength"),
     Claim(id="rr98-transport-couette", source="RR98 Sec. III A", printed="left to the literature", expect=2, within=0.1,
           value=shear_order("couette", "lattice"), because="second order; 8 rows are worth 0.03",
           statement="Couette flow from rest between mirror plates on a lattice, forces along edges: order of its rms error in "

@@ -3,7 +3,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from studies.kit.figure import below, errorbar, figure, look
+from studies.kit.figure import errorbar, figure, look
 from studies.kit.table import Tables
 
 SHOWN = ("viscosity", "bulk viscosity", "conductivity", "sound speed")
@@ -65,6 +65,6 @@ def shear(rows: pd.DataFrame) -> Figure:
         axes.set(xscale="log", yscale="log", title=flow, xlabel="rows between the plates")
         axes.set_xticks([8, 16, 32, 64], labels=["8", "16", "32", "64"])
         axes.minorticks_off()
-        below(axes, ncols=2, bbox_to_anchor=(0.5, -0.18))
     both[0].set_ylabel("rms error of the velocity")
+    page.legend(*both[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return page
