@@ -36,12 +36,20 @@ class PaperForm(NamedTuple):
     """d rho/dt = -rho div v - v.grad rho, density 1 in the cells outside of the walls    [KHP95, Sec. V]"""
 
 
+class EdgeHeat(NamedTuple):
+    """The flux form with viscous heating eta |grad v|^2, as forces along edges heat    [RR98, Eq. 51]
+
+    Wrong: even a rigid rotation heats. It tells what limit a particle scheme has that heats so.
+    """
+
+
 @generic
 def outside(form, near, next_):
     """Density in the cell behind a wall, from those of the two cells before it."""
 
 
 outside.of(FluxForm)(lambda form, near, next_: 2*near - next_)
+outside.of(EdgeHeat)(lambda form, near, next_: 2*near - next_)
 outside.of(PaperForm)(lambda form, near, next_: 1.0)
 
 
@@ -101,6 +109,17 @@ def density_rate(form, S, n, j, i):
 
 @density_rate.of(FluxForm)
 def _(form, S, n, j, i):
+    return through_faces(S, n, j, i)
+
+
+@density_rate.of(EdgeHeat)
+def _(form, S, n, j, i):
+    return through_faces(S, n, j, i)
+
+
+@jit
+def through_faces(S, n, j, i):
+    """-div(rho v) times 2 h: what goes through the faces of cell (j, i)."""
     vx, vy, a, b = S[VX], S[VY], j % 2, (j + 1) % 2
     return (n[a, i]*(vx[j, i] + vy[j, i]) - n[a, i + 1]*(vx[j, i + 1] - vy[j, i + 1])
             + n[b, i]*(vx[j + 1, i] - vy[j + 1, i]) - n[b, i + 1]*(vx[j + 1, i + 1] + vy[j + 1, i + 1]))
@@ -112,6 +131,25 @@ def _(form, S, n, j, i):
     (vx, vx_x, _), (vy, _, vy_y) = corners(S[VX], j, i), corners(S[VY], j, i)
     return -(rho[j, i]*(vx_x + vy_y)
              + vx*(rho[j, i + 1] - rho[j, i - 1]) + vy*(rho[j + 1, i] - rho[j - 1, i]))
+
+
+@generic
+def work(form, sxx, sxy, syy, P, f, xx, xy, yx, yy):
+    """(sigma - P):grad v times (2 h)^2 from sigma - P and differences; f is eta/(2 h)."""
+
+
+def of_stress(form, sxx, sxy, syy, P, f, xx, xy, yx, yy):
+    """As the equations have it."""
+    return sxx*xx + sxy*(xy + yx) + syy*yy
+
+
+work.of(FluxForm)(of_stress)
+work.of(PaperForm)(of_stress)
+
+
+@work.of(EdgeHeat)
+def _(form, sxx, sxy, syy, P, f, xx, xy, yx, yy):
+    return f*((xx*xx + yy*yy) + (xy*xy + yx*yx)) - P*(xx + yy)
 
 
 @jit
@@ -148,7 +186,7 @@ def cell_row(eos, law, form, box, S, n, T, cell, out, j):
         sxx, syy = sxx - P, syy - P
         cell[0, i], cell[1, i], cell[2, i] = sxx, sxy, syy
         cell[3, i], cell[4, i] = to_slope*k*(up + down), to_slope*k*(up - down)
-        cell[5, i] = sxx*xx + sxy*(xy + yx) + syy*yy
+        cell[5, i] = work(form, sxx, sxy, syy, P, to_slope*eta, xx, xy, yx, yy)
         out[RHO, j, i] = to_slope*density_rate(form, S, n, j, i)
     cell[:, 0] = cell[:, nx]
 

@@ -3,7 +3,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from continuum.compressible_loop import PaperForm
+from continuum.compressible_loop import EdgeHeat, PaperForm
 from continuum.fluid import conductivity, energy, pressure, temperature, viscosity
 from continuum.scene import Periodic
 
@@ -66,6 +66,8 @@ def rates(scene, form, s):
     sxx, sxy, syy = eta*(vx_x - vy_y) - P, eta*(vx_y + vy_x), eta*(vy_y - vx_x) - P
     qx, qy = -k*d_dx(T, h), -k*d_dy(T, h)
     work = sxx*vx_x + sxy*(vx_y + vy_x) + syy*vy_y
+    if isinstance(form, EdgeHeat):
+        work = eta*(vx_x**2 + vx_y**2 + vy_x**2 + vy_y**2) - P*(vx_x + vy_y)
     if isinstance(form, PaperForm):
         rho_x, rho_y = (rho_near[1:-1, 2:] - rho_near[1:-1, :-2])/(2*h), (rho_near[2:, 1:-1] - rho_near[:-2, 1:-1])/(2*h)
         rho_t = -s.rho*(vx_x + vy_y) - mean(s.vx)*rho_x - mean(s.vy)*rho_y

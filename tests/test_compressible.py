@@ -7,7 +7,7 @@ from plain_grid import State, rates, step
 
 from continuum.compressible import DivergedError, March, limits, run
 from continuum.compressible_fields import Fields, block, initial
-from continuum.compressible_loop import RHO, FluxForm, PaperForm
+from continuum.compressible_loop import RHO, EdgeHeat, FluxForm, PaperForm
 from continuum.fluid import (
     EQUATIONS_OF_STATE,
     ConstEta,
@@ -47,8 +47,9 @@ def moving(scene, rows, vx=0.0, vy=0.0) -> Fields:
     (GAS, PaperForm()),
     (RayleighBenard(ra=5000, eos=VanDerWaals(), transport=ConstEta), FluxForm()),
     (RayleighBenard(ra=5000, sides=Walls(), aspect=1.5), FluxForm()),
+    (GAS, EdgeHeat()),
     (RayleighBenard(ra=5000, sides=Walls(), eos=DenseFluid(), transport=ConstNu), PaperForm()),
-], ids=["gas", "van der Waals", "box", "dense box"])
+], ids=["gas", "van der Waals", "box", "heated along edges", "dense box"])
 def test_the_loop_equals_its_plain_twin(scene, form):
     start, dt = rough(scene, 8), 0.2
     fast = run(scene, 8, until=Time(3*dt, samples=1), dt=dt, start=start, continuity=form)

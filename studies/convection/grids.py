@@ -9,7 +9,7 @@ import numpy as np
 from continuum import boussinesq, pypde
 from continuum.compressible import Solution, run, steady_on
 from continuum.compressible_fields import Fields, initial, interpolate
-from continuum.compressible_loop import FluxForm, PaperForm
+from continuum.compressible_loop import EdgeHeat, FluxForm, PaperForm
 from continuum.scene import RayleighBenard
 from continuum.steady import Steady, Time
 from particles.observe import Grid
@@ -32,7 +32,7 @@ class Form(NamedTuple):
 
 
 #: "fig10" is a scene of its own temperatures, told apart from others by this name only
-FORMS = {"flux-form": Form(), "paper-form": Form(PaperForm()), "two-rolls": Form(rolls=2, aside=1),
+FORMS = {"flux-form": Form(), "paper-form": Form(PaperForm()), "edge-heat": Form(EdgeHeat()), "two-rolls": Form(rolls=2, aside=1),
          "fig10": Form(rolls=2, aside=1)}
 
 

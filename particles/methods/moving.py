@@ -1,0 +1,474 @@
+"""A conservative scheme on moving points: volume, mass, momentum and energy exchanged over faces, in 2D.
+
+Points have volumes that change as their surroundings do. Faces S_ij = -S_ji between points within the range of a weight close
+and are exact on linear fields, as nearly as a few iterations make them; points drift with the fluid and a little towards even
+spacing, and what volume they leave to each other carries mass, momentum and energy along. RR98's moving volumes (Eqs 46-48)
+conserve none of these. With x_ij = x_j - x_i, F = -w'/r:
+
+    B_i = (sum_j V_j F x x)^-1,  s_i = 2/sum_j V_j F r^2,  k_ij = V_i V_j F (s_i + s_j)
+    S_ij = V_i V_j F (B_i + B_j) x_ij + k_ij [phi_j - phi_i + (psi_i + psi_j).x_ij]
+
+phi, psi from sum_j S_ij = 0 and 1/2 sum_j S_ij x_ij = V_i 1: symmetric positive equations, solved by conjugate gradients from
+what the last step found. Between plates convection and pressure see images without friction, friction and heat others: see
+`layer`.
+"""
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import conductivity, energy, pressure, sound_speed, temperature, valid, viscosity
+from continuum.jit import jit
+from particles.limits import limit_of
+from particles.neighbours import u64
+from particles.pairs import Faces, nothing, rate, sweep
+from particles.surroundings import Surroundings
+from particles.team import Team
+from particles.walls import confine
+from particles.walls.mirror import Mirror
+
+#: rows of a state: places, drift velocity, momentum, mass, volume, total energy, and the last solution for the faces
+FIELDS = ("x", "y", "wx", "wy", "px", "py", "m", "V", "E", "phi_x", "psi_xx", "psi_xy", "phi_y", "psi_yx", "psi_yy")
+EXCHANGED, SOLVED = slice(4, 9), slice(9, 15)
+
+Metric = np.dtype([(name, "f8") for name in ("V", "xx", "xy", "yy", "s")])
+Potential = np.dtype([(name, "f8") for name in FIELDS[SOLVED]])
+#: seen by convection and pressure: vx .. theta; by friction and heat: ux, uy, Td; F mends the heating, (gx, gy) = grad P'
+Point = np.dtype([(name, "f8") for name in ("vx", "vy", "P", "rho", "e", "c2", "shift_x", "shift_y", "theta", "gx", "gy", "ux",
+                                            "uy", "Td", "eta", "k", "Fx", "Fy")])
+
+
+class Ingredients(NamedTuple):
+    """What the scheme is made of; each can be left out.
+
+    iterations : at most, for the faces; 0 leaves them open. within : relative residual at which they are good enough.
+    shift : of points towards even spacing, in spacings^2. follow : how fast volumes follow the density of points.
+    spread : of mass against pressure waves at the spacing, over a c/2; smooth : of what a linear pressure leaves only.
+    static : hydrostatic and mean pressure taken from the faces. mended : the right heating by friction along faces.
+    """
+    iterations: int = 12
+    within: float = 1e-3
+    damp: float = 1e-3
+    shift: float = 5.0
+    follow: float = 2.0
+    spread: float = 0.1
+    smooth: bool = False
+    static: bool = True
+    mended: bool = True
+
+
+class Closing(NamedTuple):
+    """Closure and moments of k [phi_j - phi_i + (psi_i + psi_j).x_ij], for S_x and S_y."""
+
+
+class Differences(NamedTuple):
+    """V grad of v and P by differences: d_x u, d_y u, d_x v, d_y v, d_x P, d_y P."""
+
+
+class Exchange(NamedTuple):
+    """What a face lets through: volume twice (with the fluid, between points), mass, momentum, energy."""
+    follow: float
+    spread: float
+    smooth: float
+
+
+nothing.of(Closing)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+nothing.of(Differences)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+nothing.of(Exchange)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+
+
+@rate.of(Closing)
+def _(term, a, b, ab):
+    gx = ab.k*(b.phi_x - a.phi_x + (a.psi_xx + b.psi_xx)*ab.dx + (a.psi_xy + b.psi_xy)*ab.dy)
+    gy = ab.k*(b.phi_y - a.phi_y + (a.psi_yx + b.psi_yx)*ab.dx + (a.psi_yy + b.psi_yy)*ab.dy)
+    return -gx, gx*ab.dx, gx*ab.dy, -gy, gy*ab.dx, gy*ab.dy
+
+
+@rate.of(Differences)
+def _(term, a, b, ab):
+    du, dv, dP = b.ux - a.ux, b.uy - a.uy, b.P - a.P
+    return ab.sx*du, ab.sy*du, ab.sx*dv, ab.sy*dv, ab.sx*dP, ab.sy*dP
+
+
+@rate.of(Exchange)
+def _(term, a, b, ab):
+    sx, sy, k = ab.sx, ab.sy, ab.k
+    to_a, to_b = sx*a.vx + sy*a.vy, sx*b.vx + sy*b.vy
+    left = sx*(a.shift_x + b.shift_x) + sy*(a.shift_y + b.shift_y) + term.follow*k*(b.theta - a.theta)
+    linear = 0.5*term.smooth*((a.gx + b.gx)*ab.dx + (a.gy + b.gy)*ab.dy)
+    c2 = a.c2 + b.c2
+    mass = left*0.5*(a.rho + b.rho) + term.spread*np.sqrt(0.5*c2)*k*(b.P - a.P - linear)/c2
+    f, du, dv = 0.5*(a.eta + b.eta)*k, b.ux - a.ux, b.uy - a.uy
+    P = a.P + b.P
+    through = 0.5*(f*(du*(a.ux + b.ux) + dv*(a.uy + b.uy)) + (a.k + b.k)*k*(b.Td - a.Td)) \
+        + sx*(a.Fx + b.Fx) + sy*(a.Fy + b.Fy) + 0.5*mass*(a.e + b.e + a.vx*b.vx + a.vy*b.vy) - a.P*to_b - b.P*to_a
+    return (f*du - sx*P + 0.5*mass*(a.vx + b.vx), f*dv - sy*P + 0.5*mass*(a.vy + b.vy), mass, to_a + to_b, left, through)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Moving:
+    """A fluid on moving points, about one a unit area.
+
+    weight : of `particles.weights`. walls : tuple of mirror plates and periodic sides. box : (width, height). g : gravity,
+    downwards. rho0 : mean density, of the hydrostatic pressure -rho0 g y that is left out of the faces.
+    """
+    weight: Any
+    eos: Any
+    law: Any
+    walls: tuple
+    box: tuple[float, float]
+    g: float = 0.0
+    rho0: float = 1.0
+    ingredients: Ingredients = Ingredients()  # noqa: RUF009 (immutable)
+    skin: float = 0.5
+
+    fields = FIELDS
+
+    def state(self, x: np.ndarray, v: np.ndarray, rho: Any, T: np.ndarray) -> np.ndarray:
+        """(15, n) of places (n, 2), velocities (n, 2), densities, temperatures (n,); all volumes are equal."""
+        V = np.full(len(x), self.box[0]*self.box[1]/len(x))
+        m, e = rho*V, energy(self.eos, rho, T)
+        exchanged = [*(m[:, None]*v).T, m, V, m*(e + (v**2).sum(axis=1)/2)]
+        return np.stack([*x.T, *v.T, *exchanged, *np.zeros((6, len(x)))])
+
+    def start(self, n: int, team: Team) -> "Exchanging":
+        """The sums of n points, with their arrays."""
+        return Exchanging(self, n, team)
+
+    def integrator(self, shape: tuple[int, ...], team: Team) -> "DriftKickDrift":
+        """Half a drift, faces and what goes through them, half a drift."""
+        return DriftKickDrift(shape)
+
+
+@limit_of.register
+def _(method: Moving, start: np.ndarray) -> float:
+    """Three-stage Runge-Kutta, 1.73 on the imaginary and 2.5 on the real axis; points lie off a lattice, so 1.4 times faster.
+
+    On a lattice sound is at most c/(0.5 a), diffusion 4 chi k2 with k2 below 4/a^2, for weights of range 3 a and more.
+    """
+    px, py, m, V, E = start[EXCHANGED]
+    rho, e = m/V, E/m - (px**2 + py**2)/(2*m**2)
+    T = temperature(method.eos, rho, e)
+    slope = (temperature(method.eos, rho, e + 1e-6) - T)/1e-6
+    chi = np.max(np.maximum(viscosity(method.law, rho, T), conductivity(method.law, rho, T)*slope)/rho)
+    fast = np.max(sound_speed(method.eos, rho, e) + np.hypot(px, py)/m)
+    return float(1/(1.4*(fast/1.73 + 4*chi/2.5)))
+
+
+class DriftKickDrift:
+    """Points drift half a step, exchange over frozen faces in three Runge-Kutta stages, drift the other half."""
+    evaluations = 3
+
+    def __init__(self, shape: tuple[int, ...]):
+        self.rates, self.first = np.zeros(shape), np.zeros(shape)
+
+    def step(self, sums: "Exchanging", y: np.ndarray, dt: float) -> None:
+        """Advance y in place by dt    [third-order strong-stability-preserving Runge-Kutta in between]"""
+        sums.drift(y, dt/2)
+        sums.make_faces(y)
+        now, k, first = y[EXCHANGED], self.rates[EXCHANGED], self.first[EXCHANGED]
+        first[:] = now
+        for old, new in ((0.0, 1.0), (3/4, 1/4), (1/3, 2/3)):
+            sums.rates(y, self.rates)
+            now[:] = old*first + new*(now + dt*k)
+        sums.set_drift(y)
+        sums.drift(y, dt/2)
+
+
+class Exchanging:
+    """The compiled sums of moving points, with what the time loop asks for."""
+
+    def __init__(self, method: Moving, n: int, team: Team):
+        self.method, self.team, self.n = method, team, n
+        self.around = Surroundings(method.weight, method.walls, n, method.box, skin=method.skin, team=team)
+        self.slopes, self.total, self.held, self.P0 = np.zeros((n, 6)), np.zeros((n, 6)), np.zeros((n, 2)), 0.0
+        self.shift, self.count, self.iterations = np.zeros((n, 2)), np.zeros(n), 0
+        self._lists, self._entries = -1, -1
+
+    # --- geometry ---------------------------------------------------------------------------------------------
+
+    def make_faces(self, state: np.ndarray) -> None:
+        """Pairs, volumes and faces where the points are now; the solution is left in the state."""
+        around = self.around
+        around.place(state, 1.0)
+        self._allocate()
+        self.metric["V"][:self.n] = state[7]
+        self._copy(self.metric, ("V",))
+        self.count = around.rho[:self.n].copy()
+        self.team(_metric, self.n, around.pairs, around.x, around.y, self.metric, self.shift)
+        self.shift *= -self.method.ingredients.shift
+        self._limit_shift(state)
+        self._copy(self.metric, ("xx", "yy", "s"), ("xy",))
+        self.team(_open_faces, self.n, around.pairs, around.x, around.y, self.metric, self.faces)
+        if self.method.ingredients.iterations:
+            self._close(state[SOLVED])
+
+    def _allocate(self) -> None:
+        points, entries, pairs = len(self.around.x), len(self.around.pairs.near), self.around.pairs
+        if self._lists != self.around.lists_made:       # as many ghosts as before may be those of others
+            self._lists = self.around.lists_made
+            self.points, self.metric = np.zeros(points, Point), np.zeros(points, Metric)
+            self.potential = np.zeros(points, Potential)
+            self._signs()
+        if self._entries != entries:
+            self._entries, self._store = entries, np.empty((5, entries))
+        self.faces = Faces(pairs.first, pairs.taken, pairs.near, *self._store)
+
+    def _signs(self) -> None:
+        """Parent of every ghost among the points, and -1 for ghosts behind an odd number of plates; the plates' T."""
+        n, around = self.n, self.around
+        self.origin = np.arange(len(around.x))
+        self.turn, self.plate_T = np.ones(len(around.x)), np.zeros(len(around.x))
+        for wall, parent, first, last in around.blocks:
+            self.origin[first:last] = self.origin[parent]
+            self.turn[first:last] = self.turn[parent]
+            self.plate_T[first:last] = self.plate_T[parent]
+            if isinstance(wall, Mirror):
+                self.turn[first:last] *= -1
+                self.plate_T[first:last] = wall.T
+        self.origin, self.turn, self.plate_T = self.origin[n:], self.turn[n:], self.plate_T[n:]
+
+    def _copy(self, records: np.ndarray, even: tuple[str, ...], odd: tuple[str, ...] = ()) -> None:
+        """Fields of the ghosts from those of their origins; odd ones change sign in a mirror."""
+        for name in (*even, *odd):
+            found = records[name][self.origin]
+            records[name][self.n:] = found*self.turn if name in odd else found
+
+    def _limit_shift(self, state: np.ndarray) -> None:
+        """No point shifts faster than 0.3 of the fastest flow."""
+        most = 0.3*float(np.sqrt(((state[4]**2 + state[5]**2)/state[6]**2).max()))
+        size = np.hypot(*self.shift.T)
+        self.shift *= np.minimum(1.0, most/np.maximum(size, 1e-300))[:, None]
+
+    def _close(self, solution: np.ndarray) -> None:
+        """Add to the faces what closes them and makes them exact, by conjugate gradients from `solution` (6, n), in place."""
+        n = self.n
+        wanted, scale = np.empty((n, 6)), np.empty((n, 6))
+        self.team(_lacking_faces, n, self.faces, self.metric, wanted, scale)
+        x = solution.T.copy()
+        self.iterations = self._solve(x, wanted, scale)
+        solution[:] = x.T
+        self._spread_out(x)
+        self.team(_close_faces, n, self.faces, self.potential)
+
+    def _spread_out(self, x: np.ndarray) -> None:
+        """Potentials of points and ghosts."""
+        _to_records(x, self.origin, self.turn, self.potential)
+
+    def _apply(self, x: np.ndarray, out: np.ndarray) -> None:
+        self._spread_out(x)
+        self.team(sweep, self.n, Closing(), self.potential, self.faces, out)
+
+    def _solve(self, x: np.ndarray, wanted: np.ndarray, scale: np.ndarray) -> int:
+        """Jacobi-preconditioned conjugate gradients, x in place; the number of iterations."""
+        product, chosen = np.empty_like(x), self.method.ingredients
+        self._apply(x, product)
+        product += chosen.damp*scale*x
+        r = wanted - product
+        z = r/scale
+        p, rz = z.copy(), float(np.vdot(r, z))
+        enough = chosen.within**2*float(np.vdot(wanted, wanted/scale))
+        for count in range(chosen.iterations):
+            if rz <= enough:
+                return count
+            self._apply(p, product)
+            product += chosen.damp*scale*p
+            step = rz/float(np.vdot(p, product))
+            x += step*p
+            r -= step*product
+            z = r/scale
+            rz, before = float(np.vdot(r, z)), rz
+            p = z + rz/before*p
+        return chosen.iterations
+
+    # --- exchange ---------------------------------------------------------------------------------------------
+
+    def look_at(self, state: np.ndarray) -> None:
+        """Fields of all points and images on the faces as they are."""
+        method, chosen, points, n = self.method, self.method.ingredients, self.points, self.n
+        g0 = method.rho0*method.g if chosen.static else 0.0
+        self.team(_fields, n, state, method.eos, method.law, g0, self.shift, self.count, points)
+        self.P0 = float(state[7]@points["P"][:n]/state[7].sum()) if chosen.static else 0.0
+        points["P"][:n] -= self.P0
+        self._images(g0)
+        self.team(sweep, n, Differences(), points, self.faces, self.slopes)
+        self.team(_slopes, n, self.slopes, state, float(chosen.mended), points)
+        self._copy(points, ("gx", "Fx"), ("gy", "Fy"))
+
+    def _images(self, g0: float) -> None:
+        around, points = self.around, self.points
+        _image_fields(self.n, self.origin, self.turn, self.plate_T, points)
+        if g0 != self.method.rho0*self.method.g:    # the pressure goes on hydrostatically
+            rise = around.y[self.origin] - around.y[self.n:]
+            points["P"][self.n:] += self.method.rho0*self.method.g*rise
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d/dt of what faces exchange, written to `out[4:9]`."""
+        method, chosen = self.method, self.method.ingredients
+        self.look_at(state)
+        self.team(sweep, self.n, Exchange(chosen.follow, chosen.spread, float(chosen.smooth)), self.points, self.faces,
+                  self.total)
+        self.team(_rates, self.n, self.total, state, self.points, method.g, method.rho0 if chosen.static else 0.0, self.P0, out)
+
+    # --- motion -----------------------------------------------------------------------------------------------
+
+    def set_drift(self, state: np.ndarray) -> None:
+        """Points follow the fluid, and shift."""
+        state[2:4] = state[4:6]/state[6] + self.shift.T
+
+    def drift(self, state: np.ndarray, dt: float) -> None:
+        """Move the points; those beyond a plate turn back, with their momentum."""
+        state[:2] += dt*state[2:4]
+        self.confine(state)
+
+    def resume(self, now: Any) -> None:
+        """Lists as a restarted run had them."""
+        if now.anchor is not None:
+            self.around.skin = now.skin
+            self.around.make_lists(now.anchor)
+
+    def try_out(self, now: Any) -> None:
+        """One evaluation on a copy of the points, which leaves no trace."""
+        state, fresh = now.state.copy(), now.anchor is None
+        if fresh:
+            self.around.relist(state, now.ids.copy(), 0.0)
+        self.make_faces(state)
+        self.rates(state, np.empty_like(state))
+        if fresh:
+            self.around.forget()
+
+    def make_ready(self, now: Any, dt: float) -> None:
+        """New lists if points may leave the old ones within the step."""
+        if self.around.must_relist(now.state, dt):
+            self.around.relist(now.state, now.ids, dt)
+            now.anchor, now.skin = self.around.anchor, self.around.skin
+
+    def confine(self, state: np.ndarray) -> int:
+        """Turn points beyond plates back; their number."""
+        count = 0
+        for wall in self.method.walls:
+            before = state[2:4].copy()
+            count += confine(wall, state)
+            state[4:6] *= np.where(before*state[2:4] < 0, -1.0, 1.0)
+        return count
+
+    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
+        """The first point with a volume, mass or state that no fluid has; empty if there is none."""
+        px, py, m, V, E = state[EXCHANGED]
+        rho, e = m/V, (E - (px**2 + py**2)/(2*m))/m
+        good = (m > 0) & (V > 0) & valid(self.method.eos, rho, e)
+        if not good.all():
+            i = int(np.argmin(good))
+            return (f"point {ids[i]} has V = {V[i]:.4g}, rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of "
+                    f"{type(self.method.eos).__name__}")
+        far = self.around.moved(state) > self.around.skin/2
+        return "a point sped up by more than a quarter within one step" if far else ""
+
+
+@jit
+def _metric(first, last, pairs, x, y, metric, shift):
+    """B, s and the pull towards even spacing sum_j V_j F x_ij of each point."""
+    for i in range(first, last):
+        xx, xy, yy, px, py = 0.0, 0.0, 0.0, 0.0, 0.0
+        for k in range(pairs.first[i], pairs.first[i] + pairs.taken[i]):
+            j = pairs.near[k]
+            V, dx, dy = metric[j].V, x[j] - x[i], y[j] - y[i]
+            fx, fy = V*pairs.wx[k], V*pairs.wy[k]        # V F x_ij
+            xx, xy, yy, px, py = xx + fx*dx, xy + fx*dy, yy + fy*dy, px + fx, py + fy
+        a, det = metric[i], xx*yy - xy*xy
+        a.xx, a.xy, a.yy, a.s = yy/det, -xy/det, xx/det, 2/(xx + yy)
+        shift[i, 0], shift[i, 1] = px, py
+
+
+@jit
+def _open_faces(first, last, pairs, x, y, metric, faces):
+    for i in range(u64(first), u64(last)):
+        a = metric[i]
+        for k in range(pairs.first[i], pairs.first[i] + pairs.taken[i]):
+            j = pairs.near[k]
+            b, dx, dy, wx, wy = metric[j], x[j] - x[i], y[j] - y[i], pairs.wx[k], pairs.wy[k]
+            VV, xx, xy, yy = a.V*b.V, a.xx + b.xx, a.xy + b.xy, a.yy + b.yy
+            faces.sx[k], faces.sy[k] = 0.5*VV*(xx*wx + xy*wy), 0.5*VV*(xy*wx + yy*wy)
+            faces.k[k] = VV*(wx*dx + wy*dy)/(dx*dx + dy*dy)*(a.s + b.s)
+            faces.dx[k], faces.dy[k] = dx, dy
+
+
+@jit
+def _lacking_faces(first, last, faces, metric, wanted, scale):
+    """What sum_j S and sum_j S x_ij lack, for S_x and S_y, and the diagonal of the equations for phi, psi."""
+    for i in range(first, last):
+        cx, cy, xx, xy, yx, yy, k0, kx, ky = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        for k in range(faces.first[i], faces.first[i] + faces.taken[i]):
+            sx, sy, c, dx, dy = 2*faces.sx[k], 2*faces.sy[k], faces.k[k], faces.dx[k], faces.dy[k]
+            cx, cy, xx, xy, yx, yy = cx + sx, cy + sy, xx + sx*dx, xy + sx*dy, yx + sy*dx, yy + sy*dy
+            k0, kx, ky = k0 + c, kx + c*dx*dx, ky + c*dy*dy
+        two_V = 2*metric[i].V
+        wanted[i, 0], wanted[i, 1], wanted[i, 2] = cx, two_V - xx, -xy
+        wanted[i, 3], wanted[i, 4], wanted[i, 5] = cy, -yx, two_V - yy
+        for c in range(0, 6, 3):
+            scale[i, c], scale[i, c + 1], scale[i, c + 2] = k0, kx, ky
+
+
+@jit
+def _to_records(x, origin, turn, potential):
+    n = len(x)
+    for i in range(n):
+        a = potential[i]
+        a.phi_x, a.psi_xx, a.psi_xy, a.phi_y, a.psi_yx, a.psi_yy = x[i]
+    for g in range(len(origin)):
+        a, s = potential[n + g], turn[g]
+        phi_x, psi_xx, psi_xy, phi_y, psi_yx, psi_yy = x[origin[g]]
+        a.phi_x, a.psi_xx, a.psi_xy, a.phi_y, a.psi_yx, a.psi_yy = phi_x, psi_xx, s*psi_xy, s*phi_y, s*psi_yx, psi_yy
+
+
+@jit
+def _close_faces(first, last, faces, potential):
+    for i in range(u64(first), u64(last)):
+        a = potential[i]
+        for k in range(faces.first[i], faces.first[i] + faces.taken[i]):
+            b, half, dx, dy = potential[faces.near[k]], 0.5*faces.k[k], faces.dx[k], faces.dy[k]
+            faces.sx[k] += half*(b.phi_x - a.phi_x + (a.psi_xx + b.psi_xx)*dx + (a.psi_xy + b.psi_xy)*dy)
+            faces.sy[k] += half*(b.phi_y - a.phi_y + (a.psi_yx + b.psi_yx)*dx + (a.psi_yy + b.psi_yy)*dy)
+
+
+@jit
+def _fields(first, last, state, eos, law, g0, shift, count, points):
+    for i in range(first, last):
+        a, m, V = points[i], state[6, i], state[7, i]
+        a.vx, a.vy, a.rho = state[4, i]/m, state[5, i]/m, m/V
+        a.e = state[8, i]/m - 0.5*(a.vx**2 + a.vy**2)
+        a.P = pressure(eos, a.rho, a.e) + g0*state[1, i]
+        a.Td, a.c2 = temperature(eos, a.rho, a.e), sound_speed(eos, a.rho, a.e)**2
+        a.ux, a.uy, a.shift_x, a.shift_y, a.theta = a.vx, a.vy, shift[i, 0], shift[i, 1], V*count[i] - 1
+        a.eta, a.k = viscosity(law, a.rho, a.Td), conductivity(law, a.rho, a.Td)
+
+
+@jit
+def _image_fields(n, origin, turn, plate_T, points):
+    """Shifted images are their origins; mirrored ones have even and odd fields."""
+    for g in range(len(origin)):
+        a, b = points[origin[g]], points[n + g]
+        b.vx, b.P, b.rho, b.e, b.c2, b.shift_x, b.theta, b.eta, b.k = (a.vx, a.P, a.rho, a.e, a.c2, a.shift_x, a.theta, a.eta,
+                                                                       a.k)
+        b.vy, b.shift_y, b.ux, b.uy = turn[g]*a.vy, turn[g]*a.shift_y, turn[g]*a.ux, turn[g]*a.uy
+        b.Td = a.Td if turn[g] > 0 else 2*plate_T[g] - a.Td
+
+
+@jit
+def _slopes(first, last, slopes, state, mended, points):
+    """grad P', and F = eta (v u_y - u v_y, u v_x - v u_x) without bulk viscosity."""
+    for i in range(first, last):
+        a, V = points[i], state[7, i]
+        ux, uy, vx, vy, gx, gy = slopes[i]
+        f, a.gx, a.gy = mended*a.eta/V, gx/V, gy/V
+        a.Fx, a.Fy = f*(a.vy*uy - a.vx*vy), f*(a.vx*vx - a.vy*ux)
+
+
+@jit
+def _rates(first, last, total, state, points, g, rho0, P0, out):
+    """Gravity bears rho0 already; the pressure left out works on what the volume changes with the fluid."""
+    for i in range(first, last):
+        px, py, mass, flow, left, through = total[i]
+        out[4, i], out[5, i], out[6, i], out[7, i] = px, py - g*(state[6, i] - rho0*state[7, i]), mass, flow + left
+        held = P0 - rho0*g*state[1, i]
+        out[8, i] = through - held*flow - g*(state[6, i] - rho0*state[7, i])*points[i].vy
