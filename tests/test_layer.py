@@ -75,6 +75,43 @@ def test_the_motionless_state_stays_to_round_off():
     assert np.abs(found).max() < 1e-14        # sums of 12 pressures of 1.5: measured 8e-16
 
 
+@pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
+@pytest.mark.parametrize(("make", "size", "h"), MADE)
+def test_friction_and_conduction_between_plates_are_symmetric_and_only_damp(make, size, h, share):
+    """At uniform density and temperature the forces are -K v, the heating -C T: both symmetric, no negative eigenvalue."""
+    fluid, x, _ = layer(make, size, h=h, rows=8)
+    fluid = replace(fluid, law=type(fluid.law)(0.3, 0.2), T_plates=(1.0, 1.0), g=0.0, share=share, mended=False)
+    n, rest, small = len(x), np.zeros((len(x), 2)), 1e-6
+
+    def forces(v, T):
+        """Momentum and energy gained, less what they are without friction."""
+        state = fluid.state(1.0, v, T)
+        quiet = rates(replace(fluid, law=type(fluid.law)(0.0, 0.0)), state)
+        return ((rates(fluid, state) - quiet)*fluid.edges.V)[1:]
+    K, C = np.empty((2*n, 2*n)), np.empty((n, n))
+    for column in range(2*n):
+        v = rest.copy()
+        v[column % n, column // n] = small
+        K[:, column] = forces(v, np.ones(n))[:2].ravel()/small
+    for column in range(n):
+        T = np.ones(n)
+        T[column] += small
+        C[:, column] = forces(rest, T)[2]/small
+    for M in (K, C):
+        size = np.abs(M).max()
+        assert np.abs(M - M.T).max() < 1e-8*size           # round-off over 1e-6
+        assert np.linalg.eigvalsh(M + M.T).max() < 1e-8*size
+
+
+def test_nested_conduction_carries_heat_through_a_motionless_layer():
+    """A linear temperature at rest conducts the same with any share: what enters below leaves above, and nothing changes."""
+    fluid, x, scene = layer()
+    for share in (0.0, 0.5):
+        nested = replace(fluid, share=share)
+        found = rates(nested, nested.state(np.ones(len(x)), 0*x, scene.T(x[:, 1])))
+        assert np.abs(found).max() < 1e-14
+
+
 def test_sound_between_adjoint_walls_does_not_grow():
     """Without friction and gravity the linearised operator has no eigenvalue with a positive real part above round-off."""
     fluid, x, _ = layer(rows=8)

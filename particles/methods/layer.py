@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import conductivity, energy, pressure, sound_speed, temperature, valid, viscosity
+from continuum.fluid import conductivity, energy, pressure, sound_speed, stress, temperature, valid, viscosity
 from continuum.jit import formula, jit
 from particles.edges import Beyond, Edges
 from particles.limits import limit_of
@@ -19,6 +19,9 @@ from particles.team import Team
 
 #: seen by convection and pressure: vx .. eps, hydro; by friction and heat: ux, uy, Td; F mends the heating
 Point = np.dtype([(name, "f8") for name in ("rho", "vx", "vy", "T", "eps", "ux", "uy", "Td", "eta", "k", "Fx", "Fy", "hydro")])
+
+#: what nested transport exchanges: stress, -Q, and the velocity that friction sees
+Current = np.dtype([(name, "f8") for name in ("xx", "xy", "yx", "yy", "qx", "qy", "ux", "uy")])
 
 
 class Exchange(NamedTuple):
@@ -30,8 +33,18 @@ class Differences(NamedTuple):
     """V grad v by differences: d_x u, d_y u, d_x v, d_y v."""
 
 
+class Slopes(NamedTuple):
+    """V grad of v and T by differences: d_x u, d_y u, d_x v, d_y v, d_x T, d_y T."""
+
+
+class Nested(NamedTuple):
+    """Stress and heat current of the points, over edges: momentum and energy    [Eqs 37, 38, for coefficients of one point]"""
+
+
 nothing.of(Exchange)(lambda term: (0.0, 0.0, 0.0, 0.0))
 nothing.of(Differences)(lambda term: (0.0, 0.0, 0.0, 0.0))
+nothing.of(Slopes)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+nothing.of(Nested)(lambda term: (0.0, 0.0, 0.0))
 
 
 @formula
@@ -58,12 +71,25 @@ def _(term, a, b, ab):
     return ab.sx*du, ab.sy*du, ab.sx*dv, ab.sy*dv
 
 
+@rate.of(Slopes)
+def _(term, a, b, ab):
+    du, dv, dT = b.ux - a.ux, b.uy - a.uy, b.Td - a.Td
+    return ab.sx*du, ab.sy*du, ab.sx*dv, ab.sy*dv, ab.sx*dT, ab.sy*dT
+
+
+@rate.of(Nested)
+def _(term, a, b, ab):
+    ax, ay, bx, by = ab.sx*a.xx + ab.sy*a.yx, ab.sx*a.xy + ab.sy*a.yy, ab.sx*b.xx + ab.sy*b.yx, ab.sx*b.xy + ab.sy*b.yy
+    return ax + bx, ay + by, bx*a.ux + by*a.uy + ax*b.ux + ay*b.uy + ab.sx*(a.qx + b.qx) + ab.sy*(a.qy + b.qy)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Layer:
     """A fluid on fixed points x (n, 2), periodic in x, between plates at T_plates (lower, upper) under gravity g.
 
     edges, beyond : of `edges.between_plates`. mended : the heating of friction along edges as it should be; False as Eq. 51 has
-    it, which heats even a rigid rotation.
+    it, which heats even a rigid rotation. share : of viscosity and conduction that is along edges [Eq. 51]; the rest is nested,
+    gradients first and their divergence after [Eqs 37, 38], and does not see waves two spacings long.
     """
     x: np.ndarray
     edges: Edges
@@ -73,13 +99,18 @@ class Layer:
     T_plates: tuple[float, float]
     g: float
     mended: bool = True
+    share: float = 1.0
 
     fields = ("rho", "px", "py", "eps")
+
+    def __post_init__(self):
+        if not 0 <= self.share <= 1:
+            raise ValueError(f"the share of transport along edges must be between 0 (nested) and 1 (all), got {self.share}")
 
     def __repr__(self) -> str:
         """What tells a checkpoint's method from another: edges by their sums."""
         sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.x, self.edges.S, self.edges.k, self.beyond.S))
-        return f"Layer({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.T_plates}, {self.g}, {self.mended})"
+        return f"Layer({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.T_plates}, {self.g}, {self.mended}, {self.share})"
 
     def state(self, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
         """(4, n) of densities, velocities (n, 2), temperatures (n,)."""
@@ -125,23 +156,33 @@ class Exchanging:
         self.edges = stored(method.edges, beyond, self.n + self.ghost.ravel())
         self.points = np.zeros(self.n + len(self.parent), Point)
         self.slopes, self.total = np.empty((self.n, 4)), np.empty((self.n, 4))
+        if method.share < 1:
+            self.currents, self.nested = np.zeros(len(self.points), Current), np.empty((self.n, 3))
+            self.all_slopes = np.empty((self.n, 6))
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (4, n), written to `out`    [Eqs 34-36, 51]"""
         method = self.method
         self.look_at(state)
         self.team(sweep, self.n, Exchange(method.eos), self.points, self.edges, self.total)
+        if method.share < 1:
+            self.team(sweep, self.n, Nested(), self.currents, self.edges, self.nested)
+            self.total[:, 1:] += self.nested
         self.team(_rates, self.n, self.total, self.method.edges.V, self.points, method.g, out)
 
     def look_at(self, state: np.ndarray) -> None:
         """Fields of all points and images, and F."""
         method, points = self.method, self.points
-        self.team(_fields, self.n, state, method.eos, method.law, points)
+        self.team(_fields, self.n, state, method.eos, method.law, method.share, points)
         _images(self.parent, self.plate, self.rise, np.array(method.T_plates), method.g, points, self.n)
         if method.mended:
             self.team(sweep, self.n, Differences(), points, self.edges, self.slopes)
             self.team(_lacking, self.n, self.slopes, method.edges.V, points)
             _image_lacking(self.parent, points, self.n)
+        if method.share < 1:
+            self.team(sweep, self.n, Slopes(), points, self.edges, self.all_slopes)
+            self.team(_currents, self.n, self.all_slopes, method.edges.V, method.law, 1 - method.share, points, self.currents)
+            _image_currents(self.parent, points, self.currents, self.n)
 
     def resume(self, now: Any) -> None:
         """Fixed points have no lists to make again."""
@@ -180,13 +221,37 @@ def stored(edges: Edges, beyond: Beyond, image: np.ndarray) -> Stored:
 
 
 @jit
-def _fields(first, last, state, eos, law, points):
+def _fields(first, last, state, eos, law, share, points):
     for i in range(first, last):
         a, rho = points[i], state[0, i]
         a.rho, a.vx, a.vy, a.eps = rho, state[1, i]/rho, state[2, i]/rho, state[3, i]
         a.T = temperature(eos, rho, a.eps/rho - 0.5*(a.vx**2 + a.vy**2))
         a.ux, a.uy, a.Td = a.vx, a.vy, a.T
-        a.eta, a.k = viscosity(law, rho, a.T), conductivity(law, rho, a.T)
+        a.eta, a.k = share*viscosity(law, rho, a.T), share*conductivity(law, rho, a.T)
+
+
+@jit
+def _currents(first, last, slopes, V, law, share, points, currents):
+    """Stress and -Q of the nested share."""
+    for i in range(first, last):
+        a, b = points[i], currents[i]
+        ux, uy, vx, vy, Tx, Ty = slopes[i]
+        f = share/V[i]
+        b.xx, b.xy, b.yy = stress(f*viscosity(law, a.rho, a.T), 0.0, ux, uy, vx, vy)
+        k = f*conductivity(law, a.rho, a.T)
+        b.yx, b.qx, b.qy, b.ux, b.uy = b.xy, k*Tx, k*Ty, a.ux, a.uy
+
+
+@jit
+def _image_currents(parent, points, currents, n):
+    """The adjoint of gradients that see -v and 2 T_w - T: what goes along the plate is odd, what goes across it even.
+
+    Of a shear stress that is another number for each of its two directions.
+    """
+    for m in range(len(parent)):
+        a, b = currents[parent[m]], currents[n + m]
+        b.ux, b.uy = points[n + m].ux, points[n + m].uy
+        b.xx, b.xy, b.yx, b.yy, b.qx, b.qy = -a.xx, -a.xy, a.yx, a.yy, -a.qx, a.qy
 
 
 @jit
