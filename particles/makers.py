@@ -103,7 +103,9 @@ def exact(points: Points, weight: Any) -> Edges:
         wanted = np.zeros((points.n, 1 + points.d))
         wanted[:, 1 + alpha] = points.V
         missing = wanted.ravel(order="F") - B@edges.S[:, alpha]
-        columns.append(edges.S[:, alpha] + edges.k*(B.T@spsolve(M, missing)))
+        change = edges.k*(B.T@spsolve(M, missing))
+        change += edges.k*(B.T@spsolve(M, missing - B@change))     # once more for what the solution left
+        columns.append(edges.S[:, alpha] + change)
     made = Edges(i=edges.i, j=edges.j, S=np.stack(columns, axis=1), k=edges.k, apart=edges.apart, V=edges.V)
     worst = np.abs(made.linear - np.eye(points.d)).max()
     if not worst < 1e-9:

@@ -87,8 +87,8 @@ class Pairwise:
     """Forces along edges [Eq. 51]: k [(A/d)(v_j - v_i) + (B/d) e e.(v_j - v_i)], heat k kappa (T_j - T_i).
 
     A = d [eta (1/2 + 1/d) - zeta/2], B = d (d + 2)/2 [eta (1 - 2/d) + zeta]: both viscosities can be chosen, against RR98.
-    mended : with the flux F = eta (v.grad) v - (2 eta/d - zeta) v div v, whose divergence is what the work of such forces lacks
-    of the viscous heating; without it even a rigid rotation heats.
+    mended : with the flux F = A/d [(v.grad) v - v div v], whose divergence is what the work of such forces has too much of the
+    viscous heating; without it even a rigid rotation heats.
     """
     mended: bool = True
 
@@ -121,10 +121,10 @@ def along(edges: Any, coefficients: Coefficients, a: Flow, b: Flow) -> Fluxes:
 
 
 def lacking(coefficients: Coefficients, v: np.ndarray, slope: np.ndarray) -> np.ndarray:
-    """F = eta (v.grad) v - (2 eta/d - zeta) v div v, (n, d), from v (n, d) and slope[n, a, b] = d_a v_b."""
+    """F = A [(v.grad) v - v div v], A = eta (1/2 + 1/d) - zeta/2, (n, d), from v (n, d) and slope[n, a, b] = d_a v_b."""
     d, (eta, zeta, _) = v.shape[1], coefficients
-    div = np.einsum("naa->n", slope)
-    return eta[:, None]*np.einsum("na,nab->nb", v, slope) - ((2*eta/d - zeta)*div)[:, None]*v
+    along, div = np.einsum("na,nab->nb", v, slope), np.einsum("naa->n", slope)
+    return (eta*(1/2 + 1/d) - zeta/2)[:, None]*(along - div[:, None]*v)
 
 
 def check_bulk(eta: np.ndarray, zeta: np.ndarray, d: int) -> None:
