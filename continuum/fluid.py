@@ -128,6 +128,7 @@ def _(eos, rho, e):
 EQUATIONS_OF_STATE = {"ideal": IdealGas(), "vdw": VanDerWaals(), "dense": DenseFluid()}
 
 
+@formula
 def sound_speed(eos, rho, e):
     """c = sqrt(dP/drho + (P/rho^2) dP/de), the slope of the pressure along an isentrope."""
     by_rho, by_e = pressure_slopes(eos, rho, e)

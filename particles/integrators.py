@@ -1,5 +1,5 @@
 """Time steps, shared by all methods."""
-from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -22,13 +22,42 @@ class RK4:
         self._k, self._total, self._next = (np.empty(shape) for _ in range(3))
         self._team = team
 
-    def step(self, rates: Callable[[np.ndarray, np.ndarray], None], y: np.ndarray, dt: float) -> None:
-        """Advance y in place by dt; rates(y, out) writes dy/dt."""
+    def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
+        """Advance y in place by dt; sums.rates(y, out) writes dy/dt."""
         k, total, stage = self._k, self._total, self._next
         total[:] = 0
         stage[:] = y
         for weight, forward in ((1/6, dt/2), (1/3, dt/2), (1/3, dt), (1/6, 0.0)):
-            rates(stage, k)
+            sums.rates(stage, k)
             self._team(_stage, y.size, y.ravel(), k.ravel(), total.ravel(), stage.ravel(), weight, forward)
         total *= dt
         y += total
+
+
+class Euler:
+    """Forward Euler for everything    [RR98 Eq. 40]"""
+    evaluations = 1
+
+    def __init__(self, shape: tuple[int, ...], team: Team):
+        self._k = np.empty(shape)
+
+    def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
+        """Advance y in place by dt; sums.rates(y, out) writes dy/dt."""
+        sums.rates(y, self._k)
+        y += dt*self._k
+
+
+class TwoStep(Euler):
+    """Forward Euler for the fields, then positions with the velocities that come out    [RR98 Eqs 40, 41]
+
+    sums.places : number of the first rows of a state that are positions; sums.velocity(y) their rates. Points that stand still
+    have neither: then this is Euler.
+    """
+
+    def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
+        """Advance y in place by dt; sums.rates(y, out) writes dy/dt."""
+        places = getattr(sums, "places", 0)
+        sums.rates(y, self._k)
+        y[places:] += dt*self._k[places:]
+        if places:
+            y[:places] += dt*sums.velocity(y)

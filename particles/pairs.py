@@ -34,6 +34,18 @@ class Stored(NamedTuple):
     k: np.ndarray
 
 
+class Faces(NamedTuple):
+    """Edges of moving points: `Stored` with (dx, dy) = x_j - x_i besides."""
+    first: np.ndarray
+    taken: np.ndarray
+    near: np.ndarray
+    sx: np.ndarray
+    sy: np.ndarray
+    k: np.ndarray
+    dx: np.ndarray
+    dy: np.ndarray
+
+
 def empty_pairs(rows: int, entries: int) -> Pairs:
     """Arrays for lists with so many entries in all."""
     (start, first), (length, taken) = np.empty((2, rows), u64), np.empty((2, rows), u32)
@@ -54,6 +66,15 @@ class Edge(NamedTuple):
     k: float
 
 
+class Face(NamedTuple):
+    """An edge with what leads along it, x_b - x_a."""
+    sx: float
+    sy: float
+    k: float
+    dx: float
+    dy: float
+
+
 @generic
 def between(pairs, k):
     """The k-th pair as a term wants it."""
@@ -61,6 +82,7 @@ def between(pairs, k):
 
 between.of(Pairs)(lambda pairs, k: Pair(pairs.wx[k], pairs.wy[k]))
 between.of(Stored)(lambda pairs, k: Edge(pairs.sx[k], pairs.sy[k], pairs.k[k]))
+between.of(Faces)(lambda pairs, k: Face(pairs.sx[k], pairs.sy[k], pairs.k[k], pairs.dx[k], pairs.dy[k]))
 
 
 @jit

@@ -115,7 +115,7 @@ def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], N
     _check_start(method, start, plan)
     team = Team(plan.threads)
     now = load(plan.checkpoint, method, plan, start) or Run(state=start.copy(), ids=np.arange(start.shape[1]))
-    sums, integrator = method.start(start.shape[1], team), RK4(start.shape, team)
+    sums, integrator = method.start(start.shape[1], team), getattr(method, "integrator", RK4)(start.shape, team)
     sums.resume(now)
     began, saved = process_time(), monotonic()
     now.compile_s += _first_evaluation(sums, now)
@@ -147,7 +147,7 @@ def _first_evaluation(sums, now: Run) -> float:
 def _advance(method, plan: Plan, sums, integrator, now: Run) -> None:
     try:
         sums.make_ready(now, plan.dt)
-        integrator.step(sums.rates, now.state, plan.dt)
+        integrator.step(sums, now.state, plan.dt)
     except FloatingPointError as error:
         message = f"diverged at step {now.step}, time {now.step*plan.dt:g}: {error}; {_way_out(plan)}"
         raise Divergence(now.step, message) from error

@@ -48,7 +48,7 @@ def advance(method: Spam, state: np.ndarray, dt: float, steps: int, threads: int
     for _ in range(steps):
         if sums.around.must_relist(now, dt):
             sums.around.relist(now, ids, dt)
-        integrator.step(sums.rates, now, dt)
+        integrator.step(sums, now, dt)
     return now[:, np.argsort(ids)]
 
 

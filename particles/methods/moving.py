@@ -48,11 +48,10 @@ class Ingredients(NamedTuple):
     """
     iterations: int = 12
     within: float = 1e-3
-    damp: float = 1e-3
-    shift: float = 5.0
-    follow: float = 2.0
+    shift: float = 1.0
+    follow: float = 1.0
     spread: float = 0.1
-    smooth: bool = False
+    smooth: bool = True
     static: bool = True
     mended: bool = True
 
@@ -263,7 +262,6 @@ class Exchanging:
         """Jacobi-preconditioned conjugate gradients, x in place; the number of iterations."""
         product, chosen = np.empty_like(x), self.method.ingredients
         self._apply(x, product)
-        product += chosen.damp*scale*x
         r = wanted - product
         z = r/scale
         p, rz = z.copy(), float(np.vdot(r, z))
@@ -272,7 +270,6 @@ class Exchanging:
             if rz <= enough:
                 return count
             self._apply(p, product)
-            product += chosen.damp*scale*p
             step = rz/float(np.vdot(p, product))
             x += step*p
             r -= step*product
