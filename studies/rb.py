@@ -16,8 +16,10 @@ from studies.convection import tables
 from studies.convection.claims import RB_CLAIMS
 from studies.convection.cost import CompressibleStep, SpamStep
 from studies.convection.derive import derive
+from studies.convection.dih import SCHEMES, DihRun
 from studies.convection.figures import figures
 from studies.convection.grids import BoussinesqSteady, CompressibleApproach, CompressibleSteady, PypdeSteady
+from studies.convection.moving import MOTIONS, MovingRun
 from studies.convection.smoothing import Smoothing
 from studies.convection.spam import PRINTED, VARIANTS, SpamRun, Variant
 from studies.kit.case import Case
@@ -63,7 +65,7 @@ def cases(size: str) -> list[Case]:
     """All cases of a size; `fine` has those of `paper` besides its own."""
     if size == "quick":
         return list(quick())
-    return [*paper(), *(fine() if size == "fine" else ())]
+    return [*paper(), *((*fine(), *points()) if size == "fine" else ())]
 
 
 def quick() -> Iterator[Case]:
@@ -182,6 +184,22 @@ def fine() -> Iterator[Case]:
     for ra, rows in product((5e4, 2e5), (50, 100)):
         yield CompressibleApproach(scene=RayleighBenard(ra=ra), rows=rows, t_end=2.1*ra**0.5)    # 2.1 L^2/eta
     yield CompressibleApproach(scene=RayleighBenard(ra=3e3, **DENSE), rows=24, t_end=22*(3000/1.5)**0.5)
+
+
+def points() -> Iterator[Case]:
+    """Discretized integral hydrodynamics: fixed lattice, irregular points, moving points and what they are made of."""
+    for ra in (5e3, 1e4):
+        yield gas(ra, (24, 32, 48), variant="edge-heat")
+        for rows in (25, 40, 50, 64):
+            where = RayleighBenard(ra=ra, L=float(rows))
+            for name, scheme in SCHEMES.items():
+                for seed in SEEDS if "lattice" not in name else SEEDS[:1]:
+                    yield DihRun(scene=where, scheme=scheme, seed=seed)
+            for seed in SEEDS:
+                yield MovingRun(scene=where, seed=seed)
+    for name, rows in product(sorted(set(MOTIONS) - {"moving"}), (25, 50)):
+        for seed in SEEDS:
+            yield MovingRun(scene=RayleighBenard(ra=1e4, L=float(rows)), motion=MOTIONS[name], seed=seed)
 
 
 STUDY = Study(name="rb", cases=cases, tables=tables.ALL, derive=derive, figures=figures, claims=RB_CLAIMS)

@@ -66,6 +66,21 @@ def test_cost_counts_all_seeds_and_the_coarser_grids():
     assert cpu[("spam", 50)] == pytest.approx(18.0)            # no step of it was measured alone: what the runs took
 
 
+def test_points_are_extrapolated_over_the_square_of_their_spacing():
+    """K = 4 + 9/rows^2 exactly; a term 500/rows^4 besides is in the error; sets that differ from seed to seed widen it."""
+    def limit(bend=0.0, scatter=0.0):
+        runs = [spam(rows, seed, 4 + 9/rows**2 + bend/rows**4 + sign*scatter, method="dih", variant="fixed", ke_err=1e-6,
+                     free_fall=1.0, threads=1, compile_s=0.0) for rows in (10, 20, 40, 80) for seed, sign in ((1, -1), (2, 1))]
+        found = derive(Tables(kinetic_energy=pd.DataFrame(runs)))["kinetic_energy"]
+        [row] = found
+        assert row["resolution"] == np.inf and row["seed"] == 0
+        return row["ke"], row["ke_err"]
+    assert limit() == pytest.approx((4.0, 0.0), abs=1e-5)
+    value, err = limit(bend=500.0)
+    assert 0 < abs(value - 4) < err < 0.1
+    assert limit(scatter=0.01)[1] > 0.01
+
+
 def test_runs_that_diverged_are_in_no_mean():
     broken = spam(seed=2, ke=np.nan, kg=np.nan, rolls=0, converged=False)
     found = pd.DataFrame(derive(tables(spam(seed=1), broken))["means"])

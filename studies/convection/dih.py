@@ -11,7 +11,7 @@ from particles.edges import between_plates
 from particles.limits import limit_of
 from particles.makers import closed, exact, plain, renormalised
 from particles.methods.layer import Exchanging, Layer
-from particles.points import lattice, wrapped
+from particles.points import lattice, of_positions, random, relaxed, wrapped
 from particles.run import Divergence, Plan, Run, run
 from particles.triangulation import delaunay
 from particles.weights import Lucy, WendlandC2
@@ -22,44 +22,66 @@ OF_LIMIT = 0.8          # of the step to its stability limit: the flow is steady
 FROM_PLATE = 0.25       # of a spacing: jittered points come no nearer to a plate
 
 
+def positions(scene: RayleighBenard, size: float, seed: int) -> np.ndarray:
+    """Points (n, 2) of unit spacing: a lattice, every coordinate shifted by up to `size`."""
+    box = np.array([scene.width, scene.L])
+    x = lattice((round(scene.width), round(scene.L))).x
+    return inside(scene, wrapped(x + np.random.default_rng(seed).uniform(-size, size, x.shape), box))
+
+
+def inside(scene: RayleighBenard, x: np.ndarray) -> np.ndarray:
+    """Points too near to a plate moved away from it."""
+    return np.stack([x[:, 0], np.clip(x[:, 1], -scene.L/2 + FROM_PLATE, scene.L/2 - FROM_PLATE)], axis=1)
+
+
+def hard_core(scene: RayleighBenard, size: float, seed: int) -> np.ndarray:
+    """Points (n, 2) at random, none nearer to another than `size` spacings."""
+    return inside(scene, random((round(scene.width), round(scene.L)), size, seed).x)
+
+
+def settled(scene: RayleighBenard, size: float, seed: int) -> np.ndarray:
+    """Random points that have moved apart together with their mirror images until each is surrounded evenly."""
+    x, shift, mirror = hard_core(scene, size, seed), np.array([0.0, scene.L/2]), np.array([1.0, -1.0])
+    both = of_positions(np.concatenate([x - shift, (x - shift)*mirror]), (scene.width, 2*scene.L))
+    return inside(scene, relaxed(both, WendlandC2.of(h=3.0), sweeps=4000).x[:len(x)] + shift)
+
+
 class Scheme(NamedTuple):
-    """One way to make points and edges; `size`: jitter in spacings."""
+    """One way to make points and edges; `size`: of the points' disorder, in spacings; `share` of transport along edges."""
     name: str
     make: Callable = renormalised
     weight: Any = Lucy
     h: float = 2.0
     size: float = 0.0
     mended: bool = True
+    share: float = 1.0
+    points: Callable = positions
 
 
 SCHEMES = {s.name: s for s in (
     Scheme("fixed-lattice"),
     Scheme("fixed-lattice-printed-heat", mended=False),     # Eq. 51 with the work of its forces as the only heating
     Scheme("fixed-lattice-h3", h=3.0),
+    Scheme("fixed-lattice-nested", share=0.1),              # Eqs 37, 38, with a tenth along edges
+    Scheme("fixed-lattice-nested-only", share=0.0),         # Eqs 37, 38
     Scheme("fixed-jittered-delaunay", delaunay, size=0.3),
+    Scheme("fixed-random-delaunay", delaunay, size=0.5, points=hard_core),
+    Scheme("relaxed-delaunay", delaunay, size=0.5, points=settled),
+    Scheme("relaxed-plain", plain, WendlandC2, 3.0, 0.5, points=settled),
     Scheme("fixed-jittered-exact", exact, WendlandC2, 3.0, 0.3),
     Scheme("fixed-jittered-closed", closed, WendlandC2, 3.0, 0.3),
     Scheme("fixed-jittered-plain", plain, WendlandC2, 3.0, 0.3),
 )}
 
 
-def positions(scene: RayleighBenard, size: float, seed: int) -> np.ndarray:
-    """Points (n, 2) of unit spacing: a lattice, every coordinate shifted by up to `size`."""
-    box = np.array([scene.width, scene.L])
-    x = lattice((round(scene.width), round(scene.L))).x
-    x = wrapped(x + np.random.default_rng(seed).uniform(-size, size, x.shape), box)
-    x[:, 1] = np.clip(x[:, 1], -scene.L/2 + FROM_PLATE, scene.L/2 - FROM_PLATE)
-    return x
-
-
 def layer(scene: RayleighBenard, scheme: Scheme, seed: int) -> Layer:
     """The method of unit spacing: a scene of L = rows spacings."""
     if not isinstance(scene.sides, Periodic):
         raise ValueError("fixed points have plates above and below only: take a scene with periodic sides")
-    x = positions(scene, scheme.size, seed)
+    x = scheme.points(scene, scheme.size, seed)
     edges, beyond = between_plates(scheme.make, x, scene.width, scene.L, scheme.weight.of(h=scheme.h))
     return Layer(x=x, edges=edges, beyond=beyond, eos=scene.eos, law=scene.law, T_plates=(scene.T_hot, scene.T_cold), g=scene.g,
-                 mended=scheme.mended)
+                 mended=scheme.mended, share=scheme.share)
 
 
 def start(scene: RayleighBenard, method: Layer) -> np.ndarray:

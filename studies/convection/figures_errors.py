@@ -27,8 +27,10 @@ from studies.kit.table import Tables
 
 #: Rayleigh numbers that have a panel
 RA_SHOWN = (5000, 10000)
-#: grids with another number of rolls or other temperatures, which the flow of the particles is not compared with
-OTHER_FLOWS = ("two-rolls", "fig10")
+#: grids with another number of rolls, other temperatures or wrong heating, which the particles are not compared with
+OTHER_FLOWS = ("two-rolls", "fig10", "edge-heat")
+#: of discretized integral hydrodynamics; the others have a figure of their own
+POINTS = ("fixed-lattice", "fixed-jittered-delaunay", "moving")
 #: an error with what it is relative to: the grid, for Kg its field smoothed as the particles smooth theirs
 RELATIVE = r"relative error  $|K_p/K - 1|$, $|K_g/K_\mathrm{smoothed} - 1|$"
 #: K_s of the printed weight, see the table `smoothed`
@@ -56,9 +58,9 @@ def convergence(tables: Tables) -> Figure | None:
 
 
 def shown(found: pd.DataFrame) -> list[tuple[float, pd.DataFrame]]:
-    """The Rayleigh numbers of the panels, each with its rows of grids and of the printed particles."""
+    """The Rayleigh numbers of the panels, each with its rows of grids, of the printed particles and of some on points."""
     printed = found[(found["method"] != "spam") | (found["variant"] == SPAM["variant"])]
-    printed = printed[~printed["variant"].isin(OTHER_FLOWS)]
+    printed = printed[~printed["variant"].isin(OTHER_FLOWS) & ((printed["method"] != "dih") | printed["variant"].isin(POINTS))]
     return [(ra, group) for ra, group in groups(printed, "ra") if ra in RA_SHOWN]
 
 

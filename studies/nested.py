@@ -1,0 +1,154 @@
+"""Nested transport (RR98 Eqs 37, 38) on a lattice between adjoint plates: what share along edges (Eq. 51) makes it stable?
+
+Growth rates of small disturbances of the motionless layer, by the eigenvalues of its linearised rates, far below the onset of
+convection: whatever grows there is no flow but the scheme. Writes results/nested/*.csv and *.png and the rows of study nested in
+results/claims.csv; a minute.
+"""
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from continuum.scene import RayleighBenard
+from particles.team import Team
+from studies.convection.dih import SCHEMES, layer, start
+from studies.kit.case import Case, Outcome, Report
+from studies.kit.claim import CannotTell, Claim
+from studies.kit.figure import figure, look
+from studies.kit.stats import Measured
+from studies.kit.study import Study, main
+from studies.kit.table import Table, Tables
+
+SHARES = (0.0, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0)
+STEP = 1e-6         # of the central differences, relative to fields of order 1
+#: rates below are zeros that the differences spread: sqrt(1e-10) for a double one
+ROUND_OFF = 1e-4
+POINT = ["h", "rows", "ra", "share"]
+GROWTH = Table("growth", key=POINT, columns=[*POINT, "growth", "frequency", "nyquist", "diffusion"])
+
+
+def jacobian(sums: Any, state: np.ndarray) -> np.ndarray:
+    """d rates/d state by central differences, (size, size)."""
+    J, out = np.empty((state.size, state.size)), np.empty((2, *state.shape))
+    for column in range(state.size):
+        for side, sign in enumerate((1, -1)):
+            moved = state.copy()
+            moved.ravel()[column] += sign*STEP
+            sums.rates(moved, out[side])
+        J[:, column] = ((out[0] - out[1])/(2*STEP)).ravel()
+    return J
+
+
+@dataclass(frozen=True, kw_only=True)
+class Growth(Case):
+    """The fastest growing disturbance of the motionless layer; `h` in spacings; rate and frequency in units of c/a."""
+    h: float
+    rows: int
+    ra: float
+    share: float
+
+    @property
+    def cost(self) -> float:
+        return 1e-9*(8*self.rows**2)**3 + 1
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        scene = RayleighBenard(ra=self.ra, L=float(self.rows), aspect=1.0)
+        fluid = layer(scene, SCHEMES["fixed-lattice"]._replace(h=self.h, share=self.share), 1)
+        state = start(scene, fluid)
+        state[1:3] = 0
+        state[3] = fluid.state(1.0, np.zeros((state.shape[1], 2)), scene.T(fluid.x[:, 1]))[3]
+        values, vectors = np.linalg.eig(jacobian(fluid.start(state.shape[1], Team(1)), state))
+        worst = int(np.argmax(values.real))
+        sound, L = np.sqrt(2*scene.T_mean), scene.L
+        return Outcome({"growth": [{"h": self.h, "rows": self.rows, "ra": self.ra, "share": self.share,
+                                    "growth": values[worst].real/sound, "frequency": abs(values[worst].imag)/sound,
+                                    "nyquist": zigzag(vectors[:, worst], self.rows),
+                                    "diffusion": scene.k/L**2/sound}]})
+
+
+def zigzag(vector: np.ndarray, rows: int) -> float:
+    """Share of a disturbance's square that is in waves shorter than three spacings along x or y."""
+    fields = vector.reshape(4, rows, rows)
+    power = np.abs(np.fft.fft2(fields))**2
+    k = np.abs(np.fft.fftfreq(rows))
+    short = (k[:, None] > 1/3) | (k[None] > 1/3)
+    return float(power[:, short].sum()/power.sum())
+
+
+def cases(size: str) -> list[Case]:
+    """Two ranges of the weight, two Rayleigh numbers below onset, two sizes."""
+    sizes = (8,) if size == "quick" else (8, 12, 16)
+    return list(grid(sizes))
+
+
+def grid(sizes: tuple[int, ...]) -> Iterator[Case]:
+    for h, rows, ra, share in product((2.0, 3.0), sizes, (200.0, 1500.0), SHARES):
+        yield Growth(h=h, rows=rows, ra=ra, share=share)
+
+
+def figures(tables: Tables) -> dict[str, Figure]:
+    """Growth over the share."""
+    frame = tables.get("growth")
+    if frame is None or frame.empty:
+        return {}
+    panels = list(frame.groupby(["h", "ra"]))
+    page, all_axes = figure(1, len(panels), width=3.6, height=4, sharey=True, squeeze=False)
+    for axes, ((h, ra), group) in zip(all_axes[0], panels, strict=True):
+        for number, (rows, line) in enumerate(group.groupby("rows")):
+            axes.plot(line["share"], line["growth"], label=f"{rows} rows", **look(number))
+        axes.axhline(0, color="black", lw=0.8)
+        axes.set_xscale("symlog", linthresh=0.003)
+        axes.set_yscale("symlog", linthresh=ROUND_OFF)
+        axes.set(title=f"h = {h:g} a, Ra = {ra:g}", xlabel="share of transport along edges")
+        axes.legend(fontsize=7)
+    all_axes[0, 0].set_ylabel("largest growth rate  [$c/a$]")
+    page.suptitle("Nested viscosity and conduction: does the motionless layer stay?", fontsize=10)
+    return {"growth": page}
+
+
+def rates(tables: Tables, **where: float) -> np.ndarray:
+    """Growth rates of all rows with these columns."""
+    frame = tables.get("growth")
+    if frame is None:
+        raise CannotTell("not run yet: make study-nested")
+    for name, value in where.items():
+        frame = frame[frame[name] == value]
+    if frame.empty:
+        raise CannotTell(f"no row has {where}: make study-nested runs more")
+    return frame["growth"].to_numpy(float)
+
+
+def worst(**where: float):
+    """Value function: the largest growth rate, its error that of the differences."""
+    return lambda tables: Measured(float(rates(tables, **where).max()), ROUND_OFF/10)
+
+
+def smallest_share(tables: Tables) -> Measured:
+    """The smallest share of those run from which on nothing grows; its error is the distance to the next smaller one."""
+    stable = [share for share in SHARES if rates(tables, share=share).max() < ROUND_OFF]
+    unstable = [share for share in SHARES if share not in stable]
+    if not stable or (unstable and min(stable) < max(unstable)):
+        raise CannotTell("no share from which on the layer is stable")
+    return Measured(min(stable), min(stable) - max(unstable) if unstable else 0.0)
+
+
+QUIET = "what grows by less are zeros that differences over 1e-6 spread"
+CLAIMS = (
+    Claim(id="rr98-eq37-layer-stable", source="RR98 Eqs 37, 38", value=worst(share=0.0), at_most=ROUND_OFF, because=QUIET,
+          statement="nested stress and heat current leave a motionless layer between adjoint plates at rest: largest growth rate "
+                    "in c/a, Ra 200 and 1500"),
+    Claim(id="rr98-eq51-layer-stable", source="RR98 Eq. 51", value=worst(share=1.0), at_most=ROUND_OFF, because=QUIET,
+          statement="transport along edges leaves a motionless layer between adjoint plates at rest: largest growth rate in c/a, "
+                    "Ra 200 and 1500"),
+    Claim(id="own-nested-share", source="RR98 Eqs 37, 38, 51", value=smallest_share, at_most=0.1,
+          statement="a tenth of the transport along edges is enough to keep the layer at rest: the smallest share that was run "
+                    "and is stable", because="one of the shares run; its error is the distance to the next smaller one"),
+)
+STUDY = Study(name="nested", cases=cases, tables=(GROWTH,), figures=figures, claims=CLAIMS)
+
+if __name__ == "__main__":
+    main(STUDY)
