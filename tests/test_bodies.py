@@ -8,7 +8,7 @@ import pytest
 import studies.bodies as bodies
 from continuum.fluid import ConstEta, IdealGas, VanDerWaals
 from continuum.published import published
-from particles.bodies import end_rows, held, in_disc, together, with_surface
+from particles.bodies import CLEAR, end_rows, held, in_disc, together, with_surface
 from particles.makers import renormalised
 from particles.methods.dih import Dih, Pairwise
 from particles.methods.sheared import Sheared
@@ -128,6 +128,7 @@ def test_points_lie_on_the_surface_and_its_chords_are_edges():
     r = np.hypot(*points.x.T)
     ring = np.flatnonzero(np.abs(r - 4.0) < 1e-12)
     assert len(ring) == 25 and set(np.flatnonzero(r < 4.0 + 1e-9)) == set(which)
+    assert np.abs(np.delete(r, ring) - 4.0).min() > CLEAR
     edges = delaunay(points)
     pairs = {frozenset(pair) for pair in zip(edges.i.tolist(), edges.j.tolist(), strict=True)}
     assert all(frozenset((int(a), int(b))) in pairs for a, b in zip(ring, np.roll(ring, 1), strict=True))
@@ -212,23 +213,27 @@ def test_without_shear_sides_are_periodic():
     np.testing.assert_allclose(found[:4], slow, atol=1e-13*np.abs(slow).max())
 
 
-def test_images_that_have_slid_by_whole_spacings_are_points_shifted_along_the_lattice():
-    """Shifted by m columns against each other, two halves exchange as a lattice whose upper half was moved back by m."""
-    fluid, m = sheared(rate=0.0), 4
+@pytest.mark.parametrize("slid", [0, 4, -3])
+@pytest.mark.parametrize("h", [2.0, 3.0])
+def test_a_box_exchanges_as_between_two_true_ones(h, slid):
+    """Three boxes on top of each other on one lattice, the others faster and slower by U, shifted by whole spacings."""
+    counts = (9, 8)
+    fluid = sheared(counts, h=h)
     state = shaken(fluid, fluid.points.n)
-    state[4] = m
-    found, _ = rates(fluid, state)
-    # the upper half moved back by m: through the side all is as on the lattice, but now the middle is cut
-    def moved(q, by):
-        grid = q.reshape(-1, 9, 8).copy()
-        grid[:, :, 4:] = np.roll(grid[:, :, 4:], by, axis=1)
-        return grid.reshape(q.shape)
-    back = state.copy()
-    back[:4] = moved(state[:4], -m)
-    back[4] = 0
-    other, _ = rates(fluid, back)
-    rows = np.tile(np.isin(np.arange(8), (0, 7)), 9)                # with neighbours through the side only, and in their own half
-    np.testing.assert_allclose(moved(found[:4], -m)[:, rows], other[:4][:, rows], atol=1e-13*np.abs(other).max())
+    state[4] = slid
+    rho, v = state[0], (state[1:3]/state[0]).T
+    boxes = []
+    for box in (-1, 0, 1):
+        fields = np.stack([rho, v[:, 0] + box*fluid.speed, v[:, 1], state[3]/rho - (v**2).sum(axis=1)/2])
+        boxes.append(np.roll(fields.reshape(4, *counts), box*slid, axis=1))
+    rho, vx, vy, T = np.concatenate(boxes, axis=2).reshape(4, -1)
+    tower = lattice((9, 24))
+    slow = Dih(edges=renormalised(tower, Lucy.of(h=h)), eos=fluid.eos, law=LAW)
+    wanted, (found, _) = np.empty((4, tower.n)), rates(fluid, state)
+    slow.rates(slow.state(rho, np.stack([vx, vy], axis=1), T), wanted)
+    middle = wanted.reshape(4, 9, 24)[:, :, 8:16].reshape(4, -1)
+    for one, other in zip(found, middle, strict=False):
+        np.testing.assert_allclose(one, other, atol=1e-12*np.abs(other).max())
 
 
 def test_points_and_edges_that_cannot_slide_are_refused():
