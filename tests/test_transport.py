@@ -5,9 +5,10 @@ import numpy as np
 import pytest
 
 import studies.transport as transport
-from continuum.fluid import ConstNu
+from continuum.fluid import ConstEta, ConstNu, IdealGas
 from particles.makers import MAKERS, renormalised
-from particles.points import lattice
+from particles.methods.dih import Dih
+from particles.points import jittered, lattice
 from particles.team import Team
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.integral import transport_tables
@@ -15,7 +16,7 @@ from studies.integral.operators import DISORDERS
 from studies.integral.transport_derive import endless
 from studies.integral.transport_symbol import QUANTITIES, Gas, continuum, lattice_waves, quantities
 from studies.integral.transport_walls import FLOWS, SPEED, couette, driven, poiseuille
-from studies.integral.transport_waves import Decay
+from studies.integral.transport_waves import Decay, propagators
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import read
@@ -65,6 +66,14 @@ def test_coefficients_on_irregular_points_are_near_the_continuum():
     for row in rows(decay("nested", "delaunay", "jittered-0.1", (16, 8))).values():
         assert abs(row["measured"] - row["continuum"]) < 0.05*row["continuum"]
         assert 0 < row["measured_err"] < 0.02*row["continuum"] and np.isnan(row["lattice"])
+
+
+def test_waves_that_have_no_time_stay_as_they_are():
+    """Amplitudes of exp(ik.r) off a lattice: one of its own, none of the other fields nor of exp(-ik.r)."""
+    at = jittered((12, 8), 0.3, 1)
+    dih = Dih(edges=renormalised(at, Lucy.of(h=2.0)), eos=IdealGas(), law=ConstEta(0.3, 0.4))
+    U = propagators(dih, at, np.array([2*np.pi/12, 0.0]), 1e-9, (0.0, np.pi/2))
+    np.testing.assert_allclose(U, np.broadcast_to(np.eye(4), (3, 4, 4)), atol=1e-4)     # plain pressures push by 1e-9/AMPLITUDE
 
 
 def test_edges_that_do_not_exist_leave_a_row_without_values():
