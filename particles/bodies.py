@@ -4,6 +4,10 @@ RR98 leaves boundaries open and names the trick: freeze some of the points. A he
 do; its velocity and temperature are given, its density evolves. What the edges carry to it is the force on the body and the
 heat that it takes. Where the surface lies then depends on the points: on the outermost of them for edges to nearest neighbours,
 so a body of lattice points has a staircase for a surface, and points placed on the surface itself give the true one.
+
+Friction along edges is eta lap v, whose flux through a surface is eta dv/dn: the traction on a body that does not turn. One that
+turns with Omega feels a torque -2 eta Omega area besides. It comes from the edges inside of the body, whose forces are not
+central: so the torque is that on all points of a body, those inside too.
 """
 from typing import NamedTuple
 
@@ -15,10 +19,11 @@ CLEAR = 0.6     # spacings between a surface and points that are not on it: near
 
 
 class Held(NamedTuple):
-    """Points `which` (m,) that have velocity v (m, 2) and temperature T (m,), whatever they receive; T nan: adiabatic."""
+    """Points `which` (m,) of velocity v (m, 2), temperature T (m,), whatever they receive; T nan: adiabatic. body: its number."""
     which: np.ndarray
     v: np.ndarray
     T: np.ndarray
+    body: np.ndarray
 
 
 def held(which: np.ndarray, v: tuple[float, float] = (0.0, 0.0), T: float = np.nan) -> Held:
@@ -35,12 +40,19 @@ def held(which: np.ndarray, v: tuple[float, float] = (0.0, 0.0), T: float = np.n
                          "each once; a body narrower than a spacing may hold none")
     if T <= 0:
         raise ValueError(f"held points have T = {T:g}, which must be positive; leave it out for a body that takes no heat")
-    return Held(which, np.tile(np.asarray(v, float), (len(which), 1)), np.full(len(which), float(T)))
+    return Held(which, np.tile(np.asarray(v, float), (len(which), 1)), np.full(len(which), float(T)), np.zeros(len(which), int))
+
+
+def turning(points: Points, which: np.ndarray, rate: float, T: float = np.nan) -> Held:
+    """Points that turn rigidly about the middle of the box, counterclockwise."""
+    x, y = points.x[which].T
+    return held(which, T=T)._replace(v=rate*np.stack([-y, x], axis=1))
 
 
 def together(*bodies: Held) -> Held:
-    """Several bodies as one, such as the two plates of a channel."""
-    return Held(*(np.concatenate(column) for column in zip(*bodies, strict=True)))
+    """Several bodies, such as the two plates of a channel; where they touch they do not rub against each other."""
+    which, v, T, _ = (np.concatenate(column) for column in zip(*bodies, strict=True))
+    return Held(which, v, T, np.repeat(np.arange(len(bodies)), [len(body.which) for body in bodies]))
 
 
 def in_disc(points: Points, radius: float) -> np.ndarray:
@@ -66,10 +78,36 @@ def with_surface(counts: tuple[int, int], radius: float) -> tuple[Points, np.nda
     at = lattice(counts)
     check_disc(at, radius)
     r = np.hypot(*at.x.T)
-    angle = 2*np.pi*(np.arange(round(2*np.pi*radius)) + 0.5)/round(2*np.pi*radius)
-    circle = radius*np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    circle = on_circle(radius)
     inside, outside = at.x[r < radius - CLEAR], at.x[r > radius + CLEAR]
     return of_positions(np.concatenate([circle, inside, outside]), at.box), np.arange(len(circle) + len(inside))
+
+
+def on_circle(radius: float) -> np.ndarray:
+    """Points (n, 2) about one apart on a circle."""
+    n = round(2*np.pi*radius)
+    angle = 2*np.pi*(np.arange(n) + 0.5)/n
+    return radius*np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+
+def between_circles(counts: tuple[int, int], inner: float, outer: float) -> tuple[Points, np.ndarray, np.ndarray]:
+    """A lattice of spacing 1 with points on two circles about its middle; those up to the inner and those from the outer one on.
+
+    Raises
+    ------
+    ValueError
+        There is no room between the circles, or between one of them and its image.
+    """
+    at = lattice(counts)
+    check_disc(at, inner)
+    check_disc(at, outer)
+    if outer - inner < 2:
+        raise ValueError(f"circles of radius {inner:g} and {outer:g} leave no point of the fluid between them: take more points")
+    r = np.hypot(*at.x.T)
+    off = (np.abs(r - inner) > CLEAR) & (np.abs(r - outer) > CLEAR)
+    points = of_positions(np.concatenate([on_circle(inner), on_circle(outer), at.x[off]]), at.box)
+    r = np.hypot(*points.x.T)
+    return points, np.flatnonzero(r < inner + 1e-9), np.flatnonzero(r > outer - 1e-9)
 
 
 def end_rows(points: Points, count: int) -> tuple[np.ndarray, np.ndarray]:

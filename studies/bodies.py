@@ -1,8 +1,8 @@
 """Which of the boundaries that RR98 leaves open can be had with fixed points, and how good are they?
 
 Sliding sides (Lees and Edwards), rows of fixed points as a wall, frozen points as a rigid body: homogeneous shear, a wave that it
-turns, driven flow between rows, and the drag of a cylinder in a square array against Sangani & Acrivos (1982). Units of KHP95,
-the spacing is 1. Paper size takes two to three minutes of one core.
+turns, driven flow between rows, a cylinder that turns, and the drag of one in a square array [Sangani & Acrivos 1982]. Units of
+KHP95, the spacing is 1. Paper size takes two to three minutes of one core.
 Writes results/bodies/*.csv and *.png and the rows of study bodies in results/claims.csv.
 """
 from collections.abc import Iterator
@@ -12,6 +12,7 @@ from particles.triangulation import delaunay
 from studies.integral import bodies_claims, bodies_derive, bodies_figures, bodies_tables
 from studies.integral.bodies_drag import SPEED, VARIANTS, CylinderDrag
 from studies.integral.bodies_shear import FixedRows, MovingRows, SlidingShear, TurningWave
+from studies.integral.bodies_turn import TurningCylinder
 from studies.kit.case import Case
 from studies.kit.study import Study, main
 
@@ -24,8 +25,9 @@ SHOWN = (12, 32)
 def cases(size: str) -> list[Case]:
     """`quick` has small sizes, at one solid fraction, too few and too small to extrapolate drags from."""
     if size == "quick":
-        return [*sides((12, 16, 24)), *walls((12, 16)), *drags("surface", 0.1, (12, 16)), *drags("frozen", 0.1, (12, 16))]
-    return [*sides((16, 24, 32, 48, 64)), *walls((12, 16, 24, 32)), *array()]
+        return [*sides((12, 16, 24)), *walls((12, 16)), *drags("surface", 0.1, (12, 16)), *drags("frozen", 0.1, (12, 16)),
+                *turns((16, 20))]
+    return [*sides((16, 24, 32, 48, 64)), *walls((12, 16, 24, 32)), *array(), *turns((24, 28, 32, 36, 40, 44, 48))]
 
 
 def sides(sizes: tuple[int, ...]) -> Iterator[Case]:
@@ -40,6 +42,11 @@ def walls(sizes: tuple[int, ...]) -> Iterator[Case]:
     """Flow between fixed rows."""
     for maker, make, h in MAKERS:
         yield from (FixedRows(maker=maker, make=make, h=h, rows=rows) for rows in sizes)
+
+
+def turns(sizes: tuple[int, ...]) -> Iterator[Case]:
+    """A cylinder that turns."""
+    yield from (TurningCylinder(rows=rows) for rows in sizes)
 
 
 def array() -> Iterator[Case]:

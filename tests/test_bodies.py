@@ -8,11 +8,11 @@ import pytest
 import studies.bodies as bodies
 from continuum.fluid import ConstEta, IdealGas, VanDerWaals
 from continuum.published import published
-from particles.bodies import CLEAR, end_rows, held, in_disc, together, with_surface
+from particles.bodies import CLEAR, between_circles, end_rows, held, in_disc, together, turning, with_surface
 from particles.makers import renormalised
 from particles.methods.dih import Dih, Pairwise
 from particles.methods.sheared import Sheared
-from particles.methods.stream import Stream, insulated
+from particles.methods.stream import Stream, separated
 from particles.points import jittered, lattice
 from particles.run import Plan, run
 from particles.team import Team
@@ -71,7 +71,7 @@ def with_filter(dih, state, chi):
 def test_free_points_exchange_as_the_slow_twin_says(kind, eos):
     fluid = stream(kind, push=(0.02, -0.01), chi=0.05, eos=eos)
     state = shaken(fluid, len(fluid.x))
-    twin = Dih(edges=insulated(fluid.edges, fluid.held.which), eos=eos, law=LAW, transport=Pairwise())
+    twin = Dih(edges=separated(fluid.edges, fluid.held), eos=eos, law=LAW, transport=Pairwise())
     slow, (fast, _) = with_filter(twin, state, 0.05), rates(fluid, state)
     slow[1:3] += np.array([[0.02], [-0.01]])*state[0]
     slow[3] += 0.02*state[1] - 0.01*state[2]
@@ -137,6 +137,31 @@ def test_points_lie_on_the_surface_and_its_chords_are_edges():
     assert not any(frozenset((int(a), int(b))) in pairs for a in inside for b in outside)
 
 
+def test_a_body_that_turns_with_the_fluid_around_it_feels_nothing():
+    """Friction alone: eta dv/dn on the surface and the edges inside cancel, 2 eta rate area each; the rate squared is nothing."""
+    points, which = with_surface((16, 16), 4.0)
+    rate, r = 1e-7, np.hypot(*points.x.T)
+    fluid = Stream(x=points.x, edges=delaunay(points), eos=IdealGas(), law=LAW, held=turning(points, which, rate, 1.0))
+    v = rate*np.stack([-points.x[:, 1], points.x[:, 0]], axis=1)*(r < 6.5)[:, None]     # beyond all neighbours of the body
+    _, sums = rates(fluid, fluid.state(1.0, v, 1.0))
+    np.testing.assert_array_equal(fluid.held.v, v[which])
+    x, y = points.x[which].T
+    torque = x@sums.received[:, 1] - y@sums.received[:, 0]
+    assert abs(torque) < 1e-6*2*0.3*rate*np.pi*4.0**2           # convection is rate/eta = 3e-7 of it; round-off of P = 1 less
+
+
+def test_bodies_that_touch_do_not_rub():
+    """The outer rows of two plates are neighbours through the periodic side; sliding against each other they feel no force."""
+    points = lattice((8, 10))
+    lower, upper = end_rows(points, 2)
+    plates = together(held(lower, (-0.1, 0.0), 1.0), held(upper, (0.1, 0.0), 1.0))
+    fluid = Stream(x=points.x, edges=renormalised(points, Lucy.of(h=2.0)), eos=IdealGas(), law=LAW, held=plates)
+    _, sums = rates(fluid, fluid.state(1.0, np.zeros((points.n, 2)), 1.0))
+    outer = np.isin(np.abs(points.x[plates.which, 1]), 4.5)
+    assert outer.sum() == 16 and np.abs(sums.received[outer, :2]).max() < 1e-15
+    assert np.abs(sums.received[~outer, 0]).min() > 0.01        # friction of the fluid at rest: 0.3 times 0.1 over a spacing
+
+
 def test_bad_bodies_are_refused():
     at = lattice((10, 12))
     with pytest.raises(ValueError, match="0 points are to be held"):
@@ -149,6 +174,8 @@ def test_bad_bodies_are_refused():
         in_disc(at, 4.5)
     with pytest.raises(ValueError, match=r"radius 0\.3"):
         with_surface((10, 12), 0.3)
+    with pytest.raises(ValueError, match=r"radius 2 and 3\.5 leave no point"):
+        between_circles((10, 12), 2.0, 3.5)
     with pytest.raises(ValueError, match="6 fixed rows on either side of 12"):
         end_rows(at, 6)
     with pytest.raises(ValueError, match=r"chi must not be negative, got -0\.1"):
@@ -331,6 +358,12 @@ def test_small_sizes_already_tell_surface_from_staircase(quick):
     assert abs(last["surface"]["error"]) < 0.03                         # second order: 0.2 % at 48 rows is 2 % at 16
     assert last["frozen"]["offset"] < -0.2                              # a staircase inside of the circle
     assert abs(last["surface"]["balance"]) < 1e-3                       # what was not steady
+
+
+def test_torques_on_both_cylinders_are_the_exact_one(quick):
+    torque = quick[0]["torque"]
+    assert (torque[["turned", "fixed"]].abs() < 0.015).all(axis=None)       # second order: 0.15 % at 48 rows is 1.4 % at 16
+    assert (torque["balance"].abs() < 2e-4).all()
 
 
 def test_a_sliding_wave_is_of_second_order(quick):

@@ -136,7 +136,7 @@ class Streaming(Summing):
 
     def __init__(self, method: Stream, team: Team):
         self.method, self.team, self.n = method, team, len(method.x)
-        self.edges = stored(insulated(method.edges, method.held.which), NONE_BEYOND, NOWHERE)
+        self.edges, self.around = (stored(cut(method.edges, method.held), NONE_BEYOND, NOWHERE) for cut in (insulated, separated))
         self.points = np.zeros(self.n, Point)
         self.slopes, self.total = np.empty((self.n, 4)), np.empty((self.n, 4))
         self.filtered = np.empty((self.n, 4)) if method.chi else None
@@ -148,16 +148,16 @@ class Streaming(Summing):
         self.look_at(state)
         self.team(sweep, self.n, Exchange(method.eos), self.points, self.edges, self.total)
         if self.filtered is not None:
-            self.team(sweep, self.n, Filter(method.chi), self.points, self.edges, self.filtered)
+            self.team(sweep, self.n, Filter(method.chi), self.points, self.around, self.filtered)
             self.total += self.filtered
         self.team(driven, self.n, self.total, method.edges.V, self.points, np.array(method.push), out)
-        keep(method.eos, *method.held, self.total, method.edges.V, self.points, self.received, out)
+        keep(method.eos, *method.held[:3], self.total, method.edges.V, self.points, self.received, out)
 
     def look_at(self, state: np.ndarray) -> None:
         """Fields of all points, and F."""
         method, points = self.method, self.points
         self.team(read, self.n, state, method.eos, method.law, points)
-        hold(method.eos, method.law, *method.held, points)
+        hold(method.eos, method.law, *method.held[:3], points)
         self.team(sweep, self.n, Differences(), points, self.edges, self.slopes)
         self.team(lacking, self.n, self.slopes, method.edges.V, points)
 
@@ -167,10 +167,18 @@ class Streaming(Summing):
         return self.received.sum(axis=0)
 
 
-def insulated(edges: Edges, which: np.ndarray) -> Edges:
-    """Edges without friction and heat between held points: a body is no fluid."""
+def insulated(edges: Edges, held: Held) -> Edges:
+    """Edges without friction and heat between points of two bodies, and within adiabatic ones."""
+    body = np.full(edges.n, -1)
+    body[held.which] = np.where(np.isnan(held.T), -2 - np.arange(len(held.T)), held.body)
+    a, b = body[edges.i], body[edges.j]
+    return replace(edges, k=np.where((a != b) & (a != -1) & (b != -1), 0.0, edges.k))
+
+
+def separated(edges: Edges, held: Held) -> Edges:
+    """Edges that do not conduct between held points, for the filter: no mass seeps through a body."""
     inside = np.zeros(edges.n, bool)
-    inside[which] = True
+    inside[held.which] = True
     return replace(edges, k=np.where(inside[edges.i] & inside[edges.j], 0.0, edges.k))
 
 

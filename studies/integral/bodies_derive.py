@@ -10,6 +10,7 @@ from studies.integral.ordering_derive import line
 from studies.kit.stats import Measured, combine
 from studies.kit.table import Tables
 
+ERRORS = (("turning wave", "wave", "error"), ("turning cylinder", "torque", "turned"))
 LEAST = 3           # sizes of a limit
 WIDE = 4.0          # spacings: of a smaller radius the circle is too coarse a polygon for an order to show
 SLOW = 1e-3         # Mach number of the streams whose drags are compared with print
@@ -21,14 +22,19 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     rows: dict[str, list[dict[str, Any]]] = {}
     if "drag" in tables:
         rows["limits"] = list(limits(tables["drag"]))
-    if "wave" in tables and len(tables["wave"]) >= LEAST:
-        rows["orders"] = [order("turning wave", tables["wave"], "error")]
-    return rows
+    rows["orders"] = [order(what, fine(tables[name]), column) for what, name, column in ERRORS
+                      if name in tables and len(fine(tables[name])) >= LEAST]
+    return {name: found for name, found in rows.items() if found or name == "limits"}
+
+
+def fine(frame: pd.DataFrame) -> pd.DataFrame:
+    """Rows whose circle, if there is one, is no coarse polygon."""
+    return frame[frame["radius"] > WIDE] if "radius" in frame else frame
 
 
 def limits(drags: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """One row a variant and solid fraction."""
-    chosen = drags[(drags["mach"] < SLOW) & (drags["radius"] > WIDE)]
+    chosen = fine(drags[drags["mach"] < SLOW])
     for (variant, fraction), group in chosen.groupby(["variant", "fraction"]):
         if len(group) < LEAST:
             continue
@@ -56,5 +62,5 @@ def intercept(x: np.ndarray, y: np.ndarray) -> Measured:
 
 def order(what: str, frame: pd.DataFrame, column: str) -> dict[str, Any]:
     """Order of an error in the spacing."""
-    slope, err = line(np.log(frame["rows"].to_numpy(float)), np.log(frame[column].to_numpy()))
+    slope, err = line(np.log(frame["rows"].to_numpy(float)), np.log(frame[column].abs().to_numpy()))
     return {"what": what, "sizes": len(frame), "order": -slope, "order_err": err}

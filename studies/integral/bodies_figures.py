@@ -20,8 +20,8 @@ def figures(tables: Tables) -> dict[str, Figure]:
         made["stream"] = stream(tables["field"])
     if len(tables.get("drag", [])):
         made["drag"] = drags(tables["drag"])
-    if len(tables.get("wave", [])) and len(tables.get("walls", [])):
-        made["sides"] = sides(tables["wave"], tables["walls"])
+    if all(len(tables.get(name, [])) for name in ("wave", "walls", "torque")):
+        made["sides"] = sides(tables["wave"], tables["walls"], tables["torque"])
     return made
 
 
@@ -79,9 +79,9 @@ def drags(drag: pd.DataFrame) -> Figure:
     return page
 
 
-def sides(wave: pd.DataFrame, walls: pd.DataFrame) -> Figure:
-    """Sliding sides: error of a wave that the shear turns. Fixed rows: where a flow between them stops."""
-    page, (left, right) = figure(1, 2, width=4.4, height=4.0)
+def sides(wave: pd.DataFrame, walls: pd.DataFrame, torque: pd.DataFrame) -> Figure:
+    """Sliding sides: error of a wave that the shear turns. Fixed rows: where a flow stops. A cylinder that turns: its torque."""
+    page, (left, right, last) = figure(1, 3, width=4.1, height=4.0)
     wave = wave.sort_values("rows")
     left.plot(wave["rows"], 100*wave["error"], label="without divergence")
     left.plot(wave["rows"], 100*wave["divergent"], label="with divergence (sound)")
@@ -98,4 +98,14 @@ def sides(wave: pd.DataFrame, walls: pd.DataFrame) -> Figure:
     right.set(xlabel="rows of fluid", ylabel="zero of the parabola behind the plate, $a$",
               title="fixed rows: where the flow stops", ylim=(0, None))
     below(right, ncols=2)
+    torque = torque.sort_values("rows")
+    last.plot(torque["radius"], 100*torque["turned"].abs(), label="that turns")
+    last.plot(torque["radius"], 100*torque["fixed"].abs(), label="at rest around it")
+    across = np.array([torque["radius"].min(), torque["radius"].max()])
+    last.plot(across, 12*across**-2, color="grey", linestyle=":", marker="", label="$(a/R)^2$")
+    last.set(xscale="log", yscale="log", xlabel="inner radius $R/a$", ylabel="|error| of the torque, %",
+             title="cylinder that turns")
+    last.set_xticks([3, 4, 6, 8], labels=["3", "4", "6", "8"])
+    last.minorticks_off()
+    below(last, ncols=2)
     return page

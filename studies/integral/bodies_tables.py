@@ -26,7 +26,10 @@ WAVE = Table("wave", key=["rows"], columns=["rows", "error", "divergent", "mach"
 #: the first row; error of the mean velocity against that between such plates, and against that between plates on the first rows
 WALLS = Table("walls", key=["maker", "h", "rows"],
               columns=["maker", "h", "rows", "offset", "error_plate", "error_row", "bend", "steady"])
+#: a cylinder that turns inside of one at rest: errors of the torques on both, relative to the exact one; balance: their sum over
+#: it; profile: largest error of the velocity over that of the cylinder
+TORQUE = Table("torque", key=["rows"], columns=["rows", "radius", "turned", "fixed", "balance", "profile", "steps"])
 #: slopes of errors over sizes
 ORDERS = Table("orders", key=["what"], columns=["what", "sizes", "order", "order_err"])
 
-ALL = (DRAG, LIMITS, FIELD, SHEAR, WAVE, WALLS, ORDERS)
+ALL = (DRAG, LIMITS, FIELD, SHEAR, WAVE, WALLS, TORQUE, ORDERS)
