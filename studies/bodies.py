@@ -27,7 +27,7 @@ def cases(size: str) -> list[Case]:
     if size == "quick":
         return [*sides((12, 16, 24)), *walls((12, 16)), *drags("surface", 0.1, (12, 16)), *drags("frozen", 0.1, (12, 16)),
                 *turns((16, 20))]
-    return [*sides((16, 24, 32, 48, 64)), *walls((12, 16, 24, 32)), *array(), *turns((24, 28, 32, 36, 40, 44, 48))]
+    return [*sides((16, 24, 32, 48, 64)), *walls((12, 16, 24, 32)), *array(), *turns(tuple(range(24, 68, 4)))]
 
 
 def sides(sizes: tuple[int, ...]) -> Iterator[Case]:
