@@ -96,7 +96,7 @@ def sides(wave: pd.DataFrame, walls: pd.DataFrame, torque: pd.DataFrame) -> Figu
         group = group.sort_values("rows")
         right.plot(group["rows"], group["offset"], label=f"{maker}" + f", $h = {h:g}a$"*(maker != "delaunay"))
     right.set(xlabel="rows of fluid", ylabel="zero of the parabola behind the plate, $a$",
-              title="fixed rows: where the flow stops", ylim=(0, None))
+              title="fixed rows: where the flow stops", ylim=(0, 1.15*walls["offset"].max()))
     below(right, ncols=2)
     torque = torque.sort_values("rows")
     last.plot(torque["radius"], 100*torque["turned"].abs(), label="that turns")
@@ -105,7 +105,8 @@ def sides(wave: pd.DataFrame, walls: pd.DataFrame, torque: pd.DataFrame) -> Figu
     last.plot(across, 12*across**-2, color="grey", linestyle=":", marker="", label="$(a/R)^2$")
     last.set(xscale="log", yscale="log", xlabel="inner radius $R/a$", ylabel="|error| of the torque, %",
              title="cylinder that turns")
-    last.set_xticks([3, 4, 6, 8], labels=["3", "4", "6", "8"])
+    last.set_xticks([4, 6, 8, 12], labels=["4", "6", "8", "12"])
+    last.set_yticks([0.1, 0.2, 0.5, 1], labels=["0.1", "0.2", "0.5", "1"])
     last.minorticks_off()
     below(last, ncols=2)
     return page
