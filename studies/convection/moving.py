@@ -34,11 +34,11 @@ class Motion(NamedTuple):
 MOTIONS = {m.name: m for m in (
     Motion("moving"),
     Motion("moving-open-faces", Ingredients(iterations=0)),
-    Motion("moving-three-iterations", Ingredients(iterations=3, within=0.0)),
+    Motion("moving-closer-faces", Ingredients(iterations=12)),
     Motion("moving-no-shift", Ingredients(shift=0.0)),
     Motion("moving-no-follow", Ingredients(follow=0.0)),
     Motion("moving-no-spread", Ingredients(spread=0.0)),
-    Motion("moving-smooth-spread", Ingredients(smooth=True)),
+    Motion("moving-plain-spread", Ingredients(smooth=False)),
     Motion("moving-whole-pressure", Ingredients(static=False)),
     Motion("moving-printed-heat", Ingredients(mended=False)),
     Motion("moving-half-step", of_limit=0.5),
