@@ -135,8 +135,8 @@ CLAIMS = (
                     "difference over the largest rate"),
     Claim(id="rr98-conservation-galilean-energy", source="RR98 Eqs 34-38", at_most=1e-12, because="round-off of sums of 30 terms",
           value=frame("energy", ("nested", "printed", "unmended"), CLOSING),
-          statement="rates of energy in a wind are those at rest, carried along, on edges that close, nested transport and forces "
-                    "along edges with their own work for heating: largest difference over the largest rate"),
+          statement="rates of energy in a wind are those at rest, carried along, on edges that close, nested transport and "
+                    "forces along edges with their own work for heating: largest difference over the largest rate"),
     Claim(id="rr98-conservation-galilean-printed", source="RR98 Eq. 37", at_most=1e-12, because="round-off of sums of 30 terms",
           value=frame_mean("momentum", mode="printed", maker="plain", points="jittered-0.3"),
           statement="rates of momentum in a wind are those at rest, carried along, with the inner sum of Eq. 37 as printed and "
