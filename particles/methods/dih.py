@@ -87,8 +87,9 @@ class Pairwise:
     """Forces along edges [Eq. 51]: k [(A/d)(v_j - v_i) + (B/d) e e.(v_j - v_i)], heat k kappa (T_j - T_i).
 
     A = d [eta (1/2 + 1/d) - zeta/2], B = d (d + 2)/2 [eta (1 - 2/d) + zeta]: both viscosities can be chosen, against RR98.
-    mended : with the flux F = A/d [(v.grad) v - v div v], whose divergence is what the work of such forces has too much of the
-    viscous heating; without it even a rigid rotation heats.
+    mended : with the stress tau_ab = (A/d) (d_b v_a - delta_ab div v) of the points, and its work F_a = tau_ab v_b. In the
+    continuum tau has no divergence where viscosity is constant, and the force is left as it is then; where it varies forces along
+    edges lack it. F has one always: without it even a rigid rotation heats.
     """
     mended: bool = True
 
@@ -107,6 +108,9 @@ class Pairwise:
             slope = np.stack([G@flow.v for G in edges.G], axis=1)/edges.V[:, None, None]      # [n, a, b] = d_a v_b
             F = lacking(coefficients, flow.v, slope)
             found = found._replace(energy=found.energy - (edges.S*(F[edges.i] + F[edges.j])).sum(axis=1)/2)
+            if np.ptp(coefficients.eta) > 0 or np.ptp(coefficients.zeta) > 0:
+                tau = transposed(coefficients, slope)
+                found = found._replace(momentum=found.momentum - np.einsum("ea,eab->eb", edges.S, tau[edges.i] + tau[edges.j])/2)
         return found
 
 
@@ -122,9 +126,14 @@ def along(edges: Any, coefficients: Coefficients, a: Flow, b: Flow) -> Fluxes:
 
 def lacking(coefficients: Coefficients, v: np.ndarray, slope: np.ndarray) -> np.ndarray:
     """F = A [(v.grad) v - v div v], A = eta (1/2 + 1/d) - zeta/2, (n, d), from v (n, d) and slope[n, a, b] = d_a v_b."""
-    d, (eta, zeta, _) = v.shape[1], coefficients
-    along, div = np.einsum("na,nab->nb", v, slope), np.einsum("naa->n", slope)
-    return (eta*(1/2 + 1/d) - zeta/2)[:, None]*(along - div[:, None]*v)
+    return np.einsum("nab,nb->na", transposed(coefficients, slope), v)
+
+
+def transposed(coefficients: Coefficients, slope: np.ndarray) -> np.ndarray:
+    """tau[n, a, b] = A (d_b v_a - delta_ab div v), A = eta (1/2 + 1/d) - zeta/2, from slope[n, a, b] = d_a v_b."""
+    d, (eta, zeta, _) = slope.shape[1], coefficients
+    div = np.einsum("naa->n", slope)[:, None, None]*np.eye(d)
+    return (eta*(1/2 + 1/d) - zeta/2)[:, None, None]*(np.swapaxes(slope, 1, 2) - div)
 
 
 def check_bulk(eta: np.ndarray, zeta: np.ndarray, d: int) -> None:
