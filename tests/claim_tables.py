@@ -6,8 +6,10 @@ import numpy as np
 import pandas as pd
 
 from studies.convection.claims import RB_CLAIMS, lattices
+from studies.convection.claims import points as dih
 from studies.convection.claims.grid import PYPDE
-from studies.convection.claims.read import grid, onset, particles
+from studies.convection.claims.read import grid, onset, particles, scene
+from studies.convection.dih import SCHEMES
 from studies.kit.claim import judge
 from studies.kit.table import Tables
 
@@ -104,7 +106,10 @@ def points() -> list[dict]:
              for (ra, where), rows in itertools.product(scenes, (24, 32, 48, 50, 100, math.inf))]
     runs = [particles(ra, rows, variant, **where)
             for (ra, where), rows, variant in itertools.product(scenes, (16, 25, 40, 50), VARIANTS)]
-    return [*grids, *runs, PYPDE, grid(1e4, 48, "paper-form"), grid(67150.3, 48, "fig10", sides="walls"),
+    fixed = [dih.points(ra, name, rows) for ra, name, rows in itertools.product((5e3, 1e4), (*SCHEMES, "moving"),
+                                                                               (*dih.ROWS, math.inf))]
+    wrong = [{"method": "compressible", "variant": "edge-heat", "resolution": math.inf, **scene(ra)} for ra in (5e3, 1e4)]
+    return [*grids, *runs, *fixed, *wrong, PYPDE, grid(1e4, 48, "paper-form"), grid(67150.3, 48, "fig10", sides="walls"),
             grid(67150.3, 48, "fig10", sides="walls", eos="dense"), grid(7000, 48, "two-rolls", sides="walls")]
 
 

@@ -5,7 +5,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from studies.convection.claims import RB_CLAIMS, histories, snapshots
+from studies.convection.claims import RB_CLAIMS, histories, points, snapshots
 from studies.convection.claims.grid import PYPDE
 from studies.convection.claims.read import grid, particles
 from studies.convection.symmetry import flowing
@@ -153,6 +153,21 @@ def test_at_high_ra_the_finest_grid_is_the_reference():
                                  "ke_field_err": 0.0}])
     found = judged("khp95-robust-right", Tables({"kinetic_energy": runs, "means": means_there, "smoothed": seen(1e5, 0.9)}))
     assert (found["measured"], found["err"]) == pytest.approx((0.05, 0.95*0.02), rel=1e-4)
+
+
+def test_points_are_judged_by_their_limit_and_their_order():
+    """K = K_grid (1.002 + 12/rows^2): 0.2 % off, of an order that the constant bends; exactly second order without it."""
+    def tables(constant, err=1e-7):
+        def ke(n):
+            return straight(1e4)*(1 + constant + (12/n**2 if n < math.inf else 0))
+        rows = [{**points.points(1e4, "fixed-lattice", n), "ke": ke(n), "ke_err": err}
+                for n in (*points.ROWS, math.inf)]
+        return means([*grids(), *rows])
+    assert judged("rr98-rb-lattice-10000", tables(0.002))["measured"] == pytest.approx(0.002, rel=1e-3)
+    exact = judged("rr98-rb-lattice-order-10000", tables(0.0))
+    assert exact["measured"] == pytest.approx(2, rel=1e-3) and exact["verdict"] == "holds"
+    assert judged("rr98-rb-lattice-order-10000", tables(0.004))["measured"] < 1.8
+    assert verdict("rr98-rb-lattice-order-10000", tables(0.0, 1e-5)) == "undecidable"
 
 
 def test_the_mean_flow_is_told_from_noise():

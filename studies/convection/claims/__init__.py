@@ -1,4 +1,4 @@
-"""Every number and statement of KHP95 on convection, judged by the tables of study `rb` or by arithmetic.
+"""Every number and statement of KHP95 on convection, and RR98's equations there, judged by the tables of study `rb`.
 
 One module a theme, each with its CLAIMS; `read`, `lines`, `histories`, `snapshots`, `lattices`, `sums` and `newton`
 are what their values are made of. Claims on critical Rayleigh numbers are judged by the study `onset`.
@@ -11,6 +11,7 @@ from studies.convection.claims import (
     grid,
     open,
     own,
+    points,
     printed,
     spam,
     square,
@@ -18,5 +19,5 @@ from studies.convection.claims import (
     weights,
 )
 
-THEMES = (weights, fluids, printed, grid, square, spam, starts, freedoms, flow, freezing, own, open)
+THEMES = (weights, fluids, printed, grid, square, spam, starts, freedoms, flow, freezing, own, points, open)
 RB_CLAIMS = tuple(claim for theme in THEMES for claim in theme.CLAIMS)
