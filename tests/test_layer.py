@@ -62,6 +62,16 @@ def test_compiled_sums_are_those_of_the_slow_twin(make, size, h, mended, eos):
 
 
 @pytest.mark.parametrize(("make", "size", "h"), MADE)
+def test_linear_sums_are_those_edge_by_edge(make, size, h):
+    fluid, x, _ = layer(make, size, h=h)
+    state = shaken(fluid, x)
+    one, other = rates(fluid, state), rates(replace(fluid, fast=False), state)
+    for a, b in zip(one, other, strict=True):
+        assert np.abs(a - b).max() < 1e-13*np.abs(b).max()
+    assert fluid.start(len(x), Team(1)).linear is not None
+
+
+@pytest.mark.parametrize(("make", "size", "h"), MADE)
 def test_plates_take_no_mass(make, size, h):
     fluid, x, _ = layer(make, size, h=h)
     found = rates(fluid, shaken(fluid, x))[0]

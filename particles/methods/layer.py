@@ -9,10 +9,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import conductivity, energy, pressure, sound_speed, stress, temperature, valid, viscosity
+from continuum.fluid import ConstEta, IdealGas, conductivity, energy, pressure, sound_speed, stress, temperature, valid, viscosity
 from continuum.jit import formula, jit
 from particles.edges import Beyond, Edges
 from particles.limits import limit_of
+from particles.methods.layer_ideal import IdealSums
 from particles.neighbours import u32, u64
 from particles.pairs import Stored, nothing, rate, sweep
 from particles.team import Team
@@ -89,7 +90,8 @@ class Layer:
 
     edges, beyond : of `edges.between_plates`. mended : the heating of friction along edges as it should be; False as Eq. 51 has
     it, which heats even a rigid rotation. share : of viscosity and conduction that is along edges [Eq. 51]; the rest is nested,
-    gradients first and their divergence after [Eqs 37, 38], and does not see waves two spacings long.
+    gradients first and their divergence after [Eqs 37, 38], and does not see waves two spacings long. fast : sums in the form of
+    `layer_ideal` where the fluid allows it.
     """
     x: np.ndarray
     edges: Edges
@@ -100,6 +102,7 @@ class Layer:
     g: float
     mended: bool = True
     share: float = 1.0
+    fast: bool = True
 
     fields = ("rho", "px", "py", "eps")
 
@@ -110,7 +113,7 @@ class Layer:
     def __repr__(self) -> str:
         """What tells a checkpoint's method from another: edges by their sums."""
         sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.x, self.edges.S, self.edges.k, self.beyond.S))
-        return f"Layer({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.T_plates}, {self.g}, {self.mended}, {self.share})"
+        return f"Layer({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.T_plates}, {self.g}, {self.mended}, {self.share}, {self.fast})"
 
     def state(self, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
         """(4, n) of densities, velocities (n, 2), temperatures (n,)."""
@@ -159,9 +162,14 @@ class Exchanging:
         if method.share < 1:
             self.currents, self.nested = np.zeros(len(self.points), Current), np.empty((self.n, 3))
             self.all_slopes = np.empty((self.n, 6))
+        fits = isinstance(method.eos, IdealGas) and isinstance(method.law, ConstEta) and method.mended and method.share == 1
+        self.linear = IdealSums(self) if fits and method.fast else None
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (4, n), written to `out`    [Eqs 34-36, 51]"""
+        if self.linear is not None:
+            self.linear.rates(state, out)
+            return
         method = self.method
         self.look_at(state)
         self.team(sweep, self.n, Exchange(method.eos), self.points, self.edges, self.total)

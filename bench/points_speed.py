@@ -1,0 +1,83 @@
+"""How fast are points: an evaluation of fixed ones over stored edges, a step of moving ones with lists and faces.
+
+    python -m bench.points_speed
+
+One core, CPU time, 20 000 points between plates in the developing rolls of the start; the kinds take turns. Rows are medians and
+quartiles over the repeats. Writes results/bench/points_speed.csv; takes a minute, on a quiet machine.
+"""
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+
+from bench.spam_speed import COLUMNS, time_row
+from continuum.scene import RayleighBenard
+from particles.limits import limit_of
+from particles.run import Plan, run
+from particles.team import Team
+from studies.convection import dih, moving
+from studies.kit.csvfile import write
+from studies.kit.provenance import commit, cpu, now, versions
+from studies.kit.source import ROOT
+
+FILE = ROOT/"results"/"bench"/"points_speed.csv"
+SCENE = RayleighBenard(ra=1e4, L=100.0)
+REPEATS, EVALUATIONS, STEPS = 21, 10, 12
+
+
+def fixed(name: str, fast: bool = True) -> Callable[[], float]:
+    """Nanoseconds a point and evaluation of one scheme on fixed points."""
+    method = replace(dih.layer(SCENE, dih.SCHEMES[name], 1), fast=fast)
+    state = dih.start(SCENE, method)
+    sums, out, n = method.start(state.shape[1], Team(1)), np.empty_like(state), state.shape[1]
+
+    def measure() -> float:
+        began = time.process_time()
+        for _ in range(EVALUATIONS):
+            sums.rates(state, out)
+        return 1e9*(time.process_time() - began)/(EVALUATIONS*n)
+    return measure
+
+
+def step(name: str) -> Callable[[], float]:
+    """Nanoseconds a point and step of moving points: three evaluations, faces, lists; the difference of two lengths."""
+    motion = moving.MOTIONS[name]
+    method = moving.method(SCENE, motion)
+    first = moving.start(SCENE, method, 1)
+    dt = limit_of(method, first)
+    warm = run(method, first, Plan(dt=dt, steps=30)).state
+
+    def seconds(steps: int) -> float:
+        began = time.process_time()
+        run(method, warm, Plan(dt=dt, steps=steps))
+        return time.process_time() - began
+
+    def measure() -> float:
+        return 1e9*(seconds(2*STEPS) - seconds(STEPS))/(STEPS*first.shape[1])
+    return measure
+
+
+def main() -> None:
+    """Measure and write."""
+    kinds = {"fixed points, h = 2 a": fixed("fixed-lattice"), "fixed points, h = 3 a": fixed("fixed-lattice-h3"),
+             "fixed points, h = 3 a, edge by edge": fixed("fixed-lattice-h3", fast=False),
+             "fixed points, Delaunay": fixed("fixed-jittered-delaunay"),
+             "moving points, a step": step("moving"), "moving points, a step, open faces": step("moving-open-faces")}
+    found: dict[str, list[float]] = {name: [] for name in kinds}
+    for measure in kinds.values():
+        measure()       # loads what is compiled
+    for _ in range(REPEATS):
+        for name, measure in kinds.items():
+            found[name].append(measure())
+    points = round(SCENE.width*SCENE.L)
+    rows = [time_row(name, points, 1, values) for name, values in found.items()]
+    for row in rows:
+        print(f"{row['what']:40s} {row['ns_per_particle_evaluation']:8.1f} ns  ({row['q25']:.1f} to {row['q75']:.1f})")
+    FILE.parent.mkdir(parents=True, exist_ok=True)
+    write(FILE, pd.DataFrame(rows, columns=COLUMNS), head=[f"commit {commit()}", versions(), cpu(), f"{now()}, make bench"])
+
+
+if __name__ == "__main__":
+    main()
