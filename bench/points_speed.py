@@ -76,7 +76,8 @@ def main() -> None:
     for row in rows:
         print(f"{row['what']:40s} {row['ns_per_particle_evaluation']:8.1f} ns  ({row['q25']:.1f} to {row['q75']:.1f})")
     FILE.parent.mkdir(parents=True, exist_ok=True)
-    write(FILE, pd.DataFrame(rows, columns=COLUMNS), head=[f"commit {commit()}", versions(), cpu(), f"{now()}, make bench"])
+    table = pd.DataFrame(rows, columns=COLUMNS).assign(cpu=cpu(), versions=versions(), date=now(), commit=commit())
+    write(FILE, table, head=["python -m bench.points_speed"])
 
 
 if __name__ == "__main__":

@@ -90,8 +90,8 @@ class Layer:
 
     edges, beyond : of `edges.between_plates`. mended : the heating of friction along edges as it should be; False as Eq. 51 has
     it, which heats even a rigid rotation. share : of viscosity and conduction that is along edges [Eq. 51]; the rest is nested,
-    gradients first and their divergence after [Eqs 37, 38], and does not see waves two spacings long. fast : sums in the form of
-    `layer_ideal` where the fluid allows it.
+    gradients first and their divergence after [Eqs 37, 38], and does not see waves two spacings long. fast : in the
+    form of `layer_ideal` where the fluid allows it.
     """
     x: np.ndarray
     edges: Edges
@@ -113,7 +113,8 @@ class Layer:
     def __repr__(self) -> str:
         """What tells a checkpoint's method from another: edges by their sums."""
         sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.x, self.edges.S, self.edges.k, self.beyond.S))
-        return f"Layer({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.T_plates}, {self.g}, {self.mended}, {self.share}, {self.fast})"
+        return (f"Layer({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.T_plates}, {self.g}, {self.mended}, {self.share}, "
+                f"{self.fast})")
 
     def state(self, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
         """(4, n) of densities, velocities (n, 2), temperatures (n,)."""
