@@ -40,7 +40,7 @@ def test_every_claim_is_whole_and_its_own():
     statements = [claim.statement for claim in ALL]
     assert len(set(statements)) == len(statements), "a statement must be told from others without its neighbours"
     for claim in ALL:
-        assert claim.id.startswith(("khp95-", "own-")) and claim.source.startswith("KHP95 ")
+        assert claim.id.startswith(("khp95-", "own-", "rr98-")) and claim.source.startswith(("KHP95 ", "RR98 "))
         assert not claim.statement.startswith(("the same", "such", "these")), claim.id
         assert len(claim.because or claim.undecidable) > 8, claim.id
 

@@ -1,5 +1,6 @@
 """Figures come from tables alone: all of them from full ones, some from few rows, none from nothing."""
 import io
+import itertools
 import math
 import subprocess
 import sys
@@ -87,6 +88,14 @@ def kinetic():
                 yield from spam_rows(variant, "layer", ra, rows, 25.0 if variant == WILD else 0.3 + 0.15*number)
         yield from fallen(LOST, ra, 25)
         yield from fallen(LOST, ra, 50)
+    yield from point_rows()
+
+
+def point_rows():
+    """Fixed and moving points: second order, the moving ones from below."""
+    for ra, rows, (variant, sign) in itertools.product((5000.0, 10000.0), (25, 40, 50), (("fixed-lattice", 1), ("moving", -1))):
+        ke = k(ra)*(1 + sign*15/rows**2)
+        yield energies(("dih", variant), "layer", ra, rows, ke, ke, particles=2*rows**2)
 
 
 def fallen(variant, ra, rows):
