@@ -40,6 +40,13 @@ def test_points_off_the_lattice_conserve_mass_and_convect(tmp_path):
     assert row["ke"] == pytest.approx(0.0049, rel=0.1)
 
 
+def test_heat_through_plates_is_conduction_at_rest_whatever_the_share_along_edges(tmp_path):
+    """Far below onset the layer comes to rest: Nu = 1 with forces along edges, with a tenth of them, on a lattice exactly."""
+    for scheme in ("fixed-lattice", "fixed-lattice-nested"):
+        row = one(tmp_path/scheme, scheme, ra=200.0, t_end=400.0)
+        assert row["nu"] == pytest.approx(1, abs=1e-6)
+
+
 def test_side_walls_are_refused(tmp_path):
     with pytest.raises(ValueError, match="periodic sides"):
         layer(RayleighBenard(ra=1e4, L=12.0, aspect=1.0, sides=Walls()), SCHEMES["fixed-lattice"], 1)

@@ -101,10 +101,15 @@ class PlateHeat(NamedTuple):
     plate: int
 
     def __call__(self, sums: Exchanging, state: np.ndarray) -> float:
-        """Over all edges to images behind the plate."""
+        """Over all edges to images behind the plate, along them and nested."""
         beyond, points, here = sums.method.beyond, sums.points, sums.method.beyond.plate == self.plate
-        a, b = points[beyond.i[here]], points[sums.n + sums.ghost.ravel()[here]]
-        return float(np.sum(beyond.k[here]*(a["k"] + b["k"])/2*(b["Td"] - a["Td"])))
+        i, image = beyond.i[here], sums.n + sums.ghost.ravel()[here]
+        a, b = points[i], points[image]
+        along = float(np.sum(beyond.k[here]*(a["k"] + b["k"])/2*(b["Td"] - a["Td"])))
+        if sums.method.share == 1:
+            return along
+        q = np.stack([sums.currents[name][i] + sums.currents[name][image] for name in ("qx", "qy")], axis=1)
+        return along + float((beyond.S[here]*q).sum()/2)
 
 
 @dataclass(frozen=True, kw_only=True)
