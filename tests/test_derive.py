@@ -75,7 +75,7 @@ def test_points_are_extrapolated_over_the_square_of_their_spacing():
         [row] = found
         assert row["resolution"] == np.inf and row["seed"] == 0
         return row["ke"], row["ke_err"]
-    assert limit() == pytest.approx((4.0, 0.0), abs=1e-5)
+    assert limit() == pytest.approx((4.0, 0.0), abs=5*4e-6)     # no value is taken for better than 1e-6 of itself; t is 4.3
     value, err = limit(bend=500.0)
     assert 0 < abs(value - 4) < err < 0.1
     assert limit(scatter=0.01)[1] > 0.01
