@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from studies.kit import source, study, sweep
+from studies.kit import source, study, sweep, workers
 from studies.kit.case import Case, Outcome
 from studies.kit.claim import Claim
 from studies.kit.figure import figure
@@ -87,6 +87,23 @@ class Toy:
         lines = (self.folder / "log").read_text().splitlines() if (self.folder / "log").exists() else []
         (self.folder / "log").unlink(missing_ok=True)
         return [line.split()[0] for line in lines], {line.split(" ", 1)[1] for line in lines}
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+def test_an_interrupt_that_python_drops_stops_the_study_all_the_same():
+    """Exceptions in destructors are printed and forgotten."""
+    class Bad:
+        def __del__(self):
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(0)
+    with workers.remember_interrupt():
+        try:
+            made = Bad()
+            del made
+        except KeyboardInterrupt:
+            pytest.fail("it was not dropped: the test shows nothing")
+        assert workers.pressed == [signal.SIGINT]
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
 def test_a_study_from_the_command_line(tmp_path):

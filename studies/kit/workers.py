@@ -75,7 +75,7 @@ def executor_of(bar: Bar, workers: int, executor: Executor | None) -> Iterator[E
         yield executor
         return
     before = set(multiprocessing.active_children())
-    with one_thread(), ProcessPoolExecutor(workers, SPAWN, begin, (bar.done,)) as pool:
+    with one_thread(), remember_interrupt(), ProcessPoolExecutor(workers, SPAWN, begin, (bar.done,)) as pool:
         try:
             yield pool
         except BaseException:
@@ -92,6 +92,8 @@ def drain(pool: Executor, cases: Sequence[Case], numbers: Sequence[int], folder:
     waiting: set[Future] = set(tasks)
     lost = []
     while waiting:
+        if pressed:
+            raise KeyboardInterrupt
         ready, waiting = wait(waiting, timeout=0.2, return_when=FIRST_COMPLETED)
         for task in ready:
             number = tasks[task]
@@ -143,6 +145,29 @@ def one_thread() -> Iterator[None]:
     finally:
         for name, value in before.items():
             os.environ.pop(name, None) if value is None else os.environ.__setitem__(name, value)
+
+
+#: signals to stop that came: Python drops the exception of one that comes within a destructor or a callback
+pressed: list[int] = []
+
+
+@contextmanager
+def remember_interrupt() -> Iterator[None]:
+    """Keep in `pressed` that Ctrl-C was pressed or the study was told to end, besides raising KeyboardInterrupt."""
+    def stop(number: int, frame: object) -> None:
+        pressed.append(number)
+        raise KeyboardInterrupt
+    if threading.current_thread() is not threading.main_thread():      # only the main thread has handlers
+        yield
+        return
+    before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)
+              if signal.getsignal(number) is signal.default_int_handler}
+    try:
+        yield
+    finally:
+        pressed.clear()
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 @contextmanager
