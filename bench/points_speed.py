@@ -46,7 +46,7 @@ def step(name: str) -> Callable[[], float]:
     motion = moving.MOTIONS[name]
     method = moving.method(SCENE, motion)
     first = moving.start(SCENE, method, 1)
-    dt = limit_of(method, first)
+    dt = 0.8*limit_of(method, first)
     warm = run(method, first, Plan(dt=dt, steps=30)).state
 
     def seconds(steps: int) -> float:
