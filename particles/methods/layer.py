@@ -9,29 +9,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import ConstEta, IdealGas, conductivity, energy, pressure, sound_speed, stress, temperature, valid, viscosity
-from continuum.jit import formula, jit
+from continuum.fluid import ConstEta, IdealGas, conductivity, sound_speed, stress, temperature, viscosity
+from continuum.jit import jit
 from particles.edges import Beyond, Edges
 from particles.limits import limit_of
+from particles.methods.fixed import Differences, Exchange, Point, Summing, check_number, driven, lacking, read, states, stored
 from particles.methods.layer_ideal import IdealSums
-from particles.neighbours import u32, u64
-from particles.pairs import Stored, nothing, rate, sweep
+from particles.pairs import nothing, rate, sweep
 from particles.team import Team
-
-#: seen by convection and pressure: vx .. eps, hydro; by friction and heat: ux, uy, Td; F mends the heating
-Point = np.dtype([(name, "f8") for name in ("rho", "vx", "vy", "T", "eps", "ux", "uy", "Td", "eta", "k", "Fx", "Fy", "hydro")])
 
 #: what nested transport exchanges: stress, -Q, and the velocity that friction sees
 Current = np.dtype([(name, "f8") for name in ("xx", "xy", "yx", "yy", "qx", "qy", "ux", "uy")])
-
-
-class Exchange(NamedTuple):
-    """Brackets of Eqs 34-36 with P_ab = P(rho_a, T_b), friction and heat along the edge [Eq. 51, zeta = 0], and F."""
-    eos: Any
-
-
-class Differences(NamedTuple):
-    """V grad v by differences: d_x u, d_y u, d_x v, d_y v."""
 
 
 class Slopes(NamedTuple):
@@ -42,34 +30,8 @@ class Nested(NamedTuple):
     """Stress and heat current of the points, over edges: momentum and energy    [Eqs 37, 38, for coefficients of one point]"""
 
 
-nothing.of(Exchange)(lambda term: (0.0, 0.0, 0.0, 0.0))
-nothing.of(Differences)(lambda term: (0.0, 0.0, 0.0, 0.0))
 nothing.of(Slopes)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 nothing.of(Nested)(lambda term: (0.0, 0.0, 0.0))
-
-
-@formula
-def _pressure(eos, rho, T):
-    return pressure(eos, rho, energy(eos, rho, T))
-
-
-@rate.of(Exchange)
-def _(term, a, b, ab):
-    to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy       # S.v/2
-    P_ab, P_ba = _pressure(term.eos, a.rho, b.T) + b.hydro, _pressure(term.eos, b.rho, a.T)
-    from_a, from_b, P = a.rho*to_b, b.rho*to_a, P_ab + P_ba
-    f, du, dv = 0.5*(a.eta + b.eta)*ab.k, b.ux - a.ux, b.uy - a.uy
-    through = a.eps*to_b + b.eps*to_a + P_ab*to_a + P_ba*to_b
-    friction = f*0.5*(du*(a.ux + b.ux) + dv*(a.uy + b.uy)) + 0.5*(a.k + b.k)*ab.k*(b.Td - a.Td)
-    mend = ab.sx*(a.Fx + b.Fx) + ab.sy*(a.Fy + b.Fy)
-    return (-from_a - from_b, f*du - from_a*a.vx - from_b*b.vx - ab.sx*P, f*dv - from_a*a.vy - from_b*b.vy - ab.sy*P,
-            friction + mend - through)
-
-
-@rate.of(Differences)
-def _(term, a, b, ab):
-    du, dv = b.ux - a.ux, b.uy - a.uy
-    return ab.sx*du, ab.sy*du, ab.sx*dv, ab.sy*dv
 
 
 @rate.of(Slopes)
@@ -118,8 +80,7 @@ class Layer:
 
     def state(self, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
         """(4, n) of densities, velocities (n, 2), temperatures (n,)."""
-        rho = rho*np.ones(len(self.x))
-        return np.stack([rho, *(rho[:, None]*v).T, rho*(energy(self.eos, rho, T) + (v**2).sum(axis=1)/2)])
+        return states(self.eos, rho*np.ones(len(self.x)), v, T)
 
     def start(self, n: int, team: Team) -> "Exchanging":
         """The sums over stored edges.
@@ -129,8 +90,7 @@ class Layer:
         ValueError
             The state has not as many points as there are.
         """
-        if n != len(self.x):
-            raise ValueError(f"a state of {n} points for {len(self.x)} fixed ones: make it with `state`")
+        check_number(n, len(self.x))
         return Exchanging(self, team)
 
 
@@ -146,7 +106,7 @@ def _(method: Layer, start: np.ndarray) -> float:
     return float(1/(np.max(fast)*sound/2.82 + np.max(chi)*spread/2.78))
 
 
-class Exchanging:
+class Exchanging(Summing):
     """The compiled sums of a layer, with what the time loop asks for."""
 
     def __init__(self, method: Layer, team: Team):
@@ -177,67 +137,21 @@ class Exchanging:
         if method.share < 1:
             self.team(sweep, self.n, Nested(), self.currents, self.edges, self.nested)
             self.total[:, 1:] += self.nested
-        self.team(_rates, self.n, self.total, self.method.edges.V, self.points, method.g, out)
+        self.team(driven, self.n, self.total, method.edges.V, self.points, np.array([0.0, -method.g]), out)
 
     def look_at(self, state: np.ndarray) -> None:
         """Fields of all points and images, and F."""
         method, points = self.method, self.points
-        self.team(_fields, self.n, state, method.eos, method.law, method.share, points)
+        self.team(read, self.n, state, method.eos, method.law, method.share, points)
         _images(self.parent, self.plate, self.rise, np.array(method.T_plates), method.g, points, self.n)
         if method.mended:
             self.team(sweep, self.n, Differences(), points, self.edges, self.slopes)
-            self.team(_lacking, self.n, self.slopes, method.edges.V, points)
+            self.team(lacking, self.n, self.slopes, method.edges.V, points)
             _image_lacking(self.parent, points, self.n)
         if method.share < 1:
             self.team(sweep, self.n, Slopes(), points, self.edges, self.all_slopes)
             self.team(_currents, self.n, self.all_slopes, method.edges.V, method.law, 1 - method.share, points, self.currents)
             _image_currents(self.parent, points, self.currents, self.n)
-
-    def resume(self, now: Any) -> None:
-        """Fixed points have no lists to make again."""
-
-    def try_out(self, now: Any) -> None:
-        """One evaluation that leaves no trace."""
-        self.rates(now.state, np.empty_like(now.state))
-
-    def make_ready(self, now: Any, dt: float) -> None:
-        """Nothing: edges are made once."""
-
-    def confine(self, state: np.ndarray) -> int:
-        """Nothing moves."""
-        return 0
-
-    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
-        """The first point outside of the equation of state; empty if there is none."""
-        rho, e = state[0], (state[3] - (state[1]**2 + state[2]**2)/(2*state[0]))/state[0]
-        good = valid(self.method.eos, rho, e)
-        if good.all():
-            return ""
-        i = int(np.argmin(good))
-        return f"point {i} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of {type(self.method.eos).__name__}"
-
-
-def stored(edges: Edges, beyond: Beyond, image: np.ndarray) -> Stored:
-    """Edges by rows: those to other points, in both directions, and those to images, numbered `image`."""
-    rows = np.concatenate([edges.i, edges.j, beyond.i])
-    near = np.concatenate([edges.j, edges.i, image])
-    order = np.lexsort((near, rows))
-    S = np.concatenate([edges.S, -edges.S, beyond.S])[order]/2
-    k = np.concatenate([edges.k, edges.k, beyond.k])[order]
-    taken = np.bincount(rows, minlength=edges.n)
-    first = np.cumsum(taken) - taken
-    return Stored(first.astype(u64), taken.astype(u32), near[order].astype(u32), S[:, 0].copy(), S[:, 1].copy(), k)
-
-
-@jit
-def _fields(first, last, state, eos, law, share, points):
-    for i in range(first, last):
-        a, rho = points[i], state[0, i]
-        a.rho, a.vx, a.vy, a.eps = rho, state[1, i]/rho, state[2, i]/rho, state[3, i]
-        a.T = temperature(eos, rho, a.eps/rho - 0.5*(a.vx**2 + a.vy**2))
-        a.ux, a.uy, a.Td = a.vx, a.vy, a.T
-        a.eta, a.k = share*viscosity(law, rho, a.T), share*conductivity(law, rho, a.T)
-
 
 @jit
 def _currents(first, last, slopes, V, law, share, points, currents):
@@ -273,25 +187,8 @@ def _images(parent, plate, rise, T_plates, g, points, n):
 
 
 @jit
-def _lacking(first, last, slopes, V, points):
-    """F = eta (v u_y - u v_y, u v_x - v u_x), in 2D without bulk viscosity."""
-    for i in range(first, last):
-        a, f = points[i], points[i].eta/V[i]
-        ux, uy, vx, vy = slopes[i]
-        a.Fx, a.Fy = f*(a.vy*uy - a.vx*vy), f*(a.vx*vx - a.vy*ux)
-
-
-@jit
 def _image_lacking(parent, points, n):
     """No energy through the plate: F along it even, across it odd."""
     for m in range(len(parent)):
         a, b = points[parent[m]], points[n + m]
         b.Fx, b.Fy = a.Fx, -a.Fy
-
-
-@jit
-def _rates(first, last, total, V, points, g, out):
-    for i in range(first, last):
-        a = points[i]
-        out[0, i], out[1, i] = total[i, 0]/V[i], total[i, 1]/V[i]
-        out[2, i], out[3, i] = total[i, 2]/V[i] - g*a.rho, total[i, 3]/V[i] - g*a.rho*a.vy

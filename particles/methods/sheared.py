@@ -12,8 +12,8 @@ import numpy as np
 from continuum.jit import jit
 from particles.edges import Edges
 from particles.limits import limit_of
-from particles.methods.layer import Differences, Exchange, Layer, Point
-from particles.methods.stream import Summing, check_number, driven, lacking, read, states
+from particles.methods.fixed import Differences, Exchange, Point, Summing, check_number, driven, lacking, read, states
+from particles.methods.layer import Layer
 from particles.neighbours import u32
 from particles.pairs import Stored, sweep
 from particles.points import Points
@@ -90,7 +90,7 @@ class Shearing(Summing):
         """Images where they are now, fields of points and images, F."""
         method, made, points = self.method, self.method.sides, self.all
         slide(state[4, 0]/method.points.a, made.through, made.number, *made.counts, self.edges)
-        self.team(read, self.n, state, method.eos, method.law, points)
+        self.team(read, self.n, state, method.eos, method.law, 1.0, points)
         boosted(made.parent, self.boost, points, self.n)
         self.team(sweep, self.n, Differences(), points, self.edges, self.slopes)
         self.team(lacking, self.n, self.slopes, method.edges.V, points)

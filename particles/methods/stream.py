@@ -11,12 +11,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import conductivity, energy, temperature, valid, viscosity
+from continuum.fluid import conductivity, energy, viscosity
 from continuum.jit import jit
 from particles.bodies import Held
 from particles.edges import Beyond, Edges
 from particles.limits import limit_of
-from particles.methods.layer import Differences, Exchange, Layer, Point, stored
+from particles.methods.fixed import Differences, Exchange, Point, Summing, check_number, driven, lacking, read, states, stored
+from particles.methods.layer import Layer
 from particles.pairs import nothing, rate, sweep
 from particles.team import Team
 
@@ -88,49 +89,6 @@ class Stream:
 limit_of.register(Stream, limit_of.dispatch(Layer))
 
 
-def states(eos: Any, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-    """(4, n) of densities, velocities (n, 2), temperatures."""
-    return np.stack([rho, *(rho[:, None]*v).T, rho*(energy(eos, rho, T) + (v**2).sum(axis=1)/2)])
-
-
-def check_number(n: int, points: int) -> None:
-    """Refuse a state of other points."""
-    if n != points:
-        raise ValueError(f"a state of {n} points for {points} fixed ones: make it with `state`")
-
-
-class Summing:
-    """What the time loop asks of sums over edges of points that stay."""
-    method: Any
-
-    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt, written to `out`."""
-        raise NotImplementedError
-
-    def resume(self, now: Any) -> None:
-        """Fixed points have no lists to make again."""
-
-    def try_out(self, now: Any) -> None:
-        """One evaluation that leaves no trace."""
-        self.rates(now.state, np.empty_like(now.state))
-
-    def make_ready(self, now: Any, dt: float) -> None:
-        """Nothing: edges are made once."""
-
-    def confine(self, state: np.ndarray) -> int:
-        """Nothing moves."""
-        return 0
-
-    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
-        """The first point outside of the equation of state; empty if there is none."""
-        rho, e = state[0], (state[3] - (state[1]**2 + state[2]**2)/(2*state[0]))/state[0]
-        good = valid(self.method.eos, rho, e)
-        if good.all():
-            return ""
-        i = int(np.argmin(good))
-        return f"point {i} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of {type(self.method.eos).__name__}"
-
-
 class Streaming(Summing):
     """The compiled sums of a stream. received (m, 3): momentum and energy that each held point takes, per time."""
 
@@ -156,7 +114,7 @@ class Streaming(Summing):
     def look_at(self, state: np.ndarray) -> None:
         """Fields of all points, and F."""
         method, points = self.method, self.points
-        self.team(read, self.n, state, method.eos, method.law, points)
+        self.team(read, self.n, state, method.eos, method.law, 1.0, points)
         hold(method.eos, method.law, *method.held[:3], points)
         self.team(sweep, self.n, Differences(), points, self.edges, self.slopes)
         self.team(lacking, self.n, self.slopes, method.edges.V, points)
@@ -183,17 +141,6 @@ def separated(edges: Edges, held: Held) -> Edges:
 
 
 @jit
-def read(first, last, state, eos, law, points):
-    """Fields of points first..last."""
-    for i in range(first, last):
-        a, rho = points[i], state[0, i]
-        a.rho, a.vx, a.vy, a.eps = rho, state[1, i]/rho, state[2, i]/rho, state[3, i]
-        a.T = temperature(eos, rho, a.eps/rho - 0.5*(a.vx**2 + a.vy**2))
-        a.ux, a.uy, a.Td = a.vx, a.vy, a.T
-        a.eta, a.k = viscosity(law, rho, a.T), conductivity(law, rho, a.T)
-
-
-@jit
 def hold(eos, law, which, v, T, points):
     """Held points have their own velocity and temperature, to the last digit."""
     for m in range(len(which)):
@@ -204,25 +151,6 @@ def hold(eos, law, which, v, T, points):
             a.T, a.Td = T[m], T[m]
             a.eps = a.rho*(energy(eos, a.rho, a.T) + 0.5*(a.vx**2 + a.vy**2))
             a.eta, a.k = viscosity(law, a.rho, a.T), conductivity(law, a.rho, a.T)
-
-
-@jit
-def lacking(first, last, slopes, V, points):
-    """F = eta (v u_y - u v_y, u v_x - v u_x), in 2D without bulk viscosity: `dih.lacking`."""
-    for i in range(first, last):
-        a, f = points[i], points[i].eta/V[i]
-        ux, uy, vx, vy = slopes[i]
-        a.Fx, a.Fy = f*(a.vy*uy - a.vx*vy), f*(a.vx*vx - a.vy*ux)
-
-
-@jit
-def driven(first, last, total, V, points, push, out):
-    """Rates of free points: what edges bring, and the force per mass."""
-    for i in range(first, last):
-        a = points[i]
-        out[0, i], out[1, i] = total[i, 0]/V[i], total[i, 1]/V[i] + push[0]*a.rho
-        out[2, i] = total[i, 2]/V[i] + push[1]*a.rho
-        out[3, i] = total[i, 3]/V[i] + (push[0]*a.vx + push[1]*a.vy)*a.rho
 
 
 @jit
