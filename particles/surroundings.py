@@ -2,6 +2,8 @@
 
 Points are numbered particles first, then fixed particles, then ghosts wall by wall; only the first two have rows.
 """
+from typing import Any
+
 import numpy as np
 
 from particles.neighbours import farthest, make_lists, sort_into_cells
@@ -123,3 +125,44 @@ class Surroundings:
         """Velocities and temperatures of the images from those of their parents."""
         for wall, parent, first, last in self.blocks:
             move_images(first, last, wall, parent, self.x, self.y, self.vx, self.vy, self.T)
+
+
+class Listed:
+    """What the time loop asks of sums over neighbour lists, whatever is summed."""
+    around: Surroundings
+
+    def evaluate(self, state: np.ndarray) -> None:
+        """All sums once."""
+        raise NotImplementedError
+
+    def resume(self, now: Any) -> None:
+        """Lists as a restarted run had them."""
+        if now.anchor is not None:
+            self.around.skin = now.skin
+            self.around.make_lists(now.anchor)
+
+    def try_out(self, now: Any) -> None:
+        """One evaluation on a copy of the particles, which leaves no trace."""
+        state, fresh = now.state.copy(), now.anchor is None
+        if fresh:
+            self.around.relist(state, now.ids.copy(), 0.0)
+        self.evaluate(state)
+        if fresh:
+            self.around.forget()
+
+    def make_ready(self, now: Any, dt: float) -> None:
+        """New lists if particles may leave the old ones within the step; the particles are then in the order of cells.
+
+        Raises
+        ------
+        FloatingPointError
+            A particle is too fast for any list.
+        """
+        if self.around.must_relist(now.state, dt):
+            self.around.relist(now.state, now.ids, dt)
+            now.anchor, now.skin = self.around.anchor, self.around.skin
+
+    def outran(self, state: np.ndarray) -> str:
+        """What is wrong if a particle has left the skin of the lists; empty if none has."""
+        far = self.around.moved(state) > self.around.skin/2
+        return "a particle sped up by more than a quarter within one step" if far else ""

@@ -22,7 +22,7 @@ from continuum.jit import jit
 from particles.limits import limit_of
 from particles.neighbours import u64
 from particles.pairs import Faces, nothing, rate, sweep
-from particles.surroundings import Surroundings
+from particles.surroundings import Listed, Surroundings
 from particles.team import Team
 from particles.walls import confine
 from particles.walls.mirror import Mirror
@@ -175,7 +175,7 @@ class DriftKickDrift:
         sums.drift(y, dt/2)
 
 
-class Exchanging:
+class Exchanging(Listed):
     """The compiled sums of moving points, with what the time loop asks for."""
 
     def __init__(self, method: Moving, n: int, team: Team):
@@ -319,27 +319,10 @@ class Exchanging:
         state[:2] += dt*state[2:4]
         self.confine(state)
 
-    def resume(self, now: Any) -> None:
-        """Lists as a restarted run had them."""
-        if now.anchor is not None:
-            self.around.skin = now.skin
-            self.around.make_lists(now.anchor)
-
-    def try_out(self, now: Any) -> None:
-        """One evaluation on a copy of the points, which leaves no trace."""
-        state, fresh = now.state.copy(), now.anchor is None
-        if fresh:
-            self.around.relist(state, now.ids.copy(), 0.0)
+    def evaluate(self, state: np.ndarray) -> None:
+        """Faces and all sums once."""
         self.make_faces(state)
         self.rates(state, np.empty_like(state))
-        if fresh:
-            self.around.forget()
-
-    def make_ready(self, now: Any, dt: float) -> None:
-        """New lists if points may leave the old ones within the step."""
-        if self.around.must_relist(now.state, dt):
-            self.around.relist(now.state, now.ids, dt)
-            now.anchor, now.skin = self.around.anchor, self.around.skin
 
     def confine(self, state: np.ndarray) -> int:
         """Turn points beyond plates back; their number."""
@@ -359,8 +342,7 @@ class Exchanging:
             i = int(np.argmin(good))
             return (f"point {ids[i]} has V = {V[i]:.4g}, rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of "
                     f"{type(self.method.eos).__name__}")
-        far = self.around.moved(state) > self.around.skin/2
-        return "a point sped up by more than a quarter within one step" if far else ""
+        return self.outran(state)
 
 
 def inner(a: np.ndarray, b: np.ndarray) -> float:

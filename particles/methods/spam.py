@@ -13,7 +13,7 @@ import numpy as np
 from continuum.fluid import conductivity, energy, pressure, stress, temperature, valid, viscosity
 from continuum.jit import formula, jit
 from particles.pairs import sweep
-from particles.surroundings import Surroundings
+from particles.surroundings import Listed, Surroundings
 from particles.team import Team
 from particles.terms import ArithmeticGradients, DirectFluxes, Fluxes, Gradients, density_factor
 from particles.walls import confine, image_pressure
@@ -81,7 +81,7 @@ class Spam:
         return (self.transport or Nested)(self, n, team)
 
 
-class Sums(ABC):
+class Sums(Listed, ABC):
     """What both kinds of transport share: arrays, the density sum, the equations of state, what the time loop asks for."""
 
     def __init__(self, method: Spam, n: int, team: Team):
@@ -112,32 +112,9 @@ class Sums(ABC):
         self.densities(state)
         self.gradients()
 
-    def resume(self, now: Any) -> None:
-        """Lists as a restarted run had them."""
-        if now.anchor is not None:
-            self.around.skin = now.skin
-            self.around.make_lists(now.anchor)
-
-    def try_out(self, now: Any) -> None:
-        """One evaluation on a copy of the particles, which leaves no trace."""
-        state, fresh = now.state.copy(), now.anchor is None
-        if fresh:
-            self.around.relist(state, now.ids.copy(), 0.0)
+    def evaluate(self, state: np.ndarray) -> None:
+        """All sums once."""
         self.rates(state, np.empty_like(state))
-        if fresh:
-            self.around.forget()
-
-    def make_ready(self, now: Any, dt: float) -> None:
-        """New lists if particles may leave the old ones within the step; the particles are then in the order of cells.
-
-        Raises
-        ------
-        FloatingPointError
-            A particle is too fast for any list.
-        """
-        if self.around.must_relist(now.state, dt):
-            self.around.relist(now.state, now.ids, dt)
-            now.anchor, now.skin = self.around.anchor, self.around.skin
 
     def confine(self, state: np.ndarray) -> int:
         """Reflect particles beyond walls; their number."""
@@ -151,8 +128,7 @@ class Sums(ABC):
             i = int(np.argmin(good))
             return (f"particle {ids[i]} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of "
                     f"{type(eos).__name__}")
-        far = self.around.moved(state) > self.around.skin/2
-        return "a particle sped up by more than a quarter within one step" if far else ""
+        return self.outran(state)
 
     def allocate(self, points: int) -> None:
         """Arrays over all points, whose number changes with the lists."""
