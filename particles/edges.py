@@ -128,6 +128,11 @@ class Beyond:
     plate: np.ndarray
 
 
+NOWHERE = np.empty(0, int)
+#: no images
+NONE_BEYOND = Beyond(i=NOWHERE, parent=NOWHERE, S=np.empty((0, 2)), k=np.empty(0), apart=np.empty((0, 2)), plate=NOWHERE)
+
+
 def symmetric(edges: Edges, a: float) -> Edges:
     """Mean of edges and their mirror image in y = 0, where point m + n/2 is the image of point m."""
     half = edges.n//2

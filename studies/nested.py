@@ -149,8 +149,8 @@ CLAIMS = (
     Claim(id="own-nested-tenth", source="RR98 Eqs 37, 38, 51", value=worst(share=0.1, h=2.0), at_most=ROUND_OFF,
           because=QUIET, statement=f"with a tenth of the transport along edges, the rest nested, {REST}h = 2 a"),
     Claim(id="own-nested-share", source="RR98 Eqs 37, 38, 51", value=smallest_share, at_most=0.1,
-          statement="a tenth of the transport along edges is enough to keep the layer at rest at h = 2 a: the smallest share that "
-                    "was run and is stable", because="a tenth; the error is the distance to the next smaller share that was run"),
+          statement="a tenth of the transport along edges keeps the layer at rest at h = 2 a: the smallest share that "
+                    "was run and is stable", because="a tenth; the error is the distance to the next smaller share run"),
 )
 STUDY = Study(name="nested", cases=cases, tables=(GROWTH,), figures=figures, claims=CLAIMS)
 

@@ -14,15 +14,12 @@ import numpy as np
 from continuum.fluid import conductivity, energy, viscosity
 from continuum.jit import jit
 from particles.bodies import Held
-from particles.edges import Beyond, Edges
+from particles.edges import NONE_BEYOND, Edges
 from particles.limits import limit_of
 from particles.methods.fixed import Differences, Exchange, Point, Summing, check_number, driven, lacking, read, states, stored
 from particles.methods.layer import Layer
 from particles.pairs import nothing, rate, sweep
 from particles.team import Team
-
-NOWHERE = np.empty(0, int)
-NONE_BEYOND = Beyond(i=NOWHERE, parent=NOWHERE, S=np.empty((0, 2)), k=np.empty(0), apart=np.empty((0, 2)), plate=NOWHERE)
 
 
 class Filter(NamedTuple):
@@ -94,7 +91,8 @@ class Streaming(Summing):
 
     def __init__(self, method: Stream, team: Team):
         self.method, self.team, self.n = method, team, len(method.x)
-        self.edges, self.around = (stored(cut(method.edges, method.held), NONE_BEYOND, NOWHERE) for cut in (insulated, separated))
+        self.edges, self.around = (stored(cut(method.edges, method.held), NONE_BEYOND, NONE_BEYOND.parent)
+                                   for cut in (insulated, separated))
         self.points = np.zeros(self.n, Point)
         self.slopes, self.total = np.empty((self.n, 4)), np.empty((self.n, 4))
         self.filtered = np.empty((self.n, 4)) if method.chi else None

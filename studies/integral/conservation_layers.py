@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
-from particles.edges import Beyond, Edges, between_plates
+from particles.edges import NONE_BEYOND, Edges, between_plates
 from particles.limits import limit_of
 from particles.methods.layer import Layer
 from particles.points import Points, of_positions
@@ -48,10 +48,29 @@ class Wall(NamedTuple):
 WALLS = {wall.name: wall for wall in (Wall("periodic"), Wall("plates", True), Wall("plates, gravity", True, 0.01))}
 
 
-def nothing_beyond() -> Beyond:
-    """No images."""
-    none = np.zeros(0, int)
-    return Beyond(i=none, parent=none, S=np.zeros((0, 2)), k=np.zeros(0), apart=np.zeros((0, 2)), plate=none)
+def around(disorder: Disorder, seed: int, plates: bool) -> Points:
+    """SIDE^2 points in the box, away from plates."""
+    at = disorder.make((SIDE, SIDE), disorder.size, seed)
+    if not plates:
+        return at
+    edge = SIDE/2 - FROM_PLATE
+    return of_positions(np.stack([at.x[:, 0], np.clip(at.x[:, 1], -edge, edge)], axis=1), at.box)
+
+
+def in_parts(method: Any, state: np.ndarray, steps: int, watch: Watch, report: Report) -> tuple[np.ndarray, int]:
+    """(state, steps done) of a run that is looked at now and then; it ends early if it diverges or heats too far."""
+    dt = OF_LIMIT*limit_of(method, state)
+    watch(state)
+    for before, number in parts(steps):
+        if dt > limit_of(method, state):        # it has heated: sound outruns the step
+            return state, before
+        try:
+            state = run(method, state, Plan(dt=dt, steps=number)).state
+        except Divergence as end:
+            return state, before + end.step
+        watch(state)
+        report((before + number)/steps)
+    return state, steps
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,42 +99,22 @@ class LayerDrift(Case):
                 f"{self.wall.name}, seed {self.seed}")
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        points = self.points()
+        points = around(self.disorder, self.seed, self.wall.plates)
         try:
             method = self.method(points)
         except ArithmeticError:     # no such edges exist on these points
             return Outcome({})
         rho, v, T = random_fields(points, self.mode.size, self.seed, self.wall.plates)
         state = method.state(rho, v, T)
-        watch, dt, reached = self.watch(method, state), OF_LIMIT*limit_of(method, state), self.steps
-        watch(state)
-        begin = self.motion(method, state)
-        for before, number in parts(self.steps):
-            if dt > limit_of(method, state):        # it has heated: sound outruns the step
-                reached = before
-                break
-            try:
-                state = run(method, state, Plan(dt=dt, steps=number)).state
-            except Divergence as end:
-                reached = before + end.step
-                break
-            watch(state)
-            report((before + number)/self.steps)
+        watch, begin = self.watch(method, state), self.motion(method, state)
+        state, reached = in_parts(method, state, self.steps, watch, report)
         return Outcome({"drift": [self._row(watch.worst, reached, self.motion(method, state)/begin)]})
-
-    def points(self) -> Points:
-        """In the box, away from plates."""
-        at = self.disorder.make((SIDE, SIDE), self.disorder.size, self.seed)
-        if not self.wall.plates:
-            return at
-        edge = SIDE/2 - FROM_PLATE
-        return of_positions(np.stack([at.x[:, 0], np.clip(at.x[:, 1], -edge, edge)], axis=1), at.box)
 
     def method(self, points: Points) -> Layer:
         """The scheme; without plates there are no images."""
         weight, eta = self.weight.of(h=self.h), self.mode.eta
         edges, beyond = (between_plates(self.make, points.x, SIDE, SIDE, weight) if self.wall.plates
-                         else (self.make(points, weight), nothing_beyond()))
+                         else (self.make(points, weight), NONE_BEYOND))
         return Layer(x=points.x, edges=edges, beyond=beyond, eos=IdealGas(), law=ConstEta(eta, eta), T_plates=(1.0, 1.0),
                      g=self.wall.g, mended=self.mode.mended, share=self.mode.share)
 

@@ -7,15 +7,12 @@ from typing import Any
 import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
-from particles.limits import limit_of
 from particles.methods.moving import EXCHANGED, Ingredients, Moving
-from particles.points import Points, of_positions
-from particles.run import Divergence, Plan, run
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
-from studies.integral.conservation_layers import FROM_PLATE, MODES, OF_LIMIT, SIDE, WALLS, Wall
-from studies.integral.conservation_sums import ROUND_OFF, Watch, kinetic, parts, random_fields
+from studies.integral.conservation_layers import MODES, SIDE, WALLS, Wall, around, in_parts
+from studies.integral.conservation_sums import ROUND_OFF, Watch, kinetic, random_fields
 from studies.integral.operators import DISORDERS, Disorder
 from studies.kit.case import Case, Outcome, Report
 
@@ -41,32 +38,15 @@ class MovingDrift(Case):
         return f"moving {self.name}, {self.disorder.name}, {self.wall.name}, seed {self.seed}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        points, eta = self.points(), MODES["pairwise"].eta
+        points, eta = around(self.disorder, self.seed, self.wall.plates), MODES["pairwise"].eta
         inside = plates(SIDE, 1.0, 1.0) if self.wall.plates else periodic(SIDE, 1)
         method = Moving(weight=WendlandC2.of(h=H), eos=IdealGas(), law=ConstEta(eta, eta), box=(SIDE, SIDE),
                         walls=(*inside, *periodic(SIDE)), ingredients=self.ingredients)
         rho, v, T = random_fields(points, MODES["pairwise"].size, self.seed, self.wall.plates)
-        state, reached = method.state(points.x, v, rho, T), self.steps
-        watch, dt, begin = self.watch(state), OF_LIMIT*limit_of(method, state), motion(state)
-        watch(state)
-        for before, number in parts(self.steps):
-            if dt > limit_of(method, state):        # it has heated: sound outruns the step
-                reached = before
-                break
-            try:
-                state = run(method, state, Plan(dt=dt, steps=number)).state
-            except Divergence as end:
-                reached = before + end.step
-                break
-            watch(state)
-            report((before + number)/self.steps)
+        state = method.state(points.x, v, rho, T)
+        watch, begin = self.watch(state), motion(state)
+        state, reached = in_parts(method, state, self.steps, watch, report)
         return Outcome({"drift": [self._row(watch.worst, reached, motion(state)/begin)]})
-
-    def points(self) -> Points:
-        """In the box, away from plates."""
-        at = self.disorder.make((SIDE, SIDE), self.disorder.size, self.seed)
-        edge = SIDE/2 - FROM_PLATE*self.wall.plates
-        return of_positions(np.stack([at.x[:, 0], np.clip(at.x[:, 1], -edge, edge)], axis=1), at.box)
 
     def watch(self, state: np.ndarray) -> Watch:
         """Mass, momentum along both axes (between plates along them only), energy, volume."""

@@ -165,6 +165,10 @@ CLAIMS = (
                     "is sqrt(1 + 2/gamma) c, Wendland C2, h = 4 a",
           because="1 %: 0.3 % from sums over the lattice, and the next order in h/lambda; the error is the difference of two "
                   "extrapolations"),
+    Claim(id="rr98-eq39-sound-factor-lucy", source="RR98 Eqs 34-36, 39", expect=sqrt(2), within=0.01,
+          value=long_sound("literal", "Lucy"),
+          statement="the factor of long sound in literal motion, sqrt(1 + 2/gamma), with Lucy's weight, h = 3 a",
+          because="1 %, as for Wendland's; what the lattice sums of w'' miss stays however long the wave is"),
     Claim(id="rr98-eq39-sound-lattice", source="RR98 Eqs 34-36, 39", expect=1, within=1e-4,
           value=over("sound", "speed", "predicted", motion="literal", bracket="none", weight="Lucy", wavelength=32),
           statement="the same factor from sums over the lattice: speed over sqrt(f^2 + 2 g/gamma), f of the gradient, g of "
