@@ -15,7 +15,7 @@ from particles.weights import Lucy
 from studies.integral import conservation_tables
 from studies.integral.conservation_dih import FORMS
 from studies.integral.conservation_frames import Frame, after, sound
-from studies.integral.conservation_layers import MODES, WALLS
+from studies.integral.conservation_layers import MODES, WALLS, around
 from studies.integral.conservation_sums import Watch, exact_sums, kinetic, parts, random_fields
 from studies.integral.operators import DISORDERS
 from studies.kit.claim import judge
@@ -107,9 +107,8 @@ def test_edges_that_do_not_exist_leave_no_row():
 
 
 def test_a_box_without_plates_has_no_images():
-    beyond = NONE_BEYOND
-    method = replace(conservation.layer("pairwise", "plain", "lattice"), wall=WALLS["periodic"])
-    assert len(beyond.i) == 0 and len(method.method(method.points()).beyond.parent) == 0
+    case = replace(conservation.layer("pairwise", "plain", "lattice"), wall=WALLS["periodic"])
+    assert case.method(around(case.disorder, 1, plates=False)).beyond is NONE_BEYOND
 
 
 # --- frames and sound -----------------------------------------------------------------------------------------------------
