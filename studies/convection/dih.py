@@ -1,24 +1,23 @@
 """Discretized integral hydrodynamics on fixed points in the Rayleigh-Benard scene: one run as a case    [RR98, Sec. III]"""
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from continuum.scene import Periodic, RayleighBenard
 from particles.edges import between_plates
-from particles.limits import limit_of
 from particles.makers import closed, exact, plain, renormalised
 from particles.methods.layer import Exchanging, Layer
 from particles.points import lattice, of_positions, random, relaxed, wrapped
-from particles.run import Divergence, Plan, Run, run
+from particles.run import Run
 from particles.triangulation import delaunay
 from particles.weights import Lucy, WendlandC2
-from studies.convection.names import START_ENERGY, VALUES, one_energy, scene_columns
-from studies.kit.case import Case, Outcome, Report
+from studies.convection.names import START_ENERGY, one_energy
+from studies.convection.points import PointsRun, Setting, rolls
 
 OF_LIMIT = 0.8          # of the step to its stability limit: the flow is steady, its errors are of space alone
+RECORDS = 4             # a free-fall time
 FROM_PLATE = 0.25       # of a spacing: jittered points come no nearer to a plate
 
 
@@ -113,65 +112,31 @@ class PlateHeat(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class DihRun(Case):
+class DihRun(PointsRun):
     """One run on fixed points until t_end in free-fall times, when nothing changes any more."""
-    scene: RayleighBenard
     scheme: Scheme = SCHEMES["fixed-lattice"]
-    seed: int = 1
     t_end: float = 150.0
 
     @property
-    def points(self) -> int:
-        return round(self.scene.width)*round(self.scene.L)
+    def name(self) -> str:
+        return self.scheme.name
 
     @property
     def cost(self) -> float:
-        steps = self.t_end*self.scene.L/self.scene.free_fall/max(0.2, 1.1 - self.scene.L/100)
+        steps = self.t_end*self.free_fall_time/max(0.2, 1.1 - self.scene.L/100)
         return steps*4*self.points*100e-9*(self.scheme.h/2)**2 + 5
 
-    @property
-    def label(self) -> str:
-        return f"dih {self.scheme.name} Ra {self.scene.ra:g}, {self.points} points, seed {self.seed}"
-
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def setting(self) -> Setting:
         method = layer(self.scene, self.scheme, self.seed)
-        first, unit = start(self.scene, method), self.scene.L/self.scene.free_fall
-        dt = OF_LIMIT*limit_of(method, first)
         series: dict[str, Any] = {"ke": kinetic, "lower": PlateHeat(0), "upper": PlateHeat(1)}
-        plan = Plan(dt=dt, steps=round(self.t_end*unit/dt), series=series, every=max(1, round(unit/4/dt)),
-                    checkpoint=folder/"run.h5")
-        try:
-            done = run(method, first, plan, report)
-        except Divergence as error:
-            return Outcome({"kinetic_energy": [{**self._key, **dict.fromkeys(VALUES, np.nan), "dt": dt, "rolls": 0,
-                                                "converged": False, "steps": error.step, "t_end": error.step*dt,
-                                                "cpu_s": np.nan, "compile_s": 0.0, "mass_drift": 0.0}]})
-        return Outcome({"kinetic_energy": [self._row(method, done, plan, first)]})
+        return Setting(method, start(self.scene, method), OF_LIMIT, series, RECORDS)
 
-    @property
-    def _key(self) -> dict:
-        return {"method": "dih", "variant": self.scheme.name, **scene_columns(self.scene), "resolution": round(self.scene.L),
-                "seed": self.seed, "particles": self.points, "free_fall": self.scene.free_fall, "threads": 1}
-
-    def _row(self, method: Layer, done: Run, plan: Plan, first: np.ndarray) -> dict:
-        """The last values; errors are what the last tenth of the time changed."""
-        unit, V = self.scene.k*self.scene.dT/self.scene.L*self.scene.width, method.edges.V
+    def values(self, setting: Setting, done: Run) -> dict:
+        """The last ones; errors are what the last tenth of the time changed."""
+        x, V, state = setting.method.x, setting.method.edges.V, done.state
         ke, lower, upper = (np.array(done.series[name]) for name in ("ke", "lower", "upper"))
-        nu = (lower - upper)/2/unit
-        late = slice(-max(2, len(ke)//10), None)
-        err, nu_err = float(np.ptp(ke[late])), float(np.ptp(nu[late]) + abs(lower[-1] + upper[-1])/2/unit)
-        return {**self._key, **one_energy(ke[-1], err), "nu": nu[-1], "nu_err": nu_err,
-                "rolls": rolls(self.scene, method.x, done.state),
-                "mass_drift": float(V@done.state[0]/(V@first[0]) - 1), "converged": bool(err < 1e-3*ke[-1] + 1e-7),
-                "dt": plan.dt, "steps": plan.steps, "t_end": plan.steps*plan.dt, "cpu_s": done.cpu_s,
-                "compile_s": done.compile_s}
-
-
-def rolls(scene: RayleighBenard, x: np.ndarray, state: np.ndarray) -> int:
-    """Twice the strongest harmonic of vy along x at mid-height; 0 at rest."""
-    middle = np.abs(x[:, 1]) < scene.L/8
-    vy = (state[2]/state[0])[middle]
-    if np.abs(vy).max() < 1e-4*scene.free_fall:
-        return 0
-    size = [abs(np.mean(vy*np.exp(-2j*np.pi*m*x[middle, 0]/scene.width))) for m in range(1, 7)]
-    return 2*(1 + int(np.argmax(size)))
+        nu, late = (lower - upper)/2/self.heat_at_rest, slice(-max(2, len(ke)//10), None)
+        err = float(np.ptp(ke[late]))
+        nu_err = float(np.ptp(nu[late]) + abs(lower[-1] + upper[-1])/2/self.heat_at_rest)
+        return {**one_energy(ke[-1], err), "nu": nu[-1], "nu_err": nu_err, "rolls": rolls(self.scene, x, state[2]/state[0]),
+                "mass_drift": float(V@state[0]/(V@setting.first[0]) - 1), "converged": bool(err < 1e-3*ke[-1] + 1e-7)}

@@ -2,6 +2,8 @@
 from typing import Any
 
 START_ENERGY = 9/5000  # kinetic energy per mass of the initial rolls [KHP95, Fig. 9]
+START_JITTER = 0.2     # of the lattice at the start of moving points, in spacings: a perfect one stays frozen in places
+HALVES = 0.3           # of K: if halves of the averaging time differ by more, the flow is not steady
 EOS_NAMES = {"IdealGas": "ideal", "VanDerWaals": "vdw", "DenseFluid": "dense"}
 TRANSPORT_NAMES = {"ConstEta": "const-eta", "ConstNu": "const-nu"}
 #: what a row of `kinetic_energy` is there for; not finite where a run diverged

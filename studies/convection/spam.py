@@ -22,18 +22,16 @@ from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import AtWall, Copied, Odd, Own, plates, sides
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
-from studies.convection.names import START_ENERGY, VALUES, scene_columns
+from studies.convection.names import HALVES, START_ENERGY, START_JITTER, VALUES, scene_columns
 from studies.convection.symmetry import flowing
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import mean, settled
 
-JITTER = 0.2           # of the lattice at the start, in spacings: a perfect one stays frozen in places
 #: time step over its stability limit: dt = 0.4 for the printed scheme. RK4 damps the fastest waves by 0.04 % a step; what
 #: counts is that particles turn at a plate up to v dt beyond it, which leaves errors of first order in dt g L: half of the
 #: step raises the Nusselt number by 4 % at 16 rows, 0.6 % at 25, 0.2 % at 50.
 OF_LIMIT = 0.22
 RECORDS = 8            # a time L/free_fall
-HALVES = 0.3           # of K: if halves of the averaging time differ by more, the flow is not steady
 
 
 def images(scene: RayleighBenard, rule: Any = AtWall(), pressure_rule: Any = Copied()) -> tuple:  # noqa: B008
@@ -128,7 +126,7 @@ def start(scene: RayleighBenard, seed: int, begin: Callable | None = None) -> np
     """State (5, n): jittered square lattice with rolls of Sec. VI and linear temperature [KHP95], or as `begin` has it."""
     columns, rows = round(scene.width), round(scene.L)
     x, y = np.meshgrid(np.arange(columns) + 0.5 - scene.width/2, np.arange(rows) + 0.5 - scene.L/2)
-    shift = np.random.default_rng(seed).uniform(-JITTER, JITTER, (2, columns*rows))
+    shift = np.random.default_rng(seed).uniform(-START_JITTER, START_JITTER, (2, columns*rows))
     x, y = x.ravel() + shift[0], y.ravel() + shift[1]
     if begin is None:
         (vx, vy), T = scene.flow(x, y, START_ENERGY), scene.T(y)
