@@ -5,7 +5,7 @@ import numpy as np
 from scipy.spatial import Delaunay
 
 from particles.edges import Edges, combined
-from particles.points import Points
+from particles.points import Points, of_positions
 
 
 def delaunay(points: Points, weight: Any = None) -> Edges:
@@ -18,6 +18,31 @@ def delaunay(points: Points, weight: Any = None) -> Edges:
     ValueError
         d = 1, or points of a flat simplex lie on one sphere (a lattice in 3D).
     """
+    return _assembled(points, *_simplices(points))
+
+
+def between(x: np.ndarray, width: float, height: float) -> Edges:
+    """The same on points (n, 2), periodic in x, of which some lie on the plates y = -+height/2: none is mirrored there.
+
+    Closed on all points but those on the plates, where what is missing is half of the plate beside the point, outwards.
+
+    Raises
+    ------
+    ValueError
+        There is no point on one of the plates, or one beyond them.
+    """
+    low, high = x[:, 1].min(), x[:, 1].max()
+    if max(abs(low + height/2), abs(high - height/2)) > 1e-12*height:
+        raise ValueError(f"points lie between y = {low:g} and {high:g}, plates at -+{height/2:g}: "
+                         "put a row of points on each plate")
+    points = of_positions(x, (width, 3*height))
+    corner, at = _simplices(points)
+    inner = np.abs(at[:, :, 1].mean(axis=1)) < height/2      # not those that span the gap from plate to plate
+    return _assembled(points, corner[inner], at[inner])
+
+
+def _simplices(points: Points) -> tuple[np.ndarray, np.ndarray]:
+    """Corners of all simplices: points (T, d + 1), and where these are, (T, d + 1, d)."""
     if points.d == 1:
         raise ValueError("there are no triangles in one dimension: take edges of a weight")
     x, owner = _with_images(points)
@@ -25,21 +50,19 @@ def delaunay(points: Points, weight: Any = None) -> Edges:
     shift = np.random.default_rng(0).uniform(-1e-7, 1e-7, points.x.shape)*points.a
     simplices = Delaunay(x + shift[owner]).simplices
     simplices = simplices[_is_ours(x, simplices, points)]
-    corners = x[simplices]                                              # (T, d + 1, d)
-    jacobian = corners[:, 1:] - corners[:, :1]
-    volume = np.abs(np.linalg.det(jacobian))/(2 if points.d == 2 else 6)
-    if volume.min() < 1e-9*points.a**points.d:
-        flat = owner[simplices[np.argmin(volume)]]
-        raise ValueError(f"points {flat} span a flat simplex: points that lie on one sphere, as on a lattice in 3D, have no "
-                         "unique triangulation; shift them a little")
+    return owner[simplices], x[simplices]
+
+
+def _assembled(points: Points, corner: np.ndarray, x: np.ndarray) -> Edges:
+    """Sum of all simplices' edges; corner (T, d + 1) are points, at x (T, d + 1, d)."""
+    n, d = points.n, points.d
+    jacobian = x[:, 1:] - x[:, :1]
+    volume = np.abs(np.linalg.det(jacobian))/(2 if d == 2 else 6)
+    if volume.min() < 1e-9*points.a**d:
+        raise ValueError(f"points {corner[np.argmin(volume)]} span a flat simplex: points that lie on one sphere, as on a "
+                         "lattice in 3D, have no unique triangulation; shift them a little")
     slopes = np.linalg.inv(jacobian).transpose(0, 2, 1)                 # grad phi_1..d
     slopes = np.concatenate([-slopes.sum(axis=1, keepdims=True), slopes], axis=1)
-    return _assembled(points, owner[simplices], corners, volume, slopes)
-
-
-def _assembled(points: Points, corner: np.ndarray, x: np.ndarray, volume: np.ndarray, slopes: np.ndarray) -> Edges:
-    """Sum of all simplices' edges; corner (T, d + 1) are points, slopes (T, d + 1, d) the gradients of phi."""
-    n, d = points.n, points.d
     V = np.bincount(corner.ravel(), np.repeat(volume/(d + 1), d + 1), n)
     a, b = np.triu_indices(d + 1, 1)
     i, j = corner[:, a].ravel(), corner[:, b].ravel()

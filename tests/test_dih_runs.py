@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from continuum.scene import RayleighBenard, Walls
-from studies.convection.dih import SCHEMES, DihRun, layer
+from studies.convection.dih import SCHEMES, DihRun, fluid, layer
 from studies.convection.points import rolls
 from studies.convection.tables import KINETIC
 
@@ -48,9 +48,23 @@ def test_heat_through_plates_is_conduction_at_rest_whatever_the_share_along_edge
         assert row["nu"] == pytest.approx(1, abs=1e-6)
 
 
+def test_points_on_plates_give_them_the_heat_of_the_fluid_and_keep_its_mass(tmp_path):
+    """Nu of both plates agrees as the flow settles; 12 rows of random points are some 10 % from the grid's K."""
+    row = one(tmp_path, "fixed-random-plates", rows=12, t_end=100.0)
+    assert row["converged"] and row["rolls"] == 2 and abs(row["mass_drift"]) < 1e-13
+    assert row["nu_err"] < 0.003*row["nu"]
+    assert row["ke"] == pytest.approx(0.004891, rel=0.2)
+
+
+def test_a_layer_at_rest_conducts_between_rows_of_points(tmp_path):
+    """Far below onset: linear temperature is exact on triangles, so Nu = 1 on any points."""
+    row = one(tmp_path, "fixed-random-plates", ra=200.0, t_end=400.0)
+    assert row["nu"] == pytest.approx(1, abs=1e-3)      # weak currents where hydrostatic pressure bends between points
+
+
 def test_side_walls_are_refused(tmp_path):
     with pytest.raises(ValueError, match="periodic sides"):
-        layer(RayleighBenard(ra=1e4, L=12.0, aspect=1.0, sides=Walls()), SCHEMES["fixed-lattice"], 1)
+        fluid(RayleighBenard(ra=1e4, L=12.0, aspect=1.0, sides=Walls()), SCHEMES["fixed-lattice"], 1)
 
 
 def test_rolls_are_twice_the_strongest_harmonic():

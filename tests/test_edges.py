@@ -2,10 +2,11 @@
 import numpy as np
 import pytest
 
+from particles.edges import between_plates
 from particles.interpolants import Exponential, Gaussian, W, f, moment, reach
 from particles.makers import MAKERS, plain, printed, renormalised
 from particles.points import jittered, lattice, of_positions, off_lattice, pairs, random, relaxed
-from particles.triangulation import delaunay
+from particles.triangulation import between, delaunay
 from particles.weights import WEIGHTS, Lucy, WendlandC2
 
 COUNTS = {1: (20,), 2: (10, 12), 3: (6, 6, 7)}
@@ -132,3 +133,43 @@ def test_relaxed_points_are_regular_but_no_lattice():
     # 2 c V^2 with a |c| < 2e-3, a component at most, times what renormalising adds
     assert np.abs(renormalised(at, weight).closure).max() < 5e-3
     assert off_lattice(lattice((8, 8))) < 1e-12 < 0.2 < off_lattice(at)
+
+
+def between_plates_of(seed: int = 1, rows: int = 9, columns: int = 12):
+    """Points on both plates and at random between them."""
+    row = np.stack([np.arange(columns) + 0.5 - columns/2, np.full(columns, -rows/2)], axis=1)
+    inner = random((columns, rows - 1), 0.5, seed).x
+    inner[:, 1] *= 0.9
+    return np.concatenate([row, row*[1, -1], inner]), columns, rows
+
+
+def test_triangles_between_plates_are_exact_inside_and_lack_half_the_plate_beside_a_point():
+    x, width, height = between_plates_of()
+    edges = between(x, width, height)
+    lower, upper, inner = np.arange(width), np.arange(width, 2*width), np.arange(2*width, len(x))
+    assert edges.V.sum() == pytest.approx(width*height, rel=1e-12)
+    assert np.abs(edges.closure[inner]).max() < 1e-12 and np.abs(edges.linear[inner] - np.eye(2)).max() < 1e-11
+    # plate points are one spacing apart: sum_j S_ij is minus the outward normal
+    assert edges.closure[lower] == pytest.approx(np.tile([0.0, 1.0], (width, 1)), abs=1e-12)
+    assert edges.closure[upper] == pytest.approx(np.tile([0.0, -1.0], (width, 1)), abs=1e-12)
+
+
+def test_triangles_between_plates_need_points_on_them():
+    x, width, height = between_plates_of()
+    with pytest.raises(ValueError, match="row of points on each plate"):
+        between(x[2*width:], width, height)
+
+
+@pytest.mark.parametrize("rows", [12, 24])
+def test_mirrored_triangles_see_a_kink_at_plates_that_no_refinement_removes(rows):
+    """Convection sees |y| for the velocity along a plate: its divergence is zero, and of the size of its slope off a lattice."""
+    def worst(size: float) -> float:
+        at = jittered((2*rows, rows), size, 1)
+        x = np.stack([at.x[:, 0], np.clip(at.x[:, 1], -rows/2 + 0.25, rows/2 - 0.25)], axis=1)
+        edges, beyond = between_plates(delaunay, x, 2*rows, rows, None)
+        along = rows/2 - np.abs(x[:, 1])        # distance from the nearer plate
+        near = along < 1
+        total = sum(S@along for S in edges.areas[:1]) + np.bincount(beyond.i, beyond.S[:, 0]*along[beyond.parent], edges.n)
+        return float(np.abs(0.5*total/edges.V)[near].max())
+
+    assert worst(0.0) < 1e-12 and 0.1 < worst(0.3) < 1

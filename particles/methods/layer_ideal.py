@@ -2,8 +2,9 @@
 
 There P_ij = rho_i T_j, and every bracket of Eqs 34-36 and 51 is made of products of a point's own fields with sums over its
 neighbours, such as sum_j S.(rho_i v_j + rho_j v_i) = rho_i sum_j S.v_j + v_i.sum_j S rho_j. Edges then carry linear sums only,
-which vector instructions do several at a time; fields meet once a point. Sums are of differences to the point, sum_j S (f_j - f_i):
-of whole fields they would lose digits, and with them the conservation that edges give. Equal to `layer` to round-off.
+which vector instructions do several at a time; fields meet once a point. Sums are of differences to the point,
+sum_j S (f_j - f_i): of whole fields they would lose digits, and with them the conservation that edges give. Equal to `layer` to
+round-off.
 """
 from math import fsum
 from typing import Any, NamedTuple

@@ -6,47 +6,51 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.scene import Periodic, RayleighBenard
-from particles.edges import between_plates
+from particles.bodies import held, together
+from particles.edges import MIRROR, between_plates
 from particles.makers import closed, exact, plain, renormalised
 from particles.methods.layer import Exchanging, Layer
+from particles.methods.stream import Stream, Streaming
 from particles.points import lattice, of_positions, random, relaxed, wrapped
 from particles.run import Run
-from particles.triangulation import delaunay
+from particles.triangulation import between, delaunay
 from particles.weights import Lucy, WendlandC2
 from studies.convection.names import START_ENERGY, one_energy
 from studies.convection.points import PointsRun, Setting, rolls
 
 OF_LIMIT = 0.8          # of the step to its stability limit: the flow is steady, its errors are of space alone
 RECORDS = 4             # a free-fall time
-FROM_PLATE = 0.25       # of a spacing: jittered points come no nearer to a plate
+FROM_EDGE = 0.25        # of a spacing: jittered points come no nearer to a plate with images, three quarters to one with points
 
 
-def positions(scene: RayleighBenard, size: float, seed: int) -> np.ndarray:
+def positions(width: float, height: float, size: float, seed: int) -> np.ndarray:
     """Points (n, 2) of unit spacing: a lattice, every coordinate shifted by up to `size`."""
-    box = np.array([scene.width, scene.L])
-    x = lattice((round(scene.width), round(scene.L))).x
-    return inside(scene, wrapped(x + np.random.default_rng(seed).uniform(-size, size, x.shape), box))
+    x = lattice((round(width), round(height))).x
+    return inside(height, wrapped(x + np.random.default_rng(seed).uniform(-size, size, x.shape), np.array([width, height])))
 
 
-def inside(scene: RayleighBenard, x: np.ndarray) -> np.ndarray:
-    """Points too near to a plate moved away from it."""
-    return np.stack([x[:, 0], np.clip(x[:, 1], -scene.L/2 + FROM_PLATE, scene.L/2 - FROM_PLATE)], axis=1)
+def inside(height: float, x: np.ndarray) -> np.ndarray:
+    """Points too near to the edge of their room moved away from it."""
+    return np.stack([x[:, 0], np.clip(x[:, 1], -height/2 + FROM_EDGE, height/2 - FROM_EDGE)], axis=1)
 
 
-def hard_core(scene: RayleighBenard, size: float, seed: int) -> np.ndarray:
+def hard_core(width: float, height: float, size: float, seed: int) -> np.ndarray:
     """Points (n, 2) at random, none nearer to another than `size` spacings."""
-    return inside(scene, random((round(scene.width), round(scene.L)), size, seed).x)
+    return inside(height, random((round(width), round(height)), size, seed).x)
 
 
-def settled(scene: RayleighBenard, size: float, seed: int) -> np.ndarray:
+def settled(width: float, height: float, size: float, seed: int) -> np.ndarray:
     """Random points that have moved apart together with their mirror images until each is surrounded evenly."""
-    x, shift, mirror = hard_core(scene, size, seed), np.array([0.0, scene.L/2]), np.array([1.0, -1.0])
-    both = of_positions(np.concatenate([x - shift, (x - shift)*mirror]), (scene.width, 2*scene.L))
-    return inside(scene, relaxed(both, WendlandC2.of(h=3.0), sweeps=4000).x[:len(x)] + shift)
+    x, shift, mirror = hard_core(width, height, size, seed), np.array([0.0, height/2]), np.array([1.0, -1.0])
+    both = of_positions(np.concatenate([x - shift, (x - shift)*mirror]), (width, 2*height))
+    return inside(height, relaxed(both, WendlandC2.of(h=3.0), sweeps=4000).x[:len(x)] + shift)
 
 
 class Scheme(NamedTuple):
-    """One way to make points and edges; `size`: of the points' disorder, in spacings; `share` of transport along edges."""
+    """One way to make points and edges; `size`: of the points' disorder, in spacings; `share` of transport along edges.
+
+    held : plates are rows of points that are held, in place of mirror images behind them.
+    """
     name: str
     make: Callable = renormalised
     weight: Any = Lucy
@@ -55,6 +59,7 @@ class Scheme(NamedTuple):
     mended: bool = True
     share: float = 1.0
     points: Callable = positions
+    held: bool = False
 
 
 SCHEMES = {s.name: s for s in (
@@ -63,6 +68,9 @@ SCHEMES = {s.name: s for s in (
     Scheme("fixed-lattice-h3", h=3.0),
     Scheme("fixed-lattice-nested", share=0.1),              # Eqs 37, 38, with a tenth along edges
     Scheme("fixed-lattice-nested-only", share=0.0),         # Eqs 37, 38
+    Scheme("fixed-jittered-plates", delaunay, size=0.3, held=True),
+    Scheme("fixed-random-plates", delaunay, size=0.5, points=hard_core, held=True),
+    Scheme("relaxed-plates", delaunay, size=0.5, points=settled, held=True),
     Scheme("fixed-jittered-delaunay", delaunay, size=0.3),
     Scheme("fixed-random-delaunay", delaunay, size=0.5, points=hard_core),
     Scheme("relaxed-delaunay", delaunay, size=0.5, points=settled),
@@ -73,23 +81,37 @@ SCHEMES = {s.name: s for s in (
 )}
 
 
-def layer(scene: RayleighBenard, scheme: Scheme, seed: int) -> Layer:
+def fluid(scene: RayleighBenard, scheme: Scheme, seed: int) -> Layer | Stream:
     """The method of unit spacing: a scene of L = rows spacings."""
     if not isinstance(scene.sides, Periodic):
         raise ValueError("fixed points have plates above and below only: take a scene with periodic sides")
-    x = scheme.points(scene, scheme.size, seed)
+    return (plates if scheme.held else layer)(scene, scheme, seed)
+
+
+def layer(scene: RayleighBenard, scheme: Scheme, seed: int) -> Layer:
+    """Plates with mirror images behind."""
+    x = scheme.points(scene.width, scene.L, scheme.size, seed)
     edges, beyond = between_plates(scheme.make, x, scene.width, scene.L, scheme.weight.of(h=scheme.h))
     return Layer(x=x, edges=edges, beyond=beyond, eos=scene.eos, law=scene.law, T_plates=(scene.T_hot, scene.T_cold), g=scene.g,
                  mended=scheme.mended, share=scheme.share)
 
 
-def start(scene: RayleighBenard, method: Layer) -> np.ndarray:
+def plates(scene: RayleighBenard, scheme: Scheme, seed: int) -> Stream:
+    """Plates with rows of points on them: triangles end there. One row of points less between them."""
+    columns = round(scene.width)
+    row = np.stack([np.arange(columns) + 0.5 - columns/2, np.full(columns, -scene.L/2)], axis=1)
+    x = np.concatenate([row, row*MIRROR, scheme.points(scene.width, scene.L - 1, scheme.size, seed)])
+    both = together(held(np.arange(columns), T=scene.T_hot), held(np.arange(columns, 2*columns), T=scene.T_cold))
+    return Stream(x=x, edges=between(x, scene.width, scene.L), eos=scene.eos, law=scene.law, held=both, push=(0.0, -scene.g))
+
+
+def start(scene: RayleighBenard, method: Layer | Stream) -> np.ndarray:
     """State (4, n): rolls of Sec. VI, linear temperature, density 1    [KHP95]"""
     x, y = method.x.T
     return method.state(1.0, np.stack(scene.flow(x, y, START_ENERGY), axis=1), scene.T(y))
 
 
-def kinetic(sums: Exchanging, state: np.ndarray) -> float:
+def kinetic(sums: Exchanging | Streaming, state: np.ndarray) -> float:
     """K per mass."""
     V = sums.method.edges.V
     return float(0.5*V@((state[1]**2 + state[2]**2)/state[0])/(V@state[0]))
@@ -99,8 +121,11 @@ class PlateHeat(NamedTuple):
     """Heat that enters the fluid through a plate (0: lower, 1: upper), per time."""
     plate: int
 
-    def __call__(self, sums: Exchanging, state: np.ndarray) -> float:
-        """Over all edges to images behind the plate, along them and nested."""
+    def __call__(self, sums: Exchanging | Streaming, state: np.ndarray) -> float:
+        """Over all edges to images behind the plate, along them and nested; what its points give."""
+        if isinstance(sums, Streaming):
+            sums.rates(state, np.empty_like(state))
+            return -float(sums.received[sums.method.held.body == self.plate, 2].sum())
         beyond, points, here = sums.method.beyond, sums.points, sums.method.beyond.plate == self.plate
         i, image = beyond.i[here], sums.n + sums.ghost.ravel()[here]
         a, b = points[i], points[image]
@@ -127,7 +152,7 @@ class DihRun(PointsRun):
         return steps*4*self.points*100e-9*(self.scheme.h/2)**2 + 5
 
     def setting(self) -> Setting:
-        method = layer(self.scene, self.scheme, self.seed)
+        method = fluid(self.scene, self.scheme, self.seed)
         series: dict[str, Any] = {"ke": kinetic, "lower": PlateHeat(0), "upper": PlateHeat(1)}
         return Setting(method, start(self.scene, method), OF_LIMIT, series, RECORDS)
 

@@ -51,7 +51,7 @@ def method(scene: RayleighBenard, motion: Motion) -> Moving:
 
 def start(scene: RayleighBenard, fluid: Moving, seed: int) -> np.ndarray:
     """Jittered lattice, rolls of Sec. VI, linear temperature, density 1    [KHP95]"""
-    x = positions(scene, START_JITTER, seed)
+    x = positions(scene.width, scene.L, START_JITTER, seed)
     return fluid.state(x, np.stack(scene.flow(x[:, 0], x[:, 1], START_ENERGY), axis=1), 1.0, scene.T(x[:, 1]))
 
 
