@@ -30,7 +30,7 @@ RA_SHOWN = (5000, 10000)
 #: grids with another number of rolls, other temperatures or wrong heating, which the particles are not compared with
 OTHER_FLOWS = ("two-rolls", "fig10", "edge-heat")
 #: of discretized integral hydrodynamics; the others have a figure of their own
-POINTS = ("fixed-lattice", "fixed-jittered-delaunay", "moving")
+POINTS = ("fixed-lattice", "fixed-jittered-plates", "moving")
 #: an error with what it is relative to: the grid, for Kg its field smoothed as the particles smooth theirs
 RELATIVE = r"relative error  $|K_p/K - 1|$, $|K_g/K_\mathrm{smoothed} - 1|$"
 #: K_s of the printed weight, see the table `smoothed`

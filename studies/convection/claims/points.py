@@ -85,12 +85,15 @@ CLAIMS = tuple(
               because=GOAL,
               statement="the wrong limit of forces along edges is that of wrong heating alone: |K/K_grid - 1|, "
                         f"Ra {ra:.0f}, the grid heated by eta |grad v|^2 as well"),
-        *(Claim(id=f"rr98-rb-{variant}-{ra:.0f}", source=SOURCE, value=from_grid(ra, variant), at_most=0.005,
+        *(Claim(id=f"rr98-rb-{kind}-{walls}-{ra:.0f}", source=SOURCE, value=from_grid(ra, f"{kind}-{walls}"), at_most=0.005,
                 because=GOAL,
-                statement=f"{words} with Delaunay edges converge on the gas: |K/K_grid - 1| at Ra {ra:.0f}, extrapolated")
-          for variant, words in (("fixed-jittered-delaunay", "points off a lattice by up to 0.3 spacings"),
-                                 ("fixed-random-delaunay", "random points half a spacing apart"),
-                                 ("relaxed-delaunay", "random points that have moved apart"))),
+                statement=f"{words} with Delaunay edges, {between}, converge on the gas: |K/K_grid - 1| at Ra {ra:.0f}, "
+                          "extrapolated")
+          for walls, between in (("plates", "between rows of points on the plates"),
+                                 ("delaunay", "between mirror images"))
+          for kind, words in (("fixed-jittered", "points off a lattice by up to 0.3 spacings"),
+                              ("fixed-random", "random points half a spacing apart"),
+                              ("relaxed", "random points that have moved apart"))),
     )) + (
     Claim(id="rr98-rb-plain-jittered", source=SOURCE, value=lost(1e4, "fixed-jittered-plain"), at_most=0,
           because="every run that comes to its end is one that does not",
