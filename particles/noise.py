@@ -1,0 +1,108 @@
+"""Random numbers that are functions of (seed, step, i, j) or (seed, step, i, component): no state, no order.
+
+Philox4x32-10 [Salmon, Moraes, Dror & Shaw 2011]: ten rounds turn a counter of four 32-bit words under a key of two into four
+random words. The counter is (i, j, step, which), the key the seed, so that a number does not depend on lists, on their order, on
+threads or on restarts. Pairs (i < j) and points use counters that differ in the last bit of `which`.
+"""
+from numbers import Integral
+
+import numpy as np
+
+from continuum.jit import jit
+
+u64 = np.uint64
+LOW, HALF = u64(0xFFFFFFFF), u64(32)
+#: multipliers and what is added to the key in each round    [Salmon et al. 2011, Sec. 4.3 and its library]
+M0, M1, W0, W1 = u64(0xD2511F53), u64(0xCD9E8D57), u64(0x9E3779B9), u64(0xBB67AE85)
+UNIT = 2.0**-32
+PAIR, POINT = u64(0), u64(1)
+ONE, TWO = u64(1), u64(2)
+
+
+def check_seed(seed: int) -> int:
+    """The seed itself.
+
+    Raises
+    ------
+    ValueError
+        It is no whole number of 64 bits.
+    """
+    if not isinstance(seed, Integral) or isinstance(seed, bool) or not 0 <= int(seed) < 2**64:
+        raise ValueError(f"the seed must be a whole number from 0 to 2^64 - 1, got {seed!r}: any such number serves, 1 for one")
+    return int(seed)
+
+
+@jit
+def philox(a, b, c, d, k0, k1):
+    """Philox4x32-10: four words of 32 bits, each in 64, from a counter (a, b, c, d) under a key (k0, k1)."""
+    for _ in range(10):
+        p, q = M0*a, M1*c
+        a, b, c, d = (q >> HALF) ^ b ^ k0, q & LOW, (p >> HALF) ^ d ^ k1, p & LOW
+        k0, k1 = (k0 + W0) & LOW, (k1 + W1) & LOW
+    return a, b, c, d
+
+
+@jit
+def words_of_pair(seed, step, i, j, block):
+    """Four random words of the pair {i, j}, the same for {j, i}; more of them with block = 1, 2, ..."""
+    i, j, seed = u64(i), u64(j), u64(seed)
+    return philox(min(i, j), max(i, j), u64(step) & LOW, TWO*u64(block) + PAIR, seed & LOW, seed >> HALF)
+
+
+@jit
+def words_of_point(seed, step, i, block):
+    """Four random words of the point i; more of them with block = 1, 2, ..."""
+    i, seed = u64(i), u64(seed)
+    return philox(i, u64(block), u64(step) & LOW, POINT, seed & LOW, seed >> HALF)
+
+
+@jit
+def uniform(word):
+    """Uniform between -sqrt 3 and sqrt 3: mean 0, variance 1    [Groot & Warren 1997]"""
+    return (float(word) + 0.5 - 2.0**31)*(UNIT*np.sqrt(12.0))
+
+
+@jit
+def normal(one, other):
+    """Two normal numbers from two words    [Box & Muller 1958]; none beyond 6.7."""
+    r, angle = np.sqrt(-2*np.log((float(one) + 0.5)*UNIT)), 2*np.pi*UNIT*(float(other) + 0.5)
+    return r*np.cos(angle), r*np.sin(angle)
+
+
+@jit
+def uniform_of_pair(seed, step, i, j):
+    """One number of mean 0 and variance 1, symmetric in i, j."""
+    return uniform(words_of_pair(seed, step, i, j, 0)[0])
+
+
+@jit
+def normal_of_pair(seed, step, i, j):
+    """One normal number, symmetric in i, j."""
+    a, b, _, _ = words_of_pair(seed, step, i, j, 0)
+    return normal(a, b)[0]
+
+
+@jit
+def normals_of_pair(seed, step, i, j, block):
+    """Four normal numbers, symmetric in i, j."""
+    a, b, c, d = words_of_pair(seed, step, i, j, block)
+    (p, q), (r, s) = normal(a, b), normal(c, d)
+    return p, q, r, s
+
+
+@jit
+def normals_of_point(seed, step, i, block):
+    """Four normal numbers: components 4 block to 4 block + 3 of point i."""
+    a, b, c, d = words_of_point(seed, step, i, block)
+    (p, q), (r, s) = normal(a, b), normal(c, d)
+    return p, q, r, s
+
+
+@jit
+def fill_normals(first, last, seed, step, out):
+    """out[i, c] = normal number of (seed, step, i, c), for points first..last; `out` (points, components)."""
+    for i in range(first, last):
+        for c in range(0, out.shape[1], 4):
+            found = normals_of_point(seed, step, i, c//4)
+            for k in range(min(4, out.shape[1] - c)):
+                out[i, c + k] = found[k]
