@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from particles.edges import MIRROR
 from particles.points import Points, lattice, of_positions
 
 CLEAR = 0.6     # spacings between a surface and points that are not on it: nearer ones would cut its edges or take short steps
@@ -108,6 +109,15 @@ def between_circles(counts: tuple[int, int], inner: float, outer: float) -> tupl
     points = of_positions(np.concatenate([on_circle(inner), on_circle(outer), at.x[off]]), at.box)
     r = np.hypot(*points.x.T)
     return points, np.flatnonzero(r < inner + 1e-9), np.flatnonzero(r > outer - 1e-9)
+
+
+def with_plates(inner: np.ndarray, columns: int, height: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Points (n, 2) with rows of `columns` points, a spacing of 1 apart, on the plates y = -+height/2, and which these are.
+
+    For triangles that end there, `triangulation.between`. The rows inside are one less than the spacings of the height.
+    """
+    row = np.stack([np.arange(columns) + 0.5 - columns/2, np.full(columns, -height/2)], axis=1)
+    return np.concatenate([row, row*MIRROR, inner]), np.arange(columns), np.arange(columns, 2*columns)
 
 
 def end_rows(points: Points, count: int) -> tuple[np.ndarray, np.ndarray]:

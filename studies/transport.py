@@ -49,7 +49,8 @@ def shear(rows: tuple[int, ...], jittered: tuple[int, ...]) -> Iterator[Case]:
     """Between plates."""
     for drive in FLOWS.values():
         yield from (ShearFlow(drive=drive, rows=n) for n in rows)
-        yield from (ShearFlow(drive=drive, rows=n, jitter=JITTER, seed=seed) for n, seed in product(jittered, SEEDS))
+        for plates, n, seed in product((False, True), jittered, SEEDS):
+            yield ShearFlow(drive=drive, rows=n, jitter=JITTER, plates=plates, seed=seed)
 
 
 def cases(size: str) -> list[Case]:

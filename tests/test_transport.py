@@ -15,7 +15,7 @@ from studies.integral import transport_tables
 from studies.integral.operators import DISORDERS
 from studies.integral.transport_derive import endless
 from studies.integral.transport_symbol import QUANTITIES, Gas, continuum, lattice_waves, quantities
-from studies.integral.transport_walls import FLOWS, SPEED, couette, driven, poiseuille
+from studies.integral.transport_walls import FLOWS, SPEED, between_rows, couette, driven, poiseuille
 from studies.integral.transport_waves import Decay, propagators
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
@@ -113,6 +113,15 @@ def test_linear_shear_between_sliding_plates_is_steady_and_heats_by_the_work_of_
     found = rates(method, SPEED*np.stack([y, 0*y], axis=1))
     assert np.abs(found[:3]).max() < 1e-15
     assert found[3].mean() == pytest.approx(method.law.eta*(SPEED/8)**2, rel=1e-9)
+
+
+def test_linear_shear_between_rows_of_held_points_is_steady_off_a_lattice():
+    """Triangles are exact on linear fields and end on the plates; what images see has a kink there, and is not steady."""
+    x = between_rows(FLOWS["couette"], 8, 0.2, 1).x
+    for make, steady in ((between_rows, True), (driven, False)):
+        method = make(FLOWS["couette"], 8, 0.2, 1)
+        found = rates(method, SPEED*np.stack([method.x[:, 1]/8 + 0.5, 0*method.x[:, 0]], axis=1))
+        assert (np.abs(found[:3]).max() < 1e-15*len(x)) == steady
 
 
 def test_a_force_pulls_all_points_alike():

@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.scene import Periodic, RayleighBenard
-from particles.bodies import held, together
-from particles.edges import MIRROR, between_plates
+from particles.bodies import held, together, with_plates
+from particles.edges import between_plates
 from particles.makers import closed, exact, plain, renormalised
 from particles.methods.layer import Exchanging, Layer
 from particles.methods.stream import Stream, Streaming
@@ -98,10 +98,9 @@ def layer(scene: RayleighBenard, scheme: Scheme, seed: int) -> Layer:
 
 def plates(scene: RayleighBenard, scheme: Scheme, seed: int) -> Stream:
     """Plates with rows of points on them: triangles end there. One row of points less between them."""
-    columns = round(scene.width)
-    row = np.stack([np.arange(columns) + 0.5 - columns/2, np.full(columns, -scene.L/2)], axis=1)
-    x = np.concatenate([row, row*MIRROR, scheme.points(scene.width, scene.L - 1, scheme.size, seed)])
-    both = together(held(np.arange(columns), T=scene.T_hot), held(np.arange(columns, 2*columns), T=scene.T_cold))
+    inner = scheme.points(scene.width, scene.L - 1, scheme.size, seed)
+    x, lower, upper = with_plates(inner, round(scene.width), scene.L)
+    both = together(held(lower, T=scene.T_hot), held(upper, T=scene.T_cold))
     return Stream(x=x, edges=between(x, scene.width, scene.L), eos=scene.eos, law=scene.law, held=both, push=(0.0, -scene.g))
 
 

@@ -1,5 +1,6 @@
 """What RR98 says of transport in the discretized equations, judged    [RR98 Eqs 34-38, 51]"""
 from collections.abc import Callable
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -173,14 +174,13 @@ CLAIMS = (
           value=shear_order("poiseuille", "lattice"), because="second order; 8 rows are worth 0.03",
           statement="Poiseuille flow from rest between mirror plates on a lattice, forces along edges: order of its rms error in "
                     "1/rows at 0.1 H^2/nu"),
-    Claim(id="rr98-transport-couette-jittered", source="RR98 Sec. III A", expect=2, within=0.1,
-          value=shear_order("couette", "jittered-0.2", "largest"), because="second order, as on the lattice",
-          statement="Couette flow from rest between mirror plates on points jittered by 0.2 a, Delaunay edges: order of its "
-                    "largest error in 1/rows at 0.1 H^2/nu"),
-    Claim(id="rr98-transport-poiseuille-jittered", source="RR98 Sec. III A", expect=2, within=0.1,
-          value=shear_order("poiseuille", "jittered-0.2", "largest"), because="second order, as on the lattice",
-          statement="Poiseuille flow from rest between mirror plates on points jittered by 0.2 a, Delaunay edges: order of its "
-                    "largest error in 1/rows at 0.1 H^2/nu"),
+    *(Claim(id=f"rr98-transport-{flow}-jittered{short}", source="RR98 Sec. III A", expect=2, within=0.1,
+            value=shear_order(flow, f"jittered-0.2{points}", norm), because="second order, as on the lattice",
+            statement=f"{flow.capitalize()} flow from rest between {words} on points jittered by 0.2 a, Delaunay edges: order of "
+                      f"its {norm} error in 1/rows at 0.1 H^2/nu")
+      for flow, (short, points, words, norm) in product(("couette", "poiseuille"), (
+          ("", "", "mirror plates", "largest"), ("-plates-largest", ", plates", "rows of held points", "largest"),
+          ("-plates", ", plates", "rows of held points", "rms")))),
     Claim(id="rr98-transport-neglected", source="RR98 Sec. III A", at_most=1e-6, value=neglected("heating"),
           statement="viscous heating in these shear flows, which their series leave out: largest |T - 1|",
           because="speeds of 1e-3: its square"),

@@ -13,6 +13,10 @@ CURVES = (("nested", "renormalised", "lattice"), ("pairwise", "renormalised", "l
           ("pairwise", "delaunay", "jittered-0.3"))
 
 
+#: points between plates, how they are marked and joined
+WALLED = (("lattice", "full", "-"), ("jittered-0.2", "none", "--"), ("jittered-0.2, plates", "right", ":"))
+
+
 def figures(tables: Tables) -> dict[str, Figure]:
     """What the tables allow."""
     found = {}
@@ -54,12 +58,12 @@ def shear(rows: pd.DataFrame) -> Figure:
     page, both = figure(1, 2, width=4.2, height=4.0, sharey=True)
     times = sorted(set(rows["time"]))
     for axes, flow in zip(both, ("couette", "poiseuille"), strict=True):
-        for points, filled in (("lattice", "full"), ("jittered-0.2", "none")):
+        for points, filled, line in WALLED:
             for number, time in enumerate(times):
                 some = rows[(rows["flow"] == flow) & (rows["points"] == points) & (rows["time"] == time)].sort_values("rows")
                 if len(some):
                     errorbar(axes, some["rows"].tolist(), some["rms"].tolist(), some["rms_err"].tolist(), number=number,
-                             linestyle="-" if filled == "full" else "--", fillstyle=filled,
+                             linestyle=line, fillstyle=filled,
                              label=rf"{points}, $t = {time:g}\,H^2/\nu$")
         axes.plot([8, 64], [4e-3, 4e-3/64], color="grey", linestyle=":", marker="", label=r"rows$^{-2}$")
         axes.set(xscale="log", yscale="log", title=flow, xlabel="rows between the plates")

@@ -1,6 +1,7 @@
 """Shear flows between plates that start from rest, as cases: Couette and Poiseuille against their series.
 
-RR98 leaves walls open (Sec. III A). Here they are mirror images, friction seeing 2 U - v behind a plate that slides with U.
+RR98 leaves walls open (Sec. III A). Here they are mirror images, friction seeing 2 U - v behind a plate that slides with U, or
+rows of points that are held (`Stream`), which triangles of points off a lattice need: their images would see a kink.
 `Layer` has plates at rest: what a sliding one adds to the friction along an edge to an image, f (2 U - 2 v) in place of
 f (-2 v), f = eta k, is added here to its rates, and so is a force along the plates.
 """
@@ -13,14 +14,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
+from particles.bodies import held, together, with_plates
 from particles.edges import between_plates
 from particles.limits import limit_of
 from particles.makers import renormalised
 from particles.methods.layer import Exchanging, Layer
+from particles.methods.stream import Stream
 from particles.points import jittered, lattice
 from particles.run import Plan, run
 from particles.team import Team
-from particles.triangulation import delaunay
+from particles.triangulation import between, delaunay
 from particles.weights import Lucy
 from studies.kit.case import Case, Outcome, Report
 
@@ -120,12 +123,21 @@ def driven(drive: Drive, rows: int, jitter: float, seed: int) -> Driven:
                   slide=(0.0, drive.slide*SPEED), force=8*ETA*SPEED*drive.force/rows**2)
 
 
+def between_rows(drive: Drive, rows: int, jitter: float, seed: int) -> Stream:
+    """The same on jittered points with Delaunay edges that end on rows of points on the plates."""
+    x, lower, upper = with_plates(jittered((COLUMNS, rows - 1), jitter, seed).x, COLUMNS, rows)
+    plates = together(held(lower, T=1.0), held(upper, (drive.slide*SPEED, 0.0), T=1.0))
+    return Stream(x=x, edges=between(x, COLUMNS, rows), eos=IdealGas(), law=ConstEta(ETA, KAPPA), held=plates,
+                  push=(8*ETA*SPEED*drive.force/rows**2, 0.0))
+
+
 @dataclass(frozen=True, kw_only=True)
 class ShearFlow(Case):
-    """One flow from rest, `rows` spacings high, on a lattice (jitter 0) or on jittered points."""
+    """One flow from rest, `rows` spacings high, on a lattice (jitter 0) or on jittered points; `plates`: of points."""
     drive: Drive
     rows: int
     jitter: float = 0.0
+    plates: bool = False
     seed: int = 1
 
     @property
@@ -134,10 +146,10 @@ class ShearFlow(Case):
 
     @property
     def label(self) -> str:
-        return f"{self.drive.name}, {self.rows} rows, jitter {self.jitter:g}, seed {self.seed}"
+        return f"{self.drive.name}, {self.rows} rows, {self.points}, seed {self.seed}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        method = driven(self.drive, self.rows, self.jitter, self.seed)
+        method = (between_rows if self.plates else driven)(self.drive, self.rows, self.jitter, self.seed)
         y, V = method.x[:, 1]/self.rows + 0.5, method.edges.V
         state, last, found = method.state(1.0, 0*method.x, np.ones(len(y))), 0.0, []
         interval = INTERVAL*self.rows**2/ETA
@@ -153,12 +165,15 @@ class ShearFlow(Case):
         return Outcome({"shear": found})
 
     @property
+    def points(self) -> str:
+        return (f"jittered-{self.jitter:g}" if self.jitter else "lattice") + ", plates"*self.plates
+
+    @property
     def _key(self) -> dict[str, Any]:
-        return {"flow": self.drive.name, "points": f"jittered-{self.jitter:g}" if self.jitter else "lattice", "rows": self.rows,
-                "seed": self.seed}
+        return {"flow": self.drive.name, "points": self.points, "rows": self.rows, "seed": self.seed}
 
 
-def neglected(method: Layer, state: np.ndarray) -> dict[str, float]:
+def neglected(method: Layer | Stream, state: np.ndarray) -> dict[str, float]:
     """What the series leave out: heating, compression, and the velocity across the plates over SPEED."""
     rho, v = state[0], state[1:3]/state[0]
     T = state[3]/rho - (v**2).sum(axis=0)/2
