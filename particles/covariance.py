@@ -1,0 +1,132 @@
+"""Steady covariances of linear fluctuations about a given flow: Lyapunov solves, in continuous time and of time steps
+
+    dx = J x dt + B dW, Q = B B^T            J C + C J^* + Q = 0                 [RR98 Eqs 20-25]
+    x(t + dt) = A x(t) + noise of variance Q_dt       C = A C A^* + Q_dt                 [RR98 Eq. 40]
+
+What is conserved (rows L with L J = 0, L Q = 0) keeps its value: covariances are those at fixed conserved sums.
+"""
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.linalg import null_space, solve_continuous_lyapunov, solve_discrete_lyapunov
+
+#: of the size of J: rates above its negative belong to modes that do not decay; differences leave 1e-12
+UNDAMPED = 1e-10
+#: of the four-point differences, relative to fields of order 1: STEP^4 = 1e-12 of fifth derivatives, round-off 1e-13
+STEP = 1e-3
+
+
+def jacobian(rates: Callable[[np.ndarray, np.ndarray], None], state: np.ndarray, points: Any = slice(None)) -> np.ndarray:
+    """d rates/d state of a state (fields, n) by differences of fourth order, at the columns of `points` only: (size, columns).
+
+    rates(state, out) writes the rates to `out`.
+    """
+    numbers = np.arange(state.size).reshape(state.shape)[:, points].ravel()
+    J, out = np.zeros((state.size, len(numbers))), np.empty(state.shape)
+    for column, number in enumerate(numbers):
+        for shift, weight in ((-2, 1/12), (-1, -8/12), (1, 8/12), (2, -1/12)):
+            moved = state.copy()
+            moved.ravel()[number] += shift*STEP
+            rates(moved, out)
+            J[:, column] += weight*out.ravel()/STEP
+    return J
+
+
+def waves(columns: np.ndarray, counts: tuple[int, int], turns: int) -> np.ndarray:
+    """The block (m rows, m rows) at wave number 2 pi turns/counts[0] along x of a matrix on a lattice, complex.
+
+    columns : its (fields nx ny, fields ny) columns of the points at x = 0, with point (x, y) numbered x ny + y, m fields.
+    """
+    nx, ny = counts
+    fields = columns.shape[1]//ny
+    parts = np.asarray(columns).reshape(fields, nx, ny, fields*ny)
+    phase = np.exp(-2j*np.pi*turns*np.arange(nx)/nx)
+    return np.einsum("fxyc,x->fyc", parts, phase).reshape(fields*ny, fields*ny)
+
+
+def steady(J: np.ndarray, Q: np.ndarray, conserved: np.ndarray | None = None) -> np.ndarray:
+    """C with J C + C J^* + Q = 0, at fixed values of the rows `conserved` (q, N).
+
+    Raises
+    ------
+    ArithmeticError
+        A mode grows, or neither decays nor is conserved: it has no steady covariance.
+    """
+    Z = free(len(J), conserved)
+    J, Q = Z.conj().T@J@Z, Z.conj().T@Q@Z
+    check_decay(np.linalg.eigvals(J).real, UNDAMPED*np.abs(J).max())
+    C = solve_continuous_lyapunov(J, -Q)
+    C += solve_continuous_lyapunov(J, -(Q + J@C + C@J.conj().T))      # once more for what the first solve left
+    return Z@C@Z.conj().T
+
+
+class Step(NamedTuple):
+    """One time step: x becomes A x, and noise of covariance Q is added."""
+    A: np.ndarray
+    Q: np.ndarray
+
+
+def steady_of_steps(step: Step, conserved: np.ndarray | None = None) -> np.ndarray:
+    """C = A C A^* + Q, at fixed values of the rows `conserved`.
+
+    Raises
+    ------
+    ArithmeticError
+        The step is above its limit, or a mode neither decays nor is conserved.
+    """
+    Z = free(len(step.A), conserved)
+    A, Q = Z.conj().T@step.A@Z, Z.conj().T@step.Q@Z
+    check_decay(np.abs(np.linalg.eigvals(A)) - 1, UNDAMPED)
+    C = solve_discrete_lyapunov(A, Q)
+    C += solve_discrete_lyapunov(A, Q + A@C@A.conj().T - C)
+    return Z@C@Z.conj().T
+
+
+def free(n: int, conserved: np.ndarray | None) -> np.ndarray:
+    """Orthonormal columns (n, n - q) of all that leaves the conserved sums alone."""
+    return np.eye(n) if conserved is None else null_space(conserved)
+
+
+def check_decay(rates: np.ndarray, least: float) -> None:
+    """Refuse modes that grow or stay."""
+    if not (worst := rates.max()) < -least:
+        raise ArithmeticError(f"{np.count_nonzero(rates >= -least)} modes do not decay, the fastest grows at {worst:.3g}: there "
+                              "is no steady covariance; for null modes take a share of transport along edges or an odd number "
+                              "of points, for modes that grow edges that close and a smaller step")
+
+
+# --- time steps -----------------------------------------------------------------------------------------------------------------
+
+
+def forward_euler(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:
+    """x + dt J x + B dW    [RR98 Eq. 40]"""
+    return Step(np.eye(len(J)) + dt*J, dt*Q)
+
+
+def crank_nicolson(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:
+    """(1 - dt J/2) x' = (1 + dt J/2) x + B dW: the covariance of continuous time, whatever the step."""
+    one = np.eye(len(J))
+    inverse = np.linalg.inv(one - dt/2*J)
+    return Step(inverse@(one + dt/2*J), dt*inverse@Q@inverse.conj().T)
+
+
+#: of the second half of the noise in stages 1, 2, 3    [Delong, Griffith, Vanden-Eijnden & Donev 2013]
+BETAS = tuple(float(b) for b in ((2*np.sqrt(2) + np.sqrt(3))/5, (-4*np.sqrt(2) + 3*np.sqrt(3))/5,
+                                 (np.sqrt(2) - 2*np.sqrt(3))/10))
+#: shares of the state before the step in stages 1, 2, 3; the rest is what comes out of an Euler step of the last stage
+OLD = (0.0, 3/4, 1/3)
+
+
+def three_stage(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:
+    """Three Euler steps, averaged; each has the noise W_A + beta W_B of its own beta, W_A and W_B independent."""
+    one = np.eye(len(J))
+    euler, A, of_A, of_B = one + dt*J, one, 0*one, 0*one
+    for old, beta in zip(OLD, BETAS, strict=True):
+        A = old*one + (1 - old)*euler@A
+        of_A, of_B = (1 - old)*(euler@of_A + one), (1 - old)*(euler@of_B + beta*one)
+    return Step(A, dt*(of_A@Q@of_A.conj().T + of_B@Q@of_B.conj().T))
+
+
+STEPS: dict[str, Callable[[np.ndarray, np.ndarray, float], Step]] = {
+    "forward-euler": forward_euler, "crank-nicolson": crank_nicolson, "three-stage": three_stage}

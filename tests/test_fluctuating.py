@@ -1,0 +1,186 @@
+"""Noise and dissipation on points: partners to round-off, conservation, Galilean invariance, null modes; Lyapunov covariances."""
+import numpy as np
+import pytest
+
+from continuum.fluid import ConstEta, IdealGas
+from particles import covariance
+from particles.makers import MAKERS
+from particles.methods import fluctuating
+from particles.methods.dih import Dih, Nested, Pairwise
+from particles.points import jittered, lattice, random
+from particles.weights import Lucy, WendlandC2
+
+COUNTS = {1: (20,), 2: (8, 9), 3: (5, 5, 6)}
+SETS = {"lattice": lambda d: lattice(COUNTS[d]), "jittered": lambda d: jittered(COUNTS[d], 0.2, 1),
+        "random": lambda d: random(COUNTS[d], 0.5, 2)}
+CASES = [(name, kind, d) for name in MAKERS for kind in SETS for d in (1, 2, 3)
+         if not (name == "delaunay" and d == 1) and (d < 3 or kind == "jittered")]      # in 3D one set: half a second each
+KT = 0.7
+
+
+def edges_of(name: str, kind: str, d: int):
+    return MAKERS[name](SETS[kind](d), WendlandC2.of(h=2.7 if d < 3 else 2.2, d=d))
+
+
+def partners(edges, kT=KT):
+    """All exact ones, with coefficients that vary from point to point: name -> (partners, twice kT)."""
+    rng = np.random.default_rng(0)
+    eta = rng.uniform(0.2, 1, edges.n)
+    zeta = 0.9*(1 + 2/edges.d)*rng.uniform(0, 1, edges.n)*eta
+    found = {"stress": fluctuating.stress(edges, eta, zeta, kT), "heat": fluctuating.heat(edges, eta, kT)}
+    if edges.k.min() > -1e-9:       # tetrahedra have edges that conduct a negative amount
+        found |= {"friction": fluctuating.friction(edges, eta, zeta, kT), "conduction": fluctuating.conduction(edges, eta, kT)}
+        found["mixed"] = fluctuating.mixed(found["stress"], found["friction"], 0.1)
+    return found
+
+
+@pytest.mark.parametrize(("name", "kind", "d"), CASES)
+def test_noise_is_the_partner_of_dissipation(name, kind, d):
+    for what, pair in partners(edges_of(name, kind, d)).items():
+        size = abs(pair.Gamma).max()
+        assert fluctuating.mismatch(pair, 2*KT) < 1e-12, what
+        assert abs(pair.Gamma - pair.Gamma.T).max() < 1e-13*size, what
+        # of each component: nothing is made, and uniform motion or temperature is not slowed
+        all_of = np.kron(np.eye(1 if what in ("heat", "conduction") else d), np.ones(int(np.prod(COUNTS[d]))))
+        assert np.abs(all_of@pair.B).max() < 1e-12*abs(pair.B).max(), what
+        assert np.abs(pair.Gamma@all_of.T).max() < 1e-12*size, what
+
+
+@pytest.mark.parametrize(("name", "kind"), [("renormalised", "lattice"), ("delaunay", "random"), ("exact", "jittered")])
+@pytest.mark.parametrize("d", [2, 3])
+def test_dissipation_is_the_force_that_runs(name, kind, d):
+    """Viscous forces of `dih` on any velocities are -Gamma v, nested and along edges; heat likewise."""
+    if name == "delaunay" and d == 3:
+        name = "exact"
+    edges = edges_of(name, kind, d)
+    rng = np.random.default_rng(3)
+    v, T = rng.normal(size=(edges.n, d)), rng.uniform(0.5, 1.5, edges.n)
+    for transport, stress, heat in ((Nested(), fluctuating.stress, fluctuating.heat),
+                                    (Pairwise(mended=False), fluctuating.friction, fluctuating.conduction)):
+        dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(0.3, 0.4), zeta=0.1, transport=transport)
+        moving, warm = (transport.fluxes(dih, dih.flow(dih.state(np.ones(edges.n), *given)))
+                        for given in ((v, np.ones(edges.n)), (0*v, T)))
+        force = np.stack([np.bincount(edges.j, f, edges.n) - np.bincount(edges.i, f, edges.n) for f in moving.momentum.T])
+        gain = np.bincount(edges.j, warm.energy, edges.n) - np.bincount(edges.i, warm.energy, edges.n)
+        expected = -(stress(edges, 0.3, 0.1, KT).Gamma@v.T.ravel())
+        assert force.ravel() == pytest.approx(expected, abs=1e-12*np.abs(expected).max())
+        expected = -(heat(edges, 0.4, KT).Gamma@T)
+        assert gain == pytest.approx(expected, abs=1e-12*np.abs(expected).max())
+
+
+@pytest.mark.parametrize(("counts", "nulls"), [((9, 9), 2), ((10, 10), 8), ((10, 9), 4)])
+def test_null_modes_of_stresses_on_a_lattice_are_the_corners_of_its_zone(counts, nulls):
+    edges = MAKERS["renormalised"](lattice(counts), Lucy.of(h=2.0))
+    stress, friction = (make(edges, 1.0, 0.0, KT) for make in (fluctuating.stress, fluctuating.friction))
+    for pair, expected in ((stress, nulls), (fluctuating.mixed(stress, friction, 0.1), 2)):
+        values = np.linalg.eigvalsh(pair.Gamma.toarray())
+        assert np.count_nonzero(values < 1e-12*values.max()) == expected
+
+
+def in_line(n: int = 24):
+    """Points of unit spacing in a line that know their nearest neighbours."""
+    edges = MAKERS["renormalised"](lattice((n,)), Lucy.of(h=1.5, d=1))
+    k = 2*np.pi*np.arange(1, n//2)/n
+    return edges, k, np.exp(1j*k[:, None]*np.arange(n))
+
+
+def ratio(pair, wave, twice):
+    """Variance of the noise over what it should be, wave by wave."""
+    return np.einsum("ki,ki->k", wave.conj(), (pair.Q@wave.T).T).real/np.einsum(
+        "ki,ki->k", wave.conj(), (twice*pair.Gamma@wave.T).T).real
+
+
+@pytest.mark.parametrize(("doubled", "factor"), [(False, 1/4), (True, 1)])
+def test_printed_stress_is_no_partner_by_one_over_cosine_squared(doubled, factor):
+    edges, k, wave = in_line()
+    pair = fluctuating.printed_stress(edges, 0.0, 0.3, KT, doubled=doubled)
+    assert ratio(pair, wave, 2*KT) == pytest.approx(factor/np.cos(k/2)**2, rel=1e-10)
+    heat = fluctuating.printed_heat(edges, 0.3, 1e-2, 0.7, doubled=doubled)
+    assert ratio(heat, wave, 2e-2*0.7**2) == pytest.approx(factor/(0.7*np.cos(k/2)**2), rel=1e-10)
+
+
+def test_printed_stress_is_the_exact_partner_of_a_friction_along_edges():
+    edges = edges_of("delaunay", "random", 2)
+    eta, (i, j) = 0.3, (edges.i, edges.j)
+    pair = fluctuating.printed_stress(edges, eta, 0.0, KT, doubled=False, trace=1.0)
+    V, S2 = (edges.V[i] + edges.V[j])/2, (edges.S**2).sum(axis=1)
+    # 4 kT eta/V (S^2 1 + S S (1 - 2/d))/4 = 2 kT eta S^2/(2 V) of a friction without e e in 2D
+    other = fluctuating.between(edges, eta*S2/(2*V)/edges.k, 0*S2, np.full(len(i), KT)).Gamma
+    assert abs(pair.Q - 2*KT*other).max() < 1e-12*abs(pair.Q).max()
+
+
+def test_printed_viscosity_that_varies_has_no_partner():
+    """Eq. 37 takes the viscosity of one point and the slope of the other: no symmetric Gamma, though edges close."""
+    edges = edges_of("renormalised", "lattice", 2)
+    for eta, least, most in ((np.full(edges.n, 0.3), 0.0, 1e-13), (np.linspace(0.2, 0.4, edges.n), 1e-2, 2.0)):
+        Gamma = fluctuating.printed_viscosity(edges, eta, 0*eta)
+        assert least <= abs(Gamma - Gamma.T).max()/abs(Gamma).max() <= most
+
+
+# --- covariances --------------------------------------------------------------------------------------------------------------
+
+
+def sound(s: float = 0.4, l: float = 0.1):
+    """Isothermal sound of one wave: J, Q, at equilibrium with covariance 1."""
+    return np.array([[0, -1j*s], [-1j*s, -l]]), np.diag([0, 2*l])
+
+
+def test_crank_nicolson_keeps_the_covariance_at_any_step():
+    for dt in (0.1, 1.0, 30.0):
+        step = covariance.crank_nicolson(*sound(), dt)
+        assert covariance.steady_of_steps(step) == pytest.approx(np.eye(2), abs=1e-10)
+    assert covariance.steady(*sound()) == pytest.approx(np.eye(2), abs=1e-12)
+
+
+def test_forward_euler_heats_by_its_closed_form():
+    """Solved by hand: 1/(1 - l dt/2 - s^2 dt/l + 3 s^2 dt^2/4 - s^4 dt^3/(4 l)), 1/(1 - c^2 dt/nu) for long waves."""
+    s, l = 0.4, 0.1
+    for dt in (0.01, 0.1, 0.3):
+        C = covariance.steady_of_steps(covariance.forward_euler(*sound(s, l), dt))
+        assert C[1, 1].real == pytest.approx(1/(1 - l*dt/2 - s*s*dt/l + 0.75*(s*dt)**2 - s**4*dt**3/(4*l)), rel=1e-9)
+    c, nu, k, dt = 1.0, 0.5, 1e-3, 0.1
+    C = covariance.steady_of_steps(covariance.forward_euler(*sound(c*k, nu*k*k), dt))
+    assert C[1, 1].real == pytest.approx(1/(1 - c*c*dt/nu), rel=1e-5)      # nu k^2 dt = 5e-8, solved to 1e-10 over 1e-6
+
+
+def test_three_stages_are_of_third_order():
+    errors = [np.abs(covariance.steady_of_steps(covariance.three_stage(*sound(), dt)) - np.eye(2)).max() for dt in (0.1, 0.05)]
+    assert np.log2(errors[0]/errors[1]) == pytest.approx(3, abs=0.05)
+
+
+def test_modes_that_grow_or_stay_have_no_covariance():
+    J, Q = sound()
+    with pytest.raises(ArithmeticError, match="1 modes do not decay, the fastest grows at 0"):
+        covariance.steady(np.diag([-1.0, 0.0]), np.eye(2))
+    with pytest.raises(ArithmeticError, match="smaller step"):
+        covariance.steady_of_steps(covariance.forward_euler(J, Q, 2.0))
+
+
+# --- bad input ----------------------------------------------------------------------------------------------------------------
+
+
+def test_negative_coefficients_are_refused():
+    edges = edges_of("delaunay", "random", 2)
+    bad = np.full(edges.n, 0.3)
+    bad[5] = -0.1
+    for make, given in ((fluctuating.stress, (bad, 0.0, KT)), (fluctuating.stress, (0.3, 0.0, -bad)),
+                        (fluctuating.heat, (bad, KT)), (fluctuating.friction, (0.3, bad, KT))):
+        with pytest.raises(ValueError, match=r"of point \d+ is -0\.\d: viscosities, conductivities and temperatures"):
+            make(edges, *given)
+
+
+def test_bulk_viscosity_beyond_the_range_of_edges_is_refused():
+    edges = edges_of("delaunay", "random", 2)
+    with pytest.raises(ValueError, match=r"bulk viscosity 0\.7 .*0 to 0\.6: take nested"):
+        fluctuating.friction(edges, 0.3, 0.7, KT)
+
+
+def test_edges_that_conduct_a_negative_amount_have_no_noise():
+    with pytest.raises(ValueError, match=r"conducts k = -.* no noise has a negative variance: take stresses at points"):
+        fluctuating.conduction(edges_of("delaunay", "random", 3), 0.3, KT)
+
+
+def test_a_share_is_a_share():
+    edges = edges_of("delaunay", "random", 2)
+    with pytest.raises(ValueError, match="between 0"):
+        fluctuating.mixed(fluctuating.heat(edges, 0.3, KT), fluctuating.conduction(edges, 0.3, KT), 1.1)
