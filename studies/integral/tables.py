@@ -11,5 +11,29 @@ MEANS = Table("means", key=POINT, columns=[*POINT, "seeds", "a_over_h", "h_over_
 #: d ln error/d ln(h/lambda): `fixed` says what stays as it is, h/a (finer points for a wave) or a (a wider weight)
 SLOPES = Table("slopes", key=["maker", "weight", "points", "fixed", "at", "operator"],
                columns=["maker", "weight", "points", "fixed", "at", "operator", "slope", "slope_err", "floor"])
+#: a Taylor-Green vortex that has decayed by e: relative rms error of the velocity and relative error of ln(K at the start/K at
+#: the end), both against the gas of that Mach number; incompressible: of the velocity against the incompressible vortex;
+#: reached: share of the time until the run diverged, 0 where there are no such edges; exchanges: over edges, of the whole run;
+#: h = 0: edges of no weight
+VORTICES = Table("vortices", key=[*POINT, "mach", "seed"], columns=[
+    *POINT, "mach", "seed", "velocity", "decay", "incompressible", "reached", "exchanges"])
+#: the same two errors of the gas itself against the incompressible vortex
+COMPRESSION = Table("compression", key=["mach"], columns=["mach", "velocity", "velocity_err", "decay", "decay_err"])
+#: Rayleigh-Benard at Ra 10 000, `rows` spacings high: K per mass and Nusselt number in the end
+CONVECTION = Table("convection", key=["maker", "weight", "h", "points", "rows", "seed"], columns=[
+    "maker", "weight", "h", "points", "rows", "seed", "ke", "ke_err", "nu", "nu_err", "rolls", "converged", "exchanges"])
+#: K of the grid of study rb, extrapolated, against which errors are told
+REFERENCE = Table("reference", key=["flow"], columns=["flow", "ke", "ke_err"])
+SERIES = ["flow", "quantity", "maker", "weight", "h", "points"]
+#: means over seeds of relative errors, with sign; resolution: spacings to the wavelength lambda or the height, which stands for
+#: it; lost: seeds without a number
+FLOWS = Table("flows", key=[*SERIES, "resolution"], columns=[
+    *SERIES, "resolution", "seeds", "lost", "a_over_h", "h_over_lambda", "error", "error_err", "exchanges"])
+#: d ln |error|/d ln(a/lambda) at fixed h/a and d ln |error|/d ln h at fixed a, over all runs; `at`: that h or resolution
+FLOW_SLOPES = Table("flow_slopes", key=["flow", "quantity", "maker", "weight", "points", "fixed", "at"], columns=[
+    "flow", "quantity", "maker", "weight", "points", "fixed", "at", "number", "slope", "slope_err"])
+#: least resolution from which on the error stays below 1 %, and exchanges there; bound = 1: the least that was run; finest: the
+#: error at the highest one, all that there is where 1 % was not reached
+CHEAPEST = Table("cheapest", key=SERIES, columns=[*SERIES, "needed", "needed_err", "exchanges", "bound", "finest"])
 
-ALL = (OPERATORS, MEANS, SLOPES)
+ALL = (OPERATORS, MEANS, SLOPES, VORTICES, COMPRESSION, CONVECTION, REFERENCE, FLOWS, FLOW_SLOPES, CHEAPEST)
