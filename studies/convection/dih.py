@@ -146,6 +146,11 @@ class DihRun(PointsRun):
         return self.scheme.name
 
     @property
+    def points(self) -> int:
+        """With rows on both plates there is one more than between images."""
+        return round(self.scene.width)*(round(self.scene.L) + self.scheme.held)
+
+    @property
     def cost(self) -> float:
         steps = self.t_end*self.free_fall_time/max(0.2, 1.1 - self.scene.L/100)
         return steps*4*self.points*100e-9*(self.scheme.h/2)**2 + 5
