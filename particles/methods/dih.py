@@ -84,10 +84,10 @@ class Nested:
 
 @dataclass(frozen=True, kw_only=True)
 class Pairwise:
-    """Forces along edges [Eq. 51]: k [(A/d)(v_j - v_i) + (B/d) e e.(v_j - v_i)], heat k kappa (T_j - T_i).
+    """Forces along edges [Eq. 51]: k [B (v_j - v_i) + A e e.(v_j - v_i)], heat k kappa (T_j - T_i).
 
-    A = d [eta (1/2 + 1/d) - zeta/2], B = d (d + 2)/2 [eta (1 - 2/d) + zeta]: both viscosities can be chosen, against RR98.
-    mended : with the stress tau_ab = (A/d) (d_b v_a - delta_ab div v) of the points, and its work F_a = tau_ab v_b. In the
+    B = eta (1/2 + 1/d) - zeta/2, A = (d + 2)/2 [eta (1 - 2/d) + zeta], letters as printed but for weights and their moments.
+    mended : with the stress tau_ab = B (d_b v_a - delta_ab div v) of the points, and its work F_a = tau_ab v_b. In the
     continuum tau has no divergence where viscosity is constant, and the force is left as it is then; where it varies forces along
     edges lack it. F has one always: without it even a rigid rotation heats.
     """
@@ -117,20 +117,20 @@ class Pairwise:
 def along(edges: Any, coefficients: Coefficients, a: Flow, b: Flow) -> Fluxes:
     """Friction and heat along edges (with k and apart), from points a to b    [Eq. 51]"""
     d, (eta, zeta, kappa) = edges.apart.shape[1], coefficients
-    A, B = eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
+    B, A = eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
     dv, e = b.v - a.v, edges.apart/np.sqrt((edges.apart**2).sum(axis=1))[:, None]
-    force = edges.k[:, None]*(A[:, None]*dv + B[:, None]*e*(e*dv).sum(axis=1)[:, None])
+    force = edges.k[:, None]*(B[:, None]*dv + A[:, None]*e*(e*dv).sum(axis=1)[:, None])
     work, heat = (force*(a.v + b.v)).sum(axis=1)/2, edges.k*kappa*(b.T - a.T)
     return Fluxes(np.zeros(len(heat)), -force, -work - heat)
 
 
 def lacking(coefficients: Coefficients, v: np.ndarray, slope: np.ndarray) -> np.ndarray:
-    """F = A [(v.grad) v - v div v], A = eta (1/2 + 1/d) - zeta/2, (n, d), from v (n, d) and slope[n, a, b] = d_a v_b."""
+    """F = B [(v.grad) v - v div v], B = eta (1/2 + 1/d) - zeta/2, (n, d), from v (n, d) and slope[n, a, b] = d_a v_b."""
     return np.einsum("nab,nb->na", transposed(coefficients, slope), v)
 
 
 def transposed(coefficients: Coefficients, slope: np.ndarray) -> np.ndarray:
-    """tau[n, a, b] = A (d_b v_a - delta_ab div v), A = eta (1/2 + 1/d) - zeta/2, from slope[n, a, b] = d_a v_b."""
+    """tau[n, a, b] = B (d_b v_a - delta_ab div v), B = eta (1/2 + 1/d) - zeta/2, from slope[n, a, b] = d_a v_b."""
     d, (eta, zeta, _) = slope.shape[1], coefficients
     div = np.einsum("naa->n", slope)[:, None, None]*np.eye(d)
     return (eta*(1/2 + 1/d) - zeta/2)[:, None, None]*(np.swapaxes(slope, 1, 2) - div)

@@ -67,7 +67,7 @@ CLAIMS = (
           statement="rows of fixed points that move are plates that lie on the first of these rows: Couette flow between "
                     "them, largest relative error of stress, heating and profile",
           because="an exact solution of the exchange with nearest neighbours; what the start leaves after 20 times of friction"),
-    Claim(id="rr98-fixed-rows-plate", source="RR98 Sec. III", printed="a host of procedures", expect=0, within=0.05,
+    Claim(id="rr98-fixed-rows-plate", source="RR98 Sec. III", expect=0, within=0.05,
           value=of("walls", "offset", maker="renormalised", h=2.0, rows=32),
           statement="fixed rows from half a spacing behind a plate on [KHP95, Fig. 2] are a wall there for fixed points too: "
                     "how far behind the plate driven flow stops, in spacings, h = 2 a",
@@ -76,7 +76,7 @@ CLAIMS = (
           value=of("walls", "offset", maker="renormalised", h=2.0, rows=32),
           statement="edges to nearest neighbours put the wall on the first fixed row, half a spacing behind the plate: where "
                     "driven flow stops", because="exact for a parabola, but for the compression of the gas"),
-    Claim(id="rr98-frozen-body", source="RR98 Sec. IV", printed="can be used", at_most=0.01, value=drag_error("frozen", 0.1),
+    Claim(id="rr98-frozen-body", source="RR98 Sec. IV", at_most=0.01, value=drag_error("frozen", 0.1),
           statement="'freezing' a number of points simulates a rigid body: |error| of the drag of a cylinder in a square "
                     "array, solid fraction 0.1, lattice points within the circle frozen, 17 spacings across", because=PERCENT),
     Claim(id="own-bodies-frozen-offset", source="RR98 Sec. IV", at_most=-0.1,

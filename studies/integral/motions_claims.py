@@ -148,7 +148,7 @@ ALONE = "computed once, by sums in a fixed order: no statistics"
 JITTERED = {"points": "jittered-0.1", "integrator": "RK4"}
 PATTERN = {"pattern": "density", "wavelength": 32}
 CLAIMS = (
-    Claim(id="rr98-eq39-pattern", source="RR98 Eq. 39", printed="fully consistent", expect=1, within=0.02,
+    Claim(id="rr98-eq39-pattern", source="RR98 Secs I, III", printed="fully consistent; a bold assumption", expect=1, within=0.02,
           value=cell("patterns", "speed", motion="literal", **PATTERN),
           statement="points that move with v under Eqs 34-36 show the fluid: speed of a density pattern over that of the "
                     "stream that carries it, wavelength 32 a",
@@ -182,7 +182,7 @@ CLAIMS = (
           value=any_drift(motion="literal"),
           statement="mass, momentum and energy stay while points move literally: largest relative drift over 1e4 steps, all "
                     "weights, both integrators", because="round-off: 1e4 steps of some 1e-17 each, in a random walk"),
-    Claim(id="rr98-eq40-stability", source="RR98 Eq. 40", printed="determining the stability of the flow", at_most=0,
+    Claim(id="rr98-eq40-stability", source="RR98 Eq. 40", at_most=0,
           value=against_damping,
           statement="steps of Eq. 40 grow only where the flow is unstable: growth of sound in a gas at rest over its damping, "
                     "dt 1.5 (eta + zeta + kappa/2)/(rho c^2), wavelength 32 a", because=f"a gas at rest is stable; {HALVES}"),
@@ -210,7 +210,7 @@ CLAIMS = (
           value=cell("orders", "over_euler", motion="constant-mass", flow="vortices", integrator="two-step"),
           statement="positions with new velocities are more accurate: their error over that with old ones, decaying vortices "
                     "at constant mass", because="smaller than one is more accurate; the reference is RK4"),
-    Claim(id="rr98-eq41-order", source="RR98 Eq. 41", printed="more accurate", at_least=1.5,
+    Claim(id="rr98-eq41-order", source="RR98 Eq. 41", at_least=1.5,
           value=cell("orders", "order", motion="constant-mass", flow="vortices", integrator="two-step"),
           statement="new velocities make positions more accurate by an order in dt: their order, vortices at constant mass",
           because="between first and second order; the next term is 0.5 % of the first; the reference is RK4"),
@@ -237,16 +237,16 @@ CLAIMS = (
           value=cell("patterns", "speed", motion="convective", pattern="shear", wavelength=32),
           statement="with Eq. 47 a pattern of velocity across the stream goes with it: speed over the stream's, wavelength 32 "
                     "a", because=f"the square of the amplitude is 1e-8; {HALVES}"),
-    Claim(id="rr98-eq46-conserves", source="RR98 Eq. 46", printed="guaranteed", at_most=1e-12,
+    Claim(id="rr98-eq46-conserves", source="RR98 Eq. 46", at_most=1e-12,
           value=drift("mass", motion="convective", **JITTERED),
           statement="mass is conserved with Eq. 46: largest relative drift in 1e4 steps, stirred gas, jittered points",
           because=f"what is exchanged is not symmetric in i and j, so that more than round-off is lost; {ALONE}"),
-    Claim(id="rr98-eq47-conserves", source="RR98 Eq. 47", printed="guaranteed", at_most=1e-12,
+    Claim(id="rr98-eq47-conserves", source="RR98 Eq. 47", at_most=1e-12,
           value=drift("momentum", motion="convective", **JITTERED),
           statement="momentum is conserved with Eq. 47: largest drift in 1e4 steps over sum |p_i|, stirred gas, jittered "
                     "points",
           because=f"what is exchanged is not symmetric in i and j, so that more than round-off is lost; {ALONE}"),
-    Claim(id="rr98-eq48-conserves", source="RR98 Eq. 48", printed="guaranteed", at_most=1e-12,
+    Claim(id="rr98-eq48-conserves", source="RR98 Eq. 48", at_most=1e-12,
           value=drift("energy", motion="convective", **JITTERED),
           statement="energy is conserved with Eq. 48: largest relative drift in 1e4 steps, stirred gas, jittered points",
           because=f"what is exchanged is not symmetric in i and j, so that more than round-off is lost; {ALONE}"),
@@ -280,9 +280,10 @@ CLAIMS = (
     Claim(id="rr98-eq50-sum-zero", source="RR98 Eq. 50", expect=1, within=0.02, value=cell("brackets", "force", a=1.0, b=-1.0),
           statement="a = 1, b = -1, smoothed particles with their own masses: force over -grad P, wave without entropy of 32 a",
           because=f"2 %: a weight of h = 3 a takes 1.5 % off the gradient of such a wave; {ALONE}"),
-    Claim(id="rr98-eq50-any", source="RR98 Eq. 50", printed="a and b constants", at_most=0.02, value=inconsistent,
-          statement="any constants a and b make Eq. 49 the momentum equation: largest error of the force over -grad P for a + "
-                    "b other than 0", because=f"2 %: a weight of h = 3 a takes 1.5 % off the gradient of such a wave; {ALONE}"),
+    Claim(id="rr98-eq50-any", source="RR98 Eq. 50", at_most=0.02, value=inconsistent,
+          statement="any constants a and b make Eq. 49 the momentum equation where volumes follow the flow: largest error of the "
+                    "force over -grad P for a + b other than 0",
+          because=f"2 %: a weight of h = 3 a takes 1.5 % off the gradient of such a wave; {ALONE}"),
     Claim(id="rr98-eq50-law", source="RR98 Eq. 50", at_most=1e-6, value=off_law,
           statement="the force of Eq. 50 is -grad(P/rho^(a+b)), so f^ (1 - (a + b)/gamma) of -grad P without entropy: largest "
                     "difference", because=f"the square of the amplitude is 1e-8; {ALONE}"),

@@ -124,9 +124,9 @@ TRANSPORT = (
 ALONG = (
     Claim(id="rr98-eq51-identify", source="RR98 Eq. 51", printed="one cannot independently identify", at_least=0.1,
           value=most("friction", misses, h=6.0), because="a tenth would leave them unidentified",
-          statement="the two viscosities cannot be identified from A and B: largest difference of eta, zeta of long waves on a "
-                    "lattice from M_A/2d(d+2) + M_B/2d, M_A/d(d+2) - (1 - 2/d) eta over their size, five forms of A and B, 2 and "
-                    "3 dimensions, h = 6 a"),
+          statement="the two viscosities cannot be told from A and B (A alone enters both): largest difference of eta, zeta of "
+                    "long waves on a lattice from M_A/2d(d+2) + M_B/2d, M_A/d(d+2) - (1 - 2/d) eta over their size, five forms, 2 "
+                    "and 3 dimensions, h = 6 a"),
     Claim(id="rr98-eq51-isotropic", source="RR98 Eq. 51", at_most=0.02,
           value=most("friction", off_diagonal, h=3.0),
           because="2 %: other lattice sums at h = 3 a are good to that",
@@ -145,10 +145,12 @@ ALONG = (
           ("order-bulk", "friction, zeta 0.01", "constant eta and zeta = eta/2"),
           ("order-varying", "friction, eta(T)", "eta(T) and zeta = 0"),
           ("order-varying-foretold", "friction, eta(T), foretold",
-           "eta(T) and zeta = 0, against div Pi without d_b eta d_a v_b - d_a eta div v, which they lack"))),
+           "eta(T) and zeta = 0, against div Pi without d_b eta d_a v_b - d_a eta div v, which they lack"),
+          ("order-varying-mended", "friction, eta(T), mended", "eta(T) and zeta = 0, with the stress that they lack"))),
     Claim(id="rr98-eq51-rotation", source="RR98 Eq. 51", expect=0, within=1e-9,
           value=cell("rotation", "heating", d=2, zeta=0.0, mended="no"), because="round-off over omega^2",
-          statement="the work of forces along edges does not heat a rigid rotation: heating over eta omega^2, 2D"),
+          statement="the work of forces along edges, zeta = 0, does not heat a rigid rotation: heating over eta omega^2, 2D; "
+                    "central ones, zeta = (1 + 2/d) eta, do not"),
     Claim(id="rr98-eq51-rotation-foretold", source="RR98 Eq. 51", at_most=1e-9, because="round-off over omega^2",
           value=most("rotation", off("heating", "predicted"), mended="no"),
           statement="it heats it by (1 + 2/d) eta - zeta times omega^2: largest difference over eta omega^2, 2D with zeta = 0 "

@@ -15,7 +15,7 @@ from studies.integral.operators_weights import weight_of
 from studies.kit.case import Case, Outcome, Report
 
 ETA, ZETA, KAPPA = 0.02, 0.01, 0.03
-PRINTED, ALONG = Nested(differences=False), Pairwise()
+PRINTED, ALONG, MENDED = Nested(differences=False), Pairwise(mended=False), Pairwise()
 CHANGING, CONSTANT = PowerLaw(ETA, KAPPA, n=1.0), ConstEta(ETA, KAPPA)      # eta, kappa proportional to T, or constant
 
 
@@ -127,6 +127,7 @@ def frictions(dih: Dih, flow: Flow, exact: Exact) -> Iterator[tuple[str, np.ndar
                          - exact.grad(eta)*np.trace(slope, axis1=1, axis2=2)[:, None])
     yield "friction, eta(T)", found, true
     yield "friction, eta(T), foretold", found, true + more
+    yield "friction, eta(T), mended", arriving(dih.edges, MENDED.fluxes(changing, flow).momentum), true
 
 
 def comparison(found: np.ndarray, exact: np.ndarray) -> tuple[float, float]:

@@ -184,7 +184,7 @@ class Nulls(Case):
 class Rotation(Case):
     """Heating of a rigid rotation by forces along edges, in the middle of a patch    [RR98 Eq. 51]
 
-    Along edges nothing changes, so only the force along v_ij heats: with 2 A omega^2, A = eta (1/2 + 1/d) - zeta/2.
+    Along edges nothing changes, so only the force along v_ij heats: with 2 B omega^2, B = eta (1/2 + 1/d) - zeta/2.
     """
     d: int
     zeta: float

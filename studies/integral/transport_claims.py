@@ -124,7 +124,7 @@ CLAIMS = (
     Claim(id="rr98-transport-eq51-identified", source="RR98 Eq. 51", printed="cannot independently identify", at_least=0.1,
           value=identified("exact"), because="a tenth would be no identification",
           statement="the two viscosities of forces along edges cannot be identified one by one: largest relative difference "
-                    "between those put in by A, B = f(eta, zeta) and those measured, edges of a weight, h = 3 a, on points "
+                    "between those put in by A, B of eta, zeta and those measured, edges of a weight, h = 3 a, on points "
                     "jittered by 0.3 a, waves of 32 a"),
     Claim(id="rr98-transport-eq51-delaunay", source="RR98 Eq. 51", at_most=0.1, value=identified("delaunay"),
           statement="the two viscosities of forces along Delaunay edges are those put in: largest relative difference, points "
@@ -134,12 +134,12 @@ CLAIMS = (
           value=exact(lambda: anisotropy(8.0)), because="1 %",
           statement="with many points in the range of the weight, h = 8 a, forces along edges with zeta > 0 have the viscosities "
                     "put in: largest relative error for endless waves along an axis of a lattice, by its symbol"),
-    Claim(id="rr98-transport-eq51-long-h2", source="RR98 Eq. 51", printed="in the continuum limit", at_most=0.01,
+    Claim(id="rr98-transport-eq51-long-h2", source="RR98 Eq. 51", at_most=0.01,
           value=farthest(("viscosity", "bulk viscosity"), **{**LATTICE, "h": 2.0}, **PAIRWISE),
           statement="forces along edges with zeta > 0 give lap v and grad div v for endless waves: largest relative error of the "
                     "two viscosities, lattice, waves along an axis, h = 2 a",
           because="1 %; sums of W x^4/r^3 over few neighbours are not averages over directions, however long the wave"),
-    Claim(id="rr98-transport-eq51-long-h3", source="RR98 Eq. 51", printed="in the continuum limit", at_most=0.01,
+    Claim(id="rr98-transport-eq51-long-h3", source="RR98 Eq. 51", at_most=0.01,
           value=farthest(("viscosity", "bulk viscosity"), **LATTICE, **PAIRWISE),
           statement="forces along edges with zeta > 0 give lap v and grad div v for endless waves: largest relative error of the "
                     "two viscosities, lattice, waves along an axis, h = 3 a",

@@ -67,8 +67,8 @@ def lattice_waves(gas: Gas, weight: Any, k: np.ndarray, nested: bool) -> Waves:
     if nested:
         return continuum(gas, s, d)
     slow = 2*w/size*(1 - np.cos(r@k))
-    A, B = gas.eta*(1/2 + 1/d) - gas.zeta/2, (d + 2)/2*(gas.eta*(1 - 2/d) + gas.zeta)
-    return waves(s, float(slow@(A + B*along**2)), gas.kappa*float(slow.sum()), float(slow@(A + B*across**2)))
+    B, A = gas.eta*(1/2 + 1/d) - gas.zeta/2, (d + 2)/2*(gas.eta*(1 - 2/d) + gas.zeta)
+    return waves(s, float(slow@(B + A*along**2)), gas.kappa*float(slow.sum()), float(slow@(B + A*across**2)))
 
 
 def quantities(found: Waves, k: float, d: int = 2) -> dict[str, float]:

@@ -24,7 +24,7 @@ from studies.kit.csvfile import read, write
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
 
-COLUMNS = ("id", "source", "statement", "printed", "measured", "err", "verdict", "reason", "study")
+COLUMNS = ("id", "source", "statement", "whose", "printed", "measured", "err", "low", "high", "verdict", "reason", "study")
 NAMED = re.compile(r"(KHP95|RR98)\b|[A-Z].*\b(1[89]|20)\d\d\b", re.IGNORECASE)
 
 
@@ -34,7 +34,7 @@ class CannotTell(Exception):
 
 @dataclass(frozen=True, kw_only=True)
 class Claim:
-    """One statement of a paper, testable or not.
+    """One statement, testable or not: a paper's, with what is ``printed``, or our own about the same equation.
 
     ``value(tables)`` gives (value, err), err the half width of the 95 % interval. Accepted is ``expect`` +-
     ``within``, or ``at_least``, or ``at_most``, or both of these; ``because`` says where these limits come
@@ -110,7 +110,8 @@ def judge(claims: Sequence[Claim], tables: Tables, study: str) -> list[dict[str,
     if twice := sorted({name for name in names if names.count(name) > 1}):
         raise ValueError(f"two claims of study {study} are called {', '.join(twice)}: an id names one claim")
     return [{"id": claim.id, "source": claim.source, "statement": claim.statement, "printed": claim.printed,
-             "study": study, **judged(claim, tables)} for claim in claims]
+             "whose": "paper" if claim.printed else "own", "study": study,
+             **({"low": claim.low, "high": claim.high} if claim.value else {}), **judged(claim, tables)} for claim in claims]
 
 
 def judged(claim: Claim, tables: Tables) -> dict[str, Any]:
@@ -143,4 +144,5 @@ def put_claims(path: Path, rows: Sequence[dict[str, Any]], study: str) -> None:
 def claims_head() -> Iterator[str]:
     """What the columns mean."""
     yield f"commit {provenance.commit()}"
-    yield "err is the half width of the 95 % interval; the rule of the verdicts is in studies/kit/claim.py"
+    yield "whose: a statement that the paper prints, or our own about the same equation"
+    yield "err is the half width of the 95 % interval, low to high is accepted; studies/kit/claim.py has the rule of the verdicts"

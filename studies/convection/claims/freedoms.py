@@ -77,9 +77,10 @@ def of_grid(tables: Tables, row: dict[Any, Any]) -> bool:
 
 
 CLAIMS = (
-    Claim(id="khp95-fewer-freedoms", source="KHP95 Sec. VII", printed="many fewer", at_most=1, value=freedoms,
-          statement="sometimes particles need fewer numbers than an equally accurate grid: at least so many for one of the "
-                    "grid in the case that suits them best, of those with an error of K that is told from zero",
+    Claim(id="khp95-fewer-freedoms", source="KHP95 Sec. VII", at_most=1, value=freedoms,
+          statement="in one of these convecting gases, at least, particles need fewer numbers than an equally accurate grid: at "
+                    "least so many for one of the grid in the case that suits them best, of those whose error of K is told "
+                    "from zero",
           because=f"fewer is below 1; errors of K {ALIKE}; a lower bound, because 8 rows are the least that the grid's solver "
-                  "takes; what 8 rows give is extrapolated, second order; other flows than convection are not judged"),
+                  "takes; what 8 rows give is extrapolated, second order; \"in some cases\" may be others than convection"),
 )

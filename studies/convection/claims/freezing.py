@@ -163,10 +163,10 @@ CLAIMS = (
           statement="freezing vanishes as the range of the weight grows: K of the dense fluid at Ra 3000 with h = 6 "
                     "over the grid's", value=flows(3000, variant="range-6", **DENSE),
           because=f"10 % is the paper's error of K; {ALIKE}"),
-    Claim(id="khp95-barrier-rule", source="KHP95 Sec. IV", printed="mv^2 > phi(0)", at_least=1,
+    Claim(id="khp95-barrier-rule", source="KHP95 Sec. IV", at_least=1,
           statement="where particles flow their typical energy exceeds the barrier: 2K of the ideal gas at Ra 10 000 "
                     "over 2 P n^-2 w(0)", value=mean_square(BARRIER, 1e4, 1.0), because="the printed inequality"),
-    Claim(id="khp95-barrier-rule-largest", source="KHP95 Sec. IV", printed="mv^2 > phi(0)", at_least=1,
+    Claim(id="khp95-barrier-rule-largest", source="KHP95 Sec. IV", at_least=1,
           statement="where particles flow the energy of the fastest exceeds the barrier: largest v^2 of the ideal gas "
                     "at Ra 10 000 over 2 P n^-2 w(0)", value=largest_square(BARRIER), because="the printed inequality"),
     Claim(id="khp95-melting-rule", source="KHP95 Sec. IV", printed="mv^2 > 2Pn^-2[w(0.9)-w(1)]", at_least=1,
