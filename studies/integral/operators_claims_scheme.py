@@ -125,8 +125,8 @@ ALONG = (
     Claim(id="rr98-eq51-identify", source="RR98 Eq. 51", printed="one cannot independently identify", at_least=0.1,
           value=most("friction", misses, h=6.0), because="a tenth would leave them unidentified",
           statement="the two viscosities cannot be told from A and B (A alone enters both): largest difference of eta, zeta of "
-                    "long waves on a lattice from M_A/2d(d+2) + M_B/2d, M_A/d(d+2) - (1 - 2/d) eta over their size, five forms, 2 "
-                    "and 3 dimensions, h = 6 a"),
+                    "long waves on a lattice from M_A/2d(d+2) + M_B/2d, M_A/d(d+2) - (1 - 2/d) eta over their size, five forms, "
+                    "2 and 3 dimensions, h = 6 a"),
     Claim(id="rr98-eq51-isotropic", source="RR98 Eq. 51", at_most=0.02,
           value=most("friction", off_diagonal, h=3.0),
           because="2 %: other lattice sums at h = 3 a are good to that",
