@@ -1,0 +1,26 @@
+"""What ghosts are images of, however many walls lie between."""
+from typing import NamedTuple
+
+import numpy as np
+
+from particles.surroundings import Surroundings
+from particles.walls.mirror import Mirror
+
+
+class Ghosts(NamedTuple):
+    """Of each ghost: its origin among the points, -1 behind an odd number of plates (else 1), temperature of the last plate."""
+    origin: np.ndarray
+    turn: np.ndarray
+    plate_T: np.ndarray
+
+
+def ghosts_of(around: Surroundings) -> Ghosts:
+    """The ghosts that the lists have now; mirrors are the only walls that turn anything."""
+    origin, turn, plate_T = np.arange(len(around.x)), np.ones(len(around.x)), np.zeros(len(around.x))
+    for wall, parent, first, last in around.blocks:
+        for q in (origin, turn, plate_T):
+            q[first:last] = q[parent]
+        if isinstance(wall, Mirror):
+            turn[first:last] *= -1
+            plate_T[first:last] = wall.T
+    return Ghosts(origin[around.n:], turn[around.n:], plate_T[around.n:])

@@ -1,0 +1,211 @@
+"""RR98's moving points, compiled: against their slow twin, between plates against fixed points, what they keep, restart."""
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from continuum.fluid import ConstEta, IdealGas, VanDerWaals
+from particles.edges import between_plates
+from particles.integrators import RK4
+from particles.limits import limit_of
+from particles.makers import plain
+from particles.methods.dih import Pairwise
+from particles.methods.drift import DRIFTS, ConstantMassDrift, Drift
+from particles.methods.layer import Layer
+from particles.methods.motions import MOTIONS, ConstantMass, Powers, scale_of
+from particles.methods.spam import LessStatic
+from particles.points import jittered, lattice
+from particles.run import Plan, run
+from particles.team import Team
+from particles.walls.mirror import plates
+from particles.walls.periodic import periodic
+from particles.weights import WendlandC2
+
+COUNTS = COLUMNS, ROWS = 10, 8
+WEIGHT = WendlandC2.of(h=2.9)
+LAW = ConstEta(0.3, 0.2)
+AT = jittered(COUNTS, 0.2, 3)
+SCALE = scale_of(AT, WEIGHT)
+#: row of the slow twin that each row of a state is
+TWIN = [0, 1, 3, 4, 2, 5, 6]
+
+
+def drift(kind="literal", inside=False, **more):
+    """Periodic both ways without gravity, or between plates under it."""
+    walls = (*plates(ROWS, 1.5, 0.5), *periodic(COLUMNS)) if inside else (*periodic(COLUMNS), *periodic(ROWS, 1))
+    motion = DRIFTS[kind] if isinstance(kind, str) else kind
+    return Drift(**{"motion": motion, "weight": WEIGHT, "eos": IdealGas(), "law": LAW, "walls": walls, "box": COUNTS,
+                    "g": 0.02*inside, "scale": SCALE, **more})
+
+
+def fields(seed=0, n=AT.n):
+    rng = np.random.default_rng(seed)
+    return rng.uniform(0.9, 1.1, n), rng.normal(0, 0.2, (n, 2)), rng.uniform(0.9, 1.1, n)
+
+
+def shaken(method, x=AT.x):
+    """A state; volumes differ where they can change."""
+    state = method.state(x, *fields(n=len(x)))
+    if method.motion != DRIFTS["literal"]:
+        state[6] *= np.random.default_rng(1).uniform(0.9, 1.1, len(x))
+    return state
+
+
+def inner(x):
+    """Points that are between plates."""
+    return np.stack([x[:, 0], np.clip(x[:, 1], -ROWS/2 + 0.2, ROWS/2 - 0.2)], axis=1)
+
+
+def rates(method, state, threads=1):
+    """In the order of the points as they are given."""
+    n = state.shape[1]
+    sums, now, ids, found = method.start(n, Team(threads)), state.copy(), np.arange(n), np.zeros_like(state)
+    sums.around.relist(now, ids, 0.0)
+    out = np.zeros_like(now)
+    sums.rates(now, out)
+    found[:, ids] = out
+    return found
+
+
+def alike(found, expected):
+    """To round-off: 27 neighbours, sums of products."""
+    for one, other in zip(found, expected, strict=True):
+        np.testing.assert_allclose(one, other, rtol=0, atol=1e-13*max(1.0, np.abs(other).max()))
+
+
+@pytest.mark.parametrize("mended", [False, True])
+@pytest.mark.parametrize(("kind", "eos"), [*((kind, IdealGas()) for kind in DRIFTS), ("constant-mass", VanDerWaals())])
+def test_compiled_sums_are_those_of_the_slow_twin(kind, eos, mended):
+    fast = drift(kind, eos=eos, mended=mended)
+    slow = MOTIONS[kind](box=COUNTS, weight=WEIGHT, eos=eos, law=LAW, scale=SCALE, transport=Pairwise(mended=mended))
+    state = shaken(fast)
+    given = slow.state(AT.x, *fields())
+    rows = TWIN[:len(given)]
+    given[rows] = state[:len(given)]
+    found, expected = rates(fast, state), np.zeros_like(given)
+    slow.rates(given, expected)
+    alike(found[:len(given)], expected[rows])
+    assert fast.fields[:len(given)] == tuple(slow.fields[row] for row in rows)
+    np.testing.assert_allclose(fast.conserved(state)[[0, 3]], slow.conserved(given)[[0, 3]], rtol=1e-13)
+
+
+@pytest.mark.parametrize("bracket", [Powers(), Powers(1.0, -1.0), Powers(0.5, 1.0)])
+def test_equation_50_is_that_of_the_slow_twin(bracket):
+    fast = drift(ConstantMassDrift(bracket))
+    slow = ConstantMass(box=COUNTS, weight=WEIGHT, eos=IdealGas(), law=LAW, scale=SCALE, transport=Pairwise(), bracket=bracket)
+    given, state = slow.state(AT.x, *fields()), fast.state(AT.x, *fields())
+    expected = np.zeros_like(given)
+    slow.rates(given, expected)
+    alike(rates(fast, state), expected[TWIN])
+
+
+@pytest.mark.parametrize("mended", [False, True])
+def test_literal_points_between_plates_are_fixed_ones_that_are_moved(mended):
+    """Under gravity, with mirror images: `layer` on the edges that the points have at this moment."""
+    x, weight = inner(AT.x), WendlandC2.of(h=2.9)
+    edges, beyond = between_plates(plain, x, COLUMNS, ROWS, weight)
+    scaled, images = (replace(q, S=SCALE*q.S, k=SCALE*q.k) for q in (edges, beyond))
+    fixed = Layer(x=x, edges=scaled, beyond=images, eos=IdealGas(), law=LAW, T_plates=(1.5, 0.5), g=0.02, mended=mended,
+                  fast=False)
+    method = drift(inside=True, mended=mended)
+    state = method.state(x, *fields())
+    expected = np.zeros((4, len(x)))
+    fixed.start(len(x), Team(1)).rates(state[[4, 2, 3, 5]], expected)
+    found = rates(method, state)
+    alike(found[[4, 2, 3, 5]], expected)
+    np.testing.assert_allclose(found[:2], state[2:4]/state[4], rtol=1e-15)
+
+
+def test_insulated_plates_take_no_energy():
+    """Without gravity, whose pressure behind a plate works on what comes near it; friction at rest takes none."""
+    method = drift("constant-mass", inside=True, law=ConstEta(0.3, 0.0), g=0.0)
+    out = rates(method, shaken(method, inner(AT.x)))
+    assert abs(out[5].sum()) < 1e-14*np.abs(out[5]).sum()
+
+
+def test_what_static_pressure_leaves_out_it_gives_back_in_the_continuum():
+    """A layer at rest on a lattice: no force is left where P and gravity balance, whatever share pairs see; mid-layer."""
+    at = lattice(COUNTS)
+    x, y = at.x, at.x[:, 1]
+    for fraction in (0.0, 1.0):
+        method = drift("constant-mass", inside=True, static=LessStatic(fraction, 1.0), scale=scale_of(at, WEIGHT))
+        state = method.state(x, 1.0, 0*x, 1 - method.g*y)
+        out = rates(method, state)
+        middle = np.abs(y) < 1
+        np.testing.assert_allclose(out[2:4, middle], 0, atol=1e-14)
+
+
+@pytest.mark.parametrize("kind", ["literal", "constant-mass"])
+def test_mass_momentum_and_energy_stay_while_points_move(kind):
+    method = drift(kind)
+    state = method.state(AT.x, *fields())
+    done = run(method, state, Plan(dt=0.5*limit_of(method, state), steps=500))
+    before, after = method.conserved(state), method.conserved(done.state)
+    assert np.abs(after - before).max() < 1e-13*AT.n
+    assert np.abs(done.by_id()[:2] - state[:2]).max() > 0.5
+
+
+def test_mass_between_plates_stays_in_literal_motion_and_leaks_in_convective():
+    lost = {}
+    for kind in ("literal", "convective", "constant-mass"):
+        method = drift(kind, inside=True)
+        state = shaken(method, inner(AT.x))
+        done = run(method, state, Plan(dt=0.5*limit_of(method, state), steps=200))
+        lost[kind] = abs(method.conserved(done.state)[0]/method.conserved(state)[0] - 1)
+    assert max(lost["literal"], lost["constant-mass"]) < 1e-14 < 1e-5 < lost["convective"]
+
+
+def test_results_do_not_depend_on_threads():
+    wide = jittered((20, ROWS), 0.2, 3)
+    assert wide.n >= 64*2       # a team shares no fewer rows
+    method = drift(inside=True, walls=(*plates(ROWS, 1.5, 0.5), *periodic(20)), box=(20, ROWS))
+    state = shaken(method, inner(wide.x))
+    assert np.array_equal(rates(method, state), rates(method, state, 2))
+
+
+@pytest.mark.parametrize("kind", ["literal", "constant-mass"])
+def test_a_run_goes_on_bitwise_where_it_was_interrupted(kind, tmp_path):
+    method = drift(kind, inside=True)
+    state = shaken(method, inner(AT.x))
+    dt = 0.5*limit_of(method, state)
+    whole = run(method, state, Plan(dt=dt, steps=60))
+    seen = []
+
+    def stop(done):
+        seen.append(done)
+        if len(seen) == 2:
+            raise KeyboardInterrupt
+    plan = Plan(dt=dt, steps=60, checkpoint=tmp_path/"run.h5")
+    with pytest.raises(KeyboardInterrupt):
+        run(method, state, plan, stop)
+    again = run(method, state, plan)
+    assert again.step == 60 and np.array_equal(whole.by_id(), again.by_id())
+
+
+@pytest.mark.parametrize("kind", DRIFTS)
+def test_steps_up_to_the_limit_are_stable_and_those_well_above_it_are_not(kind):
+    """A lattice that is hardly shaken, without friction; what shears it grows by itself, alike in short steps."""
+    method = drift(kind, law=ConstEta(0.0, 0.0))
+    x = lattice(COUNTS).x
+    state = method.state(x, 1.0, np.random.default_rng(0).normal(0, 1e-6, x.shape), np.ones(len(x)))
+    dt = limit_of(method, state)
+    fast = {}
+    for of_limit in (0.25, 1.0, 2.5):
+        sums, now = method.start(len(x), Team(1)), state.copy()
+        sums.around.relist(now, np.arange(len(x)), 0.0)
+        stepper = RK4(now.shape, Team(1))
+        for _ in range(round(50/of_limit)):
+            stepper.step(sums, now, of_limit*dt)
+        fast[of_limit] = np.abs(now[2:4]).max()
+    assert fast[1.0] < 1.1*fast[0.25]
+    assert not fast[2.5] < 100*fast[0.25]
+
+
+def test_what_is_no_fluid_is_named():
+    method = drift("constant-mass")
+    state = shaken(method)
+    sums = method.start(AT.n, Team(1))
+    state[6, 5] = -1.0
+    assert "point 5 has V = -1" in sums.fault(state, np.arange(AT.n))
+    with pytest.raises(ValueError, match="LiteralDrift needs the whole pressure"):
+        drift(static=LessStatic(0.5, 1.0))
