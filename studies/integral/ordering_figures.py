@@ -3,6 +3,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from studies.integral import ordering_flows_figures
 from studies.kit.figure import below, errorbar, figure
 from studies.kit.table import Tables
 
@@ -12,9 +13,8 @@ MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
 
 def figures(tables: Tables) -> dict[str, Figure]:
     """What the tables allow."""
-    if "means" not in tables:
-        return {}
-    return {"surface": surface(tables["means"]), "makers": makers(tables["means"])}
+    of_operators = {"surface": surface(tables["means"]), "makers": makers(tables["means"])} if "means" in tables else {}
+    return {**of_operators, **ordering_flows_figures.figures(tables)}
 
 
 def surface(means: pd.DataFrame) -> Figure:
