@@ -17,6 +17,7 @@ from studies.convection.claims import RB_CLAIMS
 from studies.convection.cost import CompressibleStep, SpamStep
 from studies.convection.derive import derive
 from studies.convection.dih import SCHEMES, DihRun
+from studies.convection.drift import DRIFT_MOTIONS, DriftRun
 from studies.convection.figures import figures
 from studies.convection.grids import BoussinesqSteady, CompressibleApproach, CompressibleSteady, PypdeSteady
 from studies.convection.moving import MOTIONS, MovingRun
@@ -205,6 +206,9 @@ def points() -> Iterator[Case]:
     for name, rows in product(sorted(set(MOTIONS) - {"moving"}), (25, 40)):
         for seed in SEEDS[:2]:      # seeds differ by 0.03 %, ingredients by more
             yield MovingRun(scene=RayleighBenard(ra=1e4, L=float(rows)), motion=MOTIONS[name], seed=seed)
+    for motion, rows in product(DRIFT_MOTIONS.values(), (25, 40)):
+        for seed in SEEDS[:3 if rows == 25 else 2]:
+            yield DriftRun(scene=RayleighBenard(ra=1e4, L=float(rows)), motion=motion, seed=seed)
 
 
 STUDY = Study(name="rb", cases=cases, tables=tables.ALL, derive=derive, figures=figures, claims=RB_CLAIMS)

@@ -172,6 +172,16 @@ class Drift:
         fields = fixed.states(self.eos, rho*np.ones(len(x)), v, T)[[1, 2, 0, 3]]
         return np.concatenate([x.T, self.motion.owned(V)*fields, V[None]])
 
+    def temperature(self, state: np.ndarray) -> np.ndarray:
+        """Of all points, (n,)."""
+        rho, e = self.thermal(state)
+        return temperature(self.eos, rho, e)
+
+    def thermal(self, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Density and internal energy per mass."""
+        px, py, rho, eps = state[2:6]/self.motion.owned(state[6])
+        return rho, eps/rho - (px**2 + py**2)/(2*rho**2)
+
     def conserved(self, state: np.ndarray) -> np.ndarray:
         """Mass, momentum and energy of all points, (4,)."""
         V = state[6]
@@ -189,10 +199,8 @@ def _(method: Drift, start: np.ndarray) -> float:
     Volumes that stay add 2 P grad(n dV) to the force, so that sound is as fast as S^2 c^2 + 2 D P/rho allows; where volumes
     follow the flow it is slower.
     """
-    V = start[6]
-    px, py, rho, eps = start[2:6]/method.motion.owned(V)
-    e = eps/rho - (px**2 + py**2)/(2*rho**2)
-    T, a = temperature(method.eos, rho, e), float(np.sqrt(V.mean()))
+    rho, e = method.thermal(start)
+    T, a = temperature(method.eos, rho, e), float(np.sqrt(start[6].mean()))
     sums = lattice_sums(method.weight, method.scale*a*a, 1.0, zone(a))
     stiff = np.linalg.eigvalsh(sums.D)[:, -1]*method.scale*a*a
     slow = (sums.S**2).sum(axis=1)*(method.scale*a*a)**2
@@ -249,8 +257,7 @@ class Drifts(Listed):
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """The first point with a volume, mass or state that no fluid has; empty if there is none."""
-        px, py, rho, eps = state[2:6]/self.method.motion.owned(state[6])
-        e = eps/rho - (px**2 + py**2)/(2*rho**2)
+        rho, e = self.method.thermal(state)
         good = (state[6] > 0) & (rho > 0) & valid(self.method.eos, rho, e)
         if not good.all():
             i = int(np.argmin(good))
