@@ -1,0 +1,261 @@
+"""A periodic box in two or three dimensions: cell order, ghosts and neighbour lists of the particles in it.
+
+Two dimensions are three with z = 0: one layer of cells, no ghosts above or below. With `rate` the images beyond y slide along x
+[Lees & Edwards 1972]. Lists hold both directions of a pair, as those of `particles.neighbours` do.
+"""
+from typing import NamedTuple
+
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+
+from continuum.jit import jit
+from particles.neighbours import ONE, u32, u64
+from particles.team import Team
+
+MOST = 2000     # neighbours of a particle: beyond, they have collapsed
+
+
+class Cells(NamedTuple):
+    """Points sorted into cubes: cell c holds order[start[c]:start[c+1]] at x (points, 3); counts of cells along x, y, z."""
+    low: np.ndarray
+    side: float
+    counts: np.ndarray
+    start: np.ndarray
+    order: np.ndarray
+    x: np.ndarray
+
+
+class Lists(NamedTuple):
+    """Neighbours listed[start[i]:start[i] + length[i]] of row i."""
+    start: np.ndarray
+    length: np.ndarray
+    listed: np.ndarray
+
+
+@jit
+def _cell(cells, x, k):
+    """Number of the cell of a point, layer by layer."""
+    c = 0
+    for axis in range(2, -1, -1):
+        c = c*cells.counts[axis] + int((x[k, axis] - cells.low[axis])/cells.side)
+    return c
+
+
+@jit
+def _count_sort(cells, x):
+    """Stable counting sort of points by cell."""
+    start, cell = cells.start, np.empty(len(x), np.int64)
+    for k in range(len(x)):
+        cell[k] = _cell(cells, x, k)
+        start[cell[k] + 1] += 1
+    for c in range(len(start) - 1):
+        start[c + 1] += start[c]
+    fill = start[:-1].copy()
+    for k in range(len(x)):
+        to = fill[cell[k]]
+        cells.order[to] = k
+        cells.x[to] = x[k]
+        fill[cell[k]] += 1
+
+
+def sort_into_cells(x: np.ndarray, side: float) -> Cells:
+    """Linked cells over the bounding box of points (n, 3), with one empty cell around it.
+
+    Raises
+    ------
+    FloatingPointError
+        The points are spread over far more cells than there are points.
+    """
+    low = x.min(axis=0) - side
+    across = (x.max(axis=0) - low)/side + 2
+    if not np.prod(across) <= 64*len(x) + 4096:
+        raise FloatingPointError(f"the particles spread over {across[0]:.4g} x {across[1]:.4g} x {across[2]:.4g} cells, far more "
+                                 f"than their number {len(x)}: some are no longer in the box; lower the step")
+    counts = across.astype(np.int64)
+    cells = Cells(low, side, counts, np.zeros(np.prod(counts) + 1, np.int64), np.empty(len(x), u32), np.empty_like(x))
+    _count_sort(cells, x)
+    return cells
+
+
+@jit
+def _gather(cells, home, near, number):
+    """Copy the points of the 27 cells around `home` one behind the other; how many there are."""
+    count, columns, layer = u64(0), cells.counts[0], cells.counts[0]*cells.counts[1]
+    for up in range(-1, 2):
+        for row in range(-1, 2):
+            first = home + up*layer + row*columns
+            for k in range(u64(cells.start[first - 1]), u64(cells.start[first + 2])):
+                near[0, count], near[1, count], near[2, count] = cells.x[k, 0], cells.x[k, 1], cells.x[k, 2]
+                number[count] = cells.order[k]
+                count += ONE
+    return count
+
+
+@intrinsic
+def lowest_bit(typingctx, word):
+    """Number of the lowest bit of a 64-bit word that is one."""
+    def build(context, builder, signature, arguments):
+        return builder.cttz(arguments[0], ir.Constant(ir.IntType(1), 1))
+    return types.uint64(types.uint64), build
+
+
+@jit
+def _within(x, y, z, far2, near, first):
+    """Bits of the 64 points near[:, first:] that are nearer to (x, y, z) than the root of far2."""
+    bits = u64(0)
+    for b in range(u64(64)):
+        dx, dy, dz = near[0, first + b] - x, near[1, first + b] - y, near[2, first + b] - z
+        bits |= u64(dx*dx + dy*dy + dz*dz < far2) << b
+    return bits
+
+
+@jit
+def list_rows(first, last, n, cells, reach, capacity, lists):
+    """Write the lists of those of n particles that are first..last in the cells, from first*capacity on; False without room.
+
+    What is around a cell is compared 64 at a time, in vector instructions, and only what is within reach is looked at again.
+    """
+    most = 27*np.diff(cells.start).max() + 64
+    near, number = np.empty((3, most)), np.empty(most, u32)
+    far2, used, room, home, count = reach*reach, u64(first*capacity), u64(last*capacity), -1, u64(0)
+    for k in range(u64(first), u64(last)):
+        i = cells.order[k]
+        if i >= n:
+            continue
+        c = _cell(cells, cells.x, k)
+        if c != home:
+            home, count = c, _gather(cells, c, near, number)
+            near[0, count:count + u64(64)] = np.inf
+        if used + count >= room:
+            return False
+        begin = used
+        for word in range(u64(0), count, u64(64)):
+            bits = _within(cells.x[k, 0], cells.x[k, 1], cells.x[k, 2], far2, near, word)
+            while bits:
+                j = number[word + lowest_bit(bits)]
+                bits &= bits - ONE
+                lists.listed[used] = j
+                used += u64(j != i)
+        lists.start[i], lists.length[i] = begin, used - begin
+    return True
+
+
+@jit
+def farthest(x, anchor):
+    """Largest distance of a point from where it was; rows of coordinates (d, n)."""
+    far2 = 0.0
+    for i in range(x.shape[1]):
+        r2 = 0.0
+        for axis in range(x.shape[0]):
+            r2 += (x[axis, i] - anchor[axis, i])**2
+        far2 = max(far2, r2)
+    return np.sqrt(far2)
+
+
+@jit
+def _ghosts(x, sides, d, slid, margin, parent, shift, up):
+    """Shifts of n points into the box, then ghosts: of what is within `margin` of a side its image beyond the other one.
+
+    x (d, n); parent (room,), shift (room, 3), up (room,) are filled; the number of points, or -1 if they do not fit. Along y
+    first, since what has slid may need images along x.
+    """
+    n = count = x.shape[1]
+    for i in range(n):
+        parent[i], up[i], shift[i, 2] = i, -np.floor(x[1, i]/sides[1] + 0.5), 0.0
+        shift[i, 1] = up[i]*sides[1]
+        shift[i, 0] = up[i]*slid - sides[0]*np.floor((x[0, i] + up[i]*slid)/sides[0] + 0.5)
+        if d == 3:
+            shift[i, 2] = -sides[2]*np.floor(x[2, i]/sides[2] + 0.5)
+    for turn in range(d):
+        axis = 1 - turn if turn < 2 else 2
+        for k in range(count):
+            at = x[axis, parent[k]] + shift[k, axis]
+            for way in (1, -1):
+                if way*at < margin - sides[axis]/2:
+                    if count == len(parent):
+                        return -1
+                    parent[count], up[count], shift[count] = parent[k], up[k], shift[k]
+                    shift[count, axis] += way*sides[axis]
+                    if axis == 1:
+                        up[count] += way
+                        to = x[0, parent[k]] + shift[k, 0] + way*slid
+                        shift[count, 0] += way*slid - sides[0]*np.floor(to/sides[0] + 0.5)
+                    count += 1
+    return count
+
+
+@jit
+def place(first, last, x, images, slid, out):
+    """out[k] = (x, y, z) of points first..last, images having slid by so much since their shifts were made."""
+    for k in range(first, last):
+        i = images.parent[k]
+        out[k, 0] = x[0, i] + (images.shift[k, 0] + images.up[k]*slid)
+        out[k, 1] = x[1, i] + images.shift[k, 1]
+        out[k, 2] = x[2, i] + images.shift[k, 2] if len(x) == 3 else 0.0
+
+
+class Points(NamedTuple):
+    """Particles in the box, then ghosts: image of which particle each is, where from there (points, 3), how many boxes above."""
+    parent: np.ndarray
+    shift: np.ndarray
+    up: np.ndarray
+
+
+class Images:
+    """Ghosts and lists of n particles in a periodic box (d,), d = 2 or 3, centred on the origin.
+
+    Particles may be anywhere: their coordinates need no wrapping. `lists` are of the particles over all `points`.
+    """
+
+    def __init__(self, n: int, box: tuple[float, ...], reach: float, skin: float, rate: float, team: Team):
+        self.n, self.box, self.reach, self.skin, self.rate, self.team = n, np.array(box, float), reach, skin, rate, team
+        self.anchor: np.ndarray | None = None
+        self.anchor_slid, self.made = 0.0, 0
+        self.lists = Lists(np.empty(n, u64), np.empty(n, u32), np.empty(0, u32))
+        self.points = Points(np.empty(0, np.int64), np.empty((0, 3)), np.empty(0))
+
+    def slid(self, time: float) -> float:
+        """How far the images above have slid."""
+        return self.rate*float(self.box[1])*time
+
+    def stale(self, x: np.ndarray, time: float) -> bool:
+        """True if lists may miss a pair of particles at x (d, n)."""
+        if self.anchor is None:
+            return True
+        return 2*farthest(x, self.anchor) + abs(self.slid(time) - self.anchor_slid) > self.skin
+
+    def order(self, x: np.ndarray) -> np.ndarray:
+        """Numbers of the particles in the order of cells."""
+        places = np.zeros((self.n, 3))
+        places[:, :len(x)] = (x - self.box[:, None]*np.floor(x/self.box[:, None] + 0.5)).T
+        return sort_into_cells(places, self.reach + self.skin).order
+
+    def relist(self, x: np.ndarray, time: float) -> None:
+        """Ghosts and lists for particles at x (d, n)."""
+        reach, d = self.reach + self.skin, len(self.box)
+        self.anchor, self.anchor_slid, self.made = x.copy(), self.slid(time), self.made + 1
+        places = self._make_points(x)
+        cells = sort_into_cells(places, reach)
+        room = 4 + int(1.1*(np.pi if d == 2 else 4/3*np.pi)*reach**d*self.n/np.prod(self.box))
+        while room < MOST:
+            if len(self.lists.listed) < len(places)*room:
+                self.lists = self.lists._replace(listed=np.empty(int(1.1*len(places)*room), u32))
+            if all(self.team(list_rows, len(places), self.n, cells, reach, room, self.lists)):
+                return
+            room = int(1.3*room) + 1
+        raise FloatingPointError(f"more than {int(room/1.3)} neighbours within {reach:g} of each particle: they have collapsed "
+                                 "onto each other; lower the step or the attraction")
+
+    def _make_points(self, x: np.ndarray) -> np.ndarray:
+        """Particles in the box and ghosts; their places (points, 3)."""
+        margin, count = self.reach + self.skin, -1
+        room = int(1.1*self.n*np.prod(1 + 2*margin/self.box)) + 100
+        while count < 0:
+            parent, shift, up = np.empty(room, np.int64), np.empty((room, 3)), np.empty(room)
+            count, room = _ghosts(x, self.box, len(x), self.anchor_slid, margin, parent, shift, up), 2*room
+        self.points = Points(parent[:count], shift[:count], up[:count])
+        out = np.empty((count, 3))
+        place(0, count, x, self.points, 0.0, out)
+        return out

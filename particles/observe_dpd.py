@@ -1,0 +1,111 @@
+"""What is measured on dissipative particles. Each function takes the pair sums and the state (3 d, n) = x, v, f."""
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from particles.pairs import nothing, rate
+
+
+class Static(NamedTuple):
+    """Sums of the repulsion F in d dimensions: components, Laplacian of its potential, F.r, and (F less friction)_x y."""
+    d: int
+    stiffness: float        # a/rc
+
+
+@rate.of(Static)
+def _(term, a, b, ab):
+    """U'' + (d - 1) U'/r = a/rc - (d - 1) f"""
+    fx, fy, fz = ab.f*ab.dx, ab.f*ab.dy, ab.f*ab.dz
+    friction = ab.g*(ab.dx*(a.vx - b.vx) + ab.dy*(a.vy - b.vy) + ab.dz*(a.vz - b.vz))
+    return (fx, fy, fz, term.stiffness - (term.d - 1)*ab.f, fx*ab.dx + fy*ab.dy + fz*ab.dz, (ab.f - friction)*ab.dx*ab.dy)
+
+
+nothing.of(Static)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+
+
+def static_sums(sums: Any, state: np.ndarray) -> np.ndarray:
+    """(n, 6) of `Static`, once for all quantities of a record."""
+    if sums.seen is None:
+        sums.seen = sums.over_pairs(Static(sums.method.d, sums.method.a/sums.method.rc), state, 6)
+    return sums.seen
+
+
+def peculiar(sums: Any, state: np.ndarray) -> np.ndarray:
+    """Velocities (d, n) less the shear."""
+    d = sums.places
+    v = state[d:2*d].copy()
+    v[0] -= sums.method.rate*state[1]
+    return v
+
+
+def kinetic_temperature(sums: Any, state: np.ndarray) -> float:
+    """kT of velocities: d (n - 1) of them are free, their sum is conserved."""
+    v = peculiar(sums, state)
+    return float((v**2).sum()/(len(v)*(v.shape[1] - 1)))
+
+
+def configurational_temperature(sums: Any, state: np.ndarray) -> float:
+    """kT of positions, <|grad U|^2>/<lap U>    [Rugh 1997; Butler et al. 1998]"""
+    total = static_sums(sums, state)
+    return float((total[:, :3]**2).sum()/total[:, 3].sum())
+
+
+def pressure(sums: Any, state: np.ndarray) -> float:
+    """P = [n kT + sum over pairs F.r/d]/V, kT that of the velocities."""
+    n, d = sums.n, sums.places
+    return float((n*kinetic_temperature(sums, state) + static_sums(sums, state)[:, 4].sum()/2/d)/sums.method.volume)
+
+
+def shear_stress(sums: Any, state: np.ndarray) -> float:
+    """Stress_xy, positive with the shear: -[sum v_x v_y + sum over pairs (F - friction)_x y]/V; of the noise the mean is zero."""
+    v = peculiar(sums, state)
+    return float(-(np.sum(v[0]*v[1]) + static_sums(sums, state)[:, 5].sum()/2)/sums.method.volume)
+
+
+def momentum(sums: Any, state: np.ndarray) -> float:
+    """Size of the mean velocity."""
+    d = sums.places
+    return float(np.abs(state[d:2*d].mean(axis=1)).max())
+
+
+class Displacement:
+    """Mean square distance of particles from where they were at the first record; states are in the order of `ids`.
+
+    Positions are not wrapped, so that nothing has to be put together again.
+    """
+
+    def __init__(self):
+        self.start = None
+
+    def __call__(self, sums: Any, state: np.ndarray) -> float:
+        x = np.empty_like(state[:sums.places])
+        x[:, sums.now.ids] = state[:sums.places]
+        if self.start is None:
+            self.start = x
+        return float(((x - self.start)**2).sum(axis=0).mean())
+
+
+class StructureFactor(NamedTuple):
+    """S(k) = |sum exp(ik.x)|^2/n, mean over the waves along the axes with `waves` of them in the box."""
+    waves: int
+
+    def __call__(self, sums: Any, state: np.ndarray) -> float:
+        k = 2*np.pi*self.waves/np.array(sums.method.box)
+        amplitude = np.exp(1j*k[:, None]*state[:sums.places]).sum(axis=1)
+        return float(np.mean(np.abs(amplitude)**2)/sums.n)
+
+
+class PairDistribution(NamedTuple):
+    """g(r) in `bins` shells up to `reach`, at most half of the box, for `Plan.means`."""
+    bins: int
+    reach: float
+
+    def __call__(self, sums: Any, state: np.ndarray) -> np.ndarray:
+        method, d = sums.method, sums.places
+        box = np.array(method.box)
+        tree = cKDTree(np.mod(state[:d].T, box) % box, boxsize=box)
+        edges = np.linspace(0, self.reach, self.bins + 1)
+        counts = np.diff(tree.count_neighbors(tree, edges)).astype(float)      # each point with itself is in the first edge
+        shells = {2: np.pi, 3: 4*np.pi/3}[d]*np.diff(edges**d)
+        return counts/(sums.n*(sums.n - 1)/method.volume*shells)

@@ -1,0 +1,198 @@
+"""Dissipative particles: against the slow twin, momentum, antisymmetry, threads, restarts, temperatures; bad input."""
+import itertools
+
+import numpy as np
+import pytest
+
+from particles.integrators import TwoStep
+from particles.methods.dpd import Dpd, Normal, Uniform
+from particles.observe_dpd import (
+    PairDistribution,
+    StructureFactor,
+    configurational_temperature,
+    kinetic_temperature,
+    momentum,
+    pressure,
+    shear_stress,
+)
+from particles.run import Plan, Run, run
+from particles.team import Team
+from particles.thermal import GrootWarren, GrootWarren65, Shardlow, VelocityVerlet
+from tests import plain_dpd
+
+INTEGRATORS = (TwoStep, GrootWarren, GrootWarren65, VelocityVerlet, Shardlow)
+BOXES = ((5.0, 4.0), (3.5, 3.0, 4.0))
+
+
+def sums_of(method, state, step=0, dt=0.02, threads=1):
+    """The pair sums as a run has them at some step, particles in the order in which they are given."""
+    sums = method.start(state.shape[1], Team(threads))
+    sums.resume(Run(state=state, ids=np.arange(state.shape[1]), step=step))
+    sums.dt = dt
+    return sums
+
+
+def forces(method, state, step=0, dt=0.02, threads=1):
+    d, out = method.d, np.empty_like(state[:method.d])
+    sums_of(method, state, step, dt, threads).forces(state[:d], state[d:2*d], 0.0, out)
+    return out
+
+
+@pytest.mark.parametrize("box, noise, rate", [(BOXES[0], Uniform(3), 0.0), (BOXES[1], Uniform(3), 0.0), (BOXES[1], Normal(4), 0.0),
+                                              (BOXES[0], Uniform(5), 0.4), (BOXES[1], Uniform(5), 0.4)])
+def test_forces_equal_those_of_the_plain_twin(box, noise, rate):
+    """To round-off of a sum of some ten forces of up to 100."""
+    method = Dpd(box=box, noise=noise, rate=rate)
+    state, step, dt = method.random_start(3.0), 7, 0.02
+    slid = rate*box[1]*step*dt
+    expected = plain_dpd.forces(method, state[:method.d], state[method.d:2*method.d], dt, step + 1, slid)
+    assert np.abs(forces(method, state, step, dt) - expected).max() < 1e-11
+
+
+@pytest.mark.parametrize("box", BOXES)
+def test_two_particles_push_and_rub_each_other_oppositely(box):
+    method, d = Dpd(box=box), len(box)
+    state = np.zeros((3*d, 2))
+    state[:d, 0], state[:d, 1] = 0.1, np.array(box)/2 - 0.2          # not in range, then across a corner
+    assert np.array_equal(forces(method, state), np.zeros((d, 2)))
+    state[:d, 0] = -np.array(box)/2 + 0.1
+    state[d, 0] = 2.0
+    found = forces(method, state)
+    assert np.abs(found).min() > 0
+    assert np.abs(found.sum(axis=1)).max() < 1e-13*np.abs(found).max()
+
+
+@pytest.mark.parametrize("integrator, box", [*itertools.product(INTEGRATORS, BOXES)])
+def test_momentum_is_conserved(integrator, box):
+    """Drift per particle over 200 steps: round-off."""
+    method = Dpd(box=box, integrator=integrator)
+    done = run(method, method.random_start(3.0), Plan(dt=0.02, steps=200, every=20, series={"momentum": momentum}))
+    assert max(done.series["momentum"]) < 1e-14
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_threads_and_restarts_do_not_matter(integrator, tmp_path):
+    """Bitwise; the run is stopped between two lists, two of the orders of cells lie behind it."""
+    method = Dpd(box=(4.0, 4.0, 4.0), integrator=integrator, rate=0.3)
+    state, plan = method.random_start(3.0), {"dt": 0.02, "every": 7, "series": {"kT": kinetic_temperature}}
+    whole = run(method, state, Plan(steps=60, **plan))
+    two = run(method, state, Plan(steps=60, threads=2, **plan))
+
+    def stop(fraction):
+        raise KeyboardInterrupt
+
+    file = tmp_path/"run.h5"
+    with pytest.raises(KeyboardInterrupt):      # at step 16, then at 32, ...
+        run(method, state, Plan(steps=60, checkpoint=file, **plan), progress=stop)
+    again = run(method, state, Plan(steps=60, checkpoint=file, **plan))
+    for other in (two, again):
+        assert np.array_equal(whole.by_id(), other.by_id())
+        assert whole.series == other.series
+
+
+@pytest.mark.parametrize("box", BOXES)
+def test_numbers_of_particles_decide_the_noise_and_their_order_does_not(box):
+    method = Dpd(box=box)
+    state = method.random_start(3.0)
+    turn = np.random.default_rng(1).permutation(state.shape[1])
+    sums = sums_of(method, state[:, turn].copy())
+    sums.now.ids = turn
+    out, d = np.empty_like(state[:method.d]), method.d
+    sums.forces(state[:d, turn].copy(), state[d:2*d, turn].copy(), 0.0, out)
+    assert np.abs(out - forces(method, state)[:, turn]).max() < 1e-11       # the order of the sum is another
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_a_shear_is_a_change_of_frame(integrator):
+    """Between sliding sides the flow rate*y stays, and momentum in its frame; no noise, no repulsion: nothing else moves."""
+    method = Dpd(box=(4.0, 4.0, 4.0), a=0.0, gamma=0.0, kT=0.0, rate=0.5, integrator=integrator)
+    state = method.random_start(3.0)
+    done = run(method, state, Plan(dt=0.02, steps=300)).by_id()
+    assert np.abs(done[3] - 0.5*state[1]).max() < 1e-13
+    assert np.abs(done[0] - state[0] - 6.0*0.5*state[1]).max() < 1e-11
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_noise_balances_friction(integrator):
+    """sigma^2 = 2 gamma kT: without repulsion kT is that of the bath, at a step so short that no integrator errs by 1 %."""
+    method = Dpd(box=(6.0, 6.0, 6.0), a=0.0, kT=1.7, integrator=integrator)
+    done = run(method, method.random_start(3.0), Plan(dt=0.005, steps=2000, every=100, series={"kT": kinetic_temperature}))
+    spread = 1.7*np.sqrt(2/3/done.state.shape[1])        # of one record; ten of the last are one correlation time apart
+    assert abs(np.mean(done.series["kT"][10:]) - 1.7) < 4*spread/np.sqrt(5) + 0.01*1.7
+
+
+def test_temperatures_agree_at_rest_and_pressure_is_that_of_print():
+    """At 648 particles and 300 records: 5 sigma of the scatter; the study has the numbers."""
+    method = Dpd(box=(6.0, 6.0, 6.0), integrator=Shardlow)
+    series = {"kinetic": kinetic_temperature, "configurational": configurational_temperature, "P": pressure}
+    start = run(method, method.random_start(3.0), Plan(dt=0.02, steps=300)).state
+    done = run(method, start, Plan(dt=0.02, steps=1500, every=5, series=series, means={"g": PairDistribution(20, 2.0)}))
+    assert np.mean(done.series["kinetic"]) == pytest.approx(1, abs=0.03)
+    assert np.mean(done.series["configurational"]) == pytest.approx(1, abs=0.03)
+    assert np.mean(done.series["P"]) == pytest.approx(23.64, abs=0.15)
+    assert done.means["g"][0] < 0.1 and done.means["g"][-1] == pytest.approx(1, abs=0.03)
+
+
+def test_configurational_temperature_is_the_laplacian():
+    """Against second differences of the plain force."""
+    method = Dpd(box=BOXES[1], gamma=0.0, kT=0.0)
+    state = method.random_start(3.0)
+    sums, x, step = sums_of(method, state), state[:3], 1e-6
+
+    def force(x):
+        return plain_dpd.forces(method, x, 0*x, 1.0, 0)
+
+    laplacian = 0.0
+    for axis, i in itertools.product(range(3), range(x.shape[1])):
+        moved = np.zeros_like(x)
+        moved[axis, i] = step
+        laplacian -= (force(x + moved)[axis, i] - force(x - moved)[axis, i])/(2*step)
+    expected = (force(x)**2).sum()/laplacian
+    assert configurational_temperature(sums, state) == pytest.approx(expected, rel=1e-5)      # of differences: (1e-6)^2 and 1e-16/1e-6
+
+
+def test_structure_factor_of_points_without_order_is_one():
+    method = Dpd(box=(8.0, 8.0, 8.0))
+    found = [StructureFactor(2)(sums_of(method, state), state) for state in (method.random_start(3.0, seed) for seed in range(200))]
+    assert np.mean(found) == pytest.approx(1, abs=4*np.sqrt(1/3/200))       # an exponential variable each, three directions
+
+
+def test_shear_stress_of_a_gas_at_rest_is_zero_and_turns_with_the_shear():
+    method = Dpd(box=BOXES[1], kT=0.0, a=0.0, rate=0.0)
+    state = method.random_start(3.0)
+    state[3:6] = 0.0
+    state[3] = 0.3*state[1]
+    inside = np.abs(state[1]) < 0.5      # friction between those that see no image of another speed
+    state = np.ascontiguousarray(state[:, inside])
+    assert shear_stress(sums_of(method, state), state) > 0
+
+
+@pytest.mark.parametrize("wrong, message", [
+    ({"kT": -1.0}, "kT must be zero or positive, got -1.0"), ({"gamma": -4.5}, "gamma must be zero or positive, got -4.5"),
+    ({"a": np.nan}, "a must be zero or positive, got nan"), ({"rc": 0.0}, "rc must be positive, got 0.0"),
+    ({"skin": -0.1}, "skin must be positive"), ({"rate": np.inf}, "the shear rate must be finite"),
+    ({"box": (10.0, 2.9, 10.0)}, "sides of at least 3 rc = 3"), ({"box": (10.0,)}, "two or three sides"),
+    ({"noise": Uniform(-1)}, "the seed must be a whole number")])
+def test_bad_fluids(wrong, message):
+    with pytest.raises(ValueError, match=message):
+        Dpd(**{"box": (4.0, 4.0, 4.0), **wrong})
+
+
+@pytest.mark.parametrize("rho", [0.0, -3.0, np.nan, 1e-3])
+def test_bad_densities(rho):
+    with pytest.raises(ValueError, match="rho must be positive and make two particles at least"):
+        Dpd(box=(4.0, 4.0, 4.0)).random_start(rho)
+
+
+def test_a_step_beyond_the_stability_limit():
+    method = Dpd(box=(4.0, 4.0, 4.0))
+    with pytest.raises(ValueError, match=r"dt = 0.15 is above the stability limit 0.138 of these particles"):
+        run(method, method.random_start(3.0), Plan(dt=0.15, steps=1))
+
+
+def test_collapsed_particles_are_an_error():
+    method = Dpd(box=(30.0, 30.0, 30.0))
+    state = method.random_start(0.1)
+    state[:3] *= 1e-3
+    with pytest.raises(FloatingPointError, match="neighbours within 1.3 of each particle: they have collapsed"):
+        run(method, state, Plan(dt=0.02, steps=1))
