@@ -33,16 +33,17 @@ def jacobian(rates: Callable[[np.ndarray, np.ndarray], None], state: np.ndarray,
     return J
 
 
-def waves(columns: np.ndarray, counts: tuple[int, int], turns: int) -> np.ndarray:
-    """The block (m rows, m rows) at wave number 2 pi turns/counts[0] along x of a matrix on a lattice, complex.
+def waves(columns: np.ndarray, counts: tuple[int, int], k: float) -> np.ndarray:
+    """The block (m ny, m ny) of waves exp(ikx), k per spacing, of a matrix on a lattice that is uniform along x.
 
-    columns : its (fields nx ny, fields ny) columns of the points at x = 0, with point (x, y) numbered x ny + y, m fields.
+    columns : its (m nx ny, m ny) columns of the points at x = 0, with point (x, y) numbered x ny + y, m fields. nx must be odd and
+    more than twice the reach of the matrix: then k may be any number.
     """
     nx, ny = counts
     fields = columns.shape[1]//ny
     parts = np.asarray(columns).reshape(fields, nx, ny, fields*ny)
-    phase = np.exp(-2j*np.pi*turns*np.arange(nx)/nx)
-    return np.einsum("fxyc,x->fyc", parts, phase).reshape(fields*ny, fields*ny)
+    x = (np.arange(nx) + nx//2) % nx - nx//2
+    return np.einsum("fxyc,x->fyc", parts, np.exp(-1j*k*x)).reshape(fields*ny, fields*ny)
 
 
 def steady(J: np.ndarray, Q: np.ndarray, conserved: np.ndarray | None = None) -> np.ndarray:

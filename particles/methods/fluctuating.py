@@ -43,11 +43,11 @@ def mismatch(pair: Partners, twice: float) -> float:
 # --- one random stress and one random heat current a point: the partners of gradients whose divergence is taken -----------
 
 
-def stress(edges: Edges, eta: np.ndarray, zeta: np.ndarray, kT: np.ndarray) -> Partners:
+def stress(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
     """Viscous forces D (eta Delta + zeta 11)/V D^T, each point with its own viscosities, and one random stress a point:
 
     s_i = sqrt(2 kT_i eta_i/V_i) [(R + R^T)/sqrt 2 - 1 tr R sqrt 2/d] + sqrt(2 kT_i zeta_i/V_i) 1 r, R (d, d) and r of dW.
-    eta, zeta, kT are (n,).
+    eta, zeta, kT are (n,) or numbers, here and below.
 
     Raises
     ------
@@ -62,7 +62,7 @@ def stress(edges: Edges, eta: np.ndarray, zeta: np.ndarray, kT: np.ndarray) -> P
     return Partners(sparse.csr_array(div@middle@div.T), sparse.csr_array(div@normals))
 
 
-def heat(edges: Edges, kappa: np.ndarray, kT2: np.ndarray) -> Partners:
+def heat(edges: Edges, kappa: Any, kT2: Any) -> Partners:
     """Heat D kappa/V D^T, and one random current a point, sqrt(2 k T_i^2 kappa_i/V_i) r_i. kT2 = k T^2, (n,).
 
     Raises
@@ -112,7 +112,7 @@ def each(d: int, matrix: Any) -> sparse.csr_array:
 # --- noise along edges: the partners of friction and heat between two points [Eq. 51] ----------------------------------------
 
 
-def friction(edges: Edges, eta: np.ndarray, zeta: np.ndarray, kT: np.ndarray) -> Partners:
+def friction(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
     """Friction k (A + B e e) of `dih.along`, and sqrt(2 kT k A) R + sqrt(2 kT k B) e r on each edge; means over its two points.
 
     Raises
@@ -145,7 +145,7 @@ def between(edges: Edges, A: np.ndarray, B: np.ndarray, kT: np.ndarray) -> Partn
     return Partners(sparse.csr_array(Gamma), sparse.csr_array(sparse.hstack(noise)))
 
 
-def conduction(edges: Edges, kappa: np.ndarray, kT2: np.ndarray) -> Partners:
+def conduction(edges: Edges, kappa: Any, kT2: Any) -> Partners:
     """Heat k kappa (T_j - T_i) along each edge, and its random current; means over its two points.
 
     Raises
@@ -198,7 +198,7 @@ def conductances(edges: Edges) -> np.ndarray:
 # --- as printed ---------------------------------------------------------------------------------------------------------------
 
 
-def printed_stress(edges: Edges, eta: np.ndarray, zeta: np.ndarray, kT: np.ndarray, *, doubled: bool, volume: bool = True,
+def printed_stress(edges: Edges, eta: Any, zeta: Any, kT: Any, *, doubled: bool, volume: bool = True,
                    trace: float = 2/3, bulk: float = 1.0) -> Partners:
     """Eqs 42, 44: an independent random stress on each pair, beside the viscous force of Eq. 37 as printed.
 
@@ -232,7 +232,7 @@ def swapped(edges: Edges, eta: np.ndarray) -> sparse.csr_array:
     return each(edges.d, sparse.hstack(both))
 
 
-def printed_heat(edges: Edges, kappa: np.ndarray, k: float, T: np.ndarray, *, doubled: bool, of25: bool = False) -> Partners:
+def printed_heat(edges: Edges, kappa: Any, k: float, T: Any, *, doubled: bool, of25: bool = False) -> Partners:
     """Eqs 43, 44: an independent random current on each pair, beside the heat of Eq. 38; `of25` with the variance of Eq. 25."""
     kappa, T = checked(edges.n, kappa=kappa, T=T)
     i, j, n = edges.i, edges.j, edges.n
@@ -244,7 +244,7 @@ def printed_heat(edges: Edges, kappa: np.ndarray, k: float, T: np.ndarray, *, do
     return Partners(sparse.csr_array(Gamma), sparse.csr_array(B))
 
 
-def checked(n: int, **fields: np.ndarray) -> list[np.ndarray]:
+def checked(n: int, **fields: Any) -> list[np.ndarray]:
     """Fields as arrays (n,), refused where they are negative or no number."""
     found = []
     for name, field in fields.items():

@@ -1,0 +1,239 @@
+"""Linear fluctuations about given flows, as cases: rest, a temperature gradient, a layer heated from below    [RR98 Eqs 20-25]
+
+The given flow is linearised by differences of the rates that run, noise is that of `fluctuating`, covariances solve Lyapunov's
+equation. Boltzmann's k is 1: linear fluctuations are proportional to it. Units: spacing 1, ideal gas with C_V = 1.
+"""
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+from scipy.optimize import brentq
+
+from continuum.fluid import ConstEta, IdealGas
+from continuum.scene import RayleighBenard
+from particles.covariance import jacobian, steady, waves
+from particles.edges import Edges
+from particles.interpolants import W
+from particles.makers import MAKERS
+from particles.methods import fluctuating
+from particles.methods.dih import Dih
+from particles.methods.fluctuating import Partners
+from particles.methods.layer import Layer
+from particles.methods.thermal import Mixed
+from particles.points import lattice
+from particles.team import Team
+from particles.weights import Lucy
+from studies.convection.dih import SCHEMES, layer
+from studies.integral.operators import Disorder
+from studies.integral.transport_symbol import neighbours
+from studies.kit.case import Case, Outcome, Report
+
+ETA, ZETA, KAPPA = 0.3, 0.1, 0.4
+
+
+def transport(edges: Edges, share: float, eta: float, zeta: float, kappa: float, T: Any) -> tuple[Partners, Partners]:
+    """Viscosity and conduction with their noise: momenta and energies, k = 1."""
+    T = np.broadcast_to(T, (edges.n,))
+    stress, heat = fluctuating.stress(edges, eta, zeta, T), fluctuating.heat(edges, kappa, T**2)
+    if share == 0:
+        return stress, heat
+    along, conduction = fluctuating.friction(edges, eta, zeta, T), fluctuating.conduction(edges, kappa, T**2)
+    return fluctuating.mixed(stress, along, share), fluctuating.mixed(heat, conduction, share)
+
+
+def noise(V: np.ndarray, of_momenta: Any, of_energies: Any) -> sparse.csr_array:
+    """Q (N, N) of a state of densities (rho, p, eps) at rest from those of momenta and energies."""
+    n, d = len(V), of_momenta.shape[0]//len(V)
+    per = sparse.diags_array(np.tile(1/V, 2 + d))
+    return sparse.csr_array(per@sparse.block_diag([sparse.csr_array((n, n)), of_momenta, of_energies])@per)
+
+
+def equilibrium(V: np.ndarray, d: int) -> np.ndarray:
+    """Covariance of densities (rho, p, eps) of the gas at rest at rho = T = 1, k = 1, all sums fixed.
+
+    rho, v and T fluctuate independently, each with variance 1/V: <rho rho> = kT rho/(c_T^2 V), <v v> = kT/(rho V),
+    <T T> = kT^2/(rho C_V V); eps = rho T.
+    """
+    n = len(V)
+    to_state = np.eye((2 + d)*n)
+    to_state[-n:, :n] = np.eye(n)
+    C = to_state@np.diag(np.tile(1/V, 2 + d))@to_state.T
+    sums = np.kron(np.eye(2 + d), V)
+    return C - C@sums.T@np.linalg.solve(sums@C@sums.T, sums@C)
+
+
+# --- rest -------------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rest(Case):
+    """Fluctuations of a gas at rest on points, in d dimensions, against equilibrium; `share` of transport along edges."""
+    maker: str
+    disorder: Disorder
+    counts: tuple[int, ...]
+    share: float
+    h: float = 2.0
+    seed: int = 1
+
+    @property
+    def cost(self) -> float:
+        return 1e-9*(np.prod(self.counts)*(2 + len(self.counts)))**3*30 + 0.3
+
+    @property
+    def label(self) -> str:
+        return f"rest {self.maker}, {self.disorder.name}, {self.counts}, share {self.share:g}"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        points, d = self.disorder.make(self.counts, self.disorder.size, self.seed), len(self.counts)
+        edges = MAKERS[self.maker](points, Lucy.of(h=self.h, d=d))
+        dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(ETA, KAPPA), zeta=ZETA, transport=Mixed(share=self.share))
+        J = jacobian(dih.rates, dih.state(np.ones(edges.n), np.zeros((edges.n, d)), np.ones(edges.n)))
+        parts = transport(edges, self.share, ETA, ZETA, KAPPA, 1.0)
+        row = {"maker": self.maker, "points": self.disorder.name, "d": d, "share": self.share, "n": edges.n,
+               "growth": float(np.linalg.eigvals(J).real.max())}
+        exactly = equilibrium(edges.V, d)
+        try:
+            C = steady(J, noise(edges.V, parts[0].Q, parts[1].Q).toarray(), np.kron(np.eye(2 + d), edges.V))
+        except ArithmeticError:         # edges that do not close let sound grow: that is the result
+            return Outcome({"rest": [{**row, "error": np.nan, "kinetic": np.nan}]})
+        moving = slice(edges.n, (1 + d)*edges.n)
+        kinetic = float(np.trace(C[moving, moving])/np.trace(exactly[moving, moving]))
+        return Outcome({"rest": [{**row, "error": float(np.abs(C - exactly).max()/exactly.max()), "kinetic": kinetic}]})
+
+
+# --- a temperature gradient -------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gradient(Case):
+    """T = 1 + contrast sin(2 pi y/period) at uniform pressure, held by constant sources, on a periodic lattice; waves along x.
+
+    k : wave numbers per spacing. Transport along edges.
+    """
+    period: int
+    k: tuple[float, ...]
+    contrast: float = 0.01
+    eta: float = 0.1
+    kappa: float = 0.1
+
+    @property
+    def cost(self) -> float:
+        return 3e-7*self.period**3*(1 + len(self.k)/4)
+
+    @property
+    def label(self) -> str:
+        return f"gradient, period {self.period}"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        counts, ny = (5, self.period), self.period      # waves are blocks: five columns hold the reach of the weight
+        points, first = lattice(counts), np.arange(self.period)
+        edges = MAKERS["renormalised"](points, Lucy.of(h=2.0))
+        dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(self.eta, self.kappa), transport=Mixed(share=1.0))
+        T = 1 + self.contrast*np.sin(2*np.pi*points.x[:, 1]/self.period)
+        J = jacobian(dih.rates, dih.state(1/T, 0*points.x, T), first)
+        of_p, of_e = transport(edges, 1.0, self.eta, 0.0, self.kappa, T)
+        Q = noise(edges.V, of_p.Q, of_e.Q)[:, (np.arange(4)[:, None]*edges.n + first).ravel()].toarray()
+        found = []
+        for done, k in enumerate(self.k):
+            report(done/len(self.k))
+            extra = (self.power(steady(waves(J, counts, k), waves(Q, counts, k)), T[:ny]) - 1)/self.contrast**2
+            found.append({"period": self.period, "wavenumber": k, "extra": extra, "predicted": self.predicted(k)})
+        return Outcome({"gradient": found})
+
+    def power(self, C: np.ndarray, T: np.ndarray) -> float:
+        """<T T> of waves that are uniform in y, 1 in equilibrium: T = eps/rho at rest."""
+        ny = len(T)
+        pick = np.concatenate([-T*T, np.zeros(2*ny), T])/np.sqrt(ny)      # dT = (d eps - T d rho)/rho, rho = 1/T
+        return float((pick@C@pick).real)
+
+    def predicted(self, k: float) -> float:
+        """What transverse velocities at k and +-q carry into T at k, over contrast^2, by the symbols of the lattice.
+
+        2 (q/2)^2 <v_y v_y>/(D (nu + D)), with <v_y v_y> = k^2/(k^2 + q^2), decays nu (k^2 + q^2) and D k^2, D = kappa/(rho C_P).
+        """
+        q = 2*np.pi/self.period
+        sx, sy = (slope_symbol(p) for p in (k, q))
+        D, decay = self.kappa/2*lap_symbol(k, 0.0), self.eta*lap_symbol(k, q)
+        return 2*(sy/2)**2*sx**2/(sx**2 + sy**2)/(D*(decay + D))
+
+
+def slope_symbol(k: float) -> float:
+    """What the gradient of Lucy's weight, h = 2, makes of k on a square lattice."""
+    r, w = ring()
+    return float((w*r[:, 0]/np.hypot(*r.T))@np.sin(k*r[:, 0]))
+
+
+def lap_symbol(kx: float, ky: float) -> float:
+    """The same of k^2."""
+    r, w = ring()
+    return float((2*w/np.hypot(*r.T))@(1 - np.cos(r@np.array([kx, ky]))))
+
+
+def ring() -> tuple[np.ndarray, np.ndarray]:
+    """Neighbours r (m, 2) and weights with sum_r w r = 2."""
+    weight = Lucy.of(h=2.0)
+    r = neighbours(weight, 2)
+    w = W(weight, np.hypot(*r.T))
+    return r, w*2/(w@np.hypot(*r.T))
+
+
+# --- heated from below ------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class BelowOnset(Case):
+    """The motionless layer of KHP95 between plates, `rows` high: fluctuations of the waves k = 3.117/L on the way to onset."""
+    rows: int
+    below: tuple[float, ...]        # 1 - Ra/Ra_c
+    k_height: float = 3.117
+
+    @property
+    def cost(self) -> float:
+        return 2e-5*self.rows**3
+
+    @property
+    def label(self) -> str:
+        return f"below onset, {self.rows} rows"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        onset = float(brentq(lambda ra: slowest(self.blocks(ra)[0]), 1000, 3000, xtol=1e-6))
+        found = []
+        for fraction in self.below:
+            J, Q = self.blocks(onset*(1 - fraction))
+            C = steady(J, Q).real
+            across, ny = np.arange(2*self.rows, 3*self.rows), self.rows
+            found.append({"rows": ny, "below": fraction, "ra_c": onset, "slowest": slowest(J),       # w: 1 in equilibrium
+                          "velocity": float(np.trace(C[np.ix_(across, across)])/ny)})
+        return Outcome({"onset": found})
+
+    def blocks(self, ra: float) -> tuple[np.ndarray, np.ndarray]:
+        """J and Q of the waves at one Rayleigh number."""
+        counts, first = (5, self.rows), np.arange(self.rows)
+        scene = RayleighBenard(ra=ra, L=float(self.rows), aspect=5/self.rows)
+        fluid = layer(scene, SCHEMES["fixed-lattice"], 1)
+        T = scene.T(fluid.x[:, 1])
+        sums = fluid.start(len(T), Team(1))
+        J = jacobian(sums.rates, fluid.state(1.0, 0*fluid.x, T), first)
+        columns = (np.arange(4)[:, None]*len(T) + first).ravel()
+        Q = layer_noise(fluid, T)[:, columns].toarray()
+        return waves(J, counts, self.k_height/self.rows), waves(Q, counts, self.k_height/self.rows)
+
+
+def layer_noise(fluid: Layer, T: np.ndarray) -> sparse.csr_array:
+    """Q of a layer at rest with transport along edges; edges to images have the temperature of their plate.
+
+    Images have -v and 2 T_w - T: friction and heat over an edge to one are k (v_i + v_parent), the noise that of its two points
+    alike.
+    """
+    edges, beyond, law, n = fluid.edges, fluid.beyond, fluid.law, len(T)
+    at, wall = (np.tile(beyond.i, 2), np.concatenate([beyond.i, beyond.parent])), np.array(fluid.T_plates)[beyond.plate]
+    of_plate = [sparse.csr_array((np.tile(beyond.k*q, 2), at), shape=(n, n)) for q in (2*law.eta*wall, 2*law.k*wall**2)]
+    of_p, of_e = transport(edges, 1.0, law.eta, 0.0, law.k, T)
+    return noise(edges.V, of_p.Q + sparse.kron(sparse.eye_array(2), of_plate[0]), of_e.Q + of_plate[1])
+
+
+def slowest(J: np.ndarray) -> float:
+    """Largest growth rate."""
+    return float(np.linalg.eigvals(J).real.max())

@@ -1,0 +1,263 @@
+"""Noise in time on fixed points, and the study fluctuations: a small rebuild, and what the committed tables must say."""
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import studies.fluctuations as fluctuations
+from continuum.fluid import ConstEta, IdealGas
+from particles import covariance
+from particles.covariance import jacobian, steady
+from particles.limits import limit_of
+from particles.makers import MAKERS
+from particles.methods.thermal import Mixed, Thermal, ThreeStage
+from particles.points import jittered, lattice
+from particles.run import Plan, run
+from particles.weights import Lucy
+from studies.fluctuating import fluct_tables
+from studies.fluctuating.fluct_flows import BelowOnset, Gradient, Rest, equilibrium, noise, transport
+from studies.fluctuating.fluct_modes import Equipartition, check_modes, plane_waves
+from studies.fluctuating.fluct_nonlinear import Capacity, Exchange, Exchanged, Nonlinear, dirichlet
+from studies.fluctuating.fluct_peaks import Brillouin
+from studies.fluctuating.fluct_sampling import check_length
+from studies.integral.operators import DISORDERS
+from studies.kit.claim import judge
+from studies.kit.sweep import RESULTS, load
+from studies.kit.table import read
+
+
+def gas(share: float = 0.1, k: float = 1e-3, **more) -> Thermal:
+    edges = MAKERS["delaunay"](jittered((5, 5), 0.2, 1), None)
+    return Thermal(**{"edges": edges, "eos": IdealGas(), "law": ConstEta(0.3, 0.4), "zeta": 0.1, "k": k, "seed": 7,
+                      "share": share, **more})
+
+
+def rest(method: Thermal) -> np.ndarray:
+    n = method.edges.n
+    return method.dih.state(np.ones(n), np.zeros((n, 2)), np.ones(n))
+
+
+@pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
+def test_noise_conserves_and_moves(share):
+    method = gas(share)
+    start = rest(method)
+    end = run(method, start, Plan(dt=0.5*limit_of(method, start), steps=50)).state
+    # 50 steps of three stages, sums of 25 points of order 1, each good to 1e-16
+    assert end@method.edges.V == pytest.approx(start@method.edges.V, abs=1e-13*25)
+    assert np.abs(end[1:3]).max() > 1e-3
+
+
+def test_without_temperature_there_is_no_noise():
+    method = gas(k=0.0)
+    assert run(method, rest(method), Plan(dt=0.05, steps=3)).state == pytest.approx(rest(method), abs=1e-14)
+
+
+def test_a_restarted_run_is_the_same_to_the_last_bit(tmp_path):
+    method = gas(0.3)
+    start, file = rest(method), tmp_path/"run.h5"
+    whole = run(method, start, Plan(dt=0.05, steps=12)).state
+    stopped = []
+
+    def stop(sums, state):
+        stopped.append(1)
+        if len(stopped) == 5:
+            raise KeyboardInterrupt
+        return 0.0
+
+    plan = Plan(dt=0.05, steps=12, series={"stop": stop}, every=1, checkpoint=file)
+    with pytest.raises(KeyboardInterrupt):
+        run(method, start, plan)
+    assert np.array_equal(run(method, start, plan).state, whole)
+
+
+def test_threads_make_no_difference():
+    edges = MAKERS["renormalised"](lattice((14, 14)), Lucy.of(h=2.0))       # rows enough for two threads to share
+    method = gas(0.3, edges=edges)
+    one, two = (run(method, rest(method), Plan(dt=0.05, steps=3, threads=threads)).state for threads in (1, 2))
+    assert np.array_equal(one, two)
+
+
+def test_small_heat_capacity_is_warned_of_with_its_bias():
+    method = gas(k=0.05)
+    least = method.edges.V.min()/0.05
+    with pytest.warns(UserWarning, match=rf"heat capacity {least:.3g} k: .* k/C = {1/least:.2g} too much"):
+        limit_of(method, rest(method))
+
+
+def test_bad_input_of_noise_in_time():
+    with pytest.raises(ValueError, match=r"k must not be negative, got -1"):
+        gas(k=-1)
+    with pytest.raises(ValueError, match="seed must be a whole number"):
+        gas(seed=-3)
+    with pytest.raises(ValueError, match="share of transport"):
+        Mixed(share=1.5)
+    method = gas()
+    with pytest.raises(ValueError, match="above the stability limit"):
+        run(method, rest(method), Plan(dt=1.01*limit_of(method, rest(method)), steps=1))
+    tight = MAKERS["delaunay"](lattice((3, 3)), None)
+    doubled = replace(tight, i=np.append(tight.i, tight.i[:1]), j=np.append(tight.j, tight.j[:1]),
+                      S=np.append(tight.S, tight.S[:1], axis=0), k=np.append(tight.k, tight.k[:1]),
+                      apart=np.append(tight.apart, -tight.apart[:1], axis=0))
+    with pytest.raises(ValueError, match="two edges join the same points"):
+        gas(edges=doubled).start(9, None)
+    with pytest.raises(ValueError, match=r"bulk viscosity .* outside"):
+        method = gas(1.0, zeta=0.9)
+        run(method, rest(method), Plan(dt=0.01, steps=1))
+
+
+@pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
+def test_kicks_have_the_covariance_of_the_matrices(share):
+    """One random number at a time is a column of B; with both sets of noise, B B^T (1 + beta^2) dt."""
+    method = gas(share)
+    sums, start, beta, dt = method.start(25, None), rest(method), 0.7, 0.01
+    drawn = [normals for normals in (sums.of_points, sums.of_edges) if normals is not None]
+    columns = []
+    for normals in drawn:
+        for other in drawn:
+            other[:] = 0
+        for number in range(normals.size):
+            normals.ravel()[number] = 1
+            columns.append(np.empty_like(start))
+            sums.kicks(start, beta, dt, columns[-1])
+            normals.ravel()[number] = 0
+    B = np.stack([column.ravel() for column in columns], axis=1)
+    of_p, of_e = (1e-3*part.Q for part in transport(method.edges, share, 0.3, 0.1, 0.4, 1.0))
+    expected = (1 + beta**2)*dt*noise(method.edges.V, of_p, of_e).toarray()
+    assert B@B.T == pytest.approx(expected, abs=1e-13*expected.max())
+
+
+def test_three_stages_in_time_are_those_of_the_lyapunov_solve():
+    J, B = np.array([[0.0, 0.4], [-0.4, -0.1]]), np.array([[0.0, 0.0], [0.0, np.sqrt(0.2)]])
+
+    class Sums:
+        halves = np.zeros((2, 2))       # W_A, W_B
+
+        def rates(self, y, out):
+            out[:] = (J@y.ravel()).reshape(y.shape)
+
+        def kicks(self, y, beta, dt, out):
+            out[:] = (B@(self.halves[0] + beta*self.halves[1])*np.sqrt(dt)).reshape(out.shape)
+
+    def stepped(start, halves):
+        sums, y = Sums(), start.reshape(2, 1).copy()
+        sums.halves = halves
+        ThreeStage((2, 1), None).step(sums, y, 0.3)
+        return y.ravel()
+
+    step, unit, none = covariance.three_stage(J, B@B.T, 0.3), np.eye(4).reshape(4, 2, 2), np.zeros(2)
+    assert np.stack([stepped(x, np.zeros((2, 2))) for x in np.eye(2)], axis=1) == pytest.approx(step.A, abs=1e-15)
+    noises = np.stack([stepped(none, halves) for halves in unit], axis=1)
+    assert noises@noises.T == pytest.approx(step.Q, abs=1e-15)
+
+
+# --- modes that say nothing, batches that are too short -------------------------------------------------------------
+
+
+def test_a_list_of_null_modes_is_refused():
+    points = lattice((6, 6))
+    edges = MAKERS["renormalised"](points, Lucy.of(h=2.0))
+    Q = noise(edges.V, *(part.Q for part in transport(edges, 0.0, 0.3, 0.0, 0.4, 1.0)))
+    for turns in (((0, 0),), ((3, 3), (3, 0))):
+        names, F = plane_waves(points, edges.V, turns)
+        with pytest.raises(ValueError, match=r"all \d+ modes in the list are null modes"):
+            check_modes(F, equilibrium(edges.V, 2), Q, names)
+    names, F = plane_waves(points, edges.V, ((3, 3), (1, 0)))
+    check_modes(F, equilibrium(edges.V, 2), Q, names)
+
+
+def test_short_batches_are_refused():
+    with pytest.raises(ValueError, match=r"5 decay times .* take 20 or longer"):
+        check_length(np.diag([-0.5, -3.0, 0.0]), 10.0)
+
+
+# --- exact values ---------------------------------------------------------------------------------------------------
+
+
+def test_noise_reaches_the_covariance_of_equilibrium_on_irregular_points():
+    method = gas(0.4)
+    J = jacobian(method.dih.rates, rest(method))
+    Q = noise(method.edges.V, *(part.Q for part in transport(method.edges, 0.4, 0.3, 0.1, 0.4, 1.0))).toarray()
+    exactly = equilibrium(method.edges.V, 2)
+    C = steady(J, Q, np.kron(np.eye(4), method.edges.V))
+    assert C == pytest.approx(exactly, abs=1e-10*exactly.max())
+
+
+@pytest.mark.parametrize("corrected", [True, False])
+def test_current_amplitudes_have_dirichlet_moments(corrected):
+    """d<T T>/dt = 0: J C + C J^T + <B B^T> with the second moments of Dirichlet(C/k + 1) or, without correction, (C/k)."""
+    edges, C = MAKERS["delaunay"](jittered((4, 4), 0.2, 1), None), 12.0
+    edges = replace(edges, V=np.ones(16))
+    n, alpha = 16, C + corrected
+    sums = Exchanged(Exchange(edges=edges, C=C, corrected=corrected, seed=1))
+    second = n*alpha/(n*alpha + 1)*(np.ones((n, n)) + np.eye(n)/alpha)        # <T_i T_j>, mean 1
+    assert second[0, 0] - 1 == pytest.approx(dirichlet(n, C, corrected), rel=1e-12)
+    rate = np.diag(2*edges.k/C*second[edges.i, edges.j])
+    across = sums.across.toarray()
+    left = sums.J@second + second@sums.J.T + across@rate@across.T
+    assert np.abs(left).max() < 1e-13*np.abs(sums.J).max()
+
+
+# --- the study ------------------------------------------------------------------------------------------------------
+
+
+def small(size: str) -> list:
+    """One or two of each kind of case."""
+    lat, jit = DISORDERS["lattice"], DISORDERS["jittered-0.3"]
+    kinds = [case for case in fluctuations.algebra((), {}) if case.d == 1 or case.h in (1.2, 3.0)]
+    return [*fluctuations.algebra(("lattice",), {2: (6, 6)}), *kinds, *list(fluctuations.steps()),
+            Rest(maker="renormalised", disorder=lat, counts=(5, 5), share=0.1),
+            Rest(maker="plain", disorder=jit, counts=(5, 5), share=0.0), Gradient(period=12, k=(0.1, 0.14, 0.2)),
+            BelowOnset(rows=4, below=(0.5, 0.05, 0.02, 0.01, 0.005)),
+            Equipartition(counts=(5, 5), turns=((1, 0), (1, 1)), share=0.5, steps=110, dt=3.0),
+            Brillouin(points=9, turns=(1,), steps=430), Nonlinear(counts=(5, 5), share=0.1, k=1e-3, time=112.0, of_limit=0.9,
+                      batches=2),
+            *(Capacity(C=20.0, corrected=one, steps=100, counts=(4, 4), dt=0.2) for one in (True, False))]
+
+
+@pytest.fixture(scope="module")
+def rebuilt(tmp_path_factory):
+    out = tmp_path_factory.mktemp("results")
+    study = replace(fluctuations.STUDY, cases=small)
+    return study, study.run("quick", workers=1, out=out), out
+
+
+def test_a_small_rebuild_fills_every_table_and_draws_every_figure(rebuilt):
+    study, found, out = rebuilt
+    for table in fluct_tables.ALL:
+        assert set(table.columns) <= set(found[table.name].columns) and len(found[table.name])
+    assert {path.stem for path in study.draw(out)} == {"printed", "gradient", "steps", "spectrum", "modes"}
+
+
+def test_what_is_algebra_holds_at_any_size(rebuilt):
+    study, found, _ = rebuilt
+    rows = {row["id"]: row for row in judge(study.claims, found, "fluctuations")}
+    for name in ("own-fluct-partners", "own-fluct-symmetric", "own-fluct-eq42-cosine", "own-fluct-eq42-sums",
+                 "own-fluct-eq43-cosine", "own-fluct-eq42-partner", "rr98-fluct-eq20-rest", "own-fluct-crank-nicolson",
+                 "own-fluct-three-stage", "own-fluct-nulls", "own-fluct-no-nulls", "own-fluct-tail", "rr98-fluct-eq22-momentum",
+                 "rr98-fluct-eq25-onset"):
+        assert rows[name]["verdict"] == "holds", rows[name]
+    for name in ("rr98-fluct-eq21-growth", "rr98-fluct-eq42-shape", "rr98-fluct-eq43-doubled", "rr98-fluct-eq40-euler"):
+        assert rows[name]["verdict"] == "fails", rows[name]
+    assert rows["rr98-fluct-eq43-doubled"]["measured"] == pytest.approx(1/0.7, rel=0.01)
+
+
+def test_every_fluctuation_equation_has_its_claim():
+    sources = " ".join(claim.source for claim in fluctuations.STUDY.claims)
+    for equation in (20, 21, 22, 23, 24, 25, 42, 43, 44):
+        assert f"Eq. {equation}" in sources
+
+
+def test_the_cases_of_all_sizes_can_be_made():
+    assert len(fluctuations.cases("quick")) < len(fluctuations.cases("paper"))
+
+
+committed = pytest.mark.skipif(not (RESULTS/"fluctuations"/"partners.csv").exists(), reason="no tables are committed yet")
+
+
+@committed
+def test_committed_verdicts_follow_from_committed_tables():
+    rows = {row["id"]: row["verdict"] for row in judge(fluctuations.STUDY.claims, load(fluct_tables.ALL, "fluctuations"),
+                                                       "fluctuations")}
+    kept = read(RESULTS/"claims.csv")
+    kept = kept[kept["study"] == "fluctuations"]
+    assert dict(zip(kept["id"], kept["verdict"], strict=True)) == rows
