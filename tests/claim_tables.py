@@ -10,6 +10,7 @@ from studies.convection.claims import points as dih
 from studies.convection.claims.grid import PYPDE
 from studies.convection.claims.read import grid, onset, particles, scene
 from studies.convection.dih import SCHEMES
+from studies.convection.drift import DRIFT_MOTIONS
 from studies.kit.claim import judge
 from studies.kit.table import Tables
 
@@ -109,7 +110,8 @@ def points() -> list[dict]:
     fixed = [dih.points(ra, name, rows) for ra, name, rows in itertools.product((5e3, 1e4), (*SCHEMES, "moving"),
                                                                                (*dih.ROWS, math.inf))]
     wrong = [{"method": "compressible", "variant": "edge-heat", "resolution": math.inf, **scene(ra)} for ra in (5e3, 1e4)]
-    return [*grids, *runs, *fixed, *wrong, PYPDE, grid(1e4, 48, "paper-form"), grid(67150.3, 48, "fig10", sides="walls"),
+    moved = [dih.points(1e4, name, rows) for name, rows in itertools.product(DRIFT_MOTIONS, (25, 40))]
+    return [*grids, *runs, *fixed, *moved, *wrong, PYPDE, grid(1e4, 48, "paper-form"), grid(67150.3, 48, "fig10", sides="walls"),
             grid(67150.3, 48, "fig10", sides="walls", eos="dense"), grid(7000, 48, "two-rolls", sides="walls")]
 
 
@@ -144,6 +146,7 @@ def everything() -> Tables:
     kept_runs = [point for point in wanted if point["ra"] in (3000, 5000, 1e4) and point["resolution"] in (16, 48, 50)]
     fixed = particles(1e4, variant="printed-fixed-rows")
     frozen = [particles(3000, 16, variant, eos="dense") for variant in ("printed", "printed-monaghan")]
+    literal = dih.points(1e4, "motion-literal", 40)
     ends = [particles(1e4), fixed, particles(1e4, variant="printed-monaghan"), *frozen]
     layers = [{**point, "seed": seed, "plate": plate, "rho_layer": 1 + 0.1*seed, "T_layer": 1.0, "reflections": 0,
                "nu_plate": 1.5 + 0.01*seed}
@@ -152,7 +155,8 @@ def everything() -> Tables:
         means=means, kinetic_energy=pd.concat([means, means[means["method"] == "spam"].assign(seed=2)]),
         walls=pd.DataFrame(layers), errors=errors(means, 0.9),
         history=pd.concat([history(point, seed)
-                           for point in runs for seed in (1, 2)[:1 + (point["method"] == "spam")]]),
+                           for point in [*runs, literal] for seed in (1, 2)[:1 + (point["method"] == "spam")]]),
+        profiles=pd.DataFrame([{**literal, "seed": 1, "y": y, "rho": 1 - 0.2*y} for y in (-0.25, 0.25)]),
         fields=pd.concat([kept(point, flow(0.1, 0.9), point["resolution"]) for point in kept_runs]),
         smoothed=seen(5e4, 0.9),
         particles=pd.concat([crystal(1).assign(T=1.0, **point) for point in ends]))

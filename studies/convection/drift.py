@@ -100,8 +100,8 @@ class PlateHeat(NamedTuple):
 class DriftRun(PointsRun):
     """One run; averages are taken after `mean_from`, in free-fall times. The first seed keeps K(t) and the last profile."""
     motion: DriftMotion = DRIFT_MOTIONS["motion-literal"]
-    t_end: float = 120.0
-    mean_from: float = 80.0
+    t_end: float = 90.0
+    mean_from: float = 50.0
 
     @property
     def name(self) -> str:
