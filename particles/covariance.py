@@ -36,7 +36,7 @@ def jacobian(rates: Callable[[np.ndarray, np.ndarray], None], state: np.ndarray,
 def waves(columns: np.ndarray, counts: tuple[int, int], k: float) -> np.ndarray:
     """The block (m ny, m ny) of waves exp(ikx), k per spacing, of a matrix on a lattice that is uniform along x.
 
-    columns : its (m nx ny, m ny) columns of the points at x = 0, with point (x, y) numbered x ny + y, m fields. nx must be odd and
+    columns : its (m nx ny, m ny) columns of the points at x = 0, with point (x, y) numbered x ny + y, m fields. nx is odd and
     more than twice the reach of the matrix: then k may be any number.
     """
     nx, ny = counts

@@ -104,6 +104,7 @@ class Agitated(Summing):
                 raise ValueError("two edges join the same points by different images: their noise would be one; take more points")
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """Of the flow without noise."""
         self.dih.rates(state, out)
 
     def look_at(self, state: np.ndarray) -> None:
