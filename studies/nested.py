@@ -96,17 +96,20 @@ def figures(tables: Tables) -> dict[str, Figure]:
     if frame is None or frame.empty:
         return {}
     panels = list(frame.groupby(["h", "ra"]))
-    page, all_axes = figure(1, len(panels), width=3.6, height=4, sharey=True, squeeze=False)
+    shares = sorted(set(frame["share"]))
+    page, all_axes = figure(1, len(panels), width=3.6, height=4.2, sharey=True, squeeze=False)
     for axes, ((h, ra), group) in zip(all_axes[0], panels, strict=True):
         for number, (rows, line) in enumerate(group.groupby("rows")):
-            axes.plot(line["share"], line["growth"], label=f"{rows} rows", **look(number))
-        axes.axhline(0, color="black", lw=0.8)
-        axes.set_xscale("symlog", linthresh=0.003)
+            axes.plot([shares.index(share) for share in line["share"]], line["growth"], label=f"{rows} rows", **look(number))
+        axes.axhline(0, color="black", lw=0.8, linestyle="-", marker="")
         axes.set_yscale("symlog", linthresh=1e-5)
-        axes.set(title=f"h = {h:g} a, Ra = {ra:g}", xlabel="share of transport along edges")
+        axes.set_xticks(range(len(shares)), labels=[f"{share:g}" for share in shares], rotation=60)
+        axes.set(title=f"range $h = {h:g}a$, Ra = {ra:g}", xlabel="share of transport along edges")
         axes.legend(fontsize=7)
     all_axes[0, 0].set_ylabel("largest growth rate  [$c/a$]")
-    page.suptitle("Nested viscosity and conduction: does the motionless layer stay?", fontsize=10)
+    all_axes[0, 0].set_ylim(-2e-6, 2*frame["growth"].max())
+    page.suptitle("Nested viscosity and conduction: does the motionless layer stay at rest?\n"
+                  "$a$: spacing of the points, $c$: speed of sound; 0: nothing grows", fontsize=10)
     return {"growth": page}
 
 

@@ -403,6 +403,56 @@ def test_slopes_in_the_legend_are_those_of_the_rows(full):
     assert any("K_g" in label and "slope -1.1" in label for label in left.get_legend_handles_labels()[1])
 
 
+@pytest.mark.parametrize("name", ["convergence", "cost"])
+def test_a_series_keeps_its_look_in_every_panel(full, name):
+    """Also where one panel lacks series of the other; no two series look alike."""
+    mean = full["errors"][~(full["errors"]["variant"].eq("fixed-lattice") & full["errors"]["ra"].eq(10000.0))]
+    seen: dict[str, set] = {}
+    for axes in figures.ALL[name](Tables(full | {"errors": mean})).axes[:2]:
+        for handle, label in zip(*axes.get_legend_handles_labels()):
+            if isinstance(handle, ErrorbarContainer):
+                seen.setdefault(label.split(":")[0], set()).add((handle[0].get_color(), handle[0].get_marker()))
+    assert {"compressible grid", "fixed points, lattice", "moving points"} <= set(seen)
+    assert all(len(looks) == 1 for looks in seen.values()) and len(set.union(*seen.values())) == len(seen)
+
+
+def test_errors_that_do_not_fall_have_a_range_and_no_slope(full):
+    mean = full["errors"].copy()
+    chosen = mean["variant"].eq("printed") & mean["energy"].eq("Kg") & mean["ra"].eq(5000.0) & mean["eos"].eq("ideal")
+    mean.loc[chosen & mean["resolution"].eq(35.0), "error"] = -0.1
+    mean.loc[chosen & mean["resolution"].eq(50.0), "error"] = -0.2
+    labels = figures.ALL["convergence"](Tables(full | {"errors": mean})).axes[0].get_legend_handles_labels()[1]
+    coarse = mean.loc[chosen & mean["resolution"].eq(25.0), "error"].iloc[0]
+    assert f"$K_g$, smoothed field: {100*min(coarse, -0.2):+.2g} to -10 %" in labels
+
+
+def test_fixed_points_in_another_flow_and_those_that_diverged_are_drawn_or_told(full):
+    """What `errors` leaves out: 40 rows with four rolls, -85 %; 50 rows without an end."""
+    name, mean, runs = "fixed-lattice-nested-only", full["means"], full["kinetic_energy"]
+    lattice = mean["variant"].eq("fixed-lattice") & mean["ra"].eq(10000.0) & mean["resolution"].eq(40.0)
+    grid = mean[mean["method"].eq("compressible") & mean["eos"].eq("ideal") & mean["transport"].eq("const-eta")
+                & mean["sides"].eq("periodic") & mean["ra"].eq(10000.0) & np.isinf(mean["resolution"])]
+    other = mean[lattice].assign(variant=name, rolls=4, ke=0.15*grid["ke"].iloc[0])
+    gone = runs[runs["variant"].eq("fixed-lattice") & runs["ra"].eq(10000.0) & runs["resolution"].eq(50.0)]
+    page = figures.ALL["fixed_points"](Tables(full | {"means": pd.concat([mean, other]), "kinetic_energy": pd.concat(
+        [runs, gone.assign(variant=name, ke=math.nan)])}))
+    marks = {(x, y) for line in page.axes[1].lines if line.get_markerfacecolor() == "white"
+             for x, y in zip(*line.get_data()) if y == pytest.approx(0.85)}
+    assert {x for x, _ in marks} == {40.0}
+    assert "[40 rows: 4 rolls instead of two; 50 rows: diverged]" in texts(page)
+
+
+def test_ingredients_of_moving_points_have_a_line_each(full):
+    """As soon as there are some; a name that no list knows comes under others."""
+    assert len(figures.ALL["moving_points"](full).axes) == 1
+    mean = full["errors"][full["errors"]["variant"].eq("moving")]
+    more = [mean.assign(variant=name) for name in ("moving-no-shift", "motion-carried")]
+    page = figures.ALL["moving_points"](Tables(full | {"errors": pd.concat([full["errors"], *more])}))
+    labels = [tick.get_text() for tick in page.axes[1].get_yticklabels()]
+    assert labels == ["the scheme and its ingredients", "all ingredients  (moving)", "points not shifted  (moving-no-shift)",
+                      "others", "motion-carried"]
+
+
 def test_only_particles_that_stand_still_where_the_grid_convects_are_called_frozen(full):
     assert "frozen" not in texts(figures.ALL["main"](full))      # at Ra = 1500 the grid is at rest, too
     mean = full["means"].copy()

@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 from studies.convection import figures_energy as energy
 from studies.convection import figures_errors as errors
 from studies.convection import figures_fields as fields
+from studies.convection import figures_main as first
 from studies.convection import figures_points as points
 from studies.convection import figures_time as time
 from studies.convection import figures_variants as variants
@@ -13,7 +14,7 @@ from studies.kit.table import Tables
 
 #: file name without .png -> figure, or None where the tables hold nothing to show
 ALL: dict[str, Callable[[Tables], Figure | None]] = {
-    "main": energy.main, "fig2_3": fields.fig2_3, "fig5": energy.fig5, "fig6": energy.fig6, "fig7": fields.fig7,
+    "main": first.main, "fig2_3": fields.fig2_3, "fig5": energy.fig5, "fig6": energy.fig6, "fig7": fields.fig7,
     "fig8": time.fig8, "fig9": fields.fig9, "fig12": fields.fig12, "convergence": errors.convergence,
     "cost": errors.cost, "walls": variants.walls, "variants": variants.variants, "profiles": fields.profiles,
     "fluctuations": errors.fluctuations, "fixed_points": points.fixed, "moving_points": points.moving,

@@ -1,6 +1,5 @@
 """How wrong and how dear: errors of K and of heat transport against resolution, of K against cost; the particles' noise."""
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -8,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+from studies.convection.figures_names import METHODS, method
 from studies.convection.pick import (
     GRID,
     KIND,
@@ -22,7 +22,7 @@ from studies.convection.pick import (
     over_seeds,
     rows,
 )
-from studies.kit.figure import below, figure, look
+from studies.kit.figure import below, figure, look, plain_ticks
 from studies.kit.table import Tables
 
 #: Rayleigh numbers that have a panel
@@ -31,8 +31,11 @@ RA_SHOWN = (5000, 10000)
 OTHER_FLOWS = ("two-rolls", "fig10", "edge-heat")
 #: of discretized integral hydrodynamics; the others have a figure of their own
 POINTS = ("fixed-lattice", "fixed-jittered-plates", "moving")
-#: an error with what it is relative to: the grid, for Kg its field smoothed as the particles smooth theirs
-RELATIVE = r"relative error  $|K_p/K - 1|$, $|K_g/K_\mathrm{smoothed} - 1|$"
+#: what an error is relative to: the grid, for Kg its field smoothed as the particles smooth theirs
+RELATIVE = r"$|K_p/K - 1|$, $|K_g/K_\mathrm{smoothed} - 1|$"
+NU_ERROR = r"$|\mathrm{Nu}_p/\mathrm{Nu} - 1|$"
+SIGNS = "filled marks: too large, open: too small; bars: 95 % intervals"
+PALE = "pale lines: no power law, but a range"
 #: K_s of the printed weight, see the table `smoothed`
 PRINTED_WEIGHT = {"weight": "Lucy", "h": 3}
 
@@ -43,17 +46,22 @@ def convergence(tables: Tables) -> Figure | None:
     panels = shown(found[(found["method"] == SPAM["method"]) | (found["energy"] == "Kp")])
     if not panels:
         return None
-    page, all_axes = figure(1, len(panels), width=5, height=5.4, sharey=True, squeeze=False)
+    page, all_axes = figure(1, len(panels), width=5, height=5.8, sharex=True, sharey=True, squeeze=False)
+    whole = pd.concat([group for _, group in panels])
+    sizes = [whole["error"].abs()]
     for axes, (ra, group) in zip(all_axes[0], panels):
         for series, label, style in methods(group):
             powers(axes, series, label, style)
-        floor(axes, pd.concat([group["error"].abs(), smoothing(axes, tables, ra)]))
-        loglog(axes, f"Ra = {ra:g}", "rows over the height $L$")
-        plain_ticks(axes, group["resolution"])
+        sizes.append(smoothing(axes, tables, ra))
+    floor(all_axes[0, 0], pd.concat(sizes))
+    particles = sorted({*whole.loc[whole["method"] == SPAM["method"], "resolution"]})
+    for axes, (ra, _) in zip(all_axes[0], panels):
+        loglog(axes, f"Ra = {ra:g}", "rows over the height $L$", PALE)
+        plain_ticks(axes, particles or sorted({*whole["resolution"]}), whole["resolution"])
     heat = any("Nu" in set(group["energy"]) for _, group in panels)
-    all_axes[0, 0].set_ylabel(RELATIVE + (r", $|\mathrm{Nu}_p/\mathrm{Nu} - 1|$" if heat else ""), fontsize=9)
+    all_axes[0, 0].set_ylabel("relative error")
     page.suptitle(f"Does $K$ converge{', does the heat transport' if heat else ''}?\n"
-                  "Open marks: too small; bars: 95 % intervals", fontsize=10)
+                  f"{RELATIVE}{', ' + NU_ERROR if heat else ''}\n{SIGNS}", fontsize=10)
     return page
 
 
@@ -75,13 +83,21 @@ def smoothing(axes: Axes, tables: Tables, ra: float) -> pd.Series:
 
 
 def powers(axes: Axes, series: pd.DataFrame, label: str, style: dict) -> None:
-    """Errors of one method with the power law through them."""
+    """Errors of one method with the power law through them or, where there is none, the range that they have."""
     n, error, err = (series[name].to_numpy(float) for name in ("resolution", "error", "error_err"))
-    if len(n) > 1 and abs(np.sign(error).sum()) == len(n):     # errors that change sign have no power
+    if len(n) > 1:
         fit, slope_err = power(n, np.abs(error), err)
-        axes.plot(n, np.exp(np.polyval(fit, np.log(n))), **style | {"marker": "", "lw": 0.8})
-        label += f": slope {fit[0]:.1f}" + (f" $\\pm$ {slope_err:.1f}" if slope_err > 0.05 else "")
+        straight = falling(error)
+        line = np.exp(np.polyval(fit, np.log(n))) if straight else np.abs(error)
+        axes.plot(n, line, **style | {"marker": "", "lw": 0.8, "alpha": 1 if straight else 0.4})
+        label += (f": slope {fit[0]:.1f}" + (f" $\\pm$ {slope_err:.1f}" if slope_err > 0.05 else "") if straight
+                  else f": {100*error.min():+.2g} to {100*error.max():+.2g} %")
     signed(axes, series, "resolution", label, style)
+
+
+def falling(error: np.ndarray) -> bool:
+    """Whether three errors or more, of one sign, become smaller from each to the next: others have no power."""
+    return bool(len(error) > 2 and abs(np.sign(error).sum()) == len(error) and (np.diff(np.abs(error)) < 0).all())
 
 
 def power(n: np.ndarray, size: np.ndarray, err: np.ndarray) -> tuple[np.ndarray, float]:
@@ -96,14 +112,14 @@ def power(n: np.ndarray, size: np.ndarray, err: np.ndarray) -> tuple[np.ndarray,
 
 
 def signed(axes: Axes, series: pd.DataFrame, column: str, label: str, style: dict) -> None:
-    """|error| over a column, with its interval; filled where the error is positive, open where negative."""
+    """|error| over a column, with its interval; filled where the error is positive, open where negative, as in no legend."""
+    axes.errorbar([], [], [], label=label, **style | {"linestyle": style.get("linestyle", "-"), "lw": 0.8})
     size = series["error"].abs()
     down = np.minimum(series["error_err"], 0.999*size)       # a logarithmic axis has no room for an interval across zero
     for sign, face in ((series["error"] >= 0, {}), (series["error"] < 0, {"markerfacecolor": "white"})):
         if sign.any():
-            axes.errorbar(series.loc[sign, column], size[sign], [down[sign], series.loc[sign, "error_err"]], label=label,
+            axes.errorbar(series.loc[sign, column], size[sign], [down[sign], series.loc[sign, "error_err"]],
                           **style | face | {"linestyle": "none"})
-            label = ""
     cross_out(axes, series[column], size, series["steady"])
 
 
@@ -112,24 +128,14 @@ def floor(axes: Axes, size: pd.Series) -> None:
     axes.set_ylim(0.4*size[size > 0].min(), 2*size.max())
 
 
-def loglog(axes: Axes, title: str, xlabel: str) -> None:
+def loglog(axes: Axes, title: str, xlabel: str, note: str = "") -> None:
     axes.set(xscale="log", yscale="log", title=title, xlabel=xlabel)
     for axis in (axes.xaxis, axes.yaxis):
         low, high = axis.get_view_interval()
         axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 2000*low else (1,)))
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axis.set_minor_formatter(NullFormatter())
-    below(axes)
-
-
-def plain_ticks(axes: Axes, values: Any) -> None:
-    """Ticks at the values there are, instead of powers of ten; of two that are close only the first has its number."""
-    kept: list[float] = []
-    for value in sorted(set(values)):
-        kept += [value] if not kept or value > 1.1*kept[-1] else []
-    axes.set_xticks(kept, labels=[f"{value:.0f}" for value in kept])
-    axes.set_xticks(sorted({*values} - {*kept}), minor=True)
-    axes.tick_params(axis="x", which="minor", labelbottom=False)
+    below(axes, title=note or None, title_fontsize=8)
 
 
 def cost(tables: Tables) -> Figure | None:
@@ -143,47 +149,37 @@ def cost(tables: Tables) -> Figure | None:
         for series, label, style in methods(group):
             dear(axes, series, label, style)
         floor(axes, group["error"].abs())
-        loglog(axes, f"Ra = {ra:g}, numbers: rows over the height", "CPU seconds: all seeds; grids with those they started from")
-        axes.set_ylabel(RELATIVE)
+        loglog(axes, f"Ra = {ra:g}", "CPU seconds: all seeds; grids, points with coarser ones")
+    all_axes[0, 0].set_ylabel("relative error" if len(panels) else "")
     if len(steps):
         step_cost(all_axes[0, -1], steps)
-    page.suptitle("What does an error of $K$ cost, compiling apart?\nOpen marks: $K$ too small; bars: 95 % intervals",
-                  fontsize=10)
+    page.suptitle(f"What does an error of $K$ cost, compiling apart?\n{RELATIVE}\n{SIGNS}", fontsize=10)
     return page
 
 
 def methods(found: pd.DataFrame) -> Iterator[tuple[pd.DataFrame, str, dict]]:
     """(rows by resolution, label, look) of each method: particles for Kp, Kg and Nu, each grid once."""
-    others = 0
-    for (method, variant, energy), series in groups(found.sort_values("resolution"), ["method", "variant", "energy"]):
-        if method == "spam":
+    for (name, variant, energy), series in groups(found.sort_values("resolution"), ["method", "variant", "energy"]):
+        if name == "spam":
             yield series, (LABELS | NUSSELT)[energy.lower()], KIND[energy.lower()]
-        elif (method, variant) == tuple(GRID.values()) and energy == "Kp":      # the field is all that a grid has
-            yield series, "compressible grid", KIND["grid"]
-        elif energy == "Kp":
-            yield series, f"{method}, {variant}", look(4 + others)
-            others += 1
+        elif energy == "Kp":      # the field is all that a grid has
+            yield series, *method(name, variant)
 
 
 def dear(axes: Axes, series: pd.DataFrame, label: str, style: dict) -> None:
-    """One method's errors over its seconds, each with its number of rows."""
-    size = series["error"].abs()
-    axes.plot(series["cpu_s"], size, **style | {"marker": "", "lw": 0.8})
-    signed(axes, series, "cpu_s", label, style)
-    where = {"xytext": (-5, -3), "ha": "right"} if style is KIND["kp"] else {"xytext": (5, 4)}
-    for at, value, resolution in zip(series["cpu_s"], size, series["resolution"]):
-        axes.annotate(f"{resolution:.0f}", (at, value), textcoords="offset points", fontsize=7, **where)
-    axes.margins(x=0.12)
+    """One method's errors over its seconds; the legend has its rows."""
+    axes.plot(series["cpu_s"], series["error"].abs(), **style | {"marker": "", "lw": 0.8})
+    signed(axes, series, "cpu_s", f"{label}: {', '.join(f'{size:.0f}' for size in series['resolution'])} rows", style)
 
 
 def step_cost(axes: Axes, steps: pd.DataFrame) -> None:
     """Nanoseconds a point and step."""
-    known = {(*SPAM.values(), "ideal", "periodic"): KIND["kp"], (*GRID.values(), "ideal", "periodic"): KIND["grid"]}
-    for number, (what, series) in enumerate(groups(steps, ["method", "variant", "eos", "sides"])):
+    known = {tuple(SPAM.values()): ("printed particles", KIND["kp"])} | METHODS
+    for number, ((*what, eos, sides), series) in enumerate(groups(steps, ["method", "variant", "eos", "sides"])):
         series = series.sort_values("points")
         nanoseconds, err = (1e9*series[name]/series["points"] for name in ("step_s", "step_s_err"))
-        axes.errorbar(series["points"], nanoseconds, err, label=", ".join(filter(None, what)),
-                      **known.get(what, look(number + 2)))
+        label, style = known.get(tuple(what), (", ".join(what), look(number + 2)))
+        axes.errorbar(series["points"], nanoseconds, err, label=f"{label}: {eos}, {sides}", **style)
     loglog(axes, "one step, measured alone", "points (particles or cells)")
     axes.set_ylabel("CPU time per point and step  [ns]")
 
@@ -202,7 +198,7 @@ def fluctuations(tables: Tables) -> Figure | None:
             axes.errorbar(group[one], group["ke_fluctuation"], group["err"], label=label.format(value), **look(number))
         axes.set(xscale="log", ylim=(0, None))
         axes.legend(loc="best")
-        plain_ticks(axes, found[one])
+        plain_ticks(axes, sorted({*found[one]}))
     left.set(xlabel="Rayleigh number Ra", ylabel=r"energy of the noise $K_p - K_g$  [$\varepsilon/m$]")
     right.set_xlabel("rows over the height $L$")
     page.suptitle("Particles tremble: how much of their kinetic energy is not flow? Bars: 95 % intervals", fontsize=10)

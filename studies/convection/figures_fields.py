@@ -14,24 +14,25 @@ from studies.kit.figure import figure
 from studies.kit.table import Tables
 
 PLACES = 30     # over the height: 1800 in all [KHP95, Fig. 12]
+MANY = 2000     # particles
 RANGE = 3.0     # of Lucy's weight, in spacings
 FIXED_ROWS = SPAM | {"variant": "printed-fixed-rows"}
 #: column, name with unit, what to see
-CONTOURS = (("rho", r"density  [$m/\sigma^2$]"), ("T", r"temperature  [$\varepsilon/(m k_B)$]"))
+CONTOURS = (("rho", r"density  [$m/\sigma^2$]"), ("T", r"temperature  [$\varepsilon/k_B$]"))
 
 
 def fig2_3(tables: Tables) -> Figure | None:
     """Arrows of particles, what is behind the walls as open circles."""
     panels = [(one_run(tables, "particles", **who, **LAYER), title) for who, title in
-              ((FIXED_ROWS, "rows of fixed particles behind the plates    [KHP95, Fig. 2]"),
-               (SPAM, "images of the particles behind the plates    [KHP95, Fig. 3]"))]
+              ((FIXED_ROWS, "fixed particles behind the plates    [KHP95, Fig. 2]"),
+               (SPAM, "images behind the plates    [KHP95, Fig. 3]"))]
     panels = [(run, title) for run, title in panels if len(run)]
     if not panels:
         return None
     page, all_axes = figure(len(panels), 1, width=7, height=4.4, squeeze=False, sharey=True)
-    scale = max(arrow_scale(fluid(run)) for run, _ in panels)
+    scale = max(arrow_scale(some(fluid(run))) for run, _ in panels)
     for axes, (run, title) in zip(all_axes[:, 0], panels):
-        arrows(axes, fluid(run), scale)
+        arrows(axes, some(fluid(run)), scale)
         behind_plates(axes, run)
         box(axes, run, f"{heading(run)}: {title}", scale)
     return page
@@ -47,21 +48,27 @@ def fluid(run: pd.DataFrame) -> pd.DataFrame:
     return run[run["kind"] == "fluid"]
 
 
+def some(at: pd.DataFrame) -> pd.DataFrame:
+    """One particle in four of many: more arrows are a grey."""
+    return at.sort_values("number").iloc[::4] if len(at) > MANY else at
+
+
 def heading(run: pd.DataFrame) -> str:
     """How many particles at which Ra."""
-    return f"{len(fluid(run))} particles, Ra = {run['ra'].iloc[0]:g}"
+    number = len(fluid(run))
+    return f"{'one in four of ' if number > MANY else ''}{number} particles, Ra = {run['ra'].iloc[0]:g}"
 
 
 def arrow_scale(at: pd.DataFrame) -> float:
-    """Velocity of an arrow as long as L: the fastest 1 % of the particles have arrows longer than 2.5 spacings."""
+    """Velocity of an arrow as long as L: the fastest 1 % of the particles have arrows longer than two spacings."""
     spacing = (np.ptp(at["x"])*np.ptp(at["y"])/len(at))**0.5
-    return float(np.quantile(np.hypot(at["vx"], at["vy"]), 0.99)/(2.5*spacing))
+    return float(np.quantile(np.hypot(at["vx"], at["vy"]), 0.99)/(2*spacing))
 
 
 def arrows(axes: Axes, at: pd.DataFrame, scale: float) -> None:
     """Velocities."""
     axes.quiver(at["x"], at["y"], at["vx"], at["vy"], color="black", angles="xy", scale_units="xy", scale=scale,
-                width=0.0012, headwidth=4, headlength=5, headaxislength=4.5)
+                width=0.0015, headwidth=4, headlength=5, headaxislength=4.5)
 
 
 def behind_plates(axes: Axes, run: pd.DataFrame) -> None:
@@ -110,8 +117,8 @@ def two_views(run: pd.DataFrame, title: str) -> Figure | None:
         return None
     field = smoothed(run)
     page, (upper, lower) = figure(2, 1, width=7, height=3.75)
-    scale = arrow_scale(fluid(run))
-    arrows(upper, fluid(run), scale)
+    scale = arrow_scale(some(fluid(run)))
+    arrows(upper, some(fluid(run)), scale)
     box(upper, run, f"{heading(run)}, {title}", scale)
     arrows(lower, field, scale)
     box(lower, field, f"the same instant, smoothed: $\\langle v \\rangle$ at {len(field)} places", scale)

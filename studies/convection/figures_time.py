@@ -75,12 +75,12 @@ def name_line(axes: Axes, t: pd.Series, y: pd.Series, name: str) -> None:
 
 
 def viscous_time(history: pd.DataFrame) -> float:
-    """L^2/eta in units of time, from any row after the start."""
+    """L^2/nu in units of time, from any row after the start."""
     return float(history["t"].max()/history["t_viscous"].max())
 
 
 def time_axes(axes: Axes, unit: float) -> None:
     top = axes.secondary_xaxis("top", functions=(partial(np.multiply, 1/unit), partial(np.multiply, unit)))
-    top.set_xlabel(r"time  [$L^2/\eta$]")
+    top.set_xlabel(r"time  [$L^2/\nu$]")
     axes.set_xlabel(f"time  [{TIME}]")
     axes.set_xlim(0, 1.07*axes.dataLim.x1)      # room for names

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from studies.convection.onset_tables import ALL
 from studies.convection.pick import ENERGY, ra_axis
-from studies.kit.figure import COLOURS, MARKERS, errorbar, figure, look
+from studies.kit.figure import COLOURS, MARKERS, below, errorbar, figure, look
 from studies.kit.stats import combine
 from studies.kit.table import Tables
 
@@ -25,8 +25,10 @@ GRIDS: dict[str, dict[str, Any]] = {
     r"gas, $\eta$ constant, py-pde": {**GAS, "method": "pypde-compressible"},
     "van der Waals": {**GAS, "eos": "vdw"},
 }
-#: of finite rolls: colour and line tell the method or variant, marks the rows, open marks weaker rolls
-KIND_LINES = (":", "--", "-", "-.")
+#: schemes of particles that have a panel: variant -> title
+SCHEMES = {"printed": "particles as printed", "less-static-90": "particles, a tenth of the static pressure"}
+#: linear theory in the gas's free-fall time: half of the gradient is adiabatic, so that rolls grow sqrt 2 times more slowly
+GAS_TIME = r"the same for the gas: over $\sqrt{2}$, half of" "\nits gradient is adiabatic"
 WIDE, NARROW = (950.0, 3500.0), (1550.0, 1860.0)
 
 
@@ -51,47 +53,55 @@ def growth(tables: Tables) -> Figure | None:
     """sigma against Ra: weak rolls on all grids with linear theory; stronger rolls of particles and of the gas."""
     if rows(tables, "growth_rates", way="operator").empty:
         return None
-    page, (weak, strong) = figure(1, 2, width=5.6, height=4.4)
+    finite = finite_rolls(tables)
+    schemes = [name for name in SCHEMES if name in set(finite["variant"])]
+    page, all_axes = figure(1, 1 + len(schemes), width=4.6, height=5.6, squeeze=False)
+    weak, strong = all_axes[0, 0], all_axes[0, 1:]
     theory(weak, tables)
     for number, (label, wanted) in enumerate(GRIDS.items()):
         found = rows(tables, "growth_rates", way="operator", **wanted)
         found = found[(found["resolution"] == found["resolution"].max()) & found["ra"].between(*NARROW)].sort_values("ra")
         weak.plot(found["ra"], found["sigma"], **{**look(number), "linestyle": "none"}, markerfacecolor="none", label=label)
-    weak.set_title("disturbances of the fluid at rest, finest grids")
-    theory(strong, tables, low=1/np.sqrt(2))
-    finite(strong, tables)
-    strong.set_title("rolls of finite strength, within a factor 2; bars: 95 % over seeds")
-    for axes in (weak, strong):
+    weak.set(title="weakest disturbances, finest grids", xlim=NARROW, ylim=(-0.02, 0.03))
+    for axes, name in zip(strong, schemes):
+        theory(axes, tables, low=1/np.sqrt(2))
+        draw_rolls(axes, finite[finite["method"] != "spam"], first=0)
+        draw_rolls(axes, finite[finite["variant"] == name], first=1)
+        axes.set_title(SCHEMES[name])
+        axes.sharey(strong[0])
+    for axes in all_axes[0]:
         axes.axhline(0, color="black", linewidth=0.6, linestyle="-", marker="")
         axes.set(xlabel="Rayleigh number Ra", ylabel=r"growth rate $\sigma$  [1/free-fall time]")
-    weak.legend()
-    strong.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    weak.set_xlim(*NARROW)
-    weak.set_ylim(-0.02, 0.03)
+        below(axes)
+    page.suptitle("From which Ra on do rolls grow? Right: rolls of finite energy $K_0$, filled marks: the stronger ones; "
+                  "bars: 95 % over seeds", fontsize=10)
     return page
 
 
 def theory(axes: Axes, tables: Tables, low: float = 1.0) -> None:
     """Boussinesq fluid of Pr = 2, also in the gas's free-fall times: of half the gradient, sqrt 2 longer."""
     found = rows(tables, "growth_rates", method="linear", pr=2.0).sort_values("ra")
-    for factor, style, label in ((1.0, "-", "linear theory, Pr = 2"), (1/np.sqrt(2), "--", r"linear theory, $/\sqrt{2}$")):
+    for factor, style, label in ((1.0, "-", "linear theory, Pr = 2"), (1/np.sqrt(2), "--", GAS_TIME)):
         if factor <= low:
             axes.plot(found["ra"], factor*found["sigma"], color="black", linestyle=style, marker="", label=label)
 
 
-def finite(axes: Axes, tables: Tables) -> None:
-    """Means over seeds of runs, for each kind, number of particle rows and strength."""
+def finite_rolls(tables: Tables) -> pd.DataFrame:
+    """Runs from rolls whose energy is no small disturbance; grids have no name of a variant."""
     runs = rows(tables, "growth_rates", way="run")
-    runs = runs[(runs["ke_start"] > 1e-6) & runs["ra"].between(*WIDE)]
-    kinds, sizes = sorted(runs["variant"].unique()), sorted(runs["resolution"].unique())
-    strongest = runs["ke_start"].max()
-    for (method, variant, size, ke), group in runs.groupby(["method", "variant", "resolution", "ke_start"]):
+    return runs[(runs["ke_start"] > 1e-6) & runs["ra"].between(*WIDE)]
+
+
+def draw_rolls(axes: Axes, runs: pd.DataFrame, first: int) -> None:
+    """Means over seeds for each number of rows, which has a look, and strength: full where strong, open where weak."""
+    sizes, strongest = sorted(runs["resolution"].unique()), runs["ke_start"].max()
+    for (method, size, ke), group in runs.groupby(["method", "resolution", "ke_start"]):
         of_ra = [(ra, *combine(list(zip(one["sigma"], one["err"])))) for ra, one in group.groupby("ra")]
         ra, sigma, err = np.array(of_ra).T
-        name = f"{variant}, {size:.0f} rows" if method == "spam" else f"gas grid, {size:.0f} rows"
-        errorbar(axes, list(ra), list(sigma), list(err), label=f"{name}, $K_0$ = {ke:g}",
-                 color=COLOURS[kinds.index(variant)], marker=MARKERS[sizes.index(size)],
-                 linestyle=KIND_LINES[kinds.index(variant)], markerfacecolor=None if ke == strongest else "none")
+        style = look(first + sizes.index(size))
+        errorbar(axes, list(ra), list(sigma), list(err), label=f"{'gas on a grid, ' * (method != 'spam')}{size:.0f} rows, "
+                                                               f"$K_0$ = {ke:g}",
+                 **style | {"lw": 0.9, "markerfacecolor": None if ke == strongest else "white"})
 
 
 # --- straight lines ---------------------------------------------------------------------------------------
@@ -151,25 +161,42 @@ def zeros(axes: Axes, tables: Tables) -> None:
 # --- figures ----------------------------------------------------------------------------------------------
 
 
+#: words that a way begins with -> title of its block
+BLOCKS = {"growth rates": "growth rates of weakest disturbances", "K line": "where a straight line through $K$ is zero",
+          "runs": "growth in runs, from rolls of energy $K$"}
+#: solver -> label, look; the gases, ideal and van der Waals with constant eta and nu, have one
+SOLVERS = {"boussinesq": ("Boussinesq fluid", look(0)), "pypde-boussinesq": ("Boussinesq fluid, py-pde", look(5)),
+           "compressible": (r"gases: ideal or van der Waals, $\eta$ or $\nu$ constant", look(1)),
+           "pypde-compressible": ("the same gases, py-pde", look(3)), "printed": ("particles as printed", look(4)),
+           "less-static-90": ("particles, a tenth of the static pressure", look(7))}
+
+
 def figures_given(tables: Tables) -> Figure | None:
-    """Correct figures of Ra_c by each way and scene."""
+    """Correct figures of Ra_c by each way, in blocks, the best above."""
     found = rows(tables, "figures", sides="periodic")
     found = found[found["dT"].isin([0.0, 1.0])]
     if found.empty:
         return None
-    ways = sorted(found["way"].unique(), key=lambda way: found.loc[found["way"] == way, "figures"].median())
-    page, axes = figure(width=7.5, height=1.2 + 0.36*len(ways))
-    scenes = [name for name, _ in found.groupby(["eos", "transport"])]
-    methods = sorted(found["method"].unique())
-    for (method, *scene), part in found.groupby(["method", "eos", "transport"]):
-        label = " ".join(str(word) for word in (method, *scene) if word)
-        number = scenes.index(tuple(scene))
-        aside = 0.6*((number + 0.5)/len(scenes) - 0.5)        # marks of one way under each other, not on each other
-        axes.plot(part["figures"], [ways.index(way) + aside for way in part["way"]], linestyle="none", label=label,
-                  color=COLOURS[number], marker=MARKERS[methods.index(method)], markerfacecolor="none")
+    found = found.assign(solver=found["variant"].where(found["method"] == "spam", found["method"]))
+    lines = blocks(found)
+    page, axes = figure(width=7.5, height=2.4 + 0.28*len(lines))
+    for number, (name, (label, style)) in enumerate(SOLVERS.items()):
+        part = found[found["solver"] == name]
+        aside = 0.6*((number + 0.5)/len(SOLVERS) - 0.5)        # marks of one way under each other, not on each other
+        axes.plot(part["figures"], [lines.index(way) + aside for way in part["way"]], label=label,
+                  **style | {"linestyle": "none", "markerfacecolor": "none"})
     axes.axvline(-np.log10(0.05/1708), color="black", linestyle="--", marker="", label="five significant figures of 1708")
-    axes.set_yticks(range(len(ways)), labels=[way.replace("Ra_c", "Ra$_c$") for way in ways])
-    axes.set(ylim=(-0.6, len(ways) - 0.4))
+    axes.set_yticks(range(len(lines)), labels=[way.replace("Ra_c", "Ra$_c$") for way in lines], fontsize=8)
+    for tick, way in zip(axes.get_yticklabels(), lines):
+        tick.set_fontweight("bold" if way in BLOCKS.values() else "normal")
+    axes.set(ylim=(len(lines) - 0.4, -0.6), title="How many figures of the critical Ra does each way give?")
     axes.set_xlabel(r"correct figures of Ra$_c$:  $-\log_{10}$ of the relative error")
-    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    below(axes, ncols=2, bbox_to_anchor=(0.3, -0.1))
     return page
+
+
+def blocks(found: pd.DataFrame) -> list[str]:
+    """Titles of blocks and, below each, its ways, the best first."""
+    best = found.groupby("way")["figures"].median().sort_values(ascending=False, kind="stable").index
+    return [line for begin, title in BLOCKS.items() if any(way.startswith(begin) for way in best)
+            for line in (title, *(way for way in best if way.startswith(begin)))]

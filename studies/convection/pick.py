@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 
 from continuum.published import published
 from studies.convection.tables import ALL, POINT
-from studies.kit.figure import look
+from studies.kit.figure import look, width
 from studies.kit.stats import combine
 from studies.kit.table import Tables
 
@@ -33,6 +33,8 @@ LABELS = {"kp": "$K_p$, all particles", "kg": "$K_g$, smoothed field"}
 NUSSELT = {"nu": "Nusselt number, particles"}
 UNSETTLED: dict[str, Any] = {"color": "black", "linestyle": "none", "marker": "x", "markersize": 8, "zorder": 6}
 NOT_STEADY = "not steady: halves of the mean differ"
+#: room for a number above an axis  [inches]
+LABEL = 0.42
 TIME = r"$(m\sigma^2/\varepsilon)^{1/2}$"
 ENERGY = r"kinetic energy per mass $K$  [$\varepsilon/m$]"
 
@@ -83,9 +85,8 @@ def steady(tables: Tables, points: pd.DataFrame) -> pd.Series:
 
 
 def diverged(tables: Tables, **scene: Any) -> pd.DataFrame:
-    """Particle points at which runs diverged: `t` of the first, `lost` of `seeds`."""
-    runs = rows(tables, "kinetic_energy", **scene)
-    runs = runs[runs["method"] == SPAM["method"]]
+    """Points of a method, particles if none is named, at which runs diverged: `t` of the first, `lost` of `seeds`."""
+    runs = rows(tables, "kinetic_energy", **{"method": SPAM["method"]} | scene)
     found = [{**dict(zip(POINT, point)), "t": group.loc[group["ke"].isna(), "t_end"].min(),
               "lost": int(group["ke"].isna().sum()), "seeds": len(group)} for point, group in groups(runs, POINT)]
     found = [row for row in found if row["lost"]]
@@ -130,12 +131,15 @@ def cross_out(axes: Axes, x: pd.Series, y: pd.Series, steady: pd.Series) -> None
 
 
 def ra_axis(axes: Axes) -> None:
-    """Ra^-1/2 below, Ra above."""
+    """Ra^-1/2 below, Ra above: the rounder ones first, others where there is room."""
     low, high = axes.get_xlim()
-    ticks = [ra for ra in (1500, 2000, 2500, 3500, 5000, 7000, 10000, 20000, 50000, 1e5) if low < ra**-0.5 < high]
-    top = axes.secondary_xaxis("top")
-    ticks = [ra for ra in ticks if ra != 50000 or 1e5 not in ticks]      # their labels would overlap
-    top.set_xticks([ra**-0.5 for ra in ticks], labels=[f"{ra:g}" for ra in ticks])
+    top, wide = axes.secondary_xaxis("top"), width(axes)
+    shown: list[float] = []
+    for ra in (10000, 5000, 2500, 20000, 1500, 3500, 1e5, 2000, 7000, 50000):
+        inches = [wide*abs(ra**-0.5 - other**-0.5)/(high - low) for other in shown]
+        if low < ra**-0.5 < high and all(gap > LABEL for gap in inches):
+            shown.append(ra)
+    top.set_xticks([ra**-0.5 for ra in shown], labels=[f"{ra:g}" for ra in shown])
     top.tick_params(labelsize=8)
     top.set_xlabel("Rayleigh number Ra")
     axes.set_xlabel(r"$\mathrm{Ra}^{-1/2}$")

@@ -12,6 +12,7 @@ from studies.kit.table import Tables
 
 KINDS = ("lattice", "jittered-0.1", "jittered-0.3", "random", "relaxed")
 MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
+TOP = 100.0         # largest step that is drawn, over the prediction
 FLOOR = 1e-16       # growth rates of round-off are drawn there
 TERMS = {name: name for name in ("gradient", "pressure", "viscous nested", "heat nested", "mass", "momentum", "energy")}
 #: operator -> label
@@ -40,15 +41,17 @@ def symbols(rows: pd.DataFrame) -> Figure:
     """Share of the gradient and of the Laplacian that is left of a wave, 2D lattice."""
     page, axes = figure(1, 3, width=3.6, height=3.8, sharey=True)
     for number, (kind, group) in enumerate(rows.groupby("weight")):
-        x = group["k"].to_numpy()/np.pi
+        x, style = group["k"].to_numpy()/np.pi, {**look(number), "marker": ""}
         for panel, column in zip(axes, ("gradient", "nested", "pairwise"), strict=True):
-            panel.plot(x, group[column], **{**look(number), "marker": ""}, label=f"{kind}, {group['r0'].iloc[0]:g} $a$")
-        axes[0].plot(x, group["smoothed"], color="grey", linewidth=0.6, linestyle="-", marker="",
-                     label=r"$\hat f(k)$" if number == 0 else None)
+            panel.plot(x, group[column], **style, label=f"{kind}, {group['r0'].iloc[0]:g} $a$")
+        axes[0].plot(x, group["smoothed"], **{**style, "linewidth": 2.5, "alpha": 0.25})
     for panel, title in zip(axes, ("gradient / $k$", "nested Laplacian / $k^2$", "pairwise Laplacian / $k^2$"), strict=True):
         panel.set(title=title, xlabel=r"$k a/\pi$", ylim=(-0.1, 1.05))
+    axes[0].set_ylabel("share left of a wave of wave number $k$")
     handles, labels = axes[0].get_legend_handles_labels()
-    page.legend(handles, labels, loc="outside lower center", ncols=4)
+    page.legend(handles, labels, loc="outside lower center", ncols=4,
+                title=r"weights with their ranges; broad and pale: $\hat f(k)$ of the same weight, without a lattice",
+                title_fontsize=8)
     page.suptitle("What weights leave of a wave along an axis; nested transport is blind to the shortest", fontsize=10)
     return page
 
@@ -109,12 +112,23 @@ def growth(means: pd.DataFrame) -> Figure:
 
 def euler(rows: pd.DataFrame) -> Figure:
     """Largest stable step of forward Euler over the prediction."""
-    page, axes = figure(1, 1, width=5.0, height=3.8)
-    for number, (key, group) in enumerate(rows.groupby(["transport", "eta", "zeta", "kappa"])):
-        transport, eta, zeta, kappa = key
-        axes.plot(group["k"].to_numpy()/np.pi, (group["limit"]/group["predicted"]).to_numpy(), **look(number),
-                  label=rf"{transport}, $\eta, \zeta, \kappa$ = {eta:g}, {zeta:g}, {kappa:g}")
-    axes.set(yscale="log", ylim=(0.7, 100), xlabel=r"$k a/\pi$",
-             ylabel=r"largest step over $(\eta + \zeta + \kappa/2)/\rho c^2$", title="Forward Euler [Eq. 40], 2D gas, $h = 3a$")
-    below(axes, ncols=2, bbox_to_anchor=(0.5, -0.16))
+    page, axes = figure(1, 1, width=5.4, height=3.8)
+    for number, (transport, group) in enumerate(rows.groupby("transport")):
+        fluids = [one.sort_values("k") for _, one in group.groupby(["eta", "zeta", "kappa"])]
+        first, *others = (one["limit"].to_numpy()/one["predicted"].to_numpy() for one in fluids)
+        shown = first < TOP
+        same = max((float(np.abs(other/first - 1)[shown].max()) for other in others if len(other) == len(first)), default=0.0)
+        told = f", {len(fluids)} fluids, within {100*same:.1g} %" if len(fluids) > 1 else ""
+        axes.plot(fluids[0]["k"].to_numpy()/np.pi, first, **look(number), label=f"{transport}{told}")
+    axes.set(yscale="log", ylim=(0.7, TOP), xlabel=r"wave number $k a/\pi$",
+             ylabel=r"largest step over $(\eta + \zeta + \kappa/2)/\rho c^2$",
+             title="Forward Euler [Eq. 40]: up to which step is sound stable?\n2D gas, $h = 3a$")
+    below(axes, bbox_to_anchor=(0.5, -0.16), title=fluids_of(rows), title_fontsize=8)
     return page
+
+
+def fluids_of(rows: pd.DataFrame) -> str:
+    """The viscosities and conductivities that were taken."""
+    found = rows[["eta", "zeta", "kappa"]].drop_duplicates().sort_values(["eta", "zeta", "kappa"])
+    told = "; ".join(f"{eta:g}, {zeta:g}, {kappa:g}" for eta, zeta, kappa in found.to_numpy())
+    return rf"$\eta, \zeta, \kappa$ in $\rho a (k_BT/m)^{{1/2}}$: {told}"
