@@ -64,7 +64,7 @@ def vortex(maker: str, h: float, disorder: str, wavelengths: tuple[int, ...], we
 def vortices() -> Iterator[Case]:
     """On a lattice renormalised, closed and exact edges are the same. Exact ones take long to find, relaxed points to relax."""
     yield from (Compression(mach=mach) for mach in (0.02, 0.05, 0.1, 0.2))
-    for h in RANGES:
+    for h in (*RANGES, 6.0):
         yield from vortex("renormalised", h, "lattice", (16, 24, 32, 48, 64))
     for disorder in IRREGULAR:
         sizes = (16, 24, 32) if disorder == "relaxed" else (16, 24, 32, 48)

@@ -38,7 +38,7 @@ def curve(axes: Axes, rows: pd.DataFrame, x: str, number: int, label: str) -> No
     told = rows[(rows["lost"] == 0) & rows["off"].notna()].sort_values(x)
     lost = len(rows) - len(told)
     if len(rows):
-        label += f" (lost: {lost} of {len(rows)})" if lost else ""
+        label += f" (diverged: {lost} of {len(rows)})" if lost else ""
         errorbar(axes, *([told[name].tolist() for name in (x, "off", "error_err")]), number=number, linestyle="-", label=label)
 
 
@@ -60,12 +60,12 @@ def over_range(flows: pd.DataFrame) -> Figure:
 def over_points(flows: pd.DataFrame) -> Figure:
     """Errors over the points of a wavelength or height, on lattices and on irregular points."""
     page, rows = figure(2, 3, width=3.9, height=4.1)
-    for axes, which in ((rows[0, 0], VORTEX), (rows[1, 0], LAYER)):
+    for axes, which in ((rows[0, 0], VORTEX), (rows[1, 1], LAYER)):
         lattice = pick(flows, **which, maker="renormalised", points="lattice")
         for number, (h, group) in enumerate(lattice.groupby("h")):
             curve(axes, group, "resolution", number, f"$h = {h:g} a$")
         decorate(axes, which, "lattice")
-    for axes, kind in zip((rows[0, 1], rows[0, 2], rows[1, 1]), KINDS, strict=True):
+    for axes, kind in zip((rows[0, 1], rows[0, 2], rows[1, 0]), KINDS, strict=True):
         for number, (maker, h) in enumerate(MADE):
             some = pick(flows, **VORTEX, maker=maker, weight="Lucy" if h else "none", h=h, points=kind)
             curve(axes, some, "resolution", number, maker + (f", {h:g} $a$" if h else ""))
