@@ -70,30 +70,40 @@ def momentum(sums: Any, state: np.ndarray) -> float:
 
 
 class Displacement:
-    """Mean square distance of particles from where they were at the first record; states are in the order of `ids`.
+    """Mean square distance of particles from where they were `records` records ago at most, then from there again.
 
     Positions are not wrapped, so that nothing has to be put together again.
     """
 
-    def __init__(self):
-        self.start = None
+    def __init__(self, records: int):
+        self.records, self.count = records, 0
 
     def __call__(self, sums: Any, state: np.ndarray) -> float:
         x = np.empty_like(state[:sums.places])
         x[:, sums.now.ids] = state[:sums.places]
-        if self.start is None:
+        if self.count % self.records == 0:
             self.start = x
+        self.count += 1
         return float(((x - self.start)**2).sum(axis=0).mean())
 
 
-class StructureFactor(NamedTuple):
-    """S(k) = |sum exp(ik.x)|^2/n, mean over the waves along the axes with `waves` of them in the box."""
-    waves: int
+def waves(d: int, most: int) -> tuple[np.ndarray, np.ndarray]:
+    """Wave vectors (2 most + 1,)*d of whole numbers as |n|^2, and its values up to most^2 without zero."""
+    axes = np.meshgrid(*[np.arange(-most, most + 1)]*d, indexing="ij")
+    square = np.sum([q**2 for q in axes], axis=0)
+    return square, np.unique(square[(square > 0) & (square <= most**2)])
 
-    def __call__(self, sums: Any, state: np.ndarray) -> float:
-        k = 2*np.pi*self.waves/np.array(sums.method.box)
-        amplitude = np.exp(1j*k[:, None]*state[:sums.places]).sum(axis=1)
-        return float(np.mean(np.abs(amplitude)**2)/sums.n)
+
+class StructureFactor(NamedTuple):
+    """S(k) = |sum exp(ik.x)|^2/n of a cube, mean over wave vectors of equal length, up to `most` waves in the box."""
+    most: int
+
+    def __call__(self, sums: Any, state: np.ndarray) -> np.ndarray:
+        d, k = sums.places, 2*np.pi/sums.method.box[0]*np.arange(-self.most, self.most + 1)
+        phases = [np.exp(1j*k[:, None]*q) for q in state[:d]]
+        amplitude = np.einsum("ax,bx,cx->abc", *phases) if d == 3 else np.einsum("ax,bx->ab", *phases)
+        square, values = waves(d, self.most)
+        return np.array([np.mean(np.abs(amplitude[square == n2])**2) for n2 in values])/sums.n
 
 
 class PairDistribution(NamedTuple):

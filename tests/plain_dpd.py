@@ -7,7 +7,7 @@ NUMBERS = {"Uniform": uniform_of_pair, "Normal": normal_of_pair}
 
 
 def apart(x: np.ndarray, box: np.ndarray, slid: float = 0.0) -> np.ndarray:
-    """r_i - r_j by the nearest image (d, n, n), images above having slid along x; the boxes of it that lie between them (n, n)."""
+    """r_i - r_j by the nearest image (d, n, n), images above having slid along x; how many boxes lie between (n, n)."""
     d = x[:, :, None] - x[:, None, :]
     over = np.round(d[1]/box[1])
     d[0] -= over*slid

@@ -1,0 +1,64 @@
+"""Dissipative particles: which integrator knows its temperature, and are pressure, structure and transport those of print?
+
+Groot & Warren's fluid (a = 25, rho = 3, gamma = 4.5, rc = 1, kT = 1) in a periodic cube, with RR98's Eqs 40, 41 and four other
+steps; states of Allen & Tildesley; waves of density; shear between sliding sides. Paper size takes some six minutes of one core.
+Writes results/dpd/*.csv and *.png and the rows of study dpd in results/claims.csv.
+"""
+from collections.abc import Iterator
+
+from particles.integrators import TwoStep
+from particles.methods.dpd import Normal
+from particles.thermal import GrootWarren, GrootWarren65, Shardlow, VelocityVerlet
+from studies.fluctuating import dpd_claims, dpd_derive, dpd_figures, dpd_tables
+from studies.fluctuating.dpd_cases import Fluid, Rest, Shear, Structure
+from studies.kit.study import Study, main
+
+INTEGRATORS = (TwoStep, GrootWarren, GrootWarren65, VelocityVerlet, Shardlow)
+STEPS = (0.01, 0.02, 0.03, 0.04, 0.06, 0.08)
+LONG = 12_000       # steps of a run: its error of kT over dt is what counts, which falls as dt grows
+
+
+def cases(size: str) -> list[Fluid]:
+    """`quick` has small boxes, short runs and three steps."""
+    if size == "quick":
+        return [*temperatures((0.02, 0.04, 0.06), side=5.0, steps=1000),
+                *densities((2.5, 3.5), side=5.0, time=20.0),
+                *waves_and_shear((0.2,), side=5.0, time=30.0, long=30.0)]
+    return [*temperatures(STEPS, side=8.0, steps=LONG), Rest(integrator=Shardlow, dt=0.01, time=120.0),
+            *densities((2.6, 2.8, 3.2, 3.4, 4.0, 5.0, 6.0, 8.0), side=8.0, time=60.0), *table(),
+            *waves_and_shear((0.1, 0.2, 0.4), side=10.0, time=110.0, long=300.0)]
+
+
+def temperatures(found: tuple[float, ...], *, side: float, steps: int) -> Iterator[Fluid]:
+    """All integrators and steps; normal noise once; once in the plane."""
+    for integrator in INTEGRATORS:
+        yield from (Rest(integrator=integrator, dt=dt, side=side, time=steps*dt) for dt in found)
+    yield Rest(integrator=GrootWarren65, dt=0.04, noise=Normal, side=side, time=steps*0.04)
+    yield Rest(integrator=Shardlow, d=2, side=4*side, time=steps*0.02/4)
+
+
+def densities(found: tuple[float, ...], *, side: float, time: float) -> Iterator[Fluid]:
+    """a = 25 at other densities."""
+    yield from (Rest(integrator=Shardlow, rho=rho, side=side, time=time) for rho in found)
+
+
+def table() -> Iterator[Fluid]:
+    """States of Allen & Tildesley: a = 75 kT/rho."""
+    for kT, rho in ((1.0, 2.0), (1.0, 4.0), (1.0, 5.0), (0.5, 3.0)):
+        yield Rest(integrator=Shardlow, dt=0.01, a=75*kT/rho, kT=kT, rho=rho, side=8.0, time=60.0)
+
+
+def waves_and_shear(rates: tuple[float, ...], *, side: float, time: float, long: float) -> Iterator[Fluid]:
+    """Long waves; shear with and without repulsion; diffusion without."""
+    yield Structure(integrator=Shardlow, side=side, time=long)
+    yield from (Shear(integrator=VelocityVerlet, side=side, time=time, rate=rate) for rate in rates)
+    yield Shear(integrator=VelocityVerlet, a=0.0, side=side, time=time, rate=0.2)
+    yield Rest(integrator=Shardlow, a=0.0, side=side, time=time)
+    yield Rest(integrator=Shardlow, dt=0.025, side=0.8*side, time=20.0, pairs=True)
+
+
+STUDY = Study(name="dpd", cases=cases, tables=dpd_tables.ALL, derive=dpd_derive.derive, figures=dpd_figures.figures,
+              claims=dpd_claims.CLAIMS)
+
+if __name__ == "__main__":
+    main(STUDY)

@@ -1,0 +1,85 @@
+"""Errors of kT over the step, compression, excess pressure: from the tables of the study dpd."""
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from studies.kit.stats import Measured
+from studies.kit.table import Tables
+
+SEEN = 2.0          # an error is no chance if it exceeds its half width so many times
+
+
+def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
+    """Derived rows of the study."""
+    states = tables["states"] if "states" in tables else pd.DataFrame()
+    rows: dict[str, list[dict[str, Any]]] = {}
+    if len(states):
+        rows["errors"] = list(errors(states))
+        rows["excess"] = list(excess(states))
+        rows["compression"] = list(compression(states, tables.get("structure", pd.DataFrame())))
+    return rows
+
+
+def weighted(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> list[Measured]:
+    """Coefficients of y = x c by least squares with errors err (95 %), x (n, p)."""
+    A = x/err[:, None]
+    covariance = np.linalg.inv(A.T@A)
+    c = covariance@A.T@(y/err)
+    return [Measured(float(value), float(np.sqrt(variance))) for value, variance in zip(c, np.diag(covariance), strict=True)]
+
+
+def standard(states: pd.DataFrame) -> pd.DataFrame:
+    """Three dimensions, kT = 1, uniform noise."""
+    return states[(states["d"] == 3) & (states["kT"] == 1) & (states["noise"] == "Uniform")]
+
+
+def errors(states: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """One row an integrator and temperature."""
+    chosen = standard(states)
+    chosen = chosen[(chosen["a"] == 25) & (chosen["rho"] == 3)]
+    for integrator, group in chosen.groupby("integrator"):
+        group = group.sort_values("dt").drop_duplicates("dt", keep="last")      # the largest box of a step
+        for temperature in ("kinetic", "configurational"):
+            dt, off = group["dt"].to_numpy(), group[temperature].to_numpy() - 1
+            err = group[f"{temperature}_err"].to_numpy()
+            if len(dt) < 3:
+                continue
+            linear, quadratic = weighted(np.stack([dt, dt**2], axis=1), off, err)
+            seen = np.abs(off) > SEEN*err
+            order = Measured(np.nan, np.nan)
+            if seen.sum() >= 3:
+                logs = np.stack([np.log(dt[seen]), np.ones(seen.sum())], axis=1)
+                order = weighted(logs, np.log(np.abs(off[seen])), err[seen]/np.abs(off[seen]))[0]
+            yield {"integrator": integrator, "temperature": temperature, "steps": len(dt), "linear": linear.value,
+                   "linear_err": linear.err, "quadratic": quadratic.value, "quadratic_err": quadratic.err,
+                   "used": int(seen.sum()), "order": order.value, "order_err": order.err}
+
+
+def excess(states: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """Of the splitting at its shortest step, which errs least; the largest box of a state."""
+    chosen = states[(states["d"] == 3) & (states["a"] > 0)]
+    chosen = chosen[(chosen["integrator"] == "Shardlow") & (chosen["noise"] == "Uniform")]
+    for _, group in chosen.groupby(["a", "kT", "rho"]):
+        row = group.sort_values(["dt", "side"], ascending=[True, False]).iloc[0]
+        a, kT, rho = (float(row[name]) for name in ("a", "kT", "rho"))
+        yield {"a": a, "kT": kT, "rho": rho, "P": row["P"], "P_err": row["P_err"], "alpha": (row["P"] - rho*kT)/(a*rho**2),
+               "alpha_err": row["P_err"]/(a*rho**2)}
+
+
+def compression(states: pd.DataFrame, structure: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """dP/drho at rho = 3 and S(0)."""
+    chosen = standard(states)
+    near = chosen[(chosen["a"] == 25) & (chosen["integrator"] == "Shardlow") & (chosen["rho"].sub(3).abs() < 0.7)]
+    near = near.sort_values("dt").drop_duplicates("rho")
+    some = structure[(structure["a"] == 25) & (structure["k"] < 3)] if len(structure) else structure
+    if len(near) < 3 or len(some) < 4:
+        return
+    x = near["rho"].to_numpy() - 3
+    slope = weighted(np.stack([np.ones_like(x), x, x**2], axis=1), near["P"].to_numpy(), near["P_err"].to_numpy())[1]
+    k = some["k"].to_numpy()
+    S0 = weighted(np.stack([np.ones_like(k), k**2, k**4], axis=1), some["S"].to_numpy(), some["S_err"].to_numpy())[0]
+    product = slope.value*S0.value
+    yield {"a": 25.0, "slope": slope.value, "slope_err": slope.err, "S0": S0.value, "S0_err": S0.err, "product": product,
+           "product_err": product*float(np.hypot(slope.err/slope.value, S0.err/S0.value))}
