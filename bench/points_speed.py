@@ -1,4 +1,4 @@
-"""How fast are points: an evaluation of fixed ones over stored edges, a step of moving ones with lists and faces.
+"""How fast are points: an evaluation of fixed ones over stored edges, of moving ones over pairs, a step over closed faces.
 
     python -m bench.points_speed
 
@@ -8,16 +8,18 @@ quartiles over the repeats. Writes results/bench/points_speed.csv; takes a minut
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from bench.spam_speed import COLUMNS, time_row
 from continuum.scene import RayleighBenard
+from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Plan, run
 from particles.team import Team
-from studies.convection import dih, moving
+from studies.convection import dih, drift, moving
 from studies.kit.csvfile import write
 from studies.kit.provenance import commit, cpu, now, versions
 from studies.kit.source import ROOT
@@ -41,11 +43,11 @@ def fixed(name: str, fast: bool = True) -> Callable[[], float]:
     return measure
 
 
-def step(name: str) -> Callable[[], float]:
-    """Nanoseconds a point and step of moving points: three evaluations, faces, lists; the difference of two lengths."""
-    motion = moving.MOTIONS[name]
-    method = moving.method(SCENE, motion)
-    first = moving.start(SCENE, method, 1)
+def step(method: Any, first: np.ndarray, evaluations: int = 1) -> Callable[[], float]:
+    """Nanoseconds a point and step of moving points, or an evaluation of which a step has so many; lists and faces are in it.
+
+    The difference of two lengths of a run.
+    """
     dt = 0.8*limit_of(method, first)
     warm = run(method, first, Plan(dt=dt, steps=30)).state
 
@@ -55,8 +57,20 @@ def step(name: str) -> Callable[[], float]:
         return time.process_time() - began
 
     def measure() -> float:
-        return 1e9*(seconds(2*STEPS) - seconds(STEPS))/(STEPS*first.shape[1])
+        return 1e9*(seconds(2*STEPS) - seconds(STEPS))/(STEPS*evaluations*first.shape[1])
     return measure
+
+
+def closed(name: str) -> Callable[[], float]:
+    """A step of three evaluations over faces that are made once a step."""
+    method = moving.method(SCENE, moving.MOTIONS[name])
+    return step(method, moving.start(SCENE, method, 1))
+
+
+def bracket(name: str) -> Callable[[], float]:
+    """An evaluation of RR98's own motions, pairs in range and all, within steps of RK4."""
+    method = drift.method(SCENE, drift.DRIFT_MOTIONS[name])
+    return step(method, drift.start(SCENE, method, 1), RK4.evaluations)
 
 
 def main() -> None:
@@ -64,7 +78,10 @@ def main() -> None:
     kinds = {"fixed points, h = 2 a": fixed("fixed-lattice"), "fixed points, h = 3 a": fixed("fixed-lattice-h3"),
              "fixed points, h = 3 a, edge by edge": fixed("fixed-lattice-h3", fast=False),
              "fixed points, Delaunay": fixed("fixed-jittered-delaunay"),
-             "moving points, a step": step("moving"), "moving points, a step, open faces": step("moving-open-faces")}
+             "moving points, a step": closed("moving"), "moving points, a step, open faces": closed("moving-open-faces"),
+             "moving, plain bracket": bracket("motion-literal-printed-heat"),
+             "moving, plain bracket, mended": bracket("motion-literal"),
+             "moving, plain bracket, constant mass": bracket("motion-constant-mass-printed-heat")}
     found: dict[str, list[float]] = {name: [] for name in kinds}
     for measure in kinds.values():
         measure()       # loads what is compiled
