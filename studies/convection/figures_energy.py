@@ -30,7 +30,7 @@ ENERGIES = (("kp", "ke", LABELS["kp"]), ("kg", "ke_field", LABELS["kg"]))
 KHP95_PARTICLES = 5000
 #: how far marks at the same Ra are moved apart, in Ra^-1/2
 ASIDE = 1.5e-4
-SMOOTHED_GRID = {"color": KIND["kg"]["color"], "marker": "", "linestyle": ":", "lw": 1.8}
+SMOOTHED_GRID = {"color": KIND["kg"]["color"], "marker": "", "linestyle": "-.", "lw": 1.5}
 
 
 def smoothed_grid(axes: Axes, tables: Tables, scene: dict[str, Any], size: float, limit: pd.DataFrame) -> None:

@@ -41,7 +41,16 @@ INGREDIENTS = {
     "moving-plain-spread": "plain spread of mass", "moving-whole-pressure": "whole pressure on faces",
     "moving-printed-heat": "heating of Eq. 51 as printed",
 }
-WORDS = {name: words for group in (*SPAM_GROUPS.values(), *FIXED_GROUPS.values(), INGREDIENTS) for name, words in group.items()}
+#: RR98's own motions
+MOTIONS = {
+    "motion-literal": "as printed [Eqs 39-41]", "motion-literal-printed-heat": "the same, heating as printed",
+    "motion-convective": "convective [Eqs 46-48]", "motion-carried": "the same, volumes carried",
+    "motion-constant-mass": "constant mass [Eq. 49]", "motion-constant-mass-printed-heat": "the same, heating as printed",
+    "motion-sph": "Eq. 50 with $a = -b = 1$", "motion-less-static": "Eq. 49 without static pressure",
+}
+MOVING_GROUPS = {"the scheme and its ingredients": INGREDIENTS, "motions of RR98": MOTIONS}
+WORDS = {name: words for groups in (SPAM_GROUPS, FIXED_GROUPS, MOVING_GROUPS) for group in groups.values()
+         for name, words in group.items()}
 #: (method, variant) -> label, look: one for each series in all figures
 METHODS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
     (GRID["method"], GRID["variant"]): ("compressible grid", KIND["grid"]),

@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from studies.convection.figures_errors import PALE, RA_SHOWN, SIGNS, floor, loglog, powers
-from studies.convection.figures_names import FIXED_GROUPS, INGREDIENTS, grouped, numbered, words
+from studies.convection.figures_names import FIXED_GROUPS, MOVING_GROUPS, grouped, numbered, words
 from studies.convection.figures_variants import LOWER, dots, lines, say, sizes, sizes_of, tell_diverged
 from studies.convection.pick import LAYER, diverged, errors, groups, reference, rows
 from studies.kit.figure import below, figure, look, plain_ticks
@@ -107,22 +107,22 @@ def moving(tables: Tables) -> Figure | None:
     all_axes[0, 0].set_ylabel(RELATIVE)
     if many:
         ingredients(all_axes[0, 1], found, others, lost, names)
-        all_axes[0, 1].set_title(f"without one ingredient, Ra = {ra:g}")
-    page.suptitle("Points that move: does $K$ converge" + (", what does each ingredient do?" if many else "?"), fontsize=10)
+        all_axes[0, 1].set_title(f"other motions and ingredients, Ra = {ra:g}")
+    page.suptitle("Points that move: does $K$ converge" + (", what do its ingredients do?" if many else "?"), fontsize=10)
     return page
 
 
 def ingredients(axes: Axes, found: pd.DataFrame, others: pd.DataFrame, lost: pd.DataFrame, names: set[str]) -> None:
     """One line for each variant; errors with their sign, logarithmic where they are large."""
     found = found[found["resolution"].isin(found.loc[found["variant"] != "moving", "resolution"])]
-    at = lines(axes, grouped(names, {"the scheme and its ingredients": INGREDIENTS}, "others"))
+    at = lines(axes, grouped(names, MOVING_GROUPS))
     axes.axvline(0, color="black", marker="", ls="-", lw=1, zorder=0)
     order = sizes_of(found, others, lost)
     dots(axes, at, found, "error", "error_err", "$K$", {**look(0), "marker": "o"}, 100, order)
     tell_diverged(axes, at, lost, order)
     for _, row in others.iterrows():
         say(axes, at[row["variant"]] + LOWER*order.index(row["resolution"]), 0.5,
-            f"{row['resolution']:.0f} rows: {row['rolls']:.0f} rolls, not two, {100*row['error']:+.0f} %")
+            f"{row['resolution']:.0f} rows: {row['rolls']:.0f} rolls instead of two, {100*row['error']:+.0f} %")
     axes.set_xscale("symlog", linthresh=LINEAR)
     large = 100*found["error"].abs().max() if len(found) else LINEAR
     ticks = [tick for tick in (-1000, -100, -10, -1, 0, 1, 10, 100, 1000) if abs(tick) <= max(large, LINEAR)]
