@@ -7,15 +7,18 @@ import pytest
 import studies.fluctuations as fluctuations
 from continuum.fluid import ConstEta, IdealGas
 from particles import covariance
-from particles.covariance import jacobian, steady
+from particles.covariance import jacobian, steady, waves
+from particles.edges import between_plates
 from particles.limits import limit_of
 from particles.makers import MAKERS
+from particles.methods.layer import Layer
 from particles.methods.thermal import Mixed, Thermal, ThreeStage
 from particles.points import jittered, lattice
 from particles.run import Plan, run
+from particles.team import Team
 from particles.weights import Lucy
 from studies.fluctuating import fluct_tables
-from studies.fluctuating.fluct_flows import BelowOnset, Gradient, Rest, equilibrium, noise, transport
+from studies.fluctuating.fluct_flows import BelowOnset, Gradient, Rest, equilibrium, layer_noise, noise, transport
 from studies.fluctuating.fluct_modes import Equipartition, check_modes, plane_waves
 from studies.fluctuating.fluct_nonlinear import Capacity, Exchange, Exchanged, Nonlinear, dirichlet
 from studies.fluctuating.fluct_peaks import Brillouin
@@ -197,6 +200,22 @@ def test_noise_reaches_the_covariance_of_equilibrium_on_irregular_points():
     exactly = equilibrium(method.edges.V, 2)
     C = steady(J, Q, np.kron(np.eye(4), method.edges.V))
     assert C == pytest.approx(exactly, abs=1e-10*exactly.max())
+
+
+def test_plates_have_the_noise_of_their_friction_and_heat():
+    """A layer at rest between plates of its own temperature, waves along it: equilibrium up to the last row."""
+    rows, T = 5, 0.7
+    x = lattice((5, rows)).x
+    edges, beyond = between_plates(MAKERS["renormalised"], x, 5, rows, Lucy.of(h=2.0))
+    fluid = Layer(x=x, edges=edges, beyond=beyond, eos=IdealGas(), law=ConstEta(0.3, 0.4), T_plates=(T, T), g=0.0)
+    first, at_T = np.arange(rows), np.full(5*rows, T)
+    J = jacobian(fluid.start(5*rows, Team(1)).rates, fluid.state(1.0, 0*x, at_T), first)
+    Q = layer_noise(fluid, at_T)[:, (5*rows*np.arange(4)[:, None] + first).ravel()].toarray()
+    C = steady(*(waves(M, (5, rows), 0.4) for M in (J, Q)))
+    one, none = np.eye(rows), np.zeros((rows, rows))        # <rho rho> = 1, <p p> = T, eps = T rho + dT, <dT dT> = T^2
+    exactly = np.block([[one, none, none, T*one], [none, T*one, none, none], [none, none, T*one, none],
+                        [T*one, none, none, 2*T*T*one]])
+    assert np.abs(C - exactly).max() < 1e-9
 
 
 @pytest.mark.parametrize("corrected", [True, False])
