@@ -57,6 +57,7 @@ notebooks: .venv/ready  ## run every notebook in results/
 bench: .venv/ready-bench  ## speed, beside public codes, in one run
 	$(run) -m bench.spam_speed $(ARGS)
 	$(run) -m bench.points_speed
+	$(run) -m bench.dpd_speed $(ARGS)
 
 clean:  ## remove caches; .venv and finished cases (results/raw) stay
 	rm -rf .numba_cache .pytest_cache .mypy_cache .ruff_cache .benchmarks
