@@ -13,6 +13,13 @@ class Ghosts(NamedTuple):
     turn: np.ndarray
     plate_T: np.ndarray
 
+    def fill(self, records: np.ndarray, even: tuple[str, ...], odd: tuple[str, ...] = ()) -> None:
+        """Fields of the ghosts, which come last, from those of their origins; odd ones change sign in a mirror."""
+        first = len(records) - len(self.origin)
+        for name in (*even, *odd):
+            found = records[name][self.origin]
+            records[name][first:] = found*self.turn if name in odd else found
+
 
 def ghosts_of(around: Surroundings) -> Ghosts:
     """The ghosts that the lists have now; mirrors are the only walls that turn anything."""

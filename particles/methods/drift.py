@@ -238,7 +238,7 @@ class Drifts(Listed):
         if method.mended:
             self.team(sweep, n, OverPairs(Differences()), points, around.pairs, self.slopes)
             self.team(lacking, n, self.slopes, state[6], points)
-            _image_lacking(n, *self.ghosts[:2], points)
+            self.ghosts.fill(points, ("Fx",), ("Fy",))      # no energy through a plate
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (7, n), written to `out`    [Eqs 34-36, 39, 46-51]"""
@@ -288,14 +288,6 @@ def _image_fields(n, origin, turn, plate_T, x, y, static, g, points):
         b.vx, b.vy, b.ux, b.uy = a.vx, s*a.vy, s*a.ux, s*a.uy
         b.Td = a.Td if s > 0 else 2*plate_T[m] - a.Td
         b.hydro = a.hydro + 0.5*(1 - s)*(a.rho - static.fraction*static.rho0)*g*(a.y - b.y)
-
-
-@jit
-def _image_lacking(n, origin, turn, points):
-    """No energy through a plate: F along it even, across it odd."""
-    for m in range(len(origin)):
-        a, b = points[origin[m]], points[n + m]
-        b.Fx, b.Fy = a.Fx, turn[m]*a.Fy
 
 
 @jit

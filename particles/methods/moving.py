@@ -3,14 +3,8 @@
 Points have volumes that change as their surroundings do. Faces S_ij = -S_ji between points within the range of a weight close
 and are exact on linear fields, as nearly as a few iterations make them; points drift with the fluid and a little towards even
 spacing, and what volume they leave to each other carries mass, momentum and energy along. RR98's moving volumes (Eqs 46-48)
-conserve none of these. With x_ij = x_j - x_i, F = -w'/r:
-
-    B_i = (sum_j V_j F x x)^-1,  s_i = 2/sum_j V_j F r^2,  k_ij = V_i V_j F (s_i + s_j)
-    S_ij = V_i V_j F (B_i + B_j) x_ij + k_ij [phi_j - phi_i + (psi_i + psi_j).x_ij]
-
-phi, psi from sum_j S_ij = 0 and 1/2 sum_j S_ij x_ij = V_i 1: symmetric positive equations, solved by conjugate gradients from
-what the last step found. Between plates convection and pressure see images without friction, friction and heat others: see
-`layer`.
+conserve none of these. How faces are made and closed is in `faces`. Between plates convection and pressure see images without
+friction, friction and heat others: see `layer`.
 """
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -20,19 +14,15 @@ import numpy as np
 from continuum.fluid import conductivity, energy, pressure, sound_speed, temperature, valid, viscosity
 from continuum.jit import jit
 from particles.limits import limit_of
-from particles.neighbours import u64
+from particles.methods.faces import POTENTIALS, FaceMaker
 from particles.pairs import Faces, nothing, rate, sweep
 from particles.surroundings import Listed, Surroundings
 from particles.team import Team
 from particles.walls import confine
-from particles.walls.mirror import Mirror
 
 #: rows of a state: places, drift velocity, momentum, mass, volume, total energy, and the last solution for the faces
-FIELDS = ("x", "y", "wx", "wy", "px", "py", "m", "V", "E", "phi_x", "psi_xx", "psi_xy", "phi_y", "psi_yx", "psi_yy")
+FIELDS = ("x", "y", "wx", "wy", "px", "py", "m", "V", "E", *POTENTIALS)
 EXCHANGED, SOLVED = slice(4, 9), slice(9, 15)
-
-Metric = np.dtype([(name, "f8") for name in ("V", "xx", "xy", "yy", "s")])
-Potential = np.dtype([(name, "f8") for name in FIELDS[SOLVED]])
 #: seen by convection and pressure: vx .. theta; by friction and heat: ux, uy, Td; F mends the heating, (gx, gy) = grad P'
 Point = np.dtype([(name, "f8") for name in ("vx", "vy", "P", "rho", "e", "c2", "shift_x", "shift_y", "theta", "gx", "gy", "ux",
                                             "uy", "Td", "eta", "k", "Fx", "Fy")])
@@ -56,10 +46,6 @@ class Ingredients(NamedTuple):
     mended: bool = True
 
 
-class Closing(NamedTuple):
-    """Closure and moments of k [phi_j - phi_i + (psi_i + psi_j).x_ij], for S_x and S_y."""
-
-
 class FaceDifferences(NamedTuple):
     """V grad of v and P by differences: d_x u, d_y u, d_x v, d_y v, d_x P, d_y P."""
 
@@ -71,16 +57,8 @@ class FaceExchange(NamedTuple):
     smooth: float
 
 
-nothing.of(Closing)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 nothing.of(FaceDifferences)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 nothing.of(FaceExchange)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-
-
-@rate.of(Closing)
-def _(term, a, b, ab):
-    gx = ab.k*(b.phi_x - a.phi_x + (a.psi_xx + b.psi_xx)*ab.dx + (a.psi_xy + b.psi_xy)*ab.dy)
-    gy = ab.k*(b.phi_y - a.phi_y + (a.psi_yx + b.psi_yx)*ab.dx + (a.psi_yy + b.psi_yy)*ab.dy)
-    return -gx, gx*ab.dx, gx*ab.dy, -gy, gy*ab.dx, gy*ab.dy
 
 
 @rate.of(FaceDifferences)
@@ -181,58 +159,22 @@ class Exchanging(Listed):
     def __init__(self, method: Moving, n: int, team: Team):
         self.method, self.team, self.n = method, team, n
         self.around = Surroundings(method.weight, method.walls, n, method.box, skin=method.skin, team=team)
-        self.slopes, self.total, self.held, self.P0 = np.zeros((n, 6)), np.zeros((n, 6)), np.zeros((n, 2)), 0.0
-        self.shift, self.count, self.iterations = np.zeros((n, 2)), np.zeros(n), 0
-        self._lists, self._entries = -1, -1
+        self.maker = FaceMaker(self.around, method.ingredients.iterations, method.ingredients.within)
+        self.slopes, self.total, self.P0 = np.zeros((n, 6)), np.zeros((n, 6)), 0.0
+        self.shift, self._lists = np.zeros((n, 2)), -1
 
-    # --- geometry ---------------------------------------------------------------------------------------------
+    @property
+    def faces(self) -> Faces:
+        """As they were made last."""
+        return self.maker.faces
 
     def make_faces(self, state: np.ndarray) -> None:
         """Pairs, volumes and faces where the points are now; the solution is left in the state."""
-        around = self.around
-        around.place(state, 1.0)
-        self._allocate()
-        self.metric["V"][:self.n] = state[7]
-        self._copy(self.metric, ("V",))
-        self.count = around.rho[:self.n].copy()
-        self.team(_metric, self.n, around.pairs, around.x, around.y, self.metric, self.shift)
-        self.shift *= -self.method.ingredients.shift
+        self.maker.make(state, state[7], state[SOLVED])
+        if self._lists != self.maker.lists_made:
+            self._lists, self.points = self.maker.lists_made, np.zeros(len(self.around.x), Point)
+        self.shift = -self.method.ingredients.shift*self.maker.pull
         self._limit_shift(state)
-        self._copy(self.metric, ("xx", "yy", "s"), ("xy",))
-        self.team(_open_faces, self.n, around.pairs, around.x, around.y, self.metric, self.faces)
-        if self.method.ingredients.iterations:
-            self._close(state[SOLVED])
-
-    def _allocate(self) -> None:
-        points, entries, pairs = len(self.around.x), len(self.around.pairs.near), self.around.pairs
-        if self._lists != self.around.lists_made:       # as many ghosts as before may be those of others
-            self._lists = self.around.lists_made
-            self.points, self.metric = np.zeros(points, Point), np.zeros(points, Metric)
-            self.potential = np.zeros(points, Potential)
-            self._signs()
-        if self._entries != entries:
-            self._entries, self._store = entries, np.empty((5, entries))
-        self.faces = Faces(pairs.first, pairs.taken, pairs.near, *self._store)
-
-    def _signs(self) -> None:
-        """Parent of every ghost among the points, and -1 for ghosts behind an odd number of plates; the plates' T."""
-        n, around = self.n, self.around
-        self.origin = np.arange(len(around.x))
-        self.turn, self.plate_T = np.ones(len(around.x)), np.zeros(len(around.x))
-        for wall, parent, first, last in around.blocks:
-            self.origin[first:last] = self.origin[parent]
-            self.turn[first:last] = self.turn[parent]
-            self.plate_T[first:last] = self.plate_T[parent]
-            if isinstance(wall, Mirror):
-                self.turn[first:last] *= -1
-                self.plate_T[first:last] = wall.T
-        self.origin, self.turn, self.plate_T = self.origin[n:], self.turn[n:], self.plate_T[n:]
-
-    def _copy(self, records: np.ndarray, even: tuple[str, ...], odd: tuple[str, ...] = ()) -> None:
-        """Fields of the ghosts from those of their origins; odd ones change sign in a mirror."""
-        for name in (*even, *odd):
-            found = records[name][self.origin]
-            records[name][self.n:] = found*self.turn if name in odd else found
 
     def _limit_shift(self, state: np.ndarray) -> None:
         """No point shifts faster than 0.3 of the fastest flow."""
@@ -240,64 +182,25 @@ class Exchanging(Listed):
         size = np.hypot(*self.shift.T)
         self.shift *= np.minimum(1.0, most/np.maximum(size, 1e-300))[:, None]
 
-    def _close(self, solution: np.ndarray) -> None:
-        """Add to the faces what closes them and makes them exact, by conjugate gradients from `solution` (6, n), in place."""
-        n = self.n
-        wanted, scale = np.empty((n, 6)), np.empty((n, 6))
-        self.team(_lacking_faces, n, self.faces, self.metric, wanted, scale)
-        x = solution.T.copy()
-        self.iterations = self._solve(x, wanted, scale)
-        solution[:] = x.T
-        self._spread_out(x)
-        self.team(_close_faces, n, self.faces, self.potential)
-
-    def _spread_out(self, x: np.ndarray) -> None:
-        """Potentials of points and ghosts."""
-        _to_records(x, self.origin, self.turn, self.potential)
-
-    def _apply(self, x: np.ndarray, out: np.ndarray) -> None:
-        self._spread_out(x)
-        self.team(sweep, self.n, Closing(), self.potential, self.faces, out)
-
-    def _solve(self, x: np.ndarray, wanted: np.ndarray, scale: np.ndarray) -> int:
-        """Jacobi-preconditioned conjugate gradients, x in place; the number of iterations."""
-        product, chosen = np.empty_like(x), self.method.ingredients
-        self._apply(x, product)
-        r = wanted - product
-        z = r/scale
-        p, rz = z.copy(), inner(r, z)
-        enough = chosen.within**2*inner(wanted, wanted/scale)
-        for count in range(chosen.iterations):
-            if rz <= enough:
-                return count
-            self._apply(p, product)
-            step = rz/inner(p, product)
-            x += step*p
-            r -= step*product
-            z = r/scale
-            rz, before = inner(r, z), rz
-            p = z + rz/before*p
-        return chosen.iterations
-
     # --- exchange ---------------------------------------------------------------------------------------------
 
     def look_at(self, state: np.ndarray) -> None:
         """Fields of all points and images on the faces as they are."""
         method, chosen, points, n = self.method, self.method.ingredients, self.points, self.n
         g0 = method.rho0*method.g if chosen.static else 0.0
-        self.team(_fields, n, state, method.eos, method.law, g0, self.shift, self.count, points)
+        self.team(_fields, n, state, method.eos, method.law, g0, self.shift, self.maker.count, points)
         self.P0 = float(state[7]@points["P"][:n]/state[7].sum()) if chosen.static else 0.0
         points["P"][:n] -= self.P0
         self._images(g0)
         self.team(sweep, n, FaceDifferences(), points, self.faces, self.slopes)
         self.team(_slopes, n, self.slopes, state, float(chosen.mended), points)
-        self._copy(points, ("gx", "Fx"), ("gy", "Fy"))
+        self.maker.ghosts.fill(points, ("gx", "Fx"), ("gy", "Fy"))
 
     def _images(self, g0: float) -> None:
-        around, points = self.around, self.points
-        _image_fields(self.n, self.origin, self.turn, self.plate_T, points)
+        around, points, ghosts = self.around, self.points, self.maker.ghosts
+        _image_fields(self.n, *ghosts, points)
         if g0 != self.method.rho0*self.method.g:    # the pressure goes on hydrostatically
-            rise = around.y[self.origin] - around.y[self.n:]
+            rise = around.y[ghosts.origin] - around.y[self.n:]
             points["P"][self.n:] += self.method.rho0*self.method.g*rise
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
@@ -343,77 +246,6 @@ class Exchanging(Listed):
             return (f"point {ids[i]} has V = {V[i]:.4g}, rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of "
                     f"{type(self.method.eos).__name__}")
         return self.outran(state)
-
-
-def inner(a: np.ndarray, b: np.ndarray) -> float:
-    """Sum of products, not by BLAS: its threads cost more than they save, and sum in another order."""
-    return float((a*b).sum())
-
-
-@jit
-def _metric(first, last, pairs, x, y, metric, shift):
-    """B, s and the pull towards even spacing sum_j V_j F x_ij of each point."""
-    for i in range(first, last):
-        xx, xy, yy, px, py = 0.0, 0.0, 0.0, 0.0, 0.0
-        for k in range(pairs.first[i], pairs.first[i] + pairs.taken[i]):
-            j = pairs.near[k]
-            V, dx, dy = metric[j].V, x[j] - x[i], y[j] - y[i]
-            fx, fy = V*pairs.wx[k], V*pairs.wy[k]        # V F x_ij
-            xx, xy, yy, px, py = xx + fx*dx, xy + fx*dy, yy + fy*dy, px + fx, py + fy
-        a, det = metric[i], xx*yy - xy*xy
-        a.xx, a.xy, a.yy, a.s = yy/det, -xy/det, xx/det, 2/(xx + yy)
-        shift[i, 0], shift[i, 1] = px, py
-
-
-@jit
-def _open_faces(first, last, pairs, x, y, metric, faces):
-    for i in range(u64(first), u64(last)):
-        a = metric[i]
-        for k in range(pairs.first[i], pairs.first[i] + pairs.taken[i]):
-            j = pairs.near[k]
-            b, dx, dy, wx, wy = metric[j], x[j] - x[i], y[j] - y[i], pairs.wx[k], pairs.wy[k]
-            VV, xx, xy, yy = a.V*b.V, a.xx + b.xx, a.xy + b.xy, a.yy + b.yy
-            faces.sx[k], faces.sy[k] = 0.5*VV*(xx*wx + xy*wy), 0.5*VV*(xy*wx + yy*wy)
-            faces.k[k] = VV*(wx*dx + wy*dy)/(dx*dx + dy*dy)*(a.s + b.s)
-            faces.dx[k], faces.dy[k] = dx, dy
-
-
-@jit
-def _lacking_faces(first, last, faces, metric, wanted, scale):
-    """What sum_j S and sum_j S x_ij lack, for S_x and S_y, and the diagonal of the equations for phi, psi."""
-    for i in range(first, last):
-        cx, cy, xx, xy, yx, yy, k0, kx, ky = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        for k in range(faces.first[i], faces.first[i] + faces.taken[i]):
-            sx, sy, c, dx, dy = 2*faces.sx[k], 2*faces.sy[k], faces.k[k], faces.dx[k], faces.dy[k]
-            cx, cy, xx, xy, yx, yy = cx + sx, cy + sy, xx + sx*dx, xy + sx*dy, yx + sy*dx, yy + sy*dy
-            k0, kx, ky = k0 + c, kx + c*dx*dx, ky + c*dy*dy
-        two_V = 2*metric[i].V
-        wanted[i, 0], wanted[i, 1], wanted[i, 2] = cx, two_V - xx, -xy
-        wanted[i, 3], wanted[i, 4], wanted[i, 5] = cy, -yx, two_V - yy
-        for c in range(0, 6, 3):
-            scale[i, c], scale[i, c + 1], scale[i, c + 2] = k0, kx, ky
-
-
-@jit
-def _to_records(x, origin, turn, potential):
-    n = len(x)
-    for i in range(n):
-        a = potential[i]
-        a.phi_x, a.psi_xx, a.psi_xy, a.phi_y, a.psi_yx, a.psi_yy = x[i]
-    for g in range(len(origin)):
-        a, s = potential[n + g], turn[g]
-        phi_x, psi_xx, psi_xy, phi_y, psi_yx, psi_yy = x[origin[g]]
-        a.phi_x, a.psi_xx, a.psi_xy, a.phi_y, a.psi_yx, a.psi_yy = phi_x, psi_xx, s*psi_xy, s*phi_y, s*psi_yx, psi_yy
-
-
-@jit
-def _close_faces(first, last, faces, potential):
-    for i in range(u64(first), u64(last)):
-        a = potential[i]
-        for k in range(faces.first[i], faces.first[i] + faces.taken[i]):
-            b, half, dx, dy = potential[faces.near[k]], 0.5*faces.k[k], faces.dx[k], faces.dy[k]
-            faces.sx[k] += half*(b.phi_x - a.phi_x + (a.psi_xx + b.psi_xx)*dx + (a.psi_xy + b.psi_xy)*dy)
-            faces.sy[k] += half*(b.phi_y - a.phi_y + (a.psi_yx + b.psi_yx)*dx + (a.psi_yy + b.psi_yy)*dy)
 
 
 @jit
