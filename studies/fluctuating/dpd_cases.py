@@ -96,8 +96,13 @@ class Rest(Fluid):
 
 
 def diffusion(msd: np.ndarray, times: np.ndarray, records: int, d: int) -> Measured:
-    """D from the rise of the mean square displacement over the second half of each segment; error from segments' scatter."""
-    found = []
+    """D from the rise of the mean square displacement over the second half of each segment; error from segments' scatter.
+
+    Nothing if two segments do not fit.
+    """
+    found: list[tuple[float, float]] = []
+    if len(msd) < 2*records:
+        return Measured(np.nan, np.nan)
     for start in range(0, len(msd) - records + 1, records):
         middle, end = start + records//2, start + records - 1
         found.append((float((msd[end] - msd[middle])/(times[end] - times[middle])/(2*d)), 0.0))
