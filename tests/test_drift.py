@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from continuum.fluid import ConstEta, IdealGas, VanDerWaals
+from continuum.scene import RayleighBenard
 from particles.edges import between_plates
 from particles.integrators import RK4
 from particles.limits import limit_of
@@ -20,6 +21,8 @@ from particles.team import Team
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
+from studies.convection.drift import DRIFT_MOTIONS, DriftRun, PlateHeat, method, start
+from studies.convection.tables import HISTORY, KINETIC, PROFILES
 
 COUNTS = COLUMNS, ROWS = 10, 8
 WEIGHT = WendlandC2.of(h=2.9)
@@ -209,3 +212,49 @@ def test_what_is_no_fluid_is_named():
     assert "point 5 has V = -1" in sums.fault(state, np.arange(AT.n))
     with pytest.raises(ValueError, match="LiteralDrift needs the whole pressure"):
         drift(static=LessStatic(0.5, 1.0))
+
+
+# --- between the plates of Rayleigh and Benard ------------------------------------------------------------------
+
+
+def case(tmp_path, name, t_end=30.0, **more):
+    return DriftRun(scene=RayleighBenard(ra=1e4, L=12.0), motion=DRIFT_MOTIONS[name], t_end=t_end, mean_from=t_end/2,
+                    **more).run(lambda done: None, tmp_path).rows
+
+
+def test_a_run_fills_rows_of_three_tables(tmp_path):
+    rows = case(tmp_path, "motion-constant-mass")
+    for table in (KINETIC, HISTORY, PROFILES):
+        assert set(rows[table.name][0]) <= set(table.columns)
+    assert abs(rows["kinetic_energy"][0]["mass_drift"]) < 1e-13
+    assert len(rows["history"]) == pytest.approx(30, abs=2)
+    assert np.mean([row["rho"] for row in rows["profiles"]]) == pytest.approx(1, rel=1e-12)      # the mass of all layers
+    assert set(case(tmp_path, "motion-constant-mass", seed=2)) == {"kinetic_energy"}
+
+
+def test_heat_through_plates_is_conduction_where_temperature_is_linear():
+    scene = RayleighBenard(ra=1e4, L=12.0)
+    fluid, x = method(scene, DRIFT_MOTIONS["motion-literal"]), lattice((24, 12)).x
+    sums, now = fluid.start(len(x), Team(1)), fluid.state(x, 1.0, 0*x, scene.T(x[:, 1]))
+    sums.around.relist(now, np.arange(len(x)), 0.0)
+    sums.look_at(now)
+    for side in (-1, 1):
+        assert PlateHeat(side)(sums, now) == pytest.approx(-side*scene.k*scene.dT/scene.L*scene.width, rel=1e-12)
+
+
+def test_literal_points_come_to_rest_where_density_times_the_square_of_their_number_is_uniform():
+    """Nothing diffuses what 2 P grad(n dV) balances: P grad rho = -2 P rho grad n at the temperatures of the layer at rest.
+
+    Density falls by a factor of two from the lower to the upper plate then: what is heavy lies below, and stays there.
+    """
+    scene = RayleighBenard(ra=1e4, L=12.0)
+    fluid = method(scene, DRIFT_MOTIONS["motion-literal"])
+    first = start(scene, fluid, 1)
+    dt = limit_of(fluid, first)
+    done = run(fluid, first, Plan(dt=dt, steps=round(200*12/dt)))
+    layer = np.digitize(done.state[1], [-4, -2, 0, 2, 4])
+    number = np.bincount(layer)/(2*scene.width)
+    rho = np.bincount(layer, done.state[4])/np.bincount(layer)
+    # 48 points a layer: six starts give slopes of -2.06 to -2.56, ratios of 2.3 to 2.5
+    assert np.polyfit(np.log(number), np.log(rho), 1)[0] == pytest.approx(-2, abs=0.8)
+    assert rho[0] > 2*rho[-1]
