@@ -123,18 +123,18 @@ CLAIMS = (
           statement="Eq. 25, added as J_ij + J_ji, with the volume it lacks, gives long waves the right fluctuation of energy: "
                     "variance over its due, a line of nearest neighbours"),
     Claim(id="rr98-fluct-eq25-gradient", source="RR98 Eqs 20-25", expect=1, within=0.01, value=gradient_ratio,
-          because="1 %: sound, which the closed form leaves out, is faster than diffusion by c/(nu k) = 70 and more",
+          because="1 %: sound and local equilibrium, which the closed form leaves out, add up to 3 contrast^2; waves enhanced by "
+                  "500 contrast^2 and more",
           statement="temperature waves across a gradient are enhanced by what transverse velocities carry, (grad T)^2 <v v>/(D "
-                    "(nu + D) k^4): Lyapunov over closed form, waves of 30 to 90 spacings, profile of one period"),
+                    "(nu + D) k^4): Lyapunov over closed form, profile of one period"),
     Claim(id="rr98-fluct-eq25-fourth-power", source="RR98 Eqs 20-25", expect=-4, within=0.05, value=gradient_slope,
-          because="0.05: of two per cent over a factor of two in k",
-          statement="the enhancement falls as k^-4: power from waves of 30 to 60 spacings, what the period takes from it "
-                    "divided out"),
+          because="0.05: errors of 0.5 % over a factor of two in k are worth 0.01, three waves make the interval wide",
+          statement="the enhancement falls as k^-4: power from waves enhanced by 500 contrast^2 and more, shorter than the period, "
+                    "what the period takes from it divided out"),
     Claim(id="rr98-fluct-eq25-onset", source="RR98 Eqs 20-25", printed="the flow is stable", expect=-1, within=0.02,
-          value=onset_power,
-          because="0.02: other modes add a constant, of 1 % at 0.05 below onset",
+          value=onset_power, because="0.02: the next term of the slow mode's rate, and other modes, are worth 1 % at 0.02 below",
           statement="fluctuations of a layer heated from below grow as 1/(Ra_c - Ra) on the way to onset, Ra_c by eigenvalues: "
-                    "power of 1 - Ra/Ra_c in <w w> less equilibrium, 0.005 to 0.05"),
+                    "power of 1 - Ra/Ra_c in <w w> less equilibrium, 0.005 to 0.02"),
     Claim(id="rr98-fluct-eq40-euler", source="RR98 Eq. 40", expect=1, within=0.01,
           because="1 %",
           value=stepped("forward-euler", 0.1, fluid="isothermal", wavenumber=0.02),

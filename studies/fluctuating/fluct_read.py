@@ -1,6 +1,7 @@
 """Values of the claims of the study fluctuations: from its tables, or from arithmetic    [RR98 Eqs 20-25, 40-44]"""
 
 import numpy as np
+import pandas as pd
 from scipy.special import stdtrit
 
 from studies.convection.claims.read import Value, select
@@ -84,22 +85,28 @@ def growth(tables: Tables) -> Measured:
     return Measured(float(select(tables, "rest", maker="plain")["growth"].max()), 0.0)
 
 
-def gradient_ratio(tables: Tables) -> Measured:
-    """Enhancement over its closed form, farthest from 1 of waves of 30 to 90 spacings."""
+def enhanced(tables: Tables) -> pd.DataFrame:
+    """Waves enhanced by 500 contrast^2 and more: other effects of a gradient are of the order of contrast^2."""
     rows = select(tables, "gradient")
-    rows = rows[rows["wavenumber"].between(0.069, 0.201)]
+    rows = rows[rows["predicted"] > 500]
     if rows.empty:
-        raise CannotTell("not run yet: waves of 30 to 90 spacings")
+        raise CannotTell("not run yet: waves enhanced by 500 contrast^2 and more")
+    return rows
+
+
+def gradient_ratio(tables: Tables) -> Measured:
+    """Enhancement over its closed form, farthest from 1."""
+    rows = enhanced(tables)
     ratio = rows["extra"]/rows["predicted"]
     return Measured(float(ratio.iloc[int(np.argmax(np.abs(ratio - 1)))]), 0.0)
 
 
 def gradient_slope(tables: Tables) -> Measured:
-    """Power of k of the enhancement, divided by what the period of the profile takes from it, k 0.1 to 0.2."""
-    rows = select(tables, "gradient")
-    rows = rows[rows["wavenumber"].between(0.099, 0.201)]
+    """Power of k of the enhancement, divided by what the period of the profile takes from it; waves shorter than the period."""
+    rows = enhanced(tables)
+    rows = rows[rows["wavenumber"] > 2*np.pi/rows["period"]]
     if len(rows) < 3:
-        raise CannotTell("not run yet: three waves of 30 to 60 spacings")
+        raise CannotTell("not run yet: three waves that are shorter than the period and strongly enhanced")
     q = 2*np.pi/rows["period"]
     # with nu = 2 D: k^2/(k^2 + q^2)/[k^2 (2 (k^2 + q^2) + k^2)] of K^-4
     k = rows["wavenumber"]
@@ -108,10 +115,10 @@ def gradient_slope(tables: Tables) -> Measured:
 
 
 def onset_power(tables: Tables) -> Measured:
-    """Power of 1 - Ra/Ra_c in the enhancement of <w w>, 0.005 to 0.05, all heights."""
+    """Power of 1 - Ra/Ra_c in the enhancement of <w w>, 0.005 to 0.02: of all heights that farthest from -1."""
     found = []
     for _, rows in select(tables, "onset").groupby("rows"):
-        rows = rows[rows["below"] < 0.06]
+        rows = rows[rows["below"] < 0.021]
         found.append(line(np.log(rows["below"].to_numpy()), np.log(rows["velocity"].to_numpy() - 1)))
     slope = max(found, key=lambda one: abs(one[0] + 1))
     return Measured(*slope)
