@@ -129,12 +129,12 @@ CLAIMS = (
                     "(nu + D) k^4): Lyapunov over closed form, profile of one period"),
     Claim(id="rr98-fluct-eq25-fourth-power", source="RR98 Eqs 20-25", expect=-4, within=0.05, value=gradient_slope,
           because="0.05: errors of 0.5 % over a factor of two in k are worth 0.01, three waves make the interval wide",
-          statement="the enhancement falls as k^-4: power from waves enhanced by 500 contrast^2 and more, shorter than the period, "
-                    "what the period takes from it divided out"),
+          statement="the enhancement falls as k^-4: power from waves enhanced by 500 contrast^2 and more, shorter than the "
+                    "period, what the period takes from it divided out"),
     Claim(id="rr98-fluct-eq25-onset", source="RR98 Eqs 20-25", printed="the flow is stable", expect=-1, within=0.02,
-          value=onset_power, because="0.02: the next term of the slow mode's rate, and other modes, are worth 1 % at 0.02 below",
+          value=onset_power, because="0.02: the next term of the slow mode's rate, and other modes, are worth 1 % at 0.01 below",
           statement="fluctuations of a layer heated from below grow as 1/(Ra_c - Ra) on the way to onset, Ra_c by eigenvalues: "
-                    "power of 1 - Ra/Ra_c in <w w> less equilibrium, 0.005 to 0.02"),
+                    "power of 1 - Ra/Ra_c in <w w> less equilibrium, nearest to onset"),
     Claim(id="rr98-fluct-eq40-euler", source="RR98 Eq. 40", expect=1, within=0.01,
           because="1 %",
           value=stepped("forward-euler", 0.1, fluid="isothermal", wavenumber=0.02),

@@ -115,13 +115,16 @@ def gradient_slope(tables: Tables) -> Measured:
 
 
 def onset_power(tables: Tables) -> Measured:
-    """Power of 1 - Ra/Ra_c in the enhancement of <w w>, 0.005 to 0.02: of all heights that farthest from -1."""
+    """Power of 1 - Ra/Ra_c in the enhancement of <w w> nearest to onset, of all heights that farthest from -1.
+
+    From the two nearest values; the error is what the two before them give another power.
+    """
     found = []
     for _, rows in select(tables, "onset").groupby("rows"):
-        rows = rows[rows["below"] < 0.021]
-        found.append(line(np.log(rows["below"].to_numpy()), np.log(rows["velocity"].to_numpy() - 1)))
-    slope = max(found, key=lambda one: abs(one[0] + 1))
-    return Measured(*slope)
+        x, y = (np.log(q.to_numpy()) for q in (rows.sort_values("below")["below"], rows.sort_values("below")["velocity"] - 1))
+        nearest, before = (np.diff(y)/np.diff(x))[:2]
+        found.append(Measured(float(nearest), float(abs(nearest - before))))
+    return max(found, key=lambda one: abs(one.value + 1))
 
 
 # --- steps ------------------------------------------------------------------------------------------------------------
