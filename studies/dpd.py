@@ -15,16 +15,18 @@ from studies.kit.study import Study, main
 
 INTEGRATORS = (TwoStep, GrootWarren, GrootWarren65, VelocityVerlet, Shardlow)
 STEPS = (0.01, 0.02, 0.03, 0.04, 0.06, 0.08)
+GAS = (0.02, 0.04, 0.06, 0.08, 0.12)       # without repulsion friction alone limits the step
 LONG = 12_000       # steps of a run: its error of kT over dt is what counts, which falls as dt grows
 
 
 def cases(size: str) -> list[Fluid]:
     """`quick` has small boxes, short runs and three steps."""
     if size == "quick":
-        return [*temperatures((0.02, 0.04, 0.06), side=5.0, steps=1000),
+        return [*temperatures((0.02, 0.04, 0.06), side=5.0, steps=1000), *gas((0.04, 0.08, 0.12), side=5.0, steps=1000),
                 *densities((2.5, 3.5), side=5.0, time=20.0),
                 *waves_and_shear((0.2,), side=5.0, time=30.0, long=30.0)]
-    return [*temperatures(STEPS, side=8.0, steps=LONG), Rest(integrator=Shardlow, dt=0.01, time=120.0),
+    return [*temperatures(STEPS, side=8.0, steps=LONG), *gas(GAS, side=8.0, steps=LONG),
+            Rest(integrator=Shardlow, dt=0.01, time=120.0), Rest(integrator=TwoStep, dt=0.01, time=300.0),
             *densities((2.6, 2.8, 3.2, 3.4, 4.0, 5.0, 6.0, 8.0), side=8.0, time=60.0), *table(),
             *waves_and_shear((0.1, 0.2, 0.4), side=10.0, time=110.0, long=300.0)]
 
@@ -35,6 +37,11 @@ def temperatures(found: tuple[float, ...], *, side: float, steps: int) -> Iterat
         yield from (Rest(integrator=integrator, dt=dt, side=side, time=steps*dt) for dt in found)
     yield Rest(integrator=GrootWarren65, dt=0.04, noise=Normal, side=side, time=steps*0.04)
     yield Rest(integrator=Shardlow, d=2, side=4*side, time=steps*0.02/4)
+
+
+def gas(found: tuple[float, ...], *, side: float, steps: int) -> Iterator[Fluid]:
+    """RR98's step without repulsion: what friction and noise alone do to kT."""
+    yield from (Rest(integrator=TwoStep, a=0.0, dt=dt, side=side, time=steps*dt) for dt in found)
 
 
 def densities(found: tuple[float, ...], *, side: float, time: float) -> Iterator[Fluid]:

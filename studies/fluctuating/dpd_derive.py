@@ -8,6 +8,7 @@ import pandas as pd
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
 
+RHO, GAMMA = 3.0, 4.5
 SEEN = 2.0          # an error is no chance if it exceeds its half width so many times
 
 
@@ -16,7 +17,7 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     states = tables["states"] if "states" in tables else pd.DataFrame()
     rows: dict[str, list[dict[str, Any]]] = {}
     if len(states):
-        rows["errors"] = list(errors(states))
+        rows["errors"] = list(errors(states, tables.get("pairs", pd.DataFrame())))
         rows["excess"] = list(excess(states))
         rows["compression"] = list(compression(states, tables.get("structure", pd.DataFrame())))
     return rows
@@ -35,25 +36,37 @@ def standard(states: pd.DataFrame) -> pd.DataFrame:
     return states[(states["d"] == 3) & (states["kT"] == 1) & (states["noise"] == "Uniform")]
 
 
-def errors(states: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    """One row an integrator and temperature."""
+def friction(pairs: pd.DataFrame, a: float) -> float:
+    """(rho gamma/(2 d)) int w^2 g dV in three dimensions at rho = 3; without repulsion g = 1."""
+    r = (np.arange(3000) + 0.5)/3000
+    some = pairs[(pairs["a"] == a) & (pairs["rho"] == RHO)] if len(pairs) else pairs
+    if a and not len(some):
+        return np.nan
+    g = np.interp(r, some["r"], some["g"]) if a else np.ones_like(r)
+    return float(RHO*GAMMA/6*np.mean(4*np.pi*r**2*(1 - r)**2*g))
+
+
+def errors(states: pd.DataFrame, pairs: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """One row an integrator, repulsion and temperature."""
     chosen = standard(states)
-    chosen = chosen[(chosen["a"] == 25) & (chosen["rho"] == 3)]
-    for integrator, group in chosen.groupby("integrator"):
-        group = group.sort_values("dt").drop_duplicates("dt", keep="last")      # the largest box of a step
+    for (integrator, _), group in chosen[chosen["rho"] == RHO].groupby(["integrator", "a"]):
+        a = float(group["a"].iloc[0])
         for temperature in ("kinetic", "configurational"):
-            dt, off = group["dt"].to_numpy(), group[temperature].to_numpy() - 1
-            err = group[f"{temperature}_err"].to_numpy()
-            if len(dt) < 3:
+            some = group[group[temperature].notna()]
+            dt, off, err = some["dt"].to_numpy(), some[temperature].to_numpy() - 1, some[f"{temperature}_err"].to_numpy()
+            if len(set(dt)) < 3:
                 continue
-            linear, quadratic = weighted(np.stack([dt, dt**2], axis=1), off, err)
+            terms = [dt**p for p in (1, 2, 3)[:len(set(dt)) - 1]]
+            linear, quadratic, cubic = [*weighted(np.stack(terms, axis=1), off, err), Measured(np.nan, np.nan)][:3]
             seen = np.abs(off) > SEEN*err
             order = Measured(np.nan, np.nan)
             if seen.sum() >= 3:
                 logs = np.stack([np.log(dt[seen]), np.ones(seen.sum())], axis=1)
                 order = weighted(logs, np.log(np.abs(off[seen])), err[seen]/np.abs(off[seen]))[0]
-            yield {"integrator": integrator, "temperature": temperature, "steps": len(dt), "linear": linear.value,
+            yield {"integrator": integrator, "a": a, "temperature": temperature, "friction": friction(pairs, a), "steps": len(dt),
+                   "linear": linear.value,
                    "linear_err": linear.err, "quadratic": quadratic.value, "quadratic_err": quadratic.err,
+                   "cubic": cubic.value, "cubic_err": cubic.err,
                    "used": int(seen.sum()), "order": order.value, "order_err": order.err}
 
 
