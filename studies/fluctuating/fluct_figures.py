@@ -43,6 +43,8 @@ def flows(tables: Tables) -> Figure:
     left.plot(k[high], rows["predicted"].iloc[-1]*(k[high]/k[-1])**-4, color="grey", linestyle=":", marker="", label="$k^{-4}$")
     left.set(xscale="log", yscale="log", xlabel="$ka$ across the gradient", ylabel=r"$\langle TT\rangle - 1$ over contrast$^2$",
              title="temperature gradient")
+    left.set_xticks([0.05, 0.1, 0.2, 0.4], labels=["0.05", "0.1", "0.2", "0.4"])
+    left.minorticks_off()
     left.legend()
     for number, (n, group) in enumerate(tables["onset"].groupby("rows")):
         right.plot(group["below"], group["velocity"] - 1, **look(number), label=f"{n:.0f} rows")
