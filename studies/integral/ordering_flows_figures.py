@@ -7,7 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from studies.integral.ordering_flows import WANTED
-from studies.kit.figure import errorbar, figure
+from studies.integral.ordering_flows_claims import WIDTH
+from studies.kit.figure import errorbar, figure, look
 from studies.kit.table import Tables
 
 VORTEX = {"flow": "taylor-green", "quantity": "velocity"}
@@ -34,12 +35,14 @@ def pick(rows: pd.DataFrame, **where) -> pd.DataFrame:
 
 
 def curve(axes: Axes, rows: pd.DataFrame, x: str, number: int, label: str) -> None:
-    """Errors over x; a curve of which no seed was lost, or what its label says of it."""
+    """Sizes of errors over x, hollow where the error is negative; the label says how many points lost a seed."""
     told = rows[(rows["lost"] == 0) & rows["off"].notna()].sort_values(x)
     lost = len(rows) - len(told)
     if len(rows):
         label += f" (diverged: {lost} of {len(rows)})" if lost else ""
         errorbar(axes, *([told[name].tolist() for name in (x, "off", "error_err")]), number=number, linestyle="-", label=label)
+        low = told[told["error"] < 0]
+        axes.plot(low[x], low["off"], **{**look(number), "linestyle": "none"}, markerfacecolor="white", zorder=5)
 
 
 def over_range(flows: pd.DataFrame) -> Figure:
@@ -49,11 +52,13 @@ def over_range(flows: pd.DataFrame) -> Figure:
         rows = pick(flows, **which, maker="renormalised", points="lattice")
         for number, (size, group) in enumerate(rows.groupby("resolution")):
             curve(axes, group, "h", number, rf"${SIZES[which['flow']]}$ = {size:g} $a$")
-        finish(axes, (1.2, 1.5, 2, 2.5, 3, 4), "range $h/a$", NAMES[which["flow"]])
-        axes.axvspan(1.1, 1/0.42, color="0.9", zorder=0, label="$r_0 < a$")
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=3)
+        finish(axes, sorted(set(rows["h"])), "range $h/a$", NAMES[which["flow"]])
+        low, _ = axes.get_xlim()
+        axes.axvspan(low, 1/WIDTH, color="0.9", zorder=0, label="$r_0 < a$")
+        axes.set_xlim(left=low)
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)
     both[0].set_ylabel("relative error")
-    page.suptitle("Must $a < r_0$ hold?  Lucy's weight, renormalised, on a lattice; dotted: 1 %", fontsize=10)
+    page.suptitle("Must $a < r_0$ hold?  Lucy's weight, renormalised, on a lattice; dotted: 1 %, hollow: K too low", fontsize=10)
     return page
 
 
@@ -75,6 +80,7 @@ def over_points(flows: pd.DataFrame) -> Figure:
     decorate(rows[1, 2], LAYER, "irregular")
     for axes in rows[:, 0]:
         axes.set_ylabel("relative error")
+    page.suptitle("Dotted: 1 %; hollow: K too low; bars: 95 % over point sets", fontsize=10)
     return page
 
 
