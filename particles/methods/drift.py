@@ -194,20 +194,19 @@ class Drift:
 
 @limit_of.register
 def _(method: Drift, start: np.ndarray) -> float:
-    """RK4: waves on a lattice of the mean spacing, 1.4 times slower than points off it may be.
+    """RK4: waves on a lattice of the mean spacing; points lie off it, where they may be 1.4 times as fast.
 
-    Volumes that stay add 2 P grad(n dV) to the force, so that sound is as fast as S^2 c^2 + 2 D P/rho allows; where volumes
-    follow the flow it is slower.
+    Volumes that stay add 2 P grad(n dV) to the force: omega^2 = S^2 c^2 + 2 D P/rho, S and D as in `limits`. Where volumes
+    follow the flow waves are slower.
     """
     rho, e = method.thermal(start)
     T, a = temperature(method.eos, rho, e), float(np.sqrt(start[6].mean()))
-    sums = lattice_sums(method.weight, method.scale*a*a, 1.0, zone(a))
-    stiff = np.linalg.eigvalsh(sums.D)[:, -1]*method.scale*a*a
-    slow = (sums.S**2).sum(axis=1)*(method.scale*a*a)**2
+    sums, f = lattice_sums(method.weight, a*a, 1.0, zone(a)), method.scale*a*a
+    slow, stiff = f*f*(sums.S**2).sum(axis=1), f*np.linalg.eigvalsh(sums.D)[:, -1]
     c2, P = np.max(sound_speed(method.eos, rho, e)**2), np.max(np.abs(pressure(method.eos, rho, e))/rho)
     cv = 1e-6/(temperature(method.eos, rho, e + 1e-6) - T)
     chi = np.max(np.maximum(viscosity(method.law, rho, T), conductivity(method.law, rho, T)/cv)/rho)
-    fast, spread = np.sqrt(np.max(c2*slow + 2*P*stiff)), chi*np.max(sums.k2[Direct])
+    fast, spread = np.sqrt(np.max(c2*slow + 2*P*stiff)), chi*method.scale*np.max(sums.k2[Direct])
     return float(1/1.4/(fast/2.82 + spread/2.78))
 
 
