@@ -187,13 +187,13 @@ def step_seconds(tables: Tables) -> dict[tuple, float]:
 
 
 def cost(runs: pd.DataFrame, row: Mapping[Any, Any], seconds: dict[tuple, float]) -> float:
-    """CPU seconds of what a mean is made of: all seeds of particles; a grid with the coarser ones that it starts from.
+    """CPU seconds of what a mean is made of: all seeds of particles and points; a grid with the coarser ones it starts from.
 
     Steps times the seconds of one step measured alone where there is such a row, else what the run took beside others.
     """
     same = [name for name in POINT if name != "resolution"]
     group = runs[(runs[same] == pd.Series({name: row[name] for name in same})).all(axis=1)]
-    if row["method"] == "spam":
+    if row["method"] not in GRIDS:
         group = group[group["resolution"] == row["resolution"]]
     group = group[group["resolution"] <= row["resolution"]]
     machine = [tuple(run[name] for name in MACHINE) for run in group.to_dict("records")]

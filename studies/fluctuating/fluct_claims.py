@@ -266,7 +266,7 @@ CLAIMS = (
           because="next order, 1/(nu t) = 3 %",
           statement="wider weights make no difference to that: tail over 1/(4 pi nu t) in 2D, h = 2 a, nu t = 30 a^2"),
     Claim(id="rr98-fluct-equipartition", source="RR98 Eqs 22, 24", expect=1, within=0.005, value=total,
-          because="half a per cent, as wanted",
+          because="half a per cent: the size that an experiment resolves",
           statement="sampled, all degrees of freedom of a gas at rest together have their variance: mean ratio, jittered "
                     "points"),
     Claim(id="rr98-fluct-equipartition-rms", source="RR98 Eqs 22, 24", expect=1.057, within=0.35, value=rms_z,
@@ -281,11 +281,11 @@ CLAIMS = (
           statement="the static structure factor is flat, S(k) = kT/(m c_T^2): mean over sampled density waves on jittered "
                     "points"),
     Claim(id="rr98-fluct-brillouin-position", source="RR98 Eqs 20-25", expect=1, within=0.005, value=peak("position"),
-          because="half a per cent, as wanted",
+          because="half a per cent: the size that an experiment resolves",
           statement="the Brillouin peak of sampled density waves lies where the lattice symbol has sound: ratio, waves of 8 "
                     "spacings"),
     Claim(id="rr98-fluct-brillouin-width", source="RR98 Eqs 20-25", expect=1, within=0.03, value=peak("half width"),
-          because="3 %, as wanted",
+          because="3 %: the size that an experiment resolves",
           statement="its half width is the symbol's damping of sound: ratio, waves of 8 spacings"),
     Claim(id="rr98-fluct-rayleigh-width", source="RR98 Eqs 20-25", expect=1, within=0.05, value=peak("Rayleigh half width"),
           because="5 %: what samples reach",
