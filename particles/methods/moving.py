@@ -4,8 +4,10 @@ Points have volumes that change as their surroundings do. Faces S_ij = -S_ji bet
 and are exact on linear fields, as nearly as a few iterations make them; points drift with the fluid and a little towards even
 spacing, and what volume they leave to each other carries mass, momentum and energy along. RR98's moving points (Eqs 46-48, on
 volumes that stay) lose all of these. How faces are made and closed is in `faces`. Between plates convection and pressure see
-images without friction, friction and heat others: see `layer`. """ from dataclasses import dataclass from typing import Any,
-NamedTuple
+images without friction, friction and heat others: see `layer`.
+"""
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 
