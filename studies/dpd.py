@@ -50,7 +50,8 @@ def densities(found: tuple[float, ...], *, side: float, time: float) -> Iterator
 
 
 def table() -> Iterator[Fluid]:
-    """States of Allen & Tildesley: a = 75 kT/rho."""
+    """States of Allen & Tildesley: a = 75 kT/rho; one with their 100 particles."""
+    yield Rest(integrator=Shardlow, side=(100/3)**(1/3), time=4000.0)
     for kT, rho in ((1.0, 2.0), (1.0, 4.0), (1.0, 5.0), (0.5, 3.0)):
         yield Rest(integrator=Shardlow, dt=0.01, a=75*kT/rho, kT=kT, rho=rho, side=8.0, time=60.0)
 
