@@ -26,7 +26,7 @@ from studies.kit.case import Case, Outcome, Report
 RE = 100.0          # several turns of the vortices while they decay: pressure and convection matter, not friction alone
 SOUND = np.sqrt(2)  # of the gas with C_V = 1 at T = 1, in 2D
 DECAYS = 1.0        # 2 nu k^2 t at the end: velocities are a factor e smaller
-OF_LIMIT = 0.5      # of the step to its limit: RK4 then turns the vortices' own sound by less than 1e-4 too little
+OF_LIMIT = 0.5      # of the step to its limit: half of it changes the errors by 2e-4 of themselves
 #: points of the Fourier sums along each axis: odd, or the shortest wave goes unseen; with 25 products of short waves feed on the
 #: flow faster than friction takes from them
 ODD, COARSER = 33, 29
