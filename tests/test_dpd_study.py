@@ -41,7 +41,7 @@ def test_fits_have_honest_errors(law, column, truth):
     """The 95 % interval covers the truth in 95 % of 200 trials, give or take three sigma."""
     rng, hits = np.random.default_rng(0), []
     for _ in range(200):
-        row = next(dpd_derive.errors(states(rng, law, 0.002), pd.DataFrame()))
+        row = next(dpd_derive.errors(states(rng, law, 0.002)))
         hits.append(abs(row[column] - truth) < row[f"{column}_err"])
     assert 0.90 < np.mean(hits) <= 1.0
 

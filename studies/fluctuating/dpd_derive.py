@@ -9,6 +9,7 @@ from studies.kit.stats import Measured
 from studies.kit.table import Tables
 
 RHO, GAMMA = 3.0, 4.5
+SHORT = 3           # steps of an order: it is that of small steps
 SEEN = 2.0          # an error is no chance if it exceeds its half width so many times
 
 
@@ -17,7 +18,7 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     states = tables["states"] if "states" in tables else pd.DataFrame()
     rows: dict[str, list[dict[str, Any]]] = {}
     if len(states):
-        rows["errors"] = list(errors(states, tables.get("pairs", pd.DataFrame())))
+        rows["errors"] = list(errors(states))
         rows["excess"] = list(excess(states))
         rows["compression"] = list(compression(states, tables.get("structure", pd.DataFrame())))
     return rows
@@ -36,17 +37,14 @@ def standard(states: pd.DataFrame) -> pd.DataFrame:
     return states[(states["d"] == 3) & (states["kT"] == 1) & (states["noise"] == "Uniform")]
 
 
-def friction(pairs: pd.DataFrame, a: float) -> float:
-    """(rho gamma/(2 d)) int w^2 g dV in three dimensions at rho = 3; without repulsion g = 1."""
-    r = (np.arange(3000) + 0.5)/3000
-    some = pairs[(pairs["a"] == a) & (pairs["rho"] == RHO)] if len(pairs) else pairs
-    if a and not len(some):
-        return np.nan
-    g = np.interp(r, some["r"], some["g"]) if a else np.ones_like(r)
-    return float(RHO*GAMMA/6*np.mean(4*np.pi*r**2*(1 - r)**2*g))
+#: what forward friction adds to kT over dt, Lambda the matrix of friction, with covariances C = kT + delta of velocities:
+#: d delta/dt = -Lambda delta - delta Lambda + dt kT Lambda^2. Points that stand still: delta = dt kT Lambda/2, of which the mean
+#: is (rho gamma/2d) int w^2 dV. Points that mix at once: delta = dt kT <Lambda^2>/(2 <Lambda>). Of points without order, in 3D:
+STILL = RHO*GAMMA/6*2*np.pi/15
+MIXED = STILL + GAMMA/(2*np.pi/15)*4*np.pi/105
 
 
-def errors(states: pd.DataFrame, pairs: pd.DataFrame) -> Iterator[dict[str, Any]]:
+def errors(states: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """One row an integrator, repulsion and temperature."""
     chosen = standard(states)
     for (integrator, _), group in chosen[chosen["rho"] == RHO].groupby(["integrator", "a"]):
@@ -59,11 +57,12 @@ def errors(states: pd.DataFrame, pairs: pd.DataFrame) -> Iterator[dict[str, Any]
             terms = [dt**p for p in (1, 2, 3)[:len(set(dt)) - 1]]
             linear, quadratic, cubic = [*weighted(np.stack(terms, axis=1), off, err), Measured(np.nan, np.nan)][:3]
             seen = np.abs(off) > SEEN*err
+            seen &= dt <= np.append(np.unique(dt[seen]), [np.inf]*SHORT)[SHORT - 1]
             order = Measured(np.nan, np.nan)
-            if seen.sum() >= 3:
+            if seen.sum() >= SHORT:
                 logs = np.stack([np.log(dt[seen]), np.ones(seen.sum())], axis=1)
                 order = weighted(logs, np.log(np.abs(off[seen])), err[seen]/np.abs(off[seen]))[0]
-            yield {"integrator": integrator, "a": a, "temperature": temperature, "friction": friction(pairs, a), "steps": len(dt),
+            yield {"integrator": integrator, "a": a, "temperature": temperature, "still": STILL, "mixed": MIXED, "steps": len(dt),
                    "linear": linear.value,
                    "linear_err": linear.err, "quadratic": quadratic.value, "quadratic_err": quadratic.err,
                    "cubic": cubic.value, "cubic_err": cubic.err,
