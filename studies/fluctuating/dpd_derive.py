@@ -9,6 +9,7 @@ from studies.kit.stats import Measured
 from studies.kit.table import Tables
 
 RHO, GAMMA = 3.0, 4.5
+FEW = 100           # particles: a mean of ratios, as the configurational kT is, is off by about 1/n
 SHORT = 3           # steps of an order: it is that of small steps
 SEEN = 2.0          # an error is no chance if it exceeds its half width so many times
 
@@ -33,8 +34,9 @@ def weighted(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> list[Measured]:
 
 
 def standard(states: pd.DataFrame) -> pd.DataFrame:
-    """Three dimensions, kT = 1, uniform noise."""
-    return states[(states["d"] == 3) & (states["kT"] == 1) & (states["noise"] == "Uniform")]
+    """Three dimensions, kT = 1, uniform noise, more than the few particles of print."""
+    chosen = states[(states["d"] == 3) & (states["kT"] == 1) & (states["noise"] == "Uniform")]
+    return chosen[chosen["n"] > FEW]
 
 
 #: what forward friction adds to kT over dt, Lambda the matrix of friction, with covariances C = kT + delta of velocities:
