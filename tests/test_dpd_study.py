@@ -30,8 +30,8 @@ def states(rng, law, err):
     """A table of kT over the step, with so much chance in it."""
     dt = np.array([0.01, 0.02, 0.03, 0.04, 0.06, 0.08])
     off = law(dt) + rng.normal(0, err/1.96, dt.size)
-    return pd.DataFrame({"integrator": "made up", "noise": "Uniform", "d": 3, "a": 25.0, "kT": 1.0, "rho": 3.0, "n": 1000, "dt": dt,
-                         **{name: 1 + off for name in ("kinetic", "configurational")},
+    return pd.DataFrame({"integrator": "made up", "noise": "Uniform", "d": 3, "a": 25.0, "kT": 1.0, "rho": 3.0, "n": 1000,
+                         "dt": dt, **{name: 1 + off for name in ("kinetic", "configurational")},
                          **{f"{name}_err": err for name in ("kinetic", "configurational")}})
 
 

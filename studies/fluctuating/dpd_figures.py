@@ -26,7 +26,10 @@ def temperature(states: pd.DataFrame) -> Figure:
     """Error of kT over the step."""
     page, axes = figure(1, 2, width=4.6, height=4.2, sharey=True)
     chosen = standard(states)
-    chosen = chosen[(chosen["a"] == 25) & (chosen["rho"] == 3)].sort_values("dt")
+    chosen = chosen[(chosen["a"] == 25) & (chosen["rho"] == 3)]
+    chosen = chosen.sort_values("time").drop_duplicates(["integrator", "dt"], keep="last").sort_values("dt")
+    everyone = chosen.groupby("dt")["integrator"].transform("nunique") == chosen["integrator"].nunique()
+    chosen = chosen[everyone]
     for panel, name in zip(axes, ("kinetic", "configurational"), strict=True):
         for number, (integrator, label) in enumerate(NAMES.items()):
             some = chosen[chosen["integrator"] == integrator]
