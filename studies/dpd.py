@@ -6,8 +6,8 @@ Writes results/dpd/*.csv and *.png and the rows of study dpd in results/claims.c
 """
 from collections.abc import Iterator
 
+from particles.blocks import Normal
 from particles.integrators import TwoStep
-from particles.methods.dpd import Normal
 from particles.thermal import GrootWarren, GrootWarren65, Shardlow, VelocityVerlet
 from studies.fluctuating import dpd_claims, dpd_derive, dpd_figures, dpd_tables
 from studies.fluctuating.dpd_cases import Fluid, Rest, Shear, Structure

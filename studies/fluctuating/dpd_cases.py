@@ -4,7 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
-from particles.methods.dpd import Dpd, Uniform
+from particles.blocks import Uniform
+from particles.methods.dpd import Dpd
 from particles.observe_dpd import (
     Displacement,
     PairDistribution,

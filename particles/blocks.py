@@ -1,0 +1,216 @@
+"""Pair sums of dissipative particles, compiled: a block of rows after the other, whose pairs stay in the cache.
+
+Each block finds the pairs in range, draws their random numbers, weighs them in loops for vector instructions, and sums a term
+over them with `pairs.sweep`.
+"""
+from typing import NamedTuple
+
+import numpy as np
+
+from continuum.jit import generic, jit
+from particles.neighbours import u32, u64
+from particles.noise import normal_of_pair, uniform_of_pair
+from particles.pairs import between, nothing, rate, sweep
+
+Record = np.dtype([(name, "f8") for name in ("x", "y", "z", "vx", "vy", "vz")] + [("id", "u8"), ("image", "u8")])
+ROWS = 32       # of a block: their pairs take some 30 KB
+
+
+class Uniform(NamedTuple):
+    """zeta is uniform between -sqrt 3 and sqrt 3    [Groot & Warren 1997]"""
+    seed: int
+
+
+class Normal(NamedTuple):
+    """zeta is normal."""
+    seed: int
+
+
+class Silent(NamedTuple):
+    """zeta = 0."""
+    seed: int
+
+
+@generic
+def draw(noise, step, i, j, count, zeta):
+    """zeta[k] of the first `count` pairs of particles with numbers i[k], j[k] in a step."""
+
+
+@jit
+def _uniform(noise, step, i, j, count, zeta):
+    for k in range(count):
+        zeta[k] = uniform_of_pair(noise.seed, step, i[k], j[k])
+
+
+@jit
+def _normal(noise, step, i, j, count, zeta):
+    for k in range(count):
+        zeta[k] = normal_of_pair(noise.seed, step, i[k], j[k])
+
+
+@jit
+def _silent(noise, step, i, j, count, zeta):
+    zeta[:count] = 0.0
+
+
+draw.of(Uniform)(lambda noise, step, i, j, count, zeta: _uniform(noise, step, i, j, count, zeta))
+draw.of(Normal)(lambda noise, step, i, j, count, zeta: _normal(noise, step, i, j, count, zeta))
+draw.of(Silent)(lambda noise, step, i, j, count, zeta: _silent(noise, step, i, j, count, zeta))
+
+
+class Law(NamedTuple):
+    """a, gamma, the amplitude of the noise, and 1/rc."""
+    a: float
+    gamma: float
+    sigma: float
+    per_rc: float
+
+
+class Near(NamedTuple):
+    """Pairs of row i within rc: near, (dx, dy, dz) = r_i - r_j [first[i]:first[i] + taken[i]]; own, other: their numbers.
+
+    f r is the force that does not depend on velocities, g r^2 the friction.
+    """
+    first: np.ndarray
+    taken: np.ndarray
+    near: np.ndarray
+    own: np.ndarray
+    other: np.ndarray
+    dx: np.ndarray
+    dy: np.ndarray
+    dz: np.ndarray
+    zeta: np.ndarray
+    f: np.ndarray
+    g: np.ndarray
+
+
+class Apart(NamedTuple):
+    """What a term knows of a pair."""
+    dx: float
+    dy: float
+    dz: float
+    f: float
+    g: float
+
+
+between.of(Near)(lambda pairs, k: Apart(pairs.dx[k], pairs.dy[k], pairs.dz[k], pairs.f[k], pairs.g[k]))
+
+
+class Force(NamedTuple):
+    """All of the force."""
+
+
+@rate.of(Force)
+def _(term, a, b, ab):
+    """[f - g r.v_ab] r"""
+    c = ab.f - ab.g*(ab.dx*(a.vx - b.vx) + ab.dy*(a.vy - b.vy) + ab.dz*(a.vz - b.vz))
+    return c*ab.dx, c*ab.dy, c*ab.dz
+
+
+nothing.of(Force)(lambda term: (0.0, 0.0, 0.0))
+
+
+@jit
+def find_near(first, last, rc2, particle, lists, pairs):
+    """The pairs in range of rows first..last, r^2 as f; their number. The list is compressed without a branch."""
+    end = u64(0)
+    for i in range(u64(first), u64(last)):
+        a, begin = particle[i], end
+        for k in range(lists.start[i], lists.start[i] + lists.length[i]):
+            b = particle[lists.listed[k]]
+            dx, dy, dz = a.x - b.x, a.y - b.y, a.z - b.z
+            r2 = dx*dx + dy*dy + dz*dz
+            pairs.near[end], pairs.own[end], pairs.other[end] = lists.listed[k], a.id, b.id
+            pairs.dx[end], pairs.dy[end], pairs.dz[end], pairs.f[end] = dx, dy, dz, r2
+            end += u64(r2 < rc2)
+        pairs.first[i], pairs.taken[i] = begin, end - begin
+    return end
+
+
+@jit
+def weigh_near(law, count, zeta, f, g):
+    """f and g of the first `count` pairs from r^2 = f, in a loop for vector instructions."""
+    for k in range(count):
+        per_r = 1/np.sqrt(f[k])
+        w_r = per_r - law.per_rc        # w/r
+        f[k] = w_r*(law.a + law.sigma*zeta[k])
+        g[k] = law.gamma*w_r*w_r
+
+
+@jit
+def room_for(first, last, lists, taken):
+    """Arrays for the pairs of the longest block of rows first..last.
+
+    Each has memory of its own: rows of one array LLVM takes for the same memory, and makes no vector instructions.
+    """
+    room = 1
+    for start in range(first, last, ROWS):
+        room = max(room, int(lists.length[start:min(start + ROWS, last)].sum()) + 1)
+    return Near(taken[0], taken[1], np.empty(room, u32), np.empty(room, u64), np.empty(room, u64), np.empty(room), np.empty(room),
+                np.empty(room), np.empty(room), np.empty(room), np.empty(room))
+
+
+@jit
+def sum_pairs(first, last, term, law, noise, step, particle, lists, taken, out):
+    """out[i] = sum of the term over the pairs of row i, a block of rows after the other."""
+    pairs = room_for(first, last, lists, taken)
+    for start in range(first, last, ROWS):
+        end = min(start + ROWS, last)
+        count = find_near(start, end, 1/law.per_rc**2, particle, lists, pairs)
+        draw(noise, step, pairs.own, pairs.other, count, pairs.zeta)
+        weigh_near(law, count, pairs.zeta, pairs.f, pairs.g)
+        sweep(start, end, term, particle, pairs, out)
+
+
+@jit
+def record(first, last, x, v, ids, images, slid, boost, particle):
+    """Records of points first..last."""
+    for k in range(first, last):
+        p, i = particle[k], images.parent[k]
+        p.x, p.y = x[0, i] + (images.shift[k, 0] + images.up[k]*slid), x[1, i] + images.shift[k, 1]
+        p.vx, p.vy, p.id, p.image = v[0, i] + images.up[k]*boost, v[1, i], ids[i], i
+        p.z, p.vz = (x[2, i] + images.shift[k, 2], v[2, i]) if len(x) == 3 else (0.0, 0.0)
+
+
+@jit
+def turn(first, last, total, out):
+    """out (d, n) from sums (n, 3)."""
+    for i in range(first, last):
+        for axis in range(out.shape[0]):
+            out[axis, i] = total[i, axis]
+
+
+@jit
+def rub_pairs(n, law, noise, step, dt, particle, lists, taken, up, boost):
+    """Friction and noise on one pair after the other, implicit midpoint, which keeps kT at any step    [Shardlow 2003]
+
+    u' = u - K (u + u') + 2 s zeta along the pair, K = gamma w^2 dt, s^2 = 2 K kT: half of the change for each of the two.
+    """
+    pairs = room_for(0, n, lists, taken)
+    for start in range(0, n, ROWS):
+        end = min(start + ROWS, n)
+        count = find_near(start, end, 1/law.per_rc**2, particle, lists, pairs)
+        draw(noise, step, pairs.own, pairs.other, count, pairs.zeta)
+        for i in range(start, end):
+            a = particle[i]
+            for k in range(pairs.first[i], pairs.first[i] + pairs.taken[i]):
+                j = pairs.near[k]
+                image = particle[j].image
+                if image <= i:        # a pair of rows is that of the first
+                    continue
+                b, r = particle[image], np.sqrt(pairs.f[k])
+                ex, ey, ez, w = pairs.dx[k]/r, pairs.dy[k]/r, pairs.dz[k]/r, 1 - r*law.per_rc
+                u = ex*(a.vx - b.vx - (up[j] - up[image])*boost) + ey*(a.vy - b.vy) + ez*(a.vz - b.vz)
+                K = law.gamma*w*w*dt
+                q = (law.sigma*dt*w*pairs.zeta[k] - K*u)/(1 + K)
+                a.vx, a.vy, a.vz = a.vx + q*ex, a.vy + q*ey, a.vz + q*ez
+                b.vx, b.vy, b.vz = b.vx - q*ex, b.vy - q*ey, b.vz - q*ez
+
+
+@jit
+def velocities(particle, up, boost, v):
+    """v (d, n) from records."""
+    for i in range(v.shape[1]):
+        v[0, i], v[1, i] = particle[i].vx - up[i]*boost, particle[i].vy
+        if v.shape[0] == 3:
+            v[2, i] = particle[i].vz
