@@ -1,7 +1,7 @@
 """Dissipative particles: which integrator knows its temperature, and are pressure, structure and transport those of print?
 
 Groot & Warren's fluid (a = 25, rho = 3, gamma = 4.5, rc = 1, kT = 1) in a periodic cube, with RR98's Eqs 40, 41 and four other
-steps; states of Allen & Tildesley; waves of density; shear between sliding sides. Paper size takes some six minutes of one core.
+steps; states of Allen & Tildesley; waves of density; shear between sliding sides. Paper size takes some ten minutes of one core.
 Writes results/dpd/*.csv and *.png and the rows of study dpd in results/claims.csv.
 """
 from collections.abc import Iterator
