@@ -49,6 +49,8 @@ def surface(wavelengths: tuple[int, ...], disorders: list[str]) -> Iterator[Case
         for maker, h in product(("plain", "printed", "closed", "exact"), (2.0, 3.0)):
             if maker != "exact" or h == 3.0:
                 yield from wave(maker, Lucy, h, disorder, wavelength)
+        if wavelength == 32:
+            yield from wave("plain", Lucy, 1.2, disorder, wavelength)       # where Eq. 45 does not hold
         for weight in (Monaghan, WendlandC2):
             yield from wave("renormalised", weight, 3.0, disorder, wavelength)
         yield from wave("delaunay", Lucy, 2.0, disorder, wavelength)

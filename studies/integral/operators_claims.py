@@ -62,6 +62,13 @@ def printed_factor(d: int) -> Value:
     return value
 
 
+def plain_loss(r0: float) -> Value:
+    """What W dV on a lattice takes from the first moment, 3, of the exponential weight in 3D, over it."""
+    def value(tables: Tables) -> Measured:
+        return Measured(1 - cell("lattice", "value", how="plain", weight="Exponential", d=3, r0=r0, n=1)(tables).value/3, 0.0)
+    return value
+
+
 LAWS = "the continuum's own laws, which the paper takes from elsewhere: exact derivatives of them are what its sums are judged by"
 INTERPOLANT = (
     Claim(id="rr98-eq1-symbol", source="RR98 Eq. 1", printed="grad A", at_most=1e-9, because=QUADRATURE,
@@ -184,6 +191,10 @@ DISCRETE = (
             value=printed_factor(d), because="sums over a lattice stand for integrals to 2 % at r0 = 4 a",
             statement=f"the printed discretisation of the exponential weight multiplies gradients in {d}D by {factor}: over "
                       "that, r0 = 4 a") for d, factor in ((2, "pi M_2 r0/a"), (3, "(4 pi/3) M_3 (r0/a)^2 = 42 (r0/a)^2"))),
+    *(Claim(id=f"rr98-plain-quadrature-{r0:.0f}", source="RR98 Sec. III, Eq. 31", printed="cannot simply change", at_least=0.1,
+            value=plain_loss(r0), because="a tenth would be a reason not to",
+            statement="one cannot put W(r_ij) dV for W dr, the moments would be wrong: first moment that the exponential weight "
+                      f"loses on a lattice in 3D, r0 = {r0:.0f} a") for r0 in (2.0, 4.0)),
     Claim(id="rr98-eq32-zeroth", source="RR98 Eq. 32", printed="but the zeroth", expect=1, within=0.1, value=doubling,
           because="the first order in a/r0 takes 0.05 at r0 = 8 a",
           statement="the zeroth discrete moment is not well defined: what it grows by along a line when the spacing is halved, "

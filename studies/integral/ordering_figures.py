@@ -14,13 +14,15 @@ MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
 def figures(tables: Tables) -> dict[str, Figure]:
     """What the tables allow."""
     of_operators = {"surface": surface(tables["means"]), "makers": makers(tables["means"])} if "means" in tables else {}
-    return {**of_operators, **ordering_flows_figures.figures(tables)}
+    return {**{name: page for name, page in of_operators.items() if page}, **ordering_flows_figures.figures(tables)}
 
 
-def surface(means: pd.DataFrame) -> Figure:
+def surface(means: pd.DataFrame) -> Figure | None:
     """Error of the gradient over the range of the weight, one curve a wavelength; the ordering of Eq. 45 is between the ends."""
     chosen = means[(means["maker"] == "renormalised") & (means["weight"] == "Lucy")]
     kinds, waves = [kind for kind in KINDS if kind in set(chosen["points"])], sorted(set(chosen["wavelength"]))
+    if not kinds:
+        return None
     page, rows = figure(2, len(kinds), width=2.4, height=3.0, sharex=True, sharey="row", squeeze=False)
     for column, kind in enumerate(kinds):
         for row, operator in zip(rows, ("gradient", "laplacian"), strict=True):
