@@ -68,7 +68,23 @@ def closed(name: str) -> Callable[[], float]:
 
 
 def bracket(name: str) -> Callable[[], float]:
-    """An evaluation of RR98's own motions, pairs in range and all, within steps of RK4."""
+    """An evaluation of RR98's own motions: pairs in range, fields, sums."""
+    method = drift.method(SCENE, drift.DRIFT_MOTIONS[name])
+    state = drift.start(SCENE, method, 1)
+    n = state.shape[1]
+    sums, out = method.start(n, Team(1)), np.empty_like(state)
+    sums.around.relist(state, np.arange(n), 0.0)
+
+    def measure() -> float:
+        began = time.process_time()
+        for _ in range(EVALUATIONS):
+            sums.rates(state, out)
+        return 1e9*(time.process_time() - began)/(EVALUATIONS*n)
+    return measure
+
+
+def marched(name: str) -> Callable[[], float]:
+    """The same within a run: with lists and RK4."""
     method = drift.method(SCENE, drift.DRIFT_MOTIONS[name])
     return step(method, drift.start(SCENE, method, 1), RK4.evaluations)
 
@@ -81,7 +97,8 @@ def main() -> None:
              "moving points, a step": closed("moving"), "moving points, a step, open faces": closed("moving-open-faces"),
              "moving, plain bracket": bracket("motion-literal-printed-heat"),
              "moving, plain bracket, mended": bracket("motion-literal"),
-             "moving, plain bracket, constant mass": bracket("motion-constant-mass-printed-heat")}
+             "moving, plain bracket, constant mass": bracket("motion-constant-mass-printed-heat"),
+             "moving, plain bracket, with lists and steps": marched("motion-literal-printed-heat")}
     found: dict[str, list[float]] = {name: [] for name in kinds}
     for measure in kinds.values():
         measure()       # loads what is compiled
