@@ -65,8 +65,8 @@ def first_peak(tables: Tables, point: dict) -> Measured:
     frame = frame[frame["seed"] == frame["seed"].min()].sort_values("t")
     unit = point["resolution"]       # L/free fall, free fall 1 in the gas of KHP95
     ke = frame.loc[(frame["t"] > 0) & (frame["t"] < 13*unit), "ke"].to_numpy(float)
-    if len(ke) < 10:
-        raise CannotTell("fewer than 10 samples in the first 13 free-fall times: no maximum to be seen")
+    if len(ke) < 5:
+        raise CannotTell("fewer than 5 samples in the first 13 free-fall times: no maximum to be seen")
     k = int(np.clip(np.argmax(ke), 1, len(ke) - 2))
     slope, bend = (ke[k + 1] - ke[k - 1])/2, ke[k + 1] - 2*ke[k] + ke[k - 1]
     above = float(-slope**2/(2*bend)) if bend < 0 else 0.0
