@@ -47,7 +47,7 @@ def within_a_percent(integrator: str, temperature: str) -> Claim:
     return Claim(id=f"own-dpd-{temperature}-{integrator.lower()}", source="Groot & Warren 1997", printed="dt = 0.04 to 0.06",
                  at_most=0.01, value=error_of(integrator, temperature),
                  statement=f"{GOOD[integrator]} keeps the {temperature} kT within 1 % at dt = 0.02: |error|",
-                 because="1 %, as asked of good integrators")
+                 because="1 % is what the paper wants of a step of good integrators")
 
 
 def difference(columns: tuple[str, str], **where) -> Value:
@@ -118,7 +118,7 @@ CLAIMS = (
     Claim(id="rr98-two-step-dpd-percent", source="RR98 Eqs 40, 41", at_most=0.01,
           value=error_of("TwoStep", "kinetic"),
           statement="Eqs 40, 41 keep kT of dissipative particles at a = 25 within 1 % at dt = 0.02",
-          because="1 %, as asked of good integrators"),
+          because="1 % is what the paper wants of a step of good integrators"),
     *(within_a_percent(integrator, temperature) for integrator in GOOD for temperature in ("kinetic", "configurational")),
     Claim(id="own-dpd-flattered", source="Groot & Warren 1997", printed="lambda = 0.65", at_least=0.0,
           value=difference(("configurational", "kinetic"), integrator="GrootWarren65", dt=0.06, a=25.0, d=3, kT=1.0),
