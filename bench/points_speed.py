@@ -95,10 +95,10 @@ def main() -> None:
              "fixed points, h = 3 a, edge by edge": fixed("fixed-lattice-h3", fast=False),
              "fixed points, Delaunay": fixed("fixed-jittered-delaunay"),
              "moving points, a step": closed("moving"), "moving points, a step, open faces": closed("moving-open-faces"),
-             "moving, plain bracket": bracket("motion-literal-printed-heat"),
-             "moving, plain bracket, mended": bracket("motion-literal"),
-             "moving, plain bracket, constant mass": bracket("motion-constant-mass-printed-heat"),
-             "moving, plain bracket, with lists and steps": marched("motion-literal-printed-heat")}
+             "moving, plain bracket": bracket("moving-literal-printed-heat"),
+             "moving, plain bracket, mended": bracket("moving-literal"),
+             "moving, plain bracket, constant mass": bracket("moving-constant-mass-printed-heat"),
+             "moving, plain bracket, with lists and steps": marched("moving-literal-printed-heat")}
     found: dict[str, list[float]] = {name: [] for name in kinds}
     for measure in kinds.values():
         measure()       # loads what is compiled

@@ -194,7 +194,7 @@ MOST = {**dict.fromkeys(("fixed-lattice", "fixed-lattice-printed-heat", "fixed-l
 
 
 #: of RR98's own motions, those with 40 rows besides 25
-FINER = ("motion-literal", "motion-convective", "motion-constant-mass", "motion-less-static")
+FINER = ("moving-literal", "moving-convective", "moving-constant-mass", "moving-less-static")
 
 
 def points() -> Iterator[Case]:

@@ -147,7 +147,7 @@ def everything() -> Tables:
     kept_runs = [point for point in wanted if point["ra"] in (3000, 5000, 1e4) and point["resolution"] in (16, 48, 50)]
     fixed = particles(1e4, variant="printed-fixed-rows")
     frozen = [particles(3000, 16, variant, eos="dense") for variant in ("printed", "printed-monaghan")]
-    literal = dih.points(1e4, "motion-literal", 40)
+    literal = dih.points(1e4, "moving-literal", 40)
     ends = [particles(1e4), fixed, particles(1e4, variant="printed-monaghan"), *frozen]
     layers = [{**point, "seed": seed, "plate": plate, "rho_layer": 1 + 0.1*seed, "T_layer": 1.0, "reflections": 0,
                "nu_plate": 1.5 + 0.01*seed}

@@ -223,18 +223,18 @@ def case(tmp_path, name, t_end=30.0, **more):
 
 
 def test_a_run_fills_rows_of_three_tables(tmp_path):
-    rows = case(tmp_path, "motion-constant-mass")
+    rows = case(tmp_path, "moving-constant-mass")
     for table in (KINETIC, HISTORY, PROFILES):
         assert set(rows[table.name][0]) <= set(table.columns)
     assert abs(rows["kinetic_energy"][0]["mass_drift"]) < 1e-13
     assert len(rows["history"]) == pytest.approx(30, abs=2)
     assert np.mean([row["rho"] for row in rows["profiles"]]) == pytest.approx(1, rel=1e-12)      # the mass of all layers
-    assert set(case(tmp_path, "motion-constant-mass", seed=2)) == {"kinetic_energy"}
+    assert set(case(tmp_path, "moving-constant-mass", seed=2)) == {"kinetic_energy"}
 
 
 def test_heat_through_plates_is_conduction_where_temperature_is_linear():
     scene = RayleighBenard(ra=1e4, L=12.0)
-    fluid, x = method(scene, DRIFT_MOTIONS["motion-literal"]), lattice((24, 12)).x
+    fluid, x = method(scene, DRIFT_MOTIONS["moving-literal"]), lattice((24, 12)).x
     sums, now = fluid.start(len(x), Team(1)), fluid.state(x, 1.0, 0*x, scene.T(x[:, 1]))
     sums.around.relist(now, np.arange(len(x)), 0.0)
     sums.look_at(now)
@@ -248,7 +248,7 @@ def test_literal_points_come_to_rest_where_density_times_the_square_of_their_num
     Density falls by a factor of two from the lower to the upper plate then: what is heavy lies below, and stays there.
     """
     scene = RayleighBenard(ra=1e4, L=12.0)
-    fluid = method(scene, DRIFT_MOTIONS["motion-literal"])
+    fluid = method(scene, DRIFT_MOTIONS["moving-literal"])
     first = start(scene, fluid, 1)
     dt = limit_of(fluid, first)
     done = run(fluid, first, Plan(dt=dt, steps=round(200*12/dt)))

@@ -446,11 +446,11 @@ def test_ingredients_of_moving_points_have_a_line_each(full):
     """As soon as there are some; a name that no list knows comes under others."""
     assert len(figures.ALL["moving_points"](full).axes) == 1
     mean = full["errors"][full["errors"]["variant"].eq("moving")]
-    more = [mean.assign(variant=name) for name in ("moving-no-shift", "motion-carried", "motion-new")]
+    more = [mean.assign(variant=name) for name in ("moving-no-shift", "moving-carried", "moving-new")]
     page = figures.ALL["moving_points"](Tables(full | {"errors": pd.concat([full["errors"], *more])}))
     labels = [tick.get_text() for tick in page.axes[1].get_yticklabels()]
     assert labels == ["the scheme and its ingredients", "all ingredients  (moving)", "points not shifted  (moving-no-shift)",
-                      "motions of RR98", "the same, volumes carried  (motion-carried)", "others", "motion-new"]
+                      "motions of RR98", "the same, volumes carried  (moving-carried)", "others", "moving-new"]
 
 
 def test_only_particles_that_stand_still_where_the_grid_convects_are_called_frozen(full):

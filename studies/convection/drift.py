@@ -38,14 +38,14 @@ class DriftMotion(NamedTuple):
 
 
 DRIFT_MOTIONS = {m.name: m for m in (
-    DriftMotion("motion-literal", DRIFTS["literal"]),
-    DriftMotion("motion-literal-printed-heat", DRIFTS["literal"], mended=False),
-    DriftMotion("motion-convective", DRIFTS["convective"]),
-    DriftMotion("motion-carried", DRIFTS["carried"]),
-    DriftMotion("motion-constant-mass", DRIFTS["constant-mass"]),
-    DriftMotion("motion-constant-mass-printed-heat", DRIFTS["constant-mass"], mended=False),
-    DriftMotion("motion-sph", ConstantMassDrift(Powers(1.0, -1.0))),
-    DriftMotion("motion-less-static", DRIFTS["constant-mass"], less=1.0),
+    DriftMotion("moving-literal", DRIFTS["literal"]),
+    DriftMotion("moving-literal-printed-heat", DRIFTS["literal"], mended=False),
+    DriftMotion("moving-convective", DRIFTS["convective"]),
+    DriftMotion("moving-carried", DRIFTS["carried"]),
+    DriftMotion("moving-constant-mass", DRIFTS["constant-mass"]),
+    DriftMotion("moving-constant-mass-printed-heat", DRIFTS["constant-mass"], mended=False),
+    DriftMotion("moving-sph", ConstantMassDrift(Powers(1.0, -1.0))),
+    DriftMotion("moving-less-static", DRIFTS["constant-mass"], less=1.0),
 )}
 
 
@@ -99,7 +99,7 @@ class PlateHeat(NamedTuple):
 @dataclass(frozen=True, kw_only=True)
 class DriftRun(PointsRun):
     """One run; averages are taken after `mean_from`, in free-fall times. The first seed keeps K(t) and the last profile."""
-    motion: DriftMotion = DRIFT_MOTIONS["motion-literal"]
+    motion: DriftMotion = DRIFT_MOTIONS["moving-literal"]
     t_end: float = 90.0
     mean_from: float = 50.0
 

@@ -43,10 +43,10 @@ INGREDIENTS = {
 }
 #: RR98's own motions
 MOTIONS = {
-    "motion-literal": "as printed [Eqs 39-41]", "motion-literal-printed-heat": "the same, heating as printed",
-    "motion-convective": "convective [Eqs 46-48]", "motion-carried": "the same, volumes carried",
-    "motion-constant-mass": "constant mass [Eq. 49]", "motion-constant-mass-printed-heat": "the same, heating as printed",
-    "motion-sph": "Eq. 50 with $a = -b = 1$", "motion-less-static": "Eq. 49 without static pressure",
+    "moving-literal": "as printed [Eqs 39-41]", "moving-literal-printed-heat": "the same, heating as printed",
+    "moving-convective": "convective [Eqs 46-48]", "moving-carried": "the same, volumes carried",
+    "moving-constant-mass": "constant mass [Eq. 49]", "moving-constant-mass-printed-heat": "the same, heating as printed",
+    "moving-sph": "Eq. 50 with $a = -b = 1$", "moving-less-static": "Eq. 49 without static pressure",
 }
 MOVING_GROUPS = {"the scheme and its ingredients": INGREDIENTS, "motions of RR98": MOTIONS}
 WORDS = {name: words for groups in (SPAM_GROUPS, FIXED_GROUPS, MOVING_GROUPS) for group in groups.values()

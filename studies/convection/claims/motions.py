@@ -92,7 +92,7 @@ GOAL = "what points that move and conserve are good to: 1.5 % with 40 rows, thei
 CONSERVED = "the total mass, total momentum, and total energy are conserved"
 CLAIMS = (
     *(Claim(id=f"rr98-eq{eq}-rb-{name}", source=f"RR98 Eq{'s' if '-' in eq else '.'} {eq}",
-            printed=CONSISTENT if eq == "39" else "", value=from_grid(f"motion-{name}", rows), at_most=most, because=GOAL,
+            printed=CONSISTENT if eq == "39" else "", value=from_grid(f"moving-{name}", rows), at_most=most, because=GOAL,
             statement=f"{words}: |K/K_grid - 1| at Ra 10 000, {rows} rows")
       for eq, name, rows, most, words in (
           ("39", "literal", MANY, 0.015, "points that move with v under Eqs 34-36 convect as the gas does"),
@@ -101,30 +101,30 @@ CLAIMS = (
           ("49", "constant-mass", MANY, 0.015, "points of constant mass convect as the gas does"),
           ("50", "sph", FEW, 0.03, "smoothed particles, a = 1, b = -1, convect as the gas does"))),
     Claim(id="rr98-eq34-rb-mass", source="RR98 Eq. 34", printed=CONSERVED, at_most=1e-12,
-          value=leak("motion-literal", "motion-literal-printed-heat", "motion-constant-mass"),
+          value=leak("moving-literal", "moving-literal-printed-heat", "moving-constant-mass"),
           statement="mass stays between plates while points move, literal and at constant mass: largest relative change of a run",
           because="round-off: some 1e4 steps of 1e-16 each"),
-    Claim(id="rr98-eq46-rb-mass", source="RR98 Eqs 34, 46", at_most=1e-3, value=leak("motion-convective"),
+    Claim(id="rr98-eq46-rb-mass", source="RR98 Eqs 34, 46", at_most=1e-3, value=leak("moving-convective"),
           statement="Eq. 46 keeps the mass between plates: largest relative change of a run",
           because="a tenth of a per cent would be below what K is good to"),
-    Claim(id="rr98-eq39-rb-peak", source="RR98 Eqs 34-36, 39", expect=0.25, within=0.05, value=peak_over_grid("motion-literal"),
+    Claim(id="rr98-eq39-rb-peak", source="RR98 Eqs 34-36, 39", expect=0.25, within=0.05, value=peak_over_grid("moving-literal"),
           statement="literal motion convects twice: 2 v obeys the equations of v, so that the first rolls reach a quarter of the "
                     f"energy; first maximum of K over the grid's, {MANY} rows",
           because="a fifth: conduction is 3/2 times as strong then, and the start is doubled, too; what convects once reaches 1"),
-    Claim(id="rr98-eq39-rb-layers", source="RR98 Eqs 34-36, 39", at_most=1.2, value=halves("motion-literal"),
+    Claim(id="rr98-eq39-rb-layers", source="RR98 Eqs 34-36, 39", at_most=1.2, value=halves("moving-literal"),
           statement="density stays as even as in the gas: mass in the lower half over that in the upper one, at the end of "
                     f"literal motion, {MANY} rows",
           because="1 at rest by the choice of gravity, 1.15 in the rolls of the grid; more is a stable layering, which ends "
                   "convection; the error is a row of points more or less"),
-    Claim(id="rr98-eq49-rb-falls", source="RR98 Eq. 49", at_most=0.625, value=fallen("motion-constant-mass"),
+    Claim(id="rr98-eq49-rb-falls", source="RR98 Eq. 49", at_most=0.625, value=fallen("moving-constant-mass"),
           statement=f"the error at constant mass falls with the spacing: |K/K_grid - 1| with {MANY} rows over {FEW}",
           because="25/40: first order"),
-    Claim(id="rr98-eq49-rb-static", source="RR98 Eq. 49", at_most=0.5, value=share_left("motion-less-static",
-                                                                                    "motion-constant-mass"),
+    Claim(id="rr98-eq49-rb-static", source="RR98 Eq. 49", at_most=0.5, value=share_left("moving-less-static",
+                                                                                    "moving-constant-mass"),
           statement="what is wrong at constant mass is that static pressure holds points in place: the error without it over "
                     f"that with it, {MANY} rows", because="less than a half: more than all other causes together"),
     Claim(id="rr98-eq51-rb-motion", source="RR98 Eqs 49, 51", at_most=0.05,
-          value=lambda tables: off(over("motion-constant-mass-printed-heat", "motion-constant-mass")(tables)),
+          value=lambda tables: off(over("moving-constant-mass-printed-heat", "moving-constant-mass")(tables)),
           statement="the heating of friction along pairs is not what is wrong at constant mass: change of K by mending it, "
                     f"{FEW} rows", because="on fixed points it is worth 1.4 %; a third of K is missing"),
 )
