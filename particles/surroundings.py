@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from continuum.fluid import valid
 from particles.neighbours import farthest, make_lists, sort_into_cells
 from particles.pairs import empty_pairs, weigh
 from particles.team import Team
@@ -161,6 +162,15 @@ class Listed:
         if self.around.must_relist(now.state, dt):
             self.around.relist(now.state, now.ids, dt)
             now.anchor, now.skin = self.around.anchor, self.around.skin
+
+    def unphysical(self, eos: Any, V: np.ndarray, rho: np.ndarray, e: np.ndarray, ids: np.ndarray) -> str:
+        """The first point with a volume, density or energy that no fluid has; empty if there is none."""
+        good = (V > 0) & (rho > 0) & valid(eos, rho, e)
+        if good.all():
+            return ""
+        i = int(np.argmin(good))
+        return (f"point {ids[i]} has V = {V[i]:.4g}, rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of "
+                f"{type(eos).__name__}")
 
     def outran(self, state: np.ndarray) -> str:
         """What is wrong if a particle has left the skin of the lists; empty if none has."""

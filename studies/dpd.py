@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from particles.blocks import Normal
 from particles.integrators import TwoStep
-from particles.thermal import GrootWarren, GrootWarren65, Shardlow, VelocityVerlet
+from particles.integrators_dpd import GrootWarren, GrootWarren65, Shardlow, VelocityVerlet
 from studies.fluctuating import dpd_claims, dpd_derive, dpd_figures, dpd_tables
 from studies.fluctuating.dpd_cases import Fluid, Rest, Shear, Structure
 from studies.kit.study import Study, main

@@ -1,9 +1,13 @@
 """Small crowds of particles for the tests: made, evaluated and advanced without the time loop of runs."""
+from pathlib import Path
+
 import numpy as np
+import pytest
 
 from continuum.fluid import IdealGas, energy
 from particles.integrators import RK4
 from particles.methods.spam import Spam
+from particles.run import Plan, run
 from particles.team import Team
 from particles.walls.periodic import periodic
 
@@ -24,6 +28,21 @@ def crowd(box, columns: int, rows: int, eos=IdealGas(), jitter=0.25, seed=0) -> 
 def everywhere(box) -> tuple:
     """Walls of a box that is periodic in x and y."""
     return periodic(box[0]) + periodic(box[1], axis=1)
+
+
+def goes_on_bitwise(method, state: np.ndarray, dt: float, folder: Path) -> None:
+    """A run of 60 steps that is interrupted at its second report ends as one that is not."""
+    whole, seen = run(method, state, Plan(dt=dt, steps=60)), []
+
+    def stop(done):
+        seen.append(done)
+        if len(seen) == 2:
+            raise KeyboardInterrupt
+    plan = Plan(dt=dt, steps=60, checkpoint=folder/"run.h5")
+    with pytest.raises(KeyboardInterrupt):
+        run(method, state, plan, stop)
+    again = run(method, state, plan)
+    assert again.step == 60 and np.array_equal(whole.by_id(), again.by_id())
 
 
 def prepare(method: Spam, state: np.ndarray, threads: int = 1):

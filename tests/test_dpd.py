@@ -6,6 +6,7 @@ import pytest
 
 from particles.blocks import Normal, Uniform
 from particles.integrators import TwoStep
+from particles.integrators_dpd import GrootWarren, GrootWarren65, Shardlow, VelocityVerlet
 from particles.methods.dpd import Dpd
 from particles.observe_dpd import (
     Displacement,
@@ -19,7 +20,6 @@ from particles.observe_dpd import (
 )
 from particles.run import Plan, Run, run
 from particles.team import Team
-from particles.thermal import GrootWarren, GrootWarren65, Shardlow, VelocityVerlet
 from tests import plain_dpd
 
 INTEGRATORS = (TwoStep, GrootWarren, GrootWarren65, VelocityVerlet, Shardlow)

@@ -3,6 +3,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from crowd import goes_on_bitwise
 
 from continuum.fluid import ConstEta, IdealGas, VanDerWaals
 from continuum.scene import RayleighBenard
@@ -171,18 +172,7 @@ def test_a_run_goes_on_bitwise_where_it_was_interrupted(kind, tmp_path):
     method = drift(kind, inside=True)
     state = shaken(method, inner(AT.x))
     dt = 0.5*limit_of(method, state)
-    whole = run(method, state, Plan(dt=dt, steps=60))
-    seen = []
-
-    def stop(done):
-        seen.append(done)
-        if len(seen) == 2:
-            raise KeyboardInterrupt
-    plan = Plan(dt=dt, steps=60, checkpoint=tmp_path/"run.h5")
-    with pytest.raises(KeyboardInterrupt):
-        run(method, state, plan, stop)
-    again = run(method, state, plan)
-    assert again.step == 60 and np.array_equal(whole.by_id(), again.by_id())
+    goes_on_bitwise(method, state, dt, tmp_path)
 
 
 @pytest.mark.parametrize("kind", DRIFTS)

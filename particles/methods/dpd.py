@@ -13,11 +13,11 @@ import numpy as np
 
 from particles.blocks import Force, Law, Record, Silent, Uniform, record, rub_pairs, sum_pairs, turn, velocities
 from particles.images import Images
+from particles.integrators_dpd import GrootWarren65
 from particles.limits import limit_of
 from particles.neighbours import u32, u64
 from particles.noise import check_seed
 from particles.team import Team
-from particles.thermal import GrootWarren65
 
 SORT = 20       # steps after which particles are put in the order of cells again
 
@@ -27,7 +27,7 @@ class Dpd:
     """A fluid of dissipative particles in a periodic box (width, height[, depth]) centred on the origin.
 
     a, gamma, kT, rc : repulsion, friction, temperature, range. noise : `Uniform(seed)` or `Normal(seed)`.
-    integrator : of `particles.thermal`, or `TwoStep` for RR98 Eqs 40, 41. rate : of a shear v_x = rate y between sliding sides.
+    integrator : of `integrators_dpd`, or `TwoStep` for RR98 Eqs 40, 41. rate : of a shear v_x = rate y between sliding sides.
     skin : of the neighbour lists, in units of length.
 
     Raises

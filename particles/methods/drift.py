@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import conductivity, energy, pressure, sound_speed, temperature, valid, viscosity
+from continuum.fluid import conductivity, energy, pressure, sound_speed, temperature, viscosity
 from continuum.jit import formula, generic, jit
 from particles.ghosts import ghosts_of
 from particles.limits import lattice_sums, limit_of, zone
@@ -256,13 +256,7 @@ class Drifts(Listed):
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """The first point with a volume, mass or state that no fluid has; empty if there is none."""
-        rho, e = self.method.thermal(state)
-        good = (state[6] > 0) & (rho > 0) & valid(self.method.eos, rho, e)
-        if not good.all():
-            i = int(np.argmin(good))
-            return (f"point {ids[i]} has V = {state[6, i]:.4g}, rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of "
-                    f"{type(self.method.eos).__name__}")
-        return self.outran(state)
+        return self.unphysical(self.method.eos, state[6], *self.method.thermal(state), ids) or self.outran(state)
 
 
 @jit

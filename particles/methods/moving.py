@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import conductivity, energy, pressure, sound_speed, temperature, valid, viscosity
+from continuum.fluid import conductivity, energy, pressure, sound_speed, temperature, viscosity
 from continuum.jit import jit
 from particles.limits import limit_of
 from particles.methods.faces import POTENTIALS, FaceMaker
@@ -239,13 +239,7 @@ class Exchanging(Listed):
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """The first point with a volume, mass or state that no fluid has; empty if there is none."""
         px, py, m, V, E = state[EXCHANGED]
-        rho, e = m/V, (E - (px**2 + py**2)/(2*m))/m
-        good = (m > 0) & (V > 0) & valid(self.method.eos, rho, e)
-        if not good.all():
-            i = int(np.argmin(good))
-            return (f"point {ids[i]} has V = {V[i]:.4g}, rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of "
-                    f"{type(self.method.eos).__name__}")
-        return self.outran(state)
+        return self.unphysical(self.method.eos, V, m/V, (E - (px**2 + py**2)/(2*m))/m, ids) or self.outran(state)
 
 
 @jit

@@ -16,13 +16,11 @@ from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
 from studies.convection.dih import positions
-from studies.convection.names import HALVES, START_ENERGY, START_JITTER, one_energy
-from studies.convection.points import PointsRun, Setting, rolls
+from studies.convection.names import START_ENERGY, START_JITTER
+from studies.convection.points import OFTEN, AveragedRun, Setting, rolls
 from studies.convection.tables import POINT
 from studies.kit.case import Outcome
-from studies.kit.stats import settled
 
-RECORDS = 8         # a free-fall time
 LAYERS = 16         # of the profile
 CURVE = 1           # samples of K(t) a free-fall time
 
@@ -97,15 +95,9 @@ class PlateHeat(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class DriftRun(PointsRun):
-    """One run; averages are taken after `mean_from`, in free-fall times. The first seed keeps K(t) and the last profile."""
+class DriftRun(AveragedRun):
+    """One run of RR98's own motions. The first seed keeps K(t) and the last profile."""
     motion: DriftMotion = DRIFT_MOTIONS["moving-literal"]
-    t_end: float = 90.0
-    mean_from: float = 50.0
-
-    @property
-    def name(self) -> str:
-        return self.motion.name
 
     @property
     def cost(self) -> float:
@@ -114,21 +106,17 @@ class DriftRun(PointsRun):
     def setting(self) -> Setting:
         fluid = method(self.scene, self.motion)
         series: dict[str, Any] = {"ke": kinetic, "lower": PlateHeat(-1), "upper": PlateHeat(1)}
-        return Setting(fluid, start(self.scene, fluid, self.seed), 1.0, series, RECORDS)
+        return Setting(fluid, start(self.scene, fluid, self.seed), 1.0, series, OFTEN)
 
     def values(self, setting: Setting, done: Run) -> dict:
-        late = np.array(done.times) > self.mean_from*self.free_fall_time
-        ke, lower, upper = (np.array(done.series[name])[late] for name in ("ke", "lower", "upper"))
-        (K, steady), (heat, _) = settled(ke, HALVES), settled((lower - upper)/2/self.heat_at_rest)
-        balance, state, fluid = np.mean(lower + upper)/2/self.heat_at_rest, done.state, setting.method
+        state, fluid = done.state, setting.method
         drift = fluid.conserved(state)[0]/fluid.conserved(setting.first)[0] - 1
-        return {**one_energy(K.value, K.err), "nu": heat.value, "nu_err": float(np.hypot(heat.err, balance)),
-                "rolls": rolls(self.scene, state[:2].T, state[3]/state[4]), "mass_drift": float(drift), "converged": steady,
+        return {**self.averages(done), "rolls": rolls(self.scene, state[:2].T, state[3]/state[4]), "mass_drift": float(drift),
                 "history": self.history(done), "profiles": self.profile(fluid, state)}
 
     def history(self, done: Run) -> list[dict]:
         """K(t)."""
-        samples = list(zip(done.times, done.series["ke"], strict=True))[::RECORDS//CURVE]
+        samples = list(zip(done.times, done.series["ke"], strict=True))[::OFTEN//CURVE]
         return [{"t": t, "t_viscous": t/self.scene.viscous_time, "ke": ke, "ke_field": ke} for t, ke in samples]
 
     def profile(self, fluid: Drift, state: np.ndarray) -> list[dict]:

@@ -11,11 +11,8 @@ from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
 from studies.convection.dih import positions
-from studies.convection.names import HALVES, START_ENERGY, START_JITTER, one_energy
-from studies.convection.points import PointsRun, Setting, rolls
-from studies.kit.stats import settled
-
-RECORDS = 8         # a free-fall time
+from studies.convection.names import START_ENERGY, START_JITTER
+from studies.convection.points import OFTEN, AveragedRun, Setting, rolls
 
 
 class Motion(NamedTuple):
@@ -79,15 +76,9 @@ class PlateHeat(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class MovingRun(PointsRun):
-    """One run; averages are taken after `mean_from`, in free-fall times."""
+class MovingRun(AveragedRun):
+    """One run of the conservative scheme."""
     motion: Motion = MOTIONS["moving"]
-    t_end: float = 90.0
-    mean_from: float = 50.0
-
-    @property
-    def name(self) -> str:
-        return self.motion.name
 
     @property
     def cost(self) -> float:
@@ -96,13 +87,9 @@ class MovingRun(PointsRun):
     def setting(self) -> Setting:
         fluid = method(self.scene, self.motion)
         series: dict[str, Any] = {"ke": kinetic, "lower": PlateHeat(-1), "upper": PlateHeat(1)}
-        return Setting(fluid, start(self.scene, fluid, self.seed), self.motion.of_limit, series, RECORDS)
+        return Setting(fluid, start(self.scene, fluid, self.seed), self.motion.of_limit, series, OFTEN)
 
     def values(self, setting: Setting, done: Run) -> dict:
-        late = np.array(done.times) > self.mean_from*self.free_fall_time
-        ke, lower, upper = (np.array(done.series[name])[late] for name in ("ke", "lower", "upper"))
-        (K, steady), (heat, _) = settled(ke, HALVES), settled((lower - upper)/2/self.heat_at_rest)
-        balance, state = np.mean(lower + upper)/2/self.heat_at_rest, done.state
-        return {**one_energy(K.value, K.err), "nu": heat.value, "nu_err": float(np.hypot(heat.err, balance)),
-                "rolls": rolls(self.scene, state[:2].T, state[5]/state[6]),
-                "mass_drift": float(state[6].sum()/setting.first[6].sum() - 1), "converged": steady}
+        state = done.state
+        return {**self.averages(done), "rolls": rolls(self.scene, state[:2].T, state[5]/state[6]),
+                "mass_drift": float(state[6].sum()/setting.first[6].sum() - 1)}

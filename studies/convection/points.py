@@ -10,8 +10,11 @@ import numpy as np
 from continuum.scene import RayleighBenard
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, Run, run
-from studies.convection.names import VALUES, scene_columns
+from studies.convection.names import HALVES, VALUES, one_energy, scene_columns
 from studies.kit.case import Case, Outcome, Report
+from studies.kit.stats import settled
+
+OFTEN = 8           # records of points that move in a free-fall time
 
 
 class Setting(NamedTuple):
@@ -76,6 +79,26 @@ class PointsRun(Case):
         key = {"method": "dih", "variant": self.name, **scene_columns(self.scene), "resolution": round(self.scene.L),
                "seed": self.seed, "particles": self.points, "free_fall": self.scene.free_fall, "threads": 1}
         return Outcome({"kinetic_energy": [{**key, **values, "dt": dt, "steps": steps, "t_end": steps*dt}]})
+
+
+@dataclass(frozen=True, kw_only=True)
+class AveragedRun(PointsRun):
+    """One run of points that move, `motion` a record with a name; averages are taken after `mean_from`, in free-fall times."""
+    motion: Any
+    t_end: float = 90.0
+    mean_from: float = 50.0
+
+    @property
+    def name(self) -> str:
+        return self.motion.name
+
+    def averages(self, done: Run) -> dict:
+        """K and Nu; the heat that both plates do not share is in the error of Nu."""
+        late = np.array(done.times) > self.mean_from*self.free_fall_time
+        ke, lower, upper = (np.array(done.series[name])[late] for name in ("ke", "lower", "upper"))
+        (K, steady), (heat, _) = settled(ke, HALVES), settled((lower - upper)/2/self.heat_at_rest)
+        balance = np.mean(lower + upper)/2/self.heat_at_rest
+        return {**one_energy(K.value, K.err), "nu": heat.value, "nu_err": float(np.hypot(heat.err, balance)), "converged": steady}
 
 
 def rolls(scene: RayleighBenard, x: np.ndarray, vy: np.ndarray) -> int:

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from particles.blocks import Uniform
+from particles.integrators_dpd import Shardlow
 from particles.methods.dpd import Dpd
 from particles.observe_dpd import (
     Displacement,
@@ -18,7 +19,6 @@ from particles.observe_dpd import (
     waves,
 )
 from particles.run import Plan, run
-from particles.thermal import Shardlow
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured, combine, mean
 

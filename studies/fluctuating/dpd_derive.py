@@ -10,7 +10,7 @@ from studies.kit.table import Tables
 
 RHO, GAMMA = 3.0, 4.5
 FEW = 100           # particles: a mean of ratios, as the configurational kT is, is off by about 1/n
-SHORT = 3           # steps of an order: it is that of small steps
+SHORT = 3           # least steps of an order
 SEEN = 2.0          # an error is no chance if it exceeds its half width so many times
 
 
@@ -59,16 +59,26 @@ def errors(states: pd.DataFrame) -> Iterator[dict[str, Any]]:
             terms = [dt**p for p in (1, 2, 3)[:len(set(dt)) - 1]]
             linear, quadratic, cubic = [*weighted(np.stack(terms, axis=1), off, err), Measured(np.nan, np.nan)][:3]
             seen = np.abs(off) > SEEN*err
-            seen &= dt <= np.append(np.unique(dt[seen]), [np.inf]*SHORT)[SHORT - 1]
-            order = Measured(np.nan, np.nan)
-            if seen.sum() >= SHORT:
-                logs = np.stack([np.log(dt[seen]), np.ones(seen.sum())], axis=1)
-                order = weighted(logs, np.log(np.abs(off[seen])), err[seen]/np.abs(off[seen]))[0]
+            order, short = slope(dt[seen], off[seen], err[seen]), slope(*shortest(dt[seen], off[seen], err[seen]))
             yield {"integrator": integrator, "a": a, "temperature": temperature, "still": STILL, "mixed": MIXED, "steps": len(dt),
                    "linear": linear.value,
                    "linear_err": linear.err, "quadratic": quadratic.value, "quadratic_err": quadratic.err,
                    "cubic": cubic.value, "cubic_err": cubic.err,
-                   "used": int(seen.sum()), "order": order.value, "order_err": order.err}
+                   "used": int(seen.sum()), "order": order.value, "order_err": order.err, "short_order": short.value,
+                   "short_order_err": short.err}
+
+
+def shortest(dt: np.ndarray, *columns: np.ndarray) -> list[np.ndarray]:
+    """The rows of the SHORT shortest steps."""
+    few = dt <= np.append(np.unique(dt), [np.inf]*SHORT)[SHORT - 1]
+    return [column[few] for column in (dt, *columns)]
+
+
+def slope(dt: np.ndarray, off: np.ndarray, err: np.ndarray) -> Measured:
+    """d ln |error|/d ln dt; unknown from less than SHORT steps."""
+    if len(dt) < SHORT:
+        return Measured(np.nan, np.nan)
+    return weighted(np.stack([np.log(dt), np.ones(len(dt))], axis=1), np.log(np.abs(off)), err/np.abs(off))[0]
 
 
 def excess(states: pd.DataFrame) -> Iterator[dict[str, Any]]:

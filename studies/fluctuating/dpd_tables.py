@@ -14,11 +14,11 @@ SHEAR = Table("shear", key=["integrator", "a", "rho", "side", "dt", "rate"],
 STRUCTURE = Table("structure", key=["a", "rho", "side", "n2"], columns=["a", "rho", "side", "n2", "k", "S", "S_err", "batches"])
 #: pair distribution in shells about r
 PAIRS = Table("pairs", key=["a", "rho", "r"], columns=["a", "rho", "r", "g"])
-#: kT/kT_0 - 1 = linear dt + quadratic dt^2 + cubic dt^3, least squares; order: d ln |error|/d ln dt at the three shortest steps
-#: whose error is no chance; still, mixed: linear coefficients of forward friction, see `dpd_derive`
+#: kT/kT_0 - 1 = linear dt + quadratic dt^2 + cubic dt^3, least squares; order: d ln |error|/d ln dt of all steps whose error is
+#: no chance, short_order of the three shortest of these; still, mixed: linear coefficients of forward friction, see `dpd_derive`
 ERRORS = Table("errors", key=["integrator", "a", "temperature"],
                columns=["integrator", "a", "temperature", "still", "mixed", "steps", "linear", "linear_err", "quadratic",
-                        "quadratic_err", "cubic", "cubic_err", "used", "order", "order_err"])
+                        "quadratic_err", "cubic", "cubic_err", "used", "order", "order_err", "short_order", "short_order_err"])
 #: dP/drho at rho = 3 from a parabola through neighbours, S(0) by S = S(0) + c k^2 + e k^4, their product over kT
 COMPRESSION = Table("compression", key=["a"], columns=["a", "slope", "slope_err", "S0", "S0_err", "product", "product_err"])
 #: alpha = (P - rho kT)/(a rho^2)

@@ -71,13 +71,15 @@ def from_sums(tables: Tables) -> Measured:
 # --- flows ------------------------------------------------------------------------------------------------------------
 
 
-def at_rest(tables: Tables) -> Measured:
-    """Largest |C - equilibrium| of a gas at rest: lattices, Delaunay edges on jittered and random points, all transports."""
-    rows = select(tables, "rest")
-    rows = rows[rows["maker"].isin(["renormalised", "delaunay"])]
-    if rows["error"].isna().any():
-        raise CannotTell("a case that should be stable is not")
-    return Measured(float(rows["error"].max()), 0.0)
+def at_rest(*makers: str) -> Value:
+    """Largest |C - equilibrium| of a gas at rest, all points and transports of some makers of edges."""
+    def value(tables: Tables) -> Measured:
+        rows = select(tables, "rest")
+        rows = rows[rows["maker"].isin(makers)]
+        if rows["error"].isna().any():
+            raise CannotTell("a case that should be stable is not")
+        return Measured(float(rows["error"].max()), 0.0)
+    return value
 
 
 def growth(tables: Tables) -> Measured:
@@ -85,40 +87,50 @@ def growth(tables: Tables) -> Measured:
     return Measured(float(select(tables, "rest", maker="plain")["growth"].max()), 0.0)
 
 
-def enhanced(tables: Tables) -> pd.DataFrame:
-    """Waves enhanced by 500 contrast^2 and more: other effects of a gradient are of the order of contrast^2."""
+def gradient(tables: Tables, strong: bool, least: float, most: float = 0.201) -> pd.DataFrame:
+    """Waves by their wave number; strong : only those enhanced by 500 contrast^2, other effects being of that order."""
     rows = select(tables, "gradient")
-    rows = rows[rows["predicted"] > 500]
-    if rows.empty:
-        raise CannotTell("not run yet: waves enhanced by 500 contrast^2 and more")
+    rows = rows[(rows["predicted"] > 500) if strong else rows["wavenumber"].between(least, most)]
+    if len(rows) < 3:
+        raise CannotTell("not run yet: three waves of these lengths")
     return rows
 
 
-def gradient_ratio(tables: Tables) -> Measured:
-    """Enhancement over its closed form, farthest from 1."""
-    rows = enhanced(tables)
-    ratio = rows["extra"]/rows["predicted"]
-    return Measured(float(ratio.iloc[int(np.argmax(np.abs(ratio - 1)))]), 0.0)
+def gradient_ratio(strong: bool) -> Value:
+    """Enhancement over its closed form, farthest from 1: waves of 30 to 90 spacings, or strong ones."""
+    def value(tables: Tables) -> Measured:
+        rows = gradient(tables, strong, 0.069)
+        ratio = rows["extra"]/rows["predicted"]
+        return Measured(float(ratio.iloc[int(np.argmax(np.abs(ratio - 1)))]), 0.0)
+    return value
 
 
-def gradient_slope(tables: Tables) -> Measured:
-    """Power of k of the enhancement, divided by what the period of the profile takes from it; waves shorter than the period."""
-    rows = enhanced(tables)
-    rows = rows[rows["wavenumber"] > 2*np.pi/rows["period"]]
-    if len(rows) < 3:
-        raise CannotTell("not run yet: three waves that are shorter than the period and strongly enhanced")
-    q = 2*np.pi/rows["period"]
-    # with nu = 2 D: k^2/(k^2 + q^2)/[k^2 (2 (k^2 + q^2) + k^2)] of K^-4
-    k = rows["wavenumber"]
-    whole = 3*k**4/((k**2 + q**2)*(3*k**2 + 2*q**2))
-    return Measured(*line(np.log(k.to_numpy()), np.log((rows["extra"]/whole).to_numpy())))
+def gradient_slope(strong: bool) -> Value:
+    """Power of k of the enhancement, divided by what the period of the profile takes from it: waves of 30 to 60 spacings, or
+    strong ones that are shorter than the period.
+    """
+    def value(tables: Tables) -> Measured:
+        rows = gradient(tables, strong, 0.099)
+        if strong:
+            rows = rows[rows["wavenumber"] > 2*np.pi/rows["period"]]
+        k, q = rows["wavenumber"], 2*np.pi/rows["period"]
+        # with nu = 2 D: k^2/(k^2 + q^2)/[k^2 (2 (k^2 + q^2) + k^2)] of K^-4
+        whole = 3*k**4/((k**2 + q**2)*(3*k**2 + 2*q**2))
+        return Measured(*line(np.log(k.to_numpy()), np.log((rows["extra"]/whole).to_numpy())))
+    return value
 
 
 def onset_power(tables: Tables) -> Measured:
-    """Power of 1 - Ra/Ra_c in the enhancement of <w w> nearest to onset, of all heights that farthest from -1.
+    """Power of 1 - Ra/Ra_c in the enhancement of <w w>, 0.005 to 0.05, all heights."""
+    found = []
+    for _, rows in select(tables, "onset").groupby("rows"):
+        rows = rows[rows["below"] < 0.06]
+        found.append(line(np.log(rows["below"].to_numpy()), np.log(rows["velocity"].to_numpy() - 1)))
+    return Measured(*max(found, key=lambda one: abs(one[0] + 1)))
 
-    From the two nearest values; the error is what the two before them give another power.
-    """
+
+def onset_nearest(tables: Tables) -> Measured:
+    """The same from the two values nearest to onset; the error is what the two before them give another power."""
     found = []
     for _, rows in select(tables, "onset").groupby("rows"):
         x, y = (np.log(q.to_numpy()) for q in (rows.sort_values("below")["below"], rows.sort_values("below")["velocity"] - 1))

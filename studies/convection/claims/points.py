@@ -100,10 +100,11 @@ CLAIMS = tuple(
               because=GOAL,
               statement="the wrong limit of forces along edges is that of wrong heating alone: |K/K_grid - 1|, "
                         f"Ra {ra:.0f}, the grid heated by eta |grad v|^2 as well"),
-        *(Claim(id=f"rr98-rb-{kind}-plates-{ra:.0f}", source=SOURCE, value=from_grid(ra, f"{kind}-plates"), at_most=0.005,
+        *(Claim(id=f"rr98-rb-{kind}-{walls}-{ra:.0f}", source=SOURCE, value=from_grid(ra, f"{kind}-{walls}"), at_most=0.005,
                 because=LOOSE,
-                statement=f"{words} with Delaunay edges that end on rows of points on the plates converge on the gas: "
-                          f"|K/K_grid - 1| at Ra {ra:.0f}, extrapolated")
+                statement=f"{words} with Delaunay edges {between} converge on the gas: |K/K_grid - 1| at Ra {ra:.0f}, "
+                          "extrapolated over 1/rows^2")
+          for walls, between in (("plates", "that end on rows of points on the plates"), ("delaunay", "between mirror images"))
           for kind, words in IRREGULAR),
     )) + (
     *(Claim(id=f"rr98-rb-{kind}-mirror", source=SOURCE, value=halved(f"{kind}-delaunay"), expect=1, within=0.25,
