@@ -1,0 +1,60 @@
+"""KHP95's own hard cases, by size."""
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+
+from continuum.fluid import IdealGas, VanDerWaals
+from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4
+from studies.hard import hard_derive, hard_tables
+from studies.hard.fates import Fate
+from studies.hard.lattice_growth import Crystal, Growth, Onset
+from studies.hard.lattice_waves import CELLS
+from studies.hard.moduli import Moduli
+from studies.hard.part import Part
+from studies.kit.case import Case
+
+WEIGHTS = (Lucy, Monaghan, WendlandC2)
+HEXAGONAL = Crystal(lattice="hexagonal", cells=(14, 8), weight=Lucy, h=3.0, eos=IdealGas())
+SQUARE = replace(HEXAGONAL, lattice="square", cells=(15, 15))
+#: a van der Waals fluid on a hexagonal lattice that an ideal gas would keep
+COLD = replace(HEXAGONAL, h=2.5, eos=VanDerWaals())
+
+
+def moduli(step: float) -> Iterator[Case]:
+    """Ranges from 2 to 12 spacings, by so much."""
+    ranges = tuple(round(float(h), 3) for h in np.arange(2, 12 + step/2, step))
+    yield from (Moduli(lattice=kind, weight=weight, h=ranges) for kind, weight in product(CELLS, WEIGHTS))
+
+
+def growth() -> Iterator[Case]:
+    """The lattices that runs begin and freeze on; pairs; fluids under negative pressure."""
+    yield from (Growth(crystal=replace(at, weight=weight)) for at, weight in product((HEXAGONAL, SQUARE), WEIGHTS))
+    yield from (Growth(crystal=replace(HEXAGONAL, weight=Monaghan, h=h)) for h in (2.6, 2.8))
+    yield from (Growth(crystal=replace(COLD, T=T, rho=rho)) for T, rho in product((0.1, 0.15, 0.2), (1.0, 1.2)))
+
+
+def onsets(seeds: tuple[int, ...]) -> Iterator[Case]:
+    """In the range of the weight, and in the temperature of van der Waals fluids."""
+    for (start, weight, stable, unstable), seed in product((
+            (HEXAGONAL, Monaghan, 2.2, 2.6), (HEXAGONAL, Lucy, 2.6, 2.8), (HEXAGONAL, WendlandC2, 2.8, 3.0),
+            (SQUARE, Monaghan, 2.4, 2.6)), seeds):
+        yield Onset(crystal=replace(start, weight=weight), parameter="h", stable=stable, unstable=unstable, seed=seed)
+    for (weight, h), rho, seed in product(((Lucy, 2.5), (WendlandC2, 2.5), (WendlandC4, 3.0)), (1.0, 1.2), seeds):
+        yield Onset(crystal=replace(COLD, weight=weight, h=h, rho=rho), parameter="T", stable=0.4, unstable=0.15, seed=seed)
+
+
+def fates(ranges: tuple[float, ...], seeds: tuple[int, ...]) -> Iterator[Case]:
+    """One a site or two?"""
+    yield from (Fate(weight=weight, h=h, seed=seed) for weight, h, seed in product(WEIGHTS, ranges, seeds))
+
+
+def cases(size: str) -> list[Case]:
+    """All of them."""
+    if size == "quick":
+        return [*moduli(1.0), *list(growth())[::5], *list(onsets((1,)))[::9], *fates((3.0,), (1,))]
+    return [*moduli(0.1), *growth(), *onsets((1, 2)), *fates((2.0, 2.2, 2.4, 2.6, 2.8, 3.0, 3.2, 3.5, 4.0), (1, 2))]
+
+
+PART = Part(cases=cases, tables=hard_tables.ALL, derive=hard_derive.derive)

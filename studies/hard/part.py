@@ -1,0 +1,23 @@
+"""What a group of hard cases brings to the study: it is listed there by one line."""
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from studies.kit.case import Case
+from studies.kit.claim import Claim
+from studies.kit.study import nothing
+from studies.kit.table import Table, Tables
+
+
+class Part(NamedTuple):
+    """The fields of a `Study`, of one group."""
+    cases: Callable[[str], Iterable[Case]]
+    tables: Sequence[Table]
+    claims: Sequence[Claim] = ()
+    derive: Callable[[Tables], Mapping[str, Any]] = nothing
+    figures: Callable[[Tables], Mapping[str, Any]] = nothing
+
+
+def merged(functions: Iterable[Callable[[Tables], Mapping[str, Any]]]) -> Callable[[Tables], dict[str, Any]]:
+    """One function of the tables for many: what they return, together."""
+    wanted = list(functions)
+    return lambda tables: {name: value for function in wanted for name, value in function(tables).items()}

@@ -1,0 +1,26 @@
+"""Where do smooth particles break, and was it to be expected?    [KHP95, Secs II-IV, Figs 4, 10, 11]
+
+Spurious shear modulus, pairing and clumping of lattices against lattice sums; freezing against the printed criteria; the
+isomorphism with molecular dynamics and its reversal; a shock tube and a shocked interface against exact and linear theory.
+Units: particles of unit mass at mean density 1, so lengths in spacings. Paper size takes about ten minutes. Writes
+results/hardcases/*.csv and *.png and the rows of study hardcases in results/claims.csv. A group of cases is a `Part`.
+"""
+from studies.hard import khp95
+from studies.hard.part import merged
+from studies.kit.case import Case
+from studies.kit.study import Study, main
+
+PARTS = (khp95.PART,)
+
+
+def cases(size: str) -> list[Case]:
+    """Of all parts; `quick` has few and small ones."""
+    return [case for part in PARTS for case in part.cases(size)]
+
+
+STUDY = Study(name="hardcases", cases=cases, tables=[table for part in PARTS for table in part.tables],
+              derive=merged(part.derive for part in PARTS), figures=merged(part.figures for part in PARTS),
+              claims=[claim for part in PARTS for claim in part.claims])
+
+if __name__ == "__main__":
+    main(STUDY)
