@@ -93,11 +93,11 @@ def rates(method, scene, state, S, k, apart, shift, count, images):
     grad_P = np.einsum("ija,ij->ia", half, P[origin][None] - P[:, None])/V[:, None]
     F = eta[:, None]*np.stack([v[:, 1]*grad_v[:, 1, 0] - v[:, 0]*grad_v[:, 1, 1],
                                v[:, 0]*grad_v[:, 0, 1] - v[:, 1]*grad_v[:, 0, 0]], axis=1)*chosen.mended
-    both = {name: q[:, None] + q[origin][None] for name, q in {"rho": rho, "c2": c**2, "eta": eta, "k": kappa, "e": e}.items()}
+    both = {name: q[:, None] + q[origin][None] for name, q in {"rho": rho, "per_c": 1/c, "eta": eta, "k": kappa, "e": e}.items()}
     theta = V*count - 1
     left = (half*(shift[:, None] + (shift[origin]*R)[None])).sum(axis=2) + chosen.follow*k*(theta[origin][None] - theta[:, None])
     linear = 0.5*chosen.smooth*(apart*(grad_P[:, None] + (grad_P[origin]*R)[None])).sum(axis=2)
-    mass = left*both["rho"]/2 + chosen.spread*np.sqrt(both["c2"]/2)*k*(P[origin][None] - P[:, None] - linear)/both["c2"]
+    mass = left*both["rho"]/2 + chosen.spread/4*both["per_c"]*k*(P[origin][None] - P[:, None] - linear)
     to_i, to_j = np.einsum("ija,ia->ij", half, v), np.einsum("ija,ja->ij", half, slip)
     du = friction[None] - v[:, None]
     force = 0.5*(both["eta"]*k)[:, :, None]*du - half*(P[origin][None] + P[:, None])[:, :, None]
