@@ -72,6 +72,9 @@ def exchange(size: str) -> Iterator[Case]:
         yield Growth(maker=maker, make=make, disorder=DISORDERS["lattice"], viscosities=VISCOSITIES)
         for kind, seed in product(off, seeds):
             yield Growth(maker=maker, make=make, disorder=DISORDERS[kind], viscosities=VISCOSITIES, seed=seed)
+        for (kind, d), seed in product(pairs_of(maker, ["lattice", "jittered-0.3", "random"], (1, 3)), seeds):
+            if size != "quick" and (seed == seeds[0] or kind != "lattice"):
+                yield Growth(maker=maker, make=make, disorder=DISORDERS[kind], viscosities=VISCOSITIES, seed=seed, d=d)
     for kind, seed in product(off, seeds):
         yield Stream(disorder=DISORDERS[kind], seed=seed)
     yield from (Work(disorder=DISORDERS[kind], d=d, seed=seed)

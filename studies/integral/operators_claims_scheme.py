@@ -37,7 +37,7 @@ BRACKETS = (
           statement="a uniform stream keeps its uniform density: least over point sets of the largest rate of the mass, rho U/a, "
                     "renormalised edges, jittered and random points, 1 to 3 dimensions"),
     Claim(id="rr98-eq35-rest", source="RR98 Eq. 35", at_most=1e-12, because=ROUND_OFF,
-          value=cell("growth_means", "closure", maker="plain", points="jittered-0.3", viscosity=0.0),
+          value=cell("growth_means", "closure", maker="plain", points="jittered-0.3", d=2, viscosity=0.0),
           statement="a fluid of uniform pressure stays at rest: largest acceleration over P/(rho a), plain edges, points "
                     "jittered by 0.3 a"),
     *(Claim(id=f"rr98-eq34-36-{maker}-uniform", source="RR98 Eqs 34-36", at_most=1e-12, because=ROUND_OFF,
@@ -54,14 +54,15 @@ BRACKETS = (
           statement="on edges that close divergence and gradient are adjoint: largest |D + D^T|/|D|, lattice, jittered and "
                     "random points, 1 to 3 dimensions"),
     *(Claim(id=f"rr98-eq34-35-sound{name}", source="RR98 Eqs 34, 35", at_most=1e-12, because=ROUND_OFF,
-            value=cell("growth_means", "rate", maker="plain", points="jittered-0.3", viscosity=eta),
+            value=cell("growth_means", "rate", maker="plain", points="jittered-0.3", d=d, viscosity=eta),
             statement=f"small sound waves in a fluid at rest {words} do not grow off a lattice: largest growth rate a/c, the "
-                      "bracket + in both equations, plain edges, points jittered by 0.3 a")
-      for name, eta, words in (("", 0.0, "without viscosity"), ("-viscous", 0.1, "with the viscosity 0.1 rho c a"))),
+                      f"bracket + in both equations, plain edges, points jittered by 0.3 a in {d}D")
+      for name, d, eta, words in (("", 2, 0.0, "without viscosity"), ("-viscous", 2, 0.1, "with the viscosity 0.1 rho c a"),
+                                  ("-1d", 1, 0.0, "without viscosity"), ("-3d", 3, 0.0, "without viscosity"))),
     Claim(id="rr98-eq34-35-sound-closed", source="RR98 Eqs 34, 35", at_most=1e-12, because=ROUND_OFF,
           value=most("growth_means", column("largest"), maker=CLOSED),
           statement="on edges that close sound does not grow: largest growth rate a/c, jittered, random and relaxed points and "
-                    "lattice, with and without viscosity"),
+                    "lattice, 1 to 3 dimensions, with and without viscosity"),
     Claim(id="rr98-eq36-work", source="RR98 Eq. 36", at_most=1e-12, because=ROUND_OFF, value=most("work", column("work")),
           statement="a uniform stream does no work of pressure on any points, whatever the pressure: largest heating over P U/a, "
                     "random rho and T, jittered and random points, renormalised edges, which do not close, 1 to 3 dimensions"),

@@ -22,9 +22,10 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     if "growth" in tables:
         rows = tables["growth"]
         rows = rows[rows["rate"].notna()]
-        worst = rows.groupby(["maker", "points", "viscosity"])["rate"].max()
-        found["growth_means"] = [{**row, "largest": float(worst[row["maker"], row["points"], row["viscosity"]])}
-                                 for row in means(rows, ["maker", "points", "viscosity"], ("rate", "closure"))]
+        key = ["maker", "points", "d", "viscosity"]
+        worst = rows.groupby(key)["rate"].max()
+        found["growth_means"] = [{**row, "largest": float(worst[tuple(row[name] for name in key)])}
+                                 for row in means(rows, key, ("rate", "closure"))]
     return found
 
 

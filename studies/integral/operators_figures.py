@@ -34,7 +34,7 @@ SHOWN: dict[str, Callable[[pd.DataFrame], pd.DataFrame]] = {
     "symbols": lambda rows: rows[rows["d"] == 2],
     "equations": lambda rows: rows[(rows["d"] == 2) & (rows["h"] == 3.0)],
     "lattice": lambda rows: rows[(rows["weight"] == "Exponential") & (rows["how"] == "plain")],
-    "growth_means": lambda rows: rows, "euler": lambda rows: rows[np.isfinite(rows["limit"])]}
+    "growth_means": lambda rows: rows[rows["d"] == 2], "euler": lambda rows: rows[np.isfinite(rows["limit"])]}
 
 
 def symbols(rows: pd.DataFrame) -> Figure:

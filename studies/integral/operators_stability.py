@@ -16,11 +16,13 @@ from studies.integral.operators import Disorder
 from studies.kit.case import Case, Outcome, Report
 
 STEP = 1e-4     # of central differences: rates are of third degree, so errors are 1e-8 of them, round-off 1e-12
+#: d -> points, range of the weight
+BOXES: dict[int, tuple[tuple[int, ...], float]] = {1: ((40,), 3.0), 2: ((10, 10), 3.0), 3: ((6, 6, 6), 2.0)}
 NULL = 1e-6     # rates that small belong to waves that the operators do not see
 
 
 def sound(edges: Edges, eta: float = 0.0) -> np.ndarray:
-    """Matrix of d/dt (P'/c, p) in a fluid at rest, times sqrt(V); rho = c = 1, friction eta lap v (2D, zeta = 0).
+    """Matrix of d/dt (P'/c, p) in a fluid at rest, times sqrt(V); rho = c = 1, friction eta lap v (in 2D that of zeta = 0).
 
     V P'_t = -c^2 D.p and V p_t = -D P': antisymmetric if D = -D^T, so where edges close.
     """
@@ -36,24 +38,24 @@ def sound(edges: Edges, eta: float = 0.0) -> np.ndarray:
 
 @dataclass(frozen=True, kw_only=True)
 class Growth(Case):
-    """Largest growth rate of sound at rest on 10 x 10 points; where no edges of the kind exist it is not a number."""
+    """Largest growth rate of sound at rest on 40, 10 x 10 or 6 x 6 x 6 points; not a number where no edges of the kind exist."""
     maker: str
     make: Callable[[Points, Any], Edges]
     disorder: Disorder
     viscosities: tuple[float, ...]
     seed: int = 1
-    counts: tuple[int, int] = (10, 10)
-    h: float = 3.0
+    d: int = 2
 
     @property
     def cost(self) -> float:
-        return 0.3*len(self.viscosities)
+        return (0.1, 0.3, 3.0)[self.d - 1]*len(self.viscosities)
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        key = {"maker": self.maker, "points": self.disorder.name, "seed": self.seed}
-        at = self.disorder.make(self.counts, self.disorder.size, self.seed)
+        key = {"maker": self.maker, "points": self.disorder.name, "d": self.d, "seed": self.seed}
+        counts, h = BOXES[self.d]
+        at = self.disorder.make(counts, self.disorder.size, self.seed)
         try:
-            edges = self.make(at, WendlandC2.of(h=self.h))
+            edges = self.make(at, WendlandC2.of(h=h, d=self.d))
         except ArithmeticError:     # no such edges exist on these points: that is a result
             return Outcome({"growth": [{**key, "viscosity": eta, "rate": np.nan, "closure": np.nan} for eta in self.viscosities]})
         closure = float(np.abs(edges.closure/edges.V[:, None]).max())

@@ -36,10 +36,11 @@ STREAM_MEANS = Table("stream_means", key=["points", "inner"],
 #: at the 2^d - 1 Nyquist corners: largest |gradient| of the wave times a (nested), least Laplacian times a^2 (pairwise)
 NULLS = Table("nulls", key=["weight", "d", "h"], columns=["weight", "d", "h", "corners", "nested", "pairwise"])
 #: largest growth rate a/c of the linearised fluid at rest, viscosity in rho c a; closure: largest |sum_j S_ij|/V_i
-GROWTH = Table("growth", key=["maker", "points", "viscosity", "seed"],
-               columns=["maker", "points", "viscosity", "seed", "rate", "closure"])
-GROWTH_MEANS = Table("growth_means", key=["maker", "points", "viscosity"],
-                     columns=["maker", "points", "viscosity", "seeds", "rate", "rate_err", "largest", "closure", "closure_err"])
+GROWTH = Table("growth", key=["maker", "points", "d", "viscosity", "seed"],
+               columns=["maker", "points", "d", "viscosity", "seed", "rate", "closure"])
+GROWTH_MEANS = Table("growth_means", key=["maker", "points", "d", "viscosity"],
+                     columns=["maker", "points", "d", "viscosity", "seeds", "rate", "rate_err", "largest", "closure",
+                              "closure_err"])
 #: lost: by random states, relative; uniform: largest rate of a uniform fluid in a wind; wind: what a wind changes in random
 #: states besides carrying them with D, relative; skew: |D + D^T|/|D|, matrix norms, growth of sound over its largest frequency
 INVARIANCE = Table("invariance", key=["maker", "points", "d", "transport"],
