@@ -1,0 +1,1 @@
+"""One page of everything in results/: findings, verdicts, figures with their tables, cost against error, films."""
