@@ -2,26 +2,28 @@
 PYTHON ?= python3
 SIZE   ?= paper
 ARGS   ?=
+# of a Dask cluster on which the cases of studies run: tcp://host:port
+SCHEDULER ?=
 
 run     := .venv/bin/python
 # a study is what can be run; other modules in studies/ serve them
 studies := $(notdir $(basename $(shell grep -ls '^if __name__ ==' studies/*.py)))
 
-export SIZE
+export SIZE SCHEDULER
 export PYTHONPATH := $(CURDIR)
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help env studies test lint types notebooks bench clean $(studies:%=study-%) $(studies:%=figures-%)
+.PHONY: help env studies test lint types notebooks bench worker clean $(studies:%=study-%) $(studies:%=figures-%)
 
 # a line for each name that % stands for
 help:  ## this list
-	@echo 'make TARGET [SIZE=quick|paper|fine] [ARGS="--workers 1"] [PYTHON=python3]'
+	@echo 'make TARGET [SIZE=quick|paper|fine] [ARGS="--workers 1"] [SCHEDULER=tcp://host:port] [PYTHON=python3]'
 	@awk -v names='$(studies)' '{ sub(/^[$$][(].*[)]: /, "") } /^[a-z%-]+:.*  ## / { \
 		text = $$0; sub(/.*  ## /, "", text); target = $$1; sub(/:$$/, "", target); \
 		n = target ~ /%/ ? split(names, name, " ") : 1; \
-		for (i = 1; i <= n; i++) { one = target; sub(/%/, name[i], one); printf "  %-18s%s\n", one, text } }' Makefile
+		for (i = 1; i <= n; i++) { one = target; sub(/%/, name[i], one); printf "  %-22s%s\n", one, text } }' Makefile
 	@echo '  ARGS="--only TEXT" runs the cases of a study with this text in their label, such as the name of a variant'
 	@echo '  SIZE=quick writes to results/quick'
 
@@ -58,6 +60,15 @@ bench: .venv/ready-bench  ## speed, beside public codes, in one run
 	$(run) -m bench.spam_speed $(ARGS)
 	$(run) -m bench.points_speed
 	$(run) -m bench.dpd_speed $(ARGS)
+
+# one case at a time, with one thread each
+worker: export OMP_NUM_THREADS = 1
+worker: export OPENBLAS_NUM_THREADS = 1
+worker: export MKL_NUM_THREADS = 1
+worker: export NUMBA_NUM_THREADS = 1
+worker: .venv/ready  ## lend this machine to the cluster at SCHEDULER; ARGS="--nworkers 8" lends 8 cores of it
+	@test -n '$(SCHEDULER)' || { echo 'make worker SCHEDULER=tcp://host:port: the address that dask scheduler prints' >&2; exit 2; }
+	.venv/bin/dask worker $(SCHEDULER) --nthreads 1 --no-dashboard $(ARGS)
 
 clean:  ## remove caches; .venv and finished cases (results/raw) stay
 	rm -rf .numba_cache .pytest_cache .mypy_cache .ruff_cache .benchmarks

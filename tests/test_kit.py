@@ -2,7 +2,6 @@
 import errno
 import json
 import math
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
@@ -133,13 +132,6 @@ def test_a_full_disk_stops_the_study_and_keeps_what_is_finished(bench):
     with pytest.raises(CasesFailed, match=r"the disk is full: make room .* 1 of 3 cases are finished"):
         bench.sweep(bench.cases(3) + bench.cases(2, trouble="full") + bench.cases(1))
     assert bench.ran() == ["3", "2"]
-
-
-def test_any_executor_will_do(bench):
-    with ThreadPoolExecutor(1) as pool:
-        tables = sweep(bench.cases(1, 2), tables=[SQUARES], study="toy", size="quick", out=bench.folder,
-                       executor=pool)
-    assert list(tables["squares"].y) == [1, 4] and bench.ran() == ["2", "1"]
 
 
 def test_unknown_size_names_the_three(bench):

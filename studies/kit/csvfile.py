@@ -8,12 +8,16 @@ import pandas as pd
 DIGITS = "%.9g"     # of numbers in tables
 
 
+class OtherTable(ValueError):
+    """A table that the code of today did not write."""
+
+
 def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
     """A table from CSV; empty text is "", an empty number NaN.
 
     Raises
     ------
-    FileNotFoundError, ValueError
+    FileNotFoundError, OtherTable
         There is no such file, or it lacks some of ``columns``.
     """
     path = Path(path)
@@ -21,8 +25,8 @@ def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
         raise FileNotFoundError(f"{path} does not exist: make study-{path.parent.name} writes it")
     names, text = pd.read_csv(path, comment="#", nrows=0).columns, text_columns(path)
     if lost := [column for column in columns if column not in names]:
-        raise ValueError(f"{path} has no column {', '.join(lost)}: it was written by other code; "
-                         "remove it and run the study again")
+        raise OtherTable(f"{path} has no column {', '.join(lost)}: it was written by other code; "
+                         "remove it and run the study again: finished cases are kept")
     return pd.read_csv(path, comment="#", dtype=dict.fromkeys(text, str), keep_default_na=False,
                        na_values={name: ["", "nan"] for name in names if name not in text})
 

@@ -1,10 +1,10 @@
-"""Finished cases on disk: results/raw/<study>/<key>.json, written by whoever ran the case."""
+"""Finished cases on disk: results/raw/<study>/<key>.json, written by whoever ran the case; of a cluster, by the study."""
 import errno
 import json
 import shutil
 import sys
 import traceback
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,12 +15,13 @@ from studies.kit.csvfile import write_atomic
 
 @dataclass(frozen=True)
 class Failure:
-    """A case that did not finish: what it was, why, the file with the whole story."""
+    """A case that did not finish: what it was, why, the whole story and the file that has it."""
 
     label: str
     message: str
     path: Path | None = None
     disk_full: bool = False
+    story: str = ""
 
     def __str__(self) -> str:
         return f"  {self.label}: {self.message}" + (f"\n    traceback: {self.path}" if self.path else "")
@@ -28,25 +29,54 @@ class Failure:
 
 def run_and_keep(case: Case, folder: Path, report: Report) -> Failure | None:
     """Run one case, keep its outcome, clear its scratch folder; a failure is handed back, not raised."""
-    scratch, story = folder / case.key, folder / f"{case.key}.error.txt"
+    scratch = folder / case.key
+    failure = keep(case, attempt(case, scratch, report), folder)
+    if failure is None:
+        shutil.rmtree(scratch)
+    return failure
+
+
+def attempt(case: Case, scratch: Path, report: Report) -> str | Failure:
+    """Run one case: its outcome as text, or a failure."""
     try:
         scratch.mkdir(parents=True, exist_ok=True)
-        keep(case, case.run(report, scratch), folder)
-        shutil.rmtree(scratch)
+        return as_text(case, case.run(report, scratch))
+    except Exception as error:
+        return failed(case, error)
+
+
+def failed(case: Case, error: Exception) -> Failure:
+    """Why it did not finish."""
+    return Failure(case.label, f"{type(error).__name__}: {error}", story=f"{case!r}\n\n{traceback.format_exc()}",
+                   disk_full=isinstance(error, OSError) and error.errno == errno.ENOSPC)
+
+
+def keep(case: Case, result: str | Failure, folder: Path) -> Failure | None:
+    """Write the outcome of a case, wherever it ran, or the story of its failure, unless the disk is full."""
+    story = folder / f"{case.key}.error.txt"
+    if isinstance(result, Failure):
+        if result.disk_full:
+            return result
+        write_atomic(story, result.story)
+        return replace(result, path=story)
+    try:
+        write_atomic(folder / f"{case.key}.json", result)
         story.unlink(missing_ok=True)
         return None
-    except Exception as error:
-        full = isinstance(error, OSError) and error.errno == errno.ENOSPC
-        if not full:
-            write_atomic(story, f"{case!r}\n\n{traceback.format_exc()}")
-        return Failure(case.label, f"{type(error).__name__}: {error}", story, full)
+    except OSError as error:
+        return keep(case, failed(case, error), folder)
 
 
-def keep(case: Case, outcome: Outcome, folder: Path) -> None:
-    """Write an outcome with the commit it was computed by."""
+def as_text(case: Case, outcome: Outcome) -> str:
+    """An outcome with the commit it was computed by, and where."""
     content = {"case": parameters(case), "commit": provenance.commit(), "versions": provenance.versions(),
-               "date": provenance.now(), "rows": outcome.rows}
-    write_atomic(folder / f"{case.key}.json", json.dumps(content, default=plain, indent=1))
+               "cpu": provenance.cpu(), "date": provenance.now(), "rows": outcome.rows}
+    return json.dumps(content, default=plain, indent=1)
+
+
+def same_code(case: Case) -> bool:
+    """Whether this process has the code that the case was made with in another one."""
+    return replace(case).key == case.key
 
 
 def plain(value: Any) -> Any:

@@ -15,6 +15,8 @@ from matplotlib.figure import Figure
 
 from studies.kit.case import Case
 from studies.kit.claim import Claim, judge, put_claims
+from studies.kit.cluster import ClusterError, check_scheduler
+from studies.kit.csvfile import OtherTable
 from studies.kit.figure import save
 from studies.kit.sweep import (
     RESULTS,
@@ -54,8 +56,10 @@ class Study:
     figures: Callable[[Tables], Mapping[str, Figure]] = nothing
     claims: Sequence[Claim] = ()
 
-    def run(self, size: str, *, workers: int = 2, out: Path | None = None, only: str = "") -> Tables:
+    def run(self, size: str, *, workers: int = 2, out: Path | None = None, only: str = "", scheduler: str = "") -> Tables:
         """Cases to tables, derived rows among them; ``only`` those with this text in their label.
+
+        ``scheduler`` is the address of a Dask cluster on which cases run, instead of ``workers`` processes here.
 
         Raises
         ------
@@ -63,11 +67,13 @@ class Study:
             No label contains ``only``.
         CasesFailed
             After all that the finished cases give has been derived and written: one that diverges costs its own row.
+        ClusterError
+            The cluster cannot run the cases; the tables are as they were.
         """
         failed, out = None, out or results(size)
         try:
             tables = sweep(self.cases(check_size(size)), tables=self.tables, study=self.name, size=size,
-                           workers=workers, out=out, only=only)
+                           workers=workers, out=out, only=only, scheduler=scheduler)
         except CasesFailed as error:
             failed, tables = error, load(self.tables, self.name, out)
         if tables:
@@ -109,7 +115,7 @@ def main(study: Study, arguments: Sequence[str] | None = None) -> None:
         sys.exit(say("\ninterrupted: finished cases are kept, the same command goes on from there", 130))
     except NoSuchCase as error:
         sys.exit(say(f"{study.name}: {error}", 2))
-    except (CasesFailed, FileNotFoundError) as error:
+    except (CasesFailed, ClusterError, OtherTable, FileNotFoundError) as error:
         sys.exit(say(f"{study.name}: {error}", 1))
     except OSError as error:
         if error.errno not in DISK:
@@ -118,18 +124,21 @@ def main(study: Study, arguments: Sequence[str] | None = None) -> None:
 
 
 def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
-    """Command, size (default: SIZE of the environment, else paper), workers, folder, which cases."""
+    """Command, size (default: SIZE of the environment, else paper), workers or cluster, folder, which cases."""
     parser = argparse.ArgumentParser(prog=f"python -m studies.{study.name}")
     add, size = parser.add_argument, os.environ.get("SIZE") or "paper"
     add("command", nargs="?", default="run", choices=["run", "figures", "claims"])
     add("--size", default=size, help=f"{', '.join(SIZES)} (default: {size})")
     add("--workers", type=int, default=2, help="processes; 1 computes in this one (default: 2)")
+    add("--scheduler", default=os.environ.get("SCHEDULER") or "", metavar="tcp://HOST:PORT",
+        help="of a Dask cluster that runs the cases instead (default: SCHEDULER of the environment)")
     add("--out", type=Path, help="where tables and figures go (default: results; of size quick: results/quick)")
     add("--only", default="", metavar="TEXT", help="run only cases with this text in their label, such as a variant's name")
     words = parser.parse_args(arguments)
     try:
         check_size(words.size)
         check_workers(words.workers)
+        check_scheduler(words.scheduler)
         if words.only and words.command != "run":
             raise ValueError(f"--only chooses what to run, {words.command} reads whole tables: leave it out")
         words.usual, words.out = words.out is None, words.out or results(words.size)
@@ -155,7 +164,7 @@ def perform(study: Study, words: argparse.Namespace) -> int:
     failed = None
     if words.command == "run":
         try:
-            study.run(words.size, workers=words.workers, out=words.out, only=words.only)
+            study.run(words.size, workers=words.workers, out=words.out, only=words.only, scheduler=words.scheduler)
         except CasesFailed as error:
             failed = error
     elif not written(study, words.out):

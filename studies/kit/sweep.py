@@ -2,11 +2,11 @@
 import shlex
 import sys
 from collections.abc import Iterable, Mapping, Sequence
-from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any
 
 from studies.kit.case import Case
+from studies.kit.cluster import ClusterError, check_scheduler, run_on
 from studies.kit.keep import Failure, kept
 from studies.kit.source import ROOT
 from studies.kit.table import Table, Tables, changed, check_size, merge, read
@@ -29,27 +29,28 @@ class Interrupted(KeyboardInterrupt):
 
 
 def sweep(cases: Iterable[Case], *, tables: Sequence[Table], study: str, size: str, workers: int = 2,
-          out: Path = RESULTS, executor: Executor | None = None, only: str = "") -> Tables:
+          out: Path = RESULTS, scheduler: str = "", only: str = "") -> Tables:
     """Run the cases that are not finished yet, merge all rows into ``out/study/*.csv`` and read these back.
 
-    ``workers=1`` runs in this process. ``executor`` may be any that takes ``submit`` (then without
-    fractions of running cases in the bar). ``only`` leaves out cases without this text in their label.
+    ``workers=1`` runs in this process; ``scheduler``, an address, runs on the workers of its Dask cluster instead.
+    ``only`` leaves out cases without this text in their label.
 
     Raises
     ------
     NoSuchCase
         There is none with the text, or no case at all.
-    CasesFailed, Interrupted
+    CasesFailed, Interrupted, ClusterError
         When everything that could be saved is saved.
     """
     check_size(size)
     check_workers(workers)
+    check_scheduler(scheduler)
     folder = out / "raw" / study
     wanted = list({case.key: case for case in labelled(list(cases), only, size)}.values())
-    failures = run(wanted, folder, study, workers, executor)
+    failures = run(wanted, folder, study, workers, scheduler)
     if any(failure.disk_full for failure in failures):
         raise CasesFailed(f"the disk is full: make room where {folder} lies; {count(wanted, folder)}")
-    result = put(collect(wanted, folder), tables, study, size, out, only)
+    result = put(collect(wanted, folder), tables, study, size, out, only, scheduler)
     if failures:
         raise CasesFailed(f"{len(failures)} of {len(wanted)} cases failed, the tables hold the others:\n"
                           + "\n".join(map(str, failures)))
@@ -73,20 +74,21 @@ def check_workers(workers: int) -> None:
         raise ValueError(f"workers must be at least 1, got {workers}: 2 uses two cores")
 
 
-def run(wanted: Sequence[Case], folder: Path, study: str, workers: int,
-        executor: Executor | None) -> list[Failure]:
+def run(wanted: Sequence[Case], folder: Path, study: str, workers: int, scheduler: str) -> list[Failure]:
     """Run the cases that are not kept, the longest first; a full disk stops all of them."""
     todo = sorted((case for case in wanted if kept(case, folder) is None), key=lambda case: -case.cost)
     bar, failures = Bar(todo, study), []
     try:
-        here = workers == 1 and executor is None
-        running = run_here(todo, folder, bar) if here else run_there(todo, folder, bar, workers, executor)
+        running = (run_on(scheduler, todo, folder, bar) if scheduler else run_here(todo, folder, bar) if workers == 1
+                   else run_there(todo, folder, bar, workers))
         for failure in running:
             failures.append(failure)
             if failure.disk_full:
                 break
     except KeyboardInterrupt:
         raise Interrupted(f"interrupted: {count(wanted, folder)}") from None
+    except ClusterError as error:
+        raise ClusterError(f"{error}; {count(wanted, folder)}") from error
     finally:
         bar.bar.close()
     return failures
@@ -108,13 +110,14 @@ def collect(cases: Sequence[Case], folder: Path) -> dict[str, list[dict[str, Any
 
 
 def put(rows: Mapping[str, list[dict[str, Any]]], tables: Sequence[Table], study: str, size: str,
-        out: Path, only: str = "") -> Tables:
+        out: Path, only: str = "", scheduler: str = "") -> Tables:
     """Merge rows into the tables of a study and read all of these that exist."""
     known = {table.name: table for table in tables}
     if unknown := sorted(set(rows) - set(known)):
         raise ValueError(f"no table {', '.join(unknown)} in study {study}: it has {', '.join(known)}")
     for name, new in rows.items():
-        _, better = merge(out / study / f"{name}.csv", known[name], new, size=size, command=command(study, size, only))
+        _, better = merge(out / study / f"{name}.csv", known[name], new, size=size,
+                          command=command(study, size, only, scheduler))
         if better:
             print(f"{study}/{name}.csv: {better} rows of a better size than {size} stay", file=sys.stderr)
     return load(tables, study, out)
@@ -133,9 +136,11 @@ def put_derived(rows: Mapping[str, list[dict[str, Any]]], tables: Sequence[Table
     return put(rows, tables, study, size, out, only)
 
 
-def command(study: str, size: str, only: str = "") -> str:
-    """What makes the tables."""
-    return f"python -m studies.{study} --size {size} --only {shlex.quote(only)}" if only else f"make study-{study} SIZE={size}"
+def command(study: str, size: str, only: str = "", scheduler: str = "") -> str:
+    """What makes the tables; of a cluster, whose CPUs the head of a table does not name, that it is one."""
+    there = " SCHEDULER=tcp://..." if scheduler else ""
+    return (f"python -m studies.{study} --size {size} --only {shlex.quote(only)}" if only
+            else f"make study-{study} SIZE={size}") + there
 
 
 def load(tables: Sequence[Table], study: str, out: Path = RESULTS) -> Tables:

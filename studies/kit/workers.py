@@ -1,12 +1,11 @@
 """Cases onto worker processes, one thread each, with a bar that knows what is left."""
-import dataclasses
 import multiprocessing
 import os
 import signal
 import sys
 import threading
 from collections.abc import Generator, Iterator, MutableSequence, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,7 +13,7 @@ from pathlib import Path
 from tqdm import tqdm
 
 from studies.kit.case import Case
-from studies.kit.keep import Failure, run_and_keep
+from studies.kit.keep import Failure, run_and_keep, same_code
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 SPAWN = multiprocessing.get_context("spawn")
@@ -53,14 +52,13 @@ def run_here(cases: Sequence[Case], folder: Path, bar: Bar) -> Iterator[Failure]
         bar.done[number] = 1.0
 
 
-def run_there(cases: Sequence[Case], folder: Path, bar: Bar, workers: int,
-              executor: Executor | None = None) -> Iterator[Failure]:
-    """Run cases on workers; those that time themselves come last, one by one, and alone."""
+def run_there(cases: Sequence[Case], folder: Path, bar: Bar, workers: int) -> Iterator[Failure]:
+    """Run cases on worker processes; those that time themselves come last, one by one, and alone."""
     together = [number for number, case in enumerate(cases) if not case.alone]
     alone = [number for number, case in enumerate(cases) if case.alone]
-    for numbers, count, given in ((together, workers, executor), (alone, 1, None)):
+    for numbers, count in ((together, workers), (alone, 1)):
         while numbers:
-            with executor_of(bar, min(count, len(numbers)), given) as pool:
+            with pool_of(bar, min(count, len(numbers))) as pool:
                 lost = yield from drain(pool, cases, numbers, folder, bar)
             again = [number for number in lost if bar.done[number] == 0]
             if set(again) == set(numbers):
@@ -69,11 +67,8 @@ def run_there(cases: Sequence[Case], folder: Path, bar: Bar, workers: int,
 
 
 @contextmanager
-def executor_of(bar: Bar, workers: int, executor: Executor | None) -> Iterator[Executor]:
-    """The given executor, or worker processes that are stopped, not waited for, when something is raised."""
-    if executor:
-        yield executor
-        return
+def pool_of(bar: Bar, workers: int) -> Iterator[ProcessPoolExecutor]:
+    """Worker processes that are stopped, not waited for, when something is raised."""
     before = set(multiprocessing.active_children())
     with one_thread(), remember_interrupt(), ProcessPoolExecutor(workers, SPAWN, begin, (bar.done,)) as pool:
         try:
@@ -84,7 +79,7 @@ def executor_of(bar: Bar, workers: int, executor: Executor | None) -> Iterator[E
             raise
 
 
-def drain(pool: Executor, cases: Sequence[Case], numbers: Sequence[int], folder: Path,
+def drain(pool: ProcessPoolExecutor, cases: Sequence[Case], numbers: Sequence[int], folder: Path,
           bar: Bar) -> Generator[Failure, None, list[int]]:
     """Wait for all cases; yields failures, returns the numbers of those that a dying worker took along."""
     with no_interrupt():
@@ -115,7 +110,7 @@ def run_one(number: int, case: Case, folder: Path) -> Failure | None:
         if shared:
             shared[number] = min(max(fraction, 1e-9), 1 - 1e-9)
     report(0.0)
-    if dataclasses.replace(case).key != case.key:
+    if not same_code(case):
         return Failure(case.label, "the code was changed before this worker loaded it: start the study again")
     return run_and_keep(case, folder, report)
 

@@ -1,0 +1,327 @@
+"""A study on a Dask cluster: a real one, of a scheduler and two workers on this machine, and what goes wrong with it."""
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from studies.kit import cluster, provenance, source
+from studies.kit.case import Case, Outcome
+from studies.kit.cluster import ClusterError, check_scheduler
+from studies.kit.errand import check_worker, packed, unpacked
+from studies.kit.study import Study, main
+from studies.kit.sweep import sweep
+from studies.kit.table import Table, read
+
+LAW = "import numpy as np\ndef wave(x):\n    return np.sin(np.arange(1, 9)*x/7).sum()\n"
+TOY = '''
+import os, time
+from dataclasses import dataclass
+from typing import ClassVar
+from continuum import law
+from studies.kit.case import Case, Outcome
+from studies.kit.study import Study, main
+from studies.kit.table import Table
+
+def note(word, case):
+    with open("log", "a") as log:
+        log.write(f"{word} {case.x:g} {os.getpid()} {os.environ['OMP_NUM_THREADS']}\\n")
+
+@dataclass(frozen=True, kw_only=True)
+class Run(Case):
+    x: float
+    law: object = law.wave
+    def run(self, report, folder):
+        note("begin", self)
+        try:
+            while self.x == 2 and not os.path.exists("go"):
+                report(0.5)
+                time.sleep(0.05)
+            if self.x == 3 and os.path.exists("die"):
+                os._exit(9)
+            return Outcome({"waves": [{"x": self.x, "y": self.law(self.x)}]})
+        finally:
+            note("end", self)
+
+class Timed(Run):
+    alone: ClassVar[bool] = True
+    cost = 99.0
+
+if __name__ == "__main__":
+    main(Study(name="toy", cases=lambda size: [Timed(x=4.0), Timed(x=5.0), *(Run(x=x) for x in (0.1, 1., 2., 3.))],
+               tables=[Table("waves", key=["x"], columns=["x", "y"])]))
+'''
+
+
+class Toy:
+    """A repository with one study: case 2 waits until told to go, 3 dies if told to, 4 and 5 run alone."""
+
+    def __init__(self, folder: Path):
+        self.folder, self.processes = folder, []
+        shutil.copytree(source.ROOT / "studies/kit", folder / "studies/kit", ignore=shutil.ignore_patterns("__pycache__"))
+        for name, text in {"studies/__init__": "", "studies/toy": TOY, "continuum/__init__": "", "continuum/law": LAW}.items():
+            (folder / name).parent.mkdir(exist_ok=True)
+            (folder / f"{name}.py").write_text(text)
+        # found by the cluster's processes and not by this test's
+        self.outside = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "SCHEDULER", "SIZE")}
+
+    def dask(self, *words, cwd, **more):
+        """One process of the cluster, what it says in a file; a scheduler allows one more try."""
+        log = (self.folder / f"dask-{len(self.processes)}.txt").open("w")
+        command = [Path(sys.executable).with_name("dask"), *words, "--no-dashboard", "--host", "127.0.0.1"]
+        self.processes.append(subprocess.Popen(command, cwd=cwd, stdout=log, stderr=log, start_new_session=True, env={
+            **self.outside, **more, "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1"}))
+
+    def cluster(self):
+        """A scheduler that knows nothing of the repository, two workers that nannies start again."""
+        elsewhere, port = self.folder / "elsewhere", free_port()
+        elsewhere.mkdir()
+        self.address = f"tcp://127.0.0.1:{port}"
+        self.dask("scheduler", "--port", str(port), cwd=elsewhere)
+        for _ in range(2):
+            self.dask("worker", self.address, "--nthreads", "1", "--local-directory", str(elsewhere), cwd=self.folder,
+                      PYTHONPATH=str(self.folder))
+
+    def end(self):
+        for process in self.processes:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+
+    def start(self, *words, scheduler=True):
+        to = {"SCHEDULER": self.address} if scheduler else {"OMP_NUM_THREADS": "1"}
+        return subprocess.Popen([sys.executable, "-m", "studies.toy", *words], cwd=self.folder, text=True, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, start_new_session=True, env={**self.outside, **to})
+
+    def run(self, *words, **more):
+        process = self.start(*words, **more)
+        return self.finish(process)
+
+    def finish(self, process):
+        text = process.communicate(timeout=60)[0]
+        return process.returncode, text
+
+    def log(self):
+        """What cases did since last asked."""
+        path = self.folder / "log"
+        return [tuple(line.split()) for line in path.read_text().splitlines()] if path.exists() else []
+
+    def forget(self, *names):
+        for name in ("log", *names):
+            (self.folder / name).unlink(missing_ok=True)
+        shutil.rmtree(self.folder / "results", ignore_errors=True)
+
+    def waits(self, running, times=1):
+        """The process in which case 2 waits, as soon as it has begun so many times."""
+        while running.poll() is None:
+            began = [pid for word, x, pid, _ in self.log() if (word, x) == ("begin", "2")]
+            if len(began) == times:
+                return int(began[-1])
+            time.sleep(0.05)
+        pytest.fail(self.finish(running)[1])
+
+    def kept(self):
+        return len(list((self.folder / "results/raw/toy").glob("*.json")))
+
+
+def free_port():
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        return free.getsockname()[1]
+
+
+def body(path):
+    return [line for line in path.read_text().splitlines() if not line.startswith("#")]
+
+
+@pytest.fixture(scope="module")
+def toy(tmp_path_factory):
+    toy = Toy(tmp_path_factory.mktemp("cluster"))
+    try:
+        toy.cluster()
+        yield toy
+    finally:
+        toy.end()
+
+
+def test_a_case_whose_worker_is_killed_is_run_again_and_the_rows_are_those_of_the_pool(toy):
+    running = toy.start()
+    victim = toy.waits(running)
+    os.kill(victim, signal.SIGKILL)
+    assert toy.waits(running, times=2) != victim, "in another process, while the study goes on"
+    (toy.folder / "go").touch()
+    code, text = toy.finish(running)
+    assert code == 0, text
+    began = [x for word, x, *_ in toy.log() if word == "begin"]
+    assert sorted(began) == ["0.1", "1", "2", "2", "3", "4", "5"]
+    last = [(word, x) for word, x, *_ in toy.log()][-4:]
+    assert last in ([("begin", "4"), ("end", "4"), ("begin", "5"), ("end", "5")],
+                    [("begin", "5"), ("end", "5"), ("begin", "4"), ("end", "4")]), "one by one, after all others"
+    assert {threads for *_, threads in toy.log()} == {"1"} and toy.kept() == 6
+    table = toy.folder / "results/toy/waves.csv"
+    assert "make study-toy SIZE=paper SCHEDULER=tcp://...\n" in table.read_text()
+
+    assert toy.run("--out", "here", scheduler=False)[0] == 0
+    assert body(table) == body(toy.folder / "here/toy/waves.csv") and len(body(table)) == 7
+    mine, other = (sorted(path.name for path in (toy.folder / f"{out}/raw/toy").iterdir()) for out in ("results", "here"))
+    assert mine == other, "the study keeps what comes back under the same keys, and no scratch folder"
+
+
+def test_a_kept_case_that_is_damaged_is_run_again_and_no_other(toy):
+    damaged = next(path for path in (toy.folder / "results/raw/toy").iterdir() if '"x": 1.0' in path.read_text())
+    damaged.write_text("{\"rows\": ")
+    (toy.folder / "log").unlink()
+    code, text = toy.run()
+    assert code == 0 and "is run again" in text
+    assert [x for _, x, *_ in toy.log()] == ["1", "1"] and toy.kept() == 6
+
+
+def test_an_interrupt_ends_what_runs_on_the_cluster_and_keeps_what_is_finished(toy):
+    toy.forget("go")
+    running = toy.start()
+    toy.waits(running)
+    while toy.kept() < 3:
+        time.sleep(0.05)
+    os.killpg(running.pid, signal.SIGINT)
+    code, text = toy.finish(running)
+    assert code == 130 and "3 of 6 cases are finished and kept, the same command goes on from there" in text
+    assert "Traceback" not in text
+    for _ in range(100):
+        if ("end", "2") in [(word, x) for word, x, *_ in toy.log()]:
+            break
+        time.sleep(0.05)
+    else:
+        pytest.fail("case 2 goes on although nobody waits for it")
+    assert not {"4", "5"} & {x for _, x, *_ in toy.log()}, "what times itself waits for the others"
+
+
+def test_a_case_that_kills_each_of_its_workers_costs_only_itself(toy):
+    toy.forget()
+    for name in ("go", "die"):
+        (toy.folder / name).touch()
+    code, text = toy.run()
+    (toy.folder / "die").unlink()
+    assert code == 1 and "1 of 6 cases failed" in text and "Run 3 wave: 2 workers died while they ran it" in text
+    assert [x for word, x, *_ in toy.log() if word == "begin"].count("3") == 2
+    assert body(toy.folder / "results/toy/waves.csv") == [line for line in body(toy.folder / "here/toy/waves.csv")
+                                                          if not line.startswith("3,")]
+
+
+def test_a_worker_with_other_code_is_refused_and_the_tables_stay(toy):
+    before = body(toy.folder / "results/toy/waves.csv")
+    (toy.folder / "continuum/law.py").write_text(LAW.replace("/7", "/8"))
+    code, text = toy.run()
+    assert code == 1 and "has other code than the study: Run" in text and "make worker SCHEDULER=tcp://..." in text
+    assert "0 of 6 cases are finished and kept" in text and "Traceback" not in text
+    assert body(toy.folder / "results/toy/waves.csv") == before
+    (toy.folder / "continuum/law.py").write_text(LAW)
+
+
+def test_a_scheduler_that_is_lost_ends_the_study_within_seconds(toy):
+    toy.forget("go")
+    running = toy.start()
+    toy.waits(running)
+    os.killpg(toy.processes[0].pid, signal.SIGKILL)
+    begin = time.monotonic()
+    code, text = toy.finish(running)
+    assert code == 1 and f"the connection to the scheduler at {toy.address} was lost; " in text
+    assert "cases are finished and kept, the same command goes on from there" in text and time.monotonic() - begin < 10
+
+
+# --- in this process --------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cube(Case):
+    x: float
+
+    def run(self, report, folder):
+        return Outcome({"cubes": [{"x": self.x, "y": self.x**3}]})
+
+
+CUBES = Table("cubes", key=["x"], columns=["x", "y"])
+STUDY = Study(name="toy", cases=lambda size: [Cube(x=1.0), Cube(x=2.0)], tables=[CUBES])
+WORKER = SimpleNamespace(address="tcp://here:1", state=SimpleNamespace(nthreads=1))
+
+
+def typed(*words):
+    with pytest.raises(SystemExit) as ended:
+        main(STUDY, words)
+    return ended.value.code
+
+
+def test_without_an_answer_nothing_is_lost(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(cluster, "CONNECT", 0.5)
+    nowhere = f"tcp://127.0.0.1:{free_port()}"
+    assert typed("--workers", "1", "--out", str(tmp_path), "--only", "Cube 1") == 0
+    before = (tmp_path / "toy/cubes.csv").read_text()
+    capsys.readouterr()
+    assert typed("--scheduler", nowhere, "--out", str(tmp_path)) == 1
+    told = capsys.readouterr().err
+    assert f"toy: no Dask scheduler answers at {nowhere} within 0.5 s: start one by dask scheduler, or leave SCHEDULER" in told
+    assert "1 of 2 cases are finished and kept" in told and "Traceback" not in told
+    assert (tmp_path / "toy/cubes.csv").read_text() == before
+    assert list(sweep(STUDY.cases(""), tables=[CUBES], study="toy", size="paper", workers=1, out=tmp_path)["cubes"].y) == [1, 8]
+    typed("--scheduler", nowhere, "--out", str(tmp_path)), "all is kept: nobody is asked"
+
+
+def test_without_the_package_the_way_out_is_told(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(ClusterError, match=r"needs the package distributed .*: make env installs it, .* without SCHEDULER"):
+        STUDY.run("paper", out=tmp_path, scheduler="tcp://here:1")
+    assert list(STUDY.run("paper", out=tmp_path, workers=1)["cubes"].y) == [1, 8]
+
+
+@pytest.mark.parametrize("address", ["here:8786", "tcp://here", "http://here:8786", "8786"])
+def test_what_is_no_address_is_said_before_anything_runs(address, capsys):
+    assert typed("--scheduler", address) == 2
+    assert f"SCHEDULER={address} is no address of a Dask scheduler: give tcp://host:port" in capsys.readouterr().err
+    assert check_scheduler("tls://[::1]:8786") and check_scheduler("") == ""
+
+
+@pytest.mark.parametrize(("threads", "environment", "versions", "words"), [
+    (2, "1", None, "runs 2 cases at once: it needs --nthreads 1"),
+    (1, "4", None, "computes with more threads than one: it needs OMP_NUM_THREADS=1 MKL_NUM_THREADS=1"),
+    (1, "1", "python 2", "has python 3.* the study python 2")])
+def test_a_worker_that_would_compute_otherwise_is_refused(threads, environment, versions, words, monkeypatch):
+    for name in cluster.THREADS if hasattr(cluster, "THREADS") else ("OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS"):
+        monkeypatch.setenv(name, "1")
+    for name in ("OMP_NUM_THREADS", "MKL_NUM_THREADS"):
+        monkeypatch.setenv(name, environment)
+    worker = SimpleNamespace(address="tcp://here:1", state=SimpleNamespace(nthreads=threads))
+    with pytest.raises(ClusterError, match=words):
+        check_worker(worker, versions or provenance.versions())
+
+
+def test_a_case_that_means_something_else_is_refused(monkeypatch):
+    sent = packed(Cube(x=2.0))
+    assert unpacked(sent, WORKER) == Cube(x=2.0)
+    other = Cube(x=2.0)
+    other.__dict__["key"] = "of other code"
+    with pytest.raises(ClusterError, match=r"worker tcp://here:1 has other code than the study: Cube 2 has another key there"):
+        unpacked(packed(other), WORKER)
+    monkeypatch.delattr(sys.modules[__name__], "Cube")
+    with pytest.raises(ClusterError, match=r"has other code than the study .*Cube"):
+        unpacked(sent, WORKER)
+
+
+def test_a_table_without_a_column_is_one_line_and_what_is_finished_stays(tmp_path, capsys):
+    path = tmp_path / "toy/cubes.csv"
+    path.parent.mkdir()
+    path.write_text("# by hand\nx,z\n1,1\n")
+    for command in ("run", "claims"):
+        assert typed(command, "--workers", "1", "--out", str(tmp_path)) == 1
+        told = capsys.readouterr().err
+        assert told.splitlines()[-1] == (f"toy: {path} has no column y, size, commit: it was written by other code; remove it "
+                                         "and run the study again: finished cases are kept").replace(
+                                             ", size, commit" if command == "claims" else "", "")
+    assert path.read_text() == "# by hand\nx,z\n1,1\n"
+    path.unlink()
+    assert typed("--scheduler", "tcp://nowhere:1", "--out", str(tmp_path)) == 0
+    assert list(read(path).y) == [1, 8]
