@@ -1,17 +1,33 @@
 """Dissipative particles: which integrator knows its temperature, and are pressure, structure and transport those of print?
 
 Groot & Warren's fluid (a = 25, rho = 3, gamma = 4.5, rc = 1, kT = 1) in a periodic cube, with RR98's Eqs 40, 41 and four other
-steps; states of Allen & Tildesley; waves of density; shear between sliding sides. Paper size takes some ten minutes of one core.
+steps; states of Allen & Tildesley; waves of density; shear between sliding sides; why a step puts kT of the positions off; a
+cylinder of frozen particles in a stream. Paper size takes some fifteen minutes of one core.
 Writes results/dpd/*.csv and *.png and the rows of study dpd in results/claims.csv.
 """
 from collections.abc import Iterator
+from typing import Any
+
+from matplotlib.figure import Figure
 
 from particles.blocks import Normal
 from particles.integrators import TwoStep
 from particles.integrators_dpd import GrootWarren, GrootWarren65, Shardlow, VelocityVerlet
-from studies.fluctuating import dpd_claims, dpd_derive, dpd_figures, dpd_tables
+from studies.fluctuating import (
+    dpd_claims,
+    dpd_claims_more,
+    dpd_derive,
+    dpd_derive_more,
+    dpd_figures,
+    dpd_figures_more,
+    dpd_tables,
+)
 from studies.fluctuating.dpd_cases import Fluid, Rest, Shear, Structure
+from studies.fluctuating.dpd_cylinder import Cylinder, Inertia
+from studies.fluctuating.dpd_verlet import Steps, Stiffness
+from studies.kit.case import Case
 from studies.kit.study import Study, main
+from studies.kit.table import Tables
 
 INTEGRATORS = (TwoStep, GrootWarren, GrootWarren65, VelocityVerlet, Shardlow)
 STEPS = (0.01, 0.02, 0.03, 0.04, 0.06, 0.08)
@@ -19,16 +35,19 @@ GAS = (0.02, 0.04, 0.06, 0.08, 0.12)       # without repulsion friction alone li
 LONG = 12_000       # steps of a run: its error of kT over dt is what counts, which falls as dt grows
 
 
-def cases(size: str) -> list[Fluid]:
+def cases(size: str) -> list[Case]:
     """`quick` has small boxes, short runs and three steps."""
     if size == "quick":
         return [*temperatures((0.02, 0.04, 0.06), side=5.0, steps=1000), *gas((0.04, 0.08, 0.12), side=5.0, steps=1000),
                 *densities((2.5, 3.5), side=5.0, time=20.0),
-                *waves_and_shear((0.2,), side=5.0, time=30.0, long=30.0)]
+                *waves_and_shear((0.2,), side=5.0, time=30.0, long=30.0), *second_order((0.03, 0.045), side=4.0, time=60.0),
+                *cylinders(((False, 1.0), (True, 1.0)), time=30.0, shear=30.0, rows=12)]
     return [*temperatures(STEPS, side=8.0, steps=LONG), *gas(GAS, side=8.0, steps=LONG),
             Rest(integrator=Shardlow, dt=0.01, time=120.0), Rest(integrator=TwoStep, dt=0.01, time=300.0),
             *densities((2.6, 2.8, 3.2, 3.4, 4.0, 5.0, 6.0, 8.0), side=8.0, time=60.0), *table(),
-            *waves_and_shear((0.1, 0.2, 0.4), side=10.0, time=110.0, long=300.0)]
+            *waves_and_shear((0.1, 0.2, 0.4), side=10.0, time=110.0, long=300.0),
+            *second_order((0.03, 0.045), side=6.0, time=4000.0),
+            *cylinders(((False, 2.0), (False, 3.0), (True, 2.0)), time=3000.0, shear=1500.0, rows=24)]
 
 
 def temperatures(found: tuple[float, ...], *, side: float, steps: int) -> Iterator[Fluid]:
@@ -65,8 +84,31 @@ def waves_and_shear(rates: tuple[float, ...], *, side: float, time: float, long:
     yield Rest(integrator=Shardlow, dt=0.025, side=0.8*side, time=20.0, pairs=True)
 
 
-STUDY = Study(name="dpd", cases=cases, tables=dpd_tables.ALL, derive=dpd_derive.derive, figures=dpd_figures.figures,
-              claims=dpd_claims.CLAIMS)
+def second_order(found: tuple[float, ...], *, side: float, time: float) -> Iterator[Fluid]:
+    """Averages that say what a step does; what it does."""
+    yield Stiffness(integrator=Shardlow, dt=0.01, side=side/2 + 1, time=time/5)
+    yield from (Steps(integrator=Shardlow, dt=dt, side=side, time=time) for dt in found)
+
+
+def cylinders(bodies: tuple[tuple[bool, float], ...], *, time: float, shear: float, rows: int) -> Iterator[Case]:
+    """Streams past cylinders; the viscosity at their step; what inertia adds."""
+    yield from (Cylinder(turns=turns, radius=radius, time=time*(2/radius)**0.5) for turns, radius in bodies)
+    yield Shear(integrator=VelocityVerlet, dt=0.04, side=8.0, time=shear, rate=0.3)
+    yield Inertia(rows=rows)
+
+
+def derived(tables: Tables) -> dict[str, list[dict[str, Any]]]:
+    """Derived rows."""
+    return {**dpd_derive.derive(tables), **dpd_derive_more.derive(tables)}
+
+
+def drawn(tables: Tables) -> dict[str, Figure]:
+    """Figures."""
+    return {**dpd_figures.figures(tables), **dpd_figures_more.figures(tables)}
+
+
+STUDY = Study(name="dpd", cases=cases, tables=dpd_tables.ALL, derive=derived, figures=drawn,
+              claims=(*dpd_claims.CLAIMS, *dpd_claims_more.CLAIMS))
 
 if __name__ == "__main__":
     main(STUDY)
