@@ -147,7 +147,7 @@ def plain(text: str) -> str:
     for word, sign in SIGNS.items():
         text = re.sub(rf"\\{word}(?![a-zA-Z])", sign, text)
     text = re.sub(r"\^\{?([^{}$]*?)\}?(?=[\s$)\]/,]|$)", r"^\1", text)
-    text = re.sub(r"\\[,;! ]", " ", text)
+    text = re.sub(r"(?<=[A-Za-zα-ω])_\{?([A-Za-z0-9])\}?(?![A-Za-z])", r"\1", re.sub(r"\\[,;! ]", " ", text))
     return re.sub(r"[ \t]+", " ", re.sub(r"[${}\\#]", "", text)).strip()
 
 

@@ -10,15 +10,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.scene import RayleighBenard
-from studies.kit.table import Table, merge
-from studies.report import draw, frames
+from studies.kit.table import merge
+from studies.report import draw, frames, tables
 
 RA, GRID_ROWS, SEED = 1e4, 48, 1
 #: free-fall times: the first rolls shoot over at 10 and settle at 30
 TIMES = np.linspace(0, 32, 41)
 
-TABLE = Table("films", key=["film"], columns=[
-    "film", "title", "caption", "ra", "rows", "points", "grid_rows", "t_end", "frames", "last_ke", "last_ke_grid"])
 
 
 class Film(NamedTuple):
@@ -71,5 +69,5 @@ def make_all(out: Path, only: str = "") -> list[Path]:
         raise ValueError(f"no film has {only!r} in its name: there are {', '.join(FILMS)}")
     folder = out/"films"
     for film in chosen:
-        merge(folder/"films.csv", TABLE, [make(film, folder)], size="fine", command="make films")
+        merge(folder/"films.csv", tables.FILMS, [make(film, folder)], size="fine", command="make films")
     return [folder/f"{film.name}.webp" for film in chosen]

@@ -1,0 +1,189 @@
+"""What was found, in words whose numbers and verdicts are computed from tables and claims; what a table lacks is left out."""
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+
+from studies.kit.claim import COLUMNS
+from studies.report.cost import Panel
+from studies.report.found import NoReport, rows_of
+from studies.report.numbers import many, percent, seconds, signed, told
+
+LAYER = {"eos": "ideal", "transport": "const-eta", "sides": "periodic", "pr": 1}
+ERRORS = ("resolution", "error", "error_err", "cpu_s", "particles")
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A sentence, its numbers, and the table or claims that have them."""
+
+    title: str
+    text: str
+    source: str
+
+
+@dataclass(frozen=True)
+class Known:
+    """Tables by name, claims, panels of cost."""
+
+    out: Path
+    claims: pd.DataFrame
+    panels: list[Panel]
+
+    def errors(self, ra: float = 1e4, energy: str = "Kp", **who: str) -> pd.DataFrame:
+        """Errors of one method in the layer, by resolution; means over grids alone."""
+        found = rows_of(self.out/"rb/errors.csv", ERRORS, **LAYER, ra=ra, energy=energy, **who)
+        return found[found["resolution"] < math.inf].sort_values("resolution")
+
+    def claim(self, name: str) -> pd.Series | None:
+        """A claim that was measured."""
+        found = self.claims[(self.claims["id"] == name) & self.claims["measured"].notna()]
+        return found.iloc[0] if len(found) else None
+
+
+def claims_of(out: Path) -> pd.DataFrame:
+    """All claims.
+
+    Raises
+    ------
+    NoReport
+        There are none, or the table lacks columns.
+    """
+    path = out/"claims.csv"
+    if not path.exists():
+        raise NoReport(f"{path} does not exist: a study writes its verdicts there, make study-rb the main ones")
+    return rows_of(path, COLUMNS)
+
+
+def findings(known: Known) -> list[Finding]:
+    """Those for which there are numbers."""
+    made = (find(known) for find in ALL)
+    return [one for one in made if one]
+
+
+def listed(rows: pd.DataFrame) -> str:
+    """Errors in per cent with their rows over the height."""
+    errors = [told(e, d, 100) for e, d in zip(rows["error"], rows["error_err"])]
+    return f"{many(errors)} % with {many([f'{n:.0f}' for n in rows['resolution']])} rows"
+
+
+def falls(rows: pd.DataFrame) -> bool:
+    """Whether the finest error with its interval is below all others."""
+    worst = (rows["error"].abs() + rows["error_err"]).iloc[-1]
+    return bool(len(rows) > 1 and (worst < rows["error"].abs() - rows["error_err"])[:-1].all())
+
+
+def smooth_particles(known: Known) -> Finding | None:
+    """Kg of KHP95's particles against the grid's field smoothed alike."""
+    rows = known.errors(method="spam", variant="printed", energy="Kg")
+    if len(rows) < 2:
+        return None
+    verb = "come ever nearer to" if falls(rows) else "do not converge on"
+    return Finding(f"Smooth particles as printed {verb} the gas", "Energy of their flow at Ra 10 000, against the grid's field "
+                   f"smoothed alike: {listed(rows)}. [KHP95]", "rb/errors")
+
+
+def onset(known: Known) -> Finding | None:
+    """From which Ra on rolls of the same strength grow."""
+    found = rows_of(known.out/"onset/critical_ra.csv", ("quantity", "value", "err", "variant", "method", "resolution"), way="run")
+    found = found[found["quantity"].str.contains("K = 0.0004,", regex=False)].sort_values("resolution")
+    spam, grid = (found[(found["method"] == m) & (found["variant"].isin(["", "printed"]))] for m in ("spam", "compressible"))
+    if len(spam) < 2 or grid.empty:
+        return None
+    later = (spam["value"] - spam["err"]).iloc[-1] > (grid["value"] + grid["err"]).iloc[-1]
+    numbers = many([told(v, e) for v, e in zip(spam["value"], spam["err"])])
+    return Finding("Near onset smooth particles come to rest where the gas convects" if later else
+                   "Smooth particles begin to convect as the gas does",
+                   f"Rolls of K = 0.0004 grow above Ra {numbers} with {many([f'{n:.0f}' for n in spam['resolution']])} rows, on "
+                   f"the grid above {told(grid['value'].iloc[-1], grid['err'].iloc[-1])}. [KHP95]", "onset/critical_ra")
+
+
+def fixed_points(known: Known) -> Finding | None:
+    """K on a lattice of points that stay."""
+    rows = known.errors(method="dih", variant="fixed-lattice")
+    if len(rows) < 2:
+        return None
+    limit = known.claim("rr98-rb-lattice-10000")
+    end = f", {told(limit['measured'], limit['err'], 100)} % off in the limit ({limit['verdict']})" if limit is not None else ""
+    return Finding(f"Sums over neighbours {'converge' if falls(rows) else 'do not converge'} on points that stay",
+                   f"Energy on a lattice at Ra 10 000: {listed(rows)}{end}. [RR98, friction along edges, heated right]",
+                   "rb/errors")
+
+
+def moving_points(known: Known) -> Finding | None:
+    """Points that move, as printed and over closed faces."""
+    printed, closed = (known.errors(method="dih", variant=name) for name in ("moving-literal", "moving"))
+    if printed.empty or len(closed) < 2:
+        return None
+    bad = printed["error"].abs().iloc[-1] - printed["error_err"].iloc[-1] > 0.1
+    title = (f"Points that move as printed {'fail' if bad else 'convect'}, over closed faces they "
+             f"{'converge' if falls(closed) else 'do not converge'}")
+    return Finding(title, f"Energy at Ra 10 000, as printed: {listed(printed[-1:])}; over closed faces, a repair: "
+                   f"{listed(closed)}. [RR98]", "rb/errors")
+
+
+def off_lattice(known: Known) -> Finding | None:
+    """A fluid at rest on irregular points."""
+    rest, kept = known.claim("rr98-eq35-rest"), known.claim("rr98-conservation-survival-delaunay")
+    if rest is None or kept is None:
+        return None
+    return Finding(f"Off a lattice a fluid at rest {'accelerates' if rest['verdict'] == 'fails' else 'stays at rest'}",
+                   f"By {told(rest['measured'], rest['err'])} P/(ρa) at most as printed, points shifted by up to 0.3 "
+                   f"spacings; over Delaunay edges, which close, a random start {'goes' if kept['verdict'] == 'holds' else 'does not go'} "
+                   "through 10 000 steps. [RR98 Eqs 34-36]", "claims")
+
+
+def noise(known: Known) -> Finding | None:
+    """Which noise heats a fluid right."""
+    printed = known.claims[known.claims["id"].str.match(r"rr98-fluct-eq4[2-4]")]
+    ours, mode = known.claim("own-fluct-partners"), known.claim("rr98-fluct-brillouin-position")
+    if printed.empty or ours is None or mode is None:
+        return None
+    fails = int(printed["verdict"].eq("fails").sum())
+    title = "Printed noise heats no fluid right, one random stress a point does" if fails else "Printed noise holds"
+    return Finding(title, f"Eqs 42-44: {fails} of {len(printed)} statements fail. [RR98] With one stress and heat current a point "
+                   f"|Q − 2kTΓ| is {signed(format(ours['measured'], '.0e'))}, sampled sound peaks at "
+                   f"{told(mode['measured'], mode['err'])} of its place.", "claims")
+
+
+def price(known: Known) -> Finding | None:
+    """CPU seconds for an error of 1 %, of the panel shown first."""
+    if not known.panels:
+        return None
+    panel, level = known.panels[0], 0.01
+    there = sorted((one for one in panel.series if one.usual and level in one.needs), key=lambda one: one.needs[level])
+    never = [one.label for one in panel.series if one.usual and level not in one.needs]
+    if not there:
+        return None
+    costs = many([f"{seconds(one.needs[level])} s ({one.label})" for one in there[:5]])
+    rest = f"; not reached: {many(never[:3])}" if never else ""
+    title = f"An error of 1 % costs {seconds(there[0].needs[level])} CPU seconds at best"
+    return Finding(title, f"{panel.title}: {costs}{rest}.", panel.sheet.name)
+
+
+#: one screen of them
+ALL: tuple[Callable[[Known], Finding | None], ...] = (smooth_particles, onset, fixed_points, moving_points, off_lattice, noise,
+                                                      price)
+
+
+def answer(known: Known) -> str:
+    """The question's answer in two sentences."""
+    spam, grid = known.errors(method="spam", variant="printed", energy="Kg"), known.errors(method="compressible", variant="flux-form")
+    said = []
+    if len(spam) and len(grid):
+        far, near = spam.iloc[-1], grid.iloc[0]
+        said.append(f"{far['particles']:.0f} smooth particles as printed miss the energy of convection by "
+                    f"{percent(far['error'])}, where a grid of {near['resolution']:.0f} rows is off by {percent(near['error'])} in "
+                    f"{seconds(near['cpu_s'])} CPU seconds.")
+    return " ".join([*said, *counts(known.claims)])
+
+
+def counts(claims: pd.DataFrame) -> Iterator[str]:
+    """How many statements hold."""
+    papers = claims[claims["whose"] == "paper"]
+    if len(papers):
+        number = papers["verdict"].value_counts()
+        yield (f"Of {len(papers)} statements of the papers {number.get('holds', 0)} hold, {number.get('fails', 0)} fail, "
+               f"{number.get('undecidable', 0)} are undecidable here.")

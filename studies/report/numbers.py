@@ -1,0 +1,50 @@
+"""Numbers as people read them."""
+import math
+
+
+def told(value: float, err: float, times: float = 1.0) -> str:
+    """17.5(15) for 17.5 +- 1.5: the error in units of the last digit, two of its digits where the first is 1.
+
+    ``times`` multiplies both, 100 for per cent; without an error four digits.
+    """
+    value, err = value*times, err*times
+    if not math.isfinite(value):
+        return "none"
+    if not (math.isfinite(err) and err > 0):
+        return signed(f"{value:.4g}")
+    size = math.floor(math.log10(err))
+    digits = 2 if err/10**size < 2 else 1
+    places = max(0, digits - 1 - size)
+    last = round(err*10**places)
+    return signed(f"{value:.{places}f}({last})") if places < 8 else signed(f"{value:.3g} ± {err:.1g}")
+
+
+def signed(text: str) -> str:
+    """With the sign that type has for minus."""
+    return text.replace("-", "−")
+
+
+def short(value: object) -> str:
+    """A cell of a table."""
+    if isinstance(value, bool) or not isinstance(value, float | int):
+        return str(value)
+    if math.isnan(value):
+        return ""
+    if math.isinf(value):
+        return "∞" if value > 0 else "−∞"
+    return signed(f"{value:.5g}")
+
+
+def seconds(value: float) -> str:
+    """CPU seconds with two digits."""
+    return f"{value:.1f}" if 1 <= value < 10 else f"{value:.0f}" if value >= 10 else f"{value:.2g}"
+
+
+def percent(value: float) -> str:
+    """A share in per cent, with sign."""
+    return signed(f"{100*value:+.3g} %")
+
+
+def many(words: list[str]) -> str:
+    """a, b and c"""
+    return " and ".join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else "".join(words)
