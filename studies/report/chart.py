@@ -31,7 +31,7 @@ class Scale:
     def ticks(self) -> list[tuple[float, float]]:
         """(value, pixel): 1, 2, 5 of each power of ten, powers alone where these are many."""
         powers = range(math.floor(math.log10(self.low)), math.ceil(math.log10(self.high)) + 1)
-        steps = (1, 2, 5) if self.high < 500*self.low else (1,)
+        steps = (1, 2, 5) if self.high < 2000*self.low else (1,)
         values = [step*10.0**power for power in powers for step in steps]
         return [(value, self(value)) for value in values if self.low <= value <= self.high]
 
@@ -71,11 +71,12 @@ class Chart:
 
 
 def chart(panel: Panel) -> Chart:
-    """Places of everything; axes hold all series, those hidden at first too."""
+    """Places of everything; axes hold all seconds, errors up to a few times those of the usual series (others on the edge)."""
     points = [point for series in panel.series for point in series.points]
     seconds, sizes = [point.cpu_s for point in points], [point.size for point in points if point.size > 0]
+    usual = [point.size for series in panel.series if series.usual for point in series.points]
     x = Scale(0.7*min(seconds), 1.4*max(seconds), LEFT, WIDTH - RIGHT)
-    y = Scale(0.6*min(sizes), 1.6*max(sizes), HEIGHT - BOTTOM, TOP)
+    y = Scale(max(0.6*min(sizes), 0.2*min(filter(None, usual))), min(1.6*max(sizes), 2*max(usual)), HEIGHT - BOTTOM, TOP)
     return Chart(x, y, [curve(number, series, x, y) for number, series in enumerate(panel.series)])
 
 

@@ -130,9 +130,9 @@ def off_lattice(known: Known) -> Finding | None:
     if rest is None or kept is None:
         return None
     return Finding(f"Off a lattice a fluid at rest {'accelerates' if rest['verdict'] == 'fails' else 'stays at rest'}",
-                   f"By {told(rest['measured'], rest['err'])} P/(ρa) at most as printed, points shifted by up to 0.3 "
-                   f"spacings; over Delaunay edges, which close, a random start {'goes' if kept['verdict'] == 'holds' else 'does not go'} "
-                   "through 10 000 steps. [RR98 Eqs 34-36]", "claims")
+                   f"By {told(rest['measured'], rest['err'])} P/(ρa) at most as printed, points shifted by up to 0.3 spacings; "
+                   "over Delaunay edges, which close, a random start "
+                   f"{'goes' if kept['verdict'] == 'holds' else 'does not go'} through 10 000 steps. [RR98 Eqs 34-36]", "claims")
 
 
 def noise(known: Known) -> Finding | None:
@@ -143,8 +143,8 @@ def noise(known: Known) -> Finding | None:
         return None
     fails = int(printed["verdict"].eq("fails").sum())
     title = "Printed noise heats no fluid right, one random stress a point does" if fails else "Printed noise holds"
-    return Finding(title, f"Eqs 42-44: {fails} of {len(printed)} statements fail. [RR98] With one stress and heat current a point "
-                   f"|Q − 2kTΓ| is {signed(format(ours['measured'], '.0e'))}, sampled sound peaks at "
+    return Finding(title, f"Eqs 42-44: {fails} of {len(printed)} statements fail. [RR98] With one stress and heat current a "
+                   f"point |Q − 2kTΓ| is {signed(format(ours['measured'], '.0e'))}, sampled sound peaks at "
                    f"{told(mode['measured'], mode['err'])} of its place.", "claims")
 
 
@@ -170,13 +170,14 @@ ALL: tuple[Callable[[Known], Finding | None], ...] = (smooth_particles, onset, f
 
 def answer(known: Known) -> str:
     """The question's answer in two sentences."""
-    spam, grid = known.errors(method="spam", variant="printed", energy="Kg"), known.errors(method="compressible", variant="flux-form")
+    spam = known.errors(method="spam", variant="printed", energy="Kg")
+    grid = known.errors(method="compressible", variant="flux-form")
     said = []
     if len(spam) and len(grid):
         far, near = spam.iloc[-1], grid.iloc[0]
         said.append(f"{far['particles']:.0f} smooth particles as printed miss the energy of convection by "
-                    f"{percent(far['error'])}, where a grid of {near['resolution']:.0f} rows is off by {percent(near['error'])} in "
-                    f"{seconds(near['cpu_s'])} CPU seconds.")
+                    f"{percent(far['error'])}, where a grid of {near['resolution']:.0f} rows is off by "
+                    f"{percent(near['error'])} in {seconds(near['cpu_s'])} CPU seconds.")
     return " ".join([*said, *counts(known.claims)])
 
 
