@@ -47,7 +47,7 @@ def cases(size: str) -> list[Case]:
             *densities((2.6, 2.8, 3.2, 3.4, 4.0, 5.0, 6.0, 8.0), side=8.0, time=60.0), *table(),
             *waves_and_shear((0.1, 0.2, 0.4), side=10.0, time=110.0, long=300.0),
             *second_order((0.03, 0.045), side=6.0, time=4000.0),
-            *cylinders(((False, 2.0), (False, 3.0), (True, 2.0)), time=3000.0, shear=1500.0, rows=24)]
+            *cylinders(((False, 2.0), (False, 3.0), (True, 2.0)), time=2000.0, shear=800.0, rows=24)]
 
 
 def temperatures(found: tuple[float, ...], *, side: float, steps: int) -> Iterator[Fluid]:
