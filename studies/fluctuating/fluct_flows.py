@@ -50,18 +50,41 @@ def noise(V: np.ndarray, of_momenta: Any, of_energies: Any) -> sparse.csr_array:
     return sparse.csr_array(per@sparse.block_diag([sparse.csr_array((n, n)), of_momenta, of_energies])@per)
 
 
-def equilibrium(V: np.ndarray, d: int) -> np.ndarray:
-    """Covariance of densities (rho, p, eps) of the gas at rest at rho = T = 1, k = 1, all sums fixed.
+def equilibrium(V: np.ndarray, d: int, stream: Any = 0.0) -> np.ndarray:
+    """Covariance of densities (rho, p, eps) of the gas at rho = T = 1, k = 1, in a uniform stream (d,), all sums fixed.
 
     rho, v and T fluctuate independently, each with variance 1/V: <rho rho> = kT rho/(c_T^2 V), <v v> = kT/(rho V),
-    <T T> = kT^2/(rho C_V V); eps = rho T.
+    <T T> = kT^2/(rho C_V V).
     """
-    n = len(V)
-    to_state = np.eye((2 + d)*n)
-    to_state[-n:, :n] = np.eye(n)
+    to_state = states_of_fields(np.broadcast_to(stream, (len(V), d)))
     C = to_state@np.diag(np.tile(1/V, 2 + d))@to_state.T
     sums = np.kron(np.eye(2 + d), V)
     return C - C@sums.T@np.linalg.solve(sums@C@sums.T, sums@C)
+
+
+def states_of_fields(v: np.ndarray) -> np.ndarray:
+    """(N, N) that makes changes of (rho, p, eps) of those of (rho, v, T), rho = T = 1, v (n, d); eps = rho (T + v^2/2)."""
+    n, d = v.shape
+    M = np.eye((2 + d)*n)
+    for a in range(d):
+        M[(1 + a)*n:(2 + a)*n, :n] = np.diag(v[:, a])
+        M[-n:, (1 + a)*n:(2 + a)*n] = np.diag(v[:, a])
+    M[-n:, :n] = np.diag(1 + (v**2).sum(axis=1)/2)
+    return M
+
+
+def factor(edges: Edges, stress: Partners, heat: Partners) -> sparse.csr_array:
+    """B of a state of densities (rho, p, eps) from that of momenta and energies."""
+    per = sparse.diags_array(np.tile(1/edges.V, edges.d + 1))
+    below = per@sparse.block_diag([stress.B, heat.B])
+    return sparse.csr_array(sparse.vstack([sparse.csr_array((edges.n, below.shape[1])), below]))
+
+
+def carried_along(B: sparse.csr_array, v: np.ndarray) -> sparse.csr_array:
+    """Noise B (N, normals) of densities at rest, in a uniform stream v (n, d): random forces do work on it."""
+    n, d = v.shape
+    work = sparse.hstack([sparse.csr_array((n, n)), *(sparse.diags_array(q) for q in v.T), sparse.csr_array((n, n))])
+    return sparse.csr_array(B + sparse.vstack([sparse.csr_array(((1 + d)*n, B.shape[1])), work@B]))
 
 
 # --- rest -------------------------------------------------------------------------------------------------------------
@@ -69,12 +92,16 @@ def equilibrium(V: np.ndarray, d: int) -> np.ndarray:
 
 @dataclass(frozen=True, kw_only=True)
 class Rest(Case):
-    """Fluctuations of a gas at rest on points, in d dimensions, against equilibrium; `share` of transport along edges."""
+    """Fluctuations of a gas on points, in d dimensions, at rest or in a stream along x of some `speed`, against equilibrium.
+
+    share : of transport along edges.
+    """
     maker: str
     disorder: Disorder
     counts: tuple[int, ...]
     share: float
     h: float = 2.0
+    speed: float = 0.0
     seed: int = 1
 
     @property
@@ -83,24 +110,26 @@ class Rest(Case):
 
     @property
     def label(self) -> str:
-        return f"rest {self.maker}, {self.disorder.name}, {self.counts}, share {self.share:g}"
+        return f"rest {self.maker}, {self.disorder.name}, {self.counts}, share {self.share:g}, speed {self.speed:g}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
         points, d = self.disorder.make(self.counts, self.disorder.size, self.seed), len(self.counts)
         edges = MAKERS[self.maker](points, Lucy.of(h=self.h, d=d))
         dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(ETA, KAPPA), zeta=ZETA, transport=Mixed(share=self.share))
-        J = jacobian(dih.rates, dih.state(np.ones(edges.n), np.zeros((edges.n, d)), np.ones(edges.n)))
+        v = self.speed*np.tile(np.eye(d)[0], (edges.n, 1))
+        J = jacobian(dih.rates, dih.state(np.ones(edges.n), v, np.ones(edges.n)))
         parts = transport(edges, self.share, ETA, ZETA, KAPPA, 1.0)
         row = {"maker": self.maker, "points": self.disorder.name, "d": d, "share": self.share, "n": edges.n,
                "growth": float(np.linalg.eigvals(J).real.max())}
-        exactly = equilibrium(edges.V, d)
+        table, row = ("stream", {**row, "speed": self.speed}) if self.speed else ("rest", row)
+        exactly, B = equilibrium(edges.V, d, v), carried_along(factor(edges, *parts), v)
         try:
-            C = steady(J, noise(edges.V, parts[0].Q, parts[1].Q).toarray(), np.kron(np.eye(2 + d), edges.V))
+            C = steady(J, (B@B.T).toarray(), np.kron(np.eye(2 + d), edges.V))
         except ArithmeticError:         # edges that do not close let sound grow: that is the result
-            return Outcome({"rest": [{**row, "error": np.nan, "kinetic": np.nan}]})
+            return Outcome({table: [{**row, "error": np.nan, "kinetic": np.nan}]})
         moving = slice(edges.n, (1 + d)*edges.n)
         kinetic = float(np.trace(C[moving, moving])/np.trace(exactly[moving, moving]))
-        return Outcome({"rest": [{**row, "error": float(np.abs(C - exactly).max()/exactly.max()), "kinetic": kinetic}]})
+        return Outcome({table: [{**row, "error": float(np.abs(C - exactly).max()/exactly.max()), "kinetic": kinetic}]})
 
 
 # --- a temperature gradient -------------------------------------------------------------------------------------------
@@ -161,8 +190,13 @@ class Gradient(Case):
 
 def slope_symbol(k: float) -> float:
     """What the gradient of Lucy's weight, h = 2, makes of k on a square lattice."""
+    return float(slopes_symbol(k, 0.0)[0])
+
+
+def slopes_symbol(kx: float, ky: float) -> np.ndarray:
+    """The same of (kx, ky)."""
     r, w = ring()
-    return float((w*r[:, 0]/np.hypot(*r.T))@np.sin(k*r[:, 0]))
+    return (w/np.hypot(*r.T)*np.sin(r@np.array([kx, ky])))@r
 
 
 def lap_symbol(kx: float, ky: float) -> float:

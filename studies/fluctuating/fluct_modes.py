@@ -8,94 +8,109 @@ from scipy import sparse
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.covariance import jacobian
-from particles.edges import Edges
 from particles.makers import MAKERS
 from particles.methods.dih import Dih
-from particles.methods.fluctuating import Partners
 from particles.methods.thermal import Mixed
-from particles.points import Points, jittered
+from particles.points import Points
 from particles.run import Plan
-from studies.fluctuating.fluct_flows import ETA, KAPPA, ZETA, equilibrium, noise, transport
+from particles.weights import Lucy
+from studies.fluctuating.fluct_flows import ETA, KAPPA, ZETA, equilibrium, factor, noise, transport
 from studies.fluctuating.fluct_sampling import BATCHES, Linear, batches, check_length, over
+from studies.integral.operators import DISORDERS, Disorder
 from studies.kit.case import Case, Outcome, Report
+
+#: of the tables, by dimension
+TABLE, AXES = {2: "modes", 3: "cubes"}, ("turns_x", "turns_y", "turns_z")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Equipartition(Case):
-    """Variances of plane waves of rho, v and T in a gas at rest on irregular points, over their exact values.
+    """Variances of plane waves of rho, v and T in a gas at rest on points of 2D or 3D, over their exact values.
 
-    turns : wave vectors, whole waves along x and y; each has a cosine and a sine.
+    turns : wave vectors, whole waves along each axis; each has a cosine and a sine.
     """
-    counts: tuple[int, int]
-    turns: tuple[tuple[int, int], ...]
+    counts: tuple[int, ...]
+    turns: tuple[tuple[int, ...], ...]
     share: float
     steps: int
     dt: float = 1.0
+    maker: str = "delaunay"
+    disorder: Disorder = DISORDERS["jittered-0.3"]
+    h: float = 2.0
     seed: int = 1
 
     @property
+    def d(self) -> int:
+        """Dimension."""
+        return len(self.counts)
+
+    @property
     def cost(self) -> float:
-        return BATCHES*self.steps*1e-9*(4*np.prod(self.counts))**2*1.5 + 10
+        return BATCHES*self.steps*1e-9*((2 + self.d)*np.prod(self.counts))**2*1.5 + 10
 
     @property
     def label(self) -> str:
-        return f"equipartition {self.counts}, share {self.share:g}"
+        return f"equipartition {self.disorder.name} {self.counts}, share {self.share:g}"
 
     @cached_property
     def points(self) -> Points:
-        return jittered(self.counts, 0.3, self.seed)
+        return self.disorder.make(self.counts, self.disorder.size, self.seed)
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        edges = MAKERS["delaunay"](self.points, None)
+        d, edges = self.d, MAKERS[self.maker](self.points, Lucy.of(h=self.h, d=self.d))
         dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(ETA, KAPPA), zeta=ZETA, transport=Mixed(share=self.share))
-        J = jacobian(dih.rates, dih.state(np.ones(edges.n), np.zeros((edges.n, 2)), np.ones(edges.n)))
-        C = equilibrium(edges.V, 2)
+        J = jacobian(dih.rates, dih.state(np.ones(edges.n), np.zeros((edges.n, d)), np.ones(edges.n)))
+        C = equilibrium(edges.V, d)
         names, F = plane_waves(self.points, edges.V, self.turns)
         parts = transport(edges, self.share, ETA, ZETA, KAPPA, 1.0)
         check_modes(F, C, noise(edges.V, *(part.Q for part in parts)), names)
         F /= np.sqrt(np.einsum("mi,ij,mj->m", F, C, F))[:, None]
-        method = Linear(J=J, B=factor(edges, *parts), seed=self.seed, modes=F, fields=("rho", "px", "py", "eps"))
+        method = Linear(J=J, B=factor(edges, *parts), seed=self.seed, modes=F, fields=dih.fields)
         check_length(J, self.steps*self.dt)
-        start = np.random.default_rng(self.seed).normal(size=(4, edges.n))/np.sqrt(edges.V)        # rho, v, T of equilibrium
-        start[3] += start[0]
+        start = np.random.default_rng(self.seed).normal(size=(2 + d, edges.n))/np.sqrt(edges.V)    # rho, v, T of equilibrium
+        start[-1] += start[0]
         start -= (start@edges.V/edges.V.sum())[:, None]
         plan = Plan(dt=self.dt, steps=self.steps, every=1, means={"modes": lambda sums, state: sums.found**2,
                                                                   "all": lambda sums, state: whole(edges.V, state)})
         legs = batches(method, start, plan, report)
         powers, total = np.array([leg.means["modes"] for leg in legs]), over(np.array([leg.means["all"] for leg in legs]))
-        key = {"points": "jittered-0.3", "share": self.share}
-        rows = [{**key, "field": "all", "turns_x": 0, "turns_y": 0, "phase": "-", "wavenumber": np.nan, "ratio": total.value,
+        key = {"points": self.disorder.name, "share": self.share}
+        rows = [{**key, "field": "all", **dict.fromkeys(AXES[:d], 0), "phase": "-", "wavenumber": np.nan, "ratio": total.value,
                  "ratio_err": total.err}]
-        for (field, m, n, phase), power in zip(names, powers.T, strict=True):
-            found, k = over(power), 2*np.pi*np.hypot(m/self.counts[0], n/self.counts[1])
-            rows.append({**key, "field": field, "turns_x": m, "turns_y": n, "phase": phase, "wavenumber": k,
+        for (field, turns, phase), power in zip(names, powers.T, strict=True):
+            found, k = over(power), 2*np.pi*np.linalg.norm(np.array(turns)/self.counts)
+            rows.append({**key, "field": field, **dict(zip(AXES, turns)), "phase": phase, "wavenumber": float(k),
                          "ratio": found.value, "ratio_err": found.err})
-        return Outcome({"modes": rows})
+        return Outcome({TABLE[d]: rows})
 
 
 def whole(V: np.ndarray, state: np.ndarray) -> float:
     """Mean over all degrees of freedom but the conserved sums of what is 1 in equilibrium."""
-    rho, px, py, eps = state
-    return float(V@(rho**2 + px**2 + py**2 + (eps - rho)**2)/(4*(len(V) - 1)))
+    rho, eps = state[0], state[-1]
+    return float(V@((state[:-1]**2).sum(axis=0) + (eps - rho)**2)/(len(state)*(len(V) - 1)))
 
 
-def factor(edges: Edges, stress: Partners, heat: Partners) -> sparse.csr_array:
-    """B of a state of densities (rho, p, eps) from that of momenta and energies."""
-    per = sparse.diags_array(np.tile(1/edges.V, edges.d + 1))
-    below = per@sparse.block_diag([stress.B, heat.B])
-    return sparse.csr_array(sparse.vstack([sparse.csr_array((edges.n, below.shape[1])), below]))
-
-
-def plane_waves(points: Points, V: np.ndarray, turns: tuple[tuple[int, int], ...]) -> tuple[list[tuple], np.ndarray]:
-    """(field, turns, phase) and rows (m, 4 n) of cosines and sines of rho, u, v and T = eps - rho."""
+def plane_waves(points: Points, V: np.ndarray, turns: tuple[tuple[int, ...], ...]) -> tuple[list[tuple], np.ndarray]:
+    """(field, turns, phase) and rows (m, (2 + d) n) of cosines and sines of rho, v and T = eps - rho."""
     names, rows, none = [], [], np.zeros(len(V))
-    for m, n in turns:
-        at = points.x@(2*np.pi*np.array([m, n])/points.box)
-        for phase, wave in (("cos", V*np.cos(at)), ("sin", V*np.sin(at))):
-            names += [(field, m, n, phase) for field in ("rho", "u", "v", "T")]
-            rows += [np.concatenate(parts) for parts in ((wave, none, none, none), (none, wave, none, none),
-                                                         (none, none, wave, none), (-wave, none, none, wave))]
+    for m in turns:
+        k = 2*np.pi*np.array(m)/points.box
+        for phase, wave in (("cos", V*np.cos(points.x@k)), ("sin", V*np.sin(points.x@k))):
+            for field, direction in directions(k).items():
+                names.append((field, m, phase))
+                rows.append(np.concatenate([none, *(q*wave for q in direction), none]))
+            for field, of_rho, of_eps in (("rho", 1, 0), ("T", -1, 1)):
+                names.append((field, m, phase))
+                rows.append(np.concatenate([of_rho*wave, *[none]*points.d, of_eps*wave]))
     return names, np.array(rows)
+
+
+def directions(k: np.ndarray) -> dict[str, np.ndarray]:
+    """Velocities by name: along the axes of a plane, along and across k in space."""
+    if len(k) == 2:
+        return {"u": np.array([1.0, 0.0]), "v": np.array([0.0, 1.0])}
+    frame = np.linalg.qr(np.column_stack([k if k.any() else np.eye(3)[0], np.eye(3)[np.argsort(np.abs(k))[:2]].T]))[0]
+    return dict(zip(("along", "across", "across 2"), frame.T, strict=True))
 
 
 def check_modes(F: np.ndarray, C: np.ndarray, Q: sparse.csr_array, names: list[tuple]) -> None:
@@ -106,10 +121,9 @@ def check_modes(F: np.ndarray, C: np.ndarray, Q: sparse.csr_array, names: list[t
     ValueError
         There is no mode in the list that relaxes.
     """
-    n = C.shape[0]//4
     size = (F**2).sum(axis=1).max(initial=0)        # a sine may be zero at every point, to round-off
     moves = np.einsum("mi,ij,mj->m", F, C, F) > 1e-12*size*np.diag(C).max()
-    driven = np.einsum("mi,mi->m", F[:, n:], (Q[n:, n:]@F[:, n:].T).T) > 1e-12*size*Q.diagonal().max()
+    driven = np.einsum("mi,mi->m", F, (Q@F.T).T) > 1e-12*size*Q.diagonal().max()
     if not len(F) or not (moves & driven).any():
         raise ValueError(f"all {len(F)} modes in the list are null modes ({'; '.join(map(str, names[:4]))} ...): they are "
                          "conserved, or nothing drives and damps them, so samples say nothing; take waves that are no "

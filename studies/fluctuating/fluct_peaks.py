@@ -16,16 +16,16 @@ from particles.methods.thermal import Mixed
 from particles.points import lattice
 from particles.run import Plan
 from particles.weights import Lucy
-from studies.fluctuating.fluct_flows import ETA, KAPPA, transport
-from studies.fluctuating.fluct_modes import factor
+from studies.fluctuating.fluct_flows import ETA, KAPPA, carried_along, factor, states_of_fields, transport
 from studies.fluctuating.fluct_sampling import BATCHES, Linear, batches, check_length
-from studies.fluctuating.fluct_steps import gas
+from studies.fluctuating.fluct_steps import gas, line_symbols
 from studies.kit.case import Case, Outcome, Report
 
 
 @dataclass(frozen=True, kw_only=True)
 class Brillouin(Case):
-    """Peaks of the dynamic structure factor on a line of points: from sampled waves, against the symbols of the lattice.
+    """Peaks of the dynamic structure factor on a line of points, at rest or in a stream of some `speed`: from sampled waves,
+    against the symbols of the lattice, by which the stream shifts all peaks by speed times the symbol of the gradient.
 
     Waves (rho, u, T) after a lag are U times what they were, U = <x' x^*><x x^*>^-1; its eigenvalues are exp(lambda lag), and
     sound has the peak at Im lambda, of half width -Re lambda. Crank-Nicolson's z = (1 + lambda dt/2)/(1 - lambda dt/2) is undone.
@@ -36,6 +36,7 @@ class Brillouin(Case):
     dt: float = 0.25
     lag: int = 4
     bins: int = 60
+    speed: float = 0.0
     seed: int = 1
 
     @property
@@ -44,18 +45,19 @@ class Brillouin(Case):
 
     @property
     def label(self) -> str:
-        return f"Brillouin, {self.points} points"
+        return f"Brillouin, {self.points} points, speed {self.speed:g}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
         edges = MAKERS["renormalised"](lattice((self.points,)), Lucy.of(h=2.0, d=1))
         dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(0.0, KAPPA), zeta=ETA, transport=Mixed(share=1.0))
-        J = jacobian(dih.rates, dih.state(np.ones(edges.n), np.zeros((edges.n, 1)), np.ones(edges.n)))
-        B = factor(edges, *transport(edges, 1.0, 0.0, ETA, KAPPA, 1.0))
-        method = Linear(J=J, B=B, seed=self.seed, modes=self.waves(), fields=("rho", "p", "eps"))
+        v = np.full((edges.n, 1), self.speed)
+        J, to_state = jacobian(dih.rates, dih.state(np.ones(edges.n), v, np.ones(edges.n))), states_of_fields(v)
+        B = carried_along(factor(edges, *transport(edges, 1.0, 0.0, ETA, KAPPA, 1.0)), v)
+        method = Linear(J=J, B=B, seed=self.seed, modes=self.waves()@np.linalg.inv(to_state), fields=("rho", "p", "eps"))
         check_length(J, self.steps*self.dt)
         series = {f"{number}": picked(number) for number in range(6*len(self.turns))}
         state = np.random.default_rng(self.seed).normal(size=(3, self.points))
-        state[2] += state[0]
+        state = (to_state@state.ravel()).reshape(state.shape)
         state -= state.mean(axis=1, keepdims=True)
         legs = batches(method, state, Plan(dt=self.dt, steps=self.steps, every=1, series=series), report)
         rows, spectrum = [], []
@@ -63,28 +65,32 @@ class Brillouin(Case):
             x = np.array([[np.array(leg.series[f"{6*number + 2*f}"]) + 1j*np.array(leg.series[f"{6*number + 2*f + 1}"])
                            for f in range(3)] for leg in legs])
             rows += self.peaks(x, turns)
-            spectrum += self.spectrum(x, turns)
-        return Outcome({"peaks": rows, "spectrum": spectrum})
+            spectrum += self.spectrum(x, turns) if not self.speed else []
+        if self.speed:
+            return Outcome({"shifted": [{**row, "speed": self.speed} for row in rows]})
+        return Outcome({"peaks": [row for row in rows if row["peak"] != "shift"], "spectrum": spectrum})
 
     def waves(self) -> np.ndarray:
-        """Rows: real and imaginary part of rho, u and T = eps - rho at each wave number, variance 1 in equilibrium."""
-        rows, none = [], np.zeros(self.points)
+        """Rows: real and imaginary part of rho, u and T at each wave number, variance 1 in equilibrium."""
+        rows = []
         for turns in self.turns:
             wave = np.exp(-2j*np.pi*turns*np.arange(self.points)/self.points)/np.sqrt(self.points)
-            for parts in ((1, 0, 0), (0, 1, 0), (-1, 0, 1)):
-                rows += [np.concatenate([p*w if p else none for p in parts]) for w in (wave.real, wave.imag)]
+            rows += [np.kron(field, w) for field in np.eye(3) for w in (wave.real, wave.imag)]
         return np.array(rows)
 
     def peaks(self, x: np.ndarray, turns: int) -> list[dict[str, Any]]:
-        """Position and half width of the Brillouin peak, half width of the Rayleigh peak; errors by jackknife over batches."""
+        """Position and half width of the Brillouin peak, half width and shift of the Rayleigh peak; errors by jackknife over
+        batches.
+        """
         after, before = x[:, :, self.lag:], x[:, :, :-self.lag]
         moments = [np.einsum("bft,bgt->bfg", q, before.conj()) for q in (after, before)]
         whole = self.rates(*(m.sum(axis=0) for m in moments))
         without = np.array([self.rates(*(m.sum(axis=0) - m[b] for m in moments)) for b in range(len(x))])
         b = len(x)
         err = stdtrit(b - 1, 0.975)*np.sqrt((b - 1)/b*((without - without.mean(axis=0))**2).sum(axis=0))
-        symbol = sorted_rates(np.linalg.eigvals(gas(2*np.pi*turns/self.points)[0]))
-        return [{"points": self.points, "turns": turns, "wavenumber": 2*np.pi*turns/self.points, "peak": name,
+        k = 2*np.pi*turns/self.points
+        symbol = sorted_rates(np.linalg.eigvals(gas(k)[0] - 1j*self.speed*line_symbols(k)[0]*np.eye(3)))
+        return [{"points": self.points, "turns": turns, "wavenumber": k, "peak": name,
                  "measured": value, "measured_err": e, "symbol": s}
                 for name, value, e, s in zip(PEAKS, whole, err, symbol, strict=True)]
 
@@ -118,14 +124,13 @@ def spectral(A: np.ndarray, Q: np.ndarray, angle: float) -> float:
     return float((G@Q@G.conj().T)[0, 0].real)
 
 
-PEAKS = ("position", "half width", "Rayleigh half width")
+PEAKS = ("position", "half width", "Rayleigh half width", "shift")
 
 
 def sorted_rates(eigen: np.ndarray) -> np.ndarray:
-    """Position and half width of sound, half width of heat: both sounds averaged."""
-    heat = int(np.argmin(np.abs(eigen.imag)))
-    sound = np.delete(eigen, heat)
-    return np.array([np.abs(sound.imag).mean(), -sound.real.mean(), -eigen[heat].real])
+    """Position and half width of sound, both averaged, half width of heat, which lies between them, in a stream as at rest."""
+    low, heat, high = eigen[np.argsort(eigen.imag)]
+    return np.array([(high.imag - low.imag)/2, -(high.real + low.real)/2, -heat.real, -heat.imag])
 
 
 def picked(number: int) -> Callable[[Any, np.ndarray], float]:

@@ -184,9 +184,9 @@ def total(tables: Tables) -> Measured:
     return Measured(float(row["ratio"]), float(row["ratio_err"]))
 
 
-def z(tables: Tables) -> np.ndarray:
+def z(tables: Tables, name: str = "modes") -> np.ndarray:
     """Deviations of modes in standard errors."""
-    rows = select(tables, "modes")
+    rows = select(tables, name)
     rows = rows[rows["field"] != "all"]
     return ((rows["ratio"] - 1)/(rows["ratio_err"]/stdtrit(BATCHES - 1, 0.975))).to_numpy()
 
