@@ -18,4 +18,42 @@ ONSETS = Table("onsets", key=[*CRYSTAL, "parameter", "seed"],
 FATES = Table("fates", key=["weight", "h", "seed"],
               columns=["weight", "h", "seed", "predicted", "sites", "shared", "ratio", "chance"])
 
-ALL = (MODULI, MODULUS_ORDERS, GROWTH, ONSETS, FATES)
+#: squares of Fig. 10 at the end: rolls, K, median of second over first neighbour distance, part that shares a site
+SQUARES = Table("squares", key=["weight", "ra", "seed"],
+                columns=["weight", "ra", "seed", "eta", "rolls", "ke", "ratio", "ratio_err", "shared"])
+
+LAYER = ["eos", "weight", "ra", "seed"]
+#: K of the mean flow and of the particles over that of the grid's smoothed field, fluctuation of distances of neighbours over
+#: their mean, at pressures P; nothing where a run diverged
+FREEZING = Table("freezing", key=[*LAYER, "P"],
+                 columns=[*LAYER, "P", "flow", "flow_err", "kp", "kp_err", "lindemann"])
+#: P at which K of the mean flow falls below a tenth; K of the grid, and P at which 2 K is 2 P w(0), 2 P [w(0.9) - w(1)]
+FREEZING_LIMITS = Table("freezing_limits", key=LAYER, columns=[*LAYER, "measured", "measured_err", "K", "barrier", "melting"])
+
+#: rms distance of places of the same path by smooth particles and as molecules
+TWINS = Table("twins", key=["weight", "seed", "time"], columns=["weight", "seed", "time", "apart"])
+#: rms distance from the start, and part of the coordinates that are it to the last bit, after so much time there and back
+REVERSAL = Table("reversal", key=["integrator", "weight", "seed", "time"],
+                 columns=["integrator", "weight", "seed", "time", "apart", "equal"])
+#: rate at which twins part; time to a tenth of a spacing of leapfrog there and back: by that rate from round-off, and measured
+RETURNS = Table("returns", key=["weight", "seed"], columns=["weight", "seed", "rate", "rate_err", "predicted", "measured"])
+
+TUBE = ["L", "eta", "seed"]
+ERRORS = [f"{name}_{of}" for of in ("exact", "grid") for name in ("rho", "v", "P")]
+#: mean |error| over the range of the exact solution, against it and against the viscous grid; variation of v beyond that of the
+#: exact one; overlap of both gases, spacings; rms v across the tube over the contact's v; time over L at which it diverged
+TUBES = Table("tubes", key=TUBE, columns=[*TUBE, *ERRORS, "wiggles", "overlap", "noise", "diverged"])
+#: x: from the diaphragm, over L
+TUBE_PROFILES = Table("tube_profiles", key=[*TUBE, "x"],
+                      columns=[*TUBE, "x", *(f"{name}{of}" for of in ("", "_exact", "_grid") for name in ("rho", "v", "P"))])
+#: order: -d ln error/d ln L
+TUBE_ORDERS = Table("tube_orders", key=["eta", "quantity"], columns=["eta", "quantity", "order", "order_err"])
+
+#: mean height and amplitude of the interface, spacings
+RIPPLES = Table("ripples", key=["scale", "seed", "time"], columns=["scale", "seed", "time", "height", "amplitude"])
+#: velocity given to the interface, amplitude behind the shock and its growth rate, over those of theory
+RIPPLE_GROWTH = Table("ripple_growth", key=["scale"], columns=["scale", "seeds", "kick", "kick_err", "amplitude", "amplitude_err",
+                                                               "growth", "growth_err"])
+
+ALL = (MODULI, MODULUS_ORDERS, GROWTH, ONSETS, FATES, SQUARES, FREEZING, FREEZING_LIMITS, TWINS, REVERSAL, RETURNS, TUBES,
+       TUBE_PROFILES, TUBE_ORDERS, RIPPLES, RIPPLE_GROWTH)

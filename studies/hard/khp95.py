@@ -5,14 +5,19 @@ from itertools import product
 
 import numpy as np
 
-from continuum.fluid import IdealGas, VanDerWaals
+from continuum.fluid import DenseFluid, IdealGas, VanDerWaals
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4
-from studies.hard import hard_derive, hard_tables
+from studies.hard import hard_claims, hard_derive, hard_tables
 from studies.hard.fates import Fate
+from studies.hard.freezing import Freezing
+from studies.hard.interface import Interface
 from studies.hard.lattice_growth import Crystal, Growth, Onset
 from studies.hard.lattice_waves import CELLS
 from studies.hard.moduli import Moduli
+from studies.hard.newtonian import METHODS, Reversal, Twins
 from studies.hard.part import Part
+from studies.hard.shock_tube import ShockTube
+from studies.hard.square import Square
 from studies.kit.case import Case
 
 WEIGHTS = (Lucy, Monaghan, WendlandC2)
@@ -50,11 +55,40 @@ def fates(ranges: tuple[float, ...], seeds: tuple[int, ...]) -> Iterator[Case]:
     yield from (Fate(weight=weight, h=h, seed=seed) for weight, h, seed in product(WEIGHTS, ranges, seeds))
 
 
+def squares() -> Iterator[Case]:
+    """Both weights with the printed viscosity, the one that pairs also nearer to onset, which is at 5012."""
+    yield from (Square(weight=weight, ra=67150.0, t_end=25.0, mean_from=15.0) for weight in (Monaghan, Lucy))
+    yield Square(weight=Monaghan, ra=1e4, t_end=40.0, mean_from=30.0)
+
+
+def freezing() -> Iterator[Case]:
+    """The gas of Fig. 4's scene with both weights, at another Ra, and the dense fluid."""
+    yield from (Freezing(eos=IdealGas(), weight=weight, seed=seed) for weight, seed in product((Lucy, Monaghan), (1, 2)))
+    yield Freezing(eos=IdealGas(), weight=Lucy, ra=1e4)
+    yield Freezing(eos=DenseFluid(), weight=Lucy)
+
+
+def newton(times: tuple[float, ...], samples: int, seeds: tuple[int, ...]) -> Iterator[Case]:
+    """Paths of molecules, and back."""
+    yield Twins(weight=Lucy, samples=samples)
+    yield from (Reversal(integrator=name, weight=Lucy, times=times, seed=seed) for name, seed in product(METHODS, seeds))
+
+
+def shocks(lengths: tuple[float, ...], scales: tuple[tuple[float, int], ...], seeds: tuple[int, ...]) -> Iterator[Case]:
+    """Tubes without and with viscosity, profiles of the longest; interfaces, (scale, number of seeds)."""
+    for L, eta, seed in product(lengths, (0.0, 0.5), seeds):
+        yield ShockTube(L=L, eta=eta, seed=seed, keep=L == max(lengths) and seed == min(seeds))
+    yield from (Interface(scale=scale, seed=seed) for scale, last in scales for seed in range(1, last + 1))
+
+
 def cases(size: str) -> list[Case]:
-    """All of them."""
+    """All of them; `quick` is for trying the path out."""
     if size == "quick":
-        return [*moduli(1.0), *list(growth())[::5], *list(onsets((1,)))[::9], *fates((3.0,), (1,))]
-    return [*moduli(0.1), *growth(), *onsets((1, 2)), *fates((2.0, 2.2, 2.4, 2.6, 2.8, 3.0, 3.2, 3.5, 4.0), (1, 2))]
+        return [*moduli(1.0), *list(growth())[::5], *list(onsets((1,)))[::9], *fates((3.0,), (1,)), *newton((5.0, 20.0), 5, (1,)),
+                *shocks((12.0, 15.0, 18.0), ((0.5, 1),), (1,))]
+    return [*moduli(0.1), *growth(), *onsets((1,)), *fates((2.0, 2.4, 2.8, 3.0, 3.4, 4.0), (1, 2)), *squares(), *freezing(),
+            *newton((5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 100.0), 15, (1, 2)),
+            *shocks((48.0, 96.0, 192.0), ((1.0, 3), (2.0, 2)), (1, 2))]
 
 
-PART = Part(cases=cases, tables=hard_tables.ALL, derive=hard_derive.derive)
+PART = Part(cases=cases, tables=hard_tables.ALL, derive=hard_derive.derive, claims=hard_claims.CLAIMS)

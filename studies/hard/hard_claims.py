@@ -1,0 +1,267 @@
+"""KHP95's hard cases, judged: lattices, pairs and clumps, freezing, molecules, shocks"""
+from collections.abc import Callable
+from itertools import product
+from math import hypot
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from particles.weights import Lucy, Monaghan
+from studies.convection.claims.read import Value, over_seeds, ratio, select
+from studies.kit.claim import CannotTell, Claim
+from studies.kit.stats import Measured
+from studies.kit.table import Tables
+
+GAS: dict[str, Any] = {"eos": "IdealGas", "weight": "Lucy", "ra": 3000.0}
+VISCOUS: dict[str, Any] = {"eta": 0.5}
+
+
+def worst(table: str, **where) -> Value:
+    """Largest |measured/predicted - 1| of some rows, with the largest relative error among them."""
+    def value(tables: Tables) -> Measured:
+        rows = select(tables, table, **where)
+        off = (rows["measured"]/rows["predicted"] - 1).abs()
+        return Measured(float(off.max()), float((rows["measured_err"]/rows["predicted"].abs()).max()))
+    return value
+
+
+def clumping(T: float, rho: float) -> Value:
+    """Largest temperature, among the weights, at which lattices of a van der Waals fluid begin to clump, over T."""
+    def value(tables: Tables) -> Measured:
+        rows = select(tables, "onsets", parameter="T", rho=rho)
+        return Measured(float(rows["measured"].max())/T, float(rows["measured_err"].max())/T)
+    return value
+
+
+def pressureless(rho: float) -> float:
+    """T at which P = rho T/(1 - rho/2) - rho^2/2 vanishes    [KHP95, Eq. 2]"""
+    return rho*(1 - rho/2)/2
+
+
+def spinodal(rho: float) -> float:
+    """T at which (dP/drho)_T = T/(1 - rho/2)^2 - rho vanishes."""
+    return rho*(1 - rho/2)**2
+
+
+def summed_alike(tables: Tables) -> Measured:
+    """Largest difference of moduli by compiled sums and by lattice sums."""
+    rows = select(tables, "moduli").dropna()
+    return Measured(float((rows["exact"] - rows["measured"]).abs().max()), 0.0)
+
+
+def column(table: str, name: str, err: str = "", **where) -> Value:
+    """One number of one row."""
+    def value(tables: Tables) -> Measured:
+        row = select(tables, table, **where).iloc[0]
+        if np.isnan(row[name]):
+            raise CannotTell(f"table {table} has no {name} where {where}")
+        return Measured(float(row[name]), float(row[err]) if err else 0.0)
+    return value
+
+
+def over(table: str, name: str, **where) -> Value:
+    """Mean over seeds of a column."""
+    return lambda tables: over_seeds(select(tables, table, **where)[name].tolist())
+
+
+def foretold(tables: Tables) -> Measured:
+    """Part of the runs whose median number of particles a site is that of the lattice of least energy."""
+    rows = select(tables, "fates")
+    return Measured(float(np.mean(rows["sites"] == rows["predicted"])), 0.0)
+
+
+def frozen_at(criterion: str, **where) -> Value:
+    """Pressure at which the flow freezes over that of a printed criterion, seeds by seeds."""
+    def value(tables: Tables) -> Measured:
+        rows = select(tables, "freezing_limits", **where)
+        found = rows["measured"]/rows[criterion]
+        spread = over_seeds(found.tolist()).err if len(found) > 1 else 0.0
+        return Measured(float(found.mean()), max(spread, float((rows["measured_err"]/rows[criterion]).max())))
+    return value
+
+
+def next_to_limit(frozen: bool) -> Value:
+    """Fluctuation of neighbours' distances at the pressure next to the limit, on one side of it, over seeds."""
+    def value(tables: Tables) -> Measured:
+        limits = select(tables, "freezing_limits", **GAS).set_index("seed")["measured"]
+        rows = select(tables, "freezing", **GAS)
+        beyond = rows[(rows["P"] > rows["seed"].map(limits)) == frozen].dropna()
+        if beyond.groupby("seed").ngroups < len(limits):
+            raise CannotTell("the bisection has no run on one side of the limit")
+        near = beyond.assign(far=np.abs(np.log(beyond["P"]/beyond["seed"].map(limits)))).sort_values("far")
+        return over_seeds(near.groupby("seed")["lindemann"].first().tolist())
+    return value
+
+
+def limits_ratio(one: dict, other: dict, per_K: bool = False) -> Value:
+    """Freezing pressure of one layer over that of another, each over the grid's K if wanted."""
+    def limit(tables: Tables, where: dict) -> Measured:
+        rows = select(tables, "freezing_limits", **where)
+        scale = float(rows["K"].mean()) if per_K else 1.0
+        return Measured(float(rows["measured"].mean())/scale, float(rows["measured_err"].max())/scale)
+    return lambda tables: ratio(limit(tables, one), limit(tables, other))
+
+
+def equal_bits(tables: Tables) -> Measured:
+    """Least part of the coordinates that come back to the last bit."""
+    return Measured(float(select(tables, "reversal", integrator="whole numbers")["equal"].min()), 0.0)
+
+
+def returned(tables: Tables) -> Measured:
+    """Time there and back to a tenth of a spacing over what the rate of twins says, over seeds."""
+    rows = select(tables, "returns").dropna()
+    if rows.empty:
+        raise CannotTell("no path that leapt was a tenth of a spacing off within the times that were run")
+    seeds = over_seeds((rows["measured"]/rows["predicted"]).tolist())
+    return Measured(seeds.value, hypot(seeds.err, float((rows["rate_err"]/rows["rate"]).max())))
+
+
+def longest(name: str, **where) -> Value:
+    """Mean over seeds of a column of the longest tubes."""
+    def value(tables: Tables) -> Measured:
+        rows = select(tables, "tubes", **where)
+        return over_seeds(rows[rows["L"] == rows["L"].max()][name].dropna().tolist())
+    return value
+
+
+def fell(tables: Tables) -> Measured:
+    """Tubes that diverged."""
+    return Measured(float(select(tables, "tubes")["diverged"].notna().sum()), 0.0)
+
+
+def finest(name: str) -> Callable[[Tables], Measured]:
+    """A column of the interfaces of the largest scale."""
+    def value(tables: Tables) -> Measured:
+        rows: pd.DataFrame = select(tables, "ripple_growth").sort_values("scale")
+        return Measured(float(rows[name].iloc[-1]), float(rows[f"{name}_err"].iloc[-1]))
+    return value
+
+
+TENTH = "a tenth is asked of predicted limits"
+#: order of the modulus in 1/h: two powers of h less than the weight's transform, (Kh)^-(n + 3/2) for w ~ (1 - q)^n at the range
+ORDERS = {"Lucy": 2.5, "Monaghan": 2.5, "WendlandC2": 3.5}
+LATTICES = (
+    Claim(id="khp95-hard-modulus-summed", source="KHP95 Sec. II", value=summed_alike, at_most=1e-8,
+          statement="the sums that run have the shear moduli of lattice sums: largest difference over the bulk modulus, three "
+                    "weights, ranges to 6 spacings", because="second differences over strains of 1e-3: round-off of 1e-10, "
+                                                            "times the number of neighbours"),
+    *(Claim(id=f"khp95-hard-modulus-order-{kind}-{weight.lower()}", source="KHP95 Sec. II", expect=order, within=0.25,
+            value=column("modulus_orders", "order", "order_err", lattice=kind, weight=weight),
+            statement=f"the spurious shear modulus vanishes with the power of the range that the end of the weight has: order in "
+                      f"1/h, ranges 3 to 12, {weight}, {kind} lattice",
+            because="the next power of h is one less: a tenth of an order over this span, and as much for what is left of the "
+                    "oscillation")
+      for kind, (weight, order) in product(("hexagonal", "square"), ORDERS.items())),
+    Claim(id="khp95-hard-growth", source="KHP95 Sec. III", value=worst("growth"), at_most=0.01,
+          statement="lattices that are not stable melt as lattice sums say: largest relative difference of growth rates, ideal "
+                    "gas and van der Waals", because="1 %: motions of up to a hundredth of a spacing are linear to that"),
+    Claim(id="khp95-hard-pairing-onset", source="KHP95 Sec. VI, Fig. 10", value=worst("onsets", parameter="h"), at_most=0.1,
+          statement="the range from which lattices are unstable, Monaghan's to pairing, is that of lattice sums: largest "
+                    "relative difference", because=TENTH),
+    Claim(id="khp95-hard-clumping-onset", source="KHP95 Sec. IV, Eq. 2", value=worst("onsets", parameter="T"), at_most=0.1,
+          statement="the temperature below which van der Waals lattices clump is that of lattice sums: largest relative "
+                    "difference", because=TENTH),
+    Claim(id="khp95-hard-clumping-pressure", source="KHP95 Sec. IV, Eq. 2", value=clumping(pressureless(1.2), 1.2), expect=1,
+          within=0.1, because=TENTH,
+          statement="particles clump from where the pressure is negative: temperature over that of P = 0, density 1.2"),
+    Claim(id="khp95-hard-clumping-stable", source="KHP95 Sec. IV, Eq. 2", value=clumping(spinodal(1.2), 1.2), at_most=1,
+          statement="particles clump only where the van der Waals fluid itself is unstable: temperature over that of the "
+                    "spinodal, density 1.2", because="beyond 1 it is the particles that clump, not the fluid"),
+)
+CHANCE = "of particles at random 0.54 have a neighbour within half a spacing"
+PAIRS = (
+    Claim(id="khp95-hard-pairs-monaghan", source="KHP95 Sec. VI", printed="closely associated pairs", at_least=0.8,
+          statement="with Monaghan's weight, h = 3, particles end in pairs: part that has another within half a spacing, gas "
+                    "left to rest", value=over("fates", "shared", weight="Monaghan", h=3.0), because=CHANCE),
+    Claim(id="khp95-hard-pairs-lucy", source="KHP95 Sec. VI", printed="no such pairing", at_most=0.1, because=CHANCE,
+          statement="with Lucy's weight, h = 3, particles do not end in pairs: part that has another within half a spacing, gas "
+                    "left to rest", value=over("fates", "shared", weight="Lucy", h=3.0)),
+    Claim(id="khp95-hard-sites-foretold", source="KHP95 Secs III, IV", value=foretold, at_least=0.9,
+          statement="particles end as many a site as the hexagonal lattice of least energy has, 1 to 4: part of the runs, three "
+                    "weights, ranges 2 to 4", because="a tenth may lie where two numbers have nearly the same energy"),
+    Claim(id="khp95-hard-fig10-pairs-monaghan", source="KHP95 Sec. VI, Fig. 10", printed="pairs", at_least=2,
+          value=column("squares", "ratio", "ratio_err", weight="Monaghan", ra=67150.0),
+          statement="in the gas of Fig. 10 Monaghan's particles move in pairs: median of second over first neighbour distance",
+          because="single particles have 1.3, pairs 2 or more"),
+    Claim(id="khp95-hard-fig10-pairs-lucy", source="KHP95 Sec. VI, Fig. 10", printed="no such pairing", at_most=1.6,
+          value=column("squares", "ratio", "ratio_err", weight="Lucy", ra=67150.0),
+          statement="in the gas of Fig. 10 Lucy's particles do not pair: median of second over first neighbour distance",
+          because="single particles have 1.3, pairs 2 or more"),
+    Claim(id="khp95-hard-fig10-two-rolls", source="KHP95 Sec. VI, Fig. 10", printed="two rolls", expect=2, within=0,
+          value=column("squares", "rolls", weight="Monaghan", ra=67150.0), because="a whole number",
+          statement="2500 particles of the gas of Fig. 10 have two rolls, after a start with two"),
+    Claim(id="khp95-hard-fig10-one-roll", source="KHP95 Sec. VI, Fig. 10", printed="one", expect=1, within=0,
+          value=column("squares", "rolls", weight="Monaghan", ra=1e4), because="a whole number",
+          statement="2500 particles of the gas of Fig. 10 have one roll at twice the critical Ra, after a start with two"),
+)
+RULE = "a criterion from a rule of thumb is good to a factor of two at best"
+FREEZING = (
+    *(Claim(id=f"khp95-hard-freezing-{name}-{weight.__name__.lower()}", source="KHP95 Sec. IV, Fig. 4", printed=printed,
+            at_least=0.5, at_most=2, because=RULE, value=frozen_at(name, **{**GAS, "weight": weight.__name__}),
+            statement=f"convection freezes at the pressure of the {words}: measured over printed, {weight.__name__}, 512 "
+                      "particles, ideal gas, Ra 3000, v^2 of the grid")
+      for weight, (name, printed, words) in product((Lucy, Monaghan), (
+          ("melting", "mv^2 > 2Pn^-2[w(0.9)-w(1)]", "Lindemann-like criterion"),
+          ("barrier", "mv^2 > 2Pn^-2 w(0)", "largest potential")))),
+    Claim(id="khp95-hard-freezing-lindemann", source="KHP95 Sec. IV", printed="of the order of 10%", at_least=0.05, at_most=0.2,
+          statement="melting occurs when neighbours' distances fluctuate by about 10 %: fluctuation in the frozen run next to "
+                    "the limit, Lucy, ideal gas, Ra 3000", value=next_to_limit(frozen=True),
+          because='"of the order of": a factor of two'),
+    Claim(id="khp95-hard-freezing-molten", source="KHP95 Sec. IV", printed="of the order of 10%", at_least=0.1,
+          statement="where particles flow neighbours' distances fluctuate by more than 10 %: fluctuation in the flowing run next "
+                    "to the limit, Lucy, ideal gas, Ra 3000", value=next_to_limit(frozen=False), because="the printed number"),
+    Claim(id="khp95-hard-freezing-dense", source="KHP95 Sec. IV", at_least=0.5, at_most=2,
+          statement="it is the pressure that freezes, not the equation of state: limit of the dense fluid over that of the ideal "
+                    "gas, Lucy, Ra 3000", value=limits_ratio({**GAS, "eos": "DenseFluid"}, GAS), because=RULE),
+    Claim(id="khp95-hard-freezing-energy", source="KHP95 Sec. IV", at_least=0.5, at_most=2,
+          statement="the pressure at which flow freezes grows in proportion to its v^2: limit over the grid's K at Ra 10 000 "
+                    "over the same at Ra 3000, Lucy, ideal gas", value=limits_ratio({**GAS, "ra": 1e4}, GAS, per_K=True),
+          because=RULE),
+)
+MOLECULES = (
+    Claim(id="khp95-hard-molecules", source="KHP95 Sec. III", printed="identical", at_most=1e-11,
+          statement="for P ~ rho^2 compiled smooth particles keep paths of molecules: rms distance at t = 10, 64 particles",
+          value=column("twins", "apart", weight="Lucy", time=10.0),
+          because="round-off of 1e-16 that grows by a factor of e in a time of 1 at the fastest"),
+    Claim(id="khp95-hard-reversal", source="KHP95 Sec. III", printed="exact reversibility", expect=1, within=0, value=equal_bits,
+          statement="paths run back exactly when velocities turn: part of the coordinates that come back to the last bit, in "
+                    "whole numbers, times to 100", because="exact is all of them"),
+    Claim(id="khp95-hard-reversal-time", source="KHP95 Sec. III", value=returned, expect=1, within=0.2,
+          statement="with round-off paths come back as long as it has not grown to a tenth of a spacing: time of leapfrog over "
+                    "ln(0.1/2^-52)/rate, the rate that of twins", because="a fifth: ln 1000 of ln(0.1/2^-52) = 34 is not known: "
+                                                                          "round-offs of a path add up"),
+)
+SHOCKS = (
+    Claim(id="khp95-hard-sod-robust", source="KHP95 Sec. VI", printed="robust, highly stable", at_most=0, value=fell,
+          statement="smooth particles take Sod's shock, with viscosity and without: tubes that diverged", because="none"),
+    *(Claim(id=f"khp95-hard-sod-order-{name}", source="KHP95 Sec. II", at_least=low, at_most=1.2, because=why,
+            value=column("tube_orders", "order", "order_err", eta=0.5, quantity=name),
+            statement=f"the tube with eta = k = 0.5 converges on the exact solution as it gets longer: order of the mean error "
+                      f"of {name} in 1/L")
+      for name, low, why in (("v", 0.8, "shocks are some spacings wide, however long the tube: first order, and 0.2 for heads of "
+                                        "rarefactions"),
+                             ("P", 0.8, "shocks are some spacings wide, however long the tube: first order, 0.2 for heads of "
+                                        "rarefactions"),
+                             ("rho", 0.5, "the contact is as wide as the root of the time: order 1/2 there, 1 elsewhere"))),
+    *(Claim(id=f"khp95-hard-sod-grid-{name}", source="KHP95 Sec. II", at_most=0.01, value=longest(f"{name}_grid", **VISCOUS),
+            statement=f"the longest viscous tube has the {name} of a grid as viscous: mean difference over its range",
+            because="1 %, what KHP95 say that fluctuations disguise") for name in ("rho", "v", "P")),
+    Claim(id="khp95-hard-sod-in-order", source="KHP95 Sec. II", at_most=3, value=longest("overlap", eta=0.0),
+          statement="without viscosity, and none is artificial, both gases still do not pass through each other: overlap in "
+                    "spacings, longest tube", because="the range, within which they push each other back"),
+    Claim(id="khp95-hard-sod-rings", source="KHP95 Sec. II", at_most=0.1, value=longest("wiggles", eta=0.0),
+          statement="the printed scheme, which has no artificial viscosity, takes a shock without ringing if the fluid has none: "
+                    "variation of v beyond that of the exact solution, over it, longest tube", because="a tenth is no ringing"),
+    Claim(id="khp95-hard-sod-rings-viscous", source="KHP95 Sec. II", at_most=0.1, value=longest("wiggles", **VISCOUS),
+          statement="with eta = 0.5 the printed scheme takes a shock without ringing: variation of v beyond that of the exact "
+                    "solution, over it, longest tube", because="a tenth is no ringing"),
+    Claim(id="khp95-hard-ripple-kick", source="KHP95 Sec. VI, Fig. 11", value=finest("kick"), expect=1, within=0.02,
+          statement="a shock of Mach 1.5 gives the interface the velocity of the exact solution: measured over exact",
+          because="2 %, as printed for the growth"),
+    Claim(id="khp95-hard-ripple-growth", source="KHP95 Sec. VI, Fig. 11", printed="2%", value=finest("growth"), expect=1,
+          within=0.02, because="the printed 2 %; impulsive theory is itself an approximation",
+          statement="a shocked ripple grows as theory says, density ratio 4, Mach 1.5 from the light side, k a = 0.25, all of it "
+                    "twice as large as printed: growth rate over the impulsive one"),
+)
+CLAIMS = (*LATTICES, *PAIRS, *FREEZING, *MOLECULES, *SHOCKS)
