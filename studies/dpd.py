@@ -47,7 +47,7 @@ def cases(size: str) -> list[Case]:
             *densities((2.6, 2.8, 3.2, 3.4, 4.0, 5.0, 6.0, 8.0), side=8.0, time=60.0), *table(),
             *waves_and_shear((0.1, 0.2, 0.4), side=10.0, time=110.0, long=300.0),
             *second_order((0.03, 0.045), side=6.0, time=4000.0),
-            *cylinders(((False, 2.0), (False, 3.0), (True, 2.0)), time=2000.0, shear=800.0, rows=24)]
+            *cylinders(((False, 2.0), (False, 3.0), (True, 2.0)), time=1500.0, shear=500.0, rows=16)]
 
 
 def temperatures(found: tuple[float, ...], *, side: float, steps: int) -> Iterator[Fluid]:
@@ -86,13 +86,13 @@ def waves_and_shear(rates: tuple[float, ...], *, side: float, time: float, long:
 
 def second_order(found: tuple[float, ...], *, side: float, time: float) -> Iterator[Fluid]:
     """Averages that say what a step does; what it does."""
-    yield Stiffness(integrator=Shardlow, dt=0.01, side=side/2 + 1, time=time/5)
+    yield Stiffness(integrator=Shardlow, dt=0.01, side=side/2 + 1, time=time/8)
     yield from (Steps(integrator=Shardlow, dt=dt, side=side, time=time) for dt in found)
 
 
 def cylinders(bodies: tuple[tuple[bool, float], ...], *, time: float, shear: float, rows: int) -> Iterator[Case]:
     """Streams past cylinders; the viscosity at their step; what inertia adds."""
-    yield from (Cylinder(turns=turns, radius=radius, time=time*(2/radius)**0.5) for turns, radius in bodies)
+    yield from (Cylinder(turns=turns, radius=radius, time=time*(2/radius)**1.5) for turns, radius in bodies)
     yield Shear(integrator=VelocityVerlet, dt=0.04, side=8.0, time=shear, rate=0.3)
     yield Inertia(rows=rows)
 
