@@ -19,10 +19,12 @@ from particles.team import Team
 from particles.weights import Lucy
 from studies.fluctuating import fluct_tables
 from studies.fluctuating.fluct_flows import BelowOnset, Gradient, Rest, equilibrium, layer_noise, noise, transport
+from studies.fluctuating.fluct_given import About, Shear, Stream
 from studies.fluctuating.fluct_modes import Equipartition, check_modes, plane_waves
 from studies.fluctuating.fluct_nonlinear import Capacity, Exchange, Exchanged, Nonlinear, dirichlet
 from studies.fluctuating.fluct_peaks import Brillouin
 from studies.fluctuating.fluct_sampling import check_length
+from studies.fluctuating.fluct_tail import Tail, TailSampled
 from studies.integral.operators import DISORDERS
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
@@ -247,7 +249,16 @@ def small(size: str) -> list:
             Equipartition(counts=(5, 5), turns=((1, 0), (1, 1)), share=0.5, steps=110, dt=3.0),
             Brillouin(points=9, turns=(1,), steps=430), Nonlinear(counts=(5, 5), share=0.1, k=1e-3, time=112.0, of_limit=0.9,
                       batches=2),
-            *(Capacity(C=20.0, corrected=one, steps=100, counts=(4, 4), dt=0.2) for one in (True, False))]
+            *(Capacity(C=20.0, corrected=one, steps=100, counts=(4, 4), dt=0.2) for one in (True, False)),
+            Rest(maker="delaunay", disorder=jit, counts=(5, 5), share=0.0, speed=0.5),
+            Rest(maker="delaunay", disorder=jit, counts=(5, 5), share=1.0, speed=0.5),
+            Brillouin(points=9, turns=(1,), steps=430, speed=1.0),
+            Equipartition(counts=(3, 3, 3), turns=((1, 0, 0), (1, 1, 1)), share=0.0, steps=40, dt=30.0),
+            *fluctuations.shears(8, (0.9, 1.0, 1.1)),
+            *(About(flow=flow, counts=(3, 3), turns=((1, 0),), share=0.5, eta=0.4, time=135.0, of_limit=0.9, batches=2)
+              for flow in (Stream(0.3), Shear(0.2))),
+            *(Tail(side=8, share=share, nu_t=(30.0, 3000.0)) for share in (0.0, 0.1, 1.0)),
+            *(TailSampled(side=6, share=share, lags=(0, 20, 100), steps=400) for share in (0.0, 0.1))]
 
 
 @pytest.fixture(scope="module")
@@ -261,7 +272,8 @@ def test_a_small_rebuild_fills_every_table_and_draws_every_figure(rebuilt):
     study, found, out = rebuilt
     for table in fluct_tables.ALL:
         assert set(table.columns) <= set(found[table.name].columns) and len(found[table.name])
-    assert {path.stem for path in study.draw(out)} == {"printed", "gradient", "steps", "spectrum", "modes"}
+    assert {path.stem for path in study.draw(out)} == {"printed", "gradient", "steps", "spectrum", "modes", "cubes",
+                                                          "shear", "tail"}
 
 
 def test_what_is_algebra_holds_at_any_size(rebuilt):
@@ -270,10 +282,11 @@ def test_what_is_algebra_holds_at_any_size(rebuilt):
     for name in ("own-fluct-partners", "own-fluct-symmetric", "own-fluct-eq42-cosine", "own-fluct-eq42-sums",
                  "own-fluct-eq43-cosine", "own-fluct-eq42-partner", "rr98-fluct-eq20-rest", "own-fluct-crank-nicolson",
                  "own-fluct-three-stage", "own-fluct-nulls", "own-fluct-no-nulls", "own-fluct-tail", "rr98-fluct-eq22-momentum",
-                 "rr98-fluct-eq25-onset"):
+                 "rr98-fluct-eq25-onset", "rr98-fluct-galilean-static", "own-fluct-galilean-order", "own-fluct-tail-floor",
+                 "own-fluct-tail-no-floor"):
         assert rows[name]["verdict"] == "holds", rows[name]
     for name in ("rr98-fluct-eq21-growth", "rr98-fluct-eq42-shape", "rr98-fluct-eq37-symmetric",
-                 "rr98-fluct-eq43-doubled", "rr98-fluct-eq40-euler"):
+                 "rr98-fluct-eq43-doubled", "rr98-fluct-eq40-euler", "own-fluct-galilean-mended"):
         assert rows[name]["verdict"] == "fails", rows[name]
     assert rows["rr98-fluct-eq43-doubled"]["measured"] == pytest.approx(1/0.7, rel=0.01)
 

@@ -9,8 +9,9 @@ from studies.kit.table import Tables
 
 def figures(tables: Tables) -> dict[str, Figure]:
     """What the tables allow."""
-    wanted = {"printed": printed, "gradient": flows, "steps": steps, "spectrum": spectrum, "modes": modes}
-    needed = {"gradient": ("gradient", "onset")}
+    wanted = {"printed": printed, "gradient": flows, "steps": steps, "spectrum": spectrum, "modes": modes, "cubes": cubes,
+              "shear": shear, "tail": tail}
+    needed = {"gradient": ("gradient", "onset"), "shear": ("shear", "flows"), "tail": ("tail", "tail_sampled")}
     return {name: draw(tables) for name, draw in wanted.items() if set(needed.get(name, (name,))) <= set(tables)}
 
 
@@ -91,4 +92,71 @@ def modes(tables: Tables) -> Figure:
         axes.set(title=field, xlabel="$ka$")
     panels[0].set_ylabel("variance / exact")
     page.suptitle("Plane waves of a gas at rest, jittered points, Delaunay edges; bars: 95 %, 20 batches", fontsize=10)
+    return page
+
+
+def cubes(tables: Tables) -> Figure:
+    """The same in 3D; velocities along and across k."""
+    rows: pd.DataFrame = tables["cubes"]
+    page, panels = figure(1, 4, width=2.6, height=3.0, sharey=True)
+    for axes, names in zip(panels, (("rho",), ("along",), ("across", "across 2"), ("T",)), strict=True):
+        for number, (points, group) in enumerate(rows[rows["field"].isin(names)].groupby("points")):
+            errorbar(axes, (group["wavenumber"] + 0.03*number).tolist(), group["ratio"].tolist(), group["ratio_err"].tolist(),
+                     number=number, label=str(points))
+        axes.axhline(1, color="black", lw=1)
+        axes.set(title={"rho": r"$\rho$", "T": "$T$"}.get(names[0], f"velocity {names[0]} $k$"), xlabel="$ka$")
+    panels[0].set_ylabel("variance / exact")
+    panels[-1].legend()
+    page.suptitle("Plane waves of a gas at rest in 3D; bars: 95 %, 20 batches", fontsize=10)
+    return page
+
+
+def shear(tables: Tables) -> Figure:
+    """Enhancement along a shear flow by Lyapunov solves, and samples about given flows mode by mode."""
+    page, (left, right) = figure(1, 2)
+    for number, (U, rows) in enumerate(tables["shear"].sort_values("wavenumber").groupby("U")):
+        k = rows["wavenumber"].to_numpy()
+        left.plot(k, rows["extra"]/U**2, **{**look(number), "linestyle": "none"}, label=f"$U = {U:g}$")
+        left.plot(k, rows["vortical"]/U**2, color=look(number)["color"], marker="", lw=0.8)
+        if number == 0:
+            left.plot(k, rows["second"].iloc[-1]/U**2*(k/k[-1])**-4, color="grey", linestyle=":", marker="", label="$k^{-4}$")
+    left.set(xscale="log", yscale="log", xlabel="$ka$ along the flow", ylabel=r"$(\langle v_yv_y\rangle - 1)/U^2$",
+             title=r"$u = U\,\sin(qy)$; lines: incompressible")
+    left.set_xticks([0.1, 0.2, 0.4], labels=["0.1", "0.2", "0.4"])
+    left.minorticks_off()
+    left.legend()
+    for number, (flow, rows) in enumerate(tables["flows"].groupby("flow")):
+        found, err = (rows[name]*rows["exact"] for name in ("ratio", "ratio_err"))
+        errorbar(right, rows["exact"].tolist(), found.tolist(), err.tolist(), number=number,
+                 label={"Shear": "shear flow", "Stream": "uniform stream"}[str(flow)])
+    ends = [tables["flows"]["exact"].min(), tables["flows"]["exact"].max()]
+    right.plot(ends, ends, color="black", marker="", lw=1)
+    right.set(xlabel="variance over equilibrium, Lyapunov", ylabel="sampled, full equations", title="waves on jittered points")
+    right.legend()
+    return page
+
+
+def tail(tables: Tables) -> Figure:
+    """Velocity autocorrelation of a point, exact and sampled."""
+    page, (left, right) = figure(1, 2)
+    for number, (share, rows) in enumerate(tables["tail"].groupby("share")):
+        for side, some in rows.sort_values("nu_t").groupby("side"):
+            some = some[some["correlation"] > 1e-9]
+            fill = "full" if side == rows["side"].max() else "none"
+            left.plot(some["nu_t"], some["correlation"], **look(number), fillstyle=fill,
+                      label=f"{100*share:.0f} % along edges, {side:.0f}$^2$ points")
+    t = np.array([3.0, 100.0])
+    for factor, style in ((1, "-"), (4, ":")):
+        left.plot(t, factor/(8*np.pi*t), color="black", linestyle=style, marker="", lw=0.8,
+                  label=rf"${'' if factor == 1 else factor}/(8\pi\nu t)$")
+    left.set(xscale="log", yscale="log", xlabel=r"$\nu t/a^2$", ylabel=r"$\langle v(0)\,v(t)\rangle\rho/kT$", title="exact")
+    below(left, ncols=2, fontsize=7)
+    for number, (share, rows) in enumerate(tables["tail_sampled"].sort_values("lag").groupby("share")):
+        rows = rows[rows["lag"] > 0]
+        errorbar(right, rows["lag"].tolist(), rows["measured"].tolist(), rows["measured_err"].tolist(), number=number,
+                 label=f"{100*share:.0f} % along edges")
+        right.plot(rows["lag"], rows["exact"], color=look(number)["color"], marker="", lw=0.8)
+    right.axhline(3/tables["tail_sampled"]["side"].max()**2, color="black", linestyle=":", marker="", lw=0.8, label="null modes")
+    right.set(xscale="log", xlabel="$t$", title="sampled; bars: 95 %; lines: exact")
+    right.legend()
     return page
