@@ -20,6 +20,8 @@ from studies.fluctuating.fluct_read_flows import (
 from studies.kit.claim import Claim
 
 T19 = "sqrt(19/17), the rms of t with 19 degrees of freedom"
+LATER = ("next orders, 3 nu/(c_T^2 t) = 1 % and 1/(nu t) = 3 %; read later: at first sound, which had not gone round the small "
+         "box, was left out of the total momentum, and nu/(c^2 t) was 3 %, thrice")
 FLOWS = (
     Claim(id="rr98-fluct-equipartition-3d", source="RR98 Eqs 22, 24", expect=1, within=0.005, value=total_3d,
           because="half a per cent: the size that an experiment resolves",
@@ -105,6 +107,18 @@ FLOWS = (
     Claim(id="own-fluct-tail-nulls", source="RR98 Eqs 22, 37", expect=4, within=0.1, value=tail_of(0.0),
           because="next order, 1/(nu t) = 3 %",
           statement="with null modes, nested transport alone, it has 2^d times that tail, sound and heat included"),
+    Claim(id="own-fluct-tail-fluid-large", source="RR98 Eqs 22, 37, 51", expect=1, within=0.1, value=tail_of(0.1, large=True),
+          because=LATER,
+          statement="the same, a tenth of friction along edges, less viscous and in a box three times as wide: tail over "
+                    "kT/(8 pi rho nu t)"),
+    Claim(id="own-fluct-tail-edges-large", source="RR98 Eqs 22, 37, 51", expect=1, within=0.1, value=tail_of(1.0, large=True),
+          because=LATER,
+          statement="the same, all friction along edges, less viscous and in a box three times as wide: tail over "
+                    "kT/(8 pi rho nu t)"),
+    Claim(id="own-fluct-tail-nulls-large", source="RR98 Eqs 22, 37, 51", expect=4, within=0.1, value=tail_of(0.0, large=True),
+          because=LATER,
+          statement="the same, nested transport alone, null modes, less viscous and in a box three times as wide: tail over "
+                    "kT/(8 pi rho nu t)"),
     Claim(id="own-fluct-tail-floor", source="RR98 Eqs 22, 37", expect=3, within=0.01, value=floor(0.0),
           because="all other modes have decayed by exp(-200)",
           statement="null modes leave a floor of 2^d - 1 over the number of points: that number times the autocorrelation, "

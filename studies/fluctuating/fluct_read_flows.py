@@ -141,11 +141,15 @@ def shift_order() -> float:
 # --- velocity autocorrelation -----------------------------------------------------------------------------------------
 
 
-def tail_of(share: float) -> Value:
-    """Autocorrelation over kT/(8 pi rho nu t) at nu t = 30; of it what finite n adds, -1/(2 n), or 1/n with three null modes."""
+def tail_of(share: float, large: bool = False) -> Value:
+    """Autocorrelation over kT/(8 pi rho nu t) at nu t = 30, without what finite n adds.
+
+    That is -1/n, the total momentum, until sound has gone round the box, as in the `large` one; -1/(2 n) when sound has died, 1/n
+    with three null modes.
+    """
     def value(tables: Tables) -> Measured:
-        row = select(tables, "tail", share=share, nu_t=30.0).sort_values("side").iloc[-1]
-        finite = (1.0 if share == 0 else -0.5)/row["side"]**2
+        row = select(tables, "tail", share=share, nu_t=30.0).sort_values("side").iloc[-1 if large else 0]
+        finite = (-1.0 if large else 1.0 if share == 0 else -0.5)/row["side"]**2
         return Measured(float((row["correlation"] - finite)*8*np.pi*row["nu_t"]), 0.0)
     return value
 

@@ -1,8 +1,9 @@
 """Velocity autocorrelation of a fixed point of a gas at rest, with and without null modes, as cases    [RR98 Eqs 22, 37]
 
 On a lattice, here of nearest neighbours, it is a sum over waves of what the linear scheme makes of each. In 2D the fluid's has
-the tail kT/(8 pi rho nu t), from velocities across k; sound leaves a point fast. Nested transport takes waves near a corner of
-the zone for long ones, and on even sides 3 waves of each component stay for ever.
+the tail kT/(8 pi rho nu t), from velocities across k. Sound takes 2 nu/(c^2 t) of that away until it has gone round the box, and
+friction along edges nu/(c_T^2 t) for each of 3 corners of the zone, where it pushes density to and fro that no gradient sees.
+Nested transport takes waves near a corner for long ones, and on even sides 3 waves of each component stay for ever.
 """
 from dataclasses import dataclass
 from pathlib import Path
@@ -52,11 +53,11 @@ class Tail(Case):
     side: int
     share: float
     nu_t: tuple[float, ...]
-    eta: float = 1.0        # large: at nu t = 30 sound has not gone round the box
+    eta: float = 1.0
 
     @property
     def cost(self) -> float:
-        return 1e-4*self.side**2*len(self.nu_t)
+        return 2e-4*self.side**2*len(self.nu_t)
 
     @property
     def label(self) -> str:
@@ -64,10 +65,9 @@ class Tail(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         J = blocks(self.side, self.share, self.eta)
-        # half of the mean of n waves is missing: total momentum does not fluctuate
         return Outcome({"tail": [{"side": self.side, "share": self.share, "nu_t": x,
                                   "correlation": autocorrelation(expm(J*x/self.eta)),
-                                  "continuum": 1/(8*np.pi*x) - 0.5/self.side**2} for x in self.nu_t]})
+                                  "continuum": 1/(8*np.pi*x)} for x in self.nu_t]})
 
 
 @dataclass(frozen=True, kw_only=True)
