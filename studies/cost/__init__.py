@@ -1,0 +1,1 @@
+"""What errors cost: the parts of the studies `speed` and `scenes`."""

@@ -1,0 +1,77 @@
+"""Seconds of a step by the number of particles, and what two threads gain."""
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter, process_time
+from typing import Any, ClassVar
+
+import numpy as np
+
+from continuum.fluid import ConstEta, IdealGas
+from continuum.scene import RayleighBenard
+from particles.edges import NONE_BEYOND
+from particles.integrators import RK4
+from particles.makers import renormalised
+from particles.methods.layer import Layer
+from particles.points import lattice
+from particles.run import Plan, run
+from particles.team import Team
+from particles.weights import Lucy
+from studies.convection import spam
+from studies.cost import speed_names as names
+from studies.cost.speed_problem import holding
+from studies.cost.speed_timing import SHORT, array_bytes, per_step
+from studies.kit.case import Case, Outcome, Report
+
+WARM = 10           # steps of particles before they are timed: a lattice has no lists to make again
+ETA = 0.5
+
+
+@dataclass(frozen=True, kw_only=True)
+class Growth(Case):
+    """Steps of so many rows of smooth particles between plates, twice as many columns, or of as many fixed points."""
+    rows: int
+    fixed: bool = False
+    threads: int = 1
+    clock: str = "cpu"
+    short: float = SHORT
+    alone: ClassVar[bool] = True
+
+    @property
+    def cost(self) -> float:
+        return 1 + 2e-5*2*self.rows**2
+
+    @property
+    def label(self) -> str:
+        return f"growth, {self.name}, {2*self.rows**2} points, {self.threads} threads, {self.clock} time"
+
+    @property
+    def name(self) -> str:
+        return names.LATTICE if self.fixed else names.LUCY
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        advance, size = (self._fixed if self.fixed else self._particles)()
+        seconds = per_step(advance, self.short, process_time if self.clock == "cpu" else perf_counter)
+        return Outcome({"growth": [{"method": self.name, "points": 2*self.rows**2, "threads": self.threads, "clock": self.clock,
+                                    "step_s": seconds.value, "step_s_err": seconds.err, "bytes": size}]})
+
+    def _particles(self) -> tuple[Any, int]:
+        """The printed scheme at Ra = 10 000, lists and walls included."""
+        scene = RayleighBenard(ra=1e4, L=float(self.rows))
+        method, dt = spam.method(scene, spam.PRINTED), spam.step(scene, spam.PRINTED)
+        warm = run(method, spam.start(scene, 1), Plan(dt=dt, steps=WARM, threads=self.threads)).state
+        return (lambda steps: run(method, warm, Plan(dt=dt, steps=steps, threads=self.threads)),
+                array_bytes(holding(method, warm)()))
+
+    def _fixed(self) -> tuple[Any, int]:
+        """RK4 over stored edges of a periodic lattice; the step is one that is stable there for sure."""
+        points = lattice((2*self.rows, self.rows))
+        method = Layer(x=points.x, edges=renormalised(points, Lucy.of(h=2.0)), beyond=NONE_BEYOND, eos=IdealGas(),
+                       law=ConstEta(ETA, ETA), T_plates=(1.0, 1.0), g=0.0)
+        state, team = method.state(1.0, 0.01*np.sin(points.x), np.ones(points.n)), Team(self.threads)
+        sums, integrator = method.start(points.n, team), RK4((4, points.n), team)
+
+        def advance(steps: int) -> None:
+            now = state.copy()
+            for _ in range(steps):
+                integrator.step(sums, now, 0.1)
+        return advance, array_bytes(state, sums, integrator)

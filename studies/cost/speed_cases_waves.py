@@ -1,0 +1,139 @@
+"""Who takes part in a sound wave of small amplitude that rings for two periods in a periodic box.
+
+Density and temperature start as isentropic cosines, at rest; the answer is exact for small amplitudes, from the rates of plane
+waves (studies/integral/transport_symbol.py). Points and particles start on lattices, but for jittered ones: the noise of
+particles that lie at random is larger than any wave whose answer is known to many digits.
+"""
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.linalg import expm
+
+from continuum.fluid import ConstEta, IdealGas
+from particles.edges import NONE_BEYOND, Edges
+from particles.makers import renormalised
+from particles.methods.layer import Layer
+from particles.methods.moving import EXCHANGED, Moving
+from particles.methods.spam import Spam
+from particles.points import Points, jittered, lattice
+from particles.triangulation import delaunay
+from particles.walls.periodic import periodic
+from particles.weights import Lucy, Monaghan, WendlandC2
+from studies.cost import speed_names as names
+from studies.cost.speed_cases_vortex import Euler, euler_limit
+from studies.cost.speed_problem import Problem, Residuals, of_method
+from studies.integral.ordering_vortices import SOUND
+from studies.integral.transport_symbol import Gas, continuum
+
+AMPLITUDE = 1e-5    # steepening is of the order of its product with the phase, 12: 1e-4 of the wave
+KNOWN = 1e-4
+PERIODS = 2.125     # and an eighth: density and velocity are both there
+DAMPING = 0.01      # eta = kappa, in wavelengths: a third of the wave is left
+BREADTH = 8         # spacings across: wider than twice a range of three
+SECONDS = 2e-4
+
+
+class Wave(NamedTuple):
+    """A standing wave of a length in spacings."""
+    length: int
+
+    @property
+    def k(self) -> float:
+        return 2*np.pi/self.length
+
+    @property
+    def eta(self) -> float:
+        return DAMPING*self.length
+
+    @property
+    def time(self) -> float:
+        return PERIODS*self.length/SOUND
+
+    def exactly(self, time: float, x: np.ndarray) -> np.ndarray:
+        """(rho, u, T), each (n,), less their means."""
+        matrix = continuum(Gas(self.eta, 0.0, self.eta), self.k).matrix
+        return AMPLITUDE*np.real(np.outer(expm(matrix*time)@np.array([1, 0, 1]), np.exp(1j*self.k*x)))
+
+    def compared(self, V: np.ndarray, x: np.ndarray, u: np.ndarray, T: np.ndarray) -> Residuals:
+        """Velocity and temperature, each relative to its rms."""
+        _, exact_u, exact_T = self.exactly(self.time, x)
+        w = np.sqrt(len(V)*V/V.sum())
+        pairs = {"velocity": (u, exact_u), "temperature": (T - 1, exact_T)}
+        return {name: w*(found - exact)/np.sqrt(np.mean(w**2*exact**2)) for name, (found, exact) in pairs.items()}
+
+
+class OnPoints(NamedTuple):
+    """Fixed points: a lattice with a weight of range h, or jittered points with Delaunay edges (h = 0)."""
+    name: str
+    h: float = 0.0
+    euler: bool = False
+    first: float = 0.9
+
+    def seconds(self, length: int) -> float:
+        return SECONDS*length**2
+
+    def problem(self, length: int, seed: int) -> Problem:
+        wave, counts = Wave(length), (length, BREADTH)
+        points = lattice(counts) if self.h else jittered(counts, 0.3, seed)
+        edges = renormalised(points, Lucy.of(h=self.h)) if self.h else delaunay(points)
+        method = self._method(wave, points, edges)
+        rho, u, T = wave.exactly(0.0, points.x[:, 0])
+
+        def residuals(state: np.ndarray) -> Residuals:
+            v = state[1:3]/state[0]
+            return wave.compared(edges.V, points.x[:, 0], v[0], state[3]/state[0] - (v**2).sum(axis=0)/2)
+        limit = euler_limit(method, SOUND**2) if self.euler else None
+        return of_method(method, method.state(1 + rho, np.stack([u, 0*u], axis=1), 1 + T), wave.time, residuals, limit=limit,
+                         known=KNOWN)
+
+    def _method(self, wave: Wave, points: Points, edges: Edges) -> Layer:
+        return (Euler if self.euler else Layer)(x=points.x, edges=edges, beyond=NONE_BEYOND, eos=IdealGas(),
+                                                law=ConstEta(wave.eta, wave.eta), T_plates=(1.0, 1.0), g=0.0)
+
+
+class OnParticles(NamedTuple):
+    """Smooth particles as printed, on a lattice that is displaced as the density at the start wants it."""
+    name: str
+    weight: Any = Lucy
+    first: float = 0.9
+
+    def seconds(self, length: int) -> float:
+        return 5*SECONDS*length**2
+
+    def problem(self, length: int, seed: int) -> Problem:
+        wave, x = Wave(length), lattice((length, BREADTH)).x
+        T = 1 + wave.exactly(0.0, x[:, 0])[2]
+        x[:, 0] -= AMPLITUDE/wave.k*np.sin(wave.k*x[:, 0])
+        method = Spam(weight=self.weight.of(h=3.0), eos=IdealGas(), law=ConstEta(wave.eta, wave.eta), box=(length, BREADTH),
+                      walls=(*periodic(length), *periodic(BREADTH, axis=1)))
+
+        def residuals(state: np.ndarray) -> Residuals:
+            return wave.compared(np.ones(state.shape[1]), state[0], state[2], state[4])
+        return of_method(method, np.array([*x.T, 0*T, 0*T, T]), wave.time, residuals, known=KNOWN)
+
+
+class OnMoving(NamedTuple):
+    """Moving points, on a lattice."""
+    name: str
+    first: float = 0.9
+
+    def seconds(self, length: int) -> float:
+        return 10*SECONDS*length**2
+
+    def problem(self, length: int, seed: int) -> Problem:
+        wave, x = Wave(length), lattice((length, BREADTH)).x
+        method = Moving(weight=WendlandC2.of(h=3.0), eos=IdealGas(), law=ConstEta(wave.eta, wave.eta), box=(length, BREADTH),
+                        walls=(*periodic(length), *periodic(BREADTH, axis=1)))
+        rho, _, T = wave.exactly(0.0, x[:, 0])
+
+        def residuals(state: np.ndarray) -> Residuals:
+            px, py, m, V, total = state[EXCHANGED]
+            return wave.compared(V, state[0], px/m, total/m - (px**2 + py**2)/(2*m**2))
+        return of_method(method, method.state(x, 0*x, 1 + rho, 1 + T), wave.time, residuals, known=KNOWN)
+
+
+POINTS = (OnPoints(names.NEAREST, 1.2), OnPoints(names.LATTICE, 2.0), OnPoints(names.WIDE, 3.0))
+TWO_STEP = OnPoints(names.TWO_STEP, 2.0, euler=True)
+IRREGULAR = OnPoints(names.JITTERED)
+PARTICLES = (OnParticles(names.LUCY), OnParticles(names.MONAGHAN, Monaghan), OnParticles(names.WENDLAND, WendlandC2))
+MOVING = OnMoving(names.MOVING)

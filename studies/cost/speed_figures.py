@@ -1,0 +1,123 @@
+"""Error against CPU seconds, and seconds against the number of particles, from the tables of the study `speed`."""
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+from studies.convection.pick import groups
+from studies.cost.speed_derive import LEVELS
+from studies.cost.speed_names import ORDER, style
+from studies.kit.figure import below, errorbar, figure
+from studies.kit.table import Tables
+
+#: scene, quantity, title of each panel
+PANELS = (("convection", "K", "Rayleigh-Benard, Ra 10 000: K, steady"), ("convection", "velocity", "velocity, steady"),
+          ("convection", "temperature", "temperature, steady"), ("convection", "K(t)", "K(t), 30 free-fall times"),
+          ("taylor-green", "velocity", "Taylor-Green: velocity"), ("sound", "velocity", "sound wave: velocity"),
+          ("conduction", "temperature", "heat conduction: temperature"), ("couette", "velocity", "Couette: velocity"))
+ACROSS = 4
+
+
+def figures(tables: Tables) -> dict[str, Figure]:
+    """What the tables allow."""
+    found: dict[str, Figure] = {}
+    if len(tables.get("points", ())):
+        found |= {"work_precision": work_precision(tables["points"]), "memory": memory(tables["points"])}
+    if len(tables.get("growth", ())):
+        found["growth"] = growth(tables["growth"])
+    return found
+
+
+def work_precision(points: pd.DataFrame) -> Figure:
+    """A panel a quantity; a line a method, its resolutions from left to right."""
+    shown = [panel for panel in PANELS if len(pick(points, *panel[:2]))]
+    across = min(ACROSS, len(shown))
+    down = -(-len(shown)//across)
+    page, all_axes = figure(down, across, width=4.1, height=3.9, squeeze=False)
+    for axes, (scene, quantity, title) in zip(all_axes.flat, shown):
+        draw(axes, pick(points, scene, quantity), "cpu_s", "error")
+        for level in LEVELS:
+            axes.axhline(level, color="grey", linewidth=0.6, linestyle=":")
+        loglog(axes, title, "CPU seconds, setting up included")
+    for axes in list(all_axes.flat)[len(shown):]:
+        axes.set_visible(False)
+    for axes in all_axes[:, 0]:
+        axes.set_ylabel("relative error")
+    legend(page, all_axes)
+    page.suptitle("What does an error cost?\nEach method at its own best step, one thread, without compiling; bars: 95 %",
+                  fontsize=10)
+    return page
+
+
+def pick(points: pd.DataFrame, scene: str, quantity: str) -> pd.DataFrame:
+    """Rows of one panel."""
+    return points[(points["scene"] == scene) & (points["quantity"] == quantity) & (points["error"] > 0)]
+
+
+def draw(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
+    """All methods, with errors in both directions."""
+    for name in [name for name in ORDER if name in set(rows["method"])]:
+        series = rows[rows["method"] == name].sort_values("resolution")
+        errs: dict[str, Any] = {f"{side}err": limited(series, column) for side, column in (("x", x), ("y", y))}
+        axes.errorbar(series[x], series[y], label=name, **errs, **style(name))
+
+
+def limited(rows: pd.DataFrame, column: str) -> np.ndarray:
+    """Bars (2, n) that end above zero on a logarithmic axis."""
+    value, err = (rows[name].to_numpy(float) for name in (column, f"{column}_err"))
+    return np.stack([np.minimum(err, 0.9*value), err])
+
+
+def loglog(axes: Axes, title: str, xlabel: str) -> None:
+    """Logarithmic axes whose numbers are written out."""
+    axes.set(xscale="log", yscale="log", title=title, xlabel=xlabel)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(LogLocator())
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_minor_formatter(NullFormatter())
+
+
+def legend(page: Figure, all_axes: np.ndarray) -> None:
+    """One for all panels, below."""
+    handles: dict = {}
+    for axes in all_axes.flat:
+        handles |= dict(zip(*axes.get_legend_handles_labels()[::-1], strict=True))
+    order = [name for name in ORDER if name in handles]
+    page.legend([handles[name] for name in order], order, loc="outside lower center", ncols=4)
+
+
+def memory(points: pd.DataFrame) -> Figure:
+    """Bytes a point of each method in each scene, at its highest resolution."""
+    finest = points.loc[points.groupby(["scene", "method"])["resolution"].idxmax()]
+    scenes = list(dict.fromkeys(finest["scene"]))
+    order = [name for name in ORDER if name in set(finest["method"])]
+    page, axes = figure(width=7.5, height=0.6 + 0.28*len(order))
+    marks = {}
+    for number, scene in enumerate(scenes):
+        rows = finest[finest["scene"] == scene]
+        places = [len(order) - 1 - order.index(name) for name in rows["method"]]
+        errorbar(axes, (rows["bytes"]/rows["points"]).tolist(), places, [0.0]*len(rows), number=number, label=scene)
+        marks[scene] = number
+    axes.set_yticks(range(len(order)), labels=order[::-1])
+    axes.set(xscale="log", xlabel="bytes of arrays a point while it runs", title="Memory at the highest resolution")
+    below(axes, ncols=3)
+    return page
+
+
+def growth(rows: pd.DataFrame) -> Figure:
+    """Nanoseconds a particle and step by number of particles; two threads by the time that passes."""
+    page, (left, right) = figure(1, 2, width=4.6, height=4.4)
+    for axes, clock, title in ((left, "cpu", "one thread, CPU time"), (right, "wall", "time that passes")):
+        some = rows[rows["clock"] == clock].sort_values("points")
+        for (method, threads), series in groups(some, ["method", "threads"]):
+            value, err = (1e9*series[name]/series["points"] for name in ("step_s", "step_s_err"))
+            look = style(method) | ({"markerfacecolor": "white"} if threads > 1 else {})
+            axes.errorbar(series["points"], value, err, label=f"{method}, {threads:.0f} thread{'s'*(threads > 1)}", **look)
+        loglog(axes, title, "particles or points")
+        below(axes)
+    left.set_ylabel("a particle and step  [ns]")
+    page.suptitle("How does the cost of a step grow? Lists of neighbours included; bars: 95 %", fontsize=10)
+    return page

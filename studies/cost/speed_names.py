@@ -1,0 +1,33 @@
+"""Names of methods as tables and figures have them, and how each looks: a colour a family, a marker a member."""
+from typing import Any
+
+from studies.kit.figure import MARKERS
+
+GRID, NEWTON = "compressible grid, RK4", "compressible grid, Newton"
+MAC_NEWTON, MAC_IMEX = "MAC grid, Newton", "MAC grid, IMEX"
+PYPDE_GAS, PYPDE_BOUSSINESQ = "py-pde, gas", "py-pde, Boussinesq"
+NEAREST, LATTICE, WIDE = "DIH lattice, h = 1.2 a", "DIH lattice, h = 2 a", "DIH lattice, h = 3 a"
+TWO_STEP = "DIH lattice, h = 2 a, two-step"
+JITTERED, RELAXED = "DIH Delaunay, jittered", "DIH Delaunay, relaxed"
+LUCY, MONAGHAN, WENDLAND = "SPAM, Lucy (as printed)", "SPAM, Monaghan", "SPAM, Wendland C2"
+LESS_STATIC, FIXED_ROWS = "SPAM, Lucy, less static pressure", "SPAM, Lucy, fixed rows"
+MOVING = "moving points"
+
+#: by how a name begins
+FAMILIES = {"compressible": ("#000000", "-"), "MAC": ("#882255", (0, (3, 1, 1, 1))), "py-pde": ("#E69F00", ":"),
+            "DIH lattice": ("#0072B2", "--"), "DIH Delaunay": ("#56B4E9", (0, (5, 1))), "SPAM": ("#D55E00", "-."),
+            "moving": ("#009E73", (0, (8, 3)))}
+ORDER = (GRID, NEWTON, MAC_NEWTON, MAC_IMEX, PYPDE_GAS, PYPDE_BOUSSINESQ, NEAREST, LATTICE, WIDE, TWO_STEP, JITTERED, RELAXED,
+         LUCY, MONAGHAN, WENDLAND, LESS_STATIC, FIXED_ROWS, MOVING)
+
+
+def family(name: str) -> str:
+    """How a name begins."""
+    return next(start for start in FAMILIES if name.startswith(start))
+
+
+def style(name: str) -> dict[str, Any]:
+    """Colour, line and marker of a method, the same in every figure."""
+    colour, line = FAMILIES[family(name)]
+    members = [other for other in ORDER if family(other) == family(name)]
+    return {"color": colour, "linestyle": line, "marker": MARKERS[members.index(name)]}

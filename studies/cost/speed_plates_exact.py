@@ -1,0 +1,66 @@
+"""Flows between plates that depend on the height only, solved to many digits: 1D collocation at Chebyshev points.
+
+    rho' = -(rho v)_s        v' = -v v_s + (eta v_s - P)_s/rho        u' = -v u_s + eta u_ss/rho
+    T' = -v T_s + (-P v_s + eta (v_s^2 + u_s^2) + k T_ss)/rho          P = rho T, C_V = 1, 2D without bulk viscosity
+
+over the height s from 0 to 1, all lengths in heights; v = 0, T = 1, u = 0 and U at the plates.
+"""
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from scipy.integrate import quad, solve_ivp
+
+MU = 0.02           # eta = k, in heights: sound crosses many times while heat does once, and layers are many spacings wide
+WAVE = 3            # half waves of what decays
+DEGREE, COARSER = 40, 32
+NEAR = 1e-10        # of the steps in time
+
+
+class Flow(NamedTuple):
+    """Temperature 1 + `heat` sin(3 pi s) at uniform pressure, velocity U (s + sin(3 pi s)/2), for so long in heights^2/MU."""
+    name: str
+    heat: float = 0.0
+    U: float = 0.0
+    until: float = 0.01
+
+    @property
+    def time(self) -> float:
+        """In heights over the unit of velocity."""
+        return self.until/MU
+
+    def start(self, s: np.ndarray) -> np.ndarray:
+        """(rho, v, u, T), each (n,), of mean density 1."""
+        wave = np.sin(WAVE*np.pi*s)
+        T = 1 + self.heat*wave
+        mean = quad(lambda q: 1/(1 + self.heat*np.sin(WAVE*np.pi*q)), 0, 1, epsabs=1e-13)[0]
+        return np.array([1/(mean*T), 0*s, self.U*(s + wave/2), T])
+
+
+FLOWS = {flow.name: flow for flow in (Flow("conduction", heat=0.1), Flow("couette", U=0.1))}
+
+
+@cache
+def solved(flow: Flow, degree: int = DEGREE) -> np.ndarray:
+    """Chebyshev coefficients (degree + 1, 4) of (rho, v, u, T) at the end."""
+    x = np.cos(np.pi*np.arange(degree, -1, -1)/degree)
+    to_values = chebyshev.chebvander(x, degree)
+    slope = 2*chebyshev.chebval(x, chebyshev.chebder(np.eye(degree + 1))).T@np.linalg.inv(to_values)
+
+    def rates(time: float, flat: np.ndarray) -> np.ndarray:
+        rho, v, _, T = flat.reshape(4, -1)
+        _, vs, us, Ts = slopes = flat.reshape(4, -1)@slope.T
+        Ps, (_, vss, uss, Tss) = slope@(rho*T), slopes@slope.T
+        out = np.array([-slope@(rho*v), -v*vs + (MU*vss - Ps)/rho, -v*us + MU*uss/rho,
+                        -v*Ts + (-rho*T*vs + MU*(vs**2 + us**2) + MU*Tss)/rho])
+        out[1:, [0, -1]] = 0
+        return out.ravel()
+    first = flow.start((x + 1)/2)
+    done = solve_ivp(rates, (0, flow.time), first.ravel(), method="LSODA", rtol=NEAR, atol=NEAR/100)
+    return np.linalg.solve(to_values, done.y[:, -1].reshape(4, -1).T)
+
+
+def fields(flow: Flow, s: np.ndarray, degree: int = DEGREE) -> np.ndarray:
+    """(rho, v, u, T), each (n,), at heights s at the end."""
+    return chebyshev.chebval(2*s - 1, solved(flow, degree))

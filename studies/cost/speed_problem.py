@@ -1,0 +1,205 @@
+"""One method on one scene at one resolution: the largest step that its space allows, its errors, its seconds, as a case.
+
+The step is a fraction of the method's stability limit, halved from the first one that the method names until halving it once more
+changes what is measured by less than the error that is left: the error of time is then below that of space.
+"""
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from math import ceil
+from pathlib import Path
+from time import process_time
+from typing import Any, ClassVar, NamedTuple, Protocol
+
+import numpy as np
+
+from continuum.compressible import DivergedError
+from particles.integrators import RK4
+from particles.limits import limit_of
+from particles.run import Divergence, Plan, Run, run
+from particles.team import Team
+from studies.cost.speed_timing import SHORT, array_bytes, per_step
+from studies.kit.case import Case, Outcome, Report
+from studies.kit.stats import Measured
+from studies.kit.timing import compile_and_run_seconds, median_seconds
+
+HALVINGS = 7        # at most: steps of 1/128 of the first one
+SET_UP = 3          # repeats of what is made before the first step
+Residuals = dict[str, np.ndarray]
+
+
+class Problem(NamedTuple):
+    """A method set up for a scene.
+
+    points : particles, points or cells. first : state to start from. limit : largest stable step, `time` to go. go(state, dt,
+    steps) : the state so many steps later. residuals(state) : by quantity, (m,), what is off relative to the exact answer's rms.
+    held() : all that exists in memory while the method runs. known : uncertainty of the exact answer. chaotic : small changes
+    grow, so that two steps give two flows and only the sizes of their errors compare. step : `go` without records, for timing.
+    uncertain(state) : by quantity, of an average over time. share(state) : by quantity, of the steps that it needs.
+    """
+    points: int
+    first: Any
+    limit: float
+    time: float
+    go: Callable[[Any, float, int], Any]
+    residuals: Callable[[Any], Residuals]
+    held: Callable[[], tuple]
+    known: float = 0.0
+    chaotic: bool = False
+    step: Callable[[Any, float, int], Any] | None = None
+    uncertain: Callable[[Any], dict[str, float]] = lambda state: {}
+    share: Callable[[Any], dict[str, float]] = lambda state: {}
+
+
+class Result(NamedTuple):
+    """What came out of a run: residuals, uncertainties of averages, shares of the steps needed, by quantity."""
+    residuals: Residuals
+    uncertain: dict[str, float]
+    share: dict[str, float]
+
+
+class Contestant(Protocol):
+    """What takes part: makes problems by itself."""
+    name: str
+    first: float        # fraction of the limit that is tried first
+
+    def problem(self, resolution: int, seed: int) -> Problem:
+        """Set up."""
+
+
+def marching(method: Any) -> Callable[[np.ndarray, float, int], np.ndarray]:
+    """`go` of all that the time loop of the particles takes; the state comes back in the order of its points."""
+    return lambda state, dt, steps: run(method, state, Plan(dt=dt, steps=steps)).by_id()
+
+
+def holding(method: Any, first: np.ndarray) -> Callable[[], tuple]:
+    """`held` of the same: state, sums with their lists, and what the integrator keeps."""
+    def held() -> tuple:
+        team, n = Team(1), first.shape[1]
+        sums, now = method.start(n, team), Run(state=first.copy(), ids=np.arange(n))
+        sums.try_out(now)
+        return now.state, sums, getattr(method, "integrator", RK4)(first.shape, team)
+    return held
+
+
+def of_method(method: Any, first: np.ndarray, time: float, residuals: Callable[[np.ndarray], Residuals], *,
+              limit: float | None = None, known: float = 0.0, chaotic: bool = False) -> Problem:
+    """The problem of a method of the particles' time loop."""
+    return Problem(first.shape[1], first, limit_of(method, first) if limit is None else limit, time, marching(method), residuals,
+                   holding(method, first), known, chaotic)
+
+
+def rms(residual: np.ndarray) -> float:
+    """Root mean square; not a number where one of them is none."""
+    return float(np.sqrt(np.mean(np.asarray(residual)**2)))
+
+
+class Rung(NamedTuple):
+    """A step tried: its fraction of the limit, by quantity errors of time and space, and whether it was good enough."""
+    fraction: float
+    time: dict[str, float]
+    space: dict[str, float]
+    accepted: bool
+
+
+def steps_of(problem: Problem, fraction: float) -> int:
+    """Equal steps that end at the time of the scene."""
+    return ceil(problem.time/(fraction*problem.limit)*(1 - 1e-12))
+
+
+def result(problem: Problem, fraction: float) -> Result | None:
+    """What comes out with a fraction of the limit; none where the run diverges."""
+    steps = steps_of(problem, fraction)
+    try:
+        state = problem.go(problem.first, problem.time/steps, steps)
+        return Result(problem.residuals(state), problem.uncertain(state), problem.share(state))
+    except (Divergence, DivergedError):
+        return None
+
+
+def climb(problem: Problem, first: float) -> tuple[list[Rung], Result | None]:
+    """All steps that were tried, the last one is taken; what comes out with it, nothing where all diverge."""
+    rungs: list[Rung] = []
+    coarse = result(problem, first)
+    for number in range(HALVINGS):
+        fraction = first/2**number
+        fine = result(problem, fraction/2)
+        if coarse is None or fine is None:
+            rungs.append(Rung(fraction, {}, {}, False))
+        else:
+            space = {name: rms(off) for name, off in fine.residuals.items()}
+            time = {name: abs(rms(coarse.residuals[name]) - space[name]) if problem.chaotic
+                    else rms(coarse.residuals[name] - off) for name, off in fine.residuals.items()}
+            rungs.append(Rung(fraction, time, space, all(time[name] <= space[name] for name in space)))
+            if rungs[-1].accepted:
+                break
+        if number < HALVINGS - 1:
+            coarse = fine
+    return rungs, coarse
+
+
+@dataclass(frozen=True, kw_only=True)
+class Race(Case):
+    """One method on one scene at one resolution."""
+    scene: str
+    method: Any
+    resolution: int
+    seed: int = 1
+    short: float = SHORT
+    alone: ClassVar[bool] = True
+
+    @property
+    def cost(self) -> float:
+        return float(self.method.seconds(self.resolution))
+
+    @property
+    def label(self) -> str:
+        return f"{self.scene}, {self.method.name}, resolution {self.resolution}, seed {self.seed}"
+
+    @property
+    def key_columns(self) -> dict[str, Any]:
+        """Columns that every row has."""
+        return {"scene": self.scene, "method": self.method.name, "resolution": self.resolution, "seed": self.seed}
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        make = partial(self.method.problem, self.resolution, self.seed)
+        problem, made_s, _ = compile_and_run_seconds(make)
+        _, loop_s, _ = compile_and_run_seconds(lambda: (problem.step or problem.go)(
+            problem.first, self.method.first*problem.limit, 1))
+        report(0.2)
+        rungs, found = climb(problem, self.method.first)
+        report(0.7)
+        rows = {"steps": list(self._rungs(rungs)), "errors": list(self._errors(problem, found))}
+        if found is None:
+            return Outcome(rows)
+        return Outcome({**rows, "runs": [self._run(problem, rungs[-1].fraction, make, made_s + loop_s)]})
+
+    def _rungs(self, rungs: list[Rung]) -> Iterator[dict[str, Any]]:
+        for rung in rungs:
+            for name in rung.time or ("diverged",):
+                yield {**self.key_columns, "quantity": name, "of_limit": rung.fraction, "time_error": rung.time.get(name, np.nan),
+                       "space_error": rung.space.get(name, np.nan), "accepted": int(rung.accepted)}
+
+    def _errors(self, problem: Problem, found: Result | None) -> Iterator[dict[str, Any]]:
+        if found is None:
+            yield {**self.key_columns, "quantity": "diverged", "error": np.nan, "error_err": np.nan, "share": np.nan}
+            return
+        for name, residual in found.residuals.items():
+            err = float(np.hypot(problem.known, found.uncertain.get(name, 0.0)))
+            yield {**self.key_columns, "quantity": name, "error": rms(residual), "error_err": err,
+                   "share": found.share.get(name, 1.0)}
+
+    def _run(self, problem: Problem, fraction: float, make: Callable[[], Problem], compile_s: float) -> dict[str, Any]:
+        steps = steps_of(problem, fraction)
+        dt = problem.time/steps
+        # from the start: what is hotter at the end of a run has a shorter limit
+        seconds = per_step(lambda n: (problem.step or problem.go)(problem.first, dt, n), self.short)
+        set_up = median_seconds(make, SET_UP, process_time)
+        return {**self.key_columns, **cost_columns(problem, seconds, set_up.median, steps), "of_limit": fraction, "dt": dt,
+                "compile_s": compile_s}
+
+
+def cost_columns(problem: Problem, seconds: Measured, set_up: float, steps: int) -> dict[str, Any]:
+    """Seconds of all steps, of what comes before them, and bytes."""
+    return {"points": problem.points, "steps": steps, "run_s": steps*seconds.value, "run_s_err": steps*seconds.err,
+            "setup_s": set_up, "bytes": array_bytes(problem.held()), "threads": 1}

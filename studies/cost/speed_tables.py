@@ -1,0 +1,35 @@
+"""Tables of the study `speed`. CPU seconds of one thread; errors relative; `_err`: half width of a 95 % interval.
+
+resolution: points to the wavelength (taylor-green, sound) or rows to the height (between plates).
+"""
+from studies.kit.table import Table
+
+RUN = ["scene", "method", "resolution", "seed"]
+#: what the run at the method's own best step takes: points, steps of dt (`of_limit`: of the stability limit), CPU seconds of the
+#: steps, of setting up, of compiling (from the second process on: of loading what is compiled), bytes of arrays
+RUNS = Table("runs", key=RUN, columns=[*RUN, "points", "of_limit", "dt", "steps", "run_s", "run_s_err", "setup_s", "compile_s",
+                                       "bytes", "threads"])
+#: share: of the steps that this quantity needs (a steady state is reached, and averaged, before the run ends)
+ERRORS = Table("errors", key=[*RUN, "quantity"], columns=[*RUN, "quantity", "error", "error_err", "share"])
+#: how the step was found: what halving it changes (time_error) against the error that is left then (space_error)
+STEPS = Table("steps", key=[*RUN, "quantity", "of_limit"], columns=[
+    *RUN, "quantity", "of_limit", "time_error", "space_error", "accepted"])
+SERIES = ["scene", "quantity", "method"]
+#: means over seeds: error against CPU seconds of steps and setting up
+POINTS = Table("points", key=[*SERIES, "resolution"], columns=[
+    *SERIES, "resolution", "points", "seeds", "error", "error_err", "cpu_s", "cpu_s_err", "setup_s", "bytes"])
+#: d ln(CPU seconds)/d ln(1/error) over all resolutions of a method
+EXPONENTS = Table("exponents", key=SERIES, columns=[*SERIES, "number", "exponent", "exponent_err"])
+#: CPU seconds at which each method comes below a level of error and stays there; reached: yes, at most (its coarsest run is below
+#: already) or no (then error is the least one); points there
+NEEDED = Table("needed", key=[*SERIES, "level"], columns=[*SERIES, "level", "reached", "cpu_s", "low", "high", "points", "error"])
+#: the cheapest of them, with the interval [low, high] of its seconds
+CHEAPEST = Table("cheapest", key=["scene", "quantity", "level"], columns=[
+    "scene", "quantity", "level", "method", "reached", "cpu_s", "low", "high", "points"])
+#: seconds of an evaluation of the rates by number of particles: CPU time, of two threads the time that passes
+GROWTH = Table("growth", key=["method", "points", "threads"], columns=[
+    "method", "points", "threads", "clock", "step_s", "step_s_err", "bytes"])
+#: d ln(seconds of a step)/d ln(particles); of two threads: how much faster than one
+GROWTH_LAWS = Table("growth_laws", key=["method", "what"], columns=["method", "what", "least", "most", "value", "value_err"])
+
+ALL = (RUNS, ERRORS, STEPS, POINTS, EXPONENTS, NEEDED, CHEAPEST, GROWTH, GROWTH_LAWS)

@@ -1,0 +1,102 @@
+"""What does an error cost, and which method is the cheapest for 10, 3, 1, 0.1 %?    [KHP95 Secs II, V-VII; RR98 Sec. III]
+
+Every method that can take a scene runs at rising resolutions, each at the largest step whose error is below that of its space
+(studies/cost/speed_problem.py has the rule); CPU seconds of one thread, medians of repeats, without compiling; nothing else runs.
+Writes results/speed/*.csv and *.png and the rows of study speed in results/claims.csv; `paper` takes TODO minutes, `quick` one.
+"""
+from collections.abc import Iterable, Iterator
+
+from studies.cost import speed_cases_convection as convection
+from studies.cost import speed_cases_others as others
+from studies.cost import speed_cases_plates as slab
+from studies.cost import speed_cases_vortex as vortex
+from studies.cost import speed_cases_waves as wave
+from studies.cost import speed_claims, speed_derive, speed_figures, speed_tables
+from studies.cost import speed_names as names
+from studies.cost.speed_cases_growth import Growth
+from studies.cost.speed_problem import Race
+from studies.kit.case import Case
+from studies.kit.study import Study, main
+
+SEEDS = (1, 2, 3)
+
+
+def race(scene: str, methods: Iterable, resolutions: Iterable[int], seeds: Iterable[int] = (1,),
+         kind: type[Race] = Race, **more) -> Iterator[Race]:
+    """Methods on one scene."""
+    for method in methods:
+        for resolution in resolutions:
+            yield from (kind(scene=scene, method=method, resolution=resolution, seed=seed, **more) for seed in seeds)
+
+
+def cases(size: str) -> list[Case]:
+    """All cases of a size."""
+    return list(quick() if size == "quick" else paper())
+
+
+def quick() -> Iterator[Case]:
+    """A few methods on small scenes, against coarse references."""
+    small, fast = (8, 10, 12), 0.001
+    yield from race("taylor-green", (vortex.OnPoints(names.NEAREST, 1.2, mach=0.2), vortex.MAC), (16, 20, 24), short=fast)
+    yield from race("convection", (convection.GRID._replace(sizes=small), convection.LATTICES[1]._replace(sizes=small)),
+                    (8, 10, 12), short=fast)
+    yield from (Growth(rows=rows, fixed=fixed, short=fast) for fixed in (False, True) for rows in (16, 22, 32))
+
+
+def paper() -> Iterator[Case]:
+    """All."""
+    yield from vortices()
+    yield from waves()
+    yield from slabs()
+    yield from layers()
+    yield from numbers()
+
+
+def vortices() -> Iterator[Case]:
+    """Points are the cheapest to run, smooth particles are far off at any resolution."""
+    yield from race("taylor-green", (*vortex.POINTS, vortex.MAC), (16, 24, 32, 48, 64))
+    yield from race("taylor-green", (vortex.IRREGULAR,), (16, 24, 32, 48, 64), SEEDS)
+    yield from race("taylor-green", (vortex.TWO_STEP, *vortex.PARTICLES), (16, 24, 32, 48))
+    yield from race("taylor-green", (vortex.MOVING,), (16, 24, 32, 48), SEEDS[:2])
+
+
+def waves() -> Iterator[Case]:
+    """Sound."""
+    yield from race("sound", (*wave.POINTS, wave.TWO_STEP, *wave.PARTICLES, wave.MOVING), (16, 24, 32, 48, 64))
+    yield from race("sound", (wave.IRREGULAR,), (16, 24, 32, 48, 64), SEEDS)
+
+
+def slabs() -> Iterator[Case]:
+    """Heat conduction and Couette flow; seeds of what is jittered."""
+    for scene, methods in slab.CONTESTANTS.items():
+        loose = [methods[name] for name in (names.JITTERED, names.MOVING) if name in methods]
+        yield from race(scene, [one for one in methods.values() if one not in loose], (8, 12, 16, 24, 32, 48, 64))
+        yield from race(scene, loose, (8, 12, 16, 24, 32, 48, 64), SEEDS)
+
+
+def layers() -> Iterator[Case]:
+    """Rayleigh-Benard; relaxing random points takes minutes where they are many."""
+    yield from race("convection", (convection.GRID, *convection.LATTICES, others.OnMac()), (12, 16, 24, 32, 48))
+    yield from race("convection", (convection.JITTERED,), (12, 16, 24, 32, 48), SEEDS)
+    yield from race("convection", (convection.RELAXED,), (12, 16, 24, 32))
+    yield from race("convection", (convection.MOVING,), (12, 16, 24, 32))
+    yield from race("convection", (convection.PRINTED,), (16, 20, 25, 35, 50))
+    yield from race("convection", convection.PARTICLES, (16, 20, 25, 35))
+    yield from race("convection", (others.OnNewton(), others.OnMacNewton()), (12, 16, 24, 32, 48), kind=others.Direct)
+    yield from race("convection", (others.OnPypde(names.PYPDE_GAS, True), others.OnPypde(names.PYPDE_BOUSSINESQ, False)),
+                    (12, 16, 24, 32), kind=others.Direct)
+
+
+def numbers() -> Iterator[Case]:
+    """A thousand to a million; two threads from 20 000 on."""
+    for fixed in (False, True):
+        yield from (Growth(rows=rows, fixed=fixed) for rows in (22, 40, 71, 126, 224, 398, 707))
+        yield from (Growth(rows=rows, fixed=fixed, threads=threads, clock="wall") for rows in (100, 224, 398)
+                    for threads in (1, 2))
+
+
+STUDY = Study(name="speed", cases=cases, tables=speed_tables.ALL, derive=speed_derive.derive, figures=speed_figures.figures,
+              claims=speed_claims.CLAIMS)
+
+if __name__ == "__main__":
+    main(STUDY)
