@@ -41,6 +41,12 @@ env: .venv/ready  ## set up .venv and nothing else
 
 studies: $(studies:%=study-%)  ## all studies, one after the other
 
+report: .venv/ready  ## results/index.html: one page of findings, verdicts, figures, tables, films
+	$(run) -m studies.report $(ARGS)
+
+films: .venv/ready  ## the films of the report, some minutes
+	$(run) -m studies.report films $(ARGS)
+
 # two processes, each with one thread for linear algebra; a file stays in one, which has its fixtures
 test: export OMP_NUM_THREADS ?= 1
 test: .venv/ready  ## the tests, on two cores

@@ -1,0 +1,287 @@
+"""The page from tables: what it says is computed, bad input is told, an older page stays."""
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pandas as pd
+import pytest
+from PIL import Image
+
+from studies.kit.claim import COLUMNS
+from studies.kit.csvfile import write
+from studies.kit.figure import figure
+from studies.kit.source import ROOT
+from studies.kit.sweep import RESULTS
+from studies.kit.table import Tables
+from studies.report import behind, cost, draw
+from studies.report.__main__ import main
+from studies.report.chart import Scale, chart
+from studies.report.findings import Known, answer, claims_of, findings
+from studies.report.found import NoReport, parts
+from studies.report.numbers import many, seconds, told
+from studies.report.page import LIMIT, accepted, fingerprint, found_value, paper, render, write_page
+from studies.report.tables import FILMS
+
+LAYER = {"eos": "ideal", "transport": "const-eta", "sides": "periodic", "pr": 1}
+
+
+def errors() -> pd.DataFrame:
+    """Made-up errors: a grid and a lattice of second order, particles that get worse."""
+    rows = []
+    for n in (16, 25, 50):
+        for method, variant, energy, error, cpu in (("compressible", "flux-form", "Kp", 7/n**2, 1e-4*n**3),
+                                                    ("spam", "printed", "Kg", -0.1 - 0.002*n, 1e-2*n**3),
+                                                    ("spam", "printed", "Kp", 0.3 - 0.01*n, 1e-2*n**3),
+                                                    ("dih", "fixed-lattice", "Kp", 12/n**2, 1e-3*n**3)):
+            rows.append({"method": method, "variant": variant, **LAYER, "ra": 1e4, "resolution": n, "energy": energy,
+                         "particles": 2*n**2, "error": error, "error_err": 1e-4, "cpu_s": cpu, "size": "fine",
+                         "commit": "abc1234567"})
+    return pd.DataFrame(rows)
+
+
+def claims() -> pd.DataFrame:
+    rows = [("toy-one", "KHP95 Sec. V", "one is one", "paper", "1", 1.0, 0.01, 0.9, 1.1, "holds", "why", "rb"),
+            ("toy-two", "RR98 Eq. 42", "two is one", "paper", "1", 2.0, 0.0, 0.9, 1.1, "fails", "why", "rb"),
+            ("toy-three", "RR98 Eq. 42", "three <b>& more", "own", "", math.nan, math.nan, math.nan, math.nan, "undecidable",
+             "not run", "onset")]
+    return pd.DataFrame(rows, columns=list(COLUMNS))[list(COLUMNS)]
+
+
+@pytest.fixture
+def small(tmp_path):
+    """Results of one study: a table, a figure, three claims."""
+    out = tmp_path/"results"
+    write(out/"rb/errors.csv", errors(), head=["commit abc1234567"])
+    write(out/"claims.csv", claims(), head=["commit abc1234567"])
+    Image.new("RGB", (200, 100), "white").save(out/"rb/toy.png")
+    write(out/"figures.csv", pd.DataFrame([("rb", "toy", "A toy", "y over x", "errors", behind.digest(out/"rb/toy.png"))],
+                                          columns=list(behind.COLUMNS)), head=["commit abc1234567"])
+    return out
+
+
+def test_the_page_is_one_file_and_the_same_again(small):
+    text = write_page(small).read_text()
+    assert write_page(small).read_text() == text
+    assert "three &lt;b&gt;&amp; more" in text and "<b>& more" not in text
+    assert 'src="http' not in text and 'href="http' not in text and "@import" not in text and "url(" not in text
+    assert text.count("<tr data-paper=") == 3 and "abc1234567" in text
+    assert 'id="figure-rb-toy"' in text and 'alt="A toy. y over x"' in text
+
+
+def test_what_is_said_comes_from_the_tables(small):
+    known = Known(small, claims_of(small), cost.panels(parts(small)))
+    first = findings(known)[0]
+    assert "do not converge" in first.title and "−13.200(10)" in first.text
+    assert "−20.000(10) % with 16, 25 and 50 rows" in first.text
+    assert answer(known).endswith("Of 2 statements of the papers 1 hold, 1 fail, 0 are undecidable here.")
+    better = errors().assign(error=lambda rows: rows["error"].where(rows["energy"] != "Kg", -40/rows["resolution"]**2))
+    write(small/"rb/errors.csv", better, head=["commit abc1234567"])
+    assert "come ever nearer" in findings(known)[0].title
+
+
+def test_what_an_error_costs_is_read_where_it_stays_below(small):
+    [panel] = [panel for panel in cost.panels(parts(small)) if "kinetic" in panel.title]
+    needs = {series.label: series.needs for series in panel.series}
+    grid = {0.1: 1e-4*16**3, 0.03: 1e-4*16**3, 0.01: 1e-4*50**3}     # 7/16^2 = 0.027, 7/25^2 = 0.0112, 7/50^2 = 0.0028
+    assert needs["compressible grid"] == pytest.approx(grid)
+    spam = next(value for name, value in needs.items() if "all particles" in name)
+    assert spam == {}, "0.05 with 25 rows is passed on the way to -0.2 with 50: it does not stay below 10 %"
+
+
+def test_a_table_of_speed_needs_no_code(small):
+    """As the study of speed writes it: scene, quantity, method, and intervals both ways."""
+    rows = [{"scene": "taylor-green", "quantity": "velocity", "method": f"m{k}", "resolution": n, "points": n*n, "seeds": 1,
+             "error": k/n**2, "error_err": 1e-5, "cpu_s": 1e-4*n**3, "cpu_s_err": 1e-6, "size": "fine", "commit": "abc1234567"}
+            for k in (1, 2, 3) for n in (16, 32, 64)]
+    write(small/"speed/points.csv", pd.DataFrame(rows), head=["commit abc1234567"])
+    first = cost.panels(parts(small))[0]
+    assert first.title == "speed: velocity" or "taylor-green" in first.title
+    assert [series.label for series in first.series] == ["m1", "m2", "m3"] and all(series.usual for series in first.series)
+    drawn = chart(first)
+    assert all(mark.wide for curve in drawn.curves for mark in curve.marks)
+
+
+def test_places_on_a_logarithmic_axis():
+    scale = Scale(0.1, 1000.0, 50, 450)
+    assert [scale(value) for value in (0.1, 10, 1000, 0.0, 1e9)] == [50, 250, 450, 50, 450]
+    assert [value for value, _ in Scale(0.9, 30, 0, 1).ticks] == pytest.approx([1, 2, 5, 10, 20])
+
+
+# --- bad input --------------------------------------------------------------------------------------------------------
+
+
+def refused(out, capsys) -> str:
+    """What the command says when it fails; the page that was there stays."""
+    before = (out/"index.html").read_text() if (out/"index.html").exists() else None
+    assert main(["--out", str(out)]) == 1
+    after = (out/"index.html").read_text() if (out/"index.html").exists() else None
+    assert after == before and not list(out.glob(".index*"))
+    return capsys.readouterr().err
+
+
+def test_a_report_without_results_says_what_to_run(tmp_path, capsys):
+    assert "make study-rb" in refused(tmp_path, capsys)
+    assert "make study-rb" in refused(tmp_path/"nowhere", capsys)
+
+
+def test_claims_that_are_missing_or_lack_columns(small, capsys):
+    write_page(small)
+    write(small/"claims.csv", claims().drop(columns="verdict"), head=["x"])
+    assert "has no column verdict" in refused(small, capsys)
+    (small/"claims.csv").unlink()
+    assert "claims.csv does not exist" in refused(small, capsys)
+
+
+def test_a_table_that_lacks_columns_or_is_none(small, capsys):
+    write_page(small)
+    write(small/"rb/errors.csv", errors().drop(columns="error_err"), head=["x"])
+    assert "rb/errors.csv has no column error_err" in refused(small, capsys)
+    (small/"rb/errors.csv").write_text('a,b\n1,2\n3,4,5,6\n"')
+    assert "rb/errors.csv is no table" in refused(small, capsys)
+    (small/"rb/errors.csv").write_text("")
+    assert "rb/errors.csv is no table" in refused(small, capsys)
+
+
+def test_a_figure_that_is_missing_or_broken(small, capsys, monkeypatch):
+    write_page(small)
+    kept = (small/"rb/toy.png").read_bytes()
+    (small/"rb/toy.png").write_bytes(kept[:40])
+    known = pd.read_csv(small/"figures.csv", comment="#").assign(picture=behind.digest(small/"rb/toy.png"))
+    write(small/"figures.csv", known, head=["x"])
+    assert "toy.png is no picture" in refused(small, capsys)
+    (small/"rb/toy.png").unlink()
+    lost = {"study": "rb", "figure": "toy", "title": "A toy", "panels": "", "tables": "errors"}
+    monkeypatch.setattr(behind, "looked_at", lambda out, part: iter([lost]))        # as the study would draw it
+    assert "toy.png is missing: make figures-rb" in refused(small, capsys)
+
+
+def test_a_film_that_is_missing(small, capsys):
+    words = {"film": "gone", "title": "t", "caption": "c", "size": "fine", "commit": "abc"}
+    row = {**dict.fromkeys(FILMS.columns, 1.0), "seed": 1, **words}
+    write(small/"films/films.csv", pd.DataFrame([row]), head=["x"])
+    assert "gone.webp is missing: make films" in refused(small, capsys)
+
+
+def test_a_film_that_nobody_knows(small, capsys):
+    assert main(["films", "--out", str(small), "--only", "nonsense"]) == 1
+    assert "no film has 'nonsense'" in capsys.readouterr().err
+
+
+# --- what figures stand on --------------------------------------------------------------------------------------------
+
+
+def toy_figures(tables: Tables) -> dict:
+    """One figure of `a`, which `b` adds a line to, one of `c` alone."""
+    made = {}
+    if "a" in tables:
+        page, axes = figure()
+        axes.plot(tables["a"]["x"], tables["a"]["x"]**2, label="a")
+        if "b" in tables:
+            axes.plot(tables["b"]["x"], tables["b"]["x"])
+        axes.set(title="squares of $\\rho_0$", xlabel="$x$", ylabel=r"$\nu/\eta^{2}$")
+        made["first"] = page
+    if "c" in tables:
+        page, axes = figure()
+        axes.imshow(tables["c"].to_numpy())
+        made["second"] = page
+    return made
+
+
+def test_a_figure_stands_on_the_tables_without_which_it_is_another_one():
+    x = pd.DataFrame({"x": np.arange(4.0)})
+    tables = Tables({"a": x, "b": x, "c": x, "d": x})
+    assert behind.needed(toy_figures, tables) == {"first": ["a", "b"], "second": ["c"]}
+    first = toy_figures(tables)["first"]
+    assert behind.title(first) == "squares of ρ0" and behind.panels(first) == "squares of ρ0: ν/η^2 over x"
+
+
+# --- numbers ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("value", "err", "text"), [
+    (17.5, 1.5, "17.5(15)"), (-0.42, 0.096, "−0.42(10)"), (2369.2, 80.8, "2369(81)"), (1.0, 0.0, "1"),
+    (0.0349, 0.0445, "0.03(4)"),
+    (math.nan, 0.1, "none")])
+def test_numbers_with_their_errors(value, err, text):
+    assert told(value, err) == text
+
+
+def test_words_for_numbers():
+    assert [seconds(value) for value in (0.4406, 1.0457, 143.2)] == ["0.44", "1.0", "143"]
+    assert many(["a", "b", "c"]) == "a, b and c" and many(["a"]) == "a"
+    assert accepted(-math.inf, 2.0) == "≤ 2" and accepted(1.0, math.inf) == "≥ 1" and accepted(math.nan, math.nan) == ""
+    assert found_value(math.nan, math.nan) == "—" and found_value(2.96e-15, 0.0) == "2.96e−15"
+    assert found_value(2.0, 0.5) == "2.0(5)"
+    assert [paper(text) for text in ("KHP95 Secs V, VI", "RR98 Eq. 42", "Sangani & Acrivos 1982, Table 1")] == [
+        "KHP95", "RR98", "Sangani & Acrivos 1982"]
+
+
+# --- films ------------------------------------------------------------------------------------------------------------
+
+
+def test_a_film_has_all_its_pictures_and_is_the_same_again(tmp_path):
+    """Motion is stood in for by dots that fall; drawing and writing are those of the films."""
+    from studies.report.frames import Dots
+    from studies.report.frames import Image as Field
+    times = np.linspace(0, 2, 3)
+    x, y = np.meshgrid(np.linspace(-0.95, 0.95, 8), np.linspace(-0.45, 0.45, 4))
+    dots = [Dots(x.ravel(), y.ravel()*(1 - t/9), 1 - y.ravel(), 0.001*(t + 1)) for t in times]
+    gx, gy = np.linspace(-1, 1, 17), np.linspace(-0.5, 0.5, 9)
+    field = np.meshgrid(gx, gy)
+    images = [Field(gx, gy, 1 - field[1], 0*field[0], 0.1*field[0], 0.002) for _ in times]
+    for name in ("one", "two"):
+        draw.write(tmp_path/f"{name}.webp", list(draw.pages(dots, images, times, ("dots", "grid"))))
+    film = Image.open(tmp_path/"one.webp")
+    assert film.n_frames == 3 and film.size == (640, 320)
+    assert (tmp_path/"one.webp").read_bytes() == (tmp_path/"two.webp").read_bytes()
+
+
+def test_frames_are_those_of_the_solvers_at_these_times():
+    """Particles, moving points and the grid start from the same rolls and gain or lose energy from there."""
+    from continuum.scene import RayleighBenard
+    from studies.convection.names import START_ENERGY
+    from studies.report import frames
+    times, scene = np.array([0.0, 0.1]), RayleighBenard(ra=1e4, L=16.0)
+    for made in (frames.smooth_particles(scene, 1, times), frames.closed_faces(scene, 1, times),
+                 frames.printed_motion(scene, 1, times), frames.grid(scene, 16, times)):
+        first, last = list(made)
+        # particles lie at random: their sum of squares is not the integral, by 2/sqrt(512)
+        assert first.ke == pytest.approx(START_ENERGY, rel=0.09) and last.ke != first.ke
+        assert np.abs(first.T - 1).max() <= 0.5 + 1e-12 and np.abs(last.y).max() <= 0.5
+
+
+# --- what is committed ------------------------------------------------------------------------------------------------
+
+
+def test_the_page_needs_no_solver():
+    code = "import sys, studies.report.page; print(sorted({'numba', 'pde', 'particles'} & set(sys.modules)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
+    assert done.stdout.strip() == "[]"
+
+
+@pytest.mark.skipif(not (RESULTS/"index.html").exists(), reason="no page committed yet: make report writes it")
+def test_the_committed_page_is_that_of_the_committed_results():
+    text = (RESULTS/"index.html").read_text()
+    assert len(text.encode()) < LIMIT
+    assert f'name="inputs" content="{fingerprint(RESULTS)}"' in text, "results changed since: make report"
+
+
+def test_committed_films_are_small():
+    films = list((RESULTS/"films").glob("*.webp"))
+    assert all(path.stat().st_size < 1_000_000 for path in films)
+
+
+def test_a_page_that_is_too_heavy_is_not_written(small, monkeypatch):
+    monkeypatch.setattr("studies.report.page.LIMIT", 1000)
+    with pytest.raises(NoReport, match="MB"):
+        write_page(small)
+    assert not (small/"index.html").exists()
+
+
+def test_results_as_they_are_make_a_page():
+    """With figures left out: their packing is tested above."""
+    if not (RESULTS/"claims.csv").exists():
+        pytest.skip("no results yet: make study-rb writes them")
+    text = render(RESULTS, parts(RESULTS), pd.DataFrame(columns=list(behind.COLUMNS)), lambda path: "data:,")
+    assert text.count("<tr data-paper=") == len(claims_of(RESULTS))

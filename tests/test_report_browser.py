@@ -1,0 +1,239 @@
+"""The page in a browser, from file://: quick, quiet, by keyboard, on a phone, without network."""
+import json
+
+import pytest
+from browser import start
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import Select
+
+from studies.kit.csvfile import read
+from studies.kit.sweep import RESULTS
+from studies.report.behind import COLUMNS
+from studies.report.found import parts, rows_of
+from studies.report.page import address, render
+
+pytestmark = pytest.mark.skipif(not (RESULTS/"claims.csv").exists(), reason="no results yet: make study-rb writes them")
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory) -> str:
+    """The page of the committed results; figures as they are, which is quicker than to pack them."""
+    text = render(RESULTS, parts(RESULTS), rows_of(RESULTS/"figures.csv", COLUMNS),
+                  lambda path: address("image/png", path.read_bytes()))
+    path = tmp_path_factory.mktemp("page")/"index.html"
+    path.write_text(text)
+    return path.as_uri()
+
+
+@pytest.fixture(scope="module")
+def desk(page):
+    """A wide window; motion is not wanted, so that nothing changes by itself."""
+    chrome = start(1280, 900, "--force-prefers-reduced-motion")
+    chrome.get(page)
+    yield chrome
+    chrome.quit()
+
+
+@pytest.fixture(scope="module")
+def claims():
+    return read(RESULTS/"claims.csv")
+
+
+def shown(chrome) -> int:
+    return chrome.execute_script("return [...document.querySelectorAll('.claims tbody tr')].filter(r => r.offsetParent).length")
+
+
+def focused(chrome) -> str:
+    return chrome.execute_script("const a = document.activeElement; return a.id || a.className || a.tagName")
+
+
+def clear(chrome) -> None:
+    chrome.execute_script("document.querySelector('#filters').reset()")
+    assert chrome.execute_async_script("setTimeout(() => arguments[0](document.querySelector('#count').textContent), 20)")
+
+
+def test_no_errors_and_no_request_but_to_the_file_itself(desk, page):
+    """The performance log has each request of the load."""
+    desk.get("about:blank")
+    desk.get_log("performance")
+    desk.get_log("browser")
+    desk.get(page)
+    events = [json.loads(entry["message"])["message"] for entry in desk.get_log("performance")]
+    asked = {event["params"]["request"]["url"][:40] for event in events if event["method"] == "Network.requestWillBeSent"}
+    assert page[:40] in asked
+    assert all(url.startswith(("file://", "data:")) for url in asked), asked
+    assert desk.get_log("browser") == []
+
+
+def test_the_first_view_is_there_within_a_second(desk, page):
+    """The best of five: other work on the machine is not the page's."""
+    times = []
+    for _ in range(5):
+        desk.get(page)
+        times.append(desk.execute_script("return performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? 1e9"))
+        if times[-1] < 1000:
+            break
+    assert min(times) < 1000, f"first contentful paint after {times} ms"
+
+
+def test_the_question_its_answer_and_the_findings_are_on_one_screen(desk):
+    bottom = desk.execute_script("return document.querySelector('.findings').getBoundingClientRect().bottom + scrollY")
+    assert bottom < 900 and len(desk.find_elements(By.CSS_SELECTOR, ".findings li")) >= 5
+
+
+@pytest.mark.parametrize("column", ["verdict", "study", "whose"])
+def test_filters_leave_the_rows_that_the_table_has(desk, claims, column):
+    for value in sorted(set(claims[column])):
+        Select(desk.find_element(By.ID, f"by-{column}")).select_by_value(value)
+        assert shown(desk) == (claims[column] == value).sum(), value
+    clear(desk)
+    assert shown(desk) == len(claims)
+
+
+def test_papers_and_verdicts_together(desk, claims):
+    Select(desk.find_element(By.ID, "by-paper")).select_by_visible_text("KHP95")
+    Select(desk.find_element(By.ID, "by-verdict")).select_by_value("fails")
+    wanted = (claims["source"].str.startswith("KHP95") & claims["verdict"].eq("fails")).sum()
+    assert shown(desk) == wanted > 0
+    assert desk.find_element(By.ID, "count").text == f"{wanted} of {len(claims)} claims"
+    clear(desk)
+
+
+def test_by_keyboard_alone_from_the_first_link_to_filtered_claims(desk, claims):
+    """Skip link first; the filter is reached by Tab, takes typing, and what is left is announced."""
+    desk.execute_script("document.activeElement.blur(); scrollTo(0, 0)")
+    keys = ActionChains(desk)
+    keys.send_keys(Keys.TAB).perform()
+    assert focused(desk) == "skip"
+    assert desk.execute_script("return document.activeElement.getBoundingClientRect().left") >= 0, "it is seen when it has focus"
+    for _ in range(120):
+        if focused(desk) == "by-text":
+            break
+        ActionChains(desk).send_keys(Keys.TAB).perform()
+    assert focused(desk) == "by-text"
+    style = "getComputedStyle(document.activeElement)"
+    assert desk.execute_script(f"return [{style}.outlineStyle, {style}.outlineWidth]") == ["solid", "3px"]
+    ActionChains(desk).send_keys("brillouin").perform()
+    count = desk.find_element(By.ID, "count")
+    left = shown(desk)
+    text = claims[["id", "statement", "source", "printed", "reason", "study"]].agg(" ".join, axis=1).str.lower()
+    assert left == text.str.contains("brillouin").sum() > 0
+    assert count.text.startswith(f"{left} of ") and count.get_attribute("aria-live") == "polite"
+    clear(desk)
+
+
+def test_a_point_tells_its_values_to_pointer_and_keyboard(desk):
+    plot = desk.find_element(By.CSS_SELECTOR, "#panel-0 .plot")
+    points = [one for one in plot.find_elements(By.CSS_SELECTOR, ".point") if one.is_displayed()]
+    tip = plot.find_element(By.CLASS_NAME, "tip")
+    desk.execute_script("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", plot)
+    assert not tip.is_displayed()
+    ActionChains(desk).move_to_element(points[1].find_element(By.CLASS_NAME, "mark")).perform()
+    assert tip.is_displayed() and "CPU seconds" in tip.text and "error" in tip.text
+    ActionChains(desk).move_to_element(desk.find_element(By.ID, "cost-title")).perform()
+    assert not tip.is_displayed()
+    desk.execute_script("document.querySelector('#panel-0 .point[tabindex=\"0\"]').focus()")
+    first = tip.text
+    ActionChains(desk).send_keys(Keys.ARROW_RIGHT).perform()
+    assert tip.is_displayed() and tip.text != first and tip.text.split("\n")[0] == first.split("\n")[0], "along the series"
+    ActionChains(desk).send_keys(Keys.ARROW_DOWN).perform()
+    assert tip.text.split("\n")[0] != first.split("\n")[0], "to the next series"
+
+
+def test_series_and_panels_can_be_chosen(desk):
+    box = desk.find_element(By.CSS_SELECTOR, "#panel-0 .legend input:checked")
+    series = desk.find_element(By.CSS_SELECTOR, f"#panel-0 .series[data-series='{box.get_attribute('data-series')}']")
+    assert series.is_displayed()
+    box.click()
+    assert not series.is_displayed()
+    box.click()
+    choice = Select(desk.find_element(By.ID, "panel"))
+    choice.select_by_index(1)
+    assert desk.find_element(By.ID, "panel-1").is_displayed() and not desk.find_element(By.ID, "panel-0").is_displayed()
+    choice.select_by_index(0)
+
+
+def test_every_committed_figure_is_there_with_its_commit_and_words(desk):
+    figures = desk.execute_script("""return [...document.querySelectorAll('[data-figure]')].map(f => [f.dataset.figure,
+        f.querySelector('.commit').textContent, f.querySelector('img').alt, f.querySelector('img').naturalWidth])""")
+    assert {name for name, *_ in figures} == {f"{path.parent.name}/{path.stem}" for path in RESULTS.glob("*/*.png")
+                                              if path.parent.name not in ("raw", "quick")}
+    for name, commit, alt, width in figures:
+        assert len(commit) >= 7 and len(alt) > 10 and width > 100, name
+
+
+def test_a_table_opens_where_a_link_points_and_shows_all_its_rows(desk):
+    name = "rb-cost" if (RESULTS/"rb/cost.csv").exists() else None
+    if not name:
+        pytest.skip("no table of cost yet")
+    desk.execute_script(f"location.hash = 'table-{name}'")
+    table = desk.find_element(By.ID, f"table-{name}")
+    desk.execute_async_script("setTimeout(arguments[0], 50)")
+    assert table.get_attribute("open")
+    desk.execute_script("arguments[0].click()", table.find_element(By.CLASS_NAME, "more"))
+    desk.execute_async_script("setTimeout(arguments[0], 200)")
+    frame = read(RESULTS/"rb/cost.csv")
+    cells = desk.execute_script(f"return [...document.querySelectorAll('#table-{name} tbody tr')]"
+                                ".map(row => [...row.cells].map(cell => cell.textContent))")
+    assert len(cells) == len(frame) and cells[0][:2] == [str(value) for value in frame.iloc[0, :2]]
+
+
+def test_films_stand_still_until_asked_where_less_motion_is_wanted(desk):
+    films = desk.find_elements(By.CLASS_NAME, "play")
+    if not films:
+        pytest.skip("no films committed yet: make films")
+    picture = desk.find_element(By.ID, f"film-{films[0].get_attribute('data-film')}")
+    desk.execute_script("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", picture)
+    desk.execute_async_script("setTimeout(arguments[0], 100)")
+    still = picture.get_attribute("src")
+    assert films[0].text == "Play"
+    films[0].send_keys(Keys.ENTER)
+    assert films[0].text == "Stop" and len(picture.get_attribute("src")) > 2*len(still)
+    films[0].send_keys(Keys.ENTER)
+    assert picture.get_attribute("src") == still
+
+
+def test_the_page_can_be_read_without_scripts_too(page):
+    """All claims, figures and findings are in the file; scripts only filter and open."""
+    chrome = start(1280, 900)
+    try:
+        chrome.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
+        chrome.get(page)
+        assert len(chrome.find_elements(By.CSS_SELECTOR, ".claims tbody tr")) == len(read(RESULTS/"claims.csv"))
+        assert chrome.find_element(By.ID, "panel-0").is_displayed()
+    finally:
+        chrome.quit()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_on_a_phone_nothing_is_wider_than_the_screen_and_text_can_be_read(page, scheme):
+    chrome = start(360, 740, "--force-prefers-reduced-motion")
+    try:
+        chrome.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": scheme}]})
+        chrome.get(page)
+        assert chrome.execute_script("return [document.documentElement.scrollWidth, innerWidth]") == [360, 360]
+        for colour, ground, least in chrome.execute_script(CONTRAST):
+            assert contrast(colour, ground) >= least, (colour, ground)
+    finally:
+        chrome.quit()
+
+
+#: text and ground of what there are many of; WCAG AA: 4.5
+CONTRAST = """
+const of = (what, name) => getComputedStyle(document.querySelector(what))[name], page = of('body', 'backgroundColor');
+return [[of('body', 'color'), page, 7], [of('.findings p', 'color'), page, 4.5], [of('nav a', 'color'), page, 4.5],
+        [of('.made', 'color'), of('figure', 'backgroundColor'), 4.5],
+        ...['.holds', '.fails', '.undecidable'].map(one => [of(one, 'color'), of(one, 'backgroundColor'), 4.5])];
+"""
+
+
+def contrast(one: str, other: str) -> float:
+    """Ratio of luminances of two CSS colours    [WCAG 2.2, 1.4.3]"""
+    def luminance(colour: str) -> float:
+        parts = [float(part)/255 for part in colour[colour.index("(") + 1:-1].split(",")[:3]]
+        linear = [part/12.92 if part <= 0.04045 else ((part + 0.055)/1.055)**2.4 for part in parts]
+        return 0.2126*linear[0] + 0.7152*linear[1] + 0.0722*linear[2]
+    bright, dark = sorted((luminance(one), luminance(other)), reverse=True)
+    return (bright + 0.05)/(dark + 0.05)
