@@ -1,0 +1,80 @@
+"""What notebooks share: sentences that their cells compute, numbers with intervals, tables and small pictures."""
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from IPython.display import HTML, Image, Markdown, display
+from matplotlib import rcParams
+from matplotlib.figure import Figure
+
+from studies.kit.csvfile import read
+from studies.kit.figure import compact
+
+rcParams.update({"savefig.dpi": 75, "legend.fontsize": 8})
+ROUND_OFF = 1e-13       # smaller numbers are told as zero
+
+
+def say(sentence: str) -> None:
+    """A finding."""
+    display(Markdown(f"**Finding.** {sentence}"))
+
+
+def note(*words: str) -> None:
+    """What is taken in place of what was asked for; nothing if nothing is."""
+    if told := [word for word in words if word]:
+        display(Markdown(f"**Note.** {'; '.join(told)}."))
+
+
+def show(page: Figure) -> None:
+    """A small picture of a figure."""
+    display(Image(compact(page)))
+
+
+def table(frame: pd.DataFrame) -> None:
+    """A table with whole texts."""
+    with pd.option_context("display.max_colwidth", None):
+        display(HTML(frame.to_html(index=False, na_rep="")))
+
+
+def listed(words: Iterable[Any]) -> str:
+    """a, b and c"""
+    *first, last = [str(word) for word in words] or ["none"]
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+def pm(value: float, err: float = 0.0) -> str:
+    """0.00312(2): a value with its interval in units of the last digit."""
+    if not np.isfinite(value):
+        return ""
+    if not err > 1e-9*abs(value):       # none, or round-off
+        return f"{value:.4g}"
+    digits = int(-np.floor(np.log10(err/2)))
+    if digits <= 0:
+        return f"{value:.0f} ± {err:.0f}"
+    return f"{value:.{digits}f}({err*10**digits:.0f})"
+
+
+def percent(value: float, err: float = 0.0) -> str:
+    """-1.34(4) %"""
+    if not np.isfinite(value):
+        return "none"
+    return f"{pm(100*value, 100*err)} %" if abs(value) > ROUND_OFF else "0 %"
+
+
+def verdicts(results: Path, study: str, *, source: str = "") -> None:
+    """The claims of a study, or those whose source begins so: counts by verdict, and what does not hold in a table."""
+    claims = read(results/"claims.csv", ["study", "source", "verdict"])
+    chosen = claims[(claims["study"] == study) & claims["source"].str.startswith(source)]
+    counts = chosen.groupby("verdict").size()
+    say(f"Of {len(chosen)} statements {counts.get('holds', 0)} hold, {counts.get('fails', 0)} fail, "
+        f"{counts.get('undecidable', 0)} are undecidable. Those that do not hold:")
+    others = chosen[chosen["verdict"] != "holds"]
+    table(columns(others.assign(measured=list(map(pm, others["measured"], others["err"]))),
+                  ["source", "statement", "printed", "measured", "verdict"]))
+
+
+def columns(frame: pd.DataFrame, names: Sequence[str]) -> pd.DataFrame:
+    """Some columns, in this order."""
+    return frame[list(names)]
