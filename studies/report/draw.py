@@ -24,7 +24,7 @@ def pages(dots: Sequence[Dots], images: Sequence[Image], times: np.ndarray, titl
     """One picture a time: particles, the grid, and both K until then."""
     page = Figure(figsize=SIZE, dpi=DPI)
     left, right = page.add_axes((0.012, 0.38, 0.482, 0.54)), page.add_axes((0.506, 0.38, 0.482, 0.54))
-    below = page.add_axes((0.1, 0.155, 0.888, 0.19))
+    below = page.add_axes((0.115, 0.155, 0.873, 0.19))
     curves = [("of the grid", "black", [one.ke for one in images]), ("of all points", COLOURS[1], [one.ke for one in dots])]
     top = 1.1*max(max(ke) for _, _, ke in curves)
     for number, t in enumerate(times):

@@ -31,11 +31,11 @@ class Film(NamedTuple):
 
 FILMS = {film.name: film for film in (
     Film("particles", "smooth particles [KHP95]", "Smooth particles as Kum, Hoover & Posch print them, mirror images behind the "
-         "plates. All of them tremble; what they carry as a flow is weaker than the grid's.", 25, frames.smooth_particles),
+         "plates. All of them tremble: their K holds that besides the flow.", 25, frames.smooth_particles),
     Film("closed_faces", "moving points, closed faces", "Points that move and exchange mass, momentum and energy over closed "
          "faces, our own repair of Romero-Rochin & Rubi's moving points.", 25, frames.closed_faces),
     Film("as_printed", "moving points as printed [RR98]", "Points that move with the flow under Romero-Rochin & Rubi's balances "
-         "as printed (Eqs 34-36, 39-41): the flow is convected twice, the gas ends in layers.", 25, frames.printed_motion),
+         "as printed (Eqs 34-36, 39-41), which convect it twice.", 25, frames.printed_motion),
 )}
 
 
