@@ -1,0 +1,104 @@
+"""Claims about limits of the time step.
+
+Accepted everywhere: 10 %, asked of limits beforehand. Trials see limits to 1 %.
+"""
+from collections.abc import Callable, Sequence
+
+import pandas as pd
+
+from studies.convection.claims.read import Value, select
+from studies.kit.claim import CannotTell, Claim
+from studies.kit.stats import Measured
+from studies.kit.table import Tables
+
+NEAR, SOUND = 0.10, "zero viscosity"
+SPREAD = ("Prandtl 0.01", "Prandtl 100")
+
+
+def chosen(tables: Tables, methods: Sequence[str], scenes: Sequence[str] = ()) -> pd.DataFrame:
+    """Rows of some methods, in some or all scenes, that have a measured limit."""
+    rows = select(tables, "limits")
+    rows = rows[rows["method"].isin(methods) & (rows["scene"].isin(scenes) if scenes else True) & (rows["predicted"] > 0)]
+    rows = rows.dropna(subset=["measured"])
+    if rows.empty:
+        raise CannotTell(f"not run yet: table limits has no row of {', '.join(methods)}; a larger SIZE of the study may run it")
+    return rows
+
+
+def farthest(methods: Sequence[str], scenes: Sequence[str] = (), column: str = "predicted") -> Value:
+    """The largest |measured/formula - 1|, what a formula leaves for disorder given back."""
+    def value(tables: Tables) -> Measured:
+        rows = chosen(tables, methods, scenes).dropna(subset=[column])
+        formula = rows[column]*(rows["margin"] if column == "predicted" else 1)
+        off = (rows["measured"]/formula - 1).abs()
+        at = off.idxmax()
+        return Measured(float(off[at]), float(rows["measured_err"][at]/formula[at]))
+    return value
+
+
+def least(methods: Sequence[str], scenes: Sequence[str] = ()) -> Value:
+    """The smallest measured/predicted."""
+    return extreme(methods, scenes, pd.Series.idxmin)
+
+
+def most(methods: Sequence[str], scenes: Sequence[str] = ()) -> Value:
+    """The largest measured/predicted."""
+    return extreme(methods, scenes, pd.Series.idxmax)
+
+
+def extreme(methods: Sequence[str], scenes: Sequence[str], which: Callable) -> Value:
+    """measured/predicted where it is smallest or largest."""
+    def value(tables: Tables) -> Measured:
+        rows = chosen(tables, methods, scenes)
+        ratio = rows["measured"]/rows["predicted"]
+        at = which(ratio)
+        return Measured(float(ratio[at]), float(rows["measured_err"][at]/rows["predicted"][at]))
+    return value
+
+
+POINTS = ("fixed lattice", "fixed jittered")
+LINEAR = ("spam Lucy", "spam Wendland", "spam direct", *POINTS, "fixed nested", "fluctuating", "drift literal",
+          "drift constant mass")
+RUNGE_KUTTA = ("grid", *LINEAR, "moving")
+GIVEN_BACK = "the largest stable step on a lattice is the formula's, what it leaves for disorder given back"
+
+
+def near(name: str, source: str, statement: str, methods: Sequence[str], scenes: Sequence[str] = ()) -> Claim:
+    """Measured limits are those of the methods' own formulas to 10 %."""
+    return Claim(id=f"limit-step-{name}", source=source, statement=statement, value=farthest(methods, scenes), at_most=NEAR,
+                 because="limits are to be known to 10 %: what takes 0.9 of a formula is then safe and gives away little")
+
+
+CLAIMS = (
+    near("spam", "KHP95 Sec. II", "smooth particles on a lattice under RK4: noise begins to grow at the step that lattice sums "
+         "give, from zero viscosity to Prandtl 0.01 and 100", LINEAR[:3]),
+    near("grid-sound", "KHP95 Sec. V", "compressible grid without viscosity: the largest stable step is the formula's for sound",
+         ("grid",), (SOUND,)),
+    near("grid-spread", "KHP95 Sec. V", "compressible grid at Prandtl 0.01 and 100, limited by diffusion: the largest "
+         "stable step is the formula's", ("grid",), SPREAD),
+    near("points-sound", "RR98 Eqs 34-36", "fixed points without viscosity, on a lattice and jittered: the largest stable step "
+         "is the one from the largest singular value of the gradient", POINTS, (SOUND,)),
+    near("points-spread", "RR98 Eq. 51", "fixed points at Prandtl 0.01 and 100, limited by diffusion along edges: the largest "
+         "stable step is the one from the largest eigenvalue of the Laplacian", POINTS, SPREAD),
+    near("points-nested", "RR98 Eqs 37, 38", "fixed points with gradients of gradients: the largest stable step is the "
+         "formula's, which has the Laplacian along edges", ("fixed nested",)),
+    near("points-both", "RR98 Eq. 51", "fixed points with sound and diffusion alike: the largest stable step is the formula's, "
+         "the inverse sum of both", POINTS, ("balanced",)),
+    near("fluctuating", "RR98 Sec. II D", "fixed points under the three stages of fluctuating hydrodynamics: the largest stable "
+         "step is the formula's", ("fluctuating",)),
+    near("literal", "RR98 Eqs 34-36, 39", f"points that move while their volumes stay, as printed: {GIVEN_BACK}",
+         ("drift literal",)),
+    near("constant-mass", "RR98 Eq. 49", f"points that move with constant mass: {GIVEN_BACK}", ("drift constant mass",)),
+    near("moving", "RR98 Eqs 46-48", f"moving points with closed faces: {GIVEN_BACK}", ("moving",)),
+    near("euler", "RR98 Eq. 40", "forward Euler on ten fixed points a side: noise begins to grow at dt = (eta + zeta + kappa/2)"
+         "/(rho c^2)", ("fixed Euler",), ("Euler 1/2", "Euler 1", "Euler heat")),
+    Claim(id="limit-step-safe", source="RR98 Eqs 34-51", value=least(RUNGE_KUTTA), at_least=0.99,
+          statement="no method's own formula of the largest step is above the step at which noise begins to grow",
+          because="formulas are read off stability regions to 0.4 %, trials find limits to 1 %"),
+    Claim(id="limit-step-slack", source="RR98 Eqs 34-51", value=most(RUNGE_KUTTA), at_most=2.0,
+          statement="no method's own formula of the largest step gives away more than a factor of 2",
+          because="sound and diffusion, each at its limit, halve the step if their fastest waves are added though they differ"),
+    Claim(id="limit-step-eigenvalues", source="KHP95 Sec. II", value=farthest(LINEAR, column="exact"), at_most=0.02,
+          statement="noise begins to grow where an eigenvalue of the linearised sums leaves the integrator's region of "
+          "stability, in all methods and scenes", because="trials halve to 1.1 %, and see growth that is 1 % beyond its limit"),
+)

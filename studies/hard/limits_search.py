@@ -1,0 +1,75 @@
+"""The largest stable step by trial: noise that grows, or does not, and an interval that is halved."""
+from collections.abc import Callable
+from math import inf
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from particles.limits import limit_of
+from particles.run import Divergence, Plan, run
+
+NOISE = 1e-6            # of density, speed of sound and temperature, all about 1: what grows by 10 is still linear
+GROWN = 10.0            # times the noise of a tenth of the run, when what the start does not share has died out
+HALVINGS = 6            # of the factor 2 between a step that is stable and one that is not: 1.1 %
+WIDENINGS = 6           # factors of 2 on either side before the search gives up
+
+
+class Unguarded:
+    """A method whose step is not held against its limit; `integrator` in place of its own, if given."""
+
+    def __init__(self, method: Any, integrator: Any = None):
+        self.method = method
+        if integrator is not None:
+            self.integrator = integrator
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.method, name)
+
+
+@limit_of.register
+def _(method: Unguarded, start: np.ndarray) -> float:
+    return inf
+
+
+class Noise(NamedTuple):
+    """Rms deviation of some rows of a state from their means, which at rest on a lattice is all that moves."""
+    rows: tuple[int, ...]
+
+    def __call__(self, sums: Any, state: np.ndarray) -> float:
+        return float(np.sqrt(state[list(self.rows)].var(axis=1).sum()))
+
+
+def noise_grows(method: Unguarded, start: np.ndarray, rows: tuple[int, ...], steps: int, dt: float) -> bool:
+    """Whether noise is GROWN times larger at the end than after a tenth of the steps, or the run diverges."""
+    plan = Plan(dt=dt, steps=steps, series={"noise": Noise(rows)}, every=steps//10)
+    try:
+        series = run(method, start, plan).series["noise"]
+    except Divergence:
+        return True
+    return series[-1] > GROWN*series[0]
+
+
+class Found(NamedTuple):
+    """A limit, and half of the interval that it lies in; not a number where there is none."""
+    value: float
+    half: float
+
+
+def bisected(grows: Callable[[float], bool], first: float) -> Found:
+    """The step at which `grows` turns true, sought from `first` on by factors of 2, then by halving on a logarithmic scale."""
+    low, high = bracket(grows, first)
+    for _ in range(HALVINGS if low < high else 0):
+        middle = float(np.sqrt(low*high))
+        low, high = (low, middle) if grows(middle) else (middle, high)
+    return Found((low + high)/2, (high - low)/2)
+
+
+def bracket(grows: Callable[[float], bool], first: float) -> tuple[float, float]:
+    """Two steps a factor of 2 apart: nothing grows at the first, something does at the second."""
+    step, bad = first, grows(first)
+    for _ in range(WIDENINGS):
+        other = step/2 if bad else 2*step
+        if grows(other) != bad:
+            return (other, step) if bad else (step, other)
+        step = other
+    return np.nan, np.nan
