@@ -80,7 +80,7 @@ def shears(period: int, k: tuple[float, ...]) -> Iterator[Case]:
 
 def moving(about: tuple[int, int], time: float) -> Iterator[Case]:
     """Samples about given flows."""
-    yield About(flow=Shear(0.5), counts=about, turns=TURNS_FLOW, time=2*time)
+    yield About(flow=Shear(0.5), counts=about, turns=TURNS_FLOW, time=3*time)
     yield About(flow=Stream(0.6), counts=about, turns=TURNS_FLOW, time=time)
 
 

@@ -1,4 +1,7 @@
 """Noise in time on fixed points, and the study fluctuations: a small rebuild, and what the committed tables must say."""
+import re
+import subprocess
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -295,6 +298,18 @@ def test_every_fluctuation_equation_has_its_claim():
     sources = " ".join(claim.source for claim in fluctuations.STUDY.claims)
     for equation in (20, 21, 22, 23, 24, 25, 42, 43, 44):
         assert f"Eq. {equation}" in sources
+
+
+def test_every_equation_of_noise_and_of_pairs_has_its_verdict():
+    """Those of dissipative particles, 49 to 51, are judged by other studies."""
+    sources = " ".join(read(RESULTS/"claims.csv")["source"])
+    for equation in (20, 21, 22, 23, 24, 25, 42, 43, 44, 49, 50, 51):
+        assert re.search(rf"\bEq\. {equation}\b", sources), equation
+
+
+def test_a_scene_without_noise_knows_no_random_numbers():
+    code = "import sys, particles.methods.dih, particles.methods.layer; print('particles.noise' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.strip() == "False"
 
 
 def test_the_cases_of_all_sizes_can_be_made():
