@@ -7,7 +7,7 @@ import numpy as np
 
 from continuum.fluid import DenseFluid, IdealGas, VanDerWaals
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4
-from studies.hard import hard_claims, hard_derive, hard_tables
+from studies.hard import hard_claims, hard_derive, hard_figures, hard_tables
 from studies.hard.fates import Fate
 from studies.hard.freezing import Freezing
 from studies.hard.interface import Interface
@@ -37,7 +37,8 @@ def growth() -> Iterator[Case]:
     """The lattices that runs begin and freeze on; pairs; fluids under negative pressure."""
     yield from (Growth(crystal=replace(at, weight=weight)) for at, weight in product((HEXAGONAL, SQUARE), WEIGHTS))
     yield from (Growth(crystal=replace(HEXAGONAL, weight=Monaghan, h=h)) for h in (2.6, 2.8))
-    yield from (Growth(crystal=replace(COLD, T=T, rho=rho)) for T, rho in product((0.1, 0.15, 0.2), (1.0, 1.2)))
+    for T, rho in ((0.1, 1.0), (0.15, 1.0), (0.2, 1.0), (0.15, 1.2), (0.2, 1.2)):
+        yield Growth(crystal=replace(COLD, T=T, rho=rho))
 
 
 def onsets(seeds: tuple[int, ...]) -> Iterator[Case]:
@@ -91,4 +92,5 @@ def cases(size: str) -> list[Case]:
             *shocks((48.0, 96.0, 192.0), ((1.0, 3), (2.0, 2)), (1, 2))]
 
 
-PART = Part(cases=cases, tables=hard_tables.ALL, derive=hard_derive.derive, claims=hard_claims.CLAIMS)
+PART = Part(cases=cases, tables=hard_tables.ALL, derive=hard_derive.derive, claims=hard_claims.CLAIMS,
+            figures=hard_figures.figures)
