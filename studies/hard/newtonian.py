@@ -169,7 +169,8 @@ class Reversal(Case):
         back = run(method, there, plan).by_id()
         back[2:4] *= -1
         wrapped = start.copy()
-        wrap(method.walls, wrapped)
+        for state in (wrapped, back):       # what has left since the last lists is the same place
+            wrap(method.walls, state)
         return {"integrator": self.integrator, "weight": self.weight.__name__, "seed": self.seed, "time": plan.steps*dt,
                 "apart": float(np.sqrt(np.mean(apart(back, start, self.side)**2)*2)),
                 "equal": float(np.mean(back[:4] == wrapped[:4]))}
