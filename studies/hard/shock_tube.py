@@ -27,6 +27,7 @@ HEIGHT, MASS = 9.0, 9/16        # mean density 9/16 is one particle a unit of ar
 ROWS = {DENSE: 12, THIN: 4}     # then columns are 0.75 and 2 apart, and fit if L is a multiple of 3
 JITTER = 0.05                   # of the columns and rows: a perfect lattice keeps its rows in a flow along one axis
 END = 0.4                       # time over L
+SKIN = 1.5                      # of neighbour lists: at the diaphragm particles start from rest to their full speed in a step
 FINE = 0.25                     # cells of the grid, spacings
 NAMES = ("rho", "v", "P")
 
@@ -83,7 +84,7 @@ class ShockTube(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         law, (start, dense) = ConstEta(self.eta, self.eta), tube(self.L, self.seed)
-        method = fluid(Lucy.of(h=3.0), (4*self.L, HEIGHT), EOS, law, m=MASS)
+        method = fluid(Lucy.of(h=3.0), (4*self.L, HEIGHT), EOS, law, m=MASS, skin=SKIN)
         dt = STUDIES*step_limit(method, start[4])
         steps = round(END*self.L/dt) + 1
         try:
