@@ -151,7 +151,8 @@ def figures(out: Path, found: list[Part], known: pd.DataFrame, encode: Callable[
     for part in found:
         by_name = {sheet.path.stem: sheet for sheet in part.sheets}
         for png in sorted(part.pictures, key=lambda path: (path.stem != "main", path.stem)):
-            row = about.get((part.name, png.stem), {"title": png.stem, "panels": "", "tables": " ".join(by_name)})
+            unknown = {"title": png.stem.replace("_", " "), "panels": part.question, "tables": " ".join(by_name)}
+            row = about.get((part.name, png.stem), unknown)
             sheets = [by_name[name] for name in row["tables"].split() if name in by_name]
             alt = f"{row['title']}. {row['panels']}".strip()
             shown.setdefault(part.name, []).append(

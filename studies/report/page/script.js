@@ -14,7 +14,7 @@ function filter() {
   }
   count.textContent = `${shown} of ${rows.length} claims`;
 }
-one("#filters").addEventListener("input", filter);
+["input", "change"].forEach(kind => one("#filters").addEventListener(kind, filter));
 one("#filters").addEventListener("reset", () => setTimeout(filter));
 one("#filters").addEventListener("submit", event => event.preventDefault());
 filter();       // a page that is opened again keeps what was typed
@@ -22,11 +22,11 @@ filter();       // a page that is opened again keeps what was typed
 // --- error against cost: panels, series, values of a point
 const choice = one("#panel"), panels = all(".panel");
 function showPanel() { panels.forEach((panel, number) => { panel.hidden = number !== Number(choice.value); }); }
-if (choice) { choice.addEventListener("input", showPanel); showPanel(); }
+if (choice) { choice.addEventListener("change", showPanel); showPanel(); }
 for (const box of all(".legend input")) {
   const series = one(`#panel-${box.dataset.panel} .series[data-series="${box.dataset.series}"]`);
   const show = () => { series.style.display = box.checked ? "" : "none"; reachable(series.closest("svg")); };
-  box.addEventListener("input", show);
+  box.addEventListener("change", show);
   series.style.display = box.checked ? "" : "none";
 }
 const lines = svg => all(".series", svg).filter(series => series.style.display !== "none").map(series => all(".point", series));
@@ -120,9 +120,9 @@ async function save(button) {
 }
 all(".more").forEach(button => button.addEventListener("click", () => more(button)));
 all(".save").forEach(button => button.addEventListener("click", () => save(button)));
-function open() {
-  const target = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
+function unfold() {
+  const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
   if (target?.matches("details")) target.open = true;
 }
-addEventListener("hashchange", open);
-open();
+addEventListener("hashchange", unfold);
+unfold();
