@@ -2,7 +2,7 @@
 
 Every method that can take a scene runs at rising resolutions, each at the largest step whose error is below that of its space
 (studies/cost/speed_problem.py has the rule); CPU seconds of one thread, medians of repeats, without compiling; nothing else runs.
-Writes results/speed/*.csv and *.png and the rows of study speed in results/claims.csv; `paper` takes TODO minutes, `quick` one.
+Writes results/speed/*.csv and *.png and the rows of study speed in results/claims.csv; `paper` takes 20 minutes, `quick` one.
 """
 from collections.abc import Iterable, Iterator
 
@@ -40,6 +40,9 @@ def quick() -> Iterator[Case]:
     yield from race("taylor-green", (vortex.OnPoints(names.NEAREST, 1.2, mach=0.2), vortex.MAC), (16, 20, 24), short=fast)
     yield from race("convection", (convection.GRID._replace(sizes=small), convection.LATTICES[1]._replace(sizes=small)),
                     (8, 10, 12), short=fast)
+    for scene, methods in slab.CONTESTANTS.items():
+        yield from race(scene, [methods[name] for name in (names.GRID, names.LATTICE)], (8, 12, 16), short=fast)
+    yield from race("sound", (wave.POINTS[0],), (16, 24, 32), short=fast)
     yield from (Growth(rows=rows, fixed=fixed, short=fast) for fixed in (False, True) for rows in (16, 22, 32))
 
 

@@ -75,7 +75,8 @@ def loglog(axes: Axes, title: str, xlabel: str) -> None:
     """Logarithmic axes whose numbers are written out."""
     axes.set(xscale="log", yscale="log", title=title, xlabel=xlabel)
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(LogLocator())
+        low, high = axis.get_view_interval()
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 100*low else (1,)))
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axis.set_minor_formatter(NullFormatter())
 

@@ -1,0 +1,238 @@
+"""The same flow with and without what it may need: cost, memory, compiled loops and the error that is made.
+
+taylor-green: a vortex at Mach 0.05, Re 100; velocity. convection: Rayleigh-Benard at Ra 10 000, K at the end.
+What is left out as a term has no code that runs and no arrays; gravity, viscosity and conductivity of the gas between plates are
+numbers, which may be zero and save nothing.
+"""
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from math import ceil
+from pathlib import Path
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import ConstEta, IdealGas
+from particles.integrators import RK4
+from particles.limits import limit_of
+from particles.makers import renormalised
+from particles.methods.dih import Dih
+from particles.methods.thermal import Thermal
+from particles.points import lattice
+from particles.run import Run
+from particles.team import Team
+from particles.weights import Lucy
+from studies.convection import dih
+from studies.cost import speed_cases_convection as convection
+from studies.cost import speed_cases_others as others
+from studies.cost import speed_cases_vortex as vortices
+from studies.cost import speed_names as names
+from studies.cost.scenes_terms import Carried, Friction, Listed
+from studies.cost.speed_problem import Problem, holding, of_method, result, rms
+from studies.cost.speed_timing import SHORT, array_bytes, per_step
+from studies.integral.ordering_vortices import SOUND, Vortex, solved, velocities
+from studies.integral.ordering_vortices import incompressible as exactly_incompressible
+from studies.kit.case import Case, Outcome, Report
+
+OF_LIMIT = 0.9
+SIZE = {"taylor-green": 24, "convection": 16}       # spacings of a wavelength, rows
+K_BOLTZMANN = 1e-12     # noise of 1e-6: a flow of 0.07 does not see it
+H = 2.0
+
+
+class Watching(Team):
+    """Remembers the compiled loops that are called, with the terms that they sum."""
+
+    def __init__(self) -> None:
+        super().__init__(1)
+        self.called: set[str] = set()
+
+    def __call__(self, function: Callable, rows: int, *arguments: Any) -> list:
+        """As it would be without."""
+        self.called.add(" ".join([function.__name__.lstrip("_"), *(word(arguments[0]),)*(function.__name__ == "sweep")]))
+        return super().__call__(function, rows, *arguments)
+
+
+def word(term: Any) -> str:
+    """A term with those that it lists."""
+    inner = getattr(term, "terms", ())
+    return type(term).__name__ + (f"({'+'.join(map(word, inner))})" if inner else "")
+
+
+def loops(method: Any, first: np.ndarray) -> tuple[str, ...]:
+    """Names of what one evaluation calls."""
+    team, n = Watching(), first.shape[1]
+    sums, now = method.start(n, team), Run(state=first.copy(), ids=np.arange(n))
+    sums.make_ready(now, 1e-9)
+    sums.try_out(now)
+    return tuple(sorted(team.called))
+
+
+class Made(NamedTuple):
+    """A problem, its main quantity, the loops that it calls, what its units of time are in those of its base."""
+    problem: Problem
+    quantity: str
+    called: tuple[str, ...] = ()
+    factor: float = 1.0
+
+
+# --- taylor-green -------------------------------------------------------------------------------------------------------
+
+
+def gas(size: int) -> Made:
+    """Fixed points with heat."""
+    problem = vortices.OnPoints(names.LATTICE, H).problem(size, 1)
+    return Made(problem, "velocity", loops(problem.held()[1].method, problem.first))
+
+
+def moving(size: int) -> Made:
+    """The same gas on points that move."""
+    problem = vortices.MOVING.problem(size, 1)
+    return Made(problem, "velocity", loops(problem.held()[1].method, problem.first))
+
+
+def listed(size: int, *kinds: type) -> Made:
+    """Fixed points without heat; terms by kind."""
+    vortex, points = Vortex(vortices.MACH, size), lattice((size, size))
+    method = Listed(x=points.x, edges=renormalised(points, Lucy.of(h=H)),
+                    terms=tuple(kind({Carried: SOUND**2, Friction: vortex.eta}[kind]) for kind in kinds))
+    rho = 1 + (vortices.start_density(vortex, points.x)**2 - 1)/SOUND**2        # the same pressure
+    first = np.array([rho, *(rho[:, None]*vortex.velocity(points.x)).T])
+    problem = of_method(method, first, vortex.time, lambda state: vortices.compared(
+        vortex, points.V, points.x, (state[1:3]/state[0]).T))
+    return Made(problem, "velocity", loops(method, first))
+
+
+def noisy(size: int, k: float = K_BOLTZMANN) -> Made:
+    """The readable sums with noise."""
+    vortex, points = Vortex(vortices.MACH, size), lattice((size, size))
+    edges = renormalised(points, Lucy.of(h=H))
+    method = Thermal(edges=edges, eos=IdealGas(), law=ConstEta(vortex.eta, vortex.eta), k=k, seed=1, share=1.0)
+    first = vortex.start(vortex.method(points, edges))
+    problem = of_method(method, first, vortex.time, lambda state: vortices.compared(
+        vortex, points.V, points.x, (state[1:3]/state[0]).T), limit=limit_of(method, first))
+    return Made(problem, "velocity", loops(method, first))
+
+
+def silent(size: int) -> Made:
+    """The same sums without noise, in four stages."""
+    with_noise = noisy(size).problem
+    method = with_noise.held()[1].method
+    plain: Dih = method.dih
+
+    def go(state: np.ndarray, dt: float, steps: int) -> np.ndarray:
+        integrator, now = RK4(state.shape, Team(1)), state.copy()
+        for _ in range(steps):
+            integrator.step(plain, now, dt)
+        return now
+    problem = with_noise._replace(go=go, held=lambda: (with_noise.first, plain, RK4(with_noise.first.shape, Team(1))))
+    return Made(problem, "velocity")
+
+
+def incompressible(size: int) -> Made:
+    """The MAC grid; its height, half of the wavelength, over its velocity is the unit of time. Its error is told against the gas."""
+    vortex, made, place = Vortex(vortices.MACH, size), vortices.MAC.problem(size, 1), lattice((size, size)).x/size
+    flow = exactly_incompressible(place)
+    apart = rms(velocities(solved(vortices.MACH), place) - flow)/rms(flow)
+
+    def residuals(q: np.ndarray) -> dict[str, np.ndarray]:
+        return {"velocity": np.array([np.hypot(rms(made.residuals(q)["velocity"]), apart)])}
+    return Made(made._replace(residuals=residuals), "velocity", (), size/2/vortex.speed)
+
+
+# --- convection ---------------------------------------------------------------------------------------------------------
+
+
+def layer(rows: int, mended: bool = True, **changes: Any) -> Made:
+    """A lattice between plates; `changes`: numbers of the fluid that are set to zero."""
+    contestant = convection.LATTICES[1]
+    problem = contestant._replace(scheme=contestant.scheme._replace(mended=mended)).problem(rows, 1)
+    method = problem.held()[1].method
+    if changes:
+        law = method.law._replace(**{name: value for name, value in changes.items() if name != "g"})
+        method = replace(method, law=law, g=changes.get("g", method.g))
+        unit = problem.time/convection.END
+        problem = problem._replace(limit=limit_of(method, problem.first), go=convection.sampled(method, dih.kinetic, unit),
+                                   step=convection.plain(method), held=holding(method, problem.first))
+    return Made(problem, "K", loops(method, problem.first))
+
+
+def moving_layer(rows: int) -> Made:
+    """The same on points that move."""
+    problem = convection.MOVING.problem(rows, 1)
+    return Made(problem, "K", loops(problem.held()[1].method, problem.first))
+
+
+def boussinesq_layer(rows: int) -> Made:
+    """The MAC grid at the Prandtl number that is nearest, its K halved: what a Boussinesq fluid says of the gas."""
+    gas_K = convection.reference(convection.SIZES).ke
+    made = others.OnMac().problem(rows, 1)
+
+    def residuals(done: convection.Followed) -> dict[str, np.ndarray]:
+        return {"K": np.array([done.ke[-1]/2/gas_K - 1])}
+    return Made(made._replace(residuals=residuals, share=lambda state: {}, uncertain=lambda state: {}), "K", (), float(rows))
+
+
+def cold(size: int) -> Made:
+    """Without heat."""
+    return listed(size, Carried, Friction)
+
+
+def without_friction(size: int) -> Made:
+    """Without heat and viscosity."""
+    return listed(size, Carried)
+
+
+#: scene, base -> what is left out -> what is left
+BASES: dict[tuple[str, str], dict[str, Callable[[int], Made]]] = {
+    ("taylor-green", "moving points"): {"nothing": moving, "motion": gas},
+    ("taylor-green", "fixed points"): {"nothing": gas, "heat": cold, "compressibility": incompressible},
+    ("taylor-green", "fixed points without heat"): {"nothing": cold, "viscosity": without_friction},
+    ("taylor-green", "fixed points with noise"): {"nothing": noisy, "noise": silent},
+    ("convection", "moving points"): {"nothing": moving_layer, "motion": layer},
+    ("convection", "fixed points"): {
+        "nothing": layer, "gravity": partial(layer, g=0.0), "heat conduction": partial(layer, k=0.0),
+        "viscosity": partial(layer, eta=0.0), "mended heating": partial(layer, mended=False),
+        "compressibility": boussinesq_layer},
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Compared(Case):
+    """One base with everything, and without each of what may be left out, one after the other."""
+    scene: str
+    base: str
+    size: int
+    short: float = SHORT
+    alone: ClassVar[bool] = True
+
+    @property
+    def cost(self) -> float:
+        return 0.05*self.size**2
+
+    @property
+    def label(self) -> str:
+        return f"{self.scene}, {self.base}, {self.size} spacings"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        return Outcome({"measured": list(self._rows(report))})
+
+    def _rows(self, report: Report) -> Iterator[dict[str, Any]]:
+        made = BASES[self.scene, self.base]
+        for number, (left_out, make) in enumerate(made.items()):
+            yield {"scene": self.scene, "base": self.base, "left_out": left_out, **measured(make(self.size), self.short)}
+            report((number + 1)/len(made))
+
+
+def measured(made: Made, short: float) -> dict[str, Any]:
+    """Columns of the table."""
+    problem, n = made.problem, made.problem.points
+    steps = ceil(problem.time/(OF_LIMIT*problem.limit))
+    dt, found = problem.time/steps, result(problem, OF_LIMIT)
+    seconds = per_step(lambda count: (problem.step or problem.go)(problem.first, dt, count), short)
+    error, err = (np.nan, np.nan) if found is None else (rms(found.residuals[made.quantity]), problem.known)
+    return {"quantity": made.quantity, "points": n, "step_s": seconds.value/n, "step_s_err": seconds.err/n,
+            "time_s": seconds.value/(n*dt*made.factor), "time_s_err": seconds.err/(n*dt*made.factor),
+            "bytes": array_bytes(problem.held())/n, "loops": len(made.called), "names": "; ".join(made.called), "error": error,
+            "error_err": err}

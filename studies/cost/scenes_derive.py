@@ -1,0 +1,40 @@
+"""What leaving out saves and costs, from the table `measured`."""
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from studies.convection.claims.read import ratio
+from studies.convection.pick import groups
+from studies.kit.stats import Measured
+from studies.kit.table import Tables
+
+MATTERS = 0.01      # of the answer: what leaving out adds to the error is told from nothing
+
+
+def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
+    """Ratios to the whole of each base."""
+    frame: pd.DataFrame = tables.get("measured", pd.DataFrame())
+    return {"scenes": list(scenes(frame))} if len(frame) else {}
+
+
+def scenes(frame: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """One row a variant; a base whose whole is not there has none."""
+    for _, group in groups(frame, ["scene", "base"]):
+        whole = group[group["left_out"] == "nothing"].to_dict("records")
+        for row in group.to_dict("records") if whole else ():
+            yield {**{str(name): value for name, value in row.items()
+                      if name in ("scene", "base", "left_out", "quantity", "step_s", "step_s_err", "bytes", "loops", "error")},
+                   **compared(row, whole[0])}
+
+
+def compared(row: dict, whole: dict) -> dict[str, Any]:
+    """Ratios, what is added to the error, and whether that matters."""
+    found: dict[str, Any] = {}
+    for name in ("step", "time"):
+        one, all_ = (Measured(of[f"{name}_s"], of[f"{name}_s_err"]) for of in (row, whole))
+        found[f"{name}_ratio"], found[f"{name}_ratio_err"] = ratio(one, all_)
+    more = row["error"] - whole["error"]
+    return {**found, "bytes_ratio": row["bytes"]/whole["bytes"], "error_more": more,
+            "needed": "yes" if not more <= MATTERS or not np.isfinite(more) else "no"}

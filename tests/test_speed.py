@@ -1,0 +1,302 @@
+"""The study speed: exact answers, steps that space allows, seconds and bytes, what is derived, figures and verdicts on tables."""
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import studies.speed as speed
+from continuum.boussinesq import Case as Mac
+from particles.run import Divergence, Plan, run
+from studies.cost import speed_cases_convection as convection
+from studies.cost import speed_cases_plates as slab
+from studies.cost import speed_cases_vortex as vortex
+from studies.cost import speed_cases_waves as wave
+from studies.cost import speed_derive, speed_figures, speed_names, speed_tables
+from studies.cost.speed_claims import CLAIMS, of_level, seconds
+from studies.cost.speed_plates_exact import DEGREE, FLOWS, MU, fields, solved
+from studies.cost.speed_problem import HALVINGS, Problem, Race, climb, result, rms
+from studies.cost.speed_timing import array_bytes, per_step
+from studies.kit.claim import CannotTell, judge
+from studies.kit.sweep import RESULTS, load
+from studies.kit.table import Tables, read
+
+
+def toy(order: int, space: float = 1e-3, limit: float = 1.0, chaotic: bool = False) -> Problem:
+    """A run of time 1 whose error is space + dt^order, and diverges above half of its limit."""
+    def go(state, dt, steps):
+        if dt > 0.5:
+            raise Divergence(3, "gone")
+        return space + dt**order
+    return Problem(1, 0.0, limit, 1.0, go, lambda state: {"q": np.array([state])}, lambda: (), chaotic=chaotic)
+
+
+# --- the step -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("order", "fraction"), [(4, 1/8), (2, 1/32)])
+def test_the_largest_step_is_taken_whose_error_is_below_that_of_space(order, fraction):
+    """By hand, dt^p - (dt/2)^p <= 0.001 + (dt/2)^p: 0.0037 > 0.0012 at 1/4, 0.00023 < 0.001 at 1/8 for p = 4; for p = 2
+    0.0029 > 0.0020 at 1/16, 0.00073 < 0.0012 at 1/32."""
+    rungs, found = climb(toy(order), 1.0)
+    assert [rung.fraction for rung in rungs if rung.accepted] == [fraction] == [rungs[-1].fraction]
+    assert rms(found.residuals["q"]) == pytest.approx(1e-3 + fraction**order, rel=1e-12)
+
+
+def test_a_step_that_diverges_is_halved():
+    rungs, _ = climb(toy(4), 1.0)
+    assert rungs[0].time == {} and not rungs[0].accepted      # dt = 1 is above what the toy stands
+    assert result(toy(4), 1.0) is None
+
+
+def test_the_shortest_step_is_taken_where_time_errs_more_than_space_at_any():
+    """Second order: halving a step takes away three quarters of its error, three times what is left."""
+    rungs, _ = climb(toy(2, space=0.0), 1.0)
+    assert len(rungs) == HALVINGS and not any(rung.accepted for rung in rungs)
+    assert rungs[-1].fraction == 2.0**-(HALVINGS - 1)
+
+
+def test_chaos_compares_the_sizes_of_errors_only():
+    def flips(state, dt, steps):
+        return 1e-3 if steps % 2 else -1e-3
+    problem = toy(4)._replace(go=flips)
+    assert not climb(problem, 0.9)[0][0].accepted and climb(problem._replace(chaotic=True), 0.9)[0][0].accepted
+
+
+def test_seconds_of_a_step_leave_out_what_every_run_pays_once():
+    """A clock that counts: 5 for a call, 0.25 for a step."""
+    now = [0.0]
+
+    def advance(steps):
+        now[0] += 5 + 0.25*steps
+    found = per_step(advance, clock=lambda: now[0])
+    assert found.value == pytest.approx(0.25, rel=1e-12) and found.err == pytest.approx(0, abs=1e-12)
+
+
+def test_bytes_count_every_buffer_once_and_nothing_that_only_sets_up():
+    class Sums:
+        pass
+    one = np.zeros(100)
+    sums = Sums()
+    sums.whole, sums.part, sums.again, sums.method, sums.more = one, one[10:20], [one], np.zeros(7), {"a": (np.zeros(3),)}
+    assert array_bytes(sums) == 8*103
+    assert array_bytes(one[:1], one[50:]) == 800
+
+
+# --- exact answers ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["conduction", "couette"])
+def test_flows_between_plates_keep_their_plates_and_mass_and_do_not_depend_on_the_points(name):
+    flow = FLOWS[name]
+    _, v, u, T = fields(flow, np.array([0.0, 1.0]))
+    np.testing.assert_allclose([v, u, T], [[0, 0], [0, flow.U], [1, 1]], atol=1e-9)
+    coefficients = solved(flow)[:, 0]
+    n = np.arange(0, DEGREE + 1, 2)
+    assert np.sum(coefficients[::2]/(1 - n**2)) == pytest.approx(1, abs=1e-8)     # integral of T_n over [-1, 1], halved
+    assert slab.known(flow) < 1e-8
+
+
+def test_slow_shear_decays_as_its_series_says():
+    """U = 1e-3: compression and heating are of the order of its square."""
+    flow = FLOWS["couette"]._replace(U=1e-3)
+    s = np.linspace(0, 1, 41)
+    np.testing.assert_allclose(fields(flow, s)[2]/1e-3, s + np.sin(3*np.pi*s)/2*np.exp(-9*np.pi**2*MU*flow.time), atol=1e-6)
+
+
+def test_small_heat_at_a_plate_of_no_conduction_stays():
+    """After no time at all: the start itself, of mean density 1 and uniform pressure."""
+    s = np.linspace(0, 1, 2001)
+    rho, v, u, T = FLOWS["conduction"].start(s)
+    assert np.ptp(rho*T) < 1e-12 and np.trapezoid(rho, s) == pytest.approx(1, abs=1e-6)
+    assert not v.any() and not u.any()
+
+
+def test_a_sound_wave_without_friction_comes_back():
+    class Free(wave.Wave):
+        eta = 0.0
+    one = Free(16)
+    x = np.arange(16.0)
+    period = 16/wave.SOUND
+    np.testing.assert_allclose(one.exactly(period, x), one.exactly(0.0, x), atol=1e-9*wave.AMPLITUDE)
+    np.testing.assert_allclose(one.exactly(period/4, x)[[0, 2]], 0, atol=1e-9*wave.AMPLITUDE)
+    # by hand: u = c A sin kx sin wt after a quarter of a period, P_rho = c^2 rho/2 in A
+    assert np.abs(one.exactly(period/4, x)[1]).max() == pytest.approx(wave.SOUND*wave.AMPLITUDE, rel=1e-9)
+
+
+def test_the_mac_vortex_is_free_of_divergence_and_steady_but_for_friction():
+    case = Mac(ra=2500.0, pr=1.0, box=vortex.CELL, rows=16)
+    q = vortex.stirred(case)
+    assert np.abs(case.mac.div@q[:case.mac.ends[1]]).max() < 1e-12
+    assert case.mac.lap[:case.mac.ends[1], :case.mac.ends[1]]@q[:case.mac.ends[1]] == pytest.approx(
+        -2*(2*16*np.sin(np.pi/32))**2*q[:case.mac.ends[1]], abs=1e-9)
+
+
+def test_a_sliding_plate_drags_particles_as_a_resting_one_drags_a_stream():
+    """The whole flow seen from a frame that moves with the upper plate: to round-off of some ten steps."""
+    def moved(U, drift):
+        problem = slab.CONTESTANTS["couette"][speed_names.LUCY]._replace(flow=FLOWS["couette"]._replace(U=U)).problem(8, 1)
+        method = problem.held()[1].method
+        state = problem.first.copy()
+        lower, upper, *sides = method.walls
+        walls = (slab.Sliding(lower, drift), slab.Sliding(upper.mirror, U + drift), *sides)
+        state[2] = 0.1*state[1]/8 + drift
+        return run(replace(method, walls=walls), state, Plan(dt=0.2, steps=10)).by_id()
+    still, seen = moved(0.05, 0.0), moved(0.05, 0.3)
+    np.testing.assert_allclose(seen[2] - 0.3, still[2], atol=1e-12)
+    np.testing.assert_allclose(seen[[1, 3, 4]], still[[1, 3, 4]], atol=1e-12)
+
+
+# --- small runs ---------------------------------------------------------------------------------------------------------
+
+
+def errors(scene, method, resolution, **more):
+    """By quantity, of one case that is timed as shortly as possible."""
+    rows = Race(scene=scene, method=method, resolution=resolution, short=1e-5, **more).run(lambda done: None, None).rows
+    return {row["quantity"]: row["error"] for row in rows["errors"]}, rows
+
+
+@pytest.mark.parametrize("name", [speed_names.GRID, speed_names.LATTICE, speed_names.JITTERED])
+@pytest.mark.parametrize("scene", ["conduction", "couette"])
+def test_grids_and_points_are_of_second_order_between_plates(scene, name):
+    method = slab.CONTESTANTS[scene][name]
+    coarse, fine = (next(iter(errors(scene, method, rows)[0].values())) for rows in (12, 24))
+    assert 3 < coarse/fine < 6.5        # 4; on jittered points 12 rows are not yet in its range
+
+
+def test_a_lattice_carries_sound_with_second_order_error_and_its_row_is_whole():
+    coarse, fine = (errors("sound", wave.POINTS[0], length) for length in (32, 64))
+    assert coarse[0]["velocity"]/fine[0]["velocity"] == pytest.approx(4, rel=0.15)
+    run_row, = fine[1]["runs"]
+    table = speed_tables.RUNS
+    assert set(run_row) == set(table.columns)
+    assert run_row["run_s"] > 0 and run_row["bytes"] > 8*4*64*wave.BREADTH and run_row["points"] == 64*wave.BREADTH
+
+
+@pytest.mark.parametrize("fraction", [0.02, 0.005])
+def test_a_state_is_steady_once_it_stays_as_near_as_its_error(fraction):
+    """K = 1 - exp(-t): within f of 1 from t = ln(1/f) on, half of a free-fall time later for the mean over one."""
+    t = np.arange(1, 361)/convection.OFTEN
+    done = convection.Followed(t, 1 - np.exp(-t), None)
+    share = convection.shares_of(done, {"K": fraction}, False)["K"]
+    assert share*t[-1] == pytest.approx(np.log(1/fraction) + 0.5, abs=0.5)
+
+
+def test_places_are_shifted_to_where_the_rolls_are():
+    x = np.stack([np.linspace(-1, 1, 80, endpoint=False), np.zeros(80)], axis=1)
+    v = np.stack([np.zeros(80), np.cos(np.pi*(x[:, 0] - 0.3))], axis=1)      # rises at 0.3
+    found = convection.aligned(convection.Seen(x, v, np.ones(80), np.ones(80)))
+    np.testing.assert_allclose(np.cos(np.pi*found[:, 0]), v[:, 1], atol=1e-12)
+
+
+# --- derived rows, verdicts, figures ------------------------------------------------------------------------------------
+
+
+def lines(scale: dict[str, float], scene="convection", quantity="K", err=1e-6) -> Tables:
+    """Methods with errors n^-2 and seconds scale n^3, n = 4, 8, 16, 24, as errors and runs."""
+    key = {"scene": scene, "seed": 1}
+    sizes = (4, 8, 16, 24)
+    errors = [{**key, "method": name, "resolution": n, "quantity": quantity, "error": n**-2.0, "error_err": err, "share": 0.5}
+              for name in scale for n in sizes]
+    runs = [{**key, "method": name, "resolution": n, "points": n**2, "run_s": 2*factor*n**3, "run_s_err": 1e-3*factor*n**3,
+             "setup_s": 0.0, "bytes": 8.0*n**2} for name, factor in scale.items() for n in sizes]
+    found = Tables({"errors": pd.DataFrame(errors), "runs": pd.DataFrame(runs)})
+    return Tables(found | {name: pd.DataFrame(rows) for name, rows in speed_derive.derive(found).items() if rows})
+
+
+def test_cost_at_a_level_and_exponent_are_those_of_the_power_law():
+    found = lines({speed_names.GRID: 1.0, speed_names.LATTICE: 3.0})
+    row = found["needed"].query(f"method == '{speed_names.GRID}' and level == 0.01").iloc[0]
+    assert row["reached"] == "yes" and row["cpu_s"] == pytest.approx(1000, rel=1e-9)       # n = 10
+    assert row["low"] < 1000 < row["high"] and row["points"] == pytest.approx(100, rel=1e-9)
+    assert found["exponents"]["exponent"].to_numpy() == pytest.approx([1.5, 1.5], rel=1e-9)
+    best = found["cheapest"].set_index("level")
+    assert best.loc[0.01, "method"] == speed_names.GRID and best.loc[0.001, "method"] == "not reached"
+    assert best.loc[0.1, "reached"] == "at most"        # n = 4 has 6 % already
+
+
+def test_errors_that_come_back_above_a_level_have_not_reached_it():
+    group = pd.DataFrame({"resolution": [1, 2, 3, 4], "error": [0.2, 0.005, 0.02, 0.004], "error_err": [1e-5]*4,
+                          "cpu_s": [1.0, 2, 4, 8], "cpu_s_err": [0.1]*4, "points": [1.0, 2, 3, 4]})
+    assert 4 < speed_derive.reached(group, 0.01)["cpu_s"] < 8
+    assert speed_derive.reached(group.iloc[:3], 0.01)["reached"] == "no"
+    crossing = group.iloc[:2].assign(error_err=[1e-5, 0.05])        # an error of either sign: 0.5 % +- 5 %
+    assert speed_derive.reached(crossing, 0.01)["reached"] == "no"
+
+
+def test_the_interval_of_a_crossing_is_that_of_random_errors():
+    error, err, cost, cost_err = np.array([0.04, 0.005]), np.array([2e-3, 4e-4]), np.array([1.0, 9.0]), np.array([0.05, 0.6])
+    value, half = speed_derive.crossing(error, err, cost, cost_err, 0.01)
+    rng = np.random.default_rng(1)
+    some = [speed_derive.crossing(rng.normal(error, err/1.96), err, rng.normal(cost, cost_err/1.96), cost_err, 0.01)[0]
+            for _ in range(4000)]
+    assert np.std(np.log(some))*1.96 == pytest.approx(half, rel=0.08)     # 2 % of statistics, second order for the rest
+    assert np.median(some) == pytest.approx(value, rel=0.02)
+
+
+def test_verdicts_follow_the_lines():
+    said = {row["id"]: (row["verdict"], row["measured"]) for row in judge(
+        CLAIMS, lines({speed_names.GRID: 1.0, speed_names.LATTICE: 1.5, speed_names.MOVING: 40.0}), "speed")}
+    assert said["own-speed-fixed-points"] == ("holds", pytest.approx(1.5))
+    assert said["own-speed-moving-points"] == ("fails", pytest.approx(40))
+    assert said["own-speed-exponent-grid"][0] == "holds" and said["own-speed-threads-spam"][0] == "undecidable"
+
+
+def test_particles_are_compared_with_the_grid_of_the_same_error():
+    found = lines({speed_names.GRID: 1.0, speed_names.LUCY: 20.0})
+    value = of_level(found, speed_names.GRID, speed_names.LUCY, "cpu_s", scene="convection", quantity="K")
+    assert value.value == pytest.approx(20)
+    with pytest.raises(CannotTell, match="both sides"):
+        seconds(found, speed_names.GRID, 0.001, scene="convection", quantity="K")
+
+
+def test_growth_laws_are_those_of_the_table():
+    n = np.array([1e3, 1e4, 1e5])
+    cpu = pd.DataFrame({"method": speed_names.LUCY, "points": n, "threads": 1, "clock": "cpu", "step_s": n**1.1,
+                        "step_s_err": 0.0})
+    wall = pd.DataFrame({"method": speed_names.LUCY, "points": 1e5, "threads": [1, 2], "clock": "wall", "step_s": [1.8, 1.0],
+                         "step_s_err": [0.018, 0.01]})
+    found = {row["what"]: row for row in speed_derive.growth_laws(pd.concat([cpu, wall]))}
+    assert found["exponent"]["value"] == pytest.approx(1.1, rel=1e-9)
+    assert found["two threads"]["value"] == pytest.approx(1.8)
+    assert found["two threads"]["value_err"] == pytest.approx(1.8*0.01*2**0.5, rel=1e-9)
+    assert speed_figures.growth(pd.concat([cpu, wall]).assign(bytes=1.0)).axes[0].get_xscale() == "log"
+
+
+def test_the_figure_has_a_line_a_method_with_errors_in_both_directions():
+    pages = speed_figures.figures(lines({speed_names.GRID: 1.0, speed_names.LATTICE: 3.0}))
+    axes = pages["work_precision"].axes[0]
+    assert axes.get_legend_handles_labels()[1] == [speed_names.GRID, speed_names.LATTICE]
+    assert all(drawn.has_xerr and drawn.has_yerr for drawn in axes.containers)
+    assert set(pages) == {"work_precision", "memory"}
+
+
+def test_every_method_has_a_look_of_its_own():
+    looks = [str(sorted(speed_names.style(name).items(), key=str)) for name in speed_names.ORDER]
+    assert len(set(looks)) == len(looks)
+
+
+def test_without_tables_nothing_is_decided_or_drawn():
+    assert {row["verdict"] for row in judge(CLAIMS, Tables(), "speed")} == {"undecidable"}
+    assert speed_figures.figures(Tables()) == {} and speed_derive.derive(Tables()) == {"growth_laws": []}
+
+
+@pytest.mark.parametrize("size", ["quick", "paper"])
+def test_cases_have_names_of_their_own_and_all_of_them_time_themselves_alone(size):
+    cases = speed.cases(size)
+    assert len({case.key for case in cases}) == len(cases) == len({case.label for case in cases})
+    assert all(case.alone for case in cases)
+    methods = {(case.scene, case.method.name) for case in cases if isinstance(case, Race)}
+    assert {name for _, name in methods} <= set(speed_names.ORDER)
+    if size == "paper":
+        for scene, name in methods:
+            assert sum(case.scene == scene and case.method.name == name and case.seed == 1 for case in cases
+                       if isinstance(case, Race)) >= 4
+
+
+@pytest.mark.skipif(not (RESULTS/"speed"/"points.csv").exists(), reason="no tables are committed yet")
+def test_committed_verdicts_follow_from_committed_tables():
+    found = judge(CLAIMS, load(speed_tables.ALL, "speed"), "speed")
+    kept = read(RESULTS/"claims.csv")
+    kept = kept[kept["study"] == "speed"]
+    assert dict(zip(kept["id"], kept["verdict"], strict=True)) == {row["id"]: row["verdict"] for row in found}
