@@ -114,8 +114,8 @@ def cubes(tables: Tables) -> Figure:
 def shear(tables: Tables) -> Figure:
     """Enhancement along a shear flow by Lyapunov solves, and samples about given flows mode by mode."""
     page, (left, right) = figure(1, 2)
-    for number, (U, rows) in enumerate(tables["shear"].sort_values("wavenumber").groupby("U")):
-        k = rows["wavenumber"].to_numpy()
+    for number, (_, rows) in enumerate(tables["shear"].sort_values("wavenumber").groupby("U")):
+        U, k = rows["U"].iloc[0], rows["wavenumber"].to_numpy()
         left.plot(k, rows["extra"]/U**2, **{**look(number), "linestyle": "none"}, label=f"$U = {U:g}$")
         left.plot(k, rows["vortical"]/U**2, color=look(number)["color"], marker="", lw=0.8)
         if number == 0:
@@ -139,9 +139,9 @@ def shear(tables: Tables) -> Figure:
 def tail(tables: Tables) -> Figure:
     """Velocity autocorrelation of a point, exact and sampled."""
     page, (left, right) = figure(1, 2)
-    for number, (share, rows) in enumerate(tables["tail"].groupby("share")):
-        for side, some in rows.sort_values("nu_t").groupby("side"):
-            some = some[some["correlation"] > 1e-9]
+    for number, (_, rows) in enumerate(tables["tail"].groupby("share")):
+        for _, some in rows[rows["correlation"] > 1e-9].sort_values("nu_t").groupby("side"):
+            share, side = some["share"].iloc[0], some["side"].iloc[0]
             fill = "full" if side == rows["side"].max() else "none"
             left.plot(some["nu_t"], some["correlation"], **look(number), fillstyle=fill,
                       label=f"{100*share:.0f} % along edges, {side:.0f}$^2$ points")
@@ -151,10 +151,9 @@ def tail(tables: Tables) -> Figure:
                   label=rf"${'' if factor == 1 else factor}/(8\pi\nu t)$")
     left.set(xscale="log", yscale="log", xlabel=r"$\nu t/a^2$", ylabel=r"$\langle v(0)\,v(t)\rangle\rho/kT$", title="exact")
     below(left, ncols=2, fontsize=7)
-    for number, (share, rows) in enumerate(tables["tail_sampled"].sort_values("lag").groupby("share")):
-        rows = rows[rows["lag"] > 0]
+    for number, (_, rows) in enumerate(tables["tail_sampled"].query("lag > 0").sort_values("lag").groupby("share")):
         errorbar(right, rows["lag"].tolist(), rows["measured"].tolist(), rows["measured_err"].tolist(), number=number,
-                 label=f"{100*share:.0f} % along edges")
+                 label=f"{100*rows['share'].iloc[0]:.0f} % along edges")
         right.plot(rows["lag"], rows["exact"], color=look(number)["color"], marker="", lw=0.8)
     right.axhline(3/tables["tail_sampled"]["side"].max()**2, color="black", linestyle=":", marker="", lw=0.8, label="null modes")
     right.set(xscale="log", xlabel="$t$", title="sampled; bars: 95 %; lines: exact")

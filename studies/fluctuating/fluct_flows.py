@@ -83,8 +83,9 @@ def factor(edges: Edges, stress: Partners, heat: Partners) -> sparse.csr_array:
 def carried_along(B: sparse.csr_array, v: np.ndarray) -> sparse.csr_array:
     """Noise B (N, normals) of densities at rest, in a uniform stream v (n, d): random forces do work on it."""
     n, d = v.shape
-    work = sparse.hstack([sparse.csr_array((n, n)), *(sparse.diags_array(q) for q in v.T), sparse.csr_array((n, n))])
-    return sparse.csr_array(B + sparse.vstack([sparse.csr_array(((1 + d)*n, B.shape[1])), work@B]))
+    work = sparse.csr_array(sparse.hstack([sparse.csr_array((n, n)), *(sparse.diags_array(q) for q in v.T),
+                                           sparse.csr_array((n, n))]))
+    return sparse.csr_array(B + sparse.vstack([sparse.csr_array(((1 + d)*n, B.shape[1])), sparse.csr_array(work@B)]))
 
 
 # --- rest -------------------------------------------------------------------------------------------------------------

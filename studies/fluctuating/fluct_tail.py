@@ -99,8 +99,8 @@ class TailSampled(Case):
         plan = Plan(dt=self.dt, steps=self.steps, every=1, series={f"{i}": picked(i) for i in range(2*n)})
         legs = batches(method, self.begin(), plan, report)
         v = np.array([[leg.series[f"{i}"] for i in range(2*n)] for leg in legs])      # (batches, 2 n, steps)
-        step = blocks(self.side, self.share, self.eta)*self.dt/2
-        step = np.linalg.solve(np.eye(FIELDS) - step, np.eye(FIELDS) + step)
+        half = blocks(self.side, self.share, self.eta)*self.dt/2
+        step = np.linalg.solve(np.eye(FIELDS) - half, np.eye(FIELDS) + half)
         rows = []
         for lag in self.lags:
             found = over((v[:, :, lag:]*v[:, :, :v.shape[2] - lag]).mean(axis=(1, 2)))
