@@ -172,8 +172,9 @@ def test_a_film_that_nobody_knows(small, capsys):
 
 
 def toy_figures(tables: Tables) -> dict:
-    """One figure of `a`, which `b` adds a line to, one of `c` alone."""
+    """One figure of `a`, which `b` adds a line to, one of `c` alone; nothing without `e`, which may be empty."""
     made = {}
+    tables["e"].sum()
     if "a" in tables:
         page, axes = figure()
         axes.plot(tables["a"]["x"], tables["a"]["x"]**2, label="a")
@@ -190,7 +191,7 @@ def toy_figures(tables: Tables) -> dict:
 
 def test_a_figure_stands_on_the_tables_without_which_it_is_another_one():
     x = pd.DataFrame({"x": np.arange(4.0)})
-    tables = Tables({"a": x, "b": x, "c": x, "d": x})
+    tables = Tables({"a": x, "b": x, "c": x, "d": x, "e": x})
     assert behind.needed(toy_figures, tables) == {"first": ["a", "b"], "second": ["c"]}
     first = toy_figures(tables)["first"]
     assert behind.title(first) == "squares of ρ0" and behind.panels(first) == "squares of ρ0: ν/η^2 over x"

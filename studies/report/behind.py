@@ -85,14 +85,21 @@ def needed(draw: Draw, tables: Tables) -> dict[str, list[str]]:
     for lost in tables:
         if not len(tables[lost]):
             continue
-        try:
-            rest = {name: marks(page) for name, page in draw(Tables({k: v for k, v in tables.items() if k != lost})).items()}
-        except KeyError:        # a study that cannot do without it: no telling which figure it was for
-            rest = {}
+        rest = without(draw, tables, lost)
         for name, page in whole.items():
             if rest.get(name) != page:
                 found[name].append(lost)
     return found
+
+
+def without(draw: Draw, tables: Tables, lost: str) -> dict[str, str]:
+    """Marks of the figures without a table, or with it empty; of figures that need it in either case none can be told."""
+    for rest in ({name: rows for name, rows in tables.items() if name != lost}, {**tables, lost: tables[lost].iloc[:0]}):
+        try:
+            return {name: marks(page) for name, page in draw(Tables(rest)).items()}
+        except Exception:       # whatever a study raises that cannot do without it
+            continue
+    return {}
 
 
 def marks(page: Figure) -> str:
@@ -124,9 +131,11 @@ def drawn(artist: Any) -> Iterator[Any]:
 
 
 def title(page: Figure) -> str:
-    """Title of the page, or of its first panel that has one."""
-    titles = [page.get_suptitle(), *(axes.get_title() for axes in page.axes)]
-    return next((plain(text).splitlines()[0] for text in titles if text.strip()), "figure")
+    """Title of the page, or those of its panels, or what is drawn over what."""
+    if page.get_suptitle().strip():
+        return plain(page.get_suptitle()).splitlines()[0]
+    titles = [plain(axes.get_title()).splitlines()[0] for axes in page.axes if axes.get_title().strip()]
+    return "; ".join(dict.fromkeys(titles)) or panels(page) or "figure"
 
 
 def panels(page: Figure) -> str:
