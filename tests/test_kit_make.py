@@ -53,3 +53,10 @@ def test_env_sets_up_and_does_nothing_else(make, tmp_path):
     (tmp_path / ".venv/ready").unlink()
     code, text = make("env")
     assert code != 0 and ".venv/ready" in text
+
+
+def test_a_worker_is_told_that_it_needs_the_address_of_a_scheduler(make, tmp_path):
+    (tmp_path / ".venv").mkdir()
+    (tmp_path / ".venv/ready").touch()
+    code, text = make("worker")
+    assert code != 0 and "make worker SCHEDULER=tcp://host:port: the address that dask scheduler prints" in text

@@ -22,7 +22,7 @@ from studies.kit.workers import Bar, pressed, remember_interrupt
 if TYPE_CHECKING:
     from distributed import Client, Future
 
-CONNECT = 5.0       # seconds: a scheduler that is there answers in a tenth of one
+CONNECT = 10.0      # seconds: a scheduler that is there and not overloaded answers in less than one
 LOOK = 0.1          # seconds between looks at what is finished
 ADDRESS = re.compile(r"(tcp|tls|ws|wss)://\S+:\d+")
 WAY_OUT = "make worker SCHEDULER=tcp://..., in an up-to-date copy of this repository, starts one that fits"
@@ -102,6 +102,11 @@ def drain(client: "Client", cases: Sequence[Case], numbers: Sequence[int], most:
     while todo or running:
         if pressed:
             raise KeyboardInterrupt
+        for future in [future for future in running if future.done()]:
+            number = running.pop(future)
+            if failure := keep(cases[number], brought(future, cases[number]), folder):
+                yield failure
+            bar.done[number] = 1.0
         workers = places(client)
         if some and not workers:
             print(f"no worker at {client.scheduler.address}: {WAY_OUT}; waiting for one", file=sys.stderr)
@@ -110,11 +115,6 @@ def drain(client: "Client", cases: Sequence[Case], numbers: Sequence[int], most:
             number = todo.popleft()
             running[client.submit(task, number, packed(cases[number]), provenance.versions(), topic(client),
                                   pure=False, key=f"{client.id}-{number}")] = number
-        for future in [future for future in running if future.done()]:
-            number = running.pop(future)
-            if failure := keep(cases[number], brought(future, cases[number]), folder):
-                yield failure
-            bar.done[number] = 1.0
         bar.show()
         time.sleep(LOOK)
 
