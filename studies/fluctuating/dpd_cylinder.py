@@ -33,10 +33,11 @@ FLOW = Table("flow", key=[*CYLINDER, "x", "y"], columns=[*CYLINDER, "x", "y", "u
 #: drag at a Reynolds number over that without inertia, of fixed points [RR98] on the same array
 INERTIA = Table("inertia", key=["fraction"], columns=["fraction", "rows", "reynolds", "mach", "ratio"])
 #: drag over eta times speed and depth with the viscosity of the table `shear` at the same step, inertia taken out; offset: by
-#: which the radius of a cylinder of this drag exceeds that of the frozen one
+#: which the radius of a cylinder of this drag exceeds that of the frozen one; outer_: with the density of the fluid outside in
+#: force and velocity, less than that of all as fluid gets into the cylinder, a reading chosen after the runs
 DRAG = Table("drag", key=CYLINDER, columns=[
     *CYLINDER, "reynolds", "viscosity", "viscosity_err", "inertia", "drag", "drag_err", "published", "ratio", "ratio_err",
-    "offset", "offset_err"])
+    "offset", "offset_err", "outer_ratio", "outer_ratio_err", "outer_offset", "outer_offset_err"])
 ALL = (CYLINDERS, FLOW, INERTIA, DRAG)
 
 DEPTH = 4.0

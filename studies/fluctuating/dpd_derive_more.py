@@ -52,12 +52,18 @@ def drag(cylinders: pd.DataFrame, shear: pd.DataFrame, inertia: pd.DataFrame) ->
         adds = 1 + (float(fixed["ratio"].iloc[0]) - 1)*(reynolds/float(fixed["reynolds"].iloc[0]))**2
         found = row["force"]*row["n"]/free/(eta*U*row["depth"])/adds
         relative = hypot(eta_err/eta, row["speed_err"]/U, row["balance_err"])
+        # force and velocity are over all particles: over those of a cell full of the fluid outside
+        outside = (row["fluid"]*row["side"]**2*row["depth"]/row["n"])**2
         yield {"variant": row["variant"], "fraction": row["fraction"], "radius": row["radius"], "reynolds": reynolds,
                "viscosity": eta, "viscosity_err": eta_err, "inertia": adds, "drag": found, "drag_err": found*relative,
-               "published": known, "ratio": found/known, "ratio_err": found/known*relative,
-               "offset": offset(found/known, row["fraction"], row["radius"]),
-               "offset_err": (offset(found/known*(1 + relative), row["fraction"], row["radius"])
-                              - offset(found/known*(1 - relative), row["fraction"], row["radius"]))/2}
+               "published": known, **compared("", found/known, relative, row),
+               **compared("outer_", found/known*outside, relative, row)}
+
+
+def compared(name: str, ratio: float, relative: float, row: pd.Series) -> dict[str, float]:
+    """A ratio of drags and the offset of the radius, with their errors."""
+    low, at, high = (offset(ratio*by, row["fraction"], row["radius"]) for by in (1 - relative, 1, 1 + relative))
+    return {f"{name}ratio": ratio, f"{name}ratio_err": ratio*relative, f"{name}offset": at, f"{name}offset_err": (high - low)/2}
 
 
 def offset(ratio: float, fraction: float, radius: float) -> float:
