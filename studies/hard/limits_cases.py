@@ -17,6 +17,7 @@ EULER_SCENES = {"zero viscosity": (0.0, 0.0), "Euler 1/2": (0.5, 0.5), "Euler 1"
 #: 1 % beyond its limit RK4 makes motions grow by 4 (diffusion) to 7 % (sound) a step: in 200 steps by 2000 and more. Beyond
 #: Euler's they grow by some 1e-3 a step.
 STEPS = {"RK4": 200, "ThreeStage": 200, "Euler": 4000}
+SLOW = ("moving", "fluctuating", "spam direct", "fixed jittered, images")      # in two scenes only
 UNKNOWN = 0.01          # of a limit: how far beyond it growth may stay unseen where no eigenvalues tell
 
 
@@ -59,9 +60,9 @@ def by_eigenvalues(trial: Trial | OnGrid, steps: int) -> tuple[float, float]:
 def cases(size: str) -> Iterator[Case]:
     """All methods; those with slow sums in two scenes."""
     for method in METHODS:
-        scenes = EULER_SCENES if method == "fixed Euler" else SCENES
+        scenes = EULER_SCENES if "Euler" in method else SCENES
         if size == "quick" and method not in ("grid", "spam Lucy", "fixed lattice"):
             continue
         for scene, (eta, k) in scenes.items():
-            if method not in ("moving", "fluctuating", "spam direct") or scene in ("balanced", "Prandtl 100"):
+            if method not in SLOW or scene in ("balanced", "Prandtl 100"):
                 yield Limit(method=method, scene=scene, eta=eta, k=k)

@@ -92,6 +92,13 @@ CLAIMS = (
     near("moving", "RR98 Eqs 46-48", f"moving points with closed faces: {GIVEN_BACK}", ("moving",)),
     near("euler", "RR98 Eq. 40", "forward Euler on ten fixed points a side: noise begins to grow at dt = (eta + zeta + kappa/2)"
          "/(rho c^2)", ("fixed Euler",), ("Euler 1/2", "Euler 1", "Euler heat")),
+    # read later: forward Euler between plates falls short by a third, and its formula knows no plates
+    near("euler-periodic", "RR98 Eq. 40", "the same on a lattice without plates, which the formula does not know",
+         ("fixed Euler, periodic",), ("Euler 1/2", "Euler 1", "Euler heat")),
+    # read later: jittered points grow below their formula, which leaves images behind plates out
+    near("points-images", "RR98 Eq. 51", "jittered points between plates, their formula with the largest eigenvalue of the "
+         "Laplacian over edges and images together: the largest stable step is the formula's", ("fixed jittered, images",),
+         ("Prandtl 100",)),
     Claim(id="limit-step-safe", source="RR98 Eqs 34-51", value=least(RUNGE_KUTTA), at_least=0.99,
           statement="no method's own formula of the largest step is above the step at which noise begins to grow",
           because="formulas are read off stability regions to 0.4 %, trials find limits to 1 %"),

@@ -8,11 +8,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.compressible import March, limits
+from continuum.compressible import RK4_DECAY, RK4_SOUND, March, limits
 from continuum.compressible_fields import block, initial
 from continuum.compressible_loop import FluxForm
 from continuum.fluid import ConstEta, IdealGas
-from particles.edges import between_plates
+from particles.edges import NONE_BEYOND, between_plates
 from particles.integrators import Euler
 from particles.limits import limit_of
 from particles.makers import renormalised
@@ -36,7 +36,7 @@ SIDE = 10               # points along each side: waves of 10, 5, ... 2 spacings
 SMALL = 6               # of the scheme that is not compiled
 JITTER = 0.3            # of disordered points, in spacings
 DISORDER = 1.4          # by which limits of points that move leave room for disorder: see `limit_of` of each
-EOS = IdealGas()
+EOS, SOUND = IdealGas(), np.sqrt(2)
 
 
 class Trial(NamedTuple):
@@ -82,9 +82,29 @@ def fixed(law: ConstEta, make: Callable = renormalised, jitter: float = 0.0, sha
     return Trial(method, start, (0, 1, 2, 3), "RK4", limit_of(method, start))
 
 
+def seeing_images(law: ConstEta) -> Trial:
+    """Jittered points, their formula with the fastest diffusion that edges and images behind plates know together."""
+    trial = fixed(law, delaunay, JITTER)
+    method, (sound, _) = trial.method, trial.method.edges.fastest
+    root, L = 1/np.sqrt(method.edges.V), method.edges.laplacian.toarray()
+    for column in (method.beyond.i, method.beyond.parent):      # u - u_image = u_i + u_parent
+        np.add.at(L, (method.beyond.i, column), -method.beyond.k)
+    spread = -np.linalg.eigvals(root[:, None]*L*root).real.min()
+    return trial._replace(predicted=1/(sound*SOUND/RK4_SOUND + max(law.eta, law.k)*spread/RK4_DECAY))
+
+
 def euler(law: ConstEta) -> Trial:
     """Fixed points with gradients of gradients and forward Euler, as printed    [RR98 Eqs 34-40]"""
     return fixed(law, share=0.0)._replace(integrator="Euler", predicted=euler_step(law))
+
+
+def euler_periodic(law: ConstEta) -> Trial:
+    """The same without plates."""
+    points = lattice((SIDE, SIDE))
+    method = Layer(x=points.x, edges=renormalised(points, Lucy.of(h=2.0)), beyond=NONE_BEYOND, eos=EOS, law=law,
+                   T_plates=(1.0, 1.0), g=0.0, share=0.0)
+    start = method.state(1 + noise(points.n), noise(points.n, 2), 1 + noise(points.n))
+    return Trial(method, start, (0, 1, 2, 3), "Euler", euler_step(law))
 
 
 def euler_step(law: ConstEta) -> float:
@@ -174,7 +194,9 @@ METHODS: dict[str, Maker] = {
     "fixed lattice": Maker(fixed),
     "fixed nested": Maker(fixed, (("share", 0.0),)),
     "fixed jittered": Maker(fixed, (("make", delaunay), ("jitter", JITTER))),
+    "fixed jittered, images": Maker(seeing_images),
     "fixed Euler": Maker(euler),
+    "fixed Euler, periodic": Maker(euler_periodic),
     "fluctuating": Maker(thermal, (("share", 1.0),)),
     "drift literal": Maker(drifting, (("name", "literal"),)),
     "drift constant mass": Maker(drifting, (("name", "constant-mass"),)),

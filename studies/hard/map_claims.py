@@ -1,0 +1,94 @@
+"""Claims about hard cases on points and grids."""
+from collections.abc import Sequence
+
+import numpy as np
+
+from studies.convection.claims.read import Value, select
+from studies.hard.map_derive import LEAK, NEAR, SPURIOUS
+from studies.kit.claim import CannotTell, Claim
+from studies.kit.stats import Measured
+from studies.kit.table import Tables
+
+HIGH = ("Ra 1e5", "Ra 1e6")
+FLUCTUATES = 0.01       # of K, in a quarter of the time when a steady flow has long settled
+ENDS, STILL = "a run ends or it does not", "K of flows that settle changes by less than 0.1 % then"
+TEN = "a tenth is what separates `right` from `wrong` on the map"
+
+
+def number(case: str, method: str) -> Value:
+    """The number that decides, and the error of what it is held against; a run that did not end has none."""
+    def value(tables: Tables) -> Measured:
+        row = select(tables, "map", case=case, method=method).iloc[0]
+        if not np.isfinite(row["measured"]):
+            raise CannotTell(f"{method} in {case}: {row['outcome']}, nothing could be measured")
+        return Measured(float(row["measured"]), float(row["measured_err"]))
+    return value
+
+
+def reached(cases: Sequence[str], *methods: str) -> Value:
+    """The least part of the time that was reached."""
+    def value(tables: Tables) -> Measured:
+        return Measured(min(float(select(tables, "hard_runs", case=case, method=method)["reached"].min())
+                            for case in cases for method in methods), 0.0)
+    return value
+
+
+def drift(*methods: str) -> Value:
+    """The largest change of mass, of runs that came to their end."""
+    def value(tables: Tables) -> Measured:
+        rows = select(tables, "hard_runs", reached=1.0)
+        rows = rows[rows["method"].isin(methods)]["mass_drift"].abs()
+        if rows.empty:
+            raise CannotTell("not run yet: table hard_runs has none of these methods")
+        return Measured(float(rows.max()), 0.0)
+    return value
+
+
+def swing(ra: float, rows: int) -> Value:
+    """Largest less smallest K over the mean, late; the error: what is different in the quarter before."""
+    def value(tables: Tables) -> Measured:
+        row = select(tables, "steadiness", ra=ra, rows=rows).iloc[0]
+        if not np.isfinite(row["swing"]):
+            raise CannotTell(f"the grid of {rows} rows diverged at Ra {ra:g}")
+        return Measured(float(row["swing"]), float(min(abs(row["swing"] - row["before"]), row["swing"])))
+    return value
+
+
+def right(case: str, method: str, source: str, statement: str) -> Claim:
+    """The flow is as the fine grid or the exact solution has it, to a tenth."""
+    name = f"{case} {method}".lower().replace(" ", "-")
+    return Claim(id=f"map-{name}", source=source, statement=statement, value=number(case, method), expect=1.0, within=NEAR,
+                 because=TEN)
+
+
+CLAIMS = (
+    Claim(id="map-robust", source="KHP95 Sec. VI", value=reached(HIGH, "spam printed"), at_least=1.0,
+          printed="the \"robust\" smooth-particle technique continues to provide solutions",
+          statement="smooth particles as printed run to the end at Ra 1e5 and 1e6 on 16 rows", because=ENDS),
+    Claim(id="map-grid-fluctuates", source="KHP95 Sec. VI", value=swing(3.5e5, 16), at_least=FLUCTUATES,
+          printed="at higher Ra centered-difference regular-grid solutions begin to fluctuate",
+          statement="the centred grid of 16 rows fluctuates at Ra 350 000", because=STILL),
+    Claim(id="map-grid-fluctuates-fine", source="KHP95 Sec. VI", value=swing(3.5e5, 48), at_most=FLUCTUATES,
+          statement="what fluctuates at Ra 350 000 on a coarse grid does not on 48 rows: it is of the grid, not of the flow",
+          because=STILL),
+    Claim(id="map-grid-steady", source="KHP95 Sec. VI", value=swing(1e5, 32), at_most=FLUCTUATES,
+          statement="the centred grid of 32 rows is steady at Ra 100 000", because=STILL),
+    *(right(case, "spam printed", "KHP95 Sec. VI", f"smooth particles as printed have the grid's flow, {case}, 16 rows")
+      for case in (*HIGH, "Prandtl 0.01", "Prandtl 100", "high pressure")),
+    *(right(case, "fixed lattice", "RR98 Eqs 34-36, 51", f"points on a lattice have the grid's flow, {case}, 16 rows")
+      for case in (*HIGH, "Prandtl 0.01", "Prandtl 100", "high pressure", "zero viscosity")),
+    *(right(case, "moving", "RR98 Eqs 46-48", f"moving points with closed faces have the grid's flow, {case}, 16 rows")
+      for case in (*HIGH, "Prandtl 0.01", "Prandtl 100", "high pressure", "zero viscosity")),
+    right("zero viscosity", "spam printed", "KHP95 Sec. II", "without viscosity smooth particles keep a vortex for five turns"),
+    right("vacuum", "spam printed", "KHP95 Sec. II", "gas that expands into a vacuum has the kinetic energy of two rarefactions"),
+    Claim(id="map-corner-spurious", source="KHP95 Sec. IV", value=number("wall corner", "spam printed"), at_most=SPURIOUS,
+          statement="in a square box with four walls at rest smooth particles as printed come to rest",
+          because="a thousandth of the speed of sound is a hundredth of what flows have"),
+    Claim(id="map-plain-disordered", source="RR98 Eqs 34-36", value=reached(("disordered points",), "fixed jittered plain"),
+          at_most=0.999, because=ENDS, statement="the bracket by plain quadrature on jittered fixed points does not run to the "
+          "end: sound grows"),
+    Claim(id="map-conserved", source="RR98 Eqs 34-36", value=drift("fixed lattice", "fixed jittered", "fixed nested", "moving",
+                                                                   "drift constant mass"), at_most=LEAK/1e3,
+          statement="fixed points, moving points with closed faces and points of constant mass keep mass in all hard cases that "
+          "they come through", because="sums of 1e4 steps of 1e3 terms leave 1e-9 of round-off at most, a wall that leaks 1e-3"),
+)

@@ -1,0 +1,133 @@
+"""What became of each method in each case, by rules that were written before the runs.
+
+diverges: the run did not reach its end. leaks: mass changed by more than LEAK. freezes: less than FROZEN of the flow is left.
+right: the number is within NEAR, and what the reference is uncertain by, of what it should be. wrong: stable, and none of these.
+refused: the method says itself that it does not take the case. Of lattices: pairs or clumps beyond a limit, whose prediction is
+told beside it. Of steps: right within NEAR of the formula, safe if the formula is smaller, wrong if it is larger.
+"""
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from studies.hard.map_scenes import BOXES, LAYERS, SOUND
+from studies.kit.table import Tables
+
+LEAK, FROZEN, NEAR = 1e-3, 0.1, 0.1
+SPURIOUS = 1e-3         # of the speed of sound: a hundredth of what flows of KHP95 have
+#: mean time of the samples 41 to 60 of 60
+MIDDLE = 50.5/60
+PAIRED = 0.5            # of all particles share a site
+
+
+def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
+    """Rows of the map, from all tables that there are."""
+    found = [row for rows in (of_runs, of_limits, of_lattices, of_shocks) for row in rows(tables)]
+    return {"map": found} if found else {}
+
+
+def entry(case: str, method: str, variant: str, number: str, predicted: float, measured: float, err: float,
+          outcome: str) -> dict[str, Any]:
+    """A row of the map."""
+    return {"case": case, "method": method, "variant": variant, "number": number, "predicted": predicted, "measured": measured,
+            "measured_err": err, "outcome": outcome}
+
+
+# --- runs -------------------------------------------------------------------------------------------------------------
+
+
+def of_runs(tables: Tables) -> Iterator[dict[str, Any]]:
+    """Points and the coarse grid against what is known."""
+    runs = tables.get("hard_runs", pd.DataFrame())
+    for _, run in runs.iterrows():
+        if run["method"] == "grid" and run["rows"] != runs["rows"].min() and run["case"] in LAYERS:
+            continue
+        said = told(runs, run)
+        yield entry(run["case"], run["method"], f"{run['rows']:.0f} rows", *said, outcome(run, *said))
+
+
+def told(runs: pd.DataFrame, run: pd.Series) -> tuple[str, float, float, float]:
+    """Name of the number that decides, what it should be, what it is, and the error of what it should be."""
+    scene = BOXES.get(run["case"], (None, 0.0))
+    if run["case"] == "wall corner":
+        return "speed/c", 0.0, float(np.sqrt(2*run["k"])/SOUND), 0.0
+    if run["case"] == "vacuum":
+        return "K/exact", 1.0, float(run["k"]/scene[0].kinetic(MIDDLE*scene[1])), 0.0
+    if run["case"] == "zero viscosity":
+        return "flow/start", 1.0, float(run["flow"]/run["flow_start"]), 0.0
+    return ("flow/grid", 1.0, *against_grid(runs, run))
+
+
+def against_grid(runs: pd.DataFrame, run: pd.Series) -> tuple[float, float]:
+    """Flow over that of the finest grid, whose error is what the next coarser one is off by."""
+    grid = runs[(runs["case"] == run["case"]) & (runs["method"] == "grid")].sort_values("rows")["flow"].to_numpy()
+    if len(grid) < 2:
+        return np.nan, np.nan
+    return float(run["flow"]/grid[-1]), float(abs(grid[-2]/grid[-1] - 1))
+
+
+def outcome(run: pd.Series, number: str, predicted: float, measured: float, err: float) -> str:
+    """By the rules at the head of this file."""
+    if isinstance(run["refused"], str) and run["refused"]:
+        return "refused"
+    if not run["reached"] >= 1:
+        return "diverges"
+    if abs(run["mass_drift"]) > LEAK:
+        return "leaks"
+    if number == "speed/c":
+        return "right" if measured < SPURIOUS else "wrong"
+    if measured < FROZEN:
+        return "freezes"
+    noisy = number == "flow/start" and abs(run["k"]/run["k_start"] - 1) > NEAR
+    return "right" if abs(measured - predicted) <= NEAR + err and not noisy else "wrong"
+
+
+# --- limits, lattices, shocks -----------------------------------------------------------------------------------------
+
+
+def of_limits(tables: Tables) -> Iterator[dict[str, Any]]:
+    """Largest steps, what formulas leave for disorder given back."""
+    for _, row in tables.get("limits", pd.DataFrame()).iterrows():
+        formula, measured, err = row["predicted"]*row["margin"], row["measured"], row["measured_err"]
+        ratio = measured/formula if formula else np.inf
+        said = "right" if abs(ratio - 1) <= NEAR else "safe" if ratio > 1 else "wrong"
+        yield entry("time step", row["method"], row["scene"], "largest step", formula, measured, err, said)
+
+
+def groups(tables: Tables, name: str, by: list[str]) -> Iterator[tuple[tuple, pd.DataFrame]]:
+    """(values, rows) of a table by columns; none where the table is not there yet."""
+    frame = tables.get(name)
+    if frame is not None and len(frame):
+        yield from ((tuple(values), rows) for values, rows in frame.groupby(by))
+
+
+def of_lattices(tables: Tables) -> Iterator[dict[str, Any]]:
+    """Where lattices pair and clump, what becomes of particles at rest, at which pressure they freeze."""
+    for (parameter, lattice, weight, h, rho), rows in groups(tables, "onsets", ["parameter", "lattice", "weight", "h", "rho"]):
+        case, said = {"h": ("pairs of a lattice", "pairs"), "T": ("negative pressure", "clumps")}[parameter]
+        variant = lattice if parameter == "h" else f"{lattice}, h {h:g}, rho {rho:g}"
+        yield entry(case, f"spam {weight}", variant, f"limit in {parameter}", rows["predicted"].mean(), rows["measured"].mean(),
+                    rows["measured_err"].max(), said)
+    for (weight, h), rows in groups(tables, "fates", ["weight", "h"]):
+        shared = rows["shared"].mean()
+        yield entry("left alone", f"spam {weight}", f"h {h:g}", "part that shares a site", float(rows["predicted"].iloc[0] > 1),
+                    shared, float(np.ptp(rows["shared"])), "pairs" if shared > PAIRED else "right")
+    for (eos, weight, ra), rows in groups(tables, "freezing_limits", ["eos", "weight", "ra"]):
+        yield entry("background pressure", f"spam {weight}", f"{eos}, Ra {ra:g}", "P that freezes", rows["melting"].mean(),
+                    rows["measured"].mean(), rows["measured_err"].max(), "freezes")
+
+
+def of_shocks(tables: Tables) -> Iterator[dict[str, Any]]:
+    """Longest tube of each viscosity, largest interface."""
+    for (eta,), rows in groups(tables, "tubes", ["eta"]):
+        row = rows.loc[rows["L"].idxmax()]
+        error = row["v_grid"] if eta else row["v_exact"]
+        said = "diverges" if np.isfinite(row["diverged"]) else "right" if error <= NEAR else "wrong"
+        yield entry("shock tube", "spam Lucy", f"eta {eta:g}", "error of v", 0.0, error, 0.0, said)
+    ripples = tables.get("ripple_growth")
+    if ripples is not None and len(ripples):
+        row = ripples.loc[ripples["scale"].idxmax()]
+        said = "right" if abs(row["growth"] - 1) <= NEAR + row["growth_err"] else "wrong"
+        yield entry("shocked interface", "spam Lucy", f"scale {row['scale']:g}", "growth/linear", 1.0, row["growth"],
+                    row["growth_err"], said)

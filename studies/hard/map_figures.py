@@ -1,0 +1,57 @@
+"""The map: case by method, outcome by letter and shade."""
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from studies.hard.map_scenes import BOXES, LAYERS
+from studies.kit.figure import below, errorbar, figure
+from studies.kit.table import Tables
+
+#: letter, shade and hatch of an outcome; the darker, the worse
+LOOKS = {"right": ("R", "white", ""), "safe": ("s", "white", "."), "wrong": ("W", "0.85", "/"), "leaks": ("L", "0.85", "\\"),
+         "freezes": ("F", "0.7", "x"), "pairs": ("P", "0.7", "o"), "clumps": ("C", "0.7", "O"), "diverges": ("D", "0.5", ""),
+         "refused": ("-", "white", "")}
+
+
+def figures(tables: Tables) -> dict[str, Figure]:
+    """The map of runs, and how steady the grid is."""
+    drawn = {}
+    table, steadiness = tables.get("map"), tables.get("steadiness")
+    if table is not None and len(rows := table[table["case"].isin([*LAYERS, *BOXES])]):
+        drawn["map"] = chart(rows)
+    if steadiness is not None and len(steadiness):
+        drawn["steadiness"] = swings(steadiness)
+    return drawn
+
+
+def chart(rows: pd.DataFrame) -> Figure:
+    """Cells with the letter of the outcome and the number behind it."""
+    cases = [case for case in (*LAYERS, *BOXES) if case in set(rows["case"])]
+    methods = sorted(set(rows["method"]), key=lambda method: (-rows[rows["method"] == method]["case"].nunique(), method))
+    page, axes = figure(width=1.5 + 0.95*len(cases), height=1.2 + 0.3*len(methods))
+    for _, row in rows.iterrows():
+        letter, shade, hatch = LOOKS[row["outcome"]]
+        x, y = cases.index(row["case"]), methods.index(row["method"])
+        axes.add_patch(Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=shade, edgecolor="0.6", hatch=hatch, linewidth=0.5))
+        value = f" {row['measured']:.2g}" if pd.notna(row["measured"]) else ""
+        axes.text(x, y, f"{letter}{value}", ha="center", va="center", fontsize=8,
+                  bbox={"facecolor": shade, "edgecolor": "none", "pad": 0.6})
+    axes.set(xlim=(-0.5, len(cases) - 0.5), ylim=(len(methods) - 0.5, -0.5), yticks=range(len(methods)), yticklabels=methods)
+    axes.set_xticks(range(len(cases)), labels=[case.replace(" ", "\n", 1) for case in cases], fontsize=8)
+    axes.grid(False)
+    seen = [name for name in LOOKS if name in set(rows["outcome"])]
+    axes.set_xlabel("  ".join(f"{LOOKS[name][0]}: {name}" for name in seen)
+                    + "\nnumber: flow over the fine grid's or the start's; vacuum: K over exact; corner: speed over sound's")
+    return page
+
+
+def swings(rows: pd.DataFrame) -> Figure:
+    """Swing of K against rows, both quarters."""
+    page, axes = figure()
+    for number, (ra, some) in enumerate(rows.groupby("ra")):
+        mean, half = (some["swing"] + some["before"])/2, (some["swing"] - some["before"]).abs()/2
+        errorbar(axes, some["rows"], mean, half, number=number, label=f"Ra {ra:g}")
+    axes.axhline(0.01, color="black", linewidth=0.8)
+    axes.set(xlabel="rows of the grid", ylabel="(largest - smallest K)/mean K, late", yscale="log")
+    below(axes, ncols=3)
+    return page

@@ -1,0 +1,17 @@
+"""The map of hard cases: for every method that takes a case, what became of it, as a part of the study."""
+from studies.hard import map_cases, map_claims, map_derive, map_figures
+from studies.hard.part import Part
+from studies.kit.table import Table
+
+#: K and K of the flow (velocities averaged over 4 x 4 spacings), means of the last third; mass at the end over that of the start
+#: less 1; reached: part of the time; refused: why a method does not take the case; the grid as method has as many rows as points
+RUNS = Table("hard_runs", key=["case", "method", "rows"], columns=["case", "method", "rows", "k", "flow", "mass_drift", "k_start",
+                                                                   "flow_start", "reached", "refused"])
+#: the grid at high Ra: mean K, and largest less smallest K over the mean in the last quarter of the time and in the one before
+STEADINESS = Table("steadiness", key=["ra", "rows"], columns=["ra", "rows", "k", "swing", "before", "rolls"])
+#: outcome by the rules of `map_derive`; number: the name of what is predicted and measured
+MAP = Table("map", key=["case", "method", "variant"], columns=["case", "method", "variant", "number", "predicted", "measured",
+                                                               "measured_err", "outcome"])
+
+PART = Part(cases=map_cases.cases, tables=(RUNS, STEADINESS, MAP), claims=map_claims.CLAIMS, derive=map_derive.derive,
+            figures=map_figures.figures)

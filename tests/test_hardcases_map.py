@@ -1,0 +1,82 @@
+"""The map of hard cases: exact numbers, what counts as flow, and the rules that name an outcome."""
+import numpy as np
+import pandas as pd
+import pytest
+from scipy.integrate import quad
+
+from studies.hard.map_claims import CLAIMS
+from studies.hard.map_derive import derive
+from studies.hard.map_methods import TAKES, Body, flow, kinetic
+from studies.hard.map_scenes import BOXES, LAYERS, SOUND, Strip, Vortex
+from studies.kit.claim import judged
+from studies.kit.table import Tables
+
+
+def test_two_rarefactions_have_the_kinetic_energy_that_is_told():
+    rho, u = lambda s: (2 - s/SOUND)**2/9, lambda s: 2*(SOUND + s)/3      # of s = x/t, the fan of gamma = 2
+    per_time, _ = quad(lambda s: rho(s)*u(s)**2/2, -SOUND, 2*SOUND)
+    mass, _ = quad(rho, -SOUND, 2*SOUND)
+    assert Strip().kinetic(2.0) == pytest.approx(per_time*2.0/Strip().L)
+    assert mass == pytest.approx(SOUND)        # what the fan has came from where the strip was
+    with pytest.raises(ValueError, match="met"):
+        Strip().kinetic(6.0)
+
+
+def test_flow_is_what_is_alike_in_a_cell_and_noise_what_is_not():
+    x = np.stack(np.meshgrid(np.arange(8) - 3.5, np.arange(8) - 3.5), axis=-1).reshape(-1, 2)
+    even, odd = np.ones((64, 2)), (-1.0)**np.arange(64)[:, None]*np.ones((64, 2))
+    box, m = (8.0, 8.0), np.ones(64)
+    assert flow(Body(x, even, m), box) == pytest.approx(kinetic(Body(x, even, m)))
+    assert flow(Body(x, odd, m), box) == pytest.approx(0, abs=1e-12)
+    assert kinetic(Body(x, odd, m)) == pytest.approx(1.0)
+
+
+def test_the_vortex_passes_through_no_wall_and_is_free_of_divergence():
+    scene, y = Vortex(), np.linspace(-8, 8, 5)
+    assert np.abs(scene.flow(np.full(2, 1.3), np.array([-8.0, 8.0]))[1]).max() < 1e-15
+    d = 1e-5
+    u, v = (scene.flow(2.0 + d, y)[0] - scene.flow(2.0 - d, y)[0]), (scene.flow(2.0, y + d)[1] - scene.flow(2.0, y - d)[1])
+    assert np.abs(u + v).max() < 1e-14
+
+
+@pytest.mark.parametrize("case", [*LAYERS, *BOXES])
+def test_methods_start_with_the_flow_and_mass_of_the_scene(case):
+    scene, _ = {**LAYERS, **BOXES}[case]
+    name = next(iter(TAKES[case])) if case != "narrow weight" else "fixed h 2"
+    built = TAKES[case][name](scene=scene)
+    body = built.body(built.start)
+    wanted = 16*8 if case == "vacuum" else scene.width*scene.L
+    assert body.m.sum() == pytest.approx(wanted, rel=0.02) and built.dt > 0
+    if case in LAYERS:
+        assert kinetic(body) == pytest.approx(9/5000, rel=0.02)
+
+
+def run(case="Ra 1e5", method="fixed lattice", rows=16, k=0.01, flow=0.01, mass_drift=0.0, k_start=0.01, flow_start=0.01,
+        reached=1.0, refused=""):
+    """A row of `hard_runs`."""
+    return locals()
+
+
+def outcome(**values) -> str:
+    """Of one run beside a fine grid."""
+    grids = [run(case=values.get("case", "Ra 1e5"), method="grid", rows=rows) for rows in (32, 48)]
+    [row] = [row for row in derive(Tables(hard_runs=pd.DataFrame([run(**values), *grids])))["map"] if row["method"] != "grid"]
+    return row["outcome"]
+
+
+@pytest.mark.parametrize("values, wanted", [
+    ({}, "right"), ({"flow": 0.0105}, "right"), ({"flow": 0.008}, "wrong"), ({"flow": 1e-4}, "freezes"),
+    ({"reached": 0.7, "flow": np.nan}, "diverges"), ({"reached": 0.0, "refused": "ValueError: no"}, "refused"),
+    ({"mass_drift": 0.02}, "leaks"), ({"case": "zero viscosity", "k": 0.02}, "wrong"), ({"case": "zero viscosity"}, "right"),
+    ({"case": "wall corner", "k": 1e-3}, "wrong"), ({"case": "wall corner", "k": 1e-8}, "right")])
+def test_outcomes_follow_their_rules(values, wanted):
+    assert outcome(**values) == wanted
+
+
+def test_claims_of_the_map_can_fail():
+    claims = {claim.id: claim for claim in CLAIMS}
+    for flow_, verdict in ((0.0100, "holds"), (0.0050, "fails")):
+        rows = [run(flow=flow_), *(run(method="grid", rows=rows) for rows in (32, 48))]
+        tables = Tables(hard_runs=pd.DataFrame(rows))
+        tables["map"] = pd.DataFrame(derive(tables)["map"])
+        assert judged(claims["map-ra-1e5-fixed-lattice"], tables)["verdict"] == verdict
