@@ -56,7 +56,7 @@ def cylinder(flow: pd.DataFrame, drag: pd.DataFrame, cylinders: pd.DataFrame) ->
     x, y = u.columns.to_numpy(float), u.index.to_numpy(float)
     half = (x[1] - x[0])/2
     shown = left.pcolormesh(x, y, np.hypot(u, v).to_numpy(), shading="nearest", vmin=0)
-    left.quiver(x, y, u.to_numpy(), v.to_numpy(), color="white", width=0.006)
+    left.quiver(x, y, u.to_numpy(), v.to_numpy(), color="white", edgecolor="black", linewidth=0.4, width=0.007)
     left.add_patch(Circle((0, 0), 1.0, fill=False, color=COLOURS[1], linewidth=1.5))
     left.set(aspect="equal", xlabel="$x/R$", ylabel="$y/R$", title=f"mean speed over $U$, $R = {last['radius']:g}\\,r_c$",
              xlim=(x[0] - half, x[-1] + half), ylim=(y[0] - half, y[-1] + half))
@@ -64,9 +64,12 @@ def cylinder(flow: pd.DataFrame, drag: pd.DataFrame, cylinders: pd.DataFrame) ->
     page.colorbar(shown, ax=left)
     for number, (variant, rows) in enumerate(drag.groupby("variant")):
         errorbar(right, *(rows[name].tolist() for name in ("radius", "ratio", "ratio_err")), number=number, label=str(variant))
+        errorbar(right, (rows["radius"] + 0.06).tolist(), *(rows[f"outer_{name}"].tolist() for name in ("ratio", "ratio_err")),
+                 number=number, markerfacecolor="white", label=f"{variant}, density outside")
     right.axhspan(0.95, 1.05, color="0.9")
     right.axhline(1, color="0.3", linestyle="--", marker="", label="Sangani & Acrivos 1982")
     right.set(xlabel="$R/r_c$", ylabel="drag over that of a smooth cylinder", title="solid fraction 0.2, inertia taken out",
               xlim=(drag["radius"].min() - 0.5, drag["radius"].max() + 0.5))
-    right.legend()
+    right.legend(loc="lower right")
+    right.set_ylim(0.4, 1.1)
     return page
