@@ -2,6 +2,7 @@
 import hashlib
 import importlib
 import re
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -96,7 +97,8 @@ def without(draw: Draw, tables: Tables, lost: str) -> dict[str, str]:
     """Marks of the figures without a table, or with it empty; of figures that need it in either case none can be told."""
     for rest in ({name: rows for name, rows in tables.items() if name != lost}, {**tables, lost: tables[lost].iloc[:0]}):
         try:
-            return {name: marks(page) for name, page in draw(Tables(rest)).items()}
+            with warnings.catch_warnings(action="ignore"):      # legends without lines
+                return {name: marks(page) for name, page in draw(Tables(rest)).items()}
         except Exception:       # whatever a study raises that cannot do without it
             continue
     return {}

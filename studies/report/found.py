@@ -1,5 +1,6 @@
 """What results/ holds: studies with their tables and figures, found by name, and where each comes from."""
 import ast
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -16,6 +17,9 @@ OTHERS = {"raw": "", "quick": "", "films": "", "bench": "Speed beside public cod
 #: the order of the page; studies that are not named follow by name
 FIRST = ("rb", "speed", "hardcases", "onset", "scenes", "operators", "ordering", "motions", "conservation", "nested", "transport",
          "bodies", "fluctuations", "dpd")
+
+#: letters of a question from which on its first sentence will do
+LONG = 160
 
 
 class NoReport(Exception):
@@ -97,12 +101,13 @@ def parts(out: Path) -> list[Part]:
 
 
 def question(name: str) -> str:
-    """First line of the study's own file."""
+    """First sentence of the study's own file."""
     if OTHERS.get(name):
         return OTHERS[name]
     file = ROOT/"studies"/f"{name}.py"
     text = ast.get_docstring(ast.parse(file.read_text())) if file.exists() else ""
-    return (text or name).splitlines()[0]
+    first = " ".join((text or name).split("\n\n")[0].split())
+    return re.split(r"(?<=[.?])(?<!Sec\.)(?<!Eq\.)\s(?=[A-Z`])", first)[0] if len(first) > LONG else first
 
 
 def rows_of(path: Path, columns: tuple[str, ...] = (), **where: Any) -> pd.DataFrame:

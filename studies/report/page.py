@@ -24,7 +24,7 @@ from studies.report.chart import HEIGHT, WIDTH, chart
 from studies.report.findings import Known, answer, claims_of, findings
 from studies.report.found import NoReport, Part, Sheet, parts, rows_of, sheets_of
 from studies.report.numbers import short, signed, told
-from studies.report.tables import FILMS
+from studies.report.tables import FILMS, ORDER
 
 QUESTION = ("Do fluid particles converge on the continuum equations, at what error, at what cost, and where do they break?")
 #: rows of a table that are in the page as they are; more of them when it is opened, if the file is below EMBED
@@ -192,7 +192,7 @@ def films(out: Path) -> list[dict[str, Any]]:
     """Films with their last picture and what films.csv says of them."""
     rows = rows_of(out/"films/films.csv", (*FILMS.columns, "seed", "commit"))
     made = []
-    for row in rows.to_dict("records"):
+    for row in sorted(rows.to_dict("records"), key=lambda row: ORDER.index(row["film"]) if row["film"] in ORDER else len(ORDER)):
         path = out/"films"/f"{row['film']}.webp"
         if not path.exists():
             raise NoReport(f"{path} is missing: make films makes it again")
