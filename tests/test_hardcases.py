@@ -253,7 +253,7 @@ def test_tube_begins_with_both_gases_in_place():
 
 
 def test_ripple_is_read_off_particles():
-    state, light = gases(1.0, 1)
+    state, light = gases(1.0, 0.25, 1)
     height, a = ripple(state[0], state[1], light, 30.0)
     assert height == pytest.approx(10.0, abs=0.3) and a == pytest.approx(0.25*30/(2*np.pi), abs=0.3)
     assert state.shape[1] == pytest.approx(0.4*30*60 + 1.6*30*40, rel=0.02)
@@ -262,21 +262,21 @@ def test_ripple_is_read_off_particles():
 
 def test_impulse_by_hand():
     """Mach 1.5, gamma = 2: the density rises by 3 M^2/(M^2 + 2), the pressure by (4 M^2 - 1)/3; what falls meets the mirror."""
-    theory = impulse(1.0)
+    theory = impulse(1.0, 0.25)
     c = np.sqrt(2.0)
     assert theory.fall == pytest.approx(2*c/3*(1.5 - 1/1.5)) and theory.meets == pytest.approx(60/(1.5*c))
     assert 0 < theory.kick < theory.fall and theory.amplitude < 0.25*30/(2*np.pi)
-    twice = impulse(2.0)
+    twice = impulse(2.0, 0.25)
     np.testing.assert_allclose([twice.meets, twice.back, twice.amplitude, twice.growth],
                                [2*theory.meets, 2*theory.back, 2*theory.amplitude, theory.growth])
 
 
 def test_growth_of_a_ripple_is_a_slope_over_that_of_theory():
-    theory = impulse(1.0)
+    theory = impulse(1.0, 0.25)
     t = np.linspace(0.5, theory.back, 60)
     late = np.maximum(t - theory.meets, 0)
     frame = pd.DataFrame({"time": t, "height": -theory.fall*t + 1.1*theory.kick*late,
-                          "amplitude": theory.amplitude + 0.8*theory.growth*late, "scale": 1.0, "seed": 1})
+                          "amplitude": theory.amplitude + 0.8*theory.growth*late, "scale": 1.0, "steep": 0.25, "seed": 1})
     row = next(hard_derive.ripple_growth(frame))
     assert row["kick"] == pytest.approx(1.1) and row["growth"] == pytest.approx(0.8) and row["amplitude"] == pytest.approx(1.0)
 

@@ -62,12 +62,13 @@ def tube_orders(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
 
 def ripple_growth(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """Straight lines through heights before and behind the shock, and through amplitudes once growth is steady."""
-    for scale, group in rows.groupby("scale"):
-        theory = impulse(float(group["scale"].iloc[0]))
+    for _, group in rows.groupby(["scale", "steep"]):
+        scale, steep = (float(group[name].iloc[0]) for name in ("scale", "steep"))
+        theory = impulse(scale, steep)
         found = [ripple(one.sort_values("time"), theory) for _, one in group.groupby("seed")]
         kick, amplitude, growth = (combine([one[i] for one in found]) for i in range(3))
-        yield {"scale": scale, "seeds": len(found), "kick": kick.value, "kick_err": kick.err, "amplitude": amplitude.value,
-               "amplitude_err": amplitude.err, "growth": growth.value, "growth_err": growth.err}
+        yield {"scale": scale, "steep": steep, "seeds": len(found), "kick": kick.value, "kick_err": kick.err,
+               "amplitude": amplitude.value, "amplitude_err": amplitude.err, "growth": growth.value, "growth_err": growth.err}
 
 
 def ripple(one: pd.DataFrame, theory: Impulse) -> tuple[tuple[float, float], ...]:

@@ -121,14 +121,15 @@ def shocks(profiles: pd.DataFrame, ripples: pd.DataFrame) -> Figure:
     page, all_axes = figure(2, 2, width=4.4, height=3.2)
     for axes, eta in zip(all_axes[0], sorted(set(profiles["eta"])), strict=False):
         tube(axes, profiles[profiles["eta"] == eta].sort_values("x"), eta)
-    for number, (scale, group) in enumerate(ripples.groupby("scale")):
-        theory = impulse(float(group["scale"].iloc[0]))
+    for number, (_, group) in enumerate(ripples.groupby(["steep", "scale"])):
+        scale, steep = (float(group[name].iloc[0]) for name in ("scale", "steep"))
+        theory = impulse(scale, steep)
         for axes, name, unit in ((all_axes[1, 0], "height", theory.kick*theory.back),
                                  (all_axes[1, 1], "amplitude", theory.amplitude)):
             some = group.groupby("time")[name].agg(["mean", "min", "max"])
             start = some["mean"].iloc[0] if name == "height" else 0.0
             x, y = some.index/theory.meets, (some["mean"] - start)/unit
-            axes.plot(x, y, **{**look(number), "marker": ""}, label=f"{scale:g} times the printed size")
+            axes.plot(x, y, **{**look(number), "marker": ""}, label=rf"$ka$ = {steep:g}, {scale:g} x printed size")
             axes.fill_between(x, (some["min"] - start)/unit, (some["max"] - start)/unit, color=look(number)["color"], alpha=0.2)
     ended = np.array([theory.meets, theory.back])
     drawn: dict[str, Any] = {"color": "black", "linestyle": "--", "marker": ""}

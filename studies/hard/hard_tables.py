@@ -49,11 +49,12 @@ TUBE_PROFILES = Table("tube_profiles", key=[*TUBE, "x"],
 #: order: -d ln error/d ln L
 TUBE_ORDERS = Table("tube_orders", key=["eta", "quantity"], columns=["eta", "quantity", "order", "order_err"])
 
-#: mean height and amplitude of the interface, spacings
-RIPPLES = Table("ripples", key=["scale", "seed", "time"], columns=["scale", "seed", "time", "height", "amplitude"])
+RIPPLE = ["scale", "steep"]
+#: mean height and amplitude of the interface, spacings; lengths over the printed ones, k a before the shock
+RIPPLES = Table("ripples", key=[*RIPPLE, "seed", "time"], columns=[*RIPPLE, "seed", "time", "height", "amplitude"])
 #: velocity given to the interface, amplitude behind the shock and its growth rate, over those of theory
-RIPPLE_GROWTH = Table("ripple_growth", key=["scale"], columns=["scale", "seeds", "kick", "kick_err", "amplitude", "amplitude_err",
-                                                               "growth", "growth_err"])
+RIPPLE_GROWTH = Table("ripple_growth", key=RIPPLE, columns=[*RIPPLE, "seeds", "kick", "kick_err", "amplitude", "amplitude_err",
+                                                            "growth", "growth_err"])
 
 ALL = (MODULI, MODULUS_ORDERS, GROWTH, ONSETS, FATES, SQUARES, FREEZING, FREEZING_LIMITS, TWINS, REVERSAL, RETURNS, TUBES,
        TUBE_PROFILES, TUBE_ORDERS, RIPPLES, RIPPLE_GROWTH)

@@ -1,8 +1,9 @@
 """An interface that a shock runs over: does its ripple grow as impulsive theory says?    [KHP95, Sec. VI, Fig. 11]
 
 Printed are the width, 30, the height, 100, and a density ratio of 4 of two ideal gases; not printed are strength of the shock,
-amplitude and direction, nor the walls: here a shock of Mach 1.5 comes through the light gas, the ripple has k a = 0.25 and one
-wavelength. Both gases fall with the speed of the piston onto a resting mirror, which is where the shock begins; above is vacuum.
+amplitude and direction, nor the walls: here a shock of Mach 1.5 comes through the light gas, the ripple has one wavelength and
+k a = 0.25 or 0.75, 1.2 or 3.6 spacings. Both gases fall with the speed of the piston onto a resting mirror, which is where the
+shock begins; above is vacuum.
 """
 from dataclasses import dataclass
 from math import pi, sqrt
@@ -25,7 +26,6 @@ from studies.kit.case import Case, Outcome, Report
 GAMMA, MACH = 2.0, 1.5
 LIGHT, HEAVY = Gas(0.4, 0.0, 0.4), Gas(1.6, 0.0, 0.4)       # mean density of about 1, light gas at T = 1
 WIDTH, HEIGHT, BELOW = 30.0, 100.0, 60.0                    # of them the lowest 60 are light
-STEEP = 0.25        # k a
 JITTER = 0.2        # of rows and columns
 STRIPS = 16         # in which the interface is looked for
 SAMPLES = 60
@@ -43,8 +43,8 @@ class Impulse(NamedTuple):
     growth: float
 
 
-def impulse(scale: float) -> Impulse:
-    """da/dt = k a+ A+ dv, a+ = a (1 - dv/W) [Richtmyer 1960]; + behind the shock, W its speed, dv the interface's."""
+def impulse(scale: float, steep: float) -> Impulse:
+    """da/dt = k a+ A+ dv, a+ = a (1 - dv/W) [Richtmyer 1960]: k a = steep, + behind the shock of speed W, dv the interface's."""
     c = sqrt(GAMMA*LIGHT.P/LIGHT.rho)
     fall = 2*c/(GAMMA + 1)*(MACH - 1/MACH)
     P = LIGHT.P*(1 + 2*GAMMA/(GAMMA + 1)*(MACH**2 - 1))
@@ -56,22 +56,22 @@ def impulse(scale: float) -> Impulse:
     down = shock_speed(Gas(behind.right, 0.0, behind.P), after.P, GAMMA)
     height = BELOW*scale - fall*meets
     k = 2*pi/(WIDTH*scale)
-    a = STEEP/k*(1 - kick/W)
+    a = steep/k*(1 - kick/W)
     atwood = (after.right - after.left)/(after.right + after.left)
     return Impulse(fall, meets, kick, meets + height/down, a, k*a*atwood*kick)
 
 
-def gases(scale: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
+def gases(scale: float, steep: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
     """State (5, n) at the start, and which particles are light: rows of both gases, cut at the rippled interface."""
     rng, width, bottom, parts, light = np.random.default_rng(seed), WIDTH*scale, -HEIGHT*scale/2, [], []
-    k, fall = 2*pi/width, impulse(scale).fall
+    k, fall = 2*pi/width, impulse(scale, steep).fall
     for gas in (LIGHT, HEAVY):
         columns = round(width*sqrt(gas.rho))
         dx = width/columns
         dy = 1/(gas.rho*dx)
         x, y = np.meshgrid((np.arange(columns) + 0.5)*dx - width/2, (np.arange(round(HEIGHT*scale/dy)) + 0.5)*dy + bottom)
         x, y = (q.ravel() + JITTER*d*rng.uniform(-1, 1, q.size) for q, d in ((x, dx), (y, dy)))
-        below = y < bottom + BELOW*scale + STEEP/k*np.cos(k*x)
+        below = y < bottom + BELOW*scale + steep/k*np.cos(k*x)
         chosen = below == (gas is LIGHT)
         parts.append(at_rest(np.stack([(x[chosen] + width/2) % width - width/2, y[chosen]], axis=1), gas.P/gas.rho))
         light.append(np.full(chosen.sum(), gas is LIGHT))
@@ -98,8 +98,9 @@ def divide(y: np.ndarray, light: np.ndarray) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class Interface(Case):
-    """One run of both gases. scale : all lengths over the printed ones."""
+    """One run of both gases. scale : all lengths over the printed ones. steep : k a before the shock."""
     scale: float
+    steep: float = 0.25
     seed: int = 1
 
     @property
@@ -109,10 +110,10 @@ class Interface(Case):
     @property
     def time(self) -> float:
         """Until the reflected shock is at the mirror, when nothing can be back at the interface."""
-        return impulse(self.scale).back
+        return impulse(self.scale, self.steep).back
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        width, (state, light) = WIDTH*self.scale, gases(self.scale, self.seed)
+        width, (state, light) = WIDTH*self.scale, gases(self.scale, self.steep, self.seed)
         box = (width, HEIGHT*self.scale)
         floor = Mirror(1, -box[1]/2, 1.0, 1.0, 0.0, Odd(), Copied())
         method = Spam(weight=Lucy.of(h=3.0), eos=IdealGas(), law=FRICTIONLESS, walls=(*periodic(width), floor), box=box)
@@ -129,4 +130,4 @@ class Interface(Case):
     @property
     def point(self) -> dict[str, Any]:
         """Key columns."""
-        return {"scale": self.scale, "seed": self.seed}
+        return {"scale": self.scale, "steep": self.steep, "seed": self.seed}

@@ -64,7 +64,7 @@ def squares() -> Iterator[Case]:
 
 def freezing() -> Iterator[Case]:
     """The gas of Fig. 4's scene with both weights, at another Ra, and the dense fluid."""
-    yield from (Freezing(eos=IdealGas(), weight=weight, seed=seed) for weight, seed in product((Lucy, Monaghan), (1, 2)))
+    yield from (Freezing(eos=IdealGas(), weight=weight, seed=seed) for weight, seed in product((Lucy, Monaghan), (1, 2, 3)))
     yield Freezing(eos=IdealGas(), weight=Lucy, ra=1e4)
     yield Freezing(eos=DenseFluid(), weight=Lucy)
 
@@ -75,21 +75,22 @@ def newton(times: tuple[float, ...], samples: int, seeds: tuple[int, ...]) -> It
     yield from (Reversal(integrator=name, weight=Lucy, times=times, seed=seed) for name, seed in product(METHODS, seeds))
 
 
-def shocks(lengths: tuple[float, ...], scales: tuple[tuple[float, int], ...], seeds: tuple[int, ...]) -> Iterator[Case]:
-    """Tubes without and with viscosity, profiles of the longest; interfaces, (scale, number of seeds)."""
+def shocks(lengths: tuple[float, ...], scales: tuple[tuple[float, float, int], ...],
+           seeds: tuple[int, ...]) -> Iterator[Case]:
+    """Tubes without and with viscosity, profiles of the longest; interfaces, (scale, k a, number of seeds)."""
     for L, eta, seed in product(lengths, (0.0, 0.5), seeds):
         yield ShockTube(L=L, eta=eta, seed=seed, keep=L == max(lengths) and seed == min(seeds))
-    yield from (Interface(scale=scale, seed=seed) for scale, last in scales for seed in range(1, last + 1))
+    yield from (Interface(scale=scale, steep=steep, seed=seed) for scale, steep, last in scales for seed in range(1, last + 1))
 
 
 def cases(size: str) -> list[Case]:
     """All of them; `quick` is for trying the path out."""
     if size == "quick":
         return [*moduli(1.0), *list(growth())[::5], *list(onsets((1,)))[::9], *fates((3.0,), (1,)), *newton((5.0, 20.0), 5, (1,)),
-                *shocks((12.0, 15.0, 18.0), ((0.5, 1),), (1,))]
+                *shocks((12.0, 15.0, 18.0), ((0.5, 0.25, 1),), (1,))]
     return [*moduli(0.1), *growth(), *onsets((1,)), *fates((2.0, 2.4, 2.8, 3.0, 3.4, 4.0), (1, 2)), *squares(), *freezing(),
             *newton((5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 100.0), 15, (1, 2)),
-            *shocks((48.0, 96.0, 192.0), ((1.0, 3), (2.0, 2)), (1, 2))]
+            *shocks((48.0, 96.0, 192.0), ((1.0, 0.25, 3), (1.0, 0.75, 3), (2.0, 0.25, 2)), (1, 2))]
 
 
 PART = Part(cases=cases, tables=hard_tables.ALL, derive=hard_derive.derive, claims=hard_claims.CLAIMS,
