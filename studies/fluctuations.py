@@ -88,8 +88,9 @@ def tails(side: int, small: int, steps: int) -> Iterator[Case]:
     """With null modes (share 0) and without."""
     for share in (0.0, 0.1, 1.0):
         yield Tail(side=side, share=share, nu_t=(3.0, 10.0, 30.0))
-        yield Tail(side=24, share=share, nu_t=(300.0, 3000.0))
-        yield Tail(side=3*side, share=share, nu_t=(30.0,), eta=0.3)      # less viscous, and sound has not gone round
+        yield Tail(side=24, share=share, nu_t=(100.0, 300.0, 1000.0, 3000.0))
+        # less viscous, and sound has not gone round
+        yield Tail(side=3*side, share=share, nu_t=(1.0, 2.0, 5.0, 10.0, 20.0, 30.0), eta=0.3)
     for share in (0.0, 0.1):
         yield TailSampled(side=small, share=share, lags=LAGS, steps=steps)
 

@@ -140,17 +140,19 @@ def tail(tables: Tables) -> Figure:
     """Velocity autocorrelation of a point, exact and sampled."""
     page, (left, right) = figure(1, 2)
     for number, (_, rows) in enumerate(tables["tail"].groupby("share")):
-        for _, some in rows[rows["correlation"] > 1e-9].sort_values("nu_t").groupby("side"):
-            share, side = some["share"].iloc[0], some["side"].iloc[0]
-            fill = "full" if side == rows["side"].max() else "none"
+        for fill, side in (("full", rows["side"].max()), ("none", rows["side"].min())):
+            some = rows[(rows["side"] == side) & (rows["correlation"] > 1e-6)].sort_values("nu_t")
+            if some.empty:
+                continue
+            share = some["share"].iloc[0]
             left.plot(some["nu_t"], some["correlation"], **look(number), fillstyle=fill,
                       label=f"{100*share:.0f} % along edges, {side:.0f}$^2$ points")
     t = np.array([3.0, 100.0])
     for factor, style in ((1, "-"), (4, ":")):
         left.plot(t, factor/(8*np.pi*t), color="black", linestyle=style, marker="", lw=0.8,
-                  label=rf"${'' if factor == 1 else factor}/(8\pi\nu t)$")
+                  label=rf"${factor}/(8\pi\nu t)$")
     left.set(xscale="log", yscale="log", xlabel=r"$\nu t/a^2$", ylabel=r"$\langle v(0)\,v(t)\rangle\rho/kT$", title="exact")
-    below(left, ncols=2, fontsize=7)
+    below(left, ncols=2, fontsize=7, bbox_to_anchor=(0.5, -0.2))
     for number, (_, rows) in enumerate(tables["tail_sampled"].query("lag > 0").sort_values("lag").groupby("share")):
         errorbar(right, rows["lag"].tolist(), rows["measured"].tolist(), rows["measured_err"].tolist(), number=number,
                  label=f"{100*rows['share'].iloc[0]:.0f} % along edges")
