@@ -199,7 +199,7 @@ def lines(scale: dict[str, float], scene="convection", quantity="K", err=1e-6) -
     errors = [{**key, "method": name, "resolution": n, "quantity": quantity, "error": n**-2.0, "error_err": err, "share": 0.5}
               for name in scale for n in sizes]
     runs = [{**key, "method": name, "resolution": n, "points": n**2, "run_s": 2*factor*n**3, "run_s_err": 1e-3*factor*n**3,
-             "setup_s": 0.0, "bytes": 8.0*n**2} for name, factor in scale.items() for n in sizes]
+             "setup_s": 0.0, "setup_s_err": 0.0, "bytes": 8.0*n**2} for name, factor in scale.items() for n in sizes]
     found = Tables({"errors": pd.DataFrame(errors), "runs": pd.DataFrame(runs)})
     return Tables(found | {name: pd.DataFrame(rows) for name, rows in speed_derive.derive(found).items() if rows})
 

@@ -70,11 +70,15 @@ def loops(method: Any, first: np.ndarray) -> tuple[str, ...]:
 
 
 class Made(NamedTuple):
-    """A problem, its main quantity, the loops that it calls, what its units of time are in those of its base."""
+    """A problem, its main quantity, the loops that it calls, what its units of time are in those of its base.
+
+    model : what another fluid alone changes of the quantity, where that is known without any grid.
+    """
     problem: Problem
     quantity: str
     called: tuple[str, ...] = ()
     factor: float = 1.0
+    model: float | None = None
 
 
 # --- taylor-green -------------------------------------------------------------------------------------------------------
@@ -92,11 +96,11 @@ def moving(size: int) -> Made:
     return Made(problem, "velocity", loops(problem.held()[1].method, problem.first))
 
 
-def listed(size: int, *kinds: type) -> Made:
+def listed(size: int, *kinds: Any) -> Made:
     """Fixed points without heat; terms by kind."""
     vortex, points = Vortex(vortices.MACH, size), lattice((size, size))
     method = Listed(x=points.x, edges=renormalised(points, Lucy.of(h=H)),
-                    terms=tuple(kind({Carried: SOUND**2, Friction: vortex.eta}[kind]) for kind in kinds))
+                    terms=tuple(kind(SOUND**2 if kind is Carried else vortex.eta) for kind in kinds))
     rho = 1 + (vortices.start_density(vortex, points.x)**2 - 1)/SOUND**2        # the same pressure
     first = np.array([rho, *(rho[:, None]*vortex.velocity(points.x)).T])
     problem = of_method(method, first, vortex.time, lambda state: vortices.compared(
@@ -131,14 +135,11 @@ def silent(size: int) -> Made:
 
 
 def incompressible(size: int) -> Made:
-    """The MAC grid; its height, half of the wavelength, over its velocity is the unit of time. Its error is told against the gas."""
-    vortex, made, place = Vortex(vortices.MACH, size), vortices.MAC.problem(size, 1), lattice((size, size)).x/size
+    """The MAC grid; its height, half of the wavelength, over its velocity is the unit of time."""
+    vortex, place = Vortex(vortices.MACH, size), lattice((size, size)).x/size
     flow = exactly_incompressible(place)
     apart = rms(velocities(solved(vortices.MACH), place) - flow)/rms(flow)
-
-    def residuals(q: np.ndarray) -> dict[str, np.ndarray]:
-        return {"velocity": np.array([np.hypot(rms(made.residuals(q)["velocity"]), apart)])}
-    return Made(made._replace(residuals=residuals), "velocity", (), size/2/vortex.speed)
+    return Made(vortices.MAC.problem(size, 1), "velocity", (), size/2/vortex.speed, apart)
 
 
 # --- convection ---------------------------------------------------------------------------------------------------------
@@ -165,13 +166,9 @@ def moving_layer(rows: int) -> Made:
 
 
 def boussinesq_layer(rows: int) -> Made:
-    """The MAC grid at the Prandtl number that is nearest, its K halved: what a Boussinesq fluid says of the gas."""
-    gas_K = convection.reference(convection.SIZES).ke
-    made = others.OnMac().problem(rows, 1)
-
-    def residuals(done: convection.Followed) -> dict[str, np.ndarray]:
-        return {"K": np.array([done.ke[-1]/2/gas_K - 1])}
-    return Made(made._replace(residuals=residuals, share=lambda state: {}, uncertain=lambda state: {}), "K", (), float(rows))
+    """The MAC grid at the Prandtl number that is nearest; half of its K is what a Boussinesq fluid says of the gas."""
+    apart = others.boussinesq_reference().ke/2/convection.reference().ke - 1
+    return Made(others.OnMac().problem(rows, 1), "K", (), float(rows), abs(apart))
 
 
 def cold(size: int) -> Made:
@@ -219,20 +216,30 @@ class Compared(Case):
         return Outcome({"measured": list(self._rows(report))})
 
     def _rows(self, report: Report) -> Iterator[dict[str, Any]]:
-        made = BASES[self.scene, self.base]
-        for number, (left_out, make) in enumerate(made.items()):
-            yield {"scene": self.scene, "base": self.base, "left_out": left_out, **measured(make(self.size), self.short)}
-            report((number + 1)/len(made))
+        kinds, whole = BASES[self.scene, self.base], np.empty(0)
+        for number, (left_out, make) in enumerate(kinds.items()):
+            made = make(self.size)
+            row, residual = measured(made, self.short)
+            whole = residual if number == 0 else whole
+            changed = made.model if made.model is not None else change(residual, whole, left_out != "motion")
+            yield {"scene": self.scene, "base": self.base, "left_out": left_out, **row, "changed": changed}
+            report((number + 1)/len(kinds))
 
 
-def measured(made: Made, short: float) -> dict[str, Any]:
-    """Columns of the table."""
+def change(residual: np.ndarray, whole: np.ndarray, same_places: bool) -> float:
+    """What leaving out changes of the answer; between points in other places what it adds to the error."""
+    return rms(residual - whole) if same_places else max(0.0, rms(residual) - rms(whole))
+
+
+def measured(made: Made, short: float) -> tuple[dict[str, Any], np.ndarray]:
+    """Columns of the table, and the residual of the main quantity; not a number where the run diverged."""
     problem, n = made.problem, made.problem.points
     steps = ceil(problem.time/(OF_LIMIT*problem.limit))
     dt, found = problem.time/steps, result(problem, OF_LIMIT)
     seconds = per_step(lambda count: (problem.step or problem.go)(problem.first, dt, count), short)
-    error, err = (np.nan, np.nan) if found is None else (rms(found.residuals[made.quantity]), problem.known)
-    return {"quantity": made.quantity, "points": n, "step_s": seconds.value/n, "step_s_err": seconds.err/n,
-            "time_s": seconds.value/(n*dt*made.factor), "time_s_err": seconds.err/(n*dt*made.factor),
-            "bytes": array_bytes(problem.held())/n, "loops": len(made.called), "names": "; ".join(made.called), "error": error,
-            "error_err": err}
+    residual = np.array([np.nan]) if found is None else found.residuals[made.quantity]
+    row = {"quantity": made.quantity, "points": n, "step_s": seconds.value/n, "step_s_err": seconds.err/n,
+           "time_s": seconds.value/(n*dt*made.factor), "time_s_err": seconds.err/(n*dt*made.factor),
+           "bytes": array_bytes(problem.held())/n, "loops": len(made.called), "names": "; ".join(made.called),
+           "error": rms(residual), "error_err": problem.known}
+    return row, residual

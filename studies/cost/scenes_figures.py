@@ -25,7 +25,8 @@ def saved(rows: pd.DataFrame) -> Figure:
         err = rows[f"{column}_err"] if f"{column}_err" in rows else None
         axes.barh(at + THICK*(1 - number), rows[column], THICK, xerr=err, label=label, color=COLOURS[number],
                   hatch=("", "//", "..")[number], edgecolor="white", capsize=2)
-    names = [f"{row.scene}, {row.base}\nwithout {row.left_out}: {told(row.error, row.needed)}" for row in rows.itertuples()]
+    names = [f"{row['scene']}, {row['base']}\nwithout {row['left_out']}: {told(row['changed'], row['needed'])}"
+             for row in rows.to_dict("records")]
     axes.axvline(1, color="black", linewidth=0.8)
     axes.set_yticks(at, labels=names)
     axes.set(xscale="log", xlabel="what is left over what the whole takes; bars: 95 %",
@@ -34,7 +35,7 @@ def saved(rows: pd.DataFrame) -> Figure:
     return page
 
 
-def told(error: float, needed: str) -> str:
-    """An error in words."""
-    words = f"error {100*error:.2g} %" if np.isfinite(error) else "diverges"
+def told(changed: float, needed: str) -> str:
+    """What it makes of the answer, in words."""
+    words = f"off by {100*changed:.2g} %" if np.isfinite(changed) else "diverges"
     return f"{words}, {'needed' if needed == 'yes' else 'not needed'}"

@@ -96,6 +96,9 @@ class Summed(Summing):
         self.team(sweep, self.n, self.term, self.points, self.edges, self.total)
         self.team(_per_volume, self.n, self.total, self.V, out)
 
+    def look_at(self, state: np.ndarray) -> None:
+        """Fields are not kept."""
+
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """The first point without a positive density; empty if there is none."""
         bad = np.flatnonzero(~(state[0] > 0))

@@ -128,7 +128,8 @@ class Direct(Race):
         errors = [{**self.key_columns, "quantity": name, "error": rms(off), "error_err": found.known,
                    "share": found.share.get(name, 1.0)} for name, off in found.residuals.items()]
         run = {**self.key_columns, "points": found.points, "of_limit": np.nan, "dt": np.nan, "steps": found.steps,
-               "run_s": seconds.value, "run_s_err": seconds.err, "setup_s": 0.0, "compile_s": found.compile_s or compile_s,
+               "run_s": seconds.value, "run_s_err": seconds.err, **dict.fromkeys(("setup_s", "setup_s_err"), 0.0),
+               "compile_s": found.compile_s or compile_s,
                "bytes": found.bytes, "threads": 1}
         return Outcome({"errors": errors, "runs": [run]})
 
@@ -175,13 +176,13 @@ class OnMacNewton(NamedTuple):
 
 
 class Laps:
-    """CPU seconds between calls."""
+    """Seconds between calls."""
 
-    def __init__(self) -> None:
-        self.at: list[float] = []
+    def __init__(self, clock: Callable[[], float] = process_time) -> None:
+        self.clock, self.at = clock, list[float]()
 
     def __call__(self, fraction: float) -> None:
-        self.at.append(process_time())
+        self.at.append(self.clock())
 
     def total(self, count: int) -> Measured:
         """Of `count` of them; the error is that of their median, from their quartiles."""

@@ -41,7 +41,7 @@ def over_seeds(tables: Tables) -> Iterator[dict[str, Any]]:
         if (scene, method, resolution) in lost:
             continue
         error = combine(list(zip(group["error"].abs(), group["error_err"], strict=True)))
-        run_s, err = (group["share"]*group[name] for name in ("run_s", "run_s_err"))
+        run_s, err = group["share"]*group["run_s"], np.hypot(group["share"]*group["run_s_err"], group["setup_s_err"])
         seconds = combine(list(zip(run_s + group["setup_s"], err, strict=True)))
         yield {**dict(zip([*SERIES, "resolution"], key, strict=True)), "points": group["points"].iloc[0], "seeds": len(group),
                "error": error.value, "error_err": error.err, "cpu_s": seconds.value, "cpu_s_err": seconds.err,

@@ -76,7 +76,8 @@ def loglog(axes: Axes, title: str, xlabel: str) -> None:
     axes.set(xscale="log", yscale="log", title=title, xlabel=xlabel)
     for axis in (axes.xaxis, axes.yaxis):
         low, high = axis.get_view_interval()
-        axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 100*low else (1,)))
+        subs = (1,) if high > 100*low else (1, 2, 5) if high > 4*low else (1, 1.5, 2, 3, 4, 6)
+        axis.set_major_locator(LogLocator(subs=subs))
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axis.set_minor_formatter(NullFormatter())
 
@@ -95,23 +96,23 @@ def memory(points: pd.DataFrame) -> Figure:
     finest = points.loc[points.groupby(["scene", "method"])["resolution"].idxmax()]
     scenes = list(dict.fromkeys(finest["scene"]))
     order = [name for name in ORDER if name in set(finest["method"])]
-    page, axes = figure(width=7.5, height=0.6 + 0.28*len(order))
-    marks = {}
+    page, axes = figure(width=7.5, height=1.3 + 0.28*len(order))
     for number, scene in enumerate(scenes):
         rows = finest[finest["scene"] == scene]
         places = [len(order) - 1 - order.index(name) for name in rows["method"]]
         errorbar(axes, (rows["bytes"]/rows["points"]).tolist(), places, [0.0]*len(rows), number=number, label=scene)
-        marks[scene] = number
     axes.set_yticks(range(len(order)), labels=order[::-1])
     axes.set(xscale="log", xlabel="bytes of arrays a point while it runs", title="Memory at the highest resolution")
-    below(axes, ncols=3)
+    page.legend(loc="outside lower center", ncols=5)
     return page
 
 
 def growth(rows: pd.DataFrame) -> Figure:
     """Nanoseconds a particle and step by number of particles; two threads by the time that passes."""
-    page, (left, right) = figure(1, 2, width=4.6, height=4.4)
-    for axes, clock, title in ((left, "cpu", "one thread, CPU time"), (right, "wall", "time that passes")):
+    panels = (("cpu", "one thread, CPU time"), ("wall", "time that passes"))
+    shown = [panel for panel in panels if (rows["clock"] == panel[0]).any()]
+    page, all_axes = figure(1, len(shown), width=4.6, height=4.4, squeeze=False)
+    for axes, (clock, title) in zip(all_axes[0], shown, strict=True):
         some = rows[rows["clock"] == clock].sort_values("points")
         for (method, threads), series in groups(some, ["method", "threads"]):
             value, err = (1e9*series[name]/series["points"] for name in ("step_s", "step_s_err"))
@@ -119,6 +120,6 @@ def growth(rows: pd.DataFrame) -> Figure:
             axes.errorbar(series["points"], value, err, label=f"{method}, {threads:.0f} thread{'s'*(threads > 1)}", **look)
         loglog(axes, title, "particles or points")
         below(axes)
-    left.set_ylabel("a particle and step  [ns]")
+    all_axes[0, 0].set_ylabel("a particle and step  [ns]")
     page.suptitle("How does the cost of a step grow? Lists of neighbours included; bars: 95 %", fontsize=10)
     return page

@@ -12,6 +12,7 @@ from time import process_time
 from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
+from scipy.special import stdtrit
 
 from continuum.compressible import DivergedError
 from particles.integrators import RK4
@@ -20,11 +21,14 @@ from particles.run import Divergence, Plan, Run, run
 from particles.team import Team
 from studies.cost.speed_timing import SHORT, array_bytes, per_step
 from studies.kit.case import Case, Outcome, Report
-from studies.kit.stats import Measured
 from studies.kit.timing import compile_and_run_seconds, median_seconds
 
 HALVINGS = 7        # at most: steps of 1/128 of the first one
 SET_UP = 3          # repeats of what is made before the first step
+LONGER = 10         # are the runs that time particles: they have to hold some lists
+#: half of the interquartile range of 3 repeats -> half width of the 95 % interval of their median: as `cost.SPREAD_TO_ERR`; the
+#: quartiles of 3 lie half-way between neighbours, on average 0.423 sigma off
+OF_THREE = float(stdtrit(SET_UP - 1, 0.975)*np.sqrt(np.pi/(2*SET_UP))/0.423)
 Residuals = dict[str, np.ndarray]
 
 
@@ -56,6 +60,7 @@ class Result(NamedTuple):
     residuals: Residuals
     uncertain: dict[str, float]
     share: dict[str, float]
+    state: Any = None
 
 
 class Contestant(Protocol):
@@ -112,7 +117,7 @@ def result(problem: Problem, fraction: float) -> Result | None:
     steps = steps_of(problem, fraction)
     try:
         state = problem.go(problem.first, problem.time/steps, steps)
-        return Result(problem.residuals(state), problem.uncertain(state), problem.share(state))
+        return Result(problem.residuals(state), problem.uncertain(state), problem.share(state), getattr(state, "state", state))
     except (Divergence, DivergedError):
         return None
 
@@ -172,7 +177,10 @@ class Race(Case):
         rows = {"steps": list(self._rungs(rungs)), "errors": list(self._errors(problem, found))}
         if found is None:
             return Outcome(rows)
-        return Outcome({**rows, "runs": [self._run(problem, rungs[-1].fraction, make, made_s + loop_s)]})
+        # particles are timed in the disorder of the end: their lists are made more often than at the start
+        first, short = (found.state, LONGER*self.short) if problem.chaotic else (problem.first, self.short)
+        run_row = self._run(problem._replace(first=first), rungs[-1].fraction, make, made_s + loop_s, short)
+        return Outcome({**rows, "runs": [run_row]})
 
     def _rungs(self, rungs: list[Rung]) -> Iterator[dict[str, Any]]:
         for rung in rungs:
@@ -189,17 +197,12 @@ class Race(Case):
             yield {**self.key_columns, "quantity": name, "error": rms(residual), "error_err": err,
                    "share": found.share.get(name, 1.0)}
 
-    def _run(self, problem: Problem, fraction: float, make: Callable[[], Problem], compile_s: float) -> dict[str, Any]:
+    def _run(self, problem: Problem, fraction: float, make: Callable[[], Problem], compile_s: float,
+             short: float) -> dict[str, Any]:
         steps = steps_of(problem, fraction)
         dt = problem.time/steps
-        # from the start: what is hotter at the end of a run has a shorter limit
-        seconds = per_step(lambda n: (problem.step or problem.go)(problem.first, dt, n), self.short)
+        seconds = per_step(lambda n: (problem.step or problem.go)(problem.first, dt, n), short)
         set_up = median_seconds(make, SET_UP, process_time)
-        return {**self.key_columns, **cost_columns(problem, seconds, set_up.median, steps), "of_limit": fraction, "dt": dt,
-                "compile_s": compile_s}
-
-
-def cost_columns(problem: Problem, seconds: Measured, set_up: float, steps: int) -> dict[str, Any]:
-    """Seconds of all steps, of what comes before them, and bytes."""
-    return {"points": problem.points, "steps": steps, "run_s": steps*seconds.value, "run_s_err": steps*seconds.err,
-            "setup_s": set_up, "bytes": array_bytes(problem.held()), "threads": 1}
+        return {**self.key_columns, "points": problem.points, "of_limit": fraction, "dt": dt, "steps": steps,
+                "run_s": steps*seconds.value, "run_s_err": steps*seconds.err, "setup_s": set_up.median,
+                "setup_s_err": set_up.spread*OF_THREE, "compile_s": compile_s, "bytes": array_bytes(problem.held()), "threads": 1}

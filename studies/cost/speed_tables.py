@@ -7,8 +7,8 @@ from studies.kit.table import Table
 RUN = ["scene", "method", "resolution", "seed"]
 #: what the run at the method's own best step takes: points, steps of dt (`of_limit`: of the stability limit), CPU seconds of the
 #: steps, of setting up, of compiling (from the second process on: of loading what is compiled), bytes of arrays
-RUNS = Table("runs", key=RUN, columns=[*RUN, "points", "of_limit", "dt", "steps", "run_s", "run_s_err", "setup_s", "compile_s",
-                                       "bytes", "threads"])
+RUNS = Table("runs", key=RUN, columns=[*RUN, "points", "of_limit", "dt", "steps", "run_s", "run_s_err", "setup_s", "setup_s_err",
+                                       "compile_s", "bytes", "threads"])
 #: share: of the steps that this quantity needs (a steady state is reached, and averaged, before the run ends)
 ERRORS = Table("errors", key=[*RUN, "quantity"], columns=[*RUN, "quantity", "error", "error_err", "share"])
 #: how the step was found: what halving it changes (time_error) against the error that is left then (space_error)
