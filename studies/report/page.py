@@ -29,9 +29,9 @@ from studies.report.tables import FILMS, ORDER
 QUESTION = ("Do fluid particles converge on the continuum equations, at what error, at what cost, and where do they break?")
 #: rows of a table that are in the page as they are; more of them when it is opened, if the file is below EMBED
 ROWS, EMBED = 5, 150_000
-#: what the page may weigh [bytes], and how wide figures may be in turn until it does not weigh more [pixels]
+#: what the page may weigh [bytes], and how many colours figures have in turn until it does not weigh more
 LIMIT = 8_000_000
-WIDEST = (10_000, 1600, 1200, 900)
+COLOURS = (256, 64, 32, 16)
 VERDICTS = {"holds": "✓", "fails": "✗", "undecidable": "?"}
 
 
@@ -45,12 +45,12 @@ def write_page(out: Path, say: Callable[[str], None] = lambda text: None) -> Pat
     """
     found = parts(out)
     known = catalogue(out, found, say)
-    for widest in WIDEST:
-        text = render(out, found, known, partial(webp, widest=widest))
+    for colours in COLOURS:
+        text = render(out, found, known, partial(webp, colours=colours))
         if (size := len(text.encode())) <= LIMIT:
             write_atomic(out/"index.html", text)
             return out/"index.html"
-        say(f"{size/1e6:.1f} MB with figures up to {widest} pixels wide")
+        say(f"{size/1e6:.1f} MB with figures of {colours} colours")
     raise NoReport(f"the page has {size/1e6:.1f} MB, {LIMIT/1e6:.0f} are allowed: see what is large in {out}, films and figures "
                    "first")
 
@@ -174,12 +174,12 @@ def opened(path: Path) -> Image.Image:
         raise NoReport(f"{path} is no picture ({error}): make figures-{path.parent.name} draws it again") from error
 
 
-def webp(path: Path, widest: int = 10_000) -> str:
-    """A PNG as WebP without loss, a fifth smaller, as an address that holds it; scaled down to `widest` pixels."""
+def webp(path: Path, colours: int = 256) -> str:
+    """A PNG as WebP without loss, a fifth smaller, as an address that holds it; with fewer colours on wish."""
     packed, full = io.BytesIO(), opened(path).convert("RGB")
-    if full.width > widest:
-        full = full.resize((widest, round(full.height*widest/full.width)), Image.Resampling.LANCZOS)
-    full.save(packed, "webp", lossless=full.width < widest, method=4, quality=80)
+    if colours < 256:       # as many as kit.figure writes
+        full = full.quantize(colours, dither=Image.Dither.NONE).convert("RGB")
+    full.save(packed, "webp", lossless=True, method=4)
     return address("image/webp", packed.getvalue())
 
 
