@@ -3,7 +3,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from continuum import boussinesq
 from continuum.fluid import ConstEta
+from continuum.projection import CFL_LIMIT, Projection
+from studies.hard.limits_boussinesq import noise_grows
 from studies.hard.limits_cases import Limit
 from studies.hard.limits_claims import CLAIMS
 from studies.hard.limits_linear import largest_step
@@ -62,3 +65,10 @@ def test_claims_fail_where_limits_are_off():
     claims = {claim.id: claim for claim in CLAIMS}
     for name in ("limit-step-grid-sound", "limit-step-spam", "limit-step-safe"):
         assert judged(claims[name], good)["verdict"] == "holds" and judged(claims[name], bad)["verdict"] == "fails"
+
+
+def test_a_roll_of_the_boussinesq_grid_is_stable_at_its_cfl_limit_and_not_far_beyond():
+    state = boussinesq.steady(boussinesq.Case(ra=5e3, pr=1.0, rows=8))
+    limit = CFL_LIMIT/Projection(state.case, state.q).courant()
+    with np.errstate(all="ignore"):
+        assert not noise_grows(state, limit) and noise_grows(state, 6*limit)

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from continuum.fluid import ConstEta
+from studies.hard.limits_boussinesq import BoussinesqLimit
 from studies.hard.limits_linear import eigenvalues, largest_step, visible
 from studies.hard.limits_search import GROWN, bisected
 from studies.hard.limits_still import METHODS, OnGrid, Trial
@@ -14,6 +15,7 @@ from studies.kit.case import Case, Outcome, Report
 #: viscosity and conductivity, spacing times speed of sound is 1.4: what the step is limited by
 SCENES = {"zero viscosity": (0.0, 0.0), "balanced": (0.3, 0.3), "Prandtl 0.01": (0.05, 5.0), "Prandtl 100": (5.0, 0.05)}
 EULER_SCENES = {"zero viscosity": (0.0, 0.0), "Euler 1/2": (0.5, 0.5), "Euler 1": (1.0, 1.0), "Euler heat": (0.1, 1.0)}
+ROLLS = (1e4, 1e5)      # Rayleigh numbers of the Boussinesq grid
 #: 1 % beyond its limit RK4 makes motions grow by 4 (diffusion) to 7 % (sound) a step: in 200 steps by 2000 and more. Beyond
 #: Euler's they grow by some 1e-3 a step.
 STEPS = {"RK4": 200, "ThreeStage": 200, "Euler": 4000}
@@ -50,7 +52,7 @@ class Limit(Case):
 
 def by_eigenvalues(trial: Trial | OnGrid, steps: int) -> tuple[float, float]:
     """The step at which motions begin to grow, and the one from which trials of so many steps see it."""
-    if not trial.linear:
+    if isinstance(trial, OnGrid) or not trial.linear:
         return np.nan, np.nan
     rates = eigenvalues(trial.method, trial.start)
     return (largest_step(rates, trial.integrator),
@@ -66,3 +68,4 @@ def cases(size: str) -> Iterator[Case]:
         for scene, (eta, k) in scenes.items():
             if method not in SLOW or scene in ("balanced", "Prandtl 100"):
                 yield Limit(method=method, scene=scene, eta=eta, k=k)
+    yield from (BoussinesqLimit(ra=ra) for ra in ROLLS[:1 if size == "quick" else None])

@@ -4,6 +4,7 @@ Accepted everywhere: 10 %, asked of limits beforehand. Trials see limits to 1 %.
 """
 from collections.abc import Callable, Sequence
 
+import numpy as np
 import pandas as pd
 
 from studies.convection.claims.read import Value, select
@@ -30,29 +31,27 @@ def farthest(methods: Sequence[str], scenes: Sequence[str] = (), column: str = "
     def value(tables: Tables) -> Measured:
         rows = chosen(tables, methods, scenes).dropna(subset=[column])
         formula = rows[column]*(rows["margin"] if column == "predicted" else 1)
-        off = (rows["measured"]/formula - 1).abs()
-        at = off.idxmax()
-        return Measured(float(off[at]), float(rows["measured_err"][at]/formula[at]))
+        off, err = (np.array(q) for q in ((rows["measured"]/formula - 1).abs(), rows["measured_err"]/formula))
+        return Measured(float(off.max()), float(err[off.argmax()]))
     return value
 
 
 def least(methods: Sequence[str], scenes: Sequence[str] = ()) -> Value:
     """The smallest measured/predicted."""
-    return extreme(methods, scenes, pd.Series.idxmin)
+    return extreme(methods, scenes, np.argmin)
 
 
 def most(methods: Sequence[str], scenes: Sequence[str] = ()) -> Value:
     """The largest measured/predicted."""
-    return extreme(methods, scenes, pd.Series.idxmax)
+    return extreme(methods, scenes, np.argmax)
 
 
 def extreme(methods: Sequence[str], scenes: Sequence[str], which: Callable) -> Value:
     """measured/predicted where it is smallest or largest."""
     def value(tables: Tables) -> Measured:
         rows = chosen(tables, methods, scenes)
-        ratio = rows["measured"]/rows["predicted"]
-        at = which(ratio)
-        return Measured(float(ratio[at]), float(rows["measured_err"][at]/rows["predicted"][at]))
+        ratio, err = (np.array(rows[column]/rows["predicted"]) for column in ("measured", "measured_err"))
+        return Measured(float(ratio[which(ratio)]), float(err[which(ratio)]))
     return value
 
 
@@ -92,6 +91,9 @@ CLAIMS = (
     near("moving", "RR98 Eqs 46-48", f"moving points with closed faces: {GIVEN_BACK}", ("moving",)),
     near("euler", "RR98 Eq. 40", "forward Euler on ten fixed points a side: noise begins to grow at dt = (eta + zeta + kappa/2)"
          "/(rho c^2)", ("fixed Euler",), ("Euler 1/2", "Euler 1", "Euler heat")),
+    Claim(id="limit-step-boussinesq", source="KHP95 Sec. V", value=least(("Boussinesq grid",)), at_least=1.0,
+          statement="Boussinesq grid, advection extrapolated from two steps: noise about a steady roll does not grow at the CFL "
+          "number that is allowed, 0.8", because="0.8 is meant to be safe: how much it gives away is in the table"),
     # read later: forward Euler between plates falls short by a third, and its formula knows no plates
     near("euler-periodic", "RR98 Eq. 40", "the same on a lattice without plates, which the formula does not know",
          ("fixed Euler, periodic",), ("Euler 1/2", "Euler 1", "Euler heat")),

@@ -1,8 +1,8 @@
 """Limits of the time step: measured over predicted."""
 from matplotlib.figure import Figure
 
-from studies.hard.limits_cases import EULER_SCENES, SCENES
-from studies.kit.figure import below, errorbar, figure
+from studies.hard.limits_cases import EULER_SCENES, ROLLS, SCENES
+from studies.kit.figure import below, figure, look
 from studies.kit.table import Tables
 
 CLEAR = 0.11            # between scenes of one method, in rows
@@ -15,18 +15,20 @@ def figures(tables: Tables) -> dict[str, Figure]:
         return {}
     rows = rows[rows["predicted"] > 0]
     page, (axes, exact) = figure(1, 2, width=4.6, height=4.6, sharey=True)
-    methods, scenes = list(dict.fromkeys(rows["method"])), list({**SCENES, **EULER_SCENES})
+    methods = list(dict.fromkeys(rows["method"]))
+    scenes = [*{**SCENES, **EULER_SCENES}, *(f"Ra {ra:g}" for ra in ROLLS)]
     for number, scene in enumerate(scenes):
         some = rows[rows["scene"] == scene]
         if some.empty:
             continue
         at = [methods.index(method) + CLEAR*(number - 3) for method in some["method"]]
         for axis, formula in ((axes, some["predicted"]), (exact, some["exact"])):
-            errorbar(axis, some["measured"]/formula, at, None, xerr=some["measured_err"]/formula, number=number, label=scene)
+            axis.errorbar(some["measured"]/formula, at, xerr=some["measured_err"]/formula, label=scene,
+                          **{**look(number), "linestyle": "none"})
     axes.set(yticks=range(len(methods)), yticklabels=methods, xscale="log", xlabel="measured / the method's own formula")
-    axes.set_xticks([1, 1.4, 2, 3, 4], labels=["1", "1.4", "2", "3", "4"])
+    axes.set_xticks([0.7, 1, 1.4, 2, 3, 5], labels=["0.7", "1", "1.4", "2", "3", "5"])
     axes.set_xticks([], minor=True)
-    exact.set(xlabel="measured / by eigenvalues of the same points", xlim=(0.95, 1.05))
+    exact.set(xlabel="measured / by eigenvalues of the same points", xlim=(0.94, 1.12))
     for axis in (axes, exact):
         axis.axvline(1, color="black", linewidth=0.8)
     axes.axvspan(0.9, 1.1, color="0.9", zorder=0)

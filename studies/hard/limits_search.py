@@ -41,9 +41,9 @@ class Noise(NamedTuple):
 
 def noise_grows(method: Unguarded, start: np.ndarray, rows: tuple[int, ...], steps: int, dt: float) -> bool:
     """Whether noise is GROWN times larger at the end than after a tenth of the steps, or the run diverges."""
-    plan = Plan(dt=dt, steps=steps, series={"noise": Noise(rows)}, every=steps//10)
+    quantities: dict[str, Any] = {"noise": Noise(rows)}
     try:
-        series = run(method, start, plan).series["noise"]
+        series = run(method, start, Plan(dt=dt, steps=steps, series=quantities, every=steps//10)).series["noise"]
     except Divergence:
         return True
     return series[-1] > GROWN*series[0]

@@ -145,7 +145,6 @@ class OnGrid(NamedTuple):
     predicted: float
     integrator: str = "RK4"
     margin: float = 1.0
-    linear: bool = False
 
     def grows(self, steps: int) -> Callable[[float], bool]:
         """Whether noise grows at a step, within so many of them."""

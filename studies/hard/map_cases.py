@@ -49,7 +49,7 @@ def observed(body: Body, box: tuple[float, float]) -> tuple[float, float, float]
     return kinetic(body), flow(body, box), float(body.m.sum())
 
 
-def row(case: str, method: str, rows: int = ROWS, **values: Any) -> Outcome:
+def row(case: str, method: str, values: dict[str, Any], rows: int = ROWS) -> Outcome:
     """One row of `hard_runs`; what is not said is not known."""
     empty = dict.fromkeys(("k", "flow", "mass_drift", "k_start", "flow_start"), np.nan)
     key = {"case": case, "method": method, "rows": rows}
@@ -76,15 +76,15 @@ class Hard(Case):
         try:
             built = TAKES[self.case][self.method](scene=self.scene)
         except (ValueError, ArithmeticError) as error:
-            return row(self.case, self.method, reached=0.0, refused=f"{type(error).__name__}: {str(error)[:60]}")
+            return row(self.case, self.method, {"reached": 0.0, "refused": f"{type(error).__name__}: {str(error)[:60]}"})
         every = ceil(self.time/built.dt/SAMPLES)
         steps = every*SAMPLES
         watch = Watch(built, (self.scene.width, self.scene.L))
         try:
             run(built.method, built.start, Plan(dt=self.time/steps, steps=steps, series={"k": watch}, every=every), report)
         except Divergence as error:
-            return row(self.case, self.method, **(watch.late | {"k": np.nan, "flow": np.nan}), reached=error.step/steps)
-        return row(self.case, self.method, **watch.late)
+            return row(self.case, self.method, {**watch.late, "k": np.nan, "flow": np.nan, "reached": error.step/steps})
+        return row(self.case, self.method, watch.late)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -109,11 +109,11 @@ class OnGrid(Case):
         try:
             done = march(self.scene, self.rows, until=Time(self.time, SAMPLES), start=start, progress=report)
         except DivergedError:
-            return row(self.case, "grid", self.rows, reached=np.nan)
+            return row(self.case, "grid", {"reached": np.nan}, self.rows)
         first, last = (observed(of_grid(fields), box) for fields in (start, done.fields))
         k = float(done.series.ke[round(LATE*len(done.series.ke)):].mean())
-        return row(self.case, "grid", self.rows, k=k, flow=k*last[1]/max(last[0], 1e-300), mass_drift=done.mass_drift,
-                   k_start=first[0], flow_start=first[1])
+        return row(self.case, "grid", {"k": k, "flow": k*last[1]/max(last[0], 1e-300), "mass_drift": done.mass_drift,
+                                       "k_start": first[0], "flow_start": first[1]}, self.rows)
 
 
 def still(scene: Any, rows: int) -> Fields:

@@ -50,7 +50,7 @@ def swings(rows: pd.DataFrame) -> Figure:
     page, axes = figure()
     for number, (ra, some) in enumerate(rows.groupby("ra")):
         mean, half = (some["swing"] + some["before"])/2, (some["swing"] - some["before"]).abs()/2
-        errorbar(axes, some["rows"], mean, half, number=number, label=f"Ra {ra:g}")
+        errorbar(axes, some["rows"].tolist(), mean.tolist(), half.tolist(), number=number, label=f"Ra {ra:g}")
     axes.axhline(0.01, color="black", linewidth=0.8)
     axes.set(xlabel="rows of the grid", ylabel="(largest - smallest K)/mean K, late", yscale="log")
     below(axes, ncols=3)

@@ -2,7 +2,7 @@
 from collections.abc import Callable
 from functools import partial
 from types import SimpleNamespace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
@@ -88,7 +88,7 @@ def drifting(scene: Any, motion: drift.DriftMotion) -> Built:
     """RR98's own motions."""
     method, x = drift.method(scene, motion), dih.positions(scene.width, scene.L, START_JITTER, 1)
     rho, v, T = fields(scene, x)
-    start, holder = method.state(x, rho, v, T), SimpleNamespace(method=method)
+    start, holder = method.state(x, rho, v, T), cast(drift.Drifts, SimpleNamespace(method=method))
     return Built(method, start, limit_of(method, start),
                  lambda state: Body(state[:2].T, (state[2:4]/state[4]).T, drift.masses(holder, state)))
 
