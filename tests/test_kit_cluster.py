@@ -191,7 +191,7 @@ def test_a_case_whose_worker_is_killed_is_run_again_and_the_rows_are_those_of_on
     (toy.folder / "go").touch()
     code, text = toy.finish(running)
     assert code == 0, text
-    assert f"no worker at {toy.address}: make worker" in text, "it waited for the first one"
+    assert "the cluster has no worker: make worker" in text, "it waited for the first one"
     assert sorted(toy.began()) == ["0.1", "1", "2", "2", "3", "4", "5"]
     last = [(word, x) for word, x, *_ in toy.log()][-4:]
     assert last in ([("begin", "4"), ("end", "4"), ("begin", "5"), ("end", "5")],
@@ -253,7 +253,7 @@ def test_a_scheduler_that_is_lost_ends_the_study(toy):
     toy.waits(running)
     os.killpg(toy.processes[0].pid, signal.SIGKILL)
     code, text = toy.finish(running)
-    assert code == 1 and f"the connection to the scheduler at {toy.address} was lost; " in text
+    assert code == 1 and "the connection to the scheduler was lost; " in text
     assert "cases are finished and kept, the same command goes on from there" in text
 
 

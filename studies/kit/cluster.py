@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 CONNECT = 10.0      # seconds: a scheduler that is there and not overloaded answers in less than one
 LOOK = 0.1          # seconds between looks at what is finished
 ADDRESS = re.compile(r"(tcp|tls|ws|wss)://\S+:\d+")
+LOST = "the connection to the scheduler was lost"
 WAY_OUT = "make worker SCHEDULER=tcp://..., in an up-to-date copy of this repository, starts one that fits"
 
 
@@ -109,7 +110,7 @@ def drain(client: "Client", cases: Sequence[Case], numbers: Sequence[int], most:
             bar.done[number] = 1.0
         workers = places(client)
         if some and not workers:
-            print(f"no worker at {client.scheduler.address}: {WAY_OUT}; waiting for one", file=sys.stderr)
+            print(f"the cluster has no worker: {WAY_OUT}; waiting for one", file=sys.stderr)
         some = workers > 0
         while todo and len(running) < min(most, workers):
             number = todo.popleft()
@@ -124,24 +125,19 @@ def places(client: "Client") -> int:
     try:
         return len(client.nthreads())
     except OSError as error:
-        raise lost(client) from error
-
-
-def lost(client: "Client") -> ClusterError:
-    """The scheduler has gone."""
-    return ClusterError(f"the connection to the scheduler at {client.scheduler.address} was lost")
+        raise ClusterError(LOST) from error
 
 
 def brought(future: "Future", case: Case) -> str | Failure:
     """What a worker found: the outcome as text, or a failure."""
-    from distributed import CancelledError, KilledWorker
+    from distributed import KilledWorker
     try:
         return future.result()
     except KilledWorker as error:
         return Failure(case.label, f"{error.allowed_failures + 1} workers died while they ran it, the last one "
                        f"{error.last_worker.address}, perhaps for want of memory: dask worker --memory-limit gives more",
                        story=str(error))
-    except CancelledError as error:
-        raise lost(future.client) from error
     except Exception as error:      # failures of cases are handed back: whatever is raised is trouble of the cluster
+        if future.status != "error":
+            raise ClusterError(LOST) from error
         raise ClusterError(f"{error}: {WAY_OUT}") from error
