@@ -1,4 +1,7 @@
-"""A study on a Dask cluster: a real one, of a scheduler and two workers on this machine, and what goes wrong with it."""
+"""A study on a Dask cluster: a real one, of a scheduler and two workers on this machine, and what goes wrong with it.
+
+A cluster takes seconds to start, so the tests of `toy` share one and run in their order, each from where the last one left it.
+"""
 import json
 import os
 import shutil
