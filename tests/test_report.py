@@ -19,7 +19,7 @@ from studies.report.__main__ import main
 from studies.report.chart import Scale, chart
 from studies.report.findings import Known, answer, claims_of, findings
 from studies.report.found import NoReport, parts
-from studies.report.numbers import many, seconds, told
+from studies.report.numbers import grouped, many, seconds, told
 from studies.report.page import LIMIT, accepted, fingerprint, found_value, paper, render, write_page
 from studies.report.tables import FILMS
 
@@ -96,7 +96,7 @@ def test_a_table_of_speed_needs_no_code(small):
             for k in (1, 2, 3) for n in (16, 32, 64)]
     write(small/"speed/points.csv", pd.DataFrame(rows), head=["commit abc1234567"])
     first = cost.panels(parts(small))[0]
-    assert first.title == "speed: velocity" or "taylor-green" in first.title
+    assert first.title == "speed: taylor-green, velocity"
     assert [series.label for series in first.series] == ["m1", "m2", "m3"] and all(series.usual for series in first.series)
     drawn = chart(first)
     assert all(mark.wide for curve in drawn.curves for mark in curve.marks)
@@ -210,6 +210,7 @@ def test_numbers_with_their_errors(value, err, text):
 
 def test_words_for_numbers():
     assert [seconds(value) for value in (0.4406, 1.0457, 143.2)] == ["0.44", "1.0", "143"]
+    assert grouped(20000.0) == "20\N{NO-BREAK SPACE}000"
     assert many(["a", "b", "c"]) == "a, b and c" and many(["a"]) == "a"
     assert accepted(-math.inf, 2.0) == "≤ 2" and accepted(1.0, math.inf) == "≥ 1" and accepted(math.nan, math.nan) == ""
     assert found_value(math.nan, math.nan) == "—" and found_value(2.96e-15, 0.0) == "2.96e−15"

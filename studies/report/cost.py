@@ -21,6 +21,8 @@ SERIES = ("method", "variant", "weight", "integrator", "energy")
 LEVELS = (0.1, 0.03, 0.01, 0.001)
 #: of the scene, not said where it is as in most rows
 UNSAID = ("eos", "transport", "sides", "pr")
+#: said even if it is the same in all rows
+SAID = ("scene", "quantity")
 #: series of two points or more from which on a panel is worth showing
 LEAST = 3
 
@@ -74,7 +76,7 @@ def of_sheet(sheet: Sheet) -> Iterator[Panel]:
     if "quantity" not in rows:
         heat = rows.get("energy", pd.Series("", index=rows.index)).eq("Nu")
         rows = rows.assign(quantity=np.where(heat, "Nusselt number", "kinetic energy"))
-    scenes = [name for name in SCENE if name in rows and rows[name].nunique() > 1] or ["quantity"]
+    scenes = [name for name in SCENE if name in rows and (rows[name].nunique() > 1 or name in SAID)]
     common = {name: rows[name].mode().iloc[0] for name in scenes if name in UNSAID}
     for key, group in rows.groupby(scenes, sort=True):
         series, about = list(of_panel(group)), dict(zip(scenes, key))

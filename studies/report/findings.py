@@ -9,7 +9,7 @@ import pandas as pd
 from studies.kit.claim import COLUMNS
 from studies.report.cost import Panel
 from studies.report.found import NoReport, rows_of
-from studies.report.numbers import many, percent, seconds, signed, told
+from studies.report.numbers import grouped, many, percent, seconds, signed, told
 
 LAYER = {"eos": "ideal", "transport": "const-eta", "sides": "periodic", "pr": 1}
 ERRORS = ("resolution", "error", "error_err", "cpu_s", "particles")
@@ -175,7 +175,7 @@ def answer(known: Known) -> str:
     said = []
     if len(spam) and len(grid):
         far, near = spam.iloc[-1], grid.iloc[0]
-        said.append(f"{far['particles']:.0f} smooth particles as printed miss the energy of convection by "
+        said.append(f"{grouped(far['particles'])} smooth particles as printed miss the energy of convection by "
                     f"{percent(far['error'])}, where a grid of {near['resolution']:.0f} rows is off by "
                     f"{percent(near['error'])} in {seconds(near['cpu_s'])} CPU seconds.")
     return " ".join([*said, *counts(known.claims)])

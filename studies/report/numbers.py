@@ -45,6 +45,11 @@ def percent(value: float) -> str:
     return signed(f"{100*value:+.3g} %")
 
 
+def grouped(value: float) -> str:
+    """A whole number, thousands apart by a space that does not break."""
+    return f"{value:,.0f}".replace(",", "\N{NO-BREAK SPACE}")
+
+
 def many(words: list[str]) -> str:
     """a, b and c"""
     return " and ".join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else "".join(words)
