@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from continuum.compressible import DivergedError
+from continuum.compressible import SAFETY, DivergedError, limits
 from continuum.compressible import run as march
-from continuum.compressible_fields import Fields, initial
+from continuum.compressible_fields import Fields, block, initial
 from continuum.steady import Time
 from particles.run import Divergence, Plan, run
 from studies.convection.names import START_ENERGY
@@ -106,14 +106,26 @@ class OnGrid(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         start = initial(self.scene, self.rows, START_ENERGY) if self.case in LAYERS else still(self.scene, self.rows)
         box = (self.scene.width, self.scene.L)
+        part = Part(report)
         try:
-            done = march(self.scene, self.rows, until=Time(self.time, SAMPLES), start=start, progress=report)
+            done = march(self.scene, self.rows, until=Time(self.time, SAMPLES), start=start, progress=part)
         except DivergedError:
-            return row(self.case, "grid", {"reached": np.nan}, self.rows)
+            return row(self.case, "grid", {"reached": part.done}, self.rows)
         first, last = (observed(of_grid(fields), box) for fields in (start, done.fields))
         k = float(done.series.ke[round(LATE*len(done.series.ke)):].mean())
         return row(self.case, "grid", {"k": k, "flow": k*last[1]/max(last[0], 1e-300), "mass_drift": done.mass_drift,
                                        "k_start": first[0], "flow_start": first[1]}, self.rows)
+
+
+class Part:
+    """The part of a run that is done, told on and kept."""
+
+    def __init__(self, report: Report):
+        self.report, self.done = report, 0.0
+
+    def __call__(self, done: float) -> None:
+        self.done = done
+        self.report(done)
 
 
 def still(scene: Any, rows: int) -> Fields:
@@ -132,9 +144,13 @@ def of_grid(fields: Fields) -> Body:
 
 @dataclass(frozen=True, kw_only=True)
 class Steadiness(Case):
-    """Does the grid at high Ra come to rest, and does a finer one?    [KHP95, Sec. VI]"""
+    """Does the grid at high Ra come to rest, and does a finer one?    [KHP95, Sec. VI]
+
+    step : over the grid's own.
+    """
     ra: float
     rows: int
+    step: float = 1.0
 
     @property
     def cost(self) -> float:
@@ -145,15 +161,19 @@ class Steadiness(Case):
         return f"map steadiness, Ra {self.ra:g}, {self.rows} rows"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        scene = layer(self.ra)
-        key = {"ra": self.ra, "rows": self.rows}
+        scene, part = layer(self.ra), Part(report)
+        key = {"ra": self.ra, "rows": self.rows, "step": self.step}
+        start = initial(scene, self.rows, START_ENERGY)
+        dt = self.step*SAFETY*limits(scene, block(start)).both
         try:
-            done = march(scene, self.rows, until=Time(SETTLED*scene.L/scene.free_fall, 4*SAMPLES), progress=report)
+            done = march(scene, self.rows, until=Time(SETTLED*scene.L/scene.free_fall, 4*SAMPLES), start=start, dt=dt,
+                         progress=part)
         except DivergedError:
-            return Outcome({"steadiness": [{**key, "k": np.nan, "swing": np.nan, "before": np.nan, "rolls": 0}]})
+            lost = dict.fromkeys(("k", "swing", "before"), np.nan)
+            return Outcome({"steadiness": [{**key, **lost, "rolls": 0, "reached": part.done}]})
         before, late = np.split(done.series.ke[-2*SAMPLES:], 2)
         return Outcome({"steadiness": [{**key, "k": float(late.mean()), "swing": float(np.ptp(late)/late.mean()),
-                                        "before": float(np.ptp(before)/before.mean()), "rolls": done.rolls}]})
+                                        "before": float(np.ptp(before)/before.mean()), "rolls": done.rolls, "reached": 1.0}]})
 
 
 def cases(size: str) -> Iterator[Case]:
@@ -171,3 +191,4 @@ def cases(size: str) -> Iterator[Case]:
     corner, time = BOXES["wall corner"]
     yield OnGrid(case="wall corner", scene=corner, time=time, rows=round(corner.L))
     yield from (Steadiness(ra=ra, rows=rows) for ra in HIGH for rows in FINER)
+    yield Steadiness(ra=HIGH[-1], rows=FINER[1], step=0.5)

@@ -2,7 +2,8 @@
 
 diverges: the run did not reach its end. leaks: mass changed by more than LEAK. freezes: less than FROZEN of the flow is left.
 right: the number is within NEAR, and what the reference is uncertain by, of what it should be. wrong: stable, and none of these.
-refused: the method says itself that it does not take the case. Of lattices: pairs or clumps beyond a limit, whose prediction is
+refused: the method says itself that it does not take the case. unjudged: there is nothing to hold it against, since no two grids
+came to their end. Of lattices: pairs or clumps beyond a limit, whose prediction is
 told beside it. Of steps: right within NEAR of the formula, safe if the formula is smaller, wrong if it is larger.
 """
 from collections.abc import Iterator
@@ -59,8 +60,8 @@ def told(runs: pd.DataFrame, run: pd.Series) -> tuple[str, float, float, float]:
 
 
 def against_grid(runs: pd.DataFrame, run: pd.Series) -> tuple[float, float]:
-    """Flow over that of the finest grid, whose error is what the next coarser one is off by."""
-    grid = runs[(runs["case"] == run["case"]) & (runs["method"] == "grid")].sort_values("rows")["flow"].to_numpy()
+    """Flow over that of the finest grid that came to its end, whose error is what the next coarser one is off by."""
+    grid = runs[(runs["case"] == run["case"]) & (runs["method"] == "grid")].sort_values("rows")["flow"].dropna().to_numpy()
     if len(grid) < 2:
         return np.nan, np.nan
     return float(run["flow"]/grid[-1]), float(abs(grid[-2]/grid[-1] - 1))
@@ -74,6 +75,8 @@ def outcome(run: pd.Series, number: str, predicted: float, measured: float, err:
         return "diverges"
     if abs(run["mass_drift"]) > LEAK:
         return "leaks"
+    if not np.isfinite(measured):
+        return "unjudged"
     if number == "speed/c":
         return "right" if measured < SPURIOUS else "wrong"
     if measured < FROZEN:

@@ -10,7 +10,7 @@ from studies.kit.table import Tables
 #: letter, shade and hatch of an outcome; the darker, the worse
 LOOKS = {"right": ("R", "white", ""), "safe": ("s", "white", "."), "wrong": ("W", "0.85", "/"), "leaks": ("L", "0.85", "\\"),
          "freezes": ("F", "0.7", "x"), "pairs": ("P", "0.7", "o"), "clumps": ("C", "0.7", "O"), "diverges": ("D", "0.5", ""),
-         "refused": ("-", "white", "")}
+         "refused": ("-", "white", ""), "unjudged": ("?", "white", "")}
 
 
 def figures(tables: Tables) -> dict[str, Figure]:
@@ -48,7 +48,7 @@ def chart(rows: pd.DataFrame) -> Figure:
 def swings(rows: pd.DataFrame) -> Figure:
     """Swing of K against rows, both quarters."""
     page, axes = figure()
-    for number, (ra, some) in enumerate(rows.groupby("ra")):
+    for number, (ra, some) in enumerate(rows[(rows["step"] == 1) & rows["swing"].notna()].groupby("ra")):
         mean, half = (some["swing"] + some["before"])/2, (some["swing"] - some["before"]).abs()/2
         errorbar(axes, some["rows"].tolist(), mean.tolist(), half.tolist(), number=number, label=f"Ra {ra:g}")
     axes.axhline(0.01, color="black", linewidth=0.8)

@@ -7,8 +7,10 @@ from studies.kit.table import Table
 #: less 1; reached: part of the time; refused: why a method does not take the case; the grid as method has as many rows as points
 RUNS = Table("hard_runs", key=["case", "method", "rows"], columns=["case", "method", "rows", "k", "flow", "mass_drift", "k_start",
                                                                    "flow_start", "reached", "refused"])
-#: the grid at high Ra: mean K, and largest less smallest K over the mean in the last quarter of the time and in the one before
-STEADINESS = Table("steadiness", key=["ra", "rows"], columns=["ra", "rows", "k", "swing", "before", "rolls"])
+#: the grid at high Ra: mean K, and largest less smallest K over the mean in the last quarter of the time and in the one before;
+#: reached: part of the time, where it diverges; step: over the grid's own
+STEADINESS = Table("steadiness", key=["ra", "rows", "step"], columns=["ra", "rows", "step", "k", "swing", "before", "rolls",
+                                                                      "reached"])
 #: outcome by the rules of `map_derive`; number: the name of what is predicted and measured
 MAP = Table("map", key=["case", "method", "variant"], columns=["case", "method", "variant", "number", "predicted", "measured",
                                                                "measured_err", "outcome"])
