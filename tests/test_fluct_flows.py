@@ -78,8 +78,8 @@ def test_faces_between_moving_points_have_partners_wherever_the_points_are():
         entry = np.concatenate([np.arange(a, a + m) for a, m in zip(faces.first, faces.taken, strict=True)]).astype(int)
         once = rows < parent[faces.near[entry]]         # each face is stored with both of its points
         i, entry = rows[once], entry[once]
-        S, apart = (2*np.stack([x[entry], y[entry]], axis=1) for x, y in ((faces.sx, faces.sy), (faces.dx/2, faces.dy/2)))
-        edges = Edges(i=i, j=parent[faces.near[entry]], S=S, k=faces.k[entry], apart=apart, V=now[7])
+        half, apart = (np.stack([x[entry], y[entry]], axis=1) for x, y in ((faces.sx, faces.sy), (faces.dx, faces.dy)))
+        edges = Edges(i=i, j=parent[faces.near[entry]], S=2*half, k=faces.k[entry], apart=apart, V=now[7])
         assert np.abs(edges.closure).max() < 1e-9 and np.abs(edges.linear - np.eye(2)).max() < 1e-8
         eta = np.random.default_rng(1).uniform(0.2, 1, n)
         for pair in (fluctuating.stress(edges, eta, eta, 0.7), fluctuating.friction(edges, eta, eta, 0.7)):

@@ -261,7 +261,7 @@ def small(size: str) -> list:
             *(About(flow=flow, counts=(3, 3), turns=((1, 0),), share=0.5, eta=0.4, time=135.0, of_limit=0.9, batches=2)
               for flow in (Stream(0.3), Shear(0.2))),
             *(Tail(side=8, share=share, nu_t=(30.0, 3000.0)) for share in (0.0, 0.1, 1.0)),
-            *(TailSampled(side=6, share=share, lags=(0, 20, 100), steps=400) for share in (0.0, 0.1))]
+            *(TailSampled(side=4, share=share, lags=(0, 20, 60), steps=200) for share in (0.0, 0.1))]
 
 
 @pytest.fixture(scope="module")
