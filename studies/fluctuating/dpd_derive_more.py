@@ -7,11 +7,12 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import brentq
 
-from studies.fluctuating.dpd_derive import weighted
+from studies.fluctuating.dpd_derive import standard, weighted
 from studies.integral.bodies_drag import drag_of
 from studies.kit.table import Tables
 
 FRACTIONS = (0.05, 0.1, 0.2, 0.3)       # of published drags
+LONGEST = 0.06      # step of the fit through all runs
 
 
 def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
@@ -20,13 +21,15 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     steps, stiffness, cylinders, shear, inertia = (tables.get(name, pd.DataFrame()) for name in (
         "steps", "stiffness", "cylinders", "shear", "inertia"))
     if len(steps) and len(stiffness):
-        rows["second"] = list(second(steps, stiffness))
+        states = standard(tables["states"]).query("a == 25 and rho == 3")
+        both = pd.concat([steps, states[states["integrator"].isin(steps["integrator"]) & (states["dt"] <= LONGEST)]])
+        rows["second"] = [*second(steps, stiffness, "long"), *second(both, stiffness, "all")]
     if len(cylinders) and len(shear) and len(inertia):
         rows["drag"] = list(drag(cylinders, shear, inertia))
     return rows
 
 
-def second(steps: pd.DataFrame, stiffness: pd.DataFrame) -> Iterator[dict[str, Any]]:
+def second(steps: pd.DataFrame, stiffness: pd.DataFrame, runs: str) -> Iterator[dict[str, Any]]:
     """kT/kT_0 - 1 = second dt^2 + fourth dt^4 through the steps of an integrator; prediction from averages at the shortest."""
     said = stiffness.sort_values("dt").iloc[0]
     for integrator, group in steps.groupby("integrator"):
@@ -34,7 +37,7 @@ def second(steps: pd.DataFrame, stiffness: pd.DataFrame) -> Iterator[dict[str, A
         for temperature in ("kinetic", "configurational"):
             off, err = group[temperature].to_numpy() - 1, group[f"{temperature}_err"].to_numpy()
             two, four = weighted(np.stack([dt**2, dt**4], axis=1), off, err)
-            yield {"integrator": integrator, "temperature": temperature, "steps": len(dt), "second": two.value,
+            yield {"integrator": integrator, "runs": runs, "temperature": temperature, "steps": len(dt), "second": two.value,
                    "second_err": two.err, "fourth": four.value, "fourth_err": four.err, "predicted": said[temperature],
                    "predicted_err": said[f"{temperature}_err"]}
 

@@ -6,7 +6,7 @@ from matplotlib.patches import Circle
 
 from studies.fluctuating.dpd_derive import standard
 from studies.fluctuating.dpd_figures import NAMES
-from studies.kit.figure import COLOURS, below, errorbar, figure
+from studies.kit.figure import COLOURS, errorbar, figure
 from studies.kit.table import Tables
 
 
@@ -25,6 +25,7 @@ def second(states: pd.DataFrame, steps: pd.DataFrame, order: pd.DataFrame) -> Fi
     page, axes = figure(1, 2, width=4.6, height=4.2)
     chosen = standard(states)
     chosen = chosen[(chosen["a"] == 25) & (chosen["rho"] == 3) & (chosen["dt"] >= 0.02)]
+    chosen = chosen[chosen.groupby("dt")["integrator"].transform("nunique") == chosen["integrator"].nunique()]
     for panel, name in zip(axes, ("kinetic", "configurational"), strict=True):
         for number, (integrator, label) in enumerate(NAMES.items()):
             some = chosen[chosen["integrator"] == integrator].sort_values("time").drop_duplicates("dt", keep="last")
@@ -33,10 +34,10 @@ def second(states: pd.DataFrame, steps: pd.DataFrame, order: pd.DataFrame) -> Fi
             over(panel, some.sort_values("dt"), name, number=number, label=label, linestyle="-", alpha=0.7)
         over(panel, steps.sort_values("dt"), name, number=len(NAMES), label="splitting, long runs", linestyle="none")
         said = order[order["temperature"] == name].iloc[0]
-        panel.axhline(said["predicted"], color="0.3", linestyle="--", marker="", label="Verlet's rule with weak friction")
+        panel.axhline(said["predicted"], color="0.3", linestyle="--", marker="", label="predicted at 0 for splitting")
         panel.set(title=f"{name} temperature", xlabel=r"$\Delta t$", xlim=(0, None))
     axes[0].set_ylabel(r"$(T/T_0 - 1)/\Delta t^2$")
-    below(axes[1], ncol=2, bbox_to_anchor=(-0.1, -0.14))
+    page.legend(*axes[1].get_legend_handles_labels(), loc="outside lower center", ncol=3)
     page.suptitle(r"Dissipative particles, $a = 25$, $\rho = 3$: second order in the step", fontsize=10)
     return page
 

@@ -19,9 +19,10 @@ STIFFNESS = Table("stiffness", key=["a", "rho", "side", "dt"], columns=[
 #: kinetic and configurational kT/kT_0, the latter as one ratio of means, which is not off by 1/n
 STEPS = Table("steps", key=["integrator", "a", "rho", "side", "dt"], columns=[
     "integrator", "a", "rho", "side", "dt", "n", "time", "kinetic", "kinetic_err", "configurational", "configurational_err"])
-#: kT/kT_0 - 1 = second dt^2 + fourth dt^4 through the STEPS of an integrator; predicted: from STIFFNESS
-SECOND = Table("second", key=["integrator", "temperature"], columns=[
-    "integrator", "temperature", "steps", "second", "second_err", "fourth", "fourth_err", "predicted", "predicted_err"])
+#: kT/kT_0 - 1 = second dt^2 + fourth dt^4 through the STEPS of an integrator (`long`), or through these and those of the table
+#: `states` up to 0.06 (`all`); predicted: from STIFFNESS
+SECOND = Table("second", key=["integrator", "runs", "temperature"], columns=[
+    "integrator", "runs", "temperature", "steps", "second", "second_err", "fourth", "fourth_err", "predicted", "predicted_err"])
 ALL = (STIFFNESS, STEPS, SECOND)
 
 
