@@ -14,6 +14,7 @@ from studies.kit.stats import Measured
 from studies.kit.table import Tables
 
 GAS: dict[str, Any] = {"eos": "IdealGas", "weight": "Lucy", "ra": 3000.0}
+FROZEN = 0.1        # of the grid's energy, as in the bisection
 VISCOUS: dict[str, Any] = {"eta": 0.5}
 
 
@@ -71,10 +72,26 @@ def foretold(tables: Tables) -> Measured:
     return Measured(float(np.mean(rows["sites"] == rows["predicted"])), 0.0)
 
 
+def bracketed(tables: Tables, where: dict[str, Any]) -> pd.DataFrame:
+    """Limits of a layer; a bisection without a run on either side of its limit has only come to its end.
+
+    Raises
+    ------
+    CannotTell
+        One has.
+    """
+    rows, looks = select(tables, "freezing_limits", **where), select(tables, "freezing", **where)
+    for seed, group in looks.groupby("seed"):
+        if not (group["flow"] < FROZEN).any() or not (group["flow"] >= FROZEN).any():
+            raise CannotTell(f"seed {seed}: no change between frozen and flowing from P = {group['P'].min():.2g} to "
+                             f"{group['P'].max():.2g}; flow {group['flow'].min():.2g} to {group['flow'].max():.2g} of the grid's")
+    return rows
+
+
 def frozen_at(criterion: str, **where) -> Value:
     """Pressure at which the flow freezes over that of a printed criterion, seeds by seeds."""
     def value(tables: Tables) -> Measured:
-        rows = select(tables, "freezing_limits", **where)
+        rows = bracketed(tables, where)
         found = rows["measured"]/rows[criterion]
         spread = over_seeds(found.tolist()).err if len(found) > 1 else 0.0
         return Measured(float(found.mean()), max(spread, float((rows["measured_err"]/rows[criterion]).max())))
@@ -97,7 +114,7 @@ def next_to_limit(frozen: bool) -> Value:
 def limits_ratio(one: dict, other: dict, per_K: bool = False) -> Value:
     """Freezing pressure of one layer over that of another, each over the grid's K if wanted."""
     def limit(tables: Tables, where: dict) -> Measured:
-        rows = select(tables, "freezing_limits", **where)
+        rows = bracketed(tables, where)
         scale = float(rows["K"].mean()) if per_K else 1.0
         return Measured(float(rows["measured"].mean())/scale, float(rows["measured_err"].max())/scale)
     return lambda tables: ratio(limit(tables, one), limit(tables, other))

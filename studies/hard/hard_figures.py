@@ -46,7 +46,7 @@ def moduli(rows: pd.DataFrame) -> Figure:
         axes.set(xscale="log", yscale="log", title=title, ylim=(1e-6, 0.3), xlabel="range $h$ / spacings")
         axes.set_xticks([2, 3, 4, 6, 8, 12], labels=["2", "3", "4", "6", "8", "12"])
         axes.minorticks_off()
-    all_axes[0].set_ylabel("|spurious shear modulus| / bulk modulus")
+    all_axes[0].set_ylabel("|shear modulus| / bulk modulus")
     page.legend(*all_axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=5)
     page.suptitle("How stiff is a fluid of smooth particles on a lattice?\n"
                   "lines: lattice sums, dotted where negative (unstable); points: the sums that run; "
@@ -78,7 +78,7 @@ def pairs(rows: pd.DataFrame) -> Figure:
 
 def freezing(rows: pd.DataFrame, limits: pd.DataFrame) -> Figure:
     """Over the pressure: energy of the mean flow, and fluctuation of neighbours' distances."""
-    page, (left, right) = figure(1, 2, width=4.6, height=3.7, sharex=True)
+    page, (left, right) = figure(1, 2, width=4.6, height=3.7)
     keys = ["eos", "weight", "ra"]
     for number, (layer, label) in enumerate(LAYERS.items()):
         some = rows[(rows[keys] == layer).all(axis=1)].sort_values("P")
@@ -92,7 +92,7 @@ def freezing(rows: pd.DataFrame, limits: pd.DataFrame) -> Figure:
     left.axhline(0.1, color="grey", linewidth=0.6)
     right.axhline(0.1, color="grey", linewidth=0.6)
     left.set(xscale="log", ylabel="K of the mean flow / grid's, smoothed alike")
-    right.set(yscale="log", ylabel="rms fluctuation of neighbours' distances / mean")
+    right.set(xscale="log", ylabel="fluctuation of neighbours' distances", ylim=(0, None))
     for axes in (left, right):
         axes.set_xlabel(r"static pressure $P\sigma^2/\epsilon$")
     page.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=2)
@@ -111,8 +111,8 @@ def reversal(rows: pd.DataFrame, twins: pd.DataFrame) -> Figure:
     axes.axhline(0.1, color="grey", linewidth=0.6)
     axes.set(yscale="log", ylim=(3e-18, 30), xlabel=r"time $t/\sigma(m/\epsilon)^{1/2}$", ylabel=r"rms distance / $\sigma$")
     axes.legend(loc="center right")
-    page.suptitle(r"Do paths run back? $P\propto\rho^2$, Lucy's weight" "\nforward for a time, velocities turned, and back; "
-                  "whole numbers: no distance at all, drawn at $10^{-17}$", fontsize=10)
+    page.suptitle(r"Do paths run back? $P\propto\rho^2$, Lucy's weight" "\nforward, velocities turned, and back; "
+                  "whole numbers: exactly 0, drawn at $10^{-17}$", fontsize=10)
     return page
 
 
@@ -141,8 +141,9 @@ def shocks(profiles: pd.DataFrame, ripples: pd.DataFrame) -> Figure:
     all_axes[1, 1].set(ylabel="amplitude / that behind the shock", title="its ripple")
     for axes in all_axes[1]:
         axes.set_xlabel("time / time of the shock's arrival")
-    for axes in all_axes.ravel():
+    for axes in all_axes[1]:
         axes.legend()
+    page.legend(*all_axes[0, -1].get_legend_handles_labels(), loc="outside lower center", ncols=5)
     page.suptitle("Shocks through smooth particles as printed, without artificial viscosity\nabove: Sod's tube at "
                   r"$t = 0.4 L$; below: density ratio 4, Mach 1.5; bands: all seeds", fontsize=10)
     return page

@@ -90,7 +90,7 @@ def cases(size: str) -> list[Case]:
                 *shocks((12.0, 15.0, 18.0), ((0.5, 0.25, 1),), (1,))]
     return [*moduli(0.1), *growth(), *onsets((1,)), *fates((2.0, 2.4, 2.8, 3.0, 3.4, 4.0), (1, 2)), *squares(), *freezing(),
             *newton((5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 100.0), 15, (1, 2)),
-            *shocks((48.0, 96.0, 192.0), ((1.0, 0.25, 3), (1.0, 0.75, 3), (2.0, 0.25, 2)), (1, 2))]
+            *shocks((24.0, 48.0, 96.0, 192.0), ((1.0, 0.25, 3), (1.0, 0.75, 3), (2.0, 0.25, 3)), (1, 2, 3))]
 
 
 PART = Part(cases=cases, tables=hard_tables.ALL, derive=hard_derive.derive, claims=hard_claims.CLAIMS,
