@@ -29,7 +29,7 @@ from studies.cost import speed_cases_others as others
 from studies.cost import speed_cases_vortex as vortices
 from studies.cost import speed_names as names
 from studies.cost.scenes_terms import Carried, Friction, Listed
-from studies.cost.speed_problem import Problem, holding, of_method, result, rms
+from studies.cost.speed_problem import Problem, holding, of_method, plain, result, rms
 from studies.cost.speed_timing import SHORT, array_bytes, per_step
 from studies.integral.ordering_vortices import SOUND, Vortex, solved, velocities
 from studies.integral.ordering_vortices import incompressible as exactly_incompressible
@@ -123,14 +123,14 @@ def silent(size: int) -> Made:
     """The same sums without noise, in four stages."""
     with_noise = noisy(size).problem
     method = with_noise.held()[1].method
-    plain: Dih = method.dih
+    quiet: Dih = method.dih
 
     def go(state: np.ndarray, dt: float, steps: int) -> np.ndarray:
         integrator, now = RK4(state.shape, Team(1)), state.copy()
         for _ in range(steps):
-            integrator.step(plain, now, dt)
+            integrator.step(quiet, now, dt)
         return now
-    problem = with_noise._replace(go=go, held=lambda: (with_noise.first, plain, RK4(with_noise.first.shape, Team(1))))
+    problem = with_noise._replace(go=go, step=None, held=lambda: (with_noise.first, quiet, RK4(with_noise.first.shape, Team(1))))
     return Made(problem, "velocity")
 
 
@@ -155,7 +155,7 @@ def layer(rows: int, mended: bool = True, **changes: Any) -> Made:
         method = replace(method, law=law, g=changes.get("g", method.g))
         unit = problem.time/convection.END
         problem = problem._replace(limit=limit_of(method, problem.first), go=convection.sampled(method, dih.kinetic, unit),
-                                   step=convection.plain(method), held=holding(method, problem.first))
+                                   step=plain(method), held=holding(method, problem.first))
     return Made(problem, "K", loops(method, problem.first))
 
 

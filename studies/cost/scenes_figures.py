@@ -2,6 +2,7 @@
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from studies.kit.figure import COLOURS, figure
 from studies.kit.table import Tables
@@ -29,13 +30,18 @@ def saved(rows: pd.DataFrame) -> Figure:
              for row in rows.to_dict("records")]
     axes.axvline(1, color="black", linewidth=0.8)
     axes.set_yticks(at, labels=names)
-    axes.set(xscale="log", xlabel="what is left over what the whole takes; bars: 95 %",
-             title="Model only what a scene needs: what does leaving out save, and what error does it make?")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.4, -0.9/len(rows)), ncols=3)
+    axes.set(xscale="log", xlabel="what is left over what the whole takes; bars: 95 %")
+    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    page.suptitle("Model only what a scene needs: what does leaving out save, and what error does it make?", fontsize=10)
+    page.legend(loc="outside lower center", ncols=3)
     return page
 
 
 def told(changed: float, needed: str) -> str:
     """What it makes of the answer, in words."""
-    words = f"off by {100*changed:.2g} %" if np.isfinite(changed) else "diverges"
+    if not np.isfinite(changed):
+        return f"diverges, {'needed' if needed == 'yes' else 'not needed'}"
+    words = f"off by {100*changed:.0f} %" if changed > 0.1 else f"off by {100*changed:.2g} %"
     return f"{words}, {'needed' if needed == 'yes' else 'not needed'}"

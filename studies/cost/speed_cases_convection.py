@@ -32,7 +32,7 @@ from studies.convection import dih, moving, spam
 from studies.convection.names import START_ENERGY
 from studies.convection.smoothing import Smoothing, smoothed_energy
 from studies.cost import speed_names as names
-from studies.cost.speed_problem import Problem, Residuals, holding
+from studies.cost.speed_problem import Problem, Residuals, holding, plain
 from studies.kit.stats import settled
 
 RA = 1e4
@@ -175,11 +175,6 @@ def sampled(method: Any, quantity: Callable, unit: float) -> Callable[[np.ndarra
         # the rolls of the start
         return Followed(np.array([0.0, *done.times])/unit, np.array([START_ENERGY, *done.series["ke"]]), done.by_id())
     return follow
-
-
-def plain(method: Any) -> Callable[[np.ndarray, float, int], Any]:
-    """The same without records."""
-    return lambda first, dt, steps: run(method, first, Plan(dt=dt, steps=steps))
 
 
 class OnFixed(NamedTuple):

@@ -77,6 +77,11 @@ def marching(method: Any) -> Callable[[np.ndarray, float, int], np.ndarray]:
     return lambda state, dt, steps: run(method, state, Plan(dt=dt, steps=steps)).by_id()
 
 
+def plain(method: Any) -> Callable[[np.ndarray, float, int], Any]:
+    """`step` of the same: without records, and with a shorter step where the state is hotter than the one at the start."""
+    return lambda state, dt, steps: run(method, state, Plan(dt=min(dt, 0.99*limit_of(method, state)), steps=steps))
+
+
 def holding(method: Any, first: np.ndarray) -> Callable[[], tuple]:
     """`held` of the same: state, sums with their lists, and what the integrator keeps."""
     def held() -> tuple:
@@ -91,7 +96,7 @@ def of_method(method: Any, first: np.ndarray, time: float, residuals: Callable[[
               limit: float | None = None, known: float = 0.0, chaotic: bool = False) -> Problem:
     """The problem of a method of the particles' time loop."""
     return Problem(first.shape[1], first, limit_of(method, first) if limit is None else limit, time, marching(method), residuals,
-                   holding(method, first), known, chaotic)
+                   holding(method, first), known, chaotic, plain(method))
 
 
 def rms(residual: np.ndarray) -> float:
