@@ -33,7 +33,8 @@ def chart(rows: pd.DataFrame) -> Figure:
         letter, shade, hatch = LOOKS[row["outcome"]]
         x, y = cases.index(row["case"]), methods.index(row["method"])
         axes.add_patch(Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=shade, edgecolor="0.6", hatch=hatch, linewidth=0.5))
-        value = f" {row['measured']:.2g}" if pd.notna(row["measured"]) else ""
+        shown = pd.notna(row["measured"]) and row["outcome"] != "diverges"
+        value = f" {row['measured']:.2g}" if shown else ""
         axes.text(x, y, f"{letter}{value}", ha="center", va="center", fontsize=8,
                   bbox={"facecolor": shade, "edgecolor": "none", "pad": 0.6})
     axes.set(xlim=(-0.5, len(cases) - 0.5), ylim=(len(methods) - 0.5, -0.5), yticks=range(len(methods)), yticklabels=methods)
