@@ -123,9 +123,10 @@ DISORDERED: dict[str, partial] = {f"fixed {name}": partial(fixed, scheme=dih.SCH
     ("jittered", "fixed-jittered-delaunay"), ("random", "fixed-random-delaunay"))}
 NARROW: dict[str, partial] = {name: build for h in (0.9, 1.2, 1.5, 2.0) for name, build in narrow(h).items()}
 CORNERS: dict[str, partial] = {
-    "spam without walls": partial(smooth, variant=spam.PRINTED._replace(walls=all_round)), **{f"spam {name}": partial(smooth, variant=spam.VARIANTS[variant]) for name, variant in (
-    ("printed", "printed"), ("Wendland", "wendland-c2"), ("odd images", "walls-odd"),
-    ("images' own pressure", "walls-own-pressure"))}}
+    **{f"spam {name}": partial(smooth, variant=spam.VARIANTS[variant]) for name, variant in (
+        ("printed", "printed"), ("Wendland", "wendland-c2"), ("odd images", "walls-odd"),
+        ("images' own pressure", "walls-own-pressure"))},
+    "spam without walls": partial(smooth, variant=spam.PRINTED._replace(walls=all_round))}
 #: which methods take which case; a strip in a vacuum has no points outside but smooth particles'
 TAKES: dict[str, dict[str, partial]] = {
     **dict.fromkeys(("Ra 1e5", "Ra 1e6", "Prandtl 0.01", "Prandtl 100", "high pressure", "zero viscosity", "vacuum"), USUAL),
