@@ -104,6 +104,9 @@ def memory(points: pd.DataFrame) -> Figure:
         errorbar(axes, (rows["bytes"]/rows["points"]).tolist(), places, [0.0]*len(rows), number=number, label=scene)
     axes.set_yticks(range(len(order)), labels=order[::-1])
     axes.set(xscale="log", xlabel="bytes of arrays a point while it runs", title="Memory at the highest resolution")
+    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
     page.legend(loc="outside lower center", ncols=5)
     return page
 
