@@ -16,8 +16,8 @@ from particles.points import jittered, lattice
 from particles.run import Plan, run
 from particles.team import Team
 from particles.weights import Lucy
-from studies.fluctuating.fluct_flows import carried_along, equilibrium, factor, noise, states_of_fields, transport
 from studies.fluctuating.fluct_given import Shear, Sheared, Stream, Sustained, kicked
+from studies.fluctuating.fluct_matrices import carried_along, equilibrium, factor, noise, states_of_fields, transport
 from studies.fluctuating.fluct_modes import check_modes, directions, plane_waves
 from studies.fluctuating.fluct_steps import line_symbols
 from studies.fluctuating.fluct_tail import TailSampled, autocorrelation, blocks, resting

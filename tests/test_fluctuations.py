@@ -21,8 +21,9 @@ from particles.run import Plan, run
 from particles.team import Team
 from particles.weights import Lucy
 from studies.fluctuating import fluct_tables
-from studies.fluctuating.fluct_flows import BelowOnset, Gradient, Rest, equilibrium, layer_noise, noise, transport
+from studies.fluctuating.fluct_flows import BelowOnset, Gradient, Rest, layer_noise
 from studies.fluctuating.fluct_given import About, Shear
+from studies.fluctuating.fluct_matrices import equilibrium, noise, transport
 from studies.fluctuating.fluct_modes import Equipartition, check_modes, plane_waves
 from studies.fluctuating.fluct_nonlinear import Capacity, Exchange, Exchanged, Nonlinear, dirichlet
 from studies.fluctuating.fluct_peaks import Brillouin

@@ -12,7 +12,7 @@ from particles.methods import fluctuating
 from particles.methods.fluctuating import Partners, mismatch
 from particles.points import lattice
 from particles.weights import Lucy, WendlandC2
-from studies.fluctuating.fluct_flows import ETA, KAPPA
+from studies.fluctuating.fluct_matrices import ETA, KAPPA
 from studies.integral.operators import Disorder
 from studies.integral.transport_symbol import neighbours
 from studies.kit.case import Case, Outcome, Report

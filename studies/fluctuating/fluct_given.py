@@ -22,7 +22,8 @@ from particles.points import Points, jittered, lattice
 from particles.run import Plan
 from particles.team import Team
 from particles.weights import Lucy
-from studies.fluctuating.fluct_flows import lap_symbol, slope_symbol, slopes_symbol, states_of_fields
+from studies.fluctuating.fluct_flows import lap_symbol, slope_symbol, slopes_symbol
+from studies.fluctuating.fluct_matrices import states_of_fields
 from studies.fluctuating.fluct_modes import plane_waves
 from studies.fluctuating.fluct_sampling import BATCHES, batches, check_length, over
 from studies.kit.case import Case, Outcome, Report

@@ -14,7 +14,7 @@ from particles.methods.thermal import Mixed
 from particles.points import Points
 from particles.run import Plan
 from particles.weights import Lucy
-from studies.fluctuating.fluct_flows import ETA, KAPPA, ZETA, equilibrium, factor, noise, transport
+from studies.fluctuating.fluct_matrices import ETA, KAPPA, ZETA, equilibrium, factor, noise, transport
 from studies.fluctuating.fluct_sampling import BATCHES, Linear, batches, check_length, over
 from studies.integral.operators import DISORDERS, Disorder
 from studies.kit.case import Case, Outcome, Report

@@ -18,7 +18,7 @@ from particles.points import jittered, lattice
 from particles.run import Plan
 from particles.team import Team
 from particles.weights import Lucy
-from studies.fluctuating.fluct_flows import ETA, KAPPA, ZETA
+from studies.fluctuating.fluct_matrices import ETA, KAPPA, ZETA
 from studies.fluctuating.fluct_sampling import BATCHES, CrankNicolson, batches, check_length, over
 from studies.kit.case import Case, Outcome, Report
 

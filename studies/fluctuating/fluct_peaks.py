@@ -16,7 +16,7 @@ from particles.methods.thermal import Mixed
 from particles.points import lattice
 from particles.run import Plan
 from particles.weights import Lucy
-from studies.fluctuating.fluct_flows import ETA, KAPPA, carried_along, factor, states_of_fields, transport
+from studies.fluctuating.fluct_matrices import ETA, KAPPA, carried_along, factor, states_of_fields, transport
 from studies.fluctuating.fluct_sampling import BATCHES, Linear, batches, check_length
 from studies.fluctuating.fluct_steps import gas, line_symbols
 from studies.kit.case import Case, Outcome, Report

@@ -20,7 +20,7 @@ from particles.methods.thermal import Mixed
 from particles.points import lattice
 from particles.run import Plan
 from particles.weights import Lucy
-from studies.fluctuating.fluct_flows import factor, transport
+from studies.fluctuating.fluct_matrices import factor, transport
 from studies.fluctuating.fluct_peaks import picked
 from studies.fluctuating.fluct_sampling import BATCHES, Linear, batches, check_length, over
 from studies.kit.case import Case, Outcome, Report
