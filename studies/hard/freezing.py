@@ -92,7 +92,9 @@ class Freezing(Case):
             report(number/HALVINGS)
             rows.append(self._look(float(np.exp((low + high)/2)), smooth))
             low, high = (low, (low + high)/2) if rows[-1]["flow"] < FROZEN else ((low + high)/2, high)
-        limit = {**self._columns, "measured": float(np.exp((low + high)/2)), "measured_err": float(np.exp(high) - np.exp(low))/2,
+        between = {row["flow"] < FROZEN for row in rows} == {False, True}       # else the interval's end is all there is
+        middle, half = np.exp((low + high)/2), (np.exp(high) - np.exp(low))/2
+        limit = {**self._columns, "measured": float(middle) if between else np.nan, "measured_err": float(half),
                  **self._criteria(plain)}
         return Outcome({"freezing": rows, "freezing_limits": [limit]})
 
