@@ -8,10 +8,10 @@ import pytest
 import studies.speed as speed
 from continuum.boussinesq import Case as Mac
 from particles.run import Divergence, Plan, run
-from studies.cost import speed_cases_convection as convection
 from studies.cost import speed_cases_plates as slab
 from studies.cost import speed_cases_vortex as vortex
 from studies.cost import speed_cases_waves as wave
+from studies.cost import speed_convection as convection
 from studies.cost import speed_derive, speed_figures, speed_names, speed_tables
 from studies.cost.speed_claims import CLAIMS, of_level, seconds
 from studies.cost.speed_plates_exact import DEGREE, FLOWS, MU, fields, solved

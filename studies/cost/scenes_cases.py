@@ -27,6 +27,7 @@ from studies.convection import dih
 from studies.cost import speed_cases_convection as convection
 from studies.cost import speed_cases_others as others
 from studies.cost import speed_cases_vortex as vortices
+from studies.cost import speed_convection as convection_rules
 from studies.cost import speed_names as names
 from studies.cost.scenes_terms import Carried, Friction, Listed
 from studies.cost.speed_problem import Problem, holding, of_method, plain, result, rms
@@ -153,7 +154,7 @@ def layer(rows: int, mended: bool = True, **changes: Any) -> Made:
     if changes:
         law = method.law._replace(**{name: value for name, value in changes.items() if name != "g"})
         method = replace(method, law=law, g=changes.get("g", method.g))
-        unit = problem.time/convection.END
+        unit = problem.time/convection_rules.END
         problem = problem._replace(limit=limit_of(method, problem.first), go=convection.sampled(method, dih.kinetic, unit),
                                    step=plain(method), held=holding(method, problem.first))
     return Made(problem, "K", loops(method, problem.first))
@@ -167,7 +168,7 @@ def moving_layer(rows: int) -> Made:
 
 def boussinesq_layer(rows: int) -> Made:
     """The MAC grid at the Prandtl number that is nearest; half of its K is what a Boussinesq fluid says of the gas."""
-    apart = others.boussinesq_reference().ke/2/convection.reference().ke - 1
+    apart = others.boussinesq_reference().ke/2/convection_rules.reference().ke - 1
     return Made(others.OnMac().problem(rows, 1), "K", (), float(rows), abs(apart))
 
 

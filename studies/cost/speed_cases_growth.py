@@ -19,9 +19,8 @@ from particles.team import Team
 from particles.weights import Lucy
 from studies.convection import spam
 from studies.cost import speed_names as names
-from studies.cost.speed_cases_others import Laps
 from studies.cost.speed_problem import holding
-from studies.cost.speed_timing import SHORT, array_bytes, per_step
+from studies.cost.speed_timing import SHORT, Laps, array_bytes, per_step
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
 

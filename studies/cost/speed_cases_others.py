@@ -21,7 +21,7 @@ from continuum.steady import Time
 from studies.convection.cost import REPEATS, SPREAD_TO_ERR
 from studies.convection.names import START_ENERGY
 from studies.cost import speed_names as names
-from studies.cost.speed_cases_convection import (
+from studies.cost.speed_convection import (
     EARLY,
     END,
     OFTEN,
@@ -39,7 +39,7 @@ from studies.cost.speed_cases_convection import (
     shares_of,
 )
 from studies.cost.speed_problem import Problem, Race, Residuals, rms
-from studies.cost.speed_timing import array_bytes
+from studies.cost.speed_timing import Laps, array_bytes
 from studies.kit.case import Outcome, Report
 from studies.kit.stats import Measured
 from studies.kit.timing import compile_and_run_seconds, median_seconds
@@ -173,22 +173,6 @@ class OnMacNewton(NamedTuple):
         state = steady(case)
         return Solved({"K": np.array([state.K/known.ke - 1])}, {}, case.rows*case.columns, len(state.residuals),
                       array_bytes(case.mac), known.known)
-
-
-class Laps:
-    """Seconds between calls."""
-
-    def __init__(self, clock: Callable[[], float] = process_time) -> None:
-        self.clock, self.at = clock, list[float]()
-
-    def __call__(self, fraction: float) -> None:
-        self.at.append(self.clock())
-
-    def total(self, count: int) -> Measured:
-        """Of `count` of them; the error is that of their median, from their quartiles."""
-        laps = np.diff(self.at)
-        low, middle, high = np.percentile(laps, [25, 50, 75])
-        return Measured(count*float(middle), count*float(high - low)/2*SPREAD_TO_ERR*np.sqrt(REPEATS/len(laps)))
 
 
 class OnPypde(NamedTuple):

@@ -21,13 +21,13 @@ from particles.methods.spam import Spam
 from particles.methods.stream import Stream
 from particles.points import jittered, lattice
 from particles.triangulation import between
-from particles.walls import confine, fixed_points, image_motion, image_point, image_pressure, parents
-from particles.walls.mirror import Mirror, plates
+from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.cost import speed_names as names
 from studies.cost.speed_plates_exact import COARSER, FLOWS, MU, Flow, fields
 from studies.cost.speed_problem import Problem, Residuals, of_method
+from studies.cost.speed_sliding import Sliding
 from studies.integral.transport_walls import Driven
 
 COLUMNS = 8         # of points: wider than twice a range of three spacings
@@ -125,25 +125,6 @@ class OnMoving(NamedTuple):
 
 
 # --- smooth particles -------------------------------------------------------------------------------------------------
-
-
-class Sliding(NamedTuple):
-    """A mirror plate that slides along x with velocity U: images as the plate's rule has them in its own frame."""
-    mirror: Mirror
-    U: float
-
-
-parents.of(Sliding)(lambda wall, x, y, reach: parents(wall.mirror, x, y, reach))
-image_point.of(Sliding)(lambda wall, x, y: image_point(wall.mirror, x, y))
-image_pressure.of(Sliding)(lambda wall, own, copied: image_pressure(wall.mirror, own, copied))
-confine.of(Sliding)(lambda wall, state: confine(wall.mirror, state))
-fixed_points.of(Sliding)(lambda wall, width, height: fixed_points(wall.mirror, width, height))
-
-
-@image_motion.of(Sliding)
-def _(wall, x, y, vx, vy, T):
-    u, v, T = image_motion(wall.mirror, x, y, vx - wall.U, vy, T)
-    return u + wall.U, v, T
 
 
 class OnParticles(NamedTuple):

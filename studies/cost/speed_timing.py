@@ -37,6 +37,22 @@ def _rough(advance: Callable[[int], Any], clock: Callable[[], float]) -> float:
     return (times[2] - 2*times[1] + times[0])/(4*FEW)
 
 
+class Laps:
+    """Seconds between calls."""
+
+    def __init__(self, clock: Callable[[], float] = process_time) -> None:
+        self.clock, self.at = clock, list[float]()
+
+    def __call__(self, fraction: float) -> None:
+        self.at.append(self.clock())
+
+    def total(self, count: int) -> Measured:
+        """Of `count` of them; the error is that of their median, from their quartiles."""
+        laps = np.diff(self.at)
+        low, middle, high = np.percentile(laps, [25, 50, 75])
+        return Measured(count*float(middle), count*float(high - low)/2*SPREAD_TO_ERR*np.sqrt(REPEATS/len(laps)))
+
+
 def array_bytes(*things: Any) -> int:
     """Bytes of all arrays that things hold, each buffer once; not those of a `method`, which are there to set up only."""
     return sum({address(array): array.nbytes for array in arrays(things, set())}.values())
