@@ -286,9 +286,9 @@ SHOCKS = (
           statement="a shock of Mach 1.5 gives the interface the velocity of the exact solution: measured over exact",
           because="2 %, as printed for the growth"),
     Claim(id="khp95-hard-ripple-rest", source="KHP95 Sec. VI, Fig. 11", value=kept_ripple, at_least=0.95,
-          statement="two gases of one pressure keep the ripple between them until the shock comes: amplitude then over that at the "
-                    "start, printed size, k a = 0.75", because="a twentieth of 3.6 spacings is what strips of particles tell; asked "
-                                                             "for after growth had been seen to fall short"),
+          statement="two gases of one pressure keep the ripple between them until the shock comes: amplitude then over that at "
+                    "the start, printed size, k a = 0.75",
+          because="a twentieth of 3.6 spacings is what strips tell; asked after growth had been seen to fall short"),
     Claim(id="khp95-hard-ripple-growth", source="KHP95 Sec. VI, Fig. 11", printed="2%", value=finest("growth"), expect=1,
           within=0.02, because="the printed 2 %; impulsive theory is itself an approximation",
           statement="a shocked ripple grows as theory says, density ratio 4, Mach 1.5 from the light side, k a = 0.25, all of it "

@@ -95,6 +95,8 @@ def freezing(rows: pd.DataFrame, limits: pd.DataFrame) -> Figure:
     right.set(xscale="log", ylabel="fluctuation of neighbours' distances", ylim=(0, None))
     for axes in (left, right):
         axes.set_xlabel(r"static pressure $P\sigma^2/\epsilon$")
+    right.set_xticks([0.5, 1, 2, 4, 8], labels=["0.5", "1", "2", "4", "8"])
+    right.minorticks_off()
     page.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     page.suptitle("At which pressure do 512 particles freeze that should convect?\n"
                   "dashed: printed criterion of melting, dotted: of the largest potential; grey: a tenth", fontsize=10)
