@@ -144,9 +144,9 @@ class Cylinder(Fluid):
 
     def _flow(self, done) -> list[dict]:
         px, py, count = done.means["flow"]
-        at, U = (np.arange(BINS) + 0.5)/BINS*self.cell - self.cell/2, np.mean(done.series["speed"])
-        return [{**self._key(), "x": at[i]/self.radius, "y": at[j]/self.radius, "u": px[i, j]/count[i, j]/U,
-                 "v": py[i, j]/count[i, j]/U} for i in range(BINS) for j in range(BINS)]
+        mass = np.where(count > 0, count, np.nan)*np.mean(done.series["speed"])     # a square of few frozen ones may be empty
+        at, u, v = ((np.arange(BINS) + 0.5)/BINS - 0.5)*self.cell/self.radius, px/mass, py/mass
+        return [{**self._key(), "x": at[i], "y": at[j], "u": u[i, j], "v": v[i, j]} for i in range(BINS) for j in range(BINS)]
 
 
 @dataclass(frozen=True, kw_only=True)
