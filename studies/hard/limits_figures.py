@@ -5,7 +5,8 @@ from studies.hard.limits_cases import EULER_SCENES, ROLLS, SCENES
 from studies.kit.figure import below, figure, look
 from studies.kit.table import Tables
 
-CLEAR = 0.11            # between scenes of one method, in rows
+CLEAR = 0.2             # between scenes of one method, in rows
+ROLL = "roll, Ra 1e4, 1e5"
 
 
 def figures(tables: Tables) -> dict[str, Figure]:
@@ -16,14 +17,15 @@ def figures(tables: Tables) -> dict[str, Figure]:
     rows = rows[rows["predicted"] > 0]
     page, (axes, exact) = figure(1, 2, width=4.6, height=4.6, sharey=True)
     methods = list(dict.fromkeys(rows["method"]))
-    scenes = [*{**SCENES, **EULER_SCENES}, *(f"Ra {ra:g}" for ra in ROLLS)]
-    for number, scene in enumerate(scenes):
+    rows = rows.assign(scene=rows["scene"].replace({f"Ra {ra:g}": ROLL for ra in ROLLS}))
+    place = rows.groupby("method").cumcount() - (rows.groupby("method")["scene"].transform("size") - 1)/2
+    rows = rows.assign(at=[methods.index(method) for method in rows["method"]] + CLEAR*place)
+    for number, scene in enumerate([*{**SCENES, **EULER_SCENES}, ROLL]):
         some = rows[rows["scene"] == scene]
         if some.empty:
             continue
-        at = [methods.index(method) + CLEAR*(number - 3) for method in some["method"]]
         for axis, formula in ((axes, some["predicted"]), (exact, some["exact"])):
-            axis.errorbar(some["measured"]/formula, at, xerr=some["measured_err"]/formula, label=scene,
+            axis.errorbar(some["measured"]/formula, some["at"], xerr=some["measured_err"]/formula, label=scene,
                           **{**look(number), "linestyle": "none"})
     axes.set(yticks=range(len(methods)), yticklabels=methods, xscale="log", xlabel="measured / the method's own formula")
     axes.set_xticks([0.7, 1, 1.4, 2, 3, 5], labels=["0.7", "1", "1.4", "2", "3", "5"])

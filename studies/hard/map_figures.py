@@ -4,7 +4,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from studies.hard.map_scenes import BOXES, LAYERS
-from studies.kit.figure import below, errorbar, figure
+from studies.kit.figure import below, errorbar, figure, look
 from studies.kit.table import Tables
 
 #: letter, shade and hatch of an outcome; the darker, the worse
@@ -47,12 +47,17 @@ def chart(rows: pd.DataFrame) -> Figure:
 
 
 def swings(rows: pd.DataFrame) -> Figure:
-    """Swing of K against rows, both quarters."""
-    page, axes = figure()
-    for number, (ra, some) in enumerate(rows[(rows["step"] == 1) & rows["swing"].notna()].groupby("ra")):
+    """Swing of K against rows, in the last quarter and in the one before, and the part of the time that was reached."""
+    page, (axes, end) = figure(1, 2)
+    rows = rows[rows["step"] == 1]
+    for number, (ra, some) in enumerate(rows.groupby("ra")):
+        end.plot(some["rows"], some["reached"], label=f"Ra {ra:g}", **look(number))
+        some = some.dropna(subset=["swing"])
         mean, half = (some["swing"] + some["before"])/2, (some["swing"] - some["before"]).abs()/2
         errorbar(axes, some["rows"].tolist(), mean.tolist(), half.tolist(), number=number, label=f"Ra {ra:g}")
     axes.axhline(0.01, color="black", linewidth=0.8)
-    axes.set(xlabel="rows of the grid", ylabel="(largest - smallest K)/mean K, late", yscale="log")
-    below(axes, ncols=3)
+    axes.set(xlabel="rows of the grid", ylabel="(largest - smallest K)/mean K", yscale="log",
+             title="bars: from the last quarter to the one before")
+    end.set(xlabel="rows of the grid", ylabel="part of the time that was reached", ylim=(0, 1.05))
+    below(end, ncols=3)
     return page
