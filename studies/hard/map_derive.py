@@ -3,7 +3,7 @@
 diverges: the run did not reach its end. leaks: mass changed by more than LEAK. freezes: less than FROZEN of the flow is left.
 right: the number is within NEAR, and what the reference is uncertain by, of what it should be. wrong: stable, and none of these.
 refused: the method says itself that it does not take the case. unjudged: there is nothing to hold it against, since no two grids
-came to their end. Of lattices: pairs or clumps beyond a limit, whose prediction is
+came to their end, or a search found no limit. Of lattices: pairs or clumps beyond a limit, whose prediction is
 told beside it. Of steps: right within NEAR of the formula, safe if the formula is smaller, wrong if it is larger.
 """
 from collections.abc import Iterator
@@ -120,8 +120,9 @@ def of_lattices(tables: Tables) -> Iterator[dict[str, Any]]:
         yield entry("left alone", f"spam {weight}", f"h {h:g}", "part that shares a site", float(rows["predicted"].iloc[0] > 1),
                     shared, float(np.ptp(rows["shared"])), "pairs" if shared > PAIRED else "right")
     for (eos, weight, ra), rows in groups(tables, "freezing_limits", ["eos", "weight", "ra"]):
+        said = "freezes" if np.isfinite(rows["measured"]).all() else "unjudged"
         yield entry("background pressure", f"spam {weight}", f"{eos}, Ra {ra:g}", "P that freezes", rows["melting"].mean(),
-                    rows["measured"].mean(), rows["measured_err"].max(), "freezes")
+                    rows["measured"].mean(), rows["measured_err"].max(), said)
 
 
 def of_shocks(tables: Tables) -> Iterator[dict[str, Any]]:
