@@ -81,12 +81,12 @@ def freezing(rows: pd.DataFrame, limits: pd.DataFrame) -> Figure:
     page, (left, right) = figure(1, 2, width=4.6, height=3.7)
     keys = ["eos", "weight", "ra"]
     for number, (layer, label) in enumerate(LAYERS.items()):
-        some = rows[(rows[keys] == layer).all(axis=1)].sort_values("P")
+        some = rows[(rows[keys] == list(layer)).all(axis=1)].sort_values("P")
         if some.empty:
             continue
         errorbar(left, some["P"].tolist(), some["flow"].tolist(), some["flow_err"].tolist(), number=number, label=label)
         right.plot(some["P"], some["lindemann"], **{**look(number), "linestyle": "none"})
-        limit = limits[(limits[keys] == layer).all(axis=1)]
+        limit = limits[(limits[keys] == list(layer)).all(axis=1)]
         for name, style in (("melting", "--"), ("barrier", ":")):
             left.axvline(float(limit[name].mean()), color=look(number)["color"], linestyle=style, linewidth=0.9)
     left.axhline(0.1, color="grey", linewidth=0.6)
