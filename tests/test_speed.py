@@ -260,6 +260,9 @@ def test_growth_laws_are_those_of_the_table():
     assert found["exponent"]["value"] == pytest.approx(1.1, rel=1e-9)
     assert found["two threads"]["value"] == pytest.approx(1.8)
     assert found["two threads"]["value_err"] == pytest.approx(1.8*0.01*2**0.5, rel=1e-9)
+    verdicts = {row["id"]: row for row in judge(CLAIMS, Tables({"growth_laws": pd.DataFrame(found.values())}), "speed")}
+    assert verdicts["own-speed-growth-spam"]["reason"].startswith("100000 particles at most")     # of a million
+    assert verdicts["own-speed-threads-spam"]["verdict"] == "holds"         # 1.8 +- 0.025 against 1.7
     assert speed_figures.growth(pd.concat([cpu, wall]).assign(bytes=1.0)).axes[0].get_xscale() == "log"
 
 
