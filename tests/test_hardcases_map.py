@@ -8,6 +8,7 @@ from studies.hard.map_claims import CLAIMS
 from studies.hard.map_derive import derive
 from studies.hard.map_methods import TAKES, Body, flow, kinetic
 from studies.hard.map_scenes import BOXES, LAYERS, SOUND, Strip, Vortex
+from studies.hard.map_shear import BEGIN, Amplitude, ShearFlow, U, fastest
 from studies.kit.claim import judged
 from studies.kit.table import Tables
 
@@ -80,3 +81,19 @@ def test_claims_of_the_map_can_fail():
         tables = Tables(hard_runs=pd.DataFrame(rows))
         tables["map"] = pd.DataFrame(derive(tables)["map"])
         assert judged(claims["map-ra-1e5-fixed-lattice"], tables)["verdict"] == verdict
+
+
+def test_the_growth_of_a_wave_on_a_shear_flow_follows_from_its_own_equation():
+    """At long waves Kolmogorov's flow grows at k_x U/sqrt 2; short ones, k_x >= k, do not."""
+    assert fastest(1.0, 1e-3).rate == pytest.approx(1e-3*U/2**0.5, rel=1e-3)
+    assert fastest(1.0, 1.01).rate == pytest.approx(0, abs=1e-9)
+
+
+def test_the_shear_flow_has_its_wave_and_no_divergence():
+    scene, d = ShearFlow(), 1e-5
+    x, y = np.random.default_rng(1).uniform(-8, 8, (2, 20))
+    div = scene.flow(x + d, y)[0] - scene.flow(x - d, y)[0] + scene.flow(x, y + d)[1] - scene.flow(x, y - d)[1]
+    assert np.abs(div/(2*d)).max() < 1e-9
+    place = np.stack(np.meshgrid(np.arange(32) - 15.5, np.arange(16) - 7.5), axis=-1).reshape(-1, 2)
+    body = Body(place, np.stack(scene.flow(*place.T), axis=1), np.ones(512))
+    assert Amplitude.of(body, scene.k/2) == pytest.approx(BEGIN*U/2, rel=1e-6)  # half, being real; harmonic 16 aliases

@@ -128,6 +128,16 @@ CLAIMS = (
     Claim(id="map-corner-of-walls", source="KHP95 Sec. IV", value=over("wall corner", "spam printed", "spam without walls"),
           at_least=2.0, because="what walls make is more than what there is without them",
           statement="what moves at rest in a square box is made by its walls: speed with four walls over speed without any"),
+    # read later: what is left moves over two spacings, which gradients of gradients do not see
+    Claim(id="map-corner-direct", source="KHP95 Sec. IV", value=number("wall corner", "spam direct"), at_most=SPURIOUS,
+          statement="in a square box with four walls at rest smooth particles with direct friction come to rest",
+          because="a thousandth of the speed of sound is a hundredth of what flows have"),
+    right("shear layer", "spam printed", "KHP95 Sec. VI", "a wave on a shear flow without viscosity grows by linear theory, "
+          "smooth particles as printed, 16 spacings to the flow's wavelength"),
+    right("shear layer", "fixed lattice", "RR98 Eqs 34-36", "a wave on a shear flow without viscosity grows by linear theory, "
+          "points on a lattice, 16 spacings to the flow's wavelength"),
+    right("shear layer", "moving", "RR98 Eqs 46-48", "a wave on a shear flow without viscosity grows by linear theory, moving "
+          "points with closed faces, 16 spacings to the flow's wavelength"),
     Claim(id="map-plain-disordered", source="RR98 Eqs 34-36", value=reached(("disordered points",), "fixed jittered plain"),
           at_most=0.999, because=ENDS, statement="the bracket by plain quadrature on jittered fixed points does not run to the "
           "end: sound grows"),

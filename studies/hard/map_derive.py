@@ -24,7 +24,7 @@ PAIRED = 0.5            # of all particles share a site
 
 def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     """Rows of the map, from all tables that there are."""
-    found = [row for rows in (of_runs, of_limits, of_lattices, of_shocks) for row in rows(tables)]
+    found = [row for rows in (of_runs, of_shear, of_limits, of_lattices, of_shocks) for row in rows(tables)]
     return {"map": found} if found else {}
 
 
@@ -87,6 +87,15 @@ def outcome(run: pd.Series, number: str, predicted: float, measured: float, err:
         return "freezes"
     noisy = number == "flow/start" and abs(run["k"]/run["k_start"] - 1) > NEAR
     return "right" if abs(measured - predicted) <= NEAR + err and not noisy else "wrong"
+
+
+def of_shear(tables: Tables) -> Iterator[dict[str, Any]]:
+    """Growth of the wave on a shear flow over linear theory."""
+    for (method,), rows in groups(tables, "shear", ["method"]):
+        row = rows.iloc[0]
+        ratio, err = row["measured"]/row["predicted"], row["measured_err"]/row["predicted"]
+        said = "diverges" if row["reached"] < 1 else "right" if abs(ratio - 1) <= NEAR else "wrong"
+        yield entry("shear layer", method, "L 16", "growth/linear", 1.0, ratio, err, said)
 
 
 # --- limits, lattices, shocks -----------------------------------------------------------------------------------------

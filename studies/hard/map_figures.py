@@ -7,6 +7,7 @@ from studies.hard.map_scenes import BOXES, LAYERS
 from studies.kit.figure import below, errorbar, figure, look
 from studies.kit.table import Tables
 
+CASES = (*LAYERS, *BOXES, "shear layer")
 #: letter, shade and hatch of an outcome; the darker, the worse
 LOOKS = {"right": ("R", "white", ""), "safe": ("s", "white", "."), "wrong": ("W", "0.85", "/"), "leaks": ("L", "0.85", "\\"),
          "freezes": ("F", "0.7", "x"), "pairs": ("P", "0.7", "o"), "clumps": ("C", "0.7", "O"), "diverges": ("D", "0.5", ""),
@@ -17,7 +18,7 @@ def figures(tables: Tables) -> dict[str, Figure]:
     """The map of runs, and how steady the grid is."""
     drawn = {}
     table, steadiness = tables.get("map"), tables.get("steadiness")
-    if table is not None and len(rows := table[table["case"].isin([*LAYERS, *BOXES])]):
+    if table is not None and len(rows := table[table["case"].isin(CASES)]):
         drawn["map"] = chart(rows)
     if steadiness is not None and len(steadiness):
         drawn["steadiness"] = swings(steadiness)
@@ -26,7 +27,7 @@ def figures(tables: Tables) -> dict[str, Figure]:
 
 def chart(rows: pd.DataFrame) -> Figure:
     """Cells with the letter of the outcome and the number behind it."""
-    cases = [case for case in (*LAYERS, *BOXES) if case in set(rows["case"])]
+    cases = [case for case in CASES if case in set(rows["case"])]
     methods = sorted(set(rows["method"]), key=lambda method: (-rows[rows["method"] == method]["case"].nunique(), method))
     page, axes = figure(width=1.5 + 0.95*len(cases), height=1.2 + 0.3*len(methods))
     for _, row in rows.iterrows():
@@ -42,7 +43,8 @@ def chart(rows: pd.DataFrame) -> Figure:
     axes.grid(False)
     seen = [name for name in LOOKS if name in set(rows["outcome"])]
     axes.set_xlabel("  ".join(f"{LOOKS[name][0]}: {name}" for name in seen)
-                    + "\nnumber: flow over the fine grid's or the start's; vacuum: K over exact; corner: speed over sound's")
+                    + "\nnumber: flow over the fine grid's or the start's; vacuum: K over exact; "
+                    "corner: speed over sound's; shear: growth over linear")
     return page
 
 

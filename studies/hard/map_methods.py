@@ -126,6 +126,7 @@ CORNERS: dict[str, partial] = {
     **{f"spam {name}": partial(smooth, variant=spam.VARIANTS[variant]) for name, variant in (
         ("printed", "printed"), ("Wendland", "wendland-c2"), ("odd images", "walls-odd"),
         ("images' own pressure", "walls-own-pressure"))},
+    "spam direct": partial(smooth, variant=spam.VARIANTS["direct"]),
     "spam without walls": partial(smooth, variant=spam.PRINTED._replace(walls=all_round))}
 #: which methods take which case; a strip in a vacuum has no points outside but smooth particles'
 TAKES: dict[str, dict[str, partial]] = {

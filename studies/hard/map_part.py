@@ -1,6 +1,9 @@
 """The map of hard cases: for every method that takes a case, what became of it, as a part of the study."""
-from studies.hard import map_cases, map_claims, map_derive, map_figures
+from collections.abc import Iterator
+
+from studies.hard import map_cases, map_claims, map_derive, map_figures, map_shear
 from studies.hard.part import Part
+from studies.kit.case import Case
 from studies.kit.table import Table
 
 #: K and K of the flow (velocities averaged over 4 x 4 spacings), means of the last third; mass at the end over that of the start
@@ -15,5 +18,13 @@ STEADINESS = Table("steadiness", key=["ra", "rows", "step"], columns=["ra", "row
 MAP = Table("map", key=["case", "method", "variant"], columns=["case", "method", "variant", "number", "predicted", "measured",
                                                                "measured_err", "outcome"])
 
-PART = Part(cases=map_cases.cases, tables=(RUNS, STEADINESS, MAP), claims=map_claims.CLAIMS, derive=map_derive.derive,
+
+
+def cases(size: str) -> Iterator[Case]:
+    """Layers and boxes, and the shear layer."""
+    yield from map_cases.cases(size)
+    yield from map_shear.cases(size)
+
+
+PART = Part(cases=cases, tables=(RUNS, STEADINESS, map_shear.SHEAR, MAP), claims=map_claims.CLAIMS, derive=map_derive.derive,
             figures=map_figures.figures)
