@@ -49,7 +49,7 @@ def observed(body: Body, box: tuple[float, float]) -> tuple[float, float, float]
     return kinetic(body), flow(body, box), float(body.m.sum())
 
 
-def row(case: str, method: str, values: dict[str, Any], rows: int = ROWS) -> Outcome:
+def row(case: str, method: str, values: dict[str, Any], rows: int) -> Outcome:
     """One row of `hard_runs`; what is not said is not known."""
     empty = dict.fromkeys(("k", "flow", "mass_drift", "k_start", "flow_start"), np.nan)
     key = {"case": case, "method": method, "rows": rows}
@@ -72,19 +72,26 @@ class Hard(Case):
     def label(self) -> str:
         return f"map {self.case}, {self.method}"
 
+    @property
+    def rows(self) -> int:
+        """Of points, over the height."""
+        return round(self.scene.L)
+
     def run(self, report: Report, folder: Path) -> Outcome:
         try:
             built = TAKES[self.case][self.method](scene=self.scene)
         except (ValueError, ArithmeticError) as error:
-            return row(self.case, self.method, {"reached": 0.0, "refused": f"{type(error).__name__}: {str(error)[:60]}"})
+            return row(self.case, self.method, {"reached": 0.0, "refused": f"{type(error).__name__}: {str(error)[:60]}"},
+                       self.rows)
         every = ceil(self.time/built.dt/SAMPLES)
         steps = every*SAMPLES
         watch = Watch(built, (self.scene.width, self.scene.L))
         try:
             run(built.method, built.start, Plan(dt=self.time/steps, steps=steps, series={"k": watch}, every=every), report)
         except Divergence as error:
-            return row(self.case, self.method, {**watch.late, "k": np.nan, "flow": np.nan, "reached": error.step/steps})
-        return row(self.case, self.method, watch.late)
+            return row(self.case, self.method, {**watch.late, "k": np.nan, "flow": np.nan, "reached": error.step/steps},
+                       self.rows)
+        return row(self.case, self.method, watch.late, self.rows)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,7 +7,7 @@ from studies.kit.case import Case
 from studies.kit.table import Table
 
 #: K and K of the flow (velocities averaged over 4 x 4 spacings), means of the last third; mass at the end over that of the start
-#: less 1; reached: part of the time; refused: why a method does not take the case; the grid as method has as many rows as points
+#: less 1; reached: part of the time; refused: why a method does not take the case; rows: over the height
 RUNS = Table("hard_runs", key=["case", "method", "rows"], columns=["case", "method", "rows", "k", "flow", "mass_drift", "k_start",
                                                                    "flow_start", "reached", "refused"])
 #: the grid at high Ra: mean K, and largest less smallest K over the mean in the last quarter of the time and in the one before;
