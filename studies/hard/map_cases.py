@@ -39,7 +39,7 @@ class Watch:
     def late(self) -> dict[str, float]:
         """Means over the last third, the mass, and what there was at the start."""
         k, moves, mass = np.array(self.found).T
-        late = slice(round(LATE*len(k)), None)
+        late = slice(min(round(LATE*len(k)), len(k) - 1), None)
         return {"k": float(k[late].mean()), "flow": float(moves[late].mean()), "mass_drift": float(mass[-1]/mass[0] - 1),
                 "k_start": float(k[0]), "flow_start": float(moves[0])}
 
