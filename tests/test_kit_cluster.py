@@ -23,6 +23,7 @@ from studies.kit.errand import check_worker, packed, unpacked
 from studies.kit.study import Study, main
 from studies.kit.sweep import sweep
 from studies.kit.table import Table, read
+from studies.kit.workers import THREADS
 
 LIMIT = 180     # seconds after which something hangs: the whole file takes twenty on an idle machine
 LAW = "import numpy as np\ndef wave(x):\n    return np.sin(np.arange(1, 9)*x/7).sum()\n"
@@ -86,8 +87,9 @@ class Toy:
                            "continuum/other": OTHER}.items():
             (folder / name).parent.mkdir(exist_ok=True)
             (folder / f"{name}.py").write_text(text)
-        # found by the cluster's processes and not by this test's
-        self.outside = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "SCHEDULER", "SIZE")}
+        # what the cluster's processes find besides is theirs, not this test's: nannies see to one thread
+        self.outside = {name: value for name, value in os.environ.items()
+                        if name not in ("PYTHONPATH", "SCHEDULER", "SIZE", *THREADS)}
 
     def dask(self, *words, cwd, **more):
         """One process of the cluster, what it says in a file; a scheduler allows one more try."""
