@@ -262,8 +262,8 @@ def test_the_page_needs_no_solver():
     assert done.stdout.strip() == "[]"
 
 
-@pytest.mark.skipif(not (RESULTS/"index.html").exists(), reason="no page committed yet: make report writes it")
-def test_the_committed_page_is_that_of_the_committed_results():
+@pytest.mark.skipif(not (RESULTS/"index.html").exists(), reason="no page here: make report writes it")
+def test_the_page_here_is_that_of_the_results_here():
     text = (RESULTS/"index.html").read_text()
     assert len(text.encode()) < LIMIT
     assert f'name="inputs" content="{fingerprint(RESULTS)}"' in text, "results changed since: make report"
