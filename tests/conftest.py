@@ -5,6 +5,7 @@ ends in the index of library functions (every later run would throw that index a
 patched formula or constant would be kept under the key of the true one.
 """
 import os
+import signal
 
 import numba
 
@@ -13,3 +14,7 @@ import continuum.jit  # noqa: F401  (names the folder for users)
 # workers and subprocesses inherit it, hence once only
 os.environ["NUMBA_CACHE_DIR"] = os.environ["NUMBA_CACHE_DIR"].removesuffix("-tests") + "-tests"
 numba.config.reload_config()
+
+# a shell that starts the tests in the background, as nohup does, has Ctrl-C ignored, and what tests start would inherit that
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
