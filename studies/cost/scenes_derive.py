@@ -2,6 +2,7 @@
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from studies.convection.claims.read import ratio
@@ -9,6 +10,7 @@ from studies.convection.pick import groups
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
 
+COST = ("step_s", "step_s_err", "time_s", "time_s_err")
 MATTERS = 0.01      # of the answer: the error at which methods are compared
 
 
@@ -30,8 +32,11 @@ def scenes(frame: pd.DataFrame) -> Iterator[dict[str, Any]]:
 
 
 def compared(row: dict, whole: dict) -> dict[str, Any]:
-    """Ratios, and whether what is changed matters; a run that diverges does."""
+    """Ratios, and whether what is changed matters; a run that diverges does, and what it took to do so is no cost."""
     found: dict[str, Any] = {}
+    if np.isnan(row["changed"]):
+        row = {**row, **dict.fromkeys(COST, np.nan)}
+        found = {name: np.nan for name in COST if name in ("step_s", "step_s_err")}
     for name in ("step", "time"):
         one, all_ = (Measured(of[f"{name}_s"], of[f"{name}_s_err"]) for of in (row, whole))
         found[f"{name}_ratio"], found[f"{name}_ratio_err"] = ratio(one, all_)

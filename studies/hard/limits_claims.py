@@ -95,11 +95,13 @@ CLAIMS = (
           statement="Boussinesq grid, advection extrapolated from two steps: noise about a steady roll does not grow at the CFL "
           "number that is allowed, 0.8", because="0.8 is meant to be safe: how much it gives away is in the table"),
     # read later: forward Euler between plates falls short by a third, and its formula knows no plates
-    near("euler-periodic", "RR98 Eq. 40", "the same on a lattice without plates, which the formula does not know",
+    near("euler-periodic", "RR98 Eq. 40", "the same on a lattice without plates, which the formula does not know [asked "
+         "after it fell short by a third between plates]",
          ("fixed Euler, periodic",), ("Euler 1/2", "Euler 1", "Euler heat")),
     # read later: jittered points grow below their formula, which leaves images behind plates out
     near("points-images", "RR98 Eq. 51", "jittered points between plates, their formula with the largest eigenvalue of the "
-         "Laplacian over edges and images together: the largest stable step is the formula's", ("fixed jittered, images",),
+         "Laplacian over edges and images together: the largest stable step is the formula's [asked after theirs had "
+         "failed]", ("fixed jittered, images",),
          ("Prandtl 100",)),
     Claim(id="limit-step-safe", source="RR98 Eqs 34-51", value=least(RUNGE_KUTTA), at_least=0.99,
           statement="no method's own formula of the largest step is above the step at which noise begins to grow",

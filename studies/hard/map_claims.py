@@ -106,12 +106,15 @@ CLAIMS = (
           statement="the centred grid of 32 rows is steady at Ra 100 000", because=STILL),
     # read later: at Ra 350 000 grids did not fluctuate but end, as soon with half of the step
     Claim(id="map-grid-ends", source="KHP95 Sec. VI", value=survived(3.5e5), at_least=1.0, because=ENDS,
-          statement="centred grids of 16 to 48 rows come through 150 free-fall times at Ra 350 000: part of the time, the least"),
+          statement="centred grids of 16 to 48 rows come through 150 free-fall times at Ra 350 000: part of the time, the least "
+          "[asked after they had ended]"),
     Claim(id="map-grid-ends-step", source="KHP95 Sec. VI", value=sooner(3.5e5, 24), expect=1.0, within=0.02,
           statement="where a centred grid of 24 rows ends at Ra 350 000 does not depend on its step: time with half of it "
-          "over time with all", because="runs are looked at 240 times: 1 % of the time at which they end"),
+          "over time with all [asked after it had ended]",
+          because="runs are looked at 240 times: 1 % of the time at which they end"),
     Claim(id="map-grid-swings", source="KHP95 Sec. VI", value=alike(2e5, 32, 48), expect=1.0, within=0.25,
-          statement="at Ra 200 000 K of 32 and of 48 rows swings alike: what is left is of the flow, not of the grid",
+          statement="at Ra 200 000 K of 32 and of 48 rows swings alike: what is left is of the flow, not of the grid [asked "
+          "after both had been seen]",
           because="swings of the grid fall at least as the square of its cells, 2.25 times"),
     *(right(case, "spam printed", "KHP95 Sec. VI", f"smooth particles as printed have the grid's flow, {case}, 16 rows")
       for case in (*HIGH, "Prandtl 0.01", "Prandtl 100", "high pressure")),
@@ -127,10 +130,12 @@ CLAIMS = (
     # read later: particles without any wall move as much
     Claim(id="map-corner-of-walls", source="KHP95 Sec. IV", value=over("wall corner", "spam printed", "spam without walls"),
           at_least=2.0, because="what walls make is more than what there is without them",
-          statement="what moves at rest in a square box is made by its walls: speed with four walls over speed without any"),
+          statement="what moves at rest in a square box is made by its walls: speed with four walls over speed without any "
+          "[asked after they had been seen to move]"),
     # read later: what is left moves over two spacings, which gradients of gradients do not see
     Claim(id="map-corner-direct", source="KHP95 Sec. IV", value=number("wall corner", "spam direct"), at_most=SPURIOUS,
-          statement="in a square box with four walls at rest smooth particles with direct friction come to rest",
+          statement="in a square box with four walls at rest smooth particles with direct friction come to rest [asked after "
+          "the printed ones did not]",
           because="a thousandth of the speed of sound is a hundredth of what flows have"),
     right("shear layer", "spam printed", "KHP95 Sec. VI", "a wave on a shear flow without viscosity grows by linear theory, "
           "smooth particles as printed, 16 spacings to the flow's wavelength"),
