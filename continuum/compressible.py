@@ -103,7 +103,8 @@ def limits(scene, S: np.ndarray) -> Limits:
     T_e = (temperature(scene.eos, rho, e + 1e-6) - T)/1e-6
     spread = np.maximum(viscosity(scene.law, rho, T), conductivity(scene.law, rho, T)*T_e)/rho
     fast = 2*sound_of_grid(scene.eos, rho, e) + np.abs(vx) + np.abs(vy)
-    return Limits(RK4_SOUND*h/float(np.max(fast)), RK4_DECAY*h**2/(4*float(np.max(spread))))
+    with np.errstate(divide="ignore"):      # no diffusion, no limit
+        return Limits(RK4_SOUND*h/float(np.max(fast)), float(RK4_DECAY*h**2/(4*np.max(spread))))
 
 
 def sound_of_grid(eos, rho, e):

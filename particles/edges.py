@@ -82,11 +82,7 @@ class Edges:
     @cached_property
     def fastest(self) -> tuple[float, float]:
         """Largest frequency of sound over its speed, and largest rate of diffusion over the diffusivity."""
-        root = sparse.diags_array(1/np.sqrt(self.V))
-        slopes = sparse.vstack([root@G@root for G in self.G])
-        sound = svds(slopes, k=1, return_singular_vectors=False, random_state=0)
-        spread = eigsh(root@self.laplacian@root, k=1, which="LM", return_eigenvectors=False, v0=np.cos(np.arange(self.n)))
-        return float(sound[0]), float(-spread[0])
+        return _fastest(self.V, self.G, self.laplacian)
 
     def div(self, F: np.ndarray) -> np.ndarray:
         """Divergence of F (n, d)."""
@@ -114,6 +110,15 @@ def combined(i: np.ndarray, j: np.ndarray, S: np.ndarray, k: np.ndarray, apart: 
     return Edges(i=i[first], j=j[first], S=np.stack(sums[:-1], axis=1), k=sums[-1], apart=apart[first], V=V)
 
 
+def _fastest(V: np.ndarray, G: list[sparse.csr_array], laplacian: sparse.csr_array) -> tuple[float, float]:
+    """Largest singular value of the gradient and largest decay rate of the Laplacian, both per volume."""
+    root = sparse.diags_array(1/np.sqrt(V))
+    slopes = sparse.vstack([root@g@root for g in G])
+    sound = svds(slopes, k=1, return_singular_vectors=False, random_state=0)
+    spread = eigsh(root@laplacian@root, k=1, which="LM", return_eigenvectors=False, v0=np.cos(np.arange(len(V))))
+    return float(sound[0]), float(-spread[0])
+
+
 MIRROR = np.array([1.0, -1.0])
 
 
@@ -131,6 +136,15 @@ class Beyond:
 NOWHERE = np.empty(0, int)
 #: no images
 NONE_BEYOND = Beyond(i=NOWHERE, parent=NOWHERE, S=np.empty((0, 2)), k=np.empty(0), apart=np.empty((0, 2)), plate=NOWHERE)
+
+
+def fastest(edges: Edges, beyond: Beyond) -> tuple[float, float]:
+    """`Edges.fastest` between plates: pressures of images are those of their parents, velocities and temperatures opposite."""
+    def seen(q: np.ndarray, sign: float) -> sparse.csr_array:
+        own, image = (sparse.csr_array((q, (beyond.i, to)), shape=(edges.n, edges.n)) for to in (beyond.i, beyond.parent))
+        return sparse.csr_array(sign*image - own)
+    return _fastest(edges.V, [G + seen(S/2, 1.0) for G, S in zip(edges.G, beyond.S.T, strict=True)],
+                    edges.laplacian + seen(beyond.k, -1.0))
 
 
 def symmetric(edges: Edges, a: float) -> Edges:

@@ -58,12 +58,21 @@ def zone(a: float, points: int = 33) -> np.ndarray:
 
 
 def lattice_sums(weight: Any, m: float, rho: float, k: np.ndarray) -> Symbols:
-    """Sums over the square lattice of mean density rho at wave vectors (k, 2)."""
+    """Sums over the square lattice of mean density rho at wave vectors (k, 2).
+
+    Raises
+    ------
+    ValueError
+        The weight's range does not reach the next particle.
+    """
     a = np.sqrt(m/rho)
     x = a*np.arange(-int(weight.h/a) - 1, int(weight.h/a) + 2)
     x, y = (q.ravel() for q in np.meshgrid(x, x))
     r = np.hypot(x, y)
     x, y, r = (q[(0 < r) & (r < weight.h)] for q in (x, y, r))
+    if not len(r):
+        raise ValueError(f"particles {a:.4g} apart do not see each other: the weight's range h = {weight.h:.4g} must be larger "
+                         f"(Eq. 45 asks for several spacings): take a larger h or more particles")
     w, f, curvature = (np.array(q) for q in zip(*(_derivatives(weight, s) for s in r)))
     phase, n = k@np.stack([x, y]), np.stack([x, y], axis=1)/r[:, None]
     S, slow = np.sin(phase)@(n*(r*f)[:, None]), 1 - np.cos(phase)

@@ -40,8 +40,17 @@ def printed(points: Points, weight: Any) -> Edges:
 
 
 def renormalised(points: Points, weight: Any) -> Edges:
-    """Plain quadrature times the number that makes the mean discrete first moment sum_j W r_ij dV equal to d."""
+    """Plain quadrature times the number that makes the mean discrete first moment sum_j W r_ij dV equal to d.
+
+    Raises
+    ------
+    ValueError
+        No two points are within the weight's range.
+    """
     edges = plain(points, weight)
+    if not edges.k.any():
+        raise ValueError(f"no two of the {points.n} points, on average {points.a:.4g} apart, are within the weight's range "
+                         f"{reach(weight):.4g} (Eq. 45 asks for r0 above the spacing): take a larger h or more points")
     first = float(np.einsum("iaa,i->", edges.linear, edges.V)/edges.V.sum())    # d times the factor of linear gradients
     c = points.d/first
     return Edges(i=edges.i, j=edges.j, S=c*edges.S, k=c*edges.k, apart=edges.apart, V=edges.V)

@@ -1,5 +1,6 @@
 """The compressible grid: its twin, exact motions, conserved sums, stable steps, errors."""
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -156,6 +157,13 @@ def test_the_continuity_equation_of_the_paper_leaks():
 def test_bad_grids_are_refused(rows, words):
     with pytest.raises(ValueError, match=words):
         run(GAS, rows)
+
+
+def test_a_gas_without_friction_has_no_limit_from_diffusion():
+    quiet = SimpleNamespace(L=GAS.L, eos=GAS.eos, law=ConstEta(0.0, 0.0))
+    limit = limits(quiet, filled(block(initial(GAS, 16))))
+    assert limit.diffusion == np.inf
+    assert limit.both == limit.sound
 
 
 def test_cells_must_be_square():

@@ -127,6 +127,11 @@ def test_points_in_parts_cannot_be_closed():
         MAKERS["closed"](of_positions(x, (24.0, 24.0)), WendlandC2.of(h=2.0))
 
 
+def test_a_weight_that_reaches_no_neighbour_is_refused():
+    with pytest.raises(ValueError, match=r"no two of the 36 points, .* are within the weight's range 0\.9 .*Eq\. 45"):
+        MAKERS["renormalised"](lattice((6, 6)), Lucy.of(h=0.9))
+
+
 def test_relaxed_points_are_regular_but_no_lattice():
     weight = WendlandC2.of(h=3.0)
     at = relaxed(random((10, 10), 0.5, 3), weight)

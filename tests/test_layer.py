@@ -27,9 +27,14 @@ def layer(make=renormalised, size=0.0, mended=True, h=2.0, rows=ROWS, **scene):
     if size:
         x = np.clip(jittered((2*rows, rows), size, 1).x, -where.L + 0.25, where.L - 0.25)
         x[:, 1] = np.clip(x[:, 1], -where.L/2 + 0.25, where.L/2 - 0.25)
+    return at(x, where, make, mended, h), x, where
+
+
+def at(x, where, make=renormalised, mended=True, h=2.0):
+    """Points x between the plates of a scene."""
     inner, beyond = between_plates(make, x, where.width, where.L, Lucy.of(h=h))
     return Layer(x=x, edges=inner, beyond=beyond, eos=where.eos, law=where.law, T_plates=(where.T_hot, where.T_cold), g=where.g,
-                 mended=mended), x, where
+                 mended=mended)
 
 
 def rates(fluid, state, threads=1):
@@ -122,20 +127,41 @@ def test_nested_conduction_carries_heat_through_a_motionless_layer():
         assert np.abs(found).max() < 1e-14
 
 
-def test_sound_between_adjoint_walls_does_not_grow():
-    """Without friction and gravity the linearised operator has no eigenvalue with a positive real part above round-off."""
-    fluid, x, _ = layer(rows=8)
-    quiet = replace(fluid, law=type(fluid.law)(0.0, 0.0), T_plates=(1.0, 1.0), g=0.0)
-    rest = quiet.state(np.ones(len(x)), 0*x, np.ones(len(x)))
-    n, step = rest.size, 1e-6
+def at_rest(fluid, x, eta, k):
+    """The same between plates of one temperature, without gravity; density and temperature 1."""
+    quiet = replace(fluid, law=type(fluid.law)(eta, k), T_plates=(1.0, 1.0), g=0.0)
+    return quiet, quiet.state(np.ones(len(x)), 0*x, np.ones(len(x)))
+
+
+def eigenvalues(quiet, rest, step=1e-6):
+    """Of the operator linearised about rest."""
+    n = rest.size
     J = np.empty((n, n))
     for column in range(n):
         shift = np.zeros(n)
         shift[column] = step
         up, down = (rates(quiet, rest + sign*shift.reshape(rest.shape)).ravel() for sign in (1, -1))
         J[:, column] = (up - down)/(2*step)
-    grows = np.linalg.eigvals(J).real.max()
+    return np.linalg.eigvals(J)
+
+
+def test_sound_between_adjoint_walls_does_not_grow():
+    """Without friction and gravity the linearised operator has no eigenvalue with a positive real part above round-off."""
+    fluid, x, _ = layer(rows=8)
+    grows = eigenvalues(*at_rest(fluid, x, 0.0, 0.0)).real.max()
     assert grows < 1e-4        # differences over 1e-6: 1e-10; defective zeros of modes at rest spread as its square root
+
+
+@pytest.mark.parametrize(("eta", "k"), [(0.0, 0.0), (2.0, 0.02), (0.02, 2.0)])
+def test_a_point_near_its_own_image_limits_the_step(eta, k):
+    """The fastest rate of the linearised layer, sound alone or diffusion alone, is what the limit is made of, to 0.1 %."""
+    _, x, where = layer(rows=8)
+    x[0, 1] = -where.L/2 + 0.15                 # 0.3 spacings from its image, 1 from the next point
+    quiet, rest = at_rest(at(x, where, delaunay), x, eta, k)
+    sound, spread = quiet.fastest
+    assert spread > 1.3*quiet.edges.fastest[1]
+    foretold = max(np.sqrt(2)*sound, max(eta, k)*spread)
+    assert foretold == pytest.approx(np.abs(eigenvalues(quiet, rest)).max(), rel=1e-3)      # damped sound is slower by 1e-3
 
 
 def test_convection_of_few_points_is_near_the_grid():

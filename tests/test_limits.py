@@ -123,6 +123,11 @@ def test_state_outside_the_equation_of_state_is_refused():
         step_limit(spam(Lucy.of(h=2.0), VanDerWaals()), 1.0, rho=2.0)
 
 
+def test_particles_that_do_not_see_each_other_are_refused():
+    with pytest.raises(ValueError, match=r"1 apart do not see each other: .* h = 0\.9 must be larger"):
+        step_limit(spam(Lucy.of(h=0.9)), 1.0)
+
+
 @pytest.mark.parametrize("weight", [Lucy, Monaghan])
 def test_settled_particles_oscillate_up_to_a_quarter_faster(weight):
     # which is why runs are told to take 0.8 of the limit; the lattice itself is not where particles stay

@@ -5,13 +5,14 @@ adjoint of the gradient: rho, T, eps and the velocity along the plate of their p
 pressure that goes on hydrostatically. Friction and heat see images with -v and 2 T_w - T. Any other mixture lets sound grow.
 """
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas, conductivity, sound_speed, stress, temperature, viscosity
 from continuum.jit import jit
-from particles.edges import Beyond, Edges
+from particles.edges import Beyond, Edges, fastest
 from particles.limits import limit_of
 from particles.methods.fixed import Differences, Exchange, Point, Summing, check_number, driven, lacking, read, states, stored
 from particles.methods.layer_ideal import IdealSums
@@ -78,6 +79,11 @@ class Layer:
         return (f"Layer({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.T_plates}, {self.g}, {self.mended}, {self.share}, "
                 f"{self.fast})")
 
+    @cached_property
+    def fastest(self) -> tuple[float, float]:
+        """Largest frequency of sound over its speed, and largest rate of diffusion over the diffusivity."""
+        return fastest(self.edges, self.beyond)
+
     def state(self, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
         """(4, n) of densities, velocities (n, 2), temperatures (n,)."""
         return states(self.eos, rho*np.ones(len(self.x)), v, T)
@@ -96,10 +102,10 @@ class Layer:
 
 @limit_of.register
 def _(method: Layer, start: np.ndarray) -> float:
-    """RK4: the fastest sound and the fastest diffusion that edges know, both at the hottest point; plates change little."""
+    """RK4: the fastest sound and the fastest diffusion of edges and images together, both at the hottest point."""
     rho = start[0]
     e = start[3]/rho - (start[1]**2 + start[2]**2)/(2*rho**2)
-    T, (sound, spread) = temperature(method.eos, rho, e), method.edges.fastest
+    T, (sound, spread) = temperature(method.eos, rho, e), method.fastest
     slope = (temperature(method.eos, rho, e + 1e-6) - T)/1e-6
     chi = np.maximum(viscosity(method.law, rho, T), conductivity(method.law, rho, T)*slope)/rho
     fast = sound_speed(method.eos, rho, e) + np.sqrt(start[1]**2 + start[2]**2)/rho
