@@ -1,8 +1,8 @@
 """Dissipative particles: which integrator knows its temperature, and are pressure, structure and transport those of print?
 
-Groot & Warren's fluid (a = 25, rho = 3, gamma = 4.5, rc = 1, kT = 1) in a periodic cube, with RR98's Eqs 40, 41 and four other
+Groot & Warren's fluid (a = 25, rho = 3, gamma = 4.5, rc = 1, kT = 1) in a periodic cube, with RR98's Eqs 40, 41 and five other
 steps; states of Allen & Tildesley; waves of density; shear between sliding sides; why a step puts kT of the positions off; a
-cylinder of frozen particles in a stream. Paper size takes some fifteen minutes of one core.
+cylinder of frozen particles in a stream. Paper size takes some thirty minutes of one core.
 Writes results/dpd/*.csv and *.png and the rows of study dpd in results/claims.csv.
 """
 from collections.abc import Iterator
@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from particles.blocks import Normal
 from particles.integrators import TwoStep
 from particles.integrators_dpd import GrootWarren, GrootWarren65, Shardlow, VelocityVerlet
+from particles.integrators_splitting import KickDriftFrictionDriftKick
 from studies.fluctuating import (
     dpd_claims,
     dpd_claims_more,
@@ -20,6 +21,7 @@ from studies.fluctuating import (
     dpd_derive_more,
     dpd_figures,
     dpd_figures_more,
+    dpd_long,
     dpd_tables,
 )
 from studies.fluctuating.dpd_cases import Fluid, Rest, Shear, Structure
@@ -29,7 +31,7 @@ from studies.kit.case import Case
 from studies.kit.study import Study, main
 from studies.kit.table import Tables
 
-INTEGRATORS = (TwoStep, GrootWarren, GrootWarren65, VelocityVerlet, Shardlow)
+INTEGRATORS = (TwoStep, GrootWarren, GrootWarren65, VelocityVerlet, Shardlow, KickDriftFrictionDriftKick)
 STEPS = (0.01, 0.02, 0.03, 0.04, 0.06, 0.08)
 GAS = (0.02, 0.04, 0.06, 0.08, 0.12)       # without repulsion friction alone limits the step
 LONG = 12_000       # steps of a run: its error of kT over dt is what counts, which falls as dt grows
@@ -41,12 +43,13 @@ def cases(size: str) -> list[Case]:
         return [*temperatures((0.02, 0.04, 0.06), side=5.0, steps=1000), *gas((0.04, 0.08, 0.12), side=5.0, steps=1000),
                 *densities((2.5, 3.5), side=5.0, time=20.0),
                 *waves_and_shear((0.2,), side=5.0, time=30.0, long=30.0), *second_order((0.03, 0.045), side=4.0, time=60.0),
+                *dpd_long.cases(side=4.0, time=20.0),
                 *cylinders(((False, 1.0), (True, 1.0)), time=30.0, shear=30.0, rows=12)]
     return [*temperatures(STEPS, side=8.0, steps=LONG), *gas(GAS, side=8.0, steps=LONG),
             Rest(integrator=Shardlow, dt=0.01, time=120.0), Rest(integrator=TwoStep, dt=0.01, time=300.0),
             *densities((2.6, 2.8, 3.2, 3.4, 4.0, 5.0, 6.0, 8.0), side=8.0, time=60.0), *table(),
-            *waves_and_shear((0.1, 0.2, 0.4), side=10.0, time=110.0, long=300.0),
-            *second_order((0.03, 0.045), side=6.0, time=4000.0),
+            *waves_and_shear((0.1, 0.2, 0.4), side=10.0, time=110.0, long=800.0),
+            *second_order((0.03, 0.045), side=6.0, time=4000.0), *dpd_long.cases(side=8.0, time=1000.0),
             *cylinders(((False, 2.0), (False, 3.0), (True, 2.0)), time=1500.0, shear=500.0, rows=16)]
 
 
@@ -108,7 +111,7 @@ def drawn(tables: Tables) -> dict[str, Figure]:
 
 
 STUDY = Study(name="dpd", cases=cases, tables=dpd_tables.ALL, derive=derived, figures=drawn,
-              claims=(*dpd_claims.CLAIMS, *dpd_claims_more.CLAIMS))
+              claims=(*dpd_claims.CLAIMS, *dpd_claims_more.CLAIMS, *dpd_long.CLAIMS))
 
 if __name__ == "__main__":
     main(STUDY)

@@ -9,7 +9,7 @@ from studies.kit.table import Tables
 
 NAMES = {"TwoStep": "RR98 Eqs 40, 41", "GrootWarren": r"Groot-Warren, $\lambda = 1/2$",
          "GrootWarren65": r"Groot-Warren, $\lambda = 0.65$", "VelocityVerlet": "velocity-Verlet, friction twice",
-         "Shardlow": "Shardlow's splitting"}
+         "Shardlow": "Shardlow's splitting", "KickDriftFrictionDriftKick": "kick, drift, friction, drift, kick"}
 
 
 def figures(tables: Tables) -> dict[str, Figure]:
