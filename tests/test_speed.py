@@ -14,9 +14,10 @@ from studies.cost import speed_cases_waves as wave
 from studies.cost import speed_convection as convection
 from studies.cost import speed_derive, speed_figures, speed_names, speed_tables
 from studies.cost.speed_claims import CLAIMS, of_level, seconds
+from studies.cost.speed_plan import planned
 from studies.cost.speed_plates_exact import DEGREE, FLOWS, MU, fields, solved
 from studies.cost.speed_problem import HALVINGS, Problem, Race, climb, result, rms
-from studies.cost.speed_timing import array_bytes, per_step
+from studies.cost.speed_timing import FORGET, array_bytes, of_calls, per_step, timed, with_peak
 from studies.kit.claim import CannotTell, judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables, read
@@ -70,7 +71,42 @@ def test_seconds_of_a_step_leave_out_what_every_run_pays_once():
     def advance(steps):
         now[0] += 5 + 0.25*steps
     found = per_step(advance, clock=lambda: now[0])
-    assert found.value == pytest.approx(0.25, rel=1e-12) and found.err == pytest.approx(0, abs=1e-12)
+    assert found[:2] == pytest.approx((0.25, 0), abs=1e-12) and found.early == found.late == pytest.approx(0.25)
+
+
+def test_steps_take_as_long_as_what_a_run_pays_once():
+    """A clock that counts 100 +- 1 for a call, 0.01 for a step: of 10 000 steps and more the scatter is some per cent."""
+    now, rng, most = [0.0], np.random.default_rng(1), []
+
+    def advance(steps):
+        most.append(steps)
+        now[0] += 100 + rng.uniform(-1, 1) + 0.01*steps
+    found = per_step(advance, clock=lambda: now[0])
+    assert found.value == pytest.approx(0.01, rel=0.02) and 10_000 <= max(most)/3 < 20_000
+    assert abs(found.value - 0.01) < 2*found.err and found.early != found.late
+
+
+def test_repeats_are_few_where_a_call_is_long():
+    now, calls = [0.0], []
+
+    def call(seconds):
+        calls.append(seconds)
+        now[0] += seconds
+    assert of_calls(lambda: call(0.1), lambda: now[0]).value == pytest.approx(0.1) and len(calls) == 7
+    assert of_calls(lambda: call(1.0), lambda: now[0]).value == pytest.approx(1) and len(calls) == 10
+
+
+def test_early_and_late_are_the_medians_of_the_first_and_the_last_repeats():
+    found = timed([1, 2, 9, 4, 5, 8, 6], 1.0)
+    assert found == (5, pytest.approx((7 - 3)/2), 2, 6)       # by hand: quartiles 3 and 7 of 1 2 4 5 6 8 9
+    assert timed([1, 2, 4], 1.0)[2:] == (1, 4)
+
+
+@pytest.mark.skipif(not FORGET.exists(), reason="the most memory of a process is counted anew on Linux only")
+def test_the_most_memory_is_that_of_what_was_made_and_thrown_away():
+    made, peak = with_peak(lambda: np.ones(4_000_000).sum())
+    assert made == 4e6 and abs(peak - 32e6) < 2e6        # kernels count pages in batches
+    assert with_peak(lambda: 0)[1] < 1e6
 
 
 def test_bytes_count_every_buffer_once_and_nothing_that_only_sets_up():
@@ -200,7 +236,8 @@ def lines(scale: dict[str, float], scene="convection", quantity="K", err=1e-6) -
               for name in scale for n in sizes]
     runs = [{**key, "method": name, "resolution": n, "points": n**2, "run_s": 2*factor*n**3, "run_s_err": 1e-3*factor*n**3,
              "setup_s": 0.0, "setup_s_err": 0.0, "bytes": 8.0*n**2} for name, factor in scale.items() for n in sizes]
-    found = Tables({"errors": pd.DataFrame(errors), "runs": pd.DataFrame(runs)})
+    repeats = [{name: row[name] for name in speed_tables.RUN} | {"early_s": row["run_s"], "late_s": row["run_s"]} for row in runs]
+    found = Tables({"errors": pd.DataFrame(errors), "runs": pd.DataFrame(runs), "repeats": pd.DataFrame(repeats)})
     return Tables(found | {name: pd.DataFrame(rows) for name, rows in speed_derive.derive(found).items() if rows})
 
 
@@ -242,6 +279,22 @@ def test_verdicts_follow_the_lines():
     assert said["own-speed-exponent-grid"][0] == "holds" and said["own-speed-threads-spam"][0] == "undecidable"
 
 
+def test_a_repeat_that_crosses_a_limit_moves_a_verdict():
+    """1.5 times the grid's seconds against a limit of 2: the last repeats of all took as much longer, so nothing moves."""
+    def said(late):
+        tables = lines({speed_names.GRID: 1.0, speed_names.LATTICE: 1.5})
+        slow = tables["repeats"]["method"] == speed_names.LATTICE
+        tables["repeats"].loc[slow, "late_s"] *= late
+        row, = (row for row in judge(CLAIMS, tables, "speed") if row["id"] == "own-speed-repeat")
+        return row["verdict"], row["measured"]
+    assert said(1.0) == ("holds", 0) and said(2.0) == ("fails", 2)     # fixed points, and the lattice among them
+
+
+def test_memory_is_that_of_the_finest_run():
+    found, = (row for row in lines({speed_names.GRID: 1.0})["memory"].to_dict("records"))
+    assert (found["resolution"], found["points"], found["bytes_a_point"]) == (24, 576, 8)
+
+
 def test_particles_are_compared_with_the_grid_of_the_same_error():
     found = lines({speed_names.GRID: 1.0, speed_names.LUCY: 20.0})
     value = of_level(found, speed_names.GRID, speed_names.LUCY, "cpu_s", scene="convection", quantity="K")
@@ -253,9 +306,9 @@ def test_particles_are_compared_with_the_grid_of_the_same_error():
 def test_growth_laws_are_those_of_the_table():
     n = np.array([1e3, 1e4, 1e5])
     cpu = pd.DataFrame({"method": speed_names.LUCY, "points": n, "threads": 1, "clock": "cpu", "step_s": n**1.1,
-                        "step_s_err": 0.0})
+                        "step_s_err": 0.0, "early_s": n**1.1, "late_s": n**1.1})
     wall = pd.DataFrame({"method": speed_names.LUCY, "points": 1e5, "threads": [1, 2], "clock": "wall", "step_s": [1.8, 1.0],
-                         "step_s_err": [0.018, 0.01]})
+                         "step_s_err": [0.018, 0.01], "early_s": [1.8, 1.0], "late_s": [1.8, 1.0]})
     found = {row["what"]: row for row in speed_derive.growth_laws(pd.concat([cpu, wall]))}
     assert found["exponent"]["value"] == pytest.approx(1.1, rel=1e-9)
     assert found["two threads"]["value"] == pytest.approx(1.8)
@@ -295,6 +348,11 @@ def test_cases_have_names_of_their_own_and_all_of_them_time_themselves_alone(siz
         for scene, name in methods:
             assert sum(case.scene == scene and case.method.name == name and case.seed == 1 for case in cases
                        if isinstance(case, Race)) >= 4
+
+
+def test_all_cases_together_take_what_was_planned():
+    plan = planned(speed.cases("paper"))
+    assert plan["seconds"].sum() < speed.ALL and plan["seconds"].max() < speed.DEAREST
 
 
 @pytest.mark.skipif(not (RESULTS/"speed"/"points.csv").exists(), reason="no tables are committed yet")

@@ -24,9 +24,6 @@ from studies.cost import speed_names as names
 from studies.cost.speed_convection import OFTEN, SIZES, Followed, Seen, problem_of, reference, scene_of
 from studies.cost.speed_problem import Problem, holding, plain
 
-#: by rows^3, seconds of the whole case, for the order of the cases only
-SECONDS = 1e-4
-
 
 def sampled(method: Any, quantity: Callable, unit: float) -> Callable[[np.ndarray, float, int], Followed]:
     """`go` of a method of the particles' time loop, with K on the way."""
@@ -44,9 +41,11 @@ class OnFixed(NamedTuple):
     scheme: dih.Scheme
     first: float = 0.9
     sizes: tuple[int, int, int] = SIZES
+    dear: float = 2.2e-4        # seconds of a case over rows^3
+    makes: float = 0.0          # the same of making points, over rows^2
 
     def seconds(self, rows: int) -> float:
-        return 3*SECONDS*rows**3
+        return 1 + self.dear*rows**3 + self.makes*rows**2
 
     def problem(self, rows: int, seed: int) -> Problem:
         scene = scene_of(rows)
@@ -68,7 +67,7 @@ class OnMoving(NamedTuple):
     sizes: tuple[int, int, int] = SIZES
 
     def seconds(self, rows: int) -> float:
-        return 20*SECONDS*rows**3
+        return 1 + 2.1e-3*rows**3
 
     def problem(self, rows: int, seed: int) -> Problem:
         scene = scene_of(rows)
@@ -91,7 +90,7 @@ class OnSpam(NamedTuple):
     sizes: tuple[int, int, int] = SIZES
 
     def seconds(self, rows: int) -> float:
-        return 12*SECONDS*rows**3
+        return 4 + 6.8e-4*rows**3
 
     def problem(self, rows: int, seed: int) -> Problem:
         scene, found = scene_of(rows), reference(self.sizes)
@@ -116,7 +115,7 @@ class OnGrid(NamedTuple):
     sizes: tuple[int, int, int] = SIZES
 
     def seconds(self, rows: int) -> float:
-        return SECONDS*rows**3
+        return 0.3 + 7e-5*rows**3
 
     def problem(self, rows: int, seed: int) -> Problem:
         scene = scene_of(rows)
@@ -155,8 +154,8 @@ def filled(scene: RayleighBenard, S: np.ndarray) -> np.ndarray:
 GRID = OnGrid(names.GRID)
 LATTICES = (OnFixed(names.NEAREST, dih.Scheme("fixed-lattice-h1.2", h=1.2)), OnFixed(names.LATTICE, dih.SCHEMES["fixed-lattice"]),
             OnFixed(names.WIDE, dih.SCHEMES["fixed-lattice-h3"]))
-JITTERED = OnFixed(names.JITTERED, dih.SCHEMES["fixed-jittered-plates"])
-RELAXED = OnFixed(names.RELAXED, dih.SCHEMES["relaxed-plates"])
+JITTERED = OnFixed(names.JITTERED, dih.SCHEMES["fixed-jittered-plates"], dear=5.3e-4)
+RELAXED = OnFixed(names.RELAXED, dih.SCHEMES["relaxed-plates"], dear=5.3e-4, makes=0.11)
 PRINTED = OnSpam(names.LUCY, spam.PRINTED)
 PARTICLES = (OnSpam(names.MONAGHAN, spam.VARIANTS["printed-monaghan"]), OnSpam(names.WENDLAND, spam.VARIANTS["wendland-c2"]),
              OnSpam(names.LESS_STATIC, spam.VARIANTS["less-static-50"]))

@@ -3,7 +3,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
-from time import process_time
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,7 +17,6 @@ from continuum.mac import mac
 from continuum.projection import CFL_LIMIT, Projection
 from continuum.scene import RayleighBenard
 from continuum.steady import Time
-from studies.convection.cost import REPEATS, SPREAD_TO_ERR
 from studies.convection.names import START_ENERGY
 from studies.cost import speed_names as names
 from studies.cost.speed_convection import (
@@ -39,14 +37,12 @@ from studies.cost.speed_convection import (
     shares_of,
 )
 from studies.cost.speed_problem import Problem, Race, Residuals, rms
-from studies.cost.speed_timing import Laps, array_bytes
+from studies.cost.speed_timing import Laps, Timed, array_bytes, of_calls
 from studies.kit.case import Outcome, Report
-from studies.kit.stats import Measured
-from studies.kit.timing import compile_and_run_seconds, median_seconds
+from studies.kit.timing import compile_and_run_seconds
 
 PR = 2.0            # of the Boussinesq fluid that is nearest to the gas
 FALLS = (24, 32, 48)                    # rows of K(t) of the Boussinesq fluid
-SECONDS = 2e-4
 
 
 @cache
@@ -72,7 +68,7 @@ class OnMac(NamedTuple):
     falls: tuple[int, int, int] = FALLS
 
     def seconds(self, rows: int) -> float:
-        return SECONDS*rows**3
+        return 0.5 + 1.5e-4*rows**3
 
     def problem(self, rows: int, seed: int) -> Problem:
         mac.cache_clear()       # what set-up takes is to be seen each time
@@ -109,7 +105,7 @@ class Solved(NamedTuple):
     steps: int
     bytes: int
     known: float
-    seconds: Measured | None = None
+    seconds: Timed | None = None
     compile_s: float = 0.0
 
 
@@ -121,17 +117,11 @@ class Direct(Race):
         solve = partial(self.method.solve, self.resolution)
         found, compile_s, _ = compile_and_run_seconds(solve)
         report(0.2)
-        seconds = found.seconds
-        if seconds is None:
-            repeated = median_seconds(solve, REPEATS, process_time)
-            seconds = Measured(repeated.median, repeated.spread*SPREAD_TO_ERR)
         errors = [{**self.key_columns, "quantity": name, "error": rms(off), "error_err": found.known,
                    "share": found.share.get(name, 1.0)} for name, off in found.residuals.items()]
-        run = {**self.key_columns, "points": found.points, "of_limit": np.nan, "dt": np.nan, "steps": found.steps,
-               "run_s": seconds.value, "run_s_err": seconds.err, **dict.fromkeys(("setup_s", "setup_s_err"), 0.0),
-               "compile_s": found.compile_s or compile_s,
-               "bytes": found.bytes, "threads": 1}
-        return Outcome({"errors": errors, "runs": [run]})
+        return Outcome({"errors": errors, **self.timings(found.seconds or of_calls(solve), {
+            "points": found.points, "of_limit": np.nan, "dt": np.nan, "steps": found.steps, "setup_s": 0.0, "setup_s_err": 0.0,
+            "compile_s": found.compile_s or compile_s, "bytes": found.bytes, "threads": 1})})
 
 
 class OnNewton(NamedTuple):
@@ -140,7 +130,7 @@ class OnNewton(NamedTuple):
     sizes: tuple[int, int, int] = SIZES
 
     def seconds(self, rows: int) -> float:
-        return 8*SECONDS*rows**2
+        return 1 + 5e-3*rows**2
 
     def solve(self, rows: int) -> Solved:
         scene, known = scene_of(rows), reference(self.sizes)
@@ -165,7 +155,7 @@ class OnMacNewton(NamedTuple):
     falls: tuple[int, int, int] = FALLS
 
     def seconds(self, rows: int) -> float:
-        return SECONDS*rows**2
+        return 0.1 + 4e-4*rows**2
 
     def solve(self, rows: int) -> Solved:
         mac.cache_clear()
@@ -183,7 +173,7 @@ class OnPypde(NamedTuple):
     falls: tuple[int, int, int] = FALLS
 
     def seconds(self, rows: int) -> float:
-        return 10 + 5*SECONDS*rows**3
+        return 4 + 2e-4*rows**3
 
     def solve(self, rows: int) -> Solved:
         known = reference(self.sizes) if self.gas else boussinesq_reference(self.sizes, self.falls)

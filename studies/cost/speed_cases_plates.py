@@ -32,7 +32,6 @@ from studies.integral.transport_walls import Driven
 
 COLUMNS = 8         # of points: wider than twice a range of three spacings
 JITTER = 0.2
-SECONDS = 2e-4
 
 
 @cache
@@ -66,7 +65,7 @@ class OnLattice(NamedTuple):
     first: float = 0.9
 
     def seconds(self, rows: int) -> float:
-        return SECONDS*rows**2
+        return 0.5 + 7e-5*rows**2
 
     def problem(self, rows: int, seed: int) -> Problem:
         x = lattice((COLUMNS, rows)).x
@@ -83,7 +82,7 @@ class OnTriangles(NamedTuple):
     first: float = 0.9
 
     def seconds(self, rows: int) -> float:
-        return SECONDS*rows**2
+        return 0.5 + 7e-5*rows**2
 
     def problem(self, rows: int, seed: int) -> Problem:
         x, lower, upper = with_plates(jittered((COLUMNS, rows - 1), JITTER, seed).x, COLUMNS, rows)
@@ -109,7 +108,7 @@ class OnMoving(NamedTuple):
     first: float = 0.9
 
     def seconds(self, rows: int) -> float:
-        return 10*SECONDS*rows**2
+        return 0.3 + 1.3e-4*rows**2
 
     def problem(self, rows: int, seed: int) -> Problem:
         x = jittered((COLUMNS, rows), JITTER, seed).x
@@ -135,7 +134,7 @@ class OnParticles(NamedTuple):
     first: float = 0.7
 
     def seconds(self, rows: int) -> float:
-        return 5*SECONDS*rows**2
+        return 1.7
 
     def problem(self, rows: int, seed: int) -> Problem:
         x = lattice((COLUMNS, rows)).x
@@ -196,7 +195,7 @@ class OnGrid(NamedTuple):
     first: float = 0.9
 
     def seconds(self, rows: int) -> float:
-        return SECONDS*rows**2
+        return 0.5 + 7e-5*rows**2
 
     def problem(self, rows: int, seed: int) -> Problem:
         scene = Slab(rows=rows)

@@ -31,8 +31,6 @@ from studies.integral.ordering_vortices import DECAYS, RE, SOUND, Vortex, solved
 MACH = 0.05
 #: of the Fourier sums by Mach number, from the study ordering: velocities of 33 against 29 points
 KNOWN = {0.05: 1.4e-6, 0.2: 2.9e-5}
-#: spacings of a wavelength -> CPU seconds of the whole case, for the order of the cases only
-SECONDS = 2e-4
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -42,9 +40,14 @@ class Euler(Layer):
 
 
 def euler_limit(method: Layer, c2: float) -> float:
-    """Of forward Euler: sound grows above (eta + kappa/2)/(rho c^2) whatever its length, diffusion above 2 over its rate."""
+    """Of forward Euler: sound, or diffusion, which grows above 2 over its rate."""
     _, spread = method.edges.fastest
-    return min((method.law.eta + method.law.k/2)/c2, 2/(max(method.law)*spread))
+    return min(sound_limit(method, c2), 2/(max(method.law)*spread))
+
+
+def sound_limit(method: Any, c2: float) -> float:
+    """Sound grows above (eta + kappa/2)/(rho c^2) whatever its length."""
+    return float((method.law.eta + method.law.k/2)/c2)
 
 
 def compared(vortex: Vortex, V: np.ndarray, x: np.ndarray, v: np.ndarray) -> Residuals:
@@ -65,14 +68,15 @@ class OnPoints(NamedTuple):
     euler: bool = False
     first: float = 0.9
     mach: float = MACH
+    weight: Any = Lucy
 
     def seconds(self, resolution: int) -> float:
-        return SECONDS*resolution**2
+        return 0.5 + (0.013*resolution**2 if self.euler else 1.3e-5*resolution**3)
 
     def problem(self, resolution: int, seed: int) -> Problem:
         vortex, counts = Vortex(self.mach, resolution), (resolution, resolution)
         points = lattice(counts) if self.h else jittered(counts, 0.3, seed)
-        edges = renormalised(points, Lucy.of(h=self.h)) if self.h else delaunay(points)
+        edges = renormalised(points, self.weight.of(h=self.h)) if self.h else delaunay(points)
         method = vortex.method(points, edges)
         if self.euler:
             method = Euler(**{name: getattr(method, name) for name in ("x", "edges", "beyond", "eos", "law", "T_plates", "g")})
@@ -90,7 +94,7 @@ class OnParticles(NamedTuple):
     mach: float = MACH
 
     def seconds(self, resolution: int) -> float:
-        return 10*SECONDS*resolution**2
+        return 1.3 + 1e-4*resolution**3
 
     def problem(self, resolution: int, seed: int) -> Problem:
         vortex, points = Vortex(self.mach, resolution), jittered((resolution, resolution), START_JITTER, seed)
@@ -111,7 +115,7 @@ class OnMovingPoints(NamedTuple):
     mach: float = MACH
 
     def seconds(self, resolution: int) -> float:
-        return 30*SECONDS*resolution**2
+        return 0.5 + 1.8e-4*resolution**3
 
     def problem(self, resolution: int, seed: int) -> Problem:
         vortex, points = Vortex(self.mach, resolution), jittered((resolution, resolution), START_JITTER, seed)
@@ -155,7 +159,7 @@ class OnMac(NamedTuple):
     first: float = 0.9
 
     def seconds(self, resolution: int) -> float:
-        return 5*SECONDS*resolution**2
+        return 0.3
 
     def problem(self, resolution: int, seed: int) -> Problem:
         """Height 1 is half of a wavelength, the largest velocity 1."""
@@ -191,6 +195,7 @@ def stirred(case: Case) -> np.ndarray:
 
 
 POINTS = (OnPoints(names.NEAREST, 1.2), OnPoints(names.LATTICE, 2.0), OnPoints(names.WIDE, 3.0))
+WEIGHTS = (OnPoints(names.LATTICE_MONAGHAN, 2.0, weight=Monaghan), OnPoints(names.LATTICE_WENDLAND, 2.0, weight=WendlandC2))
 TWO_STEP = OnPoints(names.TWO_STEP, 2.0, euler=True)
 IRREGULAR = OnPoints(names.JITTERED)
 PARTICLES = (OnParticles(names.LUCY), OnParticles(names.MONAGHAN, Monaghan), OnParticles(names.WENDLAND, WendlandC2))

@@ -4,6 +4,7 @@ Density and temperature start as isentropic cosines, at rest; the answer is exac
 waves (studies/integral/transport_symbol.py). Points and particles start on lattices, but for jittered ones: the noise of
 particles that lie at random is larger than any wave whose answer is known to many digits.
 """
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,16 +12,19 @@ from scipy.linalg import expm
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.edges import NONE_BEYOND, Edges
+from particles.integrators import TwoStep
+from particles.limits import limit_of
 from particles.makers import renormalised
 from particles.methods.layer import Layer
 from particles.methods.moving import EXCHANGED, Moving
-from particles.methods.spam import Spam
+from particles.methods.spam import Nested, Spam
 from particles.points import Points, jittered, lattice
+from particles.team import Team
 from particles.triangulation import delaunay
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.cost import speed_names as names
-from studies.cost.speed_cases_vortex import Euler, euler_limit
+from studies.cost.speed_cases_vortex import Euler, euler_limit, sound_limit
 from studies.cost.speed_problem import Problem, Residuals, of_method
 from studies.integral.ordering_vortices import SOUND
 from studies.integral.transport_symbol import Gas, continuum
@@ -29,8 +33,8 @@ AMPLITUDE = 1e-5    # steepening is of the order of its product with the phase, 
 KNOWN = 1e-4
 PERIODS = 2.125     # and an eighth: density and velocity are both there
 DAMPING = 0.01      # eta = kappa, in wavelengths: a third of the wave is left
+RK4_TO_EULER = 2/2.785      # ends of both stability regions on the negative real axis, where diffusion is
 BREADTH = 8         # spacings across: wider than twice a range of three
-SECONDS = 2e-4
 
 
 class Wave(NamedTuple):
@@ -68,14 +72,15 @@ class OnPoints(NamedTuple):
     h: float = 0.0
     euler: bool = False
     first: float = 0.9
+    weight: Any = Lucy
 
     def seconds(self, length: int) -> float:
-        return SECONDS*length**2
+        return 0.5 + (4e-4 if self.euler else 7e-5)*length**2
 
     def problem(self, length: int, seed: int) -> Problem:
         wave, counts = Wave(length), (length, BREADTH)
         points = lattice(counts) if self.h else jittered(counts, 0.3, seed)
-        edges = renormalised(points, Lucy.of(h=self.h)) if self.h else delaunay(points)
+        edges = renormalised(points, self.weight.of(h=self.h)) if self.h else delaunay(points)
         method = self._method(wave, points, edges)
         rho, u, T = wave.exactly(0.0, points.x[:, 0])
 
@@ -91,25 +96,46 @@ class OnPoints(NamedTuple):
                                                 law=ConstEta(wave.eta, wave.eta), T_plates=(1.0, 1.0), g=0.0)
 
 
+class Places(Nested):
+    """Sums that tell the two-step scheme which rows are places."""
+    places = 2
+
+    def velocity(self, state: np.ndarray) -> np.ndarray:
+        return state[2:4]
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Stepped(Spam):
+    """Smooth particles by the two-step scheme of Eqs 40, 41."""
+    integrator = TwoStep
+
+    def start(self, n: int, team: Team) -> Places:
+        return Places(self, n, team)
+
+
 class OnParticles(NamedTuple):
     """Smooth particles as printed, on a lattice that is displaced as the density at the start wants it."""
     name: str
     weight: Any = Lucy
+    euler: bool = False
     first: float = 0.9
 
     def seconds(self, length: int) -> float:
-        return 5*SECONDS*length**2
+        return 1.5 + (2e-3 if self.euler or self.weight is Monaghan else 0.0)*length**2
 
     def problem(self, length: int, seed: int) -> Problem:
         wave, x = Wave(length), lattice((length, BREADTH)).x
         T = 1 + wave.exactly(0.0, x[:, 0])[2]
         x[:, 0] -= AMPLITUDE/wave.k*np.sin(wave.k*x[:, 0])
-        method = Spam(weight=self.weight.of(h=3.0), eos=IdealGas(), law=ConstEta(wave.eta, wave.eta), box=(length, BREADTH),
-                      walls=(*periodic(length), *periodic(BREADTH, axis=1)))
+        method = (Stepped if self.euler else Spam)(
+            weight=self.weight.of(h=3.0), eos=IdealGas(), law=ConstEta(wave.eta, wave.eta), box=(length, BREADTH),
+            walls=(*periodic(length), *periodic(BREADTH, axis=1)))
+        first = np.array([*x.T, 0*T, 0*T, T])
 
         def residuals(state: np.ndarray) -> Residuals:
             return wave.compared(np.ones(state.shape[1]), state[0], state[2], state[4])
-        return of_method(method, np.array([*x.T, 0*T, 0*T, T]), wave.time, residuals, known=KNOWN)
+        limit = min(sound_limit(method, SOUND**2), RK4_TO_EULER*limit_of(method, first)) if self.euler else None
+        return of_method(method, first, wave.time, residuals, limit=limit, known=KNOWN)
 
 
 class OnMoving(NamedTuple):
@@ -118,7 +144,7 @@ class OnMoving(NamedTuple):
     first: float = 0.9
 
     def seconds(self, length: int) -> float:
-        return 10*SECONDS*length**2
+        return 0.3 + 2.7e-4*length**2
 
     def problem(self, length: int, seed: int) -> Problem:
         wave, x = Wave(length), lattice((length, BREADTH)).x
@@ -133,7 +159,9 @@ class OnMoving(NamedTuple):
 
 
 POINTS = (OnPoints(names.NEAREST, 1.2), OnPoints(names.LATTICE, 2.0), OnPoints(names.WIDE, 3.0))
+WEIGHTS = (OnPoints(names.LATTICE_MONAGHAN, 2.0, weight=Monaghan), OnPoints(names.LATTICE_WENDLAND, 2.0, weight=WendlandC2))
 TWO_STEP = OnPoints(names.TWO_STEP, 2.0, euler=True)
 IRREGULAR = OnPoints(names.JITTERED)
 PARTICLES = (OnParticles(names.LUCY), OnParticles(names.MONAGHAN, Monaghan), OnParticles(names.WENDLAND, WendlandC2))
+PARTICLES_TWO_STEP = OnParticles(names.LUCY_TWO_STEP, euler=True)
 MOVING = OnMoving(names.MOVING)

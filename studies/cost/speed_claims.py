@@ -4,7 +4,8 @@ import pandas as pd
 
 from studies.convection.claims.read import Value, ratio, select
 from studies.cost import speed_names as names
-from studies.kit.claim import CannotTell, Claim
+from studies.cost.speed_derive import PARTS, of_part
+from studies.kit.claim import CannotTell, Claim, judge
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
 
@@ -114,7 +115,28 @@ def growth(method: str, what: str, most: float) -> Value:
     return value
 
 
-CLAIMS = (
+def moved(tables: Tables) -> Measured:
+    """How many of the other verdicts are others where the first, or the last, of the repeats of all seconds are all there are.
+
+    Raises
+    ------
+    CannotTell
+        None of them is decided yet, or the repeats are not known.
+    """
+    if "repeats" not in tables:
+        raise CannotTell("not run yet: table repeats is not there")
+    whole, *parts = (verdicts(one) for one in (tables, *(of_part(tables, part) for part in PARTS)))
+    if not {"holds", "fails"} & set(whole.values()):
+        raise CannotTell("not run yet: no verdict that a repeat could move")
+    return Measured(float(max(sum(whole[name] != part[name] for name in whole) for part in parts)), 0.0)
+
+
+def verdicts(tables: Tables) -> dict[str, str]:
+    """By the ids of all claims on seconds."""
+    return {row["id"]: row["verdict"] for row in judge(ON_SECONDS, tables, "speed")}
+
+
+ON_SECONDS = (
     Claim(id="own-speed-fixed-points", source="RR98 Sec. III", at_most=2, value=of_fixed,
           statement="fixed points are no dearer than a grid: CPU seconds, setting up included, to the steady state of "
                     "Rayleigh-Benard at Ra 10 000 with 1 % in K, the cheapest fixed points' over the compressible grid's",
@@ -158,3 +180,7 @@ CLAIMS = (
           ("grid", names.GRID, STEADY, "the compressible grid, K of convection"),
           ("vortex", names.LATTICE, {"scene": "taylor-green", "quantity": "velocity"}, "a lattice, h = 2 a, Taylor-Green"))),
 )
+CLAIMS = (*ON_SECONDS, Claim(
+    id="own-speed-repeat", source="KHP95 Sec. VII", at_most=0, value=moved,
+    statement="a repeat moves no verdict: verdicts on seconds that are others where the first, or the last, of the repeats of "
+              "every timing are all there are", because="none is to change"))

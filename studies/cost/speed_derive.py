@@ -14,7 +14,7 @@ from studies.kit.table import Tables
 
 LEVELS = (0.1, 0.03, 0.01, 0.001)
 LEAST = 3           # resolutions of an exponent
-
+PARTS = ("early", "late")               # of the repeats
 
 
 def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
@@ -26,7 +26,18 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
         return found
     needed = list(over_levels(points))
     return {**found, "points": mean, "exponents": list(exponents(points)), "needed": needed,
-            "cheapest": list(cheapest(pd.DataFrame(needed)))}
+            "cheapest": list(cheapest(pd.DataFrame(needed))), "memory": list(memory(tables["runs"]))}
+
+
+def of_part(tables: Tables, part: str) -> Tables:
+    """The tables as they were if the first, `early`, or the last, `late`, of the repeats of all seconds were all there are."""
+    found = {name: tables[name] for name in ("errors", "runs", "growth") if name in tables}
+    if "runs" in found:
+        both = found["runs"].merge(tables.get("repeats", pd.DataFrame(columns=RUN)), on=RUN, suffixes=("", "_part"))
+        found["runs"] = both.assign(run_s=both[f"{part}_s"])
+    if "growth" in found:
+        found["growth"] = found["growth"].assign(step_s=found["growth"][f"{part}_s"])
+    return Tables(found | {name: pd.DataFrame(rows) for name, rows in derive(Tables(found)).items() if rows})
 
 
 def over_seeds(tables: Tables) -> Iterator[dict[str, Any]]:
@@ -112,6 +123,15 @@ def cheapest(needed: pd.DataFrame) -> Iterator[dict[str, Any]]:
         else:
             best = told.sort_values("cpu_s").iloc[0]
             yield {**row, **{name: best[name] for name in ("method", "reached", "cpu_s", "low", "high", "points")}}
+
+
+def memory(runs: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """Bytes a point at the highest resolution of each method in each scene, means over seeds."""
+    finest = runs[runs["resolution"] == runs.groupby(["scene", "method"])["resolution"].transform("max")]
+    for (scene, method), group in groups(finest, ["scene", "method"]):
+        size, points = group["bytes"].mean(), group["points"].mean()
+        yield {"scene": scene, "method": method, "resolution": group["resolution"].iloc[0], "points": points, "bytes": size,
+               "bytes_a_point": size/points}
 
 
 def growth_laws(growth: pd.DataFrame) -> Iterator[dict[str, Any]]:

@@ -25,7 +25,9 @@ def figures(tables: Tables) -> dict[str, Figure]:
     """What the tables allow."""
     found: dict[str, Figure] = {}
     if len(tables.get("points", ())):
-        found |= {"work_precision": work_precision(tables["points"]), "memory": memory(tables["points"])}
+        found["work_precision"] = work_precision(tables["points"])
+    if len(tables.get("memory", ())):
+        found["memory"] = memory(tables["memory"])
     if len(tables.get("growth", ())):
         found["growth"] = growth(tables["growth"])
     return found
@@ -92,16 +94,15 @@ def legend(page: Figure, all_axes: np.ndarray) -> None:
     page.legend([handles[name] for name in order], order, loc="outside lower center", ncols=4)
 
 
-def memory(points: pd.DataFrame) -> Figure:
+def memory(rows: pd.DataFrame) -> Figure:
     """Bytes a point of each method in each scene, at its highest resolution."""
-    finest = points.loc[points.groupby(["scene", "method"])["resolution"].idxmax()]
-    scenes = list(dict.fromkeys(finest["scene"]))
-    order = [name for name in ORDER if name in set(finest["method"])]
+    scenes = list(dict.fromkeys(rows["scene"]))
+    order = [name for name in ORDER if name in set(rows["method"])]
     page, axes = figure(width=7.5, height=1.3 + 0.28*len(order))
     for number, scene in enumerate(scenes):
-        rows = finest[finest["scene"] == scene]
-        places = [len(order) - 1 - order.index(name) for name in rows["method"]]
-        errorbar(axes, (rows["bytes"]/rows["points"]).tolist(), places, [0.0]*len(rows), number=number, label=scene)
+        some = rows[rows["scene"] == scene]
+        places = [len(order) - 1 - order.index(name) for name in some["method"]]
+        errorbar(axes, some["bytes_a_point"].tolist(), places, [0.0]*len(some), number=number, label=scene)
     axes.set_yticks(range(len(order)), labels=order[::-1])
     axes.set(xscale="log", xlabel="bytes of arrays a point while it runs", title="Memory at the highest resolution")
     axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))

@@ -12,23 +12,19 @@ from time import process_time
 from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
-from scipy.special import stdtrit
 
 from continuum.compressible import DivergedError
 from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, Run, run
 from particles.team import Team
-from studies.cost.speed_timing import SHORT, array_bytes, per_step
+from studies.cost.speed_timing import SHORT, Timed, array_bytes, of_calls, per_step
 from studies.kit.case import Case, Outcome, Report
-from studies.kit.timing import compile_and_run_seconds, median_seconds
+from studies.kit.timing import compile_and_run_seconds
 
 HALVINGS = 7        # at most: steps of 1/128 of the first one
-SET_UP = 3          # repeats of what is made before the first step
+LONGEST = 60.0      # CPU seconds of trying steps: none is halved again that would take it beyond
 LONGER = 10         # are the runs that time particles: they have to hold some lists
-#: half of the interquartile range of 3 repeats -> half width of the 95 % interval of their median: as `cost.SPREAD_TO_ERR`; the
-#: quartiles of 3 lie half-way between neighbours, on average 0.423 sigma off
-OF_THREE = float(stdtrit(SET_UP - 1, 0.975)*np.sqrt(np.pi/(2*SET_UP))/0.423)
 Residuals = dict[str, np.ndarray]
 
 
@@ -130,9 +126,9 @@ def result(problem: Problem, fraction: float) -> Result | None:
 def climb(problem: Problem, first: float) -> tuple[list[Rung], Result | None]:
     """All steps that were tried, the last one is taken; what comes out with it, nothing where all diverge."""
     rungs: list[Rung] = []
-    coarse = result(problem, first)
+    began, coarse = process_time(), result(problem, first)
     for number in range(HALVINGS):
-        fraction = first/2**number
+        fraction, before = first/2**number, process_time()
         fine = result(problem, fraction/2)
         if coarse is None or fine is None:
             rungs.append(Rung(fraction, {}, {}, False))
@@ -143,8 +139,10 @@ def climb(problem: Problem, first: float) -> tuple[list[Rung], Result | None]:
             rungs.append(Rung(fraction, time, space, all(time[name] <= space[name] for name in space)))
             if rungs[-1].accepted:
                 break
-        if number < HALVINGS - 1:
-            coarse = fine
+        now = process_time()
+        if number == HALVINGS - 1 or now - began + 2*(now - before) > LONGEST:
+            break
+        coarse = fine
     return rungs, coarse
 
 
@@ -184,8 +182,7 @@ class Race(Case):
             return Outcome(rows)
         # particles are timed in the disorder of the end: their lists are made more often than at the start
         first, short = (found.state, LONGER*self.short) if problem.chaotic else (problem.first, self.short)
-        run_row = self._run(problem._replace(first=first), rungs[-1].fraction, make, made_s + loop_s, short)
-        return Outcome({**rows, "runs": [run_row]})
+        return Outcome({**rows, **self._run(problem._replace(first=first), rungs[-1].fraction, make, made_s + loop_s, short)})
 
     def _rungs(self, rungs: list[Rung]) -> Iterator[dict[str, Any]]:
         for rung in rungs:
@@ -203,11 +200,16 @@ class Race(Case):
                    "share": found.share.get(name, 1.0)}
 
     def _run(self, problem: Problem, fraction: float, make: Callable[[], Problem], compile_s: float,
-             short: float) -> dict[str, Any]:
+             short: float) -> dict[str, list[dict[str, Any]]]:
         steps = steps_of(problem, fraction)
         dt = problem.time/steps
-        seconds = per_step(lambda n: (problem.step or problem.go)(problem.first, dt, n), short)
-        set_up = median_seconds(make, SET_UP, process_time)
-        return {**self.key_columns, "points": problem.points, "of_limit": fraction, "dt": dt, "steps": steps,
-                "run_s": steps*seconds.value, "run_s_err": steps*seconds.err, "setup_s": set_up.median,
-                "setup_s_err": set_up.spread*OF_THREE, "compile_s": compile_s, "bytes": array_bytes(problem.held()), "threads": 1}
+        seconds = per_step(lambda n: (problem.step or problem.go)(problem.first, dt, n), short).times(steps)
+        set_up = of_calls(lambda: make().held())
+        return self.timings(seconds, {
+            "points": problem.points, "of_limit": fraction, "dt": dt, "steps": steps, "setup_s": set_up.value,
+            "setup_s_err": set_up.err, "compile_s": compile_s, "bytes": array_bytes(problem.held()), "threads": 1})
+
+    def timings(self, run: Timed, more: dict[str, Any]) -> dict[str, list[dict[str, Any]]]:
+        """Rows of the tables `runs` and `repeats`."""
+        return {"runs": [{**self.key_columns, "run_s": run.value, "run_s_err": run.err, **more}],
+                "repeats": [{**self.key_columns, "early_s": run.early, "late_s": run.late}]}

@@ -9,6 +9,8 @@ RUN = ["scene", "method", "resolution", "seed"]
 #: steps, of setting up, of compiling (from the second process on: of loading what is compiled), bytes of arrays
 RUNS = Table("runs", key=RUN, columns=[*RUN, "points", "of_limit", "dt", "steps", "run_s", "run_s_err", "setup_s", "setup_s_err",
                                        "compile_s", "bytes", "threads"])
+#: run_s if the first, or the last, of the repeats were all there are
+REPEATS = Table("repeats", key=RUN, columns=[*RUN, "early_s", "late_s"])
 #: share: of the steps that this quantity needs (a steady state is reached, and averaged, before the run ends)
 ERRORS = Table("errors", key=[*RUN, "quantity"], columns=[*RUN, "quantity", "error", "error_err", "share"])
 #: how the step was found: what halving it changes (time_error) against the error that is left then (space_error)
@@ -26,10 +28,18 @@ NEEDED = Table("needed", key=[*SERIES, "level"], columns=[*SERIES, "level", "rea
 #: the cheapest of them, with the interval [low, high] of its seconds
 CHEAPEST = Table("cheapest", key=["scene", "quantity", "level"], columns=[
     "scene", "quantity", "level", "method", "reached", "cpu_s", "low", "high", "points"])
-#: seconds of an evaluation of the rates by number of particles: CPU time, of two threads the time that passes
+#: seconds of a step by number of particles: CPU time, or the time that passes; bytes of arrays while it runs, and what the
+#: process takes beyond what it had, setting up included
 GROWTH = Table("growth", key=["method", "points", "threads"], columns=[
-    "method", "points", "threads", "clock", "step_s", "step_s_err", "bytes"])
+    "method", "points", "threads", "clock", "step_s", "step_s_err", "early_s", "late_s", "bytes", "peak_bytes"])
 #: d ln(seconds of a step)/d ln(particles); of two threads: how much faster than one
 GROWTH_LAWS = Table("growth_laws", key=["method", "what"], columns=["method", "what", "least", "most", "value", "value_err"])
 
-ALL = (RUNS, ERRORS, STEPS, POINTS, EXPONENTS, NEEDED, CHEAPEST, GROWTH, GROWTH_LAWS)
+#: bytes of arrays while the finest run goes on, and of each point
+MEMORY = Table("memory", key=["scene", "method"], columns=["scene", "method", "resolution", "points", "bytes", "bytes_a_point"])
+#: CPU seconds of a fresh process up to the end of its first step: where nothing is compiled yet, and where compiled code lies on
+#: disk (median, least and most of three); peak_bytes: of the whole process, libraries included
+STARTS = Table("starts", key=["scene", "method"], columns=[
+    "scene", "method", "resolution", "first_s", "again_s", "again_least_s", "again_most_s", "peak_bytes"])
+
+ALL = (RUNS, REPEATS, ERRORS, STEPS, POINTS, EXPONENTS, NEEDED, CHEAPEST, GROWTH, GROWTH_LAWS, MEMORY, STARTS)
