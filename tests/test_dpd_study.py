@@ -21,7 +21,7 @@ def test_quick_rebuild_writes_every_table(quick):
     found, out = quick
     for table in dpd_tables.ALL:
         assert len(found[table.name]) and set(table.columns) <= set(found[table.name].columns)
-    pictures = {"temperature.png", "structure.png", "second.png", "cylinder.png"}
+    pictures = {"temperature.png", "structure.png", "second.png", "cylinder.png", "surface.png"}
     assert {path.name for path in dpd.STUDY.draw(out)} == pictures
     assert {row["id"] for row in dpd.STUDY.judge(out)} == {claim.id for claim in dpd.STUDY.claims}
     assert found["states"]["drift"].max() < 1e-13

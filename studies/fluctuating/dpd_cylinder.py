@@ -6,6 +6,7 @@ what is free times all over free.
 """
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -13,9 +14,10 @@ from continuum.fluid import ConstEta, IdealGas
 from particles.bodies import held
 from particles.integrators_dpd import VelocityVerlet
 from particles.limits import limit_of
+from particles.methods.dpd import Dpd
 from particles.methods.dpd_stream import DpdStream, force_on_body, speed
 from particles.methods.stream import Stream
-from particles.run import Plan, run
+from particles.run import Plan, Run, run
 from studies.fluctuating.dpd_cases import Fluid
 from studies.integral.bodies_drag import VARIANTS, drag_of, force, momentum
 from studies.kit.case import Case, Outcome, Report
@@ -31,7 +33,7 @@ CYLINDERS = Table("cylinders", key=CYLINDER, columns=[
 #: velocity over the mean one in squares of the cell, places in radii
 FLOW = Table("flow", key=[*CYLINDER, "x", "y"], columns=[*CYLINDER, "x", "y", "u", "v"])
 #: drag at a Reynolds number over that without inertia, of fixed points [RR98] on the same array
-INERTIA = Table("inertia", key=["fraction"], columns=["fraction", "rows", "reynolds", "mach", "ratio"])
+INERTIA = Table("inertia", key=["fraction", "reynolds"], columns=["fraction", "rows", "reynolds", "mach", "ratio"])
 #: drag over eta times speed and depth with the viscosity of the table `shear` at the same step, inertia taken out; offset: by
 #: which the radius of a cylinder of this drag exceeds that of the frozen one; outer_: with the density of the fluid outside in
 #: force and velocity, less than that of all as fluid gets into the cylinder, a reading chosen after the runs
@@ -67,6 +69,14 @@ class Inside:
     def count(self, sums, state: np.ndarray) -> float:
         """Free particles in the cylinder."""
         return float((self(state[:3]) & ~sums.is_held[sums.now.ids]).sum())
+
+    def carried(self, sums, state: np.ndarray) -> float:
+        """Momentum along x in the cylinder."""
+        return float(state[3, self(state[:3])].sum())
+
+    def far(self, sums, state: np.ndarray) -> float:
+        """Particles farther than a range outside, whom frozen ones neither push nor rub."""
+        return float(((self.place(state)**2).sum(axis=0) > (self.radius + 1)**2).sum())
 
     def flow(self, sums, state: np.ndarray) -> np.ndarray:
         """Momentum along x, y and particles in squares of the cell (3, BINS, BINS)."""
@@ -112,20 +122,37 @@ class Cylinder(Fluid):
         return 1e-6*self.rho*self.cell**2*DEPTH*(self.time + SETTLED)/self.dt
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        still = replace(self.method(), box=(self.cell, self.cell, DEPTH))
-        state, inside = self.settled(still), Inside(self.radius, self.cell)
-        n, U = state.shape[1], self.reynolds*ETA/(2*self.radius*self.rho)
-        frozen = np.flatnonzero(inside(state[:3]))
-        method = DpdStream(box=still.box, a=self.a, kT=self.kT, noise=still.noise, integrator=self.integrator, held=frozen,
-                           push=drag_of(self.fraction)[0]*ETA*U*DEPTH/n, turned=inside.turned if self.turns else None)
-        start = run(method, method.at_rest(state, U), Plan(dt=self.dt, steps=round(SETTLED/self.dt))).by_id()
-        every = round(RECORD/self.dt)
-        series = {"speed": speed, "force": force_on_body, "inside": inside.count, "kinetic": free_temperature}
-        # a seed of its own: the noise of a run begins anew
-        done = run(replace(method, noise=self.noise(self.seed + 3000)), start,
-                   Plan(dt=self.dt, steps=round(self.time/RECORD)*every, every=every, series=series, means={"flow": inside.flow}),
-                   report)
+        method, n, done = self.streamed(report)
         return Outcome({"cylinders": [self._row(method, n, done)], "flow": self._flow(done)})
+
+    @property
+    def settling(self) -> float:
+        """Time until the stream is steady."""
+        return SETTLED
+
+    def filled(self, still: Dpd, inside: Inside) -> tuple[np.ndarray, np.ndarray]:
+        """Particles of the whole box (9, n), and which of them are frozen."""
+        state = self.settled(still)
+        return state, np.flatnonzero(inside(state[:3]))
+
+    def watched(self, inside: Inside) -> dict[str, Any]:
+        """What is recorded."""
+        return {"speed": speed, "force": force_on_body, "inside": inside.count, "kinetic": free_temperature}
+
+    def streamed(self, report: Report) -> tuple[DpdStream, int, Run]:
+        """The method, the number of particles, the run once the stream is steady."""
+        still, inside = replace(self.method(), box=(self.cell, self.cell, DEPTH)), Inside(self.radius, self.cell)
+        (state, frozen), U = self.filled(still, inside), self.reynolds*ETA/(2*self.radius*self.rho)
+        method = DpdStream(box=still.box, a=self.a, kT=self.kT, noise=still.noise, integrator=self.integrator, held=frozen,
+                           push=drag_of(self.fraction)[0]*ETA*U*DEPTH/round(self.rho*still.volume),
+                           turned=inside.turned if self.turns else None)
+        start = run(method, method.at_rest(state, U), Plan(dt=self.dt, steps=round(self.settling/self.dt))).by_id()
+        every = round(RECORD/self.dt)
+        # a seed of its own: the noise of a run begins anew
+        return method, state.shape[1], run(
+            replace(method, noise=self.noise(self.seed + 3000)), start,
+            Plan(dt=self.dt, steps=round(self.time/RECORD)*every, every=every, series=self.watched(inside),
+                 means={"flow": inside.flow}), report)
 
     def _key(self) -> dict:
         return {"variant": self.variant, "fraction": self.fraction, "radius": self.radius}
@@ -154,6 +181,7 @@ class Inertia(Case):
     """What inertia adds to the drag: fixed points, at a Reynolds number over at one a hundred times as small.
 
     eta : so small that the pressure falls by 5 % in a cell of the faster stream, which adds 0.1 % to the drag, and 1.2 % at 0.5.
+          The fall is as eta^2 times the Reynolds number.
     """
     fraction: float = 0.2
     reynolds: float = 2.0

@@ -45,8 +45,9 @@ def second(steps: pd.DataFrame, stiffness: pd.DataFrame, runs: str) -> Iterator[
 def drag(cylinders: pd.DataFrame, shear: pd.DataFrame, inertia: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """Drag over eta U and depth, with the viscosity at the same step; what inertia adds grows as Re^2."""
     for _, row in cylinders.iterrows():
-        same = shear[(shear["a"] == 25) & (shear["dt"] == row["dt"]) & (shear["integrator"] == "VelocityVerlet")]
-        fixed = inertia[inertia["fraction"] == row["fraction"]]
+        same = shear[(shear["a"] == 25) & (shear["rho"] == 3) & (shear["dt"] == row["dt"])
+                     & (shear["integrator"] == "VelocityVerlet")]
+        fixed = inertia[inertia["fraction"] == row["fraction"]].sort_values("reynolds")
         if not (len(same) and len(fixed)):
             continue
         eta, eta_err = (float(same.sort_values("time")[name].iloc[-1]) for name in ("viscosity", "viscosity_err"))
