@@ -15,7 +15,7 @@ export PYTHONPATH := $(CURDIR)
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help env studies test lint types notebooks bench worker clean $(studies:%=study-%) $(studies:%=figures-%)
+.PHONY: help env studies hours report films test lint types notebooks executed bench worker clean $(studies:%=study-%) $(studies:%=figures-%)
 
 # a line for each name that % stands for
 help:  ## this list
@@ -39,13 +39,17 @@ study-% figures-%:
 
 env: .venv/ready  ## set up .venv and nothing else
 
-studies: $(studies:%=study-%)  ## all studies, one after the other
+# every table and figure of the size; then what is made from tables: of size quick the page alone, in results/quick
+studies: hours $(studies:%=study-%) $(if $(filter quick,$(SIZE)),,films executed) report  ## all studies, notebooks, films, the page: hours
+
+hours: .venv/ready  ## what all studies have still to do, in minutes of CPU
+	$(run) -m studies.kit.hours $(studies)
 
 report: .venv/ready  ## results/index.html: one page of findings, verdicts, figures, tables, films
-	$(run) -m studies.report $(ARGS)
+	$(run) -m studies.report $(if $(filter quick,$(SIZE)),--out results/quick)
 
 films: .venv/ready  ## the films of the report, some minutes
-	$(run) -m studies.report films $(ARGS)
+	$(run) -m studies.report films
 
 # two processes, each with one thread for linear algebra; a file stays in one, which has its fixtures
 test: export OMP_NUM_THREADS ?= 1
@@ -58,9 +62,12 @@ lint: .venv/ready  ## ruff
 types: .venv/ready  ## mypy on the public functions
 	$(run) -m mypy
 
-notebooks: .venv/ready  ## run every notebook in results/
+notebooks: .venv/ready  ## run every notebook in results/, and leave it as it is
 	@if ls results/*.ipynb >/dev/null 2>&1; then $(run) -m pytest --nbmake results/*.ipynb; \
 	else echo 'no notebooks in results/ yet'; fi
+
+executed: .venv/ready  ## run every notebook in results/, and keep what comes out
+	@for one in results/*.ipynb; do echo "$$one"; $(run) -m jupyter execute --inplace "$$one" || exit 1; done
 
 bench: .venv/ready-bench  ## speed, beside public codes, in one run
 	$(run) -m bench.spam_speed $(ARGS)

@@ -46,6 +46,17 @@ def test_help_lists_every_target_by_the_name_that_is_typed(make):
     assert "one" not in listed
 
 
+@pytest.mark.parametrize(("size", "last"), [("paper", ["films", "execute", "report"]), ("quick", ["report --out results/quick"])])
+def test_all_studies_are_told_their_hours_first_and_become_notebooks_films_and_the_page_last(make, size, last, tmp_path):
+    (tmp_path / ".venv").mkdir()
+    (tmp_path / ".venv/ready").touch()
+    code, text = make("-n", "studies", f"SIZE={size}")
+    lines = [line.strip() for line in text.splitlines() if line.strip().startswith((".venv/bin/python", "for one in"))]
+    wanted = ["kit.hours one two", "studies.one", "studies.two", *last]
+    assert code == 0 and len(lines) == len(wanted), text
+    assert all(word in line for word, line in zip(wanted, lines)), lines
+
+
 def test_env_sets_up_and_does_nothing_else(make, tmp_path):
     (tmp_path / ".venv").mkdir()
     (tmp_path / ".venv/ready").touch()

@@ -147,8 +147,7 @@ class SpamGrowth(Case):
     @property
     def model(self) -> SpamRun:
         """The run with the same step."""
-        return SpamRun(scene=self.scene, variant=self.variant, seed=self.seed,
-                       t_end=self.until*self.scene.L/self.scene.free_fall)
+        return SpamRun(scene=self.scene, variant=self.variant, seed=self.seed, t_end=self.until)
 
     @property
     def cost(self) -> float:

@@ -1,8 +1,10 @@
 """Finished cases on disk: results/raw/<study>/<key>.json, written by whoever ran the case; of a cluster, by the study."""
 import errno
 import json
+import math
 import shutil
 import sys
+import time
 import traceback
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -40,7 +42,9 @@ def attempt(case: Case, scratch: Path, report: Report) -> str | Failure:
     """Run one case: its outcome as text, or a failure."""
     try:
         scratch.mkdir(parents=True, exist_ok=True)
-        return as_text(case, case.run(report, scratch))
+        begin = time.process_time()
+        outcome = case.run(report, scratch)
+        return as_text(case, outcome, time.process_time() - begin)
     except Exception as error:
         return failed(case, error)
 
@@ -67,10 +71,10 @@ def keep(case: Case, result: str | Failure, folder: Path) -> Failure | None:
         return keep(case, failed(case, error), folder)
 
 
-def as_text(case: Case, outcome: Outcome) -> str:
-    """An outcome with the commit it was computed by, and where."""
+def as_text(case: Case, outcome: Outcome, cpu_s: float) -> str:
+    """An outcome with the commit it was computed by, where, and in how many CPU seconds, compiling among them."""
     content = {"case": parameters(case), "commit": provenance.commit(), "versions": provenance.versions(),
-               "cpu": provenance.cpu(), "date": provenance.now(), "rows": outcome.rows}
+               "cpu": provenance.cpu(), "date": provenance.now(), "cpu_s": cpu_s, "rows": outcome.rows}
     return json.dumps(content, default=plain, indent=1)
 
 
@@ -99,3 +103,9 @@ def kept(case: Case, folder: Path) -> dict[str, list[dict[str, Any]]] | None:
         print(f"{path} cannot be read ({error}): {case.label} is run again", file=sys.stderr)
         path.unlink()
         return None
+
+
+def seconds(case: Case, folder: Path) -> float:
+    """CPU seconds that a case took; nan if it is not finished, or was before they were kept."""
+    path = folder / f"{case.key}.json"
+    return float(json.loads(path.read_text()).get("cpu_s", math.nan)) if path.exists() else math.nan

@@ -10,6 +10,7 @@ from studies.kit.cluster import ClusterError, check_scheduler, run_on
 from studies.kit.keep import Failure, kept
 from studies.kit.source import ROOT
 from studies.kit.table import Table, Tables, changed, check_size, merge, read
+from studies.kit.times import put_times
 from studies.kit.workers import Bar, run_here, run_there
 
 RESULTS = ROOT / "results"
@@ -54,6 +55,8 @@ def sweep(cases: Iterable[Case], *, tables: Sequence[Table], study: str, size: s
     if failures:
         raise CasesFailed(f"{len(failures)} of {len(wanted)} cases failed, the tables hold the others:\n"
                           + "\n".join(map(str, failures)))
+    if not only:
+        put_times(out, study, size, wanted)
     return result
 
 

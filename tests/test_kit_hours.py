@@ -1,0 +1,70 @@
+"""What studies take is measured as they run, and told before they run."""
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from studies.kit import hours, times
+from studies.kit.case import Case, Outcome
+from studies.kit.csvfile import read
+from studies.kit.study import Study
+from studies.kit.table import Table
+
+
+@dataclass(frozen=True, kw_only=True)
+class Work(Case):
+    x: float
+
+    @property
+    def cost(self) -> float:
+        return self.x
+
+    def run(self, report, folder):
+        sum(range(100_000))
+        return Outcome({"squares": [{"x": self.x, "y": self.x**2}]})
+
+
+TOY = Study(name="toy", cases=lambda size: [Work(x=x) for x in ((1.0, 2.0) if size == "quick" else (1.0, 2.0, 3.0, 6.0))],
+            tables=[Table("squares", key=["x"], columns=["x", "y"])])
+
+
+def claim_seconds(out: Path, factor: float) -> None:
+    """Let each finished case have taken `factor` times its estimate."""
+    for path in (out/"raw/toy").glob("*.json"):
+        content = json.loads(path.read_text())
+        path.write_text(json.dumps({**content, "cpu_s": factor*content["case"]["x"]}))
+
+
+def test_a_whole_run_leaves_its_cpu_seconds(tmp_path):
+    TOY.run("paper", workers=1, out=tmp_path)
+    [row] = read(tmp_path/"times.csv", times.COLUMNS).to_dict("records")
+    assert (row["study"], row["size"], row["cases"], row["estimate_s"]) == ("toy", "paper", 4, 12.0)
+    assert 0 < row["cpu_s"] < 10
+    TOY.run("quick", workers=1, out=tmp_path)
+    assert list(read(tmp_path/"times.csv")["size"]) == ["paper", "quick"], "a size has a row of its own"
+
+
+def test_what_was_not_measured_leaves_no_row(tmp_path):
+    """Some cases alone, or those that were finished before their seconds were kept."""
+    TOY.run("paper", workers=1, out=tmp_path, only="Work 2")
+    assert not (tmp_path/"times.csv").exists()
+    [path] = (tmp_path/"raw/toy").glob("*.json")
+    content = json.loads(path.read_text())
+    path.write_text(json.dumps({name: value for name, value in content.items() if name != "cpu_s"}))
+    TOY.run("paper", workers=1, out=tmp_path)
+    assert not (tmp_path/"times.csv").exists()
+
+
+def test_what_is_left_is_told_by_estimates_and_by_what_they_were_worth(tmp_path):
+    assert hours.left(TOY, "paper", tmp_path) == ("toy", 4, 4, 12.0, False)
+    TOY.run("quick", workers=1, out=tmp_path)
+    claim_seconds(tmp_path, 5.0)
+    TOY.run("quick", workers=1, out=tmp_path)       # nothing runs, the seconds are read anew
+    assert hours.left(TOY, "quick", tmp_path) == ("toy", 0, 2, 0.0, True)
+    assert hours.left(TOY, "paper", tmp_path) == ("toy", 2, 4, 45.0, True), "five times the estimates, as at the other size"
+    assert str(hours.left(TOY, "paper", tmp_path)) == "toy               2 of 4    cases    0.8 min"
+
+
+def test_a_size_that_there_is_none_of(monkeypatch, capsys):
+    monkeypatch.setenv("SIZE", "foo")
+    assert hours.main(["rb"]) == 2
+    assert "'foo': choose one of quick, paper, fine" in capsys.readouterr().err
