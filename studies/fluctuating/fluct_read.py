@@ -113,6 +113,8 @@ def gradient_slope(strong: bool) -> Value:
         rows = gradient(tables, strong, 0.099)
         if strong:
             rows = rows[rows["wavenumber"] > 2*np.pi/rows["period"]]
+            if len(rows) < 3:
+                raise CannotTell("not run yet: three strong waves that are shorter than the period")
         k, q = rows["wavenumber"], 2*np.pi/rows["period"]
         # with nu = 2 D: k^2/(k^2 + q^2)/[k^2 (2 (k^2 + q^2) + k^2)] of K^-4
         whole = 3*k**4/((k**2 + q**2)*(3*k**2 + 2*q**2))
