@@ -15,7 +15,7 @@ from particles.edges import between_plates
 from particles.limits import limit_of
 from particles.makers import MAKERS
 from particles.methods.layer import Layer
-from particles.methods.thermal import Mixed, Thermal, ThreeStage
+from particles.methods.thermal import STAGED, Mixed, Thermal, ThreeStage
 from particles.points import jittered, lattice
 from particles.run import Plan, run
 from particles.team import Team
@@ -89,8 +89,28 @@ def test_threads_make_no_difference():
 def test_small_heat_capacity_is_warned_of_with_its_bias():
     method = gas(k=0.05)
     least = method.edges.V.min()/0.05
-    with pytest.warns(UserWarning, match=rf"heat capacity {least:.3g} k: .* k/C = {1/least:.2g} too much"):
+    with pytest.warns(UserWarning, match=rf"heat capacity {least:.3g} k: .* up to k/C = {1/least:.2g} too much, 0.54 k/C"):
         limit_of(method, rest(method))
+
+
+def test_three_stages_with_amplitudes_of_their_own_drift_nearly_as_stratonovich_has_it():
+    """dx = sqrt(2 x) dW, B B' = 1: the mean over the normal numbers of a step, by Gauss and Hermite's points."""
+    class Root:
+        def rates(self, y, out):
+            out[:] = 0
+
+        def kicks(self, y, beta, dt, out):
+            out[:] = np.sqrt(2*y*dt)*(self.A + beta*self.B)
+
+    points, weights = np.polynomial.hermite_e.hermegauss(12)
+    sums, dt, mean = Root(), 1e-4, 0.0
+    for A, of_A in zip(points, weights/weights.sum(), strict=True):
+        for B, of_B in zip(points, weights/weights.sum(), strict=True):
+            sums.A, sums.B, y = A, B, np.ones(1)
+            ThreeStage((1,), Team(1)).step(sums, y, dt)
+            mean += of_A*of_B*(y[0] - 1)
+    assert mean/dt == pytest.approx(STAGED, abs=10*dt)       # next order
+    assert 0.45 < STAGED < 0.5
 
 
 def test_bad_input_of_noise_in_time():

@@ -19,8 +19,10 @@ from particles.methods.fluctuating import conductances, traceless
 from particles.noise import check_seed, fill_normals, normals_of_pair
 from particles.team import Team
 
-#: heat capacity of a point over k, below which current amplitudes bias energy fluctuations by 2 % and more
+#: heat capacity of a point over k, below which current amplitudes bias energy fluctuations by 1 % and more
 LEAST_CAPACITY = 50
+#: c in <dx> = c B B' dt of three stages, each with the amplitude B of its own state: 0 would be Ito's, 1/2 Stratonovich's
+STAGED = (1 + BETAS[0]*BETAS[1])/6 + (2 + BETAS[2]*(BETAS[0] + BETAS[1]))/6
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -211,8 +213,8 @@ def _(method: Thermal, start: np.ndarray) -> float:
     least = float((method.edges.V*flow.rho*C).min())
     if method.k*LEAST_CAPACITY > least:
         warnings.warn(f"a point has the heat capacity {least/method.k:.3g} k: noise with current amplitudes makes its energy "
-                      f"fluctuate by a share k/C = {method.k/least:.2g} too much; take C >= {LEAST_CAPACITY} k, larger points "
-                      "or a smaller k", stacklevel=2)
+                      f"fluctuate by a share of up to k/C = {method.k/least:.2g} too much, {1 - STAGED:.2f} k/C where heat goes "
+                      f"along edges; take C >= {LEAST_CAPACITY} k, larger points or a smaller k", stacklevel=2)
     eta, zeta, kappa = method.dih.coefficients(flow)
     chi = np.maximum(2*eta + zeta, kappa/C)/flow.rho
     fast = sound_speed(method.eos, flow.rho, e) + np.sqrt((flow.v**2).sum(axis=1))

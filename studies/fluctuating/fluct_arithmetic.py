@@ -51,9 +51,9 @@ def integral(d: int) -> float:
 
 
 def inner_k(k: float = 0.5) -> float:
-    """Variance of the trace of Eq. 23's tensor in 3D without bulk viscosity, over that of its shear, k = 1/2: 4(1 - k)/4."""
-    eta_T = 1.0
-    return (2*k*(2*eta_T*2 + k*2*(-2/3)*eta_T*3))/(2*k*2*eta_T*2)
+    """<(tr Pi)^2>/<Pi_xy^2> of Eq. 23 in 3D without bulk viscosity, 6 (1 - k): an inner k is left over."""
+    tensor = fluctuating.shear(3, 2/3*k).reshape(3, 3, 3, 3)
+    return float(np.einsum("aacc->", tensor)/tensor[0, 1, 0, 1])
 
 
 def wrong_sign() -> float:

@@ -44,6 +44,7 @@ from studies.fluctuating.fluct_read import (
     total,
     worst,
 )
+from studies.fluctuating.fluct_read_flows import spectrum
 from studies.kit.claim import Claim
 from studies.kit.stats import Measured
 
@@ -112,8 +113,8 @@ CLAIMS = (
                     "r0 over cut at 1e-2 r0"),
     Claim(id="rr98-fluct-eq23-inner-k", source="RR98 Eq. 23", expect=0, within=1e-9, value=exact(inner_k),
           because="arithmetic",
-          statement="without bulk viscosity Eq. 23's tensor has no trace: its variance over that of shear in units where k = "
-                    "1/2; an inner k is left over"),
+          statement="without bulk viscosity Eq. 23's tensor has no trace: variance of the trace over that of a shear stress in "
+                    "units where k = 1/2, 3D; an inner k is left over"),
     Claim(id="rr98-fluct-eq24-energy", source="RR98 Eq. 24", printed="symmetric", at_most=1e-12, value=worst("sums", ENERGIES),
           because=ROUND_OFF,
           statement="random heat currents change no total energy: largest sum over points, all makers and point sets"),
@@ -153,8 +154,8 @@ CLAIMS = (
           statement="forward Euler keeps the temperature: kinetic over given, c^2 dt/nu = 0.1, isothermal gas, long waves"),
     Claim(id="rr98-fluct-eq40-law", source="RR98 Eq. 40", at_most=1e-3, value=euler_law,
           because="(nu k^2 dt)/2 of waves of 300 spacings, times 1/(1 - c^2 dt/nu) = 5",
-          statement="forward Euler heats waves of any length by 1/(1 - c^2 dt/nu): largest relative distance, steps 0.01 to "
-                    "0.8"),
+          statement="forward Euler heats long waves by 1/(1 - c^2 dt/nu): largest relative distance, steps 0.01 to 0.8, waves of "
+                    "300 spacings"),
     Claim(id="own-fluct-eq40-hand", source="RR98 Eq. 40", at_most=1e-8, value=by_hand,
           because="Lyapunov solves near their limit",
           statement="its variance is 1/(1 - s^2 dt/l - l dt/2 + 3 s^2 dt^2/4 - s^4 dt^3/4 l): largest relative distance, all "
@@ -185,6 +186,13 @@ CLAIMS = (
           value=lambda t: Measured(longest("42", "zeta", "single")(t).value/longest("23", "zeta", "single")(t).value, 0.0),
           because="algebra",
           statement="the zeta term of Eq. 42 has the variance of Eq. 23: their ratio; a factor sqrt 2 is missing"),
+    *(Claim(id=f"rr98-fluct-eq42-zeta-{name}", source="RR98 Eq. 42", **RIGHT, value=longest("42", "zeta", reading, d, h),
+            statement=f"the zeta term of Eq. 42, added {words}, with the volume and time it lacks, gives long waves the right "
+                      f"temperature: variance over its due, {lattice}")
+      for name, reading, words, d, h, lattice in (
+          ("single", "single", "once", 1, 1.5, "a line of nearest neighbours"),
+          ("doubled", "doubled", "as pi_ij + pi_ji", 1, 1.5, "a line of nearest neighbours"),
+          ("wide", "doubled", "as pi_ij + pi_ji", 2, 3.0, "square lattice, h = 3 a"))),
     Claim(id="rr98-fluct-eq42-shape", source="RR98 Eq. 42", at_most=1.01, value=spread("42", "eta", 2, 1.2),
           because="1 %: of one factor for all waves",
           statement="with some factor Eq. 42 is the partner of Eq. 37: largest over smallest ratio of its variance to its due, "
@@ -299,6 +307,12 @@ CLAIMS = (
     Claim(id="rr98-fluct-brillouin-width", source="RR98 Eqs 20-25", expect=1, within=0.03, value=peak("half width"),
           because="3 %: the size that an experiment resolves",
           statement="its half width is the symbol's damping of sound: ratio, waves of 8 spacings"),
+    Claim(id="rr98-fluct-spectrum", source="RR98 Eqs 20-25", expect=1, within=0.02, value=spectrum,
+          because="2 %: what samples reach; positions and widths of peaks do not depend on the size of the noise, this does; a "
+                  "reading of a table that was there",
+          statement="the whole spectrum of sampled density waves, heights of the Rayleigh and Brillouin peaks included, is that "
+                    "of the lattice symbols: mean ratio over bins of frequency up to twice the peak, farthest from 1 of three "
+                    "waves"),
     Claim(id="rr98-fluct-rayleigh-width", source="RR98 Eqs 20-25", expect=1, within=0.05, value=peak("Rayleigh half width"),
           because="5 %: what samples reach",
           statement="the half width of the Rayleigh peak of sampled density waves is the symbol's decay of heat: ratio, waves "

@@ -66,6 +66,15 @@ def seen(tables: Tables) -> Measured:
                     float(np.sqrt(((rows["ratio_err"]*rows["exact"])**2).sum())/len(rows)))
 
 
+def spectrum(tables: Tables) -> Measured:
+    """Mean ratio of a sampled spectrum to that of the symbols, farthest from 1 of the waves; error from the scatter of bins."""
+    found = []
+    for _, rows in select(tables, "spectrum").groupby("turns"):
+        ratio = (rows["measured"]/rows["predicted"]).to_numpy()
+        found.append({"ratio": ratio.mean(), "err": stdtrit(len(ratio) - 1, 0.975)*ratio.std(ddof=1)/np.sqrt(len(ratio))})
+    return farthest(pd.DataFrame(found), "ratio", "err")
+
+
 # --- a shear flow -----------------------------------------------------------------------------------------------------
 
 WEAK = 1e-3     # of U: to second order in the shear
