@@ -1,8 +1,9 @@
 """Does (dV)^(1/d) < r0 < lambda (RR98 Eq. 45) govern the error, and how?
 
 Gradients and Laplacians of plane waves, a decaying Taylor-Green vortex and Rayleigh-Benard convection on lattices, jittered,
-random and relaxed points: error over a/h and h/lambda, a the spacing, h the range of the weight (r0 of RR98), lambda the
-wavelength or the height; and what 1 % costs. Paper size takes a quarter of an hour of one core.
+random and relaxed points: error over a/h and h/lambda, a the spacing, h the range of the weight (RR98's r0 is its rms width,
+0.42 h for Lucy's), lambda the wavelength or the height; gradients as printed beside those by differences; and what 1 % costs.
+Paper size takes a quarter of an hour of one core.
 Writes results/ordering/*.csv and *.png and the rows of study ordering in results/claims.csv.
 """
 from collections.abc import Iterator
@@ -10,7 +11,16 @@ from itertools import product
 
 from particles.makers import MAKERS
 from particles.weights import Lucy, Monaghan, WendlandC2
-from studies.integral import ordering_claims, ordering_derive, ordering_figures, ordering_flows, ordering_flows_claims, tables
+from studies.integral import (
+    ordering_brackets,
+    ordering_brackets_claims,
+    ordering_claims,
+    ordering_derive,
+    ordering_figures,
+    ordering_flows,
+    ordering_flows_claims,
+    tables,
+)
 from studies.integral.operators import DISORDERS, OperatorErrors
 from studies.integral.ordering_convection import PLATES, convection, on_lattice
 from studies.integral.ordering_vortices import Compression, TaylorGreen
@@ -35,10 +45,12 @@ def wave(maker: str, weight, h: float, disorder: str, wavelength: int) -> Iterat
 def cases(size: str) -> list[Case]:
     """`quick` has few wavelengths and kinds of points; relaxing takes the longer the more points there are."""
     if size == "quick":
-        return [*surface((16, 32), ["lattice", "jittered-0.3"]), *quick_flows()]
+        return [*surface((16, 32), ["lattice", "jittered-0.3"]), *ordering_brackets.brackets((1.2, 3.0), (1,), ("jittered-0.3",)),
+                *quick_flows()]
     loose = [name for name in DISORDERS if name != "relaxed"]
     return [*surface((16, 24, 32, 48, 64, 96), loose), *surface((16, 20, 24, 32), ["relaxed"]),
-            *vortices(), *layers((12, 16, 24, 32), RANGES), *irregular_layers((12, 16, 24), SEEDS)]
+            *ordering_brackets.brackets(H, SEEDS), *vortices(), *layers((12, 16, 24, 32), RANGES),
+            *irregular_layers((12, 16, 24), SEEDS)]
 
 
 def surface(wavelengths: tuple[int, ...], disorders: list[str]) -> Iterator[Case]:
@@ -102,11 +114,11 @@ def quick_flows() -> Iterator[Case]:
 
 def derive(tables: Tables) -> dict[str, list]:
     """Derived rows of the study."""
-    return {**ordering_derive.derive(tables), **ordering_flows.derive(tables)}
+    return {**ordering_derive.derive(tables), **ordering_brackets.derive(tables), **ordering_flows.derive(tables)}
 
 
 STUDY = Study(name="ordering", cases=cases, tables=tables.ALL, derive=derive, figures=ordering_figures.figures,
-              claims=(*ordering_claims.CLAIMS, *ordering_flows_claims.CLAIMS))
+              claims=(*ordering_claims.CLAIMS, *ordering_brackets_claims.CLAIMS, *ordering_flows_claims.CLAIMS))
 
 if __name__ == "__main__":
     main(STUDY)

@@ -4,11 +4,13 @@ import pandas as pd
 import pytest
 
 import studies.ordering as ordering
-from particles.makers import renormalised
-from particles.points import lattice
+from particles.interpolants import W
+from particles.makers import plain, renormalised
+from particles.points import lattice, of_positions, wrapped
 from particles.weights import Lucy
 from studies.integral import ordering_derive, tables
 from studies.integral.operators import wave_errors
+from studies.integral.ordering_brackets import form_errors
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import read
@@ -26,7 +28,7 @@ def test_quick_rebuild_writes_every_table(quick):
         if table.name != "slopes":      # two wavelengths make no slope over wavelengths; seven ranges make one over h
             assert set(table.columns) <= set(found[table.name].columns)
     assert (out/"ordering"/"operators.csv").read_text().startswith("# commit ")
-    assert len(ordering.STUDY.draw(out)) == 4
+    assert len(ordering.STUDY.draw(out)) == 5
     assert {row["id"] for row in ordering.STUDY.judge(out)} == {claim.id for claim in ordering.STUDY.claims}
 
 
@@ -65,3 +67,27 @@ def test_compact_weights_are_of_second_order_on_a_lattice():
                   & (slopes["at"] == 3.0) & (slopes["operator"] == "gradient")]
     assert len(some) == 3       # Lucy, Monaghan, Wendland C2
     assert np.all(np.abs(some["slope"] - 2) < 0.05)
+
+
+def test_forms_of_the_gradient_differ_by_what_they_make_of_a_constant():
+    """On a lattice, where the sum over e_ij is zero, all three are one; by hand for points of which each has two neighbours."""
+    at, weight, k = lattice((32, 16)), Lucy.of(h=3.0), 2*np.pi/32
+    found = form_errors(plain(at, weight), at.x[:, 0], k)
+    assert found["single"] == pytest.approx(wave_errors(plain(at, weight), at.x[:, 0], k)[0], rel=1e-9)
+    assert found["sum"] == pytest.approx(found["single"], rel=1e-9) == pytest.approx(found["difference"], rel=1e-9)
+
+    shift = np.where(np.arange(16) % 2, 0.2, 0.0)        # every second point of a line moved: neighbours at 1.2 and 0.8
+    uneven = of_positions(wrapped(lattice((16,)).x + shift[:, None], np.array([16.0])), (16.0,))
+    near, x = Lucy.of(h=1.5, d=1), uneven.x[:, 0]
+    right, left = np.where(shift > 0, 0.8, 1.2), np.where(shift > 0, 1.2, 0.8)
+    W_right, W_left = (W(near, r) for r in (right, left))
+    missed = dict.fromkeys(("single", "sum", "difference"), 0.0)
+    for phase in (0.0, np.pi/2):
+        def f(y, phase=phase):
+            return np.sin(np.pi/8*y + phase)
+        for form, own in (("single", 0), ("sum", 1), ("difference", -1)):
+            slope = W_right*(f(x + right) + own*f(x)) - W_left*(f(x - left) + own*f(x))
+            missed[form] += np.mean((slope - np.pi/8*np.cos(np.pi/8*x + phase))**2)
+    found = form_errors(plain(uneven, near), x, np.pi/8)
+    assert found == pytest.approx({form: np.sqrt(total)*8/np.pi for form, total in missed.items()}, rel=1e-9)
+    assert found["sum"] > 2*found["difference"]

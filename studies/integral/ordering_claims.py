@@ -108,8 +108,9 @@ CLAIMS = (
       for name, short, points, maker, words in (
           ("rr98", "lattice", "lattice", "plain", "lattice, plain quadrature"),
           ("own", "lattice-renormalised", "lattice", "renormalised", "lattice, weight normalised by its sums there"),
-          ("rr98", "jittered", "jittered-0.3", "plain", "points jittered by 0.3 a, plain quadrature"),
-          ("own", "jittered-renormalised", "jittered-0.3", "renormalised", "points jittered by 0.3 a, weight normalised"))),
+          ("rr98", "jittered", "jittered-0.3", "plain", "points jittered by 0.3 a, plain quadrature of differences f_j - f_i"),
+          ("own", "jittered-renormalised", "jittered-0.3", "renormalised",
+           "points jittered by 0.3 a, weight normalised, differences f_j - f_i"))),
     Claim(id="rr98-eq45-lambda", source="RR98 Eq. 45", printed="r0 < lambda", expect=2, within=0.1,
           value=slope("lattice", "a", 64.0),
           statement="r0 must be smaller than lambda: slope of the gradient's error in r0/lambda at fixed spacing, lattice",
@@ -117,6 +118,6 @@ CLAIMS = (
     Claim(id="rr98-continuum-limit-jittered", source="RR98 Sec. III", printed="continuum limit", at_least=0.5,
           value=slope("jittered-0.3", "h/a", 3.0),
           statement="r0 -> 0 with a < r0 gives the continuum limit also off a lattice: slope of the gradient's error at h = 3 a, "
-                    "points jittered by 0.3 a, renormalised",
+                    "points jittered by 0.3 a, renormalised, differences f_j - f_i",
           because="an error that falls at least as the square root of h/lambda"),
 )

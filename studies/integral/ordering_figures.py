@@ -4,9 +4,13 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from studies.integral import ordering_flows_figures
+from studies.integral.ordering_brackets import WAVELENGTH
+from studies.integral.ordering_flows_claims import WIDTH
 from studies.kit.figure import below, errorbar, figure
 from studies.kit.table import Tables
 
+#: how a gradient is taken
+FORMS = {"single": "$f_j$  [Eq. 1]", "sum": "$f_i + f_j$  [Eqs 14, 34-36]", "difference": "$f_j - f_i$"}
 KINDS = ("lattice", "jittered-0.1", "jittered-0.3", "random", "relaxed")
 MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
 
@@ -14,7 +18,8 @@ MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
 def figures(tables: Tables) -> dict[str, Figure]:
     """What the tables allow."""
     of_operators = {"surface": surface(tables["means"]), "makers": makers(tables["means"])} if "means" in tables else {}
-    return {**{name: page for name, page in of_operators.items() if page}, **ordering_flows_figures.figures(tables)}
+    printed = {"brackets": brackets(tables["bracket_means"])} if "bracket_means" in tables else {}
+    return {**{name: page for name, page in of_operators.items() if page}, **printed, **ordering_flows_figures.figures(tables)}
 
 
 def surface(means: pd.DataFrame) -> Figure | None:
@@ -66,4 +71,24 @@ def makers(means: pd.DataFrame) -> Figure:
         axes.minorticks_off()
         below(axes, ncols=2, bbox_to_anchor=(0.5, -0.18))
     left.set_ylabel("relative rms error of grad")
+    return page
+
+
+def brackets(means: pd.DataFrame) -> Figure:
+    """Errors of gradients as printed and by differences over the range of the weight, one panel a kind of points."""
+    kinds = [kind for kind in KINDS if kind in set(means["points"])]
+    page, (row,) = figure(1, len(kinds), width=2.8, height=3.6, sharey=True, squeeze=False)
+    for axes, kind in zip(row, kinds, strict=True):
+        chosen = means[(means["points"] == kind) & (means["wavelength"] == WAVELENGTH)].sort_values("h")
+        for number, (form, words) in enumerate(FORMS.items()):
+            errorbar(axes, *columns(chosen[chosen["form"] == form], "h", "error"), number=number, linestyle="-", label=words)
+        axes.axvspan(1.1, 1/WIDTH, color="0.9", zorder=0, label="$r_0 < a$")
+        axes.set(xscale="log", yscale="log", title=kind, xlabel="range $h/a$", xlim=(1.1, 6.6))
+        axes.set_xticks([1.2, 2, 3, 4, 6], labels=["1.2", "2", "3", "4", "6"])
+        axes.minorticks_off()
+    row[0].set_ylabel("relative rms error of grad")
+    handles, labels = row[0].get_legend_handles_labels()
+    page.legend(handles, labels, loc="outside lower center", ncols=4)
+    page.suptitle(rf"Gradients as printed, and by differences: Lucy's weight, plain quadrature, $\lambda$ = {WAVELENGTH} $a$; "
+                  "bars: 95 % over point sets", fontsize=10)
     return page

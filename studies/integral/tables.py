@@ -11,6 +11,15 @@ MEANS = Table("means", key=POINT, columns=[*POINT, "seeds", "a_over_h", "h_over_
 #: d ln error/d ln(h/lambda): `fixed` says what stays as it is, h/a (finer points for a wave) or a (a wider weight)
 SLOPES = Table("slopes", key=["maker", "weight", "points", "fixed", "at", "operator"],
                columns=["maker", "weight", "points", "fixed", "at", "operator", "slope", "slope_err", "floor"])
+BRACKET_POINT = ["h", "points", "wavelength"]
+#: rms errors of the gradient of a plane wave by plain quadrature, Lucy's weight: with f_j alone [Eq. 1], f_i + f_j [Eqs 14,
+#: 34-36], f_j - f_i
+BRACKETS = Table("brackets", key=[*BRACKET_POINT, "seed"], columns=[*BRACKET_POINT, "seed", "single", "sum", "difference"])
+#: the same over seeds
+BRACKET_MEANS = Table("bracket_means", key=[*BRACKET_POINT, "form"],
+                      columns=[*BRACKET_POINT, "form", "seeds", "error", "error_err"])
+#: d ln error/d ln(h/lambda) at h = 3 a
+BRACKET_SLOPES = Table("bracket_slopes", key=["points", "form"], columns=["points", "form", "slope", "slope_err"])
 #: a Taylor-Green vortex that has decayed by e: relative rms error of the velocity and relative error of ln(K at the start/K at
 #: the end), both against the gas of that Mach number; incompressible: of the velocity against the incompressible vortex;
 #: reached: share of the time until the run diverged, 0 where there are no such edges; exchanges: over edges, of the whole run;
@@ -36,4 +45,5 @@ FLOW_SLOPES = Table("flow_slopes", key=["flow", "quantity", "maker", "weight", "
 #: error at the highest one, all that there is where 1 % was not reached
 CHEAPEST = Table("cheapest", key=SERIES, columns=[*SERIES, "needed", "needed_err", "exchanges", "bound", "finest"])
 
-ALL = (OPERATORS, MEANS, SLOPES, VORTICES, COMPRESSION, CONVECTION, REFERENCE, FLOWS, FLOW_SLOPES, CHEAPEST)
+ALL = (OPERATORS, MEANS, SLOPES, BRACKETS, BRACKET_MEANS, BRACKET_SLOPES, VORTICES, COMPRESSION, CONVECTION, REFERENCE, FLOWS,
+       FLOW_SLOPES, CHEAPEST)
