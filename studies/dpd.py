@@ -29,7 +29,7 @@ from studies.fluctuating import (
 )
 from studies.fluctuating.dpd_cases import Fluid, Rest, Shear, Structure
 from studies.fluctuating.dpd_cylinder import Cylinder, Inertia
-from studies.fluctuating.dpd_surfaces import DENSER, Array, Slab
+from studies.fluctuating.dpd_surfaces import DENSER, FAST, Array, Slab
 from studies.fluctuating.dpd_verlet import Steps, Stiffness
 from studies.kit.case import Case
 from studies.kit.study import Study, main
@@ -49,14 +49,14 @@ def cases(size: str) -> list[Case]:
                 *waves_and_shear((0.2,), side=5.0, time=30.0, long=30.0), *second_order((0.03, 0.045), side=4.0, time=60.0),
                 *dpd_long.cases(side=4.0, time=20.0),
                 *cylinders(((False, 1.0), (True, 1.0)), time=30.0, shear=30.0, rows=12),
-                *surfaces(radius=1.2, larger=1.4, time=40.0, shear=30.0, rows=12, height=4.0, others=(3.3,))]
+                *surfaces(radius=1.2, larger=1.4, time=40.0, wall=40.0, shear=30.0, rows=12, height=4.0, others=(3.3,))]
     return [*temperatures(STEPS, side=8.0, steps=LONG), *gas(GAS, side=8.0, steps=LONG),
             Rest(integrator=Shardlow, dt=0.01, time=120.0), Rest(integrator=TwoStep, dt=0.01, time=300.0),
             *densities((2.6, 2.8, 3.2, 3.4, 4.0, 5.0, 6.0, 8.0), side=8.0, time=60.0), *table(),
             *waves_and_shear((0.1, 0.2, 0.4), side=10.0, time=110.0, long=800.0),
             *second_order((0.03, 0.045), side=6.0, time=4000.0), *dpd_long.cases(side=8.0, time=1000.0),
             *cylinders(((False, 2.0), (False, 3.0), (True, 2.0)), time=1500.0, shear=500.0, rows=16),
-            *surfaces(radius=2.0, larger=4.0, time=2500.0, shear=500.0, rows=16, height=8.0,
+            *surfaces(radius=2.0, larger=4.0, time=1000.0, wall=4000.0, shear=500.0, rows=16, height=8.0,
                       others=(2.7, 2.85, 3.15, 3.3))]
 
 
@@ -107,18 +107,18 @@ def cylinders(bodies: tuple[tuple[bool, float], ...], *, time: float, shear: flo
     yield Inertia(rows=rows)
 
 
-def surfaces(*, radius: float, larger: float, time: float, shear: float, rows: int, height: float,
+def surfaces(*, radius: float, larger: float, time: float, wall: float, shear: float, rows: int, height: float,
              others: tuple[float, ...]) -> Iterator[Case]:
     """Surfaces of frozen bodies, one thing changed at a time: turned back, denser, flat; more force, a larger cylinder."""
-    yield Array(radius=radius, time=1.6*time)
-    yield Slab(height=height, time=1.6*time)
+    yield Array(radius=radius, time=2*time)
+    yield Slab(height=height, time=wall)
     for turns, denser in ((True, 1.0), (False, DENSER)):
-        yield Array(turns=turns, denser=denser, radius=radius, time=time)
-        yield Slab(turns=turns, denser=denser, height=height, time=time)
-    yield Array(radius=radius, reynolds=3.5, time=time/2)
-    yield Array(radius=larger, reynolds=3.5, time=time/2)
+        yield Array(turns=turns, denser=denser, radius=radius, reynolds=FAST, time=time)
+        yield Slab(turns=turns, denser=denser, height=height, time=1.5*time)
+    yield Array(radius=radius, reynolds=FAST, time=time)
+    yield Array(radius=larger, reynolds=FAST, time=time)
     yield from (Shear(integrator=VelocityVerlet, dt=0.04, side=8.0, time=shear, rate=0.3, rho=rho) for rho in others)
-    # the stream of about 5 that a force for 3.5 makes
+    # the stream of about 5 that a force for `FAST` makes
     yield Inertia(rows=rows, reynolds=5.0, eta=0.1)
 
 

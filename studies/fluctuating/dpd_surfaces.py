@@ -38,6 +38,7 @@ PROFILE = Table("profile", key=["surface", "y"], columns=["surface", "y", "rho",
 ALL = (ARRAYS, SLABS, PROFILE)
 
 DENSER = 2.0        # of the dense surface over the fluid
+FAST = 3.5          # Reynolds number that surfaces are compared at: what chance leaves of a speed is as one over the force
 BIN = 0.25          # of the profile
 LEGS = BATCHES      # runs of a slab, for errors
 
