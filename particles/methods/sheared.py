@@ -53,6 +53,11 @@ class Sheared:
         """Of the box above relative to this one."""
         return self.rate*float(self.points.box[1])
 
+    @property
+    def fastest(self) -> tuple[float, float]:
+        """As that of a layer, whose limit of the step this has: here, of the edges alone."""
+        return self.edges.fastest
+
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
         """(5, n) of densities, velocities (n, 2), temperatures, before anything has slid."""
         one = np.ones(self.points.n)

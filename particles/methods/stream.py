@@ -63,6 +63,11 @@ class Stream:
         sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.x, self.edges.S, self.edges.k, *self.held))
         return f"Stream({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.push}, {self.chi})"
 
+    @property
+    def fastest(self) -> tuple[float, float]:
+        """As that of a layer, whose limit of the step this has: here, of the edges alone."""
+        return self.edges.fastest
+
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
         """(4, n) of densities, velocities (n, 2), temperatures; held points get their own where they have one."""
         rho, T, v = rho*np.ones(len(self.x)), T*np.ones(len(self.x)), v.copy()
