@@ -31,7 +31,7 @@ from studies.cost import speed_convection as convection_rules
 from studies.cost import speed_names as names
 from studies.cost.scenes_terms import Carried, Friction, Listed
 from studies.cost.speed_problem import Problem, holding, of_method, plain, result, rms
-from studies.cost.speed_timing import SHORT, array_bytes, per_step
+from studies.cost.speed_timing import SHORT, Timed, array_bytes, per_step
 from studies.integral.ordering_vortices import SOUND, Vortex, solved, velocities
 from studies.integral.ordering_vortices import incompressible as exactly_incompressible
 from studies.kit.case import Case, Outcome, Report
@@ -237,8 +237,11 @@ def measured(made: Made, short: float) -> tuple[dict[str, Any], np.ndarray]:
     problem, n = made.problem, made.problem.points
     steps = ceil(problem.time/(OF_LIMIT*problem.limit))
     dt, found = problem.time/steps, result(problem, OF_LIMIT)
-    seconds = per_step(lambda count: (problem.step or problem.go)(problem.first, dt, count), short)
-    residual = np.array([np.nan]) if found is None else found.residuals[made.quantity]
+    if found is None:       # what diverges may do so while its steps are timed
+        residual, seconds = np.array([np.nan]), Timed(*[np.nan]*4)
+    else:
+        residual = found.residuals[made.quantity]
+        seconds = per_step(lambda count: (problem.step or problem.go)(problem.first, dt, count), short)
     row = {"quantity": made.quantity, "points": n, "step_s": seconds.value/n, "step_s_err": seconds.err/n,
            "time_s": seconds.value/(n*dt*made.factor), "time_s_err": seconds.err/(n*dt*made.factor),
            "bytes": array_bytes(problem.held())/n, "loops": len(made.called), "names": "; ".join(made.called),

@@ -29,7 +29,7 @@ class Start(Case):
 
     @property
     def cost(self) -> float:
-        return 20.0
+        return 17.0
 
     @property
     def label(self) -> str:
