@@ -160,7 +160,7 @@ def test_a_film_that_is_missing(small, capsys):
     words = {"film": "gone", "title": "t", "caption": "c", "size": "fine", "commit": "abc"}
     row = {**dict.fromkeys(FILMS.columns, 1.0), "seed": 1, **words}
     write(small/"films/films.csv", pd.DataFrame([row]), head=["x"])
-    assert "gone.webp is missing: make films" in refused(small, capsys)
+    assert "gone.avif is missing: make films" in refused(small, capsys)
 
 
 def test_a_film_that_nobody_knows(small, capsys):
@@ -233,10 +233,10 @@ def test_a_film_has_all_its_pictures_and_is_the_same_again(tmp_path):
     field = np.meshgrid(gx, gy)
     images = [Field(gx, gy, 1 - field[1], 0*field[0], 0.1*field[0], 0.002) for _ in times]
     for name in ("one", "two"):
-        draw.write(tmp_path/f"{name}.webp", list(draw.pages(dots, images, times, ("dots", "grid"))))
-    film = Image.open(tmp_path/"one.webp")
+        draw.write(tmp_path/f"{name}.avif", list(draw.pages(dots, images, times, ("dots", "grid"))))
+    film = Image.open(tmp_path/"one.avif")
     assert film.n_frames == 3 and film.size == (640, 320)
-    assert (tmp_path/"one.webp").read_bytes() == (tmp_path/"two.webp").read_bytes()
+    assert (tmp_path/"one.avif").read_bytes() == (tmp_path/"two.avif").read_bytes()
 
 
 def test_frames_are_those_of_the_solvers_at_these_times():
@@ -270,8 +270,8 @@ def test_the_page_here_is_that_of_the_results_here():
 
 
 def test_committed_films_are_small():
-    films = list((RESULTS/"films").glob("*.webp"))
-    assert all(path.stat().st_size < 1_000_000 for path in films)
+    films = list((RESULTS/"films").glob("*.avif"))
+    assert all(path.stat().st_size < 300_000 for path in films)
 
 
 def test_a_page_that_is_too_heavy_is_not_written(small, monkeypatch):

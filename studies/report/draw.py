@@ -1,4 +1,4 @@
-"""Films: particles beside the grid and K(t) below, drawn from frames and written as an animated WebP."""
+"""Films: particles beside the grid and K(t) below, drawn from frames and written as an animated AVIF."""
 import io
 import os
 from collections.abc import Iterator, Sequence
@@ -16,7 +16,7 @@ SIZE = (6.4, 3.2)       # inches
 DPI = 100
 MILLISECONDS = 110      # a frame
 HOLD = 1500             # the last one
-QUALITY = 35            # of WebP: dots stay round, a film below 1 MB
+QUALITY = 35            # of AVIF: dots stay round; a third of WebP that looks alike
 BOX = {"xlim": (-1, 1), "ylim": (-0.5, 0.5), "xticks": [], "yticks": [], "aspect": "equal"}
 
 
@@ -65,12 +65,13 @@ def picture(page: Figure) -> Picture.Image:
 
 
 def write(path: Path, frames: Sequence[Picture.Image]) -> None:
-    """An animated WebP that goes round for ever, all or nothing; the same frames give the same bytes."""
+    """An animated AVIF that goes round for ever, all or nothing; the same frames give the same bytes."""
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f".{path.name}.{os.getpid()}")
     long = [MILLISECONDS]*(len(frames) - 1) + [HOLD]
     try:
-        frames[0].save(part, "webp", save_all=True, append_images=frames[1:], duration=long, loop=0, quality=QUALITY, method=4)
+        frames[0].save(part, "avif", save_all=True, append_images=frames[1:], duration=long, quality=QUALITY, speed=6,
+                       subsampling="4:2:0", max_threads=1)
         os.replace(part, path)
     finally:
         part.unlink(missing_ok=True)

@@ -28,9 +28,9 @@ from studies.report.tables import FILMS, ORDER
 
 QUESTION = ("Do fluid particles converge on the continuum equations, at what error, at what cost, and where do they break?")
 #: rows of a table that are in the page as they are; more of them when it is opened, if the file is below EMBED
-ROWS, EMBED = 5, 150_000
+ROWS, EMBED = 5, 60_000
 #: what the page may weigh [bytes], and how many colours figures have in turn until it does not weigh more
-LIMIT = 8_000_000
+LIMIT = 6_000_000
 COLOURS = (256, 64, 32, 16)
 VERDICTS = {"holds": "✓", "fails": "✗", "undecidable": "?"}
 
@@ -75,7 +75,7 @@ def render(out: Path, found: list[Part], known: pd.DataFrame, encode: Callable[[
 
 def fingerprint(out: Path) -> str:
     """Hash of everything that the page is made of."""
-    made_of = [*out.glob("*/*.csv"), *out.glob("*/*.png"), *out.glob("films/*.webp"), out/"claims.csv", out/"figures.csv"]
+    made_of = [*out.glob("*/*.csv"), *out.glob("*/*.png"), *out.glob("films/*.avif"), out/"claims.csv", out/"figures.csv"]
     kept = [path for path in made_of if path.exists() and path.parent.name not in ("raw", "quick")]
     lines = sorted(f"{path.relative_to(out)} {digest(path)}" for path in kept)
     sources = sorted(f"{path.name} {digest(Path(str(path)))}" for path in files("studies.report").joinpath("page").iterdir()
@@ -193,7 +193,7 @@ def films(out: Path) -> list[dict[str, Any]]:
     rows = rows_of(out/"films/films.csv", (*FILMS.columns, "seed", "commit"))
     made = []
     for row in sorted(rows.to_dict("records"), key=lambda row: ORDER.index(row["film"]) if row["film"] in ORDER else len(ORDER)):
-        path = out/"films"/f"{row['film']}.webp"
+        path = out/"films"/f"{row['film']}.avif"
         if not path.exists():
             raise NoReport(f"{path} is missing: make films makes it again")
         made.append({**{str(name): value for name, value in row.items()}, "size": opened(path).size, "still": still(path),

@@ -75,7 +75,7 @@ function walk(event, svg) {
 function play(button, on) {
   const film = one(`#film-${button.dataset.film}`);
   film.dataset.still ??= film.src;
-  film.src = on ? `data:image/webp;base64,${one(`#data-${button.dataset.film}`).textContent}` : film.dataset.still;
+  film.src = on ? `data:image/avif;base64,${one(`#data-${button.dataset.film}`).textContent}` : film.dataset.still;
   button.setAttribute("aria-pressed", on);
   button.textContent = on ? "Stop" : "Play";
 }
