@@ -11,9 +11,17 @@ FIXED = {"base": "fixed points"}
 
 
 def saved(column: str, **where) -> Value:
-    """A ratio with its error where it has one."""
+    """A ratio with its error where it has one.
+
+    Raises
+    ------
+    CannotTell
+        The times that it is of scatter as much as they last.
+    """
     def value(tables: Tables) -> Measured:
         row = select(tables, "scenes", **where).iloc[0]
+        if not np.isfinite(row[column]):
+            raise CannotTell("times scatter as much as they last: the study wants the machine for itself")
         return Measured(float(row[column]), float(row.get(f"{column}_err", 0.0)))
     return value
 

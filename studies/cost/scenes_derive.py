@@ -11,6 +11,7 @@ from studies.kit.stats import Measured
 from studies.kit.table import Tables
 
 COST = ("step_s", "step_s_err", "time_s", "time_s_err")
+NOT_TOLD = Measured(np.nan, np.nan)     # times that scatter as much as they last, on a busy machine
 MATTERS = 0.01      # of the answer: the error at which methods are compared
 
 
@@ -39,5 +40,5 @@ def compared(row: dict, whole: dict) -> dict[str, Any]:
         found = {name: np.nan for name in COST if name in ("step_s", "step_s_err")}
     for name in ("step", "time"):
         one, all_ = (Measured(of[f"{name}_s"], of[f"{name}_s_err"]) for of in (row, whole))
-        found[f"{name}_ratio"], found[f"{name}_ratio_err"] = ratio(one, all_)
+        found[f"{name}_ratio"], found[f"{name}_ratio_err"] = ratio(one, all_) if abs(all_.value) > all_.err else NOT_TOLD
     return {**found, "bytes_ratio": row["bytes"]/whole["bytes"], "needed": "no" if row["changed"] <= MATTERS else "yes"}

@@ -40,11 +40,15 @@ class Growth(Case):
 
     @property
     def cost(self) -> float:
-        return 0.5 + (2.5e-5 if self.fixed else 7.6e-5)*2*self.rows**2
+        return 0.5 + (2.5e-5 if self.fixed else 7.6e-5)*self.points
 
     @property
     def label(self) -> str:
-        return f"growth, {self.name}, {2*self.rows**2} points, {self.threads} threads, {self.clock} time"
+        return f"growth, {self.name}, {self.points} points, {self.threads} threads, {self.clock} time"
+
+    @property
+    def points(self) -> int:
+        return 2*self.rows**2
 
     @property
     def name(self) -> str:
@@ -52,7 +56,7 @@ class Growth(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         (seconds, size), peak = with_peak(self._fixed if self.fixed else self._particles)
-        return Outcome({"growth": [{"method": self.name, "points": 2*self.rows**2, "threads": self.threads, "clock": self.clock,
+        return Outcome({"growth": [{"method": self.name, "points": self.points, "threads": self.threads, "clock": self.clock,
                                     "step_s": seconds.value, "step_s_err": seconds.err, "early_s": seconds.early,
                                     "late_s": seconds.late, "bytes": size, "peak_bytes": peak}]})
 
@@ -64,7 +68,7 @@ class Growth(Case):
         """The printed scheme at Ra = 10 000, lists and walls included: median of laps, the first of which is left out."""
         scene, laps = RayleighBenard(ra=1e4, L=float(self.rows)), Laps(self.read_clock)
         method, dt = spam.method(scene, spam.PRINTED), spam.step(scene, spam.PRINTED)
-        count = int(np.clip(WORK/(WARM*2*self.rows**2), *LAPS))
+        count = int(np.clip(WORK/(WARM*self.points), *LAPS))
         first = spam.start(scene, 1)
         run(method, first, Plan(dt=dt, steps=WARM*(count + 1), threads=self.threads), laps)
         return laps.total(1).times(1/WARM), array_bytes(holding(method, first)())
