@@ -24,6 +24,7 @@ from studies.fluctuating import (
     dpd_figures,
     dpd_figures_more,
     dpd_figures_surfaces,
+    dpd_friction,
     dpd_long,
     dpd_tables,
 )
@@ -47,14 +48,15 @@ def cases(size: str) -> list[Case]:
         return [*temperatures((0.02, 0.04, 0.06), side=5.0, steps=1000), *gas((0.04, 0.08, 0.12), side=5.0, steps=1000),
                 *densities((2.5, 3.5), side=5.0, time=20.0),
                 *waves_and_shear((0.2,), side=5.0, time=30.0, long=30.0), *second_order((0.03, 0.045), side=4.0, time=60.0),
-                *dpd_long.cases(side=4.0, time=20.0),
+                *dpd_long.cases(side=4.0, time=20.0), *dpd_friction.cases(side=4.0, time=20.0),
                 *cylinders(((False, 1.0), (True, 1.0)), time=30.0, shear=30.0, rows=12),
                 *surfaces(radius=1.2, larger=1.4, time=40.0, wall=40.0, shear=30.0, rows=12, height=4.0, others=(3.3,))]
     return [*temperatures(STEPS, side=8.0, steps=LONG), *gas(GAS, side=8.0, steps=LONG),
             Rest(integrator=Shardlow, dt=0.01, time=120.0), Rest(integrator=TwoStep, dt=0.01, time=300.0),
             *densities((2.6, 2.8, 3.2, 3.4, 4.0, 5.0, 6.0, 8.0), side=8.0, time=60.0), *table(),
-            *waves_and_shear((0.1, 0.2, 0.4), side=10.0, time=110.0, long=800.0),
-            *second_order((0.03, 0.045), side=6.0, time=4000.0), *dpd_long.cases(side=8.0, time=1000.0),
+            *waves_and_shear((0.1, 0.2, 0.4), side=10.0, time=110.0, long=300.0),
+            *second_order((0.03, 0.045), side=6.0, time=4000.0), *dpd_long.cases(side=8.0, time=500.0),
+            *dpd_friction.cases(side=4.0, time=100.0),
             *cylinders(((False, 2.0), (False, 3.0), (True, 2.0)), time=1500.0, shear=500.0, rows=16),
             *surfaces(radius=2.0, larger=4.0, time=1000.0, wall=4000.0, shear=500.0, rows=16, height=8.0,
                       others=(2.7, 2.85, 3.15, 3.3))]
@@ -133,7 +135,8 @@ def drawn(tables: Tables) -> dict[str, Figure]:
 
 
 STUDY = Study(name="dpd", cases=cases, tables=dpd_tables.ALL, derive=derived, figures=drawn,
-              claims=(*dpd_claims.CLAIMS, *dpd_claims_more.CLAIMS, *dpd_claims_surfaces.CLAIMS, *dpd_long.CLAIMS))
+              claims=(*dpd_claims.CLAIMS, *dpd_claims_more.CLAIMS, *dpd_claims_surfaces.CLAIMS, *dpd_long.CLAIMS,
+                      *dpd_friction.CLAIMS))
 
 if __name__ == "__main__":
     main(STUDY)

@@ -1,5 +1,5 @@
 """Tables of the study dpd. Units: mass, rc and kT of one; `_err` 95 % half widths of what chance leaves."""
-from studies.fluctuating import dpd_cylinder, dpd_derive_surfaces, dpd_long, dpd_surfaces, dpd_verlet
+from studies.fluctuating import dpd_cylinder, dpd_derive_surfaces, dpd_friction, dpd_long, dpd_surfaces, dpd_verlet
 from studies.kit.table import Table
 
 STATE = ["integrator", "noise", "d", "a", "kT", "rho", "side", "dt"]
@@ -25,5 +25,5 @@ COMPRESSION = Table("compression", key=["a"], columns=["a", "slope", "slope_err"
 #: alpha = (P - rho kT)/(a rho^2)
 EXCESS = Table("excess", key=["a", "kT", "rho"], columns=["a", "kT", "rho", "P", "P_err", "alpha", "alpha_err"])
 
-ALL = (STATES, SHEAR, STRUCTURE, PAIRS, ERRORS, COMPRESSION, EXCESS, *dpd_verlet.ALL, *dpd_long.ALL, *dpd_cylinder.ALL,
-       *dpd_surfaces.ALL, *dpd_derive_surfaces.ALL)
+ALL = (STATES, SHEAR, STRUCTURE, PAIRS, ERRORS, COMPRESSION, EXCESS, *dpd_verlet.ALL, *dpd_long.ALL, *dpd_friction.ALL,
+       *dpd_cylinder.ALL, *dpd_surfaces.ALL, *dpd_derive_surfaces.ALL)
