@@ -8,12 +8,12 @@ from particles.interpolants import W
 from particles.makers import plain, renormalised
 from particles.points import lattice, of_positions, wrapped
 from particles.weights import Lucy
-from studies.integral import ordering_derive, tables
+from studies.integral import ordering_claims, ordering_derive, tables
 from studies.integral.operators import wave_errors
 from studies.integral.ordering_brackets import form_errors
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
-from studies.kit.table import read
+from studies.kit.table import Tables, read
 
 
 @pytest.fixture(scope="module")
@@ -91,3 +91,14 @@ def test_forms_of_the_gradient_differ_by_what_they_make_of_a_constant():
     found = form_errors(plain(uneven, near), x, np.pi/8)
     assert found == pytest.approx({form: np.sqrt(total)*8/np.pi for form, total in missed.items()}, rel=1e-9)
     assert found["sum"] > 2*found["difference"]
+
+
+def test_wide_weights_on_a_lattice_are_of_second_order_in_their_range():
+    """By hand: 1 - sum W x sin(kx)/(k r) over sum W x^2/r, W = q (1 - q)^2, of which only the slope over h is asked."""
+    k, errors, ranges = 2*np.pi/96, [], (4, 5, 6, 7, 8)
+    for h in ranges:
+        x, y = np.meshgrid(np.arange(-h, h + 1.0), np.arange(-h, h + 1.0))
+        r = np.hypot(x, y) + 1e-300
+        pull = np.where(r < h, (1 - r/h)**2, 0.0)          # W/r, but for a factor
+        errors.append(1 - np.sum(pull*x*np.sin(k*x))/k/np.sum(pull*x**2))
+    assert ordering_claims.wide_slope(Tables()).value == pytest.approx(np.polyfit(np.log(ranges), np.log(errors), 1)[0], abs=1e-9)
