@@ -9,9 +9,11 @@ from continuum.projection import CFL_LIMIT, Projection
 from studies.hard.limits_boussinesq import noise_grows
 from studies.hard.limits_cases import Limit
 from studies.hard.limits_claims import CLAIMS
-from studies.hard.limits_linear import largest_step
+from studies.hard.limits_dpd import BOXES, INTEGRATORS, Unguarded, map_grows, settled, trial_grows
+from studies.hard.limits_euler import PLATES, euler_step, strip_step
+from studies.hard.limits_linear import eigenvalues, largest_step
 from studies.hard.limits_search import bisected
-from studies.hard.limits_still import METHODS, euler_step
+from studies.hard.limits_still import METHODS, fixed
 from studies.kit.claim import judged
 from studies.kit.table import Tables
 
@@ -56,6 +58,29 @@ def test_the_grid_takes_the_step_of_its_formula_without_viscosity():
 
 def test_the_printed_limit_of_forward_euler():
     assert euler_step(ConstEta(1.0, 0.5)) == pytest.approx(0.625)
+
+
+@pytest.mark.parametrize("eta, k", [(1.0, 1.0), (0.1, 1.0)])
+def test_theory_of_a_strip_has_the_limit_of_the_sums(eta, k):
+    """Rates of whole points between plates, by differences of the compiled sums: good to 1e-7."""
+    law = ConstEta(eta, k)
+    trial = fixed(law, share=0.0)
+    rates = eigenvalues(trial.method, trial.start)
+    assert strip_step(law, 10, 10) == pytest.approx(np.min(-2*rates.real/np.abs(rates)**2), rel=1e-4)
+
+
+def test_weak_conduction_loses_two_rows_between_plates_and_none_between_insulating_ones():
+    law = ConstEta(0.0, 0.05)
+    assert strip_step(law, 10, 10)/euler_step(law) == pytest.approx(1 - 4/10, rel=5e-3)
+    assert strip_step(law, 10, 10, PLATES["insulating"])/euler_step(law) == pytest.approx(1, rel=5e-3)
+
+
+@pytest.mark.parametrize("name", ["Eqs 40, 41", "1/2"])
+def test_settled_particles_are_stable_below_the_limit_of_their_map_and_not_beyond(name):
+    method = Unguarded(box=BOXES[3], kT=0.0, integrator=INTEGRATORS[name])
+    start = settled(3)
+    for dt, grows in ((0.115, False), (0.135, True)):       # the limit is between 0.12 and 0.13
+        assert map_grows(method, start, dt) == grows == trial_grows(method, start, dt)
 
 
 def test_claims_fail_where_limits_are_off():

@@ -7,15 +7,15 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from particles.weights import Lucy, Monaghan
-from studies.convection.claims.read import Value, over_seeds, ratio, select
+from studies.convection.claims.read import Value, over_seeds, select
+from studies.hard.freezing_claims import FREEZING
 from studies.hard.interface import impulse
+from studies.hard.read import column
+from studies.hard.square_claims import SQUARES
 from studies.kit.claim import CannotTell, Claim
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
 
-GAS: dict[str, Any] = {"eos": "IdealGas", "weight": "Lucy", "ra": 3000.0}
-FROZEN = 0.1        # of the grid's energy, as in the bisection
 VISCOUS: dict[str, Any] = {"eta": 0.5}
 
 
@@ -52,16 +52,6 @@ def summed_alike(tables: Tables) -> Measured:
     return Measured(float((rows["exact"] - rows["measured"]).abs().max()), 0.0)
 
 
-def column(table: str, name: str, err: str = "", **where) -> Value:
-    """One number of one row."""
-    def value(tables: Tables) -> Measured:
-        row = select(tables, table, **where).iloc[0]
-        if np.isnan(row[name]):
-            raise CannotTell(f"table {table} has no {name} where {where}")
-        return Measured(float(row[name]), float(row[err]) if err else 0.0)
-    return value
-
-
 def over(table: str, name: str, **where) -> Value:
     """Mean over seeds of a column."""
     return lambda tables: over_seeds(select(tables, table, **where)[name].tolist())
@@ -71,54 +61,6 @@ def foretold(tables: Tables) -> Measured:
     """Part of the runs whose median number of particles a site is that of the lattice of least energy."""
     rows = select(tables, "fates")
     return Measured(float(np.mean(rows["sites"] == rows["predicted"])), 0.0)
-
-
-def bracketed(tables: Tables, where: dict[str, Any]) -> pd.DataFrame:
-    """Limits of a layer; a bisection without a run on either side of its limit has only come to its end.
-
-    Raises
-    ------
-    CannotTell
-        One has.
-    """
-    rows, looks = select(tables, "freezing_limits", **where), select(tables, "freezing", **where)
-    for seed, group in looks.groupby("seed"):
-        if not (group["flow"] < FROZEN).any() or not (group["flow"] >= FROZEN).any():
-            raise CannotTell(f"seed {seed}: no change between frozen and flowing from P = {group['P'].min():.2g} to "
-                             f"{group['P'].max():.2g}; flow {group['flow'].min():.2g} to {group['flow'].max():.2g} of the grid's")
-    return rows
-
-
-def frozen_at(criterion: str, **where) -> Value:
-    """Pressure at which the flow freezes over that of a printed criterion, seeds by seeds."""
-    def value(tables: Tables) -> Measured:
-        rows = bracketed(tables, where)
-        found = rows["measured"]/rows[criterion]
-        spread = over_seeds(found.tolist()).err if len(found) > 1 else 0.0
-        return Measured(float(found.mean()), max(spread, float((rows["measured_err"]/rows[criterion]).max())))
-    return value
-
-
-def next_to_limit(frozen: bool) -> Value:
-    """Fluctuation of neighbours' distances at the pressure next to the limit, on one side of it, over seeds."""
-    def value(tables: Tables) -> Measured:
-        limits = select(tables, "freezing_limits", **GAS).set_index("seed")["measured"]
-        rows = select(tables, "freezing", **GAS)
-        beyond = rows[(rows["P"] > rows["seed"].map(limits)) == frozen].dropna()
-        if beyond.groupby("seed").ngroups < len(limits):
-            raise CannotTell("the bisection has no run on one side of the limit")
-        near = beyond.assign(far=np.abs(np.log(beyond["P"]/beyond["seed"].map(limits)))).sort_values("far")
-        return over_seeds(near.groupby("seed")["lindemann"].first().tolist())
-    return value
-
-
-def limits_ratio(one: dict, other: dict, per_K: bool = False) -> Value:
-    """Freezing pressure of one layer over that of another, each over the grid's K if wanted."""
-    def limit(tables: Tables, where: dict) -> Measured:
-        rows = bracketed(tables, where)
-        scale = float(rows["K"].mean()) if per_K else 1.0
-        return Measured(float(rows["measured"].mean())/scale, float(rows["measured_err"].max())/scale)
-    return lambda tables: ratio(limit(tables, one), limit(tables, other))
 
 
 def equal_bits(tables: Tables) -> Measured:
@@ -195,6 +137,8 @@ LATTICES = (
           statement="particles clump only where the van der Waals fluid itself is unstable: temperature over that of the "
                     "spinodal, density 1.2", because="beyond 1 it is the particles that clump, not the fluid"),
 )
+
+
 CHANCE = "of particles at random 0.54 have a neighbour within half a spacing"
 PAIRS = (
     Claim(id="khp95-hard-pairs-monaghan", source="KHP95 Sec. VI", printed="closely associated pairs", at_least=0.8,
@@ -206,44 +150,6 @@ PAIRS = (
     Claim(id="khp95-hard-sites-foretold", source="KHP95 Secs III, IV", value=foretold, at_least=0.9,
           statement="particles end as many a site as the hexagonal lattice of least energy has, 1 to 4: part of the runs, three "
                     "weights, ranges 2 to 4", because="a tenth may lie where two numbers have nearly the same energy"),
-    Claim(id="khp95-hard-fig10-pairs-monaghan", source="KHP95 Sec. VI, Fig. 10", printed="pairs", at_least=2,
-          value=column("squares", "ratio", "ratio_err", weight="Monaghan", ra=67150.0),
-          statement="in the gas of Fig. 10 Monaghan's particles move in pairs: median of second over first neighbour distance",
-          because="single particles have 1.3, pairs 2 or more"),
-    Claim(id="khp95-hard-fig10-pairs-lucy", source="KHP95 Sec. VI, Fig. 10", printed="no such pairing", at_most=1.6,
-          value=column("squares", "ratio", "ratio_err", weight="Lucy", ra=67150.0),
-          statement="in the gas of Fig. 10 Lucy's particles do not pair: median of second over first neighbour distance",
-          because="single particles have 1.3, pairs 2 or more"),
-    Claim(id="khp95-hard-fig10-two-rolls", source="KHP95 Sec. VI, Fig. 10", printed="two rolls", expect=2, within=0,
-          value=column("squares", "rolls", weight="Monaghan", ra=67150.0), because="a whole number",
-          statement="2500 particles of the gas of Fig. 10 have two rolls, after a start with two"),
-    Claim(id="khp95-hard-fig10-one-roll", source="KHP95 Sec. VI, Fig. 10", printed="one", expect=1, within=0,
-          value=column("squares", "rolls", weight="Monaghan", ra=1e4), because="a whole number",
-          statement="2500 particles of the gas of Fig. 10 have one roll at twice the critical Ra, after a start with two"),
-)
-RULE = "a criterion from a rule of thumb is good to a factor of two at best"
-FREEZING = (
-    *(Claim(id=f"khp95-hard-freezing-{name}-{weight.__name__.lower()}", source="KHP95 Sec. IV, Fig. 4", printed=printed,
-            at_least=0.5, at_most=2, because=RULE, value=frozen_at(name, **{**GAS, "weight": weight.__name__}),
-            statement=f"convection freezes at the pressure of the {words}: measured over printed, {weight.__name__}, 512 "
-                      "particles, ideal gas, Ra 3000, v^2 of the grid")
-      for weight, (name, printed, words) in product((Lucy, Monaghan), (
-          ("melting", "mv^2 > 2Pn^-2[w(0.9)-w(1)]", "Lindemann-like criterion"),
-          ("barrier", "mv^2 > 2Pn^-2 w(0)", "largest potential")))),
-    Claim(id="khp95-hard-freezing-lindemann", source="KHP95 Sec. IV", printed="of the order of 10%", at_least=0.05, at_most=0.2,
-          statement="melting occurs when neighbours' distances fluctuate by about 10 %: fluctuation in the frozen run next to "
-                    "the limit, Lucy, ideal gas, Ra 3000", value=next_to_limit(frozen=True),
-          because='"of the order of": a factor of two'),
-    Claim(id="khp95-hard-freezing-molten", source="KHP95 Sec. IV", printed="of the order of 10%", at_least=0.1,
-          statement="where particles flow neighbours' distances fluctuate by more than 10 %: fluctuation in the flowing run next "
-                    "to the limit, Lucy, ideal gas, Ra 3000", value=next_to_limit(frozen=False), because="the printed number"),
-    Claim(id="khp95-hard-freezing-dense", source="KHP95 Sec. IV", at_least=0.5, at_most=2,
-          statement="it is the pressure that freezes, not the equation of state: limit of the dense fluid over that of the ideal "
-                    "gas, Lucy, Ra 3000", value=limits_ratio({**GAS, "eos": "DenseFluid"}, GAS), because=RULE),
-    Claim(id="khp95-hard-freezing-energy", source="KHP95 Sec. IV", at_least=0.5, at_most=2,
-          statement="the pressure at which flow freezes grows in proportion to its v^2: limit over the grid's K at Ra 10 000 "
-                    "over the same at Ra 3000, Lucy, ideal gas", value=limits_ratio({**GAS, "ra": 1e4}, GAS, per_K=True),
-          because=RULE),
 )
 MOLECULES = (
     Claim(id="khp95-hard-molecules", source="KHP95 Sec. III", printed="identical", at_most=1e-11,
@@ -298,4 +204,4 @@ SHOCKS = (
           statement="at the printed size a shocked ripple that stands out of the particles, k a = 0.75, grows at half of the "
                     "impulsive rate at least", because="what k a = 0.75 takes from linear growth is less than half"),
 )
-CLAIMS = (*LATTICES, *PAIRS, *FREEZING, *MOLECULES, *SHOCKS)
+CLAIMS = (*LATTICES, *PAIRS, *SQUARES, *FREEZING, *MOLECULES, *SHOCKS)

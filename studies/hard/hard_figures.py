@@ -12,9 +12,11 @@ from studies.kit.table import Tables
 WEIGHTS = {"Lucy": "Lucy", "Monaghan": "Monaghan", "WendlandC2": "Wendland C2"}
 LATTICES = {"hexagonal": "hexagonal lattice", "square": "square lattice, sheared along an axis",
             "diagonal": "square lattice, sheared at 45°"}
-LAYERS = {("IdealGas", "Lucy", 3000.0): "ideal gas, Lucy, Ra 3000",
-          ("IdealGas", "Monaghan", 3000.0): "ideal gas, Monaghan, Ra 3000",
-          ("IdealGas", "Lucy", 1e4): "ideal gas, Lucy, Ra 10 000", ("DenseFluid", "Lucy", 3000.0): "dense fluid, Lucy, Ra 3000"}
+LAYERS = {("IdealGas", "Lucy", 3000.0, 1.0): "ideal gas, Lucy, Ra 3000",
+          ("IdealGas", "Monaghan", 3000.0, 1.0): "ideal gas, Monaghan, Ra 3000",
+          ("DenseFluid", "Lucy", 3000.0, 1.0): "dense fluid, Lucy, Ra 3000",
+          ("IdealGas", "Lucy", 1e4, 1.0): "ideal gas, Lucy, Ra 10 000",
+          ("IdealGas", "Lucy", 1e4, 0.25): "the same, a quarter of the step"}
 STEPS = {"rk4": "Runge-Kutta 4, as printed", "leapfrog": "leapfrog", "whole numbers": "leapfrog in whole numbers"}
 
 
@@ -79,7 +81,7 @@ def pairs(rows: pd.DataFrame) -> Figure:
 def freezing(rows: pd.DataFrame, limits: pd.DataFrame) -> Figure:
     """Over the pressure: energy of the mean flow, and fluctuation of neighbours' distances."""
     page, (left, right) = figure(1, 2, width=4.6, height=3.7)
-    keys = ["eos", "weight", "ra"]
+    keys = ["eos", "weight", "ra", "step"]
     for number, (layer, label) in enumerate(LAYERS.items()):
         some = rows[(rows[keys] == list(layer)).all(axis=1)].sort_values("P")
         if some.empty:

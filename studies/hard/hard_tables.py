@@ -18,15 +18,21 @@ ONSETS = Table("onsets", key=[*CRYSTAL, "parameter", "seed"],
 FATES = Table("fates", key=["weight", "h", "seed"],
               columns=["weight", "h", "seed", "predicted", "sites", "shared", "ratio", "chance"])
 
-#: squares of Fig. 10 at the end: rolls, K, median of second over first neighbour distance, part that shares a site
-SQUARES = Table("squares", key=["weight", "ra", "seed"],
-                columns=["weight", "ra", "seed", "eta", "rolls", "ke", "ratio", "ratio_err", "shared"])
+#: squares of Fig. 10: expansivity at mid-height; rolls; K at the start, of particles and of the mean flow; at the end the median
+#: of second over first neighbour distance, and the part that shares a site
+SQUARES = Table("squares", key=["eos", "weight", "ra", "seed"],
+                columns=["eos", "weight", "ra", "seed", "eta", "alpha", "rolls", "begun", "ke", "flow", "ratio", "ratio_err",
+                         "shared"])
 
-LAYER = ["eos", "weight", "ra", "seed"]
+#: step: over that of other studies
+LAYER = ["eos", "weight", "ra", "seed", "step"]
 #: K of the mean flow and of the particles over that of the grid's smoothed field, fluctuation of distances of neighbours over
 #: their mean, at pressures P; nothing where a run diverged
 FREEZING = Table("freezing", key=[*LAYER, "P"],
                  columns=[*LAYER, "P", "flow", "flow_err", "kp", "kp_err", "lindemann"])
+#: particles of four layers y (over L) at the end of these runs: T, part that comes less far than half a spacing in two free-fall
+#: times, fluctuation of distances of neighbours, K over that of the grid's smoothed field
+FREEZING_LAYERS = Table("freezing_layers", key=[*LAYER, "P", "y"], columns=[*LAYER, "P", "y", "T", "stuck", "lindemann", "kp"])
 #: P at which K of the mean flow falls below a tenth; K of the grid, and P at which 2 K is 2 P w(0), 2 P [w(0.9) - w(1)]
 FREEZING_LIMITS = Table("freezing_limits", key=LAYER, columns=[*LAYER, "measured", "measured_err", "K", "barrier", "melting"])
 
@@ -56,5 +62,5 @@ RIPPLES = Table("ripples", key=[*RIPPLE, "seed", "time"], columns=[*RIPPLE, "see
 RIPPLE_GROWTH = Table("ripple_growth", key=RIPPLE, columns=[*RIPPLE, "seeds", "kick", "kick_err", "amplitude", "amplitude_err",
                                                             "growth", "growth_err"])
 
-ALL = (MODULI, MODULUS_ORDERS, GROWTH, ONSETS, FATES, SQUARES, FREEZING, FREEZING_LIMITS, TWINS, REVERSAL, RETURNS, TUBES,
-       TUBE_PROFILES, TUBE_ORDERS, RIPPLES, RIPPLE_GROWTH)
+ALL = (MODULI, MODULUS_ORDERS, GROWTH, ONSETS, FATES, SQUARES, FREEZING, FREEZING_LAYERS, FREEZING_LIMITS, TWINS, REVERSAL,
+       RETURNS, TUBES, TUBE_PROFILES, TUBE_ORDERS, RIPPLES, RIPPLE_GROWTH)

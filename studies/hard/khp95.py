@@ -57,16 +57,19 @@ def fates(ranges: tuple[float, ...], seeds: tuple[int, ...]) -> Iterator[Case]:
 
 
 def squares() -> Iterator[Case]:
-    """Both weights with the printed viscosity, the one that pairs also nearer to onset, which is at 5012."""
-    yield from (Square(weight=weight, ra=67150.0, t_end=25.0, mean_from=15.0) for weight in (Monaghan, Lucy))
+    """Both weights and fluids with the printed viscosities, what pairs in the gas also nearer to onset, which is at 5012."""
+    for (eos, ra), weight in product(((IdealGas(), 67150.0), (DenseFluid(), 511200.0)), (Monaghan, Lucy)):
+        yield Square(eos=eos, weight=weight, ra=ra, t_end=25.0, mean_from=15.0)
     yield Square(weight=Monaghan, ra=1e4, t_end=40.0, mean_from=30.0)
 
 
 def freezing() -> Iterator[Case]:
-    """The gas of Fig. 4's scene with both weights, at another Ra, and the dense fluid."""
+    """The gas of Fig. 4's scene with both weights, at another Ra, and the dense fluid; with a quarter of the step, too."""
     yield from (Freezing(eos=IdealGas(), weight=weight, seed=seed) for weight, seed in product((Lucy, Monaghan), (1, 2, 3)))
-    yield Freezing(eos=IdealGas(), weight=Lucy, ra=1e4)
-    yield Freezing(eos=DenseFluid(), weight=Lucy)
+    for step in (1.0, 0.25):
+        yield Freezing(eos=IdealGas(), weight=Lucy, ra=1e4, step=step)
+        yield Freezing(eos=DenseFluid(), weight=Lucy, step=step)
+    yield Freezing(eos=IdealGas(), weight=Lucy, step=0.25)
 
 
 def newton(times: tuple[float, ...], samples: int, seeds: tuple[int, ...]) -> Iterator[Case]:

@@ -55,6 +55,23 @@ def extreme(methods: Sequence[str], scenes: Sequence[str], which: Callable) -> V
     return value
 
 
+def strips(plates: str, rows: int) -> Value:
+    """The largest |step/formula - 1| of linear theory with some plates, weak conduction left out."""
+    def value(tables: Tables) -> Measured:
+        some = select(tables, "strips", plates=plates, rows=rows)
+        some = some[some["scene"] != WEAK]
+        return Measured(float((some["step"]/some["formula"] - 1).abs().max()), 0.0)
+    return value
+
+
+def weak_strips(tables: Tables) -> Measured:
+    """The largest |step/((1 - 4/N) formula) - 1|."""
+    some = select(tables, "strips", plates="holding", scene=WEAK)
+    return Measured(float((some["step"]/some["formula"]/(1 - 4/some["rows"]) - 1).abs().max()), 0.0)
+
+
+WEAK = "weak heat"
+DPD = ("DPD 2D", "DPD 3D")
 POINTS = ("fixed lattice", "fixed jittered")
 LINEAR = ("spam Lucy", "spam Wendland", "spam direct", *POINTS, "fixed nested", "fluctuating", "drift literal",
           "drift constant mass")
@@ -62,10 +79,12 @@ RUNGE_KUTTA = ("grid", *LINEAR, "moving")
 GIVEN_BACK = "the largest stable step on a lattice is the formula's, what it leaves for disorder given back"
 
 
-def near(name: str, source: str, statement: str, methods: Sequence[str], scenes: Sequence[str] = ()) -> Claim:
-    """Measured limits are those of the methods' own formulas to 10 %."""
-    return Claim(id=f"limit-step-{name}", source=source, statement=statement, value=farthest(methods, scenes), at_most=NEAR,
-                 because="limits are to be known to 10 %: what takes 0.9 of a formula is then safe and gives away little")
+def near(name: str, source: str, statement: str, methods: Sequence[str], scenes: Sequence[str] = (),
+         column: str = "predicted") -> Claim:
+    """Measured limits are those of the methods' own formulas, or of another column, to 10 %."""
+    return Claim(id=f"limit-step-{name}", source=source, statement=statement, value=farthest(methods, scenes, column),
+                 at_most=NEAR, because="limits are to be known to 10 %: what takes 0.9 of a formula is then safe and gives away "
+                                       "little")
 
 
 CLAIMS = (
@@ -98,11 +117,37 @@ CLAIMS = (
     near("euler-periodic", "RR98 Eq. 40", "the same on a lattice without plates, which the formula does not know [asked "
          "after it fell short by a third between plates]",
          ("fixed Euler, periodic",), ("Euler 1/2", "Euler 1", "Euler heat")),
-    # read later: jittered points grow below their formula, which leaves images behind plates out
-    near("points-images", "RR98 Eq. 51", "jittered points between plates, their formula with the largest eigenvalue of the "
-         "Laplacian over edges and images together: the largest stable step is the formula's [asked after theirs had "
-         "failed]", ("fixed jittered, images",),
-         ("Prandtl 100",)),
+    near("euler-strip", "RR98 Eqs 37-40", "forward Euler between plates: noise begins to grow at the step of linear theory of a "
+         "strip whose friction and heat see images [asked after the formula without plates had failed]",
+         ("fixed Euler, strip",)),
+    Claim(id="limit-step-euler-images", source="RR98 Eqs 37-40", at_most=NEAR, value=strips("insulating, slipping", 10),
+          statement="by this theory it is the images that friction and heat see that shorten the step: with plates that slip and "
+                    "insulate it is that of the formula without plates, ten rows", because="10 %, asked of limits beforehand"),
+    Claim(id="limit-step-euler-rows", source="RR98 Eqs 37-40", at_most=0.01, value=weak_strips,
+          statement="by this theory heat conduction that is weak allows (1 - 4/N) k/(2 rho c^2) between plates N rows apart, two "
+                    "rows of N doing nothing at the crests of a gradient [derived here]: largest relative difference, N 10 to 40",
+          because="sound is damped by 3 % within a period"),
+    Claim(id="limit-step-edges-alone", source="RR98 Eq. 51", value=least(("fixed jittered, edges alone",)), at_least=0.99,
+          statement="a formula that leaves images behind plates out, as points between plates once had, is not above the step at "
+                    "which noise on jittered points begins to grow: they are nearest to their own images",
+          because="formulas are read off stability regions to 0.4 %, trials find limits to 1 %"),
+    # read later: sound and diffusion do not add, as methods' own formulas have it
+    *(near(f"{name}-shorter", source, f"{words}: the largest stable step is the shorter one of those of sound alone and of "
+           "diffusion alone [asked after the inverse sum had failed]", methods, column="shorter")
+      for name, source, words, methods in (
+          ("grid", "KHP95 Sec. V", "compressible grid", ("grid",)),
+          ("points", "RR98 Eq. 51", "fixed points, friction along edges, on a lattice and jittered", POINTS),
+          ("points-nested", "RR98 Eqs 37, 38", "fixed points, diffusion by gradients of gradients", ("fixed nested",)),
+          ("fluctuating", "RR98 Sec. II D", "fixed points under three stages, friction eta and not 2 eta", ("fluctuating",)),
+          ("literal", "RR98 Eqs 34-36, 39", "points that move while their volumes stay", ("drift literal",)),
+          ("constant-mass", "RR98 Eq. 49", "points that move with constant mass, their sound that of smooth particles",
+           ("drift constant mass",)),
+          ("moving", "RR98 Eqs 46-48", "moving points with closed faces, diffusion over these at 2.9 chi and not 4",
+           ("moving",)))),
+    near("dpd", "RR98 Eqs 39-41, 51", "dissipative particles that rest at kT = 0, a = 25, gamma = 4.5, rho = 3, two and three "
+         "dimensions: noise begins to grow at their formula, 2/omega of a uniform fluid", DPD),
+    near("dpd-settled", "RR98 Eqs 39-41, 51", "the same where an eigenvalue of the step's linear map about settled particles "
+         "leaves the unit circle", DPD, column="exact"),
     Claim(id="limit-step-safe", source="RR98 Eqs 34-51", value=least(RUNGE_KUTTA), at_least=0.99,
           statement="no method's own formula of the largest step is above the step at which noise begins to grow",
           because="formulas are read off stability regions to 0.4 %, trials find limits to 1 %"),

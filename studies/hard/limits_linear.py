@@ -19,8 +19,12 @@ def eigenvalues(method, start: np.ndarray) -> np.ndarray:
     """Of the rates of a method about a state (fields, n), those of motions that its sums see."""
     sums, now = method.start(start.shape[1], Team(1)), Run(state=start.copy(), ids=np.arange(start.shape[1]))
     sums.make_ready(now, 0.0)
-    found = np.linalg.eigvals(jacobian(sums.rates, now.state))
-    return found[np.abs(found) > NULL*np.abs(found).max()]
+    return seen(np.linalg.eigvals(jacobian(sums.rates, now.state)))
+
+
+def seen(rates: np.ndarray) -> np.ndarray:
+    """Without those of motions that the sums do not see."""
+    return rates[np.abs(rates) > NULL*np.abs(rates).max()]
 
 
 def growth(rates: np.ndarray, factors: tuple[float, ...], dt: float) -> float:
@@ -31,17 +35,17 @@ def growth(rates: np.ndarray, factors: tuple[float, ...], dt: float) -> float:
     return float(np.max(size - np.maximum(z.real, 0)))
 
 
-def largest_step(rates: np.ndarray, integrator: str, seen: float = ROUND_OFF) -> float:
-    """The step at which motions of these rates begin to grow by a factor exp(seen) a step; 0 if at all steps."""
+def largest_step(rates: np.ndarray, integrator: str, least: float = ROUND_OFF) -> float:
+    """The step at which motions of these rates begin to grow by a factor exp(least) a step; 0 if at all steps."""
     factors, unit = FACTORS[integrator], 1/np.abs(rates).max()
-    grows = [growth(rates, factors, dt) > seen for dt in STEPS*unit]
+    grows = [growth(rates, factors, dt) > least for dt in STEPS*unit]
     first = int(np.argmax(grows))
     if not any(grows) or first == 0:
         return 0.0 if first == 0 and grows[0] else np.inf
     low, high = STEPS[first - 1]*unit, STEPS[first]*unit
     for _ in range(HALVINGS):
         middle = (low + high)/2
-        low, high = (low, middle) if growth(rates, factors, middle) > seen else (middle, high)
+        low, high = (low, middle) if growth(rates, factors, middle) > least else (middle, high)
     return float((low + high)/2)
 
 

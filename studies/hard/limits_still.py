@@ -14,7 +14,7 @@ from continuum.compressible_loop import FluxForm
 from continuum.fluid import ConstEta, IdealGas
 from particles.edges import NONE_BEYOND, between_plates
 from particles.integrators import Euler
-from particles.limits import limit_of
+from particles.limits import lattice_sums, limit_of, zone
 from particles.makers import renormalised
 from particles.methods.drift import DRIFTS, Drift
 from particles.methods.layer import Layer
@@ -28,8 +28,9 @@ from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2
 from studies.convection.dih import positions
+from studies.hard.limits_euler import euler_step, strip_step
 from studies.hard.limits_search import GROWN, NOISE, Unguarded, noise_grows
-from studies.hard.slab import Slab
+from studies.hard.slab import TINY, Slab
 from studies.hard.still import at_rest, fluid
 
 SIDE = 10               # points along each side: waves of 10, 5, ... 2 spacings
@@ -37,12 +38,15 @@ SMALL = 6               # of the scheme that is not compiled
 JITTER = 0.3            # of disordered points, in spacings
 DISORDER = 1.4          # by which limits of points that move leave room for disorder: see `limit_of` of each
 EOS, SOUND = IdealGas(), np.sqrt(2)
+STAGES_SOUND, STAGES_DECAY = 1.73, 2.51     # where the region of three stages ends
+FACES = 2.9             # fastest diffusion over closed faces on a lattice, Wendland C2, h = 3: at which volumes follow
 
 
 class Trial(NamedTuple):
     """A method at rest: start (fields, n), rows of the state that noise is looked for in, integrator by name.
 
     predicted : the largest step by the method's own formula. margin : what it leaves for disorder, by which it is smaller.
+    shorter : the shorter one of the steps that sound alone and diffusion alone allow, by the operators in use.
     linear : whether eigenvalues of the rates say all, as they do not where faces are made and points drift between stages.
     """
     method: Any
@@ -52,11 +56,17 @@ class Trial(NamedTuple):
     predicted: float
     margin: float = 1.0
     linear: bool = True
+    shorter: float = np.nan
 
     def grows(self, steps: int) -> Callable[[float], bool]:
         """Whether noise grows at a step, within so many of them."""
         free = Unguarded(self.method, Euler if self.integrator == "Euler" else None)
         return lambda dt: noise_grows(free, self.start, self.rows, steps, dt)
+
+
+def shorter(law: ConstEta, sound: float, spread: float, wave: float = RK4_SOUND, decay: float = RK4_DECAY) -> float:
+    """The shorter one of two limits, from what `fastest` tells of edges; wave, decay : where the integrator's region ends."""
+    return float(min(wave/(SOUND*sound), decay/max(max(law.eta, law.k)*spread, TINY)))
 
 
 def noise(*shape: int) -> np.ndarray:
@@ -79,18 +89,16 @@ def fixed(law: ConstEta, make: Callable = renormalised, jitter: float = 0.0, sha
     edges, beyond = between_plates(make, x, SIDE, SIDE, Lucy.of(h=2.0))
     method = Layer(x=x, edges=edges, beyond=beyond, eos=EOS, law=law, T_plates=(1.0, 1.0), g=0.0, share=share)
     start = method.state(1 + noise(len(x)), noise(len(x), 2), 1 + noise(len(x)))
-    return Trial(method, start, (0, 1, 2, 3), "RK4", limit_of(method, start))
+    sound, along = method.fastest
+    spread = along if share == 1 else sound**2      # the divergence of nested currents is a second gradient
+    return Trial(method, start, (0, 1, 2, 3), "RK4", limit_of(method, start), shorter=shorter(law, sound, spread))
 
 
-def seeing_images(law: ConstEta) -> Trial:
-    """Jittered points, their formula with the fastest diffusion that edges and images behind plates know together."""
+def edges_alone(law: ConstEta) -> Trial:
+    """Jittered points, their formula without images behind plates."""
     trial = fixed(law, delaunay, JITTER)
-    method, (sound, _) = trial.method, trial.method.edges.fastest
-    root, L = 1/np.sqrt(method.edges.V), method.edges.laplacian.toarray()
-    for column in (method.beyond.i, method.beyond.parent):      # u - u_image = u_i + u_parent
-        np.add.at(L, (method.beyond.i, column), -method.beyond.k)
-    spread = -np.linalg.eigvals(root[:, None]*L*root).real.min()
-    return trial._replace(predicted=1/(sound*SOUND/RK4_SOUND + max(law.eta, law.k)*spread/RK4_DECAY))
+    sound, spread = trial.method.edges.fastest
+    return trial._replace(predicted=1/(sound*SOUND/RK4_SOUND + max(law.eta, law.k)*spread/RK4_DECAY), shorter=np.nan)
 
 
 def euler(law: ConstEta) -> Trial:
@@ -107,9 +115,9 @@ def euler_periodic(law: ConstEta) -> Trial:
     return Trial(method, start, (0, 1, 2, 3), "Euler", euler_step(law))
 
 
-def euler_step(law: ConstEta) -> float:
-    """(eta + k/2)/(rho c^2): forward Euler makes sound grow beyond, however long the waves    [RR98 Eq. 40, 2D ideal gas]"""
-    return (law.eta + law.k/2)/2
+def euler_strip(law: ConstEta) -> Trial:
+    """Between plates, with the step of linear theory that knows them."""
+    return euler(law)._replace(predicted=strip_step(law, SIDE, SIDE))
 
 
 def thermal(law: ConstEta, share: float) -> Trial:
@@ -117,7 +125,9 @@ def thermal(law: ConstEta, share: float) -> Trial:
     points = lattice((SMALL, SMALL))
     method = Thermal(edges=renormalised(points, Lucy.of(h=2.0)), eos=EOS, law=law, k=0.0, seed=1, share=share)
     start = method.dih.state(1 + noise(points.n), noise(points.n, 2), 1 + noise(points.n))
-    return Trial(method, start, (0, 1, 2, 3), "ThreeStage", limit_of(method, start))
+    sound, spread = method.edges.fastest
+    return Trial(method, start, (0, 1, 2, 3), "ThreeStage", limit_of(method, start),
+                 shorter=shorter(law, sound, share*spread + (1 - share)*sound**2, STAGES_SOUND, STAGES_DECAY))
 
 
 def drifting(law: ConstEta, name: str) -> Trial:
@@ -126,7 +136,11 @@ def drifting(law: ConstEta, name: str) -> Trial:
     method = Drift(motion=DRIFTS[name], weight=weight, scale=scale_of(lattice((12, 12)), weight), eos=EOS, law=law,
                    box=(SIDE, SIDE), walls=(*plates(SIDE, 1.0, 1.0), *periodic(SIDE)))
     start = method.state(points.x, 1.0, noise(points.n, 2), 1 + noise(points.n))
-    return Trial(method, start, (2, 3, 4, 5), "RK4", limit_of(method, start), DISORDER)
+    # omega^2/c^2 with P = c^2/2: force changes by -c^2 S^2 rho' and 2 P D, but volumes that follow the flow take 2 P S^2 back
+    sums, f = lattice_sums(weight, 1.0, 1.0, zone(1.0)), method.scale
+    sound2 = f*np.linalg.eigvalsh(sums.D)[:, -1] + (f*f*(sums.S**2).sum(axis=1) if name == "literal" else 0.0)
+    return Trial(method, start, (2, 3, 4, 5), "RK4", limit_of(method, start), DISORDER,
+                 shorter=shorter(law, float(np.sqrt(sound2.max())), float(f*sums.k2[Direct].max())))
 
 
 def moving(law: ConstEta) -> Trial:
@@ -135,7 +149,9 @@ def moving(law: ConstEta) -> Trial:
     method = Moving(weight=WendlandC2.of(h=3.0), eos=EOS, law=law, box=(SIDE, SIDE),
                     walls=(*plates(SIDE, 1.0, 1.0), *periodic(SIDE)))
     start = method.state(points.x, noise(points.n, 2), 1.0, 1 + noise(points.n))
-    return Trial(method, start, (4, 5, 6, 7, 8), "ThreeStage", limit_of(method, start), DISORDER, linear=False)
+    both = shorter(law, 1.0, FACES, STAGES_SOUND, STAGES_DECAY)
+    return Trial(method, start, (4, 5, 6, 7, 8), "ThreeStage", limit_of(method, start), DISORDER, linear=False,
+                 shorter=min(both, STAGES_DECAY/FACES))      # volumes follow at the same rate of diffusion, without friction too
 
 
 class OnGrid(NamedTuple):
@@ -143,6 +159,7 @@ class OnGrid(NamedTuple):
     scene: Slab
     start: np.ndarray
     predicted: float
+    shorter: float
     integrator: str = "RK4"
     margin: float = 1.0
 
@@ -171,7 +188,8 @@ def on_grid(law: ConstEta) -> OnGrid:
     scene = Slab(L=float(SIDE), aspect=1.0, viscosity=law.eta, heat=law.k)
     S = block(initial(scene, SIDE, 0.0))
     S[:, 2:-1, 1:-1] += noise(*S[:, 2:-1, 1:-1].shape)
-    return OnGrid(scene, S, limits(scene, S).both)
+    found = limits(scene, S)
+    return OnGrid(scene, S, found.both, min(found.sound, found.diffusion))
 
 
 @dataclass(frozen=True)
@@ -193,8 +211,9 @@ METHODS: dict[str, Maker] = {
     "fixed lattice": Maker(fixed),
     "fixed nested": Maker(fixed, (("share", 0.0),)),
     "fixed jittered": Maker(fixed, (("make", delaunay), ("jitter", JITTER))),
-    "fixed jittered, images": Maker(seeing_images),
+    "fixed jittered, edges alone": Maker(edges_alone),
     "fixed Euler": Maker(euler),
+    "fixed Euler, strip": Maker(euler_strip),
     "fixed Euler, periodic": Maker(euler_periodic),
     "fluctuating": Maker(thermal, (("share", 1.0),)),
     "drift literal": Maker(drifting, (("name", "literal"),)),
