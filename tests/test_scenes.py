@@ -151,6 +151,14 @@ def test_ratios_are_to_the_whole_and_what_matters_is_needed():
     assert scenes_derive.derive(Tables()) == {}
 
 
+def test_times_that_scatter_as_much_as_they_last_have_no_ratio_and_decide_nothing():
+    busy = table(**SOME)["measured"].assign(step_s_err=3.0)
+    rows = pd.DataFrame(scenes_derive.derive(Tables({"measured": busy}))["scenes"])
+    assert rows["step_ratio"].isna().all() and rows["time_ratio"].notna().sum() == 3
+    said = {row["id"]: row for row in judge(CLAIMS, Tables({"measured": busy, "scenes": rows}), "scenes")}
+    assert said["own-scenes-heat"]["verdict"] == "undecidable" and "for itself" in said["own-scenes-heat"]["reason"]
+
+
 def test_verdicts_follow_the_table():
     said = {row["id"]: row["verdict"] for row in judge(CLAIMS, table(**SOME), "scenes")}
     assert said["own-scenes-heat"] == said["own-scenes-heat-memory"] == said["own-scenes-heat-error"] == "holds"
