@@ -11,7 +11,14 @@ from itertools import product
 
 from particles.makers import MAKERS
 from particles.weights import Lucy, Monaghan, WendlandC2
-from studies.integral import conservation_claims, conservation_derive, conservation_figures, conservation_tables
+from studies.integral import (
+    conservation_claims,
+    conservation_commutator,
+    conservation_derive,
+    conservation_figures,
+    conservation_tables,
+)
+from studies.integral.conservation_commutator import Commutator
 from studies.integral.conservation_dih import FORMS, DihDrift
 from studies.integral.conservation_frames import Frame, Sound
 from studies.integral.conservation_layers import MODES, WALLS, LayerDrift
@@ -73,6 +80,8 @@ def frames(seeds: tuple[int, ...] = SEEDS) -> Iterator[Case]:
         for seed in seeds if points != "lattice" else seeds[:1]:
             yield from (Frame(mode=mode, maker=maker, make=MAKERS[maker], disorder=DISORDERS[points], seed=seed)
                         for mode in ("pairwise", "unmended", "nested", "printed"))
+            if maker in CLOSING:
+                yield Commutator(maker=maker, make=MAKERS[maker], disorder=DISORDERS[points], seed=seed)
     for maker, points, bracket in product(MAKERS, KINDS, ("plus", "adjoint")):
         for seed in seeds if points != "lattice" else seeds[:1]:
             yield Sound(bracket=bracket, maker=maker, make=MAKERS[maker], disorder=DISORDERS[points], seed=seed)
@@ -86,7 +95,7 @@ def cases(size: str) -> list[Case]:
 
 
 STUDY = Study(name="conservation", cases=cases, tables=conservation_tables.ALL, derive=conservation_derive.derive,
-              figures=conservation_figures.figures, claims=conservation_claims.CLAIMS)
+              figures=conservation_figures.figures, claims=(*conservation_claims.CLAIMS, *conservation_commutator.CLAIMS))
 
 if __name__ == "__main__":
     main(STUDY)

@@ -13,6 +13,7 @@ from particles.methods.dih import Dih
 from particles.points import jittered, lattice
 from particles.weights import Lucy
 from studies.integral import conservation_tables
+from studies.integral.conservation_commutator import Commutator
 from studies.integral.conservation_dih import FORMS
 from studies.integral.conservation_frames import Frame, after, sound
 from studies.integral.conservation_layers import MODES, WALLS, around
@@ -126,6 +127,12 @@ def test_closed_edges_do_not_know_of_a_wind(mode):
 
 def test_what_knows_of_a_wind_shows_it():
     assert frame("printed", "plain")["momentum"] > 1e-4 and frame("pairwise", "delaunay")["energy"] > 1e-4
+
+
+def test_the_wind_in_the_mended_heating_is_that_slopes_do_not_commute():
+    case = Commutator(maker="delaunay", make=MAKERS["delaunay"], disorder=DISORDERS["jittered-0.3"])
+    found = row(case, "commutators")
+    assert found["left"] < 1e-12 and found["foretold"] == pytest.approx(frame("pairwise", "delaunay")["energy"], rel=1e-9)
 
 
 @pytest.mark.parametrize("maker", ["plain", "delaunay"])

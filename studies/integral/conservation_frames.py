@@ -54,14 +54,20 @@ class Frame(Case):
 
 def defects(fluid: Dih, state: np.ndarray) -> tuple[float, float, float]:
     """Largest differences of the rates of mass, momentum and energy, over the largest rates."""
+    off, there = differences(fluid, state)
+    mass, momentum, energy = (float(np.abs(off[r]).max()/np.abs(there[r]).max())
+                              for r in (slice(0, 1), slice(1, 3), slice(3, 4)))
+    return mass, momentum, energy
+
+
+def differences(fluid: Dih, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Rates in the wind less what they should be, and rates in the wind, each (4, n)."""
     moved = in_wind(state)
     still, there = rates(fluid, state), rates(fluid, moved)
     rest, p = still[0], still[1:3]
     expected = np.stack([rest, *(p + rest*WIND[:, None]), still[3] + WIND@p + rest*(WIND@WIND)/2])
     expected += np.stack([-sum(u*(D@q) for u, D in zip(WIND, fluid.edges.D, strict=True))/fluid.edges.V for q in moved])
-    mass, momentum, energy = (float(np.abs(there[r] - expected[r]).max()/np.abs(there[r]).max())
-                              for r in (slice(0, 1), slice(1, 3), slice(3, 4)))
-    return mass, momentum, energy
+    return there - expected, there
 
 
 def in_wind(state: np.ndarray) -> np.ndarray:

@@ -17,10 +17,14 @@ FRAME = ["mode", "maker", "points"]
 FRAMES = Table("frames", key=[*FRAME, "seed"], columns=[*FRAME, "seed", "mass", "momentum", "energy"])
 FRAME_MEANS = Table("frame_means", key=FRAME, columns=[*FRAME, "seeds", "mass", "mass_err", "momentum", "momentum_err", "energy",
                                                        "energy_err"])
+#: friction along edges: largest difference of energy rates in a wind, the same by the commutator of slopes, and what that leaves
+#: of it, over the largest rate
+COMMUTATORS = Table("commutators", key=["maker", "points", "seed"],
+                    columns=["maker", "points", "seed", "found", "foretold", "left"])
 #: sound without friction, linear, in a box of one wavelength: growth is the fastest per period of that wave, from eigenvalues;
 #: ln_energy is ln of the energy after so many periods over that at the start
 WAVE = ["bracket", "maker", "points"]
 SOUND = Table("sound", key=[*WAVE, "seed"], columns=[*WAVE, "seed", "periods", "growth", "growth_err", "ln_energy"])
 SOUND_MEANS = Table("sound_means", key=WAVE, columns=[*WAVE, "seeds", "growth", "growth_err", "ln_energy", "ln_energy_err"])
 
-ALL = (DRIFT, KEPT, FRAMES, FRAME_MEANS, SOUND, SOUND_MEANS)
+ALL = (DRIFT, KEPT, FRAMES, FRAME_MEANS, COMMUTATORS, SOUND, SOUND_MEANS)
