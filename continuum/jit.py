@@ -55,7 +55,7 @@ llvmlite.binding.set_option("fluidized-grid", "-slp-max-reg-size=256")
 
 
 def lanes(function: Callable) -> Any:
-    """Compile with sums in the order that is written and with LLVM's SLP vectoriser, as `sweep` wants it.
+    """Compile with sums in the order that is written and with LLVM's SLP vectoriser, as loops over records want it.
 
     SLP puts equal operations on neighbouring fields of a record into one vector instruction. numba leaves it off since
     LLVM 14 miscompiled with it, so it is on here only, for loops that tests hold against a slow twin. Reassociation
@@ -65,11 +65,13 @@ def lanes(function: Callable) -> Any:
     plain = compiled.compile
 
     def compile_with_slp(signature):
-        before, numba.config.SLP_VECTORIZE = numba.config.SLP_VECTORIZE, 1
+        config = numba.config
+        before = config.SLP_VECTORIZE, config.LOOP_VECTORIZE
+        config.SLP_VECTORIZE, config.LOOP_VECTORIZE = 1, 0      # several rows at a time would be gathered and scattered
         try:
             return plain(signature)
         finally:
-            numba.config.SLP_VECTORIZE = before
+            config.SLP_VECTORIZE, config.LOOP_VECTORIZE = before
 
     compiled.compile = compile_with_slp
     return compiled

@@ -4,12 +4,13 @@ from typing import Any
 import numpy as np
 
 from continuum.jit import jit
+from particles.neighbours import u64
 from particles.team import Team
 
 
 @jit
 def _stage(first, last, y, k, total, stage, weight, forward):
-    for i in range(first, last):
+    for i in range(u64(first), u64(last)):
         total[i] += weight*k[i]
         stage[i] = y[i] + forward*k[i]
 
@@ -27,9 +28,10 @@ class RK4:
         k, total, stage = self._k, self._total, self._next
         total[:] = 0
         stage[:] = y
+        flat = [q.ravel() for q in (y, k, total, stage)]
         for weight, forward in ((1/6, dt/2), (1/3, dt/2), (1/3, dt), (1/6, 0.0)):
             sums.rates(stage, k)
-            self._team(_stage, y.size, y.ravel(), k.ravel(), total.ravel(), stage.ravel(), weight, forward)
+            self._team(_stage, y.size, *flat, weight, forward)
         total *= dt
         y += total
 

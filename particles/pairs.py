@@ -53,6 +53,12 @@ def empty_pairs(rows: int, entries: int) -> Pairs:
     return Pairs(start, length, listed, first, taken, near, *np.empty((2, entries)))
 
 
+class Block(NamedTuple):
+    """Sums (rows, columns) of the rows from `begin` on, in place of an array of all rows."""
+    begin: int
+    sums: np.ndarray
+
+
 class Pair(NamedTuple):
     """What a pair term knows of a pair: the gradient of m w(r_ab) with respect to r_a."""
     wx: float
@@ -127,7 +133,7 @@ def add(one: tuple, other: tuple) -> Any:
 
 
 def store(out: np.ndarray, i: int, k: int, values: tuple) -> Any:
-    """out[i, k:] = values."""
+    """out[i, k:] = values; out: an array or a Block."""
 
 
 @overload(add)
@@ -139,7 +145,10 @@ def _(one, other):
 
 @overload(store)
 def _(out, i, k, values):
-    if len(values) == 1:
+    if getattr(out, "instance_class", None) is Block:
+        def impl(out, i, k, values):
+            store(out.sums, i - u64(out.begin), k, values)
+    elif len(values) == 1:
         def impl(out, i, k, values):
             out[i, k] = values[0]
     else:
@@ -151,7 +160,7 @@ def _(out, i, k, values):
 
 @lanes
 def sweep(first, last, term, particle, pairs, out):
-    """out[i] = sum of rate(term, i, j, ij) over the pairs of rows first..last; `particle` is a structured array."""
+    """out[i] = sum of rate(term, i, j, ij) over the pairs of rows first..last; `particle`: a structured array."""
     for i in range(u64(first), u64(last)):
         a, total, begin = particle[i], nothing(term), pairs.first[i]
         for k in range(begin, begin + pairs.taken[i]):

@@ -209,9 +209,9 @@ def _way_out(plan: Plan) -> str:
 
 def _check(method, plan: Plan, sums, now: Run) -> None:
     """Raise Divergence if the state is not finite or not one that the method can go on with."""
-    when = f"step {now.step}, time {now.step*plan.dt:g}"
-    way_out = _way_out(plan)
-    if not np.isfinite(now.state).all():
-        raise Divergence(now.step, f"diverged at {when}: {_where(method, now.state, now.ids)}; {way_out}")
-    if fault := sums.fault(now.state, now.ids):
-        raise Divergence(now.step, f"at {when} {fault}; {way_out}")
+    finite = np.isfinite(now.state).all()
+    fault = sums.fault(now.state, now.ids) if finite else _where(method, now.state, now.ids)
+    if fault:
+        when = f"step {now.step}, time {now.step*plan.dt:g}"
+        told = f"at {when} {fault}" if finite else f"diverged at {when}: {fault}"
+        raise Divergence(now.step, f"{told}; {_way_out(plan)}")

@@ -77,17 +77,32 @@ class Summing:
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """The first point outside of the equation of state; empty if there is none."""
-        rho, e = state[0], (state[3] - (state[1]**2 + state[2]**2)/(2*state[0]))/state[0]
-        good = valid(self.method.eos, rho, e)
-        if good.all():
+        i = first_invalid(state, self.method.eos)
+        if i == state.shape[1]:
             return ""
-        i = int(np.argmin(good))
-        return f"point {i} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of {type(self.method.eos).__name__}"
+        rho, e = inner(*state[:4, i])
+        return f"point {i} has rho = {rho:.6g}, e = {e:.6g}, outside the validity of {type(self.method.eos).__name__}"
 
 
 def states(eos: Any, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
     """(4, n) of densities, velocities (n, 2), temperatures."""
     return np.stack([rho, *(rho[:, None]*v).T, rho*(energy(eos, rho, T) + (v**2).sum(axis=1)/2)])
+
+
+@formula
+def inner(rho, px, py, eps):
+    """Density and internal energy per mass."""
+    return rho, (eps - (px*px + py*py)/(2*rho))/rho
+
+
+@jit
+def first_invalid(state, eos):
+    """The first point that the equation of state does not take; their number if there is none."""
+    for i in range(state.shape[1]):
+        rho, e = inner(state[0, i], state[1, i], state[2, i], state[3, i])
+        if not valid(eos, rho, e):
+            return i
+    return state.shape[1]
 
 
 def check_number(n: int, points: int) -> None:

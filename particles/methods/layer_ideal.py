@@ -5,40 +5,44 @@ neighbours, such as sum_j S.(rho_i v_j + rho_j v_i) = rho_i sum_j S.v_j + v_i.su
 which vector instructions do several at a time; fields meet once a point. Sums are of differences to the point,
 sum_j S (f_j - f_i): of whole fields they would lose digits, and with them the conservation that edges give. Equal to `layer` to
 round-off.
+
+A step of a thousand points takes a tenth of a millisecond: few calls, arrays as plain tuples (a NamedTuple costs a microsecond
+each), and blocks of rows whose sums stay in the fastest cache until their points have taken them.
 """
 from math import fsum
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import conductivity, temperature, viscosity
-from continuum.jit import jit
-from particles.pairs import nothing, rate, sweep
+from continuum.fluid import IdealGas, conductivity, temperature, viscosity
+from continuum.jit import jit, lanes
+from particles.neighbours import u64
+from particles.pairs import Block, Stored, nothing, rate, sweep
 
-#: what a neighbour gives: fields for S (rho .. uy), for k (ux .. q, q = u^2/2); vx without friction; u, Td, q with it
-Given = np.dtype([(name, "f8") for name in ("rho", "mx", "my", "T", "eps", "hydro", "ux", "uy", "Td", "q", "vx", "vy")])
+#: what a neighbour gives, two vectors of four: for S all but w; for k u, v and w = eta u^2/2 + kappa T
+Given = np.dtype([(name, "f8") for name in ("rho", "mx", "my", "eps", "T", "u", "v", "w")])
 Lack = np.dtype([("Fx", "f8"), ("Fy", "f8")])
+ROWS = 32           # of a block
 
 
 class LinearSums(NamedTuple):
-    """sum S_x, S_y and k times what the fields of the neighbours differ."""
+    """sum S_x, S_y and k times what the fields of the neighbours differ; S w and k T fill vectors and are not used."""
 
 
 class LackSums(NamedTuple):
     """sum S.F."""
 
 
-nothing.of(LinearSums)(lambda term: (0.0,)*21)
+nothing.of(LinearSums)(lambda term: (0.0,)*20)
 nothing.of(LackSums)(lambda term: (0.0,))
 
 
 @rate.of(LinearSums)
 def _(term, a, b, ab):
     x, y, k = ab.sx, ab.sy, ab.k
-    rho, mx, my, T, eps, hydro = b.rho - a.rho, b.mx - a.mx, b.my - a.my, b.T - a.T, b.eps - a.eps, b.hydro
-    u, v = b.ux - a.ux, b.uy - a.uy
-    return (x*rho, x*mx, x*my, x*T, x*eps, x*hydro, x*u, x*v, y*rho, y*mx, y*my, y*T, y*eps, y*hydro, y*u, y*v,
-            k*u, k*v, k*(b.Td - a.Td), k*(b.q - a.q), x*(b.vx - a.vx))
+    rho, mx, my, eps = b.rho - a.rho, b.mx - a.mx, b.my - a.my, b.eps - a.eps
+    T, u, v, w = b.T - a.T, b.u - a.u, b.v - a.v, b.w - a.w
+    return (x*rho, x*mx, x*my, x*eps, x*T, x*u, x*v, x*w, y*rho, y*mx, y*my, y*eps, y*T, y*u, y*v, y*w, k*T, k*u, k*v, k*w)
 
 
 @rate.of(LackSums)
@@ -50,74 +54,104 @@ class IdealSums:
     """Rates of an `Exchanging` whose fluid this form fits."""
 
     def __init__(self, layer: Any):
-        self.layer, edges, n = layer, layer.edges, layer.n
-        points = len(layer.points)
-        self.given, self.lack = np.zeros(points, Given), np.zeros(points, Lack)
-        self.sums, self.lost = np.empty((n, 21)), np.empty((n, 1))
+        self.layer, method, edges = layer, layer.method, layer.edges
+        self.given, self.lack = np.zeros(len(layer.points), Given), np.zeros(len(layer.points), Lack)
+        self.edges, self.per_V, beyond, image = tuple(edges), 1/method.edges.V, method.beyond, layer.ghost.ravel()
         #: sum_j S_ij, images included, exact: what rounding left here, every step would push the same way
         self.open = np.array([[2*fsum(part) for part in np.split(q, edges.first[1:])] for q in (edges.sx, edges.sy)]).T.copy()
+        self.gas = (float(method.eos.cv), viscosity(method.law, 1.0, 1.0), conductivity(method.law, 1.0, 1.0))
+        self.twice_T = 2*np.array(method.T_plates)[layer.plate]
+        self.beyond = (beyond.i, layer.n + image, *(beyond.S.T/2).copy(), method.g*layer.rise[image])
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt, written to `out`    [Eqs 34-36, 51]"""
-        layer, method = self.layer, self.layer.method
-        team, n, V = layer.team, layer.n, method.edges.V
-        eta, k = viscosity(method.law, 1.0, 1.0), conductivity(method.law, 1.0, 1.0)
-        team(_given, n, state, method.eos, self.given)
-        _given_images(layer.parent, layer.plate, layer.rise, np.array(method.T_plates), method.g, self.given, n)
-        team(sweep, n, LinearSums(), self.given, layer.edges, self.sums)
-        team(_lacks, n, self.given, self.sums, V, eta, self.lack)
-        _lack_images(layer.parent, self.lack, n)
-        team(sweep, n, LackSums(), self.lack, layer.edges, self.lost)
-        team(_products, n, self.given, self.sums, self.open, self.lack, self.lost, V, eta, k, method.g, out)
+        layer, given, lack = self.layer, self.given, self.lack
+        team, n, g = layer.team, layer.n, layer.method.g
+        team(_give, len(given), state, layer.parent, self.twice_T, self.gas, given)
+        team(_exchange, n, given, self.edges, self.open, self.per_V, self.gas, g, lack, out)
+        if len(given) > n:
+            _plates(self.beyond, layer.parent, given, self.per_V, lack, out)
+        team(_heat, n, lack, self.edges, self.open, self.per_V, out)
+
+
+@lanes
+def _give(first, last, state, parent, twice_T, gas, given):
+    """Fields of points and, after them, of images: rho, T, eps, the momentum along of their parents, -v and 2 T_w - T."""
+    n, kappa = u64(state.shape[1]), gas[2]
+    for i in range(u64(first), min(u64(last), n)):
+        _read(state, i, gas, given[i])
+    for i in range(max(u64(first), n), u64(last)):
+        b, m = given[i], i - n
+        _read(state, u64(parent[m]), gas, b)
+        b.my, b.u, b.v, b.w = -b.my, -b.u, -b.v, b.w + kappa*(twice_T[m] - 2*b.T)
 
 
 @jit
-def _given(first, last, state, eos, given):
-    for i in range(first, last):
-        a, rho, mx, my = given[i], state[0, i], state[1, i], state[2, i]
-        u, v = mx/rho, my/rho
-        a.rho, a.mx, a.my, a.eps, a.hydro = rho, mx, my, state[3, i], 0.0
-        a.q = 0.5*(u*u + v*v)
-        a.T = temperature(eos, rho, a.eps/rho - a.q)
-        a.ux, a.uy, a.vx, a.vy, a.Td = u, v, u, v, a.T
+def _read(state, i, gas, a):
+    rho, mx, my, eps = state[0, i], state[1, i], state[2, i], state[3, i]
+    cv, eta, kappa = gas
+    per_rho = 1/rho
+    u, v = per_rho*mx, per_rho*my
+    q = 0.5*(u*u + v*v)
+    T = temperature(IdealGas(cv), rho, per_rho*eps - q)
+    a.rho, a.mx, a.my, a.eps = rho, mx, my, eps
+    a.T, a.u, a.v, a.w = T, u, v, eta*q + kappa*T
+
+
+@lanes
+def _exchange(first, last, given, edges, open, per_V, gas, g, lack, out):
+    """Rates without the mended heating, and F."""
+    pairs, sums = Stored(*edges), np.empty((ROWS, 20))
+    for begin in range(u64(first), u64(last), u64(ROWS)):
+        end = min(begin + u64(ROWS), u64(last))
+        sweep(begin, end, LinearSums(), given, pairs, Block(begin, sums))
+        for i in range(begin, end):
+            _products(i, given[i], sums[i - begin], open, per_V[i], gas[1], g, lack[i], out)
 
 
 @jit
-def _given_images(parent, plate, rise, T_plates, g, given, n):
-    """Images without friction: rho, T, eps, the velocity along; with it: -v, 2 T_w - T."""
-    for m in range(len(parent)):
-        a, b = given[parent[m]], given[n + m]
-        b.rho, b.mx, b.my, b.T, b.eps, b.hydro = a.rho, a.mx, -a.my, a.T, a.eps, a.rho*g*rise[m]
-        b.ux, b.uy, b.Td, b.q, b.vx = -a.ux, -a.uy, 2*T_plates[plate[m]] - a.Td, a.q, a.vx
+def _products(i, a, s, open, f, eta, g, lack, out):
+    """Sums of differences, and what the point's own fields bring where its edges do not close; F from slopes by differences."""
+    u, v, rho, T, sx, sy = a.u, a.v, a.rho, a.T, open[i, 0], open[i, 1]
+    lack.Fx, lack.Fy = eta*f*(v*s[13] - u*s[14]), eta*f*(u*s[6] - v*s[5])
+    flow = s[5] + s[14] + sx*u + sy*v                               # S.v
+    Px, Py = rho*(s[4] + T*sx), rho*(s[12] + T*sy)                  # S P_ij of the point's own density
+    mass = rho*flow + u*s[0] + v*s[8]
+    px = a.mx*flow + u*s[1] + v*s[9] + Px + T*s[0]
+    py = a.my*flow + u*s[2] + v*s[10] + Py + T*s[8]
+    through = a.eps*flow + u*s[3] + v*s[11] + u*Px + v*Py + T*(s[1] + s[10])
+    out[0, i] = -f*mass
+    out[1, i], out[2, i] = f*(eta*s[17] - px), f*(eta*s[18] - py) - g*rho
+    out[3, i] = f*(s[19] - through) - g*a.my
 
 
 @jit
-def _lacks(first, last, given, sums, V, eta, lack):
-    """F = eta (v u_y - u v_y, u v_x - v u_x) from slopes by differences."""
-    for i in range(first, last):
-        a, s, f = given[i], sums[i], eta/V[i]
-        lack[i].Fx, lack[i].Fy = f*(a.uy*s[14] - a.ux*s[15]), f*(a.ux*s[7] - a.uy*s[6])
+def _plates(beyond, parent, given, per_V, lack, out):
+    """What convection and pressure see of images, which give +u along the plate and go on hydrostatically; F of images.
 
-
-@jit
-def _lack_images(parent, lack, n):
+    F along a plate is even, across it odd.
+    """
+    rows, image, sx, sy, weight = beyond
+    for k in range(len(rows)):
+        i = rows[k]
+        a, b, f = given[i], given[image[k]], per_V[i]
+        flow, hydro = -2*sx[k]*b.u, weight[k]*b.rho
+        hx, hy = sx[k]*hydro, sy[k]*hydro
+        out[0, i] -= f*a.rho*flow
+        out[1, i] -= f*(a.mx*flow + hx)
+        out[2, i] -= f*(a.my*flow + hy)
+        out[3, i] -= f*(a.eps*flow + a.u*hx + a.v*hy)
+    n = len(given) - len(parent)
     for m in range(len(parent)):
         lack[n + m].Fx, lack[n + m].Fy = lack[parent[m]].Fx, -lack[parent[m]].Fy
 
 
-@jit
-def _products(first, last, given, sums, open, lack, lost, V, eta, kappa, g, out):
-    """Sums of differences, and what the point's own fields bring where its edges do not close."""
-    for i in range(first, last):
-        a, s, sx, sy, f = given[i], sums[i], open[i, 0], open[i, 1], 1/V[i]
-        u, v, rho, T = a.vx, a.vy, a.rho, a.T
-        out_of, flow = sx*u + sy*v, s[20] + s[15]               # S.v: along y both images have the same velocity
-        mass = rho*flow + u*s[0] + v*s[8] + rho*out_of
-        px = rho*flow*u + u*s[1] + v*s[9] + rho*s[3] + T*s[0] + s[5] + rho*(u*out_of + T*sx)
-        py = rho*flow*v + u*s[2] + v*s[10] + rho*s[11] + T*s[8] + s[13] + rho*(v*out_of + T*sy)
-        work = u*(rho*s[3] + s[5]) + v*(rho*s[11] + s[13]) + T*(s[1] + s[10]) + rho*T*out_of
-        through = a.eps*(flow + out_of) + u*s[4] + v*s[12] + work
-        heat = eta*s[19] + kappa*s[18] + sx*lack[i].Fx + sy*lack[i].Fy + lost[i, 0]
-        out[0, i] = -f*mass
-        out[1, i], out[2, i] = f*(eta*s[16] - px), f*(eta*s[17] - py) - g*rho
-        out[3, i] = f*(heat - through) - g*rho*v
+@lanes
+def _heat(first, last, lack, edges, open, per_V, out):
+    """The mended heating."""
+    pairs, lost = Stored(*edges), np.empty((ROWS, 1))
+    for begin in range(u64(first), u64(last), u64(ROWS)):
+        end = min(begin + u64(ROWS), u64(last))
+        sweep(begin, end, LackSums(), lack, pairs, Block(begin, lost))
+        for i in range(begin, end):
+            out[3, i] += per_V[i]*(lost[i - begin, 0] + open[i, 0]*lack[i].Fx + open[i, 1]*lack[i].Fy)
