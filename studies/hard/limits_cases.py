@@ -8,9 +8,8 @@ import numpy as np
 
 from continuum.fluid import ConstEta
 from studies.hard.limits_boussinesq import BoussinesqLimit
-from studies.hard.limits_claims import WEAK
 from studies.hard.limits_dpd import BOXES, INTEGRATORS, DpdLimit
-from studies.hard.limits_euler import Strip
+from studies.hard.limits_euler import WEAK, Strip
 from studies.hard.limits_linear import eigenvalues, largest_step, visible
 from studies.hard.limits_search import GROWN, bisected
 from studies.hard.limits_still import METHODS, OnGrid, Trial

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from studies.convection.claims.read import Value, select
+from studies.hard.limits_euler import WEAK
 from studies.kit.claim import CannotTell, Claim
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
@@ -30,6 +31,8 @@ def farthest(methods: Sequence[str], scenes: Sequence[str] = (), column: str = "
     """The largest |measured/formula - 1|, what a formula leaves for disorder given back."""
     def value(tables: Tables) -> Measured:
         rows = chosen(tables, methods, scenes).dropna(subset=[column])
+        if rows.empty:
+            raise CannotTell(f"table limits has no {column} of {', '.join(methods)}: run their cases again")
         formula = rows[column]*(rows["margin"] if column == "predicted" else 1)
         off, err = (np.array(q) for q in ((rows["measured"]/formula - 1).abs(), rows["measured_err"]/formula))
         return Measured(float(off.max()), float(err[off.argmax()]))
@@ -70,7 +73,6 @@ def weak_strips(tables: Tables) -> Measured:
     return Measured(float((some["step"]/some["formula"]/(1 - 4/some["rows"]) - 1).abs().max()), 0.0)
 
 
-WEAK = "weak heat"
 DPD = ("DPD 2D", "DPD 3D")
 POINTS = ("fixed lattice", "fixed jittered")
 LINEAR = ("spam Lucy", "spam Wendland", "spam direct", *POINTS, "fixed nested", "fluctuating", "drift literal",

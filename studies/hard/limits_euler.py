@@ -20,7 +20,7 @@ from particles.weights import Lucy
 from studies.hard.limits_linear import seen
 from studies.kit.case import Case, Outcome, Report
 
-ROWS = (10, 20, 40)
+ROWS, WEAK = (10, 20, 40), "weak heat"
 WIDTH = 20          # columns: waves along the plates of 20, 10, ... 2 spacings
 FEW = 6             # columns that a point's edges do not go around
 
