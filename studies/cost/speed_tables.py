@@ -33,7 +33,8 @@ CHEAPEST = Table("cheapest", key=["scene", "quantity", "level"], columns=[
 GROWTH = Table("growth", key=["method", "points", "threads", "clock"], columns=[
     "method", "points", "threads", "clock", "step_s", "step_s_err", "early_s", "late_s", "bytes", "peak_bytes"])
 #: d ln(seconds of a step)/d ln(particles); of two threads: how much faster than one
-GROWTH_LAWS = Table("growth_laws", key=["method", "what", "most"], columns=["method", "what", "least", "most", "value", "value_err"])
+GROWTH_LAWS = Table("growth_laws", key=["method", "what", "most"], columns=[
+    "method", "what", "least", "most", "value", "value_err"])
 
 #: bytes of arrays while the finest run goes on, and of each point
 MEMORY = Table("memory", key=["scene", "method"], columns=["scene", "method", "resolution", "points", "bytes", "bytes_a_point"])
