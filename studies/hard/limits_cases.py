@@ -51,8 +51,26 @@ class Limit(Case):
         unseen = seen - exact if np.isfinite(seen) else UNKNOWN*found.value
         return Outcome({"limits": [{"method": self.method, "scene": self.scene, "eta": self.eta, "k": self.k,
                                     "integrator": trial.integrator, "predicted": trial.predicted, "margin": trial.margin,
-                                    "shorter": trial.shorter, "exact": exact, "measured": found.value,
-                                    "measured_err": found.half + unseen}]})
+                                    "exact": exact, "measured": found.value, "measured_err": found.half + unseen}]})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shorter(Case):
+    """What sound alone and diffusion alone allow, all methods whose formulas tell these apart."""
+
+    @property
+    def cost(self) -> float:
+        return 10.0
+
+    @property
+    def label(self) -> str:
+        return "formulas of sound and diffusion alone"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        trials = {(method, scene): METHODS[method](ConstEta(eta, k)) for method in METHODS if "Euler" not in method
+                  for scene, (eta, k) in SCENES.items()}
+        return Outcome({"shorter": [{"method": method, "scene": scene, "shorter": trial.shorter}
+                                    for (method, scene), trial in trials.items() if np.isfinite(trial.shorter)]})
 
 
 def by_eigenvalues(trial: Trial | OnGrid, steps: int) -> tuple[float, float]:
@@ -74,6 +92,7 @@ def cases(size: str) -> Iterator[Case]:
             if scene in ("balanced", "Prandtl 100") or (method not in SLOW and (eta or method not in LONG)):
                 yield Limit(method=method, scene=scene, eta=eta, k=k)
     if size != "quick":
+        yield Shorter()
         yield from (Strip(scene=scene, eta=eta, k=k) for scene, (eta, k) in {**EULER_SCENES, WEAK: (0.0, 0.05)}.items() if k)
         yield from (DpdLimit(integrator=name, d=d) for d, name in product(BOXES, INTEGRATORS))
     yield from (BoussinesqLimit(ra=ra) for ra in ROLLS[:1 if size == "quick" else None])

@@ -30,7 +30,10 @@ def chosen(tables: Tables, methods: Sequence[str], scenes: Sequence[str] = ()) -
 def farthest(methods: Sequence[str], scenes: Sequence[str] = (), column: str = "predicted") -> Value:
     """The largest |measured/formula - 1|, what a formula leaves for disorder given back."""
     def value(tables: Tables) -> Measured:
-        rows = chosen(tables, methods, scenes).dropna(subset=[column])
+        rows = chosen(tables, methods, scenes)
+        if column == "shorter":
+            rows = rows.merge(select(tables, "shorter")[["method", "scene", "shorter"]], on=["method", "scene"])
+        rows = rows.dropna(subset=[column])
         if rows.empty:
             raise CannotTell(f"table limits has no {column} of {', '.join(methods)}: run their cases again")
         formula = rows[column]*(rows["margin"] if column == "predicted" else 1)

@@ -97,5 +97,5 @@ class DpdLimit(Case):
         found = bisected(lambda dt: trial_grows(method, start, dt), predicted)
         return Outcome({"limits": [{"method": f"DPD {self.d}D", "scene": self.integrator, "eta": method.gamma, "k": method.kT,
                                     "integrator": method.integrator.__name__, "predicted": predicted, "margin": 1.0,
-                                    "shorter": np.nan, "exact": exact.value, "measured": found.value,
+                                    "exact": exact.value, "measured": found.value,
                                     "measured_err": found.half + UNSEEN*found.value}]})
