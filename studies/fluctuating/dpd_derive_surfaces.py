@@ -121,6 +121,8 @@ def causes(arrays: pd.DataFrame, slabs: pd.DataFrame, law: pd.DataFrame, found: 
     usual = frozen.iloc[0]
     yield cause("fluid in the cylinder, density", inside_density(usual["far"], usual["frozen"]), usual["inside"])
     yield cause("fluid in the cylinder, share of the stream", darcy_share(usual), usual["carried"], usual["carried_err"])
+    for _, row in both[both["surface"] == "dense"].iterrows():
+        yield cause("fluid in the cylinder: drag of the dense one, in which there is none", 1.0, row["ratio"], row["ratio_err"])
     for _, wall in slabs.iterrows():
         eta, eta_err = at_density(law, wall["dt"], wall["far"])
         name = f"flat wall, {wall['surface']}"

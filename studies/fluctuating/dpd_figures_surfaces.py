@@ -58,12 +58,15 @@ def over(panel, surfaces: pd.DataFrame) -> None:
     slip = np.linspace(-0.15, 0.4, 56)
     panel.plot(slip, [drag(FRACTION, b)/drag(FRACTION) for b in slip], color="0.3", linestyle="--", marker="",
                label="Stokes flow with slip")
+    inner = slip[slip < 0.25]
+    panel.plot(inner, [drag(FRACTION*(1 - b)**2)/drag(FRACTION) for b in inner], color="0.3", linestyle=":", marker="",
+               label="without, radius less by as much")
     for number, (name, label) in enumerate(NAMES.items()):
         some = surfaces[surfaces["surface"] == name]
         for k, (_, row) in enumerate(some.sort_values(["radius", "asked"]).iterrows()):
             seen = {**look(number), "linestyle": "none", "markerfacecolor": "white" if k else look(number)["color"]}
             panel.errorbar(row["wall_slip"]/row["radius"], row["ratio"], xerr=row["wall_slip_err"]/row["radius"],
                            yerr=row["ratio_err"], label=f"{label}, $R$ = {row['radius']:g}, Re = {row['reynolds']:.1f}", **seen)
-    panel.axhline(1, color="0.6", linestyle=":", marker="")
+    panel.axhline(1, color="0.6", linestyle="-", linewidth=0.8, marker="")
     panel.set(xlabel="slip length of the flat wall over $R$", ylabel="drag over that of a smooth cylinder",
               title="solid fraction 0.2, inertia taken out")
