@@ -12,6 +12,7 @@ from particles.methods.spam import Spam
 from particles.team import Team
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.convection.claims.lattices import LUCY, shear_moduli
+from studies.convection.spam import start
 from studies.hard import hard_derive, hard_tables, khp95
 from studies.hard.fates import median_ratio, partners
 from studies.hard.freezing import Freezing, lindemann, neighbours
@@ -149,6 +150,17 @@ def test_lindemann_ratio_of_particles_that_shake():
     places = at.x + 0.02*rng.standard_normal((200, *at.x.shape))
     assert lindemann(places, at.box[0]) == pytest.approx(np.sqrt(2)*0.02/1.0746, rel=0.1)      # ends have farther neighbours
     assert lindemann(np.repeat(at.x[None], 3, axis=0), at.box[0]) < 1e-15
+
+
+def test_layers_tell_what_stays_from_what_goes():
+    """The upper half goes on by a spacing along x, over the periodic side; the lower one stays."""
+    case, at = Freezing(eos=IdealGas(), weight=Lucy), start(Freezing(eos=IdealGas(), weight=Lucy).scene, 1)
+    way = np.where(at[1] > 0, 1.0, 0.0)
+    places = np.stack([at[:2].T + step*np.stack([way, 0*way], axis=1) for step in (0.0, 0.5, 1.0)])
+    found = case._layers(places, np.array([*at[:2], way, 0*way, at[4]]), K=0.5)
+    assert [row["stuck"] for row in found] == [1, 1, 0, 0] and [row["kp"] for row in found] == [0, 0, 1, 1]
+    assert found[0]["T"] > 1 > found[-1]["T"]
+    assert found[0]["lindemann"] < 1e-12 and found[1]["lindemann"] > 0.05       # at mid-height neighbours part
 
 
 def test_criteria_are_the_printed_inequalities():

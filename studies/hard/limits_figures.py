@@ -1,4 +1,5 @@
 """Limits of the time step: measured over predicted."""
+import pandas as pd
 from matplotlib.figure import Figure
 
 from studies.hard.limits_cases import EULER_SCENES, ROLLS, SCENES
@@ -7,6 +8,7 @@ from studies.kit.table import Tables
 
 CLEAR = 0.2             # between scenes of one method, in rows
 ROLL = "roll, Ra 1e4, 1e5"
+INTEGRATORS = "at rest, five integrators"      # of dissipative particles
 
 
 def figures(tables: Tables) -> dict[str, Figure]:
@@ -15,25 +17,29 @@ def figures(tables: Tables) -> dict[str, Figure]:
     if rows is None or rows.empty:
         return {}
     rows = rows[rows["predicted"] > 0]
-    page, (axes, exact) = figure(1, 2, width=4.6, height=4.6, sharey=True)
+    alone = tables.get("shorter", pd.DataFrame(columns=["method", "scene", "shorter"]))[["method", "scene", "shorter"]]
+    rows = rows.merge(alone, on=["method", "scene"], how="left")
+    rows["scene"] = rows["scene"].where(~rows["method"].str.startswith("DPD"), INTEGRATORS)
+    page, (axes, single, exact) = figure(1, 3, width=3.9, height=5.0, sharey=True)
     methods = list(dict.fromkeys(rows["method"]))
     rows = rows.assign(scene=rows["scene"].replace({f"Ra {ra:g}": ROLL for ra in ROLLS}))
     place = rows.groupby("method").cumcount() - (rows.groupby("method")["scene"].transform("size") - 1)/2
     rows = rows.assign(at=[methods.index(method) for method in rows["method"]] + CLEAR*place)
-    for number, scene in enumerate([*{**SCENES, **EULER_SCENES}, ROLL]):
+    for number, scene in enumerate([*{**SCENES, **EULER_SCENES}, ROLL, INTEGRATORS]):
         some = rows[rows["scene"] == scene]
         if some.empty:
             continue
-        for axis, formula in ((axes, some["predicted"]), (exact, some["exact"])):
+        for axis, formula in ((axes, some["predicted"]), (single, some["shorter"]), (exact, some["exact"])):
             axis.errorbar(some["measured"]/formula, some["at"], xerr=some["measured_err"]/formula, label=scene,
                           **{**look(number), "linestyle": "none"})
     axes.set(yticks=range(len(methods)), yticklabels=methods, xscale="log", xlabel="measured / the method's own formula")
     axes.set_xticks([0.7, 1, 1.4, 2, 3, 5], labels=["0.7", "1", "1.4", "2", "3", "5"])
     axes.set_xticks([], minor=True)
-    exact.set(xlabel="measured / by eigenvalues of the same points", xlim=(0.94, 1.12))
-    for axis in (axes, exact):
+    single.set(xlabel="measured / for sound or diffusion alone", xlim=(0.85, 1.5))
+    exact.set(xlabel="measured / by eigenvalues", xlim=(0.94, 1.12))
+    for axis in (axes, single, exact):
         axis.axvline(1, color="black", linewidth=0.8)
-    axes.axvspan(0.9, 1.1, color="0.9", zorder=0)
+        axis.axvspan(0.9, 1.1, color="0.9", zorder=0)
     axes.invert_yaxis()
-    below(axes, ncols=2)
+    below(single, ncols=4)
     return {"limits": page}
