@@ -5,6 +5,7 @@
 Any weight f will do: those of `weights` (compact), the paper's exponential (Eqs 30, 31) and the Gaussian, which have tails and
 singularities of their own and so serve operators on few points, not the fast loops.
 """
+import warnings
 from collections.abc import Callable
 from math import gamma, pi
 from typing import Any, NamedTuple
@@ -17,6 +18,7 @@ from continuum.jit import generic, jit
 from particles.weights import WEIGHTS, value_and_slope
 
 NEGLIGIBLE = 1e-16      # share of the first moment beyond the reach of a weight with a tail
+SEEN = 1e-2             # error of linear gradients from which on a violated Eq. 45 is told
 
 
 def sphere(d: int) -> float:
@@ -109,6 +111,32 @@ def moment(weight: Any, n: int, d: int) -> float:
     integral, _ = quad(lambda q: (q*r0)**(n + d - 1)*float(W(weight, q*r0)), 0, reach(weight)/r0, limit=400, epsabs=1e-13,
                        epsrel=1e-12, points=[0.5, 1.0] if reach(weight) > r0 else [0.5])
     return sphere(d)*integral*r0**(2 - n)
+
+
+def rms_width(weight: Any, d: int) -> float:
+    """sqrt(int r^2 f dV), from M_3: the r0 of Eq. 45 for any weight (sqrt 2 times that of the exponential of Eq. 30)."""
+    return width(weight)*float(np.sqrt(moment(weight, 3, d)/(d + 2)))
+
+
+class OrderingWarning(UserWarning):
+    """Spacing < r0 < wavelength is violated    [RR98 Eq. 45]"""
+
+
+def check_ordering(weight: Any, d: int, a: float, error: float, wavelength: float = np.inf) -> None:
+    """Warn where Eq. 45 is violated, with the side and the error to expect.
+
+    a : spacing (dV)^(1/d). error : of the discrete first moment on the points. wavelength : the shortest that matters; its
+    gradients lose 1 - f^(k), about 1 - exp(-(k r0)^2/2d).
+    """
+    r0 = rms_width(weight, d)
+    told = f"r0 = {r0:.3g} (rms width of {type(weight).__name__})"
+    if r0 < a and error > SEEN:
+        warnings.warn(f"{told} is below the spacing {a:.3g}, the left side of Eq. 45: gradients of linear fields are off by "
+                      f"{100*error:.3g} % (rms) on these points; take a wider weight, or exact edges", OrderingWarning, stacklevel=4)
+    if r0 > wavelength:
+        lost = 1 - np.exp(-(2*pi/wavelength*r0)**2/(2*d))
+        warnings.warn(f"{told} is above the wavelength {wavelength:.3g}, the right side of Eq. 45: its gradients lose about "
+                      f"{100*lost:.3g} %; take a narrower weight", OrderingWarning, stacklevel=4)
 
 
 def check(weight: Any, d: int) -> None:

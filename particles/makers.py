@@ -8,7 +8,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import spsolve
 
 from particles.edges import Edges
-from particles.interpolants import W, check, reach, sphere
+from particles.interpolants import W, check, check_ordering, reach, sphere
 from particles.points import Points, pairs
 from particles.triangulation import delaunay
 
@@ -20,8 +20,19 @@ def from_weights(points: Points, weight: Any, w: np.ndarray, near: tuple[np.ndar
     return Edges(i=i, j=j, S=both[:, None]*apart, k=both, apart=apart, V=points.V)
 
 
+def judged(edges: Edges, points: Points, weight: Any) -> Edges:
+    """The edges; a warning where the weight is too narrow for the points    [Eq. 45]"""
+    off = edges.linear - np.eye(points.d)
+    check_ordering(weight, points.d, points.a, float(np.sqrt((off**2).sum(axis=(1, 2)).mean()/points.d)))
+    return edges
+
+
 def plain(points: Points, weight: Any) -> Edges:
-    """Plain quadrature, W(r_ij) dV in place of W(r) dr."""
+    """Plain quadrature, W(r_ij) dV in place of W(r) dr; warns if Eq. 45 does not hold."""
+    return judged(_plain(points, weight), points, weight)
+
+
+def _plain(points: Points, weight: Any) -> Edges:
     check(weight, points.d)
     near = pairs(points, reach(weight))
     return from_weights(points, weight, W(weight, near[3]), near)
@@ -36,18 +47,24 @@ def printed(points: Points, weight: Any) -> Edges:
     check(weight, points.d)
     d, near = points.d, pairs(points, reach(weight))
     r = near[3]
-    return from_weights(points, weight, sphere(d)*r**(d - 1)*points.a**(1 - d)*W(weight, r), near)
+    return judged(from_weights(points, weight, sphere(d)*r**(d - 1)*points.a**(1 - d)*W(weight, r), near), points, weight)
 
 
 def renormalised(points: Points, weight: Any) -> Edges:
     """Plain quadrature times the number that makes the mean discrete first moment sum_j W r_ij dV equal to d.
+
+    Warns where Eq. 45 does not hold and points are irregular; on a lattice linear fields are exact at any range.
 
     Raises
     ------
     ValueError
         No two points are within the weight's range.
     """
-    edges = plain(points, weight)
+    return judged(_renormalised(points, weight), points, weight)
+
+
+def _renormalised(points: Points, weight: Any) -> Edges:
+    edges = _plain(points, weight)
     if not edges.k.any():
         raise ValueError(f"no two of the {points.n} points, on average {points.a:.4g} apart, are within the weight's range "
                          f"{reach(weight):.4g} (Eq. 45 asks for r0 above the spacing): take a larger h or more points")
@@ -66,7 +83,7 @@ def closed(points: Points, weight: Any) -> Edges:
     ValueError
         The points fall into parts without an edge between them.
     """
-    edges = renormalised(points, weight)
+    edges = judged(_renormalised(points, weight), points, weight)
     l = np.stack([_potential(edges, -c) for c in edges.closure.T], axis=1)
     S = edges.S + edges.k[:, None]*(l[edges.j] - l[edges.i])
     return Edges(i=edges.i, j=edges.j, S=S, k=edges.k, apart=edges.apart, V=edges.V)
@@ -102,7 +119,7 @@ def exact(points: Points, weight: Any) -> Edges:
     ArithmeticError
         The constraints cannot be met: the points are too irregular for the reach of the weight.
     """
-    edges = renormalised(points, weight)
+    edges = _renormalised(points, weight)       # whatever Eq. 45 says: these become exact
     check_connected(edges)
     B = _constraints(edges)
     M = sparse.csc_array(B@sparse.diags_array(edges.k)@B.T)

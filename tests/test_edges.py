@@ -1,9 +1,11 @@
 """Edges of every maker: antisymmetry by construction, closure, linear exactness, skewness where they are claimed."""
+import warnings
+
 import numpy as np
 import pytest
 
 from particles.edges import between_plates
-from particles.interpolants import Exponential, Gaussian, W, f, moment, reach
+from particles.interpolants import Exponential, Gaussian, OrderingWarning, W, check_ordering, f, moment, reach
 from particles.makers import MAKERS, plain, printed, renormalised
 from particles.points import jittered, lattice, of_positions, off_lattice, pairs, random, relaxed
 from particles.triangulation import between, delaunay
@@ -102,6 +104,27 @@ def test_third_moment_of_the_exponential_weight(d, third):
 def test_a_weight_of_another_dimension_is_refused():
     with pytest.raises(ValueError, match=r"M_1 = .* which must be 2"):
         plain(lattice((10, 10)), Lucy.of(h=2.0, d=3))
+
+
+@pytest.mark.parametrize(("maker", "size", "off"), [("plain", 0, "48.8"), ("printed", 0, "222"), ("renormalised", 0.3, "57")])
+def test_a_weight_narrower_than_the_spacing_is_told_with_its_error(maker, size, off):
+    """Lucy's weight of range 1.2 a has the rms width 0.507 a, and 2 W(a) = 0.512; Eq. 29 has 2 pi times as much."""
+    at = jittered((12, 12), size, 1) if size else lattice((12, 12))
+    with pytest.warns(OrderingWarning, match=rf"r0 = 0\.507 .* below the spacing 1, the left side of Eq\. 45: .* by {off}"):
+        MAKERS[maker](at, Lucy.of(h=1.2))
+
+
+def test_no_warning_where_linear_fields_are_exact_or_the_order_holds():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for maker, at, h in (("renormalised", lattice((12, 12)), 1.2), ("plain", jittered((12, 12), 0.3, 1), 3.0),
+                             ("exact", jittered((12, 12), 0.2, 1), 2.3)):
+            MAKERS[maker](at, Lucy.of(h=h))
+
+
+def test_a_weight_wider_than_a_wave_is_told_with_its_error():
+    with pytest.warns(OrderingWarning, match=r"r0 = 0\.845 .* above the wavelength 0\.8, the right side .* lose about 100 %"):
+        check_ordering(Lucy.of(h=2.0), 2, 0.5, 0.0, wavelength=0.8)
 
 
 def test_overlapping_points_and_points_outside_are_refused():

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import conductivity, energy, pressure, stress_tensor, temperature, valid, viscosity
+from continuum.fluid import bulk_viscosity, conductivity, energy, pressure, stress_tensor, temperature, valid, viscosity
 from particles.edges import Edges
 
 
@@ -89,9 +89,11 @@ class Pairwise:
     B = eta (1/2 + 1/d) - zeta/2, A = (d + 2)/2 [eta (1 - 2/d) + zeta], letters as printed but for weights and their moments.
     mended : with the stress tau_ab = B (d_b v_a - delta_ab div v) of the points, and its work F_a = tau_ab v_b. In the
     continuum tau has no divergence where viscosity is constant, and the force is left as it is then; where it varies forces along
-    edges lack it. F has one always: without it even a rigid rotation heats.
+    edges lack it. F has one always: without it even a rigid rotation heats. everywhere : tau is in the force always: off a
+    lattice slopes do not commute, and where momentum lacks div tau a uniform stream changes the energy.
     """
     mended: bool = True
+    everywhere: bool = False
 
     def fluxes(self, dih: "Dih", flow: Flow) -> Fluxes:
         """Through all edges.
@@ -108,7 +110,7 @@ class Pairwise:
             slope = np.stack([G@flow.v for G in edges.G], axis=1)/edges.V[:, None, None]      # [n, a, b] = d_a v_b
             F = lacking(coefficients, flow.v, slope)
             found = found._replace(energy=found.energy - (edges.S*(F[edges.i] + F[edges.j])).sum(axis=1)/2)
-            if np.ptp(coefficients.eta) > 0 or np.ptp(coefficients.zeta) > 0:
+            if self.everywhere or np.ptp(coefficients.eta) > 0 or np.ptp(coefficients.zeta) > 0:
                 tau = transposed(coefficients, slope)
                 found = found._replace(momentum=found.momentum - np.einsum("ea,eab->eb", edges.S, tau[edges.i] + tau[edges.j])/2)
         return found
@@ -160,12 +162,13 @@ def means(q: Coefficients, i: np.ndarray, j: np.ndarray) -> Coefficients:
 class Dih:
     """A fluid on fixed points.
 
-    edges : of `particles.edges`. eos, law : of `continuum.fluid`. zeta : bulk viscosity. transport : Nested or Pairwise.
+    edges : of `particles.edges`. eos, law : of `continuum.fluid`. zeta : bulk viscosity, a number or a law. transport : Nested or
+    Pairwise.
     """
     edges: Edges
     eos: Any
     law: Any
-    zeta: float = 0.0
+    zeta: Any = 0.0
     transport: Any = Pairwise()
 
     @property
@@ -200,7 +203,7 @@ class Dih:
     def coefficients(self, flow: Flow) -> Coefficients:
         """Of all points."""
         one = np.ones_like(flow.rho)
-        return Coefficients(viscosity(self.law, flow.rho, flow.T)*one, self.zeta*one,
+        return Coefficients(viscosity(self.law, flow.rho, flow.T)*one, bulk_viscosity(self.zeta, flow.rho, flow.T)*one,
                             conductivity(self.law, flow.rho, flow.T)*one)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:

@@ -53,7 +53,7 @@ class Motion:
     weight: Any
     eos: Any
     law: Any
-    zeta: float = 0.0
+    zeta: Any = 0.0
     transport: Any = ALONG
     scale: float = 1.0
 

@@ -52,7 +52,7 @@ class Thermal:
     law: Any
     k: float
     seed: int
-    zeta: float = 0.0
+    zeta: Any = 0.0
     share: float = 0.0
 
     def __post_init__(self):
