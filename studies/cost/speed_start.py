@@ -26,6 +26,7 @@ class Start(Case):
     method: str
     resolution: int
     alone: ClassVar[bool] = True
+    code: ClassVar = ("studies.cost.speed_cases_plates",)      # what its processes load
 
     @property
     def cost(self) -> float:
