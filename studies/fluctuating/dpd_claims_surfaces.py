@@ -3,11 +3,11 @@
 The drags of the first runs were known when these were written (0.74 and 0.86 turned back, radius 2; 0.75 at radius 3); all
 that is judged here is of other runs, longer ones, with another freezing, and of flat walls that had not been looked at.
 """
-from math import hypot
+from math import hypot, isfinite
 
 from studies.convection.claims.read import Value, select
 from studies.fluctuating.dpd_surfaces import DENSER, FAST
-from studies.kit.claim import Claim
+from studies.kit.claim import CannotTell, Claim
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
 
@@ -24,6 +24,8 @@ def array(column: str, surface: str, radius: float = 2.0, asked: float = FAST, t
     """A number of a cylinder and its error."""
     def value(tables: Tables) -> Measured:
         row = row_of(tables, table, surface, radius, asked)
+        if not isfinite(row[column]):
+            raise CannotTell(f"table {table}: no {column} without a flat wall of the same surface in the table slabs")
         return Measured(float(row[column]), float(row[f"{column}_err"]))
     return value
 
