@@ -15,7 +15,7 @@ export PYTHONPATH := $(CURDIR)
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help env studies hours report films test lint types notebooks executed bench worker clean $(studies:%=study-%) $(studies:%=figures-%)
+.PHONY: help env studies hours report films test lint types notebooks executed bench worker clean $(studies:%=study-%) $(studies:%=figures-%) study- figures-
 
 # a line for each name that % stands for
 help:  ## this list
@@ -36,6 +36,8 @@ $(studies:%=figures-%): figures-%: .venv/ready  ## its figures again, from its t
 # any other name, before something is set up for it
 study-% figures-%:
 	@echo 'no study $*: there are $(studies)' >&2; exit 2
+study- figures-:
+	@echo 'no study named: there are $(studies)' >&2; exit 2
 
 env: .venv/ready  ## set up .venv and nothing else
 

@@ -26,10 +26,10 @@ def make(tmp_path):
     return run
 
 
-@pytest.mark.parametrize("target", ["study-three", "figures-three"])
-def test_an_unknown_study_is_told_those_that_exist_before_anything_is_set_up(make, target, tmp_path):
+@pytest.mark.parametrize(("target", "name"), [("study-three", "three"), ("figures-three", "three"), ("study-", "named")])
+def test_an_unknown_study_is_told_those_that_exist_before_anything_is_set_up(make, target, name, tmp_path):
     code, text = make(target)
-    assert code != 0 and "no study three: there are one two" in text
+    assert code != 0 and f"no study {name}: there are one two" in text
     assert "Setting up" not in text and not (tmp_path / ".venv").exists()
 
 

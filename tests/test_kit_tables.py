@@ -39,6 +39,16 @@ def test_empty_text_reads_back_as_text_and_numbers_as_numbers(tmp_path):
     assert all(word in head for word in ("# commit", "numpy", "numba", "py-pde", "cores", "UTC"))
 
 
+@pytest.mark.parametrize(("content", "words"), [
+    (b"", "is no table"), (b"a,b\n1,2\n3,4,5,6\n", "is no table"), (b"\xff\xfe\x00", "is no table"),
+    (b"# text columns: note\nx,note,y\n1,one,2\nabc,one,2\n", "has 'abc' in x, a column of numbers")])
+def test_a_file_that_is_no_table_is_told_with_the_way_out(tmp_path, content, words):
+    path = tmp_path / "squares.csv"
+    path.write_bytes(content)
+    with pytest.raises(csvfile.OtherTable, match=f"squares.csv {words}.*: remove it and run the study again"):
+        read(path)
+
+
 def test_a_table_does_not_depend_on_the_order_of_rows_and_stays_when_nothing_changed(tmp_path):
     one, two, rows = tmp_path / "one.csv", tmp_path / "two.csv", [row(x, x*x/7) for x in (3, 1, 2)]
     for path, order in ((one, rows), (two, rows[::-1])):

@@ -6,6 +6,7 @@ from pathlib import Path
 import pandas as pd
 
 DIGITS = "%.9g"     # of numbers in tables
+AGAIN = "remove it and run the study again: finished cases are kept"
 
 
 class OtherTable(ValueError):
@@ -18,17 +19,35 @@ def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
     Raises
     ------
     FileNotFoundError, OtherTable
-        There is no such file, or it lacks some of ``columns``.
+        There is no such file; it is no table, lacks some of ``columns``, or has text among numbers.
     """
     path = Path(path)
     if not path.exists():
         raise FileNotFoundError(f"{path} does not exist: make study-{path.parent.name} writes it")
-    names, text = pd.read_csv(path, comment="#", nrows=0).columns, text_columns(path)
+    try:
+        names, text = pd.read_csv(path, comment="#", nrows=0).columns, text_columns(path)
+    except ValueError as error:     # of pandas, and of letters that are none
+        raise OtherTable(f"{path} is no table ({str(error).strip()}): {AGAIN}") from error
     if lost := [column for column in columns if column not in names]:
-        raise OtherTable(f"{path} has no column {', '.join(lost)}: it was written by other code; "
-                         "remove it and run the study again: finished cases are kept")
-    return pd.read_csv(path, comment="#", dtype=dict.fromkeys(text, str), keep_default_na=False,
-                       na_values={name: ["", "nan"] for name in names if name not in text})
+        raise OtherTable(f"{path} has no column {', '.join(lost)}: it was written by other code; {AGAIN}")
+    try:
+        frame = pd.read_csv(path, comment="#", dtype=dict.fromkeys(text, str), keep_default_na=False,
+                            na_values={name: ["", "nan"] for name in names if name not in text})
+    except ValueError as error:
+        raise OtherTable(f"{path} is no table ({str(error).strip()}): {AGAIN}") from error
+    for name in frame.columns.difference(text) if text else ():
+        if words := [value for value in frame[name] if isinstance(value, str) and not is_number(value)]:
+            raise OtherTable(f"{path} has {words[0]!r} in {name}, a column of numbers: {AGAIN}")
+    return frame
+
+
+def is_number(text: str) -> bool:
+    """Whether a column of numbers, or of True and False, may hold this."""
+    try:
+        float(text)
+    except ValueError:
+        return text in ("True", "False")
+    return True
 
 
 def text_columns(path: Path) -> list[str]:
