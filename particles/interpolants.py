@@ -132,7 +132,7 @@ def check_ordering(weight: Any, d: int, a: float, error: float, wavelength: floa
     told = f"r0 = {r0:.3g} (rms width of {type(weight).__name__})"
     if r0 < a and error > SEEN:
         warnings.warn(f"{told} is below the spacing {a:.3g}, the left side of Eq. 45: gradients of linear fields are off by "
-                      f"{100*error:.3g} % (rms) on these points; take a wider weight, or exact edges", OrderingWarning, stacklevel=4)
+                      f"{100*error:.3g} % (rms) on these points; take a wider weight, or exact edges", OrderingWarning, 4)
     if r0 > wavelength:
         lost = 1 - np.exp(-(2*pi/wavelength*r0)**2/(2*d))
         warnings.warn(f"{told} is above the wavelength {wavelength:.3g}, the right side of Eq. 45: its gradients lose about "

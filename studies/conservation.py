@@ -79,7 +79,7 @@ def frames(seeds: tuple[int, ...] = SEEDS) -> Iterator[Case]:
     for maker, points in product(MAKERS, KINDS[:3]):
         for seed in seeds if points != "lattice" else seeds[:1]:
             yield from (Frame(mode=mode, maker=maker, make=MAKERS[maker], disorder=DISORDERS[points], seed=seed)
-                        for mode in ("pairwise", "unmended", "nested", "printed"))
+                        for mode in ("pairwise", "everywhere", "unmended", "nested", "printed"))
             if maker in CLOSING:
                 yield Commutator(maker=maker, make=MAKERS[maker], disorder=DISORDERS[points], seed=seed)
     for maker, points, bracket in product(MAKERS, KINDS, ("plus", "adjoint")):

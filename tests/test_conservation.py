@@ -119,7 +119,7 @@ def frame(mode, maker):
     return row(Frame(mode=mode, maker=maker, make=MAKERS[maker], disorder=DISORDERS["jittered-0.3"]), "frames")
 
 
-@pytest.mark.parametrize("mode", ["nested", "printed", "unmended"])
+@pytest.mark.parametrize("mode", ["nested", "printed", "unmended", "everywhere"])
 def test_closed_edges_do_not_know_of_a_wind(mode):
     found = frame(mode, "delaunay")
     assert max(found["mass"], found["momentum"], found["energy"]) < 1e-12

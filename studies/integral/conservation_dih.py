@@ -50,6 +50,7 @@ class Form(NamedTuple):
 
 
 FORMS = {form.name: form for form in (Form("pairwise"), Form("unmended", transport=Pairwise(mended=False)),
+                                      Form("everywhere", transport=Pairwise(everywhere=True)),
                                       Form("nested", transport=Nested()),
                                       Form("printed", transport=Nested(differences=False)),
                                       Form("one-sided", OneSided, claimed="mass energy"))}
