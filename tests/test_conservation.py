@@ -170,7 +170,8 @@ def small(tmp_path_factory):
     cases = [*(conservation.layer(mode, "delaunay", "jittered-0.3", steps=60) for mode in MODES),
              conservation.layer("pairwise", "plain", "lattice", steps=60),
              conservation.dih("one-sided", 1, "exact", 3.0, steps=20), *list(conservation.frames((1,)))[:30],
-             *[case for case in conservation.frames((1,)) if getattr(case, "maker", "") == "plain"]]
+             *[case for case in conservation.frames((1,)) if getattr(case, "maker", "") == "plain"],
+             *[case for case in conservation.frames((1,)) if isinstance(case, Commutator)]]
     study = replace(conservation.STUDY, cases=lambda size: cases)
     return study, study.run("quick", workers=1, out=out), out
 
