@@ -62,7 +62,7 @@ def over(panel, surfaces: pd.DataFrame) -> None:
     panel.plot(inner, [drag(FRACTION*(1 - b)**2)/drag(FRACTION) for b in inner], color="0.3", linestyle=":", marker="",
                label="without, radius less by as much")
     for number, (name, label) in enumerate(NAMES.items()):
-        some = surfaces[surfaces["surface"] == name]
+        some = surfaces[(surfaces["surface"] == name) & surfaces["wall_slip"].notna()]
         for k, (_, row) in enumerate(some.sort_values(["radius", "asked"]).iterrows()):
             seen = {**look(number), "linestyle": "none", "markerfacecolor": "white" if k else look(number)["color"]}
             panel.errorbar(row["wall_slip"]/row["radius"], row["ratio"], xerr=row["wall_slip_err"]/row["radius"],
