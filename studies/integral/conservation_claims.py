@@ -148,8 +148,8 @@ CLAIMS = (
     Claim(id="own-conservation-galilean-everywhere", source="RR98 Eq. 51", at_most=1e-12, because="round-off of sums of 30 terms",
           value=frame("energy", ("everywhere",), CLOSING),
           statement="they are with the force of the stress whose work mends the heating, which the continuum would not miss, on "
-                    "edges that close: largest difference over the largest rate [a repair made after the claim on the mended heating "
-                    "had failed]"),
+                    "edges that close: largest difference over the largest rate [a repair made after the claim on the mended "
+                    "heating had failed]"),
     Claim(id="rr98-conservation-plates-friction", source="RR98 Sec. III A", at_least=1e-6, because="far above round-off",
           value=lost("momentum", mode="pairwise", wall="plates", scheme="layer"),
           statement="plates with friction take momentum: change over the sum of its sizes"),
