@@ -1,6 +1,7 @@
 """Films: particles beside the grid and K(t) below, drawn from frames and written as an animated AVIF."""
 import io
 import os
+import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -65,13 +66,22 @@ def picture(page: Figure) -> Picture.Image:
 
 
 def write(path: Path, frames: Sequence[Picture.Image]) -> None:
-    """An animated AVIF that goes round for ever, all or nothing; the same frames give the same bytes."""
+    """An animated AVIF, all or nothing; the same frames give the same bytes."""
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f".{path.name}.{os.getpid()}")
     long = [MILLISECONDS]*(len(frames) - 1) + [HOLD]
     try:
         frames[0].save(part, "avif", save_all=True, append_images=frames[1:], duration=long, quality=QUALITY, speed=6,
                        subsampling="4:2:0", max_threads=1)
+        part.write_bytes(undated(part.read_bytes()))
         os.replace(part, path)
     finally:
         part.unlink(missing_ok=True)
+
+
+def undated(film: bytes) -> bytes:
+    """Without the times of writing, two of 8 bytes, that heads of a film and its track begin with    [ISO 14496-12, 8.2, 8.3]"""
+    head, data = film.split(b"mdat", 1)
+    for box in (b"mvhd", b"tkhd", b"mdhd"):
+        head = re.sub(rb"(?s)(" + box + rb"\x01...).{16}", rb"\g<1>" + bytes(16), head)
+    return head + b"mdat" + data
