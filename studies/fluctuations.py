@@ -25,7 +25,6 @@ from studies.integral.operators import DISORDERS
 from studies.kit.case import Case
 from studies.kit.study import Study, main
 
-LONG_WAVE = 0.1     # 1/cos^2 of waves this long is 1.0025
 DT = (0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8)
 TURNS = ((1, 0), (0, 1), (1, 1), (1, -1), (2, 1), (3, 0), (0, 4), (3, 3), (5, 2), (5, 5))
 TURNS_3D = ((1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, 0, -1), (0, 1, 1), (1, 1, 1), (1, -1, 1), (2, 0, 0), (2, 1, 0))

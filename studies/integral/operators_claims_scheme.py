@@ -6,7 +6,6 @@ from studies.kit.claim import Claim
 
 ROUND_OFF = "round-off: sums of some 30 terms, edges from solves with a condition number of 1e3"
 CLOSED = ("closed", "exact", "delaunay")
-OFF_LATTICE = ("jittered-0.1", "jittered-0.3", "random")
 RANGE = {1: 3.0, 2: 3.0, 3: 2.0}
 
 
