@@ -7,8 +7,11 @@ from scipy.integrate import quad
 from continuum.published import published
 from particles.methods.dpd import Dpd
 from studies.fluctuating import dpd_derive_surfaces as derived
+from studies.fluctuating.dpd_claims_surfaces import SURFACES, together
 from studies.fluctuating.dpd_slip import drag, same_radius, slip_of
-from studies.fluctuating.dpd_surfaces import Array, Beyond, Inside, jackknife, parabola
+from studies.fluctuating.dpd_surfaces import FAST, Array, Beyond, Inside, jackknife, parabola
+from studies.kit.claim import CannotTell
+from studies.kit.table import Tables
 
 
 @pytest.mark.parametrize("c", [0.05, 0.1, 0.2, 0.3])
@@ -105,3 +108,13 @@ def test_the_slip_that_was_put_in_comes_out(slip):
     # 51.53 is 6e-5 above the collocation
     assert found["over"] == pytest.approx(1, abs=1e-4) and found["slip"] == pytest.approx(slip, abs=1e-3)
     assert found["predicted"] == pytest.approx(drag(0.2, slip/2)/drag(0.2))
+
+
+def test_together_the_error_of_the_viscosity_stays():
+    """Three alike: chance goes down by sqrt(3), the viscosity's part does not."""
+    row = {"radius": 2.0, "asked": FAST, "over": 0.9, "over_err": 0.9*0.05, "viscosity": 0.8, "viscosity_err": 0.8*0.03}
+    rows = pd.DataFrame([{**row, "surface": surface} for surface in SURFACES])
+    found = together(Tables({"surfaces": rows}))
+    assert found.value == pytest.approx(0.9) and found.err == pytest.approx(0.9*np.hypot(0.04/np.sqrt(3), 0.03))
+    with pytest.raises(CannotTell, match="no flat wall"):
+        together(Tables({"surfaces": rows.assign(over=[0.9, 0.9, np.nan])}))
