@@ -42,7 +42,7 @@ def surface(profile: pd.DataFrame, slabs: pd.DataFrame, surfaces: pd.DataFrame) 
     middle.set(ylabel="density over that far away", title="flat walls: fluid")
     over(right, surfaces)
     for panel in (left, right):
-        panel.legend(loc="upper left" if panel is left else "best")
+        panel.legend(loc="lower right" if panel is left else "best")
     return page
 
 
