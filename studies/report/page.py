@@ -31,7 +31,7 @@ QUESTION = ("Do fluid particles converge on the continuum equations, at what err
 ROWS, EMBED = 5, 60_000
 #: what the page may weigh [bytes], and how many colours figures have in turn until it does not weigh more
 LIMIT = 6_000_000
-COLOURS = (256, 64, 32, 16)
+COLOURS = (64, 48, 32, 16)
 VERDICTS = {"holds": "✓", "fails": "✗", "undecidable": "?"}
 
 
