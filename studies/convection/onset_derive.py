@@ -37,7 +37,7 @@ def derive(tables: Tables) -> Rows:
     critical, limits, lines = [], [], []
     if "growth_rates" in tables:
         critical += list(from_growth(tables["growth_rates"]))
-        critical += list(small_differences(pd.DataFrame(critical)))
+        critical += list(small_differences(pd.DataFrame(critical))) if critical else []
     if "energies" in tables:
         single = tables["energies"][np.isfinite(tables["energies"]["resolution"])]
         limits = list(extrapolated_energies(single))
@@ -46,7 +46,8 @@ def derive(tables: Tables) -> Rows:
                      for line in lines]
     known = tables["critical_ra"][tables["critical_ra"]["method"] == "linear"] if "critical_ra" in tables else pd.DataFrame()
     everything = pd.concat([known, pd.DataFrame(critical)], ignore_index=True)
-    return {"energies": limits, "lines": lines, "critical_ra": critical, "figures": list(figures_given(everything))}
+    given = list(figures_given(everything)) if len(everything) else []
+    return {"energies": limits, "lines": lines, "critical_ra": critical, "figures": given}
 
 
 def critical_row(at: Any, value: float, err: float, *, way: str, reach: float = 0.0, ke_start: float = 0.0,

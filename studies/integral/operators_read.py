@@ -75,8 +75,17 @@ def relative(name: str, to: str) -> Number:
 
 
 def by_width(tables: Tables, d: int, how: str, n: int, **where: Any) -> pd.DataFrame:
-    """Rows of `lattice` of the exponential weight, the widest two or three last."""
-    return chosen(tables, "lattice", weight="Exponential", d=d, how=how, n=n, **where).sort_values("r0")
+    """Rows of `lattice` of the exponential weight, the widest two or three last.
+
+    Raises
+    ------
+    CannotTell
+        There are fewer than three.
+    """
+    rows = chosen(tables, "lattice", weight="Exponential", d=d, how=how, n=n, **where).sort_values("r0")
+    if len(rows) < 3:
+        raise CannotTell(f"not run yet: three ranges of the exponential weight in {d}D")
+    return rows
 
 
 def finest_order(d: int) -> Value:

@@ -1,0 +1,30 @@
+"""Studies of which some cases alone were run say what cannot be told yet."""
+import numpy as np
+import pandas as pd
+import pytest
+
+from studies import fluctuations, onset, operators
+from studies.convection import onset_derive
+from studies.kit.claim import judge
+from studies.kit.table import Tables
+
+
+def test_no_critical_number_follows_from_one_growth_rate():
+    columns = next(table for table in onset.STUDY.tables if table.name == "growth_rates").columns
+    one = pd.DataFrame([{**dict.fromkeys(columns, 0.0), "method": "linear", "variant": "", "eos": "", "transport": "",
+                         "sides": "periodic", "way": "eigenvalue", "resolution": np.inf}])
+    assert not any(onset_derive.derive(Tables({"growth_rates": one})).values()), "the rate of linear theory is no run"
+    assert not any(onset_derive.derive(Tables()).values())
+
+
+@pytest.mark.parametrize(("study", "rows", "names"), [
+    (operators, {"lattice": [{"weight": "Exponential", "d": d, "how": how, "n": n, "r0": 1.0, "value": 0.5, "predicted": 0.5}
+                             for d in (1, 3) for how in ("plain", "line") for n in (0, 1, 2, 3, 4)]},
+     ("rr98-eq31-order-1d", "rr98-eq31-order-3d", "rr98-eq31-coefficient-3d", "rr98-eq32-zeroth", "rr98-eq32-moments")),
+    (fluctuations, {"gradient": [{"wavenumber": k, "period": 16, "extra": 1e3, "predicted": 1e3} for k in (0.05, 0.07, 0.1)]},
+     ("own-fluct-fourth-power-strong",))])
+def test_few_rows_decide_nothing(study, rows, names):
+    tables = Tables({name: pd.DataFrame(some) for name, some in rows.items()})
+    said = {row["id"]: row for row in judge([claim for claim in study.STUDY.claims if claim.id in names], tables, "toy")}
+    assert set(said) == set(names)
+    assert all(row["verdict"] == "undecidable" and "not run yet" in row["reason"] for row in said.values()), said
