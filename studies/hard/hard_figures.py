@@ -93,8 +93,8 @@ def freezing(rows: pd.DataFrame, limits: pd.DataFrame) -> Figure:
             left.axvline(float(limit[name].mean()), color=look(number)["color"], linestyle=style, linewidth=0.9)
     left.axhline(0.1, color="grey", linewidth=0.6)
     right.axhline(0.1, color="grey", linewidth=0.6)
-    left.set(xscale="log", ylabel="K of the mean flow / grid's, smoothed alike")
-    right.set(xscale="log", ylabel="fluctuation of neighbours' distances", ylim=(0, None))
+    left.set(xscale="log", ylabel="K of mean flow / grid's, smoothed")
+    right.set(xscale="log", ylabel="fluctuation of distances", ylim=(0, None))
     for axes in (left, right):
         axes.set_xlabel(r"static pressure $P\sigma^2/\epsilon$")
     right.set_xticks([0.5, 1, 2, 4, 8], labels=["0.5", "1", "2", "4", "8"])
