@@ -16,6 +16,7 @@ from studies.fluctuating import fluct_claims, fluct_claims_flows, fluct_figures,
 from studies.fluctuating.fluct_algebra import Partnership, PrintedWaves
 from studies.fluctuating.fluct_flows import BelowOnset, Gradient, Rest
 from studies.fluctuating.fluct_given import About, Shear, Sheared, Stream
+from studies.fluctuating.fluct_given_sampled import DECAYS, GradientSampled, LayerSampled
 from studies.fluctuating.fluct_modes import Equipartition
 from studies.fluctuating.fluct_nonlinear import Capacity, Nonlinear
 from studies.fluctuating.fluct_peaks import Brillouin
@@ -83,6 +84,14 @@ def moving(about: tuple[int, int], time: float) -> Iterator[Case]:
     yield About(flow=Stream(0.6), counts=about, turns=TURNS_FLOW, time=time)
 
 
+def about(period: int, rows: int, below: tuple[float, ...], k: tuple[float, ...], decays: float) -> Iterator[Case]:
+    """Samples of the linear equations about a temperature gradient and a layer below onset; random numbers of their own."""
+    for number, wave in enumerate(k):
+        yield GradientSampled(period=period, contrast=0.1, k=wave, seed=1 + number, decays=decays)
+    for number, part in enumerate(below):
+        yield LayerSampled(rows=rows, below=part, seed=11 + number, decays=decays)
+
+
 def tails(side: int, small: int, steps: int) -> Iterator[Case]:
     """With null modes (share 0) and without."""
     for share in (0.0, 0.1, 1.0):
@@ -108,6 +117,7 @@ def cases(size: str) -> list[Case]:
                 Equipartition(counts=(6, 6), turns=TURNS[:6], share=0.1, steps=200),
                 Brillouin(points=13, turns=(1, 2), steps=1000), Nonlinear(counts=(5, 5), share=0.1, k=1e-3, time=115.0),
                 Brillouin(points=13, turns=(1, 2), steps=1000, speed=1.0), *shears(16, (0.4, 0.5, 0.6)), *moving((5, 5), 150.0),
+                *about(12, 4, (0.5, 0.1), (0.4,), 10.0),
                 *tails(48, 6, 400),
                 *(Capacity(C=20.0, corrected=one, steps=400) for one in (True, False))]
     return [*algebra(("lattice", "jittered-0.1", "jittered-0.3", "random"), {1: (20,), 2: (10, 12), 3: (5, 5, 6)}),
@@ -115,6 +125,7 @@ def cases(size: str) -> list[Case]:
             Equipartition(counts=(12, 12), turns=TURNS, share=0.1, steps=1500),
             Brillouin(points=33, turns=(2, 3, 4), steps=30000), Brillouin(points=33, turns=(2, 3, 4), steps=20000, speed=1.0),
             *cubes(750), *shears(64, (0.1, 0.14, 0.2, 0.28, 0.4)), *moving((6, 6), 150.0), *tails(64, 6, 1200),
+            *about(24, 8, (0.5, 0.1, 0.05, 0.02), (0.1, 0.2, 0.4), DECAYS),
             Nonlinear(counts=(8, 8), share=0.1, k=1e-3, time=200.0),
             *(Capacity(C=C, corrected=one, steps=10000) for one in (True, False) for C in (20.0, 50.0))]
 

@@ -17,6 +17,8 @@ from particles.run import Plan, run
 from particles.team import Team
 from particles.weights import Lucy
 from studies.fluctuating.fluct_given import Shear, Sheared, Stream, Sustained, kicked
+from studies.fluctuating.fluct_given_sampled import apart, sampled, slowest_amplitude
+from studies.fluctuating.fluct_given_sampled import factor as factor_of
 from studies.fluctuating.fluct_matrices import carried_along, equilibrium, factor, noise, states_of_fields, transport
 from studies.fluctuating.fluct_modes import check_modes, directions, plane_waves
 from studies.fluctuating.fluct_steps import line_symbols
@@ -116,6 +118,40 @@ def test_sources_hold_a_flow_and_noise_conserves(flow):
     end = run(noisy, given, Plan(dt=0.05, steps=20)).state
     assert np.abs(end - given).max() > 1e-3
     assert (end - given)@method.edges.V == pytest.approx(np.zeros(4), abs=1e-13*25)     # round-off of 60 sums of 25 points
+
+
+def wave_of(n: int = 6) -> tuple[np.ndarray, np.ndarray]:
+    """A complex J, all of whose modes decay, and a complex Q."""
+    rng = np.random.default_rng(1)
+    J, B = (rng.normal(size=(n, n)) + 1j*rng.normal(size=(n, n)) for _ in range(2))
+    return 0.01*(J - 6*np.eye(n)), B@B.conj().T
+
+
+def test_real_and_imaginary_parts_have_the_covariance_of_complex_waves():
+    """Of real parts it is Re C/2, of real with imaginary ones -Im C/2."""
+    J, Q = wave_of()
+    B = apart(factor_of(Q))/np.sqrt(2)
+    assert factor_of(Q)@factor_of(Q).conj().T == pytest.approx(Q, abs=1e-12)
+    assert steady(apart(J), B@B.T) == pytest.approx(apart(steady(J, Q))/2, abs=1e-8)
+    with pytest.raises(ArithmeticError, match="no noise has a negative variance"):
+        factor_of(Q - 1.01*np.linalg.eigvalsh(Q)[0]*np.eye(len(Q)))
+
+
+def test_samples_of_complex_waves_have_the_variances_of_the_lyapunov_solve():
+    """Within five standard errors; a Q that is half as large is seen."""
+    J, Q = wave_of(8)
+    modes = np.random.default_rng(2).normal(size=(2, 8)) + 0.5j
+    rows = sampled(J, Q, modes, 1, lambda done: None, 60.0)
+    C = steady(J, Q)
+    for row, mode in zip(rows, modes, strict=True):
+        assert row["exact"] == pytest.approx((mode@C@mode.conj()).real)
+        assert abs(row["ratio"] - 1) < 2.5*row["ratio_err"] < 0.3
+
+
+def test_the_slowest_amplitude_is_a_left_eigenvector():
+    J, _ = wave_of()
+    row, rate = slowest_amplitude(J), np.linalg.eigvals(J)
+    assert row@J == pytest.approx(rate[np.argmax(rate.real)]*row, abs=1e-12)
 
 
 # --- 3D ---------------------------------------------------------------------------------------------------------------

@@ -278,7 +278,7 @@ def small(size: str) -> list:
             Rest(maker="delaunay", disorder=jit, counts=(5, 5), share=1.0, speed=0.5),
             Brillouin(points=9, turns=(1,), steps=430, speed=1.0),
             Equipartition(counts=(3, 3, 3), turns=((1, 0, 0), (1, 1, 1)), share=0.0, steps=40, dt=30.0),
-            *fluctuations.shears(8, (0.9, 1.0, 1.1)),
+            *fluctuations.shears(8, (0.9, 1.0, 1.1)), *fluctuations.about(6, 4, (0.1, 0.05), (0.4,), 10.0),
             About(flow=Shear(0.2), counts=(3, 3), turns=((1, 0),), share=0.5, eta=0.4, time=135.0, of_limit=0.9, batches=2),
             *(Tail(side=8, share=share, nu_t=(30.0, 3000.0)) for share in (0.0, 0.1, 1.0)),
             *(TailSampled(side=4, share=share, lags=(0, 20, 60), steps=200) for share in (0.0, 0.1))]

@@ -9,6 +9,8 @@ from studies.fluctuating.fluct_read_flows import (
     peak_in_stream,
     rms,
     sampled_floor,
+    sampled_power,
+    sampled_seen,
     seen,
     shear_slope,
     sheared,
@@ -71,6 +73,22 @@ FLOWS = (
           because="equilibrium is 1, and samples are good to 0.2",
           statement="these samples tell the shear flow from rest: variance of the velocity across it over kT/(rho V), longest"
                     " wave along it"),
+    Claim(id="rr98-fluct-eq20-given-worst", source="RR98 Eqs 20-25", at_most=1, value=largest("sampled"),
+          because="Bonferroni: all modes keep the bound in 95 % of all cases, whatever they have to do with each other",
+          statement="samples of the linear equations about a temperature gradient and about a motionless layer below onset have "
+                    "the variances of the Lyapunov solve: largest deviation of a mode over the bound for that many modes"),
+    Claim(id="rr98-fluct-eq25-gradient-seen", source="RR98 Eqs 20-25", at_least=5, value=sampled_seen("gradient", "T"),
+          because="equilibrium is 1, the closed form has 11",
+          statement="they show what the gradient enhances: sampled variance of T over that at rest, waves of 63 spacings, T = 1 "
+                    "+ 0.1 sin(2 pi y/24)"),
+    Claim(id="rr98-fluct-eq25-onset-seen", source="RR98 Eqs 20-25", at_least=5, value=sampled_seen("layer", "w"),
+          because="equilibrium is 1, rows of the Lyapunov solve add up to 10",
+          statement="and what is about to convect: sampled variance of the velocity across a layer of 8 rows, 2 % below onset, "
+                    "over that at rest"),
+    Claim(id="rr98-fluct-eq25-onset-sampled", source="RR98 Eqs 20-25", printed="the flow is stable", expect=-1, within=0.15,
+          value=sampled_power, because="0.15: samples reach 0.05, the next power of the distance from onset adds 0.04",
+          statement="sampled fluctuations of the slowest mode grow as 1/(Ra_c - Ra) on the way to onset: power, from 10 % to 2 %"
+                    " below"),
     Claim(id="rr98-fluct-galilean-static", source="RR98 Eqs 20-25", at_most=1e-10, value=in_stream(nested=True),
           because="Lyapunov's equation, solved twice, with differences good to 1e-12",
           statement="in a uniform stream past fixed points fluctuations are those of equilibrium, carried along: largest |C -"

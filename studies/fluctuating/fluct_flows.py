@@ -96,26 +96,39 @@ class Gradient(Case):
         return f"gradient, period {self.period}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        counts, ny = (5, self.period), self.period      # waves are blocks: five columns hold the reach of the weight
-        points, first = lattice(counts), np.arange(self.period)
+        J, Q, T = self.columns()
+        found = []
+        for done, k in enumerate(self.k):
+            report(done/len(self.k))
+            extra = (self.power(steady(*self.blocks(J, Q, k)), T) - 1)/self.contrast**2
+            found.append({"period": self.period, "wavenumber": k, "extra": extra, "predicted": self.predicted(k)})
+        return Outcome({"gradient": found})
+
+    def columns(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """J and Q of the points at x = 0, five columns of points, which hold the reach of the weight; T there."""
+        points, first = lattice((5, self.period)), np.arange(self.period)
         edges = MAKERS["renormalised"](points, Lucy.of(h=2.0))
         dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(self.eta, self.kappa), transport=Mixed(share=1.0))
         T = 1 + self.contrast*np.sin(2*np.pi*points.x[:, 1]/self.period)
         J = jacobian(dih.rates, dih.state(1/T, 0*points.x, T), first)
         of_p, of_e = transport(edges, 1.0, self.eta, 0.0, self.kappa, T)
         Q = noise(edges.V, of_p.Q, of_e.Q)[:, (np.arange(4)[:, None]*edges.n + first).ravel()].toarray()
-        found = []
-        for done, k in enumerate(self.k):
-            report(done/len(self.k))
-            extra = (self.power(steady(waves(J, counts, k), waves(Q, counts, k)), T[:ny]) - 1)/self.contrast**2
-            found.append({"period": self.period, "wavenumber": k, "extra": extra, "predicted": self.predicted(k)})
-        return Outcome({"gradient": found})
+        return J, Q, T[first]
+
+    def blocks(self, J: np.ndarray, Q: np.ndarray, k: float) -> tuple[np.ndarray, np.ndarray]:
+        """J and Q of the waves k from those columns."""
+        return waves(J, (5, self.period), k), waves(Q, (5, self.period), k)
 
     def power(self, C: np.ndarray, T: np.ndarray) -> float:
-        """<T T> of waves that are uniform in y, 1 in equilibrium: T = eps/rho at rest."""
-        ny = len(T)
-        pick = np.concatenate([-T*T, np.zeros(2*ny), T])/np.sqrt(ny)      # dT = (d eps - T d rho)/rho, rho = 1/T
+        """<T T> of waves that are uniform in y, 1 in equilibrium."""
+        pick = self.pick(T)
         return float((pick@C@pick).real)
+
+    @staticmethod
+    def pick(T: np.ndarray) -> np.ndarray:
+        """The row that takes T, uniform in y, from a state: T = eps/rho at rest."""
+        ny = len(T)
+        return np.concatenate([-T*T, np.zeros(2*ny), T])/np.sqrt(ny)      # dT = (d eps - T d rho)/rho, rho = 1/T
 
     def predicted(self, k: float) -> float:
         """What transverse velocities at k and +-q carry into T at k, over contrast^2, by the symbols of the lattice.
@@ -172,8 +185,7 @@ class BelowOnset(Case):
         return f"below onset, {self.rows} rows"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        onset = float(brentq(lambda ra: slowest(self.blocks(ra)[0]), 1000, 3000, xtol=1e-6))
-        found = []
+        onset, found = self.onset(), []
         for fraction in self.below:
             J, Q = self.blocks(onset*(1 - fraction))
             C = steady(J, Q).real
@@ -181,6 +193,10 @@ class BelowOnset(Case):
             found.append({"rows": ny, "below": fraction, "ra_c": onset, "slowest": slowest(J),       # w: 1 in equilibrium
                           "velocity": float(np.trace(C[np.ix_(across, across)])/ny)})
         return Outcome({"onset": found})
+
+    def onset(self) -> float:
+        """Ra_c, where the slowest mode neither grows nor decays."""
+        return float(brentq(lambda ra: slowest(self.blocks(ra)[0]), 1000, 3000, xtol=1e-6))
 
     def blocks(self, ra: float) -> tuple[np.ndarray, np.ndarray]:
         """J and Q of the waves at one Rayleigh number."""

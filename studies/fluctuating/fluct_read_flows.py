@@ -66,6 +66,26 @@ def seen(tables: Tables) -> Measured:
                     float(np.sqrt(((rows["ratio_err"]*rows["exact"])**2).sum())/len(rows)))
 
 
+def sampled_seen(flow: str, field: str) -> Value:
+    """Sampled variance of the case that is enhanced most: the longest wave in the gradient, the layer nearest to onset."""
+    def value(tables: Tables) -> Measured:
+        row = select(tables, "sampled", flow=flow, field=field).sort_values("exact").iloc[-1]
+        return Measured(float(row["ratio"]*row["exact"]), float(row["ratio_err"]*row["exact"]))
+    return value
+
+
+def sampled_power(tables: Tables) -> Measured:
+    """Power of Ra_c - Ra in the sampled variance of the slowest mode, from the ends of what is within a tenth of onset."""
+    rows = select(tables, "sampled", flow="layer", field="slowest").sort_values("strength")
+    rows = rows[rows["strength"] <= 0.1]
+    if len(rows) < 2:
+        raise CannotTell("not run yet: two samples within a tenth of onset")
+    one, other = rows.iloc[0], rows.iloc[-1]
+    span = np.log(one["strength"]/other["strength"])
+    power = np.log(one["ratio"]*one["exact"]/(other["ratio"]*other["exact"]))/span
+    return Measured(float(power), float(np.hypot(*(row["ratio_err"]/row["ratio"] for row in (one, other)))/abs(span)))
+
+
 def spectrum(tables: Tables) -> Measured:
     """Mean ratio of a sampled spectrum to that of the symbols, farthest from 1 of the waves; error from the scatter of bins."""
     found = []

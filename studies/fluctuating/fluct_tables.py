@@ -26,9 +26,12 @@ SHEAR = Table("shear", key=["period", "U", "wavenumber"],
               columns=["period", "U", "wavenumber", "extra", "vortical", "second", "uniform"])
 ABOUT = ["flow", "U", "field", "turns_x", "turns_y", "phase"]
 FLOWS = Table("flows", key=ABOUT, columns=[*ABOUT, "exact", "ratio", "ratio_err"])
+GIVEN = ["flow", "strength", "rows", "wavenumber", "field"]
+#: strength : contrast of T, or 1 - Ra/Ra_c; exact : variance by Lyapunov, 1 of a field at rest; the sampled one over that
+SAMPLED = Table("sampled", key=GIVEN, columns=[*GIVEN, "exact", "ratio", "ratio_err"])
 TAIL = Table("tail", key=["side", "share", "nu_t"], columns=["side", "share", "nu_t", "correlation", "continuum"])
 TAIL_SAMPLED = Table("tail_sampled", key=["side", "share", "lag"],
                      columns=["side", "share", "lag", "measured", "measured_err", "exact"])
 
 ALL = (PARTNERS, PRINTED, REST, GRADIENT, ONSET, STEPS, MODES, PEAKS, SPECTRUM, NONLINEAR, CAPACITY, STREAM, SHIFTED, CUBES,
-       SHEAR, FLOWS, TAIL, TAIL_SAMPLED)
+       SHEAR, FLOWS, SAMPLED, TAIL, TAIL_SAMPLED)
