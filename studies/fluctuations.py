@@ -13,7 +13,7 @@ from itertools import product
 from particles.covariance import STEPS
 from particles.makers import MAKERS
 from studies.fluctuating import fluct_claims, fluct_claims_flows, fluct_figures, fluct_special, fluct_tables
-from studies.fluctuating.fluct_algebra import Partnership, PrintedWaves
+from studies.fluctuating.fluct_algebra import MovingPartnership, Partnership, PrintedWaves
 from studies.fluctuating.fluct_flows import BelowOnset, Gradient, Rest
 from studies.fluctuating.fluct_given import About, Shear, Sheared, Stream
 from studies.fluctuating.fluct_given_sampled import DECAYS, GradientSampled, LayerSampled
@@ -34,10 +34,11 @@ LAGS = (0, 2, 4, 10, 20, 40, 100)
 
 
 def algebra(kinds: tuple[str, ...], counts: dict[int, tuple[int, ...]]) -> Iterator[Case]:
-    """Partners on every maker, kind of points and dimension; printed noise wave by wave."""
+    """Partners on every maker, kind of points and dimension, and between moving points; printed noise wave by wave."""
     for maker, kind, d in product(MAKERS, kinds, counts):
         if not (maker == "delaunay" and (d == 1 or (d == 3 and kind == "lattice"))):
             yield Partnership(maker=maker, disorder=DISORDERS[kind], counts=counts[d], h=2.7 if d < 3 else 2.4)
+    yield from (MovingPartnership(steps=steps) for steps in (0, 20))
     for (equation, term), doubled in product((("42", "eta"), ("42", "zeta"), ("23", "zeta"), ("43", "kappa"), ("25", "kappa")),
                                              (False, True)):
         for d, h in ((1, 1.5), (2, 1.2), (2, 2.0), (2, 3.0)):

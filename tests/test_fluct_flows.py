@@ -2,11 +2,10 @@
 import numpy as np
 import pytest
 from scipy.linalg import expm
-from test_moving import fluid, shaken, started
+from test_moving import fluid, shaken
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.covariance import jacobian, steady
-from particles.edges import Edges
 from particles.limits import limit_of
 from particles.makers import MAKERS
 from particles.methods import fluctuating
@@ -16,6 +15,7 @@ from particles.points import jittered, lattice
 from particles.run import Plan, run
 from particles.team import Team
 from particles.weights import Lucy
+from studies.fluctuating.fluct_algebra import edges_between
 from studies.fluctuating.fluct_given import Shear, Sheared, Stream, Sustained, kicked
 from studies.fluctuating.fluct_given_sampled import apart, sampled, slowest_amplitude
 from studies.fluctuating.fluct_given_sampled import factor as factor_of
@@ -73,20 +73,12 @@ def test_faces_between_moving_points_have_partners_wherever_the_points_are():
     method = fluid("periodic")
     state = shaken(method)
     for steps in (0, 5):
-        sums, now = started(method, run(method, state, Plan(dt=0.1*limit_of(method, state), steps=steps)).by_id())
-        faces, n = sums.faces, sums.n
-        parent = np.concatenate([np.arange(n), sums.maker.ghosts.origin]).astype(int)
-        rows = np.repeat(np.arange(n), faces.taken)
-        entry = np.concatenate([np.arange(a, a + m) for a, m in zip(faces.first, faces.taken, strict=True)]).astype(int)
-        once = rows < parent[faces.near[entry]]         # each face is stored with both of its points
-        i, entry = rows[once], entry[once]
-        half, apart = (np.stack([x[entry], y[entry]], axis=1) for x, y in ((faces.sx, faces.sy), (faces.dx, faces.dy)))
-        edges = Edges(i=i, j=parent[faces.near[entry]], S=2*half, k=faces.k[entry], apart=apart, V=now[7])
+        edges = edges_between(method, run(method, state, Plan(dt=0.1*limit_of(method, state), steps=steps)).by_id())
         assert np.abs(edges.closure).max() < 1e-9 and np.abs(edges.linear - np.eye(2)).max() < 1e-8
-        eta = np.random.default_rng(1).uniform(0.2, 1, n)
+        eta = np.random.default_rng(1).uniform(0.2, 1, edges.n)
         for pair in (fluctuating.stress(edges, eta, eta, 0.7), fluctuating.friction(edges, eta, eta, 0.7)):
             assert fluctuating.mismatch(pair, 1.4) < 1e-12
-            assert np.abs(np.kron(np.eye(2), np.ones(n))@pair.B).max() < 1e-12*abs(pair.B).max()
+            assert np.abs(np.kron(np.eye(2), np.ones(edges.n))@pair.B).max() < 1e-12*abs(pair.B).max()
 
 
 # --- a shear flow -----------------------------------------------------------------------------------------------------

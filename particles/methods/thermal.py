@@ -45,6 +45,10 @@ class Mixed:
 class Thermal:
     """A fluid on fixed points with the fluctuations of its own transport, of which a share goes along edges.
 
+    The part at points has the stress of Eqs 37, 38, eta of one point with the slope of the other: where eta, zeta or kappa vary
+    from point to point that is no symmetric matrix and has no exact partner [`fluctuating.stress` has its own eta at each
+    point]; with constant ones, and along edges, noise and dissipation are partners.
+
     edges, eos, law, zeta : as in `dih.Dih`. k : Boltzmann's constant in the units of the fluid.
     """
     edges: Any

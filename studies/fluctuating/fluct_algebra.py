@@ -5,12 +5,18 @@ from typing import Any
 
 import numpy as np
 
+from continuum.fluid import ConstEta, IdealGas
 from particles.edges import Edges
 from particles.interpolants import W
+from particles.limits import limit_of
 from particles.makers import MAKERS
 from particles.methods import fluctuating
 from particles.methods.fluctuating import Partners, mismatch
-from particles.points import lattice
+from particles.methods.moving import Moving
+from particles.points import jittered, lattice
+from particles.run import Plan, run
+from particles.team import Team
+from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2
 from studies.fluctuating.fluct_matrices import ETA, KAPPA
 from studies.integral.operators import Disorder
@@ -53,20 +59,62 @@ class Partnership(Case):
             edges = MAKERS[self.maker](points, WendlandC2.of(h=self.h, d=d))
         except ArithmeticError:         # no such edges exist on these points: study operators tells
             return Outcome({"partners": []})
-        rng = np.random.default_rng(self.seed)
-        eta, kappa, part = rng.uniform(0.2, 1, edges.n), rng.uniform(0.2, 1, edges.n), rng.uniform(0, 1, edges.n)
-        zeta = 0.9*(1 + 2/d)*part*eta
-        kinds = exact_ones(edges, eta, zeta, kappa)
-        kinds["eq42"] = fluctuating.printed_stress(edges, eta, zeta, KT, doubled=True)
-        kinds["eq42 constant"] = fluctuating.printed_stress(edges, 0.3, 0.1, KT, doubled=True)
-        kinds["eq43"] = fluctuating.printed_heat(edges, kappa, KT, np.ones(edges.n), doubled=True)
-        return Outcome({"partners": [{**key, "noise": name, **judged(pair, d if self.of_momenta(name) else 1)}
-                                     for name, pair in kinds.items()]})
+        return Outcome({"partners": [{**key, **row} for row in all_kinds(edges, self.seed)]})
 
-    @staticmethod
-    def of_momenta(name: str) -> bool:
-        """Does this noise act on momenta?"""
-        return name not in ("heat", "conduction", "heat+conduction", "eq43")
+
+@dataclass(frozen=True, kw_only=True)
+class MovingPartnership(Case):
+    """The same on the faces between points that have moved for so many steps, in a periodic box of 2D."""
+    steps: int
+    side: int = 8
+    h: float = 2.9
+    seed: int = 1
+
+    @property
+    def label(self) -> str:
+        return f"partners moving, {self.steps} steps"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        method = Moving(weight=WendlandC2.of(h=self.h), eos=IdealGas(), law=ConstEta(ETA, KAPPA), box=(self.side, self.side),
+                        walls=(*periodic(self.side), *periodic(self.side, 1)))
+        points, rng = jittered((self.side, self.side), 0.2, self.seed), np.random.default_rng(self.seed)
+        state = method.state(points.x, rng.normal(0, 0.2, points.x.shape), 1.0, np.ones(points.n))
+        end = run(method, state, Plan(dt=0.2*limit_of(method, state), steps=self.steps)).by_id()
+        key = {"maker": "moving", "points": f"moved {self.steps} steps", "d": 2}
+        return Outcome({"partners": [{**key, **row} for row in all_kinds(edges_between(method, end), self.seed)]})
+
+
+def edges_between(method: Moving, state: np.ndarray) -> Edges:
+    """The faces that a step of moving points begins with, as edges; periodic images are their points."""
+    n, now = state.shape[1], state.copy()
+    sums = method.start(n, Team(1))
+    sums.around.relist(now, np.arange(n), 0.0)
+    sums.make_faces(now)
+    faces, parent = sums.faces, np.concatenate([np.arange(n), sums.maker.ghosts.origin]).astype(int)
+    rows = np.repeat(np.arange(n), faces.taken)
+    entry = np.concatenate([np.arange(first, first + taken) for first, taken in zip(faces.first, faces.taken, strict=True)])
+    entry = entry.astype(int)
+    once = rows < parent[faces.near[entry]]         # each face is stored with both of its points
+    i, entry = rows[once], entry[once]
+    half, apart = (np.stack([x[entry], y[entry]], axis=1) for x, y in ((faces.sx, faces.sy), (faces.dx, faces.dy)))
+    return Edges(i=i, j=parent[faces.near[entry]], S=2*half, k=faces.k[entry], apart=apart, V=now[7])
+
+
+def all_kinds(edges: Edges, seed: int) -> list[dict[str, Any]]:
+    """A row for each kind of noise, coefficients random from point to point; viscosities of Eq. 42 constant once."""
+    rng, d = np.random.default_rng(seed), edges.d
+    eta, kappa, part = rng.uniform(0.2, 1, edges.n), rng.uniform(0.2, 1, edges.n), rng.uniform(0, 1, edges.n)
+    zeta = 0.9*(1 + 2/d)*part*eta
+    kinds = exact_ones(edges, eta, zeta, kappa)
+    kinds["eq42"] = fluctuating.printed_stress(edges, eta, zeta, KT, doubled=True)
+    kinds["eq42 constant"] = fluctuating.printed_stress(edges, 0.3, 0.1, KT, doubled=True)
+    kinds["eq43"] = fluctuating.printed_heat(edges, kappa, KT, np.ones(edges.n), doubled=True)
+    return [{"noise": name, **judged(pair, d if of_momenta(name) else 1)} for name, pair in kinds.items()]
+
+
+def of_momenta(name: str) -> bool:
+    """Does this noise act on momenta?"""
+    return name not in ("heat", "conduction", "heat+conduction", "eq43")
 
 
 def judged(pair: Partners, components: int) -> dict[str, float]:

@@ -89,6 +89,10 @@ CLAIMS = (
     Claim(id="own-fluct-partners", source="RR98 Eqs 22-25", at_most=1e-12, value=worst("mismatch", EXACT), because=ROUND_OFF,
           statement="one random stress and heat current a point, or noise along edges, or a mixture: largest |Q - 2 kT Gamma|, "
                     "all makers, points and dimensions, coefficients that vary by factors of five"),
+    Claim(id="own-fluct-partners-moving", source="RR98 Eqs 22-25, 45-48", at_most=1e-12, because=ROUND_OFF,
+          value=worst("mismatch", EXACT, maker="moving"),
+          statement="these are partners on the faces between moving points, too, at any moment: largest |Q - 2 kT Gamma|, "
+                    "coefficients that vary by factors of five, before and after 20 steps"),
     Claim(id="own-fluct-symmetric", source="RR98 Eqs 22-25", at_most=1e-12, value=worst("asymmetry", EXACT), because=ROUND_OFF,
           statement="the dissipations that have such partners are symmetric: largest |Gamma - Gamma^T|, all makers and points"),
     Claim(id="rr98-fluct-eq23-single", source="RR98 Eq. 23", printed="usual fluctuation-dissipation", **RIGHT,
