@@ -62,10 +62,9 @@ def cases(*, side: float, time: float, longer: float) -> Iterator[Long]:
 
 def why(integrator: type) -> str:
     """What the length of a run comes from."""
-    if integrator in DECIDED:
+    if integrator in (*DECIDED, Shardlow):
         return "runs twice as long as those that left it open"
-    first = ", and one of 500 as well" if integrator is Shardlow else ""
-    return f"the length raised to 1500 because runs of 240 left it open{first}"
+    return "the length raised to 1500 because runs of 240 left it open"
 
 
 # --- judged -----------------------------------------------------------------------------------------------------------------
