@@ -2,8 +2,9 @@
 
 Algebra first: is the covariance of the noise 2 kT times the dissipation, for one random stress a point, for noise along edges,
 for the printed Eqs 42-44? Then Lyapunov solves: rest, a stream, a shear flow, a temperature gradient, a layer heated from below,
-steps in time; velocity autocorrelations. Then samples, with intervals from 20 batches: modes in 2D and 3D, Brillouin peaks, the
-nonlinear fluid at rest and about given flows, heat with current amplitudes. Units: spacing 1, rho = T = 1, ideal gas, C_V = 1.
+steps in time; velocity autocorrelations. Then samples, with intervals from 20 batches: modes in 2D and 3D, about a gradient
+and below onset, Brillouin peaks, the nonlinear fluid at rest and about given flows, heat with current amplitudes. Units:
+spacing 1, rho = T = 1, ideal gas, C_V = 1.
 Paper size takes about ten minutes of one core. Writes results/fluctuations/*.csv and *.png and the rows of study
 fluctuations in results/claims.csv.
 """
