@@ -204,7 +204,7 @@ ON_POINTS = tuple(
                     "those of the compressible grid, each with 1 % error in K of Rayleigh-Benard at Ra 10 000")
     for name, method, h, printed in (
         ("wide", names.WIDE, "h = 3 a, r0 = 1.27 a above", "more particles than points in a grid"),
-        ("nearest", names.NEAREST, "h = 1.2 a, r0 = 0.51 a below", None)))
+        ("nearest", names.NEAREST, "h = 1.2 a, r0 = 0.51 a below", "")))
 CLAIMS = (*ON_SECONDS, *ON_POINTS, Claim(
     id="own-speed-repeat", source="KHP95 Sec. VII", at_most=0, value=moved,
     statement="a repeat moves no verdict: verdicts on seconds that are others where the first, or the last, of the repeats of "
