@@ -78,17 +78,25 @@ def surfaces(arrays: pd.DataFrame, slabs: pd.DataFrame, inertia: pd.DataFrame, l
                **foretold(row, slabs[slabs["surface"] == row["surface"]], ratio, relative)}
 
 
+def resisting(fraction: float, slip: float = 0.0) -> float:
+    """Drag with slip over that without; nan where a short run's wall holds the fluid so far off that cylinders would touch."""
+    try:
+        return smooth(fraction, slip)/smooth(FRACTION)
+    except ValueError:
+        return nan
+
+
 def foretold(row: pd.Series, slab: pd.DataFrame, ratio: float, relative: float) -> dict[str, float]:
     """What the slip along the flat wall makes of the drag."""
     if slab.empty:
         return dict.fromkeys(("wall_slip", "wall_slip_err", "predicted", "predicted_err", "moved", "over", "over_err"), nan)
     wall, radius = slab.iloc[0], row["radius"]
-    low, at, high = (smooth(FRACTION, (wall["slip"] + sign*wall["slip_err"])/radius)/smooth(FRACTION) for sign in (1, 0, -1))
+    low, at, high = (resisting(FRACTION, (wall["slip"] + sign*wall["slip_err"])/radius) for sign in (1, 0, -1))
     half = wall["height"]/2
     behind = sqrt(half**2 + 2*half*wall["slip"]) - half        # of the wall, where the parabola vanishes
     over = ratio/at
     return {"wall_slip": wall["slip"], "wall_slip_err": wall["slip_err"], "predicted": at, "predicted_err": (high - low)/2,
-            "moved": smooth(FRACTION*(1 - behind/radius)**2)/smooth(FRACTION), "over": over,
+            "moved": resisting(FRACTION*(1 - behind/radius)**2), "over": over,
             "over_err": over*hypot(relative, (high - low)/2/at)}
 
 
