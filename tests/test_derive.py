@@ -68,19 +68,33 @@ def test_cost_counts_all_seeds_and_the_coarser_grids():
     assert cpu[("dih", 50)] == 3.0                             # points do not start from coarser ones
 
 
-def test_points_are_extrapolated_over_the_square_of_their_spacing():
-    """K = 4 + 9/rows^2 exactly; a term 500/rows^4 besides is in the error; sets that differ from seed to seed widen it."""
-    def limit(bend=0.0, scatter=0.0):
-        runs = [spam(rows, seed, 4 + 9/rows**2 + bend/rows**4 + sign*scatter, method="dih", variant="fixed", ke_err=1e-6,
-                     free_fall=1.0, threads=1, compile_s=0.0) for rows in (10, 20, 40, 80) for seed, sign in ((1, -1), (2, 1))]
-        found = derive(Tables(kinetic_energy=pd.DataFrame(runs)))["kinetic_energy"]
-        [row] = found
-        assert row["resolution"] == np.inf and row["seed"] == 0
-        return row["ke"], row["ke_err"]
-    assert limit() == pytest.approx((4.0, 0.0), abs=5*4e-6)     # no value is taken for better than 1e-6 of itself; t is 4.3
-    value, err = limit(bend=500.0)
-    assert 0 < abs(value - 4) < err < 0.1
-    assert limit(scatter=0.01)[1] > 0.01
+def endless(value, seeds):
+    """(limit, error) of points whose K with so many rows is value(rows, seed)."""
+    runs = [spam(rows, seed, value(rows, seed), method="dih", variant="fixed", ke_err=0.0, nu_err=0.0, free_fall=1.0, threads=1,
+                 compile_s=0.0) for rows in (25, 40, 50, 64) for seed in seeds]
+    [row] = derive(Tables(kinetic_energy=pd.DataFrame(runs)))["kinetic_energy"]
+    assert row["resolution"] == np.inf and row["seed"] == 0
+    return row["ke"], row["ke_err"]
+
+
+def test_a_lattice_is_extrapolated_as_grids_are():
+    value, err = endless(lambda rows, seed: 4 + 9/rows**2 + 500/rows**4, seeds=[1])
+    assert value == pytest.approx(4.0, abs=1e-12)
+    assert 500/64**4 < err < 9/64**2        # more than the fourth power leaves on the finest, less than the finest is off
+
+
+def test_sets_of_points_are_extrapolated_over_the_square_of_their_spacing():
+    assert endless(lambda rows, seed: 4 + 9/rows**2, seeds=(1, 2, 3)) == pytest.approx((4.0, 0.0), abs=1e-10)
+    value, err = endless(lambda rows, seed: 4 + 9/rows**2 + 500/rows**4, seeds=(1, 2, 3))
+    assert 0 < abs(value - 4) < err
+
+
+def test_the_interval_of_scattered_sets_holds_their_limit():
+    """19 in 20, somewhat more for what leaving out the coarsest adds: below 0.90 once in 10 000 at the nominal rate."""
+    rng = np.random.default_rng(1)
+    found = np.array([endless(lambda rows, seed: 4 + 9/rows**2 + rng.normal()*10/rows**2, seeds=(1, 2, 3)) for _ in range(200)])
+    assert np.mean(abs(found[:, 0] - 4) < found[:, 1]) > 0.90
+    assert np.median(found[:, 1]) < 4*np.std(found[:, 0])
 
 
 def test_runs_that_diverged_are_in_no_mean():
