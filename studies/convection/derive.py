@@ -73,7 +73,7 @@ def extrapolated_points(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
 
 
 def line(values: np.ndarray, sizes: np.ndarray) -> tuple[float, float]:
-    """Value at 1/rows^2 = 0 of a line through all runs, with its error: of the fit, and twice what leaving out the coarsest changes.
+    """Value at 1/rows^2 = 0 of a line through all runs; its error: of the fit, and twice what leaving out the coarsest changes.
 
     K of sets of points scatters as 1/rows^2 or faster, 0.6 % to 0.04 % from 25 to 50 rows: hence weights of rows^2, and one
     scatter for all that is left over, which three runs of one size tell badly.
