@@ -237,7 +237,15 @@ def finish(rows: int, march: March, until, series: Series) -> Solution:
 
 
 def steady_on(scene, sizes: Sequence[int], *, start: Fields | None = None, **options) -> list[Solution]:
-    """Steady solutions on ever finer grids, each started from the one before."""
+    """Steady solutions on ever finer grids, each started from the one before.
+
+    Raises
+    ------
+    ValueError
+        There are no sizes.
+    """
+    if not len(sizes):
+        raise ValueError(f"there are no grids (sizes = {sizes}): give their rows, coarsest first, as in (16, 24, 32)")
     solutions: list[Solution] = []
     for rows in sizes:
         solutions.append(run(scene, rows, start=start, **options))

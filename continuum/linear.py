@@ -87,11 +87,6 @@ def growth_rate(*, ra: float, pr: float, k: float, plates: Plates = Plates.RIGID
     return float(eigh(rate, block_diag(i.inertia, k**2*i.heat), eigvals_only=True)[-1])
 
 
-def per_diffusion_time(sigma: float, *, ra: float, pr: float) -> float:
-    """The same rate per H^2/kappa: a free-fall time is 1/sqrt(Ra Pr) of it."""
-    return sigma*float(np.sqrt(ra*pr))
-
-
 def critical_ra(k: float, plates: Plates = Plates.RIGID, degree: int = DEGREE) -> float:
     """The Rayleigh number at which wavenumber k (1/H) neither grows nor decays; it does not depend on Pr.
 

@@ -112,9 +112,11 @@ class RayleighBenard:
     def _check_objects(self):
         if not isinstance(self.sides, (Periodic, Walls)):
             raise ValueError(f"sides must be Periodic() or Walls(), got {self.sides!r}")
-        if not isinstance(self.transport, type):
-            raise TypeError(f"transport must be a class, got {self.transport!r}: give {type(self.transport).__name__}, its "
-                            "numbers follow from ra and pr")
+        kind = self.transport if isinstance(self.transport, type) else type(self.transport)
+        if kind is not self.transport or not hasattr(kind, "_fields"):
+            laws = kind.__name__ if kind in viscosity.kinds else " or ".join(law.__name__ for law in viscosity.kinds)
+            raise TypeError(f"transport must be a class of transport laws, got {self.transport!r}: give {laws}, without quotes "
+                            "or numbers, which follow from ra and pr")
 
     @property
     def width(self) -> float:

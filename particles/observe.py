@@ -104,11 +104,6 @@ def conserved(sums: Any, state: np.ndarray) -> np.ndarray:
     return m*np.array([state.shape[1], vx.sum(), vy.sum(), total])
 
 
-def total_energy(sums: Any, state: np.ndarray) -> float:
-    """Kinetic, internal and m g y."""
-    return float(conserved(sums, state)[3])
-
-
 class Grid(NamedTuple):
     """Places on a regular grid of cell centres over the box, ready for `Plan.means`: (5, rows, columns)."""
     x: np.ndarray

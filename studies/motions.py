@@ -11,8 +11,9 @@ from itertools import product
 from math import inf
 
 from particles.integrators import RK4, TwoStep
+from particles.methods.brackets import Powers
 from particles.methods.dih import Nested
-from particles.methods.motions import MOTIONS, ConstantMass, Powers
+from particles.methods.motions import MOTIONS, ConstantMass
 from particles.weights import WEIGHTS, Lucy, WendlandC2
 from studies.integral import motions_claims, motions_derive, motions_figures, motions_tables
 from studies.integral.motions_scene import ALONG

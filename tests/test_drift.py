@@ -11,10 +11,11 @@ from particles.edges import between_plates
 from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.makers import plain
+from particles.methods.brackets import Powers
 from particles.methods.dih import Pairwise
 from particles.methods.drift import DRIFTS, ConstantMassDrift, Drift
 from particles.methods.layer import Layer
-from particles.methods.motions import MOTIONS, ConstantMass, Powers, scale_of
+from particles.methods.motions import MOTIONS, ConstantMass, scale_of
 from particles.methods.spam import LessStatic
 from particles.points import jittered, lattice
 from particles.run import Plan, run

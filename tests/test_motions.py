@@ -6,8 +6,10 @@ import studies.motions as motions
 from continuum.fluid import ConstEta, IdealGas
 from particles.integrators import RK4, Euler, TwoStep
 from particles.makers import renormalised
+from particles.methods.brackets import Powers
 from particles.methods.dih import Dih, Nested, Pairwise
-from particles.methods.motions import MOTIONS, Carried, ConstantMass, Convective, Filtered, Literal, Powers
+from particles.methods.filtered import Filtered
+from particles.methods.motions import MOTIONS, Carried, ConstantMass, Convective, Literal
 from particles.points import jittered, lattice
 from particles.team import Team
 from particles.weights import WEIGHTS, Lucy, WendlandC2

@@ -1,10 +1,18 @@
 """The study rb: a quick rebuild of every table, and what the committed tables must say of the solvers."""
+from functools import partial
+
 import numpy as np
 import pandas as pd
 import pytest
 
 import studies.rb as rb
+from continuum.compressible import steady_on
+from continuum.scene import RayleighBenard
+from particles.weights import Lucy
 from studies.convection import spam
+from studies.convection.dih import SCHEMES, DihRun, fluid
+from studies.convection.grids import BoussinesqSteady, CompressibleSteady, PypdeSteady
+from studies.convection.moving import MovingRun
 from studies.convection.tables import ALL, ERRORS, KINETIC
 from studies.kit.sweep import RESULTS
 from studies.kit.table import read
@@ -55,6 +63,37 @@ def test_quick_particles_are_still_below_onset_and_move_above(quick):
     means = tables["means"]
     printed = means[(means["method"] == "spam")].set_index("ra")["ke_field"]
     assert printed[1500] < 2e-4 < 8e-4 < printed[10000]     # the smoothed field of 512 particles: noise below 1e-4
+
+
+@pytest.mark.parametrize(("wrong", "words"), [
+    ({"L": 25.5}, r"whole rows and columns, got height L = 25\.5: give L as the number of rows"),
+    ({"L": 0.2}, r"got height L = 0\.2"), ({"L": 25.0, "aspect": 1.5}, r"got width aspect L = 37\.5: .* columns over rows")])
+def test_a_box_that_no_lattice_fills_is_refused(wrong, words):
+    scene = RayleighBenard(ra=1e4, **wrong)
+    for asked in (partial(spam.SpamRun, scene=scene), partial(spam.start, scene, 1), partial(DihRun, scene=scene),
+                  partial(MovingRun, scene=scene), partial(fluid, scene, SCHEMES["fixed-lattice"], 1)):
+        with pytest.raises(ValueError, match=words):
+            asked()
+
+
+def test_whole_rows_and_columns_may_be_floats_and_fractions():
+    assert spam.start(RayleighBenard(ra=1e4, L=12.0, aspect=5/12), 1).shape == (5, 60)
+
+
+@pytest.mark.parametrize("sizes", [(), 24])
+@pytest.mark.parametrize("kind", [partial(CompressibleSteady, scene=RayleighBenard(ra=1e4)), partial(PypdeSteady, ra=1e4),
+                                  partial(BoussinesqSteady, ra=1e4, pr=1.0)])
+def test_no_grids_are_refused(kind, sizes):
+    with pytest.raises(ValueError, match=r"sizes must be the rows of one grid or more, got .*: give them coarsest first"):
+        kind(sizes=sizes)
+    with pytest.raises(ValueError, match=r"no grids \(sizes = \(\)\): give their rows"):
+        steady_on(RayleighBenard(ra=1e4), ())
+
+
+@pytest.mark.parametrize("weight", [Lucy.of, Lucy.of(3.0), "Lucy"])
+def test_a_variant_wants_a_class_of_weights(weight):
+    with pytest.raises(TypeError, match=r"a class of weights, got .*: give the class, such as Lucy, and its range as h"):
+        spam.Variant("mine", weight=weight)
 
 
 def test_sizes_nest():

@@ -103,7 +103,9 @@ def test_rolls_that_do_not_fit_are_refused():
     ({"ra": "1e4"}, TypeError, "ra must be a number, got '1e4': give it without quotes"),
     ({"L": [50]}, TypeError, "L must be a number"),
     ({"eos": VanDerWaals}, TypeError, r"needs an object, got the class VanDerWaals itself: give VanDerWaals\(\)"),
-    ({"transport": ConstNu(0.1, 0.1)}, TypeError, "transport must be a class, .* give ConstNu, its numbers follow"),
+    ({"transport": ConstNu(0.1, 0.1)}, TypeError, "transport must be a class .*, got .*: give ConstNu, without .* which follow"),
+    ({"transport": "const-eta"}, TypeError, "transport must be a class .*, got 'const-eta': give ConstEta or ConstNu or"),
+    ({"transport": float}, TypeError, "transport must be a class .*, got <class 'float'>: give ConstEta"),
 ])
 def test_what_is_no_finite_number_or_no_object_is_refused(wrong, kind, words):
     with pytest.raises(kind, match=words):

@@ -15,8 +15,8 @@ from continuum.jit import formula, generic, jit
 from particles.ghosts import ghosts_of
 from particles.limits import lattice_sums, limit_of, zone
 from particles.methods import fixed
+from particles.methods.brackets import CROSSED, Crossed, Powers
 from particles.methods.fixed import Differences, Exchange, lacking
-from particles.methods.motions import CROSSED, Crossed, Powers
 from particles.methods.spam import Direct, LessStatic
 from particles.pairs import Edge, nothing, rate, sweep
 from particles.surroundings import Listed, Surroundings, fastest
@@ -61,7 +61,7 @@ class ConvectiveDrift(NamedTuple):
 
 
 class ConstantMassDrift(NamedTuple):
-    """Eq. 49 with masses that stay and volumes that follow the flow. bracket : `motions.Crossed` or `Powers` [Eq. 50]."""
+    """Eq. 49 with masses that stay and volumes that follow the flow. bracket : `brackets.Crossed` or `Powers` [Eq. 50]."""
     bracket: Any = CROSSED
 
     def owned(self, V: np.ndarray) -> np.ndarray:

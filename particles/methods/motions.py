@@ -10,18 +10,17 @@ RR98's m_i, p_i, eps_i are of equal volumes dV; or, at constant mass, m, p, E of
 A scheme that is conservative and consistent is another one: see `moving`.
 """
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from continuum.fluid import energy, pressure
+from continuum.fluid import energy
 from particles.edges import Edges
 from particles.interpolants import W, check, reach
 from particles.makers import from_weights, plain, renormalised
-from particles.methods.dih import Dih, Flow, Fluxes, Pairwise, rows, take
+from particles.methods.brackets import CROSSED
+from particles.methods.dih import Dih, Fluxes, Pairwise, rows, take
 from particles.points import Points, pairs, wrapped
-
-ALONG = Pairwise()
 
 
 def scale_of(points: Points, weight: Any) -> float:
@@ -54,7 +53,7 @@ class Motion:
     eos: Any
     law: Any
     zeta: Any = 0.0
-    transport: Any = ALONG
+    transport: Any = Pairwise()  # noqa: RUF009  (immutable)
     scale: float = 1.0
 
     def __post_init__(self):
@@ -162,36 +161,11 @@ class Carried(Convective):
         return edges.V*divergence(edges, v)
 
 
-class Crossed(NamedTuple):
-    """P_ij = P(rho_i, T_j)    [RR98 Eq. 13]"""
-
-    def both(self, eos: Any, a: Flow, b: Flow) -> tuple[np.ndarray, np.ndarray]:
-        """(P_ab, P_ba); in the energy P_ab goes with v_a."""
-        return pressure(eos, a.rho, energy(eos, a.rho, b.T)), pressure(eos, b.rho, energy(eos, b.rho, a.T))
-
-
-CROSSED = Crossed()
-
-
-class Powers(NamedTuple):
-    """P_ij + P_ji = P_i/(m_i^a m_j^b) + P_j/(m_j^a m_i^b), m the density    [RR98 Eq. 50 and note 18]
-
-    Consistent with Eq. 49 for a + b = 0 only: the force is -grad (P/rho^(a+b)). What the points' own pressure does is done
-    with the velocity of the other, so that internal energy changes by -P_i times the growth of the volume.
-    """
-    a: float = 0.0
-    b: float = 0.0
-
-    def both(self, eos: Any, a: Flow, b: Flow) -> tuple[np.ndarray, np.ndarray]:
-        """(P_ab, P_ba); in the energy P_ab goes with v_a."""
-        return b.P/(b.rho**self.a*a.rho**self.b), a.P/(a.rho**self.a*b.rho**self.b)
-
-
 @dataclass(frozen=True, kw_only=True)
 class ConstantMass(Motion):
     """Eq. 49 with masses that stay: momentum and energy are exchanged, volumes follow the flow, dV_i/dt = V_i div v.
 
-    bracket : Crossed or Powers. The divergence takes differences v_j - v_i, the adjoint of the sum P_ij + P_ji.
+    bracket : `brackets.Crossed` or `Powers`. The divergence takes differences v_j - v_i, the adjoint of the sum P_ij + P_ji.
     """
     bracket: Any = CROSSED
 
@@ -223,36 +197,6 @@ class ConstantMass(Motion):
     def conserved(self, state: np.ndarray) -> np.ndarray:
         """Mass, momentum and energy of all points, (2 + d,)."""
         return state[self.places:-1].sum(axis=1)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Filtered:
-    """Transport and a filter of the density: mass chi k_ij (rho_i - rho_j) leaves i for j, with the mean v and e of both.
-
-    Conserves as all exchange over edges does. The density obeys rho' = chi lap rho besides, also at wave lengths of two spacings,
-    which no gradient sees. corrected : only what differs from a linear density is exchanged: fourth order in the wave number.
-    """
-    chi: float
-    transport: Any = ALONG
-    corrected: bool = False
-
-    def __post_init__(self):
-        if not self.chi >= 0:
-            raise ValueError(f"the filter's diffusivity chi must not be negative, got {self.chi}: a tenth of spacing times sound "
-                             "speed is enough")
-
-    def fluxes(self, dih: Dih, flow: Flow) -> Fluxes:
-        """Through all edges."""
-        edges, found = dih.edges, self.transport.fluxes(dih, flow)
-        i, j = edges.i, edges.j
-        step = flow.rho[j] - flow.rho[i]
-        if self.corrected:
-            slope = edges.grad(flow.rho)
-            step -= ((slope[i] + slope[j])*edges.apart).sum(axis=1)/2
-        mass, internal = -self.chi*edges.k*step, flow.eps/flow.rho - (flow.v**2).sum(axis=1)/2
-        # v_i.v_j/2, not the mean of v^2/2: then the internal energy that leaves is what comes in
-        whole = (internal[i] + internal[j] + (flow.v[i]*flow.v[j]).sum(axis=1))/2
-        return Fluxes(found.mass + mass, found.momentum + mass[:, None]*(flow.v[i] + flow.v[j])/2, found.energy + mass*whole)
 
 
 #: by name

@@ -15,7 +15,7 @@ from particles.points import lattice, of_positions, random, relaxed, wrapped
 from particles.run import Run
 from particles.triangulation import between, delaunay
 from particles.weights import Lucy, WendlandC2
-from studies.convection.names import START_ENERGY, one_energy
+from studies.convection.names import START_ENERGY, check_spacings, one_energy
 from studies.convection.points import PointsRun, Setting, rolls
 
 OF_LIMIT = 0.8          # of the step to its stability limit: the flow is steady, its errors are of space alone
@@ -85,6 +85,7 @@ def fluid(scene: RayleighBenard, scheme: Scheme, seed: int) -> Layer | Stream:
     """The method of unit spacing: a scene of L = rows spacings."""
     if not isinstance(scene.sides, Periodic):
         raise ValueError("fixed points have plates above and below only: take a scene with periodic sides")
+    check_spacings(scene)
     return (plates if scheme.held else layer)(scene, scheme, seed)
 
 

@@ -5,8 +5,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.scene import Periodic, RayleighBenard
+from particles.methods.brackets import Powers
 from particles.methods.drift import DRIFTS, ConstantMassDrift, Drift, Drifts, OverPairs
-from particles.methods.motions import Powers, scale_of
+from particles.methods.motions import scale_of
 from particles.methods.spam import LessStatic
 from particles.observe import pairs_behind
 from particles.pairs import nothing, rate, sweep
@@ -16,7 +17,7 @@ from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
 from studies.convection.dih import positions
-from studies.convection.names import START_ENERGY, START_JITTER
+from studies.convection.names import START_ENERGY, START_JITTER, check_spacings
 from studies.convection.points import OFTEN, AveragedRun, Setting, rolls
 from studies.convection.tables import POINT
 from studies.kit.case import Outcome
@@ -51,6 +52,7 @@ def method(scene: RayleighBenard, chosen: DriftMotion) -> Drift:
     """The method of unit spacing: a scene of L = rows spacings."""
     if not isinstance(scene.sides, Periodic):
         raise ValueError("moving points have plates above and below only: take a scene with periodic sides")
+    check_spacings(scene)
     weight = chosen.weight.of(h=chosen.h)
     return Drift(motion=chosen.motion, weight=weight, scale=scale_of(lattice((12, 12)), weight), eos=scene.eos, law=scene.law,
                  box=(scene.width, scene.L), g=scene.g, walls=(*plates(scene.L, scene.T_hot, scene.T_cold),

@@ -65,6 +65,19 @@ def settling(solution: Any) -> float:
     return float(2*solution.ke_err/solution.ke*solution.nu) if solution.ke > 1e-9 else 0.0
 
 
+def check_sizes(sizes: Any) -> None:
+    """Refuse no grids, from which nothing follows.
+
+    Raises
+    ------
+    ValueError
+        Sizes are empty, or no tuple.
+    """
+    if not (isinstance(sizes, tuple) and sizes):
+        raise ValueError(f"sizes must be the rows of one grid or more, got {sizes!r}: give them coarsest first, as in "
+                         "(16, 24, 32)")
+
+
 @dataclass(frozen=True, kw_only=True)
 class CompressibleSteady(Case):
     """Steady states on ever finer grids, each started from the one before; the finest one's fields on request."""
@@ -75,6 +88,9 @@ class CompressibleSteady(Case):
     smooth: tuple[Smoothing, ...] = ()
     variant: str = "flux-form"
     longest: float = 60.0
+
+    def __post_init__(self):
+        check_sizes(self.sizes)
 
     @property
     def cost(self) -> float:
@@ -144,6 +160,9 @@ class BoussinesqSteady(Case):
     pr: float
     sizes: tuple[int, ...] = (32, 48, 64)
 
+    def __post_init__(self):
+        check_sizes(self.sizes)
+
     @property
     def cost(self) -> float:
         return sum(6e-5*rows**2 for rows in self.sizes)
@@ -184,6 +203,9 @@ class PypdeSteady(Case):
     pr: float = 1.0
     scene: RayleighBenard | None = None
     sizes: tuple[int, ...] = (16, 24, 32)
+
+    def __post_init__(self):
+        check_sizes(self.sizes)
 
     @property
     def cost(self) -> float:

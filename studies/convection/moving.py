@@ -11,7 +11,7 @@ from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
 from studies.convection.dih import positions
-from studies.convection.names import START_ENERGY, START_JITTER
+from studies.convection.names import START_ENERGY, START_JITTER, check_spacings
 from studies.convection.points import OFTEN, AveragedRun, Setting, rolls
 
 
@@ -42,6 +42,7 @@ def method(scene: RayleighBenard, motion: Motion) -> Moving:
     """The method of unit spacing: a scene of L = rows spacings."""
     if not isinstance(scene.sides, Periodic):
         raise ValueError("moving points have plates above and below only: take a scene with periodic sides")
+    check_spacings(scene)
     return Moving(weight=motion.weight.of(h=motion.h), eos=scene.eos, law=scene.law, box=(scene.width, scene.L), g=scene.g,
                   walls=(*plates(scene.L, scene.T_hot, scene.T_cold), *periodic(scene.width)), ingredients=motion.ingredients)
 

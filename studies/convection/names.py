@@ -1,4 +1,5 @@
 """Words and numbers that all cases share; apart from the tables, so that a new column does not run every case again."""
+from math import isclose
 from typing import Any
 
 START_ENERGY = 9/5000  # kinetic energy per mass of the initial rolls [KHP95, Fig. 9]
@@ -20,3 +21,17 @@ def scene_columns(scene: Any) -> dict[str, Any]:
     """The columns of a row that name the scene."""
     return {"eos": EOS_NAMES[type(scene.eos).__name__], "transport": TRANSPORT_NAMES[scene.transport.__name__],
             "sides": type(scene.sides).__name__.lower(), "ra": float(scene.ra), "pr": float(scene.pr)}
+
+
+def check_spacings(scene: Any) -> None:
+    """Refuse a box that whole columns and rows of points of unit spacing do not fill.
+
+    Raises
+    ------
+    ValueError
+        Height or width is no whole number.
+    """
+    for name, length in (("height L", scene.L), ("width aspect L", scene.width)):
+        if not isclose(length, max(1, round(length)), rel_tol=1e-9):
+            raise ValueError(f"points of unit spacing need whole rows and columns, got {name} = {length:.6g}: give L as the "
+                             "number of rows, aspect as columns over rows")

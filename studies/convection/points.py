@@ -10,7 +10,7 @@ import numpy as np
 from continuum.scene import RayleighBenard
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, Run, run
-from studies.convection.names import HALVES, VALUES, one_energy, scene_columns
+from studies.convection.names import HALVES, VALUES, check_spacings, one_energy, scene_columns
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import settled
 
@@ -32,6 +32,9 @@ class PointsRun(Case):
     scene: RayleighBenard
     seed: int = 1
     t_end: float
+
+    def __post_init__(self):
+        check_spacings(self.scene)
 
     @property
     @abstractmethod

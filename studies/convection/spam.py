@@ -22,7 +22,7 @@ from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import AtWall, Copied, Odd, Own, plates, sides
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
-from studies.convection.names import HALVES, START_ENERGY, START_JITTER, VALUES, scene_columns
+from studies.convection.names import HALVES, START_ENERGY, START_JITTER, VALUES, check_spacings, scene_columns
 from studies.convection.symmetry import flowing
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import mean, settled
@@ -68,11 +68,7 @@ def developed(scene, x, y):
     return at.vx, at.vy, at.T
 
 
-class Variant(NamedTuple):
-    """One way to build the method; the defaults are the scheme as printed with the walls of Fig. 3.
-
-    begin : (scene, x, y) -> (vx, vy, T) at the start; None for the rolls of Sec. VI and a linear temperature.
-    """
+class _Choices(NamedTuple):
     name: str
     weight: Any = Lucy
     h: float = 3.0
@@ -82,6 +78,26 @@ class Variant(NamedTuple):
     fraction: float = 0.0
     step: float = OF_LIMIT
     begin: Callable | None = None
+
+
+class Variant(_Choices):
+    """One way to build the method; the defaults are the scheme as printed with the walls of Fig. 3.
+
+    weight : a class of `particles.weights`; h : its range. begin : (scene, x, y) -> (vx, vy, T) at the start; None for the
+    rolls of Sec. VI and a linear temperature.
+
+    Raises
+    ------
+    TypeError
+        The weight is no class of weights.
+    """
+
+    def __new__(cls, *choices, **more):
+        self = super().__new__(cls, *choices, **more)
+        if not (isinstance(self.weight, type) and hasattr(self.weight, "of")):
+            raise TypeError(f"the weight of a variant must be a class of weights, got {self.weight!r}: give the class, such as "
+                            "Lucy, and its range as h")
+        return self
 
 
 PRINTED = Variant("printed")
@@ -124,6 +140,7 @@ def step(scene: RayleighBenard, variant: Variant) -> float:
 
 def start(scene: RayleighBenard, seed: int, begin: Callable | None = None) -> np.ndarray:
     """State (5, n): jittered square lattice with rolls of Sec. VI and linear temperature [KHP95], or as `begin` has it."""
+    check_spacings(scene)
     columns, rows = round(scene.width), round(scene.L)
     x, y = np.meshgrid(np.arange(columns) + 0.5 - scene.width/2, np.arange(rows) + 0.5 - scene.L/2)
     shift = np.random.default_rng(seed).uniform(-START_JITTER, START_JITTER, (2, columns*rows))
@@ -150,6 +167,9 @@ class SpamRun(Case):
     t_end: float = 90.0
     mean_from: float = 40.0
     keep: str = ""
+
+    def __post_init__(self):
+        check_spacings(self.scene)
 
     @property
     def dt(self) -> float:

@@ -7,8 +7,10 @@ import numpy as np
 
 from continuum.fluid import ConstEta
 from particles.makers import renormalised
+from particles.methods.brackets import Powers
 from particles.methods.dih import Dih
-from particles.methods.motions import ConstantMass, Convective, Filtered, Literal, Powers, convected
+from particles.methods.filtered import Filtered
+from particles.methods.motions import ConstantMass, Convective, Literal, convected
 from particles.points import Points, jittered, lattice
 from particles.team import Team
 from particles.weights import Lucy
