@@ -87,13 +87,17 @@ class Motion(NamedTuple):
 def least_stable(weight: Any, eos: Any, e: float, kind: str, cells: tuple[int, int], m: float = 1.0) -> Motion:
     """Of the motions that fit into the box, the one with the least omega^2."""
     k = vectors(kind, cells)
+    squares, a = np.linalg.eigh(matrices(weight, eos, e, kind, k, m))
+    least = int(np.argmin(squares[:, 0]))
+    return Motion(k[least], a[least, :, 0], float(squares[least, 0]))
+
+
+def matrices(weight: Any, eos: Any, e: float, kind: str, k: np.ndarray, m: float = 1.0) -> np.ndarray:
+    """M (k, 2, 2) of wave vectors k (k, 2)."""
     total, S, D = sums(weight, kind, k)
     rho = m*total
     P, c2 = pressure(eos, rho, e), sound_speed_squared(eos, rho, e)
-    M = (m/rho)**2*(c2 - 2*P/rho)*S[:, :, None]*S[:, None, :] + 2*m*P/rho**2*D
-    squares, a = np.linalg.eigh(M)
-    least = int(np.argmin(squares[:, 0]))
-    return Motion(k[least], a[least, :, 0], float(squares[least, 0]))
+    return (m/rho)**2*(c2 - 2*P/rho)*S[:, :, None]*S[:, None, :] + 2*m*P/rho**2*D
 
 
 def sound_speed_squared(eos: Any, rho: float, e: float) -> float:
