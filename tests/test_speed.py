@@ -13,7 +13,6 @@ from studies.cost import speed_cases_vortex as vortex
 from studies.cost import speed_cases_waves as wave
 from studies.cost import speed_convection as convection
 from studies.cost import speed_derive, speed_figures, speed_names, speed_tables
-from studies.cost.speed_cases_growth import Growth
 from studies.cost.speed_claims import CLAIMS, of_level, seconds
 from studies.cost.speed_plan import planned
 from studies.cost.speed_plates_exact import DEGREE, FLOWS, MU, fields, solved
@@ -337,14 +336,6 @@ def test_every_method_has_a_look_of_its_own():
 def test_without_tables_nothing_is_decided_or_drawn():
     assert {row["verdict"] for row in judge(CLAIMS, Tables(), "speed")} == {"undecidable"}
     assert speed_figures.figures(Tables()) == {} and speed_derive.derive(Tables()) == {"growth_laws": []}
-
-
-def test_growth_has_a_row_for_each_clock():
-    """224 rows are timed by both: no two rows of the table have the same key."""
-    names = {"clock": "clock", "threads": "threads", "method": "name", "points": "points"}
-    keys = [tuple(getattr(case, names[column]) for column in speed_tables.GROWTH.key)
-            for case in speed.cases("paper") if isinstance(case, Growth)]
-    assert len(set(keys)) == len(keys) == 22
 
 
 @pytest.mark.parametrize("size", ["quick", "paper"])

@@ -21,7 +21,19 @@ from studies.convection import dih, moving, spam
 from studies.convection.names import START_ENERGY
 from studies.convection.smoothing import Smoothing, smoothed_energy
 from studies.cost import speed_names as names
-from studies.cost.speed_convection import OFTEN, SIZES, Followed, Seen, problem_of, reference, scene_of
+from studies.cost.speed_convection import (
+    LATE,
+    LOWER_RA,
+    OFTEN,
+    RA,
+    SETTLED,
+    SIZES,
+    Followed,
+    Seen,
+    problem_of,
+    reference,
+    scene_of,
+)
 from studies.cost.speed_problem import Problem, holding, plain
 
 
@@ -43,12 +55,13 @@ class OnFixed(NamedTuple):
     sizes: tuple[int, int, int] = SIZES
     dear: float = 2.2e-4        # seconds of a case over rows^3
     makes: float = 0.0          # the same of making points, over rows^2
+    ra: float = RA
 
     def seconds(self, rows: int) -> float:
         return 1 + self.dear*rows**3 + self.makes*rows**2
 
     def problem(self, rows: int, seed: int) -> Problem:
-        scene = scene_of(rows)
+        scene = scene_of(rows, self.ra)
         method = dih.fluid(scene, self.scheme, seed)
         first, unit = dih.start(scene, method), scene.L/scene.free_fall
 
@@ -57,7 +70,7 @@ class OnFixed(NamedTuple):
             T = temperature(scene.eos, state[0], state[3]/state[0] - (v**2).sum(axis=1)/2)
             return Seen(method.x/scene.L, v, T, method.edges.V)
         return problem_of(first.shape[1], first, limit_of(method, first), sampled(method, dih.kinetic, unit), plain(method),
-                          holding(method, first), see, unit=unit, found=reference(self.sizes))
+                          holding(method, first), see, unit=unit, found=reference(self.sizes, self.ra))
 
 
 class OnMoving(NamedTuple):
@@ -79,7 +92,7 @@ class OnMoving(NamedTuple):
             v = np.stack([px, py], axis=1)/m[:, None]
             return Seen(state[:2].T/scene.L, v, temperature(scene.eos, m/V, total/m - (v**2).sum(axis=1)/2), V)
         return problem_of(first.shape[1], first, limit_of(method, first), sampled(method, moving.kinetic, unit), plain(method),
-                          holding(method, first), see, unit=unit, noisy=True, found=reference(self.sizes))
+                          holding(method, first), see, unit=unit, late=SETTLED, found=reference(self.sizes))
 
 
 class OnSpam(NamedTuple):
@@ -105,7 +118,7 @@ class OnSpam(NamedTuple):
             at = fields_at(sums, copy, *state[:2])
             return Seen(state[:2].T/scene.L, np.stack([at.vx, at.vy], axis=1), at.T, np.full(n, 1.0/n))
         return problem_of(first.shape[1], first, limit_of(method, first), sampled(method, field_kinetic, unit), plain(method),
-                          holding(method, first), see, unit=unit, noisy=True, factor=smooth/plainly, found=found)
+                          holding(method, first), see, unit=unit, late=LATE, factor=smooth/plainly, found=found)
 
 
 class OnGrid(NamedTuple):
@@ -113,12 +126,13 @@ class OnGrid(NamedTuple):
     name: str
     first: float = 0.9
     sizes: tuple[int, int, int] = SIZES
+    ra: float = RA
 
     def seconds(self, rows: int) -> float:
         return 0.3 + 7e-5*rows**3
 
     def problem(self, rows: int, seed: int) -> Problem:
-        scene = scene_of(rows)
+        scene = scene_of(rows, self.ra)
         first, unit = block(initial(scene, rows, START_ENERGY)), scene.L/scene.free_fall
 
         def follow(S: np.ndarray, dt: float, steps: int) -> Followed:
@@ -142,7 +156,7 @@ class OnGrid(NamedTuple):
         march = March(scene, first.copy(), FluxForm(), 1.0)
         return problem_of(rows*round(scene.aspect*rows), first, limits(scene, filled(scene, first)).both, follow,
                           lambda S, dt, steps: March(scene, S.copy(), FluxForm(), dt).go(steps),
-                          lambda: (march.S, march.scratch), see, unit=unit, found=reference(self.sizes))
+                          lambda: (march.S, march.scratch), see, unit=unit, found=reference(self.sizes, self.ra))
 
 
 def filled(scene: RayleighBenard, S: np.ndarray) -> np.ndarray:
@@ -160,3 +174,5 @@ PRINTED = OnSpam(names.LUCY, spam.PRINTED)
 PARTICLES = (OnSpam(names.MONAGHAN, spam.VARIANTS["printed-monaghan"]), OnSpam(names.WENDLAND, spam.VARIANTS["wendland-c2"]),
              OnSpam(names.LESS_STATIC, spam.VARIANTS["less-static-50"]))
 MOVING = OnMoving(names.MOVING)
+#: the two that decide what fixed points cost, at half the Rayleigh number
+GRID_LOWER, NEAREST_LOWER = GRID._replace(ra=LOWER_RA), LATTICES[0]._replace(ra=LOWER_RA)

@@ -182,10 +182,10 @@ class OnPypde(NamedTuple):
         options: dict[str, Any] = {"until": Time(END*unit, samples), "start": pypde.Rolls(START_ENERGY), "progress": laps}
         done = pypde.solve_gas(scene, rows, **options) if self.gas else pypde.solve_boussinesq(ra=RA, pr=PR, rows=rows, **options)
         followed = Followed(done.series.t/unit, done.series.ke, done)
-        off = residuals_of(followed, self._see(scene) if self.gas else None, False, 1.0, known)
+        off = residuals_of(followed, self._see(scene) if self.gas else None, None, 1.0, known)
         if not self.gas:
             off.pop("K(t)")     # its rolls at the start are not KHP95's, which are not free of divergence
-        share = shares_of(followed, {name: max(known.known, rms(q)) for name, q in off.items()}, False)
+        share = shares_of(followed, {name: max(known.known, rms(q)) for name, q in off.items()}, None)
         return Solved(off, share, done.state[0].size, done.steps, array_bytes(done.state, done.equation), known.known,
                       laps.total(samples), done.compile_s)
 

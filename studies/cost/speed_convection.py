@@ -1,4 +1,4 @@
-"""What convection at Ra = 10 000 from KHP95's rolls is told against, and what share of a run a quantity needs.
+"""What convection at Ra = 10 000, and 5000, from KHP95's rolls is told against, and what share of a run a quantity needs.
 
     K, velocity, temperature    of the steady state, against the compressible grid's by Newton's method, extrapolated
     K(t)                        over the first 30 free-fall times, against the compressible grid in time, extrapolated
@@ -23,8 +23,9 @@ from studies.convection.names import START_ENERGY
 from studies.cost.speed_problem import Problem, Residuals
 from studies.kit.stats import settled
 
-RA = 1e4
+RA, LOWER_RA = 1e4, 5000.0
 END, EARLY, LATE = 90.0, 30.0, 40.0     # free-fall times: of the run, of K(t), from which averages are taken
+SETTLED = 60.0      # the same where an error of 1 % is told: K of the grid is off by 1 % until 47, by 0.2 % until 60
 OFTEN = 4           # samples a free-fall time
 SIZES = (32, 48, 64)                    # of the references
 MIDDLE = 1/8        # of the height on either side of the middle, where the place of the rolls is read
@@ -39,9 +40,9 @@ class Reference(NamedTuple):
     history_known: float
 
 
-def scene_of(rows: float) -> RayleighBenard:
+def scene_of(rows: float, ra: float = RA) -> RayleighBenard:
     """Unit spacing."""
-    return RayleighBenard(ra=RA, L=float(rows))
+    return RayleighBenard(ra=ra, L=float(rows))
 
 
 def extrapolated(coarse: Any, fine: Any, sizes: Sequence[int]) -> Any:
@@ -51,9 +52,9 @@ def extrapolated(coarse: Any, fine: Any, sizes: Sequence[int]) -> Any:
 
 
 @cache
-def reference(sizes: tuple[int, int, int] = SIZES) -> Reference:
+def reference(sizes: tuple[int, int, int] = SIZES, ra: float = RA) -> Reference:
     """The gas."""
-    scene = RayleighBenard(ra=RA)
+    scene = RayleighBenard(ra=ra)
     found = [newton(scene, rows) for rows in sizes]
     unit = scene.L/scene.free_fall
     curves = [run_grid(scene, rows, until=Time(EARLY*unit, round(EARLY*OFTEN)),
@@ -105,49 +106,50 @@ def compared(seen: Seen, found: Reference) -> Residuals:
     return {"velocity": ((seen.v - v)*w[:, None]/size_v).ravel(), "temperature": (seen.T - T)*w/size_T}
 
 
-def end_of(done: Followed, noisy: bool) -> tuple[float, float]:
-    """K of the end and its statistical error."""
-    if not noisy:
+def end_of(done: Followed, late: float | None) -> tuple[float, float]:
+    """K of the end and its statistical error; of a flow that fluctuates the mean from `late` on."""
+    if not late:
         return float(done.ke[-1]), 0.0
-    late, _ = settled(done.ke[done.t > LATE*done.t[-1]/END])
-    return late
+    mean, _ = settled(done.ke[done.t > late*done.t[-1]/END])
+    return mean
 
 
-def residuals_of(done: Followed, see: Callable[[Any], Seen] | None, noisy: bool, factor: float, found: Reference) -> Residuals:
+def residuals_of(done: Followed, see: Callable[[Any], Seen] | None, late: float | None, factor: float,
+                 found: Reference) -> Residuals:
     """All quantities; `factor`: what smoothing alone makes of K."""
-    ke, times = end_of(done, noisy)[0], np.arange(1, round(EARLY*OFTEN))/OFTEN
+    ke, times = end_of(done, late)[0], np.arange(1, round(EARLY*OFTEN))/OFTEN
     exactly = factor*found.history(times)
     off = (CubicSpline(done.t, done.ke)(times) - exactly)/np.sqrt(np.mean(exactly**2))
     return {"K": np.array([ke/(factor*found.ke) - 1]), "K(t)": off, **(compared(see(done.state), found) if see else {})}
 
 
-def shares_of(done: Followed, errors: dict[str, float], noisy: bool) -> dict[str, float]:
+def shares_of(done: Followed, errors: dict[str, float], late: float | None) -> dict[str, float]:
     """Of the run, by quantity: rule at the head of this file."""
-    ke, err = end_of(done, noisy)
+    ke, err = end_of(done, late)
     width = OFTEN if len(done.ke) > 4*OFTEN else 1
     smooth = np.convolve(done.ke/ke - 1, np.ones(width)/width, "valid")
     times, found = done.t[width - 1:], {}
     for name, error in errors.items():
         outside = np.flatnonzero(np.abs(smooth) > error)
         reached = times[min(outside[-1] + 1, len(times) - 1)] if len(outside) else times[0]
-        averaged = (END - LATE)*min(1.0, (err/ke/error)**2) if noisy else 0.0
+        averaged = (END - late)*min(1.0, (err/ke/error)**2) if late else 0.0
         found[name] = min(1.0, (reached + averaged)/done.t[-1])
     return found | {"K(t)": min(1.0, EARLY/done.t[-1])}
 
 
 def problem_of(points: int, first: Any, limit: float, follow: Callable[[Any, float, int], Followed],
                step: Callable[[Any, float, int], Any], held: Callable[[], tuple], see: Callable[[Any], Seen] | None, *,
-               unit: float, noisy: bool = False, factor: float = 1.0, found: Reference | None = None) -> Problem:
-    """What all contestants share; unit: of free-fall time."""
+               unit: float, late: float | None = None, factor: float = 1.0, found: Reference | None = None) -> Problem:
+    """What all contestants share; unit: of free-fall time; late: of a flow that fluctuates, from when it is averaged."""
     found = found or reference()
 
     def residuals(done: Followed) -> Residuals:
-        return residuals_of(done, see, noisy, factor, found)
+        return residuals_of(done, see, late, factor, found)
 
     def share(done: Followed) -> dict[str, float]:
         errors = {name: max(found.known, float(np.sqrt(np.mean(off**2)))) for name, off in residuals(done).items()}
-        return shares_of(done, errors, noisy)
+        return shares_of(done, errors, late)
 
     def uncertain(done: Followed) -> dict[str, float]:
-        return {"K": end_of(done, noisy)[1]/(factor*found.ke), "K(t)": found.history_known}
-    return Problem(points, first, limit, END*unit, follow, residuals, held, found.known, noisy, step, uncertain, share)
+        return {"K": end_of(done, late)[1]/(factor*found.ke), "K(t)": found.history_known}
+    return Problem(points, first, limit, END*unit, follow, residuals, held, found.known, bool(late), step, uncertain, share)

@@ -5,7 +5,6 @@ changes what is measured by less than the error that is left: the error of time 
 """
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import partial
 from math import ceil
 from pathlib import Path
 from time import process_time
@@ -170,19 +169,31 @@ class Race(Case):
         return {"scene": self.scene, "method": self.method.name, "resolution": self.resolution, "seed": self.seed}
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        make = partial(self.method.problem, self.resolution, self.seed)
-        problem, made_s, _ = compile_and_run_seconds(make)
-        _, loop_s, _ = compile_and_run_seconds(lambda: (problem.step or problem.go)(
-            problem.first, self.method.first*problem.limit, 1))
+        problem, compile_s = self._compiled()
         report(0.2)
         rungs, found = climb(problem, self.method.first)
         report(0.7)
         rows = {"steps": list(self._rungs(rungs)), "errors": list(self._errors(problem, found))}
         if found is None:
             return Outcome(rows)
-        # particles are timed in the disorder of the end: their lists are made more often than at the start
-        first, short = (found.state, LONGER*self.short) if problem.chaotic else (problem.first, self.short)
-        return Outcome({**rows, **self._run(problem._replace(first=first), rungs[-1].fraction, make, made_s + loop_s, short)})
+        return Outcome({**rows, **self._run(problem, rungs[-1].fraction, found, compile_s)})
+
+    def again(self, fraction: float) -> dict[str, list[dict[str, Any]]]:
+        """Seconds alone, of a step that is known; no rows where the run diverges."""
+        problem, compile_s = self._compiled()
+        found = result(problem, fraction) if problem.chaotic else None
+        return {} if problem.chaotic and found is None else self._run(problem, fraction, found, compile_s)
+
+    def _make(self) -> Problem:
+        made: Problem = self.method.problem(self.resolution, self.seed)
+        return made
+
+    def _compiled(self) -> tuple[Problem, float]:
+        """The problem, and seconds of compiling it and its step."""
+        problem, made_s, _ = compile_and_run_seconds(self._make)
+        _, loop_s, _ = compile_and_run_seconds(lambda: (problem.step or problem.go)(
+            problem.first, self.method.first*problem.limit, 1))
+        return problem, made_s + loop_s
 
     def _rungs(self, rungs: list[Rung]) -> Iterator[dict[str, Any]]:
         for rung in rungs:
@@ -199,12 +210,14 @@ class Race(Case):
             yield {**self.key_columns, "quantity": name, "error": rms(residual), "error_err": err,
                    "share": found.share.get(name, 1.0)}
 
-    def _run(self, problem: Problem, fraction: float, make: Callable[[], Problem], compile_s: float,
-             short: float) -> dict[str, list[dict[str, Any]]]:
+    def _run(self, problem: Problem, fraction: float, found: Result | None,
+             compile_s: float) -> dict[str, list[dict[str, Any]]]:
         steps = steps_of(problem, fraction)
         dt = problem.time/steps
-        seconds = per_step(lambda n: (problem.step or problem.go)(problem.first, dt, n), short).times(steps)
-        set_up = of_calls(lambda: make().held())
+        # particles are timed in the disorder of the end: their lists are made more often than at the start
+        first, short = (found.state, LONGER*self.short) if found and problem.chaotic else (problem.first, self.short)
+        seconds = per_step(lambda n: (problem.step or problem.go)(first, dt, n), short).times(steps)
+        set_up = of_calls(lambda: self._make().held())
         return self.timings(seconds, {
             "points": problem.points, "of_limit": fraction, "dt": dt, "steps": steps, "setup_s": set_up.value,
             "setup_s_err": set_up.err, "compile_s": compile_s, "bytes": array_bytes(problem.held()), "threads": 1})

@@ -29,7 +29,7 @@ NEEDED = Table("needed", key=[*SERIES, "level"], columns=[*SERIES, "level", "rea
 CHEAPEST = Table("cheapest", key=["scene", "quantity", "level"], columns=[
     "scene", "quantity", "level", "method", "reached", "cpu_s", "low", "high", "points"])
 #: seconds of a step by number of particles: CPU time, or the time that passes; bytes of arrays while it runs, and what the
-#: process takes beyond what it had, setting up included
+#: process takes beyond what it had, setting up included (of CPU time only: one and two threads take turns in one process)
 GROWTH = Table("growth", key=["method", "points", "threads", "clock"], columns=[
     "method", "points", "threads", "clock", "step_s", "step_s_err", "early_s", "late_s", "bytes", "peak_bytes"])
 #: d ln(seconds of a step)/d ln(particles); of two threads: how much faster than one

@@ -78,6 +78,11 @@ def per_step(advance: Callable[[int], Any], short: float = SHORT, clock: Callabl
     return timed([(lap(3*steps) - lap(steps))/(2*steps) for _ in range(REPEATS)], SPREAD_TO_ERR)
 
 
+def of_laps(laps: Sequence[float] | np.ndarray) -> Timed:
+    """Of one of them: their median; its error is that of so many, from their quartiles."""
+    return timed(list(laps), SPREAD_TO_ERR*np.sqrt(REPEATS/len(laps)))
+
+
 class Laps:
     """Seconds between calls."""
 
@@ -89,8 +94,7 @@ class Laps:
 
     def total(self, count: int) -> Timed:
         """Of `count` of them; the error is that of their median, from their quartiles."""
-        laps = np.diff(self.at)
-        return timed(list(laps), SPREAD_TO_ERR*np.sqrt(REPEATS/len(laps))).times(count)
+        return of_laps(np.diff(self.at)).times(count)
 
 
 def with_peak(f: Callable[[], T]) -> tuple[T, float]:

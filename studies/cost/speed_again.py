@@ -1,0 +1,85 @@
+"""Seconds anew, at the steps that are known and with the errors as they are; joins the tables of the study `speed`.
+
+    python -m studies.cost.speed_again [--only TEXT] [--out FOLDER]
+
+On another machine, or once something is faster: to find the step of each method takes longer than to time it. A case whose step
+the table `steps` does not have is left out: `python -m studies.speed --only TEXT` finds it. Rows are written as they come.
+"""
+import argparse
+from collections.abc import Iterable
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import perf_counter
+from typing import Any
+
+import pandas as pd
+
+from studies.cost import speed_tables
+from studies.cost.speed_cases_others import Direct
+from studies.cost.speed_problem import Race
+from studies.kit.case import Case
+from studies.kit.study import Rows, Study, say, verdict_line
+from studies.kit.sweep import RESULTS, labelled, load
+from studies.kit.table import changed, merge
+
+#: tables of seconds; errors and steps stay
+TIMES = ("runs", "repeats", "growth", "starts")
+
+
+def fraction_of(case: Race, steps: pd.DataFrame) -> float | None:
+    """Of the stability limit: the step that a case ended with, its shortest; none where it has not run."""
+    mine = pd.Series(True, index=steps.index)
+    for name, value in case.key_columns.items():
+        mine &= steps[name] == value
+    return float(steps.loc[mine, "of_limit"].min()) if mine.any() else None
+
+
+def again(case: Case, steps: pd.DataFrame) -> dict[str, list[dict[str, Any]]]:
+    """Rows of the tables of seconds; none where the step is not known, or diverges."""
+    if isinstance(case, Race) and not isinstance(case, Direct):
+        fraction = fraction_of(case, steps)
+        return {} if fraction is None else case.again(fraction)
+    with TemporaryDirectory() as folder:
+        rows = case.run(lambda done: None, Path(folder)).rows
+    return {name: rows[name] for name in TIMES if name in rows}
+
+
+def put(rows: Rows, out: Path, size: str, command: str) -> None:
+    """Into the tables on disk."""
+    for table in speed_tables.ALL:
+        if rows.get(table.name):
+            merge(out/"speed"/f"{table.name}.csv", table, rows[table.name], size=size, command=command)
+
+
+def renew(study: Study, cases: Iterable[Case], out: Path, size: str, command: str) -> list[str]:
+    """Time the cases, one after the other, and derive what follows; labels of those whose step is not known."""
+    known, lost = load(speed_tables.ALL, study.name, out), []
+    steps = known["steps"] if "steps" in known else pd.DataFrame(columns=list(speed_tables.STEPS.columns))
+    for case in cases:
+        began = perf_counter()
+        rows = again(case, steps)
+        put(rows, out, size, command)
+        lost += [] if rows else [case.label]
+        say(f"{perf_counter() - began:7.1f} s  {case.label}" if rows else f"no step is known of {case.label}")
+    derived = study.derive(load(speed_tables.ALL, study.name, out))
+    tables = {table.name: table for table in speed_tables.ALL}
+    put({name: changed(out/study.name/f"{name}.csv", tables[name], new) for name, new in derived.items()}, out, size, command)
+    return lost
+
+
+def main() -> None:
+    """All cases of size `paper` with a text in their label, figures, verdicts."""
+    from studies.speed import STUDY
+    parser = argparse.ArgumentParser(prog="python -m studies.cost.speed_again", description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--only", default="", metavar="TEXT", help="only cases with this text in their label")
+    parser.add_argument("--out", type=Path, default=RESULTS, help="where the tables are (default: results)")
+    words = parser.parse_args()
+    chosen = labelled(list(STUDY.cases("paper")), words.only, "paper")
+    renew(STUDY, chosen, words.out, "paper", f"{parser.prog} --only {words.only!r}" if words.only else parser.prog)
+    STUDY.draw(words.out)
+    for row in STUDY.judge(words.out):
+        print(verdict_line(row))
+
+
+if __name__ == "__main__":
+    main()
