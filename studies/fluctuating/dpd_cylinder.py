@@ -4,7 +4,7 @@ A settled fluid fills the box; those of its particles that are in the cylinder a
 The body force is on what is free, as a mean pressure gradient would be; with the gradient's force on the body the drag is that on
 what is free times all over free.
 """
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -12,13 +12,11 @@ import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.bodies import held
-from particles.integrators_dpd import VelocityVerlet
 from particles.limits import limit_of
-from particles.methods.dpd import Dpd
 from particles.methods.dpd_stream import DpdStream, force_on_body, speed
 from particles.methods.stream import Stream
 from particles.run import Plan, Run, run
-from studies.fluctuating.dpd_cases import Fluid
+from studies.fluctuating.dpd_frozen import DEPTH, ETA, Frozen, free_temperature
 from studies.integral.bodies_drag import VARIANTS, drag_of, force, momentum
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import mean
@@ -42,10 +40,7 @@ DRAG = Table("drag", key=CYLINDER, columns=[
     "offset", "offset_err", "outer_ratio", "outer_ratio_err", "outer_offset", "outer_offset_err"])
 ALL = (CYLINDERS, FLOW, INERTIA, DRAG)
 
-DEPTH = 4.0
-ETA = 0.85          # about, for the push
 BINS = 16
-RECORD = 1.0        # between records: about what sound needs across the cell
 SETTLED = 100.0     # time until the stream is steady: ten times mass over drag, and what enters the body has entered
 
 
@@ -85,24 +80,12 @@ class Inside:
         return np.array(list(found))
 
 
-def free_temperature(sums, state: np.ndarray) -> float:
-    """kT of what is free from the velocities across the stream."""
-    free = ~sums.is_held[sums.now.ids]
-    return float((state[4:6, free]**2).mean())
-
-
 @dataclass(frozen=True, kw_only=True)
-class Cylinder(Fluid):
-    """A stream past a cylinder across the box, which is `DEPTH` deep, at about a Reynolds number of the diameter.
-
-    turns : particles that get inside are sent back.
-    """
+class Cylinder(Frozen):
+    """A stream past a cylinder across the box at about a Reynolds number of the diameter."""
     fraction: float = 0.2
     radius: float = 2.0
-    turns: bool = False
     reynolds: float = 2.0
-    integrator: type = VelocityVerlet
-    dt: float = 0.04
 
     @property
     def variant(self) -> str:
@@ -130,29 +113,17 @@ class Cylinder(Fluid):
         """Time until the stream is steady."""
         return SETTLED
 
-    def filled(self, still: Dpd, inside: Inside) -> tuple[np.ndarray, np.ndarray]:
-        """Particles of the whole box (9, n), and which of them are frozen."""
-        state = self.settled(still)
-        return state, np.flatnonzero(inside(state[:3]))
-
     def watched(self, inside: Inside) -> dict[str, Any]:
         """What is recorded."""
         return {"speed": speed, "force": force_on_body, "inside": inside.count, "kinetic": free_temperature}
 
     def streamed(self, report: Report) -> tuple[DpdStream, int, Run]:
         """The method, the number of particles, the run once the stream is steady."""
-        still, inside = replace(self.method(), box=(self.cell, self.cell, DEPTH)), Inside(self.radius, self.cell)
-        (state, frozen), U = self.filled(still, inside), self.reynolds*ETA/(2*self.radius*self.rho)
-        method = DpdStream(box=still.box, a=self.a, kT=self.kT, noise=still.noise, integrator=self.integrator, held=frozen,
-                           push=drag_of(self.fraction)[0]*ETA*U*DEPTH/round(self.rho*still.volume),
-                           turned=inside.turned if self.turns else None)
-        start = run(method, method.at_rest(state, U), Plan(dt=self.dt, steps=round(self.settling/self.dt))).by_id()
-        every = round(RECORD/self.dt)
-        # a seed of its own: the noise of a run begins anew
-        return method, state.shape[1], run(
-            replace(method, noise=self.noise(self.seed + 3000)), start,
-            Plan(dt=self.dt, steps=round(self.time/RECORD)*every, every=every, series=self.watched(inside),
-                 means={"flow": inside.flow}), report)
+        inside, U = Inside(self.radius, self.cell), self.reynolds*ETA/(2*self.radius*self.rho)
+        push = drag_of(self.fraction)[0]*ETA*U*DEPTH/round(self.rho*self.cell**2*DEPTH)
+        method, start = self.stream((self.cell, self.cell), inside, push, U)
+        plan = self.records(self.time, series=self.watched(inside), means={"flow": inside.flow})
+        return method, start.shape[1], run(self.again(method), start, plan, report)
 
     def _key(self) -> dict:
         return {"variant": self.variant, "fraction": self.fraction, "radius": self.radius}

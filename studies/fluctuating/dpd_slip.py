@@ -3,7 +3,6 @@
 On a surface of slip length b the velocity along it is b times the shear rate there [Navier]. Lengths are in radii.
 """
 from functools import cache
-from math import exp
 
 import numpy as np
 from scipy.optimize import brentq
@@ -78,8 +77,3 @@ def slip_of(ratio: float, fraction: float) -> float:
     def miss(slip: float) -> float:
         return drag(fraction, slip)/drag(fraction) - ratio
     return float(brentq(miss, LEAST, MOST)) if miss(LEAST)*miss(MOST) < 0 else float("nan")
-
-
-def same_radius(slip: float) -> float:
-    """Radius of the cylinder without slip that a distant stream takes this one for."""
-    return exp(-slip/(1 + 2*slip))

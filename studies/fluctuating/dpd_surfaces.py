@@ -4,6 +4,7 @@ Surfaces: as frozen; `turned back`, by which nothing enters; `dense`, frozen fro
 A stream between flat walls of each says how far the fluid slips along it, by the shape of its profile, without a viscosity and
 without a drag. Then `dpd_derive_surfaces` has the drag that hydrodynamics gives to a cylinder along which the fluid slips so.
 """
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -11,12 +12,12 @@ from typing import Any
 import numpy as np
 from scipy.special import stdtrit
 
-from particles.integrators_dpd import VelocityVerlet
 from particles.methods.dpd import Dpd
 from particles.methods.dpd_stream import DpdStream, speed
-from particles.run import Plan, Run, run
-from studies.fluctuating.dpd_cases import BATCHES, Fluid
-from studies.fluctuating.dpd_cylinder import DEPTH, ETA, RECORD, SETTLED, Cylinder, Inside, free_temperature
+from particles.run import Run, run
+from studies.fluctuating.dpd_cases import BATCHES
+from studies.fluctuating.dpd_cylinder import SETTLED, Cylinder, Inside
+from studies.fluctuating.dpd_frozen import DEPTH, ETA, Frozen, free_temperature
 from studies.kit.case import Outcome, Report
 from studies.kit.stats import Measured, mean
 from studies.kit.table import Table
@@ -44,24 +45,21 @@ LEGS = BATCHES      # runs of a slab, for errors
 
 
 @dataclass(frozen=True, kw_only=True)
-class Surface(Fluid):
-    """A body of frozen particles: turns, what gets inside is sent back; denser, times which it is as dense as the fluid."""
-    turns: bool = False
+class Surface(Frozen):
+    """A stream along a body that is `denser` times as dense as the fluid."""
     denser: float = 1.0
-    integrator: type = VelocityVerlet
-    dt: float = 0.04
 
     @property
     def surface(self) -> str:
         return "dense" if self.denser != 1 else "turned back" if self.turns else "frozen"
 
-    def filled(self, still: Dpd, inside: Any) -> tuple[np.ndarray, np.ndarray]:
-        """Particles of the whole box (9, n), and which of them are frozen: those of a denser fluid, settled apart."""
-        state = self.settled(still)
-        if self.denser != 1:
-            other = replace(self, rho=self.denser*self.rho).settled(still)
-            state = np.concatenate([state[:, ~inside(state[:3])], other[:, inside(other[:3])]], axis=1)
-        return state, np.flatnonzero(inside(state[:3]))
+    def filled(self, still: Dpd, inside: Callable) -> np.ndarray:
+        """Particles of the whole box (9, n), those inside of a denser fluid, settled apart."""
+        state = super().filled(still, inside)
+        if self.denser == 1:
+            return state
+        other = replace(self, rho=self.denser*self.rho).settled(still)
+        return np.concatenate([state[:, ~inside(state[:3])], other[:, inside(other[:3])]], axis=1)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -153,23 +151,19 @@ class Slab(Surface):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         period = self.height + self.thick
-        still, inside = replace(self.method(), box=(self.side, period, DEPTH)), Beyond(self.height, period)
-        state, frozen = self.filled(still, inside)
-        method = DpdStream(box=still.box, a=self.a, kT=self.kT, noise=still.noise, integrator=self.integrator, held=frozen,
-                           push=2*ETA*self.rate/(self.height*self.rho), turned=inside.turned if self.turns else None)
-        start = run(method, method.at_rest(state, self.rate*self.height/6),
-                    Plan(dt=self.dt, steps=round(self.settling/self.dt))).by_id()
+        inside = Beyond(self.height, period)
+        method, start = self.stream((self.side, period), inside, push=2*ETA*self.rate/(self.height*self.rho),
+                                    U=self.rate*self.height/6)
         legs = self.legs(method, inside, start, report)
         return Outcome({"slabs": [self._row(method, inside, legs)], "profile": self._profile(inside, legs)})
 
     def legs(self, method: DpdStream, inside: Beyond, state: np.ndarray, report: Report) -> list[Run]:
         """Runs, one after the other."""
-        found, every = list[Run](), round(RECORD/self.dt)
-        plan = Plan(dt=self.dt, steps=round(self.time/LEGS/RECORD)*every, every=every, means={"profile": inside.profile},
-                    series={"speed": speed, "kinetic": free_temperature})
+        found = list[Run]()
+        plan = self.records(self.time/LEGS, series={"speed": speed, "kinetic": free_temperature},
+                            means={"profile": inside.profile})
         for leg in range(LEGS):
-            # a seed of its own: the noise of a run begins anew
-            found.append(run(replace(method, noise=self.noise(self.seed + 3000 + leg)), state, plan))
+            found.append(run(self.again(method, leg), state, plan))
             state = found[-1].by_id()
             report((leg + 1)/LEGS)
         return found

@@ -37,12 +37,6 @@ def window_and_tau(x: np.ndarray, c: float = 6.0) -> tuple[int, float]:
     return window, max(0.5, float(tau[window]))*(1 + (2*window + 1)/len(x))
 
 
-def n_eff(x: Sequence[float] | np.ndarray) -> float:
-    """Number of independent samples that a correlated series is worth, n/(2 tau)."""
-    x = np.asarray(x, dtype=float)
-    return len(x)/(2*window_and_tau(x)[1]) if np.ptp(x) > 0 else float(len(x))
-
-
 def mean(x: Sequence[float] | np.ndarray) -> Measured:
     """Mean of a steady, correlated series and its error.
 
