@@ -13,12 +13,13 @@ from particles.makers import MAKERS
 from particles.methods.dih import Nested, Pairwise
 from particles.weights import WEIGHTS, Lucy, WendlandC2
 from studies.integral import operators_claims, operators_derive, operators_figures, operators_tables
-from studies.integral.operators import DISORDERS
+from studies.integral.operators import DISORDERS, Distance
 from studies.integral.operators_equations import EquationErrors
 from studies.integral.operators_exchange import FORMS, Friction, Invariance, Work, pairs_of
 from studies.integral.operators_printed import Dilation, Nulls, Rotation, Stream, Volumes
 from studies.integral.operators_stability import Euler, Growth
-from studies.integral.operators_weights import Continuum, ExponentialWave, LatticeSums, Symbols
+from studies.integral.operators_symbols import Counted, ExponentialWave, Fastest, Symbols
+from studies.integral.operators_weights import Continuum, LatticeSums
 from studies.kit.case import Case
 from studies.kit.study import Study, main
 
@@ -40,6 +41,9 @@ def weights(size: str) -> Iterator[Case]:
     for kind, d in product(kinds, (1, 2, 3)):
         yield Continuum(kind=kind, d=d)
         yield Symbols(kind=kind, d=d, r0=1.0 if kind in (Exponential, Gaussian) else 3.0, count=count)
+        if kind is not Exponential:     # which has a singularity that no lattice resolves
+            yield Counted(kind=kind, d=d, r0=20.0 if kind is Gaussian else 200.0)
+    yield from (Fastest(kind=Lucy, h=h) for h in (2.0, 3.0, 4.0))
     for d, widths in WIDTHS.items():
         for r0 in widths:
             yield LatticeSums(kind=Exponential, d=d, r0=r0)
@@ -75,6 +79,9 @@ def exchange(size: str) -> Iterator[Case]:
         for (kind, d), seed in product(pairs_of(maker, ["lattice", "jittered-0.3", "random"], (1, 3)), seeds):
             if size != "quick" and (seed == seeds[0] or kind != "lattice"):
                 yield Growth(maker=maker, make=make, disorder=DISORDERS[kind], viscosities=VISCOSITIES, seed=seed, d=d)
+    for length, (kind, disorder) in product((16, 32, 64) if size != "quick" else (16,), DISORDERS.items()):
+        if size != "quick" or kind != "relaxed":
+            yield from (Distance(disorder=disorder, length=length, seed=seed) for seed in seeds[:None if kind in OFF else 1])
     for kind, seed in product(off, seeds):
         yield Stream(disorder=DISORDERS[kind], seed=seed)
     yield from (Work(disorder=DISORDERS[kind], d=d, seed=seed)

@@ -18,16 +18,8 @@ from studies.integral.operators_equations import PRINTED, arriving, derivative
 from studies.integral.operators_exchange import kept, viscosities, works
 from studies.integral.operators_printed import brackets, force, heat, inner, kernel, mass_rate
 from studies.integral.operators_stability import euler_limit, linear_rate, sound
-from studies.integral.operators_weights import (
-    around,
-    epstein,
-    gradient_symbol,
-    interpolated,
-    line_weight,
-    shells,
-    smoothed,
-    spread_symbol,
-)
+from studies.integral.operators_symbols import gradient_symbol, slopes, spread_symbol, twice_symbol
+from studies.integral.operators_weights import around, epstein, interpolated, line_weight, shells, smoothed
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables, read
@@ -82,6 +74,8 @@ def test_lattice_sums_are_those_of_the_edges(d):
         assert edges.linear[middle, 0, 0] == pytest.approx(float(near.number@(w*near.r))/d, rel=1e-12)
         spread = -(edges.laplacian@wave)[middle]/wave[middle]/k**2
         assert spread.real == pytest.approx(spread_symbol(w, near, k), rel=1e-12)
+        nested = (edges.div(edges.grad(wave.real))@wave.real)/(wave.real@wave.real)/k**2
+        assert -nested == pytest.approx(twice_symbol(slopes(w, near, 16), k), rel=1e-12)
 
 
 # --- sums written out -----------------------------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from particles.edges import Edges
-from particles.points import Points, jittered, lattice, random, relaxed
+from particles.points import Points, irregularity, jittered, lattice, off_lattice, random, relaxed
 from particles.weights import WendlandC2
 from studies.kit.case import Case, Outcome, Report
 
@@ -37,6 +37,24 @@ def relaxed_random(counts: tuple[int, ...], apart: float, seed: int) -> Points:
 DISORDERS = {d.name: d for d in (Disorder("lattice", on_lattice), Disorder("jittered-0.1", jittered, 0.1),
                                  Disorder("jittered-0.3", jittered, 0.3), Disorder("random", random, APART),
                                  Disorder("relaxed", relaxed_random, APART))}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Distance(Case):
+    """How far a set of `length` x BREADTH points is from a square lattice, and from being surrounded evenly."""
+    disorder: Disorder
+    length: int
+    seed: int = 1
+
+    @property
+    def cost(self) -> float:
+        return 0.1 + (3.0 if self.disorder.name == "relaxed" else 0.0)
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        at = self.disorder.make((self.length, BREADTH), self.disorder.size, self.seed)
+        uneven = at.a*np.sqrt((irregularity(at, WendlandC2.of(h=3.0))**2).sum(axis=1).max())
+        return Outcome({"distances": [{"points": self.disorder.name, "length": self.length, "seed": self.seed,
+                                       "off_lattice": off_lattice(at), "uneven": float(uneven)}]})
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,7 +1,7 @@
 """What RR98 says of its scheme on fixed points, judged: brackets, transport, steps, forces along edges    [RR98 Eqs 34-40, 51]"""
 import pandas as pd
 
-from studies.integral.operators_read import cell, column, least, most, off, relative, size
+from studies.integral.operators_read import cell, column, error_ratio, least, most, off, relative, size, step_of_fastest
 from studies.kit.claim import Claim
 
 ROUND_OFF = "round-off: sums of some 30 terms, edges from solves with a condition number of 1e3"
@@ -71,6 +71,15 @@ TRANSPORT = (
           because="pairwise forces damp these waves at rates above 0.2 in the same units",
           statement="nested friction and conduction see every wave that points can carry: largest |gradient| a of the waves at "
                     "the 2^d - 1 Nyquist corners, seven weights, 1 to 3 dimensions"),
+    Claim(id="rr98-eq37-symbol", source="RR98 Eqs 37, 38", at_most=1e-8, because="nine digits in the table",
+          value=most("symbols", lambda rows: (rows["nested"] - rows["gradient"]**2).abs()),
+          statement="gradients of gradients see a wave with the square of the gradient's symbol, so that of f^: largest "
+                    "difference of -grad grad A/(k^2 A), summed twice over a lattice, and (symbol/k)^2, seven weights, 1 to 3 "
+                    "dimensions, up to the Nyquist wave"),
+    Claim(id="rr98-eq51-quarter", source="RR98 Eqs 37, 51", expect=4, within=0.1, value=error_ratio,
+          because="both are of the same sum of w x^4/r; (k h)^2 = 0.15 of the longest wave leaves 0.01 to 0.02 of it",
+          statement="Laplacians along edges err four times less than nested ones: ratio of both errors, wave of 48 a along an "
+                    "axis, h = 3 a, five weights, 1 to 3 dimensions, that which is farthest from 4"),
     *(Claim(id=f"rr98-eq{n}-uniform", source=f"RR98 Eq. {n}", at_most=1e-12, because=ROUND_OFF,
             value=cell("stream_means", what, points="jittered-0.3", inner="printed"), statement=statement)
       for n, what, statement in (
@@ -147,6 +156,11 @@ ALONG = (
           ("order-varying-foretold", "friction, eta(T), foretold",
            "eta(T) and zeta = 0, against div Pi without d_b eta d_a v_b - d_a eta div v, which they lack"),
           ("order-varying-mended", "friction, eta(T), mended", "eta(T) and zeta = 0, with the stress that they lack"))),
+    Claim(id="rr98-eq51-order-3d", source="RR98 Eq. 51", expect=2, within=0.05,
+          value=cell("orders", "order", d=3, h=2.0, operator="friction, zeta 0"),
+          because="the next order, (k h)^4, takes 0.01 to 0.03 of the slope",
+          statement="forces along edges are right to second order in 3D, constant eta and zeta = 0: slope of the error at h = 2 "
+                    "a, lattice"),
     Claim(id="rr98-eq51-rotation", source="RR98 Eq. 51", expect=0, within=1e-9,
           value=cell("rotation", "heating", d=2, zeta=0.0, mended="no"), because="round-off over omega^2",
           statement="the work of forces along edges, zeta = 0, does not heat a rigid rotation: heating over eta omega^2, 2D; "
@@ -163,4 +177,21 @@ ALONG = (
           statement="with the flux F added a rigid rotation is not heated, whatever d and zeta: largest over eta omega^2, 2D "
                     "with zeta = 0 and eta/2, 3D"),
 )
-CLAIMS = (*BRACKETS, *TRANSPORT, *ALONG)
+SOUND = (
+    *(Claim(id=f"own-eq34-35-fastest-{h:.0f}", source="RR98 Eqs 34, 35", expect=D, within=5e-4,
+            value=cell("fastest", "fastest", weight="Lucy", h=h, rows=48), because="three digits were foretold",
+            statement=f"the fastest sound on a square lattice has the frequency {D:.3f} c/a with Lucy's weight, h = {h:.0f} a")
+      for h, D in ((2.0, 1.000), (3.0, 0.666), (4.0, 0.498))),
+    Claim(id="own-eq34-35-step", source="RR98 Eqs 34, 35", expect=8**0.5, within=1e-3, value=step_of_fastest,
+          because="RK4 is stable up to sqrt 8 on the imaginary axis; a growth of 1e-9 a step is told from round-off",
+          statement="RK4 is stable up to the step 2.828 over that frequency: longest stable step, by eigenvalues of the scheme, "
+                    "times it, h = 2, 3 and 4 a, that which is farthest from 2.828"),
+)
+POINTS = (
+    Claim(id="own-points-relaxed", source="RR98 Sec. III", at_least=0.5, value=least("distances", column("off_lattice"),
+                                                                                      points="relaxed"),
+          because="half way from a lattice, 0, to points without its order, 1",
+          statement="points that are relaxed until they are surrounded evenly have not become a lattice again: least 1 - |mean "
+                    "of exp(4 i angle) over bonds to the four nearest|, three sizes, three seeds"),
+)
+CLAIMS = (*BRACKETS, *TRANSPORT, *ALONG, *SOUND, *POINTS)

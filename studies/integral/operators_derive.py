@@ -19,6 +19,8 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
         found["orders"] = list(orders(tables["equations"]))
     if "stream" in tables:
         found["stream_means"] = list(means(tables["stream"], ["points", "inner"], ("force", "heat", "asymmetry", "growth")))
+    if "distances" in tables:
+        found["distance_means"] = list(means(tables["distances"], ["points", "length"], ("off_lattice", "uneven")))
     if "growth" in tables:
         rows = tables["growth"]
         rows = rows[rows["rate"].notna()]

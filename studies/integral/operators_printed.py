@@ -44,6 +44,11 @@ def mass_rate(w: Sums, m: np.ndarray, v: np.ndarray) -> np.ndarray:
     return sum(m*(M@u) + u*(M@m) for M, u in zip(w, v.T, strict=True))
 
 
+def convected(w: Sums, p: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """What convection brings to dp_i/dt, (n, d)    [RR98 Eq. 35]"""
+    return np.stack([mass_rate(w, q, v) for q in p.T], axis=1)
+
+
 def force(w: Sums, pi: np.ndarray) -> np.ndarray:
     """-sum_j W e^b_ij (pi^ab_i + pi^ab_j)    [RR98 Eq. 35]"""
     one = np.ones(len(pi))
@@ -73,7 +78,9 @@ def readings(edges: Edges, x: np.ndarray, k: float) -> Iterator[tuple[str, float
     yield "divergence, Eq. 33 in Eq. 1", ratio(-(w[0]@s), k*c), 1.0
     yield "mass, v_i = v", ratio(mass_rate(w, dV*one, v), -divergence*dV), 1.0
     yield "mass, v_i = v dV", ratio(mass_rate(w, dV*one, v*dV), -divergence*dV), dV
-    yield "momentum/(m v), v_i = v dV", ratio(v*dV, dV*(v*dV)), 1/dV
+    carried = -k*np.stack([2*s*c, np.cos(2*k*x)], axis=1)*dV        # -div(v v) dV, rho = 1
+    yield "momentum, p_i = m_i v_i, v_i = v", ratio(convected(w, dV*v, v), carried), 1.0
+    yield "momentum, p_i = m_i v_i, v_i = v dV", ratio(convected(w, dV*(v*dV), v*dV), carried), dV**2
     P = (1 + 0.1*s)*dV                      # at rest, uniform T: P_ij + P_ji = P_i + P_j, which is what `heat` sums
     yield "pressure, P_ij = P dV", ratio(heat(w, np.stack([P, 0*P], axis=1)), -0.1*k*c*dV), 1.0
     friction = -k**2*np.stack([s, c], axis=1)*dV            # eta = 1, zeta = 0 in 2D: div Pi = lap v

@@ -5,11 +5,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from particles.weights import WEIGHTS
 from studies.convection.claims.read import Value, select
 from studies.kit.claim import CannotTell
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
 
+COMPACT = tuple(kind.__name__ for kind in WEIGHTS.values())
 Number = Callable[[pd.DataFrame], Any]
 
 
@@ -33,6 +35,14 @@ def least(name: str, number: Number, **where: Any) -> Value:
     """Smallest of a number over the rows."""
     def value(tables: Tables) -> Measured:
         return Measured(float(np.min(number(chosen(tables, name, **where)))), 0.0)
+    return value
+
+
+def worst(*values: Value) -> Value:
+    """Largest of several numbers, with the largest error."""
+    def value(tables: Tables) -> Measured:
+        found = [each(tables) for each in values]
+        return Measured(max(m.value for m in found), max(m.err for m in found))
     return value
 
 
@@ -113,6 +123,21 @@ def doubling(tables: Tables) -> Measured:
     M = by_width(tables, 3, "line", 0)["value"].to_numpy()
     found = np.diff(M)/(2*np.log(2))
     return Measured(float(found[-1]), float(abs(found[-1] - found[-2])))
+
+
+def error_ratio(tables: Tables) -> Measured:
+    """Error of nested over pairwise Laplacians at the longest wave, of compact weights: that which is farthest from 4."""
+    rows = chosen(tables, "symbols", weight=COMPACT, r0=3.0)
+    rows = rows[rows["k"] == rows["k"].min()]
+    found = (1 - rows["nested"])/(1 - rows["pairwise"])
+    return Measured(float(found.iloc[int((found - 4).abs().argmax())]), 0.0)
+
+
+def step_of_fastest(tables: Tables) -> Measured:
+    """Longest step of RK4 times the largest frequency of sound: that which is farthest from 2.828."""
+    rows = chosen(tables, "fastest").dropna()
+    found = rows["step"]*rows["fastest"]
+    return Measured(float(found.iloc[int((found - 8**0.5).abs().argmax())]), 0.0)
 
 
 def line_moments(tables: Tables) -> Measured:

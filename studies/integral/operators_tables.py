@@ -7,12 +7,18 @@ from studies.kit.table import Table
 #: weights before discretisation; `value_err` is the quadrature's or the extrapolation's
 CONTINUUM = Table("continuum", key=["weight", "d", "quantity"],
                   columns=["weight", "d", "quantity", "value", "value_err", "predicted"])
-#: over k: of the smoothed field f^(k), and on the lattice along an axis of gradient/k, nested and pairwise Laplacian/k^2
+#: over k: of the smoothed field f^(k), and on the lattice along an axis of gradient/k, nested and pairwise Laplacian/k^2; nested
+#: is the gradient taken of the gradient, point by point
 SYMBOLS = Table("symbols", key=["weight", "d", "r0", "k"],
                 columns=["weight", "d", "r0", "k", "smoothed", "gradient", "nested", "pairwise"])
 #: sum of w r^n/r0^(n-1) over the lattice with plain and printed w, or along one half line with the printed one
 LATTICE = Table("lattice", key=["how", "weight", "d", "r0", "n"],
                 columns=["how", "weight", "d", "r0", "n", "value", "predicted"])
+#: sums over the points of a fine lattice of f (n = 0) and of W r (n = 1), of weights of width r0 spacings
+COUNTED = Table("counted", key=["weight", "d", "r0", "n"], columns=["weight", "d", "r0", "n", "value", "predicted"])
+#: on square lattices of so many rows: largest frequency of sound over c/a, D_max; step: the longest of RK4, in a/c, by
+#: eigenvalues (of the smaller lattice only)
+FASTEST = Table("fastest", key=["weight", "h", "rows"], columns=["weight", "h", "rows", "fastest", "step"])
 #: relative error of the gradient of a plane wave, exponential weight
 EXPONENTIAL = Table("exponential", key=["d", "wavelength", "r0"],
                     columns=["d", "wavelength", "r0", "plain", "renormalised"])
@@ -58,5 +64,13 @@ FRICTION = Table("friction", key=["d", "form", "h"],
 #: heating of a rigid rotation over eta omega^2
 ROTATION = Table("rotation", key=["d", "zeta", "mended"], columns=["d", "zeta", "mended", "heating", "predicted"])
 
-ALL = (CONTINUUM, SYMBOLS, LATTICE, EXPONENTIAL, EQUATIONS, ORDERS, VOLUMES, DILATION, STREAM, STREAM_MEANS, NULLS, GROWTH,
-       GROWTH_MEANS, INVARIANCE, WORK, EULER, FRICTION, ROTATION)
+#: sets of `length` x 16 points in 2D. off_lattice: 1 - |mean of exp(4 i angle)| over the bonds of each point to its four
+#: nearest, 0 on a square lattice whatever its direction, 1 without such order; uneven: largest a |sum_j W V_j e_ij|, 0 where
+#: every point is surrounded evenly, as on a lattice
+DISTANCES = Table("distances", key=["points", "length", "seed"], columns=["points", "length", "seed", "off_lattice", "uneven"])
+DISTANCE_MEANS = Table("distance_means", key=["points", "length"], columns=[
+    "points", "length", "seeds", "off_lattice", "off_lattice_err", "uneven", "uneven_err"])
+
+ALL = (CONTINUUM, SYMBOLS, LATTICE, COUNTED, FASTEST, EXPONENTIAL, EQUATIONS, ORDERS, VOLUMES, DILATION, STREAM, STREAM_MEANS,
+       NULLS, GROWTH, GROWTH_MEANS, INVARIANCE, WORK, EULER, FRICTION, ROTATION, DISTANCES,
+       DISTANCE_MEANS)

@@ -156,16 +156,6 @@ def line_weight(weight: Any, d: int, r: np.ndarray) -> np.ndarray:
     return sphere(d)*r**(d - 1)*W(weight, r)
 
 
-def gradient_symbol(w: np.ndarray, at: Around, k: float) -> float:
-    """sum w e_x sin(kx)/k."""
-    return float(at.number@(w*at.x/at.r*np.sin(k*at.x)))/k
-
-
-def spread_symbol(w: np.ndarray, at: Around, k: float) -> float:
-    """sum (2 w/r) (1 - cos kx)/k^2 of the pairwise Laplacian."""
-    return float(at.number@(4*w/at.r*np.sin(k*at.x/2)**2))/k**2
-
-
 def epstein(s: float, d: int) -> float:
     """sum over Z^d without 0 of |n|^-s, continued to s < d (by theta functions)."""
     count = shells(d, 20)
@@ -208,40 +198,3 @@ class LatticeSums(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         key = {"weight": self.kind.__name__, "d": self.d, "r0": self.r0}
         return Outcome({"lattice": [key | row for row in sums(weight_of(self.kind, self.r0, self.d), self.d)]})
-
-
-@dataclass(frozen=True, kw_only=True)
-class Symbols(Case):
-    """Symbols of gradient and Laplacians on the lattice, plain sums scaled to the right first moment, along an axis."""
-    kind: Any
-    d: int
-    r0: float
-    count: int = 24
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        weight = weight_of(self.kind, self.r0, self.d)
-        at = around(span(weight), self.d)
-        w = W(weight, at.r)
-        w *= self.d/float(at.number@(w*at.r))
-        rows = []
-        for k in np.pi*np.arange(1, self.count + 1)/self.count:
-            g = gradient_symbol(w, at, k)
-            rows.append({"weight": self.kind.__name__, "d": self.d, "r0": self.r0, "k": k, "gradient": g, "nested": g*g,
-                         "smoothed": smoothed(weight, self.d, k).value, "pairwise": spread_symbol(w, at, k)})
-        return Outcome({"symbols": rows})
-
-
-@dataclass(frozen=True, kw_only=True)
-class ExponentialWave(Case):
-    """Error of the gradient of a plane wave with the exponential weight    [RR98 Eq. 31]"""
-    d: int
-    r0: float
-    wavelength: float
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        weight, k = Exponential(self.r0, self.d), 2*np.pi/self.wavelength
-        at = around(span(weight), self.d)
-        w = W(weight, at.r)
-        plain, first = gradient_symbol(w, at, k), float(at.number@(w*at.r))/self.d
-        return Outcome({"exponential": [{"d": self.d, "wavelength": self.wavelength, "r0": self.r0, "plain": abs(plain - 1),
-                                         "renormalised": abs(plain/first - 1)}]})
