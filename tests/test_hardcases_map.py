@@ -6,6 +6,7 @@ from scipy.integrate import quad
 
 from studies.hard.map_claims import CLAIMS
 from studies.hard.map_derive import derive
+from studies.hard.map_ends import Ending
 from studies.hard.map_methods import TAKES, Body, flow, kinetic
 from studies.hard.map_scenes import BOXES, LAYERS, SOUND, Strip, Vortex
 from studies.hard.map_shear import BEGIN, Amplitude, ShearFlow, U, fastest
@@ -97,3 +98,9 @@ def test_the_shear_flow_has_its_wave_and_no_divergence():
     place = np.stack(np.meshgrid(np.arange(32) - 15.5, np.arange(16) - 7.5), axis=-1).reshape(-1, 2)
     body = Body(place, np.stack(scene.flow(*place.T), axis=1), np.ones(512))
     assert Amplitude.of(body, scene.k/2) == pytest.approx(BEGIN*U/2, rel=1e-6)  # half, being real; harmonic 16 aliases
+
+
+def test_a_fast_flow_ends_runs_whose_step_it_overtakes():
+    row = Ending(method="fixed lattice").run(lambda done: None, None).rows["map_ends"][0]
+    assert 0.7 < row["reached"] < 0.9 and row["beyond"] > 1
+    assert row["cell_re"] == pytest.approx(row["speed"]*SOUND/0.016) and 0.5 < row["speed"] < 1

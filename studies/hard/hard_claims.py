@@ -117,7 +117,7 @@ LATTICES = (
     *(Claim(id=f"khp95-hard-modulus-order-{kind}-{weight.lower()}", source="KHP95 Sec. II", expect=order, within=0.25,
             value=column("modulus_orders", "order", "order_err", lattice=kind, weight=weight),
             statement=f"the spurious shear modulus vanishes with the power of the range that the end of the weight has: order in "
-                      f"1/h, ranges 3 to 12, {weight}, {kind} lattice",
+                      f"1/h, ranges 3 to 24, {weight}, {kind} lattice",
             because="the next power of h is one less: a tenth of an order over this span, and as much for what is left of the "
                     "oscillation")
       for kind, (weight, order) in product(("hexagonal", "square"), ORDERS.items())),

@@ -40,13 +40,13 @@ def moduli(rows: pd.DataFrame) -> Figure:
             axes.plot(h, (-exact).where(exact <= 0), color=colour, linestyle=":", marker="")
             summed = some[some["measured"].notna()].iloc[::5]
             axes.plot(summed["h"], summed["measured"].abs(), **{**look(number), "linestyle": "none"})
-        ends = np.array([3.0, 12.0])
+        ends = np.array([3.0, 24.0])
         for power, style in ((-2.5, "--"), (-3.5, "-.")):
             axes.plot(ends, 0.05*(ends/3)**power, color="grey", linestyle=style, marker="", label=rf"$h^{{{power}}}$")
         axes.axvline(3.0, color="grey", linewidth=0.6)
         axes.axhline(0.01, color="grey", linewidth=0.6)
         axes.set(xscale="log", yscale="log", title=title, ylim=(1e-6, 0.3), xlabel="range $h$ / spacings")
-        axes.set_xticks([2, 3, 4, 6, 8, 12], labels=["2", "3", "4", "6", "8", "12"])
+        axes.set_xticks([2, 3, 4, 6, 8, 12, 24], labels=["2", "3", "4", "6", "8", "12", "24"])
         axes.minorticks_off()
     all_axes[0].set_ylabel("|shear modulus| / bulk modulus")
     page.legend(*all_axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=5)

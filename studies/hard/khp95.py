@@ -21,6 +21,8 @@ from studies.hard.square import Square
 from studies.kit.case import Case
 
 WEIGHTS = (Lucy, Monaghan, WendlandC2)
+WIDEST = 24.0           # range whose modulus is summed
+MORE_SEEDS = 16         # of the longest viscous tube, whose ringing is near to what is asked
 HEXAGONAL = Crystal(lattice="hexagonal", cells=(14, 8), weight=Lucy, h=3.0, eos=IdealGas())
 SQUARE = replace(HEXAGONAL, lattice="square", cells=(15, 15))
 #: a van der Waals fluid on a hexagonal lattice that an ideal gas would keep
@@ -28,8 +30,8 @@ COLD = replace(HEXAGONAL, h=2.5, eos=VanDerWaals())
 
 
 def moduli(step: float) -> Iterator[Case]:
-    """Ranges from 2 to 12 spacings, by so much."""
-    ranges = tuple(round(float(h), 3) for h in np.arange(2, 12 + step/2, step))
+    """Ranges from 2 to 24 spacings, by so much."""
+    ranges = tuple(round(float(h), 3) for h in np.arange(2, WIDEST + step/2, step))
     yield from (Moduli(lattice=kind, weight=weight, h=ranges) for kind, weight in product(CELLS, WEIGHTS))
 
 
@@ -93,7 +95,8 @@ def cases(size: str) -> list[Case]:
                 *shocks((12.0, 15.0, 18.0), ((0.5, 0.25, 1),), (1,))]
     return [*moduli(0.1), *growth(), *onsets((1,)), *fates((2.0, 2.4, 2.8, 3.0, 3.4, 4.0), (1, 2)), *squares(), *freezing(),
             *newton((5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 100.0), 15, (1, 2)),
-            *shocks((24.0, 48.0, 96.0, 192.0), ((1.0, 0.25, 3), (1.0, 0.75, 3), (2.0, 0.25, 3)), (1, 2, 3))]
+            *shocks((24.0, 36.0, 48.0, 72.0, 96.0, 144.0, 192.0), ((1.0, 0.25, 3), (1.0, 0.75, 3), (2.0, 0.25, 8)), (1, 2, 3)),
+            *(ShockTube(L=192.0, eta=0.5, seed=seed) for seed in range(4, MORE_SEEDS + 1))]
 
 
 PART = Part(cases=cases, tables=hard_tables.ALL, derive=hard_derive.derive, claims=hard_claims.CLAIMS,

@@ -23,8 +23,8 @@ from studies.kit.case import Case, Outcome, Report
 RHO = 3.0
 BOXES: dict[int, tuple[float, ...]] = {2: (6.0, 6.0), 3: (3.0, 3.0, 3.0)}
 SETTLING, SHORT = 400.0, 0.02       # time, with GrootWarren: what moves then is below 1e-4 of the noise
-STEPS = 2000            # beyond the limit a factor of 10 shows from growth by 1e-3 a step on
-UNSEEN = 0.01           # of a limit: how far beyond it growth may not show
+STEPS = 8000            # beyond the limit a factor of 10 shows from growth by 3e-4 a step on
+UNSEEN = 0.0025          # of a limit: how far beyond it growth may not show
 GROWS = 1e-3            # in a step: two eigenvalues meet at -1, and the map is known to 1e-8, its double eigenvalues to 1e-4
 INTEGRATORS = {"1/2": GrootWarren, "0.65": GrootWarren65, "Verlet": VelocityVerlet, "Shardlow": Shardlow, "Eqs 40, 41": TwoStep}
 

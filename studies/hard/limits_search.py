@@ -10,7 +10,7 @@ from particles.run import Divergence, Plan, run
 
 NOISE = 1e-6            # of density, speed of sound and temperature, all about 1: what grows by 10 is still linear
 GROWN = 10.0            # times the noise of a tenth of the run, when what the start does not share has died out
-HALVINGS = 6            # of the factor 2 between a step that is stable and one that is not: 1.1 %
+HALVINGS = 8            # of the factor 2 between a step that is stable and one that is not: 0.3 %
 WIDENINGS = 6           # factors of 2 on either side before the search gives up
 
 

@@ -20,6 +20,8 @@ from studies.kit.case import Case, Outcome, Report
 SAMPLES = 60            # of a run; what is told are means over the last third
 LATE = 2/3
 GRIDS = (ROWS, 2*ROWS, 3*ROWS)
+#: where three left undecided what is a tenth off
+MORE_GRIDS = dict.fromkeys(("Ra 1e5", "high pressure"), (4*ROWS, 6*ROWS))
 #: rows on which it is asked whether the grid at high Ra is steady, and for how long
 FINER, SETTLED = (16, 24, 32, 48), 150.0
 HIGH = (1e5, 2e5, 3.5e5)
@@ -191,7 +193,8 @@ def cases(size: str) -> Iterator[Case]:
         return
     for case, (scene, time) in LAYERS.items():
         unit = scene.L/scene.free_fall
-        yield from (OnGrid(case=case, scene=scene, time=time*unit, rows=rows) for rows in GRIDS)
+        yield from (OnGrid(case=case, scene=scene, time=time*unit, rows=rows)
+                    for rows in (*GRIDS, *MORE_GRIDS.get(case, ())))
         yield from (Hard(case=case, method=method, scene=scene, time=time*unit) for method in TAKES[case])
     for case, (scene, time) in BOXES.items():
         yield from (Hard(case=case, method=method, scene=scene, time=time) for method in TAKES[case])

@@ -1,7 +1,7 @@
 """The map of hard cases: for every method that takes a case, what became of it, as a part of the study."""
 from collections.abc import Iterator
 
-from studies.hard import map_cases, map_claims, map_derive, map_figures, map_shear
+from studies.hard import map_cases, map_claims, map_derive, map_ends, map_figures, map_shear
 from studies.hard.part import Part
 from studies.kit.case import Case
 from studies.kit.table import Table
@@ -19,12 +19,12 @@ MAP = Table("map", key=["case", "method", "variant"], columns=["case", "method",
                                                                "measured_err", "outcome"])
 
 
-
 def cases(size: str) -> Iterator[Case]:
-    """Layers and boxes, and the shear layer."""
+    """Layers and boxes, the shear layer, and why some end."""
     yield from map_cases.cases(size)
     yield from map_shear.cases(size)
+    yield from map_ends.cases(size)
 
 
-PART = Part(cases=cases, tables=(RUNS, STEADINESS, map_shear.SHEAR, MAP), claims=map_claims.CLAIMS, derive=map_derive.derive,
-            figures=map_figures.figures)
+PART = Part(cases=cases, tables=(RUNS, STEADINESS, map_shear.SHEAR, map_ends.ENDS, MAP),
+            claims=(*map_claims.CLAIMS, *map_ends.CLAIMS), derive=map_derive.derive, figures=map_figures.figures)
