@@ -1,5 +1,6 @@
 """The study conservation: what a loss is told by, that controls lose, linear sound against the full equations, a rebuild."""
 from dataclasses import replace
+from itertools import combinations, product
 from math import fsum
 
 import numpy as np
@@ -10,13 +11,18 @@ from continuum.fluid import ConstEta, IdealGas
 from particles.edges import NONE_BEYOND, Edges
 from particles.makers import MAKERS
 from particles.methods.dih import Dih
+from particles.methods.motions import MOTIONS
 from particles.points import jittered, lattice
-from particles.weights import Lucy
+from particles.run import Plan, run
+from particles.weights import WEIGHTS, Lucy
 from studies.integral import conservation_tables
 from studies.integral.conservation_commutator import Commutator
 from studies.integral.conservation_dih import FORMS
+from studies.integral.conservation_drift import MODES, WALLS
+from studies.integral.conservation_figures import COLUMNS, column
 from studies.integral.conservation_frames import Frame, after, sound
-from studies.integral.conservation_layers import MODES, WALLS, around
+from studies.integral.conservation_layers import around
+from studies.integral.conservation_motions import MotionDrift
 from studies.integral.conservation_sums import Watch, exact_sums, kinetic, parts, random_fields
 from studies.integral.operators import DISORDERS
 from studies.kit.claim import judge
@@ -86,6 +92,37 @@ def test_runs_in_all_dimensions_keep_their_sums(form, d, maker, h):
 def test_a_pressure_that_is_not_symmetric_loses_momentum():
     found = row(conservation.dih("one-sided", 1, "exact", 3.0, steps=60))
     assert found["momentum"] > 1e-3 and found["mass"] < 1e-14 and "momentum" not in found["claimed"]
+
+
+@pytest.mark.parametrize("wall", ["rows", "sliding rows", "rows on plates", "body"])
+def test_what_held_points_take_is_what_the_fluid_loses(wall):
+    maker, points = ("delaunay", "jittered-0.3") if wall == "rows on plates" else ("renormalised", "lattice")
+    case = conservation.hold(wall, maker, points, steps=100)
+    found, method = row(case), case.method(case.points())
+    assert found["reached"] == 100 and max(found["mass"], found["momentum"], found["energy"]) < 1e-13
+    state = case.start(method, case.points())
+    taken = run(method, state, Plan(dt=0.1, steps=10)).state[4:]
+    others = np.setdiff1d(np.arange(len(method.x)), method.held.which)
+    assert np.abs(taken[0]).sum() > 1e-3 and not taken[:, others].any()
+    assert taken[2].any() == (wall != "body")       # which is adiabatic
+
+
+@pytest.mark.parametrize("mode", ["pairwise", "ideal"])
+def test_sliding_sides_give_what_their_book_says(mode):
+    case = next(case for case in conservation.walls(steps=60) if case.scheme == "sliding" and case.mode.name == mode)
+    found, method = row(case), case.method(case.points())
+    assert found["reached"] == 60 and max(found["mass"], found["momentum"], found["energy"]) < 1e-13
+    state = case.start(method, case.points())
+    given = np.abs(method.edges.V@run(method, state, Plan(dt=0.1, steps=10)).state[5:].T)
+    assert given.max() > 1e-4*(1 if mode == "pairwise" else 1e-3)
+
+
+@pytest.mark.parametrize(("motion", "keeps"), [("literal", True), ("constant-mass", True), ("convective", False)])
+def test_motions_keep_their_sums_or_lose_them(motion, keeps):
+    kind = MOTIONS[motion]
+    found = row(MotionDrift(motion=motion, kind=kind, transport="unmended", weight=Lucy, steps=60))
+    assert found["reached"] == 60 and (found["claimed"] != "nothing") == keeps
+    assert (max(found["mass"], found["momentum"], found["energy"]) < 1e-14) == keeps
 
 
 def test_plates_with_friction_take_momentum_and_without_it_none():
@@ -169,6 +206,10 @@ def small(tmp_path_factory):
     out = tmp_path_factory.mktemp("results")
     cases = [*(conservation.layer(mode, "delaunay", "jittered-0.3", steps=60) for mode in MODES),
              conservation.layer("pairwise", "plain", "lattice", steps=60),
+             conservation.hold("rows", "plain", "lattice", steps=60),
+             conservation.layer("nested", "plain", "jittered-0.3", steps=400),
+             *(case for case in conservation.walls(steps=20) if case.scheme == "sliding"),
+             MotionDrift(motion="literal", kind=MOTIONS["literal"], transport="nested", weight=Lucy, steps=20),
              conservation.dih("one-sided", 1, "exact", 3.0, steps=20), *list(conservation.frames((1,)))[:30],
              *[case for case in conservation.frames((1,)) if getattr(case, "maker", "") == "plain"],
              *[case for case in conservation.frames((1,)) if isinstance(case, Commutator)]]
@@ -189,10 +230,33 @@ def test_small_study_writes_every_table(small):
 
 def test_every_form_and_mode_is_in_the_study():
     cases = conservation.cases("paper")
-    assert {case.mode.name for case in cases if hasattr(case, "wall") and hasattr(case, "mode")} >= set(MODES)
     assert {case.form.name for case in cases if hasattr(case, "form")} <= set(FORMS)
     assert {case.maker for case in cases if hasattr(case, "maker")} == set(MAKERS)
     assert all(case.steps == 10_000 for case in cases if hasattr(case, "steps"))
+    assert {case.motion for case in cases if isinstance(case, MotionDrift)} == set(MOTIONS)
+
+
+def test_any_two_values_of_two_factors_meet():
+    """Of transports, weights, makers and points in periodic boxes; of makers, points and weights with plates and held points."""
+    runs = [{"mode": case.mode.name, "weight": case.weight.__name__, "maker": case.maker, "points": case.disorder.name,
+             "wall": case.wall.name} for case in conservation.cases("paper") if getattr(case, "scheme", "") in ("layer", "held")]
+    values = {"weight": {kind.__name__ for kind in WEIGHTS.values()}, "maker": set(MAKERS), "points": set(conservation.KINDS)}
+    impossible = {(maker, "lattice") for maker in ("closed", "exact")} | {("delaunay", kind) for kind in values["weight"]
+                                                                          if kind != "Lucy"}
+    inside = [one for one in runs if one["wall"] == "periodic"]
+    for one, other in combinations(("mode", "weight", "maker", "points"), 2):
+        wanted = set(product({"mode": set(MODES), **values}[one], {"mode": set(MODES), **values}[other]))
+        met = {(a[one], a[other]) for a in inside}
+        assert not {pair for pair in wanted - met if pair not in impossible and pair[::-1] not in impossible}
+    for wall, factor in product(("plates", "rows", "body"), values):
+        assert {one[factor] for one in runs if one["wall"] == wall} == values[factor]
+
+
+def test_every_run_has_its_column():
+    rows = [("layer", "ideal", "plates, gravity"), ("dih", "printed", "periodic"), ("held", "filtered", "body"),
+            ("motions", "constant-mass, nested", "periodic"), ("moving", "open faces", "periodic")]
+    assert [list(COLUMNS.values())[column(*one)] for one in rows] == [
+        "plates, gravity", "nested, Eq. 37 as printed", "fluid and body", "Eq. 49", "the same, parts left out"]
 
 
 @pytest.mark.skipif(not (RESULTS/"conservation"/"drift.csv").exists(), reason="no tables are committed yet")

@@ -4,9 +4,7 @@ The heating is mended by F_a = tau_ab v_b, tau_ab = B (d_b v_a - delta_ab div v)
 along edges need no tau. On points a wind U changes d(eps)/dt by U_b D_a tau_ab, the work of a force that momentum does not get:
 B U_b (D_a G_b - D_b G_a) v_a, with the gradient G and the divergence D of the edges, which commute on a lattice alone.
 """
-from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,18 +13,14 @@ from continuum.fluid import ConstEta, IdealGas
 from particles.edges import Edges
 from particles.methods.dih import Dih, Pairwise
 from particles.points import Points
-from particles.weights import Lucy
 from studies.convection.claims.read import Value, select
 from studies.integral.conservation_dih import ETA, SIZE
-from studies.integral.conservation_frames import WIND, H, differences
+from studies.integral.conservation_edges import OnEdges
+from studies.integral.conservation_frames import WIND, differences
 from studies.integral.conservation_sums import random_fields
-from studies.integral.operators import Disorder
-from studies.kit.case import Case, Outcome, Report
 from studies.kit.claim import CannotTell, Claim
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
-
-COUNT = (12, 12)
 
 
 def foretold(edges: Edges, v: np.ndarray, eta: float) -> np.ndarray:
@@ -36,30 +30,17 @@ def foretold(edges: Edges, v: np.ndarray, eta: float) -> np.ndarray:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Commutator(Case):
-    """Friction along edges of one maker on one set of points, from random fields."""
-    maker: str
-    make: Callable[[Points, Any], Edges]
-    disorder: Disorder
-    seed: int = 1
+class Commutator(OnEdges):
+    """Friction along edges, from random fields."""
+    table = "commutators"
 
-    @property
-    def cost(self) -> float:
-        return 0.05
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        points = self.disorder.make(COUNT, self.disorder.size, self.seed)
-        try:
-            edges = self.make(points, Lucy.of(h=H))
-        except ArithmeticError:     # no such edges exist on these points
-            return Outcome({})
+    def found(self, points: Points, edges: Edges) -> dict[str, Any]:
         fluid = Dih(edges=edges, eos=IdealGas(), law=ConstEta(ETA, ETA), transport=Pairwise())
         rho, v, T = random_fields(points, SIZE, self.seed)
         off, there = differences(fluid, fluid.state(rho, v, T))
         paper, size = foretold(edges, v, ETA), np.abs(there[3]).max()
         found, told, left = (float(np.abs(q).max()/size) for q in (off[3], paper, off[3] - paper))
-        return Outcome({"commutators": [{"maker": self.maker, "points": self.disorder.name, "seed": self.seed, "found": found,
-                                         "foretold": told, "left": left}]})
+        return {"found": found, "foretold": told, "left": left}
 
 
 def worst(column: str, makers: tuple[str, ...], points: tuple[str, ...]) -> Value:

@@ -11,6 +11,9 @@ from studies.kit.table import Tables
 
 SUMS = ("mass", "momentum", "energy", "volume")
 GROUP = ["scheme", "mode", "d", "wall", "maker"]
+#: by which runs differ
+FACTORS = ("mode", "weight", "maker", "points", "wall", "d", "zeta")
+RR98 = SUMS[:3]     # volumes are exchanged by the conservative scheme only
 
 
 def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
@@ -18,8 +21,10 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     found: dict[str, list[dict[str, Any]]] = {}
     if "drift" in tables:
         found["kept"] = list(kept(tables["drift"]))
+        found["factors"] = list(factors(tables["drift"]))
+        found["lost"] = list(lost(tables["drift"]))
     if "frames" in tables:
-        found["frame_means"] = list(means(tables["frames"], FRAME, SUMS[:3]))
+        found["frame_means"] = list(means(tables["frames"], FRAME, RR98))
     if "sound" in tables:
         found["sound_means"] = list(means(tables["sound"], WAVE, ("growth", "ln_energy")))
     return found
@@ -31,6 +36,32 @@ def kept(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
         whole = finished(group)
         yield {**dict(zip(GROUP, key, strict=True)), "runs": len(group), "finished": len(whole),
                **{name: whole[name].max() if len(whole) else np.nan for name in SUMS}, "err": group["err"].max()}
+
+
+def claimed(rows: pd.DataFrame, name: str) -> pd.Series:
+    """Changes of a sum, nothing where it is not claimed."""
+    return rows[name].where(np.array([name in text.split() for text in rows["claimed"]], bool))
+
+
+def factors(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """Each value of each factor; modes of different schemes are told apart."""
+    rows = rows.assign(mode=rows["scheme"] + " " + rows["mode"], wall=rows["scheme"] + " " + rows["wall"])
+    for factor in FACTORS:
+        for value, group in rows.groupby(factor):
+            whole, stopped = finished(group), group[group["reached"] < group["steps"]]
+            yield {"factor": factor, "value": str(value), "runs": len(group), "finished": len(whole),
+                   **{name: claimed(whole, name).max() for name in RR98},
+                   "stopped": np.fmax.reduce([claimed(stopped, name).max() for name in RR98])}
+
+
+def lost(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """Sums that are not claimed."""
+    for key, group in rows.groupby(["scheme", "mode", "wall"]):
+        for name in RR98:
+            change = group[name].where(claimed(group, name).isna()).dropna()
+            if len(change):
+                yield {**dict(zip(("scheme", "mode", "wall"), key, strict=True)), "sum": name, "runs": len(change),
+                       "least": change.min(), "most": change.max()}
 
 
 def finished(rows: pd.DataFrame) -> pd.DataFrame:

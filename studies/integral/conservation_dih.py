@@ -16,14 +16,13 @@ from particles.integrators import RK4
 from particles.methods.dih import Dih, Nested, Pairwise
 from particles.points import Points
 from particles.team import Team
-from studies.integral.conservation_layers import EVERYTHING
-from studies.integral.conservation_sums import ROUND_OFF, Watch, exact_sums, kinetic, parts, random_fields
+from studies.integral.conservation_drift import EVERYTHING, OF_LIMIT, sizes, worst
+from studies.integral.conservation_sums import Watch, exact_sums, kinetic, parts, random_fields
 from studies.integral.operators import Disorder
 from studies.kit.case import Case, Outcome, Report
 
 COUNTS = {1: (32,), 2: (6, 6), 3: (4, 4, 4)}
 ETA, SIZE = 0.1, 0.1
-OF_LIMIT = 0.5
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,7 +75,8 @@ class DihDrift(Case):
 
     @property
     def label(self) -> str:
-        return f"dih {self.form.name} {self.d}D {self.maker} h {self.h:g}, {self.disorder.name}, zeta {self.zeta:g}"
+        return (f"dih {self.form.name} {self.d}D {self.maker} {self.weight.__name__} h {self.h:g}, {self.disorder.name}, zeta "
+                f"{self.zeta:g}")
 
     def run(self, report: Report, folder: Path) -> Outcome:
         points = self.disorder.make(COUNTS[self.d], self.disorder.size, self.seed)
@@ -84,26 +84,28 @@ class DihDrift(Case):
                                law=ConstEta(ETA, ETA), zeta=self.zeta, transport=self.form.transport)
         state = fluid.state(*random_fields(points, SIZE, self.seed))
         V, dt, integrator = fluid.edges.V, OF_LIMIT*step_limit(fluid, state), RK4(state.shape, Team(1))
-        watch, reached = Watch(lambda now: exact_sums(V, now), sizes(V, state)), self.steps
-        watch(state)
-        begin = kinetic(V*state[0], V*state[1:-1])
-        for before, number in parts(self.steps):
-            taken = advance(integrator, fluid, state, dt, number)
-            if taken < number:
-                reached = before + taken
-                break
-            watch(state)
-            report((before + number)/self.steps)
+        watch, begin = Watch(lambda now: exact_sums(V, now), sizes(V, state)), kinetic(V*state[0], V*state[1:-1])
+        reached = in_place(integrator, fluid, state, dt, self.steps, watch, report)
         motion = kinetic(V*state[0], V*state[1:-1])/begin
         return Outcome({"drift": [{
             "scheme": "dih", "mode": self.form.name, "d": self.d, "maker": self.maker, "weight": self.weight.__name__,
             "h": self.h, "points": self.disorder.name, "wall": "periodic", "zeta": self.zeta, "seed": self.seed, "n": points.n,
-            "steps": self.steps, "reached": reached, "claimed": self.form.claimed, "mass": watch.worst[0],
-            "momentum": watch.worst[1:-1].max(), "energy": watch.worst[-1], "volume": np.nan, "err": ROUND_OFF,
-            "motion": motion}]})
+            "steps": self.steps, "reached": reached, "claimed": self.form.claimed, **worst(watch), "motion": motion}]})
 
 
-def advance(integrator: RK4, fluid: Dih, state: np.ndarray, dt: float, steps: int) -> int:
+def in_place(integrator: Any, fluid: Any, state: np.ndarray, dt: float, steps: int, watch: Watch, report: Report) -> int:
+    """Steps of a run that is looked at now and then, done in place, until its end or until the fluid is none any more."""
+    watch(state)
+    for before, number in parts(steps):
+        taken = advance(integrator, fluid, state, dt, number)
+        if taken < number:
+            return before + taken
+        watch(state)
+        report((before + number)/steps)
+    return steps
+
+
+def advance(integrator: Any, fluid: Any, state: np.ndarray, dt: float, steps: int) -> int:
     """Steps taken, in place, until the end or until the fluid is none any more."""
     for step in range(steps):
         try:
@@ -111,12 +113,6 @@ def advance(integrator: RK4, fluid: Dih, state: np.ndarray, dt: float, steps: in
         except FloatingPointError:
             return step
     return steps
-
-
-def sizes(V: np.ndarray, state: np.ndarray) -> np.ndarray:
-    """Over which changes are told: mass, sum of |momentum| for each direction, energy."""
-    momentum = V@np.sqrt((state[1:-1]**2).sum(axis=0))
-    return np.array([V@state[0], *[momentum]*(len(state) - 2), V@state[-1]])
 
 
 def step_limit(fluid: Dih, state: np.ndarray) -> float:

@@ -24,33 +24,55 @@ def figures(tables: Tables) -> dict[str, Figure]:
     return found
 
 
-#: scheme and mode of `drift` -> words
-SCHEMES = {"dih pairwise": "1D, 3D: along edges", "dih printed": "1D, 2D: nested, Eq. 37 as printed",
-           "dih one-sided": "1D: pressure not symmetric", "layer pairwise": "friction along edges",
-           "layer unmended": "along edges, heat as printed", "layer nested": "nested friction", "layer ideal": "no friction",
-           "moving pairwise": "points that move"}
+#: scheme, mode, wall as texts begin -> words, in the order in which they are drawn
+COLUMNS = {
+    ("layer", "pairwise", "periodic"): "friction along edges",
+    ("layer", "unmended", "periodic"): "the same, heat as printed",
+    ("layer", "nested", "periodic"): "nested friction",
+    ("layer", "mixed", "periodic"): "nested and along edges",
+    ("layer", "ideal", "periodic"): "no friction",
+    ("dih", "printed", ""): "nested, Eq. 37 as printed",
+    ("dih", "one-sided", ""): "pressure not symmetric",
+    ("dih", "", ""): "1D, 3D, bulk viscosity",
+    ("layer", "ideal", "plates, gravity"): "plates, gravity",
+    ("layer", "ideal", "plates"): "plates, no friction",
+    ("layer", "", "plates"): "plates, friction",
+    ("held", "", "body"): "fluid and body",
+    ("held", "", ""): "fluid and held rows",
+    ("sliding", "", ""): "sliding sides",
+    ("motions", "literal", ""): "Eqs 39-41",
+    ("motions", "constant", ""): "Eq. 49",
+    ("motions", "convective", ""): "Eqs 46-48",
+    ("motions", "carried", ""): "the same, volumes follow",
+    ("moving", "pairwise", "periodic"): "points that move",
+    ("moving", "", "periodic"): "the same, parts left out",
+    ("moving", "", "plates"): "the same, plates",
+}
+
+
+def column(scheme: str, mode: str, wall: str) -> int:
+    """Where a run is drawn: the first of COLUMNS that fits."""
+    fits = [all(text.startswith(start) for text, start in zip((scheme, mode, wall), key, strict=True)) for key in COLUMNS]
+    return fits.index(True)
 
 
 def drift(rows: pd.DataFrame) -> Figure:
-    """Changes of claimed sums, in other marks where a run stopped early, and of others; one column a scheme, mode and wall."""
+    """Changes of claimed sums, in other marks where a run stopped early, and of others; one column a kind of run."""
     page, axes = figure(1, 1, width=9.4, height=5.6)
-    kinds = rows["scheme"] + " " + rows["mode"]
-    names = [f"{SCHEMES.get(kind, kind)},\n{wall}" for kind, wall in zip(kinds, rows["wall"], strict=True)]
-    place = {kind: number for number, kind in enumerate(SCHEMES)}
-    placed = sorted((place.get(kind, len(place)), name) for kind, name in zip(kinds, names, strict=True))
-    order = list(dict.fromkeys(name for _, name in placed))
-    rows = rows.assign(column=names)
+    rows = rows.assign(column=[column(*run) for run in zip(rows["scheme"], rows["mode"], rows["wall"], strict=True)])
+    order = sorted(set(rows["column"]))
     whole = rows["reached"] == rows["steps"]
     for number, name in enumerate(SUMS):
         claimed = np.array([name in text.split() for text in rows["claimed"]], bool)
         for chosen, more in ((rows[claimed & whole], {"label": name}), (rows[claimed & ~whole], {"fillstyle": "left"}),
                              (rows[~claimed], {"fillstyle": "none"})):
-            x = [order.index(column) + 0.15*(number - 1.5) for column in chosen["column"]]
+            x = [order.index(place) + 0.15*(number - 1.5) for place in chosen["column"]]
             axes.plot(x, np.maximum(chosen[name], LEAST), **{**look(number), "linestyle": "none", "markersize": 6}, **more)
     axes.set_xlim(-0.6, len(order) - 0.4)
     axes.axhline(1e-13, color="grey", linestyle=":", marker="")
     axes.set(yscale="log", ylabel="largest relative change over the run")
-    axes.set_xticks(range(len(order)), labels=order, rotation=60, ha="right", fontsize=8)
+    words = list(COLUMNS.values())
+    axes.set_xticks(range(len(order)), labels=[words[place] for place in order], rotation=60, ha="right", fontsize=8)
     axes.set_title(f"What do schemes on points conserve in {rows['steps'].max()} steps?\n"
                    "filled: what the scheme claims to; left half filled: the same in runs that stopped early (diverged, or sound "
                    "outran the step);\nopen: not claimed, also in such runs; dotted: 1e-13; no change at all is drawn as 1e-17",

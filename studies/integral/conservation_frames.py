@@ -1,7 +1,5 @@
 """Galilean invariance of rates, and linear sound without friction, as cases    [RR98 Eqs 34-38]"""
-from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,44 +10,28 @@ from continuum.fluid import ConstEta, IdealGas
 from particles.edges import Edges
 from particles.methods.dih import Dih
 from particles.points import Points
-from particles.weights import Lucy
 from studies.integral.conservation_dih import ETA, FORMS, SIZE
+from studies.integral.conservation_edges import OnEdges
 from studies.integral.conservation_sums import random_fields
-from studies.integral.operators import Disorder
-from studies.kit.case import Case, Outcome, Report
 
 WIND = np.array([0.3, -0.2])
 SIDE = 8                # spacings: the length of the wave whose periods are counted
-H = 3.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Frame(Case):
+class Frame(OnEdges):
     """Rates of the same random state at rest and in a wind.
 
     On fixed points a wind carries the state along with the discrete divergence D: rates may differ by -U.D of the state and by
     what the transformation of momentum and energy asks for, and by nothing else.
     """
     mode: str
-    maker: str
-    make: Callable[[Points, Any], Edges]
-    disorder: Disorder
-    seed: int = 1
+    table = "frames"
 
-    @property
-    def cost(self) -> float:
-        return 0.05
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        points = self.disorder.make((12, 12), self.disorder.size, self.seed)
-        try:
-            edges = self.make(points, Lucy.of(h=H))
-        except ArithmeticError:     # no such edges exist on these points
-            return Outcome({})
+    def found(self, points: Points, edges: Edges) -> dict[str, Any]:
         fluid = FORMS[self.mode].kind(edges=edges, eos=IdealGas(), law=ConstEta(ETA, ETA), transport=FORMS[self.mode].transport)
         mass, momentum, energy = defects(fluid, fluid.state(*random_fields(points, SIZE, self.seed)))
-        return Outcome({"frames": [{"mode": self.mode, "maker": self.maker, "points": self.disorder.name, "seed": self.seed,
-                                    "mass": mass, "momentum": momentum, "energy": energy}]})
+        return {"mode": self.mode, "mass": mass, "momentum": momentum, "energy": energy}
 
 
 def defects(fluid: Dih, state: np.ndarray) -> tuple[float, float, float]:
@@ -87,35 +69,27 @@ def rates(fluid: Dih, state: np.ndarray) -> np.ndarray:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sound(Case):
+class Sound(OnEdges):
     """Linear sound at rest without friction: rho' = -div v, v' = -grad rho in units of the speed of sound.
 
     bracket : "plus", the gradient with (f_i + f_j) as in Eqs 34 and 35, or "adjoint", with (f_j - f_i).
     """
     bracket: str
-    maker: str
-    make: Callable[[Points, Any], Edges]
-    disorder: Disorder
     periods: int = 10_000
-    seed: int = 1
+    table = "sound"
+    counts = (SIDE, SIDE)
 
     @property
     def cost(self) -> float:
         return 0.3
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        points = self.disorder.make((SIDE, SIDE), self.disorder.size, self.seed)
-        try:
-            edges = self.make(points, Lucy.of(h=H))
-        except ArithmeticError:     # no such edges exist on these points
-            return Outcome({})
+    def found(self, points: Points, edges: Edges) -> dict[str, Any]:
         L = SIDE*sound(edges, self.bracket)
         growth = float(np.linalg.eigvals(L).real.max())
         # eigenvalues of a matrix that is not normal may be off by the root of round-off where they are defective
         err = np.finfo(float).eps*np.linalg.norm(L, 2)*len(L)
-        return Outcome({"sound": [{"bracket": self.bracket, "maker": self.maker, "points": self.disorder.name, "seed": self.seed,
-                                   "periods": self.periods, "growth": growth, "growth_err": float(err),
-                                   "ln_energy": after(expm(L), self.periods, self.seed)}]})
+        return {"bracket": self.bracket, "periods": self.periods, "growth": growth, "growth_err": float(err),
+                "ln_energy": after(expm(L), self.periods, self.seed)}
 
 
 def sound(edges: Edges, bracket: str) -> np.ndarray:

@@ -12,6 +12,13 @@ DRIFT = Table("drift", key=[*RUN, "seed"], columns=[*RUN, "seed", "n", "steps", 
 KEPT = Table("kept", key=["scheme", "mode", "d", "wall", "maker"],
              columns=["scheme", "mode", "d", "wall", "maker", "runs", "finished", "mass", "momentum", "energy", "volume", "err"])
 
+#: every value of every factor by which runs differ: the worst of the sums that they claim to keep, in those that reached the end
+#: and in those that stopped early, up to where they were looked at last
+FACTORS = Table("factors", key=["factor", "value"], columns=["factor", "value", "runs", "finished", "mass", "momentum", "energy",
+                                                             "stopped"])
+#: sums that are not claimed: the least and the most that runs changed them by, as far as they went
+LOST = Table("lost", key=["scheme", "mode", "wall", "sum"], columns=["scheme", "mode", "wall", "sum", "runs", "least", "most"])
+
 FRAME = ["mode", "maker", "points"]
 #: rates in a wind less rates at rest, transformed and carried along: largest over points, over the largest rate
 FRAMES = Table("frames", key=[*FRAME, "seed"], columns=[*FRAME, "seed", "mass", "momentum", "energy"])
@@ -27,4 +34,4 @@ WAVE = ["bracket", "maker", "points"]
 SOUND = Table("sound", key=[*WAVE, "seed"], columns=[*WAVE, "seed", "periods", "growth", "growth_err", "ln_energy"])
 SOUND_MEANS = Table("sound_means", key=WAVE, columns=[*WAVE, "seeds", "growth", "growth_err", "ln_energy", "ln_energy_err"])
 
-ALL = (DRIFT, KEPT, FRAMES, FRAME_MEANS, COMMUTATORS, SOUND, SOUND_MEANS)
+ALL = (DRIFT, KEPT, FACTORS, LOST, FRAMES, FRAME_MEANS, COMMUTATORS, SOUND, SOUND_MEANS)
