@@ -108,7 +108,7 @@ ENDED = "[asked after runs at Prandtl 0.01 had ended]"
 CLAIMS = (
     Claim(id="map-prandtl-0.01-fixed-step", source="RR98 Eqs 34-36", value=sooner, at_most=0.01,
           statement=f"where fixed points end at Prandtl 0.01 does not hang on the step: time with half of it over time with all, "
-                    f"largest difference from 1, three sets of points {ENDED}", because="1 %: what ends them grows within 3 % of it"),
+                    f"largest difference from 1, three sets of points {ENDED}", because="1 %: what ends them grows in 3 % of it"),
     Claim(id="map-prandtl-0.03-fixed", source="RR98 Eqs 34-36", value=viscous, at_least=1.0,
           statement=f"at the same Ra and Prandtl 0.03, where v a/nu is half as large and the flow slower, fixed points come "
                     f"to the end: least part of the time, three sets of points {ENDED}", because="1 is the end"),
