@@ -1,5 +1,5 @@
 """What notebooks share: sentences that their cells compute, numbers with intervals, tables and small pictures."""
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from studies.kit.csvfile import read
 from studies.kit.figure import compact
 
-rcParams.update({"savefig.dpi": 75, "legend.fontsize": 8})
+rcParams.update({"savefig.dpi": 70, "legend.fontsize": 8})
 ROUND_OFF = 1e-13       # smaller numbers are told as zero
 
 
@@ -30,6 +30,11 @@ def note(*words: str) -> None:
 def show(page: Figure) -> None:
     """A small picture of a figure."""
     display(Image(compact(page)))
+
+
+def drawn(pages: Mapping[str, Figure], name: str) -> None:
+    """A small picture of a figure by name, if its tables are there."""
+    show(pages[name]) if name in pages else note(f"{name}: not run yet")
 
 
 def table(frame: pd.DataFrame) -> None:
@@ -65,14 +70,30 @@ def percent(value: float, err: float = 0.0) -> str:
 
 def verdicts(results: Path, study: str, *, source: str = "") -> None:
     """The claims of a study, or those whose source begins so: counts by verdict, and what does not hold in a table."""
-    claims = read(results/"claims.csv", ["study", "source", "verdict"])
-    chosen = claims[(claims["study"] == study) & claims["source"].str.startswith(source)]
+    chosen = claims_of(results, study)
+    chosen = chosen[chosen["source"].str.startswith(source)]
     counts = chosen.groupby("verdict").size()
     say(f"Of {len(chosen)} statements {counts.get('holds', 0)} hold, {counts.get('fails', 0)} fail, "
         f"{counts.get('undecidable', 0)} are undecidable. Those that do not hold:")
     others = chosen[chosen["verdict"] != "holds"]
-    table(columns(others.assign(measured=list(map(pm, others["measured"], others["err"]))),
-                  ["source", "statement", "printed", "measured", "verdict"]))
+    table(stated(others))
+
+
+def claims_of(results: Path, study: str) -> pd.DataFrame:
+    """The claims of a study by name."""
+    claims = read(results/"claims.csv", ["study", "id", "measured", "err", "verdict"])
+    return claims[claims["study"] == study].set_index("id")
+
+
+def measured(claims: pd.DataFrame, name: str) -> str:
+    """What was measured for a claim, with its interval."""
+    return pm(claims["measured"][name], claims["err"][name])
+
+
+def stated(claims: pd.DataFrame) -> pd.DataFrame:
+    """Claims as people read them."""
+    return columns(claims.assign(measured=list(map(pm, claims["measured"], claims["err"]))),
+                   ["source", "statement", "printed", "measured", "verdict"])
 
 
 def columns(frame: pd.DataFrame, names: Sequence[str]) -> pd.DataFrame:
