@@ -11,6 +11,7 @@ from particles.methods.spam import Direct, Nested
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.hard import ringing_part
 from studies.hard.lattice_waves import vectors
+from studies.hard.long_sound import LongSound, longest, matrix
 from studies.hard.ringing import Ringing, Ripple, foretold, growth, ripples, rounding, symbols
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
@@ -95,3 +96,18 @@ def test_committed_verdicts_and_figures_follow_from_committed_tables():
     kept = read(RESULTS/"claims.csv").set_index("id")["verdict"]
     assert {name: kept[name] for name in found} == found
     assert set(ringing_part.figures(tables)) <= {path.stem for path in (RESULTS/"hardcases").glob("*.png")}
+
+
+# --- long waves ---------------------------------------------------------------------------------------------------------
+
+
+def test_long_sound_errs_as_lattice_sums_foretell():
+    for row in LongSound(wave=replace(SHORT, length=16)).run(lambda done: None, None).rows["sound_errors"]:
+        assert row["measured"] == pytest.approx(row["foretold"], rel=0.01)
+
+
+def test_the_longest_waves_have_one_speed_by_either_sum():
+    """Rates without viscosity and conduction, those of the step limit's symbols, too."""
+    wave = replace(SHORT, length=4000)
+    s = np.linalg.eigvals(matrix(wave))
+    assert np.abs(s.imag).max()/wave.k/np.sqrt(2) == pytest.approx(longest(wave), rel=2e-3)
