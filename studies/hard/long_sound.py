@@ -106,8 +106,8 @@ def farthest(tables: Tables) -> Measured:
 def slowest(**where: Any) -> Value:
     """Speed of the longest waves that is farthest from the fluid's."""
     def value(tables: Tables) -> Measured:
-        speed = select(tables, "sound_errors", **where)["speed"]
-        return Measured(float(speed.loc[(speed - 1).abs().idxmax()]), 0.0)
+        speed = select(tables, "sound_errors", **where)["speed"].to_numpy(float)
+        return Measured(float(speed[np.abs(speed - 1).argmax()]), 0.0)
     return value
 
 
