@@ -29,6 +29,8 @@ from studies.kit.study import Study, main
 from studies.kit.table import Tables
 
 H = (1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0)
+#: on a lattice, where each has a factor of its own: between these, to have a range every half spacing
+BETWEEN = (3.5, 4.5, 5.0, 5.5)
 SEEDS = (1, 2, 3)
 #: of the flows
 RANGES = (1.2, 1.5, 2.0, 2.5, 3.0, 4.0)
@@ -56,7 +58,7 @@ def cases(size: str) -> list[Case]:
 def surface(wavelengths: tuple[int, ...], disorders: list[str]) -> Iterator[Case]:
     """Lucy's weight everywhere; other weights and all makers of edges at two ranges."""
     for disorder, wavelength in product(disorders, wavelengths):
-        for h in H:
+        for h in (*H, *BETWEEN) if disorder == "lattice" else H:
             yield from wave("renormalised", Lucy, h, disorder, wavelength)
         for maker, h in product(("plain", "printed", "closed", "exact"), (2.0, 3.0)):
             if maker != "exact" or h == 3.0:

@@ -2,7 +2,9 @@
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
+from scipy.special import stdtrit
 
 import studies.transport as transport
 from continuum.fluid import ConstEta, ConstNu, IdealGas
@@ -11,7 +13,7 @@ from particles.methods.dih import Dih
 from particles.points import jittered, lattice
 from particles.team import Team
 from particles.weights import Lucy, Monaghan, WendlandC2
-from studies.integral import transport_tables
+from studies.integral import transport_derive, transport_tables
 from studies.integral.operators import DISORDERS
 from studies.integral.transport_derive import endless
 from studies.integral.transport_symbol import QUANTITIES, Gas, continuum, lattice_waves, quantities
@@ -148,7 +150,7 @@ def small(tmp_path_factory):
     """The study with a few of its cases."""
     out = tmp_path_factory.mktemp("results")
     cases = [*(decay(name, counts=(n, 5), zeta=0.2) for name in ("nested", "pairwise") for n in (16, 20, 24)),
-             *transport.shear((6, 8, 10), ())]
+             *transport.shear((6, 8, 10), (), (), ())]
     study = replace(transport.STUDY, cases=lambda size: cases)
     return study, study.run("quick", workers=1, out=out), out
 
@@ -162,6 +164,19 @@ def test_small_study_writes_every_table(small):
     verdicts = {row["id"]: row["verdict"] for row in study.judge(out)}
     assert set(verdicts) == {claim.id for claim in study.claims}
     assert verdicts["rr98-transport-symbol-nested"] == verdicts["rr98-transport-symbol-pairwise"] == "holds"
+
+
+def test_an_order_between_plates_takes_every_run():
+    """Three runs of a size, errors 3/rows^2 up to a factor: the interval of one fit is that of least squares over all of them."""
+    rng, sizes = np.random.default_rng(1), np.repeat([8, 16, 32], 3)
+    factor = np.exp(rng.normal(0, 0.1, len(sizes)))
+    rows = pd.DataFrame({"flow": "couette", "points": "some", "time": 0.1, "rows": sizes, "seed": np.tile([1, 2, 3], 3),
+                         "rms": 3*factor/sizes**2, "largest": 5/sizes**2})
+    rms, largest = transport_derive.shear_orders(rows)
+    fit, cov = np.polyfit(-np.log(sizes), np.log(rows["rms"]), 1, cov=True)
+    assert rms["order"] == pytest.approx(fit[0]) and rms["order_err"] == pytest.approx(stdtrit(7, 0.975)*np.sqrt(cov[0, 0]))
+    assert largest["order"] == pytest.approx(2) and largest["order_err"] < 1e-9
+    assert not list(transport_derive.shear_orders(rows[rows["rows"] < 32]))
 
 
 def test_orders_of_the_small_study(small):

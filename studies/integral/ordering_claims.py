@@ -122,11 +122,12 @@ CLAIMS = (
            "points jittered by 0.3 a, weight normalised, differences f_j - f_i"))),
     Claim(id="rr98-eq45-lambda", source="RR98 Eq. 45", printed="r0 < lambda", expect=2, within=0.1,
           value=slope("lattice", "a", 64.0),
-          statement="r0 must be smaller than lambda: slope of the gradient's error in r0/lambda at fixed spacing, lattice",
+          statement="r0 must be smaller than lambda: slope of the gradient's error in r0/lambda at fixed spacing, lattice, "
+                    "ranges from 2 to 6 spacings",
           because="0.1: weights of 2 to 6 spacings, whose sums differ by some per cent from integrals"),
     Claim(id="own-eq45-lambda-wide", source="RR98 Eq. 45", expect=2, within=0.1, value=wide_slope,
           statement="r0 must be smaller than lambda: the same slope with ranges of 4 to 8 spacings at a wavelength of 96 a, "
-                    "asked after that of 2 to 6 spacings had left it open",
+                    "asked after five ranges of 2 to 6 spacings had left it open",
           because="0.1, as with weights of 2 to 6 spacings; the next order, (k h)^4, takes 0.02"),
     Claim(id="rr98-continuum-limit-jittered", source="RR98 Sec. III", printed="continuum limit", at_least=0.5,
           value=slope("jittered-0.3", "h/a", 3.0),

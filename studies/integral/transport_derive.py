@@ -25,7 +25,7 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
         found["orders"] = list(orders(pd.DataFrame(found["coefficients"])))
     if "shear" in tables:
         found["shear_means"] = list(shear_means(tables["shear"]))
-        found["shear_orders"] = list(shear_orders(pd.DataFrame(found["shear_means"])))
+        found["shear_orders"] = list(shear_orders(tables["shear"]))
     return found
 
 
@@ -78,8 +78,8 @@ def shear_means(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
 
 
 def shear_orders(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    """Over the numbers of rows."""
+    """Over the numbers of rows, all runs in one fit: they tell one scatter, which three runs of a size tell badly."""
     for key, group in rows.groupby(["flow", "points", "time"]):
-        for norm in NORMS if len(group) >= LEAST else ():
+        for norm in NORMS if group["rows"].nunique() >= LEAST else ():
             order, err = line(-np.log(group["rows"].to_numpy()), np.log(group[norm].to_numpy()))
             yield {**dict(zip(("flow", "points", "time"), key, strict=True)), "norm": norm, "order": order, "order_err": err}

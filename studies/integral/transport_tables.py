@@ -20,7 +20,7 @@ SHEAR = Table("shear", key=[*FLOW, "seed", "time"], columns=[*FLOW, "seed", "tim
                                                              "across"])
 SHEAR_MEANS = Table("shear_means", key=[*FLOW, "time"], columns=[*FLOW, "time", "seeds", "rms", "rms_err", "largest",
                                                                  "largest_err"])
-#: order: -d ln error/d ln rows
+#: order: -d ln error/d ln rows of all runs
 SHEAR_ORDERS = Table("shear_orders", key=["flow", "points", "time", "norm"], columns=["flow", "points", "time", "norm", "order",
                                                                                       "order_err"])
 
