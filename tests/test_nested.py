@@ -11,8 +11,9 @@ from particles.run import Plan, run
 from particles.team import Team
 from studies import nested
 from studies.convection.dih import SCHEMES, layer
+from studies.integral import mixed_images
 from studies.kit.claim import judge
-from studies.kit.sweep import RESULTS
+from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables, read
 
 
@@ -53,6 +54,22 @@ def test_the_derivative_is_one():
     assert np.abs((up - down)/2 - linear).max() < 1e-6*np.abs(linear).max()     # third order of 1e-4
 
 
+def test_adjoint_images_are_those_of_the_layer_and_others_lose_mass():
+    scene = RayleighBenard(ra=1500.0, L=6.0)
+    fluid = layer(scene, SCHEMES["fixed-lattice"], 1)
+    rng, n = np.random.default_rng(0), len(fluid.x)
+    state = fluid.state(rng.uniform(0.9, 1.1, n), rng.normal(size=(n, 2))*0.1, scene.T(fluid.x[:, 1]))
+    rates = {}      # of random states: along a lattice what two images lose cancels where the density is uniform
+    for name in mixed_images.IMAGES:
+        rates[name] = np.empty_like(state)
+        mixed_images.mixed(fluid, name).start(state.shape[1], Team(1)).rates(state, rates[name])
+    plain = np.empty_like(state)
+    fluid.start(state.shape[1], Team(1)).rates(state, plain)
+    assert np.abs(rates["adjoint"] - plain).max() < 1e-13
+    lost = {name: abs(found[0].sum()) for name, found in rates.items()}
+    assert max(lost["adjoint"], lost["temperature of conduction"]) < 1e-13 < 1e-3 < min(lost["velocity reversed"], lost["both"])
+
+
 def test_zigzags_are_told_from_long_waves():
     wave = np.cos(2*np.pi*np.arange(8)/8)
     fields = np.zeros((4, 8, 8))
@@ -68,7 +85,7 @@ def test_the_smallest_share_is_the_one_from_which_on_nothing_grows():
 
 
 def test_committed_verdicts_are_those_of_the_committed_table():
-    found = judge(nested.CLAIMS, Tables({"growth": read(RESULTS/"nested"/"growth.csv")}), "nested")
+    found = judge(nested.STUDY.claims, load(nested.STUDY.tables, "nested"), "nested")
     committed = read(RESULTS/"claims.csv").set_index("id")
     for row in found:
         assert committed.loc[row["id"], "verdict"] == row["verdict"], row["id"]

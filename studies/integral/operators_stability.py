@@ -86,6 +86,18 @@ def linear_rate(dih: Dih, rest: np.ndarray, row: int, shape: np.ndarray) -> np.n
     return (rates[0] - rates[1])/(2*STEP)
 
 
+def jacobian(sums: Any, state: np.ndarray, step: float = 1e-6) -> np.ndarray:
+    """d rates/d state of a compiled scheme by central differences, (size, size); fields are of order 1."""
+    J, out = np.empty((state.size, state.size)), np.empty((2, *state.shape))
+    for column in range(state.size):
+        for side, sign in enumerate((1, -1)):
+            moved = state.copy()
+            moved.ravel()[column] += sign*step
+            sums.rates(moved, out[side])
+        J[:, column] = ((out[0] - out[1])/(2*step)).ravel()
+    return J
+
+
 def euler_limit(eigenvalues: np.ndarray) -> float:
     """The largest dt with |1 + lambda dt| <= 1 for all that are no null modes; 0 if one grows by itself."""
     seen = eigenvalues[np.abs(eigenvalues) > NULL]
