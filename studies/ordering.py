@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from itertools import product
 
 from particles.makers import MAKERS
-from particles.weights import Lucy, Monaghan, WendlandC2
+from particles.weights import WEIGHTS, Lucy, Monaghan, WendlandC2
 from studies.integral import (
     ordering_brackets,
     ordering_brackets_claims,
@@ -56,7 +56,7 @@ def cases(size: str) -> list[Case]:
 
 
 def surface(wavelengths: tuple[int, ...], disorders: list[str]) -> Iterator[Case]:
-    """Lucy's weight everywhere; other weights and all makers of edges at two ranges."""
+    """Lucy's weight everywhere; other weights, all of them on a lattice, and all makers of edges at two ranges."""
     for disorder, wavelength in product(disorders, wavelengths):
         for h in (*H, *BETWEEN) if disorder == "lattice" else H:
             yield from wave("renormalised", Lucy, h, disorder, wavelength)
@@ -65,7 +65,7 @@ def surface(wavelengths: tuple[int, ...], disorders: list[str]) -> Iterator[Case
                 yield from wave(maker, Lucy, h, disorder, wavelength)
         if wavelength == 32:
             yield from wave("plain", Lucy, 1.2, disorder, wavelength)       # where Eq. 45 does not hold
-        for weight in (Monaghan, WendlandC2):
+        for weight in WEIGHTS.values() if disorder == "lattice" else (Monaghan, WendlandC2):
             yield from wave("renormalised", weight, 3.0, disorder, wavelength)
         yield from wave("delaunay", Lucy, 2.0, disorder, wavelength)
 
