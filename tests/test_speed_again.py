@@ -110,7 +110,7 @@ def test_the_verdict_at_half_the_rayleigh_number_is_that_of_its_own_rows():
 
 @pytest.fixture(scope="module")
 def committed(tmp_path_factory):
-    """Tables of two cases whose seconds were not measured but said, and of one whose step is not known."""
+    """Tables of two cases whose seconds were not measured but said; a third whose step is not known, and one without a step."""
     out = tmp_path_factory.mktemp("results")
     method = slab.CONTESTANTS["conduction"][names.LATTICE]
     cases = [Race(scene="conduction", method=method, resolution=n, short=SHORT) for n in (8, 12)]
@@ -125,8 +125,7 @@ def test_seconds_are_measured_anew_and_errors_stay(committed):
     out, cases = committed
     before = {name: (out/"speed"/f"{name}.csv").read_text() for name in ("errors", "steps")}
     old = read(out/"speed"/"runs.csv")
-    lost = speed_again.renew(speed.STUDY, cases, out, "paper", "test")
-    assert lost == [cases[2].label], "its step is not known"
+    speed_again.renew(speed.STUDY, [*cases[:2], cases[3]], out, "paper", "test")
     assert before == {name: (out/"speed"/f"{name}.csv").read_text() for name in before}
     new = read(out/"speed"/"runs.csv")
     assert (new["run_s"] < 1).all() and (new["setup_s"] < 1).all()
@@ -134,6 +133,9 @@ def test_seconds_are_measured_anew_and_errors_stay(committed):
         np.testing.assert_array_equal(new[same], old[same])
     points = read(out/"speed"/"points.csv")
     assert (points["cpu_s"] < 1).all() and len(read(out/"speed"/"growth.csv")) == 1
+    speed_again.renew(speed.STUDY, [cases[2]], out, "paper", "test")
+    for name in ("errors", "steps", "runs"):
+        assert set(read(out/"speed"/f"{name}.csv")["resolution"]) == {8, 12, 16}, "it was run whole"
 
 
 def test_the_step_that_is_timed_again_is_the_shortest_that_was_tried():

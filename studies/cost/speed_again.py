@@ -3,7 +3,7 @@
     python -m studies.cost.speed_again [--only TEXT] [--out FOLDER]
 
 On another machine, or once something is faster: to find the step of each method takes longer than to time it. A case whose step
-the table `steps` does not have is left out: `python -m studies.speed --only TEXT` finds it. Rows are written as they come.
+the table `steps` does not have is run whole. Rows are written as they come.
 """
 import argparse
 from collections.abc import Iterable
@@ -35,13 +35,13 @@ def fraction_of(case: Race, steps: pd.DataFrame) -> float | None:
 
 
 def again(case: Case, steps: pd.DataFrame) -> dict[str, list[dict[str, Any]]]:
-    """Rows of the tables of seconds; none where the step is not known, or diverges."""
-    if isinstance(case, Race) and not isinstance(case, Direct):
-        fraction = fraction_of(case, steps)
-        return {} if fraction is None else case.again(fraction)
+    """Rows of the tables of seconds; where the step is not known, of all; none where a known step diverges."""
+    fraction = fraction_of(case, steps) if isinstance(case, Race) else None
+    if isinstance(case, Race) and fraction is not None:
+        return case.again(fraction)
     with TemporaryDirectory() as folder:
         rows = case.run(lambda done: None, Path(folder)).rows
-    return {name: rows[name] for name in TIMES if name in rows}
+    return {name: rows[name] for name in TIMES if name in rows} if isinstance(case, Direct) else rows
 
 
 def put(rows: Rows, out: Path, size: str, command: str) -> None:
@@ -51,20 +51,18 @@ def put(rows: Rows, out: Path, size: str, command: str) -> None:
             merge(out/"speed"/f"{table.name}.csv", table, rows[table.name], size=size, command=command)
 
 
-def renew(study: Study, cases: Iterable[Case], out: Path, size: str, command: str) -> list[str]:
-    """Time the cases, one after the other, and derive what follows; labels of those whose step is not known."""
-    known, lost = load(speed_tables.ALL, study.name, out), []
+def renew(study: Study, cases: Iterable[Case], out: Path, size: str, command: str) -> None:
+    """Time the cases, one after the other, and derive what follows."""
+    known = load(speed_tables.ALL, study.name, out)
     steps = known["steps"] if "steps" in known else pd.DataFrame(columns=list(speed_tables.STEPS.columns))
     for case in cases:
         began = perf_counter()
         rows = again(case, steps)
         put(rows, out, size, command)
-        lost += [] if rows else [case.label]
-        say(f"{perf_counter() - began:7.1f} s  {case.label}" if rows else f"no step is known of {case.label}")
+        say(f"{perf_counter() - began:7.1f} s  {case.label}{'' if rows else ': diverged'}")
     derived = study.derive(load(speed_tables.ALL, study.name, out))
     tables = {table.name: table for table in speed_tables.ALL}
     put({name: changed(out/study.name/f"{name}.csv", tables[name], new) for name, new in derived.items()}, out, size, command)
-    return lost
 
 
 def main() -> None:
