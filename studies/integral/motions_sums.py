@@ -136,7 +136,8 @@ class Signs(Case):
 class Brackets(Case):
     """Acceleration by Eq. 50 in a density wave without entropy (P = rho^2), over -grad P/rho; wavelength 32, h = 3.
 
-    unit : the same acceleration where masses are counted in half the unit, twice rho and P, over the first: should be 1.
+    unit : accelerations where masses are counted in a third of the unit, three times rho and P, over those with the whole:
+    random fields on jittered points, by least squares. unit_left : the largest that this does not explain, over the largest.
     """
     a: float
     b: float
@@ -145,12 +146,21 @@ class Brackets(Case):
         at, k = strip(32), 2*np.pi/32
         wave = AMPLITUDE*np.cos(k*at.x[:, 0])
         method = moving(ConstantMass, at, Lucy.of(h=3.0), bracket=Powers(self.a, self.b))
-        found = [amplitude(acceleration(method, method.state(at.x, unit*(1 + wave), 0*at.x, 1 + wave))[0], at.x[:, 0], k).imag
-                 for unit in (1.0, 2.0)]
+        found = amplitude(acceleration(method, method.state(at.x, 1 + wave, 0*at.x, 1 + wave))[0], at.x[:, 0], k).imag
         exact, lost = -2*k*AMPLITUDE/2, self.a + self.b      # of -grad rho^2 = 2 k A sin kx: amplitude of exp(ikx) is -i/2
         f = seen_slope(Lucy.of(h=3.0), at, k)
-        return Outcome({"brackets": [{"a": self.a, "b": self.b, "force": found[0]/exact, "predicted": f*(1 - lost/2),
-                                      "unit": found[1]/found[0] if lost != 2 else np.nan, "unit_predicted": 2.0**-lost}]})
+        unit, left = unit_of_mass(Powers(self.a, self.b))
+        return Outcome({"brackets": [{"a": self.a, "b": self.b, "force": found/exact, "predicted": f*(1 - lost/2),
+                                      "unit": unit, "unit_left": left, "unit_predicted": 3.0**-lost}]})
+
+
+def unit_of_mass(bracket: Any) -> tuple[float, float]:
+    """(unit, unit_left) of `Brackets`."""
+    at = jittered((10, 10), 0.2, 2)
+    method, (rho, v, T) = moving(ConstantMass, at, Lucy.of(h=3.0), bracket=bracket), crowd(at)
+    whole, third = (acceleration(method, method.state(at.x, unit*rho, v, T)) for unit in (1.0, 3.0))
+    ratio = float(np.sum(whole*third)/np.sum(whole**2))
+    return ratio, float(np.abs(third - ratio*whole).max()/np.abs(third).max())
 
 
 @dataclass(frozen=True, kw_only=True)

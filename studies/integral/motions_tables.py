@@ -23,13 +23,17 @@ ORDERS = Table("orders", key=["motion", "flow", "integrator"],
                columns=["motion", "flow", "integrator", "order", "order_err", "over_euler", "over_euler_err"])
 #: growth of sound without viscosity over dt omega^2/2, literal motion
 SHARES = Table("shares", key=["integrator", "dt"], columns=["integrator", "dt", "share", "share_err", "predicted"])
-#: largest difference of accelerations from Eq. 49, over the largest acceleration
+#: largest difference of accelerations from Eq. 49, over the largest acceleration; one set of random fields: `convective` is
+#: round-off whatever they are, `literal` is a number of this set
 IDENTITY = Table("identity", key=["transport", "reynolds"], columns=["transport", "reynolds", "convective", "literal"])
-#: v.grad as Eqs 46-48 add it, over the exact one
+#: v.grad as Eqs 46-48 add it, over the exact one; sums over a lattice, without chance
 SIGNS = Table("signs", key=["equation", "wavelength"], columns=["equation", "wavelength", "factor", "predicted"])
-#: force of Eq. 50 in a wave without entropy, over -grad P; and what a unit of mass half as large multiplies accelerations by
-BRACKETS = Table("brackets", key=["a", "b"], columns=["a", "b", "force", "predicted", "unit", "unit_predicted"])
-#: largest drift over the run: of mass and energy over the total, of momentum over sum |p_i|
+#: force of Eq. 50 in a wave without entropy, over -grad P, without chance; what a unit of mass a third as large multiplies
+#: accelerations by, and what of them this leaves: round-off, whatever the random fields are
+BRACKETS = Table("brackets", key=["a", "b"],
+                 columns=["a", "b", "force", "predicted", "unit", "unit_left", "unit_predicted"])
+#: largest drift over the run: of mass and energy over the total, of momentum over sum |p_i|; one run each, no fields at random,
+#: points jittered once: round-off where sums are kept
 CONSERVATION = Table("conservation", key=["motion", "edges", "weight", "points", "integrator", "filter", "quantity"],
                      columns=["motion", "edges", "weight", "points", "integrator", "filter", "steps", "dt", "quantity", "drift"])
 #: decay rate of a density wave, or of density that alternates from point to point, over chi

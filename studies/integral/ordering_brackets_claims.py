@@ -26,6 +26,13 @@ def wider(form: str) -> Value:
     return lambda tables: ratio(*(error(tables, form, h) for h in (3.0, 1.2)))
 
 
+def best(form: str, h: float, *others: float) -> Value:
+    """Error with one range over that with another, the one for which this is largest."""
+    def value(tables: Tables) -> Measured:
+        return max((ratio(error(tables, form, h), error(tables, form, other)) for other in others), key=lambda found: found.value)
+    return value
+
+
 def slope(form: str) -> Value:
     """d ln error/d ln(h/lambda), h = 3 a."""
     def value(tables: Tables) -> Measured:
@@ -44,6 +51,17 @@ CLAIMS = (
             at_most=0.1, value=partial(error, form=form),
             statement=f"a < r0 < lambda gives a good gradient: its error ({words}) with h = 3 a, {JITTERED}, wavelength 32 a",
             because="a tenth is not asking for much: r0 = 1.27 a, lambda = 25 r0") for form, words in FORMS.items()),
+    Claim(id="rr98-eq45-jittered-sum-wide", source="RR98 Eq. 45", printed="a good representation of the gradients", at_most=0.1,
+          value=partial(error, form="sum", h=6.0),
+          statement=f"a < r0 < lambda gives a good gradient: its error ({FORMS['sum']}) with h = 6 a, {JITTERED}, wavelength 32 "
+                    "a",
+          because="a tenth, as with h = 3 a"),
+    Claim(id="own-eq45-jittered-sum-range", source="RR98 Eq. 45", at_most=1, value=best("sum", 6.0, 3.0, 4.0),
+          statement="f_i + f_j wants a range of 6 a, the widest that was run: error with it over that with 3 and 4 a, the "
+                    f"larger, {JITTERED}, wavelength 32 a", because="smaller than one is better"),
+    Claim(id="own-eq45-jittered-difference-range", source="RR98 Eq. 45", at_most=1, value=best("difference", 4.0, 3.0, 6.0),
+          statement=f"f_j - f_i wants a range of 4 a: error with it over that with 3 and 6 a, the larger, {JITTERED}, "
+                    "wavelength 32 a", because="smaller than one is better"),
     *(Claim(id=f"rr98-continuum-limit-jittered-{form}", source="RR98 Sec. III", printed="continuum limit", at_least=0.5,
             value=slope(form),
             statement="r0 -> 0 with a < r0 gives the continuum limit also off a lattice: slope of the gradient's error "

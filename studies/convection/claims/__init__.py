@@ -9,6 +9,7 @@ from studies.convection.claims import (
     freedoms,
     freezing,
     grid,
+    ingredients,
     motions,
     open,
     own,
@@ -20,5 +21,5 @@ from studies.convection.claims import (
     weights,
 )
 
-THEMES = (weights, fluids, printed, grid, square, spam, starts, freedoms, flow, freezing, own, points, motions, open)
+THEMES = (weights, fluids, printed, grid, square, spam, starts, freedoms, flow, freezing, own, points, ingredients, motions, open)
 RB_CLAIMS = tuple(claim for theme in THEMES for claim in theme.CLAIMS)
