@@ -211,6 +211,11 @@ for _number in (int, float, np.float64):
     bulk_viscosity.of(_number)(lambda law, rho, T: law)
 
 
+def constant_viscosity(law: Any) -> bool:
+    """Is the shear viscosity the same in all states? A law not known for that is taken to vary, which is right for all."""
+    return isinstance(law, ConstEta)
+
+
 # --- stress -----------------------------------------------------------------------------------------------
 
 

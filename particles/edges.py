@@ -156,13 +156,28 @@ def symmetric(edges: Edges, a: float) -> Edges:
                     joined([edges.apart, edges.apart*MIRROR]), (edges.V + np.roll(edges.V, half))/2, a)
 
 
+def check_between(x: np.ndarray, height: float) -> None:
+    """Refuse points (n, 2) whose mirror images would be among the others, or would be they themselves."""
+    out = np.flatnonzero(~(np.abs(x[:, 1]) < height/2*(1 - 1e-9)))
+    if len(out):
+        i = out[0]
+        raise ValueError(f"point {i} at y = {x[i, 1]:g} is not between the plates y = -+{height/2:g} ({len(out)} of {len(x)} are "
+                         "not), where its mirror image would be another point's or its own: move it inside")
+
+
 def between_plates(make: Callable[[Points, Any], Edges], x: np.ndarray, width: float, height: float,
                    weight: Any) -> tuple[Edges, Beyond]:
     """Edges among points x (n, 2), periodic in x, and to their mirror images in the plates y = -+ height/2.
 
     The maker sees points and images together, a box twice as high that is periodic. What it makes is averaged with its own
     mirror image (two points and their images lie on one circle: a triangulation has to choose one of two diagonals).
+
+    Raises
+    ------
+    ValueError
+        A point is on a plate or beyond it.
     """
+    check_between(x, height)
     n, shift = len(x), np.array([0.0, height/2])
     lower = x - shift                                        # -height < y < 0; the upper plate is at 0, the lower at the edge
     points = of_positions(np.concatenate([lower, lower*MIRROR]), (width, 2*height))

@@ -122,17 +122,18 @@ class OrderingWarning(UserWarning):
     """Spacing < r0 < wavelength is violated    [RR98 Eq. 45]"""
 
 
-def check_ordering(weight: Any, d: int, a: float, error: float, wavelength: float = np.inf) -> None:
+def check_ordering(weight: Any, d: int, a: float, error: float, wavelength: float = np.inf,
+                   wrong: str = "gradients of linear fields are") -> None:
     """Warn where Eq. 45 is violated, with the side and the error to expect.
 
-    a : spacing (dV)^(1/d). error : of the discrete first moment on the points. wavelength : the shortest that matters; its
-    gradients lose 1 - f^(k), about 1 - exp(-(k r0)^2/2d).
+    a : spacing (dV)^(1/d). error : of the discrete first moment on the points, or of what else is `wrong`. wavelength : the
+    shortest that matters; its gradients lose 1 - f^(k), about 1 - exp(-(k r0)^2/2d).
     """
     r0 = rms_width(weight, d)
     told = f"r0 = {r0:.3g} (rms width of {type(weight).__name__})"
     if r0 < a and error > SEEN:
-        warnings.warn(f"{told} is below the spacing {a:.3g}, the left side of Eq. 45: gradients of linear fields are off by "
-                      f"{100*error:.3g} % (rms) on these points; take a wider weight, or exact edges", OrderingWarning, 4)
+        warnings.warn(f"{told} is below the spacing {a:.3g}, the left side of Eq. 45: {wrong} off by {100*error:.3g} % "
+                      f"(rms) on these points; take a wider weight, or exact edges", OrderingWarning, 4)
     if r0 > wavelength:
         lost = 1 - np.exp(-(2*pi/wavelength*r0)**2/(2*d))
         warnings.warn(f"{told} is above the wavelength {wavelength:.3g}, the right side of Eq. 45: its gradients lose about "
@@ -145,9 +146,13 @@ def check(weight: Any, d: int) -> None:
     Raises
     ------
     ValueError
-        M_1 differs from d: the gradient of a linear field would be wrong by M_1/d.
+        Its width is not positive and finite, or M_1 differs from d: the gradient of a linear field would be wrong by M_1/d.
     """
+    name = "range h" if type(weight) in WEIGHTS.values() else "width r0"
+    if not 0 < width(weight) < np.inf:
+        raise ValueError(f"the {name} of {type(weight).__name__} must be positive and finite, got {width(weight)}: Eq. 45 asks "
+                         "for more than a spacing")
     first = moment(weight, 1, d)
-    if abs(first - d) > 1e-6*d:
+    if not abs(first - d) <= 1e-6*d:
         raise ValueError(f"{type(weight).__name__} has M_1 = {first:.6g} in {d} dimensions, which must be {d} (RR98 Eq. 2): "
                          f"every gradient would be multiplied by {first/d:.4g}; normalise it, or make it for d = {d}")

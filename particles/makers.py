@@ -1,11 +1,12 @@
 """Who makes edges of points and a weight: RR98's Eq. 29 as printed, plain quadrature, and what repairs it off a lattice."""
+import warnings
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse.csgraph import connected_components
-from scipy.sparse.linalg import spsolve
+from scipy.sparse.linalg import MatrixRankWarning, spsolve
 
 from particles.edges import Edges
 from particles.interpolants import W, check, check_ordering, reach, sphere
@@ -129,11 +130,19 @@ def exact(points: Points, weight: Any) -> Edges:
         wanted = np.zeros((points.n, 1 + points.d))
         wanted[:, 1 + alpha] = points.V
         missing = wanted.ravel(order="F") - B@edges.S[:, alpha]
-        change = edges.k*(B.T@spsolve(M, missing))
-        change += edges.k*(B.T@spsolve(M, missing - B@change))     # once more for what the solution left
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", MatrixRankWarning)      # told below
+            change = edges.k*(B.T@spsolve(M, missing))
+            change += edges.k*(B.T@spsolve(M, missing - B@change))     # once more for what the solution left
         columns.append(edges.S[:, alpha] + change)
     made = Edges(i=edges.i, j=edges.j, S=np.stack(columns, axis=1), k=edges.k, apart=edges.apart, V=edges.V)
     worst = np.abs(made.linear - np.eye(points.d)).max()
+    if not np.isfinite(worst):
+        met = np.bincount(np.concatenate([edges.i, edges.j]), minlength=points.n)
+        least = int(np.argmin(met))
+        raise ArithmeticError(f"no edges of {type(weight).__name__} close and are exact on linear fields: the equations for them "
+                              f"are singular, as where a point has too few neighbours (point {least} has {met[least]}): take a "
+                              "wider weight or less random points")
     if not worst < 1e-9:
         raise ArithmeticError(f"no edges of {type(weight).__name__} close and are exact on linear fields: the best miss the "
                               f"unit matrix by {worst:.2g}; take a wider weight or less random points")

@@ -20,6 +20,10 @@ class Points:
         if n < 2 or d not in (1, 2, 3) or self.box.shape != (d,) or self.V.shape != (n,):
             raise ValueError(f"need points (n >= 2, d = 1, 2, 3), box (d,) and V (n,); got {self.x.shape}, "
                              f"{self.box.shape}, {self.V.shape}")
+        lost = np.flatnonzero(~np.isfinite(self.x).all(axis=1))
+        if len(lost):
+            raise ValueError(f"point {lost[0]} is at {self.x[lost[0]]}: positions must be finite numbers; {len(lost)} of {n} are "
+                             "not: mend what made them")
         outside = np.flatnonzero((np.abs(self.x) > self.box/2*(1 + 1e-12)).any(axis=1))
         if len(outside):
             i = outside[0]

@@ -190,11 +190,23 @@ def _check_start(method, start: np.ndarray, plan: Plan) -> None:
         raise ValueError(f"particle {i} at ({start[0, i]:g}, {start[1, i]:g}) is beyond a wall of the box |x| <= {width/2:g}, "
                          f"|y| <= {height/2:g} ({len(lost)} of {start.shape[1]} are): the box is centred on the origin; move "
                          "them inside")
-    limit = limit_of(method, start)
+    limit = _limit(method, start)
     if plan.dt > limit:
         raise ValueError(f"dt = {plan.dt:g} is above the stability limit {limit:.3g} of RK4 for these particles: what is below "
                          f"is stable, below {RANDOM*limit:.2g} also where they lie at random; the studies take {STUDIES} of "
                          f"the limit, {STUDIES*limit:.2g}, because errors at plates grow with dt")
+
+
+def _limit(method, start: np.ndarray) -> float:
+    """The stability limit; ValueError for a start that has none."""
+    try:
+        limit = limit_of(method, start)
+    except FloatingPointError as error:
+        raise ValueError(f"the particles at the start are no fluid: {error}") from error
+    if not limit > 0:
+        raise ValueError(f"the particles at the start have no stable step: the limit of RK4 is {limit}; look for densities or "
+                         "temperatures that are not positive, and for viscosities that are not finite")
+    return limit
 
 
 def _where(method, state: np.ndarray, ids: np.ndarray | None = None) -> str:

@@ -143,13 +143,18 @@ class Listed:
             self.around.make_lists(now.anchor)
 
     def try_out(self, now: Any) -> None:
-        """One evaluation on a copy of the particles, which leaves no trace."""
+        """One evaluation on a copy of the particles, which leaves no trace; at a start they are looked over."""
         state, fresh = now.state.copy(), now.anchor is None
         if fresh:
-            self.around.relist(state, now.ids.copy(), 0.0)
+            ids = now.ids.copy()
+            self.around.relist(state, ids, 0.0)
+            self.look_over(state, ids)
         self.evaluate(state)
         if fresh:
             self.around.forget()
+
+    def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
+        """Refuse points that the sums would take without a word, once at the start; here none."""
 
     def make_ready(self, now: Any, dt: float) -> None:
         """New lists if particles may leave the old ones within the step; the particles are then in the order of cells.

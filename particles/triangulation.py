@@ -2,10 +2,13 @@
 from typing import Any
 
 import numpy as np
-from scipy.spatial import Delaunay
+from scipy.spatial import Delaunay, cKDTree
 
 from particles.edges import Edges, combined
 from particles.points import Points, of_positions
+
+#: spacings by which points are shifted where several triangulations are right, and that they must be apart to keep their order
+SHIFT, APART = 1e-7, 1e-6
 
 
 def delaunay(points: Points, weight: Any = None) -> Edges:
@@ -16,7 +19,7 @@ def delaunay(points: Points, weight: Any = None) -> Edges:
     Raises
     ------
     ValueError
-        d = 1, or points of a flat simplex lie on one sphere (a lattice in 3D).
+        d = 1, two points overlap, or points of a flat simplex lie on one sphere (a lattice in 3D).
     """
     return _assembled(points, *_simplices(points))
 
@@ -29,7 +32,7 @@ def between(x: np.ndarray, width: float, height: float) -> Edges:
     Raises
     ------
     ValueError
-        There is no point on one of the plates, or one beyond them.
+        There is no point on one of the plates, or one beyond them; or two points overlap.
     """
     low, high = x[:, 1].min(), x[:, 1].max()
     if max(abs(low + height/2), abs(high - height/2)) > 1e-12*height:
@@ -45,12 +48,24 @@ def _simplices(points: Points) -> tuple[np.ndarray, np.ndarray]:
     """Corners of all simplices: points (T, d + 1), and where these are, (T, d + 1, d)."""
     if points.d == 1:
         raise ValueError("there are no triangles in one dimension: take edges of a weight")
+    _check_apart(points)
     x, owner = _with_images(points)
-    # of four points on a circle all images must get the same diagonal: a shift of 1e-7 spacings decides
-    shift = np.random.default_rng(0).uniform(-1e-7, 1e-7, points.x.shape)*points.a
+    # of four points on a circle all images must get the same diagonal: a small shift decides
+    shift = np.random.default_rng(0).uniform(-SHIFT, SHIFT, points.x.shape)*points.a
     simplices = Delaunay(x + shift[owner]).simplices
     simplices = simplices[_is_ours(x, simplices, points)]
     return owner[simplices], x[simplices]
+
+
+def _check_apart(points: Points) -> None:
+    """Refuse points that the shift could move past each other, and triangles that no step of time could follow."""
+    tree = cKDTree((points.x + points.box/2) % points.box, boxsize=points.box*(1 + 1e-15))
+    met = tree.query_pairs(APART*points.a, output_type="ndarray")
+    if len(met):
+        i, j = sorted(met[0])
+        r = float(np.sqrt((points.separation(i, j)**2).sum()))
+        raise ValueError(f"points {i} and {j} overlap, or nearly so: {r/points.a:.2g} spacings from each other at {points.x[i]}, "
+                         f"where triangles need {APART:g} at least (and 0.4 not to shorten the step): move one of them")
 
 
 def _assembled(points: Points, corner: np.ndarray, x: np.ndarray) -> Edges:

@@ -118,6 +118,21 @@ class Weight(_Fields):
         return cls(h, 1/(unit_integral(phi, d)*h**d))
 
 
+def check_unit(weight: Weight, d: int = 2) -> None:
+    """Refuse a weight whose integral in d dimensions is not 1: every density would be multiplied by it.
+
+    Raises
+    ------
+    ValueError
+        It is not, or the range is not positive and finite.
+    """
+    kind = type(weight).__name__
+    whole = weight.scale*unit_integral(formulas(type(weight))[0], d)*weight.h**d if 0 < weight.h < inf else float("nan")
+    if not abs(whole - 1) <= 1e-9:
+        raise ValueError(f"{kind} of range h = {weight.h:g} has the integral {whole:.6g} in {d} dimensions, which must be 1: "
+                         f"make it with {kind}.of(h=..., d={d})")
+
+
 class Lucy(Weight):
     """(5/pi h^2) (1 + 3q)(1 - q)^3 in 2D    [KHP95, Sec. II, Fig. 1]"""
 

@@ -9,10 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import sparse
 
+from continuum.fluid import constant_viscosity
 from particles.edges import Beyond
-from particles.methods.dih import Coefficients, Dih, Flow, Fluxes, Pairwise, along, carried, lacking, means, rows, take
+from particles.methods.dih import Coefficients, Dih, Flow, Fluxes, Pairwise, along, carried, means, rows, take, transposed
 
 SLIP = np.array([1.0, -1.0])
+ADJOINT = np.array([-1.0, 1.0])     # of stresses that are made of gradients that see -v
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,9 +35,14 @@ class PlainLayer(Dih):
         inner = along(edges, means(coefficients, edges.i, edges.j), take(flow, edges.i), take(flow, edges.j))
         outer = self._friction(flow, coefficients)
         if self.mended:
-            F = lacking(coefficients, flow.v, self._slope(flow.v))
+            tau = transposed(coefficients, self._slope(flow.v))
+            F = np.einsum("nab,nb->na", tau, flow.v)
             inner = inner._replace(energy=inner.energy - (edges.S*(F[edges.i] + F[edges.j])).sum(axis=1)/2)
             outer = outer._replace(energy=outer.energy - (beyond.S*(F[beyond.i] + SLIP*F[beyond.parent])).sum(axis=1)/2)
+            if not constant_viscosity(self.law):
+                among, image = tau[edges.i] + tau[edges.j], tau[beyond.i] + ADJOINT[:, None]*tau[beyond.parent]
+                inner = inner._replace(momentum=inner.momentum - np.einsum("ea,eab->eb", edges.S, among)/2)
+                outer = outer._replace(momentum=outer.momentum - np.einsum("ea,eab->eb", beyond.S, image)/2)
         through = rows(carried(self.eos, edges.S, take(flow, edges.i), take(flow, edges.j)), inner)
         for row, flux, lost in zip(out, through, rows(self._slipping(flow), outer), strict=True):
             row[:] = np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n)

@@ -3,7 +3,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from continuum.fluid import conductivity, pressure, sound_speed, temperature, viscosity
+from continuum.fluid import conductivity, constant_viscosity, pressure, sound_speed, temperature, viscosity
 from particles.methods.moving import EXCHANGED
 from particles.weights import value_and_slope
 
@@ -93,6 +93,9 @@ def rates(method, scene, state, S, k, apart, shift, count, images):
     grad_P = np.einsum("ija,ij->ia", half, P[origin][None] - P[:, None])/V[:, None]
     F = eta[:, None]*np.stack([v[:, 1]*grad_v[:, 1, 0] - v[:, 0]*grad_v[:, 1, 1],
                                v[:, 0]*grad_v[:, 0, 1] - v[:, 1]*grad_v[:, 0, 0]], axis=1)*chosen.mended
+    tau = np.zeros((len(v), 2, 2)) if constant_viscosity(method.law) else chosen.mended*eta[:, None, None]*np.stack(
+        [[-grad_v[:, 1, 1], grad_v[:, 1, 0]], [grad_v[:, 0, 1], -grad_v[:, 0, 0]]]).transpose(2, 0, 1)
+    adjoint = np.stack([turn, np.ones_like(turn)], axis=1)[:, :, None]
     both = {name: q[:, None] + q[origin][None] for name, q in {"rho": rho, "per_c": 1/c, "eta": eta, "k": kappa, "e": e}.items()}
     theta = V*count - 1
     left = (half*(shift[:, None] + (shift[origin]*R)[None])).sum(axis=2) + chosen.follow*k*(theta[origin][None] - theta[:, None])
@@ -102,6 +105,7 @@ def rates(method, scene, state, S, k, apart, shift, count, images):
     du = friction[None] - v[:, None]
     force = 0.5*(both["eta"]*k)[:, :, None]*du - half*(P[origin][None] + P[:, None])[:, :, None]
     force += 0.5*mass[:, :, None]*(v[:, None] + slip[None])
+    force += np.einsum("ija,ijab->ijb", half, tau[:, None] + (adjoint*tau[origin])[None])
     work = 0.25*both["eta"]*k*(du*(friction[None] + v[:, None])).sum(axis=2) + 0.5*both["k"]*k*(Td[None] - T[:, None])
     work += (half*(F[:, None] + (F[origin]*R)[None])).sum(axis=2)
     work += 0.5*mass*(both["e"] + np.einsum("ia,ja->ij", v, slip)) - P[:, None]*to_j - P[origin][None]*to_i

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import studies.bodies as bodies
-from continuum.fluid import ConstEta, IdealGas, VanDerWaals
+from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
 from continuum.published import published
 from particles.bodies import CLEAR, between_circles, end_rows, held, in_disc, together, turning, with_surface
 from particles.makers import renormalised
@@ -26,6 +26,7 @@ from studies.kit.sweep import RESULTS, load
 from studies.kit.table import read
 
 LAW = ConstEta(0.3, 0.4)
+LAWS = pytest.mark.parametrize("law", [LAW, ConstNu(0.3, 0.4)], ids=["const-eta", "const-nu"])
 
 
 def stream(kind="surface", T=1.1, v=(0.0, 0.0), **more):
@@ -66,12 +67,12 @@ def with_filter(dih, state, chi):
     return out
 
 
-@pytest.mark.parametrize("eos", [IdealGas(), VanDerWaals()])
+@pytest.mark.parametrize(("eos", "law"), [(IdealGas(), LAW), (VanDerWaals(), LAW), (VanDerWaals(), PowerLaw(0.3, 0.4, 0.5, 1.0))])
 @pytest.mark.parametrize("kind", ["surface", "lattice"])
-def test_free_points_exchange_as_the_slow_twin_says(kind, eos):
-    fluid = stream(kind, push=(0.02, -0.01), chi=0.05, eos=eos)
+def test_free_points_exchange_as_the_slow_twin_says(kind, eos, law):
+    fluid = stream(kind, push=(0.02, -0.01), chi=0.05, eos=eos, law=law)
     state = shaken(fluid, len(fluid.x))
-    twin = Dih(edges=separated(fluid.edges, fluid.held), eos=eos, law=LAW, transport=Pairwise())
+    twin = Dih(edges=separated(fluid.edges, fluid.held), eos=eos, law=law, transport=Pairwise())
     slow, (fast, _) = with_filter(twin, state, 0.05), rates(fluid, state)
     slow[1:3] += np.array([[0.02], [-0.01]])*state[0]
     slow[3] += 0.02*state[1] - 0.01*state[2]
@@ -84,9 +85,10 @@ def test_free_points_exchange_as_the_slow_twin_says(kind, eos):
 @pytest.mark.parametrize("T", [1.1, np.nan])
 @pytest.mark.parametrize("v", [(0.0, 0.0), (0.1, -0.2)])
 @pytest.mark.parametrize("kind", ["surface", "lattice"])
-def test_the_body_takes_what_the_fluid_loses(kind, v, T):
+@LAWS
+def test_the_body_takes_what_the_fluid_loses(law, kind, v, T):
     """Over all points: mass stays, momentum goes into the force alone, energy into heat and work; what drives comes on top."""
-    fluid = stream(kind, T, v, push=(0.02, 0.0), chi=0.03)
+    fluid = stream(kind, T, v, push=(0.02, 0.0), chi=0.03, law=law)
     state = shaken(fluid, len(fluid.x))
     found, sums = rates(fluid, state)
     V, free = fluid.edges.V, np.ones(len(fluid.x), bool)
@@ -206,9 +208,10 @@ OFFSETS = (0.0, 0.37, 5.81, -31.25, 12.0)
 
 @pytest.mark.parametrize("offset", OFFSETS)
 @pytest.mark.parametrize("h", [2.0, 3.0])
-def test_what_leaves_through_one_sliding_side_enters_through_the_other(offset, h):
+@LAWS
+def test_what_leaves_through_one_sliding_side_enters_through_the_other(law, offset, h):
     """dE/dt = U Fp - U^2/2 Fm, dp/dt = U Fm: boxes differ in speed by U, Fm and Fp pass through the side."""
-    fluid = sheared(h=h)
+    fluid = sheared(h=h, law=law)
     state = shaken(fluid, fluid.points.n)
     state[4] = offset
     found, sums = rates(fluid, state)
@@ -231,21 +234,23 @@ def test_homogeneous_shear_is_steady_but_for_its_heat(offset):
     np.testing.assert_allclose(sums.through(state)[1]/9, 0.3*0.02, rtol=1e-12)
 
 
-def test_without_shear_sides_are_periodic():
-    fluid = sheared(rate=0.0)
+@LAWS
+def test_without_shear_sides_are_periodic(law):
+    fluid = sheared(rate=0.0, law=law)
     state = shaken(fluid, fluid.points.n)
     slow = np.empty((4, fluid.points.n))
-    Dih(edges=fluid.edges, eos=fluid.eos, law=LAW).rates(state[:4], slow)
+    Dih(edges=fluid.edges, eos=fluid.eos, law=law).rates(state[:4], slow)
     found, _ = rates(fluid, state)
     np.testing.assert_allclose(found[:4], slow, atol=1e-13*np.abs(slow).max())
 
 
 @pytest.mark.parametrize("slid", [0, 4, -3])
 @pytest.mark.parametrize("h", [2.0, 3.0])
-def test_a_box_exchanges_as_between_two_true_ones(h, slid):
+@LAWS
+def test_a_box_exchanges_as_between_two_true_ones(law, h, slid):
     """Three boxes on top of each other on one lattice, the others faster and slower by U, shifted by whole spacings."""
     counts = (9, 8)
-    fluid = sheared(counts, h=h)
+    fluid = sheared(counts, h=h, law=law)
     state = shaken(fluid, fluid.points.n)
     state[4] = slid
     rho, v = state[0], (state[1:3]/state[0]).T
@@ -255,7 +260,7 @@ def test_a_box_exchanges_as_between_two_true_ones(h, slid):
         boxes.append(np.roll(fields.reshape(4, *counts), box*slid, axis=1))
     rho, vx, vy, T = np.concatenate(boxes, axis=2).reshape(4, -1)
     tower = lattice((9, 24))
-    slow = Dih(edges=renormalised(tower, Lucy.of(h=h)), eos=fluid.eos, law=LAW)
+    slow = Dih(edges=renormalised(tower, Lucy.of(h=h)), eos=fluid.eos, law=law)
     wanted, (found, _) = np.empty((4, tower.n)), rates(fluid, state)
     slow.rates(slow.state(rho, np.stack([vx, vy], axis=1), T), wanted)
     middle = wanted.reshape(4, 9, 24)[:, :, 8:16].reshape(4, -1)

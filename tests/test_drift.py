@@ -5,10 +5,11 @@ import numpy as np
 import pytest
 from crowd import goes_on_bitwise
 
-from continuum.fluid import ConstEta, IdealGas, VanDerWaals
+from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
 from continuum.scene import RayleighBenard
 from particles.edges import between_plates
 from particles.integrators import RK4
+from particles.interpolants import OrderingWarning
 from particles.limits import limit_of
 from particles.makers import plain
 from particles.methods.brackets import Powers
@@ -79,10 +80,11 @@ def alike(found, expected):
 
 
 @pytest.mark.parametrize("mended", [False, True])
+@pytest.mark.parametrize("law", [LAW, PowerLaw(0.3, 0.2, 0.5, 1.0)], ids=["const-eta", "power-law"])
 @pytest.mark.parametrize(("kind", "eos"), [*((kind, IdealGas()) for kind in DRIFTS), ("constant-mass", VanDerWaals())])
-def test_compiled_sums_are_those_of_the_slow_twin(kind, eos, mended):
-    fast = drift(kind, eos=eos, mended=mended)
-    slow = MOTIONS[kind](box=COUNTS, weight=WEIGHT, eos=eos, law=LAW, scale=SCALE, transport=Pairwise(mended=mended))
+def test_compiled_sums_are_those_of_the_slow_twin(kind, eos, law, mended):
+    fast = drift(kind, eos=eos, law=law, mended=mended)
+    slow = MOTIONS[kind](box=COUNTS, weight=WEIGHT, eos=eos, law=law, scale=SCALE, transport=Pairwise(mended=mended))
     state = shaken(fast)
     given = slow.state(AT.x, *fields())
     rows = TWIN[:len(given)]
@@ -105,14 +107,15 @@ def test_equation_50_is_that_of_the_slow_twin(bracket):
 
 
 @pytest.mark.parametrize("mended", [False, True])
-def test_literal_points_between_plates_are_fixed_ones_that_are_moved(mended):
+@pytest.mark.parametrize("law", [LAW, ConstNu(0.3, 0.2)], ids=["const-eta", "const-nu"])
+def test_literal_points_between_plates_are_fixed_ones_that_are_moved(law, mended):
     """Under gravity, with mirror images: `layer` on the edges that the points have at this moment."""
     x, weight = inner(AT.x), WendlandC2.of(h=2.9)
     edges, beyond = between_plates(plain, x, COLUMNS, ROWS, weight)
     scaled, images = (replace(q, S=SCALE*q.S, k=SCALE*q.k) for q in (edges, beyond))
-    fixed = Layer(x=x, edges=scaled, beyond=images, eos=IdealGas(), law=LAW, T_plates=(1.5, 0.5), g=0.02, mended=mended,
+    fixed = Layer(x=x, edges=scaled, beyond=images, eos=IdealGas(), law=law, T_plates=(1.5, 0.5), g=0.02, mended=mended,
                   fast=False)
-    method = drift(inside=True, mended=mended)
+    method = drift(inside=True, law=law, mended=mended)
     state = method.state(x, *fields())
     expected = np.zeros((4, len(x)))
     fixed.start(len(x), Team(1)).rates(state[[4, 2, 3, 5]], expected)
@@ -203,6 +206,29 @@ def test_what_is_no_fluid_is_named():
     assert "point 5 has V = -1" in sums.fault(state, np.arange(AT.n))
     with pytest.raises(ValueError, match="LiteralDrift needs the whole pressure"):
         drift(static=LessStatic(0.5, 1.0))
+
+
+@pytest.mark.parametrize("kind", ["literal", "constant-mass"])
+def test_what_is_no_start_is_refused(kind):
+    method, plan = drift(kind), Plan(dt=0.01, steps=1)
+    for row, value, words in ((4, -0.5, r"rho = -0\.5.*\(item 17\) is outside the validity"), (5, -0.5, r"\(item 17\)"),
+                              (6, -1.0, "point 17 has volume -1"), (3, np.nan, "not finite: py = nan of particle 17")):
+        state = method.state(AT.x, *fields())
+        state[row, 17] = value
+        with pytest.raises(ValueError, match=words):
+            run(method, state, plan)
+    state = method.state(AT.x, *fields())
+    state[:2, 17] = state[:2, 18]
+    with pytest.raises(ValueError, match=r"point 1[78] and point 1[78] overlap at .* move one of them"):
+        run(method, state, plan)
+
+
+def test_a_weight_that_is_none_is_refused_and_a_narrow_one_told():
+    with pytest.raises(ValueError, match=r"WendlandC2 of range h = 2\.9 has the integral 2 in 2 dimensions, which must be 1"):
+        drift(weight=WEIGHT._replace(scale=2*WEIGHT.scale))
+    method = drift(weight=WendlandC2.of(h=1.05), scale=1.0)
+    with pytest.warns(OrderingWarning, match=r"below the spacing 1, the left side of Eq\. 45: gradients of linear fields are"):
+        run(method, method.state(AT.x, *fields()), Plan(dt=0.01, steps=1))
 
 
 # --- between the plates of Rayleigh and Benard ------------------------------------------------------------------

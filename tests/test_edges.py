@@ -139,6 +139,43 @@ def test_overlapping_points_and_points_outside_are_refused():
         of_positions(far, at.box)
 
 
+@pytest.mark.parametrize("apart", [0.0, 1e-8])
+@pytest.mark.parametrize("kind", ["lattice", "jittered"])
+def test_triangles_of_overlapping_points_name_both(kind, apart):
+    at = lattice((10, 10)) if kind == "lattice" else jittered((10, 10), 0.3, 1)
+    twice = at.x.copy()
+    twice[7] = twice[8] + apart
+    with pytest.raises(ValueError, match=r"points 7 and 8 overlap, or nearly so: (0|1\.4e-08) spacings .* move one of them"):
+        delaunay(of_positions(twice, at.box))
+
+
+def test_a_position_that_is_no_number_is_named():
+    at = lattice((6, 6))
+    at.x[3, 0] = np.nan
+    with pytest.raises(ValueError, match=r"point 3 is at \[ *nan .*must be finite numbers; 1 of 36"):
+        of_positions(at.x, at.box)
+
+
+@pytest.mark.parametrize("y", [5.6, 5.0, -12.0, np.nan])
+@pytest.mark.parametrize("make", [plain, delaunay])
+def test_points_that_are_not_between_plates_are_refused(make, y):
+    x = lattice((10, 10)).x.copy()
+    x[3, 1] = y
+    with pytest.raises(ValueError, match=rf"point 3 at y = {y:g} is not between the plates y = -\+5 \(1 of 100 are not\)"):
+        between_plates(make, x, 10, 10, Lucy.of(h=2.0))
+
+
+@pytest.mark.parametrize("weight", [Exponential(-1.0, 2), Gaussian(0.0, 2), Gaussian(np.nan, 2), Lucy(-2.0, 1.0)])
+def test_a_weight_without_a_width_is_refused(weight):
+    with pytest.raises(ValueError, match=rf"of {type(weight).__name__} must be positive and finite, got \S+: Eq\. 45"):
+        plain(lattice((10, 10)), weight)
+
+
+def test_edges_that_cannot_be_exact_say_why():
+    with pytest.raises(ArithmeticError, match=r"equations for them are singular, .* \(point \d+ has \d\): take a wider weight"):
+        MAKERS["exact"](jittered((10, 10), 0.3, 1), Lucy.of(h=1.2))
+
+
 def test_a_lattice_in_space_has_no_triangulation_of_its_own():
     with pytest.raises(ValueError, match="flat simplex"):
         delaunay(lattice((6, 6, 6)))

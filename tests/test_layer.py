@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from plain_layer import PlainLayer
 
-from continuum.fluid import IdealGas, VanDerWaals
+from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
 from continuum.scene import RayleighBenard
 from particles.edges import between_plates
 from particles.limits import limit_of
@@ -53,9 +53,10 @@ MADE = [(renormalised, 0.0, 2.0), (exact, 0.2, 2.8), (delaunay, 0.2, 2.0)]
 
 @pytest.mark.parametrize("mended", [True, False])
 @pytest.mark.parametrize(("make", "size", "h"), MADE)
-@pytest.mark.parametrize("eos", [IdealGas(), VanDerWaals()])
-def test_compiled_sums_are_those_of_the_slow_twin(make, size, h, mended, eos):
-    fluid, x, _ = layer(make, size, mended, h, eos=eos)
+@pytest.mark.parametrize(("eos", "transport"), [(IdealGas(), ConstEta), (VanDerWaals(), ConstEta), (IdealGas(), ConstNu),
+                                                (VanDerWaals(), PowerLaw)])
+def test_compiled_sums_are_those_of_the_slow_twin(make, size, h, mended, eos, transport):
+    fluid, x, _ = layer(make, size, mended, h, eos=eos, transport=transport)
     twin = PlainLayer(edges=fluid.edges, beyond=fluid.beyond, eos=fluid.eos, law=fluid.law, T_plates=fluid.T_plates, g=fluid.g,
                       y=x[:, 1], transport=Pairwise(mended=mended))
     state, slow = shaken(fluid, x), np.empty((4, len(x)))
@@ -64,6 +65,16 @@ def test_compiled_sums_are_those_of_the_slow_twin(make, size, h, mended, eos):
     for one, other in zip(fast, slow, strict=True):
         assert np.abs(one - other).max() < 1e-12*np.abs(other).max()
     assert np.array_equal(fast, rates(fluid, state, threads=2))
+
+
+@pytest.mark.parametrize(("row", "value"), [(0, -0.5), (3, -0.5), (3, 0.0)])
+def test_a_start_that_is_no_fluid_is_refused_by_run_and_by_the_limit(row, value):
+    fluid, x, _ = layer()
+    state = shaken(fluid, x)
+    state[row, 17] = value
+    for refuse in (lambda: run(fluid, state, Plan(dt=0.1, steps=1)), lambda: limit_of(fluid, state)):
+        with pytest.raises(ValueError, match=r"\(item 17\) is outside the validity of IdealGas"):
+            refuse()
 
 
 @pytest.mark.parametrize(("make", "size", "h"), MADE)

@@ -5,6 +5,7 @@ import pytest
 import studies.motions as motions
 from continuum.fluid import ConstEta, IdealGas
 from particles.integrators import RK4, Euler, TwoStep
+from particles.interpolants import OrderingWarning
 from particles.makers import renormalised
 from particles.methods.brackets import Powers
 from particles.methods.dih import Dih, Nested, Pairwise
@@ -259,6 +260,18 @@ def test_what_cannot_be_moved_is_refused():
     state[1, 5], state[2, 6] = 0.3, -1.0
     with pytest.raises(FloatingPointError, match=r"point 6 has rho = -1"):
         rates(method, state)
+    twice = at.x.copy()
+    twice[7] = twice[8]
+    with pytest.raises(ValueError, match="points 7 and 8 overlap"):
+        method.state(twice, np.ones(at.n), 0*at.x, np.ones(at.n))
+
+
+@pytest.mark.parametrize("kind", MOTIONS.values())
+def test_a_weight_too_narrow_for_the_points_is_told_at_the_start(kind):
+    at = lattice((9, 9))
+    method = kind(box=(9.0, 9.0), weight=Lucy.of(h=1.05), eos=IdealGas(), law=ConstEta(0.1, 0.1))
+    with pytest.warns(OrderingWarning, match=r"below the spacing 1, the left side of Eq\. 45: gradients of linear fields are"):
+        method.state(at.x, np.ones(at.n), 0*at.x, np.ones(at.n))
 
 
 @pytest.mark.parametrize("weight", WEIGHTS.values())

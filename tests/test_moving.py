@@ -6,8 +6,9 @@ import plain_moving
 import pytest
 from crowd import goes_on_bitwise
 
-from continuum.fluid import ConstEta, IdealGas, VanDerWaals
+from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
 from continuum.scene import RayleighBenard
+from particles.interpolants import OrderingWarning
 from particles.limits import limit_of
 from particles.methods.moving import EXCHANGED, SOLVED, Ingredients, Moving
 from particles.points import jittered
@@ -21,11 +22,14 @@ ROWS, COLUMNS = 8, 10
 TIGHT = Ingredients(iterations=400, within=1e-14)
 
 
-def fluid(scene="plates", eos=IdealGas(), g=0.02, chosen=TIGHT, columns=COLUMNS):  # noqa: B008
+LAW = ConstEta(0.3, 0.2)
+
+
+def fluid(scene="plates", eos=IdealGas(), g=0.02, chosen=TIGHT, columns=COLUMNS, law=LAW):  # noqa: B008
     """Between plates under gravity, or periodic both ways without it."""
     inside = scene == "plates"
     walls = (*plates(ROWS, 1.5, 0.5), *periodic(columns)) if inside else (*periodic(columns), *periodic(ROWS, 1))
-    return Moving(weight=WendlandC2.of(h=2.9), eos=eos, law=ConstEta(0.3, 0.2), walls=walls, box=(columns, ROWS),
+    return Moving(weight=WendlandC2.of(h=2.9), eos=eos, law=law, walls=walls, box=(columns, ROWS),
                   g=g if inside else 0.0, ingredients=chosen)
 
 
@@ -56,9 +60,11 @@ def rates(method, state, threads=1):
 
 @pytest.mark.parametrize("smooth", [False, True])
 @pytest.mark.parametrize("mended", [False, True])
-@pytest.mark.parametrize(("scene", "eos"), [("plates", IdealGas()), ("plates", VanDerWaals()), ("periodic", IdealGas())])
-def test_compiled_sums_are_those_of_the_slow_twin(scene, eos, mended, smooth):
-    method = fluid(scene, eos, chosen=TIGHT._replace(mended=mended, smooth=smooth))
+@pytest.mark.parametrize(("scene", "eos", "law"), [
+    ("plates", IdealGas(), LAW), ("plates", VanDerWaals(), LAW), ("periodic", IdealGas(), LAW),
+    ("plates", IdealGas(), ConstNu(0.3, 0.2)), ("periodic", IdealGas(), PowerLaw(0.3, 0.2, 0.5, 1.0))])
+def test_compiled_sums_are_those_of_the_slow_twin(scene, eos, law, mended, smooth):
+    method = fluid(scene, eos, chosen=TIGHT._replace(mended=mended, smooth=smooth), law=law)
     fast, now, _ = rates(method, shaken(method))
     where = plain_moving.Scene(method.box, (1.5, 0.5) if scene == "plates" else None)
     S, k, apart, pull, count, images = plain_moving.faces(method, where, now)
@@ -83,10 +89,11 @@ def test_faces_close_and_are_exact_on_linear_fields():
 
 
 @pytest.mark.parametrize("scene", ["plates", "periodic"])
-def test_nothing_is_lost_by_an_exchange(scene):
+@pytest.mark.parametrize("law", [LAW, ConstNu(0.3, 0.2)], ids=["const-eta", "const-nu"])
+def test_nothing_is_lost_by_an_exchange(law, scene):
     """Open faces, too: what is exchanged does not depend on how well they close; plates take momentum and heat only."""
     for iterations in (0, 2, 12):
-        method = fluid(scene, chosen=Ingredients(iterations=iterations))
+        method = fluid(scene, chosen=Ingredients(iterations=iterations), law=law)
         (px, py, m, V, E), _, _ = rates(method, shaken(method))
         kept = [m, V] if scene == "plates" else [px, py, m, V, E]
         for rate in kept:
@@ -133,6 +140,34 @@ def test_a_broken_point_is_named():
     sums, now = started(method, shaken(method))
     now[8, 5] = -1.0
     assert "point" in sums.fault(now, np.arange(now.shape[1])) and "e = " in sums.fault(now, np.arange(now.shape[1]))
+
+
+def test_what_is_no_start_is_refused():
+    method, plan = fluid(chosen=Ingredients()), Plan(dt=0.01, steps=1)
+    for row, value, words in ((6, -0.5, r"\(item 17\) is outside the validity"), (8, -0.5, r"\(item 17\) is outside"),
+                              (7, -0.5, r"point 17 has volume -0\.5"), (0, np.nan, "not finite: x = nan of particle 17")):
+        state = shaken(method)
+        state[row, 17] = value
+        with pytest.raises(ValueError, match=words):
+            run(method, state, plan)
+    state = shaken(method)
+    state[:2, 17] = state[:2, 18]
+    with pytest.raises(ValueError, match=r"point 1[78] and point 1[78] overlap at .* move one of them"):
+        run(method, state, plan)
+    state = shaken(method)
+    state[1, 17] = ROWS/2
+    with pytest.raises(ValueError, match="point 17 lies on a plate, where it meets its own image"):
+        run(method, state, plan)
+
+
+def test_a_weight_that_is_none_is_refused_and_a_narrow_one_told():
+    method, plan = fluid(chosen=Ingredients()), Plan(dt=0.01, steps=1)
+    with pytest.raises(ValueError, match=r"has the integral 2 in 2 dimensions, which must be 1: make it with WendlandC2\.of"):
+        replace(method, weight=method.weight._replace(scale=2*method.weight.scale))
+    with pytest.raises(ValueError, match=r"no neighbours in two directions within the weight's range h = 1\.05 .*Eq\. 45"):
+        run(replace(method, weight=WendlandC2.of(h=1.05)), shaken(method), plan)
+    with pytest.warns(OrderingWarning, match=r"below the spacing .*Eq\. 45: volumes, which follow the density of points"):
+        run(replace(method, weight=WendlandC2.of(h=1.9)), shaken(method), plan)
 
 
 def test_fewer_iterations_leave_faces_more_open():

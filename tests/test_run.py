@@ -176,6 +176,14 @@ def test_a_step_above_the_limit_is_told_what_is_stable_and_what_the_studies_take
     assert STUDIES == OF_LIMIT
 
 
+@pytest.mark.parametrize("found", [np.nan, 0.0])
+def test_a_start_without_a_stable_step_is_refused(found, monkeypatch):
+    method, start = small()
+    monkeypatch.setattr("particles.run.limit_of", lambda method, start: found)
+    with pytest.raises(ValueError, match=rf"no stable step: the limit of RK4 is {found}; look for densities or temperatures"):
+        run(method, start, PLAN)
+
+
 # --- where a run begins, and what it is asked for ----------------------------------------------------------
 
 

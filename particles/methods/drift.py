@@ -10,18 +10,22 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import conductivity, energy, pressure, sound_speed, temperature, viscosity
+from continuum.fluid import check_state, conductivity, energy, pressure, sound_speed, temperature, viscosity
 from continuum.jit import formula, generic, jit
 from particles.ghosts import ghosts_of
+from particles.interpolants import check_ordering
 from particles.limits import lattice_sums, limit_of, zone
 from particles.methods import fixed
 from particles.methods.brackets import CROSSED, Crossed, Powers
 from particles.methods.fixed import Differences, Exchange, lacking
 from particles.methods.spam import Direct, LessStatic
+from particles.methods.varying import Transposed, varying
 from particles.pairs import Edge, nothing, rate, sweep
+from particles.starts import check_apart, check_volumes, moments
 from particles.surroundings import Listed, Surroundings, fastest
 from particles.team import Team
 from particles.walls import confine
+from particles.weights import check_unit
 
 #: the fields of fixed points, with places and volumes
 Place = np.dtype([*fixed.Point.descr, ("x", "f8"), ("y", "f8"), ("V", "f8")])
@@ -140,7 +144,8 @@ class Drift:
     """A fluid on points that move, in a box (width, height) centred on the origin.
 
     motion : one of DRIFTS. weight : of `particles.weights`; scale : of its plain quadrature. walls : tuple of mirror plates and
-    periodic sides. g : gravity, downwards. mended : the heating of friction along pairs as it should be; False as Eq. 51 has it.
+    periodic sides. g : gravity, downwards. mended : friction along pairs as it should be, its heating and, where viscosity
+    varies, its force; False as Eq. 51 has it.
     static : a share of the static pressure that pairs leave out, at constant mass; what it bears and its work stay.
     """
     motion: Any
@@ -156,6 +161,7 @@ class Drift:
     skin: float = 0.5
 
     def __post_init__(self):
+        check_unit(self.weight)
         if self.static.fraction and not isinstance(self.motion, ConstantMassDrift):
             raise ValueError(f"{type(self.motion).__name__} needs the whole pressure, got {self.static}: its volumes do not "
                              "follow the flow, so that no work of what is left out is defined; take ConstantMassDrift")
@@ -199,7 +205,9 @@ def _(method: Drift, start: np.ndarray) -> float:
     Volumes that stay add 2 P grad(n dV) to the force: omega^2 = S^2 c^2 + 2 D P/rho, S and D as in `limits`. Where volumes
     follow the flow waves are slower.
     """
+    check_volumes(start[6])
     rho, e = method.thermal(start)
+    check_state(method.eos, rho, e)
     T, a = temperature(method.eos, rho, e), float(np.sqrt(start[6].mean()))
     sums, f = lattice_sums(method.weight, a*a, 1.0, zone(a)), method.scale*a*a
     slow, stiff = f*f*(sums.S**2).sum(axis=1), f*np.linalg.eigvalsh(sums.D)[:, -1]
@@ -217,6 +225,21 @@ class Drifts(Listed):
         self.method, self.team, self.n = method, team, n
         self.around = Surroundings(method.weight, method.walls, n, method.box, skin=method.skin, team=team)
         self.slopes, self.total, self._lists = np.zeros((n, 4)), np.zeros((n, 5)), -1
+        self.varying = varying(method.law, method.mended, n, team, OverPairs(Transposed()), ("x", "y", "V"))
+
+    def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
+        """Refuse points in one place; warn where the weight is too narrow for them    [Eq. 45]
+
+        Raises
+        ------
+        ValueError
+            Two points overlap; names them.
+        """
+        a = float(np.sqrt(state[6].mean()))
+        self.around.place(state, self.method.scale)
+        check_apart(self.around, ids, a)
+        off = moments(self.around, state[6]) - np.eye(2)
+        check_ordering(self.method.weight, 2, a, float(np.sqrt((off**2).sum(axis=(1, 2)).mean()/2)))
 
     def make_ready(self, now: Any, dt: float) -> None:
         """New lists if points may leave the old ones within the step: one in which momenta lead as far as velocities in dt."""
@@ -244,6 +267,8 @@ class Drifts(Listed):
         method = self.method
         self.look_at(state)
         self.team(sweep, self.n, OverPairs(Drifting(method.motion, method.eos)), self.points, self.around.pairs, self.total)
+        if self.varying is not None:
+            self.total[:, 1:3] += self.varying.push(self.points, self.slopes, state[6], self.ghosts, self.around.pairs)
         self.team(_rates, self.n, self.total, method.motion.owned(state[6]), self.points, method.static, method.g, out)
 
     def evaluate(self, state: np.ndarray) -> None:

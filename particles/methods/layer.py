@@ -10,12 +10,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import ConstEta, IdealGas, conductivity, sound_speed, stress, temperature, viscosity
+from continuum.fluid import ConstEta, IdealGas, check_state, conductivity, sound_speed, stress, temperature, viscosity
 from continuum.jit import jit
 from particles.edges import Beyond, Edges, fastest
+from particles.ghosts import Ghosts
 from particles.limits import limit_of
 from particles.methods.fixed import Differences, Exchange, Point, Summing, check_number, driven, lacking, read, states, stored
 from particles.methods.layer_ideal import IdealSums
+from particles.methods.varying import varying
 from particles.pairs import nothing, rate, sweep
 from particles.team import Team
 
@@ -51,10 +53,10 @@ def _(term, a, b, ab):
 class Layer:
     """A fluid on fixed points x (n, 2), periodic in x, between plates at T_plates (lower, upper) under gravity g.
 
-    edges, beyond : of `edges.between_plates`. mended : the heating of friction along edges as it should be; False as Eq. 51 has
-    it, which heats even a rigid rotation. share : of viscosity and conduction that is along edges [Eq. 51]; the rest is nested,
-    gradients first and their divergence after [Eqs 37, 38], and does not see waves two spacings long. fast : in the
-    form of `layer_ideal` where the fluid allows it.
+    edges, beyond : of `edges.between_plates`. mended : friction along edges as it should be, its heating and, where viscosity
+    varies, its force (`varying`); False as Eq. 51 has it, which heats even a rigid rotation. share : of viscosity and conduction
+    that is along edges [Eq. 51]; the rest is nested, gradients first and their divergence after [Eqs 37, 38], and does not see
+    waves two spacings long. fast : in the form of `layer_ideal` where the fluid allows it.
     """
     x: np.ndarray
     edges: Edges
@@ -105,6 +107,7 @@ def _(method: Layer, start: np.ndarray) -> float:
     """RK4: the fastest sound and the fastest diffusion of edges and images together, both at the hottest point."""
     rho = start[0]
     e = start[3]/rho - (start[1]**2 + start[2]**2)/(2*rho**2)
+    check_state(method.eos, rho, e)
     T, (sound, spread) = temperature(method.eos, rho, e), method.fastest
     slope = (temperature(method.eos, rho, e + 1e-6) - T)/1e-6
     chi = np.maximum(viscosity(method.law, rho, T), conductivity(method.law, rho, T)*slope)/rho
@@ -126,6 +129,8 @@ class Exchanging(Summing):
         self.edges = stored(method.edges, beyond, self.n + self.ghost.ravel())
         self.points = np.zeros(self.n + len(self.parent), Point)
         self.slopes, self.total = np.empty((self.n, 4)), np.empty((self.n, 4))
+        self.images = Ghosts(self.parent, -np.ones(len(self.parent)), np.array(method.T_plates)[self.plate])
+        self.varying = varying(method.law, method.mended, self.n, team)
         if method.share < 1:
             self.currents, self.nested = np.zeros(len(self.points), Current), np.empty((self.n, 3))
             self.all_slopes = np.empty((self.n, 6))
@@ -143,6 +148,8 @@ class Exchanging(Summing):
         if method.share < 1:
             self.team(sweep, self.n, Nested(), self.currents, self.edges, self.nested)
             self.total[:, 1:] += self.nested
+        if self.varying is not None:
+            self.total[:, 1:3] += self.varying.push(self.points, self.slopes, method.edges.V, self.images, self.edges)
         self.team(driven, self.n, self.total, method.edges.V, self.points, np.array([0.0, -method.g]), out)
 
     def look_at(self, state: np.ndarray) -> None:
@@ -158,6 +165,7 @@ class Exchanging(Summing):
             self.team(sweep, self.n, Slopes(), points, self.edges, self.all_slopes)
             self.team(_currents, self.n, self.all_slopes, method.edges.V, method.law, 1 - method.share, points, self.currents)
             _image_currents(self.parent, points, self.currents, self.n)
+
 
 @jit
 def _currents(first, last, slopes, V, law, share, points, currents):

@@ -17,10 +17,10 @@ import numpy as np
 from continuum.fluid import energy
 from particles.edges import Edges
 from particles.interpolants import W, check, reach
-from particles.makers import from_weights, plain, renormalised
+from particles.makers import from_weights, judged, plain, renormalised
 from particles.methods.brackets import CROSSED
 from particles.methods.dih import Dih, Fluxes, Pairwise, rows, take
-from particles.points import Points, pairs, wrapped
+from particles.points import Points, of_positions, pairs, wrapped
 
 
 def scale_of(points: Points, weight: Any) -> float:
@@ -88,6 +88,20 @@ class Motion:
         edges = from_weights(points, self.weight, self.scale*W(self.weight, near[3]), near)
         return Dih(edges=edges, eos=self.eos, law=self.law, zeta=self.zeta, transport=self.transport)
 
+    def checked(self, x: np.ndarray) -> np.ndarray:
+        """Positions (n, d) to start from; warns where the weight is too narrow for them    [Eq. 45]
+
+        Raises
+        ------
+        ValueError
+            Two points overlap, or the box is narrower than two ranges of the weight.
+        FloatingPointError
+            A position is not finite.
+        """
+        fluid = self.fluid(x, self.equal(len(x)))
+        judged(fluid.edges, of_positions(wrapped(x, np.asarray(self.box, float)), self.box), self.weight)
+        return x
+
     def equal(self, n: int) -> np.ndarray:
         """Equal volumes of n points that fill the box."""
         return np.full(n, np.prod(self.box)/n)
@@ -109,7 +123,7 @@ class Literal(Motion):
 
     def state(self, x: np.ndarray, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
         """(2 d + 2, n) of positions (n, d) and fields."""
-        return np.concatenate([x.T, self.densities(rho, v, T)])
+        return np.concatenate([self.checked(x).T, self.densities(rho, v, T)])
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt, written to `out`."""
@@ -133,7 +147,7 @@ class Convective(Motion):
 
     def state(self, x: np.ndarray, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
         """(2 d + 3, n) of positions (n, d) and fields; all volumes are equal."""
-        return np.concatenate([x.T, self.densities(rho, v, T), self.equal(len(x))[None]])
+        return np.concatenate([self.checked(x).T, self.densities(rho, v, T), self.equal(len(x))[None]])
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt, written to `out`."""
@@ -178,7 +192,7 @@ class ConstantMass(Motion):
     def state(self, x: np.ndarray, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
         """(2 d + 3, n) of positions (n, d) and fields; all volumes are equal."""
         V = self.equal(len(x))
-        return np.concatenate([x.T, V*self.densities(rho, v, T), V[None]])
+        return np.concatenate([self.checked(x).T, V*self.densities(rho, v, T), V[None]])
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt, written to `out`."""

@@ -11,14 +11,18 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import conductivity, energy, pressure, sound_speed, temperature, viscosity
+from continuum.fluid import check_state, conductivity, energy, pressure, sound_speed, temperature, viscosity
 from continuum.jit import jit
+from particles.interpolants import check_ordering
 from particles.limits import limit_of
 from particles.methods.faces import POTENTIALS, FaceMaker
+from particles.methods.varying import varying
 from particles.pairs import Faces, nothing, rate, sweep
+from particles.starts import check_apart, check_reach, check_volumes, moments
 from particles.surroundings import Listed, Surroundings
 from particles.team import Team
 from particles.walls import confine
+from particles.weights import check_unit
 
 #: rows of a state: places, drift velocity, momentum, mass, volume, total energy, and the last solution for the faces
 FIELDS = ("x", "y", "wx", "wy", "px", "py", "m", "V", "E", *POTENTIALS)
@@ -35,7 +39,8 @@ class Ingredients(NamedTuple):
     within : relative residual at which they are good enough.
     shift : of points towards even spacing, in spacings^2. follow : how fast volumes follow the density of points.
     spread : of mass against pressure waves at the spacing, over a c/2; smooth : of what a linear pressure leaves only.
-    static : hydrostatic and mean pressure taken from the faces. mended : the right heating by friction along faces.
+    static : hydrostatic and mean pressure taken from the faces. mended : the right heating by friction along faces, and its right
+    force where viscosity varies.
     """
     iterations: int = 1
     within: float = 1e-3
@@ -101,6 +106,9 @@ class Moving:
 
     fields = FIELDS
 
+    def __post_init__(self):
+        check_unit(self.weight)
+
     def state(self, x: np.ndarray, v: np.ndarray, rho: Any, T: np.ndarray) -> np.ndarray:
         """(15, n) of places (n, 2), velocities (n, 2), densities, temperatures (n,); all volumes are equal."""
         V = np.full(len(x), self.box[0]*self.box[1]/len(x))
@@ -125,7 +133,9 @@ def _(method: Moving, start: np.ndarray) -> float:
     h = 3).
     """
     px, py, m, V, E = start[EXCHANGED]
+    check_volumes(V)
     rho, e = m/V, E/m - (px**2 + py**2)/(2*m**2)
+    check_state(method.eos, rho, e)
     T = temperature(method.eos, rho, e)
     slope = (temperature(method.eos, rho, e + 1e-6) - T)/1e-6
     chi = np.max(np.maximum(viscosity(method.law, rho, T), conductivity(method.law, rho, T)*slope)/rho)
@@ -162,6 +172,7 @@ class Exchanging(Listed):
         self.maker = FaceMaker(self.around, method.ingredients.iterations, method.ingredients.within)
         self.slopes, self.total, self.P0 = np.zeros((n, 6)), np.zeros((n, 6)), 0.0
         self.shift, self._lists = np.zeros((n, 2)), -1
+        self.varying = varying(method.law, method.ingredients.mended, n, team)
 
     @property
     def faces(self) -> Faces:
@@ -181,6 +192,22 @@ class Exchanging(Listed):
         most = 0.3*float(np.sqrt(((state[4]**2 + state[5]**2)/state[6]**2).max()))
         size = np.hypot(*self.shift.T)
         self.shift *= np.minimum(1.0, most/np.maximum(size, 1e-300))[:, None]
+
+    def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
+        """Refuse points in one place or without neighbours; warn where the weight is too narrow to tell their density.
+
+        Raises
+        ------
+        ValueError
+            Two points overlap, or one has no neighbours in two directions; names them.
+        """
+        V, weight = state[7], self.method.weight
+        a = float(np.sqrt(V.mean()))
+        self.around.place(state, 1.0)
+        check_apart(self.around, ids, a)
+        check_reach(weight, moments(self.around, V), ids)
+        off = V*self.around.rho[:self.n] - 1
+        check_ordering(weight, 2, a, float(np.sqrt((off**2).mean())), wrong="volumes, which follow the density of points, are")
 
     # --- exchange ---------------------------------------------------------------------------------------------
 
@@ -209,6 +236,8 @@ class Exchanging(Listed):
         self.look_at(state)
         self.team(sweep, self.n, FaceExchange(chosen.follow, chosen.spread, float(chosen.smooth)), self.points, self.faces,
                   self.total)
+        if self.varying is not None:
+            self.total[:, :2] += self.varying.push(self.points, self.slopes, state[7], self.maker.ghosts, self.faces)
         self.team(_rates, self.n, self.total, state, self.points, method.g, method.rho0 if chosen.static else 0.0, self.P0, out)
 
     # --- motion -----------------------------------------------------------------------------------------------

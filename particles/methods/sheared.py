@@ -11,9 +11,11 @@ import numpy as np
 
 from continuum.jit import jit
 from particles.edges import Edges
+from particles.ghosts import Ghosts
 from particles.limits import limit_of
 from particles.methods.fixed import Differences, Exchange, Point, Summing, check_number, driven, lacking, read, states
 from particles.methods.layer import Layer
+from particles.methods.varying import varying
 from particles.neighbours import u32
 from particles.pairs import Stored, sweep
 from particles.points import Points
@@ -25,7 +27,7 @@ from particles.walls.sliding import Sides, sides, slide
 class Sheared:
     """A fluid on the points of a lattice, periodic in x; images above move faster by rate times height.
 
-    edges : periodic, of a weight. F of the mended heating conserves energy for viscosities that are constants.
+    edges : periodic, of a weight.
     """
     points: Points
     edges: Edges
@@ -82,12 +84,14 @@ class Shearing(Summing):
         self.boost = method.speed*made.up
         self.all = np.zeros(self.n + len(made.parent), Point)
         self.slopes, self.total = np.empty((self.n, 4)), np.empty((self.n, 4))
+        self.images = Ghosts(made.parent, np.ones(len(made.parent)), np.empty(0))
+        self.varying = varying(method.law, True, self.n, team)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (5, n), written to `out`    [Eqs 34-36, 51]"""
         method = self.method
         self.look_at(state)
-        self.team(sweep, self.n, Exchange(method.eos), self.all, self.edges, self.total)
+        self._exchange(self.edges, self.total)
         self.team(driven, self.n, self.total, method.edges.V, self.all, np.zeros(2), out)
         out[4] = method.speed
 
@@ -105,8 +109,14 @@ class Shearing(Summing):
         """Mass, momentum (2) and energy that enter through the upper side per time, in the frame of the box."""
         self.look_at(state)
         total = np.empty((self.n, 4))
-        sweep(0, self.n, Exchange(self.method.eos), self.all, above(self.edges, self.method.sides), total)
+        self._exchange(above(self.edges, self.method.sides), total)
         return total.sum(axis=0)
+
+    def _exchange(self, edges: Stored, total: np.ndarray) -> None:
+        """What points get over some edges."""
+        self.team(sweep, self.n, Exchange(self.method.eos), self.all, edges, total)
+        if self.varying is not None:
+            total[:, 1:3] += self.varying.push(self.all, self.slopes, self.method.edges.V, self.images, edges)
 
 
 def above(edges: Stored, made: Sides) -> Stored:

@@ -10,13 +10,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import conductivity, energy, pressure, stress, temperature, valid, viscosity
+from continuum.fluid import conductivity, constant_viscosity, energy, pressure, stress, temperature, valid, viscosity
 from continuum.jit import formula, jit
 from particles.pairs import sweep
 from particles.surroundings import Listed, Surroundings
 from particles.team import Team
 from particles.terms import ArithmeticGradients, DirectFluxes, Fluxes, Gradients, density_factor
 from particles.walls import confine, image_pressure
+from particles.weights import check_unit
 
 Moving = np.dtype([(name, "f8") for name in ("vx", "vy", "T", "s")])
 Flux = np.dtype([(name, "f8") for name in ("xx", "xy", "qx", "vx", "yx", "yy", "qy", "vy")])  # one cache line
@@ -67,6 +68,10 @@ class Spam:
             raise ValueError(f"the mass of a particle must be positive, got {self.m}: total mass / number of particles")
         if self.transport is None:      # the class is written below
             object.__setattr__(self, "transport", Nested)
+        check_unit(self.weight)
+        if self.transport is Direct and not constant_viscosity(self.law):
+            raise ValueError(f"Direct takes friction along pairs, which lacks a part of the stress where viscosity varies, as by "
+                             f"{self.law}: take Nested, or ConstEta")
 
     def start(self, n: int, team: Team) -> "Nested | Direct":
         """The sums of n particles, with their arrays.

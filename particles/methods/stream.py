@@ -14,10 +14,12 @@ import numpy as np
 from continuum.fluid import conductivity, energy, viscosity
 from continuum.jit import jit
 from particles.bodies import Held
-from particles.edges import NONE_BEYOND, Edges
+from particles.edges import NONE_BEYOND, NOWHERE, Edges
+from particles.ghosts import Ghosts
 from particles.limits import limit_of
 from particles.methods.fixed import Differences, Exchange, Point, Summing, check_number, driven, lacking, read, states, stored
 from particles.methods.layer import Layer
+from particles.methods.varying import varying
 from particles.pairs import nothing, rate, sweep
 from particles.team import Team
 
@@ -41,7 +43,8 @@ def _(term, a, b, ab):
 class Stream:
     """A fluid on fixed points x (n, 2), periodic, driven by a force `push` per mass, around points that are `held`.
 
-    Friction goes along edges [RR98 Eq. 51], its heating as it should be (`dih.Pairwise`, mended). chi : diffusivity of the filter
+    Friction goes along edges [RR98 Eq. 51], its heating as it should be (`dih.Pairwise`, mended), and its force where viscosity
+    varies. chi : diffusivity of the filter
     of the density, 0 for none.
     """
     x: np.ndarray
@@ -89,6 +92,7 @@ class Stream:
 
 
 limit_of.register(Stream, limit_of.dispatch(Layer))
+NO_IMAGES = Ghosts(NOWHERE, np.empty(0), np.empty(0))
 
 
 class Streaming(Summing):
@@ -101,6 +105,7 @@ class Streaming(Summing):
         self.points = np.zeros(self.n, Point)
         self.slopes, self.total = np.empty((self.n, 4)), np.empty((self.n, 4))
         self.filtered = np.empty((self.n, 4)) if method.chi else None
+        self.varying = varying(method.law, True, self.n, team)
         self.received = np.zeros((len(method.held.which), 3))
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
@@ -111,6 +116,8 @@ class Streaming(Summing):
         if self.filtered is not None:
             self.team(sweep, self.n, Filter(method.chi), self.points, self.around, self.filtered)
             self.total += self.filtered
+        if self.varying is not None:
+            self.total[:, 1:3] += self.varying.push(self.points, self.slopes, method.edges.V, NO_IMAGES, self.edges)
         self.team(driven, self.n, self.total, method.edges.V, self.points, np.array(method.push), out)
         keep(method.eos, *method.held[:3], self.total, method.edges.V, self.points, self.received, out)
 

@@ -7,10 +7,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from continuum.fluid import ConstEta
 from continuum.scene import RayleighBenard
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, Run, run
-from studies.convection.names import HALVES, VALUES, check_spacings, one_energy, scene_columns
+from studies.convection.names import HALVES, TRANSPORT_NAMES, VALUES, check_spacings, one_energy, scene_columns
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import settled
 
@@ -55,7 +56,9 @@ class PointsRun(Case):
 
     @property
     def label(self) -> str:
-        return f"dih {self.name} Ra {self.scene.ra:g}, {self.points} points, seed {self.seed}"
+        law = self.scene.transport
+        told = "" if law is ConstEta else f", {TRANSPORT_NAMES[law.__name__]}"
+        return f"dih {self.name} Ra {self.scene.ra:g}{told}, {self.points} points, seed {self.seed}"
 
     @property
     def free_fall_time(self) -> float:
