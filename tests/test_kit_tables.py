@@ -39,6 +39,47 @@ def test_empty_text_reads_back_as_text_and_numbers_as_numbers(tmp_path):
     assert all(word in head for word in ("# commit", "numpy", "numba", "py-pde", "cores", "UTC"))
 
 
+RUNS = Table("runs", key=["who", "ra", "t"], columns=["who", "ra", "t", "ke", "kind"], digits={"t": ".3g", "ke": ".4f"},
+             once=["who", "ra", "kind", "size", "commit"])
+
+
+def long(**more):
+    return [{"who": who, "ra": ra, "t": t/3, "ke": -1e-9 if t == 3 else math.pi*t, "kind": "" if t == 2 else "a", **more}
+            for who in ("spam", "dih") for ra in (1e4, 2.5e3, math.inf) for t in (3, 2, 1)]
+
+
+def test_large_tables_keep_the_digits_they_need_and_leave_out_what_is_as_above(tmp_path):
+    path = tmp_path / "runs.csv"
+    frame, _ = merge(path, RUNS, long(), size="paper")
+    assert path.read_text().splitlines()[-20:-13] == [
+        "# empty is as above: who, ra, size, commit", "who,ra,t,ke,kind,size,commit",
+        f"dih,2500,0.333,3.1416,a,paper,{frame.commit[0]}", ",,0.667,6.2832,,,", ",,1,0,a,,",       # not -0
+        ",10000,0.333,3.1416,a,,", ",,0.667,6.2832,,,"]
+    assert frame.who.tolist() == ["dih"]*9 + ["spam"]*9 and frame.ra.tolist() == ([2500]*3 + [1e4]*3 + [math.inf]*3)*2
+    assert frame.kind.tolist() == ["a", "", "a"]*6 and (frame["size"] == "paper").all()
+    pd.testing.assert_frame_equal(read(path, RUNS.columns), frame)
+
+
+def test_rows_that_differ_in_digits_that_are_not_kept_are_the_same(tmp_path):
+    path = tmp_path / "runs.csv"
+    merge(path, RUNS, long(), size="paper")
+    text = path.read_text()
+    close = [{**row, "t": row["t"]*(1 + 1e-6), "ke": row["ke"] + 1e-6} for row in long()]
+    assert changed(path, RUNS, close) == []
+    merge(path, RUNS, close, size="paper", command="something else")
+    assert path.read_text() == text
+    frame, _ = merge(path, RUNS, [{**long()[0], "ke": 0.5}], size="fine")
+    fine = frame[frame["size"] == "fine"]
+    assert len(frame) == 18 and fine[["who", "ra", "t", "ke"]].to_numpy().tolist() == [["spam", 1e4, 1.0, 0.5]]
+
+
+def test_a_number_above_that_is_none_is_told(tmp_path):
+    path = tmp_path / "runs.csv"
+    path.write_text("# text columns: who\n# empty is as above: who, ra\nwho,ra\nspam,10\n,ten\n")
+    with pytest.raises(csvfile.OtherTable, match=r"runs\.csv is no table .*ten.*: remove it"):
+        read(path)
+
+
 @pytest.mark.parametrize(("content", "words"), [
     (b"", "is no table"), (b"a,b\n1,2\n3,4,5,6\n", "is no table"), (b"\xff\xfe\x00", "is no table"),
     (b"# text columns: note\nx,note,y\n1,one,2\nabc,one,2\n", "has 'abc' in x, a column of numbers")])

@@ -5,9 +5,10 @@ where `free_fall`, the unit of velocity sqrt(g alpha dT L), is 1; Boussinesq row
 all particles, `ke_field` of the smoothed field, `ke_mean` of velocities averaged over time. Lengths in heights L, times in
 L^2/eta where not said otherwise. Every `_err` is the half width of a 95 % interval.
 """
-from studies.kit.table import Table
+from studies.kit.table import STAMP, Table
 
 POINT = ["method", "variant", "eos", "transport", "sides", "ra", "pr", "resolution"]
+RUN = [*POINT, "seed"]
 
 KINETIC = Table(
     "kinetic_energy", key=[*POINT, "seed"],
@@ -19,13 +20,14 @@ KINETIC = Table(
 MEANS = Table("means", key=POINT, columns=[*POINT, "particles", "seeds", "mixed", "ke", "ke_err", "ke_field", "ke_field_err",
                                            "ke_mean", "ke_mean_err", "ke_fluctuation", "nu", "nu_err", "rolls"])
 #: approach to the steady state [KHP95, Fig. 8]; t in units of time, not L^2/eta
-HISTORY = Table("history", key=[*POINT, "seed", "t"], columns=[*POINT, "seed", "t", "t_viscous", "ke", "ke_field"])
+HISTORY = Table("history", key=[*RUN, "t"], columns=[*RUN, "t", "t_viscous", "ke", "ke_field"], once=[*RUN, *STAMP],
+                digits={"t_viscous": ".6g", "ke": ".8g", "ke_field": ".8g"})
 #: steady fields on KHP95's 30 x 60 places [Figs 9, 12]; x, y in units of L; particles: means over the second half
-FIELDS = Table("fields", key=[*POINT, "seed", "x", "y"],
-               columns=[*POINT, "seed", "x", "y", "rho", "T", "vx", "vy"])
+FIELDS = Table("fields", key=[*RUN, "x", "y"], columns=[*RUN, "x", "y", "rho", "T", "vx", "vy"], once=[*RUN, *STAMP],
+               digits={"x": ".4f", "y": ".4f", "rho": ".5f", "T": ".5f", "vx": ".6f", "vy": ".6f"})
 #: particles at the end of a run [Figs 2, 3, 7, 12]; kind: fluid, fixed or image
-PARTICLES = Table("particles", key=[*POINT, "seed", "number"],
-                  columns=[*POINT, "seed", "number", "kind", "x", "y", "vx", "vy", "T"])
+PARTICLES = Table("particles", key=[*RUN, "number"], columns=[*RUN, "number", "kind", "x", "y", "vx", "vy", "T"],
+                  digits={"x": ".6f", "y": ".6f", "vx": ".5f", "vy": ".5f", "T": ".4f"}, once=[*RUN, "kind", *STAMP])
 PROFILES = Table("profiles", key=[*POINT, "seed", "y"], columns=[*POINT, "seed", "y", "rho", "T", "vy2", "vyT"])
 WALLS = Table("walls", key=[*POINT, "seed", "plate"],
               columns=[*POINT, "seed", "plate", "T_wall", "T_layer", "rho_layer", "reflections", "nu_plate", "nu_plate_err"])

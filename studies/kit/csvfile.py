@@ -1,4 +1,4 @@
-"""CSV with a head of comments: where the numbers come from, and which columns are text."""
+"""CSV with a head of comments: where the numbers come from, which columns are text, and in which an empty cell is as above."""
 import os
 from collections.abc import Iterable
 from pathlib import Path
@@ -6,6 +6,7 @@ from pathlib import Path
 import pandas as pd
 
 DIGITS = "%.9g"     # of numbers in tables
+TEXT, ABOVE = "# text columns:", "# empty is as above:"     # what the head tells programs
 AGAIN = "remove it and run the study again: finished cases are kept"
 
 
@@ -25,14 +26,17 @@ def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
     if not path.exists():
         raise FileNotFoundError(f"{path} does not exist: make study-{path.parent.name} writes it")
     try:
-        names, text = pd.read_csv(path, comment="#", nrows=0).columns, text_columns(path)
+        names, text, above = pd.read_csv(path, comment="#", nrows=0).columns, named(path, TEXT), named(path, ABOVE)
     except ValueError as error:     # of pandas, and of letters that are none
         raise OtherTable(f"{path} is no table ({str(error).strip()}): {AGAIN}") from error
     if lost := [column for column in columns if column not in names]:
         raise OtherTable(f"{path} has no column {', '.join(lost)}: it was written by other code; {AGAIN}")
     try:
-        frame = pd.read_csv(path, comment="#", dtype=dict.fromkeys(text, str), keep_default_na=False,
-                            na_values={name: ["", "nan"] for name in names if name not in text})
+        frame = pd.read_csv(path, comment="#", dtype=dict.fromkeys((*text, *above), str), keep_default_na=False,
+                            na_values={name: ["", "nan"] for name in names if name not in (*text, *above)})
+        for name in above:
+            full = frame[name].mask(frame[name] == "").ffill()
+            frame[name] = full if name in text else pd.to_numeric(full)
     except ValueError as error:
         raise OtherTable(f"{path} is no table ({str(error).strip()}): {AGAIN}") from error
     for name in frame.columns.difference(text) if text else ():
@@ -50,16 +54,17 @@ def is_number(text: str) -> bool:
     return True
 
 
-def text_columns(path: Path) -> list[str]:
-    """The columns that the head names as text: a column of empty texts does not tell by itself."""
-    begin = "# text columns:"
+def named(path: Path, begin: str) -> list[str]:
+    """The columns that a line of the head names: a column of empty texts, say, does not tell by itself that it is text."""
     with path.open() as lines:
         found = [line.removeprefix(begin).strip().split(", ") for line in lines if line.startswith(begin)]
     return [name for name in found[0] if name] if found else []
 
 
-def write(path: Path, frame: pd.DataFrame, *, head: Iterable[str]) -> None:
+def write(path: Path, frame: pd.DataFrame, *, head: Iterable[str], once: Iterable[str] = ()) -> None:
     """CSV below ``head``, one comment a line. A table that did not change keeps the head it was written with.
+
+    Of columns ``once`` what repeats the cell above is left out, unless something is empty there anyway.
 
     Raises
     ------
@@ -68,9 +73,18 @@ def write(path: Path, frame: pd.DataFrame, *, head: Iterable[str]) -> None:
     """
     text = [str(name) for name in frame if is_text(frame[name], path)]
     frame = frame.assign(**{name: frame[name].fillna("") for name in text})
-    body = f"# text columns: {', '.join(text)}\n" + frame.to_csv(index=False, float_format=DIGITS)
+    above = without_repeats(frame, once)
+    body = f"{TEXT} {', '.join(text)}\n" + (f"{ABOVE} {', '.join(above)}\n" if above else "")
+    body += frame.assign(**above).to_csv(index=False, float_format=DIGITS)
     if not (path.exists() and path.read_text().endswith(body)):
         write_atomic(path, "".join(f"# {line}\n" for line in head) + body)
+
+
+def without_repeats(frame: pd.DataFrame, once: Iterable[str]) -> dict[str, pd.Series]:
+    """Those columns ``once`` that have no empty cell, as texts, empty where they repeat the one above."""
+    texts = {name: frame[name].map(lambda value: DIGITS % value if isinstance(value, float) else str(value))
+             for name in once if name in frame and len(frame)}
+    return {name: text.mask(text == text.shift(), "") for name, text in texts.items() if not text.isin(["", "nan"]).any()}
 
 
 def is_text(column: pd.Series, path: Path) -> bool:

@@ -2,8 +2,8 @@
 
 A row of a better size (quick < paper < fine) is never replaced by one of a lesser size.
 """
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from numbers import Real
 from pathlib import Path
 from typing import Any
@@ -24,11 +24,17 @@ STAMP = ("size", "commit")
 
 @dataclass(frozen=True)
 class Table:
-    """A table by name: its columns, and those (``key``) in which no two rows agree."""
+    """A table by name: its columns, and those (``key``) in which no two rows agree.
+
+    Large ones say besides which digits suffice (``digits``: column -> such as ".4f"), and in which columns a cell that repeats
+    the one above is left out (``once``).
+    """
 
     name: str
     key: Sequence[str]
     columns: Sequence[str]
+    digits: Mapping[str, str] = field(default_factory=dict)
+    once: Sequence[str] = ()
 
     def __post_init__(self):
         lost = [column for column in self.key if column not in self.columns]
@@ -71,13 +77,13 @@ def merge(path: Path, table: Table, rows: Sequence[dict[str, Any]], *, size: str
     check_size(size)
     if not rows:
         return none_new(path, table, command), 0
-    new = pd.DataFrame([{"commit": provenance.commit(), **row, "size": size} for row in rows])
+    new = rounded(table, pd.DataFrame([{"commit": provenance.commit(), **row, "size": size} for row in rows]))
     check_rows(table, new)
     old = read(path, [*table.columns, *STAMP]) if path.exists() else pd.DataFrame()
     chosen = best(pd.concat([part for part in (old, new) if len(part)], ignore_index=True), table.key)
     spent = [column for column in SPENT if column in chosen and column not in table.columns]
     frame = chosen.reindex(columns=[*table.columns, *spent, *STAMP])
-    write(path, frame.sort_values(list(table.key), kind="stable"), head=head(command))
+    write(path, frame.sort_values(list(table.key), kind="stable"), head=head(command), once=table.once)
     return read(path), len(new) - int((chosen.index >= len(old)).sum())
 
 
@@ -85,9 +91,17 @@ def changed(path: Path, table: Table, rows: Sequence[dict[str, Any]]) -> list[di
     """Those of ``rows`` that do not stand in the CSV at ``path`` as they are."""
     if not path.exists():
         return list(rows)
-    old, new = (lines(frame.reindex(columns=list(table.columns))) for frame in (read(path, table.columns), pd.DataFrame(rows)))
+    old, new = (lines(frame.reindex(columns=list(table.columns)))
+                for frame in (read(path, table.columns), rounded(table, pd.DataFrame(rows))))
     there = set(old)
     return [row for row, line in zip(rows, new) if line not in there]
+
+
+def rounded(table: Table, frame: pd.DataFrame) -> pd.DataFrame:
+    """Rows with as many digits as the table keeps: before they are compared with what stands there."""
+    kept = {name: [float(format(value, digits)) + 0.0 for value in frame[name]]     # no -0
+            for name, digits in table.digits.items() if name in frame}
+    return frame.assign(**kept)
 
 
 def lines(frame: pd.DataFrame) -> list[str]:

@@ -9,7 +9,7 @@ from typing import Any
 
 import pandas as pd
 
-from studies.kit.csvfile import read
+from studies.kit.csvfile import ABOVE, TEXT, read
 from studies.kit.source import ROOT
 
 #: folders that are no study
@@ -44,10 +44,10 @@ class Sheet:
 
     @cached_property
     def head(self) -> list[str]:
-        """The comments above the columns, without the one that is there for programs."""
+        """The comments above the columns, without those that are there for programs."""
         with self.path.open() as lines:
             found = [line[1:].strip() for line in lines if line.startswith("#")]
-        return [line for line in found if not line.startswith("text columns:")]
+        return [line for line in found if not line.startswith((TEXT[2:], ABOVE[2:]))]
 
     @cached_property
     def frame(self) -> pd.DataFrame:
