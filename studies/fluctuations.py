@@ -13,7 +13,7 @@ from itertools import product
 
 from particles.covariance import STEPS
 from particles.makers import MAKERS
-from studies.fluctuating import fluct_claims, fluct_claims_flows, fluct_figures, fluct_special, fluct_tables
+from studies.fluctuating import fluct_claims, fluct_claims_flows, fluct_claims_noise, fluct_figures, fluct_special, fluct_tables
 from studies.fluctuating.fluct_algebra import MovingPartnership, Partnership, PrintedWaves
 from studies.fluctuating.fluct_flows import BelowOnset, Gradient, Rest
 from studies.fluctuating.fluct_given import About, Shear, Sheared, Stream
@@ -133,7 +133,7 @@ def cases(size: str) -> list[Case]:
 
 
 STUDY = Study(name="fluctuations", cases=cases, tables=fluct_tables.ALL, figures=fluct_figures.figures,
-              claims=(*fluct_claims.CLAIMS, *fluct_claims_flows.FLOWS, *fluct_special.CLAIMS))
+              claims=(*fluct_claims.CLAIMS, *fluct_claims_noise.NOISE, *fluct_claims_flows.FLOWS, *fluct_special.CLAIMS))
 
 if __name__ == "__main__":
     main(STUDY)
