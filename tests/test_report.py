@@ -1,4 +1,4 @@
-"""The page from tables: what it says is computed, bad input is told, an older page stays."""
+"""The page from tables: what it says is computed, films, what is committed."""
 import math
 import subprocess
 import sys
@@ -7,57 +7,24 @@ import numpy as np
 import pandas as pd
 import pytest
 from PIL import Image
+from report_tables import errors, one_study
 
-from studies.kit.claim import COLUMNS
 from studies.kit.csvfile import write
 from studies.kit.figure import figure
 from studies.kit.source import ROOT
 from studies.kit.sweep import RESULTS
 from studies.kit.table import Tables
 from studies.report import behind, cost, draw
-from studies.report.__main__ import main
 from studies.report.chart import Scale, chart
 from studies.report.findings import Known, answer, claims_of, findings
-from studies.report.found import NoReport, parts
+from studies.report.found import parts
 from studies.report.numbers import grouped, many, seconds, told
 from studies.report.page import LIMIT, accepted, fingerprint, found_value, paper, render, write_page
-from studies.report.tables import FILMS
-
-LAYER = {"eos": "ideal", "transport": "const-eta", "sides": "periodic", "pr": 1}
-
-
-def errors() -> pd.DataFrame:
-    """Made-up errors: a grid and a lattice of second order, particles that get worse."""
-    rows = []
-    for n in (16, 25, 50):
-        for method, variant, energy, error, cpu in (("compressible", "flux-form", "Kp", 7/n**2, 1e-4*n**3),
-                                                    ("spam", "printed", "Kg", -0.1 - 0.002*n, 1e-2*n**3),
-                                                    ("spam", "printed", "Kp", 0.3 - 0.01*n, 1e-2*n**3),
-                                                    ("dih", "fixed-lattice", "Kp", 12/n**2, 1e-3*n**3)):
-            rows.append({"method": method, "variant": variant, **LAYER, "ra": 1e4, "resolution": n, "energy": energy,
-                         "particles": 2*n**2, "error": error, "error_err": 1e-4, "cpu_s": cpu, "size": "fine",
-                         "commit": "abc1234567"})
-    return pd.DataFrame(rows)
-
-
-def claims() -> pd.DataFrame:
-    rows = [("toy-one", "KHP95 Sec. V", "one is one", "paper", "1", 1.0, 0.01, 0.9, 1.1, "holds", "why", "rb"),
-            ("toy-two", "RR98 Eq. 42", "two is one", "paper", "1", 2.0, 0.0, 0.9, 1.1, "fails", "why", "rb"),
-            ("toy-three", "RR98 Eq. 42", "three <b>& more", "own", "", math.nan, math.nan, math.nan, math.nan, "undecidable",
-             "not run", "onset")]
-    return pd.DataFrame(rows, columns=list(COLUMNS))[list(COLUMNS)]
 
 
 @pytest.fixture
 def small(tmp_path):
-    """Results of one study: a table, a figure, three claims."""
-    out = tmp_path/"results"
-    write(out/"rb/errors.csv", errors(), head=["commit abc1234567"])
-    write(out/"claims.csv", claims(), head=["commit abc1234567"])
-    Image.new("RGB", (200, 100), "white").save(out/"rb/toy.png")
-    write(out/"figures.csv", pd.DataFrame([("rb", "toy", "A toy", "y over x", "errors", behind.digest(out/"rb/toy.png"))],
-                                          columns=list(behind.COLUMNS)), head=["commit abc1234567"])
-    return out
+    return one_study(tmp_path/"results")
 
 
 def test_the_page_is_one_file_and_the_same_again(small):
@@ -106,66 +73,6 @@ def test_places_on_a_logarithmic_axis():
     scale = Scale(0.1, 1000.0, 50, 450)
     assert [scale(value) for value in (0.1, 10, 1000, 0.0, 1e9)] == [50, 250, 450, 50, 450]
     assert [value for value, _ in Scale(0.9, 30, 0, 1).ticks] == pytest.approx([1, 2, 5, 10, 20])
-
-
-# --- bad input --------------------------------------------------------------------------------------------------------
-
-
-def refused(out, capsys) -> str:
-    """What the command says when it fails; the page that was there stays."""
-    before = (out/"index.html").read_text() if (out/"index.html").exists() else None
-    assert main(["--out", str(out)]) == 1
-    after = (out/"index.html").read_text() if (out/"index.html").exists() else None
-    assert after == before and not list(out.glob(".index*"))
-    return capsys.readouterr().err
-
-
-def test_a_report_without_results_says_what_to_run(tmp_path, capsys):
-    assert "make study-rb" in refused(tmp_path, capsys)
-    assert "make study-rb" in refused(tmp_path/"nowhere", capsys)
-
-
-def test_claims_that_are_missing_or_lack_columns(small, capsys):
-    write_page(small)
-    write(small/"claims.csv", claims().drop(columns="verdict"), head=["x"])
-    assert "has no column verdict" in refused(small, capsys)
-    (small/"claims.csv").unlink()
-    assert "claims.csv does not exist" in refused(small, capsys)
-
-
-def test_a_table_that_lacks_columns_or_is_none(small, capsys):
-    write_page(small)
-    write(small/"rb/errors.csv", errors().drop(columns="error_err"), head=["x"])
-    assert "rb/errors.csv has no column error_err" in refused(small, capsys)
-    (small/"rb/errors.csv").write_text('a,b\n1,2\n3,4,5,6\n"')
-    assert "rb/errors.csv is no table" in refused(small, capsys)
-    (small/"rb/errors.csv").write_text("")
-    assert "rb/errors.csv is no table" in refused(small, capsys)
-
-
-def test_a_figure_that_is_missing_or_broken(small, capsys, monkeypatch):
-    write_page(small)
-    kept = (small/"rb/toy.png").read_bytes()
-    (small/"rb/toy.png").write_bytes(kept[:40])
-    known = pd.read_csv(small/"figures.csv", comment="#").assign(picture=behind.digest(small/"rb/toy.png"))
-    write(small/"figures.csv", known, head=["x"])
-    assert "toy.png is no picture" in refused(small, capsys)
-    (small/"rb/toy.png").unlink()
-    lost = {"study": "rb", "figure": "toy", "title": "A toy", "panels": "", "tables": "errors"}
-    monkeypatch.setattr(behind, "looked_at", lambda out, part: iter([lost]))        # as the study would draw it
-    assert "toy.png is missing: make figures-rb" in refused(small, capsys)
-
-
-def test_a_film_that_is_missing(small, capsys):
-    words = {"film": "gone", "title": "t", "caption": "c", "size": "fine", "commit": "abc"}
-    row = {**dict.fromkeys(FILMS.columns, 1.0), "seed": 1, **words}
-    write(small/"films/films.csv", pd.DataFrame([row]), head=["x"])
-    assert "gone.avif is missing: make films" in refused(small, capsys)
-
-
-def test_a_film_that_nobody_knows(small, capsys):
-    assert main(["films", "--out", str(small), "--only", "nonsense"]) == 1
-    assert "no film has 'nonsense'" in capsys.readouterr().err
 
 
 # --- what figures stand on --------------------------------------------------------------------------------------------
@@ -272,13 +179,6 @@ def test_the_page_here_is_that_of_the_results_here():
 def test_committed_films_are_small():
     films = list((RESULTS/"films").glob("*.avif"))
     assert all(path.stat().st_size < 300_000 for path in films)
-
-
-def test_a_page_that_is_too_heavy_is_not_written(small, monkeypatch):
-    monkeypatch.setattr("studies.report.page.LIMIT", 1000)
-    with pytest.raises(NoReport, match="MB"):
-        write_page(small)
-    assert not (small/"index.html").exists()
 
 
 def test_results_as_they_are_make_a_page():

@@ -1,0 +1,44 @@
+"""Results of one study, made up, from which the page is made."""
+import math
+from pathlib import Path
+
+import pandas as pd
+from PIL import Image
+
+from studies.kit.claim import COLUMNS
+from studies.kit.csvfile import write
+from studies.report import behind
+
+LAYER = {"eos": "ideal", "transport": "const-eta", "sides": "periodic", "pr": 1}
+
+
+def errors() -> pd.DataFrame:
+    """Made-up errors: a grid and a lattice of second order, particles that get worse."""
+    rows = []
+    for n in (16, 25, 50):
+        for method, variant, energy, error, cpu in (("compressible", "flux-form", "Kp", 7/n**2, 1e-4*n**3),
+                                                    ("spam", "printed", "Kg", -0.1 - 0.002*n, 1e-2*n**3),
+                                                    ("spam", "printed", "Kp", 0.3 - 0.01*n, 1e-2*n**3),
+                                                    ("dih", "fixed-lattice", "Kp", 12/n**2, 1e-3*n**3)):
+            rows.append({"method": method, "variant": variant, **LAYER, "ra": 1e4, "resolution": n, "energy": energy,
+                         "particles": 2*n**2, "error": error, "error_err": 1e-4, "cpu_s": cpu, "size": "fine",
+                         "commit": "abc1234567"})
+    return pd.DataFrame(rows)
+
+
+def claims() -> pd.DataFrame:
+    rows = [("toy-one", "KHP95 Sec. V", "one is one", "paper", "1", 1.0, 0.01, 0.9, 1.1, "holds", "why", "rb"),
+            ("toy-two", "RR98 Eq. 42", "two is one", "paper", "1", 2.0, 0.0, 0.9, 1.1, "fails", "why", "rb"),
+            ("toy-three", "RR98 Eq. 42", "three <b>& more", "own", "", math.nan, math.nan, math.nan, math.nan, "undecidable",
+             "not run", "onset")]
+    return pd.DataFrame(rows, columns=list(COLUMNS))[list(COLUMNS)]
+
+
+def one_study(out: Path) -> Path:
+    """Results of one study: a table, a figure, three claims."""
+    write(out/"rb/errors.csv", errors(), head=["commit abc1234567"])
+    write(out/"claims.csv", claims(), head=["commit abc1234567"])
+    Image.new("RGB", (200, 100), "white").save(out/"rb/toy.png")
+    write(out/"figures.csv", pd.DataFrame([("rb", "toy", "A toy", "y over x", "errors", behind.digest(out/"rb/toy.png"))],
+                                          columns=list(behind.COLUMNS)), head=["commit abc1234567"])
+    return out

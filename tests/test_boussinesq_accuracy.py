@@ -1,0 +1,153 @@
+"""The staggered Boussinesq solver: order, published cavities, agreement of its two drivers."""
+import numpy as np
+import pytest
+from boxes import every_closed_box, random_state
+
+from continuum import linear
+from continuum.boussinesq import (
+    CAVITY,
+    SQUARE,
+    Case,
+    State,
+    growth_rates,
+    rest,
+    roll,
+    steady,
+    transient,
+)
+from continuum.projection import change_left
+from continuum.richardson import richardson
+
+# --- accuracy ---------------------------------------------------------------------------------------------
+
+
+def k_and_nu(case: Case, sizes, rolls: int = 1) -> list:
+    """Extrapolated K and Nu (at the bottom, or at the left side of a cavity)."""
+    rows, start = [], None
+    for size in sizes:
+        start = steady(Case(ra=case.ra, pr=case.pr, box=case.box, rows=size), start)
+        seen = start.observe()
+        rows.append((seen.K, seen.nu_left if case.box is CAVITY else seen.nu_bottom))
+    return [richardson(values, sizes) for values in zip(*rows)]
+
+
+@pytest.mark.parametrize("ra, pr", [(2000, 7), (10_000, 0.71), (50_000, 1), (50_000, 2)])
+def test_second_order_and_extrapolated_to_1e_4(ra, pr):
+    """Against a finer triple; its own uncertainty is 100 times smaller than what is asked."""
+    case = Case(ra=ra, pr=pr)
+    for coarse, fine in zip(k_and_nu(case, (32, 48, 64)), k_and_nu(case, (48, 64, 96))):
+        assert abs(coarse.order - 2) < 0.1 and abs(fine.order - 2) < 0.1
+        assert fine.error < 1e-5*fine.limit
+        assert abs(coarse.limit - fine.limit) < 1e-4*fine.limit
+        assert abs(coarse.limit - fine.limit) < coarse.error + fine.error
+
+
+@pytest.mark.parametrize("ra, nusselt, sizes", [(1e3, 1.118, (24, 32, 48)), (1e4, 2.243, (24, 32, 48)),
+                                                (1e5, 4.519, (32, 48, 64)), (1e6, 8.800, (48, 64, 96))])
+def test_side_heated_cavity_of_de_vahl_davis(ra, nusselt, sizes):
+    nu = k_and_nu(Case(ra=ra, pr=0.71, box=CAVITY), sizes)[1]
+    assert nu.limit == pytest.approx(nusselt, rel=5e-3)         # the uncertainty of the published numbers
+    assert nu.error < 5e-3*nusselt
+
+
+@pytest.mark.parametrize("ra, nusselt", [(1e4, 2.158), (1e5, 3.910)])
+def test_square_heated_from_below(ra, nusselt):
+    nu = k_and_nu(Case(ra=ra, pr=0.71, box=SQUARE), (32, 48, 64))[1]
+    assert nu.limit == pytest.approx(nusselt, abs=6e-4)         # half a unit of the last figure printed, and ours
+
+
+@pytest.mark.parametrize("ra, pr", [(3000.0, 7.0), (1500.0, 0.5)])
+def test_growth_at_rest_converges_to_linear_theory(ra, pr):
+    """nu and kappa are not exchangeable between rigid plates: this sees either solver have them swapped."""
+    exact = linear.growth_rate(ra=ra, pr=pr, k=np.pi)
+    assert abs(exact - linear.growth_rate(ra=ra, pr=1/pr, k=np.pi)) > 5e-3
+    grown = [growth_rates(rest(Case(ra=ra, pr=pr, rows=rows)))[0].real for rows in (16, 24, 32)]
+    seen = richardson(grown, (16, 24, 32))
+    assert abs(seen.order - 2) < 0.1
+    assert seen.limit == pytest.approx(exact, abs=2e-5)         # h^6 terms of 16 rows; distance at 32 rows is 1e-3
+    assert seen.limit == pytest.approx(exact, abs=seen.error)
+
+
+# --- the two drivers --------------------------------------------------------------------------------------
+
+
+@every_closed_box
+def test_transient_ends_in_the_steady_state_of_newton(box):
+    case = Case(ra=8000, pr=0.71, box=box, rows=16)
+    series = transient(case, roll(case), within=1e-6)
+    state = steady(case)
+    assert series.settled and 0 <= series.left < 1e-6
+    assert series.K[-1] == pytest.approx(state.K, rel=2e-6)     # twice what the run says is left
+    assert series.state.q == pytest.approx(state.q, abs=1e-6)
+    assert series.state.rolls == state.rolls == 1
+
+
+def test_newton_forgets_a_start_that_is_not_free_of_divergence():
+    case = Case(ra=5000, pr=2, rows=16)
+    coarse = steady(Case(ra=2500, pr=1, rows=12))
+    start = coarse.on(case)
+    assert np.max(np.abs(case.mac.div@start.q[:case.mac.ends[1]])) > 1e-6
+    assert steady(case, coarse).q == pytest.approx(steady(case).q, abs=1e-9)        # Newton's tolerance
+
+
+def test_time_step_is_of_second_order():
+    case = Case(ra=2e4, pr=0.5, box=SQUARE, rows=16)
+    start = transient(case, roll(case), until=1.0, dt=0.01, within=0).state
+    ends = [transient(case, start, until=2.0, dt=2.0/steps, within=0).state.q for steps in (50, 100, 200)]
+    ratio = np.linalg.norm(ends[0] - ends[1])/np.linalg.norm(ends[1] - ends[2])
+    assert np.log2(ratio) == pytest.approx(2, abs=0.15)     # first step is Euler's: third order, still seen
+
+
+def test_growth_measured_in_time_is_the_eigenvalue_of_the_same_grid():
+    case = Case(ra=3000, pr=7, rows=16)
+    still = rest(case)
+    seed = State(case=case, q=still.q + 1e-4*(roll(case).q - still.q))
+    series = transient(case, seed, until=60.0, dt=0.02, within=0)
+    eigenvalue = growth_rates(still)[0].real
+    # others have decayed by exp(-0.15*30) more; K stays below 1e-6 of the saturated one until t = 50
+    assert series.growth(after=40, before=50) == pytest.approx(eigenvalue, rel=1e-3)
+
+
+@pytest.mark.parametrize("rolls", [1, 2])
+def test_one_and_two_pairs_of_rolls_are_both_stable_in_the_periodic_box(rolls):
+    half = Case(ra=10_000, pr=1, rows=16)
+    state = steady(half, roll(half, rolls))
+    assert state.rolls == rolls and growth_rates(state)[0].real < -0.01
+    whole = state.unfold()
+    noise = 0.02*random_state(whole.case).q
+    series = transient(whole.case, State(case=whole.case, q=whole.q + noise), within=1e-5)
+    assert series.settled and series.state.rolls == whole.rolls == 2*rolls
+    assert series.K[-1] == pytest.approx(state.K, rel=2e-5)     # twice what the run says is left
+
+
+def test_unfolded_half_is_steady_in_the_periodic_box():
+    state = steady(Case(ra=10_000, pr=2, rows=16)).unfold()
+    series = transient(state.case, state, until=2.0, within=0)
+    assert series.state.q == pytest.approx(state.q, abs=1e-11)      # grows from round-off only
+    assert state.observe() == pytest.approx(steady(Case(ra=10_000, pr=2, rows=16)).observe(), rel=1e-12)
+
+
+def test_what_is_left_of_a_slow_decay_is_not_taken_for_its_last_change():
+    """Near onset a block changes K by a small part of what is left of it."""
+    t = np.arange(0, 100, 0.53)         # not in step with blocks
+    for rate in (0.003, 0.03):
+        last = (t[-1] - 2.0, t[-1])
+        K, mean = 0.5 - 0.4*np.exp(-rate*t), 0.5 + 0.2*np.diff(np.exp(-rate*np.array(last)))[0]/rate
+        # a geometric series exactly; the spline errs by (rate 0.53)^4, amplified by 1/(rate block)^2
+        assert change_left(np.array([t, K]).T, block=2.0) == pytest.approx((0.5 - mean)/mean, rel=1e-3)
+    assert change_left(np.array([t, 0.5 + 1e-3*np.sin(t)]).T, block=2.0) > 1e-5
+    assert change_left(np.array([t, np.exp(0.1*t)]).T, block=2.0) == np.inf
+
+
+def test_settles_near_onset_where_decay_is_slow():
+    case = Case(ra=1800, pr=1, rows=16)
+    series = transient(case, roll(case), within=1e-4)
+    assert series.settled
+    assert abs(series.K[-1]/steady(case).K - 1) < 1.1*series.left       # the estimate is of first order in itself
+
+
+def test_below_onset_everything_comes_to_rest():
+    case = Case(ra=1000, pr=1, rows=16)
+    assert steady(case).rolls == 0
+    series = transient(case, roll(case))
+    assert series.settled and series.K[-1] < 1e-12 and series.state.rolls == 0

@@ -1,0 +1,80 @@
+"""Bad input of the report is told with the way out, an older page stays."""
+import pandas as pd
+import pytest
+from report_tables import claims, errors, one_study
+
+from studies.kit.csvfile import write
+from studies.report import behind
+from studies.report.__main__ import main
+from studies.report.found import NoReport
+from studies.report.page import write_page
+from studies.report.tables import FILMS
+
+
+@pytest.fixture
+def small(tmp_path):
+    return one_study(tmp_path/"results")
+
+
+def refused(out, capsys) -> str:
+    """What the command says when it fails; the page that was there stays."""
+    before = (out/"index.html").read_text() if (out/"index.html").exists() else None
+    assert main(["--out", str(out)]) == 1
+    after = (out/"index.html").read_text() if (out/"index.html").exists() else None
+    assert after == before and not list(out.glob(".index*"))
+    return capsys.readouterr().err
+
+
+def test_a_report_without_results_says_what_to_run(tmp_path, capsys):
+    assert "make study-rb" in refused(tmp_path, capsys)
+    assert "make study-rb" in refused(tmp_path/"nowhere", capsys)
+
+
+def test_claims_that_are_missing_or_lack_columns(small, capsys):
+    write_page(small)
+    write(small/"claims.csv", claims().drop(columns="verdict"), head=["x"])
+    assert "has no column verdict" in refused(small, capsys)
+    (small/"claims.csv").unlink()
+    assert "claims.csv does not exist" in refused(small, capsys)
+
+
+def test_a_table_that_lacks_columns_or_is_none(small, capsys):
+    write_page(small)
+    write(small/"rb/errors.csv", errors().drop(columns="error_err"), head=["x"])
+    assert "rb/errors.csv has no column error_err" in refused(small, capsys)
+    (small/"rb/errors.csv").write_text('a,b\n1,2\n3,4,5,6\n"')
+    assert "rb/errors.csv is no table" in refused(small, capsys)
+    (small/"rb/errors.csv").write_text("")
+    assert "rb/errors.csv is no table" in refused(small, capsys)
+
+
+def test_a_figure_that_is_missing_or_broken(small, capsys, monkeypatch):
+    write_page(small)
+    kept = (small/"rb/toy.png").read_bytes()
+    (small/"rb/toy.png").write_bytes(kept[:40])
+    known = pd.read_csv(small/"figures.csv", comment="#").assign(picture=behind.digest(small/"rb/toy.png"))
+    write(small/"figures.csv", known, head=["x"])
+    assert "toy.png is no picture" in refused(small, capsys)
+    (small/"rb/toy.png").unlink()
+    lost = {"study": "rb", "figure": "toy", "title": "A toy", "panels": "", "tables": "errors"}
+    monkeypatch.setattr(behind, "looked_at", lambda out, part: iter([lost]))        # as the study would draw it
+    assert "toy.png is missing: make figures-rb" in refused(small, capsys)
+
+
+def test_a_film_that_is_missing(small, capsys):
+    words = {"film": "gone", "title": "t", "caption": "c", "size": "fine", "commit": "abc"}
+    row = {**dict.fromkeys(FILMS.columns, 1.0), "seed": 1, **words}
+    write(small/"films/films.csv", pd.DataFrame([row]), head=["x"])
+    assert "gone.avif is missing: make films" in refused(small, capsys)
+
+
+def test_a_film_that_nobody_knows(small, capsys):
+    assert main(["films", "--out", str(small), "--only", "nonsense"]) == 1
+    assert "no film has 'nonsense'" in capsys.readouterr().err
+
+
+def test_a_page_that_is_too_heavy_is_not_written(small, monkeypatch):
+    monkeypatch.setattr("studies.report.page.LIMIT", 1000)
+    with pytest.raises(NoReport, match="MB"):
+        write_page(small)
+    assert not (small/"index.html").exists()

@@ -1,0 +1,219 @@
+"""What the study speed runs: exact answers, steps that space allows, seconds and bytes, small runs."""
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from continuum.boussinesq import Case as Mac
+from particles.run import Divergence, Plan, run
+from studies.cost import speed_cases_plates as slab
+from studies.cost import speed_cases_vortex as vortex
+from studies.cost import speed_cases_waves as wave
+from studies.cost import speed_convection as convection
+from studies.cost import speed_names, speed_tables
+from studies.cost.speed_plates_exact import DEGREE, FLOWS, MU, fields, solved
+from studies.cost.speed_problem import HALVINGS, Problem, Race, climb, result, rms
+from studies.cost.speed_timing import FORGET, array_bytes, of_calls, per_step, timed, with_peak
+
+
+def toy(order: int, space: float = 1e-3, limit: float = 1.0, chaotic: bool = False) -> Problem:
+    """A run of time 1 whose error is space + dt^order, and diverges above half of its limit."""
+    def go(state, dt, steps):
+        if dt > 0.5:
+            raise Divergence(3, "gone")
+        return space + dt**order
+    return Problem(1, 0.0, limit, 1.0, go, lambda state: {"q": np.array([state])}, lambda: (), chaotic=chaotic)
+
+
+# --- the step -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("order", "fraction"), [(4, 1/8), (2, 1/32)])
+def test_the_largest_step_is_taken_whose_error_is_below_that_of_space(order, fraction):
+    """By hand, dt^p - (dt/2)^p <= 0.001 + (dt/2)^p: 0.0037 > 0.0012 at 1/4, 0.00023 < 0.001 at 1/8 for p = 4; for p = 2
+    0.0029 > 0.0020 at 1/16, 0.00073 < 0.0012 at 1/32."""
+    rungs, found = climb(toy(order), 1.0)
+    assert [rung.fraction for rung in rungs if rung.accepted] == [fraction] == [rungs[-1].fraction]
+    assert rms(found.residuals["q"]) == pytest.approx(1e-3 + fraction**order, rel=1e-12)
+
+
+def test_a_step_that_diverges_is_halved():
+    rungs, _ = climb(toy(4), 1.0)
+    assert rungs[0].time == {} and not rungs[0].accepted      # dt = 1 is above what the toy stands
+    assert result(toy(4), 1.0) is None
+
+
+def test_the_shortest_step_is_taken_where_time_errs_more_than_space_at_any():
+    """Second order: halving a step takes away three quarters of its error, three times what is left."""
+    rungs, _ = climb(toy(2, space=0.0), 1.0)
+    assert len(rungs) == HALVINGS and not any(rung.accepted for rung in rungs)
+    assert rungs[-1].fraction == 2.0**-(HALVINGS - 1)
+
+
+def test_chaos_compares_the_sizes_of_errors_only():
+    def flips(state, dt, steps):
+        return 1e-3 if steps % 2 else -1e-3
+    problem = toy(4)._replace(go=flips)
+    assert not climb(problem, 0.9)[0][0].accepted and climb(problem._replace(chaotic=True), 0.9)[0][0].accepted
+
+
+def test_seconds_of_a_step_leave_out_what_every_run_pays_once():
+    """A clock that counts: 5 for a call, 0.25 for a step."""
+    now = [0.0]
+
+    def advance(steps):
+        now[0] += 5 + 0.25*steps
+    found = per_step(advance, clock=lambda: now[0])
+    assert found[:2] == pytest.approx((0.25, 0), abs=1e-12) and found.early == found.late == pytest.approx(0.25)
+
+
+def test_steps_take_as_long_as_what_a_run_pays_once():
+    """A clock that counts 100 +- 1 for a call, 0.01 for a step: of 10 000 steps and more the scatter is some per cent."""
+    now, rng, most = [0.0], np.random.default_rng(1), []
+
+    def advance(steps):
+        most.append(steps)
+        now[0] += 100 + rng.uniform(-1, 1) + 0.01*steps
+    found = per_step(advance, clock=lambda: now[0])
+    assert found.value == pytest.approx(0.01, rel=0.02) and 10_000 <= max(most)/3 < 20_000
+    assert abs(found.value - 0.01) < 2*found.err and found.early != found.late
+
+
+def test_repeats_are_few_where_a_call_is_long():
+    now, calls = [0.0], []
+
+    def call(seconds):
+        calls.append(seconds)
+        now[0] += seconds
+    assert of_calls(lambda: call(0.1), lambda: now[0]).value == pytest.approx(0.1) and len(calls) == 7
+    assert of_calls(lambda: call(1.0), lambda: now[0]).value == pytest.approx(1) and len(calls) == 10
+
+
+def test_early_and_late_are_the_medians_of_the_first_and_the_last_repeats():
+    found = timed([1, 2, 9, 4, 5, 8, 6], 1.0)
+    assert found == (5, pytest.approx((7 - 3)/2), 2, 6)       # by hand: quartiles 3 and 7 of 1 2 4 5 6 8 9
+    assert timed([1, 2, 4], 1.0)[2:] == (1, 4)
+
+
+@pytest.mark.skipif(not FORGET.exists(), reason="the most memory of a process is counted anew on Linux only")
+def test_the_most_memory_is_that_of_what_was_made_and_thrown_away():
+    # above 32 MiB, below which memory that the process has had before may be taken again
+    made, peak = with_peak(lambda: np.ones(8_000_000).sum())
+    assert made == 8e6 and abs(peak - 64e6) < 2e6        # kernels count pages in batches
+    assert with_peak(lambda: 0)[1] < 1e6
+
+
+def test_bytes_count_every_buffer_once_and_nothing_that_only_sets_up():
+    class Sums:
+        pass
+    one = np.zeros(100)
+    sums = Sums()
+    sums.whole, sums.part, sums.again, sums.method, sums.more = one, one[10:20], [one], np.zeros(7), {"a": (np.zeros(3),)}
+    assert array_bytes(sums) == 8*103
+    assert array_bytes(one[:1], one[50:]) == 800
+
+
+# --- exact answers ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["conduction", "couette"])
+def test_flows_between_plates_keep_their_plates_and_mass_and_do_not_depend_on_the_points(name):
+    flow = FLOWS[name]
+    _, v, u, T = fields(flow, np.array([0.0, 1.0]))
+    np.testing.assert_allclose([v, u, T], [[0, 0], [0, flow.U], [1, 1]], atol=1e-9)
+    coefficients = solved(flow)[:, 0]
+    n = np.arange(0, DEGREE + 1, 2)
+    assert np.sum(coefficients[::2]/(1 - n**2)) == pytest.approx(1, abs=1e-8)     # integral of T_n over [-1, 1], halved
+    assert slab.known(flow) < 1e-8
+
+
+def test_slow_shear_decays_as_its_series_says():
+    """U = 1e-3: compression and heating are of the order of its square."""
+    flow = FLOWS["couette"]._replace(U=1e-3)
+    s = np.linspace(0, 1, 41)
+    np.testing.assert_allclose(fields(flow, s)[2]/1e-3, s + np.sin(3*np.pi*s)/2*np.exp(-9*np.pi**2*MU*flow.time), atol=1e-6)
+
+
+def test_small_heat_at_a_plate_of_no_conduction_stays():
+    """After no time at all: the start itself, of mean density 1 and uniform pressure."""
+    s = np.linspace(0, 1, 2001)
+    rho, v, u, T = FLOWS["conduction"].start(s)
+    assert np.ptp(rho*T) < 1e-12 and np.trapezoid(rho, s) == pytest.approx(1, abs=1e-6)
+    assert not v.any() and not u.any()
+
+
+def test_a_sound_wave_without_friction_comes_back():
+    class Free(wave.Wave):
+        eta = 0.0
+    one = Free(16)
+    x = np.arange(16.0)
+    period = 16/wave.SOUND
+    np.testing.assert_allclose(one.exactly(period, x), one.exactly(0.0, x), atol=1e-9*wave.AMPLITUDE)
+    np.testing.assert_allclose(one.exactly(period/4, x)[[0, 2]], 0, atol=1e-9*wave.AMPLITUDE)
+    # by hand: u = c A sin kx sin wt after a quarter of a period, P_rho = c^2 rho/2 in A
+    assert np.abs(one.exactly(period/4, x)[1]).max() == pytest.approx(wave.SOUND*wave.AMPLITUDE, rel=1e-9)
+
+
+def test_the_mac_vortex_is_free_of_divergence_and_steady_but_for_friction():
+    case = Mac(ra=2500.0, pr=1.0, box=vortex.CELL, rows=16)
+    q = vortex.stirred(case)
+    assert np.abs(case.mac.div@q[:case.mac.ends[1]]).max() < 1e-12
+    assert case.mac.lap[:case.mac.ends[1], :case.mac.ends[1]]@q[:case.mac.ends[1]] == pytest.approx(
+        -2*(2*16*np.sin(np.pi/32))**2*q[:case.mac.ends[1]], abs=1e-9)
+
+
+def test_a_sliding_plate_drags_particles_as_a_resting_one_drags_a_stream():
+    """The whole flow seen from a frame that moves with the upper plate: to round-off of some ten steps."""
+    def moved(U, drift):
+        problem = slab.CONTESTANTS["couette"][speed_names.LUCY]._replace(flow=FLOWS["couette"]._replace(U=U)).problem(8, 1)
+        method = problem.held()[1].method
+        state = problem.first.copy()
+        lower, upper, *sides = method.walls
+        walls = (slab.Sliding(lower, drift), slab.Sliding(upper.mirror, U + drift), *sides)
+        state[2] = 0.1*state[1]/8 + drift
+        return run(replace(method, walls=walls), state, Plan(dt=0.2, steps=10)).by_id()
+    still, seen = moved(0.05, 0.0), moved(0.05, 0.3)
+    np.testing.assert_allclose(seen[2] - 0.3, still[2], atol=1e-12)
+    np.testing.assert_allclose(seen[[1, 3, 4]], still[[1, 3, 4]], atol=1e-12)
+
+
+# --- small runs ---------------------------------------------------------------------------------------------------------
+
+
+def errors(scene, method, resolution, **more):
+    """By quantity, of one case that is timed as shortly as possible."""
+    rows = Race(scene=scene, method=method, resolution=resolution, short=1e-5, **more).run(lambda done: None, None).rows
+    return {row["quantity"]: row["error"] for row in rows["errors"]}, rows
+
+
+@pytest.mark.parametrize("name", [speed_names.GRID, speed_names.LATTICE, speed_names.JITTERED])
+@pytest.mark.parametrize("scene", ["conduction", "couette"])
+def test_grids_and_points_are_of_second_order_between_plates(scene, name):
+    method = slab.CONTESTANTS[scene][name]
+    coarse, fine = (next(iter(errors(scene, method, rows)[0].values())) for rows in (12, 24))
+    assert 3 < coarse/fine < 6.5        # 4; on jittered points 12 rows are not yet in its range
+
+
+def test_a_lattice_carries_sound_with_second_order_error_and_its_row_is_whole():
+    coarse, fine = (errors("sound", wave.POINTS[0], length) for length in (32, 64))
+    assert coarse[0]["velocity"]/fine[0]["velocity"] == pytest.approx(4, rel=0.15)
+    run_row, = fine[1]["runs"]
+    table = speed_tables.RUNS
+    assert set(run_row) == set(table.columns)
+    assert run_row["run_s"] > 0 and run_row["bytes"] > 8*4*64*wave.BREADTH and run_row["points"] == 64*wave.BREADTH
+
+
+@pytest.mark.parametrize("fraction", [0.02, 0.005])
+def test_a_state_is_steady_once_it_stays_as_near_as_its_error(fraction):
+    """K = 1 - exp(-t): within f of 1 from t = ln(1/f) on, half of a free-fall time later for the mean over one."""
+    t = np.arange(1, 361)/convection.OFTEN
+    done = convection.Followed(t, 1 - np.exp(-t), None)
+    share = convection.shares_of(done, {"K": fraction}, False)["K"]
+    assert share*t[-1] == pytest.approx(np.log(1/fraction) + 0.5, abs=0.5)
+
+
+def test_places_are_shifted_to_where_the_rolls_are():
+    x = np.stack([np.linspace(-1, 1, 80, endpoint=False), np.zeros(80)], axis=1)
+    v = np.stack([np.zeros(80), np.cos(np.pi*(x[:, 0] - 0.3))], axis=1)      # rises at 0.3
+    found = convection.aligned(convection.Seen(x, v, np.ones(80), np.ones(80)))
+    np.testing.assert_allclose(np.cos(np.pi*found[:, 0]), v[:, 1], atol=1e-12)

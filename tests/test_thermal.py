@@ -1,0 +1,247 @@
+"""Noise in time on fixed points: what it conserves, its covariance, restarts, what is refused."""
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from continuum.fluid import ConstEta, IdealGas
+from particles import covariance
+from particles.covariance import jacobian, steady, waves
+from particles.edges import between_plates
+from particles.limits import limit_of
+from particles.makers import MAKERS
+from particles.methods.layer import Layer
+from particles.methods.thermal import STAGED, Mixed, Thermal, ThreeStage
+from particles.points import jittered, lattice
+from particles.run import Plan, run
+from particles.team import Team
+from particles.weights import Lucy
+from studies.fluctuating.fluct_flows import layer_noise
+from studies.fluctuating.fluct_matrices import equilibrium, noise, transport
+from studies.fluctuating.fluct_modes import check_modes, plane_waves
+from studies.fluctuating.fluct_nonlinear import Exchange, Exchanged, dirichlet
+from studies.fluctuating.fluct_sampling import check_length
+
+
+def gas(share: float = 0.1, k: float = 1e-3, **more) -> Thermal:
+    edges = MAKERS["delaunay"](jittered((5, 5), 0.2, 1), None)
+    return Thermal(**{"edges": edges, "eos": IdealGas(), "law": ConstEta(0.3, 0.4), "zeta": 0.1, "k": k, "seed": 7,
+                      "share": share, **more})
+
+
+def rest(method: Thermal) -> np.ndarray:
+    n = method.edges.n
+    return method.dih.state(np.ones(n), np.zeros((n, 2)), np.ones(n))
+
+
+@pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
+def test_noise_conserves_and_moves(share):
+    method = gas(share)
+    start = rest(method)
+    end = run(method, start, Plan(dt=0.5*limit_of(method, start), steps=50)).state
+    # 50 steps of three stages, sums of 25 points of order 1, each good to 1e-16
+    assert end@method.edges.V == pytest.approx(start@method.edges.V, abs=1e-13*25)
+    assert np.abs(end[1:3]).max() > 1e-3
+
+
+def test_without_temperature_there_is_no_noise():
+    method = gas(k=0.0)
+    assert run(method, rest(method), Plan(dt=0.05, steps=3)).state == pytest.approx(rest(method), abs=1e-14)
+
+
+def test_a_restarted_run_is_the_same_to_the_last_bit(tmp_path):
+    method = gas(0.3)
+    start, file = rest(method), tmp_path/"run.h5"
+    whole = run(method, start, Plan(dt=0.05, steps=12)).state
+    stopped = []
+
+    def stop(sums, state):
+        stopped.append(1)
+        if len(stopped) == 5:
+            raise KeyboardInterrupt
+        return 0.0
+
+    plan = Plan(dt=0.05, steps=12, series={"stop": stop}, every=1, checkpoint=file)
+    with pytest.raises(KeyboardInterrupt):
+        run(method, start, plan)
+    assert np.array_equal(run(method, start, plan).state, whole)
+
+
+def test_threads_make_no_difference():
+    edges = MAKERS["renormalised"](lattice((14, 14)), Lucy.of(h=2.0))       # rows enough for two threads to share
+    method = gas(0.3, edges=edges)
+    one, two = (run(method, rest(method), Plan(dt=0.05, steps=3, threads=threads)).state for threads in (1, 2))
+    assert np.array_equal(one, two)
+
+
+def test_small_heat_capacity_is_warned_of_with_its_bias():
+    method = gas(k=0.05)
+    least = method.edges.V.min()/0.05
+    with pytest.warns(UserWarning, match=rf"heat capacity {least:.3g} k: .* up to k/C = {1/least:.2g} too much, 0.54 k/C"):
+        limit_of(method, rest(method))
+
+
+def test_three_stages_with_amplitudes_of_their_own_drift_nearly_as_stratonovich_has_it():
+    """dx = sqrt(2 x) dW, B B' = 1: the mean over the normal numbers of a step, by Gauss and Hermite's points."""
+    class Root:
+        def rates(self, y, out):
+            out[:] = 0
+
+        def kicks(self, y, beta, dt, out):
+            out[:] = np.sqrt(2*y*dt)*(self.A + beta*self.B)
+
+    points, weights = np.polynomial.hermite_e.hermegauss(12)
+    sums, dt, mean = Root(), 1e-4, 0.0
+    for A, of_A in zip(points, weights/weights.sum(), strict=True):
+        for B, of_B in zip(points, weights/weights.sum(), strict=True):
+            sums.A, sums.B, y = A, B, np.ones(1)
+            ThreeStage((1,), Team(1)).step(sums, y, dt)
+            mean += of_A*of_B*(y[0] - 1)
+    assert mean/dt == pytest.approx(STAGED, abs=10*dt)       # next order
+    assert 0.45 < STAGED < 0.5
+
+
+def test_bad_input_of_noise_in_time():
+    with pytest.raises(ValueError, match=r"k must not be negative, got -1"):
+        gas(k=-1)
+    with pytest.raises(ValueError, match="seed must be a whole number"):
+        gas(seed=-3)
+    with pytest.raises(ValueError, match="share of transport"):
+        Mixed(share=1.5)
+    method = gas()
+    with pytest.raises(ValueError, match="above the stability limit"):
+        run(method, rest(method), Plan(dt=1.01*limit_of(method, rest(method)), steps=1))
+    tight = MAKERS["delaunay"](lattice((3, 3)), None)
+    doubled = replace(tight, i=np.append(tight.i, tight.i[:1]), j=np.append(tight.j, tight.j[:1]),
+                      S=np.append(tight.S, tight.S[:1], axis=0), k=np.append(tight.k, tight.k[:1]),
+                      apart=np.append(tight.apart, -tight.apart[:1], axis=0))
+    with pytest.raises(ValueError, match="two edges join the same points"):
+        gas(edges=doubled).start(9, None)
+    with pytest.raises(ValueError, match=r"bulk viscosity .* outside"):
+        method = gas(1.0, zeta=0.9)
+        run(method, rest(method), Plan(dt=0.01, steps=1))
+
+
+@pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
+def test_kicks_have_the_covariance_of_the_matrices(share):
+    """One random number at a time is a column of B; with both sets of noise, B B^T (1 + beta^2) dt."""
+    method = gas(share)
+    sums, start, beta, dt = method.start(25, None), rest(method), 0.7, 0.01
+    drawn = [normals for normals in (sums.of_points, sums.of_edges) if normals is not None]
+    columns = []
+    for normals in drawn:
+        for other in drawn:
+            other[:] = 0
+        for number in range(normals.size):
+            normals.ravel()[number] = 1
+            columns.append(np.empty_like(start))
+            sums.kicks(start, beta, dt, columns[-1])
+            normals.ravel()[number] = 0
+    B = np.stack([column.ravel() for column in columns], axis=1)
+    of_p, of_e = (1e-3*part.Q for part in transport(method.edges, share, 0.3, 0.1, 0.4, 1.0))
+    expected = (1 + beta**2)*dt*noise(method.edges.V, of_p, of_e).toarray()
+    assert B@B.T == pytest.approx(expected, abs=1e-13*expected.max())
+
+
+def test_a_random_stress_heats_its_own_point_by_its_work():
+    """d(rho e) = s:grad v there and nothing elsewhere, s what changes the momentum by D s."""
+    method = gas(0.0)
+    sums, edges, out = method.start(25, None), method.edges, np.empty((4, 25))
+    v = np.random.default_rng(2).normal(size=(25, 2))
+    sums.of_points[:] = 0
+    sums.of_points[11, :5] = (0.3, -0.2, 0.8, 0.4, 0.5)       # R, r
+    sums.kicks(method.dih.state(np.ones(25), v, np.ones(25)), 0.0, 0.01, out)
+    R = sums.of_points[11, :4].reshape(2, 2)
+    shear = np.sqrt(2*method.k*0.3/edges.V[11])*((R + R.T)/np.sqrt(2) - np.eye(2)*np.trace(R)/np.sqrt(2))
+    s = 0.1*(shear + np.sqrt(2*method.k*0.1/edges.V[11])*0.5*np.eye(2))
+    heating = out[3] - (v.T*out[1:3]).sum(axis=0)
+    expected = np.zeros(25)
+    expected[11] = np.sum(s*[edges.grad(v[:, 0])[11], edges.grad(v[:, 1])[11]])
+    assert heating == pytest.approx(expected, abs=1e-13*abs(expected[11]))
+
+
+def test_three_stages_in_time_are_those_of_the_lyapunov_solve():
+    J, B = np.array([[0.0, 0.4], [-0.4, -0.1]]), np.array([[0.0, 0.0], [0.0, np.sqrt(0.2)]])
+
+    class Sums:
+        halves = np.zeros((2, 2))       # W_A, W_B
+
+        def rates(self, y, out):
+            out[:] = (J@y.ravel()).reshape(y.shape)
+
+        def kicks(self, y, beta, dt, out):
+            out[:] = (B@(self.halves[0] + beta*self.halves[1])*np.sqrt(dt)).reshape(out.shape)
+
+    def stepped(start, halves):
+        sums, y = Sums(), start.reshape(2, 1).copy()
+        sums.halves = halves
+        ThreeStage((2, 1), None).step(sums, y, 0.3)
+        return y.ravel()
+
+    step, unit, none = covariance.three_stage(J, B@B.T, 0.3), np.eye(4).reshape(4, 2, 2), np.zeros(2)
+    assert np.stack([stepped(x, np.zeros((2, 2))) for x in np.eye(2)], axis=1) == pytest.approx(step.A, abs=1e-15)
+    noises = np.stack([stepped(none, halves) for halves in unit], axis=1)
+    assert noises@noises.T == pytest.approx(step.Q, abs=1e-15)
+
+
+# --- modes that say nothing, batches that are too short -------------------------------------------------------------
+
+
+def test_a_list_of_null_modes_is_refused():
+    points = lattice((6, 6))
+    edges = MAKERS["renormalised"](points, Lucy.of(h=2.0))
+    Q = noise(edges.V, *(part.Q for part in transport(edges, 0.0, 0.3, 0.0, 0.4, 1.0)))
+    for turns in (((0, 0),), ((3, 3), (3, 0))):
+        names, F = plane_waves(points, edges.V, turns)
+        with pytest.raises(ValueError, match=r"all \d+ modes in the list are null modes"):
+            check_modes(F, equilibrium(edges.V, 2), Q, names)
+    names, F = plane_waves(points, edges.V, ((3, 3), (1, 0)))
+    check_modes(F, equilibrium(edges.V, 2), Q, names)
+
+
+def test_short_batches_are_refused():
+    with pytest.raises(ValueError, match=r"5 decay times .* take 20 or longer"):
+        check_length(np.diag([-0.5, -3.0, 0.0]), 10.0)
+
+
+# --- exact values ---------------------------------------------------------------------------------------------------
+
+
+def test_noise_reaches_the_covariance_of_equilibrium_on_irregular_points():
+    method = gas(0.4)
+    J = jacobian(method.dih.rates, rest(method))
+    Q = noise(method.edges.V, *(part.Q for part in transport(method.edges, 0.4, 0.3, 0.1, 0.4, 1.0))).toarray()
+    exactly = equilibrium(method.edges.V, 2)
+    C = steady(J, Q, np.kron(np.eye(4), method.edges.V))
+    assert C == pytest.approx(exactly, abs=1e-10*exactly.max())
+
+
+def test_plates_have_the_noise_of_their_friction_and_heat():
+    """A layer at rest between plates of its own temperature, waves along it: equilibrium up to the last row."""
+    rows, T = 5, 0.7
+    x = lattice((5, rows)).x
+    edges, beyond = between_plates(MAKERS["renormalised"], x, 5, rows, Lucy.of(h=2.0))
+    fluid = Layer(x=x, edges=edges, beyond=beyond, eos=IdealGas(), law=ConstEta(0.3, 0.4), T_plates=(T, T), g=0.0)
+    first, at_T = np.arange(rows), np.full(5*rows, T)
+    J = jacobian(fluid.start(5*rows, Team(1)).rates, fluid.state(1.0, 0*x, at_T), first)
+    Q = layer_noise(fluid, at_T)[:, (5*rows*np.arange(4)[:, None] + first).ravel()].toarray()
+    C = steady(*(waves(M, (5, rows), 0.4) for M in (J, Q)))
+    one, none = np.eye(rows), np.zeros((rows, rows))        # <rho rho> = 1, <p p> = T, eps = T rho + dT, <dT dT> = T^2
+    exactly = np.block([[one, none, none, T*one], [none, T*one, none, none], [none, none, T*one, none],
+                        [T*one, none, none, 2*T*T*one]])
+    assert np.abs(C - exactly).max() < 1e-9
+
+
+@pytest.mark.parametrize("corrected", [True, False])
+def test_current_amplitudes_have_dirichlet_moments(corrected):
+    """d<T T>/dt = 0: J C + C J^T + <B B^T> with the second moments of Dirichlet(C/k + 1) or, without correction, (C/k)."""
+    edges, C = MAKERS["delaunay"](jittered((4, 4), 0.2, 1), None), 12.0
+    edges = replace(edges, V=np.ones(16))
+    n, alpha = 16, C + corrected
+    sums = Exchanged(Exchange(edges=edges, C=C, corrected=corrected, seed=1))
+    second = n*alpha/(n*alpha + 1)*(np.ones((n, n)) + np.eye(n)/alpha)        # <T_i T_j>, mean 1
+    assert second[0, 0] - 1 == pytest.approx(dirichlet(n, C, corrected), rel=1e-12)
+    rate = np.diag(2*edges.k/C*second[edges.i, edges.j])
+    across = sums.across.toarray()
+    left = sums.J@second + second@sums.J.T + across@rate@across.T
+    assert np.abs(left).max() < 1e-13*np.abs(sums.J).max()
