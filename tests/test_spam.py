@@ -57,7 +57,7 @@ SETUPS = {
     "no walls": Setup(WendlandC4, VanDerWaals(), POWER, everywhere(BOX)),
     "arithmetic": Setup(Lucy, IdealGas(), ETA, everywhere(BOX), {"gradients": ArithmeticGradients()}),
     "direct": Setup(Lucy, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD), {"transport": Direct}),
-    "direct, less static": Setup(Monaghan, DenseFluid(), NU, PERIODIC + FIXED,
+    "direct, less static": Setup(Monaghan, DenseFluid(), ETA, PERIODIC + FIXED,
                                    {"transport": Direct, "static": LessStatic(0.6, 1.2, 1.1)}),
     "less static": Setup(WendlandC2, VanDerWaals(), NU, closed(Odd(), Own()), {"static": LessStatic(1.0, 1.2, 1.1)}),
     "half static": Setup(WendlandC6, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD),
