@@ -15,7 +15,6 @@ from studies.kit.table import Tables
 COLUMNS = {table.name: table.columns for table in ALL}
 GAS = {"method": "compressible", "eos": "ideal", "transport": "const-eta", "dT": 1.0, "sides": "periodic"}
 LAYER = {"sides": "periodic"}
-PR = {"linear": 2.0, "boussinesq": 2.0, "pypde-boussinesq": 2.0}
 #: series of growth rates: label -> rows
 GRIDS: dict[str, dict[str, Any]] = {
     "Boussinesq, staggered": {"method": "boussinesq", **LAYER},
