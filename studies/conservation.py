@@ -1,12 +1,12 @@
 """Does discretized integral hydrodynamics conserve mass, momentum and energy, and what else does it keep?    [RR98, Sec. III]
 
-Sums over 10 000 steps from random starts; rates in a wind; energy of linear sound over 10 000 periods. All of RR98's modes,
-weights, makers of edges, sets of points and walls would be thousands of runs. There are instead, on fixed points, all makers with
-all sets of points: with friction along edges for every weight, with any other transport for one, and that transport on one set
-of points for every weight; between mirror plates, held rows and around a body for one weight, and one set of points for every
-weight. So any two values of any two factors meet in some run, where they can. Of moving points every motion has its runs, those
-that should keep sums with every weight and transport; the conservative scheme has every weight, and every start in a box and
-between plates.
+Sums over 10 000 steps from random starts, with a book of what is lost where it must be; rates in a wind; energy of linear sound
+over 10 000 periods. All of RR98's modes, weights, makers of edges, sets of points and walls would be thousands of runs. There
+are instead, on fixed points, all makers with all sets of points: with friction along edges for every weight, with any other
+transport for one, and that transport on one set of points for every weight; between mirror plates, held rows and around a body
+for one weight, and one set of points for every weight. So any two values of any two factors meet in some run, where they can.
+Of moving points every motion has its runs, those that should keep sums with every weight and transport; the conservative scheme
+has every weight, and every start in a box and between plates.
 
 Where none can be: Delaunay edges have no weight; sliding sides take edges of a weight on a lattice; held points and sliding
 sides are coded for friction along edges with the mended heating; moving points of Eqs 39-49 have edges of plain quadrature and
@@ -25,6 +25,7 @@ from studies.integral import (
     conservation_commutator,
     conservation_derive,
     conservation_figures,
+    conservation_losses,
     conservation_moving,
     conservation_tables,
 )
@@ -139,12 +140,14 @@ def cases(size: str) -> list[Case]:
     if size == "quick":
         some = KINDS[:2], ALL[:1]
         return [*layers(*some, steps=300), *plates(*some, steps=300), *walls(*some, steps=300), *dimensions(steps=300),
-                *motions(ALL[:1], steps=300), *frames(SEEDS[:1])]
-    return [*layers(), *plates(), *walls(), *dimensions(), *motions(), *conservation_moving.cases(KINDS), *frames()]
+                *motions(ALL[:1], steps=300), *conservation_losses.cases(SEEDS[:1], steps=300), *frames(SEEDS[:1])]
+    return [*layers(), *plates(), *walls(), *dimensions(), *motions(), *conservation_moving.cases(KINDS),
+            *conservation_losses.cases(), *frames()]
 
 
-STUDY = Study(name="conservation", cases=cases, tables=conservation_tables.ALL, derive=conservation_derive.derive,
-              figures=conservation_figures.figures, claims=(*conservation_claims.CLAIMS, *conservation_commutator.CLAIMS))
+STUDY = Study(name="conservation", cases=cases, tables=(*conservation_tables.ALL, conservation_losses.LOSSES),
+              derive=conservation_derive.derive, figures=conservation_figures.figures,
+              claims=(*conservation_claims.CLAIMS, *conservation_commutator.CLAIMS, *conservation_losses.CLAIMS))
 
 if __name__ == "__main__":
     main(STUDY)

@@ -15,7 +15,7 @@ from particles.methods.motions import MOTIONS
 from particles.points import jittered, lattice
 from particles.run import Plan, run
 from particles.weights import WEIGHTS, Lucy
-from studies.integral import conservation_tables
+from studies.integral import conservation_losses
 from studies.integral.conservation_commutator import Commutator
 from studies.integral.conservation_dih import FORMS
 from studies.integral.conservation_drift import MODES, WALLS
@@ -210,7 +210,8 @@ def small(tmp_path_factory):
              conservation.layer("nested", "plain", "jittered-0.3", steps=400),
              *(case for case in conservation.walls(steps=20) if case.scheme == "sliding"),
              MotionDrift(motion="literal", kind=MOTIONS["literal"], transport="nested", weight=Lucy, steps=20),
-             conservation.dih("one-sided", 1, "exact", 3.0, steps=20), *list(conservation.frames((1,)))[:30],
+             conservation.dih("one-sided", 1, "exact", 3.0, steps=20), *conservation_losses.cases((1,), steps=60),
+             *list(conservation.frames((1,)))[:30],
              *[case for case in conservation.frames((1,)) if getattr(case, "maker", "") == "plain"],
              *[case for case in conservation.frames((1,)) if isinstance(case, Commutator)]]
     study = replace(conservation.STUDY, cases=lambda size: cases)
@@ -219,12 +220,13 @@ def small(tmp_path_factory):
 
 def test_small_study_writes_every_table(small):
     study, found, out = small
-    for table in conservation_tables.ALL:
+    for table in study.tables:
         assert len(found[table.name]) and set(table.columns) <= set(found[table.name].columns)
     assert len(study.draw(out)) == 2
     verdicts = {row["id"]: row["verdict"] for row in study.judge(out)}
     assert set(verdicts) == {claim.id for claim in study.claims}
-    assert verdicts["rr98-conservation-mass"] == verdicts["rr98-conservation-symmetrised"] == "holds"
+    assert verdicts["rr98-conservation-mass"] == verdicts["own-conservation-symmetrised-booked"] == "holds"
+    assert verdicts["own-conservation-plates-booked"] == "holds"
     assert verdicts["rr98-conservation-sound-jittered"] == "fails"
 
 
@@ -261,7 +263,7 @@ def test_every_run_has_its_column():
 
 @pytest.mark.skipif(not (RESULTS/"conservation"/"drift.csv").exists(), reason="no tables are committed yet")
 def test_committed_verdicts_follow_from_committed_tables():
-    found = judge(conservation.STUDY.claims, load(conservation_tables.ALL, "conservation"), "conservation")
+    found = judge(conservation.STUDY.claims, load(conservation.STUDY.tables, "conservation"), "conservation")
     kept = read(RESULTS/"claims.csv")
     kept = kept[kept["study"] == "conservation"]
     assert dict(zip(kept["id"], kept["verdict"], strict=True)) == {row["id"]: row["verdict"] for row in found}

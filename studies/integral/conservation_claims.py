@@ -122,11 +122,6 @@ CLAIMS = (
           value=worst_of_all("motions"),
           statement="points that move literally or at constant mass keep mass, momentum and energy: largest relative change in "
                     "10 000 steps, every weight, nested transport and forces along edges with both heatings"),
-    Claim(id="rr98-conservation-symmetrised", source="RR98 Sec. III B", at_least=1e-6,
-          printed="as long as ij-symmetrized forms are provided, the conservation laws are guaranteed",
-          value=lost("momentum", mode="one-sided"), because="far above the round-off of those that conserve",
-          statement="without forms symmetric in ij momentum is lost: P_ij + P_ij for point i in place of P_ij + P_ji, change "
-                    "over the sum of its sizes"),
     Claim(id="rr98-conservation-survival-lattice", source="RR98 Eqs 34-36", at_least=1.0, because="all of them",
           value=share_finished("plain", "lattice"),
           statement="the brackets with plain quadrature carry a random start through 10 000 steps on a lattice: share of the "
@@ -174,9 +169,6 @@ CLAIMS = (
           statement="they are with the force of the stress whose work mends the heating, which the continuum would not miss, on "
                     "edges that close: largest difference over the largest rate [a repair made after the claim on the mended "
                     "heating had failed]"),
-    Claim(id="rr98-conservation-plates-friction", source="RR98 Sec. III A", at_least=1e-6, because="far above round-off",
-          value=lost("momentum", mode="pairwise", wall="plates", scheme="layer"),
-          statement="plates with friction take momentum: change over the sum of its sizes"),
     Claim(id="rr98-conservation-plates-gravity", source="RR98 Sec. III A", at_most=1e-13, because=LIMIT,
           value=lost("energy", mode="ideal", wall="plates, gravity"),
           statement="energy with that of height is conserved between plates without friction under gravity: relative change in "
