@@ -1,31 +1,15 @@
 """What is wrong with where moving points start, told once before the first step."""
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
+from continuum.jit import jit
 from particles.ghosts import ghosts_of
+from particles.pairs import Pairs
 from particles.surroundings import Surroundings
 
 #: spacings; of the largest stretch of the points around: below these no direction leads to or between neighbours
 OVERLAP, FLAT = 1e-9, 1e-6
-
-
-class Near(NamedTuple):
-    """Pairs in range, each both ways: rows i (pairs,), points j, x_j - x_i (pairs, 2), -w'(r)/r times it (pairs, 2)."""
-    i: np.ndarray
-    j: np.ndarray
-    apart: np.ndarray
-    slope: np.ndarray
-
-
-def near(around: Surroundings) -> Near:
-    """What `Surroundings.place` found."""
-    pairs = around.pairs
-    taken, first = pairs.taken.astype(int), pairs.first.astype(int)
-    entry = np.arange(taken.sum()) + np.repeat(first - np.cumsum(taken) + taken, taken)
-    i, j = np.repeat(np.arange(len(taken)), taken), pairs.near[entry].astype(int)
-    x = np.stack([around.x, around.y], axis=1)
-    return Near(i, j, x[j] - x[i], np.stack([pairs.wx[entry], pairs.wy[entry]], axis=1))
 
 
 def check_volumes(V: np.ndarray) -> None:
@@ -36,12 +20,11 @@ def check_volumes(V: np.ndarray) -> None:
 
 
 def check_apart(around: Surroundings, ids: np.ndarray, a: float) -> None:
-    """Refuse points that lie in one place; a : spacing. They would never part."""
-    pairs, n = near(around), around.n
-    together = np.flatnonzero((pairs.apart**2).sum(axis=1) < (OVERLAP*a)**2)
-    if not len(together):
+    """Refuse points that lie in one place, where they would stay; a : spacing. After `Surroundings.place`."""
+    n = around.n
+    i, j = _together(n, around.pairs, around.x, around.y, (OVERLAP*a)**2)
+    if i == n:
         return
-    i, j = pairs.i[together[0]], pairs.j[together[0]]
     j = j if j < n else ghosts_of(around).origin[j - n]
     told = "lies on a plate, where it meets its own image" if i == j else f"and point {ids[j]} overlap"
     raise ValueError(f"point {ids[i]} {told} at ({around.x[i]:g}, {around.y[i]:g}): no direction leads from one to the other; "
@@ -50,10 +33,9 @@ def check_apart(around: Surroundings, ids: np.ndarray, a: float) -> None:
 
 def moments(around: Surroundings, V: np.ndarray) -> np.ndarray:
     """sum_j V_j W e (x_j - x_i) of plain quadrature, (n, 2, 2): the unit matrix where linear fields have exact gradients."""
-    pairs, n = near(around), around.n
-    of = np.concatenate([np.arange(n), ghosts_of(around).origin])
-    parts = V[of[pairs.j], None, None]*pairs.slope[:, :, None]*pairs.apart[:, None, :]
-    return np.stack([np.bincount(pairs.i, q, n)[:n] for q in parts.reshape(-1, 4).T], axis=1).reshape(n, 2, 2)
+    out = np.zeros((around.n, 2, 2))
+    _moments(around.n, around.pairs, around.x, around.y, np.concatenate([V, V[ghosts_of(around).origin]]), out)
+    return out
 
 
 def check_reach(weight: Any, moment: np.ndarray, ids: np.ndarray) -> None:
@@ -63,3 +45,26 @@ def check_reach(weight: Any, moment: np.ndarray, ids: np.ndarray) -> None:
     if len(bad):
         raise ValueError(f"point {ids[bad[0]]} has no neighbours in two directions within the weight's range h = {weight.h:g} "
                          f"({len(bad)} of {len(ids)} have not; Eq. 45 asks for several spacings): take a larger h or more points")
+
+
+@jit
+def _together(n, pairs: Pairs, x, y, least):
+    """The first two points whose squared distance is below the least; (n, n) if there are none."""
+    for i in range(n):
+        for k in range(pairs.first[i], pairs.first[i] + pairs.taken[i]):
+            j = pairs.near[k]
+            if (x[j] - x[i])**2 + (y[j] - y[i])**2 < least:
+                return i, int(j)
+    return n, n
+
+
+@jit
+def _moments(n, pairs: Pairs, x, y, V, out):
+    for i in range(n):
+        for k in range(pairs.first[i], pairs.first[i] + pairs.taken[i]):
+            j = pairs.near[k]
+            wx, wy, dx, dy = V[j]*pairs.wx[k], V[j]*pairs.wy[k], x[j] - x[i], y[j] - y[i]
+            out[i, 0, 0] += wx*dx
+            out[i, 0, 1] += wx*dy
+            out[i, 1, 0] += wy*dx
+            out[i, 1, 1] += wy*dy
