@@ -1,4 +1,7 @@
-"""Tables of the study bodies. Lengths in spacings a, fluid of KHP95's units (rho = T = 1); `_err` 95 %."""
+"""Tables of the study bodies. Lengths in spacings a, fluid of KHP95's units (rho = T = 1); `_err` 95 %.
+
+No start and no set of points has chance in it: `shear`, `wave`, `walls` and `torque` have no error but that of time steps.
+"""
 from studies.kit.table import Table
 
 DRAGS = ["variant", "fraction", "rows"]
