@@ -29,8 +29,8 @@ from studies.kit.stats import Measured, combine
 from studies.kit.table import Table, Tables
 
 LOOKS = 100             # at how far a run is
-#: momentum along x after so many steps, or where a run that diverged was looked at last (`reached`). lost: its change over the sum
-#: of its sizes; booked: the change over what the book says; left: over that at the start
+#: momentum along x after so many steps, or where a run that diverged was looked at last (`reached`). lost: its change over the
+#: sum of its sizes; booked: the change over what the book says; left: over that at the start
 LOSSES = Table("losses", key=["how", "maker", "points", "seed"],
                columns=["how", "maker", "points", "seed", "steps", "reached", "lost", "booked", "left"])
 
@@ -161,9 +161,9 @@ CLAIMS = (
     Claim(id="rr98-conservation-symmetrised", source="RR98 Sec. III B", at_least=0.01, value=lost,
           printed="as long as ij-symmetrized forms are provided, the conservation laws are guaranteed",
           because="a per cent: what flows are told to",
-          statement="without forms symmetric in ij momentum is lost: P_ij + P_ij for point i in place of P_ij + P_ji, change over "
-                    "the sum of its sizes in 10 000 steps, or until shortly before a run diverges, mean of six random starts on "
-                    "a line"),
+          statement="without forms symmetric in ij momentum is lost: P_ij + P_ij for point i in place of P_ij + P_ji, change "
+                    "over the sum of its sizes in 10 000 steps, or until shortly before a run diverges, mean of six random "
+                    "starts on a line"),
     Claim(id="own-conservation-symmetrised-survival", source="RR98 Sec. III B", at_least=1.0, value=finished,
           because="all of them; asked after the first of these runs had diverged",
           statement="runs without forms symmetric in ij get through 10 000 steps: share of six random starts on a line"),
