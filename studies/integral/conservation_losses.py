@@ -124,12 +124,12 @@ def between(maker: str, points: str, seed: int) -> tuple[Ledger, np.ndarray, np.
     return (Ledger(layer.start(at.n, Team(1)), friction(layer)), state, layer.edges.V, OF_LIMIT*limit_of(layer, state))
 
 
-SEEDS = (1, 2, 3, 4, 5, 6)
+SEEDS = tuple(range(1, 25))     # six left the first claim open
 PLATES = (("renormalised", "lattice"), ("delaunay", "jittered-0.3"))
 
 
 def cases(seeds: tuple[int, ...] = SEEDS, **more: int) -> Iterator[Case]:
-    """Six random starts without symmetry, three between plates of each kind."""
+    """24 random starts without symmetry, three between plates of each kind."""
     yield from (Lost(how="one-sided", maker="exact", points="jittered-0.1", seed=seed, **more) for seed in seeds)
     yield from (Lost(how="friction", maker=maker, points=points, seed=seed, **more)
                 for (maker, points), seed in product(PLATES, seeds[:3]))
@@ -162,11 +162,11 @@ CLAIMS = (
           printed="as long as ij-symmetrized forms are provided, the conservation laws are guaranteed",
           because="a per cent: what flows are told to",
           statement="without forms symmetric in ij momentum is lost: P_ij + P_ij for point i in place of P_ij + P_ji, change "
-                    "over the sum of its sizes in 10 000 steps, or until shortly before a run diverges, mean of six random "
+                    "over the sum of its sizes in 10 000 steps, or until shortly before a run diverges, mean of 24 random "
                     "starts on a line"),
     Claim(id="own-conservation-symmetrised-survival", source="RR98 Sec. III B", at_least=1.0, value=finished,
           because="all of them; asked after the first of these runs had diverged",
-          statement="runs without forms symmetric in ij get through 10 000 steps: share of six random starts on a line"),
+          statement="runs without forms symmetric in ij get through 10 000 steps: share of 24 random starts on a line"),
     Claim(id="own-conservation-symmetrised-booked", source="RR98 Sec. III B", at_most=1e-9, value=unbooked("one-sided"),
           because=ROUNDED,
           statement="what is lost is -sum S_ij (P_ij - P_ji) of all edges and nothing else: largest difference of change over "
