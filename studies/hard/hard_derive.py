@@ -65,7 +65,7 @@ def ripple_growth(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
     for _, group in rows.groupby(["scale", "steep"]):
         scale, steep = (float(group[name].iloc[0]) for name in ("scale", "steep"))
         theory = impulse(scale, steep)
-        found = [ripple(one.sort_values("time"), theory) for _, one in group.groupby("seed")]
+        found = [ripple(one.sort_values("time"), theory) for _, one in group.groupby("seed") if one["height"].notna().all()]
         kick, amplitude, growth = (combine([one[i] for one in found]) for i in range(3))
         yield {"scale": scale, "steep": steep, "seeds": len(found), "kick": kick.value, "kick_err": kick.err,
                "amplitude": amplitude.value, "amplitude_err": amplitude.err, "growth": growth.value, "growth_err": growth.err}

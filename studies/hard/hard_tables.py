@@ -56,7 +56,8 @@ TUBE_PROFILES = Table("tube_profiles", key=[*TUBE, "x"],
 TUBE_ORDERS = Table("tube_orders", key=["eta", "quantity"], columns=["eta", "quantity", "order", "order_err"])
 
 RIPPLE = ["scale", "steep"]
-#: mean height and amplitude of the interface, spacings; lengths over the printed ones, k a before the shock
+#: mean height and amplitude of the interface, spacings, nothing where a run diverged; lengths over the printed ones, k a before
+#: the shock
 RIPPLES = Table("ripples", key=[*RIPPLE, "seed", "time"], columns=[*RIPPLE, "seed", "time", "height", "amplitude"])
 #: velocity given to the interface, amplitude behind the shock and its growth rate, over those of theory
 RIPPLE_GROWTH = Table("ripple_growth", key=RIPPLE, columns=[*RIPPLE, "seeds", "kick", "kick_err", "amplitude", "amplitude_err",

@@ -15,7 +15,7 @@ import numpy as np
 from continuum.fluid import IdealGas
 from particles.limits import step_limit
 from particles.methods.spam import Spam
-from particles.run import STUDIES, Plan, run
+from particles.run import STUDIES, Divergence, Plan, run
 from particles.walls.mirror import Copied, Mirror, Odd
 from particles.walls.periodic import periodic
 from particles.weights import Lucy
@@ -119,10 +119,15 @@ class Interface(Case):
         method = Spam(weight=Lucy.of(h=3.0), eos=IdealGas(), law=FRICTIONLESS, walls=(*periodic(width), floor), box=box)
         dt = STUDIES*step_limit(method, state[4], 4.0)
         steps = round(self.time/SAMPLES/dt) + 1
-        dt, rows = self.time/SAMPLES/steps, []
+        dt = self.time/SAMPLES/steps
+        rows: list[dict[str, Any]] = []
         for number in range(1, SAMPLES + 1):
             report(number/SAMPLES)
-            state = run(method, state, Plan(dt=dt, steps=steps)).by_id()
+            try:
+                state = run(method, state, Plan(dt=dt, steps=steps)).by_id()
+            except Divergence:
+                rows.append({**self.point, "time": number*steps*dt, "height": np.nan, "amplitude": np.nan})
+                break
             height, a = ripple(state[0], state[1], light, width)
             rows.append({**self.point, "time": number*steps*dt, "height": height, "amplitude": a})
         return Outcome({"ripples": rows})

@@ -93,7 +93,8 @@ def cases(size: str) -> list[Case]:
     if size == "quick":
         return [*moduli(1.0), *list(growth())[::5], *list(onsets((1,)))[::9], *fates((3.0,), (1,)), *newton((5.0, 20.0), 5, (1,)),
                 *shocks((12.0, 15.0, 18.0), ((0.5, 0.25, 1),), (1,))]
-    return [*moduli(0.1), *growth(), *onsets((1,)), *fates((2.0, 2.4, 2.8, 3.0, 3.4, 4.0), (1, 2)), *squares(), *freezing(),
+    return [*moduli(0.1), *growth(), *onsets((1,)), *fates((2.0, 2.4, 2.8, 3.0, 3.4, 4.0), (1, 2)),
+            *fates((3.0,), (3, 4, 5, 6)), *squares(), *freezing(),
             *newton((5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 100.0), 15, (1, 2)),
             *shocks((24.0, 36.0, 48.0, 72.0, 96.0, 144.0, 192.0), ((1.0, 0.25, 3), (1.0, 0.75, 3), (2.0, 0.25, 8)), (1, 2, 3)),
             *(ShockTube(L=192.0, eta=0.5, seed=seed) for seed in range(4, MORE_SEEDS + 1))]

@@ -21,7 +21,7 @@ SAMPLES = 60            # of a run; what is told are means over the last third
 LATE = 2/3
 GRIDS = (ROWS, 2*ROWS, 3*ROWS)
 #: where three left undecided what is a tenth off
-MORE_GRIDS = dict.fromkeys(("Ra 1e5", "high pressure"), (4*ROWS, 6*ROWS))
+MORE_GRIDS = {"Ra 1e5": (4*ROWS, 6*ROWS), "high pressure": (4*ROWS, 6*ROWS, 8*ROWS)}
 #: rows on which it is asked whether the grid at high Ra is steady, and for how long
 FINER, SETTLED = (16, 24, 32, 48), 150.0
 HIGH = (1e5, 2e5, 3.5e5)
