@@ -198,7 +198,7 @@ SHOCKS = (
           because="2 %, as printed for the growth"),
     Claim(id="khp95-hard-ripple-robust", source="KHP95 Sec. VI", printed="robust, highly stable", at_most=0, value=lost,
           statement="gases that fall onto a mirror are taken, however they lie at the start: interfaces whose run diverged "
-                    "[asked after one had, in its fourth step]", because="none"),
+                    "[asked after one had]", because="none"),
     Claim(id="khp95-hard-ripple-rest", source="KHP95 Sec. VI, Fig. 11", value=kept_ripple, at_least=0.95,
           statement="two gases of one pressure keep the ripple between them until the shock comes: amplitude then over that at "
                     "the start, printed size, k a = 0.75",

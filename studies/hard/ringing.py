@@ -65,7 +65,7 @@ class Ringing(Case):
 
     @property
     def cost(self) -> float:
-        return 1e-3*self.length**2/self.step
+        return 4e-5*self.length**2/self.step
 
     @property
     def columns(self) -> dict[str, Any]:

@@ -142,7 +142,7 @@ def figures(tables: Tables) -> dict[str, Figure]:
     in_time(left, tables["ringing_paths"], tables["ringing"])
     over_length(right, tables["ringing"])
     page.suptitle("Sound on a lattice: what grows across it, where the wave has no velocity\nleft: 64 spacings, those that keep "
-                  "128; dashed: rates of lattice sums; right: points all seeds, lines round-off that lattice sums grow",
+                  "128; dashed: rates of lattice sums; right: points seeds, lines round-off grown",
                   fontsize=10)
     return {"ringing": page}
 
