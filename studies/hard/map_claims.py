@@ -2,9 +2,12 @@
 from collections.abc import Sequence
 
 import numpy as np
+import pandas as pd
 
 from studies.convection.claims.read import Value, select
+from studies.hard import map_ends
 from studies.hard.map_derive import LEAK, NEAR, SPURIOUS
+from studies.hard.map_scenes import ROWS
 from studies.kit.claim import CannotTell, Claim
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
@@ -15,12 +18,26 @@ ENDS, STILL = "a run ends or it does not", "K of flows that settle changes by le
 TEN = "a tenth is what separates `right` from `wrong` on the map"
 
 
+def ending(tables: Tables, case: str, method: str) -> str:
+    """What is known of how a run ended, in words."""
+    rows = tables.get("map_ends", pd.DataFrame())
+    if case != map_ends.CASE or rows.empty:
+        return ""
+    same = rows[(rows["method"] == method) & (rows["pr"] == 0.01) & (rows["rows"] == ROWS)].set_index("step")
+    if not {1.0, map_ends.HALF} <= set(same.index):
+        return ""
+    row, half = same.loc[1.0], same.loc[map_ends.HALF]["reached"]
+    return (f": it ends after {row['reached']:.2f} of the time, with half of the step after {half:.2f}; before, its flow has "
+            f"{row['speed']:.2f} of the speed of sound, v a/nu = {row['cell_re']:.0f} and a step {row['beyond']:.2f} times the "
+            "limit")
+
+
 def number(case: str, method: str) -> Value:
     """The number that decides, and the error of what it is held against; a run that did not end has none."""
     def value(tables: Tables) -> Measured:
         row = select(tables, "map", case=case, method=method).iloc[0]
         if row["outcome"] in ("diverges", "refused", "unjudged"):
-            raise CannotTell(f"{method} in {case}: {row['outcome']}, nothing could be measured")
+            raise CannotTell(f"{method} in {case}: {row['outcome']}, nothing could be measured{ending(tables, case, method)}")
         return Measured(float(row["measured"]), float(row["measured_err"]))
     return value
 
