@@ -2,7 +2,7 @@
 
 Spurious shear modulus, pairing and clumping of lattices against lattice sums; freezing against the printed criteria; the
 isomorphism with molecular dynamics and its reversal; a shock tube and a shocked interface against exact and linear theory.
-Units: particles of unit mass at mean density 1, so lengths in spacings. Paper size takes half an hour. Writes
+Units: particles of unit mass at mean density 1, so lengths in spacings. Paper size takes twenty minutes. Writes
 results/hardcases/*.csv and *.png and the rows of study hardcases in results/claims.csv. A group of cases is a `Part`.
 """
 from studies.hard import khp95, limits, long_sound, map_part, ringing_part
