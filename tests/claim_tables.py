@@ -11,6 +11,7 @@ from studies.convection.claims.grid import PYPDE
 from studies.convection.claims.read import grid, onset, particles, scene
 from studies.convection.dih import SCHEMES
 from studies.convection.drift import DRIFT_MOTIONS
+from studies.convection.moving import MOTIONS
 from studies.kit.claim import judge
 from studies.kit.table import Tables
 
@@ -110,8 +111,11 @@ def points() -> list[dict]:
     fixed = [dih.points(ra, name, rows) for ra, name, rows in itertools.product((5e3, 1e4), (*SCHEMES, "moving"),
                                                                                (*dih.ROWS, math.inf))]
     wrong = [{"method": "compressible", "variant": "edge-heat", "resolution": math.inf, **scene(ra)} for ra in (5e3, 1e4)]
-    moved = [dih.points(1e4, name, rows) for name, rows in itertools.product(DRIFT_MOTIONS, (25, 40))]
-    return [*grids, *runs, *fixed, *moved, *wrong, PYPDE, grid(1e4, 48, "paper-form"), grid(67150.3, 48, "fig10", sides="walls"),
+    thick = {**dih.points(1e4, "fixed-lattice"), "transport": "const-nu"}
+    moved = [dih.points(1e4, name, rows) for name, rows in itertools.product((*DRIFT_MOTIONS, *MOTIONS), (25, 40))
+             if name != "moving"]
+    return [*grids, *runs, *fixed, *moved, *wrong, thick, PYPDE, grid(1e4, 48, "paper-form"),
+            grid(67150.3, 48, "fig10", sides="walls"),
             grid(67150.3, 48, "fig10", sides="walls", eos="dense"), grid(7000, 48, "two-rolls", sides="walls")]
 
 
