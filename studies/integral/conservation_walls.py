@@ -156,7 +156,8 @@ class SlidingDrift(Drift):
                            law=ConstEta(self.mode.eta, self.mode.eta), rate=SPEED/SIDE)
 
     def start(self, method: BookedSides, points: Points) -> np.ndarray:
-        rho, v, T = random_fields(points, self.mode.size, self.seed)
+        # a wind across would come from boxes that move ever faster
+        rho, v, T = random_fields(points, self.mode.size, self.seed, True)
         v[:, 0] += method.rate*points.x[:, 1]
         return method.state(rho, v, T)
 
