@@ -162,8 +162,8 @@ CLAIMS = tuple(
     Claim(id="own-rb-moving-limit-plates", source="RR98 Eqs 46-48", value=beside_first_order(1e4, "moving"), at_most=0.005,
           because=LOOSE,
           statement="points that move converge on the gas if images leave an error of first order, as they do off a lattice: "
-                    "|K_0/K_grid - 1| at Ra 10 000 of K_0 + b/rows + c/rows^2 [asked after the line over 1/rows^2 had ended below "
-                    "the grid]"),
+                    "|K_0/K_grid - 1| at Ra 10 000 of K_0 + b/rows + c/rows^2 [asked after the line over 1/rows^2 had ended "
+                    "below the grid]"),
     Claim(id="own-rb-moving-falls", source="RR98 Eqs 46-48", value=fallen(1e4, "moving", 25, 50), at_most=0.5,
           because="first order is a half",
           statement="their error falls: that with 50 rows over that with 25, Ra 10 000"),
