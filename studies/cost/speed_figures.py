@@ -63,7 +63,7 @@ def pick(points: pd.DataFrame, scene: str, quantity: str) -> pd.DataFrame:
 def draw(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
     """All methods, with errors in both directions."""
     for name in [name for name in ORDER if name in set(rows["method"])]:
-        series = rows[rows["method"] == name].sort_values("resolution")
+        series = rows[(rows["method"] == name) & (rows[x] > 0)].sort_values("resolution")     # a short time may drown
         errs: dict[str, Any] = {f"{side}err": limited(series, column) for side, column in (("x", x), ("y", y))}
         axes.errorbar(series[x], series[y], label=name, **errs, **style(name))
 
