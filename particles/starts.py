@@ -19,6 +19,10 @@ def check_volumes(V: np.ndarray) -> None:
         raise ValueError(f"point {bad[0]} has volume {V[bad[0]]:g}: they must be positive and finite; `state` makes equal ones")
 
 
+class Overlap(ValueError):
+    """Points lie in one place, as pairing may leave them, too."""
+
+
 def check_apart(around: Surroundings, ids: np.ndarray, a: float) -> None:
     """Refuse points that lie in one place, where they would stay; a : spacing. After `Surroundings.place`."""
     n = around.n
@@ -27,8 +31,8 @@ def check_apart(around: Surroundings, ids: np.ndarray, a: float) -> None:
         return
     j = j if j < n else ghosts_of(around).origin[j - n]
     told = "lies on a plate, where it meets its own image" if i == j else f"and point {ids[j]} overlap"
-    raise ValueError(f"point {ids[i]} {told} at ({around.x[i]:g}, {around.y[i]:g}): no direction leads from one to the other; "
-                     f"move {'it inside' if i == j else 'one of them'}")
+    raise Overlap(f"point {ids[i]} {told} at ({around.x[i]:g}, {around.y[i]:g}): no direction leads from one to the other; "
+                  f"move {'it inside' if i == j else 'one of them'}")
 
 
 def moments(around: Surroundings, V: np.ndarray) -> np.ndarray:

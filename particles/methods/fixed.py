@@ -2,6 +2,7 @@
 
 In 2D; friction goes along edges [RR98 Eq. 51] without bulk viscosity.
 """
+from math import fsum
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,14 +11,19 @@ from continuum.fluid import conductivity, energy, pressure, temperature, valid, 
 from continuum.jit import formula, jit
 from particles.edges import Beyond, Edges
 from particles.neighbours import u32, u64
-from particles.pairs import Stored, nothing, rate
+from particles.pairs import Stored, nothing, rate, sweep
+from particles.team import Team
 
-#: seen by convection and pressure: vx .. eps, hydro; by friction and heat: ux, uy, Td; F mends the heating
-Point = np.dtype([(name, "f8") for name in ("rho", "vx", "vy", "T", "eps", "ux", "uy", "Td", "eta", "k", "Fx", "Fy", "hydro")])
+#: seen by convection and pressure: vx .. eps, hydro; by friction and heat: ux, uy, Td; F mends the heating; P is the point's own
+FIELDS = "rho vx vy T eps ux uy Td eta k Fx Fy hydro P"
+Point = np.dtype([(name, "f8") for name in FIELDS.split()])
 
 
 class Exchange(NamedTuple):
-    """Brackets of Eqs 34-36 with P_ab = P(rho_a, T_b), friction and heat along the edge [Eq. 51, zeta = 0], and F."""
+    """Brackets of Eqs 34-36 with P_ab = P(rho_a, T_b), friction and heat along the edge [Eq. 51, zeta = 0], and F.
+
+    The momentum is that of the pressures P_ab + P_ba less 2 P_a, a number of the row: `exchange` adds what this takes off.
+    """
     eos: Any
 
 
@@ -38,7 +44,7 @@ def _pressure(eos, rho, T):
 def _(term, a, b, ab):
     to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy       # S.v/2
     P_ab, P_ba = _pressure(term.eos, a.rho, b.T) + b.hydro, _pressure(term.eos, b.rho, a.T)
-    from_a, from_b, P = a.rho*to_b, b.rho*to_a, P_ab + P_ba
+    from_a, from_b, P = a.rho*to_b, b.rho*to_a, P_ab + P_ba - 2*a.P
     f, du, dv = 0.5*(a.eta + b.eta)*ab.k, b.ux - a.ux, b.uy - a.uy
     through = a.eps*to_b + b.eps*to_a + P_ab*to_a + P_ba*to_b
     friction = f*0.5*(du*(a.ux + b.ux) + dv*(a.uy + b.uy)) + 0.5*(a.k + b.k)*ab.k*(b.Td - a.Td)
@@ -51,6 +57,35 @@ def _(term, a, b, ab):
 def _(term, a, b, ab):
     du, dv = b.ux - a.ux, b.uy - a.uy
     return ab.sx*du, ab.sy*du, ab.sx*dv, ab.sy*dv
+
+
+def exchange(team: Team, n: int, eos: Any, points: np.ndarray, edges: Stored, open: np.ndarray, total: np.ndarray) -> None:
+    """Sums of `Exchange` (n, 4) over edges whose area vectors add up to open (n, 2), of `opened`.
+
+    Whole pressures, many times what they differ by, would leave a rounding in every row, one way at every step.
+    """
+    team(_own_pressure, n, eos, points)
+    team(sweep, n, Exchange(eos), points, edges, total)
+    team(_open, n, open, points, total)
+
+
+def opened(edges: Stored) -> np.ndarray:
+    """sum_j S_ij of each row, images included, exact: (n, 2), zero where edges close."""
+    return np.array([[2*fsum(part) for part in np.split(q, edges.first[1:])] for q in (edges.sx, edges.sy)]).T.copy()
+
+
+@jit
+def _own_pressure(first, last, eos, points):
+    for i in range(first, last):
+        a = points[i]
+        a.P = _pressure(eos, a.rho, a.T)
+
+
+@jit
+def _open(first, last, open, points, total):
+    for i in range(first, last):
+        total[i, 1] -= open[i, 0]*points[i].P
+        total[i, 2] -= open[i, 1]*points[i].P
 
 
 class Summing:

@@ -15,7 +15,19 @@ from continuum.jit import jit
 from particles.edges import Beyond, Edges, fastest
 from particles.ghosts import Ghosts
 from particles.limits import limit_of
-from particles.methods.fixed import Differences, Exchange, Point, Summing, check_number, driven, lacking, read, states, stored
+from particles.methods.fixed import (
+    Differences,
+    Point,
+    Summing,
+    check_number,
+    driven,
+    exchange,
+    lacking,
+    opened,
+    read,
+    states,
+    stored,
+)
 from particles.methods.layer_ideal import IdealSums
 from particles.methods.varying import varying
 from particles.pairs import nothing, rate, sweep
@@ -127,6 +139,7 @@ class Exchanging(Summing):
         self.rise = np.zeros(len(self.parent))      # how much higher a parent lies than its image
         self.rise[self.ghost.ravel()] = method.x[beyond.parent, 1] - image_y
         self.edges = stored(method.edges, beyond, self.n + self.ghost.ravel())
+        self.open = opened(self.edges)
         self.points = np.zeros(self.n + len(self.parent), Point)
         self.slopes, self.total = np.empty((self.n, 4)), np.empty((self.n, 4))
         self.images = Ghosts(self.parent, -np.ones(len(self.parent)), np.array(method.T_plates)[self.plate])
@@ -144,7 +157,7 @@ class Exchanging(Summing):
             return
         method = self.method
         self.look_at(state)
-        self.team(sweep, self.n, Exchange(method.eos), self.points, self.edges, self.total)
+        exchange(self.team, self.n, method.eos, self.points, self.edges, self.open, self.total)
         if method.share < 1:
             self.team(sweep, self.n, Nested(), self.currents, self.edges, self.nested)
             self.total[:, 1:] += self.nested

@@ -17,7 +17,19 @@ from particles.bodies import Held
 from particles.edges import NONE_BEYOND, NOWHERE, Edges
 from particles.ghosts import Ghosts
 from particles.limits import limit_of
-from particles.methods.fixed import Differences, Exchange, Point, Summing, check_number, driven, lacking, read, states, stored
+from particles.methods.fixed import (
+    Differences,
+    Point,
+    Summing,
+    check_number,
+    driven,
+    exchange,
+    lacking,
+    opened,
+    read,
+    states,
+    stored,
+)
 from particles.methods.layer import Layer
 from particles.methods.varying import varying
 from particles.pairs import nothing, rate, sweep
@@ -102,7 +114,7 @@ class Streaming(Summing):
         self.method, self.team, self.n = method, team, len(method.x)
         self.edges, self.around = (stored(cut(method.edges, method.held), NONE_BEYOND, NONE_BEYOND.parent)
                                    for cut in (insulated, separated))
-        self.points = np.zeros(self.n, Point)
+        self.open, self.points = opened(self.edges), np.zeros(self.n, Point)
         self.slopes, self.total = np.empty((self.n, 4)), np.empty((self.n, 4))
         self.filtered = np.empty((self.n, 4)) if method.chi else None
         self.varying = varying(method.law, True, self.n, team)
@@ -112,7 +124,7 @@ class Streaming(Summing):
         """d(state)/dt of a state (4, n), written to `out`    [Eqs 34-36, 51]"""
         method = self.method
         self.look_at(state)
-        self.team(sweep, self.n, Exchange(method.eos), self.points, self.edges, self.total)
+        exchange(self.team, self.n, method.eos, self.points, self.edges, self.open, self.total)
         if self.filtered is not None:
             self.team(sweep, self.n, Filter(method.chi), self.points, self.around, self.filtered)
             self.total += self.filtered

@@ -10,6 +10,7 @@ from particles.edges import Edges
 from particles.limits import limit_of
 from particles.points import Points
 from particles.run import Divergence, Plan, run
+from particles.starts import Overlap
 from studies.integral.conservation_sums import ROUND_OFF, Watch, exact_sums, kinetic, parts, random_fields
 from studies.integral.operators import Disorder
 from studies.kit.case import Case, Outcome, Report
@@ -119,7 +120,7 @@ def worst(watch: Watch) -> dict[str, float]:
 
 
 def in_parts(method: Any, state: np.ndarray, steps: int, watch: Watch, report: Report) -> tuple[np.ndarray, int]:
-    """(state, steps done) of a run that is looked at now and then; it ends early if it diverges or heats too far."""
+    """(state, steps done) of a run that is looked at now and then; it ends early if it diverges, heats too far or pairs."""
     dt = OF_LIMIT*limit_of(method, state)
     watch(state)
     for before, number in parts(steps):
@@ -129,6 +130,10 @@ def in_parts(method: Any, state: np.ndarray, steps: int, watch: Watch, report: R
             state = run(method, state, Plan(dt=dt, steps=number)).state
         except Divergence as end:
             return state, before + end.step
+        except Overlap:     # points have paired until they lie in one place
+            if not before:
+                raise
+            return state, before
         watch(state)
         report((before + number)/steps)
     return state, steps

@@ -3,6 +3,7 @@
 What held points take of momentum and energy is entered in a book, so that fluid and walls together can be watched.
 """
 from dataclasses import dataclass
+from math import fsum
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,7 +28,11 @@ SPEED = 0.1             # of the upper rows, of the box above a sliding side
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Booked(Stream):
-    """A stream with a book: momentum and energy that each point has taken as a wall, per volume."""
+    """A stream with a book in its first point's columns: momentum and energy that all walls have taken, over its volume.
+
+    One book of the sum: what held points push each other by cancels at once. Books of single points grow to a thousand times
+    the fluid's momentum, and round accordingly.
+    """
 
     fields = (*Stream.fields, "taken_x", "taken_y", "taken_e")      # type: ignore[assignment]
 
@@ -47,9 +52,8 @@ class Booking(Streaming):
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (7, n), written to `out`."""
         super().rates(state[:4], out[:4])
-        which = self.method.held.which
         out[4:] = 0
-        out[4:, which] = self.received.T/self.method.edges.V[which]
+        out[4:, 0] = [fsum(q)/self.method.edges.V[0] for q in self.received.T]
 
 
 class Hold(NamedTuple):
