@@ -4,6 +4,7 @@ Units of KHP95: m = kB = sigma = epsilon = 1. `rho` is mass per area, `e` intern
 Every relation is plain arithmetic: it takes numbers or arrays, in Python and in compiled code. An equation of state
 or a transport law is a NamedTuple; a new one is a class and its formulas in this file.
 """
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -157,12 +158,32 @@ def check_state(eos, rho: Any, e: Any) -> None:
 # --- transport --------------------------------------------------------------------------------------------
 
 
+def _spreading(*names: str) -> Callable[[type], type]:
+    """A law whose coefficients of these names are refused where they are negative or no numbers."""
+    def decorate(kind: type) -> type:
+        plain: Any = kind.__new__
+
+        def checked(cls: type, *args: Any, **named: Any) -> Any:
+            law = plain(cls, *args, **named)
+            for name in names:
+                value = getattr(law, name)
+                if not np.all(np.asarray(value) >= 0):
+                    raise ValueError(f"{name} of {kind.__name__} must not be negative, got {value}: momentum or heat would "
+                                     "gather in place of spreading; 0 switches it off")
+            return law
+        setattr(kind, "__new__", checked)  # noqa: B010  (mypy allows it so)
+        return kind
+    return decorate
+
+
+@_spreading("eta", "k")
 class ConstEta(NamedTuple):
     """Constant shear viscosity eta and conductivity k, bulk viscosity 0    [KHP95, Sec. IV, first choice]"""
     eta: float
     k: float
 
 
+@_spreading("nu", "kappa")
 class ConstNu(NamedTuple):
     """Constant kinematic viscosity nu = eta/rho and diffusivity kappa = k/(rho C_V)    [KHP95, Sec. IV, second]"""
     nu: float
@@ -170,6 +191,7 @@ class ConstNu(NamedTuple):
     cv: float = 1.0
 
 
+@_spreading("eta", "k")
 class PowerLaw(NamedTuple):
     """eta and k proportional to rho^m T^n: an example of transport as a function of the state."""
     eta: float

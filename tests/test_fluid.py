@@ -183,6 +183,14 @@ def test_transport_laws():
     assert conductivity(power, 2.0, 4.0) == pytest.approx(0.7*2*2, rel=1e-15)
 
 
+@pytest.mark.parametrize("law", [
+    lambda: ConstEta(-0.5, 1.0), lambda: ConstEta(eta=1.0, k=-0.5), lambda: ConstNu(1.0, -0.5), lambda: PowerLaw(-0.5, 1.0),
+    lambda: ConstEta(float("nan"), 1.0)])
+def test_a_law_that_does_not_spread_is_refused(law):
+    with pytest.raises(ValueError, match=r"must not be negative, got (-0.5|nan): .* 0 switches it off"):
+        law()
+
+
 def test_stress_is_the_two_dimensional_tensor():
     grad = np.random.default_rng(1).normal(size=(20, 2, 2))  # grad[a, b] = d_a v_b
     full = stress_tensor(0.3, 0.2, grad)
