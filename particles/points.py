@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from particles.interpolants import W, check, reach
+from particles.interpolants import W, check, reach, width
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -141,6 +141,18 @@ def irregularity(points: Points, weight: Any) -> np.ndarray:
     np.add.at(c, i, -pull*points.V[j, None])
     np.add.at(c, j, pull*points.V[i, None])
     return c
+
+
+def discrete_moments(points: Points, weight: Any, n: int) -> np.ndarray:
+    """M_n at each point, r0^(1-n) sum_j r_ij^n W(r_ij) V_j, (points,): `interpolants.moment` by quadrature    [RR98 Eqs 2, 32]
+
+    M_1 = d is what makes linear gradients right on average (`makers.renormalised`); for n < 1 the point itself would add
+    r^n W(r) at r = 0, which it does not here.
+    """
+    check(weight, points.d)
+    i, j, _, r = pairs(points, reach(weight))
+    terms = (r/width(weight))**n*W(weight, r)*width(weight)
+    return np.bincount(i, terms*points.V[j], points.n) + np.bincount(j, terms*points.V[i], points.n)
 
 
 def relaxed(points: Points, weight: Any, until: float = 2e-3, sweeps: int = 2000) -> Points:
