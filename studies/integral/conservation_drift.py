@@ -119,7 +119,7 @@ def worst(watch: Watch) -> dict[str, float]:
 
 
 def in_parts(method: Any, state: np.ndarray, steps: int, watch: Watch, report: Report) -> tuple[np.ndarray, int]:
-    """(state, steps done) of a run that is looked at now and then; it ends early if it diverges or heats too far."""
+    """(state, steps done) of a run that is looked at now and then; it ends early if it diverges, heats too far or pairs."""
     dt = OF_LIMIT*limit_of(method, state)
     watch(state)
     for before, number in parts(steps):
@@ -129,6 +129,10 @@ def in_parts(method: Any, state: np.ndarray, steps: int, watch: Watch, report: R
             state = run(method, state, Plan(dt=dt, steps=number)).state
         except Divergence as end:
             return state, before + end.step
+        except ValueError:      # points have paired until they lie in one place, which no start may
+            if not before:
+                raise
+            return state, before
         watch(state)
         report((before + number)/steps)
     return state, steps
