@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from math import ceil
 from pathlib import Path
 from time import process_time
-from typing import Any, ClassVar, NamedTuple, Protocol
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -56,15 +56,6 @@ class Result(NamedTuple):
     uncertain: dict[str, float]
     share: dict[str, float]
     state: Any = None
-
-
-class Contestant(Protocol):
-    """What takes part: makes problems by itself."""
-    name: str
-    first: float        # fraction of the limit that is tried first
-
-    def problem(self, resolution: int, seed: int) -> Problem:
-        """Set up."""
 
 
 def marching(method: Any) -> Callable[[np.ndarray, float, int], np.ndarray]:
@@ -149,7 +140,7 @@ def climb(problem: Problem, first: float) -> tuple[list[Rung], Result | None]:
 class Race(Case):
     """One method on one scene at one resolution."""
     scene: str
-    method: Any
+    method: Any             # name, first (fraction of the limit that is tried first), problem(resolution, seed) -> Problem
     resolution: int
     seed: int = 1
     short: float = SHORT
