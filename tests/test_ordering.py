@@ -28,7 +28,7 @@ def test_quick_rebuild_writes_every_table(quick):
         if table.name != "slopes":      # two wavelengths make no slope over wavelengths; seven ranges make one over h
             assert set(table.columns) <= set(found[table.name].columns)
     assert (out/"ordering"/"operators.csv").read_text().startswith("# commit ")
-    assert len(ordering.STUDY.draw(out)) == 5
+    assert len(ordering.STUDY.draw(out)) == 6
     assert {row["id"] for row in ordering.STUDY.judge(out)} == {claim.id for claim in ordering.STUDY.claims}
 
 

@@ -57,7 +57,8 @@ def convection(tables: Tables, known: list[dict[str, Any]]) -> pd.DataFrame:
     if not known or rows.empty:
         return pd.DataFrame()
     error = (rows["ke"]/known[0]["ke"] - 1).where(rows["rolls"] == 2)
-    return rows.assign(flow="convection", quantity="K", error=error,
+    told = rows["exchanges"].where(rows["ke"].notna())      # none where there are no edges
+    return rows.assign(flow="convection", quantity="K", error=error, exchanges=told,
                        within=rows["ke_err"]/known[0]["ke"]).rename(columns={"rows": "resolution"})
 
 

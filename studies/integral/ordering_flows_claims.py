@@ -151,7 +151,7 @@ CLAIMS = (
             statement=f"a triangulation gives the continuum limit without weights, to second order: order of a Taylor-Green "
                       f"vortex's error on {kind}, no filter") for name, kind in KINDS.items()),
     *(Claim(id=f"own-convection-triangles-{name.split('-')[0]}", source="RR98 Sec. III", at_least=1,
-            value=of_triangles(LAYER, name), because="first order at least: 12 to 24 rows are not yet in the range of the second",
+            value=of_triangles(LAYER, name), because="first order at least: 12 rows are not yet in the range of the second",
             statement=f"a triangulation gives the continuum limit without weights: order of K in Rayleigh-Benard on {kind}")
       for name, kind in KINDS.items()),
     Claim(id="own-vortex-exact", source="RR98 Sec. III", at_least=1.5,
