@@ -11,8 +11,9 @@ has every weight, and every start in a box and between plates.
 Where none can be: Delaunay edges have no weight; sliding sides take edges of a weight on a lattice; held points and sliding
 sides are coded for friction along edges with the mended heating; moving points of Eqs 39-49 have edges of plain quadrature and
 no walls. On a lattice closed and exact edges are the plain ones times a number. Boxes are small: 8 x 8 points, 10 x 10 with held
-points, 6 x 6 that move by Eqs 39-49, 32 in 1D, 6 x 6 or 4^3 with bulk viscosity. Paper size takes about eight minutes of one
-core. Writes results/conservation/*.csv and *.png and the rows of study conservation in results/claims.csv.
+points, 6 x 6 that move by Eqs 39-49, 32 in 1D, 6 x 6 or 4^3 with bulk viscosity; between plates in 1D and 3D they have three
+makers with one set of points each. Paper size takes about 15 minutes of one core. Writes results/conservation/*.csv and *.png and
+the rows of study conservation in results/claims.csv.
 """
 from collections.abc import Iterator
 from itertools import product
@@ -27,6 +28,7 @@ from studies.integral import (
     conservation_figures,
     conservation_losses,
     conservation_moving,
+    conservation_plates,
     conservation_tables,
 )
 from studies.integral.conservation_commutator import Commutator
@@ -140,9 +142,10 @@ def cases(size: str) -> list[Case]:
     if size == "quick":
         some = KINDS[:2], ALL[:1]
         return [*layers(*some, steps=300), *plates(*some, steps=300), *walls(*some, steps=300), *dimensions(steps=300),
-                *motions(ALL[:1], steps=300), *conservation_losses.cases(SEEDS[:1], steps=300), *frames(SEEDS[:1])]
-    return [*layers(), *plates(), *walls(), *dimensions(), *motions(), *conservation_moving.cases(KINDS),
-            *conservation_losses.cases(), *frames()]
+                *conservation_plates.cases(steps=300), *motions(ALL[:1], steps=300),
+                *conservation_losses.cases(SEEDS[:1], steps=300), *frames(SEEDS[:1])]
+    return [*layers(), *plates(), *walls(), *dimensions(), *conservation_plates.cases(), *motions(),
+            *conservation_moving.cases(KINDS), *conservation_losses.cases(), *frames()]
 
 
 STUDY = Study(name="conservation", cases=cases, tables=(*conservation_tables.ALL, conservation_losses.LOSSES),

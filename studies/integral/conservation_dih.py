@@ -6,7 +6,7 @@ conserve.
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -41,18 +41,21 @@ class OneSided(Dih):
 
 
 class Form(NamedTuple):
-    """A mode: which kind of fluid, its transport, whether it claims to conserve."""
+    """A mode: which kind of fluid, its transport, what it claims to conserve, eta = kappa, the rms of the random start."""
     name: str
     kind: Callable[..., Dih] = Dih
     transport: Any = Pairwise()
     claimed: str = EVERYTHING
+    eta: float = ETA
+    size: float = SIZE
 
 
 FORMS = {form.name: form for form in (Form("pairwise"), Form("unmended", transport=Pairwise(mended=False)),
                                       Form("everywhere", transport=Pairwise(everywhere=True)),
                                       Form("nested", transport=Nested()),
                                       Form("printed", transport=Nested(differences=False)),
-                                      Form("one-sided", OneSided, claimed="mass energy"))}
+                                      Form("one-sided", OneSided, claimed="mass energy"),
+                                      Form("ideal", eta=0.0, size=1e-4))}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,29 +71,59 @@ class DihDrift(Case):
     zeta: float = 0.0
     steps: int = 10_000
     seed: int = 1
+    wall: ClassVar[str] = "periodic"
 
     @property
     def cost(self) -> float:
         return self.steps*{1: 5e-4, 2: 1.5e-3, 3: 1.5e-3}[self.d]
 
     @property
+    def claimed(self) -> str:
+        return self.form.claimed
+
+    @property
     def label(self) -> str:
         return (f"dih {self.form.name} {self.d}D {self.maker} {self.weight.__name__} h {self.h:g}, {self.disorder.name}, zeta "
                 f"{self.zeta:g}")
 
+    def points(self) -> Points:
+        """Where the points are."""
+        return self.disorder.make(COUNTS[self.d], self.disorder.size, self.seed)
+
+    def method(self, points: Points) -> Dih:
+        """The scheme on them."""
+        return self.form.kind(edges=self.make(points, self.weight.of(h=self.h, d=self.d)), **self.fluid)
+
+    @property
+    def fluid(self) -> dict[str, Any]:
+        """The gas and its transport."""
+        return {"eos": IdealGas(), "law": ConstEta(self.form.eta, self.form.eta), "zeta": self.zeta,
+                "transport": self.form.transport}
+
+    def start(self, points: Points) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Random rho, v, T."""
+        return random_fields(points, self.form.size, self.seed)
+
+    def totals(self, V: np.ndarray, state: np.ndarray) -> np.ndarray:
+        """Mass, momentum along each axis, energy."""
+        return exact_sums(V, state)
+
+    def limit(self, fluid: Dih, state: np.ndarray) -> float:
+        """The largest step."""
+        return step_limit(fluid, state)
+
     def run(self, report: Report, folder: Path) -> Outcome:
-        points = self.disorder.make(COUNTS[self.d], self.disorder.size, self.seed)
-        fluid = self.form.kind(edges=self.make(points, self.weight.of(h=self.h, d=self.d)), eos=IdealGas(),
-                               law=ConstEta(ETA, ETA), zeta=self.zeta, transport=self.form.transport)
-        state = fluid.state(*random_fields(points, SIZE, self.seed))
-        V, dt, integrator = fluid.edges.V, OF_LIMIT*step_limit(fluid, state), RK4(state.shape, Team(1))
-        watch, begin = Watch(lambda now: exact_sums(V, now), sizes(V, state)), kinetic(V*state[0], V*state[1:-1])
+        points = self.points()
+        fluid = self.method(points)
+        state = fluid.state(*self.start(points))
+        V, dt, integrator = fluid.edges.V, OF_LIMIT*self.limit(fluid, state), RK4(state.shape, Team(1))
+        watch, begin = Watch(lambda now: self.totals(V, now), sizes(V, state)), kinetic(V*state[0], V*state[1:-1])
         reached = in_place(integrator, fluid, state, dt, self.steps, watch, report)
         motion = kinetic(V*state[0], V*state[1:-1])/begin
         return Outcome({"drift": [{
             "scheme": "dih", "mode": self.form.name, "d": self.d, "maker": self.maker, "weight": self.weight.__name__,
-            "h": self.h, "points": self.disorder.name, "wall": "periodic", "zeta": self.zeta, "seed": self.seed, "n": points.n,
-            "steps": self.steps, "reached": reached, "claimed": self.form.claimed, **worst(watch), "motion": motion}]})
+            "h": self.h, "points": self.disorder.name, "wall": self.wall, "zeta": self.zeta, "seed": self.seed, "n": points.n,
+            "steps": self.steps, "reached": reached, "claimed": self.claimed, **worst(watch), "motion": motion}]})
 
 
 def in_place(integrator: Any, fluid: Any, state: np.ndarray, dt: float, steps: int, watch: Watch, report: Report) -> int:
@@ -117,6 +150,11 @@ def advance(integrator: Any, fluid: Any, state: np.ndarray, dt: float, steps: in
 
 def step_limit(fluid: Dih, state: np.ndarray) -> float:
     """RK4: the fastest sound and the fastest diffusion that the edges know, at the hottest point."""
-    flow, (sound, spread) = fluid.flow(state), fluid.edges.fastest
+    return limit_by(fluid, state, fluid.edges.fastest, 2*ETA + fluid.zeta)
+
+
+def limit_by(fluid: Dih, state: np.ndarray, fastest: tuple[float, float], nu: float) -> float:
+    """The same of edges, and of images, whose fastest sound and diffusion these are; nu at density 1."""
+    flow, (sound, spread) = fluid.flow(state), fastest
     fast = np.sqrt(2*flow.T.max()) + np.sqrt((flow.v**2).sum(axis=1)).max()
-    return float(1/(fast*sound/2.82 + (2*ETA + fluid.zeta)/flow.rho.min()*spread/2.78))
+    return float(1/(fast*sound/2.82 + nu/flow.rho.min()*spread/2.78))
