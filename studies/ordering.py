@@ -16,6 +16,7 @@ from studies.integral import (
     ordering_brackets_claims,
     ordering_claims,
     ordering_convection_claims,
+    ordering_creep,
     ordering_derive,
     ordering_figures,
     ordering_flows,
@@ -55,7 +56,7 @@ def cases(size: str) -> list[Case]:
     loose = [name for name in DISORDERS if name != "relaxed"]
     return [*surface((16, 24, 32, 48, 64, 96), loose), *surface((16, 20, 24, 32), ["relaxed"]),
             *ordering_brackets.brackets(H, SEEDS), *vortices(), *layers((12, 16, 24, 32), RANGES),
-            *irregular_layers(PLATES, SEEDS), *images((16, 24, 32), SEEDS)]
+            *irregular_layers(PLATES, SEEDS), *images((16, 24, 32), SEEDS), *ordering_creep.creeps(16, (2, 3, 4))]
 
 
 def surface(wavelengths: tuple[int, ...], disorders: list[str]) -> Iterator[Case]:
@@ -110,18 +111,20 @@ def quick_flows() -> Iterator[Case]:
     for maker, h in (("delaunay", 0.0), ("closed", 2.0), ("renormalised", 2.0)):
         yield from vortex(maker, h, "jittered-0.3", (8, 12, 16))
     yield from layers((8, 12), (2.0,))
+    yield from ordering_creep.creeps(8, (1,), (8e-3,))
     for maker, h in (("closed", 2.0), ("exact", 3.0)):
         yield from (convection("jittered-0.3", between_images("jittered-0.3", maker, h), n) for n in (8, 12))
 
 
 def derive(tables: Tables) -> dict[str, list]:
     """Derived rows of the study."""
-    return {**ordering_derive.derive(tables), **ordering_brackets.derive(tables), **ordering_flows.derive(tables)}
+    parts = (ordering_derive, ordering_brackets, ordering_flows, ordering_creep)
+    return {name: rows for part in parts for name, rows in part.derive(tables).items()}
 
 
 STUDY = Study(name="ordering", cases=cases, tables=tables.ALL, derive=derive, figures=ordering_figures.figures,
               claims=(*ordering_claims.CLAIMS, *ordering_brackets_claims.CLAIMS, *ordering_flows_claims.CLAIMS,
-              *ordering_convection_claims.CLAIMS))
+              *ordering_convection_claims.CLAIMS, *ordering_creep.CLAIMS))
 
 if __name__ == "__main__":
     main(STUDY)

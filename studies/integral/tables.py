@@ -31,6 +31,15 @@ COMPRESSION = Table("compression", key=["mach"], columns=["mach", "velocity", "v
 #: Rayleigh-Benard at Ra 10 000, `rows` spacings high: K per mass and Nusselt number in the end
 CONVECTION = Table("convection", key=["maker", "weight", "h", "points", "rows", "seed"], columns=[
     "maker", "weight", "h", "points", "rows", "seed", "ke", "ke_err", "nu", "nu_err", "rolls", "converged", "exchanges"])
+CREEP_POINT = ["maker", "until", "ra", "rows"]
+#: convection on relaxed points, a|c| < until: growth rate a free-fall time, wavelength in spacings and rms of the change of the
+#: density within 7.5 of them; K and its relative change
+CREEP = Table("creep", key=[*CREEP_POINT, "seed"], columns=[
+    *CREEP_POINT, "seed", "rate", "rate_err", "wavelength", "change", "ke", "ke_change"])
+#: the same over seeds
+CREEP_MEANS = Table("creep_means", key=CREEP_POINT, columns=[
+    *CREEP_POINT, "seeds", "rate", "rate_err", "wavelength", "wavelength_err", "change", "change_err", "ke_change",
+    "ke_change_err"])
 #: K of the grid of study rb, extrapolated, against which errors are told
 REFERENCE = Table("reference", key=["flow"], columns=["flow", "ke", "ke_err"])
 SERIES = ["flow", "quantity", "maker", "weight", "h", "points"]
@@ -46,4 +55,4 @@ FLOW_SLOPES = Table("flow_slopes", key=["flow", "quantity", "maker", "weight", "
 CHEAPEST = Table("cheapest", key=SERIES, columns=[*SERIES, "needed", "needed_err", "exchanges", "bound", "finest"])
 
 ALL = (OPERATORS, MEANS, SLOPES, BRACKETS, BRACKET_MEANS, BRACKET_SLOPES, VORTICES, COMPRESSION, CONVECTION, REFERENCE, FLOWS,
-       FLOW_SLOPES, CHEAPEST)
+       FLOW_SLOPES, CHEAPEST, CREEP, CREEP_MEANS)
