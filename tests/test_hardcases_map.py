@@ -4,13 +4,15 @@ import pandas as pd
 import pytest
 from scipy.integrate import quad
 
-from studies.hard.map_claims import CLAIMS
-from studies.hard.map_derive import derive
+from studies.hard import map_figures, map_part
+from studies.hard.map_claims import CLAIMS, COARSE
+from studies.hard.map_derive import derive, finished_grids
 from studies.hard.map_ends import Ending
 from studies.hard.map_methods import TAKES, Body, flow, kinetic
 from studies.hard.map_scenes import BOXES, LAYERS, SOUND, Strip, Vortex
 from studies.hard.map_shear import BEGIN, Amplitude, ShearFlow, U, fastest
 from studies.kit.claim import judged
+from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables
 
 
@@ -73,6 +75,54 @@ def outcome(**values) -> str:
     ({"case": "wall corner", "k": 1e-3}, "wrong"), ({"case": "wall corner", "k": 1e-8}, "right")])
 def test_outcomes_follow_their_rules(values, wanted):
     assert outcome(**values) == wanted
+
+
+def judged_grid(flows: dict[int, float]) -> dict:
+    """The map's row of the grid of 16 rows, from flows of grids by rows."""
+    rows = [run(method="grid", rows=number, flow=flow_, reached=1.0 if flow_ > 0 else 0.9) for number, flow_ in flows.items()]
+    [row] = derive(Tables(hard_runs=pd.DataFrame(rows)))["map"]
+    return row
+
+
+def test_a_grid_is_not_held_against_itself():
+    """With two grids the coarser one would be off by its own error, and right whatever its flow."""
+    for wrong in (0.01, 0.02, 0.2):
+        row = judged_grid({16: wrong, 32: 0.01, 48: np.nan})
+        assert row["outcome"] == "unjudged" and np.isnan(row["measured"]) and np.isnan(row["measured_err"])
+    row = judged_grid({16: 0.0105, 32: 0.0099, 48: 0.01})
+    assert row["outcome"] == "right" and row["measured_err"] == pytest.approx(0.01)
+    assert judged_grid({16: 0.02, 32: 0.0099, 48: 0.01})["outcome"] == "wrong"
+
+
+def words(page) -> str:
+    """All that is written on a page."""
+    return "\n".join(text.get_text() for text in page.findobj(lambda one: hasattr(one, "get_text")))
+
+
+def test_the_map_says_which_grid_it_is_held_against_what_was_not_judged_and_what_was_not_run():
+    runs = [run(case="Prandtl 0.01"), *(run(case="Prandtl 0.01", method="grid", rows=rows) for rows in (16, 32)),
+            run(case="Prandtl 0.01", method="grid", rows=48, flow=np.nan, reached=0.9)]
+    tables = Tables(hard_runs=pd.DataFrame(runs))
+    tables["map"] = pd.DataFrame(derive(tables)["map"])
+    said = words(map_figures.figures(tables)["map"])
+    assert "grid of 32" in said and "?: not judged" in said and "empty: not run" in said and "Which method" in said
+
+
+@pytest.mark.skipif(not (RESULTS/"hardcases"/"hard_runs.csv").exists(), reason="no tables are committed yet")
+def test_claims_name_the_coarse_grid_that_they_rest_on():
+    runs = load(map_part.PART.tables, "hardcases")["hard_runs"]
+    for case, said in COARSE.items():
+        assert f"a grid of {finished_grids(runs, case).index.max()} rows" in said
+        named = [claim for claim in CLAIMS if claim.id.startswith(f"map-{case.lower().replace(' ', '-')}-")]
+        assert named and all(claim.statement.endswith(said) for claim in named)
+
+
+@pytest.mark.parametrize("swing, before, verdict", [(0.0026, 0.0433, "undecidable"), (0.0026, 0.0036, "holds"),
+                                                    (0.06, 0.05, "fails"), (0.06, 0.001, "undecidable")])
+def test_a_swing_is_as_uncertain_as_the_quarter_before_says(swing, before, verdict):
+    rows = pd.DataFrame([{"ra": 1e5, "rows": 32, "step": 1.0, "swing": swing, "before": before, "reached": 1.0}])
+    row = judged({claim.id: claim for claim in CLAIMS}["map-grid-steady"], Tables(steadiness=rows))
+    assert row["verdict"] == verdict and row["err"] == pytest.approx(abs(swing - before))
 
 
 def test_claims_of_the_map_can_fail():

@@ -3,7 +3,7 @@
 diverges: the run did not reach its end. leaks: mass changed by more than LEAK. freezes: less than FROZEN of the flow is left.
 right: the number is within NEAR, and what the reference is uncertain by, of what it should be. wrong: stable, and none of these.
 refused: the method says itself that it does not take the case. unjudged: there is nothing to hold it against, since no two grids
-came to their end, or a search found no limit. Of lattices: pairs or clumps beyond a limit, whose prediction is
+besides itself came to their end, or a search found no limit. Of lattices: pairs or clumps beyond a limit, whose prediction is
 told beside it. Of steps: right within NEAR of the formula, safe if the formula is smaller, wrong if it is larger.
 """
 from collections.abc import Iterator
@@ -65,11 +65,22 @@ def told(runs: pd.DataFrame, run: pd.Series) -> tuple[str, float, float, float]:
 
 
 def against_grid(runs: pd.DataFrame, run: pd.Series) -> tuple[float, float]:
-    """Flow over that of the finest grid that came to its end, whose error is what the next coarser one is off by."""
-    grid = runs[(runs["case"] == run["case"]) & (runs["method"] == "grid")].sort_values("rows")["flow"].dropna().to_numpy()
+    """Flow over that of the finest grid that came to its end, whose error is what the next coarser one is off by.
+
+    A grid is no judge of itself: neither the reference nor its error come from the rows that are judged.
+    """
+    grid = finished_grids(runs, run["case"])
+    if run["method"] == "grid":
+        grid = grid.drop(run["rows"], errors="ignore")
     if len(grid) < 2:
         return np.nan, np.nan
-    return float(run["flow"]/grid[-1]), float(abs(grid[-2]/grid[-1] - 1))
+    return float(run["flow"]/grid.iloc[-1]), float(abs(grid.iloc[-2]/grid.iloc[-1] - 1))
+
+
+def finished_grids(runs: pd.DataFrame, case: str) -> pd.Series:
+    """Flow by rows, from coarse to fine, of grids that came to their end."""
+    grid = runs[(runs["case"] == case) & (runs["method"] == "grid")].dropna(subset=["flow"])
+    return grid.sort_values("rows").set_index("rows")["flow"]
 
 
 def outcome(run: pd.Series, number: str, predicted: float, measured: float, err: float) -> str:

@@ -3,7 +3,8 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from studies.hard.map_scenes import BOXES, LAYERS
+from studies.hard.map_derive import finished_grids
+from studies.hard.map_scenes import BOXES, LAYERS, ROWS
 from studies.kit.figure import below, errorbar, figure, look
 from studies.kit.table import Tables
 
@@ -12,6 +13,7 @@ CASES = (*LAYERS, *BOXES, "shear layer")
 LOOKS = {"right": ("R", "white", ""), "safe": ("s", "white", "."), "wrong": ("W", "0.85", "/"), "leaks": ("L", "0.85", "\\"),
          "freezes": ("F", "0.7", "x"), "pairs": ("P", "0.7", "o"), "clumps": ("C", "0.7", "O"), "diverges": ("D", "0.5", ""),
          "refused": ("-", "white", ""), "unjudged": ("?", "white", "")}
+WORDS = {"unjudged": "not judged, no two other grids came to their end"}
 
 
 def figures(tables: Tables) -> dict[str, Figure]:
@@ -19,14 +21,20 @@ def figures(tables: Tables) -> dict[str, Figure]:
     drawn = {}
     table, steadiness = tables.get("map"), tables.get("steadiness")
     if table is not None and len(rows := table[table["case"].isin(CASES)]):
-        drawn["map"] = chart(rows)
+        drawn["map"] = chart(rows, references(tables.get("hard_runs")))
     if steadiness is not None and len(steadiness):
         drawn["steadiness"] = swings(steadiness)
     return drawn
 
 
-def chart(rows: pd.DataFrame) -> Figure:
-    """Cells with the letter of the outcome and the number behind it."""
+def references(runs: pd.DataFrame | None) -> dict[str, int]:
+    """Rows of the finest grid that came to its end, which flows of a layer are held against."""
+    grids = {case: finished_grids(runs, case) for case in LAYERS} if runs is not None else {}
+    return {case: int(flows.index.max()) for case, flows in grids.items() if len(flows)}
+
+
+def chart(rows: pd.DataFrame, fine: dict[str, int]) -> Figure:
+    """Cells with the letter of the outcome and the number behind it; fine : rows of the grid that a case is held against."""
     cases = [case for case in CASES if case in set(rows["case"])]
     methods = sorted(set(rows["method"]), key=lambda method: (-rows[rows["method"] == method]["case"].nunique(), method))
     page, axes = figure(width=1.5 + 0.95*len(cases), height=1.2 + 0.3*len(methods))
@@ -39,12 +47,14 @@ def chart(rows: pd.DataFrame) -> Figure:
         axes.text(x, y, f"{letter}{value}", ha="center", va="center", fontsize=8,
                   bbox={"facecolor": shade, "edgecolor": "none", "pad": 0.6})
     axes.set(xlim=(-0.5, len(cases) - 0.5), ylim=(len(methods) - 0.5, -0.5), yticks=range(len(methods)), yticklabels=methods)
-    axes.set_xticks(range(len(cases)), labels=[case.replace(" ", "\n", 1) for case in cases], fontsize=8)
+    axes.set_xticks(range(len(cases)), fontsize=8, labels=[
+        case.replace(" ", "\n", 1) + (f"\ngrid of {fine[case]}" if case in fine else "") for case in cases])
     axes.grid(False)
     seen = [name for name in LOOKS if name in set(rows["outcome"])]
-    axes.set_xlabel("  ".join(f"{LOOKS[name][0]}: {name}" for name in seen)
-                    + "\nnumber: flow over the fine grid's or the start's; vacuum: K over exact; "
-                    "corner: speed over sound's; shear: growth over linear")
+    axes.set_xlabel("  ".join(f"{LOOKS[name][0]}: {WORDS.get(name, name)}" for name in seen) + "  empty: not run"
+                    "\nnumber: flow over the start's, or over that of the grid of so many rows;\n"
+                    "vacuum: K over exact; corner: speed over sound's; shear: growth over linear")
+    axes.set_title(f"Which method takes which hard case? Layers of {ROWS} rows")
     return page
 
 
