@@ -10,7 +10,7 @@ from scipy.sparse.linalg import spsolve
 from particles.edges import Edges
 from particles.makers import closed, renormalised
 from particles.points import Points, lattice
-from particles.weights import Lucy
+from particles.weights import Lucy, WendlandC2
 from studies.integral import ordering_convection_claims as claims
 from studies.integral import ordering_creep as creep
 from studies.integral import ordering_flows as flows
@@ -136,3 +136,17 @@ def test_creeping_runs_share_their_points_and_claims_read_their_means():
     assert creep.mean("rate", "exact", 8e-3)(tables).value == rows[1]["rate"]
     assert creep.over(creep.mean("change", "plain", 8e-3), creep.mean("change", "exact", 8e-3))(tables).value == pytest.approx(
         rows[0]["change"]/rows[1]["change"])
+
+
+def test_a_laplacian_over_three_spacings_reads_a_zigzag_as_a_longer_wave():
+    """What `Creep` says of 3.7 a."""
+    points = lattice((12, 8))
+    edges, zigzag = renormalised(points, WendlandC2.of(h=3.0)), np.cos(np.pi*points.x[:, 0] - np.pi/2)
+    assert 2*np.pi/np.sqrt(-(zigzag@(edges.laplacian@zigzag))/(edges.V@zigzag**2)) == pytest.approx(3.75, abs=0.05)
+
+
+def test_triangles_are_held_against_plain_edges_set_by_set():
+    rows = [{"maker": maker, "until": creep.RESIDUALS[-1], "ra": creep.RA, "seed": seed, "ke_change": change}
+            for maker, seed, change in (("plain", 2, 1e-3), ("delaunay", 2, 1e-5), ("plain", 3, 2e-3), ("delaunay", 3, 1e-4),
+                                        ("plain", 4, np.nan), ("delaunay", 4, 1e-4))]
+    assert creep.largest(Tables({"creep": pd.DataFrame(rows)})).value == pytest.approx(0.05)
