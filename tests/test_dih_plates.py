@@ -336,7 +336,7 @@ def test_images_of_another_dimension_are_refused():
 
 @pytest.mark.parametrize("share", [-0.1, 1.1, np.nan])
 def test_a_share_that_is_none_is_refused(share):
-    with pytest.raises(ValueError, match=rf"between 0 \(nested\) and 1 \(all\), got {share}"):
+    with pytest.raises(ValueError, match=rf"between 0 \(points\) and 1 \(edges\), got {share}"):
         Mixed(share=share)
 
 

@@ -10,8 +10,9 @@ from particles.covariance import jacobian, steady, waves
 from particles.edges import between_plates
 from particles.limits import limit_of
 from particles.makers import MAKERS
+from particles.methods.dih import Mixed
 from particles.methods.layer import Layer
-from particles.methods.thermal import STAGED, Mixed, Thermal, ThreeStage
+from particles.methods.thermal import STAGED, Thermal, ThreeStage
 from particles.points import jittered, lattice
 from particles.run import Plan, run
 from particles.team import Team

@@ -116,6 +116,24 @@ class Pairwise:
         return found
 
 
+@dataclass(frozen=True, kw_only=True)
+class Mixed:
+    """A share of friction and conduction along edges [Eq. 51], the rest by stresses and currents of points [Eqs 37, 38]."""
+    share: float
+    pairwise: Pairwise = Pairwise()
+    nested: Nested = Nested()
+
+    def __post_init__(self):
+        if not 0 <= self.share <= 1:
+            raise ValueError(f"the share of transport along edges must be between 0 (points) and 1 (edges), got {self.share}")
+
+    def fluxes(self, dih: "Dih", flow: Flow) -> Fluxes:
+        """Through all edges."""
+        parts: list[tuple[float, Any]] = [(1 - self.share, self.nested), (self.share, self.pairwise)]
+        found = [[part*q for q in kind.fluxes(dih, flow)] for part, kind in parts if part > 0]
+        return Fluxes(*(sum(q) for q in zip(*found, strict=True)))
+
+
 def along(edges: Any, coefficients: Coefficients, a: Flow, b: Flow) -> Fluxes:
     """Friction and heat along edges (with k and apart), from points a to b    [Eq. 51]"""
     d, (eta, zeta, kappa) = edges.apart.shape[1], coefficients

@@ -12,7 +12,7 @@ are to stay go through images with m_a:
 A force along an edge, A e e.(v_j - v_i) in Eq. 51, would not be symmetric: the twin has another direction, -m e. Edges to images
 take the mean of both, so that plates at rest do no work. In 2D A is 0 without bulk viscosity; on a line both are the same.
 """
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property, singledispatch
 from typing import Any, NamedTuple
 
@@ -21,7 +21,7 @@ import numpy as np
 from continuum.fluid import stress_tensor
 from particles.edges import Beyond, fastest, mirror
 from particles.methods import dih
-from particles.methods.dih import Dih, Flow, Fluxes, Nested, Pairwise, take
+from particles.methods.dih import Dih, Flow, Fluxes, Mixed, Nested, Pairwise, take
 
 
 class Ends(NamedTuple):
@@ -35,18 +35,6 @@ class Ends(NamedTuple):
     odd: np.ndarray
     T_twice: np.ndarray
     rise: np.ndarray
-
-
-@dataclass(frozen=True, kw_only=True)
-class Mixed:
-    """A share of friction and conduction along edges, the rest nested."""
-    share: float
-    pairwise: Pairwise = field(default_factory=Pairwise)
-    nested: Nested = field(default_factory=Nested)
-
-    def __post_init__(self):
-        if not 0 <= self.share <= 1:
-            raise ValueError(f"the share of transport along edges must be between 0 (nested) and 1 (all), got {self.share}")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,7 +13,7 @@ from continuum.fluid import energy, sound_speed
 from continuum.jit import jit
 from particles.covariance import BETAS, OLD
 from particles.limits import limit_of
-from particles.methods.dih import Dih, Flow, Fluxes, Nested, Pairwise, check_bulk, means, rows, take
+from particles.methods.dih import Dih, Flow, Fluxes, Mixed, check_bulk, means, rows, take
 from particles.methods.fixed import Summing, check_number
 from particles.methods.fluctuating import conductances, traceless
 from particles.noise import check_seed, fill_normals, normals_of_pair
@@ -23,22 +23,6 @@ from particles.team import Team
 LEAST_CAPACITY = 50
 #: c in <dx> = c B B' dt of three stages, each with the amplitude B of its own state: 0 would be Ito's, 1/2 Stratonovich's
 STAGED = (1 + BETAS[0]*BETAS[1])/6 + (2 + BETAS[2]*(BETAS[0] + BETAS[1]))/6
-
-
-@dataclass(frozen=True, kw_only=True)
-class Mixed:
-    """Transport by stresses and currents of points [Eqs 37, 38], but for a share along edges [Eq. 51]."""
-    share: float
-
-    def __post_init__(self):
-        if not 0 <= self.share <= 1:
-            raise ValueError(f"the share of transport along edges must be between 0 (points) and 1 (edges), got {self.share}")
-
-    def fluxes(self, dih: Dih, flow: Flow) -> Fluxes:
-        """Through all edges."""
-        parts: list[tuple[float, Any]] = [(1 - self.share, Nested()), (self.share, Pairwise())]
-        found = [[part*q for q in kind.fluxes(dih, flow)] for part, kind in parts if part > 0]
-        return Fluxes(*(sum(q) for q in zip(*found, strict=True)))
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -15,9 +15,8 @@ from continuum.scene import RayleighBenard
 from particles.covariance import jacobian, steady, waves
 from particles.interpolants import W
 from particles.makers import MAKERS
-from particles.methods.dih import Dih
+from particles.methods.dih import Dih, Mixed
 from particles.methods.layer import Layer
-from particles.methods.thermal import Mixed
 from particles.points import lattice
 from particles.team import Team
 from particles.weights import Lucy

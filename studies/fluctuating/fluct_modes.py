@@ -9,8 +9,7 @@ from scipy import sparse
 from continuum.fluid import ConstEta, IdealGas
 from particles.covariance import jacobian
 from particles.makers import MAKERS
-from particles.methods.dih import Dih
-from particles.methods.thermal import Mixed
+from particles.methods.dih import Dih, Mixed
 from particles.points import Points
 from particles.run import Plan
 from particles.weights import Lucy

@@ -11,8 +11,7 @@ from scipy.special import stdtrit
 from continuum.fluid import ConstEta, IdealGas
 from particles.covariance import crank_nicolson, jacobian
 from particles.makers import MAKERS
-from particles.methods.dih import Dih
-from particles.methods.thermal import Mixed
+from particles.methods.dih import Dih, Mixed
 from particles.points import lattice
 from particles.run import Plan
 from particles.weights import Lucy

@@ -15,8 +15,7 @@ from continuum.fluid import ConstEta, IdealGas
 from particles.covariance import jacobian
 from particles.edges import Edges
 from particles.makers import MAKERS
-from particles.methods.dih import Dih
-from particles.methods.thermal import Mixed
+from particles.methods.dih import Dih, Mixed
 from particles.points import lattice
 from particles.run import Plan
 from particles.weights import Lucy
