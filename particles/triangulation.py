@@ -75,8 +75,8 @@ def _assembled(points: Points, corner: np.ndarray, x: np.ndarray) -> Edges:
     volume = np.abs(np.linalg.det(jacobian))/(2 if d == 2 else 6)
     if volume.min() < 1e-9*points.a**d:
         raise ValueError(f"points {corner[np.argmin(volume)]} span a flat simplex: points that lie on one sphere, as on a "
-                         "lattice or with their mirror images in 3D, have no unique triangulation; shift them, or let a weight make "
-                         "the edges")
+                         "lattice or with their mirror images in 3D, have no unique triangulation; shift them, or let a weight "
+                         "make the edges")
     slopes = np.linalg.inv(jacobian).transpose(0, 2, 1)                 # grad phi_1..d
     slopes = np.concatenate([-slopes.sum(axis=1, keepdims=True), slopes], axis=1)
     V = np.bincount(corner.ravel(), np.repeat(volume/(d + 1), d + 1), n)
