@@ -18,9 +18,11 @@ from studies.hard.interface import Interface
 from studies.hard.lattice_waves import lattice
 from studies.hard.newtonian import METHODS, RHO_SQUARED, Newton, Reversal, Twins, crowd, molecules
 from studies.hard.shock_tube import ShockTube
-from studies.kit.claim import judge
+from studies.kit.claim import judge, judged
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables, read
+
+BY_ID = {claim.id: claim for claim in khp95.PART.claims}
 
 
 def rows(case, table):
@@ -101,6 +103,37 @@ def test_time_of_return_is_read_off_the_distances():
     back = pd.DataFrame({"integrator": "leapfrog", "weight": "Lucy", "seed": 1, "time": t, "apart": 2.0**-52*np.exp(0.4*t)})
     row = next(hard_derive.returns(twins, back))
     assert row["rate"] == pytest.approx(0.4) and row["measured"] == pytest.approx(row["predicted"])
+
+
+# --- claims -------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("flow, rolls, verdict", [(0.02, 1, "holds"), (0.02, 2, "fails"), (0.0003, 2, "undecidable"),
+                                                  (0.0003, 1, "undecidable")])
+def test_rolls_of_a_flow_that_has_stopped_are_not_counted(flow, rolls, verdict):
+    squares = pd.DataFrame([{"eos": "IdealGas", "weight": "Monaghan", "ra": 1e4, "begun": 0.03, "flow": flow, "rolls": rolls,
+                             "shared": 0.92}])
+    row = judged(BY_ID["khp95-hard-fig10-one-roll"], Tables(squares=squares))
+    assert row["verdict"] == verdict and ("stopped" in row["reason"]) == (verdict == "undecidable")
+
+
+def layers(stuck: float, step: float = 1.0) -> pd.DataFrame:
+    """Rows of `freezing_layers` at Ra 10 000."""
+    return pd.DataFrame([{"eos": "IdealGas", "weight": "Lucy", "ra": 1e4, "step": step, "P": P, "stuck": stuck} for P in (1.4, 5.2)])
+
+
+def test_what_freezes_with_a_quarter_of_the_step_is_not_what_is_said_of_the_whole():
+    claim = BY_ID["khp95-hard-freezing-nowhere"]
+    for stuck, verdict in ((0.1, "holds"), (0.9, "fails")):
+        both = pd.concat([layers(stuck), layers(0.9, step=0.25)])
+        assert judged(claim, Tables(freezing_layers=both))["verdict"] == verdict
+
+
+@pytest.mark.skipif(not (RESULTS/"hardcases"/"freezing_layers.csv").exists(), reason="no tables are committed yet")
+def test_words_tell_the_pressures_that_were_run():
+    rows = load(hard_tables.ALL, "hardcases")["freezing_layers"]
+    P = rows[(rows["ra"] == 1e4) & (rows["step"] == 1) & (rows["eos"] == "IdealGas") & (rows["weight"] == "Lucy")]["P"]
+    assert f"runs come through, {P.min():.1f} to {P.max():.1f}," in BY_ID["khp95-hard-freezing-nowhere"].statement
 
 
 # --- the study ----------------------------------------------------------------------------------------------------------
