@@ -119,7 +119,8 @@ def test_rolls_of_a_flow_that_has_stopped_are_not_counted(flow, rolls, verdict):
 
 def layers(stuck: float, step: float = 1.0) -> pd.DataFrame:
     """Rows of `freezing_layers` at Ra 10 000."""
-    return pd.DataFrame([{"eos": "IdealGas", "weight": "Lucy", "ra": 1e4, "step": step, "P": P, "stuck": stuck} for P in (1.4, 5.2)])
+    of = {"eos": "IdealGas", "weight": "Lucy", "ra": 1e4, "step": step, "stuck": stuck}
+    return pd.DataFrame([{**of, "P": P} for P in (1.4, 5.2)])
 
 
 def test_what_freezes_with_a_quarter_of_the_step_is_not_what_is_said_of_the_whole():

@@ -1,11 +1,18 @@
 """Limits of the time step: the search finds what is known, eigenvalues and trials agree, formulas are safe."""
+from typing import Any
+
 import numpy as np
 import pandas as pd
 import pytest
 
 from continuum import boussinesq
-from continuum.fluid import ConstEta
+from continuum.fluid import ConstEta, IdealGas
 from continuum.projection import CFL_LIMIT, Projection
+from particles.methods.moving import Moving
+from particles.points import jittered, lattice
+from particles.team import Team
+from particles.walls.periodic import periodic
+from particles.weights import WendlandC2
 from studies.hard.limits_boussinesq import noise_grows
 from studies.hard.limits_cases import Limit
 from studies.hard.limits_claims import CLAIMS
@@ -13,7 +20,7 @@ from studies.hard.limits_dpd import BOXES, INTEGRATORS, Unguarded, map_grows, se
 from studies.hard.limits_euler import PLATES, euler_step, strip_step
 from studies.hard.limits_linear import eigenvalues, largest_step
 from studies.hard.limits_search import bisected
-from studies.hard.limits_still import METHODS, fixed
+from studies.hard.limits_still import DISORDER, FACES, METHODS, fixed
 from studies.kit.claim import judged
 from studies.kit.table import Tables
 
@@ -81,6 +88,40 @@ def test_settled_particles_are_stable_below_the_limit_of_their_map_and_not_beyon
     start = settled(3)
     for dt, grows in ((0.115, False), (0.135, True)):       # the limit is between 0.12 and 0.13
         assert map_grows(method, start, dt) == grows == trial_grows(method, start, dt)
+
+
+def with_faces(points, side: float) -> tuple[Any, np.ndarray, np.ndarray]:
+    """Sums and state of periodic points at rest, and (n, n) rates of friction of unit viscosity over their faces."""
+    n, walls = points.n, (*periodic(side), *periodic(side, axis=1))
+    method = Moving(weight=WendlandC2.of(h=3.0), eos=IdealGas(), law=ConstEta(1.0, 0.0), box=(side, side), walls=walls)
+    sums, state = method.start(n, Team(1)), method.state(points.x, np.zeros((n, 2)), 1.0, np.ones(n))
+    sums.around.relist(state, np.arange(n), 0.0)
+    sums.make_faces(state)
+    faces, own = sums.faces, np.concatenate([np.arange(n), sums.maker.ghosts.origin]).astype(int)
+    row = np.repeat(np.arange(n), faces.taken)
+    entry = np.concatenate([first + np.arange(taken) for first, taken in zip(faces.first, faces.taken, strict=True)]).astype(int)
+    L = np.zeros((n, n))
+    for column, sign in ((own[faces.near[entry]], 1), (row, -1)):
+        np.add.at(L, (row, column), sign*faces.k[entry]/state[7][row])
+    return sums, state, L
+
+
+@pytest.mark.parametrize("side", [8, 10])
+def test_diffusion_over_faces_of_a_lattice_is_as_fast_as_limits_have_it_and_volumes_follow_as_fast(side):
+    sums, state, L = with_faces(lattice((side, side)), side)
+    rates, waves = np.linalg.eigh((L + L.T)/2)
+    assert np.abs(L - L.T).max() < 1e-12 and abs(-rates[0] - FACES) < 0.05      # two digits are told
+    state[6:9] *= 1 + 1e-6*waves[:, 0]
+    sums.make_faces(state)
+    sums.rates(state, out := np.zeros_like(state))
+    density = sums.maker.count.mean()       # by which volumes are told: 1.005 on this lattice
+    assert density == pytest.approx(1, rel=0.01) and waves[:, 0] @ out[7]/1e-6 == pytest.approx(rates[0]*density, rel=1e-4)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_diffusion_over_faces_of_jittered_points_is_faster_by_no_more_than_the_limit_leaves_for_disorder(seed):
+    _, _, L = with_faces(jittered((20, 20), 0.3, seed), 20)
+    assert FACES < -np.linalg.eigvals(L).real.min() < DISORDER*FACES
 
 
 def test_claims_fail_where_limits_are_off():

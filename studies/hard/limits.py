@@ -5,7 +5,8 @@ from studies.kit.table import Table
 
 #: largest stable steps in units of spacing over (P/rho)^(1/2). predicted : by the method's own formula, smaller by `margin` for
 #: disorder; exact : by eigenvalues of the rates of the same points, of one step of dissipative particles; measured : by trial. Of
-#: these eta is gamma, k is kT
+#: these eta is gamma, k is kT. measured_err : half of the last interval of the search, and how far beyond the limit growth
+#: stays unseen in so many steps, told by eigenvalues alone: what was measured does not enter it
 LIMITS = Table("limits", key=["method", "scene"], columns=["method", "scene", "eta", "k", "integrator", "predicted", "margin",
                                                            "exact", "measured", "measured_err"])
 #: the shorter one of the steps that sound alone and diffusion alone allow, by the operators in use

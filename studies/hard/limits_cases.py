@@ -48,6 +48,7 @@ class Limit(Case):
         steps = LONG.get(self.method, STEPS[trial.integrator])
         exact, seen = by_eigenvalues(trial, steps)
         found = bisected(trial.grows(steps), trial.predicted*trial.margin or 1.0)
+        # growth that a trial of so many steps is too short to see: no difference of measured and exact
         unseen = seen - exact if np.isfinite(seen) else UNKNOWN*found.value
         return Outcome({"limits": [{"method": self.method, "scene": self.scene, "eta": self.eta, "k": self.k,
                                     "integrator": trial.integrator, "predicted": trial.predicted, "margin": trial.margin,

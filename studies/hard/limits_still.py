@@ -39,7 +39,7 @@ JITTER = 0.3            # of disordered points, in spacings
 DISORDER = 1.4          # by which limits of points that move leave room for disorder: see `limit_of` of each
 EOS, SOUND = IdealGas(), np.sqrt(2)
 STAGES_SOUND, STAGES_DECAY = 1.73, 2.51     # where the region of three stages ends
-FACES = 2.9             # fastest diffusion over closed faces on a lattice, Wendland C2, h = 3: at which volumes follow
+FACES = 2.9             # fastest diffusion over faces of a lattice, Wendland C2, h = 3; at it volumes follow: tests derive it
 
 
 class Trial(NamedTuple):

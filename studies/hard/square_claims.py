@@ -35,8 +35,8 @@ def rolls(ra: float) -> Value:
         left = row["flow"]/row["begun"]
         if left < ALIVE:
             raise CannotTell(f"the flow has stopped, K of the mean flow is {left:.2g} of that at the start and not "
-                             f"{ALIVE:g} at least, and {100*row['shared']:.0f} % of the particles are paired, of one seed at Ra {ra:g}: "
-                             f"its {row['rolls']:.0f} rolls are what is left of the start")
+                             f"{ALIVE:g} at least, and {100*row['shared']:.0f} % of the particles are paired, of one seed at "
+                             f"Ra {ra:g}: its {row['rolls']:.0f} rolls are what is left of the start")
         return Measured(float(row["rolls"]), 0.0)
     return value
 
