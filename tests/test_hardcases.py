@@ -164,6 +164,23 @@ def test_without_tables_nothing_is_decided():
         assert row["verdict"] == "undecidable" and len(row["reason"]) > 20, row["id"]
 
 
+def crossed(page) -> list[str]:
+    """Axes whose legend lies on a line."""
+    page.canvas.draw()
+    legends = [(axes, axes.get_legend().get_window_extent()) for axes in page.axes if axes.get_legend()]
+    return [axes.get_title() for axes, box in legends for line in axes.lines
+            if line.get_transform().transform_path(line.get_path()).intersects_bbox(box, filled=False)]
+
+
+@pytest.mark.skipif(not (RESULTS/"hardcases"/"moduli.csv").exists(), reason="no tables are committed yet")
+def test_no_legend_lies_on_a_line_and_weights_are_not_told_by_colour_alone():
+    pages = figures(load(hard_tables.ALL, "hardcases"))
+    assert all(crossed(pages[name]) == [] and pages[name].legends for name in ("moduli", "pairs", "reversal"))
+    assert [axes.get_ylabel() for axes in pages["moduli"].axes[::3]] == ["Lucy", "Monaghan", "Wendland C2"]
+    pages["reversal"].axes[0].legend(loc="center right")        # where it was
+    assert crossed(pages["reversal"])
+
+
 @pytest.mark.skipif(not (RESULTS/"hardcases"/"moduli.csv").exists(), reason="no tables are committed yet")
 def test_committed_verdicts_and_figures_follow_from_committed_tables():
     tables = load(hard_tables.ALL, "hardcases")

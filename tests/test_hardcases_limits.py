@@ -13,6 +13,7 @@ from particles.points import jittered, lattice
 from particles.team import Team
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
+from studies.hard import limits_figures
 from studies.hard.limits_boussinesq import noise_grows
 from studies.hard.limits_cases import Limit
 from studies.hard.limits_claims import CLAIMS
@@ -131,6 +132,15 @@ def test_claims_fail_where_limits_are_off():
     claims = {claim.id: claim for claim in CLAIMS}
     for name in ("limit-step-grid-sound", "limit-step-spam", "limit-step-safe"):
         assert judged(claims[name], good)["verdict"] == "holds" and judged(claims[name], bad)["verdict"] == "fails"
+
+
+def test_bars_of_limits_end_within_their_axes():
+    row = {"method": "fixed Euler", "eta": 1.0, "k": 1.0, "integrator": "Euler", "predicted": 1.0, "margin": 1.0, "exact": 1.0}
+    for measured, err in ((1.02, 0.01), (1.09, 0.107), (1.2, 0.2)):
+        row |= {"measured": measured, "measured_err": err}
+        rows = pd.DataFrame([{**row, "scene": "Euler heat"}, {**row, "method": "moving", "scene": "balanced", "exact": np.nan}])
+        page = limits_figures.figures(Tables(limits=rows))["limits"]
+        assert page.axes[2].get_xlim()[1] > measured + err and "noise" in page.get_suptitle()
 
 
 def test_a_roll_of_the_boussinesq_grid_is_stable_at_its_cfl_limit_and_not_far_beyond():

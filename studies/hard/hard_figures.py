@@ -1,4 +1,5 @@
 """Figures of KHP95's hard cases, from their tables."""
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -31,36 +32,39 @@ def figures(tables: Tables) -> dict[str, Figure]:
 
 
 def moduli(rows: pd.DataFrame) -> Figure:
-    """Over the range: lines the lattice sums, dotted where negative; points the sums of particles."""
+    """Over the range, a row a weight: lines the lattice sums, dotted where negative; points the sums of particles."""
     rows = rows[rows["h"] <= DRAWN]
-    page, all_axes = figure(1, len(LATTICES), width=3.9, height=3.6, sharex=True, sharey=True)
-    for axes, (kind, title) in zip(all_axes, LATTICES.items(), strict=True):
-        for number, (weight, label) in enumerate(WEIGHTS.items()):
-            some = rows[(rows["lattice"] == kind) & (rows["weight"] == weight)].sort_values("h")
-            colour, h, exact = look(number)["color"], some["h"], some["exact"]
-            axes.plot(h, exact.where(exact > 0), color=colour, linestyle="-", marker="", label=label)
-            axes.plot(h, (-exact).where(exact <= 0), color=colour, linestyle=":", marker="")
-            summed = some[some["measured"].notna()].iloc[::5]
-            axes.plot(summed["h"], summed["measured"].abs(), **{**look(number), "linestyle": "none"})
+    page, all_axes = figure(len(WEIGHTS), len(LATTICES), width=3.9, height=2.6, sharex=True, sharey=True)
+    for (number, weight), (place, kind) in product(enumerate(WEIGHTS), enumerate(LATTICES)):
+        axes, some = all_axes[number, place], rows[(rows["lattice"] == kind) & (rows["weight"] == weight)].sort_values("h")
+        colour, h, exact = look(number)["color"], some["h"], some["exact"]
+        axes.plot(h, exact.where(exact > 0), color=colour, linestyle="-", marker="", label="lattice sums")
+        axes.plot(h, (-exact).where(exact <= 0), color=colour, linestyle=":", marker="", label="negative: unstable")
+        summed = some[some["measured"].notna()].iloc[::5]
+        axes.plot(summed["h"], summed["measured"].abs(), **{**look(number), "linestyle": "none"}, label="the sums that run")
         ends = np.array([3.0, DRAWN])
         for power, style in ((-2.5, "--"), (-3.5, "-.")):
             axes.plot(ends, 0.05*(ends/3)**power, color="grey", linestyle=style, marker="", label=rf"$h^{{{power}}}$")
         axes.axvline(3.0, color="grey", linewidth=0.6)
         axes.axhline(0.01, color="grey", linewidth=0.6)
-        axes.set(xscale="log", yscale="log", title=title, ylim=(1e-6, 0.3), xlabel="range $h$ / spacings")
+        axes.set(xscale="log", yscale="log", ylim=(1e-6, 0.3))
         axes.set_xticks([2, 3, 4, 6, 8, 12], labels=["2", "3", "4", "6", "8", "12"])
         axes.minorticks_off()
-    all_axes[0].set_ylabel("|shear modulus| / bulk modulus")
-    page.legend(*all_axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=5)
-    page.suptitle("How stiff is a fluid of smooth particles on a lattice?\n"
-                  "lines: lattice sums, dotted where negative (unstable); points: the sums that run; "
+    for axes, label in zip(all_axes[:, 0], WEIGHTS.values(), strict=True):
+        axes.set_ylabel(label)
+    for axes, title in zip(all_axes[0], LATTICES.values(), strict=True):
+        axes.set_title(title)
+    for axes in all_axes[-1]:
+        axes.set_xlabel("range $h$ / spacings")
+    page.legend(*all_axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=5)
+    page.suptitle("How stiff is a fluid of smooth particles on a lattice? |shear modulus| / bulk modulus, a row a weight\n"
                   "thin grey: KHP95's range and 1 %", fontsize=10)
     return page
 
 
 def pairs(rows: pd.DataFrame) -> Figure:
     """Over the range: the part of the particles that share a site, and how many are on one."""
-    page, (left, right) = figure(1, 2, width=4.3, height=3.4, sharex=True)
+    page, (left, right) = figure(1, 2, width=4.3, height=3.8, sharex=True)
     for number, (weight, label) in enumerate(WEIGHTS.items()):
         some = rows[rows["weight"] == weight].groupby("h")
         middle = some[["shared", "sites", "predicted"]].mean()
@@ -74,8 +78,8 @@ def pairs(rows: pd.DataFrame) -> Figure:
     left.set(xlabel="range $h$ / spacings", ylabel="part with another within half a spacing")
     right.set(xlabel="range $h$ / spacings", ylabel="particles a site")
     right.set_yticks([1, 2, 3, 4])
-    left.legend()
-    page.suptitle("One particle a site, or pairs?\nideal gas left to rest, 256 particles; bars: both seeds; right: points the "
+    page.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    page.suptitle("One particle a site, or pairs?\nideal gas left to rest, 256 particles; bars: all seeds; right: points the "
                   "median of runs,\nlines the hexagonal lattice of least energy (shifted a little to be told apart)", fontsize=10)
     return page
 
@@ -109,14 +113,14 @@ def freezing(rows: pd.DataFrame, limits: pd.DataFrame) -> Figure:
 
 def reversal(rows: pd.DataFrame, twins: pd.DataFrame) -> Figure:
     """Over the time there and back: distance from the start; beside it how fast twins part."""
-    page, axes = figure(width=5.6, height=4.0)
+    page, axes = figure(width=5.8, height=4.2)
     for number, (name, label) in enumerate(STEPS.items()):
         some = rows[rows["integrator"] == name].groupby("time")["apart"].mean()
         axes.plot(some.index, some.clip(lower=1e-17), **look(number), label=label)
     axes.plot(twins["time"], twins["apart"], **look(3), label="molecules beside smooth particles")
     axes.axhline(0.1, color="grey", linewidth=0.6)
     axes.set(yscale="log", ylim=(3e-18, 30), xlabel=r"time $t/\sigma(m/\epsilon)^{1/2}$", ylabel=r"rms distance / $\sigma$")
-    axes.legend(loc="center right")
+    page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     page.suptitle(r"Do paths run back? $P\propto\rho^2$, Lucy's weight" "\nforward, velocities turned, and back; "
                   "whole numbers: exactly 0, drawn at $10^{-17}$", fontsize=10)
     return page
