@@ -11,7 +11,7 @@ import pytest
 
 from studies.kit import source
 from studies.kit.case import Case, Outcome, word
-from studies.kit.keep import kept
+from studies.kit.keep import SEAL, kept
 from studies.kit.sweep import CasesFailed, Interrupted, sweep
 from studies.kit.table import Table, read
 
@@ -116,6 +116,32 @@ def test_a_kept_outcome_that_is_damaged_is_reported_and_run_again(bench, content
     assert list(bench.sweep([case])["squares"].y) == [4]
     assert bench.ran() == ["2"]
     assert capsys.readouterr().err.count("is run again") == 1
+
+
+@pytest.mark.parametrize("damage", [lambda row: row.pop("y"), lambda row: row.update(y=5.0), lambda row: row.update(z=1.0)])
+def test_a_kept_row_that_is_not_as_its_case_wrote_it_is_run_again(bench, damage, capsys):
+    """A column lost, a number changed, one too many: no table could tell, some rows have fewer columns by right."""
+    case, = bench.cases(2)
+    bench.sweep([case])
+    path = bench.folder / f"raw/toy/{case.key}.json"
+    content = json.loads(path.read_text())
+    damage(content["rows"]["squares"][0])
+    path.write_text(json.dumps(content))
+    bench.ran()
+    assert list(bench.sweep([case])["squares"].y) == [4]
+    assert bench.ran() == ["2"]
+    assert capsys.readouterr().err.count("not as it was written: its hash is another one): Square 2") == 1
+
+
+def test_a_case_kept_before_there_were_seals_is_taken_as_it_is(bench):
+    case, = bench.cases(2)
+    bench.sweep([case])
+    path = bench.folder / f"raw/toy/{case.key}.json"
+    content = json.loads(path.read_text())
+    del content[SEAL]
+    path.write_text(json.dumps(content))
+    bench.ran()
+    assert list(bench.sweep([case])["squares"].y) == [4] and not bench.ran()
 
 
 def test_a_case_that_raises_leaves_the_others_and_tells_where_the_story_is(bench):

@@ -1,5 +1,6 @@
 """Finished cases on disk: results/raw/<study>/<key>.json, written by whoever ran the case; of a cluster, by the study."""
 import errno
+import hashlib
 import json
 import math
 import shutil
@@ -13,6 +14,8 @@ from typing import Any
 from studies.kit import provenance
 from studies.kit.case import Case, Outcome, Report, parameters
 from studies.kit.csvfile import write_atomic
+
+SEAL = "sha256"     # of a kept case, beside what it is the hash of
 
 
 @dataclass(frozen=True)
@@ -75,7 +78,13 @@ def as_text(case: Case, outcome: Outcome, cpu_s: float) -> str:
     """An outcome with the commit it was computed by, where, and in how many CPU seconds, compiling among them."""
     content = {"case": parameters(case), "commit": provenance.commit(), "versions": provenance.versions(),
                "cpu": provenance.cpu(), "date": provenance.now(), "cpu_s": cpu_s, "rows": outcome.rows}
-    return json.dumps(content, default=plain, indent=1)
+    content = json.loads(json.dumps(content, default=plain))
+    return json.dumps({**content, SEAL: seal(content)}, indent=1)
+
+
+def seal(content: dict[str, Any]) -> str:
+    """Hash of all that is kept of a case: which columns its rows have is known to the case alone."""
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
 def same_code(case: Case) -> bool:
@@ -97,6 +106,8 @@ def kept(case: Case, folder: Path) -> dict[str, list[dict[str, Any]]] | None:
         return None
     try:
         content = json.loads(path.read_text())
+        if content.pop(SEAL, None) not in (None, seal(content)):        # none: kept before there were seals
+            raise ValueError("it is not as it was written: its hash is another one")
         return {table: [{**row, "commit": content["commit"]} for row in rows]
                 for table, rows in content["rows"].items()}
     except (ValueError, KeyError, TypeError, AttributeError) as error:
