@@ -130,7 +130,7 @@ def test_a_kept_row_that_is_not_as_its_case_wrote_it_is_run_again(bench, damage,
     bench.ran()
     assert list(bench.sweep([case])["squares"].y) == [4]
     assert bench.ran() == ["2"]
-    assert capsys.readouterr().err.count("not as it was written: its hash is another one): Square 2") == 1
+    assert capsys.readouterr().err.count("not as they were written: their hash is another one): Square 2") == 1
 
 
 def test_a_case_kept_before_there_were_seals_is_taken_as_it_is(bench):

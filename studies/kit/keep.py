@@ -15,7 +15,7 @@ from studies.kit import provenance
 from studies.kit.case import Case, Outcome, Report, parameters
 from studies.kit.csvfile import write_atomic
 
-SEAL = "sha256"     # of a kept case, beside what it is the hash of
+SEAL = "sha256"     # of the rows of a kept case and their commit
 
 
 @dataclass(frozen=True)
@@ -83,8 +83,8 @@ def as_text(case: Case, outcome: Outcome, cpu_s: float) -> str:
 
 
 def seal(content: dict[str, Any]) -> str:
-    """Hash of all that is kept of a case: which columns its rows have is known to the case alone."""
-    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+    """Hash of what tables get of a kept case: which columns its rows have is known to the case alone."""
+    return hashlib.sha256(json.dumps([content["commit"], content["rows"]], sort_keys=True).encode()).hexdigest()
 
 
 def same_code(case: Case) -> bool:
@@ -107,7 +107,7 @@ def kept(case: Case, folder: Path) -> dict[str, list[dict[str, Any]]] | None:
     try:
         content = json.loads(path.read_text())
         if content.pop(SEAL, None) not in (None, seal(content)):        # none: kept before there were seals
-            raise ValueError("it is not as it was written: its hash is another one")
+            raise ValueError("its rows are not as they were written: their hash is another one")
         return {table: [{**row, "commit": content["commit"]} for row in rows]
                 for table, rows in content["rows"].items()}
     except (ValueError, KeyError, TypeError, AttributeError) as error:
