@@ -5,12 +5,12 @@ isomorphism with molecular dynamics and its reversal; a shock tube and a shocked
 Units: particles of unit mass at mean density 1, so lengths in spacings. Paper size takes twenty minutes. Writes
 results/hardcases/*.csv and *.png and the rows of study hardcases in results/claims.csv. A group of cases is a `Part`.
 """
-from studies.hard import khp95, limits, long_sound, map_part, ringing_part
+from studies.hard import high_ra_part, khp95, limits, long_sound, map_part, ringing_part, tube_part
 from studies.hard.part import merged
 from studies.kit.case import Case
 from studies.kit.study import Study, main
 
-PARTS = (khp95.PART, limits.PART, map_part.PART, ringing_part.PART, long_sound.PART)
+PARTS = (khp95.PART, limits.PART, map_part.PART, ringing_part.PART, long_sound.PART, tube_part.PART, high_ra_part.PART)
 
 
 def cases(size: str) -> list[Case]:

@@ -1,0 +1,89 @@
+"""One run of KHP95's layer at a Rayleigh number on 16 rows: the compressible grid, fixed points, moving points."""
+from collections.abc import Callable
+from math import ceil
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.compressible import DivergedError
+from continuum.compressible import run as on_grid
+from continuum.compressible_fields import initial
+from continuum.steady import Time
+from particles.limits import limit_of
+from particles.run import Divergence, Plan, run
+from studies.convection import dih, moving
+from studies.convection.names import START_ENERGY
+from studies.hard.map_scenes import ROWS, layer
+
+TIME = 50.0             # free-fall times, as in the map
+SAMPLES, LATE = 60, 40  # of a run; from where on K is averaged
+NOISE = 1e-6            # of the density at the start, by which seeds differ where points do not
+
+
+class Trial(NamedTuple):
+    """K of the last third, not a number if the run ended before, and the part of the time that it reached."""
+    k: float
+    reached: float
+
+
+def ripple(seed: int, *shape: int) -> np.ndarray:
+    """Factors that are 1 but for NOISE."""
+    return 1 + NOISE*np.random.default_rng(seed).standard_normal(shape)
+
+
+def points(ra: float, seed: int, build: Callable) -> Trial:
+    """Fixed or moving points."""
+    scene = layer(ra)
+    method, start, dt, kinetic = build(scene, seed)
+    every = ceil(TIME*scene.L/scene.free_fall/dt/SAMPLES)
+    steps, ke = every*SAMPLES, []
+
+    def watch(sums: Any, state: np.ndarray) -> float:
+        ke.append(kinetic(sums, state))
+        return ke[-1]
+    try:
+        run(method, start, Plan(dt=TIME*scene.L/scene.free_fall/steps, steps=steps, series={"k": watch}, every=every))
+    except Divergence as error:
+        return Trial(np.nan, error.step/steps)
+    return Trial(float(np.mean(ke[LATE:])), 1.0)
+
+
+def fixed(scheme: str) -> Callable:
+    """Fixed points between plates, by the name of a scheme of the main study."""
+    def build(scene: Any, seed: int) -> tuple:
+        method = dih.fluid(scene, dih.SCHEMES[scheme], seed)
+        start = dih.start(scene, method)*ripple(seed, len(method.x))
+        return method, start, dih.OF_LIMIT*limit_of(method, start), dih.kinetic
+    return build
+
+
+def shifted(scene: Any, seed: int) -> tuple:
+    """Moving points with closed faces."""
+    method = moving.method(scene, moving.MOTIONS["moving"])
+    start = moving.start(scene, method, seed)
+    return method, start, limit_of(method, start), moving.kinetic
+
+
+def gridded(ra: float, seed: int, rows: int = ROWS) -> Trial:
+    """The compressible grid."""
+    return grid_run(ra, seed, rows)[0]
+
+
+def grid_run(ra: float, seed: int, rows: int) -> tuple[Trial, float]:
+    """A run and the cell number of its fastest flow at the end, in cells of 16 rows."""
+    scene, reached = layer(ra), [0.0]
+    start = initial(scene, rows, START_ENERGY)
+    start.cells[:] *= ripple(seed, *start.cells.shape)
+    try:
+        done = on_grid(scene, rows, until=Time(TIME*scene.L/scene.free_fall, SAMPLES), start=start, progress=reached.append)
+    except DivergedError:
+        return Trial(np.nan, reached[-1]), np.nan
+    fastest = float(np.hypot(done.fields.at.vx, done.fields.at.vy).max())
+    return Trial(float(done.series.ke[LATE + 1:].mean()), 1.0), fastest*scene.L/ROWS/scene.nu
+
+
+METHODS: dict[str, Callable[[float, int], Trial]] = {
+    "grid": gridded,
+    "fixed lattice": lambda ra, seed: points(ra, seed, fixed("fixed-lattice")),
+    "fixed jittered": lambda ra, seed: points(ra, seed, fixed("fixed-jittered-delaunay")),
+    "moving": lambda ra, seed: points(ra, seed, shifted)}
