@@ -113,8 +113,26 @@ def test_the_figure_has_a_line_a_method_with_errors_in_both_directions():
 
 
 def test_every_method_has_a_look_of_its_own():
-    looks = [str(sorted(speed_names.style(name).items(), key=str)) for name in speed_names.ORDER]
-    assert len(set(looks)) == len(looks)
+    """Without colour, too; a family has one marker, which is its own."""
+    looks = {name: {**speed_figures.style(name), "color": ""} for name in speed_names.ORDER}
+    assert len({str(sorted(look.items(), key=str)) for look in looks.values()}) == len(looks)
+    markers = {(speed_names.family(name), look["marker"]) for name, look in looks.items()}
+    assert len(markers) == len({marker for _, marker in markers}) == len(speed_names.FAMILIES)
+
+
+def test_a_failing_run_does_not_stretch_the_axis_but_is_told_by_its_number():
+    pages = []
+    for worst in (2.0, 9770.0):
+        points = lines({speed_names.GRID: 1.0})["points"]
+        points.loc[points.index[0], "error"] = worst
+        pages.append(speed_figures.work_precision(points).axes[0])
+    assert not pages[0].texts and pages[0].get_ylim()[1] < 10
+    assert [text.get_text() for text in pages[1].texts] == ["9800"] and pages[1].get_ylim()[1] == 10
+
+
+def test_memory_has_no_bars_that_say_nothing():
+    axes = speed_figures.figures(lines({speed_names.GRID: 1.0}))["memory"].axes[0]
+    assert axes.lines and not axes.containers
 
 
 def test_without_tables_nothing_is_decided_or_drawn():

@@ -9,8 +9,8 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from studies.convection.pick import groups
 from studies.cost.speed_derive import LEVELS
-from studies.cost.speed_names import ORDER, style
-from studies.kit.figure import below, errorbar, figure
+from studies.cost.speed_names import FAMILIES, ORDER, family
+from studies.kit.figure import LINES, below, figure, look
 from studies.kit.table import Tables
 
 #: scene, quantity, title of each panel
@@ -19,6 +19,12 @@ PANELS = (("convection", "K", "Rayleigh-Benard, Ra 10 000: K, steady"), ("convec
           ("taylor-green", "velocity", "Taylor-Green: velocity"), ("sound", "velocity", "sound wave: velocity"),
           ("conduction", "temperature", "heat conduction: temperature"), ("couette", "velocity", "Couette: velocity"))
 ACROSS = 4
+WORST = 10.0        # relative error that is drawn: ten times the answer; what is beyond is told by its number
+#: a family each; those with many members have one that shows how it is filled
+SHAPES = {"compressible": "X", "MAC": "P", "py-pde": "*", "DIH lattice": "o", "DIH Delaunay": "^", "SPAM": "s", "moving": "D"}
+HOLLOW = {"markerfacecolor": "white"}
+FILLS: tuple[dict[str, str], ...] = ({}, HOLLOW, *({"fillstyle": side, "markerfacecoloralt": "white"}
+                                                   for side in ("left", "bottom", "right", "top")))
 
 
 def figures(tables: Tables) -> dict[str, Figure]:
@@ -40,7 +46,9 @@ def work_precision(points: pd.DataFrame) -> Figure:
     down = -(-len(shown)//across)
     page, all_axes = figure(down, across, width=4.1, height=3.9, squeeze=False)
     for axes, (scene, quantity, title) in zip(all_axes.flat, shown):
-        draw(axes, pick(points, scene, quantity), "cpu_s", "error")
+        rows = pick(points, scene, quantity)
+        draw(axes, rows, "cpu_s", "error")
+        beyond(axes, rows)
         for level in LEVELS:
             axes.axhline(level, color="grey", linewidth=0.6, linestyle=":")
         loglog(axes, title, "CPU seconds, setting up included")
@@ -49,8 +57,8 @@ def work_precision(points: pd.DataFrame) -> Figure:
     for axes in all_axes[:, 0]:
         axes.set_ylabel("relative error")
     legend(page, all_axes)
-    page.suptitle("What does an error cost?\nEach method at its own best step, one thread, without compiling; bars: 95 %. "
-                  "MAC and py-pde, Boussinesq: another fluid, against its own limit",
+    page.suptitle("What does an error cost?\nEach method at its own best step, one thread, without compiling; bars: 95 %; arrows: "
+                  "beyond the axis. MAC and py-pde, Boussinesq: another fluid, against its own limit",
                   fontsize=10)
     return page
 
@@ -66,6 +74,25 @@ def draw(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
         series = rows[(rows["method"] == name) & (rows[x] > 0)].sort_values("resolution")     # a short time may drown
         errs: dict[str, Any] = {f"{side}err": limited(series, column) for side, column in (("x", x), ("y", y))}
         axes.errorbar(series[x], series[y], label=name, **errs, **style(name))
+
+
+def style(name: str) -> dict[str, Any]:
+    """Look of a method, the same in every figure: colour and marker of its family, filling and line its own."""
+    member = [other for other in ORDER if family(other) == family(name)].index(name)
+    return {"color": FAMILIES[family(name)][0], "marker": SHAPES[family(name)], "linestyle": LINES[member], "markersize": 6,
+            **FILLS[member]}
+
+
+def beyond(axes: Axes, rows: pd.DataFrame) -> None:
+    """End the axes at WORST; errors that are larger are told by an arrow and their number."""
+    large = rows[rows["error"] > WORST]
+    for _, row in large.iterrows():
+        colour = style(row["method"])["color"]
+        axes.annotate(f"{float(f'{row.error:.2g}'):.0f}", (row["cpu_s"], WORST), (0, -26), ha="center", fontsize=8,
+                      color=colour, textcoords="offset points", arrowprops={"arrowstyle": "->", "color": colour})
+    if len(large):
+        axes.set(yscale="log")
+        axes.set_ylim(top=WORST)
 
 
 def limited(rows: pd.DataFrame, column: str) -> np.ndarray:
@@ -86,12 +113,12 @@ def loglog(axes: Axes, title: str, xlabel: str) -> None:
 
 
 def legend(page: Figure, all_axes: np.ndarray) -> None:
-    """One for all panels, below."""
+    """One for all panels, below; without bars, which hide markers."""
     handles: dict = {}
     for axes in all_axes.flat:
         handles |= dict(zip(*axes.get_legend_handles_labels()[::-1], strict=True))
     order = [name for name in ORDER if name in handles]
-    page.legend([handles[name] for name in order], order, loc="outside lower center", ncols=4)
+    page.legend([handles[name].lines[0] for name in order], order, loc="outside lower center", ncols=4, handlelength=4)
 
 
 def memory(rows: pd.DataFrame) -> Figure:
@@ -102,7 +129,7 @@ def memory(rows: pd.DataFrame) -> Figure:
     for number, scene in enumerate(scenes):
         some = rows[rows["scene"] == scene]
         places = [len(order) - 1 - order.index(name) for name in some["method"]]
-        errorbar(axes, some["bytes_a_point"].tolist(), places, [0.0]*len(some), number=number, label=scene)
+        axes.plot(some["bytes_a_point"], places, label=scene, **{**look(number), "linestyle": "none"})
     axes.set_yticks(range(len(order)), labels=order[::-1])
     axes.set(xscale="log", xlabel="bytes of arrays a point while it runs", title="Memory at the highest resolution")
     axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
@@ -121,8 +148,9 @@ def growth(rows: pd.DataFrame) -> Figure:
         some = rows[rows["clock"] == clock].sort_values("points")
         for (method, threads), series in groups(some, ["method", "threads"]):
             value, err = (1e9*series[name]/series["points"] for name in ("step_s", "step_s_err"))
-            look = style(method) | ({"markerfacecolor": "white"} if threads > 1 else {})
-            axes.errorbar(series["points"], value, err, label=f"{method}, {threads:.0f} thread{'s'*(threads > 1)}", **look)
+            told = style(method) | {"markerfacecolor": "white" if threads > 1 else style(method)["color"],
+                                    "linestyle": LINES[int(threads) - 1], "fillstyle": "full"}
+            axes.errorbar(series["points"], value, err, label=f"{method}, {threads:.0f} thread{'s'*(threads > 1)}", **told)
         loglog(axes, title, "particles or points")
         below(axes)
     all_axes[0, 0].set_ylabel("a particle and step  [ns]")
