@@ -112,7 +112,7 @@ def test_the_map_says_which_grid_it_is_held_against_what_was_not_judged_and_what
 def test_claims_name_the_coarse_grid_that_they_rest_on():
     runs = load(map_part.PART.tables, "hardcases")["hard_runs"]
     for case, said in COARSE.items():
-        assert f"a grid of {finished_grids(runs, case).index.max()} rows" in said
+        assert f"the grid has {finished_grids(runs, case).index.max()} rows" in said
         named = [claim for claim in CLAIMS if claim.id.startswith(f"map-{case.lower().replace(' ', '-')}-")]
         assert named and all(claim.statement.endswith(said) for claim in named)
 

@@ -16,7 +16,7 @@ HIGH = ("Ra 1e5", "Ra 1e6")
 FLUCTUATES = 0.01       # of K, in a quarter of the time when a steady flow has long settled
 ENDS, STILL = "a run ends or it does not", "K of flows that settle changes by less than 0.1 % then"
 #: where a coarse grid is all that there is to hold flows against
-COARSE = {"Prandtl 0.01": ", a grid of 32 rows, since that of 48 ends"}
+COARSE = {"Prandtl 0.01": "; the grid has 32 rows, since that of 48 ends"}
 TEN = "a tenth is what separates `right` from `wrong` on the map"
 
 
