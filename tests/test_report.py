@@ -9,14 +9,14 @@ import pytest
 from PIL import Image
 from report_tables import errors, one_study
 
-from studies.kit.csvfile import write
+from studies.kit.csvfile import read, write
 from studies.kit.figure import figure
 from studies.kit.source import ROOT
 from studies.kit.sweep import RESULTS
 from studies.kit.table import Tables
-from studies.report import behind, cost, draw
+from studies.report import behind, cost, draw, needs
 from studies.report.chart import Scale, chart
-from studies.report.findings import Known, answer, claims_of, findings
+from studies.report.findings import Known, answer, claims_of, ends, falls, findings
 from studies.report.found import parts
 from studies.report.numbers import grouped, many, seconds, told
 from studies.report.page import LIMIT, accepted, fingerprint, found_value, paper, render, write_page
@@ -49,10 +49,11 @@ def test_what_is_said_comes_from_the_tables(small):
 
 def test_what_an_error_costs_is_read_where_it_stays_below(small):
     [panel] = [panel for panel in cost.panels(parts(small)) if "kinetic" in panel.title]
-    needs = {series.label: series.needs for series in panel.series}
+    costs = {series.label: {level: need.cpu_s for level, need in series.needs.items()} for series in panel.series}
+    assert next(series.label for series in panel.series if series.usual) == "compressible grid"
     grid = {0.1: 1e-4*16**3, 0.03: 1e-4*16**3, 0.01: 1e-4*50**3}     # 7/16^2 = 0.027, 7/25^2 = 0.0112, 7/50^2 = 0.0028
-    assert needs["compressible grid"] == pytest.approx(grid)
-    spam = next(value for name, value in needs.items() if "all particles" in name)
+    assert costs["compressible grid"] == pytest.approx(grid)
+    spam = next(value for name, value in costs.items() if "all particles" in name)
     assert spam == {}, "0.05 with 25 rows is passed on the way to -0.2 with 50: it does not stay below 10 %"
 
 
@@ -67,6 +68,75 @@ def test_a_table_of_speed_needs_no_code(small):
     assert [series.label for series in first.series] == ["m1", "m2", "m3"] and all(series.usual for series in first.series)
     drawn = chart(first)
     assert all(mark.wide for curve in drawn.curves for mark in curve.marks)
+
+
+def speed(out, names, found):
+    """Points of these methods, all alike, and what an error costs: method -> (reached, seconds, low, high)."""
+    points = [{"scene": "convection", "quantity": "K", "method": name, "resolution": n, "points": n*n, "seeds": 1,
+               "error": 9/n**2, "error_err": 1e-5, "cpu_s": 1e-4*n**3, "cpu_s_err": 1e-6, "setup_s": 0.0, "bytes": 8,
+               "size": "fine", "commit": "abc1"}
+              for name in names for n in (16, 32, 64)]
+    rows = [{"scene": "convection", "quantity": "K", "method": name, "level": level, "reached": reached, "cpu_s": cpu, "low": low,
+             "high": high, "points": 9, "error": level, "size": "fine", "commit": "abc1"}
+            for name, (reached, cpu, low, high) in found.items() for level in needs.LEVELS]
+    write(out/"speed/points.csv", pd.DataFrame(points), head=["commit abc1"])
+    write(out/"speed/needed.csv", pd.DataFrame(rows), head=["commit abc1"])
+
+
+def test_each_family_is_shown_by_its_cheapest_grid_first(small):
+    """However its name sorts; what an error costs is what the study's table says, not the next run tried."""
+    costs = {"DIH Delaunay, jittered": 3.0, "DIH lattice, h = 1.2 a": 0.212, "DIH lattice, h = 2 a": 1.1,
+             "DIH lattice, h = 3 a": 1.6, "SPAM, Lucy (as printed)": None, "SPAM, Monaghan": None, "SPAM, Wendland C2": 9.0,
+             "compressible grid, Newton": 0.62, "compressible grid, RK4": 0.161, "moving points": 22.0, "py-pde, gas": 0.87}
+    speed(small, costs, {name: ("yes", one, 0.96*one, 1.04*one) if one else ("no", *[math.nan]*3) for name, one in costs.items()})
+    panel = cost.panels(parts(small))[0]
+    assert [series.label for series in panel.series if series.usual] == [
+        "compressible grid, RK4", "DIH lattice, h = 1.2 a", "DIH Delaunay, jittered", "moving points", "SPAM, Wendland C2",
+        "SPAM, Lucy (as printed)", "py-pde, gas"]
+    assert [f"{series.needs[0.01]}" for series in panel.series[:2]] == ["0.161(6)", "0.212(8)"]
+    last = findings(Known(small, claims_of(small), [panel]))[-1]
+    assert last.title == "An error of 1 % costs 0.161(6) CPU seconds at best" and last.source == "speed/needed"
+    assert "0.161(6) s, compressible grid, RK4; 0.212(8) s, DIH lattice, h = 1.2 a; 0.87(3) s" in last.text
+
+
+@pytest.mark.skipif(not (RESULTS/"speed/cheapest.csv").exists(), reason="no table of speed yet: make study-speed")
+def test_what_is_said_of_cost_is_what_the_study_of_speed_found():
+    """Its cheapest method in each panel; every family of contestants is in the diagram from the start."""
+    best = read(RESULTS/"speed/cheapest.csv").set_index(["scene", "quantity", "level"])
+    panels = [panel for panel in cost.panels(parts(RESULTS)) if panel.sheet.name == "speed/points"]
+    for panel in panels:
+        row = best.loc[(*panel.title.removeprefix("speed: ").split(", "), 0.01)]
+        there = [series for series in panel.series if series.usual and 0.01 in series.needs]
+        mine = min(there, key=lambda series: series.needs[0.01].cpu_s, default=None)
+        assert (mine.label if mine else "not reached") == row["method"], panel.title
+        assert mine is None or mine.needs[0.01].cpu_s == row["cpu_s"]
+        there, first = ({start for start in cost.FAMILIES for series in panel.series if series.label.startswith(start)
+                         and (series.usual or all_of_them)} for all_of_them in (True, False))
+        assert there == first, panel.title
+    first = findings(Known(RESULTS, claims_of(RESULTS), panels))[-1]
+    row = best.loc[("convection", "K", 0.01)]
+    assert told(row["cpu_s"], (row["high"] - row["low"])/2) in first.title and f"s, {row['method']};" in first.text
+    assert "in sound none" in first.text and "taylor-green incompressible ones alone" in first.text
+
+
+def rows_of_errors(*errors):
+    return pd.DataFrame({"error": [e for e, _ in errors], "error_err": [d for _, d in errors]})
+
+
+@pytest.mark.parametrize(("errors", "converges"), [
+    ([(0.0277, 0.0015), (0.0089, 0.0016), (0.0047, 0.0016), (0.0018, 0.0016), (0.0003, 0.0021)], True),    # until it is noise
+    ([(0.02, 1e-4), (0.005, 1e-4)], True), ([(-0.02, 1e-4), (0.001, 0.002)], True),
+    ([(0.15, 1e-3), (0.15, 1e-3)], False), ([(0.05, 1e-3), (-0.2, 1e-3)], False),
+    ([(0.01, 0.02), (0.005, 0.02)], False), ([(0.03, 1e-3), (0.001, 1e-3), (0.02, 1e-3), (0.001, 0.002)], False)])
+def test_errors_that_fell_until_they_are_noise_converge(errors, converges):
+    assert falls(rows_of_errors(*errors)) is converges
+
+
+def test_a_limit_that_is_told_from_zero_is_what_points_come_to():
+    closed = rows_of_errors((0.0277, 0.0015), (0.0003, 0.0021))
+    limit = [pd.Series({"measured": size, "err": err}) for size, err in ((0.0027, 2e-4), (0.0018, 6e-4))]
+    assert ends(closed, limit) == "end 0.2 to 0.3 % off" and ends(closed, limit[:1]) == "end 0.3 % off"
+    assert ends(closed, [pd.Series({"measured": 0.0027, "err": 0.003})]) == ends(closed, []) == "converge"
 
 
 def test_places_on_a_logarithmic_axis():

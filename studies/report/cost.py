@@ -1,6 +1,7 @@
 """Error against CPU seconds, from every table that has both: panels of series of points, and what an error costs.
 
-A table takes part if it has the columns of NEEDED; those of SCENE name its panels, those of SERIES the series within.
+A table takes part if it has the columns of NEEDED; those of SCENE name its panels, those of SERIES the series within. What a
+level of error costs is read from the study's table `needed` where it has one.
 """
 import math
 from collections.abc import Iterator
@@ -13,18 +14,23 @@ from studies.convection.figures_names import METHODS, WORDS
 from studies.convection.pick import LABELS
 from studies.report.behind import plain
 from studies.report.found import Part, Sheet
-from studies.report.numbers import percent, seconds, short, signed
+from studies.report.needs import Need, given, needed_of, needs
+from studies.report.numbers import many, percent, seconds, short
 
 NEEDED = {"method", "resolution", "error", "error_err", "cpu_s"}
 SCENE = ("scene", "eos", "transport", "sides", "ra", "pr", "quantity")
 SERIES = ("method", "variant", "weight", "integrator", "energy")
-LEVELS = (0.1, 0.03, 0.01, 0.001)
 #: of the scene, not said where it is as in most rows
 UNSAID = ("eos", "transport", "sides", "pr")
 #: said even if it is the same in all rows
 SAID = ("scene", "quantity")
-#: series of two points or more from which on a panel is worth showing
-LEAST = 3
+#: series of two points or more from which on a panel is worth showing; series of a table shown at first
+LEAST, MOST = 3, 8
+#: kinds of methods by how their names begin, in the order of the page
+FAMILIES = ("compressible", "MAC", "DIH lattice", "DIH Delaunay", "moving", "SPAM", "py-pde")
+COMPRESSIBLE, INCOMPRESSIBLE = ("compressible", "py-pde, gas"), ("MAC", "py-pde, Boussinesq")
+#: levels at which members of a family are compared: the first that one of them reaches
+DECIDE = (0.01, 0.03, 0.1)
 
 
 @dataclass(frozen=True)
@@ -43,32 +49,32 @@ class Point:
 
 @dataclass(frozen=True)
 class Series:
-    """One method; the usual ones are shown at first."""
+    """One method; the usual ones are shown at first. `needs`: level of error -> what it costs, of those that are reached."""
 
     label: str
     usual: bool
     points: list[Point]
-    #: level of error -> seconds of the coarsest run from which on all are below it, with their intervals
-    needs: dict[float, float]
+    needs: dict[float, Need]
 
 
 @dataclass(frozen=True)
 class Panel:
-    """One scene and quantity."""
+    """One scene and quantity, and the table of what errors cost, if the study has one."""
 
     title: str
     sheet: Sheet
     series: list[Series]
+    needed: Sheet | None = None
 
 
 def panels(found: list[Part]) -> list[Panel]:
     """All panels, those with most series first; of a study about speed before the others."""
-    made = [panel for part in found for sheet in part.sheets for panel in of_sheet(sheet)]
+    made = [panel for part in found for sheet in part.sheets for panel in of_sheet(sheet, needed_of(part))]
     return sorted(made, key=lambda panel: (not panel.sheet.name.startswith("speed/"),
                                            -sum(len(series.points) > 2 for series in panel.series), panel.title))
 
 
-def of_sheet(sheet: Sheet) -> Iterator[Panel]:
+def of_sheet(sheet: Sheet, needed: Sheet | None = None) -> Iterator[Panel]:
     """Panels of one table, if it is of this kind."""
     if not set(sheet.frame.columns) >= NEEDED:
         return
@@ -79,10 +85,18 @@ def of_sheet(sheet: Sheet) -> Iterator[Panel]:
     scenes = [name for name in SCENE if name in rows and (rows[name].nunique() > 1 or name in SAID)]
     common = {name: rows[name].mode().iloc[0] for name in scenes if name in UNSAID}
     for key, group in rows.groupby(scenes, sort=True):
-        series, about = list(of_panel(group)), dict(zip(scenes, key))
+        about = dict(zip(scenes, key))
+        series = list(of_panel(group, None if needed is None else where(needed.frame, about)))
         if sum(len(one.points) > 1 for one in series) >= LEAST:
             words = [named(*pair) for pair in about.items() if common.get(pair[0]) != pair[1]]
-            yield Panel(f"{sheet.path.parent.name}: {', '.join(words)}", sheet, series)
+            yield Panel(f"{sheet.path.parent.name}: {', '.join(words)}", sheet, series, needed)
+
+
+def where(frame: pd.DataFrame, about: dict) -> pd.DataFrame:
+    """Rows that have these values in the columns that there are."""
+    for column in {*about} & {*frame.columns}:
+        frame = frame[frame[column] == about[column]]
+    return frame
 
 
 def named(column: str, value: object) -> str:
@@ -90,24 +104,53 @@ def named(column: str, value: object) -> str:
     return f"{column.capitalize()} {value:g}" if isinstance(value, float | int) else f"{value}"
 
 
-def of_panel(group: pd.DataFrame) -> Iterator[Series]:
+def of_panel(group: pd.DataFrame, needed: pd.DataFrame | None = None) -> Iterator[Series]:
     """Its series, the usual ones first."""
     names = [name for name in SERIES if name in group]
     made = []
     for key, rows in group.groupby(names, sort=True):
-        about = dict(zip(names, key))
-        rows = rows.sort_values("resolution")
-        made.append((about, rows))
+        about, rows = dict(zip(names, key)), rows.sort_values("resolution")
+        made.append(Made(about, rows, needs(rows) if needed is None else given(where(needed, about))))
     usual = usual_ones(made)
-    for number in sorted(range(len(made)), key=lambda n: (n not in usual, n)):
-        about, rows = made[number]
-        yield Series(label(about), number in usual, [point(row) for row in rows.to_dict("records")], needs(rows))
+    for one in (*usual, *(one for one in made if one not in usual)):
+        yield Series(label(one.about), one in usual, [point(row) for row in one.rows.to_dict("records")], one.needs)
 
 
-def usual_ones(made: list[tuple[dict, pd.DataFrame]]) -> set[int]:
-    """Those that figures know; in a table of others all with three points or more, at most eight."""
-    known = {n for n, (about, _) in enumerate(made) if is_known(about)}
-    return known or set([n for n, (_, rows) in enumerate(made) if len(rows) > 2][:8]) or set(range(min(8, len(made))))
+@dataclass(frozen=True, eq=False)
+class Made:
+    """A series before it is known whether it is shown at first."""
+
+    about: dict
+    rows: pd.DataFrame
+    needs: dict[float, Need]
+
+    @property
+    def family(self) -> str:
+        """How its method's name begins; of a method that is not known all of it."""
+        name = str(self.about.get("method", ""))
+        return next((start for start in FAMILIES if name.startswith(start)), label(self.about))
+
+    @property
+    def rank(self) -> tuple[int, float]:
+        """Less for less seconds at the first level of DECIDE that it reaches, then for less error."""
+        reached = [(number, self.needs[level].cpu_s) for number, level in enumerate(DECIDE) if level in self.needs]
+        return reached[0] if reached else (len(DECIDE), float(self.rows["error"].abs().min()))
+
+    @property
+    def place(self) -> tuple:
+        """Its place in the order of families."""
+        return (FAMILIES.index(self.family) if self.family in FAMILIES else len(FAMILIES), self.rank)
+
+
+def usual_ones(made: list[Made]) -> list[Made]:
+    """Those that figures of convection know; in other tables the cheapest of each family, and what is as printed."""
+    if known := [one for one in made if is_known(one.about)]:
+        return known
+    best: dict[str, Made] = {}
+    for one in sorted([one for one in made if len(one.rows) > 2] or made, key=lambda one: one.rank):
+        best.setdefault(one.family, one)
+    chosen = [*best.values(), *(one for one in made if "as printed" in label(one.about) and one not in best.values())]
+    return sorted(chosen[:MOST], key=lambda one: one.place)
 
 
 def is_known(about: dict) -> bool:
@@ -148,13 +191,13 @@ def finite(value: float) -> float:
     return value if math.isfinite(value) else 0.0
 
 
-def needs(rows: pd.DataFrame) -> dict[float, float]:
-    """Level -> CPU seconds from which on error and interval stay below it with finer resolution."""
-    worst = (rows["error"].abs() + rows["error_err"].fillna(0.0)).to_numpy()
-    below = np.maximum.accumulate(worst[::-1])[::-1]
-    return {level: float(rows["cpu_s"].to_numpy()[np.argmax(below <= level)]) for level in LEVELS if (below <= level).any()}
-
-
-def said(level: float, cpu: float | None) -> str:
-    """Seconds for a level of error."""
-    return signed("—") if cpu is None else seconds(cpu)
+def gridless(panel: Panel) -> str:
+    """Scenes of the study in which no compressible grid takes part."""
+    frame = panel.sheet.frame
+    if "scene" not in frame:
+        return ""
+    without = [(str(scene), rows["method"].str.startswith(INCOMPRESSIBLE).any()) for scene, rows in frame.groupby("scene")
+               if not rows["method"].str.startswith(COMPRESSIBLE).any()]
+    none, other = ([scene for scene, some in without if some == wanted] for wanted in (False, True))
+    words = [f"in {many(scenes)} {what}" for scenes, what in ((none, "none"), (other, "incompressible ones alone")) if scenes]
+    return f" Grids that took part: {', '.join(words)}." if words else ""

@@ -18,7 +18,7 @@ from markupsafe import Markup
 from PIL import Image, UnidentifiedImageError
 
 from studies.kit.csvfile import write_atomic
-from studies.report import cost
+from studies.report import cost, needs
 from studies.report.behind import catalogue, digest
 from studies.report.chart import HEIGHT, WIDTH, chart
 from studies.report.findings import Known, answer, claims_of, findings
@@ -67,7 +67,7 @@ def render(out: Path, found: list[Part], known: pd.DataFrame, encode: Callable[[
         question=QUESTION, answer=answer(knows), findings=findings(knows), claims=claim_rows(claims), verdicts=VERDICTS,
         counts=claims["verdict"].value_counts().to_dict(), papers=sorted({paper(source) for source in claims["source"]}),
         claims_made=" ".join(Sheet(out/"claims.csv").commits), panels=[(panel, chart(panel)) for panel in panels],
-        size=(WIDTH, HEIGHT), levels=cost.LEVELS, said=cost.said, parts=found, figures=shown, films=films(out),
+        size=(WIDTH, HEIGHT), levels=needs.LEVELS, said=needs.said, parts=found, figures=shown, films=films(out),
         main=shown["rb"][0] if shown.get("rb") and shown["rb"][0].name == "main" else None,
         tables={sheet.name: table(sheet) for sheet in sheets_of(found)}, style=part_of("style.css"), script=part_of("script.js"),
         inputs=fingerprint(out))
