@@ -176,7 +176,7 @@ def crossed(page) -> list[str]:
 def test_no_legend_lies_on_a_line_and_weights_are_not_told_by_colour_alone():
     pages = figures(load(hard_tables.ALL, "hardcases"))
     assert all(crossed(pages[name]) == [] and pages[name].legends for name in ("moduli", "pairs", "reversal"))
-    assert [axes.get_ylabel().split(":")[0] for axes in pages["moduli"].axes[::3]] == ["Lucy", "Monaghan", "Wendland C2"]
+    assert [axes.get_ylabel().split("\n")[0] for axes in pages["moduli"].axes[::3]] == ["Lucy", "Monaghan", "Wendland C2"]
     pages["reversal"].axes[0].legend(loc="center right")        # where it was
     assert crossed(pages["reversal"])
 

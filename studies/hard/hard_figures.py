@@ -51,7 +51,7 @@ def moduli(rows: pd.DataFrame) -> Figure:
         axes.set_xticks([2, 3, 4, 6, 8, 12], labels=["2", "3", "4", "6", "8", "12"])
         axes.minorticks_off()
     for axes, label in zip(all_axes[:, 0], WEIGHTS.values(), strict=True):
-        axes.set_ylabel(f"{label}: |shear| / bulk modulus")
+        axes.set_ylabel(f"{label}\n|shear| / bulk modulus")
     for axes, title in zip(all_axes[0], LATTICES.values(), strict=True):
         axes.set_title(title)
     for axes in all_axes[-1]:
