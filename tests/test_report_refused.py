@@ -3,6 +3,7 @@ import pandas as pd
 import pytest
 from report_tables import claims, errors, one_study
 
+from studies.cost import speed_tables
 from studies.kit.csvfile import write
 from studies.report import behind
 from studies.report.__main__ import main
@@ -46,6 +47,32 @@ def test_a_table_that_lacks_columns_or_is_none(small, capsys):
     assert "rb/errors.csv is no table" in refused(small, capsys)
     (small/"rb/errors.csv").write_text("")
     assert "rb/errors.csv is no table" in refused(small, capsys)
+
+
+@pytest.mark.parametrize("column", ["error_err", "cpu_s", "bytes", "commit"])
+def test_no_table_of_a_study_may_lack_a_column_that_it_declares(small, capsys, column):
+    """Not even one that others than findings read: diagrams would be left out, findings told from another table."""
+    write_page(small)
+    names = [*speed_tables.POINTS.columns, "size", "commit"]
+    texts = {"scene": "sound", "quantity": "velocity", "method": "moving points", "size": "fine", "commit": "abc"}
+    row = {name: texts.get(name, 1.0) for name in names if name != column}
+    write(small/"speed/points.csv", pd.DataFrame([row]), head=["x"])
+    told = refused(small, capsys)
+    assert f"speed/points.csv has no column {column}: it was written by other code" in told and "run the study again" in told
+
+
+def test_every_declared_column_is_looked_for(small, capsys):
+    write_page(small)
+    for column in (*errors().columns,):
+        write(small/"rb/errors.csv", errors().drop(columns=column), head=["x"])
+        assert f"rb/errors.csv has no column {column}" in refused(small, capsys)
+
+
+def test_a_study_that_cannot_be_loaded_is_named(small, capsys, monkeypatch):
+    def broken(name):
+        raise ImportError("no such term")
+    monkeypatch.setattr("studies.report.found.importlib.import_module", broken)
+    assert "studies/rb.py cannot be loaded (ImportError: no such term)" in refused(small, capsys)
 
 
 def test_a_figure_that_is_missing_or_broken(small, capsys, monkeypatch):

@@ -1,6 +1,5 @@
 """Which tables are behind a figure: those without which it is missing or another one. Kept in results/figures.csv."""
 import hashlib
-import importlib
 import re
 import warnings
 from collections.abc import Callable, Iterator, Mapping
@@ -18,10 +17,9 @@ from matplotlib.text import Text
 
 from studies.kit import provenance
 from studies.kit.csvfile import write
-from studies.kit.source import ROOT
 from studies.kit.sweep import load
 from studies.kit.table import Tables
-from studies.report.found import NoReport, Part, rows_of
+from studies.report.found import NoReport, Part, rows_of, study_of
 
 #: title and panels describe the figure; tables: names, one after the other; picture: hash of the PNG that was looked at
 COLUMNS = ("study", "figure", "title", "panels", "tables", "picture")
@@ -69,8 +67,8 @@ def digest(path: Path) -> str:
 def looked_at(out: Path, part: Part) -> Iterator[dict[str, Any]]:
     """Rows of a study without the hash: from its own figures, and of pictures that it does not draw what the folder tells."""
     pages, needs = {}, {}
-    if (ROOT/"studies"/f"{part.name}.py").exists() and part.sheets:
-        study = importlib.import_module(f"studies.{part.name}").STUDY
+    study = study_of(part.name) if part.sheets else None
+    if study:
         tables = load(study.tables, part.name, out)
         pages, needs = dict(study.figures(tables)), needed(study.figures, tables)
     everything = [sheet.path.stem for sheet in part.sheets]

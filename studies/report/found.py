@@ -1,5 +1,6 @@
 """What results/ holds: studies with their tables and figures, found by name, and where each comes from."""
 import ast
+import importlib
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -9,8 +10,10 @@ from typing import Any
 
 import pandas as pd
 
-from studies.kit.csvfile import ABOVE, TEXT, read
+from studies.kit.csvfile import ABOVE, AGAIN, TEXT, read
 from studies.kit.source import ROOT
+from studies.kit.study import Study
+from studies.kit.table import STAMP
 
 #: folders that are no study
 OTHERS = {"raw": "", "quick": "", "films": "", "bench": "Speed beside public codes, in one run"}
@@ -98,6 +101,40 @@ def parts(out: Path) -> list[Part]:
     if not found:
         raise NoReport(f"no tables in {out}: run a study first, make study-rb writes the main ones")
     return sorted(found, key=lambda part: (FIRST.index(part.name) if part.name in FIRST else len(FIRST), part.name))
+
+
+def study_of(name: str) -> Study | None:
+    """The study of this name; none of a folder that has other tables.
+
+    Raises
+    ------
+    NoReport
+        Its code cannot be loaded.
+    """
+    if not (ROOT/"studies"/f"{name}.py").exists():
+        return None
+    try:
+        study: Study = importlib.import_module(f"studies.{name}").STUDY
+    except Exception as error:      # whatever its modules raise
+        raise NoReport(f"studies/{name}.py cannot be loaded ({type(error).__name__}: {error}): mend it, its tables and figures "
+                       f"cannot be told without it; python -m studies.{name} --help has the whole story") from error
+    return study
+
+
+def check_columns(found: list[Part]) -> None:
+    """All columns that the studies declare are there: what reads a table would leave out, or say wrongly, what lacks some.
+
+    Raises
+    ------
+    NoReport
+        A table lacks some.
+    """
+    for part in found:
+        study = study_of(part.name) if part.sheets else None
+        declared = {table.name: (*table.columns, *STAMP) for table in study.tables} if study else {}
+        for sheet in part.sheets:
+            if lost := [name for name in declared.get(sheet.path.stem, ()) if name not in sheet.frame]:
+                raise NoReport(f"{sheet.path} has no column {', '.join(lost)}: it was written by other code; {AGAIN}")
 
 
 def question(name: str) -> str:

@@ -1,4 +1,4 @@
-"""results/index.html: one file with everything in it, from tables, figures and films on disk; no solver is loaded."""
+"""results/index.html: one file with everything in it, from tables, figures and films on disk; no solver is run."""
 import base64
 import gzip
 import hashlib
@@ -22,7 +22,7 @@ from studies.report import cost, needs
 from studies.report.behind import catalogue, digest
 from studies.report.chart import HEIGHT, WIDTH, chart
 from studies.report.findings import Known, answer, claims_of, findings
-from studies.report.found import NoReport, Part, Sheet, parts, rows_of, sheets_of
+from studies.report.found import NoReport, Part, Sheet, check_columns, parts, rows_of, sheets_of
 from studies.report.numbers import short, signed, told
 from studies.report.tables import FILMS, ORDER
 
@@ -44,6 +44,7 @@ def write_page(out: Path, say: Callable[[str], None] = lambda text: None) -> Pat
         Something is missing or broken; an older page stays as it is.
     """
     found = parts(out)
+    check_columns(found)
     known = catalogue(out, found, say)
     for colours in COLOURS:
         text = render(out, found, known, partial(webp, colours=colours))
