@@ -126,21 +126,22 @@ CLAIMS = (
           statement="Boussinesq grid, advection extrapolated from two steps: noise about a steady roll does not grow at the CFL "
           "number that is allowed, 0.8", because="0.8 is meant to be safe: how much it gives away is in the table"),
     # read later: forward Euler between plates falls short by a third, and its formula knows no plates
-    near("euler-periodic", "RR98 Eq. 40", "the same on a lattice without plates, which the formula does not know [asked "
-         "after it fell short by a third between plates]",
+    near("euler-periodic", "RR98 Eq. 40", "forward Euler on a lattice without plates, which the formula does not know: noise "
+         "begins to grow at dt = (eta + zeta + kappa/2)/(rho c^2) [asked after it fell short by a third between plates]",
          ("fixed Euler, periodic",), ("Euler 1/2", "Euler 1", "Euler heat")),
     near("euler-strip", "RR98 Eqs 37-40", "forward Euler between plates: noise begins to grow at the step of linear theory of a "
          "strip whose friction and heat see images [asked after the formula without plates had failed]",
          ("fixed Euler, strip",)),
     Claim(id="limit-step-euler-theory", source="RR98 Eqs 37-40", at_most=NEAR, value=strips_and_sums,
-          statement="this theory has the limit that eigenvalues of the compiled sums have, ten rows: largest relative difference",
+          statement="theory of a strip has the limit that eigenvalues of the compiled sums have, ten rows: largest relative "
+                    "difference",
           because="10 %, asked of limits beforehand"),
     Claim(id="limit-step-euler-images", source="RR98 Eqs 37-40", at_most=NEAR, value=strips("insulating, slipping", 10),
-          statement="by this theory it is the images that friction and heat see that shorten the step: with plates that slip and "
-                    "insulate it is that of the formula without plates, ten rows", because="10 %, asked of limits beforehand"),
+          statement="in theory of a strip it is the images that friction and heat see that shorten the step: with plates that slip "
+                    "and insulate it is that of the formula without plates, ten rows", because="10 %, asked of limits beforehand"),
     Claim(id="limit-step-euler-rows", source="RR98 Eqs 37-40", at_most=0.01, value=weak_strips,
-          statement="by this theory heat conduction that is weak allows (1 - 4/N) k/(2 rho c^2) between plates N rows apart, two "
-                    "rows of N doing nothing at the crests of a gradient [derived here]: largest relative difference, N 10 to 40",
+          statement="in theory of a strip heat conduction that is weak allows (1 - 4/N) k/(2 rho c^2) between plates N rows apart, "
+                    "two rows of N doing nothing at the crests of a gradient [derived here]: largest relative difference, N 10 to 40",
           because="sound is damped by 3 % within a period"),
     Claim(id="limit-step-edges-alone", source="RR98 Eq. 51", value=least(("fixed jittered, edges alone",)), at_least=0.99,
           statement="a formula that leaves images behind plates out, as points between plates once had, is not above the step at "
@@ -161,8 +162,9 @@ CLAIMS = (
            ("moving",)))),
     near("dpd", "RR98 Eqs 39-41, 51", "dissipative particles that rest at kT = 0, a = 25, gamma = 4.5, rho = 3, two and three "
          "dimensions: noise begins to grow at their formula, 2/omega of a uniform fluid", DPD),
-    near("dpd-settled", "RR98 Eqs 39-41, 51", "the same where an eigenvalue of the step's linear map about settled particles "
-         "leaves the unit circle", DPD, column="exact"),
+    near("dpd-settled", "RR98 Eqs 39-41, 51", "dissipative particles that rest at kT = 0, two and three dimensions: noise begins "
+         "to grow where an eigenvalue of the step's linear map about settled particles leaves the unit circle", DPD,
+         column="exact"),
     Claim(id="limit-step-safe", source="RR98 Eqs 34-51", value=least(RUNGE_KUTTA), at_least=0.99,
           statement="no method's own formula of the largest step is above the step at which noise begins to grow",
           because="formulas are read off stability regions to 0.4 %, trials find limits to 1 %"),
