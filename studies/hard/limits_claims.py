@@ -137,11 +137,13 @@ CLAIMS = (
                     "difference",
           because="10 %, asked of limits beforehand"),
     Claim(id="limit-step-euler-images", source="RR98 Eqs 37-40", at_most=NEAR, value=strips("insulating, slipping", 10),
-          statement="in theory of a strip it is the images that friction and heat see that shorten the step: with plates that slip "
-                    "and insulate it is that of the formula without plates, ten rows", because="10 %, asked of limits beforehand"),
+          statement="in theory of a strip it is the images that friction and heat see that shorten the step: with plates that "
+                    "slip and insulate it is that of the formula without plates, ten rows",
+          because="10 %, asked of limits beforehand"),
     Claim(id="limit-step-euler-rows", source="RR98 Eqs 37-40", at_most=0.01, value=weak_strips,
-          statement="in theory of a strip heat conduction that is weak allows (1 - 4/N) k/(2 rho c^2) between plates N rows apart, "
-                    "two rows of N doing nothing at the crests of a gradient [derived here]: largest relative difference, N 10 to 40",
+          statement="in theory of a strip heat conduction that is weak allows (1 - 4/N) k/(2 rho c^2) between plates N rows "
+                    "apart, two rows of N doing nothing at the crests of a gradient [derived here]: largest relative "
+                    "difference, N 10 to 40",
           because="sound is damped by 3 % within a period"),
     Claim(id="limit-step-edges-alone", source="RR98 Eq. 51", value=least(("fixed jittered, edges alone",)), at_least=0.99,
           statement="a formula that leaves images behind plates out, as points between plates once had, is not above the step at "
