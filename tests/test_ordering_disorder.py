@@ -103,6 +103,15 @@ def test_the_cheapest_edges_are_held_against_triangles_of_the_same_points():
         claims.cheapest_triangles(Tables({"cheapest": pd.DataFrame([triangles, {**cheap, "exchanges": np.nan}])}))
 
 
+def test_an_order_that_cannot_be_told_says_what_there_is():
+    rows = [{"flow": "convection", "quantity": "K", "maker": "exact", "weight": "Lucy", "points": "random", "h": 3.0, "seeds": 3,
+             "resolution": n, "lost": lost, "error": error, "error_err": 0.2}
+            for n, lost, error in ((16, 1, 0.5), (24, 3, np.nan))]
+    slopes = pd.DataFrame(columns=["flow", "quantity", "maker", "weight", "points", "fixed", "at", "slope", "slope_err"])
+    with pytest.raises(CannotTell, match=r"16 rows: 2 of 3 runs end, 0.50 \+- 0.20 off; 24 rows: 0 of 3 runs end\)"):
+        claims.order("exact", "random")(Tables({"flows": pd.DataFrame(rows), "flow_slopes": slopes}))
+
+
 def test_what_is_lost_is_said_in_the_figure():
     means = pd.DataFrame([{"flow": "convection", "quantity": "K", "maker": "plain", "weight": "Lucy", "h": 3.0, "points": kind,
                            "resolution": n, "seeds": 3, "lost": lost, "error": error, "error_err": 0.0}
