@@ -1,4 +1,7 @@
 """The page from tables: what it says is computed, films, what is committed."""
+import base64
+import io
+import itertools
 import math
 import subprocess
 import sys
@@ -6,15 +9,17 @@ import sys
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.colors import to_rgb
 from PIL import Image
 from report_tables import errors, one_study
 
+from studies.cost.speed_names import FAMILIES
 from studies.kit.csvfile import read, write
-from studies.kit.figure import figure
+from studies.kit.figure import COLOURS, figure, save
 from studies.kit.source import ROOT
 from studies.kit.sweep import RESULTS
 from studies.kit.table import Tables
-from studies.report import behind, cost, draw, needs
+from studies.report import behind, cost, draw, needs, pictures
 from studies.report.chart import Scale, chart
 from studies.report.findings import Known, answer, claims_of, ends, falls, findings
 from studies.report.found import parts
@@ -172,6 +177,52 @@ def test_a_figure_stands_on_the_tables_without_which_it_is_another_one():
     assert behind.needed(toy_figures, tables) == {"first": ["a", "b"], "second": ["c"]}
     first = toy_figures(tables)["first"]
     assert behind.title(first) == "squares of ρ0" and behind.panels(first) == "squares of ρ0: ν/η^2 over x"
+
+
+# --- pictures ---------------------------------------------------------------------------------------------------------
+
+
+def embedded(path, near):
+    """A figure as a browser gets it, and as it was."""
+    packed = base64.b64decode(pictures.webp(path, near).split(",")[1])
+    return tuple(np.asarray(Image.open(one).convert("RGB")).astype(int) for one in (io.BytesIO(packed), path))
+
+
+def series_stay_apart(path, colours, near):
+    """No colour moves by more than it may; those of series are still told from each other."""
+    got, was = embedded(path, near)
+    assert np.linalg.norm(got - was, axis=2).max() <= near
+    moved = [got[np.linalg.norm(was - one, axis=2) <= 3] for one in colours]      # 256 colours are not quite matplotlib's
+    moved = [found.mean(axis=0) for found in moved if len(found) > 20]
+    apart = [np.linalg.norm(one - other) for one, other in itertools.combinations(moved, 2)]
+    assert len(moved) > 3 and min(apart) > 40
+    return moved
+
+
+def rgb(name):
+    return 255*np.array(to_rgb(name))
+
+
+@pytest.mark.parametrize("near", pictures.NEAR)
+def test_colours_of_series_stay_apart_in_an_embedded_figure(tmp_path, near):
+    """Of all that figures have, among many blends: thin lines over a field."""
+    page, axes = figure()
+    axes.imshow(np.linspace(0, 1, 10_000).reshape(100, 100), extent=(0, 1, 0, 1), aspect="auto", cmap="gray", alpha=0.3)
+    for number, colour in enumerate(COLOURS):
+        axes.plot([0, 1], [0.1*number, 0.1*number + 0.05], color=colour, linewidth=1.5)
+    save(page, tmp_path/"lines.png")
+    assert len(series_stay_apart(tmp_path/"lines.png", [rgb(name) for name in COLOURS], near)) == len(COLOURS)
+
+
+@pytest.mark.skipif(not (RESULTS/"speed/work_precision.png").exists(), reason="no figure of speed yet: make study-speed")
+def test_families_stay_apart_in_the_figure_that_has_most_of_them():
+    colours = [rgb(colour) for colour, _ in FAMILIES.values()]
+    assert len(series_stay_apart(RESULTS/"speed/work_precision.png", colours, pictures.NEAR[-1])) == len(FAMILIES)
+
+
+def test_the_page_has_its_figures_in_the_most_colours_for_which_it_has_room(small):
+    text = write_page(small).read_text()
+    assert pictures.webp(small/"rb/toy.png", pictures.NEAR[0]) in text
 
 
 # --- numbers ----------------------------------------------------------------------------------------------------------

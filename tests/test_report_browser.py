@@ -12,7 +12,8 @@ from studies.kit.csvfile import read
 from studies.kit.sweep import RESULTS
 from studies.report.behind import COLUMNS
 from studies.report.found import parts, rows_of
-from studies.report.page import address, render
+from studies.report.page import render
+from studies.report.pictures import address
 
 pytestmark = pytest.mark.skipif(not (RESULTS/"claims.csv").exists(), reason="no results yet: make study-rb writes them")
 

@@ -2,7 +2,6 @@
 import base64
 import gzip
 import hashlib
-import io
 import math
 import re
 from collections.abc import Callable
@@ -15,7 +14,6 @@ from typing import Any
 import pandas as pd
 from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescape
 from markupsafe import Markup
-from PIL import Image, UnidentifiedImageError
 
 from studies.kit.csvfile import write_atomic
 from studies.report import cost, needs
@@ -24,14 +22,14 @@ from studies.report.chart import HEIGHT, WIDTH, chart
 from studies.report.findings import Known, answer, claims_of, findings
 from studies.report.found import NoReport, Part, Sheet, check_columns, parts, rows_of, sheets_of
 from studies.report.numbers import short, signed, told
+from studies.report.pictures import NEAR, opened, still, webp
 from studies.report.tables import FILMS, ORDER
 
 QUESTION = ("Do fluid particles converge on the continuum equations, at what error, at what cost, and where do they break?")
 #: rows of a table that are in the page as they are; more of them when it is opened, if the file is below EMBED
 ROWS, EMBED = 5, 60_000
-#: what the page may weigh [bytes], and how many colours figures have in turn until it does not weigh more
-LIMIT = 6_000_000
-COLOURS = (64, 48, 32, 16)
+#: what the page may weigh [bytes]
+LIMIT = 7_800_000
 VERDICTS = {"holds": "✓", "fails": "✗", "undecidable": "?"}
 
 
@@ -46,14 +44,21 @@ def write_page(out: Path, say: Callable[[str], None] = lambda text: None) -> Pat
     found = parts(out)
     check_columns(found)
     known = catalogue(out, found, say)
-    for colours in COLOURS:
-        text = render(out, found, known, partial(webp, colours=colours))
+    for near in NEAR:
+        text = render(out, found, known, partial(webp, near=near))
         if (size := len(text.encode())) <= LIMIT:
             write_atomic(out/"index.html", text)
             return out/"index.html"
-        say(f"{size/1e6:.1f} MB with figures of {colours} colours")
-    raise NoReport(f"the page has {size/1e6:.1f} MB, {LIMIT/1e6:.0f} are allowed: see what is large in {out}, films and figures "
-                   "first")
+        say(f"{size/1e6:.1f} MB with figures in which colours nearer than {near} of 441 are one")
+    raise NoReport(f"the page has {size/1e6:.1f} MB, {LIMIT/1e6:.1f} are allowed, fewer colours would mix up series: draw "
+                   f"smaller, or take out of {out}, what is large, {', '.join(largest(out, found))}")
+
+
+def largest(out: Path, found: list[Part]) -> list[str]:
+    """Figures and films that weigh most."""
+    files = [*(path for part in found for path in part.pictures), *out.glob("films/*.avif")]
+    heavy = sorted(files, key=lambda path: -path.stat().st_size)[:5]
+    return [f"{path.relative_to(out)} ({path.stat().st_size/1000:.0f} kB)" for path in heavy]
 
 
 def render(out: Path, found: list[Part], known: pd.DataFrame, encode: Callable[[Path], str] | None = None) -> str:
@@ -161,34 +166,6 @@ def figures(out: Path, found: list[Part], known: pd.DataFrame, encode: Callable[
     return shown
 
 
-def opened(path: Path) -> Image.Image:
-    """A picture.
-
-    Raises
-    ------
-    NoReport
-        The file is none.
-    """
-    try:
-        return Image.open(path)
-    except (UnidentifiedImageError, OSError) as error:
-        raise NoReport(f"{path} is no picture ({error}): make figures-{path.parent.name} draws it again") from error
-
-
-def webp(path: Path, colours: int = 256) -> str:
-    """A PNG as WebP without loss, a fifth smaller, as an address that holds it; with fewer colours on wish."""
-    packed, full = io.BytesIO(), opened(path).convert("RGB")
-    if colours < 256:       # as many as kit.figure writes
-        full = full.quantize(colours, dither=Image.Dither.NONE).convert("RGB")
-    full.save(packed, "webp", lossless=True, method=4)
-    return address("image/webp", packed.getvalue())
-
-
-def address(kind: str, content: bytes) -> str:
-    """An address that holds its content."""
-    return f"data:{kind};base64,{base64.b64encode(content).decode()}"
-
-
 def films(out: Path) -> list[dict[str, Any]]:
     """Films with their last picture and what films.csv says of them."""
     rows = rows_of(out/"films/films.csv", (*FILMS.columns, "seed", "commit"))
@@ -200,14 +177,6 @@ def films(out: Path) -> list[dict[str, Any]]:
         made.append({**{str(name): value for name, value in row.items()}, "size": opened(path).size, "still": still(path),
                      "content": base64.b64encode(path.read_bytes()).decode()})
     return made
-
-
-def still(path: Path) -> str:
-    """The last picture of a film."""
-    film, packed = opened(path), io.BytesIO()
-    film.seek(getattr(film, "n_frames", 1) - 1)
-    film.convert("RGB").save(packed, "webp", quality=60, method=4)
-    return address("image/webp", packed.getvalue())
 
 
 # --- tables ---------------------------------------------------------------------------------------------------------
