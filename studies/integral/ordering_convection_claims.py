@@ -2,6 +2,9 @@
 
 Order of K and what 1 % costs are asked as they were of the vortex, with its limits (`ordering_flows_claims`).
 """
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 import pandas as pd
 
@@ -68,6 +71,12 @@ def floor(points: str) -> Value:
     return value
 
 
+def ended(row: Mapping[Any, Any]) -> str:
+    """How many runs of one point of the surface came to their end, and how far off."""
+    off = f", {row['error']:.2f} +- {row['error_err']:.2f} off" if row["lost"] < row["seeds"] else ""
+    return f"{row['resolution']:.0f} rows: {row['seeds'] - row['lost']:.0f} of {row['seeds']:.0f} runs end{off}"
+
+
 def order(maker: str, points: str) -> Value:
     """Order of K at h = 3 a.
 
@@ -83,9 +92,7 @@ def order(maker: str, points: str) -> Value:
             return slope(LAYER, "h/a", 3.0, **where)(tables)
         except CannotTell:
             rows = select(tables, "flows", **LAYER, **where, h=3.0)
-            told = "; ".join(f"{row.resolution:.0f} rows: {row.seeds - row.lost:.0f} of {row.seeds:.0f} runs end"
-                             + (f", {row.error:.2f} +- {row.error_err:.2f} off" if row.lost < row.seeds else "")
-                             for row in rows.sort_values("resolution").itertuples())
+            told = "; ".join(ended(row) for row in rows.sort_values("resolution").to_dict("records"))
             raise CannotTell(f"errors are told from zero at fewer than {LEAST} numbers of rows ({told})") from None
     return value
 
