@@ -46,6 +46,17 @@ def test_errors_that_come_back_above_a_level_have_not_reached_it():
     assert speed_derive.reached(crossing, 0.01)["reached"] == "no"
 
 
+def test_the_interval_of_an_error_holds_what_half_of_the_chosen_step_changes():
+    tables = lines({"grid": 1.0})
+    found, rung = tables["errors"], tables["errors"][[*speed_tables.RUN, "quantity"]]
+    steps = pd.concat([rung.assign(of_limit=0.9, time_error=7.0, accepted=0),
+                       rung.assign(of_limit=0.45, time_error=3e-3, accepted=1)])
+    given = speed_derive.with_steps(found.assign(error_err=4e-3), steps)
+    assert given["error_err"].to_numpy() == pytest.approx(5e-3) and given["error"].equals(found["error"])
+    assert list(given) == list(found)
+    assert speed_derive.with_steps(found, pd.DataFrame()).equals(found)
+
+
 def test_the_interval_of_a_crossing_is_that_of_random_errors():
     error, err, cost, cost_err = np.array([0.04, 0.005]), np.array([2e-3, 4e-4]), np.array([1.0, 9.0]), np.array([0.05, 0.6])
     value, half = speed_derive.crossing(error, err, cost, cost_err, 0.01)

@@ -31,7 +31,7 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
 
 def of_part(tables: Tables, part: str) -> Tables:
     """The tables as they were if the first, `early`, or the last, `late`, of the repeats of all seconds were all there are."""
-    found = {name: tables[name] for name in ("errors", "runs", "growth") if name in tables}
+    found = {name: tables[name] for name in ("errors", "runs", "steps", "growth") if name in tables}
     if "runs" in found:
         both = found["runs"].merge(tables.get("repeats", pd.DataFrame(columns=RUN)), on=RUN, suffixes=("", "_part"))
         found["runs"] = both.assign(run_s=both[f"{part}_s"])
@@ -41,11 +41,11 @@ def of_part(tables: Tables, part: str) -> Tables:
 
 
 def over_seeds(tables: Tables) -> Iterator[dict[str, Any]]:
-    """Means; a resolution at which a seed diverged has no error."""
+    """Means; a resolution at which a seed diverged has no error. Its interval holds what half of the step would change."""
     errors, runs = (tables.get(name, pd.DataFrame()) for name in ("errors", "runs"))
     if errors.empty or runs.empty:
         return
-    both = errors.merge(runs, on=RUN, suffixes=("", "_run"))
+    both = with_steps(errors, tables.get("steps", pd.DataFrame())).merge(runs, on=RUN, suffixes=("", "_run"))
     lost = {tuple(row) for row in errors.loc[errors["quantity"] == "diverged", ["scene", "method", "resolution"]].to_numpy()}
     for key, group in both.groupby([*SERIES, "resolution"]):
         scene, _, method, resolution = key
@@ -57,6 +57,16 @@ def over_seeds(tables: Tables) -> Iterator[dict[str, Any]]:
         yield {**dict(zip([*SERIES, "resolution"], key, strict=True)), "points": group["points"].iloc[0], "seeds": len(group),
                "error": error.value, "error_err": error.err, "cpu_s": seconds.value, "cpu_s_err": seconds.err,
                "setup_s": group["setup_s"].mean(), "bytes": group["bytes"].mean()}
+
+
+def with_steps(errors: pd.DataFrame, steps: pd.DataFrame) -> pd.DataFrame:
+    """Errors with what half of the step chosen changes in their intervals: runs that nothing random enters have no other."""
+    if steps.empty:
+        return errors
+    key = [*RUN, "quantity"]
+    chosen = steps[steps["accepted"] == 1].drop_duplicates(key)[[*key, "time_error"]]
+    both = errors.merge(chosen, on=key, how="left")
+    return both.assign(error_err=np.hypot(both["error_err"], both["time_error"].fillna(0))).drop(columns="time_error")
 
 
 def exponents(points: pd.DataFrame) -> Iterator[dict[str, Any]]:
