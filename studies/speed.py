@@ -110,8 +110,8 @@ def layers() -> Iterator[Case]:
 
 def numbers() -> Iterator[Case]:
     """A thousand to a million, of stored edges more sizes, which see the caches; two threads from 20 000 on; fresh processes."""
-    yield from (Growth(rows=rows) for rows in (22, 40, 71, 126, 224, 398, 707))
-    yield from (Growth(rows=rows, fixed=True) for rows in (22, 30, 40, 53, 71, 95, 126, 168, 224, 299, 398, 531, 707))
+    yield from (Growth(rows=rows, fixed=fixed) for fixed in (False, True)
+                for rows in (22, 30, 40, 53, 71, 95, 126, 168, 224, 299, 398, 531, 707))
     yield from (Threads(rows=rows, fixed=fixed) for fixed in (False, True) for rows in (100, 224))
     yield from (Start(scene="conduction", method=name, resolution=32) for name in (
         names.GRID, names.LATTICE, names.LUCY, names.MOVING))
