@@ -79,9 +79,25 @@ def test_the_first_view_is_there_within_a_second(desk, page):
     assert min(times) < 1000, f"first contentful paint after {times} ms"
 
 
-def test_the_question_its_answer_and_the_findings_are_on_one_screen(desk):
-    bottom = desk.execute_script("return document.querySelector('.findings').getBoundingClientRect().bottom + scrollY")
-    assert bottom < 900 and len(desk.find_elements(By.CSS_SELECTOR, ".findings li")) >= 5
+@pytest.fixture
+def sized(desk):
+    """The same page in windows of other sizes."""
+    def resize(width: int, height: int):
+        desk.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                             {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
+        return desk
+    yield resize
+    resize(1280, 900)
+
+
+@pytest.mark.parametrize("size", [(1280, 900), (1366, 625), (1920, 940)])       # 625: what browsers leave of a laptop's 768
+def test_the_question_its_answer_and_the_findings_are_on_one_screen(sized, size):
+    chrome = sized(*size)
+    bottom, lead = chrome.execute_script("return ['.findings', '.lead'].map("
+                                         "one => document.querySelector(one).getBoundingClientRect().bottom + scrollY)")
+    assert bottom < size[1] and lead < size[1]
+    assert chrome.execute_script("return document.documentElement.scrollWidth <= innerWidth")
+    assert len(chrome.find_elements(By.CSS_SELECTOR, ".findings li")) >= 5
 
 
 @pytest.mark.parametrize("column", ["verdict", "study", "whose"])
