@@ -4,7 +4,7 @@ A run is wrong if K of its last third is off by a factor of more than OFF from t
 ended before. The map calls a tenth wrong, of flow at Ra 1e5 and 1e6; grids of 16 and of 96 rows differ by a tenth in K at Ra 1e5,
 so that OFF leaves room for as much again. Ra is raised by half decades until a run is wrong, and beyond until one ends; then the
 interval is halved, on the scale of v a/nu of the free-fall velocity, (Ra/Pr)^(1/2)/16. Whether K is off is asked up to 1e6 only,
-as far as the fine grid has been seen to come.
+as far as the fine grid has been seen to come. All is done again in shorter steps, since v grows after these are chosen.
 
 Expected: central differences keep order while v a/nu of the fastest flow, that of the fine grid, is below 2. This is no limit of
 stability: no formula is known that says where a run ends.
@@ -26,21 +26,24 @@ from studies.kit.case import Case, Outcome, Report
 from studies.kit.table import Table, Tables
 
 OFF = 1.25              # factor in K
+STEPS = (1.0, 0.25)     # over those of other studies
 FINE, FINER = 32, 48    # rows of grids that tell what K should be: the second, from which the first tells how far off it may be
-RUNGS = tuple(10.0**(n/2) for n in range(8, 17))        # 1e4 .. 1e8
+RUNGS = tuple(float(f"{10.0**(n/2):.9g}") for n in range(8, 17))        # 1e4 .. 1e8
 TOLD = 1e6              # up to which K is held against the fine grid
 CELL_NUMBER = 2.0       # of the fastest flow, beyond which central differences are expected to ring
 
 #: K of the last third and cell number v a/nu of the fastest flow at the end, a of 16 rows; reached: part of the time
 REFERENCE = Table("high_ra_grid", key=["ra", "rows"], columns=["ra", "rows", "k", "cell_number", "reached"])
 #: every run of a search: K of its last third, over that of the fine grid where this is known
-TRIALS = Table("high_ra_trials", key=["method", "seed", "ra"], columns=["method", "seed", "ra", "k", "over", "reached"])
+TRIALS = Table("high_ra_trials", key=["method", "step", "seed", "ra"],
+               columns=["method", "step", "seed", "ra", "k", "over", "reached"])
 #: Ra from which on runs are wrong (K, or they ended), and end; half of the interval between two trials; none is up to `tried` if
 #: nothing is told
-LIMITS = Table("high_ra", key=["method", "seed", "kind"], columns=["method", "seed", "kind", "ra", "ra_err", "tried"])
+LIMITS = Table("high_ra", key=["method", "step", "seed", "kind"],
+               columns=["method", "step", "seed", "kind", "ra", "ra_err", "tried"])
 #: means over seeds, of logarithms; predicted: where the cell number of the fastest flow is 2; outcome: wrong but stable, or ends
-SUMMARY = Table("high_ra_summary", key=["method", "kind"],
-                columns=["method", "kind", "predicted", "ra", "ra_low", "ra_high", "seeds", "outcome"])
+SUMMARY = Table("high_ra_summary", key=["method", "step", "kind"],
+                columns=["method", "step", "kind", "predicted", "ra", "ra_low", "ra_high", "seeds", "outcome"])
 TABLES = (REFERENCE, TRIALS, LIMITS, SUMMARY)
 
 
@@ -53,7 +56,7 @@ def reference(rows: int) -> list[dict[str, float]]:
     found = []
     for ra in RUNGS:
         if ra <= TOLD:
-            trial, cell_number = grid_run(ra, 1, rows)
+            trial, cell_number = grid_run(ra, 1, 1.0, rows)
             found.append({"ra": ra, "rows": rows, "k": trial.k, "cell_number": cell_number, "reached": trial.reached})
     return found
 
@@ -87,13 +90,14 @@ class FineGrid(Case):
 class Search:
     """Trials of one method, each run once."""
 
-    def __init__(self, method: str, seed: int):
-        self.method, self.seed, self.found = method, seed, dict[float, Trial]()
+    def __init__(self, method: str, seed: int, step: float):
+        self.method, self.seed, self.step, self.found = method, seed, step, dict[float, Trial]()
 
     def at(self, ra: float) -> Trial:
-        """The run at a Rayleigh number."""
+        """The run at a Rayleigh number, of which nine digits count: a rung is met again as the square of a root."""
+        ra = float(f"{ra:.9g}")
         if ra not in self.found:
-            self.found[ra] = METHODS[self.method](ra, self.seed)
+            self.found[ra] = METHODS[self.method](ra, self.seed, self.step)
         return self.found[ra]
 
     def ends(self, ra: float) -> bool:
@@ -108,7 +112,7 @@ class Search:
         """The first rung at which a run is bad, halved in upon."""
         for ra in rungs:
             if bad(ra):
-                low, high = ends_of(bisected(lambda cell: bad(round((ROWS*cell)**2, 6)), ra**0.5/ROWS))
+                low, high = ends_of(bisected(lambda cell: bad((ROWS*cell)**2), ra**0.5/ROWS))
                 return {"ra": (low*high)**0.5, "ra_err": (high - low)/2, "tried": ra}
         return {"ra": np.nan, "ra_err": np.nan, "tried": rungs[-1]}
 
@@ -120,20 +124,22 @@ def ends_of(found: Any) -> tuple[float, float]:
 
 @dataclass(frozen=True, kw_only=True)
 class HighRa(Case):
-    """One method's limits from one start."""
+    """One method's limits from one start. step : over that of other studies."""
     method: str
     seed: int
+    step: float = STEPS[0]
 
     @property
     def cost(self) -> float:
-        return 240.0 if self.method == "moving" else 60.0
+        return (60.0 if self.method == "moving" else 10.0)/self.step
 
     @property
     def label(self) -> str:
-        return f"high Ra, {self.method}, seed {self.seed}"
+        return f"high Ra, {self.method}, seed {self.seed}, step {self.step:g}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        search, key = Search(self.method, self.seed), {"method": self.method, "seed": self.seed}
+        search = Search(self.method, self.seed, self.step)
+        key = {"method": self.method, "step": self.step, "seed": self.seed}
         told = tuple(ra for ra in RUNGS if ra <= TOLD)
         rows = [{**key, "kind": kind, **search.limit(bad, rungs)}
                 for kind, bad, rungs in (("wrong", search.wrong, told), ("ends", search.ends, RUNGS))]
@@ -143,10 +149,11 @@ class HighRa(Case):
 
 
 def cases(size: str) -> Iterator[Case]:
-    """Five starts each, three of the moving points, which cost most."""
+    """Five starts each, three of the moving points, which cost most, and one of these in shorter steps."""
     if size != "quick":
         yield from (FineGrid(rows=rows) for rows in (FINE, FINER))
-        yield from (HighRa(method=method, seed=seed) for method in METHODS for seed in range(1, 4 if method == "moving" else 6))
+        yield from (HighRa(method=method, seed=seed, step=step) for method in METHODS for step in STEPS
+                    for seed in range(1, 1 + (5 if method != "moving" else 3 if step == STEPS[0] else 1)))
 
 
 # --- what follows -----------------------------------------------------------------------------------------------------
@@ -169,10 +176,11 @@ def cell_numbers(grid: pd.DataFrame) -> tuple[float, float]:
 
 def summary(limits: pd.DataFrame, predicted: float) -> Iterator[dict[str, Any]]:
     """Geometric means, the lowest and the highest; what begins at the limit of being wrong."""
-    for (method, kind), rows in limits.groupby(["method", "kind"]):
-        ra, end = rows["ra"].dropna(), limits[(limits["method"] == method) & (limits["kind"] == "ends")].set_index("seed")["ra"]
+    for (method, step, kind), rows in limits.groupby(["method", "step", "kind"]):
+        alike = (limits["method"] == method) & (limits["step"] == step)
+        ra, end = rows["ra"].dropna(), limits[alike & (limits["kind"] == "ends")].set_index("seed")["ra"]
         own = rows.set_index("seed")["ra"]
         ended = (own == end.reindex(own.index)).sum()
         said = "none" if ra.empty else "ends" if kind == "ends" or ended > len(rows)/2 else "wrong but stable"
-        yield {"method": method, "kind": kind, "predicted": predicted if kind == "wrong" else np.nan,
+        yield {"method": method, "step": step, "kind": kind, "predicted": predicted if kind == "wrong" else np.nan,
                "ra": float(np.exp(np.log(ra).mean())), "ra_low": ra.min(), "ra_high": ra.max(), "seeds": len(ra), "outcome": said}

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from studies.convection.claims.read import Value, over_seeds, select
 from studies.hard import high_ra
-from studies.hard.high_ra import CELL_NUMBER, METHODS, OFF, cell_numbers
+from studies.hard.high_ra import CELL_NUMBER, METHODS, OFF, STEPS, cell_numbers
 from studies.hard.part import Part
 from studies.hard.tube_claims import WORDS
 from studies.kit.claim import Claim
@@ -21,7 +21,7 @@ WORTH = 2.0             # factor that a rule of thumb is worth
 def cell_number(method: str) -> Value:
     """v a/nu of the fastest flow at the limit, mean over starts; at the highest Ra that was tried where there is no limit."""
     def value(tables: Tables) -> Measured:
-        rows = select(tables, "high_ra", method=method, kind="wrong")
+        rows = select(tables, "high_ra", method=method, kind="wrong", step=STEPS[0])
         slope, constant = cell_numbers(select(tables, "high_ra_grid"))
         return over_seeds([float(np.exp(constant + slope*log(ra))) for ra in rows["ra"].fillna(rows["tried"])])
     return value
@@ -49,7 +49,7 @@ def trials(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
     """K over the fine grid's against Ra, and the part of the time that was reached."""
     page, (above, below) = figure(2, 1, width=6.4, height=2.9, sharex=True)
     for number, method in enumerate(METHODS):
-        some = rows[rows["method"] == method].sort_values("ra")
+        some = rows[(rows["method"] == method) & (rows["step"] == STEPS[0])].sort_values("ra")
         style = {**look(number), "linestyle": "none", "markersize": 4}
         above.plot(some["ra"], some["over"], **style, label=method)
         means = some.groupby("ra")["reached"].mean()

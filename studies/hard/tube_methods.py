@@ -31,7 +31,6 @@ from studies.kit.case import Report
 
 JITTER = 0.3            # of disordered points, in spacings
 PARTS = 16              # of a point, over which it is spread when it is put into cells
-OF_LIMIT = 0.5          # of the step to its limit at the start: v + c behind the shock is 1.85 times c of the dense gas
 
 
 class Seen(NamedTuple):
@@ -69,32 +68,33 @@ def binned(L: int, x: np.ndarray, V: np.ndarray, sums: np.ndarray) -> np.ndarray
 # --- points -----------------------------------------------------------------------------------------------------------
 
 
-def fixed(L: int, law: ConstEta, seed: int, report: Report, make: Callable[[Points, Any], Edges], jitter: float) -> Seen:
+def fixed(L: int, law: ConstEta, seed: int, step: float, report: Report, make: Callable[[Points, Any], Edges],
+          jitter: float) -> Seen:
     """Fixed points, friction along edges    [RR98 Eqs 34-36, 51]"""
     points = jittered((4*L, round(HEIGHT)), jitter, seed)
     edges = make(points, Lucy.of(h=2.0))
     method = Layer(x=points.x, edges=edges, beyond=NONE_BEYOND, eos=EOS, law=law, T_plates=(1.0, 1.0), g=0.0)
     rho, T = gases(L, points.x[:, 0])
-    state, reached = followed(method, method.state(rho, np.zeros_like(points.x), T), L, report)
+    state, reached = followed(method, method.state(rho, np.zeros_like(points.x), T), L, step, report)
     return seen(L, points.x[:, 0], edges.V, state*edges.V) if reached == 1 else ended(L, reached)
 
 
-def moving(L: int, law: ConstEta, seed: int, report: Report) -> Seen:
+def moving(L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
     """Points that move with the gas and exchange over closed faces."""
     points = jittered((4*L, round(HEIGHT)), START_JITTER, seed)
     method = Moving(weight=WendlandC2.of(h=3.0), eos=EOS, law=law, box=(4*L, HEIGHT),
                     walls=(*periodic(4*L), *periodic(HEIGHT, axis=1)))
     rho, T = gases(L, points.x[:, 0])
-    state, reached = followed(method, method.state(points.x, np.zeros_like(points.x), rho, T), L, report)
+    state, reached = followed(method, method.state(points.x, np.zeros_like(points.x), rho, T), L, step, report)
     if reached < 1:
         return ended(L, reached)
     px, py, m, V, E = state[4:9]
     return seen(L, state[0], V, np.array([m, px, py, E]))
 
 
-def followed(method: Any, start: np.ndarray, L: int, report: Report) -> tuple[np.ndarray, float]:
-    """The state at the end, and the part of the time that was reached."""
-    steps = int(END*L/(OF_LIMIT*limit_of(method, start))) + 1
+def followed(method: Any, start: np.ndarray, L: int, step: float, report: Report) -> tuple[np.ndarray, float]:
+    """The state at the end, and the part of the time that was reached; step : over the limit of the start."""
+    steps = int(END*L/(step*limit_of(method, start))) + 1
     try:
         return run(method, start, Plan(dt=END*L/steps, steps=steps), report).by_id(), 1.0
     except Divergence as error:
@@ -121,7 +121,7 @@ class Upright(Slab):
         return 0.0
 
 
-def grid(L: int, law: ConstEta, seed: int, report: Report) -> Seen:
+def grid(L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
     """The compressible grid as it is, cells of one spacing; it has no disorder, so that `seed` says nothing."""
     scene = Upright(L=float(2*L), aspect=2/L, viscosity=law.eta, heat=law.k)
     x, y = nodes(scene, 2*L)
@@ -130,7 +130,7 @@ def grid(L: int, law: ConstEta, seed: int, report: Report) -> Seen:
     cells = np.where(np.arange(2*L) < L, DENSE.rho, THIN.rho)[:, None]*np.ones(len(x) - 1)
     start = Fields(scene, x, y, Values(0*T, 0*T, EOS.cv*T, T, np.ones_like(T)), cells)
     S = block(start)
-    steps = int(END*L/(OF_LIMIT*limits(scene, S).both)) + 1
+    steps = int(END*L/(step*limits(scene, S).both)) + 1
     march = March(scene, S, FluxForm(), END*L/steps)
     try:
         march.go(steps)
@@ -143,7 +143,7 @@ def grid(L: int, law: ConstEta, seed: int, report: Report) -> Seen:
     return Seen(np.array([rho, v, rho*T]), float(np.sqrt((at.vx**2).mean())))
 
 
-METHODS: dict[str, Callable[[int, ConstEta, int, Report], Seen]] = {
+METHODS: dict[str, Callable[[int, ConstEta, int, float, Report], Seen]] = {
     "grid": grid,
     "fixed lattice": partial(fixed, make=renormalised, jitter=0.0),
     "fixed jittered": partial(fixed, make=delaunay, jitter=JITTER),
