@@ -127,13 +127,23 @@ def test_a_limit_is_found_where_runs_turn_bad_and_each_runs_once(monkeypatch):
 
 def test_no_limit_is_said_where_none_is():
     search = high_ra.Search("grid", 1, 1.0)
-    found = search.limit(lambda ra: False, (1e4, 1e5))
-    assert np.isnan(found["ra"]) and found["tried"] == 1e5
+    search.found = {ra: high_ra.Trial(0.01, 1.0) for ra in (1e4, 1e5)}
+    found = search.limit(search.ends, 1e8)
+    assert np.isnan(found["ra"]) and found["tried"] == 1e5 and found["outcome"] == "none"
+
+
+def test_a_limit_is_the_first_bad_trial_though_later_ones_are_good():
+    search = high_ra.Search("grid", 1, 1.0)
+    trials = ((4e4, 1.0), (1e4, 1.0), (9e4, 0.3), (2e5, 1.0), (1e6, 0.1))
+    search.found = {ra: high_ra.Trial(0.01, reached) for ra, reached in trials}
+    found = search.limit(search.ends, 1e8)
+    assert found["ra"] == pytest.approx(6e4) and found["ra_err"] == 2.5e4 and found["again"] == 1 and found["outcome"] == "ends"
 
 
 def test_expected_is_where_the_fastest_flow_has_a_cell_number_of_two():
     grid = pd.DataFrame({"ra": [1e4, 1e5, 1e6], "rows": high_ra.FINER, "cell_number": [2.0, 2*10**0.5, 20.0]})
-    limits = pd.DataFrame([{"method": "grid", "step": 1.0, "seed": seed, "kind": kind, "ra": ra} for seed, kind, ra in (
+    limits = pd.DataFrame([{"method": "grid", "step": 1.0, "seed": seed, "kind": kind, "ra": ra, "outcome": "wrong but stable"}
+        for seed, kind, ra in (
         (1, "wrong", 1e5), (2, "wrong", 4e5), (1, "ends", 1e5), (2, "ends", np.nan))])
     rows = {row["kind"]: row for row in high_ra.derive({"high_ra": limits, "high_ra_grid": grid})["high_ra_summary"]}
     assert rows["wrong"]["predicted"] == pytest.approx(1e4) and rows["wrong"]["ra"] == pytest.approx(2e5)

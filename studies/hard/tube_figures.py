@@ -12,7 +12,7 @@ from studies.kit.figure import figure, look
 from studies.kit.table import Tables
 
 ALL = (*METHODS, "smooth particles")
-SHIFT = 0.35            # between methods' densities, upwards
+SHIFT = 0.5             # between methods' densities, upwards
 SOURCES = ("method_tubes", "method_tube_profiles", "tubes", "tube_profiles")
 
 
@@ -29,14 +29,15 @@ def page(rows: pd.DataFrame, profiles: pd.DataFrame, tubes: pd.DataFrame, others
     Of the shorter step: what ends with it is not the step's fault.
     """
     rows, profiles = (frame[frame["step"] == min(STEPS)] for frame in (rows, profiles))
-    sheet, axes = figure(2, len(ETAS), width=4.0, height=4.2)
+    sheet, axes = figure(2, len(ETAS), width=4.0, height=4.4)
     smooth = tubes.rename(columns={"v_exact": "error"}).assign(method=ALL[-1])
     smooth = smooth[smooth["diverged"].isna()]
     both = pd.concat([rows.rename(columns={"v_exact": "error"}).assign(smooth=False), smooth.assign(smooth=True)])
     lines = pd.concat([profiles, others.assign(method=ALL[-1])])
     for above, under, eta in zip(*axes, ETAS, strict=True):
         densities(above, lines[np.isclose(lines["eta"], eta)], rows[np.isclose(rows["eta"], eta)])
-        above.set(title=rf"$\eta = k = {eta:g}$", xlabel="distance from the diaphragm / $L$", xlim=(-0.8, 1.0), yticks=[])
+        above.set(title=rf"$\eta = k = {eta:g}$", xlabel="distance from the diaphragm / $L$", xlim=(-0.8, 1.0),
+                  ylim=(-0.1, SHIFT*(len(ALL) - 1) + 1.15), yticks=[])
         for number, method in enumerate(ALL):
             some = both[(both["method"] == method) & np.isclose(both["eta"], eta)].dropna(subset=["error"])
             means = some.groupby("L")["error"].mean()
@@ -61,6 +62,6 @@ def densities(axes: Any, lines: pd.DataFrame, rows: pd.DataFrame) -> None:
             x, L = some["x"].to_numpy(), float(some["L"].iloc[0])
             axes.plot(x, up + exact(L, (x + 1)*L)[0], color="black", linewidth=0.7, linestyle="-", marker="")
             axes.plot(x, up + some["rho"], **{**look(number), "linestyle": "none", "markersize": 2})
-            axes.text(-0.77, up + 0.87, f"{method}, $L$ = {L:g}", fontsize=8)
+            axes.text(0.98, up + 0.02, f"{method}, $L$ = {L:g}", ha="right", fontsize=8)
         elif len(run):
-            axes.text(-0.77, up + 0.87, f"{method}: ended at {run['reached'].iloc[-1]:.2g} of the time", fontsize=8)
+            axes.text(0.98, up + 0.2, f"{method}: ended at {run['reached'].iloc[-1]:.2g} of the time", ha="right", fontsize=8)
