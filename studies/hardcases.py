@@ -1,8 +1,9 @@
 """Where do smooth particles break, and was it to be expected?    [KHP95, Secs II-IV, Figs 4, 10, 11]
 
 Spurious shear modulus, pairing and clumping of lattices against lattice sums; freezing against the printed criteria; the
-isomorphism with molecular dynamics and its reversal; a shock tube and a shocked interface against exact and linear theory.
-Units: particles of unit mass at mean density 1, so lengths in spacings. Paper size takes twenty minutes. Writes
+isomorphism with molecular dynamics and its reversal; a shock tube and a shocked interface against exact and linear theory; the
+same tube, and the highest Ra that 16 rows bear, by the grid, fixed and moving points.
+Units: particles of unit mass at mean density 1, so lengths in spacings. Paper size takes half an hour. Writes
 results/hardcases/*.csv and *.png and the rows of study hardcases in results/claims.csv. A group of cases is a `Part`.
 """
 from studies.hard import high_ra_part, khp95, limits, long_sound, map_part, ringing_part, tube_part
