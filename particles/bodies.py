@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from particles.edges import MIRROR
+from particles.edges import mirror
 from particles.points import Points, lattice, of_positions
 
 CLEAR = 0.6     # spacings between a surface and points that are not on it: nearer ones would cut its edges or take short steps
@@ -117,7 +117,7 @@ def with_plates(inner: np.ndarray, columns: int, height: float) -> tuple[np.ndar
     For triangles that end there, `triangulation.between`. The rows inside are one less than the spacings of the height.
     """
     row = np.stack([np.arange(columns) + 0.5 - columns/2, np.full(columns, -height/2)], axis=1)
-    return np.concatenate([row, row*MIRROR, inner]), np.arange(columns), np.arange(columns, 2*columns)
+    return np.concatenate([row, row*mirror(2), inner]), np.arange(columns), np.arange(columns, 2*columns)
 
 
 def end_rows(points: Points, count: int) -> tuple[np.ndarray, np.ndarray]:

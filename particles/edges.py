@@ -124,9 +124,6 @@ def mirror(d: int) -> np.ndarray:
     return np.array([1.0]*(d - 1) + [-1.0])
 
 
-MIRROR = mirror(2)
-
-
 @dataclass(frozen=True, kw_only=True)
 class Beyond:
     """Edges from points i to the mirror images of points `parent` behind plate 0 (lower) or 1 (upper), each one way only."""

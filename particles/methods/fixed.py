@@ -22,7 +22,8 @@ Point = np.dtype([(name, "f8") for name in FIELDS.split()])
 class Exchange(NamedTuple):
     """Brackets of Eqs 34-36 with P_ab = P(rho_a, T_b), friction and heat along the edge [Eq. 51, zeta = 0], and F.
 
-    The momentum is that of the pressures P_ab + P_ba less 2 P_a, a number of the row: `exchange` adds what this takes off.
+    The momentum is that of the pressures P_ab + P_ba less 2 P_a, a number of the row: `exchange` adds what this takes off. Where
+    the point's own P is left at zero, as between sliding sides, the sums are whole.
     """
     eos: Any
 
