@@ -71,6 +71,8 @@ notebooks: .venv/ready  ## run every notebook in results/, and leave it as it is
 executed: .venv/ready  ## run every notebook in results/, and keep what comes out
 	@for one in results/*.ipynb; do echo "$$one"; $(run) -m jupyter execute --inplace "$$one" || exit 1; done
 
+# beside codes that compute on one core
+bench: export OPENBLAS_NUM_THREADS = 1
 bench: .venv/ready-bench  ## speed, beside public codes, in one run
 	$(run) -m bench.spam_speed $(ARGS)
 	$(run) -m bench.points_speed

@@ -15,7 +15,7 @@ from continuum.fluid import check_state, conductivity, energy, pressure, sound_s
 from continuum.jit import jit
 from particles.interpolants import check_ordering
 from particles.limits import limit_of
-from particles.methods.faces import POTENTIALS, FaceMaker
+from particles.methods.faces import POTENTIALS, FaceMaker, inner
 from particles.methods.varying import varying
 from particles.pairs import Faces, nothing, rate, sweep
 from particles.starts import check_apart, check_reach, check_volumes, moments
@@ -216,7 +216,7 @@ class Exchanging(Listed):
         method, chosen, points, n = self.method, self.method.ingredients, self.points, self.n
         g0 = method.rho0*method.g if chosen.static else 0.0
         self.team(_fields, n, state, method.eos, method.law, g0, self.shift, self.maker.count, points)
-        self.P0 = float(state[7]@points["P"][:n]/state[7].sum()) if chosen.static else 0.0
+        self.P0 = inner(state[7], points["P"][:n])/float(state[7].sum()) if chosen.static else 0.0
         points["P"][:n] -= self.P0
         self._images(g0)
         self.team(sweep, n, FaceDifferences(), points, self.faces, self.slopes)

@@ -7,6 +7,7 @@ the table `steps` does not have is run whole. Rows are written as they come.
 """
 import argparse
 from collections.abc import Iterable
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import perf_counter
@@ -21,6 +22,7 @@ from studies.kit.case import Case
 from studies.kit.study import Rows, Study, say, verdict_line
 from studies.kit.sweep import RESULTS, labelled, load
 from studies.kit.table import changed, merge
+from studies.kit.workers import SPAWN, one_thread
 
 #: tables of seconds; errors and steps stay
 TIMES = ("runs", "repeats", "growth", "starts")
@@ -55,11 +57,13 @@ def renew(study: Study, cases: Iterable[Case], out: Path, size: str, command: st
     """Time the cases, one after the other, and derive what follows."""
     known = load(speed_tables.ALL, study.name, out)
     steps = known["steps"] if "steps" in known else pd.DataFrame(columns=list(speed_tables.STEPS.columns))
-    for case in cases:
-        began = perf_counter()
-        rows = again(case, steps)
-        put(rows, out, size, command)
-        say(f"{perf_counter() - began:7.1f} s  {case.label}{'' if rows else ': diverged'}")
+    # as the study does: in a process that loads its libraries with one thread
+    with one_thread(), ProcessPoolExecutor(1, SPAWN) as alone:
+        for case in cases:
+            began = perf_counter()
+            rows = alone.submit(again, case, steps).result()
+            put(rows, out, size, command)
+            say(f"{perf_counter() - began:7.1f} s  {case.label}{'' if rows else ': diverged'}")
     derived = study.derive(load(speed_tables.ALL, study.name, out))
     tables = {table.name: table for table in speed_tables.ALL}
     put({name: changed(out/study.name/f"{name}.csv", tables[name], new) for name, new in derived.items()}, out, size, command)
