@@ -26,9 +26,8 @@ from continuum.compressible_fields import (
     unblock,
     wall_flux,
 )
-from continuum.compressible_loop import FIELDS, RHO, VX, VY, Box, E, FluxForm, advance
+from continuum.compressible_loop import FIELDS, RHO, VX, VY, E, FluxForm, advance, box_of
 from continuum.fluid import check_state, conductivity, pressure, pressure_slopes, temperature, valid, viscosity
-from continuum.scene import Periodic
 from continuum.steady import Steady
 
 RK4_SOUND, RK4_DECAY = 2.82, 2.78  # where RK4's stability region ends on the imaginary and on the real axis
@@ -133,10 +132,8 @@ class March:
 
     def __init__(self, scene, S: np.ndarray, continuity, dt: float):
         rows, columns = S.shape[1] - 2, S.shape[2] - 2
-        first = 1 if isinstance(scene.sides, Periodic) else 2
-        box = Box(scene.L/rows, float(scene.g), float(scene.T_hot), float(scene.T_cold), first)
         self.scene, self.S, self.dt, self.steps = scene, S, dt, 0
-        self.laws = (scene.sides, scene.eos, scene.law, continuity, box)
+        self.laws = (scene.sides, scene.eos, scene.law, continuity, box_of(scene, rows))
         self.scratch = (np.zeros((3, *S.shape)), np.zeros((2, 8, columns + 2)))
         start = time.process_time()
         self._advance(0)

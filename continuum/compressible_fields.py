@@ -7,7 +7,7 @@ from scipy.interpolate import RectBivariateSpline
 
 from continuum.compressible_loop import RHO, VX, VY, E
 from continuum.fluid import conductivity, energy, pressure, stress, temperature, viscosity
-from continuum.scene import Periodic
+from continuum.scene import Periodic, Torus, Walls
 
 STILL = 1e-12  # K of a fluid at rest; rolls have 1e-5 already 0.3 % above onset
 
@@ -26,7 +26,7 @@ class Fields:
     """A state on its grid: `at` nodes, walls included, each (rows+1, columns+1); `cells`: densities in cells.
 
     `x`, `y` are the coordinates of the nodes; rows go up. Between periodic sides the last column repeats the
-    first.
+    first, on a torus the last row, too.
     """
     scene: Any
     x: np.ndarray
@@ -78,8 +78,9 @@ def block(fields: Fields) -> np.ndarray:
     S = np.ones((4, len(fields.y) + 1, len(fields.x) + 1))
     S[VX, 1:, 1:], S[VY, 1:, 1:], S[E, 1:, 1:] = fields.at[:3]
     S[RHO, 1:-1, 1:-1] = fields.cells
-    S[:2, [1, -1]] = 0
-    if not fields.periodic:
+    if not isinstance(fields.scene.sides, Torus):
+        S[:2, [1, -1]] = 0
+    if isinstance(fields.scene.sides, Walls):
         S[:2, :, [1, -1]] = 0
     return S
 

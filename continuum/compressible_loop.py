@@ -1,15 +1,15 @@
 """The compiled loop of the compressible grid [KHP95, Sec. V]: v, e at nodes; rho, P, Q in cells.
 
 One block `S[field, j, i]` holds the state; j counts rows upwards, i columns to the right. Nodes are
-(1..ny+1, 1..nx+1), the outer ones on the walls; between periodic sides node nx+1 is node 1. Cell (j, i) has
-node (j, i) as its lower left corner, cells are (1..ny, 1..nx). What lies outside are ghosts: `fill` makes
-them, the loop knows no walls. All differences are centred.
+(1..ny+1, 1..nx+1), the outer ones on the walls; between periodic sides node nx+1 is node 1, on a torus
+node ny+1 is, too. Cell (j, i) has node (j, i) as its lower left corner, cells are (1..ny, 1..nx). What
+lies outside are ghosts: `fill` makes them, the loop knows no walls. All differences are centred.
 """
 from typing import NamedTuple
 
 from continuum.fluid import conductivity, energy, pressure, stress, temperature, viscosity
 from continuum.jit import generic, jit
-from continuum.scene import Periodic, Walls
+from continuum.scene import Periodic, Torus, Walls
 
 VX, VY, E, RHO = range(4)
 FIELDS = ("v_x", "v_y", "e", "rho")
@@ -17,12 +17,20 @@ BULK_VISCOSITY = 0.0  # [KHP95, Sec. II]
 
 
 class Box(NamedTuple):
-    """Spacing of the grid, gravity, temperatures of the plates, first column of nodes that moves."""
+    """Spacing of the grid, gravity, temperatures of the plates, first column and lowest row of nodes that move."""
     h: float
     g: float
     T_hot: float
     T_cold: float
     first: int
+    lowest: int = 2
+
+
+def box_of(scene, rows: int) -> Box:
+    """Of a scene on rows of cells."""
+    first = 2 if isinstance(scene.sides, Walls) else 1
+    return Box(scene.L/rows, float(scene.g), float(scene.T_hot), float(scene.T_cold), first,
+               1 if isinstance(scene.sides, Torus) else 2)
 
 
 # --- ghosts and walls -------------------------------------------------------------------------------------
@@ -83,6 +91,13 @@ def _(sides, eos, form, box, S):
     S[:, :, 0], S[:, :, nx + 1] = S[:, :, nx], S[:, :, 1]
     fill_plates(eos, form, box, S)
     S[E, :, 0] = S[E, :, nx]
+
+
+@fill.of(Torus)
+def _(sides, eos, form, box, S):
+    ny, nx = S.shape[1] - 2, S.shape[2] - 2
+    S[:, :, 0], S[:, :, nx + 1] = S[:, :, nx], S[:, :, 1]
+    S[:, 0], S[:, ny + 1] = S[:, ny], S[:, 1]
 
 
 @fill.of(Walls)
@@ -221,13 +236,17 @@ def along(f, vx, vy, j, i):
 def rates(sides, eos, law, form, box, S, rows, out):
     """d/dt of the state; three rows of `rows[2, 8, nx + 2]` pass over the grid, nothing else is stored."""
     fill(sides, eos, form, box, S)
-    n, T, cell = rows[:, 6], rows[:, 7], rows[:, :6]
+    n, T, cell, ny = rows[:, 6], rows[:, 7], rows[:, :6], S.shape[1] - 2
+    if box.lowest == 1:     # what is below the first row of cells is the last one; ny is even
+        node_row(eos, S, n[0], T[0], ny)
+        node_row(eos, S, n[1], T[1], ny + 1)
+        cell_row(eos, law, form, box, S, n, T, cell[0], out, ny)
     node_row(eos, S, n[1], T[1], 1)
-    for j in range(1, S.shape[1] - 1):
+    for j in range(1, ny + 1):
         above, here = (j + 1) % 2, j % 2
         node_row(eos, S, n[above], T[above], j + 1)
         cell_row(eos, law, form, box, S, n, T, cell[here], out, j)
-        if j > 1:
+        if j >= box.lowest:
             rate_row(box, S, n[here], cell[above], cell[here], out, j)
 
 

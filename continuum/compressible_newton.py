@@ -20,7 +20,7 @@ from scipy import sparse
 from scipy.sparse.linalg import eigs, splu
 
 from continuum.compressible_fields import Fields, block, count_rolls, initial, kinetic_energy, onto, unblock
-from continuum.compressible_loop import RHO, VX, VY, Box, E, FluxForm, fill, rates
+from continuum.compressible_loop import RHO, VX, VY, E, FluxForm, box_of, fill, rates
 from continuum.fluid import energy
 from continuum.scene import Periodic
 
@@ -50,9 +50,8 @@ class Discrete:
     def __init__(self, scene, rows: int):
         self.scene, self.rest = scene, block(initial(scene, rows, 0.0))
         columns = self.rest.shape[2] - 2
-        first = 1 if isinstance(scene.sides, Periodic) else 2
-        box = Box(scene.L/rows, float(scene.g), float(scene.T_hot), float(scene.T_cold), first)
-        self.laws, self.scratch = (scene.sides, scene.eos, scene.law, FluxForm(), box), np.zeros((2, 8, columns + 2))
+        self.laws = (scene.sides, scene.eos, scene.law, FluxForm(), box_of(scene, rows))
+        self.scratch = np.zeros((2, 8, columns + 2))
         self.places, self.mirrors, self.signs = self._unknowns(rows, columns)
 
     def _unknowns(self, rows: int, columns: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

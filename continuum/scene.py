@@ -40,6 +40,10 @@ class Periodic(NamedTuple):
         return np.sin(k*x)*np.sin(2*np.pi*y/L), np.cos(k*x)*np.cos(np.pi*y/L)
 
 
+class Torus(NamedTuple):
+    """Periodic along both axes: no plates. For flows that are not convection."""
+
+
 class Walls(NamedTuple):
     """No-slip walls at x = -+ aspect L/2 too, their temperature linear in y    [KHP95, Fig. 6]"""
 

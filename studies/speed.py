@@ -13,6 +13,7 @@ from collections.abc import Iterable, Iterator
 from studies.cost import speed_cases_convection as convection
 from studies.cost import speed_cases_others as others
 from studies.cost import speed_cases_plates as slab
+from studies.cost import speed_cases_torus as torus
 from studies.cost import speed_cases_vortex as vortex
 from studies.cost import speed_cases_waves as wave
 from studies.cost import speed_claims, speed_derive, speed_figures, speed_tables
@@ -63,7 +64,7 @@ def paper() -> Iterator[Case]:
 
 def vortices() -> Iterator[Case]:
     """Points are the cheapest to run, smooth particles are far off at any resolution; of one lattice up to 0.02 %."""
-    yield from race("taylor-green", (*vortex.POINTS, vortex.MAC), (16, 24, 32, 48, 64))
+    yield from race("taylor-green", (torus.VORTEX, *vortex.POINTS, vortex.MAC), (16, 24, 32, 48, 64))
     yield from race("taylor-green", vortex.POINTS[1:2], (96, 128, 192))
     yield from race("taylor-green", vortex.WEIGHTS, (16, 24, 32, 48))
     yield from race("taylor-green", (vortex.IRREGULAR,), (16, 24, 32, 48, 64), SEEDS)
@@ -74,7 +75,7 @@ def vortices() -> Iterator[Case]:
 
 def waves() -> Iterator[Case]:
     """Sound: two periods take a hundred spacings for 1 %."""
-    yield from race("sound", (*wave.POINTS, wave.TWO_STEP, *wave.WEIGHTS, wave.MOVING), (16, 24, 32, 48, 64, 96, 128))
+    yield from race("sound", (torus.WAVE, *wave.POINTS, wave.TWO_STEP, *wave.WEIGHTS, wave.MOVING), (16, 24, 32, 48, 64, 96, 128))
     yield from race("sound", (*wave.PARTICLES, wave.PARTICLES_TWO_STEP), (16, 24, 32, 48, 64))
     yield from race("sound", (wave.IRREGULAR,), (16, 24, 32, 48, 64, 96, 128), SEEDS)
 

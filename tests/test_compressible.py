@@ -21,7 +21,7 @@ from continuum.fluid import (
     pressure_slopes,
     sound_speed,
 )
-from continuum.scene import RayleighBenard, Walls
+from continuum.scene import Periodic, RayleighBenard, Torus, Walls
 from continuum.steady import Time
 
 every_eos = pytest.mark.parametrize("eos", EQUATIONS_OF_STATE.values(), ids=EQUATIONS_OF_STATE)
@@ -69,6 +69,44 @@ def rough(scene, rows) -> Fields:
     more = [inside*n[:, :inside.shape[1]] for n in noise]
     at = still.at._replace(vx=still.at.vx + more[0], vy=still.at.vy + more[1], e=still.at.e + more[2])
     return replace(still, at=at, cells=still.cells + more[3][:-1, :-1])
+
+
+def random_torus(rows):
+    """A block without plates, periodic, and the scene it is of."""
+    scene = SimpleNamespace(L=float(rows), width=float(rows + 2), aspect=(rows + 2)/rows, g=0.0, T_hot=1.0, T_cold=1.0,
+                            sides=Torus(), eos=VanDerWaals(), law=ConstNu(0.1, 0.2))
+    noise = np.random.default_rng(2).normal(scale=0.05, size=(4, rows, rows + 2))
+    return scene, ringed(np.array([*noise[:2], 1.2 + noise[2], 1 + noise[3]]))
+
+
+def ringed(inner):
+    """A block of the loop around nodes and cells that repeat."""
+    return np.pad(inner, ((0, 0), (1, 1), (1, 1)), "wrap")
+
+
+def test_a_torus_is_the_middle_of_a_stack_of_itself():
+    """A step reaches 8 rows: plates 12 rows away are not felt by the twin, which has no torus."""
+    scene, S = random_torus(12)
+    march = March(scene, S.copy(), FluxForm(), 0.1)
+    march.go(1)
+    nodes, cells = (np.tile(f[:, 1:-1, 1:-1], (1, 3, 1)) for f in (S[:3], S[3:]))
+    nodes = np.pad(nodes, ((0, 0), (0, 1), (0, 1)), "wrap")
+    vx, vy, e = nodes
+    stack = SimpleNamespace(**{**vars(scene), "L": 36.0, "sides": Periodic(), "T": lambda y: 1 + 0*y})
+    end = step(stack, FluxForm(), State(vx, vy, e, cells[0]), 0.1)
+    for found, wanted in zip(march.S, end):
+        np.testing.assert_allclose(found[1:-1, 1:-1], wanted[12:24, :14], rtol=0, atol=1e-14)
+
+
+def test_a_torus_has_no_first_row_or_column():
+    scene, S = random_torus(8)
+    ends = []
+    for shift in ((0, 0), (3, 5)):
+        march = March(scene, ringed(np.roll(S[:, 1:-1, 1:-1], shift, axis=(1, 2))), FluxForm(), 0.1)
+        march.go(20)
+        ends.append(np.roll(march.S[:, 1:-1, 1:-1], (-shift[0], -shift[1]), axis=(1, 2)))
+    np.testing.assert_allclose(*ends, rtol=0, atol=1e-13)
+    assert ends[0][RHO].sum() == pytest.approx(S[RHO, 1:-1, 1:-1].sum(), rel=1e-14)
 
 
 @every_eos

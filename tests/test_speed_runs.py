@@ -7,6 +7,7 @@ import pytest
 from continuum.boussinesq import Case as Mac
 from particles.run import Divergence, Plan, run
 from studies.cost import speed_cases_plates as slab
+from studies.cost import speed_cases_torus as torus
 from studies.cost import speed_cases_vortex as vortex
 from studies.cost import speed_cases_waves as wave
 from studies.cost import speed_convection as convection
@@ -192,6 +193,12 @@ def test_grids_and_points_are_of_second_order_between_plates(scene, name):
     method = slab.CONTESTANTS[scene][name]
     coarse, fine = (next(iter(errors(scene, method, rows)[0].values())) for rows in (12, 24))
     assert 3 < coarse/fine < 6.5        # 4; on jittered points 12 rows are not yet in its range
+
+
+@pytest.mark.parametrize(("scene", "method"), [("sound", torus.WAVE), ("taylor-green", torus.VORTEX)])
+def test_the_grid_without_plates_is_of_second_order(scene, method):
+    coarse, fine = (errors(scene, method, resolution)[0]["velocity"] for resolution in (24, 48))
+    assert coarse/fine == pytest.approx(4, rel=0.06)
 
 
 def test_a_lattice_carries_sound_with_second_order_error_and_its_row_is_whole():

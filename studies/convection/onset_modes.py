@@ -11,7 +11,7 @@ import numpy as np
 
 from continuum import boussinesq, compressible_newton
 from continuum.compressible_fields import block, initial
-from continuum.compressible_loop import Box, FluxForm, rates
+from continuum.compressible_loop import FluxForm, box_of, rates
 from continuum.pypde_boussinesq import Boussinesq
 from continuum.pypde_gas import Gas
 from continuum.scene import RayleighBenard, Walls
@@ -54,7 +54,7 @@ def compressible_rolls(scene: RayleighBenard, rows: int) -> Grid:
     """KHP95's grid: rho in cells, v and e at nodes, those of the plates at rest."""
     S = block(initial(scene, rows, 0.0))
     columns = S.shape[2] - 2
-    box = Box(scene.L/rows, float(scene.g), float(scene.T_hot), float(scene.T_cold), 1)
+    box = box_of(scene, rows)
     scratch, inside = np.zeros((2, 8, columns + 2)), (slice(None), slice(1, -1), slice(1, -1))
 
     def rate(data):
