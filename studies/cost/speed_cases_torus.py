@@ -86,7 +86,7 @@ class OnVortex(NamedTuple):
     mach: float = vortices.MACH
 
     def seconds(self, resolution: int) -> float:
-        return 0.5 + 1e-5*resolution**3
+        return 0.5 + 8e-6*resolution**3
 
     def problem(self, resolution: int, seed: int) -> Problem:
         vortex = vortices.Vortex(self.mach, resolution)
@@ -110,7 +110,7 @@ class OnWave(NamedTuple):
     first: float = 0.9
 
     def seconds(self, length: int) -> float:
-        return 0.5 + 7e-5*length**2
+        return 0.3 + 3e-5*length**2
 
     def problem(self, length: int, seed: int) -> Problem:
         wave = waves.Wave(length)
