@@ -71,12 +71,13 @@ def vortices() -> Iterator[Case]:
     yield from race("taylor-green", (vortex.IRREGULAR,), (16, 24, 32, 48, 64), SEEDS)
     yield from race("taylor-green", (vortex.TWO_STEP,), (12, 16, 24, 32))
     yield from race("taylor-green", vortex.PARTICLES, (12, 16, 24, 32))
-    yield from race("taylor-green", (vortex.MOVING,), (12, 16, 24, 32), SEEDS[:2])
+    yield from race("taylor-green", (vortex.MOVING,), (12, 16, 24, 32, 48), SEEDS[:2])
 
 
 def waves() -> Iterator[Case]:
     """Sound: two periods take a hundred spacings for 1 %."""
     yield from race("sound", (*wave.POINTS, wave.TWO_STEP, *wave.WEIGHTS, wave.MOVING), (16, 24, 32, 48, 64, 96, 128))
+    yield from race("sound", (wave.MOVING,), (192,))
     yield from race("sound", (torus.WAVE,), (16, 24, 32, 48, 64, 96, 128, 192, 256))
     yield from race("sound", (*wave.PARTICLES, wave.PARTICLES_TWO_STEP), (16, 24, 32, 48, 64))
     yield from race("sound", (wave.IRREGULAR,), (16, 24, 32, 48, 64, 96, 128), SEEDS)
