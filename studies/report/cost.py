@@ -15,7 +15,7 @@ from studies.convection.pick import LABELS
 from studies.report.behind import plain
 from studies.report.found import Part, Sheet
 from studies.report.needs import Need, given, needed_of, needs
-from studies.report.numbers import many, percent, seconds, short
+from studies.report.numbers import percent, seconds, short
 
 NEEDED = {"method", "resolution", "error", "error_err", "cpu_s"}
 SCENE = ("scene", "eos", "transport", "sides", "ra", "pr", "quantity")
@@ -28,7 +28,6 @@ SAID = ("scene", "quantity")
 LEAST, MOST = 3, 8
 #: kinds of methods by how their names begin, in the order of the page
 FAMILIES = ("compressible", "MAC", "DIH lattice", "DIH Delaunay", "moving", "SPAM", "py-pde")
-COMPRESSIBLE, INCOMPRESSIBLE = ("compressible", "py-pde, gas"), ("MAC", "py-pde, Boussinesq")
 #: levels at which members of a family are compared: the first that one of them reaches
 DECIDE = (0.01, 0.03, 0.1)
 
@@ -189,15 +188,3 @@ def point(row: dict) -> Point:
 def finite(value: float) -> float:
     """The number, nothing for none."""
     return value if math.isfinite(value) else 0.0
-
-
-def gridless(panel: Panel) -> str:
-    """Scenes of the study in which no compressible grid takes part."""
-    frame = panel.sheet.frame
-    if "scene" not in frame:
-        return ""
-    without = [(str(scene), rows["method"].str.startswith(INCOMPRESSIBLE).any()) for scene, rows in frame.groupby("scene")
-               if not rows["method"].str.startswith(COMPRESSIBLE).any()]
-    none, other = ([scene for scene, some in without if some == wanted] for wanted in (False, True))
-    words = [f"in {many(scenes)} {what}" for scenes, what in ((none, "none"), (other, "incompressible ones alone")) if scenes]
-    return f" Grids that took part: {', '.join(words)}." if words else ""

@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 from studies.kit.claim import COLUMNS
-from studies.report.cost import Panel, gridless
+from studies.report.cost import Panel
 from studies.report.found import NoReport, rows_of
 from studies.report.numbers import grouped, many, percent, seconds, signed, told
 
@@ -176,7 +176,7 @@ def price(known: Known) -> Finding | None:
     costs = "; ".join(f"{one.needs[level]} s, {one.label}" for one in shown)
     rest = f"; not reached by {many(list(never))}" if never else ""
     return Finding(f"An error of 1 % costs {cheapest[0].needs[level]} CPU seconds at best",
-                   f"{panel.title.split(': ', 1)[-1]}: {costs}{rest}.{gridless(panel)}", (panel.needed or panel.sheet).name)
+                   f"{panel.title.split(': ', 1)[-1]}: {costs}{rest}.", (panel.needed or panel.sheet).name)
 
 
 #: one screen of them
