@@ -1,4 +1,5 @@
 """States of the compressible grid and what is measured on them: energy, Nusselt numbers, rolls, values."""
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -68,6 +69,15 @@ def initial(scene, rows: int, ke: float = 0.0018, rolls: int | None = None) -> F
     T = scene.T(Y)
     return Fields(scene, x, y, Values(vx, vy, energy(scene.eos, 1.0, T), T, np.ones_like(T)),
                   np.ones((rows, len(x) - 1)))
+
+
+def placed(scene, rows: int, start: Callable[[np.ndarray, np.ndarray], tuple]) -> Fields:
+    """Fields of a start(x, y) = (rho, v_x, v_y, T): densities in the middle of cells, all else at nodes."""
+    x, y = nodes(scene, rows)
+    rho, vx, vy, T = (np.broadcast_to(f, (len(y), len(x))) for f in start(*np.meshgrid(x, y)))
+    middle = np.meshgrid((x[1:] + x[:-1])/2, (y[1:] + y[:-1])/2)
+    cells = np.broadcast_to(start(*middle)[0], middle[0].shape)
+    return Fields(scene, x, y, Values(vx, vy, energy(scene.eos, rho, T), T, rho), cells)
 
 
 # --- between the block of the loop and fields --------------------------------------------------------------

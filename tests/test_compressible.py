@@ -21,7 +21,7 @@ from continuum.fluid import (
     pressure_slopes,
     sound_speed,
 )
-from continuum.scene import Periodic, RayleighBenard, Torus, Walls
+from continuum.scene import Periodic, RayleighBenard, Tile, Walls
 from continuum.steady import Time
 
 every_eos = pytest.mark.parametrize("eos", EQUATIONS_OF_STATE.values(), ids=EQUATIONS_OF_STATE)
@@ -73,8 +73,7 @@ def rough(scene, rows) -> Fields:
 
 def random_torus(rows):
     """A block without plates, periodic, and the scene it is of."""
-    scene = SimpleNamespace(L=float(rows), width=float(rows + 2), aspect=(rows + 2)/rows, g=0.0, T_hot=1.0, T_cold=1.0,
-                            sides=Torus(), eos=VanDerWaals(), law=ConstNu(0.1, 0.2))
+    scene = Tile(width=rows + 2.0, L=float(rows), eos=VanDerWaals(), law=ConstNu(0.1, 0.2))
     noise = np.random.default_rng(2).normal(scale=0.05, size=(4, rows, rows + 2))
     return scene, ringed(np.array([*noise[:2], 1.2 + noise[2], 1 + noise[3]]))
 

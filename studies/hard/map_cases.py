@@ -10,6 +10,7 @@ import numpy as np
 from continuum.compressible import SAFETY, DivergedError, limits
 from continuum.compressible import run as march
 from continuum.compressible_fields import Fields, block, initial
+from continuum.scene import Torus
 from continuum.steady import Time
 from particles.run import Divergence, Plan, run
 from studies.convection.names import START_ENERGY
@@ -143,12 +144,13 @@ def still(scene: Any, rows: int) -> Fields:
 
 
 def of_grid(fields: Fields) -> Body:
-    """Nodes as bodies; between periodic sides the last column repeats the first."""
-    own = slice(None, -1) if fields.periodic else slice(None)
-    x, y = np.meshgrid(fields.x[own], fields.y)
+    """Nodes as bodies; between periodic sides the last column repeats the first, on a torus the last row does, too."""
+    torus, whole, but_last = isinstance(fields.scene.sides, Torus), slice(None), slice(None, -1)
+    own = (but_last if torus else whole, but_last if torus or fields.periodic else whole)
+    x, y = np.meshgrid(fields.x[own[1]], fields.y[own[0]])
     at = fields.at
-    return Body(np.stack([x.ravel(), y.ravel()], axis=1), np.stack([at.vx[:, own].ravel(), at.vy[:, own].ravel()], axis=1),
-                at.rho[:, own].ravel())
+    return Body(np.stack([x.ravel(), y.ravel()], axis=1), np.stack([at.vx[own].ravel(), at.vy[own].ravel()], axis=1),
+                at.rho[own].ravel())
 
 
 @dataclass(frozen=True, kw_only=True)

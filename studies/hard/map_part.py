@@ -1,7 +1,7 @@
 """The map of hard cases: for every method that takes a case, what became of it, as a part of the study."""
 from collections.abc import Iterator
 
-from studies.hard import map_cases, map_claims, map_derive, map_ends, map_figures, map_shear
+from studies.hard import map_cases, map_claims, map_derive, map_ends, map_figures, map_shear, map_torus
 from studies.hard.part import Part
 from studies.kit.case import Case
 from studies.kit.table import Table
@@ -20,9 +20,10 @@ MAP = Table("map", key=["case", "method", "variant"], columns=["case", "method",
 
 
 def cases(size: str) -> Iterator[Case]:
-    """Layers and boxes, the shear layer, and why some end."""
+    """Layers and boxes, the shear layer, boxes on the grid, and why some end."""
     yield from map_cases.cases(size)
     yield from map_shear.cases(size)
+    yield from map_torus.cases(size)
     yield from map_ends.cases(size)
 
 

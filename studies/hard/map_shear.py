@@ -149,9 +149,16 @@ class Shear(Case):
             run(built.method, built.start, plan, report)
         except Divergence as error:
             reached = error.step/plan.steps
-        slope, err = line(np.arange(len(seen.found))*time/SAMPLES, np.log(seen.found)) if reached == 1 else (np.nan, np.nan)
-        return Outcome({"shear": [{"method": self.method, "predicted": rate, "measured": slope, "measured_err": err,
-                                   "reached": reached}]})
+        return growth(self.method, scene, time, seen, reached)
+
+
+def growth(method: str, scene: ShearFlow, time: float, seen: Amplitude, reached: float) -> Outcome:
+    """The row of a run."""
+    slope, err = np.nan, np.nan
+    if reached == 1:
+        slope, err = line(np.linspace(0, time, len(seen.found)), np.log(seen.found))
+    return Outcome({"shear": [{"method": method, "predicted": scene.wave.rate, "measured": slope, "measured_err": err,
+                               "reached": reached}]})
 
 
 def cases(size: str) -> Iterator[Case]:
