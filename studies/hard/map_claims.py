@@ -142,8 +142,8 @@ CLAIMS = (
     *(right(case, "moving", "RR98 Eqs 46-48", f"moving points with closed faces have the grid's flow, {case}, 16 rows")
       for case in (*HIGH, "Prandtl 0.01", "Prandtl 100", "high pressure", "zero viscosity")),
     right("zero viscosity", "grid", "KHP95 Sec. V", "without viscosity the centred grid keeps a vortex for five turns, 16 rows"),
-    right("vacuum", "grid", "KHP95 Sec. V", "on the centred grid gas that expands into a vacuum, a thousandth of its density, has "
-          "the kinetic energy of two rarefactions"),
+    right("vacuum", "grid", "KHP95 Sec. V", "on the centred grid gas that expands into a thousandth of its density has the "
+          "kinetic energy of two rarefactions"),
     right("shear layer", "grid", "KHP95 Sec. V", "a wave on a shear flow without viscosity grows by linear theory, the centred "
           "grid, 16 cells to the flow's wavelength"),
     right("zero viscosity", "spam printed", "KHP95 Sec. II", "without viscosity smooth particles keep a vortex for five turns"),

@@ -1,5 +1,6 @@
 """Methods by name, for any scene that is a layer: points, state, step, and what moves."""
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from types import SimpleNamespace
 from typing import Any, NamedTuple, cast
@@ -84,18 +85,20 @@ def fixed(scene: Any, scheme: dih.Scheme) -> Built:
                  lambda state: Body(method.x, (state[1:3]/state[0]).T, state[0]*method.edges.V))
 
 
-def drifting(scene: Any, motion: drift.DriftMotion) -> Built:
-    """RR98's own motions."""
+def drifting(scene: Any, motion: drift.DriftMotion, walls: Callable[[Any], tuple] | None = None) -> Built:
+    """RR98's own motions; walls(scene) in place of plates."""
     method, x = drift.method(scene, motion), dih.positions(scene.width, scene.L, START_JITTER, 1)
+    method = replace(method, walls=walls(scene)) if walls else method
     rho, v, T = fields(scene, x)
     start, holder = method.state(x, rho, v, T), cast(drift.Drifts, SimpleNamespace(method=method))
     return Built(method, start, limit_of(method, start),
                  lambda state: Body(state[:2].T, (state[2:4]/state[4]).T, drift.masses(holder, state)))
 
 
-def closed(scene: Any, motion: moving.Motion) -> Built:
-    """Moving points with closed faces."""
+def closed(scene: Any, motion: moving.Motion, walls: Callable[[Any], tuple] | None = None) -> Built:
+    """Moving points with closed faces; walls(scene) in place of plates."""
     method, x = moving.method(scene, motion), dih.positions(scene.width, scene.L, START_JITTER, 1)
+    method = replace(method, walls=walls(scene)) if walls else method
     rho, v, T = fields(scene, x)
     start = method.state(x, v, rho, T)
     return Built(method, start, motion.of_limit*limit_of(method, start),

@@ -22,9 +22,8 @@ from particles.points import Points, of_positions
 from particles.run import Divergence, Plan, run
 from particles.triangulation import delaunay
 from particles.weights import Lucy
-from studies.convection import dih, moving, spam
-from studies.convection.names import START_JITTER
-from studies.hard.map_methods import Body, Built, all_round, fields, smooth
+from studies.convection import dih, drift, moving, spam
+from studies.hard.map_methods import Body, Built, all_round, closed, drifting, fields, smooth
 from studies.hard.slab import Slab
 from studies.integral.ordering_derive import line
 from studies.kit.case import Case, Outcome, Report
@@ -92,21 +91,13 @@ def fixed(scene: ShearFlow, make: Callable, size: float) -> Built:
                  lambda state: Body(method.x, (state[1:3]/state[0]).T, state[0]*method.edges.V))
 
 
-def closed(scene: ShearFlow) -> Built:
-    """Moving points with closed faces, periodic along both axes."""
-    plates = moving.method(scene, moving.MOTIONS["moving"])
-    method = type(plates)(weight=plates.weight, eos=scene.eos, law=scene.law, box=plates.box, walls=all_round(scene))
-    x = dih.positions(scene.width, scene.L, START_JITTER, 1)
-    rho, v, T = fields(scene, x)
-    start = method.state(x, v, rho, T)
-    return Built(method, start, limit_of(method, start), lambda state: Body(state[:2].T, (state[4:6]/state[6]).T, state[6]))
-
-
 METHODS: dict[str, Callable[..., Built]] = {
     "spam printed": partial(smooth, variant=spam.PRINTED._replace(walls=all_round)),
     "spam Wendland": partial(smooth, variant=spam.VARIANTS["wendland-c2"]._replace(walls=all_round)),
     "fixed lattice": partial(fixed, make=renormalised, size=0.0), "fixed jittered": partial(fixed, make=delaunay, size=0.3),
-    "moving": closed}
+    "moving": partial(closed, motion=moving.MOTIONS["moving"], walls=all_round),
+    **{f"drift {name}": partial(drifting, motion=drift.DRIFT_MOTIONS[motion], walls=all_round)
+       for name, motion in (("literal", "moving-literal"), ("constant mass", "moving-constant-mass"))}}
 
 
 class Amplitude:
