@@ -38,7 +38,7 @@ def number(case: str, method: str) -> Value:
     """The number that decides, and the error of what it is held against; a run that did not end has none."""
     def value(tables: Tables) -> Measured:
         row = select(tables, "map", case=case, method=method).iloc[0]
-        if row["outcome"] in ("diverges", "refused", "unjudged"):
+        if row["outcome"] in ("diverges", "refused") or not np.isfinite(row["measured"]):
             raise CannotTell(f"{method} in {case}: {row['outcome']}, nothing could be measured{ending(tables, case, method)}")
         return Measured(float(row["measured"]), float(row["measured_err"]))
     return value

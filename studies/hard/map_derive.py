@@ -2,11 +2,11 @@
 
 diverges: the run did not reach its end. leaks: mass changed by more than LEAK. freezes: less than FROZEN of the flow is left.
 right: the number is within NEAR, and what the reference is uncertain by, of what it should be. wrong: stable, and none of these.
-A shock tube is right if v neither rings nor is off by more than NEAR, and
-diverges if a tube of any length did. The highest Ra is the first one that is bad: it ends, or its K is wrong but stable.
-refused: the method says itself that it does not take the case. unjudged: there is nothing to hold it against, since no two grids
-besides itself came to their end, a search found no limit, or a rate is known to worse than NEAR. Of lattices: pairs or clumps beyond a limit, whose prediction is
-told beside it. Of steps: right within NEAR of the formula, safe if the formula is smaller, wrong if it is larger.
+A shock tube is right if v neither rings nor is off by more than NEAR, and diverges if a tube of any length did. The highest Ra is
+the first one that is bad: it ends, or its K is wrong but stable. refused: the method says itself that it does not take the case.
+unjudged: there is nothing to hold it against, since no two grids besides itself came to their end, a search found no limit, or a
+rate is known to worse than NEAR. Of lattices: pairs or clumps beyond a limit, whose prediction is told beside it. Of steps: right
+within NEAR of the formula, safe if the formula is smaller, wrong if it is larger.
 """
 from collections.abc import Iterator
 from typing import Any
