@@ -153,7 +153,7 @@ def small(tmp_path_factory):
 def test_small_study_writes_tables_figures_and_verdicts(small):
     study, found, out = small
     assert len(found["moduli"]) and len(found["modulus_orders"]) and len(found["tube_orders"]) == 3
-    assert {path.stem for path in study.draw(out)} == {"moduli", "reversal", "shocks"}
+    assert {path.stem for path in study.draw(out)} == {"map", "moduli", "reversal", "shocks"}
     verdicts = {row["id"]: row["verdict"] for row in study.judge(out)}
     assert verdicts["khp95-hard-modulus-summed"] == verdicts["khp95-hard-reversal"] == "holds"
     assert verdicts["khp95-hard-freezing-melting-lucy"] == "undecidable"

@@ -11,6 +11,7 @@ from studies.hard.map_ends import Ending
 from studies.hard.map_methods import TAKES, Body, flow, kinetic
 from studies.hard.map_scenes import BOXES, LAYERS, SOUND, Strip, Vortex
 from studies.hard.map_shear import BEGIN, Amplitude, ShearFlow, U, fastest
+from studies.hard.map_torus import Going, OnTorus
 from studies.kit.claim import judged
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables
@@ -75,6 +76,38 @@ def outcome(**values) -> str:
     ({"case": "wall corner", "k": 1e-3}, "wrong"), ({"case": "wall corner", "k": 1e-8}, "right")])
 def test_outcomes_follow_their_rules(values, wanted):
     assert outcome(**values) == wanted
+
+
+def of_tube(L: int, reached: float = 1.0, wiggles: float = 0.01, v_exact: float = 0.02, step: float = 0.5) -> dict:
+    """A row of `method_tubes` without viscosity."""
+    return {"method": "grid", "eta": 0.0, "L": L, "seed": 1, "v_grid": np.nan, **locals()}
+
+
+@pytest.mark.parametrize("rows, wanted, number", [
+    ([of_tube(24, wiggles=0.9), of_tube(96)], "right", "ringing of v"),
+    ([of_tube(24), of_tube(96, wiggles=0.3)], "wrong", "ringing of v"), ([of_tube(96, v_exact=0.2)], "wrong", "ringing of v"),
+    ([of_tube(24, reached=0.4), of_tube(96)], "diverges", "part of the time"),
+    ([of_tube(24), of_tube(24, reached=0.1, step=0.125)], "right", "ringing of v")])
+def test_tubes_on_the_map_ring_are_off_or_end(rows, wanted, number):
+    [row] = derive(Tables(method_tubes=pd.DataFrame(rows)))["map"]
+    assert row["outcome"] == wanted and row["number"] == number
+
+
+@pytest.mark.parametrize("measured, err, wanted", [(0.97, 0.01, "right"), (1.02, 0.11, "unjudged"), (0.81, 0.05, "wrong")])
+def test_a_rate_that_is_not_known_well_is_not_judged(measured, err, wanted):
+    row = {"method": "grid", "predicted": 1.0, "measured": measured, "measured_err": err, "reached": 1.0}
+    assert derive(Tables(shear=pd.DataFrame([row])))["map"][0]["outcome"] == wanted
+
+
+def test_the_grid_goes_round_a_box_without_plates():
+    """A piece of a turn keeps mass and energy; a vacuum, even of a thousandth, ends the run."""
+    going = Going(BOXES["zero viscosity"][0])
+    bodies: list = []
+    assert going.go(8.0, 2, lambda sums, S: bodies.append(going.built.body(S)), lambda done: None) == 1.0
+    assert [len(body.m) for body in bodies] == [256, 256] and bodies[-1].m.sum() == pytest.approx(256, rel=1e-14)
+    # the start has no pressure of its vortex: sound takes the square of the Mach number 0.07
+    assert kinetic(bodies[-1]) == pytest.approx(kinetic(going.built.body(going.first)), rel=0.005)
+    assert OnTorus(case="vacuum").run(lambda done: None, None).rows["hard_runs"][0]["reached"] < 1
 
 
 def judged_grid(flows: dict[int, float]) -> dict:
