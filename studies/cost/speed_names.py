@@ -1,7 +1,4 @@
-"""Names of methods as tables and figures have them, and how each looks: a colour a family, a marker a member."""
-from typing import Any
-
-from studies.kit.figure import MARKERS
+"""Names of methods as tables and figures have them, and how each family looks: a colour and a line."""
 
 GRID, NEWTON = "compressible grid, RK4", "compressible grid, Newton"
 MAC_NEWTON, MAC_IMEX = "MAC grid, Newton", "MAC grid, IMEX"
@@ -25,10 +22,3 @@ ORDER = (GRID, NEWTON, MAC_NEWTON, MAC_IMEX, PYPDE_GAS, PYPDE_BOUSSINESQ, NEARES
 def family(name: str) -> str:
     """How a name begins."""
     return next(start for start in FAMILIES if name.startswith(start))
-
-
-def style(name: str) -> dict[str, Any]:
-    """Colour, line and marker of a method, the same in every figure."""
-    colour, line = FAMILIES[family(name)]
-    members = [other for other in ORDER if family(other) == family(name)]
-    return {"color": colour, "linestyle": line, "marker": MARKERS[members.index(name)]}

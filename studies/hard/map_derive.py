@@ -70,7 +70,7 @@ def told(runs: pd.DataFrame, run: pd.Series) -> tuple[str, float, float, float]:
 
 
 def against_grid(runs: pd.DataFrame, run: pd.Series) -> tuple[float, float]:
-    """Flow over that of the finest grid that came to its end, whose error is what the next coarser one is off by.
+    """Flow over that of the finest grid that came to its end, and its error: that flow is off by what the next coarser one is.
 
     A grid is no judge of itself: neither the reference nor its error come from the rows that are judged.
     """
@@ -79,7 +79,8 @@ def against_grid(runs: pd.DataFrame, run: pd.Series) -> tuple[float, float]:
         grid = grid.drop(run["rows"], errors="ignore")
     if len(grid) < 2:
         return np.nan, np.nan
-    return float(run["flow"]/grid.iloc[-1]), float(abs(grid.iloc[-2]/grid.iloc[-1] - 1))
+    ratio = float(run["flow"]/grid.iloc[-1])
+    return ratio, float(abs(ratio*(grid.iloc[-2]/grid.iloc[-1] - 1)))
 
 
 def finished_grids(runs: pd.DataFrame, case: str) -> pd.Series:
