@@ -123,7 +123,7 @@ def test_a_grid_is_not_held_against_itself():
         row = judged_grid({16: wrong, 32: 0.01, 48: np.nan})
         assert row["outcome"] == "unjudged" and np.isnan(row["measured"]) and np.isnan(row["measured_err"])
     row = judged_grid({16: 0.0105, 32: 0.0099, 48: 0.01})
-    assert row["outcome"] == "right" and row["measured_err"] == pytest.approx(0.01)
+    assert row["outcome"] == "right" and row["measured_err"] == pytest.approx(1.05*0.01)
     assert judged_grid({16: 0.02, 32: 0.0099, 48: 0.01})["outcome"] == "wrong"
 
 
