@@ -6,12 +6,13 @@ same tube, and the highest Ra that 16 rows bear, by the grid, fixed and moving p
 Units: particles of unit mass at mean density 1, so lengths in spacings. Paper size takes half an hour. Writes
 results/hardcases/*.csv and *.png and the rows of study hardcases in results/claims.csv. A group of cases is a `Part`.
 """
-from studies.hard import high_ra_part, khp95, limits, long_sound, map_part, ringing_part, tube_part
+from studies.hard import high_ra_part, interface_grid, khp95, limits, long_sound, map_part, ringing_part, tube_part
 from studies.hard.part import merged
 from studies.kit.case import Case
 from studies.kit.study import Study, main
 
-PARTS = (khp95.PART, limits.PART, map_part.PART, ringing_part.PART, long_sound.PART, tube_part.PART, high_ra_part.PART)
+PARTS = (khp95.PART, limits.PART, map_part.PART, ringing_part.PART, long_sound.PART, tube_part.PART, high_ra_part.PART,
+         interface_grid.PART)
 
 
 def cases(size: str) -> list[Case]:

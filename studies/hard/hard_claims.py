@@ -206,7 +206,7 @@ SHOCKS = (
     Claim(id="khp95-hard-ripple-growth", source="KHP95 Sec. VI, Fig. 11", printed="2%", value=finest("growth"), expect=1,
           within=0.02, because="the printed 2 %; impulsive theory is itself an approximation",
           statement="a shocked ripple grows as theory says, density ratio 4, Mach 1.5 from the light side, k a = 0.25, all of it "
-                    "twice as large as printed: growth rate over the impulsive one"),
+                    "four times as large as printed: growth rate over the impulsive one"),
     Claim(id="khp95-hard-ripple-steep", source="KHP95 Sec. VI, Fig. 11", value=column("ripple_growth", "growth", "growth_err",
                                                                                      scale=1.0, steep=0.75), at_least=0.5,
           statement="at the printed size a shocked ripple that stands out of the particles, k a = 0.75, grows at half of the "

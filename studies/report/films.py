@@ -1,6 +1,6 @@
 """Films of convection at Ra 10 000, particles or points beside the grid at the same times, from weak rolls on.
 
-Each takes about 20 s of CPU and some 150 KB; results/films/films.csv says what is seen, with commit, seed and parameters.
+Each takes about 20 s of CPU and some 170 KB; results/films/films.csv says what is seen, with commit, seed and parameters.
 """
 from collections.abc import Callable, Iterator
 from functools import cache
@@ -49,7 +49,7 @@ def make(film: Film, folder: Path) -> dict[str, Any]:
     scene = RayleighBenard(ra=RA, L=float(film.rows))
     dots, images = list(film.dots(scene, SEED, TIMES)), beside()
     titles = f"{len(dots[0].x)} {film.title}", f"compressible grid, {GRID_ROWS} rows"
-    draw.write(folder/f"{film.name}.avif", list(draw.pages(dots, images, TIMES, titles)))
+    draw.write(folder/f"{film.name}.mp4", list(draw.pages(dots, images, TIMES, titles)))
     return {"film": film.name, "title": film.title, "caption": film.caption, "ra": RA, "rows": film.rows, "seed": SEED,
             "points": len(dots[0].x), "grid_rows": GRID_ROWS, "t_end": TIMES[-1], "frames": len(TIMES),
             "last_ke": dots[-1].ke, "last_ke_grid": images[-1].ke}
@@ -69,4 +69,4 @@ def make_all(out: Path, only: str = "") -> list[Path]:
     folder = out/"films"
     for film in chosen:
         merge(folder/"films.csv", tables.FILMS, [make(film, folder)], size="fine", command="make films")
-    return [folder/f"{film.name}.avif" for film in chosen]
+    return [folder/f"{film.name}.mp4" for film in chosen]

@@ -56,7 +56,7 @@ def write_page(out: Path, say: Callable[[str], None] = lambda text: None) -> Pat
 
 def largest(out: Path, found: list[Part]) -> list[str]:
     """Figures and films that weigh most."""
-    files = [*(path for part in found for path in part.pictures), *out.glob("films/*.avif")]
+    files = [*(path for part in found for path in part.pictures), *out.glob("films/*.mp4")]
     heavy = sorted(files, key=lambda path: -path.stat().st_size)[:5]
     return [f"{path.relative_to(out)} ({path.stat().st_size/1000:.0f} kB)" for path in heavy]
 
@@ -81,7 +81,7 @@ def render(out: Path, found: list[Part], known: pd.DataFrame, encode: Callable[[
 
 def fingerprint(out: Path) -> str:
     """Hash of everything that the page is made of."""
-    made_of = [*out.glob("*/*.csv"), *out.glob("*/*.png"), *out.glob("films/*.avif"), out/"claims.csv", out/"figures.csv"]
+    made_of = [*out.glob("*/*.csv"), *out.glob("*/*.png"), *out.glob("films/*.mp4"), out/"claims.csv", out/"figures.csv"]
     kept = [path for path in made_of if path.exists() and path.parent.name not in ("raw", "quick")]
     lines = sorted(f"{path.relative_to(out)} {digest(path)}" for path in kept)
     sources = sorted(f"{path.name} {digest(Path(str(path)))}" for path in files("studies.report").joinpath("page").iterdir()
@@ -171,10 +171,10 @@ def films(out: Path) -> list[dict[str, Any]]:
     rows = rows_of(out/"films/films.csv", (*FILMS.columns, "seed", "commit"))
     made = []
     for row in sorted(rows.to_dict("records"), key=lambda row: ORDER.index(row["film"]) if row["film"] in ORDER else len(ORDER)):
-        path = out/"films"/f"{row['film']}.avif"
+        path = out/"films"/f"{row['film']}.mp4"
         if not path.exists():
             raise NoReport(f"{path} is missing: make films makes it again")
-        made.append({**{str(name): value for name, value in row.items()}, "size": opened(path).size, "still": still(path),
+        made.append({**{str(name): value for name, value in row.items()}, **still(path),
                      "content": base64.b64encode(path.read_bytes()).decode()})
     return made
 

@@ -2,8 +2,10 @@
 import base64
 import io
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from imageio_ffmpeg import read_frames
 from PIL import Image, UnidentifiedImageError
 
 from studies.report.found import NoReport
@@ -54,9 +56,18 @@ def address(kind: str, content: bytes) -> str:
     return f"data:{kind};base64,{base64.b64encode(content).decode()}"
 
 
-def still(path: Path) -> str:
-    """The last picture of a film."""
-    film, packed = opened(path), io.BytesIO()
-    film.seek(getattr(film, "n_frames", 1) - 1)
-    film.convert("RGB").save(packed, "webp", quality=60, method=4)
-    return address("image/webp", packed.getvalue())
+def still(path: Path) -> dict[str, Any]:
+    """The last picture of a film, and its size.
+
+    Raises
+    ------
+    NoReport
+        The file is no film.
+    """
+    try:
+        about, *_, last = read_frames(path)
+    except (OSError, RuntimeError, ValueError) as error:
+        raise NoReport(f"{path} is no film ({str(error).splitlines()[0]}): make films makes it again") from error
+    packed = io.BytesIO()
+    Image.frombytes("RGB", about["size"], last).save(packed, "webp", quality=60, method=4)
+    return {"still": address("image/webp", packed.getvalue()), "size": about["size"]}

@@ -72,18 +72,21 @@ function walk(event, svg) {
 }
 
 // --- films: they move when they are seen, unless less motion is wanted
-function play(button, on) {
-  const film = one(`#film-${button.dataset.film}`);
-  film.dataset.still ??= film.src;
-  film.src = on ? `data:image/avif;base64,${one(`#data-${button.dataset.film}`).textContent}` : film.dataset.still;
-  button.setAttribute("aria-pressed", on);
-  button.textContent = on ? "Stop" : "Play";
-}
 const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
 for (const button of all(".play")) {
+  const film = one(`#film-${button.dataset.film}`);
   let asked = false;
-  button.addEventListener("click", () => { asked = true; play(button, button.getAttribute("aria-pressed") !== "true"); });
-  if (!calm) new IntersectionObserver(([seen]) => { if (!asked) play(button, seen.isIntersecting); }, {threshold: .5}).observe(one(`#film-${button.dataset.film}`));
+  const play = on => {
+    if (!on) return film.pause();
+    film.src ||= `data:video/mp4;base64,${one(`#data-${button.dataset.film}`).textContent}`;
+    film.play().catch(() => film.pause());      // where the browser cannot or may not
+  };
+  for (const kind of ["play", "pause"]) film.addEventListener(kind, () => {
+    button.setAttribute("aria-pressed", !film.paused);
+    button.textContent = film.paused ? "Play" : "Pause";
+  });
+  button.addEventListener("click", () => { asked = true; play(film.paused); });
+  if (!calm) new IntersectionObserver(([seen]) => { if (!asked) play(seen.isIntersecting); }, {threshold: .5}).observe(film);
 }
 
 // --- tables: all rows from what is packed into the page
