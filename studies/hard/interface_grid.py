@@ -102,11 +102,11 @@ def cases(size: str) -> Iterator[Case]:
 
 def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     """Kick and growth of each run."""
-    found = []
-    for (steep, eta, cells), one in tables.get(RIPPLES.name, pd.DataFrame(columns=KEY)).groupby(KEY):
-        kick, _, growth = ripple(one.sort_values("time"), impulse(1.0, float(steep)))
-        found.append({"steep": steep, "eta": eta, "cells": cells, "kick": kick[0], "kick_err": kick[1], "growth": growth[0],
-                      "growth_err": growth[1]})
+    found: list[dict[str, Any]] = []
+    for _, one in tables.get(RIPPLES.name, pd.DataFrame(columns=KEY)).groupby(KEY):
+        key = {name: one[name].iloc[0] for name in KEY}
+        kick, _, growth = ripple(one.sort_values("time"), impulse(1.0, float(key["steep"])))
+        found.append({**key, "kick": kick[0], "kick_err": kick[1], "growth": growth[0], "growth_err": growth[1]})
     return {GROWTH.name: found} if found else {}
 
 
