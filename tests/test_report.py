@@ -9,6 +9,7 @@ import sys
 import numpy as np
 import pandas as pd
 import pytest
+from imageio_ffmpeg import read_frames
 from matplotlib.colors import to_rgb
 from PIL import Image
 from report_tables import errors, one_study
@@ -260,10 +261,18 @@ def test_a_film_has_all_its_pictures_and_is_the_same_again(tmp_path):
     field = np.meshgrid(gx, gy)
     images = [Field(gx, gy, 1 - field[1], 0*field[0], 0.1*field[0], 0.002) for _ in times]
     for name in ("one", "two"):
-        draw.write(tmp_path/f"{name}.avif", list(draw.pages(dots, images, times, ("dots", "grid"))))
-    film = Image.open(tmp_path/"one.avif")
-    assert film.n_frames == 3 and film.size == (640, 320)
-    assert (tmp_path/"one.avif").read_bytes() == (tmp_path/"two.avif").read_bytes()
+        draw.write(tmp_path/f"{name}.mp4", list(draw.pages(dots, images, times, ("dots", "grid"))))
+    about, *shown = read_frames(tmp_path/"one.mp4")
+    assert (about["codec"], about["size"], len(shown)) == ("h264", (640, 320), 3 + draw.HOLD)
+    assert (tmp_path/"one.mp4").read_bytes() == (tmp_path/"two.mp4").read_bytes()
+
+
+def test_a_film_keeps_its_colours_from_its_first_picture_to_its_last(tmp_path):
+    colours = [rgb(name).astype(int) for name in (COLOURS[1], "#30243a")]
+    draw.write(tmp_path/"two.mp4", [Image.new("RGB", (64, 32), tuple(colour)) for colour in colours])
+    _, first, *_, last = read_frames(tmp_path/"two.mp4")
+    for picture, colour in zip((first, last), colours):
+        assert np.abs(np.frombuffer(picture, np.uint8).reshape(-1, 3) - colour).max() < 8
 
 
 def test_frames_are_those_of_the_solvers_at_these_times():
@@ -297,7 +306,7 @@ def test_the_page_here_is_that_of_the_results_here():
 
 
 def test_committed_films_are_small():
-    films = list((RESULTS/"films").glob("*.avif"))
+    films = list((RESULTS/"films").glob("*.mp4"))
     assert all(path.stat().st_size < 300_000 for path in films)
 
 

@@ -6,7 +6,7 @@ from browser import start
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
-from selenium.webdriver.support.ui import Select
+from selenium.webdriver.support.ui import Select, WebDriverWait
 
 from studies.kit.csvfile import read
 from studies.kit.sweep import RESULTS
@@ -203,15 +203,45 @@ def test_films_stand_still_until_asked_where_less_motion_is_wanted(desk):
     films = desk.find_elements(By.CLASS_NAME, "play")
     if not films:
         pytest.skip("no films committed yet: make films")
-    picture = desk.find_element(By.ID, f"film-{films[0].get_attribute('data-film')}")
-    desk.execute_script("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", picture)
+    film = desk.find_element(By.ID, f"film-{films[0].get_attribute('data-film')}")
+    desk.execute_script("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", film)
     desk.execute_async_script("setTimeout(arguments[0], 100)")
-    still = picture.get_attribute("src")
-    assert films[0].text == "Play"
+    assert films[0].text == "Play" and not film.get_attribute("src")
+    assert film.get_attribute("poster").startswith("data:image/webp")
     films[0].send_keys(Keys.ENTER)
-    assert films[0].text == "Stop" and len(picture.get_attribute("src")) > 2*len(still)
+    plays(desk, film)
+    assert films[0].text == "Pause" and films[0].get_attribute("aria-pressed") == "true"
     films[0].send_keys(Keys.ENTER)
-    assert picture.get_attribute("src") == still
+    until(desk, film, "film.paused")
+    assert films[0].text == "Play" and films[0].get_attribute("aria-pressed") == "false"
+
+
+def test_films_play_while_they_are_seen_again_and_again(page):
+    chrome = start(1280, 900)
+    try:
+        chrome.get(page)
+        films = chrome.find_elements(By.TAG_NAME, "video")
+        assert not any(film.get_attribute("src") for film in films), "what is not looked at costs nothing"
+        for film in films:
+            chrome.execute_script("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", film)
+            plays(chrome, film)
+            chrome.execute_script("arguments[0].currentTime = arguments[0].duration - 0.2", film)
+            until(chrome, film, "film.currentTime < 1")
+            chrome.execute_script("scrollTo({top: 0, behavior: 'instant'})")
+            until(chrome, film, "film.paused")
+        assert chrome.get_log("browser") == []
+    finally:
+        chrome.quit()
+
+
+def plays(chrome, film) -> None:
+    """It is decoded, and goes on."""
+    until(chrome, film, "film.currentTime > 0.2 && film.videoWidth === 640 && !film.error")
+
+
+def until(chrome, film, what: str) -> None:
+    """Wait for what a film shall do."""
+    WebDriverWait(chrome, 5).until(lambda _: chrome.execute_script(f"const film = arguments[0]; return {what}", film), what)
 
 
 def test_the_page_can_be_read_without_scripts_too(page):

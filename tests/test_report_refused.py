@@ -1,11 +1,12 @@
 """Bad input of the report is told with the way out, an older page stays."""
 import pandas as pd
 import pytest
+from PIL import Image
 from report_tables import claims, errors, one_study
 
 from studies.cost import speed_tables
 from studies.kit.csvfile import write
-from studies.report import behind
+from studies.report import behind, draw
 from studies.report.__main__ import main
 from studies.report.found import NoReport
 from studies.report.page import write_page
@@ -88,11 +89,27 @@ def test_a_figure_that_is_missing_or_broken(small, capsys, monkeypatch):
     assert "toy.png is missing: make figures-rb" in refused(small, capsys)
 
 
-def test_a_film_that_is_missing(small, capsys):
+def test_a_film_that_is_missing_or_broken(small, capsys):
     words = {"film": "gone", "title": "t", "caption": "c", "size": "fine", "commit": "abc"}
     row = {**dict.fromkeys(FILMS.columns, 1.0), "seed": 1, **words}
     write(small/"films/films.csv", pd.DataFrame([row]), head=["x"])
-    assert "gone.avif is missing: make films" in refused(small, capsys)
+    assert "gone.mp4 is missing: make films" in refused(small, capsys)
+    draw.write(small/"films/gone.mp4", [Image.new("RGB", (64, 32))])
+    kept = (small/"films/gone.mp4").read_bytes()
+    for broken in (b"", b"no film", kept[:100], kept[:-200]):
+        (small/"films/gone.mp4").write_bytes(broken)
+        assert "gone.mp4 is no film" in refused(small, capsys)
+
+
+@pytest.mark.parametrize("fails", [("-f", "mp4", "-preset", "nonsense"), ("-f", "mp4", "-frames:v", "1")])
+def test_a_film_that_cannot_be_written(tmp_path, monkeypatch, fails):
+    """At once, or without a word with a part of the pictures: the one that was there stays."""
+    path = tmp_path/"film.mp4"
+    path.write_bytes(b"older")
+    monkeypatch.setattr(draw, "ENCODING", fails)
+    with pytest.raises(ValueError, match=r"film.mp4 could not be written .*make env"):
+        draw.write(path, [Image.new("RGB", (640, 320))]*2)
+    assert path.read_bytes() == b"older" and [*tmp_path.iterdir()] == [path]
 
 
 def test_a_film_that_nobody_knows(small, capsys):
