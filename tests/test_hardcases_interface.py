@@ -53,4 +53,5 @@ def test_a_thick_interface_is_kicked_and_grows():
     assert rows[-1]["time"] == pytest.approx(theory.back) and row["kick"] == pytest.approx(1, abs=0.1)
     assert 0.3 < row["growth"] < 0.7
     before = [one for one in rows if one["time"] < 0.6*theory.meets]
-    assert before[-1]["amplitude"] == pytest.approx(before[0]["amplitude"], rel=0.02)
+    # heat that goes from the light to the heavy gas moves both
+    assert before[-1]["amplitude"] == pytest.approx(before[0]["amplitude"], rel=0.05)
