@@ -21,6 +21,7 @@ ROUND_OFF = 2.0**-52
 OFF = 0.1               # spacings: what is no return any more
 QUIET, LATE = 1e-14, 1e-3       # distances between which twins part at their own rate
 SETTLED = 0.3           # part of the time from the shock to its return that the ripple takes to grow steadily
+ENOUGH = 0.65           # until which a run has to last: half of what is then left
 
 
 def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
@@ -61,11 +62,17 @@ def tube_orders(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
 
 
 def ripple_growth(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    """Straight lines through heights before and behind the shock, and through amplitudes once growth is steady."""
+    """Straight lines through heights before and behind the shock, and through amplitudes once growth is steady; a run that
+    diverged late counts while it lasts.
+    """
     for _, group in rows.groupby(["scale", "steep"]):
         scale, steep = (float(group[name].iloc[0]) for name in ("scale", "steep"))
         theory = impulse(scale, steep)
-        found = [ripple(one.sort_values("time"), theory) for _, one in group.groupby("seed") if one["height"].notna().all()]
+        lasted = theory.meets + ENOUGH*(theory.back - theory.meets)
+        runs = [one.sort_values("time") for _, one in group.dropna(subset=["height"]).groupby("seed")]
+        found = [ripple(one, theory) for one in runs if one["time"].iloc[-1] > lasted]
+        if not found:
+            continue
         kick, amplitude, growth = (combine([one[i] for one in found]) for i in range(3))
         yield {"scale": scale, "steep": steep, "seeds": len(found), "kick": kick.value, "kick_err": kick.err,
                "amplitude": amplitude.value, "amplitude_err": amplitude.err, "growth": growth.value, "growth_err": growth.err}
