@@ -1,4 +1,5 @@
 """Figures of KHP95's hard cases, from their tables."""
+from functools import partial
 from itertools import product
 from typing import Any
 
@@ -26,7 +27,8 @@ def figures(tables: Tables) -> dict[str, Figure]:
     """What the tables allow."""
     makers: dict[str, tuple[Any, tuple[str, ...]]] = {
         "moduli": (moduli, ("moduli",)), "pairs": (pairs, ("fates",)), "freezing": (freezing, ("freezing", "freezing_limits")),
-        "reversal": (reversal, ("reversal", "twins")), "shocks": (shocks, ("tube_profiles", "ripples"))}
+        "reversal": (reversal, ("reversal", "twins")),
+        "shocks": (partial(shocks, grid=tables.get("ripples_grid")), ("tube_profiles", "ripples"))}
     return {name: make(*(tables[source] for source in sources)) for name, (make, sources) in makers.items()
             if all(source in tables and len(tables[source]) for source in sources)}
 
@@ -126,8 +128,8 @@ def reversal(rows: pd.DataFrame, twins: pd.DataFrame) -> Figure:
     return page
 
 
-def shocks(profiles: pd.DataFrame, ripples: pd.DataFrame) -> Figure:
-    """Above: density and velocity in the longest tube without and with viscosity. Below: the ripple in time."""
+def shocks(profiles: pd.DataFrame, ripples: pd.DataFrame, grid: pd.DataFrame | None = None) -> Figure:
+    """Above: density and velocity in the longest tube without and with viscosity. Below: the ripple in time, and on a grid."""
     page, all_axes = figure(2, 2, width=4.4, height=3.2)
     for axes, eta in zip(all_axes[0], sorted(set(profiles["eta"])), strict=False):
         tube(axes, profiles[profiles["eta"] == eta].sort_values("x"), eta)
@@ -147,6 +149,11 @@ def shocks(profiles: pd.DataFrame, ripples: pd.DataFrame) -> Figure:
     all_axes[1, 0].plot([0, 1, theory.back/theory.meets], fall/(theory.kick*theory.back), **drawn, label="exact")
     all_axes[1, 1].plot(ended/theory.meets, 1 + theory.growth*(ended - theory.meets)/theory.amplitude, **drawn,
                         label="impulsive theory")
+    if grid is not None and len(grid):
+        steep, eta = grid["steep"].max(), grid["eta"].min()
+        least, theory = grid[(grid["steep"] == steep) & (grid["eta"] == eta)].sort_values("time"), impulse(1.0, float(steep))
+        all_axes[1, 1].plot(least["time"]/theory.meets, least["amplitude"]/theory.amplitude, color="black", linestyle="-", marker="",
+                            label=rf"$ka$ = {steep:g}, grid, $\eta$ = {eta:g}")
     all_axes[1, 0].set(ylabel="height of the interface / kick x time", title="shocked interface")
     all_axes[1, 1].set(ylabel="amplitude / that behind the shock", title="its ripple")
     for axes in all_axes[1]:

@@ -2,6 +2,8 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
+import pandas as pd
+
 from studies.kit.case import Case
 from studies.kit.claim import Claim
 from studies.kit.study import nothing
@@ -21,3 +23,15 @@ def merged(functions: Iterable[Callable[[Tables], Mapping[str, Any]]]) -> Callab
     """One function of the tables for many: what they return, together."""
     wanted = list(functions)
     return lambda tables: {name: value for function in wanted for name, value in function(tables).items()}
+
+
+def chained(functions: Iterable[Callable[[Tables], Mapping[str, Any]]]) -> Callable[[Tables], dict[str, Any]]:
+    """The same of derived rows, of which each function finds what those before it made."""
+    wanted = list(functions)
+
+    def derive(tables: Tables) -> dict[str, Any]:
+        found: dict[str, Any] = {}
+        for function in wanted:
+            found.update(function(Tables({**tables, **{name: pd.DataFrame(rows) for name, rows in found.items() if rows}})))
+        return found
+    return derive
