@@ -152,14 +152,14 @@ def shocks(profiles: pd.DataFrame, ripples: pd.DataFrame, grid: pd.DataFrame | N
     if grid is not None and len(grid):
         steep, eta = grid["steep"].max(), grid["eta"].min()
         least, theory = grid[(grid["steep"] == steep) & (grid["eta"] == eta)].sort_values("time"), impulse(1.0, float(steep))
-        all_axes[1, 1].plot(least["time"]/theory.meets, least["amplitude"]/theory.amplitude, color="black", linestyle="-", marker="",
+        all_axes[1, 1].plot(least["time"]/theory.meets, least["amplitude"]/theory.amplitude, **{**drawn, "linestyle": "-"},
                             label=rf"$ka$ = {steep:g}, grid, $\eta$ = {eta:g}")
     all_axes[1, 0].set(ylabel="height of the interface / kick x time", title="shocked interface")
     all_axes[1, 1].set(ylabel="amplitude / that behind the shock", title="its ripple")
     for axes in all_axes[1]:
         axes.set_xlabel("time / time of the shock's arrival")
-    for axes in all_axes[1]:
-        axes.legend()
+    for axes, place in zip(all_axes[1], ("upper right", "upper left")):
+        axes.legend(loc=place)
     page.legend(*all_axes[0, -1].get_legend_handles_labels(), loc="outside lower center", ncols=5)
     page.suptitle("Shocks through smooth particles as printed, without artificial viscosity\nabove: Sod's tube at "
                   r"$t = 0.4 L$; below: density ratio 4, Mach 1.5; bands: all seeds", fontsize=10)
