@@ -155,7 +155,8 @@ def shocks(profiles: pd.DataFrame, ripples: pd.DataFrame, grid: pd.DataFrame | N
         all_axes[1, 1].plot(least["time"]/theory.meets, least["amplitude"]/theory.amplitude, **{**drawn, "linestyle": "-"},
                             label=rf"$ka$ = {steep:g}, grid, $\eta$ = {eta:g}")
     all_axes[1, 0].set(ylabel="height of the interface / kick x time", title="shocked interface")
-    all_axes[1, 1].set(ylabel="amplitude / that behind the shock", title="its ripple")
+    all_axes[1, 1].set(ylabel="amplitude / that behind the shock", title="its ripple",
+                        ylim=(0.4, 2.9))
     for axes in all_axes[1]:
         axes.set_xlabel("time / time of the shock's arrival")
     for axes, place in zip(all_axes[1], ("upper right", "upper left")):
