@@ -138,9 +138,10 @@ def test_seconds_are_measured_anew_and_errors_stay(committed):
         assert set(read(out/"speed"/f"{name}.csv")["resolution"]) == {8, 12, 16}, "it was run whole"
 
 
-def test_the_step_that_is_timed_again_is_the_shortest_that_was_tried():
+def test_the_step_that_is_timed_again_is_the_longest_that_is_good_enough_else_the_shortest():
     case = Race(scene="conduction", method=slab.CONTESTANTS["conduction"][names.GRID], resolution=8)
-    steps = pd.DataFrame([{**case.key_columns, "of_limit": one} for one in (0.9, 0.45)]
-                         + [{**case.key_columns, "seed": 2, "of_limit": 0.1}])
-    assert speed_again.fraction_of(case, steps) == 0.45
+    tried = ((1, 1.8, 0), (1, 0.9, 0), (1, 0.45, 1), (1, 0.5, 1), (1, 0.6, 0), (1, 0.2, 0), (2, 0.1, 1), (2, 3.0, 1))
+    steps = pd.DataFrame([{**case.key_columns, "seed": seed, "of_limit": one, "accepted": good} for seed, one, good in tried])
+    assert speed_again.fraction_of(case, steps) == 0.5
+    assert speed_again.fraction_of(case, steps[steps["accepted"] == 0]) == 0.2
     assert speed_again.fraction_of(replace(case, resolution=12), steps) is None

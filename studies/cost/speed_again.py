@@ -29,11 +29,12 @@ TIMES = ("runs", "repeats", "growth", "starts")
 
 
 def fraction_of(case: Race, steps: pd.DataFrame) -> float | None:
-    """Of the stability limit: the step that a case ended with, its shortest; none where it has not run."""
+    """Of the stability limit: the longest step of a case that is good enough, else its shortest; none where it has not run."""
     mine = pd.Series(True, index=steps.index)
     for name, value in case.key_columns.items():
         mine &= steps[name] == value
-    return float(steps.loc[mine, "of_limit"].min()) if mine.any() else None
+    tried, good = steps.loc[mine, "of_limit"], steps.loc[mine & (steps["accepted"] == 1), "of_limit"]
+    return float(good.max() if len(good) else tried.min()) if mine.any() else None
 
 
 def again(case: Case, steps: pd.DataFrame) -> dict[str, list[dict[str, Any]]]:

@@ -35,13 +35,14 @@ from studies.cost.speed_convection import (
     scene_of,
 )
 from studies.cost.speed_problem import Problem, holding, plain
+from studies.hard.limits_search import Unguarded
 
 
 def sampled(method: Any, quantity: Callable, unit: float) -> Callable[[np.ndarray, float, int], Followed]:
     """`go` of a method of the particles' time loop, with K on the way."""
     def follow(first: np.ndarray, dt: float, steps: int) -> Followed:
         every = max(1, round(unit/OFTEN/dt))
-        done = run(method, first, Plan(dt=dt, steps=steps, series={"ke": quantity}, every=every))
+        done = run(Unguarded(method), first, Plan(dt=dt, steps=steps, series={"ke": quantity}, every=every))
         # the rolls of the start
         return Followed(np.array([0.0, *done.times])/unit, np.array([START_ENERGY, *done.series["ke"]]), done.by_id())
     return follow

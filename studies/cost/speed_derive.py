@@ -64,7 +64,7 @@ def with_steps(errors: pd.DataFrame, steps: pd.DataFrame) -> pd.DataFrame:
     if steps.empty:
         return errors
     key = [*RUN, "quantity"]
-    chosen = steps[steps["accepted"] == 1].drop_duplicates(key)[[*key, "time_error"]]
+    chosen = steps[steps["accepted"] == 1].sort_values("of_limit").drop_duplicates(key, keep="last")[[*key, "time_error"]]
     both = errors.merge(chosen, on=key, how="left")
     return both.assign(error_err=np.hypot(both["error_err"], both["time_error"].fillna(0))).drop(columns="time_error")
 

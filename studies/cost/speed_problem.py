@@ -1,7 +1,9 @@
 """One method on one scene at one resolution: the largest step that its space allows, its errors, its seconds, as a case.
 
 The step is a fraction of the method's stability limit, halved from the first one that the method names until halving it once more
-changes what is measured by less than the error that is left: the error of time is then below that of space.
+changes what is measured by less than the error that is left: the error of time is then below that of space. From there it is made
+longer, whatever the limit's formula says, which is on the safe side, by 2^(1/4) at a time, while what that changes is below an
+eighth of the error: in two dimensions seconds go as error^(-3/2), so an eighth more error would cost what the longer step saves.
 """
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -12,17 +14,19 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from continuum.compressible import DivergedError
 from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, Run, run
 from particles.team import Team
 from studies.cost.speed_timing import SHORT, Timed, array_bytes, of_calls, per_step
+from studies.hard.limits_search import Unguarded
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.timing import compile_and_run_seconds
 
 HALVINGS = 7        # at most: steps of 1/128 of the first one
 LONGEST = 60.0      # CPU seconds of trying steps: none is halved again that would take it beyond
+STRETCH, STRETCHES = 2**0.25, 8         # of a step that is good enough, and how often at most: 4 times the first one
+WORTH = STRETCH**(2/3) - 1              # of the error: what a longer step may change
 LONGER = 10         # are the runs that time particles: they have to hold some lists
 Residuals = dict[str, np.ndarray]
 
@@ -60,12 +64,12 @@ class Result(NamedTuple):
 
 def marching(method: Any) -> Callable[[np.ndarray, float, int], np.ndarray]:
     """`go` of all that the time loop of the particles takes; the state comes back in the order of its points."""
-    return lambda state, dt, steps: run(method, state, Plan(dt=dt, steps=steps)).by_id()
+    return lambda state, dt, steps: run(Unguarded(method), state, Plan(dt=dt, steps=steps)).by_id()
 
 
 def plain(method: Any) -> Callable[[np.ndarray, float, int], Any]:
-    """`step` of the same: without records, and with a shorter step where the state is hotter than the one at the start."""
-    return lambda state, dt, steps: run(method, state, Plan(dt=min(dt, 0.99*limit_of(method, state)), steps=steps))
+    """`step` of the same: without records."""
+    return lambda state, dt, steps: run(Unguarded(method), state, Plan(dt=dt, steps=steps))
 
 
 def holding(method: Any, first: np.ndarray) -> Callable[[], tuple]:
@@ -91,11 +95,12 @@ def rms(residual: np.ndarray) -> float:
 
 
 class Rung(NamedTuple):
-    """A step tried: its fraction of the limit, by quantity errors of time and space, and whether it was good enough."""
+    """A step tried: its fraction of the limit, by quantity errors of time and space, whether it was good enough, its result."""
     fraction: float
     time: dict[str, float]
     space: dict[str, float]
     accepted: bool
+    found: Result | None
 
 
 def steps_of(problem: Problem, fraction: float) -> int:
@@ -109,31 +114,55 @@ def result(problem: Problem, fraction: float) -> Result | None:
     try:
         state = problem.go(problem.first, problem.time/steps, steps)
         return Result(problem.residuals(state), problem.uncertain(state), problem.share(state), getattr(state, "state", state))
-    except (Divergence, DivergedError):
+    except (Divergence, ArithmeticError):
         return None
 
 
-def climb(problem: Problem, first: float) -> tuple[list[Rung], Result | None]:
-    """All steps that were tried, the last one is taken; what comes out with it, nothing where all diverge."""
+def climb(problem: Problem, first: float) -> list[Rung]:
+    """All steps that were tried: halved until one is good enough, then made longer."""
+    rungs, fine, most = halved(problem, first)
+    if rungs[-1].accepted and fine is not None:
+        rungs += stretched(problem, rungs[-1], fine, most)
+    return rungs
+
+
+def best(rungs: list[Rung]) -> Rung:
+    """The longest step that is good enough; where none is, the shortest."""
+    return max((rung for rung in rungs if rung.accepted), key=lambda rung: rung.fraction, default=rungs[-1])
+
+
+def halved(problem: Problem, first: float) -> tuple[list[Rung], Result | None, float]:
+    """Steps from the first one down to the first that is good enough, what comes out with half of it, what steps stay below."""
     rungs: list[Rung] = []
-    began, coarse = process_time(), result(problem, first)
+    most, began, coarse, fine = first*STRETCH**(STRETCHES + 0.5), process_time(), result(problem, first), None
     for number in range(HALVINGS):
         fraction, before = first/2**number, process_time()
         fine = result(problem, fraction/2)
-        if coarse is None or fine is None:
-            rungs.append(Rung(fraction, {}, {}, False))
-        else:
-            space = {name: rms(off) for name, off in fine.residuals.items()}
-            time = {name: abs(rms(coarse.residuals[name]) - space[name]) if problem.chaotic
-                    else rms(coarse.residuals[name] - off) for name, off in fine.residuals.items()}
-            rungs.append(Rung(fraction, time, space, all(time[name] <= space[name] for name in space)))
-            if rungs[-1].accepted:
-                break
+        rungs.append(rung_of(problem, fraction, coarse, fine, 1.0))
         now = process_time()
-        if number == HALVINGS - 1 or now - began + 2*(now - before) > LONGEST:
+        if rungs[-1].accepted or number == HALVINGS - 1 or now - began + 2*(now - before) > LONGEST:
             break
-        coarse = fine
-    return rungs, coarse
+        most, coarse = fraction, fine
+    return rungs, fine, most
+
+
+def stretched(problem: Problem, good: Rung, fine: Result, most: float) -> Iterator[Rung]:
+    """Steps that are longer than a good one, up to the first that changes too much, or diverges; all below `most`."""
+    fraction = good.fraction*STRETCH
+    while good.accepted and fraction < most*(1 - 1e-12) and all(off <= WORTH*good.space[name] for name, off in good.time.items()):
+        good = rung_of(problem, fraction, result(problem, fraction), fine, WORTH)
+        yield good
+        fraction *= STRETCH
+
+
+def rung_of(problem: Problem, fraction: float, coarse: Result | None, fine: Result | None, share: float) -> Rung:
+    """What comes out with a step against what does with a finer one; good enough below a share of the error of space."""
+    if coarse is None or fine is None:
+        return Rung(fraction, {}, {}, False, coarse)
+    space = {name: rms(off) for name, off in fine.residuals.items()}
+    time = {name: abs(rms(coarse.residuals[name]) - space[name]) if problem.chaotic
+            else rms(coarse.residuals[name] - off) for name, off in fine.residuals.items()}
+    return Rung(fraction, time, space, all(time[name] <= share*space[name] for name in space), coarse)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,12 +191,13 @@ class Race(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         problem, compile_s = self._compiled()
         report(0.2)
-        rungs, found = climb(problem, self.method.first)
+        rungs = climb(problem, self.method.first)
+        fraction, found = best(rungs).fraction, best(rungs).found
         report(0.7)
         rows = {"steps": list(self._rungs(rungs)), "errors": list(self._errors(problem, found))}
         if found is None:
             return Outcome(rows)
-        return Outcome({**rows, **self._run(problem, rungs[-1].fraction, found, compile_s)})
+        return Outcome({**rows, **self._run(problem, fraction, found, compile_s)})
 
     def again(self, fraction: float) -> dict[str, list[dict[str, Any]]]:
         """Seconds alone, of a step that is known; no rows where the run diverges."""
@@ -204,10 +234,13 @@ class Race(Case):
     def _run(self, problem: Problem, fraction: float, found: Result | None,
              compile_s: float) -> dict[str, list[dict[str, Any]]]:
         steps = steps_of(problem, fraction)
-        dt = problem.time/steps
-        # particles are timed in the disorder of the end: their lists are made more often than at the start
-        first, short = (found.state, LONGER*self.short) if found and problem.chaotic else (problem.first, self.short)
-        seconds = per_step(lambda n: (problem.step or problem.go)(first, dt, n), short).times(steps)
+        dt = tried = problem.time/steps
+        first, short = problem.first, self.short
+        if found and problem.chaotic:       # in the disorder of the end lists are made more often than at the start
+            first, short = found.state, LONGER*self.short
+        else:       # more steps than the run has, which a step beyond the limit may not stand
+            tried = min(dt, self.method.first*problem.limit)
+        seconds = per_step(lambda n: (problem.step or problem.go)(first, tried, n), short).times(steps)
         set_up = of_calls(lambda: self._make().held())
         return self.timings(seconds, {
             "points": problem.points, "of_limit": fraction, "dt": dt, "steps": steps, "setup_s": set_up.value,

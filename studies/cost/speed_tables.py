@@ -13,7 +13,8 @@ RUNS = Table("runs", key=RUN, columns=[*RUN, "points", "of_limit", "dt", "steps"
 REPEATS = Table("repeats", key=RUN, columns=[*RUN, "early_s", "late_s"])
 #: share: of the steps that this quantity needs (a steady state is reached, and averaged, before the run ends)
 ERRORS = Table("errors", key=[*RUN, "quantity"], columns=[*RUN, "quantity", "error", "error_err", "share"])
-#: how the step was found: what halving it changes (time_error) against the error that is left then (space_error)
+#: how the step was found: what halving it changes (time_error) against the error that is left then (space_error); for steps
+#: longer than one that is accepted, the change and the error from the half of that one
 STEPS = Table("steps", key=[*RUN, "quantity", "of_limit"], columns=[
     *RUN, "quantity", "of_limit", "time_error", "space_error", "accepted"])
 SERIES = ["scene", "quantity", "method"]
