@@ -97,7 +97,7 @@ def solve_gas(scene: RayleighBenard, rows: int, **options) -> Solution:
     return solve(Gas(scene, rows), **options)
 
 
-def solve(equation: Any, *, until: Until = Steady(), start: Rolls | Solution = Rolls(),  # noqa: B008
+def solve(equation: Any, *, until: Until = Steady(), start: Rolls | Solution | np.ndarray = Rolls(),  # noqa: B008
           dt: float | None = None, backend: str = "numba", progress: Progress | None = None) -> Solution:
     """Solve an equation.
 
@@ -105,7 +105,7 @@ def solve(equation: Any, *, until: Until = Steady(), start: Rolls | Solution = R
     ----------
     equation : Boussinesq or Gas.
     until : Steady(rtol=...) or Time(t_end) of `continuum.steady`.
-    start : Rolls(ke, number), or a solution of the same box on any grid.
+    start : Rolls(ke, number), a solution of the same box on any grid, or a state (fields, columns, rows).
     dt : largest step (by default 0.8 of the stability limit); the one taken divides the time between samples.
     backend : "numba", which compiles for some seconds at every call, or "numpy".
     progress : called with the fraction done.
@@ -117,7 +117,7 @@ def solve(equation: Any, *, until: Until = Steady(), start: Rolls | Solution = R
     DivergedError
         Says when and where.
     """
-    data = equation.rolls(*start) if isinstance(start, Rolls) else onto(equation, start)
+    data = start_of(equation, start)
     interval = until.interval(equation)
     count = math.ceil(interval/choose_step(equation, dt)*(1 - 1e-12))
     watch = Watch(equation, until, interval, interval/count, progress)
@@ -127,6 +127,14 @@ def solve(equation: Any, *, until: Until = Steady(), start: Rolls | Solution = R
     finally:
         restore_interrupt(equation)
     return finish(equation, watch, state.data, info)
+
+
+def start_of(equation: Any, start: Rolls | Solution | np.ndarray) -> np.ndarray:
+    """The state that a run begins with."""
+    if isinstance(start, np.ndarray):
+        return start.copy()
+    data: np.ndarray = equation.rolls(*start) if isinstance(start, Rolls) else onto(equation, start)
+    return data
 
 
 def choose_step(equation: Any, dt: float | None) -> float:

@@ -8,7 +8,7 @@ rho and e sit in cells, v_x on their right and v_y on their upper sides. The den
 it has none in the continuum: no gas crosses the plate, the pressure is not differenced there, and mass is conserved
 to round-off. (With all fields at the same points the central difference of the pressure would not see a density that
 alternates from point to point, and nothing would damp it.) Only transport coefficients at a plate want a density: it
-is extrapolated. The upper row of v_y lies on the cold plate and stays zero.
+is extrapolated. The upper row of v_y lies on the cold plate and stays zero; on a torus, which has no plates, it moves.
 """
 from typing import Any
 
@@ -16,7 +16,7 @@ import numpy as np
 
 from continuum.fluid import conductivity, energy, pressure, sound_speed, stress, temperature, valid, viscosity
 from continuum.pypde_gas_loop import BULK_VISCOSITY, RHO, VX, VY, Box, E, rates
-from continuum.scene import Periodic, RayleighBenard
+from continuum.scene import Periodic, Torus
 
 # continuum.jit comes before everything that loads numba
 # isort: split
@@ -28,29 +28,33 @@ HALF_UP = np.array([[0, 0], [1, 0], [0, 1], [0, 0]])/2      # where a field sits
 
 
 class Gas(PDEBase):
-    """A scene of `continuum.scene` between periodic sides on `rows` rows of square cells."""
+    """A scene of `continuum.scene` between periodic sides, or on a torus, on `rows` rows of square cells.
+
+    slide : velocity of the cold plate along itself.
+    """
 
     explicit_time_dependence = False
 
-    def __init__(self, scene: RayleighBenard, rows: int):
+    def __init__(self, scene: Any, rows: int, slide: float = 0.0):
         super().__init__()
-        if not isinstance(scene.sides, Periodic):
+        if not isinstance(scene.sides, (Periodic, Torus)):
             raise ValueError(f"sides are {scene.sides!r}: this grid is periodic, take continuum.compressible for walls")
         columns = round(scene.aspect*rows)
         if rows < 8 or rows % 2 or not np.isclose(columns, scene.aspect*rows):
             raise ValueError(f"rows must be even, at least 8, and times aspect {scene.aspect} a whole number, "
                              f"got {rows}: rolls are counted at mid-height, cells are square")
-        self.scene, self.rows, self.h = scene, rows, scene.L/rows
+        self.scene, self.rows, self.h, torus = scene, rows, scene.L/rows, isinstance(scene.sides, Torus)
         sides = [(-scene.width/2, scene.width/2), (-scene.L/2, scene.L/2)]
-        self.grid = CartesianGrid(sides, (columns, rows), periodic=(True, False))
-        self.box = Box(self.h, scene.g, scene.T_hot, scene.T_cold)
+        self.grid = CartesianGrid(sides, (columns, rows), periodic=(True, torus))
+        self.box = Box(self.h, scene.g, scene.T_hot, scene.T_cold, float(slide), torus)
         self._pad = [self._padding(*ghosts) for ghosts in (
-            ({"curvature": 0},), ({"value": 0},), ({"virtual_point": 0},), ({"curvature": 0},),
+            ({"curvature": 0},), ({"value": 0}, {"value": slide}), ({"virtual_point": 0},), ({"curvature": 0},),
             ({"value": scene.T_hot}, {"value": scene.T_cold}))]
 
     def _padding(self, bottom: dict, top: dict | None = None):
         """py-pde's function that copies a field and sets its ghosts."""
-        bcs = self.grid.get_boundary_conditions({"x": "periodic", "y-": bottom, "y+": top or bottom})
+        across = {"y": "periodic"} if self.box.torus else {"y-": bottom, "y+": top or bottom}
+        bcs = self.grid.get_boundary_conditions({"x": "periodic", **across})
         return get_backend("numpy").make_full_data_setter(bcs)
 
     @property
@@ -156,7 +160,8 @@ class Gas(PDEBase):
                     - mx(mx(u)*dx(u))[:, 1:-1] - my(mx(v)[:, :-1]*strain)[1:])
         rate[VY] = ((dy(syy - P)[:-1] + dx(sxy)[:, 1:])/my(rho)[1:-1, 1:]
                     - my(my(v)*dy(v))[1:-1] - mx(my(u)[:-1]*slope)[:, 1:] - self.scene.g)
-        rate[VY, :, -1] = 0
+        if not self.box.torus:
+            rate[VY, :, -1] = 0
         rate[E] = ((work + minus_div_q)/rho[1:-1, 1:-1]
                    - mx(u[:-1]*dx(e))[:, 1:-1] - my(v[:, :-1]*dy(e))[1:-1])
         return self.state(rate)

@@ -19,19 +19,26 @@ class Box(NamedTuple):
     g: float
     T_hot: float
     T_cold: float
+    slide: float        # velocity of the cold plate along itself
+    torus: bool         # no plates: periodic in y, too
 
 
 @jit
 def fill(box, data, S):
-    """Copy the state between ghosts: periodic in x; plates at rest; rho and e extrapolated."""
+    """Copy the state between ghosts: periodic in x; plates that the gas sticks to; rho and e extrapolated."""
     nx, ny = data.shape[1:]
     for f in range(4):
         a, b = ((2.0, -1.0), (-1.0, 0.0), (0.0, 0.0), (2.0, -1.0))[f]
         for i in range(1, nx + 1):
             for j in range(1, ny + 1):
                 S[f, i, j] = data[f, i - 1, j - 1]
-            S[f, i, 0] = a*S[f, i, 1] + b*S[f, i, 2]
-            S[f, i, ny + 1] = a*S[f, i, ny] + b*S[f, i, ny - 1]
+            if box.torus:
+                S[f, i, 0], S[f, i, ny + 1] = S[f, i, ny], S[f, i, 1]
+            else:
+                S[f, i, 0] = a*S[f, i, 1] + b*S[f, i, 2]
+                S[f, i, ny + 1] = a*S[f, i, ny] + b*S[f, i, ny - 1]
+                if f == VX:
+                    S[f, i, ny + 1] += 2*box.slide
         for j in range(ny + 2):
             S[f, 0, j], S[f, nx + 1, j] = S[f, nx, j], S[f, 1, j]
 
@@ -43,8 +50,11 @@ def coefficients(eos, law, box, S):
     for i in range(nx + 2):
         for j in range(1, ny + 1):
             S[T, i, j] = temperature(eos, S[RHO, i, j], S[E, i, j])
-        S[T, i, 0] = 2*box.T_hot - S[T, i, 1]
-        S[T, i, ny + 1] = 2*box.T_cold - S[T, i, ny]
+        if box.torus:
+            S[T, i, 0], S[T, i, ny + 1] = S[T, i, ny], S[T, i, 1]
+        else:
+            S[T, i, 0] = 2*box.T_hot - S[T, i, 1]
+            S[T, i, ny + 1] = 2*box.T_cold - S[T, i, ny]
         for j in range(ny + 2):
             S[ETA, i, j] = viscosity(law, S[RHO, i, j], S[T, i, j])
             S[K, i, j] = conductivity(law, S[RHO, i, j], S[T, i, j])
@@ -70,7 +80,7 @@ def stresses(eos, box, S):
             eta = 0.25*(S[ETA, i, j] + S[ETA, i + 1, j] + S[ETA, i, j + 1] + S[ETA, i + 1, j + 1])
             S[SXY, i, j] = eta*corner_strain(box, S, i, j)
     for i in range(1, S.shape[1]):
-        for j in range(1, S.shape[2] - 1):
+        for j in range(1, S.shape[2] - (0 if box.torus else 1)):
             xx, yy = cell_strain(box, S, i, j)
             sxx, _, syy = stress(S[ETA, i, j], BULK_VISCOSITY, xx, 0.0, 0.0, yy)
             P = pressure(eos, S[RHO, i, j], S[E, i, j])
@@ -167,6 +177,6 @@ def rates(eos, law, box, data, S, out):
             out[RHO, i - 1, j - 1] = compress(box, S, i, j)
             out[VX, i - 1, j - 1] = push_x(box, S, i, j) - carry_x(box, S, i, j)
             out[E, i - 1, j - 1] = (work(box, S, i, j) + conduct(box, S, i, j))/S[RHO, i, j] - carry_e(box, S, i, j)
-        for j in range(1, ny):
-            out[VY, i - 1, j - 1] = push_y(box, S, i, j) - carry_y(box, S, i, j) - box.g
         out[VY, i - 1, ny - 1] = 0.0
+        for j in range(1, ny + (1 if box.torus else 0)):
+            out[VY, i - 1, j - 1] = push_y(box, S, i, j) - carry_y(box, S, i, j) - box.g

@@ -24,8 +24,9 @@ from continuum.pypde_boussinesq import Boussinesq
 from continuum.pypde_gas import RHO, VX, VY, E, Gas
 from continuum.pypde_march import RungeKuttaSolver, StageLoop
 from continuum.richardson import richardson
-from continuum.scene import RayleighBenard, Walls
+from continuum.scene import RayleighBenard, Tile, Walls
 from continuum.steady import Steady, Time
+from studies.cost import speed_cases_plates as slab
 
 GAS = RayleighBenard(ra=5000, L=1.0)
 SIZES = (12, 16, 20)
@@ -39,8 +40,8 @@ def layer(rows=8, ra=5000, pr=7) -> Boussinesq:
 
 
 def rough(equation, ke=0.01) -> np.ndarray:
-    """Rolls with noise on every field."""
-    data = equation.rolls(ke)
+    """Rolls with noise on every field; noise alone where nothing rolls."""
+    data = np.ones((4, *equation.grid.shape)) if isinstance(getattr(equation, "scene", None), Tile) else equation.rolls(ke)
     data += 0.05*np.random.default_rng(1).standard_normal(data.shape)
     return equation.repaired(data)
 
@@ -59,6 +60,33 @@ def test_the_compiled_rates_of_the_gas_equal_the_readable_ones(eos, transport):
 
 def test_the_compiled_rates_of_the_layer_equal_those_of_py_pdes_operators():
     same_rates(layer())
+
+
+@pytest.mark.parametrize(("torus", "slide"), [(True, 0.0), (False, 0.7)])
+def test_the_compiled_rates_without_plates_and_with_one_that_slides_equal_the_readable_ones(torus, slide):
+    """Every pair of fields that rough states have; T_hot and T_cold differ, so that plates would show."""
+    law = ConstEta(0.02, 0.03)
+    scene = Tile(width=1.5, L=1.0, law=law, T_hot=1.3, T_cold=0.8) if torus else GAS
+    same_rates(Gas(scene, 8, slide))
+
+
+def test_a_torus_knows_no_place():
+    """Moved by a cell along either axis, a state's rates are moved along: to round-off, no row or column is another."""
+    gas = Gas(Tile(width=1.5, L=1.0, law=ConstEta(0.02, 0.03)), 8)
+    data = 1 + 0.1*np.random.default_rng(1).standard_normal((4, *gas.grid.shape))
+    for axis in (1, 2):
+        np.testing.assert_allclose(rate(gas, np.roll(data, 1, axis)), np.roll(rate(gas, data), 1, axis), rtol=0, atol=1e-12)
+
+
+def test_a_sliding_plate_drags_the_row_below_it():
+    """By hand: at rest at uniform density and T = 1 all that moves is the upper row, by eta (2 U)/(rho h^2)."""
+    gas = Gas(slab.Slab(rows=8), 8, slide=0.5)
+    data = np.ones((4, *gas.grid.shape))
+    data[[VX, VY]] = 0
+    found = rate(gas, data)
+    np.testing.assert_allclose(found[VX, :, -1], slab.law(8).eta*2*0.5, rtol=1e-12)
+    np.testing.assert_allclose(found[VX, :, :-1], 0, atol=1e-14)
+    np.testing.assert_allclose(found[[RHO, VY]], 0, atol=1e-14)
 
 
 def same_rates(equation):

@@ -7,6 +7,7 @@ import pytest
 from continuum.boussinesq import Case as Mac
 from particles.run import Divergence, Plan, run
 from studies.cost import speed_cases_plates as slab
+from studies.cost import speed_cases_pypde as pypde
 from studies.cost import speed_cases_torus as torus
 from studies.cost import speed_cases_vortex as vortex
 from studies.cost import speed_cases_waves as wave
@@ -54,6 +55,25 @@ def test_a_step_is_made_longer_until_it_diverges():
     assert best(climb(exact, 0.3)).fraction == pytest.approx(0.3*STRETCH**2)      # 0.42; the next is 0.505
     most = climb(exact, 0.01)
     assert len(most) == 1 + STRETCHES and best(most).fraction == pytest.approx(0.04)
+
+
+def test_a_limit_that_is_firm_is_not_passed():
+    exact = toy(4, limit=0.1)._replace(time=1e5, firm=True, go=lambda state, dt, steps: toy(4).go(state, dt, steps)*0 + 1e-3)
+    assert best(climb(exact, 0.7)).fraction == pytest.approx(0.7*STRETCH**2)      # 0.99
+    assert best(climb(exact._replace(firm=False), 0.7)).fraction == pytest.approx(0.7*STRETCH**8)
+
+
+@pytest.mark.parametrize("grown", [Divergence(3, "gone"), FloatingPointError("gone"), np.array([np.nan])])
+def test_a_longer_step_has_to_stand_more_steps_than_the_run_has(grown):
+    """In runs of at most ten steps none of which shows that steps above 0.15 grow."""
+    def go(state, dt, steps):
+        if dt > 0.15 and steps > 100:
+            if isinstance(grown, Exception):
+                raise grown
+            return grown
+        return 1e-3
+    rungs = climb(toy(4)._replace(go=go), 0.1)
+    assert [rung.accepted for rung in rungs] == [True]*3 + [False] and best(rungs).fraction == pytest.approx(0.1*STRETCH**2)
 
 
 def test_a_step_that_was_halved_stays_below_what_was_too_long():
@@ -230,6 +250,14 @@ def test_grids_and_points_are_of_second_order_between_plates(scene, name):
 def test_the_grid_without_plates_is_of_second_order(method):
     coarse, fine = (error_of_space(method, resolution, "velocity") for resolution in (24, 48))
     assert coarse/fine == pytest.approx(4, rel=0.06)
+
+
+@pytest.mark.parametrize("method", [pypde.VORTEX, pypde.SLABS["couette"]])
+def test_py_pde_is_of_second_order_where_nothing_convects(method):
+    """Errors at 16 over those at 32: 4.00 was measured."""
+    coarse, fine = (method.solve(resolution) for resolution in (16, 32))
+    assert rms(coarse.residuals["velocity"])/rms(fine.residuals["velocity"]) == pytest.approx(4, rel=0.03)
+    assert fine.seconds.value > 0 and fine.compile_s > 0
 
 
 def test_a_lattice_carries_sound_with_second_order_error_and_its_row_is_whole():

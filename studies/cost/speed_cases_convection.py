@@ -119,7 +119,7 @@ class OnSpam(NamedTuple):
             at = fields_at(sums, copy, *state[:2])
             return Seen(state[:2].T/scene.L, np.stack([at.vx, at.vy], axis=1), at.T, np.full(n, 1.0/n))
         return problem_of(first.shape[1], first, limit_of(method, first), sampled(method, field_kinetic, unit), plain(method),
-                          holding(method, first), see, unit=unit, late=LATE, factor=smooth/plainly, found=found)
+                          holding(method, first), see, unit=unit, late=LATE, factor=smooth/plainly, found=found, firm=True)
 
 
 class OnGrid(NamedTuple):

@@ -52,13 +52,22 @@ def sound_limit(method: Any, c2: float) -> float:
 
 def compared(vortex: Vortex, V: np.ndarray, x: np.ndarray, v: np.ndarray) -> Residuals:
     """Velocities (n, 2) at places (n, 2) of volumes V, and the decay of K, relative."""
-    gas = solved(vortex.mach)
-    exactly, found = velocities(gas, x/vortex.wavelength), v/vortex.speed
-    scale = np.sqrt(2*len(V)/(V@(exactly**2).sum(axis=1)))
-    off = np.sqrt(V)[:, None]*(found - exactly)*scale
+    return told(vortex, V, exactly(vortex, x), v)
+
+
+def exactly(vortex: Vortex, x: np.ndarray) -> np.ndarray:
+    """Velocities (n, 2) at the end, at places (n, 2), in units of the speed."""
+    return velocities(solved(vortex.mach), x/vortex.wavelength)
+
+
+def told(vortex: Vortex, V: np.ndarray, known: np.ndarray, v: np.ndarray) -> Residuals:
+    """The same for velocities that are known in units of the speed."""
+    found = v/vortex.speed
+    scale = np.sqrt(2*len(V)/(V@(known**2).sum(axis=1)))
+    off = np.sqrt(V)[:, None]*(found - known)*scale
     start = float(V.sum()/2)        # of v^2 in units of the speed, at the start
     decay = np.log(start/float(V@(found**2).sum(axis=1)))/(2*DECAYS)
-    return {"velocity": off.ravel(), "decay": np.array([decay/gas.decay - 1])}
+    return {"velocity": off.ravel(), "decay": np.array([decay/solved(vortex.mach).decay - 1])}
 
 
 class OnPoints(NamedTuple):
@@ -183,7 +192,7 @@ class OnMac(NamedTuple):
                     "decay": np.array([np.log(K0/K)/(2*DECAYS) - 1])}
         h = 1/case.rows
         return Problem(case.rows*case.columns, first, CFL*h/np.abs(first).max(), DECAYS/(2*nu*np.pi**2), go, residuals,
-                       lambda: (made,))
+                       lambda: (made,), firm=True)
 
 
 def stirred(case: Case) -> np.ndarray:

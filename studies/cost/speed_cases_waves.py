@@ -58,9 +58,9 @@ class Wave(NamedTuple):
         matrix = continuum(Gas(self.eta, 0.0, self.eta), self.k).matrix
         return AMPLITUDE*np.real(np.outer(expm(matrix*time)@np.array([1, 0, 1]), np.exp(1j*self.k*x)))
 
-    def compared(self, V: np.ndarray, x: np.ndarray, u: np.ndarray, T: np.ndarray) -> Residuals:
-        """Velocity and temperature, each relative to its rms."""
-        _, exact_u, exact_T = self.exactly(self.time, x)
+    def compared(self, V: np.ndarray, x: np.ndarray, u: np.ndarray, T: np.ndarray, x_u: np.ndarray | None = None) -> Residuals:
+        """Velocity (at `x_u` if given) and temperature, each relative to its rms."""
+        exact_T, exact_u = self.exactly(self.time, x)[2], self.exactly(self.time, x if x_u is None else x_u)[1]
         w = np.sqrt(len(V)*V/V.sum())
         pairs = {"velocity": (u, exact_u), "temperature": (T - 1, exact_T)}
         return {name: w*(found - exact)/np.sqrt(np.mean(w**2*exact**2)) for name, (found, exact) in pairs.items()}

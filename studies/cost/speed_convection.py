@@ -139,7 +139,8 @@ def shares_of(done: Followed, errors: dict[str, float], late: float | None) -> d
 
 def problem_of(points: int, first: Any, limit: float, follow: Callable[[Any, float, int], Followed],
                step: Callable[[Any, float, int], Any], held: Callable[[], tuple], see: Callable[[Any], Seen] | None, *,
-               unit: float, late: float | None = None, factor: float = 1.0, found: Reference | None = None) -> Problem:
+               unit: float, late: float | None = None, factor: float = 1.0, found: Reference | None = None,
+               firm: bool = False) -> Problem:
     """What all contestants share; unit: of free-fall time; late: of a flow that fluctuates, from when it is averaged."""
     found = found or reference()
 
@@ -152,4 +153,4 @@ def problem_of(points: int, first: Any, limit: float, follow: Callable[[Any, flo
 
     def uncertain(done: Followed) -> dict[str, float]:
         return {"K": end_of(done, late)[1]/(factor*found.ke), "K(t)": found.history_known}
-    return Problem(points, first, limit, END*unit, follow, residuals, held, found.known, bool(late), step, uncertain, share)
+    return Problem(points, first, limit, END*unit, follow, residuals, held, found.known, bool(late), firm, step, uncertain, share)

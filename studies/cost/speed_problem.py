@@ -2,8 +2,9 @@
 
 The step is a fraction of the method's stability limit, halved from the first one that the method names until halving it once more
 changes what is measured by less than the error that is left: the error of time is then below that of space. From there it is made
-longer, whatever the limit's formula says, which is on the safe side, by 2^(1/4) at a time, while what that changes is below an
-eighth of the error: in two dimensions seconds go as error^(-3/2), so an eighth more error would cost what the longer step saves.
+longer, beyond a limit whose formula is on the safe side, too, by 2^(1/4) at a time, while what that changes is below an eighth of
+the error: in two dimensions seconds go as error^(-3/2), so an eighth more error would cost what the longer step saves. A run may
+be too short to see that a step is unstable: what is longer than the first has to stand a thousand steps.
 """
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -16,6 +17,7 @@ import numpy as np
 
 from particles.integrators import RK4
 from particles.limits import limit_of
+from particles.methods.spam import Spam
 from particles.run import Divergence, Plan, Run, run
 from particles.team import Team
 from studies.cost.speed_timing import SHORT, Timed, array_bytes, of_calls, per_step
@@ -27,6 +29,8 @@ HALVINGS = 7        # at most: steps of 1/128 of the first one
 LONGEST = 60.0      # CPU seconds of trying steps: none is halved again that would take it beyond
 STRETCH, STRETCHES = 2**0.25, 8         # of a step that is good enough, and how often at most: 4 times the first one
 WORTH = STRETCH**(2/3) - 1              # of the error: what a longer step may change
+STANDS = 1000       # steps in which round-off grows to anything if it grows by 4 % a step
+TRIES = 1.4         # of what a method says that a case takes: what trying longer steps does to it
 LONGER = 10         # are the runs that time particles: they have to hold some lists
 Residuals = dict[str, np.ndarray]
 
@@ -37,7 +41,8 @@ class Problem(NamedTuple):
     points : particles, points or cells. first : state to start from. limit : largest stable step, `time` to go. go(state, dt,
     steps) : the state so many steps later. residuals(state) : by quantity, (m,), what is off relative to the exact answer's rms.
     held() : all that exists in memory while the method runs. known : uncertainty of the exact answer. chaotic : small changes
-    grow, so that two steps give two flows and only the sizes of their errors compare. step : `go` without records, for timing.
+    grow, so that two steps give two flows and only the sizes of their errors compare. firm : no step beyond the limit is stable.
+    step : `go` without records, for timing.
     uncertain(state) : by quantity, of an average over time. share(state) : by quantity, of the steps that it needs.
     """
     points: int
@@ -49,6 +54,7 @@ class Problem(NamedTuple):
     held: Callable[[], tuple]
     known: float = 0.0
     chaotic: bool = False
+    firm: bool = False
     step: Callable[[Any, float, int], Any] | None = None
     uncertain: Callable[[Any], dict[str, float]] = lambda state: {}
     share: Callable[[Any], dict[str, float]] = lambda state: {}
@@ -84,9 +90,10 @@ def holding(method: Any, first: np.ndarray) -> Callable[[], tuple]:
 
 def of_method(method: Any, first: np.ndarray, time: float, residuals: Callable[[np.ndarray], Residuals], *,
               limit: float | None = None, known: float = 0.0, chaotic: bool = False) -> Problem:
-    """The problem of a method of the particles' time loop."""
+    """The problem of a method of the particles' time loop; limits that are given, and of lattice sums, are firm."""
+    firm = limit is not None or isinstance(method, Spam)
     return Problem(first.shape[1], first, limit_of(method, first) if limit is None else limit, time, marching(method), residuals,
-                   holding(method, first), known, chaotic, plain(method))
+                   holding(method, first), known, chaotic, firm, plain(method))
 
 
 def rms(residual: np.ndarray) -> float:
@@ -134,7 +141,8 @@ def best(rungs: list[Rung]) -> Rung:
 def halved(problem: Problem, first: float) -> tuple[list[Rung], Result | None, float]:
     """Steps from the first one down to the first that is good enough, what comes out with half of it, what steps stay below."""
     rungs: list[Rung] = []
-    most, began, coarse, fine = first*STRETCH**(STRETCHES + 0.5), process_time(), result(problem, first), None
+    most = max(first, 1.0) if problem.firm else first*STRETCH**(STRETCHES + 0.5)
+    began, coarse, fine = process_time(), result(problem, first), None
     for number in range(HALVINGS):
         fraction, before = first/2**number, process_time()
         fine = result(problem, fraction/2)
@@ -150,9 +158,19 @@ def stretched(problem: Problem, good: Rung, fine: Result, most: float) -> Iterat
     """Steps that are longer than a good one, up to the first that changes too much, or diverges; all below `most`."""
     fraction = good.fraction*STRETCH
     while good.accepted and fraction < most*(1 - 1e-12) and all(off <= WORTH*good.space[name] for name, off in good.time.items()):
-        good = rung_of(problem, fraction, result(problem, fraction), fine, WORTH)
+        good = rung_of(problem, fraction, result(problem, fraction) if stands(problem, fraction) else None, fine, WORTH)
         yield good
         fraction *= STRETCH
+
+
+def stands(problem: Problem, fraction: float) -> bool:
+    """Whether a run goes on for so many steps, if it has not as many itself."""
+    steps = steps_of(problem, fraction)
+    try:
+        end = (problem.step or problem.go)(problem.first, problem.time/steps, STANDS) if steps < STANDS else 0.0
+        return not isinstance(end, np.ndarray) or bool(np.isfinite(end).all())
+    except (Divergence, ArithmeticError):
+        return False
 
 
 def rung_of(problem: Problem, fraction: float, coarse: Result | None, fine: Result | None, share: float) -> Rung:
@@ -177,7 +195,7 @@ class Race(Case):
 
     @property
     def cost(self) -> float:
-        return float(self.method.seconds(self.resolution))
+        return TRIES*float(self.method.seconds(self.resolution))
 
     @property
     def label(self) -> str:
@@ -234,12 +252,11 @@ class Race(Case):
     def _run(self, problem: Problem, fraction: float, found: Result | None,
              compile_s: float) -> dict[str, list[dict[str, Any]]]:
         steps = steps_of(problem, fraction)
-        dt = tried = problem.time/steps
-        first, short = problem.first, self.short
-        if found and problem.chaotic:       # in the disorder of the end lists are made more often than at the start
-            first, short = found.state, LONGER*self.short
-        else:       # more steps than the run has, which a step beyond the limit may not stand
-            tried = min(dt, self.method.first*problem.limit)
+        dt = problem.time/steps
+        # particles are timed in the disorder of the end: their lists are made more often than at the start
+        first, short = (found.state, LONGER*self.short) if found and problem.chaotic else (problem.first, self.short)
+        # more steps than the run has, which a step near the limit may not stand
+        tried = dt if problem.chaotic and not problem.firm else min(dt, self.method.first*problem.limit)
         seconds = per_step(lambda n: (problem.step or problem.go)(first, tried, n), short).times(steps)
         set_up = of_calls(lambda: self._make().held())
         return self.timings(seconds, {

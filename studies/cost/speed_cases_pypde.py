@@ -1,0 +1,139 @@
+"""py-pde's solver of the gas where nothing convects: the vortex, sound, heat and shear between plates.
+
+At the driver's own step (0.8 of its limit); each component of the velocity is told where the staggered grid has it.
+"""
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import ConstEta, energy, sound_speed, temperature
+from continuum.pypde import solve
+from continuum.pypde_gas import RK4_DECAY, RK4_WAVE, Gas
+from continuum.pypde_gas_loop import RHO, VX, VY, E
+from continuum.scene import Tile
+from continuum.steady import Time
+from studies.cost import speed_cases_plates as slabs
+from studies.cost import speed_cases_vortex as vortices
+from studies.cost import speed_cases_waves as waves
+from studies.cost import speed_names as names
+from studies.cost.speed_cases_others import Solved
+from studies.cost.speed_plates_exact import FLOWS, Flow
+from studies.cost.speed_problem import Residuals
+from studies.cost.speed_timing import Laps, array_bytes
+
+SAMPLES = 5         # of the seconds, which are those of as many equal parts of the run
+#: (rho, u, v, T) at places x, y
+Start = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, ...]]
+
+
+class Still(Gas):
+    """The gas of scenes without gravity at temperatures and densities about 1; `fastest`: of its velocities."""
+
+    def __init__(self, scene: Any, rows: int, fastest: float, slide: float = 0.0):
+        super().__init__(scene, rows, slide)
+        self.fastest = fastest
+
+    def step_limit(self) -> float:
+        """As that of convection."""
+        eos, law = self.scene.eos, self.scene.law
+        wave = (2*np.sqrt(2)*float(sound_speed(eos, 1.0, energy(eos, 1.0, 1.0))) + self.fastest)/self.h
+        decay = 8*max(law.eta, law.k/eos.cv)/self.h**2
+        return float(1/(decay/RK4_DECAY + wave/RK4_WAVE))
+
+    def nusselt(self, data: np.ndarray) -> tuple[float, float, float]:
+        """No heat is driven through it."""
+        return np.nan, np.nan, np.nan
+
+    def begun(self, start: Start) -> np.ndarray:
+        """The state (4, columns, rows) of a start, each field where it is."""
+        at = [start(*self.mesh(field)) for field in range(4)]
+        data = np.array([at[RHO][0], at[VX][1], at[VY][2], energy(self.scene.eos, at[E][0], at[E][3])])
+        if not self.box.torus:
+            data[VY, :, -1] = 0
+        return data
+
+
+def solved(gas: Still, start: Start, time: float, residuals: Callable[[np.ndarray], Residuals], known: float) -> Solved:
+    """What comes out at a time, and what it takes."""
+    laps = Laps()
+    done = solve(gas, until=Time(time, SAMPLES), start=gas.begun(start), progress=laps)
+    return Solved(residuals(done.state), {}, done.state[0].size, done.steps, array_bytes(done.state, gas), known,
+                  laps.total(SAMPLES), done.compile_s)
+
+
+def places(gas: Gas, field: int) -> np.ndarray:
+    """(n, 2) of a field's points."""
+    return np.stack([q.ravel() for q in gas.mesh(field)], axis=1)
+
+
+class OnVortex(NamedTuple):
+    """The Taylor-Green vortex."""
+    name: str = names.PYPDE_GAS
+    mach: float = vortices.MACH
+
+    def seconds(self, resolution: int) -> float:
+        return 5 + 3e-5*resolution**3
+
+    def solve(self, resolution: int) -> Solved:
+        vortex = vortices.Vortex(self.mach, resolution)
+        gas = Still(Tile(width=resolution, L=resolution, law=ConstEta(vortex.eta, vortex.eta)), resolution, 2*vortex.speed)
+
+        def start(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
+            at = np.stack([x.ravel(), y.ravel()], axis=1)
+            T = vortices.start_density(vortex, at).reshape(x.shape)
+            u, v = (one.reshape(x.shape) for one in vortex.velocity(at).T)
+            return T, u, v, T
+
+        def residuals(data: np.ndarray) -> Residuals:
+            exactly = np.stack([vortices.exactly(vortex, places(gas, f))[:, f - VX] for f in (VX, VY)], axis=1)
+            found = data[[VX, VY]].reshape(2, -1).T
+            return vortices.told(vortex, np.ones(len(found)), exactly, found)
+        return solved(gas, start, vortex.time, residuals, vortices.KNOWN[self.mach])
+
+
+class OnWave(NamedTuple):
+    """Sound along rows."""
+    name: str = names.PYPDE_GAS
+
+    def seconds(self, length: int) -> float:
+        return 5 + 1e-4*length**2
+
+    def solve(self, length: int) -> Solved:
+        wave = waves.Wave(length)
+        gas = Still(Tile(width=length, L=waves.BREADTH, law=ConstEta(wave.eta, wave.eta)), waves.BREADTH, 0.0)
+
+        def start(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
+            rho, _, T = wave.exactly(0.0, x.ravel()).reshape(3, *x.shape)
+            return 1 + rho, 0*x, 0*x, 1 + T
+
+        def residuals(data: np.ndarray) -> Residuals:
+            T = temperature(gas.scene.eos, data[RHO], data[E]).ravel()
+            return wave.compared(np.ones(T.size), places(gas, E)[:, 0], data[VX].ravel(), T, places(gas, VX)[:, 0])
+        return solved(gas, start, wave.time, residuals, waves.KNOWN)
+
+
+class OnSlab(NamedTuple):
+    """Heat or shear between plates; velocities along them are told at the heights of the cells, where they are."""
+    flow: Flow
+    name: str = names.PYPDE_GAS
+
+    def seconds(self, rows: int) -> float:
+        return 5 + 2e-4*rows**2
+
+    def solve(self, rows: int) -> Solved:
+        flow = self.flow
+        gas = Still(slabs.Slab(rows=rows), rows, flow.U, flow.U)
+
+        def start(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
+            rho, v, u, T = (q.reshape(y.shape) for q in flow.start(y.ravel()/rows + 0.5))
+            return rho, u, v, T
+
+        def residuals(data: np.ndarray) -> Residuals:
+            T, s = temperature(gas.scene.eos, data[RHO], data[E]).ravel(), places(gas, E)[:, 1]/rows + 0.5
+            return slabs.compared(flow, np.ones(T.size), s, data[VX].ravel(), T)
+        return solved(gas, start, flow.time*rows, residuals, slabs.known(flow))
+
+
+VORTEX, WAVE = OnVortex(), OnWave()
+SLABS = {scene: OnSlab(flow) for scene, flow in FLOWS.items()}
