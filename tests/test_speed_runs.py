@@ -102,6 +102,9 @@ def test_chaos_compares_the_sizes_of_errors_only():
         return 1e-3 if steps % 2 else -1e-3
     problem = toy(4)._replace(go=flips)
     assert not climb(problem, 0.9)[0].accepted and climb(problem._replace(chaotic=True), 0.9)[0].accepted
+    noisy = problem._replace(time=1e4, go=lambda state, dt, steps: 1e-3*(1 + 0.5*(steps % 2)))
+    calm, chaos = (best(climb(noisy._replace(chaotic=one), 0.1)).fraction for one in (False, True))
+    assert calm < chaos == pytest.approx(0.1*STRETCH**STRETCHES)     # half of the error changes from step to step
 
 
 def test_seconds_of_a_step_leave_out_what_every_run_pays_once():

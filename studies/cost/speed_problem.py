@@ -4,7 +4,8 @@ The step is a fraction of the method's stability limit, halved from the first on
 changes what is measured by less than the error that is left: the error of time is then below that of space. From there it is made
 longer, beyond a limit whose formula is on the safe side, too, by 2^(1/4) at a time, while what that changes is below an eighth of
 the error: in two dimensions seconds go as error^(-3/2), so an eighth more error would cost what the longer step saves. A run may
-be too short to see that a step is unstable: what is longer than the first has to stand a thousand steps.
+be too short to see that a step is unstable: what is longer than the first has to stand a thousand steps. Of chaotic flows, whose
+errors differ by more than an eighth at any two steps, all of the error may change.
 """
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -156,9 +157,9 @@ def halved(problem: Problem, first: float) -> tuple[list[Rung], Result | None, f
 
 def stretched(problem: Problem, good: Rung, fine: Result, most: float) -> Iterator[Rung]:
     """Steps that are longer than a good one, up to the first that changes too much, or diverges; all below `most`."""
-    fraction = good.fraction*STRETCH
-    while good.accepted and fraction < most*(1 - 1e-12) and all(off <= WORTH*good.space[name] for name, off in good.time.items()):
-        good = rung_of(problem, fraction, result(problem, fraction) if stands(problem, fraction) else None, fine, WORTH)
+    fraction, share = good.fraction*STRETCH, 1.0 if problem.chaotic else WORTH
+    while good.accepted and fraction < most*(1 - 1e-12) and all(off <= share*good.space[name] for name, off in good.time.items()):
+        good = rung_of(problem, fraction, result(problem, fraction) if stands(problem, fraction) else None, fine, share)
         yield good
         fraction *= STRETCH
 
