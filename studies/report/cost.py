@@ -4,6 +4,7 @@ A table takes part if it has the columns of NEEDED; those of SCENE name its pane
 level of error costs is read from the study's table `needed` where it has one.
 """
 import math
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -67,9 +68,10 @@ class Panel:
 
 
 def panels(found: list[Part]) -> list[Panel]:
-    """All panels, those with most series first; of a study about speed before the others."""
+    """All panels, of the scene with most of them first, there those with most series; a study about speed before others."""
     made = [panel for part in found for sheet in part.sheets for panel in of_sheet(sheet, needed_of(part))]
-    return sorted(made, key=lambda panel: (not panel.sheet.name.startswith("speed/"),
+    scenes = Counter(panel.title.partition(",")[0] for panel in made)
+    return sorted(made, key=lambda panel: (not panel.sheet.name.startswith("speed/"), -scenes[panel.title.partition(",")[0]],
                                            -sum(len(series.points) > 2 for series in panel.series), panel.title))
 
 
