@@ -1,8 +1,9 @@
 """What does an error cost, and which method is the cheapest for 10, 3, 1, 0.1 %?    [KHP95 Secs II, V-VII; RR98 Sec. III]
 
-Every method that can take a scene runs at rising resolutions, each at the largest step whose error is below that of its space
-(studies/cost/speed_problem.py has the rule); CPU seconds of one thread, medians of repeats, without compiling; nothing else runs.
-Writes results/speed/*.csv and *.png and the rows of study speed in results/claims.csv; `paper` takes 50 minutes, `quick` two.
+Every method that can take a scene runs at rising resolutions, each at the longest step that is good enough beside the error of
+its space (studies/cost/speed_problem.py has the rule; py-pde's is by its formula); CPU seconds of one thread, medians of repeats,
+without compiling; nothing else runs.
+Writes results/speed/*.csv and *.png and the rows of study speed in results/claims.csv; `paper` takes an hour, `quick` minutes.
 What a case takes is told beforehand (`python -m studies.cost.speed_plan`): a ladder of resolutions, four at least, ends before
 its cases take more than DEAREST seconds each, and all of them more than TOGETHER. Seconds alone, at the steps that are known
 and with the errors as they are, are measured anew by `python -m studies.cost.speed_again`: on another machine, after a change

@@ -84,6 +84,8 @@ class OnMac(NamedTuple):
                 if number % every == 0 or number == steps:
                     t.append(number*dt)
                     ke.append(State(case=case, q=flow.q).K)
+                    if not np.isfinite(ke[-1]):
+                        raise FloatingPointError(f"K is {ke[-1]} after {number} steps of {dt:.3g}")
             return Followed(np.array(t), np.array(ke), flow.q)
 
         def step(q: np.ndarray, dt: float, steps: int) -> None:
@@ -107,6 +109,8 @@ class Solved(NamedTuple):
     known: float
     seconds: Timed | None = None
     compile_s: float = 0.0
+    setup: Timed = Timed(0.0, 0.0, 0.0, 0.0)
+    of_limit: float = np.nan
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -120,8 +124,8 @@ class Direct(Race):
         errors = [{**self.key_columns, "quantity": name, "error": rms(off), "error_err": found.known,
                    "share": found.share.get(name, 1.0)} for name, off in found.residuals.items()]
         return Outcome({"errors": errors, **self.timings(found.seconds or of_calls(solve), {
-            "points": found.points, "of_limit": np.nan, "dt": np.nan, "steps": found.steps, "setup_s": 0.0, "setup_s_err": 0.0,
-            "compile_s": found.compile_s or compile_s, "bytes": found.bytes, "threads": 1})})
+            "points": found.points, "of_limit": found.of_limit, "dt": np.nan, "steps": found.steps, "setup_s": found.setup.value,
+            "setup_s_err": found.setup.err, "compile_s": found.compile_s or compile_s, "bytes": found.bytes, "threads": 1})})
 
 
 class OnNewton(NamedTuple):

@@ -174,8 +174,8 @@ ON_SECONDS = (
     Claim(id="own-speed-fixed-points-staggered", source="RR98 Sec. III", at_most=2,
           value=dearer(names.NEAREST, names.PYPDE_GAS, 0.01, scene="taylor-green", quantity="velocity"),
           statement="in a Taylor-Green vortex fixed points are no dearer than a staggered grid, whose friction is between "
-                    "nearest neighbours, too: CPU seconds of a lattice with h = 1.2 a for 1 % in velocity over py-pde's, which "
-                    "chooses its own step [asked after both had been seen]", because="the factor asked for in convection"),
+                    "nearest neighbours, too: CPU seconds of a lattice with h = 1.2 a for 1 % in velocity over py-pde's, at "
+                    "the limit of its formula [asked after both had been seen]", because="the factor asked for in convection"),
     *(Claim(id=f"own-speed-moving-points-{word}", source="RR98 Sec. III", at_most=10,
             value=dearer(names.MOVING, names.GRID, 0.01, scene=scene, quantity="velocity"),
             statement=f"in {what} points that move and exchange over closed faces cost less than ten grids: CPU seconds for 1 % "
@@ -215,7 +215,7 @@ ON_SECONDS = (
           statement="smooth particles are easily computed in parallel: time that passes with one thread over that with two, at "
                     "the largest number of particles", because="85 % of what two cores can give"),
     *(Claim(id=f"own-speed-exponent-{name}", source="RR98 Sec. III", expect=1.5, within=0.25, value=exponent(method, **where),
-            statement=f"second order in space, a step as long as sound allows: d ln(CPU seconds)/d ln(1/error) of {what}",
+            statement=f"second order in space, steps as long as they are good: d ln(CPU seconds)/d ln(1/error) of {what}",
             because="points a^-2 times steps a^-1 over an error a^2; 0.25: set-up and short loops weigh at small sizes")
       for name, method, where, what in (
           ("grid", names.GRID, STEADY, "the compressible grid, K of convection"),

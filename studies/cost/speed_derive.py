@@ -41,7 +41,7 @@ def of_part(tables: Tables, part: str) -> Tables:
 
 
 def over_seeds(tables: Tables) -> Iterator[dict[str, Any]]:
-    """Means; a resolution at which a seed diverged has no error. Its interval holds what half of the step would change."""
+    """Means; a resolution at which a seed diverged has no error. Its interval holds the error of time."""
     errors, runs = (tables.get(name, pd.DataFrame()) for name in ("errors", "runs"))
     if errors.empty or runs.empty:
         return
@@ -60,7 +60,7 @@ def over_seeds(tables: Tables) -> Iterator[dict[str, Any]]:
 
 
 def with_steps(errors: pd.DataFrame, steps: pd.DataFrame) -> pd.DataFrame:
-    """Errors with what half of the step chosen changes in their intervals: runs that nothing random enters have no other."""
+    """Errors with what the step chosen changes (`steps`) in their intervals: runs that nothing random enters have no other."""
     if steps.empty:
         return errors
     key = [*RUN, "quantity"]

@@ -1,4 +1,4 @@
-"""One method on one scene at one resolution: the largest step that its space allows, its errors, its seconds, as a case.
+"""One method on one scene at one resolution: the longest step that is good enough, its errors, its seconds, as a case.
 
 The step is a fraction of the method's stability limit, halved from the first one that the method names until halving it once more
 changes what is measured by less than the error that is left: the error of time is then below that of space. From there it is made
@@ -27,10 +27,10 @@ from studies.kit.case import Case, Outcome, Report
 from studies.kit.timing import compile_and_run_seconds
 
 HALVINGS = 7        # at most: steps of 1/128 of the first one
-LONGEST = 60.0      # CPU seconds of trying steps: none is halved again that would take it beyond
+LONGEST = 60.0      # CPU seconds of halving steps: none is halved again that would take it beyond
 STRETCH, STRETCHES = 2**0.25, 8         # of a step that is good enough, and how often at most: 4 times the first one
 WORTH = STRETCH**(2/3) - 1              # of the error: what a longer step may change
-STANDS = 1000       # steps in which round-off grows to anything if it grows by 4 % a step
+STANDS = 1000       # steps in which round-off grows to order one, and breaks a fluid, if it grows by 4 % a step
 TRIES = 1.4         # of what a method says that a case takes: what trying longer steps does to it
 LONGER = 10         # are the runs that time particles: they have to hold some lists
 Residuals = dict[str, np.ndarray]
@@ -165,7 +165,7 @@ def stretched(problem: Problem, good: Rung, fine: Result, most: float) -> Iterat
 
 
 def stands(problem: Problem, fraction: float) -> bool:
-    """Whether a run goes on for so many steps, if it has not as many itself."""
+    """Whether a run goes on for so many steps, if it has not as many itself; of methods that tell when nothing fluid is left."""
     steps = steps_of(problem, fraction)
     try:
         end = (problem.step or problem.go)(problem.first, problem.time/steps, STANDS) if steps < STANDS else 0.0
@@ -252,13 +252,16 @@ class Race(Case):
 
     def _run(self, problem: Problem, fraction: float, found: Result | None,
              compile_s: float) -> dict[str, list[dict[str, Any]]]:
-        steps = steps_of(problem, fraction)
+        steps, advance = steps_of(problem, fraction), problem.step or problem.go
         dt = problem.time/steps
         # particles are timed in the disorder of the end: their lists are made more often than at the start
         first, short = (found.state, LONGER*self.short) if found and problem.chaotic else (problem.first, self.short)
-        # more steps than the run has, which a step near the limit may not stand
-        tried = dt if problem.chaotic and not problem.firm else min(dt, self.method.first*problem.limit)
-        seconds = per_step(lambda n: (problem.step or problem.go)(first, tried, n), short).times(steps)
+        safe = min(dt, self.method.first*problem.limit)     # of more steps than the run has, which it may not stand
+        try:
+            one = per_step(lambda n: advance(first, dt if problem.chaotic and not problem.firm else safe, n), short)
+        except Divergence:
+            one = per_step(lambda n: advance(first, safe, n), short)
+        seconds = one.times(steps)
         set_up = of_calls(lambda: self._make().held())
         return self.timings(seconds, {
             "points": problem.points, "of_limit": fraction, "dt": dt, "steps": steps, "setup_s": set_up.value,

@@ -5,8 +5,9 @@ resolution: points to the wavelength (taylor-green, sound) or rows to the height
 from studies.kit.table import Table
 
 RUN = ["scene", "method", "resolution", "seed"]
-#: what the run at the method's own best step takes: points, steps of dt (`of_limit`: of the stability limit), CPU seconds of the
-#: steps, of setting up, of compiling (from the second process on: of loading what is compiled), bytes of arrays
+#: what the run at the method's own best step takes (py-pde's by formula): points, steps of dt (`of_limit`: of the stability
+#: limit), CPU seconds of the steps, of setting up, of compiling (from the second process on: of loading what is compiled),
+#: bytes of arrays
 RUNS = Table("runs", key=RUN, columns=[*RUN, "points", "of_limit", "dt", "steps", "run_s", "run_s_err", "setup_s", "setup_s_err",
                                        "compile_s", "bytes", "threads"])
 #: run_s if the first, or the last, of the repeats were all there are
