@@ -57,9 +57,9 @@ def work_precision(points: pd.DataFrame) -> Figure:
     for axes in all_axes[:, 0]:
         axes.set_ylabel("relative error")
     legend(page, all_axes)
-    page.suptitle("What does an error cost?\nEach method at its own best step (py-pde: by formula), one thread, without compiling; "
-                  "bars: 95 %; arrows: beyond the axis. MAC and py-pde, Boussinesq: another fluid, against its own limit",
-                  fontsize=10)
+    page.suptitle("What does an error cost?\n"
+                  "Each method at its own best step (py-pde: by formula), one thread, without compiling; bars: 95 %; arrows: "
+                  "beyond the axis. MAC and py-pde, Boussinesq: another fluid, against its own limit", fontsize=10)
     return page
 
 
