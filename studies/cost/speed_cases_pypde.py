@@ -4,6 +4,7 @@ At the limit of its own formula, a step an eighth longer than which ends in the 
 nor what py-pde does around the steps. Each component of the velocity is told where the staggered grid has it.
 """
 from collections.abc import Callable
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -89,17 +90,11 @@ class OnVortex(NamedTuple):
             return Still(tile, resolution, 2*vortex.speed)
         gas = make()
 
-        def start(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
-            at = np.stack([x.ravel(), y.ravel()], axis=1)
-            T = vortices.start_density(vortex, at).reshape(x.shape)
-            u, v = (one.reshape(x.shape) for one in vortex.velocity(at).T)
-            return T, u, v, T
-
         def residuals(data: np.ndarray) -> Residuals:
             exactly = np.stack([vortices.exactly(vortex, places(gas, f))[:, f - VX] for f in (VX, VY)], axis=1)
             found = data[[VX, VY]].reshape(2, -1).T
             return vortices.told(vortex, np.ones(len(found)), exactly, found)
-        return solved(make, start, vortex.time, residuals, vortices.KNOWN[self.mach])
+        return solved(make, partial(vortices.start_at, vortex), vortex.time, residuals, vortices.KNOWN[self.mach])
 
 
 class OnWave(NamedTuple):
@@ -117,14 +112,10 @@ class OnWave(NamedTuple):
             return Still(tile, waves.BREADTH, 0.0)
         gas = make()
 
-        def start(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
-            rho, _, T = wave.exactly(0.0, x.ravel()).reshape(3, *x.shape)
-            return 1 + rho, 0*x, 0*x, 1 + T
-
         def residuals(data: np.ndarray) -> Residuals:
             T = temperature(gas.scene.eos, data[RHO], data[E]).ravel()
             return wave.compared(np.ones(T.size), places(gas, E)[:, 0], data[VX].ravel(), T, places(gas, VX)[:, 0])
-        return solved(make, start, wave.time, residuals, waves.KNOWN)
+        return solved(make, wave.start_at, wave.time, residuals, waves.KNOWN)
 
 
 class OnSlab(NamedTuple):

@@ -3,6 +3,7 @@
 Errors are told at nodes.
 """
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -59,16 +60,10 @@ class OnVortex(NamedTuple):
         vortex = vortices.Vortex(self.mach, resolution)
         tile = Tile(width=resolution, L=resolution, law=ConstEta(vortex.eta, vortex.eta))
 
-        def start(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
-            at = np.stack([x.ravel(), y.ravel()], axis=1)
-            T = vortices.start_density(vortex, at).reshape(x.shape)
-            u, v = (one.reshape(x.shape) for one in vortex.velocity(at).T)
-            return T, u, v, T
-
         def residuals(S: np.ndarray) -> Residuals:
             rho, u, v, _ = at_nodes(S)
             return vortices.compared(vortex, np.ones_like(rho), places(tile), np.stack([u, v], axis=1))
-        return problem_of(tile, start, vortex.time, residuals, vortices.KNOWN[self.mach])
+        return problem_of(tile, partial(vortices.start_at, vortex), vortex.time, residuals, vortices.KNOWN[self.mach])
 
 
 class OnWave(NamedTuple):
@@ -83,14 +78,10 @@ class OnWave(NamedTuple):
         wave = waves.Wave(length)
         tile = Tile(width=length, L=waves.BREADTH, law=ConstEta(wave.eta, wave.eta))
 
-        def start(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
-            rho, _, T = wave.exactly(0.0, x.ravel()).reshape(3, *x.shape)
-            return 1 + rho, 0*x, 0*x, 1 + T
-
         def residuals(S: np.ndarray) -> Residuals:
             rho, u, _, e = at_nodes(S)
             return wave.compared(np.ones_like(rho), places(tile)[:, 0], u, e)
-        return problem_of(tile, start, wave.time, residuals, waves.KNOWN)
+        return problem_of(tile, wave.start_at, wave.time, residuals, waves.KNOWN)
 
 
 VORTEX, WAVE = OnVortex(), OnWave()

@@ -144,6 +144,14 @@ def start_density(vortex: Vortex, x: np.ndarray) -> np.ndarray:
     return np.sqrt(1 + vortex.speed**2/4*np.cos(2*vortex.k*x).sum(axis=1))
 
 
+def start_at(vortex: Vortex, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
+    """(rho, u, v, T) of the start at places x, y of any shape."""
+    at = np.stack([x.ravel(), y.ravel()], axis=1)
+    T = start_density(vortex, at).reshape(x.shape)
+    u, v = (one.reshape(x.shape) for one in vortex.velocity(at).T)
+    return T, u, v, T
+
+
 def smoothed(method: Spam, state: np.ndarray) -> np.ndarray:
     """Velocities (n, 2) of the smoothed field where the particles are, in their order    [KHP95, Sec. VI]"""
     n = state.shape[1]

@@ -58,6 +58,11 @@ class Wave(NamedTuple):
         matrix = continuum(Gas(self.eta, 0.0, self.eta), self.k).matrix
         return AMPLITUDE*np.real(np.outer(expm(matrix*time)@np.array([1, 0, 1]), np.exp(1j*self.k*x)))
 
+    def start_at(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
+        """(rho, u, v, T) of the start at places x, y of any shape."""
+        rho, _, T = self.exactly(0.0, x.ravel()).reshape(3, *x.shape)
+        return 1 + rho, 0*x, 0*x, 1 + T
+
     def compared(self, V: np.ndarray, x: np.ndarray, u: np.ndarray, T: np.ndarray, x_u: np.ndarray | None = None) -> Residuals:
         """Velocity (at `x_u` if given) and temperature, each relative to its rms."""
         exact_T, exact_u = self.exactly(self.time, x)[2], self.exactly(self.time, x if x_u is None else x_u)[1]
