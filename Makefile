@@ -6,8 +6,10 @@ ARGS   ?=
 SCHEDULER ?=
 
 run     := .venv/bin/python
-# a study is what can be run; other modules in studies/ serve them
-studies := $(notdir $(basename $(shell grep -ls '^if __name__ ==' studies/*.py)))
+# a study is a folder that can be run; kit and build serve them
+studies := $(filter-out report,$(patsubst studies/%/__main__.py,%,$(wildcard studies/*/__main__.py)))
+# studies of former versions and the ones that they are part of
+renamed := bodies:conservation motions:conservation transport:operators nested:operators fluctuations:noise dpd:noise speed:cost scenes:cost
 
 export SIZE SCHEDULER
 export PYTHONPATH := $(CURDIR)
@@ -35,7 +37,7 @@ $(studies:%=figures-%): figures-%: .venv/ready  ## its figures again, from its t
 
 # any other name, before something is set up for it
 study-% figures-%:
-	@echo 'no study $*: there are $(studies)' >&2; exit 2
+	@echo 'no study $*$(patsubst $*:%, any more: it is part of %,$(filter $*:%,$(renamed))): there are $(studies)' >&2; exit 2
 study- figures-:
 	@echo 'no study named: there are $(studies)' >&2; exit 2
 

@@ -7,8 +7,8 @@ from functools import cache
 import numpy as np
 
 from continuum.scene import RayleighBenard
-from particles.methods.spam import Spam
 from particles.run import Plan, run
+from particles.smooth.spam import Spam
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import Lucy

@@ -17,7 +17,7 @@ import pandas as pd
 
 from bench.lammps_sph import as_doubles, find_mpi
 from bench.spam_speed import COLUMNS, time_row, value_row
-from particles.methods.dpd import Dpd
+from particles.dissipative.dpd import Dpd
 from particles.run import Plan, run
 from studies.kit.csvfile import write
 from studies.kit.provenance import commit, cpu, now, versions

@@ -18,8 +18,10 @@ from continuum.scene import RayleighBenard
 from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Plan, run
-from particles.team import Team
-from studies.convection import dih, drift, moving
+from particles.threads import Team
+from studies.build import fixed as dih
+from studies.build import moving
+from studies.build import rr98_moving as drift
 from studies.kit.csvfile import write
 from studies.kit.provenance import commit, cpu, now, versions
 from studies.kit.source import ROOT

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from bench.convection import block_seconds, per_evaluation
-from particles.surroundings import Surroundings
-from particles.team import Team
+from particles.lists import Surroundings
+from particles.threads import Team
 
 NAMES = {"weigh": "stage weigh", "Gradients": "stage gradient sweep", "Fluxes": "stage flux sweep"}
 STAGES = ("stage list", *NAMES.values(), "stage rest")

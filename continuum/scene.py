@@ -11,16 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import (
-    ConstEta,
-    IdealGas,
-    check_state,
-    conductivity,
-    energy,
-    expansivity,
-    thermal_pressure,
-    viscosity,
-)
+from continuum.fluid import ConstEta, IdealGas, check_state, conductivity, energy, expansivity, thermal_pressure, viscosity
 
 
 class Periodic(NamedTuple):

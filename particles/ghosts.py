@@ -3,7 +3,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from particles.surroundings import Surroundings
+from particles.lists import Surroundings
 from particles.walls.mirror import Mirror
 
 

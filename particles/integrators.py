@@ -5,7 +5,7 @@ import numpy as np
 
 from continuum.jit import jit
 from particles.neighbours import u64
-from particles.team import Team
+from particles.threads import Team
 
 
 @jit

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import check_state, conductivity, pressure, pressure_slopes, temperature, viscosity
-from particles.methods.spam import Direct, Nested, Spam
+from particles.smooth.spam import Direct, Nested, Spam
 from particles.weights import value_and_slope
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from continuum.jit import jit
-from particles.team import Team
+from particles.threads import Team
 
 u32, u64 = np.uint32, np.uint64
 ONE = u64(1)

@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike
 from particles.checkpoint import load, save
 from particles.integrators import RK4
 from particles.limits import limit_of
-from particles.surroundings import outside
-from particles.team import Team
+from particles.lists import outside
+from particles.threads import Team
 
 Quantity = Callable[..., Any]  # (sums of the method, state) -> number or array
 #: of the step limit: what is stable where moving particles lie at random (see `limits`), what the studies take

@@ -5,8 +5,8 @@ import numpy as np
 
 from continuum.jit import jit
 from particles.ghosts import ghosts_of
+from particles.lists import Surroundings
 from particles.pairs import Pairs
-from particles.surroundings import Surroundings
 
 #: spacings; of the largest stretch of the points around: below these no direction leads to or between neighbours
 OVERLAP, FLAT = 1e-9, 1e-6

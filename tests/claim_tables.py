@@ -5,15 +5,15 @@ import math
 import numpy as np
 import pandas as pd
 
-from studies.convection.claims import RB_CLAIMS, lattices
-from studies.convection.claims import points as dih
-from studies.convection.claims.grid import PYPDE
-from studies.convection.claims.read import grid, onset, particles, scene
-from studies.convection.dih import SCHEMES
-from studies.convection.drift import DRIFT_MOTIONS
-from studies.convection.moving import MOTIONS
+from studies.build.fixed import SCHEMES
+from studies.build.moving import MOTIONS
+from studies.build.read import grid, onset, particles, scene
+from studies.build.rr98_moving import DRIFT_MOTIONS
 from studies.kit.claim import judge
 from studies.kit.table import Tables
+from studies.rb.claims import RB_CLAIMS, lattices
+from studies.rb.claims import points as dih
+from studies.rb.claims.grid import PYPDE
 
 BY_ID = {claim.id: claim for claim in RB_CLAIMS}
 RA = (1750.0, 2000.0, 2500.0, 3500.0, 4200.0, 5000.0, 6830.0, 10000.0)

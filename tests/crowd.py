@@ -6,9 +6,9 @@ import pytest
 
 from continuum.fluid import IdealGas, energy
 from particles.integrators import RK4
-from particles.methods.spam import Spam
 from particles.run import Plan, run
-from particles.team import Team
+from particles.smooth.spam import Spam
+from particles.threads import Team
 from particles.walls.periodic import periodic
 
 

@@ -5,8 +5,9 @@ import math
 import numpy as np
 import pandas as pd
 
-from studies.convection import pick, tables
-from studies.convection.names import VALUES
+from studies.build.names import VALUES
+from studies.rb import looks as pick
+from studies.rb import tables
 
 SCENES = {"layer": ("ideal", "const-eta", "periodic"), "nu": ("ideal", "const-nu", "periodic"),
           "vdw": ("vdw", "const-eta", "periodic"), "box": ("ideal", "const-eta", "walls")}

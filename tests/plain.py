@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import conductivity, energy, pressure, temperature, viscosity
-from particles.methods.spam import Direct, Spam
+from particles.smooth.spam import Direct, Spam
 from particles.terms import ArithmeticGradients
 from particles.walls.fixed import FixedRows
 from particles.walls.mirror import Mirror, Odd, Own

@@ -3,8 +3,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from continuum.compressible_loop import EdgeHeat, PaperForm
 from continuum.fluid import conductivity, energy, pressure, temperature, viscosity
+from continuum.gas.loop import EdgeHeat, PaperForm
 from continuum.scene import Periodic
 
 

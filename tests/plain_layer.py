@@ -1,4 +1,4 @@
-"""Slow, readable twin of `particles.methods.layer`: discretized integral hydrodynamics between plates, edge by edge in numpy.
+"""Slow, readable twin of `particles.integral.layer`: discretized integral hydrodynamics between plates, edge by edge in numpy.
 
 Convection and pressure see a plate without friction, so that the divergence stays the adjoint of the gradient: images have
 rho, T, eps and the velocity along the plate of their parents, the velocity across it reversed, and a pressure that goes on
@@ -10,8 +10,8 @@ import numpy as np
 from scipy import sparse
 
 from continuum.fluid import constant_viscosity
-from particles.edges import Beyond
-from particles.methods.dih import Coefficients, Dih, Flow, Fluxes, Pairwise, along, carried, means, rows, take, transposed
+from particles.integral.dih import Coefficients, Dih, Flow, Fluxes, Pairwise, along, carried, means, rows, take, transposed
+from particles.integral.edges import Beyond
 
 SLIP = np.array([1.0, -1.0])
 ADJOINT = np.array([-1.0, 1.0])     # of stresses that are made of gradients that see -v

@@ -1,10 +1,10 @@
-"""Slow, readable twin of `particles.methods.moving`: every face as an entry of dense matrices, faces closed to round-off."""
+"""Slow, readable twin of `particles.integral.closed_faces`: every face as an entry of dense matrices, faces closed to round-off."""
 from typing import NamedTuple
 
 import numpy as np
 
 from continuum.fluid import conductivity, constant_viscosity, pressure, sound_speed, temperature, viscosity
-from particles.methods.moving import EXCHANGED
+from particles.integral.closed_faces import EXCHANGED
 from particles.weights import value_and_slope
 
 

@@ -2,8 +2,8 @@
 import numpy as np
 
 from continuum.scene import RayleighBenard
-from particles.methods.spam import Spam
-from studies.convection.spam import PRINTED, Variant, method, start
+from particles.smooth.spam import Spam
+from studies.build.spam import PRINTED, Variant, method, start
 
 ROWS = 8
 

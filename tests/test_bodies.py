@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
-from particles.bodies import CLEAR, between_circles, end_rows, held, in_disc, together, turning, with_surface
-from particles.makers import renormalised
-from particles.methods.dih import Dih, Pairwise
-from particles.methods.sheared import Sheared
-from particles.methods.stream import Stream, separated
-from particles.points import jittered, lattice
+from particles.integral.bodies import CLEAR, between_circles, end_rows, held, in_disc, together, turning, with_surface
+from particles.integral.dih import Dih, Pairwise
+from particles.integral.edge_makers import renormalised
+from particles.integral.points import jittered, lattice
+from particles.integral.sheared import Sheared
+from particles.integral.stream import Stream, separated
+from particles.integral.triangulation import delaunay
 from particles.run import Plan, run
-from particles.team import Team
-from particles.triangulation import delaunay
+from particles.threads import Team
 from particles.weights import Lucy
 
 LAW = ConstEta(0.3, 0.4)

@@ -5,12 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import studies.bodies as bodies
+import studies.conservation.bodies.cases as bodies
 from continuum.published import published
-from particles.points import lattice
-from studies.integral import bodies_derive, bodies_tables
-from studies.integral.bodies_drag import VARIANTS, CylinderDrag, radius_of, series
-from studies.integral.bodies_shear import TurningWave
+from particles.integral.points import lattice
+from studies.conservation.bodies import derive as bodies_derive
+from studies.conservation.bodies import tables as bodies_tables
+from studies.conservation.bodies.drag import VARIANTS, CylinderDrag, radius_of, series
+from studies.conservation.bodies.shear import TurningWave
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import read

@@ -21,8 +21,8 @@ from continuum.boussinesq import (
     steady,
     transient,
 )
-from continuum.projection import Projection
-from continuum.spectral import solvers
+from continuum.boussinesq.poisson import solvers
+from continuum.boussinesq.projection import Projection
 
 # --- exact laws of the discrete equations -----------------------------------------------------------------
 

@@ -3,19 +3,9 @@ import numpy as np
 import pytest
 from boxes import every_closed_box, random_state
 
-from continuum import linear
-from continuum.boussinesq import (
-    CAVITY,
-    SQUARE,
-    Case,
-    State,
-    growth_rates,
-    rest,
-    roll,
-    steady,
-    transient,
-)
-from continuum.projection import change_left
+from continuum.boussinesq import CAVITY, SQUARE, Case, State, growth_rates, rest, roll, steady, transient
+from continuum.boussinesq.projection import change_left
+from continuum.linear import layer as linear
 from continuum.richardson import richardson
 
 # --- accuracy ---------------------------------------------------------------------------------------------

@@ -8,15 +8,15 @@ import plain
 import pytest
 
 from continuum.fluid import ConstEta, IdealGas
-from particles.methods.spam import Spam
+from particles.smooth.spam import Spam
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, Monaghan, value_and_slope
-from studies.convection import tables as columns
-from studies.convection.claims import RB_CLAIMS, fluids, lattices, newton, printed, sums, weights
-from studies.convection.claims_onset import ONSET_CLAIMS
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS
 from studies.kit.table import Tables, read
+from studies.onset.claims import ONSET_CLAIMS
+from studies.rb import tables as columns
+from studies.rb.claims import RB_CLAIMS, fluids, lattices, newton, printed, sums, weights
 
 BY_STUDY = {"rb": RB_CLAIMS, "onset": ONSET_CLAIMS}
 ALL = [claim for claims in BY_STUDY.values() for claim in claims]

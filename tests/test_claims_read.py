@@ -5,13 +5,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from studies.convection.claims import RB_CLAIMS, histories, points, snapshots
-from studies.convection.claims.grid import PYPDE
-from studies.convection.claims.read import grid, particles
-from studies.convection.symmetry import flowing
+from studies.build.read import grid, particles
+from studies.build.symmetry import flowing
 from studies.kit.claim import CannotTell, judge
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
+from studies.rb.claims import RB_CLAIMS, histories, points, snapshots
+from studies.rb.claims.grid import PYPDE
 from tests.claim_tables import BY_ID, crystal, everything, flow, grids, judged, kept, means, seeds, seen, straight, verdict
 
 # --- lines ------------------------------------------------------------------------------------------------------

@@ -5,11 +5,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from studies.convection.claims import newton, own, read
-from studies.convection.claims.read import grid, particles
+from studies.build import read
+from studies.build.read import grid, particles
 from studies.kit.sweep import RESULTS
 from studies.kit.table import Tables
 from studies.kit.table import read as csv
+from studies.rb.claims import newton, own
 from tests.claim_tables import crystal, grids, judged, means, seeds, straight, verdict
 
 

@@ -6,9 +6,6 @@ import numpy as np
 import pytest
 from plain_grid import State, rates, step
 
-from continuum.compressible import DivergedError, March, limits, run
-from continuum.compressible_fields import Fields, block, initial
-from continuum.compressible_loop import RHO, EdgeHeat, FluxForm, PaperForm
 from continuum.fluid import (
     EQUATIONS_OF_STATE,
     ConstEta,
@@ -21,6 +18,9 @@ from continuum.fluid import (
     pressure_slopes,
     sound_speed,
 )
+from continuum.gas.fields import Fields, block, initial
+from continuum.gas.loop import RHO, EdgeHeat, FluxForm, PaperForm
+from continuum.gas.solve import DivergedError, March, limits, run
 from continuum.scene import Periodic, RayleighBenard, Tile, Walls
 from continuum.steady import Time
 

@@ -4,8 +4,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from continuum.compressible import run, steady_on
-from continuum.compressible_fields import initial, interpolate, onto
+from continuum.gas.fields import initial, interpolate, onto
+from continuum.gas.solve import run, steady_on
 from continuum.richardson import richardson
 from continuum.scene import RayleighBenard, Walls
 from continuum.steady import Steady, Time

@@ -6,29 +6,29 @@ from math import fsum
 import numpy as np
 import pytest
 
-import studies.conservation as conservation
+import studies.conservation.cases as conservation
 from continuum.fluid import ConstEta, IdealGas
-from particles.edges import NONE_BEYOND, Edges
-from particles.makers import MAKERS
-from particles.methods.dih import Dih
-from particles.methods.motions import MOTIONS
-from particles.points import jittered, lattice
+from particles.integral.dih import Dih
+from particles.integral.edge_makers import MAKERS
+from particles.integral.edges import NONE_BEYOND, Edges
+from particles.integral.points import jittered, lattice
+from particles.integral.rr98_moving_plain import MOTIONS
 from particles.run import Plan, run
 from particles.weights import WEIGHTS, Lucy, Monaghan
-from studies.integral import conservation_losses
-from studies.integral.conservation_commutator import Commutator
-from studies.integral.conservation_dih import FORMS
-from studies.integral.conservation_drift import MODES, WALLS
-from studies.integral.conservation_figures import COLUMNS, column
-from studies.integral.conservation_frames import Frame, after, sound
-from studies.integral.conservation_layers import around
-from studies.integral.conservation_motions import MotionDrift
-from studies.integral.conservation_moving import MovingDrift
-from studies.integral.conservation_sums import Watch, exact_sums, kinetic, parts, random_fields
-from studies.integral.operators import DISORDERS
+from studies.conservation import losses as conservation_losses
+from studies.conservation.commutator import Commutator
+from studies.conservation.dih import FORMS
+from studies.conservation.drift import MODES, WALLS
+from studies.conservation.figures import COLUMNS, column
+from studies.conservation.frames import Frame, after, sound
+from studies.conservation.layers import around
+from studies.conservation.moving import MovingDrift
+from studies.conservation.rates import MotionDrift
+from studies.conservation.sums import Watch, exact_sums, kinetic, parts, random_fields
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import read
+from studies.ordering.waves import DISORDERS
 
 
 def row(case, table="drift"):

@@ -3,9 +3,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from studies.convection.derive import HALF, derive, over_seeds
-from studies.convection.tables import POINT
 from studies.kit.table import Tables
+from studies.rb.derive import HALF, derive, over_seeds
+from studies.rb.tables import POINT
 
 AT = {"eos": "ideal", "transport": "const-eta", "sides": "periodic", "ra": 1e4, "pr": 1.0}
 

@@ -3,11 +3,11 @@ import numpy as np
 import pytest
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerBulk, PowerLaw, VanDerWaals, bulk_viscosity
+from particles.integral.dih import Dih, Nested, Pairwise
+from particles.integral.edge_makers import MAKERS
+from particles.integral.points import jittered, lattice
 from particles.integrators import RK4
-from particles.makers import MAKERS
-from particles.methods.dih import Dih, Nested, Pairwise
-from particles.points import jittered, lattice
-from particles.team import Team
+from particles.threads import Team
 from particles.weights import WendlandC2
 
 COUNTS = {1: (16,), 2: (10, 9), 3: (6, 6, 7)}

@@ -9,14 +9,14 @@ from test_layer import MADE, layer, shaken
 from test_layer import rates as compiled
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
-from particles.edges import between_plates, mirror
-from particles.makers import MAKERS, renormalised
-from particles.methods.dih import Nested, Pairwise
-from particles.methods.dih_plates import DihPlates, Mixed
-from particles.points import jittered, lattice
-from particles.triangulation import delaunay
+from particles.integral.dih import Nested, Pairwise
+from particles.integral.dih_plates import DihPlates, Mixed
+from particles.integral.edge_makers import MAKERS, renormalised
+from particles.integral.edges import between_plates, mirror
+from particles.integral.points import jittered, lattice
+from particles.integral.triangulation import delaunay
 from particles.weights import Lucy
-from studies.integral import conservation_plates
+from studies.conservation import plates as conservation_plates
 
 COUNTS = {1: (12,), 3: (4, 5, 6)}
 CUBE = {1: (12,), 3: (4, 4, 4)}           # where every column of an operator is wanted
@@ -94,7 +94,7 @@ def test_edges_are_exact_on_linear_fields_that_go_on_beyond_plates(d, maker, siz
 @pytest.mark.parametrize("size", [0.0, 0.2])
 @pytest.mark.parametrize("maker", [name for name in MAKERS if name != "delaunay"])
 @pytest.mark.parametrize("d", COUNTS)
-@pytest.mark.filterwarnings("ignore::particles.interpolants.OrderingWarning")
+@pytest.mark.filterwarnings("ignore::particles.integral.interpolants.OrderingWarning")
 def test_divergence_with_images_is_minus_the_adjoint_of_the_gradient(d, maker, size):
     """Of what is even: with m for the signs; of what is odd, as friction sees it: with -m. The other way round it is not."""
     _, edges, beyond = made(d, maker, size)
@@ -307,7 +307,7 @@ def test_flow_that_is_pushed_along_plates_in_3d_is_the_parabola_to_second_order(
 
 
 @pytest.mark.parametrize("case", tuple(conservation_plates.cases(steps=20)), ids=lambda case: case.label)
-@pytest.mark.filterwarnings("ignore::particles.interpolants.OrderingWarning")
+@pytest.mark.filterwarnings("ignore::particles.integral.interpolants.OrderingWarning")
 def test_runs_between_plates_keep_what_they_claim_and_lose_the_rest(case):
     found = case.run(lambda done: None, None).rows["drift"][0]
     claimed = found["claimed"].split()

@@ -3,9 +3,9 @@ import numpy as np
 import pytest
 
 from continuum.scene import RayleighBenard, Walls
-from studies.convection.dih import SCHEMES, DihRun, fluid, layer
-from studies.convection.points import rolls
-from studies.convection.tables import KINETIC
+from studies.build.fixed import SCHEMES, DihRun, fluid, layer
+from studies.build.points import rolls
+from studies.rb.tables import KINETIC
 
 
 def one(tmp_path, scheme="fixed-lattice", rows=8, ra=1e4, **more):

@@ -4,11 +4,9 @@ import itertools
 import numpy as np
 import pytest
 
-from particles.blocks import Normal, Uniform
-from particles.integrators import TwoStep
-from particles.integrators_dpd import GrootWarren, GrootWarren65, Shardlow, VelocityVerlet
-from particles.methods.dpd import Dpd
-from particles.observe_dpd import (
+from particles.dissipative.dpd import Dpd
+from particles.dissipative.integrators import GrootWarren, GrootWarren65, Shardlow, VelocityVerlet
+from particles.dissipative.observe import (
     Displacement,
     PairDistribution,
     StructureFactor,
@@ -18,8 +16,10 @@ from particles.observe_dpd import (
     pressure,
     shear_stress,
 )
+from particles.dissipative.pairs3d import Normal, Uniform
+from particles.integrators import TwoStep
 from particles.run import Plan, Run, run
-from particles.team import Team
+from particles.threads import Team
 from tests import plain_dpd
 
 INTEGRATORS = (TwoStep, GrootWarren, GrootWarren65, VelocityVerlet, Shardlow)

@@ -2,13 +2,13 @@
 import numpy as np
 import pytest
 
+from particles.dissipative.integrators import GrootWarren65, Shardlow, VelocityVerlet
+from particles.dissipative.stream import DpdStream, force_on_body, speed
 from particles.integrators import TwoStep
-from particles.integrators_dpd import GrootWarren65, Shardlow, VelocityVerlet
-from particles.methods.dpd_stream import DpdStream, force_on_body, speed
 from particles.run import Plan, run
-from studies.fluctuating.dpd_cylinder import Inside
-from studies.fluctuating.dpd_derive_more import offset
-from studies.integral.bodies_drag import drag_of, series
+from studies.conservation.bodies.drag import drag_of, series
+from studies.noise.dpd.cylinder import Inside
+from studies.noise.dpd.derive_more import offset
 
 BOX = (4.0, 4.0, 3.0)
 

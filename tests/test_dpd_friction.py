@@ -3,12 +3,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from particles.methods.dpd import Dpd
+from particles.dissipative.dpd import Dpd
 from particles.run import Run
-from particles.team import Team
-from studies.fluctuating.dpd_friction import over, traces
-from studies.fluctuating.dpd_long import asked, off, over_verlet
-from studies.fluctuating.fluct_special import blocks, neighbours
+from particles.threads import Team
+from studies.noise.dpd.friction import over, traces
+from studies.noise.dpd.long import asked, off, over_verlet
+from studies.noise.fluctuations.special import blocks, neighbours
 
 
 def test_traces_are_those_of_the_matrix():

@@ -3,12 +3,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from studies import dpd
-from studies.fluctuating import dpd_derive, dpd_tables
-from studies.fluctuating.dpd_cases import diffusion
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import read
+from studies.noise.dpd import cases as dpd
+from studies.noise.dpd import derive as dpd_derive
+from studies.noise.dpd import tables as dpd_tables
+from studies.noise.dpd.runs import diffusion
 
 
 @pytest.fixture(scope="module")

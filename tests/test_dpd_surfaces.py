@@ -5,13 +5,13 @@ import pytest
 from scipy.integrate import quad
 
 from continuum.published import published
-from particles.methods.dpd import Dpd
-from studies.fluctuating import dpd_derive_surfaces as derived
-from studies.fluctuating.dpd_claims_surfaces import SURFACES, together
-from studies.fluctuating.dpd_slip import drag, slip_of
-from studies.fluctuating.dpd_surfaces import FAST, Array, Beyond, Inside, jackknife, parabola
+from particles.dissipative.dpd import Dpd
 from studies.kit.claim import CannotTell
 from studies.kit.table import Tables
+from studies.noise.dpd import derive_surfaces as derived
+from studies.noise.dpd.claims_surfaces import SURFACES, together
+from studies.noise.dpd.slip import drag, slip_of
+from studies.noise.dpd.surfaces import FAST, Array, Beyond, Inside, jackknife, parabola
 
 
 @pytest.mark.parametrize("c", [0.05, 0.1, 0.2, 0.3])

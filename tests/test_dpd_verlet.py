@@ -2,10 +2,10 @@
 import numpy as np
 import pytest
 
-from particles import shadow
-from particles.methods.dpd import Dpd
+from particles.dissipative import shadow_hamiltonian as shadow
+from particles.dissipative.dpd import Dpd
 from particles.run import Run
-from particles.team import Team
+from particles.threads import Team
 from tests import plain_dpd
 
 

@@ -7,25 +7,25 @@ from crowd import goes_on_bitwise
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
 from continuum.scene import RayleighBenard
-from particles.edges import between_plates
+from particles.integral.brackets import Powers
+from particles.integral.dih import Pairwise
+from particles.integral.edge_makers import plain
+from particles.integral.edges import between_plates
+from particles.integral.interpolants import OrderingWarning
+from particles.integral.layer import Layer
+from particles.integral.points import jittered, lattice
+from particles.integral.rr98_moving import DRIFTS, ConstantMassDrift, Drift
+from particles.integral.rr98_moving_plain import MOTIONS, ConstantMass, scale_of
 from particles.integrators import RK4
-from particles.interpolants import OrderingWarning
 from particles.limits import limit_of
-from particles.makers import plain
-from particles.methods.brackets import Powers
-from particles.methods.dih import Pairwise
-from particles.methods.drift import DRIFTS, ConstantMassDrift, Drift
-from particles.methods.layer import Layer
-from particles.methods.motions import MOTIONS, ConstantMass, scale_of
-from particles.methods.spam import LessStatic
-from particles.points import jittered, lattice
 from particles.run import Plan, run
-from particles.team import Team
+from particles.smooth.spam import LessStatic
+from particles.threads import Team
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
-from studies.convection.drift import DRIFT_MOTIONS, DriftRun, PlateHeat, method, start
-from studies.convection.tables import HISTORY, KINETIC, PROFILES
+from studies.build.rr98_moving import DRIFT_MOTIONS, DriftRun, PlateHeat, method, start
+from studies.rb.tables import HISTORY, KINETIC, PROFILES
 
 COUNTS = COLUMNS, ROWS = 10, 8
 WEIGHT = WendlandC2.of(h=2.9)

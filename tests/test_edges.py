@@ -4,11 +4,11 @@ import warnings
 import numpy as np
 import pytest
 
-from particles.edges import between_plates
-from particles.interpolants import Exponential, Gaussian, OrderingWarning, W, check_ordering, f, moment, reach
-from particles.makers import MAKERS, plain, printed, renormalised
-from particles.points import discrete_moments, jittered, lattice, of_positions, off_lattice, pairs, random, relaxed
-from particles.triangulation import between, delaunay
+from particles.integral.edge_makers import MAKERS, plain, printed, renormalised
+from particles.integral.edges import between_plates
+from particles.integral.interpolants import Exponential, Gaussian, OrderingWarning, W, check_ordering, f, moment, reach
+from particles.integral.points import discrete_moments, jittered, lattice, of_positions, off_lattice, pairs, random, relaxed
+from particles.integral.triangulation import between, delaunay
 from particles.weights import WEIGHTS, Lucy, WendlandC2
 
 COUNTS = {1: (20,), 2: (10, 12), 3: (6, 6, 7)}

@@ -12,11 +12,16 @@ from figure_tables import LOST, cost, errors, fields, history, means, particles,
 from matplotlib.container import ErrorbarContainer
 from matplotlib.text import Text
 
-from studies.convection import figures, figures_fields, figures_time, onset_figures, onset_tables, pick, tables
-from studies.convection.figures_errors import power
 from studies.kit.source import ROOT
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables, merge
+from studies.onset import figures as onset_figures
+from studies.onset import tables as onset_tables
+from studies.rb import figures, tables
+from studies.rb import looks as pick
+from studies.rb.figures import fields as figures_fields
+from studies.rb.figures import time as figures_time
+from studies.rb.figures.errors import power
 
 
 @pytest.fixture(scope="module")
@@ -101,7 +106,7 @@ def test_the_same_tables_give_the_same_bytes(full):
 
 def test_figures_need_no_solver():
     """numba comes with every solver; a new process has loaded nothing else before."""
-    code = "import sys, studies.convection.figures; print(sorted({'numba', 'pde', 'particles'} & set(sys.modules)))"
+    code = "import sys, studies.rb.figures; print(sorted({'numba', 'pde', 'particles'} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT)
     assert done.stdout.strip() == "[]"
 

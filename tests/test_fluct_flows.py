@@ -5,24 +5,24 @@ from scipy.linalg import expm
 from test_moving import fluid, shaken
 
 from continuum.fluid import ConstEta, IdealGas
-from particles.covariance import jacobian, steady
+from particles.integral import fluctuating
+from particles.integral.covariance import jacobian, steady
+from particles.integral.dih import Dih, Pairwise
+from particles.integral.edge_makers import MAKERS
+from particles.integral.points import jittered, lattice
+from particles.integral.thermal import Thermal
 from particles.limits import limit_of
-from particles.makers import MAKERS
-from particles.methods import fluctuating
-from particles.methods.dih import Dih, Pairwise
-from particles.methods.thermal import Thermal
-from particles.points import jittered, lattice
 from particles.run import Plan, run
-from particles.team import Team
+from particles.threads import Team
 from particles.weights import Lucy
-from studies.fluctuating.fluct_algebra import edges_between
-from studies.fluctuating.fluct_given import Shear, Sheared, Stream, Sustained, kicked
-from studies.fluctuating.fluct_given_sampled import apart, sampled, slowest_amplitude
-from studies.fluctuating.fluct_given_sampled import factor as factor_of
-from studies.fluctuating.fluct_matrices import carried_along, equilibrium, factor, noise, states_of_fields, transport
-from studies.fluctuating.fluct_modes import check_modes, directions, plane_waves
-from studies.fluctuating.fluct_steps import line_symbols
-from studies.fluctuating.fluct_tail import TailSampled, autocorrelation, blocks, resting
+from studies.noise.fluctuations.algebra import edges_between
+from studies.noise.fluctuations.given import Shear, Sheared, Stream, Sustained, kicked
+from studies.noise.fluctuations.given_sampled import apart, sampled, slowest_amplitude
+from studies.noise.fluctuations.given_sampled import factor as factor_of
+from studies.noise.fluctuations.matrices import carried_along, equilibrium, factor, noise, states_of_fields, transport
+from studies.noise.fluctuations.modes import check_modes, directions, plane_waves
+from studies.noise.fluctuations.steps import line_symbols
+from studies.noise.fluctuations.tail import TailSampled, autocorrelation, blocks, resting
 
 U = 0.5
 

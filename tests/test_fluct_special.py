@@ -2,9 +2,9 @@
 import numpy as np
 import pytest
 
-from particles.methods.dpd import Dpd
-from studies.fluctuating.fluct_arithmetic import inner_k
-from studies.fluctuating.fluct_special import SCALE, blocks, neighbours, partner, special, unmodified, viscosities
+from particles.dissipative.dpd import Dpd
+from studies.noise.fluctuations.arithmetic import inner_k
+from studies.noise.fluctuations.special import SCALE, blocks, neighbours, partner, special, unmodified, viscosities
 
 
 @pytest.mark.parametrize("d", [2, 3])

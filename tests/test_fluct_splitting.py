@@ -2,9 +2,9 @@
 import numpy as np
 import pytest
 
-from particles.integrators_splitting import KickDriftFrictionDriftKick
-from particles.methods.dpd import Dpd
-from particles.observe_dpd import configurational_temperature, kinetic_temperature
+from particles.dissipative.dpd import Dpd
+from particles.dissipative.observe import configurational_temperature, kinetic_temperature
+from particles.integral.splitting import KickDriftFrictionDriftKick
 from particles.run import Plan, run
 from studies.kit.stats import mean
 

@@ -3,11 +3,10 @@ import numpy as np
 import pytest
 
 from continuum.fluid import ConstEta, IdealGas
-from particles import covariance
-from particles.makers import MAKERS
-from particles.methods import fluctuating
-from particles.methods.dih import Dih, Nested, Pairwise
-from particles.points import jittered, lattice, random
+from particles.integral import covariance, fluctuating
+from particles.integral.dih import Dih, Nested, Pairwise
+from particles.integral.edge_makers import MAKERS
+from particles.integral.points import jittered, lattice, random
 from particles.weights import Lucy, WendlandC2
 
 COUNTS = {1: (20,), 2: (8, 9), 3: (5, 5, 6)}

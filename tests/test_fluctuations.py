@@ -6,19 +6,19 @@ from dataclasses import replace
 
 import pytest
 
-import studies.fluctuations as fluctuations
-from studies.fluctuating import fluct_tables
-from studies.fluctuating.fluct_algebra import PrintedWaves
-from studies.fluctuating.fluct_flows import BelowOnset, Gradient, Rest
-from studies.fluctuating.fluct_given import About, Shear
-from studies.fluctuating.fluct_modes import Equipartition
-from studies.fluctuating.fluct_nonlinear import Capacity, Nonlinear
-from studies.fluctuating.fluct_peaks import Brillouin
-from studies.fluctuating.fluct_tail import Tail, TailSampled
-from studies.integral.operators import DISORDERS
+import studies.noise.fluctuations.cases as fluctuations
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import read
+from studies.noise.fluctuations import tables as fluct_tables
+from studies.noise.fluctuations.algebra import PrintedWaves
+from studies.noise.fluctuations.flows import BelowOnset, Gradient, Rest
+from studies.noise.fluctuations.given import About, Shear
+from studies.noise.fluctuations.modes import Equipartition
+from studies.noise.fluctuations.nonlinear import Capacity, Nonlinear
+from studies.noise.fluctuations.peaks import Brillouin
+from studies.noise.fluctuations.tail import Tail, TailSampled
+from studies.ordering.waves import DISORDERS
 
 
 def small(size: str) -> list:
@@ -88,7 +88,7 @@ def test_every_equation_of_noise_and_of_pairs_has_its_verdict():
 
 
 def test_a_scene_without_noise_knows_no_random_numbers():
-    code = "import sys, particles.methods.dih, particles.methods.layer; print('particles.noise' in sys.modules)"
+    code = "import sys, particles.integral.dih, particles.integral.layer; print('particles.noise' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.strip() == "False"
 
 

@@ -3,13 +3,15 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from continuum.exact.riemann import middle
 from continuum.fluid import ConstEta
-from studies.hard import high_ra, high_ra_methods, tubes
-from studies.hard.riemann import middle
-from studies.hard.shock_tube import DENSE, EOS, GAMMA, HEIGHT, THIN, exact
-from studies.hard.tube_claims import CLAIMS, stopped
-from studies.hard.tube_methods import METHODS, Seen, binned, ended, gases
-from studies.hard.tubes import MethodTube, centres, last_above, orders, places, told, viscous
+from studies.hardcases.high_ra import methods as high_ra_methods
+from studies.hardcases.high_ra import runs as high_ra
+from studies.hardcases.tube import runs as tubes
+from studies.hardcases.tube.claims import CLAIMS, stopped
+from studies.hardcases.tube.methods import METHODS, Seen, binned, ended, gases
+from studies.hardcases.tube.runs import MethodTube, centres, last_above, orders, places, told, viscous
+from studies.hardcases.tube.spam import DENSE, EOS, GAMMA, HEIGHT, THIN, exact
 from studies.kit.claim import CannotTell, judge
 from studies.kit.table import Tables
 
@@ -39,7 +41,7 @@ def test_every_method_has_sods_waves_and_the_gas_that_it_began_with(method):
 
 def test_nothing_happens_in_a_uniform_gas(monkeypatch):
     """The same pressure and density everywhere stay, on disordered points too."""
-    monkeypatch.setattr("studies.hard.tube_methods.THIN", DENSE)
+    monkeypatch.setattr("studies.hardcases.tube.methods.THIN", DENSE)
     for method in METHODS:
         if method != "grid":
             _, v, P = METHODS[method](SHORT, ConstEta(0.0, 0.0), 1, 0.5, quiet).fields

@@ -4,23 +4,25 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
-
 import studies.hardcases as hardcases
+
 from continuum.fluid import IdealGas, pressure
-from particles.methods.spam import Spam
-from particles.team import Team
+from particles.smooth.spam import Spam
+from particles.threads import Team
 from particles.weights import Lucy, Monaghan
-from studies.convection.spam import start
-from studies.hard import hard_derive, hard_tables, khp95
-from studies.hard.freezing import Freezing, lindemann, neighbours
-from studies.hard.hard_figures import figures
-from studies.hard.interface import Interface
-from studies.hard.lattice_waves import lattice
-from studies.hard.newtonian import METHODS, RHO_SQUARED, Newton, Reversal, Twins, crowd, molecules
-from studies.hard.shock_tube import ShockTube
+from studies.build.spam import start
+from studies.hardcases.interface.runs import Interface
+from studies.hardcases.tube.spam import ShockTube
 from studies.kit.claim import judge, judged
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables, read
+from studies.lattices import cases as khp95
+from studies.lattices import derive as hard_derive
+from studies.lattices import tables as hard_tables
+from studies.lattices.figures import figures
+from studies.lattices.freezing import Freezing, lindemann, neighbours
+from studies.lattices.molecules import METHODS, RHO_SQUARED, Newton, Reversal, Twins, crowd, molecules
+from studies.lattices.waves import lattice
 
 BY_ID = {claim.id: claim for claim in khp95.PART.claims}
 

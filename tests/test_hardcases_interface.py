@@ -3,8 +3,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from studies.hard.interface import impulse
-from studies.hard.interface_grid import CLAIMS, GRIDS, GROWTH, RIPPLES, GridInterface, derive, gentle, inviscid
+from studies.hardcases.interface.grid import CLAIMS, GRIDS, GROWTH, RIPPLES, GridInterface, derive, gentle, inviscid
+from studies.hardcases.interface.runs import impulse
 from studies.kit.claim import CannotTell, judged
 from studies.kit.table import Tables
 

@@ -6,16 +6,16 @@ import pytest
 
 from continuum.fluid import IdealGas, VanDerWaals, pressure
 from particles.limits import lattice_sums
-from particles.team import Team
+from particles.threads import Team
 from particles.weights import Lucy, Monaghan, WendlandC2
-from studies.convection.claims.lattices import LUCY, shear_moduli
-from studies.hard.fates import median_ratio, partners
-from studies.hard.hard_claims import pressureless, spinodal
-from studies.hard.lattice_growth import Crystal, Growth, growth
-from studies.hard.lattice_waves import lattice, least_stable, sites_of_least_energy, sums, vectors
-from studies.hard.lattice_waves import neighbours as around
-from studies.hard.moduli import Moduli
-from studies.hard.still import at_rest, fluid
+from studies.build.periodic_box import at_rest, fluid
+from studies.lattices.claims import pressureless, spinodal
+from studies.lattices.growth import Crystal, Growth, growth
+from studies.lattices.moduli import Moduli
+from studies.lattices.occupancy import median_ratio, partners
+from studies.lattices.waves import lattice, least_stable, sites_of_least_energy, sums, vectors
+from studies.lattices.waves import neighbours as around
+from studies.rb.claims.lattices import LUCY, shear_moduli
 
 WEIGHTS = (Lucy, Monaghan, WendlandC2)
 

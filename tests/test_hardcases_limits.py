@@ -6,22 +6,22 @@ import pandas as pd
 import pytest
 
 from continuum import boussinesq
+from continuum.boussinesq.projection import CFL_LIMIT, Projection
 from continuum.fluid import ConstEta, IdealGas
-from continuum.projection import CFL_LIMIT, Projection
-from particles.methods.moving import Moving
-from particles.points import jittered, lattice
-from particles.team import Team
+from particles.integral.closed_faces import Moving
+from particles.integral.points import jittered, lattice
+from particles.threads import Team
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
-from studies.hard import limits_figures
-from studies.hard.limits_boussinesq import noise_grows
-from studies.hard.limits_cases import Limit
-from studies.hard.limits_claims import CLAIMS
-from studies.hard.limits_dpd import BOXES, INTEGRATORS, Unguarded, map_grows, settled, trial_grows
-from studies.hard.limits_euler import PLATES, euler_step, strip_step
-from studies.hard.limits_linear import eigenvalues, largest_step
-from studies.hard.limits_search import bisected
-from studies.hard.limits_still import DISORDER, FACES, METHODS, fixed
+from studies.build.unguarded import bisected
+from studies.hardcases.limits import figures as limits_figures
+from studies.hardcases.limits.boussinesq import noise_grows
+from studies.hardcases.limits.cases import Limit
+from studies.hardcases.limits.claims import CLAIMS
+from studies.hardcases.limits.dpd import BOXES, INTEGRATORS, Unguarded, map_grows, settled, trial_grows
+from studies.hardcases.limits.euler import PLATES, euler_step, strip_step
+from studies.hardcases.limits.linear import eigenvalues, largest_step
+from studies.hardcases.limits.still import DISORDER, FACES, METHODS, fixed
 from studies.kit.claim import judged
 from studies.kit.table import Tables
 

@@ -4,14 +4,15 @@ import pandas as pd
 import pytest
 from scipy.integrate import quad
 
-from studies.hard import map_figures, map_part
-from studies.hard.map_claims import CLAIMS, COARSE
-from studies.hard.map_derive import derive, finished_grids
-from studies.hard.map_ends import Ending
-from studies.hard.map_methods import TAKES, Body, flow, kinetic
-from studies.hard.map_scenes import BOXES, LAYERS, SOUND, Strip, Vortex
-from studies.hard.map_shear import BEGIN, Amplitude, ShearFlow, U, fastest
-from studies.hard.map_torus import Going, OnTorus
+from studies.hardcases.map import figures as map_figures
+from studies.hardcases.map import part as map_part
+from studies.hardcases.map.claims import CLAIMS, COARSE
+from studies.hardcases.map.derive import derive, finished_grids
+from studies.hardcases.map.ends import Ending
+from studies.hardcases.map.methods import TAKES, Body, flow, kinetic
+from studies.hardcases.map.scenes import BOXES, LAYERS, SOUND, Strip, Vortex
+from studies.hardcases.map.shear import BEGIN, Amplitude, ShearFlow, U, fastest
+from studies.hardcases.map.torus import Going, OnTorus
 from studies.kit.claim import judged
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables

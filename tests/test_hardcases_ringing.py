@@ -7,15 +7,15 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from particles.limits import lattice_sums
-from particles.methods.spam import Direct, Nested
+from particles.smooth.spam import Direct, Nested
 from particles.weights import Lucy, Monaghan, WendlandC2
-from studies.hard import ringing_part
-from studies.hard.lattice_waves import vectors
-from studies.hard.long_sound import LongSound, longest, matrix
-from studies.hard.ringing import Ringing, Ripple, foretold, growth, ripples, rounding, symbols
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables, read
+from studies.lattices import ringing_part
+from studies.lattices.long_sound import LongSound, longest, matrix
+from studies.lattices.ringing import Ringing, Ripple, foretold, growth, ripples, rounding, symbols
+from studies.lattices.waves import vectors
 
 SHORT = Ringing(lattice="square", weight=Monaghan, length=40)
 

@@ -3,12 +3,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from continuum.exact.riemann import Gas, density, middle, shock_speed, solution
 from continuum.fluid import ConstEta, IdealGas
-from studies.hard import hard_derive
-from studies.hard.interface import divide, gases, impulse, ripple
-from studies.hard.riemann import Gas, density, middle, shock_speed, solution
-from studies.hard.shock_tube import overlap, tube
-from studies.hard.tube_grid import march, primitive, rates
+from studies.hardcases.interface.runs import divide, gases, impulse, ripple
+from studies.hardcases.tube.grid import march, primitive, rates
+from studies.hardcases.tube.spam import overlap, tube
+from studies.lattices import derive as hard_derive
 
 # --- shocks -------------------------------------------------------------------------------------------------------------
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from studies.convection.cost import REPEATS, SPREAD_TO_ERR
 from studies.kit import figure, stats, timing
+from studies.rb.cost import REPEATS, SPREAD_TO_ERR
 
 
 def autoregressive(phi, n, runs, seed):

@@ -7,15 +7,15 @@ from plain_layer import PlainLayer
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
 from continuum.scene import RayleighBenard
-from particles.edges import between_plates
+from particles.integral.dih import Pairwise
+from particles.integral.edge_makers import exact, renormalised
+from particles.integral.edges import between_plates
+from particles.integral.layer import Layer
+from particles.integral.points import jittered, lattice
+from particles.integral.triangulation import delaunay
 from particles.limits import limit_of
-from particles.makers import exact, renormalised
-from particles.methods.dih import Pairwise
-from particles.methods.layer import Layer
-from particles.points import jittered, lattice
 from particles.run import Plan, run
-from particles.team import Team
-from particles.triangulation import delaunay
+from particles.threads import Team
 from particles.weights import Lucy
 
 ROWS = 10

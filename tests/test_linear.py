@@ -2,7 +2,7 @@
 import numpy as np
 import pytest
 
-from continuum.linear import Plates, critical, critical_ra, growth_rate
+from continuum.linear.layer import Plates, critical, critical_ra, growth_rate
 
 ROUND_OFF = 1e-11       # eigenvalues of forms whose condition is about 1e4
 

@@ -2,20 +2,21 @@
 import numpy as np
 import pytest
 
-import studies.motions as motions
+import studies.conservation.motions.cases as motions
 from continuum.fluid import ConstEta, IdealGas
+from particles.integral.brackets import Powers
+from particles.integral.dih import Dih, Nested, Pairwise
+from particles.integral.edge_makers import renormalised
+from particles.integral.filtered import Filtered
+from particles.integral.interpolants import OrderingWarning
+from particles.integral.points import jittered, lattice
+from particles.integral.rr98_moving_plain import MOTIONS, Carried, ConstantMass, Convective, Literal
 from particles.integrators import RK4, Euler, TwoStep
-from particles.interpolants import OrderingWarning
-from particles.makers import renormalised
-from particles.methods.brackets import Powers
-from particles.methods.dih import Dih, Nested, Pairwise
-from particles.methods.filtered import Filtered
-from particles.methods.motions import MOTIONS, Carried, ConstantMass, Convective, Literal
-from particles.points import jittered, lattice
-from particles.team import Team
+from particles.threads import Team
 from particles.weights import WEIGHTS, Lucy, WendlandC2
-from studies.integral import motions_derive, motions_tables
-from studies.integral.motions_scene import by_halves, march, moving, rate, roots, seen_slope, transform
+from studies.conservation.motions import derive as motions_derive
+from studies.conservation.motions import tables as motions_tables
+from studies.conservation.motions.scene import by_halves, march, moving, rate, roots, seen_slope, transform
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import read
@@ -167,7 +168,7 @@ def test_patterns_on_a_stream_go_at_predicted_speeds(motion, tmp_path):
 @pytest.mark.parametrize("motion", MOTIONS)
 def test_sound_on_moving_points_goes_at_predicted_speeds(motion, tmp_path):
     case = motions.Sound(motion=motion, kind=MOTIONS[motion], wavelength=8)
-    [row] = case.run(lambda done: None, tmp_path).rows["sound"]
+    [row] = case.run(lambda done: None, tmp_path).rows["moving_sound"]
     # of the square of the amplitude, 1e-8, over the change of c that resonance of its double can make
     assert row["speed"] == pytest.approx(row["predicted"], rel=1e-3)
 

@@ -8,12 +8,12 @@ from crowd import goes_on_bitwise
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
 from continuum.scene import RayleighBenard
-from particles.interpolants import OrderingWarning
+from particles.integral.closed_faces import EXCHANGED, SOLVED, Ingredients, Moving
+from particles.integral.interpolants import OrderingWarning
+from particles.integral.points import jittered
 from particles.limits import limit_of
-from particles.methods.moving import EXCHANGED, SOLVED, Ingredients, Moving
-from particles.points import jittered
 from particles.run import Plan, run
-from particles.team import Team
+from particles.threads import Team
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 from particles.neighbours import farthest, make_lists, sort_into_cells
-from particles.team import Team
+from particles.threads import Team
 
 
 def listed(x, y, reach, threads=1, rows=None, side=None):

@@ -8,18 +8,18 @@ import pytest
 from continuum.scene import RayleighBenard
 from particles.limits import limit_of
 from particles.run import Plan, run
-from particles.team import Team
-from studies import nested
-from studies.convection.dih import SCHEMES, layer
-from studies.integral import mixed_images
+from particles.threads import Team
+from studies.build.fixed import SCHEMES, layer
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables, read
+from studies.operators.nested import cases as nested
+from studies.operators.nested import images as mixed_images
 
 
 def growth(**more):
     case = nested.Growth(**{"h": 2.0, "rows": 8, "ra": 1500.0, "share": 1.0, **more})
-    return case.run(lambda done: None, Path()).rows["growth"][0]
+    return case.run(lambda done: None, Path()).rows["nested_growth"][0]
 
 
 def test_what_eigenvalues_say_time_steps_show():
@@ -81,7 +81,7 @@ def test_zigzags_are_told_from_long_waves():
 
 def test_the_smallest_share_is_the_one_from_which_on_nothing_grows():
     rows = [{"h": 2.0, "share": share, "growth": 1e-3 if share < 0.1 else 1e-15} for share in nested.SHARES]
-    assert nested.smallest_share(Tables({"growth": pd.DataFrame(rows)})) == pytest.approx((0.1, 0.03))
+    assert nested.smallest_share(Tables({"nested_growth": pd.DataFrame(rows)})) == pytest.approx((0.1, 0.03))
 
 
 def test_committed_verdicts_are_those_of_the_committed_table():

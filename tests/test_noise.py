@@ -16,7 +16,7 @@ from particles.noise import (
     words_of_pair,
     words_of_point,
 )
-from particles.team import Team
+from particles.threads import Team
 
 u64 = np.uint64
 #: counter, key, answer: kat_vectors of the library that Salmon et al. 2011 published; the third are digits of pi

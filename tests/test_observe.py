@@ -15,10 +15,10 @@ from particles.observe import (
     particle_kinetic,
     wall_layers,
 )
-from particles.team import Team
+from particles.threads import Team
 from particles.vtk import write_grid, write_particles
 from particles.weights import value_and_slope
-from studies.convection.spam import VARIANTS
+from studies.build.spam import VARIANTS
 from tests.scenes import small
 
 

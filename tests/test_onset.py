@@ -5,21 +5,24 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from continuum import compressible, compressible_newton, linear
-from continuum.compressible_fields import block, initial
-from continuum.compressible_newton import Discrete, NewtonFailed
 from continuum.fluid import ConstNu, VanDerWaals
-from continuum.linear_square import critical_ra_square
+from continuum.gas import newton as compressible_newton
+from continuum.gas import solve as compressible
+from continuum.gas.fields import block, initial
+from continuum.gas.newton import Discrete, NewtonFailed
+from continuum.linear import layer as linear
+from continuum.linear.square import critical_ra_square
 from continuum.richardson import richardson
 from continuum.scene import RayleighBenard, Walls
 from continuum.steady import Steady
-from studies import onset
-from studies.convection import onset_derive, onset_digits
-from studies.convection.onset_cases import Energies, Growth, GrowthRun, LinearTheory, SpamGrowth
-from studies.convection.onset_modes import SOLVERS, boussinesq_mac
-from studies.convection.onset_runs import RUNS, History, spam_run
-from studies.convection.spam import PRINTED
+from studies.build.spam import PRINTED
 from studies.kit.study import Study
+from studies.onset import cases as onset
+from studies.onset import derive as onset_derive
+from studies.onset import digits as onset_digits
+from studies.onset.growth import Energies, Growth, GrowthRun, LinearTheory, SpamGrowth
+from studies.onset.modes import SOLVERS, boussinesq_mac
+from studies.onset.runs import RUNS, History, spam_run
 
 LAYER = RayleighBenard(ra=1750.0)
 SQUARE = RayleighBenard(ra=8000.0, aspect=1.0, sides=Walls())

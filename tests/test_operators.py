@@ -4,25 +4,25 @@ import re
 import numpy as np
 import pytest
 
-import studies.operators as operators
+import studies.operators.cases as operators
 from continuum.fluid import ConstEta, IdealGas
-from particles.interpolants import Exponential, Gaussian, W
-from particles.makers import MAKERS, plain, printed, renormalised
-from particles.methods.dih import Dih, Nested
-from particles.points import jittered, lattice
+from particles.integral.dih import Dih, Nested
+from particles.integral.edge_makers import MAKERS, plain, printed, renormalised
+from particles.integral.interpolants import Exponential, Gaussian, W
+from particles.integral.points import jittered, lattice
 from particles.weights import Lucy, WendlandC2
-from studies.integral import operators_tables as tables
-from studies.integral import ordering_claims
-from studies.integral.operators_derive import extrapolated
-from studies.integral.operators_equations import PRINTED, arriving, derivative
-from studies.integral.operators_exchange import kept, viscosities, works
-from studies.integral.operators_printed import brackets, force, heat, inner, kernel, mass_rate
-from studies.integral.operators_stability import euler_limit, linear_rate, sound
-from studies.integral.operators_symbols import gradient_symbol, slopes, spread_symbol, twice_symbol
-from studies.integral.operators_weights import around, epstein, interpolated, line_weight, shells, smoothed
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables, read
+from studies.operators import tables
+from studies.operators.derive import extrapolated
+from studies.operators.equations import PRINTED, arriving, derivative
+from studies.operators.exchange import kept, viscosities, works
+from studies.operators.printed import brackets, force, heat, inner, kernel, mass_rate
+from studies.operators.stability import euler_limit, linear_rate, sound
+from studies.operators.symbols import gradient_symbol, slopes, spread_symbol, twice_symbol
+from studies.operators.weights import around, epstein, interpolated, line_weight, shells, smoothed
+from studies.ordering import claims as ordering_claims
 
 #: of RR98, with those of the study ordering; 20-25 and 42-44 are of fluctuations, 39-50 of motion and time
 EQUATIONS = {*range(1, 20), *range(26, 39), 40, 51}

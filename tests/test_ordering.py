@@ -3,17 +3,19 @@ import numpy as np
 import pandas as pd
 import pytest
 
-import studies.ordering as ordering
-from particles.interpolants import W
-from particles.makers import plain, renormalised
-from particles.points import lattice, of_positions, wrapped
+import studies.ordering.cases as ordering
+from particles.integral.edge_makers import plain, renormalised
+from particles.integral.interpolants import W
+from particles.integral.points import lattice, of_positions, wrapped
 from particles.weights import Lucy
-from studies.integral import ordering_claims, ordering_derive, tables
-from studies.integral.operators import wave_errors
-from studies.integral.ordering_brackets import form_errors
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables, read
+from studies.ordering import claims as ordering_claims
+from studies.ordering import derive as ordering_derive
+from studies.ordering import tables
+from studies.ordering.brackets import form_errors
+from studies.ordering.waves import wave_errors
 
 
 @pytest.fixture(scope="module")

@@ -7,18 +7,17 @@ import pytest
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
-from particles.edges import Edges
-from particles.makers import closed, renormalised
-from particles.points import Points, lattice
+from particles.integral.edge_makers import closed, renormalised
+from particles.integral.edges import Edges
+from particles.integral.points import Points, lattice
 from particles.weights import Lucy, WendlandC2
-from studies.integral import ordering_convection_claims as claims
-from studies.integral import ordering_creep as creep
-from studies.integral import ordering_flows as flows
-from studies.integral.operators import DISORDERS
-from studies.integral.ordering_convection import between_images, convection
-from studies.integral.ordering_flows_figures import over_disorder
 from studies.kit.claim import CannotTell
 from studies.kit.table import Tables
+from studies.ordering import convection_claims as claims
+from studies.ordering import creep, flows
+from studies.ordering.convection import between_images, convection
+from studies.ordering.flows_figures import over_disorder
+from studies.ordering.waves import DISORDERS
 
 
 def row(maker: str, h: float, points: str = "random", rows: int = 16, **more) -> dict:
@@ -45,11 +44,11 @@ def test_a_run_between_images_has_the_key_of_its_edges(tmp_path):
 
 
 def test_points_without_exact_edges_leave_a_row_and_others_must_exist(tmp_path, monkeypatch):
-    monkeypatch.setattr("studies.integral.ordering_convection.exact", exact)
+    monkeypatch.setattr("studies.ordering.convection.exact", exact)
     scheme = between_images("jittered-0.3", "exact", 2.0)._replace(make=exact)
     found = short("exact", scheme=scheme).run(lambda done: None, tmp_path).rows["convection"][0]
     assert np.isnan(found["ke"]) and (found["rolls"], found["exchanges"]) == (0, 0)
-    monkeypatch.setattr("studies.integral.ordering_convection.exact", closed)
+    monkeypatch.setattr("studies.ordering.convection.exact", closed)
     with pytest.raises(ArithmeticError, match="no such edges"):
         short("exact", scheme=scheme).run(lambda done: None, tmp_path)
 

@@ -5,17 +5,17 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from particles.edges import Edges
-from particles.makers import MAKERS
-from particles.points import Points
+from particles.integral.edge_makers import MAKERS
+from particles.integral.edges import Edges
+from particles.integral.points import Points
 from particles.weights import Lucy
-from studies.integral import ordering_flows as flows
-from studies.integral import ordering_flows_claims as claims
-from studies.integral.operators import DISORDERS
-from studies.integral.ordering_convection import PLATES, convection, on_lattice
-from studies.integral.ordering_vortices import DECAYS, TaylorGreen, fourier, incompressible, off, solved, velocities
 from studies.kit.claim import CannotTell
 from studies.kit.table import Tables
+from studies.ordering import flows
+from studies.ordering import flows_claims as claims
+from studies.ordering.convection import PLATES, convection, on_lattice
+from studies.ordering.vortices import DECAYS, TaylorGreen, fourier, incompressible, off, solved, velocities
+from studies.ordering.waves import DISORDERS
 
 
 def vortex(maker: str, h: float, disorder: str, wavelength: int, mach: float = 0.3) -> dict:

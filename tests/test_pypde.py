@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import sympy
 
-from continuum import boussinesq, compressible
+from continuum import boussinesq
 from continuum.fluid import (
     EQUATIONS_OF_STATE,
     ConstEta,
@@ -18,15 +18,16 @@ from continuum.fluid import (
     stress,
     viscosity,
 )
-from continuum.linear import growth_rate
-from continuum.pypde import Rolls, onto, solve, solve_boussinesq, solve_gas
-from continuum.pypde_boussinesq import Boussinesq
-from continuum.pypde_gas import RHO, VX, VY, E, Gas
-from continuum.pypde_march import RungeKuttaSolver, StageLoop
+from continuum.gas import solve as compressible
+from continuum.linear.layer import growth_rate
+from continuum.pypde.boussinesq import Boussinesq
+from continuum.pypde.gas import RHO, VX, VY, E, Gas
+from continuum.pypde.march import RungeKuttaSolver, StageLoop
+from continuum.pypde.solve import Rolls, onto, solve, solve_boussinesq, solve_gas
 from continuum.richardson import richardson
 from continuum.scene import RayleighBenard, Tile, Walls
 from continuum.steady import Steady, Time
-from studies.cost import speed_cases_plates as slab
+from studies.cost import plates as slab
 
 GAS = RayleighBenard(ra=5000, L=1.0)
 SIZES = (12, 16, 20)
@@ -320,7 +321,7 @@ def test_progress_goes_up_to_the_end():
     (lambda: layer(9), "rows must be even, at least 8.*got 9"),
     (lambda: layer(6), "rows must be even, at least 8.*got 6"),
     (lambda: Gas(GAS, 9), "rows must be even, at least 8.*got 9"),
-    (lambda: Gas(RayleighBenard(ra=5000, sides=Walls()), 8), "continuum.compressible for walls"),
+    (lambda: Gas(RayleighBenard(ra=5000, sides=Walls()), 8), "continuum.gas.solve for walls"),
     (lambda: layer().rolls(0.01, 3), "come in pairs, got 3"),
     (lambda: layer().rolls(-1.0), "cannot be negative, got -1"),
     (lambda: solve(layer(), dt=1.0), "not above the stability limit 0.1"),

@@ -5,17 +5,17 @@ import numpy as np
 import pandas as pd
 import pytest
 
-import studies.rb as rb
-from continuum.compressible import steady_on
+import studies.rb.cases as rb
+from continuum.gas.solve import steady_on
 from continuum.scene import RayleighBenard
 from particles.weights import Lucy
-from studies.convection import spam
-from studies.convection.dih import SCHEMES, DihRun, fluid
-from studies.convection.grids import BoussinesqSteady, CompressibleSteady, PypdeSteady
-from studies.convection.moving import MovingRun
-from studies.convection.tables import ALL, ERRORS, KINETIC
+from studies.build import spam
+from studies.build.fixed import SCHEMES, DihRun, fluid
+from studies.build.grid import BoussinesqSteady, CompressibleSteady, PypdeSteady
+from studies.build.moving import MovingRun
 from studies.kit.sweep import RESULTS
 from studies.kit.table import read
+from studies.rb.tables import ALL, ERRORS, KINETIC
 
 ASKED = ("method variant eos transport ra pr resolution particles seed ke ke_err ke_field ke_fluctuation nu nu_err rolls "
          "cpu_s compile_s threads size commit").split()

@@ -14,7 +14,7 @@ from matplotlib.colors import to_rgb
 from PIL import Image
 from report_tables import errors, one_study
 
-from studies.cost.speed_names import FAMILIES
+from studies.cost.names import FAMILIES
 from studies.kit.csvfile import read, write
 from studies.kit.figure import COLOURS, figure, save
 from studies.kit.source import ROOT
@@ -278,7 +278,7 @@ def test_a_film_keeps_its_colours_from_its_first_picture_to_its_last(tmp_path):
 def test_frames_are_those_of_the_solvers_at_these_times():
     """Particles, moving points and the grid start from the same rolls and gain or lose energy from there."""
     from continuum.scene import RayleighBenard
-    from studies.convection.names import START_ENERGY
+    from studies.build.names import START_ENERGY
     from studies.report import frames
     times, scene = np.array([0.0, 0.1]), RayleighBenard(ra=1e4, L=16.0)
     for made in (frames.smooth_particles(scene, 1, times), frames.closed_faces(scene, 1, times),

@@ -4,7 +4,7 @@ import pytest
 from PIL import Image
 from report_tables import claims, errors, one_study
 
-from studies.cost import speed_tables
+from studies.cost import tables as speed_tables
 from studies.kit.csvfile import write
 from studies.report import behind, draw
 from studies.report.__main__ import main
@@ -73,7 +73,7 @@ def test_a_study_that_cannot_be_loaded_is_named(small, capsys, monkeypatch):
     def broken(name):
         raise ImportError("no such term")
     monkeypatch.setattr("studies.report.found.importlib.import_module", broken)
-    assert "studies/rb.py cannot be loaded (ImportError: no such term)" in refused(small, capsys)
+    assert "studies/rb/cases.py cannot be loaded (ImportError: no such term)" in refused(small, capsys)
 
 
 def test_a_figure_that_is_missing_or_broken(small, capsys, monkeypatch):

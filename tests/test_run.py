@@ -11,9 +11,9 @@ from continuum.scene import Walls
 from particles import checkpoint
 from particles.observe import Grid, Profile, field_kinetic, heat_flow, particle_kinetic
 from particles.run import RANDOM, STUDIES, Divergence, Plan, Run, _check, run
-from particles.team import Team
+from particles.threads import Team
 from particles.weights import Lucy
-from studies.convection.spam import OF_LIMIT, images, images_odd
+from studies.build.spam import OF_LIMIT, images, images_odd
 from tests.scenes import small
 
 PLAN = Plan(dt=0.6, steps=60, every=5, series={"kp": particle_kinetic, "kg": field_kinetic, "heat": heat_flow},

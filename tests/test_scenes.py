@@ -5,21 +5,24 @@ import numpy as np
 import pandas as pd
 import pytest
 
-import studies.scenes as scenes
+import studies.cost.scenes.cases as scenes
 from continuum.scene import RayleighBenard
+from particles.integral.dih import Dih
+from particles.integral.edge_makers import renormalised
+from particles.integral.points import jittered, lattice
+from particles.integral.triangulation import delaunay
 from particles.integrators import RK4
 from particles.limits import limit_of
-from particles.makers import renormalised
-from particles.methods.dih import Dih
-from particles.points import jittered, lattice
 from particles.run import Divergence, Plan, run
-from particles.team import Team
-from particles.triangulation import delaunay
+from particles.threads import Team
 from particles.weights import Lucy
-from studies.convection import dih
-from studies.cost import scenes_cases, scenes_derive, scenes_figures, scenes_tables
-from studies.cost.scenes_claims import CLAIMS
-from studies.cost.scenes_terms import Carried, Friction, Listed
+from studies.build import fixed as dih
+from studies.cost.scenes import derive as scenes_derive
+from studies.cost.scenes import figures as scenes_figures
+from studies.cost.scenes import runs as scenes_cases
+from studies.cost.scenes import tables as scenes_tables
+from studies.cost.scenes.claims import CLAIMS
+from studies.cost.scenes.terms import Carried, Friction, Listed
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables, read

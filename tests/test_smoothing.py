@@ -4,12 +4,12 @@ import pytest
 from crowd import prepare
 from scipy.special import j0
 
-from continuum.compressible_fields import Fields, Values, initial
+from continuum.gas.fields import Fields, Values, initial
 from continuum.scene import RayleighBenard
 from particles.observe import field_kinetic
 from particles.weights import Lucy, value_and_slope
-from studies.convection import spam
-from studies.convection.smoothing import Smoothing, smoothed_energy
+from studies.build import spam
+from studies.build.smoothing import Smoothing, smoothed_energy
 
 
 def test_particles_on_a_lattice_see_the_same():

@@ -3,10 +3,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from studies import fluctuations, onset, operators
-from studies.convection import onset_derive
 from studies.kit.claim import judge
 from studies.kit.table import Tables
+from studies.noise.fluctuations import cases as fluctuations
+from studies.onset import cases as onset
+from studies.onset import derive as onset_derive
+from studies.operators import cases as operators
 
 
 def test_no_critical_number_follows_from_one_growth_rate():

@@ -3,11 +3,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
-import studies.speed as speed
-from studies.cost import speed_derive, speed_figures, speed_names, speed_tables
-from studies.cost.speed_claims import CLAIMS, of_level, seconds
-from studies.cost.speed_plan import planned
-from studies.cost.speed_problem import Race
+import studies.cost.cases as speed
+from studies.cost import derive as speed_derive
+from studies.cost import figures as speed_figures
+from studies.cost import names as speed_names
+from studies.cost import tables as speed_tables
+from studies.cost.claims import CLAIMS, of_level, seconds
+from studies.cost.plan import planned
+from studies.cost.problem import Race
 from studies.kit.claim import CannotTell, judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables, read

@@ -5,16 +5,17 @@ import numpy as np
 import pandas as pd
 import pytest
 
-import studies.speed as speed
-from studies.cost import speed_again, speed_tables
-from studies.cost import speed_cases_convection as layer
-from studies.cost import speed_cases_plates as slab
-from studies.cost import speed_convection as convection
-from studies.cost import speed_names as names
-from studies.cost.speed_cases_growth import Growth, Threads
-from studies.cost.speed_claims import CLAIMS
-from studies.cost.speed_derive import growth_laws
-from studies.cost.speed_problem import Race
+import studies.cost.cases as speed
+from studies.cost import again as speed_again
+from studies.cost import convection as layer
+from studies.cost import layer_runs as convection
+from studies.cost import names
+from studies.cost import plates as slab
+from studies.cost import tables as speed_tables
+from studies.cost.claims import CLAIMS
+from studies.cost.derive import growth_laws
+from studies.cost.growth import Growth, Threads
+from studies.cost.problem import Race
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS
 from studies.kit.table import Tables, read

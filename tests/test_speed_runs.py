@@ -5,17 +5,16 @@ import numpy as np
 import pytest
 
 from continuum.boussinesq import Case as Mac
+from continuum.exact.plates import DEGREE, FLOWS, MU, fields, solved
 from particles.run import Divergence, Plan, run
-from studies.cost import speed_cases_plates as slab
-from studies.cost import speed_cases_pypde as pypde
-from studies.cost import speed_cases_torus as torus
-from studies.cost import speed_cases_vortex as vortex
-from studies.cost import speed_cases_waves as wave
-from studies.cost import speed_convection as convection
-from studies.cost import speed_names, speed_tables
-from studies.cost.speed_plates_exact import DEGREE, FLOWS, MU, fields, solved
-from studies.cost.speed_problem import HALVINGS, STRETCH, STRETCHES, WORTH, Problem, Race, best, climb, result, rms
-from studies.cost.speed_timing import FORGET, array_bytes, of_calls, per_step, timed, with_peak
+from studies.cost import layer_runs as convection
+from studies.cost import names as speed_names
+from studies.cost import plates as slab
+from studies.cost import pypde, torus, vortex
+from studies.cost import tables as speed_tables
+from studies.cost import waves as wave
+from studies.cost.problem import HALVINGS, STRETCH, STRETCHES, WORTH, Problem, Race, best, climb, result, rms
+from studies.cost.timing import FORGET, array_bytes, of_calls, per_step, timed, with_peak
 
 
 def toy(order: int, space: float = 1e-3, limit: float = 1.0, chaotic: bool = False) -> Problem:

@@ -5,23 +5,23 @@ import numpy as np
 import pytest
 
 from continuum.fluid import ConstEta, IdealGas
-from particles import covariance
-from particles.covariance import jacobian, steady, waves
-from particles.edges import between_plates
+from particles.integral import covariance
+from particles.integral.covariance import jacobian, steady, waves
+from particles.integral.dih import Mixed
+from particles.integral.edge_makers import MAKERS
+from particles.integral.edges import between_plates
+from particles.integral.layer import Layer
+from particles.integral.points import jittered, lattice
+from particles.integral.thermal import STAGED, Thermal, ThreeStage
 from particles.limits import limit_of
-from particles.makers import MAKERS
-from particles.methods.dih import Mixed
-from particles.methods.layer import Layer
-from particles.methods.thermal import STAGED, Thermal, ThreeStage
-from particles.points import jittered, lattice
 from particles.run import Plan, run
-from particles.team import Team
+from particles.threads import Team
 from particles.weights import Lucy
-from studies.fluctuating.fluct_flows import layer_noise
-from studies.fluctuating.fluct_matrices import equilibrium, noise, transport
-from studies.fluctuating.fluct_modes import check_modes, plane_waves
-from studies.fluctuating.fluct_nonlinear import Exchange, Exchanged, dirichlet
-from studies.fluctuating.fluct_sampling import check_length
+from studies.noise.fluctuations.flows import layer_noise
+from studies.noise.fluctuations.matrices import equilibrium, noise, transport
+from studies.noise.fluctuations.modes import check_modes, plane_waves
+from studies.noise.fluctuations.nonlinear import Exchange, Exchanged, dirichlet
+from studies.noise.fluctuations.sampling import check_length
 
 
 def gas(share: float = 0.1, k: float = 1e-3, **more) -> Thermal:

@@ -6,22 +6,23 @@ import pandas as pd
 import pytest
 from scipy.special import stdtrit
 
-import studies.transport as transport
+import studies.operators.transport.cases as transport
 from continuum.fluid import ConstEta, ConstNu, IdealGas
-from particles.makers import MAKERS, renormalised
-from particles.methods.dih import Dih
-from particles.points import jittered, lattice
-from particles.team import Team
+from particles.integral.dih import Dih
+from particles.integral.edge_makers import MAKERS, renormalised
+from particles.integral.points import jittered, lattice
+from particles.threads import Team
 from particles.weights import Lucy, Monaghan, WendlandC2
-from studies.integral import transport_derive, transport_tables
-from studies.integral.operators import DISORDERS
-from studies.integral.transport_derive import endless
-from studies.integral.transport_symbol import QUANTITIES, Gas, continuum, lattice_waves, quantities
-from studies.integral.transport_walls import FLOWS, SPEED, between_rows, couette, driven, poiseuille
-from studies.integral.transport_waves import Decay, propagators
+from studies.build.symbols import QUANTITIES, Gas, continuum, lattice_waves, quantities
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import read
+from studies.operators.transport import derive as transport_derive
+from studies.operators.transport import tables as transport_tables
+from studies.operators.transport.derive import endless
+from studies.operators.transport.walls import FLOWS, SPEED, between_rows, couette, driven, poiseuille
+from studies.operators.transport.waves import Decay, propagators
+from studies.ordering.waves import DISORDERS
 
 GAS = Gas(0.3, 0.2, 0.4)
 
@@ -182,7 +183,7 @@ def test_an_order_between_plates_takes_every_run():
 def test_orders_of_the_small_study(small):
     """Second order; waves of 16 to 24 spacings and layers of 6 to 10 rows are short of it by some hundredths."""
     _, found, _ = small
-    chosen = found["orders"][(found["orders"]["transport"] == "nested") & (found["orders"]["quantity"] != "heat decay")]
+    chosen = found["transport_orders"][(found["orders"]["transport"] == "nested") & (found["orders"]["quantity"] != "heat decay")]
     assert len(chosen) == 5 and np.all(np.abs(chosen["order"] - 2) < 0.1)
     late = found["shear_orders"][(found["shear_orders"]["norm"] == "rms") & (found["shear_orders"]["time"] >= 0.1)]
     assert len(late) == 6 and np.all(np.abs(late["order"] - 2) < 0.15)

@@ -5,14 +5,14 @@ from test_dih import exact_drag
 from test_layer import MADE, layer, shaken
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, constant_viscosity
-from particles.edges import NONE_BEYOND
-from particles.makers import renormalised
-from particles.methods.dih import Dih
-from particles.methods.layer import Layer
-from particles.methods.spam import Direct, Spam
-from particles.points import jittered, lattice
-from particles.team import Team
-from particles.triangulation import delaunay
+from particles.integral.dih import Dih
+from particles.integral.edge_makers import renormalised
+from particles.integral.edges import NONE_BEYOND
+from particles.integral.layer import Layer
+from particles.integral.points import jittered, lattice
+from particles.integral.triangulation import delaunay
+from particles.smooth.spam import Direct, Spam
+from particles.threads import Team
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2
 

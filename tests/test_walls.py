@@ -5,8 +5,8 @@ import pytest
 from crowd import crowd, lattice, prepare, rates
 
 from continuum.fluid import ConstEta, IdealGas
-from particles.methods.spam import Direct, LessStatic, Nested, Spam
 from particles.run import Plan, run
+from particles.smooth.spam import Direct, LessStatic, Nested, Spam
 from particles.walls import confine
 from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import AtWall, Copied, Odd, Own, plates, sides

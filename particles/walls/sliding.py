@@ -17,10 +17,10 @@ from typing import NamedTuple
 import numpy as np
 
 from continuum.jit import jit
-from particles.edges import Edges
+from particles.integral.edges import Edges
+from particles.integral.points import Points
 from particles.neighbours import u32, u64
 from particles.pairs import Stored
-from particles.points import Points
 
 SYMMETRIC = 1e-12       # of S through the side: round-off of some ten edges
 

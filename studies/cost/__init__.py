@@ -1,1 +1,6 @@
-"""What errors cost: the parts of the studies `speed` and `scenes`."""
+"""What does an error of 10, 3, 1, 0.1 % cost with each method, and what does each term cost?"""
+from studies.cost import cases
+from studies.cost.scenes import cases as scenes
+from studies.kit.part import study
+
+STUDY = study("cost", cases.PART, scenes.PART)

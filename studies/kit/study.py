@@ -18,17 +18,7 @@ from studies.kit.claim import Claim, judge, put_claims
 from studies.kit.cluster import ClusterError, check_scheduler
 from studies.kit.csvfile import OtherTable
 from studies.kit.figure import save
-from studies.kit.sweep import (
-    RESULTS,
-    CasesFailed,
-    Interrupted,
-    NoSuchCase,
-    check_workers,
-    command,
-    load,
-    put_derived,
-    sweep,
-)
+from studies.kit.sweep import RESULTS, CasesFailed, Interrupted, NoSuchCase, check_workers, command, load, put_derived, sweep
 from studies.kit.table import SIZES, Table, Tables, check_size
 
 Rows = Mapping[str, list[dict[str, Any]]]

@@ -4,8 +4,6 @@ import time
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
 
-from continuum import jit  # noqa: F401  (numba's cache folder is set before numba is loaded)
-
 from numba.core import event  # isort: skip
 
 T = TypeVar("T")

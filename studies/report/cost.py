@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from studies.convection.figures_names import METHODS, WORDS
-from studies.convection.pick import LABELS
+from studies.rb.figures.names import METHODS, WORDS
+from studies.rb.looks import LABELS
 from studies.report.behind import plain
 from studies.report.found import Part, Sheet
 from studies.report.needs import Need, given, needed_of, needs

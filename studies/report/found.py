@@ -18,8 +18,7 @@ from studies.kit.table import STAMP
 #: folders that are no study
 OTHERS = {"raw": "", "quick": "", "films": "", "bench": "Speed beside public codes, in one run"}
 #: the order of the page; studies that are not named follow by name
-FIRST = ("rb", "speed", "hardcases", "onset", "scenes", "operators", "ordering", "motions", "conservation", "nested", "transport",
-         "bodies", "fluctuations", "dpd")
+FIRST = ("rb", "cost", "hardcases", "onset", "operators", "ordering", "conservation", "noise", "lattices")
 
 #: letters of a question from which on its first sentence will do
 LONG = 160
@@ -111,12 +110,12 @@ def study_of(name: str) -> Study | None:
     NoReport
         Its code cannot be loaded.
     """
-    if not (ROOT/"studies"/f"{name}.py").exists():
+    if not (ROOT/"studies"/name/"__init__.py").exists():
         return None
     try:
         study: Study = importlib.import_module(f"studies.{name}").STUDY
     except Exception as error:      # whatever its modules raise
-        raise NoReport(f"studies/{name}.py cannot be loaded ({type(error).__name__}: {error}): mend it, its tables and figures "
+        raise NoReport(f"studies/{name} cannot be loaded ({type(error).__name__}: {error}): mend it, its tables and figures "
                        f"cannot be told without it; python -m studies.{name} --help has the whole story") from error
     return study
 
@@ -138,10 +137,10 @@ def check_columns(found: list[Part]) -> None:
 
 
 def question(name: str) -> str:
-    """First sentence of the study's own file."""
+    """First sentence of the study's own docstring."""
     if OTHERS.get(name):
         return OTHERS[name]
-    file = ROOT/"studies"/f"{name}.py"
+    file = ROOT/"studies"/name/"__init__.py"
     text = ast.get_docstring(ast.parse(file.read_text())) if file.exists() else ""
     first = " ".join((text or name).split("\n\n")[0].split())
     return re.split(r"(?<=[.?])(?<!Sec\.)(?<!Eq\.)\s(?=[A-Z`])", first)[0] if len(first) > LONG else first

@@ -4,15 +4,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.compressible import run as march
-from continuum.compressible_fields import initial
 from continuum.fluid import temperature
+from continuum.gas.fields import initial
+from continuum.gas.solve import run as march
 from continuum.scene import RayleighBenard
 from continuum.steady import Time
 from particles.limits import limit_of
 from particles.run import Plan, run
-from studies.convection import drift, moving, spam
-from studies.convection.names import START_ENERGY
+from studies.build import moving, spam
+from studies.build import rr98_moving as drift
+from studies.build.names import START_ENERGY
 
 OF_FIRST = 0.6      # of the limit of the step at the start: it falls as the flow grows
 

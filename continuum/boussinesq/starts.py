@@ -1,0 +1,43 @@
+"""States to start from: rest, rolls, and the initial condition of KHP95."""
+import numpy as np
+
+from continuum.boussinesq.flow import Case, State
+from continuum.boussinesq.mac import End
+from continuum.linear.layer import critical_ra
+
+
+def rest(case: Case) -> State:
+    """No flow, and the temperature that conduction would give: linear between the plates, or the sides."""
+    mac, plates = case.mac, case.box.plates
+    x, y = np.meshgrid(mac.x.centre/case.box.width, mac.y.centre, indexing="ij")
+    T = 0.5 - (y if plates.heat is End.WALL else x)
+    return State(case=case, q=np.r_[np.zeros(mac.ends[1]), T.ravel()])
+
+
+def roll(case: Case, rolls: int = 1) -> State:
+    """Rolls side by side, rising at the left side, with the steady amplitude of the three-mode (Lorenz) model.
+
+    That model has free plates; its ratio Ra/Ra_c is taken with the rigid one, and not below 1.1, so that the
+    start is finite also below onset.
+    """
+    if rolls < 1 or (case.mac.periodic and rolls % 2):
+        raise ValueError(f"{rolls} rolls do not fit: a box has at least 1, a periodic one an even number")
+    mac, a = case.mac, rolls/case.box.width
+    r = max(case.ra/critical_ra(np.pi*a), 1.1)
+    swing = np.sqrt(8*(r - 1)/(1 + a**2))
+    x, y = np.pi*a*mac.x.face[:, None], np.pi*mac.y.face
+    psi = -case.kappa*(1 + a**2)/a*swing*np.sin(x)*np.sin(y)**2
+    x, y = np.pi*a*mac.x.centre[:, None], np.pi*mac.y.centre
+    warm = (swing*np.cos(x)*np.sin(y) - (r - 1)*np.sin(2*y))/(np.pi*r)
+    T = rest(case).parts[2] + warm*(case.box.plates.heat is End.WALL)
+    return State(case=case, q=np.r_[mac.curl@psi.ravel(), T.ravel()])
+
+
+def khp95(case: Case, K: float) -> State:
+    """Initial rolls of KHP95, Sec. VI, with linear T and kinetic energy K; they are not free of divergence."""
+    if not case.mac.periodic or case.box.width != 2:
+        raise ValueError(f"box is {case.box}: the two rolls of KHP95 need LAYER, periodic and of width 2")
+    u, v = (np.meshgrid(np.pi*(x - 1), np.pi*(y - 0.5), indexing="ij") for x, y in case.mac.points[:2])
+    flow = np.r_[(np.sin(u[0])*np.sin(2*u[1])).ravel(), (np.cos(v[0])*np.cos(v[1])).ravel()]
+    flow *= np.sqrt(2*K/(case.mac.cell*float(flow@flow)))
+    return State(case=case, q=np.r_[flow, rest(case).parts[2].ravel()])

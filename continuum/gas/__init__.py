@@ -1,0 +1,1 @@
+"""The compressible gas on a grid    [KHP95, Sec. V]"""

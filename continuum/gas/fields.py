@@ -1,0 +1,217 @@
+"""States of the compressible grid and what is measured on them: energy, Nusselt numbers, rolls, values."""
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.interpolate import RectBivariateSpline
+
+from continuum.fluid import conductivity, energy, pressure, stress, temperature, viscosity
+from continuum.gas.loop import RHO, VX, VY, E
+from continuum.scene import Periodic, Torus, Walls
+
+STILL = 1e-12  # K of a fluid at rest; rolls have 1e-5 already 0.3 % above onset
+
+
+class Values(NamedTuple):
+    """Fields at points."""
+    vx: np.ndarray
+    vy: np.ndarray
+    e: np.ndarray
+    T: np.ndarray
+    rho: np.ndarray
+
+
+@dataclass(frozen=True)
+class Fields:
+    """A state on its grid: `at` nodes, walls included, each (rows+1, columns+1); `cells`: densities in cells.
+
+    `x`, `y` are the coordinates of the nodes; rows go up. Between periodic sides the last column repeats the
+    first, on a torus the last row, too.
+    """
+    scene: Any
+    x: np.ndarray
+    y: np.ndarray
+    at: Values
+    cells: np.ndarray
+
+    @property
+    def h(self) -> float:
+        return float(self.y[1] - self.y[0])
+
+    @property
+    def periodic(self) -> bool:
+        return isinstance(self.scene.sides, Periodic)
+
+
+def nodes(scene, rows: int) -> tuple[np.ndarray, np.ndarray]:
+    """Coordinates of the columns and rows of nodes: `rows` square cells over the height.
+
+    Raises
+    ------
+    ValueError
+        `rows` is odd or below 8, or the cells cannot be square.
+    """
+    if rows < 8 or rows % 2:
+        raise ValueError(f"rows must be even and at least 8, got {rows}: rolls are counted at mid-height")
+    columns = round(scene.aspect*rows)
+    if not np.isclose(columns, scene.aspect*rows) or columns < 4:
+        raise ValueError(f"cells are square: aspect x rows = {scene.aspect} x {rows} must be a whole number, "
+                         "4 or more; change the rows or the aspect")
+    return scene.width*np.linspace(-0.5, 0.5, columns + 1), scene.L*np.linspace(-0.5, 0.5, rows + 1)
+
+
+def initial(scene, rows: int, ke: float = 0.0018, rolls: int | None = None) -> Fields:
+    """Rolls of kinetic energy `ke` per mass, linear temperature    [KHP95, Sec. VI; Fig. 9: 9/5000]"""
+    x, y = nodes(scene, rows)
+    X, Y = np.meshgrid(x, y)
+    vx, vy = scene.flow(X, Y, ke, rolls)
+    T = scene.T(Y)
+    return Fields(scene, x, y, Values(vx, vy, energy(scene.eos, 1.0, T), T, np.ones_like(T)),
+                  np.ones((rows, len(x) - 1)))
+
+
+def placed(scene, rows: int, start: Callable[[np.ndarray, np.ndarray], tuple]) -> Fields:
+    """Fields of a start(x, y) = (rho, v_x, v_y, T): densities in the middle of cells, all else at nodes."""
+    x, y = nodes(scene, rows)
+    rho, vx, vy, T = (np.broadcast_to(f, (len(y), len(x))) for f in start(*np.meshgrid(x, y)))
+    middle = np.meshgrid((x[1:] + x[:-1])/2, (y[1:] + y[:-1])/2)
+    cells = np.broadcast_to(start(*middle)[0], middle[0].shape)
+    return Fields(scene, x, y, Values(vx, vy, energy(scene.eos, rho, T), T, rho), cells)
+
+
+# --- between the block of the loop and fields --------------------------------------------------------------
+
+
+def block(fields: Fields) -> np.ndarray:
+    """The state as the loop wants it; its ghosts are not yet filled."""
+    S = np.ones((4, len(fields.y) + 1, len(fields.x) + 1))
+    S[VX, 1:, 1:], S[VY, 1:, 1:], S[E, 1:, 1:] = fields.at[:3]
+    S[RHO, 1:-1, 1:-1] = fields.cells
+    if not isinstance(fields.scene.sides, Torus):
+        S[:2, [1, -1]] = 0
+    if isinstance(fields.scene.sides, Walls):
+        S[:2, :, [1, -1]] = 0
+    return S
+
+
+def unblock(scene, S: np.ndarray) -> Fields:
+    """Fields of a block whose ghosts are filled."""
+    x, y = nodes(scene, S.shape[1] - 2)
+    rho = node_densities(S)
+    vx, vy, e = (S[f, 1:, 1:].copy() for f in (VX, VY, E))
+    at = Values(vx, vy, e, temperature(scene.eos, rho, e), rho)
+    return Fields(scene, x, y, at, S[RHO, 1:-1, 1:-1].copy())
+
+
+def node_densities(S: np.ndarray) -> np.ndarray:
+    rho = S[RHO]
+    return (rho[:-1, :-1] + rho[1:, :-1] + rho[:-1, 1:] + rho[1:, 1:])/4
+
+
+# --- interpolation ----------------------------------------------------------------------------------------
+
+
+def interpolate(fields: Fields, x, y) -> Values:
+    """Cubic splines through the nodes, at points (x, y) in the box; x is periodic where the sides are.
+
+    Raises
+    ------
+    ValueError
+        A point lies outside of the box.
+    """
+    x, y = np.asarray(x, float), np.asarray(y, float)
+    if fields.periodic:
+        x = fields.x[0] + (x - fields.x[0]) % fields.scene.width
+    for name, q, grid in (("x", x, fields.x), ("y", y, fields.y)):
+        room = 1e-9*fields.h
+        if np.any((q < grid[0] - room) | (q > grid[-1] + room)):
+            raise ValueError(f"{name} goes from {q.min():.6g} to {q.max():.6g}, the box from {grid[0]:.6g} "
+                             f"to {grid[-1]:.6g}: ask for points inside")
+    return Values(*(spline(fields, f)(y, x, grid=False) for f in fields.at))
+
+
+def spline(fields: Fields, f: np.ndarray) -> RectBivariateSpline:
+    if not fields.periodic:
+        return RectBivariateSpline(fields.y, fields.x, f)
+    more = 4
+    wide = np.pad(f[:, :-1], ((0, 0), (more, more + 1)), mode="wrap")
+    return RectBivariateSpline(fields.y, fields.x[0] + fields.h*np.arange(-more, len(fields.x) + more), wide)
+
+
+def onto(scene, rows: int, fields: Fields) -> Fields:
+    """`fields` on another grid or in another scene of the same shape; mean density exactly 1."""
+    x, y = nodes(scene, rows)
+    scale = scene.L/fields.scene.L
+    if len(x) == len(fields.x) and len(y) == len(fields.y):
+        return Fields(scene, x, y, fields.at, fields.cells)
+    X, Y = np.meshgrid(x, y)
+    centre_x, centre_y = X[:-1, :-1] + scene.L/rows/2, Y[:-1, :-1] + scene.L/rows/2
+    cells = interpolate(fields, centre_x/scale, centre_y/scale).rho
+    return Fields(scene, x, y, interpolate(fields, X/scale, Y/scale), cells/cells.mean())
+
+
+# --- what is measured -------------------------------------------------------------------------------------
+
+
+def kinetic_energy(S: np.ndarray) -> float:
+    """K: kinetic energy per mass of a block, sigma^2 per time^2 (free-fall units for the ideal gas)."""
+    rho = node_densities(S)[:, :-1]  # the last column of nodes repeats the first or is at rest
+    v2 = S[VX, 1:, 1:-1]**2 + S[VY, 1:, 1:-1]**2
+    return float(0.5*np.sum(rho*v2)/np.sum(S[RHO, 1:-1, 1:-1]))
+
+
+def count_rolls(fields: Fields) -> int:
+    """Changes of sign of v_y along mid-height; 0 at rest."""
+    v = fields.at.vy[len(fields.y)//2]
+    if np.max(v**2)/2 < STILL:
+        return 0
+    up = v[np.abs(v) > 1e-6*np.abs(v).max()] > 0
+    return int(np.sum(up[1:] != up[:-1]) + (fields.periodic and up[-1] != up[0]))
+
+
+class Nusselt(NamedTuple):
+    """Heat per conduction k dT/L: in at the bottom, out at the top, upwards on average over the volume."""
+    bottom: float
+    top: float
+    volume: float
+    loss: float  # what enters through all walls and does not leave, per heat through the bottom
+
+
+def nusselt(fields: Fields) -> Nusselt:
+    """`bottom`, `top` from one-sided second-order gradients; side walls let heat through too."""
+    scene = fields.scene
+    unit = scene.k*scene.dT/scene.L
+    k = conductivity(scene.law, fields.at.rho, fields.at.T)*np.ones_like(fields.at.T)
+    south, north, west, east = (wall_flux(f, q, fields.h)/(unit*scene.aspect*scene.L) for f, q in zip(
+        (fields.at.T, fields.at.T[::-1], fields.at.T.T, fields.at.T.T[::-1]), (k, k[::-1], k.T, k.T[::-1])))
+    sides = 0.0 if fields.periodic else west + east
+    return Nusselt(south, -north, float(np.mean(energy_flux(fields)))/unit, (south + north + sides)/south)
+
+
+def wall_flux(T: np.ndarray, k: np.ndarray, h: float) -> float:
+    """Heat that enters through the first row of nodes."""
+    return float(h*np.trapezoid(k[0]*(3*T[0] - 4*T[1] + T[2])/(2*h)))
+
+
+def energy_flux(fields: Fields) -> np.ndarray:
+    """Vertical flux of total energy in cells: rho v_y (e + P/rho + v^2/2 + g y) - (sigma.v)_y - k dT/dy.
+
+    In a steady state between periodic sides its mean over x is the same at every y: the flux of the plates.
+    """
+    scene, (vx, vy, e, T, rho) = fields.scene, fields.at
+    (mx, xx, yx), (my, xy, yy), (mT, _, slope) = (corners(f, fields.h) for f in (vx, vy, T))
+    carried = mean(vy*(rho*(e + (vx**2 + vy**2)/2 + scene.g*fields.y[:, None]) + pressure(scene.eos, rho, e)))
+    _, sxy, syy = stress(viscosity(scene.law, fields.cells, mT), 0.0, xx, xy, yx, yy)
+    return carried - (sxy*mx + syy*my) - conductivity(scene.law, fields.cells, mT)*slope
+
+
+def mean(f: np.ndarray) -> np.ndarray:
+    """Means over the corners of the cells."""
+    return (f[:-1, :-1] + f[1:, :-1] + f[:-1, 1:] + f[1:, 1:])/4
+
+
+def corners(f: np.ndarray, h: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Mean, d/dx, d/dy in cells from their corners."""
+    up, down = f[1:, 1:] - f[:-1, :-1], f[:-1, 1:] - f[1:, :-1]
+    return mean(f), (up + down)/(2*h), (up - down)/(2*h)

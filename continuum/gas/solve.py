@@ -1,0 +1,250 @@
+"""Compressible Navier-Stokes-Fourier between two plates on a regular grid [KHP95, Sec. V]: the driver.
+
+    solution = run(RayleighBenard(ra=1e4), rows=32)
+    solutions = steady_on(RayleighBenard(ra=1e4), (16, 24, 32, 48))
+
+Second order in space, fourth in time, fixed step. The loop is in `compressible_loop`, fields and what is
+measured on them in `compressible_fields`, rules when to stop in `steady`.
+"""
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import check_state, conductivity, pressure, pressure_slopes, temperature, valid, viscosity
+from continuum.gas.fields import (
+    Fields,
+    Nusselt,
+    block,
+    count_rolls,
+    initial,
+    kinetic_energy,
+    node_densities,
+    nusselt,
+    onto,
+    unblock,
+    wall_flux,
+)
+from continuum.gas.loop import FIELDS, RHO, VX, VY, E, FluxForm, advance, box_of
+from continuum.steady import Steady
+
+RK4_SOUND, RK4_DECAY = 2.82, 2.78  # where RK4's stability region ends on the imaginary and on the real axis
+SAFETY = 0.8
+
+
+class DivergedError(ArithmeticError):
+    """The solution is not finite any more or left the validity of its equation of state."""
+
+
+class Series(NamedTuple):
+    """Samples in time: K, Nusselt number of the lower plate, mean density."""
+    t: np.ndarray
+    ke: np.ndarray
+    nu: np.ndarray
+    mass: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Solution:
+    """What a run ended with.
+
+    `ke` is K at the end with what is left of its decay added, `ke_err` the size of that (not the error of the
+    grid); `nusselt.bottom`, `.top`, `.volume` agree to the error of the grid when steady; `mass_drift` is
+    relative; `compile_s` is small from the second process on.
+    """
+    scene: Any
+    rows: int
+    fields: Fields
+    t: float
+    series: Series
+    ke: float
+    ke_err: float
+    nusselt: Nusselt
+    rolls: int
+    mass_drift: float
+    converged: bool
+    dt: float
+    steps: int
+    cpu_s: float
+    compile_s: float
+
+    @property
+    def nu(self) -> float:
+        """Nusselt number: of the volume, whose error is purely second order; between side walls of the plates."""
+        plates = (self.nusselt.bottom + self.nusselt.top)/2
+        return self.nusselt.volume if self.fields.periodic else plates
+
+    @property
+    def energy_drift(self) -> float:
+        """Heat that enters through the walls and does not leave, per heat through the lower plate."""
+        return self.nusselt.loss
+
+
+# --- step -------------------------------------------------------------------------------------------------
+
+
+class Limits(NamedTuple):
+    """Largest stable steps: for sound and advection alone, for diffusion alone, for both."""
+    sound: float
+    diffusion: float
+
+    @property
+    def both(self) -> float:
+        return 1/(1/self.sound + 1/self.diffusion)
+
+
+def limits(scene, S: np.ndarray) -> Limits:
+    """From the fastest wave and the largest diffusivity; compact differences see wave numbers to 2/h."""
+    h, rho, (vx, vy, e) = scene.L/(S.shape[1] - 2), node_densities(S), (S[f, 1:, 1:] for f in (VX, VY, E))
+    T = temperature(scene.eos, rho, e)
+    T_e = (temperature(scene.eos, rho, e + 1e-6) - T)/1e-6
+    spread = np.maximum(viscosity(scene.law, rho, T), conductivity(scene.law, rho, T)*T_e)/rho
+    fast = 2*sound_of_grid(scene.eos, rho, e) + np.abs(vx) + np.abs(vy)
+    with np.errstate(divide="ignore"):      # no diffusion, no limit
+        return Limits(RK4_SOUND*h/float(np.max(fast)), float(RK4_DECAY*h**2/(4*np.max(spread))))
+
+
+def sound_of_grid(eos, rho, e):
+    """Largest omega h/2: omega^2 = (4/h^2) s (P_rho + (1 - s) P P_e/rho^2), 0 < s < 1, e being averaged to cells."""
+    a, b = pressure_slopes(eos, rho, e)
+    b = b*pressure(eos, rho, e)/rho**2
+    inside = np.where(b > a, b, a)  # the maximum over s lies inside if b > a, else at s = 1
+    return (a + inside)/(2*np.sqrt(inside))
+
+
+def choose_step(scene, S: np.ndarray, dt: float | None) -> float:
+    limit = limits(scene, S)
+    if dt is None:
+        return SAFETY*limit.both
+    if not 0 < dt <= limit.both:
+        raise ValueError(f"dt = {dt:.4g} must be positive and not above the stability limit {limit.both:.4g} "
+                         f"(sound {limit.sound:.4g}, diffusion {limit.diffusion:.4g}): lower or omit dt")
+    return dt
+
+
+# --- marching ---------------------------------------------------------------------------------------------
+
+
+class March:
+    """A block in motion."""
+
+    def __init__(self, scene, S: np.ndarray, continuity, dt: float):
+        rows, columns = S.shape[1] - 2, S.shape[2] - 2
+        self.scene, self.S, self.dt, self.steps = scene, S, dt, 0
+        self.laws = (scene.sides, scene.eos, scene.law, continuity, box_of(scene, rows))
+        self.scratch = (np.zeros((3, *S.shape)), np.zeros((2, 8, columns + 2)))
+        start = time.process_time()
+        self._advance(0)
+        self.compile_s, self.start = time.process_time() - start, time.process_time()
+
+    @property
+    def t(self) -> float:
+        return self.steps*self.dt
+
+    def _advance(self, steps: int) -> None:
+        advance(*self.laws, self.S, *self.scratch, self.dt, steps)
+
+    def go(self, steps: int) -> None:
+        """Advance; if that fails, go back and find out where it did."""
+        before = self.S.copy()
+        self._advance(steps)
+        self.steps += steps
+        if self._bad().any():
+            self.S[:], self.steps = before, self.steps - steps
+            self._find()
+
+    def _bad(self) -> np.ndarray:
+        """True at nodes whose state cannot be."""
+        rho, e = node_densities(self.S), self.S[E, 1:, 1:]
+        with np.errstate(all="ignore"):
+            return ~(np.isfinite(self.S[:, 1:, 1:]).all(axis=0) & valid(self.scene.eos, rho, e))
+
+    def _find(self) -> None:
+        while not (bad := self._bad()).any():
+            self._advance(1)
+            self.steps += 1
+        j, i = np.argwhere(bad)[0]
+        state = self.S[:, 1 + j, 1 + i]
+        finite = np.isfinite(state)
+        field = "rho, e, T or c^2" if finite.all() else FIELDS[int(np.argmin(finite))]
+        h = self.scene.L/(self.S.shape[1] - 2)
+        raise DivergedError(
+            f"diverged in step {self.steps} (t = {self.t:.6g}): {field} is not valid at node ({j}, {i}), "
+            f"x = {i*h - self.scene.width/2:.4g}, y = {j*h - self.scene.L/2:.4g}, where "
+            + ", ".join(f"{name} = {value:.4g}" for name, value in zip(FIELDS, state))
+            + f"; dt is {self.dt:.4g}: take more rows (thinner cells) or a smaller dt")
+
+
+def sample(scene, S: np.ndarray, t: float) -> tuple[float, float, float, float]:
+    rho, e = node_densities(S[:, :5]), S[E, 1:4, 1:]
+    T = temperature(scene.eos, rho[:3], e)
+    k = conductivity(scene.law, rho[:3], T)*np.ones_like(T)
+    flux = wall_flux(T, k, scene.L/(S.shape[1] - 2))
+    return t, kinetic_energy(S), flux/(scene.k*scene.dT*scene.aspect), float(np.mean(S[RHO, 1:-1, 1:-1]))
+
+
+# --- runs -------------------------------------------------------------------------------------------------
+
+
+def run(scene, rows: int, *, until: Any = Steady(), start: Fields | None = None, dt: float | None = None,  # noqa: B008
+        continuity: Any = FluxForm(), progress: Callable[[float], None] | None = None) -> Solution:  # noqa: B008
+    """Solve a scene on `rows` rows of square cells.
+
+    Parameters
+    ----------
+    scene : RayleighBenard, or anything with its attributes.
+    until : Steady(rtol=...) or Time(t_end).
+    start : fields to start from, of any grid; KHP95's two rolls by default.
+    dt : largest step (by default 0.8 of the stability limit); the one taken divides the time between samples.
+    continuity : FluxForm() or PaperForm().
+    progress : called with the fraction done.
+
+    Raises
+    ------
+    ValueError
+        Rows odd or below 8, dt above the stability limit, start outside of the equation of state's validity.
+    DivergedError
+        Names step, time, field and node.
+    """
+    fields = initial(scene, rows) if start is None else onto(scene, rows, start)
+    check_state(scene.eos, fields.at.rho, fields.at.e)
+    S = block(fields)
+    interval = until.interval(scene)
+    count = int(np.ceil(interval/choose_step(scene, S, dt)*(1 - 1e-12)))
+    march = March(scene, S, continuity, interval/count)
+    samples = [sample(scene, S, 0.0)]
+    while not until.done(scene, [s[1] for s in samples]):
+        march.go(count)
+        samples.append(sample(scene, S, march.t))
+        if progress:
+            progress(until.fraction(scene, [s[1] for s in samples]))
+    return finish(rows, march, until, Series(*np.array(samples).T))
+
+
+def finish(rows: int, march: March, until, series: Series) -> Solution:
+    fields = unblock(march.scene, march.S)
+    ke, ke_err = until.estimate(series.ke)
+    return Solution(
+        scene=march.scene, rows=rows, fields=fields, t=march.t, series=series, ke=ke, ke_err=ke_err,
+        nusselt=nusselt(fields), rolls=count_rolls(fields), mass_drift=series.mass[-1]/series.mass[0] - 1,
+        converged=until.settled(series.ke), dt=march.dt, steps=march.steps,
+        cpu_s=time.process_time() - march.start, compile_s=march.compile_s)
+
+
+def steady_on(scene, sizes: Sequence[int], *, start: Fields | None = None, **options) -> list[Solution]:
+    """Steady solutions on ever finer grids, each started from the one before.
+
+    Raises
+    ------
+    ValueError
+        There are no sizes.
+    """
+    if not len(sizes):
+        raise ValueError(f"there are no grids (sizes = {sizes}): give their rows, coarsest first, as in (16, 24, 32)")
+    solutions: list[Solution] = []
+    for rows in sizes:
+        solutions.append(run(scene, rows, start=start, **options))
+        start = solutions[-1].fields
+    return solutions

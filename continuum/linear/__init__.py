@@ -1,0 +1,1 @@
+"""Linear stability of layers and squares heated from below."""

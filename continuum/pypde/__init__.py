@@ -1,0 +1,1 @@
+"""Convection again, solved with py-pde."""

@@ -1,0 +1,221 @@
+"""Boussinesq convection as an equation of py-pde: vorticity omega, streamfunction psi, temperature T.
+
+    domega/dt + u.grad omega = nu Lap omega + dT/dx,    dT/dt + u.grad T = kappa Lap T,    Lap psi = -omega
+
+with u = (dpsi/dy, -dpsi/dx), in free-fall units: nu = sqrt(Pr/Ra), kappa = 1/sqrt(Pr Ra), height 1, T = 1/2 on the
+lower and -1/2 on the upper plate. psi = 0 on both: no net flow along the layer.
+
+The rows of py-pde's grid lie at y = h, 2 h, ..., 1 - h, so that its ghosts lie on the plates themselves. There no slip
+gives Thom's vorticity -2 psi(h)/h^2; on py-pde's ordinary cells, with the plates half a cell outside, that formula is
+not consistent. It is of first order on the plate, the solution is of second.
+"""
+from typing import Any
+
+import numpy as np
+
+from continuum.jit import jit
+from continuum.linear.layer import positive
+
+# continuum.jit comes before everything that loads numba
+# isort: split
+from pde import CartesianGrid, FieldCollection, PDEBase, ScalarField, VectorField
+
+PERIODIC = {"x": "periodic"}
+RK4_DECAY, RK4_WAVE = 2.78, 2.82    # where RK4's stability region ends on the real and on the imaginary axis
+FREE_FALL = 1.0                     # largest |u| + |v|
+
+
+class Boussinesq(PDEBase):
+    """The layer between rigid plates on `rows` rows of square cells, periodic in x with period `aspect`."""
+
+    explicit_time_dependence = False
+
+    def __init__(self, *, ra: float, pr: float, rows: int, aspect: float = 2.0):
+        super().__init__()
+        positive(Ra=ra, Pr=pr)
+        columns = round(aspect*rows)
+        if rows < 8 or rows % 2 or columns < 4 or not np.isclose(columns, aspect*rows):
+            raise ValueError(f"rows must be even, at least 8, and times aspect {aspect} a whole number, got {rows}: "
+                             "rolls are counted at mid-height, cells are square")
+        self.ra, self.pr, self.rows, self.h = ra, pr, rows, 1/rows
+        self.nu, self.kappa = float(np.sqrt(pr/ra)), float(1/np.sqrt(pr*ra))
+        self.grid = CartesianGrid([(0, aspect), (self.h/2, 1 - self.h/2)], (columns, rows - 1), periodic=(True, False))
+        self.basis = self._poisson_basis()
+        self.psi_bc = PERIODIC | {"y": {"virtual_point": 0}}
+        self.T_bc = PERIODIC | {"y-": {"virtual_point": 0.5}, "y+": {"virtual_point": -0.5}}
+
+    @property
+    def viscous_time(self) -> float:
+        """1/nu, in free-fall times."""
+        return 1/self.nu
+
+    @property
+    def grid_box(self) -> tuple[float, float]:
+        """Width and height."""
+        return float(self.grid.axes_bounds[0][1]), 1.0
+
+    def step_limit(self) -> float:
+        """Largest stable step of RK4, for the largest decay rate and the fastest advection together."""
+        decay, wave = 8*max(self.nu, self.kappa)/self.h**2, FREE_FALL/self.h
+        return 1/(decay/RK4_DECAY + wave/RK4_WAVE)
+
+    # --- streamfunction -----------------------------------------------------------------------------------
+
+    def _poisson_basis(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Eigenvectors of the second differences in x and y, and the inverse of -Lap_h in them."""
+        columns, inner = self.grid.shape
+        x = np.eye(columns, k=1) + np.eye(columns, k=1 - columns)
+        y = np.eye(inner, k=1)
+        (kx, X), (ky, Y) = (np.linalg.eigh((2*np.eye(len(a)) - a - a.T)/self.h**2) for a in (x, y))
+        return np.ascontiguousarray(X), np.ascontiguousarray(Y), 1/(kx[:, None] + ky)
+
+    def streamfunction(self, omega: np.ndarray) -> np.ndarray:
+        """psi of Lap_h psi = -omega, zero on the plates; fast diagonalisation, exact to round-off."""
+        X, Y, inverse = self.basis
+        return X@(inverse*(X.T@omega@Y))@Y.T
+
+    def thom(self, data_full, args=None):
+        """Ghosts of the vorticity: -2 psi/h^2 on the plates from psi = `args` beside them, periodic in x."""
+        data_full[1:-1, 0], data_full[1:-1, -1] = -2*args[:, 0]/self.h**2, -2*args[:, -1]/self.h**2
+        data_full[0], data_full[-1] = data_full[-2], data_full[1]
+
+    # --- rates --------------------------------------------------------------------------------------------
+
+    def evolution_rate(self, state: Any, t: float = 0) -> Any:
+        """The rates with py-pde's operators."""
+        omega, T = state
+        psi = ScalarField(self.grid, self.streamfunction(omega.data))
+        grad_psi = psi.gradient(self.psi_bc)
+        u = VectorField.from_scalars([grad_psi[1], -grad_psi[0]])
+        grad_T = T.gradient(self.T_bc)
+        advected = u.dot(omega.gradient(self.thom, args=psi.data))
+        omega_rate = self.nu*omega.laplace(self.thom, args=psi.data) - advected + grad_T[0]
+        T_rate = self.kappa*T.laplace(self.T_bc) - u.dot(grad_T)
+        return FieldCollection([omega_rate, T_rate])
+
+    def make_evolution_rate(self, state, backend):
+        """The same for py-pde's compiled steppers."""
+        nu, kappa, h, (X, Y, inverse) = self.nu, self.kappa, self.h, self.basis
+        shape = (3, *(n + 2 for n in self.grid.shape))
+
+        def rate(data, t):
+            full, out = np.empty(shape), np.empty_like(data)
+            rates(nu, kappa, h, X, Y, inverse, data, full, out)
+            return out
+
+        return rate
+
+    # --- states -------------------------------------------------------------------------------------------
+
+    def points(self, field: int) -> tuple[np.ndarray, np.ndarray]:
+        """x and y of the points, the ghosts' included."""
+        columns, inner = self.grid.shape
+        return self.h*(np.arange(columns + 2) - 0.5), self.h*np.arange(inner + 2)
+
+    def state(self, data: np.ndarray) -> FieldCollection:
+        """Fields of py-pde from an array (2, columns, rows - 1)."""
+        return FieldCollection([ScalarField(self.grid, f) for f in data], labels=["omega", "T"])
+
+    def rolls(self, ke: float, number: int | None = None) -> np.ndarray:
+        """Rolls psi ~ sin(kx) sin^2(pi y) of kinetic energy `ke`, linear temperature."""
+        width = self.grid_box[0]
+        number = 2*max(1, round(width/2)) if number is None else number
+        if number < 2 or number % 2:
+            raise ValueError(f"rolls between periodic sides come in pairs, got {number}: give an even number")
+        if not ke >= 0:
+            raise ValueError(f"the kinetic energy of the initial rolls cannot be negative, got {ke}")
+        x, y = np.meshgrid(*(p[1:-1] for p in self.points(0)), indexing="ij")
+        X, Y, inverse = self.basis
+        psi = np.sin(np.pi*number*x/width)*np.sin(np.pi*y)**2
+        data = np.array([X@((X.T@psi@Y)/inverse)@Y.T, 0.5 - y])
+        data[0] *= np.sqrt(ke/self.kinetic_energy(data))
+        return data
+
+    def padded(self, data: np.ndarray) -> np.ndarray:
+        """(omega, T, psi) with their ghosts, each (columns+2, rows+1)."""
+        full = np.empty((3, *(n + 2 for n in self.grid.shape)))
+        pad(self.h, data, self.streamfunction(data[0]), full)
+        return full
+
+    def repaired(self, data: np.ndarray) -> np.ndarray:
+        """What interpolation gave already is a state."""
+        return data
+
+    def trouble(self, data: np.ndarray) -> str:
+        """What is wrong with a state, if anything."""
+        names = [name for name, f in zip(("omega", "T"), data) if not np.isfinite(f).all()]
+        return f"{' and '.join(names)} not finite" if names else ""
+
+    # --- what is measured ---------------------------------------------------------------------------------
+
+    def kinetic_energy(self, data: np.ndarray) -> float:
+        """K = <psi omega>/2, the sum of (grad_h psi)^2/2 over all links."""
+        return float(0.5*np.sum(self.streamfunction(data[0])*data[0])*self.h**2/self.grid_box[0])
+
+    def measure(self, data: np.ndarray) -> tuple[float, float, float]:
+        """K, Nusselt number of the lower plate, mass."""
+        return self.kinetic_energy(data), self.nusselt(data)[0], 1.0
+
+    def rising(self, data: np.ndarray) -> np.ndarray:
+        """v at mid-height."""
+        psi = self.streamfunction(data[0])[:, self.rows//2 - 1]
+        return (np.roll(psi, 1) - np.roll(psi, -1))/(2*self.h)
+
+    def nusselt(self, data: np.ndarray) -> tuple[float, float, float]:
+        """Of the plates, and of the volume 1 + <vT>/kappa.
+
+        The difference of the first two rows is the flux that the scheme itself sends through a plate; it is of second
+        order because T'' is zero there, where nothing moves.
+        """
+        _, T, psi = self.padded(data)
+        bottom, top = (float(np.mean((f[:, 0] - f[:, 1])[1:-1]))/self.h for f in (T, -T[:, ::-1]))
+        v = (psi[:-2] - psi[2:])/(2*self.h)
+        return bottom, top, 1 + float(np.mean(v*T[1:-1], axis=0).sum())*self.h/self.kappa
+
+    def fields(self, data: np.ndarray) -> dict[str, np.ndarray]:
+        """x, y, u, v, T, omega, psi at the points of the grid, plates included; each (columns, rows+1)."""
+        omega, T, psi = self.padded(data)
+        x, y = np.meshgrid(*self.points(0), indexing="ij")
+        u, v = np.gradient(psi, self.h, axis=1, edge_order=2), (np.roll(psi, 1, 0) - np.roll(psi, -1, 0))/(2*self.h)
+        u[:, [0, -1]] = 0
+        named = {"x": x, "y": y, "u": u, "v": v, "T": T, "omega": omega, "psi": psi}
+        return {name: f[1:-1] for name, f in named.items()}
+
+
+# --- compiled ---------------------------------------------------------------------------------------------
+
+
+@jit
+def pad(h, data, psi, S):
+    """(omega, T, psi) between ghosts."""
+    nx, ny = psi.shape
+    for i in range(nx):
+        for j in range(ny):
+            S[0, i + 1, j + 1], S[1, i + 1, j + 1], S[2, i + 1, j + 1] = data[0, i, j], data[1, i, j], psi[i, j]
+        S[0, i + 1, 0], S[0, i + 1, ny + 1] = -2*psi[i, 0]/h**2, -2*psi[i, ny - 1]/h**2
+        S[1, i + 1, 0], S[1, i + 1, ny + 1] = 0.5, -0.5
+        S[2, i + 1, 0], S[2, i + 1, ny + 1] = 0.0, 0.0
+    for f in range(3):
+        for j in range(ny + 2):
+            S[f, 0, j], S[f, nx + 1, j] = S[f, nx, j], S[f, 1, j]
+
+
+@jit
+def spread_and_carry(diffusivity, h, u, v, f, i, j):
+    """diffusivity Lap f - u.grad f at one point."""
+    lap = ((f[i + 1, j] + f[i - 1, j]) + (f[i, j + 1] + f[i, j - 1]) - 4*f[i, j])/h**2
+    return diffusivity*lap - (u*(f[i + 1, j] - f[i - 1, j]) + v*(f[i, j + 1] - f[i, j - 1]))/(2*h)
+
+
+@jit
+def rates(nu, kappa, h, X, Y, inverse, data, S, out):
+    """d/dt of (omega, T); `S` is scratch for three fields with ghosts."""
+    hat = inverse*np.dot(np.dot(X.T, data[0]), Y)
+    pad(h, data, np.dot(np.dot(X, hat), Y.T), S)
+    omega, T, psi = S[0], S[1], S[2]
+    for i in range(1, S.shape[1] - 1):
+        for j in range(1, S.shape[2] - 1):
+            u, v = (psi[i, j + 1] - psi[i, j - 1])/(2*h), (psi[i - 1, j] - psi[i + 1, j])/(2*h)
+            lift = (T[i + 1, j] - T[i - 1, j])/(2*h)
+            out[0, i - 1, j - 1] = spread_and_carry(nu, h, u, v, omega, i, j) + lift
+            out[1, i - 1, j - 1] = spread_and_carry(kappa, h, u, v, T, i, j)

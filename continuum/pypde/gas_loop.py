@@ -1,0 +1,182 @@
+"""The compiled rates of `continuum.pypde.gas`: the same terms, point by point.
+
+`S[field, i, j]` holds the state with one row of ghosts around and what is derived from it; i counts columns, j rows.
+rho, e, T, coefficients and normal stresses are in cell (i, j), v_x on its right and v_y on its upper side, the shear
+stress at its upper right corner.
+"""
+from typing import NamedTuple
+
+from continuum.fluid import conductivity, pressure, stress, temperature, viscosity
+from continuum.jit import formula, jit
+
+RHO, VX, VY, E, T, ETA, K, SXX, SYY, SXY = range(10)
+BULK_VISCOSITY = 0.0    # [KHP95, Sec. II]
+
+
+class Box(NamedTuple):
+    """What the loops need beside fluid and state."""
+    h: float
+    g: float
+    T_hot: float
+    T_cold: float
+    slide: float        # velocity of the cold plate along itself
+    torus: bool         # no plates: periodic in y, too
+
+
+@jit
+def fill(box, data, S):
+    """Copy the state between ghosts: periodic in x; plates that the gas sticks to; rho and e extrapolated."""
+    nx, ny = data.shape[1:]
+    for f in range(4):
+        a, b = ((2.0, -1.0), (-1.0, 0.0), (0.0, 0.0), (2.0, -1.0))[f]
+        for i in range(1, nx + 1):
+            for j in range(1, ny + 1):
+                S[f, i, j] = data[f, i - 1, j - 1]
+            if box.torus:
+                S[f, i, 0], S[f, i, ny + 1] = S[f, i, ny], S[f, i, 1]
+            else:
+                S[f, i, 0] = a*S[f, i, 1] + b*S[f, i, 2]
+                S[f, i, ny + 1] = a*S[f, i, ny] + b*S[f, i, ny - 1]
+                if f == VX:
+                    S[f, i, ny + 1] += 2*box.slide
+        for j in range(ny + 2):
+            S[f, 0, j], S[f, nx + 1, j] = S[f, nx, j], S[f, 1, j]
+
+
+@jit
+def coefficients(eos, law, box, S):
+    """Temperature, viscosity and conductivity at all points."""
+    nx, ny = S.shape[1] - 2, S.shape[2] - 2
+    for i in range(nx + 2):
+        for j in range(1, ny + 1):
+            S[T, i, j] = temperature(eos, S[RHO, i, j], S[E, i, j])
+        if box.torus:
+            S[T, i, 0], S[T, i, ny + 1] = S[T, i, ny], S[T, i, 1]
+        else:
+            S[T, i, 0] = 2*box.T_hot - S[T, i, 1]
+            S[T, i, ny + 1] = 2*box.T_cold - S[T, i, ny]
+        for j in range(ny + 2):
+            S[ETA, i, j] = viscosity(law, S[RHO, i, j], S[T, i, j])
+            S[K, i, j] = conductivity(law, S[RHO, i, j], S[T, i, j])
+
+
+@formula
+def corner_strain(box, S, i, j):
+    """d v_x/dy + d v_y/dx at the upper right corner of a cell."""
+    return (S[VX, i, j + 1] - S[VX, i, j] + S[VY, i + 1, j] - S[VY, i, j])/box.h
+
+
+@formula
+def cell_strain(box, S, i, j):
+    """d v_x/dx, d v_y/dy in a cell."""
+    return (S[VX, i, j] - S[VX, i - 1, j])/box.h, (S[VY, i, j] - S[VY, i, j - 1])/box.h
+
+
+@jit
+def stresses(eos, box, S):
+    """sigma - P in cells, shear stress at their upper right corners."""
+    for i in range(S.shape[1] - 1):
+        for j in range(S.shape[2] - 1):
+            eta = 0.25*(S[ETA, i, j] + S[ETA, i + 1, j] + S[ETA, i, j + 1] + S[ETA, i + 1, j + 1])
+            S[SXY, i, j] = eta*corner_strain(box, S, i, j)
+    for i in range(1, S.shape[1]):
+        for j in range(1, S.shape[2] - (0 if box.torus else 1)):
+            xx, yy = cell_strain(box, S, i, j)
+            sxx, _, syy = stress(S[ETA, i, j], BULK_VISCOSITY, xx, 0.0, 0.0, yy)
+            P = pressure(eos, S[RHO, i, j], S[E, i, j])
+            S[SXX, i, j], S[SYY, i, j] = sxx - P, syy - P
+
+
+@formula
+def compress(box, S, i, j):
+    """-div(rho v) in a cell."""
+    rho = S[RHO]
+    right, left = (rho[i, j] + rho[i + 1, j])*S[VX, i, j], (rho[i - 1, j] + rho[i, j])*S[VX, i - 1, j]
+    up, down = (rho[i, j] + rho[i, j + 1])*S[VY, i, j], (rho[i, j - 1] + rho[i, j])*S[VY, i, j - 1]
+    return -0.5*((right - left) + (up - down))/box.h
+
+
+@formula
+def carry_x(box, S, i, j):
+    """v.grad v_x on the right side of a cell."""
+    u, v = S[VX], S[VY]
+    along = (u[i + 1, j] + u[i, j])*(u[i + 1, j] - u[i, j]) + (u[i, j] + u[i - 1, j])*(u[i, j] - u[i - 1, j])
+    across = ((v[i, j] + v[i + 1, j])*(u[i, j + 1] - u[i, j])
+              + (v[i, j - 1] + v[i + 1, j - 1])*(u[i, j] - u[i, j - 1]))
+    return 0.25*(along + across)/box.h
+
+
+@formula
+def carry_y(box, S, i, j):
+    """v.grad v_y on the upper side of a cell."""
+    u, v = S[VX], S[VY]
+    along = (v[i, j + 1] + v[i, j])*(v[i, j + 1] - v[i, j]) + (v[i, j] + v[i, j - 1])*(v[i, j] - v[i, j - 1])
+    across = ((u[i, j] + u[i, j + 1])*(v[i + 1, j] - v[i, j])
+              + (u[i - 1, j] + u[i - 1, j + 1])*(v[i, j] - v[i - 1, j]))
+    return 0.25*(along + across)/box.h
+
+
+@formula
+def carry_e(box, S, i, j):
+    """v.grad e in a cell."""
+    u, v, e = S[VX], S[VY], S[E]
+    along = u[i, j]*(e[i + 1, j] - e[i, j]) + u[i - 1, j]*(e[i, j] - e[i - 1, j])
+    across = v[i, j]*(e[i, j + 1] - e[i, j]) + v[i, j - 1]*(e[i, j] - e[i, j - 1])
+    return 0.5*(along + across)/box.h
+
+
+@formula
+def push_x(box, S, i, j):
+    """(div (sigma - P))_x/rho on the right side of a cell."""
+    force = (S[SXX, i + 1, j] - S[SXX, i, j]) + (S[SXY, i, j] - S[SXY, i, j - 1])
+    return 2*force/(S[RHO, i, j] + S[RHO, i + 1, j])/box.h
+
+
+@formula
+def push_y(box, S, i, j):
+    """(div (sigma - P))_y/rho on the upper side of a cell."""
+    force = (S[SYY, i, j + 1] - S[SYY, i, j]) + (S[SXY, i, j] - S[SXY, i - 1, j])
+    return 2*force/(S[RHO, i, j] + S[RHO, i, j + 1])/box.h
+
+
+@formula
+def corner_work(box, S, i, j):
+    """sigma_xy times its strain at the upper right corner of a cell."""
+    return S[SXY, i, j]*corner_strain(box, S, i, j)
+
+
+@formula
+def work(box, S, i, j):
+    """(sigma - P):grad v in a cell."""
+    xx, yy = cell_strain(box, S, i, j)
+    shear = (corner_work(box, S, i, j) + corner_work(box, S, i - 1, j)
+             + corner_work(box, S, i, j - 1) + corner_work(box, S, i - 1, j - 1))
+    return S[SXX, i, j]*xx + S[SYY, i, j]*yy + 0.25*shear
+
+
+@formula
+def conduct(box, S, i, j):
+    """-div Q in a cell."""
+    k, T_ = S[K], S[T]
+    along = ((k[i + 1, j] + k[i, j])*(T_[i + 1, j] - T_[i, j])
+             - (k[i, j] + k[i - 1, j])*(T_[i, j] - T_[i - 1, j]))
+    across = ((k[i, j + 1] + k[i, j])*(T_[i, j + 1] - T_[i, j])
+              - (k[i, j] + k[i, j - 1])*(T_[i, j] - T_[i, j - 1]))
+    return 0.5*(along + across)/box.h**2
+
+
+@jit
+def rates(eos, law, box, data, S, out):
+    """d/dt of the state; `S` is scratch for ten fields with ghosts."""
+    nx, ny = data.shape[1:]
+    fill(box, data, S)
+    coefficients(eos, law, box, S)
+    stresses(eos, box, S)
+    for i in range(1, nx + 1):
+        for j in range(1, ny + 1):
+            out[RHO, i - 1, j - 1] = compress(box, S, i, j)
+            out[VX, i - 1, j - 1] = push_x(box, S, i, j) - carry_x(box, S, i, j)
+            out[E, i - 1, j - 1] = (work(box, S, i, j) + conduct(box, S, i, j))/S[RHO, i, j] - carry_e(box, S, i, j)
+        out[VY, i - 1, ny - 1] = 0.0
+        for j in range(1, ny + (1 if box.torus else 0)):
+            out[VY, i - 1, j - 1] = push_y(box, S, i, j) - carry_y(box, S, i, j) - box.g

@@ -1,0 +1,235 @@
+"""Dissipative particle dynamics in two and three dimensions    [Groot & Warren 1997]
+
+    F_ij = [a w - gamma w^2 (e.v_ij) + sqrt(2 gamma kT/dt) w zeta_ij] e,    w = 1 - r/rc,    e = r_ij/r
+
+zeta_ij = zeta_ji of mean 0 and variance 1, new in every step. Units: masses are 1. The state (3 d, n) is x, v and the force of
+the end of the last step, so that integrators and restarts know it.
+"""
+from dataclasses import dataclass
+from math import isfinite
+from typing import Any
+
+import numpy as np
+
+from particles.dissipative.integrators import GrootWarren65
+from particles.dissipative.pairs3d import Force, Law, Record, Silent, Uniform, record, rub_pairs, sum_pairs, turn, velocities
+from particles.dissipative.periodic3d import Images
+from particles.limits import limit_of
+from particles.neighbours import u32, u64
+from particles.noise import check_seed
+from particles.threads import Team
+
+SORT = 20       # steps after which particles are put in the order of cells again
+
+
+@dataclass(frozen=True, kw_only=True)
+class Dpd:
+    """A fluid of dissipative particles in a periodic box (width, height[, depth]) centred on the origin.
+
+    a, gamma, kT, rc : repulsion, friction, temperature, range. noise : `Uniform(seed)` or `Normal(seed)`.
+    integrator : of `integrators_dpd`, or `TwoStep` for RR98 Eqs 40, 41. rate : of a shear v_x = rate y between sliding sides.
+    skin : of the neighbour lists, in units of length.
+
+    Raises
+    ------
+    ValueError
+        A parameter that makes no fluid.
+    """
+    box: tuple[float, ...]
+    a: float = 25.0
+    gamma: float = 4.5
+    kT: float = 1.0
+    rc: float = 1.0
+    noise: Any = Uniform(1)  # noqa: RUF009 (immutable)
+    integrator: type = GrootWarren65
+    rate: float = 0.0
+    skin: float = 0.3
+
+    def __post_init__(self):
+        check_seed(self.noise.seed)
+        for name, why in (("a", "negative repulsion collapses the fluid"), ("gamma", "negative friction feeds motions"),
+                          ("kT", "a temperature is not negative")):
+            if not (isfinite(getattr(self, name)) and getattr(self, name) >= 0):
+                raise ValueError(f"{name} must be zero or positive, got {getattr(self, name)}: {why}")
+        for name in ("rc", "skin"):
+            if not (isfinite(getattr(self, name)) and getattr(self, name) > 0):
+                raise ValueError(f"{name} must be positive, got {getattr(self, name)}: rc = 1, skin = 0.3 are usual")
+        if not isfinite(self.rate):
+            raise ValueError(f"the shear rate must be finite, got {self.rate}")
+        if len(self.box) not in (2, 3) or not min(self.box) >= 3*self.rc:
+            raise ValueError(f"the box {self.box} needs two or three sides of at least 3 rc = {3*self.rc:g}, or a particle would "
+                             "meet the same one twice: take a larger box")
+
+    @property
+    def d(self) -> int:
+        """Dimensions."""
+        return len(self.box)
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """Rows of the state."""
+        return tuple(kind + axis for kind in ("", "v", "f") for axis in "xyz"[:self.d])
+
+    @property
+    def volume(self) -> float:
+        return float(np.prod(self.box))
+
+    def law(self, dt: float) -> Law:
+        """Amplitudes for a step: sigma^2 dt = 2 gamma kT    [Español & Warren 1995]"""
+        return Law(self.a, self.gamma, float(np.sqrt(2*self.gamma*self.kT/dt)), 1/self.rc)
+
+    def longest_step(self, n: int) -> float:
+        """2/omega of velocity-Verlet and 2/Lambda of forward friction, for a pair of waves in which all neighbours oppose.
+
+        Per particle rho V springs of a/rc and friction gamma <w^2> each, a d-th of them along a direction, twice that when
+        neighbours move against each other: omega^2 = 2 rho V a/(d rc), Lambda = 2 rho V gamma <w^2>/d.
+        """
+        rho_V = n/self.volume*{2: np.pi, 3: 4*np.pi/3}[self.d]*self.rc**self.d
+        w2 = 2/((self.d + 1)*(self.d + 2))       # mean over the ball: d int (1 - s)^2 s^(d - 1) ds
+        omega, friction = np.sqrt(2*rho_V*self.a/self.rc/self.d), 2*rho_V*self.gamma*w2/self.d
+        return float(min(2/max(omega, 1e-300), 2/max(friction, 1e-300)))
+
+    def random_start(self, rho: float, seed: int = 1) -> np.ndarray:
+        """State (3 d, n) of rho volume particles anywhere, velocities of kT without a mean, moving with the shear.
+
+        Raises
+        ------
+        ValueError
+            The density is not positive or leaves no two particles.
+        """
+        if not (isfinite(rho) and rho > 0 and round(rho*self.volume) >= 2):
+            raise ValueError(f"rho must be positive and make two particles at least in a volume of {self.volume:g}, got {rho}: "
+                             "rho = 3 is usual")
+        rng, n = np.random.default_rng(seed), round(rho*self.volume)
+        x = rng.uniform(-0.5, 0.5, (self.d, n))*np.array(self.box)[:, None]
+        v = np.sqrt(self.kT)*rng.standard_normal((self.d, n))
+        v -= v.mean(axis=1, keepdims=True)
+        v[0] += self.rate*x[1]
+        return np.concatenate([x, v, np.zeros_like(x)])
+
+    def start(self, n: int, team: Team) -> "Forces":
+        """The pair sums."""
+        return Forces(self, n, team)
+
+
+@limit_of.register
+def _(method: Dpd, start: np.ndarray) -> float:
+    return np.inf       # it is told in its own words where the step is known: `Forces.make_ready`
+
+
+class Forces:
+    """The pair sums of n particles, as time loop and integrators want them."""
+
+    def __init__(self, method: Dpd, n: int, team: Team):
+        self.method, self.n, self.team, self.places = method, n, team, method.d
+        self.images = Images(n, method.box, method.rc, method.skin, method.rate, team)
+        self.total, self.taken = np.empty((n, 3)), (np.empty(n, u64), np.empty(n, u32))
+        self.particle, self.dt = np.empty(0, Record), 1.0
+        self.now: Any = None                       # the run
+        self.seen: np.ndarray | None = None        # sums that quantities share
+
+    @property
+    def time(self) -> float:
+        """At the start of the step."""
+        return self.now.step*self.dt
+
+    # what the time loop asks
+
+    def resume(self, now: Any) -> None:
+        """Lists as a restarted run had them; its anchor has a last row that says when they were made."""
+        self.now = now
+        if now.anchor is not None:
+            self.images.relist(now.anchor[:-1], now.anchor[-1, 0])
+
+    def try_out(self, now: Any) -> None:
+        """One evaluation on a copy of the particles, which leaves no trace."""
+        anchor, out, fresh = now.anchor, np.empty_like(now.state), now.anchor is None
+        if fresh:
+            self.rates(now.state.copy(), out)
+            self.images.anchor, now.anchor = None, anchor
+
+    def make_ready(self, now: Any, dt: float) -> None:
+        """Lists that will last for the step, particles in the order of cells; before the first step its force.
+
+        Raises
+        ------
+        ValueError
+            The step is above the stability limit.
+        """
+        d, self.now, self.dt = self.places, now, dt
+        if now.step == 0 and not dt <= self.method.longest_step(self.n):
+            limit = self.method.longest_step(self.n)
+            raise ValueError(f"dt = {dt:g} is above the stability limit {limit:.3g} of these particles: take a shorter step, "
+                             "0.02 to 0.04 is usual at a = 25, rho = 3")
+        if now.step % SORT == 0:
+            order = self.images.order(now.state[:d])
+            now.state[:], now.ids[:], self.images.anchor = now.state[:, order], now.ids[order], None
+        if now.step == 0:
+            self._sum(Force(), self.method.law(dt), self.method.noise, 0, now.state[:d], now.state[d:2*d], 0.0, now.state[2*d:])
+
+    def confine(self, state: np.ndarray) -> int:
+        """No walls, no reflections."""
+        return 0
+
+    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
+        """Every finite state is valid."""
+        return ""
+
+    def look_at(self, state: np.ndarray) -> None:
+        """Quantities make their sums when the first of them asks."""
+        self.seen = None
+
+    # what integrators ask
+
+    def velocity(self, state: np.ndarray) -> np.ndarray:
+        """Rates of the first rows."""
+        return state[self.places:2*self.places]
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(state)/dt with the noise of this step, as `TwoStep` wants it; the last rows stay    [RR98 Eqs 39, 40, 49, 51]"""
+        d = self.places
+        out[:d], out[2*d:] = state[d:2*d], 0.0
+        self.forces(state[:d], state[d:2*d], 0.0, out[d:2*d])
+
+    def forces(self, x: np.ndarray, v: np.ndarray, later: float, out: np.ndarray) -> None:
+        """Forces (d, n) at x, v with the noise of this step."""
+        self._sum(Force(), self.method.law(self.dt), self.method.noise, self.now.step + 1, x, v, later, out)
+
+    def soft(self, x: np.ndarray, later: float, out: np.ndarray) -> None:
+        """Repulsion only."""
+        law = self.method.law(self.dt)._replace(gamma=0.0)
+        self._sum(Force(), law, Silent(0), 0, x, x, later, out)
+
+    def rub(self, x: np.ndarray, v: np.ndarray, dt: float) -> None:
+        """Friction and noise act on v for dt."""
+        images, method = self.images, self.method
+        self._records(x, v, 0.0)
+        boost = images.rate*float(images.box[1])
+        rub_pairs(self.n, method.law(dt), method.noise, self.now.step + 1, dt, self.particle, images.lists,
+                  self.taken, images.points.up, boost)
+        velocities(self.particle, images.points.up, boost, v)
+
+    def over_pairs(self, term: Any, state: np.ndarray, columns: int) -> np.ndarray:
+        """Sums (n, columns) of a term over the pairs of a state, without noise."""
+        d, out = self.places, np.empty((self.n, columns))
+        self._records(state[:d], state[d:2*d], 0.0)
+        self.team(sum_pairs, self.n, term, self.method.law(self.dt), Silent(0), 0, self.particle, self.images.lists, self.taken,
+                  out)
+        return out
+
+    def _sum(self, term, law, noise, step, x, v, later, out):
+        self._records(x, v, later)
+        self.team(sum_pairs, self.n, term, law, noise, step, self.particle, self.images.lists, self.taken, self.total)
+        self.team(turn, self.n, self.total, out)
+
+    def _records(self, x, v, later):
+        """Particles and ghosts where they are; new lists if these may miss a pair."""
+        images, time = self.images, self.time + later
+        if images.stale(x, time):
+            images.relist(x, time)
+            self.now.anchor = np.concatenate([images.anchor, np.full((1, self.n), time)])
+        points = len(images.points.parent)
+        if len(self.particle) != points:
+            self.particle = np.empty(points, Record)
+        self.team(record, points, x, v, self.now.ids, images.points, images.slid(time) - images.anchor_slid,
+                  images.rate*float(images.box[1]), self.particle)

@@ -1,0 +1,115 @@
+"""Dissipative particles that stream past others which are held, and so form a body    [RR98, Sec. IV]
+
+Held particles push and rub as all do, and stay where they are. The fluid gets into the body, as soft as its particles are; with
+`turned` a function that finds those in it, these are sent back the way they came.
+"""
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from particles.dissipative.dpd import Dpd, Forces
+from particles.dissipative.integrators import Shardlow, VelocityVerlet
+from particles.integrators import TwoStep
+from particles.threads import Team
+
+
+@dataclass(frozen=True, kw_only=True)
+class DpdStream(Dpd):
+    """`Dpd` with particles of numbers `held` (m,) at rest; the others get a force `push` along x.
+
+    turned(x, v) : which of the particles at x (d, n), v (d, n) have their velocities reversed; None for none.
+
+    Raises
+    ------
+    ValueError
+        No particle is held, one of them twice, the push is not finite, or the integrator moves both particles of a pair at once.
+    """
+    held: np.ndarray
+    push: float = 0.0
+    turned: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None
+    integrator: type = VelocityVerlet
+
+    def __post_init__(self):
+        super().__post_init__()
+        if len(self.held) < 1 or len(np.unique(self.held)) < len(self.held):
+            raise ValueError(f"{len(self.held)} particles are to be held, {len(np.unique(self.held))} of them different: name at "
+                             "least one, and each once")
+        if not np.isfinite(self.push):
+            raise ValueError(f"the push must be finite, got {self.push}")
+        if issubclass(self.integrator, (Shardlow, TwoStep)):
+            raise ValueError(f"{self.integrator.__name__} does not step with forces alone, by which particles are held: take "
+                             "VelocityVerlet")
+
+    def at_rest(self, state: np.ndarray, speed: float) -> np.ndarray:
+        """A state (3 d, n) with the held particles at rest, `speed` added to the others along x."""
+        d, out = self.d, state.copy()
+        out[d] += speed
+        out[d:, self.held] = 0.0
+        return out
+
+    def start(self, n: int, team: Team) -> "Streaming":
+        """The pair sums."""
+        return Streaming(self, n, team)
+
+
+class Streaming(Forces):
+    """The pair sums, and the momentum that the body has received since it was last asked for."""
+    method: DpdStream
+
+    def __init__(self, method: DpdStream, n: int, team: Team):
+        super().__init__(method, n, team)
+        self.is_held = np.zeros(n, bool)
+        self.is_held[method.held] = True
+        self.begin()
+
+    def begin(self) -> None:
+        """Nothing has been received yet."""
+        self.received, self.calls, self.returned, self.steps = np.zeros(self.places), 0, np.zeros(self.places), 0
+
+    def drive(self, forces: np.ndarray) -> None:
+        """Held particles feel nothing, the others the push."""
+        held = self.is_held[self.now.ids]
+        forces[:, held] = 0.0
+        forces[0, ~held] += self.method.push
+
+    def make_ready(self, now: Any, dt: float) -> None:
+        """As all do; the force before the first step is one of these, too."""
+        super().make_ready(now, dt)
+        if now.step == 0:
+            self.drive(now.state[2*self.places:])
+            self.begin()
+
+    def forces(self, x: np.ndarray, v: np.ndarray, later: float, out: np.ndarray) -> None:
+        """Forces (d, n), of which the held particles' go into what the body has received."""
+        super().forces(x, v, later, out)
+        self.received += out[:, self.is_held[self.now.ids]].sum(axis=1)
+        self.calls += 1
+        self.drive(out)
+
+    def confine(self, state: np.ndarray) -> int:
+        """Particles that are to turn do; what they lose goes to the body."""
+        self.steps += 1
+        if self.method.turned is None:
+            return 0
+        d = self.places
+        back = ~self.is_held[self.now.ids] & self.method.turned(state[:d], state[d:2*d])
+        self.returned += 2*state[d:2*d, back].sum(axis=1)
+        state[d:2*d, back] *= -1
+        return int(back.sum())
+
+
+def force_on_body(sums: Streaming, state: np.ndarray) -> float:
+    """Along x, mean since the last record; a restart forgets what was received before it.
+
+    Every force that is evaluated acts for an equal part of the time.
+    """
+    found = sums.received/max(sums.calls, 1) + sums.returned/(max(sums.steps, 1)*sums.dt)
+    sums.begin()
+    return float(found[0])
+
+
+def speed(sums: Streaming, state: np.ndarray) -> float:
+    """Mean velocity along x of all particles, the held ones among them."""
+    return float(state[sums.places].mean())

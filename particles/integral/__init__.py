@@ -1,0 +1,1 @@
+"""Discretized integral hydrodynamics: points, edges and the equations over them    [RR98]"""

@@ -1,0 +1,136 @@
+"""Points that are held: frozen points that form a rigid body, rows of fixed points that form a wall    [RR98, Sec. IV]
+
+RR98 leaves boundaries open and names the trick: freeze some of the points. A held point exchanges over its edges as all points
+do; its velocity and temperature are given, its density evolves. What the edges carry to it is the force on the body and the
+heat that it takes. Where the surface lies then depends on the points: on the outermost of them for edges to nearest neighbours,
+so a body of lattice points has a staircase for a surface, and points placed on the surface itself give the true one.
+
+Friction along edges is eta lap v, whose flux through a surface is eta dv/dn: the traction on a body that does not turn. One that
+turns with Omega feels a torque -2 eta Omega area besides. It comes from the edges inside of the body, whose forces are not
+central: so the torque is that on all points of a body, those inside too.
+"""
+from typing import NamedTuple
+
+import numpy as np
+
+from particles.integral.edges import mirror
+from particles.integral.points import Points, lattice, of_positions
+
+CLEAR = 0.6     # spacings between a surface and points that are not on it: nearer ones would cut its edges or take short steps
+
+
+class Held(NamedTuple):
+    """Points `which` (m,) of velocity v (m, 2), temperature T (m,), whatever they receive; T nan: adiabatic. body: its number."""
+    which: np.ndarray
+    v: np.ndarray
+    T: np.ndarray
+    body: np.ndarray
+
+
+def held(which: np.ndarray, v: tuple[float, float] = (0.0, 0.0), T: float = np.nan) -> Held:
+    """Points of one velocity and temperature.
+
+    Raises
+    ------
+    ValueError
+        There are none of them, one is named twice, or the temperature is not positive.
+    """
+    which = np.asarray(which)
+    if len(which) < 1 or len(np.unique(which)) < len(which):
+        raise ValueError(f"{len(which)} points are to be held, {len(np.unique(which))} of them different: name at least one, and "
+                         "each once; a body narrower than a spacing may hold none")
+    if T <= 0:
+        raise ValueError(f"held points have T = {T:g}, which must be positive; leave it out for a body that takes no heat")
+    return Held(which, np.tile(np.asarray(v, float), (len(which), 1)), np.full(len(which), float(T)), np.zeros(len(which), int))
+
+
+def turning(points: Points, which: np.ndarray, rate: float, T: float = np.nan) -> Held:
+    """Points that turn rigidly about the middle of the box, counterclockwise."""
+    x, y = points.x[which].T
+    return held(which, T=T)._replace(v=rate*np.stack([-y, x], axis=1))
+
+
+def together(*bodies: Held) -> Held:
+    """Several bodies, such as the two plates of a channel; where they touch they do not rub against each other."""
+    which, v, T, _ = (np.concatenate(column) for column in zip(*bodies, strict=True))
+    return Held(which, v, T, np.repeat(np.arange(len(bodies)), [len(body.which) for body in bodies]))
+
+
+def in_disc(points: Points, radius: float) -> np.ndarray:
+    """Numbers of the points within a disc about the middle of the box, those on its edge among them."""
+    check_disc(points, radius)
+    return np.flatnonzero(np.hypot(*points.x.T) <= radius*(1 + 1e-12))
+
+
+def check_disc(points: Points, radius: float) -> None:
+    """Refuse a disc without a point, and one that touches its own image."""
+    if not points.a <= radius <= points.box.min()/2 - points.a:
+        raise ValueError(f"a disc of radius {radius:g} in a box {points.box} with spacing {points.a:.3g}: it must be at least a "
+                         "spacing wide and as far from its image beyond the side; take more points")
+
+
+def with_surface(counts: tuple[int, int], radius: float) -> tuple[Points, np.ndarray]:
+    """A lattice of spacing 1 with a disc about its middle, and the points of the disc, those on its surface among them.
+
+    Points a spacing apart lie on the circle; the lattice inside and outside keeps off it by CLEAR, so that the chords between
+    neighbours on the circle are edges of a Delaunay triangulation. The surface is then a polygon, which lacks a fraction
+    (2 pi/n)^2/6 of the area of the disc: second order in the spacing.
+    """
+    at = lattice(counts)
+    check_disc(at, radius)
+    r = np.hypot(*at.x.T)
+    circle = on_circle(radius)
+    inside, outside = at.x[r < radius - CLEAR], at.x[r > radius + CLEAR]
+    return of_positions(np.concatenate([circle, inside, outside]), at.box), np.arange(len(circle) + len(inside))
+
+
+def on_circle(radius: float) -> np.ndarray:
+    """Points (n, 2) about one apart on a circle."""
+    n = round(2*np.pi*radius)
+    angle = 2*np.pi*(np.arange(n) + 0.5)/n
+    return radius*np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+
+def between_circles(counts: tuple[int, int], inner: float, outer: float) -> tuple[Points, np.ndarray, np.ndarray]:
+    """A lattice of spacing 1 with points on two circles about its middle; those up to the inner and those from the outer one on.
+
+    Raises
+    ------
+    ValueError
+        There is no room between the circles, or between one of them and its image.
+    """
+    at = lattice(counts)
+    check_disc(at, inner)
+    check_disc(at, outer)
+    if outer - inner < 2:
+        raise ValueError(f"circles of radius {inner:g} and {outer:g} leave no point of the fluid between them: take more points")
+    r = np.hypot(*at.x.T)
+    off = (np.abs(r - inner) > CLEAR) & (np.abs(r - outer) > CLEAR)
+    points = of_positions(np.concatenate([on_circle(inner), on_circle(outer), at.x[off]]), at.box)
+    r = np.hypot(*points.x.T)
+    return points, np.flatnonzero(r < inner + 1e-9), np.flatnonzero(r > outer - 1e-9)
+
+
+def with_plates(inner: np.ndarray, columns: int, height: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Points (n, 2) with rows of `columns` points, a spacing of 1 apart, on the plates y = -+height/2, and which these are.
+
+    For triangles that end there, `triangulation.between`. The rows inside are one less than the spacings of the height.
+    """
+    row = np.stack([np.arange(columns) + 0.5 - columns/2, np.full(columns, -height/2)], axis=1)
+    return np.concatenate([row, row*mirror(2), inner]), np.arange(columns), np.arange(columns, 2*columns)
+
+
+def end_rows(points: Points, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers of the points in the lowest and in the highest `count` rows of a lattice.
+
+    Raises
+    ------
+    ValueError
+        No row is left between them.
+    """
+    y = points.x[:, 1]
+    levels = np.unique(np.round(y/points.a, 6))
+    if not 1 <= count < len(levels)/2:
+        raise ValueError(f"{count} fixed rows on either side of {len(levels)} in all leave none between: take more rows")
+    middle = points.a*(levels[count - 1] + 0.5)
+    return np.flatnonzero(y < middle), np.flatnonzero(y > -middle)

@@ -1,0 +1,314 @@
+"""A conservative scheme on moving points: volume, mass, momentum and energy exchanged over faces, in 2D.
+
+Points have volumes that change as their surroundings do. Faces S_ij = -S_ji between points within the range of a weight close
+and are exact on linear fields, as nearly as an iteration a step makes them; points drift with the fluid and a little towards even
+spacing, and what volume they leave to each other carries mass, momentum and energy along. RR98's moving points (Eqs 46-48, on
+volumes that stay) lose all of these. How faces are made and closed is in `faces`. Between plates convection and pressure see
+images without friction, friction and heat others: see `layer`.
+"""
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import check_state, conductivity, energy, pressure, sound_speed, temperature, viscosity
+from continuum.jit import jit
+from particles.integral.faces import POTENTIALS, FaceMaker, inner
+from particles.integral.interpolants import check_ordering
+from particles.integral.transposed_stress import varying
+from particles.limits import limit_of
+from particles.lists import Listed, Surroundings
+from particles.pairs import Faces, nothing, rate, sweep
+from particles.starts import check_apart, check_reach, check_volumes, moments
+from particles.threads import Team
+from particles.walls import confine
+from particles.weights import check_unit
+
+#: rows of a state: places, drift velocity, momentum, mass, volume, total energy, and the last solution for the faces
+FIELDS = ("x", "y", "wx", "wy", "px", "py", "m", "V", "E", *POTENTIALS)
+EXCHANGED, SOLVED = slice(4, 9), slice(9, 15)
+#: seen by convection and pressure: vx .. theta; by friction and heat: ux, uy, Td; F mends the heating, (gx, gy) = grad P'
+Point = np.dtype([(name, "f8") for name in ("vx", "vy", "P", "rho", "e", "per_c", "shift_x", "shift_y", "theta", "gx", "gy", "ux",
+                                            "uy", "Td", "eta", "k", "Fx", "Fy")])
+
+
+class Ingredients(NamedTuple):
+    """What the scheme is made of; each can be left out.
+
+    iterations : at most, for the faces, from what a step before found; 0 leaves them open, 12 change K by less than 1e-3.
+    within : relative residual at which they are good enough.
+    shift : of points towards even spacing, in spacings^2. follow : how fast volumes follow the density of points.
+    spread : of mass against pressure waves at the spacing, over a c/2; smooth : of what a linear pressure leaves only.
+    static : hydrostatic and mean pressure taken from the faces. mended : the right heating by friction along faces, and its right
+    force where viscosity varies.
+    """
+    iterations: int = 1
+    within: float = 1e-3
+    shift: float = 1.0
+    follow: float = 1.0
+    spread: float = 0.1
+    smooth: bool = True
+    static: bool = True
+    mended: bool = True
+
+
+class FaceDifferences(NamedTuple):
+    """V grad of v and P by differences: d_x u, d_y u, d_x v, d_y v, d_x P, d_y P."""
+
+
+class FaceExchange(NamedTuple):
+    """What a face lets through: volume twice (with the fluid, between points), mass, momentum, energy."""
+    follow: float
+    spread: float
+    smooth: float
+
+
+nothing.of(FaceDifferences)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+nothing.of(FaceExchange)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+
+
+@rate.of(FaceDifferences)
+def _(term, a, b, ab):
+    du, dv, dP = b.ux - a.ux, b.uy - a.uy, b.P - a.P
+    return ab.sx*du, ab.sy*du, ab.sx*dv, ab.sy*dv, ab.sx*dP, ab.sy*dP
+
+
+@rate.of(FaceExchange)
+def _(term, a, b, ab):
+    sx, sy, k = ab.sx, ab.sy, ab.k
+    to_a, to_b = sx*a.vx + sy*a.vy, sx*b.vx + sy*b.vy
+    left = sx*(a.shift_x + b.shift_x) + sy*(a.shift_y + b.shift_y) + term.follow*k*(b.theta - a.theta)
+    linear = 0.5*term.smooth*((a.gx + b.gx)*ab.dx + (a.gy + b.gy)*ab.dy)
+    mass = left*0.5*(a.rho + b.rho) + 0.25*term.spread*(a.per_c + b.per_c)*k*(b.P - a.P - linear)
+    f, du, dv = 0.5*(a.eta + b.eta)*k, b.ux - a.ux, b.uy - a.uy
+    P = a.P + b.P
+    through = 0.5*(f*(du*(a.ux + b.ux) + dv*(a.uy + b.uy)) + (a.k + b.k)*k*(b.Td - a.Td)) \
+        + sx*(a.Fx + b.Fx) + sy*(a.Fy + b.Fy) + 0.5*mass*(a.e + b.e + a.vx*b.vx + a.vy*b.vy) - a.P*to_b - b.P*to_a
+    return (f*du - sx*P + 0.5*mass*(a.vx + b.vx), f*dv - sy*P + 0.5*mass*(a.vy + b.vy), mass, to_a + to_b, left, through)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Moving:
+    """A fluid on moving points, about one a unit area.
+
+    weight : of `particles.weights`. walls : tuple of mirror plates and periodic sides. box : (width, height). g : gravity,
+    downwards. rho0 : mean density, of the hydrostatic pressure -rho0 g y that is left out of the faces.
+    """
+    weight: Any
+    eos: Any
+    law: Any
+    walls: tuple
+    box: tuple[float, float]
+    g: float = 0.0
+    rho0: float = 1.0
+    ingredients: Ingredients = Ingredients()  # noqa: RUF009 (immutable)
+    skin: float = 0.5
+
+    fields = FIELDS
+
+    def __post_init__(self):
+        check_unit(self.weight)
+
+    def state(self, x: np.ndarray, v: np.ndarray, rho: Any, T: np.ndarray) -> np.ndarray:
+        """(15, n) of places (n, 2), velocities (n, 2), densities, temperatures (n,); all volumes are equal."""
+        V = np.full(len(x), self.box[0]*self.box[1]/len(x))
+        m, e = rho*V, energy(self.eos, rho, T)
+        exchanged = [*(m[:, None]*v).T, m, V, m*(e + (v**2).sum(axis=1)/2)]
+        return np.stack([*x.T, *v.T, *exchanged, *np.zeros((6, len(x)))])
+
+    def start(self, n: int, team: Team) -> "Exchanging":
+        """The sums of n points, with their arrays."""
+        return Exchanging(self, n, team)
+
+    def integrator(self, shape: tuple[int, ...], team: Team) -> "DriftKickDrift":
+        """Half a drift, faces and what goes through them, half a drift."""
+        return DriftKickDrift(shape)
+
+
+@limit_of.register
+def _(method: Moving, start: np.ndarray) -> float:
+    """Three-stage Runge-Kutta, 1.73 on the imaginary and 2.5 on the real axis; points lie off a lattice, so 1.4 times faster.
+
+    On a lattice of spacing 1 sound is slower than c, diffusion than 4 chi, and volumes follow at 2.9 `follow` (Wendland C2,
+    h = 3).
+    """
+    px, py, m, V, E = start[EXCHANGED]
+    check_volumes(V)
+    rho, e = m/V, E/m - (px**2 + py**2)/(2*m**2)
+    check_state(method.eos, rho, e)
+    T = temperature(method.eos, rho, e)
+    slope = (temperature(method.eos, rho, e + 1e-6) - T)/1e-6
+    chi = np.max(np.maximum(viscosity(method.law, rho, T), conductivity(method.law, rho, T)*slope)/rho)
+    fast = np.max(sound_speed(method.eos, rho, e) + np.hypot(px, py)/m)
+    return float(1/1.4/max(fast/1.73 + 4*chi/2.5, 2.9*method.ingredients.follow/2.5))
+
+
+class DriftKickDrift:
+    """Points drift half a step, exchange over frozen faces in three Runge-Kutta stages, drift the other half."""
+    evaluations = 3
+
+    def __init__(self, shape: tuple[int, ...]):
+        self.rates, self.first = np.zeros(shape), np.zeros(shape)
+
+    def step(self, sums: "Exchanging", y: np.ndarray, dt: float) -> None:
+        """Advance y in place by dt    [third-order strong-stability-preserving Runge-Kutta in between]"""
+        sums.drift(y, dt/2)
+        sums.make_faces(y)
+        now, k, first = y[EXCHANGED], self.rates[EXCHANGED], self.first[EXCHANGED]
+        first[:] = now
+        for new in (1.0, 1/4, 2/3):
+            sums.rates(y, self.rates)
+            now[:] = first + new*(now - first + dt*k)      # (1 - new) first + new now rounds to less than the sum
+        sums.set_drift(y)
+        sums.drift(y, dt/2)
+
+
+class Exchanging(Listed):
+    """The compiled sums of moving points, with what the time loop asks for."""
+
+    def __init__(self, method: Moving, n: int, team: Team):
+        self.method, self.team, self.n = method, team, n
+        self.around = Surroundings(method.weight, method.walls, n, method.box, skin=method.skin, team=team)
+        self.maker = FaceMaker(self.around, method.ingredients.iterations, method.ingredients.within)
+        self.slopes, self.total, self.P0 = np.zeros((n, 6)), np.zeros((n, 6)), 0.0
+        self.shift, self._lists = np.zeros((n, 2)), -1
+        self.varying = varying(method.law, method.ingredients.mended, n, team)
+
+    @property
+    def faces(self) -> Faces:
+        """As they were made last."""
+        return self.maker.faces
+
+    def make_faces(self, state: np.ndarray) -> None:
+        """Pairs, volumes and faces where the points are now; the solution is left in the state."""
+        self.maker.make(state, state[7], state[SOLVED])
+        if self._lists != self.maker.lists_made:
+            self._lists, self.points = self.maker.lists_made, np.zeros(len(self.around.x), Point)
+        self.shift = -self.method.ingredients.shift*self.maker.pull
+        self._limit_shift(state)
+
+    def _limit_shift(self, state: np.ndarray) -> None:
+        """No point shifts faster than 0.3 of the fastest flow."""
+        most = 0.3*float(np.sqrt(((state[4]**2 + state[5]**2)/state[6]**2).max()))
+        size = np.hypot(*self.shift.T)
+        self.shift *= np.minimum(1.0, most/np.maximum(size, 1e-300))[:, None]
+
+    def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
+        """Refuse points in one place or without neighbours; warn where the weight is too narrow to tell their density.
+
+        Raises
+        ------
+        ValueError
+            Two points overlap, or one has no neighbours in two directions; names them.
+        """
+        V, weight = state[7], self.method.weight
+        a = float(np.sqrt(V.mean()))
+        self.around.place(state, 1.0)
+        check_apart(self.around, ids, a)
+        check_reach(weight, moments(self.around, V), ids)
+        off = V*self.around.rho[:self.n] - 1
+        check_ordering(weight, 2, a, float(np.sqrt((off**2).mean())), wrong="volumes, which follow the density of points, are")
+
+    # --- exchange ---------------------------------------------------------------------------------------------
+
+    def look_at(self, state: np.ndarray) -> None:
+        """Fields of all points and images on the faces as they are."""
+        method, chosen, points, n = self.method, self.method.ingredients, self.points, self.n
+        g0 = method.rho0*method.g if chosen.static else 0.0
+        self.team(_fields, n, state, method.eos, method.law, g0, self.shift, self.maker.count, points)
+        self.P0 = inner(state[7], points["P"][:n])/float(state[7].sum()) if chosen.static else 0.0
+        points["P"][:n] -= self.P0
+        self._images(g0)
+        self.team(sweep, n, FaceDifferences(), points, self.faces, self.slopes)
+        self.team(_slopes, n, self.slopes, state, float(chosen.mended), points)
+        self.maker.ghosts.fill(points, ("gx", "Fx"), ("gy", "Fy"))
+
+    def _images(self, g0: float) -> None:
+        around, points, ghosts = self.around, self.points, self.maker.ghosts
+        _image_fields(self.n, *ghosts, points)
+        if g0 != self.method.rho0*self.method.g:    # the pressure goes on hydrostatically
+            rise = around.y[ghosts.origin] - around.y[self.n:]
+            points["P"][self.n:] += self.method.rho0*self.method.g*rise
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d/dt of what faces exchange, written to `out[4:9]`."""
+        method, chosen = self.method, self.method.ingredients
+        self.look_at(state)
+        self.team(sweep, self.n, FaceExchange(chosen.follow, chosen.spread, float(chosen.smooth)), self.points, self.faces,
+                  self.total)
+        if self.varying is not None:
+            self.total[:, :2] += self.varying.push(self.points, self.slopes, state[7], self.maker.ghosts, self.faces)
+        self.team(_rates, self.n, self.total, state, self.points, method.g, method.rho0 if chosen.static else 0.0, self.P0, out)
+
+    # --- motion -----------------------------------------------------------------------------------------------
+
+    def set_drift(self, state: np.ndarray) -> None:
+        """Points follow the fluid, and shift."""
+        state[2:4] = state[4:6]/state[6] + self.shift.T
+
+    def drift(self, state: np.ndarray, dt: float) -> None:
+        """Move the points; those beyond a plate turn back, with their momentum."""
+        state[:2] += dt*state[2:4]
+        self.confine(state)
+
+    def evaluate(self, state: np.ndarray) -> None:
+        """Faces and all sums once."""
+        self.make_faces(state)
+        self.rates(state, np.empty_like(state))
+
+    def confine(self, state: np.ndarray) -> int:
+        """Turn points beyond plates back; their number."""
+        count = 0
+        for wall in self.method.walls:
+            before = state[2:4].copy()
+            count += confine(wall, state)
+            state[4:6] *= np.where(before*state[2:4] < 0, -1.0, 1.0)
+        return count
+
+    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
+        """The first point with a volume, mass or state that no fluid has; empty if there is none."""
+        px, py, m, V, E = state[EXCHANGED]
+        return self.unphysical(self.method.eos, V, m/V, (E - (px**2 + py**2)/(2*m))/m, ids) or self.outran(state)
+
+
+@jit
+def _fields(first, last, state, eos, law, g0, shift, count, points):
+    for i in range(first, last):
+        a, m, V = points[i], state[6, i], state[7, i]
+        a.vx, a.vy, a.rho = state[4, i]/m, state[5, i]/m, m/V
+        a.e = state[8, i]/m - 0.5*(a.vx**2 + a.vy**2)
+        a.P = pressure(eos, a.rho, a.e) + g0*state[1, i]
+        a.Td, a.per_c = temperature(eos, a.rho, a.e), 1/sound_speed(eos, a.rho, a.e)
+        a.ux, a.uy, a.shift_x, a.shift_y, a.theta = a.vx, a.vy, shift[i, 0], shift[i, 1], V*count[i] - 1
+        a.eta, a.k = viscosity(law, a.rho, a.Td), conductivity(law, a.rho, a.Td)
+
+
+@jit
+def _image_fields(n, origin, turn, plate_T, points):
+    """Shifted images are their origins; mirrored ones have even and odd fields."""
+    for g in range(len(origin)):
+        a, b = points[origin[g]], points[n + g]
+        b.vx, b.P, b.rho, b.e, b.per_c = a.vx, a.P, a.rho, a.e, a.per_c
+        b.shift_x, b.theta, b.eta, b.k = a.shift_x, a.theta, a.eta, a.k
+        b.vy, b.shift_y, b.ux, b.uy = turn[g]*a.vy, turn[g]*a.shift_y, turn[g]*a.ux, turn[g]*a.uy
+        b.Td = a.Td if turn[g] > 0 else 2*plate_T[g] - a.Td
+
+
+@jit
+def _slopes(first, last, slopes, state, mended, points):
+    """grad P', and F = eta (v u_y - u v_y, u v_x - v u_x) without bulk viscosity."""
+    for i in range(first, last):
+        a, V = points[i], state[7, i]
+        ux, uy, vx, vy, gx, gy = slopes[i]
+        f, a.gx, a.gy = mended*a.eta/V, gx/V, gy/V
+        a.Fx, a.Fy = f*(a.vy*uy - a.vx*vy), f*(a.vx*vx - a.vy*ux)
+
+
+@jit
+def _rates(first, last, total, state, points, g, rho0, P0, out):
+    """Gravity bears rho0 already; the pressure left out works on what the volume changes with the fluid."""
+    for i in range(first, last):
+        px, py, mass, flow, left, through = total[i]
+        out[4, i], out[5, i], out[6, i], out[7, i] = px, py - g*(state[6, i] - rho0*state[7, i]), mass, flow + left
+        held = P0 - rho0*g*state[1, i]
+        out[8, i] = through - held*flow - g*(state[6, i] - rho0*state[7, i])*points[i].vy

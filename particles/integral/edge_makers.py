@@ -1,0 +1,168 @@
+"""Who makes edges of points and a weight: RR98's Eq. 29 as printed, plain quadrature, and what repairs it off a lattice."""
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.csgraph import connected_components
+from scipy.sparse.linalg import MatrixRankWarning, spsolve
+
+from particles.integral.edges import Edges
+from particles.integral.interpolants import W, check, check_ordering, reach, sphere
+from particles.integral.points import Points, pairs
+from particles.integral.triangulation import delaunay
+
+
+def from_weights(points: Points, weight: Any, w: np.ndarray, near: tuple[np.ndarray, ...]) -> Edges:
+    """Edges of RR98's bracket with scaled weights w (pairs,): sum_j w_ij V_j e_ij.(...)."""
+    i, j, apart, r = near
+    both = 2*w*points.V[i]*points.V[j]/r
+    return Edges(i=i, j=j, S=both[:, None]*apart, k=both, apart=apart, V=points.V)
+
+
+def judged(edges: Edges, points: Points, weight: Any) -> Edges:
+    """The edges; a warning where the weight is too narrow for the points    [Eq. 45]"""
+    off = edges.linear - np.eye(points.d)
+    check_ordering(weight, points.d, points.a, float(np.sqrt((off**2).sum(axis=(1, 2)).mean()/points.d)))
+    return edges
+
+
+def plain(points: Points, weight: Any) -> Edges:
+    """Plain quadrature, W(r_ij) dV in place of W(r) dr; warns if Eq. 45 does not hold."""
+    return judged(_plain(points, weight), points, weight)
+
+
+def _plain(points: Points, weight: Any) -> Edges:
+    check(weight, points.d)
+    near = pairs(points, reach(weight))
+    return from_weights(points, weight, W(weight, near[3]), near)
+
+
+def printed(points: Points, weight: Any) -> Edges:
+    """RR98 Eq. 29 as printed, in 3D W(r) dV -> 4 pi r^2 dV^(1/3) W(r); |S_d| r^(d-1) dV^(1/d) W in d dimensions.
+
+    Right along one line from a point only: summed over all points around, it multiplies gradients of linear fields by
+    (|S_d|/d) M_d (r0/a)^(d-1).
+    """
+    check(weight, points.d)
+    d, near = points.d, pairs(points, reach(weight))
+    r = near[3]
+    return judged(from_weights(points, weight, sphere(d)*r**(d - 1)*points.a**(1 - d)*W(weight, r), near), points, weight)
+
+
+def renormalised(points: Points, weight: Any) -> Edges:
+    """Plain quadrature times the number that makes the mean discrete first moment sum_j W r_ij dV equal to d.
+
+    Warns where Eq. 45 does not hold and points are irregular; on a lattice linear fields are exact at any range.
+
+    Raises
+    ------
+    ValueError
+        No two points are within the weight's range.
+    """
+    return judged(_renormalised(points, weight), points, weight)
+
+
+def _renormalised(points: Points, weight: Any) -> Edges:
+    edges = _plain(points, weight)
+    if not edges.k.any():
+        raise ValueError(f"no two of the {points.n} points, on average {points.a:.4g} apart, are within the weight's range "
+                         f"{reach(weight):.4g} (Eq. 45 asks for r0 above the spacing): take a larger h or more points")
+    first = float(np.einsum("iaa,i->", edges.linear, edges.V)/edges.V.sum())    # d times the factor of linear gradients
+    c = points.d/first
+    return Edges(i=edges.i, j=edges.j, S=c*edges.S, k=c*edges.k, apart=edges.apart, V=edges.V)
+
+
+def closed(points: Points, weight: Any) -> Edges:
+    """A': S_ij + k_ij (l_j - l_i), l from the graph Laplacian so that all edges close.
+
+    Conserves, keeps uniform flow uniform, is skew; its gradients are wrong by a fixed share that the disorder sets.
+
+    Raises
+    ------
+    ValueError
+        The points fall into parts without an edge between them.
+    """
+    edges = judged(_renormalised(points, weight), points, weight)
+    l = np.stack([_potential(edges, -c) for c in edges.closure.T], axis=1)
+    S = edges.S + edges.k[:, None]*(l[edges.j] - l[edges.i])
+    return Edges(i=edges.i, j=edges.j, S=S, k=edges.k, apart=edges.apart, V=edges.V)
+
+
+def _potential(edges: Edges, source: np.ndarray) -> np.ndarray:
+    """l with sum_j k_ij (l_j - l_i) = source_i."""
+    check_connected(edges)
+    L = edges.laplacian.tolil()
+    L[0, :] = 0
+    L[0, 0] = 1
+    fixed = source.copy()
+    fixed[0] = 0
+    return spsolve(sparse.csc_array(L), fixed)
+
+
+def check_connected(edges: Edges) -> None:
+    """Refuse points in several parts."""
+    parts, label = connected_components(edges.laplacian, directed=False)
+    if parts > 1:
+        lonely = int(np.argmax(label == np.argmin(np.bincount(label))))
+        raise ValueError(f"the points fall into {parts} parts without an edge between them (point {lonely} is in the "
+                         "smallest): take a wider weight or more points")
+
+
+def exact(points: Points, weight: Any) -> Edges:
+    """The nearest edges to the renormalised ones, in the norm sum (dS)^2/k, that close and are exact on linear fields.
+
+    dS_ij = k_ij [lam_i - lam_j + (mu_i + mu_j).(x_j - x_i)/2] for each direction, lam (n,), mu (n, d) from the constraints.
+
+    Raises
+    ------
+    ArithmeticError
+        The constraints cannot be met: the points are too irregular for the reach of the weight.
+    """
+    edges = _renormalised(points, weight)       # whatever Eq. 45 says: these become exact
+    check_connected(edges)
+    B = _constraints(edges)
+    M = sparse.csc_array(B@sparse.diags_array(edges.k)@B.T)
+    M[0, 0] *= 2       # lam is determined up to a constant
+    columns = []
+    for alpha in range(points.d):
+        wanted = np.zeros((points.n, 1 + points.d))
+        wanted[:, 1 + alpha] = points.V
+        missing = wanted.ravel(order="F") - B@edges.S[:, alpha]
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", MatrixRankWarning)      # told below
+            change = edges.k*(B.T@spsolve(M, missing))
+            change += edges.k*(B.T@spsolve(M, missing - B@change))     # once more for what the solution left
+        columns.append(edges.S[:, alpha] + change)
+    made = Edges(i=edges.i, j=edges.j, S=np.stack(columns, axis=1), k=edges.k, apart=edges.apart, V=edges.V)
+    worst = np.abs(made.linear - np.eye(points.d)).max()
+    if not np.isfinite(worst):
+        met = np.bincount(np.concatenate([edges.i, edges.j]), minlength=points.n)
+        least = int(np.argmin(met))
+        raise ArithmeticError(f"no edges of {type(weight).__name__} close and are exact on linear fields: the equations for them "
+                              f"are singular, as where a point has too few neighbours (point {least} has {met[least]}): take a "
+                              "wider weight or less random points")
+    if not worst < 1e-9:
+        raise ArithmeticError(f"no edges of {type(weight).__name__} close and are exact on linear fields: the best miss the "
+                              f"unit matrix by {worst:.2g}; take a wider weight or less random points")
+    return made
+
+
+def _constraints(edges: Edges) -> sparse.csr_array:
+    """B with B S = (sum_j S_ij, 1/2 sum_j S_ij (x_j - x_i)) for one direction: rows (1 + d) n, edges as columns."""
+    e, n = np.arange(len(edges.i)), edges.n
+    rows, columns = [edges.i, edges.j], [e, e]
+    values = [np.ones(len(e)), -np.ones(len(e))]
+    for beta in range(edges.d):
+        for end in (edges.i, edges.j):
+            rows.append((1 + beta)*n + end)
+            columns.append(e)
+            values.append(edges.apart[:, beta]/2)
+    return sparse.csr_array((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))),
+                            shape=((1 + edges.d)*n, len(e)))
+
+
+#: by name; each makes edges of points and a weight, which `delaunay` does not use
+MAKERS: dict[str, Callable[[Points, Any], Edges]] = {"printed": printed, "plain": plain, "renormalised": renormalised,
+                                                     "closed": closed, "exact": exact, "delaunay": delaunay}

@@ -1,0 +1,185 @@
+"""Faces between moving points that close and are exact on linear fields, in 2D: made anew wherever the points are.
+
+With x_ij = x_j - x_i, F = -w'/r of a weight w and volumes V:
+
+    B_i = (sum_j V_j F x x)^-1,  s_i = 2/sum_j V_j F r^2,  k_ij = V_i V_j F (s_i + s_j)
+    S_ij = V_i V_j F (B_i + B_j) x_ij + k_ij [phi_j - phi_i + (psi_i + psi_j).x_ij]
+
+phi, psi from sum_j S_ij = 0 and 1/2 sum_j S_ij x_ij = V_i 1: symmetric positive equations, solved by conjugate gradients from
+what was found before.
+"""
+from typing import NamedTuple
+
+import numpy as np
+
+from continuum.jit import jit
+from particles.ghosts import Ghosts, ghosts_of
+from particles.lists import Surroundings
+from particles.neighbours import u64
+from particles.pairs import Faces, nothing, rate, sweep
+
+#: the solution of the equations for faces
+POTENTIALS = ("phi_x", "psi_xx", "psi_xy", "phi_y", "psi_yx", "psi_yy")
+Metric = np.dtype([(name, "f8") for name in ("V", "xx", "xy", "yy", "s")])
+Potential = np.dtype([(name, "f8") for name in POTENTIALS])
+
+
+class Closing(NamedTuple):
+    """Closure and moments of k [phi_j - phi_i + (psi_i + psi_j).x_ij], for S_x and S_y."""
+
+
+nothing.of(Closing)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+
+
+@rate.of(Closing)
+def _(term, a, b, ab):
+    gx = ab.k*(b.phi_x - a.phi_x + (a.psi_xx + b.psi_xx)*ab.dx + (a.psi_xy + b.psi_xy)*ab.dy)
+    gy = ab.k*(b.phi_y - a.phi_y + (a.psi_yx + b.psi_yx)*ab.dx + (a.psi_yy + b.psi_yy)*ab.dy)
+    return -gx, gx*ab.dx, gx*ab.dy, -gy, gy*ab.dx, gy*ab.dy
+
+
+class FaceMaker:
+    """Makes faces of the points in their surroundings, closed by so many `iterations` at most, to the residual `within`.
+
+    faces, count (n,), pull (n, 2), iterations_done : what was made last, the density of points, the sum of V_j F x_ij that pulls
+    points to where they are dense. ghosts : of the lists. lists_made : how often the lists have been made anew.
+    """
+
+    def __init__(self, around: Surroundings, iterations: int, within: float):
+        self.around, self.n, self.team, self.most, self.within = around, around.n, around.team, iterations, within
+        self.pull, self.count, self.iterations_done = np.zeros((self.n, 2)), np.zeros(self.n), 0
+        self.lists_made, self._entries = -1, -1
+        self.ghosts: Ghosts = Ghosts(*np.empty((3, 0)))
+
+    def make(self, state: np.ndarray, V: np.ndarray, solution: np.ndarray) -> None:
+        """Pairs and faces of points at state[:2] with volumes (n,); the solution (6, n) is found from what it was, in place."""
+        around, n = self.around, self.n
+        around.place(state, 1.0)
+        self._allocate()
+        self.metric["V"][:n] = V
+        self.ghosts.fill(self.metric, ("V",))
+        self.count = around.rho[:n].copy()
+        self.team(_metric, n, around.pairs, around.x, around.y, self.metric, self.pull)
+        self.ghosts.fill(self.metric, ("xx", "yy", "s"), ("xy",))
+        self.team(_open_faces, n, around.pairs, around.x, around.y, self.metric, self.faces)
+        if self.most:
+            self._close(solution)
+
+    def _allocate(self) -> None:
+        points, entries, pairs = len(self.around.x), len(self.around.pairs.near), self.around.pairs
+        if self.lists_made != self.around.lists_made:       # as many ghosts as before may be those of others
+            self.lists_made, self.ghosts = self.around.lists_made, ghosts_of(self.around)
+            self.metric, self.potential = np.zeros(points, Metric), np.zeros(points, Potential)
+        if self._entries != entries:
+            self._entries, self._store = entries, np.empty((5, entries))
+        self.faces = Faces(pairs.first, pairs.taken, pairs.near, *self._store)
+
+    def _close(self, solution: np.ndarray) -> None:
+        """Add to the faces what closes them and makes them exact."""
+        n = self.n
+        wanted, scale = np.empty((n, 6)), np.empty((n, 6))
+        self.team(_lacking_faces, n, self.faces, self.metric, wanted, scale)
+        x = solution.T.copy()
+        self.iterations_done = self._solve(x, wanted, scale)
+        solution[:] = x.T
+        self._spread_out(x)
+        self.team(_close_faces, n, self.faces, self.potential)
+
+    def _spread_out(self, x: np.ndarray) -> None:
+        """Potentials of points and ghosts."""
+        _to_records(x, self.ghosts.origin, self.ghosts.turn, self.potential)
+
+    def _apply(self, x: np.ndarray, out: np.ndarray) -> None:
+        self._spread_out(x)
+        self.team(sweep, self.n, Closing(), self.potential, self.faces, out)
+
+    def _solve(self, x: np.ndarray, wanted: np.ndarray, scale: np.ndarray) -> int:
+        """Jacobi-preconditioned conjugate gradients, x in place; the number of iterations."""
+        product = np.empty_like(x)
+        self._apply(x, product)
+        r = wanted - product
+        z = r/scale
+        p, rz = z.copy(), inner(r, z)
+        enough = self.within**2*inner(wanted, wanted/scale)
+        for count in range(self.most):
+            if rz <= enough:
+                return count
+            self._apply(p, product)
+            step = rz/inner(p, product)
+            x += step*p
+            r -= step*product
+            z = r/scale
+            rz, before = inner(r, z), rz
+            p = z + rz/before*p
+        return self.most
+
+
+def inner(a: np.ndarray, b: np.ndarray) -> float:
+    """Sum of products, not by BLAS: from 10 000 points on its threads wait for work on all cores, and sum in another order."""
+    return float((a*b).sum())
+
+
+@jit
+def _metric(first, last, pairs, x, y, metric, shift):
+    """B, s and the pull towards even spacing sum_j V_j F x_ij of each point."""
+    for i in range(first, last):
+        xx, xy, yy, px, py = 0.0, 0.0, 0.0, 0.0, 0.0
+        for k in range(pairs.first[i], pairs.first[i] + pairs.taken[i]):
+            j = pairs.near[k]
+            V, dx, dy = metric[j].V, x[j] - x[i], y[j] - y[i]
+            fx, fy = V*pairs.wx[k], V*pairs.wy[k]        # V F x_ij
+            xx, xy, yy, px, py = xx + fx*dx, xy + fx*dy, yy + fy*dy, px + fx, py + fy
+        a, det = metric[i], xx*yy - xy*xy
+        a.xx, a.xy, a.yy, a.s = yy/det, -xy/det, xx/det, 2/(xx + yy)
+        shift[i, 0], shift[i, 1] = px, py
+
+
+@jit
+def _open_faces(first, last, pairs, x, y, metric, faces):
+    for i in range(u64(first), u64(last)):
+        a = metric[i]
+        for k in range(pairs.first[i], pairs.first[i] + pairs.taken[i]):
+            j = pairs.near[k]
+            b, dx, dy, wx, wy = metric[j], x[j] - x[i], y[j] - y[i], pairs.wx[k], pairs.wy[k]
+            VV, xx, xy, yy = a.V*b.V, a.xx + b.xx, a.xy + b.xy, a.yy + b.yy
+            faces.sx[k], faces.sy[k] = 0.5*VV*(xx*wx + xy*wy), 0.5*VV*(xy*wx + yy*wy)
+            faces.k[k] = VV*(wx*dx + wy*dy)/(dx*dx + dy*dy)*(a.s + b.s)
+            faces.dx[k], faces.dy[k] = dx, dy
+
+
+@jit
+def _lacking_faces(first, last, faces, metric, wanted, scale):
+    """What sum_j S and sum_j S x_ij lack, for S_x and S_y, and the diagonal of the equations for phi, psi."""
+    for i in range(first, last):
+        cx, cy, xx, xy, yx, yy, k0, kx, ky = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        for k in range(faces.first[i], faces.first[i] + faces.taken[i]):
+            sx, sy, c, dx, dy = 2*faces.sx[k], 2*faces.sy[k], faces.k[k], faces.dx[k], faces.dy[k]
+            cx, cy, xx, xy, yx, yy = cx + sx, cy + sy, xx + sx*dx, xy + sx*dy, yx + sy*dx, yy + sy*dy
+            k0, kx, ky = k0 + c, kx + c*dx*dx, ky + c*dy*dy
+        two_V = 2*metric[i].V
+        wanted[i, 0], wanted[i, 1], wanted[i, 2] = cx, two_V - xx, -xy
+        wanted[i, 3], wanted[i, 4], wanted[i, 5] = cy, -yx, two_V - yy
+        for c in range(0, 6, 3):
+            scale[i, c], scale[i, c + 1], scale[i, c + 2] = k0, kx, ky
+
+
+@jit
+def _to_records(x, origin, turn, potential):
+    n = len(x)
+    for i in range(n):
+        a = potential[i]
+        a.phi_x, a.psi_xx, a.psi_xy, a.phi_y, a.psi_yx, a.psi_yy = x[i]
+    for g in range(len(origin)):
+        a, s = potential[n + g], turn[g]
+        phi_x, psi_xx, psi_xy, phi_y, psi_yx, psi_yy = x[origin[g]]
+        a.phi_x, a.psi_xx, a.psi_xy, a.phi_y, a.psi_yx, a.psi_yy = phi_x, psi_xx, s*psi_xy, s*phi_y, s*psi_yx, psi_yy
+
+
+@jit
+def _close_faces(first, last, faces, potential):
+    for i in range(u64(first), u64(last)):
+        a = potential[i]
+        for k in range(faces.first[i], faces.first[i] + faces.taken[i]):
+            b, half, dx, dy = potential[faces.near[k]], 0.5*faces.k[k], faces.dx[k], faces.dy[k]
+            faces.sx[k] += half*(b.phi_x - a.phi_x + (a.psi_xx + b.psi_xx)*dx + (a.psi_xy + b.psi_xy)*dy)
+            faces.sy[k] += half*(b.phi_y - a.phi_y + (a.psi_yx + b.psi_yx)*dx + (a.psi_yy + b.psi_yy)*dy)

@@ -1,0 +1,184 @@
+"""Point sets in a box: lattice, jittered, random, relaxed; how regular they are; which of them are near each other."""
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from particles.integral.interpolants import W, check, reach, width
+
+
+@dataclass(frozen=True, kw_only=True)
+class Points:
+    """Points x (n, d) in a periodic box (d,) centred on the origin, with volumes V (n,) that fill it."""
+    x: np.ndarray
+    box: np.ndarray
+    V: np.ndarray
+
+    def __post_init__(self):
+        n, d = self.x.shape
+        if n < 2 or d not in (1, 2, 3) or self.box.shape != (d,) or self.V.shape != (n,):
+            raise ValueError(f"need points (n >= 2, d = 1, 2, 3), box (d,) and V (n,); got {self.x.shape}, "
+                             f"{self.box.shape}, {self.V.shape}")
+        lost = np.flatnonzero(~np.isfinite(self.x).all(axis=1))
+        if len(lost):
+            raise ValueError(f"point {lost[0]} is at {self.x[lost[0]]}: positions must be finite numbers; {len(lost)} of {n} are "
+                             "not: mend what made them")
+        outside = np.flatnonzero((np.abs(self.x) > self.box/2*(1 + 1e-12)).any(axis=1))
+        if len(outside):
+            i = outside[0]
+            raise ValueError(f"point {i} at {self.x[i]} is outside of the box {self.box}, centred on the origin: wrap it "
+                             "or widen the box")
+        if not (self.V > 0).all():
+            i = int(np.argmin(self.V))
+            raise ValueError(f"point {i} has volume {self.V[i]}: volumes must be positive")
+
+    @property
+    def n(self) -> int:
+        return self.x.shape[0]
+
+    @property
+    def d(self) -> int:
+        return self.x.shape[1]
+
+    @property
+    def a(self) -> float:
+        """Mean spacing, (box volume/n)^(1/d)."""
+        return float((np.prod(self.box)/self.n)**(1/self.d))
+
+    def separation(self, i: np.ndarray, j: np.ndarray) -> np.ndarray:
+        """x_j - x_i by the nearest image, (pairs, d)."""
+        d = self.x[j] - self.x[i]
+        return d - self.box*np.round(d/self.box)
+
+
+def of_positions(x: np.ndarray, box: Any) -> Points:
+    """Points of equal volume."""
+    box = np.asarray(box, float)
+    return Points(x=x, box=box, V=np.full(len(x), np.prod(box)/len(x)))
+
+
+def lattice(counts: tuple[int, ...], a: float = 1.0) -> Points:
+    """Square lattice with so many points along each axis, spacing a."""
+    axes = [(np.arange(c) + 0.5 - c/2)*a for c in counts]
+    x = np.stack([q.ravel() for q in np.meshgrid(*axes, indexing="ij")], axis=1)
+    return of_positions(x, np.array(counts)*a)
+
+
+def jittered(counts: tuple[int, ...], size: float, seed: int, a: float = 1.0) -> Points:
+    """Lattice with every coordinate shifted by up to `size` spacings."""
+    at = lattice(counts, a)
+    x = at.x + np.random.default_rng(seed).uniform(-size*a, size*a, at.x.shape)
+    return of_positions(wrapped(x, at.box), at.box)
+
+
+def random(counts: tuple[int, ...], apart: float, seed: int, a: float = 1.0) -> Points:
+    """As many points at random, none nearer to another than `apart` spacings.
+
+    Raises
+    ------
+    ValueError
+        No room is found for the last points.
+    """
+    at = lattice(counts, a)
+    rng, x = np.random.default_rng(seed), np.empty((0, at.d))
+    for _ in range(400):
+        new = rng.uniform(-at.box/2, at.box/2, (at.n - len(x), at.d))
+        x = _thinned(np.concatenate([x, new]), at.box, apart*a)
+        if len(x) == at.n:
+            return of_positions(x, at.box)
+    raise ValueError(f"{at.n - len(x)} of {at.n} points found no place {apart} spacings from all others: random points fill "
+                     "half of a plane at most at 0.75; take a smaller distance")
+
+
+def _thinned(x: np.ndarray, box: np.ndarray, apart: float) -> np.ndarray:
+    """Points of which none is too near to an earlier one that stays."""
+    if not apart > 0:
+        return x
+    stays = np.ones(len(x), bool)
+    tree = cKDTree(x + box/2, boxsize=box)
+    for i, j in sorted(map(sorted, tree.query_pairs(apart))):
+        if stays[i]:
+            stays[j] = False
+    return x[stays]
+
+
+def wrapped(x: np.ndarray, box: np.ndarray) -> np.ndarray:
+    """Positions by their images in the box."""
+    return x - box*np.round(x/box)
+
+
+def pairs(points: Points, distance: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """(i, j, x_j - x_i, r) of the pairs i < j nearer than `distance`.
+
+    Raises
+    ------
+    ValueError
+        The distance is wider than half of the box, so that two images of one point would count; or two points coincide.
+    """
+    if 2*distance >= points.box.min():
+        raise ValueError(f"the reach {distance:g} is wider than half of the box {points.box}: take more points or a narrower "
+                         "weight")
+    tree = cKDTree(points.x + points.box/2, boxsize=points.box*(1 + 1e-15))
+    i, j = tree.query_pairs(distance, output_type="ndarray").T
+    order = np.lexsort((j, i))
+    i, j = i[order], j[order]
+    apart = points.separation(i, j)
+    r = np.sqrt((apart**2).sum(axis=1))
+    if len(r) and r.min() < 1e-9*points.a:
+        k = int(np.argmin(r))
+        raise ValueError(f"points {i[k]} and {j[k]} overlap at {points.x[i[k]]}: no direction leads from one to the other; "
+                         "move one of them")
+    return i, j, apart, r
+
+
+def irregularity(points: Points, weight: Any) -> np.ndarray:
+    """c_i = sum_j W(r_ij) dV e_ij, (n, d): zero on a lattice; what a plain gradient makes of a constant."""
+    check(weight, points.d)
+    i, j, apart, r = pairs(points, reach(weight))
+    pull = (W(weight, r)/r)[:, None]*apart
+    c = np.zeros_like(points.x)
+    np.add.at(c, i, -pull*points.V[j, None])
+    np.add.at(c, j, pull*points.V[i, None])
+    return c
+
+
+def discrete_moments(points: Points, weight: Any, n: int) -> np.ndarray:
+    """M_n at each point, r0^(1-n) sum_j r_ij^n W(r_ij) V_j, (points,): `interpolants.moment` by quadrature    [RR98 Eqs 2, 32]
+
+    M_1 = d is what makes linear gradients right on average (`makers.renormalised`); for n < 1 the point itself would add
+    r^n W(r) at r = 0, which it does not here.
+    """
+    check(weight, points.d)
+    i, j, _, r = pairs(points, reach(weight))
+    terms = (r/width(weight))**n*W(weight, r)*width(weight)
+    return np.bincount(i, terms*points.V[j], points.n) + np.bincount(j, terms*points.V[i], points.n)
+
+
+def relaxed(points: Points, weight: Any, until: float = 2e-3, sweeps: int = 2000) -> Points:
+    """Points moved by 0.12 a^2 c a sweep until a |c| < `until` everywhere, c as in `irregularity`.
+
+    Raises
+    ------
+    ArithmeticError
+        They are not that regular after so many sweeps.
+    """
+    for _ in range(sweeps):
+        c = irregularity(points, weight)
+        worst = points.a*np.sqrt((c**2).sum(axis=1).max())
+        if worst < until:
+            return points
+        points = of_positions(wrapped(points.x + 0.12*points.a**2*c, points.box), points.box)
+    raise ArithmeticError(f"a |c| is still {worst:.3g} after {sweeps} sweeps, not below {until:g}: take more sweeps, a wider "
+                          "weight, or start from less disorder")
+
+
+def off_lattice(points: Points) -> float:
+    """How far points are from any square lattice: 1 - |psi_4|, psi_4 the mean over bonds to the 4 nearest of exp(4 i angle).
+
+    0 on a lattice whatever its direction; 1 for points without order. In 2D.
+    """
+    tree = cKDTree(points.x + points.box/2, boxsize=points.box*(1 + 1e-15))
+    near = np.asarray(tree.query(points.x + points.box/2, 5)[1])
+    apart = points.separation(np.repeat(np.arange(points.n), 4), near[:, 1:].ravel())
+    return float(1 - np.abs(np.exp(4j*np.arctan2(apart[:, 1], apart[:, 0])).mean()))

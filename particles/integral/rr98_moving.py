@@ -1,0 +1,319 @@
+"""Points that move in the ways that RR98 names, compiled, in 2D: what `motions` says slowly, over neighbour lists    [Sec. III]
+
+The bracket is plain quadrature W dV times a number, `motions.scale_of`; friction goes along pairs [Eq. 51] without bulk
+viscosity. Every motion is one sum over pairs of what the first of the two gains of mass, momentum, energy and volume; a second
+one comes first where the heating of friction is mended. Between plates the images are those of `layer`: convection and pressure
+see fluid that slips, friction and heat fluid that does not. Points that come to a plate turn back.
+"""
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import check_state, conductivity, energy, pressure, sound_speed, temperature, viscosity
+from continuum.jit import formula, generic, jit
+from particles.ghosts import ghosts_of
+from particles.integral import fixed
+from particles.integral.brackets import CROSSED, Crossed, Powers
+from particles.integral.fixed import Differences, Exchange, lacking
+from particles.integral.interpolants import check_ordering
+from particles.integral.transposed_stress import Transposed, varying
+from particles.limits import lattice_sums, limit_of, zone
+from particles.lists import Listed, Surroundings, fastest
+from particles.pairs import Edge, nothing, rate, sweep
+from particles.smooth.spam import Direct, LessStatic
+from particles.starts import check_apart, check_volumes, moments
+from particles.threads import Team
+from particles.walls import confine
+from particles.weights import check_unit
+
+#: the fields of fixed points, with places and volumes
+Place = np.dtype([*fixed.Point.descr, ("x", "f8"), ("y", "f8"), ("V", "f8")])
+
+
+class OverPairs(NamedTuple):
+    """A term over edges, on the edges that pairs are at this moment: S_ab/2 = V_a V_b W e_ba, k = 2 V_a V_b W/r."""
+    term: Any
+
+
+nothing.of(OverPairs)(lambda term: nothing(term.term))
+
+
+@rate.of(OverPairs)
+def _(term, a, b, ab):
+    VV, x, y = a.V*b.V, b.x - a.x, b.y - a.y
+    # points in one place exchange nothing
+    k = 2*VV*(x*ab.wx + y*ab.wy)/(x*x + y*y + 1e-300)
+    return rate(term.term, a, b, Edge(VV*ab.wx, VV*ab.wy, k))
+
+
+class LiteralDrift(NamedTuple):
+    """Eqs 34-36 and 39 as printed: points move, and what convection brings is exchanged as well."""
+
+    def owned(self, V: np.ndarray) -> np.ndarray:
+        """The volume (n,) that m, p, E of a state are those of."""
+        return np.ones_like(V)
+
+
+class ConvectiveDrift(NamedTuple):
+    """Eqs 34-36, 39, 46-48. follow : 0 for volumes that stay, as printed; 1 where they go with the flow, dV/dt = V div v."""
+    follow: float = 0.0
+
+    def owned(self, V: np.ndarray) -> np.ndarray:
+        """The volume (n,) that m, p, E of a state are those of."""
+        return np.ones_like(V)
+
+
+class ConstantMassDrift(NamedTuple):
+    """Eq. 49 with masses that stay and volumes that follow the flow. bracket : `brackets.Crossed` or `Powers` [Eq. 50]."""
+    bracket: Any = CROSSED
+
+    def owned(self, V: np.ndarray) -> np.ndarray:
+        """The volume (n,) that m, p, E of a state are those of."""
+        return V
+
+
+class Drifting(NamedTuple):
+    """What a pair of points adds to the first: mass, momentum, energy, volume."""
+    motion: Any
+    eos: Any
+
+
+@generic
+def drifting(motion, eos, a, b, ab):
+    """The five numbers of `Drifting`, for the motion."""
+
+
+@generic
+def both(bracket, eos, a, b):
+    """(P_ab, P_ba); in the energy P_ab goes with v_a."""
+
+
+nothing.of(Drifting)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0))
+rate.of(Drifting)(lambda term, a, b, ab: drifting(term.motion, term.eos, a, b, ab))
+
+
+@drifting.of(LiteralDrift)
+def _(motion, eos, a, b, ab):
+    return (*rate(Exchange(eos), a, b, ab), 0.0)
+
+
+@drifting.of(ConvectiveDrift)
+def _(motion, eos, a, b, ab):
+    """-sum_b W e_ab.v_a q_b is what Eqs 46-48 add."""
+    mass, px, py, through = rate(Exchange(eos), a, b, ab)
+    to_a = ab.sx*a.vx + ab.sy*a.vy
+    came = to_a*b.rho
+    return mass + came, px + came*b.vx, py + came*b.vy, through + to_a*b.eps, motion.follow*(ab.sx*b.vx + ab.sy*b.vy)
+
+
+@drifting.of(ConstantMassDrift)
+def _(motion, eos, a, b, ab):
+    to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy
+    P_ab, P_ba = both(motion.bracket, eos, a, b)
+    P_ab, P_ba = P_ab + b.hydro, P_ba + a.hydro
+    f, P = 0.5*(a.eta + b.eta)*ab.k, P_ab + P_ba
+    work = f*0.5*((b.ux*b.ux + b.uy*b.uy) - (a.ux*a.ux + a.uy*a.uy))      # of friction
+    heat = 0.5*(a.k + b.k)*ab.k*(b.Td - a.Td) + ab.sx*(a.Fx + b.Fx) + ab.sy*(a.Fy + b.Fy)
+    return (0.0, f*(b.ux - a.ux) - ab.sx*P, f*(b.uy - a.uy) - ab.sy*P, work + heat - P_ab*to_a - P_ba*to_b, to_b - to_a)
+
+
+@formula
+def _pressure(eos, rho, T):
+    return pressure(eos, rho, energy(eos, rho, T))
+
+
+@both.of(Crossed)
+def _(bracket, eos, a, b):
+    return _pressure(eos, a.rho, b.T), _pressure(eos, b.rho, a.T)
+
+
+@both.of(Powers)
+def _(bracket, eos, a, b):
+    return (_pressure(eos, b.rho, b.T)/(b.rho**bracket.a*a.rho**bracket.b),
+            _pressure(eos, a.rho, a.T)/(a.rho**bracket.a*b.rho**bracket.b))
+
+
+#: by the names of `motions.MOTIONS`
+DRIFTS: dict[str, Any] = {"literal": LiteralDrift(), "convective": ConvectiveDrift(), "carried": ConvectiveDrift(1.0),
+                          "constant-mass": ConstantMassDrift()}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drift:
+    """A fluid on points that move, in a box (width, height) centred on the origin.
+
+    motion : one of DRIFTS. weight : of `particles.weights`; scale : of its plain quadrature. walls : tuple of mirror plates and
+    periodic sides. g : gravity, downwards. mended : friction along pairs as it should be, its heating and, where viscosity
+    varies, its force; False as Eq. 51 has it.
+    static : a share of the static pressure that pairs leave out, at constant mass; what it bears and its work stay.
+    """
+    motion: Any
+    weight: Any
+    eos: Any
+    law: Any
+    walls: tuple
+    box: tuple[float, float]
+    g: float = 0.0
+    scale: float = 1.0
+    mended: bool = True
+    static: LessStatic = LessStatic(0.0, 0.0)  # noqa: RUF009 (immutable)
+    skin: float = 0.5
+
+    def __post_init__(self):
+        check_unit(self.weight)
+        if self.static.fraction and not isinstance(self.motion, ConstantMassDrift):
+            raise ValueError(f"{type(self.motion).__name__} needs the whole pressure, got {self.static}: its volumes do not "
+                             "follow the flow, so that no work of what is left out is defined; take ConstantMassDrift")
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """Names of the rows of a state: places, then m, p, E per volume, or of the point at constant mass, then volumes."""
+        mass = isinstance(self.motion, ConstantMassDrift)
+        return ("x", "y", "px", "py", *(("m", "E") if mass else ("rho", "eps")), "V")
+
+    def state(self, x: np.ndarray, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
+        """(7, n) of places (n, 2), densities, velocities (n, 2), temperatures (n,); all volumes are equal."""
+        V = np.full(len(x), self.box[0]*self.box[1]/len(x))
+        fields = fixed.states(self.eos, rho*np.ones(len(x)), v, T)[[1, 2, 0, 3]]
+        return np.concatenate([x.T, self.motion.owned(V)*fields, V[None]])
+
+    def temperature(self, state: np.ndarray) -> np.ndarray:
+        """Of all points, (n,)."""
+        rho, e = self.thermal(state)
+        return temperature(self.eos, rho, e)
+
+    def thermal(self, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Density and internal energy per mass."""
+        px, py, rho, eps = state[2:6]/self.motion.owned(state[6])
+        return rho, eps/rho - (px**2 + py**2)/(2*rho**2)
+
+    def conserved(self, state: np.ndarray) -> np.ndarray:
+        """Mass, momentum and energy of all points, (4,)."""
+        V = state[6]
+        return state[[4, 2, 3, 5]]@(V/self.motion.owned(V))
+
+    def start(self, n: int, team: Team) -> "Drifts":
+        """The sums of n points, with their arrays."""
+        return Drifts(self, n, team)
+
+
+@limit_of.register
+def _(method: Drift, start: np.ndarray) -> float:
+    """RK4: waves on a lattice of the mean spacing; points lie off it, where they may be 1.4 times as fast.
+
+    Volumes that stay add 2 P grad(n dV) to the force: omega^2 = S^2 c^2 + 2 D P/rho, S and D as in `limits`. Where volumes
+    follow the flow waves are slower.
+    """
+    check_volumes(start[6])
+    rho, e = method.thermal(start)
+    check_state(method.eos, rho, e)
+    T, a = temperature(method.eos, rho, e), float(np.sqrt(start[6].mean()))
+    sums, f = lattice_sums(method.weight, a*a, 1.0, zone(a)), method.scale*a*a
+    slow, stiff = f*f*(sums.S**2).sum(axis=1), f*np.linalg.eigvalsh(sums.D)[:, -1]
+    c2, P = np.max(sound_speed(method.eos, rho, e)**2), np.max(np.abs(pressure(method.eos, rho, e))/rho)
+    cv = 1e-6/(temperature(method.eos, rho, e + 1e-6) - T)
+    chi = np.max(np.maximum(viscosity(method.law, rho, T), conductivity(method.law, rho, T)/cv)/rho)
+    fast, spread = np.sqrt(np.max(c2*slow + 2*P*stiff)), chi*method.scale*np.max(sums.k2[Direct])
+    return float(1/1.4/(fast/2.82 + spread/2.78))
+
+
+class Drifts(Listed):
+    """The compiled sums of moving points, with what the time loop asks for."""
+
+    def __init__(self, method: Drift, n: int, team: Team):
+        self.method, self.team, self.n = method, team, n
+        self.around = Surroundings(method.weight, method.walls, n, method.box, skin=method.skin, team=team)
+        self.slopes, self.total, self._lists = np.zeros((n, 4)), np.zeros((n, 5)), -1
+        self.varying = varying(method.law, method.mended, n, team, OverPairs(Transposed()), ("x", "y", "V"))
+
+    def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
+        """Refuse points in one place; warn where the weight is too narrow for them    [Eq. 45]
+
+        Raises
+        ------
+        ValueError
+            Two points overlap; names them.
+        """
+        a = float(np.sqrt(state[6].mean()))
+        self.around.place(state, self.method.scale)
+        check_apart(self.around, ids, a)
+        off = moments(self.around, state[6]) - np.eye(2)
+        check_ordering(self.method.weight, 2, a, float(np.sqrt((off**2).sum(axis=(1, 2)).mean()/2)))
+
+    def make_ready(self, now: Any, dt: float) -> None:
+        """New lists if points may leave the old ones within the step: one in which momenta lead as far as velocities in dt."""
+        momentum = fastest(now.state)
+        speed = np.sqrt(((now.state[2]**2 + now.state[3]**2)/now.state[4]**2).max())
+        super().make_ready(now, dt*float(speed)/momentum if momentum else dt)
+
+    def look_at(self, state: np.ndarray) -> None:
+        """Pairs where the points are now, fields of all points and images, and F."""
+        method, around, n = self.method, self.around, self.n
+        around.place(state, method.scale)
+        if self._lists != around.lists_made:
+            self._lists, self.ghosts = around.lists_made, ghosts_of(around)
+            self.points = np.zeros(len(around.x), Place)
+        points = self.points
+        self.team(_read, n, state, method.motion.owned(state[6]), method.eos, method.law, method.static, method.g, points)
+        _image_fields(n, *self.ghosts, around.x, around.y, method.static, method.g, points)
+        if method.mended:
+            self.team(sweep, n, OverPairs(Differences()), points, around.pairs, self.slopes)
+            self.team(lacking, n, self.slopes, state[6], points)
+            self.ghosts.fill(points, ("Fx",), ("Fy",))      # no energy through a plate
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(state)/dt of a state (7, n), written to `out`    [Eqs 34-36, 39, 46-51]"""
+        method = self.method
+        self.look_at(state)
+        self.team(sweep, self.n, OverPairs(Drifting(method.motion, method.eos)), self.points, self.around.pairs, self.total)
+        if self.varying is not None:
+            self.total[:, 1:3] += self.varying.push(self.points, self.slopes, state[6], self.ghosts, self.around.pairs)
+        self.team(_rates, self.n, self.total, method.motion.owned(state[6]), self.points, method.static, method.g, out)
+
+    def evaluate(self, state: np.ndarray) -> None:
+        """All sums once."""
+        self.rates(state, np.empty_like(state))
+
+    def confine(self, state: np.ndarray) -> int:
+        """Turn points beyond plates back, with their momenta; their number."""
+        return sum(confine(wall, state) for wall in self.method.walls)
+
+    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
+        """The first point with a volume, mass or state that no fluid has; empty if there is none."""
+        return self.unphysical(self.method.eos, state[6], *self.method.thermal(state), ids) or self.outran(state)
+
+
+@jit
+def _read(first, last, state, owned, eos, law, static, g, points):
+    """Fields of points first..last."""
+    for i in range(first, last):
+        a, rho = points[i], state[4, i]/owned[i]
+        a.x, a.y, a.V, a.rho, a.eps = state[0, i], state[1, i], state[6, i], rho, state[5, i]/owned[i]
+        a.vx, a.vy = state[2, i]/state[4, i], state[3, i]/state[4, i]
+        a.T = temperature(eos, rho, a.eps/rho - 0.5*(a.vx**2 + a.vy**2))
+        a.ux, a.uy, a.Td = a.vx, a.vy, a.T
+        a.eta, a.k = viscosity(law, rho, a.T), conductivity(law, rho, a.T)
+        a.hydro = -static.fraction*(static.P0 - static.rho0*g*a.y)
+
+
+@jit
+def _image_fields(n, origin, turn, plate_T, x, y, static, g, points):
+    """Shifted images are their origins; those in a mirror slip for convection and pressure, which goes on hydrostatically."""
+    for m in range(len(origin)):
+        a, b, s = points[origin[m]], points[n + m], turn[m]
+        b.x, b.y, b.V, b.rho, b.T, b.eps, b.eta, b.k = x[n + m], y[n + m], a.V, a.rho, a.T, a.eps, a.eta, a.k
+        b.vx, b.vy, b.ux, b.uy = a.vx, s*a.vy, s*a.ux, s*a.uy
+        b.Td = a.Td if s > 0 else 2*plate_T[m] - a.Td
+        b.hydro = a.hydro + 0.5*(1 - s)*(a.rho - static.fraction*static.rho0)*g*(a.y - b.y)
+
+
+@jit
+def _rates(first, last, total, owned, points, static, g, out):
+    """What pairs bring, gravity, and what the pressure that they leave out bears and works."""
+    for i in range(first, last):
+        a = points[i]
+        mass, px, py, through, volume = total[i]
+        f, weight = owned[i]/a.V, g*owned[i]*(a.rho - static.fraction*static.rho0)
+        out[0, i], out[1, i], out[2, i], out[3, i] = a.vx, a.vy, f*px, f*py - weight
+        out[4, i], out[5, i], out[6, i] = f*mass, f*through + a.hydro*volume - weight*a.vy, volume

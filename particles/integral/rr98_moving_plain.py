@@ -1,0 +1,217 @@
+"""Points that move, in the three ways that RR98 names; edges are made again at every evaluation    [RR98, Sec. III]
+
+    literal         dr_i/dt = v_i [Eq. 39], fields as on fixed points [Eqs 34-36], every volume dV: convection counts twice
+    convective      d/dt is the partial derivative and what Eqs 46-48 add to it, with their signs; every volume dV
+    carried         the same, but volumes go with the flow, dV_i/dt = V_i div v
+    constant mass   m_i dv_i/dt = sum_j .. [Eq. 49], pressure crossed [Eq. 13] or of Eq. 50: smoothed particle hydrodynamics
+
+A state (2 d + 2 or more, n) begins with positions, which are not wrapped into the box. Then come rho, p, eps per volume, as
+RR98's m_i, p_i, eps_i are of equal volumes dV; or, at constant mass, m, p, E of the point; then V where it changes.
+A scheme that is conservative and consistent is another one: see `moving`.
+"""
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from continuum.fluid import energy
+from particles.integral.brackets import CROSSED
+from particles.integral.dih import Dih, Fluxes, Pairwise, rows, take
+from particles.integral.edge_makers import from_weights, judged, plain, renormalised
+from particles.integral.edges import Edges
+from particles.integral.interpolants import W, check, reach
+from particles.integral.points import Points, of_positions, pairs, wrapped
+
+
+def scale_of(points: Points, weight: Any) -> float:
+    """The number that plain quadrature W dV is multiplied by on these points so that its mean first moment is d."""
+    return float(renormalised(points, weight).k.sum()/plain(points, weight).k.sum())
+
+
+def convected(edges: Edges, v: np.ndarray, fields: np.ndarray) -> np.ndarray:
+    """-sum_j W_ij e_ij.v_i q_j, (m, n), of v (n, d), fields q (m, n): what Eqs 46-48 add; v.grad q on a lattice."""
+    i, j, half = edges.i, edges.j, edges.S/2
+    ahead, back = (half*v[i]).sum(axis=1), (half*v[j]).sum(axis=1)
+    return np.stack([np.bincount(i, ahead*q[j], edges.n) - np.bincount(j, back*q[i], edges.n) for q in fields])/edges.V
+
+
+def divergence(edges: Edges, v: np.ndarray) -> np.ndarray:
+    """-sum_j W_ij e_ij.v_j, (n,): the divergence that remains of Eqs 34 and 46."""
+    i, j, half = edges.i, edges.j, edges.S/2
+    return (np.bincount(i, (half*v[j]).sum(axis=1), edges.n) - np.bincount(j, (half*v[i]).sum(axis=1), edges.n))/edges.V
+
+
+@dataclass(frozen=True, kw_only=True)
+class Motion:
+    """What all have in common: a fluid on points that move in a periodic box (d,) around the origin.
+
+    weight : of `weights` or `interpolants`, for d dimensions. scale : of plain quadrature, see `scale_of`.
+    eos, law, zeta, transport : as of `Dih`.
+    """
+    box: tuple[float, ...]
+    weight: Any
+    eos: Any
+    law: Any
+    zeta: Any = 0.0
+    transport: Any = Pairwise()  # noqa: RUF009  (immutable)
+    scale: float = 1.0
+
+    def __post_init__(self):
+        check(self.weight, self.places)
+
+    @property
+    def places(self) -> int:
+        """Rows of a state that are positions: d."""
+        return len(self.box)
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """Names of the rows of a state."""
+        axes = ("x", "y", "z")[:self.places]
+        return (*axes, "rho", *(f"p{axis}" for axis in axes), "eps")
+
+    def fluid(self, x: np.ndarray, V: np.ndarray) -> Dih:
+        """The fluid as if points x (n, d) of volumes V (n,) stood still.
+
+        Raises
+        ------
+        FloatingPointError
+            A position is not finite, or a volume not positive; names the point.
+        """
+        bad = np.flatnonzero(~(np.isfinite(x).all(axis=1) & (V > 0)))
+        if len(bad):
+            raise FloatingPointError(f"point {bad[0]} is at {x[bad[0]]} with volume {V[bad[0]]:.6g}: positions must be finite "
+                                     "and volumes positive; take a shorter step or more viscosity")
+        box = np.asarray(self.box, float)
+        points = Points(x=wrapped(x, box), box=box, V=V)
+        near = pairs(points, reach(self.weight))
+        edges = from_weights(points, self.weight, self.scale*W(self.weight, near[3]), near)
+        return Dih(edges=edges, eos=self.eos, law=self.law, zeta=self.zeta, transport=self.transport)
+
+    def checked(self, x: np.ndarray) -> np.ndarray:
+        """Positions (n, d) to start from; warns where the weight is too narrow for them    [Eq. 45]
+
+        Raises
+        ------
+        ValueError
+            Two points overlap, or the box is narrower than two ranges of the weight.
+        FloatingPointError
+            A position is not finite.
+        """
+        fluid = self.fluid(x, self.equal(len(x)))
+        judged(fluid.edges, of_positions(wrapped(x, np.asarray(self.box, float)), self.box), self.weight)
+        return x
+
+    def equal(self, n: int) -> np.ndarray:
+        """Equal volumes of n points that fill the box."""
+        return np.full(n, np.prod(self.box)/n)
+
+    def velocity(self, state: np.ndarray) -> np.ndarray:
+        """(d, n): the rates of the positions    [Eq. 39]"""
+        d = self.places
+        return state[d + 1:2*d + 1]/state[d]
+
+    def densities(self, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
+        """(2 + d, n) of densities (n,), velocities (n, d), temperatures (n,)."""
+        internal = energy(self.eos, rho, T)*np.ones_like(rho)
+        return np.stack([rho, *(rho[:, None]*v).T, rho*(internal + (v**2).sum(axis=1)/2)])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Literal(Motion):
+    """Eqs 34-36 and 39 as printed: points move, and what convection brings is exchanged as well."""
+
+    def state(self, x: np.ndarray, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
+        """(2 d + 2, n) of positions (n, d) and fields."""
+        return np.concatenate([self.checked(x).T, self.densities(rho, v, T)])
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(state)/dt, written to `out`."""
+        d = self.places
+        self.fluid(state[:d].T, self.equal(state.shape[1])).rates(state[d:], out[d:])
+        out[:d] = self.velocity(state)
+
+    def conserved(self, state: np.ndarray) -> np.ndarray:
+        """Mass, momentum and energy of all points, (2 + d,)."""
+        return state[self.places:]@self.equal(state.shape[1])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Convective(Motion):
+    """Eqs 34-36, 39, 46-48 as printed: m_i, p_i, eps_i of volumes dV that stay as they are."""
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """Names of the rows of a state."""
+        return (*super().fields, "V")
+
+    def state(self, x: np.ndarray, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
+        """(2 d + 3, n) of positions (n, d) and fields; all volumes are equal."""
+        return np.concatenate([self.checked(x).T, self.densities(rho, v, T), self.equal(len(x))[None]])
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(state)/dt, written to `out`."""
+        d, v = self.places, self.velocity(state)
+        dih = self.fluid(state[:d].T, state[-1])
+        dih.rates(state[d:-1], out[d:-1])
+        out[d:-1] += convected(dih.edges, v.T, state[d:-1])
+        out[:d], out[-1] = v, self.growth(dih.edges, v.T)
+
+    def growth(self, edges: Edges, v: np.ndarray) -> np.ndarray:
+        """dV/dt, (n,)."""
+        return np.zeros(edges.n)
+
+    def conserved(self, state: np.ndarray) -> np.ndarray:
+        """Mass, momentum and energy of all points, (2 + d,)."""
+        return state[self.places:-1]@state[-1]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Carried(Convective):
+    """Eqs 46-48 on volumes that go with the flow: rho_i V_i then stays as it is, as at constant mass."""
+
+    def growth(self, edges: Edges, v: np.ndarray) -> np.ndarray:
+        """dV/dt = V div v, (n,), with the divergence that Eqs 34 and 46 leave in dm_i/dt."""
+        return edges.V*divergence(edges, v)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConstantMass(Motion):
+    """Eq. 49 with masses that stay: momentum and energy are exchanged, volumes follow the flow, dV_i/dt = V_i div v.
+
+    bracket : `brackets.Crossed` or `Powers`. The divergence takes differences v_j - v_i, the adjoint of the sum P_ij + P_ji.
+    """
+    bracket: Any = CROSSED
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """Names of the rows of a state."""
+        d = self.places
+        return (*super().fields[:d], "m", *super().fields[d + 1:-1], "E", "V")
+
+    def state(self, x: np.ndarray, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
+        """(2 d + 3, n) of positions (n, d) and fields; all volumes are equal."""
+        V = self.equal(len(x))
+        return np.concatenate([self.checked(x).T, V*self.densities(rho, v, T), V[None]])
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(state)/dt, written to `out`."""
+        d, V = self.places, state[-1]
+        dih = self.fluid(state[:d].T, V)
+        flow, edges = dih.flow(state[d:-1]/V), dih.edges
+        a, b, half = take(flow, edges.i), take(flow, edges.j), edges.S/2
+        P_ab, P_ba = self.bracket.both(self.eos, a, b)
+        to_a, to_b = (half*a.v).sum(axis=1), (half*b.v).sum(axis=1)
+        pushed = Fluxes(np.zeros(len(half)), half*(P_ab + P_ba)[:, None], P_ab*to_a + P_ba*to_b)
+        for row, flux in zip(out[d:-1], rows(pushed, self.transport.fluxes(dih, flow)), strict=True):
+            row[:] = np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n)
+        out[:d] = flow.v.T
+        out[-1] = np.bincount(edges.i, to_b - to_a, edges.n) + np.bincount(edges.j, to_b - to_a, edges.n)
+
+    def conserved(self, state: np.ndarray) -> np.ndarray:
+        """Mass, momentum and energy of all points, (2 + d,)."""
+        return state[self.places:-1].sum(axis=1)
+
+
+#: by name
+MOTIONS: dict[str, Any] = {"literal": Literal, "convective": Convective, "carried": Carried, "constant-mass": ConstantMass}

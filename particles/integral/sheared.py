@@ -1,0 +1,147 @@
+"""Discretized integral hydrodynamics on a lattice between sliding sides [Lees and Edwards], compiled; in 2D.
+
+The state has a fifth row, how far the images above have slid: its rate is their speed, so that every integrator and every
+restart knows the time.
+"""
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from continuum.jit import jit
+from particles.ghosts import Ghosts
+from particles.integral.edges import Edges
+from particles.integral.fixed import Differences, Exchange, Point, Summing, check_number, driven, lacking, read, states
+from particles.integral.layer import Layer
+from particles.integral.points import Points
+from particles.integral.transposed_stress import varying
+from particles.limits import limit_of
+from particles.neighbours import u32
+from particles.pairs import Stored, sweep
+from particles.threads import Team
+from particles.walls.sliding import Sides, sides, slide
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sheared:
+    """A fluid on the points of a lattice, periodic in x; images above move faster by rate times height.
+
+    edges : periodic, of a weight.
+    """
+    points: Points
+    edges: Edges
+    eos: Any
+    law: Any
+    rate: float
+
+    fields = ("rho", "px", "py", "eps", "slid")
+
+    def __post_init__(self):
+        _ = self.sides      # what is wrong with points or edges is told here
+
+    @cached_property
+    def sides(self) -> Sides:
+        """Edges among points and to images."""
+        return sides(self.points, self.edges)
+
+    def __repr__(self) -> str:
+        """What tells a checkpoint's method from another: edges by their sums."""
+        sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.points.x, self.edges.S, self.edges.k))
+        return f"Sheared({self.points.n}, {sums}, {self.eos}, {self.law}, {self.rate})"
+
+    @property
+    def speed(self) -> float:
+        """Of the box above relative to this one."""
+        return self.rate*float(self.points.box[1])
+
+    @property
+    def fastest(self) -> tuple[float, float]:
+        """As that of a layer, whose limit of the step this has: here, of the edges alone."""
+        return self.edges.fastest
+
+    def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
+        """(5, n) of densities, velocities (n, 2), temperatures, before anything has slid."""
+        one = np.ones(self.points.n)
+        return np.concatenate([states(self.eos, rho*one, v, T*one), 0*one[None]])
+
+    def start(self, n: int, team: Team) -> "Shearing":
+        """The sums over stored edges."""
+        check_number(n, self.points.n)
+        return Shearing(self, team)
+
+
+limit_of.register(Sheared, limit_of.dispatch(Layer))
+
+
+class Shearing(Summing):
+    """The compiled sums of a sheared fluid."""
+
+    def __init__(self, method: Sheared, team: Team):
+        self.method, self.team, self.n = method, team, method.points.n
+        made = method.sides
+        self.edges = Stored(*(q.copy() for q in made.edges))      # they follow the sliding
+        self.boost = method.speed*made.up
+        self.all = np.zeros(self.n + len(made.parent), Point)
+        self.slopes, self.total = np.empty((self.n, 4)), np.empty((self.n, 4))
+        self.images = Ghosts(made.parent, np.ones(len(made.parent)), np.empty(0))
+        self.varying = varying(method.law, True, self.n, team)
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(state)/dt of a state (5, n), written to `out`    [Eqs 34-36, 51]"""
+        method = self.method
+        self.look_at(state)
+        self._exchange(self.edges, self.total)
+        self.team(driven, self.n, self.total, method.edges.V, self.all, np.zeros(2), out)
+        out[4] = method.speed
+
+    def look_at(self, state: np.ndarray) -> None:
+        """Images where they are now, fields of points and images, F."""
+        method, made, points = self.method, self.method.sides, self.all
+        slide(state[4, 0]/method.points.a, made.through, made.number, *made.counts, self.edges)
+        self.team(read, self.n, state, method.eos, method.law, 1.0, points)
+        boosted(made.parent, self.boost, points, self.n)
+        self.team(sweep, self.n, Differences(), points, self.edges, self.slopes)
+        self.team(lacking, self.n, self.slopes, method.edges.V, points)
+        boosted_lacking(made.parent, self.boost, self.slopes, method.edges.V, points, self.n)
+
+    def through(self, state: np.ndarray) -> np.ndarray:
+        """Mass, momentum (2) and energy that enter through the upper side per time, in the frame of the box."""
+        self.look_at(state)
+        total = np.empty((self.n, 4))
+        self._exchange(above(self.edges, self.method.sides), total)
+        return total.sum(axis=0)
+
+    def _exchange(self, edges: Stored, total: np.ndarray) -> None:
+        """What points get over some edges."""
+        self.team(sweep, self.n, Exchange(self.method.eos), self.all, edges, total)
+        if self.varying is not None:
+            total[:, 1:3] += self.varying.push(self.all, self.slopes, self.method.edges.V, self.images, edges)
+
+
+def above(edges: Stored, made: Sides) -> Stored:
+    """The edges through the upper side alone."""
+    chosen = made.through.entry[made.through.up > 0]
+    rows = np.repeat(np.arange(len(edges.taken)), edges.taken)[chosen]
+    taken = np.bincount(rows, minlength=len(edges.taken))
+    return Stored((np.cumsum(taken) - taken).astype(edges.first.dtype), taken.astype(u32),
+                  *(q[chosen] for q in (edges.near, edges.sx, edges.sy, edges.k)))
+
+
+@jit
+def boosted(parent, boost, points, n):
+    """Images: their parents seen from a box that moves by -boost."""
+    for m in range(len(parent)):
+        a, b, U = points[parent[m]], points[n + m], boost[m]
+        b.rho, b.vx, b.vy, b.T = a.rho, a.vx + U, a.vy, a.T
+        b.eps = a.eps + a.rho*U*(a.vx + 0.5*U)
+        b.ux, b.uy, b.Td, b.eta, b.k = b.vx, b.vy, a.T, a.eta, a.k
+
+
+@jit
+def boosted_lacking(parent, boost, slopes, V, points, n):
+    """F of the images, which have the gradients of their parents and another velocity."""
+    for m in range(len(parent)):
+        i = parent[m]
+        a, b, f = points[i], points[n + m], points[i].eta/V[i]*boost[m]
+        b.Fx, b.Fy = a.Fx - f*slopes[i, 3], a.Fy + f*slopes[i, 2]

@@ -1,0 +1,194 @@
+"""Discretized integral hydrodynamics on fixed points around bodies, compiled: the terms of `layer`, periodic, in 2D.
+
+Held points (`particles.integral.bodies`) are walls and bodies: they exchange mass with the fluid, so that their density follows, and keep
+their velocity and temperature. What they receive of momentum is the force on them, exactly what the fluid lost.
+
+Slow flow around bodies feeds patterns of pressure that no gradient sees, as finite elements of equal order do, and creeps towards
+a drag that is too high. A filter of the density, chi of some 0.05 a^2 c^2/nu (c^2 = dP/drho at constant T), ends that.
+"""
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import conductivity, energy, viscosity
+from continuum.jit import jit
+from particles.ghosts import Ghosts
+from particles.integral.bodies import Held
+from particles.integral.edges import NONE_BEYOND, NOWHERE, Edges
+from particles.integral.fixed import (
+    Differences,
+    Point,
+    Summing,
+    check_number,
+    driven,
+    exchange,
+    lacking,
+    opened,
+    read,
+    states,
+    stored,
+)
+from particles.integral.layer import Layer
+from particles.integral.transposed_stress import varying
+from particles.limits import limit_of
+from particles.pairs import nothing, rate, sweep
+from particles.threads import Team
+
+
+class Filter(NamedTuple):
+    """Mass chi k_ab (rho_a - rho_b) leaves a for b, with the mean velocity and internal energy of both: conserves all."""
+    chi: float
+
+
+nothing.of(Filter)(lambda term: (0.0, 0.0, 0.0, 0.0))
+
+
+@rate.of(Filter)
+def _(term, a, b, ab):
+    mass = term.chi*ab.k*(b.rho - a.rho)
+    inner = a.eps/a.rho + b.eps/b.rho - 0.5*((a.vx - b.vx)**2 + (a.vy - b.vy)**2)
+    return mass, 0.5*mass*(a.vx + b.vx), 0.5*mass*(a.vy + b.vy), 0.5*mass*inner
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stream:
+    """A fluid on fixed points x (n, 2), periodic, driven by a force `push` per mass, around points that are `held`.
+
+    Friction goes along edges [RR98 Eq. 51], its heating as it should be (`dih.Pairwise`, mended), and its force where viscosity
+    varies. chi : diffusivity of the filter
+    of the density, 0 for none.
+    """
+    x: np.ndarray
+    edges: Edges
+    eos: Any
+    law: Any
+    held: Held
+    push: tuple[float, float] = (0.0, 0.0)
+    chi: float = 0.0
+
+    fields = ("rho", "px", "py", "eps")
+
+    def __post_init__(self):
+        if not self.chi >= 0:
+            raise ValueError(f"the filter's diffusivity chi must not be negative, got {self.chi}: 0.05 a^2 c^2/nu is enough")
+
+    def __repr__(self) -> str:
+        """What tells a checkpoint's method from another: edges by their sums."""
+        sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.x, self.edges.S, self.edges.k, *self.held))
+        return f"Stream({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.push}, {self.chi})"
+
+    @property
+    def fastest(self) -> tuple[float, float]:
+        """As that of a layer, whose limit of the step this has: here, of the edges alone."""
+        return self.edges.fastest
+
+    def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
+        """(4, n) of densities, velocities (n, 2), temperatures; held points get their own where they have one."""
+        rho, T, v = rho*np.ones(len(self.x)), T*np.ones(len(self.x)), v.copy()
+        v[self.held.which] = self.held.v
+        warm = np.isfinite(self.held.T)
+        T[self.held.which[warm]] = self.held.T[warm]
+        return states(self.eos, rho, v, T)
+
+    def start(self, n: int, team: Team) -> "Streaming":
+        """The sums over stored edges.
+
+        Raises
+        ------
+        ValueError
+            The state has not as many points as there are.
+        """
+        check_number(n, len(self.x))
+        return Streaming(self, team)
+
+
+limit_of.register(Stream, limit_of.dispatch(Layer))
+NO_IMAGES = Ghosts(NOWHERE, np.empty(0), np.empty(0))
+
+
+class Streaming(Summing):
+    """The compiled sums of a stream. received (m, 3): momentum and energy that each held point takes, per time."""
+
+    def __init__(self, method: Stream, team: Team):
+        self.method, self.team, self.n = method, team, len(method.x)
+        self.edges, self.around = (stored(cut(method.edges, method.held), NONE_BEYOND, NONE_BEYOND.parent)
+                                   for cut in (insulated, separated))
+        self.open, self.points = opened(self.edges), np.zeros(self.n, Point)
+        self.slopes, self.total = np.empty((self.n, 4)), np.empty((self.n, 4))
+        self.filtered = np.empty((self.n, 4)) if method.chi else None
+        self.varying = varying(method.law, True, self.n, team)
+        self.received = np.zeros((len(method.held.which), 3))
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(state)/dt of a state (4, n), written to `out`    [Eqs 34-36, 51]"""
+        method = self.method
+        self.look_at(state)
+        exchange(self.team, self.n, method.eos, self.points, self.edges, self.open, self.total)
+        if self.filtered is not None:
+            self.team(sweep, self.n, Filter(method.chi), self.points, self.around, self.filtered)
+            self.total += self.filtered
+        if self.varying is not None:
+            self.total[:, 1:3] += self.varying.push(self.points, self.slopes, method.edges.V, NO_IMAGES, self.edges)
+        self.team(driven, self.n, self.total, method.edges.V, self.points, np.array(method.push), out)
+        keep(method.eos, *method.held[:3], self.total, method.edges.V, self.points, self.received, out)
+
+    def look_at(self, state: np.ndarray) -> None:
+        """Fields of all points, and F."""
+        method, points = self.method, self.points
+        self.team(read, self.n, state, method.eos, method.law, 1.0, points)
+        hold(method.eos, method.law, *method.held[:3], points)
+        self.team(sweep, self.n, Differences(), points, self.edges, self.slopes)
+        self.team(lacking, self.n, self.slopes, method.edges.V, points)
+
+    def force(self, state: np.ndarray) -> np.ndarray:
+        """(fx, fy, heat and work) that all held points take together from the fluid, per time."""
+        self.rates(state, np.empty_like(state))
+        return self.received.sum(axis=0)
+
+
+def insulated(edges: Edges, held: Held) -> Edges:
+    """Edges without friction and heat between points of two bodies, and within adiabatic ones."""
+    body = np.full(edges.n, -1)
+    body[held.which] = np.where(np.isnan(held.T), -2 - np.arange(len(held.T)), held.body)
+    a, b = body[edges.i], body[edges.j]
+    return replace(edges, k=np.where((a != b) & (a != -1) & (b != -1), 0.0, edges.k))
+
+
+def separated(edges: Edges, held: Held) -> Edges:
+    """Edges that do not conduct between held points, for the filter: no mass seeps through a body."""
+    inside = np.zeros(edges.n, bool)
+    inside[held.which] = True
+    return replace(edges, k=np.where(inside[edges.i] & inside[edges.j], 0.0, edges.k))
+
+
+@jit
+def hold(eos, law, which, v, T, points):
+    """Held points have their own velocity and temperature, to the last digit."""
+    for m in range(len(which)):
+        a = points[which[m]]
+        a.vx, a.vy = v[m, 0], v[m, 1]
+        a.ux, a.uy = a.vx, a.vy
+        if T[m] == T[m]:        # not nan
+            a.T, a.Td = T[m], T[m]
+            a.eps = a.rho*(energy(eos, a.rho, a.T) + 0.5*(a.vx**2 + a.vy**2))
+            a.eta, a.k = viscosity(law, a.rho, a.T), conductivity(law, a.rho, a.T)
+
+
+@jit
+def keep(eos, which, v, T, total, V, points, received, out):
+    """Rates of held points, whose density alone is free, and what they take besides mass.
+
+    Whoever holds an adiabatic body that moves does work on it, which is no heat.
+    """
+    for m in range(len(which)):
+        i, (vx, vy) = which[m], v[m]
+        mass, rho, d = total[i, 0], points[i].rho, 1e-6*points[i].rho
+        fx, fy = total[i, 1] - vx*mass, total[i, 2] - vy*mass
+        taken = fx*vx + fy*vy
+        if T[m] == T[m]:
+            # d(rho e)/d(rho) at constant T: exact to round-off for an ideal gas, to 1e-10 for others
+            slope = ((rho + d)*energy(eos, rho + d, T[m]) - (rho - d)*energy(eos, rho - d, T[m]))/(2*d) + 0.5*(vx**2 + vy**2)
+            taken = total[i, 3] - slope*mass
+        received[m, 0], received[m, 1], received[m, 2] = fx, fy, taken
+        out[0, i], out[1, i], out[2, i], out[3, i] = mass/V[i], vx*mass/V[i], vy*mass/V[i], (total[i, 3] - taken)/V[i]

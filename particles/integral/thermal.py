@@ -1,0 +1,209 @@
+"""Fluctuating hydrodynamics on fixed points in time: `dih` with a random stress and heat current    [RR98 Secs II D, III A]
+
+Amplitudes are those of `fluctuating`, at current temperatures as RR98 says after Eq. 44; random numbers are functions of (seed,
+step, i, j). What is not listed is not drawn: no share along edges, no numbers of pairs.
+"""
+import warnings
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from continuum.fluid import energy, sound_speed
+from continuum.jit import jit
+from particles.integral.covariance import BETAS, OLD
+from particles.integral.dih import Dih, Flow, Fluxes, Mixed, check_bulk, means, rows, take
+from particles.integral.fixed import Summing, check_number
+from particles.integral.fluctuating import conductances, traceless
+from particles.limits import limit_of
+from particles.noise import check_seed, fill_normals, normals_of_pair
+from particles.threads import Team
+
+#: heat capacity of a point over k, below which current amplitudes bias energy fluctuations by 1 % and more
+LEAST_CAPACITY = 50
+#: c in <dx> = c B B' dt of three stages, each with the amplitude B of its own state: 0 would be Ito's, 1/2 Stratonovich's
+STAGED = (1 + BETAS[0]*BETAS[1])/6 + (2 + BETAS[2]*(BETAS[0] + BETAS[1]))/6
+
+
+@dataclass(frozen=True, kw_only=True)
+class Thermal:
+    """A fluid on fixed points with the fluctuations of its own transport, of which a share goes along edges.
+
+    The part at points has the stress of Eqs 37, 38, eta of one point with the slope of the other: where eta, zeta or kappa vary
+    from point to point that is no symmetric matrix and has no exact partner [`fluctuating.stress` has its own eta at each
+    point]; with constant ones, and along edges, noise and dissipation are partners.
+
+    edges, eos, law, zeta : as in `dih.Dih`. k : Boltzmann's constant in the units of the fluid.
+    """
+    edges: Any
+    eos: Any
+    law: Any
+    k: float
+    seed: int
+    zeta: Any = 0.0
+    share: float = 0.0
+
+    def __post_init__(self):
+        if not self.k >= 0:
+            raise ValueError(f"Boltzmann's constant k must not be negative, got {self.k}: kT is the energy of a fluctuation")
+        check_seed(self.seed)
+
+    @property
+    def integrator(self) -> type:
+        return ThreeStage
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        return self.dih.fields
+
+    @property
+    def dih(self) -> Dih:
+        """What flows without noise."""
+        return Dih(edges=self.edges, eos=self.eos, law=self.law, zeta=self.zeta, transport=Mixed(share=self.share))
+
+    def __repr__(self) -> str:
+        """What tells a checkpoint's method from another: edges by their sums."""
+        sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.edges.S, self.edges.k, self.edges.V))
+        return f"Thermal({sums}, {self.eos}, {self.law}, {self.k}, {self.seed}, {self.zeta}, {self.share})"
+
+    def start(self, n: int, team: Team) -> "Agitated":
+        """The sums over edges.
+
+        Raises
+        ------
+        ValueError
+            The state has not as many points as there are, or the viscosities have no noise along edges.
+        """
+        check_number(n, self.edges.n)
+        return Agitated(self, team)
+
+
+class Agitated(Summing):
+    """Rates without noise, and kicks of one step."""
+    number: int = 0
+
+    def __init__(self, method: Thermal, team: Team):
+        self.method, self.team, self.dih, edges = method, team, method.dih, method.edges
+        d, n = edges.d, edges.n
+        self.of_points = np.empty((n, 2*(d*d + 1 + d))) if method.share < 1 else None       # R, r, heat; of W_A and W_B
+        self.of_edges = np.empty((len(edges.i), 2*(d + 2))) if method.share > 0 else None   # R, r, heat
+        if method.share > 0:
+            self.k = conductances(edges)
+            pairs = np.stack([edges.i, edges.j])
+            if len(np.unique(pairs, axis=1).T) < len(edges.i):
+                raise ValueError("two edges join the same points by different images: their noise would be one; take more points")
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """Of the flow without noise."""
+        self.dih.rates(state, out)
+
+    def look_at(self, state: np.ndarray) -> None:
+        """Fields are not kept."""
+
+    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
+        """The first point outside of the equation of state; empty if there is none."""
+        try:
+            self.dih.flow(state)
+        except FloatingPointError as error:
+            return str(error)
+        return ""
+
+    def make_ready(self, now: Any, dt: float) -> None:
+        """Random numbers of the coming step."""
+        step = now.step
+        if self.of_points is not None:
+            self.team(fill_normals, len(self.of_points), self.method.seed, step, self.of_points)
+        if self.of_edges is not None:
+            self.team(fill_pairs, len(self.of_edges), self.method.seed, step, self.dih.edges.i, self.dih.edges.j, self.of_edges)
+
+    def kicks(self, state: np.ndarray, beta: float, dt: float, out: np.ndarray) -> None:
+        """What the noise W_A + beta W_B adds to a state in dt, with the amplitudes of that state."""
+        edges, flow = self.dih.edges, self.dih.flow(state)
+        parts = []
+        if self.of_points is not None:
+            parts.append(self._at_points(flow, halves(self.of_points, beta)*np.sqrt((1 - self.method.share)*dt)))
+        if self.of_edges is not None:
+            parts.append(self._along_edges(flow, halves(self.of_edges, beta)*np.sqrt(self.method.share*dt)))
+        total = rows(*parts) if len(parts) > 1 else [parts[0].mass, *parts[0].momentum.T, parts[0].energy]
+        for row, flux in zip(out, total, strict=True):
+            row[:] = (np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n))/edges.V
+
+    def _at_points(self, flow: Flow, dW: np.ndarray) -> Fluxes:
+        """Through edges by random stresses s_i and currents q_i: -S.(s_i + s_j)/2, -S.(s_j.v_i + s_i.v_j)/2 + S.(q_i + q_j)/2."""
+        edges, (eta, zeta, kappa), k = self.dih.edges, self.dih.coefficients(flow), self.method.k
+        i, j, d, half = edges.i, edges.j, edges.d, edges.S/2
+        s = np.sqrt(2*k*flow.T*eta/edges.V)[:, None]*(dW[:, :d*d]@traceless(d).T)
+        s += (np.sqrt(2*k*flow.T*zeta/edges.V)*dW[:, d*d])[:, None]*np.eye(d).ravel()
+        s = s.reshape(-1, d, d)
+        q = (flow.T*np.sqrt(2*k*kappa/edges.V))[:, None]*dW[:, d*d + 1:]
+        one, other = np.einsum("eb,eab->ea", half, s[i]), np.einsum("eb,eab->ea", half, s[j])
+        work = (other*flow.v[i]).sum(axis=1) + (one*flow.v[j]).sum(axis=1)
+        return Fluxes(np.zeros(len(i)), -one - other, -work + (half*(q[i] + q[j])).sum(axis=1))
+
+    def _along_edges(self, flow: Flow, dW: np.ndarray) -> Fluxes:
+        """Through edges by random forces along them, their work, and heat."""
+        edges, d = self.dih.edges, self.dih.edges.d
+        a, b, all_of = take(flow, edges.i), take(flow, edges.j), self.dih.coefficients(flow)
+        check_bulk(all_of.eta, all_of.zeta, d)
+        (eta, zeta, kappa), k = means(all_of, edges.i, edges.j), self.method.k*self.k
+        A, B = eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
+        A, B = (A, B) if d > 1 else (A + B, 0*B)
+        e, T = edges.apart/np.sqrt((edges.apart**2).sum(axis=1))[:, None], (a.T + b.T)/2
+        force = np.sqrt(2*k*T*np.maximum(A, 0))[:, None]*dW[:, :d] + (np.sqrt(2*k*T*np.maximum(B, 0))*dW[:, d])[:, None]*e
+        heat = np.sqrt(2*k*a.T*b.T*kappa)*dW[:, d + 1]
+        return Fluxes(np.zeros(len(heat)), -force, -(force*(a.v + b.v)).sum(axis=1)/2 - heat)
+
+
+def halves(normals: np.ndarray, beta: float) -> np.ndarray:
+    """W_A + beta W_B."""
+    m = normals.shape[1]//2
+    return normals[:, :m] + beta*normals[:, m:]
+
+
+@jit
+def fill_pairs(first, last, seed, step, i, j, out):
+    """out[e, c] = normal number of (seed, step, i_e, j_e, c), for edges first..last."""
+    for e in range(first, last):
+        for c in range(0, out.shape[1], 4):
+            found = normals_of_pair(seed, step, i[e], j[e], c//4)
+            for m in range(min(4, out.shape[1] - c)):
+                out[e, c + m] = found[m]
+
+
+class ThreeStage:
+    """Three Euler steps, averaged, each with its own share of two sets of noise; covariances are right to third order.
+
+    sums.kicks(y, beta, dt, out) writes what the noise W_A + beta W_B adds    [Delong, Griffith, Vanden-Eijnden & Donev 2013]
+    """
+    evaluations = 3
+
+    def __init__(self, shape: tuple[int, ...], team: Team):
+        self._start, self._k, self._kick = (np.empty(shape) for _ in range(3))
+
+    def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
+        """Advance y in place by dt."""
+        self._start[:] = y
+        for old, beta in zip(OLD, BETAS, strict=True):
+            sums.rates(y, self._k)
+            sums.kicks(y, beta, dt, self._kick)
+            y[:] = old*self._start + (1 - old)*(y + dt*self._k + self._kick)
+
+
+@limit_of.register
+def _(method: Thermal, start: np.ndarray) -> float:
+    """Three stages: 1.73 on the imaginary axis for sound, 2.51 on the real one for diffusion, at the hottest point.
+
+    Warns where a point holds so little heat that current amplitudes bias its fluctuations.
+    """
+    flow, (sound, spread) = method.dih.flow(start), method.edges.fastest
+    e = energy(method.eos, flow.rho, flow.T)
+    C = (energy(method.eos, flow.rho, flow.T*(1 + 1e-6)) - e)/(1e-6*flow.T)
+    least = float((method.edges.V*flow.rho*C).min())
+    if method.k*LEAST_CAPACITY > least:
+        warnings.warn(f"a point has the heat capacity {least/method.k:.3g} k: noise with current amplitudes makes its energy "
+                      f"fluctuate by a share of up to k/C = {method.k/least:.2g} too much, {1 - STAGED:.2f} k/C where heat goes "
+                      f"along edges; take C >= {LEAST_CAPACITY} k, larger points or a smaller k", stacklevel=2)
+    eta, zeta, kappa = method.dih.coefficients(flow)
+    chi = np.maximum(2*eta + zeta, kappa/C)/flow.rho
+    fast = sound_speed(method.eos, flow.rho, e) + np.sqrt((flow.v**2).sum(axis=1))
+    return float(1/(np.max(fast)*sound/1.73 + np.max(chi)*spread/2.51))

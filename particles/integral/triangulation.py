@@ -1,0 +1,103 @@
+"""Edges of P1 finite elements on the Delaunay triangulation of points: closed and exact on linear fields, no weight."""
+from typing import Any
+
+import numpy as np
+from scipy.spatial import Delaunay, cKDTree
+
+from particles.integral.edges import Edges, combined
+from particles.integral.points import Points, of_positions
+
+#: spacings by which points are shifted where several triangulations are right, and that they must be apart to keep their order
+SHIFT, APART = 1e-7, 1e-6
+
+
+def delaunay(points: Points, weight: Any = None) -> Edges:
+    """P1 elements on the Delaunay triangulation: S_ij = A_ij - A_ji, A_ij = int phi_i grad phi_j, V_i = int phi_i.
+
+    Closed and exact on linear fields on any points; the conductances are those of P1, (cot + cot)/2 in 2D. d = 2, 3.
+
+    Raises
+    ------
+    ValueError
+        d = 1, two points overlap, or points of a flat simplex lie on one sphere (a lattice in 3D).
+    """
+    return _assembled(points, *_simplices(points))
+
+
+def between(x: np.ndarray, width: float, height: float) -> Edges:
+    """The same on points (n, 2), periodic in x, of which some lie on the plates y = -+height/2: none is mirrored there.
+
+    Closed on all points but those on the plates, where what is missing is half of the plate beside the point, outwards.
+
+    Raises
+    ------
+    ValueError
+        There is no point on one of the plates, or one beyond them; or two points overlap.
+    """
+    low, high = x[:, 1].min(), x[:, 1].max()
+    if max(abs(low + height/2), abs(high - height/2)) > 1e-12*height:
+        raise ValueError(f"points lie between y = {low:g} and {high:g}, plates at -+{height/2:g}: "
+                         "put a row of points on each plate")
+    points = of_positions(x, (width, 3*height))
+    corner, at = _simplices(points)
+    inner = np.abs(at[:, :, 1].mean(axis=1)) < height/2      # not those that span the gap from plate to plate
+    return _assembled(points, corner[inner], at[inner])
+
+
+def _simplices(points: Points) -> tuple[np.ndarray, np.ndarray]:
+    """Corners of all simplices: points (T, d + 1), and where these are, (T, d + 1, d)."""
+    if points.d == 1:
+        raise ValueError("there are no triangles in one dimension: take edges of a weight")
+    _check_apart(points)
+    x, owner = _with_images(points)
+    # of four points on a circle all images must get the same diagonal: a small shift decides
+    shift = np.random.default_rng(0).uniform(-SHIFT, SHIFT, points.x.shape)*points.a
+    simplices = Delaunay(x + shift[owner]).simplices
+    simplices = simplices[_is_ours(x, simplices, points)]
+    return owner[simplices], x[simplices]
+
+
+def _check_apart(points: Points) -> None:
+    """Refuse points that the shift could move past each other, and triangles that no step of time could follow."""
+    tree = cKDTree((points.x + points.box/2) % points.box, boxsize=points.box*(1 + 1e-15))
+    met = tree.query_pairs(APART*points.a, output_type="ndarray")
+    if len(met):
+        i, j = sorted(met[0])
+        r = float(np.sqrt((points.separation(i, j)**2).sum()))
+        raise ValueError(f"points {i} and {j} overlap, or nearly so: {r/points.a:.2g} spacings from each other at {points.x[i]}, "
+                         f"where triangles need {APART:g} at least (and 0.4 not to shorten the step): move one of them")
+
+
+def _assembled(points: Points, corner: np.ndarray, x: np.ndarray) -> Edges:
+    """Sum of all simplices' edges; corner (T, d + 1) are points, at x (T, d + 1, d)."""
+    n, d = points.n, points.d
+    jacobian = x[:, 1:] - x[:, :1]
+    volume = np.abs(np.linalg.det(jacobian))/(2 if d == 2 else 6)
+    if volume.min() < 1e-9*points.a**d:
+        raise ValueError(f"points {corner[np.argmin(volume)]} span a flat simplex: points that lie on one sphere, as on a "
+                         "lattice or with their mirror images in 3D, have no unique triangulation; shift them, or let a weight "
+                         "make the edges")
+    slopes = np.linalg.inv(jacobian).transpose(0, 2, 1)                 # grad phi_1..d
+    slopes = np.concatenate([-slopes.sum(axis=1, keepdims=True), slopes], axis=1)
+    V = np.bincount(corner.ravel(), np.repeat(volume/(d + 1), d + 1), n)
+    a, b = np.triu_indices(d + 1, 1)
+    i, j = corner[:, a].ravel(), corner[:, b].ravel()
+    S = (volume[:, None, None]/(d + 1)*(slopes[:, b] - slopes[:, a])).reshape(-1, d)
+    k = -(volume[:, None]*np.einsum("tea,tea->te", slopes[:, a], slopes[:, b])).ravel()
+    apart = (x[:, b] - x[:, a]).reshape(-1, d)
+    return combined(i, j, S, k, apart, V, points.a)
+
+
+def _with_images(points: Points) -> tuple[np.ndarray, np.ndarray]:
+    """Positions with all images within half a box around, and which point each is of."""
+    shifts = np.stack([s.ravel() for s in np.meshgrid(*[[-1, 0, 1]]*points.d, indexing="ij")], axis=1)
+    x = (points.x[None] + shifts[:, None]*points.box).reshape(-1, points.d)
+    owner = np.tile(np.arange(points.n), len(shifts))
+    near = (np.abs(x) < points.box).all(axis=1)
+    return x[near], owner[near]
+
+
+def _is_ours(x: np.ndarray, simplices: np.ndarray, points: Points) -> np.ndarray:
+    """Simplices whose middle lies in the box: one of each set of images."""
+    middle = x[simplices].mean(axis=1)/points.box
+    return ((middle >= -0.5) & (middle < 0.5)).all(axis=1)

@@ -1,0 +1,183 @@
+"""Everything that the pair loops need besides the particles: fixed particles, ghosts of the walls, lists, pairs.
+
+Points are numbered particles first, then fixed particles, then ghosts wall by wall; only the first two have rows.
+"""
+from typing import Any
+
+import numpy as np
+
+from continuum.fluid import valid
+from particles.neighbours import farthest, make_lists, sort_into_cells
+from particles.pairs import empty_pairs, weigh
+from particles.threads import Team
+from particles.walls import confine, fixed_points, move_images, parents, place_images
+from particles.walls.periodic import wrap
+
+EMPTY = np.empty(0)
+MARGIN = 1.25  # a particle may speed up within a step by this factor before the lists miss a pair
+
+
+def fastest(state: np.ndarray) -> float:
+    """The largest speed of a state (x, y, vx, vy, e)."""
+    return float(np.sqrt((state[2]**2 + state[3]**2).max()))
+
+
+def outside(walls: tuple, state: np.ndarray) -> np.ndarray:
+    """Numbers of the particles that lie beyond walls: those that these would reflect.
+
+    Periodic sides have no beyond; what has left through them is wrapped.
+    """
+    inside = state.copy()
+    for wall in walls:
+        confine(wall, inside)
+    return np.flatnonzero((inside[:2] != state[:2]).any(axis=0))
+
+
+class Surroundings:
+    """Fixed particles, ghosts, neighbour lists and pairs of N particles between walls.
+
+    Attributes
+    ----------
+    x, y, vx, vy, T, rho, P : (points,) fields of all points; of the particles written by the method.
+    pairs : lists and pairs in range of the `rows` particles and fixed particles.
+    blocks : (wall, parents, first, last) of the ghosts, in the order in which they are filled.
+    """
+
+    def __init__(self, weight, walls, n: int, box: tuple[float, float], *, skin: float, team: Team):
+        if not skin > 0:
+            raise ValueError(f"the skin of the neighbour list must be positive, got {skin}: 0.2 h is a good start")
+        if 2*weight.h > min(box):
+            raise ValueError(f"the weight's diameter 2 h = {2*weight.h:g} is wider than the box {box[0]:g} x {box[1]:g}: "
+                             "take more particles or a shorter range")
+        self.weight, self.walls, self.skin, self.team, self.n = weight, walls, skin, team, n
+        held = [fixed_points(wall, *box) for wall in walls] or [(EMPTY, EMPTY, EMPTY)]
+        self._fixed = tuple(np.concatenate(column) for column in zip(*held, strict=True))
+        self.rows = n + len(self._fixed[0])
+        self.anchor: np.ndarray | None = None
+        self.pairs, self.lists_made = empty_pairs(self.rows, 0), 0
+
+    def must_relist(self, state: np.ndarray, dt: float) -> bool:
+        """True if some particle may leave half of the skin within the coming step."""
+        return self.anchor is None or self.moved(state) + MARGIN*fastest(state)*dt > self.skin/2
+
+    def moved(self, state: np.ndarray) -> float:
+        """The farthest that any particle has moved since the lists were made."""
+        assert self.anchor is not None, "lists come before steps"
+        return farthest(state[0], state[1], *self.anchor)
+
+    def forget(self) -> None:
+        """Make lists anew before the next step."""
+        self.anchor = None
+
+    def relist(self, state: np.ndarray, ids: np.ndarray, dt: float) -> None:
+        """Wrap the particles into the box, put them in the order of cells (in place) and make lists anew.
+
+        The skin grows when the fastest particle would outrun it within one step.
+        """
+        stride = MARGIN*fastest(state)*dt
+        if not stride < self.weight.h:
+            raise FloatingPointError(f"a particle at speed {fastest(state):.4g} would cross the weight's range "
+                                     f"{self.weight.h:g} within one step")
+        if 2*stride > self.skin:
+            self.skin = 2.4*stride
+        wrap(self.walls, state)
+        order = sort_into_cells(state[0], state[1], self.reach/2).order
+        state[:], ids[:] = state[:, order], ids[order]
+        self.make_lists(state[:2])
+
+    @property
+    def reach(self) -> float:
+        return self.weight.h + self.skin
+
+    def make_lists(self, anchor: np.ndarray) -> None:
+        """Ghosts and lists for particles at `anchor` (2, n), which a restart takes from its checkpoint."""
+        self.anchor, self.lists_made = anchor.copy(), self.lists_made + 1
+        x, y = (np.concatenate([a, f]) for a, f in zip(anchor, self._fixed, strict=False))
+        self.blocks = []
+        for wall in self.walls:
+            parent, first = parents(wall, x, y, self.reach), len(x)
+            x, y = np.append(x, np.empty(len(parent))), np.append(y, np.empty(len(parent)))
+            place_images(first, len(x), wall, parent, x, y)
+            self.blocks.append((wall, parent, first, len(x)))
+        self.x, self.y = x, y
+        self.vx, self.vy, self.T, self.rho, self.P = (np.zeros(len(x)) for _ in range(5))
+        self.T[self.n:self.rows] = self._fixed[2]
+        self._fill_lists(x, y)
+
+    def _fill_lists(self, x, y):
+        cells = sort_into_cells(x, y, self.reach)
+        rows, old = slice(self.rows), self.pairs
+        start, length, listed = make_lists(self.team, cells, x[rows], y[rows], self.reach, 0, old.listed)
+        if listed is old.listed:
+            self.pairs = old._replace(start=start, length=length)
+        else:
+            self.pairs = empty_pairs(self.rows, len(listed))._replace(start=start, length=length, listed=listed)
+
+    def place(self, state: np.ndarray, m: float) -> None:
+        """Positions of all points and, over the pairs in range, density of the rows and of their images."""
+        self.x[:self.n], self.y[:self.n] = state[0], state[1]
+        for wall, parent, first, last in self.blocks:
+            place_images(first, last, wall, parent, self.x, self.y)
+        self.team(weigh, self.rows, self.weight, m, self.x, self.y, self.pairs, self.rho)
+        for _, parent, first, last in self.blocks:
+            self.rho[first:last] = self.rho[parent]
+
+    def move(self) -> None:
+        """Velocities and temperatures of the images from those of their parents."""
+        for wall, parent, first, last in self.blocks:
+            move_images(first, last, wall, parent, self.x, self.y, self.vx, self.vy, self.T)
+
+
+class Listed:
+    """What the time loop asks of sums over neighbour lists, whatever is summed."""
+    around: Surroundings
+
+    def evaluate(self, state: np.ndarray) -> None:
+        """All sums once."""
+        raise NotImplementedError
+
+    def resume(self, now: Any) -> None:
+        """Lists as a restarted run had them."""
+        if now.anchor is not None:
+            self.around.skin = now.skin
+            self.around.make_lists(now.anchor)
+
+    def try_out(self, now: Any) -> None:
+        """One evaluation on a copy of the particles, which leaves no trace; at a start they are looked over."""
+        state, fresh = now.state.copy(), now.anchor is None
+        if fresh:
+            ids = now.ids.copy()
+            self.around.relist(state, ids, 0.0)
+            self.look_over(state, ids)
+        self.evaluate(state)
+        if fresh:
+            self.around.forget()
+
+    def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
+        """Refuse points that the sums would take without a word, once at the start; here none."""
+
+    def make_ready(self, now: Any, dt: float) -> None:
+        """New lists if particles may leave the old ones within the step; the particles are then in the order of cells.
+
+        Raises
+        ------
+        FloatingPointError
+            A particle is too fast for any list.
+        """
+        if self.around.must_relist(now.state, dt):
+            self.around.relist(now.state, now.ids, dt)
+            now.anchor, now.skin = self.around.anchor, self.around.skin
+
+    def unphysical(self, eos: Any, V: np.ndarray, rho: np.ndarray, e: np.ndarray, ids: np.ndarray) -> str:
+        """The first point with a volume, density or energy that no fluid has; empty if there is none."""
+        good = (V > 0) & (rho > 0) & valid(eos, rho, e)
+        if good.all():
+            return ""
+        i = int(np.argmin(good))
+        return (f"point {ids[i]} has V = {V[i]:.4g}, rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of "
+                f"{type(eos).__name__}")
+
+    def outran(self, state: np.ndarray) -> str:
+        """What is wrong if a particle has left the skin of the lists; empty if none has."""
+        far = self.around.moved(state) > self.around.skin/2
+        return "a particle sped up by more than a quarter within one step" if far else ""

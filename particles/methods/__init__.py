@@ -1,1 +1,0 @@
-"""Particle methods: the stages of a paper's scheme, in its order."""

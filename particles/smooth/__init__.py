@@ -1,0 +1,1 @@
+"""Smooth-particle applied mechanics    [KHP95]"""

@@ -1,1 +1,0 @@
-"""Cases, tables, figures and claims on convection, shared by the studies `rb` and `onset`."""

@@ -1,1 +1,0 @@
-"""Hard cases: what freezes, pairs, clumps, rings or diverges, and what was predicted."""

@@ -1,0 +1,1 @@
+"""hardcases/high_ra"""

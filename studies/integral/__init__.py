@@ -1,1 +1,0 @@
-"""Discretized integral hydrodynamics under test    [RR98]"""

@@ -1,0 +1,114 @@
+"""Linear systems with noise in time, and averages with honest intervals.
+
+Each average is made of 20 batches, each ten decay times of the slowest mode or longer, started where the one before ended: their
+scatter, with its t factor, is the error.
+"""
+from dataclasses import dataclass, replace
+from math import inf
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+from scipy.special import stdtrit
+
+from particles.integral.fixed import Summing, check_number
+from particles.limits import limit_of
+from particles.noise import fill_normals
+from particles.run import Plan, Run, run
+from particles.threads import Team
+from studies.kit.case import Report
+from studies.kit.stats import Measured
+
+BATCHES = 20
+DECAYS = 10         # of the slowest mode, at least, in a batch
+
+
+class CrankNicolson:
+    """(1 - dt J/2) y' = (1 + dt J/2) y + kick, J (N, N) of sums.J, the kick of sums.kick(y, dt): exact at any step."""
+    evaluations = 1
+
+    def __init__(self, shape: tuple[int, ...], team: Team):
+        self._made: tuple[float, np.ndarray, np.ndarray] = (0.0, np.empty(0), np.empty(0))
+
+    def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
+        """Advance y in place by dt."""
+        if self._made[0] != dt:
+            one = np.eye(len(sums.J))
+            inverse = np.linalg.inv(one - dt/2*sums.J)
+            self._made = (dt, inverse@(one + dt/2*sums.J), inverse)
+        _, A, inverse = self._made
+        y[:] = (A@y.ravel() + inverse@sums.kick(y, dt)).reshape(y.shape)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Linear:
+    """dx = J x dt + B dW of a state (fields, n), J (N, N), B (N, normals) sparse. modes (m, N): what is looked at."""
+    J: np.ndarray
+    B: sparse.csr_array
+    seed: int
+    modes: np.ndarray
+    fields: tuple[str, ...]
+    integrator = CrankNicolson
+
+    def __repr__(self) -> str:
+        return f"Linear({float(np.abs(self.J).sum())!r}, {float(abs(self.B).sum())!r}, {self.seed}, {len(self.modes)})"
+
+    def start(self, n: int, team: Team) -> "Sampled":
+        check_number(n, len(self.J)//len(self.fields))
+        return Sampled(self)
+
+
+class Sampled(Summing):
+    """Kicks of a linear system, and its modes."""
+
+    def __init__(self, method: Linear):
+        self.method, self.J = method, method.J
+        self.normals = np.empty((-(-method.B.shape[1]//4), 4))
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        out[:] = (self.J@state.ravel()).reshape(state.shape)
+
+    def make_ready(self, now: Any, dt: float) -> None:
+        """Random numbers of the coming step."""
+        fill_normals(0, len(self.normals), self.method.seed, now.step, self.normals)
+
+    def kick(self, y: np.ndarray, dt: float) -> np.ndarray:
+        """B dW."""
+        return np.sqrt(dt)*(self.method.B@self.normals.ravel()[:self.method.B.shape[1]])
+
+    def look_at(self, state: np.ndarray) -> None:
+        self.found = self.method.modes@state.ravel()
+
+    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
+        return ""
+
+
+@limit_of.register
+def _(method: Linear, start: np.ndarray) -> float:
+    """Crank-Nicolson has none."""
+    return inf
+
+
+def batches(method: Any, state: np.ndarray, plan: Plan, report: Report, count: int = BATCHES) -> list[Run]:
+    """Runs that go on where the one before ended, each with noise of its own seed."""
+    found = []
+    for number in range(count):
+        found.append(run(replace(method, seed=1000*method.seed + number), state, plan))
+        state = found[-1].state
+        report((number + 1)/count)
+    return found
+
+
+def over(values: np.ndarray) -> Measured:
+    """Mean of batches (b,) and its 95 % interval."""
+    n = len(values)
+    return Measured(float(values.mean()), float(stdtrit(n - 1, 0.975)*values.std(ddof=1)/np.sqrt(n)))
+
+
+def check_length(J: np.ndarray, time: float) -> None:
+    """Refuse batches shorter than DECAYS decay times of the slowest mode that is not conserved."""
+    rates = -np.linalg.eigvals(J).real
+    slow = float(rates[rates > 1e-9*rates.max()].min())
+    if time*slow < DECAYS:
+        raise ValueError(f"a batch of {time:.4g} is {time*slow:.3g} decay times of the slowest mode, less than {DECAYS}: batches "
+                         f"would be correlated; take {DECAYS/slow:.4g} or longer")

@@ -1,0 +1,97 @@
+"""Rayleigh-Benard on fixed points, a case of the error surface: K by range, disorder and rows    [RR98 Eqs 34-38]"""
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cache
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from continuum.scene import RayleighBenard
+from particles.integral.edge_makers import MAKERS, exact
+from particles.integrators import RK4
+from particles.run import Run
+from particles.weights import Lucy, WendlandC2
+from studies.build.fixed import SCHEMES, DihRun, Scheme, hard_core, positions, settled
+from studies.build.points import Setting
+from studies.kit.case import Outcome, Report
+
+RA = 1e4
+#: kinds of irregular points between rows of points on the plates, edges of a triangulation
+PLATES = {"jittered-0.3": SCHEMES["fixed-jittered-plates"], "random": SCHEMES["fixed-random-plates"],
+          "relaxed": SCHEMES["relaxed-plates"]}
+#: makers of edges and ranges of the weight between mirror images; exact ones need the wider
+MADE = (*product(("plain", "renormalised", "closed"), (2.0, 3.0)), ("exact", 3.0))
+#: what a run without an end, or without edges, leaves open
+FOUND = ("ke", "ke_err", "nu", "nu_err")
+
+
+@cache
+def moved_apart(width: float, height: float, size: float, seed: int) -> np.ndarray:
+    """`settled`, once for all makers of edges."""
+    return settled(width, height, size, seed)
+
+
+#: the same kinds of points between mirror images: makers and size of their disorder, in spacings
+POINTS: dict[str, tuple[Callable, float]] = {"jittered-0.3": (positions, 0.3), "random": (hard_core, 0.5),
+                                             "relaxed": (moved_apart, 0.5)}
+
+
+def on_lattice(h: float) -> Scheme:
+    """Lucy's weight of another range."""
+    return Scheme(f"fixed-lattice-h{h:g}", h=h)
+
+
+def between_images(kind: str, maker: str, h: float, weight: Any = Lucy) -> Scheme:
+    """Edges of a weight over irregular points and their mirror images."""
+    points, size = POINTS[kind]
+    return Scheme(f"images-{kind}-{maker}-{weight.__name__}-h{h:g}", MAKERS[maker], weight, h, size, points=points)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Convection(DihRun):
+    """One run at Ra = 10 000; `kind`: of its points, as the tables of this study have it."""
+    kind: str
+
+    def values(self, setting: Setting, done: Run) -> dict:
+        """Those of the scene, and exchanges over edges, to images among them."""
+        edges, beyond = setting.method.edges, getattr(setting.method, "beyond", None)
+        number = len(edges.i) + (len(beyond.i) if beyond else 0)
+        return {**super().values(setting, done), "exchanges": RK4.evaluations*done.step*number}
+
+    @property
+    def cost(self) -> float:
+        """Points that move apart take the longer the more there are."""
+        return super().cost + (0.04*self.scene.L**2 if self.kind == "relaxed" else 0.0)
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        """A row of `convection` in place of one of `kinetic_energy`; without exchanges where the points have no such edges."""
+        weight, h = ("none", 0.0) if self.scheme.held else (self.scheme.weight.__name__, self.scheme.h)
+        key = {"maker": self.scheme.make.__name__, "weight": weight, "h": h, "points": self.kind, "rows": round(self.scene.L),
+               "seed": self.seed}
+        try:
+            row = super().run(report, folder).rows["kinetic_energy"][0]
+        except ArithmeticError:
+            if self.scheme.make is not exact:       # others exist on all points
+                raise
+            row = {**dict.fromkeys(FOUND, np.nan), "rolls": 0, "converged": False, "exchanges": 0.0}
+        found = {name: row[name] for name in (*FOUND, "rolls", "converged")}
+        return Outcome({"convection": [{**key, **found, "exchanges": row.get("exchanges", np.nan)}]})
+
+
+def convection(kind: str, scheme: Scheme, rows: int, seed: int = 1) -> Convection:
+    """The case of so many rows."""
+    return Convection(scene=RayleighBenard(ra=RA, L=float(rows)), scheme=scheme, seed=seed, kind=kind)
+
+
+def irregular_layers(rows: dict[str, tuple[int, ...]], seeds: tuple[int, ...]) -> Iterator[Convection]:
+    """Triangulated irregular points between rows of points on the plates."""
+    yield from (convection(kind, PLATES[kind], n, seed) for kind, some in rows.items() for n, seed in product(some, seeds))
+
+
+def images(rows: tuple[int, ...], seeds: tuple[int, ...]) -> Iterator[Convection]:
+    """Edges of a weight between mirror images; plain ones of the weight that the points moved apart with, too."""
+    schemes = [(kind, between_images(kind, maker, h)) for kind, (maker, h) in product(POINTS, MADE)]
+    schemes.append(("relaxed", between_images("relaxed", "plain", 3.0, WendlandC2)))
+    yield from (convection(kind, scheme, n, seed) for (kind, scheme), n, seed in product(schemes, rows, seeds))
