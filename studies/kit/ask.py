@@ -6,10 +6,10 @@
     power("steps", "error", "dt", "0.09 < dt < 0.41", fluid="gas")  d ln(error)/d ln(dt)
     one("means", "ke", resolution=50)/one("means", "ke", resolution=inf)
 
-Rows are chosen by the values of columns (a tuple lists several) and by a condition. Formulas and conditions are
-those of pandas' `eval`, with cos, sqrt, log10, exp, abs ... and pi. The error of a column is its `_err`. Of a formula
-it is another formula, `err`: "0" where it does not count. Questions are added, subtracted, multiplied and divided as
-`Measured` are. `str` of a question is its formula.
+Rows are chosen by the values of columns (a tuple lists several) and by a condition. Formulas and conditions
+are those of pandas' `eval`, with cos, sqrt, log10, exp, abs ... and pi. The error of a column is its `_err`.
+Of a formula it is another formula, `err`: "0" where it does not count. Questions are added, subtracted,
+multiplied and divided as `Measured` are. `str` of a question is its formula.
 """
 from collections.abc import Callable
 from typing import Any
@@ -33,9 +33,9 @@ from studies.kit.value import (
 )
 
 __all__ = [
-    "NoRows", "Value", "WrongQuestion", "check", "farthest", "farthest_of", "farthest_per", "first", "intercept",
-    "largest", "largest_of", "largest_per", "last", "least", "limit", "log", "mean", "nearest_power", "of", "one",
-    "over_seeds", "power", "rows", "share", "slope", "span", "spread", "total",
+    "NoRows", "Value", "WrongQuestion", "check", "farthest", "farthest_of", "farthest_per", "first",
+    "intercept", "largest", "largest_of", "largest_per", "last", "least", "limit", "log", "mean",
+    "nearest_power", "of", "one", "over_seeds", "power", "rows", "share", "slope", "span", "spread", "total",
 ]
 
 Pick = Callable[[np.ndarray, np.ndarray], Measured]
@@ -43,7 +43,7 @@ Curve = Callable[[np.ndarray, np.ndarray, np.ndarray], Measured]
 
 
 def question(pick: Pick) -> Callable[..., Value]:
-    """A question from how it picks its number out of values (n,) and their errors (n,), sorted ``by`` a formula."""
+    """A question from how it picks its number out of values (n,) and errors (n,), sorted ``by`` a formula."""
     def ask(table: str, value: str, such: str = "", *, err: str = "", by: str = "", need: int = 1,
             **where: Any) -> Value:
         chosen = Rows(table, such, need, where)
@@ -64,7 +64,7 @@ def question(pick: Pick) -> Callable[..., Value]:
 def one(x: np.ndarray, err: np.ndarray) -> Measured:
     """That of the only row there is."""
     if len(x) > 1:
-        raise WrongQuestion(f"there are {len(x)} such rows: say which of them, or ask for first, last, mean ...")
+        raise WrongQuestion(f"there are {len(x)} such rows: say which, or ask for first, last, mean ...")
     return Measured(float(x[0]), float(err[0]))
 
 
@@ -139,12 +139,13 @@ def span(x: np.ndarray, err: np.ndarray) -> Measured:
     return Measured(float(x[high]), float(err[high])) - Measured(float(x[low]), float(err[low]))
 
 
-# --- curves -----------------------------------------------------------------------------------------------------------
+# --- curves -------------------------------------------------------------------------------------
 
 
 def curve(fit: Curve) -> Callable[..., Value]:
     """A question from a fit of y to x, both formulas; rows sorted by x, three at least."""
-    def ask(table: str, y: str, x: str, such: str = "", *, err: str = "0", need: int = 3, **where: Any) -> Value:
+    def ask(table: str, y: str, x: str, such: str = "", *, err: str = "0", need: int = 3,
+            **where: Any) -> Value:
         chosen = Rows(table, such, need, where)
 
         def answer(tables: Tables) -> Measured:
@@ -182,5 +183,5 @@ def nearest_power(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
 
 @curve
 def limit(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
-    """Of infinitely fine grids from the three finest, x in cells per length; err : the largest adds in squares."""
+    """Of infinitely fine grids from the three finest, x in cells per length; largest err added in squares."""
     return fits.grid_limit(x, y) + Measured(0.0, float(err.max()))

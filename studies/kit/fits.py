@@ -16,7 +16,7 @@ class Fit:
     """y = c_0 + c_1 x + c_2 x^2 ... by least squares.
 
     coefficients : (p,), from the constant on. residuals : (n,).
-    spread : (p, p), their covariance, widened so that sqrt(v@spread@v) is the 95 % half width of v@coefficients.
+    spread : (p, p), their covariance, such that sqrt(v@spread@v) is the 95 % half width of v@coefficients.
     """
 
     coefficients: np.ndarray
@@ -51,7 +51,7 @@ def polynomial(x: Numbers, y: Numbers, degree: int = 1, *, weight: Numbers | Non
 
         c = A y,   covariance = t^2 s^2 (X^T w^2 X)^-1 + A diag(err^2) A^T,   s^2 = |w (y - X c)|^2/(n - p)
 
-    t is Student's, of n - p degrees of freedom; ``err`` (n,) are errors that the values have besides the scatter.
+    t is Student's, of n - p degrees of freedom; ``err`` (n,) are errors of the values besides the scatter.
 
     Raises
     ------
@@ -62,8 +62,8 @@ def polynomial(x: Numbers, y: Numbers, degree: int = 1, *, weight: Numbers | Non
     w = np.ones(len(x)) if weight is None else np.asarray(weight, float)
     X, freedom = np.vander(x, degree + 1, increasing=True), len(x) - degree - 1
     if freedom < 1:
-        raise CannotTell(f"not run yet: {degree + 1} coefficients and their error take {degree + 2} values or more, "
-                         f"there are {len(x)}")
+        raise CannotTell(f"not run yet: {degree + 1} coefficients and their error take {degree + 2} values "
+                         f"or more, there are {len(x)}")
     size = np.linalg.norm(w[:, None]*X, axis=0)
     inverse = np.linalg.pinv(w[:, None]*X/size)/size[:, None]
     A = inverse*w
@@ -74,7 +74,7 @@ def polynomial(x: Numbers, y: Numbers, degree: int = 1, *, weight: Numbers | Non
 
 
 def weighted(x: Numbers, y: Numbers, err: Numbers, degree: int = 1) -> Fit:
-    """Least squares of (y - c_0 - c_1 x ...)/err, with the error that those of the values leave, not their scatter."""
+    """Least squares of (y - c_0 - c_1 x ...)/err; the error is what those of the values leave."""
     x, y, err = (np.asarray(q, float) for q in (x, y, err))
     X = np.vander(x, degree + 1, increasing=True)/err[:, None]
     spread = np.linalg.inv(X.T@X)
@@ -88,7 +88,7 @@ def line(x: Numbers, y: Numbers, *, weight: Numbers | None = None, err: Numbers 
 
 
 def power_law(x: Numbers, y: Numbers, err: Numbers | None = None) -> Fit:
-    """ln |y| against ln x: the slope is the power, of errors over spacings the order of convergence. err : of y."""
+    """ln |y| against ln x: its slope is the power, of errors over spacings the order. err : of y."""
     x, y = np.asarray(x, float), np.abs(np.asarray(y, float))
     return line(np.log(x), np.log(y), err=None if err is None else np.asarray(err, float)/y)
 

@@ -1,8 +1,9 @@
 """Rows of a table and formulas over their columns, for questions (`ask.py`).
 
-Formulas and conditions are those of pandas' `eval`, with its functions (cos, sqrt, log, log10, exp, abs ...) and pi.
+Formulas and conditions are those of pandas' `eval`, with cos, sqrt, log, log10, exp, abs ... and pi.
 """
 import ast
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from difflib import get_close_matches
@@ -24,12 +25,12 @@ class NoRows(CannotTell):
 
 
 class WrongQuestion(OtherTable):
-    """A question that no run can answer: a column that its table does not have, a formula that cannot be read."""
+    """A question that no run can answer: about a column that its table does not have, say."""
 
 
 @dataclass(frozen=True)
 class Rows:
-    """Rows of a table: columns ``where`` have these values, the condition ``such`` holds; ``need`` at least."""
+    """Rows of a table: columns are as in ``where``, the condition ``such`` holds; ``need`` of them at least."""
 
     table: str
     such: str = ""
@@ -63,7 +64,7 @@ class Rows:
 
 
 def rows(tables: Tables, table: str, such: str = "", need: int = 1, **where: Any) -> pd.DataFrame:
-    """The rows of a table in which columns are as said (a tuple lists several values) and the condition holds.
+    """The rows in which columns are as said (a tuple lists several values) and the condition ``such`` holds.
 
     Raises
     ------
@@ -98,8 +99,10 @@ def names(formula: str) -> set[str]:
     try:
         nodes = list(ast.walk(ast.parse(formula or "0", mode="eval")))
     except SyntaxError as error:
-        raise WrongQuestion(f"{formula!r} is no formula ({error.msg}): write one as pandas' eval takes it") from error
-    called = {node.func.id for node in nodes if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)}
+        words = f"{formula!r} is no formula ({error.msg}): write one as pandas' eval takes it"
+        raise WrongQuestion(words) from error
+    functions = [node.func for node in nodes if isinstance(node, ast.Call)]
+    called = {function.id for function in functions if isinstance(function, ast.Name)}
     return {node.id for node in nodes if isinstance(node, ast.Name)} - called - set(CONSTANTS)
 
 
@@ -138,7 +141,7 @@ def numbers(frame: pd.DataFrame, formula: str, table: str) -> np.ndarray:
 
 
 def error_of(formula: str, err: str, table: str, columns: Iterable[str]) -> str:
-    """The formula of an error: as given, else the `_err` of a column, else 0 if no column in the formula has one.
+    """The formula of an error: as given, else the `_err` of a column, else 0 if no column in it has one.
 
     Raises
     ------
@@ -150,6 +153,7 @@ def error_of(formula: str, err: str, table: str, columns: Iterable[str]) -> str:
         return err or f"{formula}_err"
     if known := sorted(column for column in names(formula) if f"{column}_err" in columns):
         name = known[0]
-        raise WrongQuestion(f"{formula} uses {name}, of which table {table} has {name}_err: say what the error is, as "
-                            f"in err={formula.replace(name, name + '_err')!r}, or err='0' where it does not count")
+        hint = re.sub(rf"\b{name}\b", f"{name}_err", formula)
+        raise WrongQuestion(f"{formula} uses {name}, of which table {table} has {name}_err: say what the "
+                            f"error is, as in err={hint!r}, or err='0' where it does not count")
     return "0"

@@ -19,8 +19,8 @@ class CannotTell(Exception):
 class Measured(NamedTuple):
     """A value and the half width of its 95 % interval.
 
-    Sums, differences, products, quotients and powers take errors as independent: they add in squares, to first order.
-    The other operand may be a number, which has no error.
+    Sums, differences, products, quotients and powers take errors as independent: they add in squares, to
+    first order. The other operand may be a number, which has no error.
     """
 
     value: float
@@ -30,7 +30,8 @@ class Measured(NamedTuple):
         b = measured(other)
         return Measured(self.value + b.value, hypot(self.err, b.err))
 
-    __radd__ = __add__
+    def __radd__(self, other: float) -> "Measured":
+        return self + other
 
     def __neg__(self) -> "Measured":
         return Measured(-self.value, self.err)
@@ -46,7 +47,8 @@ class Measured(NamedTuple):
         b = measured(other)
         return Measured(self.value*b.value, hypot(self.err*b.value, self.value*b.err))
 
-    __rmul__ = __mul__  # type: ignore[assignment]
+    def __rmul__(self, other: float) -> "Measured":  # type: ignore[override]
+        return self*other
 
     def __truediv__(self, other: "Measured | float") -> "Measured":
         """Raise CannotTell where the divisor's interval contains zero."""
@@ -74,7 +76,7 @@ def measured(number: "Measured | float") -> Measured:
 def log(number: Measured) -> Measured:
     """Natural logarithm; its error is the relative one."""
     if number.value <= number.err:
-        raise CannotTell(f"a logarithm of {number.value:.3g} +- {number.err:.2g}, which is not told from zero")
+        raise CannotTell(f"a logarithm of {number.value:.3g} +- {number.err:.2g}: not told from zero")
     return Measured(float(np.log(number.value)), number.err/number.value)
 
 
@@ -165,9 +167,10 @@ def over_seeds(values: Sequence[float] | np.ndarray | pd.Series) -> Measured:
 
 
 def seed_means(rows: pd.DataFrame, by: Sequence[str], columns: Sequence[str]) -> Iterator[dict[str, Any]]:
-    """One row a group of seeds: what it has in common, how many ``seeds``, the mean of each column, its ``_err``.
+    """One row a group of seeds: what it has in common, how many ``seeds``, each column's mean and ``_err``.
 
-    The ``_err`` of a column, where the table has one, is the error within a run, for `combine`. One seed alone has only this.
+    The ``_err`` of a column, where the table has one, is the error within a run, for `combine`. One seed
+    alone has only this.
     """
     for key, group in rows.groupby(list(by)):
         means: dict[str, float] = {}

@@ -69,16 +69,22 @@ class Value:
         return Value(lambda tables: abs(self(tables)), f"|{self}|", self.asks)
 
 
-def both(a: Value | float, b: Value | float, sign: str, combined: Callable[[Measured, Measured], Measured]) -> Value:
+def both(a: Value | float, b: Value | float, sign: str,
+         combined: Callable[[Measured, Measured], Measured]) -> Value:
     """Two questions, or a question and a number, in one."""
     one, other = lifted(a), lifted(b)
     texts = [f"({x})" if x.asks else str(x) for x in (one, other)]
-    return Value(lambda tables: combined(one(tables), other(tables)), f" {sign} ".join(texts), one.asks + other.asks)
+
+    def answer(tables: Tables) -> Measured:
+        return combined(one(tables), other(tables))
+    return Value(answer, f" {sign} ".join(texts), one.asks + other.asks)
 
 
 def lifted(number: Value | float) -> Value:
     """A number as a question."""
-    return number if isinstance(number, Value) else Value(lambda tables: Measured(float(number)), f"{number:g}")
+    if isinstance(number, Value):
+        return number
+    return Value(lambda tables: Measured(float(number)), f"{number:g}")
 
 
 def log(value: Value) -> Value:
@@ -109,21 +115,21 @@ def farthest_of(*values: Value, centre: float = 1.0) -> Value:
 
 
 def largest_per(columns: str | Sequence[str], value: Value) -> Value:
-    """The largest of what a question gives for each value of some columns, with the largest error among them."""
+    """The largest of what a question gives for each value of some columns, with the largest error."""
     def answer(tables: Tables) -> Measured:
         return largest_measured(list(each(columns, value, tables)))
     return Value(answer, f"largest, for each {columns}, of {value}", value.asks)
 
 
 def farthest_per(columns: str | Sequence[str], value: Value, centre: float = 1.0) -> Value:
-    """What a question gives for each value of some columns: that farthest from `centre`, with its own error."""
+    """That farthest from `centre` of what a question gives for each value of some columns, with its error."""
     def answer(tables: Tables) -> Measured:
         return farthest_measured(list(each(columns, value, tables)), centre)
     return Value(answer, f"farthest from {centre:g}, for each {columns}, of {value}", value.asks)
 
 
 def each(columns: str | Sequence[str], value: Value, tables: Tables) -> Iterator[Measured]:
-    """What a question gives for each value of some columns of its first table; those for which rows are missing are left out.
+    """What a question gives for each value of some columns of its first table, but where rows are missing.
 
     Raises
     ------
@@ -171,7 +177,7 @@ def joined(values: Sequence[Value]) -> tuple[Asked, ...]:
 
 
 def check(value: Value, tables: Sequence[Table]) -> None:
-    """Refuse a question about a table that a study does not have, or about columns that its tables do not have.
+    """Refuse a question about a table that a study does not have, or columns that its tables do not have.
 
     Raises
     ------
