@@ -13,8 +13,9 @@ from scipy import sparse
 from particles.covariance import crank_nicolson, steady
 from particles.run import Plan
 from studies.fluctuating.fluct_flows import BelowOnset
-from studies.fluctuating.fluct_sampling import BATCHES, Linear, batches, over
+from studies.fluctuating.fluct_sampling import BATCHES, Linear, batches
 from studies.kit.case import Case, Outcome, Report
+from studies.kit.stats import over_seeds
 
 FIELDS = tuple(f"{part} {name}" for part in ("re", "im") for name in ("rho", "px", "py", "eps"))
 #: of decay times of the slowest mode in a batch: with 20 of them variances are good to 6 %, 2/sqrt(20*60)
@@ -54,7 +55,7 @@ def sampled(J: np.ndarray, Q: np.ndarray, modes: np.ndarray, seed: int, report: 
     start = np.zeros((len(FIELDS), len(J)//4))
     legs = batches(method, start, plan, report, BATCHES + 1)[1:]        # the first one forgets the start
     powers = np.array([leg.means["modes"].reshape(2, -1).sum(axis=0) for leg in legs])/exact
-    found = [over(power) for power in powers.T]
+    found = [over_seeds(power) for power in powers.T]
     return [{"exact": float(due), "ratio": one.value, "ratio_err": one.err} for due, one in zip(exact, found, strict=True)]
 
 
