@@ -7,7 +7,7 @@ from studies.build.read import Value, off, ratio, select
 from studies.kit.claim import Claim
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
-from studies.rb.claims.printed import as_printed
+from studies.build.printed import as_printed
 
 LAYER, SQUARE, INFINITE = "ra_c periodic aspect 2", "ra_c square conducting", "ra_c infinite layer rigid"
 GROWTH, LINE, LINE_L2 = " (growth rates)", " (K line)", " (K line, L^-2 extrapolated)"
@@ -54,42 +54,48 @@ ONSET_CLAIMS = (
           value=lambda tables: critical(tables, "linear", INFINITE), **as_printed("ra-critical"),
           because="the last printed digit"),
     Claim(id="khp95-box-corresponds", source="KHP95 Sec. IV", printed="corresponds closely", at_most=1e-3,
-          statement="the periodic box of aspect 2 corresponds closely to the infinite layer: Ra_c over Ra_c, less 1",
+          statement="the periodic box of aspect 2 corresponds closely to the infinite layer: Ra_c over "
+                    "Ra_c, less 1",
           value=lambda tables: off(ratio(critical(tables, "linear", LAYER), critical(tables, "linear", INFINITE))),
           because="four figures are printed of 1708"),
     Claim(id="khp95-ra-bracket", source="KHP95 Sec. IV", printed="bracketing", at_most=0, value=bracket,
-          statement="critical Ra of constant eta and of constant nu bracket the Boussinesq one: product of their "
-                    "deviations", because="on different sides the product is negative"),
-    Claim(id="khp95-ra-close", source="KHP95 Sec. IV", printed="close to", expect=0, within=0.05, value=deviation,
+          statement="critical Ra of constant eta and of constant nu bracket the Boussinesq one: product of "
+                    "their deviations", because="on different sides the product is negative"),
+    Claim(id="khp95-ra-close", source="KHP95 Sec. IV", printed="close to", expect=0, within=0.05,
+          value=deviation,
           statement="critical Ra of constant eta is close to the Boussinesq one: relative deviation",
           because='"close" and "small" have no number: 5 %'),
     Claim(id="khp95-ra-close-const-nu", source="KHP95 Sec. IV", printed="close to", expect=0, within=0.05,
           value=lambda tables: deviation(tables, ", const-nu"),
           statement="critical Ra of constant nu is close to the Boussinesq one: relative deviation",
           because='"close" and "small" have no number: 5 %'),
-    Claim(id="khp95-ra-deviation", source="KHP95 Sec. IV", printed="small but definite", at_least=1e-5, at_most=0.05,
-          statement="compressible results deviate from the Boussinesq critical Ra, constant eta: relative deviation",
-          value=lambda tables: off(deviation(tables), 0.0),
+    Claim(id="khp95-ra-deviation", source="KHP95 Sec. IV", printed="small but definite", at_least=1e-5,
+          at_most=0.05,
+          statement="compressible results deviate from the Boussinesq critical Ra, constant eta: relative "
+                    "deviation", value=lambda tables: off(deviation(tables), 0.0),
           because='"definite" is told from zero, "small" is 5 % at most'),
     Claim(id="khp95-small-dt", source="KHP95 Sec. IV", printed="only small changes", at_least=0.5,
-          statement="calculations with a much smaller dT change the deviation little: deviation at dT = 0.1 over dT = 1",
+          statement="calculations with a much smaller dT change the deviation little: deviation at dT = 0.1 "
+                    "over dT = 1",
           value=lambda tables: ratio(deviation(tables, ", dT 0.1"), deviation(tables)),
-          because='"small changes" leave half of it at least; terms of order dT/T are what the Boussinesq approximation drops: '
-                  "it is responsible, as the paper believes, and so the deviation vanishes with dT"),
-    Claim(id="khp95-intermediate-capacity", source="KHP95 Sec. IV", printed="intermediate", at_least=1, at_most=2,
-          statement="an intermediate heat capacity is appropriate: the one that makes Ra_c of the ideal gas the "
-                    "Boussinesq one lies between C_V and C_P", value=intermediate,
+          because='"small changes" leave half of it at least; terms of order dT/T are what the Boussinesq '
+                  "approximation drops: it is responsible, as the paper believes, and so the deviation "
+                  "vanishes with dT"),
+    Claim(id="khp95-intermediate-capacity", source="KHP95 Sec. IV", printed="intermediate", at_least=1,
+          at_most=2,
+          statement="an intermediate heat capacity is appropriate: the one that makes Ra_c of the ideal gas "
+                    "the Boussinesq one lies between C_V and C_P", value=intermediate,
           because="C_V = 1, C_P = 2; with C_P and the adiabatic gradient subtracted, Ra is as with C_V"),
     Claim(id="khp95-ra-figures", source="KHP95 Sec. V", printed="five significant figures", at_most=0.5e-4,
           because=FIVE,
-          statement="the line of K extrapolated in L^-2 gives five figures of the critical Ra: difference from growth "
-                    "rates", value=figures(LAYER, LINE_L2)),
-    Claim(id="khp95-ra-figures-plain", source="KHP95 Sec. V", printed="five significant figures", at_most=0.5e-4,
-          because=FIVE,
-          statement="the line of K gives five figures of the critical Ra, each K extrapolated before the line is drawn",
-          value=figures(LAYER, LINE)),
+          statement="the line of K extrapolated in L^-2 gives five figures of the critical Ra: difference "
+                    "from growth rates", value=figures(LAYER, LINE_L2)),
+    Claim(id="khp95-ra-figures-plain", source="KHP95 Sec. V", printed="five significant figures",
+          at_most=0.5e-4, because=FIVE,
+          statement="the line of K gives five figures of the critical Ra, each K extrapolated before the "
+                    "line is drawn", value=figures(LAYER, LINE)),
     Claim(id="khp95-ra-figures-square", source="KHP95 Sec. V, Fig. 6", printed="five significant figures",
           at_most=0.5e-4,
-          statement="the line of K extrapolated in L^-2 gives five figures of the critical Ra of the square: "
-                    "difference from growth rates", value=figures(SQUARE, LINE_L2), because=FIVE),
+          statement="the line of K extrapolated in L^-2 gives five figures of the critical Ra of the "
+                    "square: difference from growth rates", value=figures(SQUARE, LINE_L2), because=FIVE),
 )
