@@ -7,23 +7,12 @@ Units: particles of unit mass at mean density 1, so lengths in spacings. Paper s
 results/hardcases/*.csv and *.png and the rows of study hardcases in results/claims.csv. A group of cases is a `Part`.
 """
 from studies.hard import high_ra_part, interface_grid, khp95, limits, long_sound, map_part, ringing_part, tube_part
-from studies.hard.part import chained, merged
-from studies.kit.case import Case
 from studies.kit.study import Study, main
 
 #: the map comes last, it stands on what the others derive
 PARTS = (khp95.PART, limits.PART, ringing_part.PART, long_sound.PART, tube_part.PART, high_ra_part.PART, interface_grid.PART,
          map_part.PART)
-
-
-def cases(size: str) -> list[Case]:
-    """Of all parts; `quick` has few and small ones."""
-    return [case for part in PARTS for case in part.cases(size)]
-
-
-STUDY = Study(name="hardcases", cases=cases, tables=[table for part in PARTS for table in part.tables],
-              derive=chained(part.derive for part in PARTS), figures=merged(part.figures for part in PARTS),
-              claims=[claim for part in PARTS for claim in part.claims])
+STUDY = Study.of("hardcases", "Where do smooth particles break, and was it to be expected?", PARTS)
 
 if __name__ == "__main__":
     main(STUDY)

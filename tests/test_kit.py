@@ -11,8 +11,9 @@ import pytest
 
 from studies.kit import source
 from studies.kit.case import Case, Outcome, word
-from studies.kit.keep import SEAL, kept
-from studies.kit.sweep import CasesFailed, Interrupted, sweep
+from studies.kit.store import SEAL, kept
+from studies.kit.study import Study
+from studies.kit.sweep import CasesFailed, Interrupted
 from studies.kit.table import Table, read
 
 SQUARES = Table("squares", key=["x", "note"], columns=["x", "note", "y"])
@@ -74,7 +75,8 @@ class Bench:
         return [Square(x=float(x), log=str(self.log), **more) for x in xs]
 
     def sweep(self, cases, size="paper"):
-        return sweep(cases, tables=[SQUARES], study="toy", size=size, workers=1, out=self.folder)
+        study = Study(name="toy", cases=lambda size: cases, tables=[SQUARES])
+        return study.run(size, workers=1, out=self.folder)
 
     def ran(self):
         text = self.log.read_text() if self.log.exists() else ""

@@ -8,10 +8,10 @@ from matplotlib.figure import Figure
 from studies.convection.claims.read import Value, over_seeds, select
 from studies.hard import high_ra
 from studies.hard.high_ra import CELL_NUMBER, METHODS, OFF, STEPS, cell_numbers
-from studies.hard.part import Part
 from studies.hard.tube_claims import WORDS
 from studies.kit.claim import Claim
 from studies.kit.figure import figure, look
+from studies.kit.part import Part
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
 

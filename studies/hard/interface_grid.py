@@ -24,9 +24,9 @@ from studies.convection.claims.read import select
 from studies.hard.hard_claims import finest
 from studies.hard.hard_derive import ripple
 from studies.hard.interface import BELOW, HEAVY, HEIGHT, LIGHT, WIDTH, impulse
-from studies.hard.part import Part
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.claim import CannotTell, Claim
+from studies.kit.part import Part
 from studies.kit.stats import Measured
 from studies.kit.table import Table, Tables
 

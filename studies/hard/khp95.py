@@ -15,10 +15,10 @@ from studies.hard.lattice_growth import Crystal, Growth, Onset
 from studies.hard.lattice_waves import CELLS
 from studies.hard.moduli import Moduli
 from studies.hard.newtonian import METHODS, Reversal, Twins
-from studies.hard.part import Part
 from studies.hard.shock_tube import ShockTube
 from studies.hard.square import Square
 from studies.kit.case import Case
+from studies.kit.part import Part
 
 WEIGHTS = (Lucy, Monaghan, WendlandC2)
 WIDEST = 24.0           # range whose modulus is summed

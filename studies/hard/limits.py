@@ -1,6 +1,6 @@
 """Limits of the time step, predicted and measured, as a part of the study."""
 from studies.hard import limits_cases, limits_claims, limits_figures
-from studies.hard.part import Part
+from studies.kit.part import Part
 from studies.kit.table import Table
 
 #: largest stable steps in units of spacing over (P/rho)^(1/2). predicted : by the method's own formula, smaller by `margin` for

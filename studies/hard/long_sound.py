@@ -22,11 +22,11 @@ from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.convection.claims.read import Value, select
 from studies.hard.hard_claims import TENTH
 from studies.hard.lattice_waves import matrices, sums
-from studies.hard.part import Part
 from studies.hard.ringing import AMPLITUDE, SOUND, Ringing, T
 from studies.integral.transport_symbol import continuum
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.claim import Claim
+from studies.kit.part import Part
 from studies.kit.stats import Measured
 from studies.kit.table import Table, Tables
 

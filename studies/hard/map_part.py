@@ -2,8 +2,8 @@
 from collections.abc import Iterator
 
 from studies.hard import map_cases, map_claims, map_derive, map_ends, map_figures, map_shear, map_torus
-from studies.hard.part import Part
 from studies.kit.case import Case
+from studies.kit.part import Part
 from studies.kit.table import Table
 
 #: K and K of the flow (velocities averaged over 4 x 4 spacings), means of the last third; mass at the end over that of the start

@@ -11,11 +11,11 @@ from particles.methods.spam import Direct
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.convection.claims.read import Value, over_seeds, select
 from studies.hard.hard_claims import TENTH
-from studies.hard.part import Part
 from studies.hard.ringing import Ringing
 from studies.kit.case import Case
 from studies.kit.claim import CannotTell, Claim
 from studies.kit.figure import below, figure, look
+from studies.kit.part import Part
 from studies.kit.stats import Measured
 from studies.kit.table import Table, Tables
 
