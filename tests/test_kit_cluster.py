@@ -19,8 +19,8 @@ import pytest
 from studies.kit import cluster, provenance, source
 from studies.kit.case import Case, Outcome
 from studies.kit.cluster import check_scheduler, check_worker, packed, unpacked
-from studies.kit.dispatch import CannotRun
 from studies.kit.processes import THREADS
+from studies.kit.store import CannotRun
 from studies.kit.study import Study, main
 from studies.kit.table import Table, read
 
@@ -34,6 +34,7 @@ from typing import ClassVar
 from continuum import law
 from continuum import other
 from studies.kit.case import Case, Outcome
+from studies.kit.store import CannotRun
 from studies.kit.study import Study, main
 from studies.kit.table import Table
 

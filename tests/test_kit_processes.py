@@ -11,9 +11,9 @@ import pytest
 
 from studies.kit import source
 from studies.kit.case import Case, Outcome
-from studies.kit.dispatch import Bar, CannotRun, dispatch
+from studies.kit.dispatch import Bar, dispatch
 from studies.kit.processes import Processes
-from studies.kit.store import kept
+from studies.kit.store import CannotRun, kept
 
 LIMIT = 60      # seconds after which something hangs: each test takes five on an idle machine
 

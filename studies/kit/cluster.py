@@ -21,9 +21,9 @@ from typing import TYPE_CHECKING, Any
 
 from studies.kit import provenance, source
 from studies.kit.case import Case, Report, file_of, module_of
-from studies.kit.dispatch import LOOK, Bar, CannotRun
+from studies.kit.dispatch import LOOK, Bar
 from studies.kit.processes import THREADS
-from studies.kit.store import Failure, attempt, same_code
+from studies.kit.store import CannotRun, Failure, attempt, same_code
 
 if TYPE_CHECKING:
     from distributed import Client, Future, Worker

@@ -20,10 +20,6 @@ FORMAT = "{desc} {percentage:3.0f}%|{bar}| {elapsed}, left {remaining} {postfix}
 LOOK = 0.1      # seconds for which a transport waits for outcomes
 
 
-class CannotRun(Exception):
-    """The cases cannot run as they were asked to; what is finished is kept."""
-
-
 class Bar:
     """Progress over the estimated cost of the cases, from the fraction done of each."""
 
@@ -47,10 +43,6 @@ class Bar:
         labels = [case.label for case, fraction in pairs if 0 < fraction < 1]
         self.line.set_postfix_str("; ".join(labels), refresh=False)
         self.line.update(sum(case.cost*fraction for case, fraction in pairs) - self.line.n)
-
-    def close(self) -> None:
-        """The last line."""
-        self.line.close()
 
 
 def between(fraction: float) -> float:
@@ -98,11 +90,11 @@ def dispatch(cases: Sequence[Case], folder: Path, name: str, connect: Callable[[
 
     Raises
     ------
-    KeyboardInterrupt, DiskFull, CannotRun
-        Whatever ran is ended, what is finished is kept.
+    KeyboardInterrupt, CannotRun
+        What ran is ended, what is finished is kept.
     """
-    failures = []
-    with remember_interrupt(), closing(Bar(cases, name)) as bar:
+    bar, failures = Bar(cases, name), []
+    with remember_interrupt(), bar.line:
         for alone, limit in ((False, len(cases)), (True, 1)):
             todo = deque(number for number, case in enumerate(cases) if case.alone == alone)
             if todo:

@@ -8,10 +8,9 @@ from matplotlib.figure import Figure
 
 from studies.kit.case import Case
 from studies.kit.claim import Claim
-from studies.kit.table import Table, Tables
+from studies.kit.table import Rows, Table, Tables
 
 T = TypeVar("T")
-Rows = Mapping[str, list[dict[str, Any]]]
 
 
 def nothing(tables: Tables) -> dict[str, Any]:

@@ -11,8 +11,8 @@ from multiprocessing.process import BaseProcess
 from pathlib import Path
 
 from studies.kit.case import Case
-from studies.kit.dispatch import LOOK, Bar, CannotRun, between
-from studies.kit.store import Failure, attempt, same_code
+from studies.kit.dispatch import LOOK, Bar, between
+from studies.kit.store import CannotRun, Failure, attempt, same_code
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 SPAWN = multiprocessing.get_context("spawn")

@@ -24,8 +24,8 @@ def results(size: str) -> Path:
     return RESULTS / "quick" if size == "quick" else RESULTS
 
 
-class DiskFull(Exception):
-    """No outcome can be written; what is finished is kept."""
+class CannotRun(Exception):
+    """The cases cannot run as they were asked to; what is finished is kept."""
 
 
 @dataclass(frozen=True)
@@ -72,13 +72,13 @@ def keep(case: Case, result: str | Failure, folder: Path) -> Failure | None:
 
     Raises
     ------
-    DiskFull
-        There is no room, here or for the case.
+    CannotRun
+        The disk is full.
     """
     story = folder / f"{case.key}.error.txt"
     if isinstance(result, Failure):
         if result.disk_full:
-            raise DiskFull
+            raise CannotRun(f"the disk is full: make room where {folder} lies")
         if result.story:
             write_atomic(story, result.story)
         return replace(result, path=story) if result.story else result

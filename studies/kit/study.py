@@ -13,12 +13,11 @@ from typing import Any
 
 from studies.kit.claim import ClaimError, judge, put_claims
 from studies.kit.csvfile import OtherTable
-from studies.kit.dispatch import CannotRun
 from studies.kit.figure import save
-from studies.kit.part import Part, Rows, joined, nothing
-from studies.kit.store import results
-from studies.kit.sweep import RESULTS, CasesFailed, Interrupted, NoSuchCase, Sweep, load
-from studies.kit.table import SIZES, Tables
+from studies.kit.part import Part, joined, nothing
+from studies.kit.store import RESULTS, CannotRun, results
+from studies.kit.sweep import CasesFailed, NoSuchCase, Sweep, load
+from studies.kit.table import SIZES, Rows, Tables
 
 __all__ = ["Part", "Rows", "Study", "main", "nothing", "results", "say", "verdict_line"]
 
@@ -95,10 +94,9 @@ def main(study: Study, arguments: Sequence[str] | None = None) -> None:
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         sys.exit(perform(study, words))
-    except Interrupted as stop:
-        sys.exit(say(f"\n{stop}", 130))
-    except KeyboardInterrupt:
-        sys.exit(say("\ninterrupted: finished cases are kept, the same command goes on from there", 130))
+    except KeyboardInterrupt as stop:
+        text = str(stop) or "interrupted: finished cases are kept, the same command goes on from there"
+        sys.exit(say(f"\n{text}", 130))
     except NoSuchCase as error:
         sys.exit(say(f"{study.name}: {error}", 2))
     except EXPECTED as error:

@@ -1,7 +1,7 @@
 """All cases of a study: those already finished are read, the others run, and tables get their rows."""
 import shlex
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -9,15 +9,12 @@ from typing import Any
 from studies.kit.budget import put_times
 from studies.kit.case import Case
 from studies.kit.cluster import Cluster, check_scheduler
-from studies.kit.dispatch import Bar, CannotRun, Here, Transport, dispatch
+from studies.kit.dispatch import Bar, Here, Transport, dispatch
 from studies.kit.processes import Processes
-from studies.kit.store import RESULTS, DiskFull, Failure, kept
-from studies.kit.table import Table, Tables, changed, check_size, merge, read
+from studies.kit.store import RESULTS, CannotRun, Failure, kept
+from studies.kit.table import Rows, Table, Tables, changed, check_size, merge, read
 
 LABELS = 5      # of those that exist, told to who asked for one that does not
-
-#: rows by the name of their table
-Rows = Mapping[str, list[dict[str, Any]]]
 
 
 class CasesFailed(Exception):
@@ -26,10 +23,6 @@ class CasesFailed(Exception):
 
 class NoSuchCase(Exception):
     """No case of the study has the text that was asked for in its label."""
-
-
-class Interrupted(KeyboardInterrupt):
-    """The user stopped the study; finished cases are kept."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,10 +58,8 @@ class Sweep:
         ------
         NoSuchCase
             No label contains ``only``.
-        CasesFailed
-            The disk is full.
-        Interrupted, CannotRun
-            When everything that could be saved is saved.
+        KeyboardInterrupt, CannotRun
+            What is finished is kept, the tables are as they were.
         """
         chosen = labelled(list(cases), self.only, self.size)
         wanted = list({case.key: case for case in chosen}.values())
@@ -88,11 +79,9 @@ class Sweep:
         try:
             return dispatch(missing, self.folder, self.study, self.transport)
         except KeyboardInterrupt:
-            raise Interrupted(f"interrupted: {self.count(wanted)}") from None
+            raise KeyboardInterrupt(f"interrupted: {self.count(wanted)}") from None
         except CannotRun as error:
             raise CannotRun(f"{error}; {self.count(wanted)}") from error
-        except DiskFull:
-            raise CasesFailed(f"the disk is full: make room where {self.folder} lies; {self.count(wanted)}") from None
 
     def transport(self, bar: Bar) -> Transport:
         """To where the cases run."""

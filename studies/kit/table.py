@@ -13,13 +13,15 @@ import pandas as pd
 from studies.kit import provenance
 from studies.kit.csvfile import DIGITS, read, write
 
-__all__ = ["SIZES", "Table", "Tables", "changed", "check_size", "merge", "read"]
+__all__ = ["SIZES", "Rows", "Table", "Tables", "changed", "check_size", "merge", "read"]
 
 SIZES = ("quick", "paper", "fine")
 #: columns that a row may have besides those of its table
 SPENT = ("seed", "threads", "cpu_s", "compile_s")
 #: columns that every row gets
 STAMP = ("size", "commit")
+#: rows by the name of their table
+Rows = Mapping[str, list[dict[str, Any]]]
 
 
 @dataclass(frozen=True)
