@@ -346,7 +346,7 @@ def test_a_table_without_a_column_is_one_line_and_what_is_finished_stays(tmp_pat
     for command in ("run", "claims"):
         assert typed(command, "--workers", "1", "--out", str(tmp_path)) == 1
         told = capsys.readouterr().err
-        assert told.splitlines()[-1] == (f"toy: {path} has no column y, size, commit: it was written by other code; remove it "
+        assert told.splitlines()[-1] == (f"toy: {path} has no column y, size, commit: it has an older layout; remove it "
                                          "and run the study again: finished cases are kept").replace(
                                              ", size, commit" if command == "claims" else "", "")
     assert path.read_text() == "# by hand\nx,z\n1,1\n"

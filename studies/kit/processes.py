@@ -46,8 +46,8 @@ class Processes:
         return here
 
     def ready(self) -> Iterator[tuple[int, str | Failure]]:
-        told = wait(list(self.workers), LOOK)
-        for pipe in [pipe for pipe in self.workers if pipe in told]:
+        pipes = wait(list(self.workers), LOOK)
+        for pipe in [pipe for pipe in self.workers if pipe in pipes]:
             try:
                 result: str | Failure | None = pipe.recv()
             except (EOFError, OSError):     # it died, perhaps without a case

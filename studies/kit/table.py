@@ -39,8 +39,7 @@ class Table:
     once: Sequence[str] = ()
 
     def __post_init__(self):
-        lost = [column for column in self.key if column not in self.columns]
-        if lost or not self.key:
+        if not self.key or not {*self.key} <= {*self.columns}:
             raise ValueError(f"table {self.name} has key {list(self.key)}: a key is some of the columns, "
                              f"{', '.join(self.columns)}")
 
@@ -130,8 +129,8 @@ def check_rows(table: Table, new: pd.DataFrame) -> None:
     if unknown := sorted({*new.columns} - {*table.columns, *SPENT, *STAMP}):
         raise ValueError(f"table {table.name} has no column {', '.join(unknown)}: "
                          f"it has {', '.join(table.columns)}")
-    if lost := [name for name in table.key if name not in new.columns or new[name].isna().any()]:
-        raise ValueError(f"rows of table {table.name} lack {', '.join(lost)}: every row needs its whole key")
+    if missing := [name for name in table.key if name not in new.columns or new[name].isna().any()]:
+        raise ValueError(f"rows of table {table.name} lack {', '.join(missing)}: every row needs its whole key")
     names = identity(new, table.key)
     if names.duplicated().any():
         raise ValueError(f"two rows of table {table.name} have the key {names[names.duplicated()].iloc[0]}: "
