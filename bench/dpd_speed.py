@@ -21,7 +21,7 @@ from particles.methods.dpd import Dpd
 from particles.run import Plan, run
 from studies.kit.csvfile import write
 from studies.kit.provenance import commit, cpu, now, versions
-from studies.kit.source import ROOT
+from studies.kit.key import ROOT
 
 FILE = ROOT/"results"/"bench"/"dpd_speed.csv"
 SIDE, RHO, DT = 20.0, 3.0, 0.04

@@ -22,7 +22,7 @@ from particles.team import Team
 from studies.convection import dih, drift, moving
 from studies.kit.csvfile import write
 from studies.kit.provenance import commit, cpu, now, versions
-from studies.kit.source import ROOT
+from studies.kit.key import ROOT
 
 FILE = ROOT/"results"/"bench"/"points_speed.csv"
 SCENE = RayleighBenard(ra=1e4, L=100.0)

@@ -14,7 +14,7 @@ from matplotlib.text import Text
 
 from studies.convection import figures, figures_fields, figures_time, onset_figures, onset_tables, pick, tables
 from studies.convection.figures_errors import power
-from studies.kit.source import ROOT
+from studies.kit.key import ROOT
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables, merge
 

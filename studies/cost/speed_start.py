@@ -13,7 +13,7 @@ from statistics import median
 from typing import Any, ClassVar
 
 from studies.kit.case import Case, Outcome, Report
-from studies.kit.source import ROOT
+from studies.kit.key import ROOT
 from studies.kit.workers import THREADS
 
 AGAIN = 3       # fresh processes that find compiled code
@@ -26,7 +26,6 @@ class Start(Case):
     method: str
     resolution: int
     alone: ClassVar[bool] = True
-    code: ClassVar = ("studies.cost.speed_cases_plates",)      # what its processes load
 
     @property
     def cost(self) -> float:
@@ -48,7 +47,7 @@ class Start(Case):
 
     def _process(self, folder: Path) -> dict[str, float]:
         """Of one fresh process, which keeps compiled code in the folder of the case."""
-        words = [sys.executable, "-m", __name__, self.scene, self.method, str(self.resolution)]
+        words = [sys.executable, "-m", first_step.__module__, self.scene, self.method, str(self.resolution)]
         told = os.environ | dict.fromkeys(THREADS, "1") | {"NUMBA_CACHE_DIR": str(folder/"compiled"), "PYTHONPATH": str(ROOT)}
         done = subprocess.run(words, env=told, cwd=ROOT, capture_output=True, text=True)
         if done.returncode:
@@ -57,8 +56,10 @@ class Start(Case):
         return result
 
 
-def first_step(method: Any, resolution: int) -> dict[str, float]:
+def first_step(scene: str, name: str, resolution: int) -> dict[str, float]:
     """Set up, one step, and what this process has taken since it began."""
+    from studies.cost.speed_cases_plates import CONTESTANTS    # not by who starts the processes
+    method = CONTESTANTS[scene][name]
     problem = method.problem(resolution, 1)
     (problem.step or problem.go)(problem.first, method.first*problem.limit, 1)
     used = resource.getrusage(resource.RUSAGE_SELF)
@@ -67,5 +68,4 @@ def first_step(method: Any, resolution: int) -> dict[str, float]:
 
 
 if __name__ == "__main__":
-    from studies.cost.speed_cases_plates import CONTESTANTS
-    print(json.dumps(first_step(CONTESTANTS[sys.argv[1]][sys.argv[2]], int(sys.argv[3]))))
+    print(json.dumps(first_step(sys.argv[1], sys.argv[2], int(sys.argv[3]))))

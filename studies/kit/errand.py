@@ -13,7 +13,8 @@ from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from studies.kit import provenance, source
+from studies.kit import key as source
+from studies.kit import provenance
 from studies.kit.case import Case, Report, file_of, module_of
 from studies.kit.keep import Failure, attempt, same_code
 from studies.kit.workers import THREADS

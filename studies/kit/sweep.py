@@ -8,7 +8,7 @@ from typing import Any
 from studies.kit.case import Case
 from studies.kit.cluster import ClusterError, check_scheduler, run_on
 from studies.kit.keep import Failure, kept
-from studies.kit.source import ROOT
+from studies.kit.key import ROOT
 from studies.kit.table import Table, Tables, changed, check_size, merge, read
 from studies.kit.times import put_times
 from studies.kit.workers import Bar, run_here, run_there
