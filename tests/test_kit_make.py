@@ -4,7 +4,7 @@ import subprocess
 
 import pytest
 
-from studies.kit import source
+from studies.kit import key
 
 pytestmark = pytest.mark.skipif(not shutil.which("make"), reason="no make")
 MAIN = "if __name__ == '__main__':\n    pass\n"
@@ -13,7 +13,7 @@ MAIN = "if __name__ == '__main__':\n    pass\n"
 @pytest.fixture
 def make(tmp_path):
     """make in a repository of the studies one and two, and a module that is none; nothing can be set up in it."""
-    shutil.copy(source.ROOT / "Makefile", tmp_path)
+    shutil.copy(key.ROOT / "Makefile", tmp_path)
     (tmp_path / "studies").mkdir()
     (tmp_path / "requirements.lock").touch()
     for name, text in {"one": MAIN, "two": MAIN, "__init__": ""}.items():

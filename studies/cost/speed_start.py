@@ -10,7 +10,7 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.key import ROOT
@@ -58,7 +58,7 @@ class Start(Case):
 
 def first_step(scene: str, name: str, resolution: int) -> dict[str, float]:
     """Set up, one step, and what this process has taken since it began."""
-    from studies.cost.speed_cases_plates import CONTESTANTS    # not by who starts the processes
+    from studies.cost.speed_cases_plates import CONTESTANTS  # not by who starts the processes
     method = CONTESTANTS[scene][name]
     problem = method.problem(resolution, 1)
     (problem.step or problem.go)(problem.first, method.first*problem.limit, 1)

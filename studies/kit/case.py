@@ -4,11 +4,11 @@ import json
 import sys
 from collections.abc import Callable, Iterator
 from enum import Enum
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any, ClassVar
 
-from studies.kit.key import CODE, PACKAGES, ROOT, Code, digest, find
+from studies.kit.key import CODE, PACKAGES, ROOT, Code, digest, followed
 from studies.kit.syntax import CASE, WHOLE, Place
 
 #: called with the fraction done, in [0, 1]
@@ -112,9 +112,7 @@ def place_of(kind: Any, own: Path | None, part: str = WHOLE) -> Place | None:
     """Where a class or function is defined, None if neither in our packages nor in the file of the case."""
     path = file_of(kind)
     name = path and (module_of(path) or (str(path) if path == own else None))
-    if not name or not find(name):
-        return None
-    return Place(name, kind.__qualname__.split(".")[0], part)
+    return Place(name, kind.__qualname__.split(".")[0], part) if name and followed(name) else None
 
 
 def kinds(value: Any) -> Iterator[Any]:
@@ -132,11 +130,18 @@ def kinds(value: Any) -> Iterator[Any]:
 def file_of(thing: Any) -> Path | None:
     """File that a class or function is written in, None for built-in ones."""
     file = getattr(sys.modules.get(thing.__module__ or ""), "__file__", None)
-    return Path(file).resolve() if file else None
+    return resolved(file) if file else None
 
 
-def module_of(path: Path | None) -> str | None:
-    """Dotted name of a file below the root: ``python -m studies.rb`` calls itself __main__."""
-    if path is None or not path.is_relative_to(ROOT):
+@cache
+def resolved(file: str) -> Path:
+    """Full path of a file."""
+    return Path(file).resolve()
+
+
+@cache
+def module_of(path: Path) -> str | None:
+    """Dotted name of a file of our packages: ``python -m studies.rb`` calls itself __main__."""
+    if not any(path.is_relative_to(ROOT/package) for package in PACKAGES):
         return None
     return ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")

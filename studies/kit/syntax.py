@@ -42,7 +42,8 @@ class Module:
         self.actions: list[ast.stmt] = []
         self.package = name if path.name == "__init__.py" else name.rpartition(".")[0]
         for node in filter(counts, parse(path).body):
-            self.imports |= dict(imported(node, self.package))
+            if isinstance(node, ast.Import | ast.ImportFrom | COMPOUND):
+                self.imports |= dict(imported(node, self.package))
             for bound in defines(node):
                 self.definitions.setdefault(bound, []).append(node)
             if acts(node):
@@ -51,12 +52,15 @@ class Module:
 
 @cache
 def parse(path: Path) -> ast.Module:
-    """Syntax tree of a file without its docstrings."""
-    tree = ast.parse(path.read_text(), filename=str(path))
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Module | ast.ClassDef | FUNCTION) and ast.get_docstring(node):
-            node.body = node.body[1:] or [ast.Pass()]
-    return tree
+    """Syntax tree of a file."""
+    return ast.parse(path.read_text(), filename=str(path))
+
+
+def undocumented(body: list[ast.stmt]) -> list[ast.stmt]:
+    """Statements without the docstring."""
+    first = body[0]
+    documented = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str)
+    return body[documented:] or [ast.Pass()]
 
 
 def counts(node: ast.stmt) -> bool:
@@ -217,13 +221,14 @@ class Reader(ast.NodeTransformer):
         node.decorator_list = [self.visit(decorator) for decorator in node.decorator_list]
         node.returns = None
         self.visit_signature(node.args, types=node.name == UNNAMED)
-        node.body = self.inner(node.body, node.args) or [ast.Pass()]
+        node.body = self.inner(undocumented(node.body), node.args) or [ast.Pass()]
         return node
 
     visit_AsyncFunctionDef = visit_FunctionDef  # type: ignore[assignment]
 
     def visit_ClassDef(self, node: ast.ClassDef) -> ast.AST:
         before, self.fields = self.fields, True
+        node.body = undocumented(node.body)
         result = self.generic_visit(node)
         self.fields = before
         return result
