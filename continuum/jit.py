@@ -130,8 +130,8 @@ def generic(stub: Callable) -> Any:
         def register(function: Callable) -> Callable:
             here, before = place(function), place(table.get(kind, function))
             if here != before:
-                raise ValueError(f"{stub.__name__} of {kind.__name__} is defined in {before} and again in {here}: delete one, or give "
-                                 "the second kind a class of its own")
+                raise ValueError(f"{stub.__name__} of {kind.__name__} is defined in {before} and again in {here}: delete one, "
+                                 "or give the second kind a class of its own")
             table[kind] = function
             return function
         return register

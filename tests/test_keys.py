@@ -76,7 +76,8 @@ def test_a_new_weight_changes_no_key(cases, copy):
 def test_a_line_in_the_fluxes_changes_the_keys_of_spam_and_not_of_grids(cases, copy):
     edit(copy, "particles/terms.py", "q = (a.qx + b.qx)*ab.wx", "q = (a.qx - b.qx)*ab.wx")
     names = {type(case).__name__ for case in changed(cases, copy)}
-    assert {"SpamRun"} <= names and not names & {"CompressibleSteady", "PypdeSteady", "Growth1"}
+    assert {"SpamRun"} <= names
+    assert not any("Compressible" in name or "Pypde" in name for name in names)
     assert {type(case).__name__ for case in cases if reached(case, "Fluxes")} == names
 
 
@@ -149,22 +150,23 @@ def test_what_a_run_does_not_read_leaves_its_key(tree, name, old, new):
 def test_a_module_that_is_renamed_leaves_the_key(tree):
     before = hashed(tree)
     (tree/"continuum/laws.py").rename(tree/"continuum/rules.py")
-    (tree/"studies/one.py").write_text(FILES["studies/one.py"].replace("from continuum import laws", "from continuum import rules")
-                                       .replace("laws.law", "rules.law").replace("continuum.laws", "continuum.rules"))
+    (tree/"studies/one.py").write_text(FILES["studies/one.py"].replace("laws", "rules"))
     assert hashed(tree) == before
 
 
 def test_a_formula_for_a_pair_that_a_run_reaches_changes_its_key_wherever_it_is(tree):
     before = hashed(tree)
-    (tree/"studies/apart.py").write_text("from continuum.laws import A, B, law as rule\n\n\n@rule.of(B)\ndef _(kind, x):\n    return 1\n")
+    text = "from continuum.laws import A, B, law as rule\n\n\n@rule.of(B)\ndef _(kind, x):\n    return 1\n"
+    (tree/"studies/apart.py").write_text(text)
     assert hashed(tree) == before
-    (tree/"studies/apart.py").write_text("from continuum.laws import A, law as rule\n\n\n@rule.of(A)\ndef _(kind, x):\n    return 1\n")
+    (tree/"studies/apart.py").write_text(text.replace("of(B)", "of(A)"))
     assert hashed(tree) != before
 
 
 def test_a_field_of_a_case_chooses_one_entry_of_a_table(tree):
     (tree/"studies/two.py").write_text("from continuum.laws import TABLE\n\n\nclass Run:\n    kind: str = 'a'\n\n"
-                                       "    def run(self):\n        return TABLE[self.kind]\n\n    def cost(self):\n        return 1\n")
+                                       "    def run(self):\n        return TABLE[self.kind]\n\n"
+                                       "    def cost(self):\n        return 1\n")
     place = Place("studies.two", "Run", "case")
 
     def both():
@@ -196,7 +198,8 @@ def test_a_second_formula_for_one_type_is_refused_with_both_places():
         """A rule."""
     for _ in range(2):      # a module that is loaded again
         rule.of(Kind)(lambda kind: 1)
-    with pytest.raises(ValueError, match=r"rule of Kind is defined in \S+test_keys.py:\d+ and again in \S+test_keys.py:\d+: delete one"):
+    place = r"\S+test_keys.py:\d+"
+    with pytest.raises(ValueError, match=f"rule of Kind is defined in {place} and again in {place}: delete one"):
         rule.of(Kind)(lambda kind: 2)
     assert rule(Kind()) == 1
 

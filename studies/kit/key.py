@@ -6,9 +6,11 @@ new one that no old one names, and a docstring change no key.
 """
 import ast
 import hashlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from copy import copy
 from operator import attrgetter
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from studies.kit.syntax import (
@@ -95,8 +97,9 @@ class Code:
         reading = self.reading(place)
         return digest(reading.text, *(self.reading(use).text for use in reading.uses if followed(use.module)))
 
-    def reached(self, starts: Iterable[Place], values: dict[str, Any] | None = None) -> set[Place]:
-        """Places whose change makes the result another one."""
+    def reached(self, starts: Iterable[Place], values: Mapping[str, Any] = MappingProxyType({})) -> set[Place]:
+        """Places whose change makes the result another one; without a field's value all entries that it may choose."""
+        self.index()
         places: set[Place] = set()
         todo = list(starts)
         while todo:
@@ -106,7 +109,7 @@ class Code:
             reading, marks = self.reading(place), (place, Place(place.module, "", WHOLE))
             places |= set(marks)
             todo += reading.uses
-            todo += (self.entry(table, (values or {})[field]) for table, field in reading.choices)
+            todo += (self.entry(table, values[field]) if field in values else table for table, field in reading.choices)
             todo += (action for mark in marks for owners, action in self.actions.get(mark, ()) if owners <= places)
         return places
 
@@ -251,11 +254,12 @@ def listed(node: ast.DictComp) -> Iterator[tuple[str, ast.expr]]:
 def key_of(node: ast.Assign) -> str:
     """The key of ``TABLE["name"] = ...``, nothing of other assignments."""
     target = node.targets[0]
-    plain = len(node.targets) == 1 and isinstance(target, ast.Subscript) and isinstance(target.value, ast.Name)
-    return repr(target.slice.value) if plain and isinstance(target.slice, ast.Constant) else ""
+    if len(node.targets) > 1 or not isinstance(target, ast.Subscript) or not isinstance(target.value, ast.Name):
+        return ""
+    return repr(target.slice.value) if isinstance(target.slice, ast.Constant) else ""
 
 
-def heads(node: ast.AST) -> Iterator[list[ast.AST]]:
+def heads(node: ast.AST) -> Iterator[Sequence[ast.AST]]:
     """Of each thing that a statement does besides defining: what it does it to, and for which kinds."""
     if isinstance(node, FUNCTION | ast.ClassDef):
         for decorator in node.decorator_list:
@@ -289,8 +293,11 @@ def bare(node: ast.stmt) -> ast.stmt:
     """A class of cases without the types and defaults of its fields, whose values are parameters, and without cost and label."""
     if not isinstance(node, ast.ClassDef):
         return node
+    case = copy(node)
+    case.bases = []     # they are classes of the case themselves
     body = [one for one in node.body if not (isinstance(one, FUNCTION) and one.name in ASIDE) and not is_field(one)]
-    return ast.ClassDef(node.name, [], [], body or [ast.Pass()], node.decorator_list, type_params=[])
+    case.body = body or [ast.Pass()]
+    return case
 
 
 def is_field(node: ast.stmt) -> bool:

@@ -54,7 +54,8 @@ def old_keys(commit: str) -> list[tuple[str, Any, str]]:
         archive = subprocess.run(["git", "archive", commit], cwd=ROOT, check=True, capture_output=True).stdout
         with tarfile.open(fileobj=BytesIO(archive)) as files:
             files.extractall(folder, filter="data")
-        (Path(folder)/"studies/kit/rekey.py").write_text(Path(__file__).read_text().replace("studies.kit.key ", "studies.kit.source "))
+        mine = Path(__file__).read_text()
+        (Path(folder)/"studies/kit/rekey.py").write_text(mine.replace("studies.kit.key ", "studies.kit.source "))
         done = subprocess.run([sys.executable, "-c", ASK], cwd=folder, check=True, stdout=subprocess.PIPE,
                               env=os.environ | {"PYTHONPATH": folder})
     return [tuple(json.loads(line)) for line in done.stdout.splitlines()]
