@@ -6,6 +6,7 @@ using an old formula of another module.
 """
 import hashlib
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -89,10 +90,10 @@ def made(kind: type) -> str:
     return f"{kind.__name__}({', '.join(f'{name}=...' for name in needed)})"
 
 
-def place(function: Callable) -> str:
-    """File and line of a function, compiled or not."""
-    code = getattr(function, "py_func", function).__code__
-    return f"{code.co_filename}:{code.co_firstlineno}"
+def place(frame: Any) -> str:
+    """File and line of a statement of a module; nothing inside a function or a notebook, where formulas are tried out."""
+    code = frame.f_code
+    return f"{code.co_filename}:{frame.f_lineno}" if code.co_name == "<module>" and Path(code.co_filename).is_file() else ""
 
 
 def generic(stub: Callable) -> Any:
@@ -105,9 +106,10 @@ def generic(stub: Callable) -> Any:
     TypeError
         No formula is known for that type, or a class was given in place of an object.
     ValueError
-        A second formula is added for one type.
+        Modules define two formulas for one type.
     """
     table: dict[type, Callable] = {}
+    places: dict[type, str] = {}
 
     def formula_of(kind: type | None) -> Callable | None:
         return next((table[one] for one in getattr(kind, "__mro__", ()) if one in table), None)
@@ -128,11 +130,11 @@ def generic(stub: Callable) -> Any:
 
     def of(kind: type) -> Callable:
         def register(function: Callable) -> Callable:
-            here, before = place(function), place(table.get(kind, function))
-            if here != before:
+            here, before = place(sys._getframe(1)), places.get(kind, "")
+            if here and before and here != before:
                 raise ValueError(f"{stub.__name__} of {kind.__name__} is defined in {before} and again in {here}: delete one, "
                                  "or give the second kind a class of its own")
-            table[kind] = function
+            table[kind], places[kind] = function, here
             return function
         return register
 

@@ -6,11 +6,10 @@ new one that no old one names, and a docstring change no key.
 """
 import ast
 import hashlib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from copy import copy
 from operator import attrgetter
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 from studies.kit.syntax import (
@@ -83,25 +82,30 @@ class Code:
 
     def hash(self, starts: Iterable[Place], case: Any) -> str:
         """Hash of all definitions reached from some places; fields of the case choose entries of tables."""
-        self.index()
         places = frozenset(starts)
-        fields = {field for place in places if place.part == CASE for _, field in self.reading(place).choices}
-        values = {field: attrgetter(field)(case) for field in sorted(fields)}
-        known = (places, tuple(map(repr, values.values())))
+        known = (places, tuple(map(repr, self.chosen(places, case).values())))
         if known not in self.closures:
-            self.closures[known] = digest(*sorted(set(map(self.text, self.reached(places, values)))))
+            self.closures[known] = digest(*sorted(set(map(self.text, self.reached(places, case)))))
         return self.closures[known]
+
+    def chosen(self, starts: Iterable[Place], case: Any) -> dict[str, Any]:
+        """The fields of a case that choose entries of tables, with their values; none without a case."""
+        self.index()
+        choices = (choice for place in starts if place.part == CASE for choice in self.reading(place).choices)
+        fields = sorted({field for _, field in choices} if case else ())
+        return {field: attrgetter(field)(case) for field in fields}
 
     def text(self, place: Place) -> str:
         """A definition, with marks of those that it uses: two of one name are two."""
         reading = self.reading(place)
         return digest(reading.text, *(self.reading(use).text for use in reading.uses if followed(use.module)))
 
-    def reached(self, starts: Iterable[Place], values: Mapping[str, Any] = MappingProxyType({})) -> set[Place]:
-        """Places whose change makes the result another one; without a field's value all entries that it may choose."""
-        self.index()
+    def reached(self, starts: Iterable[Place], case: Any = None) -> set[Place]:
+        """Places whose change makes the result another one; without a case all entries that its fields may choose."""
+        starts = list(starts)
+        values = self.chosen(starts, case)
         places: set[Place] = set()
-        todo = list(starts)
+        todo = starts
         while todo:
             place = todo.pop()
             if place in places or not followed(place.module):
