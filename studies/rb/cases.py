@@ -18,7 +18,7 @@ from studies.build.rr98_moving import DRIFT_MOTIONS
 from studies.build.smoothing import Smoothing
 from studies.build.spam import PRINTED, VARIANTS, Variant
 from studies.kit.case import Case
-from studies.kit.part import Part
+from studies.kit.study import Part
 from studies.rb import tables
 from studies.rb.claims import RB_CLAIMS
 from studies.rb.derive import derive
