@@ -8,15 +8,10 @@ from matplotlib.figure import Figure
 
 from studies.kit.case import Case
 from studies.kit.claim import Claim
-<<<<<<< HEAD
-from studies.kit.drawing import Joined
-from studies.kit.study import Study, nothing
-from studies.kit.table import Table, Tables
-=======
+from studies.kit.drawing import Drawing, Overview
 from studies.kit.table import Rows, Table, Tables
 
 T = TypeVar("T")
->>>>>>> main
 
 
 def nothing(tables: Tables) -> dict[str, Any]:
@@ -37,26 +32,6 @@ class Part:
     claims: Sequence[Claim] = ()
 
 
-<<<<<<< HEAD
-def chained(functions: Iterable[Callable[[Tables], Mapping[str, Any]]]) -> Callable[[Tables], dict[str, Any]]:
-    """One function of the tables for many that derive rows: each finds what those before it made."""
-    wanted = list(functions)
-
-    def derive(tables: Tables) -> dict[str, Any]:
-        found: dict[str, Any] = {}
-        for function in wanted:
-            found.update(function(Tables({**tables, **{name: pd.DataFrame(rows) for name, rows in found.items() if rows}})))
-        return found
-    return derive
-
-
-def study(name: str, *parts: Part) -> Study:
-    """The study that its parts make together, in this order: each derives from what those before it derived."""
-    return Study(name=name, cases=lambda size: [case for part in parts for case in part.cases(size)],
-                 tables=[table for part in parts for table in part.tables],
-                 derive=chained(part.derive for part in parts), figures=Joined(part.figures for part in parts),
-                 claims=[claim for part in parts for claim in part.claims])
-=======
 def joined(parts: Sequence[Part]) -> Part:
     """One part of many. Rows are derived in order: each part finds what those before it derived.
 
@@ -69,7 +44,7 @@ def joined(parts: Sequence[Part]) -> Part:
         cases=lambda size: [case for part in parts for case in part.cases(size)],
         tables=once("tables", ((table.name, table) for part in parts for table in part.tables)),
         derive=lambda tables: derived(parts, tables),
-        figures=lambda tables: drawn(parts, tables),
+        figures=Joined(part.figures for part in parts),
         claims=once("claims", ((claim.id, claim) for part in parts for claim in part.claims)))
 
 
@@ -94,9 +69,19 @@ def derived(parts: Iterable[Part], tables: Tables) -> Rows:
     return rows
 
 
-def drawn(parts: Iterable[Part], tables: Tables) -> dict[str, Figure]:
-    """Figures of all parts."""
-    pairs = [pair for part in parts for pair in part.figures(tables).items()]
-    once("figures", pairs)
-    return dict(pairs)
->>>>>>> main
+class Joined:
+    """The figures of parts. drawings : of those parts that list them; of a plain function the tables are unknown."""
+
+    def __init__(self, figures: Iterable[Callable[[Tables], Mapping[str, Figure]]]):
+        self.figures = tuple(figures)
+
+    @property
+    def drawings(self) -> tuple[Drawing | Overview, ...]:
+        """Each figure with the tables that it is drawn from."""
+        return tuple(drawing for one in self.figures for drawing in getattr(one, "drawings", ()))
+
+    def __call__(self, tables: Tables) -> dict[str, Figure]:
+        """The figures for which there are rows."""
+        pairs = [pair for one in self.figures for pair in one(tables).items()]
+        once("figures", pairs)
+        return dict(pairs)
