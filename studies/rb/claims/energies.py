@@ -18,7 +18,6 @@ from studies.kit.value import largest_measured
 from studies.rb.flows import (
     ALIKE,
     PLAIN,
-    Point,
     against_alike,
     against_grid,
     alike,
@@ -130,12 +129,12 @@ def figure_points() -> Iterator[Claim]:
 def energies() -> Iterator[Claim]:
     """The printed K and its error, for both Ra, energies and walls."""
     for ra, text in ((5000, "0.003 0"), (10000, "0.004 6")):
-        for (wall, (variant, walls)), (of, (energy, kind)) in product(WALLS.items(), ENERGIES.items()):
+        for (wall, (variant, walls)), (whose, (energy, kind)) in product(WALLS.items(), ENERGIES.items()):
             said = f"5000 particles, Lucy, Ra {ra}, {walls}, {kind}"
-            yield Claim(id=f"khp95-spam-ke-{ra}{of}{wall}", source="KHP95 Sec. VI", printed=text,
+            yield Claim(id=f"khp95-spam-ke-{ra}{whose}{wall}", source="KHP95 Sec. VI", printed=text,
                         statement=f"K of {said}", value=mean(particles(ra, variant=variant), energy),
                         **as_printed(f"ke-{ra}-spam"), because="half of the last printed digit")
-            yield Claim(id=f"khp95-energy-error-{ra}{of}{wall}", source="KHP95 Sec. VI", printed="10%", at_most=0.105,
+            yield Claim(id=f"khp95-energy-error-{ra}{whose}{wall}", source="KHP95 Sec. VI", printed="10%", at_most=0.105,
                         statement=f"energy errors no worse than 10 %: {said}", because=f"two digits are printed; {PLAIN}",
                         value=off_one(against_grid(particles(ra, variant=variant), energy)))
 

@@ -8,7 +8,7 @@ from studies.kit.ask import Value, of, one, rows
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
-from studies.rb.curves import approach, drift, history, scatter, settling
+from studies.rb.claims.curves import approach, drift, history, scatter, settling
 from studies.rb.flows import (
     ALIKE,
     Point,
@@ -16,7 +16,6 @@ from studies.rb.flows import (
     diverged,
     grid,
     mean,
-    off_one,
     over_seeds,
     particles,
     rolls_in,

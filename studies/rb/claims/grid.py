@@ -1,6 +1,5 @@
 """Claims about the grid's solutions    [KHP95, Sec. V; Sec. VI, Fig. 10]"""
 from collections.abc import Callable
-from math import sqrt
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ from studies.kit.ask import Value, curve, largest, largest_of, last, of, rows
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
-from studies.rb.curves import (
+from studies.rb.claims.curves import (
     against_cells,
     bend,
     drift,

@@ -9,7 +9,7 @@ from studies.kit.ask import Value, largest, of, one, rows, share
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
-from studies.rb.curves import peak
+from studies.rb.claims.curves import peak
 from studies.rb.flows import Point, besides, grid, guarded, limit, mean, off_one, points, refuse_diverged
 
 RA = 1e4
