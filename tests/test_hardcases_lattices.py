@@ -15,7 +15,7 @@ from studies.lattices.moduli import Moduli
 from studies.lattices.occupancy import median_ratio, partners
 from studies.lattices.waves import lattice, least_stable, sites_of_least_energy, sums, vectors
 from studies.lattices.waves import neighbours as around
-from studies.rb.claims.lattices import LUCY, shear_moduli
+from studies.rb.runs.lattices import LUCY, shear_moduli
 
 WEIGHTS = (Lucy, Monaghan, WendlandC2)
 
