@@ -6,15 +6,14 @@ import pandas as pd
 import pytest
 
 from studies.build.symmetry import flowing
-from studies.kit.claim import judge
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
 from studies.rb import snapshots
-from studies.rb.claims import RB_CLAIMS, curves
+from studies.rb.claims import curves
 from studies.rb.claims.grid import PYPDE
 from studies.rb.claims.points import LATTICES
 from studies.rb.flows import grid, particles, points
-from tests.claim_tables import BY_ID, crystal, everything, flow, grids, judged, kept, means, seeds, seen, straight, verdict
+from tests.claim_tables import crystal, flow, grids, judged, kept, means, seeds, seen, straight, verdict
 
 # --- lines ------------------------------------------------------------------------------------------------------
 
@@ -33,7 +32,7 @@ def test_grids_that_have_no_order_are_not_converged():
     assert verdict("khp95-grid-cells", means([*grids(order=0.5), other])) == "undecidable"     # 0.006 apart, 0.006 unsure
     assert verdict("khp95-grid-cells", means([*grids(), {**other, "ke": 0.00481}])) == "fails"
     fine = [row for row in grids() if row["resolution"] != 32]
-    assert "2 grids of 5000 cells" in judged("khp95-grid-cells", means([*fine, other]))["reason"]
+    assert "takes three grids, got 2" in judged("khp95-grid-cells", means([*fine, other]))["reason"]
 
 
 def test_a_bent_line_fails():
@@ -47,7 +46,7 @@ def test_a_bent_line_fails():
 def test_few_points_make_no_line():
     tables = means([row for row in grids() if row["ra"] > 4000])
     assert verdict("khp95-ke-line", tables) == "undecidable"
-    assert "3 Rayleigh numbers" in judged("khp95-ke-line", tables)["reason"]
+    assert "has 3 rows of 5 or more" in judged("khp95-ke-line", tables)["reason"]
 
 
 # --- particles against grid ----------------------------------------------------------------------------------------
@@ -84,7 +83,7 @@ def test_printed_energies_meet_the_grid_as_it_is_and_the_flow_the_grid_smoothed_
     assert judged("own-smoothed-10000", tables)["measured"] == pytest.approx(0.05, rel=1e-6)
     few = means([*grids(), {**particles(1e4, 16), "ke": 0.44*straight(1e4), "ke_err": 0.0}], kept=0.8)
     assert verdict("khp95-500-particles", few) == "holds"
-    assert "no row of" in judged("khp95-500-particles", Tables({**few, "errors": few["errors"][:0]}))["reason"]
+    assert "0 rows of 1" in judged("khp95-500-particles", Tables({**few, "errors": few["errors"][:0]}))["reason"]
 
 
 def test_seeds_in_different_flows_decide_nothing():
@@ -214,11 +213,3 @@ def test_the_approach_is_followed():
     assert seen(curves.drift) < 1e-3 and seen(curves.scatter) < 1e-3
     value, err = curves.approach(particles(1e4), grid(1e4, 50), "ke_field")(tables)
     assert value == pytest.approx(0.1, abs=1e-4) and err == pytest.approx(0, abs=1e-12)
-
-
-# --- all tables -------------------------------------------------------------------------------------------------
-
-
-def test_every_value_can_be_found_when_its_rows_are_there():
-    for row in judge(RB_CLAIMS, everything(), "rb"):
-        assert math.isfinite(row["measured"]) == bool(BY_ID[row["id"]].value), f"{row['id']}: {row['reason']}"

@@ -22,7 +22,7 @@ def test_a_run_that_diverged_has_no_energy():
     assert "diverged" in judged("khp95-energy-error-10000", tables)["reason"]
     assert verdict("khp95-robust", tables) == "fails"
     none = Tables({**tables, "kinetic_energy": lost[:0]})
-    assert "kinetic_energy has no row" in judged("khp95-robust", none)["reason"]
+    assert "has 0 rows of 1" in judged("khp95-robust", none)["reason"]
     paper = lost.assign(**grid(1e4, 48, "paper-form"), mass_drift=math.nan)
     assert "grid diverged" in judged("khp95-ghost-density-mass", Tables({"kinetic_energy": paper}))["reason"]
 
@@ -81,8 +81,6 @@ def test_plates_must_exchange_what_the_layer_carries(lower, said):
     tables = Tables({"kinetic_energy": pd.DataFrame(runs), "walls": pd.DataFrame(walls)})
     assert verdict("own-nusselt-plates", tables) == said
     assert energies.imbalances(tables)[1e4, 50.0] == pytest.approx((0, 0), abs=1e-12)
-    old = Tables({**tables, "walls": tables["walls"].drop(columns="nu_plate")})
-    assert "without its column nu_plate" in judged("own-nusselt-plates", old)["reason"]
 
 
 def test_the_plates_of_the_fewest_rows_are_the_worst_as_the_reason_says():
@@ -100,8 +98,9 @@ def walled(reflections: int, variant: str = "printed-fixed-rows", fast: float = 
     layers = [{**point, "seed": seed, "plate": plate, "rho_layer": 1.0, "T_layer": 1.0, "reflections": reflections}
               for seed in (1, 2) for plate in ("lower", "upper")]
     runs = [{**point, "seed": seed, "ke": 0.004, "t_end": 1000.0} for seed in (1, 2)]
+    ends = Tables(particles=crystal(1).assign(**point, vx=0.0, vy=fast, T=1.0))
     return Tables({"walls": pd.DataFrame(layers), "kinetic_energy": pd.DataFrame(runs),
-                   "particles": crystal(1).assign(**point, vx=0.0, vy=fast)})
+                   "snapshots": pd.DataFrame(snapshots.snapshots(ends))})
 
 
 def test_walls_are_needed_where_particles_reach_them():
@@ -135,7 +134,7 @@ def test_fluctuations_of_the_grid_are_told_from_those_of_the_flow():
     assert "nothing fluctuates" in said(wild(50, 1e-6), wild(100, 1e-6))["reason"]
     assert said(wild(50, 1e-6), name="khp95-grid-fluctuates")["verdict"] == "fails"
     assert said(wild(50, 0.1), name="khp95-grid-fluctuates")["verdict"] == "holds"
-    assert "ends at Ra 50000 and 1 L^2/eta" in said(wild(50, 0.1, ends=1.0), name="khp95-grid-fluctuates")["reason"]
+    assert "run at Ra 50000 ends at 1 L^2/eta" in said(wild(50, 0.1, ends=1.0), name="khp95-grid-fluctuates")["reason"]
 
 
 @pytest.mark.parametrize(("shares", "said"), [((0.8, 0.7, 0.1), "holds"), ((0.8, 0.3, 0.1), "holds"), ((0.8, 0.3, 0.6), "")])
@@ -183,7 +182,7 @@ def test_fluctuations_are_those_of_the_flowing_state():
     found = judged("khp95-ra2500-fluctuations", started(1e-4, 0.2))
     assert found["measured"] == pytest.approx(4*straight(1e4)/straight(2500), rel=1e-6) and found["verdict"] == "holds"
     assert verdict("khp95-ra2500-usable", started(1e-4, 0.2)) == "fails"
-    assert "variant printed-from-flow" in judged("khp95-ra2500-fluctuations", started(1e-4))["reason"]
+    assert "variant = printed-from-flow" in judged("khp95-ra2500-fluctuations", started(1e-4))["reason"]
 
 
 @pytest.mark.parametrize(("whole", "half", "said"), [(0.2, 0.105, "undecidable"), (0.052, 0.05, "holds"), (0.55, 0.5, "fails")])

@@ -296,7 +296,7 @@ def test_the_onset_draws_its_committed_figures_too():
     known = load(onset_tables.ALL, "onset")
     if not known:
         pytest.skip("no tables of onset committed yet: make study-onset writes them")
-    pages = onset_figures.figures(known)
+    pages = onset_figures.FIGURES(known)
     assert {path.stem for path in (RESULTS/"onset").glob("*.png")} == set(pages)
     zeros = next(axes for axes in pages["line"].axes if axes.get_ylabel() == "Ra$_c$")
     bars = [np.ptp(bar[:, 1]) for drawn in zeros.containers if isinstance(drawn, ErrorbarContainer)

@@ -1,7 +1,7 @@
-"""Every number and statement of KHP95 on convection, and RR98's equations there, judged by the tables of study `rb`.
+"""Every number and statement of KHP95 on convection, and RR98's equations there, judged by the tables of `rb`.
 
-One module a theme, each with its CLAIMS; here are the statements that neither print nor runs decide. Claims on critical
-Rayleigh numbers are judged by the study `onset`.
+One module a theme, each with its CLAIMS. Here are the statements that neither print nor runs decide. The study
+`onset` judges claims on critical Rayleigh numbers.
 """
 from studies.kit.ask import of
 from studies.kit.claim import Claim
@@ -21,7 +21,8 @@ def most_particles(tables: Tables) -> Measured:
 
 def undecided(name: str, place: str, statement: str, reason: str, printed: str = "") -> Claim:
     """A statement without a value."""
-    return Claim(id=f"khp95-{name}", source=f"KHP95 {place}", statement=statement, printed=printed, undecidable=reason)
+    return Claim(id=f"khp95-{name}", source=f"KHP95 {place}", statement=statement, printed=printed,
+                 undecidable=reason)
 
 
 OPEN = (

@@ -1,4 +1,4 @@
-"""Claims that arithmetic decides: weights, equations of state, printed numbers against each other    [KHP95]"""
+"""Claims that arithmetic decides: weights, equations of state, printed numbers side by side    [KHP95]"""
 from studies.build.printed import as_printed
 from studies.kit.ask import Value, one
 from studies.kit.claim import Claim
@@ -10,8 +10,9 @@ def calculated(quantity: str) -> Value:
 
 
 A, B = calculated("a, vdw"), calculated("b, vdw")
-FOURTH = ("0.2 below 4 for steps that are not small; third derivatives of both weights jump at the range, so each pair that "
-          "crosses it leaves a velocity error of dt^3, of either sign, and the order goes to 3 as dt falls on")
+FOURTH = ("0.2 below 4 for steps that are not small; third derivatives of both weights jump at the range, so each "
+          "pair that crosses it leaves a velocity error of dt^3, of either sign, and the order goes to 3 as dt "
+          "falls on")
 HEXAGONAL = "statement is about symmetric lattices: the hexagonal one, on which smooth particles freeze"
 RULE = "what rounding of the printed digits allows"
 CLAIMS = (

@@ -10,7 +10,7 @@ from studies.kit.stats import CannotTell, Measured, over_seeds
 from studies.kit.table import Tables
 from studies.rb.flows import ONSET, STILL, Point, besides, grid, limit
 
-NEAR = 0.05     # of the steady value: particles' K fluctuates by 1 % or 2 %, a narrower band would time the noise
+NEAR = 0.05     # of the steady value: K of particles fluctuates by 1 % or 2 %, and noise is not to be timed
 SAMPLES = 20    # of K(t) at least
 LEAST = 5       # points of a line: three are left to tell how straight it is
 ONE_STATE = {"periodic": 2, "walls": 1}     # rolls of the states that make a line
@@ -49,7 +49,7 @@ def settling(t: np.ndarray, ke: np.ndarray, err: np.ndarray) -> Measured:
 
 @curve
 def peak(t: np.ndarray, ke: np.ndarray, err: np.ndarray) -> Measured:
-    """Top of the parabola through the three samples around the largest; its error is how far above it lies."""
+    """Top of the parabola through three samples around the largest; its error is how far above it lies."""
     k = int(np.clip(np.argmax(ke), 1, len(ke) - 2))
     slope, bend = (ke[k + 1] - ke[k - 1])/2, ke[k + 1] - 2*ke[k] + ke[k - 1]
     above = float(-slope**2/(2*bend)) if bend < 0 else 0.0
@@ -72,7 +72,8 @@ def approach(point: Point, beside: Point, energy: str) -> Value:
             apart.append(np.abs(run[energy] - np.interp(run["t"], other["t"], other["ke"])).max())
         return over_seeds(np.array(apart)/unit(tables).value)
     asked = history(scatter, point, energy).asks
-    return Value(answer, f"mean over seeds of largest |{energy}(t) - ke(t) of the grid| in history, over {unit}", asked)
+    words = f"mean over seeds of largest |{energy}(t) - ke(t) of the grid| in history, over {unit}"
+    return Value(answer, words, asked)
 
 
 # --- K against Ra^-1/2 ----------------------------------------------------------------------------
@@ -97,10 +98,11 @@ def intercept_alone(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
 
 
 def line(question: Any, low: float = 1.0, height: float = np.inf, sides: str = "periodic", **where) -> Value:
-    """A question about K over Ra^-1/2 from `low` to 4 times onset, all states with one pair of rolls (square: one roll)."""
+    """A question about K over Ra^-1/2 from `low` to 4 times onset; states with one pair of rolls (square: one roll)."""
     point = besides(grid(1.0, height, sides=sides, **where), "ra")
     inside = f"{low*ONSET[sides]:.1f} < ra <= {4*ONSET[sides]:.1f} and ke > {STILL:g}"
-    return question("means", "ke", "ra**-0.5", inside, err="ke_err", need=LEAST, rolls=ONE_STATE[sides], **point)
+    states = {"rolls": ONE_STATE[sides], **point}
+    return question("means", "ke", "ra**-0.5", inside, err="ke_err", need=LEAST, **states)
 
 
 def reading(ra: float) -> Any:
@@ -127,7 +129,7 @@ def straightness(sides: str = "periodic", **where) -> Value:
 
 
 def against_cells(question: Any) -> Value:
-    """Slopes or intercepts of the lines of several grids against L^-2: largest residual over their whole change."""
+    """Slopes or intercepts of the lines of grids against L^-2: largest residual over their whole change."""
     asked = line(question)
 
     def answer(tables: Tables) -> Measured:
@@ -136,7 +138,8 @@ def against_cells(question: Any) -> Value:
         err = max(one.err for one in lines.values())
         residuals = fits.line(np.array(list(lines))**-2.0, values).residuals
         return Measured(float(np.abs(residuals).max()), err)/Measured(float(np.ptp(values)), err)
-    return Value(answer, f"distance from a line over resolution**-2, over the whole change, of {asked}", asked.asks)
+    words = f"distance from a line over resolution**-2, over the whole change, of {asked}"
+    return Value(answer, words, asked.asks)
 
 
 def on_grids(tables: Tables, question: Any) -> dict[float, Measured]:
@@ -153,6 +156,6 @@ def on_grids(tables: Tables, question: Any) -> dict[float, Measured]:
         with suppress(NoRows):
             lines[float(size)] = line(question, height=size)(tables)
     if len(lines) < 3:
-        raise CannotTell(f"{len(lines)} grids have {LEAST} Rayleigh numbers in the linear range, three or more show how "
-                         "slopes and intercepts go with L: a larger SIZE of the study has them")
+        raise CannotTell(f"{len(lines)} grids have {LEAST} Rayleigh numbers in the linear range, three or more show "
+                         "how slopes and intercepts go with L: a larger SIZE of the study has them")
     return lines

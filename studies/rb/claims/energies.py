@@ -1,9 +1,9 @@
 """Claims about the energies of smooth particles beside the grid's    [KHP95, Sec. VI]
 
-The text squares the smoothed velocity, (rho/2)<v>^2, so K is that of the field where nothing else is said. The printed
-numbers may be of the particles themselves, and which wall gave them is not said: each has its row. Claims on printed
-numbers compare with the grid's K as it is, as the paper does; claims on whether the flow is right with the grid smoothed
-alike.
+The text squares the smoothed velocity, (rho/2)<v>^2, so K is that of the field where nothing else is said. The
+printed numbers may be of the particles themselves, and which wall gave them is not said: each has its row. Claims
+on printed numbers compare with the grid's K as it is, as the paper does. Claims on whether the flow is right compare
+with the grid smoothed alike.
 """
 from collections.abc import Iterator
 from itertools import product
@@ -65,12 +65,13 @@ def between(one: str, other: str) -> Value:
 
 
 def half_step(height: int) -> Value:
-    """Error of K, of particles and of their field, by the time step: twice the largest change if it is halved."""
+    """Error of K, of particles and of their field, by the step: twice the largest change if it is halved."""
     def answer(tables: Tables) -> Measured:
-        ran = rows(tables, "kinetic_energy", **besides(particles(1e4, height, "printed-half-step"), "ra"))["ra"].unique()
+        halved = besides(particles(1e4, height, "printed-half-step"), "ra")
+        ran = rows(tables, "kinetic_energy", **halved)["ra"].unique()
         flowing = [ra for ra in ran if ra >= FLOWING]
         if not flowing:
-            raise CannotTell(f"half of the step was run at Ra {ran.max():g} and below only, where little flows")
+            raise CannotTell(f"half of the step was run at Ra {ran.max():g} or less only, where little flows")
         changes = [changed(ra, height, energy)(tables) for ra in flowing for energy in ("ke", "ke_field")]
         return 2*largest_measured(changes)
     asked = changed(1e4, height, "ke_field")
@@ -96,13 +97,13 @@ def plates(tables: Tables) -> Measured:
 
 
 def imbalances(tables: Tables) -> dict[tuple, Measured]:
-    """(Ra, rows) -> largest |Nu/Nu - 1| of the plates, by the energy that they exchange, and of the flux between them."""
+    """(Ra, rows) -> largest |Nu/Nu - 1| of a plate, by the energy that it exchanges, and of the flux between."""
     layer, run = besides(particles(1.0), *RUN), [*RUN, "seed"]
     fluxes = rows(tables, "kinetic_energy", **layer)[[*run, "nu"]]
     both = rows(tables, "walls", **layer).merge(fluxes, on=run)
     both = both.assign(ratio=both["nu_plate"]/both["nu"]).dropna(subset="ratio")
     if both.empty:
-        raise CannotTell("no run that did not diverge has its heat at the plates beside that through the layer")
+        raise CannotTell("no run that came to its end has its heat at the plates beside that through the layer")
     worst: dict[tuple, Measured] = {}
     for (ra, height, _), group in both.groupby([*RUN, "plate"]):
         one = abs(stats.over_seeds(group["ratio"]) - 1)
@@ -117,12 +118,14 @@ def figure_points() -> Iterator[Claim]:
     """Velocity errors of the particles in Figs 5 and 6, whose Ra are not printed."""
     said = {"vdw": ("van der Waals", {"eos": "vdw"}), "nu": ("constant nu", {"transport": "const-nu"})}
     for ra, (name, (words, where)) in product((5000, 10000), said.items()):
-        yield Claim(id=f"khp95-fig5-{name}-{ra}", source="KHP95 Sec. VI, Fig. 5", printed="about 5%", at_most=0.075,
-                    statement=f"velocities of 5000 particles, {words}, are good to about 5 % at Ra {ra}, from energies",
+        yield Claim(id=f"khp95-fig5-{name}-{ra}", source="KHP95 Sec. VI, Fig. 5", printed="about 5%",
+                    at_most=0.075, statement=f"velocities of 5000 particles, {words}, are good to about 5 % at "
+                                             f"Ra {ra}, from energies",
                     because=SOME, value=velocity(ra, 50, **where))
     for ra in (10000, 20000):
         yield Claim(id=f"khp95-fig6-{ra}", source="KHP95 Sec. VI, Fig. 6", printed="about 5%", at_most=0.075,
-                    statement=f"velocities of 1600 particles in the square are good to about 5 % at Ra {ra}, from energies",
+                    statement="velocities of 1600 particles in the square are good to about 5 % at "
+                              f"Ra {ra}, from energies",
                     because=SOME, value=velocity(ra, 40, sides="walls"))
 
 
@@ -134,19 +137,21 @@ def energies() -> Iterator[Claim]:
             yield Claim(id=f"khp95-spam-ke-{ra}{whose}{wall}", source="KHP95 Sec. VI", printed=text,
                         statement=f"K of {said}", value=mean(particles(ra, variant=variant), energy),
                         **as_printed(f"ke-{ra}-spam"), because="half of the last printed digit")
-            yield Claim(id=f"khp95-energy-error-{ra}{whose}{wall}", source="KHP95 Sec. VI", printed="10%", at_most=0.105,
-                        statement=f"energy errors no worse than 10 %: {said}", because=f"two digits are printed; {PLAIN}",
+            yield Claim(id=f"khp95-energy-error-{ra}{whose}{wall}", source="KHP95 Sec. VI", printed="10%",
+                        at_most=0.105, statement=f"energy errors no worse than 10 %: {said}",
+                        because=f"two digits are printed; {PLAIN}",
                         value=off_one(against_grid(particles(ra, variant=variant), energy)))
 
 
 FIVE = f'"about 5 %": half as much again; {PLAIN}'
-SOME = f"{FIVE}; Ra of the points is not printed, near onset particles that start from weak rolls do not flow at all"
+SOME = (f"{FIVE}; Ra of the points is not printed, near onset particles that start from weak rolls do not flow at "
+        "all")
 CONVINCING = f'"convincing" has no number: half of the energy, {ALIKE}'
 HALF = "half of the 10 % that Sec. VI allows: a larger error of the step would decide the claims on energies"
 MOST = "more than half of what is lacking"
 TEN = "the paper's 10 %, two digits"
-DISGUISED = ("1 %, what Sec. VI says that fluctuations disguise: a larger difference is energy made or lost; the "
-             "largest is at 16 rows, the fewest")
+DISGUISED = ("1 %, what Sec. VI says that fluctuations disguise: a larger difference is energy made or lost; "
+             "the largest is at 16 rows, the fewest")
 CLAIMS = (
     *energies(),
     Claim(id="khp95-velocity-error-5000", source="KHP95 Sec. VI", printed="5%", at_most=0.075, because=FIVE,
@@ -187,16 +192,17 @@ CLAIMS = (
     Claim(id="khp95-fig7-runs", source="KHP95 Fig. 7", printed="two rolls", expect=2, within=0,
           statement="512 van der Waals particles convect with two rolls, Ra 10 000",
           because="a whole number; Ra is not printed", value=rolls(particles(1e4, 16, eos="vdw"))),
-    *(Claim(id=f"own-half-step-{rows}", source="KHP95 Sec. II", printed="efficient", at_most=0.05, value=half_step(rows),
-            statement=f"the time step of our runs is small enough: error of K, of {rows} rows and of their field, twice the "
-                      "largest change if it is halved", because=HALF) for rows in (16, 25, 50)),
+    *(Claim(id=f"own-half-step-{height}", source="KHP95 Sec. II", printed="efficient", at_most=0.05,
+            value=half_step(height), because=HALF,
+            statement=f"the time step of our runs is small enough: error of K, of {height} rows and of their field, "
+                      "twice the largest change if it is halved") for height in (16, 25, 50)),
     *(Claim(id=f"own-smoothed-{ra}", source="KHP95 Sec. VI", printed="10%", at_most=0.105, value=error(ra),
-            statement="the field has the energy of the grid's field smoothed alike: |K/K - 1|, 5000 particles, mirror "
-                      f"images, Ra {ra}", because=f"{TEN}; {ALIKE}") for ra in (5000, 10000)),
+            statement="the field has the energy of the grid's field smoothed alike: |K/K - 1|, 5000 particles, "
+                      f"mirror images, Ra {ra}", because=f"{TEN}; {ALIKE}") for ra in (5000, 10000)),
     *(Claim(id=f"own-smoothing-share-{ra}", source="KHP95 Sec. VI", printed="(rho/2)<v>^2", at_least=0.5,
             value=by_smoothing(ra), because=MOST,
-            statement="smoothing itself takes most of the energy that the field lacks: share of it, 5000 particles, mirror "
-                      f"images, Ra {ra}") for ra in (5000, 10000)),
+            statement="smoothing itself takes most of the energy that the field lacks: share of it, 5000 particles, "
+                      f"mirror images, Ra {ra}") for ra in (5000, 10000)),
     Claim(id="own-nusselt-plates", source="KHP95 Sec. II", printed="exact conservation", at_most=0.01,
           value=of(plates), because=DISGUISED,
           statement="energy that goes in at the lower plate goes through the layer and out at the upper "

@@ -1,4 +1,4 @@
-"""Claims about the flow of smooth particles: fields, approach to the steady state, neighbours, walls    [KHP95]"""
+"""Claims about the flow of smooth particles: fields, approach to the steady state, neighbours, walls"""
 from math import inf, sqrt
 
 from studies.build.printed import as_printed
@@ -61,7 +61,7 @@ def highest(tables: Tables) -> float:
 
 
 def robust(tables: Tables) -> Measured:
-    """Relative change of K between third and last quarter of the run at the highest Ra; no bound if it diverged"""
+    """Relative change of K between third and last quarter of the run at the highest Ra; inf if it diverged"""
     point = particles(highest(tables))
     if diverged(tables, point).any():
         return Measured(inf, 0.0)
@@ -69,7 +69,7 @@ def robust(tables: Tables) -> Measured:
 
 
 def right_at_high(tables: Tables) -> Measured:
-    """|Kg/K - 1| at the highest Ra, K of the finest grid smoothed alike, with the difference from the next one
+    """|Kg/K - 1| at the highest Ra, K of the finest grid smoothed alike
 
     The grid's flow may oscillate there for good: then it is not extrapolated.
     """
@@ -98,22 +98,23 @@ def last_kept(tables: Tables, ra: float) -> float:
 
 
 def losses(variant: str) -> Value:
-    """Particles that would be lost without the elastic wall, a particle and run: none where it turned none back."""
+    """Particles lost without the elastic wall, a particle and run: none where it turned none back."""
     asked = one("walls", f"reflections/{PARTICLES}", plate="lower", **particles(1e4, variant=variant))
     turns = over_seeds(asked)
 
     def answer(tables: Tables) -> Measured:
         if (found := turns(tables)).value > 0:
-            raise CannotTell(f"the elastic wall turned particles back, {found.value:.2g} times a particle and run; but a turn "
-                             "is no loss: a particle beyond the plate may come back by itself, and no run here goes without it")
+            raise CannotTell(f"the elastic wall turned particles back, {found.value:.2g} times a particle and run; but "
+                             "a turn is no loss: a particle beyond the plate may come back by itself, and no run here "
+                             "goes without it")
         return found
     return Value(answer, str(turns), turns.asks)
 
 
 def carried(tables: Tables) -> Measured:
-    """Share of the pressure on the plates that fixed rows carry, Ra 10 000: not the impacts on the elastic wall
+    """Share of the pressure on the plates that fixed rows carry, Ra 10 000, and not the elastic wall
 
-    An impact gives 2 m |v_y|, here twice the largest speed among the particles at the end; P = rho T of the layer.
+    An impact gives 2 m |v_y|, here twice the largest speed of a particle at the end; P = rho T of the layer.
     """
     fastest = sqrt(seen("fastest", ROWS)(tables).value)
     shares = []
@@ -129,7 +130,8 @@ FIELD = "against the grid's field as it is, not smoothed"
 PLACE_BY_PLACE = f'"of the order of", one digit: half as much again; {FIELD}'
 ONE_CONTOUR = "no number is printed: one contour of ten"
 SEMI = "semiquantitatively, errors of a few percent"
-LAG = '"semiquantitatively" alone has no number; particles come later, the figure fig8 tells how much of it that is'
+LAG = ('"semiquantitatively" alone has no number; particles come later, the figure fig8 tells how much of it that '
+       "is")
 NO_SINGLE = "Lucy's single particles have 1.3, pairs 2 or more"
 CLAIMS = (
     Claim(id="khp95-neighbours-range", source="KHP95 Sec. II", printed="20 to 30", at_least=20, at_most=30,

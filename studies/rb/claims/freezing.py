@@ -1,9 +1,9 @@
-"""Claims about freezing at high pressure, and about Ra 2500, where particles may stand still    [KHP95, Secs III-VII, Fig. 4]
+"""Claims about freezing at high pressure, and about Ra 2500, where particles may stand still    [KHP95]
 
 The eta of Fig. 4 is not printed: Ra 3000 is taken with kappa = k/(rho C_V) and eta = k, so nu/kappa = 1.5.
-Pressure is added as a negative fraction of the static one that a variant subtracts, with the gravity that balances
-it: the continuum does not feel it. The paper does not say from what its runs at Ra 2500 started: judged is the start
-that leaves them more flow.
+Pressure is added as a negative fraction of the static one that a variant subtracts, with the gravity that
+balances it: the continuum does not feel it. The paper does not say from what its runs at Ra 2500 started: judged is
+the start that leaves them more flow.
 """
 from math import hypot, inf, pi
 from typing import Any
@@ -42,7 +42,7 @@ STARTS = ("printed", "printed-from-flow")   # from the weak rolls of Sec. VI, fr
 
 
 def flows(ra: float, height: int = 16, variant: str = "printed", **where) -> Value:
-    """K of the particles' mean flow over the grid's smoothed alike: 1 where they flow, 0 where they only rattle."""
+    """K of the particles' mean flow over the grid's smoothed alike: 1 where they flow, 0 where they rattle."""
     point = particles(ra, height, variant, **where)
     return mean(point, "ke_mean")/alike(point)
 
@@ -50,10 +50,11 @@ def flows(ra: float, height: int = 16, variant: str = "printed", **where) -> Val
 def rattling(tables: Tables) -> Measured:
     """2 K(dt/2) - K(dt) of 512 particles of dense fluid, Lucy, Ra 3000, over the grid's K
 
-    For a step that vanishes. First order is that of the turns at the plates; nothing says that these steps are small
-    enough for it, so what is extrapolated is the error, too.
+    For a step that vanishes. First order is that of the turns at the plates. Nothing says that these steps are
+    small enough for it, so what is extrapolated is the error, too.
     """
-    half, whole = (over_runs(particles(3000, 16, name, **DENSE), "ke")(tables) for name in ("printed-half-step", "printed"))
+    names = "printed-half-step", "printed"
+    half, whole = (over_runs(particles(3000, 16, name, **DENSE), "ke")(tables) for name in names)
     value = 2*half.value - whole.value
     err = hypot(2*half.err, whole.err, half.value - whole.value)
     return Measured(value, err)/limit(3000, **DENSE)(tables)
@@ -70,7 +71,7 @@ def largest_square(bracket: float) -> Value:
 
 
 def under_pressure(tables: Tables) -> tuple[np.ndarray, np.ndarray]:
-    """m<v^2> of the grid over the melting criterion, and Kg over the grid's smoothed alike, Ra 5000, pressure added."""
+    """m<v^2> of the grid over the melting criterion, and Kg over the grid's, Ra 5000, pressure added."""
     height = shared_height(tables, 5e3, "printed", "more-static-400")
     left = []
     for variant in VARIANTS.values():
@@ -87,14 +88,14 @@ def under_pressure(tables: Tables) -> tuple[np.ndarray, np.ndarray]:
 
 
 def threshold(tables: Tables) -> Measured:
-    """m<v^2> of the grid over 2 P n^-2 [w(0.9) - w(1)] where Kg is half of the grid's, pressure added, Ra 5000."""
+    """m<v^2> of the grid over 2 P n^-2 [w(0.9) - w(1)] where Kg is half of the grid's, Ra 5000."""
     x, y = under_pressure(tables)
     if len(x) < 3 or not y.min() < 0.5 < y.max():
-        raise CannotTell("the particles' K does not fall to half of the grid's at the pressures that were run: the "
-                         "more-static variants of SIZE=fine are to reach it")
+        raise CannotTell("the particles' K does not fall to half of the grid's at the pressures that were run: "
+                         "the more-static variants of SIZE=fine are to reach it")
     here = int(np.argmax(y >= 0.5))
     if here == 0 or (np.diff((y >= 0.5).astype(int)) < 0).any():
-        raise CannotTell("the particles' K crosses half of the grid's more than once as pressure grows: no one threshold")
+        raise CannotTell("the particles' K crosses half of the grid's more than once as pressure grows: no threshold")
     middle = float(np.interp(0.5, y[here - 1:here + 1], np.log(x[here - 1:here + 1])))
     return Measured(float(np.exp(middle)), float(x[here] - x[here - 1])/2)
 
@@ -114,7 +115,7 @@ def errors_above_zero(tables: Tables) -> Measured:
 
 
 def no_trouble(tables: Tables) -> Measured:
-    """Mean K over the second half of dense runs over its maximum before: one that diverges exceeds any bound."""
+    """Mean K over the second half of dense runs over its maximum before; inf if one diverged."""
     point = particles(3000, 16, **DENSE)
     if diverged(tables, point).any():
         return Measured(inf)
@@ -124,7 +125,7 @@ def no_trouble(tables: Tables) -> Measured:
 
 
 def sites(variant: str) -> Value:
-    """Particles a site at the end of dense runs at Ra 3000: median number closer than half a spacing, and itself."""
+    """Particles a site at the end of dense runs at Ra 3000."""
     return one("snapshots", "occupancy", **particles(3000, 16, variant, **DENSE))
 
 
@@ -132,7 +133,7 @@ def sites(variant: str) -> Value:
 
 
 def most_flow(tables: Tables, ra: float) -> tuple[Point, Measured]:
-    """5000 particles started from weak rolls or from the grid's flow: those with the larger Kg, and Kg over the grid's.
+    """5000 particles, started from weak rolls or from the grid's flow: the larger Kg, over the grid's.
 
     Both are needed: a flow may go on where it does not begin.
     """
@@ -148,7 +149,7 @@ def settled(tables: Tables, point: Point) -> bool:
 
 
 def flow_left(tables: Tables) -> Measured:
-    """Kg at Ra 2500 over the grid's smoothed alike, of the start with the larger one; what changes may die: 0 to it."""
+    """Kg at Ra 2500 over the grid's smoothed alike, the larger of two starts; 0 to it if it still changes."""
     point, left = most_flow(tables, 2500)
     most = left.value + left.err
     return left if settled(tables, point) else Measured(most/2, most/2)
@@ -167,10 +168,11 @@ def noisier(tables: Tables) -> Measured:
 
 
 def relative_err(tables: Tables) -> Measured:
-    """Statistical error of Kg at Ra 2500, all seeds together, over the grid's K; of the start with the larger Kg."""
+    """Statistical error of Kg at Ra 2500, all seeds, over the grid's K; of the start with the larger Kg."""
     point, _ = most_flow(tables, 2500)
     if not settled(tables, point):
-        raise CannotTell(f"{point['variant']}: K still drifts at Ra 2500, so that its error is no measure of fluctuations")
+        raise CannotTell(f"{point['variant']}: K still drifts at Ra 2500, so that its error is no measure of "
+                         "fluctuations")
     return Measured(over_runs(point)(tables).err/limit(2500)(tables).value)
 
 
