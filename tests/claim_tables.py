@@ -1,4 +1,4 @@
-"""Tables of known content, for the tests of claims: lines, energies, fields, crystals, histories, a row for every question."""
+"""Tables of known content, for the tests of claims: lines, energies, fields, crystals, numbers without a flow."""
 import math
 from functools import cache
 from pathlib import Path

@@ -17,6 +17,7 @@ from continuum.scene import RayleighBenard, Walls
 from continuum.steady import Steady
 from studies.build.spam import PRINTED
 from studies.kit.study import Study
+from studies.onset import STUDY
 from studies.onset import cases as onset
 from studies.onset import derive as onset_derive
 from studies.onset.rates import RUNS, SOLVERS, History, boussinesq_mac, spam_run
@@ -231,8 +232,8 @@ def small():
 
 @pytest.fixture(scope="module")
 def tables(tmp_path_factory):
-    study = Study(name="onset", cases=lambda size: small(), tables=onset.STUDY.tables, derive=onset.STUDY.derive,
-                  figures=onset.STUDY.figures)
+    study = Study(name="onset", cases=lambda size: small(), tables=STUDY.tables, derive=STUDY.derive,
+                  figures=STUDY.figures)
     out = tmp_path_factory.mktemp("onset")
     found = study.run("quick", workers=1, out=out)
     assert {path.stem for path in study.draw(out)} == {"growth", "line"}

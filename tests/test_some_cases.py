@@ -6,13 +6,13 @@ import pytest
 from studies.kit.claim import judge
 from studies.kit.table import Tables
 from studies.noise.fluctuations import cases as fluctuations
-from studies.onset import cases as onset
+from studies.onset import STUDY
 from studies.onset import derive as onset_derive
 from studies.operators import cases as operators
 
 
 def test_no_critical_number_follows_from_one_growth_rate():
-    columns = next(table for table in onset.STUDY.tables if table.name == "growth_rates").columns
+    columns = next(table for table in STUDY.tables if table.name == "growth_rates").columns
     one = pd.DataFrame([{**dict.fromkeys(columns, 0.0), "method": "linear", "variant": "", "eos": "", "transport": "",
                          "sides": "periodic", "way": "eigenvalue", "resolution": np.inf}])
     assert not any(onset_derive.derive(Tables({"growth_rates": one})).values()), "the rate of linear theory is no run"
