@@ -1,4 +1,6 @@
 """Numbers that KHP95 prints, for claims."""
+from typing import Any
+
 from continuum.published import published
 
 
@@ -7,7 +9,7 @@ def number(key: str) -> float:
     return published(f"khp95-{key}").value
 
 
-def as_printed(key: str) -> dict[str, float]:
+def as_printed(key: str) -> dict[str, Any]:
     """Accepted range of a printed number: its value and what its last digit, or its words, leave open."""
     value = published(f"khp95-{key}")
     return {"expect": value.value, "within": value.uncertainty}

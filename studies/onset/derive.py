@@ -153,7 +153,7 @@ def extrapolated_energies(energies: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """Ra and K at each share, over three grids or more with the same rolls."""
     for _, group in energies.groupby([*SERIES, "share"], dropna=False):
         if len(group) > 2 and group["rolls"].nunique() == 1:
-            ra, ke = (fits.grid_limit(group["resolution"], group[name]).value for name in ("ra", "ke"))
+            value, err = fits.grid_limit(1/group["dT"].to_numpy(), group["value"].to_numpy())
             same = {name: group[name].iloc[-1] for name in (*SERIES, "share", "rolls")}
             yield {**same, "resolution": np.inf, "ra": ra, "ke": ke}
 
@@ -183,7 +183,7 @@ def line_row(at: dict[Any, Any], share: float, size: float, line: Line, lines: s
 
 def straight(points: pd.DataFrame) -> Line:
     """Least squares; err is that of (slope/intercept)^2, to first order, at 95 %."""
-    fit = fits.line(points["ra"]**-0.5, points["ke"])
+    fit = fits.line(points["ra"].to_numpy()**-0.5, points["ke"].to_numpy())
     intercept, slope = fit.coefficients
     toward = 2*(slope/intercept)**2*np.array([-1/intercept, 1/slope])
     residual = np.abs(fit.residuals).max()/points["ke"].max()

@@ -111,7 +111,7 @@ def nearest(frame: pd.DataFrame, ra: float = 1e4) -> pd.DataFrame:
 def straight_line(limit: pd.DataFrame) -> fits.Fit | None:
     """K over Ra^-1/2 from Ra_c to 4 Ra_c, None for fewer than three rows    [KHP95, Sec. V]"""
     inside = limit[(limit["ra"] > RA_C) & (limit["ra"] <= 4*RA_C) & (limit["ke"] > STILL)]
-    return fits.line(inside["ra"]**-0.5, inside["ke"]) if len(inside) > 2 else None
+    return fits.line(inside["ra"].to_numpy()**-0.5, inside["ke"].to_numpy()) if len(inside) > 2 else None
 
 
 # --- marks ----------------------------------------------------------------------------------------

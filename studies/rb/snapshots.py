@@ -119,9 +119,10 @@ def field_errors(tables: Tables, means: pd.DataFrame) -> Iterator[dict[str, Any]
         cells = at_point(frame, limit)
         kept = first_seed(rows)
         if len(cells) and same_rolls(tables, means, point, int(kept["seed"].iloc[0]), limit):
-            particles, cells = fields(kept), fields(cells[cells["resolution"] == cells["resolution"].max()])
-            if particles["T"].shape == cells["T"].shape:
-                yield {**point, **errors_of(tables, means, point, particles, cells)}
+            finest = cells["resolution"] == cells["resolution"].max()
+            ours, theirs = fields(kept), fields(cells[finest])
+            if ours["T"].shape == theirs["T"].shape:
+                yield {**point, **errors_of(tables, means, point, ours, theirs)}
 
 
 GRID = {name: grid(1.0)[name] for name in ("method", "variant")}

@@ -15,9 +15,9 @@ from particles.observe import Grid, Smoothed, particle_kinetic
 from particles.run import Plan, run
 from studies.build.measure import at_end, turns
 from studies.build.names import START_ENERGY
+from studies.build.snapshot import Snapshot
 from studies.build.spam import Variant
 from studies.kit.case import Case, Outcome, Report
-from studies.rb.claims.snapshots import Snapshot
 
 SIDE = 50.0
 SHARED = 0.5            # spacings within which a neighbour is a partner

@@ -45,7 +45,7 @@ FINISHED = "ke == ke and resolution < inf"      # runs that did not diverge
 def two_solvers(tables: Tables) -> Measured:
     """|K - K| at Ra 10 000 of the limit of grids of 5000 cells at most and of py-pde's, errors added."""
     coarse = rows(tables, "means", "2*resolution**2 <= 5000", **GRIDS)
-    mine, other = fits.grid_limit(coarse["resolution"], coarse["ke"]), mean(PYPDE)(tables)
+    mine, other = fits.grid_limit(coarse["resolution"].to_numpy(), coarse["ke"].to_numpy()), mean(PYPDE)(tables)
     in_time = 2*float(coarse["ke_err"].max())
     return Measured(abs(mine.value - other.value), mine.err + in_time + other.err)
 

@@ -44,7 +44,7 @@ def beside_first_order(tables: Tables) -> Measured:
     height = runs["resolution"].to_numpy(float)
     if len(runs) < 5 or len(set(height)) < 4:
         raise CannotTell(f"{len(runs)} runs of moving points at {len(set(height))} sizes: a fit of three takes four")
-    fit = fits.polynomial(1/height, runs["ke"], 2, weight=height**2)
+    fit = fits.polynomial(1/height, runs["ke"].to_numpy(), 2, weight=height**2)
     return abs(fit.intercept/limit(RA)(tables) - 1)
 
 

@@ -36,7 +36,7 @@ SMOOTHED_GRID = {"color": KIND["kg"]["color"], "marker": "", "linestyle": "-.", 
 SECOND = {"linestyle": "--", **OPEN}
 VDW, CONST_NU = LAYER | {"eos": "vdw"}, LAYER | {"transport": "const-nu"}
 IDEAL_PANEL = "ideal gas; particles at constant $\\nu$ moved right"
-PANELS = ((IDEAL_PANEL, (("constant $\\eta$", LAYER, {}), ("constant $\\nu$", CONST_NU, SECOND))),
+PANELS: tuple[Any, ...] = ((IDEAL_PANEL, (("constant $\\eta$", LAYER, {}), ("constant $\\nu$", CONST_NU, SECOND))),
           ("van der Waals gas", (("constant $\\eta$", VDW, {}),)))
 
 
