@@ -141,7 +141,7 @@ def small_differences(critical: pd.DataFrame) -> Iterator[dict[str, Any]]:
     for _, group in rows.groupby(["method", "eos", "transport", "sides"]):
         group = group.sort_values("dT")
         if len(group) > 2:
-            value, err = fits.grid_limit(1/group["dT"], group["value"])
+            value, err = fits.grid_limit(1/group["dT"].to_numpy(), group["value"].to_numpy())
             at = {**group.iloc[0].to_dict(), "dT": 0.0}
             yield critical_row(at, value, err + group["err"].max(), way="operator")
 
@@ -153,7 +153,8 @@ def extrapolated_energies(energies: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """Ra and K at each share, over three grids or more with the same rolls."""
     for _, group in energies.groupby([*SERIES, "share"], dropna=False):
         if len(group) > 2 and group["rolls"].nunique() == 1:
-            value, err = fits.grid_limit(1/group["dT"].to_numpy(), group["value"].to_numpy())
+            sizes = group["resolution"].to_numpy()
+            ra, ke = (fits.grid_limit(sizes, group[name].to_numpy()).value for name in ("ra", "ke"))
             same = {name: group[name].iloc[-1] for name in (*SERIES, "share", "rolls")}
             yield {**same, "resolution": np.inf, "ra": ra, "ke": ke}
 
