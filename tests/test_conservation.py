@@ -28,7 +28,7 @@ from studies.conservation.sums import Watch, exact_sums, kinetic, parts, random_
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import read
-from studies.ordering.waves import DISORDERS
+from studies.build.disorder import DISORDERS
 
 
 def row(case, table="drift"):

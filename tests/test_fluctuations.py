@@ -18,7 +18,7 @@ from studies.noise.fluctuations.modes import Equipartition
 from studies.noise.fluctuations.nonlinear import Capacity, Nonlinear
 from studies.noise.fluctuations.peaks import Brillouin
 from studies.noise.fluctuations.tail import Tail, TailSampled
-from studies.ordering.waves import DISORDERS
+from studies.build.disorder import DISORDERS
 
 
 def small(size: str) -> list:

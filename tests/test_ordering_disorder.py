@@ -17,7 +17,7 @@ from studies.ordering import convection_claims as claims
 from studies.ordering import creep, flows
 from studies.ordering.convection import between_images, convection
 from studies.ordering.flows_figures import over_disorder
-from studies.ordering.waves import DISORDERS
+from studies.build.disorder import DISORDERS
 
 
 def row(maker: str, h: float, points: str = "random", rows: int = 16, **more) -> dict:

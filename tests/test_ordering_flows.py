@@ -15,7 +15,7 @@ from studies.ordering import flows
 from studies.ordering import flows_claims as claims
 from studies.ordering.convection import PLATES, convection, on_lattice
 from studies.ordering.vortices import DECAYS, TaylorGreen, fourier, incompressible, off, solved, velocities
-from studies.ordering.waves import DISORDERS
+from studies.build.disorder import DISORDERS
 
 
 def vortex(maker: str, h: float, disorder: str, wavelength: int, mach: float = 0.3) -> dict:

@@ -22,7 +22,7 @@ from studies.operators.transport import tables as transport_tables
 from studies.operators.transport.derive import endless
 from studies.operators.transport.walls import FLOWS, SPEED, between_rows, couette, driven, poiseuille
 from studies.operators.transport.waves import Decay, propagators
-from studies.ordering.waves import DISORDERS
+from studies.build.disorder import DISORDERS
 
 GAS = Gas(0.3, 0.2, 0.4)
 

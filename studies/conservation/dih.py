@@ -19,7 +19,7 @@ from particles.threads import Team
 from studies.conservation.drift import EVERYTHING, OF_LIMIT, sizes, worst
 from studies.conservation.sums import Watch, exact_sums, kinetic, parts, random_fields
 from studies.kit.case import Case, Outcome, Report
-from studies.ordering.waves import Disorder
+from studies.build.disorder import Disorder
 
 COUNTS = {1: (32,), 2: (6, 6), 3: (4, 4, 4)}
 ETA, SIZE = 0.1, 0.1

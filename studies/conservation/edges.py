@@ -8,7 +8,7 @@ from particles.integral.edges import Edges
 from particles.integral.points import Points
 from particles.weights import Lucy
 from studies.kit.case import Case, Outcome, Report
-from studies.ordering.waves import Disorder
+from studies.build.disorder import Disorder
 
 H = 3.0                 # spacings: the range of Lucy's weight
 

@@ -26,7 +26,7 @@ from studies.kit.case import Case, Outcome, Report
 from studies.kit.claim import Claim
 from studies.kit.stats import Measured, combine
 from studies.kit.table import Table, Tables
-from studies.ordering.waves import DISORDERS
+from studies.build.disorder import DISORDERS
 
 LOOKS = 100             # at how far a run is
 #: momentum along x after so many steps, or where a run that diverged was looked at last (`reached`). lost: its change over the

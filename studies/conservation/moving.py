@@ -17,7 +17,7 @@ from studies.conservation.drift import MODES, WALLS, Wall, in_parts
 from studies.conservation.layers import SIDE, around
 from studies.conservation.sums import ROUND_OFF, Watch, kinetic, random_fields
 from studies.kit.case import Case, Outcome, Report
-from studies.ordering.waves import DISORDERS, Disorder
+from studies.build.disorder import DISORDERS, Disorder
 
 H = 3.0
 

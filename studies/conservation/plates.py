@@ -18,7 +18,7 @@ from particles.weights import Lucy
 from studies.conservation.dih import COUNTS, FORMS, DihDrift, limit_by
 from studies.conservation.layers import FROM_PLATE
 from studies.conservation.sums import exact_sums, random_fields
-from studies.ordering.waves import DISORDERS
+from studies.build.disorder import DISORDERS
 
 RANGE = {1: 3.0, 3: 1.9}
 SETS = (("renormalised", "lattice"), ("closed", "jittered-0.1"), ("exact", "jittered-0.1"))

@@ -24,7 +24,8 @@ from studies.operators.printed import Dilation, Nulls, Rotation, Stream, Volumes
 from studies.operators.stability import Euler, Growth
 from studies.operators.symbols import Counted, ExponentialWave, Fastest, Symbols
 from studies.operators.weights import Continuum, LatticeSums
-from studies.ordering.waves import DISORDERS, Distance
+from studies.build.disorder import DISORDERS
+from studies.ordering.waves import Distance
 
 KINDS = (*WEIGHTS.values(), Exponential, Gaussian)
 SEEDS = (1, 2, 3)

@@ -16,7 +16,7 @@ from particles.weights import WendlandC2
 from studies.kit.case import Case, Outcome, Report
 from studies.operators.equations import arriving
 from studies.operators.weights import around, integral
-from studies.ordering.waves import Disorder
+from studies.build.disorder import Disorder
 
 COUNTS = {1: (20,), 2: (10, 12), 3: (6, 6, 7)}
 RANGE = {1: 2.7, 2: 2.7, 3: 2.2}

@@ -18,7 +18,7 @@ from particles.weights import Lucy, WendlandC2
 from studies.kit.case import Case, Outcome, Report
 from studies.operators.equations import arriving
 from studies.operators.weights import weight_of
-from studies.ordering.waves import Disorder
+from studies.build.disorder import Disorder
 
 Sums = list[sparse.csr_array]
 

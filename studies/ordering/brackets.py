@@ -16,7 +16,7 @@ from studies.kit.stats import combine
 from studies.kit.table import Tables
 from studies.ordering.derive import line
 from studies.ordering.tables import BRACKET_POINT
-from studies.ordering.waves import BREADTH, DISORDERS, Disorder
+from studies.build.disorder import BREADTH, DISORDERS, Disorder
 
 FORMS = ("single", "sum", "difference")
 WAVELENGTH = 32

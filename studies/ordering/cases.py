@@ -26,7 +26,8 @@ from studies.ordering import flows_claims as ordering_flows_claims
 from studies.ordering import tables
 from studies.ordering.convection import between_images, convection, images, irregular_layers, on_lattice
 from studies.ordering.vortices import Compression, TaylorGreen
-from studies.ordering.waves import DISORDERS, OperatorErrors
+from studies.build.disorder import DISORDERS
+from studies.ordering.waves import OperatorErrors
 
 H = (1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0)
 #: on a lattice, where each has a factor of its own: between these, to have a range every half spacing

@@ -17,7 +17,7 @@ from studies.kit.table import Tables
 from studies.ordering.convection import MADE
 from studies.ordering.flows import LEAST, WANTED
 from studies.ordering.flows_claims import IRREGULAR, KINDS, LATTICE, LAYER, ROUGH, WIDTH, cost, error, slope
-from studies.ordering.waves import DISORDERS
+from studies.build.disorder import DISORDERS
 
 LARGEST = 32        # rows between images
 PLACES = (32, 32)   # points of which the share that closed edges miss is told

@@ -21,7 +21,7 @@ from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, run
 from studies.kit.case import Case, Outcome, Report
-from studies.ordering.waves import Disorder
+from studies.build.disorder import Disorder
 
 RE = 100.0          # several turns of the vortices while they decay: pressure and convection matter, not friction alone
 SOUND = np.sqrt(2)  # of the gas with C_V = 1 at T = 1, in 2D

@@ -12,50 +12,6 @@ from particles.integral.points import Points, irregularity, jittered, lattice, o
 from particles.weights import WendlandC2
 from studies.kit.case import Case, Outcome, Report
 
-BREADTH = 16        # spacings across the wave
-APART = 0.5         # of random points, in spacings
-
-
-class Disorder(NamedTuple):
-    """A kind of point set; `size`: jitter in spacings, or how far random points are apart."""
-    name: str
-    make: Callable[[tuple[int, ...], float, int], Points]
-    size: float = 0.0
-
-
-def on_lattice(counts: tuple[int, ...], size: float, seed: int) -> Points:
-    """The square lattice, whatever the seed."""
-    return lattice(counts)
-
-
-@cache
-def relaxed_random(counts: tuple[int, ...], apart: float, seed: int) -> Points:
-    """Random points, relaxed until a|c| < 2e-3."""
-    return relaxed(random(counts, apart, seed), WendlandC2.of(h=3.0), until=2e-3, sweeps=4000)
-
-
-DISORDERS = {d.name: d for d in (Disorder("lattice", on_lattice), Disorder("jittered-0.1", jittered, 0.1),
-                                 Disorder("jittered-0.3", jittered, 0.3), Disorder("random", random, APART),
-                                 Disorder("relaxed", relaxed_random, APART))}
-
-
-@dataclass(frozen=True, kw_only=True)
-class Distance(Case):
-    """How far a set of `length` x BREADTH points is from a square lattice, and from being surrounded evenly."""
-    disorder: Disorder
-    length: int
-    seed: int = 1
-
-    @property
-    def cost(self) -> float:
-        return 0.1 + (3.0 if self.disorder.name == "relaxed" else 0.0)
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        at = self.disorder.make((self.length, BREADTH), self.disorder.size, self.seed)
-        uneven = at.a*np.sqrt((irregularity(at, WendlandC2.of(h=3.0))**2).sum(axis=1).max())
-        return Outcome({"distances": [{"points": self.disorder.name, "length": self.length, "seed": self.seed,
-                                       "off_lattice": off_lattice(at), "uneven": float(uneven)}]})
-
 
 @dataclass(frozen=True, kw_only=True)
 class OperatorErrors(Case):

@@ -30,7 +30,7 @@ from studies.noise.fluctuations.nonlinear import Capacity, Nonlinear
 from studies.noise.fluctuations.peaks import Brillouin
 from studies.noise.fluctuations.steps import Moving, Steps
 from studies.noise.fluctuations.tail import Tail, TailSampled
-from studies.ordering.waves import DISORDERS
+from studies.build.disorder import DISORDERS
 
 DT = (0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8)
 TURNS = ((1, 0), (0, 1), (1, 1), (1, -1), (2, 1), (3, 0), (0, 4), (3, 3), (5, 2), (5, 5))

@@ -24,7 +24,7 @@ from studies.build.fixed import SCHEMES, layer
 from studies.build.symbols import neighbours
 from studies.kit.case import Case, Outcome, Report
 from studies.noise.fluctuations.matrices import ETA, KAPPA, ZETA, carried_along, equilibrium, factor, noise, transport
-from studies.ordering.waves import Disorder
+from studies.build.disorder import Disorder
 
 # --- rest -------------------------------------------------------------------------------------------------------------
 

@@ -19,7 +19,7 @@ from studies.operators.transport import figures as transport_figures
 from studies.operators.transport import tables as transport_tables
 from studies.operators.transport.walls import FLOWS, ShearFlow
 from studies.operators.transport.waves import Decay
-from studies.ordering.waves import DISORDERS
+from studies.build.disorder import DISORDERS
 
 ZETA = 0.2
 SEEDS = (1, 2, 3)

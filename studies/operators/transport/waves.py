@@ -21,7 +21,7 @@ from particles.integrators import RK4
 from particles.threads import Team
 from studies.build.symbols import QUANTITIES, Gas, Waves, continuum, lattice_waves, quantities
 from studies.kit.case import Case, Outcome, Report
-from studies.ordering.waves import Disorder
+from studies.build.disorder import Disorder
 
 AMPLITUDE = 1e-5    # squared, it is the share of waves that feed back on the first; round-off over it is 1e-11
 STEPS = 10          # at least, in a radian of sound: RK4 is off by 5 (1/10)^4/120 of a rate
