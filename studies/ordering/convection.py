@@ -23,8 +23,8 @@ PLATES = {"jittered-0.3": SCHEMES["fixed-jittered-plates"], "random": SCHEMES["f
           "relaxed": SCHEMES["relaxed-plates"]}
 #: makers of edges and ranges of the weight between mirror images; exact ones need the wider
 MADE = (*product(("plain", "renormalised", "closed"), (2.0, 3.0)), ("exact", 3.0))
-#: what a run without an end, or without edges, leaves open
-FOUND = ("ke", "ke_err", "nu", "nu_err")
+#: columns without a number where a run has no end, or points no edges
+MEASURED = ("ke", "ke_err", "nu", "nu_err")
 
 
 @cache
@@ -54,11 +54,12 @@ class Convection(DihRun):
     """One run at Ra = 10 000; `kind`: of its points, as the tables of this study have it."""
     kind: str
 
-    def values(self, setting: Setting, done: Run) -> dict:
+    def values(self, setting: Setting, done: Run) -> dict[str, Any]:
         """Those of the scene, and exchanges over edges, to images among them."""
         edges, beyond = setting.method.edges, getattr(setting.method, "beyond", None)
         number = len(edges.i) + (len(beyond.i) if beyond else 0)
-        return {**super().values(setting, done), "exchanges": RK4.evaluations*done.step*number}
+        exchanges = RK4.evaluations*done.step*number
+        return super().values(setting, done) | {"exchanges": exchanges}
 
     @property
     def cost(self) -> float:
@@ -66,18 +67,22 @@ class Convection(DihRun):
         return super().cost + (0.04*self.scene.L**2 if self.kind == "relaxed" else 0.0)
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        """A row of `convection` in place of one of `kinetic_energy`; without exchanges where the points have no such edges."""
-        weight, h = ("none", 0.0) if self.scheme.held else (self.scheme.weight.__name__, self.scheme.h)
-        key = {"maker": self.scheme.make.__name__, "weight": weight, "h": h, "points": self.kind, "rows": round(self.scene.L),
-               "seed": self.seed}
+        """A row of `convection` in place of one of `kinetic_energy`; without exchanges where points have no such edges."""
         try:
             row = super().run(report, folder).rows["kinetic_energy"][0]
         except ArithmeticError:
             if self.scheme.make is not exact:       # others exist on all points
                 raise
-            row = {**dict.fromkeys(FOUND, np.nan), "rolls": 0, "converged": False, "exchanges": 0.0}
-        found = {name: row[name] for name in (*FOUND, "rolls", "converged")}
-        return Outcome({"convection": [{**key, **found, "exchanges": row.get("exchanges", np.nan)}]})
+            row = {**dict.fromkeys(MEASURED, np.nan), "rolls": 0, "converged": False, "exchanges": 0.0}
+        values = {name: row[name] for name in (*MEASURED, "rolls", "converged")}
+        return Outcome({"convection": [{**self.row_key, **values, "exchanges": row.get("exchanges", np.nan)}]})
+
+    @property
+    def row_key(self) -> dict[str, Any]:
+        """The key of its row; triangles between points on the plates have no weight."""
+        weight, h = ("none", 0.0) if self.scheme.held else (self.scheme.weight.__name__, self.scheme.h)
+        return {"maker": self.scheme.make.__name__, "weight": weight, "h": h, "points": self.kind,
+                "rows": round(self.scene.L), "seed": self.seed}
 
 
 def convection(kind: str, scheme: Scheme, rows: int, seed: int = 1) -> Convection:
@@ -87,11 +92,13 @@ def convection(kind: str, scheme: Scheme, rows: int, seed: int = 1) -> Convectio
 
 def irregular_layers(rows: dict[str, tuple[int, ...]], seeds: tuple[int, ...]) -> Iterator[Convection]:
     """Triangulated irregular points between rows of points on the plates."""
-    yield from (convection(kind, PLATES[kind], n, seed) for kind, some in rows.items() for n, seed in product(some, seeds))
+    for kind, numbers in rows.items():
+        yield from (convection(kind, PLATES[kind], number, seed) for number, seed in product(numbers, seeds))
 
 
 def images(rows: tuple[int, ...], seeds: tuple[int, ...]) -> Iterator[Convection]:
     """Edges of a weight between mirror images; plain ones of the weight that the points moved apart with, too."""
     schemes = [(kind, between_images(kind, maker, h)) for kind, (maker, h) in product(POINTS, MADE)]
     schemes.append(("relaxed", between_images("relaxed", "plain", 3.0, WendlandC2)))
-    yield from (convection(kind, scheme, n, seed) for (kind, scheme), n, seed in product(schemes, rows, seeds))
+    for (kind, scheme), number, seed in product(schemes, rows, seeds):
+        yield convection(kind, scheme, number, seed)
