@@ -6,6 +6,7 @@ import pandas as pd
 
 from studies.kit.case import Case
 from studies.kit.claim import Claim
+from studies.kit.drawing import Joined
 from studies.kit.study import Study, nothing
 from studies.kit.table import Table, Tables
 
@@ -19,14 +20,8 @@ class Part(NamedTuple):
     figures: Callable[[Tables], Mapping[str, Any]] = nothing
 
 
-def merged(functions: Iterable[Callable[[Tables], Mapping[str, Any]]]) -> Callable[[Tables], dict[str, Any]]:
-    """One function of the tables for many: what they return, together."""
-    wanted = list(functions)
-    return lambda tables: {name: value for function in wanted for name, value in function(tables).items()}
-
-
 def chained(functions: Iterable[Callable[[Tables], Mapping[str, Any]]]) -> Callable[[Tables], dict[str, Any]]:
-    """The same of derived rows, of which each function finds what those before it made."""
+    """One function of the tables for many that derive rows: each finds what those before it made."""
     wanted = list(functions)
 
     def derive(tables: Tables) -> dict[str, Any]:
@@ -41,5 +36,5 @@ def study(name: str, *parts: Part) -> Study:
     """The study that its parts make together, in this order: each derives from what those before it derived."""
     return Study(name=name, cases=lambda size: [case for part in parts for case in part.cases(size)],
                  tables=[table for part in parts for table in part.tables],
-                 derive=chained(part.derive for part in parts), figures=merged(part.figures for part in parts),
+                 derive=chained(part.derive for part in parts), figures=Joined(part.figures for part in parts),
                  claims=[claim for part in parts for claim in part.claims])
