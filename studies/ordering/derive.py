@@ -6,10 +6,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from studies.kit import fits
 from studies.kit.ask import one
 from studies.kit.csvfile import read
 from studies.kit.fits import power_law
-from studies.kit.stats import CannotTell, combine, seed_means
+from studies.kit.stats import CannotTell, Measured, combine, seed_means
 from studies.kit.sweep import RESULTS
 from studies.kit.table import Tables
 from studies.ordering.convection import RA
@@ -180,3 +181,8 @@ def crossing(pair: pd.DataFrame) -> dict[str, float]:
     resolution = float(np.exp(weights@size))
     unsure = np.hypot(*(weights*errs))/order
     return {"needed": resolution, "needed_err": float(resolution*unsure), "exchanges": float(np.exp(weights@exchanges))}
+
+
+def line(x: np.ndarray, y: np.ndarray) -> Measured:
+    """Slope of least squares; for studies that do not yet take it from kit/fits.py."""
+    return fits.line(x, y).slope
