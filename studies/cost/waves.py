@@ -11,6 +11,7 @@ import numpy as np
 from scipy.linalg import expm
 
 from continuum.exact.vortex import SOUND
+from continuum.exact.waves import Gas, continuum
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.closed_faces import EXCHANGED, Moving
 from particles.integral.edge_makers import renormalised
@@ -24,7 +25,6 @@ from particles.smooth.spam import Nested, Spam
 from particles.threads import Team
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, Monaghan, WendlandC2
-from studies.build.symbols import Gas, continuum
 from studies.cost import names
 from studies.cost.problem import Problem, Residuals, of_method
 from studies.cost.vortex import Euler, euler_limit, sound_limit

@@ -12,6 +12,7 @@ from particles.integral.dih import Nested, Pairwise
 from particles.integral.edge_makers import MAKERS
 from particles.integral.interpolants import Exponential, Gaussian
 from particles.weights import WEIGHTS, Lucy, WendlandC2
+from studies.build.disorder import DISORDERS
 from studies.kit.case import Case
 from studies.kit.part import Part
 from studies.operators import claims as operators_claims
@@ -24,7 +25,6 @@ from studies.operators.printed import Dilation, Nulls, Rotation, Stream, Volumes
 from studies.operators.stability import Euler, Growth
 from studies.operators.symbols import Counted, ExponentialWave, Fastest, Symbols
 from studies.operators.weights import Continuum, LatticeSums
-from studies.build.disorder import DISORDERS
 from studies.ordering.waves import Distance
 
 KINDS = (*WEIGHTS.values(), Exponential, Gaussian)

@@ -13,10 +13,10 @@ from particles.integral.edges import Edges
 from particles.integral.interpolants import W
 from particles.integral.points import Points
 from particles.weights import WendlandC2
+from studies.build.disorder import Disorder
 from studies.kit.case import Case, Outcome, Report
 from studies.operators.equations import arriving
 from studies.operators.weights import around, integral
-from studies.build.disorder import Disorder
 
 COUNTS = {1: (20,), 2: (10, 12), 3: (6, 6, 7)}
 RANGE = {1: 2.7, 2: 2.7, 3: 2.2}

@@ -15,10 +15,10 @@ from particles.integral.edges import Edges
 from particles.integral.interpolants import reach
 from particles.integral.points import lattice
 from particles.weights import Lucy, WendlandC2
+from studies.build.disorder import Disorder
 from studies.kit.case import Case, Outcome, Report
 from studies.operators.equations import arriving
 from studies.operators.weights import weight_of
-from studies.build.disorder import Disorder
 
 Sums = list[sparse.csr_array]
 

@@ -12,8 +12,8 @@ from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.points import Points, lattice
 from particles.weights import WendlandC2
-from studies.kit.case import Case, Outcome, Report
 from studies.build.disorder import Disorder
+from studies.kit.case import Case, Outcome, Report
 
 STEP = 1e-4     # of central differences: rates are of third degree, so errors are 1e-8 of them, round-off 1e-12
 #: d -> points, range of the weight

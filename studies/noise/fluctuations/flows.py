@@ -20,11 +20,11 @@ from particles.integral.layer import Layer
 from particles.integral.points import lattice
 from particles.threads import Team
 from particles.weights import Lucy
+from studies.build.disorder import Disorder
 from studies.build.fixed import SCHEMES, layer
 from studies.build.symbols import neighbours
 from studies.kit.case import Case, Outcome, Report
 from studies.noise.fluctuations.matrices import ETA, KAPPA, ZETA, carried_along, equilibrium, factor, noise, transport
-from studies.build.disorder import Disorder
 
 # --- rest -------------------------------------------------------------------------------------------------------------
 

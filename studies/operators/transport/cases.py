@@ -11,6 +11,7 @@ from typing import Any
 
 from particles.integral.edge_makers import MAKERS
 from particles.weights import Lucy, Monaghan, WendlandC2
+from studies.build.disorder import DISORDERS
 from studies.kit.case import Case
 from studies.kit.part import Part
 from studies.operators.transport import claims as transport_claims
@@ -19,7 +20,6 @@ from studies.operators.transport import figures as transport_figures
 from studies.operators.transport import tables as transport_tables
 from studies.operators.transport.walls import FLOWS, ShearFlow
 from studies.operators.transport.waves import Decay
-from studies.build.disorder import DISORDERS
 
 ZETA = 0.2
 SEEDS = (1, 2, 3)

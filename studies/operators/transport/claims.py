@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from continuum.exact.waves import Gas, quantities
 from particles.weights import Lucy
 from studies.build.read import Value, exact, select
-from studies.build.symbols import Gas, lattice_waves, quantities
+from studies.build.symbols import lattice_waves
 from studies.kit.claim import CannotTell, Claim
 from studies.kit.stats import Measured
 from studies.kit.table import Tables

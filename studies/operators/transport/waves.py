@@ -13,15 +13,16 @@ from typing import Any
 import numpy as np
 from scipy.linalg import logm
 
+from continuum.exact.waves import QUANTITIES, Gas, Waves, continuum, quantities
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.dih import Dih, Nested, Pairwise
 from particles.integral.edges import Edges
 from particles.integral.points import Points
 from particles.integrators import RK4
 from particles.threads import Team
-from studies.build.symbols import QUANTITIES, Gas, Waves, continuum, lattice_waves, quantities
-from studies.kit.case import Case, Outcome, Report
 from studies.build.disorder import Disorder
+from studies.build.symbols import lattice_waves
+from studies.kit.case import Case, Outcome, Report
 
 AMPLITUDE = 1e-5    # squared, it is the share of waves that feed back on the first; round-off over it is 1e-11
 STEPS = 10          # at least, in a radian of sound: RK4 is off by 5 (1/10)^4/120 of a rate
