@@ -1,7 +1,9 @@
 """Which equations of RR98 hold against exact derivatives, and which transport coefficients do they give?"""
-from studies.kit.part import study
-from studies.operators import cases
-from studies.operators.nested import cases as nested
-from studies.operators.transport import cases as transport
+from studies.kit.part import Part, study
+from studies.operators.cases import cases
+from studies.operators.claims import CLAIMS
+from studies.operators.derive import derive
+from studies.operators.figures import FIGURES
+from studies.operators.tables import ALL
 
-STUDY = study("operators", cases.PART, transport.PART, nested.PART)
+STUDY = study("operators", Part(cases=cases, tables=ALL, derive=derive, figures=FIGURES, claims=CLAIMS))
