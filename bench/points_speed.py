@@ -23,8 +23,8 @@ from studies.build import fixed as dih
 from studies.build import moving
 from studies.build import rr98_moving as drift
 from studies.kit.csvfile import write
+from studies.kit.key import ROOT
 from studies.kit.provenance import commit, cpu, now, versions
-from studies.kit.source import ROOT
 
 FILE = ROOT/"results"/"bench"/"points_speed.csv"
 SCENE = RayleighBenard(ra=1e4, L=100.0)

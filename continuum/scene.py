@@ -13,7 +13,6 @@ import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas, check_state, conductivity, energy, expansivity, thermal_pressure, viscosity
 
-
 ROLL_ENERGY = 9/5000    # kinetic energy per mass of the initial rolls    [KHP95, Fig. 9]
 
 

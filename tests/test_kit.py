@@ -9,10 +9,11 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from studies.kit import source
-from studies.kit.case import Case, Outcome, word
-from studies.kit.keep import SEAL, kept
-from studies.kit.sweep import CasesFailed, Interrupted, sweep
+from studies.kit.case import Case, Outcome, starts, word
+from studies.kit.key import CODE
+from studies.kit.store import SEAL, CannotRun, kept
+from studies.kit.study import Study
+from studies.kit.sweep import CasesFailed
 from studies.kit.table import Table, read
 
 SQUARES = Table("squares", key=["x", "note"], columns=["x", "note", "y"])
@@ -74,7 +75,8 @@ class Bench:
         return [Square(x=float(x), log=str(self.log), **more) for x in xs]
 
     def sweep(self, cases, size="paper"):
-        return sweep(cases, tables=[SQUARES], study="toy", size=size, workers=1, out=self.folder)
+        study = Study(name="toy", cases=lambda size: cases, tables=[SQUARES])
+        return study.run(size, workers=1, out=self.folder)
 
     def ran(self):
         text = self.log.read_text() if self.log.exists() else ""
@@ -99,7 +101,7 @@ def test_a_finished_case_is_not_run_again_and_the_longest_starts_first(bench):
 
 def test_an_interrupted_study_goes_on_where_it_stopped(bench):
     cases = bench.cases(3) + bench.cases(2, trouble="interrupt") + bench.cases(1)
-    with pytest.raises(Interrupted, match="1 of 3 cases are finished and kept, the same command goes on"):
+    with pytest.raises(KeyboardInterrupt, match="1 of 3 cases are finished and kept, the same command goes on"):
         bench.sweep(cases)
     assert bench.ran() == ["3", "2"]
     assert list(bench.sweep(cases)["squares"].y) == [1, 4, 9]
@@ -155,7 +157,7 @@ def test_a_case_that_raises_leaves_the_others_and_tells_where_the_story_is(bench
 
 
 def test_a_full_disk_stops_the_study_and_keeps_what_is_finished(bench):
-    with pytest.raises(CasesFailed, match=r"the disk is full: make room .* 1 of 3 cases are finished"):
+    with pytest.raises(CannotRun, match=r"the disk is full: make room .* 1 of 3 cases are finished"):
         bench.sweep(bench.cases(3) + bench.cases(2, trouble="full") + bench.cases(1))
     assert bench.ran() == ["3", "2"]
 
@@ -195,43 +197,6 @@ def test_the_key_of_a_case_is_that_of_its_parameters():
 
 
 def test_the_key_covers_what_the_class_uses_from_its_own_file_and_nothing_else():
-    text = {ast_name(node) for node in source.part(Path(__file__).resolve(), {"Square"})}
-    assert {"Square", "squared", "Lens"} <= text
-    assert not {"unrelated", "Bench"} & text
-
-
-def ast_name(node):
-    return next(iter(source.defines(node)), "")
-
-
-@pytest.fixture
-def tree(tmp_path):
-    """A small repository: a uses b through a relative import, b uses the package deep; c stands alone."""
-    files = {"continuum/__init__.py": "", "continuum/a.py": "from .b import f\nimport numpy\n",
-             "continuum/b.py": "def f():\n    'Doc.'\n    from particles.deep import g\n    return g\n",
-             "continuum/c.py": "", "particles/__init__.py": "", "particles/deep/leaf.py": "",
-             "particles/deep/__init__.py": "from . import leaf\n",
-             "studies/__init__.py": "", "studies/kit/__init__.py": "",
-             "studies/one.py": "from continuum import a\nfrom studies.kit import case\n"}
-    for name, text in files.items():
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / name).write_text(text)
-    return tmp_path
-
-
-def test_imports_are_followed_through_our_packages_only(tree):
-    assert set(source.closure(["studies.one"], tree)) == {
-        "studies.one", "studies", "continuum", "continuum.a", "continuum.b", "particles", "particles.deep",
-        "particles.deep.leaf"}
-    with pytest.raises(ValueError, match=r"continuum\.d is not a module of"):
-        source.closure(["continuum.d"], tree)
-
-
-def test_comments_and_docstrings_do_not_change_a_result(tree):
-    def hashed(text):
-        source.parse.cache_clear()
-        (tree / "continuum/b.py").write_text(text)
-        return source.digest(source.parse(tree / "continuum/b.py"))
-    first, same, other = map(hashed, ["def f():\n    'Doc.'\n    return 1\n", "# why\ndef f(): return  1\n",
-                                      "def f():\n    return 2\n"])
-    assert first == same != other
+    names = {place.name for place in CODE.reached(filter(None, starts(Square(x=0.1))))}
+    assert {"Square", "squared", "Lens"} <= names
+    assert not {"unrelated", "Bench"} & names

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from studies.kit import source, study, sweep, workers
+from studies.kit import dispatch, key, store, study, sweep
 from studies.kit.case import Case, Outcome
 from studies.kit.claim import Claim
 from studies.kit.figure import figure
@@ -65,7 +65,7 @@ class Toy:
 
     def __init__(self, folder: Path):
         self.folder = folder
-        shutil.copytree(source.ROOT / "studies/kit", folder / "studies/kit",
+        shutil.copytree(key.ROOT / "studies/kit", folder / "studies/kit",
                         ignore=shutil.ignore_patterns("__pycache__"))
         for name, text in {"studies/__init__": "", "studies/toy": TOY, "continuum/__init__": "",
                            "continuum/law": "def power(x):\n    return x**3\n"}.items():
@@ -96,13 +96,13 @@ def test_an_interrupt_that_python_drops_stops_the_study_all_the_same():
         def __del__(self):
             os.kill(os.getpid(), signal.SIGINT)
             time.sleep(0)
-    with workers.remember_interrupt():
+    with dispatch.remember_interrupt():
         try:
             made = Bad()
             del made
         except KeyboardInterrupt:
             pytest.fail("it was not dropped: the test shows nothing")
-        assert workers.pressed == [signal.SIGINT]
+        assert dispatch.pressed == [signal.SIGINT]
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
@@ -188,7 +188,7 @@ CUBES = Study(name="toy", cases=lambda size: [Cube(x=1.0), Cube(x=1/3), Cube(x=7
 def typed(tmp_path, monkeypatch, capsys):
     """What a command does: exit status and all that it prints; its results are in tmp_path/results."""
     monkeypatch.delenv("SIZE", raising=False)
-    monkeypatch.setattr(study, "RESULTS", tmp_path / "results")
+    monkeypatch.setattr(store, "RESULTS", tmp_path / "results")
     monkeypatch.chdir(tmp_path)
 
     def type_(*words):
@@ -250,8 +250,8 @@ def test_quick_leaves_the_tables_of_other_sizes_alone(typed, tmp_path):
 
 
 def test_the_repository_ignores_what_quick_writes():
-    path = study.results("quick").relative_to(source.ROOT)
-    assert f"{path}/" in (source.ROOT / ".gitignore").read_text().splitlines()
+    path = study.results("quick").relative_to(key.ROOT)
+    assert f"{path}/" in (key.ROOT / ".gitignore").read_text().splitlines()
     assert study.results("paper") == study.results("fine") == sweep.RESULTS
 
 

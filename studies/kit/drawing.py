@@ -55,8 +55,20 @@ class Joined:
             yield from getattr(part, "drawings", ())
 
     def __call__(self, tables: Tables) -> dict[str, Any]:
-        """The figures for which there are rows."""
-        return {name: page for part in self.parts for name, page in part(tables).items()}
+        """The figures for which there are rows.
+
+        Raises
+        ------
+        ValueError
+            Two of them have one name.
+        """
+        pages: dict[str, Any] = {}
+        for part in self.parts:
+            for name, page in part(tables).items():
+                if name in pages:
+                    raise ValueError(f"two figures of one study are called {name!r}: give one of them another name")
+                pages[name] = page
+        return pages
 
 
 def caption(drawing: Drawing | Overview) -> str:
