@@ -7,7 +7,7 @@ particles read it.
 from dataclasses import dataclass
 from math import inf
 from numbers import Real
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -100,6 +100,7 @@ class RayleighBenard:
     T_cold: float = 0.5
     sides: Any = Periodic()  # noqa: RUF009
     pr: float = 1.0
+    slide: ClassVar[float] = 0.0        # velocity of the upper plate along itself
 
     def __post_init__(self):
         self._check_numbers()
@@ -134,10 +135,6 @@ class RayleighBenard:
             laws = kind.__name__ if kind in viscosity.kinds else " or ".join(law.__name__ for law in viscosity.kinds)
             raise TypeError(f"transport must be a class of transport laws, got {self.transport!r}: give {laws}, without quotes "
                             "or numbers, which follow from ra and pr")
-
-    @property
-    def slide(self) -> None:
-        """Velocity of the upper plate along itself: these plates do not slide."""
 
     @property
     def width(self) -> float:
@@ -221,7 +218,7 @@ class RayleighBenard:
 
     def fields(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Density (n,), velocity (n, 2) and temperature (n,) at the start, at places (n, 2)    [KHP95, Sec. VI]"""
-        return np.ones(len(x)), np.stack(self.flow(*x.T, ROLL_ENERGY), axis=1), self.T(x[:, 1])
+        return np.ones(len(x)), np.stack(self.flow(x[:, 0], x[:, 1], ROLL_ENERGY), axis=1), self.T(x[:, 1])
 
     def _roll_energy(self, rolls: int) -> float:
         """Mean v^2/2 of the pattern; the midpoint rule is exact for its few harmonics."""

@@ -6,7 +6,6 @@ from time import process_time
 from typing import ClassVar
 
 import numpy as np
-from scipy.special import stdtrit
 
 from continuum.gas.fields import block, initial
 from continuum.gas.loop import FluxForm
@@ -14,14 +13,9 @@ from continuum.gas.solve import March, choose_step
 from continuum.scene import RayleighBenard
 from particles.run import Plan, run
 from studies.build.names import scene_columns
-from studies.build.spam import PRINTED, SpamRun, Variant, method, start
+from studies.build.spam import PRINTED, Variant
 from studies.kit.case import Case, Outcome, Report
-from studies.kit.timing import Seconds, median_seconds
-
-REPEATS = 7
-#: half of the interquartile range of 7 repeats -> half width of the 95 % interval of their median: t sqrt(pi/(2n)) sigma of a
-#: normal scatter, whose quartiles lie between the 2nd and 3rd and the 5th and 6th of 7, on average 0.757 and 0.353 sigma off
-SPREAD_TO_ERR = float(stdtrit(REPEATS - 1, 0.975)*np.sqrt(np.pi/(2*REPEATS))/((0.757 + 0.353)/2))
+from studies.kit.timing import REPEATS, SPREAD_TO_ERR, Seconds, median_seconds
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,15 +34,14 @@ class SpamStep(Case):
         return 32*max(40000, 10*self.scene.L**2*self.scene.aspect)*4*300e-9 + 4
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        one = SpamRun(scene=self.scene, variant=self.variant)
-        chosen, particles = method(self.scene, self.variant), start(self.scene, 1)
-        warm = run(chosen, particles, Plan(dt=one.dt, steps=50))
-        steps = max(10, round(40000/one.particles))
+        method, start, dt = self.variant.ready(self.scene)
+        warm, particles = run(method, start, Plan(dt=dt, steps=50)), start.shape[1]
+        steps = max(10, round(40000/particles))
         # the difference of two lengths leaves out what every run pays once: lists, first evaluation, step limit
-        short, long = (median_seconds(partial(run, chosen, warm.state, Plan(dt=one.dt, steps=n)), REPEATS, process_time)
+        short, long = (median_seconds(partial(run, method, warm.state, Plan(dt=dt, steps=n)), REPEATS, process_time)
                        for n in (steps, 3*steps))
         seconds = Seconds(long.median - short.median, float(np.hypot(long.spread, short.spread)))
-        return Outcome({"cost": [row("spam", self.variant.name, self.scene, one.particles, one.dt, seconds, 2*steps)]})
+        return Outcome({"cost": [row("spam", self.variant.name, self.scene, particles, dt, seconds, 2*steps)]})
 
 
 @dataclass(frozen=True, kw_only=True)
