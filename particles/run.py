@@ -171,12 +171,12 @@ def _record(plan: Plan, sums, now: Run) -> None:
 
 def _particles(method, start: ArrayLike) -> np.ndarray:
     """The start as an array (fields, n) of float64."""
-    wanted = f"particles are an array ({len(method.fields)}, n) of {', '.join(method.fields)} with n >= 1"
+    wanted = f"particles are an array ({len(method.names)}, n) of {', '.join(method.names)} with n >= 1"
     try:
         state = np.asarray(start, float)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{wanted}, got a {type(start).__name__} that is none: {error}") from error
-    if state.ndim != 2 or state.shape[0] != len(method.fields) or state.shape[1] < 1:
+    if state.ndim != 2 or state.shape[0] != len(method.names) or state.shape[1] < 1:
         raise ValueError(f"{wanted}, got {state.shape}")
     return state
 
@@ -211,7 +211,7 @@ def _limit(method, start: np.ndarray) -> float:
 
 def _where(method, state: np.ndarray, ids: np.ndarray | None = None) -> str:
     row, i = np.argwhere(~np.isfinite(state))[0]
-    return f"{method.fields[row]} = {state[row, i]} of particle {i if ids is None else ids[i]}"
+    return f"{method.names[row]} = {state[row, i]} of particle {i if ids is None else ids[i]}"
 
 
 def _way_out(plan: Plan) -> str:

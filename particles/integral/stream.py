@@ -13,6 +13,7 @@ import numpy as np
 
 from continuum.fluid import conductivity, energy, viscosity
 from continuum.jit import jit
+from particles.fields import Fields, from_densities
 from particles.ghosts import Ghosts
 from particles.integral.bodies import Held
 from particles.integral.edges import NONE_BEYOND, NOWHERE, Edges
@@ -67,7 +68,7 @@ class Stream:
     push: tuple[float, float] = (0.0, 0.0)
     chi: float = 0.0
 
-    fields = ("rho", "px", "py", "eps")
+    names = ("rho", "px", "py", "eps")
 
     def __post_init__(self):
         if not self.chi >= 0:
@@ -90,6 +91,10 @@ class Stream:
         warm = np.isfinite(self.held.T)
         T[self.held.which[warm]] = self.held.T[warm]
         return states(self.eos, rho, v, T)
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """Of the points, (n,) each."""
+        return from_densities(self.eos, self.x, self.edges.V, state[0], state[1:3], state[3])
 
     def start(self, n: int, team: Team) -> "Streaming":
         """The sums over stored edges.
