@@ -207,7 +207,7 @@ def test_claims_of_other_studies_stay(tmp_path):
     open_claim = Claim(id="d", source="RR98, Eq. 5", statement="smooth", undecidable="no number is printed")
     put_claims(path, judge([old[1], open_claim], Tables(), "rb"), "rb")
     frame = read(path)
-    assert " ".join(frame.columns) == "id source statement whose printed measured err low high verdict reason study"
+    assert " ".join(frame.columns) == "id source statement whose printed measured err low high verdict reason study formula"
     assert list(frame.low.dropna()) == list(frame.low[frame.id.isin(["b", "z"])]) == [0.5, 0.5]
     assert list(zip(frame.study, frame.id, frame.verdict, frame.reason)) == [
         ("rb", "b", "undecidable", "run SIZE=paper"), ("rb", "d", "undecidable", "no number is printed"),

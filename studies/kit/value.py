@@ -137,6 +137,8 @@ def each(columns: str | Sequence[str], value: Value, tables: Tables) -> Iterator
         None has all of its rows.
     """
     by = [columns] if isinstance(columns, str) else list(columns)
+    if not value.asks:
+        raise WrongQuestion(f"{value} puts no formula to rows: only questions that do are put for each {columns}")
     of_first, answered = value.asks[0].rows, False
     frame = of_first(tables)
     check_columns(of_first.table, frame.columns, by)
