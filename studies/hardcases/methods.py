@@ -8,14 +8,18 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 
 from continuum.fluid import energy
+from particles.integral.edge_makers import renormalised
+from particles.integral.edges import NONE_BEYOND
+from particles.integral.layer import Layer
+from particles.integral.points import of_positions
+from particles.integral.triangulation import delaunay
 from particles.limits import limit_of
 from particles.walls.periodic import periodic
 from particles.weights import Lucy
-from studies.build import fixed as dih
-from studies.build import moving, spam
-from studies.build import rr98_moving as drift
+from studies.build import fixed as fixed_points
+from studies.build import moving, rr98_moving, spam
 from studies.build.names import START_ENERGY, START_JITTER
-from studies.hardcases.map.scenes import THIN, Vortex
+from studies.hardcases.scenes import THIN, ShearFlow, Vortex
 
 SPACINGS = 4            # of a cell over which velocities are averaged: what is left of them is flow, the rest noise
 
@@ -68,7 +72,7 @@ def smooth(scene: Any, variant: spam.Variant) -> Built:
     """Smooth particles; between plates that slip lies one period, and what is thin is empty."""
     if isinstance(scene, Vortex) or hasattr(scene, "density"):
         variant = variant._replace(walls=all_round)
-    method, x = spam.method(scene, variant), dih.positions(scene.width, scene.L, START_JITTER, 1)
+    method, x = spam.method(scene, variant), fixed_points.positions(scene.width, scene.L, START_JITTER, 1)
     rho, v, T = fields(scene, x)
     state = np.array([*x.T, *v.T, energy(scene.eos, 1.0, T)])[:, rho > THIN]
     return Built(method, state, variant.step*limit_of(method, state),
@@ -78,28 +82,31 @@ def smooth(scene: Any, variant: spam.Variant) -> Built:
 # --- points of RR98 ---------------------------------------------------------------------------------------------------
 
 
-def fixed(scene: Any, scheme: dih.Scheme) -> Built:
+def fixed(scene: Any, scheme: fixed_points.Scheme) -> Built:
     """Points that stay, between plates."""
-    method = dih.fluid(scene, scheme, 1)
-    rho, v, T = fields(scene, method.x)
-    start = method.state(rho, v, T)
-    return Built(method, start, dih.OF_LIMIT*limit_of(method, start),
+    method = fixed_points.fluid(scene, scheme, 1)
+    return stays(method, method.state(*fields(scene, method.x)))
+
+
+def stays(method: Layer, start: np.ndarray) -> Built:
+    """Points that stay, from a state."""
+    return Built(method, start, fixed_points.OF_LIMIT*limit_of(method, start),
                  lambda state: Body(method.x, (state[1:3]/state[0]).T, state[0]*method.edges.V))
 
 
-def drifting(scene: Any, motion: drift.DriftMotion, walls: Callable[[Any], tuple] | None = None) -> Built:
+def drifting(scene: Any, motion: rr98_moving.DriftMotion, walls: Callable[[Any], tuple] | None = None) -> Built:
     """RR98's own motions; walls(scene) in place of plates."""
-    method, x = drift.method(scene, motion), dih.positions(scene.width, scene.L, START_JITTER, 1)
+    method, x = rr98_moving.method(scene, motion), fixed_points.positions(scene.width, scene.L, START_JITTER, 1)
     method = replace(method, walls=walls(scene)) if walls else method
     rho, v, T = fields(scene, x)
-    start, holder = method.state(x, rho, v, T), cast(drift.Drifts, SimpleNamespace(method=method))
+    start, holder = method.state(x, rho, v, T), cast(rr98_moving.Drifts, SimpleNamespace(method=method))
     return Built(method, start, limit_of(method, start),
-                 lambda state: Body(state[:2].T, (state[2:4]/state[4]).T, drift.masses(holder, state)))
+                 lambda state: Body(state[:2].T, (state[2:4]/state[4]).T, rr98_moving.masses(holder, state)))
 
 
 def closed(scene: Any, motion: moving.Motion, walls: Callable[[Any], tuple] | None = None) -> Built:
     """Moving points with closed faces; walls(scene) in place of plates."""
-    method, x = moving.method(scene, motion), dih.positions(scene.width, scene.L, START_JITTER, 1)
+    method, x = moving.method(scene, motion), fixed_points.positions(scene.width, scene.L, START_JITTER, 1)
     method = replace(method, walls=walls(scene)) if walls else method
     rho, v, T = fields(scene, x)
     start = method.state(x, v, rho, T)
@@ -107,23 +114,31 @@ def closed(scene: Any, motion: moving.Motion, walls: Callable[[Any], tuple] | No
                  lambda state: Body(state[:2].T, (state[4:6]/state[6]).T, state[6]))
 
 
+def periodic_fixed(scene: ShearFlow, make: Callable, size: float) -> Built:
+    """Points that stay, periodic along both axes."""
+    points = of_positions(fixed_points.positions(scene.width, scene.L, size, 1), (scene.width, scene.L))
+    method = Layer(x=points.x, edges=make(points, Lucy.of(h=2.0)), beyond=NONE_BEYOND, eos=scene.eos, law=scene.law,
+                   T_plates=(1.0, 1.0), g=0.0)
+    return stays(method, method.state(*fields(scene, points.x)))
+
+
 def narrow(h: float) -> dict[str, partial]:
     """Smooth particles and fixed points of one range."""
     return {f"spam h {h:g}": partial(smooth, variant=spam.PRINTED._replace(h=h)),
-            f"fixed h {h:g}": partial(fixed, scheme=dih.SCHEMES["fixed-lattice"]._replace(h=h, weight=Lucy))}
+            f"fixed h {h:g}": partial(fixed, scheme=fixed_points.SCHEMES["fixed-lattice"]._replace(h=h, weight=Lucy))}
 
 
 #: those that are tried on all layers and on the vortex
 USUAL: dict[str, partial] = {
     "spam printed": partial(smooth, variant=spam.PRINTED),
     "spam Wendland": partial(smooth, variant=spam.VARIANTS["wendland-c2"]),
-    "fixed lattice": partial(fixed, scheme=dih.SCHEMES["fixed-lattice"]),
-    "fixed nested": partial(fixed, scheme=dih.SCHEMES["fixed-lattice-nested-only"]),
-    "fixed jittered": partial(fixed, scheme=dih.SCHEMES["fixed-jittered-delaunay"]),
-    "drift literal": partial(drifting, motion=drift.DRIFT_MOTIONS["moving-literal"]),
-    "drift constant mass": partial(drifting, motion=drift.DRIFT_MOTIONS["moving-constant-mass"]),
+    "fixed lattice": partial(fixed, scheme=fixed_points.SCHEMES["fixed-lattice"]),
+    "fixed nested": partial(fixed, scheme=fixed_points.SCHEMES["fixed-lattice-nested-only"]),
+    "fixed jittered": partial(fixed, scheme=fixed_points.SCHEMES["fixed-jittered-delaunay"]),
+    "drift literal": partial(drifting, motion=rr98_moving.DRIFT_MOTIONS["moving-literal"]),
+    "drift constant mass": partial(drifting, motion=rr98_moving.DRIFT_MOTIONS["moving-constant-mass"]),
     "moving": partial(closed, motion=moving.MOTIONS["moving"])}
-DISORDERED: dict[str, partial] = {f"fixed {name}": partial(fixed, scheme=dih.SCHEMES[scheme]) for name, scheme in (
+DISORDERED: dict[str, partial] = {f"fixed {name}": partial(fixed, scheme=fixed_points.SCHEMES[scheme]) for name, scheme in (
     ("lattice", "fixed-lattice"), ("jittered plain", "fixed-jittered-plain"), ("jittered closed", "fixed-jittered-closed"),
     ("jittered", "fixed-jittered-delaunay"), ("random", "fixed-random-delaunay"))}
 NARROW: dict[str, partial] = {name: build for h in (0.9, 1.2, 1.5, 2.0) for name, build in narrow(h).items()}
@@ -137,3 +152,11 @@ CORNERS: dict[str, partial] = {
 TAKES: dict[str, dict[str, partial]] = {
     **dict.fromkeys(("Ra 1e5", "Ra 1e6", "Prandtl 0.01", "Prandtl 100", "high pressure", "zero viscosity", "vacuum"), USUAL),
     "disordered points": DISORDERED, "narrow weight": NARROW, "wall corner": CORNERS}
+SHEARED: dict[str, partial] = {
+    "spam printed": partial(smooth, variant=spam.PRINTED._replace(walls=all_round)),
+    "spam Wendland": partial(smooth, variant=spam.VARIANTS["wendland-c2"]._replace(walls=all_round)),
+    "fixed lattice": partial(periodic_fixed, make=renormalised, size=0.0),
+    "fixed jittered": partial(periodic_fixed, make=delaunay, size=0.3),
+    "moving": partial(closed, motion=moving.MOTIONS["moving"], walls=all_round),
+    "drift literal": partial(drifting, motion=rr98_moving.DRIFT_MOTIONS["moving-literal"], walls=all_round),
+    "drift constant mass": partial(drifting, motion=rr98_moving.DRIFT_MOTIONS["moving-constant-mass"], walls=all_round)}

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.exact.riemann import Gas, Middle, middle, shock_speed
+from continuum.exact.riemann import Gas, middle, shock_speed
 from continuum.fluid import IdealGas
 from particles.limits import step_limit
 from particles.run import STUDIES, Divergence, Plan, run
@@ -46,37 +46,36 @@ class Impulse(NamedTuple):
 def impulse(scale: float, steep: float) -> Impulse:
     """da/dt = k a+ A+ dv, a+ = a (1 - dv/W) [Richtmyer 1960]: k a = steep, + behind the shock of speed W, dv the interface's."""
     c = sqrt(GAMMA*LIGHT.P/LIGHT.rho)
-    fall = 2*c/(GAMMA + 1)*(MACH - 1/MACH)
-    P = LIGHT.P*(1 + 2*GAMMA/(GAMMA + 1)*(MACH**2 - 1))
+    fall, W = 2*c/(GAMMA + 1)*(MACH - 1/MACH), MACH*c
     behind = middle(Gas(LIGHT.rho, fall, LIGHT.P), Gas(LIGHT.rho, -fall, LIGHT.P), GAMMA)      # a gas against its mirror image
-    assert abs(behind.P/P - 1) < 1e-9, "the piston's shock has the Mach number that it should have"
-    after: Middle = middle(Gas(behind.right, 0.0, behind.P), Gas(HEAVY.rho, -fall, HEAVY.P), GAMMA)
-    kick, W = after.v + fall, MACH*c
-    meets = BELOW*scale/W
-    down = shock_speed(Gas(behind.right, 0.0, behind.P), after.P, GAMMA)
+    shocked = Gas(behind.right, 0.0, behind.P)
+    after = middle(shocked, Gas(HEAVY.rho, -fall, HEAVY.P), GAMMA)
+    kick, meets = after.v + fall, BELOW*scale/W
     height = BELOW*scale - fall*meets
     k = 2*pi/(WIDTH*scale)
     a = steep/k*(1 - kick/W)
     atwood = (after.right - after.left)/(after.right + after.left)
-    return Impulse(fall, meets, kick, meets + height/down, a, k*a*atwood*kick)
+    return Impulse(fall, meets, kick, meets + height/shock_speed(shocked, after.P, GAMMA), a, k*a*atwood*kick)
 
 
 def gases(scale: float, steep: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
     """State (5, n) at the start, and which particles are light: rows of both gases, cut at the rippled interface."""
-    rng, width, bottom, parts, light = np.random.default_rng(seed), WIDTH*scale, -HEIGHT*scale/2, [], []
-    k, fall = 2*pi/width, impulse(scale, steep).fall
+    rng, width, bottom = np.random.default_rng(seed), WIDTH*scale, -HEIGHT*scale/2
+    k, parts, light = 2*pi/width, [], []
     for gas in (LIGHT, HEAVY):
         columns = round(width*sqrt(gas.rho))
         dx = width/columns
         dy = 1/(gas.rho*dx)
-        x, y = np.meshgrid((np.arange(columns) + 0.5)*dx - width/2, (np.arange(round(HEIGHT*scale/dy)) + 0.5)*dy + bottom)
+        rows = round(HEIGHT*scale/dy)
+        x, y = np.meshgrid((np.arange(columns) + 0.5)*dx - width/2, (np.arange(rows) + 0.5)*dy + bottom)
         x, y = (q.ravel() + JITTER*d*rng.uniform(-1, 1, q.size) for q, d in ((x, dx), (y, dy)))
         below = y < bottom + BELOW*scale + steep/k*np.cos(k*x)
-        chosen = below == (gas is LIGHT)
-        parts.append(at_rest(np.stack([(x[chosen] + width/2) % width - width/2, y[chosen]], axis=1), gas.P/gas.rho))
-        light.append(np.full(chosen.sum(), gas is LIGHT))
+        own = below == (gas is LIGHT)
+        at = np.stack([(x[own] + width/2) % width - width/2, y[own]], axis=1)
+        parts.append(at_rest(at, gas.P/gas.rho))
+        light.append(np.full(own.sum(), gas is LIGHT))
     state = np.concatenate(parts, axis=1)
-    state[3] = -fall
+    state[3] = -impulse(scale, steep).fall
     return state, np.concatenate(light)
 
 
@@ -91,9 +90,12 @@ def ripple(x: np.ndarray, y: np.ndarray, light: np.ndarray, width: float) -> tup
 def divide(y: np.ndarray, light: np.ndarray) -> float:
     """The height above which there are fewest light and below which there are fewest heavy particles; of several their mean."""
     order = np.argsort(y)
-    wrong = np.concatenate([[0], np.cumsum(~light[order])]) + light.sum() - np.concatenate([[0], np.cumsum(light[order])])
-    best = np.flatnonzero(wrong[1:-1] == wrong[1:-1].min())
-    return float(np.mean((y[order][best] + y[order][best + 1])/2))
+    heights, below = y[order], light[order]
+    heavy_below = np.concatenate([[0], np.cumsum(~below)])
+    light_above = light.sum() - np.concatenate([[0], np.cumsum(below)])
+    wrong = (heavy_below + light_above)[1:-1]
+    best = np.flatnonzero(wrong == wrong.min())
+    return float(np.mean((heights[best] + heights[best + 1])/2))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,27 +114,34 @@ class Interface(Case):
         """Until the reflected shock is at the mirror, when nothing can be back at the interface."""
         return impulse(self.scale, self.steep).back
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        width, (state, light) = WIDTH*self.scale, gases(self.scale, self.steep, self.seed)
-        box = (width, HEIGHT*self.scale)
-        floor = Mirror(1, -box[1]/2, 1.0, 1.0, 0.0, Odd(), Copied())
-        method = Spam(weight=Lucy.of(h=3.0), eos=IdealGas(), law=FRICTIONLESS, walls=(*periodic(width), floor), box=box)
-        dt = STUDIES*step_limit(method, state[4], 4.0)
-        steps = round(self.time/SAMPLES/dt) + 1
-        dt = self.time/SAMPLES/steps
-        rows: list[dict[str, Any]] = []
-        for number in range(1, SAMPLES + 1):
-            report(number/SAMPLES)
-            try:
-                state = run(method, state, Plan(dt=dt, steps=steps)).by_id()
-            except Divergence:
-                rows.append({**self.point, "time": number*steps*dt, "height": np.nan, "amplitude": np.nan})
-                break
-            height, a = ripple(state[0], state[1], light, width)
-            rows.append({**self.point, "time": number*steps*dt, "height": height, "amplitude": a})
-        return Outcome({"ripples": rows})
-
     @property
     def point(self) -> dict[str, Any]:
         """Key columns."""
         return {"scale": self.scale, "steep": self.steep, "seed": self.seed}
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        state, light = gases(self.scale, self.steep, self.seed)
+        method = self.method
+        dt = STUDIES*step_limit(method, state[4], 4.0)
+        steps = round(self.time/SAMPLES/dt) + 1
+        plan = Plan(dt=self.time/SAMPLES/steps, steps=steps)
+        rows: list[dict[str, Any]] = []
+        for number in range(1, SAMPLES + 1):
+            report(number/SAMPLES)
+            row = {**self.point, "time": number*plan.steps*plan.dt}
+            try:
+                state = run(method, state, plan).by_id()
+            except Divergence:
+                rows.append({**row, "height": np.nan, "amplitude": np.nan})
+                break
+            height, amplitude = ripple(state[0], state[1], light, WIDTH*self.scale)
+            rows.append({**row, "height": height, "amplitude": amplitude})
+        return Outcome({"ripples": rows})
+
+    @property
+    def method(self) -> Spam:
+        """Periodic along the shock, with a mirror below; above is vacuum."""
+        width, height = WIDTH*self.scale, HEIGHT*self.scale
+        floor = Mirror(1, -height/2, 1.0, 1.0, 0.0, Odd(), Copied())
+        return Spam(weight=Lucy.of(h=3.0), eos=IdealGas(), law=FRICTIONLESS, walls=(*periodic(width), floor),
+                    box=(width, height))

@@ -4,10 +4,12 @@ Printed is Ra 350 000 for eta = k = 0.8 (ideal gas) and 0.4 (dense fluid). The g
 with its own alpha = 1/<T>; the dense fluid has 340 800 with its own, and 511 200 as scenes reckon, whose kappa is k/(rho C_V).
 """
 from dataclasses import dataclass
+from math import sqrt
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from continuum.fluid import IdealGas
 from continuum.scene import RayleighBenard, Walls
@@ -16,9 +18,10 @@ from particles.run import Plan, run
 from studies.build.names import START_ENERGY
 from studies.build.spam import SpamRun, Variant, at_end, method, start, step
 from studies.kit.case import Case, Outcome, Report
-from studies.rb.claims.snapshots import Snapshot
+from studies.kit.stats import Measured
 
 SIDE = 50.0
+RANGE = 3.0             # of the weight: particles nearer to a plate are not counted
 SHARED = 0.5            # spacings within which a neighbour is a partner
 
 
@@ -51,14 +54,43 @@ class Square(Case):
                     means={"grid": Grid.over(chosen.box, 30)}, checkpoint=folder/"run.h5")
         done = run(chosen, start(scene, self.seed, two_rolls), plan, report)
         sums, _ = at_end(chosen, done)
-        around = sums.around
-        at = Snapshot(np.stack([around.x, around.y], axis=1), np.stack([around.vx, around.vy], axis=1), sums.n, SIDE)
-        near = at.tree.query_ball_point(at.x[at.bulk], SHARED, return_length=True) - 1
+        near = Neighbours.of(np.stack([sums.around.x, sums.around.y], axis=1), sums.n)
         kp = np.array(done.series["kp"])[np.array(done.times) > plan.mean_from]
-        mean = Fields(*done.means["grid"])
-        return Outcome({"squares": [{"eos": type(self.eos).__name__, "weight": self.weight.__name__, "ra": self.ra,
-                                     "seed": self.seed, "eta": scene.eta, "alpha": scene.alpha, "rolls": one._rolls(done),
-                                     "begun": START_ENERGY*scene.free_fall**2, "ke": float(kp.mean()),
-                                     "flow": float(np.mean(mean.rho*(mean.vx**2 + mean.vy**2))/np.mean(mean.rho)/2),
-                                     "ratio": at.pairing.value, "ratio_err": at.pairing.err,
-                                     "shared": float(np.mean(near > 0))}]})
+        return Outcome({"squares": [{
+            "eos": type(self.eos).__name__, "weight": self.weight.__name__, "ra": self.ra, "seed": self.seed,
+            "eta": scene.eta, "alpha": scene.alpha, "rolls": one._rolls(done),
+            "begun": START_ENERGY*scene.free_fall**2, "ke": float(kp.mean()), "flow": energy(Fields(*done.means["grid"])),
+            "ratio": near.ratio.value, "ratio_err": near.ratio.err, "shared": near.shared}]})
+
+
+def energy(mean: Fields) -> float:
+    """K per mass of the mean flow."""
+    return float(np.mean(mean.rho*(mean.vx**2 + mean.vy**2))/np.mean(mean.rho)/2)
+
+
+@dataclass(frozen=True)
+class Neighbours:
+    """Of particles away from the plates. first, second : (n,) distances; partners : (n,) others within SHARED."""
+    first: np.ndarray
+    second: np.ndarray
+    partners: np.ndarray
+
+    @classmethod
+    def of(cls, x: np.ndarray, n: int) -> "Neighbours":
+        """x (points, 2): n particles of the fluid first, then images."""
+        bulk = x[:n][np.abs(x[:n, 1]) < SIDE/2 - RANGE]
+        tree = cKDTree(x)
+        _, first, second = tree.query(bulk, 3)[0].T
+        return cls(first, second, tree.query_ball_point(bulk, SHARED, return_length=True) - 1)
+
+    @property
+    def ratio(self) -> Measured:
+        """Median of second over first neighbour distance; partners of a pair are one sample."""
+        width = 0.98/sqrt(len(self.first)/2)
+        low, middle, high = np.quantile(self.second/self.first, [0.5 - width, 0.5, 0.5 + width])
+        return Measured(float(middle), float(high - low)/2)
+
+    @property
+    def shared(self) -> float:
+        """Part of the particles that have a partner."""
+        return float(np.mean(self.partners > 0))

@@ -1,15 +1,22 @@
-"""Sod's shock tube by name of method: points and step, and what fields it has in cells of one spacing.
+"""Sod's shock tube by the grid, by fixed and by moving points: errors against the exact solution, ringing, or where a run ends.
 
-The tube and its mirror image of `shock_tube`, in a periodic strip; the grid has one tube between plates, which its waves do not
+The tube and its mirror image of `sod`, in a periodic strip; the grid has one tube between plates, which its waves do not
 reach. One spacing, in both gases: the thin one has points of less mass. No method has artificial viscosity.
+
+Viscosities in units of spacing and density 1, eta = k, chosen beforehand and for all methods alike: nothing; what makes the
+contact's velocity a cell number of 2 behind the shock, v a/nu, beyond which central differences are expected to ring; and the
+one that smooth particles were given. nu/(c a) of the dense gas is 0, 0.11 and 0.42. Steps are half of the limit at the start,
+since v + c behind the shock is 1.85 times c of the dense gas; a quarter of this step tells the scheme's end from the step's.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from continuum.exact.riemann import middle
 from continuum.fluid import ConstEta
 from continuum.gas.fields import Fields, Values, block, nodes, unblock
 from continuum.gas.loop import FluxForm
@@ -26,11 +33,19 @@ from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2
 from studies.build.names import START_JITTER
 from studies.build.resting_layer import Slab
-from studies.hardcases.tube.spam import DENSE, END, EOS, HEIGHT, THIN
-from studies.kit.case import Report
+from studies.hardcases.sod import DENSE, END, EOS, GAMMA, HEIGHT, NAMES, THIN, errors, exact, wiggles
+from studies.hardcases.sod import grid as fine_grid
+from studies.kit.case import Case, Outcome, Report
 
 JITTER = 0.3            # of disordered points, in spacings
 PARTS = 16              # of a point, over which it is spread when it is put into cells
+BETWEEN = middle(DENSE, THIN, GAMMA)
+CELL_NUMBER = 2.0
+BARELY = round(BETWEEN.v*BETWEEN.right/CELL_NUMBER, 3)      # 0.123
+ETAS = (0.0, BARELY, 0.5)
+STEPS = (0.5, 0.125)                        # over the limit at the start
+FINE = "fine grid"                          # what a fluid as viscous does
+assert END*BETWEEN.v < 1        # the contact stays in its half of the tube
 
 
 class Seen(NamedTuple):
@@ -56,13 +71,15 @@ def binned(L: int, x: np.ndarray, V: np.ndarray, sums: np.ndarray) -> np.ndarray
 
     A point is as wide as its volume and one spacing high: where the gas is thin rows of points lie farther apart than cells.
     """
-    x = (x + V*((np.arange(PARTS) + 0.5)/PARTS - 0.5)[:, None]).ravel()
-    cell, (m, px, py, E) = np.minimum(np.abs(x).astype(int), 2*L - 1), sums
+    m, px, py, E = sums
     inner = E - (px**2 + py**2)/(2*m)
-    volume, mass, p, e = (np.bincount(cell, q, 2*L) for q in (
-        *(np.tile(q, PARTS) for q in (V, m)), np.sign(x)*np.tile(px, PARTS), np.tile(inner, PARTS)))
+    offsets = (np.arange(PARTS) + 0.5)/PARTS - 0.5
+    places = (x + V*offsets[:, None]).ravel()
+    cell, side = np.minimum(np.abs(places).astype(int), 2*L - 1), np.sign(places)
+    volume, mass, energy = (np.bincount(cell, np.tile(q, PARTS), 2*L) for q in (V, m, inner))
+    p = np.bincount(cell, side*np.tile(px, PARTS), 2*L)
     with np.errstate(all="ignore"):
-        return np.array([mass/volume, p/mass, e/volume/EOS.cv])
+        return np.array([mass/volume, p/mass, energy/volume/EOS.cv])
 
 
 # --- points -----------------------------------------------------------------------------------------------------------
@@ -124,12 +141,7 @@ class Upright(Slab):
 def grid(L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
     """The compressible grid as it is, cells of one spacing; it has no disorder, so that `seed` says nothing."""
     scene = Upright(L=float(2*L), aspect=2/L, viscosity=law.eta, heat=law.k)
-    x, y = nodes(scene, 2*L)
-    # the node on the diaphragm has the mean temperature
-    T = np.where(y < 0, scene.T_hot, np.where(y > 0, scene.T_cold, scene.T_mean))[:, None]*np.ones(len(x))
-    cells = np.where(np.arange(2*L) < L, DENSE.rho, THIN.rho)[:, None]*np.ones(len(x) - 1)
-    start = Fields(scene, x, y, Values(0*T, 0*T, EOS.cv*T, T, np.ones_like(T)), cells)
-    S = block(start)
+    S = block(upright(scene, L))
     steps = int(END*L/(step*limits(scene, S).both)) + 1
     march = March(scene, S, FluxForm(), END*L/steps)
     try:
@@ -137,10 +149,19 @@ def grid(L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
     except DivergedError:
         return ended(L, march.steps/steps)
     done = unblock(scene, march.S)
-    at = done.at
-    v, T = ((q[1:] + q[:-1])[:, :-1].mean(axis=1)/2 for q in (at.vy, at.T))
+    v, T = ((q[1:] + q[:-1])[:, :-1].mean(axis=1)/2 for q in (done.at.vy, done.at.T))
     rho = done.cells.mean(axis=1)
-    return Seen(np.array([rho, v, rho*T]), float(np.sqrt((at.vx**2).mean())))
+    return Seen(np.array([rho, v, rho*T]), float(np.sqrt((done.at.vx**2).mean())))
+
+
+def upright(scene: Upright, L: int) -> Fields:
+    """The grid's start; the node on the diaphragm has the mean temperature."""
+    x, y = nodes(scene, 2*L)
+    rows = np.where(y < 0, scene.T_hot, np.where(y > 0, scene.T_cold, scene.T_mean))
+    T = np.repeat(rows[:, None], len(x), axis=1)
+    cells = np.where(np.arange(2*L) < L, DENSE.rho, THIN.rho)
+    values = Values(0*T, 0*T, EOS.cv*T, T, np.ones_like(T))
+    return Fields(scene, x, y, values, np.repeat(cells[:, None], len(x) - 1, axis=1))
 
 
 METHODS: dict[str, Callable[[int, ConstEta, int, float, Report], Seen]] = {
@@ -148,3 +169,59 @@ METHODS: dict[str, Callable[[int, ConstEta, int, float, Report], Seen]] = {
     "fixed lattice": partial(fixed, make=renormalised, jitter=0.0),
     "fixed jittered": partial(fixed, make=delaunay, jitter=JITTER),
     "moving": moving}
+
+
+# --- the case ---------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class MethodTube(Case):
+    """One tube. L : half of its length, spacings. eta : viscosity and conductivity. step : over the limit at the start.
+
+    keep : whether profiles go to the table.
+    """
+    method: str
+    L: int
+    eta: float
+    seed: int = 1
+    step: float = STEPS[0]
+    keep: bool = False
+
+    @property
+    def cost(self) -> float:
+        return {"moving": 1e-3}.get(self.method, 1e-4)*self.L**2/self.step + 1
+
+    @property
+    def label(self) -> str:
+        return f"tube of {self.method}, L {self.L}, eta {self.eta:g}, seed {self.seed}, step {self.step:g}"
+
+    @property
+    def point(self) -> dict[str, Any]:
+        """Key columns."""
+        return {"method": self.method, "eta": self.eta, "step": self.step, "L": self.L, "seed": self.seed}
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        seen, x = self._seen(report), centres(self.L)
+        truth = exact(self.L, x)
+        twin = viscous(self.L, self.eta) if seen.reached == 1 else np.full_like(truth, np.nan)
+        row = {**self.point, **errors(seen.fields, truth, twin), "wiggles": wiggles(seen.fields[1], truth[1]),
+               "noise": seen.across/BETWEEN.v, "reached": seen.reached}
+        profiles = [{**self.point, "x": at/self.L - 1, **dict(zip(NAMES, values, strict=True))}
+                    for at, values in zip(x, seen.fields.T, strict=True)]
+        return Outcome({"method_tubes": [row], "method_tube_profiles": profiles if self.keep and seen.reached == 1 else []})
+
+    def _seen(self, report: Report) -> Seen:
+        if self.method == FINE:
+            return Seen(viscous(self.L, self.eta), 0.0)
+        return METHODS[self.method](self.L, ConstEta(self.eta, self.eta), self.seed, self.step, report)
+
+
+def centres(L: int) -> np.ndarray:
+    """(2 L,) of cells of one spacing."""
+    return np.arange(2*L) + 0.5
+
+
+@cache
+def viscous(L: int, eta: float) -> np.ndarray:
+    """(3, 2 L): the fine grid's fields."""
+    return fine_grid(L, ConstEta(eta, eta), centres(L)) if eta else np.full((3, 2*L), np.nan)

@@ -8,7 +8,7 @@ from particles.run import Run
 from particles.threads import Team
 
 #: R(z) = sum of these times z^n multiplies a motion exp(lambda t) in a step, z = lambda dt
-FACTORS = {"Euler": (1, 1), "ThreeStage": (1, 1, 1/2, 1/6), "RK4": (1, 1, 1/2, 1/6, 1/24)}
+FACTORS = {"ThreeStage": (1, 1, 1/2, 1/6), "RK4": (1, 1, 1/2, 1/6, 1/24)}
 NULL = 1e-3             # of the largest eigenvalue: below are motions that the sums do not see, split by round-off
 ROUND_OFF = 1e-7        # growth in a step: rates by differences are good to 1e-9 of the fastest
 STEPS = np.geomspace(1e-3, 10, 4001)        # times the fastest rate: the first that grows is found to 0.1 %, then refined

@@ -3,7 +3,8 @@
 All have 16 rows: the question is who gives way first, not who is best. Units: spacing, mean density, P/rho at T = 1.
 """
 from dataclasses import dataclass
-from math import sqrt
+from math import pi, sqrt
+from typing import NamedTuple
 
 import numpy as np
 
@@ -65,6 +66,58 @@ class Corner(Slab):
     def flow(self, x, y, ke: float = 0.0, rolls: int | None = None):
         """Rest."""
         return 0*x, 0*y
+
+
+U, BEGIN = 0.15, 0.01       # of the shear flow: Mach number 0.1; size of the wave over U at the start
+HARMONICS = 20              # on either side: the rate is good to 1e-9
+
+
+class Wave(NamedTuple):
+    """Growth rate, and amplitudes psi_n of the harmonics -HARMONICS .. HARMONICS."""
+    rate: float
+    psi: np.ndarray
+
+
+def fastest(k: float, kx: float) -> Wave:
+    """The wave exp(i k_x x) on u = U sin ky that grows fastest    [Rayleigh 1880; Meshalkin & Sinai 1961]
+
+    Small waves obey q_t = -i k_x u (q + k^2 psi), q = lap psi, so harmonics q_n exp(inky) of each other:
+
+        dq_n/dt = -(k_x U/2) [(1 - k^2/K_(n-1)^2) q_(n-1) - (1 - k^2/K_(n+1)^2) q_(n+1)],    K_n^2 = k_x^2 + n^2 k^2
+    """
+    n = np.arange(-HARMONICS, HARMONICS + 1)
+    K2 = kx**2 + (n*k)**2
+    part = kx*U/2*(1 - k**2/K2)
+    rates, modes = np.linalg.eig(np.diag(part[1:], 1) - np.diag(part[:-1], -1))
+    best = int(np.argmax(rates.real))
+    return Wave(float(rates[best].real), -modes[:, best]/K2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShearFlow(Slab):
+    """u = U sin ky without viscosity, with the wave that grows fastest: its v has the size BEGIN U in the mean over y."""
+    L: float = 16.0
+    aspect: float = 2.0
+    viscosity: float = 0.0
+    heat: float = 0.0
+
+    @property
+    def k(self) -> float:
+        """Of the flow; that of the wave is half of it."""
+        return 2*pi/self.L
+
+    @property
+    def wave(self) -> Wave:
+        """The wave that grows fastest."""
+        return fastest(self.k, self.k/2)
+
+    def flow(self, x, y, ke: float = 0.0, rolls: int | None = None):
+        """u = psi_y, v = -psi_x on top of U sin ky; `ke` says nothing here."""
+        kx, psi = self.k/2, self.wave.psi
+        psi = psi*BEGIN*U/(kx*abs(psi[HARMONICS]))
+        n = np.arange(-HARMONICS, HARMONICS + 1)[:, None]
+        waves = psi[:, None]*np.exp(1j*(kx*x + n*self.k*y))
+        return U*np.sin(self.k*y) + (1j*n*self.k*waves).sum(axis=0).real, -(1j*kx*waves).sum(axis=0).real
 
 
 def layer(ra: float, pr: float = 1.0, T: float = 1.0) -> RayleighBenard:
