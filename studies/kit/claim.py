@@ -12,6 +12,7 @@ cases at most, and more computing moves an undecidable claim one way or the othe
 """
 import math
 import re
+import traceback
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +22,7 @@ import pandas as pd
 
 from studies.kit import provenance
 from studies.kit.csvfile import OtherTable, read, write
+from studies.kit.source import ROOT
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
 from studies.kit.value import Value
@@ -29,6 +31,12 @@ COLUMNS = ("id", "source", "statement", "whose", "printed", "measured", "err", "
 #: the same and how the value is asked for
 WRITTEN = (*COLUMNS, "formula")
 NAMED = re.compile(r"(KHP95|RR98)\b|[A-Z].*\b(1[89]|20)\d\d\b", re.IGNORECASE)
+
+STUDIES, KIT = ROOT / "studies", ROOT / "studies" / "kit"
+
+
+class ClaimError(Exception):
+    """A claim asks for a table or a column that is not there."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -138,6 +146,8 @@ def judged(claim: Claim, tables: Tables, study: str = "") -> dict[str, Any]:
         return {**unknown, "reason": str(why)}
     except OtherTable as error:
         raise OtherTable(f"study {study}, claim {claim.id}, {claim.value}: {error}; correct the claim") from error
+    except (KeyError, AttributeError, NameError) as error:
+        raise ClaimError(missing(claim, error)) from error
     except Exception as error:
         error.add_note(f"while judging claim {claim.id}")
         raise
@@ -145,6 +155,20 @@ def judged(claim: Claim, tables: Tables, study: str = "") -> dict[str, Any]:
     limit = "a limit lies within the error: " if said == "undecidable" else ""
     reason = f"{limit}{claim.accepted}: {claim.because}"
     return {"measured": value, "err": err, "verdict": said, "reason": reason}
+
+
+def missing(claim: Claim, error: Exception) -> str:
+    """What a claim asks for in vain, where, and the way out; pandas names a column by KeyError and by others."""
+    name = error.args[0] if isinstance(error, KeyError) and error.args else error
+    return (f"claim {claim.id} asks for what is not there: {name}{place(error)}: correct the claim, or list it in the "
+            "tables of the study and run the study again")
+
+
+def place(error: Exception) -> str:
+    """Where in the code of a study an error was raised."""
+    frames = [frame for frame in traceback.extract_tb(error.__traceback__) if STUDIES in Path(frame.filename).parents]
+    own = [frame for frame in frames if KIT not in Path(frame.filename).parents]
+    return f" ({Path(own[-1].filename).relative_to(ROOT)}, line {own[-1].lineno})" if own else ""
 
 
 def put_claims(path: Path, rows: Sequence[dict[str, Any]], study: str) -> None:

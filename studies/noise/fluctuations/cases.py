@@ -13,7 +13,7 @@ from itertools import product
 from particles.integral.covariance import STEPS
 from particles.integral.edge_makers import MAKERS
 from studies.kit.case import Case
-from studies.kit.part import Part
+from studies.kit.study import Part
 from studies.noise.fluctuations import claims as fluct_claims
 from studies.noise.fluctuations import claims_noise as fluct_claims_noise
 from studies.noise.fluctuations import figures as fluct_figures
