@@ -12,8 +12,9 @@ from continuum.gas.solve import SAFETY, DivergedError, March, limits
 from continuum.gas.solve import run as march
 from continuum.scene import Tile, Torus
 from continuum.steady import Time
+from studies.build.grid import started
 from studies.build.names import START_ENERGY
-from studies.hardcases.methods import Body, Built, fields
+from studies.hardcases.methods import Body, Built
 from studies.hardcases.points import GROWN, LATE, SAMPLES, Amplitude, Watch, growth, observed, row
 from studies.hardcases.scenes import BOXES, LAYERS, ShearFlow, layer
 from studies.kit.case import Case, Outcome, Report
@@ -117,15 +118,10 @@ class Going:
     """A grid that has started in a periodic box."""
 
     def __init__(self, scene: Any):
-        self.scene, self.rows = scene, round(scene.L)
-        self.tile = Tile(width=scene.width, L=scene.L, eos=scene.eos, law=scene.law)
+        self.rows, self.tile = round(scene.L), Tile(width=scene.width, L=scene.L, eos=scene.eos, law=scene.law)
+        start = placed(self.tile, self.rows, lambda x, y: started(scene, x, y))
         # the ghosts of a block are filled by its march
-        self.first = March(self.tile, block(placed(self.tile, self.rows, self.start)), FluxForm(), 1.0).S
-
-    def start(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
-        """rho, vx, vy and T at places."""
-        rho, v, T = fields(self.scene, np.stack([x.ravel(), y.ravel()], axis=1))
-        return tuple(f.reshape(x.shape) for f in (rho, *v.T, T))
+        self.first = March(self.tile, block(start), FluxForm(), 1.0).S
 
     @property
     def built(self) -> Built:

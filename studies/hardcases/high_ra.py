@@ -25,7 +25,7 @@ from continuum.steady import Time
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, run
 from studies.build import fixed as fixed_points
-from studies.build import moving
+from studies.build import moving, ready
 from studies.build.names import START_ENERGY
 from studies.build.unguarded import bisected
 from studies.hardcases.scenes import ROWS, layer
@@ -74,19 +74,17 @@ def points(ra: float, seed: int, step: float, build: Callable) -> Attempt:
 
 
 def fixed(scheme: str) -> Callable:
-    """Fixed points between plates, by the name of a scheme of the main study."""
+    """Fixed points between plates, by the name of a scheme."""
     def build(scene: Any, seed: int) -> tuple:
-        method = fixed_points.fluid(scene, fixed_points.SCHEMES[scheme], seed)
-        start = fixed_points.start(scene, method)*ripple(seed, len(method.x))
+        method, start, _ = ready(scene, scheme, seed)
+        start *= ripple(seed, len(method.x))
         return method, start, fixed_points.OF_LIMIT*limit_of(method, start), fixed_points.kinetic
     return build
 
 
 def shifted(scene: Any, seed: int) -> tuple:
     """Moving points with closed faces."""
-    method = moving.method(scene, moving.MOTIONS["moving"])
-    start = moving.start(scene, method, seed)
-    return method, start, limit_of(method, start), moving.kinetic
+    return *ready(scene, "moving", seed), moving.kinetic
 
 
 def gridded(ra: float, seed: int, step: float) -> Attempt:

@@ -1,25 +1,15 @@
-"""Methods by name, for any scene that is a layer: points, state, step, and what moves."""
+"""Methods by name, for any scene that is a layer or a box: ready to run, and what of a state moves."""
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
-from types import SimpleNamespace
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import energy
-from particles.integral.edge_makers import renormalised
-from particles.integral.edges import NONE_BEYOND
-from particles.integral.layer import Layer
-from particles.integral.points import of_positions
-from particles.integral.triangulation import delaunay
-from particles.limits import limit_of
-from particles.walls.periodic import periodic
-from particles.weights import Lucy
 from studies.build import fixed as fixed_points
 from studies.build import moving, rr98_moving, spam
-from studies.build.names import START_ENERGY, START_JITTER
-from studies.hardcases.scenes import THIN, ShearFlow, Vortex
+from studies.build.names import START_JITTER
+from studies.build.setting import positions
+from studies.hardcases.scenes import THIN, Open, Strip, Vortex
 
 SPACINGS = 4            # of a cell over which velocities are averaged: what is left of them is flow, the rest noise
 
@@ -32,7 +22,7 @@ class Body(NamedTuple):
 
 
 class Built(NamedTuple):
-    """A method ready to run. body(state) tells what moves."""
+    """A method ready to run. body(state) is what moves."""
     method: Any
     start: np.ndarray
     dt: float
@@ -54,109 +44,72 @@ def flow(body: Body, box: tuple[float, float]) -> float:
     return float(0.5*np.sum(p**2/np.maximum(mass, 1e-300))/mass.sum())
 
 
-def fields(scene: Any, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Density, velocity (n, 2) and temperature of a scene at x (n, 2)."""
-    rho = scene.density(x[:, 0]) if hasattr(scene, "density") else np.ones(len(x))
-    return rho, np.stack(scene.flow(*x.T, START_ENERGY), axis=1), scene.T(x[:, 1])
+# --- families ---------------------------------------------------------------------------------------------------------
 
 
-# --- smooth particles -------------------------------------------------------------------------------------------------
+def places(scene: Any) -> np.ndarray:
+    """Where points that move start."""
+    return positions(scene.width, scene.L, START_JITTER, 1)
 
 
-def all_round(scene: Any) -> tuple:
-    """Periodic along both axes."""
-    return (*periodic(scene.width), *periodic(scene.L, axis=1))
-
-
-def smooth(scene: Any, variant: spam.Variant) -> Built:
-    """Smooth particles; between plates that slip lies one period, and what is thin is empty."""
-    if isinstance(scene, Vortex) or hasattr(scene, "density"):
-        variant = variant._replace(walls=all_round)
-    method, x = spam.method(scene, variant), fixed_points.positions(scene.width, scene.L, START_JITTER, 1)
-    rho, v, T = fields(scene, x)
-    state = np.array([*x.T, *v.T, energy(scene.eos, 1.0, T)])[:, rho > THIN]
-    return Built(method, state, variant.step*limit_of(method, state),
+def smooth(scene: Any, variant: spam.Variant, open_box: bool = False) -> Built:
+    """Smooth particles, none where the gas is thin; plates that slip are left out, their flow is periodic."""
+    if open_box or isinstance(scene, Vortex | Strip):
+        scene = Open(scene)
+    x = places(scene)
+    x = x[scene.fields(x)[0] > THIN]
+    ready = variant.ready(scene, x=x)
+    return Built(ready.method, ready.start, variant.step*ready.limit,
                  lambda state: Body(state[:2].T, state[2:4].T, np.ones(state.shape[1])))
 
 
-# --- points of RR98 ---------------------------------------------------------------------------------------------------
-
-
 def fixed(scene: Any, scheme: fixed_points.Scheme) -> Built:
-    """Points that stay, between plates."""
-    method = fixed_points.fluid(scene, scheme, 1)
-    return stays(method, method.state(*fields(scene, method.x)))
+    """Points that stay."""
+    method, start, dt = scheme.ready(scene)
+    return Built(method, start, dt, lambda state: Body(method.x, (state[1:3]/state[0]).T, state[0]*method.edges.V))
 
 
-def stays(method: Layer, start: np.ndarray) -> Built:
-    """Points that stay, from a state."""
-    return Built(method, start, fixed_points.OF_LIMIT*limit_of(method, start),
-                 lambda state: Body(method.x, (state[1:3]/state[0]).T, state[0]*method.edges.V))
+def drifting(scene: Any, motion: rr98_moving.DriftMotion) -> Built:
+    """RR98's own motions."""
+    method, start, dt = motion.ready(scene, x=places(scene))
+    return Built(method, start, dt,
+                 lambda state: Body(state[:2].T, (state[2:4]/state[4]).T, state[4]*state[6]/motion.motion.owned(state[6])))
 
 
-def drifting(scene: Any, motion: rr98_moving.DriftMotion, walls: Callable[[Any], tuple] | None = None) -> Built:
-    """RR98's own motions; walls(scene) in place of plates."""
-    method, x = rr98_moving.method(scene, motion), fixed_points.positions(scene.width, scene.L, START_JITTER, 1)
-    method = replace(method, walls=walls(scene)) if walls else method
-    rho, v, T = fields(scene, x)
-    start, holder = method.state(x, rho, v, T), cast(rr98_moving.Drifts, SimpleNamespace(method=method))
-    return Built(method, start, limit_of(method, start),
-                 lambda state: Body(state[:2].T, (state[2:4]/state[4]).T, rr98_moving.masses(holder, state)))
+def closed(scene: Any, motion: moving.Motion) -> Built:
+    """Moving points with closed faces."""
+    method, start, dt = motion.ready(scene, x=places(scene))
+    return Built(method, start, dt, lambda state: Body(state[:2].T, (state[4:6]/state[6]).T, state[6]))
 
 
-def closed(scene: Any, motion: moving.Motion, walls: Callable[[Any], tuple] | None = None) -> Built:
-    """Moving points with closed faces; walls(scene) in place of plates."""
-    method, x = moving.method(scene, motion), fixed_points.positions(scene.width, scene.L, START_JITTER, 1)
-    method = replace(method, walls=walls(scene)) if walls else method
-    rho, v, T = fields(scene, x)
-    start = method.state(x, v, rho, T)
-    return Built(method, start, motion.of_limit*limit_of(method, start),
-                 lambda state: Body(state[:2].T, (state[4:6]/state[6]).T, state[6]))
+# --- names ------------------------------------------------------------------------------------------------------------
 
 
-def periodic_fixed(scene: ShearFlow, make: Callable, size: float) -> Built:
-    """Points that stay, periodic along both axes."""
-    points = of_positions(fixed_points.positions(scene.width, scene.L, size, 1), (scene.width, scene.L))
-    method = Layer(x=points.x, edges=make(points, Lucy.of(h=2.0)), beyond=NONE_BEYOND, eos=scene.eos, law=scene.law,
-                   T_plates=(1.0, 1.0), g=0.0)
-    return stays(method, method.state(*fields(scene, points.x)))
-
-
-def narrow(h: float) -> dict[str, partial]:
-    """Smooth particles and fixed points of one range."""
-    return {f"spam h {h:g}": partial(smooth, variant=spam.PRINTED._replace(h=h)),
-            f"fixed h {h:g}": partial(fixed, scheme=fixed_points.SCHEMES["fixed-lattice"]._replace(h=h, weight=Lucy))}
-
+SPAM = {"spam printed": partial(smooth, variant=spam.PRINTED),
+        "spam Wendland": partial(smooth, variant=spam.VARIANTS["wendland-c2"])}
+MOVING = {"drift literal": partial(drifting, motion=rr98_moving.DRIFT_MOTIONS["moving-literal"]),
+          "drift constant mass": partial(drifting, motion=rr98_moving.DRIFT_MOTIONS["moving-constant-mass"]),
+          "moving": partial(closed, motion=moving.MOTIONS["moving"])}
+FIXED = {name: partial(fixed, scheme=fixed_points.SCHEMES[scheme]) for name, scheme in (
+    ("fixed lattice", "fixed-lattice"), ("fixed nested", "fixed-lattice-nested-only"),
+    ("fixed jittered", "fixed-jittered-delaunay"), ("fixed random", "fixed-random-delaunay"),
+    ("fixed jittered plain", "fixed-jittered-plain"), ("fixed jittered closed", "fixed-jittered-closed"))}
+LATTICE = fixed_points.SCHEMES["fixed-lattice"]
 
 #: those that are tried on all layers and on the vortex
-USUAL: dict[str, partial] = {
-    "spam printed": partial(smooth, variant=spam.PRINTED),
-    "spam Wendland": partial(smooth, variant=spam.VARIANTS["wendland-c2"]),
-    "fixed lattice": partial(fixed, scheme=fixed_points.SCHEMES["fixed-lattice"]),
-    "fixed nested": partial(fixed, scheme=fixed_points.SCHEMES["fixed-lattice-nested-only"]),
-    "fixed jittered": partial(fixed, scheme=fixed_points.SCHEMES["fixed-jittered-delaunay"]),
-    "drift literal": partial(drifting, motion=rr98_moving.DRIFT_MOTIONS["moving-literal"]),
-    "drift constant mass": partial(drifting, motion=rr98_moving.DRIFT_MOTIONS["moving-constant-mass"]),
-    "moving": partial(closed, motion=moving.MOTIONS["moving"])}
-DISORDERED: dict[str, partial] = {f"fixed {name}": partial(fixed, scheme=fixed_points.SCHEMES[scheme]) for name, scheme in (
-    ("lattice", "fixed-lattice"), ("jittered plain", "fixed-jittered-plain"), ("jittered closed", "fixed-jittered-closed"),
-    ("jittered", "fixed-jittered-delaunay"), ("random", "fixed-random-delaunay"))}
-NARROW: dict[str, partial] = {name: build for h in (0.9, 1.2, 1.5, 2.0) for name, build in narrow(h).items()}
-CORNERS: dict[str, partial] = {
-    **{f"spam {name}": partial(smooth, variant=spam.VARIANTS[variant]) for name, variant in (
-        ("printed", "printed"), ("Wendland", "wendland-c2"), ("odd images", "walls-odd"),
-        ("images' own pressure", "walls-own-pressure"))},
-    "spam direct": partial(smooth, variant=spam.VARIANTS["direct"]),
-    "spam without walls": partial(smooth, variant=spam.PRINTED._replace(walls=all_round))}
+USUAL = {**SPAM, **{name: FIXED[name] for name in ("fixed lattice", "fixed nested", "fixed jittered")}, **MOVING}
+DISORDERED = {name: build for name, build in FIXED.items() if name != "fixed nested"}
+RANGES = (0.9, 1.2, 1.5, 2.0)
+NARROW = {**{f"spam h {h:g}": partial(smooth, variant=spam.PRINTED._replace(h=h)) for h in RANGES},
+          **{f"fixed h {h:g}": partial(fixed, scheme=LATTICE._replace(h=h)) for h in RANGES}}
+CORNERS = {**SPAM, "spam without walls": partial(smooth, variant=spam.PRINTED, open_box=True),
+           **{name: partial(smooth, variant=spam.VARIANTS[variant]) for name, variant in (
+               ("spam odd images", "walls-odd"), ("spam images' own pressure", "walls-own-pressure"),
+               ("spam direct", "direct"))}}
+#: points on the shear flow keep away from where plates would be
+SHEARED = {**SPAM, **MOVING, "fixed lattice": FIXED["fixed lattice"], "fixed jittered": partial(
+    fixed, scheme=fixed_points.SCHEMES["fixed-jittered-delaunay"]._replace(points=partial(positions)))}
 #: which methods take which case; a strip in a vacuum has no points outside but smooth particles'
 TAKES: dict[str, dict[str, partial]] = {
     **dict.fromkeys(("Ra 1e5", "Ra 1e6", "Prandtl 0.01", "Prandtl 100", "high pressure", "zero viscosity", "vacuum"), USUAL),
     "disordered points": DISORDERED, "narrow weight": NARROW, "wall corner": CORNERS}
-SHEARED: dict[str, partial] = {
-    "spam printed": partial(smooth, variant=spam.PRINTED._replace(walls=all_round)),
-    "spam Wendland": partial(smooth, variant=spam.VARIANTS["wendland-c2"]._replace(walls=all_round)),
-    "fixed lattice": partial(periodic_fixed, make=renormalised, size=0.0),
-    "fixed jittered": partial(periodic_fixed, make=delaunay, size=0.3),
-    "moving": partial(closed, motion=moving.MOTIONS["moving"], walls=all_round),
-    "drift literal": partial(drifting, motion=rr98_moving.DRIFT_MOTIONS["moving-literal"], walls=all_round),
-    "drift constant mass": partial(drifting, motion=rr98_moving.DRIFT_MOTIONS["moving-constant-mass"], walls=all_round)}

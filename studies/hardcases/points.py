@@ -8,7 +8,7 @@ import numpy as np
 
 from particles.run import Divergence, Plan, run
 from studies.hardcases.methods import SHEARED, TAKES, Body, Built, flow, kinetic
-from studies.hardcases.scenes import ShearFlow
+from studies.hardcases.scenes import Open, ShearFlow
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.fits import line
 
@@ -120,7 +120,7 @@ class Shear(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         scene = ShearFlow()
-        built, time = SHEARED[self.method](scene=scene), GROWN/scene.wave.rate
+        built, time = SHEARED[self.method](scene=Open(scene)), GROWN/scene.wave.rate
         every = int(np.ceil(time/built.dt/LOOKS))
         seen, reached = Amplitude(built, scene.k/2), 1.0
         plan = Plan(dt=time/every/LOOKS, steps=every*LOOKS, series={"v": seen}, every=every)

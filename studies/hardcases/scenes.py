@@ -4,12 +4,12 @@ All have 16 rows: the question is who gives way first, not who is best. Units: s
 """
 from dataclasses import dataclass
 from math import pi, sqrt
-from typing import NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from continuum.scene import RayleighBenard, Walls
-from studies.build.resting_layer import Slab
+from continuum.scene import RayleighBenard, Torus, Walls
+from studies.build.scenes import Slab
 
 ROWS = 16
 SOUND = sqrt(2)
@@ -43,9 +43,10 @@ class Strip(Slab):
         """Rest."""
         return 0*x, 0*y
 
-    def density(self, x):
-        """1 in the strip."""
-        return np.where(np.abs(x) < self.L, 1.0, THIN)
+    def fields(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Density 1 in the strip."""
+        rho = np.where(np.abs(x[:, 0]) < self.L, 1.0, THIN)
+        return rho, np.zeros((len(x), 2)), self.T(x[:, 1])
 
     def kinetic(self, t: float) -> float:
         """K per mass before the rarefactions meet: 0.2 c^3 t/L for gamma = 2, from u = 2 (c + x/t)/3, rho = (2 - x/ct)^2/9."""
@@ -118,6 +119,16 @@ class ShearFlow(Slab):
         n = np.arange(-HARMONICS, HARMONICS + 1)[:, None]
         waves = psi[:, None]*np.exp(1j*(kx*x + n*self.k*y))
         return U*np.sin(self.k*y) + (1j*n*self.k*waves).sum(axis=0).real, -(1j*kx*waves).sum(axis=0).real
+
+
+@dataclass(frozen=True)
+class Open:
+    """A scene without its plates: periodic along both axes."""
+    scene: Any
+    sides: ClassVar[Torus] = Torus()
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.scene, name)
 
 
 def layer(ra: float, pr: float = 1.0, T: float = 1.0) -> RayleighBenard:

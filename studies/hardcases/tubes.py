@@ -21,23 +21,15 @@ from continuum.fluid import ConstEta
 from continuum.gas.fields import Fields, Values, block, nodes, unblock
 from continuum.gas.loop import FluxForm
 from continuum.gas.solve import DivergedError, March, limits
-from particles.integral.closed_faces import Moving
-from particles.integral.edge_makers import renormalised
-from particles.integral.edges import NONE_BEYOND, Edges
-from particles.integral.layer import Layer
-from particles.integral.points import Points, jittered
-from particles.integral.triangulation import delaunay
+from particles.integral.closed_faces import EXCHANGED
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, run
-from particles.walls.periodic import periodic
-from particles.weights import Lucy, WendlandC2
-from studies.build.names import START_JITTER
-from studies.build.resting_layer import Slab
+from studies.build import ready
+from studies.build.scenes import Scene, Slab, Start
 from studies.hardcases.sod import DENSE, END, EOS, GAMMA, HEIGHT, NAMES, THIN, errors, exact, wiggles
 from studies.hardcases.sod import grid as fine_grid
 from studies.kit.case import Case, Outcome, Report
 
-JITTER = 0.3            # of disordered points, in spacings
 PARTS = 16              # of a point, over which it is spread when it is put into cells
 BETWEEN = middle(DENSE, THIN, GAMMA)
 CELL_NUMBER = 2.0
@@ -60,12 +52,6 @@ def ended(L: int, reached: float) -> Seen:
     return Seen(np.full((3, 2*L), np.nan), np.nan, reached)
 
 
-def gases(L: int, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """rho and T (n,) at the start, of both tubes."""
-    dense = np.abs(x) < L
-    return np.where(dense, DENSE.rho, THIN.rho), np.where(dense, DENSE.P/DENSE.rho, THIN.P/THIN.rho)
-
-
 def binned(L: int, x: np.ndarray, V: np.ndarray, sums: np.ndarray) -> np.ndarray:
     """(3, 2 L) of points x (n,), V (n,), by volume; sums (4, n): mass, momenta, energy. Means over height and both tubes.
 
@@ -85,28 +71,38 @@ def binned(L: int, x: np.ndarray, V: np.ndarray, sums: np.ndarray) -> np.ndarray
 # --- points -----------------------------------------------------------------------------------------------------------
 
 
-def fixed(L: int, law: ConstEta, seed: int, step: float, report: Report, make: Callable[[Points, Any], Edges],
-          jitter: float) -> Seen:
+@dataclass(frozen=True, kw_only=True)
+class Tubes(Scene):
+    """Both tubes. half : the length of one."""
+    half: int
+    law: ConstEta
+    eos: Any = EOS
+    L: float = HEIGHT
+
+    @property
+    def width(self) -> float:  # type: ignore[override]
+        return 4.0*self.half
+
+    def fields(self, x: np.ndarray) -> Start:
+        dense = np.abs(x[:, 0]) < self.half
+        rho, P = (np.where(dense, one, other) for one, other in zip((DENSE.rho, DENSE.P), (THIN.rho, THIN.P), strict=True))
+        return rho, np.zeros((len(x), 2)), P/rho
+
+
+def fixed(L: int, law: ConstEta, seed: int, step: float, report: Report, scheme: str) -> Seen:
     """Fixed points, friction along edges    [RR98 Eqs 34-36, 51]"""
-    points = jittered((4*L, round(HEIGHT)), jitter, seed)
-    edges = make(points, Lucy.of(h=2.0))
-    method = Layer(x=points.x, edges=edges, beyond=NONE_BEYOND, eos=EOS, law=law, T_plates=(1.0, 1.0), g=0.0)
-    rho, T = gases(L, points.x[:, 0])
-    state, reached = followed(method, method.state(rho, np.zeros_like(points.x), T), L, step, report)
-    return seen(L, points.x[:, 0], edges.V, state*edges.V) if reached == 1 else ended(L, reached)
+    method, start, _ = ready(Tubes(half=L, law=law), scheme, seed)
+    state, reached = followed(method, start, L, step, report)
+    V = method.edges.V
+    return seen(L, method.x[:, 0], V, state*V) if reached == 1 else ended(L, reached)
 
 
 def moving(L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
     """Points that move with the gas and exchange over closed faces."""
-    points = jittered((4*L, round(HEIGHT)), START_JITTER, seed)
-    method = Moving(weight=WendlandC2.of(h=3.0), eos=EOS, law=law, box=(4*L, HEIGHT),
-                    walls=(*periodic(4*L), *periodic(HEIGHT, axis=1)))
-    rho, T = gases(L, points.x[:, 0])
-    state, reached = followed(method, method.state(points.x, np.zeros_like(points.x), rho, T), L, step, report)
-    if reached < 1:
-        return ended(L, reached)
-    px, py, m, V, E = state[4:9]
-    return seen(L, state[0], V, np.array([m, px, py, E]))
+    method, start, _ = ready(Tubes(half=L, law=law), "moving", seed)
+    state, reached = followed(method, start, L, step, report)
+    px, py, m, V, E = state[EXCHANGED]
+    return seen(L, state[0], V, np.array([m, px, py, E])) if reached == 1 else ended(L, reached)
 
 
 def followed(method: Any, start: np.ndarray, L: int, step: float, report: Report) -> tuple[np.ndarray, float]:
@@ -166,8 +162,8 @@ def upright(scene: Upright, L: int) -> Fields:
 
 METHODS: dict[str, Callable[[int, ConstEta, int, float, Report], Seen]] = {
     "grid": grid,
-    "fixed lattice": partial(fixed, make=renormalised, jitter=0.0),
-    "fixed jittered": partial(fixed, make=delaunay, jitter=JITTER),
+    "fixed lattice": partial(fixed, scheme="fixed-lattice"),
+    "fixed jittered": partial(fixed, scheme="fixed-jittered-delaunay"),
     "moving": moving}
 
 

@@ -24,7 +24,7 @@ from particles.weights import value_and_slope
 from studies.build.names import START_JITTER
 from studies.build.periodic_box import at_rest, fluid
 from studies.build.smoothing import Smoothing, smoothed_energy
-from studies.build.spam import OF_LIMIT, Variant, method, start, step
+from studies.build.spam import OF_LIMIT, Variant
 from studies.build.symmetry import flowing
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import mean
@@ -167,14 +167,14 @@ class Freezing(Case):
     def _row(self, P: float, K: float) -> dict[str, Any]:
         """One run at pressure P. K : of the grid's field, smoothed."""
         variant = Variant("pressure", weight=self.weight, h=RANGE, fraction=1 - P/self.printed, step=self.step*OF_LIMIT)
-        chosen, dt = method(self.scene, variant), step(self.scene, variant)
+        method, start, dt = variant.ready(self.scene, self.seed)
         unit = self.scene.L/self.scene.free_fall
         plan = Plan(dt=dt, steps=round(T_END*unit/dt), every=max(1, round(unit/4/dt)), mean_from=MEAN_FROM*unit,
-                    series={"kp": particle_kinetic}, means={"grid": Grid.over(chosen.box, ROWS)})
+                    series={"kp": particle_kinetic}, means={"grid": Grid.over(method.box, ROWS)})
         row = {**self.columns, "P": P}
         try:
-            done = run(chosen, start(self.scene, self.seed), plan)
-            places = self._places(chosen, done.by_id(), dt, unit)
+            done = run(method, start, plan)
+            places = self._places(method, done.by_id(), dt, unit)
         except Divergence:
             return {**row, **dict.fromkeys(("flow", "flow_err", "kp", "kp_err", "lindemann"), np.nan)}
         fields = Fields(*done.means["grid"])._asdict()
@@ -183,11 +183,11 @@ class Freezing(Case):
         return {**row, "flow": flow.value/K, "flow_err": flow.err/K, "kp": kp.value/K, "kp_err": kp.err/K,
                 "lindemann": lindemann(places, self.scene.width)}
 
-    def _places(self, chosen: Spam, state: np.ndarray, dt: float, unit: float) -> np.ndarray:
+    def _places(self, method: Spam, state: np.ndarray, dt: float, unit: float) -> np.ndarray:
         """(times, n, 2) of the particles, in the order of the state."""
         places, steps = [state[:2].T], max(1, round(WINDOW*unit/dt/LOOKS))
         for _ in range(LOOKS):
-            state = run(chosen, state, Plan(dt=dt, steps=steps)).by_id()
+            state = run(method, state, Plan(dt=dt, steps=steps)).by_id()
             places.append(state[:2].T)
         return np.array(places)
 
