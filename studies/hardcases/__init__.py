@@ -4,11 +4,8 @@ Shock tubes and a shocked interface against exact and linear theory; the square 
 limits of the time step; and a map of all methods over thirteen hard cases. Particles and points have unit spacing at mean
 density 1. Paper size takes a quarter of an hour.
 """
-from studies.hardcases.cases import cases
-from studies.hardcases.claims import CLAIMS
-from studies.hardcases.derive import derive
-from studies.hardcases.figures import figures
-from studies.hardcases.tables import ALL
+from studies.hardcases import cases, claims, derive, figures, tables
 from studies.kit.study import Study
 
-STUDY = Study(name="hardcases", cases=cases, tables=ALL, derive=derive, figures=figures, claims=CLAIMS)
+STUDY = Study(name="hardcases", question=__doc__.split("\n")[0], cases=cases.cases, tables=tables.ALL,
+              derive=derive.derive, figures=figures.figures, claims=claims.CLAIMS)

@@ -55,22 +55,30 @@ def ripple(seed: int, *shape: int) -> np.ndarray:
     return 1 + NOISE*np.random.default_rng(seed).standard_normal(shape)
 
 
+class Energies:
+    """K in time, kept also when the run ends."""
+
+    def __init__(self, kinetic: Callable):
+        self.kinetic = kinetic
+        self.k: list[float] = []
+
+    def __call__(self, sums: Any, state: np.ndarray) -> float:
+        self.k.append(self.kinetic(sums, state))
+        return self.k[-1]
+
+
 def points(ra: float, seed: int, step: float, build: Callable) -> Attempt:
     """Fixed or moving points."""
     scene = layer(ra)
     method, start, dt, kinetic = build(scene, seed)
-    time, ke = TIME*scene.L/scene.free_fall, []
+    time, energies = TIME*scene.L/scene.free_fall, Energies(kinetic)
     every = ceil(time/(step*dt)/SAMPLES)
-    plan = Plan(dt=time/(every*SAMPLES), steps=every*SAMPLES, every=every)
-
-    def watch(sums: Any, state: np.ndarray) -> float:
-        ke.append(kinetic(sums, state))
-        return ke[-1]
+    steps = every*SAMPLES
     try:
-        run(method, start, plan._replace(series={"k": watch}))
+        run(method, start, Plan(dt=time/steps, steps=steps, series={"k": energies}, every=every))
     except Divergence as error:
-        return Attempt(np.nan, error.step/plan.steps)
-    return Attempt(float(np.mean(ke[LATE:])), 1.0)
+        return Attempt(np.nan, error.step/steps)
+    return Attempt(float(np.mean(energies.k[LATE:])), 1.0)
 
 
 def fixed(scheme: str) -> Callable:
@@ -209,11 +217,11 @@ class HighRa(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         search = Search(self.method, self.seed, self.step)
-        key = {"method": self.method, "step": self.step, "seed": self.seed}
-        rows = []
-        for kind, bad, most in (("wrong", search.wrong, KNOWN), ("ends", search.ends, RUNGS[-1])):
+        kinds = {"wrong": (search.wrong, KNOWN), "ends": (search.ends, RUNGS[-1])}
+        for bad, most in kinds.values():
             search.seek(bad, tuple(ra for ra in RUNGS if ra <= most))
-            rows.append((kind, bad, most))
+        key = {"method": self.method, "step": self.step, "seed": self.seed}
+        rows = [{**key, "kind": kind, **search.limit(bad, most)} for kind, (bad, most) in kinds.items()]
         trials = [{**key, "ra": ra, "k": trial.k, "over": trial.k/should_be(ra), "reached": trial.reached}
                   for ra, trial in search.trials.items()]
         return Outcome({"high_ra": rows, "high_ra_trials": trials})

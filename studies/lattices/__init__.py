@@ -5,9 +5,7 @@ convection freezes, against the printed criteria; whether paths are those of mol
 at mean density 1, so lengths are in spacings. Paper size takes a quarter of an hour.
 """
 from studies.kit.study import Study
-from studies.lattices.cases import cases
-from studies.lattices.claims import CLAIMS
-from studies.lattices.figures import figures
-from studies.lattices.tables import ALL, derive
+from studies.lattices import cases, claims, figures, tables
 
-STUDY = Study(name="lattices", cases=cases, tables=ALL, derive=derive, figures=figures, claims=CLAIMS)
+STUDY = Study(name="lattices", question=__doc__.split("\n")[0], cases=cases.cases, tables=tables.ALL,
+              derive=tables.derive, figures=figures.figures, claims=claims.CLAIMS)
