@@ -10,6 +10,7 @@ from particles.integral.bodies import held, together, with_plates
 from particles.integral.edge_makers import closed, exact, plain, renormalised
 from particles.integral.edges import between_plates
 from particles.integral.layer import Exchanging, Layer
+from particles.integral.nested import mixed
 from particles.integral.points import lattice, of_positions, random, relaxed, wrapped
 from particles.integral.stream import Stream, Streaming
 from particles.integral.triangulation import between, delaunay
@@ -94,7 +95,7 @@ def layer(scene: RayleighBenard, scheme: Scheme, seed: int) -> Layer:
     x = scheme.points(scene.width, scene.L, scheme.size, seed)
     edges, beyond = between_plates(scheme.make, x, scene.width, scene.L, scheme.weight.of(h=scheme.h))
     return Layer(x=x, edges=edges, beyond=beyond, eos=scene.eos, law=scene.law, T_plates=(scene.T_hot, scene.T_cold), g=scene.g,
-                 mended=scheme.mended, share=scheme.share)
+                 transport=mixed(scheme.share, scheme.mended))
 
 
 def plates(scene: RayleighBenard, scheme: Scheme, seed: int) -> Stream:
@@ -126,14 +127,7 @@ class PlateHeat(NamedTuple):
         if isinstance(sums, Streaming):
             sums.rates(state, np.empty_like(state))
             return -float(sums.received[sums.method.held.body == self.plate, 2].sum())
-        beyond, points, here = sums.method.beyond, sums.points, sums.method.beyond.plate == self.plate
-        i, image = beyond.i[here], sums.n + sums.ghost.ravel()[here]
-        a, b = points[i], points[image]
-        along = float(np.sum(beyond.k[here]*(a["k"] + b["k"])/2*(b["Td"] - a["Td"])))
-        if sums.method.share == 1:
-            return along
-        q = np.stack([sums.currents[name][i] + sums.currents[name][image] for name in ("qx", "qy")], axis=1)
-        return along + float((beyond.S[here]*q).sum()/2)
+        return sums.heat_through(self.plate)
 
 
 @dataclass(frozen=True, kw_only=True)

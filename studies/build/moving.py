@@ -6,6 +6,7 @@ import numpy as np
 
 from continuum.scene import Periodic, RayleighBenard
 from particles.integral.closed_faces import EXCHANGED, Exchanging, Ingredients, Moving
+from particles.integral.exchange import PRINTED
 from particles.run import Run
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
@@ -33,7 +34,7 @@ MOTIONS = {m.name: m for m in (
     Motion("moving-no-spread", Ingredients(spread=0.0)),
     Motion("moving-plain-spread", Ingredients(smooth=False)),
     Motion("moving-whole-pressure", Ingredients(static=False)),
-    Motion("moving-printed-heat", Ingredients(mended=False)),
+    Motion("moving-printed-heat", Ingredients(transport=PRINTED)),
     Motion("moving-half-step", of_limit=0.5),
 )}
 

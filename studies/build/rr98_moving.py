@@ -6,9 +6,11 @@ import numpy as np
 
 from continuum.scene import Periodic, RayleighBenard
 from particles.integral.brackets import Powers
+from particles.integral.exchange import PRINTED
 from particles.integral.points import lattice
 from particles.integral.rr98_moving import DRIFTS, ConstantMassDrift, Drift, Drifts, OverPairs
 from particles.integral.rr98_moving_plain import scale_of
+from particles.integral.transposed_stress import MENDED
 from particles.observe import pairs_behind
 from particles.pairs import nothing, rate, sweep
 from particles.run import Run
@@ -57,7 +59,7 @@ def method(scene: RayleighBenard, chosen: DriftMotion) -> Drift:
     return Drift(motion=chosen.motion, weight=weight, scale=scale_of(lattice((12, 12)), weight), eos=scene.eos, law=scene.law,
                  box=(scene.width, scene.L), g=scene.g, walls=(*plates(scene.L, scene.T_hot, scene.T_cold),
                                                                *periodic(scene.width)),
-                 mended=chosen.mended, static=LessStatic(chosen.less, scene.T_mean))
+                 transport=MENDED if chosen.mended else PRINTED, static=LessStatic(chosen.less, scene.T_mean))
 
 
 def start(scene: RayleighBenard, fluid: Drift, seed: int) -> np.ndarray:

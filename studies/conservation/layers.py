@@ -6,6 +6,7 @@ import numpy as np
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.edges import NONE_BEYOND, between_plates
 from particles.integral.layer import Layer
+from particles.integral.nested import mixed
 from particles.integral.points import Points, of_positions
 from studies.conservation.drift import EVERYTHING, Drift
 from studies.conservation.sums import random_fields
@@ -47,7 +48,7 @@ class LayerDrift(Drift):
         edges, beyond = (between_plates(self.make, points.x, SIDE, SIDE, weight) if self.wall.plates
                          else (self.make(points, weight), NONE_BEYOND))
         return Layer(x=points.x, edges=edges, beyond=beyond, eos=IdealGas(), law=ConstEta(eta, eta), T_plates=(1.0, 1.0),
-                     g=self.wall.g, mended=self.mode.mended, share=self.mode.share)
+                     g=self.wall.g, transport=mixed(self.mode.share, self.mode.mended))
 
     def start(self, method: Layer, points: Points) -> np.ndarray:
         return method.state(*random_fields(points, self.mode.size, self.seed, self.wall.plates))

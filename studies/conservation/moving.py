@@ -10,6 +10,7 @@ import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.closed_faces import EXCHANGED, Ingredients, Moving
+from particles.integral.exchange import PRINTED
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WEIGHTS, WendlandC2
@@ -74,7 +75,7 @@ def motion(state: np.ndarray) -> float:
 
 
 #: what is left out of the scheme
-LESS = {"heating as printed": Ingredients(mended=False), "open faces": Ingredients(iterations=0),
+LESS = {"heating as printed": Ingredients(transport=PRINTED), "open faces": Ingredients(iterations=0),
         "whole pressure": Ingredients(static=False), "mass not spread": Ingredients(spread=0.0)}
 
 

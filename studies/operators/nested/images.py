@@ -45,7 +45,6 @@ class Mixed(Layer):
     """A layer whose convection and pressure see images with -v (reversed), with 2 T_w - T (opposite), or as they should."""
     reversed: bool = False
     opposite: bool = False
-    fast: bool = False
 
     def start(self, n: int, team: Team) -> "MixedSums":
         """The sums over stored edges."""

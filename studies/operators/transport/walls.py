@@ -13,13 +13,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import ConstEta, IdealGas
+from continuum.fluid import ConstEta, IdealGas, constant_viscosity
 from particles.integral.bodies import held, together, with_plates
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import between_plates
+from particles.integral.exchange import PRINTED
 from particles.integral.layer import Exchanging, Layer
 from particles.integral.points import jittered, lattice
 from particles.integral.stream import Stream
+from particles.integral.transposed_stress import MENDED
 from particles.integral.triangulation import between, delaunay
 from particles.limits import limit_of
 from particles.run import Plan, run
@@ -48,10 +50,9 @@ class Driven(Layer):
     force: float = 0.0
 
     def __post_init__(self):
-        super().__post_init__()
-        if not isinstance(self.law, ConstEta) or self.share != 1:
-            raise ValueError(f"sliding plates pull with a constant viscosity along edges only, got {self.law} and the share "
-                             f"{self.share}: take ConstEta and share = 1")
+        if not constant_viscosity(self.law) or self.transport not in (MENDED, PRINTED):
+            raise ValueError(f"sliding plates pull with a constant viscosity along edges only, got {self.law} and "
+                             f"{self.transport}: take ConstEta and MENDED or PRINTED")
 
     def __repr__(self) -> str:
         return f"{super().__repr__()} driven by {self.slide}, {self.force}"
