@@ -4,10 +4,10 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
-import studies.hardcases as hardcases
 
+import studies.hardcases as hardcases
 from continuum.fluid import IdealGas, pressure
-from particles.smooth.spam import Spam
+from particles.integrators import RK4
 from particles.threads import Team
 from particles.weights import Lucy, Monaghan
 from studies.build.spam import start
@@ -21,7 +21,7 @@ from studies.lattices import derive as hard_derive
 from studies.lattices import tables as hard_tables
 from studies.lattices.figures import figures
 from studies.lattices.freezing import Freezing, lindemann, neighbours
-from studies.lattices.molecules import METHODS, RHO_SQUARED, Newton, Reversal, Twins, crowd, molecules
+from studies.lattices.molecules import INTEGRATORS, RHO_SQUARED, Newton, Reversal, Twins, crowd, molecules
 from studies.lattices.waves import lattice
 
 BY_ID = {claim.id: claim for claim in khp95.PART.claims}
@@ -77,7 +77,7 @@ def test_criteria_are_the_printed_inequalities():
 @pytest.mark.parametrize("weight", [Lucy, Monaghan])
 def test_pressure_of_the_square_of_the_density_makes_molecules(weight):
     state = crowd(8, 3)
-    method = molecules(Spam, weight.of(h=3.0), 8.0)
+    method = molecules(RK4, weight.of(h=3.0), 8.0)
     kernel, ids = method.start(64, Team(1)), np.arange(64)
     ordered, out, expected = state.copy(), np.empty_like(state), np.empty_like(state)
     kernel.around.relist(ordered, ids, 0.0)
@@ -88,7 +88,7 @@ def test_pressure_of_the_square_of_the_density_makes_molecules(weight):
 
 
 def test_paths_come_back_as_their_steps_let_them():
-    found = {name: rows(Reversal(integrator=name, weight=Lucy, times=(3.0,), side=8), "reversal")[0] for name in METHODS}
+    found = {name: rows(Reversal(integrator=name, weight=Lucy, times=(3.0,), side=8), "reversal")[0] for name in INTEGRATORS}
     assert found["whole numbers"]["equal"] == 1 and found["whole numbers"]["apart"] == 0
     assert 0 < found["leapfrog"]["apart"] < 1e-13 and found["leapfrog"]["equal"] < 1
     assert 1e-6 < found["rk4"]["apart"] < 0.1

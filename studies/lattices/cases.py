@@ -19,7 +19,7 @@ from studies.lattices import tables as hard_tables
 from studies.lattices.freezing import Freezing
 from studies.lattices.growth import Crystal, Growth, Onset
 from studies.lattices.moduli import Moduli
-from studies.lattices.molecules import METHODS, Reversal, Twins
+from studies.lattices.molecules import INTEGRATORS, Reversal, Twins
 from studies.lattices.occupancy import Fate
 from studies.lattices.waves import CELLS
 
@@ -80,7 +80,7 @@ def freezing() -> Iterator[Case]:
 def newton(times: tuple[float, ...], samples: int, seeds: tuple[int, ...]) -> Iterator[Case]:
     """Paths of molecules, and back."""
     yield Twins(weight=Lucy, samples=samples)
-    yield from (Reversal(integrator=name, weight=Lucy, times=times, seed=seed) for name, seed in product(METHODS, seeds))
+    yield from (Reversal(integrator=name, weight=Lucy, times=times, seed=seed) for name, seed in product(INTEGRATORS, seeds))
 
 
 def shocks(lengths: tuple[float, ...], scales: tuple[tuple[float, float, int], ...],

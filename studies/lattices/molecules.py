@@ -4,14 +4,14 @@ Inviscid particles with P/rho^2 = 1 obey dv/dt = -sum_j m 2 grad w: Newton's equ
 Sums of both in the same integrator must keep to the same path until round-off has grown; a path that is turned must come back, to
 what the integrator's truncation or round-off makes of it, and bit by bit if places and velocities are whole numbers.
 """
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
 from continuum.fluid import VanDerWaals
-from particles.integrators import RK4
+from particles.integrators import RK4, Leapfrog, Whole, whole
 from particles.limits import step_limit
 from particles.run import STUDIES, Plan, run
 from particles.smooth.spam import Spam
@@ -26,7 +26,6 @@ from studies.kit.case import Case, Outcome, Report
 RHO_SQUARED = VanDerWaals(a=-1.0, b=0.0, cv=1e300)
 ENERGY = 1e3        # per mass: any that stays above rho is valid
 SPEED = 0.4         # rms of each velocity: m v^2 = 0.32 is about phi(0) = 2 w(0) = 0.35, so that particles pass each other
-GRID = 2.0**-24     # of whole numbers, spacings: sums in another order differ by 1e-16, but all except 1e-8 are rounded alike
 
 
 def crowd(side: int, seed: int) -> np.ndarray:
@@ -40,60 +39,19 @@ def crowd(side: int, seed: int) -> np.ndarray:
     return state
 
 
-def whole(q: np.ndarray) -> np.ndarray:
-    """The nearest multiples of GRID."""
-    return np.rint(q/GRID)*GRID
-
-
 def apart(one: np.ndarray, other: np.ndarray, side: float) -> np.ndarray:
     """(2, n): distances of places in a periodic square."""
     d = one[:2] - other[:2]
     return d - side*np.round(d/side)
 
 
-class Leapfrog:
-    """Half a kick, a drift, half a kick [Verlet 1967]: the same steps lead back when velocities turn, but for round-off."""
-    evaluations = 2
-
-    def __init__(self, shape: tuple[int, ...], team: Team):
-        self._k = np.empty(shape)
-
-    def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
-        """Advance y = (x, y, vx, vy, e) in place by dt; energies, of which nothing depends, stay."""
-        for drift in (dt, 0.0):
-            sums.rates(y, self._k)
-            y[2:4] += self.rounded(self._k[2:4]*dt/2)
-            y[:2] += self.rounded(y[2:4]*drift)
-
-    def rounded(self, change: np.ndarray) -> np.ndarray:
-        """What is added."""
-        return change
+INTEGRATORS = {"rk4": RK4, "leapfrog": Leapfrog, "whole numbers": Whole}
 
 
-class Whole(Leapfrog):
-    """The same in whole numbers: what was added is taken away again, bit by bit    [Levesque & Verlet 1993]"""
-
-    def rounded(self, change: np.ndarray) -> np.ndarray:
-        return whole(change)
-
-
-class InLeapfrog(Spam):
-    """Particles that leap."""
-    integrator: ClassVar[type] = Leapfrog
-
-
-class InWhole(Spam):
-    """Particles that leap from whole number to whole number."""
-    integrator: ClassVar[type] = Whole
-
-
-METHODS = {"rk4": Spam, "leapfrog": InLeapfrog, "whole numbers": InWhole}
-
-
-def molecules(kind: type[Spam], weight: Any, side: float) -> Spam:
+def molecules(integrator: type, weight: Any, side: float) -> Spam:
     """The fluid that is one of molecules, in a periodic square."""
     same = fluid(weight, (side, side), RHO_SQUARED, FRICTIONLESS)
-    return kind(weight=same.weight, eos=same.eos, law=same.law, walls=same.walls, box=same.box)
+    return replace(same, integrator=integrator)
 
 
 class Newton:
@@ -128,7 +86,7 @@ class Twins(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         weight, start = self.weight.of(h=3.0), crowd(self.side, self.seed)
-        method = molecules(Spam, weight, float(self.side))
+        method = molecules(RK4, weight, float(self.side))
         steps = round(self.every/(STUDIES*step_limit(method, ENERGY)))
         dt, one, other, rows = self.every/steps, start, start.copy(), []
         newton, integrator = Newton(weight, float(self.side)), RK4(start.shape, Team(1))
@@ -158,7 +116,7 @@ class Reversal(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         start = crowd(self.side, self.seed)
-        method = molecules(METHODS[self.integrator], self.weight.of(h=3.0), float(self.side))
+        method = molecules(INTEGRATORS[self.integrator], self.weight.of(h=3.0), float(self.side))
         dt = STUDIES*step_limit(method, ENERGY)
         return Outcome({"reversal": [self._row(method, start, dt, time) for time in self.times]})
 

@@ -17,6 +17,7 @@ import numpy as np
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.dih import Dih
 from particles.integral.edge_makers import renormalised
+from particles.integral.isothermal import Carried, ConstantFriction, Isothermal
 from particles.integral.layer import edge_by_edge, quickest
 from particles.integral.points import lattice
 from particles.integral.thermal import Thermal
@@ -30,7 +31,6 @@ from studies.cost import convection, names, others
 from studies.cost import layer_runs as convection_rules
 from studies.cost import vortex as vortices
 from studies.cost.problem import Problem, holding, marching, of_method, plain, result, rms
-from studies.cost.scenes.terms import Carried, Friction, Listed
 from studies.cost.timing import SHORT, Timed, array_bytes, per_step
 from studies.kit.case import Case, Outcome, Report
 from studies.ordering.vortices import SOUND, Vortex, solved, velocities
@@ -108,8 +108,8 @@ def moving(size: int) -> Made:
 def listed(size: int, *kinds: Any) -> Made:
     """Fixed points without heat; terms by kind."""
     vortex, points = Vortex(vortices.MACH, size), lattice((size, size))
-    method = Listed(x=points.x, edges=renormalised(points, Lucy.of(h=H)),
-                    terms=tuple(kind(SOUND**2 if kind is Carried else vortex.eta) for kind in kinds))
+    method = Isothermal(x=points.x, edges=renormalised(points, Lucy.of(h=H)),
+                        terms=tuple(kind(SOUND**2 if kind is Carried else vortex.eta) for kind in kinds))
     rho = 1 + (vortices.start_density(vortex, points.x)**2 - 1)/SOUND**2        # the same pressure
     first = np.array([rho, *(rho[:, None]*vortex.velocity(points.x)).T])
     problem = of_method(method, first, vortex.time, lambda state: vortices.compared(
@@ -182,7 +182,7 @@ def boussinesq_layer(rows: int) -> Made:
 
 def cold(size: int) -> Made:
     """Without heat."""
-    return listed(size, Carried, Friction)
+    return listed(size, Carried, ConstantFriction)
 
 
 def without_friction(size: int) -> Made:
