@@ -93,7 +93,7 @@ def onto(before: tuple, terms: tuple, a: Any, b: Any, ab: Any) -> Any:
 
 
 def plus(one: tuple, other: tuple) -> Any:
-    """Element by element."""
+    """Element by element, where zeros cost nothing."""
 
 
 @overload(total)
@@ -108,7 +108,7 @@ def _(before, terms, a, b, ab):
     return lambda before, terms, a, b, ab: onto(plus(before, rate(terms[0], a, b, ab)), terms[1:], a, b, ab)
 
 
-@overload(plus, jit_options=OPTIONS)  # type: ignore[arg-type]  (what a term does not change costs nothing)
+@overload(plus, jit_options=OPTIONS)  # type: ignore[arg-type]
 def _(one, other):
     if len(one) == 1:
         return lambda one, other: (one[0] + other[0],)

@@ -20,6 +20,7 @@ from particles.integral.exchange import At, Conduction
 from particles.integral.fixed import FixedSums, OwnPressure, Point, check_number, opened, states, stored
 from particles.integral.layer_ideal import IdealSums
 from particles.integral.transposed_stress import MENDED
+from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.threads import Team
 
@@ -105,6 +106,7 @@ class Layer:
     g: float
     transport: tuple = MENDED
     form: Callable[[Any], type[Exchanging]] = quickest
+    integrator: type = RK4
 
     names = ("rho", "px", "py", "eps")
 
@@ -112,7 +114,7 @@ class Layer:
         """What tells a checkpoint's method from another: edges by their sums."""
         sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.x, self.edges.S, self.edges.k, self.beyond.S))
         return (f"Layer({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.T_plates}, {self.g}, "
-                f"{self.transport}, {self.form(self).__name__})")
+                f"{self.transport}, {self.form(self).__name__}, {self.integrator.__name__})")
 
     @cached_property
     def fastest(self) -> tuple[float, float]:

@@ -3,7 +3,7 @@
 Errors are told against the gas of that Mach number, solved by Fourier sums; of the MAC grid, whose fluid is incompressible,
 against the exact incompressible vortex.
 """
-from dataclasses import dataclass
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -32,12 +32,6 @@ from studies.cost.problem import Problem, Residuals, of_method
 MACH = 0.05
 #: of the Fourier sums by Mach number: velocities of 33 against 29 points
 KNOWN = {0.05: 1.4e-6, 0.2: 2.9e-5}
-
-
-@dataclass(frozen=True, kw_only=True, repr=False)
-class Euler(Layer):
-    """The two-step scheme of Eqs 40, 41 on points that stay: forward Euler."""
-    integrator = TwoStep
 
 
 def euler_limit(method: Layer, c2: float) -> float:
@@ -89,7 +83,7 @@ class OnPoints(NamedTuple):
         edges = renormalised(points, self.weight.of(h=self.h)) if self.h else delaunay(points)
         method = fluid(vortex, points, edges)
         if self.euler:
-            method = Euler(**{name: getattr(method, name) for name in ("x", "edges", "beyond", "eos", "law", "T_plates", "g")})
+            method = replace(method, integrator=TwoStep)
         limit = euler_limit(method, SOUND**2) if self.euler else None
         return of_method(method, start(vortex, method), vortex.time, lambda state: compared(
             vortex, edges.V, points.x, (state[1:3]/state[0]).T), limit=limit, known=KNOWN[self.mach])

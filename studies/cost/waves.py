@@ -4,14 +4,11 @@ Density and temperature start as isentropic cosines, at rest; the answer is exac
 waves (studies/build/symbols.py). Points and particles start on lattices, but for jittered ones: the noise of
 particles that lie at random is larger than any wave whose answer is known to many digits.
 """
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.linalg import expm
 
-from continuum.exact.vortex import SOUND
-from continuum.exact.waves import Gas, continuum
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.closed_faces import EXCHANGED, Moving
 from particles.integral.edge_makers import renormalised
@@ -19,15 +16,16 @@ from particles.integral.edges import NONE_BEYOND, Edges
 from particles.integral.layer import Layer
 from particles.integral.points import Points, jittered, lattice
 from particles.integral.triangulation import delaunay
-from particles.integrators import TwoStep
+from particles.integrators import RK4, TwoStep
 from particles.limits import limit_of
-from particles.smooth.spam import Nested, Spam
-from particles.threads import Team
+from particles.smooth.spam import Spam
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, Monaghan, WendlandC2
+from studies.build.symbols import Gas, continuum
 from studies.cost import names
 from studies.cost.problem import Problem, Residuals, of_method
-from studies.cost.vortex import Euler, euler_limit, sound_limit
+from studies.cost.vortex import euler_limit, sound_limit
+from studies.ordering.vortices import SOUND
 
 AMPLITUDE = 1e-5    # steepening is of the order of its product with the phase, 12: 1e-4 of the wave
 KNOWN = 1e-4
@@ -97,25 +95,8 @@ class OnPoints(NamedTuple):
                          known=KNOWN)
 
     def _method(self, wave: Wave, points: Points, edges: Edges) -> Layer:
-        return (Euler if self.euler else Layer)(x=points.x, edges=edges, beyond=NONE_BEYOND, eos=IdealGas(),
-                                                law=ConstEta(wave.eta, wave.eta), T_plates=(1.0, 1.0), g=0.0)
-
-
-class Places(Nested):
-    """Sums that tell the two-step scheme which rows are places."""
-    places = 2
-
-    def velocity(self, state: np.ndarray) -> np.ndarray:
-        return state[2:4]
-
-
-@dataclass(frozen=True, kw_only=True, repr=False)
-class Stepped(Spam):
-    """Smooth particles by the two-step scheme of Eqs 40, 41."""
-    integrator = TwoStep
-
-    def start(self, n: int, team: Team) -> Places:
-        return Places(self, n, team)
+        return Layer(x=points.x, edges=edges, beyond=NONE_BEYOND, eos=IdealGas(), law=ConstEta(wave.eta, wave.eta),
+                     T_plates=(1.0, 1.0), g=0.0, integrator=TwoStep if self.euler else RK4)
 
 
 class OnParticles(NamedTuple):
@@ -132,7 +113,8 @@ class OnParticles(NamedTuple):
         wave, x = Wave(length), lattice((length, BREADTH)).x
         T = 1 + wave.exactly(0.0, x[:, 0])[2]
         x[:, 0] -= AMPLITUDE/wave.k*np.sin(wave.k*x[:, 0])
-        method = (Stepped if self.euler else Spam)(
+        method = Spam(
+            integrator=TwoStep if self.euler else RK4,
             weight=self.weight.of(h=3.0), eos=IdealGas(), law=ConstEta(wave.eta, wave.eta), box=(length, BREADTH),
             walls=(*periodic(length), *periodic(BREADTH, axis=1)))
         first = np.array([*x.T, 0*T, 0*T, T])

@@ -4,15 +4,18 @@ P = c^2 rho: without heat there is neither energy nor temperature nor conductivi
 The brackets are those of Eqs 34, 35 and 51    [RR98]
 """
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from continuum.jit import jit, overload
+from continuum.jit import jit
+from particles.fields import Fields
 from particles.integral.edges import NONE_BEYOND, Edges
+from particles.integral.exchange import At, Exchange, Listing
 from particles.integral.fixed import Summing, check_number, stored
+from particles.integral.stream import NO_IMAGES
 from particles.limits import limit_of
-from particles.pairs import add, nothing, rate, sweep
+from particles.pairs import nothing, rate
 from particles.threads import Team
 
 Point = np.dtype([(name, "f8") for name in ("rho", "vx", "vy")])
@@ -23,14 +26,13 @@ class Carried(NamedTuple):
     c2: float
 
 
-class Friction(NamedTuple):
+class ConstantFriction(NamedTuple):
     """Along edges, constant viscosity    [Eq. 51, B = eta]"""
     eta: float
 
 
-class Listing(NamedTuple):
-    """The sum of the listed terms; what is not listed is not compiled."""
-    terms: tuple
+nothing.of(Carried)(lambda term: (0.0, 0.0, 0.0))
+nothing.of(ConstantFriction)(lambda term: (0.0, 0.0, 0.0))
 
 
 @rate.of(Carried)
@@ -40,35 +42,28 @@ def _(term, a, b, ab):
     return -from_a - from_b, -from_a*a.vx - from_b*b.vx - ab.sx*P, -from_a*a.vy - from_b*b.vy - ab.sy*P
 
 
-@rate.of(Friction)
+@rate.of(ConstantFriction)
 def _(term, a, b, ab):
     f = term.eta*ab.k
     return 0.0, f*(b.vx - a.vx), f*(b.vy - a.vy)
 
 
-def total(terms: tuple, a: Any, b: Any, ab: Any) -> Any:
-    """Sum of the rates of all terms."""
-
-
-@overload(total)
-def _(terms, a, b, ab):
-    if len(terms) == 1:
-        return lambda terms, a, b, ab: rate(terms[0], a, b, ab)
-    return lambda terms, a, b, ab: add(rate(terms[0], a, b, ab), total(terms[1:], a, b, ab))
-
-
-nothing.of(Listing)(lambda term: (0.0, 0.0, 0.0))
-rate.of(Listing)(lambda term, a, b, ab: total(term.terms, a, b, ab))
-
-
 @dataclass(frozen=True, kw_only=True)
-class Listed:
-    """Fixed points, periodic, without heat. terms : of Carried and Friction."""
+class Isothermal:
+    """Fixed points, periodic, without heat. terms : of Carried and ConstantFriction."""
     x: np.ndarray
     edges: Edges
     terms: tuple
 
     names = ("rho", "px", "py")
+
+    def state(self, rho: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """(3, n) of densities (n,), velocities (n, 2)."""
+        return np.stack([rho, *(rho[:, None]*v).T])
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """Of the points, (n,) each; without heat there is no temperature."""
+        return Fields(self.x, (state[1:]/state[0]).T, state[0].copy(), np.full(len(self.x), np.nan), self.edges.V)
 
     def start(self, n: int, team: Team) -> "Summed":
         """The sums over stored edges.
@@ -85,16 +80,16 @@ class Listed:
 class Summed(Summing):
     """The compiled sums of the listed terms."""
 
-    def __init__(self, method: Listed, team: Team):
-        self.method, self.team, self.n, self.V = method, team, len(method.x), method.edges.V
-        self.edges = stored(method.edges, NONE_BEYOND, NONE_BEYOND.parent)
-        self.points, self.total, self.term = np.zeros(self.n, Point), np.empty((self.n, 3)), Listing(method.terms)
+    def __init__(self, method: Isothermal, team: Team):
+        self.method, self.team, self.n = method, team, len(method.x)
+        edges = stored(method.edges, NONE_BEYOND, NONE_BEYOND.parent)
+        self.at = At(np.zeros(self.n, Point), edges, NO_IMAGES, method.edges.V)
+        self.exchange = Exchange(Listing(method.terms), (), self.n, team)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (3, n), written to `out`."""
-        self.team(_read, self.n, state, self.points)
-        self.team(sweep, self.n, self.term, self.points, self.edges, self.total)
-        self.team(_per_volume, self.n, self.total, self.V, out)
+        self.team(_read, self.n, state, self.at.points)
+        self.team(_per_volume, self.n, self.exchange.sum(self.at), self.at.V, out)
 
     def look_at(self, state: np.ndarray) -> None:
         """Fields are not kept."""
@@ -106,7 +101,7 @@ class Summed(Summing):
 
 
 @limit_of.register
-def _(method: Listed, start: np.ndarray) -> float:
+def _(method: Isothermal, start: np.ndarray) -> float:
     """RK4: the fastest sound and the fastest diffusion that the listed terms make of the edges."""
     sound, spread = method.edges.fastest
     c2, eta = (sum(getattr(term, name, 0.0) for term in method.terms) for name in ("c2", "eta"))
