@@ -88,8 +88,8 @@ def walls(kinds: tuple[str, ...], weights: tuple[type, ...], **more) -> Iterator
     yield from (hold("sliding rows", "renormalised", "lattice", weight=weight, **more) for weight in weights)
     yield from (hold("rows on plates", "delaunay", points, **more) for points in kinds)
     yield from (sliding("pairwise", maker, Lucy, **more) for maker in ("printed", "plain"))
-    for mode, weight in product(("pairwise", "ideal"), weights):
-        yield sliding(mode, "renormalised", weight, **more)
+    for name, weight in product(("pairwise", "ideal"), weights):
+        yield sliding(name, "renormalised", weight, **more)
 
 
 def sliding(mode: str, maker: str, weight: type, **more) -> SlidingDrift:

@@ -65,8 +65,9 @@ SLIDE = partial(Claim, source="RR98 Sec. IV", printed="can be used")
 CONSERVED = partial(Claim, printed=BY_CONSTRUCTION, **SAME)
 FIXED = (
     CONSERVED(id="rr98-conservation-mass", source="RR98 Eq. 34", value=kept("mass", "layer", "dih"),
-              statement="total mass is conserved: largest relative change in any run of 10 000 steps on fixed points, every "
-                        "transport, weight, maker of edges and set of points, in periodic boxes and between plates"),
+              statement="total mass is conserved: largest relative change in any run of 10 000 steps on fixed points, "
+                        "every transport, weight, maker of edges and set of points, in periodic boxes, between plates, in "
+                        "all dimensions"),
     CONSERVED(id="rr98-conservation-momentum", source="RR98 Eq. 35", value=kept("momentum", "layer", "dih"),
               statement="total momentum is conserved: largest change over the sum of its sizes in any run of 10 000 steps "
                         "on fixed points, in periodic boxes and along plates without friction"),

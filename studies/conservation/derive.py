@@ -41,7 +41,8 @@ def long_sound(sound: pd.DataFrame) -> Derived:
     The error is the difference of two extrapolations.
     """
     for (motion, weight), group in sound.groupby(["motion", "weight"]):
-        speeds = {row.wavelength: Measured(row.speed, row.speed_err) for row in group.itertuples()}
+        numbers = group[["wavelength", "speed", "speed_err"]].to_numpy()
+        speeds = {int(wavelength): Measured(speed, err) for wavelength, speed, err in numbers}
         if set(LONG) <= set(speeds):
             short, middle, long = LONG
             speed = extrapolated(speeds, middle, long)
@@ -82,9 +83,9 @@ def drag_limits(drags: pd.DataFrame) -> Derived:
         if len(group) >= LEAST:
             rows, published = group["rows"].to_numpy(float), group[["published", "published_err"]].iloc[0]
             spacing = rows**-2 if variant in SMOOTH else 1/rows
-            limit = fits.line(spacing, group["drag"]).intercept + Measured(0.0, group["drag_err"].max())
+            limit = fits.line(spacing, group["drag"].to_numpy()).intercept + Measured(0.0, group["drag_err"].max())
             error = limit/Measured(*published) - 1
-            slope = fits.power_law(rows, group["error"]).slope
+            slope = fits.power_law(rows, group["error"].to_numpy()).slope
             yield {"variant": variant, "fraction": fraction, "sizes": len(group), "limit": limit.value,
                    "limit_err": limit.err, "error": error.value, "error_err": error.err, "slope": slope.value,
                    "slope_err": slope.err}

@@ -157,12 +157,12 @@ def step_limit(fluid: Dih, state: np.ndarray) -> float:
     return float(1/(fast*sound/2.82 + nu*spread/2.78))
 
 
-def dimensions(**more: int) -> Iterator[Case]:
+def dimensions(**more: Any) -> Iterator[Case]:
     """Bulk viscosity, Eq. 37 as printed, one to three dimensions; a pressure that is not symmetric in ij."""
     for d, names in {1: ("pairwise", "nested", "printed", "one-sided"), 2: ("printed",), 3: ("pairwise",)}.items():
         yield from (DihDrift(form=FORMS[name], d=d, **more) for name in names)
 
 
-def unsymmetric(seeds: int = 24, **more: int) -> Iterator[Case]:
+def unsymmetric(seeds: int = 24, **more: Any) -> Iterator[Case]:
     """Random starts on a line; six left the claim open."""
     yield from (Unsymmetric(seed=seed, **more) for seed in range(1, seeds + 1))

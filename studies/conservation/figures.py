@@ -52,7 +52,7 @@ def figures(tables: Tables) -> dict[str, Figure]:
     drawn: dict[str, tuple[Callable[..., Figure], tuple[str, ...]]] = {
         "drift": (drift, ("drift",)), "sound": (sound, ("sound_means",)),
         "speeds": (speeds, ("patterns", "moving_sound")), "steps": (steps, ("euler", "steps")),
-        "drag": (drags, ("drag",)), "sides": (sides, ("wave", "torque"))}
+        "drag": (drags, ("drag",))}
     return {name: draw(*(tables[table] for table in wanted)) for name, (draw, wanted) in drawn.items()
             if all(len(tables.get(table, [])) for table in wanted)}
 
@@ -175,38 +175,10 @@ def drags(drag: pd.DataFrame) -> Figure:
             group = drag[(drag["variant"] == name) & (drag["fraction"] == fraction)].sort_values("rows")
             bars(panel, group, "radius", "percent", number=number, linestyle="-", label=words)
         for power, style, at in ((1, ":", 60.0), (2, "--", 16.0)):
-            guide(panel, across, at*across**-power, f"$(a/R)^{power}$", style)
+            panel.plot(across, at*across**-power, color="grey", linestyle=style, marker="", label=f"$(a/R)^{power}$")
         panel.set(xscale="log", yscale="log", title=f"solid fraction {fraction:g}", xlabel="radius $R/a$")
         ticks(panel, (4, 6, 10, 20))
         below(panel, ncols=2, bbox_to_anchor=(0.5, -0.16))
     axes[0, 0].set_ylabel("|error| of the drag, %")
     page.suptitle("Drag of a cylinder against Sangani & Acrivos (1982); bars: print and what was not steady", fontsize=10)
-    return page
-
-
-def guide(axes: Axes, x: np.ndarray, y: np.ndarray, label: str, style: str = ":") -> None:
-    """A line of a known slope."""
-    axes.plot(x, y, color="grey", linestyle=style, marker="", label=label)
-
-
-def sides(wave: pd.DataFrame, torque: pd.DataFrame) -> Figure:
-    """Sliding sides: error of a wave that the shear turns. A cylinder that turns: its torque."""
-    page, (left, right) = figure(1, 2, width=4.4, height=4.0)
-    rows, error = (wave.sort_values("rows")[name].to_numpy() for name in ("rows", "error"))
-    left.plot(rows, 100*error, label="without divergence")
-    left.plot(rows, 100*wave.sort_values("rows")["divergent"], label="with divergence (sound)")
-    guide(left, rows, 100*error[0]*(rows[0]/rows)**2, "rows$^{-2}$")
-    left.set(xscale="log", yscale="log", xlabel="rows", ylabel="relative error of the wave, %",
-             title="sliding sides: a turning wave")
-    ticks(left, rows)
-    torque = torque.sort_values("rows")
-    right.plot(torque["radius"], 100*torque["turned"].abs(), label="that turns")
-    right.plot(torque["radius"], 100*torque["fixed"].abs(), label="at rest around it")
-    guide(right, torque["radius"].to_numpy(), 12*torque["radius"].to_numpy()**-2, "$(a/R)^2$")
-    right.set(xscale="log", yscale="log", xlabel="inner radius $R/a$", ylabel="|error| of the torque, %",
-              title="cylinder that turns")
-    ticks(right, (4, 6, 8, 12))
-    right.set_yticks([0.1, 0.2, 0.5, 1], labels=["0.1", "0.2", "0.5", "1"])
-    for axes in (left, right):
-        below(axes, ncols=2)
     return page

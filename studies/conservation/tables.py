@@ -27,13 +27,12 @@ SOUND = Table("sound", key=[*SOUND_KEY, "seed"],
 SOUND_MEANS = Table("sound_means", key=SOUND_KEY, columns=[
     *SOUND_KEY, "seeds", "growth", "growth_err", "ln_energy", "ln_energy_err"])
 
-#: speed of a density pattern on a stream, over the stream's; predicted: by sums over the lattice; smoothed: f^(k)
+#: speed of a density pattern on a stream, over the stream's; predicted: by sums over the lattice
 PATTERN = ["motion", "h", "wavelength"]
-PATTERNS = Table("patterns", key=PATTERN, columns=[*PATTERN, "speed", "speed_err", "predicted", "smoothed"])
-#: sound over c; gradient: wave number seen on the lattice, over k; stiffness: of a lattice moved
+PATTERNS = Table("patterns", key=PATTERN, columns=[*PATTERN, "speed", "speed_err", "predicted"])
+#: sound over c; predicted: from the wave number seen on the lattice and the stiffness of a lattice moved
 MOVED = ["motion", "weight", "h", "wavelength"]
-MOVING_SOUND = Table("moving_sound", key=MOVED,
-                     columns=[*MOVED, "speed", "speed_err", "predicted", "gradient", "stiffness"])
+MOVING_SOUND = Table("moving_sound", key=MOVED, columns=[*MOVED, "speed", "speed_err", "predicted"])
 #: the same of long waves, extrapolated
 LONG_SOUND = Table("long_sound", key=["motion", "weight"], columns=["motion", "weight", "speed", "speed_err"])
 #: growth rate of sound on fixed points with forward Euler, nested friction
@@ -46,9 +45,8 @@ PLACES = ["motion", "flow", "integrator", "steps"]
 STEPS = Table("steps", key=PLACES, columns=[*PLACES, "dt", "error", "error_err"])
 #: error with new velocities [Eq. 41] over that with old ones [Eq. 40], at the shortest step
 ACCURACY = Table("accuracy", key=["motion", "flow"], columns=["motion", "flow", "ratio", "ratio_err"])
-#: largest difference of accelerations from Eq. 49, over the largest acceleration; one set of random fields:
-#: `convective` is round-off whatever they are, `literal` is a number of this set
-IDENTITY = Table("identity", key=["transport", "reynolds"], columns=["transport", "reynolds", "convective", "literal"])
+#: largest difference of accelerations of Eqs 46-48 from those of Eq. 49, over the largest, one set of random fields
+IDENTITY = Table("identity", key=["transport", "reynolds"], columns=["transport", "reynolds", "convective"])
 #: v.grad as Eqs 46-48 add it, over the exact one; sums over a lattice, without chance
 SIGNS = Table("signs", key=["equation", "wavelength"], columns=["equation", "wavelength", "factor", "predicted"])
 #: force of Eq. 50 in a wave without entropy, over -grad P, without chance
@@ -68,8 +66,8 @@ DRAG_LIMITS = Table("drag_limits", key=["variant", "fraction"], columns=[
 #: profile relative to the difference of speeds; drifts relative to mass, and to mass times speed
 SHEAR = Table("shear", key=["rows"], columns=[
     "rows", "stress", "heating", "profile", "mass_drift", "momentum_drift", "slid", "steps"])
-#: a wave that the shear turns: relative rms error of the velocity without divergence, and what has one
-WAVE = Table("wave", key=["rows"], columns=["rows", "error", "divergent", "mach", "mass_drift", "slid", "steps"])
+#: a wave that the shear turns: relative rms error of the velocity without divergence
+WAVE = Table("wave", key=["rows"], columns=["rows", "error", "mach", "mass_drift", "slid", "steps"])
 #: a cylinder that turns inside of one at rest: errors of the torques on both, relative to the exact one; balance:
 #: their sum over it; profile: largest error of the velocity over that of the cylinder
 TORQUE = Table("torque", key=["rows"], columns=["rows", "radius", "turned", "fixed", "balance", "profile", "steps"])

@@ -10,7 +10,6 @@ import numpy as np
 from continuum.fluid import ConstEta
 from particles.integral.dih import Dih, Pairwise
 from particles.integral.edge_makers import renormalised
-from particles.integral.interpolants import f, reach
 from particles.integral.points import Points, lattice
 from particles.integral.rr98_moving_plain import MOTIONS, ConstantMass, Literal, scale_of
 from particles.integrators import RK4, Euler, TwoStep
@@ -74,15 +73,6 @@ def seen_stiffness(weight: Any, points: Points, k: float) -> float:
     return float(scale_of(points, weight)*D[0, 0, 0]/k**2)
 
 
-def transform(weight: Any, k: float, n: int = 400) -> float:
-    """f^(k) of a compact weight in the plane: integral of f cos kx, by midpoints."""
-    h = reach(weight)
-    x, y = np.meshgrid(*[(np.arange(n) + 0.5)/n*h]*2)
-    r = np.hypot(x, y)
-    inside = r < h
-    return float(4*np.sum(f(weight, r[inside])*np.cos(k*x[inside]))*(h/n)**2)
-
-
 @dataclass(frozen=True, kw_only=True)
 class Pattern(Case):
     """Speed of a density wave under uniform pressure, over that of the stream that carries it, without viscosity.
@@ -109,8 +99,7 @@ class Pattern(Case):
         twice = seen_slope(weight, points, k) if self.motion == "literal" else 0.0
         return Outcome({"patterns": [{
             "motion": self.motion, "h": 3.0, "wavelength": self.wavelength,
-            "speed": speed.value, "speed_err": speed.err, "predicted": 1 + twice,
-            "smoothed": transform(weight, k)}]})
+            "speed": speed.value, "speed_err": speed.err, "predicted": 1 + twice}]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,8 +131,7 @@ class MovingSound(Case):
         stiffness = 2*f*f + 2*g if self.motion in ("literal", "convective") else 2*g
         return Outcome({"moving_sound": [{
             "motion": self.motion, "weight": self.weight.__name__, "h": self.h, "wavelength": self.wavelength,
-            "speed": speed.value, "speed_err": speed.err, "gradient": f, "stiffness": g,
-            "predicted": np.sqrt(stiffness/2)}]})
+            "speed": speed.value, "speed_err": speed.err, "predicted": np.sqrt(stiffness/2)}]})
 
 
 @dataclass(frozen=True, kw_only=True)
