@@ -49,7 +49,7 @@ class CylinderDrag(Case):
 
     @property
     def label(self) -> str:
-        return f"drag {self.variant.name}, solid fraction {self.fraction:g}, {self.rows} rows, speed {self.speed:g}"
+        return f"drag {self.variant.name}, solid fraction {self.fraction:g}, {self.rows} rows"
 
     @property
     def slowest(self) -> float:

@@ -237,8 +237,12 @@ class MovingDrift(Case):
         state = method.state(points.x, v, rho, T)
         watch, begin = self.watch(method, state), kinetic(method.fields(state))
         state, reached = in_parts(method, state, self.steps, watch, report)
-        motion = kinetic(method.fields(state))/begin
-        return self.row(watch, reached, motion)
+        watch.worst, volume = watch.worst[:-1], watch.worst[-1]
+        return drift_row(
+            watch, scheme="moving", mode=self.name, maker="faces", weight=self.weight.__name__, h=3.0,
+            points=self.disorder.name, wall=self.wall.name, seed=self.seed, n=SIDE**2, steps=self.steps,
+            reached=reached, claimed="mass volume" if self.wall.plates else f"{EVERYTHING} volume",
+            volume=volume, motion=kinetic(method.fields(state))/begin)
 
     def watch(self, method: Moving, state: np.ndarray) -> Watch:
         """Mass, momentum along both axes (between plates along them only), energy, volume."""
@@ -246,13 +250,3 @@ class MovingDrift(Case):
         mass, momentum, _, total = sizes(method.eos, method.fields(state))
         size = np.array([momentum, momentum, mass, SIDE**2, total])
         return Watch(lambda now: exact_sums(np.ones(1), now[EXCHANGED][rows]), size[rows])
-
-    def row(self, watch: Watch, reached: int, motion: float) -> Outcome:
-        """Of the table `drift`."""
-        *rest, volume = watch.worst
-        claimed = "mass volume" if self.wall.plates else f"{EVERYTHING} volume"
-        return drift_row(
-            Watch(watch.totals, watch.sizes, watch.first, np.array(rest)), scheme="moving", mode=self.name,
-            maker="faces", weight=self.weight.__name__, h=3.0, points=self.disorder.name, wall=self.wall.name,
-            seed=self.seed, n=SIDE**2, steps=self.steps, reached=reached, claimed=claimed, volume=volume,
-            motion=motion)

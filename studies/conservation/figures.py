@@ -81,10 +81,10 @@ def drift(rows: pd.DataFrame) -> Figure:
     axes.set(yscale="log", ylabel="largest relative change over the run")
     words = [list(COLUMNS.values())[place] for place in order]
     axes.set_xticks(range(len(order)), labels=words, rotation=60, ha="right", fontsize=8)
-    axes.set_title(f"What do schemes on points conserve in {rows['steps'].max()} steps?\n"
-                   "filled: what the scheme claims to; left half filled: the same in runs that stopped early "
-                   "(diverged, or sound outran the step);\n"
-                   "open: not claimed, also in such runs; dotted: 1e-13; no change at all is drawn as 1e-17", fontsize=9)
+    axes.set_title(f"What do schemes on points conserve in {rows['steps'].max()} steps?\nfilled: what the "
+                   "scheme claims to; left half filled: the same in runs that stopped early (diverged, or "
+                   "sound outran the step);\nopen: not claimed, also in such runs; dotted: 1e-13; no change "
+                   "at all is drawn as 1e-17", fontsize=9)
     page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return page
 
@@ -102,7 +102,8 @@ def sound(rows: pd.DataFrame) -> Figure:
         axes.set_xticks(range(len(MAKERS)), labels=MAKERS, rotation=45, ha="right")
     both[0].set_ylabel("fastest growth of sound per period")
     page.legend(*both[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    page.suptitle("Sound without friction: does it keep its energy? Below 1e-13: round-off; bars: 95 % over sets of points",
+    page.suptitle("Sound without friction: does it keep its energy? Below 1e-13: round-off; bars: 95 % over "
+                  "sets of points",
                   fontsize=10)
     return page
 
@@ -159,8 +160,8 @@ def steps(euler: pd.DataFrame, places: pd.DataFrame) -> Figure:
     ticks(right, (0.03, 0.1, 0.3))
     for axes in (left, right):
         below(axes, ncols=2, bbox_to_anchor=(0.5, -0.16))
-    page.suptitle("Which steps do Eqs 40, 41 allow?\n"
-                  "dotted: predicted growth; bars: what halves of a run, or finer steps, differ by", fontsize=10)
+    page.suptitle("Which steps do Eqs 40, 41 allow?\ndotted: predicted growth; bars: what halves of a run, "
+                  "or finer steps, differ by", fontsize=10)
     return page
 
 

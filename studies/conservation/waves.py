@@ -62,11 +62,6 @@ def by_halves(series: np.ndarray, measure: Callable[[np.ndarray], float]) -> Mea
     return Measured(float(measure(series)), float(abs(one - other)))
 
 
-def line_slope(part: np.ndarray) -> float:
-    """Change a sample, by least squares."""
-    return np.polyfit(np.arange(len(part)), part, 1)[0]
-
-
 def seen_stiffness(weight: Any, points: Points, k: float) -> float:
     """(1/k^2) sum_r w_xx (1 - cos kx): how a moved lattice under uniform pressure answers, 1 in the continuum."""
     D = lattice_sums(weight, 1.0, 1.0, np.array([[k, 0.0]])).D
@@ -95,7 +90,8 @@ class Pattern(Case):
         rho = 1 + AMPLITUDE*np.cos(k*points.x[:, 0])
         first = method.state(points.x, rho, np.tile([STREAM, 0.0], (points.n, 1)), 1/rho)
         seen = march(method, first, DT, round(self.time/DT), lambda state: amplitude(state[2], state[0], k))
-        speed = by_halves(-np.unwrap(np.angle(seen))/(k*STREAM*DT), line_slope)
+        speed = by_halves(-np.unwrap(np.angle(seen))/(k*STREAM*DT),
+                          lambda part: np.polyfit(np.arange(len(part)), part, 1)[0])
         twice = seen_slope(weight, points, k) if self.motion == "literal" else 0.0
         return Outcome({"patterns": [{
             "motion": self.motion, "h": 3.0, "wavelength": self.wavelength,
