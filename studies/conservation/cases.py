@@ -1,13 +1,12 @@
 """Which runs there are.
 
-Sums over 10 000 steps from random starts; rates in a wind; energy of linear sound over 10 000 periods; patterns and
-sound on points that move, time steps; drags, torques and shear. All of RR98's modes, weights, makers of edges, sets of
-points and walls would be thousands of long runs. There are instead, on fixed points in periodic boxes, all makers with
-all sets of points, with friction along edges for every weight; any other transport for one weight, and on one set of
-points for every weight; between mirror plates, held rows and around a body for one weight, and one set of points for
-every weight. So any two values of any two factors meet in some run, where they can: Delaunay edges have no weight;
-sliding sides take edges of a weight on a lattice; on a lattice closed and exact edges are the plain ones times a number.
-Paper size takes about 15 minutes of one core.
+Sums over 10 000 steps; rates in a wind; energy of linear sound over 10 000 periods; patterns and sound on
+points that move, time steps; drags, torques, shear. Not all of RR98's modes, weights, makers of edges, sets
+of points and walls are combined. On fixed points in periodic boxes all makers meet all sets of points, with
+friction along edges for every weight; any other transport has one weight, and on one set of points every
+weight; so do mirror plates, held rows and bodies. Any two values of two factors meet in some run, where they
+can: Delaunay edges have no weight, sliding sides take edges of a weight on a lattice, on which closed and
+exact edges are the plain ones times a number. Paper size takes about 15 minutes of one core.
 """
 from collections.abc import Iterator
 from itertools import product
@@ -74,8 +73,8 @@ def plates(kinds: tuple[str, ...], weights: tuple[type, ...], **more) -> Iterato
 
 def hold(wall: str, maker: str, points: str, mode=MODES["pairwise"], weight=Lucy, **more) -> HeldDrift:
     """A run with held points."""
-    return HeldDrift(mode=mode, maker=maker, make=MAKERS[maker], weight=weight, h=3.0, disorder=DISORDERS[points],
-                     wall=HOLDS[wall], **more)
+    return HeldDrift(mode=mode, maker=maker, make=MAKERS[maker], weight=weight, h=3.0,
+                     disorder=DISORDERS[points], wall=HOLDS[wall], **more)
 
 
 def walls(kinds: tuple[str, ...], weights: tuple[type, ...], **more) -> Iterator[Case]:

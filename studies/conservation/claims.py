@@ -29,7 +29,8 @@ def changed(*modes: str) -> Value:
 
 def survival(maker: str, points: str) -> Value:
     """Share of the steps that runs with forces along edges reached before they diverged."""
-    return least("drift", "reached/steps", scheme="layer", mode="pairwise", maker=maker, points=points, wall="periodic")
+    return least("drift", "reached/steps", scheme="layer", mode="pairwise", maker=maker, points=points,
+                 wall="periodic")
 
 
 def last_tenth(variant: str) -> Value:
@@ -73,13 +74,15 @@ FIXED = (
               statement="total energy is conserved: largest relative change in any run of 10 000 steps on "
                         "fixed points, in periodic boxes and between plates without friction and "
                         "conduction"),
-    Claim(id="rr98-conservation-symmetrised", source="RR98 Sec. III B", at_least=0.01, value=over_seeds("losses", "lost"),
+    Claim(id="rr98-conservation-symmetrised", source="RR98 Sec. III B", at_least=0.01,
+          value=over_seeds("losses", "lost"),
           printed="as long as ij-symmetrized forms are provided, the conservation laws are guaranteed",
           because="a per cent: the error to which flows are known",
           statement="without forms symmetric in ij momentum is lost: P_ij + P_ij for point i in place of "
                     "P_ij + P_ji, change over the sum of its sizes in 10 000 steps, or until shortly before "
                     "a run diverges, mean of 24 random starts on a line"),
-    Claim(id="rr98-conservation-held-momentum", source="RR98 Secs III A, IV", value=kept("momentum", "held"), **SAME,
+    Claim(id="rr98-conservation-held-momentum", source="RR98 Secs III A, IV", value=kept("momentum", "held"),
+          **SAME,
           statement="rows of held points and frozen bodies take what the fluid loses of momentum: largest "
                     "relative change of both together in 10 000 steps, every maker of edges, set of points "
                     "and weight"),
@@ -92,7 +95,8 @@ FIXED = (
           value=largest("drift", "energy", err="err", mode="ideal", wall="plates, gravity"),
           statement="energy with that of height is conserved between plates without friction under gravity: "
                     "relative change in 10 000 steps"),
-    *(Claim(id=f"rr98-conservation-survival-{name}", source="RR98 Eqs 34-36", value=survival(maker, points), **ALL,
+    *(Claim(id=f"rr98-conservation-survival-{name}", source="RR98 Eqs 34-36", value=survival(maker, points),
+            **ALL,
             statement=f"the brackets {edges} carry a random start through 10 000 steps on {where}: share of "
                       "the steps before divergence")
       for name, maker, points, edges, where in (
@@ -118,12 +122,14 @@ FIXED = (
           statement="rates of energy in a wind are those at rest, carried along, with the mended heating of "
                     "forces along edges, Delaunay edges on points jittered by 0.3 a: largest difference "
                     "over the largest rate"),
-    *(Claim(id=f"rr98-conservation-moving-{name}", source="RR98 Sec. III B", value=kept(name, "moving"), **SAME,
+    *(Claim(id=f"rr98-conservation-moving-{name}", source="RR98 Sec. III B", value=kept(name, "moving"),
+            **SAME,
             statement=f"points can move and keep {name}: largest relative change in 10 000 steps of volumes, "
                       "masses, momenta and energies exchanged over faces") for name in CLAIMED),
 )
 MOVING = (
-    Claim(id="rr98-eq39-pattern", source="RR98 Secs I, III", printed="fully consistent; a bold assumption", expect=1,
+    Claim(id="rr98-eq39-pattern", source="RR98 Secs I, III", printed="fully consistent; a bold assumption",
+          expect=1,
           within=0.02, value=one("patterns", "speed", motion="literal", wavelength=32),
           statement="points that move with v under Eqs 34-36 show the fluid: speed of a density pattern "
                     "over that of the stream that carries it, wavelength 32 a",
@@ -160,12 +166,14 @@ MOVING = (
           ("", "literal", "sound", "sound in literal motion"),
           ("-mass", "constant-mass", "sound", "sound at constant mass"),
           ("-vortices", "constant-mass", "vortices", "decaying vortices at constant mass"))),
-    *(Claim(id=f"rr98-eq{n}-sign", source=f"RR98 Eq. {n}", printed="-", expect=1, within=0.02, because=SMOOTHED,
+    *(Claim(id=f"rr98-eq{n}-sign", source=f"RR98 Eq. {n}", printed="-", expect=1, within=0.02,
+            because=SMOOTHED,
             value=one("signs", "factor", equation=n, wavelength=32),
             statement=f"what is added to the change of {name} is v.grad of it: over the exact one, lattice, "
                       "wavelength 32 a")
       for n, name in zip((46, 47, 48), SUMS, strict=True)),
-    Claim(id="rr98-eq46-conserves", source="RR98 Eq. 46", at_most=1e-12, value=one("drift", "mass", mode="convective, RK4"),
+    Claim(id="rr98-eq46-conserves", source="RR98 Eq. 46", at_most=1e-12,
+          value=one("drift", "mass", mode="convective, RK4"),
           statement="mass is conserved with Eq. 46: largest relative drift in 1e4 steps, stirred gas, "
                     "jittered points",
           because="what is exchanged is not symmetric in i and j, so that more than round-off is lost; "
@@ -182,12 +190,15 @@ MOVING = (
     Claim(id="rr98-eq49-identity", source="RR98 Eq. 49", printed="can be written", at_most=1e-12,
           value=largest("identity", "abs(convective)"),
           statement="Eqs 34, 35, 46, 47 with p = m v are Eq. 49: largest difference of accelerations over "
-                    "the largest, random fields on jittered points, all Reynolds numbers", because="round-off of some 30 terms; "
+                    "the largest, random fields on jittered points, all Reynolds numbers",
+                    because="round-off of some 30 terms; "
                                                                                f"{ALONE}"),
-    Claim(id="rr98-eq49-reynolds", source="RR98 after Eq. 48", printed="not too large Reynolds numbers", at_least=0.01,
+    Claim(id="rr98-eq49-reynolds", source="RR98 after Eq. 48", printed="not too large Reynolds numbers",
+          at_least=0.01,
           value=largest("identity", "abs(convective)", reynolds=inf),
           statement="Eq. 49 leaves out what Eqs 46-48 bring at large Reynolds numbers: difference of "
-                    "accelerations over the largest, without viscosity", because=f"a per cent would limit its use; {ALONE}"),
+                    "accelerations over the largest, without viscosity",
+                    because=f"a per cent would limit its use; {ALONE}"),
     Claim(id="rr98-eq49-sound", source="RR98 Eq. 49", expect=1, within=0.01,
           value=one("long_sound", "speed", motion="constant-mass", weight="WendlandC2"),
           statement="constant mass, volumes that follow the flow: speed of long sound over c, Wendland C2, "
@@ -195,11 +206,13 @@ MOVING = (
           because=f"1 %: 0.5 % from sums over the lattice, and the next order in h/lambda; {EXTRAPOLATED}"),
     Claim(id="rr98-eq49-conserves", source="RR98 Eq. 49", value=changed("constant-mass, RK4"), **STEPS,
           statement="constant mass: largest relative drift of mass, momentum, energy over 1e4 steps"),
-    Claim(id="rr98-eq50-sum-zero", source="RR98 Eq. 50", expect=1, within=0.02, value=one("brackets", "force", a=1, b=-1),
+    Claim(id="rr98-eq50-sum-zero", source="RR98 Eq. 50", expect=1, within=0.02,
+          value=one("brackets", "force", a=1, b=-1),
           statement="a = 1, b = -1, smoothed particles with their own masses: force over -grad P, wave "
                     "without entropy of 32 a",
           because=SMOOTHED),
-    Claim(id="rr98-eq50-any", source="RR98 Eq. 50", at_most=0.02, value=largest("brackets", "abs(force - 1)", "a + b != 0"),
+    Claim(id="rr98-eq50-any", source="RR98 Eq. 50", at_most=0.02,
+          value=largest("brackets", "abs(force - 1)", "a + b != 0"),
           statement="any constants a and b make Eq. 49 the momentum equation where volumes follow the flow: "
                     "largest error of the force over -grad P for a + b other than 0", because=SMOOTHED),
 )
@@ -220,22 +233,26 @@ BODIES = (
                     "turns by a right angle",
           because="0.15: at 16 rows, a seventh of a radian to the spacing, the next order is a tenth of the "
                   "error"),
-    Claim(id="rr98-frozen-body", source="RR98 Sec. IV", at_most=0.01, value=drag_error("frozen", 0.1), because=PERCENT,
+    Claim(id="rr98-frozen-body", source="RR98 Sec. IV", at_most=0.01, value=drag_error("frozen", 0.1),
+          because=PERCENT,
           statement="'freezing' a number of points simulates a rigid body: |error| of the drag of a "
                     "cylinder in a square array, solid fraction 0.1, lattice points within the circle "
                     "frozen, 17 spacings across"),
-    *(Claim(id=f"own-bodies-surface-{c:g}", source=ACRIVOS, printed=printed, value=drag_error("surface", c), at_most=0.01,
+    *(Claim(id=f"own-bodies-surface-{c:g}", source=ACRIVOS, printed=printed, value=drag_error("surface", c),
+            at_most=0.01,
             because=PERCENT, statement="points on the surface, Delaunay edges: |error| of the drag, solid "
                                        f"fraction {c:g}, {across} spacings across")
       for c, printed, across in ((0.1, "24.83", 17), (0.3, "102.90", 30))),
-    *(Claim(id=f"own-bodies-limit-{c:g}", source=ACRIVOS, printed=printed, expect=0, within=0.003, because=LIMIT,
+    *(Claim(id=f"own-bodies-limit-{c:g}", source=ACRIVOS, printed=printed, expect=0, within=0.003,
+            because=LIMIT,
             value=one("drag_limits", "error", variant="surface", fraction=c),
             statement="points on the surface: drag extrapolated to infinitely fine points against print, "
                       f"relative, solid fraction {c:g}") for c, printed in ((0.1, "24.83"), (0.3, "102.90"))),
     Claim(id="own-bodies-balance", source="RR98 Sec. IV", at_most=1e-4,
           value=largest("drag", "abs(balance)", variant="surface"),
           statement="the force that edges carry to the body is that which drives the fluid: largest "
-                    "relative difference, points on the surface", because="1e-4: what was not steady yet; the exchange itself is "
+                    "relative difference, points on the surface",
+                    because="1e-4: what was not steady yet; the exchange itself is "
                                                      "exact to round-off"),
     Claim(id="own-bodies-filter", source="RR98 Sec. IV", at_least=10, because="ten times: no matter of "
                                                                               "chance",
@@ -243,7 +260,8 @@ BODIES = (
           statement="without a filter of the density slow flow around a body creeps on: change of the drag "
                     "in the last tenth of the time over that with the filter, points on the surface, 32 "
                     "rows"),
-    Claim(id="own-bodies-torque", source="RR98 Sec. IV", printed="moving boundaries", at_most=0.01, because=PERCENT,
+    Claim(id="own-bodies-torque", source="RR98 Sec. IV", printed="moving boundaries", at_most=0.01,
+          because=PERCENT,
           value=abs(one("torque", "turned", rows=48)),
           statement="held points can simulate moving boundaries: |error| of the torque on a cylinder that "
                     "turns in one at rest, from all its edges, those inside too, 17 spacings across"),

@@ -1,4 +1,4 @@
-"""Long runs whose sums are watched: the compiled scheme on fixed points, and points that move with closed faces."""
+"""Long runs whose sums are watched: the compiled scheme on fixed points, moving points with closed faces."""
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -30,8 +30,8 @@ EVERYTHING = "mass momentum energy"
 class Mode(NamedTuple):
     """Transport of a run: eta = kappa, share along edges, whether its heating is mended, chi of the filter.
 
-    size : rms of the random start. Without friction it feeds short waves at rates of the order of itself, which
-    10 000 steps are to leave small.
+    size : rms of the random start. Without friction it feeds short waves at rates of the order of itself,
+    which 10 000 steps are to leave small.
     """
 
     name: str
@@ -135,7 +135,8 @@ def drift_row(watch: Watch, **columns: Any) -> Outcome:
     return Outcome({"drift": [{**usual, **changes, **columns}]})
 
 
-def in_parts(method: Any, state: np.ndarray, steps: int, watch: Watch, report: Report) -> tuple[np.ndarray, int]:
+def in_parts(method: Any, state: np.ndarray, steps: int, watch: Watch,
+             report: Report) -> tuple[np.ndarray, int]:
     """(state, steps done) of a run that is watched; it ends early if it diverges, heats too far or pairs."""
     dt = OF_LIMIT*limit_of(method, state)
     watch(state)
@@ -167,7 +168,7 @@ def around(disorder: Disorder, seed: int, plates: bool) -> Points:
 
 @dataclass(frozen=True, kw_only=True)
 class LayerDrift(Drift):
-    """A run of the compiled scheme on SIDE^2 points, in a periodic box or between mirror plates    [RR98 Eqs 34-38]"""
+    """The compiled scheme on SIDE^2 points, in a periodic box or between mirror plates    [RR98 Eqs 34-38]"""
 
     scheme = "layer"
 
@@ -208,7 +209,7 @@ class LayerDrift(Drift):
 
 @dataclass(frozen=True, kw_only=True)
 class MovingDrift(Case):
-    """A run on SIDE^2 points that move and exchange over closed faces; `name`: what is left out of the scheme."""
+    """SIDE^2 points that move and exchange over closed faces; `name`: what is left out of the scheme."""
 
     name: str = "pairwise"
     ingredients: Ingredients = Ingredients()  # noqa: RUF009 (immutable)

@@ -12,7 +12,8 @@ from studies.kit.figure import below, errorbar, figure, look
 from studies.kit.table import Tables
 
 MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
-POINTS = {"lattice": "lattice", "jittered-0.3": "shifted by up to $0.3a$", "random": "random", "relaxed": "moved apart"}
+POINTS = {"lattice": "lattice", "jittered-0.3": "shifted by up to $0.3a$", "random": "random",
+          "relaxed": "moved apart"}
 BRACKETS = {"plus": "$(f_i + f_j)$ in both, Eqs 34, 35", "adjoint": "differences in the gradient"}
 MOTIONS = {"literal": "literal (39-41)", "convective": "convective (46-48)", "carried": "46-48, dV carried",
            "constant-mass": "constant mass (49)"}
@@ -64,7 +65,7 @@ def column(scheme: str, mode: str, wall: str) -> int:
 
 
 def drift(rows: pd.DataFrame) -> Figure:
-    """Changes of claimed sums, in other marks where a run stopped early, and of others; one column a kind of run."""
+    """Changes of sums; other marks where a run stopped early, or does not claim to keep them."""
     page, axes = figure(1, 1, width=9.4, height=5.6)
     rows = rows.assign(column=list(map(column, rows["scheme"], rows["mode"], rows["wall"])))
     order = sorted(set(rows["column"]))
@@ -145,18 +146,21 @@ def steps(euler: pd.DataFrame, places: pd.DataFrame) -> Figure:
     """Forward Euler and sound on fixed points; places of points that move."""
     page, (left, right) = figure(1, 2, width=4.8, height=5.2)
     k2 = (2*np.pi/euler["wavelength"])**2
-    euler = euler.assign(rate=euler["growth"]/k2, rate_err=euler["growth_err"]/k2, dotted=euler["predicted"]/k2)
+    euler = euler.assign(rate=euler["growth"]/k2, rate_err=euler["growth_err"]/k2,
+                         dotted=euler["predicted"]/k2)
     for number, (wavelength, group) in enumerate(euler.groupby("wavelength")):
         bars(left, group, "dt_over_limit", "rate", number=number, label=rf"$\lambda = {wavelength:g}a$")
         left.plot(group["dt_over_limit"], group["dotted"], color="grey", linestyle=":", marker="")
     left.axhline(0, color="black", linewidth=0.6, linestyle="-", marker="")
-    left.set(xlabel=r"step $\Delta t\, \rho c^2/(\eta + \zeta + \kappa/2)$", title="fixed points: growth of sound",
+    left.set(title="fixed points: growth of sound",
+             xlabel=r"step $\Delta t\, \rho c^2/(\eta + \zeta + \kappa/2)$",
              ylabel=r"growth rate$/(ka)^2$  [$(k_BT/m)^{1/2}/a$]")
-    for number, ((motion, flow, integrator), group) in enumerate(places.groupby(["motion", "flow", "integrator"])):
+    groups = places.sort_values("dt").groupby(["motion", "flow", "integrator"])
+    for number, ((motion, flow, integrator), group) in enumerate(groups):
         words = f"{MOTIONS[str(motion)]}, {flow},\n{INTEGRATORS[str(integrator)]}"
-        bars(right, group.sort_values("dt"), "dt", "error", number=number, linestyle=look(number)["linestyle"], label=words)
-    right.set(xlabel=rf"step $\Delta t$  [{UNIT}]", ylabel="rms error of places over displacement", xscale="log",
-              yscale="log", title="points that move: where they end")
+        bars(right, group, "dt", "error", number=number, linestyle=look(number)["linestyle"], label=words)
+    right.set(xlabel=rf"step $\Delta t$  [{UNIT}]", ylabel="rms error of places over displacement",
+              xscale="log", yscale="log", title="points that move: where they end")
     ticks(right, (0.03, 0.1, 0.3))
     for axes in (left, right):
         below(axes, ncols=2, bbox_to_anchor=(0.5, -0.16))
@@ -176,10 +180,12 @@ def drags(drag: pd.DataFrame) -> Figure:
             group = drag[(drag["variant"] == name) & (drag["fraction"] == fraction)].sort_values("rows")
             bars(panel, group, "radius", "percent", number=number, linestyle="-", label=words)
         for power, style, at in ((1, ":", 60.0), (2, "--", 16.0)):
-            panel.plot(across, at*across**-power, color="grey", linestyle=style, marker="", label=f"$(a/R)^{power}$")
+            panel.plot(across, at*across**-power, color="grey", linestyle=style, marker="",
+                       label=f"$(a/R)^{power}$")
         panel.set(xscale="log", yscale="log", title=f"solid fraction {fraction:g}", xlabel="radius $R/a$")
         ticks(panel, (4, 6, 10, 20))
         below(panel, ncols=2, bbox_to_anchor=(0.5, -0.16))
     axes[0, 0].set_ylabel("|error| of the drag, %")
-    page.suptitle("Drag of a cylinder against Sangani & Acrivos (1982); bars: print and what was not steady", fontsize=10)
+    page.suptitle("Drag of a cylinder against Sangani & Acrivos (1982); bars: print and what was not steady",
+                  fontsize=10)
     return page
