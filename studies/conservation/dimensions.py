@@ -127,8 +127,9 @@ class Unsymmetric(DihDrift):
         def look(now: np.ndarray) -> None:
             _, momentum, _ = exact_sums(fluid.edges.V, now)
             seen.append(momentum)
-        in_place(fluid, state, self.steps, look, report, LOOKS)
-        reached = self.steps*(len(seen) - 1)//LOOKS
+        looks = min(LOOKS, self.steps)
+        in_place(fluid, state, self.steps, look, report, looks)
+        reached = self.steps*(len(seen) - 1)//looks
         return Outcome({"losses": [{
             "maker": self.maker, "points": self.points, "seed": self.seed, "steps": self.steps,
             "reached": reached, "lost": abs(seen[-1] - seen[0])/size}]})
