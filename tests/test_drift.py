@@ -11,11 +11,13 @@ from particles.integral.brackets import Powers
 from particles.integral.dih import Pairwise
 from particles.integral.edge_makers import plain
 from particles.integral.edges import between_plates
+from particles.integral.exchange import PRINTED
 from particles.integral.interpolants import OrderingWarning
-from particles.integral.layer import Layer
+from particles.integral.layer import Layer, edge_by_edge
 from particles.integral.points import jittered, lattice
 from particles.integral.rr98_moving import DRIFTS, ConstantMassDrift, Drift
 from particles.integral.rr98_moving_plain import MOTIONS, ConstantMass, scale_of
+from particles.integral.transposed_stress import MENDED
 from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Plan, run
@@ -24,7 +26,8 @@ from particles.threads import Team
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
-from studies.build.rr98_moving import DRIFT_MOTIONS, DriftRun, PlateHeat, method, start
+from studies.build.rr98_moving import DRIFT_MOTIONS, PlateHeat
+from studies.rb.runs.points import DriftRun
 from studies.rb.tables import HISTORY, KINETIC, PROFILES
 
 COUNTS = COLUMNS, ROWS = 10, 8
@@ -83,7 +86,7 @@ def alike(found, expected):
 @pytest.mark.parametrize("law", [LAW, PowerLaw(0.3, 0.2, 0.5, 1.0)], ids=["const-eta", "power-law"])
 @pytest.mark.parametrize(("kind", "eos"), [*((kind, IdealGas()) for kind in DRIFTS), ("constant-mass", VanDerWaals())])
 def test_compiled_sums_are_those_of_the_slow_twin(kind, eos, law, mended):
-    fast = drift(kind, eos=eos, law=law, mended=mended)
+    fast = drift(kind, eos=eos, law=law, transport=MENDED if mended else PRINTED)
     slow = MOTIONS[kind](box=COUNTS, weight=WEIGHT, eos=eos, law=law, scale=SCALE, transport=Pairwise(mended=mended))
     state = shaken(fast)
     given = slow.state(AT.x, *fields())
@@ -113,9 +116,9 @@ def test_literal_points_between_plates_are_fixed_ones_that_are_moved(law, mended
     x, weight = inner(AT.x), WendlandC2.of(h=2.9)
     edges, beyond = between_plates(plain, x, COLUMNS, ROWS, weight)
     scaled, images = (replace(q, S=SCALE*q.S, k=SCALE*q.k) for q in (edges, beyond))
-    fixed = Layer(x=x, edges=scaled, beyond=images, eos=IdealGas(), law=law, T_plates=(1.5, 0.5), g=0.02, mended=mended,
-                  fast=False)
-    method = drift(inside=True, law=law, mended=mended)
+    fixed = Layer(x=x, edges=scaled, beyond=images, eos=IdealGas(), law=law, T_plates=(1.5, 0.5), g=0.02,
+                  transport=MENDED if mended else PRINTED, form=edge_by_edge)
+    method = drift(inside=True, law=law, transport=fixed.transport)
     state = method.state(x, *fields())
     expected = np.zeros((4, len(x)))
     fixed.start(len(x), Team(1)).rates(state[[4, 2, 3, 5]], expected)
@@ -254,7 +257,7 @@ def test_a_run_fills_rows_of_three_tables(tmp_path):
 
 def test_heat_through_plates_is_conduction_where_temperature_is_linear():
     scene = RayleighBenard(ra=1e4, L=12.0)
-    fluid, x = method(scene, DRIFT_MOTIONS["moving-literal"]), lattice((24, 12)).x
+    fluid, x = DRIFT_MOTIONS["moving-literal"].ready(scene).method, lattice((24, 12)).x
     sums, now = fluid.start(len(x), Team(1)), fluid.state(x, 1.0, 0*x, scene.T(x[:, 1]))
     sums.around.relist(now, np.arange(len(x)), 0.0)
     sums.look_at(now)
@@ -268,8 +271,7 @@ def test_literal_points_come_to_rest_where_density_times_the_square_of_their_num
     Density falls by a factor of two from the lower to the upper plate then: what is heavy lies below, and stays there.
     """
     scene = RayleighBenard(ra=1e4, L=12.0)
-    fluid = method(scene, DRIFT_MOTIONS["moving-literal"])
-    first = start(scene, fluid, 1)
+    fluid, first, _ = DRIFT_MOTIONS["moving-literal"].ready(scene)
     dt = limit_of(fluid, first)
     done = run(fluid, first, Plan(dt=dt, steps=round(200*12/dt)))
     layer = np.digitize(done.state[1], [-4, -2, 0, 2, 4])

@@ -17,7 +17,7 @@ from report_tables import errors, one_study
 from studies.cost.names import FAMILIES
 from studies.kit.csvfile import read, write
 from studies.kit.figure import COLOURS, figure, save
-from studies.kit.source import ROOT
+from studies.kit.key import ROOT
 from studies.kit.sweep import RESULTS
 from studies.kit.table import Tables
 from studies.report import behind, cost, draw, needs, pictures

@@ -181,8 +181,8 @@ def means(q: Coefficients, i: np.ndarray, j: np.ndarray) -> Coefficients:
 class Dih:
     """A fluid on fixed points.
 
-    edges : of `particles.integral.edges`. eos, law : of `continuum.fluid`. zeta : bulk viscosity, a number or a law. transport : Nested or
-    Pairwise.
+    edges : of `particles.integral.edges`. eos, law : of `continuum.fluid`. zeta : bulk viscosity, a number or a law.
+    transport : Nested, Pairwise or Mixed.
     """
     edges: Edges
     eos: Any

@@ -13,6 +13,7 @@ from itertools import product
 
 from particles.integral.closed_faces import Ingredients
 from particles.integral.edge_makers import MAKERS
+from particles.integral.exchange import PRINTED
 from particles.weights import WEIGHTS, Lucy
 from studies.build.disorder import DISORDERS
 from studies.conservation.bodies import bodies
@@ -34,7 +35,7 @@ OTHERS = tuple(name for name in MODES if name != "pairwise")
 #: one maker on a lattice, one off it
 TWO = (("renormalised", "lattice"), ("delaunay", "jittered-0.3"))
 #: what is left out of the scheme of moving points
-LESS = {"heating as printed": Ingredients(mended=False), "open faces": Ingredients(iterations=0),
+LESS = {"heating as printed": Ingredients(transport=PRINTED), "open faces": Ingredients(iterations=0),
         "whole pressure": Ingredients(static=False), "mass not spread": Ingredients(spread=0.0)}
 
 

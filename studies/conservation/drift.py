@@ -10,6 +10,7 @@ from continuum.fluid import ConstEta, IdealGas
 from particles.integral.closed_faces import EXCHANGED, Ingredients, Moving
 from particles.integral.edges import NONE_BEYOND, Edges, between_plates
 from particles.integral.layer import Layer
+from particles.integral.nested import mixed
 from particles.integral.points import Points, of_positions
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, run
@@ -193,7 +194,7 @@ class LayerDrift(Drift):
         else:
             edges, beyond = self.make(points, weight), NONE_BEYOND
         return Layer(x=points.x, edges=edges, beyond=beyond, eos=IdealGas(), law=ConstEta(eta, eta),
-                     T_plates=(1.0, 1.0), g=self.wall.g, mended=self.mode.mended, share=self.mode.share)
+                     T_plates=(1.0, 1.0), g=self.wall.g, transport=mixed(self.mode.share, self.mode.mended))
 
     def start(self, method: Layer, points: Points) -> np.ndarray:
         return method.state(*random_fields(points, self.mode.size, self.seed, self.wall.plates))
