@@ -1,4 +1,4 @@
-"""Long runs whose sums are watched: the compiled scheme on fixed points, and points that move with closed faces."""
+"""Long runs whose sums are watched: the compiled scheme on fixed points, moving points with closed faces."""
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -31,8 +31,8 @@ EVERYTHING = "mass momentum energy"
 class Mode(NamedTuple):
     """Transport of a run: eta = kappa, share along edges, whether its heating is mended, chi of the filter.
 
-    size : rms of the random start. Without friction it feeds short waves at rates of the order of itself, which
-    10 000 steps are to leave small.
+    size : rms of the random start. Without friction it feeds short waves at rates of the order of itself,
+    which 10 000 steps are to leave small.
     """
 
     name: str
@@ -136,7 +136,8 @@ def drift_row(watch: Watch, **columns: Any) -> Outcome:
     return Outcome({"drift": [{**usual, **changes, **columns}]})
 
 
-def in_parts(method: Any, state: np.ndarray, steps: int, watch: Watch, report: Report) -> tuple[np.ndarray, int]:
+def in_parts(method: Any, state: np.ndarray, steps: int, watch: Watch,
+             report: Report) -> tuple[np.ndarray, int]:
     """(state, steps done) of a run that is watched; it ends early if it diverges, heats too far or pairs."""
     dt = OF_LIMIT*limit_of(method, state)
     watch(state)
@@ -168,7 +169,7 @@ def around(disorder: Disorder, seed: int, plates: bool) -> Points:
 
 @dataclass(frozen=True, kw_only=True)
 class LayerDrift(Drift):
-    """A run of the compiled scheme on SIDE^2 points, in a periodic box or between mirror plates    [RR98 Eqs 34-38]"""
+    """The compiled scheme on SIDE^2 points, in a periodic box or between mirror plates    [RR98 Eqs 34-38]"""
 
     scheme = "layer"
 
@@ -209,7 +210,7 @@ class LayerDrift(Drift):
 
 @dataclass(frozen=True, kw_only=True)
 class MovingDrift(Case):
-    """A run on SIDE^2 points that move and exchange over closed faces; `name`: what is left out of the scheme."""
+    """SIDE^2 points that move and exchange over closed faces; `name`: what is left out of the scheme."""
 
     name: str = "pairwise"
     ingredients: Ingredients = Ingredients()  # noqa: RUF009 (immutable)
@@ -238,8 +239,12 @@ class MovingDrift(Case):
         state = method.state(points.x, v, rho, T)
         watch, begin = self.watch(method, state), kinetic(method.fields(state))
         state, reached = in_parts(method, state, self.steps, watch, report)
-        motion = kinetic(method.fields(state))/begin
-        return self.row(watch, reached, motion)
+        watch.worst, volume = watch.worst[:-1], watch.worst[-1]
+        return drift_row(
+            watch, scheme="moving", mode=self.name, maker="faces", weight=self.weight.__name__, h=3.0,
+            points=self.disorder.name, wall=self.wall.name, seed=self.seed, n=SIDE**2, steps=self.steps,
+            reached=reached, claimed="mass volume" if self.wall.plates else f"{EVERYTHING} volume",
+            volume=volume, motion=kinetic(method.fields(state))/begin)
 
     def watch(self, method: Moving, state: np.ndarray) -> Watch:
         """Mass, momentum along both axes (between plates along them only), energy, volume."""
@@ -247,13 +252,3 @@ class MovingDrift(Case):
         mass, momentum, _, total = sizes(method.eos, method.fields(state))
         size = np.array([momentum, momentum, mass, SIDE**2, total])
         return Watch(lambda now: exact_sums(np.ones(1), now[EXCHANGED][rows]), size[rows])
-
-    def row(self, watch: Watch, reached: int, motion: float) -> Outcome:
-        """Of the table `drift`."""
-        *rest, volume = watch.worst
-        claimed = "mass volume" if self.wall.plates else f"{EVERYTHING} volume"
-        return drift_row(
-            Watch(watch.totals, watch.sizes, watch.first, np.array(rest)), scheme="moving", mode=self.name,
-            maker="faces", weight=self.weight.__name__, h=3.0, points=self.disorder.name, wall=self.wall.name,
-            seed=self.seed, n=SIDE**2, steps=self.steps, reached=reached, claimed=claimed, volume=volume,
-            motion=motion)
