@@ -15,6 +15,7 @@ import pandas as pd
 
 from bench.spam_speed import COLUMNS, time_row
 from continuum.scene import RayleighBenard
+from particles.integral.layer import edge_by_edge
 from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Plan, run
@@ -89,7 +90,7 @@ def marched(name: str) -> Callable[[], float]:
 def main() -> None:
     """Measure and write."""
     kinds = {"fixed points, h = 2 a": fixed("fixed-lattice"), "fixed points, h = 3 a": fixed("fixed-lattice-h3"),
-             "fixed points, h = 3 a, edge by edge": fixed("fixed-lattice-h3", fast=False),
+             "fixed points, h = 3 a, edge by edge": fixed("fixed-lattice-h3", form=edge_by_edge),
              "fixed points, Delaunay": fixed("fixed-jittered-delaunay"),
              "moving points, a step": closed("moving"), "moving points, a step, open faces": closed("moving-open-faces"),
              "moving, plain bracket": bracket("moving-literal-printed-heat"),

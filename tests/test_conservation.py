@@ -5,6 +5,11 @@ from math import fsum
 
 import numpy as np
 import pytest
+from studies.conservation.commutator import Commutator
+from studies.conservation.dih import FORMS
+from studies.conservation.layers import around
+from studies.conservation.moving import MovingDrift
+from studies.conservation.rates import MotionDrift
 
 import studies.conservation.cases as conservation
 from continuum.fluid import ConstEta, IdealGas
@@ -17,14 +22,9 @@ from particles.run import Plan, run
 from particles.weights import WEIGHTS, Lucy, Monaghan
 from studies.build.disorder import DISORDERS
 from studies.conservation import losses as conservation_losses
-from studies.conservation.commutator import Commutator
-from studies.conservation.dih import FORMS
 from studies.conservation.drift import MODES, WALLS
 from studies.conservation.figures import COLUMNS, column
 from studies.conservation.frames import Frame, after, sound
-from studies.conservation.layers import around
-from studies.conservation.moving import MovingDrift
-from studies.conservation.rates import MotionDrift
 from studies.conservation.sums import Watch, exact_sums, kinetic, parts, random_fields
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load

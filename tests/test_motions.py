@@ -1,8 +1,9 @@
 """Motions of points: conservation, the identity of Eqs 46-48 with 49, speeds against lattice sums, steps, filter; the study."""
 import numpy as np
 import pytest
-
 import studies.conservation.motions.cases as motions
+from studies.conservation.motions.scene import by_halves, march, moving, rate, roots, seen_slope, transform
+
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.brackets import Powers
 from particles.integral.dih import Dih, Nested, Pairwise
@@ -16,7 +17,6 @@ from particles.threads import Team
 from particles.weights import WEIGHTS, Lucy, WendlandC2
 from studies.conservation.motions import derive as motions_derive
 from studies.conservation.motions import tables as motions_tables
-from studies.conservation.motions.scene import by_halves, march, moving, rate, roots, seen_slope, transform
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import read

@@ -9,6 +9,7 @@ import studies.cost.scenes.cases as scenes
 from continuum.scene import RayleighBenard
 from particles.integral.dih import Dih
 from particles.integral.edge_makers import renormalised
+from particles.integral.exchange import PRINTED
 from particles.integral.points import jittered, lattice
 from particles.integral.triangulation import delaunay
 from particles.integrators import RK4
@@ -109,7 +110,7 @@ def test_plain_heating_calls_fewer_loops_and_gravity_none():
     scene = RayleighBenard(ra=1e4, L=8.0)
     whole, first, _ = ready(scene, "fixed-lattice")
     called = [scenes_cases.loops(method, first) for method in (
-        whole, replace(whole, mended=False), replace(whole, g=0.0))]
+        whole, replace(whole, transport=PRINTED), replace(whole, g=0.0))]
     assert called[2] == called[0]        # a number
     assert not any("Differences" in name or "lacking" in name for name in called[1])
 

@@ -10,12 +10,10 @@ import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.bodies import Held, held, in_disc, together, with_plates
-from particles.integral.fixed import Exchange
 from particles.integral.points import Points, of_positions
 from particles.integral.sheared import Sheared, Shearing, above
 from particles.integral.stream import Stream, Streaming
 from particles.integral.triangulation import between
-from particles.pairs import sweep
 from particles.threads import Team
 from studies.conservation.drift import Drift
 from studies.conservation.sums import exact_sums, random_fields
@@ -137,8 +135,8 @@ class BookingSides(Shearing):
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (7, n), written to `out`."""
         super().rates(state[:5], out[:5])
-        sweep(0, self.n, Exchange(self.method.eos), self.all, above(self.edges, self.method.sides), self.total)
-        (m, p, _, _), U = self.total.sum(axis=0)/self.method.edges.V.sum(), self.method.speed
+        through = self.exchange.sum(self.at._replace(edges=above(self.at.edges, self.method.sides)))
+        (m, p, _, _), U = through.sum(axis=0)/self.method.edges.V.sum(), self.method.speed
         out[5], out[6] = U*m, U*p - U**2*m/2
 
 

@@ -19,6 +19,7 @@ from continuum.exact.vortex import incompressible as exactly_incompressible
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.dih import Dih
 from particles.integral.edge_makers import renormalised
+from particles.integral.layer import edge_by_edge, quickest
 from particles.integral.points import lattice
 from particles.integral.thermal import Thermal
 from particles.integrators import RK4
@@ -94,7 +95,7 @@ def gas(size: int) -> Made:
 def gas_alike(size: int) -> Made:
     """The same in the loops that all fluids take, as what leaves a term out does, in place of the ideal gas's own."""
     problem = vortices.OnPoints(names.LATTICE, H).problem(size, 1)
-    method = replace(problem.held()[1].method, fast=False)
+    method = replace(problem.held()[1].method, form=edge_by_edge)
     problem = problem._replace(go=marching(method), step=plain(method), held=holding(method, problem.first))
     return Made(problem, "velocity", loops(method, problem.first))
 
@@ -161,7 +162,7 @@ def layer(rows: int, mended: bool = True, fast: bool = True, **changes: Any) -> 
     method = problem.held()[1].method
     if changes or not fast:
         law = method.law._replace(**{name: value for name, value in changes.items() if name != "g"})
-        method = replace(method, law=law, g=changes.get("g", method.g), fast=fast)
+        method = replace(method, law=law, g=changes.get("g", method.g), form=quickest if fast else edge_by_edge)
         unit = problem.time/convection_rules.END
         problem = problem._replace(limit=limit_of(method, problem.first), go=convection.sampled(method, dih.kinetic, unit),
                                    step=plain(method), held=holding(method, problem.first))
