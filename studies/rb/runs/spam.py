@@ -92,7 +92,8 @@ class SpamRun(Case):
                 "resolution": round(self.scene.L), "seed": self.seed}
 
     def _tables(self, chosen: Spam, done: Run, plan: Plan) -> dict:
-        rows = {"kinetic_energy": [self._row(plan, plan.steps, self._energies(done))], "walls": self._walls(done), "history": self._history(done)}
+        row = self._row(plan, plan.steps, self._energies(done))
+        rows = {"kinetic_energy": [row], "walls": self._walls(done), "history": self._history(done)}
         if self.keep in ("fields", "all"):
             at = field_rows(self.point, self.scene, self._grid, Smoothed(*done.means["grid"]))
             rows |= {"fields": at, "profiles": self._profiles(done)}
