@@ -1,5 +1,6 @@
 """Discretized integral hydrodynamics on fixed points, in any scene    [RR98, Sec. III]"""
 from collections.abc import Callable
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,6 +26,7 @@ def hard_core(width: float, height: float, size: float, seed: int) -> np.ndarray
     return inside(height, random((round(width), round(height)), size, seed).x)
 
 
+@cache
 def settled(width: float, height: float, size: float, seed: int) -> np.ndarray:
     """Random points that have moved apart together with their mirror images until each is surrounded evenly."""
     x, shift, mirror = hard_core(width, height, size, seed), np.array([0.0, height/2]), np.array([1.0, -1.0])
