@@ -159,8 +159,9 @@ class BoussinesqSteady(Refined):
         state: boussinesq.State | None = None
         for number, size in enumerate(self.sizes):
             case = boussinesq.Case(ra=self.ra, pr=self.pr, box=boussinesq.HALF_LAYER, rows=size)
-            state, compile_s, cpu_s = compile_and_run_seconds(partial(boussinesq.steady, case, state))
-            rows.append({**self._row(state), "resolution": size, "cpu_s": cpu_s, "compile_s": compile_s})
+            steady, compile_s, cpu_s = compile_and_run_seconds(partial(boussinesq.steady, case, state))
+            state = steady
+            rows.append({**self._row(steady), "resolution": size, "cpu_s": cpu_s, "compile_s": compile_s})
             report((number + 1)/len(self.sizes))
         return Outcome({"kinetic_energy": rows})
 
