@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from studies.kit.case import Case
 from studies.kit.claim import Claim
+from studies.kit.drawing import Drawing, Overview
 from studies.kit.table import Rows, Table, Tables
 
 T = TypeVar("T")
@@ -43,7 +44,7 @@ def joined(parts: Sequence[Part]) -> Part:
         cases=lambda size: [case for part in parts for case in part.cases(size)],
         tables=once("tables", ((table.name, table) for part in parts for table in part.tables)),
         derive=lambda tables: derived(parts, tables),
-        figures=lambda tables: drawn(parts, tables),
+        figures=Joined(part.figures for part in parts),
         claims=once("claims", ((claim.id, claim) for part in parts for claim in part.claims)))
 
 
@@ -68,8 +69,19 @@ def derived(parts: Iterable[Part], tables: Tables) -> Rows:
     return rows
 
 
-def drawn(parts: Iterable[Part], tables: Tables) -> dict[str, Figure]:
-    """Figures of all parts."""
-    pairs = [pair for part in parts for pair in part.figures(tables).items()]
-    once("figures", pairs)
-    return dict(pairs)
+class Joined:
+    """The figures of parts. drawings : of those parts that list them; of a plain function the tables are unknown."""
+
+    def __init__(self, figures: Iterable[Callable[[Tables], Mapping[str, Figure]]]):
+        self.figures = tuple(figures)
+
+    @property
+    def drawings(self) -> tuple[Drawing | Overview, ...]:
+        """Each figure with the tables that it is drawn from."""
+        return tuple(drawing for one in self.figures for drawing in getattr(one, "drawings", ()))
+
+    def __call__(self, tables: Tables) -> dict[str, Figure]:
+        """The figures for which there are rows."""
+        pairs = [pair for one in self.figures for pair in one(tables).items()]
+        once("figures", pairs)
+        return dict(pairs)
