@@ -7,11 +7,13 @@ particles read it.
 from dataclasses import dataclass
 from math import inf
 from numbers import Real
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas, check_state, conductivity, energy, expansivity, thermal_pressure, viscosity
+
+ROLL_ENERGY = 9/5000    # kinetic energy per mass of the initial rolls    [KHP95, Fig. 9]
 
 
 class Periodic(NamedTuple):
@@ -98,6 +100,7 @@ class RayleighBenard:
     T_cold: float = 0.5
     sides: Any = Periodic()  # noqa: RUF009
     pr: float = 1.0
+    slide: ClassVar[float] = 0.0        # velocity of the upper plate along itself
 
     def __post_init__(self):
         self._check_numbers()
@@ -212,6 +215,10 @@ class RayleighBenard:
         u, v = self.sides.rolls(np.asarray(x), np.asarray(y), self.width, self.L, rolls)
         scale = np.sqrt(ke/self._roll_energy(rolls))
         return scale*u, scale*v
+
+    def fields(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Density (n,), velocity (n, 2) and temperature (n,) at the start, at places (n, 2)    [KHP95, Sec. VI]"""
+        return np.ones(len(x)), np.stack(self.flow(x[:, 0], x[:, 1], ROLL_ENERGY), axis=1), self.T(x[:, 1])
 
     def _roll_energy(self, rolls: int) -> float:
         """Mean v^2/2 of the pattern; the midpoint rule is exact for its few harmonics."""

@@ -1,8 +1,9 @@
 """Words and numbers that all cases share; apart from the tables, so that a new column does not run every case again."""
-from math import isclose
 from typing import Any
 
-START_ENERGY = 9/5000  # kinetic energy per mass of the initial rolls [KHP95, Fig. 9]
+from continuum.scene import ROLL_ENERGY
+
+START_ENERGY = ROLL_ENERGY
 START_JITTER = 0.2     # of the lattice at the start of moving points, in spacings: a perfect one stays frozen in places
 HALVES = 0.3           # of K: if halves of the averaging time differ by more, the flow is not steady
 EOS_NAMES = {"IdealGas": "ideal", "VanDerWaals": "vdw", "DenseFluid": "dense"}
@@ -21,17 +22,3 @@ def scene_columns(scene: Any) -> dict[str, Any]:
     """The columns of a row that name the scene."""
     return {"eos": EOS_NAMES[type(scene.eos).__name__], "transport": TRANSPORT_NAMES[scene.transport.__name__],
             "sides": type(scene.sides).__name__.lower(), "ra": float(scene.ra), "pr": float(scene.pr)}
-
-
-def check_spacings(scene: Any) -> None:
-    """Refuse a box that whole columns and rows of points of unit spacing do not fill.
-
-    Raises
-    ------
-    ValueError
-        Height or width is no whole number.
-    """
-    for name, length in (("height L", scene.L), ("width aspect L", scene.width)):
-        if not isclose(length, max(1, round(length)), rel_tol=1e-9):
-            raise ValueError(f"points of unit spacing need whole rows and columns, got {name} = {length:.6g}: give L as the "
-                             "number of rows, aspect as columns over rows")

@@ -21,6 +21,7 @@ from itertools import product
 from particles.integral.edge_makers import MAKERS
 from particles.integral.rr98_moving_plain import MOTIONS
 from particles.weights import WEIGHTS, Lucy
+from studies.build.disorder import DISORDERS
 from studies.conservation import claims as conservation_claims
 from studies.conservation import commutator as conservation_commutator
 from studies.conservation import derive as conservation_derive
@@ -38,7 +39,6 @@ from studies.conservation.rates import KEEP, TRANSPORTS, MotionDrift
 from studies.conservation.walls import HOLDS, HeldDrift, SlidingDrift
 from studies.kit.case import Case
 from studies.kit.study import Part
-from studies.ordering.waves import DISORDERS
 
 KINDS = ("lattice", "jittered-0.3", "random", "relaxed")
 ALL = tuple(WEIGHTS.values())

@@ -16,10 +16,10 @@ from particles.integral.edges import Edges
 from particles.integral.points import Points
 from particles.integrators import RK4
 from particles.threads import Team
+from studies.build.disorder import Disorder
 from studies.conservation.drift import EVERYTHING, OF_LIMIT, sizes, worst
 from studies.conservation.sums import Watch, exact_sums, kinetic, parts, random_fields
 from studies.kit.case import Case, Outcome, Report
-from studies.ordering.waves import Disorder
 
 COUNTS = {1: (32,), 2: (6, 6), 3: (4, 4, 4)}
 ETA, SIZE = 0.1, 0.1

@@ -11,9 +11,9 @@ from particles.integral.points import Points
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, run
 from particles.starts import Overlap
+from studies.build.disorder import Disorder
 from studies.conservation.sums import ROUND_OFF, Watch, exact_sums, kinetic, parts, random_fields
 from studies.kit.case import Case, Outcome, Report
-from studies.ordering.waves import Disorder
 
 OF_LIMIT = 0.5          # of the step to its limit
 EVERYTHING = "mass momentum energy"

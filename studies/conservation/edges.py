@@ -7,8 +7,8 @@ from typing import Any, ClassVar
 from particles.integral.edges import Edges
 from particles.integral.points import Points
 from particles.weights import Lucy
+from studies.build.disorder import Disorder
 from studies.kit.case import Case, Outcome, Report
-from studies.ordering.waves import Disorder
 
 H = 3.0                 # spacings: the range of Lucy's weight
 

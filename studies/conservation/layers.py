@@ -7,9 +7,9 @@ from continuum.fluid import ConstEta, IdealGas
 from particles.integral.edges import NONE_BEYOND, between_plates
 from particles.integral.layer import Layer
 from particles.integral.points import Points, of_positions
+from studies.build.disorder import Disorder
 from studies.conservation.drift import EVERYTHING, Drift
 from studies.conservation.sums import random_fields
-from studies.ordering.waves import Disorder
 
 SIDE = 8                # spacings
 FROM_PLATE = 0.25       # of a spacing: irregular points come no nearer to a plate

@@ -17,6 +17,7 @@ from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.threads import Team
 from particles.weights import Lucy
+from studies.build.disorder import DISORDERS
 from studies.build.read import Value, select
 from studies.conservation.dih import COUNTS, ETA, SIZE, OneSided, step_limit
 from studies.conservation.drift import MODES, OF_LIMIT, WALLS, sizes
@@ -26,7 +27,6 @@ from studies.kit.case import Case, Outcome, Report
 from studies.kit.claim import Claim
 from studies.kit.stats import Measured, combine
 from studies.kit.table import Table, Tables
-from studies.ordering.waves import DISORDERS
 
 LOOKS = 100             # at how far a run is
 #: momentum along x after so many steps, or where a run that diverged was looked at last (`reached`). lost: its change over the

@@ -13,11 +13,11 @@ from particles.integral.closed_faces import EXCHANGED, Ingredients, Moving
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WEIGHTS, WendlandC2
+from studies.build.disorder import DISORDERS, Disorder
 from studies.conservation.drift import MODES, WALLS, Wall, in_parts
 from studies.conservation.layers import SIDE, around
 from studies.conservation.sums import ROUND_OFF, Watch, kinetic, random_fields
 from studies.kit.case import Case, Outcome, Report
-from studies.ordering.waves import DISORDERS, Disorder
 
 H = 3.0
 

@@ -15,10 +15,10 @@ from particles.integral.edge_makers import MAKERS
 from particles.integral.edges import between_plates
 from particles.integral.points import Points, of_positions
 from particles.weights import Lucy
+from studies.build.disorder import DISORDERS
 from studies.conservation.dih import COUNTS, FORMS, DihDrift, limit_by
 from studies.conservation.layers import FROM_PLATE
 from studies.conservation.sums import exact_sums, random_fields
-from studies.ordering.waves import DISORDERS
 
 RANGE = {1: 3.0, 3: 1.9}
 SETS = (("renormalised", "lattice"), ("closed", "jittered-0.1"), ("exact", "jittered-0.1"))

@@ -9,10 +9,8 @@ from continuum.gas.fields import initial
 from continuum.gas.solve import run as march
 from continuum.scene import RayleighBenard
 from continuum.steady import Time
-from particles.limits import limit_of
 from particles.run import Plan, run
-from studies.build import moving, spam
-from studies.build import rr98_moving as drift
+from studies.build import moving, ready, spam
 from studies.build.names import START_ENERGY
 
 OF_FIRST = 0.6      # of the limit of the step at the start: it falls as the flow grows
@@ -53,31 +51,28 @@ def smooth_particles(scene: RayleighBenard, seed: int, times: np.ndarray, varian
     def look(state: np.ndarray) -> Dots:
         T = temperature(scene.eos, np.ones_like(state[4]), state[4])
         return Dots(state[0]/scene.L, state[1]/scene.L, T, float(np.mean(state[2]**2 + state[3]**2)/2))
-    method = spam.method(scene, variant)
-    yield from stretches(method, spam.start(scene, seed, variant.begin), spam.step(scene, variant), scene, times, look)
+    yield from stretches(*variant.ready(scene, seed), scene, times, look)
 
 
 def closed_faces(scene: RayleighBenard, seed: int, times: np.ndarray) -> Iterator[Dots]:
     """Moving points that exchange over closed faces."""
-    fluid = moving.method(scene, moving.MOTIONS["moving"])
+    fluid, first, limit = ready(scene, "moving", seed)
     def look(state: np.ndarray) -> Dots:
         px, py, m, V, E = state[moving.EXCHANGED]
         kinetic = (px**2 + py**2)/(2*m)
         T = temperature(scene.eos, m/V, (E - kinetic)/m)
         return Dots(state[0]/scene.L, state[1]/scene.L, T, float(kinetic.sum()/m.sum()))
-    first = moving.start(scene, fluid, seed)
-    yield from stretches(fluid, first, OF_FIRST*limit_of(fluid, first), scene, times, look)
+    yield from stretches(fluid, first, OF_FIRST*limit, scene, times, look)
 
 
 def printed_motion(scene: RayleighBenard, seed: int, times: np.ndarray) -> Iterator[Dots]:
     """Points that move with v under RR98's balances (Eqs 34-36, 39-41), literally."""
-    fluid = drift.method(scene, drift.DRIFT_MOTIONS["moving-literal"])
+    fluid, first, limit = ready(scene, "moving-literal", seed)
     def look(state: np.ndarray) -> Dots:
         m = state[4]*state[6]/fluid.motion.owned(state[6])
         ke = float(m@((state[2]**2 + state[3]**2)/state[4]**2)/m.sum()/2)
         return Dots(state[0]/scene.L, state[1]/scene.L, fluid.temperature(state), ke)
-    first = drift.start(scene, fluid, seed)
-    yield from stretches(fluid, first, OF_FIRST*limit_of(fluid, first), scene, times, look)
+    yield from stretches(fluid, first, OF_FIRST*limit, scene, times, look)
 
 
 def stretches(method: Any, state: np.ndarray, dt: float, scene: RayleighBenard, times: np.ndarray,

@@ -1,0 +1,76 @@
+"""CPU seconds of one step of each method, measured while no other case runs."""
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from time import process_time
+from typing import ClassVar
+
+import numpy as np
+
+from continuum.gas.fields import block, initial
+from continuum.gas.loop import FluxForm
+from continuum.gas.solve import March, choose_step
+from continuum.scene import RayleighBenard
+from particles.run import Plan, run
+from studies.build.names import scene_columns
+from studies.build.spam import PRINTED, Variant
+from studies.kit.case import Case, Outcome, Report
+from studies.kit.timing import REPEATS, SPREAD_TO_ERR, Seconds, median_seconds
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpamStep(Case):
+    """A particle step with list upkeep, in the developing rolls of the start."""
+    scene: RayleighBenard
+    variant: Variant = PRINTED
+    alone: ClassVar[bool] = True
+
+    @property
+    def label(self) -> str:
+        return f"seconds of a step, spam {self.variant.name} {scene_columns(self.scene)['eos']}, {self.scene.L:g} rows"
+
+    @property
+    def cost(self) -> float:
+        return 32*max(40000, 10*self.scene.L**2*self.scene.aspect)*4*300e-9 + 4
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        method, start, dt = self.variant.ready(self.scene)
+        warm, particles = run(method, start, Plan(dt=dt, steps=50)), start.shape[1]
+        steps = max(10, round(40000/particles))
+        # the difference of two lengths leaves out what every run pays once: lists, first evaluation, step limit
+        short, long = (median_seconds(partial(run, method, warm.state, Plan(dt=dt, steps=n)), REPEATS, process_time)
+                       for n in (steps, 3*steps))
+        seconds = Seconds(long.median - short.median, float(np.hypot(long.spread, short.spread)))
+        return Outcome({"cost": [row("spam", self.variant.name, self.scene, particles, dt, seconds, 2*steps)]})
+
+
+@dataclass(frozen=True, kw_only=True)
+class CompressibleStep(Case):
+    """A step of the compressible grid."""
+    scene: RayleighBenard
+    rows: int
+    alone: ClassVar[bool] = True
+
+    @property
+    def label(self) -> str:
+        return f"seconds of a step, compressible {scene_columns(self.scene)['eos']}, {self.rows} rows"
+
+    @property
+    def cost(self) -> float:
+        return 1e-4*self.rows**2 + 2
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        S = block(initial(self.scene, self.rows))
+        march, steps = March(self.scene, S, FluxForm(), choose_step(self.scene, S, None)), max(10, 400000//self.rows**2)
+        seconds = median_seconds(lambda: march.go(steps), REPEATS, process_time)
+        scene = self.scene
+        return Outcome({"cost": [row("compressible", "flux-form", scene, self.rows**2*round(scene.aspect), march.dt, seconds,
+                                     steps, rows=self.rows)]})
+
+
+def row(name: str, variant: str, scene, points: int, dt: float, seconds: Seconds, steps: int, rows: int = 0) -> dict:
+    """Row of the table `cost`."""
+    where = scene_columns(scene)
+    return {"method": name, "variant": variant, "eos": where["eos"], "sides": where["sides"],
+            "resolution": rows or round(scene.L), "points": points, "step_s": seconds.median/steps,
+            "step_s_err": seconds.spread*SPREAD_TO_ERR/steps, "dt": dt, "threads": 1}
