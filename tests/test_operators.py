@@ -17,8 +17,7 @@ from particles.limits import limit_of
 from particles.run import Plan, run
 from particles.threads import Team
 from particles.weights import Lucy, WendlandC2
-from studies.build.fixed import SCHEMES
-from studies.build.fixed import fluid as layer
+from studies.build.fixed import SCHEMES, fluid
 from studies.kit.table import Tables
 from studies.operators.cases import SHARES
 from studies.operators.claims import CLAIMS
@@ -233,7 +232,7 @@ def growth(**more):
 def test_what_eigenvalues_say_time_steps_show():
     """h = 2 a, nested only: a disturbance grows at the rate of the fastest mode once it is alone."""
     scene = RayleighBenard(ra=1500.0, L=8.0, aspect=1.0)
-    method = layer(scene, SCHEMES["fixed-lattice"]._replace(share=0.0))
+    method = fluid(scene, SCHEMES["fixed-lattice"]._replace(share=0.0))
     noise = 1e-7*np.random.default_rng(0).normal(size=method.x.shape)
     state = method.state(1.0, noise, scene.T(method.x[:, 1]))
     expected = growth(share=0.0)["growth"]*np.sqrt(2)
@@ -250,7 +249,7 @@ def test_transport_along_edges_keeps_a_lattice_at_rest():
 
 def test_the_derivative_is_one():
     scene = RayleighBenard(ra=1500.0, L=8.0, aspect=1.0)
-    method = layer(scene, SCHEMES["fixed-lattice"])
+    method = fluid(scene, SCHEMES["fixed-lattice"])
     state = method.state(1.0, np.zeros_like(method.x), scene.T(method.x[:, 1]))
     sums = method.start(state.shape[1], Team(1))
     change = np.random.default_rng(1).normal(size=state.shape)*1e-4

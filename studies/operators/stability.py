@@ -15,8 +15,7 @@ from particles.integral.points import Points, lattice
 from particles.threads import Team
 from particles.weights import WendlandC2
 from studies.build.disorder import Disorder
-from studies.build.fixed import SCHEMES
-from studies.build.fixed import fluid as layer
+from studies.build.fixed import SCHEMES, fluid
 from studies.kit.case import Case, Outcome, Report
 
 STEP = 1e-4     # of central differences: rates are of third degree, so errors are 1e-8 of them, round-off 1e-12
@@ -158,7 +157,7 @@ class LayerGrowth(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         scene = RayleighBenard(ra=self.ra, L=float(self.rows), aspect=1.0)
-        method = layer(scene, SCHEMES["fixed-lattice"]._replace(h=self.h, share=self.share))
+        method = fluid(scene, SCHEMES["fixed-lattice"]._replace(h=self.h, share=self.share))
         y = method.x[:, 1]
         state = method.state(1.0, np.zeros_like(method.x), scene.T(y))
         values, vectors = np.linalg.eig(jacobian(method.start(len(y), Team(1)), state))
