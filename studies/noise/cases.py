@@ -79,7 +79,7 @@ def paper() -> list[Case]:
 
 
 def algebra(kinds: tuple[str, ...], counts: dict[int, tuple[int, ...]]) -> Iterator[Case]:
-    """Partners on every maker, kind of points and dimension, between moving points; printed noise by waves."""
+    """Partners on every maker, kind of points and dimension, moving points; printed noise by waves."""
     for maker, kind, d in product(MAKERS, kinds, counts):
         if not (maker == "delaunay" and (d == 1 or (d == 3 and kind == "lattice"))):
             h = 2.7 if d < 3 else 2.4
@@ -119,8 +119,8 @@ def about(rows: int, below: tuple[float, ...], decays: float) -> Iterator[Case]:
 
 def cubes(steps: int) -> Iterator[Case]:
     """Samples in 3D: a lattice with odd sides, which has no corner of its zone; irregular points."""
-    yield Equipartition(counts=(5, 5, 5), turns=TURNS_3D, share=0.1, steps=steps, dt=3.0, maker="renormalised",
-                        disorder=DISORDERS["lattice"])
+    yield Equipartition(counts=(5, 5, 5), turns=TURNS_3D, share=0.1, steps=steps, dt=3.0,
+                        maker="renormalised", disorder=DISORDERS["lattice"])
     yield Equipartition(counts=(5, 5, 6), turns=TURNS_3D, share=0.0, steps=steps, dt=3.0)
 
 

@@ -183,8 +183,7 @@ CLAIMS = (
           statement="the Brillouin peak of sampled density waves lies where the lattice symbol has sound: "
                     "ratio, waves of 8 spacings"),
     Claim(id="rr98-fluct-brillouin-width", source="RR98 Eqs 20-25", expect=1, within=0.03,
-          value=peak("half "
-                                                                                                      "width"),
+          value=peak("half width"),
           because="3 %: the size that an experiment resolves",
           statement="its half width is the symbol's damping of sound: ratio, waves of 8 spacings"),
 )

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from continuum.published import published
+from continuum.exact.cylinder import drag_of
 from studies.kit.fits import weighted
 from studies.kit.stats import Measured
 from studies.kit.table import Rows, Tables
@@ -69,9 +69,9 @@ def drag(stream: pd.Series, shear: pd.Series) -> dict[str, float]:
     """Drag over eta U and depth: force on what is free, with the mean pressure gradient's on the body."""
     U = Measured(stream["speed"], stream["speed_err"])
     eta = Measured(shear["viscosity"], shear["viscosity_err"])
-    force = stream["force"]*stream["n"]/(stream["n"] - stream["held"])
+    force = float(stream["force"]*stream["n"]/(stream["n"] - stream["held"]))
     value = force/DEPTH/(eta*U)
-    ratio = value/published(f"cylinders-drag-{FRACTION:g}").value
+    ratio = value/drag_of(FRACTION).value
     density = stream["n"]/(stream["side"]**2*DEPTH)
     reynolds = 2*RADIUS*density*U.value/eta.value
     return {"side": stream["side"], "dt": stream["dt"], "reynolds": reynolds, "drag": value.value,

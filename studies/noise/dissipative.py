@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from continuum.published import published
+from continuum.exact.cylinder import drag_of
 from particles.dissipative import shadow_hamiltonian as shadow
 from particles.dissipative.dpd import Dpd
 from particles.dissipative.integrators import Shardlow, VelocityVerlet
@@ -179,7 +179,7 @@ class Cylinder(Fluid):
         still = replace(self.method(), box=(CELL, CELL, DEPTH))
         state = self.settled(still)
         U = REYNOLDS*ETA/(2*RADIUS*self.rho)
-        drag = published(f"cylinders-drag-{FRACTION:g}").value*ETA*U*DEPTH
+        drag = drag_of(FRACTION).value*ETA*U*DEPTH
         method = DpdStream(box=still.box, a=self.a, kT=self.kT, noise=still.noise, integrator=self.integrator,
                            held=np.flatnonzero(is_inside(still.fields(state).x)), push=drag/state.shape[1])
         plan = Plan(dt=self.dt, steps=round(STEADY/self.dt))
@@ -189,9 +189,10 @@ class Cylinder(Fluid):
         """Rows of the mean field, over the mean velocity; nan where there never was a particle."""
         px, py, count = done.means["flow"]
         mass = np.where(count > 0, count, np.nan)*U
-        at, u, v = ((np.arange(BINS) + 0.5)/BINS - 0.5)*CELL/RADIUS, px/mass, py/mass
+        at = ((np.arange(BINS) + 0.5)/BINS - 0.5)*CELL/RADIUS
         for i, j in np.ndindex(BINS, BINS):
-            yield {"x": at[i], "y": at[j], "u": u[i, j], "v": v[i, j]}
+            u, v = px[i, j]/mass[i, j], py[i, j]/mass[i, j]
+            yield {"x": float(at[i]), "y": float(at[j]), "u": u, "v": v}
 
 
 def across(x: np.ndarray) -> np.ndarray:

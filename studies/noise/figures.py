@@ -68,7 +68,7 @@ def steps(rows: pd.DataFrame) -> Figure:
 
 
 def modes(rows: pd.DataFrame) -> Figure:
-    """Variance of each plane wave of a gas at rest on jittered points over its exact value; bars are of 95 %."""
+    """Variance of each plane wave of a gas at rest on jittered points over its exact value."""
     page, panels = figure(1, 4, width=2.6, height=3.0, sharey=True)
     for axes, field in zip(panels, ("rho", "u", "v", "T"), strict=True):
         some = rows[rows["field"] == field]
@@ -84,7 +84,7 @@ def modes(rows: pd.DataFrame) -> Figure:
 def cubes(rows: pd.DataFrame) -> Figure:
     """The same in 3D, on a lattice and on jittered points; velocities along and across the wave vector."""
     page, panels = figure(1, 4, width=2.6, height=3.0, sharey=True)
-    shown = {r"$\rho$": ("rho",), "velocity along $k$": ("along",), 
+    shown = {r"$\rho$": ("rho",), "velocity along $k$": ("along",),
              "velocity across $k$": ("across", "across 2"),
              "$T$": ("T",)}
     for axes, (title, fields) in zip(panels, shown.items(), strict=True):
@@ -138,7 +138,8 @@ def cylinder(flow: pd.DataFrame, drag: pd.DataFrame) -> Figure:
     page, axes = figure(width=5.4, height=4.4)
     u, v = (flow.pivot(index="y", columns="x", values=name) for name in ("u", "v"))
     x, y = u.columns.to_numpy(float), u.index.to_numpy(float)
-    shown = axes.pcolormesh(x, y, np.hypot(u, v).to_numpy(), shading="nearest", vmin=0)
+    speed = np.hypot(u.to_numpy(), v.to_numpy())
+    shown = axes.pcolormesh(x, y, speed, shading="nearest", vmin=0)
     arrows = {"color": "white", "edgecolor": "black", "linewidth": 0.4, "width": 0.007}
     axes.quiver(x, y, u.to_numpy(), v.to_numpy(), **arrows)
     axes.add_patch(Circle((0, 0), 1.0, fill=False, color=COLOURS[1], linewidth=1.5))

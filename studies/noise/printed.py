@@ -26,7 +26,7 @@ from studies.noise.partners import ETA, KAPPA, KT
 
 @dataclass(frozen=True, kw_only=True)
 class PrintedWaves(Case):
-    """Variance of printed noise over its due, 2 kT Gamma of Eq. 37 or 38: waves along x on a lattice, T = 0.7.
+    """Variance of printed noise over its due, 2 kT Gamma of Eq. 37 or 38, on a lattice; T = 0.7.
 
     term : "eta" across k, "zeta" along k, "kappa". h 1.5 in 1D and 1.2 in 2D: nearest neighbours.
     """
