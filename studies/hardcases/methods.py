@@ -35,7 +35,7 @@ def kinetic(body: Body) -> float:
 
 
 def flow(body: Body, box: tuple[float, float]) -> float:
-    """The same of velocities averaged over the mass in cells of SPACINGS: noise between neighbours is left out."""
+    """The same of mean velocities in cells of SPACINGS, which have no noise between neighbours."""
     cells = np.maximum(1, np.round(np.array(box)/SPACINGS)).astype(int)
     at = np.clip(((body.x/np.array(box) + 0.5)*cells).astype(int), 0, cells - 1)
     cell = at[:, 0]*cells[1] + at[:, 1]
@@ -44,7 +44,7 @@ def flow(body: Body, box: tuple[float, float]) -> float:
     return float(0.5*np.sum(p**2/np.maximum(mass, 1e-300))/mass.sum())
 
 
-# --- families ---------------------------------------------------------------------------------------------------------
+# --- families -------------------------------------------------------------------------------------
 
 
 def places(scene: Any) -> np.ndarray:
@@ -82,7 +82,7 @@ def closed(scene: Any, motion: moving.Motion) -> Built:
     return Built(method, start, dt, lambda state: Body(state[:2].T, (state[4:6]/state[6]).T, state[6]))
 
 
-# --- names ------------------------------------------------------------------------------------------------------------
+# --- names ----------------------------------------------------------------------------------------
 
 
 SPAM = {"spam printed": partial(smooth, variant=spam.PRINTED),
@@ -97,7 +97,8 @@ FIXED = {name: partial(fixed, scheme=fixed_points.SCHEMES[scheme]) for name, sch
 LATTICE = fixed_points.SCHEMES["fixed-lattice"]
 
 #: those that are tried on all layers and on the vortex
-USUAL = {**SPAM, **{name: FIXED[name] for name in ("fixed lattice", "fixed nested", "fixed jittered")}, **MOVING}
+USUAL = {**SPAM, **{name: FIXED[name] for name in ("fixed lattice",
+                                                   "fixed nested", "fixed jittered")}, **MOVING}
 DISORDERED = {name: build for name, build in FIXED.items() if name != "fixed nested"}
 RANGES = (0.9, 1.2, 1.5, 2.0)
 NARROW = {**{f"spam h {h:g}": partial(smooth, variant=spam.PRINTED._replace(h=h)) for h in RANGES},
@@ -111,5 +112,7 @@ SHEARED = {**SPAM, **MOVING, "fixed lattice": FIXED["fixed lattice"], "fixed jit
     fixed, scheme=fixed_points.SCHEMES["fixed-jittered-delaunay"]._replace(points=partial(positions)))}
 #: which methods take which case; a strip in a vacuum has no points outside but smooth particles'
 TAKES: dict[str, dict[str, partial]] = {
-    **dict.fromkeys(("Ra 1e5", "Ra 1e6", "Prandtl 0.01", "Prandtl 100", "high pressure", "zero viscosity", "vacuum"), USUAL),
+    **dict.fromkeys(("Ra 1e5",
+                     "Ra 1e6",
+"Prandtl 0.01", "Prandtl 100", "high pressure", "zero viscosity", "vacuum"), USUAL),
     "disordered points": DISORDERED, "narrow weight": NARROW, "wall corner": CORNERS}

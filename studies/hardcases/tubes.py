@@ -1,12 +1,14 @@
-"""Sod's shock tube by the grid, by fixed and by moving points: errors against the exact solution, ringing, or where a run ends.
+"""Sod's shock tube by the grid, by fixed and by moving points.
 
-The tube and its mirror image of `sod`, in a periodic strip; the grid has one tube between plates, which its waves do not
-reach. One spacing, in both gases: the thin one has points of less mass. No method has artificial viscosity.
+The tube and its mirror image of `sod`, in a periodic strip; the grid has one tube between plates, which its
+waves do not reach. One spacing, in both gases: the thin one has points of less mass. No method has artificial
+viscosity.
 
-Viscosities in units of spacing and density 1, eta = k, chosen beforehand and for all methods alike: nothing; what makes the
-contact's velocity a cell number of 2 behind the shock, v a/nu, beyond which central differences are expected to ring; and the
-one that smooth particles were given. nu/(c a) of the dense gas is 0, 0.11 and 0.42. Steps are half of the limit at the start,
-since v + c behind the shock is 1.85 times c of the dense gas; a quarter of this step tells the scheme's end from the step's.
+Viscosities in units of spacing and density 1, eta = k, chosen beforehand and for all methods alike: nothing;
+what makes the contact's velocity a cell number of 2 behind the shock, v a/nu, beyond which central
+differences are expected to ring; and the one that smooth particles were given. nu/(c a) of the dense gas is
+0, 0.11 and 0.42. Steps are half of the limit at the start, since v + c behind the shock is 1.85 times c of
+the dense gas; a quarter of this step tells the scheme's end from the step's.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -41,7 +43,7 @@ assert END*BETWEEN.v < 1        # the contact stays in its half of the tube
 
 
 class Seen(NamedTuple):
-    """rho, v, P (3, n) in cells of one spacing, 0 < x < 2 L; rms v across the tube; which part of the time was reached."""
+    """rho, v, P (3, n) in cells of one spacing; rms v across the tube; part of the time reached."""
     fields: np.ndarray
     across: float
     reached: float = 1.0
@@ -53,9 +55,10 @@ def ended(L: int, reached: float) -> Seen:
 
 
 def binned(L: int, x: np.ndarray, V: np.ndarray, sums: np.ndarray) -> np.ndarray:
-    """(3, 2 L) of points x (n,), V (n,), by volume; sums (4, n): mass, momenta, energy. Means over height and both tubes.
+    """rho, v, P (3, 2 L) in cells, of points x (n,), V (n,); sums (4, n): mass, momenta, energy.
 
-    A point is as wide as its volume and one spacing high: where the gas is thin rows of points lie farther apart than cells.
+    A point is as wide as its volume and one spacing high: where the gas is thin rows of points lie farther
+    apart than cells.
     """
     m, px, py, E = sums
     inner = E - (px**2 + py**2)/(2*m)
@@ -68,7 +71,7 @@ def binned(L: int, x: np.ndarray, V: np.ndarray, sums: np.ndarray) -> np.ndarray
         return np.array([mass/volume, p/mass, energy/volume/EOS.cv])
 
 
-# --- points -----------------------------------------------------------------------------------------------------------
+# --- points ---------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -119,7 +122,7 @@ def seen(L: int, x: np.ndarray, V: np.ndarray, sums: np.ndarray) -> Seen:
     return Seen(binned(L, x, V, sums), float(np.sqrt((sums[2]**2/sums[0]).sum()/sums[0].sum())))
 
 
-# --- the grid ---------------------------------------------------------------------------------------------------------
+# --- the grid -------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,7 +138,8 @@ class Upright(Slab):
 
 
 def grid(L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
-    """The compressible grid as it is, cells of one spacing; it has no disorder, so that `seed` says nothing."""
+    """The compressible grid as it is, cells of one spacing; it has no disorder, so that `seed` says nothing.
+    """
     scene = Upright(L=float(2*L), aspect=2/L, viscosity=law.eta, heat=law.k)
     S = block(upright(scene, L))
     steps = int(END*L/(step*limits(scene, S).both)) + 1
@@ -167,12 +171,13 @@ METHODS: dict[str, Callable[[int, ConstEta, int, float, Report], Seen]] = {
     "moving": moving}
 
 
-# --- the case ---------------------------------------------------------------------------------------------------------
+# --- the case -------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
 class MethodTube(Case):
-    """One tube. L : half of its length, spacings. eta : viscosity and conductivity. step : over the limit at the start.
+    """One tube. L : half of its length, spacings. eta : viscosity and conductivity. step : over the limit at
+    the start.
 
     keep : whether profiles go to the table.
     """

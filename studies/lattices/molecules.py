@@ -1,8 +1,9 @@
 """P = rho^2: smooth particles are molecules, and their paths run back    [KHP95, Sec. III]
 
-Inviscid particles with P/rho^2 = 1 obey dv/dt = -sum_j m 2 grad w: Newton's equations with the potential 2 m^2 w of a pair.
-`Twins` follows one path by both kinds of sums: they must agree until round-off has grown. `Reversal` turns the velocities:
-the path comes back, to what truncation or round-off makes of it, and bit by bit if places and velocities are whole numbers.
+Inviscid particles with P/rho^2 = 1 obey dv/dt = -sum_j m 2 grad w: Newton's equations with the potential 2
+m^2 w of a pair. `Twins` follows one path by both kinds of sums: they must agree until round-off has grown.
+`Reversal` turns the velocities: the path comes back, to what truncation or round-off makes of it, and bit by
+bit if places and velocities are whole numbers.
 """
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,7 +23,8 @@ from studies.build.names import START_JITTER
 from studies.build.periodic_box import FRICTIONLESS, at_rest, fluid
 from studies.kit.case import Case, Outcome, Report
 
-#: P = rho^2: van der Waals without excluded volume, of a heat capacity so large that energy adds nothing to the pressure
+#: P = rho^2: van der Waals without excluded volume, of a heat capacity so large that energy adds nothing to
+#: the pressure
 RHO_SQUARED = VanDerWaals(a=-1.0, b=0.0, cv=1e300)
 ENERGY = 1e3        # per mass: any that stays above rho is valid
 RANGE = 3.0
@@ -31,7 +33,7 @@ GRID = 2.0**-24     # of whole numbers, spacings: sums in another order differ b
 
 
 def crowd(side: int, seed: int) -> np.ndarray:
-    """State (5, side^2) of a shifted lattice with random velocities, momentum zero, all of it on the grid of whole numbers."""
+    """State (5, side^2), a shifted lattice with random velocities, in whole numbers; momentum is zero."""
     rng = np.random.default_rng(seed)
     centres = np.arange(side) + 0.5 - side/2
     x = np.stack(np.meshgrid(centres, centres), axis=-1).reshape(-1, 2)
@@ -54,11 +56,11 @@ def distance(one: np.ndarray, other: np.ndarray, side: float) -> float:
     return float(np.sqrt(np.mean(apart**2)*2))
 
 
-# --- methods ----------------------------------------------------------------------------------------------------------
+# --- methods --------------------------------------------------------------------------------------
 
 
 class Leapfrog:
-    """Half a kick, a drift, half a kick [Verlet 1967]: the same steps lead back when velocities turn, but for round-off."""
+    """Half a kick, a drift, half a kick: steps lead back, but for round-off    [Verlet 1967]"""
     evaluations = 2
 
     def __init__(self, shape: tuple[int, ...], team: Team):
@@ -77,7 +79,8 @@ class Leapfrog:
 
 
 class Whole(Leapfrog):
-    """The same in whole numbers: what was added is taken away again, bit by bit    [Levesque & Verlet 1993]"""
+    """The same in whole numbers: what was added is taken away again, bit by bit    [Levesque & Verlet 1993]
+    """
 
     def rounded(self, change: np.ndarray) -> np.ndarray:
         return whole(change)
@@ -121,12 +124,13 @@ class Newton:
         out[4] = 0.0
 
 
-# --- cases ------------------------------------------------------------------------------------------------------------
+# --- cases ----------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
 class Twins(Case):
-    """The same path by the compiled sums of smooth particles and as molecules: how far apart after some time."""
+    """The same path by the compiled sums of smooth particles and as molecules: how far apart after some time.
+    """
     weight: Any
     side: int = 8
     every: float = 2.0
