@@ -1,4 +1,4 @@
-"""Who takes part in a Taylor-Green vortex of Mach 0.05 and Re 100 that decays by e: scene of the study `ordering`.
+"""Who takes part in a Taylor-Green vortex of Mach 0.05 and Re 100 that decays by e.
 
 Errors are told against the gas of that Mach number, solved by Fourier sums; of the MAC grid, whose fluid is incompressible,
 against the exact incompressible vortex.
@@ -11,6 +11,7 @@ import numpy as np
 from continuum.boussinesq import Box, Case, Edges, End, State
 from continuum.boussinesq.mac import mac
 from continuum.boussinesq.projection import Projection
+from continuum.exact.vortex import DECAYS, RE, SOUND, Vortex, solved, velocities
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.closed_faces import EXCHANGED, Moving
 from particles.integral.edge_makers import renormalised
@@ -24,12 +25,12 @@ from particles.threads import Team
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.build.names import START_JITTER
+from studies.build.vortex import fluid, start
 from studies.cost import names
 from studies.cost.problem import Problem, Residuals, of_method
-from studies.ordering.vortices import DECAYS, RE, SOUND, Vortex, solved, velocities
 
 MACH = 0.05
-#: of the Fourier sums by Mach number, from the study ordering: velocities of 33 against 29 points
+#: of the Fourier sums by Mach number: velocities of 33 against 29 points
 KNOWN = {0.05: 1.4e-6, 0.2: 2.9e-5}
 
 
@@ -65,8 +66,8 @@ def told(vortex: Vortex, V: np.ndarray, known: np.ndarray, v: np.ndarray) -> Res
     found = v/vortex.speed
     scale = np.sqrt(2*len(V)/(V@(known**2).sum(axis=1)))
     off = np.sqrt(V)[:, None]*(found - known)*scale
-    start = float(V.sum()/2)        # of v^2 in units of the speed, at the start
-    decay = np.log(start/float(V@(found**2).sum(axis=1)))/(2*DECAYS)
+    first = float(V.sum()/2)        # of v^2 in units of the speed, at the start
+    decay = np.log(first/float(V@(found**2).sum(axis=1)))/(2*DECAYS)
     return {"velocity": off.ravel(), "decay": np.array([decay/solved(vortex.mach).decay - 1])}
 
 
@@ -86,11 +87,11 @@ class OnPoints(NamedTuple):
         vortex, counts = Vortex(self.mach, resolution), (resolution, resolution)
         points = lattice(counts) if self.h else jittered(counts, 0.3, seed)
         edges = renormalised(points, self.weight.of(h=self.h)) if self.h else delaunay(points)
-        method = vortex.method(points, edges)
+        method = fluid(vortex, points, edges)
         if self.euler:
             method = Euler(**{name: getattr(method, name) for name in ("x", "edges", "beyond", "eos", "law", "T_plates", "g")})
         limit = euler_limit(method, SOUND**2) if self.euler else None
-        return of_method(method, vortex.start(method), vortex.time, lambda state: compared(
+        return of_method(method, start(vortex, method), vortex.time, lambda state: compared(
             vortex, edges.V, points.x, (state[1:3]/state[0]).T), limit=limit, known=KNOWN[self.mach])
 
 
@@ -109,7 +110,7 @@ class OnParticles(NamedTuple):
         vortex, points = Vortex(self.mach, resolution), jittered((resolution, resolution), START_JITTER, seed)
         method = Spam(weight=self.weight.of(h=self.h), eos=IdealGas(), law=ConstEta(vortex.eta, vortex.eta),
                       walls=(*periodic(resolution), *periodic(resolution, axis=1)), box=(resolution, resolution))
-        first = np.array([*points.x.T, *vortex.velocity(points.x).T, start_density(vortex, points.x)])
+        first = np.array([*points.x.T, *vortex.velocity(points.x).T, vortex.density(points.x)])
 
         def residuals(state: np.ndarray) -> Residuals:
             v = smoothed(method, state)
@@ -130,7 +131,7 @@ class OnMovingPoints(NamedTuple):
         vortex, points = Vortex(self.mach, resolution), jittered((resolution, resolution), START_JITTER, seed)
         method = Moving(weight=WendlandC2.of(h=3.0), eos=IdealGas(), law=ConstEta(vortex.eta, vortex.eta),
                         walls=(*periodic(resolution), *periodic(resolution, axis=1)), box=(resolution, resolution))
-        rho = start_density(vortex, points.x)
+        rho = vortex.density(points.x)
 
         def residuals(state: np.ndarray) -> Residuals:
             px, py, m, V, _ = state[EXCHANGED]
@@ -139,15 +140,10 @@ class OnMovingPoints(NamedTuple):
         return of_method(method, first, vortex.time, residuals, known=KNOWN[self.mach])
 
 
-def start_density(vortex: Vortex, x: np.ndarray) -> np.ndarray:
-    """The pressure of the incompressible vortex at constant entropy, P = rho^2 and T = rho: as `Vortex.start`."""
-    return np.sqrt(1 + vortex.speed**2/4*np.cos(2*vortex.k*x).sum(axis=1))
-
-
 def start_at(vortex: Vortex, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
     """(rho, u, v, T) of the start at places x, y of any shape."""
     at = np.stack([x.ravel(), y.ravel()], axis=1)
-    T = start_density(vortex, at).reshape(x.shape)
+    T = vortex.density(at).reshape(x.shape)
     u, v = (one.reshape(x.shape) for one in vortex.velocity(at).T)
     return T, u, v, T
 

@@ -10,6 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.linalg import expm
 
+from continuum.exact.vortex import SOUND
+from continuum.exact.waves import Gas, continuum
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.closed_faces import EXCHANGED, Moving
 from particles.integral.edge_makers import renormalised
@@ -23,11 +25,9 @@ from particles.smooth.spam import Nested, Spam
 from particles.threads import Team
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, Monaghan, WendlandC2
-from studies.build.symbols import Gas, continuum
 from studies.cost import names
 from studies.cost.problem import Problem, Residuals, of_method
 from studies.cost.vortex import Euler, euler_limit, sound_limit
-from studies.ordering.vortices import SOUND
 
 AMPLITUDE = 1e-5    # steepening is of the order of its product with the phase, 12: 1e-4 of the wave
 KNOWN = 1e-4

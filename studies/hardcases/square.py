@@ -15,7 +15,7 @@ from scipy.spatial import cKDTree
 
 from continuum.fluid import IdealGas
 from continuum.scene import RayleighBenard, Walls
-from particles.observe import Fields, Grid, particle_kinetic
+from particles.observe import Grid, Smoothed, particle_kinetic
 from particles.run import Plan, run
 from studies.build.measure import at_end, turns
 from studies.build.names import START_ENERGY
@@ -64,11 +64,11 @@ class Square(Case):
         return Outcome({"squares": [{
             "eos": type(self.eos).__name__, "weight": self.weight.__name__, "ra": self.ra, "seed": self.seed,
             "eta": scene.eta, "alpha": scene.alpha, "rolls": turns(scene, done.means["grid"][2]),
-            "begun": START_ENERGY*scene.free_fall**2, "ke": float(kp.mean()), "flow": energy(Fields(*done.means["grid"])),
+            "begun": START_ENERGY*scene.free_fall**2, "ke": float(kp.mean()), "flow": energy(Smoothed(*done.means["grid"])),
             "ratio": near.ratio.value, "ratio_err": near.ratio.err, "shared": near.shared}]})
 
 
-def energy(mean: Fields) -> float:
+def energy(mean: Smoothed) -> float:
     """K per mass of the mean flow."""
     return float(np.mean(mean.rho*(mean.vx**2 + mean.vy**2))/np.mean(mean.rho)/2)
 

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from studies.kit.case import Case
 from studies.kit.claim import Claim
+from studies.kit.drawing import Joined
 from studies.kit.table import Rows, Table, Tables
 
 T = TypeVar("T")
@@ -43,7 +44,7 @@ def joined(parts: Sequence[Part]) -> Part:
         cases=lambda size: [case for part in parts for case in part.cases(size)],
         tables=once("tables", ((table.name, table) for part in parts for table in part.tables)),
         derive=lambda tables: derived(parts, tables),
-        figures=lambda tables: drawn(parts, tables),
+        figures=Joined(part.figures for part in parts),
         claims=once("claims", ((claim.id, claim) for part in parts for claim in part.claims)))
 
 
@@ -66,10 +67,3 @@ def derived(parts: Iterable[Part], tables: Tables) -> Rows:
         once("derived tables", ((name, name) for name in [*rows, *new]))
         rows.update(new)
     return rows
-
-
-def drawn(parts: Iterable[Part], tables: Tables) -> dict[str, Figure]:
-    """Figures of all parts."""
-    pairs = [pair for part in parts for pair in part.figures(tables).items()]
-    once("figures", pairs)
-    return dict(pairs)

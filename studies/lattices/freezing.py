@@ -18,7 +18,7 @@ from continuum.fluid import ConstEta, energy, pressure
 from continuum.gas.solve import steady_on
 from continuum.scene import RayleighBenard
 from particles.limits import step_limit
-from particles.observe import Fields, Grid, particle_kinetic
+from particles.observe import Grid, Smoothed, particle_kinetic
 from particles.run import STUDIES, Divergence, Plan, run
 from particles.smooth.spam import Spam
 from particles.weights import value_and_slope
@@ -182,7 +182,7 @@ class Freezing(Case):
             places = self._places(method, done.by_id(), dt, unit)
         except Divergence:
             return {**row, **dict.fromkeys(("flow", "flow_err", "kp", "kp_err", "lindemann"), np.nan)}
-        fields = Fields(*done.means["grid"])._asdict()
+        fields = Smoothed(*done.means["grid"])._asdict()
         flow = flowing({name: fields[name] for name in ("rho", "vx", "vy")}, periodic=True)
         kp = mean(np.array(done.series["kp"])[np.array(done.times) > plan.mean_from])
         return {**row, "flow": flow.value/K, "flow_err": flow.err/K, "kp": kp.value/K, "kp_err": kp.err/K,

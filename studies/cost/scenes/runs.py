@@ -14,6 +14,8 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from continuum.exact.vortex import SOUND, Vortex, solved, velocities
+from continuum.exact.vortex import incompressible as exactly_incompressible
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.dih import Dih
 from particles.integral.edge_makers import renormalised
@@ -25,6 +27,7 @@ from particles.run import Run
 from particles.threads import Team
 from particles.weights import Lucy
 from studies.build import fixed as dih
+from studies.build.vortex import fluid, start
 from studies.cost import convection, names, others
 from studies.cost import layer_runs as convection_rules
 from studies.cost import vortex as vortices
@@ -32,8 +35,6 @@ from studies.cost.problem import Problem, holding, marching, of_method, plain, r
 from studies.cost.scenes.terms import Carried, Friction, Listed
 from studies.cost.timing import SHORT, Timed, array_bytes, per_step
 from studies.kit.case import Case, Outcome, Report
-from studies.ordering.vortices import SOUND, Vortex, solved, velocities
-from studies.ordering.vortices import incompressible as exactly_incompressible
 
 OF_LIMIT = 0.9
 SIZE = {"taylor-green": 24, "convection": 16}       # spacings of a wavelength, rows
@@ -109,7 +110,7 @@ def listed(size: int, *kinds: Any) -> Made:
     vortex, points = Vortex(vortices.MACH, size), lattice((size, size))
     method = Listed(x=points.x, edges=renormalised(points, Lucy.of(h=H)),
                     terms=tuple(kind(SOUND**2 if kind is Carried else vortex.eta) for kind in kinds))
-    rho = 1 + (vortices.start_density(vortex, points.x)**2 - 1)/SOUND**2        # the same pressure
+    rho = 1 + (vortex.density(points.x)**2 - 1)/SOUND**2        # the same pressure
     first = np.array([rho, *(rho[:, None]*vortex.velocity(points.x)).T])
     problem = of_method(method, first, vortex.time, lambda state: vortices.compared(
         vortex, points.V, points.x, (state[1:3]/state[0]).T))
@@ -121,7 +122,7 @@ def noisy(size: int, k: float = K_BOLTZMANN) -> Made:
     vortex, points = Vortex(vortices.MACH, size), lattice((size, size))
     edges = renormalised(points, Lucy.of(h=H))
     method = Thermal(edges=edges, eos=IdealGas(), law=ConstEta(vortex.eta, vortex.eta), k=k, seed=1, share=1.0)
-    first = vortex.start(vortex.method(points, edges))
+    first = start(vortex, fluid(vortex, points, edges))
     problem = of_method(method, first, vortex.time, lambda state: vortices.compared(
         vortex, points.V, points.x, (state[1:3]/state[0]).T), limit=limit_of(method, first))
     return Made(problem, "velocity", loops(method, first))

@@ -13,11 +13,11 @@ from particles.integral.edge_makers import MAKERS
 from particles.integral.points import Points
 from particles.run import Plan
 from particles.weights import Lucy
+from studies.build.disorder import DISORDERS, Disorder
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import over_seeds
 from studies.noise.fluctuations.matrices import ETA, KAPPA, ZETA, equilibrium, factor, noise, transport
 from studies.noise.fluctuations.sampling import BATCHES, Linear, batches, check_length
-from studies.ordering.waves import DISORDERS, Disorder
 
 #: of the tables, by dimension
 TABLE, AXES = {2: "modes", 3: "cubes"}, ("turns_x", "turns_y", "turns_z")
@@ -65,7 +65,7 @@ class Equipartition(Case):
         parts = transport(edges, self.share, ETA, ZETA, KAPPA, 1.0)
         check_modes(F, C, noise(edges.V, *(part.Q for part in parts)), names)
         F /= np.sqrt(np.einsum("mi,ij,mj->m", F, C, F))[:, None]
-        method = Linear(J=J, B=factor(edges, *parts), seed=self.seed, modes=F, fields=dih.fields)
+        method = Linear(J=J, B=factor(edges, *parts), seed=self.seed, modes=F, names=dih.names)
         check_length(J, self.steps*self.dt)
         start = np.random.default_rng(self.seed).normal(size=(2 + d, edges.n))/np.sqrt(edges.V)    # rho, v, T of equilibrium
         start[-1] += start[0]

@@ -1,0 +1,77 @@
+"""The figures of a study: of each its name, the tables that it is drawn from, and the function that draws it."""
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Any, NamedTuple
+
+from matplotlib.figure import Figure
+
+from studies.kit.table import Tables
+
+
+class Drawing(NamedTuple):
+    """A figure that needs rows of all its tables. draw : takes their frames in this order; its docstring is the caption."""
+    name: str
+    tables: tuple[str, ...]
+    draw: Callable[..., Figure | None]
+
+    def page(self, tables: Tables) -> Figure | None:
+        """The figure; none where a table lacks rows, or has none to show."""
+        frames = [tables[name] for name in self.tables if len(tables.get(name, ()))]
+        return self.draw(*frames) if len(frames) == len(self.tables) else None
+
+
+class Overview(NamedTuple):
+    """A figure of what there is of its tables. draw : takes these as `Tables`; its docstring is the caption."""
+    name: str
+    tables: tuple[str, ...]
+    draw: Callable[[Tables], Figure | None]
+
+    def page(self, tables: Tables) -> Figure | None:
+        """The figure; none where the tables have nothing to show."""
+        return self.draw(Tables({name: tables[name] for name in self.tables if name in tables}))
+
+
+class Drawings:
+    """Drawings and overviews, called with tables as one function that gives figures by name."""
+
+    def __init__(self, *drawings: Drawing | Overview):
+        self.drawings = drawings
+
+    def __call__(self, tables: Tables) -> dict[str, Figure]:
+        """The figures for which there are rows."""
+        pages = {drawing.name: drawing.page(tables) for drawing in self.drawings}
+        return {name: page for name, page in pages.items() if page is not None}
+
+
+class Joined:
+    """The figures of several parts; of a part that gives a plain function the tables are not known."""
+
+    def __init__(self, parts: Iterable[Callable[[Tables], Mapping[str, Any]]]):
+        self.parts = tuple(parts)
+
+    @property
+    def drawings(self) -> Iterator[Drawing | Overview]:
+        """Of all parts that list them."""
+        for part in self.parts:
+            yield from getattr(part, "drawings", ())
+
+    def __call__(self, tables: Tables) -> dict[str, Any]:
+        """The figures for which there are rows.
+
+        Raises
+        ------
+        ValueError
+            Two of them have one name.
+        """
+        pages: dict[str, Any] = {}
+        for part in self.parts:
+            for name, page in part(tables).items():
+                if name in pages:
+                    raise ValueError(f"two figures of one study are called {name!r}: give one of them another name")
+                pages[name] = page
+        return pages
+
+
+def caption(drawing: Drawing | Overview) -> str:
+    """First sentences of what draws it, up to an empty line."""
+    text = (drawing.draw.__doc__ or drawing.name.replace("_", " ")).split("\n\n")[0]
+    return " ".join(text.split())
