@@ -29,6 +29,14 @@ class Built(NamedTuple):
     body: Callable[[np.ndarray], Body]
 
 
+def moved(method: Any) -> Callable[[np.ndarray], Body]:
+    """What moves of a method's states."""
+    def body(state: np.ndarray) -> Body:
+        at = method.fields(state)
+        return Body(at.x, at.v, at.rho*at.V)
+    return body
+
+
 def kinetic(body: Body) -> float:
     """K per mass."""
     return float(0.5*body.m@(body.v**2).sum(axis=1)/body.m.sum())
@@ -59,27 +67,19 @@ def smooth(scene: Any, variant: spam.Variant, open_box: bool = False) -> Built:
     x = places(scene)
     x = x[scene.fields(x)[0] > THIN]
     ready = variant.ready(scene, x=x)
-    return Built(ready.method, ready.start, variant.step*ready.limit,
-                 lambda state: Body(state[:2].T, state[2:4].T, np.ones(state.shape[1])))
+    return Built(ready.method, ready.start, variant.step*ready.limit, moved(ready.method))
 
 
 def fixed(scene: Any, scheme: fixed_points.Scheme) -> Built:
     """Points that stay."""
     method, start, dt = scheme.ready(scene)
-    return Built(method, start, dt, lambda state: Body(method.x, (state[1:3]/state[0]).T, state[0]*method.edges.V))
+    return Built(method, start, dt, moved(method))
 
 
-def drifting(scene: Any, motion: rr98_moving.DriftMotion) -> Built:
-    """RR98's own motions."""
+def drifting(scene: Any, motion: rr98_moving.DriftMotion | moving.Motion) -> Built:
+    """RR98's own motions, and moving points with closed faces."""
     method, start, dt = motion.ready(scene, x=places(scene))
-    return Built(method, start, dt,
-                 lambda state: Body(state[:2].T, (state[2:4]/state[4]).T, state[4]*state[6]/motion.motion.owned(state[6])))
-
-
-def closed(scene: Any, motion: moving.Motion) -> Built:
-    """Moving points with closed faces."""
-    method, start, dt = motion.ready(scene, x=places(scene))
-    return Built(method, start, dt, lambda state: Body(state[:2].T, (state[4:6]/state[6]).T, state[6]))
+    return Built(method, start, dt, moved(method))
 
 
 # --- names ----------------------------------------------------------------------------------------
@@ -89,7 +89,7 @@ SPAM = {"spam printed": partial(smooth, variant=spam.PRINTED),
         "spam Wendland": partial(smooth, variant=spam.VARIANTS["wendland-c2"])}
 MOVING = {"drift literal": partial(drifting, motion=rr98_moving.DRIFT_MOTIONS["moving-literal"]),
           "drift constant mass": partial(drifting, motion=rr98_moving.DRIFT_MOTIONS["moving-constant-mass"]),
-          "moving": partial(closed, motion=moving.MOTIONS["moving"])}
+          "moving": partial(drifting, motion=moving.MOTIONS["moving"])}
 FIXED = {name: partial(fixed, scheme=fixed_points.SCHEMES[scheme]) for name, scheme in (
     ("fixed lattice", "fixed-lattice"), ("fixed nested", "fixed-lattice-nested-only"),
     ("fixed jittered", "fixed-jittered-delaunay"), ("fixed random", "fixed-random-delaunay"),
