@@ -5,6 +5,7 @@ import pytest
 
 from continuum.exact.riemann import Gas, density, middle, shock_speed, solution
 from continuum.fluid import ConstEta, IdealGas
+from particles.fields import Fields
 from studies.hardcases import cases, high_ra, tubes
 from studies.hardcases.claims import SHOCKS
 from studies.hardcases.derive import high_ra_summary, ripple_growth
@@ -134,14 +135,14 @@ def test_nothing_happens_in_a_uniform_gas(monkeypatch):
 
 
 def test_points_are_binned_by_volume_and_both_tubes_count():
-    x, V = np.array([0.5, -0.5, 1.5]), np.array([1.0, 0.5, 0.8])
-    sums = np.array([[1.0, 1.0, 4.0], [0.5, -1.5, 2.0], [0.0, 0.0, 4.0], [5.0, 7.0, 9.0]])
-    rho, v, P = binned(1, x, V, sums)
+    def at(x, V, rho, v, T):
+        columns = np.stack([x, np.zeros(len(x))], axis=1), np.stack([v, np.zeros(len(x))], axis=1)
+        return Fields(*columns, np.array(rho), np.array(T), np.array(V))
+    rho, v, P = binned(1, at([0.5, -0.5, 1.5], [1.0, 0.5, 0.8], [1.0, 2.0, 5.0], [0.5, -1.5, 0.5], [2.0, 3.0, 1.0]))
     np.testing.assert_allclose(rho, [2/1.5, 5.0])
     np.testing.assert_allclose(v, [1.0, 0.5])
-    inner = [(5 - 0.125) + (7 - 1.125), 9 - 20/8]
-    np.testing.assert_allclose(P, np.array(inner)/[1.5, 0.8]/EOS.cv)
-    wide = binned(2, np.array([0.5, 2.5]), np.array([1.0, 3.0]), np.array([[1.0, 3.0], [1.0, 6.0], [0, 0], [9.0, 99.0]]))
+    np.testing.assert_allclose(P, [5/1.5, 5.0])
+    wide = binned(2, at([0.5, 2.5], [1.0, 3.0], [1.0, 1.0], [1.0, 2.0], [1.0, 1.0]))
     np.testing.assert_allclose(wide[1], [1, 2, 2, 2])
 
 

@@ -38,9 +38,12 @@ def cases(size: str) -> Iterator[Case]:
     if size == "quick":
         yield from shocks((12.0, 15.0, 18.0), ((0.5, 0.25, 1),), 1)
         yield from method_tubes((12, 15, 18), 1)
-        yield from (Limit(method=name, scene="balanced", eta=0.3, k=0.3) for name in ("grid", "spam Lucy", "fixed lattice"))
+        yield from (Limit(method=name, scene="balanced", eta=0.3, k=0.3) for name in ("grid",
+                                                                                      "spam Lucy",
+"fixed lattice"))
         scene, time = LAYERS["Prandtl 100"]
-        yield Hard(case="Prandtl 100", method="fixed lattice", scene=scene, time=time/10*scene.L/scene.free_fall)
+        yield Hard(case="Prandtl 100", method="fixed lattice",
+                   scene=scene, time=time/10*scene.L/scene.free_fall)
         return
     yield from squares()
     yield from shocks(LENGTHS, RIPPLES, 3)
@@ -55,7 +58,7 @@ def cases(size: str) -> Iterator[Case]:
 
 
 def squares() -> Iterator[Case]:
-    """Both weights and fluids with the printed viscosities, what pairs in the gas also nearer to onset, which is at 5012."""
+    """Both weights and fluids with the printed viscosities; what pairs also nearer to onset, at 5012."""
     for (eos, ra), weight in product(((IdealGas(), 67150.0), (DenseFluid(), 511200.0)), (Monaghan, Lucy)):
         yield Square(eos=eos, weight=weight, ra=ra, t_end=25.0, mean_from=15.0)
     yield Square(weight=Monaghan, ra=1e4, t_end=40.0, mean_from=30.0)
@@ -70,7 +73,7 @@ def shocks(lengths: tuple[float, ...], ripples: tuple[tuple[float, float, int], 
 
 
 def method_tubes(lengths: tuple[int, ...], seeds: int) -> Iterator[Case]:
-    """All methods, viscosities and lengths; several seeds where points are disordered and the gas most viscous."""
+    """All methods, viscosities, lengths; several seeds of disordered points in the most viscous gas."""
     for method, eta, step, L in product(METHODS, ETAS, STEPS, lengths):
         many = method in RANDOM and eta == max(ETAS)
         for seed in range(1, seeds + 1 if many else 2):

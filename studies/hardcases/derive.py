@@ -1,11 +1,12 @@
-"""Rows that follow from whole tables: growth of ripples, the highest Ra, and what became of each method in each case.
+"""Rows that follow from whole tables: growth of ripples, the highest Ra, and the map.
 
-Rules of the map, written before the runs. diverges: the run did not reach its end. leaks: mass changed by more than LEAK.
-freezes: less than FROZEN of the flow is left. right: the number is within NEAR, and what the reference is uncertain by, of what
-it should be. wrong: stable, and none of these. A shock tube is right if v neither rings nor is off by more than NEAR, and
-diverges if a tube of any length did. The highest Ra is the first one that is bad: it ends, or its K is wrong but stable.
-refused: the method says itself that it does not take the case. unjudged: there is nothing to hold it against, since no two
-grids besides itself came to their end, a search found no limit, or a rate is known to worse than NEAR.
+Rules of the map, written before the runs. diverges: the run did not reach its end. leaks: mass changed by
+more than LEAK. freezes: less than FROZEN of the flow is left. right: the number is within NEAR, and what the
+reference is uncertain by, of what it should be. wrong: stable, and none of these. A shock tube is right if v
+neither rings nor is off by more than NEAR, and diverges if a tube of any length did. The highest Ra is the
+first one that is bad: it ends, or its K is wrong but stable. refused: the method says itself that it does not
+take the case. unjudged: there is nothing to hold it against, since no two grids besides itself came to their
+end, a search found no limit, or a rate is known to worse than NEAR.
 """
 from collections.abc import Callable, Iterator
 from math import log
@@ -41,7 +42,7 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     return {name: some for name, some in rows.items() if some}
 
 
-# --- ripples ----------------------------------------------------------------------------------------------------------
+# --- ripples --------------------------------------------------------------------------------------
 
 
 def ripple_growth(ripples: pd.DataFrame) -> Rows:
@@ -73,11 +74,11 @@ def ripple(run: pd.DataFrame, theory: Impulse) -> tuple[Measured, Measured, Meas
     return (up - down)/theory.kick, amplitude/theory.amplitude, growth/theory.growth
 
 
-# --- the highest Ra ---------------------------------------------------------------------------------------------------
+# --- the highest Ra -------------------------------------------------------------------------------
 
 
 def high_ra_summary(limits: pd.DataFrame, grid: pd.DataFrame) -> Rows:
-    """Geometric means, the lowest and the highest, over starts that have a limit; what most of these do beyond it."""
+    """Geometric means and extremes over starts that have a limit; what most of these do beyond it."""
     slope, constant = cell_numbers(grid)
     predicted = float(np.exp((log(CELL_NUMBER) - constant)/slope))
     for (method, step, kind), rows in limits.groupby(["method", "step", "kind"]):
@@ -96,7 +97,7 @@ def cell_numbers(grid: pd.DataFrame) -> tuple[float, float]:
     return float(slope), float(constant)
 
 
-# --- the map ----------------------------------------------------------------------------------------------------------
+# --- the map --------------------------------------------------------------------------------------
 
 
 def entry(case: str, method: str, variant: str, outcome: str, number: str, measured: Any, err: Any = 0.0,
@@ -130,7 +131,7 @@ def decisive(runs: pd.DataFrame, run: pd.Series) -> tuple[str, float, Measured]:
 
 
 def against_grid(runs: pd.DataFrame, run: pd.Series) -> Measured:
-    """Flow over that of the finest grid that came to its end, and its error: that flow is off by what the next coarser one is.
+    """Flow over that of the finest grid that came to its end; error: what the next coarser one changes.
 
     A grid is no judge of itself: neither the reference nor its error come from the rows that are judged.
     """
@@ -193,7 +194,8 @@ def of_tubes(tubes: pd.DataFrame) -> Rows:
             yield entry("shock tube", method, variant, "diverges", PART_OF_TIME, rows["reached"].min())
         else:
             verdict = "right" if max(ring.mean(), error) <= NEAR else "wrong"
-            yield entry("shock tube", method, variant, verdict, "ringing of v", ring.mean(), float(np.ptp(ring))/2, 0.0)
+            yield entry("shock tube",
+                        method, variant, verdict, "ringing of v", ring.mean(), float(np.ptp(ring))/2, 0.0)
 
 
 def of_smooth_tubes(tubes: pd.DataFrame) -> Rows:
@@ -207,7 +209,8 @@ def of_high_ra(summary: pd.DataFrame) -> Rows:
     verdicts = {"none": "unjudged", "ends": "diverges"}
     for _, row in summary[summary["step"] == 1].iterrows():
         yield entry("highest Ra", row["method"], "first bad" if row["kind"] == "wrong" else "ends",
-                    verdicts.get(row["outcome"], "wrong"), "Ra", row["ra"], (row["ra_high"] - row["ra_low"])/2,
+                    verdicts.get(row["outcome"], "wrong"), "Ra",
+                                 row["ra"], (row["ra_high"] - row["ra_low"])/2,
                     row["predicted"])
 
 

@@ -15,7 +15,9 @@ from studies.kit.table import Tables
 
 CASES = (*LAYERS, "highest Ra", *BOXES, "shear layer", "shock tube")
 #: letter, shade and hatch of an outcome; the darker, the worse
-LOOKS = {"right": ("R", "white", ""), "wrong": ("W", "0.85", "/"), "leaks": ("L", "0.85", "\\"), "freezes": ("F", "0.7", "x"),
+LOOKS = {"right": ("R",
+                   "white",
+""), "wrong": ("W", "0.85", "/"), "leaks": ("L", "0.85", "\\"), "freezes": ("F", "0.7", "x"),
          "diverges": ("D", "0.5", ""), "refused": ("-", "white", ""), "unjudged": ("?", "white", "")}
 WORDS = {"unjudged": "not judged, no two other grids came to their end, or noise"}
 CLEAR = 0.2             # between scenes of one method, in rows
@@ -27,7 +29,7 @@ def figures(tables: Tables) -> dict[str, Figure]:
             if all(len(tables.get(source, ())) for source in sources)}
 
 
-# --- the map ----------------------------------------------------------------------------------------------------------
+# --- the map --------------------------------------------------------------------------------------
 
 
 def chart(rows: pd.DataFrame, runs: pd.DataFrame) -> Figure:
@@ -45,9 +47,10 @@ def chart(rows: pd.DataFrame, runs: pd.DataFrame) -> Figure:
     axes.set_xticks(range(len(cases)), fontsize=8, labels=[heading(case, runs) for case in cases])
     axes.grid(False)
     letters = [f"{LOOKS[name][0]}: {WORDS.get(name, name)}" for name in LOOKS if name in set(rows["outcome"])]
-    axes.set_xlabel("  ".join(letters) + "  empty: not run\nnumber: flow over the start's, or over that of the grid of so many "
-                    "rows;\nvacuum: K over exact; corner: speed over sound's; shear: growth over linear; tube: ringing; highest "
-                    "Ra: the first that is wrong or ends")
+    axes.set_xlabel("  ".join(letters) + "  empty: not run\nnumber: flow over the start's, or over that of "
+                                         "the grid of so many rows;\nvacuum: K over exact; corner: speed over "
+                                         "sound's; shear: growth over linear; tube: ringing; highest Ra: the "
+                                         "first that is wrong or ends")
     axes.set_title(f"Which method takes which hard case? Layers of {ROWS} rows")
     return page
 
@@ -55,7 +58,8 @@ def chart(rows: pd.DataFrame, runs: pd.DataFrame) -> Figure:
 def cell(axes: Any, x: int, y: int, row: pd.Series) -> None:
     """One method in one case."""
     letter, shade, hatch = LOOKS[row["outcome"]]
-    axes.add_patch(Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=shade, edgecolor="0.6", hatch=hatch, linewidth=0.5))
+    axes.add_patch(Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=shade, edgecolor="0.6",
+                              hatch=hatch, linewidth=0.5))
     shown = pd.notna(row["measured"]) and row["number"] != PART_OF_TIME
     value = f" {row['measured']:.2g}" if shown else ""
     axes.text(x, y, f"{letter}{value}", ha="center", va="center", fontsize=8,
@@ -69,7 +73,7 @@ def heading(case: str, runs: pd.DataFrame) -> str:
 
 
 def steadiness(rows: pd.DataFrame) -> Figure:
-    """Swing of K against rows, in the last quarter and in the one before, and the part of the time that was reached."""
+    """Swing of K in the last two quarters, and the part of the time that was reached, over rows."""
     page, (axes, end) = figure(1, 2)
     for number, (ra, some) in enumerate(rows.groupby("ra")):
         end.plot(some["rows"], some["reached"], label=f"Ra {ra:g}", **look(number))
@@ -84,7 +88,7 @@ def steadiness(rows: pd.DataFrame) -> Figure:
     return page
 
 
-# --- the highest Ra, steps --------------------------------------------------------------------------------------------
+# --- the highest Ra, steps ------------------------------------------------------------------------
 
 
 def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
@@ -120,7 +124,8 @@ def limits(rows: pd.DataFrame) -> Figure:
         for axes, column in ((own, "predicted"), (alone, "shorter"), (exact, "exact")):
             axes.errorbar(some["measured"]/some[column], some["at"], xerr=some["measured_err"]/some[column], label=scene,
                           **{**look(number), "linestyle": "none"})
-    own.set(yticks=range(len(methods)), yticklabels=methods, xscale="log", xlabel="measured / the method's own formula")
+    own.set(yticks=range(len(methods)), yticklabels=methods, xscale="log",
+                             xlabel="measured / the method's own formula")
     own.set_xticks([1, 1.4, 2, 3, 5], labels=["1", "1.4", "2", "3", "5"])
     own.set_xticks([], minor=True)
     alone.set_xlabel("measured / for sound or diffusion alone")
@@ -130,8 +135,8 @@ def limits(rows: pd.DataFrame) -> Figure:
         axes.axvspan(0.9, 1.1, color="0.9", zorder=0)
     own.invert_yaxis()
     page.legend(*own.get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    page.suptitle("At which step does noise begin to grow? Measured over predicted\nbars: half of the last interval of the "
-                  "search, and growth that is too slow to be seen; grey: 10 %", fontsize=10)
+    page.suptitle("At which step does noise begin to grow? Measured over predicted\nbars: half of the last "
+                  "interval of the search, and growth that is too slow to be seen; grey: 10 %", fontsize=10)
     return page
 
 

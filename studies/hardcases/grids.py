@@ -1,4 +1,4 @@
-"""Hard cases on the compressible grid: as coarse as the points, where it is a method, and finer, where it is the reference."""
+"""Hard cases on the compressible grid: as coarse as the points, and finer as their reference."""
 from dataclasses import dataclass
 from math import ceil
 from pathlib import Path
@@ -23,7 +23,7 @@ GRID = "grid"
 SETTLED = 150.0         # free-fall times after which a steady flow has long settled
 
 
-# --- between plates ---------------------------------------------------------------------------------------------------
+# --- between plates -------------------------------------------------------------------------------
 
 
 class Progress:
@@ -69,7 +69,7 @@ class OnGrid(Case):
 
 
 def of_grid(fields: Fields) -> Body:
-    """Nodes as bodies; between periodic sides the last column repeats the first, on a torus the last row does, too."""
+    """Nodes as bodies, without columns and rows that repeat the first."""
     torus, whole, but_last = isinstance(fields.scene.sides, Torus), slice(None), slice(None, -1)
     rows, columns = but_last if torus else whole, but_last if torus or fields.periodic else whole
     x, y = np.meshgrid(fields.x[columns], fields.y[rows])
@@ -111,7 +111,7 @@ def swing(k: np.ndarray) -> float:
     return float(np.ptp(k)/k.mean())
 
 
-# --- without plates ---------------------------------------------------------------------------------------------------
+# --- without plates -------------------------------------------------------------------------------
 
 
 class Going:

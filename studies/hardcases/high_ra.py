@@ -1,13 +1,14 @@
-"""Up to which Rayleigh number do 16 rows last? KHP95's layer, followed for 50 free-fall times, Ra halved in upon.
+"""Up to which Rayleigh number do 16 rows last? KHP95's layer, followed for 50 free-fall times.
 
-A run is wrong if K of its last third is off by a factor of more than OFF from the grid's of 48 rows at the same Ra, or if it
-ended before. The map calls a tenth wrong, of flow at Ra 1e5 and 1e6; grids of 16 and of 96 rows differ by a tenth in K at Ra 1e5,
-so that OFF leaves room for as much again. Ra is raised by half decades until a run is wrong, and beyond until one ends; then the
-interval is halved, on the scale of v a/nu of the free-fall velocity, (Ra/Pr)^(1/2)/16. Whether K is off is asked up to 1e6 only,
-as far as the fine grid has been seen to come. All is done again in shorter steps, since v grows after these are chosen.
+A run is wrong if K of its last third is off by a factor of more than OFF from the grid's of 48 rows at the
+same Ra, or if it ended before. The map calls a tenth wrong, of flow at Ra 1e5 and 1e6; grids of 16 and of 96
+rows differ by a tenth in K at Ra 1e5, so that OFF leaves room for as much again. Ra is raised by half decades
+until a run is wrong, and beyond until one ends; then the interval is halved, on the scale of v a/nu of the
+free-fall velocity, (Ra/Pr)^(1/2)/16. Whether K is off is asked up to 1e6 only, as far as the fine grid has
+been seen to come. All is done again in shorter steps, since v grows after these are chosen.
 
-Expected: central differences keep order while v a/nu of the fastest flow, that of the fine grid, is below 2. This is no limit of
-stability: no formula is known that says where a run ends.
+Expected: central differences keep order while v a/nu of the fastest flow, that of the fine grid, is below 2.
+This is no limit of stability: no formula is known that says where a run ends.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -41,7 +42,7 @@ SAMPLES, LATE = 60, 40  # of a run; from where on K is averaged
 NOISE = 1e-6            # of the density at the start, by which seeds differ where points do not
 
 
-# --- one run ----------------------------------------------------------------------------------------------------------
+# --- one run --------------------------------------------------------------------------------------
 
 
 class Attempt(NamedTuple):
@@ -122,7 +123,7 @@ METHODS: dict[str, Callable[[float, int, float], Attempt]] = {
     "moving": partial(points, build=shifted)}
 
 
-# --- what K should be -------------------------------------------------------------------------------------------------
+# --- what K should be -----------------------------------------------------------------------------
 
 
 @cache
@@ -156,7 +157,7 @@ class FineGrid(Case):
         return Outcome({"high_ra_grid": reference(self.rows)})
 
 
-# --- the search -------------------------------------------------------------------------------------------------------
+# --- the search -----------------------------------------------------------------------------------
 
 
 class Search:
@@ -167,7 +168,7 @@ class Search:
         self.trials: dict[float, Attempt] = {}
 
     def at(self, ra: float) -> Attempt:
-        """The run at a Rayleigh number, of which nine digits count: a rung is met again as the square of a root."""
+        """The run at a Rayleigh number; nine digits count, so that rungs are met again."""
         ra = float(f"{ra:.9g}")
         if ra not in self.trials:
             self.trials[ra] = METHODS[self.method](ra, self.seed, self.step)
@@ -189,7 +190,7 @@ class Search:
                 return
 
     def limit(self, bad: Callable[[float], bool], most: float) -> dict[str, Any]:
-        """Of all trials up to `most` the first that is bad, and the last before it: a search may have passed over an island."""
+        """The first bad trial up to `most`, and the last before it: a search may pass over an island."""
         tried = sorted(ra for ra in self.trials if ra <= most)
         judged = [bad(ra) for ra in tried]
         if not any(judged):

@@ -1,9 +1,9 @@
-"""An interface that a shock runs over: does its ripple grow as impulsive theory says?    [KHP95, Sec. VI, Fig. 11]
+"""An interface that a shock runs over: does its ripple grow as theory says?    [KHP95, Fig. 11]
 
-Printed are the width, 30, the height, 100, and a density ratio of 4 of two ideal gases; not printed are strength of the shock,
-amplitude and direction, nor the walls: here a shock of Mach 1.5 comes through the light gas, the ripple has one wavelength and
-k a = 0.25 or 0.75, 1.2 or 3.6 spacings. Both gases fall with the speed of the piston onto a resting mirror, which is where the
-shock begins; above is vacuum.
+Printed are the width, 30, the height, 100, and a density ratio of 4 of two ideal gases; not printed are
+strength of the shock, amplitude and direction, nor the walls: here a shock of Mach 1.5 comes through the
+light gas, the ripple has one wavelength and k a = 0.25 or 0.75, 1.2 or 3.6 spacings. Both gases fall with the
+speed of the piston onto a resting mirror, which is where the shock begins; above is vacuum.
 """
 from dataclasses import dataclass
 from math import pi, sqrt
@@ -32,8 +32,9 @@ SAMPLES = 60
 
 
 class Impulse(NamedTuple):
-    """What theory says: speed of the falling gas, time at which the shock meets the interface, velocity that this gives to it,
-    time at which the reflected shock comes to the mirror, amplitude behind the shock and its growth rate.
+    """What theory says: speed of the falling gas, time at which the shock meets the interface, velocity that
+    this gives to it, time at which the reflected shock comes to the mirror, amplitude behind the shock and
+    its growth rate.
     """
     fall: float
     meets: float
@@ -44,7 +45,10 @@ class Impulse(NamedTuple):
 
 
 def impulse(scale: float, steep: float) -> Impulse:
-    """da/dt = k a+ A+ dv, a+ = a (1 - dv/W) [Richtmyer 1960]: k a = steep, + behind the shock of speed W, dv the interface's."""
+    """da/dt = k a+ A+ dv with a+ = a (1 - dv/W), k a = steep    [Richtmyer 1960]
+
+    + is behind the shock of speed W, dv the velocity of the interface.
+    """
     c = sqrt(GAMMA*LIGHT.P/LIGHT.rho)
     fall, W = 2*c/(GAMMA + 1)*(MACH - 1/MACH), MACH*c
     behind = middle(Gas(LIGHT.rho, fall, LIGHT.P), Gas(LIGHT.rho, -fall, LIGHT.P), GAMMA)      # a gas against its mirror image
@@ -59,7 +63,7 @@ def impulse(scale: float, steep: float) -> Impulse:
 
 
 def gases(scale: float, steep: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
-    """State (5, n) at the start, and which particles are light: rows of both gases, cut at the rippled interface."""
+    """State (5, n) at the start, and which particles are light: rows cut at the rippled interface."""
     rng, width, bottom = np.random.default_rng(seed), WIDTH*scale, -HEIGHT*scale/2
     k, parts, light = 2*pi/width, [], []
     for gas in (LIGHT, HEAVY):
@@ -80,7 +84,7 @@ def gases(scale: float, steep: float, seed: int) -> tuple[np.ndarray, np.ndarray
 
 
 def ripple(x: np.ndarray, y: np.ndarray, light: np.ndarray, width: float) -> tuple[float, float]:
-    """Mean height and amplitude of the interface: in each strip the height with the fewest particles on the wrong side."""
+    """Mean height and amplitude of the interface, from the best division of each strip."""
     strip = np.floor((x/width + 0.5)*STRIPS).astype(int) % STRIPS
     at = np.array([divide(y[strip == i], light[strip == i]) for i in range(STRIPS)])
     middle_of_strips = (np.arange(STRIPS) + 0.5)/STRIPS - 0.5
@@ -88,7 +92,7 @@ def ripple(x: np.ndarray, y: np.ndarray, light: np.ndarray, width: float) -> tup
 
 
 def divide(y: np.ndarray, light: np.ndarray) -> float:
-    """The height above which there are fewest light and below which there are fewest heavy particles; of several their mean."""
+    """The height with the fewest particles on the wrong side; of several their mean."""
     order = np.argsort(y)
     heights, below = y[order], light[order]
     heavy_below = np.concatenate([[0], np.cumsum(~below)])

@@ -29,13 +29,21 @@ class Built(NamedTuple):
     body: Callable[[np.ndarray], Body]
 
 
+def moved(method: Any) -> Callable[[np.ndarray], Body]:
+    """What moves of a method's states."""
+    def body(state: np.ndarray) -> Body:
+        at = method.fields(state)
+        return Body(at.x, at.v, at.rho*at.V)
+    return body
+
+
 def kinetic(body: Body) -> float:
     """K per mass."""
     return float(0.5*body.m@(body.v**2).sum(axis=1)/body.m.sum())
 
 
 def flow(body: Body, box: tuple[float, float]) -> float:
-    """The same of velocities averaged over the mass in cells of SPACINGS: noise between neighbours is left out."""
+    """The same of mean velocities in cells of SPACINGS, which have no noise between neighbours."""
     cells = np.maximum(1, np.round(np.array(box)/SPACINGS)).astype(int)
     at = np.clip(((body.x/np.array(box) + 0.5)*cells).astype(int), 0, cells - 1)
     cell = at[:, 0]*cells[1] + at[:, 1]
@@ -44,7 +52,7 @@ def flow(body: Body, box: tuple[float, float]) -> float:
     return float(0.5*np.sum(p**2/np.maximum(mass, 1e-300))/mass.sum())
 
 
-# --- families ---------------------------------------------------------------------------------------------------------
+# --- families -------------------------------------------------------------------------------------
 
 
 def places(scene: Any) -> np.ndarray:
@@ -59,37 +67,29 @@ def smooth(scene: Any, variant: spam.Variant, open_box: bool = False) -> Built:
     x = places(scene)
     x = x[scene.fields(x)[0] > THIN]
     ready = variant.ready(scene, x=x)
-    return Built(ready.method, ready.start, variant.step*ready.limit,
-                 lambda state: Body(state[:2].T, state[2:4].T, np.ones(state.shape[1])))
+    return Built(ready.method, ready.start, variant.step*ready.limit, moved(ready.method))
 
 
 def fixed(scene: Any, scheme: fixed_points.Scheme) -> Built:
     """Points that stay."""
     method, start, dt = scheme.ready(scene)
-    return Built(method, start, dt, lambda state: Body(method.x, (state[1:3]/state[0]).T, state[0]*method.edges.V))
+    return Built(method, start, dt, moved(method))
 
 
-def drifting(scene: Any, motion: rr98_moving.DriftMotion) -> Built:
-    """RR98's own motions."""
+def drifting(scene: Any, motion: rr98_moving.DriftMotion | moving.Motion) -> Built:
+    """RR98's own motions, and moving points with closed faces."""
     method, start, dt = motion.ready(scene, x=places(scene))
-    return Built(method, start, dt,
-                 lambda state: Body(state[:2].T, (state[2:4]/state[4]).T, state[4]*state[6]/motion.motion.owned(state[6])))
+    return Built(method, start, dt, moved(method))
 
 
-def closed(scene: Any, motion: moving.Motion) -> Built:
-    """Moving points with closed faces."""
-    method, start, dt = motion.ready(scene, x=places(scene))
-    return Built(method, start, dt, lambda state: Body(state[:2].T, (state[4:6]/state[6]).T, state[6]))
-
-
-# --- names ------------------------------------------------------------------------------------------------------------
+# --- names ----------------------------------------------------------------------------------------
 
 
 SPAM = {"spam printed": partial(smooth, variant=spam.PRINTED),
         "spam Wendland": partial(smooth, variant=spam.VARIANTS["wendland-c2"])}
 MOVING = {"drift literal": partial(drifting, motion=rr98_moving.DRIFT_MOTIONS["moving-literal"]),
           "drift constant mass": partial(drifting, motion=rr98_moving.DRIFT_MOTIONS["moving-constant-mass"]),
-          "moving": partial(closed, motion=moving.MOTIONS["moving"])}
+          "moving": partial(drifting, motion=moving.MOTIONS["moving"])}
 FIXED = {name: partial(fixed, scheme=fixed_points.SCHEMES[scheme]) for name, scheme in (
     ("fixed lattice", "fixed-lattice"), ("fixed nested", "fixed-lattice-nested-only"),
     ("fixed jittered", "fixed-jittered-delaunay"), ("fixed random", "fixed-random-delaunay"),
@@ -97,7 +97,8 @@ FIXED = {name: partial(fixed, scheme=fixed_points.SCHEMES[scheme]) for name, sch
 LATTICE = fixed_points.SCHEMES["fixed-lattice"]
 
 #: those that are tried on all layers and on the vortex
-USUAL = {**SPAM, **{name: FIXED[name] for name in ("fixed lattice", "fixed nested", "fixed jittered")}, **MOVING}
+USUAL = {**SPAM, **{name: FIXED[name] for name in ("fixed lattice",
+                                                   "fixed nested", "fixed jittered")}, **MOVING}
 DISORDERED = {name: build for name, build in FIXED.items() if name != "fixed nested"}
 RANGES = (0.9, 1.2, 1.5, 2.0)
 NARROW = {**{f"spam h {h:g}": partial(smooth, variant=spam.PRINTED._replace(h=h)) for h in RANGES},
@@ -111,5 +112,7 @@ SHEARED = {**SPAM, **MOVING, "fixed lattice": FIXED["fixed lattice"], "fixed jit
     fixed, scheme=fixed_points.SCHEMES["fixed-jittered-delaunay"]._replace(points=partial(positions)))}
 #: which methods take which case; a strip in a vacuum has no points outside but smooth particles'
 TAKES: dict[str, dict[str, partial]] = {
-    **dict.fromkeys(("Ra 1e5", "Ra 1e6", "Prandtl 0.01", "Prandtl 100", "high pressure", "zero viscosity", "vacuum"), USUAL),
+    **dict.fromkeys(("Ra 1e5",
+                     "Ra 1e6",
+"Prandtl 0.01", "Prandtl 100", "high pressure", "zero viscosity", "vacuum"), USUAL),
     "disordered points": DISORDERED, "narrow weight": NARROW, "wall corner": CORNERS}

@@ -1,4 +1,5 @@
-"""Hard cases on points: K, flow and mass of one method in one case, and the growth of a wave on a shear flow."""
+"""Hard cases on points: K, flow and mass of one method in one case, and the growth of a wave on a shear flow.
+"""
 from dataclasses import dataclass
 from math import ceil
 from pathlib import Path
@@ -52,7 +53,10 @@ def row(case: str, method: str, values: dict[str, Any], rows: int) -> Outcome:
 
 @dataclass(frozen=True, kw_only=True)
 class Hard(Case):
-    """One method in one case. time : in the units of the scene. A method that refuses leaves a row that says why."""
+    """One method in one case. time : in the units of the scene.
+
+    A method that refuses leaves a row that says why.
+    """
     case: str
     method: str
     scene: Any
@@ -84,7 +88,7 @@ class Hard(Case):
         return row(self.case, self.method, watch.late, rows)
 
 
-# --- the shear flow ---------------------------------------------------------------------------------------------------
+# --- the shear flow -------------------------------------------------------------------------------
 
 
 class Amplitude:

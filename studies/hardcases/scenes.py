@@ -1,6 +1,8 @@
-"""Hard cases: a scene, how long it is followed, and what is to be expected    [KHP95, Sec. VI; RR98, Sec. III]
+"""Hard cases: a scene, how long it is followed, and what is to be expected    [KHP95, Sec. VI; RR98, Sec.
+III]
 
-All have 16 rows: the question is who gives way first, not who is best. Units: spacing, mean density, P/rho at T = 1.
+All have 16 rows: the question is who gives way first, not who is best. Units: spacing, mean density, P/rho at
+T = 1.
 """
 from dataclasses import dataclass
 from math import pi, sqrt
@@ -19,7 +21,7 @@ SPEED = 0.1         # of the vortex: Mach number 0.07
 
 @dataclass(frozen=True, kw_only=True)
 class Vortex(Slab):
-    """One Taylor-Green vortex without viscosity between plates that slip: it is steady, its kinetic energy stays."""
+    """A steady Taylor-Green vortex without viscosity between plates that slip."""
     L: float = ROWS
     aspect: float = 1.0
     viscosity: float = 0.0
@@ -33,7 +35,7 @@ class Vortex(Slab):
 
 @dataclass(frozen=True, kw_only=True)
 class Strip(Slab):
-    """Gas without viscosity, |x| < L, on either side of it nothing: rarefactions run in, fronts out at 2 c/(gamma - 1) = 2 c."""
+    """Gas without viscosity, |x| < L, beside nothing: fronts run out at 2 c/(gamma - 1) = 2 c."""
     L: float = 8.0
     aspect: float = 12.0
     viscosity: float = 0.0
@@ -49,9 +51,13 @@ class Strip(Slab):
         return rho, np.zeros((len(x), 2)), self.T(x[:, 1])
 
     def kinetic(self, t: float) -> float:
-        """K per mass before the rarefactions meet: 0.2 c^3 t/L for gamma = 2, from u = 2 (c + x/t)/3, rho = (2 - x/ct)^2/9."""
+        """K per mass before the rarefactions meet, 0.2 c^3 t/L for gamma = 2.
+
+        From u = 2 (c + x/t)/3 and rho = (2 - x/ct)^2/9.
+        """
         if not t < self.L/SOUND:
-            raise ValueError(f"rarefactions have met at t = {self.L/SOUND:.3g}, got {t}: take an earlier time")
+            raise ValueError(f"rarefactions have met at t = {self.L/SOUND:.3g}, got {t}: take an earlier "
+                             "time")
         return 0.2*SOUND**3*t/self.L
 
 
@@ -96,7 +102,7 @@ def fastest(k: float, kx: float) -> Wave:
 
 @dataclass(frozen=True, kw_only=True)
 class ShearFlow(Slab):
-    """u = U sin ky without viscosity, with the wave that grows fastest: its v has the size BEGIN U in the mean over y."""
+    """u = U sin ky without viscosity, and the wave that grows fastest, of size BEGIN U."""
     L: float = 16.0
     aspect: float = 2.0
     viscosity: float = 0.0
@@ -140,5 +146,6 @@ def layer(ra: float, pr: float = 1.0, T: float = 1.0) -> RayleighBenard:
 LAYERS = {"Ra 1e5": (layer(1e5), 50.0), "Ra 1e6": (layer(1e6), 50.0), "Prandtl 0.01": (layer(1e4, 0.01), 30.0),
           "Prandtl 100": (layer(1e4, 100.0), 30.0), "high pressure": (layer(1e4, T=4.0), 20.0),
           "disordered points": (layer(1e4), 30.0), "narrow weight": (layer(1e4), 30.0)}
-#: the vortex turns SPEED t/L = 5 times, the rarefactions come within 0.7 of the middle, walls are crossed by sound 35 times
+#: the vortex turns SPEED t/L = 5 times, the rarefactions come within 0.7 of the middle, walls are crossed by
+#: sound 35 times
 BOXES = {"zero viscosity": (Vortex(), 800.0), "vacuum": (Strip(), 0.7*8/SOUND), "wall corner": (Corner(), 300.0)}

@@ -16,7 +16,8 @@ LINE: dict[str, Any] = {"linestyle": "-", "marker": ""}
 
 
 def shocks(profiles: pd.DataFrame, ripples: pd.DataFrame) -> Figure:
-    """Above: density and velocity in the longest tube without and with viscosity. Below: the ripple in time."""
+    """Above: density and velocity in the longest tube without and with viscosity. Below: the ripple in time.
+    """
     page, (above, (height, amplitude)) = figure(2, 2, width=4.4, height=3.2)
     for axes, (eta, rows) in zip(above, profiles.groupby("eta"), strict=False):
         tube(axes, rows.sort_values("x"), float(eta))
@@ -38,7 +39,8 @@ def tube(axes: Any, rows: pd.DataFrame, eta: float) -> None:
     """Density and velocity of particles, of the exact solution and of the viscous grid."""
     for number, (name, label) in enumerate((("rho", r"$\rho$"), ("v", "$v$"))):
         style = look(number)
-        axes.plot(rows["x"], rows[name], **{**style, "linestyle": "none", "markersize": 2}, label=f"{label}, particles")
+        axes.plot(rows["x"], rows[name], **{**style, "linestyle": "none",
+                  "markersize": 2}, label=f"{label}, particles")
         axes.plot(rows["x"], rows[f"{name}_exact"], color="black", linewidth=0.7, **LINE,
                   label="without viscosity, exact" if number else "")
         if rows[f"{name}_grid"].notna().all():
@@ -62,7 +64,7 @@ def ripple(height: Any, amplitude: Any, rows: pd.DataFrame, style: dict[str, Any
 
 
 def expected(height: Any, amplitude: Any, ripples: pd.DataFrame) -> None:
-    """The exact height of the interface, and impulsive growth of its ripple; over the units drawn all sizes are alike."""
+    """The exact height of the interface, and impulsive growth of its ripple."""
     theory = impulse(float(ripples["scale"].max()), float(ripples["steep"].max()))
     dashed: dict[str, Any] = {"color": "black", "linestyle": "--", "marker": ""}
     times = np.array([0.0, theory.meets, theory.back])
@@ -73,7 +75,8 @@ def expected(height: Any, amplitude: Any, ripples: pd.DataFrame) -> None:
 
 
 def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame, tubes: pd.DataFrame, others: pd.DataFrame) -> Figure:
-    """Above: densities, one above the other, without viscosity, with little and with that of smooth particles. Below: errors.
+    """Above: densities, one above the other, without viscosity, with little and with that of smooth
+    particles. Below: errors.
 
     Of the shorter step: what ends with it is not the step's fault.
     """
@@ -83,12 +86,14 @@ def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame, tubes: pd.DataFram
     sheet, all_axes = figure(2, len(ETAS), width=4.0, height=4.4)
     for above, under, eta in zip(*all_axes, ETAS, strict=True):
         densities(above, *(frame[np.isclose(frame["eta"], eta)] for frame in (lines, rows)))
-        above.set(title=rf"$\eta = k = {eta:g}$", xlabel="distance from the diaphragm / $L$", xlim=(-0.8, 1.0),
+        above.set(title=rf"$\eta = k = {eta:g}$", xlabel="distance from the diaphragm / $L$",
+                  xlim=(-0.8, 1.0),
                   ylim=(-0.1, SHIFT*(len(ALL) - 1) + 1.15), yticks=[])
         by_length(under, points[np.isclose(points["eta"], eta)])
     all_axes[0, 0].set_ylabel("density, methods one above the other")
     sheet.legend(*all_axes[1, 1].get_legend_handles_labels(), loc="outside lower center", ncols=len(ALL))
-    sheet.suptitle("Sod's shock tube at $t = 0.4 L$ without artificial viscosity; thin: exact, frictionless", fontsize=10)
+    sheet.suptitle("Sod's shock tube at $t = 0.4 L$ without artificial viscosity; thin: exact, frictionless",
+                   fontsize=10)
     return sheet
 
 
@@ -98,7 +103,8 @@ def by_length(axes: Any, rows: pd.DataFrame) -> None:
         some = rows[rows["method"] == method].dropna(subset=["v_exact"])
         means = some.groupby("L")["v_exact"].mean()
         axes.plot(means.index, means, **look(number), label=method)
-    axes.set(xscale="log", yscale="log", xlabel="half the tube's length $L$ / spacings", ylim=(5e-3, 0.3), xlim=(22, 210),
+    axes.set(xscale="log",
+             yscale="log", xlabel="half the tube's length $L$ / spacings", ylim=(5e-3, 0.3), xlim=(22, 210),
              ylabel="mean error of $v$ / range")
     axes.set_xticks([24, 48, 96, 192], labels=["24", "48", "96", "192"])
     axes.minorticks_off()
@@ -115,4 +121,5 @@ def densities(axes: Any, lines: pd.DataFrame, rows: pd.DataFrame) -> None:
             axes.plot(x, up + some["rho"], **{**look(number), "linestyle": "none", "markersize": 2})
             axes.text(0.98, up + 0.02, f"{method}, $L$ = {L:g}", ha="right", fontsize=8)
         elif len(run):
-            axes.text(0.98, up + 0.2, f"{method}: ended at {run['reached'].iloc[-1]:.2g} of the time", ha="right", fontsize=8)
+            axes.text(0.98, up + 0.2, f"{method}: ended at {run['reached'].iloc[-1]:.2g} of the time",
+                      ha="right", fontsize=8)

@@ -1,8 +1,9 @@
-"""Sod's shock tube with smooth particles as printed: how near to the exact solution, and does the gas stay in order?
+"""Sod's shock tube with smooth particles as printed: how near are they to the exact solution?
 
-Density 1 and pressure 1 against 0.125 and 0.1, gamma = 1.4 [Sod 1978]. Particles have one mass, so the thin gas has eight
-times fewer of them, and one range, 3 mean spacings    [KHP95, Sec. II]. A periodic strip holds the tube and its mirror
-image: dense at |x| < L, thin at L < |x| < 2 L, without walls. At the time 0.4 L the shock is at 1.70 L.
+Density 1 and pressure 1 against 0.125 and 0.1, gamma = 1.4 [Sod 1978]. Particles have one mass, so the thin
+gas has eight times fewer of them, and one range, 3 mean spacings    [KHP95, Sec. II]. A periodic strip holds
+the tube and its mirror image: dense at |x| < L, thin at L < |x| < 2 L, without walls. At the time 0.4 L the
+shock is at 1.70 L.
 
 A viscous gas is followed on a fine grid: one-dimensional Navier-Stokes-Fourier in flux form, between mirrors.
 """
@@ -36,7 +37,7 @@ NAMES = ("rho", "v", "P")
 ERRORS = tuple(f"{name}_{of}" for of in ("exact", "grid") for name in NAMES)
 
 
-# --- what to expect ---------------------------------------------------------------------------------------------------
+# --- what to expect -------------------------------------------------------------------------------
 
 
 def exact(L: float, x: np.ndarray) -> np.ndarray:
@@ -68,7 +69,7 @@ def primitive(U: np.ndarray) -> np.ndarray:
 
 
 def rates(eos: Any, law: ConstEta, dx: float, U: np.ndarray) -> np.ndarray:
-    """dU/dt from fluxes on faces: means of both cells and differences between them; behind both ends is a mirror image."""
+    """dU/dt from fluxes on faces; behind both ends is a mirror image."""
     rho, v, e = np.pad(primitive(U), ((0, 0), (1, 1)), "edge")
     v[0], v[-1] = -v[1], -v[-2]
     T, P = temperature(eos, rho, e), pressure(eos, rho, e)
@@ -80,7 +81,7 @@ def rates(eos: Any, law: ConstEta, dx: float, U: np.ndarray) -> np.ndarray:
 
 
 def errors(fields: np.ndarray, truth: np.ndarray, twin: np.ndarray) -> dict[str, float]:
-    """ERRORS: mean |difference| of fields (3, n) from the exact and from the grid's, over the range of the exact ones."""
+    """ERRORS: mean |difference| of fields (3, n) from both others, over the range of the exact ones."""
     size = np.ptp(truth, axis=1)
     values = [np.abs(fields - other).mean(axis=1)/size for other in (truth, twin)]
     return dict(zip(ERRORS, np.concatenate(values).tolist(), strict=True))
@@ -91,7 +92,7 @@ def wiggles(v: np.ndarray, truth: np.ndarray) -> float:
     return float(np.abs(np.diff(v)).sum()/np.abs(np.diff(truth)).sum() - 1)
 
 
-# --- smooth particles -------------------------------------------------------------------------------------------------
+# --- smooth particles -----------------------------------------------------------------------------
 
 
 def tube(L: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
@@ -111,7 +112,8 @@ def tube(L: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
 
 @dataclass(frozen=True, kw_only=True)
 class ShockTube(Case):
-    """One tube. L : half of its length, spacings, a multiple of 3. eta : viscosity and conductivity; 0 has no grid beside it.
+    """One tube. L : half of its length, spacings, a multiple of 3. eta : viscosity and conductivity; 0 has no
+    grid beside it.
 
     keep : whether profiles go to the table.
     """
@@ -166,6 +168,9 @@ def smoothed(method: Any, state: np.ndarray, x: np.ndarray) -> np.ndarray:
 
 
 def overlap(x: np.ndarray, dense: np.ndarray) -> float:
-    """How far dense and thin gas reach into each other, spacings: 0 or less if in order. Both ends of the dense gas count."""
+    """How far dense and thin gas reach into each other, spacings: 0 or less if in order.
+
+    Both ends of the dense gas count.
+    """
     inside, outside = np.sort(np.abs(x)[dense]), np.sort(np.abs(x)[~dense])
     return float(inside[-4:].mean() - outside[:4].mean())

@@ -1,7 +1,9 @@
-"""The squares of Fig. 10: rolls and pairs of 2500 particles between temperatures 10 and 0.5    [KHP95, Sec. VI]
+"""The squares of Fig. 10: rolls and pairs of 2500 particles between temperatures 10 and 0.5    [KHP95, Sec.
+VI]
 
-Printed is Ra 350 000 for eta = k = 0.8 (ideal gas) and 0.4 (dense fluid). The gas has that if alpha is taken as 1, and 67 150
-with its own alpha = 1/<T>; the dense fluid has 340 800 with its own, and 511 200 as scenes reckon, whose kappa is k/(rho C_V).
+Printed is Ra 350 000 for eta = k = 0.8 (ideal gas) and 0.4 (dense fluid). The gas has that if alpha is taken
+as 1, and 67 150 with its own alpha = 1/<T>; the dense fluid has 340 800 with its own, and 511 200 as scenes
+reckon, whose kappa is k/(rho C_V).
 """
 from dataclasses import dataclass
 from math import sqrt
@@ -27,7 +29,7 @@ SHARED = 0.5            # spacings within which a neighbour is a partner
 
 
 def two_rolls(scene: RayleighBenard, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """(rho, v, T) of two rolls, as energetic over the square of free fall as those of Sec. VI, and conduction."""
+    """(rho, v, T) of conduction and two rolls, as energetic over free fall squared as in Sec. VI."""
     y = np.clip(x[:, 1], -scene.L/2, scene.L/2)
     v = scene.flow(x[:, 0], y, START_ENERGY*scene.free_fall**2, rolls=2)
     return np.ones(len(x)), np.stack(v, axis=1), scene.T(y)
@@ -73,7 +75,7 @@ def energy(mean: Smoothed) -> float:
 
 @dataclass(frozen=True)
 class Neighbours:
-    """Of particles away from the plates. first, second : (n,) distances; partners : (n,) others within SHARED."""
+    """Of n particles away from the plates: distances (n,), partners (n,) within SHARED."""
     first: np.ndarray
     second: np.ndarray
     partners: np.ndarray

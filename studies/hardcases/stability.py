@@ -1,4 +1,4 @@
-"""What a time step does to small motions: where each integrator begins to make them grow, from eigenvalues of their rates."""
+"""Where each integrator begins to make small motions grow, from eigenvalues of their rates."""
 from math import log
 
 import numpy as np
@@ -36,7 +36,7 @@ def growth(rates: np.ndarray, factors: tuple[float, ...], dt: float) -> float:
 
 
 def largest_step(rates: np.ndarray, integrator: str, least: float = ROUND_OFF) -> float:
-    """The step at which motions of these rates begin to grow by a factor exp(least) a step; 0 if at all steps."""
+    """The step at which motions begin to grow by exp(least) a step; 0 if at all steps."""
     factors, unit = FACTORS[integrator], 1/np.abs(rates).max()
     grows = [growth(rates, factors, dt) > least for dt in STEPS*unit]
     first = int(np.argmax(grows))
@@ -50,5 +50,5 @@ def largest_step(rates: np.ndarray, integrator: str, least: float = ROUND_OFF) -
 
 
 def visible(times: float, motions: int, steps: int) -> float:
-    """ln of the growth a step that makes all noise `times` larger in so many steps, begun as one of so many equal motions."""
+    """ln of the growth a step that makes all noise so many times larger, begun as one of many motions."""
     return log(times*motions**0.5)/steps

@@ -1,7 +1,7 @@
-"""Limits of the time step: each method's formula, eigenvalues of its rates, and trials of whether noise grows.
+"""Limits of the time step: by formula, by eigenvalues of the rates, and by trial.
 
-Methods are at rest with a little noise, on as few points as their range allows. Units: spacing, mean density, T and P/rho
-are 1, so the speed of sound is sqrt 2 (ideal gas, C_V = 1).
+Methods are at rest with a little noise, on as few points as their range allows. Units: spacing, mean density,
+T and P/rho are 1, so the speed of sound is sqrt 2 (ideal gas, C_V = 1).
 """
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -42,7 +42,8 @@ SMALL = 6               # of the scheme that is not compiled
 JITTER = 0.3            # of disordered points, in spacings
 DISORDER = 1.4          # by which limits of points that move leave room for disorder: see `limit_of` of each
 EOS, SOUND = IdealGas(), np.sqrt(2)
-#: 1 % beyond its limit RK4 makes motions grow by 4 (diffusion) to 7 % (sound) a step: in 200 steps by 2000 and more
+#: 1 % beyond its limit RK4 makes motions grow by 4 (diffusion) to 7 % (sound) a step: in 200 steps by 2000
+#: and more
 STEPS = 200
 UNKNOWN = 0.01          # of a limit: how far beyond it growth may stay unseen where no eigenvalues tell
 
@@ -50,9 +51,12 @@ UNKNOWN = 0.01          # of a limit: how far beyond it growth may stay unseen w
 class AtRest(NamedTuple):
     """A method at rest: start (fields, n), rows of the state that noise is looked for in, integrator by name.
 
-    predicted : the largest step by the method's own formula. margin : what it leaves for disorder, by which it is smaller.
-    shorter : the shorter one of the steps that sound alone and diffusion alone allow, by the operators in use.
-    linear : whether eigenvalues of the rates say all, as they do not where faces are made and points drift between stages.
+    predicted : the largest step by the method's own formula. margin : what it leaves for disorder, by which
+    it is smaller.
+    shorter : the shorter one of the steps that sound alone and diffusion alone allow, by the operators in
+    use.
+    linear : whether eigenvalues of the rates say all, as they do not where faces are made and points drift
+    between stages.
     """
     method: Any
     start: np.ndarray
@@ -104,7 +108,7 @@ class Limit(Case):
             "measured": limit.value, "measured_err": limit.half + unseen}]})
 
 
-# --- methods ----------------------------------------------------------------------------------------------------------
+# --- methods --------------------------------------------------------------------------------------
 
 
 def noise(*shape: int) -> np.ndarray:
@@ -156,7 +160,8 @@ def moving(law: ConstEta) -> AtRest:
     method = Moving(weight=WendlandC2.of(h=3.0), eos=EOS, law=law, box=(SIDE, SIDE),
                     walls=(*plates(SIDE, 1.0, 1.0), *periodic(SIDE)))
     start = method.state(points.x, noise(points.n, 2), 1.0, 1 + noise(points.n))
-    return AtRest(method, start, (4, 5, 6, 7, 8), limit_of(method, start), "ThreeStage", DISORDER, linear=False)
+    return AtRest(method, start, (4, 5, 6, 7, 8), limit_of(method, start), "ThreeStage",
+                                                           DISORDER, linear=False)
 
 
 class GridAtRest(NamedTuple):

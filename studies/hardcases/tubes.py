@@ -1,12 +1,14 @@
-"""Sod's shock tube by the grid, by fixed and by moving points: errors against the exact solution, ringing, or where a run ends.
+"""Sod's shock tube by the grid, by fixed and by moving points.
 
-The tube and its mirror image of `sod`, in a periodic strip; the grid has one tube between plates, which its waves do not
-reach. One spacing, in both gases: the thin one has points of less mass. No method has artificial viscosity.
+The tube and its mirror image of `sod`, in a periodic strip; the grid has one tube between plates, which its
+waves do not reach. One spacing, in both gases: the thin one has points of less mass. No method has artificial
+viscosity.
 
-Viscosities in units of spacing and density 1, eta = k, chosen beforehand and for all methods alike: nothing; what makes the
-contact's velocity a cell number of 2 behind the shock, v a/nu, beyond which central differences are expected to ring; and the
-one that smooth particles were given. nu/(c a) of the dense gas is 0, 0.11 and 0.42. Steps are half of the limit at the start,
-since v + c behind the shock is 1.85 times c of the dense gas; a quarter of this step tells the scheme's end from the step's.
+Viscosities in units of spacing and density 1, eta = k, chosen beforehand and for all methods alike: nothing;
+what makes the contact's velocity a cell number of 2 behind the shock, v a/nu, beyond which central
+differences are expected to ring; and the one that smooth particles were given. nu/(c a) of the dense gas is
+0, 0.11 and 0.42. Steps are half of the limit at the start, since v + c behind the shock is 1.85 times c of
+the dense gas; a quarter of this step tells the scheme's end from the step's.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -18,11 +20,11 @@ import numpy as np
 
 from continuum.exact.riemann import middle
 from continuum.fluid import ConstEta
-from continuum.gas.fields import Fields, Values, block, nodes, unblock
+from continuum.gas.fields import Fields as GridFields
+from continuum.gas.fields import Values, block, nodes, unblock
 from continuum.gas.loop import FluxForm
 from continuum.gas.solve import DivergedError, March, limits
-from particles.integral.closed_faces import EXCHANGED
-from particles.limits import limit_of
+from particles.fields import Fields
 from particles.run import Divergence, Plan, run
 from studies.build import ready
 from studies.build.scenes import Scene, Slab, Start
@@ -41,7 +43,7 @@ assert END*BETWEEN.v < 1        # the contact stays in its half of the tube
 
 
 class Seen(NamedTuple):
-    """rho, v, P (3, n) in cells of one spacing, 0 < x < 2 L; rms v across the tube; which part of the time was reached."""
+    """rho, v, P (3, n) in cells of one spacing; rms v across the tube; part of the time reached."""
     fields: np.ndarray
     across: float
     reached: float = 1.0
@@ -52,23 +54,22 @@ def ended(L: int, reached: float) -> Seen:
     return Seen(np.full((3, 2*L), np.nan), np.nan, reached)
 
 
-def binned(L: int, x: np.ndarray, V: np.ndarray, sums: np.ndarray) -> np.ndarray:
-    """(3, 2 L) of points x (n,), V (n,), by volume; sums (4, n): mass, momenta, energy. Means over height and both tubes.
+def binned(L: int, at: Fields) -> np.ndarray:
+    """rho, v, P (3, 2 L) in cells, of points by volume; means over the height and both tubes.
 
-    A point is as wide as its volume and one spacing high: where the gas is thin rows of points lie farther apart than cells.
+    A point is as wide as its volume and one spacing high: where the gas is thin rows of points lie farther
+    apart than cells.
     """
-    m, px, py, E = sums
-    inner = E - (px**2 + py**2)/(2*m)
-    offsets = (np.arange(PARTS) + 0.5)/PARTS - 0.5
-    places = (x + V*offsets[:, None]).ravel()
+    m, offsets = at.rho*at.V, (np.arange(PARTS) + 0.5)/PARTS - 0.5
+    places = (at.x[:, 0] + at.V*offsets[:, None]).ravel()
     cell, side = np.minimum(np.abs(places).astype(int), 2*L - 1), np.sign(places)
-    volume, mass, energy = (np.bincount(cell, np.tile(q, PARTS), 2*L) for q in (V, m, inner))
-    p = np.bincount(cell, side*np.tile(px, PARTS), 2*L)
+    volume, mass, heat = (np.bincount(cell, np.tile(q, PARTS), 2*L) for q in (at.V, m, m*at.T))
+    p = np.bincount(cell, side*np.tile(m*at.v[:, 0], PARTS), 2*L)
     with np.errstate(all="ignore"):
-        return np.array([mass/volume, p/mass, energy/volume/EOS.cv])
+        return np.array([mass/volume, p/mass, heat/volume])
 
 
-# --- points -----------------------------------------------------------------------------------------------------------
+# --- points ---------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,37 +90,20 @@ class Tubes(Scene):
         return rho, np.zeros((len(x), 2)), P/rho
 
 
-def fixed(L: int, law: ConstEta, seed: int, step: float, report: Report, scheme: str) -> Seen:
-    """Fixed points, friction along edges    [RR98 Eqs 34-36, 51]"""
-    method, start, _ = ready(Tubes(half=L, law=law), scheme, seed)
-    state, reached = followed(method, start, L, step, report)
-    V = method.edges.V
-    return seen(L, method.x[:, 0], V, state*V) if reached == 1 else ended(L, reached)
-
-
-def moving(L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
-    """Points that move with the gas and exchange over closed faces."""
-    method, start, _ = ready(Tubes(half=L, law=law), "moving", seed)
-    state, reached = followed(method, start, L, step, report)
-    px, py, m, V, E = state[EXCHANGED]
-    return seen(L, state[0], V, np.array([m, px, py, E])) if reached == 1 else ended(L, reached)
-
-
-def followed(method: Any, start: np.ndarray, L: int, step: float, report: Report) -> tuple[np.ndarray, float]:
-    """The state at the end, and the part of the time that was reached; step : over the limit of the start."""
-    steps = int(END*L/(step*limit_of(method, start))) + 1
+def points(L: int, law: ConstEta, seed: int, step: float, report: Report, name: str) -> Seen:
+    """Fixed or moving points; step : over the limit of the start."""
+    tubes = ready(Tubes(half=L, law=law), name, seed)
+    steps = int(END*L/(step*tubes.limit)) + 1
     try:
-        return run(method, start, Plan(dt=END*L/steps, steps=steps), report).by_id(), 1.0
+        end = run(tubes.method, tubes.start, Plan(dt=END*L/steps, steps=steps), report).by_id()
     except Divergence as error:
-        return start, error.step/steps
+        return ended(L, error.step/steps)
+    at = tubes.method.fields(end)
+    m = at.rho*at.V
+    return Seen(binned(L, at), float(np.sqrt(m@at.v[:, 1]**2/m.sum())))
 
 
-def seen(L: int, x: np.ndarray, V: np.ndarray, sums: np.ndarray) -> Seen:
-    """Fields in cells, and the velocity across, rms over the mass."""
-    return Seen(binned(L, x, V, sums), float(np.sqrt((sums[2]**2/sums[0]).sum()/sums[0].sum())))
-
-
-# --- the grid ---------------------------------------------------------------------------------------------------------
+# --- the grid -------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,7 +119,8 @@ class Upright(Slab):
 
 
 def grid(L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
-    """The compressible grid as it is, cells of one spacing; it has no disorder, so that `seed` says nothing."""
+    """The compressible grid as it is, cells of one spacing; it has no disorder, so that `seed` says nothing.
+    """
     scene = Upright(L=float(2*L), aspect=2/L, viscosity=law.eta, heat=law.k)
     S = block(upright(scene, L))
     steps = int(END*L/(step*limits(scene, S).both)) + 1
@@ -150,29 +135,30 @@ def grid(L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
     return Seen(np.array([rho, v, rho*T]), float(np.sqrt((done.at.vx**2).mean())))
 
 
-def upright(scene: Upright, L: int) -> Fields:
+def upright(scene: Upright, L: int) -> GridFields:
     """The grid's start; the node on the diaphragm has the mean temperature."""
     x, y = nodes(scene, 2*L)
     rows = np.where(y < 0, scene.T_hot, np.where(y > 0, scene.T_cold, scene.T_mean))
     T = np.repeat(rows[:, None], len(x), axis=1)
     cells = np.where(np.arange(2*L) < L, DENSE.rho, THIN.rho)
     values = Values(0*T, 0*T, EOS.cv*T, T, np.ones_like(T))
-    return Fields(scene, x, y, values, np.repeat(cells[:, None], len(x) - 1, axis=1))
+    return GridFields(scene, x, y, values, np.repeat(cells[:, None], len(x) - 1, axis=1))
 
 
 METHODS: dict[str, Callable[[int, ConstEta, int, float, Report], Seen]] = {
     "grid": grid,
-    "fixed lattice": partial(fixed, scheme="fixed-lattice"),
-    "fixed jittered": partial(fixed, scheme="fixed-jittered-delaunay"),
-    "moving": moving}
+    "fixed lattice": partial(points, name="fixed-lattice"),
+    "fixed jittered": partial(points, name="fixed-jittered-delaunay"),
+    "moving": partial(points, name="moving")}
 
 
-# --- the case ---------------------------------------------------------------------------------------------------------
+# --- the case -------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
 class MethodTube(Case):
-    """One tube. L : half of its length, spacings. eta : viscosity and conductivity. step : over the limit at the start.
+    """One tube. L : half of its length, spacings. eta : viscosity and conductivity. step : over the limit at
+    the start.
 
     keep : whether profiles go to the table.
     """

@@ -72,7 +72,7 @@ def fates(ranges: tuple[float, ...], seeds: tuple[int, ...]) -> Iterator[Case]:
 
 
 def freezing() -> Iterator[Case]:
-    """The gas of Fig. 4's scene with both weights, at another Ra, and the dense fluid; with a quarter of the step, too."""
+    """The gas of Fig. 4 with both weights, at another Ra, the dense fluid; with shorter steps, too."""
     for weight, seed in product((Lucy, Monaghan), (1, 2, 3)):
         yield Freezing(eos=IdealGas(), weight=weight, seed=seed)
     for step in (1.0, 0.25):
@@ -89,7 +89,8 @@ def newton(times: tuple[float, ...], samples: int, seeds: tuple[int, ...]) -> It
 
 def speeds() -> Iterator[Case]:
     """Of sound."""
-    yield from (Speed(lattice=kind, weight=weight) for kind, weight in product(("square", "hexagonal"), WEIGHTS))
+    yield from (Speed(lattice=kind, weight=weight) for kind, weight in product(("square",
+                                                                                "hexagonal"), WEIGHTS))
 
 
 def ringing() -> Iterator[Case]:

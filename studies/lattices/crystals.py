@@ -1,8 +1,8 @@
-"""Lattices of smooth particles: how stiff they are, and what grows when they are let go    [KHP95, Secs II, III, VI]
+"""Lattices of smooth particles: how stiff they are, and what grows    [KHP95, Secs II, III, VI]
 
-A fluid resists no shear, a lattice of particles does: its modulus is an error. Where the modulus, or any other omega^2,
-is negative, the lattice gives way. Weights with pairs melt into pairs, fluids under negative pressure clump; both begin
-as a small motion that grows.
+A fluid resists no shear, a lattice of particles does: its modulus is an error. Where the modulus, or any
+other omega^2, is negative, the lattice gives way. Weights with pairs melt into pairs, fluids under negative
+pressure clump; both begin as a small motion that grows.
 """
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -22,7 +22,7 @@ from studies.kit.fits import line
 from studies.kit.stats import Measured
 from studies.lattices.waves import Motion, at_centre, lattice, least_stable, neighbours, total
 
-# --- moduli -----------------------------------------------------------------------------------------------------------
+# --- moduli ---------------------------------------------------------------------------------------
 
 STRAIN = 1e-3       # of second differences: truncation 1e-6, round-off 1e-10
 WIDEST = 6.0        # range up to which particles sum moduli, too: half of the box that they need
@@ -58,7 +58,8 @@ class Moduli(Case):
 def modulus(density_at: Callable[[float], float]) -> float:
     """G/B of the ideal gas from its density at strains, at constant area.
 
-    G = P d2(rho)/d(gamma)^2 with gamma twice the strain. Without heat the energy per mass goes as rho, so B = 2 P.
+    G = P d2(rho)/d(gamma)^2 with gamma twice the strain. Without heat the energy per mass goes as rho, so B =
+    2 P.
     """
     rho = [density_at(strain) for strain in (-STRAIN, 0.0, STRAIN)]
     return float(np.diff(rho, 2)[0]/STRAIN**2/8)
@@ -71,7 +72,7 @@ def stretched_density(weight: Any, kind: str, strain: float) -> float:
     return at_centre(weight) + total(weight, r)
 
 
-# --- motions that grow ------------------------------------------------------------------------------------------------
+# --- motions that grow ----------------------------------------------------------------------------
 
 SHIFT = 1e-8                    # of the places at the start, spacings
 LINEAR = (1e-12, 1e-6)          # kinetic energies of shifts of 1e-6 to 1e-2 spacings: there a motion grows by its own rate
@@ -85,7 +86,7 @@ Shifts = Callable[[np.ndarray], np.ndarray]
 
 @dataclass(frozen=True, kw_only=True)
 class Crystal:
-    """A lattice of inviscid particles at rest. lattice : name in `waves.CELLS`; rho : density, also the mass of a particle."""
+    """A lattice of inviscid particles at rest. rho : density, also the mass of a particle."""
     lattice: str
     cells: tuple[int, int]
     weight: Any
@@ -111,7 +112,7 @@ class Crystal:
                 "eos": type(self.eos).__name__, "T": self.T, "rho": self.rho}
 
     def energies(self, time: float, shifts: Shifts) -> tuple[np.ndarray, np.ndarray]:
-        """Times and kinetic energies per mass, up to where the run diverges. shifts : of places x (n, 2), of size 1."""
+        """Times and kinetic energies per mass until the run diverges. shifts : of places x (n, 2)."""
         at = lattice(self.lattice, self.cells)
         method = fluid(self.weight.of(h=self.h), at.box, self.eos, m=self.rho)
         start = at_rest(at.x + SHIFT*shifts(at.x), self.e)
@@ -165,7 +166,7 @@ class Growth(Case):
 
 @dataclass(frozen=True, kw_only=True)
 class Onset(Case):
-    """The value of a parameter (h or T of the crystal) at which motions begin to grow, by halving [stable, unstable]."""
+    """The value of h or T at which motions begin to grow, by halving [stable, unstable]."""
     crystal: Crystal
     parameter: str
     stable: float

@@ -18,7 +18,8 @@ LAYERS = {("IdealGas", "Lucy", 3000.0, 1.0): "ideal gas, Lucy, Ra 3000",
           ("DenseFluid", "Lucy", 3000.0, 1.0): "dense fluid, Lucy, Ra 3000",
           ("IdealGas", "Lucy", 1e4, 1.0): "ideal gas, Lucy, Ra 10 000",
           ("IdealGas", "Lucy", 1e4, 0.25): "the same, a quarter of the step"}
-STEPS = {"rk4": "Runge-Kutta 4, as printed", "leapfrog": "leapfrog", "whole numbers": "leapfrog in whole numbers"}
+STEPS = {"rk4": "Runge-Kutta 4, as printed",
+"leapfrog": "leapfrog", "whole numbers": "leapfrog in whole numbers"}
 
 
 def figures(tables: Tables) -> dict[str, Figure]:
@@ -28,7 +29,7 @@ def figures(tables: Tables) -> dict[str, Figure]:
 
 
 def moduli(rows: pd.DataFrame) -> Figure:
-    """Over the range, a row a weight: lines the lattice sums, dotted where negative; points the sums of particles."""
+    """Over the range, a row a weight: lattice sums, dotted where negative; points: particles."""
     rows = rows[rows["h"] <= DRAWN].sort_values("h")
     page, all_axes = figure(len(WEIGHTS), len(LATTICES), width=3.9, height=2.6, sharex=True, sharey=True)
     for (number, weight), (place, kind) in product(enumerate(WEIGHTS), enumerate(LATTICES)):
@@ -41,8 +42,8 @@ def moduli(rows: pd.DataFrame) -> Figure:
     for axes in all_axes[-1]:
         axes.set_xlabel("range $h$ / spacings")
     page.legend(*all_axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=5)
-    page.suptitle("How stiff is a fluid of smooth particles on a lattice? |shear modulus| / bulk modulus, a row a weight\n"
-                  "thin grey: KHP95's range and 1 %", fontsize=10)
+    page.suptitle("How stiff is a fluid of smooth particles on a lattice? |shear modulus| / bulk modulus, a "
+                  "row a weight\nthin grey: KHP95's range and 1 %", fontsize=10)
     return page
 
 
@@ -53,10 +54,12 @@ def stiffness(axes: Any, rows: pd.DataFrame, style: dict[str, Any]) -> None:
     axes.plot(h, exact.where(exact > 0), **line, linestyle="-", label="lattice sums")
     axes.plot(h, (-exact).where(exact <= 0), **line, linestyle=":", label="negative: unstable")
     summed = rows[rows["measured"].notna()].iloc[::5]
-    axes.plot(summed["h"], summed["measured"].abs(), **{**style, "linestyle": "none"}, label="the sums that run")
+    axes.plot(summed["h"], summed["measured"].abs(), **{**style, "linestyle": "none"}, label="the sums that "
+                                                                                             "run")
     ends = np.array([3.0, DRAWN])
     for power, dashes in ((-2.5, "--"), (-3.5, "-.")):
-        axes.plot(ends, 0.05*(ends/3)**power, color="grey", linestyle=dashes, marker="", label=rf"$h^{{{power}}}$")
+        axes.plot(ends, 0.05*(ends/3)**power, color="grey",
+                              linestyle=dashes, marker="", label=rf"$h^{{{power}}}$")
     axes.axvline(3.0, color="grey", linewidth=0.6)
     axes.axhline(0.01, color="grey", linewidth=0.6)
     axes.set(xscale="log", yscale="log", ylim=(1e-6, 0.3))
@@ -79,8 +82,9 @@ def pairs(rows: pd.DataFrame) -> Figure:
     left.set(xlabel="range $h$ / spacings", ylabel="part with another within half a spacing")
     right.set(xlabel="range $h$ / spacings", ylabel="particles a site", yticks=[1, 2, 3, 4])
     page.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    page.suptitle("One particle a site, or pairs?\nideal gas left to rest, 256 particles; bars: all seeds; right: points the "
-                  "median of runs,\nlines the hexagonal lattice of least energy (shifted a little to be told apart)", fontsize=10)
+    page.suptitle("One particle a site, or pairs?\nideal gas left to rest, 256 particles; bars: all seeds; "
+                  "right: points the median of runs,\nlines the hexagonal lattice of least energy (shifted a "
+                  "little to be told apart)", fontsize=10)
     return page
 
 
@@ -106,8 +110,8 @@ def freezing(rows: pd.DataFrame, limits: pd.DataFrame) -> Figure:
     right.set_xticks([0.5, 1, 2, 4, 8], labels=["0.5", "1", "2", "4", "8"])
     right.minorticks_off()
     page.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=2)
-    page.suptitle("At which pressure do 512 particles freeze that should convect?\n"
-                  "dashed: printed criterion of melting, dotted: of the largest potential; grey: a tenth", fontsize=10)
+    page.suptitle("At which pressure do 512 particles freeze that should convect?\ndashed: printed criterion "
+                  "of melting, dotted: of the largest potential; grey: a tenth", fontsize=10)
     return page
 
 
@@ -119,7 +123,8 @@ def reversal(rows: pd.DataFrame, twins: pd.DataFrame) -> Figure:
         axes.plot(some.index, some.clip(lower=1e-17), **look(number), label=label)
     axes.plot(twins["time"], twins["apart"], **look(3), label="molecules beside smooth particles")
     axes.axhline(0.1, color="grey", linewidth=0.6)
-    axes.set(yscale="log", ylim=(3e-18, 30), xlabel=r"time $t/\sigma(m/\epsilon)^{1/2}$", ylabel=r"rms distance / $\sigma$")
+    axes.set(yscale="log",
+             ylim=(3e-18, 30), xlabel=r"time $t/\sigma(m/\epsilon)^{1/2}$", ylabel=r"rms distance / $\sigma$")
     page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     page.suptitle(r"Do paths run back? $P\propto\rho^2$, Lucy's weight" "\nforward, velocities turned, and back; "
                   "whole numbers: exactly 0, drawn at $10^{-17}$", fontsize=10)
@@ -127,7 +132,7 @@ def reversal(rows: pd.DataFrame, twins: pd.DataFrame) -> Figure:
 
 
 def ringing(rows: pd.DataFrame) -> Figure:
-    """Over the length: velocities across the wave, where it has none, over the wave's when it has rung for two periods."""
+    """Over the length of a wave: velocities across it when it has rung for two periods."""
     page, axes = figure(width=5.8, height=4.6)
     rows = rows.assign(across=rows["across"]/rows["wave"], foretold=rows["foretold"]/rows["wave"])
     for number, ((kind, weight, h), some) in enumerate(rows.groupby(["lattice", "weight", "h"])):
@@ -141,8 +146,8 @@ def ringing(rows: pd.DataFrame) -> Figure:
     axes.set_xticks([40, 60, 100, 200, 300], labels=["40", "60", "100", "200", "300"])
     axes.minorticks_off()
     below(axes, ncols=2)
-    page.suptitle("When does a lattice melt into a sound wave?\npoints: runs, two periods on; lines: round-off that grew, by "
-                  "lattice sums", fontsize=10)
+    page.suptitle("When does a lattice melt into a sound wave?\npoints: runs, two periods on; lines: "
+                  "round-off that grew, by lattice sums", fontsize=10)
     return page
 
 

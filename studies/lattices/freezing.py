@@ -1,8 +1,9 @@
-"""What particles become under pressure: one a site, pairs, clumps; and when do they cease to flow?    [KHP95, Secs IV, VI]
+"""Do particles under pressure pair, clump, cease to flow?    [KHP95, Secs IV, VI]
 
-`Fate` leaves a gas to rest. `Freezing` searches, in the scene of Fig. 4 with 512 particles between plates, for the static
-pressure at which convection stops. The continuum does not feel this pressure: it is added to the sums as a negative
-fraction of the static one that `LessStatic` leaves out, with the gravity that balances it; P is what is left at mid-height.
+`Fate` leaves a gas to rest. `Freezing` searches, in the scene of Fig. 4 with 512 particles between plates,
+for the static pressure at which convection stops. The continuum does not feel this pressure: it is added to
+the sums as a negative fraction of the static one that `LessStatic` leaves out, with the gravity that balances
+it; P is what is left at mid-height.
 """
 from dataclasses import dataclass
 from functools import cache, cached_property
@@ -30,7 +31,7 @@ from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import mean
 from studies.lattices.waves import sites_of_least_energy
 
-# --- left alone -------------------------------------------------------------------------------------------------------
+# --- left alone -----------------------------------------------------------------------------------
 
 SIDE = 16               # particles along each side
 SPEED = 0.3             # rms of each velocity at the start; friction takes it away
@@ -41,7 +42,7 @@ PARTNER = 0.5           # spacings within which a neighbour shares a site: sites
 
 @dataclass(frozen=True, kw_only=True)
 class Fate(Case):
-    """Particles of the viscous, conducting ideal gas in a periodic square, from a shifted lattice and random velocities."""
+    """A viscous, conducting ideal gas in a periodic square, from random velocities."""
     weight: Any
     h: float
     seed: int = 1
@@ -90,7 +91,7 @@ def wrapped(x: np.ndarray, box: tuple[float, float]) -> np.ndarray:
     return np.mod(x, box) % box
 
 
-# --- between plates ---------------------------------------------------------------------------------------------------
+# --- between plates -------------------------------------------------------------------------------
 
 ROWS = 16
 RANGE = 3.0
@@ -111,7 +112,9 @@ def grid_energies(scene: RayleighBenard, weight: Any) -> tuple[float, float]:
 
 
 def criteria(weight: Any, K: float) -> dict[str, float]:
-    """P at which m<v^2> = 2 K equals the printed potentials 2 P w(0) and 2 P [w(0.9) - w(1)]    [KHP95, Sec. IV]"""
+    """P at which m<v^2> = 2 K equals the printed potentials 2 P w(0) and 2 P [w(0.9) - w(1)]    [KHP95, Sec.
+    IV]
+    """
     centre, near, far = (value_and_slope(weight.of(h=RANGE), r)[0] for r in (0.0, 0.9, 1.0))
     return {"K": K, "barrier": K/centre, "melting": K/(near - far)}
 
@@ -120,7 +123,8 @@ def criteria(weight: Any, K: float) -> dict[str, float]:
 class Freezing(Case):
     """The pressure at which flow freezes, by halving [low, high] on a logarithmic scale.
 
-    P at mid-height is 1 (ideal gas) or 5 (dense fluid) in the scheme as printed. step : over that of other studies.
+    P at mid-height is 1 (ideal gas) or 5 (dense fluid) in the scheme as printed. step : over that of other
+    studies.
     """
     eos: Any
     weight: Any
@@ -166,7 +170,8 @@ class Freezing(Case):
 
     def _row(self, P: float, K: float) -> dict[str, Any]:
         """One run at pressure P. K : of the grid's field, smoothed."""
-        variant = Variant("pressure", weight=self.weight, h=RANGE, fraction=1 - P/self.printed, step=self.step*OF_LIMIT)
+        variant = Variant("pressure",
+                          weight=self.weight, h=RANGE, fraction=1 - P/self.printed, step=self.step*OF_LIMIT)
         method, start, dt = variant.ready(self.scene, self.seed)
         unit = self.scene.L/self.scene.free_fall
         plan = Plan(dt=dt, steps=round(T_END*unit/dt), every=max(1, round(unit/4/dt)), mean_from=MEAN_FROM*unit,
@@ -203,7 +208,7 @@ def neighbours(x: np.ndarray, width: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 def lindemann(places: np.ndarray, width: float) -> float:
-    """Rms fluctuation in time of the distances of neighbours over their mean; places (times, n, 2), neighbours at the first."""
+    """Rms fluctuation of distances of neighbours over their mean; places (times, n, 2)."""
     i, j = neighbours(places[0], width)
     apart = places[:, i] - places[:, j]
     apart[..., 0] -= width*np.round(apart[..., 0]/width)

@@ -1,8 +1,9 @@
 """P = rho^2: smooth particles are molecules, and their paths run back    [KHP95, Sec. III]
 
-Inviscid particles with P/rho^2 = 1 obey dv/dt = -sum_j m 2 grad w: Newton's equations with the potential 2 m^2 w of a pair.
-`Twins` follows one path by both kinds of sums: they must agree until round-off has grown. `Reversal` turns the velocities:
-the path comes back, to what truncation or round-off makes of it, and bit by bit if places and velocities are whole numbers.
+Inviscid particles with P/rho^2 = 1 obey dv/dt = -sum_j m 2 grad w: Newton's equations with the potential 2
+m^2 w of a pair. `Twins` follows one path by both kinds of sums: they must agree until round-off has grown.
+`Reversal` turns the velocities: the path comes back, to what truncation or round-off makes of it, and bit by
+bit if places and velocities are whole numbers.
 """
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -22,7 +23,8 @@ from studies.build.names import START_JITTER
 from studies.build.periodic_box import FRICTIONLESS, at_rest, fluid
 from studies.kit.case import Case, Outcome, Report
 
-#: P = rho^2: van der Waals without excluded volume, of a heat capacity so large that energy adds nothing to the pressure
+#: P = rho^2: van der Waals without excluded volume, of a heat capacity so large that energy adds nothing to
+#: the pressure
 RHO_SQUARED = VanDerWaals(a=-1.0, b=0.0, cv=1e300)
 ENERGY = 1e3        # per mass: any that stays above rho is valid
 RANGE = 3.0
@@ -30,7 +32,7 @@ SPEED = 0.4         # rms of each velocity: m v^2 = 0.32 is about phi(0) = 2 w(0
 
 
 def crowd(side: int, seed: int) -> np.ndarray:
-    """State (5, side^2) of a shifted lattice with random velocities, momentum zero, all of it on the grid of whole numbers."""
+    """State (5, side^2), a shifted lattice with random velocities, in whole numbers; momentum is zero."""
     rng = np.random.default_rng(seed)
     centres = np.arange(side) + 0.5 - side/2
     x = np.stack(np.meshgrid(centres, centres), axis=-1).reshape(-1, 2)
@@ -48,7 +50,7 @@ def distance(one: np.ndarray, other: np.ndarray, side: float) -> float:
     return float(np.sqrt(np.mean(apart**2)*2))
 
 
-# --- methods ----------------------------------------------------------------------------------------------------------
+# --- methods --------------------------------------------------------------------------------------
 
 
 METHODS = {"rk4": RK4, "leapfrog": Leapfrog, "whole numbers": Whole}
@@ -78,12 +80,13 @@ class Newton:
         out[4] = 0.0
 
 
-# --- cases ------------------------------------------------------------------------------------------------------------
+# --- cases ----------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
 class Twins(Case):
-    """The same path by the compiled sums of smooth particles and as molecules: how far apart after some time."""
+    """The same path by the compiled sums of smooth particles and as molecules: how far apart after some time.
+    """
     weight: Any
     side: int = 8
     every: float = 2.0

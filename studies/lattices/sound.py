@@ -1,14 +1,16 @@
-"""Sound on a lattice of smooth particles: how fast is it, and when does the lattice melt into it?    [KHP95, Secs II, III]
+"""Sound on a lattice of smooth particles: its speed, and when the lattice melts    [KHP95, Sec. II]
 
-Sums over a lattice take the place of integrals, which changes the speed of sound (`Speed`). A standing wave of small
-amplitude then rings for two periods: along x, alike along y (`Ringing`). What moves along y began as round-off of places.
-About a lattice that is not stable it grows at the rate s of `particles.limits.waves`, until it is as fast as the wave. Steps
-dt round places off by rms (u_x, u_y); n particles have n motions a cos k.r of least omega^2, and
+Sums over a lattice take the place of integrals, which changes the speed of sound (`Speed`). A standing wave
+of small amplitude then rings for two periods: along x, alike along y (`Ringing`). What moves along y began as
+round-off of places. About a lattice that is not stable it grows at the rate s of `particles.limits.waves`,
+until it is as fast as the wave. Steps dt round places off by rms (u_x, u_y); n particles have n motions a cos
+k.r of least omega^2, and
 
     v_y^2 = (1/n) sum_k (c e^(s t) a_y)^2 (a_x^2 u_x^2 + a_y^2 u_y^2) (1 + 1/(2 s dt)),    c = s w/(s^2 + w),  w = -omega^2
 
-where c is that of u'' + (w/s - s) u' = w u, let go at rest. It tells the power of ten: particles of one x are often rounded
-off alike, which seeds nothing. A longer wave rings for longer, so that round-off grows by more e-foldings.
+where c is that of u'' + (w/s - s) u' = w u, let go at rest. It tells the power of ten: particles of one x are
+often rounded off alike, which seeds nothing. A longer wave rings for longer, so that round-off grows by more
+e-foldings.
 """
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -19,6 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.linalg import expm
 
+from continuum.exact.waves import Gas, continuum
 from continuum.fluid import ConstEta, IdealGas
 from particles.limits import Symbols, step_limit
 from particles.limits import waves as rates_of
@@ -26,7 +29,6 @@ from particles.run import STUDIES, Divergence, Plan, run
 from particles.smooth.spam import Direct, Nested, Spam
 from particles.weights import value_and_slope
 from studies.build.periodic_box import fluid
-from studies.build.symbols import Gas, continuum
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.fits import line
 from studies.kit.stats import Measured
@@ -42,7 +44,7 @@ BEGUN, SMALL = 30.0, 1e-5       # times round-off, and spacings per time: betwee
 SEEN = 5.0                      # e-foldings: fewer do not come out of round-off
 
 
-# --- the speed of sound -----------------------------------------------------------------------------------------------
+# --- the speed of sound ---------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,7 +61,7 @@ class Speed(Case):
         return Outcome({"sound_speeds": [{"lattice": self.lattice, "weight": self.weight.__name__, "speed": speed}]})
 
 
-# --- what grows beside it ---------------------------------------------------------------------------------------------
+# --- what grows beside it -------------------------------------------------------------------------
 
 
 class Ripple(NamedTuple):

@@ -1,4 +1,5 @@
-"""Tables of the study. Lengths in spacings, masses of particles, T = 1 or as said; `_err` 95 % half widths."""
+"""Tables of the study. Lengths in spacings, masses of particles, T = 1 or as said; `_err` 95 % half widths.
+"""
 from collections.abc import Iterator
 from typing import Any
 
@@ -8,9 +9,10 @@ import pandas as pd
 from studies.kit.stats import over_seeds
 from studies.kit.table import Table, Tables
 
-#: shear over bulk modulus: by lattice sums, and by the compiled sums of particles (ranges to 6); lattice "diagonal": sheared
-#: at 45 degrees
-MODULI = Table("moduli", key=["lattice", "weight", "h"], columns=["lattice", "weight", "h", "exact", "measured"])
+#: shear over bulk modulus: by lattice sums, and by the compiled sums of particles (ranges to 6); lattice
+#: "diagonal": sheared at 45 degrees
+MODULI = Table("moduli",
+               key=["lattice", "weight", "h"], columns=["lattice", "weight", "h", "exact", "measured"])
 
 CRYSTAL = ["lattice", "weight", "h", "eos", "T", "rho"]
 RATES = ["predicted", "measured", "measured_err"]
@@ -18,32 +20,34 @@ RATES = ["predicted", "measured", "measured_err"]
 GROWTH = Table("growth", key=CRYSTAL, columns=[*CRYSTAL, *RATES])
 #: value of a parameter (h or T, its own column is then 0) at which motions begin to grow
 ONSETS = Table("onsets", key=[*CRYSTAL, "parameter", "seed"], columns=[*CRYSTAL, "parameter", "seed", *RATES])
-#: particles a site: of least energy, and the median of runs; shared: part of the particles that share a site, chance: the
-#: part of particles at random that would; ratio: median of second over first neighbour distance
+#: particles a site: of least energy, and the median of runs; shared: part of the particles that share a site,
+#: chance: the part of particles at random that would; ratio: median of second over first neighbour distance
 FATES = Table("fates", key=["weight", "h", "seed"],
               columns=["weight", "h", "seed", "predicted", "sites", "shared", "ratio", "chance"])
 
 #: step: over that of other studies
 LAYER = ["eos", "weight", "ra", "seed", "step"]
-#: K of the mean flow and of the particles over that of the grid's smoothed field, fluctuation of distances of neighbours
-#: over their mean, at pressures P; nothing where a run diverged
+#: K of the mean flow and of the particles over that of the grid's smoothed field, fluctuation of distances of
+#: neighbours over their mean, at pressures P; nothing where a run diverged
 FREEZING = Table("freezing", key=[*LAYER, "P"],
                  columns=[*LAYER, "P", "flow", "flow_err", "kp", "kp_err", "lindemann"])
-#: P at which K of the mean flow falls below a tenth; K of the grid, and P at which 2 K is 2 P w(0), 2 P [w(0.9) - w(1)]
+#: P at which K of the mean flow falls below a tenth; K of the grid, and P at which 2 K is 2 P w(0), 2 P
+#: [w(0.9) - w(1)]
 FREEZING_LIMITS = Table("freezing_limits", key=LAYER,
                         columns=[*LAYER, "measured", "measured_err", "K", "barrier", "melting"])
 
 #: rms distance of places of the same path by smooth particles and as molecules
 TWINS = Table("twins", key=["weight", "seed", "time"], columns=["weight", "seed", "time", "apart"])
-#: rms distance from the start, and part of the coordinates that are it to the last bit, after so much time there and back
+#: rms distance from the start, and part of the coordinates that are it to the last bit, after so much time
+#: there and back
 REVERSAL = Table("reversal", key=["integrator", "weight", "seed", "time"],
                  columns=["integrator", "weight", "seed", "time", "apart", "equal"])
 
 #: speed of the longest waves along x over the fluid's
 SPEEDS = Table("sound_speeds", key=["lattice", "weight"], columns=["lattice", "weight", "speed"])
 WAVE = ["lattice", "weight", "h", "length", "seed"]
-#: rate of the fastest growing motion; time: that the wave rings; rms velocities then: wave: of the exact wave; foretold,
-#: across: along y, where the wave has none, by linear theory from round-off and measured
+#: rate of the fastest growing motion; time: that the wave rings; rms velocities then: wave: of the exact
+#: wave; foretold, across: along y, where the wave has none, by linear theory from round-off and measured
 RINGING = Table("ringing", key=WAVE, columns=[*WAVE, *RATES, "time", "wave", "foretold", "across"])
 #: length of the wave from which what grows is as fast as the wave when it has rung, over seeds
 LOST = Table("ringing_lost", key=["lattice", "weight"], columns=["lattice", "weight", "seeds", *RATES])
@@ -51,7 +55,7 @@ LOST = Table("ringing_lost", key=["lattice", "weight"], columns=["lattice", "wei
 ALL = (MODULI, GROWTH, ONSETS, FATES, FREEZING, FREEZING_LIMITS, TWINS, REVERSAL, SPEEDS, RINGING, LOST)
 
 
-# --- rows that follow -------------------------------------------------------------------------------------------------
+# --- rows that follow -----------------------------------------------------------------------------
 
 USUAL = 3.0         # range of the weight of waves of many lengths
 

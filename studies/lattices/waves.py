@@ -1,4 +1,4 @@
-"""Small motions of inviscid smooth particles on a lattice in a periodic box, by lattice sums    [KHP95, Sec. II]
+"""Small motions of inviscid smooth particles on a lattice, by lattice sums    [KHP95, Sec. II]
 
 About rest at summed density rho, without conduction, displacements u exp(ik.r) obey d2u/dt2 = -M u,
 
@@ -6,8 +6,9 @@ About rest at summed density rho, without conduction, displacements u exp(ik.r) 
     S = sum_r grad w sin k.r
     D = sum_r (grad grad w)(1 - cos k.r)
 
-The sums are over the neighbours r of a particle; c is the isentropic speed of sound. For P ~ rho^2 only D is left, the
-dynamical matrix of molecules with the potential 2 P w/rho^2. A negative eigenvalue of M is a motion that grows.
+The sums are over the neighbours r of a particle; c is the isentropic speed of sound. For P ~ rho^2 only D is
+left, the dynamical matrix of molecules with the potential 2 P w/rho^2. A negative eigenvalue of M is a motion
+that grows.
 """
 from typing import Any, NamedTuple
 
@@ -135,7 +136,7 @@ def sound_speed_squared(eos: Any, rho: float, e: float) -> float:
 
 
 def sites_of_least_energy(weight: Any, most: int = 4) -> int:
-    """Particles a site of the hexagonal lattice of density 1 in which the isentropic ideal gas has the least energy, e ~ rho."""
+    """Particles a site of the hexagonal lattice in which the isentropic ideal gas has least energy."""
     densities = [hexagonal_density(weight, per_site) for per_site in range(1, most + 1)]
     return 1 + int(np.argmin(densities))
 
