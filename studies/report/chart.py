@@ -1,6 +1,6 @@
 """A panel of error against cost as SVG: readable without scripts, each point with its values for pointer and keyboard."""
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from studies.report.cost import Panel, Point, Series
 
@@ -13,10 +13,8 @@ MARKS = ("M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0z", "M-4.5,-4.5h9v9h-9z", "M0,-6L5
 DASHES = ("", "6 3", "8 3 2 3", "2 3", "10 3", "4 2", "1 2", "12 4")
 
 
-@dataclass(frozen=True)
-class Scale:
+class Scale(NamedTuple):
     """A logarithmic axis from low to high onto pixels."""
-
     low: float
     high: float
     start: float
@@ -24,8 +22,9 @@ class Scale:
 
     def __call__(self, value: float) -> float:
         """Pixels; what lies outside stays on the edge."""
-        at = (math.log(max(value, 1e-300)) - math.log(self.low))/(math.log(self.high) - math.log(self.low))
-        return round(self.start + min(max(at, 0.0), 1.0)*(self.end - self.start), 1)
+        inside = min(max(value, self.low), self.high)
+        share = math.log(inside/self.low)/math.log(self.high/self.low)
+        return round(self.start + share*(self.end - self.start), 1)
 
     @property
     def ticks(self) -> list[tuple[float, float]]:
@@ -36,22 +35,18 @@ class Scale:
         return [(value, self(value)) for value in values if self.low <= value <= self.high]
 
 
-@dataclass(frozen=True)
-class Mark:
+class Mark(NamedTuple):
     """A point on the page: its place, the ends of its bars and its words."""
-
     x: float
     y: float
     bar: tuple[float, float]
     wide: tuple[float, float] | None
     hollow: bool
-    told: list[str]
+    words: list[str]
 
 
-@dataclass(frozen=True)
-class Curve:
+class Curve(NamedTuple):
     """A series on the page."""
-
     label: str
     usual: bool
     colour: int
@@ -61,10 +56,8 @@ class Curve:
     marks: list[Mark]
 
 
-@dataclass(frozen=True)
-class Chart:
+class Chart(NamedTuple):
     """A panel on the page."""
-
     x: Scale
     y: Scale
     curves: list[Curve]
@@ -73,22 +66,25 @@ class Chart:
 def chart(panel: Panel) -> Chart:
     """Places of everything; axes hold all seconds, errors up to a few times those of the usual series (others on the edge)."""
     points = [point for series in panel.series for point in series.points]
-    seconds, sizes = [point.cpu_s for point in points], [point.size for point in points if point.size > 0]
-    usual = [point.size for series in panel.series if series.usual for point in series.points]
+    seconds = [point.cpu_s for point in points]
+    sizes = [point.size for point in points if point.size > 0]
+    usual = [point.size for series in panel.series if series.usual for point in series.points if point.size > 0]
+    low, high = max(0.6*min(sizes), 0.2*min(usual)), min(1.6*max(sizes), 2*max(usual))
     x = Scale(0.7*min(seconds), 1.4*max(seconds), LEFT, WIDTH - RIGHT)
-    y = Scale(max(0.6*min(sizes), 0.2*min(filter(None, usual))), min(1.6*max(sizes), 2*max(usual)), HEIGHT - BOTTOM, TOP)
+    y = Scale(low, high, HEIGHT - BOTTOM, TOP)
     return Chart(x, y, [curve(number, series, x, y) for number, series in enumerate(panel.series)])
 
 
 def curve(number: int, series: Series, x: Scale, y: Scale) -> Curve:
-    """A series and its look."""
+    """A series and its look: after eight the marks shift by one against the colours."""
     marks = [mark(point, x, y) for point in series.points]
     line = "M" + "L".join(f"{one.x},{one.y}" for one in marks)
-    return Curve(series.label, series.usual, number % 8, MARKS[(number + number//8) % len(MARKS)],
-                 DASHES[number % len(DASHES)], line, marks)
+    look = MARKS[(number + number//8) % len(MARKS)]
+    return Curve(series.label, series.usual, number % 8, look, DASHES[number % len(DASHES)], line, marks)
 
 
 def mark(point: Point, x: Scale, y: Scale) -> Mark:
     """A point and its bars."""
-    wide = (x(point.fast), x(point.slow)) if point.slow > point.cpu_s else None
-    return Mark(x(point.cpu_s), y(point.size), (y(point.low), y(point.high)), wide, not point.above, point.told)
+    bar = y(point.size - point.err), y(point.size + point.err)
+    wide = (x(point.cpu_s - point.spread), x(point.cpu_s + point.spread)) if point.spread else None
+    return Mark(x(point.cpu_s), y(point.size), bar, wide, not point.above, point.words)
