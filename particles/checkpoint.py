@@ -3,26 +3,24 @@ import hashlib
 import os
 from errno import ENOSPC
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import h5py
 import numpy as np
 
 from continuum.jit import source_hash
+from particles.plan import Plan, Run
 
 SCALARS = ("step", "samples", "reflections", "skin", "cpu_s", "compile_s")
 
-if TYPE_CHECKING:
-    from particles.run import Plan, Run
 
-
-def _identity(method: Any, plan: "Plan", start: np.ndarray) -> dict[str, str]:
+def _identity(method: Any, plan: Plan, start: np.ndarray) -> dict[str, str]:
     """What must be the same for a restart to be the same run."""
     words = f"{method!r} dt={plan.dt!r} every={plan.every} mean_from={plan.mean_from!r} {[*plan.series]} {[*plan.means]}"
     return {"code": source_hash(), "parameters": words, "start": hashlib.sha256(start.tobytes()).hexdigest()}
 
 
-def save(path: Path, method: Any, plan: "Plan", start: np.ndarray, now: "Run") -> None:
+def save(path: Path, method: Any, plan: Plan, start: np.ndarray, now: Run) -> None:
     """Write the run to `path`; on a full disk the former checkpoint stays and OSError says so."""
     beside = path.with_suffix(".part")
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -44,7 +42,7 @@ def save(path: Path, method: Any, plan: "Plan", start: np.ndarray, now: "Run") -
                       "and start again to go on from it") from error
 
 
-def load(path: Path | None, method: Any, plan: "Plan", start: np.ndarray) -> "Run | None":
+def load(path: Path | None, method: Any, plan: Plan, start: np.ndarray) -> Run | None:
     """The run stored at `path`, or None if there is none.
 
     Raises
@@ -52,7 +50,6 @@ def load(path: Path | None, method: Any, plan: "Plan", start: np.ndarray) -> "Ru
     ValueError
         The file is unreadable, or of other code, parameters or particles.
     """
-    from particles.run import Run
     if path is None or not path.exists():
         return None
     try:

@@ -9,11 +9,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import conductivity, energy, stress, temperature, viscosity
+from particles.fields import Fields
 from particles.neighbours import make_lists, sort_into_cells
 from particles.pairs import Pairs, interpolate, sweep
 
 
-class Fields(NamedTuple):
+class Smoothed(NamedTuple):
     """Smoothed density, velocity, energy per mass and temperature at some places, each in the places' shape."""
     rho: np.ndarray
     vx: np.ndarray
@@ -22,7 +23,7 @@ class Fields(NamedTuple):
     T: np.ndarray
 
 
-def fields_at(sums: Any, state: np.ndarray, x: np.ndarray, y: np.ndarray) -> Fields:
+def fields_at(sums: Any, state: np.ndarray, x: np.ndarray, y: np.ndarray) -> Smoothed:
     """rho = sum m w, rho v = sum m v w, rho e = sum m e w at places (x, y)    [KHP95, Sec. II]"""
     around, method = sums.around, sums.method
     e = np.concatenate([state[4], energy(method.eos, around.rho[sums.n:], around.T[sums.n:])])
@@ -33,7 +34,14 @@ def fields_at(sums: Any, state: np.ndarray, x: np.ndarray, y: np.ndarray) -> Fie
     lists = make_lists(sums.team, cells, *places, method.weight.h, 2*len(e))
     sums.team(interpolate, len(out), method.weight, method.m, *places, lists, around.x, around.y, values, out)
     rho, vx, vy, e = (column.reshape(np.shape(x)) for column in out.T)
-    return Fields(rho, vx/rho, vy/rho, e/rho, temperature(method.eos, rho, e/rho))
+    return Smoothed(rho, vx/rho, vy/rho, e/rho, temperature(method.eos, rho, e/rho))
+
+
+def smoothed(method: Any, state: np.ndarray) -> Fields:
+    """The smoothed fields at the particles of a state, in its order."""
+    sums, ordered, _ = method.look(state)
+    at = fields_at(sums, ordered, *state[:2])
+    return Fields(state[:2].T.copy(), np.stack([at.vx, at.vy], axis=1), at.rho, at.T, method.m/at.rho)
 
 
 def particle_kinetic(sums: Any, state: np.ndarray) -> float:

@@ -1,9 +1,5 @@
 """The only time loop: list upkeep, step, walls, divergence check, records, checkpoint, progress."""
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from math import inf
-from numbers import Real
-from pathlib import Path
+from collections.abc import Callable
 from time import monotonic, process_time
 from typing import Any
 
@@ -14,9 +10,9 @@ from particles.checkpoint import load, save
 from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.lists import outside
+from particles.plan import Plan, Run
 from particles.threads import Team
 
-Quantity = Callable[..., Any]  # (sums of the method, state) -> number or array
 #: of the step limit: what is stable where moving particles lie at random (see `limits`), what the studies take
 RANDOM, STUDIES = 1/1.4, 0.22
 
@@ -28,76 +24,6 @@ class Divergence(FloatingPointError):
     def __init__(self, step: int, message: str):
         super().__init__(message)
         self.step = step
-
-
-@dataclass(frozen=True, kw_only=True)
-class Plan:
-    """What a run does besides stepping.
-
-    dt, steps : time step and their number.
-    series : numbers recorded every `every` steps; means : arrays averaged every `every` steps from time `mean_from` on.
-    Steps beyond the last multiple of `every` are not recorded, so that samples are equally far apart.
-    checkpoint : file, written every `checkpoint_seconds` and at an interrupt; a run that finds it goes on from there,
-    bitwise as if it had not been interrupted.
-    """
-    dt: float
-    steps: int
-    series: Mapping[str, Quantity] = field(default_factory=dict)
-    means: Mapping[str, Any] = field(default_factory=dict)
-    every: int = 10
-    mean_from: float = 0.0
-    checkpoint: Path | None = None
-    checkpoint_seconds: float = 20.0
-    threads: int = 1
-
-    def __post_init__(self):
-        numbers = f"got dt = {self.dt!r}, steps = {self.steps!r}, every = {self.every!r}"
-        if not all(isinstance(number, Real) for number in (self.dt, self.steps, self.every)):
-            raise TypeError(f"dt, steps and every are numbers, {numbers}")
-        if not (0 < self.dt < inf and self.steps >= 0 and self.every >= 1):
-            raise ValueError(f"need dt > 0 and finite, steps >= 0, every >= 1, {numbers}")
-        if not (float(self.steps).is_integer() and float(self.every).is_integer()):
-            raise ValueError(f"steps and every count steps, {numbers}: give whole numbers, such as steps = round(t_end/dt)")
-        self._check_records()
-
-    def _check_records(self):
-        """Refuse what would be asked for and never recorded."""
-        last = self.steps//self.every*self.every
-        if (self.series or self.means) and not last:
-            raise ValueError(f"{self.steps} steps, recorded every {self.every}, leave {', '.join((*self.series, *self.means))} "
-                             f"without a record: take at least {self.every} steps, or a smaller `every`")
-        if self.means and not last*self.dt > self.mean_from:
-            raise ValueError(f"means from time {self.mean_from:g} on have no sample: the last record is at {last*self.dt:g}; "
-                             "take more steps, or an earlier `mean_from`")
-
-
-@dataclass(kw_only=True)
-class Run:
-    """A run at some step: state (fields, n) in the order of `ids`; series and means so far.
-
-    anchor, skin : where moving particles were, and how far they may go, when their lists were made.
-    """
-    state: np.ndarray
-    ids: np.ndarray
-    step: int = 0
-    anchor: np.ndarray | None = None
-    skin: float = 0.0
-    times: list[float] = field(default_factory=list)
-    series: dict[str, list[float]] = field(default_factory=dict)
-    sums: dict[str, np.ndarray] = field(default_factory=dict)
-    samples: int = 0
-    reflections: int = 0
-    cpu_s: float = 0.0
-    compile_s: float = 0.0
-
-    @property
-    def means(self) -> dict[str, np.ndarray]:
-        """Averages over the samples since `mean_from`."""
-        return {name: total/max(self.samples, 1) for name, total in self.sums.items()}
-
-    def by_id(self) -> np.ndarray:
-        """The state in the order in which the particles were given, whatever the lists have done to it."""
-        return self.state[:, np.argsort(self.ids)]
 
 
 def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], None] | None = None) -> Run:
@@ -171,12 +97,12 @@ def _record(plan: Plan, sums, now: Run) -> None:
 
 def _particles(method, start: ArrayLike) -> np.ndarray:
     """The start as an array (fields, n) of float64."""
-    wanted = f"particles are an array ({len(method.fields)}, n) of {', '.join(method.fields)} with n >= 1"
+    wanted = f"particles are an array ({len(method.names)}, n) of {', '.join(method.names)} with n >= 1"
     try:
         state = np.asarray(start, float)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{wanted}, got a {type(start).__name__} that is none: {error}") from error
-    if state.ndim != 2 or state.shape[0] != len(method.fields) or state.shape[1] < 1:
+    if state.ndim != 2 or state.shape[0] != len(method.names) or state.shape[1] < 1:
         raise ValueError(f"{wanted}, got {state.shape}")
     return state
 
@@ -211,7 +137,7 @@ def _limit(method, start: np.ndarray) -> float:
 
 def _where(method, state: np.ndarray, ids: np.ndarray | None = None) -> str:
     row, i = np.argwhere(~np.isfinite(state))[0]
-    return f"{method.fields[row]} = {state[row, i]} of particle {i if ids is None else ids[i]}"
+    return f"{method.names[row]} = {state[row, i]} of particle {i if ids is None else ids[i]}"
 
 
 def _way_out(plan: Plan) -> str:

@@ -92,7 +92,7 @@ def test_compiled_sums_are_those_of_the_slow_twin(kind, eos, law, mended):
     found, expected = rates(fast, state), np.zeros_like(given)
     slow.rates(given, expected)
     alike(found[:len(given)], expected[rows])
-    assert fast.fields[:len(given)] == tuple(slow.fields[row] for row in rows)
+    assert fast.names[:len(given)] == tuple(slow.names[row] for row in rows)
     np.testing.assert_allclose(fast.conserved(state)[[0, 3]], slow.conserved(given)[[0, 3]], rtol=1e-13)
 
 

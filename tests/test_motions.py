@@ -281,7 +281,7 @@ def test_every_weight_can_move_points(kind, weight):
     method, at = made(kind, weight=weight)
     state = after(method, crowd(method, at), 3, 0.05, TwoStep)
     assert np.isfinite(state).all()
-    assert len(method.fields) == len(state)
+    assert len(method.names) == len(state)
 
 
 # --- the study ------------------------------------------------------------------------------------------------

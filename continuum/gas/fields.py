@@ -44,6 +44,32 @@ class Fields:
         return isinstance(self.scene.sides, Periodic)
 
 
+class Nodes(NamedTuple):
+    """Places x (n, 2), velocities v (n, 2), densities, temperatures and volumes (n,) of the nodes, each place once."""
+    x: np.ndarray
+    v: np.ndarray
+    rho: np.ndarray
+    T: np.ndarray
+    V: np.ndarray
+
+
+def at_nodes(fields: Fields) -> Nodes:
+    """Rows from the lower one up; nodes in walls have half of a cell, those in corners a quarter."""
+    torus = isinstance(fields.scene.sides, Torus)
+    columns, rows = shares(len(fields.x), fields.periodic or torus), shares(len(fields.y), torus)
+    kept = np.ix_(rows > 0, columns > 0)
+    X, Y, V = *np.meshgrid(fields.x, fields.y), fields.h**2*np.outer(rows, columns)
+    x, y, vx, vy, rho, T, V = (q[kept].ravel() for q in (X, Y, fields.at.vx, fields.at.vy, fields.at.rho, fields.at.T, V))
+    return Nodes(np.stack([x, y], axis=1), np.stack([vx, vy], axis=1), rho, T, V)
+
+
+def shares(nodes: int, periodic: bool) -> np.ndarray:
+    """Of a cell along a line of nodes: the last repeats the first, or both ends are in walls."""
+    share = np.ones(nodes)
+    share[[0, -1]] = (1.0, 0.0) if periodic else 0.5
+    return share
+
+
 def nodes(scene, rows: int) -> tuple[np.ndarray, np.ndarray]:
     """Coordinates of the columns and rows of nodes: `rows` square cells over the height.
 

@@ -14,6 +14,7 @@ import numpy as np
 from particles.dissipative.integrators import GrootWarren65
 from particles.dissipative.pairs3d import Force, Law, Record, Silent, Uniform, record, rub_pairs, sum_pairs, turn, velocities
 from particles.dissipative.periodic3d import Images
+from particles.fields import Fields
 from particles.limits import limit_of
 from particles.neighbours import u32, u64
 from particles.noise import check_seed
@@ -66,7 +67,7 @@ class Dpd:
         return len(self.box)
 
     @property
-    def fields(self) -> tuple[str, ...]:
+    def names(self) -> tuple[str, ...]:
         """Rows of the state."""
         return tuple(kind + axis for kind in ("", "v", "f") for axis in "xyz"[:self.d])
 
@@ -106,6 +107,15 @@ class Dpd:
         v -= v.mean(axis=1, keepdims=True)
         v[0] += self.rate*x[1]
         return np.concatenate([x, v, np.zeros_like(x)])
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """Of the particles, (n,) each: mean density, and the temperature of all velocities less the shear."""
+        n, d = state.shape[1], self.d
+        v, one = state[d:2*d], np.ones(n)
+        rest = v.copy()
+        rest[0] -= self.rate*state[1]
+        kT = (rest**2).sum()/(d*(n - 1))
+        return Fields(state[:d].T.copy(), v.T.copy(), n/self.volume*one, kT*one, self.volume/n*one)
 
     def start(self, n: int, team: Team) -> "Forces":
         """The pair sums."""

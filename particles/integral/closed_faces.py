@@ -13,6 +13,7 @@ import numpy as np
 
 from continuum.fluid import check_state, conductivity, energy, pressure, sound_speed, temperature, viscosity
 from continuum.jit import jit
+from particles.fields import Fields, from_densities
 from particles.integral.faces import POTENTIALS, FaceMaker, inner
 from particles.integral.interpolants import check_ordering
 from particles.integral.transposed_stress import varying
@@ -25,7 +26,7 @@ from particles.walls import confine
 from particles.weights import check_unit
 
 #: rows of a state: places, drift velocity, momentum, mass, volume, total energy, and the last solution for the faces
-FIELDS = ("x", "y", "wx", "wy", "px", "py", "m", "V", "E", *POTENTIALS)
+ROWS = ("x", "y", "wx", "wy", "px", "py", "m", "V", "E", *POTENTIALS)
 EXCHANGED, SOLVED = slice(4, 9), slice(9, 15)
 #: seen by convection and pressure: vx .. theta; by friction and heat: ux, uy, Td; F mends the heating, (gx, gy) = grad P'
 Point = np.dtype([(name, "f8") for name in ("vx", "vy", "P", "rho", "e", "per_c", "shift_x", "shift_y", "theta", "gx", "gy", "ux",
@@ -104,7 +105,7 @@ class Moving:
     ingredients: Ingredients = Ingredients()  # noqa: RUF009 (immutable)
     skin: float = 0.5
 
-    fields = FIELDS
+    names = ROWS
 
     def __post_init__(self):
         check_unit(self.weight)
@@ -115,6 +116,11 @@ class Moving:
         m, e = rho*V, energy(self.eos, rho, T)
         exchanged = [*(m[:, None]*v).T, m, V, m*(e + (v**2).sum(axis=1)/2)]
         return np.stack([*x.T, *v.T, *exchanged, *np.zeros((6, len(x)))])
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """Of the points, (n,) each."""
+        px, py, m, V, E = state[EXCHANGED]
+        return from_densities(self.eos, state[:2].T.copy(), V.copy(), m/V, np.stack([px, py])/V, E/V)
 
     def start(self, n: int, team: Team) -> "Exchanging":
         """The sums of n points, with their arrays."""

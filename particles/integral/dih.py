@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import bulk_viscosity, conductivity, energy, pressure, stress_tensor, temperature, valid, viscosity
+from particles.fields import Fields, from_densities
 from particles.integral.edges import Edges
 
 
@@ -180,8 +181,8 @@ def means(q: Coefficients, i: np.ndarray, j: np.ndarray) -> Coefficients:
 class Dih:
     """A fluid on fixed points.
 
-    edges : of `particles.integral.edges`. eos, law : of `continuum.fluid`. zeta : bulk viscosity, a number or a law. transport : Nested or
-    Pairwise.
+    edges : of `particles.integral.edges`. eos, law : of `continuum.fluid`. zeta : bulk viscosity, a number or a law.
+    transport : Nested, Pairwise or Mixed.
     """
     edges: Edges
     eos: Any
@@ -190,7 +191,7 @@ class Dih:
     transport: Any = Pairwise()
 
     @property
-    def fields(self) -> tuple[str, ...]:
+    def names(self) -> tuple[str, ...]:
         """Names of the rows of a state."""
         return ("rho", *("px", "py", "pz")[:self.edges.d], "eps")
 
@@ -217,6 +218,11 @@ class Dih:
             raise FloatingPointError(f"point {i} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of "
                                      f"{type(self.eos).__name__}: take a shorter step, more viscosity or a smoother start")
         return Flow(rho, v, temperature(self.eos, rho, e), eps, pressure(self.eos, rho, e))
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """Of the points, (n,) each; edges know no places."""
+        nowhere = np.full((self.edges.n, self.edges.d), np.nan)
+        return from_densities(self.eos, nowhere, self.edges.V, state[0], state[1:-1], state[-1])
 
     def coefficients(self, flow: Flow) -> Coefficients:
         """Of all points."""

@@ -19,6 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import stress_tensor
+from particles.fields import Fields
 from particles.integral import dih
 from particles.integral.dih import Dih, Flow, Fluxes, Mixed, Nested, Pairwise, take
 from particles.integral.edges import Beyond, fastest, mirror
@@ -71,6 +72,10 @@ class DihPlates(Dih):
     def fastest(self) -> tuple[float, float]:
         """Largest frequency of sound over its speed, and largest rate of diffusion over the diffusivity."""
         return fastest(self.edges, self.beyond)
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """Of the points, (n,) each."""
+        return super().fields(state)._replace(x=self.x)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt, written to `out`    [Eqs 34-36]"""

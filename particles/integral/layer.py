@@ -12,6 +12,7 @@ import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas, check_state, conductivity, sound_speed, stress, temperature, viscosity
 from continuum.jit import jit
+from particles.fields import Fields, from_densities
 from particles.ghosts import Ghosts
 from particles.integral.edges import Beyond, Edges, fastest
 from particles.integral.fixed import (
@@ -81,7 +82,7 @@ class Layer:
     share: float = 1.0
     fast: bool = True
 
-    fields = ("rho", "px", "py", "eps")
+    names = ("rho", "px", "py", "eps")
 
     def __post_init__(self):
         if not 0 <= self.share <= 1:
@@ -101,6 +102,10 @@ class Layer:
     def state(self, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
         """(4, n) of densities, velocities (n, 2), temperatures (n,)."""
         return states(self.eos, rho*np.ones(len(self.x)), v, T)
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """Of the points, (n,) each."""
+        return from_densities(self.eos, self.x, self.edges.V, state[0], state[1:3], state[3])
 
     def start(self, n: int, team: Team) -> "Exchanging":
         """The sums over stored edges.

@@ -12,6 +12,7 @@ import numpy as np
 
 from continuum.fluid import check_state, conductivity, energy, pressure, sound_speed, temperature, viscosity
 from continuum.jit import formula, generic, jit
+from particles.fields import Fields, from_densities
 from particles.ghosts import ghosts_of
 from particles.integral import fixed
 from particles.integral.brackets import CROSSED, Crossed, Powers
@@ -167,7 +168,7 @@ class Drift:
                              "follow the flow, so that no work of what is left out is defined; take ConstantMassDrift")
 
     @property
-    def fields(self) -> tuple[str, ...]:
+    def names(self) -> tuple[str, ...]:
         """Names of the rows of a state: places, then m, p, E per volume, or of the point at constant mass, then volumes."""
         mass = isinstance(self.motion, ConstantMassDrift)
         return ("x", "y", "px", "py", *(("m", "E") if mass else ("rho", "eps")), "V")
@@ -177,6 +178,11 @@ class Drift:
         V = np.full(len(x), self.box[0]*self.box[1]/len(x))
         fields = fixed.states(self.eos, rho*np.ones(len(x)), v, T)[[1, 2, 0, 3]]
         return np.concatenate([x.T, self.motion.owned(V)*fields, V[None]])
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """Of the points, (n,) each."""
+        px, py, rho, eps = state[2:6]/self.motion.owned(state[6])
+        return from_densities(self.eos, state[:2].T.copy(), state[6].copy(), rho, np.stack([px, py]), eps)
 
     def temperature(self, state: np.ndarray) -> np.ndarray:
         """Of all points, (n,)."""

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from continuum.fluid import energy
+from particles.fields import Fields, from_densities
 from particles.integral.brackets import CROSSED
 from particles.integral.dih import Dih, Fluxes, Pairwise, rows, take
 from particles.integral.edge_makers import from_weights, judged, plain, renormalised
@@ -65,7 +66,7 @@ class Motion:
         return len(self.box)
 
     @property
-    def fields(self) -> tuple[str, ...]:
+    def names(self) -> tuple[str, ...]:
         """Names of the rows of a state."""
         axes = ("x", "y", "z")[:self.places]
         return (*axes, "rho", *(f"p{axis}" for axis in axes), "eps")
@@ -111,6 +112,15 @@ class Motion:
         d = self.places
         return state[d + 1:2*d + 1]/state[d]
 
+    def per_volume(self, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """rho, p, eps (2 + d, n) and volumes (n,)."""
+        return state[self.places:], self.equal(state.shape[1])
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """Of the points, (n,) each."""
+        (rho, *p, eps), V = self.per_volume(state)
+        return from_densities(self.eos, state[:self.places].T.copy(), V.copy(), rho, np.stack(p), eps)
+
     def densities(self, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
         """(2 + d, n) of densities (n,), velocities (n, d), temperatures (n,)."""
         internal = energy(self.eos, rho, T)*np.ones_like(rho)
@@ -141,13 +151,17 @@ class Convective(Motion):
     """Eqs 34-36, 39, 46-48 as printed: m_i, p_i, eps_i of volumes dV that stay as they are."""
 
     @property
-    def fields(self) -> tuple[str, ...]:
+    def names(self) -> tuple[str, ...]:
         """Names of the rows of a state."""
-        return (*super().fields, "V")
+        return (*super().names, "V")
 
     def state(self, x: np.ndarray, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
         """(2 d + 3, n) of positions (n, d) and fields; all volumes are equal."""
         return np.concatenate([self.checked(x).T, self.densities(rho, v, T), self.equal(len(x))[None]])
+
+    def per_volume(self, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """rho, p, eps (2 + d, n) and volumes (n,)."""
+        return state[self.places:-1], state[-1]
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt, written to `out`."""
@@ -184,21 +198,25 @@ class ConstantMass(Motion):
     bracket: Any = CROSSED
 
     @property
-    def fields(self) -> tuple[str, ...]:
+    def names(self) -> tuple[str, ...]:
         """Names of the rows of a state."""
         d = self.places
-        return (*super().fields[:d], "m", *super().fields[d + 1:-1], "E", "V")
+        return (*super().names[:d], "m", *super().names[d + 1:-1], "E", "V")
 
     def state(self, x: np.ndarray, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
         """(2 d + 3, n) of positions (n, d) and fields; all volumes are equal."""
         V = self.equal(len(x))
         return np.concatenate([self.checked(x).T, V*self.densities(rho, v, T), V[None]])
 
+    def per_volume(self, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """rho, p, eps (2 + d, n) and volumes (n,)."""
+        return state[self.places:-1]/state[-1], state[-1]
+
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt, written to `out`."""
-        d, V = self.places, state[-1]
+        d, (densities, V) = self.places, self.per_volume(state)
         dih = self.fluid(state[:d].T, V)
-        flow, edges = dih.flow(state[d:-1]/V), dih.edges
+        flow, edges = dih.flow(densities), dih.edges
         a, b, half = take(flow, edges.i), take(flow, edges.j), edges.S/2
         P_ab, P_ba = self.bracket.both(self.eos, a, b)
         to_a, to_b = (half*a.v).sum(axis=1), (half*b.v).sum(axis=1)

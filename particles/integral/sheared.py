@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from continuum.jit import jit
+from particles.fields import Fields, from_densities
 from particles.ghosts import Ghosts
 from particles.integral.edges import Edges
 from particles.integral.fixed import Differences, Exchange, Point, Summing, check_number, driven, lacking, read, states
@@ -35,7 +36,7 @@ class Sheared:
     law: Any
     rate: float
 
-    fields = ("rho", "px", "py", "eps", "slid")
+    names = ("rho", "px", "py", "eps", "slid")
 
     def __post_init__(self):
         _ = self.sides      # what is wrong with points or edges is told here
@@ -64,6 +65,10 @@ class Sheared:
         """(5, n) of densities, velocities (n, 2), temperatures, before anything has slid."""
         one = np.ones(self.points.n)
         return np.concatenate([states(self.eos, rho*one, v, T*one), 0*one[None]])
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """Of the points, (n,) each."""
+        return from_densities(self.eos, self.points.x, self.edges.V, state[0], state[1:3], state[3])
 
     def start(self, n: int, team: Team) -> "Shearing":
         """The sums over stored edges."""

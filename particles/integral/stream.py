@@ -1,7 +1,7 @@
 """Discretized integral hydrodynamics on fixed points around bodies, compiled: the terms of `layer`, periodic, in 2D.
 
-Held points (`particles.integral.bodies`) are walls and bodies: they exchange mass with the fluid, so that their density follows, and keep
-their velocity and temperature. What they receive of momentum is the force on them, exactly what the fluid lost.
+Held points (`particles.integral.bodies`) are walls and bodies: they exchange mass with the fluid, so that their density
+follows, and keep their velocity and temperature. What they receive of momentum is the force on them, exactly what the fluid lost.
 
 Slow flow around bodies feeds patterns of pressure that no gradient sees, as finite elements of equal order do, and creeps towards
 a drag that is too high. A filter of the density, chi of some 0.05 a^2 c^2/nu (c^2 = dP/drho at constant T), ends that.
@@ -13,6 +13,7 @@ import numpy as np
 
 from continuum.fluid import conductivity, energy, viscosity
 from continuum.jit import jit
+from particles.fields import Fields, from_densities
 from particles.ghosts import Ghosts
 from particles.integral.bodies import Held
 from particles.integral.edges import NONE_BEYOND, NOWHERE, Edges
@@ -67,7 +68,7 @@ class Stream:
     push: tuple[float, float] = (0.0, 0.0)
     chi: float = 0.0
 
-    fields = ("rho", "px", "py", "eps")
+    names = ("rho", "px", "py", "eps")
 
     def __post_init__(self):
         if not self.chi >= 0:
@@ -90,6 +91,10 @@ class Stream:
         warm = np.isfinite(self.held.T)
         T[self.held.which[warm]] = self.held.T[warm]
         return states(self.eos, rho, v, T)
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """Of the points, (n,) each."""
+        return from_densities(self.eos, self.x, self.edges.V, state[0], state[1:3], state[3])
 
     def start(self, n: int, team: Team) -> "Streaming":
         """The sums over stored edges.

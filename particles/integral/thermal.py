@@ -11,6 +11,7 @@ import numpy as np
 
 from continuum.fluid import energy, sound_speed
 from continuum.jit import jit
+from particles.fields import Fields
 from particles.integral.covariance import BETAS, OLD
 from particles.integral.dih import Dih, Flow, Fluxes, Mixed, check_bulk, means, rows, take
 from particles.integral.fixed import Summing, check_number
@@ -53,13 +54,21 @@ class Thermal:
         return ThreeStage
 
     @property
-    def fields(self) -> tuple[str, ...]:
-        return self.dih.fields
+    def names(self) -> tuple[str, ...]:
+        return self.dih.names
 
     @property
     def dih(self) -> Dih:
         """What flows without noise."""
         return Dih(edges=self.edges, eos=self.eos, law=self.law, zeta=self.zeta, transport=Mixed(share=self.share))
+
+    def state(self, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
+        """(2 + d, n) of densities (n,), velocities (n, d), temperatures (n,)."""
+        return self.dih.state(rho, v, T)
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """Of the points, (n,) each; edges know no places."""
+        return self.dih.fields(state)
 
     def __repr__(self) -> str:
         """What tells a checkpoint's method from another: edges by their sums."""

@@ -12,6 +12,7 @@ import numpy as np
 
 from continuum.fluid import conductivity, constant_viscosity, energy, pressure, stress, temperature, valid, viscosity
 from continuum.jit import formula, jit
+from particles.fields import Fields
 from particles.lists import Listed, Surroundings
 from particles.pairs import sweep
 from particles.terms import ArithmeticGradients, DirectFluxes, Fluxes, Gradients, density_factor
@@ -61,7 +62,7 @@ class Spam:
     static: LessStatic = LessStatic(0.0, 0.0)  # noqa: RUF009
     skin: float = 0.7
 
-    fields = ("x", "y", "vx", "vy", "e")
+    names = ("x", "y", "vx", "vy", "e")
 
     def __post_init__(self):
         if not self.m > 0:
@@ -72,6 +73,24 @@ class Spam:
         if self.transport is Direct and not constant_viscosity(self.law):
             raise ValueError(f"Direct takes friction along pairs, which lacks a part of the stress where viscosity varies, as by "
                              f"{self.law}: take Nested, or ConstEta")
+
+    def state(self, x: np.ndarray, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
+        """(5, n) of places (n, 2), velocities (n, 2), and temperatures (n,) at densities that give the energies."""
+        return np.stack([*x.T, *v.T, energy(self.eos, rho, T)*np.ones(len(x))])
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """Of the particles, (n,) each, in the order of the state; density and volume by the method's own sums."""
+        sums, _, ids = self.look(state)
+        rho, T = (q[:sums.n][np.argsort(ids)] for q in (sums.around.rho, sums.around.T))
+        return Fields(state[:2].T.copy(), state[2:4].T.copy(), rho, T, self.m/rho)
+
+    def look(self, state: np.ndarray) -> tuple["Nested | Direct", np.ndarray, np.ndarray]:
+        """(sums, state, ids) with new lists, in their order: densities, motion and images are up to date."""
+        n = state.shape[1]
+        sums, ordered, ids = self.start(n, Team(1)), state.copy(), np.arange(n)
+        sums.around.relist(ordered, ids, 0.0)
+        sums.densities(ordered)
+        return sums, ordered, ids
 
     def start(self, n: int, team: Team) -> "Nested | Direct":
         """The sums of n particles, with their arrays.

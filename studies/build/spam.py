@@ -12,7 +12,16 @@ from continuum.gas.fields import interpolate
 from continuum.gas.solve import steady_on
 from continuum.scene import Periodic, RayleighBenard
 from particles.limits import step_limit
-from particles.observe import Fields, Grid, PlateHeat, Profile, field_kinetic, heat_flow, particle_kinetic, wall_layers
+from particles.observe import (
+    Grid,
+    PlateHeat,
+    Profile,
+    Smoothed,
+    field_kinetic,
+    heat_flow,
+    particle_kinetic,
+    wall_layers,
+)
 from particles.run import Divergence, Plan, Run, run
 from particles.smooth.spam import Direct, LessStatic, Nested, Spam
 from particles.terms import ArithmeticGradients, Gradients
@@ -232,7 +241,7 @@ class SpamRun(Case):
 
     def _energies(self, done: Run, plan: Plan) -> dict:
         (kp, steady), (kg, too), (heat, _) = (settled(self._late(done, name), HALVES) for name in ("kp", "kg", "heat"))
-        fields = Fields(*done.means["grid"])._asdict()
+        fields = Smoothed(*done.means["grid"])._asdict()
         flow = flowing({name: fields[name] for name in ("rho", "vx", "vy")}, isinstance(self.scene.sides, Periodic))
         return {**self.point, **self._spent(plan), "ke": kp.value, "ke_err": kp.err, "ke_field": kg.value,
                 "ke_field_err": kg.err, "ke_mean": flow.value, "ke_mean_err": flow.err,
@@ -283,7 +292,7 @@ class SpamRun(Case):
                 for t, kp, kg in list(samples)[::every]]
 
     def _fields(self, done: Run) -> list[dict]:
-        values, grid = Fields(*done.means["grid"]), self._grid
+        values, grid = Smoothed(*done.means["grid"]), self._grid
         columns = (grid.x/self.scene.L, grid.y/self.scene.L, values.rho, values.T, values.vx, values.vy)
         names = ("x", "y", "rho", "T", "vx", "vy")
         return [{**self.point, **dict(zip(names, map(float, row), strict=True))}
@@ -311,7 +320,7 @@ class SpamRun(Case):
         n, name = sums.n, "-".join(str(self.point[column]) for column in ("variant", "eos", "ra", "resolution", "seed"))
         folder.mkdir(parents=True, exist_ok=True)
         write_particles(folder/f"{name}.vtp", state, rho=sums.around.rho[:n], T=sums.around.T[:n])
-        write_grid(folder/f"{name}.vti", grid.x, grid.y, Fields(*done.means["grid"])._asdict())
+        write_grid(folder/f"{name}.vti", grid.x, grid.y, Smoothed(*done.means["grid"])._asdict())
 
 
 def at_end(chosen: Spam, done: Run) -> tuple[Any, np.ndarray]:

@@ -34,7 +34,7 @@ class Booked(Stream):
     the fluid's momentum, and round accordingly.
     """
 
-    fields = (*Stream.fields, "taken_x", "taken_y", "taken_e")      # type: ignore[assignment]
+    names = (*Stream.names, "taken_x", "taken_y", "taken_e")      # type: ignore[assignment]
 
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
         """(7, n), nothing taken yet."""
@@ -119,7 +119,7 @@ class BookedSides(Sheared):
     enter, U m of momentum and U p - U^2 m/2 of energy stay.
     """
 
-    fields = (*Sheared.fields, "given_x", "given_e")      # type: ignore[assignment]
+    names = (*Sheared.names, "given_x", "given_e")      # type: ignore[assignment]
 
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
         """(7, n), nothing given yet."""

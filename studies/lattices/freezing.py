@@ -14,7 +14,7 @@ from scipy.spatial import cKDTree
 from continuum.fluid import energy, pressure, temperature
 from continuum.gas.solve import steady_on
 from continuum.scene import RayleighBenard
-from particles.observe import Fields, Grid, particle_kinetic
+from particles.observe import Grid, Smoothed, particle_kinetic
 from particles.run import Divergence, Plan, run
 from particles.smooth.spam import Spam
 from particles.weights import value_and_slope
@@ -133,7 +133,7 @@ class Freezing(Case):
             places = self._places(chosen, done.by_id(), dt, unit)
         except Divergence:
             return {**row, "flow": np.nan, "flow_err": np.nan, "kp": np.nan, "kp_err": np.nan, "lindemann": np.nan}, []
-        fields = Fields(*done.means["grid"])._asdict()
+        fields = Smoothed(*done.means["grid"])._asdict()
         flow = flowing({name: fields[name] for name in ("rho", "vx", "vy")}, periodic=True)
         kp = mean(np.array(done.series["kp"])[np.array(done.times) > plan.mean_from])
         found = {"flow": flow.value/K, "flow_err": flow.err/K, "kp": kp.value/K, "kp_err": kp.err/K,

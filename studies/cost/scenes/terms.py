@@ -68,7 +68,7 @@ class Listed:
     edges: Edges
     terms: tuple
 
-    fields = ("rho", "px", "py")
+    names = ("rho", "px", "py")
 
     def start(self, n: int, team: Team) -> "Summed":
         """The sums over stored edges.

@@ -11,7 +11,7 @@ import numpy as np
 
 from continuum.fluid import IdealGas
 from continuum.scene import RayleighBenard, Walls
-from particles.observe import Fields, Grid, particle_kinetic
+from particles.observe import Grid, Smoothed, particle_kinetic
 from particles.run import Plan, run
 from studies.build.names import START_ENERGY
 from studies.build.spam import SpamRun, Variant, at_end, method, start, step
@@ -55,7 +55,7 @@ class Square(Case):
         at = Snapshot(np.stack([around.x, around.y], axis=1), np.stack([around.vx, around.vy], axis=1), sums.n, SIDE)
         near = at.tree.query_ball_point(at.x[at.bulk], SHARED, return_length=True) - 1
         kp = np.array(done.series["kp"])[np.array(done.times) > plan.mean_from]
-        mean = Fields(*done.means["grid"])
+        mean = Smoothed(*done.means["grid"])
         return Outcome({"squares": [{"eos": type(self.eos).__name__, "weight": self.weight.__name__, "ra": self.ra,
                                      "seed": self.seed, "eta": scene.eta, "alpha": scene.alpha, "rolls": one._rolls(done),
                                      "begun": START_ENERGY*scene.free_fall**2, "ke": float(kp.mean()),

@@ -48,7 +48,7 @@ def sampled(J: np.ndarray, Q: np.ndarray, modes: np.ndarray, seed: int, report: 
     exact = np.einsum("mi,ij,mj->m", modes, steady(J, Q), modes.conj()).real
     slow = -np.log(np.abs(np.linalg.eigvals(crank_nicolson(J, Q, DT).A)).max())
     # a complex random number of unit variance has two parts of a half
-    method = Linear(J=apart(J), B=sparse.csr_array(apart(factor(Q))/np.sqrt(2)), seed=seed, modes=apart(modes), fields=FIELDS)
+    method = Linear(J=apart(J), B=sparse.csr_array(apart(factor(Q))/np.sqrt(2)), seed=seed, modes=apart(modes), names=FIELDS)
     means: dict[str, Any] = {"modes": lambda sums, state: sums.found**2}
     plan = Plan(dt=DT, steps=int(np.ceil(decays/slow)), every=1, means=means)
     start = np.zeros((len(FIELDS), len(J)//4))

@@ -64,7 +64,7 @@ class Equipartition(Case):
         parts = transport(edges, self.share, ETA, ZETA, KAPPA, 1.0)
         check_modes(F, C, noise(edges.V, *(part.Q for part in parts)), names)
         F /= np.sqrt(np.einsum("mi,ij,mj->m", F, C, F))[:, None]
-        method = Linear(J=J, B=factor(edges, *parts), seed=self.seed, modes=F, fields=dih.fields)
+        method = Linear(J=J, B=factor(edges, *parts), seed=self.seed, modes=F, names=dih.names)
         check_length(J, self.steps*self.dt)
         start = np.random.default_rng(self.seed).normal(size=(2 + d, edges.n))/np.sqrt(edges.V)    # rho, v, T of equilibrium
         start[-1] += start[0]

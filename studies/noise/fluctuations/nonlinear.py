@@ -80,7 +80,7 @@ class Exchange:
     C: float
     corrected: bool
     seed: int
-    fields = ("T",)
+    names = ("T",)
     integrator = CrankNicolson
 
     def __repr__(self) -> str:

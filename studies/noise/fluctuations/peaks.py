@@ -52,7 +52,7 @@ class Brillouin(Case):
         v = np.full((edges.n, 1), self.speed)
         J, to_state = jacobian(dih.rates, dih.state(np.ones(edges.n), v, np.ones(edges.n))), states_of_fields(v)
         B = carried_along(factor(edges, *transport(edges, 1.0, 0.0, ETA, KAPPA, 1.0)), v)
-        method = Linear(J=J, B=B, seed=self.seed, modes=self.waves()@np.linalg.inv(to_state), fields=("rho", "p", "eps"))
+        method = Linear(J=J, B=B, seed=self.seed, modes=self.waves()@np.linalg.inv(to_state), names=("rho", "p", "eps"))
         check_length(J, self.steps*self.dt)
         series = {f"{number}": picked(number) for number in range(6*len(self.turns))}
         state = np.random.default_rng(self.seed).normal(size=(3, self.points))

@@ -47,14 +47,14 @@ class Linear:
     B: sparse.csr_array
     seed: int
     modes: np.ndarray
-    fields: tuple[str, ...]
+    names: tuple[str, ...]
     integrator = CrankNicolson
 
     def __repr__(self) -> str:
         return f"Linear({float(np.abs(self.J).sum())!r}, {float(abs(self.B).sum())!r}, {self.seed}, {len(self.modes)})"
 
     def start(self, n: int, team: Team) -> "Sampled":
-        check_number(n, len(self.J)//len(self.fields))
+        check_number(n, len(self.J)//len(self.names))
         return Sampled(self)
 
 

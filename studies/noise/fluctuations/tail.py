@@ -94,7 +94,7 @@ class TailSampled(Case):
         check_length(J, self.steps*self.dt)
         B = factor(edges, *transport(edges, self.share, self.eta, 0.0, self.eta, 1.0))
         modes = np.eye(FIELDS*n)[n:3*n]
-        method = Linear(J=J, B=B, seed=self.seed, modes=modes, fields=dih.fields)
+        method = Linear(J=J, B=B, seed=self.seed, modes=modes, names=dih.names)
         plan = Plan(dt=self.dt, steps=self.steps, every=1, series={f"{i}": picked(i) for i in range(2*n)})
         legs = batches(method, self.begin(), plan, report)
         v = np.array([[leg.series[f"{i}"] for i in range(2*n)] for leg in legs])      # (batches, 2 n, steps)

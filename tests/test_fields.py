@@ -1,0 +1,167 @@
+"""Every method gives back the fields that its state was made of; grids likewise at their nodes."""
+import importlib
+import inspect
+import pkgutil
+
+import numpy as np
+import pytest
+
+import particles
+from continuum.fluid import ConstEta, VanDerWaals
+from continuum.gas.fields import at_nodes, initial, kinetic_energy, placed
+from continuum.gas.fields import block as as_block
+from continuum.scene import RayleighBenard, Torus, Walls
+from particles.dissipative.dpd import Dpd
+from particles.dissipative.stream import DpdStream
+from particles.fields import kinetic
+from particles.fields import kinetic_energy as of_fields
+from particles.integral.bodies import held
+from particles.integral.closed_faces import Moving
+from particles.integral.dih import Dih
+from particles.integral.dih_plates import DihPlates
+from particles.integral.edge_makers import renormalised
+from particles.integral.edges import between_plates
+from particles.integral.layer import Layer
+from particles.integral.points import jittered, lattice
+from particles.integral.rr98_moving import DRIFTS, Drift
+from particles.integral.rr98_moving_plain import MOTIONS
+from particles.integral.sheared import Sheared
+from particles.integral.stream import Stream
+from particles.integral.thermal import Thermal
+from particles.observe import particle_kinetic, smoothed
+from particles.smooth.spam import Spam
+from particles.threads import Team
+from particles.walls.periodic import periodic
+from particles.weights import Lucy, WendlandC2
+
+BOX = COLUMNS, ROWS = 10, 8
+AT, SQUARE = jittered(BOX, 0.1, 1), lattice(BOX)
+FLUID = {"eos": VanDerWaals(), "law": ConstEta(0.3, 0.4)}
+EVERYWHERE = {"weight": WendlandC2.of(h=2.9), "walls": (*periodic(COLUMNS), *periodic(ROWS, 1)), "box": BOX, **FLUID}
+EDGES = renormalised(SQUARE, Lucy.of(h=2.0))
+INSIDE = dict(zip(("edges", "beyond"), between_plates(renormalised, SQUARE.x, COLUMNS, ROWS, Lucy.of(h=2.0)), strict=True),
+              x=SQUARE.x, T_plates=(1.2, 0.8), g=0.01, **FLUID)
+
+#: methods on points that stay, and on points that move: state(rho, v, T), state(x, rho, v, T)
+FIXED = {"dih": Dih(edges=EDGES, **FLUID), "plates": DihPlates(**INSIDE), "layer": Layer(**INSIDE),
+         "thermal": Thermal(edges=EDGES, k=1e-3, seed=1, **FLUID),
+         "stream": Stream(x=SQUARE.x, edges=EDGES, held=held(np.array([0])), **FLUID),
+         "sheared": Sheared(points=SQUARE, edges=EDGES, rate=0.1, **FLUID)}
+MOVING = {**{f"rr98-{name}": Drift(motion=motion, **EVERYWHERE) for name, motion in DRIFTS.items()},
+          **{f"plain-{name}": kind(box=BOX, weight=WendlandC2.of(h=2.9), **FLUID) for name, kind in MOTIONS.items()},
+          "closed-faces": Moving(**EVERYWHERE)}
+DPD = {"dpd": Dpd(box=(5.0, 4.0), rate=0.2), "dpd-3d": Dpd(box=(3.5, 3.0, 4.0)),
+       "dpd-stream": DpdStream(box=(5.0, 4.0), held=np.array([0]))}
+SPAM = Spam(**EVERYWHERE)
+
+
+def given(n):
+    """Densities, velocities, temperatures; the first point rests, since the stream holds it."""
+    rng = np.random.default_rng(1)
+    v = rng.normal(0, 0.2, (n, 2))
+    v[0] = 0
+    return rng.uniform(0.9, 1.1, n), v, rng.uniform(0.9, 1.1, n)
+
+
+def same(fields, rho, v, T):
+    # a few operations, each good to round-off
+    for value, wanted in zip((fields.rho, fields.v, fields.T), (rho, v, T), strict=True):
+        np.testing.assert_allclose(value, wanted, rtol=1e-13, atol=1e-14)
+    assert fields.V.sum() == pytest.approx(COLUMNS*ROWS, rel=1e-13)
+
+
+@pytest.mark.parametrize("method", FIXED.values(), ids=FIXED)
+def test_fixed_points_give_back_what_their_state_was_made_of(method):
+    rho, v, T = given(SQUARE.n)
+    fields = method.fields(method.state(rho, v, T))
+    same(fields, rho, v, T)
+    assert np.isnan(fields.x).all() or np.array_equal(fields.x, SQUARE.x)
+
+
+@pytest.mark.parametrize("method", MOVING.values(), ids=MOVING)
+def test_moving_points_give_back_what_their_state_was_made_of(method):
+    rho, v, T = given(AT.n)
+    fields = method.fields(method.state(AT.x, rho=rho, v=v, T=T))
+    same(fields, rho, v, T)
+    assert np.array_equal(fields.x, AT.x)
+
+
+def test_smooth_particles_have_the_density_of_their_own_sums():
+    _, v, T = given(AT.n)
+    state = SPAM.state(AT.x, 1.0, v, T)
+    sums, ordered, ids = SPAM.look(state)
+    fields = SPAM.fields(state)
+    assert np.array_equal(fields.x, AT.x) and np.array_equal(fields.v, v) and np.array_equal(ordered[2:], state[2:, ids])
+    assert np.array_equal(fields.rho[ids], sums.around.rho[:AT.n]) and np.array_equal(fields.V, 1/fields.rho)
+    # on the lattice every particle has one density, near 1: then temperatures come back as far as that is from 1
+    still = SPAM.fields(SPAM.state(SQUARE.x, 1.0, v, T))
+    assert np.ptp(still.rho) < 1e-14 and abs(still.rho[0] - 1) < 0.02
+    np.testing.assert_allclose(still.T, T, atol=2*0.02)
+
+
+def test_smoothed_fields_of_a_uniform_fluid_are_its_own():
+    one, v = np.ones(AT.n), np.full((AT.n, 2), 0.3)
+    at = smoothed(SPAM, SPAM.state(AT.x, 1.0, v, one))
+    np.testing.assert_allclose(at.v, v, rtol=1e-13)
+    assert np.array_equal(at.x, AT.x)
+
+
+@pytest.mark.parametrize("method", DPD.values(), ids=DPD)
+def test_dissipative_particles_have_the_temperature_of_their_velocities(method):
+    state = method.random_start(3.0)
+    fields, d = method.fields(state), method.d
+    assert np.array_equal(fields.x, state[:d].T) and np.array_equal(fields.v, state[d:2*d].T)
+    assert fields.V.sum() == pytest.approx(method.volume) and fields.rho@fields.V == pytest.approx(len(fields.T))
+    assert fields.T[0] == pytest.approx(method.kT, rel=4*np.sqrt(2/(d*len(fields.T))))      # four standard deviations
+
+
+@pytest.mark.parametrize("method", (*FIXED.values(), *MOVING.values()), ids=(*FIXED, *MOVING))
+def test_one_kinetic_energy_serves_all(method):
+    rho, v, T = given(SQUARE.n)
+    places = () if method in FIXED.values() else (SQUARE.x,)
+    state = method.state(*places, rho=rho, v=v, T=T)
+    assert of_fields(method.fields(state)) == pytest.approx(0.5*rho@(v**2).sum(axis=1)/rho.sum(), rel=1e-13)
+
+
+def test_kinetic_energy_is_a_quantity_of_runs():
+    _, v, T = given(AT.n)
+    state = SPAM.state(AT.x, 1.0, v, T)
+    assert kinetic(SPAM.start(AT.n, Team(1)), state) == pytest.approx(particle_kinetic(None, state), rel=1e-14)
+
+
+def kinds():
+    """Every class of the package whose states have names."""
+    found = {getattr(importlib.import_module(module.name), name)
+             for module in pkgutil.walk_packages(particles.__path__, "particles.")
+             for name, kind in inspect.getmembers(importlib.import_module(module.name), inspect.isclass)
+             if "names" in dir(kind) and {"rates", "start"} & {*dir(kind)}}
+    return {kind for kind in found if not any(kind is not other and issubclass(other, kind) for other in found)}
+
+
+def test_no_method_is_left_out():
+    tried = {type(method) for method in (*FIXED.values(), *MOVING.values(), *DPD.values(), SPAM)}
+    assert kinds() <= tried, f"{kinds() - tried} have states, add them to the methods of this test"
+
+
+# --- grids ---------------------------------------------------------------------------------------------------------------------
+
+
+class Box:
+    """A torus without convection."""
+    sides, L, width, aspect, eos = Torus(), 8.0, 8.0, 1.0, VanDerWaals()
+
+
+@pytest.mark.parametrize("scene", [RayleighBenard(L=8.0, ra=1e4), RayleighBenard(L=8.0, ra=1e4, sides=Walls())],
+                         ids=["periodic", "walls"])
+def test_nodes_of_a_grid_fill_its_box_and_have_its_kinetic_energy(scene):
+    fields = initial(scene, 8)
+    at = at_nodes(fields)
+    assert at.V.sum() == pytest.approx(scene.width*scene.L, rel=1e-14)
+    assert len(np.unique(at.x, axis=0)) == len(at.x)
+    np.testing.assert_allclose(at.T, scene.T(at.x[:, 1]), rtol=1e-14)
+    assert of_fields(at) == pytest.approx(kinetic_energy(as_block(fields)), rel=1e-13)
+
+
+def test_nodes_of_a_torus_are_told_once_each():
+    at = at_nodes(placed(Box, 8, lambda x, y: (1 + 0*x, 0.1*y, 0*x, 1 + 0*x)))
+    assert len(at.x) == 64 and np.array_equal(at.V, np.ones(64)) and np.array_equal(at.v[:, 0], 0.1*at.x[:, 1])

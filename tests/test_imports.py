@@ -1,0 +1,125 @@
+"""Imports point down and have no circle: a study imports build, kit, particles and continuum, none of these a study."""
+import ast
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+PACKAGES = ("continuum", "particles", "studies")
+#: where particles may look into continuum: what a fluid is, and how code is compiled
+SHARED = ("continuum", "continuum.fluid", "continuum.jit")
+#: rooms of studies that are no study: what every study uses, and the page, which shows all of them
+BELOW, PAGE = ("kit", "build"), "report"
+#: what is still imported across studies, until it has moved to build, kit or below
+MENDING = {"studies.conservation.bodies.drag", "studies.hardcases.interface.runs", "studies.hardcases.read",
+           "studies.hardcases.square.claims", "studies.hardcases.square.runs", "studies.hardcases.tube.spam",
+           "studies.lattices.cases", "studies.lattices.claims", "studies.lattices.derive", "studies.lattices.long_sound",
+           "studies.lattices.ringing_part", "studies.operators.transport.walls", "studies.ordering.derive",
+           "studies.ordering.vortices", "studies.ordering.waves", "studies.rb.claims.printed", "studies.rb.claims.snapshots",
+           "studies.rb.cost", "studies.rb.looks", "studies.rb.tables"}
+
+
+def named(path: Path) -> str:
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+@cache
+def modules() -> dict[str, Path]:
+    return {named(path): path for package in PACKAGES for path in (ROOT/package).rglob("*.py")}
+
+
+@cache
+def imports(module: str) -> frozenset[str]:
+    """Modules of the project that a module imports, within functions and for types, too."""
+    found = set()
+    for node in ast.walk(ast.parse(modules()[module].read_text())):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            assert not node.level, f"{module} imports relative to itself: name the package"
+            found |= {f"{node.module}.{alias.name}" for alias in node.names}
+    mended = {known for name in found if (known := longest_known(name)) and (known not in MENDING or room(known) == room(module))}
+    return frozenset(each for known in mended for each in with_packages(known) if not f"{module}.".startswith(f"{each}."))
+
+
+def with_packages(module: str) -> list[str]:
+    """A module and the packages above it, which Python imports first."""
+    parts = module.split(".")
+    return [".".join(parts[:n]) for n in range(1, len(parts) + 1)]
+
+
+def longest_known(name: str) -> str:
+    """The module that a dotted name is in or is; empty for one of no package here."""
+    while name and name not in modules():
+        name = name.rpartition(".")[0]
+    return name
+
+
+def room(module: str) -> str:
+    """Of studies, the folder: that of a study, kit, build; else the package."""
+    parts = module.split(".")
+    return ".".join(parts[:2]) if parts[0] == "studies" else parts[0]
+
+
+def allowed(module: str, other: str) -> bool:
+    own, its = room(module), room(other)
+    if its in (own, "studies"):
+        return True
+    if own == "continuum":
+        return False
+    if own == "particles":
+        return other in SHARED
+    if own == "studies.kit":
+        return other == "continuum.jit"     # whose hash of sources is part of a key
+    if own == f"studies.{PAGE}":
+        return True
+    rooms = BELOW[:1] if own == "studies.build" else BELOW
+    return its in ("continuum", "particles", *(f"studies.{name}" for name in rooms))
+
+
+def circles() -> list[list[str]]:
+    """Modules that import each other by some way, one list a circle    [Tarjan]"""
+    index: dict[str, int] = {}
+    low: dict[str, int] = {}
+    stack: list[str] = []
+    found: list[list[str]] = []
+
+    def visit(module):
+        index[module] = low[module] = len(index)
+        stack.append(module)
+        for other in sorted(imports(module)):
+            if other not in index:
+                visit(other)
+                low[module] = min(low[module], low[other])
+            elif other in stack:
+                low[module] = min(low[module], index[other])
+        if low[module] == index[module]:
+            at = stack.index(module)
+            if len(stack) - at > 1:
+                found.append(sorted(stack[at:]))
+            del stack[at:]
+
+    for module in sorted(modules()):
+        if module not in index:
+            visit(module)
+    return found
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_imports_point_down(package):
+    wrong = [f"{module} -> {other}" for module in sorted(modules()) if module.split(".")[0] == package
+             for other in sorted(imports(module)) if not allowed(module, other)]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_imports_have_no_circle():
+    assert not circles(), "\n".join(" <-> ".join(circle) for circle in circles())
+
+
+def test_the_rules_are_seen_to_be_broken():
+    assert not allowed("particles.run", "studies.kit.case") and not allowed("studies.rb.cases", "studies.cost.cases")
+    assert not allowed("continuum.fluid", "particles.run") and not allowed("particles.run", "continuum.scene")
+    assert not allowed("studies.kit.case", "studies.build.spam") and not allowed("studies.build.spam", "studies.rb.tables")
+    assert allowed("studies.rb.cases", "studies.build.spam") and allowed("studies.report.page", "studies.rb.cases")
