@@ -14,6 +14,9 @@ import numpy as np
 from continuum.fluid import ConstEta, IdealGas, check_state, conductivity, energy, expansivity, thermal_pressure, viscosity
 
 
+ROLL_ENERGY = 9/5000    # kinetic energy per mass of the initial rolls    [KHP95, Fig. 9]
+
+
 class Periodic(NamedTuple):
     """Periodic in x with period aspect L; rolls come in pairs."""
 
@@ -134,6 +137,10 @@ class RayleighBenard:
                             "or numbers, which follow from ra and pr")
 
     @property
+    def slide(self) -> None:
+        """Velocity of the upper plate along itself: these plates do not slide."""
+
+    @property
     def width(self) -> float:
         return self.aspect*self.L
 
@@ -212,6 +219,10 @@ class RayleighBenard:
         u, v = self.sides.rolls(np.asarray(x), np.asarray(y), self.width, self.L, rolls)
         scale = np.sqrt(ke/self._roll_energy(rolls))
         return scale*u, scale*v
+
+    def fields(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Density (n,), velocity (n, 2) and temperature (n,) at the start, at places (n, 2)    [KHP95, Sec. VI]"""
+        return np.ones(len(x)), np.stack(self.flow(*x.T, ROLL_ENERGY), axis=1), self.T(x[:, 1])
 
     def _roll_energy(self, rolls: int) -> float:
         """Mean v^2/2 of the pattern; the midpoint rule is exact for its few harmonics."""

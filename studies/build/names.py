@@ -2,7 +2,9 @@
 from math import isclose
 from typing import Any
 
-START_ENERGY = 9/5000  # kinetic energy per mass of the initial rolls [KHP95, Fig. 9]
+from continuum.scene import ROLL_ENERGY
+
+START_ENERGY = ROLL_ENERGY
 START_JITTER = 0.2     # of the lattice at the start of moving points, in spacings: a perfect one stays frozen in places
 HALVES = 0.3           # of K: if halves of the averaging time differ by more, the flow is not steady
 EOS_NAMES = {"IdealGas": "ideal", "VanDerWaals": "vdw", "DenseFluid": "dense"}

@@ -16,6 +16,7 @@ from continuum.gas.solve import March, limits
 from continuum.scene import Periodic
 from particles.integral.bodies import held, together, with_plates
 from particles.integral.closed_faces import EXCHANGED, Moving
+from particles.integral.driven import Driven
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import between_plates
 from particles.integral.points import jittered, lattice
@@ -24,11 +25,10 @@ from particles.integral.triangulation import between
 from particles.smooth.spam import Spam
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
+from particles.walls.sliding_plate import Sliding
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.cost import names
 from studies.cost.problem import Problem, Residuals, of_method
-from studies.cost.sliding import Sliding
-from studies.operators.transport.walls import Driven
 
 COLUMNS = 8         # of points: wider than twice a range of three spacings
 JITTER = 0.2

@@ -2,8 +2,6 @@
 
 RR98 leaves walls open (Sec. III A). Here they are mirror images, friction seeing 2 U - v behind a plate that slides with U, or
 rows of points that are held (`Stream`), which triangles of points off a lattice need: their images would see a kink.
-`Layer` has plates at rest: what a sliding one adds to the friction along an edge to an image, f (2 U - 2 v) in place of
-f (-2 v), f = eta k, is added here to its rates, and so is a force along the plates.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -15,15 +13,14 @@ import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.bodies import held, together, with_plates
+from particles.integral.driven import Driven
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import between_plates
-from particles.integral.layer import Exchanging, Layer
 from particles.integral.points import jittered, lattice
 from particles.integral.stream import Stream
 from particles.integral.triangulation import between, delaunay
 from particles.limits import limit_of
 from particles.run import Plan, run
-from particles.threads import Team
 from particles.weights import Lucy
 from studies.kit.case import Case, Outcome, Report
 
@@ -35,54 +32,6 @@ COLUMNS = 8         # nothing depends on x but where points are
 FROM_PLATE = 0.25   # of a spacing: jittered points come no nearer to a plate
 OF_LIMIT = 0.5      # of the step to its limit: RK4's own errors are (0.02)^4 of a decay
 TERMS = 60          # of the series: the next one is exp(-60^2 pi^2 0.02) = 1e-308 at the first time
-
-
-@dataclass(frozen=True, kw_only=True, repr=False)
-class Driven(Layer):
-    """A layer whose plates slide along themselves with velocities `slide` (lower, upper), under a force per mass along x.
-
-    For constant viscosity and all transport along edges; the mended heating takes plates to be at rest, of no moment where the
-    velocity across the plates is zero.
-    """
-    slide: tuple[float, float] = (0.0, 0.0)
-    force: float = 0.0
-
-    def __post_init__(self):
-        super().__post_init__()
-        if not isinstance(self.law, ConstEta) or self.share != 1:
-            raise ValueError(f"sliding plates pull with a constant viscosity along edges only, got {self.law} and the share "
-                             f"{self.share}: take ConstEta and share = 1")
-
-    def __repr__(self) -> str:
-        return f"{super().__repr__()} driven by {self.slide}, {self.force}"
-
-    def start(self, n: int, team: Team) -> "Driving":
-        """The sums over stored edges.
-
-        Raises
-        ------
-        ValueError
-            The state has not as many points as there are.
-        """
-        super().start(n, team)
-        return Driving(self, team)
-
-
-class Driving(Exchanging):
-    """The compiled sums of a layer, and what drives it."""
-
-    def __init__(self, method: Driven, team: Team):
-        super().__init__(method, team)
-        beyond, V = method.beyond, method.edges.V
-        U = np.array(method.slide)[beyond.plate]
-        self.force = method.force
-        self.pull, self.work = (np.bincount(beyond.i, 2*method.law.eta*beyond.k*q, self.n)/V for q in (U, U**2))
-
-    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt of a state (4, n), written to `out`; what drives it adds f 2 U to momentum, f (2 U - 2 v).U to energy."""
-        super().rates(state, out)
-        out[1] += self.pull + self.force*state[0]
-        out[3] += self.work - self.pull*state[1]/state[0] + self.force*state[1]
 
 
 # --- exact solutions --------------------------------------------------------------------------------------------------
