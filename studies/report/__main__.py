@@ -1,4 +1,4 @@
-"""python -m studies.report [page|films]: results/index.html from what is in results/, or the films that it shows."""
+"""python -m studies.report [page|films]: results/index.html from the tables, or the films that it shows."""
 import argparse
 import sys
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""A panel of error against cost as SVG: readable without scripts, each point with its values for pointer and keyboard."""
+"""A panel of error against cost as SVG: readable without scripts, each point with its values."""
 import math
 from typing import NamedTuple
 
@@ -7,9 +7,10 @@ from studies.report.cost import Panel, Point, Series
 WIDTH, HEIGHT = 760, 440
 LEFT, RIGHT, TOP, BOTTOM = 66, 18, 16, 50
 #: paths of marks around (0, 0); colours are classes c0 to c7 of the style sheet
-MARKS = ("M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0z", "M-4.5,-4.5h9v9h-9z", "M0,-6L5.5,4.5H-5.5z", "M0,-6.5L5.5,0L0,6.5L-5.5,0z",
-         "M0,6L5.5,-4.5H-5.5z", "M-2,-5.5h4v3.5h3.5v4h-3.5v3.5h-4v-3.5h-3.5v-4h3.5z",
-         "M-6,0L4.5,-5.5V5.5z", "M0,-6.5L1.8,-2H6.2L2.8,1L4,5.8L0,3.2L-4,5.8L-2.8,1L-6.2,-2H-1.8z")
+MARKS = ("M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0z", "M-4.5,-4.5h9v9h-9z", "M0,-6L5.5,4.5H-5.5z",
+         "M0,-6.5L5.5,0L0,6.5L-5.5,0z", "M0,6L5.5,-4.5H-5.5z",
+         "M-2,-5.5h4v3.5h3.5v4h-3.5v3.5h-4v-3.5h-3.5v-4h3.5z", "M-6,0L4.5,-5.5V5.5z",
+         "M0,-6.5L1.8,-2H6.2L2.8,1L4,5.8L0,3.2L-4,5.8L-2.8,1L-6.2,-2H-1.8z")
 DASHES = ("", "6 3", "8 3 2 3", "2 3", "10 3", "4 2", "1 2", "12 4")
 
 
@@ -64,15 +65,19 @@ class Chart(NamedTuple):
 
 
 def chart(panel: Panel) -> Chart:
-    """Places of everything; axes hold all seconds, errors up to a few times those of the usual series (others on the edge)."""
+    """Places of everything; axes hold all seconds and the errors of usual series, others lie on the edge."""
     points = [point for series in panel.series for point in series.points]
-    seconds = [point.cpu_s for point in points]
-    sizes = [point.size for point in points if point.size > 0]
-    usual = [point.size for series in panel.series if series.usual for point in series.points if point.size > 0]
+    seconds, sizes = [point.cpu_s for point in points], sizes_of(panel.series)
+    usual = sizes_of([series for series in panel.series if series.usual])
     low, high = max(0.6*min(sizes), 0.2*min(usual)), min(1.6*max(sizes), 2*max(usual))
     x = Scale(0.7*min(seconds), 1.4*max(seconds), LEFT, WIDTH - RIGHT)
     y = Scale(low, high, HEIGHT - BOTTOM, TOP)
     return Chart(x, y, [curve(number, series, x, y) for number, series in enumerate(panel.series)])
+
+
+def sizes_of(series: list[Series]) -> list[float]:
+    """Errors that a logarithmic axis can show."""
+    return [point.size for one in series for point in one.points if point.size > 0]
 
 
 def curve(number: int, series: Series, x: Scale, y: Scale) -> Curve:

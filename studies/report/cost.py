@@ -1,7 +1,7 @@
-"""Error against CPU seconds, from every table that has both: panels of series of points, and what an error costs.
+"""Error against CPU seconds, from every table that has both: panels of series, and what errors cost.
 
-A table takes part if it has the columns of REQUIRED; those of SCENE name its panels, those of SERIES the series within. What a
-level of error costs is read from the study's table `needed` where it has one.
+A table takes part if it has the columns of REQUIRED; those of SCENE name its panels, those of SERIES its
+series. What a level of error costs is read from the study's table `needed` where it has one.
 """
 import math
 from collections import Counter
@@ -34,7 +34,7 @@ PRINTED = ("spam", "printed")
 
 @dataclass(frozen=True)
 class Point:
-    """A run or the mean of runs: seconds and |error| with their intervals, whether it is too large, and words."""
+    """A run or a mean of runs: seconds, |error|, their intervals, whether it is too large, and words."""
 
     cpu_s: float
     spread: float
@@ -46,7 +46,7 @@ class Point:
 
 @dataclass(frozen=True)
 class Series:
-    """One method; the usual ones are shown at first. `needs`: level of error -> what it costs, of those that are reached."""
+    """One method; the usual ones are shown at first. needs : level of error -> what it costs."""
 
     label: str
     family: str
@@ -84,7 +84,7 @@ class Panel:
 
 
 def panels(known: list[Part]) -> list[Panel]:
-    """All panels, of the scene with most of them first, there those with most series; the study of cost before others."""
+    """All panels: the study of cost first, the scene with most panels, the panel with most series."""
     made = [panel for part in known for sheet in part.sheets for panel in of_sheet(sheet, needed_of(part))]
     scenes = Counter(panel.scene for panel in made)
 
@@ -138,7 +138,7 @@ def of_panel(group: pd.DataFrame, needed: pd.DataFrame | None = None) -> Iterato
         about, rows = dict(zip(names, key)), rows.sort_values("resolution")
         needs = by_runs(rows) if needed is None else by_table(where(needed, about))
         points = [point(row) for row in rows.to_dict("records")]
-        made.append(Series(label(about), family(about["method"]), points, needs))
+        made.append(Series(label(about), family(str(about["method"])), points, needs))
     usual = usual_ones(made)
     yield from (replace(one, usual=True) for one in usual)
     yield from (one for one in made if one not in usual)

@@ -120,19 +120,20 @@ def study_of(part: Part) -> Study | None:
     try:
         study: Study = importlib.import_module(f"studies.{name}").STUDY
     except Exception as error:      # whatever its modules raise
-        raise NoReport(f"studies/{name} cannot be loaded ({type(error).__name__}: {error}): mend it, python -m studies.{name} "
-                       "--help has the whole story") from error
+        raise NoReport(f"studies/{name} cannot be loaded ({type(error).__name__}: {error}): mend it, "
+                       f"python -m studies.{name} --help has the whole story") from error
     return study
 
 
 def check_columns(part: Part) -> None:
-    """Refuse a table that lacks a column of those that the study declares: the page would leave out what it is for."""
+    """Refuse a table that lacks a column which its study declares: the page would leave things out."""
     study = study_of(part)
     declared = {table.name: (*table.columns, *STAMP) for table in study.tables} if study else {}
     for sheet in part.sheets:
         missing = [name for name in declared.get(sheet.path.stem, ()) if name not in sheet.frame]
         if missing:
-            raise NoReport(f"{sheet.path} has no column {', '.join(missing)}: it was written by other code; {AGAIN}")
+            raise NoReport(f"{sheet.path} has no column {', '.join(missing)}: it was written by other code; "
+                           f"{AGAIN}")
 
 
 def drawings(part: Part) -> dict[str, Drawing | Overview]:
@@ -154,8 +155,9 @@ def rows_of(path: Path, columns: tuple[str, ...] = (), **where: Any) -> pd.DataF
     try:
         frame = read(path, [*columns, *where])
     except (ValueError, UnicodeDecodeError) as error:      # pandas' errors of parsing are ValueErrors
-        cause = str(error) if str(path) in str(error) else f"{path} is no table ({error}): remove it and run the study again"
-        raise NoReport(cause) from error
+        if str(path) in str(error):
+            raise NoReport(str(error)) from error
+        raise NoReport(f"{path} is no table ({error}): remove it and run the study again") from error
     for column, value in where.items():
         frame = frame[frame[column] == value]
     return frame

@@ -50,5 +50,7 @@ def by_runs(rows: pd.DataFrame) -> dict[float, Need]:
 
 def by_table(rows: pd.DataFrame) -> dict[float, Need]:
     """The same from the study's own table, which interpolates between runs."""
-    rows = rows[rows["reached"] != "no"]
-    return {row.level: Need(row.cpu_s, row.low, row.high, row.reached == "at most") for row in rows.itertuples()}
+    reached = rows[rows["reached"] != "no"]
+    at_most = reached["reached"] == "at most"
+    columns = (reached[name] for name in ("level", "cpu_s", "low", "high"))
+    return {level: Need(*numbers) for level, *numbers in zip(*columns, at_most, strict=True)}

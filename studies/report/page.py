@@ -1,11 +1,10 @@
-"""results/index.html: one file with everything in it, from tables, figures and films on disk; no solver is run."""
+"""results/index.html: one file with everything in it, from tables, figures and films; no solver is run."""
 import base64
 import gzip
 import hashlib
 import math
 import re
 from collections.abc import Callable
-from importlib.resources import files
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -22,8 +21,9 @@ from studies.report.inventory import NoReport, Part, Sheet, check_columns, drawi
 from studies.report.numbers import short, signed, with_error
 from studies.report.pictures import films, opened, webp
 
-QUESTION = "Do fluid particles converge on the continuum equations, at what error, at what cost, and where do they break?"
-#: rows of a table that are in the page as they are; more of them when it is opened, if the file is below EMBED
+QUESTION = ("Do fluid particles converge on the continuum equations, at what error, at what cost, and where "
+            "do they break?")
+#: rows of a table that are in the page; the others are packed into it if the file is below EMBED [bytes]
 ROWS, EMBED = 5, 60_000
 #: what the page may weigh [bytes]
 LIMIT = 7_800_000
@@ -44,8 +44,8 @@ def write_page(out: Path) -> Path:
     text = render(out, known)
     size = len(text.encode())
     if size > LIMIT:
-        raise NoReport(f"the page has {size/1e6:.1f} MB, {LIMIT/1e6:.1f} are allowed: draw smaller, or take out of {out}, what is "
-                       f"large, {', '.join(largest(out, known))}")
+        raise NoReport(f"the page has {size/1e6:.1f} MB, {LIMIT/1e6:.1f} are allowed: draw smaller, or take "
+                       f"out of {out}, what is large, {', '.join(largest(out, known))}")
     write_atomic(out/"index.html", text)
     return out/"index.html"
 
@@ -62,34 +62,37 @@ def render(out: Path, known: list[Part], encode: Callable[[Path], str] = webp) -
     claims, panels = claims_of(out), cost.panels(known)
     knowledge = Known(out, claims, panels)
     shown = {part.name: figures(part, encode) for part in known}
-    env = Environment(loader=PackageLoader("studies.report", "page"), autoescape=select_autoescape(), undefined=StrictUndefined,
-                      trim_blocks=True, lstrip_blocks=True)
+    env = Environment(loader=PackageLoader("studies.report", "page"), autoescape=select_autoescape(),
+                      undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
     env.filters |= {"short": short, "signed": signed}
     return env.get_template("page.html").render(
-        question=QUESTION, answer=answer(knowledge), findings=findings(knowledge), claims=claim_rows(claims), verdicts=VERDICTS,
-        counts=claims["verdict"].value_counts().to_dict(), papers=sorted({paper(source) for source in claims["source"]}),
-        claims_made=" ".join(Sheet(out/"claims.csv").commits), panels=[(panel, chart(panel)) for panel in panels],
-        size=(WIDTH, HEIGHT), levels=levels.LEVELS, parts=known, figures=shown, films=films(out),
+        question=QUESTION, answer=answer(knowledge), findings=findings(knowledge), verdicts=VERDICTS,
+        claims=claim_rows(claims), claims_made=" ".join(Sheet(out/"claims.csv").commits),
+        counts=claims["verdict"].value_counts().to_dict(), papers=sorted(set(map(paper, claims["source"]))),
+        panels=[(panel, chart(panel)) for panel in panels], size=(WIDTH, HEIGHT), levels=levels.LEVELS,
+        parts=known, figures=shown, films=films(out),
         main=next((one for one in shown.get("rb", []) if one.name == "main"), None),
-        tables={sheet.name: table(sheet) for sheet in sheets_of(known)}, style=file("style.css"), script=file("script.js"),
-        inputs=fingerprint(out))
+        tables={sheet.name: table(sheet) for sheet in sheets_of(known)},
+        style=file("style.css"), script=file("script.js"), inputs=fingerprint(out))
 
 
 def fingerprint(out: Path) -> str:
     """Hash of everything that the page is made of."""
-    made_of = [out/"claims.csv", *(path for kind in ("*/*.csv", "*/*.png", "films/*.mp4") for path in out.glob(kind))]
-    kept = [path for path in made_of if path.exists() and path.parent.name not in ("raw", "quick")]
-    sources = [Path(str(path)) for path in files("studies.report").joinpath("page").iterdir() if path.is_file()]
-    lines = sorted(f"{path.name} {hashlib.sha256(path.read_bytes()).hexdigest()}" for path in [*kept, *sources])
-    return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:16]
+    kinds = ("claims.csv", "*/*.csv", "*/*.png", "films/*.mp4")
+    made_of = [path for kind in kinds for path in out.glob(kind) if path.parent.name not in ("raw", "quick")]
+    sources = Path(__file__).with_name("page").glob("*.*")
+    whole = hashlib.sha256()
+    for path in sorted([*made_of, *sources]):
+        whole.update(path.read_bytes())
+    return whole.hexdigest()[:16]
 
 
 def file(name: str) -> Markup:
     """A file of the page as it is."""
-    return Markup(files("studies.report").joinpath("page", name).read_text())
+    return Markup(Path(__file__).with_name("page").joinpath(name).read_text())
 
 
-# --- claims -------------------------------------------------------------------------------------------------------
+# --- claims ---------------------------------------------------------------------------------------
 
 
 def paper(source: str) -> str:
@@ -123,7 +126,7 @@ def value_of(value: float, err: float) -> str:
     return signed(f"{value:.3g}" + (f" ± {err:.1g}" if err > 0 else ""))
 
 
-# --- figures, tables ------------------------------------------------------------------------------------------------
+# --- figures, tables ------------------------------------------------------------------------------
 
 
 class Shown(NamedTuple):

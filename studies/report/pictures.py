@@ -1,4 +1,4 @@
-"""Pictures as addresses that hold them: figures as WebP in as many colours as tell series apart, films with their last picture."""
+"""Pictures as addresses that hold them: figures in as many colours as tell series apart, films."""
 import base64
 import io
 from pathlib import Path
@@ -11,12 +11,13 @@ from PIL import Image, UnidentifiedImageError
 from studies.kit.table import Table
 from studies.report.inventory import NoReport, rows_of
 
-#: distance in RGB (441 from black to white) below which two colours are one: those of series are 60 apart and more, nearer are
-#: blends along edges of lines and letters
+#: distance in RGB (441 from black to white) below which two colours are one: those of series are 60 apart and
+#: more, nearer are blends along edges of lines and letters
 NEAR = 24
 #: films.csv says what is seen; films in the order of the page, others follow
 FILMS = Table("films", key=["film"], columns=[
-    "film", "title", "caption", "ra", "rows", "points", "grid_rows", "t_end", "frames", "last_ke", "last_ke_grid"])
+    "film", "title", "caption", "ra", "rows", "points", "grid_rows", "t_end", "frames", "last_ke",
+    "last_ke_grid"])
 ORDER = ("particles", "closed_faces", "as_printed")
 
 
@@ -25,7 +26,8 @@ def opened(path: Path) -> Image.Image:
     try:
         return Image.open(path)
     except (UnidentifiedImageError, OSError) as error:
-        raise NoReport(f"{path} is no picture ({error}): make figures-{path.parent.name} draws it again") from error
+        again = f"make figures-{path.parent.name} draws it again"
+        raise NoReport(f"{path} is no picture ({error}): {again}") from error
 
 
 def webp(path: Path) -> str:
@@ -36,9 +38,9 @@ def webp(path: Path) -> str:
 
 
 def fewer(picture: Image.Image) -> Image.Image:
-    """Each colour is the nearest of those kept; one is kept that is NEAR no more frequent one: none moves further."""
-    if picture.mode != "P":
-        picture = picture.convert("RGB").quantize(256, kmeans=1, dither=Image.Dither.NONE)       # as kit.figure does
+    """Each colour becomes the nearest one kept; kept are those that are NEAR no more frequent one."""
+    if picture.mode != "P":     # as kit.figure does
+        picture = picture.convert("RGB").quantize(256, kmeans=1, dither=Image.Dither.NONE)
     colours = np.reshape(picture.getpalette("RGB") or [], (-1, 3)).astype(float)
     frequent = np.argsort(-np.array(picture.histogram()[:len(colours)]), kind="stable")
     kept: list[int] = []
@@ -74,7 +76,8 @@ def still(path: Path) -> dict[str, Any]:
     try:
         about, *_, last = read_frames(path)
     except (OSError, RuntimeError, ValueError) as error:
-        raise NoReport(f"{path} is no film ({str(error).splitlines()[0]}): make films makes it again") from error
+        cause = str(error).splitlines()[0]
+        raise NoReport(f"{path} is no film ({cause}): make films makes it again") from error
     packed = io.BytesIO()
     Image.frombytes("RGB", about["size"], last).save(packed, "webp", quality=60, method=4)
     return {"still": address("image/webp", packed.getvalue()), "size": about["size"]}
