@@ -47,7 +47,7 @@ env: .venv/ready  ## set up .venv and nothing else
 studies: hours $(studies:%=study-%) $(if $(filter quick,$(SIZE)),,films executed) report  ## all studies, notebooks, films, the page: hours
 
 hours: .venv/ready  ## what all studies have still to do, in minutes of CPU
-	$(run) -m studies.kit.hours $(studies)
+	$(run) -m studies.kit.budget $(studies)
 
 report: .venv/ready  ## results/index.html: one page of findings, verdicts, figures, tables, films
 	$(run) -m studies.report $(if $(filter quick,$(SIZE)),--out results/quick)

@@ -4,8 +4,8 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
-import studies.hardcases as hardcases
 
+import studies.hardcases as hardcases
 from continuum.fluid import IdealGas, pressure
 from particles.smooth.spam import Spam
 from particles.threads import Team

@@ -11,8 +11,9 @@ import pytest
 
 from studies.kit import source
 from studies.kit.case import Case, Outcome, word
-from studies.kit.keep import SEAL, kept
-from studies.kit.sweep import CasesFailed, Interrupted, sweep
+from studies.kit.store import SEAL, CannotRun, kept
+from studies.kit.study import Study
+from studies.kit.sweep import CasesFailed
 from studies.kit.table import Table, read
 
 SQUARES = Table("squares", key=["x", "note"], columns=["x", "note", "y"])
@@ -74,7 +75,8 @@ class Bench:
         return [Square(x=float(x), log=str(self.log), **more) for x in xs]
 
     def sweep(self, cases, size="paper"):
-        return sweep(cases, tables=[SQUARES], study="toy", size=size, workers=1, out=self.folder)
+        study = Study(name="toy", cases=lambda size: cases, tables=[SQUARES])
+        return study.run(size, workers=1, out=self.folder)
 
     def ran(self):
         text = self.log.read_text() if self.log.exists() else ""
@@ -99,7 +101,7 @@ def test_a_finished_case_is_not_run_again_and_the_longest_starts_first(bench):
 
 def test_an_interrupted_study_goes_on_where_it_stopped(bench):
     cases = bench.cases(3) + bench.cases(2, trouble="interrupt") + bench.cases(1)
-    with pytest.raises(Interrupted, match="1 of 3 cases are finished and kept, the same command goes on"):
+    with pytest.raises(KeyboardInterrupt, match="1 of 3 cases are finished and kept, the same command goes on"):
         bench.sweep(cases)
     assert bench.ran() == ["3", "2"]
     assert list(bench.sweep(cases)["squares"].y) == [1, 4, 9]
@@ -155,7 +157,7 @@ def test_a_case_that_raises_leaves_the_others_and_tells_where_the_story_is(bench
 
 
 def test_a_full_disk_stops_the_study_and_keeps_what_is_finished(bench):
-    with pytest.raises(CasesFailed, match=r"the disk is full: make room .* 1 of 3 cases are finished"):
+    with pytest.raises(CannotRun, match=r"the disk is full: make room .* 1 of 3 cases are finished"):
         bench.sweep(bench.cases(3) + bench.cases(2, trouble="full") + bench.cases(1))
     assert bench.ran() == ["3", "2"]
 

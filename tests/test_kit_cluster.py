@@ -18,12 +18,11 @@ import pytest
 
 from studies.kit import cluster, provenance, source
 from studies.kit.case import Case, Outcome
-from studies.kit.cluster import ClusterError, check_scheduler
-from studies.kit.errand import check_worker, packed, unpacked
+from studies.kit.cluster import check_scheduler, check_worker, packed, unpacked
+from studies.kit.processes import THREADS
+from studies.kit.store import CannotRun
 from studies.kit.study import Study, main
-from studies.kit.sweep import sweep
 from studies.kit.table import Table, read
-from studies.kit.workers import THREADS
 
 LIMIT = 180     # seconds after which something hangs: the whole file takes twenty on an idle machine
 LAW = "import numpy as np\ndef wave(x):\n    return np.sin(np.arange(1, 9)*x/7).sum()\n"
@@ -35,6 +34,7 @@ from typing import ClassVar
 from continuum import law
 from continuum import other
 from studies.kit.case import Case, Outcome
+from studies.kit.store import CannotRun
 from studies.kit.study import Study, main
 from studies.kit.table import Table
 
@@ -295,13 +295,13 @@ def test_without_an_answer_nothing_is_lost(tmp_path, monkeypatch, capsys):
     assert f"toy: no Dask scheduler answers at {nowhere} within 0.5 s: start one by dask scheduler, or leave SCHEDULER" in told
     assert "1 of 2 cases are finished and kept" in told and "Traceback" not in told
     assert (tmp_path / "toy/cubes.csv").read_text() == before
-    assert list(sweep(STUDY.cases(""), tables=[CUBES], study="toy", size="paper", workers=1, out=tmp_path)["cubes"].y) == [1, 8]
+    assert list(STUDY.run("paper", workers=1, out=tmp_path)["cubes"].y) == [1, 8]
     typed("--scheduler", nowhere, "--out", str(tmp_path)), "all is kept: nobody is asked"
 
 
 def test_without_the_package_the_way_out_is_told(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(ClusterError, match=r"needs the package distributed .*: make env installs it, .* without SCHEDULER"):
+    with pytest.raises(CannotRun, match=r"needs the package distributed .*: make env installs it, .* without SCHEDULER"):
         STUDY.run("paper", out=tmp_path, scheduler="tcp://here:1")
     assert list(STUDY.run("paper", out=tmp_path, workers=1)["cubes"].y) == [1, 8]
 
@@ -323,7 +323,7 @@ def test_a_worker_that_would_compute_otherwise_is_refused(threads, environment, 
     for name in ("OMP_NUM_THREADS", "MKL_NUM_THREADS"):
         monkeypatch.setenv(name, environment)
     worker = SimpleNamespace(address="tcp://here:1", state=SimpleNamespace(nthreads=threads))
-    with pytest.raises(ClusterError, match=words):
+    with pytest.raises(CannotRun, match=words):
         check_worker(worker, versions or provenance.versions())
 
 
@@ -332,10 +332,10 @@ def test_a_case_that_means_something_else_is_refused(monkeypatch):
     assert unpacked(sent, WORKER) == Cube(x=2.0)
     other = Cube(x=2.0)
     other.__dict__["key"] = "of other code"
-    with pytest.raises(ClusterError, match=r"worker tcp://here:1 has other code than the study: Cube 2 has another key there"):
+    with pytest.raises(CannotRun, match=r"worker tcp://here:1 has other code than the study: Cube 2 has another key there"):
         unpacked(packed(other), WORKER)
     monkeypatch.delattr(sys.modules[__name__], "Cube")
-    with pytest.raises(ClusterError, match=r"has other code than the study .*Cube"):
+    with pytest.raises(CannotRun, match=r"has other code than the study .*Cube"):
         unpacked(sent, WORKER)
 
 
@@ -346,7 +346,7 @@ def test_a_table_without_a_column_is_one_line_and_what_is_finished_stays(tmp_pat
     for command in ("run", "claims"):
         assert typed(command, "--workers", "1", "--out", str(tmp_path)) == 1
         told = capsys.readouterr().err
-        assert told.splitlines()[-1] == (f"toy: {path} has no column y, size, commit: it was written by other code; remove it "
+        assert told.splitlines()[-1] == (f"toy: {path} has no column y, size, commit: it has an older layout; remove it "
                                          "and run the study again: finished cases are kept").replace(
                                              ", size, commit" if command == "claims" else "", "")
     assert path.read_text() == "# by hand\nx,z\n1,1\n"

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from studies.kit import source, study, sweep, workers
+from studies.kit import dispatch, source, store, study, sweep
 from studies.kit.case import Case, Outcome
 from studies.kit.claim import Claim
 from studies.kit.figure import figure
@@ -96,13 +96,13 @@ def test_an_interrupt_that_python_drops_stops_the_study_all_the_same():
         def __del__(self):
             os.kill(os.getpid(), signal.SIGINT)
             time.sleep(0)
-    with workers.remember_interrupt():
+    with dispatch.remember_interrupt():
         try:
             made = Bad()
             del made
         except KeyboardInterrupt:
             pytest.fail("it was not dropped: the test shows nothing")
-        assert workers.pressed == [signal.SIGINT]
+        assert dispatch.pressed == [signal.SIGINT]
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
@@ -188,7 +188,7 @@ CUBES = Study(name="toy", cases=lambda size: [Cube(x=1.0), Cube(x=1/3), Cube(x=7
 def typed(tmp_path, monkeypatch, capsys):
     """What a command does: exit status and all that it prints; its results are in tmp_path/results."""
     monkeypatch.delenv("SIZE", raising=False)
-    monkeypatch.setattr(study, "RESULTS", tmp_path / "results")
+    monkeypatch.setattr(store, "RESULTS", tmp_path / "results")
     monkeypatch.chdir(tmp_path)
 
     def type_(*words):

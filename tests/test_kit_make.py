@@ -7,17 +7,16 @@ import pytest
 from studies.kit import source
 
 pytestmark = pytest.mark.skipif(not shutil.which("make"), reason="no make")
-MAIN = "if __name__ == '__main__':\n    pass\n"
 
 
 @pytest.fixture
 def make(tmp_path):
-    """make in a repository of the studies one and two, and a module that is none; nothing can be set up in it."""
+    """make in a repository of the studies one and two, and a folder that is none; nothing can be set up in it."""
     shutil.copy(source.ROOT / "Makefile", tmp_path)
-    (tmp_path / "studies").mkdir()
     (tmp_path / "requirements.lock").touch()
-    for name, text in {"one": MAIN, "two": MAIN, "__init__": ""}.items():
-        (tmp_path / f"studies/{name}.py").write_text(text)
+    for name, file in {"one": "__main__.py", "two": "__main__.py", "kit": "case.py"}.items():
+        (tmp_path / f"studies/{name}").mkdir(parents=True)
+        (tmp_path / f"studies/{name}/{file}").touch()
 
     def run(*words: str) -> tuple[int, str]:
         done = subprocess.run(["make", *words, "PYTHON=false"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
@@ -31,6 +30,11 @@ def test_an_unknown_study_is_told_those_that_exist_before_anything_is_set_up(mak
     code, text = make(target)
     assert code != 0 and f"no study {name}: there are one two" in text
     assert "Setting up" not in text and not (tmp_path / ".venv").exists()
+
+
+def test_a_study_that_was_renamed_is_told_its_new_name(make):
+    code, text = make("study-dpd")
+    assert code != 0 and text.splitlines()[0] == "no study dpd any more: it is part of noise: there are one two"
 
 
 def test_a_known_study_needs_the_environment_first(make):
@@ -52,7 +56,7 @@ def test_all_studies_are_told_their_hours_first_and_become_notebooks_films_and_t
     (tmp_path / ".venv/ready").touch()
     code, text = make("-n", "studies", f"SIZE={size}")
     lines = [line.strip() for line in text.splitlines() if line.strip().startswith((".venv/bin/python", "for one in"))]
-    wanted = ["kit.hours one two", "studies.one", "studies.two", *last]
+    wanted = ["kit.budget one two", "studies.one", "studies.two", *last]
     assert code == 0 and len(lines) == len(wanted), text
     assert all(word in line for word, line in zip(wanted, lines)), lines
 

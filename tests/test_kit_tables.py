@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from studies.kit import csvfile
-from studies.kit.claim import CannotTell, Claim, judge, put_claims, verdict
+from studies.kit.claim import CannotTell, Claim, ClaimError, judge, put_claims, verdict
 from studies.kit.table import Table, Tables, changed, merge, read
 
 SQUARES = Table("squares", key=["x", "note"], columns=["x", "note", "y"])
@@ -207,17 +207,32 @@ def test_claims_of_other_studies_stay(tmp_path):
     open_claim = Claim(id="d", source="RR98, Eq. 5", statement="smooth", undecidable="no number is printed")
     put_claims(path, judge([old[1], open_claim], Tables(), "rb"), "rb")
     frame = read(path)
-    assert " ".join(frame.columns) == "id source statement whose printed measured err low high verdict reason study"
+    assert " ".join(frame.columns) == "id source statement whose printed measured err low high verdict reason study formula"
     assert list(frame.low.dropna()) == list(frame.low[frame.id.isin(["b", "z"])]) == [0.5, 0.5]
     assert list(zip(frame.study, frame.id, frame.verdict, frame.reason)) == [
         ("rb", "b", "undecidable", "run SIZE=paper"), ("rb", "d", "undecidable", "no number is printed"),
         ("speed", "z", "holds", "accepted 1 +- 0.5: one printed digit")]
 
 
+@pytest.mark.parametrize("value", [
+    lambda frame: frame["ke"].max(), lambda frame: frame.ke.max(), lambda frame: frame.query("ke > 1")["ra"].max(),
+    lambda frame: frame[["ra", "ke"]].max().max(), lambda frame: frame.groupby("ke").size().max()])
+def test_a_claim_that_asks_for_a_column_that_is_not_there_says_so(value):
+    broken = claim(value=lambda tables: (value(tables["energy"]), 0.0), expect=1.0, within=0.5)
+    with pytest.raises(ClaimError, match=r"claim c asks for what is not there: .*\bke\b.*: correct the claim") as told:
+        judge([broken], Tables(energy=pd.DataFrame({"ra": [1.0]})), "rb")
+    assert "\n" not in str(told.value)
+
+
+def test_a_mistake_of_a_claim_keeps_its_traceback_and_says_whose_it_is():
+    with pytest.raises(ZeroDivisionError) as told:
+        judge([claim(value=lambda tables: (1/0, 0.0), expect=1.0, within=0.5)], Tables(), "rb")
+    assert told.value.__notes__ == ["while judging claim c"]
+
+
 def test_a_claim_whose_table_is_missing_says_so():
     broken = claim(value=lambda tables: tables["energy"], expect=1.0, within=0.5)
-    with pytest.raises(KeyError, match="no table 'energy'") as told:
+    with pytest.raises(ClaimError, match="claim c asks for what is not there: no table 'energy' among none"):
         judge([broken], Tables(), "rb")
-    assert told.value.__notes__ == ["while judging claim c"]
     with pytest.raises(ValueError, match="two claims of study rb are called c"):
         judge([broken, broken], Tables(), "rb")

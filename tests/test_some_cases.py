@@ -23,8 +23,10 @@ def test_no_critical_number_follows_from_one_growth_rate():
     (operators, {"lattice": [{"weight": "Exponential", "d": d, "how": how, "n": n, "r0": 1.0, "value": 0.5, "predicted": 0.5}
                              for d in (1, 3) for how in ("plain", "line") for n in (0, 1, 2, 3, 4)]},
      ("rr98-eq31-order-1d", "rr98-eq31-order-3d", "rr98-eq31-coefficient-3d", "rr98-eq32-zeroth", "rr98-eq32-moments")),
-    (fluctuations, {"gradient": [{"wavenumber": k, "period": 16, "extra": 1e3, "predicted": 1e3} for k in (0.05, 0.07, 0.1)]},
-     ("own-fluct-fourth-power-strong",))])
+    (fluctuations, {"onset": [{"rows": 8, "below": below, "velocity": 2.0} for below in (0.5, 0.02)],
+                    "sampled": [{"flow": "layer", "field": "slowest", "strength": 0.02, "exact": 2.0, "ratio": 1.0,
+                                 "ratio_err": 0.1}]},
+     ("rr98-fluct-eq25-onset", "own-fluct-onset-nearest", "rr98-fluct-eq25-onset-sampled"))])
 def test_few_rows_decide_nothing(study, rows, names):
     tables = Tables({name: pd.DataFrame(some) for name, some in rows.items()})
     said = {row["id"]: row for row in judge([claim for claim in study.STUDY.claims if claim.id in names], tables, "toy")}

@@ -2,6 +2,6 @@
 from studies.conservation import cases
 from studies.conservation.bodies import cases as bodies
 from studies.conservation.motions import cases as motions
-from studies.kit.part import study
+from studies.kit.study import Study
 
-STUDY = study("conservation", cases.PART, motions.PART, bodies.PART)
+STUDY = Study.of("conservation", __doc__, (cases.PART, motions.PART, bodies.PART,))

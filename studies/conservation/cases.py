@@ -37,7 +37,7 @@ from studies.conservation.layers import LayerDrift
 from studies.conservation.rates import KEEP, TRANSPORTS, MotionDrift
 from studies.conservation.walls import HOLDS, HeldDrift, SlidingDrift
 from studies.kit.case import Case
-from studies.kit.part import Part
+from studies.kit.study import Part
 from studies.ordering.waves import DISORDERS
 
 KINDS = ("lattice", "jittered-0.3", "random", "relaxed")

@@ -1,6 +1,6 @@
 """What does an error of 10, 3, 1, 0.1 % cost with each method, and what does each term cost?"""
 from studies.cost import cases
 from studies.cost.scenes import cases as scenes
-from studies.kit.part import study
+from studies.kit.study import Study
 
-STUDY = study("cost", cases.PART, scenes.PART)
+STUDY = Study.of("cost", __doc__, (cases.PART, scenes.PART,))

@@ -19,10 +19,10 @@ from studies.cost import tables as speed_tables
 from studies.cost.others import Direct
 from studies.cost.problem import Race
 from studies.kit.case import Case
+from studies.kit.processes import SPAWN, one_thread
 from studies.kit.study import Rows, Study, say, verdict_line
 from studies.kit.sweep import RESULTS, labelled, load
 from studies.kit.table import changed, merge
-from studies.kit.workers import SPAWN, one_thread
 
 #: tables of seconds; errors and steps stay
 TIMES = ("runs", "repeats", "growth", "starts")

@@ -22,7 +22,7 @@ from studies.cost.growth import Growth, Threads
 from studies.cost.problem import Race
 from studies.cost.start import Start
 from studies.kit.case import Case
-from studies.kit.part import Part
+from studies.kit.study import Part
 
 SEEDS = (1, 2, 3)
 DEAREST, TOGETHER = 300.0, 55*60.0   # seconds

@@ -13,8 +13,8 @@ from statistics import median
 from typing import Any, ClassVar
 
 from studies.kit.case import Case, Outcome, Report
+from studies.kit.processes import THREADS
 from studies.kit.source import ROOT
-from studies.kit.workers import THREADS
 
 AGAIN = 3       # fresh processes that find compiled code
 

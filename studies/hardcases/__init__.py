@@ -11,9 +11,9 @@ from studies.hardcases.interface import grid as interface_grid
 from studies.hardcases.limits import part as limits
 from studies.hardcases.map import part as map_part
 from studies.hardcases.tube import part as tube_part
-from studies.kit.part import study
+from studies.kit.study import Study
 from studies.lattices import cases as khp95
 from studies.lattices import long_sound, ringing_part
 
 #: the map comes last, it stands on what the others derive
-STUDY = study("hardcases", khp95.PART, limits.PART, ringing_part.PART, long_sound.PART, tube_part.PART, high_ra_part.PART, interface_grid.PART, map_part.PART)
+STUDY = Study.of("hardcases", __doc__, (khp95.PART, limits.PART, ringing_part.PART, long_sound.PART, tube_part.PART, high_ra_part.PART, interface_grid.PART, map_part.PART,))

@@ -1,32 +1,42 @@
-"""Cases onto the workers of a Dask cluster that is there already, known by the address of its scheduler.
+"""A transport to the workers of a Dask cluster that is there already, known by the address of its scheduler.
 
-A cluster shares the code with the study and nothing else, no disk either: a case travels to a worker, its rows come back and
-the study's process keeps them. Dask gives a case whose worker is lost to another one, as often as the scheduler allows
+A cluster shares the code with the study and nothing else, no disk either: a case travels to a worker, its outcome comes
+back as text. Dask gives a case whose worker is lost to another one, as often as the scheduler allows
 (``allowed-failures``, 3 unless set). Workers run one case at a time; ``make worker SCHEDULER=tcp://...`` starts one.
 """
+import io
+import math
+import os
+import pickle
 import re
+import shutil
 import sys
 import time
-from collections import deque
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterator
+from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
+from pkgutil import resolve_name
+from typing import TYPE_CHECKING, Any
 
-from studies.kit import provenance
-from studies.kit.case import Case
-from studies.kit.errand import ClusterError, errand, packed
-from studies.kit.keep import Failure, keep
-from studies.kit.workers import Bar, pressed, remember_interrupt
+from studies.kit import provenance, source
+from studies.kit.case import Case, Report, file_of, module_of
+from studies.kit.dispatch import LOOK, Bar
+from studies.kit.processes import THREADS
+from studies.kit.store import CannotRun, Failure, attempt, same_code
 
 if TYPE_CHECKING:
-    from distributed import Client, Future
+    from distributed import Client, Future, Worker
 
 CONNECT = 10.0      # seconds: a scheduler that is there and not overloaded answers in less than one
-LOOK = 0.1          # seconds between looks at what is finished
+TELL = 1.0          # seconds between fractions that a worker tells
 ADDRESS = re.compile(r"(tcp|tls|ws|wss)://\S+:\d+")
-LOST = "the connection to the scheduler was lost"
+NO_ANSWER = "the connection to the scheduler was lost"
 WAY_OUT = "make worker SCHEDULER=tcp://..., in an up-to-date copy of this repository, starts one that fits"
+
+
+class Cancelled(BaseException):
+    """Nobody waits for this case any more: no ``except Exception`` takes it for a failure."""
 
 
 def check_scheduler(address: str) -> str:
@@ -38,106 +48,156 @@ def check_scheduler(address: str) -> str:
         It is not one of a scheduler.
     """
     if address and not ADDRESS.fullmatch(address):
-        raise ValueError(f"SCHEDULER={address} is no address of a Dask scheduler: give tcp://host:port, or nothing to compute "
-                         "on this machine")
+        raise ValueError(f"SCHEDULER={address} is no address of a Dask scheduler: give tcp://host:port, or nothing "
+                         "to compute on this machine")
     return address
 
 
-def run_on(scheduler: str, cases: Sequence[Case], folder: Path, bar: Bar) -> Iterator[Failure]:
-    """Run cases on a cluster; those that time themselves come last, one by one.
+class Cluster:
+    """A place for each worker that there is now. Closed, the cluster gives up what was not finished."""
 
-    Raises
-    ------
-    ClusterError
-        The scheduler does not answer, is lost, or has a worker that cannot run these cases.
-    """
-    if not cases:
-        return
-    together = [number for number, case in enumerate(cases) if not case.alone]
-    alone = [number for number, case in enumerate(cases) if case.alone]
-    with remember_interrupt(), connected(scheduler) as client:
-        client.subscribe_topic(topic(client), show_on(bar))
-        yield from drain(client, cases, together, len(cases), folder, bar)
-        yield from drain(client, cases, alone, 1, folder, bar)
+    def __init__(self, address: str, bar: Bar):
+        self.client = connected(address)
+        self.running: dict[Future, tuple[int, str]] = {}
+        self.complete = True        # no need to say that workers are missing
+        # under the name of a client Dask itself tells things
+        self.topic = f"{self.client.id}-cases"
+        self.client.subscribe_topic(self.topic, lambda event: bar.tell(*event[1]))
+
+    def places(self) -> int:
+        try:
+            workers = len(self.client.nthreads())
+        except OSError as error:
+            raise CannotRun(NO_ANSWER) from error
+        if self.complete and not workers:
+            print(f"the cluster has no worker: {WAY_OUT}; waiting for one", file=sys.stderr)
+        self.complete = workers > 0
+        return workers
+
+    def submit(self, number: int, case: Case) -> None:
+        sent = packed(case), provenance.versions(), number, self.topic
+        # a lambda travels as code: the scheduler, which opens it, needs no copy of the repository
+        future = self.client.submit(lambda *sent: import_module("studies.kit.cluster").perform(*sent), *sent,
+                                    pure=False, key=f"{self.client.id}-{number}")
+        self.running[future] = number, case.label
+
+    def ready(self) -> Iterator[tuple[int, str | Failure]]:
+        time.sleep(LOOK)
+        for future in [future for future in self.running if future.done()]:
+            number, label = self.running.pop(future)
+            yield number, outcome(future, label)
+
+    def close(self) -> None:
+        self.client.close()
 
 
-@contextmanager
-def connected(scheduler: str) -> Iterator["Client"]:
-    """A connection to the scheduler. When it ends, however it does, the cluster gives up what was not finished."""
+def connected(address: str) -> "Client":
+    """A connection to the scheduler."""
     try:
         from distributed import Client
     except ImportError as error:
-        raise ClusterError(f"SCHEDULER={scheduler} needs the package distributed ({error}): make env installs it, or pip install "
-                           "distributed; without SCHEDULER cases run on this machine") from error
+        raise CannotRun(f"SCHEDULER={address} needs the package distributed ({error}): make env installs it, or pip "
+                        "install distributed; without SCHEDULER cases run on this machine") from error
     try:
-        client = Client(scheduler, timeout=CONNECT, set_as_default=False)
+        return Client(address, timeout=CONNECT, set_as_default=False)
     except OSError as error:
-        raise ClusterError(f"no Dask scheduler answers at {scheduler} within {CONNECT:g} s: start one by dask scheduler, or "
-                           "leave SCHEDULER out to compute on this machine") from error
-    with client:
-        yield client
+        raise CannotRun(f"no Dask scheduler answers at {address} within {CONNECT:g} s: start one by dask scheduler, "
+                        "or leave SCHEDULER out to compute on this machine") from error
 
 
-def topic(client: "Client") -> str:
-    """Under which workers tell how far they are; under the name of a client Dask itself tells things."""
-    return f"{client.id}-cases"
-
-
-def show_on(bar: Bar) -> Callable[[tuple[float, tuple[int, float]]], None]:
-    """What to do when a worker tells the fraction done of a case."""
-    def show(event: tuple[float, tuple[int, float]]) -> None:
-        number, fraction = event[1]
-        if bar.done[number] < 1:        # it may come after the result
-            bar.done[number] = min(max(fraction, 1e-9), 1 - 1e-9)
-    return show
-
-
-def drain(client: "Client", cases: Sequence[Case], numbers: Sequence[int], most: int, folder: Path,
-          bar: Bar) -> Iterator[Failure]:
-    """Give out a case for each worker, ``most`` at once; keep what comes back, yield failures.
-
-    No case waits at a worker, where it would be suspected together with a case that kills this worker.
-    """
-    todo, task, some = deque(numbers), errand(), True
-    running: dict[Future, int] = {}
-    while todo or running:
-        if pressed:
-            raise KeyboardInterrupt
-        for future in [future for future in running if future.done()]:
-            number = running.pop(future)
-            if failure := keep(cases[number], brought(future, cases[number]), folder):
-                yield failure
-            bar.done[number] = 1.0
-        workers = places(client)
-        if some and not workers:
-            print(f"the cluster has no worker: {WAY_OUT}; waiting for one", file=sys.stderr)
-        some = workers > 0
-        while todo and len(running) < min(most, workers):
-            number = todo.popleft()
-            running[client.submit(task, number, packed(cases[number]), provenance.versions(), topic(client),
-                                  pure=False, key=f"{client.id}-{number}")] = number
-        bar.show()
-        time.sleep(LOOK)
-
-
-def places(client: "Client") -> int:
-    """How many workers there are now."""
-    try:
-        return len(client.nthreads())
-    except OSError as error:
-        raise ClusterError(LOST) from error
-
-
-def brought(future: "Future", case: Case) -> str | Failure:
-    """What a worker found: the outcome as text, or a failure."""
+def outcome(future: "Future", label: str) -> str | Failure:
+    """What a worker sends: the outcome as text, or a failure."""
     from distributed import KilledWorker
     try:
         return future.result()
     except KilledWorker as error:
-        return Failure(case.label, f"{error.allowed_failures + 1} workers died while they ran it, the last one "
-                       f"{error.last_worker.address}, perhaps for want of memory: dask worker --memory-limit gives more",
-                       story=str(error))
+        message = (f"{error.allowed_failures + 1} workers died while they ran it, the last one "
+                   f"{error.last_worker.address}, perhaps for want of memory: dask worker --memory-limit gives more")
+        return Failure(label, message, story=str(error))
     except Exception as error:      # failures of cases are handed back: whatever is raised is trouble of the cluster
-        if future.status != "error":
-            raise ClusterError(LOST) from error
-        raise ClusterError(f"{error}: {WAY_OUT}") from error
+        raise CannotRun(f"{error}: {WAY_OUT}" if future.status == "error" else NO_ANSWER) from error
+
+
+class Pack(pickle.Pickler):
+    """Calls what the script that was started defines by the name of its module: there, another is __main__."""
+
+    def reducer_override(self, thing: Any) -> Any:
+        if getattr(thing, "__module__", "") == "__main__" and hasattr(thing, "__qualname__"):
+            return resolve_name, (f"{module_of(file_of(thing))}:{thing.__qualname__}",)
+        return NotImplemented
+
+
+def packed(case: Case) -> bytes:
+    """A case with its key, as bytes."""
+    file, _ = io.BytesIO(), case.key
+    Pack(file).dump(case)
+    return file.getvalue()
+
+
+def perform(sent: bytes, versions: str, number: int, topic: str) -> str | Failure:
+    """In a worker: run a case with the code and the libraries of the study; its outcome as text.
+
+    Checkpoints lie in a folder of the worker, as long as it lives.
+
+    Raises
+    ------
+    CannotRun
+        This worker cannot run it as the study would.
+    """
+    from distributed import get_worker
+    worker = get_worker()
+    check_worker(worker, versions)
+    case = unpacked(sent, worker)
+    scratch = Path(worker.local_directory)/"cases"/case.key
+    result = attempt(case, scratch, teller(worker, number, topic))
+    if isinstance(result, Failure):     # a full disk is this worker's: it does not end the study
+        return replace(result, message=f"{result.message} (on {worker.address})", disk_full=False)
+    shutil.rmtree(scratch)
+    return result
+
+
+def check_worker(worker: "Worker", versions: str) -> None:
+    """Refuse a worker whose results or times would be others than those of the study's own processes."""
+    name, threads = f"worker {worker.address}", worker.state.nthreads
+    if threads != 1:
+        raise CannotRun(f"{name} runs {threads} cases at once: it needs --nthreads 1")
+    os.environ.setdefault("NUMBA_NUM_THREADS", "1")     # numba is loaded with the first case; Dask sets the others
+    if more := [variable for variable in THREADS if os.environ.get(variable) != "1"]:
+        raise CannotRun(f"{name} computes with more threads than one: it needs {'=1 '.join(more)}=1")
+    if versions != provenance.versions():
+        raise CannotRun(f"{name} has {provenance.versions()}, the study {versions}")
+
+
+def unpacked(sent: bytes, worker: "Worker") -> Case:
+    """The case that was sent, if it means the same here."""
+    other = f"worker {worker.address} has other code than the study"
+    read_code()
+    try:
+        case = pickle.loads(sent)
+    except (ImportError, AttributeError, TypeError) as error:
+        raise CannotRun(f"{other} ({error})") from error
+    read_code()
+    if not same_code(case):
+        raise CannotRun(f"{other}: {case.label} has another key there")
+    return case
+
+
+def read_code() -> None:
+    """Remember the code that is loaded: a worker lives long, and files that change later are not what it runs."""
+    for path in filter(None, map(source.find, list(sys.modules))):
+        source.parse(path)
+
+
+def teller(worker: "Worker", number: int, topic: str) -> Report:
+    """Tells the study the fraction done, once a second; ends the case when nobody waits for it."""
+    task, last = worker.get_current_task(), -math.inf
+
+    def report(fraction: float) -> None:
+        nonlocal last
+        known = worker.state.tasks.get(task)
+        if known is None or known.state != "executing":
+            raise Cancelled
+        if time.monotonic() - last > TELL:
+            last = time.monotonic()
+            worker.log_event(topic, (number, float(fraction)))
+    return report

@@ -11,7 +11,7 @@ AGAIN = "remove it and run the study again: finished cases are kept"
 
 
 class OtherTable(ValueError):
-    """A table that the code of today did not write."""
+    """A file that is no table, or a table of an older layout: other code wrote it."""
 
 
 def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
@@ -29,8 +29,8 @@ def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
         names, text, above = pd.read_csv(path, comment="#", nrows=0).columns, named(path, TEXT), named(path, ABOVE)
     except ValueError as error:     # of pandas, and of letters that are none
         raise OtherTable(f"{path} is no table ({str(error).strip()}): {AGAIN}") from error
-    if lost := [column for column in columns if column not in names]:
-        raise OtherTable(f"{path} has no column {', '.join(lost)}: it was written by other code; {AGAIN}")
+    if missing := [column for column in columns if column not in names]:
+        raise OtherTable(f"{path} has no column {', '.join(missing)}: it has an older layout; {AGAIN}")
     try:
         frame = pd.read_csv(path, comment="#", dtype=dict.fromkeys((*text, *above), str), keep_default_na=False,
                             na_values={name: ["", "nan"] for name in names if name not in (*text, *above)})
@@ -57,8 +57,8 @@ def is_number(text: str) -> bool:
 def named(path: Path, begin: str) -> list[str]:
     """The columns that a line of the head names: a column of empty texts, say, does not tell by itself that it is text."""
     with path.open() as lines:
-        found = [line.removeprefix(begin).strip().split(", ") for line in lines if line.startswith(begin)]
-    return [name for name in found[0] if name] if found else []
+        lists = [line.removeprefix(begin).strip().split(", ") for line in lines if line.startswith(begin)]
+    return [name for name in lists[0] if name] if lists else []
 
 
 def write(path: Path, frame: pd.DataFrame, *, head: Iterable[str], once: Iterable[str] = ()) -> None:

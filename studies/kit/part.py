@@ -1,40 +1,87 @@
-"""What a group of cases brings to its study: it is listed there by one line."""
+"""A part of a study, and how parts become one: a study of many questions is a list of parts."""
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import Any, TypeVar
 
 import pandas as pd
+from matplotlib.figure import Figure
 
 from studies.kit.case import Case
 from studies.kit.claim import Claim
-from studies.kit.drawing import Joined
-from studies.kit.study import Study, nothing
-from studies.kit.table import Table, Tables
+from studies.kit.drawing import Drawing, Overview
+from studies.kit.table import Rows, Table, Tables
+
+T = TypeVar("T")
 
 
-class Part(NamedTuple):
-    """The fields of a `Study`, of one group."""
+def nothing(tables: Tables) -> dict[str, Any]:
+    """Default of ``derive`` and ``figures``."""
+    return {}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Part:
+    """Cases by size, the tables these fill, and what reads the tables."""
+
     cases: Callable[[str], Iterable[Case]]
     tables: Sequence[Table]
+    #: rows that follow from the tables (extrapolations, means over seeds), merged into them
+    derive: Callable[[Tables], Rows] = nothing
+    #: file name without .png -> figure
+    figures: Callable[[Tables], Mapping[str, Figure]] = nothing
     claims: Sequence[Claim] = ()
-    derive: Callable[[Tables], Mapping[str, Any]] = nothing
-    figures: Callable[[Tables], Mapping[str, Any]] = nothing
 
 
-def chained(functions: Iterable[Callable[[Tables], Mapping[str, Any]]]) -> Callable[[Tables], dict[str, Any]]:
-    """One function of the tables for many that derive rows: each finds what those before it made."""
-    wanted = list(functions)
+def joined(parts: Sequence[Part]) -> Part:
+    """One part of many. Rows are derived in order: each part finds what those before it derived.
 
-    def derive(tables: Tables) -> dict[str, Any]:
-        found: dict[str, Any] = {}
-        for function in wanted:
-            found.update(function(Tables({**tables, **{name: pd.DataFrame(rows) for name, rows in found.items() if rows}})))
-        return found
-    return derive
+    Raises
+    ------
+    ValueError
+        Two tables or two claims have one name; of figures and of derived rows when they are made.
+    """
+    return Part(
+        cases=lambda size: [case for part in parts for case in part.cases(size)],
+        tables=once("tables", ((table.name, table) for part in parts for table in part.tables)),
+        derive=lambda tables: derived(parts, tables),
+        figures=Joined(part.figures for part in parts),
+        claims=once("claims", ((claim.id, claim) for part in parts for claim in part.claims)))
 
 
-def study(name: str, *parts: Part) -> Study:
-    """The study that its parts make together, in this order: each derives from what those before it derived."""
-    return Study(name=name, cases=lambda size: [case for part in parts for case in part.cases(size)],
-                 tables=[table for part in parts for table in part.tables],
-                 derive=chained(part.derive for part in parts), figures=Joined(part.figures for part in parts),
-                 claims=[claim for part in parts for claim in part.claims])
+def once(what: str, pairs: Iterable[tuple[str, T]]) -> tuple[T, ...]:
+    """The values of pairs (name, value), if no name comes twice."""
+    values: dict[str, T] = {}
+    for name, value in pairs:
+        if name in values:
+            raise ValueError(f"two {what} of one study are called {name!r}: give one of them another name")
+        values[name] = value
+    return tuple(values.values())
+
+
+def derived(parts: Iterable[Part], tables: Tables) -> Rows:
+    """Rows of all parts, each of which finds the rows of those before it in place of the tables on disk."""
+    rows: dict[str, list[dict[str, Any]]] = {}
+    for part in parts:
+        frames = {name: pd.DataFrame(new) for name, new in rows.items() if new}
+        new = part.derive(Tables({**tables, **frames}))
+        once("derived tables", ((name, name) for name in [*rows, *new]))
+        rows.update(new)
+    return rows
+
+
+class Joined:
+    """The figures of parts. drawings : of those parts that list them; of a plain function the tables are unknown."""
+
+    def __init__(self, figures: Iterable[Callable[[Tables], Mapping[str, Figure]]]):
+        self.figures = tuple(figures)
+
+    @property
+    def drawings(self) -> tuple[Drawing | Overview, ...]:
+        """Each figure with the tables that it is drawn from."""
+        return tuple(drawing for one in self.figures for drawing in getattr(one, "drawings", ()))
+
+    def __call__(self, tables: Tables) -> dict[str, Figure]:
+        """The figures for which there are rows."""
+        pairs = [pair for one in self.figures for pair in one(tables).items()]
+        once("figures", pairs)
+        return dict(pairs)

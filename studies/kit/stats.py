@@ -1,20 +1,83 @@
-"""Means with honest errors: correlated series, few seeds.
+"""Numbers with errors: arithmetic, means of correlated series, means over few seeds. Fits are in ``fits.py``.
 
 Every error here is the half width of a 95 % interval, as are all ``_err`` columns of the tables.
 """
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Iterator, Sequence
+from math import hypot
+from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
 from scipy.fft import irfft, next_fast_len, rfft
 from scipy.special import stdtrit
 
 
+class CannotTell(Exception):
+    """The numbers at hand do not decide what is asked, for the reason given."""
+
+
 class Measured(NamedTuple):
-    """A value and the half width of its 95 % interval."""
+    """A value and the half width of its 95 % interval.
+
+    Sums, differences, products, quotients and powers take errors as independent: they add in squares, to
+    first order. The other operand may be a number, which has no error.
+    """
 
     value: float
-    err: float
+    err: float = 0.0
+
+    def __add__(self, other: "Measured | float") -> "Measured":  # type: ignore[override]
+        b = measured(other)
+        return Measured(self.value + b.value, hypot(self.err, b.err))
+
+    def __radd__(self, other: float) -> "Measured":
+        return self + other
+
+    def __neg__(self) -> "Measured":
+        return Measured(-self.value, self.err)
+
+    def __sub__(self, other: "Measured | float") -> "Measured":
+        b = measured(other)
+        return Measured(self.value - b.value, hypot(self.err, b.err))
+
+    def __rsub__(self, other: float) -> "Measured":
+        return measured(other) - self
+
+    def __mul__(self, other: "Measured | float") -> "Measured":  # type: ignore[override]
+        b = measured(other)
+        return Measured(self.value*b.value, hypot(self.err*b.value, self.value*b.err))
+
+    def __rmul__(self, other: float) -> "Measured":  # type: ignore[override]
+        return self*other
+
+    def __truediv__(self, other: "Measured | float") -> "Measured":
+        """Raise CannotTell where the divisor's interval contains zero."""
+        b = measured(other)
+        if abs(b.value) <= b.err:
+            raise CannotTell(f"a ratio to {b.value:.3g} +- {b.err:.2g}, which is not told from zero")
+        ratio = self.value/b.value
+        return Measured(ratio, hypot(self.err, ratio*b.err)/abs(b.value))
+
+    def __rtruediv__(self, other: float) -> "Measured":
+        return measured(other)/self
+
+    def __pow__(self, power: float) -> "Measured":
+        return Measured(self.value**power, abs(power*self.value**(power - 1))*self.err)
+
+    def __abs__(self) -> "Measured":
+        return Measured(abs(self.value), self.err)
+
+
+def measured(number: "Measured | float") -> Measured:
+    """A number as a value without error; what has one stays."""
+    return number if isinstance(number, Measured) else Measured(float(number))
+
+
+def log(number: Measured) -> Measured:
+    """Natural logarithm; its error is the relative one."""
+    if number.value <= number.err:
+        raise CannotTell(f"a logarithm of {number.value:.3g} +- {number.err:.2g}: not told from zero")
+    return Measured(float(np.log(number.value)), number.err/number.value)
 
 
 def correlation(x: np.ndarray) -> np.ndarray:
@@ -88,3 +151,30 @@ def combine(runs: Sequence[tuple[float, float]]) -> Measured:
     within = float(np.sqrt((errs**2).sum())/n)
     between = float(stdtrit(n - 1, 0.975)*values.std(ddof=1)/np.sqrt(n)) if n > 1 else 0.0
     return Measured(float(values.mean()), max(within, between))
+
+
+def over_seeds(values: Sequence[float] | np.ndarray | pd.Series) -> Measured:
+    """Mean over seeds of values that have no error of their own: t(n - 1) times the scatter over sqrt n.
+
+    Raises
+    ------
+    CannotTell
+        There is one seed.
+    """
+    if len(values) < 2:
+        raise CannotTell(f"{len(values)} seed was run: there is no error bar without a second")
+    return combine([(value, 0.0) for value in values])
+
+
+def seed_means(rows: pd.DataFrame, by: Sequence[str], columns: Sequence[str]) -> Iterator[dict[str, Any]]:
+    """One row a group of seeds: what it has in common, how many ``seeds``, each column's mean and ``_err``.
+
+    The ``_err`` of a column, where the table has one, is the error within a run, for `combine`. One seed
+    alone has only this.
+    """
+    for key, group in rows.groupby(list(by)):
+        means: dict[str, float] = {}
+        for column in columns:
+            within = group.get(f"{column}_err", pd.Series(0.0, index=group.index))
+            means[column], means[f"{column}_err"] = combine(list(zip(group[column], within, strict=True)))
+        yield {**dict(zip(by, key, strict=True)), "seeds": len(group), **means}

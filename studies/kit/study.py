@@ -6,50 +6,54 @@ import os
 import signal
 import sys
 import textwrap
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from matplotlib.figure import Figure
-
-from studies.kit.case import Case
-from studies.kit.claim import Claim, judge, put_claims
-from studies.kit.cluster import ClusterError, check_scheduler
+from studies.kit.claim import ClaimError, judge, put_claims
 from studies.kit.csvfile import OtherTable
 from studies.kit.figure import save
-from studies.kit.sweep import RESULTS, CasesFailed, Interrupted, NoSuchCase, check_workers, command, load, put_derived, sweep
-from studies.kit.table import SIZES, Table, Tables, check_size
+from studies.kit.part import Part, joined, nothing
+from studies.kit.store import RESULTS, CannotRun, results
+from studies.kit.sweep import CasesFailed, NoSuchCase, Sweep, load
+from studies.kit.table import SIZES, Rows, Tables
 
-Rows = Mapping[str, list[dict[str, Any]]]
+__all__ = ["Part", "Rows", "Study", "main", "nothing", "results", "say", "verdict_line"]
+
 #: number of the system's error -> what to do about it
-DISK = {errno.ENOSPC: "the disk is full; make room where {out} lies; finished cases are kept, the same command goes on from "
-                      "there",
-        **dict.fromkeys((errno.EACCES, errno.EPERM, errno.EROFS), "{file} cannot be written: give --out another folder")}
-
-
-def nothing(tables: Tables) -> dict[str, Any]:
-    """Default of ``derive`` and ``figures``."""
-    return {}
+REFUSED = "{file} cannot be written: give --out another folder"
+DISK = {errno.ENOSPC: "the disk is full; make room where {out} lies; finished cases are kept, the same command goes "
+                      "on from there",
+        **dict.fromkeys((errno.EACCES, errno.EPERM, errno.EROFS), REFUSED)}
+#: what ends a study with one line
+EXPECTED = (CasesFailed, CannotRun, ClaimError, OtherTable, FileNotFoundError)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Study:
-    """One question: its cases by size, the tables these fill, figures and claims that read the tables."""
+class Study(Part):
+    """One question: a name, a sentence that asks it, and what answers it."""
 
     name: str
-    cases: Callable[[str], Iterable[Case]]
-    tables: Sequence[Table]
-    #: rows that follow from the tables (extrapolations, means over seeds), merged into them
-    derive: Callable[[Tables], Rows] = nothing
-    #: file name without .png -> figure
-    figures: Callable[[Tables], Mapping[str, Figure]] = nothing
-    claims: Sequence[Claim] = ()
+    question: str = ""
 
-    def run(self, size: str, *, workers: int = 2, out: Path | None = None, only: str = "", scheduler: str = "") -> Tables:
-        """Cases to tables, derived rows among them; ``only`` those with this text in their label.
+    @classmethod
+    def of(cls, name: str, question: str, parts: Sequence[Part]) -> "Study":
+        """A study made of parts.
 
-        ``scheduler`` is the address of a Dask cluster on which cases run, instead of ``workers`` processes here.
+        Raises
+        ------
+        ValueError
+            Two tables or two claims have one name.
+        """
+        return cls(name=name, question=question.split("\n")[0], **vars(joined(parts)))
+
+    def sweep(self, size: str, **more: Any) -> Sweep:
+        """Its cases of a size: where they run, which of them, where their rows go."""
+        return Sweep(study=self.name, tables=self.tables, size=size, **more)
+
+    def run(self, size: str, *, out: Path | None = None, **more: Any) -> Tables:
+        """Cases to tables, derived rows among them; more, such as ``workers``, are fields of `Sweep`.
 
         Raises
         ------
@@ -57,28 +61,24 @@ class Study:
             No label contains ``only``.
         CasesFailed
             After all that the finished cases give has been derived and written: one that diverges costs its own row.
-        ClusterError
-            The cluster cannot run the cases; the tables are as they were.
+        CannotRun
+            The tables are as they were.
         """
-        failed, out = None, out or results(size)
-        try:
-            tables = sweep(self.cases(check_size(size)), tables=self.tables, study=self.name, size=size,
-                           workers=workers, out=out, only=only, scheduler=scheduler)
-        except CasesFailed as error:
-            failed, tables = error, load(self.tables, self.name, out)
+        sweep = self.sweep(size, out=out or results(size), **more)
+        tables, failed = sweep.run(self.cases(size))
         if tables:
-            tables = put_derived(self.derive(tables), self.tables, self.name, size, out, only)
+            tables = sweep.put_derived(self.derive(tables))
         if failed:
             raise failed
         return tables
 
     def draw(self, out: Path = RESULTS) -> list[Path]:
         """Figures from the tables on disk."""
-        paths = []
-        for name, page in self.figures(load(self.tables, self.name, out)).items():
-            paths.append(out / self.name / f"{name}.png")
-            save(page, paths[-1])
-        return paths
+        pages = self.figures(load(self.tables, self.name, out))
+        paths = {name: out / self.name / f"{name}.png" for name in pages}
+        for name, page in pages.items():
+            save(page, paths[name])
+        return list(paths.values())
 
     def judge(self, out: Path = RESULTS) -> list[dict[str, Any]]:
         """Verdicts from the tables on disk, put into claims.csv."""
@@ -88,24 +88,18 @@ class Study:
         return rows
 
 
-def results(size: str) -> Path:
-    """Where a size goes unless told otherwise: quick is for trying out and leaves the tables of the others alone."""
-    return RESULTS / "quick" if size == "quick" else RESULTS
-
-
 def main(study: Study, arguments: Sequence[str] | None = None) -> None:
     """The command line of a study; ends with 0, or 1 (failed), 2 (not understood), 130 (interrupted)."""
     words = parse(study, arguments)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         sys.exit(perform(study, words))
-    except Interrupted as stop:
-        sys.exit(say(f"\n{stop}", 130))
-    except KeyboardInterrupt:
-        sys.exit(say("\ninterrupted: finished cases are kept, the same command goes on from there", 130))
+    except KeyboardInterrupt as stop:
+        text = str(stop) or "interrupted: finished cases are kept, the same command goes on from there"
+        sys.exit(say(f"\n{text}", 130))
     except NoSuchCase as error:
         sys.exit(say(f"{study.name}: {error}", 2))
-    except (CasesFailed, ClusterError, OtherTable, FileNotFoundError) as error:
+    except EXPECTED as error:
         sys.exit(say(f"{study.name}: {error}", 1))
     except OSError as error:
         if error.errno not in DISK:
@@ -115,7 +109,7 @@ def main(study: Study, arguments: Sequence[str] | None = None) -> None:
 
 def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
     """Command, size (default: SIZE of the environment, else paper), workers or cluster, folder, which cases."""
-    parser = argparse.ArgumentParser(prog=f"python -m studies.{study.name}")
+    parser = argparse.ArgumentParser(prog=f"python -m studies.{study.name}", description=study.question or None)
     add, size = parser.add_argument, os.environ.get("SIZE") or "paper"
     add("command", nargs="?", default="run", choices=["run", "figures", "claims"])
     add("--size", default=size, help=f"{', '.join(SIZES)} (default: {size})")
@@ -123,19 +117,28 @@ def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
     add("--scheduler", default=os.environ.get("SCHEDULER") or "", metavar="tcp://HOST:PORT",
         help="of a Dask cluster that runs the cases instead (default: SCHEDULER of the environment)")
     add("--out", type=Path, help="where tables and figures go (default: results; of size quick: results/quick)")
-    add("--only", default="", metavar="TEXT", help="run only cases with this text in their label, such as a variant's name")
+    add("--only", default="", metavar="TEXT",
+        help="run only cases with this text in their label, such as a variant's name")
     words = parser.parse_args(arguments)
+    words.usual, words.out = words.out is None, words.out or results(words.size)
     try:
-        check_size(words.size)
-        check_workers(words.workers)
-        check_scheduler(words.scheduler)
-        if words.only and words.command != "run":
-            raise ValueError(f"--only chooses what to run, {words.command} reads whole tables: leave it out")
-        words.usual, words.out = words.out is None, words.out or results(words.size)
-        check_out(words.out, make=words.command == "run")
+        check_words(study, words)
     except ValueError as error:
         parser.error(str(error))
     return words
+
+
+def check_words(study: Study, words: argparse.Namespace) -> None:
+    """Refuse what cannot be done, before anything is."""
+    study.sweep(words.size, **options(words))
+    if words.only and words.command != "run":
+        raise ValueError(f"--only chooses what to run, {words.command} reads whole tables: leave it out")
+    check_out(words.out, make=words.command == "run")
+
+
+def options(words: argparse.Namespace) -> dict[str, Any]:
+    """The words that say where cases run, which of them, and where their rows go."""
+    return {name: getattr(words, name) for name in ("workers", "scheduler", "out", "only")}
 
 
 def check_out(out: Path, *, make: bool) -> None:
@@ -154,7 +157,7 @@ def perform(study: Study, words: argparse.Namespace) -> int:
     failed = None
     if words.command == "run":
         try:
-            study.run(words.size, workers=words.workers, out=words.out, only=words.only, scheduler=words.scheduler)
+            study.run(words.size, **options(words))
         except CasesFailed as error:
             failed = error
     elif not written(study, words.out):
@@ -167,8 +170,9 @@ def perform(study: Study, words: argparse.Namespace) -> int:
             print(verdict_line(row))
     for path in written(study, words.out):
         say(f"table   {shown(path)}")
-    if words.usual and words.out != RESULTS:
-        say(f"size {words.size}: all of it is in {shown(words.out)}, what is in {shown(RESULTS)} stays as it is")
+    if words.usual and words.out != results("paper"):
+        usual = shown(results("paper"))
+        say(f"size {words.size}: all of it is in {shown(words.out)}, what is in {usual} stays as it is")
     if failed:
         raise failed
     return 0
@@ -184,17 +188,17 @@ def first(study: Study, words: argparse.Namespace) -> str:
     """What makes the tables that are wanted."""
     if not words.usual:
         return f"python -m studies.{study.name} --size {words.size} --out {words.out}"
-    return f"make study-{study.name}" if words.out == RESULTS else command(study.name, words.size)
+    return f"make study-{study.name}" if words.out == results("paper") else study.sweep(words.size).command
 
 
 def verdict_line(row: Mapping[str, Any]) -> str:
     """A claim and its verdict in two lines."""
     printed = f"printed {row['printed']}, " if row["printed"] else ""
-    told = math.isfinite(row["measured"])
-    found = f"{printed}measured {row['measured']:.5g} +- {row['err']:.2g}" if told else row["reason"]
+    known = math.isfinite(row["measured"])
+    value = f"{printed}measured {row['measured']:.5g} +- {row['err']:.2g}" if known else row["reason"]
     indent = " "*13
-    return f"{row['verdict']:<12} {row['id']}: {found}\n" + textwrap.fill(
-        f"{row['source']}: {row['statement']}", 100, initial_indent=indent, subsequent_indent=indent)
+    text = textwrap.fill(f"{row['source']}: {row['statement']}", 100, initial_indent=indent, subsequent_indent=indent)
+    return f"{row['verdict']:<12} {row['id']}: {value}\n{text}"
 
 
 def shown(path: Path) -> Path:

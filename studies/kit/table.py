@@ -13,13 +13,15 @@ import pandas as pd
 from studies.kit import provenance
 from studies.kit.csvfile import DIGITS, read, write
 
-__all__ = ["SIZES", "Table", "Tables", "changed", "check_size", "merge", "read"]
+__all__ = ["SIZES", "Rows", "Table", "Tables", "changed", "check_size", "merge", "read"]
 
 SIZES = ("quick", "paper", "fine")
 #: columns that a row may have besides those of its table
 SPENT = ("seed", "threads", "cpu_s", "compile_s")
 #: columns that every row gets
 STAMP = ("size", "commit")
+#: rows by the name of their table
+Rows = Mapping[str, list[dict[str, Any]]]
 
 
 @dataclass(frozen=True)
@@ -37,8 +39,7 @@ class Table:
     once: Sequence[str] = ()
 
     def __post_init__(self):
-        lost = [column for column in self.key if column not in self.columns]
-        if lost or not self.key:
+        if not self.key or not {*self.key} <= {*self.columns}:
             raise ValueError(f"table {self.name} has key {list(self.key)}: a key is some of the columns, "
                              f"{', '.join(self.columns)}")
 
@@ -128,8 +129,8 @@ def check_rows(table: Table, new: pd.DataFrame) -> None:
     if unknown := sorted({*new.columns} - {*table.columns, *SPENT, *STAMP}):
         raise ValueError(f"table {table.name} has no column {', '.join(unknown)}: "
                          f"it has {', '.join(table.columns)}")
-    if lost := [name for name in table.key if name not in new.columns or new[name].isna().any()]:
-        raise ValueError(f"rows of table {table.name} lack {', '.join(lost)}: every row needs its whole key")
+    if missing := [name for name in table.key if name not in new.columns or new[name].isna().any()]:
+        raise ValueError(f"rows of table {table.name} lack {', '.join(missing)}: every row needs its whole key")
     names = identity(new, table.key)
     if names.duplicated().any():
         raise ValueError(f"two rows of table {table.name} have the key {names[names.duplicated()].iloc[0]}: "

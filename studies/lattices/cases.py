@@ -11,7 +11,7 @@ from studies.hardcases.interface.runs import Interface
 from studies.hardcases.square.runs import Square
 from studies.hardcases.tube.spam import ShockTube
 from studies.kit.case import Case
-from studies.kit.part import Part
+from studies.kit.study import Part
 from studies.lattices import claims as hard_claims
 from studies.lattices import derive as hard_derive
 from studies.lattices import figures as hard_figures

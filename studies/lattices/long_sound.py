@@ -23,8 +23,8 @@ from studies.build.read import Value, select
 from studies.build.symbols import continuum
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.claim import Claim
-from studies.kit.part import Part
 from studies.kit.stats import Measured
+from studies.kit.study import Part
 from studies.kit.table import Table, Tables
 from studies.lattices.claims import TENTH
 from studies.lattices.ringing import AMPLITUDE, SOUND, Ringing, T

@@ -13,8 +13,8 @@ from studies.build.read import Value, over_seeds, select
 from studies.kit.case import Case
 from studies.kit.claim import CannotTell, Claim
 from studies.kit.figure import below, figure, look
-from studies.kit.part import Part
 from studies.kit.stats import Measured
+from studies.kit.study import Part
 from studies.kit.table import Table, Tables
 from studies.lattices.claims import TENTH
 from studies.lattices.ringing import Ringing

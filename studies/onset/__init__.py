@@ -1,5 +1,5 @@
 """At which Rayleigh number does convection begin, and is K linear in Ra^-1/2 from there?"""
-from studies.kit.part import study
+from studies.kit.study import Study
 from studies.onset import cases
 
-STUDY = study("onset", cases.PART)
+STUDY = Study.of("onset", __doc__, (cases.PART,))

@@ -14,7 +14,7 @@ from continuum.fluid import ConstEta, ConstNu, IdealGas, VanDerWaals
 from continuum.scene import Periodic, RayleighBenard, Walls
 from studies.build.spam import PRINTED, VARIANTS, Variant
 from studies.kit.case import Case
-from studies.kit.part import Part
+from studies.kit.study import Part
 from studies.onset import tables as onset_tables
 from studies.onset.claims import ONSET_CLAIMS
 from studies.onset.derive import derive

@@ -13,7 +13,7 @@ from particles.integral.edge_makers import MAKERS
 from particles.integral.interpolants import Exponential, Gaussian
 from particles.weights import WEIGHTS, Lucy, WendlandC2
 from studies.kit.case import Case
-from studies.kit.part import Part
+from studies.kit.study import Part
 from studies.operators import claims as operators_claims
 from studies.operators import derive as operators_derive
 from studies.operators import figures as operators_figures

@@ -12,7 +12,7 @@ from itertools import product
 from particles.integral.edge_makers import MAKERS
 from particles.weights import WEIGHTS, Lucy, Monaghan, WendlandC2
 from studies.kit.case import Case
-from studies.kit.part import Part
+from studies.kit.study import Part
 from studies.kit.table import Tables
 from studies.ordering import brackets as ordering_brackets
 from studies.ordering import brackets_claims as ordering_brackets_claims

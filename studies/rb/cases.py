@@ -19,7 +19,7 @@ from studies.build.rr98_moving import DRIFT_MOTIONS, DriftRun
 from studies.build.smoothing import Smoothing
 from studies.build.spam import PRINTED, VARIANTS, SpamRun, Variant
 from studies.kit.case import Case
-from studies.kit.part import Part
+from studies.kit.study import Part
 from studies.rb import tables
 from studies.rb.claims import RB_CLAIMS
 from studies.rb.cost import CompressibleStep, SpamStep

@@ -17,7 +17,7 @@ from studies.conservation.bodies.drag import SPEED, VARIANTS, CylinderDrag
 from studies.conservation.bodies.shear import FixedRows, MovingRows, SlidingShear, TurningWave
 from studies.conservation.bodies.turn import TurningCylinder
 from studies.kit.case import Case
-from studies.kit.part import Part
+from studies.kit.study import Part
 
 MAKERS = (("renormalised", renormalised, 2.0), ("renormalised", renormalised, 3.0), ("delaunay", delaunay, 2.0))
 SMOOTH = (24, 28, 32, 36, 40, 44, 48, 52, 56)      # sizes where errors are smooth, and where they are not

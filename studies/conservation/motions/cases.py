@@ -24,7 +24,7 @@ from studies.conservation.motions.steps import MOVED, Growth, Places, Share
 from studies.conservation.motions.sums import Brackets, Conservation, FilterRun, Identity, Signs
 from studies.conservation.motions.waves import Pattern, Sound
 from studies.kit.case import Case
-from studies.kit.part import Part
+from studies.kit.study import Part
 
 CONSTANTS = ((0.0, 0.0), (1.0, -1.0), (2.0, -2.0), (0.0, -1.0), (1.0, 0.0), (2.0, 0.0), (1.0, 1.0), (3.0, 0.0))
 NAMES = {kind: name for name, kind in MOTIONS.items()}

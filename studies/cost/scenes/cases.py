@@ -10,7 +10,7 @@ from studies.cost.scenes import figures as scenes_figures
 from studies.cost.scenes import runs as scenes_cases
 from studies.cost.scenes import tables as scenes_tables
 from studies.kit.case import Case
-from studies.kit.part import Part
+from studies.kit.study import Part
 
 QUICK = (("taylor-green", "fixed points without heat"), ("convection", "fixed points"))
 

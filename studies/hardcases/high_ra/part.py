@@ -11,8 +11,8 @@ from studies.hardcases.high_ra.runs import CELL_NUMBER, METHODS, OFF, STEPS, cel
 from studies.hardcases.tube.claims import WORDS
 from studies.kit.claim import Claim
 from studies.kit.figure import figure, look
-from studies.kit.part import Part
 from studies.kit.stats import Measured
+from studies.kit.study import Part
 from studies.kit.table import Tables
 
 WORTH = 2.0             # factor that a rule of thumb is worth

@@ -24,8 +24,8 @@ from studies.build.read import select
 from studies.hardcases.interface.runs import BELOW, HEAVY, HEIGHT, LIGHT, WIDTH, impulse
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.claim import CannotTell, Claim
-from studies.kit.part import Part
 from studies.kit.stats import Measured
+from studies.kit.study import Part
 from studies.kit.table import Table, Tables
 from studies.lattices.claims import finest
 from studies.lattices.derive import ripple

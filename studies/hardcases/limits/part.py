@@ -2,7 +2,7 @@
 from studies.hardcases.limits import cases as limits_cases
 from studies.hardcases.limits import claims as limits_claims
 from studies.hardcases.limits import figures as limits_figures
-from studies.kit.part import Part
+from studies.kit.study import Part
 from studies.kit.table import Table
 
 #: largest stable steps in units of spacing over (P/rho)^(1/2). predicted : by the method's own formula, smaller by `margin` for

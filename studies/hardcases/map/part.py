@@ -9,7 +9,7 @@ from studies.hardcases.map import figures as map_figures
 from studies.hardcases.map import shear as map_shear
 from studies.hardcases.map import torus as map_torus
 from studies.kit.case import Case
-from studies.kit.part import Part
+from studies.kit.study import Part
 from studies.kit.table import Table
 
 #: K and K of the flow (velocities averaged over 4 x 4 spacings), means of the last third; mass at the end over that of the start

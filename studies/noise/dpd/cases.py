@@ -15,7 +15,7 @@ from particles.dissipative.pairs3d import Normal
 from particles.integral.splitting import KickDriftFrictionDriftKick
 from particles.integrators import TwoStep
 from studies.kit.case import Case
-from studies.kit.part import Part
+from studies.kit.study import Part
 from studies.kit.table import Tables
 from studies.noise.dpd import claims as dpd_claims
 from studies.noise.dpd import claims_more as dpd_claims_more

@@ -1,12 +1,14 @@
-"""Values of claims that need no table: algebra and arithmetic of the printed formulas    [RR98 Eqs 21-23, 37, 42-44]"""
+"""Algebra and arithmetic of the printed formulas, as a case    [RR98 Eqs 21, 23, 42, 44]"""
+from dataclasses import dataclass
+from pathlib import Path
+
 import numpy as np
 
 from particles.integral import fluctuating
 from particles.integral.edge_makers import MAKERS
-from particles.integral.interpolants import Exponential, W
 from particles.integral.points import lattice, random
 from particles.weights import Lucy
-from studies.build.symbols import neighbours
+from studies.kit.case import Case, Outcome, Report
 from studies.noise.fluctuations.steps import isothermal
 
 
@@ -40,16 +42,6 @@ def half_step() -> float:
     return variance(0.5)/variance(1.0)
 
 
-def integral(d: int) -> float:
-    """int W^2 r^2 dr of Eq. 31's weight from 10^-4 r0 on, over that from 10^-2 r0 on: the force's variance by Eq. 23, k small."""
-    weight, found = Exponential(1.0, d), []
-    for low in (1e-4, 1e-2):
-        q = np.linspace(np.log(low), np.log(40.0), 40001)       # r = exp q, dr = r dq
-        y = W(weight, np.exp(q))**2*np.exp(q)**(d + 2)
-        found.append(float(((y[1:] + y[:-1])/2).sum()*(q[1] - q[0])))
-    return found[0]/found[1]
-
-
 def inner_k(k: float = 0.5) -> float:
     """<(tr Pi)^2>/<Pi_xy^2> of Eq. 23 in 3D without bulk viscosity, 6 (1 - k): an inner k is left over."""
     tensor = fluctuating.shear(3, 2/3*k).reshape(3, 3, 3, 3)
@@ -68,18 +60,15 @@ def bulk(d: int) -> float:
     return float(np.trace(fluctuating.shear(d, 2/3).reshape(d, d, d, d).trace(axis1=0, axis2=1)))/d**2
 
 
-def smallest_of_44() -> float:
-    """Smallest eigenvalue of the covariance of X, 1 to 3 dimensions."""
-    return min(float(np.linalg.eigvalsh(fluctuating.shear(d, 2/3)).min()) for d in (1, 2, 3))
+@dataclass(frozen=True, kw_only=True)
+class Formulas(Case):
+    """What printed formulas give, each a row of `formulas`."""
 
+    @property
+    def label(self) -> str:
+        return "formulas"
 
-def tail(h: float, nu_t: float = 30.0, n: int = 96) -> float:
-    """Velocity autocorrelation of a point on an n x n lattice by nested viscosity alone, over the continuum's 1/(4 pi nu t)."""
-    weight = Lucy.of(h=h)
-    r = neighbours(weight, 2)
-    size = np.hypot(*r.T)
-    w = W(weight, size)
-    w *= 2/(w@size)
-    k = 2*np.pi*np.stack(np.meshgrid(np.arange(n), np.arange(n)), axis=-1).reshape(-1, 2)/n
-    s2 = sum((np.sin(k@r.T)@(w*r[:, a]/size))**2 for a in (0, 1))
-    return float(np.exp(-nu_t*s2).mean()*4*np.pi*nu_t)
+    def run(self, report: Report, folder: Path) -> Outcome:
+        values = {"growth of Eq. 21": wrong_sign(), "trace of Eq. 23": inner_k(), "partner of Eq. 42": other_partner(),
+                  "step of Eq. 42": half_step(), "spacing of Eq. 42": finer(), "trace of Eq. 44": bulk(2)}
+        return Outcome({"formulas": [{"name": name, "value": value} for name, value in values.items()]})

@@ -1,161 +1,108 @@
-"""What RR98 says of noise for a computation and of its steps, judged: Eqs 42-44, their partner Eq. 37, Eqs 40, 41"""
-from studies.build.read import exact
+"""What RR98 says of noise for a computation and of its steps, judged: Eqs 42-44, their partner Eq. 37, Eqs 40, 41, Sec. III B"""
+from studies.kit.ask import Value, largest, largest_per, one, spread
 from studies.kit.claim import Claim
-from studies.kit.stats import Measured
-from studies.noise.fluctuations.arithmetic import bulk, finer, half_step, other_partner, smallest_of_44, tail
-from studies.noise.fluctuations.claims import RIGHT, ROUND_OFF
-from studies.noise.fluctuations.read import (
-    better,
-    by_hand,
-    capacity,
-    euler_law,
-    from_cosine,
-    from_sums,
-    least,
-    longest,
-    nulls,
-    order,
-    spread,
-    stepped,
-    worst,
-)
+from studies.noise.fluctuations.claims import RIGHT, ROUND_OFF, longest
+
+
+def formula(name: str) -> Value:
+    """What a printed formula gives by arithmetic."""
+    return one("formulas", "value", name=name)
+
+
+def stepped(integrator: str, column: str, fluid: str) -> Value:
+    """Of a step of 0.1 nu/c^2, longest wave."""
+    return one("steps", column, integrator=integrator, fluid=fluid, dt=0.1, wavenumber=0.02)
+
+
+def error_of(integrator: str) -> Value:
+    """Of the kinetic temperature after steps of some length, of one wave."""
+    return one("steps", "error", integrator=integrator)
+
 
 NOISE = (
-    Claim(id="rr98-fluct-eq40-euler", source="RR98 Eq. 40", expect=1, within=0.01,
-          because="1 %",
-          value=stepped("forward-euler", 0.1, fluid="isothermal", wavenumber=0.02),
+    Claim(id="rr98-fluct-eq40-euler", source="RR98 Eq. 40", expect=1, within=0.01, because="1 %",
+          value=stepped("forward-euler", "velocity", "isothermal"),
           statement="forward Euler keeps the temperature: kinetic over given, c^2 dt/nu = 0.1, isothermal gas, long waves"),
-    Claim(id="rr98-fluct-eq40-law", source="RR98 Eq. 40", at_most=1e-3, value=euler_law,
-          because="(nu k^2 dt)/2 of waves of 300 spacings, times 1/(1 - c^2 dt/nu) = 5",
-          statement="forward Euler heats long waves by 1/(1 - c^2 dt/nu): largest relative distance, steps 0.01 to 0.8, waves of "
-                    "300 spacings"),
-    Claim(id="own-fluct-eq40-hand", source="RR98 Eq. 40", at_most=1e-8, value=by_hand,
-          because="Lyapunov solves near their limit",
-          statement="its variance is 1/(1 - s^2 dt/l - l dt/2 + 3 s^2 dt^2/4 - s^4 dt^3/4 l): largest relative distance, all "
-                    "waves"),
-    Claim(id="rr98-fluct-eq41-better", source="RR98 Eq. 41", printed="more accurate", at_most=1, value=better,
+    Claim(id="rr98-fluct-eq41-better", source="RR98 Eq. 41", printed="more accurate", at_most=1,
+          value=largest_per(("wavenumber", "dt"), error_of("eq40-eq41")/error_of("eq40-eq40")),
           because="more accurate is an error below that of Eq. 40 for both",
           statement="moving positions with Eq. 41 is more accurate than with Eq. 40: error of the kinetic temperature over "
                     "that, points that move as printed, largest of all steps and waves"),
-    Claim(id="rr98-fluct-eq41-error", source="RR98 Eqs 40, 41", at_most=0.01, value=stepped("eq40-eq41", 0.1, "error",
-                                                                                           wavenumber=0.02),
-          because="1 %",
+    Claim(id="rr98-fluct-eq41-error", source="RR98 Eqs 40, 41", at_most=0.01, because="1 %",
+          value=stepped("eq40-eq41", "error", "moving"),
           statement="Eqs 40, 41 keep the temperature: kinetic over given less 1, c_T^2 dt/nu = 0.1, points that move as "
                     "printed"),
-    Claim(id="own-fluct-crank-nicolson", source="RR98 Eq. 40", at_most=1e-10,
-          value=stepped("crank-nicolson", 0.8, "error", fluid="gas"),
-          because="Lyapunov solves",
-          statement="Crank-Nicolson keeps all variances at any step: largest error at c^2 dt/nu = 0.8"),
-    Claim(id="own-fluct-three-stage", source="RR98 Eq. 40", expect=3, within=0.1, value=order,
-          because="next order at steps of 0.4",
-          statement="three stages with two sets of noise keep variances to third order: power of dt in the largest error"),
     Claim(id="rr98-fluct-eq42-eta", source="RR98 Eq. 42", **RIGHT, value=longest("42", "eta", "single", 2, 1.2),
           statement="the eta term of Eq. 42, added once, with the volume and time it lacks, gives long shear waves the right "
                     "temperature: variance over its due, square lattice of nearest neighbours"),
     Claim(id="rr98-fluct-eq42-eta-doubled", source="RR98 Eq. 42", **RIGHT, value=longest("42", "eta", "doubled", 2, 1.2),
           statement="the eta term of Eq. 42, added as pi_ij + pi_ji, with the volume and time it lacks, gives long shear waves "
                     "the right temperature: variance over its due, square lattice of nearest neighbours"),
-    Claim(id="rr98-fluct-eq42-zeta", source="RR98 Eqs 23, 42", expect=1, within=1e-9,
-          value=lambda t: Measured(longest("42", "zeta", "single")(t).value/longest("23", "zeta", "single")(t).value, 0.0),
-          because="algebra",
+    Claim(id="rr98-fluct-eq42-zeta", source="RR98 Eqs 23, 42", expect=1, within=1e-9, because="algebra",
+          value=longest("42", "zeta", "single")/longest("23", "zeta", "single"),
           statement="the zeta term of Eq. 42 has the variance of Eq. 23: their ratio; a factor sqrt 2 is missing"),
-    *(Claim(id=f"rr98-fluct-eq42-zeta-{name}", source="RR98 Eq. 42", **RIGHT, value=longest("42", "zeta", reading, d, h),
-            statement=f"the zeta term of Eq. 42, added {words}, with the volume and time it lacks, gives long waves the right "
-                      f"temperature: variance over its due, {lattice}")
-      for name, reading, words, d, h, lattice in (
-          ("single", "single", "once", 1, 1.5, "a line of nearest neighbours"),
-          ("doubled", "doubled", "as pi_ij + pi_ji", 1, 1.5, "a line of nearest neighbours"),
-          ("wide", "doubled", "as pi_ij + pi_ji", 2, 3.0, "square lattice, h = 3 a"))),
-    Claim(id="rr98-fluct-eq42-shape", source="RR98 Eq. 42", at_most=1.01, value=spread("42", "eta", 2, 1.2),
-          because="1 %: of one factor for all waves",
+    Claim(id="rr98-fluct-eq42-shape", source="RR98 Eq. 42", at_most=1.01, because="1 %: of one factor for all waves",
+          value=spread("printed", "ratio", equation="42", term="eta", reading="doubled", d=2, h=1.2),
           statement="with some factor Eq. 42 is the partner of Eq. 37: largest over smallest ratio of its variance to its due, "
                     "waves along an axis of the square lattice, nearest neighbours"),
-    Claim(id="rr98-fluct-eq42-shape-h3", source="RR98 Eq. 42", at_most=1.01, value=spread("42", "eta", 2, 3.0),
-          because="1 %: of one factor for all waves",
-          statement="with some factor Eq. 42 is the partner of Eq. 37: largest over smallest ratio of its variance to its due, "
-                    "waves along an axis of the square lattice, h = 3 a"),
-    Claim(id="own-fluct-eq42-cosine", source="RR98 Eq. 42", at_most=1e-7, value=from_cosine("42", "zeta", 1.0, 1, 1.5),
+    Claim(id="own-fluct-eq42-cosine", source="RR98 Eq. 42", at_most=1e-7,
+          value=largest("printed", "abs(ratio*cos(wavenumber/2)**2/1.0 - 1)", equation="42", term="zeta", reading="doubled",
+                        d=1, h=1.5),
           because="nine digits of wave numbers near the corner of the zone",
           statement="doubled, with nearest neighbours on a line, waves get the temperature T/cos^2(ka/2): largest relative "
                     "distance"),
-    Claim(id="own-fluct-eq42-sums", source="RR98 Eqs 23, 25, 42, 43", at_most=1e-8, value=from_sums,
-          because="nine digits in the table",
-          statement="all printed noise has the variance that lattice sums give: largest relative distance, 1D, 2D, h = 1.2 to "
-                    "3 a"),
-    Claim(id="own-fluct-eq42-partner", source="RR98 Eqs 42, 51", at_most=1e-12, value=exact(other_partner), because=ROUND_OFF,
+    Claim(id="own-fluct-eq42-partner", source="RR98 Eqs 42, 51", at_most=1e-12, because=ROUND_OFF,
+          value=formula("partner of Eq. 42"),
           statement="Eq. 42 is the exact partner of a friction along edges, as of Eq. 51, not of Eq. 37: |Q - 2 kT Gamma|, "
                     "random points, trace factor 2/d"),
-    Claim(id="rr98-fluct-eq42-time", source="RR98 Eqs 42, 44", expect=1, within=0.01, value=exact(half_step),
-          because="1 %",
+    Claim(id="rr98-fluct-eq42-time", source="RR98 Eqs 42, 44", expect=1, within=0.01, because="1 %",
+          value=formula("step of Eq. 42"),
           statement="increments of unit variance give a temperature that does not depend on the step: at dt/2 over at dt; "
                     "1/sqrt(dt) is missing"),
-    Claim(id="rr98-fluct-eq42-volume", source="RR98 Eqs 27, 42", expect=1, within=0.01, value=exact(finer),
-          because="1 %",
+    Claim(id="rr98-fluct-eq42-volume", source="RR98 Eqs 27, 42", expect=1, within=0.01, because="1 %",
+          value=formula("spacing of Eq. 42"),
           statement="Eq. 42 as it stands gives a temperature that does not depend on the spacing: at a/2 over at a in 2D; a "
                     "volume is missing"),
-    Claim(id="rr98-fluct-eq37-positive", source="RR98 Eq. 37", at_least=-1e-9, because=ROUND_OFF,
-          value=least("negative", "eq42", maker="renormalised", points="lattice"),
-          statement="Eq. 37 with viscosities that vary from point to point by factors of five dissipates on a lattice: smallest "
-                    "eigenvalue of its symmetric part over its largest element; eta of one point times the slope of the other "
-                    "may amplify"),
     Claim(id="rr98-fluct-eq37-symmetric", source="RR98 Eqs 37, 42", at_most=1e-9, because=ROUND_OFF,
-          value=worst("asymmetry", ("eq42",), maker="renormalised", points="lattice"),
+          value=largest("partners", "abs(asymmetry)", noise="eq42", maker="renormalised", points="lattice"),
           statement="Eq. 37 with viscosities that vary is symmetric on a lattice, as what has a partner must be: |Gamma - "
                     "Gamma^T|"),
-    Claim(id="rr98-fluct-eq37-constant", source="RR98 Eqs 37, 42", at_most=1e-12, because=ROUND_OFF,
-          value=worst("asymmetry", ("eq42 constant",), maker="renormalised", points="lattice"),
-          statement="Eq. 37 with constant viscosities is symmetric on a lattice: |Gamma - Gamma^T|"),
-    Claim(id="rr98-fluct-eq37-off-lattice", source="RR98 Eqs 37, 42", at_most=1e-9, because=ROUND_OFF,
-          value=worst("asymmetry", ("eq42 constant",), maker="renormalised", points="jittered-0.3"),
-          statement="Eq. 37 as printed with constant viscosities is symmetric off a lattice: |Gamma - Gamma^T|, points jittered "
-                    "by 0.3 a, edges of a weight"),
-    Claim(id="rr98-fluct-eq37-uniform", source="RR98 Eqs 37, 42", at_most=1e-9, because=ROUND_OFF,
-          value=worst("uniform", ("eq42 constant",), maker="renormalised", points="jittered-0.3"),
-          statement="Eq. 37 as printed with constant viscosities does not see uniform motion off a lattice: force over the "
-                    "largest element, points jittered by 0.3 a, edges of a weight"),
     Claim(id="rr98-fluct-eq42-current", source="RR98 Eqs 42, 43", printed="a minor approximation", expect=1, within=0.01,
-          value=capacity("current", "corrected"),
+          value=one("capacity", "measured", C=20.0, noise="current")/one("capacity", "predicted", C=20.0, noise="corrected"),
           because="a minor approximation is worth a per cent at most",
           statement="amplitudes at current temperatures are a minor approximation: variance of temperature of points with C = "
                     "20 k over that of the entropy C ln T"),
-    Claim(id="own-fluct-eq43-ito", source="RR98 Eq. 43", expect=1, within=0.01, value=capacity("corrected", "corrected"),
-          because="1 %: what samples reach",
-          statement="with the flux times 1 + k/C they are right: variance of temperature of points with C = 20 k over that of "
-                    "the entropy C ln T"),
-    Claim(id="own-fluct-eq43-bias", source="RR98 Eq. 43", expect=1, within=0.01, value=capacity("current", "current"),
-          because="1 %: what samples reach",
-          statement="without it energies are distributed as if C were less by k: variance of temperature of points with C = 20 "
-                    "k over that of the entropy (C - k) ln T"),
-    Claim(id="rr98-fluct-eq43-single", source="RR98 Eq. 43", **RIGHT, value=longest("43", "kappa", "single"),
-          statement="Eq. 43, added once, with volume and time, gives long waves the right fluctuation of energy at T = 0.7: "
-                    "variance over its due, a line of nearest neighbours"),
     Claim(id="rr98-fluct-eq43-doubled", source="RR98 Eq. 43", **RIGHT, value=longest("43", "kappa", "doubled"),
           statement="Eq. 43, added as J_ij + J_ji, with volume and time, gives long waves the right fluctuation of energy at T "
                     "= 0.7: variance over its due, a line of nearest neighbours; a factor T is missing"),
-    Claim(id="own-fluct-eq43-cosine", source="RR98 Eq. 43", at_most=1e-7, value=from_cosine("43", "kappa", 1/0.7, 1, 1.5),
+    Claim(id="own-fluct-eq43-cosine", source="RR98 Eq. 43", at_most=1e-7,
+          value=largest("printed", "abs(ratio*cos(wavenumber/2)**2/(1/0.7) - 1)", equation="43", term="kappa",
+                        reading="doubled", d=1, h=1.5),
           because="nine digits of wave numbers near the corner of the zone",
           statement="doubled, with nearest neighbours on a line, energies get 1/(T cos^2(ka/2)) times their variance: largest "
                     "relative distance, T = 0.7"),
-    Claim(id="rr98-fluct-eq44-exists", source="RR98 Eq. 44", at_least=-1e-12, value=exact(smallest_of_44),
-          because="arithmetic",
-          statement="there are increments with the covariance of X: its smallest eigenvalue in 1, 2 and 3 dimensions"),
-    Claim(id="rr98-fluct-eq44-trace-2d", source="RR98 Eq. 44", expect=0, within=1e-9, value=exact(lambda: bulk(2)),
-          because="arithmetic",
+    Claim(id="rr98-fluct-eq44-trace-2d", source="RR98 Eq. 44", expect=0, within=1e-9, because="arithmetic",
+          value=formula("trace of Eq. 44"),
           statement="X has no trace in 2D: variance of its trace over d^2; 2/3 must be 2/d"),
-    Claim(id="rr98-fluct-eq44-trace-3d", source="RR98 Eq. 44", expect=0, within=1e-9, value=exact(lambda: bulk(3)),
-          because="arithmetic",
-          statement="X has no trace in 3D: variance of its trace over d^2"),
-    Claim(id="own-fluct-nulls", source="RR98 Eq. 37", expect=8, within=0, value=nulls("stress"),
-          because="counted",
-          statement="nested viscosity on a square lattice with even sides leaves d 2^d velocity modes alone: null modes in 2D"),
-    Claim(id="own-fluct-no-nulls", source="RR98 Eqs 37, 51", expect=2, within=0, value=nulls("stress+friction"),
-          because="counted",
-          statement="a tenth of friction along edges leaves only uniform motion: null modes in 2D"),
-    Claim(id="own-fluct-tail", source="RR98 Eq. 37", expect=4, within=0.1, value=exact(lambda: tail(1.2)),
-          because="next order, 1/(nu t) = 3 %",
-          statement="null modes and their surroundings multiply the tail of the velocity autocorrelation of a point by 2^d: "
-                    "over 1/(4 pi nu t) in 2D, nearest neighbours, nu t = 30 a^2"),
-    Claim(id="own-fluct-tail-h2", source="RR98 Eq. 37", expect=4, within=0.1, value=exact(lambda: tail(2.0)),
-          because="next order, 1/(nu t) = 3 %",
-          statement="wider weights make no difference to that: tail over 1/(4 pi nu t) in 2D, h = 2 a, nu t = 30 a^2"),
+    Claim(id="rr98-fluct-sec3b-special", source="RR98 Sec. III B, Eqs 42, 49, 51", printed="special cases", at_most=1e-12,
+          value=formula("dissipative particles, form"), because="round-off of sums of some ten forces",
+          statement="dissipative particles are a special case in form: forces that run, noise included, against Eq. 49 with A of "
+                    "Eq. 51 and the zeta term of Eq. 42, largest difference over the largest force, 2D and 3D"),
+    Claim(id="rr98-fluct-sec3b-partner", source="RR98 Sec. III B, Eqs 42, 51", at_most=1e-12,
+          value=formula("dissipative particles, partner"),
+          because="round-off of sums of forces of 100, of which friction is one",
+          statement="and exact partners where A is as the weight, so that friction has its square [as Espanol & Warren 1995 "
+                    "want]: |Q - 2 kT Gamma|, Gamma of the forces that run, random points"),
+    Claim(id="rr98-fluct-sec3b-unmodified", source="RR98 Sec. III B, Eqs 42, 51", at_most=0.01,
+          value=formula("dissipative particles, unmodified"), because="1 %",
+          printed="the random contributions already refer to hydrodynamic fluctuations",
+          statement="noise need not be modified for the friction beside it: |Q - 2 kT Gamma|, friction with the weight of the "
+                    "noise, not its square, that takes as much energy in all, random points"),
+    *(Claim(id=f"rr98-fluct-sec3b-viscosity{short}", source="RR98 Sec. III B, Eqs 42, 51", expect=1, within=0.05,
+            value=formula(f"dissipative particles, viscosity {reading}"),
+            printed="with particular temperature and viscosity as given by Eq. (42)", because="5 %: more than arithmetic has",
+            statement="the viscosity that Eq. 42, with the volume it lacks, gives to their noise is that of their friction: bulk "
+                      f"viscosity of the noise over that of Eq. 51, brackets {words}, 3D, rho = 3, whatever gamma; it goes as "
+                      "rho")
+      for short, reading, words in (("", "doubled", "doubled"), ("-single", "single", "as in Eq. 22"))),
 )

@@ -1,4 +1,4 @@
-"""Linear fluctuations about given flows, as cases: rest, a temperature gradient, a layer heated from below    [RR98 Eqs 20-25]
+"""Linear fluctuations about given flows, as cases: rest, a layer heated from below    [RR98 Eqs 20-25]
 
 The given flow is linearised by differences of the rates that run, noise is that of `fluctuating`, covariances solve Lyapunov's
 equation. Boltzmann's k is 1: linear fluctuations are proportional to it. Units: spacing 1, ideal gas with C_V = 1.
@@ -15,15 +15,12 @@ from continuum.scene import RayleighBenard
 from particles.integral.covariance import jacobian, steady, waves
 from particles.integral.dih import Dih, Mixed
 from particles.integral.edge_makers import MAKERS
-from particles.integral.interpolants import W
 from particles.integral.layer import Layer
-from particles.integral.points import lattice
 from particles.threads import Team
 from particles.weights import Lucy
 from studies.build.fixed import SCHEMES, layer
-from studies.build.symbols import neighbours
 from studies.kit.case import Case, Outcome, Report
-from studies.noise.fluctuations.matrices import ETA, KAPPA, ZETA, carried_along, equilibrium, factor, noise, transport
+from studies.noise.fluctuations.matrices import ETA, KAPPA, ZETA, equilibrium, factor, noise, transport
 from studies.ordering.waves import Disorder
 
 # --- rest -------------------------------------------------------------------------------------------------------------
@@ -31,7 +28,7 @@ from studies.ordering.waves import Disorder
 
 @dataclass(frozen=True, kw_only=True)
 class Rest(Case):
-    """Fluctuations of a gas on points, in d dimensions, at rest or in a stream along x of some `speed`, against equilibrium.
+    """Fluctuations of a gas at rest on points, in d dimensions, against equilibrium.
 
     share : of transport along edges.
     """
@@ -40,7 +37,6 @@ class Rest(Case):
     counts: tuple[int, ...]
     share: float
     h: float = 2.0
-    speed: float = 0.0
     seed: int = 1
 
     @property
@@ -49,120 +45,24 @@ class Rest(Case):
 
     @property
     def label(self) -> str:
-        return f"rest {self.maker}, {self.disorder.name}, {self.counts}, share {self.share:g}, speed {self.speed:g}"
+        return f"rest {self.maker}, {self.disorder.name}, {self.counts}, share {self.share:g}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
         points, d = self.disorder.make(self.counts, self.disorder.size, self.seed), len(self.counts)
         edges = MAKERS[self.maker](points, Lucy.of(h=self.h, d=d))
         dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(ETA, KAPPA), zeta=ZETA, transport=Mixed(share=self.share))
-        v = self.speed*np.tile(np.eye(d)[0], (edges.n, 1))
-        J = jacobian(dih.rates, dih.state(np.ones(edges.n), v, np.ones(edges.n)))
+        J = jacobian(dih.rates, dih.state(np.ones(edges.n), np.zeros((edges.n, d)), np.ones(edges.n)))
         parts = transport(edges, self.share, ETA, ZETA, KAPPA, 1.0)
         row = {"maker": self.maker, "points": self.disorder.name, "d": d, "share": self.share, "n": edges.n,
                "growth": float(np.linalg.eigvals(J).real.max())}
-        table, row = ("stream", {**row, "speed": self.speed}) if self.speed else ("rest", row)
-        exactly, B = equilibrium(edges.V, d, v), carried_along(factor(edges, *parts), v)
+        exactly, B = equilibrium(edges.V, d), factor(edges, *parts)
         try:
             C = steady(J, (B@B.T).toarray(), np.kron(np.eye(2 + d), edges.V))
         except ArithmeticError:         # edges that do not close let sound grow: that is the result
-            return Outcome({table: [{**row, "error": np.nan, "kinetic": np.nan}]})
+            return Outcome({"rest": [{**row, "error": np.nan, "kinetic": np.nan}]})
         moving = slice(edges.n, (1 + d)*edges.n)
         kinetic = float(np.trace(C[moving, moving])/np.trace(exactly[moving, moving]))
-        return Outcome({table: [{**row, "error": float(np.abs(C - exactly).max()/exactly.max()), "kinetic": kinetic}]})
-
-
-# --- a temperature gradient -------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, kw_only=True)
-class Gradient(Case):
-    """T = 1 + contrast sin(2 pi y/period) at uniform pressure, held by constant sources, on a periodic lattice; waves along x.
-
-    k : wave numbers per spacing. Transport along edges.
-    """
-    period: int
-    k: tuple[float, ...]
-    contrast: float = 0.01
-    eta: float = 0.1
-    kappa: float = 0.1
-
-    @property
-    def cost(self) -> float:
-        return 3e-7*self.period**3*(1 + len(self.k)/4)
-
-    @property
-    def label(self) -> str:
-        return f"gradient, period {self.period}"
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        J, Q, T = self.columns()
-        found = []
-        for done, k in enumerate(self.k):
-            report(done/len(self.k))
-            extra = (self.power(steady(*self.blocks(J, Q, k)), T) - 1)/self.contrast**2
-            found.append({"period": self.period, "wavenumber": k, "extra": extra, "predicted": self.predicted(k)})
-        return Outcome({"gradient": found})
-
-    def columns(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """J and Q of the points at x = 0, five columns of points, which hold the reach of the weight; T there."""
-        points, first = lattice((5, self.period)), np.arange(self.period)
-        edges = MAKERS["renormalised"](points, Lucy.of(h=2.0))
-        dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(self.eta, self.kappa), transport=Mixed(share=1.0))
-        T = 1 + self.contrast*np.sin(2*np.pi*points.x[:, 1]/self.period)
-        J = jacobian(dih.rates, dih.state(1/T, 0*points.x, T), first)
-        of_p, of_e = transport(edges, 1.0, self.eta, 0.0, self.kappa, T)
-        Q = noise(edges.V, of_p.Q, of_e.Q)[:, (np.arange(4)[:, None]*edges.n + first).ravel()].toarray()
-        return J, Q, T[first]
-
-    def blocks(self, J: np.ndarray, Q: np.ndarray, k: float) -> tuple[np.ndarray, np.ndarray]:
-        """J and Q of the waves k from those columns."""
-        return waves(J, (5, self.period), k), waves(Q, (5, self.period), k)
-
-    def power(self, C: np.ndarray, T: np.ndarray) -> float:
-        """<T T> of waves that are uniform in y, 1 in equilibrium."""
-        pick = self.pick(T)
-        return float((pick@C@pick).real)
-
-    @staticmethod
-    def pick(T: np.ndarray) -> np.ndarray:
-        """The row that takes T, uniform in y, from a state: T = eps/rho at rest."""
-        ny = len(T)
-        return np.concatenate([-T*T, np.zeros(2*ny), T])/np.sqrt(ny)      # dT = (d eps - T d rho)/rho, rho = 1/T
-
-    def predicted(self, k: float) -> float:
-        """What transverse velocities at k and +-q carry into T at k, over contrast^2, by the symbols of the lattice.
-
-        2 (q/2)^2 <v_y v_y>/(D (nu + D)), with <v_y v_y> = k^2/(k^2 + q^2), decays nu (k^2 + q^2) and D k^2, D = kappa/(rho C_P).
-        """
-        q = 2*np.pi/self.period
-        sx, sy = (slope_symbol(p) for p in (k, q))
-        D, decay = self.kappa/2*lap_symbol(k, 0.0), self.eta*lap_symbol(k, q)
-        return 2*(sy/2)**2*sx**2/(sx**2 + sy**2)/(D*(decay + D))
-
-
-def slope_symbol(k: float) -> float:
-    """What the gradient of Lucy's weight, h = 2, makes of k on a square lattice."""
-    return float(slopes_symbol(k, 0.0)[0])
-
-
-def slopes_symbol(kx: float, ky: float) -> np.ndarray:
-    """The same of (kx, ky)."""
-    r, w = ring()
-    return (w/np.hypot(*r.T)*np.sin(r@np.array([kx, ky])))@r
-
-
-def lap_symbol(kx: float, ky: float) -> float:
-    """The same of k^2."""
-    r, w = ring()
-    return float((2*w/np.hypot(*r.T))@(1 - np.cos(r@np.array([kx, ky]))))
-
-
-def ring() -> tuple[np.ndarray, np.ndarray]:
-    """Neighbours r (m, 2) and weights with sum_r w r = 2."""
-    weight = Lucy.of(h=2.0)
-    r = neighbours(weight, 2)
-    w = W(weight, np.hypot(*r.T))
-    return r, w*2/(w@np.hypot(*r.T))
+        return Outcome({"rest": [{**row, "error": float(np.abs(C - exactly).max()/exactly.max()), "kinetic": kinetic}]})
 
 
 # --- heated from below ------------------------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""Samples of linear fluctuations about a temperature gradient and about a layer heated from below, as cases [RR98 Eqs 20-25]
+"""Samples of linear fluctuations about a layer heated from below, as cases    [RR98 Eqs 20-25]
 
 The matrices are those of `fluct_flows`, wave by wave; steps of Crank-Nicolson, whose steady covariance is that of the Lyapunov
 solve at any step. A complex system of waves runs as the real one of its real and imaginary parts.
@@ -13,8 +13,9 @@ from scipy import sparse
 from particles.integral.covariance import crank_nicolson, steady
 from particles.run import Plan
 from studies.kit.case import Case, Outcome, Report
-from studies.noise.fluctuations.flows import BelowOnset, Gradient
-from studies.noise.fluctuations.sampling import BATCHES, Linear, batches, over
+from studies.kit.stats import over_seeds
+from studies.noise.fluctuations.flows import BelowOnset
+from studies.noise.fluctuations.sampling import BATCHES, Linear, batches
 
 FIELDS = tuple(f"{part} {name}" for part in ("re", "im") for name in ("rho", "px", "py", "eps"))
 #: of decay times of the slowest mode in a batch: with 20 of them variances are good to 6 %, 2/sqrt(20*60)
@@ -54,37 +55,8 @@ def sampled(J: np.ndarray, Q: np.ndarray, modes: np.ndarray, seed: int, report: 
     start = np.zeros((len(FIELDS), len(J)//4))
     legs = batches(method, start, plan, report, BATCHES + 1)[1:]        # the first one forgets the start
     powers = np.array([leg.means["modes"].reshape(2, -1).sum(axis=0) for leg in legs])/exact
-    found = [over(power) for power in powers.T]
+    found = [over_seeds(power) for power in powers.T]
     return [{"exact": float(due), "ratio": one.value, "ratio_err": one.err} for due, one in zip(exact, found, strict=True)]
-
-
-@dataclass(frozen=True, kw_only=True)
-class GradientSampled(Case):
-    """Waves along x, uniform in y, of a gas with T = 1 + contrast sin(2 pi y/period): T, velocities, pressure; k per spacing."""
-    period: int
-    contrast: float
-    k: float
-    seed: int
-    decays: float = DECAYS
-
-    @property
-    def cost(self) -> float:
-        return 5e-5*BATCHES*self.decays/(0.05*self.k**2*DT)
-
-    @property
-    def label(self) -> str:
-        return f"sampled gradient, period {self.period}, k {self.k:g}"
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        given = Gradient(period=self.period, k=(self.k,), contrast=self.contrast)
-        J, Q, T = given.columns()
-        ny = self.period
-        # rho = 1/T: momenta T^(1/2) p have variance 1 at rest; eps is the pressure of the ideal gas
-        of = {"T": given.pick(T), "u": np.kron([0, 1, 0, 0], np.sqrt(T)/np.sqrt(ny)),
-              "v": np.kron([0, 0, 1, 0], np.sqrt(T)/np.sqrt(ny)), "p": np.kron([0, 0, 0, 1], np.ones(ny)/np.sqrt(2*ny))}
-        found = sampled(*given.blocks(J, Q, self.k), np.array(list(of.values())), self.seed, report, self.decays)
-        return Outcome({"sampled": [{"flow": "gradient", "strength": self.contrast, "rows": ny, "wavenumber": self.k,
-                                     "field": name, **row} for name, row in zip(of, found, strict=True)]})
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,4 +1,4 @@
-"""Matrices of fluctuations about a gas, in densities (rho, p, eps): noise, equilibrium, what a stream does to them; k = 1."""
+"""Matrices of fluctuations about a gas, in densities (rho, p, eps): noise, equilibrium; k = 1."""
 from typing import Any
 
 import numpy as np
@@ -28,13 +28,13 @@ def noise(V: np.ndarray, of_momenta: Any, of_energies: Any) -> sparse.csr_array:
     return sparse.csr_array(per@sparse.block_diag([sparse.csr_array((n, n)), of_momenta, of_energies])@per)
 
 
-def equilibrium(V: np.ndarray, d: int, stream: Any = 0.0) -> np.ndarray:
-    """Covariance of densities (rho, p, eps) of the gas at rho = T = 1, k = 1, in a uniform stream (d,), all sums fixed.
+def equilibrium(V: np.ndarray, d: int) -> np.ndarray:
+    """Covariance of densities (rho, p, eps) of the gas at rest, rho = T = 1, k = 1, all sums fixed.
 
     rho, v and T fluctuate independently, each with variance 1/V: <rho rho> = kT rho/(c_T^2 V), <v v> = kT/(rho V),
     <T T> = kT^2/(rho C_V V).
     """
-    to_state = states_of_fields(np.broadcast_to(stream, (len(V), d)))
+    to_state = states_of_fields(np.zeros((len(V), d)))
     C = to_state@np.diag(np.tile(1/V, 2 + d))@to_state.T
     sums = np.kron(np.eye(2 + d), V)
     return C - C@sums.T@np.linalg.solve(sums@C@sums.T, sums@C)
@@ -56,11 +56,3 @@ def factor(edges: Edges, stress: Partners, heat: Partners) -> sparse.csr_array:
     per = sparse.diags_array(np.tile(1/edges.V, edges.d + 1))
     below = per@sparse.block_diag([stress.B, heat.B])
     return sparse.csr_array(sparse.vstack([sparse.csr_array((edges.n, below.shape[1])), below]))
-
-
-def carried_along(B: sparse.csr_array, v: np.ndarray) -> sparse.csr_array:
-    """Noise B (N, normals) of densities at rest, in a uniform stream v (n, d): random forces do work on it."""
-    n, d = v.shape
-    work = sparse.csr_array(sparse.hstack([sparse.csr_array((n, n)), *(sparse.diags_array(q) for q in v.T),
-                                           sparse.csr_array((n, n))]))
-    return sparse.csr_array(B + sparse.vstack([sparse.csr_array(((1 + d)*n, B.shape[1])), sparse.csr_array(work@B)]))

@@ -14,8 +14,9 @@ from particles.integral.points import Points
 from particles.run import Plan
 from particles.weights import Lucy
 from studies.kit.case import Case, Outcome, Report
+from studies.kit.stats import over_seeds
 from studies.noise.fluctuations.matrices import ETA, KAPPA, ZETA, equilibrium, factor, noise, transport
-from studies.noise.fluctuations.sampling import BATCHES, Linear, batches, check_length, over
+from studies.noise.fluctuations.sampling import BATCHES, Linear, batches, check_length
 from studies.ordering.waves import DISORDERS, Disorder
 
 #: of the tables, by dimension
@@ -72,12 +73,12 @@ class Equipartition(Case):
         plan = Plan(dt=self.dt, steps=self.steps, every=1, means={"modes": lambda sums, state: sums.found**2,
                                                                   "all": lambda sums, state: whole(edges.V, state)})
         legs = batches(method, start, plan, report)
-        powers, total = np.array([leg.means["modes"] for leg in legs]), over(np.array([leg.means["all"] for leg in legs]))
+        powers, total = np.array([leg.means["modes"] for leg in legs]), over_seeds(np.array([leg.means["all"] for leg in legs]))
         key = {"points": self.disorder.name, "share": self.share}
         rows = [{**key, "field": "all", **dict.fromkeys(AXES[:d], 0), "phase": "-", "wavenumber": np.nan, "ratio": total.value,
                  "ratio_err": total.err}]
         for (field, turns, phase), power in zip(names, powers.T, strict=True):
-            found, k = over(power), 2*np.pi*np.linalg.norm(np.array(turns)/self.counts)
+            found, k = over_seeds(power), 2*np.pi*np.linalg.norm(np.array(turns)/self.counts)
             rows.append({**key, "field": field, **dict(zip(AXES, turns)), "phase": phase, "wavenumber": float(k),
                          "ratio": found.value, "ratio_err": found.err})
         return Outcome({TABLE[d]: rows})

@@ -19,8 +19,9 @@ from particles.run import Plan
 from particles.threads import Team
 from particles.weights import Lucy
 from studies.kit.case import Case, Outcome, Report
+from studies.kit.stats import over_seeds
 from studies.noise.fluctuations.matrices import ETA, KAPPA, ZETA
-from studies.noise.fluctuations.sampling import BATCHES, CrankNicolson, batches, check_length, over
+from studies.noise.fluctuations.sampling import BATCHES, CrankNicolson, batches, check_length
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,7 +54,7 @@ class Nonlinear(Case):
         plan = Plan(dt=dt, steps=steps, every=5, means={name: variance(edges.V, self.k, name) for name in ("rho", "v", "T")})
         legs = batches(method, state, plan, report, self.batches + 1)[1:]       # the first one forgets the start
         drift = np.abs(legs[-1].state@edges.V - state@edges.V).max()/(edges.V@state[-1])
-        found = [(name, over(np.array([leg.means[name] for leg in legs]))) for name in ("rho", "v", "T")]
+        found = [(name, over_seeds(np.array([leg.means[name] for leg in legs]))) for name in ("rho", "v", "T")]
         return Outcome({"nonlinear": [{"share": self.share, "k": self.k, "field": name, "ratio": one.value, "ratio_err": one.err,
                                        "drift": drift} for name, one in found]})
 
@@ -154,7 +155,7 @@ class Capacity(Case):
         means: Mapping[str, Any] = {"T": lambda sums, state: state[0].var()}
         plan = Plan(dt=self.dt, steps=self.steps, every=2, means=means)
         legs = batches(method, np.ones((1, edges.n)), plan, report, BATCHES + 1)[1:]
-        found = over(np.array([float(leg.means["T"]) for leg in legs]))
+        found = over_seeds(np.array([float(leg.means["T"]) for leg in legs]))
         # `var` divides by n: (n - 1)/n of the variance of one point about the fixed mean is in it already
         return Outcome({"capacity": [{"C": self.C, "noise": "corrected" if self.corrected else "current", "measured": found.value,
                                       "measured_err": found.err, "predicted": dirichlet(edges.n, self.C, self.corrected)}]})

@@ -16,15 +16,14 @@ from particles.integral.points import lattice
 from particles.run import Plan
 from particles.weights import Lucy
 from studies.kit.case import Case, Outcome, Report
-from studies.noise.fluctuations.matrices import ETA, KAPPA, carried_along, factor, states_of_fields, transport
+from studies.noise.fluctuations.matrices import ETA, KAPPA, factor, states_of_fields, transport
 from studies.noise.fluctuations.sampling import BATCHES, Linear, batches, check_length
-from studies.noise.fluctuations.steps import gas, line_symbols
+from studies.noise.fluctuations.steps import gas
 
 
 @dataclass(frozen=True, kw_only=True)
 class Brillouin(Case):
-    """Peaks of the dynamic structure factor on a line of points, at rest or in a stream of some `speed`: from sampled waves,
-    against the symbols of the lattice, by which the stream shifts all peaks by speed times the symbol of the gradient.
+    """Peaks of the dynamic structure factor on a line of points: from sampled waves, against the symbols of the lattice.
 
     Waves (rho, u, T) after a lag are U times what they were, U = <x' x^*><x x^*>^-1; its eigenvalues are exp(lambda lag), and
     sound has the peak at Im lambda, of half width -Re lambda. Crank-Nicolson's z = (1 + lambda dt/2)/(1 - lambda dt/2) is undone.
@@ -35,7 +34,6 @@ class Brillouin(Case):
     dt: float = 0.25
     lag: int = 4
     bins: int = 60
-    speed: float = 0.0
     seed: int = 1
 
     @property
@@ -44,14 +42,14 @@ class Brillouin(Case):
 
     @property
     def label(self) -> str:
-        return f"Brillouin, {self.points} points, speed {self.speed:g}"
+        return f"Brillouin, {self.points} points"
 
     def run(self, report: Report, folder: Path) -> Outcome:
         edges = MAKERS["renormalised"](lattice((self.points,)), Lucy.of(h=2.0, d=1))
         dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(0.0, KAPPA), zeta=ETA, transport=Mixed(share=1.0))
-        v = np.full((edges.n, 1), self.speed)
+        v = np.zeros((edges.n, 1))
         J, to_state = jacobian(dih.rates, dih.state(np.ones(edges.n), v, np.ones(edges.n))), states_of_fields(v)
-        B = carried_along(factor(edges, *transport(edges, 1.0, 0.0, ETA, KAPPA, 1.0)), v)
+        B = factor(edges, *transport(edges, 1.0, 0.0, ETA, KAPPA, 1.0))
         method = Linear(J=J, B=B, seed=self.seed, modes=self.waves()@np.linalg.inv(to_state), names=("rho", "p", "eps"))
         check_length(J, self.steps*self.dt)
         series = {f"{number}": picked(number) for number in range(6*len(self.turns))}
@@ -64,10 +62,8 @@ class Brillouin(Case):
             x = np.array([[np.array(leg.series[f"{6*number + 2*f}"]) + 1j*np.array(leg.series[f"{6*number + 2*f + 1}"])
                            for f in range(3)] for leg in legs])
             rows += self.peaks(x, turns)
-            spectrum += self.spectrum(x, turns) if not self.speed else []
-        if self.speed:
-            return Outcome({"shifted": [{**row, "speed": self.speed} for row in rows]})
-        return Outcome({"peaks": [row for row in rows if row["peak"] != "shift"], "spectrum": spectrum})
+            spectrum += self.spectrum(x, turns)
+        return Outcome({"peaks": rows, "spectrum": spectrum})
 
     def waves(self) -> np.ndarray:
         """Rows: real and imaginary part of rho, u and T at each wave number, variance 1 in equilibrium."""
@@ -78,9 +74,7 @@ class Brillouin(Case):
         return np.array(rows)
 
     def peaks(self, x: np.ndarray, turns: int) -> list[dict[str, Any]]:
-        """Position and half width of the Brillouin peak, half width and shift of the Rayleigh peak; errors by jackknife over
-        batches.
-        """
+        """Position and half width of the Brillouin peak, half width of the Rayleigh peak; errors by jackknife over batches."""
         after, before = x[:, :, self.lag:], x[:, :, :-self.lag]
         moments = [np.einsum("bft,bgt->bfg", q, before.conj()) for q in (after, before)]
         whole = self.rates(*(m.sum(axis=0) for m in moments))
@@ -88,7 +82,7 @@ class Brillouin(Case):
         b = len(x)
         err = stdtrit(b - 1, 0.975)*np.sqrt((b - 1)/b*((without - without.mean(axis=0))**2).sum(axis=0))
         k = 2*np.pi*turns/self.points
-        symbol = sorted_rates(np.linalg.eigvals(gas(k)[0] - 1j*self.speed*line_symbols(k)[0]*np.eye(3)))
+        symbol = sorted_rates(np.linalg.eigvals(gas(k)[0]))
         return [{"points": self.points, "turns": turns, "wavenumber": k, "peak": name,
                  "measured": value, "measured_err": e, "symbol": s}
                 for name, value, e, s in zip(PEAKS, whole, err, symbol, strict=True)]
@@ -123,13 +117,13 @@ def spectral(A: np.ndarray, Q: np.ndarray, angle: float) -> float:
     return float((G@Q@G.conj().T)[0, 0].real)
 
 
-PEAKS = ("position", "half width", "Rayleigh half width", "shift")
+PEAKS = ("position", "half width", "Rayleigh half width")
 
 
 def sorted_rates(eigen: np.ndarray) -> np.ndarray:
-    """Position and half width of sound, both averaged, half width of heat, which lies between them, in a stream as at rest."""
+    """Position and half width of sound, both averaged, half width of heat, which lies between them."""
     low, heat, high = eigen[np.argsort(eigen.imag)]
-    return np.array([(high.imag - low.imag)/2, -(high.real + low.real)/2, -heat.real, -heat.imag])
+    return np.array([(high.imag - low.imag)/2, -(high.real + low.real)/2, -heat.real])
 
 
 def picked(number: int) -> Callable[[Any, np.ndarray], float]:

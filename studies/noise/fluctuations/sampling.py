@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.special import stdtrit
 
 from particles.integral.fixed import Summing, check_number
 from particles.limits import limit_of
@@ -17,7 +16,6 @@ from particles.noise import fill_normals
 from particles.run import Plan, Run, run
 from particles.threads import Team
 from studies.kit.case import Report
-from studies.kit.stats import Measured
 
 BATCHES = 20
 DECAYS = 10         # of the slowest mode, at least, in a batch
@@ -97,12 +95,6 @@ def batches(method: Any, state: np.ndarray, plan: Plan, report: Report, count: i
         state = found[-1].state
         report((number + 1)/count)
     return found
-
-
-def over(values: np.ndarray) -> Measured:
-    """Mean of batches (b,) and its 95 % interval."""
-    n = len(values)
-    return Measured(float(values.mean()), float(stdtrit(n - 1, 0.975)*values.std(ddof=1)/np.sqrt(n)))
 
 
 def check_length(J: np.ndarray, time: float) -> None:

@@ -7,7 +7,8 @@ Eq. 49 with Eq. 51, B = 0, and the zeta term of Eq. 42 beside it, its brackets d
 With w = 1 - r/rc, A = gamma w, 8 zeta V = 2 gamma these are Groot and Warren's; Y_ij and -Y_ij are alike. RR98's W, of which the
 moment int W r dV is d, is c w, c = 15/pi in 3D.
 """
-from functools import partial
+from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -15,8 +16,7 @@ from particles.dissipative.dpd import Dpd
 from particles.noise import uniform_of_pair
 from particles.run import Run
 from particles.threads import Team
-from studies.build.read import exact
-from studies.kit.claim import Claim
+from studies.kit.case import Case, Outcome, Report
 
 STEP = 0.02
 #: 3D: int (1 - r) r dV = pi/5 over the unit ball is to be 3
@@ -88,24 +88,16 @@ def viscosities(rho: float = 3.0, gamma: float = 4.5, doubled: bool = True) -> f
     return noise/(5/3*2*np.pi*gamma*rho**2/1575)
 
 
-CLAIMS = (
-    Claim(id="rr98-fluct-sec3b-special", source="RR98 Sec. III B, Eqs 42, 49, 51", printed="special cases", at_most=1e-12,
-          value=exact(lambda: max(special(d) for d in (2, 3))), because="round-off of sums of some ten forces",
-          statement="dissipative particles are a special case in form: forces that run, noise included, against Eq. 49 with A of "
-                    "Eq. 51 and the zeta term of Eq. 42, largest difference over the largest force, 2D and 3D"),
-    Claim(id="rr98-fluct-sec3b-partner", source="RR98 Sec. III B, Eqs 42, 51", at_most=1e-12, value=exact(partner),
-          because="round-off of sums of forces of 100, of which friction is one",
-          statement="and exact partners where A is as the weight, so that friction has its square [as Espanol & Warren 1995 "
-                    "want]: |Q - 2 kT Gamma|, Gamma of the forces that run, random points"),
-    Claim(id="rr98-fluct-sec3b-unmodified", source="RR98 Sec. III B, Eqs 42, 51", at_most=0.01, value=exact(unmodified),
-          printed="the random contributions already refer to hydrodynamic fluctuations", because="1 %",
-          statement="noise need not be modified for the friction beside it: |Q - 2 kT Gamma|, friction with the weight of the "
-                    "noise, not its square, that takes as much energy in all, random points"),
-    *(Claim(id=f"rr98-fluct-sec3b-viscosity{short}", source="RR98 Sec. III B, Eqs 42, 51", expect=1, within=0.05,
-            value=exact(partial(viscosities, doubled=doubled)),
-            printed="with particular temperature and viscosity as given by Eq. (42)", because="5 %: more than arithmetic has",
-            statement="the viscosity that Eq. 42, with the volume it lacks, gives to their noise is that of their friction: bulk "
-                      f"viscosity of the noise over that of Eq. 51, brackets {words}, 3D, rho = 3, whatever gamma; it goes as "
-                      "rho")
-      for short, doubled, words in (("", True, "doubled"), ("-single", False, "as in Eq. 22"))),
-)
+@dataclass(frozen=True, kw_only=True)
+class SpecialCase(Case):
+    """Dissipative particles beside Eqs 42, 49 and 51, each comparison a row of `formulas`."""
+
+    @property
+    def label(self) -> str:
+        return "formulas of dissipative particles"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        values = {"form": max(special(d) for d in (2, 3)), "partner": partner(), "unmodified": unmodified(),
+                  "viscosity doubled": viscosities(), "viscosity single": viscosities(doubled=False)}
+        return Outcome({"formulas": [{"name": f"dissipative particles, {name}", "value": value}
+                                     for name, value in values.items()]})

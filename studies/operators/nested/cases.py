@@ -19,8 +19,8 @@ from studies.build.fixed import SCHEMES, layer, start
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.claim import CannotTell, Claim
 from studies.kit.figure import figure, look
-from studies.kit.part import Part
 from studies.kit.stats import Measured
+from studies.kit.study import Part
 from studies.kit.table import Table, Tables
 from studies.operators.nested import images as mixed_images
 from studies.operators.stability import jacobian

@@ -12,7 +12,7 @@ from typing import Any
 from particles.integral.edge_makers import MAKERS
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.kit.case import Case
-from studies.kit.part import Part
+from studies.kit.study import Part
 from studies.operators.transport import claims as transport_claims
 from studies.operators.transport import derive as transport_derive
 from studies.operators.transport import figures as transport_figures

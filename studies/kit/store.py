@@ -1,4 +1,4 @@
-"""Finished cases on disk: results/raw/<study>/<key>.json, written by whoever ran the case; of a cluster, by the study."""
+"""Finished cases on disk: results/raw/<study>/<key>.json, written by the process of the study."""
 import errno
 import hashlib
 import json
@@ -14,37 +14,40 @@ from typing import Any
 from studies.kit import provenance
 from studies.kit.case import Case, Outcome, Report, parameters
 from studies.kit.csvfile import write_atomic
+from studies.kit.source import ROOT
 
+RESULTS = ROOT / "results"
 SEAL = "sha256"     # of the rows of a kept case and their commit
+
+def results(size: str) -> Path:
+    """Where the results of a size go by default; ``quick`` is for trying out and has a folder of its own."""
+    return RESULTS / "quick" if size == "quick" else RESULTS
+
+
+class CannotRun(Exception):
+    """The cases cannot run as they were asked to; what is finished is kept."""
 
 
 @dataclass(frozen=True)
 class Failure:
-    """A case that did not finish: what it was, why, the whole story and the file that has it."""
+    """A case that did not finish: what it was, why, the traceback and the file that has it."""
 
     label: str
     message: str
-    path: Path | None = None
-    disk_full: bool = False
     story: str = ""
+    disk_full: bool = False
+    path: Path | None = None
 
     def __str__(self) -> str:
-        return f"  {self.label}: {self.message}" + (f"\n    traceback: {self.path}" if self.path else "")
-
-
-def run_and_keep(case: Case, folder: Path, report: Report) -> Failure | None:
-    """Run one case, keep its outcome, clear its scratch folder; a failure is handed back, not raised."""
-    scratch = folder / case.key
-    failure = keep(case, attempt(case, scratch, report), folder)
-    if failure is None:
-        shutil.rmtree(scratch)
-    return failure
+        line = f"  {self.label}: {self.message}"
+        return f"{line}\n    traceback: {self.path}" if self.path else line
 
 
 def attempt(case: Case, scratch: Path, report: Report) -> str | Failure:
-    """Run one case: its outcome as text, or a failure."""
+    """Run one case, wherever it is: its outcome as text, or a failure. Its checkpoints lie in ``scratch``."""
     try:
         scratch.mkdir(parents=True, exist_ok=True)
+        report(0.0)
         begin = time.process_time()
         outcome = case.run(report, scratch)
         return as_text(case, outcome, time.process_time() - begin)
@@ -53,29 +56,43 @@ def attempt(case: Case, scratch: Path, report: Report) -> str | Failure:
 
 
 def failed(case: Case, error: Exception) -> Failure:
-    """Why it did not finish."""
-    return Failure(case.label, f"{type(error).__name__}: {error}", story=f"{case!r}\n\n{traceback.format_exc()}",
-                   disk_full=isinstance(error, OSError) and error.errno == errno.ENOSPC)
+    """The failure of a case that raised this error."""
+    disk_full = isinstance(error, OSError) and error.errno == errno.ENOSPC
+    story = f"{case!r}\n\n{traceback.format_exc()}"
+    return Failure(case.label, f"{type(error).__name__}: {error}", story, disk_full)
+
+
+def same_code(case: Case) -> bool:
+    """Whether this process has the code that the case was made with in another one."""
+    return replace(case).key == case.key
 
 
 def keep(case: Case, result: str | Failure, folder: Path) -> Failure | None:
-    """Write the outcome of a case, wherever it ran, or the story of its failure, unless the disk is full."""
+    """Write the outcome of a case, wherever it ran, and clear its scratch folder; of a failure write the traceback.
+
+    Raises
+    ------
+    CannotRun
+        The disk is full.
+    """
     story = folder / f"{case.key}.error.txt"
     if isinstance(result, Failure):
         if result.disk_full:
-            return result
-        write_atomic(story, result.story)
-        return replace(result, path=story)
+            raise CannotRun(f"the disk is full: make room where {folder} lies")
+        if result.story:
+            write_atomic(story, result.story)
+        return replace(result, path=story) if result.story else result
     try:
         write_atomic(folder / f"{case.key}.json", result)
-        story.unlink(missing_ok=True)
-        return None
     except OSError as error:
         return keep(case, failed(case, error), folder)
+    story.unlink(missing_ok=True)
+    shutil.rmtree(folder / case.key, ignore_errors=True)    # a case of a cluster has none here
+    return None
 
 
 def as_text(case: Case, outcome: Outcome, cpu_s: float) -> str:
-    """An outcome with the commit it was computed by, where, and in how many CPU seconds, compiling among them."""
+    """An outcome with its commit, versions, machine, date and CPU seconds, compiling among them."""
     content = {"case": parameters(case), "commit": provenance.commit(), "versions": provenance.versions(),
                "cpu": provenance.cpu(), "date": provenance.now(), "cpu_s": cpu_s, "rows": outcome.rows}
     content = json.loads(json.dumps(content, default=plain))
@@ -84,12 +101,8 @@ def as_text(case: Case, outcome: Outcome, cpu_s: float) -> str:
 
 def seal(content: dict[str, Any]) -> str:
     """Hash of what tables get of a kept case: which columns its rows have is known to the case alone."""
-    return hashlib.sha256(json.dumps([content["commit"], content["rows"]], sort_keys=True).encode()).hexdigest()
-
-
-def same_code(case: Case) -> bool:
-    """Whether this process has the code that the case was made with in another one."""
-    return replace(case).key == case.key
+    text = json.dumps([content["commit"], content["rows"]], sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def plain(value: Any) -> Any:
@@ -100,7 +113,7 @@ def plain(value: Any) -> Any:
 
 
 def kept(case: Case, folder: Path) -> dict[str, list[dict[str, Any]]] | None:
-    """Rows of a finished case, each with the commit that computed it; None when it must be run."""
+    """Rows of a finished case by table, each with the commit that computed it; None when it must be run."""
     path = folder / f"{case.key}.json"
     if not path.exists():
         return None
@@ -108,8 +121,8 @@ def kept(case: Case, folder: Path) -> dict[str, list[dict[str, Any]]] | None:
         content = json.loads(path.read_text())
         if content.pop(SEAL, None) not in (None, seal(content)):        # none: kept before there were seals
             raise ValueError("its rows are not as they were written: their hash is another one")
-        return {table: [{**row, "commit": content["commit"]} for row in rows]
-                for table, rows in content["rows"].items()}
+        stamp = {"commit": content["commit"]}
+        return {table: [{**row, **stamp} for row in rows] for table, rows in content["rows"].items()}
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         print(f"{path} cannot be read ({error}): {case.label} is run again", file=sys.stderr)
         path.unlink()
@@ -119,4 +132,6 @@ def kept(case: Case, folder: Path) -> dict[str, list[dict[str, Any]]] | None:
 def seconds(case: Case, folder: Path) -> float:
     """CPU seconds that a case took; nan if it is not finished, or was before they were kept."""
     path = folder / f"{case.key}.json"
-    return float(json.loads(path.read_text()).get("cpu_s", math.nan)) if path.exists() else math.nan
+    if not path.exists():
+        return math.nan
+    return float(json.loads(path.read_text()).get("cpu_s", math.nan))

@@ -1,0 +1,187 @@
+"""Questions that claims put to tables: which rows, a formula over their columns, one number out of many.
+
+    one("nonlinear", "ratio", field="rho", k=1e-3)                  with ratio_err, where the table has it
+    largest("printed", "abs(ratio/predicted - 1)", d=2)             over all rows where d is 2
+    last("peaks", "measured/symbol", by="turns", err="measured_err/symbol", peak="position")
+    power("steps", "error", "dt", "0.09 < dt < 0.41", fluid="gas")  d ln(error)/d ln(dt)
+    one("means", "ke", resolution=50)/one("means", "ke", resolution=inf)
+
+Rows are chosen by the values of columns (a tuple lists several) and by a condition. Formulas and conditions
+are those of pandas' `eval`, with cos, sqrt, log10, exp, abs ... and pi. The error of a column is its `_err`.
+Of a formula it is another formula, `err`: "0" where it does not count. Questions are added, subtracted,
+multiplied and divided as `Measured` are. `str` of a question is its formula.
+"""
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from studies.kit import fits, stats
+from studies.kit.formula import NoRows, Rows, WrongQuestion, error_of, numbers, rows
+from studies.kit.stats import Measured
+from studies.kit.table import Tables
+from studies.kit.value import (
+    Asked,
+    Value,
+    check,
+    farthest_of,
+    farthest_per,
+    largest_of,
+    largest_per,
+    log,
+    of,
+)
+
+__all__ = [
+    "NoRows", "Value", "WrongQuestion", "check", "farthest", "farthest_of", "farthest_per", "first",
+    "intercept", "largest", "largest_of", "largest_per", "last", "least", "limit", "log", "mean",
+    "nearest_power", "of", "one", "over_seeds", "power", "rows", "share", "slope", "span", "spread", "total",
+]
+
+Pick = Callable[[np.ndarray, np.ndarray], Measured]
+Curve = Callable[[np.ndarray, np.ndarray, np.ndarray], Measured]
+
+
+def question(pick: Pick) -> Callable[..., Value]:
+    """A question from how it picks its number out of values (n,) and errors (n,), sorted ``by`` a formula."""
+    def ask(table: str, value: str, such: str = "", *, err: str = "", by: str = "", need: int = 1,
+            **where: Any) -> Value:
+        chosen = Rows(table, such, need, where)
+
+        def answer(tables: Tables) -> Measured:
+            frame = chosen(tables)
+            if by:
+                frame = frame.iloc[np.argsort(numbers(frame, by, table), kind="stable")]
+            error = error_of(value, err, table, frame.columns)
+            return pick(numbers(frame, value, table), numbers(frame, error, table))
+        words = f"{ask.__name__}({value})" + f" by {by}"*bool(by)
+        return Value(answer, f"{words} in {chosen}", (Asked(chosen, value, err, by),))
+    ask.__doc__, ask.__name__ = pick.__doc__, pick.__name__
+    return ask
+
+
+@question
+def one(x: np.ndarray, err: np.ndarray) -> Measured:
+    """That of the only row there is."""
+    if len(x) > 1:
+        raise WrongQuestion(f"there are {len(x)} such rows: say which, or ask for first, last, mean ...")
+    return Measured(float(x[0]), float(err[0]))
+
+
+@question
+def first(x: np.ndarray, err: np.ndarray) -> Measured:
+    """That of the first row, by a formula."""
+    return Measured(float(x[0]), float(err[0]))
+
+
+@question
+def last(x: np.ndarray, err: np.ndarray) -> Measured:
+    """That of the last row, by a formula: by the value itself the largest, with its own error."""
+    return Measured(float(x[-1]), float(err[-1]))
+
+
+@question
+def largest(x: np.ndarray, err: np.ndarray) -> Measured:
+    """Of all rows, with the largest error among them."""
+    return Measured(float(x.max()), float(err.max()))
+
+
+@question
+def least(x: np.ndarray, err: np.ndarray) -> Measured:
+    """Of all rows, with the largest error among them."""
+    return Measured(float(x.min()), float(err.max()))
+
+
+def farthest(table: str, value: str, such: str = "", *, centre: float = 1.0, **more: Any) -> Value:
+    """The one farthest from `centre`, with its own error."""
+    def pick(x: np.ndarray, err: np.ndarray) -> Measured:
+        at = int(np.argmax(np.abs(x - centre)))
+        return Measured(float(x[at]), float(err[at]))
+    pick.__name__ = f"farthest from {centre:g} "
+    return question(pick)(table, value, such, **more)
+
+
+@question
+def mean(x: np.ndarray, err: np.ndarray) -> Measured:
+    """Of all rows; errors are independent and add in squares."""
+    return Measured(float(x.mean()), float(np.sqrt((err**2).sum())/len(x)))
+
+
+@question
+def total(x: np.ndarray, err: np.ndarray) -> Measured:
+    """Sum over all rows, of a condition how many fulfil it; errors add in squares."""
+    return Measured(float(x.sum()), float(np.sqrt((err**2).sum())))
+
+
+@question
+def share(x: np.ndarray, err: np.ndarray) -> Measured:
+    """Part of the rows that fulfil a condition."""
+    return Measured(float((x != 0).mean()))
+
+
+@question
+def over_seeds(x: np.ndarray, err: np.ndarray) -> Measured:
+    """Mean over seeds; its error is that of each run or that of the scatter, whichever is larger."""
+    return stats.combine(list(zip(x, err, strict=True))) if err.any() else stats.over_seeds(x)
+
+
+@question
+def spread(x: np.ndarray, err: np.ndarray) -> Measured:
+    """Largest over smallest."""
+    low, high = int(np.argmin(x)), int(np.argmax(x))
+    return Measured(float(x[high]), float(err[high]))/Measured(float(x[low]), float(err[low]))
+
+
+@question
+def span(x: np.ndarray, err: np.ndarray) -> Measured:
+    """Largest less smallest."""
+    low, high = int(np.argmin(x)), int(np.argmax(x))
+    return Measured(float(x[high]), float(err[high])) - Measured(float(x[low]), float(err[low]))
+
+
+# --- curves -------------------------------------------------------------------------------------
+
+
+def curve(fit: Curve) -> Callable[..., Value]:
+    """A question from a fit of y to x, both formulas; rows sorted by x, three at least."""
+    def ask(table: str, y: str, x: str, such: str = "", *, err: str = "0", need: int = 3,
+            **where: Any) -> Value:
+        chosen = Rows(table, such, need, where)
+
+        def answer(tables: Tables) -> Measured:
+            frame = chosen(tables)
+            frame = frame.iloc[np.argsort(numbers(frame, x, table), kind="stable")]
+            return fit(*(numbers(frame, formula, table) for formula in (x, y, err)))
+        return Value(answer, f"{ask.__name__}({y} over {x}) in {chosen}", (Asked(chosen, y, err, x),))
+    ask.__doc__, ask.__name__ = fit.__doc__, fit.__name__
+    return ask
+
+
+@curve
+def slope(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
+    """Of a straight line by least squares; error from the scatter about it and from the errors of y."""
+    return fits.line(x, y, err=err).slope
+
+
+@curve
+def intercept(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
+    """Of the same line, at x = 0."""
+    return fits.line(x, y, err=err).intercept
+
+
+@curve
+def power(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
+    """d ln|y|/d ln x by least squares: of an error over a spacing the order of convergence."""
+    return fits.power_law(x, y, err=err).slope
+
+
+@curve
+def nearest_power(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
+    """d ln|y|/d ln x from the two smallest x; error: what the next two give another power."""
+    return fits.nearest_power(x, y)
+
+
+@curve
+def limit(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
+    """Of infinitely fine grids from the three finest, x in cells per length; largest err added in squares."""
+    return fits.grid_limit(x, y) + Measured(0.0, float(err.max()))
