@@ -19,9 +19,7 @@ from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Plan, run
 from particles.threads import Team
-from studies.build import fixed as dih
-from studies.build import moving
-from studies.build import rr98_moving as drift
+from studies.build import ready
 from studies.kit.csvfile import write
 from studies.kit.provenance import commit, cpu, now, versions
 from studies.kit.source import ROOT
@@ -33,8 +31,8 @@ REPEATS, EVALUATIONS, STEPS = 21, 10, 12
 
 def fixed(name: str, fast: bool = True) -> Callable[[], float]:
     """Nanoseconds a point and evaluation of one scheme on fixed points."""
-    method = replace(dih.layer(SCENE, dih.SCHEMES[name], 1), fast=fast)
-    state = dih.start(SCENE, method)
+    method, state, _ = ready(SCENE, name)
+    method = replace(method, fast=fast)
     sums, out, n = method.start(state.shape[1], Team(1)), np.empty_like(state), state.shape[1]
 
     def measure() -> float:
@@ -65,14 +63,12 @@ def step(method: Any, first: np.ndarray, evaluations: int = 1) -> Callable[[], f
 
 def closed(name: str) -> Callable[[], float]:
     """A step of three evaluations over faces that are made once a step."""
-    method = moving.method(SCENE, moving.MOTIONS[name])
-    return step(method, moving.start(SCENE, method, 1))
+    return step(*ready(SCENE, name)[:2])
 
 
 def bracket(name: str) -> Callable[[], float]:
     """An evaluation of RR98's own motions: pairs in range, fields, sums."""
-    method = drift.method(SCENE, drift.DRIFT_MOTIONS[name])
-    state = drift.start(SCENE, method, 1)
+    method, state, _ = ready(SCENE, name)
     n = state.shape[1]
     sums, out = method.start(n, Team(1)), np.empty_like(state)
     sums.around.relist(state, np.arange(n), 0.0)
@@ -87,8 +83,7 @@ def bracket(name: str) -> Callable[[], float]:
 
 def marched(name: str) -> Callable[[], float]:
     """The same within a run: with lists and RK4."""
-    method = drift.method(SCENE, drift.DRIFT_MOTIONS[name])
-    return step(method, drift.start(SCENE, method, 1), RK4.evaluations)
+    return step(*ready(SCENE, name)[:2], RK4.evaluations)
 
 
 def main() -> None:

@@ -7,12 +7,11 @@ particles read it.
 from dataclasses import dataclass
 from math import inf
 from numbers import Real
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas, check_state, conductivity, energy, expansivity, thermal_pressure, viscosity
-
 
 ROLL_ENERGY = 9/5000    # kinetic energy per mass of the initial rolls    [KHP95, Fig. 9]
 
@@ -101,6 +100,7 @@ class RayleighBenard:
     T_cold: float = 0.5
     sides: Any = Periodic()  # noqa: RUF009
     pr: float = 1.0
+    slide: ClassVar[float] = 0.0        # velocity of the upper plate along itself
 
     def __post_init__(self):
         self._check_numbers()
@@ -135,10 +135,6 @@ class RayleighBenard:
             laws = kind.__name__ if kind in viscosity.kinds else " or ".join(law.__name__ for law in viscosity.kinds)
             raise TypeError(f"transport must be a class of transport laws, got {self.transport!r}: give {laws}, without quotes "
                             "or numbers, which follow from ra and pr")
-
-    @property
-    def slide(self) -> None:
-        """Velocity of the upper plate along itself: these plates do not slide."""
 
     @property
     def width(self) -> float:

@@ -3,8 +3,9 @@ import numpy as np
 import pytest
 
 from continuum.scene import RayleighBenard, Walls
-from studies.build.fixed import SCHEMES, DihRun, fluid, layer
-from studies.build.points import rolls
+from studies.build.fixed import SCHEMES, fluid, layer
+from studies.build.measure import rolls
+from studies.rb.runs.points import DihRun
 from studies.rb.tables import KINETIC
 
 

@@ -24,7 +24,8 @@ from particles.threads import Team
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
-from studies.build.rr98_moving import DRIFT_MOTIONS, DriftRun, PlateHeat, method, start
+from studies.build.rr98_moving import DRIFT_MOTIONS, PlateHeat
+from studies.rb.runs.points import DriftRun
 from studies.rb.tables import HISTORY, KINETIC, PROFILES
 
 COUNTS = COLUMNS, ROWS = 10, 8
@@ -254,7 +255,7 @@ def test_a_run_fills_rows_of_three_tables(tmp_path):
 
 def test_heat_through_plates_is_conduction_where_temperature_is_linear():
     scene = RayleighBenard(ra=1e4, L=12.0)
-    fluid, x = method(scene, DRIFT_MOTIONS["moving-literal"]), lattice((24, 12)).x
+    fluid, x = DRIFT_MOTIONS["moving-literal"].ready(scene).method, lattice((24, 12)).x
     sums, now = fluid.start(len(x), Team(1)), fluid.state(x, 1.0, 0*x, scene.T(x[:, 1]))
     sums.around.relist(now, np.arange(len(x)), 0.0)
     sums.look_at(now)
@@ -268,8 +269,7 @@ def test_literal_points_come_to_rest_where_density_times_the_square_of_their_num
     Density falls by a factor of two from the lower to the upper plate then: what is heavy lies below, and stays there.
     """
     scene = RayleighBenard(ra=1e4, L=12.0)
-    fluid = method(scene, DRIFT_MOTIONS["moving-literal"])
-    first = start(scene, fluid, 1)
+    fluid, first, _ = DRIFT_MOTIONS["moving-literal"].ready(scene)
     dt = limit_of(fluid, first)
     done = run(fluid, first, Plan(dt=dt, steps=round(200*12/dt)))
     layer = np.digitize(done.state[1], [-4, -2, 0, 2, 4])

@@ -10,11 +10,11 @@ from continuum.gas.solve import steady_on
 from continuum.scene import RayleighBenard
 from particles.weights import Lucy
 from studies.build import spam
-from studies.build.fixed import SCHEMES, DihRun, fluid
-from studies.build.grid import BoussinesqSteady, CompressibleSteady, PypdeSteady
-from studies.build.moving import MovingRun
 from studies.kit.sweep import RESULTS
 from studies.kit.table import read
+from studies.rb.runs.grid import BoussinesqSteady, CompressibleSteady, PypdeSteady
+from studies.rb.runs.points import DihRun, MovingRun
+from studies.rb.runs.spam import SpamRun
 from studies.rb.tables import ALL, ERRORS, KINETIC
 
 ASKED = ("method variant eos transport ra pr resolution particles seed ke ke_err ke_field ke_fluctuation nu nu_err rolls "
@@ -70,8 +70,7 @@ def test_quick_particles_are_still_below_onset_and_move_above(quick):
     ({"L": 0.2}, r"got height L = 0\.2"), ({"L": 25.0, "aspect": 1.5}, r"got width aspect L = 37\.5: .* columns over rows")])
 def test_a_box_that_no_lattice_fills_is_refused(wrong, words):
     scene = RayleighBenard(ra=1e4, **wrong)
-    for asked in (partial(spam.SpamRun, scene=scene), partial(spam.start, scene, 1), partial(DihRun, scene=scene),
-                  partial(MovingRun, scene=scene), partial(fluid, scene, SCHEMES["fixed-lattice"], 1)):
+    for asked in (partial(SpamRun, scene=scene), partial(DihRun, scene=scene), partial(MovingRun, scene=scene)):
         with pytest.raises(ValueError, match=words):
             asked()
 
@@ -104,7 +103,7 @@ def test_sizes_nest():
 
 
 def test_paper_holds_the_points_of_the_printed_figures():
-    runs = [case for case in rb.cases("paper") if isinstance(case, spam.SpamRun)]
+    runs = [case for case in rb.cases("paper") if isinstance(case, SpamRun)]
     points = {(round(r.scene.L), r.scene.ra, type(r.scene.eos).__name__, r.particles) for r in runs}
     assert {(50, 5000, "IdealGas", 5000), (50, 10000, "IdealGas", 5000), (50, 10000, "VanDerWaals", 5000),
             (40, 10000, "IdealGas", 1600), (16, 10000, "VanDerWaals", 512)} <= points
@@ -172,7 +171,7 @@ def test_errors_follow_from_kinetic_energies(kinetic):
 def test_a_run_that_diverges_is_a_row_without_energies(tmp_path):
     """Images with T -> 2 T_w - T and a pressure of their own get T < 0 behind the cold plate."""
     where = rb.RayleighBenard(ra=1e4, L=20.0)
-    case = spam.SpamRun(scene=where, variant=spam.VARIANTS["walls-odd-own-pressure"])
+    case = SpamRun(scene=where, variant=spam.VARIANTS["walls-odd-own-pressure"])
     [row] = case.run(lambda done: None, tmp_path).rows["kinetic_energy"]
     assert np.isnan([row["ke"], row["ke_field"], row["nu"]]).all()
     assert not row["converged"] and 0 < row["steps"] < case.plan(tmp_path).steps

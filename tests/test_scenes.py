@@ -16,7 +16,7 @@ from particles.limits import limit_of
 from particles.run import Divergence, Plan, run
 from particles.threads import Team
 from particles.weights import Lucy
-from studies.build import fixed as dih
+from studies.build import ready
 from studies.cost.scenes import derive as scenes_derive
 from studies.cost.scenes import figures as scenes_figures
 from studies.cost.scenes import runs as scenes_cases
@@ -107,8 +107,8 @@ def test_what_is_not_listed_is_neither_called_nor_stored():
 
 def test_plain_heating_calls_fewer_loops_and_gravity_none():
     scene = RayleighBenard(ra=1e4, L=8.0)
-    whole = dih.fluid(scene, dih.SCHEMES["fixed-lattice"], 1)
-    called = [scenes_cases.loops(method, dih.start(scene, method)) for method in (
+    whole, first, _ = ready(scene, "fixed-lattice")
+    called = [scenes_cases.loops(method, first) for method in (
         whole, replace(whole, mended=False), replace(whole, g=0.0))]
     assert called[2] == called[0]        # a number
     assert not any("Differences" in name or "lacking" in name for name in called[1])

@@ -1,18 +1,11 @@
-"""Moving points that exchange over closed faces in the Rayleigh-Benard scene: the scheme, what it is made of, a run as a case."""
-from dataclasses import dataclass
+"""Moving points that exchange over closed faces: the scheme and what it is made of, in any scene."""
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.scene import Periodic, RayleighBenard
 from particles.integral.closed_faces import EXCHANGED, Exchanging, Ingredients, Moving
-from particles.run import Run
-from particles.walls.mirror import plates
-from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
-from studies.build.fixed import positions
-from studies.build.names import START_ENERGY, START_JITTER, check_spacings
-from studies.build.points import OFTEN, AveragedRun, Setting, rolls
+from studies.build.setting import Ready, check_open, check_spacings, check_still, shaken, stepped, walls
 
 
 class Motion(NamedTuple):
@@ -22,6 +15,17 @@ class Motion(NamedTuple):
     weight: Any = WendlandC2
     h: float = 3.0
     of_limit: float = 1.0
+
+    def ready(self, scene: Any, seed: int = 1, x: np.ndarray | None = None, fields: tuple | None = None) -> Ready:
+        """The method in a scene; from places x (n, 2) and fields (rho, v, T) there, if given."""
+        fluid, x = method(scene, self), shaken(scene, seed) if x is None else x
+        rho, v, T = fields or scene.fields(x)
+        return stepped(fluid, fluid.state(x, v, rho, T), self.of_limit)
+
+    @property
+    def series(self) -> dict[str, Any]:
+        """Quantities of a run: K, and heat through both plates."""
+        return {"ke": kinetic, "lower": PlateHeat(-1), "upper": PlateHeat(1)}
 
 
 MOTIONS = {m.name: m for m in (
@@ -38,19 +42,13 @@ MOTIONS = {m.name: m for m in (
 )}
 
 
-def method(scene: RayleighBenard, motion: Motion) -> Moving:
+def method(scene: Any, motion: Motion) -> Moving:
     """The method of unit spacing: a scene of L = rows spacings."""
-    if not isinstance(scene.sides, Periodic):
-        raise ValueError("moving points have plates above and below only: take a scene with periodic sides")
+    check_open(scene, "moving")
+    check_still(scene)
     check_spacings(scene)
     return Moving(weight=motion.weight.of(h=motion.h), eos=scene.eos, law=scene.law, box=(scene.width, scene.L), g=scene.g,
-                  walls=(*plates(scene.L, scene.T_hot, scene.T_cold), *periodic(scene.width)), ingredients=motion.ingredients)
-
-
-def start(scene: RayleighBenard, fluid: Moving, seed: int) -> np.ndarray:
-    """Jittered lattice, rolls of Sec. VI, linear temperature, density 1    [KHP95]"""
-    x = positions(scene.width, scene.L, START_JITTER, seed)
-    return fluid.state(x, np.stack(scene.flow(x[:, 0], x[:, 1], START_ENERGY), axis=1), 1.0, scene.T(x[:, 1]))
+                  walls=walls(scene), ingredients=motion.ingredients)
 
 
 def kinetic(sums: Exchanging, state: np.ndarray) -> float:
@@ -74,23 +72,3 @@ class PlateHeat(NamedTuple):
         behind = (image >= n) & (self.side*sums.around.y[image] > half)
         a, b, k = points[row[behind]], points[image[behind]], faces.k[entry[behind]]
         return float(np.sum(k*(a["k"] + b["k"])/2*(b["Td"] - a["Td"])))
-
-
-@dataclass(frozen=True, kw_only=True)
-class MovingRun(AveragedRun):
-    """One run of the conservative scheme."""
-    motion: Motion = MOTIONS["moving"]
-
-    @property
-    def cost(self) -> float:
-        return self.t_end*self.free_fall_time/(0.4*self.motion.of_limit)*self.points*3e-6 + 5
-
-    def setting(self) -> Setting:
-        fluid = method(self.scene, self.motion)
-        series: dict[str, Any] = {"ke": kinetic, "lower": PlateHeat(-1), "upper": PlateHeat(1)}
-        return Setting(fluid, start(self.scene, fluid, self.seed), self.motion.of_limit, series, OFTEN)
-
-    def values(self, setting: Setting, done: Run) -> dict:
-        state = done.state
-        return {**self.averages(done), "rolls": rolls(self.scene, state[:2].T, state[5]/state[6]),
-                "mass_drift": float(state[6].sum()/setting.first[6].sum() - 1)}

@@ -1,5 +1,4 @@
 """Words and numbers that all cases share; apart from the tables, so that a new column does not run every case again."""
-from math import isclose
 from typing import Any
 
 from continuum.scene import ROLL_ENERGY
@@ -23,17 +22,3 @@ def scene_columns(scene: Any) -> dict[str, Any]:
     """The columns of a row that name the scene."""
     return {"eos": EOS_NAMES[type(scene.eos).__name__], "transport": TRANSPORT_NAMES[scene.transport.__name__],
             "sides": type(scene.sides).__name__.lower(), "ra": float(scene.ra), "pr": float(scene.pr)}
-
-
-def check_spacings(scene: Any) -> None:
-    """Refuse a box that whole columns and rows of points of unit spacing do not fill.
-
-    Raises
-    ------
-    ValueError
-        Height or width is no whole number.
-    """
-    for name, length in (("height L", scene.L), ("width aspect L", scene.width)):
-        if not isclose(length, max(1, round(length)), rel_tol=1e-9):
-            raise ValueError(f"points of unit spacing need whole rows and columns, got {name} = {length:.6g}: give L as the "
-                             "number of rows, aspect as columns over rows")

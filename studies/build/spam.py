@@ -1,8 +1,6 @@
-"""Smooth particles in the Rayleigh-Benard scene: the printed scheme, its variants, and one run as a case."""
+"""Smooth particles: the scheme as printed and its variants, in any scene    [KHP95]"""
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,8 +8,9 @@ import numpy as np
 from continuum.fluid import energy, pressure
 from continuum.gas.fields import interpolate
 from continuum.gas.solve import steady_on
-from continuum.scene import Periodic, RayleighBenard
+from continuum.scene import Torus
 from particles.limits import step_limit
+<<<<<<< HEAD
 from particles.observe import (
     Grid,
     PlateHeat,
@@ -23,58 +22,54 @@ from particles.observe import (
     wall_layers,
 )
 from particles.run import Divergence, Plan, Run, run
+=======
+from particles.observe import PlateHeat, field_kinetic, heat_flow, particle_kinetic
+>>>>>>> build
 from particles.smooth.spam import Direct, LessStatic, Nested, Spam
 from particles.terms import ArithmeticGradients, Gradients
-from particles.threads import Team
-from particles.vtk import write_grid, write_particles
 from particles.walls.fixed import fixed_plates
-from particles.walls.mirror import AtWall, Copied, Odd, Own, plates, sides
+from particles.walls.mirror import Odd, Own
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
-from studies.build.names import HALVES, START_ENERGY, START_JITTER, VALUES, check_spacings, scene_columns
-from studies.build.symmetry import flowing
-from studies.kit.case import Case, Outcome, Report
-from studies.kit.stats import mean, settled
+from studies.build.names import START_JITTER
+from studies.build.setting import Ready, check_spacings
+from studies.build.setting import walls as around
 
 #: time step over its stability limit: dt = 0.4 for the printed scheme. RK4 damps the fastest waves by 0.04 % a step; what
 #: counts is that particles turn at a plate up to v dt beyond it, which leaves errors of first order in dt g L: half of the
 #: step raises the Nusselt number by 4 % at 16 rows, 0.6 % at 25, 0.2 % at 50.
 OF_LIMIT = 0.22
-RECORDS = 8            # a time L/free_fall
 
 
-def images(scene: RayleighBenard, rule: Any = AtWall(), pressure_rule: Any = Copied()) -> tuple:  # noqa: B008
-    """Mirror images behind the plates; periodic sides or images there too."""
-    L, (hot, cold) = scene.L, (scene.T_hot, scene.T_cold)
-    side = (periodic(scene.width) if isinstance(scene.sides, Periodic)
-            else sides(scene.width, scene.T_mean, -scene.dT/L, rule, pressure_rule))
-    return (*plates(L, hot, cold, rule, pressure_rule), *side)
+def images(scene: Any) -> tuple:
+    """Images at rest with the plate's temperature, pressure of the particle    [KHP95, Fig. 3]"""
+    return around(scene)
 
 
-def images_odd(scene):
+def images_odd(scene: Any) -> tuple:
     """v -> -v, T -> 2 T_w - T."""
-    return images(scene, Odd())
+    return around(scene, Odd())
 
 
-def images_own(scene):
+def images_own(scene: Any) -> tuple:
     """Specified v and T, pressure from the image's own state."""
-    return images(scene, pressure_rule=Own())
+    return around(scene, pressure=Own())
 
 
-def images_odd_own(scene):
+def images_odd_own(scene: Any) -> tuple:
     """v -> -v, T -> 2 T_w - T, pressure from the image's own state."""
-    return images(scene, Odd(), Own())
+    return around(scene, Odd(), Own())
 
 
-def fixed_rows(scene):
+def fixed_rows(scene: Any) -> tuple:
     """Six rows of fixed particles behind each plate, periodic sides    [KHP95, Fig. 2]"""
     return (*fixed_plates(scene.L, scene.T_hot, scene.T_cold), *periodic(scene.width))
 
 
-def developed(scene, x, y):
-    """(vx, vy, T) of the grid's steady flow at (x, y): not every state that can go on is reached from weak rolls."""
-    at = interpolate(steady_on(scene, (16, 24))[-1].fields, x, y)
-    return at.vx, at.vy, at.T
+def developed(scene: Any, x: np.ndarray) -> tuple:
+    """(rho, v, T) of the grid's steady flow at x (n, 2): not every state that can go on is reached from weak rolls."""
+    at = interpolate(steady_on(scene, (16, 24))[-1].fields, x[:, 0], np.clip(x[:, 1], -scene.L/2, scene.L/2))
+    return np.ones(len(x)), np.stack([at.vx, at.vy], axis=1), at.T
 
 
 class _Choices(NamedTuple):
@@ -92,8 +87,8 @@ class _Choices(NamedTuple):
 class Variant(_Choices):
     """One way to build the method; the defaults are the scheme as printed with the walls of Fig. 3.
 
-    weight : a class of `particles.weights`; h : its range. begin : (scene, x, y) -> (vx, vy, T) at the start; None for the
-    rolls of Sec. VI and a linear temperature.
+    weight : a class of `particles.weights`; h : its range. step : over its limit. begin : (scene, x) -> (rho, v, T) at the start;
+    None for the scene's own.
 
     Raises
     ------
@@ -107,6 +102,15 @@ class Variant(_Choices):
             raise TypeError(f"the weight of a variant must be a class of weights, got {self.weight!r}: give the class, such as "
                             "Lucy, and its range as h")
         return self
+
+    def ready(self, scene: Any, seed: int = 1, x: np.ndarray | None = None, fields: tuple | None = None) -> Ready:
+        """The method in a scene; from places x (n, 2) and fields (rho, v, T) there, if given."""
+        return Ready(method(scene, self), start(scene, seed, self.begin, x, fields), step(scene, self))
+
+    @property
+    def series(self) -> dict[str, Any]:
+        """Quantities of a run: K of all particles and of the smoothed field, heat upwards and through both plates."""
+        return {"kp": particle_kinetic, "kg": field_kinetic, "heat": heat_flow, "lower": PlateHeat(-1), "upper": PlateHeat(1)}
 
 
 PRINTED = Variant("printed")
@@ -134,25 +138,35 @@ VARIANTS = {v.name: v for v in (
 )}
 
 
-def method(scene: RayleighBenard, variant: Variant) -> Spam:
+def method(scene: Any, variant: Variant) -> Spam:
     """The method of unit spacing and mass: a scene of L = rows spacings."""
     static = LessStatic(variant.fraction, float(pressure(scene.eos, 1.0, energy(scene.eos, 1.0, scene.T_mean))))
-    return Spam(weight=variant.weight.of(variant.h), eos=scene.eos, law=scene.law, walls=variant.walls(scene),
-                box=(scene.width, scene.L), g=scene.g, gradients=variant.gradients, transport=variant.transport, static=static)
+    walls = (around if isinstance(scene.sides, Torus) else variant.walls)(scene)
+    return Spam(weight=variant.weight.of(variant.h), eos=scene.eos, law=scene.law, walls=walls, box=(scene.width, scene.L),
+                g=scene.g, gradients=variant.gradients, transport=variant.transport, static=static)
 
 
 @cache
-def step(scene: RayleighBenard, variant: Variant) -> float:
-    """Time step of a variant, in units of time: its fraction of the stability limit."""
+def step(scene: Any, variant: Variant) -> float:
+    """Time step, in units of time: its fraction of the limit of lattice waves at the plates' temperatures, for all seeds."""
     return variant.step*step_limit(method(scene, variant), energy(scene.eos, 1.0, np.array([scene.T_cold, scene.T_hot])))
 
 
-def start(scene: RayleighBenard, seed: int, begin: Callable | None = None) -> np.ndarray:
-    """State (5, n): jittered square lattice with rolls of Sec. VI and linear temperature [KHP95], or as `begin` has it."""
+def start(scene: Any, seed: int = 1, begin: Callable | None = None, x: np.ndarray | None = None,
+          fields: tuple | None = None) -> np.ndarray:
+    """State (5, n); `begin` as a variant has it."""
+    x = scattered(scene, seed) if x is None else x
+    _, v, T = fields or (begin(scene, x) if begin else scene.fields(x))
+    return np.array([*x.T, *v.T, energy(scene.eos, 1.0, T)])
+
+
+def scattered(scene: Any, seed: int) -> np.ndarray:
+    """Places (n, 2): a jittered square lattice."""
     check_spacings(scene)
     columns, rows = round(scene.width), round(scene.L)
     x, y = np.meshgrid(np.arange(columns) + 0.5 - scene.width/2, np.arange(rows) + 0.5 - scene.L/2)
     shift = np.random.default_rng(seed).uniform(-START_JITTER, START_JITTER, (2, columns*rows))
+<<<<<<< HEAD
     x, y = x.ravel() + shift[0], y.ravel() + shift[1]
     if begin is None:
         (vx, vy), T = scene.flow(x, y, START_ENERGY), scene.T(y)
@@ -329,3 +343,6 @@ def at_end(chosen: Spam, done: Run) -> tuple[Any, np.ndarray]:
     sums.around.relist(state, done.ids.copy(), 0.0)
     sums.densities(state)
     return sums, state
+=======
+    return np.stack([x.ravel() + shift[0], y.ravel() + shift[1]]).T
+>>>>>>> build

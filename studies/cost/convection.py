@@ -18,7 +18,7 @@ from particles.observe import field_kinetic, fields_at
 from particles.run import Plan, run
 from particles.threads import Team
 from studies.build import fixed as dih
-from studies.build import moving, spam
+from studies.build import moving, ready, spam
 from studies.build.names import START_ENERGY
 from studies.build.smoothing import Smoothing, smoothed_energy
 from studies.build.unguarded import Unguarded
@@ -52,8 +52,7 @@ class OnFixed(NamedTuple):
 
     def problem(self, rows: int, seed: int) -> Problem:
         scene = scene_of(rows, self.ra)
-        method = dih.fluid(scene, self.scheme, seed)
-        first, unit = dih.start(scene, method), scene.L/scene.free_fall
+        (method, first, _), unit = self.scheme.ready(scene, seed), scene.L/scene.free_fall
 
         def see(state: np.ndarray) -> Seen:
             v = (state[1:3]/state[0]).T
@@ -74,8 +73,7 @@ class OnMoving(NamedTuple):
 
     def problem(self, rows: int, seed: int) -> Problem:
         scene = scene_of(rows)
-        method = moving.method(scene, moving.MOTIONS["moving"])
-        first, unit = moving.start(scene, method, seed), scene.L/scene.free_fall
+        (method, first, _), unit = ready(scene, "moving", seed), scene.L/scene.free_fall
 
         def see(state: np.ndarray) -> Seen:
             px, py, m, V, total = state[EXCHANGED]
@@ -97,7 +95,7 @@ class OnSpam(NamedTuple):
 
     def problem(self, rows: int, seed: int) -> Problem:
         scene, found = scene_of(rows), reference(self.sizes)
-        method, first, unit = spam.method(scene, self.variant), spam.start(scene, seed), scene.L/scene.free_fall
+        (method, first, _), unit = self.variant.ready(scene, seed), scene.L/scene.free_fall
         plainly, smooth = smoothed_energy(found.fields[1], Smoothing(self.variant.weight, self.variant.h, rows))
 
         def see(state: np.ndarray) -> Seen:
@@ -156,7 +154,7 @@ def filled(scene: RayleighBenard, S: np.ndarray) -> np.ndarray:
 
 
 GRID = OnGrid(names.GRID)
-LATTICES = (OnFixed(names.NEAREST, dih.Scheme("fixed-lattice-h1.2", h=1.2)), OnFixed(names.LATTICE, dih.SCHEMES["fixed-lattice"]),
+LATTICES = (OnFixed(names.NEAREST, dih.SCHEMES["fixed-lattice-h1.2"]), OnFixed(names.LATTICE, dih.SCHEMES["fixed-lattice"]),
             OnFixed(names.WIDE, dih.SCHEMES["fixed-lattice-h3"]))
 JITTERED = OnFixed(names.JITTERED, dih.SCHEMES["fixed-jittered-plates"], dear=5.3e-4)
 RELAXED = OnFixed(names.RELAXED, dih.SCHEMES["relaxed-plates"], dear=5.3e-4, makes=0.11)

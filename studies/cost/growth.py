@@ -18,7 +18,7 @@ from particles.integrators import RK4
 from particles.run import Plan, run
 from particles.threads import Team
 from particles.weights import Lucy
-from studies.build import spam
+from studies.build import ready
 from studies.cost import names
 from studies.cost.problem import holding
 from studies.cost.timing import SHORT, Laps, Timed, array_bytes, of_laps, per_step, took, with_peak
@@ -48,7 +48,7 @@ class Flock(NamedTuple):
 def flock(rows: int) -> Flock:
     """Rows of particles between plates, twice as many columns."""
     scene = RayleighBenard(ra=1e4, L=float(rows))
-    return Flock(spam.method(scene, spam.PRINTED), spam.start(scene, 1), spam.step(scene, spam.PRINTED))
+    return Flock(*ready(scene, "spam"))
 
 
 class Web(NamedTuple):

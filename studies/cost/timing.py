@@ -8,7 +8,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 from studies.kit.stats import Measured
-from studies.rb.cost import REPEATS, SPREAD_TO_ERR
+from studies.rb.runs.steps import REPEATS, SPREAD_TO_ERR
 
 T = TypeVar("T")
 SHORT = 0.01        # CPU seconds that the steps of the shorter of two runs take at least

@@ -14,7 +14,7 @@ from continuum.linear import layer as linear
 from continuum.linear.square import DEGREE, critical_ra_square
 from continuum.scene import Periodic, RayleighBenard
 from studies.build.names import EOS_NAMES, TRANSPORT_NAMES
-from studies.build.spam import PRINTED, SpamRun, Variant
+from studies.build.spam import PRINTED, Variant, step
 from studies.kit.case import Case, Outcome, Report
 from studies.onset.modes import SOLVERS
 from studies.onset.runs import RUNS, spam_run
@@ -147,21 +147,25 @@ class SpamGrowth(Case):
     until: float = 30.0
 
     @property
-    def model(self) -> SpamRun:
-        """The run with the same step."""
-        return SpamRun(scene=self.scene, variant=self.variant, seed=self.seed, t_end=self.until)
+    def particles(self) -> int:
+        return round(self.scene.width)*round(self.scene.L)
+
+    @property
+    def dt(self) -> float:
+        """Step of the study rb."""
+        return step(self.scene, self.variant)
 
     @property
     def cost(self) -> float:
-        return self.model.cost
+        return self.until*self.scene.L/self.scene.free_fall/self.dt*4*self.particles*230e-9*(self.variant.h/3)**2 + 2
 
     @property
     def label(self) -> str:
-        return (f"growth of rolls, spam {self.variant.name} Ra {self.scene.ra:g}, {self.model.particles} particles, "
+        return (f"growth of rolls, spam {self.variant.name} Ra {self.scene.ra:g}, {self.particles} particles, "
                 f"K {self.ke:g}, seed {self.seed}")
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        history = spam_run(self.scene, self.variant, self.seed, self.ke, self.until, self.model.dt, report, folder)
+        history = spam_run(self.scene, self.variant, self.seed, self.ke, self.until, self.dt, report, folder)
         at = point("spam", self.scene, round(self.scene.L), self.variant.name)
         return Outcome({"growth_rates": [growth_row(at, self, history)]})
 

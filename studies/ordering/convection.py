@@ -11,11 +11,11 @@ import numpy as np
 from continuum.scene import RayleighBenard
 from particles.integral.edge_makers import MAKERS, exact
 from particles.integrators import RK4
-from particles.run import Run
 from particles.weights import Lucy, WendlandC2
-from studies.build.fixed import SCHEMES, DihRun, Scheme, hard_core, positions, settled
-from studies.build.points import Setting
-from studies.kit.case import Outcome, Report
+from studies.build.fixed import SCHEMES, Scheme, hard_core, settled
+from studies.build.measure import ended, followed, rolls
+from studies.build.setting import positions
+from studies.kit.case import Case, Outcome, Report
 
 RA = 1e4
 #: kinds of irregular points between rows of points on the plates, edges of a triangulation
@@ -24,7 +24,8 @@ PLATES = {"jittered-0.3": SCHEMES["fixed-jittered-plates"], "random": SCHEMES["f
 #: makers of edges and ranges of the weight between mirror images; exact ones need the wider
 MADE = (*product(("plain", "renormalised", "closed"), (2.0, 3.0)), ("exact", 3.0))
 #: what a run without an end, or without edges, leaves open
-FOUND = ("ke", "ke_err", "nu", "nu_err")
+NOTHING = {**dict.fromkeys(("ke", "ke_err", "nu", "nu_err", "exchanges"), np.nan), "rolls": 0, "converged": False}
+RECORDS = 4         # a free-fall time
 
 
 @cache
@@ -50,34 +51,49 @@ def between_images(kind: str, maker: str, h: float, weight: Any = Lucy) -> Schem
 
 
 @dataclass(frozen=True, kw_only=True)
-class Convection(DihRun):
-    """One run at Ra = 10 000; `kind`: of its points, as the tables of this study have it."""
+class Convection(Case):
+    """One run at Ra = 10 000 until nothing changes any more; `kind`: of its points, as the tables of this study have it."""
+    scene: RayleighBenard
+    scheme: Scheme
+    seed: int = 1
+    t_end: float = 150.0
     kind: str
-
-    def values(self, setting: Setting, done: Run) -> dict:
-        """Those of the scene, and exchanges over edges, to images among them."""
-        edges, beyond = setting.method.edges, getattr(setting.method, "beyond", None)
-        number = len(edges.i) + (len(beyond.i) if beyond else 0)
-        return {**super().values(setting, done), "exchanges": RK4.evaluations*done.step*number}
 
     @property
     def cost(self) -> float:
         """Points that move apart take the longer the more there are."""
-        return super().cost + (0.04*self.scene.L**2 if self.kind == "relaxed" else 0.0)
+        L, h = self.scene.L, self.scheme.h
+        steps = self.t_end*L/self.scene.free_fall/max(0.2, 1.1 - L/100)
+        apart = 0.04*L**2 if self.kind == "relaxed" else 0.0
+        return steps*4*self.scene.width*(L + self.scheme.held)*100e-9*(h/2)**2 + 5 + apart
+
+    @property
+    def label(self) -> str:
+        points = round(self.scene.width)*(round(self.scene.L) + self.scheme.held)
+        return f"dih {self.scheme.name} Ra {self.scene.ra:g}, {points} points, seed {self.seed}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        """A row of `convection` in place of one of `kinetic_energy`; without exchanges where the points have no such edges."""
+        """A row of `convection`; without exchanges where the points have no such edges."""
         weight, h = ("none", 0.0) if self.scheme.held else (self.scheme.weight.__name__, self.scheme.h)
         key = {"maker": self.scheme.make.__name__, "weight": weight, "h": h, "points": self.kind, "rows": round(self.scene.L),
                "seed": self.seed}
         try:
-            row = super().run(report, folder).rows["kinetic_energy"][0]
+            found = self.followed(report, folder)
         except ArithmeticError:
             if self.scheme.make is not exact:       # others exist on all points
                 raise
-            row = {**dict.fromkeys(FOUND, np.nan), "rolls": 0, "converged": False, "exchanges": 0.0}
-        found = {name: row[name] for name in (*FOUND, "rolls", "converged")}
-        return Outcome({"convection": [{**key, **found, "exchanges": row.get("exchanges", np.nan)}]})
+            found = {**NOTHING, "exchanges": 0.0}
+        return Outcome({"convection": [{**key, **found}]})
+
+    def followed(self, report: Report, folder: Path) -> dict[str, Any]:
+        """K, Nu, rolls at the end, and exchanges over edges, to images among them."""
+        (method, _, _), _, done = followed(self.scene, self.scheme, self.seed, self.t_end, RECORDS, report, folder/"run.h5")
+        if done is None:
+            return NOTHING
+        edges, beyond = method.edges, getattr(method, "beyond", None)
+        number = len(edges.i) + (len(beyond.i) if beyond else 0)
+        return {**ended(self.scene, done)._asdict(), "rolls": rolls(self.scene, method.x, done.state[2]/done.state[0]),
+                "exchanges": RK4.evaluations*done.step*number}
 
 
 def convection(kind: str, scheme: Scheme, rows: int, seed: int = 1) -> Convection:

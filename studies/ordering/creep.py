@@ -20,8 +20,9 @@ from particles.integral.points import of_positions, relaxed
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, run
 from particles.weights import WendlandC2
-from studies.build.fixed import Scheme, fluid, hard_core, inside, start
+from studies.build.fixed import Scheme, hard_core
 from studies.build.read import Value, ratio, select
+from studies.build.setting import inside
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.claim import CannotTell, Claim
 from studies.kit.stats import Measured, combine
@@ -72,10 +73,10 @@ class Creep(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         scheme = Scheme("creep", self.make, WendlandC2, RANGE, APART, points=partial(settled_to, self.until))
         scene = RayleighBenard(ra=self.ra, L=float(self.rows))
-        method = fluid(scene, scheme, self.seed)
+        method, first, _ = scheme.ready(scene, self.seed)
         key = {"maker": self.maker, "until": self.until, "ra": self.ra, "rows": self.rows, "seed": self.seed}
         try:
-            states = pieces(method, start(scene, method), scene.L/scene.free_fall, report)
+            states = pieces(method, first, scene.L/scene.free_fall, report)
         except Divergence:
             return Outcome({"creep": [{**key, **dict.fromkeys(FOUND, np.nan)}]})
         return Outcome({"creep": [{**key, **told(method.edges, states)}]})

@@ -13,7 +13,7 @@ from continuum.steady import Time
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, run
 from studies.build import fixed as dih
-from studies.build import moving
+from studies.build import moving, ready
 from studies.build.names import START_ENERGY
 from studies.hardcases.map.scenes import ROWS, layer
 
@@ -53,17 +53,15 @@ def points(ra: float, seed: int, step: float, build: Callable) -> Trial:
 def fixed(scheme: str) -> Callable:
     """Fixed points between plates, by the name of a scheme of the main study."""
     def build(scene: Any, seed: int) -> tuple:
-        method = dih.fluid(scene, dih.SCHEMES[scheme], seed)
-        start = dih.start(scene, method)*ripple(seed, len(method.x))
+        method, start, _ = ready(scene, scheme, seed)
+        start *= ripple(seed, len(method.x))
         return method, start, dih.OF_LIMIT*limit_of(method, start), dih.kinetic
     return build
 
 
 def shifted(scene: Any, seed: int) -> tuple:
     """Moving points with closed faces."""
-    method = moving.method(scene, moving.MOTIONS["moving"])
-    start = moving.start(scene, method, seed)
-    return method, start, limit_of(method, start), moving.kinetic
+    return *ready(scene, "moving", seed), moving.kinetic
 
 
 def gridded(ra: float, seed: int, step: float) -> Trial:

@@ -27,9 +27,9 @@ from particles.smooth.spam import Direct
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2
-from studies.build.fixed import positions
 from studies.build.periodic_box import at_rest, fluid
-from studies.build.resting_layer import TINY, Slab
+from studies.build.scenes import TINY, Slab
+from studies.build.setting import positions
 from studies.build.unguarded import GROWN, NOISE, Unguarded, noise_grows
 from studies.hardcases.limits.euler import euler_step, strip_step
 

@@ -2,8 +2,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from types import SimpleNamespace
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,6 +14,7 @@ from studies.build import fixed as dih
 from studies.build import moving, spam
 from studies.build import rr98_moving as drift
 from studies.build.names import START_ENERGY, START_JITTER
+from studies.build.setting import positions
 from studies.hardcases.map.scenes import THIN, Vortex
 
 SPACINGS = 4            # of a cell over which velocities are averaged: what is left of them is flow, the rest noise
@@ -68,7 +68,7 @@ def smooth(scene: Any, variant: spam.Variant) -> Built:
     """Smooth particles; between plates that slip lies one period, and what is thin is empty."""
     if isinstance(scene, Vortex) or hasattr(scene, "density"):
         variant = variant._replace(walls=all_round)
-    method, x = spam.method(scene, variant), dih.positions(scene.width, scene.L, START_JITTER, 1)
+    method, x = spam.method(scene, variant), positions(scene.width, scene.L, START_JITTER, 1)
     rho, v, T = fields(scene, x)
     state = np.array([*x.T, *v.T, energy(scene.eos, 1.0, T)])[:, rho > THIN]
     return Built(method, state, variant.step*limit_of(method, state),
@@ -89,17 +89,17 @@ def fixed(scene: Any, scheme: dih.Scheme) -> Built:
 
 def drifting(scene: Any, motion: drift.DriftMotion, walls: Callable[[Any], tuple] | None = None) -> Built:
     """RR98's own motions; walls(scene) in place of plates."""
-    method, x = drift.method(scene, motion), dih.positions(scene.width, scene.L, START_JITTER, 1)
+    method, x = drift.method(scene, motion), positions(scene.width, scene.L, START_JITTER, 1)
     method = replace(method, walls=walls(scene)) if walls else method
     rho, v, T = fields(scene, x)
-    start, holder = method.state(x, rho, v, T), cast(drift.Drifts, SimpleNamespace(method=method))
+    start = method.state(x, rho, v, T)
     return Built(method, start, limit_of(method, start),
-                 lambda state: Body(state[:2].T, (state[2:4]/state[4]).T, drift.masses(holder, state)))
+                 lambda state: Body(state[:2].T, (state[2:4]/state[4]).T, state[4]*state[6]/method.motion.owned(state[6])))
 
 
 def closed(scene: Any, motion: moving.Motion, walls: Callable[[Any], tuple] | None = None) -> Built:
     """Moving points with closed faces; walls(scene) in place of plates."""
-    method, x = moving.method(scene, motion), dih.positions(scene.width, scene.L, START_JITTER, 1)
+    method, x = moving.method(scene, motion), positions(scene.width, scene.L, START_JITTER, 1)
     method = replace(method, walls=walls(scene)) if walls else method
     rho, v, T = fields(scene, x)
     start = method.state(x, v, rho, T)

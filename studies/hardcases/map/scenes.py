@@ -8,7 +8,7 @@ from math import sqrt
 import numpy as np
 
 from continuum.scene import RayleighBenard, Walls
-from studies.build.resting_layer import Slab
+from studies.build.scenes import Slab
 
 ROWS = 16
 SOUND = sqrt(2)

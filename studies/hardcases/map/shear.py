@@ -25,7 +25,8 @@ from particles.weights import Lucy
 from studies.build import fixed as dih
 from studies.build import moving, spam
 from studies.build import rr98_moving as drift
-from studies.build.resting_layer import Slab
+from studies.build.scenes import Slab
+from studies.build.setting import positions
 from studies.hardcases.map.methods import Body, Built, all_round, closed, drifting, fields, smooth
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.table import Table
@@ -85,7 +86,7 @@ class ShearFlow(Slab):
 
 def fixed(scene: ShearFlow, make: Callable, size: float) -> Built:
     """Points that stay, periodic along both axes."""
-    points: Points = of_positions(dih.positions(scene.width, scene.L, size, 1), (scene.width, scene.L))
+    points: Points = of_positions(positions(scene.width, scene.L, size, 1), (scene.width, scene.L))
     method = Layer(x=points.x, edges=make(points, Lucy.of(h=2.0)), beyond=NONE_BEYOND, eos=scene.eos, law=scene.law,
                    T_plates=(1.0, 1.0), g=0.0)
     start = method.state(*fields(scene, points.x))

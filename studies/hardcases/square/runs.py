@@ -13,8 +13,9 @@ from continuum.fluid import IdealGas
 from continuum.scene import RayleighBenard, Walls
 from particles.observe import Grid, Smoothed, particle_kinetic
 from particles.run import Plan, run
+from studies.build.measure import at_end, turns
 from studies.build.names import START_ENERGY
-from studies.build.spam import SpamRun, Variant, at_end, method, start, step
+from studies.build.spam import Variant
 from studies.kit.case import Case, Outcome, Report
 from studies.rb.claims.snapshots import Snapshot
 
@@ -22,9 +23,11 @@ SIDE = 50.0
 SHARED = 0.5            # spacings within which a neighbour is a partner
 
 
-def two_rolls(scene: RayleighBenard, x: np.ndarray, y: np.ndarray) -> tuple:
-    """(vx, vy, T) of two rolls, as energetic over the square of free fall as those of Sec. VI, and conduction."""
-    return (*scene.flow(x, y, START_ENERGY*scene.free_fall**2, rolls=2), scene.T(y))
+def two_rolls(scene: RayleighBenard, x: np.ndarray) -> tuple:
+    """(rho, v, T) of two rolls, as energetic over the square of free fall as those of Sec. VI, and conduction."""
+    y = np.clip(x[:, 1], -scene.L/2, scene.L/2)
+    v = scene.flow(x[:, 0], y, START_ENERGY*scene.free_fall**2, rolls=2)
+    return np.ones(len(x)), np.stack(v, axis=1), scene.T(y)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,12 +47,12 @@ class Square(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         scene = RayleighBenard(ra=self.ra, L=SIDE, aspect=1.0, T_hot=10.0, T_cold=0.5, sides=Walls(), eos=self.eos,
                                pr=self.eos.cv)      # eta = k
-        one = SpamRun(scene=scene, variant=Variant("square", weight=self.weight, begin=two_rolls))
-        chosen, dt = method(scene, one.variant), step(scene, one.variant)
-        plan = Plan(dt=dt, steps=round(self.t_end*one.unit/dt), every=max(1, round(one.unit/4/dt)),
-                    mean_from=self.mean_from*one.unit, series={"kp": particle_kinetic},
+        chosen, start, dt = Variant("square", weight=self.weight, begin=two_rolls).ready(scene, self.seed)
+        unit = scene.L/scene.free_fall
+        plan = Plan(dt=dt, steps=round(self.t_end*unit/dt), every=max(1, round(unit/4/dt)),
+                    mean_from=self.mean_from*unit, series={"kp": particle_kinetic},
                     means={"grid": Grid.over(chosen.box, 30)}, checkpoint=folder/"run.h5")
-        done = run(chosen, start(scene, self.seed, two_rolls), plan, report)
+        done = run(chosen, start, plan, report)
         sums, _ = at_end(chosen, done)
         around = sums.around
         at = Snapshot(np.stack([around.x, around.y], axis=1), np.stack([around.vx, around.vy], axis=1), sums.n, SIDE)
@@ -57,7 +60,7 @@ class Square(Case):
         kp = np.array(done.series["kp"])[np.array(done.times) > plan.mean_from]
         mean = Smoothed(*done.means["grid"])
         return Outcome({"squares": [{"eos": type(self.eos).__name__, "weight": self.weight.__name__, "ra": self.ra,
-                                     "seed": self.seed, "eta": scene.eta, "alpha": scene.alpha, "rolls": one._rolls(done),
+                                     "seed": self.seed, "eta": scene.eta, "alpha": scene.alpha, "rolls": turns(scene, done.means["grid"][2]),
                                      "begun": START_ENERGY*scene.free_fall**2, "ke": float(kp.mean()),
                                      "flow": float(np.mean(mean.rho*(mean.vx**2 + mean.vy**2))/np.mean(mean.rho)/2),
                                      "ratio": at.pairing.value, "ratio_err": at.pairing.err,

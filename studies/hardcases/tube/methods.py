@@ -25,7 +25,7 @@ from particles.run import Divergence, Plan, run
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2
 from studies.build.names import START_JITTER
-from studies.build.resting_layer import Slab
+from studies.build.scenes import Slab
 from studies.hardcases.tube.spam import DENSE, END, EOS, HEIGHT, THIN
 from studies.kit.case import Report
 

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 
 from continuum.scene import RayleighBenard
 from particles.threads import Team
-from studies.build.fixed import SCHEMES, layer, start
+from studies.build.fixed import SCHEMES
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.claim import CannotTell, Claim
 from studies.kit.figure import figure, look
@@ -48,8 +48,7 @@ class Growth(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         scene = RayleighBenard(ra=self.ra, L=float(self.rows), aspect=1.0)
-        fluid = layer(scene, SCHEMES["fixed-lattice"]._replace(h=self.h, share=self.share), 1)
-        state = start(scene, fluid)
+        fluid, state, _ = SCHEMES["fixed-lattice"]._replace(h=self.h, share=self.share).ready(scene)
         state[1:3] = 0
         state[3] = fluid.state(1.0, np.zeros((state.shape[1], 2)), scene.T(fluid.x[:, 1]))[3]
         values, vectors = np.linalg.eig(jacobian(fluid.start(state.shape[1], Team(1)), state))

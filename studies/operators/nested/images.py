@@ -20,7 +20,7 @@ from particles.limits import limit_of
 from particles.run import Divergence, Plan, run
 from particles.threads import Team
 from particles.weights import Lucy
-from studies.build.fixed import SCHEMES, layer, start
+from studies.build.fixed import SCHEMES, layer
 from studies.build.read import Value, select
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.claim import Claim
@@ -115,7 +115,7 @@ class Kept(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         scene = RayleighBenard(ra=self.ra, L=float(self.rows))
         fluid = mixed(layer(scene, SCHEMES["fixed-lattice"], 1), self.images)
-        first = start(scene, fluid)
+        first = fluid.state(*scene.fields(fluid.x))
         dt, times = 0.5*limit_of(fluid, first), float(TIMES)
         steps = round(TIMES*(scene.L/scene.free_fall)/dt)
         try:

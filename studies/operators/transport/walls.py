@@ -16,6 +16,7 @@ from particles.integral.bodies import held, together, with_plates
 from particles.integral.driven import Driven
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import between_plates
+from particles.integral.layer import Layer
 from particles.integral.points import jittered, lattice
 from particles.integral.stream import Stream
 from particles.integral.triangulation import between, delaunay

@@ -14,7 +14,7 @@ from continuum.gas.solve import March, choose_step
 from continuum.scene import RayleighBenard
 from particles.run import Plan, run
 from studies.build.names import scene_columns
-from studies.build.spam import PRINTED, SpamRun, Variant, method, start
+from studies.build.spam import PRINTED, Variant
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.timing import Seconds, median_seconds
 
@@ -40,15 +40,14 @@ class SpamStep(Case):
         return 32*max(40000, 10*self.scene.L**2*self.scene.aspect)*4*300e-9 + 4
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        one = SpamRun(scene=self.scene, variant=self.variant)
-        chosen, particles = method(self.scene, self.variant), start(self.scene, 1)
-        warm = run(chosen, particles, Plan(dt=one.dt, steps=50))
-        steps = max(10, round(40000/one.particles))
+        method, start, dt = self.variant.ready(self.scene)
+        warm, particles = run(method, start, Plan(dt=dt, steps=50)), start.shape[1]
+        steps = max(10, round(40000/particles))
         # the difference of two lengths leaves out what every run pays once: lists, first evaluation, step limit
-        short, long = (median_seconds(partial(run, chosen, warm.state, Plan(dt=one.dt, steps=n)), REPEATS, process_time)
+        short, long = (median_seconds(partial(run, method, warm.state, Plan(dt=dt, steps=n)), REPEATS, process_time)
                        for n in (steps, 3*steps))
         seconds = Seconds(long.median - short.median, float(np.hypot(long.spread, short.spread)))
-        return Outcome({"cost": [row("spam", self.variant.name, self.scene, one.particles, one.dt, seconds, 2*steps)]})
+        return Outcome({"cost": [row("spam", self.variant.name, self.scene, particles, dt, seconds, 2*steps)]})
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,0 +1,166 @@
+"""Flows with exact answers, as scenes that every method takes; convection is `continuum.scene.RayleighBenard`.
+
+Lengths in spacings; the gas is ideal with C_V = 1, density and temperature about 1, conductivity = viscosity.
+"""
+from dataclasses import dataclass
+from math import sqrt
+from typing import Any
+
+import numpy as np
+from scipy.linalg import expm
+
+from continuum.exact.plates import FLOWS, MU, Flow
+from continuum.fluid import ConstEta, IdealGas
+from continuum.scene import Periodic, RayleighBenard, Torus
+from studies.build.symbols import Gas, continuum
+
+SOUND = sqrt(2)         # of the gas at T = 1, in 2D
+TINY = 1e-12            # in place of zero: the grid divides by coefficients
+Start = tuple[np.ndarray, np.ndarray, np.ndarray]
+
+
+class Scene:
+    """A gas at rest without gravity, periodic along both axes: what a scene of another kind leaves as it is."""
+    eos: Any = IdealGas()
+    sides: Any = Torus()
+    slide = 0.0
+    g = 0.0
+    T_hot = T_cold = T_mean = 1.0
+    dT = 0.0
+    width: float
+    L: float
+
+    @property
+    def aspect(self) -> float:
+        return self.width/self.L
+
+    def fields(self, x: np.ndarray) -> Start:
+        """Density (n,), velocity (n, 2), temperature (n,) at the start, at places (n, 2)."""
+        return np.ones(len(x)), np.zeros((len(x), 2)), np.ones(len(x))
+
+
+@dataclass(frozen=True, kw_only=True)
+class TaylorGreen(Scene):
+    """A vortex of a Mach number in a periodic box of L spacings, one wavelength, that decays by e    [Re = U L/nu]
+
+    It starts with the pressure of the incompressible vortex at constant entropy, P = rho T = rho^2.
+    """
+    L: int
+    mach: float = 0.05
+    re: float = 100.0       # several turns while it decays: pressure and convection matter, not friction alone
+
+    @property
+    def width(self) -> int:  # type: ignore[override]
+        return self.L
+
+    @property
+    def speed(self) -> float:
+        return self.mach*np.sqrt(2)
+
+    @property
+    def k(self) -> float:
+        return 2*np.pi/self.L
+
+    @property
+    def eta(self) -> float:
+        return self.speed*self.L/self.re
+
+    @property
+    def law(self) -> ConstEta:
+        return ConstEta(self.eta, self.eta)
+
+    @property
+    def time(self) -> float:
+        """When velocities of an incompressible fluid are a factor e smaller, 2 nu k^2 t = 1."""
+        return 1/(2*self.eta*self.k**2)
+
+    def velocity(self, x: np.ndarray) -> np.ndarray:
+        """(n, 2) at places (n, 2) at the start."""
+        a, b = self.k*x.T
+        return self.speed*np.stack([np.sin(a)*np.cos(b), -np.cos(a)*np.sin(b)], axis=1)
+
+    def fields(self, x: np.ndarray) -> Start:
+        rho = np.sqrt(1 + self.speed**2/4*np.cos(2*self.k*x).sum(axis=1))
+        return rho, self.velocity(x), rho
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sound(Scene):
+    """A standing sound wave of one wavelength L along x, at rest at first; the answer is exact for small amplitudes."""
+    L: int = 8              # across: wider than twice a range of three
+    width: int
+    amplitude: float = 1e-5     # steepening is of the order of its product with the phase, 12: 1e-4 of the wave
+    damping: float = 0.01       # eta = kappa, in wavelengths: a third of the wave is left at the end
+    periods: float = 2.125      # and an eighth: density and velocity are both there
+
+    @property
+    def k(self) -> float:
+        return 2*np.pi/self.width
+
+    @property
+    def law(self) -> ConstEta:
+        return ConstEta(self.damping*self.width, self.damping*self.width)
+
+    @property
+    def time(self) -> float:
+        return self.periods*self.width/np.sqrt(2)
+
+    def exactly(self, time: float, x: np.ndarray) -> np.ndarray:
+        """(rho, u, T), each (n,), less their means, at x (n,)."""
+        matrix = continuum(Gas(self.law.eta, 0.0, self.law.k), self.k).matrix
+        return self.amplitude*np.real(np.outer(expm(matrix*time)@np.array([1, 0, 1]), np.exp(1j*self.k*x)))
+
+    def fields(self, x: np.ndarray) -> Start:
+        rho, u, T = self.exactly(0.0, x[:, 0])
+        return 1 + rho, np.stack([u, 0*u], axis=1), 1 + T
+
+
+@dataclass(frozen=True, kw_only=True)
+class BetweenPlates(Scene):
+    """Heat that spreads or shear that settles between plates of temperature 1, L rows apart; nothing depends on x."""
+    flow: Flow
+    L: int
+    width: int = 8          # wider than twice a range of three
+    sides: Periodic = Periodic()  # noqa: RUF009 (immutable)
+
+    @property
+    def slide(self) -> float:  # type: ignore[override]
+        return self.flow.U
+
+    @property
+    def law(self) -> ConstEta:
+        """The same fluid at every resolution: heights are so many spacings."""
+        return ConstEta(MU*self.L, MU*self.L)
+
+    @property
+    def time(self) -> float:
+        return self.flow.time*self.L
+
+    def fields(self, x: np.ndarray) -> Start:
+        rho, v, u, T = self.flow.start(x[:, 1]/self.L + 0.5)
+        return rho, np.stack([u, v], axis=1), T
+
+
+@dataclass(frozen=True, kw_only=True)
+class Slab(RayleighBenard):
+    """A layer of L rows at rest, plates all but equally warm: any solver that takes a layer takes it. `ra`, `pr` say nothing."""
+    viscosity: float
+    heat: float
+    ra: float = 1.0
+    T_hot: float = 1 + 1e-9
+    T_cold: float = 1 - 1e-9
+
+    @property
+    def nu(self) -> float:
+        """Of density 1, as given."""
+        return max(self.viscosity, TINY)
+
+    @property
+    def kappa(self) -> float:
+        """k/(rho C_V), as given."""
+        return max(self.heat/float(self.eos.cv), TINY)
+
+
+def between_plates(name: str, rows: int) -> BetweenPlates:
+    """The scene `conduction` or `couette`."""
+    return BetweenPlates(flow=FLOWS[name], L=rows)

@@ -1,0 +1,119 @@
+"""A method set up in a scene, and how: what all families of methods share.
+
+A scene has `width, L` (in spacings), `sides` (`Periodic`, `Walls`, `Torus`), the plates' `T_hot, T_cold` and the velocity `slide` of
+the upper one along itself, gravity `g`, the fluid `eos, law`, and `fields(x) -> rho, v, T`, the start at places (n, 2).
+"""
+from math import isclose
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.scene import Periodic, Torus, Walls
+from particles.integral.points import lattice, wrapped
+from particles.limits import limit_of
+from particles.walls.mirror import AtWall, Copied, plates, sides
+from particles.walls.periodic import periodic
+from particles.walls.sliding_plate import Sliding
+from studies.build.names import START_JITTER
+
+FROM_EDGE = 0.25        # of a spacing: jittered points come no nearer to a plate with images, three quarters to one with points
+
+
+class Ready(NamedTuple):
+    """A method, its state at the start (rows, n), and a step that is good for it; `run` of `particles.run` takes these."""
+    method: Any
+    start: np.ndarray
+    dt: float
+
+    @property
+    def limit(self) -> float:
+        """The longest stable step from the start."""
+        return limit_of(self.method, self.start)
+
+
+def stepped(method: Any, start: np.ndarray, of_limit: float) -> Ready:
+    """With a step that is a fraction of the stability limit."""
+    return Ready(method, start, of_limit*limit_of(method, start))
+
+
+def of_method(method: Any, scene: Any, seed: int = 1, x: np.ndarray | None = None, of_limit: float = 0.8) -> Ready:
+    """Any method with `state(x, rho, v, T)`, from a jittered lattice unless it has places `x` of its own or some are given."""
+    x = getattr(method, "x", None) if x is None else x
+    x = shaken(scene, seed) if x is None else x
+    rho, v, T = scene.fields(x)
+    return stepped(method, method.state(x=x, rho=rho, v=v, T=T), of_limit)
+
+
+def walls(scene: Any, rule: Any = AtWall(), pressure: Any = Copied()) -> tuple:  # noqa: B008
+    """Mirror images behind the plates; periodic sides or images there too; a torus has no plates."""
+    if isinstance(scene.sides, Torus):
+        return (*periodic(scene.width), *periodic(scene.L, axis=1))
+    lower, upper = plates(scene.L, scene.T_hot, scene.T_cold, rule, pressure)
+    return (lower, Sliding(upper, scene.slide) if scene.slide else upper, *beside(scene, rule, pressure))
+
+
+def beside(scene: Any, rule: Any, pressure: Any) -> tuple:
+    """Left and right sides."""
+    if isinstance(scene.sides, Periodic):
+        return periodic(scene.width)
+    return sides(scene.width, scene.T_mean, -scene.dT/scene.L, rule, pressure)
+
+
+def shifted(width: float, height: float, size: float, seed: int) -> np.ndarray:
+    """Points (n, 2) of unit spacing in a periodic box: a lattice, every coordinate shifted by up to `size`."""
+    x = lattice((round(width), round(height))).x
+    return wrapped(x + np.random.default_rng(seed).uniform(-size, size, x.shape), np.array([width, height]))
+
+
+def inside(height: float, x: np.ndarray) -> np.ndarray:
+    """Points too near to the edge of their room moved away from it."""
+    return np.stack([x[:, 0], np.clip(x[:, 1], -height/2 + FROM_EDGE, height/2 - FROM_EDGE)], axis=1)
+
+
+def positions(width: float, height: float, size: float, seed: int) -> np.ndarray:
+    """The same between plates: no point is too near to one."""
+    return inside(height, shifted(width, height, size, seed))
+
+
+def shaken(scene: Any, seed: int) -> np.ndarray:
+    """Where points that move start."""
+    return (shifted if isinstance(scene.sides, Torus) else positions)(scene.width, scene.L, START_JITTER, seed)
+
+
+def check_spacings(scene: Any) -> None:
+    """Refuse a box that whole columns and rows of points of unit spacing do not fill.
+
+    Raises
+    ------
+    ValueError
+        Height or width is no whole number.
+    """
+    for name, length in (("height L", scene.L), ("width aspect L", scene.width)):
+        if not isclose(length, max(1, round(length)), rel_tol=1e-9):
+            raise ValueError(f"points of unit spacing need whole rows and columns, got {name} = {length:.6g}: give L as the "
+                             "number of rows, aspect as columns over rows")
+
+
+def check_open(scene: Any, kind: str) -> None:
+    """Refuse four walls.
+
+    Raises
+    ------
+    ValueError
+        Sides are walls.
+    """
+    if isinstance(scene.sides, Walls):
+        raise ValueError(f"{kind} points have plates above and below only: take a scene with periodic sides")
+
+
+def check_still(scene: Any) -> None:
+    """Refuse plates that slide, for methods whose images do not.
+
+    Raises
+    ------
+    ValueError
+        The upper plate slides.
+    """
+    if scene.slide:
+        raise ValueError(f"plates of moving points do not slide, got slide = {scene.slide}: take fixed points, smooth particles or "
+                         "the grid")
