@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from continuum.scene import Periodic, RayleighBenard
-from particles.observe import Fields, Grid, Profile, wall_layers
+from particles.observe import Grid, Profile, Smoothed, wall_layers
 from particles.run import Divergence, Plan, Run, run
 from particles.smooth.spam import Spam
 from particles.vtk import write_grid, write_particles
@@ -99,7 +99,7 @@ class SpamRun(Case):
 
     def _energies(self, done: Run, plan: Plan) -> dict:
         (kp, steady), (kg, too), (heat, _) = (settled(self._late(done, name), HALVES) for name in ("kp", "kg", "heat"))
-        fields = Fields(*done.means["grid"])._asdict()
+        fields = Smoothed(*done.means["grid"])._asdict()
         flow = flowing({name: fields[name] for name in ("rho", "vx", "vy")}, isinstance(self.scene.sides, Periodic))
         return {**self.point, **self._spent(plan), "ke": kp.value, "ke_err": kp.err, "ke_field": kg.value,
                 "ke_field_err": kg.err, "ke_mean": flow.value, "ke_mean_err": flow.err,
@@ -141,7 +141,7 @@ class SpamRun(Case):
                 for t, kp, kg in list(samples)[::every]]
 
     def _fields(self, done: Run) -> list[dict]:
-        values, grid = Fields(*done.means["grid"]), self._grid
+        values, grid = Smoothed(*done.means["grid"]), self._grid
         columns = (grid.x/self.scene.L, grid.y/self.scene.L, values.rho, values.T, values.vx, values.vy)
         names = ("x", "y", "rho", "T", "vx", "vy")
         return [{**self.point, **dict(zip(names, map(float, row), strict=True))}
@@ -169,4 +169,4 @@ class SpamRun(Case):
         n, name = sums.n, "-".join(str(self.point[column]) for column in ("variant", "eos", "ra", "resolution", "seed"))
         folder.mkdir(parents=True, exist_ok=True)
         write_particles(folder/f"{name}.vtp", state, rho=sums.around.rho[:n], T=sums.around.T[:n])
-        write_grid(folder/f"{name}.vti", grid.x, grid.y, Fields(*done.means["grid"])._asdict())
+        write_grid(folder/f"{name}.vti", grid.x, grid.y, Smoothed(*done.means["grid"])._asdict())
