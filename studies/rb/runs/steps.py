@@ -6,7 +6,6 @@ from time import process_time
 from typing import ClassVar
 
 import numpy as np
-from scipy.special import stdtrit
 
 from continuum.gas.fields import block, initial
 from continuum.gas.loop import FluxForm
@@ -16,12 +15,7 @@ from particles.run import Plan, run
 from studies.build.names import scene_columns
 from studies.build.spam import PRINTED, Variant
 from studies.kit.case import Case, Outcome, Report
-from studies.kit.timing import Seconds, median_seconds
-
-REPEATS = 7
-#: half of the interquartile range of 7 repeats -> half width of the 95 % interval of their median: t sqrt(pi/(2n)) sigma of a
-#: normal scatter, whose quartiles lie between the 2nd and 3rd and the 5th and 6th of 7, on average 0.757 and 0.353 sigma off
-SPREAD_TO_ERR = float(stdtrit(REPEATS - 1, 0.975)*np.sqrt(np.pi/(2*REPEATS))/((0.757 + 0.353)/2))
+from studies.kit.timing import REPEATS, SPREAD_TO_ERR, Seconds, median_seconds
 
 
 @dataclass(frozen=True, kw_only=True)
