@@ -101,7 +101,8 @@ def on_lattice(contest: Any, scene: Any, method: str, seed: int) -> Made:
 
 def particles(contest: Any, scene: Any, method: str, seed: int) -> Made:
     """Smooth particles at places that suit the scene."""
-    made, start, _ = ready(scene, method, seed, x=contest.places(scene, seed))
+    x, fields = contest.places(scene, seed)
+    made, start, _ = ready(scene, method, seed, x=x, fields=fields)
     return Made(made, start, partial(contest.particles, made))
 
 
@@ -114,7 +115,8 @@ def two_step_points(contest: Any, scene: Any, method: str, seed: int) -> Made:
 
 def two_step_particles(contest: Any, scene: Any, method: str, seed: int) -> Made:
     """As `particles`."""
-    usual, start, _ = ready(scene, method, seed, x=contest.places(scene, seed))
+    x, fields = contest.places(scene, seed)
+    usual, start, _ = ready(scene, method, seed, x=x, fields=fields)
     made = alike(Stepped, usual)
     limit = min(sound_limit(made), RK4_TO_EULER*limit_of(made, start))
     return Made(made, start, partial(contest.particles, made), limit)
@@ -157,7 +159,7 @@ class OnGrid(NamedTuple):
         def residuals(S: np.ndarray) -> Residuals:
             at = at_nodes(method.at(S))
             return self.contest.residuals(scene, column(at, scene) if between else at)
-        return Problem(size*round(scene.width), first, limit_of(method, march.S), scene.time, method.go, residuals,
+        return Problem(round(scene.L)*round(scene.width), first, limit_of(method, march.S), scene.time, method.go, residuals,
                        lambda: (march.S, march.scratch), self.contest.known)
 
 

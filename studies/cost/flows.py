@@ -16,12 +16,17 @@ from particles.integral.points import lattice
 from particles.observe import fields_at
 from particles.smooth.spam import Spam
 from studies.build.scenes import BetweenPlates, Sound, TaylorGreen, between_plates
+from studies.build.names import START_JITTER
 from studies.build.setting import shifted
 from studies.cost.problem import Residuals, relative
 
 #: uncertainty of the Fourier sums by Mach number, from the study ordering: velocities of 33 against 29 points
 KNOWN = {0.05: 1.4e-6, 0.2: 2.9e-5}
 KNOWN_SOUND = 1e-4
+
+
+#: where smooth particles start, (n, 2), and (rho, v, T) of them
+Places = tuple[np.ndarray, tuple[np.ndarray, np.ndarray, np.ndarray]]
 
 
 class Vortex(NamedTuple):
@@ -48,9 +53,10 @@ class Vortex(NamedTuple):
         return {"velocity": (np.sqrt(V)[:, None]*(measured - exact)*scale).ravel(),
                 "decay": np.array([decay/solved(self.mach).decay - 1])}
 
-    def places(self, scene: TaylorGreen, seed: int) -> np.ndarray:
-        """Where smooth particles start."""
-        return shifted(scene.L, scene.L, 0.2, seed)
+    def places(self, scene: TaylorGreen, seed: int) -> Places:
+        """A jittered lattice."""
+        x = shifted(scene.L, scene.L, START_JITTER, seed)
+        return x, scene.fields(x)
 
     def particles(self, method: Spam, state: np.ndarray) -> Any:
         """The smoothed field where the particles are: they tremble    [KHP95, Sec. VI]"""
@@ -77,11 +83,12 @@ class Wave(NamedTuple):
         return {"velocity": relative(V, u[1] - exact_u, exact_u),
                 "temperature": relative(V, T[1] - 1 - exact_T, exact_T)}
 
-    def places(self, scene: Sound, seed: int) -> np.ndarray:
-        """A lattice that is displaced as the density at the start wants it."""
+    def places(self, scene: Sound, seed: int) -> Places:
+        """A lattice that is displaced as the density at the start wants it, with the fields of the lattice."""
         x = lattice((scene.width, scene.L)).x
+        fields = scene.fields(x)
         x[:, 0] -= scene.amplitude/scene.k*np.sin(scene.k*x[:, 0])
-        return x
+        return x, fields
 
     def particles(self, method: Spam, state: np.ndarray) -> Any:
         return alike(method, state)
@@ -109,14 +116,15 @@ class Plates(NamedTuple):
             return {"velocity": relative(V, u - exact_u, exact_u)}
         return {"temperature": relative(V, T - exact_T, exact_T - 1)}
 
-    def places(self, scene: BetweenPlates, seed: int) -> np.ndarray:
+    def places(self, scene: BetweenPlates, seed: int) -> Places:
         """A lattice whose rows are as far apart as the density at the start wants them."""
         x, s = lattice((scene.width, scene.L)).x, np.linspace(0, 1, 2001)
         rho = scene.flow.start(s)[0]
         mass = np.r_[0, np.cumsum((rho[1:] + rho[:-1])/2*np.diff(s))]
         heights = np.interp((np.arange(scene.L) + 0.5)/scene.L*mass[-1], mass, s)
         row = np.round(x[:, 1] + scene.L/2 - 0.5).astype(int)
-        return np.stack([x[:, 0], scene.L*(heights[row] - 0.5)], axis=1)
+        x[:, 1] = scene.L*(heights[row] - 0.5)
+        return x, scene.fields(x)
 
     def particles(self, method: Spam, state: np.ndarray) -> Any:
         return alike(method, state)
