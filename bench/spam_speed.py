@@ -23,8 +23,8 @@ from bench.lammps_sph import Lammps, fastest, find_mpi
 from bench.stages import stages
 from particles.run import Plan, run
 from studies.kit.csvfile import write
+from studies.kit.key import ROOT
 from studies.kit.provenance import commit, cpu, now, versions
-from studies.kit.source import ROOT
 from studies.kit.timing import compile_and_run_seconds
 
 FILE = ROOT/"results"/"bench"/"spam_speed.csv"

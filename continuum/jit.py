@@ -6,6 +6,7 @@ using an old formula of another module.
 """
 import hashlib
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -89,8 +90,14 @@ def made(kind: type) -> str:
     return f"{kind.__name__}({', '.join(f'{name}=...' for name in needed)})"
 
 
+def place(frame: Any) -> str:
+    """File and line of a statement of a module; nothing inside a function or a notebook, where formulas are tried out."""
+    code = frame.f_code
+    return f"{code.co_filename}:{frame.f_lineno}" if code.co_name == "<module>" and Path(code.co_filename).is_file() else ""
+
+
 def generic(stub: Callable) -> Any:
-    """A function whose formula is chosen by the type of its first argument (a NamedTuple).
+    """A function whose formula is chosen by the type of its first argument (a NamedTuple), or by a class it inherits from.
 
     ``@pressure.of(IdealGas)`` adds a formula; calling works from Python and from compiled code.
 
@@ -98,25 +105,36 @@ def generic(stub: Callable) -> Any:
     ------
     TypeError
         No formula is known for that type, or a class was given in place of an object.
+    ValueError
+        Modules define two formulas for one type.
     """
     table: dict[type, Callable] = {}
+    places: dict[type, str] = {}
+
+    def formula_of(kind: type | None) -> Callable | None:
+        return next((table[one] for one in getattr(kind, "__mro__", ()) if one in table), None)
 
     def call(first, *rest):
-        if type(first) not in table:
+        chosen = formula_of(type(first))
+        if chosen is None:
             known = ", ".join(kind.__name__ for kind in table)
             if isinstance(first, type):
                 raise TypeError(f"{stub.__name__} needs an object, got the class {first.__name__} itself: give {made(first)}")
             raise TypeError(f"{stub.__name__}({type(first).__name__}, ...) is not defined: it knows {known}; "
                             f"add a formula with @{stub.__name__}.of({type(first).__name__})")
-        return table[type(first)](first, *rest)
+        return chosen(first, *rest)
 
     @overload(call, strict=False, jit_options=OPTIONS)  # type: ignore[arg-type]
     def _(first, *rest):
-        return table.get(getattr(first, "instance_class", None))
+        return formula_of(getattr(first, "instance_class", None))
 
     def of(kind: type) -> Callable:
         def register(function: Callable) -> Callable:
-            table[kind] = function
+            here, before = place(sys._getframe(1)), places.get(kind, "")
+            if here and before and here != before:
+                raise ValueError(f"{stub.__name__} of {kind.__name__} is defined in {before} and again in {here}: delete one, "
+                                 "or give the second kind a class of its own")
+            table[kind], places[kind] = function, here
             return function
         return register
 

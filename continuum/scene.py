@@ -218,7 +218,7 @@ class RayleighBenard:
 
     def fields(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Density (n,), velocity (n, 2) and temperature (n,) at the start, at places (n, 2)    [KHP95, Sec. VI]"""
-        return np.ones(len(x)), np.stack(self.flow(*x.T, ROLL_ENERGY), axis=1), self.T(x[:, 1])
+        return np.ones(len(x)), np.stack(self.flow(x[:, 0], x[:, 1], ROLL_ENERGY), axis=1), self.T(x[:, 1])
 
     def _roll_energy(self, rolls: int) -> float:
         """Mean v^2/2 of the pattern; the midpoint rule is exact for its few harmonics."""

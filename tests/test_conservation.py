@@ -15,6 +15,7 @@ from particles.integral.points import jittered, lattice
 from particles.integral.rr98_moving_plain import MOTIONS
 from particles.run import Plan, run
 from particles.weights import WEIGHTS, Lucy, Monaghan
+from studies.build.disorder import DISORDERS
 from studies.conservation import losses as conservation_losses
 from studies.conservation.commutator import Commutator
 from studies.conservation.dih import FORMS
@@ -28,7 +29,6 @@ from studies.conservation.sums import Watch, exact_sums, kinetic, parts, random_
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import read
-from studies.ordering.waves import DISORDERS
 
 
 def row(case, table="drift"):

@@ -2,11 +2,11 @@
 import numpy as np
 import pytest
 
+from continuum.exact.cylinder import drag_of, series
 from particles.dissipative.integrators import GrootWarren65, Shardlow, VelocityVerlet
 from particles.dissipative.stream import DpdStream, force_on_body, speed
 from particles.integrators import TwoStep
 from particles.run import Plan, run
-from studies.conservation.bodies.drag import drag_of, series
 from studies.noise.dpd.cylinder import Inside
 from studies.noise.dpd.derive_more import offset
 

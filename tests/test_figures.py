@@ -12,7 +12,7 @@ from figure_tables import LOST, cost, errors, fields, history, means, particles,
 from matplotlib.container import ErrorbarContainer
 from matplotlib.text import Text
 
-from studies.kit.source import ROOT
+from studies.kit.key import ROOT
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables, merge
 from studies.onset import figures as onset_figures

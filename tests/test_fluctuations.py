@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 
 import studies.noise.fluctuations.cases as fluctuations
+from studies.build.disorder import DISORDERS
 from studies.kit.ask import Value
 from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS, load
@@ -17,7 +18,6 @@ from studies.noise.fluctuations.flows import BelowOnset, Rest
 from studies.noise.fluctuations.modes import Equipartition
 from studies.noise.fluctuations.nonlinear import Capacity, Nonlinear
 from studies.noise.fluctuations.peaks import Brillouin
-from studies.ordering.waves import DISORDERS
 
 
 def small(size: str) -> list:

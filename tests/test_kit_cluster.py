@@ -16,7 +16,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from studies.kit import cluster, provenance, source
+from studies.kit import cluster, key, provenance
 from studies.kit.case import Case, Outcome
 from studies.kit.cluster import check_scheduler, check_worker, packed, unpacked
 from studies.kit.processes import THREADS
@@ -82,7 +82,7 @@ class Toy:
 
     def __init__(self, folder: Path):
         self.folder, self.processes = folder, []
-        shutil.copytree(source.ROOT / "studies/kit", folder / "studies/kit", ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(key.ROOT / "studies/kit", folder / "studies/kit", ignore=shutil.ignore_patterns("__pycache__"))
         for name, text in {"studies/__init__": "", "studies/toy": TOY, "continuum/__init__": "", "continuum/law": LAW,
                            "continuum/other": OTHER}.items():
             (folder / name).parent.mkdir(exist_ok=True)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from studies.kit import dispatch, source, store, study, sweep
+from studies.kit import dispatch, key, store, study, sweep
 from studies.kit.case import Case, Outcome
 from studies.kit.claim import Claim
 from studies.kit.figure import figure
@@ -65,7 +65,7 @@ class Toy:
 
     def __init__(self, folder: Path):
         self.folder = folder
-        shutil.copytree(source.ROOT / "studies/kit", folder / "studies/kit",
+        shutil.copytree(key.ROOT / "studies/kit", folder / "studies/kit",
                         ignore=shutil.ignore_patterns("__pycache__"))
         for name, text in {"studies/__init__": "", "studies/toy": TOY, "continuum/__init__": "",
                            "continuum/law": "def power(x):\n    return x**3\n"}.items():
@@ -250,8 +250,8 @@ def test_quick_leaves_the_tables_of_other_sizes_alone(typed, tmp_path):
 
 
 def test_the_repository_ignores_what_quick_writes():
-    path = study.results("quick").relative_to(source.ROOT)
-    assert f"{path}/" in (source.ROOT / ".gitignore").read_text().splitlines()
+    path = study.results("quick").relative_to(key.ROOT)
+    assert f"{path}/" in (key.ROOT / ".gitignore").read_text().splitlines()
     assert study.results("paper") == study.results("fine") == sweep.RESULTS
 
 

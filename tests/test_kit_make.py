@@ -4,7 +4,7 @@ import subprocess
 
 import pytest
 
-from studies.kit import source
+from studies.kit import key
 
 pytestmark = pytest.mark.skipif(not shutil.which("make"), reason="no make")
 
@@ -12,7 +12,7 @@ pytestmark = pytest.mark.skipif(not shutil.which("make"), reason="no make")
 @pytest.fixture
 def make(tmp_path):
     """make in a repository of the studies one and two, and a folder that is none; nothing can be set up in it."""
-    shutil.copy(source.ROOT / "Makefile", tmp_path)
+    shutil.copy(key.ROOT / "Makefile", tmp_path)
     (tmp_path / "requirements.lock").touch()
     for name, file in {"one": "__main__.py", "two": "__main__.py", "kit": "case.py"}.items():
         (tmp_path / f"studies/{name}").mkdir(parents=True)

@@ -7,7 +7,7 @@ import pytest
 from PIL import Image
 
 from studies.kit import figure, stats, timing
-from studies.rb.runs.steps import REPEATS, SPREAD_TO_ERR
+from studies.kit.timing import REPEATS, SPREAD_TO_ERR
 
 
 def autoregressive(phi, n, runs, seed):

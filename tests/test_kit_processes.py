@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from studies.kit import source
+from studies.kit import key
 from studies.kit.case import Case, Outcome
 from studies.kit.dispatch import Bar, dispatch
 from studies.kit.processes import Processes
@@ -89,7 +89,7 @@ def test_a_study_that_is_killed_leaves_no_workers_and_keeps_what_is_finished(tmp
     script.write_text(f"""
 import sys
 from pathlib import Path
-sys.path[:0] = [{str(source.ROOT / "tests")!r}, {str(source.ROOT)!r}]
+sys.path[:0] = [{str(key.ROOT / "tests")!r}, {str(key.ROOT)!r}]
 from studies.kit.dispatch import dispatch
 from studies.kit.processes import Processes
 from test_kit_processes import Step

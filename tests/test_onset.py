@@ -221,8 +221,8 @@ def test_figures_count_the_distance_from_the_reference():
 
 def test_particles_start_with_the_rolls_asked_for(tmp_path):
     """0.15: rolls of two periods over a jittered lattice of 16 rows, and what 15 steps have changed."""
-    model = SpamGrowth(scene=RayleighBenard(ra=3000.0, L=16.0)).model
-    history = spam_run(model.scene, PRINTED, 1, 4e-4, 0.6, model.dt, lambda fraction: None, tmp_path)
+    case = SpamGrowth(scene=RayleighBenard(ra=3000.0, L=16.0))
+    history = spam_run(case.scene, PRINTED, 1, 4e-4, 0.6, case.dt, lambda fraction: None, tmp_path)
     assert history.amplitude[0] == pytest.approx(2*np.sqrt(4e-4), rel=0.15)
 
 

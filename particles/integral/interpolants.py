@@ -15,7 +15,7 @@ from scipy.integrate import quad
 from scipy.special import gammaincc
 
 from continuum.jit import generic, jit
-from particles.weights import WEIGHTS, value_and_slope
+from particles.weights import Weight, value_and_slope
 
 NEGLIGIBLE = 1e-16      # share of the first moment beyond the reach of a weight with a tail
 SEEN = 1e-2             # error of linear gradients from which on a violated Eq. 45 is told
@@ -94,15 +94,10 @@ def _at(weight: Any, r: Any, row: int) -> Any:
     return out[row].reshape(r.shape)
 
 
-def _compact(kind: Any) -> None:
-    f.of(kind)(lambda weight, r: _at(weight, r, 0))
-    W.of(kind)(lambda weight, r: _at(weight, r, 1))
-    reach.of(kind)(lambda weight: weight.h)
-    width.of(kind)(lambda weight: weight.h)
-
-
-for _kind in WEIGHTS.values():
-    _compact(_kind)
+f.of(Weight)(lambda weight, r: _at(weight, r, 0))
+W.of(Weight)(lambda weight, r: _at(weight, r, 1))
+reach.of(Weight)(lambda weight: weight.h)
+width.of(Weight)(lambda weight: weight.h)
 
 
 def moment(weight: Any, n: int, d: int) -> float:
@@ -148,7 +143,7 @@ def check(weight: Any, d: int) -> None:
     ValueError
         Its width is not positive and finite, or M_1 differs from d: the gradient of a linear field would be wrong by M_1/d.
     """
-    name = "range h" if type(weight) in WEIGHTS.values() else "width r0"
+    name = "range h" if isinstance(weight, Weight) else "width r0"
     if not 0 < width(weight) < np.inf:
         raise ValueError(f"the {name} of {type(weight).__name__} must be positive and finite, got {width(weight)}: Eq. 45 asks "
                          "for more than a spacing")

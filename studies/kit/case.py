@@ -4,12 +4,12 @@ import json
 import sys
 from collections.abc import Callable, Iterator
 from enum import Enum
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
-from types import ModuleType
 from typing import Any, ClassVar
 
-from studies.kit import source
+from studies.kit.key import CODE, PACKAGES, ROOT, Code, digest, followed
+from studies.kit.syntax import CASE, WHOLE, Place
 
 #: called with the fraction done, in [0, 1]
 Report = Callable[[float], None]
@@ -30,8 +30,6 @@ class Case:
     of a module. The result must depend on nothing else than these and the code.
     """
 
-    #: modules the result depends on that the class does not name itself (the ones it names are found)
-    code: ClassVar[tuple[ModuleType | str, ...]] = ()
     #: True for timings: the case then has the machine to itself
     alone: ClassVar[bool] = False
 
@@ -52,16 +50,8 @@ class Case:
 
     @cached_property
     def key(self) -> str:
-        """Hash of the parameters and of all code that the result depends on."""
-        path, names, modules = origin(self)
-        own = source.part(path, names)
-        here = module_of(path) or ""
-        for statement in own:
-            modules |= {name for name in source.imports(statement, here) if source.find(name)}
-        modules |= {getattr(module, "__name__", str(module)) for module in self.code}
-        modules.discard(here)
-        values = json.dumps(parameters(self), sort_keys=True)
-        return source.digest(values, *own, source.code_hash(frozenset(modules)))
+        """Hash of the parameters and of all definitions that the result depends on."""
+        return key_of(self, CODE)
 
 
 def word(value: Any) -> str:
@@ -97,24 +87,32 @@ def parameters(value: Any) -> Any:
     if value is None or isinstance(value, bool | int | float | str):
         return value
     if hasattr(value, "__qualname__") and "<" not in value.__qualname__:
-        main = value.__module__ in ("__main__", "__mp_main__")
-        return {"": value.__qualname__, "module": module_of(file_of(value)) if main else value.__module__}
+        ours = value.__module__.split(".")[0] in (*PACKAGES, "__main__", "__mp_main__")     # what it says is in the key
+        return {"": value.__qualname__} | ({} if ours else {"module": value.__module__})
     raise TypeError(f"a case cannot hold {value!r}: use numbers, texts, tuples, NamedTuples, dataclasses, "
                     "enums, or functions and classes of a module")
 
 
-def origin(case: Case) -> tuple[Path, set[str], set[str]]:
-    """File of the case's class; names in it, and modules elsewhere, that class and parameters come from."""
-    path = file_of(type(case))
-    assert path is not None, "a class with fields has a file"
-    names, modules = set(), set()
-    for kind in (*type(case).__mro__, *kinds(case)):
-        file = file_of(kind)
-        if file == path:
-            names.add(kind.__qualname__.split(".")[0])
-        elif file and (name := module_of(file)) and source.find(name):
-            modules.add(name)
-    return path, names, modules
+def key_of(case: Case, code: Code) -> str:
+    """Key of a case with the definitions of another copy of our packages, or of these."""
+    values = json.dumps(parameters(case), sort_keys=True)
+    return digest(values, code.hash(filter(None, starts(case)), case))
+
+
+def starts(case: Case) -> Iterator[Place | None]:
+    """Where the classes of a case are defined, and all that takes part in its parameters."""
+    own = file_of(type(case))
+    for kind in type(case).__mro__:
+        yield place_of(kind, own, CASE if issubclass(kind, Case) else WHOLE)
+    for value in vars(case).values():
+        yield from (place_of(kind, own) for kind in kinds(value))
+
+
+def place_of(kind: Any, own: Path | None, part: str = WHOLE) -> Place | None:
+    """Where a class or function is defined, None if neither in our packages nor in the file of the case."""
+    path = file_of(kind)
+    name = path and (module_of(path) or (str(path) if path == own else None))
+    return Place(name, kind.__qualname__.split(".")[0], part) if name and followed(name) else None
 
 
 def kinds(value: Any) -> Iterator[Any]:
@@ -132,11 +130,18 @@ def kinds(value: Any) -> Iterator[Any]:
 def file_of(thing: Any) -> Path | None:
     """File that a class or function is written in, None for built-in ones."""
     file = getattr(sys.modules.get(thing.__module__ or ""), "__file__", None)
-    return Path(file).resolve() if file else None
+    return resolved(file) if file else None
 
 
-def module_of(path: Path | None) -> str | None:
-    """Dotted name of a file below the root: ``python -m studies.rb`` calls itself __main__."""
-    if path is None or not path.is_relative_to(source.ROOT):
+@cache
+def resolved(file: str) -> Path:
+    """Full path of a file."""
+    return Path(file).resolve()
+
+
+@cache
+def module_of(path: Path) -> str | None:
+    """Dotted name of a file of our packages: ``python -m studies.rb`` calls itself __main__."""
+    if not any(path.is_relative_to(ROOT/package) for package in PACKAGES):
         return None
-    return ".".join(path.relative_to(source.ROOT).with_suffix("").parts).removesuffix(".__init__")
+    return ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")

@@ -22,7 +22,7 @@ import pandas as pd
 
 from studies.kit import provenance
 from studies.kit.csvfile import OtherTable, read, write
-from studies.kit.source import ROOT
+from studies.kit.key import ROOT
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
 from studies.kit.value import Value

@@ -19,7 +19,7 @@ from pathlib import Path
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any
 
-from studies.kit import provenance, source
+from studies.kit import key, provenance
 from studies.kit.case import Case, Report, file_of, module_of
 from studies.kit.dispatch import LOOK, Bar
 from studies.kit.processes import THREADS
@@ -184,8 +184,8 @@ def unpacked(sent: bytes, worker: "Worker") -> Case:
 
 def read_code() -> None:
     """Remember the code that is loaded: a worker lives long, and files that change later are not what it runs."""
-    for path in filter(None, map(source.find, list(sys.modules))):
-        source.parse(path)
+    for path in filter(None, map(key.find, list(sys.modules))):
+        key.parse(path)
 
 
 def teller(worker: "Worker", number: int, topic: str) -> Report:

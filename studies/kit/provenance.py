@@ -7,7 +7,7 @@ from importlib.metadata import version
 from os import cpu_count
 from pathlib import Path
 
-from studies.kit.source import PACKAGES, ROOT
+from studies.kit.key import PACKAGES, ROOT
 
 LIBRARIES = ("numpy", "scipy", "numba", "py-pde")
 

@@ -14,7 +14,7 @@ from typing import Any
 from studies.kit import provenance
 from studies.kit.case import Case, Outcome, Report, parameters
 from studies.kit.csvfile import write_atomic
-from studies.kit.source import ROOT
+from studies.kit.key import ROOT
 
 RESULTS = ROOT / "results"
 SEAL = "sha256"     # of the rows of a kept case and their commit

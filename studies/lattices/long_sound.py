@@ -16,11 +16,11 @@ from typing import Any
 import numpy as np
 from scipy.linalg import expm
 
+from continuum.exact.waves import continuum
 from continuum.fluid import IdealGas
 from particles.run import Plan, run
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.build.read import Value, select
-from studies.build.symbols import continuum
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.claim import Claim
 from studies.kit.stats import Measured

@@ -19,13 +19,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.linalg import expm
 
+from continuum.exact.waves import Gas, continuum
 from continuum.fluid import ConstEta, IdealGas
 from particles.limits import Symbols, step_limit, waves
 from particles.run import STUDIES, Divergence, Plan, run
 from particles.smooth.spam import Direct, Nested, Spam
 from particles.weights import value_and_slope
 from studies.build.periodic_box import fluid
-from studies.build.symbols import Gas, continuum
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
 from studies.lattices.waves import CELLS, Lattice, lattice, matrices, neighbours, sums, vectors

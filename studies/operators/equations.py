@@ -116,24 +116,26 @@ def frictions(dih: Dih, flow: Flow, exact: Exact) -> Iterator[tuple[str, np.ndar
     d = dih.edges.d
     for zeta in (ZETA, 0.0) if d > 1 else (ZETA,):       # on a line only zeta counts
         constant, there = replace(dih, law=CONSTANT, zeta=zeta), replace(exact, zeta=zeta)
-        found = arriving(dih.edges, ALONG.fluxes(constant, flow).momentum)
-        yield f"friction, zeta {zeta:g}", found, there.div(there.stress(constant.coefficients(flow).eta))
+        force = arriving(dih.edges, ALONG.fluxes(constant, flow).momentum)
+        yield f"friction, zeta {zeta:g}", force, there.div(there.stress(constant.coefficients(flow).eta))
     if d == 1:
         return
     changing = replace(dih, zeta=0.0)
     eta, slope = changing.coefficients(flow).eta, exact.slope()
-    found, true = arriving(dih.edges, ALONG.fluxes(changing, flow).momentum), there.div(there.stress(eta))
-    more = -(1 + 2/d)/2*(np.einsum("nc,nac->na", exact.grad(eta), slope)
-                         - exact.grad(eta)*np.trace(slope, axis1=1, axis2=2)[:, None])
-    yield "friction, eta(T)", found, true
-    yield "friction, eta(T), foretold", found, true + more
+    force = arriving(dih.edges, ALONG.fluxes(changing, flow).momentum)
+    true = there.div(there.stress(eta))
+    div = np.trace(slope, axis1=1, axis2=2)[:, None]
+    more = -(1 + 2/d)/2*(np.einsum("nc,nac->na", exact.grad(eta), slope) - exact.grad(eta)*div)
+    yield "friction, eta(T)", force, true
+    yield "friction, eta(T), foretold", force, true + more
     yield "friction, eta(T), mended", arriving(dih.edges, MENDED.fluxes(changing, flow).momentum), true
 
 
-def comparison(found: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
-    """(relative rms error, projection of what was found on what is exact)."""
+def comparison(discrete: np.ndarray, exact: np.ndarray) -> dict[str, float]:
+    """Relative rms error, and projection of the discrete field on the exact one."""
     size = float(np.sum(exact**2))
-    return float(np.sqrt(np.sum((found - exact)**2)/size)), float(np.sum(found*exact)/size)
+    error = np.sqrt(np.sum((discrete - exact)**2)/size)
+    return {"error": float(error), "ratio": float(np.sum(discrete*exact)/size)}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -155,7 +157,7 @@ class EquationErrors(Case):
         flow = dih.flow(dih.state(*smooth_flow(at.x)))
         exact = Exact(self.cells, flow, ZETA)
         key = {"d": self.d, "weight": self.kind.__name__, "h": self.h, "cells": self.cells}
-        found = (*terms(dih, flow, exact), *frictions(dih, flow, exact))
-        return Outcome({"equations": [{**key, "operator": name, **dict(zip(("error", "ratio"), comparison(one, other)))}
-                                      for name, one, other in found]})
+        pairs = (*terms(dih, flow, exact), *frictions(dih, flow, exact))
+        return Outcome({"equations": [{**key, "operator": name, **comparison(discrete, true)}
+                                      for name, discrete, true in pairs]})
 

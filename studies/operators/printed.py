@@ -15,10 +15,10 @@ from particles.integral.edges import Edges
 from particles.integral.interpolants import reach
 from particles.integral.points import lattice
 from particles.weights import Lucy, WendlandC2
+from studies.build.disorder import Disorder
 from studies.kit.case import Case, Outcome, Report
 from studies.operators.equations import arriving
 from studies.operators.weights import weight_of
-from studies.ordering.waves import Disorder
 
 Sums = list[sparse.csr_array]
 
@@ -65,9 +65,9 @@ def linearised_printed(w: Sums, rho: np.ndarray, v: np.ndarray, d_rho: np.ndarra
     return -sum((M@rho)*dv[:, a] + (M@d_rho)*v[:, a] + rho*(M@dv[:, a]) + d_rho*(M@v[:, a]) for a, M in enumerate(w))
 
 
-def ratio(found: np.ndarray, true: np.ndarray) -> float:
+def ratio(literal: np.ndarray, true: np.ndarray) -> float:
     """Projection of one field on another."""
-    return float(np.sum(found*true)/np.sum(true**2))
+    return float(np.sum(literal*true)/np.sum(true**2))
 
 
 def readings(edges: Edges, x: np.ndarray, k: float) -> Iterator[tuple[str, float, float]]:
@@ -103,9 +103,10 @@ class Volumes(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         at = lattice((self.rows, 8), self.a)
         edges = renormalised(at, Lucy.of(h=3*self.a))
-        found = readings(edges, at.x[:, 0], 2*np.pi/(self.rows*self.a))
-        return Outcome({"volumes": [{"quantity": name, "dV": self.a**2, "ratio": value, "predicted": predicted}
-                                    for name, value, predicted in found]})
+        k = 2*np.pi/(self.rows*self.a)
+        return Outcome({"volumes": [
+            {"quantity": name, "dV": self.a**2, "ratio": value, "predicted": predicted}
+            for name, value, predicted in readings(edges, at.x[:, 0], k)]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -124,7 +125,8 @@ class Dilation(Case):
         for name, trace in (("2/3", 2/3), ("2/d", 2/self.d)):
             pi = kernel(g, self.eta, self.zeta, trace)[middle]
             normal = np.trace(pi, axis1=1, axis2=2).mean()/self.d**2         # div v = d
-            rows.append({"d": self.d, "trace": name, "bulk": float(normal - self.zeta)/self.eta, "predicted": 2/self.d - trace})
+            bulk = float(normal - self.zeta)/self.eta
+            rows.append({"d": self.d, "trace": name, "bulk": bulk, "predicted": 2/self.d - trace})
         return Outcome({"dilation": rows})
 
 
@@ -139,8 +141,8 @@ class Stream(Case):
         at = self.disorder.make(self.counts, self.disorder.size, self.seed)
         edges = renormalised(at, WendlandC2.of(h=3.0))
         key = {"points": self.disorder.name, "seed": self.seed}
-        return Outcome({"stream": [{**key, "inner": name, **stream(edges, Nested(differences=name == "differences"))}
-                                   for name in ("printed", "differences")]})
+        kinds = {"printed": Nested(differences=False), "differences": Nested()}
+        return Outcome({"stream": [{**key, "inner": name, **stream(edges, nested)} for name, nested in kinds.items()]})
 
 
 def stream(edges: Edges, transport: Nested) -> dict[str, float]:
@@ -202,11 +204,11 @@ class Rotation(Case):
         v = np.zeros_like(at.x)
         v[:, 0], v[:, 1] = -omega*at.x[:, 1], omega*at.x[:, 0]
         middle = np.sqrt((at.x**2).sum(axis=1)) < 2.5      # two ranges from where the rotation ends
+        key, work = {"d": self.d, "zeta": self.zeta}, 1 + 2/self.d - self.zeta
         rows = []
-        for mended in (False, True):
-            found = heating(edges, v, Pairwise(mended=mended), self.zeta)[middle].mean()/omega**2
-            rows.append({"d": self.d, "zeta": self.zeta, "mended": "yes" if mended else "no", "heating": float(found),
-                         "predicted": 0.0 if mended else 1 + 2/self.d - self.zeta})
+        for mended, name, predicted in ((False, "no", work), (True, "yes", 0.0)):
+            rate = heating(edges, v, Pairwise(mended=mended), self.zeta)[middle].mean()/omega**2
+            rows.append(key | {"mended": name, "heating": float(rate), "predicted": predicted})
         return Outcome({"rotation": rows})
 
 

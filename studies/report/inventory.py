@@ -11,7 +11,7 @@ import pandas as pd
 
 from studies.kit.csvfile import ABOVE, AGAIN, TEXT, read
 from studies.kit.drawing import Drawing, Overview
-from studies.kit.source import ROOT
+from studies.kit.key import ROOT
 from studies.kit.study import Study
 from studies.kit.table import STAMP
 

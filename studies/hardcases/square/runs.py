@@ -60,7 +60,8 @@ class Square(Case):
         kp = np.array(done.series["kp"])[np.array(done.times) > plan.mean_from]
         mean = Smoothed(*done.means["grid"])
         return Outcome({"squares": [{"eos": type(self.eos).__name__, "weight": self.weight.__name__, "ra": self.ra,
-                                     "seed": self.seed, "eta": scene.eta, "alpha": scene.alpha, "rolls": turns(scene, done.means["grid"][2]),
+                                     "seed": self.seed, "eta": scene.eta, "alpha": scene.alpha,
+                                     "rolls": turns(scene, done.means["grid"][2]),
                                      "begun": START_ENERGY*scene.free_fall**2, "ke": float(kp.mean()),
                                      "flow": float(np.mean(mean.rho*(mean.vx**2 + mean.vy**2))/np.mean(mean.rho)/2),
                                      "ratio": at.pairing.value, "ratio_err": at.pairing.err,

@@ -10,13 +10,14 @@ from typing import Any
 
 import numpy as np
 
+from continuum.exact.cylinder import drag_of
 from continuum.fluid import ConstEta, IdealGas
 from particles.dissipative.stream import DpdStream, force_on_body, speed
 from particles.integral.bodies import held
 from particles.integral.stream import Stream
 from particles.limits import limit_of
 from particles.run import Plan, Run, run
-from studies.conservation.bodies.drag import VARIANTS, drag_of, force, momentum
+from studies.build.cylinder import VARIANTS, force, momentum
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import mean
 from studies.kit.table import Table
@@ -171,7 +172,7 @@ class Inertia(Case):
     def drag(self, reynolds: float) -> tuple[float, float, float]:
         """Drag over eta U, Reynolds and Mach number of the steady stream."""
         variant, radius = VARIANTS["surface"], self.rows*float(np.sqrt(self.fraction/np.pi))
-        points, which, edges = variant.points(self.rows, radius)
+        points, which, edges = variant.cell(self.rows, radius)
         known, U, cell = drag_of(self.fraction)[0], reynolds*self.eta/2/radius, float(self.rows**2)
         method = Stream(x=points.x, edges=edges, eos=IdealGas(), law=ConstEta(self.eta, self.eta), held=held(which, T=1.0),
                         push=(known*self.eta*U/cell, 0.0), chi=variant.filtered/self.eta)

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import brentq
 
-from studies.conservation.bodies.drag import drag_of
+from continuum.exact.cylinder import drag_of
 from studies.kit.table import Table, Tables
 from studies.noise.dpd.derive import GAMMA, RHO, weighted
 from studies.noise.dpd.slip import drag as smooth

@@ -18,10 +18,10 @@ from particles.run import Plan, run
 from particles.threads import Team
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2
+from studies.build.disorder import Disorder
 from studies.build.symbols import neighbours
 from studies.kit.case import Case, Outcome, Report
 from studies.noise.fluctuations.matrices import ETA, KAPPA
-from studies.ordering.waves import Disorder
 
 KT = 0.7
 NULL = 1e-12        # of the largest eigenvalue of a dissipation: what is below does not dissipate

@@ -12,6 +12,7 @@ from itertools import product
 
 from particles.integral.covariance import STEPS
 from particles.integral.edge_makers import MAKERS
+from studies.build.disorder import DISORDERS
 from studies.kit.case import Case
 from studies.kit.study import Part
 from studies.noise.fluctuations import claims as fluct_claims
@@ -27,7 +28,6 @@ from studies.noise.fluctuations.nonlinear import Capacity, Nonlinear
 from studies.noise.fluctuations.peaks import Brillouin
 from studies.noise.fluctuations.special import SpecialCase
 from studies.noise.fluctuations.steps import Moving, Steps
-from studies.ordering.waves import DISORDERS
 
 DT = (0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8)
 TURNS = ((1, 0), (0, 1), (1, 1), (1, -1), (2, 1), (3, 0), (0, 4), (3, 3), (5, 2), (5, 5))

@@ -18,10 +18,10 @@ from particles.integral.edge_makers import MAKERS
 from particles.integral.layer import Layer
 from particles.threads import Team
 from particles.weights import Lucy
+from studies.build.disorder import Disorder
 from studies.build.fixed import SCHEMES, layer
 from studies.kit.case import Case, Outcome, Report
 from studies.noise.fluctuations.matrices import ETA, KAPPA, ZETA, equilibrium, factor, noise, transport
-from studies.ordering.waves import Disorder
 
 # --- rest -------------------------------------------------------------------------------------------------------------
 

@@ -13,11 +13,11 @@ from particles.integral.edge_makers import MAKERS
 from particles.integral.points import Points
 from particles.run import Plan
 from particles.weights import Lucy
+from studies.build.disorder import DISORDERS, Disorder
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import over_seeds
 from studies.noise.fluctuations.matrices import ETA, KAPPA, ZETA, equilibrium, factor, noise, transport
 from studies.noise.fluctuations.sampling import BATCHES, Linear, batches, check_length
-from studies.ordering.waves import DISORDERS, Disorder
 
 #: of the tables, by dimension
 TABLE, AXES = {2: "modes", 3: "cubes"}, ("turns_x", "turns_y", "turns_z")

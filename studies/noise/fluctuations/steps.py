@@ -8,10 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
+from continuum.exact.waves import waves
 from particles.integral.covariance import STEPS, Step, steady_of_steps
 from particles.integral.interpolants import W
 from particles.weights import Lucy
-from studies.build.symbols import neighbours, waves
+from studies.build.symbols import neighbours
 from studies.kit.case import Case, Outcome, Report
 
 ETA, KAPPA = 0.3, 0.4

@@ -104,8 +104,8 @@ class SpamRun(Case):
         return {**self.point, **self._spent(plan), "ke": kp.value, "ke_err": kp.err, "ke_field": kg.value,
                 "ke_field_err": kg.err, "ke_mean": flow.value, "ke_mean_err": flow.err,
                 "ke_fluctuation": kp.value - kg.value, "nu": heat.value/self._heat_unit,
-                "nu_err": heat.err/self._heat_unit, "rolls": turns(self.scene, done.means["grid"][2]), "converged": steady and too,
-                "steps": plan.steps, "t_end": plan.steps*plan.dt, "cpu_s": done.cpu_s, "compile_s": done.compile_s}
+                "nu_err": heat.err/self._heat_unit, "rolls": turns(self.scene, done.means["grid"][2]),
+                "converged": steady and too, "steps": plan.steps, "t_end": plan.steps*plan.dt, "cpu_s": done.cpu_s, "compile_s": done.compile_s}
 
     def _diverged(self, plan: Plan, steps: int) -> dict:
         empty = dict.fromkeys((*VALUES, "cpu_s"), np.nan)

@@ -1,0 +1,223 @@
+"""A change runs again what it changes, and nothing else."""
+import importlib
+import shutil
+from pathlib import Path
+from pkgutil import iter_modules
+from runpy import run_path
+from types import SimpleNamespace
+
+import pytest
+
+from continuum.jit import generic
+from studies.kit import rekey
+from studies.kit.case import Case, key_of, starts
+from studies.kit.key import CODE, PACKAGES, ROOT, Code
+from studies.kit.syntax import Place, parse
+
+QUARTIC = '''
+
+class Quartic(Weight):
+    """(1 - q^2)^4"""
+
+
+shape.of(Quartic)(lambda weight, q: (1 - q**2)**4)
+slope.of(Quartic)(lambda weight, q: -8*(1 - q**2)**3)
+WEIGHTS["quartic"] = Quartic
+'''
+
+
+@pytest.fixture(scope="module")
+def cases() -> list[Case]:
+    """One case of each study, class and set of definitions that it reaches."""
+    import studies
+    found = {}
+    for name in (module.name for module in iter_modules(studies.__path__)):
+        study = getattr(importlib.import_module(f"studies.{name}"), "STUDY", None)
+        for case in study.cases("quick") if study else ():
+            found.setdefault((name, type(case)), case)
+    return list(found.values())
+
+
+@pytest.fixture
+def copy(tmp_path):
+    """A copy of the three packages, and what makes the keys of its cases."""
+    for package in PACKAGES:
+        shutil.copytree(ROOT/package, tmp_path/package, ignore=shutil.ignore_patterns("__pycache__"))
+    return tmp_path
+
+
+def edit(root: Path, name: str, old: str, new: str) -> None:
+    """Replace a text that is there."""
+    text = (root/name).read_text()
+    assert old in text
+    (root/name).write_text(text.replace(old, new))
+    parse.cache_clear()     # a process reads its own code once
+
+
+def changed(cases, root):
+    """The cases whose keys are others in a copy."""
+    code = Code(root)
+    return [case for case in cases if key_of(case, code) != case.key]
+
+
+def reached(case, *place):
+    """Does a case's run use a definition of ours?"""
+    return Place(*place) in CODE.reached(filter(None, starts(case)), case)
+
+
+# --- in the whole repository ---------------------------------------------------------------------------------
+
+def test_a_new_weight_changes_no_key(cases, copy):
+    with open(copy/"particles/weights.py", "a") as file:
+        file.write(QUARTIC)
+    assert len(cases) > 80 and not changed(cases, copy)
+
+
+def test_a_line_in_the_fluxes_changes_the_keys_of_spam_and_not_of_grids(cases, copy):
+    edit(copy, "particles/terms.py", "q = (a.qx + b.qx)*ab.wx", "q = (a.qx - b.qx)*ab.wx")
+    names = {type(case).__name__ for case in changed(cases, copy)}
+    assert {"SpamRun"} <= names
+    assert not any("Compressible" in name or "Pypde" in name for name in names)
+    assert {type(case).__name__ for case in cases if reached(case, "particles.terms", "Fluxes")} == names
+
+
+def test_a_function_that_moves_and_a_docstring_change_no_key(cases, copy):
+    edit(copy, "particles/terms.py", '"""Differences of vx', '"""Other words for vx')
+    text = (copy/"continuum/fluid.py").read_text()
+    start, end = text.index("@formula\ndef stress("), text.index("def stress_tensor(")
+    (copy/"continuum/moved.py").write_text("from continuum.jit import formula\n\n\n" + text[start:end])
+    (copy/"continuum/fluid.py").write_text("from continuum.moved import stress\n" + text[:start] + text[end:])
+    assert any(reached(case, "continuum.fluid", "stress") for case in cases)
+    assert not changed(cases, copy)
+
+
+# --- in a small one ------------------------------------------------------------------------------------------
+
+FILES = {
+    "continuum/laws.py": "import numpy as np\nfrom continuum.jit import generic\n\nSIZE = 3\nOTHER = 4\n\n\n"
+                         "@generic\ndef law(kind, x):\n    'Doc.'\n\n\n"
+                         "class A:\n    pass\n\n\nclass B:\n    pass\n\n\n"
+                         "law.of(A)(lambda kind, x: x + SIZE)\nTABLE = {'a': A, 'b': B}\n",
+    "continuum/jit.py": "def generic(stub):\n    return stub\n",
+    "studies/one.py": "from continuum import laws\nfrom continuum.laws import TABLE\n\n\n"
+                      "def run(x):\n    # why\n    SIZE = [np for np in x]\n    return laws.law(TABLE['a'](), x), SIZE\n",
+}
+RUN = Place("studies.one", "run")
+
+
+@pytest.fixture
+def tree(tmp_path):
+    for name, text in FILES.items():
+        (tmp_path/name).parent.mkdir(exist_ok=True)
+        (tmp_path/name).write_text(text)
+    return tmp_path
+
+
+def hashed(tree, places=(RUN,)):
+    parse.cache_clear()
+    return Code(tree).hash(places, None)
+
+
+@pytest.mark.parametrize("name, old, new", [
+    ("continuum/laws.py", "SIZE = 3", "SIZE = 4"),
+    ("continuum/laws.py", "x + SIZE)", "x - SIZE)"),
+    ("continuum/laws.py", "class A:\n    pass", "class A:\n    y = 1"),
+    ("continuum/laws.py", "'a': A", "'a': B"),
+    ("studies/one.py", "), SIZE", "), 1"),
+    ("continuum/jit.py", "return stub", "return None"),
+])
+def test_what_a_run_reads_changes_its_key(tree, name, old, new):
+    before = hashed(tree)
+    edit(tree, name, old, new)
+    assert hashed(tree) != before
+
+
+@pytest.mark.parametrize("name, old, new", [
+    ("continuum/laws.py", "OTHER = 4", "OTHER = 5"),
+    ("continuum/laws.py", "'Doc.'", "'Other words.'"),
+    ("continuum/laws.py", "class B:\n    pass", "class B:\n    y = 1"),
+    ("continuum/laws.py", "'b': B}", "'b': B, 'c': B}\nTABLE['d'] = B\nlaw.of(B)(lambda kind, x: x)"),
+    ("studies/one.py", "# why", "# why not"),
+    ("studies/one.py", "def run(x):", "def run(x: laws.B) -> laws.B:"),
+    ("studies/one.py", "def run(x):\n", "def run(x):\n    from continuum.laws import TABLE as table\n"),
+])
+def test_what_a_run_does_not_read_leaves_its_key(tree, name, old, new):
+    before = hashed(tree)
+    edit(tree, name, old, new)
+    assert hashed(tree) == before
+
+
+def test_a_module_that_is_renamed_leaves_the_key(tree):
+    before = hashed(tree)
+    (tree/"continuum/laws.py").rename(tree/"continuum/rules.py")
+    (tree/"studies/one.py").write_text(FILES["studies/one.py"].replace("laws", "rules"))
+    assert hashed(tree) == before
+
+
+def test_a_formula_for_a_pair_that_a_run_reaches_changes_its_key_wherever_it_is(tree):
+    before = hashed(tree)
+    text = "from continuum.laws import A, B, law as rule\n\n\n@rule.of(B)\ndef _(kind, x):\n    return 1\n"
+    (tree/"studies/apart.py").write_text(text)
+    assert hashed(tree) == before
+    (tree/"studies/apart.py").write_text(text.replace("of(B)", "of(A)"))
+    assert hashed(tree) != before
+
+
+def test_a_field_of_a_case_chooses_one_entry_of_a_table(tree):
+    (tree/"studies/two.py").write_text("from continuum.laws import TABLE\n\n\nclass Run:\n    kind: str = 'a'\n\n"
+                                       "    def run(self):\n        return TABLE[self.kind]\n\n"
+                                       "    def cost(self):\n        return 1\n")
+    place = Place("studies.two", "Run", "case")
+
+    def both():
+        code = Code(tree)
+        return [code.hash([place], SimpleNamespace(kind=kind)) for kind in "ab"]
+    before = both()
+    edit(tree, "studies/two.py", "return 1", "return 2")
+    edit(tree, "studies/two.py", "'a'", "'b'")
+    assert both() == before, "cost and defaults are no part of a result"
+    edit(tree, "continuum/laws.py", "class B:\n    pass", "class B:\n    y = 1")
+    after = both()
+    assert after[0] == before[0] and after[1] != before[1]
+
+
+def test_a_star_import_is_refused(tree):
+    edit(tree, "studies/one.py", "import TABLE", "import *")
+    with pytest.raises(ValueError, match=r"from continuum.laws import \* in studies: import names one by one"):
+        hashed(tree)
+
+
+# --- registries ----------------------------------------------------------------------------------------------
+
+def test_a_second_formula_for_one_type_is_refused_with_both_places(tmp_path):
+    class Kind:
+        pass
+
+    @generic
+    def rule(kind):
+        """A rule."""
+    files = [tmp_path/"one.py", tmp_path/"two.py"]
+    for number, file in enumerate(files):
+        file.write_text(f"\nrule.of(Kind)(lambda kind: {number})\n")
+    for _ in range(2):      # a module that is loaded again
+        run_path(str(files[0]), {"rule": rule, "Kind": Kind})
+    with pytest.raises(ValueError, match=f"rule of Kind is defined in {files[0]}:2 and again in {files[1]}:2: delete one"):
+        run_path(str(files[1]), {"rule": rule, "Kind": Kind})
+    assert rule(Kind()) == 0
+
+
+# --- old keys ------------------------------------------------------------------------------------------------
+
+def test_finished_cases_get_their_new_names_once(tmp_path):
+    (tmp_path/"old").mkdir()
+    for name in ("a", "b", "gone"):
+        (tmp_path/f"old/{name}.json").write_text(name)
+    names = {"a": Path("new/A.json"), "b": Path("old/B.json")}
+    assert rekey.rename(tmp_path, "old", names) == "old: 2 renamed, 0 already there, 1 unknown"
+    assert rekey.rename(tmp_path, "old", names) == "old: 0 renamed, 1 already there, 1 unknown"
+    assert [(tmp_path/name).read_text() for name in names.values()] == ["a", "b"]
+
+
+def test_modules_of_ours_are_no_part_of_what_makes_a_case_the_same():
+    old, new = [{"": "f", "module": "particles.a"}], [{"": "f"}]
+    assert rekey.same(old) == rekey.same(new) != rekey.same([{"": "f", "module": "math"}])
