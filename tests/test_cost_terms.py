@@ -17,15 +17,10 @@ from particles.run import Divergence, run
 from particles.threads import Team
 from particles.weights import Lucy
 from studies.build import ready
-from studies.cost.scenes import derive as scenes_derive
-from studies.cost.scenes import figures as scenes_figures
-from studies.cost.scenes import runs as scenes_cases
-from studies.cost.scenes import tables as scenes_tables
-from studies.cost.scenes.claims import CLAIMS
+from studies.cost import claims, derive, figures, flows, tables, terms
 from studies.cost.scenes.terms import Carried, Friction, Listed
 from studies.kit.claim import judge
-from studies.kit.sweep import RESULTS, load
-from studies.kit.table import Tables, read
+from studies.kit.table import Tables
 
 
 def rates(method, state):

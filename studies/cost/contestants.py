@@ -12,7 +12,7 @@ from continuum.boussinesq.mac import mac
 from continuum.boussinesq.projection import Projection
 from continuum.exact.vortex import DECAYS, RE, SOUND
 from continuum.fluid import energy
-from continuum.gas.fields import Fields, Nodes, Values, at_nodes, block, nodes
+from continuum.gas.fields import Fields, Nodes, Values, block, nodes
 from continuum.gas.loop import VX
 from particles.integral.layer import Layer
 from particles.integral.points import lattice
@@ -157,7 +157,7 @@ class OnGrid(NamedTuple):
         march = method.march(first)
 
         def residuals(S: np.ndarray) -> Residuals:
-            at = at_nodes(method.at(S))
+            at = method.fields(S)
             return self.contest.residuals(scene, column(at, scene) if between else at)
         return Problem(round(scene.L)*round(scene.width), first, limit_of(method, march.S), scene.time, method.go, residuals,
                        lambda: (march.S, march.scratch), self.contest.known)

@@ -11,7 +11,7 @@ import numpy as np
 from continuum.boussinesq import LAYER, Case, State, khp95
 from continuum.boussinesq.mac import mac
 from continuum.boussinesq.projection import CFL_LIMIT, Projection
-from continuum.gas.fields import at_nodes, kinetic_energy
+from continuum.gas.fields import kinetic_energy
 from continuum.scene import RayleighBenard
 from particles.limits import limit_of
 from particles.observe import fields_at
@@ -116,7 +116,7 @@ class OnGrid(NamedTuple):
         problem = Problem(rows*round(scene.aspect*rows), first, limit_of(method, march.S), END*unit, follow,
                           lambda done: {}, lambda: (march.S, march.scratch), step=method.go)
         rules = Rules(reference(self.sizes, self.ra))
-        return rules.judged(problem, lambda S: in_heights(scene, at_nodes(method.at(S))))
+        return rules.judged(problem, lambda S: in_heights(scene, method.fields(S)))
 
 
 class OnMac(NamedTuple):

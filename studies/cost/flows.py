@@ -15,8 +15,8 @@ from continuum.exact.vortex import DECAYS, solved, velocities
 from particles.integral.points import lattice
 from particles.observe import fields_at
 from particles.smooth.spam import Spam
-from studies.build.scenes import BetweenPlates, Sound, TaylorGreen, between_plates
 from studies.build.names import START_JITTER
+from studies.build.scenes import BetweenPlates, Sound, TaylorGreen, between_plates
 from studies.build.setting import shifted
 from studies.cost.problem import Residuals, relative
 
