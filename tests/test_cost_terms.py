@@ -1,11 +1,10 @@
-"""The study scenes: what is not listed is neither called nor stored, what is listed is the gas; ratios, verdicts, the figure."""
+"""What terms cost: what is not listed is neither called nor stored, what is listed is the gas; ratios, verdicts, the figure."""
 from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pytest
 
-import studies.cost.scenes.cases as scenes
 from continuum.scene import RayleighBenard
 from particles.integral.dih import Dih
 from particles.integral.edge_makers import renormalised
@@ -15,18 +14,14 @@ from particles.integral.points import jittered, lattice
 from particles.integral.triangulation import delaunay
 from particles.integrators import RK4
 from particles.limits import limit_of
-from particles.run import Divergence, Plan, run
+from particles.plan import Plan
+from particles.run import Divergence, run
 from particles.threads import Team
 from particles.weights import Lucy
 from studies.build import ready
-from studies.cost.scenes import derive as scenes_derive
-from studies.cost.scenes import figures as scenes_figures
-from studies.cost.scenes import runs as scenes_cases
-from studies.cost.scenes import tables as scenes_tables
-from studies.cost.scenes.claims import CLAIMS
+from studies.cost import claims, derive, figures, flows, tables, terms
 from studies.kit.claim import judge
-from studies.kit.sweep import RESULTS, load
-from studies.kit.table import Tables, read
+from studies.kit.table import Tables
 
 
 def rates(method, state):
@@ -98,34 +93,32 @@ def test_a_density_that_is_not_positive_ends_a_run():
 
 def test_what_is_not_listed_is_neither_called_nor_stored():
     """Loops by name; state and records have three fields instead of four and thirteen."""
-    with_heat, cold, bare = (make(8) for make in (scenes_cases.gas, scenes_cases.cold, scenes_cases.without_friction))
+    with_heat, cold, bare = terms.GAS(8), terms.COLD(8), terms.listed(8, (Carried,))
     assert "sweep Listing(Carried+ConstantFriction)" in cold.called and "sweep Listing(Carried)" in bare.called
     assert not any("Friction" in name for name in bare.called)
     assert len(cold.problem.first) == 3 and len(with_heat.problem.first) == 4
-    assert cold.problem.held()[1].at.points.dtype.names == ("rho", "vx", "vy")
+    assert cold.problem.held()[1].points.dtype.names == ("rho", "vx", "vy")
     assert set(cold.called).isdisjoint(with_heat.called)
 
 
 def test_plain_heating_calls_fewer_loops_and_gravity_none():
-    scene = RayleighBenard(ra=1e4, L=8.0)
-    whole, first, _ = ready(scene, "fixed-lattice")
-    called = [scenes_cases.loops(method, first) for method in (
-        whole, replace(whole, transport=PRINTED), replace(whole, g=0.0))]
+    whole, start, _ = ready(RayleighBenard(ra=1e4, L=8.0), "fixed-lattice")
+    called = [terms.loops(method, start) for method in (whole, replace(whole, transport=PRINTED), replace(whole, g=0.0))]
     assert called[2] == called[0]        # a number
-    assert not any("Differences" in name or "work" in name for name in called[1])
+    assert not any("Differences" in name or "lacking" in name for name in called[1])
 
 
 def test_no_noise_has_no_random_numbers():
-    noisy, silent = scenes_cases.noisy(8), scenes_cases.silent(8)
+    noisy, silent = terms.noisy(8), terms.silent(8)
     assert any(name.startswith("fill") for name in noisy.called) and silent.called == ()
     assert isinstance(silent.problem.held()[1], Dih)
-    assert scenes_cases.array_bytes(silent.problem.held()) < scenes_cases.array_bytes(noisy.problem.held())
+    assert terms.array_bytes(silent.problem.held()) < terms.array_bytes(noisy.problem.held())
 
 
 def test_slow_vortices_without_heat_are_those_with_it():
     """What Mach 0.05 leaves: 4e-4 (study ordering), 16 spacings a wavelength for both."""
     ends = []
-    for made in (scenes_cases.gas(16), scenes_cases.cold(16)):
+    for made in (terms.GAS(16), terms.COLD(16)):
         problem = made.problem
         steps = 200
         state = problem.go(problem.first, problem.time/steps, steps)
@@ -140,7 +133,7 @@ def table(**without) -> Tables:
              "names": "a; b", "error": error, "error_err": 1e-6,
              "changed": abs(error - 0.02)} for name, (step, time, size, error) in without.items()]
     found = Tables({"measured": pd.DataFrame(rows)})
-    return Tables(found | {name: pd.DataFrame(rows) for name, rows in scenes_derive.derive(found).items()})
+    return Tables(found | {name: pd.DataFrame(rows) for name, rows in derive.terms(found).items()})
 
 
 SOME = {"nothing": (2.0, 4.0, 100.0, 0.02), "heat": (1.0, 3.0, 60.0, 0.021), "gravity": (2.0, 4.0, 100.0, 0.9),
@@ -152,54 +145,41 @@ def test_ratios_are_to_the_whole_and_what_matters_is_needed():
     assert rows.loc["heat", ["step_ratio", "time_ratio", "bytes_ratio"]].tolist() == pytest.approx([0.5, 0.75, 0.6])
     assert rows.loc["heat", "step_ratio_err"] == pytest.approx(0.5*0.01*2**0.5)
     assert rows["needed"].to_dict() == {"nothing": "no", "heat": "no", "gravity": "yes", "viscosity": "yes"}
-    assert scenes_derive.derive(Tables()) == {}
+    assert derive.terms(Tables()) == {}
 
 
 def test_times_that_scatter_as_much_as_they_last_have_no_ratio_and_decide_nothing():
     busy = table(**SOME)["measured"].assign(step_s_err=3.0)
-    rows = pd.DataFrame(scenes_derive.derive(Tables({"measured": busy}))["scenes"])
+    rows = pd.DataFrame(derive.terms(Tables({"measured": busy}))["scenes"])
     assert rows["step_ratio"].isna().all() and rows["time_ratio"].notna().sum() == 3
-    said = {row["id"]: row for row in judge(CLAIMS, Tables({"measured": busy, "scenes": rows}), "scenes")}
-    assert said["own-scenes-heat"]["verdict"] == "undecidable" and "for itself" in said["own-scenes-heat"]["reason"]
+    said = {row["id"]: row for row in judge(claims.TERMS, Tables({"measured": busy, "scenes": rows}), "cost")}
+    assert said["own-scenes-motion"]["verdict"] == "undecidable"
 
 
 def test_verdicts_follow_the_table():
-    said = {row["id"]: row["verdict"] for row in judge(CLAIMS, table(**SOME), "scenes")}
-    assert said["own-scenes-heat"] == said["own-scenes-heat-memory"] == said["own-scenes-heat-error"] == "holds"
-    dear = {row["id"]: row["verdict"] for row in judge(CLAIMS, table(**(SOME | {"heat": (1.9, 3.0, 99.0, 0.2)})), "scenes")}
-    assert dear["own-scenes-heat"] == dear["own-scenes-heat-memory"] == dear["own-scenes-heat-error"] == "fails"
-    assert {row["verdict"] for row in judge(CLAIMS, Tables(), "scenes")} == {"undecidable"}
+    for changed, verdict in ((0.021, "holds"), (0.2, "fails")):
+        rows = table(**(SOME | {"heat": (1.0, 3.0, 60.0, changed)}))
+        said = {row["id"]: row["verdict"] for row in judge(claims.TERMS, rows, "cost")}
+        assert said["own-scenes-heat-error"] == verdict
 
 
 def test_the_figure_names_what_is_needed():
-    axes, = scenes_figures.figures(table(**SOME))["scenes"].axes
+    axes, = figures.TERMS(table(**SOME))["scenes"].axes
     words = "\n".join(tick.get_text() for tick in axes.get_yticklabels())
     assert "without heat: off by 0.1 %, not needed" in words and "without viscosity: diverges, needed" in words
-    assert scenes_figures.figures(Tables()) == {}
+    assert figures.TERMS(Tables()) == {}
 
 
-def test_every_base_has_a_whole_and_every_case_has_a_name():
-    assert all("nothing" in made for made in scenes_cases.BASES.values())
-    left_out = {name for made in scenes_cases.BASES.values() for name in made}
+def test_every_base_has_a_whole():
+    assert all("nothing" in made for made in terms.BASES.values())
+    left_out = {name for made in terms.BASES.values() for name in made}
     assert {"heat", "gravity", "viscosity", "noise", "motion", "compressibility"} <= left_out
-    for size in ("quick", "paper"):
-        cases = scenes.cases(size)
-        assert len({case.label for case in cases}) == len(cases)
-        assert all(case.alone for case in cases)
 
 
 def test_a_base_is_measured_whole_and_in_parts(monkeypatch):
-    monkeypatch.setattr(scenes_cases.vortices, "MACH", 0.2)     # whose answer takes seconds less
-    case = scenes_cases.Compared(scene="taylor-green", base="fixed points without heat", size=8, short=1e-5)
+    monkeypatch.setattr(terms, "FLOW", flows.Vortex(0.2))     # whose answer takes seconds less
+    case = terms.Compared(scene="taylor-green", base="fixed points without heat", size=8, short=1e-5)
     rows = case.run(lambda done: None, None).rows["measured"]
     assert [row["left_out"] for row in rows] == ["nothing", "viscosity"]
-    assert all(set(row) == set(scenes_tables.MEASURED.columns) for row in rows)
+    assert all(set(row) == set(tables.MEASURED.columns) for row in rows)
     assert rows[1]["error"] > 0.5 > rows[0]["error"]        # without friction the vortex keeps e times its velocity
-
-
-@pytest.mark.skipif(not (RESULTS/"scenes"/"scenes.csv").exists(), reason="no tables are committed yet")
-def test_committed_verdicts_follow_from_committed_tables():
-    found = judge(CLAIMS, load(scenes_tables.ALL, "scenes"), "scenes")
-    kept = read(RESULTS/"claims.csv")
-    kept = kept[kept["study"] == "scenes"]
-    assert dict(zip(kept["id"], kept["verdict"], strict=True)) == {row["id"]: row["verdict"] for row in found}
