@@ -9,7 +9,7 @@ from studies.cost.names import GRID, LUCY, MAC_IMEX, NEAREST
 from studies.cost.tables import RUN, SERIES
 from studies.kit.fits import power_law
 from studies.kit.stats import Measured, combine
-from studies.kit.table import Tables
+from studies.kit.table import Tables, groups
 
 #: quantities of the scenes that are fields
 FIELD = {"convection": "K", "taylor-green": "velocity", "sound": "velocity", "conduction": "temperature",
@@ -177,12 +177,12 @@ def growth_laws(growth: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """Exponents over the number of particles, and speed-ups by two threads."""
     if growth.empty:
         return
-    for method, group in growth[growth["clock"] == "cpu"].groupby("method"):
+    for method, group in groups(growth[growth["clock"] == "cpu"], "method"):
         if len(group) >= LEAST:
             law = power_law(group["points"].to_numpy(float), group["step_s"].to_numpy(float)).slope
             yield {"method": method, "what": "exponent", "least": group["points"].min(),
                    "most": group["points"].max(), "value": law.value, "value_err": law.err}
-    for (method, points), group in growth[growth["clock"] == "wall"].groupby(["method", "points"]):
+    for (method, points), group in groups(growth[growth["clock"] == "wall"], ["method", "points"]):
         if set(group["threads"]) == {1, 2}:
             one, two = (Measured(*row) for row in group.sort_values("threads")[["step_s", "step_s_err"]].to_numpy(float))
             faster = one/two

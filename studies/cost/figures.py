@@ -11,6 +11,7 @@ from studies.cost.derive import LEVELS
 from studies.cost.names import FAMILIES, ORDER, family
 from studies.kit.drawing import Drawing, Drawings
 from studies.kit.figure import COLOURS, LINES, below, figure, look
+from studies.kit.table import groups
 
 #: scene, quantity, title of each panel
 PANELS = (("convection", "K", "Rayleigh-Benard, Ra 10 000: K, steady"), ("convection", "velocity", "velocity, steady"),
@@ -150,7 +151,7 @@ def growth(rows: pd.DataFrame) -> Figure:
     page, all_axes = figure(1, len(shown), width=4.6, height=4.4, squeeze=False)
     for axes, (clock, title) in zip(all_axes[0], shown, strict=True):
         some = rows[rows["clock"] == clock].sort_values("points")
-        for (method, threads), series in some.groupby(["method", "threads"]):
+        for (method, threads), series in groups(some, ["method", "threads"]):
             value, err = (1e9*series[name]/series["points"] for name in ("step_s", "step_s_err"))
             fill = "white" if threads > 1 else style(method)["color"]
             kind = {**style(method), "markerfacecolor": fill, "linestyle": LINES[int(threads) - 1], "fillstyle": "full"}

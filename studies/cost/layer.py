@@ -64,7 +64,8 @@ def extrapolated(coarse: Any, fine: Any, sizes: Sequence[int]) -> Any:
 
 def twice(values: Sequence[Any], sizes: Sequence[int]) -> tuple[Any, Any]:
     """Limits by the two coarser and by the two finer of three grids."""
-    return extrapolated(*values[:2], sizes[:2]), extrapolated(*values[1:], sizes[1:])
+    coarse, middle, fine = values
+    return extrapolated(coarse, middle, sizes[:2]), extrapolated(middle, fine, sizes[1:])
 
 
 def referred(ke: Sequence, sizes: Sequence[int], curves: Sequence, falls: Sequence[int], fields: tuple) -> Reference:

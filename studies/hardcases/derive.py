@@ -20,7 +20,7 @@ from studies.hardcases.scenes import BOXES, LAYERS, ROWS, SOUND, Strip
 from studies.hardcases.tubes import CELL_NUMBER, FINE, STEPS
 from studies.kit.fits import line
 from studies.kit.stats import Measured, combine, over_seeds
-from studies.kit.table import Tables
+from studies.kit.table import Tables, groups
 
 Rows = Iterator[dict[str, Any]]
 SETTLED = 0.3           # part of the time from the shock to its return that the ripple takes to grow steadily
@@ -187,7 +187,7 @@ def known(ratio: Measured) -> str:
 def of_tubes(tubes: pd.DataFrame) -> Rows:
     """Shock tubes by viscosity, usual step: how much v rings in the longest, or that one ended."""
     tubes = tubes[(tubes["step"] == STEPS[0]) & (tubes["method"] != FINE)]
-    for (method, eta), rows in tubes.groupby(["method", "eta"]):
+    for (method, eta), rows in groups(tubes, ["method", "eta"]):
         variant, longest = f"eta {eta:g}", rows[rows["L"] == rows["L"].max()]
         ring, error = longest["wiggles"], longest["v_grid" if eta else "v_exact"].mean()
         if rows["reached"].min() < 1:
