@@ -61,8 +61,8 @@ def onsets() -> Iterator[Case]:
     """In the range of the weight, and in the temperature of van der Waals fluids."""
     for crystal, weight, stable, unstable in UNSTABLE_RANGES:
         yield Onset(crystal=replace(crystal, weight=weight), parameter="h", stable=stable, unstable=unstable)
-    for (weight, h), rho in product(((Lucy, 2.5), (WendlandC2, 2.5), (WendlandC4, 3.0)), (1.0, 1.2)):
-        crystal = replace(COLD, weight=weight, h=h, rho=rho)
+    for (kind, h), rho in product(((Lucy, 2.5), (WendlandC2, 2.5), (WendlandC4, 3.0)), (1.0, 1.2)):
+        crystal = replace(COLD, weight=kind, h=h, rho=rho)
         yield Onset(crystal=crystal, parameter="T", stable=0.4, unstable=0.15)
 
 
