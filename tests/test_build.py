@@ -10,13 +10,13 @@ from continuum.scene import Periodic, RayleighBenard, Walls
 from particles.fields import kinetic_energy
 from particles.run import Plan, run
 from studies.build import METHODS, named, ready
+from studies.build.labels import LABELS
 from studies.build.scenes import Scene, Slab, Sound, TaylorGreen, between_plates
 from studies.build.spam import VARIANTS
 
 LAYER = RayleighBenard(ra=1e4, L=14.0, aspect=1.0)      # six fixed rows behind a plate go on to T = 0 in a lower one
 BOX = RayleighBenard(ra=1e4, L=14.0, aspect=1.0, sides=Walls())
 PAIRS = [name for name in METHODS if name not in ("grid-two-rolls", "grid-fig10", "spam-from-flow")]    # other starts
-
 EXACT = [TaylorGreen(L=12), Sound(width=12), between_plates("conduction", 12)]
 in_layer = cache(partial(ready, LAYER))
 
@@ -33,7 +33,7 @@ def test_every_method_starts_with_the_fields_of_the_layer(name):
     x, v, _, T, _ = method.fields(start)
     _, u, known = LAYER.fields(x)
     assert np.abs(v - u).max() < 1e-14 and np.abs(T - known).max() < 1e-13
-    assert kinetic_energy(method.fields(start)) == pytest.approx(9/5000, rel=0.1)     # jittered points, and rows at rest on plates
+    assert kinetic_energy(method.fields(start)) == pytest.approx(9/5000, rel=0.1)     # points off a lattice sample it
 
 
 @pytest.mark.parametrize("name", METHODS)
@@ -79,6 +79,10 @@ def test_an_unknown_name_gets_a_line_with_names_that_are_near(wrong, near):
         ready(LAYER, wrong)
 
 
+def test_every_method_has_words_of_its_own():
+    assert set(LABELS) == set(METHODS) and len(set(LABELS.values())) == len(LABELS)
+
+
 def test_two_definitions_of_a_name_are_refused_with_both():
     with pytest.raises(ValueError, match=r"two methods are called 'moving': Motion.* and Scheme"):
         named([("moving", METHODS["moving"])], [("moving", METHODS["fixed-lattice"])])
@@ -104,9 +108,9 @@ class Dragged(Scene):
     """A fluid at rest below a plate that slides."""
     L: int = 12
     width: int = 8
-    sides: Periodic = Periodic()
+    sides: Periodic = Periodic()  # noqa: RUF009 (immutable)
     slide: float = 0.1
-    law: ConstEta = ConstEta(1.0, 1.0)
+    law: ConstEta = ConstEta(1.0, 1.0)  # noqa: RUF009
 
 
 def test_a_slab_at_rest_stays_at_rest_on_a_lattice():

@@ -16,7 +16,6 @@ from particles.integral.edges import between_plates, mirror
 from particles.integral.points import jittered, lattice
 from particles.integral.triangulation import delaunay
 from particles.weights import Lucy
-from studies.conservation import plates as conservation_plates
 
 COUNTS = {1: (12,), 3: (4, 5, 6)}
 CUBE = {1: (12,), 3: (4, 4, 4)}           # where every column of an operator is wanted
@@ -301,20 +300,6 @@ def test_flow_that_is_pushed_along_plates_in_3d_is_the_parabola_to_second_order(
         assert (abs(eta - 0.3) < 1e-12) == (zeta == -0.1)
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
     assert orders == pytest.approx([2, 2], abs=0.1) and errors[-1] < 0.007
-
-
-# --- the study of sums ----------------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("case", tuple(conservation_plates.cases(steps=20)), ids=lambda case: case.label)
-@pytest.mark.filterwarnings("ignore::particles.integral.interpolants.OrderingWarning")
-def test_runs_between_plates_keep_what_they_claim_and_lose_the_rest(case):
-    found = case.run(lambda done: None, None).rows["drift"][0]
-    claimed = found["claimed"].split()
-    assert found["reached"] == 20 and found["wall"] == "plates" and found["d"] == case.d
-    assert all(found[name] < 1e-14 for name in claimed)
-    assert all(found[name] > 1e-5 for name in {"momentum", "energy"} - set(claimed) if np.isfinite(found[name]))
-    assert np.isnan(found["momentum"]) == (case.d == 1)         # there is none along the plates
 
 
 # --- what is refused ------------------------------------------------------------------------------------------------------------

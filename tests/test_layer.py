@@ -10,8 +10,11 @@ from continuum.scene import RayleighBenard
 from particles.integral.dih import Pairwise
 from particles.integral.edge_makers import exact, renormalised
 from particles.integral.edges import between_plates
-from particles.integral.layer import Layer
+from particles.integral.exchange import PRINTED
+from particles.integral.layer import Layer, LinearSums, edge_by_edge
+from particles.integral.nested import mixed
 from particles.integral.points import jittered, lattice
+from particles.integral.transposed_stress import MENDED
 from particles.integral.triangulation import delaunay
 from particles.limits import limit_of
 from particles.run import Plan, run
@@ -34,7 +37,7 @@ def at(x, where, make=renormalised, mended=True, h=2.0):
     """Points x between the plates of a scene."""
     inner, beyond = between_plates(make, x, where.width, where.L, Lucy.of(h=h))
     return Layer(x=x, edges=inner, beyond=beyond, eos=where.eos, law=where.law, T_plates=(where.T_hot, where.T_cold), g=where.g,
-                 mended=mended)
+                 transport=MENDED if mended else PRINTED)
 
 
 def rates(fluid, state, threads=1):
@@ -81,10 +84,10 @@ def test_a_start_that_is_no_fluid_is_refused_by_run_and_by_the_limit(row, value)
 def test_linear_sums_are_those_edge_by_edge(make, size, h):
     fluid, x, _ = layer(make, size, h=h)
     state = shaken(fluid, x)
-    one, other = rates(fluid, state), rates(replace(fluid, fast=False), state)
+    one, other = rates(fluid, state), rates(replace(fluid, form=edge_by_edge), state)
     for a, b in zip(one, other, strict=True):
         assert np.abs(a - b).max() < 1e-13*np.abs(b).max()
-    assert fluid.start(len(x), Team(1)).linear is not None
+    assert type(fluid.start(len(x), Team(1))) is LinearSums
 
 
 @pytest.mark.parametrize(("make", "size", "h"), MADE)
@@ -106,7 +109,7 @@ def test_the_motionless_state_stays_to_round_off():
 def test_friction_and_conduction_between_plates_are_symmetric_and_only_damp(make, size, h, share):
     """At uniform density and temperature the forces are -K v, the heating -C T: both symmetric, no negative eigenvalue."""
     fluid, x, _ = layer(make, size, h=h, rows=8)
-    fluid = replace(fluid, law=type(fluid.law)(0.3, 0.2), T_plates=(1.0, 1.0), g=0.0, share=share, mended=False)
+    fluid = replace(fluid, law=type(fluid.law)(0.3, 0.2), T_plates=(1.0, 1.0), g=0.0, transport=mixed(share, mended=False))
     n, rest, small = len(x), np.zeros((len(x), 2)), 1e-6
 
     def forces(v, T):
@@ -133,7 +136,7 @@ def test_nested_conduction_carries_heat_through_a_motionless_layer():
     """A linear temperature at rest conducts the same with any share: what enters below leaves above, and nothing changes."""
     fluid, x, scene = layer()
     for share in (0.0, 0.5):
-        nested = replace(fluid, share=share)
+        nested = replace(fluid, transport=mixed(share))
         found = rates(nested, nested.state(np.ones(len(x)), 0*x, scene.T(x[:, 1])))
         assert np.abs(found).max() < 1e-14
 

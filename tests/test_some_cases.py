@@ -3,10 +3,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
+import studies.noise as noise
 import studies.operators as operators
 from studies.kit.claim import judge
 from studies.kit.table import Tables
-from studies.noise.fluctuations import cases as fluctuations
 from studies.onset import cases as onset
 from studies.onset import derive as onset_derive
 
@@ -23,7 +23,7 @@ def test_no_critical_number_follows_from_one_growth_rate():
     (operators, {"lattice": [{"weight": "Exponential", "d": d, "how": how, "n": n, "r0": 1.0, "value": 0.5, "predicted": 0.5}
                              for d in (1, 3) for how in ("plain", "line") for n in (0, 1, 2, 3, 4)]},
      ("rr98-eq32-zeroth", "rr98-eq32-moments")),
-    (fluctuations, {"onset": [{"rows": 8, "below": below, "velocity": 2.0} for below in (0.5, 0.02)],
+    (noise, {"onset": [{"rows": 8, "below": below, "velocity": 2.0} for below in (0.5, 0.02)],
                     "sampled": [{"flow": "layer", "field": "slowest", "strength": 0.02, "exact": 2.0, "ratio": 1.0,
                                  "ratio_err": 0.1}]},
      ("rr98-fluct-eq25-onset", "own-fluct-onset-nearest", "rr98-fluct-eq25-onset-sampled"))])

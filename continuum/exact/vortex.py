@@ -12,11 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-RE = 100.0          # several turns of the vortices while they decay: pressure and convection matter, not friction alone
+RE = 100.0          # several turns while they decay: pressure and convection matter, not friction alone
 SOUND = np.sqrt(2)  # speed, of the gas at T = 1 in 2D
 DECAYS = 1.0        # 2 nu k^2 t at the end: velocities are a factor e smaller
-#: points of the Fourier sums along each axis: odd, or the shortest wave goes unseen; with 25 products of short waves
-#: feed on the flow faster than friction takes from them
+#: points of the Fourier sums along each axis: odd, or the shortest wave goes unseen; with 25 products of
+#: short waves feed on the flow faster than friction takes from them
 ODD, COARSER = 33, 29
 OF_LIMIT = 0.5      # of the longest stable step
 

@@ -43,5 +43,6 @@ def quantities(rates: Waves, k: float, d: int = 2) -> dict[str, float]:
     eigen = np.linalg.eigvals(rates.matrix)
     sound, heat = eigen[np.argmax(eigen.imag)], eigen[np.argmin(np.abs(eigen.imag))]
     eta, along = rates.shear/k**2, -rates.matrix[1, 1].real/k**2
-    values = (eta, along - 2*(1 - 1/d)*eta, -rates.matrix[2, 2].real/k**2, sound.imag/k, -sound.real, -heat.real)
+    values = (eta, along - 2*(1 - 1/d)*eta, -rates.matrix[2, 2].real/k**2, sound.imag/k, -sound.real,
+              -heat.real)
     return dict(zip(QUANTITIES, map(float, values), strict=True))

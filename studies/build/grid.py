@@ -52,7 +52,7 @@ class Form(NamedTuple):
     step: float = SAFETY
 
     def ready(self, scene: Any, seed: int = 1, rows: int = 0, first: np.ndarray | None = None) -> Ready:
-        """The grid in a scene, cells of one spacing unless it has so many `rows`; from a block, if given. It has no use for seeds."""
+        """The grid in a scene, cells of one spacing unless `rows` are given, from a block, if given; seeds say nothing."""
         method = Gridded(scene=scene, rows=rows or round(scene.L), continuity=self.continuity)
         first = begun(scene, method.rows, self) if first is None else first
         return stepped(method, method.march(first).S, self.step)

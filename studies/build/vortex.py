@@ -19,7 +19,8 @@ OF_LIMIT = 0.5      # of the step to its limit: half of it changes the errors by
 
 def fluid(vortex: Vortex, points: Points, edges: Edges) -> Layer:
     """The gas on points; kappa = eta."""
-    return Layer(x=points.x, edges=edges, beyond=NONE_BEYOND, eos=IdealGas(), law=ConstEta(vortex.eta, vortex.eta),
+    return Layer(x=points.x, edges=edges, beyond=NONE_BEYOND, eos=IdealGas(),
+                 law=ConstEta(vortex.eta, vortex.eta),
                  T_plates=(1.0, 1.0), g=0.0)
 
 

@@ -1,19 +1,19 @@
 """Which runs there are.
 
-Sums over 10 000 steps from random starts; rates in a wind; energy of linear sound over 10 000 periods; patterns and
-sound on points that move, time steps; drags, torques and shear. All of RR98's modes, weights, makers of edges, sets of
-points and walls would be thousands of long runs. There are instead, on fixed points in periodic boxes, all makers with
-all sets of points, with friction along edges for every weight; any other transport for one weight, and on one set of
-points for every weight; between mirror plates, held rows and around a body for one weight, and one set of points for
-every weight. So any two values of any two factors meet in some run, where they can: Delaunay edges have no weight;
-sliding sides take edges of a weight on a lattice; on a lattice closed and exact edges are the plain ones times a number.
-Paper size takes about 15 minutes of one core.
+Sums over 10 000 steps; rates in a wind; energy of linear sound over 10 000 periods; patterns and sound on
+points that move, time steps; drags, torques, shear. Not all of RR98's modes, weights, makers of edges, sets
+of points and walls are combined. On fixed points in periodic boxes all makers meet all sets of points, with
+friction along edges for every weight; any other transport has one weight, and on one set of points every
+weight; so do mirror plates, held rows and bodies. Any two values of two factors meet in some run, where they
+can: Delaunay edges have no weight, sliding sides take edges of a weight on a lattice, on which closed and
+exact edges are the plain ones times a number. Paper size takes about 15 minutes of one core.
 """
 from collections.abc import Iterator
 from itertools import product
 
 from particles.integral.closed_faces import Ingredients
 from particles.integral.edge_makers import MAKERS
+from particles.integral.exchange import PRINTED
 from particles.weights import WEIGHTS, Lucy
 from studies.build.disorder import DISORDERS
 from studies.conservation.bodies import bodies
@@ -35,7 +35,7 @@ OTHERS = tuple(name for name in MODES if name != "pairwise")
 #: one maker on a lattice, one off it
 TWO = (("renormalised", "lattice"), ("delaunay", "jittered-0.3"))
 #: what is left out of the scheme of moving points
-LESS = {"heating as printed": Ingredients(mended=False), "open faces": Ingredients(iterations=0),
+LESS = {"heating as printed": Ingredients(transport=PRINTED), "open faces": Ingredients(iterations=0),
         "whole pressure": Ingredients(static=False), "mass not spread": Ingredients(spread=0.0)}
 
 
@@ -74,8 +74,8 @@ def plates(kinds: tuple[str, ...], weights: tuple[type, ...], **more) -> Iterato
 
 def hold(wall: str, maker: str, points: str, mode=MODES["pairwise"], weight=Lucy, **more) -> HeldDrift:
     """A run with held points."""
-    return HeldDrift(mode=mode, maker=maker, make=MAKERS[maker], weight=weight, h=3.0, disorder=DISORDERS[points],
-                     wall=HOLDS[wall], **more)
+    return HeldDrift(mode=mode, maker=maker, make=MAKERS[maker], weight=weight, h=3.0,
+                     disorder=DISORDERS[points], wall=HOLDS[wall], **more)
 
 
 def walls(kinds: tuple[str, ...], weights: tuple[type, ...], **more) -> Iterator[Case]:
@@ -88,8 +88,8 @@ def walls(kinds: tuple[str, ...], weights: tuple[type, ...], **more) -> Iterator
     yield from (hold("sliding rows", "renormalised", "lattice", weight=weight, **more) for weight in weights)
     yield from (hold("rows on plates", "delaunay", points, **more) for points in kinds)
     yield from (sliding("pairwise", maker, Lucy, **more) for maker in ("printed", "plain"))
-    for mode, weight in product(("pairwise", "ideal"), weights):
-        yield sliding(mode, "renormalised", weight, **more)
+    for name, weight in product(("pairwise", "ideal"), weights):
+        yield sliding(name, "renormalised", weight, **more)
 
 
 def sliding(mode: str, maker: str, weight: type, **more) -> SlidingDrift:

@@ -15,7 +15,7 @@ Derived = Iterator[dict[str, Any]]
 
 LONG = (16, 24, 32)     # wavelengths from which sound is extrapolated
 LEAST = 3               # sizes of a limit
-WIDE = 4.0              # spacings: of a smaller radius the circle is too coarse a polygon for an order to show
+WIDE = 4.0              # spacings: a circle of a smaller radius is too coarse a polygon
 SMOOTH = ("surface", "surface-unfiltered")      # drags that err as rows^-2; staircases as 1/rows
 
 
@@ -41,7 +41,8 @@ def long_sound(sound: pd.DataFrame) -> Derived:
     The error is the difference of two extrapolations.
     """
     for (motion, weight), group in sound.groupby(["motion", "weight"]):
-        speeds = {row.wavelength: Measured(row.speed, row.speed_err) for row in group.itertuples()}
+        numbers = group[["wavelength", "speed", "speed_err"]].to_numpy()
+        speeds = {int(wavelength): Measured(speed, err) for wavelength, speed, err in numbers}
         if set(LONG) <= set(speeds):
             short, middle, long = LONG
             speed = extrapolated(speeds, middle, long)
@@ -67,7 +68,7 @@ def euler_limits(euler: pd.DataFrame) -> Derived:
 
 
 def accuracy(steps: pd.DataFrame) -> Derived:
-    """Errors of two integrators at the shortest step; both share the error of their reference, so that it adds up."""
+    """Errors of two integrators at the shortest step; they share a reference, whose errors add up."""
     for (motion, flow), group in steps.groupby(["motion", "flow"]):
         finest = group[group["steps"] == group["steps"].max()].set_index("integrator")
         new, old = finest.loc["two-step"], finest.loc["euler"]
@@ -82,9 +83,10 @@ def drag_limits(drags: pd.DataFrame) -> Derived:
         if len(group) >= LEAST:
             rows, published = group["rows"].to_numpy(float), group[["published", "published_err"]].iloc[0]
             spacing = rows**-2 if variant in SMOOTH else 1/rows
-            limit = fits.line(spacing, group["drag"]).intercept + Measured(0.0, group["drag_err"].max())
+            unsteady = Measured(0.0, group["drag_err"].max())
+            limit = fits.line(spacing, group["drag"].to_numpy()).intercept + unsteady
             error = limit/Measured(*published) - 1
-            slope = fits.power_law(rows, group["error"]).slope
+            slope = fits.power_law(rows, group["error"].to_numpy()).slope
             yield {"variant": variant, "fraction": fraction, "sizes": len(group), "limit": limit.value,
                    "limit_err": limit.err, "error": error.value, "error_err": error.err, "slope": slope.value,
                    "slope_err": slope.err}

@@ -1,6 +1,6 @@
 """Long runs in one, two and three dimensions, summed edge by edge in numpy    [RR98 Eqs 34-38]
 
-With bulk viscosity, with the inner sums of Eq. 37 as printed, and with a pressure that is not symmetric in ij.
+With bulk viscosity, the inner sums of Eq. 37 as printed, and a pressure that is not symmetric in ij.
 """
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ LOOKS = 100             # at runs that lose momentum
 
 @dataclass(frozen=True, kw_only=True)
 class OneSided(Dih):
-    """The first point of an edge feels the pressure P_ij + P_ij, the second P_ji + P_ji: not symmetric in ij."""
+    """The first point of an edge feels the pressure 2 P_ij, the second 2 P_ji: not symmetric in ij."""
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt, written to `out`: both points get P_ij - P_ji more, instead of one its negative."""
@@ -100,14 +100,15 @@ class DihDrift(Case):
         begin = kinetic(first)
         reached = in_place(fluid, state, self.steps, watch, report)
         return drift_row(
-            watch, scheme="dih", mode=self.form.name, d=self.d, maker=self.maker, weight="Lucy", h=RANGE[self.d],
-            points=self.points, wall="periodic", zeta=ZETA, seed=self.seed, n=at.n, steps=self.steps,
-            reached=reached, claimed=self.form.claimed, motion=kinetic(fluid.fields(state))/begin)
+            watch, scheme="dih", mode=self.form.name, d=self.d, maker=self.maker, weight="Lucy",
+            h=RANGE[self.d], points=self.points, wall="periodic", zeta=ZETA, seed=self.seed, n=at.n,
+            steps=self.steps, reached=reached, claimed=self.form.claimed,
+            motion=kinetic(fluid.fields(state))/begin)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Unsymmetric(DihDrift):
-    """Momentum that a pressure loses that is not symmetric in ij, until a run was looked at last before it diverged."""
+    """Momentum that an unsymmetric pressure loses, until the last look before a run diverged."""
 
     form: Form = FORMS["one-sided"]
     d: int = 1
@@ -126,8 +127,9 @@ class Unsymmetric(DihDrift):
         def look(now: np.ndarray) -> None:
             _, momentum, _ = exact_sums(fluid.edges.V, now)
             seen.append(momentum)
-        in_place(fluid, state, self.steps, look, report, LOOKS)
-        reached = self.steps*(len(seen) - 1)//LOOKS
+        looks = min(LOOKS, self.steps)
+        in_place(fluid, state, self.steps, look, report, looks)
+        reached = self.steps*(len(seen) - 1)//looks
         return Outcome({"losses": [{
             "maker": self.maker, "points": self.points, "seed": self.seed, "steps": self.steps,
             "reached": reached, "lost": abs(seen[-1] - seen[0])/size}]})
@@ -135,7 +137,7 @@ class Unsymmetric(DihDrift):
 
 def in_place(fluid: Dih, state: np.ndarray, steps: int, look: Callable[[np.ndarray], None], report: Report,
              records: int = RECORDS) -> int:
-    """Steps of a run that is looked at now and then, in place, until its end or until the fluid is none any more."""
+    """Steps of a run that is looked at now and then, in place, until its end or until it diverges."""
     stepper, dt = RK4(state.shape, Team(1)), OF_LIMIT*step_limit(fluid, state)
     look(state)
     for before, number in parts(steps, records):
@@ -157,12 +159,13 @@ def step_limit(fluid: Dih, state: np.ndarray) -> float:
     return float(1/(fast*sound/2.82 + nu*spread/2.78))
 
 
-def dimensions(**more: int) -> Iterator[Case]:
+def dimensions(**more: Any) -> Iterator[Case]:
     """Bulk viscosity, Eq. 37 as printed, one to three dimensions; a pressure that is not symmetric in ij."""
-    for d, names in {1: ("pairwise", "nested", "printed", "one-sided"), 2: ("printed",), 3: ("pairwise",)}.items():
+    forms = {1: ("pairwise", "nested", "printed", "one-sided"), 2: ("printed",), 3: ("pairwise",)}
+    for d, names in forms.items():
         yield from (DihDrift(form=FORMS[name], d=d, **more) for name in names)
 
 
-def unsymmetric(seeds: int = 24, **more: int) -> Iterator[Case]:
+def unsymmetric(seeds: int = 24, **more: Any) -> Iterator[Case]:
     """Random starts on a line; six left the claim open."""
     yield from (Unsymmetric(seed=seed, **more) for seed in range(1, seeds + 1))

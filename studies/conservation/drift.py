@@ -1,4 +1,4 @@
-"""Long runs whose sums are watched: the compiled scheme on fixed points, and points that move with closed faces."""
+"""Long runs whose sums are watched: the compiled scheme on fixed points, moving points with closed faces."""
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +10,7 @@ from continuum.fluid import ConstEta, IdealGas
 from particles.integral.closed_faces import EXCHANGED, Ingredients, Moving
 from particles.integral.edges import NONE_BEYOND, Edges, between_plates
 from particles.integral.layer import Layer
+from particles.integral.nested import mixed
 from particles.integral.points import Points, of_positions
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, run
@@ -30,8 +31,8 @@ EVERYTHING = "mass momentum energy"
 class Mode(NamedTuple):
     """Transport of a run: eta = kappa, share along edges, whether its heating is mended, chi of the filter.
 
-    size : rms of the random start. Without friction it feeds short waves at rates of the order of itself, which
-    10 000 steps are to leave small.
+    size : rms of the random start. Without friction it feeds short waves at rates of the order of itself,
+    which 10 000 steps are to leave small.
     """
 
     name: str
@@ -135,7 +136,8 @@ def drift_row(watch: Watch, **columns: Any) -> Outcome:
     return Outcome({"drift": [{**usual, **changes, **columns}]})
 
 
-def in_parts(method: Any, state: np.ndarray, steps: int, watch: Watch, report: Report) -> tuple[np.ndarray, int]:
+def in_parts(method: Any, state: np.ndarray, steps: int, watch: Watch,
+             report: Report) -> tuple[np.ndarray, int]:
     """(state, steps done) of a run that is watched; it ends early if it diverges, heats too far or pairs."""
     dt = OF_LIMIT*limit_of(method, state)
     watch(state)
@@ -167,7 +169,7 @@ def around(disorder: Disorder, seed: int, plates: bool) -> Points:
 
 @dataclass(frozen=True, kw_only=True)
 class LayerDrift(Drift):
-    """A run of the compiled scheme on SIDE^2 points, in a periodic box or between mirror plates    [RR98 Eqs 34-38]"""
+    """The compiled scheme on SIDE^2 points, in a periodic box or between mirror plates    [RR98 Eqs 34-38]"""
 
     scheme = "layer"
 
@@ -192,7 +194,7 @@ class LayerDrift(Drift):
         else:
             edges, beyond = self.make(points, weight), NONE_BEYOND
         return Layer(x=points.x, edges=edges, beyond=beyond, eos=IdealGas(), law=ConstEta(eta, eta),
-                     T_plates=(1.0, 1.0), g=self.wall.g, mended=self.mode.mended, share=self.mode.share)
+                     T_plates=(1.0, 1.0), g=self.wall.g, transport=mixed(self.mode.share, self.mode.mended))
 
     def start(self, method: Layer, points: Points) -> np.ndarray:
         return method.state(*random_fields(points, self.mode.size, self.seed, self.wall.plates))
@@ -208,7 +210,7 @@ class LayerDrift(Drift):
 
 @dataclass(frozen=True, kw_only=True)
 class MovingDrift(Case):
-    """A run on SIDE^2 points that move and exchange over closed faces; `name`: what is left out of the scheme."""
+    """SIDE^2 points that move and exchange over closed faces; `name`: what is left out of the scheme."""
 
     name: str = "pairwise"
     ingredients: Ingredients = Ingredients()  # noqa: RUF009 (immutable)
@@ -237,8 +239,12 @@ class MovingDrift(Case):
         state = method.state(points.x, v, rho, T)
         watch, begin = self.watch(method, state), kinetic(method.fields(state))
         state, reached = in_parts(method, state, self.steps, watch, report)
-        motion = kinetic(method.fields(state))/begin
-        return self.row(watch, reached, motion)
+        watch.worst, volume = watch.worst[:-1], watch.worst[-1]
+        return drift_row(
+            watch, scheme="moving", mode=self.name, maker="faces", weight=self.weight.__name__, h=3.0,
+            points=self.disorder.name, wall=self.wall.name, seed=self.seed, n=SIDE**2, steps=self.steps,
+            reached=reached, claimed="mass volume" if self.wall.plates else f"{EVERYTHING} volume",
+            volume=volume, motion=kinetic(method.fields(state))/begin)
 
     def watch(self, method: Moving, state: np.ndarray) -> Watch:
         """Mass, momentum along both axes (between plates along them only), energy, volume."""
@@ -246,13 +252,3 @@ class MovingDrift(Case):
         mass, momentum, _, total = sizes(method.eos, method.fields(state))
         size = np.array([momentum, momentum, mass, SIDE**2, total])
         return Watch(lambda now: exact_sums(np.ones(1), now[EXCHANGED][rows]), size[rows])
-
-    def row(self, watch: Watch, reached: int, motion: float) -> Outcome:
-        """Of the table `drift`."""
-        *rest, volume = watch.worst
-        claimed = "mass volume" if self.wall.plates else f"{EVERYTHING} volume"
-        return drift_row(
-            Watch(watch.totals, watch.sizes, watch.first, np.array(rest)), scheme="moving", mode=self.name,
-            maker="faces", weight=self.weight.__name__, h=3.0, points=self.disorder.name, wall=self.wall.name,
-            seed=self.seed, n=SIDE**2, steps=self.steps, reached=reached, claimed=claimed, volume=volume,
-            motion=motion)

@@ -12,7 +12,8 @@ from studies.kit.figure import below, errorbar, figure, look
 from studies.kit.table import Tables
 
 MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
-POINTS = {"lattice": "lattice", "jittered-0.3": "shifted by up to $0.3a$", "random": "random", "relaxed": "moved apart"}
+POINTS = {"lattice": "lattice", "jittered-0.3": "shifted by up to $0.3a$", "random": "random",
+          "relaxed": "moved apart"}
 BRACKETS = {"plus": "$(f_i + f_j)$ in both, Eqs 34, 35", "adjoint": "differences in the gradient"}
 MOTIONS = {"literal": "literal (39-41)", "convective": "convective (46-48)", "carried": "46-48, dV carried",
            "constant-mass": "constant mass (49)"}
@@ -52,7 +53,7 @@ def figures(tables: Tables) -> dict[str, Figure]:
     drawn: dict[str, tuple[Callable[..., Figure], tuple[str, ...]]] = {
         "drift": (drift, ("drift",)), "sound": (sound, ("sound_means",)),
         "speeds": (speeds, ("patterns", "moving_sound")), "steps": (steps, ("euler", "steps")),
-        "drag": (drags, ("drag",)), "sides": (sides, ("wave", "torque"))}
+        "drag": (drags, ("drag",))}
     return {name: draw(*(tables[table] for table in wanted)) for name, (draw, wanted) in drawn.items()
             if all(len(tables.get(table, [])) for table in wanted)}
 
@@ -64,7 +65,7 @@ def column(scheme: str, mode: str, wall: str) -> int:
 
 
 def drift(rows: pd.DataFrame) -> Figure:
-    """Changes of claimed sums, in other marks where a run stopped early, and of others; one column a kind of run."""
+    """Changes of sums; other marks where a run stopped early, or does not claim to keep them."""
     page, axes = figure(1, 1, width=9.4, height=5.6)
     rows = rows.assign(column=list(map(column, rows["scheme"], rows["mode"], rows["wall"])))
     order = sorted(set(rows["column"]))
@@ -81,10 +82,10 @@ def drift(rows: pd.DataFrame) -> Figure:
     axes.set(yscale="log", ylabel="largest relative change over the run")
     words = [list(COLUMNS.values())[place] for place in order]
     axes.set_xticks(range(len(order)), labels=words, rotation=60, ha="right", fontsize=8)
-    axes.set_title(f"What do schemes on points conserve in {rows['steps'].max()} steps?\n"
-                   "filled: what the scheme claims to; left half filled: the same in runs that stopped early "
-                   "(diverged, or sound outran the step);\n"
-                   "open: not claimed, also in such runs; dotted: 1e-13; no change at all is drawn as 1e-17", fontsize=9)
+    axes.set_title(f"What do schemes on points conserve in {rows['steps'].max()} steps?\nfilled: what the "
+                   "scheme claims to; left half filled: the same in runs that stopped early (diverged, or "
+                   "sound outran the step);\nopen: not claimed, also in such runs; dotted: 1e-13; no change "
+                   "at all is drawn as 1e-17", fontsize=9)
     page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return page
 
@@ -102,7 +103,8 @@ def sound(rows: pd.DataFrame) -> Figure:
         axes.set_xticks(range(len(MAKERS)), labels=MAKERS, rotation=45, ha="right")
     both[0].set_ylabel("fastest growth of sound per period")
     page.legend(*both[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    page.suptitle("Sound without friction: does it keep its energy? Below 1e-13: round-off; bars: 95 % over sets of points",
+    page.suptitle("Sound without friction: does it keep its energy? Below 1e-13: round-off; bars: 95 % over "
+                  "sets of points",
                   fontsize=10)
     return page
 
@@ -144,23 +146,26 @@ def steps(euler: pd.DataFrame, places: pd.DataFrame) -> Figure:
     """Forward Euler and sound on fixed points; places of points that move."""
     page, (left, right) = figure(1, 2, width=4.8, height=5.2)
     k2 = (2*np.pi/euler["wavelength"])**2
-    euler = euler.assign(rate=euler["growth"]/k2, rate_err=euler["growth_err"]/k2, dotted=euler["predicted"]/k2)
+    euler = euler.assign(rate=euler["growth"]/k2, rate_err=euler["growth_err"]/k2,
+                         dotted=euler["predicted"]/k2)
     for number, (wavelength, group) in enumerate(euler.groupby("wavelength")):
         bars(left, group, "dt_over_limit", "rate", number=number, label=rf"$\lambda = {wavelength:g}a$")
         left.plot(group["dt_over_limit"], group["dotted"], color="grey", linestyle=":", marker="")
     left.axhline(0, color="black", linewidth=0.6, linestyle="-", marker="")
-    left.set(xlabel=r"step $\Delta t\, \rho c^2/(\eta + \zeta + \kappa/2)$", title="fixed points: growth of sound",
+    left.set(title="fixed points: growth of sound",
+             xlabel=r"step $\Delta t\, \rho c^2/(\eta + \zeta + \kappa/2)$",
              ylabel=r"growth rate$/(ka)^2$  [$(k_BT/m)^{1/2}/a$]")
-    for number, ((motion, flow, integrator), group) in enumerate(places.groupby(["motion", "flow", "integrator"])):
+    groups = places.sort_values("dt").groupby(["motion", "flow", "integrator"])
+    for number, ((motion, flow, integrator), group) in enumerate(groups):
         words = f"{MOTIONS[str(motion)]}, {flow},\n{INTEGRATORS[str(integrator)]}"
-        bars(right, group.sort_values("dt"), "dt", "error", number=number, linestyle=look(number)["linestyle"], label=words)
-    right.set(xlabel=rf"step $\Delta t$  [{UNIT}]", ylabel="rms error of places over displacement", xscale="log",
-              yscale="log", title="points that move: where they end")
+        bars(right, group, "dt", "error", number=number, linestyle=look(number)["linestyle"], label=words)
+    right.set(xlabel=rf"step $\Delta t$  [{UNIT}]", ylabel="rms error of places over displacement",
+              xscale="log", yscale="log", title="points that move: where they end")
     ticks(right, (0.03, 0.1, 0.3))
     for axes in (left, right):
         below(axes, ncols=2, bbox_to_anchor=(0.5, -0.16))
-    page.suptitle("Which steps do Eqs 40, 41 allow?\n"
-                  "dotted: predicted growth; bars: what halves of a run, or finer steps, differ by", fontsize=10)
+    page.suptitle("Which steps do Eqs 40, 41 allow?\ndotted: predicted growth; bars: what halves of a run, "
+                  "or finer steps, differ by", fontsize=10)
     return page
 
 
@@ -175,38 +180,12 @@ def drags(drag: pd.DataFrame) -> Figure:
             group = drag[(drag["variant"] == name) & (drag["fraction"] == fraction)].sort_values("rows")
             bars(panel, group, "radius", "percent", number=number, linestyle="-", label=words)
         for power, style, at in ((1, ":", 60.0), (2, "--", 16.0)):
-            guide(panel, across, at*across**-power, f"$(a/R)^{power}$", style)
+            panel.plot(across, at*across**-power, color="grey", linestyle=style, marker="",
+                       label=f"$(a/R)^{power}$")
         panel.set(xscale="log", yscale="log", title=f"solid fraction {fraction:g}", xlabel="radius $R/a$")
         ticks(panel, (4, 6, 10, 20))
         below(panel, ncols=2, bbox_to_anchor=(0.5, -0.16))
     axes[0, 0].set_ylabel("|error| of the drag, %")
-    page.suptitle("Drag of a cylinder against Sangani & Acrivos (1982); bars: print and what was not steady", fontsize=10)
-    return page
-
-
-def guide(axes: Axes, x: np.ndarray, y: np.ndarray, label: str, style: str = ":") -> None:
-    """A line of a known slope."""
-    axes.plot(x, y, color="grey", linestyle=style, marker="", label=label)
-
-
-def sides(wave: pd.DataFrame, torque: pd.DataFrame) -> Figure:
-    """Sliding sides: error of a wave that the shear turns. A cylinder that turns: its torque."""
-    page, (left, right) = figure(1, 2, width=4.4, height=4.0)
-    rows, error = (wave.sort_values("rows")[name].to_numpy() for name in ("rows", "error"))
-    left.plot(rows, 100*error, label="without divergence")
-    left.plot(rows, 100*wave.sort_values("rows")["divergent"], label="with divergence (sound)")
-    guide(left, rows, 100*error[0]*(rows[0]/rows)**2, "rows$^{-2}$")
-    left.set(xscale="log", yscale="log", xlabel="rows", ylabel="relative error of the wave, %",
-             title="sliding sides: a turning wave")
-    ticks(left, rows)
-    torque = torque.sort_values("rows")
-    right.plot(torque["radius"], 100*torque["turned"].abs(), label="that turns")
-    right.plot(torque["radius"], 100*torque["fixed"].abs(), label="at rest around it")
-    guide(right, torque["radius"].to_numpy(), 12*torque["radius"].to_numpy()**-2, "$(a/R)^2$")
-    right.set(xscale="log", yscale="log", xlabel="inner radius $R/a$", ylabel="|error| of the torque, %",
-              title="cylinder that turns")
-    ticks(right, (4, 6, 8, 12))
-    right.set_yticks([0.1, 0.2, 0.5, 1], labels=["0.1", "0.2", "0.5", "1"])
-    for axes in (left, right):
-        below(axes, ncols=2)
+    page.suptitle("Drag of a cylinder against Sangani & Acrivos (1982); bars: print and what was not steady",
+                  fontsize=10)
     return page

@@ -59,8 +59,8 @@ class OnEdges(Case):
 class Frame(OnEdges):
     """Largest differences of rates in a wind from those at rest, carried along, over the largest rates.
 
-    On fixed points a wind carries the state along with the discrete divergence D: rates may differ by -U.D of the
-    state and by what the transformation of momentum and energy asks for, and by nothing else.
+    On fixed points a wind carries the state along with the discrete divergence D: rates may differ by -U.D of
+    the state and by what the transformation of momentum and energy asks for, and by nothing else.
     """
 
     mode: str

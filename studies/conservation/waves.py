@@ -1,4 +1,4 @@
-"""Patterns on a stream and sound on points that move; what time steps do to sound and to places    [RR98 Eqs 34-50]"""
+"""Patterns and sound on points that move; what time steps do to sound and to places    [RR98 Eqs 34-50]"""
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import product
@@ -10,7 +10,6 @@ import numpy as np
 from continuum.fluid import ConstEta
 from particles.integral.dih import Dih, Pairwise
 from particles.integral.edge_makers import renormalised
-from particles.integral.interpolants import f, reach
 from particles.integral.points import Points, lattice
 from particles.integral.rr98_moving_plain import MOTIONS, ConstantMass, Literal, scale_of
 from particles.integrators import RK4, Euler, TwoStep
@@ -25,7 +24,7 @@ STREAM = 0.2
 DT = 0.2                # of waves on moving points, with RK4
 ETA, ZETA, KAPPA = 0.2, 0.1, 0.2
 LIMIT = (ETA + ZETA + KAPPA/2)/C**2      # of forward Euler, rho = 1
-SAMPLES = 12            # a period: roots of a recurrence are best told apart when samples are neither dense nor sparse
+SAMPLES = 12            # a period: neither dense nor sparse, so that roots of a recurrence differ
 INTEGRATORS = {"euler": Euler, "two-step": TwoStep}
 
 
@@ -63,29 +62,15 @@ def by_halves(series: np.ndarray, measure: Callable[[np.ndarray], float]) -> Mea
     return Measured(float(measure(series)), float(abs(one - other)))
 
 
-def line_slope(part: np.ndarray) -> float:
-    """Change a sample, by least squares."""
-    return np.polyfit(np.arange(len(part)), part, 1)[0]
-
-
 def seen_stiffness(weight: Any, points: Points, k: float) -> float:
-    """(1/k^2) sum_r w_xx (1 - cos kx): how a moved lattice under uniform pressure answers, 1 in the continuum."""
+    """(1/k^2) sum_r w_xx (1 - cos kx): stiffness of a moved lattice, 1 in the continuum."""
     D = lattice_sums(weight, 1.0, 1.0, np.array([[k, 0.0]])).D
     return float(scale_of(points, weight)*D[0, 0, 0]/k**2)
 
 
-def transform(weight: Any, k: float, n: int = 400) -> float:
-    """f^(k) of a compact weight in the plane: integral of f cos kx, by midpoints."""
-    h = reach(weight)
-    x, y = np.meshgrid(*[(np.arange(n) + 0.5)/n*h]*2)
-    r = np.hypot(x, y)
-    inside = r < h
-    return float(4*np.sum(f(weight, r[inside])*np.cos(k*x[inside]))*(h/n)**2)
-
-
 @dataclass(frozen=True, kw_only=True)
 class Pattern(Case):
-    """Speed of a density wave under uniform pressure, over that of the stream that carries it, without viscosity.
+    """Speed of a density wave under uniform pressure over that of the stream that carries it, no viscosity.
 
     kind : of `rr98_moving_plain.MOTIONS`. The error is what the halves of the run differ by.
     """
@@ -105,12 +90,12 @@ class Pattern(Case):
         rho = 1 + AMPLITUDE*np.cos(k*points.x[:, 0])
         first = method.state(points.x, rho, np.tile([STREAM, 0.0], (points.n, 1)), 1/rho)
         seen = march(method, first, DT, round(self.time/DT), lambda state: amplitude(state[2], state[0], k))
-        speed = by_halves(-np.unwrap(np.angle(seen))/(k*STREAM*DT), line_slope)
+        speed = by_halves(-np.unwrap(np.angle(seen))/(k*STREAM*DT),
+                          lambda part: np.polyfit(np.arange(len(part)), part, 1)[0])
         twice = seen_slope(weight, points, k) if self.motion == "literal" else 0.0
         return Outcome({"patterns": [{
             "motion": self.motion, "h": 3.0, "wavelength": self.wavelength,
-            "speed": speed.value, "speed_err": speed.err, "predicted": 1 + twice,
-            "smoothed": transform(weight, k)}]})
+            "speed": speed.value, "speed_err": speed.err, "predicted": 1 + twice}]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,8 +127,7 @@ class MovingSound(Case):
         stiffness = 2*f*f + 2*g if self.motion in ("literal", "convective") else 2*g
         return Outcome({"moving_sound": [{
             "motion": self.motion, "weight": self.weight.__name__, "h": self.h, "wavelength": self.wavelength,
-            "speed": speed.value, "speed_err": speed.err, "gradient": f, "stiffness": g,
-            "predicted": np.sqrt(stiffness/2)}]})
+            "speed": speed.value, "speed_err": speed.err, "predicted": np.sqrt(stiffness/2)}]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -166,7 +150,8 @@ class Growth(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         points, k, dt = strip(self.wavelength, 5), 2*np.pi/self.wavelength, self.of_limit*LIMIT
         weight, wave, one = Lucy.of(h=self.h), np.sin(k*points.x[:, 0]), np.ones(points.n)
-        dih = Dih(edges=renormalised(points, weight), eos=GAS, law=ConstEta(ETA, KAPPA), zeta=ZETA, transport=NESTED)
+        dih = Dih(edges=renormalised(points, weight), eos=GAS, law=ConstEta(ETA, KAPPA), zeta=ZETA,
+                  transport=NESTED)
         first = dih.state(one, AMPLITUDE*np.stack([wave, 0*wave], axis=1), one)
         every = max(1, round(self.wavelength/C/SAMPLES/dt))
         steps = round(self.periods*self.wavelength/C/dt/every)*every
@@ -199,9 +184,9 @@ FLOWS = {"sound": sound_flow, "vortices": vortex_flow}
 
 @dataclass(frozen=True, kw_only=True)
 class Places(Case):
-    """Rms error of positions after a time over the rms displacement, for so many steps, twice and four times as many.
+    """Rms error of positions over the rms displacement, for so many steps, twice and four times as many.
 
-    Against RK4 with the most steps; the error of that reference is what RK4 with half as many differs from it by.
+    Against RK4 with the most steps; the error of that reference is its difference from RK4 with half as many.
     """
 
     motion: str
@@ -247,9 +232,10 @@ def rms(x: np.ndarray) -> float:
 #: sound for one and a half periods: after whole ones the errors of some integrators are small by chance
 MOVED = (
     Places(motion="literal", flow="sound", kind=Literal, counts=(16, 7), law=STILL, time=13.0, steps=60),
-    Places(motion="constant-mass", flow="sound", kind=ConstantMass, counts=(16, 7), law=STILL, time=18.9, steps=80),
-    Places(motion="constant-mass", flow="vortices", kind=ConstantMass, counts=(12, 12), law=ConstEta(0.2, 0.2),
-           time=10.0, steps=80))
+    Places(motion="constant-mass", flow="sound", kind=ConstantMass, counts=(16, 7), law=STILL, time=18.9,
+           steps=80),
+    Places(motion="constant-mass", flow="vortices", kind=ConstantMass, counts=(12, 12),
+           law=ConstEta(0.2, 0.2), time=10.0, steps=80))
 
 
 def waves(size: str) -> Iterator[Case]:

@@ -19,6 +19,7 @@ from particles.integral.closed_faces import Moving
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import between_plates
 from particles.integral.layer import Layer
+from particles.integral.nested import mixed
 from particles.integral.points import lattice
 from particles.integral.rr98_moving import DRIFTS, Drift
 from particles.integral.rr98_moving_plain import scale_of
@@ -128,7 +129,7 @@ def fixed(law: ConstEta, make: Callable = renormalised, jitter: float = 0.0, sha
     """Fixed points between plates."""
     x = positions(SIDE, SIDE, jitter, 1)
     edges, beyond = between_plates(make, x, SIDE, SIDE, Lucy.of(h=2.0))
-    method = Layer(x=x, edges=edges, beyond=beyond, eos=EOS, law=law, T_plates=(1.0, 1.0), g=0.0, share=share)
+    method = Layer(x=x, edges=edges, beyond=beyond, eos=EOS, law=law, T_plates=(1.0, 1.0), g=0.0, transport=mixed(share))
     start = method.state(1 + noise(len(x)), noise(len(x), 2), 1 + noise(len(x)))
     sound, along = method.fastest
     spread = along if share == 1 else sound**2      # the divergence of nested currents is a second gradient

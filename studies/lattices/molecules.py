@@ -5,14 +5,14 @@ m^2 w of a pair. `Twins` follows one path by both kinds of sums: they must agree
 `Reversal` turns the velocities: the path comes back, to what truncation or round-off makes of it, and bit by
 bit if places and velocities are whole numbers.
 """
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
 from continuum.fluid import VanDerWaals
-from particles.integrators import RK4
+from particles.integrators import RK4, Leapfrog, Whole, whole
 from particles.limits import step_limit
 from particles.run import STUDIES, Plan, run
 from particles.smooth.spam import Spam
@@ -29,7 +29,6 @@ RHO_SQUARED = VanDerWaals(a=-1.0, b=0.0, cv=1e300)
 ENERGY = 1e3        # per mass: any that stays above rho is valid
 RANGE = 3.0
 SPEED = 0.4         # rms of each velocity: m v^2 = 0.32 is about phi(0) = 2 w(0) = 0.35, so that particles pass each other
-GRID = 2.0**-24     # of whole numbers, spacings: sums in another order differ by 1e-16, but all except 1e-8 are rounded alike
 
 
 def crowd(side: int, seed: int) -> np.ndarray:
@@ -44,11 +43,6 @@ def crowd(side: int, seed: int) -> np.ndarray:
     return state
 
 
-def whole(q: np.ndarray) -> np.ndarray:
-    """The nearest multiples of GRID."""
-    return np.rint(q/GRID)*GRID
-
-
 def distance(one: np.ndarray, other: np.ndarray, side: float) -> float:
     """Rms distance of the places of two states in a periodic square."""
     apart = one[:2] - other[:2]
@@ -59,50 +53,12 @@ def distance(one: np.ndarray, other: np.ndarray, side: float) -> float:
 # --- methods --------------------------------------------------------------------------------------
 
 
-class Leapfrog:
-    """Half a kick, a drift, half a kick: steps lead back, but for round-off    [Verlet 1967]"""
-    evaluations = 2
-
-    def __init__(self, shape: tuple[int, ...], team: Team):
-        self._k = np.empty(shape)
-
-    def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
-        """Advance y = (x, y, vx, vy, e) in place by dt; energies, of which nothing depends, stay."""
-        for drift in (dt, 0.0):
-            sums.rates(y, self._k)
-            y[2:4] += self.rounded(self._k[2:4]*dt/2)
-            y[:2] += self.rounded(y[2:4]*drift)
-
-    def rounded(self, change: np.ndarray) -> np.ndarray:
-        """What is added."""
-        return change
+METHODS = {"rk4": RK4, "leapfrog": Leapfrog, "whole numbers": Whole}
 
 
-class Whole(Leapfrog):
-    """The same in whole numbers: what was added is taken away again, bit by bit    [Levesque & Verlet 1993]
-    """
-
-    def rounded(self, change: np.ndarray) -> np.ndarray:
-        return whole(change)
-
-
-class InLeapfrog(Spam):
-    """Particles that leap."""
-    integrator: ClassVar[type] = Leapfrog
-
-
-class InWhole(Spam):
-    """Particles that leap from whole number to whole number."""
-    integrator: ClassVar[type] = Whole
-
-
-METHODS = {"rk4": Spam, "leapfrog": InLeapfrog, "whole numbers": InWhole}
-
-
-def molecules(kind: type[Spam], weight: Any, side: float) -> Spam:
+def molecules(integrator: type, weight: Any, side: float) -> Spam:
     """The fluid that is one of molecules, in a periodic square."""
-    same = fluid(weight, (side, side), RHO_SQUARED, FRICTIONLESS)
-    return kind(weight=same.weight, eos=same.eos, law=same.law, walls=same.walls, box=same.box)
+    return replace(fluid(weight, (side, side), RHO_SQUARED, FRICTIONLESS), integrator=integrator)
 
 
 class Newton:
@@ -143,7 +99,7 @@ class Twins(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         weight, smooth, rows = self.weight.of(h=RANGE), crowd(self.side, self.seed), []
-        method, newton = molecules(Spam, weight, float(self.side)), Newton(weight, float(self.side))
+        method, newton = molecules(RK4, weight, float(self.side)), Newton(weight, float(self.side))
         steps = round(self.every/(STUDIES*step_limit(method, ENERGY)))
         plan, molecular = Plan(dt=self.every/steps, steps=steps), smooth.copy()
         integrator = RK4(molecular.shape, Team(1))

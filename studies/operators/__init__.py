@@ -6,4 +6,5 @@ from studies.operators.derive import derive
 from studies.operators.figures import FIGURES
 from studies.operators.tables import ALL
 
-STUDY = Study.of("operators", __doc__, (Part(cases=cases, tables=ALL, derive=derive, figures=FIGURES, claims=CLAIMS),))
+STUDY = Study.of("operators", __doc__, (Part(cases=cases, tables=ALL, derive=derive, figures=FIGURES,
+                                             claims=CLAIMS),))

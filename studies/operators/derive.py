@@ -111,10 +111,13 @@ def shear_orders(rows: pd.DataFrame) -> Rows:
     for (flow, points, time), group in rows.groupby(["flow", "points", "time"]):
         for norm in NORMS if group["rows"].nunique() >= LEAST else ():
             order = power_law(1/group["rows"], group[norm]).slope
-            yield {"flow": flow, "points": points, "time": time, "norm": norm, "order": order.value, "order_err": order.err}
+            yield {"flow": flow, "points": points, "time": time, "norm": norm, "order": order.value,
+                   "order_err": order.err}
 
 
 #: derived table -> the table it is made of, and how
 DERIVED: dict[str, tuple[str, Callable[[pd.DataFrame], Rows]]] = {
-    "orders": ("equations", orders), "stream_means": ("stream", stream_means), "growth_means": ("growth", growth_means),
-    "coefficients": ("waves", coefficients), "shear_means": ("shear", shear_means), "shear_orders": ("shear", shear_orders)}
+    "orders": ("equations", orders), "stream_means": ("stream", stream_means),
+    "growth_means": ("growth", growth_means),
+    "coefficients": ("waves", coefficients), "shear_means": ("shear", shear_means),
+    "shear_orders": ("shear", shear_orders)}

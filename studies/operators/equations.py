@@ -16,7 +16,8 @@ from studies.operators.weights import weight_of
 
 ETA, ZETA, KAPPA = 0.02, 0.01, 0.03
 PRINTED, ALONG, MENDED = Nested(differences=False), Pairwise(mended=False), Pairwise()
-CHANGING, CONSTANT = PowerLaw(ETA, KAPPA, n=1.0), ConstEta(ETA, KAPPA)      # eta, kappa proportional to T, or constant
+CHANGING = PowerLaw(ETA, KAPPA, n=1.0)      # eta and kappa proportional to T
+CONSTANT = ConstEta(ETA, KAPPA)
 
 
 def derivative(f: np.ndarray, axis: int, cells: int) -> np.ndarray:
@@ -72,7 +73,8 @@ class Exact:
     def momentum(self, eta: np.ndarray) -> np.ndarray:
         """-div(j v + P 1 - Pi)    [RR98 Eq. 8]"""
         rho, v, P = self.flow.rho, self.flow.v, self.flow.P
-        return self.div(self.stress(eta)) - self.div(rho[:, None, None]*v[:, :, None]*v[:, None, :]) - self.grad(P)
+        carried = rho[:, None, None]*v[:, :, None]*v[:, None, :]
+        return self.div(self.stress(eta)) - self.div(carried) - self.grad(P)
 
     def energy(self, eta: np.ndarray, kappa: np.ndarray) -> np.ndarray:
         """-div[e v + (P 1 - Pi).v + J]    [RR98 Eq. 9]"""
@@ -93,14 +95,15 @@ def terms(dih: Dih, flow: Flow, exact: Exact) -> Iterator[tuple[str, np.ndarray,
     edges, still = dih.edges, flow._replace(v=np.zeros_like(flow.v))
     eta, kappa = dih.coefficients(flow).eta, dih.coefficients(flow).kappa
     grad_T = exact.grad(flow.T)
+    current = kappa[:, None]*grad_T
     yield "gradient", edges.grad(flow.T), grad_T
     kernel = carried(dih.eos, edges.S, take(still, edges.i), take(still, edges.j)).momentum
     yield "pressure", arriving(edges, kernel), -exact.grad(flow.P)
     yield "stress kernel", PRINTED.gradient(edges, flow.v), exact.slope()
-    yield "heat kernel", -kappa[:, None]*PRINTED.gradient(edges, flow.T[:, None])[:, :, 0], -kappa[:, None]*grad_T
+    yield "heat kernel", -kappa[:, None]*PRINTED.gradient(edges, flow.T[:, None])[:, :, 0], -current
     yield "viscous nested", arriving(edges, PRINTED.fluxes(dih, flow).momentum), exact.div(exact.stress(eta))
     for name, transport in (("nested", PRINTED), ("pairwise", ALONG)):
-        yield f"heat {name}", arriving(edges, transport.fluxes(dih, still).energy), exact.div(kappa[:, None]*grad_T)
+        yield f"heat {name}", arriving(edges, transport.fluxes(dih, still).energy), exact.div(current)
     moved = carried(dih.eos, edges.S, take(flow, edges.i), take(flow, edges.j))
     mass, *momentum, energy = (arriving(edges, q) for q in rows(moved, PRINTED.fluxes(dih, flow)))
     yield "mass", mass, exact.mass()

@@ -40,7 +40,8 @@ class Invariance(Case):
         try:
             edges = self.make(at, WendlandC2.of(h=RANGE[self.d], d=self.d))
         except ArithmeticError:     # no such edges exist on these points: that is a result
-            return Outcome({"invariance": [{**key, "transport": name, **dict.fromkeys(KEPT, np.nan)} for name in TRANSPORT]})
+            return Outcome({"invariance": [{**key, "transport": name, **dict.fromkeys(KEPT, np.nan)}
+                                           for name in TRANSPORT]})
         return Outcome({"invariance": [{**key, "transport": name, **kept(edges, transport)}
                                        for name, transport in TRANSPORT.items()]})
 
@@ -74,7 +75,8 @@ class OneKernel(Case):
         at = self.disorder.make(COUNTS[self.d], self.disorder.size, self.seed)
         edges = renormalised(at, WendlandC2.of(h=RANGE[self.d], d=self.d))
         lost = one_kernel(edges, self.seed)
-        return Outcome({"one_kernel": [{"points": self.disorder.name, "d": self.d, "seed": self.seed, "lost": lost}]})
+        return Outcome({"one_kernel": [{"points": self.disorder.name, "d": self.d, "seed": self.seed,
+                                        "lost": lost}]})
 
 
 def one_kernel(edges: Edges, seed: int) -> float:
@@ -87,7 +89,8 @@ def one_kernel(edges: Edges, seed: int) -> float:
 
 
 #: A(r) and B(r) of Eq. 51 over the range h, as powers of r/h
-FORMS = {"A 1/r": ((1.0, -1), (0.0, 0)), "B 1/r": ((0.0, 0), (1.0, -1)), "A and B 1/r": ((3.0, -1), (1.0, -1)),
+FORMS = {"A 1/r": ((1.0, -1), (0.0, 0)), "B 1/r": ((0.0, 0), (1.0, -1)),
+         "A and B 1/r": ((3.0, -1), (1.0, -1)),
          "A 1, B r^2": ((1.0, 0), (2.0, 2)), "A r, B 1": ((5.0, 1), (1.0, 0))}
 
 

@@ -13,11 +13,14 @@ KINDS = ("lattice", "jittered-0.1", "jittered-0.3", "random", "relaxed")
 MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
 TOP = 100.0         # largest step that is drawn, over the prediction
 FLOOR = 1e-16       # growth rates of round-off are drawn there
-TERMS = {name: name for name in ("gradient", "pressure", "viscous nested", "heat nested", "mass", "momentum", "energy")}
+TERMS = {name: name for name in ("gradient", "pressure", "viscous nested", "heat nested", "mass", "momentum",
+                                 "energy")}
 #: operator -> label
-FRICTIONS = {"friction, zeta 0": r"$\zeta = 0$", "friction, eta(T), foretold": r"$\eta(T)$, with what it lacks",
+FRICTIONS = {"friction, zeta 0": r"$\zeta = 0$",
+             "friction, eta(T), foretold": r"$\eta(T)$, with what it lacks",
              "friction, zeta 0.01": r"$\zeta = \eta/2$", "friction, eta(T)": r"$\eta(T)$"}
-SHARES = {"gradient": "gradient / $k$", "nested": "nested Laplacian / $k^2$", "pairwise": "pairwise Laplacian / $k^2$"}
+SHARES = {"gradient": "gradient / $k$", "nested": "nested Laplacian / $k^2$",
+          "pairwise": "pairwise Laplacian / $k^2$"}
 COEFFICIENTS = ("viscosity", "bulk viscosity", "conductivity", "sound speed")
 #: curves of the coefficients: transport, maker, points; all with Lucy's weight, h = 3 a, zeta = 0.2
 CURVES = (("nested", "renormalised", "lattice"), ("pairwise", "renormalised", "lattice"),
@@ -27,7 +30,8 @@ CURVES = (("nested", "renormalised", "lattice"), ("pairwise", "renormalised", "l
 WALLED = {"lattice": "lattice, images behind the plates", "jittered-0.2": "shifted by up to $0.2a$, images",
           "jittered-0.2, plates": "shifted by up to $0.2a$, rows on the plates"}
 #: flow -> what U is
-FLOWS = {"couette": "Couette flow, $U$: of the upper plate", "poiseuille": "Poiseuille flow, $U$: at last, in the middle"}
+FLOWS = {"couette": "Couette flow, $U$: of the upper plate",
+         "poiseuille": "Poiseuille flow, $U$: at last, in the middle"}
 
 
 def logarithmic(axes: Axes, ticks: Iterable[float]) -> None:
@@ -52,9 +56,11 @@ def symbols(rows: pd.DataFrame) -> Figure | None:
         axes.set(title=title, xlabel=r"$k a/\pi$", ylim=(-0.1, 1.05))
     panels[0].set_ylabel("share left of a wave of wave number $k$")
     page.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=4,
-                title=r"weights with their ranges; broad and pale: $\hat f(k)$ of the same weight, without a lattice",
+                title=r"weights with their ranges; broad and pale: $\hat f(k)$ of the same weight, "
+                      "without a lattice",
                 title_fontsize=8)
-    page.suptitle("What weights leave of a wave along an axis; nested transport is blind to the shortest", fontsize=10)
+    page.suptitle("What weights leave of a wave along an axis; nested transport is blind to the shortest",
+                  fontsize=10)
     return page
 
 
@@ -83,8 +89,10 @@ def exponential(axes: Axes, lattice: pd.DataFrame) -> None:
     for d, group in lattice.groupby("d"):
         x, style = 1/group["r0"].to_numpy(float), look(int(str(d)) - 1)
         axes.plot(x, (group["value"]/group["d"] - 1).abs(), **{**style, "linestyle": "none"}, label=f"{d}D")
-        axes.plot(x, (group["predicted"]/group["d"] - 1).abs(), color=style["color"], linestyle=":", marker="")
-    axes.set(xscale="log", yscale="log", title="exponential weight [Eq. 31], dotted: foretold", xlabel="$a/r_0$",
+        axes.plot(x, (group["predicted"]/group["d"] - 1).abs(), color=style["color"], linestyle=":",
+                  marker="")
+    axes.set(xscale="log", yscale="log", title="exponential weight [Eq. 31], dotted: foretold",
+             xlabel="$a/r_0$",
              ylabel="first moment lost")
     axes.set_xticks([1/16, 1/8, 1/4, 1/2, 1], labels=["1/16", "1/8", "1/4", "1/2", "1"])
     axes.minorticks_off()
@@ -110,7 +118,8 @@ def growth(means: pd.DataFrame) -> Figure | None:
             rows = rows.loc[[kind for kind in KINDS if kind in rows.index]]
             rates = rows["rate"].clip(lower=FLOOR)
             places = [KINDS.index(kind) + 0.1*(number - 2.5) for kind in rows.index]
-            errorbar(axes, places, rates.tolist(), np.minimum(rows["rate_err"], 0.9*rates).tolist(), number=number, label=maker)
+            errorbar(axes, places, rates.tolist(), np.minimum(rows["rate_err"], 0.9*rates).tolist(),
+                     number=number, label=maker)
         axes.axhspan(FLOOR/3, 1e-13, color="grey", alpha=0.15)
         axes.set(yscale="log", ylim=(FLOOR/3, 20), title=rf"$\eta$ = {eta:g} $\rho c a$")
         axes.set_xticks(range(len(KINDS)), labels=KINDS, rotation=30)
@@ -147,7 +156,7 @@ def fluids_of(rows: pd.DataFrame) -> str:
 def coefficients(rows: pd.DataFrame) -> Figure:
     """Do waves have the viscosities, the conductivity and the speed of sound of the fluid? Points measured, lines by sums."""
     page, panels = figure(2, 2, width=4.2, height=3.2, sharex=True)
-    rows = rows[(rows["weight"] == "Lucy") & (rows["h"] == 3.0) & (rows["zeta"] > 0) & (rows["direction"] == "axis")]
+    rows = rows.query("weight == 'Lucy' and h == 3 and zeta > 0 and direction == 'axis'")
     for axes, quantity in zip(panels.ravel(), COEFFICIENTS, strict=True):
         series = rows[rows["quantity"] == quantity].groupby(["transport", "maker", "points"])
         for number, curve in enumerate(CURVES):
@@ -180,13 +189,15 @@ def coefficient(axes: Axes, group: pd.DataFrame, number: int) -> None:
 def shear(rows: pd.DataFrame) -> Figure:
     """Rms errors of shear flows over the rows between the plates: a line of panels a flow, a column a kind of points."""
     kinds, times = [name for name in WALLED if name in set(rows["points"])], sorted(set(rows["time"]))
-    page, all_axes = figure(len(FLOWS), len(kinds), width=3.9, height=3.4, sharex=True, sharey=True, squeeze=False)
+    page, all_axes = figure(len(FLOWS), len(kinds), width=3.9, height=3.4, sharex=True, sharey=True,
+                            squeeze=False)
     for line, flow in zip(all_axes, FLOWS, strict=True):
         for axes, points in zip(line, kinds, strict=True):
             runs = rows[(rows["flow"] == flow) & (rows["points"] == points)].sort_values("rows")
             for time, group in runs.groupby("time"):
                 number = times.index(time)
-                errorbar(axes, group["rows"].tolist(), group["rms"].tolist(), group["rms_err"].tolist(), number=number,
+                errorbar(axes, group["rows"].tolist(), group["rms"].tolist(), group["rms_err"].tolist(),
+                         number=number,
                          linestyle=look(number)["linestyle"], label=rf"$t = {time:g}\,H^2/\nu$")
             axes.plot([8, 64], [4e-3, 4e-3/64], color="grey", linestyle=":", marker="", label=r"rows$^{-2}$")
             axes.set_title(WALLED[points])
@@ -221,7 +232,9 @@ def nested_growth(frame: pd.DataFrame) -> Figure:
     return page
 
 
-FIGURES = Drawings(Drawing("symbols", ("symbols",), symbols), Drawing("convergence", ("equations", "lattice"), convergence),
+FIGURES = Drawings(Drawing("symbols", ("symbols",), symbols),
+                   Drawing("convergence", ("equations", "lattice"), convergence),
                    Drawing("growth", ("growth_means",), growth), Drawing("euler", ("euler",), euler),
-                   Drawing("coefficients", ("coefficients",), coefficients), Drawing("shear", ("shear_means",), shear),
+                   Drawing("coefficients", ("coefficients",), coefficients),
+                   Drawing("shear", ("shear_means",), shear),
                    Drawing("nested_growth", ("nested_growth",), nested_growth))

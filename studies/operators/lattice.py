@@ -89,7 +89,8 @@ def sums(weight: Any, d: int) -> Iterator[dict[str, Any]]:
     plain = float(at.number@(W(weight, at.r)*at.r))
     printed = float(at.number@(line_weight(weight, d, at.r)*at.r))
     yield {"how": "plain", "n": 1, "value": plain, "predicted": d*predicted_first(weight, d)}
-    yield {"how": "printed", "n": 1, "value": printed, "predicted": sphere(d)*moment(weight, d, d)*r0**(d - 1)}
+    yield {"how": "printed", "n": 1, "value": printed,
+           "predicted": sphere(d)*moment(weight, d, d)*r0**(d - 1)}
     r = np.arange(1, span(weight) + 1)
     r = r[r < reach(weight)]
     for n in (0, *MOMENTS):
@@ -106,7 +107,8 @@ class LatticeSums(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         key = {"weight": self.kind.__name__, "d": self.d, "r0": self.r0}
-        return Outcome({"lattice": [key | row for row in sums(weight_of(self.kind, self.r0, self.d), self.d)]})
+        weight = weight_of(self.kind, self.r0, self.d)
+        return Outcome({"lattice": [key | row for row in sums(weight, self.d)]})
 
 
 def gradient_symbol(w: np.ndarray, at: Around, k: float) -> float:
@@ -150,7 +152,8 @@ class Symbols(Case):
         key = {"weight": self.kind.__name__, "d": self.d, "r0": self.r0}
         waves = np.pi*np.arange(1, self.count + 1)/self.count
         return Outcome({"symbols": [
-            {**key, "k": k, "smoothed": smoothed(weight, self.d, k).value, "gradient": gradient_symbol(w, at, k),
+            {**key, "k": k, "smoothed": smoothed(weight, self.d, k).value,
+             "gradient": gradient_symbol(w, at, k),
              "nested": twice_symbol(G, k), "pairwise": spread_symbol(w, at, k)} for k in waves]})
 
 
@@ -168,7 +171,8 @@ class ExponentialWave(Case):
         symbol = gradient_symbol(w, at, k)
         first = float(at.number@(w*at.r))/self.d
         key = {"d": self.d, "wavelength": self.wavelength, "r0": self.r0}
-        return Outcome({"exponential": [key | {"plain": abs(symbol - 1), "renormalised": abs(symbol/first - 1)}]})
+        return Outcome({"exponential": [key | {"plain": abs(symbol - 1),
+                                               "renormalised": abs(symbol/first - 1)}]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -191,7 +195,7 @@ class Counted(Case):
                                     key | {"n": 1, "value": first, "predicted": float(self.d)}]})
 
 
-# --- single numbers -------------------------------------------------------------------------------------------------------
+# --- single numbers -----------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)

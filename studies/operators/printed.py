@@ -60,9 +60,11 @@ def heat(w: Sums, J: np.ndarray) -> np.ndarray:
     return sum(M@q + (M@np.ones(len(q)))*q for M, q in zip(w, J.T, strict=True))
 
 
-def linearised_printed(w: Sums, rho: np.ndarray, v: np.ndarray, d_rho: np.ndarray, dv: np.ndarray) -> np.ndarray:
+def linearised_printed(w: Sums, rho: np.ndarray, v: np.ndarray, d_rho: np.ndarray,
+                       dv: np.ndarray) -> np.ndarray:
     """Right-hand side of Eq. 21, as printed."""
-    return -sum((M@rho)*dv[:, a] + (M@d_rho)*v[:, a] + rho*(M@dv[:, a]) + d_rho*(M@v[:, a]) for a, M in enumerate(w))
+    parts = ((M@rho)*du + (M@d_rho)*u + rho*(M@du) + d_rho*(M@u) for M, u, du in zip(w, v.T, dv.T, strict=True))
+    return -sum(parts)
 
 
 def ratio(literal: np.ndarray, true: np.ndarray) -> float:
@@ -81,7 +83,7 @@ def readings(edges: Edges, x: np.ndarray, k: float) -> Iterator[tuple[str, float
     carried = -k*np.stack([2*s*c, np.cos(2*k*x)], axis=1)*dV        # -div(v v) dV, rho = 1
     yield "momentum, p_i = m_i v_i, v_i = v", ratio(convected(w, dV*v, v), carried), 1.0
     yield "momentum, p_i = m_i v_i, v_i = v dV", ratio(convected(w, dV*(v*dV), v*dV), carried), dV**2
-    P = (1 + 0.1*s)*dV                      # at rest, uniform T: P_ij + P_ji = P_i + P_j, which is what `heat` sums
+    P = (1 + 0.1*s)*dV                  # at rest, uniform T: P_ij + P_ji = P_i + P_j, as `heat` sums
     yield "pressure, P_ij = P dV", ratio(heat(w, np.stack([P, 0*P], axis=1)), -0.1*k*c*dV), 1.0
     friction = -k**2*np.stack([s, c], axis=1)*dV            # eta = 1, zeta = 0 in 2D: div Pi = lap v
     yield "stress, v_i = v", ratio(force(w, kernel(inner(w, v), 1.0, 0.0, 1.0)), friction), 1/dV
@@ -90,7 +92,9 @@ def readings(edges: Edges, x: np.ndarray, k: float) -> Iterator[tuple[str, float
     yield "heat", ratio(heat(w, current), -k**2*s*dV), 1/dV
     d_rho, dv, rho, v0 = 0.1*c, 0.1*v, 1 + 0.2*s, np.stack([0.3 + 0.1*c, 0*c], axis=1)
     step = 1e-4                             # mass_rate is quadratic: the central difference is exact
-    true = (mass_rate(w, rho + step*d_rho, v0 + step*dv) - mass_rate(w, rho - step*d_rho, v0 - step*dv))/(2*step)
+    above = mass_rate(w, rho + step*d_rho, v0 + step*dv)
+    below = mass_rate(w, rho - step*d_rho, v0 - step*dv)
+    true = (above - below)/(2*step)
     yield "linearised mass, Eq. 21", ratio(linearised_printed(w, rho, v0, d_rho, dv), true), -1.0
 
 
@@ -142,7 +146,8 @@ class Stream(Case):
         edges = renormalised(at, WendlandC2.of(h=3.0))
         key = {"points": self.disorder.name, "seed": self.seed}
         kinds = {"printed": Nested(differences=False), "differences": Nested()}
-        return Outcome({"stream": [{**key, "inner": name, **stream(edges, nested)} for name, nested in kinds.items()]})
+        return Outcome({"stream": [{**key, "inner": name, **stream(edges, nested)}
+                                   for name, nested in kinds.items()]})
 
 
 def stream(edges: Edges, transport: Nested) -> dict[str, float]:
@@ -154,7 +159,8 @@ def stream(edges: Edges, transport: Nested) -> dict[str, float]:
     still = transport.fluxes(dih, wind._replace(v=0*wind.v))
     K = operator(edges, transport)
     root = 1/np.sqrt(edges.V)
-    return {"force": rms(arriving(edges, fluxes.momentum)), "heat": rms(arriving(edges, still.energy)[:, None]),
+    return {"force": rms(arriving(edges, fluxes.momentum)),
+            "heat": rms(arriving(edges, still.energy)[:, None]),
             "asymmetry": float(np.linalg.norm(K - K.T)/np.linalg.norm(K)),
             "growth": float(np.linalg.eigvals(root[:, None]*K*root).real.max())}
 
@@ -162,7 +168,9 @@ def stream(edges: Edges, transport: Nested) -> dict[str, float]:
 def operator(edges: Edges, transport: Nested) -> np.ndarray:
     """The matrix K with V div(grad T) = K T."""
     slopes = edges.G if transport.differences else [S/2 for S in edges.areas]
-    return np.sum([(D@sparse.diags_array(1/edges.V)@M).toarray() for D, M in zip(edges.D, slopes, strict=True)], axis=0)
+    per_volume = sparse.diags_array(1/edges.V)
+    parts = [(D@per_volume@M).toarray() for D, M in zip(edges.D, slopes, strict=True)]
+    return np.sum(parts, axis=0)
 
 
 def rms(f: np.ndarray) -> float:
@@ -185,7 +193,8 @@ class Nulls(Case):
         waves = [np.cos(np.pi*((at.x - at.x[0])@np.array(c))) for c in corners]
         nested = max(float(np.abs(edges.grad(wave)).max()) for wave in waves)
         pairwise = min(float((-wave*edges.lap(wave)).min()) for wave in waves)
-        return Outcome({"nulls": [{"weight": self.kind.__name__, "d": self.d, "h": self.h, "corners": len(corners),
+        return Outcome({"nulls": [{"weight": self.kind.__name__, "d": self.d, "h": self.h,
+                                   "corners": len(corners),
                                    "nested": nested, "pairwise": pairwise}]})
 
 

@@ -18,7 +18,7 @@ from studies.build.disorder import Disorder
 from studies.build.fixed import SCHEMES, fluid
 from studies.kit.case import Case, Outcome, Report
 
-STEP = 1e-4     # of central differences: rates are of third degree, so errors are 1e-8 of them, round-off 1e-12
+STEP = 1e-4     # of central differences: rates are cubic, so errors are 1e-8 of them, round-off 1e-12
 #: d -> points, range of the weight
 BOXES: dict[int, tuple[tuple[int, ...], float]] = {1: ((40,), 3.0), 2: ((10, 10), 3.0), 3: ((6, 6, 6), 2.0)}
 NULL = 1e-6     # rates that small belong to waves that the operators do not see
@@ -63,7 +63,8 @@ class Growth(Case):
             nothing = {"rate": np.nan, "closure": np.nan}
             return Outcome({"growth": [{**key, "viscosity": eta, **nothing} for eta in self.viscosities]})
         closure = float(np.abs(edges.closure/edges.V[:, None]).max())
-        return Outcome({"growth": [{**key, "viscosity": eta, "rate": fastest(sound(edges, eta)), "closure": closure}
+        return Outcome({"growth": [{**key, "viscosity": eta, "rate": fastest(sound(edges, eta)),
+                                    "closure": closure}
                                    for eta in self.viscosities]})
 
 
@@ -124,10 +125,12 @@ class Euler(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         at = lattice((self.rows, 8))
-        dih = Dih(edges=renormalised(at, WendlandC2.of(h=3.0)), eos=IdealGas(), law=ConstEta(self.eta, self.kappa),
+        dih = Dih(edges=renormalised(at, WendlandC2.of(h=3.0)), eos=IdealGas(),
+                  law=ConstEta(self.eta, self.kappa),
                   zeta=self.zeta, transport=self.transport)
         c2 = 2.0                        # gamma P/rho
-        key = {"transport": type(self.transport).__name__.lower(), "eta": self.eta, "zeta": self.zeta, "kappa": self.kappa,
+        key = {"transport": type(self.transport).__name__.lower(), "eta": self.eta, "zeta": self.zeta,
+               "kappa": self.kappa,
                "predicted": (self.eta + self.zeta + self.kappa/2)/c2}
         rows = []
         for mode in range(1, self.rows//2 + 1):
@@ -137,7 +140,7 @@ class Euler(Case):
         return Outcome({"euler": rows})
 
 
-# --- the layer between plates ---------------------------------------------------------------------------------------------
+# --- the layer between plates -------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)

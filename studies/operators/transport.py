@@ -37,7 +37,7 @@ from studies.build.disorder import Disorder
 from studies.build.symbols import lattice_waves
 from studies.kit.case import Case, Outcome, Report
 
-AMPLITUDE = 1e-5    # squared, it is the share of waves that feed back on the first; round-off over it is 1e-11
+AMPLITUDE = 1e-5    # its square is the share of waves that feed back on the first; round-off over it is 1e-11
 STEPS = 10          # at least, in a radian of sound: RK4 is off by 5 (1/10)^4/120 of a rate
 TRUNCATION = 5*STEPS**-4/120
 MARGIN = 1.25       # of the step to its limit
@@ -53,17 +53,22 @@ COLUMNS = 8         # nothing depends on x but where points are
 FROM_PLATE = 0.25   # of a spacing: jittered points come no nearer to a plate
 OF_LIMIT = 0.5      # of the step to its limit: RK4's own errors are (0.02)^4 of a decay
 
+#: quantity -> (measured, error)
+Pairs = dict[str, tuple[float, float]]
 
-# --- waves ----------------------------------------------------------------------------------------------------------------
+
+# --- waves --------------------------------------------------------------------------------------------------
 
 
-def propagators(dih: Dih, points: Points, k: np.ndarray, time: float, phases: tuple[float, ...]) -> np.ndarray:
+def propagators(dih: Dih, points: Points, k: np.ndarray, time: float,
+                phases: tuple[float, ...]) -> np.ndarray:
     """U (2 or 3, 4, 4) of amplitudes (rho, u along k, T, v across k) after `time`, twice and off a lattice three times that.
 
     phases : 0 alone where all places are alike, (0, pi/2) where they are not: exp(ik.r) by its real and imaginary part.
     """
     n = k/np.hypot(*k)
-    frame, place, steps = np.array([n, [-n[1], n[0]]]), points.x@k, max(STEPS, ceil(MARGIN*time/step_limit(dih)))
+    frame, place = np.array([n, [-n[1], n[0]]]), points.x@k
+    steps = max(STEPS, ceil(MARGIN*time/step_limit(dih)))
     U = np.zeros((2 if len(phases) == 1 else 3, 4, 4), complex)
     for field in range(4):
         for phase in phases:
@@ -105,12 +110,13 @@ def rates(U: np.ndarray, time: float) -> list[Waves]:
     return waves
 
 
-def measured(dih: Dih, points: Points, k: np.ndarray, phases: tuple[float, ...]) -> dict[str, tuple[float, float]]:
+def measured(dih: Dih, points: Points, k: np.ndarray, phases: tuple[float, ...]) -> Pairs:
     """Quantities and their errors: what the last two times differ by, and RK4's own."""
     size = float(np.hypot(*k))
     time = 1/float(np.abs(np.linalg.eigvals(continuum(Gas(ETA, dih.zeta, KAPPA), size).matrix)).max())
     before, last = (quantities(one, size) for one in rates(propagators(dih, points, k, time, phases), time))
-    return {name: (last[name], abs(last[name] - before[name]) + TRUNCATION*abs(last[name])) for name in QUANTITIES}
+    return {name: (last[name], abs(last[name] - before[name]) + TRUNCATION*abs(last[name]))
+            for name in QUANTITIES}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -143,7 +149,8 @@ class Decay(Case):
 
     @property
     def label(self) -> str:
-        return (f"{self.transport} {self.maker} {self.weight.__name__} h {self.h:g}, {self.disorder.name}, {self.counts}, "
+        edges = f"{self.transport} {self.maker} {self.weight.__name__} h {self.h:g}"
+        return (f"{edges}, {self.disorder.name}, {self.counts}, "
                 f"zeta {self.zeta:g}, seed {self.seed}")
 
     def run(self, report: Report, folder: Path) -> Outcome:
@@ -159,7 +166,7 @@ class Decay(Case):
             values = measured(dih, points, k, (0.0,) if self.even else (0.0, np.pi/2))
         return Outcome({"waves": self.rows(values, k, weight)})
 
-    def rows(self, values: dict[str, tuple[float, float]], k: np.ndarray, weight: Any) -> list[dict[str, Any]]:
+    def rows(self, values: Pairs, k: np.ndarray, weight: Any) -> list[dict[str, Any]]:
         """One a quantity: measured, by the lattice symbol, of the continuum."""
         size, gas = float(np.hypot(*k)), Gas(ETA, self.zeta, KAPPA)
         exact = quantities(continuum(gas, size), size)
@@ -173,7 +180,7 @@ class Decay(Case):
                  "lattice": symbol[name], "continuum": exact[name]} for name in QUANTITIES]
 
 
-# --- shear flows ----------------------------------------------------------------------------------------------------------
+# --- shear flows --------------------------------------------------------------------------------------------
 
 
 class Drive(NamedTuple):
@@ -184,7 +191,8 @@ class Drive(NamedTuple):
     series: Callable[[np.ndarray, float], np.ndarray]
 
 
-FLOWS = {"couette": Drive("couette", 1.0, 0.0, couette), "poiseuille": Drive("poiseuille", 0.0, 1.0, poiseuille)}
+FLOWS = {"couette": Drive("couette", 1.0, 0.0, couette),
+         "poiseuille": Drive("poiseuille", 0.0, 1.0, poiseuille)}
 
 
 def driven(drive: Drive, rows: int, jitter: float, seed: int) -> Driven:
@@ -236,7 +244,8 @@ class ShearFlow(Case):
     def errors(self, flow: Fields, time: float) -> dict[str, float]:
         """Of the velocity against the series, and what the series neglect: heating, compression, velocity across."""
         difference = flow.v[:, 0]/SPEED - self.drive.series(flow.x[:, 1]/self.rows + 0.5, time)
-        return {"rms": float(np.sqrt(flow.V@difference**2/flow.V.sum())), "largest": float(np.abs(difference).max()),
+        return {"rms": float(np.sqrt(flow.V@difference**2/flow.V.sum())),
+                "largest": float(np.abs(difference).max()),
                 "heating": float(np.abs(flow.T - 1).max()), "compression": float(np.abs(flow.rho - 1).max()),
                 "across": float(np.abs(flow.v[:, 1]).max()/SPEED)}
 

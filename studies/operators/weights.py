@@ -19,7 +19,8 @@ MOMENTS = (1, 2, 3, 4)
 
 #: means over directions e of cos(z e_x), 1 - cos(z e_x) and e_x sin(z e_x), by dimension
 COSINE: dict[int, Callable] = {1: np.cos, 2: j0, 3: lambda z: np.sinc(z/pi)}
-LESS: dict[int, Callable] = {1: lambda z: 2*np.sin(z/2)**2, 2: lambda z: 1 - j0(z), 3: lambda z: 1 - np.sinc(z/pi)}
+LESS: dict[int, Callable] = {1: lambda z: 2*np.sin(z/2)**2, 2: lambda z: 1 - j0(z),
+                             3: lambda z: 1 - np.sinc(z/pi)}
 PULL: dict[int, Callable] = {1: np.sin, 2: j1, 3: lambda z: spherical_jn(1, z)}
 
 

@@ -6,4 +6,5 @@ from studies.ordering.derive import derive
 from studies.ordering.figures import FIGURES
 from studies.ordering.tables import ALL
 
-STUDY = Study.of("ordering", __doc__, (Part(cases=cases, tables=ALL, derive=derive, figures=FIGURES, claims=CLAIMS),))
+STUDY = Study.of("ordering", __doc__, (Part(cases=cases, tables=ALL, derive=derive, figures=FIGURES,
+                                            claims=CLAIMS),))

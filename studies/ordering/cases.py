@@ -5,7 +5,7 @@ jittered, random and relaxed points: error over a/h and h/lambda, a the spacing,
 its rms width, 0.42 h for Lucy's), lambda the wavelength or the height; gradients as printed beside those by differences.
 Paper size takes 40 minutes of one core.
 """
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import product
 from typing import Any
 
@@ -25,7 +25,8 @@ SEEDS = (1, 2, 3)
 RANGES = (1.2, 1.5, 2.0, 2.5, 3.0, 4.0)
 IRREGULAR = ("jittered-0.3", "random", "relaxed")
 #: rows of convection between points on the plates, until the error of K is 1 %
-PLATES = {"jittered-0.3": (12, 16, 24, 32, 40, 50), "random": (12, 16, 24, 32, 40, 50), "relaxed": (12, 16, 24, 32, 40)}
+PLATES = {"jittered-0.3": (12, 16, 24, 32, 40, 50), "random": (12, 16, 24, 32, 40, 50),
+          "relaxed": (12, 16, 24, 32, 40)}
 #: wavelengths; more points take longer to relax
 WAVES = dict.fromkeys(DISORDERS, (16, 24, 32, 48, 64, 96)) | {"relaxed": (16, 20, 24, 32)}
 WAVE = 32           # at which ranges and makers are compared
@@ -47,7 +48,7 @@ def seeds(disorder: str) -> tuple[int, ...]:
     return SEEDS if disorder != "lattice" else SEEDS[:1]
 
 
-def surface(waves: dict[str, tuple[int, ...]]) -> Iterator[Case]:
+def surface(waves: Mapping[str, tuple[int, ...]]) -> Iterator[Case]:
     """Lucy's weight everywhere; other weights, all of them on a lattice, and all makers of edges at two ranges."""
     for disorder, wavelengths in waves.items():
         for wavelength, (maker, weight, h) in product(wavelengths, edges(disorder)):
@@ -62,14 +63,16 @@ def edges(disorder: str) -> Iterator[tuple[str, Any, float]]:
     yield from (("renormalised", Lucy, h) for h in (*H, *BETWEEN*even))
     yield from ((maker, Lucy, h) for maker, h in product(("plain", "printed", "closed"), (2.0, 3.0)))
     yield "exact", Lucy, 3.0
-    yield from (("renormalised", weight, 3.0) for weight in (WEIGHTS.values() if even else (Monaghan, WendlandC2)))
+    weights = WEIGHTS.values() if even else (Monaghan, WendlandC2)
+    yield from (("renormalised", weight, 3.0) for weight in weights)
     yield "delaunay", Lucy, 2.0
 
 
 def wave(maker: str, weight: Any, h: float, disorder: str, wavelength: int) -> Iterator[OperatorErrors]:
     """One point of the error surface."""
     for seed in seeds(disorder):
-        yield OperatorErrors(maker=maker, make=MAKERS[maker], weight=weight, h=h, disorder=DISORDERS[disorder],
+        yield OperatorErrors(maker=maker, make=MAKERS[maker], weight=weight, h=h,
+                             disorder=DISORDERS[disorder],
                              wavelength=wavelength, seed=seed)
 
 
@@ -95,7 +98,7 @@ def vortices() -> Iterator[Case]:
         yield from vortex("renormalised", h, "lattice", (16, 24, 32, 48, 64))
     for disorder in IRREGULAR:
         yield from irregular_vortices(disorder)
-    yield from vortex("plain", 3.0, "relaxed", (16, 24, 32), WendlandC2)      # the weight that these points are relaxed with
+    yield from vortex("plain", 3.0, "relaxed", (16, 24, 32), WendlandC2)      # with which these points relax
     for mach, maker in product((0.02, 0.1), ("delaunay", "closed", "renormalised")):
         yield from vortex(maker, 3.0*(maker != "delaunay"), "jittered-0.3", (32,), mach=mach)
 

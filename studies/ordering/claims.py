@@ -1,6 +1,6 @@
-"""What RR98 says of range, spacing and wavelength, judged on gradients and on whole flows    [RR98 Eqs 1, 6, 14, 45, Sec. III]
+"""What RR98 says of range, spacing and wavelength, judged on gradients and whole flows    [Eqs 1, 6, 14, 45]
 
-Limits of gradients in printed form were taken from the claims by differences, a form that RR98 does not print.
+Limits of gradients in printed form are those of gradients by differences, a form that RR98 does not print.
 """
 from typing import Any
 
@@ -60,9 +60,10 @@ def cost(flow: dict[str, str], **where: Any) -> Value:
 
 @of
 def near_grid(tables: Tables) -> Measured:
-    """share(rolls = 2 and |ke/reference.ke - 1| < 0.1) in convection, plain or renormalised, irregular points, r0 > a"""
+    """share(rolls = 2 and |ke/K - 1| < 0.1) in convection, K of reference, plain and renormalised, r0 > a"""
     known = one("reference", "ke", flow="convection")(tables).value
-    runs = rows(tables, "convection", f"{WIDTH}*h > 1", maker=("plain", "renormalised"), weight="Lucy", points=IRREGULAR)
+    runs = rows(tables, "convection", f"{WIDTH}*h > 1", maker=("plain", "renormalised"), weight="Lucy",
+                points=IRREGULAR)
     near = (runs["rolls"] == 2) & ((runs["ke"]/known - 1).abs() < ROUGH)
     return Measured(float(near.mean()))
 
@@ -74,24 +75,29 @@ SPACING = "the spacing must be smaller than r0: error of"
 WAVES = (
     Claim(id="rr98-eq6-order", source="RR98 Eq. 6", printed="r0^2", expect=2, within=0.05,
           value=slope("lattice", "h/a", 3.0), because=f"{NEXT} of the slope at h/lambda <= 0.2",
-          statement="the gradient's error is of second order in r0/lambda on a lattice: slope at h = 3 a, renormalised"),
-    *(Claim(id=f"{name}-eq45-{short}", source="RR98 Eq. 45", printed="(dV)^(1/3) < r0"*(name == "rr98"), at_most=1,
+          statement="the gradient's error is of second order in r0/lambda on a lattice: slope at h = 3 a, "
+                    "renormalised"),
+    *(Claim(id=f"{name}-eq45-{short}", source="RR98 Eq. 45", printed="(dV)^(1/3) < r0"*(name == "rr98"),
+            at_most=1,
             value=gradient(points, maker, 3.0)/gradient(points, maker, 1.2), because=RATIO,
-            statement=f"{SPACING} the gradient with h = 3 a over that with h = 1.2 a, {words}, wavelength 32 a")
+            statement=f"{SPACING} the gradient with h = 3 a over that with h = 1.2 a, {words}, wavelength 32 "
+                      "a")
       for name, short, points, maker, words in (
           ("rr98", "lattice", "lattice", "plain", "lattice, plain quadrature"),
-          ("own", "lattice-renormalised", "lattice", "renormalised", "lattice, weight normalised by its sums there"),
+          ("own", "lattice-renormalised", "lattice", "renormalised",
+           "lattice, weight normalised by its sums there"),
           ("rr98", "jittered", "jittered-0.3", "plain",
            "points jittered by 0.3 a, plain quadrature of differences f_j - f_i"))),
     Claim(id="rr98-eq45-lambda", source="RR98 Eq. 45", printed="r0 < lambda", expect=2, within=0.1,
           value=slope("lattice", "a", 64.0),
           because="0.1: weights of 2 to 6 spacings, whose sums differ by some per cent from integrals",
-          statement="r0 must be smaller than lambda: slope of the gradient's error in r0/lambda at fixed spacing, lattice, "
-                    "ranges from 2 to 6 spacings"),
+          statement="r0 must be smaller than lambda: slope of the gradient's error in r0/lambda at fixed "
+                    "spacing, lattice, ranges from 2 to 6 spacings"),
     Claim(id="rr98-continuum-limit-jittered", source="RR98 Sec. III", printed="continuum limit", at_least=0.5,
           value=slope("jittered-0.3", "h/a", 3.0), because=HALF,
-          statement="r0 -> 0 with a < r0 gives the continuum limit also off a lattice: slope of the gradient's error at "
-                    "h = 3 a, points jittered by 0.3 a, renormalised, differences f_j - f_i"),
+          statement="r0 -> 0 with a < r0 gives the continuum limit also off a lattice: slope of the "
+                    "gradient's error at h = 3 a, points jittered by 0.3 a, renormalised, differences f_j - "
+                    "f_i"),
 )
 BRACKETS = (
     *(Claim(id=f"rr98-eq45-jittered-{form}", source="RR98 Eq. 45", printed="(dV)^(1/3) < r0", at_most=1,
@@ -100,104 +106,120 @@ BRACKETS = (
                       "wavelength 32 a")
       for form, words in FORMS.items()),
     *(Claim(id=f"rr98-eq45-jittered-{form}-{name}", source="RR98 Eq. 45",
-            printed="a good representation of the gradients", at_most=0.1, value=form_error(form, h), because=because,
-            statement=f"a < r0 < lambda gives a good gradient: its error ({FORMS[form]}) with h = {h:g} a, {JITTERED}, "
-                      "wavelength 32 a")
+            printed="a good representation of the gradients", at_most=0.1, value=form_error(form, h),
+            because=because,
+            statement=f"a < r0 < lambda gives a good gradient: its error ({FORMS[form]}) with h = {h:g} a, "
+                      f"{JITTERED}, wavelength 32 a")
       for form, name, h, because in (
           ("single", "enough", 3.0, "a tenth is not asking for much: r0 = 1.27 a, lambda = 25 r0"),
           ("sum", "enough", 3.0, "a tenth is not asking for much: r0 = 1.27 a, lambda = 25 r0"),
           ("sum", "wide", 6.0, "a tenth, as with h = 3 a"))),
-    *(Claim(id=f"rr98-continuum-limit-jittered-{form}", source="RR98 Sec. III", printed="continuum limit", at_least=0.5,
+    *(Claim(id=f"rr98-continuum-limit-jittered-{form}", source="RR98 Sec. III", printed="continuum limit",
+            at_least=0.5,
             value=form_slope(form), because=HALF,
-            statement="r0 -> 0 with a < r0 gives the continuum limit also off a lattice: slope of the gradient's error "
-                      f"({words}) in h/lambda at h = 3 a, {JITTERED}")
+            statement="r0 -> 0 with a < r0 gives the continuum limit also off a lattice: slope of the "
+                      f"gradient's error ({words}) in h/lambda at h = 3 a, {JITTERED}")
       for form, words in FORMS.items()),
-    Claim(id="own-eq1-differences", source="RR98 Eq. 1", at_most=0.5, value=form_error("difference")/form_error("single"),
+    Claim(id="own-eq1-differences", source="RR98 Eq. 1", at_most=0.5,
+          value=form_error("difference")/form_error("single"),
           because="a half would be worth the subtraction",
-          statement="differences mend that: error of the gradient with f_j - f_i over that with f_j alone, h = 3 a, "
-                    f"{JITTERED}, wavelength 32 a"),
+          statement="differences mend that: error of the gradient with f_j - f_i over that with f_j alone, h "
+                    f"= 3 a, {JITTERED}, wavelength 32 a"),
 )
 VORTICES = (
     Claim(id="rr98-eq45-vortex-lattice", source="RR98 Eq. 45", at_most=1, because=RATIO,
           value=error(VORTEX, **LATTICE, h=3.0, resolution=32)/error(VORTEX, **LATTICE, h=1.2, resolution=32),
-          statement=f"{SPACING} a Taylor-Green vortex with h = 3 a over that with h = 1.2 a, lattice, wavelength 32 a"),
+          statement=f"{SPACING} a Taylor-Green vortex with h = 3 a over that with h = 1.2 a, lattice, "
+                    "wavelength 32 a"),
     Claim(id="rr98-eq45-vortex-lambda", source="RR98 Eq. 45", printed="r0 < lambda", expect=2, within=0.1,
           value=one("flow_slopes", "slope", **VORTEX, **LATTICE, fixed="a", at=64.0),
           because="0.1: sums over a few neighbours differ from integrals",
-          statement="r0 must be smaller than lambda: slope of a Taylor-Green vortex's error in r0/lambda at fixed spacing, "
-                    "lattice, h = 2 a to 4 a"),
-    Claim(id="rr98-eq45-vortex-irregular", source="RR98 Eq. 45", printed="(dV)^(1/3) < r0 < lambda", at_least=1,
+          statement="r0 must be smaller than lambda: slope of a Taylor-Green vortex's error in r0/lambda at "
+                    "fixed spacing, lattice, h = 2 a to 4 a"),
+    Claim(id="rr98-eq45-vortex-irregular", source="RR98 Eq. 45", printed="(dV)^(1/3) < r0 < lambda",
+          at_least=1,
           value=share("vortices", f"velocity < {ROUGH}", f"{WIDTH:.3f}*h > 1", mach=MACH,
                       maker=("plain", "renormalised"), points=IRREGULAR),
           because="every run: the ordering is all that RR98 asks for",
-          statement="the ordering is enough: share of Taylor-Green vortices with RR98's bracket on fixed irregular points, "
-                    "r0 above the spacing, that end with an error below a tenth"),
+          statement="the ordering is enough: share of Taylor-Green vortices with RR98's bracket on fixed "
+                    "irregular points, r0 above the spacing, that end with an error below a tenth"),
     Claim(id="rr98-eq6-vortex-order", source="RR98 Eq. 6", printed="r0^2", expect=2, within=0.05,
           value=order(VORTEX, 2.0, **LATTICE), because=NEXT,
-          statement="errors are of second order in r0/lambda: slope of a Taylor-Green vortex's, lattice, h = 2 a"),
+          statement="errors are of second order in r0/lambda: slope of a Taylor-Green vortex's, lattice, h = "
+                    "2 a"),
     Claim(id="rr98-eq45-cheapest-vortex", source="RR98 Eq. 45", at_least=1,
           value=WIDTH*first("cheapest", "h", "exchanges > 0", by="exchanges", need=2, **VORTEX, **LATTICE),
           because="the ordering itself, for the cheapest of six ranges",
-          statement="the spacing must be smaller than r0: r0/a at the cheapest 1 % in a Taylor-Green vortex, lattice"),
+          statement="the spacing must be smaller than r0: r0/a at the cheapest 1 % in a Taylor-Green vortex, "
+                    "lattice"),
     *(Claim(id=f"own-vortex-triangles-{points.split('-')[0]}", source="RR98 Sec. III", at_least=1.95,
             value=order(VORTEX, 0.0, **TRIANGLES, points=points),
-            because="second order, within the 0.05 that slopes of compact weights are given; faster is no fault",
-            statement="a triangulation gives the continuum limit without weights, to second order: order of a "
-                      f"Taylor-Green vortex's error on {words}, no filter")
+            because="second order, within the 0.05 that slopes of compact weights are given; faster is no "
+                    "fault",
+            statement="a triangulation gives the continuum limit without weights, to second order: order of "
+                      f"a Taylor-Green vortex's error on {words}, no filter")
       for points, words in KINDS.items()),
-    *(Claim(id=f"own-vortex-exact{name}", source="RR98 Sec. III", at_least=1.5, because="nearer to second order than to first",
+    *(Claim(id=f"own-vortex-exact{name}", source="RR98 Sec. III", at_least=1.5,
+            because="nearer to second order than to first",
             value=order(VORTEX, 3.0, maker="exact", weight="Lucy", points=points),
-            statement="edges of a weight that close and are exact on linear fields give the continuum limit: order of a "
-                      f"Taylor-Green vortex's error on {KINDS[points]}, h = 3 a{more}")
+            statement="edges of a weight that close and are exact on linear fields give the continuum limit: "
+                      f"order of a Taylor-Green vortex's error on {KINDS[points]}, h = 3 a{more}")
       for name, points, more in (("", "jittered-0.3", ""),
                                  ("-random", "random", "; asked after that of jittered points was known"))),
     *(Claim(id=f"own-vortex-closed-{points.split('-')[0]}", source="RR98 Sec. III", at_least=0.5,
             value=order(VORTEX, 3.0, maker="closed", weight="Lucy", points=points),
             because="an error that falls at least as the square root of the spacing",
-            statement="closing the edges is enough for the continuum limit: order of a Taylor-Green vortex's error on "
-                      f"{KINDS[points]}, h = 3 a")
+            statement="closing the edges is enough for the continuum limit: order of a Taylor-Green vortex's "
+                      f"error on {KINDS[points]}, h = 3 a")
       for points in ("jittered-0.3", "random")),
     Claim(id="own-vortex-closed-error", source="RR98 Sec. III", at_most=WANTED,
-          value=first("flows", "error", "points != 'relaxed' and error == error", by="error", maker="closed", **VORTEX,
+          value=first("flows", "error", "points != 'relaxed' and error == error", by="error", maker="closed",
+                      **VORTEX,
                       resolution=48),
           because="1 %, the error at which resolutions are compared",
-          statement="closing the edges is enough: least error of a Taylor-Green vortex over jittered and random points and "
-                    "three ranges at the largest wavelength"),
+          statement="closing the edges is enough: least error of a Taylor-Green vortex over jittered and "
+                    "random points and three ranges at the largest wavelength"),
 )
 CONVECTION = (
     Claim(id="rr98-eq45-convection-lattice", source="RR98 Eq. 45", at_most=1, because=RATIO,
           value=error(LAYER, **LATTICE, h=3.0, resolution=24)/error(LAYER, **LATTICE, h=1.2, resolution=24),
-          statement="the spacing must be smaller than r0: |error| of K in Rayleigh-Benard, Ra 10 000, with h = 3 a over "
-                    "that with h = 1.2 a, lattice, 24 rows"),
+          statement="the spacing must be smaller than r0: |error| of K in Rayleigh-Benard, Ra 10 000, with h "
+                    "= 3 a over that with h = 1.2 a, lattice, 24 rows"),
     Claim(id="rr98-eq6-convection-order", source="RR98 Eq. 6", printed="r0^2", expect=2, within=0.2,
           value=order(LAYER, 2.0, **LATTICE), because="0.2: 12 rows hold boundary layers of three spacings",
-          statement="errors are of second order in r0/lambda: slope of that of K in Rayleigh-Benard, lattice, h = 2 a"),
-    Claim(id="rr98-eq45-convection-irregular", source="RR98 Eq. 45", printed="(dV)^(1/3) < r0 < lambda", at_least=1,
+          statement="errors are of second order in r0/lambda: slope of that of K in Rayleigh-Benard, "
+                    "lattice, h = 2 a"),
+    Claim(id="rr98-eq45-convection-irregular", source="RR98 Eq. 45", printed="(dV)^(1/3) < r0 < lambda",
+          at_least=1,
           value=near_grid, because="every run: the ordering is all that RR98 asks for",
-          statement="the ordering is enough: share of Rayleigh-Benard runs, Ra 10 000, with RR98's bracket on fixed "
-                    "irregular points between mirror images, h = 3 a, r0 above the spacing, whose K ends within a tenth of "
-                    "the grid's"),
-    *(Claim(id=f"rr98-convection-plain-{points.split('-')[0]}", source="RR98 Sec. III", printed="continuum limit", at_least=1,
+          statement="the ordering is enough: share of Rayleigh-Benard runs, Ra 10 000, with RR98's bracket "
+                    "on fixed irregular points between mirror images, h = 3 a, r0 above the spacing, whose K "
+                    "ends within a tenth of the grid's"),
+    *(Claim(id=f"rr98-convection-plain-{points.split('-')[0]}", source="RR98 Sec. III",
+            printed="continuum limit", at_least=1,
             value=share("convection", "rolls == 2", maker="plain", weight="Lucy", points=points),
             because="every run: one that ends early has no limit",
-            statement="plain quadrature runs off a lattice: share of Rayleigh-Benard runs, Ra 10 000, 16 to 32 rows, "
-                      f"h = 2 a and 3 a, that come to their end in two rolls, {words}")
+            statement="plain quadrature runs off a lattice: share of Rayleigh-Benard runs, Ra 10 000, 16 to "
+                      f"32 rows, h = 2 a and 3 a, that come to their end in two rolls, {words}")
       for points, words in KINDS.items()),
     Claim(id="own-convection-closed-error", source="RR98 Sec. III", at_most=WANTED,
           value=error(LAYER, maker="closed", weight="Lucy", points="jittered-0.3", h=2.0, resolution=32),
           because="1 %, the error at which resolutions are compared",
           statement="closing the edges is enough: |error| of K in Rayleigh-Benard at 32 rows, h = 2 a, "
-                    f"{KINDS['jittered-0.3']}; asked after no order could be told, as runs with h = 3 a diverge"),
+                    f"{KINDS['jittered-0.3']}; asked after no order could be told, as runs with h = 3 a "
+                    "diverge"),
     *(Claim(id=f"own-convection-triangles-{points.split('-')[0]}", source="RR98 Sec. III", at_least=1,
             value=order(LAYER, 0.0, **TRIANGLES, points=points),
             because="first order at least: 12 rows are not yet in the range of the second",
-            statement=f"a triangulation gives the continuum limit without weights: order of K in Rayleigh-Benard on {words}")
+            statement="a triangulation gives the continuum limit without weights: order of K in "
+                      f"Rayleigh-Benard on {words}")
       for points, words in KINDS.items()),
     *(Claim(id=f"own-convection-triangles-cost-{points.split('-')[0]}", source="RR98 Sec. III", at_most=10,
             value=cost(LAYER, **TRIANGLES, points=points, h=0.0)/cost(LAYER, **LATTICE, h=1.2),
             because="an order of magnitude, as is asked of the vortex",
-            statement="irregular points cost little: exchanges over edges for 1 % of K in Rayleigh-Benard, Ra 10 000, on "
-                      f"{words}, triangulated, over those on a lattice with its nearest neighbours")
+            statement="irregular points cost little: exchanges over edges for 1 % of K in Rayleigh-Benard, "
+                      f"Ra 10 000, on {words}, triangulated, over those on a lattice with its nearest "
+                      "neighbours")
       for points, words in KINDS.items()),
 )
 CLAIMS = (*WAVES, *BRACKETS, *VORTICES, *CONVECTION)

@@ -24,7 +24,8 @@ PLATES = {"jittered-0.3": SCHEMES["fixed-jittered-plates"], "random": SCHEMES["f
 #: makers of edges and ranges of the weight between mirror images; exact ones need the wider
 MADE = (*product(("plain", "renormalised", "closed"), (2.0, 3.0)), ("exact", 3.0))
 #: columns of a run without an end
-NOTHING = {**dict.fromkeys(("ke", "ke_err", "nu", "nu_err", "exchanges"), np.nan), "rolls": 0, "converged": False}
+NOTHING = {**dict.fromkeys(("ke", "ke_err", "nu", "nu_err", "exchanges"), np.nan), "rolls": 0,
+           "converged": False}
 RECORDS = 4         # a free-fall time
 
 
@@ -47,7 +48,8 @@ def on_lattice(h: float) -> Scheme:
 def between_images(kind: str, maker: str, h: float, weight: Any = Lucy) -> Scheme:
     """Edges of a weight over irregular points and their mirror images."""
     points, size = POINTS[kind]
-    return Scheme(f"images-{kind}-{maker}-{weight.__name__}-h{h:g}", MAKERS[maker], weight, h, size, points=points)
+    return Scheme(f"images-{kind}-{maker}-{weight.__name__}-h{h:g}", MAKERS[maker], weight, h, size,
+                  points=points)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,7 +93,8 @@ class Convection(Case):
 
     def measured(self, report: Report, folder: Path) -> dict[str, Any]:
         """K, Nu, rolls at the end, and exchanges over edges, to images among them."""
-        ready, _, done = followed(self.scene, self.scheme, self.seed, self.t_end, RECORDS, report, folder/"run.h5")
+        ready, _, done = followed(self.scene, self.scheme, self.seed, self.t_end, RECORDS, report,
+                                  folder/"run.h5")
         if done is None:
             return NOTHING
         method, flow = ready.method, ready.method.fields(done.state)

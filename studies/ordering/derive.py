@@ -74,7 +74,7 @@ def bracket_slopes(means: pd.DataFrame) -> Iterator[dict[str, Any]]:
             yield {"points": points, "form": form, "slope": slope.value, "slope_err": slope.err}
 
 
-# --- flows: runs in one form, with flow, quantity, resolution, error with its sign, exchanges -----------------------------
+# --- flows: runs in one form, with flow, quantity, resolution, error with its sign, exchanges ---------------
 
 
 def of_flows(tables: Tables) -> dict[str, Rows]:
@@ -119,7 +119,8 @@ def convection(tables: Tables, known: Rows) -> pd.DataFrame:
     ke = known[0]["ke"]
     error = (rows["ke"]/ke - 1).where(rows["rolls"] == 2)
     exchanges = rows["exchanges"].where(rows["ke"].notna())      # none where there are no edges
-    runs = rows.assign(flow="convection", quantity="K", error=error, exchanges=exchanges, within=rows["ke_err"]/ke)
+    runs = rows.assign(flow="convection", quantity="K", error=error, exchanges=exchanges,
+                       within=rows["ke_err"]/ke)
     return runs.rename(columns={"rows": "resolution"})
 
 
@@ -127,13 +128,14 @@ def flow_means(runs: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """One row a point of the error surface."""
     key = [*SERIES, "resolution"]
     for values, group in runs.groupby(key):
-        point = dict(zip(key, values, strict=True))
+        point: dict[str, Any] = dict(zip(key, values, strict=True))
         known = group[["error", "within"]].dropna()
-        error, err = combine(known.to_numpy()) if len(known) else (np.nan, np.nan)
+        pairs = list(zip(known["error"], known["within"], strict=True))
+        error, err = combine(pairs) if pairs else (np.nan, np.nan)
         h = point["h"]
-        yield {**point, "seeds": len(group), "lost": len(group) - len(known), "a_over_h": 1/h if h else np.nan,
-               "h_over_lambda": h/point["resolution"], "error": error, "error_err": err,
-               "exchanges": group["exchanges"].mean()}
+        yield {**point, "seeds": len(group), "lost": len(group) - len(known),
+               "a_over_h": 1/h if h else np.nan, "h_over_lambda": h/point["resolution"],
+               "error": error, "error_err": err, "exchanges": group["exchanges"].mean()}
 
 
 def flow_slopes(runs: pd.DataFrame, means: pd.DataFrame) -> Iterator[dict[str, Any]]:
@@ -164,7 +166,8 @@ def needed(group: pd.DataFrame) -> dict[str, float]:
     first, number = group.iloc[0], len(group)
     above = np.flatnonzero(~(group["error"] <= WANTED) | (group["lost"] > 0))
     if not len(above):
-        return {"needed": first["resolution"], "needed_err": np.nan, "exchanges": first["exchanges"], "bound": 1}
+        return {"needed": first["resolution"], "needed_err": np.nan, "exchanges": first["exchanges"],
+                "bound": 1}
     last = above[-1]
     if last == number - 1 or not np.isfinite(group["error"][last]):
         return {"needed": np.nan, "needed_err": np.nan, "exchanges": np.nan, "bound": 0}
@@ -180,7 +183,8 @@ def crossing(pair: pd.DataFrame) -> dict[str, float]:
     order = np.log(coarse/fine)/np.diff(size)[0]
     resolution = float(np.exp(weights@size))
     unsure = np.hypot(*(weights*errs))/order
-    return {"needed": resolution, "needed_err": float(resolution*unsure), "exchanges": float(np.exp(weights@exchanges))}
+    return {"needed": resolution, "needed_err": float(resolution*unsure),
+            "exchanges": float(np.exp(weights@exchanges))}
 
 
 def line(x: np.ndarray, y: np.ndarray) -> Measured:

@@ -31,7 +31,7 @@ SERIES = (("delaunay", 0.0), ("exact", 3.0), ("closed", 2.0), ("closed", 3.0), (
 ASIDE = 1.012       # factor between series drawn beside each other
 
 
-# --- waves ----------------------------------------------------------------------------------------------------------------
+# --- waves --------------------------------------------------------------------------------------------------
 
 
 def surface(means: pd.DataFrame) -> Figure | None:
@@ -47,10 +47,12 @@ def surface(means: pd.DataFrame) -> Figure | None:
         column[1].set_xlabel("range $h/a$")
     panels[0, 0].set_ylabel("relative rms error of grad")
     panels[1, 0].set_ylabel("relative rms error of Laplacian")
-    curves = {label: handle for axes in panels.ravel() for handle, label in zip(*axes.get_legend_handles_labels())}
+    legends = [axes.get_legend_handles_labels() for axes in panels.ravel()]
+    curves = {label: handle for handles, labels in legends for handle, label in zip(handles, labels, strict=True)}
     labels = sorted(curves, key=lambda label: float(label.split()[-2]))
     page.legend([curves[label] for label in labels], labels, loc="outside lower center", ncols=len(labels))
-    page.suptitle("Must $a < r_0 < \\lambda$ hold?  Lucy's weight, renormalised; bars: 95 % over point sets", fontsize=10)
+    page.suptitle("Must $a < r_0 < \\lambda$ hold?  Lucy's weight, renormalised; bars: 95 % over point sets",
+                  fontsize=10)
     return page
 
 
@@ -58,8 +60,9 @@ def surface_of(column: Iterable[Axes], rows: pd.DataFrame, wavelengths: list[int
     """Gradient and Laplacian on one kind of points, one curve a wavelength."""
     for axes, operator in zip(column, ("gradient", "laplacian"), strict=True):
         for wavelength, group in rows.groupby("wavelength"):
-            errorbar(axes, *columns(group.sort_values("h"), "h", operator), number=wavelengths.index(wavelength),
-                     linestyle="-", label=rf"$\lambda$ = {wavelength} $a$")
+            number, group = wavelengths.index(int(str(wavelength))), group.sort_values("h")
+            errorbar(axes, *columns(group, "h", operator), number=number, linestyle="-",
+                     label=rf"$\lambda$ = {wavelength} $a$")
         logarithmic(axes, RANGES)
 
 
@@ -84,7 +87,8 @@ def makers(means: pd.DataFrame) -> Figure:
             group = rows[rows["h"] == (3.0 if 3.0 in set(rows["h"]) else 2.0)].sort_values("wavelength")
             if len(group):
                 label = maker + ", $h = 3a$"*(maker != "delaunay")
-                errorbar(axes, *columns(group, "wavelength", "gradient"), number=number, linestyle="-", label=label)
+                errorbar(axes, *columns(group, "wavelength", "gradient"), number=number, linestyle="-",
+                         label=label)
         x = np.array([16.0, 96.0])
         axes.plot(x, 0.35*(16/x)**2, color="grey", linestyle=":", marker="", label=r"$\lambda^{-2}$")
         axes.set(title=kind, xlabel=r"wavelength $\lambda/a$")
@@ -108,12 +112,13 @@ def brackets(means: pd.DataFrame) -> Figure:
         axes.set(title=kind, xlabel="range $h/a$", xlim=(1.1, 6.6))
     panels[0].set_ylabel("relative rms error of grad")
     page.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    page.suptitle(rf"Gradients as printed, and by differences: Lucy's weight, plain quadrature, $\lambda$ = {WAVE} $a$; "
+    page.suptitle("Gradients as printed, and by differences: Lucy's weight, plain quadrature, "
+                  rf"$\lambda$ = {WAVE} $a$; "
                   "bars: 95 % over point sets", fontsize=10)
     return page
 
 
-# --- flows ----------------------------------------------------------------------------------------------------------------
+# --- flows --------------------------------------------------------------------------------------------------
 
 
 def pick(flows: pd.DataFrame, **where: Any) -> pd.DataFrame:
@@ -123,7 +128,8 @@ def pick(flows: pd.DataFrame, **where: Any) -> pd.DataFrame:
     return flows.assign(size=flows["error"].abs())
 
 
-def of_maker(flows: pd.DataFrame, which: dict[str, str], maker: str, h: float, points: str) -> tuple[pd.DataFrame, str]:
+def of_maker(flows: pd.DataFrame, which: dict[str, str], maker: str, h: float,
+             points: str) -> tuple[pd.DataFrame, str]:
     """One series on irregular points and its label."""
     rows = pick(flows, **which, maker=maker, weight="Lucy" if h else "none", h=h, points=points)
     return rows, maker + (f", {h:g} $a$" if h else "")
@@ -136,7 +142,8 @@ def curve(axes: Axes, rows: pd.DataFrame, x: str, number: int, label: str) -> No
     known = rows[(rows["lost"] == 0) & rows["size"].notna()].sort_values(x)
     missing = len(rows) - len(known)
     label += f" (lost: {missing} of {len(rows)})" if missing else ""
-    errorbar(axes, known[x].tolist(), known["size"].tolist(), known["error_err"].tolist(), number=number, linestyle="-",
+    errorbar(axes, known[x].tolist(), known["size"].tolist(), known["error_err"].tolist(), number=number,
+             linestyle="-",
              label=label)
     low = known[known["error"] < 0]
     axes.plot(low[x], low["size"], **{**look(number), "linestyle": "none"}, markerfacecolor="white", zorder=5)
@@ -155,7 +162,8 @@ def over_range(flows: pd.DataFrame) -> Figure:
         axes.set_xlim(left=left)
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)
     panels[0].set_ylabel("relative error")
-    page.suptitle("Must $a < r_0$ hold?  Lucy's weight, renormalised, on a lattice; dotted: 1 %, hollow: K too low", fontsize=10)
+    page.suptitle("Must $a < r_0$ hold?  Lucy's weight, renormalised, on a lattice; dotted: 1 %, hollow: K too low",
+                  fontsize=10)
     return page
 
 
@@ -178,7 +186,8 @@ def over_points(flows: pd.DataFrame) -> Figure:
     decorate(panels[1, 2], LAYER, "irregular", ROWS)
     for axes in panels[:, 0]:
         axes.set_ylabel("relative error")
-    page.suptitle("Dotted: 1 %; hollow: K too low; bars: 95 % over point sets; lost: a set diverged", fontsize=10)
+    page.suptitle("Dotted: 1 %; hollow: K too low; bars: 95 % over point sets; lost: a set diverged",
+                  fontsize=10)
     return page
 
 
@@ -196,13 +205,15 @@ def over_disorder(flows: pd.DataFrame) -> Figure | None:
             curve(axes, rows.assign(resolution=rows["resolution"]*ASIDE**number), "resolution", number, label)
         decorate(axes, LAYER, kind, ROWS)
     panels[0].set_ylabel("relative error of K")
-    page.suptitle("Ra 10 000: triangles that end on the plates, Lucy's weight between mirror images.  Dotted: 1 %; hollow: K too "
-                  "low; bars: 95 % over\npoint sets; lost: where a set diverged or ended in other rolls; no curve: all did",
+    page.suptitle("Ra 10 000: triangles that end on the plates, Lucy's weight between mirror images.  Dotted: 1 %; "
+                  "hollow: K too low; bars: 95 % over\n"
+                  "point sets; lost: where a set diverged or ended in other rolls; no curve: all did",
                   fontsize=10)
     return page
 
 
-def decorate(axes: Axes, which: dict[str, str], kind: str, ticks: tuple[int, ...] = (16, 24, 32, 48, 64)) -> None:
+def decorate(axes: Axes, which: dict[str, str], kind: str,
+             ticks: tuple[int, ...] = (16, 24, 32, 48, 64)) -> None:
     """Axes, a line of second order, the legend."""
     x = np.array([ticks[0], ticks[-1]], float)
     axes.plot(x, 0.02*(ticks[0]/x)**2, color="grey", linestyle="--", marker="", label="order 2")
@@ -218,5 +229,7 @@ def finish(axes: Axes, ticks: Iterable[float], label: str, title: str) -> None:
 
 
 FIGURES = Drawings(Drawing("surface", ("means",), surface), Drawing("makers", ("means",), makers),
-                   Drawing("brackets", ("bracket_means",), brackets), Drawing("flows_range", ("flows",), over_range),
-                   Drawing("flows_points", ("flows",), over_points), Drawing("flows_disorder", ("flows",), over_disorder))
+                   Drawing("brackets", ("bracket_means",), brackets),
+                   Drawing("flows_range", ("flows",), over_range),
+                   Drawing("flows_points", ("flows",), over_points),
+                   Drawing("flows_disorder", ("flows",), over_disorder))

@@ -40,7 +40,8 @@ class OperatorErrors(Case):
 
     @property
     def label(self) -> str:
-        return f"{self.maker} {self.weight.__name__} h {self.h:g}, {self.disorder.name}, wavelength {self.wavelength}"
+        edges = f"{self.maker} {self.weight.__name__} h {self.h:g}"
+        return f"{edges}, {self.disorder.name}, wavelength {self.wavelength}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
         points = self.disorder.make((self.wavelength, BREADTH), self.disorder.size, self.seed)

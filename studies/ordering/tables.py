@@ -9,15 +9,16 @@ from studies.kit.table import Table
 WIDTH = float(np.sqrt(moment(Lucy.of(h=1.0, d=2), 3, 2)/4))
 
 POINT = ["maker", "weight", "h", "points", "wavelength"]
-#: rms errors of gradient and Laplacian of a plane wave; closure and linear: how far edges are from closed and from
-#: linearly exact
+#: rms errors of gradient and Laplacian of a plane wave; closure and linear: how far edges are from closed and
+#: from linearly exact
 OPERATORS = Table("operators", key=[*POINT, "seed"], columns=[
     *POINT, "seed", "a_over_h", "h_over_lambda", "gradient", "laplacian", "closure", "linear"])
 #: the same over seeds
 MEANS = Table("means", key=POINT, columns=[
     *POINT, "seeds", "a_over_h", "h_over_lambda", "gradient", "gradient_err", "laplacian", "laplacian_err"])
 SLOPE = ["maker", "weight", "points", "fixed", "at", "operator"]
-#: d ln error/d ln(h/lambda); `fixed` says what stays as it is: h/a (finer points for a wave) or a (a wider weight)
+#: d ln error/d ln(h/lambda); `fixed` says what stays as it is: h/a (finer points for a wave) or a (a wider
+#: weight)
 SLOPES = Table("slopes", key=SLOPE, columns=[*SLOPE, "slope", "slope_err", "floor"])
 
 BRACKET_POINT = ["h", "points", "wavelength"]
@@ -29,12 +30,13 @@ BRACKETS = Table("brackets", key=[*BRACKET_POINT, "seed"], columns=[
 BRACKET_MEANS = Table("bracket_means", key=[*BRACKET_POINT, "form"], columns=[
     *BRACKET_POINT, "form", "seeds", "error", "error_err"])
 #: d ln error/d ln(h/lambda) at h = 3 a
-BRACKET_SLOPES = Table("bracket_slopes", key=["points", "form"], columns=["points", "form", "slope", "slope_err"])
+BRACKET_SLOPES = Table("bracket_slopes", key=["points", "form"],
+                       columns=["points", "form", "slope", "slope_err"])
 
-#: a Taylor-Green vortex that has decayed by e: relative rms error of the velocity, relative error of ln(K at the
-#: start/K at the end), both against the gas of that Mach number; incompressible: of the velocity against the
-#: incompressible vortex; reached: share of the time until the run diverged, 0 where there are no such edges;
-#: exchanges: over edges, of the whole run; h = 0: edges of no weight
+#: a Taylor-Green vortex that has decayed by e: relative rms error of the velocity, relative error of ln(K at
+#: the start/K at the end), both against the gas of that Mach number; incompressible: of the velocity against
+#: the incompressible vortex; reached: share of the time until the run diverged, 0 where there are no such
+#: edges; exchanges: over edges, of the whole run; h = 0: edges of no weight
 VORTICES = Table("vortices", key=[*POINT, "mach", "seed"], columns=[
     *POINT, "mach", "seed", "velocity", "decay", "incompressible", "reached", "exchanges"])
 LAYER = ["maker", "weight", "h", "points", "rows", "seed"]
@@ -49,11 +51,14 @@ SERIES = ["flow", "quantity", "maker", "weight", "h", "points"]
 FLOWS = Table("flows", key=[*SERIES, "resolution"], columns=[
     *SERIES, "resolution", "seeds", "lost", "a_over_h", "h_over_lambda", "error", "error_err", "exchanges"])
 FLOW_SLOPE = ["flow", "quantity", "maker", "weight", "points", "fixed", "at"]
-#: d ln |error|/d ln(a/lambda) at fixed h/a and d ln |error|/d ln h at fixed a, over all runs; `at`: that h or resolution
+#: d ln |error|/d ln(a/lambda) at fixed h/a and d ln |error|/d ln h at fixed a, over all runs; `at`: that h or
+#: resolution
 FLOW_SLOPES = Table("flow_slopes", key=FLOW_SLOPE, columns=[*FLOW_SLOPE, "number", "slope", "slope_err"])
-#: least resolution from which on the error stays below 1 %, and exchanges there; bound = 1: the least that was run;
-#: finest: the error at the highest one
-CHEAPEST = Table("cheapest", key=SERIES, columns=[*SERIES, "needed", "needed_err", "exchanges", "bound", "finest"])
+#: least resolution from which on the error stays below 1 %, and exchanges there; bound = 1: the least that
+#: was run; finest: the error at the highest one
+CHEAPEST = Table("cheapest", key=SERIES, columns=[*SERIES, "needed", "needed_err", "exchanges", "bound",
+                                                  "finest"])
 
-ALL = (OPERATORS, MEANS, SLOPES, BRACKETS, BRACKET_MEANS, BRACKET_SLOPES, VORTICES, CONVECTION, REFERENCE, FLOWS,
+ALL = (OPERATORS, MEANS, SLOPES, BRACKETS, BRACKET_MEANS, BRACKET_SLOPES, VORTICES, CONVECTION, REFERENCE,
+       FLOWS,
        FLOW_SLOPES, CHEAPEST)
