@@ -67,11 +67,15 @@ def ripple(run: pd.DataFrame, theory: Impulse) -> tuple[Measured, Measured, Meas
     """
     before = run[run["time"] < theory.meets]
     late = run[run["time"] > theory.meets + SETTLED*(theory.back - theory.meets)]
-    up, down = (line(part["time"], part["height"]).slope for part in (late, before))
-    growth = line(late["time"], late["amplitude"]).slope
+    up, down, growth = slope(late, "height"), slope(before, "height"), slope(late, "amplitude")
     since = float(late["time"].mean() - theory.meets)
     amplitude = Measured(float(late["amplitude"].mean()) - growth.value*since, growth.err*since)
     return (up - down)/theory.kick, amplitude/theory.amplitude, growth/theory.growth
+
+
+def slope(run: pd.DataFrame, name: str) -> Measured:
+    """Of a column in time."""
+    return line(run["time"].to_numpy(), run[name].to_numpy()).slope
 
 
 # --- the highest Ra -------------------------------------------------------------------------------
@@ -191,11 +195,11 @@ def of_tubes(tubes: pd.DataFrame) -> Rows:
         variant, longest = f"eta {eta:g}", rows[rows["L"] == rows["L"].max()]
         ring, error = longest["wiggles"], longest["v_grid" if eta else "v_exact"].mean()
         if rows["reached"].min() < 1:
-            yield entry("shock tube", method, variant, "diverges", PART_OF_TIME, rows["reached"].min())
+            yield entry("shock tube", str(method), variant, "diverges", PART_OF_TIME, rows["reached"].min())
         else:
             verdict = "right" if max(ring.mean(), error) <= NEAR else "wrong"
-            yield entry("shock tube",
-                        method, variant, verdict, "ringing of v", ring.mean(), float(np.ptp(ring))/2, 0.0)
+            yield entry("shock tube", str(method),
+                        variant, verdict, "ringing of v", ring.mean(), float(np.ptp(ring))/2, 0.0)
 
 
 def of_smooth_tubes(tubes: pd.DataFrame) -> Rows:

@@ -9,7 +9,6 @@ from studies.hardcases.interface import impulse
 from studies.hardcases.sod import exact
 from studies.hardcases.tubes import ETAS, METHODS, STEPS
 from studies.kit.figure import figure, look
-from studies.kit.table import groups
 
 ALL = (*METHODS, "smooth particles")
 SHIFT = 0.5             # between methods' densities, upwards
@@ -20,8 +19,8 @@ def shocks(profiles: pd.DataFrame, ripples: pd.DataFrame) -> Figure:
     """Above: density and velocity in the longest tube without and with viscosity. Below: the ripple in time.
     """
     page, (above, (height, amplitude)) = figure(2, 2, width=4.4, height=3.2)
-    for axes, (eta, rows) in zip(above, groups(profiles, "eta"), strict=False):
-        tube(axes, rows.sort_values("x"), float(eta))
+    for axes, eta in zip(above, sorted(set(profiles["eta"])), strict=False):
+        tube(axes, profiles[profiles["eta"] == eta].sort_values("x"), eta)
     for number, (_, group) in enumerate(ripples.groupby(["steep", "scale"])):
         ripple(height, amplitude, group, {**look(number), "marker": ""})
     expected(height, amplitude, ripples)
