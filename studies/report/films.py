@@ -4,7 +4,7 @@ Each takes about 20 s of CPU and some 170 KB; results/films/films.csv says what 
 """
 import io
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
@@ -22,10 +22,9 @@ from continuum.gas.solve import run as march
 from continuum.scene import RayleighBenard
 from continuum.steady import Time
 from particles.fields import Fields, kinetic_energy
-from particles.limits import limit_of
 from particles.plan import Plan
 from particles.run import run
-from studies.build import moving, rr98_moving, spam
+from studies.build import ready
 from studies.build.names import START_ENERGY
 from studies.kit.figure import COLOURS
 from studies.kit.table import merge
@@ -56,39 +55,20 @@ class Dots(NamedTuple):
 
 
 class Film(NamedTuple):
-    """Points on the left: title, caption, and what sets them up in a scene, (method, start, dt)."""
+    """Points on the left: title, caption, method of `studies.build`."""
     title: str
     caption: str
-    make: Callable[[RayleighBenard], tuple[Any, np.ndarray, float]]
+    method: str
 
 
 # --- what is seen ---------------------------------------------------------------------------------
 
 
-def smooth_particles(scene: RayleighBenard) -> tuple[Any, np.ndarray, float]:
-    """As KHP95 print them."""
-    return spam.method(scene, spam.PRINTED), spam.start(scene, SEED), spam.step(scene, spam.PRINTED)
-
-
-def closed_faces(scene: RayleighBenard) -> tuple[Any, np.ndarray, float]:
-    """Moving points that exchange over closed faces."""
-    method = moving.method(scene, moving.MOTIONS["moving"])
-    first = moving.start(scene, method, SEED)
-    return method, first, OF_FIRST*limit_of(method, first)
-
-
-def printed_motion(scene: RayleighBenard) -> tuple[Any, np.ndarray, float]:
-    """Points that move with v under RR98's balances (Eqs 34-36, 39-41), literally."""
-    method = rr98_moving.method(scene, rr98_moving.DRIFT_MOTIONS["moving-literal"])
-    first = rr98_moving.start(scene, method, SEED)
-    return method, first, OF_FIRST*limit_of(method, first)
-
-
-def points(made: tuple[Any, np.ndarray, float], scene: RayleighBenard, times: np.ndarray) -> Iterator[Dots]:
+def points(film: Film, scene: RayleighBenard, times: np.ndarray) -> Iterator[Dots]:
     """A run from each of `times` to the next, in free-fall times, with steps that divide the time between."""
-    method, state, dt = made
-    between = (times[1] - times[0])*scene.L/scene.free_fall
-    steps = int(np.ceil(between/dt))
+    made = ready(scene, film.method, SEED)
+    method, state, between = made.method, made.start, (times[1] - times[0])*scene.L/scene.free_fall
+    steps = int(np.ceil(between/min(made.dt, OF_FIRST*made.limit)))
     yield seen(method.fields(state), scene)
     for _ in times[1:]:
         state = run(method, state, Plan(dt=between/steps, steps=steps)).by_id()
@@ -198,13 +178,13 @@ def encode(path: Path, frames: Sequence[Picture.Image]) -> None:
 MAKERS = {
     "particles": Film(
         "smooth particles [KHP95]", "Smooth particles as Kum, Hoover & Posch print them, mirror images "
-        "behind the plates. All of them tremble: their K holds that besides the flow.", smooth_particles),
+        "behind the plates. All of them tremble: their K holds that besides the flow.", "spam"),
     "closed_faces": Film(
         "moving points, closed faces", "Points that move and exchange mass, momentum and energy over closed "
-        "faces, our own repair of Romero-Rochin & Rubi's moving points.", closed_faces),
+        "faces, our own repair of Romero-Rochin & Rubi's moving points.", "moving"),
     "as_printed": Film(
         "moving points as printed [RR98]", "Points that move with the flow under Romero-Rochin & Rubi's "
-        "balances as printed (Eqs 34-36, 39-41), which convect it twice.", printed_motion),
+        "balances as printed (Eqs 34-36, 39-41), which convect it twice.", "moving-literal"),
 }
 
 
@@ -217,7 +197,7 @@ def beside() -> list[tuple[Grid, float]]:
 def make(name: str, film: Film, folder: Path) -> dict[str, Any]:
     """Run, draw and write one film; its row of films.csv."""
     scene, grids = RayleighBenard(ra=RA, L=float(ROWS)), beside()
-    dots = list(points(film.make(scene), scene, TIMES))
+    dots = list(points(film, scene, TIMES))
     titles = f"{len(dots[0].x)} {film.title}", f"compressible grid, {GRID_ROWS} rows"
     write(folder/f"{name}.mp4", list(pages(dots, grids, TIMES, titles)))
     return {"film": name, "title": film.title, "caption": film.caption, "ra": RA, "rows": ROWS, "seed": SEED,
