@@ -293,7 +293,8 @@ def test_flows_that_fluctuate_count_the_time_that_their_average_needs():
     """A flow that is steady at once needs the time until it is averaged only as far as its error asks for."""
     t, rng = np.arange(1, 361)/layer.OFTEN, np.random.default_rng(1)
     done = layer.Followed(t, 1 + 0.01*rng.normal(size=len(t)), None)
-    coarse, fine = (layer.Rules(None, layer.SETTLED).needed(done, error)/t[-1] for error in (0.1, 2e-3))
+    rules = layer.Rules(layer.Reference(1.0, 0.0, (), None, 0.0), layer.SETTLED)
+    coarse, fine = (rules.share(done, {"K": np.array([error])})["K"] for error in (0.1, 2e-3))
     assert coarse < 0.05 < fine <= 1
 
 

@@ -4,7 +4,7 @@ Each takes about 20 s of CPU and some 170 KB; results/films/films.csv says what 
 """
 import io
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
@@ -24,7 +24,7 @@ from continuum.steady import Time
 from particles.fields import Fields, kinetic_energy
 from particles.plan import Plan
 from particles.run import run
-from studies.build import Ready, ready
+from studies.build import ready
 from studies.build.names import START_ENERGY
 from studies.kit.figure import COLOURS
 from studies.kit.table import merge
@@ -55,40 +55,20 @@ class Dots(NamedTuple):
 
 
 class Film(NamedTuple):
-    """Points on the left: title, caption, and what sets them up in a scene, (method, start, dt)."""
+    """Points on the left: title, caption, method of `studies.build`."""
     title: str
     caption: str
-    make: Callable[[RayleighBenard], Ready]
+    method: str
 
 
 # --- what is seen ---------------------------------------------------------------------------------
 
 
-def smooth_particles(scene: RayleighBenard) -> Ready:
-    """As KHP95 print them."""
-    return ready(scene, "spam", SEED)
-
-
-def closed_faces(scene: RayleighBenard) -> Ready:
-    """Moving points that exchange over closed faces."""
-    return at_first(ready(scene, "moving", SEED))
-
-
-def printed_motion(scene: RayleighBenard) -> Ready:
-    """Points that move with v under RR98's balances (Eqs 34-36, 39-41), literally."""
-    return at_first(ready(scene, "moving-literal", SEED))
-
-
-def at_first(made: Ready) -> Ready:
-    """With a step that is safe when the flow is at its fastest."""
-    return made._replace(dt=OF_FIRST*made.limit)
-
-
-def points(made: Ready, scene: RayleighBenard, times: np.ndarray) -> Iterator[Dots]:
+def points(film: Film, scene: RayleighBenard, times: np.ndarray) -> Iterator[Dots]:
     """A run from each of `times` to the next, in free-fall times, with steps that divide the time between."""
-    method, state, dt = made.method, made.start, made.dt
-    between = (times[1] - times[0])*scene.L/scene.free_fall
-    steps = int(np.ceil(between/dt))
+    made = ready(scene, film.method, SEED)
+    method, state, between = made.method, made.start, (times[1] - times[0])*scene.L/scene.free_fall
+    steps = int(np.ceil(between/min(made.dt, OF_FIRST*made.limit)))
     yield seen(method.fields(state), scene)
     for _ in times[1:]:
         state = run(method, state, Plan(dt=between/steps, steps=steps)).by_id()
@@ -198,13 +178,13 @@ def encode(path: Path, frames: Sequence[Picture.Image]) -> None:
 MAKERS = {
     "particles": Film(
         "smooth particles [KHP95]", "Smooth particles as Kum, Hoover & Posch print them, mirror images "
-        "behind the plates. All of them tremble: their K holds that besides the flow.", smooth_particles),
+        "behind the plates. All of them tremble: their K holds that besides the flow.", "spam"),
     "closed_faces": Film(
         "moving points, closed faces", "Points that move and exchange mass, momentum and energy over closed "
-        "faces, our own repair of Romero-Rochin & Rubi's moving points.", closed_faces),
+        "faces, our own repair of Romero-Rochin & Rubi's moving points.", "moving"),
     "as_printed": Film(
         "moving points as printed [RR98]", "Points that move with the flow under Romero-Rochin & Rubi's "
-        "balances as printed (Eqs 34-36, 39-41), which convect it twice.", printed_motion),
+        "balances as printed (Eqs 34-36, 39-41), which convect it twice.", "moving-literal"),
 }
 
 
@@ -217,7 +197,7 @@ def beside() -> list[tuple[Grid, float]]:
 def make(name: str, film: Film, folder: Path) -> dict[str, Any]:
     """Run, draw and write one film; its row of films.csv."""
     scene, grids = RayleighBenard(ra=RA, L=float(ROWS)), beside()
-    dots = list(points(film.make(scene), scene, TIMES))
+    dots = list(points(film, scene, TIMES))
     titles = f"{len(dots[0].x)} {film.title}", f"compressible grid, {GRID_ROWS} rows"
     write(folder/f"{name}.mp4", list(pages(dots, grids, TIMES, titles)))
     return {"film": name, "title": film.title, "caption": film.caption, "ra": RA, "rows": ROWS, "seed": SEED,
