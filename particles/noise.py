@@ -79,13 +79,6 @@ def uniform_of_pair(seed, step, i, j):
 
 
 @inlined
-def normal_of_pair(seed, step, i, j):
-    """One normal number, symmetric in i, j."""
-    a, b, _, _ = words_of_pair(seed, step, i, j, 0)
-    return normal(a, b)[0]
-
-
-@inlined
 def normals_of_pair(seed, step, i, j, block):
     """Four normal numbers, symmetric in i, j."""
     a, b, c, d = words_of_pair(seed, step, i, j, block)

@@ -27,7 +27,7 @@ SORT = 20       # steps after which particles are put in the order of cells agai
 class Dpd:
     """A fluid of dissipative particles in a periodic box (width, height[, depth]) centred on the origin.
 
-    a, gamma, kT, rc : repulsion, friction, temperature, range. noise : `Uniform(seed)` or `Normal(seed)`.
+    a, gamma, kT, rc : repulsion, friction, temperature, range. noise : `Uniform(seed)`.
     integrator : of `integrators_dpd`, or `TwoStep` for RR98 Eqs 40, 41. rate : of a shear v_x = rate y between sliding sides.
     skin : of the neighbour lists, in units of length.
 

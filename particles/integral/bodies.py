@@ -118,19 +118,3 @@ def with_plates(inner: np.ndarray, columns: int, height: float) -> tuple[np.ndar
     """
     row = np.stack([np.arange(columns) + 0.5 - columns/2, np.full(columns, -height/2)], axis=1)
     return np.concatenate([row, row*mirror(2), inner]), np.arange(columns), np.arange(columns, 2*columns)
-
-
-def end_rows(points: Points, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Numbers of the points in the lowest and in the highest `count` rows of a lattice.
-
-    Raises
-    ------
-    ValueError
-        No row is left between them.
-    """
-    y = points.x[:, 1]
-    levels = np.unique(np.round(y/points.a, 6))
-    if not 1 <= count < len(levels)/2:
-        raise ValueError(f"{count} fixed rows on either side of {len(levels)} in all leave none between: take more rows")
-    middle = points.a*(levels[count - 1] + 0.5)
-    return np.flatnonzero(y < middle), np.flatnonzero(y > -middle)
