@@ -23,13 +23,7 @@ inlined = numba.njit(cache=True, nogil=True, forceinline=True, **OPTIONS)
 
 
 def check_seed(seed: int) -> int:
-    """The seed itself.
-
-    Raises
-    ------
-    ValueError
-        It is no whole number of 64 bits.
-    """
+    """The seed itself. Raises ValueError: it is no whole number of 64 bits."""
     if not isinstance(seed, Integral) or isinstance(seed, bool) or not 0 <= int(seed) < 2**64:
         raise ValueError(f"the seed must be a whole number from 0 to 2^64 - 1, got {seed!r}: any such number serves, 1 for one")
     return int(seed)

@@ -17,10 +17,8 @@ from particles.threads import Team
 class DpdStream(Dpd):
     """`Dpd` with particles of numbers `held` (m,) at rest; the others get a force `push` along x.
 
-    Raises
-    ------
-    ValueError
-        No particle is held, one of them twice, the push is not finite, or the integrator moves both particles of a pair at once.
+    Raises ValueError: no particle is held, one of them twice, the push is not finite, or the integrator moves
+    both particles of a pair at once.
     """
     held: np.ndarray
     push: float = 0.0

@@ -30,10 +30,7 @@ class Held(NamedTuple):
 def held(which: np.ndarray, v: tuple[float, float] = (0.0, 0.0), T: float = np.nan) -> Held:
     """Points of one velocity and temperature.
 
-    Raises
-    ------
-    ValueError
-        There are none of them, one is named twice, or the temperature is not positive.
+    Raises ValueError: there are none of them, one is named twice, or the temperature is not positive.
     """
     which = np.asarray(which)
     if len(which) < 1 or len(np.unique(which)) < len(which):
@@ -94,10 +91,7 @@ def on_circle(radius: float) -> np.ndarray:
 def between_circles(counts: tuple[int, int], inner: float, outer: float) -> tuple[Points, np.ndarray, np.ndarray]:
     """A lattice of spacing 1 with points on two circles about its middle; those up to the inner and those from the outer one on.
 
-    Raises
-    ------
-    ValueError
-        There is no room between the circles, or between one of them and its image.
+    Raises ValueError: there is no room between the circles, or between one of them and its image.
     """
     at = lattice(counts)
     check_disc(at, inner)

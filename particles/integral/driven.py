@@ -32,13 +32,7 @@ class Driven(Layer):
         return f"{super().__repr__()} driven by {self.slide}, {self.force}"
 
     def start(self, n: int, team: Team) -> "Driving":
-        """The sums over stored edges.
-
-        Raises
-        ------
-        ValueError
-            The state has not as many points as there are.
-        """
+        """The sums over stored edges. Raises ValueError: the state has not as many points as there are."""
         super().start(n, team)
         return Driving(self, team)
 

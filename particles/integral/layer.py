@@ -130,13 +130,7 @@ class Layer:
         return from_densities(self.eos, self.x, self.edges.V, state[0], state[1:3], state[3])
 
     def start(self, n: int, team: Team) -> "Exchanging":
-        """The sums over stored edges.
-
-        Raises
-        ------
-        ValueError
-            The state has not as many points as there are.
-        """
+        """The sums over stored edges. Raises ValueError: the state has not as many points as there are."""
         check_number(n, len(self.x))
         return self.form(self)(self, team)
 

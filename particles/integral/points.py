@@ -75,10 +75,7 @@ def jittered(counts: tuple[int, ...], size: float, seed: int, a: float = 1.0) ->
 def random(counts: tuple[int, ...], apart: float, seed: int, a: float = 1.0) -> Points:
     """As many points at random, none nearer to another than `apart` spacings.
 
-    Raises
-    ------
-    ValueError
-        No room is found for the last points.
+    Raises ValueError: no room is found for the last points.
     """
     at = lattice(counts, a)
     rng, x = np.random.default_rng(seed), np.empty((0, at.d))
@@ -111,10 +108,8 @@ def wrapped(x: np.ndarray, box: np.ndarray) -> np.ndarray:
 def pairs(points: Points, distance: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """(i, j, x_j - x_i, r) of the pairs i < j nearer than `distance`.
 
-    Raises
-    ------
-    ValueError
-        The distance is wider than half of the box, so that two images of one point would count; or two points coincide.
+    Raises ValueError: the distance is wider than half of the box, so that two images of one point would
+    count; or two points coincide.
     """
     if 2*distance >= points.box.min():
         raise ValueError(f"the reach {distance:g} is wider than half of the box {points.box}: take more points or a narrower "
@@ -146,10 +141,7 @@ def irregularity(points: Points, weight: Any) -> np.ndarray:
 def relaxed(points: Points, weight: Any, until: float = 2e-3, sweeps: int = 2000) -> Points:
     """Points moved by 0.12 a^2 c a sweep until a |c| < `until` everywhere, c as in `irregularity`.
 
-    Raises
-    ------
-    ArithmeticError
-        They are not that regular after so many sweeps.
+    Raises ArithmeticError: they are not that regular after so many sweeps.
     """
     for _ in range(sweeps):
         c = irregularity(points, weight)

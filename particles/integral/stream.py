@@ -85,13 +85,7 @@ class Stream:
         return from_densities(self.eos, self.x, self.edges.V, state[0], state[1:3], state[3])
 
     def start(self, n: int, team: Team) -> "Streaming":
-        """The sums over stored edges.
-
-        Raises
-        ------
-        ValueError
-            The state has not as many points as there are.
-        """
+        """The sums over stored edges. Raises ValueError: the state has not as many points as there are."""
         check_number(n, len(self.x))
         return Streaming(self, team)
 
