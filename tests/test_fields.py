@@ -19,7 +19,6 @@ from particles.integral.bodies import held
 from particles.integral.booked import Booked, BookedSides
 from particles.integral.closed_faces import Moving
 from particles.integral.dih import Dih
-from particles.integral.dih_plates import DihPlates
 from particles.integral.driven import Driven
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import between_plates
@@ -31,7 +30,7 @@ from particles.integral.rr98_moving_plain import MOTIONS
 from particles.integral.sheared import Sheared
 from particles.integral.stream import Stream
 from particles.integral.thermal import Thermal
-from particles.observe import particle_kinetic, smoothed
+from particles.observe import particle_kinetic
 from particles.smooth.spam import Spam
 from particles.threads import Team
 from particles.walls.periodic import periodic
@@ -46,7 +45,7 @@ INSIDE = dict(zip(("edges", "beyond"), between_plates(renormalised, SQUARE.x, CO
               x=SQUARE.x, T_plates=(1.2, 0.8), g=0.01, **FLUID)
 
 #: methods on points that stay, and on points that move: state(rho, v, T), state(x, rho, v, T)
-FIXED = {"dih": Dih(edges=EDGES, **FLUID), "plates": DihPlates(**INSIDE), "layer": Layer(**INSIDE),
+FIXED = {"dih": Dih(edges=EDGES, **FLUID), "layer": Layer(**INSIDE),
          "thermal": Thermal(edges=EDGES, k=1e-3, seed=1, **FLUID),
          "stream": Stream(x=SQUARE.x, edges=EDGES, held=held(np.array([0])), **FLUID),
          "sheared": Sheared(points=SQUARE, edges=EDGES, rate=0.1, **FLUID), "driven": Driven(**INSIDE),
@@ -109,13 +108,6 @@ def test_smooth_particles_have_the_density_of_their_own_sums():
     still = SPAM.fields(SPAM.state(SQUARE.x, 1.0, v, T))
     assert np.ptp(still.rho) < 1e-14 and abs(still.rho[0] - 1) < 0.02
     np.testing.assert_allclose(still.T, T, atol=2*0.02)
-
-
-def test_smoothed_fields_of_a_uniform_fluid_are_its_own():
-    one, v = np.ones(AT.n), np.full((AT.n, 2), 0.3)
-    at = smoothed(SPAM, SPAM.state(AT.x, 1.0, v, one))
-    np.testing.assert_allclose(at.v, v, rtol=1e-13)
-    assert np.array_equal(at.x, AT.x)
 
 
 @pytest.mark.parametrize("method", DPD.values(), ids=DPD)

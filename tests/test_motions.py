@@ -1,4 +1,4 @@
-"""Motions of points: conservation, the identity of Eqs 46-48 with 49, speeds against lattice sums, steps, filter."""
+"""Motions of points: conservation, the identity of Eqs 46-48 with 49, speeds against lattice sums, steps."""
 import numpy as np
 import pandas as pd
 import pytest
@@ -7,7 +7,6 @@ from continuum.fluid import ConstEta, IdealGas
 from particles.integral.brackets import Powers
 from particles.integral.dih import Dih, Nested, Pairwise
 from particles.integral.edge_makers import renormalised
-from particles.integral.filtered import Filtered
 from particles.integral.interpolants import OrderingWarning
 from particles.integral.points import jittered, lattice
 from particles.integral.rr98_moving_plain import MOTIONS, Carried, ConstantMass, Convective, Literal
@@ -19,8 +18,7 @@ from studies.conservation.motions import moving, seen_slope
 from studies.conservation.waves import Growth, MovingSound, Pattern, by_halves, march, rate, roots
 
 COUNTS = {1: (14,), 2: (7, 8), 3: (5, 5, 5)}
-TRANSPORT = {"nested": Nested(), "pairwise": Pairwise(mended=False), "mended": Pairwise(),
-             "filtered": Filtered(chi=0.2), "corrected": Filtered(chi=0.2, corrected=True)}
+TRANSPORT = {"nested": Nested(), "pairwise": Pairwise(mended=False), "mended": Pairwise()}
 
 
 def made(kind, d=2, size=0.15, weight=WendlandC2, transport="pairwise", eta=0.2, **more):
@@ -224,27 +222,6 @@ def test_the_limit_is_the_zero_of_the_growth():
     assert row["limit_err"] == pytest.approx(0.011/1.102, rel=1e-9)
 
 
-# --- filter ---------------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("corrected", [False, True])
-def test_the_filter_sees_density_alternate_and_leaves_a_uniform_one(corrected):
-    at = lattice((8, 8))
-    filtered = Filtered(chi=0.3, transport=Pairwise(mended=False), corrected=corrected)
-    plain, dih = (Dih(edges=renormalised(at, Lucy.of(h=3.0)), eos=IdealGas(), law=ConstEta(0.0, 0.0), transport=transport)
-                  for transport in (filtered.transport, filtered))
-    corner = np.cos(np.pi*(at.x - 0.5)).prod(axis=1)
-    state = dih.state(1 + 0.01*corner, np.full((at.n, 2), 0.1), np.ones(at.n))
-    k2 = -float((dih.edges.lap(corner)/corner)[0])
-    found = rates(dih, state) - rates(plain, state)
-    np.testing.assert_allclose(found[0], -0.3*k2*0.01*corner, rtol=0, atol=1e-15)
-    np.testing.assert_allclose(found[1:3], 0.1*found[[0, 0]], rtol=0, atol=1e-15)      # its momentum goes with it
-    np.testing.assert_allclose(found[3], (1 + 0.01)*found[0], rtol=0, atol=1e-15)      # and e + v^2/2
-    even = dih.state(np.ones(at.n), 0*at.x, 1 + 0.01*corner)
-    np.testing.assert_allclose(rates(dih, even), rates(plain, even), rtol=0, atol=1e-16)      # 14 terms of 1e-18
-    assert np.abs(rates(plain, state)[0]).max() < 1e-16      # no gradient sees it
-
-
 # --- bad input ------------------------------------------------------------------------------------------------
 
 
@@ -252,8 +229,6 @@ def test_what_cannot_be_moved_is_refused():
     at = lattice((7, 7))
     with pytest.raises(ValueError, match="M_1 = "):
         moving(Literal, at, Lucy.of(h=3.0, d=3))
-    with pytest.raises(ValueError, match=r"must not be negative, got -1"):
-        Filtered(chi=-1)
     method = moving(Literal, at, Lucy.of(h=3.0))
     state = method.state(at.x, np.ones(at.n), 0*at.x, np.ones(at.n))
     state[1, 5] = np.nan

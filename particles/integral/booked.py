@@ -18,15 +18,14 @@ class Booked(Stream):
     the fluid's momentum, and round accordingly.
     """
 
-    names = (*Stream.names, "taken_x", "taken_y", "taken_e")      # type: ignore[assignment]
+    names = (*Stream.names, "taken_x", "taken_y", "taken_e")
 
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
         """(7, n), nothing taken yet."""
         return np.concatenate([super().state(rho, v, T), np.zeros((3, len(self.x)))])
 
-    def start(self, n: int, team: Team) -> "Booking":
-        """The sums over stored edges."""
-        super().start(n, team)
+    def sums(self, team: Team) -> "Booking":
+        """With a book."""
         return Booking(self, team)
 
 
@@ -48,15 +47,14 @@ class BookedSides(Sheared):
     enter, U m of momentum and U p - U^2 m/2 of energy stay.
     """
 
-    names = (*Sheared.names, "given_x", "given_e")      # type: ignore[assignment]
+    names = (*Sheared.names, "given_x", "given_e")
 
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
         """(7, n), nothing given yet."""
         return np.concatenate([super().state(rho, v, T), np.zeros((2, self.points.n))])
 
-    def start(self, n: int, team: Team) -> "BookingSides":
-        """The sums over stored edges."""
-        super().start(n, team)
+    def sums(self, team: Team) -> "BookingSides":
+        """With a book."""
         return BookingSides(self, team)
 
 

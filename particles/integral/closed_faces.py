@@ -203,10 +203,7 @@ class Exchanging(Listed):
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
         """Refuse points in one place or without neighbours; warn where the weight is too narrow to tell their density.
 
-        Raises
-        ------
-        ValueError
-            Two points overlap, or one has no neighbours in two directions; names them.
+        Raises ValueError: two points overlap, or one has no neighbours in two directions; names them.
         """
         V, weight = state[7], self.method.weight
         a = float(np.sqrt(V.mean()))

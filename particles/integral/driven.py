@@ -31,15 +31,8 @@ class Driven(Layer):
     def __repr__(self) -> str:
         return f"{super().__repr__()} driven by {self.slide}, {self.force}"
 
-    def start(self, n: int, team: Team) -> "Driving":
-        """The sums over stored edges.
-
-        Raises
-        ------
-        ValueError
-            The state has not as many points as there are.
-        """
-        super().start(n, team)
+    def sums(self, team: Team) -> "Driving":
+        """Of a layer, and what drives it."""
         return Driving(self, team)
 
 

@@ -1,11 +1,12 @@
 """What all methods on fixed points share, compiled, in 2D: stored edges, fields, rates, what the time loop asks for."""
 from math import fsum
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from continuum.fluid import conductivity, energy, temperature, valid, viscosity
 from continuum.jit import formula, jit
+from particles.fields import Fields, from_densities
 from particles.integral.edges import Beyond, Edges
 from particles.integral.exchange import At, Convection, Exchange, Listing, Pressure, Stage, pressure_of, stages
 from particles.neighbours import u32, u64
@@ -53,6 +54,37 @@ def _open(first, last, open, points, total):
     for i in range(first, last):
         total[i, 1] -= open[i, 0]*points[i].P
         total[i, 2] -= open[i, 1]*points[i].P
+
+
+class OnPoints:
+    """What fluids on fixed points x (n, 2) share; `sums` is what their time loop sums."""
+    x: Any
+    edges: Any
+    eos: Any
+    names: ClassVar[tuple[str, ...]] = ("rho", "px", "py", "eps")
+
+    @property
+    def fastest(self) -> tuple[float, float]:
+        """Largest frequency of sound over its speed, and largest rate of diffusion over the diffusivity: of the edges."""
+        return self.edges.fastest
+
+    def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
+        """(4, n) of densities, velocities (n, 2), temperatures."""
+        one = np.ones(len(self.x))
+        return states(self.eos, rho*one, v, T*one)
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """Of the points, (n,) each."""
+        return from_densities(self.eos, self.x, self.edges.V, state[0], state[1:3], state[3])
+
+    def start(self, n: int, team: Team) -> Any:
+        """The sums over stored edges. Raises ValueError: the state has not as many points as there are."""
+        check_number(n, len(self.x))
+        return self.sums(team)
+
+    def sums(self, team: Team) -> Any:
+        """The sums of this fluid."""
+        raise NotImplementedError
 
 
 class Summing:

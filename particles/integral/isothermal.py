@@ -66,13 +66,7 @@ class Isothermal:
         return Fields(self.x, (state[1:]/state[0]).T, state[0].copy(), np.full(len(self.x), np.nan), self.edges.V)
 
     def start(self, n: int, team: Team) -> "Summed":
-        """The sums over stored edges.
-
-        Raises
-        ------
-        ValueError
-            The state has not as many points as there are.
-        """
+        """The sums over stored edges. Raises ValueError: the state has not as many points as there are."""
         check_number(n, len(self.x))
         return Summed(self, team)
 

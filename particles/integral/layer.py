@@ -13,11 +13,10 @@ import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas, check_state, conductivity, sound_speed, temperature, viscosity
 from continuum.jit import jit
-from particles.fields import Fields, from_densities
 from particles.ghosts import Ghosts
 from particles.integral.edges import Beyond, Edges, fastest
 from particles.integral.exchange import At, Conduction
-from particles.integral.fixed import FixedSums, OwnPressure, Point, check_number, opened, states, stored
+from particles.integral.fixed import FixedSums, OnPoints, OwnPressure, Point, opened, stored
 from particles.integral.layer_ideal import IdealSums
 from particles.integral.transposed_stress import MENDED
 from particles.integrators import RK4
@@ -91,7 +90,7 @@ def edge_by_edge(method: "Layer") -> type[Exchanging]:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Layer:
+class Layer(OnPoints):
     """A fluid on fixed points x (n, 2), periodic in x, between plates at T_plates (lower, upper) under gravity g.
 
     edges, beyond : of `edges.between_plates`. transport : listed terms of friction and heat: `MENDED`, `PRINTED` as Eq. 51
@@ -108,8 +107,6 @@ class Layer:
     form: Callable[[Any], type[Exchanging]] = quickest
     integrator: type = RK4
 
-    names = ("rho", "px", "py", "eps")
-
     def __repr__(self) -> str:
         """What tells a checkpoint's method from another: edges by their sums."""
         sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.x, self.edges.S, self.edges.k, self.beyond.S))
@@ -121,23 +118,8 @@ class Layer:
         """Largest frequency of sound over its speed, and largest rate of diffusion over the diffusivity."""
         return fastest(self.edges, self.beyond)
 
-    def state(self, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-        """(4, n) of densities, velocities (n, 2), temperatures (n,)."""
-        return states(self.eos, rho*np.ones(len(self.x)), v, T)
-
-    def fields(self, state: np.ndarray) -> Fields:
-        """Of the points, (n,) each."""
-        return from_densities(self.eos, self.x, self.edges.V, state[0], state[1:3], state[3])
-
-    def start(self, n: int, team: Team) -> "Exchanging":
-        """The sums over stored edges.
-
-        Raises
-        ------
-        ValueError
-            The state has not as many points as there are.
-        """
-        check_number(n, len(self.x))
+    def sums(self, team: Team) -> "Exchanging":
+        """In the form that is asked for."""
         return self.form(self)(self, team)
 
 

@@ -51,10 +51,7 @@ def _(term, a, b, ab):
 def mixed(share: float, mended: bool = True) -> tuple:
     """Terms of a share of friction and conduction along edges [Eq. 51], mended or as printed, the rest nested [Eqs 37, 38].
 
-    Raises
-    ------
-    ValueError
-        The share is not between 0 and 1.
+    Raises ValueError: the share is not between 0 and 1.
     """
     if not 0 <= share <= 1:
         raise ValueError(f"the share of transport along edges must be between 0 (nested) and 1 (all), got {share}")

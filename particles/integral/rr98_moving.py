@@ -253,10 +253,7 @@ class Drifts(Listed):
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
         """Refuse points in one place; warn where the weight is too narrow for them    [Eq. 45]
 
-        Raises
-        ------
-        ValueError
-            Two points overlap; names them.
+        Raises ValueError: two points overlap; names them.
         """
         a = float(np.sqrt(state[6].mean()))
         self.around.place(state, self.method.scale)

@@ -10,10 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.jit import jit
-from particles.fields import Fields, from_densities
 from particles.integral.edges import Edges
 from particles.integral.exchange import At
-from particles.integral.fixed import FixedSums, Point, check_number, states
+from particles.integral.fixed import FixedSums, OnPoints, Point
 from particles.integral.layer import Layer
 from particles.integral.points import Points
 from particles.integral.transposed_stress import MENDED
@@ -25,7 +24,7 @@ from particles.walls.sliding import Sides, sides, slide
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sheared:
+class Sheared(OnPoints):
     """A fluid on the points of a lattice, periodic in x; images above move faster by rate times height.
 
     edges : periodic, of a weight. transport : listed terms of friction and heat.
@@ -37,10 +36,15 @@ class Sheared:
     rate: float
     transport: tuple = MENDED
 
-    names = ("rho", "px", "py", "eps", "slid")
+    names = (*OnPoints.names, "slid")
 
     def __post_init__(self):
         _ = self.sides      # what is wrong with points or edges is told here
+
+    @property
+    def x(self) -> np.ndarray:
+        """Places (n, 2)."""
+        return self.points.x
 
     @cached_property
     def sides(self) -> Sides:
@@ -57,23 +61,12 @@ class Sheared:
         """Of the box above relative to this one."""
         return self.rate*float(self.points.box[1])
 
-    @property
-    def fastest(self) -> tuple[float, float]:
-        """As that of a layer, whose limit of the step this has: here, of the edges alone."""
-        return self.edges.fastest
-
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
         """(5, n) of densities, velocities (n, 2), temperatures, before anything has slid."""
-        one = np.ones(self.points.n)
-        return np.concatenate([states(self.eos, rho*one, v, T*one), 0*one[None]])
+        return np.concatenate([super().state(rho, v, T), np.zeros((1, self.points.n))])
 
-    def fields(self, state: np.ndarray) -> Fields:
-        """Of the points, (n,) each."""
-        return from_densities(self.eos, self.points.x, self.edges.V, state[0], state[1:3], state[3])
-
-    def start(self, n: int, team: Team) -> "Shearing":
-        """The sums over stored edges."""
-        check_number(n, self.points.n)
+    def sums(self, team: Team) -> "Shearing":
+        """Of the fluid between its sides."""
         return Shearing(self, team)
 
 

@@ -13,12 +13,11 @@ import numpy as np
 
 from continuum.fluid import conductivity, energy, viscosity
 from continuum.jit import jit
-from particles.fields import Fields, from_densities
 from particles.ghosts import Ghosts
 from particles.integral.bodies import Held
 from particles.integral.edges import NONE_BEYOND, NOWHERE, Edges
 from particles.integral.exchange import At, Stage
-from particles.integral.fixed import FixedSums, OwnPressure, Point, check_number, opened, states, stored
+from particles.integral.fixed import FixedSums, OnPoints, OwnPressure, Point, opened, stored
 from particles.integral.layer import Layer
 from particles.integral.transposed_stress import MENDED
 from particles.limits import limit_of
@@ -42,7 +41,7 @@ def _(term, a, b, ab):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Stream:
+class Stream(OnPoints):
     """A fluid on fixed points x (n, 2), periodic, driven by a force `push` per mass, around points that are `held`.
 
     transport : listed terms of friction and heat. chi : diffusivity of the filter of the density, 0 for none.
@@ -56,8 +55,6 @@ class Stream:
     chi: float = 0.0
     transport: tuple = MENDED
 
-    names = ("rho", "px", "py", "eps")
-
     def __post_init__(self):
         if not self.chi >= 0:
             raise ValueError(f"the filter's diffusivity chi must not be negative, got {self.chi}: 0.05 a^2 c^2/nu is enough")
@@ -67,32 +64,16 @@ class Stream:
         sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.x, self.edges.S, self.edges.k, *self.held))
         return f"Stream({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.push}, {self.chi}, {self.transport})"
 
-    @property
-    def fastest(self) -> tuple[float, float]:
-        """As that of a layer, whose limit of the step this has: here, of the edges alone."""
-        return self.edges.fastest
-
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
         """(4, n) of densities, velocities (n, 2), temperatures; held points get their own where they have one."""
-        rho, T, v = rho*np.ones(len(self.x)), T*np.ones(len(self.x)), v.copy()
+        T, v = T*np.ones(len(self.x)), v.copy()
         v[self.held.which] = self.held.v
         warm = np.isfinite(self.held.T)
         T[self.held.which[warm]] = self.held.T[warm]
-        return states(self.eos, rho, v, T)
+        return super().state(rho, v, T)
 
-    def fields(self, state: np.ndarray) -> Fields:
-        """Of the points, (n,) each."""
-        return from_densities(self.eos, self.x, self.edges.V, state[0], state[1:3], state[3])
-
-    def start(self, n: int, team: Team) -> "Streaming":
-        """The sums over stored edges.
-
-        Raises
-        ------
-        ValueError
-            The state has not as many points as there are.
-        """
-        check_number(n, len(self.x))
+    def sums(self, team: Team) -> "Streaming":
+        """Of the fluid and what is held."""
         return Streaming(self, team)
 
 

@@ -97,10 +97,7 @@ class Spam:
     def start(self, n: int, team: Team) -> "Nested | Direct":
         """The sums of n particles, with their arrays.
 
-        Raises
-        ------
-        ValueError
-            There are no particles, or the weight is wider than half of the box.
+        Raises ValueError: there are no particles, or the weight is wider than half of the box.
         """
         if n < 1:
             raise ValueError(f"there are no particles (n = {n}): a run needs at least one")

@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 
 from continuum.exact.cylinder import drag_of
-from particles.dissipative import shadow_hamiltonian as shadow
 from particles.dissipative.dpd import Dpd
 from particles.dissipative.integrators import Shardlow, VelocityVerlet
 from particles.dissipative.observe import (
     configurational_temperature,
+    forces_squared,
     kinetic_temperature,
+    laplacian,
     momentum,
     pressure,
     shear_stress,
@@ -105,8 +106,8 @@ class LongRun(Fluid):
     """
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        series: dict[str, Callable] = {"kinetic": kinetic_temperature, "F2": shadow.forces_squared,
-                                       "lap": shadow.laplacian, "P": pressure}
+        series: dict[str, Callable] = {"kinetic": kinetic_temperature, "F2": forces_squared,
+                                       "lap": laplacian, "P": pressure}
         method = self.method()
         done = run(method, self.settled(method), self.plan(series=series), report)
         kinetic, F2, lap, P = (np.array(done.series[name]) for name in series)

@@ -19,10 +19,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import stress_tensor
-from particles.fields import Fields
 from particles.integral import dih
 from particles.integral.dih import Dih, Flow, Fluxes, Mixed, Nested, Pairwise, take
-from particles.integral.edges import Beyond, fastest, mirror
+from particles.integral.edges import Beyond, mirror
 
 
 class Ends(NamedTuple):
@@ -39,7 +38,7 @@ class Ends(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class DihPlates(Dih):
+class PlainPlates(Dih):
     """A fluid on fixed points x (n, d) between plates at T_plates (lower, upper) under gravity g along the last axis, downwards.
 
     edges, beyond : of `edges.between_plates`. transport : Pairwise, Mixed or Nested, with eta_i grad v_j as Eqs 37 and 38 have it
@@ -50,14 +49,6 @@ class DihPlates(Dih):
     T_plates: tuple[float, float]
     g: float = 0.0
 
-    def __post_init__(self):
-        shape = (self.edges.n, self.edges.d)
-        if self.x.shape != shape or self.beyond.S.shape[1] != self.edges.d:
-            raise ValueError(f"points {self.x.shape} and areas to images {self.beyond.S.shape} do not belong to edges of (n, d) "
-                             f"= {shape}: take x, edges and beyond of one call of `between_plates`")
-        if np.shape(self.T_plates) != (2,) or not (np.isfinite(self.T_plates) & (np.array(self.T_plates) > 0)).all():
-            raise ValueError(f"T_plates must be two positive temperatures, of the lower and the upper plate, got {self.T_plates}")
-
     @cached_property
     def ends(self) -> Ends:
         """All edges, those to images last."""
@@ -67,15 +58,6 @@ class DihPlates(Dih):
         return Ends(joined([edges.i, beyond.i]), joined([edges.j, beyond.parent]), joined([edges.S, beyond.S]),
                     joined([edges.k, beyond.k]), joined([edges.apart, beyond.apart]), joined([one, mirror(edges.d)*images]),
                     joined([one, -images])[:, :1], joined([none, 2*np.array(self.T_plates)[beyond.plate]]), joined([none, rise]))
-
-    @cached_property
-    def fastest(self) -> tuple[float, float]:
-        """Largest frequency of sound over its speed, and largest rate of diffusion over the diffusivity."""
-        return fastest(self.edges, self.beyond)
-
-    def fields(self, state: np.ndarray) -> Fields:
-        """Of the points, (n,) each."""
-        return super().fields(state)._replace(x=self.x)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt, written to `out`    [Eqs 34-36]"""
@@ -102,13 +84,13 @@ class DihPlates(Dih):
 
 
 @singledispatch
-def spread(transport: Any, fluid: DihPlates, flow: Flow) -> Fluxes:
+def spread(transport: Any, fluid: PlainPlates, flow: Flow) -> Fluxes:
     """Friction and heat through all edges and those to images."""
-    raise TypeError(f"no images are known for transport {transport}: take Pairwise, Nested, Mixed, or `spread.register` another")
+    raise TypeError(transport)
 
 
 @spread.register
-def _(transport: Pairwise, fluid: DihPlates, flow: Flow) -> Fluxes:
+def _(transport: Pairwise, fluid: PlainPlates, flow: Flow) -> Fluxes:
     ends, c, far = fluid.ends, fluid.coefficients(flow), fluid.opposite(flow)
     dih.check_bulk(c.eta, c.zeta, fluid.edges.d)
     twins = ends._replace(apart=ends.apart*ends.mirror)
@@ -125,7 +107,7 @@ def _(transport: Pairwise, fluid: DihPlates, flow: Flow) -> Fluxes:
 
 
 @spread.register
-def _(transport: Nested, fluid: DihPlates, flow: Flow) -> Fluxes:
+def _(transport: Nested, fluid: PlainPlates, flow: Flow) -> Fluxes:
     ends, far, (eta, zeta, kappa) = fluid.ends, fluid.opposite(flow), fluid.coefficients(flow)
     i, to, half, sign = ends.i, ends.to, ends.S/2, ends.odd*ends.mirror
     slope = fluid.gradient(transport, flow.v, far.v)
@@ -137,6 +119,6 @@ def _(transport: Nested, fluid: DihPlates, flow: Flow) -> Fluxes:
 
 
 @spread.register
-def _(transport: Mixed, fluid: DihPlates, flow: Flow) -> Fluxes:
+def _(transport: Mixed, fluid: PlainPlates, flow: Flow) -> Fluxes:
     share, both = transport.share, (spread(kind, fluid, flow) for kind in (transport.pairwise, transport.nested))
     return Fluxes(*(share*one + (1 - share)*other for one, other in zip(*both, strict=True)))
