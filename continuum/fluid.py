@@ -200,13 +200,6 @@ class PowerLaw(NamedTuple):
     n: float = 0.5
 
 
-class PowerBulk(NamedTuple):
-    """Bulk viscosity zeta rho^m T^n; shear viscosity and conductivity have laws of their own."""
-    zeta: float
-    m: float = 0.0
-    n: float = 0.5
-
-
 @generic
 def viscosity(transport, rho, T):
     """Shear viscosity eta(rho, T)."""
@@ -228,7 +221,6 @@ viscosity.of(ConstNu)(lambda transport, rho, T: rho*transport.nu)
 conductivity.of(ConstNu)(lambda transport, rho, T: rho*transport.cv*transport.kappa)
 viscosity.of(PowerLaw)(lambda transport, rho, T: transport.eta*rho**transport.m*T**transport.n)
 conductivity.of(PowerLaw)(lambda transport, rho, T: transport.k*rho**transport.m*T**transport.n)
-bulk_viscosity.of(PowerBulk)(lambda law, rho, T: law.zeta*rho**law.m*T**law.n)
 for _number in (int, float, np.float64):
     bulk_viscosity.of(_number)(lambda law, rho, T: law)
 

@@ -101,12 +101,8 @@ def generic(stub: Callable) -> Any:
 
     ``@pressure.of(IdealGas)`` adds a formula; calling works from Python and from compiled code.
 
-    Raises
-    ------
-    TypeError
-        No formula is known for that type, or a class was given in place of an object.
-    ValueError
-        Modules define two formulas for one type.
+    Raises TypeError: no formula is known for that type, or a class was given in place of an object.
+    ValueError: modules define two formulas for one type.
     """
     table: dict[type, Callable] = {}
     places: dict[type, str] = {}

@@ -38,10 +38,7 @@ def read(name: str) -> pd.DataFrame:
 def table(name: str) -> pd.DataFrame:
     """All numbers of a paper: id, quantity, symbol, value, uncertainty, units, source, reading, note.
 
-    Raises
-    ------
-    ValueError
-        No file of that name.
+    Raises ValueError: no file of that name.
     """
     if name not in names():
         raise ValueError(f"no published numbers of {name!r}: there are {', '.join(names())}; "
@@ -60,10 +57,7 @@ def numbers() -> dict[str, Value]:
 def published(key: str) -> Value:
     """The number with this id, e.g. "chandrasekhar-ra-rigid".
 
-    Raises
-    ------
-    ValueError
-        Unknown id; the message names those that are written most alike.
+    Raises ValueError: unknown id; the message names those that are written most alike.
     """
     if key not in numbers():
         close = get_close_matches(key, numbers(), n=5)

@@ -20,6 +20,10 @@ class Ghosts(NamedTuple):
             found = records[name][self.origin]
             records[name][first:] = found*self.turn if name in odd else found
 
+    def fill_work(self, points: np.ndarray, slopes: np.ndarray, V: np.ndarray) -> None:
+        """The work F of ghosts: along a plate even, across it odd."""
+        self.fill(points, ("Fx",), ("Fy",))
+
 
 def ghosts_of(around: Surroundings) -> Ghosts:
     """The ghosts that the lists have now; mirrors are the only walls that turn anything."""

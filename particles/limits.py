@@ -42,10 +42,7 @@ def _(method: Spam, start: np.ndarray) -> float:
 def step_limit(method: Spam, e: Any, rho: float = 1.0) -> float:
     """The largest dt at which RK4 does not make lattice waves grow, particles at mean density rho and energies e.
 
-    Raises
-    ------
-    ValueError
-        (rho, e) is outside of the validity of the equation of state.
+    Raises ValueError: (rho, e) is outside of the validity of the equation of state.
     """
     check_state(method.eos, rho, e)
     symbols = lattice_sums(method.weight, method.m, rho, zone(np.sqrt(method.m/rho)))
@@ -60,10 +57,7 @@ def zone(a: float, points: int = 33) -> np.ndarray:
 def lattice_sums(weight: Any, m: float, rho: float, k: np.ndarray) -> Symbols:
     """Sums over the square lattice of mean density rho at wave vectors (k, 2).
 
-    Raises
-    ------
-    ValueError
-        The weight's range does not reach the next particle.
+    Raises ValueError: the weight's range does not reach the next particle.
     """
     a = np.sqrt(m/rho)
     x = a*np.arange(-int(weight.h/a) - 1, int(weight.h/a) + 2)

@@ -159,10 +159,7 @@ class Listed:
     def make_ready(self, now: Any, dt: float) -> None:
         """New lists if particles may leave the old ones within the step; the particles are then in the order of cells.
 
-        Raises
-        ------
-        FloatingPointError
-            A particle is too fast for any list.
+        Raises FloatingPointError: a particle is too fast for any list.
         """
         if self.around.must_relist(now.state, dt):
             self.around.relist(now.state, now.ids, dt)

@@ -109,10 +109,7 @@ def make_lists(team: Team, cells: Cells, x: np.ndarray, y: np.ndarray, reach: fl
 
     An array `listed` of earlier lists is used again where it has room: new memory costs more than to write to it.
 
-    Raises
-    ------
-    FloatingPointError
-        There are more than 2000 neighbours of each: the particles have collapsed.
+    Raises FloatingPointError: there are more than 2000 neighbours of each: the particles have collapsed.
     """
     rows, room = len(x), 4 + int(1.1*np.pi*reach**2*_density(cells))
     while room < 2000:

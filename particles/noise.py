@@ -23,13 +23,7 @@ inlined = numba.njit(cache=True, nogil=True, forceinline=True, **OPTIONS)
 
 
 def check_seed(seed: int) -> int:
-    """The seed itself.
-
-    Raises
-    ------
-    ValueError
-        It is no whole number of 64 bits.
-    """
+    """The seed itself. Raises ValueError: it is no whole number of 64 bits."""
     if not isinstance(seed, Integral) or isinstance(seed, bool) or not 0 <= int(seed) < 2**64:
         raise ValueError(f"the seed must be a whole number from 0 to 2^64 - 1, got {seed!r}: any such number serves, 1 for one")
     return int(seed)
@@ -76,13 +70,6 @@ def normal(one, other):
 def uniform_of_pair(seed, step, i, j):
     """One number of mean 0 and variance 1, symmetric in i, j."""
     return uniform(words_of_pair(seed, step, i, j, 0)[0])
-
-
-@inlined
-def normal_of_pair(seed, step, i, j):
-    """One normal number, symmetric in i, j."""
-    a, b, _, _ = words_of_pair(seed, step, i, j, 0)
-    return normal(a, b)[0]
 
 
 @inlined

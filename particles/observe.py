@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import conductivity, energy, stress, temperature, viscosity
-from particles.fields import Fields
 from particles.neighbours import make_lists, sort_into_cells
 from particles.pairs import Pairs, interpolate, sweep
 
@@ -35,13 +34,6 @@ def fields_at(sums: Any, state: np.ndarray, x: np.ndarray, y: np.ndarray) -> Smo
     sums.team(interpolate, len(out), method.weight, method.m, *places, lists, around.x, around.y, values, out)
     rho, vx, vy, e = (column.reshape(np.shape(x)) for column in out.T)
     return Smoothed(rho, vx/rho, vy/rho, e/rho, temperature(method.eos, rho, e/rho))
-
-
-def smoothed(method: Any, state: np.ndarray) -> Fields:
-    """The smoothed fields at the particles of a state, in its order."""
-    sums, ordered, _ = method.look(state)
-    at = fields_at(sums, ordered, *state[:2])
-    return Fields(state[:2].T.copy(), np.stack([at.vx, at.vy], axis=1), at.rho, at.T, method.m/at.rho)
 
 
 def particle_kinetic(sums: Any, state: np.ndarray) -> float:
@@ -103,13 +95,6 @@ def pairs_behind(sums: Any, side: int) -> Pairs:
     first[rows], new[rows] = np.cumsum(count) - count, count
     return pairs._replace(first=first, taken=new, near=pairs.near[entry[behind]], wx=pairs.wx[entry[behind]],
                           wy=pairs.wy[entry[behind]])
-
-
-def conserved(sums: Any, state: np.ndarray) -> np.ndarray:
-    """(4,): mass, momentum in x and y, and energy (kinetic, internal and m g y)."""
-    m, (_, y, vx, vy, e) = sums.method.m, state
-    total = np.sum(0.5*(vx**2 + vy**2) + e + sums.method.g*y)
-    return m*np.array([state.shape[1], vx.sum(), vy.sum(), total])
 
 
 class Grid(NamedTuple):

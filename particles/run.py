@@ -29,13 +29,9 @@ class Divergence(FloatingPointError):
 def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], None] | None = None) -> Run:
     """Advance the particles or points `start`, array-like (fields, n), by the plan; `progress` is told the fraction done.
 
-    Raises
-    ------
-    ValueError
-        The step is above the stability limit, a state is invalid or a particle beyond a wall at the start, or the
-        checkpoint is of other code or other parameters.
-    Divergence
-        A field is not finite or outside of the equation of state's validity; names step, time, field and particle.
+    Raises ValueError: the step is above the stability limit, a state is invalid or a particle beyond a wall
+    at the start, or the checkpoint is of other code or other parameters. Divergence: a field is not finite or
+    outside of the equation of state's validity; names step, time, field and particle.
     """
     start = _particles(method, start)
     _check_start(method, start, plan)

@@ -41,13 +41,7 @@ def unit_integral(phi: Formula, d: int) -> float:
 
 
 def formulas(kind: type) -> tuple[Formula, Formula]:
-    """(phi(q), phi'(q)/q) of a kind of weight.
-
-    Raises
-    ------
-    TypeError
-        One of them is missing.
-    """
+    """(phi(q), phi'(q)/q) of a kind of weight. Raises TypeError: one of them is missing."""
     wanted = (("shape", shape.kinds, "phi(q), q = r/h"), ("slope", slope.kinds, "phi'(q)/q"))
     if lacking := [(name, text) for name, known, text in wanted if kind not in known]:
         add = " and ".join(f"{name}.of({kind.__name__})(lambda weight, q: ...) with {text}" for name, text in lacking)
@@ -60,10 +54,8 @@ def formulas(kind: type) -> tuple[Formula, Formula]:
 def check_formulas(name: str, phi: Formula, over_q: Formula) -> None:
     """Refuse formulas that the pair loops, which have no branch for the range, would take without a word.
 
-    Raises
-    ------
-    ValueError
-        phi or phi' is not zero at q = 1, phi'/q not finite at q = 0, or not the derivative of phi over q.
+    Raises ValueError: phi or phi' is not zero at q = 1, phi'/q not finite at q = 0, or not the derivative of
+    phi over q.
     """
     largest, steepest = (max(abs(f(None, q)) for q in PLACES) for f in (phi, over_q))
     for what, edge, size in (("phi", phi(None, 1.0), largest), ("phi'/q", over_q(None, 1.0), steepest)):
@@ -100,12 +92,8 @@ class Weight(_Fields):
     def of(cls, h: float, d: int = 2):
         """The weight of range h in d dimensions.
 
-        Raises
-        ------
-        TypeError
-            h is not a number, or a formula is missing.
-        ValueError
-            h is not positive and finite, d is not 1, 2 or 3, or the formulas do not fit each other.
+        Raises TypeError: h is not a number, or a formula is missing. ValueError: h is not positive and
+        finite, d is not 1, 2 or 3, or the formulas do not fit each other.
         """
         if not isinstance(h, Real):
             raise TypeError(f"the range h of a weight must be a number, got {h!r}: KHP95 use h = 3 sigma")
@@ -121,10 +109,7 @@ class Weight(_Fields):
 def check_unit(weight: Weight, d: int = 2) -> None:
     """Refuse a weight whose integral in d dimensions is not 1: every density would be multiplied by it.
 
-    Raises
-    ------
-    ValueError
-        It is not, or the range is not positive and finite.
+    Raises ValueError: it is not, or the range is not positive and finite.
     """
     kind = type(weight).__name__
     whole = weight.scale*unit_integral(formulas(type(weight))[0], d)*weight.h**d if 0 < weight.h < inf else float("nan")

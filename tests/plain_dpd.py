@@ -1,9 +1,7 @@
 """The slow readable twin of dissipative particles: all pairs, nearest images, numpy."""
 import numpy as np
 
-from particles.noise import normal_of_pair, uniform_of_pair
-
-NUMBERS = {"Uniform": uniform_of_pair, "Normal": normal_of_pair}
+from particles.noise import uniform_of_pair
 
 
 def apart(x: np.ndarray, box: np.ndarray, slid: float = 0.0) -> np.ndarray:
@@ -21,8 +19,8 @@ def forces(method, x: np.ndarray, v: np.ndarray, dt: float, step: int, slid: flo
     u = v[:, :, None] - v[:, None, :]
     u[0] -= over*method.rate*box[1]
     r = np.sqrt((d**2).sum(axis=0)) + np.eye(n)*2*method.rc
-    w, draw = np.maximum(1 - r/method.rc, 0), NUMBERS[type(method.noise).__name__]
-    zeta = np.array([[draw(method.noise.seed, step, i, j) for j in range(n)] for i in range(n)])
+    w = np.maximum(1 - r/method.rc, 0)
+    zeta = np.array([[uniform_of_pair(method.noise.seed, step, i, j) for j in range(n)] for i in range(n)])
     along = (d*u).sum(axis=0)/r
     size = method.a*w - method.gamma*w**2*along + np.sqrt(2*method.gamma*method.kT/dt)*w*zeta
     return (size*d/r).sum(axis=2)

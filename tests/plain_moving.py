@@ -1,10 +1,11 @@
-"""Slow, readable twin of `particles.integral.closed_faces`: every face as an entry of dense matrices, faces closed to round-off."""
+"""Slow, readable twin of `closed_faces`: every face as an entry of dense matrices, faces closed to round-off."""
 from typing import NamedTuple
 
 import numpy as np
 
 from continuum.fluid import conductivity, constant_viscosity, pressure, sound_speed, temperature, viscosity
 from particles.integral.closed_faces import EXCHANGED
+from particles.integral.transposed_stress import MENDED
 from particles.weights import value_and_slope
 
 
@@ -92,8 +93,9 @@ def rates(method, scene, state, S, k, apart, shift, count, images):
     grad_v = np.einsum("ija,ijb->iab", half, friction[None] - v[:, None])/V[:, None, None]
     grad_P = np.einsum("ija,ij->ia", half, P[origin][None] - P[:, None])/V[:, None]
     F = eta[:, None]*np.stack([v[:, 1]*grad_v[:, 1, 0] - v[:, 0]*grad_v[:, 1, 1],
-                               v[:, 0]*grad_v[:, 0, 1] - v[:, 1]*grad_v[:, 0, 0]], axis=1)*chosen.mended
-    tau = np.zeros((len(v), 2, 2)) if constant_viscosity(method.law) else chosen.mended*eta[:, None, None]*np.stack(
+                               v[:, 0]*grad_v[:, 0, 1] - v[:, 1]*grad_v[:, 0, 0]], axis=1)*(chosen.transport == MENDED)
+    varies = not constant_viscosity(method.law) and chosen.transport == MENDED
+    tau = varies*eta[:, None, None]*np.stack(
         [[-grad_v[:, 1, 1], grad_v[:, 1, 0]], [grad_v[:, 0, 1], -grad_v[:, 0, 0]]]).transpose(2, 0, 1)
     adjoint = np.stack([turn, np.ones_like(turn)], axis=1)[:, :, None]
     both = {name: q[:, None] + q[origin][None] for name, q in {"rho": rho, "per_c": 1/c, "eta": eta, "k": kappa, "e": e}.items()}

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
-from particles.integral.bodies import CLEAR, between_circles, end_rows, held, in_disc, together, turning, with_surface
+from particles.integral.bodies import CLEAR, between_circles, held, in_disc, together, turning, with_surface
 from particles.integral.dih import Dih, Pairwise
 from particles.integral.edge_makers import renormalised
 from particles.integral.points import jittered, lattice
@@ -147,7 +147,8 @@ def test_a_body_that_turns_with_the_fluid_around_it_feels_nothing():
 def test_bodies_that_touch_do_not_rub():
     """The outer rows of two plates are neighbours through the periodic side; sliding against each other they feel no force."""
     points = lattice((8, 10))
-    lower, upper = end_rows(points, 2)
+    y = points.x[:, 1]
+    lower, upper = np.flatnonzero(y < -3), np.flatnonzero(y > 3)
     plates = together(held(lower, (-0.1, 0.0), 1.0), held(upper, (0.1, 0.0), 1.0))
     fluid = Stream(x=points.x, edges=renormalised(points, Lucy.of(h=2.0)), eos=IdealGas(), law=LAW, held=plates)
     _, sums = rates(fluid, fluid.state(1.0, np.zeros((points.n, 2)), 1.0))
@@ -170,20 +171,10 @@ def test_bad_bodies_are_refused():
         with_surface((10, 12), 0.3)
     with pytest.raises(ValueError, match=r"radius 2 and 3\.5 leave no point"):
         between_circles((10, 12), 2.0, 3.5)
-    with pytest.raises(ValueError, match="6 fixed rows on either side of 12"):
-        end_rows(at, 6)
     with pytest.raises(ValueError, match=r"chi must not be negative, got -0\.1"):
         stream(chi=-0.1)
     with pytest.raises(ValueError, match="a state of 5 points"):
         stream().start(5, Team(1))
-
-
-def test_rows_at_both_ends():
-    lower, upper = end_rows(lattice((3, 8)), 2)
-    y = lattice((3, 8)).x[:, 1]
-    assert set(y[lower]) == {-3.5, -2.5} and set(y[upper]) == {3.5, 2.5}
-    both = together(held(lower, (-1.0, 0.0), 1.0), held(upper, (1.0, 0.0), 2.0))
-    assert both.v[:, 0].sum() == 0 and set(both.T) == {1.0, 2.0}
 
 
 # --- sliding sides ------------------------------------------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 import numpy as np
 import pytest
 
-from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerBulk, PowerLaw, VanDerWaals, bulk_viscosity
+from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals, bulk_viscosity
 from particles.integral.dih import Dih, Nested, Pairwise
 from particles.integral.edge_makers import MAKERS
 from particles.integral.points import jittered, lattice
@@ -77,8 +77,7 @@ def test_viscous_and_heat_operators_are_those_of_the_equations(transport):
     np.testing.assert_allclose(found[3], -0.4*k**2*(warm - 1), atol=0.4*k**2*1e-3*0.02)
 
 
-@pytest.mark.parametrize(("transport", "zeta"), [("nested", 0.0), ("nested", 0.1), ("nested", PowerBulk(0.2, n=1.0)),
-                                                 ("pairwise", 0.0)])
+@pytest.mark.parametrize(("transport", "zeta"), [("nested", 0.0), ("nested", 0.1), ("pairwise", 0.0)])
 def test_a_viscosity_that_varies_drags_as_the_equations_say(transport, zeta):
     """div of the stress with eta proportional to T^1/2 over a wave of T and waves of v across and along it: second order.
 

@@ -11,11 +11,13 @@ from particles.integral.brackets import Powers
 from particles.integral.dih import Pairwise
 from particles.integral.edge_makers import plain
 from particles.integral.edges import between_plates
+from particles.integral.exchange import PRINTED
 from particles.integral.interpolants import OrderingWarning
-from particles.integral.layer import Layer
+from particles.integral.layer import Layer, edge_by_edge
 from particles.integral.points import jittered, lattice
 from particles.integral.rr98_moving import DRIFTS, ConstantMassDrift, Drift
 from particles.integral.rr98_moving_plain import MOTIONS, ConstantMass, scale_of
+from particles.integral.transposed_stress import MENDED
 from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Plan, run
@@ -84,7 +86,7 @@ def alike(found, expected):
 @pytest.mark.parametrize("law", [LAW, PowerLaw(0.3, 0.2, 0.5, 1.0)], ids=["const-eta", "power-law"])
 @pytest.mark.parametrize(("kind", "eos"), [*((kind, IdealGas()) for kind in DRIFTS), ("constant-mass", VanDerWaals())])
 def test_compiled_sums_are_those_of_the_slow_twin(kind, eos, law, mended):
-    fast = drift(kind, eos=eos, law=law, mended=mended)
+    fast = drift(kind, eos=eos, law=law, transport=MENDED if mended else PRINTED)
     slow = MOTIONS[kind](box=COUNTS, weight=WEIGHT, eos=eos, law=law, scale=SCALE, transport=Pairwise(mended=mended))
     state = shaken(fast)
     given = slow.state(AT.x, *fields())
@@ -114,9 +116,9 @@ def test_literal_points_between_plates_are_fixed_ones_that_are_moved(law, mended
     x, weight = inner(AT.x), WendlandC2.of(h=2.9)
     edges, beyond = between_plates(plain, x, COLUMNS, ROWS, weight)
     scaled, images = (replace(q, S=SCALE*q.S, k=SCALE*q.k) for q in (edges, beyond))
-    fixed = Layer(x=x, edges=scaled, beyond=images, eos=IdealGas(), law=law, T_plates=(1.5, 0.5), g=0.02, mended=mended,
-                  fast=False)
-    method = drift(inside=True, law=law, mended=mended)
+    fixed = Layer(x=x, edges=scaled, beyond=images, eos=IdealGas(), law=law, T_plates=(1.5, 0.5), g=0.02,
+                  transport=MENDED if mended else PRINTED, form=edge_by_edge)
+    method = drift(inside=True, law=law, transport=fixed.transport)
     state = method.state(x, *fields())
     expected = np.zeros((4, len(x)))
     fixed.start(len(x), Team(1)).rates(state[[4, 2, 3, 5]], expected)

@@ -16,11 +16,13 @@ from particles.dissipative.stream import DpdStream
 from particles.fields import kinetic
 from particles.fields import kinetic_energy as of_fields
 from particles.integral.bodies import held
+from particles.integral.booked import Booked, BookedSides
 from particles.integral.closed_faces import Moving
 from particles.integral.dih import Dih
-from particles.integral.dih_plates import DihPlates
+from particles.integral.driven import Driven
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import between_plates
+from particles.integral.isothermal import Carried, Isothermal
 from particles.integral.layer import Layer
 from particles.integral.points import jittered, lattice
 from particles.integral.rr98_moving import DRIFTS, Drift
@@ -28,7 +30,7 @@ from particles.integral.rr98_moving_plain import MOTIONS
 from particles.integral.sheared import Sheared
 from particles.integral.stream import Stream
 from particles.integral.thermal import Thermal
-from particles.observe import particle_kinetic, smoothed
+from particles.observe import particle_kinetic
 from particles.smooth.spam import Spam
 from particles.threads import Team
 from particles.walls.periodic import periodic
@@ -43,10 +45,13 @@ INSIDE = dict(zip(("edges", "beyond"), between_plates(renormalised, SQUARE.x, CO
               x=SQUARE.x, T_plates=(1.2, 0.8), g=0.01, **FLUID)
 
 #: methods on points that stay, and on points that move: state(rho, v, T), state(x, rho, v, T)
-FIXED = {"dih": Dih(edges=EDGES, **FLUID), "plates": DihPlates(**INSIDE), "layer": Layer(**INSIDE),
+FIXED = {"dih": Dih(edges=EDGES, **FLUID), "layer": Layer(**INSIDE),
          "thermal": Thermal(edges=EDGES, k=1e-3, seed=1, **FLUID),
          "stream": Stream(x=SQUARE.x, edges=EDGES, held=held(np.array([0])), **FLUID),
-         "sheared": Sheared(points=SQUARE, edges=EDGES, rate=0.1, **FLUID)}
+         "sheared": Sheared(points=SQUARE, edges=EDGES, rate=0.1, **FLUID), "driven": Driven(**INSIDE),
+         "booked": Booked(x=SQUARE.x, edges=EDGES, held=held(np.array([0])), **FLUID),
+         "booked-sides": BookedSides(points=SQUARE, edges=EDGES, rate=0.1, **FLUID)}
+COLD = Isothermal(x=SQUARE.x, edges=EDGES, terms=(Carried(2.0),))
 MOVING = {**{f"rr98-{name}": Drift(motion=motion, **EVERYWHERE) for name, motion in DRIFTS.items()},
           **{f"plain-{name}": kind(box=BOX, weight=WendlandC2.of(h=2.9), **FLUID) for name, kind in MOTIONS.items()},
           "closed-faces": Moving(**EVERYWHERE)}
@@ -86,6 +91,12 @@ def test_moving_points_give_back_what_their_state_was_made_of(method):
     assert np.array_equal(fields.x, AT.x)
 
 
+def test_a_fluid_without_heat_has_no_temperature():
+    rho, v, _ = given(SQUARE.n)
+    fields = COLD.fields(COLD.state(rho, v))
+    same(fields, rho, v, np.full(SQUARE.n, np.nan))
+
+
 def test_smooth_particles_have_the_density_of_their_own_sums():
     _, v, T = given(AT.n)
     state = SPAM.state(AT.x, 1.0, v, T)
@@ -97,13 +108,6 @@ def test_smooth_particles_have_the_density_of_their_own_sums():
     still = SPAM.fields(SPAM.state(SQUARE.x, 1.0, v, T))
     assert np.ptp(still.rho) < 1e-14 and abs(still.rho[0] - 1) < 0.02
     np.testing.assert_allclose(still.T, T, atol=2*0.02)
-
-
-def test_smoothed_fields_of_a_uniform_fluid_are_its_own():
-    one, v = np.ones(AT.n), np.full((AT.n, 2), 0.3)
-    at = smoothed(SPAM, SPAM.state(AT.x, 1.0, v, one))
-    np.testing.assert_allclose(at.v, v, rtol=1e-13)
-    assert np.array_equal(at.x, AT.x)
 
 
 @pytest.mark.parametrize("method", DPD.values(), ids=DPD)
@@ -139,7 +143,7 @@ def kinds():
 
 
 def test_no_method_is_left_out():
-    tried = {type(method) for method in (*FIXED.values(), *MOVING.values(), *DPD.values(), SPAM)}
+    tried = {type(method) for method in (*FIXED.values(), *MOVING.values(), *DPD.values(), SPAM, COLD)}
     assert kinds() <= tried, f"{kinds() - tried} have states, add them to the methods of this test"
 
 

@@ -12,12 +12,10 @@ from particles.integral.points import jittered, lattice
 from particles.limits import limit_of
 from particles.run import Plan, run
 from particles.weights import Lucy
-from studies.noise.fluctuations.algebra import edges_between
-from studies.noise.fluctuations.given_sampled import apart, sampled, slowest_amplitude
-from studies.noise.fluctuations.given_sampled import factor as factor_of
-from studies.noise.fluctuations.matrices import noise, states_of_fields, transport
-from studies.noise.fluctuations.modes import check_modes, directions, plane_waves
-from studies.noise.fluctuations.steps import line_symbols
+from studies.noise.flows import apart, root, sampled, slowest_amplitude
+from studies.noise.modes import check_modes, directions, plane_waves
+from studies.noise.partners import edges_between, noise, states_of_fields, transport
+from studies.noise.printed import line_symbols
 
 U = 0.5
 
@@ -60,11 +58,11 @@ def wave_of(n: int = 6) -> tuple[np.ndarray, np.ndarray]:
 def test_real_and_imaginary_parts_have_the_covariance_of_complex_waves():
     """Of real parts it is Re C/2, of real with imaginary ones -Im C/2."""
     J, Q = wave_of()
-    B = apart(factor_of(Q))/np.sqrt(2)
-    assert factor_of(Q)@factor_of(Q).conj().T == pytest.approx(Q, abs=1e-12)
+    B = apart(root(Q))/np.sqrt(2)
+    assert root(Q)@root(Q).conj().T == pytest.approx(Q, abs=1e-12)
     assert steady(apart(J), B@B.T) == pytest.approx(apart(steady(J, Q))/2, abs=1e-8)
     with pytest.raises(ArithmeticError, match="no noise has a negative variance"):
-        factor_of(Q - 1.01*np.linalg.eigvalsh(Q)[0]*np.eye(len(Q)))
+        root(Q - 1.01*np.linalg.eigvalsh(Q)[0]*np.eye(len(Q)))
 
 
 def test_samples_of_complex_waves_have_the_variances_of_the_lyapunov_solve():

@@ -3,8 +3,7 @@ import numpy as np
 import pytest
 
 from particles.dissipative.dpd import Dpd
-from studies.noise.fluctuations.arithmetic import inner_k
-from studies.noise.fluctuations.special import SCALE, blocks, neighbours, partner, special, unmodified, viscosities
+from studies.noise.formulas import SCALE, blocks, inner_k, neighbours, partner, special, unmodified, viscosities
 
 
 @pytest.mark.parametrize("d", [2, 3])

@@ -4,17 +4,15 @@ import pandas as pd
 import pytest
 from scipy.integrate import quad
 
-from studies.hardcases.map import figures as map_figures
-from studies.hardcases.map import part as map_part
-from studies.hardcases.map.claims import CLAIMS, COARSE
-from studies.hardcases.map.derive import derive, finished_grids
-from studies.hardcases.map.ends import Ending
-from studies.hardcases.map.methods import TAKES, Body, flow, kinetic
-from studies.hardcases.map.scenes import BOXES, LAYERS, SOUND, Strip, Vortex
-from studies.hardcases.map.shear import BEGIN, Amplitude, ShearFlow, U, fastest
-from studies.hardcases.map.torus import Going, OnTorus
+from studies.hardcases.claims import MAP, SQUARES
+from studies.hardcases.derive import derive
+from studies.hardcases.figures import figures
+from studies.hardcases.grids import Going, OnTorus
+from studies.hardcases.methods import TAKES, Body, flow, kinetic
+from studies.hardcases.points import amplitude
+from studies.hardcases.scenes import BEGIN, BOXES, LAYERS, SOUND, ShearFlow, Strip, U, Vortex, fastest
+from studies.hardcases.square import Neighbours
 from studies.kit.claim import judged
-from studies.kit.sweep import RESULTS, load
 from studies.kit.table import Tables
 
 
@@ -138,34 +136,26 @@ def test_the_map_says_which_grid_it_is_held_against_what_was_not_judged_and_what
             run(case="Prandtl 0.01", method="grid", rows=48, flow=np.nan, reached=0.9)]
     tables = Tables(hard_runs=pd.DataFrame(runs))
     tables["map"] = pd.DataFrame(derive(tables)["map"])
-    said = words(map_figures.figures(tables)["map"])
+    said = words(figures(tables)["map"])
     assert "grid of 32" in said and "?: not judged" in said and "empty: not run" in said and "Which method" in said
 
 
-@pytest.mark.skipif(not (RESULTS/"hardcases"/"hard_runs.csv").exists(), reason="no tables are committed yet")
-def test_claims_name_the_coarse_grid_that_they_rest_on():
-    runs = load(map_part.PART.tables, "hardcases")["hard_runs"]
-    for case, said in COARSE.items():
-        assert f"the grid has {finished_grids(runs, case).index.max()} rows" in said
-        named = [claim for claim in CLAIMS if claim.id.startswith(f"map-{case.lower().replace(' ', '-')}-")]
-        assert named and all(claim.statement.endswith(said) for claim in named)
-
-
-@pytest.mark.parametrize("swing, before, verdict", [(0.0026, 0.0433, "undecidable"), (0.0026, 0.0036, "holds"),
-                                                    (0.06, 0.05, "fails"), (0.06, 0.001, "undecidable")])
+@pytest.mark.parametrize("swing, before, verdict", [(0.0026, 0.0433, "undecidable"), (0.06, 0.05, "holds"),
+                                                    (0.0026, 0.0036, "fails"), (0.06, 0.001, "undecidable")])
 def test_a_swing_is_as_uncertain_as_the_quarter_before_says(swing, before, verdict):
-    rows = pd.DataFrame([{"ra": 1e5, "rows": 32, "step": 1.0, "swing": swing, "before": before, "reached": 1.0}])
-    row = judged({claim.id: claim for claim in CLAIMS}["map-grid-steady"], Tables(steadiness=rows))
+    rows = pd.DataFrame([{"ra": 3.5e5, "rows": 16, "swing": swing, "before": before, "reached": 1.0}])
+    row = judged({claim.id: claim for claim in MAP}["map-grid-fluctuates"], Tables(steadiness=rows))
     assert row["verdict"] == verdict and row["err"] == pytest.approx(abs(swing - before))
 
 
 def test_claims_of_the_map_can_fail():
-    claims = {claim.id: claim for claim in CLAIMS}
+    claims = {claim.id: claim for claim in MAP}
     for flow_, verdict in ((0.0100, "holds"), (0.0050, "fails")):
-        rows = [run(flow=flow_), *(run(method="grid", rows=rows) for rows in (32, 48))]
+        case = "high pressure"
+        rows = [run(case=case, flow=flow_), *(run(case=case, method="grid", rows=rows) for rows in (32, 48))]
         tables = Tables(hard_runs=pd.DataFrame(rows))
         tables["map"] = pd.DataFrame(derive(tables)["map"])
-        assert judged(claims["map-ra-1e5-fixed-lattice"], tables)["verdict"] == verdict
+        assert judged(claims["map-high-pressure-fixed-lattice"], tables)["verdict"] == verdict
 
 
 def test_the_growth_of_a_wave_on_a_shear_flow_follows_from_its_own_equation():
@@ -181,10 +171,23 @@ def test_the_shear_flow_has_its_wave_and_no_divergence():
     assert np.abs(div/(2*d)).max() < 1e-9
     place = np.stack(np.meshgrid(np.arange(32) - 15.5, np.arange(16) - 7.5), axis=-1).reshape(-1, 2)
     body = Body(place, np.stack(scene.flow(*place.T), axis=1), np.ones(512))
-    assert Amplitude.of(body, scene.k/2) == pytest.approx(BEGIN*U/2, rel=1e-6)  # half, being real; harmonic 16 aliases
+    assert amplitude(body, scene.k/2) == pytest.approx(BEGIN*U/2, rel=1e-6)  # half, being real; harmonic 16 aliases
 
 
-def test_a_fast_flow_ends_runs_whose_step_it_overtakes():
-    row = Ending(method="fixed lattice").run(lambda done: None, None).rows["map_ends"][0]
-    assert 0.7 < row["reached"] < 0.9 and row["beyond"] > 1
-    assert row["cell_re"] == pytest.approx(row["speed"]*SOUND/0.016) and 0.5 < row["speed"] < 1
+# --- the square of Fig. 10 ----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("flow, rolls, verdict", [(0.02, 1, "holds"), (0.02, 2, "fails"), (0.0003, 2, "undecidable"),
+                                                  (0.0003, 1, "undecidable")])
+def test_rolls_of_a_flow_that_has_stopped_are_not_counted(flow, rolls, verdict):
+    squares = pd.DataFrame([{"eos": "IdealGas", "weight": "Monaghan", "ra": 1e4, "begun": 0.03, "flow": flow, "rolls": rolls,
+                             "shared": 0.92}])
+    row = judged({claim.id: claim for claim in SQUARES}["khp95-hard-fig10-one-roll"], Tables(squares=squares))
+    assert row["verdict"] == verdict and ("stopped" in row["reason"]) == (verdict == "undecidable")
+
+
+def test_pairs_are_told_from_single_particles():
+    x = np.stack(np.meshgrid(np.arange(50) - 24.5, np.arange(50) - 24.5), axis=-1).reshape(-1, 2)
+    alone, twice = Neighbours.of(x, len(x)), Neighbours.of(np.concatenate([x, x + 0.01]), 2*len(x))
+    assert alone.ratio.value == pytest.approx(1.0) and alone.shared == 0
+    assert twice.ratio.value > 50 and twice.shared == 1

@@ -1,18 +1,28 @@
-"""Shocks against jumps: the exact tube, the viscous tube, ripples and their impulse."""
+"""Shocks: against jumps, by all methods, ripples and their impulse. High Ra: how a limit is sought."""
 import numpy as np
 import pandas as pd
 import pytest
 
 from continuum.exact.riemann import Gas, density, middle, shock_speed, solution
 from continuum.fluid import ConstEta, IdealGas
-from studies.hardcases.interface.runs import divide, gases, impulse, ripple
-from studies.hardcases.tube.grid import march, primitive, rates
-from studies.hardcases.tube.spam import overlap, tube
-from studies.lattices import derive as hard_derive
+from particles.fields import Fields
+from studies.hardcases import cases, high_ra, tubes
+from studies.hardcases.claims import SHOCKS
+from studies.hardcases.derive import high_ra_summary, ripple_growth
+from studies.hardcases.interface import divide, gases, impulse, ripple
+from studies.hardcases.sod import DENSE, EOS, GAMMA, THIN, exact, march, overlap, primitive, rates, tube, wiggles
+from studies.hardcases.tubes import METHODS, MethodTube, binned, centres, viscous
+from studies.kit.claim import judged
+from studies.kit.table import Tables
 
 # --- shocks -------------------------------------------------------------------------------------------------------------
 
-LEFT, RIGHT, GAMMA = Gas(1.0, 0.0, 1.0), Gas(0.125, 0.0, 0.1), 1.4
+LEFT, RIGHT = DENSE, THIN
+SHORT = 12
+
+
+def quiet(done: float) -> None:
+    """No progress."""
 
 
 def test_riemann_solution_of_sod_is_the_published_one():
@@ -93,5 +103,115 @@ def test_growth_of_a_ripple_is_a_slope_over_that_of_theory():
     late = np.maximum(t - theory.meets, 0)
     frame = pd.DataFrame({"time": t, "height": -theory.fall*t + 1.1*theory.kick*late,
                           "amplitude": theory.amplitude + 0.8*theory.growth*late, "scale": 1.0, "steep": 0.25, "seed": 1})
-    row = next(hard_derive.ripple_growth(frame))
+    row = next(ripple_growth(frame))
     assert row["kick"] == pytest.approx(1.1) and row["growth"] == pytest.approx(0.8) and row["amplitude"] == pytest.approx(1.0)
+
+
+# --- tubes --------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_every_method_has_sods_waves_and_the_gas_that_it_began_with(method):
+    """Viscous fields of a fine grid to a few hundredths; mass and energy of both gases to round-off."""
+    seen = METHODS[method](SHORT, ConstEta(0.5, 0.5), 1, 0.5, quiet)
+    rho, v, P = seen.fields
+    assert seen.reached == 1
+    np.testing.assert_allclose(np.abs(seen.fields - viscous(SHORT, 0.5)).mean(axis=1), 0, atol=0.03)
+    loose = 0.02 if method in cases.RANDOM else 1e-10      # cells have not all one volume
+    assert rho.sum()/SHORT == pytest.approx(DENSE.rho + THIN.rho, rel=loose)
+    if method != "grid":        # whose energies are at nodes
+        inner = (P*EOS.cv + rho*v**2/2).sum()/SHORT
+        assert inner == pytest.approx(EOS.cv*(DENSE.P + THIN.P), rel=max(loose, 1e-4))
+
+
+def test_nothing_happens_in_a_uniform_gas(monkeypatch):
+    """The same pressure and density everywhere stay, on disordered points too."""
+    monkeypatch.setattr("studies.hardcases.tubes.THIN", DENSE)
+    for method in METHODS:
+        if method != "grid":
+            _, v, P = METHODS[method](SHORT, ConstEta(0.0, 0.0), 1, 0.5, quiet).fields
+            np.testing.assert_allclose(v, 0, atol=1e-9)
+            np.testing.assert_allclose(P, DENSE.P, rtol=1e-9)
+
+
+def test_points_are_binned_by_volume_and_both_tubes_count():
+    def at(x, V, rho, v, T):
+        columns = np.stack([x, np.zeros(len(x))], axis=1), np.stack([v, np.zeros(len(x))], axis=1)
+        return Fields(*columns, np.array(rho), np.array(T), np.array(V))
+    rho, v, P = binned(1, at([0.5, -0.5, 1.5], [1.0, 0.5, 0.8], [1.0, 2.0, 5.0], [0.5, -1.5, 0.5], [2.0, 3.0, 1.0]))
+    np.testing.assert_allclose(rho, [2/1.5, 5.0])
+    np.testing.assert_allclose(v, [1.0, 0.5])
+    np.testing.assert_allclose(P, [5/1.5, 5.0])
+    wide = binned(2, at([0.5, 2.5], [1.0, 3.0], [1.0, 1.0], [1.0, 2.0], [1.0, 1.0]))
+    np.testing.assert_allclose(wide[1], [1, 2, 2, 2])
+
+
+def test_wiggles_are_the_variation_beyond_the_exact_one():
+    v = exact(SHORT, centres(SHORT))[1]
+    assert wiggles(v, v) == 0 and wiggles(v + 0.1*(-1)**np.arange(2*SHORT), v) > 1
+
+
+def test_a_claim_about_tubes_that_ended_is_undecidable_and_they_are_counted():
+    row = MethodTube(method="fixed lattice", L=SHORT, eta=0.5).run(quiet, None).rows["method_tubes"][0]
+    claims = {claim.id: claim for claim in SHOCKS}
+    longest = {**row, "L": 96}
+    good = judged(claims["sod-fixed-lattice-grid"], Tables(method_tubes=pd.DataFrame([longest])))
+    assert good["verdict"] in ("holds", "fails") and good["measured"] < 0.1
+    ended = Tables(method_tubes=pd.DataFrame([{**longest, "eta": 0.0, "step": 0.125, "reached": 0.4}]))
+    assert judged(claims["sod-fixed-lattice-robust-short"], ended)["measured"] == 1
+    assert judged(claims["sod-fixed-lattice-grid"], ended)["verdict"] == "undecidable"
+
+
+def test_barely_viscous_gas_has_a_cell_number_of_two_behind_the_shock():
+    between = middle(DENSE, THIN, GAMMA)
+    assert between.v/(tubes.BARELY/between.right) == pytest.approx(2, rel=0.01)
+
+
+# --- high Ra ------------------------------------------------------------------------------------------------------------
+
+
+def test_a_limit_is_found_where_runs_turn_bad_and_each_runs_once(monkeypatch):
+    runs = []
+
+    def method(ra, seed, step):
+        runs.append(ra)
+        return high_ra.Attempt(0.01*(1 if ra < 2e5 else 1.5), 1.0 if ra < 3e6 else 0.5)
+    monkeypatch.setitem(high_ra.METHODS, "made up", method)
+    monkeypatch.setattr(high_ra, "should_be", lambda ra: 0.01)
+    rows = {row["kind"]: row for row in high_ra.HighRa(method="made up", seed=1).run(quiet, None).rows["high_ra"]}
+    assert rows["wrong"]["ra"] == pytest.approx(2e5, rel=0.01) and rows["ends"]["ra"] == pytest.approx(3e6, rel=0.01)
+    assert all(0 < row["ra_err"] < 0.01*row["ra"] for row in rows.values()) and len(runs) == len({f"{ra:.9g}" for ra in runs})
+
+
+def test_no_limit_is_said_where_none_is():
+    search = high_ra.Search("grid", 1, 1.0)
+    search.trials = {ra: high_ra.Attempt(0.01, 1.0) for ra in (1e4, 1e5)}
+    limit = search.limit(search.ends, 1e8)
+    assert np.isnan(limit["ra"]) and limit["tried"] == 1e5 and limit["outcome"] == "none"
+
+
+def test_a_limit_is_the_first_bad_trial_though_later_ones_are_good():
+    search = high_ra.Search("grid", 1, 1.0)
+    trials = ((4e4, 1.0), (1e4, 1.0), (9e4, 0.3), (2e5, 1.0), (1e6, 0.1))
+    search.trials = {ra: high_ra.Attempt(0.01, reached) for ra, reached in trials}
+    limit = search.limit(search.ends, 1e8)
+    assert limit["ra"] == pytest.approx(6e4) and limit["ra_err"] == 2.5e4 and limit["again"] == 1 and limit["outcome"] == "ends"
+
+
+def test_expected_is_where_the_fastest_flow_has_a_cell_number_of_two():
+    grid = pd.DataFrame({"ra": [1e4, 1e5, 1e6], "rows": high_ra.FINER, "cell_number": [2.0, 2*10**0.5, 20.0]})
+    limits = pd.DataFrame([{"method": "grid", "step": 1.0, "seed": seed, "kind": kind, "ra": ra, "tried": 1e8,
+                            "outcome": "wrong but stable"} for seed, kind, ra in (
+        (1, "wrong", 1e5), (2, "wrong", 4e5), (1, "ends", 1e5), (2, "ends", np.nan))])
+    rows = {row["kind"]: row for row in high_ra_summary(limits, grid)}
+    assert rows["wrong"]["predicted"] == pytest.approx(1e4) and rows["wrong"]["ra"] == pytest.approx(2e5)
+    assert rows["wrong"]["outcome"] == "wrong but stable" and rows["ends"]["seeds"] == 1
+    assert rows["wrong"]["cell_number"] == pytest.approx((2*10**0.5 + 2*40**0.5)/2)
+
+
+@pytest.mark.parametrize("method", high_ra.METHODS)
+def test_methods_convect_alike_where_rows_suffice(method, monkeypatch):
+    """A few free-fall times at Ra 1e4: K within a fifth of the grid's: moving points begin a tenth too fast."""
+    monkeypatch.setattr(high_ra, "TIME", 8.0)
+    found, grid = high_ra.METHODS[method](1e4, 1, 1.0), high_ra.gridded(1e4, 2, 1.0)
+    assert found.reached == 1 and found.k == pytest.approx(grid.k, rel=0.2)

@@ -16,8 +16,7 @@ MENDING = {"studies.conservation.bodies.drag", "studies.hardcases.interface.runs
            "studies.hardcases.square.claims", "studies.hardcases.square.runs", "studies.hardcases.tube.spam",
            "studies.lattices.cases", "studies.lattices.claims", "studies.lattices.derive", "studies.lattices.long_sound",
            "studies.lattices.ringing_part", "studies.operators.transport.walls", "studies.ordering.derive",
-           "studies.ordering.vortices", "studies.ordering.waves", "studies.rb.claims.printed", "studies.rb.claims.snapshots",
-           "studies.rb.cost", "studies.rb.looks", "studies.rb.tables"}
+           "studies.ordering.vortices", "studies.ordering.waves", "studies.rb.looks", "studies.rb.tables"}
 
 
 def named(path: Path) -> str:

@@ -8,7 +8,6 @@ from particles.observe import (
     Grid,
     PlateHeat,
     Profile,
-    conserved,
     field_kinetic,
     fields_at,
     heat_flow,
@@ -70,14 +69,6 @@ def test_heat_flow_of_rest_is_conduction():
     unit = k/24
     edge = k*np.sum(-sums.gradient[:sums.n, 5]/sums.around.rho[:sums.n])/(48*24)/unit
     assert heat_flow(sums, state)/unit == pytest.approx(edge, rel=1e-12)
-
-
-def test_conserved_sums(measured):
-    sums, state = measured
-    mass, px, py, energy = conserved(sums, state)
-    assert mass == state.shape[1]
-    assert (px, py) == pytest.approx((state[2].sum(), state[3].sum()))
-    assert energy == pytest.approx(np.sum((state[2]**2 + state[3]**2)/2 + state[4] + sums.method.g*state[1]))
 
 
 def test_profile_of_a_linear_temperature(measured):

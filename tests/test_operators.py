@@ -1,31 +1,46 @@
-"""The study operators: what its measurements rest on, a quick rebuild of its tables, and the committed verdicts."""
+"""What the measurements of the study operators rest on: sums against transforms, double loops, time steps."""
 import re
+from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
-import studies.operators.cases as operators
 from continuum.fluid import ConstEta, IdealGas
-from particles.integral.dih import Dih, Nested
+from continuum.scene import RayleighBenard
+from particles.fields import kinetic
+from particles.integral.dih import Dih, Flow, Nested, carried, take
 from particles.integral.edge_makers import MAKERS, plain, printed, renormalised
 from particles.integral.interpolants import Exponential, Gaussian, W
 from particles.integral.points import jittered, lattice
+from particles.limits import limit_of
+from particles.run import Plan, run
+from particles.threads import Team
 from particles.weights import Lucy, WendlandC2
-from studies.kit.claim import judge
-from studies.kit.sweep import RESULTS, load
-from studies.kit.table import Tables, read
-from studies.operators import tables
+from studies.build.fixed import SCHEMES, fluid
+from studies.kit.table import Tables
+from studies.operators.cases import SHARES
+from studies.operators.claims import CLAIMS
+from studies.operators.claims.scheme import STILL, smallest_share
 from studies.operators.derive import extrapolated
 from studies.operators.equations import PRINTED, arriving, derivative
-from studies.operators.exchange import kept, viscosities, works
-from studies.operators.printed import brackets, force, heat, inner, kernel, mass_rate
-from studies.operators.stability import euler_limit, linear_rate, sound
-from studies.operators.symbols import gradient_symbol, slopes, spread_symbol, twice_symbol
-from studies.operators.weights import around, epstein, interpolated, line_weight, shells, smoothed
-from studies.ordering import claims as ordering_claims
+from studies.operators.exchange import kept, one_kernel, viscosities
+from studies.operators.lattice import (
+    around,
+    epstein,
+    gradient_symbol,
+    line_weight,
+    shells,
+    slopes,
+    spread_symbol,
+    twice_symbol,
+)
+from studies.operators.printed import brackets, force, heat, inner, kernel, mass_rate, stream
+from studies.operators.stability import LayerGrowth, euler_limit, jacobian, linear_rate, sound, zigzag
+from studies.operators.weights import interpolated, smoothed
 
-#: of RR98, with those of the study ordering; 20-25 and 42-44 are of fluctuations, 39-50 of motion and time
-EQUATIONS = {*range(1, 20), *range(26, 39), 40, 51}
+#: of RR98; 20, 22-25 and 42-44 are of noise, 39, 41 and 46-50 of motion, 45 of ordering
+EQUATIONS = {*range(1, 20), 21, *range(26, 39), 40, 51}
 
 
 # --- weights ------------------------------------------------------------------------------------------------------------
@@ -76,6 +91,15 @@ def test_lattice_sums_are_those_of_the_edges(d):
         assert spread.real == pytest.approx(spread_symbol(w, near, k), rel=1e-12)
         nested = (edges.div(edges.grad(wave.real))@wave.real)/(wave.real@wave.real)/k**2
         assert -nested == pytest.approx(twice_symbol(slopes(w, near, 16), k), rel=1e-12)
+
+
+def test_the_printed_exponential_weight_is_the_slope_of_its_interpolant():
+    """[Eqs 3, 4, 30, 31]: W = (2/r^3 + 1/r^2) e^-r/4 pi in units of r0, of f = e^-r/(4 pi r^2), by central differences."""
+    r, step, weight = np.linspace(0.3, 5, 20), 1e-5, Exponential(1.0, 3)
+    as_printed = (2/r**3 + 1/r**2)*np.exp(-r)/(4*np.pi)
+    f = [np.exp(-x)/(4*np.pi*x*x) for x in (r - step, r + step)]
+    np.testing.assert_allclose((f[0] - f[1])/(2*step), as_printed, rtol=1e-6)
+    np.testing.assert_allclose(W(weight, r), as_printed, rtol=1e-12)
 
 
 # --- sums written out -----------------------------------------------------------------------------------------------------
@@ -150,13 +174,33 @@ def test_euler_limit_is_where_a_wave_begins_to_grow():
 # --- exchange --------------------------------------------------------------------------------------------------------------
 
 
-def test_uniform_streams_tell_edges_that_close_from_others():
+def test_uniform_streams_stay_on_edges_that_close_alone():
     at, weight = jittered((8, 9), 0.3, 1), WendlandC2.of(h=2.7)
     assert kept(MAKERS["delaunay"](at, weight), Nested())["uniform"] < 1e-13
     assert kept(MAKERS["plain"](at, weight), Nested())["uniform"] > 0.1
-    found = works(MAKERS["plain"](at, weight), 1)
-    assert found["work"] < 1e-14 < 0.01 < min(found["own"], found["mass"])
-    assert found["one_kernel"] > 1e-4
+    assert one_kernel(MAKERS["plain"](at, weight), 1) > 1e-4
+
+
+@pytest.mark.parametrize("make", [plain, renormalised])
+def test_a_uniform_stream_does_no_work_of_pressure_on_any_points(make):
+    """[Eq. 36]: P_ij v_i, not P_i v_i; edges that do not close push the fluid, and the work is that of the push."""
+    edges = make(jittered((10, 12), 0.3, 2), WendlandC2.of(h=2.7))
+    rho, T = np.random.default_rng(2).uniform(0.5, 1.5, (2, edges.n))
+    U = np.array([0.6, 0.8])
+    flow = Flow(rho, np.ones((edges.n, 1))*U, T, np.zeros(edges.n), rho*T)      # no energy to carry
+    still = flow._replace(v=0*flow.v)
+    stream, rest = (carried(IdealGas(), edges.S, take(one, edges.i), take(one, edges.j)) for one in (flow, still))
+    push = arriving(edges, rest.momentum)@U
+    assert np.abs(arriving(edges, stream.energy) - push).max() < 1e-14 < 0.01 < np.abs(push).max()
+
+
+def test_differences_in_the_inner_sum_mend_nested_transport_on_any_points():
+    """[Eqs 37, 38]: no friction in a uniform stream, no heat at uniform temperature, the same both ways, nothing grows."""
+    edges = renormalised(jittered((10, 10), 0.3, 1), WendlandC2.of(h=3.0))
+    mended, as_printed = (stream(edges, Nested(differences=differences)) for differences in (True, False))
+    assert max(mended[name] for name in ("force", "heat", "asymmetry")) < 1e-13
+    assert mended["growth"] < 1e-13
+    assert min(as_printed[name] for name in ("force", "heat", "asymmetry")) > 0.01
 
 
 def test_viscosities_of_central_forces_are_cauchys():
@@ -177,44 +221,67 @@ def test_limits_are_extrapolated_in_the_square_of_the_spacing():
     assert abs(bent.value - 2) < bent.err
 
 
-# --- the study ---------------------------------------------------------------------------------------------------------------
+# --- the layer between plates -----------------------------------------------------------------------------------------
 
 
-def test_quick_rebuild_writes_every_table(tmp_path):
-    found = operators.STUDY.run("quick", workers=1, out=tmp_path)
-    for table in tables.ALL:
-        assert set(table.columns) <= set(found[table.name].columns) and len(found[table.name]), table.name
-    assert len(operators.STUDY.draw(tmp_path)) == 4
-    (tmp_path/"operators"/"equations.csv").unlink()
-    assert len(operators.STUDY.draw(tmp_path)) == 3
-    verdicts = {row["id"]: row["verdict"] for row in operators.STUDY.judge(tmp_path)}
-    assert verdicts["rr98-eq34-36-conserved"] == verdicts["rr98-eq51-rotation-mended"] == "holds"
-    assert verdicts["rr98-eq21-sign"] == verdicts["rr98-eq37-null"] == verdicts["rr98-eq16-trace-2d"] == "fails"
+def growth(**more):
+    case = LayerGrowth(**{"h": 2.0, "rows": 8, "ra": 1500.0, "share": 1.0, **more})
+    return case.run(lambda done: None, Path()).rows["nested_growth"][0]
 
 
-def test_without_tables_nothing_is_decided_but_arithmetic():
-    rows = judge(operators.STUDY.claims, Tables(), "operators")
-    assert {row["id"] for row in rows if row["verdict"] != "undecidable"} == {"rr98-eq31-slope"}
+def test_what_eigenvalues_say_time_steps_show():
+    """h = 2 a, nested only: a disturbance grows at the rate of the fastest mode once it is alone."""
+    scene = RayleighBenard(ra=1500.0, L=8.0, aspect=1.0)
+    method = fluid(scene, SCHEMES["fixed-lattice"]._replace(share=0.0))
+    noise = 1e-7*np.random.default_rng(0).normal(size=method.x.shape)
+    state = method.state(1.0, noise, scene.T(method.x[:, 1]))
+    expected = growth(share=0.0)["growth"]*np.sqrt(2)
+    dt = 0.5*limit_of(method, state)
+    steps = round(12/expected/dt)
+    done = run(method, state, Plan(dt=dt, steps=steps, series={"ke": kinetic}, every=steps//40))
+    rate = np.polyfit(np.array(done.times)[-10:], np.log(done.series["ke"])[-10:], 1)[0]/2
+    assert rate == pytest.approx(expected, rel=0.05)       # other modes are left after 12 growth times
 
 
-def test_claims_are_their_own_and_cover_the_equations():
-    claims, others = operators.STUDY.claims, {claim.id for claim in ordering_claims.CLAIMS}
-    assert not others & {claim.id for claim in claims}
-    assert len({claim.statement for claim in claims}) == len(claims)
-    assert EQUATIONS <= {n for claim in claims for n in numbers(claim.source)}
+def test_transport_along_edges_keeps_a_lattice_at_rest():
+    assert growth()["growth"] < STILL < 1e-3 < growth(share=0.0)["growth"]
+
+
+def test_the_derivative_is_one():
+    scene = RayleighBenard(ra=1500.0, L=8.0, aspect=1.0)
+    method = fluid(scene, SCHEMES["fixed-lattice"])
+    state = method.state(1.0, np.zeros_like(method.x), scene.T(method.x[:, 1]))
+    sums = method.start(state.shape[1], Team(1))
+    change = np.random.default_rng(1).normal(size=state.shape)*1e-4
+    up, down = np.empty_like(state), np.empty_like(state)
+    sums.rates(state + change, up)
+    sums.rates(state - change, down)
+    linear = (jacobian(sums, state)@change.ravel()).reshape(state.shape)
+    assert np.abs((up - down)/2 - linear).max() < 1e-6*np.abs(linear).max()     # third order of 1e-4
+
+
+def test_zigzags_differ_from_long_waves():
+    fields = np.zeros((4, 8, 8))
+    fields[0] = np.cos(2*np.pi*np.arange(8)/8)
+    assert zigzag(fields.ravel(), 8) == pytest.approx(0, abs=1e-12)
+    fields[0] = (-1.0)**np.arange(8)
+    assert zigzag(fields.ravel(), 8) == pytest.approx(1)
+
+
+def test_the_smallest_share_is_the_one_from_which_on_nothing_grows():
+    rows = [{"h": 2.0, "share": share, "growth": 1e-3 if share < 0.1 else 1e-15} for share in SHARES]
+    assert smallest_share(Tables({"nested_growth": pd.DataFrame(rows)})) == pytest.approx((0.1, 0.03))
+
+
+# --- claims -----------------------------------------------------------------------------------------------------------
+
+
+def test_claims_cover_the_equations_of_the_study():
+    assert EQUATIONS <= {n for claim in CLAIMS for n in numbers(claim.source)}
 
 
 def numbers(source: str) -> set[int]:
     """Equations of a citation: single ones and ranges."""
-    found = {int(n) for n in re.findall(r"\b\d+\b", source.removeprefix("RR98"))}
-    for low, high in re.findall(r"(\d+)-(\d+)", source):
-        found |= set(range(int(low), int(high) + 1))
-    return found
-
-
-@pytest.mark.skipif(not (RESULTS/"operators"/"orders.csv").exists(), reason="no tables are committed yet")
-def test_committed_verdicts_follow_from_committed_tables():
-    rows = {row["id"]: row["verdict"] for row in judge(operators.STUDY.claims, load(tables.ALL, "operators"), "operators")}
-    kept_rows = read(RESULTS/"claims.csv")
-    kept_rows = kept_rows[kept_rows["study"] == "operators"]
-    assert dict(zip(kept_rows["id"], kept_rows["verdict"], strict=True)) == rows
+    singles = {int(n) for n in re.findall(r"\b\d+\b", source.removeprefix("RR98"))}
+    ranges = (range(int(low), int(high) + 1) for low, high in re.findall(r"(\d+)-(\d+)", source))
+    return singles.union(*ranges)

@@ -17,11 +17,11 @@ from particles.limits import limit_of
 from particles.run import Plan, run
 from particles.threads import Team
 from particles.weights import Lucy
-from studies.noise.fluctuations.flows import layer_noise
-from studies.noise.fluctuations.matrices import equilibrium, noise, transport
-from studies.noise.fluctuations.modes import check_modes, plane_waves
-from studies.noise.fluctuations.nonlinear import Exchange, Exchanged, dirichlet
-from studies.noise.fluctuations.sampling import check_length
+from studies.noise.flows import layer_noise
+from studies.noise.modes import check_modes, plane_waves
+from studies.noise.nonlinear import Exchange, Exchanged, dirichlet
+from studies.noise.partners import equilibrium, noise, transport
+from studies.noise.sampling import check_length
 
 
 def gas(share: float = 0.1, k: float = 1e-3, **more) -> Thermal:

@@ -6,23 +6,18 @@ import pandas as pd
 import pytest
 from scipy.special import stdtrit
 
-import studies.operators.transport.cases as transport
+from continuum.exact.shear import couette, poiseuille
+from continuum.exact.waves import QUANTITIES, Gas, continuum, quantities
 from continuum.fluid import ConstEta, ConstNu, IdealGas
 from particles.integral.dih import Dih
 from particles.integral.edge_makers import MAKERS, renormalised
 from particles.integral.points import jittered, lattice
 from particles.threads import Team
 from particles.weights import Lucy, Monaghan, WendlandC2
-from studies.build.symbols import QUANTITIES, Gas, continuum, lattice_waves, quantities
-from studies.kit.claim import judge
-from studies.kit.sweep import RESULTS, load
-from studies.kit.table import read
-from studies.operators.transport import derive as transport_derive
-from studies.operators.transport import tables as transport_tables
-from studies.operators.transport.derive import endless
-from studies.operators.transport.walls import FLOWS, SPEED, between_rows, couette, driven, poiseuille
-from studies.operators.transport.waves import Decay, propagators
-from studies.ordering.waves import DISORDERS
+from studies.build.disorder import DISORDERS
+from studies.build.symbols import lattice_waves
+from studies.operators.derive import endless, shear_orders
+from studies.operators.transport import FLOWS, SPEED, Decay, between_rows, driven, propagators
 
 GAS = Gas(0.3, 0.2, 0.4)
 
@@ -146,52 +141,14 @@ def test_limits_of_long_waves_are_those_of_their_polynomial():
     assert np.isnan(endless(length[:2], length[:2], length[:2]).value)
 
 
-@pytest.fixture(scope="module")
-def small(tmp_path_factory):
-    """The study with a few of its cases."""
-    out = tmp_path_factory.mktemp("results")
-    cases = [*(decay(name, counts=(n, 5), zeta=0.2) for name in ("nested", "pairwise") for n in (16, 20, 24)),
-             *transport.shear((6, 8, 10), (), (), ())]
-    study = replace(transport.STUDY, cases=lambda size: cases)
-    return study, study.run("quick", workers=1, out=out), out
-
-
-def test_small_study_writes_every_table(small):
-    study, found, out = small
-    for table in transport_tables.ALL:
-        assert len(found[table.name]) and set(table.columns) <= set(found[table.name].columns)
-    assert (out/"transport"/"waves.csv").read_text().startswith("# commit ")
-    assert len(study.draw(out)) == 2
-    verdicts = {row["id"]: row["verdict"] for row in study.judge(out)}
-    assert set(verdicts) == {claim.id for claim in study.claims}
-    assert verdicts["rr98-transport-symbol-nested"] == verdicts["rr98-transport-symbol-pairwise"] == "holds"
-
-
 def test_an_order_between_plates_takes_every_run():
     """Three runs of a size, errors 3/rows^2 up to a factor: the interval of one fit is that of least squares over all of them."""
     rng, sizes = np.random.default_rng(1), np.repeat([8, 16, 32], 3)
     factor = np.exp(rng.normal(0, 0.1, len(sizes)))
     rows = pd.DataFrame({"flow": "couette", "points": "some", "time": 0.1, "rows": sizes, "seed": np.tile([1, 2, 3], 3),
                          "rms": 3*factor/sizes**2, "largest": 5/sizes**2})
-    rms, largest = transport_derive.shear_orders(rows)
+    rms, largest = shear_orders(rows)
     fit, cov = np.polyfit(-np.log(sizes), np.log(rows["rms"]), 1, cov=True)
     assert rms["order"] == pytest.approx(fit[0]) and rms["order_err"] == pytest.approx(stdtrit(7, 0.975)*np.sqrt(cov[0, 0]))
     assert largest["order"] == pytest.approx(2) and largest["order_err"] < 1e-9
-    assert not list(transport_derive.shear_orders(rows[rows["rows"] < 32]))
-
-
-def test_orders_of_the_small_study(small):
-    """Second order; waves of 16 to 24 spacings and layers of 6 to 10 rows are short of it by some hundredths."""
-    _, found, _ = small
-    chosen = found["transport_orders"][(found["orders"]["transport"] == "nested") & (found["orders"]["quantity"] != "heat decay")]
-    assert len(chosen) == 5 and np.all(np.abs(chosen["order"] - 2) < 0.1)
-    late = found["shear_orders"][(found["shear_orders"]["norm"] == "rms") & (found["shear_orders"]["time"] >= 0.1)]
-    assert len(late) == 6 and np.all(np.abs(late["order"] - 2) < 0.15)
-
-
-@pytest.mark.skipif(not (RESULTS/"transport"/"orders.csv").exists(), reason="no tables are committed yet")
-def test_committed_verdicts_follow_from_committed_tables():
-    found = judge(transport.STUDY.claims, load(transport_tables.ALL, "transport"), "transport")
-    kept = read(RESULTS/"claims.csv")
-    kept = kept[kept["study"] == "transport"]
-    assert dict(zip(kept["id"], kept["verdict"], strict=True)) == {row["id"]: row["verdict"] for row in found}
+    assert not list(shear_orders(rows[rows["rows"] < 32]))

@@ -8,7 +8,7 @@ from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, constant_visc
 from particles.integral.dih import Dih
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import NONE_BEYOND
-from particles.integral.layer import Layer
+from particles.integral.layer import Layer, edge_by_edge
 from particles.integral.points import jittered, lattice
 from particles.integral.triangulation import delaunay
 from particles.smooth.spam import Direct, Spam
@@ -88,7 +88,7 @@ def test_friction_between_plates_is_symmetric_and_only_damps(make, size, h):
     fluid, x, where = layer(make, size, h=h, rows=8, transport=PowerLaw)
     n, small, T = len(x), 1e-6, np.random.default_rng(0).uniform(0.7, 1.3, len(x))
     K = np.empty((2*n, 2*n))
-    quiet = Layer(**{**vars(fluid), "law": ConstEta(0.0, 0.0), "fast": False})
+    quiet = Layer(**{**vars(fluid), "law": ConstEta(0.0, 0.0), "form": edge_by_edge})
     for column in range(2*n):
         v = np.zeros((n, 2))
         v[column % n, column // n] = small

@@ -36,13 +36,7 @@ def density(gas: Gas, P: float, gamma: float) -> float:
 
 
 def middle(left: Gas, right: Gas, gamma: float) -> Middle:
-    """The state between both waves.
-
-    Raises
-    ------
-    ValueError
-        The gases part so fast that a vacuum opens.
-    """
+    """The state between both waves. Raises ValueError: the gases part so fast that a vacuum opens."""
     def gap(P: float) -> float:
         return jump(left, P, gamma) + jump(right, P, gamma) + right.v - left.v
     if gap(0.0) >= 0:

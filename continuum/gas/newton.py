@@ -157,10 +157,7 @@ def steady(scene, rows: int, start: Fields | None = None, *, within: float = 1e-
     It ends when no unknown changes by more than `within`; the error is then about its square. It is at rest below
     onset.
 
-    Raises
-    ------
-    NewtonFailed
-        No convergence.
+    Raises NewtonFailed: no convergence.
     """
     equations, unit = Discrete(scene, rows), scene.L/scene.free_fall
     start = warm_rolls(scene, rows, WEAK*scene.free_fall**2) if start is None else onto(scene, rows, start)

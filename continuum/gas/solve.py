@@ -201,12 +201,8 @@ def run(scene, rows: int, *, until: Any = Steady(), start: Fields | None = None,
     continuity : FluxForm() or PaperForm().
     progress : called with the fraction done.
 
-    Raises
-    ------
-    ValueError
-        Rows odd or below 8, dt above the stability limit, start outside of the equation of state's validity.
-    DivergedError
-        Names step, time, field and node.
+    Raises ValueError: rows odd or below 8, dt above the stability limit, start outside of the equation of
+    state's validity. DivergedError: names step, time, field and node.
     """
     fields = initial(scene, rows) if start is None else onto(scene, rows, start)
     check_state(scene.eos, fields.at.rho, fields.at.e)
@@ -236,10 +232,7 @@ def finish(rows: int, march: March, until, series: Series) -> Solution:
 def steady_on(scene, sizes: Sequence[int], *, start: Fields | None = None, **options) -> list[Solution]:
     """Steady solutions on ever finer grids, each started from the one before.
 
-    Raises
-    ------
-    ValueError
-        There are no sizes.
+    Raises ValueError: there are no sizes.
     """
     if not len(sizes):
         raise ValueError(f"there are no grids (sizes = {sizes}): give their rows, coarsest first, as in (16, 24, 32)")

@@ -110,12 +110,8 @@ def solve(equation: Any, *, until: Until = Steady(), start: Rolls | Solution | n
     backend : "numba", which compiles for some seconds at every call, or "numpy".
     progress : called with the fraction done.
 
-    Raises
-    ------
-    ValueError
-        dt above the stability limit; a start from another box.
-    DivergedError
-        Says when and where.
+    Raises ValueError: dt above the stability limit; a start from another box. DivergedError: says when and
+    where.
     """
     data = start_of(equation, start)
     interval = until.interval(equation)

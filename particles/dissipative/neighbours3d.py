@@ -61,10 +61,7 @@ def _count_sort(cells, x):
 def sort_into_cells(x: np.ndarray, side: float) -> Cells:
     """Linked cells over the bounding box of points (n, 3), with one empty cell around it.
 
-    Raises
-    ------
-    FloatingPointError
-        The points are spread over far more cells than there are points.
+    Raises FloatingPointError: the points are spread over far more cells than there are points.
     """
     low = x.min(axis=0) - side
     across = (x.max(axis=0) - low)/side + 2

@@ -2,7 +2,6 @@
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from particles.pairs import nothing, rate
 
@@ -39,6 +38,16 @@ def peculiar(sums: Any, state: np.ndarray) -> np.ndarray:
     return v
 
 
+def forces_squared(sums: Any, state: np.ndarray) -> float:
+    """|F|^2 a particle."""
+    return float((static_sums(sums, state)[:, :3]**2).sum()/sums.n)
+
+
+def laplacian(sums: Any, state: np.ndarray) -> float:
+    """lap U a particle."""
+    return float(static_sums(sums, state)[:, 3].sum()/sums.n)
+
+
 def kinetic_temperature(sums: Any, state: np.ndarray) -> float:
     """kT of velocities: d (n - 1) of them are free, their sum is conserved."""
     v = peculiar(sums, state)
@@ -70,55 +79,3 @@ def momentum(sums: Any, state: np.ndarray) -> float:
     """Size of the mean velocity."""
     d = sums.places
     return float(np.abs(state[d:2*d].mean(axis=1)).max())
-
-
-class Displacement:
-    """Mean square distance of particles from where they were `records` records ago at most, then from there again.
-
-    Positions are not wrapped, so that nothing has to be put together again.
-    """
-
-    def __init__(self, records: int):
-        self.records, self.count = records, 0
-
-    def __call__(self, sums: Any, state: np.ndarray) -> float:
-        x = np.empty_like(state[:sums.places])
-        x[:, sums.now.ids] = state[:sums.places]
-        if self.count % self.records == 0:
-            self.start = x
-        self.count += 1
-        return float(((x - self.start)**2).sum(axis=0).mean())
-
-
-def waves(d: int, most: int) -> tuple[np.ndarray, np.ndarray]:
-    """Wave vectors (2 most + 1,)*d of whole numbers as |n|^2, and its values up to most^2 without zero."""
-    axes = np.meshgrid(*[np.arange(-most, most + 1)]*d, indexing="ij")
-    square = np.sum([q**2 for q in axes], axis=0)
-    return square, np.unique(square[(square > 0) & (square <= most**2)])
-
-
-class StructureFactor(NamedTuple):
-    """S(k) = |sum exp(ik.x)|^2/n of a cube, mean over wave vectors of equal length, up to `most` waves in the box."""
-    most: int
-
-    def __call__(self, sums: Any, state: np.ndarray) -> np.ndarray:
-        d, k = sums.places, 2*np.pi/sums.method.box[0]*np.arange(-self.most, self.most + 1)
-        phases = [np.exp(1j*k[:, None]*q) for q in state[:d]]
-        amplitude = np.einsum("ax,bx,cx->abc", *phases) if d == 3 else np.einsum("ax,bx->ab", *phases)
-        square, values = waves(d, self.most)
-        return np.array([np.mean(np.abs(amplitude[square == n2])**2) for n2 in values])/sums.n
-
-
-class PairDistribution(NamedTuple):
-    """g(r) in `bins` shells up to `reach`, at most half of the box, for `Plan.means`."""
-    bins: int
-    reach: float
-
-    def __call__(self, sums: Any, state: np.ndarray) -> np.ndarray:
-        method, d = sums.method, sums.places
-        box = np.array(method.box)
-        tree = cKDTree(np.mod(state[:d].T, box) % box, boxsize=box)
-        edges = np.linspace(0, self.reach, self.bins + 1)
-        counts = np.diff(tree.count_neighbors(tree, edges)).astype(float)      # each point with itself is in the first edge
-        shells = {2: np.pi, 3: 4*np.pi/3}[d]*np.diff(edges**d)
-        return counts/(sums.n*(sums.n - 1)/method.volume*shells)

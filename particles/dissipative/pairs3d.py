@@ -9,7 +9,7 @@ import numpy as np
 
 from continuum.jit import generic, jit
 from particles.neighbours import u32, u64
-from particles.noise import normal_of_pair, uniform_of_pair
+from particles.noise import uniform_of_pair
 from particles.pairs import between, nothing, rate, sweep
 
 Record = np.dtype([(name, "f8") for name in ("x", "y", "z", "vx", "vy", "vz")] + [("id", "u8"), ("image", "u8")])
@@ -18,11 +18,6 @@ ROWS = 32       # of a block: their pairs take some 30 KB
 
 class Uniform(NamedTuple):
     """zeta is uniform between -sqrt 3 and sqrt 3    [Groot & Warren 1997]"""
-    seed: int
-
-
-class Normal(NamedTuple):
-    """zeta is normal."""
     seed: int
 
 
@@ -43,18 +38,11 @@ def _uniform(noise, step, i, j, count, zeta):
 
 
 @jit
-def _normal(noise, step, i, j, count, zeta):
-    for k in range(count):
-        zeta[k] = normal_of_pair(noise.seed, step, i[k], j[k])
-
-
-@jit
 def _silent(noise, step, i, j, count, zeta):
     zeta[:count] = 0.0
 
 
 draw.of(Uniform)(lambda noise, step, i, j, count, zeta: _uniform(noise, step, i, j, count, zeta))
-draw.of(Normal)(lambda noise, step, i, j, count, zeta: _normal(noise, step, i, j, count, zeta))
 draw.of(Silent)(lambda noise, step, i, j, count, zeta: _silent(noise, step, i, j, count, zeta))
 
 

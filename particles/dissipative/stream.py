@@ -1,9 +1,7 @@
 """Dissipative particles that stream past others which are held, and so form a body    [RR98, Sec. IV]
 
-Held particles push and rub as all do, and stay where they are. The fluid gets into the body, as soft as its particles are; with
-`turned` a function that finds those in it, these are sent back the way they came.
+Held particles push and rub as all do, and stay where they are. The fluid gets into the body, as soft as its particles are.
 """
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,16 +17,11 @@ from particles.threads import Team
 class DpdStream(Dpd):
     """`Dpd` with particles of numbers `held` (m,) at rest; the others get a force `push` along x.
 
-    turned(x, v) : which of the particles at x (d, n), v (d, n) have their velocities reversed; None for none.
-
-    Raises
-    ------
-    ValueError
-        No particle is held, one of them twice, the push is not finite, or the integrator moves both particles of a pair at once.
+    Raises ValueError: no particle is held, one of them twice, the push is not finite, or the integrator moves
+    both particles of a pair at once.
     """
     held: np.ndarray
     push: float = 0.0
-    turned: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None
     integrator: type = VelocityVerlet
 
     def __post_init__(self):
@@ -66,7 +59,7 @@ class Streaming(Forces):
 
     def begin(self) -> None:
         """Nothing has been received yet."""
-        self.received, self.calls, self.returned, self.steps = np.zeros(self.places), 0, np.zeros(self.places), 0
+        self.received, self.calls = np.zeros(self.places), 0
 
     def drive(self, forces: np.ndarray) -> None:
         """Held particles feel nothing, the others the push."""
@@ -88,26 +81,15 @@ class Streaming(Forces):
         self.calls += 1
         self.drive(out)
 
-    def confine(self, state: np.ndarray) -> int:
-        """Particles that are to turn do; what they lose goes to the body."""
-        self.steps += 1
-        if self.method.turned is None:
-            return 0
-        d = self.places
-        back = ~self.is_held[self.now.ids] & self.method.turned(state[:d], state[d:2*d])
-        self.returned += 2*state[d:2*d, back].sum(axis=1)
-        state[d:2*d, back] *= -1
-        return int(back.sum())
-
 
 def force_on_body(sums: Streaming, state: np.ndarray) -> float:
     """Along x, mean since the last record; a restart forgets what was received before it.
 
     Every force that is evaluated acts for an equal part of the time.
     """
-    found = sums.received/max(sums.calls, 1) + sums.returned/(max(sums.steps, 1)*sums.dt)
+    force = sums.received/max(sums.calls, 1)
     sums.begin()
-    return float(found[0])
+    return float(force[0])
 
 
 def speed(sums: Streaming, state: np.ndarray) -> float:

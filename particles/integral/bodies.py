@@ -30,10 +30,7 @@ class Held(NamedTuple):
 def held(which: np.ndarray, v: tuple[float, float] = (0.0, 0.0), T: float = np.nan) -> Held:
     """Points of one velocity and temperature.
 
-    Raises
-    ------
-    ValueError
-        There are none of them, one is named twice, or the temperature is not positive.
+    Raises ValueError: there are none of them, one is named twice, or the temperature is not positive.
     """
     which = np.asarray(which)
     if len(which) < 1 or len(np.unique(which)) < len(which):
@@ -94,10 +91,7 @@ def on_circle(radius: float) -> np.ndarray:
 def between_circles(counts: tuple[int, int], inner: float, outer: float) -> tuple[Points, np.ndarray, np.ndarray]:
     """A lattice of spacing 1 with points on two circles about its middle; those up to the inner and those from the outer one on.
 
-    Raises
-    ------
-    ValueError
-        There is no room between the circles, or between one of them and its image.
+    Raises ValueError: there is no room between the circles, or between one of them and its image.
     """
     at = lattice(counts)
     check_disc(at, inner)
@@ -118,19 +112,3 @@ def with_plates(inner: np.ndarray, columns: int, height: float) -> tuple[np.ndar
     """
     row = np.stack([np.arange(columns) + 0.5 - columns/2, np.full(columns, -height/2)], axis=1)
     return np.concatenate([row, row*mirror(2), inner]), np.arange(columns), np.arange(columns, 2*columns)
-
-
-def end_rows(points: Points, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Numbers of the points in the lowest and in the highest `count` rows of a lattice.
-
-    Raises
-    ------
-    ValueError
-        No row is left between them.
-    """
-    y = points.x[:, 1]
-    levels = np.unique(np.round(y/points.a, 6))
-    if not 1 <= count < len(levels)/2:
-        raise ValueError(f"{count} fixed rows on either side of {len(levels)} in all leave none between: take more rows")
-    middle = points.a*(levels[count - 1] + 0.5)
-    return np.flatnonzero(y < middle), np.flatnonzero(y > -middle)

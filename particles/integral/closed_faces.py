@@ -14,9 +14,10 @@ import numpy as np
 from continuum.fluid import check_state, conductivity, energy, pressure, sound_speed, temperature, viscosity
 from continuum.jit import jit
 from particles.fields import Fields, from_densities
+from particles.integral.exchange import At, Exchange, Listing, stages
 from particles.integral.faces import POTENTIALS, FaceMaker, inner
 from particles.integral.interpolants import check_ordering
-from particles.integral.transposed_stress import varying
+from particles.integral.transposed_stress import MENDED
 from particles.limits import limit_of
 from particles.lists import Listed, Surroundings
 from particles.pairs import Faces, nothing, rate, sweep
@@ -40,8 +41,7 @@ class Ingredients(NamedTuple):
     within : relative residual at which they are good enough.
     shift : of points towards even spacing, in spacings^2. follow : how fast volumes follow the density of points.
     spread : of mass against pressure waves at the spacing, over a c/2; smooth : of what a linear pressure leaves only.
-    static : hydrostatic and mean pressure taken from the faces. mended : the right heating by friction along faces, and its right
-    force where viscosity varies.
+    static : hydrostatic and mean pressure taken from the faces. transport : listed terms of friction and heat along faces.
     """
     iterations: int = 1
     within: float = 1e-3
@@ -50,7 +50,7 @@ class Ingredients(NamedTuple):
     spread: float = 0.1
     smooth: bool = True
     static: bool = True
-    mended: bool = True
+    transport: tuple = MENDED
 
 
 class FaceDifferences(NamedTuple):
@@ -58,10 +58,11 @@ class FaceDifferences(NamedTuple):
 
 
 class FaceExchange(NamedTuple):
-    """What a face lets through: volume twice (with the fluid, between points), mass, momentum, energy."""
+    """What a face lets through: mass, momentum, energy, volume twice (with the fluid, between points)."""
     follow: float
     spread: float
     smooth: float
+    transport: Listing
 
 
 nothing.of(FaceDifferences)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
@@ -81,11 +82,10 @@ def _(term, a, b, ab):
     left = sx*(a.shift_x + b.shift_x) + sy*(a.shift_y + b.shift_y) + term.follow*k*(b.theta - a.theta)
     linear = 0.5*term.smooth*((a.gx + b.gx)*ab.dx + (a.gy + b.gy)*ab.dy)
     mass = left*0.5*(a.rho + b.rho) + 0.25*term.spread*(a.per_c + b.per_c)*k*(b.P - a.P - linear)
-    f, du, dv = 0.5*(a.eta + b.eta)*k, b.ux - a.ux, b.uy - a.uy
     P = a.P + b.P
-    through = 0.5*(f*(du*(a.ux + b.ux) + dv*(a.uy + b.uy)) + (a.k + b.k)*k*(b.Td - a.Td)) \
-        + sx*(a.Fx + b.Fx) + sy*(a.Fy + b.Fy) + 0.5*mass*(a.e + b.e + a.vx*b.vx + a.vy*b.vy) - a.P*to_b - b.P*to_a
-    return (f*du - sx*P + 0.5*mass*(a.vx + b.vx), f*dv - sy*P + 0.5*mass*(a.vy + b.vy), mass, to_a + to_b, left, through)
+    _, fx, fy, heat = rate(term.transport, a, b, ab)
+    through = heat + 0.5*mass*(a.e + b.e + a.vx*b.vx + a.vy*b.vy) - a.P*to_b - b.P*to_a
+    return (mass, fx - sx*P + 0.5*mass*(a.vx + b.vx), fy - sy*P + 0.5*mass*(a.vy + b.vy), through, to_a + to_b, left)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -176,9 +176,10 @@ class Exchanging(Listed):
         self.method, self.team, self.n = method, team, n
         self.around = Surroundings(method.weight, method.walls, n, method.box, skin=method.skin, team=team)
         self.maker = FaceMaker(self.around, method.ingredients.iterations, method.ingredients.within)
-        self.slopes, self.total, self.P0 = np.zeros((n, 6)), np.zeros((n, 6)), 0.0
+        self.slopes, self.P0, chosen = np.zeros((n, 6)), 0.0, method.ingredients
+        term = FaceExchange(chosen.follow, chosen.spread, float(chosen.smooth), Listing(chosen.transport))
+        self.exchange = Exchange(term, stages(chosen.transport, method.law, n, team), n, team)
         self.shift, self._lists = np.zeros((n, 2)), -1
-        self.varying = varying(method.law, method.ingredients.mended, n, team)
 
     @property
     def faces(self) -> Faces:
@@ -202,10 +203,7 @@ class Exchanging(Listed):
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
         """Refuse points in one place or without neighbours; warn where the weight is too narrow to tell their density.
 
-        Raises
-        ------
-        ValueError
-            Two points overlap, or one has no neighbours in two directions; names them.
+        Raises ValueError: two points overlap, or one has no neighbours in two directions; names them.
         """
         V, weight = state[7], self.method.weight
         a = float(np.sqrt(V.mean()))
@@ -226,8 +224,13 @@ class Exchanging(Listed):
         points["P"][:n] -= self.P0
         self._images(g0)
         self.team(sweep, n, FaceDifferences(), points, self.faces, self.slopes)
-        self.team(_slopes, n, self.slopes, state, float(chosen.mended), points)
-        self.maker.ghosts.fill(points, ("gx", "Fx"), ("gy", "Fy"))
+        self.team(_pressure_slopes, n, self.slopes, state[7], points)
+        self.maker.ghosts.fill(points, ("gx",), ("gy",))
+        self.exchange.use(self.slopes, self.at(state))
+
+    def at(self, state: np.ndarray) -> At:
+        """Where points exchange now."""
+        return At(self.points, self.faces, self.maker.ghosts, state[7])
 
     def _images(self, g0: float) -> None:
         around, points, ghosts = self.around, self.points, self.maker.ghosts
@@ -240,11 +243,8 @@ class Exchanging(Listed):
         """d/dt of what faces exchange, written to `out[4:9]`."""
         method, chosen = self.method, self.method.ingredients
         self.look_at(state)
-        self.team(sweep, self.n, FaceExchange(chosen.follow, chosen.spread, float(chosen.smooth)), self.points, self.faces,
-                  self.total)
-        if self.varying is not None:
-            self.total[:, :2] += self.varying.push(self.points, self.slopes, state[7], self.maker.ghosts, self.faces)
-        self.team(_rates, self.n, self.total, state, self.points, method.g, method.rho0 if chosen.static else 0.0, self.P0, out)
+        total, rho0 = self.exchange.sum(self.at(state)), method.rho0 if chosen.static else 0.0
+        self.team(_rates, self.n, total, state, self.points, method.g, rho0, self.P0, out)
 
     # --- motion -----------------------------------------------------------------------------------------------
 
@@ -301,20 +301,18 @@ def _image_fields(n, origin, turn, plate_T, points):
 
 
 @jit
-def _slopes(first, last, slopes, state, mended, points):
-    """grad P', and F = eta (v u_y - u v_y, u v_x - v u_x) without bulk viscosity."""
+def _pressure_slopes(first, last, slopes, V, points):
+    """grad P'."""
     for i in range(first, last):
-        a, V = points[i], state[7, i]
-        ux, uy, vx, vy, gx, gy = slopes[i]
-        f, a.gx, a.gy = mended*a.eta/V, gx/V, gy/V
-        a.Fx, a.Fy = f*(a.vy*uy - a.vx*vy), f*(a.vx*vx - a.vy*ux)
+        a = points[i]
+        a.gx, a.gy = slopes[i, 4]/V[i], slopes[i, 5]/V[i]
 
 
 @jit
 def _rates(first, last, total, state, points, g, rho0, P0, out):
     """Gravity bears rho0 already; the pressure left out works on what the volume changes with the fluid."""
     for i in range(first, last):
-        px, py, mass, flow, left, through = total[i]
+        mass, px, py, through, flow, left = total[i]
         out[4, i], out[5, i], out[6, i], out[7, i] = px, py - g*(state[6, i] - rho0*state[7, i]), mass, flow + left
         held = P0 - rho0*g*state[1, i]
         out[8, i] = through - held*flow - g*(state[6, i] - rho0*state[7, i])*points[i].vy

@@ -99,10 +99,7 @@ class Pairwise:
     def fluxes(self, dih: "Dih", flow: Flow) -> Fluxes:
         """Through all edges.
 
-        Raises
-        ------
-        ValueError
-            A bulk viscosity that would make one of the two frictions negative.
+        Raises ValueError: a bulk viscosity that would make one of the two frictions negative.
         """
         edges, coefficients = dih.edges, dih.coefficients(flow)
         check_bulk(coefficients.eta, coefficients.zeta, edges.d)
@@ -203,10 +200,8 @@ class Dih:
     def flow(self, state: np.ndarray) -> Flow:
         """Fields of a state.
 
-        Raises
-        ------
-        FloatingPointError
-            A density or an energy is outside of the validity of the equation of state; names the point.
+        Raises FloatingPointError: a density or an energy is outside of the validity of the equation of state;
+        names the point.
         """
         rho, eps = state[0], state[-1]
         with np.errstate(all="ignore"):

@@ -1,14 +1,15 @@
-"""Fixed points of a layer whose plates slide, or that a force drives along them.
+"""A layer whose plates slide along themselves, and whose fluid is pushed along them, in 2D.
 
-`Layer` has plates at rest. What a sliding one adds to the friction along an edge to an image, f (2 U - 2 v) in place of f (-2 v),
-f = eta k, is added here to its rates, and so is a force along the plates.
+A sliding plate adds to the friction along an edge to an image: f (2 U - 2 v) in place of f (-2 v), f = eta k.
 """
 from dataclasses import dataclass
 
 import numpy as np
 
-from continuum.fluid import ConstEta
+from continuum.fluid import constant_viscosity
+from particles.integral.exchange import PRINTED
 from particles.integral.layer import Exchanging, Layer
+from particles.integral.transposed_stress import MENDED
 from particles.threads import Team
 
 
@@ -23,23 +24,15 @@ class Driven(Layer):
     force: float = 0.0
 
     def __post_init__(self):
-        super().__post_init__()
-        if not isinstance(self.law, ConstEta) or self.share != 1:
-            raise ValueError(f"sliding plates pull with a constant viscosity along edges only, got {self.law} and the share "
-                             f"{self.share}: take ConstEta and share = 1")
+        if not constant_viscosity(self.law) or self.transport not in (MENDED, PRINTED):
+            raise ValueError(f"sliding plates pull with a constant viscosity along edges only, got {self.law} and "
+                             f"{self.transport}: take ConstEta and MENDED or PRINTED")
 
     def __repr__(self) -> str:
         return f"{super().__repr__()} driven by {self.slide}, {self.force}"
 
-    def start(self, n: int, team: Team) -> "Driving":
-        """The sums over stored edges.
-
-        Raises
-        ------
-        ValueError
-            The state has not as many points as there are.
-        """
-        super().start(n, team)
+    def sums(self, team: Team) -> "Driving":
+        """Of a layer, and what drives it."""
         return Driving(self, team)
 
 

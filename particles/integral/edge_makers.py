@@ -56,10 +56,7 @@ def renormalised(points: Points, weight: Any) -> Edges:
 
     Warns where Eq. 45 does not hold and points are irregular; on a lattice linear fields are exact at any range.
 
-    Raises
-    ------
-    ValueError
-        No two points are within the weight's range.
+    Raises ValueError: no two points are within the weight's range.
     """
     return judged(_renormalised(points, weight), points, weight)
 
@@ -79,10 +76,7 @@ def closed(points: Points, weight: Any) -> Edges:
 
     Conserves, keeps uniform flow uniform, is skew; its gradients are wrong by a fixed share that the disorder sets.
 
-    Raises
-    ------
-    ValueError
-        The points fall into parts without an edge between them.
+    Raises ValueError: the points fall into parts without an edge between them.
     """
     edges = judged(_renormalised(points, weight), points, weight)
     l = np.stack([_potential(edges, -c) for c in edges.closure.T], axis=1)
@@ -115,10 +109,8 @@ def exact(points: Points, weight: Any) -> Edges:
 
     dS_ij = k_ij [lam_i - lam_j + (mu_i + mu_j).(x_j - x_i)/2] for each direction, lam (n,), mu (n, d) from the constraints.
 
-    Raises
-    ------
-    ArithmeticError
-        The constraints cannot be met: the points are too irregular for the reach of the weight.
+    Raises ArithmeticError: the constraints cannot be met: the points are too irregular for the reach of the
+    weight.
     """
     edges = _renormalised(points, weight)       # whatever Eq. 45 says: these become exact
     check_connected(edges)

@@ -188,10 +188,8 @@ def between_plates(make: Callable[[Points, Any], Edges], x: np.ndarray, width: A
     mirror image (two points and their images lie on one circle: a triangulation has to choose one of two diagonals; in 3D three
     and theirs lie on one sphere, which leaves it flat simplices: edges of a weight only).
 
-    Raises
-    ------
-    ValueError
-        A point is on a plate or beyond it, or the width is not that of such a box; what makers refuse of points and images.
+    Raises ValueError: a point is on a plate or beyond it, or the width is not that of such a box; what makers
+    refuse of points and images.
     """
     widths = check_widths(x, width)
     check_between(x, height)

@@ -1,17 +1,16 @@
-"""What all methods on fixed points share, compiled: the brackets of `dih` over stored edges, fields, what the time loop asks for.
-
-In 2D; friction goes along edges [RR98 Eq. 51] without bulk viscosity.
-"""
+"""What all methods on fixed points share, compiled, in 2D: stored edges, fields, rates, what the time loop asks for."""
 from math import fsum
-from typing import Any, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 
-from continuum.fluid import conductivity, energy, pressure, temperature, valid, viscosity
+from continuum.fluid import conductivity, energy, temperature, valid, viscosity
 from continuum.jit import formula, jit
+from particles.fields import Fields, from_densities
 from particles.integral.edges import Beyond, Edges
+from particles.integral.exchange import At, Convection, Exchange, Listing, Pressure, Stage, pressure_of, stages
 from particles.neighbours import u32, u64
-from particles.pairs import Stored, nothing, rate, sweep
+from particles.pairs import Stored
 from particles.threads import Team
 
 #: seen by convection and pressure: vx .. eps, hydro; by friction and heat: ux, uy, Td; F mends the heating; P is the point's own
@@ -19,67 +18,35 @@ FIELDS = "rho vx vy T eps ux uy Td eta k Fx Fy hydro P"
 Point = np.dtype([(name, "f8") for name in FIELDS.split()])
 
 
-class Exchange(NamedTuple):
-    """Brackets of Eqs 34-36 with P_ab = P(rho_a, T_b), friction and heat along the edge [Eq. 51, zeta = 0], and F.
-
-    The momentum is that of the pressures P_ab + P_ba less 2 P_a, a number of the row: `exchange` adds what this takes off. Where
-    the point's own P is left at zero, as between sliding sides, the sums are whole.
-    """
-    eos: Any
-
-
-class Differences(NamedTuple):
-    """V grad v by differences: d_x u, d_y u, d_x v, d_y v."""
-
-
-nothing.of(Exchange)(lambda term: (0.0, 0.0, 0.0, 0.0))
-nothing.of(Differences)(lambda term: (0.0, 0.0, 0.0, 0.0))
-
-
-@formula
-def _pressure(eos, rho, T):
-    return pressure(eos, rho, energy(eos, rho, T))
-
-
-@rate.of(Exchange)
-def _(term, a, b, ab):
-    to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy       # S.v/2
-    P_ab, P_ba = _pressure(term.eos, a.rho, b.T) + b.hydro, _pressure(term.eos, b.rho, a.T)
-    from_a, from_b, P = a.rho*to_b, b.rho*to_a, P_ab + P_ba - 2*a.P
-    f, du, dv = 0.5*(a.eta + b.eta)*ab.k, b.ux - a.ux, b.uy - a.uy
-    through = a.eps*to_b + b.eps*to_a + P_ab*to_a + P_ba*to_b
-    friction = f*0.5*(du*(a.ux + b.ux) + dv*(a.uy + b.uy)) + 0.5*(a.k + b.k)*ab.k*(b.Td - a.Td)
-    mend = ab.sx*(a.Fx + b.Fx) + ab.sy*(a.Fy + b.Fy)
-    return (-from_a - from_b, f*du - from_a*a.vx - from_b*b.vx - ab.sx*P, f*dv - from_a*a.vy - from_b*b.vy - ab.sy*P,
-            friction + mend - through)
-
-
-@rate.of(Differences)
-def _(term, a, b, ab):
-    du, dv = b.ux - a.ux, b.uy - a.uy
-    return ab.sx*du, ab.sy*du, ab.sx*dv, ab.sy*dv
-
-
-def exchange(team: Team, n: int, eos: Any, points: np.ndarray, edges: Stored, open: np.ndarray, total: np.ndarray) -> None:
-    """Sums of `Exchange` (n, 4) over edges whose area vectors add up to open (n, 2), of `opened`.
-
-    Whole pressures, many times what they differ by, would leave a rounding in every row, one way at every step.
-    """
-    team(_own_pressure, n, eos, points)
-    team(sweep, n, Exchange(eos), points, edges, total)
-    team(_open, n, open, points, total)
-
-
 def opened(edges: Stored) -> np.ndarray:
     """sum_j S_ij of each row, images included, exact: (n, 2), zero where edges close."""
     return np.array([[2*fsum(part) for part in np.split(q, edges.first[1:])] for q in (edges.sx, edges.sy)]).T.copy()
+
+
+class OwnPressure(Stage):
+    """Sets P of a row's own point, which `Pressure` takes off twice along each edge, and takes it off the area that stays open.
+
+    Whole pressures, many times what they differ by, would leave a rounding in every row, one way at every step.
+    open (n, 2) : what the area vectors of a row add up to, of `opened`.
+    """
+
+    def __init__(self, eos: Any, open: np.ndarray, n: int, team: Team):
+        self.eos, self.open, self.n, self.team = eos, open, n, team
+
+    def prepare(self, at: At) -> None:
+        """P of the points."""
+        self.team(_own_pressure, self.n, self.eos, at.points)
+
+    def add(self, at: At, total: np.ndarray) -> None:
+        """What P is at the open area."""
+        self.team(_open, self.n, self.open, at.points, total)
 
 
 @jit
 def _own_pressure(first, last, eos, points):
     for i in range(first, last):
         a = points[i]
-        a.P = _pressure(eos, a.rho, a.T)
+        a.P = pressure_of(eos, a.rho, a.T)
 
 
 @jit
@@ -87,6 +54,37 @@ def _open(first, last, open, points, total):
     for i in range(first, last):
         total[i, 1] -= open[i, 0]*points[i].P
         total[i, 2] -= open[i, 1]*points[i].P
+
+
+class OnPoints:
+    """What fluids on fixed points x (n, 2) share; `sums` is what their time loop sums."""
+    x: Any
+    edges: Any
+    eos: Any
+    names: ClassVar[tuple[str, ...]] = ("rho", "px", "py", "eps")
+
+    @property
+    def fastest(self) -> tuple[float, float]:
+        """Largest frequency of sound over its speed, and largest rate of diffusion over the diffusivity: of the edges."""
+        return self.edges.fastest
+
+    def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
+        """(4, n) of densities, velocities (n, 2), temperatures."""
+        one = np.ones(len(self.x))
+        return states(self.eos, rho*one, v, T*one)
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """Of the points, (n,) each."""
+        return from_densities(self.eos, self.x, self.edges.V, state[0], state[1:3], state[3])
+
+    def start(self, n: int, team: Team) -> Any:
+        """The sums over stored edges. Raises ValueError: the state has not as many points as there are."""
+        check_number(n, len(self.x))
+        return self.sums(team)
+
+    def sums(self, team: Team) -> Any:
+        """The sums of this fluid."""
+        raise NotImplementedError
 
 
 class Summing:
@@ -118,6 +116,34 @@ class Summing:
             return ""
         rho, e = inner(*state[:4, i])
         return f"point {i} has rho = {rho:.6g}, e = {e:.6g}, outside the validity of {type(self.method.eos).__name__}"
+
+
+class FixedSums(Summing):
+    """Compiled sums over stored edges: fields, what the listed terms of a method need, one exchange, rates per volume.
+
+    at : points, edges, images. push (2,) : force per mass.
+    """
+
+    def __init__(self, method: Any, team: Team, at: At, push: tuple[float, float], *first: Stage):
+        self.method, self.team, self.at, self.n = method, team, at, len(at.V)
+        self.points, self.push = at.points, np.array(push)
+        needed = stages(method.transport, method.law, self.n, team)
+        terms = (*method.transport, Convection(), Pressure(method.eos))
+        self.exchange = Exchange(Listing(terms), (*first, *needed), self.n, team)
+
+    def look_at(self, state: np.ndarray) -> None:
+        """Fields of all points and images, and what terms need of them."""
+        self.team(read, self.n, state, self.method.eos, self.method.law, self.points)
+        self.surround(state)
+        self.exchange.prepare(self.at)
+
+    def surround(self, state: np.ndarray) -> None:
+        """Fields of images, and of points whose fields are given."""
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(state)/dt of a state (4, n), written to `out`    [Eqs 34-36, 51]"""
+        self.look_at(state)
+        self.team(driven, self.n, self.exchange.sum(self.at), self.at.V, self.points, self.push, out)
 
 
 def states(eos: Any, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
@@ -160,23 +186,14 @@ def stored(edges: Edges, beyond: Beyond, image: np.ndarray) -> Stored:
 
 
 @jit
-def read(first, last, state, eos, law, share, points):
-    """Fields of points first..last; friction and heat along edges have a share of the coefficients."""
+def read(first, last, state, eos, law, points):
+    """Fields of points first..last."""
     for i in range(first, last):
         a, rho = points[i], state[0, i]
         a.rho, a.vx, a.vy, a.eps = rho, state[1, i]/rho, state[2, i]/rho, state[3, i]
         a.T = temperature(eos, rho, a.eps/rho - 0.5*(a.vx**2 + a.vy**2))
         a.ux, a.uy, a.Td = a.vx, a.vy, a.T
-        a.eta, a.k = share*viscosity(law, rho, a.T), share*conductivity(law, rho, a.T)
-
-
-@jit
-def lacking(first, last, slopes, V, points):
-    """F = eta (v u_y - u v_y, u v_x - v u_x), in 2D without bulk viscosity: `dih.lacking`."""
-    for i in range(first, last):
-        a, f = points[i], points[i].eta/V[i]
-        ux, uy, vx, vy = slopes[i]
-        a.Fx, a.Fy = f*(a.vy*uy - a.vx*vy), f*(a.vx*vx - a.vy*ux)
+        a.eta, a.k = viscosity(law, rho, a.T), conductivity(law, rho, a.T)
 
 
 @jit

@@ -49,10 +49,7 @@ def stress(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
     s_i = sqrt(2 kT_i eta_i/V_i) [(R + R^T)/sqrt 2 - 1 tr R sqrt 2/d] + sqrt(2 kT_i zeta_i/V_i) 1 r, R (d, d) and r of dW.
     eta, zeta, kT are (n,) or numbers, here and below.
 
-    Raises
-    ------
-    ValueError
-        One of them is negative.
+    Raises ValueError: one of them is negative.
     """
     eta, zeta, kT = checked(edges.n, eta=eta, zeta=zeta, kT=kT)
     d, V = edges.d, edges.V
@@ -65,10 +62,7 @@ def stress(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
 def heat(edges: Edges, kappa: Any, kT2: Any) -> Partners:
     """Heat D kappa/V D^T, and one random current a point, sqrt(2 k T_i^2 kappa_i/V_i) r_i. kT2 = k T^2, (n,).
 
-    Raises
-    ------
-    ValueError
-        A conductivity or k T^2 is negative.
+    Raises ValueError: a conductivity or k T^2 is negative.
     """
     kappa, kT2 = checked(edges.n, kappa=kappa, kT2=kT2)
     d, div = edges.d, sparse.hstack(edges.D, format="csr")
@@ -115,10 +109,8 @@ def each(d: int, matrix: Any) -> sparse.csr_array:
 def friction(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
     """Friction k (A + B e e) of `dih.along`, and sqrt(2 kT k A) R + sqrt(2 kT k B) e r on each edge; means over its two points.
 
-    Raises
-    ------
-    ValueError
-        A coefficient is negative, zeta is outside of what forces along edges allow, or an edge conducts a negative amount.
+    Raises ValueError: a coefficient is negative, zeta is outside of what forces along edges allow, or an edge
+    conducts a negative amount.
     """
     eta, zeta, kT = checked(edges.n, eta=eta, zeta=zeta, kT=kT)
     d = edges.d
@@ -131,10 +123,7 @@ def friction(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
 def between(edges: Edges, A: np.ndarray, B: np.ndarray, kT: np.ndarray) -> Partners:
     """Friction k (A + B e e) between the points of each edge, A, B, kT (E,), and its noise.
 
-    Raises
-    ------
-    ValueError
-        k is negative.
+    Raises ValueError: k is negative.
     """
     k, d, across = conductances(edges), edges.d, incidence(edges)
     A, B = np.maximum(A, 0), np.maximum(B, 0)       # zero to round-off at the ends of the range of zeta
@@ -148,10 +137,7 @@ def between(edges: Edges, A: np.ndarray, B: np.ndarray, kT: np.ndarray) -> Partn
 def conduction(edges: Edges, kappa: Any, kT2: Any) -> Partners:
     """Heat k kappa (T_j - T_i) along each edge, and its random current; means over its two points.
 
-    Raises
-    ------
-    ValueError
-        A conductivity or k T^2 is negative, or an edge conducts a negative amount.
+    Raises ValueError: a conductivity or k T^2 is negative, or an edge conducts a negative amount.
     """
     kappa, kT2 = (ends(edges, q) for q in checked(edges.n, kappa=kappa, kT2=kT2))
     f, across = conductances(edges)*kappa, incidence(edges)
@@ -162,10 +148,7 @@ def conduction(edges: Edges, kappa: Any, kT2: Any) -> Partners:
 def mixed(points: Partners, along: Partners, share: float) -> Partners:
     """A share of friction along edges and the rest of stresses at points, each with its own noise: exact as both are.
 
-    Raises
-    ------
-    ValueError
-        The share is not between 0 and 1.
+    Raises ValueError: the share is not between 0 and 1.
     """
     if not 0 <= share <= 1:
         raise ValueError(f"the share of transport along edges must be between 0 (points) and 1 (edges), got {share}")

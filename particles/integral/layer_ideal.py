@@ -53,12 +53,12 @@ class IdealSums:
     """Rates of an `Exchanging` whose fluid this form fits."""
 
     def __init__(self, layer: Any):
-        self.layer, method, edges = layer, layer.method, layer.edges
+        self.layer, method, edges = layer, layer.method, layer.at.edges
         self.given, self.lack = np.zeros(len(layer.points), Given), np.zeros(len(layer.points), Lack)
-        self.edges, self.per_V, beyond, image = tuple(edges), 1/method.edges.V, method.beyond, layer.ghost.ravel()
+        self.edges, self.per_V, beyond, image = tuple(edges), 1/method.edges.V, method.beyond, layer.image
         self.open = layer.open
         self.gas = (float(method.eos.cv), viscosity(method.law, 1.0, 1.0), conductivity(method.law, 1.0, 1.0))
-        self.twice_T = 2*np.array(method.T_plates)[layer.plate]
+        self.twice_T = 2*layer.at.images.plate_T
         self.beyond = (beyond.i, layer.n + image, *(beyond.S.T/2).copy(), method.g*layer.rise[image])
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from particles.integral.interpolants import W, check, reach, width
+from particles.integral.interpolants import W, check, reach
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,10 +75,7 @@ def jittered(counts: tuple[int, ...], size: float, seed: int, a: float = 1.0) ->
 def random(counts: tuple[int, ...], apart: float, seed: int, a: float = 1.0) -> Points:
     """As many points at random, none nearer to another than `apart` spacings.
 
-    Raises
-    ------
-    ValueError
-        No room is found for the last points.
+    Raises ValueError: no room is found for the last points.
     """
     at = lattice(counts, a)
     rng, x = np.random.default_rng(seed), np.empty((0, at.d))
@@ -111,10 +108,8 @@ def wrapped(x: np.ndarray, box: np.ndarray) -> np.ndarray:
 def pairs(points: Points, distance: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """(i, j, x_j - x_i, r) of the pairs i < j nearer than `distance`.
 
-    Raises
-    ------
-    ValueError
-        The distance is wider than half of the box, so that two images of one point would count; or two points coincide.
+    Raises ValueError: the distance is wider than half of the box, so that two images of one point would
+    count; or two points coincide.
     """
     if 2*distance >= points.box.min():
         raise ValueError(f"the reach {distance:g} is wider than half of the box {points.box}: take more points or a narrower "
@@ -143,25 +138,10 @@ def irregularity(points: Points, weight: Any) -> np.ndarray:
     return c
 
 
-def discrete_moments(points: Points, weight: Any, n: int) -> np.ndarray:
-    """M_n at each point, r0^(1-n) sum_j r_ij^n W(r_ij) V_j, (points,): `interpolants.moment` by quadrature    [RR98 Eqs 2, 32]
-
-    M_1 = d is what makes linear gradients right on average (`makers.renormalised`); for n < 1 the point itself would add
-    r^n W(r) at r = 0, which it does not here.
-    """
-    check(weight, points.d)
-    i, j, _, r = pairs(points, reach(weight))
-    terms = (r/width(weight))**n*W(weight, r)*width(weight)
-    return np.bincount(i, terms*points.V[j], points.n) + np.bincount(j, terms*points.V[i], points.n)
-
-
 def relaxed(points: Points, weight: Any, until: float = 2e-3, sweeps: int = 2000) -> Points:
     """Points moved by 0.12 a^2 c a sweep until a |c| < `until` everywhere, c as in `irregularity`.
 
-    Raises
-    ------
-    ArithmeticError
-        They are not that regular after so many sweeps.
+    Raises ArithmeticError: they are not that regular after so many sweeps.
     """
     for _ in range(sweeps):
         c = irregularity(points, weight)
@@ -171,14 +151,3 @@ def relaxed(points: Points, weight: Any, until: float = 2e-3, sweeps: int = 2000
         points = of_positions(wrapped(points.x + 0.12*points.a**2*c, points.box), points.box)
     raise ArithmeticError(f"a |c| is still {worst:.3g} after {sweeps} sweeps, not below {until:g}: take more sweeps, a wider "
                           "weight, or start from less disorder")
-
-
-def off_lattice(points: Points) -> float:
-    """How far points are from any square lattice: 1 - |psi_4|, psi_4 the mean over bonds to the 4 nearest of exp(4 i angle).
-
-    0 on a lattice whatever its direction; 1 for points without order. In 2D.
-    """
-    tree = cKDTree(points.x + points.box/2, boxsize=points.box*(1 + 1e-15))
-    near = np.asarray(tree.query(points.x + points.box/2, 5)[1])
-    apart = points.separation(np.repeat(np.arange(points.n), 4), near[:, 1:].ravel())
-    return float(1 - np.abs(np.exp(4j*np.arctan2(apart[:, 1], apart[:, 0])).mean()))

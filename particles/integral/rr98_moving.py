@@ -10,18 +10,18 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import check_state, conductivity, energy, pressure, sound_speed, temperature, viscosity
-from continuum.jit import formula, generic, jit
+from continuum.fluid import check_state, conductivity, pressure, sound_speed, temperature, viscosity
+from continuum.jit import generic, jit
 from particles.fields import Fields, from_densities
 from particles.ghosts import ghosts_of
 from particles.integral import fixed
 from particles.integral.brackets import CROSSED, Crossed, Powers
-from particles.integral.fixed import Differences, Exchange, lacking
+from particles.integral.exchange import At, Convection, Exchange, Listing, Pressure, pressure_of, stages
 from particles.integral.interpolants import check_ordering
-from particles.integral.transposed_stress import Transposed, varying
+from particles.integral.transposed_stress import MENDED
 from particles.limits import lattice_sums, limit_of, zone
 from particles.lists import Listed, Surroundings, fastest
-from particles.pairs import Edge, nothing, rate, sweep
+from particles.pairs import Edge, nothing, rate
 from particles.smooth.spam import Direct, LessStatic
 from particles.starts import check_apart, check_volumes, moments
 from particles.threads import Team
@@ -48,8 +48,18 @@ def _(term, a, b, ab):
     return rate(term.term, a, b, Edge(VV*ab.wx, VV*ab.wy, k))
 
 
+class BracketPressure(NamedTuple):
+    """Pressures P_ab, P_ba of Eq. 49 or 50; both points may leave out a static part."""
+    bracket: Any
+    eos: Any
+
+
 class LiteralDrift(NamedTuple):
     """Eqs 34-36 and 39 as printed: points move, and what convection brings is exchanged as well."""
+
+    def terms(self, eos: Any) -> tuple:
+        """What is exchanged besides friction and heat."""
+        return Convection(), Pressure(eos)
 
     def owned(self, V: np.ndarray) -> np.ndarray:
         """The volume (n,) that m, p, E of a state are those of."""
@@ -60,6 +70,10 @@ class ConvectiveDrift(NamedTuple):
     """Eqs 34-36, 39, 46-48. follow : 0 for volumes that stay, as printed; 1 where they go with the flow, dV/dt = V div v."""
     follow: float = 0.0
 
+    def terms(self, eos: Any) -> tuple:
+        """What is exchanged besides friction and heat."""
+        return Convection(), Pressure(eos)
+
     def owned(self, V: np.ndarray) -> np.ndarray:
         """The volume (n,) that m, p, E of a state are those of."""
         return np.ones_like(V)
@@ -69,6 +83,10 @@ class ConstantMassDrift(NamedTuple):
     """Eq. 49 with masses that stay and volumes that follow the flow. bracket : `brackets.Crossed` or `Powers` [Eq. 50]."""
     bracket: Any = CROSSED
 
+    def terms(self, eos: Any) -> tuple:
+        """What is exchanged besides friction and heat."""
+        return (BracketPressure(self.bracket, eos),)
+
     def owned(self, V: np.ndarray) -> np.ndarray:
         """The volume (n,) that m, p, E of a state are those of."""
         return V
@@ -77,11 +95,11 @@ class ConstantMassDrift(NamedTuple):
 class Drifting(NamedTuple):
     """What a pair of points adds to the first: mass, momentum, energy, volume."""
     motion: Any
-    eos: Any
+    exchanged: Listing
 
 
 @generic
-def drifting(motion, eos, a, b, ab):
+def drifting(motion, exchanged, a, b, ab):
     """The five numbers of `Drifting`, for the motion."""
 
 
@@ -91,48 +109,47 @@ def both(bracket, eos, a, b):
 
 
 nothing.of(Drifting)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0))
-rate.of(Drifting)(lambda term, a, b, ab: drifting(term.motion, term.eos, a, b, ab))
+rate.of(Drifting)(lambda term, a, b, ab: drifting(term.motion, term.exchanged, a, b, ab))
+nothing.of(BracketPressure)(lambda term: (0.0, 0.0, 0.0, 0.0))
+
+
+@rate.of(BracketPressure)
+def _(term, a, b, ab):
+    to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy
+    P_ab, P_ba = both(term.bracket, term.eos, a, b)
+    P_ab, P_ba = P_ab + b.hydro, P_ba + a.hydro
+    P = P_ab + P_ba
+    return 0.0, -ab.sx*P, -ab.sy*P, -P_ab*to_a - P_ba*to_b
 
 
 @drifting.of(LiteralDrift)
-def _(motion, eos, a, b, ab):
-    return (*rate(Exchange(eos), a, b, ab), 0.0)
+def _(motion, exchanged, a, b, ab):
+    return (*rate(exchanged, a, b, ab), 0.0)
 
 
 @drifting.of(ConvectiveDrift)
-def _(motion, eos, a, b, ab):
+def _(motion, exchanged, a, b, ab):
     """-sum_b W e_ab.v_a q_b is what Eqs 46-48 add."""
-    mass, px, py, through = rate(Exchange(eos), a, b, ab)
+    mass, px, py, through = rate(exchanged, a, b, ab)
     to_a = ab.sx*a.vx + ab.sy*a.vy
     came = to_a*b.rho
     return mass + came, px + came*b.vx, py + came*b.vy, through + to_a*b.eps, motion.follow*(ab.sx*b.vx + ab.sy*b.vy)
 
 
 @drifting.of(ConstantMassDrift)
-def _(motion, eos, a, b, ab):
-    to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy
-    P_ab, P_ba = both(motion.bracket, eos, a, b)
-    P_ab, P_ba = P_ab + b.hydro, P_ba + a.hydro
-    f, P = 0.5*(a.eta + b.eta)*ab.k, P_ab + P_ba
-    work = f*0.5*((b.ux*b.ux + b.uy*b.uy) - (a.ux*a.ux + a.uy*a.uy))      # of friction
-    heat = 0.5*(a.k + b.k)*ab.k*(b.Td - a.Td) + ab.sx*(a.Fx + b.Fx) + ab.sy*(a.Fy + b.Fy)
-    return (0.0, f*(b.ux - a.ux) - ab.sx*P, f*(b.uy - a.uy) - ab.sy*P, work + heat - P_ab*to_a - P_ba*to_b, to_b - to_a)
-
-
-@formula
-def _pressure(eos, rho, T):
-    return pressure(eos, rho, energy(eos, rho, T))
+def _(motion, exchanged, a, b, ab):
+    return (*rate(exchanged, a, b, ab), ab.sx*(b.vx - a.vx) + ab.sy*(b.vy - a.vy))
 
 
 @both.of(Crossed)
 def _(bracket, eos, a, b):
-    return _pressure(eos, a.rho, b.T), _pressure(eos, b.rho, a.T)
+    return pressure_of(eos, a.rho, b.T), pressure_of(eos, b.rho, a.T)
 
 
 @both.of(Powers)
 def _(bracket, eos, a, b):
-    return (_pressure(eos, b.rho, b.T)/(b.rho**bracket.a*a.rho**bracket.b),
-            _pressure(eos, a.rho, a.T)/(a.rho**bracket.a*b.rho**bracket.b))
+    return (pressure_of(eos, b.rho, b.T)/(b.rho**bracket.a*a.rho**bracket.b),
+            pressure_of(eos, a.rho, a.T)/(a.rho**bracket.a*b.rho**bracket.b))
 
 
 #: by the names of `motions.MOTIONS`
@@ -145,8 +162,7 @@ class Drift:
     """A fluid on points that move, in a box (width, height) centred on the origin.
 
     motion : one of DRIFTS. weight : of `particles.weights`; scale : of its plain quadrature. walls : tuple of mirror plates and
-    periodic sides. g : gravity, downwards. mended : friction along pairs as it should be, its heating and, where viscosity
-    varies, its force; False as Eq. 51 has it.
+    periodic sides. g : gravity, downwards. transport : listed terms of friction and heat.
     static : a share of the static pressure that pairs leave out, at constant mass; what it bears and its work stay.
     """
     motion: Any
@@ -157,7 +173,7 @@ class Drift:
     box: tuple[float, float]
     g: float = 0.0
     scale: float = 1.0
-    mended: bool = True
+    transport: tuple = MENDED
     static: LessStatic = LessStatic(0.0, 0.0)  # noqa: RUF009 (immutable)
     skin: float = 0.5
 
@@ -230,16 +246,14 @@ class Drifts(Listed):
     def __init__(self, method: Drift, n: int, team: Team):
         self.method, self.team, self.n = method, team, n
         self.around = Surroundings(method.weight, method.walls, n, method.box, skin=method.skin, team=team)
-        self.slopes, self.total, self._lists = np.zeros((n, 4)), np.zeros((n, 5)), -1
-        self.varying = varying(method.law, method.mended, n, team, OverPairs(Transposed()), ("x", "y", "V"))
+        self._lists, listed = -1, Listing((*method.transport, *method.motion.terms(method.eos)))
+        needed = stages(method.transport, method.law, n, team, OverPairs, ("x", "y", "V"))
+        self.exchange = Exchange(OverPairs(Drifting(method.motion, listed)), needed, n, team)
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
         """Refuse points in one place; warn where the weight is too narrow for them    [Eq. 45]
 
-        Raises
-        ------
-        ValueError
-            Two points overlap; names them.
+        Raises ValueError: two points overlap; names them.
         """
         a = float(np.sqrt(state[6].mean()))
         self.around.place(state, self.method.scale)
@@ -263,19 +277,18 @@ class Drifts(Listed):
         points = self.points
         self.team(_read, n, state, method.motion.owned(state[6]), method.eos, method.law, method.static, method.g, points)
         _image_fields(n, *self.ghosts, around.x, around.y, method.static, method.g, points)
-        if method.mended:
-            self.team(sweep, n, OverPairs(Differences()), points, around.pairs, self.slopes)
-            self.team(lacking, n, self.slopes, state[6], points)
-            self.ghosts.fill(points, ("Fx",), ("Fy",))      # no energy through a plate
+        self.exchange.prepare(self.at(state))
+
+    def at(self, state: np.ndarray) -> At:
+        """Where points exchange now."""
+        return At(self.points, self.around.pairs, self.ghosts, state[6])
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (7, n), written to `out`    [Eqs 34-36, 39, 46-51]"""
         method = self.method
         self.look_at(state)
-        self.team(sweep, self.n, OverPairs(Drifting(method.motion, method.eos)), self.points, self.around.pairs, self.total)
-        if self.varying is not None:
-            self.total[:, 1:3] += self.varying.push(self.points, self.slopes, state[6], self.ghosts, self.around.pairs)
-        self.team(_rates, self.n, self.total, method.motion.owned(state[6]), self.points, method.static, method.g, out)
+        total = self.exchange.sum(self.at(state))
+        self.team(_rates, self.n, total, method.motion.owned(state[6]), self.points, method.static, method.g, out)
 
     def evaluate(self, state: np.ndarray) -> None:
         """All sums once."""

@@ -74,10 +74,7 @@ class Motion:
     def fluid(self, x: np.ndarray, V: np.ndarray) -> Dih:
         """The fluid as if points x (n, d) of volumes V (n,) stood still.
 
-        Raises
-        ------
-        FloatingPointError
-            A position is not finite, or a volume not positive; names the point.
+        Raises FloatingPointError: a position is not finite, or a volume not positive; names the point.
         """
         bad = np.flatnonzero(~(np.isfinite(x).all(axis=1) & (V > 0)))
         if len(bad):
@@ -92,12 +89,8 @@ class Motion:
     def checked(self, x: np.ndarray) -> np.ndarray:
         """Positions (n, d) to start from; warns where the weight is too narrow for them    [Eq. 45]
 
-        Raises
-        ------
-        ValueError
-            Two points overlap, or the box is narrower than two ranges of the weight.
-        FloatingPointError
-            A position is not finite.
+        Raises ValueError: two points overlap, or the box is narrower than two ranges of the weight.
+        FloatingPointError: a position is not finite.
         """
         fluid = self.fluid(x, self.equal(len(x)))
         judged(fluid.edges, of_positions(wrapped(x, np.asarray(self.box, float)), self.box), self.weight)

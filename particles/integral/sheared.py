@@ -5,41 +5,46 @@ restart knows the time.
 """
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from continuum.jit import jit
-from particles.fields import Fields, from_densities
-from particles.ghosts import Ghosts
 from particles.integral.edges import Edges
-from particles.integral.fixed import Differences, Exchange, Point, Summing, check_number, driven, lacking, read, states
+from particles.integral.exchange import At
+from particles.integral.fixed import FixedSums, OnPoints, Point
 from particles.integral.layer import Layer
 from particles.integral.points import Points
-from particles.integral.transposed_stress import varying
+from particles.integral.transposed_stress import MENDED
 from particles.limits import limit_of
 from particles.neighbours import u32
-from particles.pairs import Stored, sweep
+from particles.pairs import Stored
 from particles.threads import Team
 from particles.walls.sliding import Sides, sides, slide
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sheared:
+class Sheared(OnPoints):
     """A fluid on the points of a lattice, periodic in x; images above move faster by rate times height.
 
-    edges : periodic, of a weight.
+    edges : periodic, of a weight. transport : listed terms of friction and heat.
     """
     points: Points
     edges: Edges
     eos: Any
     law: Any
     rate: float
+    transport: tuple = MENDED
 
-    names = ("rho", "px", "py", "eps", "slid")
+    names = (*OnPoints.names, "slid")
 
     def __post_init__(self):
         _ = self.sides      # what is wrong with points or edges is told here
+
+    @property
+    def x(self) -> np.ndarray:
+        """Places (n, 2)."""
+        return self.points.x
 
     @cached_property
     def sides(self) -> Sides:
@@ -49,79 +54,66 @@ class Sheared:
     def __repr__(self) -> str:
         """What tells a checkpoint's method from another: edges by their sums."""
         sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.points.x, self.edges.S, self.edges.k))
-        return f"Sheared({self.points.n}, {sums}, {self.eos}, {self.law}, {self.rate})"
+        return f"Sheared({self.points.n}, {sums}, {self.eos}, {self.law}, {self.rate}, {self.transport})"
 
     @property
     def speed(self) -> float:
         """Of the box above relative to this one."""
         return self.rate*float(self.points.box[1])
 
-    @property
-    def fastest(self) -> tuple[float, float]:
-        """As that of a layer, whose limit of the step this has: here, of the edges alone."""
-        return self.edges.fastest
-
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
         """(5, n) of densities, velocities (n, 2), temperatures, before anything has slid."""
-        one = np.ones(self.points.n)
-        return np.concatenate([states(self.eos, rho*one, v, T*one), 0*one[None]])
+        return np.concatenate([super().state(rho, v, T), np.zeros((1, self.points.n))])
 
-    def fields(self, state: np.ndarray) -> Fields:
-        """Of the points, (n,) each."""
-        return from_densities(self.eos, self.points.x, self.edges.V, state[0], state[1:3], state[3])
-
-    def start(self, n: int, team: Team) -> "Shearing":
-        """The sums over stored edges."""
-        check_number(n, self.points.n)
+    def sums(self, team: Team) -> "Shearing":
+        """Of the fluid between its sides."""
         return Shearing(self, team)
 
 
 limit_of.register(Sheared, limit_of.dispatch(Layer))
 
 
-class Shearing(Summing):
+class Boosted(NamedTuple):
+    """Images of points `parent`, seen from a box that moves by -boost."""
+    parent: np.ndarray
+    boost: np.ndarray
+
+    def fill(self, records: np.ndarray, even: tuple[str, ...], odd: tuple[str, ...] = ()) -> None:
+        """What does not change with the speed of the box."""
+        first = len(records) - len(self.parent)
+        for name in (*even, *odd):
+            records[name][first:] = records[name][self.parent]
+
+    def fill_work(self, points: np.ndarray, slopes: np.ndarray, V: np.ndarray) -> None:
+        """The work F of images, which have the gradients of their parents and another velocity."""
+        boosted_work(self.parent, self.boost, slopes, V, points, len(V))
+
+
+class Shearing(FixedSums):
     """The compiled sums of a sheared fluid."""
+    method: Sheared
 
     def __init__(self, method: Sheared, team: Team):
-        self.method, self.team, self.n = method, team, method.points.n
-        made = method.sides
-        self.edges = Stored(*(q.copy() for q in made.edges))      # they follow the sliding
-        self.boost = method.speed*made.up
-        self.all = np.zeros(self.n + len(made.parent), Point)
-        self.slopes, self.total = np.empty((self.n, 4)), np.empty((self.n, 4))
-        self.images = Ghosts(made.parent, np.ones(len(made.parent)), np.empty(0))
-        self.varying = varying(method.law, True, self.n, team)
+        made, n = method.sides, method.points.n
+        edges = Stored(*(q.copy() for q in made.edges))      # they follow the sliding
+        images = Boosted(made.parent, method.speed*made.up)
+        super().__init__(method, team, At(np.zeros(n + len(made.parent), Point), edges, images, method.edges.V), (0.0, 0.0))
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (5, n), written to `out`    [Eqs 34-36, 51]"""
-        method = self.method
-        self.look_at(state)
-        self._exchange(self.edges, self.total)
-        self.team(driven, self.n, self.total, method.edges.V, self.all, np.zeros(2), out)
-        out[4] = method.speed
+        super().rates(state, out)
+        out[4] = self.method.speed
 
-    def look_at(self, state: np.ndarray) -> None:
-        """Images where they are now, fields of points and images, F."""
-        method, made, points = self.method, self.method.sides, self.all
-        slide(state[4, 0]/method.points.a, made.through, made.number, *made.counts, self.edges)
-        self.team(read, self.n, state, method.eos, method.law, 1.0, points)
-        boosted(made.parent, self.boost, points, self.n)
-        self.team(sweep, self.n, Differences(), points, self.edges, self.slopes)
-        self.team(lacking, self.n, self.slopes, method.edges.V, points)
-        boosted_lacking(made.parent, self.boost, self.slopes, method.edges.V, points, self.n)
+    def surround(self, state: np.ndarray) -> None:
+        """Images, and edges to them, where they are now."""
+        made, images = self.method.sides, self.at.images
+        slide(state[4, 0]/self.method.points.a, made.through, made.number, *made.counts, self.at.edges)
+        boosted(images.parent, images.boost, self.points, self.n)
 
     def through(self, state: np.ndarray) -> np.ndarray:
         """Mass, momentum (2) and energy that enter through the upper side per time, in the frame of the box."""
         self.look_at(state)
-        total = np.empty((self.n, 4))
-        self._exchange(above(self.edges, self.method.sides), total)
-        return total.sum(axis=0)
-
-    def _exchange(self, edges: Stored, total: np.ndarray) -> None:
-        """What points get over some edges."""
-        self.team(sweep, self.n, Exchange(self.method.eos), self.all, edges, total)
-        if self.varying is not None:
-            total[:, 1:3] += self.varying.push(self.all, self.slopes, self.method.edges.V, self.images, edges)
+        return self.exchange.sum(self.at._replace(edges=above(self.at.edges, self.method.sides))).sum(axis=0)
 
 
 def above(edges: Stored, made: Sides) -> Stored:
@@ -144,7 +136,7 @@ def boosted(parent, boost, points, n):
 
 
 @jit
-def boosted_lacking(parent, boost, slopes, V, points, n):
+def boosted_work(parent, boost, slopes, V, points, n):
     """F of the images, which have the gradients of their parents and another velocity."""
     for m in range(len(parent)):
         i = parent[m]

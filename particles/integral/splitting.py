@@ -20,10 +20,8 @@ class KickDriftFrictionDriftKick:
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
         """Advance y in place by dt.
 
-        Raises
-        ------
-        ValueError
-            The box is sheared: friction at half time would see images where they were at its beginning.
+        Raises ValueError: the box is sheared: friction at half time would see images where they were at its
+        beginning.
         """
         if sums.method.rate:
             raise ValueError(f"a box sheared at the rate {sums.method.rate:g} has images that slide during a step: take "

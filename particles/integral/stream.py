@@ -13,27 +13,15 @@ import numpy as np
 
 from continuum.fluid import conductivity, energy, viscosity
 from continuum.jit import jit
-from particles.fields import Fields, from_densities
 from particles.ghosts import Ghosts
 from particles.integral.bodies import Held
 from particles.integral.edges import NONE_BEYOND, NOWHERE, Edges
-from particles.integral.fixed import (
-    Differences,
-    Point,
-    Summing,
-    check_number,
-    driven,
-    exchange,
-    lacking,
-    opened,
-    read,
-    states,
-    stored,
-)
+from particles.integral.exchange import At, Stage
+from particles.integral.fixed import FixedSums, OnPoints, OwnPressure, Point, opened, stored
 from particles.integral.layer import Layer
-from particles.integral.transposed_stress import varying
+from particles.integral.transposed_stress import MENDED
 from particles.limits import limit_of
-from particles.pairs import nothing, rate, sweep
+from particles.pairs import Stored, nothing, rate, sweep
 from particles.threads import Team
 
 
@@ -53,12 +41,10 @@ def _(term, a, b, ab):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Stream:
+class Stream(OnPoints):
     """A fluid on fixed points x (n, 2), periodic, driven by a force `push` per mass, around points that are `held`.
 
-    Friction goes along edges [RR98 Eq. 51], its heating as it should be (`dih.Pairwise`, mended), and its force where viscosity
-    varies. chi : diffusivity of the filter
-    of the density, 0 for none.
+    transport : listed terms of friction and heat. chi : diffusivity of the filter of the density, 0 for none.
     """
     x: np.ndarray
     edges: Edges
@@ -67,8 +53,7 @@ class Stream:
     held: Held
     push: tuple[float, float] = (0.0, 0.0)
     chi: float = 0.0
-
-    names = ("rho", "px", "py", "eps")
+    transport: tuple = MENDED
 
     def __post_init__(self):
         if not self.chi >= 0:
@@ -77,34 +62,18 @@ class Stream:
     def __repr__(self) -> str:
         """What tells a checkpoint's method from another: edges by their sums."""
         sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.x, self.edges.S, self.edges.k, *self.held))
-        return f"Stream({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.push}, {self.chi})"
-
-    @property
-    def fastest(self) -> tuple[float, float]:
-        """As that of a layer, whose limit of the step this has: here, of the edges alone."""
-        return self.edges.fastest
+        return f"Stream({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.push}, {self.chi}, {self.transport})"
 
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
         """(4, n) of densities, velocities (n, 2), temperatures; held points get their own where they have one."""
-        rho, T, v = rho*np.ones(len(self.x)), T*np.ones(len(self.x)), v.copy()
+        T, v = T*np.ones(len(self.x)), v.copy()
         v[self.held.which] = self.held.v
         warm = np.isfinite(self.held.T)
         T[self.held.which[warm]] = self.held.T[warm]
-        return states(self.eos, rho, v, T)
+        return super().state(rho, v, T)
 
-    def fields(self, state: np.ndarray) -> Fields:
-        """Of the points, (n,) each."""
-        return from_densities(self.eos, self.x, self.edges.V, state[0], state[1:3], state[3])
-
-    def start(self, n: int, team: Team) -> "Streaming":
-        """The sums over stored edges.
-
-        Raises
-        ------
-        ValueError
-            The state has not as many points as there are.
-        """
-        check_number(n, len(self.x))
+    def sums(self, team: Team) -> "Streaming":
+        """Of the fluid and what is held."""
         return Streaming(self, team)
 
 
@@ -112,39 +81,40 @@ limit_of.register(Stream, limit_of.dispatch(Layer))
 NO_IMAGES = Ghosts(NOWHERE, np.empty(0), np.empty(0))
 
 
-class Streaming(Summing):
+class Filtering(Stage):
+    """Adds what a filter exchanges, over edges of its own."""
+
+    def __init__(self, term: Filter, edges: Stored, n: int, team: Team):
+        self.term, self.edges, self.n, self.team, self.gain = term, edges, n, team, np.empty((n, 4))
+
+    def add(self, at: At, total: np.ndarray) -> None:
+        """Mass, momentum and energy."""
+        self.team(sweep, self.n, self.term, at.points, self.edges, self.gain)
+        total += self.gain
+
+
+class Streaming(FixedSums):
     """The compiled sums of a stream. received (m, 3): momentum and energy that each held point takes, per time."""
+    method: Stream
 
     def __init__(self, method: Stream, team: Team):
-        self.method, self.team, self.n = method, team, len(method.x)
-        self.edges, self.around = (stored(cut(method.edges, method.held), NONE_BEYOND, NONE_BEYOND.parent)
-                                   for cut in (insulated, separated))
-        self.open, self.points = opened(self.edges), np.zeros(self.n, Point)
-        self.slopes, self.total = np.empty((self.n, 4)), np.empty((self.n, 4))
-        self.filtered = np.empty((self.n, 4)) if method.chi else None
-        self.varying = varying(method.law, True, self.n, team)
+        n = len(method.x)
+        edges, around = (stored(cut(method.edges, method.held), NONE_BEYOND, NONE_BEYOND.parent)
+                         for cut in (insulated, separated))
+        first: tuple[Stage, ...] = (OwnPressure(method.eos, opened(edges), n, team),)
+        if method.chi:
+            first += (Filtering(Filter(method.chi), around, n, team),)
+        super().__init__(method, team, At(np.zeros(n, Point), edges, NO_IMAGES, method.edges.V), method.push, *first)
         self.received = np.zeros((len(method.held.which), 3))
+
+    def surround(self, state: np.ndarray) -> None:
+        """Held points have their own velocity and temperature."""
+        hold(self.method.eos, self.method.law, *self.method.held[:3], self.points)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (4, n), written to `out`    [Eqs 34-36, 51]"""
-        method = self.method
-        self.look_at(state)
-        exchange(self.team, self.n, method.eos, self.points, self.edges, self.open, self.total)
-        if self.filtered is not None:
-            self.team(sweep, self.n, Filter(method.chi), self.points, self.around, self.filtered)
-            self.total += self.filtered
-        if self.varying is not None:
-            self.total[:, 1:3] += self.varying.push(self.points, self.slopes, method.edges.V, NO_IMAGES, self.edges)
-        self.team(driven, self.n, self.total, method.edges.V, self.points, np.array(method.push), out)
-        keep(method.eos, *method.held[:3], self.total, method.edges.V, self.points, self.received, out)
-
-    def look_at(self, state: np.ndarray) -> None:
-        """Fields of all points, and F."""
-        method, points = self.method, self.points
-        self.team(read, self.n, state, method.eos, method.law, 1.0, points)
-        hold(method.eos, method.law, *method.held[:3], points)
-        self.team(sweep, self.n, Differences(), points, self.edges, self.slopes)
-        self.team(lacking, self.n, self.slopes, method.edges.V, points)
+        super().rates(state, out)
+        keep(self.method.eos, *self.method.held[:3], self.exchange.total, self.at.V, self.points, self.received, out)
 
     def force(self, state: np.ndarray) -> np.ndarray:
         """(fx, fy, heat and work) that all held points take together from the fluid, per time."""

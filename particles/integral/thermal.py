@@ -78,10 +78,8 @@ class Thermal:
     def start(self, n: int, team: Team) -> "Agitated":
         """The sums over edges.
 
-        Raises
-        ------
-        ValueError
-            The state has not as many points as there are, or the viscosities have no noise along edges.
+        Raises ValueError: the state has not as many points as there are, or the viscosities have no noise
+        along edges.
         """
         check_number(n, self.edges.n)
         return Agitated(self, team)

@@ -1,11 +1,11 @@
-"""The stress that forces along edges lack where viscosity varies, for compiled methods, in 2D without bulk viscosity.
+"""What forces along edges lack of a fluid's stress, and its work, in 2D without bulk viscosity.
 
-Forces along edges push by d_b(eta d_b v_a); a fluid's stress by d_b(eta d_a v_b) - d_a(eta div v) besides, which vanishes where
-eta is constant: the divergence of
+Forces along edges push by d_b(eta d_b v_a); a fluid's stress by d_b(eta d_a v_b) - d_a(eta div v) besides, the divergence of
 
     tau = eta ((-d_y v, d_y u), (d_x v, -d_x u))      first the direction, then the component    [`dih.transposed`]
 
-whose work F = tau.v mends the heating. What feels F feels tau then; where a law makes eta constant none of this exists.
+It vanishes where eta is constant; its work F = tau.v never does: without it even a rigid rotation heats. What feels F feels tau
+where a law makes eta vary.
 """
 from typing import Any, NamedTuple
 
@@ -13,18 +13,39 @@ import numpy as np
 
 from continuum.fluid import constant_viscosity
 from continuum.jit import jit
-from particles.ghosts import Ghosts
+from particles.integral.exchange import At, Conduction, Friction, Over, Stage, stages_of
 from particles.pairs import nothing, rate, sweep
 from particles.threads import Team
 
 Tau = np.dtype([(name, "f8") for name in ("xx", "xy", "yx", "yy")])
 
 
+class Mending(NamedTuple):
+    """S.(F_a + F_b)/2: energy; and S.(tau_a + tau_b)/2, momentum, where viscosity varies. Of a share of the viscosity."""
+    share: float = 1.0
+
+
+class Differences(NamedTuple):
+    """V grad v by differences: d_x u, d_y u, d_x v, d_y v."""
+
+
 class Transposed(NamedTuple):
     """S.(tau_a + tau_b)/2: momentum."""
 
 
+#: friction along edges with the heating, and the force, of a fluid
+MENDED = (Conduction(), Mending(), Friction())
+
+nothing.of(Mending)(lambda term: (0.0, 0.0, 0.0, 0.0))
+nothing.of(Differences)(lambda term: (0.0, 0.0, 0.0, 0.0))
 nothing.of(Transposed)(lambda term: (0.0, 0.0))
+rate.of(Mending)(lambda term, a, b, ab: (0.0, 0.0, 0.0, ab.sx*(a.Fx + b.Fx) + ab.sy*(a.Fy + b.Fy)))
+
+
+@rate.of(Differences)
+def _(term, a, b, ab):
+    du, dv = b.ux - a.ux, b.uy - a.uy
+    return ab.sx*du, ab.sy*du, ab.sx*dv, ab.sy*dv
 
 
 @rate.of(Transposed)
@@ -32,35 +53,61 @@ def _(term, a, b, ab):
     return ab.sx*(a.xx + b.xx) + ab.sy*(a.yx + b.yx), ab.sx*(a.xy + b.xy) + ab.sy*(a.yy + b.yy)
 
 
-class Varying:
-    """What tau pushes n points by. term : `Transposed`, or over pairs; places : what this wants to know of points besides."""
+class Heating(Stage):
+    """Makes F of points and images.
 
-    def __init__(self, n: int, team: Team, term: Any = Transposed(), places: tuple[str, ...] = ()):  # noqa: B008 (immutable)
-        self.n, self.team, self.term, self.places = n, team, term, places
-        self.kind, self.force = np.dtype([*Tau.descr, *((name, "f8") for name in places)]), np.empty((n, 2))
+    Slopes see -v beyond a plate; what is their adjoint sees tau odd along it and even across. So heating is tau times the slopes
+    that made it, images included, and F along a plate is even, across it odd: no energy goes through.
+    over : how terms read edges; places : what this reads of points.
+    """
 
-    def push(self, points: np.ndarray, slopes: np.ndarray, V: np.ndarray, images: Ghosts, edges: Any) -> np.ndarray:
-        """Forces (n, 2) from slopes, V times d_x u, d_y u, d_x v, d_y v, and the records of points and, last, of images.
+    def __init__(self, share: float, n: int, team: Team, over: Over = lambda term: term, places: tuple[str, ...] = ()):
+        self.share, self.n, self.team, self.over, self.places = share, n, team, over, places
+        self.slopes = np.zeros((n, 4))
 
-        Slopes see -v beyond a plate; what is their adjoint sees tau odd along it and even across. So heating is tau times the
-        slopes that made it, images included, and F along a plate is even, across it odd.
-        """
-        tau = np.empty(len(points), self.kind)
-        self.team(_tau, self.n, slopes, V, points, tau)
-        images.fill(tau, ("yx", "yy"), ("xx", "xy"))
+    def prepare(self, at: At) -> None:
+        """F from gradients by differences."""
+        self.team(sweep, self.n, self.over(Differences()), at.points, at.edges, self.slopes)
+        self.use(self.slopes, at)
+
+    def use(self, slopes: np.ndarray, at: At) -> None:
+        """F from slopes (n, 4 or more), V times d_x u, d_y u, d_x v, d_y v."""
+        self.slopes = slopes
+        self.team(_work, self.n, slopes, at.V, self.share, at.points)
+        at.images.fill_work(at.points, slopes, at.V)
+
+class HeatingAndForce(Heating):
+    """Makes F, and adds what tau pushes by."""
+
+    def add(self, at: At, total: np.ndarray) -> None:
+        """S.(tau_a + tau_b)/2 to the momentum."""
+        tau = np.empty(len(at.points), [*Tau.descr, *((name, "f8") for name in self.places)])
+        force = np.empty((self.n, 2))
+        self.team(_tau, self.n, self.slopes, at.V, self.share, at.points, tau)
+        at.images.fill(tau, ("yx", "yy"), ("xx", "xy"))
         for name in self.places:
-            tau[name] = points[name]
-        self.team(sweep, self.n, self.term, tau, edges, self.force)
-        return self.force
+            tau[name] = at.points[name]
+        self.team(sweep, self.n, self.over(Transposed()), tau, at.edges, force)
+        total[:, 1:3] += force
 
 
-def varying(law: Any, mended: bool, n: int, team: Team, *more: Any) -> Varying | None:
-    """What a method needs besides for a law; nothing where its viscosity is constant, or where Eq. 51 is taken as printed."""
-    return Varying(n, team, *more) if mended and not constant_viscosity(law) else None
+@stages_of.register
+def _(term: Mending, law: Any, n: int, team: Team, *more: Any) -> tuple[Stage, ...]:
+    kind = Heating if constant_viscosity(law) else HeatingAndForce
+    return (kind(term.share, n, team, *more),)
 
 
 @jit
-def _tau(first, last, slopes, V, points, tau):
+def _work(first, last, slopes, V, share, points):
+    """F = eta (v u_y - u v_y, u v_x - v u_x), in 2D without bulk viscosity: `dih.lacking`."""
     for i in range(first, last):
-        a, f = tau[i], points[i].eta/V[i]
+        a, f = points[i], share*points[i].eta/V[i]
+        ux, uy, vx, vy = slopes[i, 0], slopes[i, 1], slopes[i, 2], slopes[i, 3]
+        a.Fx, a.Fy = f*(a.vy*uy - a.vx*vy), f*(a.vx*vx - a.vy*ux)
+
+
+@jit
+def _tau(first, last, slopes, V, share, points, tau):
+    for i in range(first, last):
+        a, f = tau[i], share*points[i].eta/V[i]
         a.xx, a.xy, a.yx, a.yy = -f*slopes[i, 3], f*slopes[i, 1], f*slopes[i, 2], -f*slopes[i, 0]

@@ -16,10 +16,8 @@ def delaunay(points: Points, weight: Any = None) -> Edges:
 
     Closed and exact on linear fields on any points; the conductances are those of P1, (cot + cot)/2 in 2D. d = 2, 3.
 
-    Raises
-    ------
-    ValueError
-        d = 1, two points overlap, or points of a flat simplex lie on one sphere (a lattice in 3D).
+    Raises ValueError: d = 1, two points overlap, or points of a flat simplex lie on one sphere (a lattice in
+    3D).
     """
     return _assembled(points, *_simplices(points))
 
@@ -29,10 +27,7 @@ def between(x: np.ndarray, width: float, height: float) -> Edges:
 
     Closed on all points but those on the plates, where what is missing is half of the plate beside the point, outwards.
 
-    Raises
-    ------
-    ValueError
-        There is no point on one of the plates, or one beyond them; or two points overlap.
+    Raises ValueError: there is no point on one of the plates, or one beyond them; or two points overlap.
     """
     low, high = x[:, 1].min(), x[:, 1].max()
     if max(abs(low + height/2), abs(high - height/2)) > 1e-12*height:

@@ -13,6 +13,7 @@ import numpy as np
 from continuum.fluid import conductivity, constant_viscosity, energy, pressure, stress, temperature, valid, viscosity
 from continuum.jit import formula, jit
 from particles.fields import Fields
+from particles.integrators import RK4
 from particles.lists import Listed, Surroundings
 from particles.pairs import sweep
 from particles.terms import ArithmeticGradients, DirectFluxes, Fluxes, Gradients, density_factor
@@ -61,6 +62,7 @@ class Spam:
     transport: "type[Nested] | type[Direct] | None" = None
     static: LessStatic = LessStatic(0.0, 0.0)  # noqa: RUF009
     skin: float = 0.7
+    integrator: type = RK4
 
     names = ("x", "y", "vx", "vy", "e")
 
@@ -95,10 +97,7 @@ class Spam:
     def start(self, n: int, team: Team) -> "Nested | Direct":
         """The sums of n particles, with their arrays.
 
-        Raises
-        ------
-        ValueError
-            There are no particles, or the weight is wider than half of the box.
+        Raises ValueError: there are no particles, or the weight is wider than half of the box.
         """
         if n < 1:
             raise ValueError(f"there are no particles (n = {n}): a run needs at least one")
@@ -106,7 +105,11 @@ class Spam:
 
 
 class Sums(Listed, ABC):
-    """What both kinds of transport share: arrays, the density sum, the equations of state, what the time loop asks for."""
+    """What both kinds of transport share: arrays, the density sum, the equations of state, what the time loop asks for.
+
+    places : rows of a state that are positions; `velocity` : their rates, for integrators that step them apart.
+    """
+    places = 2
 
     def __init__(self, method: Spam, n: int, team: Team):
         self.method, self.team, self.n = method, team, n
@@ -130,6 +133,10 @@ class Sums(Listed, ABC):
     @abstractmethod
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt, written to `out`."""
+
+    def velocity(self, state: np.ndarray) -> np.ndarray:
+        """Rates of the positions."""
+        return state[2:4]
 
     def look_at(self, state: np.ndarray) -> None:
         """Densities and gradients of a state, for whatever is measured on it."""

@@ -23,10 +23,7 @@ class FixedRows(NamedTuple):
 def fixed_plates(height: float, T_hot: float, T_cold: float, rows: int = 6, spacing: float = 1.0) -> tuple:
     """Hot plate below, cold one above; their rows go on with the conduction profile. Two ranges are six rows.
 
-    Raises
-    ------
-    ValueError
-        The profile reaches T = 0 within the rows above the cold plate.
+    Raises ValueError: the profile reaches T = 0 within the rows above the cold plate.
     """
     slope = (T_cold - T_hot)/height
     last = T_cold + slope*(rows - 0.5)*spacing

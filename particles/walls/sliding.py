@@ -56,10 +56,8 @@ class Sides(NamedTuple):
 def sides(points: Points, edges: Edges) -> Sides:
     """Edges of a periodic lattice with sliding images in place of the periodic ones above and below.
 
-    Raises
-    ------
-    ValueError
-        The points are no lattice, or its edges are not alike in all columns and mirror images of each other in x.
+    Raises ValueError: the points are no lattice, or its edges are not alike in all columns and mirror images
+    of each other in x.
     """
     counts = check_lattice(points)
     check_alike(points, edges, counts)

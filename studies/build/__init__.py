@@ -7,8 +7,8 @@
     method, start, dt = ready(RayleighBenard(ra=1e4, L=16.0), "fixed-lattice", seed=1)
     done = run(method, start, Plan(dt=dt, steps=100))
 
-A variant (`Variant`, `Scheme`, `Motion`, `DriftMotion`, `Form`) or a method of one's own, with `state(x, rho, v, T)`, may stand in
-place of the name. Scenes with exact answers are in `studies.build.scenes`.
+A variant (`Variant`, `Scheme`, `Motion`, `DriftMotion`, `Form`) or a method of one's own, with `state(x, rho, v, T)`, may
+stand in place of the name. Scenes with exact answers are in `studies.build.scenes`.
 """
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches

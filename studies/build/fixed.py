@@ -1,5 +1,6 @@
 """Discretized integral hydrodynamics on fixed points, in any scene    [RR98, Sec. III]"""
 from collections.abc import Callable
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,6 +11,7 @@ from particles.integral.driven import Driven
 from particles.integral.edge_makers import closed, exact, plain, renormalised
 from particles.integral.edges import NONE_BEYOND, between_plates
 from particles.integral.layer import Exchanging, Layer
+from particles.integral.nested import mixed
 from particles.integral.points import of_positions, random, relaxed
 from particles.integral.stream import Stream, Streaming
 from particles.integral.triangulation import between, delaunay
@@ -24,6 +26,7 @@ def hard_core(width: float, height: float, size: float, seed: int) -> np.ndarray
     return inside(height, random((round(width), round(height)), size, seed).x)
 
 
+@cache
 def settled(width: float, height: float, size: float, seed: int) -> np.ndarray:
     """Random points that have moved apart together with their mirror images until each is surrounded evenly."""
     x, shift, mirror = hard_core(width, height, size, seed), np.array([0.0, height/2]), np.array([1.0, -1.0])
@@ -93,7 +96,7 @@ def torus(scene: Any, scheme: Scheme, seed: int) -> Layer:
     place = shifted if scheme.points is positions else scheme.points        # there is no plate to stay away from
     points = of_positions(place(scene.width, scene.L, scheme.size, seed), (scene.width, scene.L))
     return Layer(x=points.x, edges=scheme.make(points, scheme.weight.of(h=scheme.h)), beyond=NONE_BEYOND, eos=scene.eos,
-                 law=scene.law, T_plates=(1.0, 1.0), g=0.0, mended=scheme.mended, share=scheme.share)
+                 law=scene.law, T_plates=(1.0, 1.0), g=0.0, transport=mixed(scheme.share, scheme.mended))
 
 
 def layer(scene: Any, scheme: Scheme, seed: int) -> Layer:
@@ -101,7 +104,7 @@ def layer(scene: Any, scheme: Scheme, seed: int) -> Layer:
     x = inside(scene.L, scheme.points(scene.width, scene.L, scheme.size, seed))
     edges, beyond = between_plates(scheme.make, x, scene.width, scene.L, scheme.weight.of(h=scheme.h))
     parts: dict[str, Any] = {"x": x, "edges": edges, "beyond": beyond, "eos": scene.eos, "law": scene.law, "g": scene.g,
-                             "T_plates": (scene.T_hot, scene.T_cold), "mended": scheme.mended, "share": scheme.share}
+                             "T_plates": (scene.T_hot, scene.T_cold), "transport": mixed(scheme.share, scheme.mended)}
     return Driven(**parts, slide=(0.0, scene.slide)) if scene.slide else Layer(**parts)
 
 
@@ -128,11 +131,4 @@ class PlateHeat(NamedTuple):
         if isinstance(sums, Streaming):
             sums.rates(state, np.empty_like(state))
             return -float(sums.received[sums.method.held.body == self.plate, 2].sum())
-        beyond, points, here = sums.method.beyond, sums.points, sums.method.beyond.plate == self.plate
-        i, image = beyond.i[here], sums.n + sums.ghost.ravel()[here]
-        a, b = points[i], points[image]
-        along = float(np.sum(beyond.k[here]*(a["k"] + b["k"])/2*(b["Td"] - a["Td"])))
-        if sums.method.share == 1:
-            return along
-        q = np.stack([sums.currents[name][i] + sums.currents[name][image] for name in ("qx", "qy")], axis=1)
-        return along + float((beyond.S[here]*q).sum()/2)
+        return sums.heat_through(self.plate)

@@ -4,8 +4,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.gas.fields import Fields, block, initial, placed, unblock
-from continuum.gas.loop import EdgeHeat, FluxForm, PaperForm
+from continuum.gas.fields import Fields, Nodes, at_nodes, block, initial, placed, unblock
+from continuum.gas.loop import VX, EdgeHeat, FluxForm, PaperForm
 from continuum.gas.solve import SAFETY, March, limits
 from continuum.scene import RayleighBenard
 from particles.limits import limit_of
@@ -30,9 +30,9 @@ class Gridded:
         march.go(steps)
         return march.S
 
-    def at(self, S: np.ndarray) -> Fields:
-        """Fields at the nodes."""
-        return unblock(self.scene, S)
+    def fields(self, S: np.ndarray) -> Nodes:
+        """At the nodes, each place once."""
+        return at_nodes(unblock(self.scene, S))
 
 
 @limit_of.register
@@ -52,15 +52,23 @@ class Form(NamedTuple):
     step: float = SAFETY
 
     def ready(self, scene: Any, seed: int = 1, rows: int = 0, first: np.ndarray | None = None) -> Ready:
-        """The grid in a scene, cells of one spacing unless it has so many `rows`; from a block, if given. Nothing depends on seeds."""
+        """The grid in a scene, cells of one spacing unless `rows` are given, from a block, if given; seeds say nothing."""
         method = Gridded(scene=scene, rows=rows or round(scene.L), continuity=self.continuity)
-        first = block(beginning(scene, method.rows, self)) if first is None else first
+        first = begun(scene, method.rows, self) if first is None else first
         return stepped(method, method.march(first).S, self.step)
 
 
 #: "fig10" is a scene of its own temperatures, told apart from others by this name only
 FORMS = {form.name: form for form in (Form("flux-form"), Form("paper-form", PaperForm()), Form("edge-heat", EdgeHeat()),
                                       Form("two-rolls", rolls=2, aside=1), Form("fig10", rolls=2, aside=1))}
+
+
+def begun(scene: Any, rows: int, form: Form) -> np.ndarray:
+    """The block of the start; a plate slides where its nodes, which never change, have a velocity."""
+    S = block(beginning(scene, rows, form))
+    if scene.slide:
+        S[VX, -1] = scene.slide
+    return S
 
 
 def beginning(scene: Any, rows: int, form: Form) -> Fields:

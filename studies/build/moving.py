@@ -4,6 +4,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from particles.integral.closed_faces import EXCHANGED, Exchanging, Ingredients, Moving
+from particles.integral.exchange import PRINTED
 from particles.weights import WendlandC2
 from studies.build.setting import Ready, check_open, check_spacings, check_still, shaken, stepped, walls
 
@@ -37,7 +38,7 @@ MOTIONS = {m.name: m for m in (
     Motion("moving-no-spread", Ingredients(spread=0.0)),
     Motion("moving-plain-spread", Ingredients(smooth=False)),
     Motion("moving-whole-pressure", Ingredients(static=False)),
-    Motion("moving-printed-heat", Ingredients(mended=False)),
+    Motion("moving-printed-heat", Ingredients(transport=PRINTED)),
     Motion("moving-half-step", of_limit=0.5),
 )}
 

@@ -5,9 +5,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from particles.integral.brackets import Powers
+from particles.integral.exchange import PRINTED
 from particles.integral.points import lattice
 from particles.integral.rr98_moving import DRIFTS, ConstantMassDrift, Drift, Drifts, OverPairs
 from particles.integral.rr98_moving_plain import scale_of
+from particles.integral.transposed_stress import MENDED
 from particles.observe import pairs_behind
 from particles.pairs import nothing, rate, sweep
 from particles.smooth.spam import LessStatic
@@ -54,8 +56,8 @@ def method(scene: Any, chosen: DriftMotion) -> Drift:
     check_spacings(scene)
     weight = chosen.weight.of(h=chosen.h)
     return Drift(motion=chosen.motion, weight=weight, scale=scale(weight), eos=scene.eos, law=scene.law,
-                 box=(scene.width, scene.L), g=scene.g, walls=walls(scene), mended=chosen.mended,
-                 static=LessStatic(chosen.less, scene.T_mean))
+                 box=(scene.width, scene.L), g=scene.g, walls=walls(scene),
+                 transport=MENDED if chosen.mended else PRINTED, static=LessStatic(chosen.less, scene.T_mean))
 
 
 @cache

@@ -10,9 +10,10 @@ import numpy as np
 from scipy.linalg import expm
 
 from continuum.exact.plates import FLOWS, MU, Flow
+from continuum.exact.vortex import Vortex
+from continuum.exact.waves import Gas, continuum
 from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import Periodic, RayleighBenard, Torus
-from studies.build.symbols import Gas, continuum
 
 SOUND = sqrt(2)         # of the gas at T = 1, in 2D
 TINY = 1e-12            # in place of zero: the grid divides by coefficients
@@ -41,13 +42,13 @@ class Scene:
 
 @dataclass(frozen=True, kw_only=True)
 class TaylorGreen(Scene):
-    """A vortex of a Mach number in a periodic box of L spacings, one wavelength, that decays by e    [Re = U L/nu]
-
-    It starts with the pressure of the incompressible vortex at constant entropy, P = rho T = rho^2.
-    """
+    """A vortex of a Mach number in a periodic box of L spacings, one wavelength, that decays by e: `continuum.exact.vortex`."""
     L: int
     mach: float = 0.05
-    re: float = 100.0       # several turns while it decays: pressure and convection matter, not friction alone
+
+    @property
+    def vortex(self) -> Vortex:
+        return Vortex(self.mach, self.L)
 
     @property
     def width(self) -> int:  # type: ignore[override]
@@ -55,15 +56,15 @@ class TaylorGreen(Scene):
 
     @property
     def speed(self) -> float:
-        return self.mach*np.sqrt(2)
+        return self.vortex.speed
 
     @property
     def k(self) -> float:
-        return 2*np.pi/self.L
+        return self.vortex.k
 
     @property
     def eta(self) -> float:
-        return self.speed*self.L/self.re
+        return self.vortex.eta
 
     @property
     def law(self) -> ConstEta:
@@ -71,16 +72,15 @@ class TaylorGreen(Scene):
 
     @property
     def time(self) -> float:
-        """When velocities of an incompressible fluid are a factor e smaller, 2 nu k^2 t = 1."""
-        return 1/(2*self.eta*self.k**2)
+        """When velocities of an incompressible fluid are a factor e smaller."""
+        return self.vortex.time
 
     def velocity(self, x: np.ndarray) -> np.ndarray:
         """(n, 2) at places (n, 2) at the start."""
-        a, b = self.k*x.T
-        return self.speed*np.stack([np.sin(a)*np.cos(b), -np.cos(a)*np.sin(b)], axis=1)
+        return self.vortex.velocity(x)
 
     def fields(self, x: np.ndarray) -> Start:
-        rho = np.sqrt(1 + self.speed**2/4*np.cos(2*self.k*x).sum(axis=1))
+        rho = self.vortex.density(x)
         return rho, self.velocity(x), rho
 
 

@@ -1,7 +1,7 @@
 """A method set up in a scene, and how: what all families of methods share.
 
-A scene has `width, L` (in spacings), `sides` (`Periodic`, `Walls`, `Torus`), the plates' `T_hot, T_cold` and the velocity `slide` of
-the upper one along itself, gravity `g`, the fluid `eos, law`, and `fields(x) -> rho, v, T`, the start at places (n, 2).
+A scene has `width, L` (in spacings), `sides` (`Periodic`, `Walls`, `Torus`), the plates' `T_hot, T_cold`, the velocity `slide`
+of the upper one along itself, gravity `g`, the fluid `eos, law`, and `fields(x) -> rho, v, T`, the start at places (n, 2).
 """
 from math import isclose
 from typing import Any, NamedTuple
@@ -37,11 +37,10 @@ def stepped(method: Any, start: np.ndarray, of_limit: float) -> Ready:
 
 
 def of_method(method: Any, scene: Any, seed: int = 1, x: np.ndarray | None = None, of_limit: float = 0.8) -> Ready:
-    """Any method with `state(x, rho, v, T)`, from a jittered lattice unless it has places `x` of its own or some are given."""
-    x = getattr(method, "x", None) if x is None else x
-    x = shaken(scene, seed) if x is None else x
-    rho, v, T = scene.fields(x)
-    return stepped(method, method.state(x=x, rho=rho, v=v, T=T), of_limit)
+    """Any method with places `x` and `state(rho, v, T)`; with `state(x, rho, v, T)` from a jittered lattice or given places."""
+    own = {} if hasattr(method, "x") else {"x": shaken(scene, seed) if x is None else x}
+    rho, v, T = scene.fields(own.get("x", getattr(method, "x", None)))
+    return stepped(method, method.state(**own, rho=rho, v=v, T=T), of_limit)
 
 
 def walls(scene: Any, rule: Any = AtWall(), pressure: Any = Copied()) -> tuple:  # noqa: B008
@@ -115,5 +114,5 @@ def check_still(scene: Any) -> None:
         The upper plate slides.
     """
     if scene.slide:
-        raise ValueError(f"plates of moving points do not slide, got slide = {scene.slide}: take fixed points, smooth particles or "
-                         "the grid")
+        raise ValueError(f"plates of moving points do not slide, got slide = {scene.slide}: take fixed points, smooth particles "
+                         "or the grid")

@@ -1,7 +1,5 @@
-"""What do the schemes keep over 10 000 steps, on points that stay and on points that move?"""
-from studies.conservation import cases
-from studies.conservation.bodies import cases as bodies
-from studies.conservation.motions import cases as motions
+"""What do the schemes keep over 10 000 steps, on points that stay, on points that move, and around bodies?"""
+from studies.conservation.cases import PART
 from studies.kit.study import Study
 
-STUDY = Study.of("conservation", __doc__, (cases.PART, motions.PART, bodies.PART,))
+STUDY = Study.of("conservation", __doc__, (PART,))

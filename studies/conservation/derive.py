@@ -1,77 +1,99 @@
-"""The worst of many runs, and means over seeds, of the study conservation."""
-from collections.abc import Iterator
+"""Means over sets of points; limits of long waves, of steps, of fine points."""
+from collections.abc import Callable, Iterator
+from math import hypot
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from studies.conservation.tables import FRAME, WAVE
-from studies.kit.stats import combine
-from studies.kit.table import Tables
+from studies.conservation.tables import FRAME, SOUND_KEY, SUMS
+from studies.kit import fits
+from studies.kit.stats import Measured, seed_means
+from studies.kit.table import Rows, Tables
 
-SUMS = ("mass", "momentum", "energy", "volume")
-GROUP = ["scheme", "mode", "d", "wall", "maker"]
-#: by which runs differ
-FACTORS = ("mode", "weight", "maker", "points", "wall", "d", "zeta")
-RR98 = SUMS[:3]     # volumes are exchanged by the conservative scheme only
+Derived = Iterator[dict[str, Any]]
 
-
-def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
-    """Derived rows of the study."""
-    found: dict[str, list[dict[str, Any]]] = {}
-    if "drift" in tables:
-        found["kept"] = list(kept(tables["drift"]))
-        found["factors"] = list(factors(tables["drift"]))
-        found["lost"] = list(lost(tables["drift"]))
-    if "frames" in tables:
-        found["frame_means"] = list(means(tables["frames"], FRAME, RR98))
-    if "sound" in tables:
-        found["sound_means"] = list(means(tables["sound"], WAVE, ("growth", "ln_energy")))
-    return found
+LONG = (16, 24, 32)     # wavelengths from which sound is extrapolated
+LEAST = 3               # sizes of a limit
+WIDE = 4.0              # spacings: a circle of a smaller radius is too coarse a polygon
+SMOOTH = ("surface", "surface-unfiltered")      # drags that err as rows^-2; staircases as 1/rows
 
 
-def kept(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    """Largest changes of each sum in the runs that reached the end."""
-    for key, group in rows.groupby(GROUP):
-        whole = finished(group)
-        yield {**dict(zip(GROUP, key, strict=True)), "runs": len(group), "finished": len(whole),
-               **{name: whole[name].max() if len(whole) else np.nan for name in SUMS}, "err": group["err"].max()}
+def derive(tables: Tables) -> Rows:
+    """Derived rows of the study, of the tables there are."""
+    rows = {name: list(make(tables[source])) for name, (source, make) in DERIVED.items() if source in tables}
+    return {name: made for name, made in rows.items() if made}
 
 
-def claimed(rows: pd.DataFrame, name: str) -> pd.Series:
-    """Changes of a sum, nothing where it is not claimed."""
-    return rows[name].where(np.array([name in text.split() for text in rows["claimed"]], bool))
+def frame_means(frames: pd.DataFrame) -> Derived:
+    """Over sets of points."""
+    return seed_means(frames, FRAME, SUMS[:3])
 
 
-def factors(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    """Each value of each factor; modes of different schemes are told apart."""
-    rows = rows.assign(mode=rows["scheme"] + " " + rows["mode"], wall=rows["scheme"] + " " + rows["wall"])
-    for factor in FACTORS:
-        for value, group in rows.groupby(factor):
-            whole, stopped = finished(group), group[group["reached"] < group["steps"]]
-            yield {"factor": factor, "value": str(value), "runs": len(group), "finished": len(whole),
-                   **{name: claimed(whole, name).max() for name in RR98},
-                   "stopped": np.fmax.reduce([claimed(stopped, name).max() for name in RR98])}
+def sound_means(sound: pd.DataFrame) -> Derived:
+    """The same; errors of eigenvalues are below the scatter."""
+    return seed_means(sound.drop(columns="growth_err"), SOUND_KEY, ("growth", "ln_energy"))
 
 
-def lost(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    """Sums that are not claimed."""
-    for key, group in rows.groupby(["scheme", "mode", "wall"]):
-        for name in RR98:
-            change = group[name].where(claimed(group, name).isna()).dropna()
-            if len(change):
-                yield {**dict(zip(("scheme", "mode", "wall"), key, strict=True)), "sum": name, "runs": len(change),
-                       "least": change.min(), "most": change.max()}
+def long_sound(sound: pd.DataFrame) -> Derived:
+    """Speeds of long waves: what the weight does to them is proportional to wavelength^-2.
+
+    The error is the difference of two extrapolations.
+    """
+    for (motion, weight), group in sound.groupby(["motion", "weight"]):
+        numbers = group[["wavelength", "speed", "speed_err"]].to_numpy()
+        speeds = {int(wavelength): Measured(speed, err) for wavelength, speed, err in numbers}
+        if set(LONG) <= set(speeds):
+            short, middle, long = LONG
+            speed = extrapolated(speeds, middle, long)
+            change = speed - extrapolated(speeds, short, middle)
+            err = hypot(change, 3*speeds[long].err, 3*speeds[middle].err)
+            yield {"motion": motion, "weight": weight, "speed": speed, "speed_err": err}
 
 
-def finished(rows: pd.DataFrame) -> pd.DataFrame:
-    """Runs that reached the end."""
-    return rows[rows["reached"] == rows["steps"]]
+def extrapolated(speeds: dict[int, Measured], a: int, b: int) -> float:
+    """Speed at 1/wavelength^2 = 0 from two wavelengths."""
+    return (b*b*speeds[b].value - a*a*speeds[a].value)/(b*b - a*a)
 
 
-def means(rows: pd.DataFrame, key: list[str], columns: tuple[str, ...]) -> Iterator[dict[str, Any]]:
-    """Over point sets."""
-    for name, group in rows.groupby(key):
-        found = {column: combine([(value, 0.0) for value in group[column]]) for column in columns}
-        yield {**dict(zip(key, name, strict=True)), "seeds": len(group), **{c: found[c].value for c in columns},
-               **{f"{c}_err": found[c].err for c in columns}}
+def euler_limits(euler: pd.DataFrame) -> Derived:
+    """Zero of the parabola through growth at 1/2, 1 and 3/2 times the predicted limit."""
+    for wavelength, group in euler.groupby("wavelength"):
+        if len(group) >= LEAST:
+            parabola = np.polyfit(group["dt_over_limit"], group["growth"], 2)
+            zeros = np.roots(parabola)
+            limit = float(zeros[np.argmin(abs(zeros - 1))].real)
+            slope = float(np.polyval(np.polyder(parabola), limit))
+            yield {"wavelength": wavelength, "limit": limit, "limit_err": group["growth_err"].max()/slope}
+
+
+def accuracy(steps: pd.DataFrame) -> Derived:
+    """Errors of two integrators at the shortest step; they share a reference, whose errors add up."""
+    for (motion, flow), group in steps.groupby(["motion", "flow"]):
+        finest = group[group["steps"] == group["steps"].max()].set_index("integrator")
+        new, old = finest.loc["two-step"], finest.loc["euler"]
+        ratio = new["error"]/old["error"]
+        relative = new["error_err"]/new["error"] + old["error_err"]/old["error"]
+        yield {"motion": motion, "flow": flow, "ratio": ratio, "ratio_err": ratio*relative}
+
+
+def drag_limits(drags: pd.DataFrame) -> Derived:
+    """Drags of infinitely fine points."""
+    for (variant, fraction), group in drags[drags["radius"] > WIDE].groupby(["variant", "fraction"]):
+        if len(group) >= LEAST:
+            rows, published = group["rows"].to_numpy(float), group[["published", "published_err"]].iloc[0]
+            spacing = rows**-2 if variant in SMOOTH else 1/rows
+            unsteady = Measured(0.0, group["drag_err"].max())
+            limit = fits.line(spacing, group["drag"].to_numpy()).intercept + unsteady
+            error = limit/Measured(*published) - 1
+            slope = fits.power_law(rows, group["error"].to_numpy()).slope
+            yield {"variant": variant, "fraction": fraction, "sizes": len(group), "limit": limit.value,
+                   "limit_err": limit.err, "error": error.value, "error_err": error.err, "slope": slope.value,
+                   "slope_err": slope.err}
+
+
+#: table -> the one it follows from, and how
+DERIVED: dict[str, tuple[str, Callable[[pd.DataFrame], Derived]]] = {
+    "frame_means": ("frames", frame_means), "sound_means": ("sound", sound_means),
+    "long_sound": ("moving_sound", long_sound), "euler_limits": ("euler", euler_limits),
+    "accuracy": ("steps", accuracy), "drag_limits": ("drag", drag_limits)}

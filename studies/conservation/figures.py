@@ -1,29 +1,27 @@
 """Figures of the study conservation, from its tables."""
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.conservation.derive import SUMS
-from studies.kit.figure import errorbar, figure, look
+from studies.conservation.tables import SUMS
+from studies.kit.figure import below, errorbar, figure, look
 from studies.kit.table import Tables
 
 MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
-KINDS = ("lattice", "jittered-0.3", "random", "relaxed")
-POINTS = dict(zip(KINDS, ("lattice", "shifted by up to $0.3a$", "random", "moved apart"), strict=True))
-TITLES = {"plus": "$(f_i + f_j)$ in both, Eqs 34, 35", "adjoint": "differences in the gradient"}
+POINTS = {"lattice": "lattice", "jittered-0.3": "shifted by up to $0.3a$", "random": "random",
+          "relaxed": "moved apart"}
+BRACKETS = {"plus": "$(f_i + f_j)$ in both, Eqs 34, 35", "adjoint": "differences in the gradient"}
+MOTIONS = {"literal": "literal (39-41)", "convective": "convective (46-48)", "carried": "46-48, dV carried",
+           "constant-mass": "constant mass (49)"}
+INTEGRATORS = {"euler": "forward Euler [40]", "two-step": "two steps [40, 41]"}
+BODIES = {"surface": "points on the surface", "surface-unfiltered": "the same without filter",
+          "frozen": "frozen lattice points", "frozen-grown": "frozen, half a spacing more"}
+UNIT = r"$a\,(m/k_BT)^{1/2}$"      # of time
 LEAST = 1e-17       # what is drawn for a change of nothing
-
-
-def figures(tables: Tables) -> dict[str, Figure]:
-    """What the tables allow."""
-    found = {}
-    if "drift" in tables:
-        found["drift"] = drift(tables["drift"])
-    if "sound_means" in tables:
-        found["sound"] = sound(tables["sound_means"])
-    return found
-
-
 #: scheme, mode, wall as texts begin -> words, in the order in which they are drawn
 COLUMNS = {
     ("layer", "pairwise", "periodic"): "friction along edges",
@@ -50,33 +48,44 @@ COLUMNS = {
 }
 
 
+def figures(tables: Tables) -> dict[str, Figure]:
+    """What the tables allow."""
+    drawn: dict[str, tuple[Callable[..., Figure], tuple[str, ...]]] = {
+        "drift": (drift, ("drift",)), "sound": (sound, ("sound_means",)),
+        "speeds": (speeds, ("patterns", "moving_sound")), "steps": (steps, ("euler", "steps")),
+        "drag": (drags, ("drag",))}
+    return {name: draw(*(tables[table] for table in wanted)) for name, (draw, wanted) in drawn.items()
+            if all(len(tables.get(table, [])) for table in wanted)}
+
+
 def column(scheme: str, mode: str, wall: str) -> int:
     """Where a run is drawn: the first of COLUMNS that fits."""
-    fits = [all(text.startswith(start) for text, start in zip((scheme, mode, wall), key, strict=True)) for key in COLUMNS]
+    fits = [all(map(str.startswith, (scheme, mode, wall), key)) for key in COLUMNS]
     return fits.index(True)
 
 
 def drift(rows: pd.DataFrame) -> Figure:
-    """Changes of claimed sums, in other marks where a run stopped early, and of others; one column a kind of run."""
+    """Changes of sums; other marks where a run stopped early, or does not claim to keep them."""
     page, axes = figure(1, 1, width=9.4, height=5.6)
-    rows = rows.assign(column=[column(*run) for run in zip(rows["scheme"], rows["mode"], rows["wall"], strict=True)])
+    rows = rows.assign(column=list(map(column, rows["scheme"], rows["mode"], rows["wall"])))
     order = sorted(set(rows["column"]))
     whole = rows["reached"] == rows["steps"]
     for number, name in enumerate(SUMS):
         claimed = np.array([name in text.split() for text in rows["claimed"]], bool)
-        for chosen, more in ((rows[claimed & whole], {"label": name}), (rows[claimed & ~whole], {"fillstyle": "left"}),
-                             (rows[~claimed], {"fillstyle": "none"})):
-            x = [order.index(place) + 0.15*(number - 1.5) for place in chosen["column"]]
-            axes.plot(x, np.maximum(chosen[name], LEAST), **{**look(number), "linestyle": "none", "markersize": 6}, **more)
+        style = {**look(number), "linestyle": "none", "markersize": 6}
+        for chosen, more in ((claimed & whole, {"label": name}), (claimed & ~whole, {"fillstyle": "left"}),
+                             (~claimed, {"fillstyle": "none"})):
+            x = [order.index(place) + 0.15*(number - 1.5) for place in rows["column"][chosen]]
+            axes.plot(x, np.maximum(rows[name][chosen], LEAST), **{**style, **more})
     axes.set_xlim(-0.6, len(order) - 0.4)
     axes.axhline(1e-13, color="grey", linestyle=":", marker="")
     axes.set(yscale="log", ylabel="largest relative change over the run")
-    words = list(COLUMNS.values())
-    axes.set_xticks(range(len(order)), labels=[words[place] for place in order], rotation=60, ha="right", fontsize=8)
-    axes.set_title(f"What do schemes on points conserve in {rows['steps'].max()} steps?\n"
-                   "filled: what the scheme claims to; left half filled: the same in runs that stopped early (diverged, or sound "
-                   "outran the step);\nopen: not claimed, also in such runs; dotted: 1e-13; no change at all is drawn as 1e-17",
-                   fontsize=9)
+    words = [list(COLUMNS.values())[place] for place in order]
+    axes.set_xticks(range(len(order)), labels=words, rotation=60, ha="right", fontsize=8)
+    axes.set_title(f"What do schemes on points conserve in {rows['steps'].max()} steps?\nfilled: what the "
+                   "scheme claims to; left half filled: the same in runs that stopped early (diverged, or "
+                   "sound outran the step);\nopen: not claimed, also in such runs; dotted: 1e-13; no change "
+                   "at all is drawn as 1e-17", fontsize=9)
     page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return page
 
@@ -84,18 +93,99 @@ def drift(rows: pd.DataFrame) -> Figure:
 def sound(rows: pd.DataFrame) -> Figure:
     """Growth of linear sound by makers of edges, for both brackets."""
     page, both = figure(1, 2, width=4.4, height=4.4, sharey=True)
-    for axes, bracket in zip(both, ("plus", "adjoint"), strict=True):
-        for number, kind in enumerate(KINDS):
+    for axes, (bracket, title) in zip(both, BRACKETS.items(), strict=True):
+        for number, (kind, words) in enumerate(POINTS.items()):
             some = rows[(rows["bracket"] == bracket) & (rows["points"] == kind)]
-            if len(some):
-                x = np.array([MAKERS.index(maker) for maker in some["maker"]]) + 0.12*(number - 1.5)
-                errorbar(axes, x.tolist(), np.maximum(some["growth"], LEAST).tolist(), some["growth_err"].tolist(),
-                         number=number, label=POINTS[kind])
-        axes.set(yscale="log", title=TITLES[bracket], xlabel="edges")
-        axes.set_ylim(LEAST/3, 300)
+            some = some.assign(growth=some["growth"].clip(lower=LEAST),
+                               x=some["maker"].map(MAKERS.index) + 0.12*(number - 1.5))
+            bars(axes, some, "x", "growth", number=number, label=words)
+        axes.set(yscale="log", title=title, xlabel="edges", ylim=(LEAST/3, 300))
         axes.set_xticks(range(len(MAKERS)), labels=MAKERS, rotation=45, ha="right")
     both[0].set_ylabel("fastest growth of sound per period")
     page.legend(*both[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    page.suptitle("Sound without friction: does it keep its energy? Below 1e-13: round-off; bars: 95 % over sets of points",
+    page.suptitle("Sound without friction: does it keep its energy? Below 1e-13: round-off; bars: 95 % over "
+                  "sets of points",
+                  fontsize=10)
+    return page
+
+
+def bars(axes: Axes, rows: pd.DataFrame, x: str, y: str, **more: Any) -> None:
+    """A column with its errors over another."""
+    if len(rows):
+        errorbar(axes, rows[x].tolist(), rows[y].tolist(), rows[f"{y}_err"].tolist(), **more)
+
+
+def ticks(axes: Axes, values: Any) -> None:
+    """Marks of a logarithmic axis at these numbers only."""
+    axes.set_xticks(list(values), labels=[f"{value:g}" for value in values])
+    axes.minorticks_off()
+
+
+def speeds(patterns: pd.DataFrame, sound: pd.DataFrame) -> Figure:
+    """How fast a density pattern goes on a stream, and sound."""
+    page, (left, right) = figure(1, 2, width=4.4, height=4.0)
+    for axes, frame in ((left, patterns), (right, sound[sound["weight"] == "Lucy"])):
+        for number, (name, words) in enumerate(MOTIONS.items()):
+            group = frame[frame["motion"] == name].sort_values("wavelength")
+            bars(axes, group, "wavelength", "speed", number=number, label=words, markerfacecolor="none",
+                 markersize=10 - 2*number)      # some lie on each other
+            axes.plot(group["wavelength"], group["predicted"], color="grey", linestyle=":", marker="")
+        axes.set(xlabel=r"wavelength $\lambda/a$", xscale="log")
+        ticks(axes, sorted(set(frame["wavelength"])))
+        below(axes, ncols=2)
+    left.set(ylabel="speed of the pattern over the stream's", title="density pattern on a uniform stream")
+    right.set(ylabel="speed of sound over $c$", title="standing sound")
+    right.axhline(np.sqrt(2), color="grey", linewidth=0.6)
+    right.annotate(r"$\sqrt{2}$", (8, np.sqrt(2)), textcoords="offset points", xytext=(0, -14))
+    page.suptitle("Which motion of the points carries patterns and sound at the right speed?\n"
+                  "Lucy's weight, $h = 3a$; dotted: predicted from sums over the lattice", fontsize=10)
+    return page
+
+
+def steps(euler: pd.DataFrame, places: pd.DataFrame) -> Figure:
+    """Forward Euler and sound on fixed points; places of points that move."""
+    page, (left, right) = figure(1, 2, width=4.8, height=5.2)
+    k2 = (2*np.pi/euler["wavelength"])**2
+    euler = euler.assign(rate=euler["growth"]/k2, rate_err=euler["growth_err"]/k2,
+                         dotted=euler["predicted"]/k2)
+    for number, (wavelength, group) in enumerate(euler.groupby("wavelength")):
+        bars(left, group, "dt_over_limit", "rate", number=number, label=rf"$\lambda = {wavelength:g}a$")
+        left.plot(group["dt_over_limit"], group["dotted"], color="grey", linestyle=":", marker="")
+    left.axhline(0, color="black", linewidth=0.6, linestyle="-", marker="")
+    left.set(title="fixed points: growth of sound",
+             xlabel=r"step $\Delta t\, \rho c^2/(\eta + \zeta + \kappa/2)$",
+             ylabel=r"growth rate$/(ka)^2$  [$(k_BT/m)^{1/2}/a$]")
+    groups = places.sort_values("dt").groupby(["motion", "flow", "integrator"])
+    for number, ((motion, flow, integrator), group) in enumerate(groups):
+        words = f"{MOTIONS[str(motion)]}, {flow},\n{INTEGRATORS[str(integrator)]}"
+        bars(right, group, "dt", "error", number=number, linestyle=look(number)["linestyle"], label=words)
+    right.set(xlabel=rf"step $\Delta t$  [{UNIT}]", ylabel="rms error of places over displacement",
+              xscale="log", yscale="log", title="points that move: where they end")
+    ticks(right, (0.03, 0.1, 0.3))
+    for axes in (left, right):
+        below(axes, ncols=2, bbox_to_anchor=(0.5, -0.16))
+    page.suptitle("Which steps do Eqs 40, 41 allow?\ndotted: predicted growth; bars: what halves of a run, "
+                  "or finer steps, differ by", fontsize=10)
+    return page
+
+
+def drags(drag: pd.DataFrame) -> Figure:
+    """Error of the drag against the published value over the resolution, one panel a solid fraction."""
+    fractions = sorted(set(drag["fraction"]))
+    page, axes = figure(1, len(fractions), width=4.4, height=4.2, squeeze=False, sharey=True)
+    drag = drag.assign(percent=100*drag["error"].abs(), percent_err=100*drag["error_err"])
+    across = np.array([drag["radius"].min(), drag["radius"].max()])
+    for panel, fraction in zip(axes[0], fractions, strict=True):
+        for number, (name, words) in enumerate(BODIES.items()):
+            group = drag[(drag["variant"] == name) & (drag["fraction"] == fraction)].sort_values("rows")
+            bars(panel, group, "radius", "percent", number=number, linestyle="-", label=words)
+        for power, style, at in ((1, ":", 60.0), (2, "--", 16.0)):
+            panel.plot(across, at*across**-power, color="grey", linestyle=style, marker="",
+                       label=f"$(a/R)^{power}$")
+        panel.set(xscale="log", yscale="log", title=f"solid fraction {fraction:g}", xlabel="radius $R/a$")
+        ticks(panel, (4, 6, 10, 20))
+        below(panel, ncols=2, bbox_to_anchor=(0.5, -0.16))
+    axes[0, 0].set_ylabel("|error| of the drag, %")
+    page.suptitle("Drag of a cylinder against Sangani & Acrivos (1982); bars: print and what was not steady",
                   fontsize=10)
     return page

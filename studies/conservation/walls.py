@@ -3,20 +3,15 @@
 What held points take of momentum and energy is entered in a book, so that fluid and walls together can be watched.
 """
 from dataclasses import dataclass
-from math import fsum
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.bodies import Held, held, in_disc, together, with_plates
-from particles.integral.fixed import Exchange
+from particles.integral.booked import Booked, BookedSides
 from particles.integral.points import Points, of_positions
-from particles.integral.sheared import Sheared, Shearing, above
-from particles.integral.stream import Stream, Streaming
 from particles.integral.triangulation import between
-from particles.pairs import sweep
-from particles.threads import Team
 from studies.conservation.drift import Drift
 from studies.conservation.sums import exact_sums, random_fields
 
@@ -24,36 +19,6 @@ SIDE = 10               # spacings
 DEPTH = 3               # of rows of held points: the range of the weights
 RADIUS = 2.5            # of the body
 SPEED = 0.1             # of the upper rows, of the box above a sliding side
-
-
-@dataclass(frozen=True, kw_only=True, repr=False)
-class Booked(Stream):
-    """A stream with a book in its first point's columns: momentum and energy that all walls have taken, over its volume.
-
-    One book of the sum: what held points push each other by cancels at once. Books of single points grow to a thousand times
-    the fluid's momentum, and round accordingly.
-    """
-
-    names = (*Stream.names, "taken_x", "taken_y", "taken_e")      # type: ignore[assignment]
-
-    def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
-        """(7, n), nothing taken yet."""
-        return np.concatenate([super().state(rho, v, T), np.zeros((3, len(self.x)))])
-
-    def start(self, n: int, team: Team) -> "Booking":
-        """The sums over stored edges."""
-        super().start(n, team)
-        return Booking(self, team)
-
-
-class Booking(Streaming):
-    """The compiled sums of a stream, and what goes into the book."""
-
-    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt of a state (7, n), written to `out`."""
-        super().rates(state[:4], out[:4])
-        out[4:] = 0
-        out[4:, 0] = [fsum(q)/self.method.edges.V[0] for q in self.received.T]
 
 
 class Hold(NamedTuple):
@@ -109,37 +74,6 @@ class HeldDrift(Drift):
 class Slide(NamedTuple):
     """The box above slides past."""
     name: str = "sliding sides"
-
-
-@dataclass(frozen=True, kw_only=True)
-class BookedSides(Sheared):
-    """Sliding sides with a book: momentum along them and energy that they have given, per volume of the box.
-
-    What leaves below is what enters above seen from the box above, which moves with U: of mass m, momentum p and energy e that
-    enter, U m of momentum and U p - U^2 m/2 of energy stay.
-    """
-
-    names = (*Sheared.names, "given_x", "given_e")      # type: ignore[assignment]
-
-    def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
-        """(7, n), nothing given yet."""
-        return np.concatenate([super().state(rho, v, T), np.zeros((2, self.points.n))])
-
-    def start(self, n: int, team: Team) -> "BookingSides":
-        """The sums over stored edges."""
-        super().start(n, team)
-        return BookingSides(self, team)
-
-
-class BookingSides(Shearing):
-    """The compiled sums, and what goes into the book."""
-
-    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt of a state (7, n), written to `out`."""
-        super().rates(state[:5], out[:5])
-        sweep(0, self.n, Exchange(self.method.eos), self.all, above(self.edges, self.method.sides), self.total)
-        (m, p, _, _), U = self.total.sum(axis=0)/self.method.edges.V.sum(), self.method.speed
-        out[5], out[6] = U*m, U*p - U**2*m/2
 
 
 @dataclass(frozen=True, kw_only=True)

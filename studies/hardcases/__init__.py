@@ -1,19 +1,12 @@
-"""Where do smooth particles break, and was it to be expected?    [KHP95, Secs II-IV, Figs 4, 10, 11]
+"""Where do methods break, and was it to be expected?
 
-Spurious shear modulus, pairing and clumping of lattices against lattice sums; freezing against the printed criteria; the
-isomorphism with molecular dynamics and its reversal; a shock tube and a shocked interface against exact and linear theory; the
-same tube, and the highest Ra that 16 rows bear, by the grid, fixed and moving points.
-Units: particles of unit mass at mean density 1, so lengths in spacings. Paper size takes half an hour. Writes
-results/hardcases/*.csv and *.png and the rows of study hardcases in results/claims.csv. A group of cases is a `Part`.
+KHP95, Secs II, V, VI, Figs 10, 11: shock tubes and a shocked interface against exact and linear theory; the
+square of Fig. 10; the highest Ra that 16 rows bear; limits of the time step; and a map of all methods over
+thirteen hard cases. Particles and points have unit spacing at mean density 1. Paper size takes a quarter of
+an hour.
 """
-from studies.hardcases.high_ra import part as high_ra_part
-from studies.hardcases.interface import grid as interface_grid
-from studies.hardcases.limits import part as limits
-from studies.hardcases.map import part as map_part
-from studies.hardcases.tube import part as tube_part
+from studies.hardcases import cases, claims, derive, figures, tables
 from studies.kit.study import Study
-from studies.lattices import cases as khp95
-from studies.lattices import long_sound, ringing_part
 
-#: the map comes last, it stands on what the others derive
-STUDY = Study.of("hardcases", __doc__, (khp95.PART, limits.PART, ringing_part.PART, long_sound.PART, tube_part.PART, high_ra_part.PART, interface_grid.PART, map_part.PART,))
+STUDY = Study(name="hardcases", question=__doc__.split("\n")[0], cases=cases.cases, tables=tables.ALL,
+              derive=derive.derive, figures=figures.figures, claims=claims.CLAIMS)

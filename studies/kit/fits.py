@@ -3,12 +3,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import pandas as pd
 from scipy.special import stdtrit
 
 from continuum.richardson import richardson
 from studies.kit.stats import CannotTell, Measured
 
-Numbers = Sequence[float] | np.ndarray
+Numbers = Sequence[float] | np.ndarray | pd.Series
 
 
 @dataclass(frozen=True)

@@ -1,17 +1,18 @@
 """P = rho^2: smooth particles are molecules, and their paths run back    [KHP95, Sec. III]
 
-Inviscid particles with P/rho^2 = 1 obey dv/dt = -sum_j m 2 grad w: Newton's equations with the potential 2 m^2 w of a pair.
-Sums of both in the same integrator must keep to the same path until round-off has grown; a path that is turned must come back, to
-what the integrator's truncation or round-off makes of it, and bit by bit if places and velocities are whole numbers.
+Inviscid particles with P/rho^2 = 1 obey dv/dt = -sum_j m 2 grad w: Newton's equations with the potential 2
+m^2 w of a pair. `Twins` follows one path by both kinds of sums: they must agree until round-off has grown.
+`Reversal` turns the velocities: the path comes back, to what truncation or round-off makes of it, and bit by
+bit if places and velocities are whole numbers.
 """
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
 from continuum.fluid import VanDerWaals
-from particles.integrators import RK4
+from particles.integrators import RK4, Leapfrog, Whole, whole
 from particles.limits import step_limit
 from particles.run import STUDIES, Plan, run
 from particles.smooth.spam import Spam
@@ -22,17 +23,19 @@ from studies.build.names import START_JITTER
 from studies.build.periodic_box import FRICTIONLESS, at_rest, fluid
 from studies.kit.case import Case, Outcome, Report
 
-#: P = rho^2: van der Waals without excluded volume, of a heat capacity so large that energy adds nothing to the pressure
+#: P = rho^2: van der Waals without excluded volume, of a heat capacity so large that energy adds nothing to
+#: the pressure
 RHO_SQUARED = VanDerWaals(a=-1.0, b=0.0, cv=1e300)
 ENERGY = 1e3        # per mass: any that stays above rho is valid
+RANGE = 3.0
 SPEED = 0.4         # rms of each velocity: m v^2 = 0.32 is about phi(0) = 2 w(0) = 0.35, so that particles pass each other
-GRID = 2.0**-24     # of whole numbers, spacings: sums in another order differ by 1e-16, but all except 1e-8 are rounded alike
 
 
 def crowd(side: int, seed: int) -> np.ndarray:
-    """State (5, side^2) of a shifted lattice with random velocities, momentum zero, all of it on the grid of whole numbers."""
+    """State (5, side^2), a shifted lattice with random velocities, in whole numbers; momentum is zero."""
     rng = np.random.default_rng(seed)
-    x = np.stack(np.meshgrid(*2*[np.arange(side) + 0.5 - side/2]), axis=-1).reshape(-1, 2)
+    centres = np.arange(side) + 0.5 - side/2
+    x = np.stack(np.meshgrid(centres, centres), axis=-1).reshape(-1, 2)
     state = at_rest(x + rng.uniform(-START_JITTER, START_JITTER, x.shape), ENERGY)
     v = SPEED*rng.standard_normal((2, len(x)))
     state[2:4] = v - v.mean(axis=1, keepdims=True)
@@ -40,60 +43,22 @@ def crowd(side: int, seed: int) -> np.ndarray:
     return state
 
 
-def whole(q: np.ndarray) -> np.ndarray:
-    """The nearest multiples of GRID."""
-    return np.rint(q/GRID)*GRID
+def distance(one: np.ndarray, other: np.ndarray, side: float) -> float:
+    """Rms distance of the places of two states in a periodic square."""
+    apart = one[:2] - other[:2]
+    apart -= side*np.round(apart/side)
+    return float(np.sqrt(np.mean(apart**2)*2))
 
 
-def apart(one: np.ndarray, other: np.ndarray, side: float) -> np.ndarray:
-    """(2, n): distances of places in a periodic square."""
-    d = one[:2] - other[:2]
-    return d - side*np.round(d/side)
+# --- methods --------------------------------------------------------------------------------------
 
 
-class Leapfrog:
-    """Half a kick, a drift, half a kick [Verlet 1967]: the same steps lead back when velocities turn, but for round-off."""
-    evaluations = 2
-
-    def __init__(self, shape: tuple[int, ...], team: Team):
-        self._k = np.empty(shape)
-
-    def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
-        """Advance y = (x, y, vx, vy, e) in place by dt; energies, of which nothing depends, stay."""
-        for drift in (dt, 0.0):
-            sums.rates(y, self._k)
-            y[2:4] += self.rounded(self._k[2:4]*dt/2)
-            y[:2] += self.rounded(y[2:4]*drift)
-
-    def rounded(self, change: np.ndarray) -> np.ndarray:
-        """What is added."""
-        return change
+METHODS = {"rk4": RK4, "leapfrog": Leapfrog, "whole numbers": Whole}
 
 
-class Whole(Leapfrog):
-    """The same in whole numbers: what was added is taken away again, bit by bit    [Levesque & Verlet 1993]"""
-
-    def rounded(self, change: np.ndarray) -> np.ndarray:
-        return whole(change)
-
-
-class InLeapfrog(Spam):
-    """Particles that leap."""
-    integrator: ClassVar[type] = Leapfrog
-
-
-class InWhole(Spam):
-    """Particles that leap from whole number to whole number."""
-    integrator: ClassVar[type] = Whole
-
-
-METHODS = {"rk4": Spam, "leapfrog": InLeapfrog, "whole numbers": InWhole}
-
-
-def molecules(kind: type[Spam], weight: Any, side: float) -> Spam:
+def molecules(integrator: type, weight: Any, side: float) -> Spam:
     """The fluid that is one of molecules, in a periodic square."""
-    same = fluid(weight, (side, side), RHO_SQUARED, FRICTIONLESS)
-    return kind(weight=same.weight, eos=same.eos, law=same.law, walls=same.walls, box=same.box)
+    return replace(fluid(weight, (side, side), RHO_SQUARED, FRICTIONLESS), integrator=integrator)
 
 
 class Newton:
@@ -110,12 +75,18 @@ class Newton:
         near = (r < self.weight.h) & (r > 0)
         slope = np.zeros_like(r)
         slope[near] = [value_and_slope(self.weight, one)[1] for one in r[near]]
-        out[:2], out[2:4], out[4] = state[2:4], -2*np.sum(slope*d, axis=2), 0.0
+        out[:2] = state[2:4]
+        out[2:4] = -2*np.sum(slope*d, axis=2)
+        out[4] = 0.0
+
+
+# --- cases ----------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
 class Twins(Case):
-    """The same path by the compiled sums of smooth particles and as molecules: how far apart after some time."""
+    """The same path by the compiled sums of smooth particles and as molecules: how far apart after some time.
+    """
     weight: Any
     side: int = 8
     every: float = 2.0
@@ -127,19 +98,19 @@ class Twins(Case):
         return 30.0
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        weight, start = self.weight.of(h=3.0), crowd(self.side, self.seed)
-        method = molecules(Spam, weight, float(self.side))
+        weight, smooth, rows = self.weight.of(h=RANGE), crowd(self.side, self.seed), []
+        method, newton = molecules(RK4, weight, float(self.side)), Newton(weight, float(self.side))
         steps = round(self.every/(STUDIES*step_limit(method, ENERGY)))
-        dt, one, other, rows = self.every/steps, start, start.copy(), []
-        newton, integrator = Newton(weight, float(self.side)), RK4(start.shape, Team(1))
+        plan, molecular = Plan(dt=self.every/steps, steps=steps), smooth.copy()
+        integrator = RK4(molecular.shape, Team(1))
         for number in range(1, self.samples + 1):
             report(number/self.samples)
-            one = run(method, one, Plan(dt=dt, steps=steps)).by_id()
+            smooth = run(method, smooth, plan).by_id()
             for _ in range(steps):
-                integrator.step(newton, other, dt)
-            wrap(method.walls, other)
+                integrator.step(newton, molecular, plan.dt)
+            wrap(method.walls, molecular)
             rows.append({"weight": self.weight.__name__, "seed": self.seed, "time": number*self.every,
-                         "apart": float(np.sqrt(np.mean(apart(one, other, self.side)**2)*2))})
+                         "apart": distance(smooth, molecular, self.side)})
         return Outcome({"twins": rows})
 
 
@@ -157,20 +128,23 @@ class Reversal(Case):
         return 0.02*sum(self.times)
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        start = crowd(self.side, self.seed)
-        method = molecules(METHODS[self.integrator], self.weight.of(h=3.0), float(self.side))
-        dt = STUDIES*step_limit(method, ENERGY)
-        return Outcome({"reversal": [self._row(method, start, dt, time) for time in self.times]})
+        method = molecules(METHODS[self.integrator], self.weight.of(h=RANGE), float(self.side))
+        return Outcome({"reversal": [self._row(method, time) for time in self.times]})
 
-    def _row(self, method: Spam, start: np.ndarray, dt: float, time: float) -> dict[str, Any]:
+    def _row(self, method: Spam, time: float) -> dict[str, Any]:
+        start, dt = crowd(self.side, self.seed), STUDIES*step_limit(method, ENERGY)
         plan = Plan(dt=dt, steps=round(time/dt))
-        there = run(method, start, plan).by_id()
-        there[2:4] *= -1
-        back = run(method, there, plan).by_id()
-        back[2:4] *= -1
-        wrapped = start.copy()
-        for state in (wrapped, back):       # what has left since the last lists is the same place
+        there = turned(run(method, start, plan).by_id())
+        back = turned(run(method, there, plan).by_id())
+        for state in (start, back):     # what has left since the last lists is the same place
             wrap(method.walls, state)
-        return {"integrator": self.integrator, "weight": self.weight.__name__, "seed": self.seed, "time": plan.steps*dt,
-                "apart": float(np.sqrt(np.mean(apart(back, start, self.side)**2)*2)),
-                "equal": float(np.mean(back[:4] == wrapped[:4]))}
+        return {"integrator": self.integrator, "weight": self.weight.__name__, "seed": self.seed,
+                "time": plan.steps*dt, "apart": distance(back, start, self.side),
+                "equal": float(np.mean(back[:4] == start[:4]))}
+
+
+def turned(state: np.ndarray) -> np.ndarray:
+    """The same places, velocities the other way."""
+    back = state.copy()
+    back[2:4] *= -1
+    return back

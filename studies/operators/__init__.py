@@ -1,7 +1,10 @@
 """Which equations of RR98 hold against exact derivatives, and which transport coefficients do they give?"""
-from studies.kit.study import Study
-from studies.operators import cases
-from studies.operators.nested import cases as nested
-from studies.operators.transport import cases as transport
+from studies.kit.study import Part, Study
+from studies.operators.cases import cases
+from studies.operators.claims import CLAIMS
+from studies.operators.derive import derive
+from studies.operators.figures import FIGURES
+from studies.operators.tables import ALL
 
-STUDY = Study.of("operators", __doc__, (cases.PART, transport.PART, nested.PART,))
+STUDY = Study.of("operators", __doc__, (Part(cases=cases, tables=ALL, derive=derive, figures=FIGURES,
+                                             claims=CLAIMS),))

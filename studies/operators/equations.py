@@ -16,7 +16,8 @@ from studies.operators.weights import weight_of
 
 ETA, ZETA, KAPPA = 0.02, 0.01, 0.03
 PRINTED, ALONG, MENDED = Nested(differences=False), Pairwise(mended=False), Pairwise()
-CHANGING, CONSTANT = PowerLaw(ETA, KAPPA, n=1.0), ConstEta(ETA, KAPPA)      # eta, kappa proportional to T, or constant
+CHANGING = PowerLaw(ETA, KAPPA, n=1.0)      # eta and kappa proportional to T
+CONSTANT = ConstEta(ETA, KAPPA)
 
 
 def derivative(f: np.ndarray, axis: int, cells: int) -> np.ndarray:
@@ -72,7 +73,8 @@ class Exact:
     def momentum(self, eta: np.ndarray) -> np.ndarray:
         """-div(j v + P 1 - Pi)    [RR98 Eq. 8]"""
         rho, v, P = self.flow.rho, self.flow.v, self.flow.P
-        return self.div(self.stress(eta)) - self.div(rho[:, None, None]*v[:, :, None]*v[:, None, :]) - self.grad(P)
+        carried = rho[:, None, None]*v[:, :, None]*v[:, None, :]
+        return self.div(self.stress(eta)) - self.div(carried) - self.grad(P)
 
     def energy(self, eta: np.ndarray, kappa: np.ndarray) -> np.ndarray:
         """-div[e v + (P 1 - Pi).v + J]    [RR98 Eq. 9]"""
@@ -93,14 +95,15 @@ def terms(dih: Dih, flow: Flow, exact: Exact) -> Iterator[tuple[str, np.ndarray,
     edges, still = dih.edges, flow._replace(v=np.zeros_like(flow.v))
     eta, kappa = dih.coefficients(flow).eta, dih.coefficients(flow).kappa
     grad_T = exact.grad(flow.T)
+    current = kappa[:, None]*grad_T
     yield "gradient", edges.grad(flow.T), grad_T
     kernel = carried(dih.eos, edges.S, take(still, edges.i), take(still, edges.j)).momentum
     yield "pressure", arriving(edges, kernel), -exact.grad(flow.P)
     yield "stress kernel", PRINTED.gradient(edges, flow.v), exact.slope()
-    yield "heat kernel", -kappa[:, None]*PRINTED.gradient(edges, flow.T[:, None])[:, :, 0], -kappa[:, None]*grad_T
+    yield "heat kernel", -kappa[:, None]*PRINTED.gradient(edges, flow.T[:, None])[:, :, 0], -current
     yield "viscous nested", arriving(edges, PRINTED.fluxes(dih, flow).momentum), exact.div(exact.stress(eta))
     for name, transport in (("nested", PRINTED), ("pairwise", ALONG)):
-        yield f"heat {name}", arriving(edges, transport.fluxes(dih, still).energy), exact.div(kappa[:, None]*grad_T)
+        yield f"heat {name}", arriving(edges, transport.fluxes(dih, still).energy), exact.div(current)
     moved = carried(dih.eos, edges.S, take(flow, edges.i), take(flow, edges.j))
     mass, *momentum, energy = (arriving(edges, q) for q in rows(moved, PRINTED.fluxes(dih, flow)))
     yield "mass", mass, exact.mass()
@@ -116,24 +119,26 @@ def frictions(dih: Dih, flow: Flow, exact: Exact) -> Iterator[tuple[str, np.ndar
     d = dih.edges.d
     for zeta in (ZETA, 0.0) if d > 1 else (ZETA,):       # on a line only zeta counts
         constant, there = replace(dih, law=CONSTANT, zeta=zeta), replace(exact, zeta=zeta)
-        found = arriving(dih.edges, ALONG.fluxes(constant, flow).momentum)
-        yield f"friction, zeta {zeta:g}", found, there.div(there.stress(constant.coefficients(flow).eta))
+        force = arriving(dih.edges, ALONG.fluxes(constant, flow).momentum)
+        yield f"friction, zeta {zeta:g}", force, there.div(there.stress(constant.coefficients(flow).eta))
     if d == 1:
         return
     changing = replace(dih, zeta=0.0)
     eta, slope = changing.coefficients(flow).eta, exact.slope()
-    found, true = arriving(dih.edges, ALONG.fluxes(changing, flow).momentum), there.div(there.stress(eta))
-    more = -(1 + 2/d)/2*(np.einsum("nc,nac->na", exact.grad(eta), slope)
-                         - exact.grad(eta)*np.trace(slope, axis1=1, axis2=2)[:, None])
-    yield "friction, eta(T)", found, true
-    yield "friction, eta(T), foretold", found, true + more
+    force = arriving(dih.edges, ALONG.fluxes(changing, flow).momentum)
+    true = there.div(there.stress(eta))
+    div = np.trace(slope, axis1=1, axis2=2)[:, None]
+    more = -(1 + 2/d)/2*(np.einsum("nc,nac->na", exact.grad(eta), slope) - exact.grad(eta)*div)
+    yield "friction, eta(T)", force, true
+    yield "friction, eta(T), foretold", force, true + more
     yield "friction, eta(T), mended", arriving(dih.edges, MENDED.fluxes(changing, flow).momentum), true
 
 
-def comparison(found: np.ndarray, exact: np.ndarray) -> tuple[float, float]:
-    """(relative rms error, projection of what was found on what is exact)."""
+def comparison(discrete: np.ndarray, exact: np.ndarray) -> dict[str, float]:
+    """Relative rms error, and projection of the discrete field on the exact one."""
     size = float(np.sum(exact**2))
-    return float(np.sqrt(np.sum((found - exact)**2)/size)), float(np.sum(found*exact)/size)
+    error = np.sqrt(np.sum((discrete - exact)**2)/size)
+    return {"error": float(error), "ratio": float(np.sum(discrete*exact)/size)}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -155,7 +160,7 @@ class EquationErrors(Case):
         flow = dih.flow(dih.state(*smooth_flow(at.x)))
         exact = Exact(self.cells, flow, ZETA)
         key = {"d": self.d, "weight": self.kind.__name__, "h": self.h, "cells": self.cells}
-        found = (*terms(dih, flow, exact), *frictions(dih, flow, exact))
-        return Outcome({"equations": [{**key, "operator": name, **dict(zip(("error", "ratio"), comparison(one, other)))}
-                                      for name, one, other in found]})
+        pairs = (*terms(dih, flow, exact), *frictions(dih, flow, exact))
+        return Outcome({"equations": [{**key, "operator": name, **comparison(discrete, true)}
+                                      for name, discrete, true in pairs]})
 

@@ -15,10 +15,10 @@ from particles.integral.edges import Edges
 from particles.integral.interpolants import reach
 from particles.integral.points import lattice
 from particles.weights import Lucy, WendlandC2
+from studies.build.disorder import Disorder
 from studies.kit.case import Case, Outcome, Report
 from studies.operators.equations import arriving
 from studies.operators.weights import weight_of
-from studies.ordering.waves import Disorder
 
 Sums = list[sparse.csr_array]
 
@@ -60,14 +60,16 @@ def heat(w: Sums, J: np.ndarray) -> np.ndarray:
     return sum(M@q + (M@np.ones(len(q)))*q for M, q in zip(w, J.T, strict=True))
 
 
-def linearised_printed(w: Sums, rho: np.ndarray, v: np.ndarray, d_rho: np.ndarray, dv: np.ndarray) -> np.ndarray:
+def linearised_printed(w: Sums, rho: np.ndarray, v: np.ndarray, d_rho: np.ndarray,
+                       dv: np.ndarray) -> np.ndarray:
     """Right-hand side of Eq. 21, as printed."""
-    return -sum((M@rho)*dv[:, a] + (M@d_rho)*v[:, a] + rho*(M@dv[:, a]) + d_rho*(M@v[:, a]) for a, M in enumerate(w))
+    parts = ((M@rho)*du + (M@d_rho)*u + rho*(M@du) + d_rho*(M@u) for M, u, du in zip(w, v.T, dv.T, strict=True))
+    return -sum(parts)
 
 
-def ratio(found: np.ndarray, true: np.ndarray) -> float:
+def ratio(literal: np.ndarray, true: np.ndarray) -> float:
     """Projection of one field on another."""
-    return float(np.sum(found*true)/np.sum(true**2))
+    return float(np.sum(literal*true)/np.sum(true**2))
 
 
 def readings(edges: Edges, x: np.ndarray, k: float) -> Iterator[tuple[str, float, float]]:
@@ -81,7 +83,7 @@ def readings(edges: Edges, x: np.ndarray, k: float) -> Iterator[tuple[str, float
     carried = -k*np.stack([2*s*c, np.cos(2*k*x)], axis=1)*dV        # -div(v v) dV, rho = 1
     yield "momentum, p_i = m_i v_i, v_i = v", ratio(convected(w, dV*v, v), carried), 1.0
     yield "momentum, p_i = m_i v_i, v_i = v dV", ratio(convected(w, dV*(v*dV), v*dV), carried), dV**2
-    P = (1 + 0.1*s)*dV                      # at rest, uniform T: P_ij + P_ji = P_i + P_j, which is what `heat` sums
+    P = (1 + 0.1*s)*dV                  # at rest, uniform T: P_ij + P_ji = P_i + P_j, as `heat` sums
     yield "pressure, P_ij = P dV", ratio(heat(w, np.stack([P, 0*P], axis=1)), -0.1*k*c*dV), 1.0
     friction = -k**2*np.stack([s, c], axis=1)*dV            # eta = 1, zeta = 0 in 2D: div Pi = lap v
     yield "stress, v_i = v", ratio(force(w, kernel(inner(w, v), 1.0, 0.0, 1.0)), friction), 1/dV
@@ -90,7 +92,9 @@ def readings(edges: Edges, x: np.ndarray, k: float) -> Iterator[tuple[str, float
     yield "heat", ratio(heat(w, current), -k**2*s*dV), 1/dV
     d_rho, dv, rho, v0 = 0.1*c, 0.1*v, 1 + 0.2*s, np.stack([0.3 + 0.1*c, 0*c], axis=1)
     step = 1e-4                             # mass_rate is quadratic: the central difference is exact
-    true = (mass_rate(w, rho + step*d_rho, v0 + step*dv) - mass_rate(w, rho - step*d_rho, v0 - step*dv))/(2*step)
+    above = mass_rate(w, rho + step*d_rho, v0 + step*dv)
+    below = mass_rate(w, rho - step*d_rho, v0 - step*dv)
+    true = (above - below)/(2*step)
     yield "linearised mass, Eq. 21", ratio(linearised_printed(w, rho, v0, d_rho, dv), true), -1.0
 
 
@@ -103,9 +107,10 @@ class Volumes(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         at = lattice((self.rows, 8), self.a)
         edges = renormalised(at, Lucy.of(h=3*self.a))
-        found = readings(edges, at.x[:, 0], 2*np.pi/(self.rows*self.a))
-        return Outcome({"volumes": [{"quantity": name, "dV": self.a**2, "ratio": value, "predicted": predicted}
-                                    for name, value, predicted in found]})
+        k = 2*np.pi/(self.rows*self.a)
+        return Outcome({"volumes": [
+            {"quantity": name, "dV": self.a**2, "ratio": value, "predicted": predicted}
+            for name, value, predicted in readings(edges, at.x[:, 0], k)]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -124,7 +129,8 @@ class Dilation(Case):
         for name, trace in (("2/3", 2/3), ("2/d", 2/self.d)):
             pi = kernel(g, self.eta, self.zeta, trace)[middle]
             normal = np.trace(pi, axis1=1, axis2=2).mean()/self.d**2         # div v = d
-            rows.append({"d": self.d, "trace": name, "bulk": float(normal - self.zeta)/self.eta, "predicted": 2/self.d - trace})
+            bulk = float(normal - self.zeta)/self.eta
+            rows.append({"d": self.d, "trace": name, "bulk": bulk, "predicted": 2/self.d - trace})
         return Outcome({"dilation": rows})
 
 
@@ -139,8 +145,9 @@ class Stream(Case):
         at = self.disorder.make(self.counts, self.disorder.size, self.seed)
         edges = renormalised(at, WendlandC2.of(h=3.0))
         key = {"points": self.disorder.name, "seed": self.seed}
-        return Outcome({"stream": [{**key, "inner": name, **stream(edges, Nested(differences=name == "differences"))}
-                                   for name in ("printed", "differences")]})
+        kinds = {"printed": Nested(differences=False), "differences": Nested()}
+        return Outcome({"stream": [{**key, "inner": name, **stream(edges, nested)}
+                                   for name, nested in kinds.items()]})
 
 
 def stream(edges: Edges, transport: Nested) -> dict[str, float]:
@@ -152,7 +159,8 @@ def stream(edges: Edges, transport: Nested) -> dict[str, float]:
     still = transport.fluxes(dih, wind._replace(v=0*wind.v))
     K = operator(edges, transport)
     root = 1/np.sqrt(edges.V)
-    return {"force": rms(arriving(edges, fluxes.momentum)), "heat": rms(arriving(edges, still.energy)[:, None]),
+    return {"force": rms(arriving(edges, fluxes.momentum)),
+            "heat": rms(arriving(edges, still.energy)[:, None]),
             "asymmetry": float(np.linalg.norm(K - K.T)/np.linalg.norm(K)),
             "growth": float(np.linalg.eigvals(root[:, None]*K*root).real.max())}
 
@@ -160,7 +168,9 @@ def stream(edges: Edges, transport: Nested) -> dict[str, float]:
 def operator(edges: Edges, transport: Nested) -> np.ndarray:
     """The matrix K with V div(grad T) = K T."""
     slopes = edges.G if transport.differences else [S/2 for S in edges.areas]
-    return np.sum([(D@sparse.diags_array(1/edges.V)@M).toarray() for D, M in zip(edges.D, slopes, strict=True)], axis=0)
+    per_volume = sparse.diags_array(1/edges.V)
+    parts = [(D@per_volume@M).toarray() for D, M in zip(edges.D, slopes, strict=True)]
+    return np.sum(parts, axis=0)
 
 
 def rms(f: np.ndarray) -> float:
@@ -183,7 +193,8 @@ class Nulls(Case):
         waves = [np.cos(np.pi*((at.x - at.x[0])@np.array(c))) for c in corners]
         nested = max(float(np.abs(edges.grad(wave)).max()) for wave in waves)
         pairwise = min(float((-wave*edges.lap(wave)).min()) for wave in waves)
-        return Outcome({"nulls": [{"weight": self.kind.__name__, "d": self.d, "h": self.h, "corners": len(corners),
+        return Outcome({"nulls": [{"weight": self.kind.__name__, "d": self.d, "h": self.h,
+                                   "corners": len(corners),
                                    "nested": nested, "pairwise": pairwise}]})
 
 
@@ -202,11 +213,11 @@ class Rotation(Case):
         v = np.zeros_like(at.x)
         v[:, 0], v[:, 1] = -omega*at.x[:, 1], omega*at.x[:, 0]
         middle = np.sqrt((at.x**2).sum(axis=1)) < 2.5      # two ranges from where the rotation ends
+        key, work = {"d": self.d, "zeta": self.zeta}, 1 + 2/self.d - self.zeta
         rows = []
-        for mended in (False, True):
-            found = heating(edges, v, Pairwise(mended=mended), self.zeta)[middle].mean()/omega**2
-            rows.append({"d": self.d, "zeta": self.zeta, "mended": "yes" if mended else "no", "heating": float(found),
-                         "predicted": 0.0 if mended else 1 + 2/self.d - self.zeta})
+        for mended, name, predicted in ((False, "no", work), (True, "yes", 0.0)):
+            rate = heating(edges, v, Pairwise(mended=mended), self.zeta)[middle].mean()/omega**2
+            rows.append(key | {"mended": name, "heating": float(rate), "predicted": predicted})
         return Outcome({"rotation": rows})
 
 

@@ -1,4 +1,4 @@
-"""Growth of sound off a lattice, the step of forward Euler: from eigenvalues of the linearised scheme    [RR98 Eqs 34-36, 40]"""
+"""What grows at rest, and the step of forward Euler: from eigenvalues of the linearised scheme    [RR98 Eqs 34-40, 51]"""
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -7,15 +7,18 @@ from typing import Any
 import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
+from continuum.scene import RayleighBenard
 from particles.integral.dih import Dih, Nested, Pairwise
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.points import Points, lattice
+from particles.threads import Team
 from particles.weights import WendlandC2
+from studies.build.disorder import Disorder
+from studies.build.fixed import SCHEMES, fluid
 from studies.kit.case import Case, Outcome, Report
-from studies.ordering.waves import Disorder
 
-STEP = 1e-4     # of central differences: rates are of third degree, so errors are 1e-8 of them, round-off 1e-12
+STEP = 1e-4     # of central differences: rates are cubic, so errors are 1e-8 of them, round-off 1e-12
 #: d -> points, range of the weight
 BOXES: dict[int, tuple[tuple[int, ...], float]] = {1: ((40,), 3.0), 2: ((10, 10), 3.0), 3: ((6, 6, 6), 2.0)}
 NULL = 1e-6     # rates that small belong to waves that the operators do not see
@@ -57,22 +60,29 @@ class Growth(Case):
         try:
             edges = self.make(at, WendlandC2.of(h=h, d=self.d))
         except ArithmeticError:     # no such edges exist on these points: that is a result
-            return Outcome({"growth": [{**key, "viscosity": eta, "rate": np.nan, "closure": np.nan} for eta in self.viscosities]})
+            nothing = {"rate": np.nan, "closure": np.nan}
+            return Outcome({"growth": [{**key, "viscosity": eta, **nothing} for eta in self.viscosities]})
         closure = float(np.abs(edges.closure/edges.V[:, None]).max())
-        return Outcome({"growth": [{**key, "viscosity": eta, "closure": closure,
-                                    "rate": float(np.linalg.eigvals(sound(edges, eta)).real.max())}
+        return Outcome({"growth": [{**key, "viscosity": eta, "rate": fastest(sound(edges, eta)),
+                                    "closure": closure}
                                    for eta in self.viscosities]})
+
+
+def fastest(A: np.ndarray) -> float:
+    """Growth rate of the fastest growing solution of y' = A y."""
+    return float(np.linalg.eigvals(A).real.max())
 
 
 def response(dih: Dih, x: np.ndarray, k: float) -> np.ndarray:
     """The matrix (2 + d, 2 + d) by which the linearised scheme multiplies amplitudes of exp(ikx) at rest, rho = T = 1."""
     n, d = x.shape
     rest = dih.state(np.ones(n), np.zeros((n, d)), np.ones(n))
-    wave, found = np.exp(1j*k*x[:, 0]), np.empty((d + 2, d + 2), complex)
+    wave = np.exp(1j*k*x[:, 0])
+    matrix = np.empty((d + 2, d + 2), complex)
     for row in range(d + 2):
-        parts = [linear_rate(dih, rest, row, part) for part in (wave.real, wave.imag)]
-        found[:, row] = ((parts[0] + 1j*parts[1])/wave).mean(axis=1)
-    return found
+        real, imaginary = (linear_rate(dih, rest, row, part) for part in (wave.real, wave.imag))
+        matrix[:, row] = ((real + 1j*imaginary)/wave).mean(axis=1)
+    return matrix
 
 
 def linear_rate(dih: Dih, rest: np.ndarray, row: int, shape: np.ndarray) -> np.ndarray:
@@ -115,13 +125,56 @@ class Euler(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         at = lattice((self.rows, 8))
-        dih = Dih(edges=renormalised(at, WendlandC2.of(h=3.0)), eos=IdealGas(), law=ConstEta(self.eta, self.kappa),
+        dih = Dih(edges=renormalised(at, WendlandC2.of(h=3.0)), eos=IdealGas(),
+                  law=ConstEta(self.eta, self.kappa),
                   zeta=self.zeta, transport=self.transport)
         c2 = 2.0                        # gamma P/rho
-        key = {"transport": type(self.transport).__name__.lower(), "eta": self.eta, "zeta": self.zeta, "kappa": self.kappa,
+        key = {"transport": type(self.transport).__name__.lower(), "eta": self.eta, "zeta": self.zeta,
+               "kappa": self.kappa,
                "predicted": (self.eta + self.zeta + self.kappa/2)/c2}
         rows = []
         for mode in range(1, self.rows//2 + 1):
             k = 2*np.pi*mode/self.rows
-            rows.append({**key, "mode": mode, "k": k, "limit": euler_limit(np.linalg.eigvals(response(dih, at.x, k)))})
+            limit = euler_limit(np.linalg.eigvals(response(dih, at.x, k)))
+            rows.append({**key, "mode": mode, "k": k, "limit": limit})
         return Outcome({"euler": rows})
+
+
+# --- the layer between plates -------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class LayerGrowth(Case):
+    """The fastest growing disturbance of a motionless layer between plates; `h` in spacings, rates in c/a.
+
+    share : of transport along edges [Eq. 51], the rest is nested [Eqs 37, 38].
+    """
+    h: float
+    rows: int
+    ra: float
+    share: float
+
+    @property
+    def cost(self) -> float:
+        return 1e-9*(8*self.rows**2)**3 + 1
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        scene = RayleighBenard(ra=self.ra, L=float(self.rows), aspect=1.0)
+        method = fluid(scene, SCHEMES["fixed-lattice"]._replace(h=self.h, share=self.share))
+        y = method.x[:, 1]
+        state = method.state(1.0, np.zeros_like(method.x), scene.T(y))
+        values, vectors = np.linalg.eig(jacobian(method.start(len(y), Team(1)), state))
+        worst = int(np.argmax(values.real))
+        c = np.sqrt(2*scene.T_mean)
+        return Outcome({"nested_growth": [{
+            "h": self.h, "rows": self.rows, "ra": self.ra, "share": self.share,
+            "growth": values[worst].real/c, "frequency": abs(values[worst].imag)/c,
+            "nyquist": zigzag(vectors[:, worst], self.rows), "diffusion": scene.k/scene.L**2/c}]})
+
+
+def zigzag(vector: np.ndarray, rows: int) -> float:
+    """Share of a disturbance's square that is in waves shorter than three spacings along x or y."""
+    power = np.abs(np.fft.fft2(vector.reshape(4, rows, rows)))**2
+    k = np.abs(np.fft.fftfreq(rows))
+    short = (k[:, None] > 1/3) | (k[None] > 1/3)
+    return float(power[:, short].sum()/power.sum())

@@ -23,8 +23,9 @@ PLATES = {"jittered-0.3": SCHEMES["fixed-jittered-plates"], "random": SCHEMES["f
           "relaxed": SCHEMES["relaxed-plates"]}
 #: makers of edges and ranges of the weight between mirror images; exact ones need the wider
 MADE = (*product(("plain", "renormalised", "closed"), (2.0, 3.0)), ("exact", 3.0))
-#: what a run without an end, or without edges, leaves open
-NOTHING = {**dict.fromkeys(("ke", "ke_err", "nu", "nu_err", "exchanges"), np.nan), "rolls": 0, "converged": False}
+#: columns of a run without an end
+NOTHING = {**dict.fromkeys(("ke", "ke_err", "nu", "nu_err", "exchanges"), np.nan), "rolls": 0,
+           "converged": False}
 RECORDS = 4         # a free-fall time
 
 
@@ -47,12 +48,13 @@ def on_lattice(h: float) -> Scheme:
 def between_images(kind: str, maker: str, h: float, weight: Any = Lucy) -> Scheme:
     """Edges of a weight over irregular points and their mirror images."""
     points, size = POINTS[kind]
-    return Scheme(f"images-{kind}-{maker}-{weight.__name__}-h{h:g}", MAKERS[maker], weight, h, size, points=points)
+    return Scheme(f"images-{kind}-{maker}-{weight.__name__}-h{h:g}", MAKERS[maker], weight, h, size,
+                  points=points)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Convection(Case):
-    """One run at Ra = 10 000 until nothing changes any more; `kind`: of its points, as the tables of this study have it."""
+    """One run at Ra = 10 000 until nothing changes any more; `kind`: of its points."""
     scene: RayleighBenard
     scheme: Scheme
     seed: int = 1
@@ -74,25 +76,31 @@ class Convection(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         """A row of `convection`; without exchanges where the points have no such edges."""
-        weight, h = ("none", 0.0) if self.scheme.held else (self.scheme.weight.__name__, self.scheme.h)
-        key = {"maker": self.scheme.make.__name__, "weight": weight, "h": h, "points": self.kind, "rows": round(self.scene.L),
-               "seed": self.seed}
         try:
-            found = self.followed(report, folder)
+            values = self.measured(report, folder)
         except ArithmeticError:
             if self.scheme.make is not exact:       # others exist on all points
                 raise
-            found = {**NOTHING, "exchanges": 0.0}
-        return Outcome({"convection": [{**key, **found}]})
+            values = NOTHING | {"exchanges": 0.0}
+        return Outcome({"convection": [self.row_key | values]})
 
-    def followed(self, report: Report, folder: Path) -> dict[str, Any]:
+    @property
+    def row_key(self) -> dict[str, Any]:
+        """The key of its row; triangles between points on the plates have no weight."""
+        weight, h = ("none", 0.0) if self.scheme.held else (self.scheme.weight.__name__, self.scheme.h)
+        return {"maker": self.scheme.make.__name__, "weight": weight, "h": h, "points": self.kind,
+                "rows": round(self.scene.L), "seed": self.seed}
+
+    def measured(self, report: Report, folder: Path) -> dict[str, Any]:
         """K, Nu, rolls at the end, and exchanges over edges, to images among them."""
-        (method, _, _), _, done = followed(self.scene, self.scheme, self.seed, self.t_end, RECORDS, report, folder/"run.h5")
+        ready, _, done = followed(self.scene, self.scheme, self.seed, self.t_end, RECORDS, report,
+                                  folder/"run.h5")
         if done is None:
             return NOTHING
-        edges, beyond = method.edges, getattr(method, "beyond", None)
-        number = len(edges.i) + (len(beyond.i) if beyond else 0)
-        return {**ended(self.scene, done)._asdict(), "rolls": rolls(self.scene, method.x, done.state[2]/done.state[0]),
+        method, flow = ready.method, ready.method.fields(done.state)
+        beyond = getattr(method, "beyond", None)
+        number = len(method.edges.i) + (len(beyond.i) if beyond else 0)
+        return {**ended(self.scene, done)._asdict(), "rolls": rolls(self.scene, flow.x, flow.v[:, 1]),
                 "exchanges": RK4.evaluations*done.step*number}
 
 
@@ -103,11 +111,13 @@ def convection(kind: str, scheme: Scheme, rows: int, seed: int = 1) -> Convectio
 
 def irregular_layers(rows: dict[str, tuple[int, ...]], seeds: tuple[int, ...]) -> Iterator[Convection]:
     """Triangulated irregular points between rows of points on the plates."""
-    yield from (convection(kind, PLATES[kind], n, seed) for kind, some in rows.items() for n, seed in product(some, seeds))
+    for kind, numbers in rows.items():
+        yield from (convection(kind, PLATES[kind], number, seed) for number, seed in product(numbers, seeds))
 
 
 def images(rows: tuple[int, ...], seeds: tuple[int, ...]) -> Iterator[Convection]:
     """Edges of a weight between mirror images; plain ones of the weight that the points moved apart with, too."""
     schemes = [(kind, between_images(kind, maker, h)) for kind, (maker, h) in product(POINTS, MADE)]
     schemes.append(("relaxed", between_images("relaxed", "plain", 3.0, WendlandC2)))
-    yield from (convection(kind, scheme, n, seed) for (kind, scheme), n, seed in product(schemes, rows, seeds))
+    for (kind, scheme), number, seed in product(schemes, rows, seeds):
+        yield convection(kind, scheme, number, seed)

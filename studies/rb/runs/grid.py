@@ -27,47 +27,57 @@ def point(scene: RayleighBenard, solution: Solution, variant: str) -> dict:
     return {"method": "compressible", "variant": variant, **scene_columns(scene), "resolution": solution.rows}
 
 
-def energies(scene: RayleighBenard, solution: Solution, variant: str) -> dict:
-    """Row of `kinetic_energy` of one compressible solution."""
-    err = 2*solution.ke_err
-    return {**point(scene, solution, variant), "particles": 0, "seed": 0, **one_energy(solution.ke, err), "nu": solution.nu,
-            "nu_err": settling(solution), "rolls": solution.rolls if solution.ke > STILL else 0,
-            "free_fall": scene.free_fall, "mass_drift": solution.mass_drift, "converged": solution.converged,
-            "dt": solution.dt, "steps": solution.steps, "t_end": solution.t, "cpu_s": solution.cpu_s,
-            "compile_s": solution.compile_s, "threads": 1}
-
-
 def settling(solution: Any) -> float:
     """Error of Nu that is left of settling, in proportion to that of K; that of the grid shows in the extrapolation."""
     return float(2*solution.ke_err/solution.ke*solution.nu) if solution.ke > 1e-9 else 0.0
 
 
-def check_sizes(sizes: Any) -> None:
-    """Refuse no grids, from which nothing follows.
+def spent(solution: Any) -> dict:
+    """Columns of energy and effort of a solution in time."""
+    return {**one_energy(solution.ke, 2*solution.ke_err), "nu": solution.nu, "nu_err": settling(solution),
+            "mass_drift": solution.mass_drift, "converged": solution.converged, "dt": solution.dt, "steps": solution.steps,
+            "t_end": solution.t, "cpu_s": solution.cpu_s, "compile_s": solution.compile_s}
+
+
+def energies(scene: RayleighBenard, solution: Solution, variant: str) -> dict:
+    """Row of `kinetic_energy` of one compressible solution."""
+    return {**point(scene, solution, variant), "particles": 0, "seed": 0, **spent(solution), "free_fall": scene.free_fall,
+            "rolls": solution.rolls if solution.ke > STILL else 0, "threads": 1}
+
+
+def boussinesq_point(method: str, variant: str, ra: float, pr: float) -> dict:
+    """Columns that all Boussinesq rows share; their state is steady to round-off."""
+    return {"method": method, "variant": variant, "eos": "", "transport": "", "sides": "periodic", "ra": ra, "pr": pr,
+            "particles": 0, "seed": 0, "free_fall": 1.0,
+            "mass_drift": 0.0, "converged": True, "dt": 0.0, "t_end": 0.0, "threads": 1}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Refined(Case):
+    """Steady states on ever finer grids, `sizes` rows, each started from the one before.
 
     Raises
     ------
     ValueError
-        Sizes are empty, or no tuple.
+        Sizes are empty, or no tuple: nothing would follow from no grids.
     """
-    if not (isinstance(sizes, tuple) and sizes):
-        raise ValueError(f"sizes must be the rows of one grid or more, got {sizes!r}: give them coarsest first, as in "
-                         "(16, 24, 32)")
+    sizes: tuple[int, ...]
+
+    def __post_init__(self):
+        if not (isinstance(self.sizes, tuple) and self.sizes):
+            raise ValueError(f"sizes must be the rows of one grid or more, got {self.sizes!r}: give them coarsest first, as in "
+                             "(16, 24, 32)")
 
 
 @dataclass(frozen=True, kw_only=True)
-class CompressibleSteady(Case):
-    """Steady states on ever finer grids, each started from the one before; the finest one's fields on request."""
+class CompressibleSteady(Refined):
+    """The gas; the finest grid's fields on request."""
     scene: RayleighBenard
-    sizes: tuple[int, ...]
     rtol: float = 1e-5
     keep: str = ""
     smooth: tuple[Smoothing, ...] = ()
     variant: str = "flux-form"
     longest: float = 60.0
-
-    def __post_init__(self):
-        check_sizes(self.sizes)
 
     @property
     def cost(self) -> float:
@@ -89,17 +99,16 @@ class CompressibleSteady(Case):
         if self.smooth:
             rows["smoothed"] = list(smoothed_rows(finest, solutions[-1].fields, self.smooth))
         if self.keep:
-            rows["fields"] = fields(self.scene, solutions[-1], finest)
+            grid = Grid.over((self.scene.width, self.scene.L), 30)      # the places where particles' fields are kept
+            at = interpolate(solutions[-1].fields, grid.x, grid.y)
+            rows["fields"] = field_rows({**finest, "seed": 0}, self.scene, grid, at)
         return Outcome(rows)
 
 
-def fields(scene: RayleighBenard, solution: Solution, point: dict) -> list[dict]:
-    """The fields at the places where particles' fields are kept."""
-    grid = Grid.over((scene.width, scene.L), 30)
-    at = interpolate(solution.fields, grid.x, grid.y)
+def field_rows(key: dict, scene: RayleighBenard, grid: Grid, at: Any) -> list[dict]:
+    """Rows of `fields` at the places of a grid."""
     columns = (grid.x/scene.L, grid.y/scene.L, at.rho, at.T, at.vx, at.vy)
-    names = ("x", "y", "rho", "T", "vx", "vy")
-    return [{**point, "seed": 0, **dict(zip(names, map(float, row), strict=True))}
+    return [{**key, **dict(zip(("x", "y", "rho", "T", "vx", "vy"), map(float, row), strict=True))}
             for row in zip(*(np.ravel(c) for c in columns), strict=True)]
 
 
@@ -128,17 +137,14 @@ class CompressibleApproach(Case):
 
 
 @dataclass(frozen=True, kw_only=True)
-class BoussinesqSteady(Case):
-    """The periodic pair of rolls (as one roll between planes of symmetry) in the Boussinesq fluid, on ever finer grids.
+class BoussinesqSteady(Refined):
+    """The periodic pair of rolls (as one roll between planes of symmetry) in the Boussinesq fluid.
 
     Below onset Newton's method ends at rest, and one grid tells as much as three.
     """
     ra: float
     pr: float
     sizes: tuple[int, ...] = (32, 48, 64)
-
-    def __post_init__(self):
-        check_sizes(self.sizes)
 
     @property
     def cost(self) -> float:
@@ -153,36 +159,26 @@ class BoussinesqSteady(Case):
         state: boussinesq.State | None = None
         for number, size in enumerate(self.sizes):
             case = boussinesq.Case(ra=self.ra, pr=self.pr, box=boussinesq.HALF_LAYER, rows=size)
-            found, compile_s, cpu_s = compile_and_run_seconds(partial(boussinesq.steady, case, state))
-            rows.append(self._row(found, size, cpu_s, compile_s))
-            state = found
+            steady, compile_s, cpu_s = compile_and_run_seconds(partial(boussinesq.steady, case, state))
+            state = steady
+            rows.append({**self._row(steady), "resolution": size, "cpu_s": cpu_s, "compile_s": compile_s})
             report((number + 1)/len(self.sizes))
         return Outcome({"kinetic_energy": rows})
 
-    def _row(self, state: boussinesq.State, rows: int, cpu_s: float, compile_s: float) -> dict:
+    def _row(self, state: boussinesq.State) -> dict:
         seen = state.observe()
-        return {**boussinesq_point("boussinesq", "mac", self.ra, self.pr), "resolution": rows, **one_energy(seen.K, 0.0),
+        return {**boussinesq_point("boussinesq", "mac", self.ra, self.pr), **one_energy(seen.K, 0.0),
                 "nu": (seen.nu_bottom + seen.nu_top)/2, "nu_err": abs(seen.nu_bottom - seen.nu_top),
-                "rolls": 2*state.rolls, "steps": len(state.residuals) - 1, "cpu_s": cpu_s, "compile_s": compile_s}
-
-
-def boussinesq_point(method: str, variant: str, ra: float, pr: float) -> dict:
-    """Columns that all Boussinesq rows share; their state is steady to round-off."""
-    return {"method": method, "variant": variant, "eos": "", "transport": "", "sides": "periodic", "ra": ra, "pr": pr,
-            "particles": 0, "seed": 0, "free_fall": 1.0,
-            "mass_drift": 0.0, "converged": True, "dt": 0.0, "t_end": 0.0, "threads": 1}
+                "rolls": 2*state.rolls, "steps": len(state.residuals) - 1}
 
 
 @dataclass(frozen=True, kw_only=True)
-class PypdeSteady(Case):
-    """Steady states of py-pde's Boussinesq layer (`scene` None) or compressible gas on ever finer grids."""
+class PypdeSteady(Refined):
+    """py-pde's Boussinesq layer (`scene` None) or compressible gas."""
     ra: float
     pr: float = 1.0
     scene: RayleighBenard | None = None
     sizes: tuple[int, ...] = (16, 24, 32)
-
-    def __post_init__(self):
-        check_sizes(self.sizes)
 
     @property
     def cost(self) -> float:
@@ -196,7 +192,7 @@ class PypdeSteady(Case):
         rows, last = [], None
         for number, size in enumerate(self.sizes):
             last = self._solve(size, {} if last is None else {"start": last})
-            rows.append(self._row(last))
+            rows.append({**self._point(), "resolution": last.rows, **spent(last), "rolls": last.rolls})
             report((number + 1)/len(self.sizes))
         return Outcome({"kinetic_energy": rows})
 
@@ -205,12 +201,7 @@ class PypdeSteady(Case):
             return pypde.solve_boussinesq(ra=self.ra, pr=self.pr, rows=rows, **start)
         return pypde.solve_gas(self.scene, rows, **start)
 
-    def _row(self, solution: pypde.Solution) -> dict:
+    def _point(self) -> dict:
         point = boussinesq_point("pypde-boussinesq", "vorticity", self.ra, self.pr)
-        if self.scene is not None:
-            point |= {"method": "pypde-compressible", "variant": "staggered", **scene_columns(self.scene),
-                      "free_fall": self.scene.free_fall}
-        return {**point, "resolution": solution.rows, **one_energy(solution.ke, 2*solution.ke_err), "nu": solution.nu,
-                "nu_err": settling(solution), "rolls": solution.rolls, "mass_drift": solution.mass_drift,
-                "converged": solution.converged, "dt": solution.dt, "steps": solution.steps, "t_end": solution.t,
-                "cpu_s": solution.cpu_s, "compile_s": solution.compile_s}
+        return point if self.scene is None else {**point, "method": "pypde-compressible", "variant": "staggered",
+                                                 **scene_columns(self.scene), "free_fall": self.scene.free_fall}

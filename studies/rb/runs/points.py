@@ -22,6 +22,8 @@ from studies.rb.tables import POINT
 OFTEN = 8           # records of points that move in a free-fall time
 RECORDS = 4         # the same of fixed points
 LAYERS = 16         # of the profile
+#: columns of a run that diverged
+DIVERGED = {**dict.fromkeys((*VALUES, "cpu_s"), np.nan), "rolls": 0, "converged": False, "mass_drift": 0.0, "compile_s": 0.0}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,8 +59,7 @@ class PointsRun(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         setting, steps, done = followed(self.scene, self.variant, self.seed, self.t_end, self.often, report, folder/"run.h5")
         if done is None:
-            return self._outcome(steps, setting.dt, {**dict.fromkeys((*VALUES, "cpu_s"), np.nan), "rolls": 0, "converged": False,
-                                                     "mass_drift": 0.0, "compile_s": 0.0})
+            return self._outcome(steps, setting.dt, DIVERGED)
         values = {**self.values(setting, done), "cpu_s": done.cpu_s, "compile_s": done.compile_s}
         return self._outcome(steps, setting.dt, values)
 
@@ -164,8 +165,8 @@ class DriftRun(AveragedRun):
         return [dict(zip(("y", "rho", "T", "vy2", "vyT"), map(float, row), strict=True)) for row in zip(*columns, strict=True)]
 
     def _outcome(self, steps: int, dt: float, values: dict) -> Outcome:
-        more = {name: values.pop(name, []) for name in ("history", "profiles")}
-        rows = super()._outcome(steps, dt, values).rows
+        more = {name: values[name] for name in ("history", "profiles") if name in values}
+        rows = super()._outcome(steps, dt, {name: value for name, value in values.items() if name not in more}).rows
         [row] = rows["kinetic_energy"]
         key = {name: row[name] for name in (*POINT, "seed")}
         kept = {name: [{**key, **one} for one in some] for name, some in more.items()} if self.seed == 1 else {}

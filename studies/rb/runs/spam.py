@@ -10,12 +10,14 @@ from particles.run import Divergence, Plan, Run, run
 from particles.smooth.spam import Spam
 from particles.vtk import write_grid, write_particles
 from studies.build.measure import at_end, turns
-from studies.build.names import HALVES, VALUES, scene_columns
+from studies.build.names import HALVES, scene_columns
 from studies.build.setting import check_spacings
-from studies.build.spam import PRINTED, Variant, method, start, step
+from studies.build.spam import PRINTED, Variant, step
 from studies.build.symmetry import flowing
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import mean, settled
+from studies.rb.runs.grid import field_rows
+from studies.rb.runs.points import DIVERGED
 
 RECORDS = 8            # a time L/free_fall
 
@@ -63,13 +65,13 @@ class SpamRun(Case):
         return f"spam {self.variant.name} {where['eos']} Ra {self.scene.ra:g}, {self.particles} particles, seed {self.seed}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        chosen, plan = method(self.scene, self.variant), self.plan(folder)
+        (chosen, start, _), plan = self.variant.ready(self.scene, self.seed), self.plan(folder)
         try:
-            done = run(chosen, start(self.scene, self.seed, self.variant.begin), plan, report)
+            done = run(chosen, start, plan, report)
         except Divergence as error:
-            return Outcome({"kinetic_energy": [self._diverged(plan, error.step)]})
+            return Outcome({"kinetic_energy": [self._row(plan, error.step, DIVERGED)]})
         if self.keep == "all":
-            self._draw(done, folder.parent/"paraview")
+            self._draw(chosen, done, folder.parent/"paraview")
         return Outcome({name: list(rows) for name, rows in self._tables(chosen, done, plan).items()})
 
     def plan(self, folder: Path) -> Plan:
@@ -90,30 +92,28 @@ class SpamRun(Case):
                 "resolution": round(self.scene.L), "seed": self.seed}
 
     def _tables(self, chosen: Spam, done: Run, plan: Plan) -> dict:
-        rows = {"kinetic_energy": [self._energies(done, plan)], "walls": self._walls(done), "history": self._history(done)}
+        row = self._row(plan, plan.steps, self._energies(done))
+        rows = {"kinetic_energy": [row], "walls": self._walls(done), "history": self._history(done)}
         if self.keep in ("fields", "all"):
-            rows |= {"fields": self._fields(done), "profiles": self._profiles(done)}
+            at = field_rows(self.point, self.scene, self._grid, Smoothed(*done.means["grid"]))
+            rows |= {"fields": at, "profiles": self._profiles(done)}
         if self.keep == "all":
             rows["particles"] = self._particles(chosen, done)
         return rows
 
-    def _energies(self, done: Run, plan: Plan) -> dict:
+    def _energies(self, done: Run) -> dict:
         (kp, steady), (kg, too), (heat, _) = (settled(self._late(done, name), HALVES) for name in ("kp", "kg", "heat"))
         fields = Smoothed(*done.means["grid"])._asdict()
         flow = flowing({name: fields[name] for name in ("rho", "vx", "vy")}, isinstance(self.scene.sides, Periodic))
-        return {**self.point, **self._spent(plan), "ke": kp.value, "ke_err": kp.err, "ke_field": kg.value,
-                "ke_field_err": kg.err, "ke_mean": flow.value, "ke_mean_err": flow.err,
-                "ke_fluctuation": kp.value - kg.value, "nu": heat.value/self._heat_unit,
+        return {"ke": kp.value, "ke_err": kp.err, "ke_field": kg.value, "ke_field_err": kg.err, "ke_mean": flow.value,
+                "ke_mean_err": flow.err, "ke_fluctuation": kp.value - kg.value, "nu": heat.value/self._heat_unit,
                 "nu_err": heat.err/self._heat_unit, "rolls": turns(self.scene, done.means["grid"][2]),
-                "converged": steady and too, "steps": plan.steps, "t_end": plan.steps*plan.dt, "cpu_s": done.cpu_s, "compile_s": done.compile_s}
+                "converged": steady and too, "cpu_s": done.cpu_s, "compile_s": done.compile_s}
 
-    def _diverged(self, plan: Plan, steps: int) -> dict:
-        empty = dict.fromkeys((*VALUES, "cpu_s"), np.nan)
-        return {**self.point, **self._spent(plan), **empty, "rolls": 0, "converged": False, "steps": steps,
-                "t_end": steps*plan.dt, "compile_s": 0.0}
-
-    def _spent(self, plan: Plan) -> dict:
-        return {"particles": self.particles, "free_fall": self.scene.free_fall, "mass_drift": 0.0, "dt": plan.dt, "threads": 1}
+    def _row(self, plan: Plan, steps: int, values: dict) -> dict:
+        """Of `kinetic_energy`."""
+        return {**self.point, "particles": self.particles, "free_fall": self.scene.free_fall, "mass_drift": 0.0, "dt": plan.dt,
+                "threads": 1, **values, "steps": steps, "t_end": steps*plan.dt}
 
     @property
     def _heat_unit(self) -> float:
@@ -140,13 +140,6 @@ class SpamRun(Case):
         return [{**self.point, "t": t, "t_viscous": t/self.scene.viscous_time, "ke": kp, "ke_field": kg}
                 for t, kp, kg in list(samples)[::every]]
 
-    def _fields(self, done: Run) -> list[dict]:
-        values, grid = Smoothed(*done.means["grid"]), self._grid
-        columns = (grid.x/self.scene.L, grid.y/self.scene.L, values.rho, values.T, values.vx, values.vy)
-        names = ("x", "y", "rho", "T", "vx", "vy")
-        return [{**self.point, **dict(zip(names, map(float, row), strict=True))}
-                for row in zip(*(c.ravel() for c in columns), strict=True)]
-
     def _profiles(self, done: Run) -> list[dict]:
         bins = round(self.scene.L)
         y = (np.arange(bins) + 0.5)/bins - 0.5
@@ -163,9 +156,9 @@ class SpamRun(Case):
         return [{**self.point, "number": i, **dict(zip(names, row, strict=True))}
                 for i, row in enumerate(zip(*columns, strict=True))]
 
-    def _draw(self, done: Run, folder: Path) -> None:
+    def _draw(self, chosen: Spam, done: Run, folder: Path) -> None:
         """Particles at the end and mean fields as files for ParaView, which stay when the case is finished."""
-        (sums, state), grid = at_end(method(self.scene, self.variant), done), self._grid
+        (sums, state), grid = at_end(chosen, done), self._grid
         n, name = sums.n, "-".join(str(self.point[column]) for column in ("variant", "eos", "ra", "resolution", "seed"))
         folder.mkdir(parents=True, exist_ok=True)
         write_particles(folder/f"{name}.vtp", state, rho=sums.around.rho[:n], T=sums.around.T[:n])

@@ -1,0 +1,188 @@
+"""The one exchange over edges of all compiled schemes: listed terms in one sweep, and stages for what some need besides.
+
+A term takes two points and their edge and gives what the first gains of mass, momentum (2) and energy    [RR98 Eqs 34-36, 51].
+What is not listed is not compiled. A term that needs more than the fields of two points, such as gradients, has a stage.
+"""
+from collections.abc import Callable
+from functools import singledispatch
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import energy, pressure
+from continuum.jit import OPTIONS, formula, overload
+from particles.pairs import nothing, rate, sweep
+from particles.threads import Team
+
+
+class Convection(NamedTuple):
+    """What moves with the fluid: q_a v_b + q_b v_a for rho, rho v and eps."""
+
+
+class Pressure(NamedTuple):
+    """P_ab = P(rho_a, T_b) and P_ba; images have a hydrostatic part besides.
+
+    Momentum is that of P_ab + P_ba - 2 P_a, where the number P_a of the row is not left at zero: see `fixed.OwnPressure`.
+    """
+    eos: Any
+
+
+class Friction(NamedTuple):
+    """Force along the edge and its work, of a share of the viscosity    [Eq. 51, zeta = 0, d = 2]"""
+    share: float = 1.0
+
+
+class Conduction(NamedTuple):
+    """Heat along the edge, of a share of the conductivity    [Eq. 51]"""
+    share: float = 1.0
+
+
+#: friction and heat as Eq. 51 has them
+PRINTED = (Conduction(), Friction())
+
+for kind in (Convection, Pressure, Friction, Conduction):
+    nothing.of(kind)(lambda term: (0.0, 0.0, 0.0, 0.0))
+
+
+@rate.of(Convection)
+def _(term, a, b, ab):
+    to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy       # S.v/2
+    from_a, from_b = a.rho*to_b, b.rho*to_a
+    return -from_a - from_b, -from_a*a.vx - from_b*b.vx, -from_a*a.vy - from_b*b.vy, -a.eps*to_b - b.eps*to_a
+
+
+@formula
+def pressure_of(eos, rho, T):
+    """P(rho, T)."""
+    return pressure(eos, rho, energy(eos, rho, T))
+
+
+@rate.of(Pressure)
+def _(term, a, b, ab):
+    to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy
+    P_ab, P_ba = pressure_of(term.eos, a.rho, b.T) + b.hydro, pressure_of(term.eos, b.rho, a.T)
+    P = P_ab + P_ba - 2*a.P
+    return 0.0, -ab.sx*P, -ab.sy*P, -P_ab*to_a - P_ba*to_b
+
+
+@rate.of(Friction)
+def _(term, a, b, ab):
+    f, du, dv = 0.5*term.share*(a.eta + b.eta)*ab.k, b.ux - a.ux, b.uy - a.uy
+    return 0.0, f*du, f*dv, 0.5*f*(du*(a.ux + b.ux) + dv*(a.uy + b.uy))
+
+
+@rate.of(Conduction)
+def _(term, a, b, ab):
+    return 0.0, 0.0, 0.0, 0.5*term.share*(a.k + b.k)*ab.k*(b.Td - a.Td)
+
+
+# --- lists of terms -----------------------------------------------------------------------------------------
+
+
+class Listing(NamedTuple):
+    """The sum of the listed terms, in their order: heat, friction, convection, pressure is the quickest."""
+    terms: tuple
+
+
+def total(terms: tuple, a: Any, b: Any, ab: Any) -> Any:
+    """Sum of the rates of all terms."""
+
+
+def onto(before: tuple, terms: tuple, a: Any, b: Any, ab: Any) -> Any:
+    """The same added to a sum."""
+
+
+def plus(one: tuple, other: tuple) -> Any:
+    """Element by element, where zeros cost nothing."""
+
+
+@overload(total)
+def _(terms, a, b, ab):
+    return lambda terms, a, b, ab: onto(rate(terms[0], a, b, ab), terms[1:], a, b, ab)
+
+
+@overload(onto)
+def _(before, terms, a, b, ab):
+    if len(terms) == 0:
+        return lambda before, terms, a, b, ab: before
+    return lambda before, terms, a, b, ab: onto(plus(before, rate(terms[0], a, b, ab)), terms[1:], a, b, ab)
+
+
+@overload(plus, jit_options=OPTIONS)  # type: ignore[arg-type]
+def _(one, other):
+    if len(one) == 1:
+        return lambda one, other: (one[0] + other[0],)
+    return lambda one, other: (one[0] + other[0],) + plus(one[1:], other[1:])
+
+
+nothing.of(Listing)(lambda term: nothing(term.terms[0]))
+rate.of(Listing)(lambda term, a, b, ab: total(term.terms, a, b, ab))
+
+
+#: how a term reads edges
+Over = Callable[[Any], Any]
+
+
+# --- the loop -----------------------------------------------------------------------------------------------
+
+
+class At(NamedTuple):
+    """Where points exchange: their records and, last, those of images; edges; what images are of; volumes of the points."""
+    points: np.ndarray
+    edges: Any
+    images: Any
+    V: np.ndarray
+
+
+class Stage:
+    """What a term needs besides its sweep; by default nothing."""
+
+    def prepare(self, at: At) -> None:
+        """Fields that the sweep reads, from those of points and images."""
+
+    def use(self, slopes: np.ndarray, at: At) -> None:
+        """The same from gradients that are known."""
+
+    def add(self, at: At, total: np.ndarray) -> None:
+        """What the sweep leaves out."""
+
+    def heat(self, i: np.ndarray, image: np.ndarray, S: np.ndarray) -> float:
+        """What goes through areas S (m, 2) from images to points, besides conduction along edges."""
+        return 0.0
+
+
+@singledispatch
+def stages_of(term: Any, law: Any, n: int, team: Team, *more: Any) -> tuple[Stage, ...]:
+    """What a term of a fluid with some transport law needs; nothing for most."""
+    return ()
+
+
+class Exchange:
+    """All listed terms over edges. term : their `Listing`, or what a scheme makes of it."""
+
+    def __init__(self, term: Any, stages: tuple[Stage, ...], n: int, team: Team):
+        self.term, self.stages, self.n, self.team = term, stages, n, team
+        self.total = np.zeros((n, len(nothing(term))))
+
+    def prepare(self, at: At) -> None:
+        """Fields that the sweep reads, from those of points and images."""
+        for stage in self.stages:
+            stage.prepare(at)
+
+    def use(self, slopes: np.ndarray, at: At) -> None:
+        """The same from slopes, V times d_x u, d_y u, d_x v, d_y v, that a scheme needs besides."""
+        for stage in self.stages:
+            stage.use(slopes, at)
+
+    def sum(self, at: At) -> np.ndarray:
+        """What each point gains, (n, columns), in an array that the next sum overwrites."""
+        self.team(sweep, self.n, self.term, at.points, at.edges, self.total)
+        for stage in self.stages:
+            stage.add(at, self.total)
+        return self.total
+
+
+def stages(terms: tuple, law: Any, n: int, team: Team, *more: Any) -> tuple[Stage, ...]:
+    """Of all terms; `more`: how they read what is no stored edge."""
+    return tuple(stage for term in terms for stage in stages_of(term, law, n, team, *more))
+

@@ -1,0 +1,111 @@
+"""Stress and heat current of points, from gradients by differences, and their divergence: a term over edges, in 2D.
+
+A share of it stabilises: nested transport alone does not see waves two spacings long.
+"""
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import conductivity, stress, viscosity
+from continuum.jit import jit
+from particles.integral.exchange import At, Conduction, Friction, Stage, stages_of
+from particles.integral.transposed_stress import Mending
+from particles.pairs import nothing, rate, sweep
+from particles.threads import Team
+
+#: stress, -Q, and the velocity that friction sees
+Current = np.dtype([(name, "f8") for name in ("xx", "xy", "yx", "yy", "qx", "qy", "ux", "uy")])
+
+
+class NestedTransport(NamedTuple):
+    """Of a share of viscosity and conductivity; its sums are over other records than those of points."""
+    share: float
+
+
+class Slopes(NamedTuple):
+    """V grad of v and T by differences: d_x u, d_y u, d_x v, d_y v, d_x T, d_y T."""
+
+
+class Currents(NamedTuple):
+    """Stress and heat current of the points, over edges: momentum and energy    [Eqs 37, 38, for coefficients of one point]"""
+
+
+nothing.of(NestedTransport)(lambda term: (0.0, 0.0, 0.0, 0.0))
+nothing.of(Slopes)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+nothing.of(Currents)(lambda term: (0.0, 0.0, 0.0))
+rate.of(NestedTransport)(lambda term, a, b, ab: (0.0, 0.0, 0.0, 0.0))
+
+
+@rate.of(Slopes)
+def _(term, a, b, ab):
+    du, dv, dT = b.ux - a.ux, b.uy - a.uy, b.Td - a.Td
+    return ab.sx*du, ab.sy*du, ab.sx*dv, ab.sy*dv, ab.sx*dT, ab.sy*dT
+
+
+@rate.of(Currents)
+def _(term, a, b, ab):
+    ax, ay, bx, by = ab.sx*a.xx + ab.sy*a.yx, ab.sx*a.xy + ab.sy*a.yy, ab.sx*b.xx + ab.sy*b.yx, ab.sx*b.xy + ab.sy*b.yy
+    return ax + bx, ay + by, bx*a.ux + by*a.uy + ax*b.ux + ay*b.uy + ab.sx*(a.qx + b.qx) + ab.sy*(a.qy + b.qy)
+
+
+def mixed(share: float, mended: bool = True) -> tuple:
+    """Terms of a share of friction and conduction along edges [Eq. 51], mended or as printed, the rest nested [Eqs 37, 38].
+
+    Raises ValueError: the share is not between 0 and 1.
+    """
+    if not 0 <= share <= 1:
+        raise ValueError(f"the share of transport along edges must be between 0 (nested) and 1 (all), got {share}")
+    along = (Conduction(share), *(Mending(share),)*mended, Friction(share))*(share > 0)
+    return (*along, *(NestedTransport(1 - share),)*(share < 1))
+
+
+class Nesting(Stage):
+    """Makes the currents of points and images, and adds their divergence."""
+
+    def __init__(self, share: float, law: Any, n: int, team: Team):
+        self.share, self.law, self.n, self.team = share, law, n, team
+        self.slopes, self.gain, self.currents = np.empty((n, 6)), np.empty((n, 3)), np.zeros(0, Current)
+
+    def prepare(self, at: At) -> None:
+        """Images have the adjoint of gradients that see -v and 2 T_w - T: what goes along the plate is odd, across it even.
+
+        Of a shear stress that is another number for each of its two directions.
+        """
+        if len(self.currents) != len(at.points):
+            self.currents = np.zeros(len(at.points), Current)
+        self.team(sweep, self.n, Slopes(), at.points, at.edges, self.slopes)
+        self.team(_currents, self.n, self.slopes, at.V, self.law, self.share, at.points, self.currents)
+        at.images.fill(self.currents, ("yx", "yy", "qy"), ("xx", "xy", "qx"))
+        for name in ("ux", "uy"):
+            self.currents[name][self.n:] = at.points[name][self.n:]
+
+    def use(self, slopes: np.ndarray, at: At) -> None:
+        """Gradients of the velocity alone do not do."""
+        raise TypeError("nested transport needs gradients of T: over closed faces take friction and conduction along them")
+
+    def heat(self, i: np.ndarray, image: np.ndarray, S: np.ndarray) -> float:
+        """Through areas S between points and images."""
+        q = np.stack([self.currents[name][i] + self.currents[name][image] for name in ("qx", "qy")], axis=1)
+        return float((S*q).sum()/2)
+
+    def add(self, at: At, total: np.ndarray) -> None:
+        """Momentum and energy."""
+        self.team(sweep, self.n, Currents(), self.currents, at.edges, self.gain)
+        total[:, 1:4] += self.gain
+
+
+@stages_of.register
+def _(term: NestedTransport, law: Any, n: int, team: Team) -> tuple[Stage, ...]:
+    return (Nesting(term.share, law, n, team),)
+
+
+@jit
+def _currents(first, last, slopes, V, law, share, points, currents):
+    """Stress and -Q of the nested share."""
+    for i in range(first, last):
+        a, b = points[i], currents[i]
+        ux, uy, vx, vy, Tx, Ty = slopes[i]
+        f = share/V[i]
+        b.xx, b.xy, b.yy = stress(f*viscosity(law, a.rho, a.T), 0.0, ux, uy, vx, vy)
+        k = f*conductivity(law, a.rho, a.T)
+        b.yx, b.qx, b.qy, b.ux, b.uy = b.xy, k*Tx, k*Ty, a.ux, a.uy

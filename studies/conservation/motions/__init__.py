@@ -1,1 +1,0 @@
-"""conservation/motions"""

@@ -1,0 +1,248 @@
+"""Claims about where methods break."""
+from collections.abc import Callable
+from typing import Any
+
+from continuum.fluid import DenseFluid, IdealGas
+from studies.hardcases.tubes import BARELY, CELL_NUMBER, STEPS
+from studies.kit.ask import Value, farthest, farthest_of, first, last, least, of, one, over_seeds, rows, total
+from studies.kit.claim import Claim
+from studies.kit.stats import CannotTell, Measured
+from studies.kit.table import Tables
+
+# --- the square of Fig. 10 ------------------------------------------------------------------------
+
+ALIVE = 0.1         # of K at the start: below, what is left of the mean flow says how it began
+SINGLE = "single particles have 1.3, pairs 2 or more"
+FLUIDS = {"IdealGas": ("", "gas", 67150.0), "DenseFluid": ("dense-", "dense fluid", 511200.0)}
+#: Ra of a scene, whose kappa is k/(rho C_V), with kappa = k
+OWN_GAS, OWN_DENSE = f"ra/{IdealGas().cv:g}", f"ra/{DenseFluid().cv:g}"
+
+
+def rolls(ra: float) -> Value:
+    """Number of rolls of Monaghan's particles in the gas, if the mean flow is not a remnant of the start."""
+    def value(tables: Tables) -> Measured:
+        run = rows(tables, "squares", eos="IdealGas", weight="Monaghan", ra=ra).iloc[0]
+        left = run["flow"]/run["begun"]
+        if left < ALIVE:
+            raise CannotTell(f"the flow has stopped, K of the mean flow is {left:.2g} of that at the start "
+                             f"and not {ALIVE:g} at least, and {100*run['shared']:.0f} % of the particles are "
+                             f"paired, of one seed at Ra {ra:g}: its {run['rolls']:.0f} rolls are what is "
+                             "left of the start")
+        return Measured(float(run["rolls"]))
+    value.__doc__ = f"rolls in squares where eos = IdealGas, weight = Monaghan, ra = {ra:g}, flow/begun >= {ALIVE:g}"
+    return of(value)
+
+
+SQUARES = (
+    *(Claim(id=f"khp95-hard-fig10-{key}pairs-monaghan",
+            source="KHP95 Sec. VI, Fig. 10", because=SINGLE, at_least=2,
+            printed="common to both" if key else "pairs",
+            value=one("squares", "ratio", eos=eos, weight="Monaghan", ra=ra),
+            statement=f"in the {fluid} of Fig. 10 Monaghan's particles move in pairs: median of second over "
+                      "first neighbour distance") for eos, (key, fluid, ra) in FLUIDS.items()),
+    *(Claim(id=f"khp95-hard-fig10-{key}pairs-lucy",
+            source="KHP95 Sec. VI, Fig. 10", because=SINGLE, at_most=1.6,
+            printed="no such pairing", value=one("squares", "ratio", eos=eos, weight="Lucy", ra=ra),
+            statement=f"in the {fluid} of Fig. 10 Lucy's particles do not pair: median of second over first "
+                      "neighbour distance") for eos, (key, fluid, ra) in FLUIDS.items()),
+    Claim(id="khp95-hard-fig10-two-rolls",
+          source="KHP95 Sec. VI, Fig. 10", printed="two rolls", expect=2, within=0,
+          value=rolls(67150.0), because="a whole number",
+          statement="2500 particles of the gas of Fig. 10 have two rolls, after a start with two"),
+    Claim(id="khp95-hard-fig10-one-roll", source="KHP95 Sec. VI, Fig. 10", printed="one", expect=1, within=0,
+          value=rolls(1e4), because="a whole number",
+          statement="2500 particles of the gas of Fig. 10 have one roll at twice the critical Ra, after a "
+                    "start with two"),
+    *(Claim(id=f"khp95-hard-fig10-rayleigh-{name}",
+            source="KHP95 Sec. VI, Fig. 10", printed="350 000", expect=1, within=0.05,
+            value=last("squares", f"{own}*{alpha}/alpha/350000", by="ra", eos=eos, weight="Monaghan"),
+            because="two printed digits",
+            statement=f"printed viscosities and a static density of 1 give the printed Ra, alpha {words}, "
+                      f"kappa = k: Ra of the {fluid} over 350 000")
+      for name, eos, fluid, own, alpha, words in (
+          ("gas", "IdealGas", "ideal gas", OWN_GAS, "1", "taken as 1"),
+          ("gas-own", "IdealGas", "ideal gas", OWN_GAS, "alpha", "that of the gas at mid-height"),
+          ("dense", "DenseFluid", "dense fluid", OWN_DENSE, "alpha", "that of the fluid at mid-height"))),
+)
+
+# --- shocks ---------------------------------------------------------------------------------------
+
+METHODS = {"grid": "compressible grid", "fixed lattice": "fixed points on a lattice",
+           "fixed jittered": "fixed points, jittered", "moving": "moving points with closed faces"}
+VISCOUS, LONG, SHORT = 0.5, *STEPS
+NO_RINGING = "a tenth is no ringing, as for smooth particles"
+PRINTED: dict[str, Any] = {"L": 192.0}
+SHORTER = "[asked after runs had ended at four times this step]"
+
+
+def longest(method: str, value: str, eta: float) -> Value:
+    """Of a method's longest tube; over seeds where points lie as a seed says."""
+    ask: Callable = over_seeds if method in ("fixed jittered", "moving") and eta == VISCOUS else one
+    return ask("method_tubes", value, method=method, eta=eta, step=LONG, L=96)
+
+
+def of_method(method: str, words: str) -> tuple[Claim, ...]:
+    """What is asked of each method."""
+    key = method.replace(" ", "-")
+    fields = [longest(method, f"{name}_grid", VISCOUS) for name in ("rho", "v", "P")]
+    return (
+        Claim(id=f"sod-{key}-grid", source="Sod 1978", at_most=0.01, value=farthest_of(*fields, centre=0.0),
+              statement=f"{words}, eta = k = {VISCOUS:g}: density, velocity and pressure are those of a fine "
+                        "grid as viscous: largest mean difference over its range, longest tube",
+              because="1 %, as is asked of smooth particles"),
+        Claim(id=f"sod-{key}-rings", source="Sod 1978", at_most=0.1, value=longest(method, "wiggles", BARELY),
+              statement=f"{words}: nothing rings if v a/nu of the contact's velocity behind the shock is "
+                        f"{CELL_NUMBER:g}: variation of v beyond that of the exact solution, over it, longest "
+                        "tube",
+              because=f"central differences keep order below a cell number of 2; {NO_RINGING}"),
+        Claim(id=f"sod-{key}-robust-short", source="Sod 1978", at_most=0, because="none",
+              value=total("method_tubes", "reached < 1", method=method, eta=0.0, step=SHORT),
+              statement=f"{words}: Sod's shock is taken without any viscosity in steps of an eighth of the "
+                        f"limit at the start: tubes that ended before their time {SHORTER}"))
+
+
+SHOCKS = (
+    *(claim for method, words in METHODS.items() for claim in of_method(method, words)),
+    Claim(id="sod-moving-robust-barely", source="Sod 1978", at_most=0, because="none",
+          value=total("method_tubes", "reached < 1", method="moving", eta=BARELY, step=SHORT),
+          statement="moving points with closed faces: Sod's shock is taken at a cell number of "
+                    f"{CELL_NUMBER:g} behind it, in steps of an eighth of the limit at the start: tubes that "
+                    f"ended before their time {SHORTER}"),
+    Claim(id="khp95-hard-sod-robust",
+          source="KHP95 Sec. VI", printed="robust, highly stable", at_most=0, because="none",
+          value=total("tubes", "diverged > 0"),
+          statement="smooth particles take Sod's shock, with viscosity and without: tubes that diverged"),
+    Claim(id="khp95-hard-sod-grid-v", source="KHP95 Sec. II", at_most=0.01,
+          value=over_seeds("tubes", "v_grid", eta=VISCOUS, **PRINTED),
+          statement="the longest viscous tube has the v of a grid as viscous: mean difference over its range",
+          because="1 %, what KHP95 say that fluctuations disguise"),
+    Claim(id="khp95-hard-sod-in-order", source="KHP95 Sec. II", at_most=3,
+          value=over_seeds("tubes", "overlap", eta=0.0, **PRINTED),
+          statement="without viscosity, and none is artificial, both gases still do not pass through each "
+                    "other: overlap in spacings, longest tube",
+          because="the range, within which they push each other back"),
+    Claim(id="khp95-hard-sod-rings", source="KHP95 Sec. II", at_most=0.1,
+          value=over_seeds("tubes", "wiggles", eta=0.0, **PRINTED),
+          statement="the printed scheme, which has no artificial viscosity, takes a shock without ringing if "
+                    "the fluid has none: variation of v beyond that of the exact solution, over it, longest "
+                    "tube", because="a tenth is no ringing"),
+    Claim(id="khp95-hard-ripple-kick", source="KHP95 Sec. VI, Fig. 11", expect=1, within=0.02,
+          value=last("ripple_growth",
+          "kick", by="scale", steep=0.25), because="2 %, as printed for the growth",
+          statement="a shock of Mach 1.5 gives the interface the velocity of the exact solution: measured "
+                    "over exact"),
+    Claim(id="khp95-hard-ripple-robust",
+          source="KHP95 Sec. VI", printed="robust, highly stable", at_most=0, because="none",
+          value=total("ripples", "height != height"),
+          statement="gases that fall onto a mirror are taken, however they lie at the start: interfaces whose "
+                    "run diverged [asked after one had]"),
+    Claim(id="khp95-hard-ripple-growth", source="KHP95 Sec. VI, Fig. 11", printed="2%", expect=1, within=0.02,
+          value=last("ripple_growth", "growth", by="scale", steep=0.25),
+          because="the printed 2 %; impulsive theory is itself an approximation",
+          statement="a shocked ripple grows as theory says, density ratio 4, Mach 1.5 from the light side, k "
+                    "a = 0.25, all of it four times as large as printed: growth rate over the impulsive one"),
+)
+
+# --- the highest Ra -------------------------------------------------------------------------------
+
+HIGH_RA = tuple(
+    Claim(id=f"high-ra-{method.replace(' ', '-')}-foretold", source="KHP95 Sec. VI", at_most=2*CELL_NUMBER,
+          value=one("high_ra_summary", "cell_number", method=method, kind="wrong", step=1.0),
+          statement=f"{words}, 16 rows: as Ra is raised a cell number of 2 foretells what ends or goes wrong: "
+                    "v a/nu of the fastest flow, where K is off by a factor of 1.25 or runs end",
+          because="no formula is known for the end of a run; a rule of thumb is worth a factor of 2")
+    for method, words in METHODS.items())
+
+# --- limits of the time step ----------------------------------------------------------------------
+
+POINTS = ("fixed lattice", "fixed jittered")
+SMOOTH = ("spam Lucy", "spam Wendland", "spam direct")
+RATIO = {"value": "measured/predicted", "err": "measured_err/predicted", "by": "measured/predicted"}
+TENTH = "limits are to be known to 10 %: what takes 0.9 of a formula is then safe and gives away little"
+
+
+def difference(formula: str, methods: tuple[str, ...]) -> Value:
+    """The largest |measured/formula - 1|."""
+    return farthest("limits",
+                    f"abs(measured/{formula} - 1)", centre=0.0, err=f"measured_err/{formula}", method=methods)
+
+
+LIMITS = (
+    Claim(id="limit-step-spam",
+          source="KHP95 Sec. II", value=difference("predicted", SMOOTH), at_most=0.1, because=TENTH,
+          statement="smooth particles on a lattice under RK4: noise begins to grow at the step that lattice "
+                    "sums give, from zero viscosity to Prandtl 0.01 and 100"),
+    *(Claim(id=f"limit-step-{name}-shorter",
+            source=source, value=difference("shorter", methods), at_most=0.1, because=TENTH,
+            statement=f"{words}: the largest stable step is the shorter one of those of sound alone and of "
+                      "diffusion alone [asked after the inverse sum had failed]")
+      for name, source, words, methods in (
+          ("grid", "KHP95 Sec. V", "compressible grid", ("grid",)),
+          ("points",
+           "RR98 Eq. 51", "fixed points, friction along edges, on a lattice and jittered", POINTS))),
+    Claim(id="limit-step-safe", source="RR98 Eqs 34-51", value=first("limits", **RATIO), at_least=0.99,
+          statement="no method's own formula of the largest step is above the step at which noise begins to "
+                    "grow",
+          because="formulas are read off stability regions to 0.4 %, trials find limits to 1 %"),
+    Claim(id="limit-step-slack", source="RR98 Eqs 34-51", value=last("limits", **RATIO), at_most=2.0,
+          statement="no method's own formula of the largest step gives away more than a factor of 2",
+          because="sound and diffusion, each at its limit, halve the step if their fastest waves are added "
+                  "though they differ"),
+)
+
+# --- the map --------------------------------------------------------------------------------------
+
+FLUCTUATES = 0.01       # of K, in a quarter of the time when a steady flow has long settled
+ENDS = "a run ends or it does not"
+
+
+def alike(tables: Tables) -> Measured:
+    """swing of 32 over that of 48 rows in steadiness at Ra 2e5; error: what `before` gives another ratio"""
+    coarse, fine = (rows(tables, "steadiness", ra=2e5, rows=n).iloc[0] for n in (32, 48))
+    late, before = (float(coarse[name]/fine[name]) for name in ("swing", "before"))
+    return Measured(late, abs(late - before))
+
+
+def right(case: str, method: str, source: str, number: str, statement: str) -> Claim:
+    """The flow is as the fine grid or the exact solution has it, to a tenth."""
+    name = f"{case} {method}".lower().replace(" ", "-")
+    return Claim(id=f"map-{name}", source=source, expect=1.0, within=0.1, statement=statement,
+                 value=one("map", "measured", case=case, method=method, number=number),
+                 because="a tenth is what separates `right` from `wrong` on the map")
+
+
+WAVE = "a wave on a shear flow without viscosity grows by linear theory"
+MAP = (
+    Claim(id="map-robust", source="KHP95 Sec. VI", at_least=1.0, because=ENDS,
+          value=least("hard_runs", "reached", case=("Ra 1e5", "Ra 1e6"), method="spam printed"),
+          printed="the \"robust\" smooth-particle technique continues to provide solutions",
+          statement="smooth particles as printed run to the end at Ra 1e5 and 1e6 on 16 rows"),
+    Claim(id="map-grid-fluctuates", source="KHP95 Sec. VI", at_least=FLUCTUATES,
+          value=one("steadiness", "swing", err="abs(swing - before)", ra=3.5e5, rows=16),
+          printed="at higher Ra centered-difference regular-grid solutions begin to fluctuate",
+          statement="the centred grid of 16 rows fluctuates at Ra 350 000",
+          because="K of flows that settle changes by less than 0.1 % then"),
+    Claim(id="map-grid-ends", source="KHP95 Sec. VI", at_least=1.0, because=ENDS,
+          value=least("steadiness", "reached", ra=3.5e5),
+          statement="centred grids of 16 to 48 rows come through 150 free-fall times at Ra 350 000: part of "
+                    "the time, the least [asked after they had ended]"),
+    Claim(id="map-grid-swings", source="KHP95 Sec. VI", value=of(alike), expect=1.0, within=0.25,
+          statement="at Ra 200 000 K of 32 and of 48 rows swings alike: what is left is of the flow, not of "
+                    "the grid [asked after both had been seen]",
+          because="swings of the grid fall at least as the square of its cells, 2.25 times"),
+    right("high pressure", "spam printed", "KHP95 Sec. VI", "flow/grid",
+          "smooth particles as printed have the grid's flow, high pressure, 16 rows"),
+    right("high pressure", "fixed lattice", "RR98 Eqs 34-36, 51", "flow/grid",
+          "points on a lattice have the grid's flow, high pressure, 16 rows"),
+    right("zero viscosity", "grid", "KHP95 Sec. V", "flow/start",
+          "without viscosity the centred grid keeps a vortex for five turns, 16 rows"),
+    right("zero viscosity", "fixed lattice", "RR98 Eqs 34-36, 51", "flow/start",
+          "points on a lattice have the grid's flow, zero viscosity, 16 rows"),
+    right("vacuum", "spam printed", "KHP95 Sec. II", "K/exact",
+          "gas that expands into a vacuum has the kinetic energy of two rarefactions"),
+    right("shear layer", "grid", "KHP95 Sec. V", "growth/linear",
+          f"{WAVE}, the centred grid, 16 cells to the flow's wavelength"),
+    right("shear layer", "fixed lattice", "RR98 Eqs 34-36", "growth/linear",
+          f"{WAVE}, points on a lattice, 16 spacings to the flow's wavelength"),
+)
+CLAIMS = (*SQUARES, *SHOCKS, *HIGH_RA, *LIMITS, *MAP)

@@ -1,1 +1,0 @@
-"""hardcases/tube"""

@@ -1,1 +1,0 @@
-"""noise/fluctuations"""

@@ -1,0 +1,222 @@
+"""What printed noise and printed steps do to waves on a lattice    [RR98 Eqs 40-44]
+
+One wave of the gas on a line has density, velocity, temperature, with the symbols of the lattice; each has
+the variance 1 in equilibrium. Steps are in units of nu/c^2, c the adiabatic speed: that limits forward Euler,
+not k.
+"""
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from continuum.exact.waves import waves
+from particles.integral import fluctuating
+from particles.integral.covariance import STEPS, Step, steady_of_steps
+from particles.integral.edge_makers import MAKERS
+from particles.integral.edges import Edges
+from particles.integral.fluctuating import Partners
+from particles.integral.interpolants import W
+from particles.integral.points import lattice
+from particles.weights import Lucy
+from studies.build.symbols import neighbours
+from studies.kit.case import Case, Outcome, Report
+from studies.noise.partners import ETA, KAPPA, KT
+
+
+@dataclass(frozen=True, kw_only=True)
+class PrintedWaves(Case):
+    """Variance of printed noise over its due, 2 kT Gamma of Eq. 37 or 38, on a lattice; T = 0.7.
+
+    term : "eta" across k, "zeta" along k, "kappa". h 1.5 in 1D and 1.2 in 2D: nearest neighbours.
+    """
+    equation: str
+    term: str
+    doubled: bool
+    d: int
+    h: float
+    waves: int = 32
+
+    @property
+    def cost(self) -> float:
+        return 0.1
+
+    @property
+    def reading(self) -> str:
+        """Of the bracket: pi_ij + pi_ji (Eq. 35), or pi_ij (Eq. 22)."""
+        return "doubled" if self.doubled else "single"
+
+    @property
+    def label(self) -> str:
+        return f"Eq. {self.equation} {self.term} {self.reading}, {self.d}D, h {self.h:g}"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        across = 2*int(np.ceil(self.h)) + 1
+        points = lattice((self.waves, *[across]*(self.d - 1)))
+        weight = Lucy.of(h=self.h, d=self.d)
+        edges = MAKERS["renormalised"](points, weight)
+        pair, twice = self.noise(edges)
+        key = {name: getattr(self, name) for name in ("equation", "term", "reading", "d", "h")}
+        rows = []
+        for turns in range(1, self.waves//2):
+            k = 2*np.pi*turns/self.waves
+            wave = np.zeros((pair.Gamma.shape[0]//edges.n, edges.n), complex)
+            wave[1 if self.term == "eta" else 0] = np.exp(1j*k*points.x[:, 0])
+            ratio = form(pair.Q, wave)/(twice*form(pair.Gamma, wave))
+            rows.append({**key, "wavenumber": k, "ratio": ratio, "predicted": self.predicted(weight, k)})
+        return Outcome({"printed": rows})
+
+    def noise(self, edges: Edges) -> tuple[Partners, float]:
+        """The printed one, and 2 kT or 2 k T^2."""
+        if self.term == "kappa":
+            T = np.full(edges.n, KT)
+            of25 = self.equation == "25"
+            return fluctuating.printed_heat(edges, KAPPA, 1.0, T, doubled=self.doubled, of25=of25), 2*KT**2
+        eta, zeta = (ETA, 0.0) if self.term == "eta" else (0.0, ETA)
+        bulk = 2.0 if self.equation == "23" else 1.0
+        return fluctuating.printed_stress(edges, eta, zeta, KT, doubled=self.doubled, bulk=bulk), 2*KT
+
+    def predicted(self, weight: Any, k: float) -> float:
+        """From sums over the lattice: c^2 sum w^2 (1 - cos k.r) g/(sum w e_x sin k.r)^2, c = 2 if doubled.
+
+        g = 2 [1 + (1 - 2/3) e_y^2] for eta, e_x^2 for zeta (2 e_x^2 of Eq. 23), 1/T for kappa (2 of Eq. 25).
+        """
+        r = neighbours(weight, self.d)
+        size = np.sqrt((r**2).sum(axis=1))
+        w = W(weight, size)
+        w *= self.d/(w@size)
+        along, last = r[:, 0]/size, r[:, -1]/size
+        bulk = 2.0 if self.equation == "23" else 1.0
+        heat = 2.0 if self.equation == "25" else 1/KT
+        g = {"eta": 2*(1 + last**2/3), "zeta": bulk*along**2, "kappa": heat}[self.term]
+        slope = float((w*along)@np.sin(k*r[:, 0]))
+        return (4 if self.doubled else 1)*float((w**2*g)@(1 - np.cos(k*r[:, 0])))/slope**2
+
+
+def form(M: Any, wave: np.ndarray) -> float:
+    """wave^* M wave of a wave (components, n)."""
+    flat = wave.ravel()
+    return float((flat.conj()@(M@flat)).real)
+
+
+# --- steps ------------------------------------------------------------------------------------
+
+
+def line_symbols(k: float, h: float = 2.0) -> tuple[float, float]:
+    """(slope, Laplacian) that a line of unit spacing makes of k and k^2 with Lucy's weight, pairwise."""
+    weight = Lucy.of(h=h, d=1)
+    r = neighbours(weight, 1)[:, 0]
+    w = W(weight, np.abs(r))
+    w /= w@np.abs(r)
+    slope = float((w*np.sign(r))@np.sin(k*r))
+    return slope, float(2*w/np.abs(r)@(1 - np.cos(k*r)))
+
+
+def gas(k: float) -> tuple[np.ndarray, np.ndarray]:
+    """J and Q of (rho, u, T): ideal gas, C_V = 1, C = 1 in equilibrium, since J + J^* = -Q."""
+    s, lap = line_symbols(k)
+    J = waves(s, ETA*lap, KAPPA*lap, 0.0).matrix
+    return J, -(J + J.conj().T).real
+
+
+def isothermal(k: float) -> tuple[np.ndarray, np.ndarray]:
+    """The same of (rho, u) at constant temperature."""
+    J, Q = gas(k)
+    return J[:2, :2], Q[:2, :2]
+
+
+def euler_heats(k: float, dt: float) -> float:
+    """<u u> of `isothermal` with forward Euler, solved by hand.
+
+    1/(1 - s^2 dt/l - l dt/2 + 3 s^2 dt^2/4 - s^4 dt^3/(4 l))
+    """
+    s, lap = line_symbols(k)
+    l = ETA*lap
+    return 1/(1 - s*s*dt/l - l*dt/2 + 0.75*(s*dt)**2 - s**4*dt**3/(4*l))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Steps(Case):
+    """What one integrator makes of one wave; dt in eta/(rho c^2), c^2 = 1 isothermal, 2 of the gas."""
+    integrator: str
+    k: float
+    dt: tuple[float, ...]
+
+    @property
+    def cost(self) -> float:
+        return 0.1
+
+    @property
+    def label(self) -> str:
+        return f"steps {self.integrator}, k {self.k:g}"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        made = [*self.rows("isothermal", *isothermal(self.k), 1), *self.rows("gas", *gas(self.k), 2)]
+        return Outcome({"steps": made})
+
+    def rows(self, fluid: str, J: np.ndarray, Q: np.ndarray, c2: float) -> list[dict[str, Any]]:
+        """One a step below its limit."""
+        made = []
+        by_hand = (self.integrator, fluid) == ("forward-euler", "isothermal")
+        for dt in self.dt:
+            time = dt*ETA/c2
+            try:
+                C = steady_of_steps(STEPS[self.integrator](J, Q, time)).real
+            except ArithmeticError:
+                continue
+            error = float(np.abs(C - np.eye(len(C))).max())
+            made.append({"integrator": self.integrator, "fluid": fluid, "wavenumber": self.k, "dt": dt,
+                         "velocity": C[1, 1], "density": C[0, 0], "error": error,
+                         "by_hand": euler_heats(self.k, time) if by_hand else np.nan})
+        return made
+
+
+@dataclass(frozen=True, kw_only=True)
+class MovingSteps(Case):
+    """Points that move as Eq. 39 says, isothermal: density, velocity and displacement of one wave.
+
+    As printed, the constant volume lets displacements x push back with 2 P grad(n dV): u' = -i s rho - 2 s^2
+    x - l u, besides rho' = -i s u, x' = u. With rho = -i s x, as it stays from rest on, stiffness is (1 + 2)
+    c_T^2; <u u> is 1. both : the positions by Eq. 40 as well, not by Eq. 41.
+    """
+    k: float
+    dt: tuple[float, ...]
+    both: bool
+
+    @property
+    def cost(self) -> float:
+        return 0.1
+
+    @property
+    def integrator(self) -> str:
+        """Equations of velocities and of positions."""
+        return "eq40-eq40" if self.both else "eq40-eq41"
+
+    @property
+    def label(self) -> str:
+        return f"steps moving {self.integrator}, k {self.k:g}"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        rows = []
+        for dt in self.dt:
+            step, kept = self.step(dt*ETA)
+            try:
+                C = steady_of_steps(step, kept).real
+            except ArithmeticError:
+                continue
+            rows.append({"integrator": self.integrator, "fluid": "moving", "wavenumber": self.k, "dt": dt,
+                         "velocity": C[1, 1], "density": C[0, 0], "error": abs(C[1, 1] - 1),
+                         "by_hand": np.nan})
+        return Outcome({"steps": rows})
+
+    def step(self, dt: float) -> tuple[Step, np.ndarray]:
+        """One step, and what it keeps: rho + i s x, less i s dt u where x moves with the new velocity."""
+        s, lap = line_symbols(self.k)
+        l = ETA*lap
+        A = np.eye(3, dtype=complex) + dt*np.array([[0, -1j*s, 0], [-1j*s, -l, -2*s*s], [0, 1, 0]])
+        if self.both:
+            Q = np.diag([0, 2*l*dt, 0]).astype(complex)
+            return Step(A, Q), np.array([[1, 0, 1j*s]])
+        A[2] = np.array([0, 0, 1]) + dt*A[1]        # x' = x + dt u', the new velocity with its noise
+        Q = np.outer([0, 1, dt], [0, 1, dt])*2*l*dt
+        return Step(A, Q), np.array([[1, -1j*s*dt, 1j*s]])

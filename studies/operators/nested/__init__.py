@@ -1,1 +1,0 @@
-"""operators/nested"""

@@ -1,0 +1,127 @@
+"""Laws over the table of methods: each is made in the layer and runs, starts with the scene's fields; names are unique."""
+from dataclasses import dataclass
+from functools import cache, partial
+
+import numpy as np
+import pytest
+
+from continuum.fluid import ConstEta
+from continuum.scene import Periodic, RayleighBenard, Walls
+from particles.fields import kinetic_energy
+from particles.run import Plan, run
+from studies.build import METHODS, named, ready
+from studies.build.labels import LABELS
+from studies.build.scenes import Scene, Slab, Sound, TaylorGreen, between_plates
+from studies.build.spam import VARIANTS
+
+LAYER = RayleighBenard(ra=1e4, L=14.0, aspect=1.0)      # six fixed rows behind a plate go on to T = 0 in a lower one
+BOX = RayleighBenard(ra=1e4, L=14.0, aspect=1.0, sides=Walls())
+PAIRS = [name for name in METHODS if name not in ("grid-two-rolls", "grid-fig10", "spam-from-flow")]    # other starts
+EXACT = [TaylorGreen(L=12), Sound(width=12), between_plates("conduction", 12)]
+in_layer = cache(partial(ready, LAYER))
+
+
+def advanced(method, start, dt, steps):
+    """The state so many steps later."""
+    return method.go(start, dt, steps) if hasattr(method, "go") else run(method, start, Plan(dt=dt, steps=steps)).by_id()
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_every_method_starts_with_the_fields_of_the_layer(name):
+    """Velocity and temperature are those of the places to round-off of p/rho and e; K is that of the rolls, 9/5000."""
+    method, start, _ = in_layer(name)
+    x, v, _, T, _ = method.fields(start)
+    _, u, known = LAYER.fields(x)
+    assert np.abs(v - u).max() < 1e-14 and np.abs(T - known).max() < 1e-13
+    assert kinetic_energy(method.fields(start)) == pytest.approx(9/5000, rel=0.1)     # points off a lattice sample it
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_every_method_takes_three_steps(name):
+    """In the box for grids whose rolls come singly; what moves stays finite, and moves."""
+    method, start, dt = ready(BOX, name) if METHODS[name].name in ("two-rolls", "fig10") else in_layer(name)
+    end = advanced(method, start, dt, 3)
+    assert np.isfinite(end).all() and not np.array_equal(end, start)
+
+
+@pytest.mark.parametrize("name", ["grid", "spam", "fixed-lattice", "fixed-jittered-delaunay", "moving", "moving-literal"])
+@pytest.mark.parametrize("scene", EXACT, ids=lambda scene: type(scene).__name__)
+def test_a_method_of_each_family_starts_scenes_with_exact_answers(scene, name):
+    method, start, dt = ready(scene, name)
+    x, v, _, T, _ = method.fields(start)
+    _, u, known = scene.fields(x)
+    assert np.abs(v - u).max() < 1e-14 and np.abs(T - known).max() < 1e-13
+    assert 0 < dt <= ready(scene, name).limit
+
+
+def test_plates_slide_for_methods_that_know_how():
+    """A fluid at rest is pulled along by the upper plate, first where it is near: friction has come a third of the height."""
+    scene = Dragged()
+    for name in ("grid", "spam", "fixed-lattice", "fixed-jittered-plates"):
+        method, start, dt = ready(scene, name)
+        x, v, *_ = method.fields(advanced(method, start, dt, 8))
+        assert v[x[:, 1] > 3, 0].mean() > 0.2*scene.slide > 20*abs(v[x[:, 1] < -3, 0].mean()), name
+    for name in ("moving", "moving-literal"):
+        with pytest.raises(ValueError, match=r"do not slide, got slide = 0\.1: take fixed points"):
+            ready(scene, name)
+
+
+def test_a_scene_that_a_method_cannot_take_is_refused():
+    for name in ("fixed-lattice", "fixed-jittered-plates", "moving", "moving-literal"):
+        with pytest.raises(ValueError, match="plates above and below only: take a scene with periodic sides"):
+            ready(BOX, name)
+
+
+@pytest.mark.parametrize(("wrong", "near"), [("fixed-latice", "fixed-lattice, "), ("spam-monagan", "spam-monaghan, "),
+                                             ("SPH", "grid, grid-paper-form")])
+def test_an_unknown_name_gets_a_line_with_names_that_are_near(wrong, near):
+    with pytest.raises(ValueError, match=rf"no method is called '{wrong}'; near to it are {near}[^\n]*$"):
+        ready(LAYER, wrong)
+
+
+def test_every_method_has_words_of_its_own():
+    assert set(LABELS) == set(METHODS) and len(set(LABELS.values())) == len(LABELS)
+
+
+def test_two_definitions_of_a_name_are_refused_with_both():
+    with pytest.raises(ValueError, match=r"two methods are called 'moving': Motion.* and Scheme"):
+        named([("moving", METHODS["moving"])], [("moving", METHODS["fixed-lattice"])])
+
+
+def test_a_variant_of_ones_own_stands_in_place_of_a_name():
+    method, start, _ = ready(LAYER, VARIANTS["wendland-c2"]._replace(h=4.0), seed=2)
+    assert method.weight.h == 4.0
+    assert not np.array_equal(start, ready(LAYER, "spam-wendland-c2", seed=1).start)
+    assert np.array_equal(start, ready(LAYER, "spam-wendland-c2", seed=2).start)     # the range is no part of the start
+
+
+@pytest.mark.parametrize("name", ["spam", "fixed-lattice", "moving-literal"])
+def test_a_method_of_ones_own_starts_like_the_family(name):
+    """Any object with state(x, rho, v, T) that the limit of the step is known of; fixed points bring their own places."""
+    known = ready(LAYER, name)
+    made = ready(LAYER, known.method)
+    assert made.start.shape == known.start.shape and 0 < made.dt < made.limit
+
+
+@dataclass(frozen=True, kw_only=True)
+class Dragged(Scene):
+    """A fluid at rest below a plate that slides."""
+    L: int = 12
+    width: int = 8
+    sides: Periodic = Periodic()  # noqa: RUF009 (immutable)
+    slide: float = 0.1
+    law: ConstEta = ConstEta(1.0, 1.0)  # noqa: RUF009
+
+
+def test_a_slab_at_rest_stays_at_rest_on_a_lattice():
+    """Plates are all but equally warm: nothing moves faster than their difference, 2e-9, makes it."""
+    method, start, dt = ready(RestingSlab(L=12.0, aspect=1.0, viscosity=0.3, heat=0.3), "fixed-lattice")
+    assert np.abs(method.fields(run(method, start, Plan(dt=dt, steps=20)).by_id()).v).max() < 1e-9
+
+
+@dataclass(frozen=True, kw_only=True)
+class RestingSlab(Slab):
+    """Nothing moves."""
+
+    def flow(self, x, y, ke=0.0, rolls=None):
+        return 0*x, 0*y

@@ -1,0 +1,69 @@
+"""What is said of every study: its cases fill its tables, its tables give its figures and its verdicts."""
+from dataclasses import replace
+from importlib import import_module
+
+import matplotlib.pyplot as plt
+import pandas as pd
+import pytest
+
+from studies.kit.case import Case
+from studies.kit.claim import COLUMNS, judge
+from studies.kit.csvfile import read
+from studies.kit.key import ROOT
+from studies.kit.study import Study
+from studies.kit.sweep import RESULTS, load
+from studies.kit.table import SIZES, Tables
+
+NAMES = sorted(path.parent.name for path in (ROOT/"studies").glob("*/__main__.py") if path.parent.name != "report")
+
+
+@pytest.fixture(scope="module", params=NAMES)
+def study(request) -> Study:
+    return import_module(f"studies.{request.param}").STUDY
+
+
+def kinds(study: Study) -> list[Case]:
+    """The cheapest quick case of each class."""
+    cheapest: dict[type, Case] = {}
+    for case in sorted(study.cases("quick"), key=lambda case: -case.cost):
+        cheapest[type(case)] = case
+    return list(cheapest.values())
+
+
+def test_the_question_is_one_sentence(study):
+    assert study.question.strip().endswith("?") and len(study.question) < 140
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_every_case_has_its_own_label_and_key(study, size):
+    cases = list(study.cases(size))
+    assert cases and len({case.key for case in cases}) == len({repr(case) for case in cases})
+
+
+def test_each_kind_of_case_fills_tables_of_the_study_and_runs_once(study, tmp_path, monkeypatch):
+    small = replace(study, cases=lambda size: kinds(study))
+    tables = small.run("quick", workers=1, out=tmp_path)
+    assert set(tables) <= {table.name for table in study.tables} and any(map(len, tables.values()))
+    for case in kinds(study):
+        monkeypatch.setattr(type(case), "run", lambda *_: pytest.fail("a finished case runs again"))
+    again = small.run("quick", workers=1, out=tmp_path)
+    assert all(tables[name].equals(again[name]) for name in tables)
+
+
+def test_committed_tables_give_the_committed_verdicts(study):
+    rows = pd.DataFrame(judge(study.claims, load(study.tables, study.name, RESULTS), study.name))
+    committed = read(RESULTS/"claims.csv", COLUMNS).query("study == @study.name").set_index("id")["verdict"]
+    assert rows.set_index("id")["verdict"].to_dict() == committed.to_dict()
+
+
+def test_claims_cannot_tell_without_tables(study):
+    verdicts = {row["id"]: row["verdict"] for row in judge(study.claims, Tables(), study.name)}
+    assert set(verdicts.values()) <= {"undecidable"}, [name for name, said in verdicts.items() if said != "undecidable"]
+
+
+def test_figures_are_drawn_from_committed_tables_and_none_without(study):
+    pages = study.figures(load(study.tables, study.name, RESULTS))
+    pictures = {path.stem for path in (RESULTS/study.name).glob("*.png")}
+    plt.close("all")
+    assert set(pages) == pictures
+    assert study.figures(Tables()) == {}

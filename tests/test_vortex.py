@@ -1,0 +1,48 @@
+"""The decaying Taylor-Green vortex in the continuum: Fourier sums, small Mach numbers, and what fixed points make of it."""
+import numpy as np
+import pytest
+
+from continuum.exact.vortex import DECAYS, Vortex, derivative, incompressible, solved, velocities
+from particles.integral.edge_makers import renormalised
+from particles.integral.points import lattice
+from particles.weights import Lucy
+from studies.build.vortex import decayed, fluid, start
+
+
+def rms(v: np.ndarray) -> float:
+    return float(np.sqrt((v**2).sum(axis=1).mean()))
+
+
+def test_fourier_sums_are_derivatives_of_every_wave_that_fits():
+    x = 2*np.pi*np.arange(9)/9
+    D = derivative(9)
+    for m in range(5):
+        assert D@np.sin(m*x + 0.3) == pytest.approx(2*np.pi/9*m*np.cos(m*x + 0.3), abs=1e-13)
+    assert np.abs(D + D.T).max() < 1e-14
+
+
+def test_the_gas_becomes_incompressible_as_the_square_of_the_mach_number():
+    """Of the first two terms, Mach^2 and Mach^4, the second is a tenth of the first at Mach 0.3."""
+    place = np.random.default_rng(1).uniform(-0.5, 0.5, (50, 2))
+    slow, fast = (solved(mach, 29) for mach in (0.15, 0.3))
+    assert (fast.decay - 1)/(slow.decay - 1) == pytest.approx(4, rel=0.15)
+    exact = incompressible(place)
+    errors = [rms(velocities(gas, place) - exact)/rms(exact) for gas in (slow, fast)]
+    assert errors[1]/errors[0] == pytest.approx(4, rel=0.15)
+    assert errors[0] < 0.3*0.15**2
+
+
+def test_all_vortices_decay_by_e():
+    assert DECAYS == 1.0 and np.hypot(*incompressible(np.array([[0.25, 0.0]]))[0]) == pytest.approx(np.exp(-1))
+
+
+def test_a_vortex_begins_with_the_pressure_that_keeps_it_incompressible():
+    """div (dv/dt) = 0 at the start but for Mach^2, on points that differentiate as a lattice does."""
+    points, vortex = lattice((24, 24)), Vortex(0.05, 24)
+    edges = renormalised(points, Lucy.of(h=1.2))
+    method = fluid(vortex, points, edges)
+    there = method.fields(start(vortex, method))
+    assert there.V@there.rho == pytest.approx(24**2, rel=vortex.mach**2)
+    assert there.rho == pytest.approx(there.T, rel=1e-14)
+    assert there.v == pytest.approx(vortex.velocity(points.x), rel=1e-14)
+    assert decayed(vortex, points, edges).reached == 1
