@@ -97,7 +97,7 @@ def test_what_is_not_listed_is_neither_called_nor_stored():
     assert "sweep Listing(Carried+ConstantFriction)" in cold.called and "sweep Listing(Carried)" in bare.called
     assert not any("Friction" in name for name in bare.called)
     assert len(cold.problem.first) == 3 and len(with_heat.problem.first) == 4
-    assert cold.problem.held()[1].points.dtype.names == ("rho", "vx", "vy")
+    assert cold.problem.held()[1].at.points.dtype.names == ("rho", "vx", "vy")
     assert set(cold.called).isdisjoint(with_heat.called)
 
 
