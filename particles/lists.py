@@ -36,8 +36,6 @@ def outside(walls: tuple, state: np.ndarray) -> np.ndarray:
 class Surroundings:
     """Fixed particles, ghosts, neighbour lists and pairs of N particles between walls.
 
-    Attributes
-    ----------
     x, y, vx, vy, T, rho, P : (points,) fields of all points; of the particles written by the method.
     pairs : lists and pairs in range of the `rows` particles and fixed particles.
     blocks : (wall, parents, first, last) of the ghosts, in the order in which they are filled.

@@ -171,8 +171,6 @@ class State:
         return State(case=whole, q=np.concatenate([f.ravel() for f in parts]), t=self.t)
 
 
-# --- heat through walls -----------------------------------------------------------------------------------
-
 BOTTOM, TOP, LEFT, RIGHT = (1, 0), (1, -1), (0, 0), (0, -1)     # (axis, end)
 
 

@@ -103,9 +103,6 @@ def placed(scene, rows: int, start: Callable[[np.ndarray, np.ndarray], tuple]) -
     return Fields(scene, x, y, Values(vx, vy, energy(scene.eos, rho, T), T, rho), cells)
 
 
-# --- between the block of the loop and fields --------------------------------------------------------------
-
-
 def block(fields: Fields) -> np.ndarray:
     """The state as the loop wants it; its ghosts are not yet filled."""
     S = np.ones((4, len(fields.y) + 1, len(fields.x) + 1))
@@ -130,9 +127,6 @@ def unblock(scene, S: np.ndarray) -> Fields:
 def node_densities(S: np.ndarray) -> np.ndarray:
     rho = S[RHO]
     return (rho[:-1, :-1] + rho[1:, :-1] + rho[:-1, 1:] + rho[1:, 1:])/4
-
-
-# --- interpolation ----------------------------------------------------------------------------------------
 
 
 def interpolate(fields: Fields, x, y) -> Values:
@@ -169,9 +163,6 @@ def onto(scene, rows: int, fields: Fields) -> Fields:
     centre_x, centre_y = X[:-1, :-1] + scene.L/rows/2, Y[:-1, :-1] + scene.L/rows/2
     cells = interpolate(fields, centre_x/scale, centre_y/scale).rho
     return Fields(scene, x, y, interpolate(fields, X/scale, Y/scale), cells/cells.mean())
-
-
-# --- what is measured -------------------------------------------------------------------------------------
 
 
 def kinetic_energy(S: np.ndarray) -> float:

@@ -27,10 +27,8 @@ SORT = 20       # steps after which particles are put in the order of cells agai
 class Dpd:
     """A fluid of dissipative particles in a periodic box (width, height[, depth]) centred on the origin.
 
-    a, gamma, kT, rc : repulsion, friction, temperature, range. noise : `Uniform(seed)`.
-    integrator : of `integrators_dpd`, or `TwoStep` for RR98 Eqs 40, 41. rate : of a shear v_x = rate y between sliding sides.
-    skin : of the neighbour lists, in units of length.
-
+    a, gamma, kT, rc : repulsion, friction, temperature, range. noise : `Uniform(seed)`. skin : of the lists, a length.
+    integrator : of `integrators`, or `TwoStep` for RR98 Eqs 40, 41. rate : of a shear v_x = rate y between sliding sides.
     Raises ValueError: a parameter that makes no fluid.
     """
     box: tuple[float, ...]

@@ -1,8 +1,7 @@
 """Linked cells and Verlet lists in three dimensions; those of `particles.neighbours` are in two.
 
-Lists hold both directions of a pair, so that each row of a pair sum is written by one thread only. The two are kept apart because
-these take twice as long in one layer of cells, where there is less to leave out 64 at a time, and those are also of places that
-are no points, over rings of several cells.
+Lists hold both directions of a pair, so that each row of a pair sum is written by one thread. In one layer of cells these
+take twice as long as those.
 """
 from typing import NamedTuple
 

@@ -91,9 +91,6 @@ def check_decay(rates: np.ndarray, least: float) -> None:
                               "of points, for modes that grow edges that close and a smaller step")
 
 
-# --- time steps -----------------------------------------------------------------------------------------------------------------
-
-
 def forward_euler(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:
     """x + dt J x + B dW    [RR98 Eq. 40]"""
     return Step(np.eye(len(J)) + dt*J, dt*Q)

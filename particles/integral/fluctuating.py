@@ -40,9 +40,6 @@ def mismatch(pair: Partners, twice: float) -> float:
     return float(abs(pair.Q - wanted).max()/abs(wanted).max())
 
 
-# --- one random stress and one random heat current a point: the partners of gradients whose divergence is taken -----------
-
-
 def stress(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
     """Viscous forces D (eta Delta + zeta 11)/V D^T, each point with its own viscosities, and one random stress a point:
 
@@ -101,9 +98,6 @@ def kron(tensor: np.ndarray, at: np.ndarray) -> sparse.csr_array:
 def each(d: int, matrix: Any) -> sparse.csr_array:
     """The same matrix for each of d components."""
     return sparse.csr_array(sparse.kron(sparse.eye_array(d), matrix))
-
-
-# --- noise along edges: the partners of friction and heat between two points [Eq. 51] ----------------------------------------
 
 
 def friction(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
@@ -176,9 +170,6 @@ def conductances(edges: Edges) -> np.ndarray:
         raise ValueError(f"the edge between points {edges.i[worst]} and {edges.j[worst]} conducts k = {edges.k[worst]:.4g} < 0, "
                          "and no noise has a negative variance: take stresses at points, or edges of a weight")
     return np.maximum(edges.k, 0)
-
-
-# --- as printed ---------------------------------------------------------------------------------------------------------------
 
 
 def printed_stress(edges: Edges, eta: Any, zeta: Any, kT: Any, *, doubled: bool, volume: bool = True,
