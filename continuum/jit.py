@@ -32,10 +32,7 @@ _load_index = caching.IndexDataCacheFile._load_index
 
 
 def _load_index_if_known(file: Any) -> dict:
-    """numba's index of compiled code; empty if it names types of another program, such as somebody's own weight.
-
-    numba would stop with an ImportError, and so would every other program that runs the same function.
-    """
+    """numba's index of compiled code; empty where it names types of another program and numba would stop."""
     try:
         return _load_index(file)
     except (ImportError, AttributeError):

@@ -47,10 +47,7 @@ def field_kinetic(sums: Any, state: np.ndarray) -> float:
 
 
 def heat_flow(sums: Any, state: np.ndarray) -> float:
-    """Mean upward flux of total energy Q_y + rho v_y (e + P/rho + v^2/2 + g y) - (stress.v)_y, per area.
-
-    In a steady flow its mean over every height is the same, so that divided by k dT/L it is the Nusselt number.
-    """
+    """Mean upward flux of energy Q_y + rho v_y (e + P/rho + v^2/2 + g y) - (stress.v)_y: the Nusselt number, steady."""
     n, around, method = sums.n, sums.around, sums.method
     _, y, vx, vy, e = state
     rho, T = around.rho[:n], around.T[:n]

@@ -71,10 +71,7 @@ def shares(nodes: int, periodic: bool) -> np.ndarray:
 
 
 def nodes(scene, rows: int) -> tuple[np.ndarray, np.ndarray]:
-    """Coordinates of the columns and rows of nodes: `rows` square cells over the height.
-
-    Raises ValueError: `rows` is odd or below 8, or the cells cannot be square.
-    """
+    """Coordinates of columns and rows of nodes. Raises ValueError: rows odd or below 8, or cells are not square."""
     if rows < 8 or rows % 2:
         raise ValueError(f"rows must be even and at least 8, got {rows}: rolls are counted at mid-height")
     columns = round(scene.aspect*rows)
@@ -130,10 +127,7 @@ def node_densities(S: np.ndarray) -> np.ndarray:
 
 
 def interpolate(fields: Fields, x, y) -> Values:
-    """Cubic splines through the nodes, at points (x, y) in the box; x is periodic where the sides are.
-
-    Raises ValueError: a point lies outside of the box.
-    """
+    """Cubic splines through the nodes, at points (x, y), periodic as the sides. Raises ValueError: a point is outside."""
     x, y = np.asarray(x, float), np.asarray(y, float)
     if fields.periodic:
         x = fields.x[0] + (x - fields.x[0]) % fields.scene.width

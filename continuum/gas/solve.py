@@ -214,10 +214,7 @@ def finish(rows: int, march: March, until, series: Series) -> Solution:
 
 
 def steady_on(scene, sizes: Sequence[int], *, start: Fields | None = None, **options) -> list[Solution]:
-    """Steady solutions on ever finer grids, each started from the one before.
-
-    Raises ValueError: there are no sizes.
-    """
+    """Steady solutions on ever finer grids, each started from the one before. Raises ValueError: there are no sizes."""
     if not len(sizes):
         raise ValueError(f"there are no grids (sizes = {sizes}): give their rows, coarsest first, as in (16, 24, 32)")
     solutions: list[Solution] = []

@@ -58,10 +58,7 @@ def _count_sort(cells, x):
 
 
 def sort_into_cells(x: np.ndarray, side: float) -> Cells:
-    """Linked cells over the bounding box of points (n, 3), with one empty cell around it.
-
-    Raises FloatingPointError: the points are spread over far more cells than there are points.
-    """
+    """Linked cells over points (n, 3), an empty one around them. Raises FloatingPointError: far more cells than points."""
     low = x.min(axis=0) - side
     across = (x.max(axis=0) - low)/side + 2
     if not np.prod(across) <= 64*len(x) + 4096:

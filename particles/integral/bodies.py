@@ -26,10 +26,7 @@ class Held(NamedTuple):
 
 
 def held(which: np.ndarray, v: tuple[float, float] = (0.0, 0.0), T: float = np.nan) -> Held:
-    """Points of one velocity and temperature.
-
-    Raises ValueError: there are none of them, one is named twice, or the temperature is not positive.
-    """
+    """Points of one velocity and temperature. Raises ValueError: there are none, one is named twice, or T <= 0."""
     which = np.asarray(which)
     if len(which) < 1 or len(np.unique(which)) < len(which):
         raise ValueError(f"{len(which)} points are to be held, {len(np.unique(which))} of them different: name at least one, and "

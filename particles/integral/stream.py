@@ -150,10 +150,7 @@ def hold(eos, law, which, v, T, points):
 
 @jit
 def keep(eos, which, v, T, total, V, points, received, out):
-    """Rates of held points, whose density alone is free, and what they take besides mass.
-
-    Whoever holds an adiabatic body that moves does work on it, which is no heat.
-    """
+    """Rates of held points, whose density alone is free, and what they take; work on adiabatic bodies is no heat."""
     for m in range(len(which)):
         i, (vx, vy) = which[m], v[m]
         mass, rho, d = total[i, 0], points[i].rho, 1e-6*points[i].rho

@@ -74,11 +74,7 @@ class Thermal:
         return f"Thermal({sums}, {self.eos}, {self.law}, {self.k}, {self.seed}, {self.zeta}, {self.share})"
 
     def start(self, n: int, team: Team) -> "Agitated":
-        """The sums over edges.
-
-        Raises ValueError: the state has not as many points as there are, or the viscosities have no noise
-        along edges.
-        """
+        """The sums over edges. Raises ValueError: another number of points, or viscosities without noise along edges."""
         check_number(n, self.edges.n)
         return Agitated(self, team)
 
