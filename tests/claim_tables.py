@@ -1,19 +1,17 @@
 """Tables of known content, for the tests of claims: lines, energies, fields, crystals, histories, a row for every question."""
-import itertools
 import math
+from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from studies.build.fixed import SCHEMES
-from studies.build.moving import MOTIONS
-from studies.build.read import grid, onset, particles, scene
-from studies.build.rr98_moving import DRIFT_MOTIONS
 from studies.kit.claim import judge
 from studies.kit.table import Tables
-from studies.rb.claims import RB_CLAIMS, lattices
-from studies.rb.claims import points as dih
-from studies.rb.claims.grid import PYPDE
+from studies.rb.claims import RB_CLAIMS
+from studies.rb.flows import ONSET, grid, particles
+from studies.rb.runs import lattices
+from studies.rb.runs.arithmetic import SUBJECTS, Arithmetic
 
 BY_ID = {claim.id: claim for claim in RB_CLAIMS}
 RA = (1750.0, 2000.0, 2500.0, 3500.0, 4200.0, 5000.0, 6830.0, 10000.0)
@@ -56,7 +54,7 @@ def seeds(point: dict, ke: tuple[float, ...], **more) -> pd.DataFrame:
 
 def straight(ra: float, bend: float = 0.0) -> float:
     """K on a line that gives 0.00340 at Ra 5000, bent by a parabola that is zero at onset and at Ra 5000."""
-    s, s5 = (1 - math.sqrt(onset("periodic")/at) for at in (ra, 5000.0))
+    s, s5 = (1 - math.sqrt(ONSET["periodic"]/at) for at in (ra, 5000.0))
     return 0.0034*s/s5 + bend*s*(s - s5)
 
 
@@ -93,75 +91,13 @@ def crystal(per_site: int, height: float = 30.0) -> pd.DataFrame:
                          "vy": 0.0, "kind": np.where(fluid, "fluid", "image")})
 
 
-# --- a row for every question ----------------------------------------------------------------------------------
-
-SCENES: list[dict] = [{}, {"transport": "const-nu"}, {"eos": "vdw"}, {"eos": "dense"}, {"sides": "walls"}]
-MANY = (2000.0, 2500.0, 3000.0, 3500.0, 4200.0, 5000.0, 6000.0, 6830.0, 7000.0, 10000.0, 14000.0, 20000.0, 5e4)
-VARIANTS = ("printed", "printed-half-step", "printed-from-flow", "printed-fixed-rows", "printed-monaghan",
-            "arithmetic-mean", "range-6", "less-static-50", "more-static-100", "more-static-400")
-
-
-def points() -> list[dict]:
-    """Every point that a claim asks for, and many more."""
-    scenes = list(itertools.product(MANY, SCENES))
-    grids = [grid(ra, rows, **where)
-             for (ra, where), rows in itertools.product(scenes, (24, 32, 48, 50, 100, math.inf))]
-    runs = [particles(ra, rows, variant, **where)
-            for (ra, where), rows, variant in itertools.product(scenes, (16, 25, 40, 50), VARIANTS)]
-    fixed = [dih.points(ra, name, rows) for ra, name, rows in itertools.product((5e3, 1e4), (*SCHEMES, "moving"),
-                                                                               (*dih.ROWS, math.inf))]
-    wrong = [{"method": "compressible", "variant": "edge-heat", "resolution": math.inf, **scene(ra)} for ra in (5e3, 1e4)]
-    thick = {**dih.points(1e4, "fixed-lattice"), "transport": "const-nu"}
-    moved = [dih.points(1e4, name, rows) for name, rows in itertools.product((*DRIFT_MOTIONS, *MOTIONS), (25, 40))
-             if name != "moving"]
-    return [*grids, *runs, *fixed, *moved, *wrong, thick, PYPDE, grid(1e4, 48, "paper-form"),
-            grid(67150.3, 48, "fig10", sides="walls"),
-            grid(67150.3, 48, "fig10", sides="walls", eos="dense"), grid(7000, 48, "two-rolls", sides="walls")]
-
-
-def measured(point: dict) -> dict:
-    """Columns of `means` and `kinetic_energy` at any point: frozen under high pressure, else some flow."""
-    share = 1 if point["method"] != "spam" else 0.2 if point["variant"] == "more-static-400" else 0.8
-    share *= 1 - 0.5/point["resolution"]*point["variant"].endswith("-delaunay")     # images off a lattice: first order
-    ke = share*(straight(point["ra"]) + 1e-3) + 0.01/point["resolution"]**2*(1 + 50/math.sqrt(point["ra"]))
-    return {**point, "particles": 2*min(point["resolution"], 100)**2, "seed": 1, "seeds": 3, "mixed": 0,
-            "ke": ke, "ke_err": 1e-8, "ke_field": 0.9*ke, "ke_field_err": 1e-8, "ke_mean": 0.9*ke,
-            "ke_mean_err": 1e-8, "ke_fluctuation": 1e-4, "nu": 1.5, "nu_err": 0.01,
-            "rolls": 1 if point["sides"] == "walls" else 2, "mass_drift": 1e-4, "t_end": 5000.0, "converged": True}
-
-
-def history(point: dict, seed: int) -> pd.DataFrame:
-    """K(t) that settles, but in the dense fluid."""
-    t = np.linspace(0, 4500, 60)
-    ke = 0.004*(1 - np.exp(-t/300/seed))*(1 + 0.1*np.sin(t)*(point["ra"] == 5e4))*(1 + t/4500*(point["eos"] == "dense"))
-    return pd.DataFrame({**point, "seed": seed, "t": t, "t_viscous": t/200, "ke": ke + 1e-4, "ke_field": ke})
-
-
 def seen(ra: float, kept: float) -> pd.DataFrame:
     """The finest grid's K as 50 rows of the printed weight see it: the share `kept` of it."""
     return pd.DataFrame([{**grid(ra, 48), "weight": "Lucy", "h": 3.0, "rows": 50, "ke": 1.0, "ke_smoothed": kept}])
 
 
-def everything() -> Tables:
-    """All tables with a row for every question."""
-    wanted = points()
-    means = pd.DataFrame([measured(point) for point in wanted])
-    runs = [point for point in wanted if point["variant"] in ("printed", "flux-form")
-            and point["ra"] in (3000, 1e4, 5e4) and point["resolution"] in (16, 50, 100)]
-    kept_runs = [point for point in wanted if point["ra"] in (3000, 5000, 1e4) and point["resolution"] in (16, 48, 50)]
-    fixed = particles(1e4, variant="printed-fixed-rows")
-    frozen = [particles(3000, 16, variant, eos="dense") for variant in ("printed", "printed-monaghan")]
-    literal = dih.points(1e4, "moving-literal", 40)
-    ends = [particles(1e4), fixed, particles(1e4, variant="printed-monaghan"), *frozen]
-    layers = [{**point, "seed": seed, "plate": plate, "rho_layer": 1 + 0.1*seed, "T_layer": 1.0, "reflections": 0,
-               "nu_plate": 1.5 + 0.01*seed}
-              for point in (fixed, particles(5e3), particles(1e4)) for seed in (1, 2) for plate in ("lower", "upper")]
-    return Tables(
-        means=means, kinetic_energy=pd.concat([means, means[means["method"] == "spam"].assign(seed=2)]),
-        walls=pd.DataFrame(layers), errors=errors(means, 0.9),
-        history=pd.concat([history(point, seed)
-                           for point in [*runs, literal] for seed in (1, 2)[:1 + (point["method"] == "spam")]]),
-        profiles=pd.DataFrame([{**literal, "seed": 1, "y": y, "rho": 1 - 0.2*y} for y in (-0.25, 0.25)]),
-        fields=pd.concat([kept(point, flow(0.1, 0.9), point["resolution"]) for point in kept_runs]),
-        smoothed=seen(5e4, 0.9),
-        particles=pd.concat([crystal(1).assign(T=1.0, **point) for point in ends]))
+@cache
+def numbers() -> pd.DataFrame:
+    """The table `arithmetic`, computed."""
+    outcomes = [Arithmetic(subject=subject).run(lambda done: None, Path()) for subject in SUBJECTS]
+    return pd.DataFrame([row for outcome in outcomes for row in outcome.rows["arithmetic"]])

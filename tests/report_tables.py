@@ -7,7 +7,6 @@ from PIL import Image
 
 from studies.kit.claim import COLUMNS
 from studies.kit.csvfile import write
-from studies.report import behind
 
 LAYER = {"eos": "ideal", "transport": "const-eta", "sides": "periodic", "pr": 1}
 
@@ -40,6 +39,4 @@ def one_study(out: Path) -> Path:
     write(out/"rb/errors.csv", errors(), head=["commit abc1234567"])
     write(out/"claims.csv", claims(), head=["commit abc1234567"])
     Image.new("RGB", (200, 100), "white").save(out/"rb/toy.png")
-    write(out/"figures.csv", pd.DataFrame([("rb", "toy", "A toy", "y over x", "errors", behind.digest(out/"rb/toy.png"))],
-                                          columns=list(behind.COLUMNS)), head=["commit abc1234567"])
     return out

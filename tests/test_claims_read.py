@@ -5,14 +5,15 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from studies.build.read import grid, particles
 from studies.build.symmetry import flowing
-from studies.kit.claim import CannotTell, judge
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
-from studies.rb.claims import RB_CLAIMS, histories, points, snapshots
+from studies.rb import snapshots
+from studies.rb.claims import curves
 from studies.rb.claims.grid import PYPDE
-from tests.claim_tables import BY_ID, crystal, everything, flow, grids, judged, kept, means, seeds, seen, straight, verdict
+from studies.rb.claims.points import LATTICES
+from studies.rb.flows import grid, particles, points
+from tests.claim_tables import crystal, flow, grids, judged, kept, means, seeds, seen, straight, verdict
 
 # --- lines ------------------------------------------------------------------------------------------------------
 
@@ -31,7 +32,7 @@ def test_grids_that_have_no_order_are_not_converged():
     assert verdict("khp95-grid-cells", means([*grids(order=0.5), other])) == "undecidable"     # 0.006 apart, 0.006 unsure
     assert verdict("khp95-grid-cells", means([*grids(), {**other, "ke": 0.00481}])) == "fails"
     fine = [row for row in grids() if row["resolution"] != 32]
-    assert "2 grids of 5000 cells" in judged("khp95-grid-cells", means([*fine, other]))["reason"]
+    assert "takes three grids, got 2" in judged("khp95-grid-cells", means([*fine, other]))["reason"]
 
 
 def test_a_bent_line_fails():
@@ -45,7 +46,7 @@ def test_a_bent_line_fails():
 def test_few_points_make_no_line():
     tables = means([row for row in grids() if row["ra"] > 4000])
     assert verdict("khp95-ke-line", tables) == "undecidable"
-    assert "3 Rayleigh numbers" in judged("khp95-ke-line", tables)["reason"]
+    assert "has 3 rows of 5 or more" in judged("khp95-ke-line", tables)["reason"]
 
 
 # --- particles against grid ----------------------------------------------------------------------------------------
@@ -82,7 +83,7 @@ def test_printed_energies_meet_the_grid_as_it_is_and_the_flow_the_grid_smoothed_
     assert judged("own-smoothed-10000", tables)["measured"] == pytest.approx(0.05, rel=1e-6)
     few = means([*grids(), {**particles(1e4, 16), "ke": 0.44*straight(1e4), "ke_err": 0.0}], kept=0.8)
     assert verdict("khp95-500-particles", few) == "holds"
-    assert "no row of" in judged("khp95-500-particles", Tables({**few, "errors": few["errors"][:0]}))["reason"]
+    assert "0 rows of 1" in judged("khp95-500-particles", Tables({**few, "errors": few["errors"][:0]}))["reason"]
 
 
 def test_seeds_in_different_flows_decide_nothing():
@@ -90,16 +91,21 @@ def test_seeds_in_different_flows_decide_nothing():
     for name in ("khp95-energy-error-10000", "own-smoothed-10000", "khp95-walls-both"):
         tables = means([*grids(), row, {**row, "variant": "printed-fixed-rows", "mixed": 0}])
         assert "1 of 3 seeds of printed" in judged(name, tables)["reason"], name
-    old = means([*grids(), row])
-    old["means"] = old["means"].drop(columns="mixed")
-    assert verdict("khp95-energy-error-10000", old) == "holds"       # a table from before tells nothing of it
+
+
+def field_errors(*both: pd.DataFrame, ke: tuple[float, ...] = (0.005, 0.005)) -> dict:
+    """The row of the table `field_errors` of 5000 particles at Ra 10 000."""
+    cells = {**grid(1e4), "ke": 0.005, "ke_err": 0.0}
+    points = one_point(particles(1e4), ke)
+    tables = Tables({"fields": pd.concat(both), **points, "means": pd.concat([points["means"], means([cells])["means"]])})
+    [row] = snapshots.field_errors(tables, tables["means"])
+    return row
 
 
 def test_fields_are_compared_wherever_their_rolls_lie():
     def error(ke: tuple[float, ...] = (0.005, 0.005), **changes) -> Measured:
-        both = kept(grid(1e4), flow(0.0), 48.0), kept(particles(1e4), flow(**changes), 50.0)
-        tables = Tables({"fields": pd.concat(both), **one_point(particles(1e4), ke)})
-        return snapshots.velocity_error(tables, particles(1e4), grid(1e4))
+        row = field_errors(kept(grid(1e4), flow(0.0), 48.0), kept(particles(1e4), flow(**changes), 50.0), ke=ke)
+        return Measured(row["velocity"], row["velocity_err"])
     assert error(shift=0.123) == pytest.approx((0.0, 0.0), abs=1e-12)     # few harmonics: exact but for round-off
     assert error(shift=0.123, share=0.8) == pytest.approx((0.2, 0.0), abs=1e-12)
     value, err = error(shift=0.3, noise=0.01)
@@ -108,8 +114,7 @@ def test_fields_are_compared_wherever_their_rolls_lie():
         assert part == pytest.approx(0.01/size, rel=0.08)
     # three seeds, 10 % apart: t(2) = 4.303 times 10 % of K is half of that in velocity, and K's own error is 2 %
     assert error(ke=(0.0045, 0.005, 0.0055), shift=0.1).err == pytest.approx(math.hypot(4.3027*0.1, 0.02)/2, rel=1e-4)
-    with pytest.raises(CannotTell, match="one seed"):
-        error(ke=(0.005,), shift=0.1)
+    assert math.isnan(error(ke=(0.005,), shift=0.1).err), "one seed has no error"
 
 
 def one_point(point: dict, ke: tuple[float, ...]) -> Tables:
@@ -126,22 +131,18 @@ def test_density_at_the_plates_is_judged_apart_from_that_of_the_box():
     at = flow(0.0)
     span = np.ptp(at["rho"])
     at["rho"][-1] += 0.15*span
-    both = kept(grid(1e4), flow(0.0), 48.0), kept(particles(1e4), at, 50.0)
-    tables = Tables({"fields": pd.concat(both), **one_point(particles(1e4), (0.005, 0.005))})
-    at_plates, whole = (error(tables, particles(1e4), grid(1e4), "rho").value
-                        for error in (snapshots.edge_error, snapshots.contour_error))
-    assert (at_plates, whole) == pytest.approx((0.15, 0.15/math.sqrt(30)), rel=SHIFTED)
+    row = field_errors(kept(grid(1e4), flow(0.0), 48.0), kept(particles(1e4), at, 50.0))
+    assert (row["rho_plates"], row["rho"]) == pytest.approx((0.15, 0.15/math.sqrt(30)), rel=SHIFTED)
 
 
-@pytest.mark.parametrize(("more", "said"), [(0.02, "holds"), (0.15, "fails")])
-def test_particles_are_counted_along_the_plates(more, said):
+@pytest.mark.parametrize("more", [0.02, 0.15])
+def test_particles_are_counted_along_the_plates(more):
     """rho = 1 + 0.1 y/L in horizontal mean: 0.951 and 1.049 half a spacing of 50 rows from the plates."""
     span = np.ptp(flow(0)["rho"])
     layers = pd.DataFrame([{**particles(1e4), "seed": seed, "plate": plate, "rho_layer": rho + change*span}
                            for plate, rho, change in (("lower", 0.951, 0), ("upper", 1.049, more)) for seed in (1, 2)])
-    rows = means(grids() + [{**particles(1e4), "ke": 0.004, "ke_err": 0.0}])
-    found = judged("khp95-wall-layer-density", Tables({**rows, "walls": layers, "fields": kept(grid(1e4), flow(0.0), 48.0)}))
-    assert found["measured"] == pytest.approx(more, rel=SHIFTED) and found["verdict"] == said
+    found = snapshots.layer_error(Tables(walls=layers), particles(1e4), flow(0.0))
+    assert found.value == pytest.approx(more, rel=SHIFTED)
 
 
 def test_at_high_ra_the_finest_grid_is_the_reference():
@@ -160,8 +161,8 @@ def test_points_are_judged_by_their_limit_and_their_order():
     def tables(constant, err=1e-7):
         def ke(n):
             return straight(1e4)*(1 + constant + (12/n**2 if n < math.inf else 0))
-        rows = [{**points.points(1e4, "fixed-lattice", n), "ke": ke(n), "ke_err": err}
-                for n in (*points.ROWS, math.inf)]
+        rows = [{**points(1e4, "fixed-lattice", n), "ke": ke(n), "ke_err": err}
+                for n in (*LATTICES, math.inf)]
         return means([*grids(), *rows])
     assert judged("rr98-rb-lattice-10000", tables(0.002))["measured"] == pytest.approx(0.002, rel=1e-3)
     exact = judged("rr98-rb-lattice-order-10000", tables(0.0))
@@ -190,29 +191,25 @@ def test_one_roll_in_a_box_keeps_its_energy_and_what_lacks_its_symmetry_is_its_e
 
 @pytest.mark.parametrize(("per_site", "said"), [(1, "holds"), (2, "fails")])
 def test_particles_are_counted_and_pairs_are_seen(per_site, said):
-    tables = Tables({"particles": crystal(per_site)})
-    at = snapshots.snapshot(tables, particles(1e4))
-    assert verdict("khp95-lucy-no-pairs", tables) == said
-    assert at.occupancy == per_site
+    [row] = snapshots.snapshots(Tables({"particles": crystal(per_site).assign(T=1.0)}))
+    assert verdict("khp95-lucy-no-pairs", Tables(snapshots=pd.DataFrame([row]))) == said
+    assert row["occupancy"] == per_site
     if per_site == 1:
-        assert at.neighbours.value == 30
-        assert at.spacing.value == pytest.approx(math.sqrt(2/math.sqrt(3)), abs=0.05)   # half a bin
-    np.testing.assert_allclose(at.noise, 0, atol=1e-15)     # one velocity for all is its own mean
+        assert row["neighbours"] == 30
+        assert row["spacing"] == pytest.approx(math.sqrt(2/math.sqrt(3)), abs=0.05)   # half a bin
 
 
 def test_the_approach_is_followed():
     t = np.linspace(0, 4500, 200)
-    run = histories.History(t, 0.0048*(1 - 0.6*np.exp(-t/300)))
-    assert run.settling == pytest.approx(300*math.log(0.6/0.05), abs=2*t[1])      # sampled, averaged over five
-    late = histories.History(t, 0.9*run.ke)
-    value, err = histories.distance([late, late], run, 0.0048)
+    ke = 0.0048*(1 - 0.6*np.exp(-t/300))
+    run = pd.DataFrame({**particles(1e4), "seed": 1, "t": t, "ke": ke, "ke_field": 0.9*ke})
+    cells = pd.DataFrame({**grid(1e4, 50), "seed": 0, "t": t, "ke": ke, "ke_field": ke})
+    limit = means([{**grid(1e4), "ke": 0.0048, "ke_err": 0.0}])
+    tables = Tables({**limit, "history": pd.concat([run, run.assign(seed=2), cells])})
+
+    def seen(question) -> float:
+        return curves.history(question, {**particles(1e4), "seed": 1})(tables).value
+    assert seen(curves.settling) == pytest.approx(300*math.log(0.6/0.05), abs=2*t[1])      # sampled, averaged over five
+    assert seen(curves.drift) < 1e-3 and seen(curves.scatter) < 1e-3
+    value, err = curves.approach(particles(1e4), grid(1e4, 50), "ke_field")(tables)
     assert value == pytest.approx(0.1, abs=1e-4) and err == pytest.approx(0, abs=1e-12)
-    assert run.drift < 1e-3 and run.scatter < 1e-3
-
-
-# --- all tables -------------------------------------------------------------------------------------------------
-
-
-def test_every_value_can_be_found_when_its_rows_are_there():
-    for row in judge(RB_CLAIMS, everything(), "rb"):
-        assert math.isfinite(row["measured"]) == bool(BY_ID[row["id"]].value), f"{row['id']}: {row['reason']}"

@@ -19,10 +19,8 @@ from studies.build.spam import PRINTED
 from studies.kit.study import Study
 from studies.onset import cases as onset
 from studies.onset import derive as onset_derive
-from studies.onset import digits as onset_digits
-from studies.onset.growth import Energies, Growth, GrowthRun, LinearTheory, SpamGrowth
-from studies.onset.modes import SOLVERS, boussinesq_mac
-from studies.onset.runs import RUNS, History, spam_run
+from studies.onset.rates import RUNS, SOLVERS, History, boussinesq_mac, spam_run
+from studies.onset.runs import Energies, Growth, GrowthRun, LinearTheory, SpamGrowth
 
 LAYER = RayleighBenard(ra=1750.0)
 SQUARE = RayleighBenard(ra=8000.0, aspect=1.0, sides=Walls())
@@ -207,15 +205,6 @@ def test_lines_are_extrapolated_in_inverse_squares():
     assert found.err < 1e-8
 
 
-def test_figures_count_the_distance_from_the_reference():
-    base = {"variant": "", "eos": "", "transport": "", "dT": 0.0, "sides": "periodic", "pr": 1.0, "reach": 0.0, "ke_start": 0.0}
-    table = pd.DataFrame([
-        {**base, "method": "linear", "quantity": "ra_c periodic aspect 2", "value": 1000.0, "err": 0.0, "resolution": np.inf,
-         "way": "eigenvalue"},
-        {**base, "method": "boussinesq", "quantity": "", "value": 1010.0, "err": 1e-6, "resolution": 32.0, "way": "operator"}])
-    assert [row["figures"] for row in onset_digits.figures_given(table)] == pytest.approx([2.0])
-
-
 # --- the study --------------------------------------------------------------------------------------------
 
 
@@ -246,7 +235,7 @@ def tables(tmp_path_factory):
                   figures=onset.STUDY.figures)
     out = tmp_path_factory.mktemp("onset")
     found = study.run("quick", workers=1, out=out)
-    assert {path.stem for path in study.draw(out)} == {"growth", "line", "figures_given"}
+    assert {path.stem for path in study.draw(out)} == {"growth", "line"}
     return found
 
 
@@ -278,11 +267,6 @@ def test_quantities_name_what_differs():
     at = {**at, "variant": "printed", "transport": "const-eta", "dT": 1.0, "resolution": 25.0}
     word = "ra_c periodic aspect 2 (growth rates, run from K = 0.0004, 25 rows)"
     assert onset_derive.quantity(at, "run", 0.0, 4e-4, "") == word
-
-
-def test_study_counts_figures_for_every_reference(tables):
-    assert {"boussinesq", "compressible"} <= set(tables["figures"]["method"])
-    assert tables["figures"]["figures"].between(0, 9).all()
 
 
 def test_sizes_differ_as_they_say():

@@ -27,7 +27,7 @@ from continuum.pypde.solve import Rolls, onto, solve, solve_boussinesq, solve_ga
 from continuum.richardson import richardson
 from continuum.scene import RayleighBenard, Tile, Walls
 from continuum.steady import Steady, Time
-from studies.cost import plates as slab
+from studies.build.scenes import between_plates
 
 GAS = RayleighBenard(ra=5000, L=1.0)
 SIZES = (12, 16, 20)
@@ -81,11 +81,12 @@ def test_a_torus_knows_no_place():
 
 def test_a_sliding_plate_drags_the_row_below_it():
     """By hand: at rest at uniform density and T = 1 all that moves is the upper row, by eta (2 U)/(rho h^2)."""
-    gas = Gas(slab.Slab(rows=8), 8, slide=0.5)
+    scene = between_plates("couette", 8)
+    gas = Gas(scene, 8, slide=0.5)
     data = np.ones((4, *gas.grid.shape))
     data[[VX, VY]] = 0
     found = rate(gas, data)
-    np.testing.assert_allclose(found[VX, :, -1], slab.law(8).eta*2*0.5, rtol=1e-12)
+    np.testing.assert_allclose(found[VX, :, -1], scene.law.eta*2*0.5, rtol=1e-12)
     np.testing.assert_allclose(found[VX, :, :-1], 0, atol=1e-14)
     np.testing.assert_allclose(found[[RHO, VY]], 0, atol=1e-14)
 

@@ -1,8 +1,7 @@
-"""The study rb: a quick rebuild of every table, and what the committed tables must say of the solvers."""
+"""The study rb: its points, what it refuses, and what the committed tables must say of the solvers."""
 from functools import partial
 
 import numpy as np
-import pandas as pd
 import pytest
 
 import studies.rb.cases as rb
@@ -15,54 +14,9 @@ from studies.kit.table import read
 from studies.rb.runs.grid import BoussinesqSteady, CompressibleSteady, PypdeSteady
 from studies.rb.runs.points import DihRun, MovingRun
 from studies.rb.runs.spam import SpamRun
-from studies.rb.tables import ALL, ERRORS, KINETIC
+from studies.rb.tables import ERRORS, KINETIC
 
-ASKED = ("method variant eos transport ra pr resolution particles seed ke ke_err ke_field ke_fluctuation nu nu_err rolls "
-         "cpu_s compile_s threads size commit").split()
 METHODS = {"spam", "dih", "dpd", "compressible", "boussinesq", "pypde-boussinesq", "pypde-compressible"}
-
-
-@pytest.fixture(scope="module")
-def quick(tmp_path_factory):
-    """All tables of size quick, and the folder they are in."""
-    out = tmp_path_factory.mktemp("results")
-    return rb.STUDY.run("quick", workers=1, out=out), out
-
-
-def test_quick_rebuild_writes_every_table(quick):
-    tables, out = quick
-    for table in ALL:
-        assert set(table.columns) <= set(tables[table.name].columns), table.name
-        assert (out/"rb"/f"{table.name}.csv").read_text().startswith("# commit ")
-    assert set(ASKED) <= set(tables[KINETIC.name].columns)
-    assert set(tables[KINETIC.name]["method"]) <= METHODS
-
-
-def test_second_start_runs_nothing(quick, monkeypatch):
-    def refuse(*arguments):
-        raise AssertionError("a finished case was run again")
-
-    for kind in {type(case) for case in rb.cases("quick")}:
-        monkeypatch.setattr(kind, "run", refuse)
-    tables, out = quick
-    again = rb.STUDY.run("quick", workers=1, out=out)
-    pd.testing.assert_frame_equal(again[KINETIC.name], tables[KINETIC.name])
-
-
-def test_quick_grids_agree_with_each_other(quick):
-    """Coarse grids, extrapolated: the spread of the three finest orders is their error, 1 % of K is well above it."""
-    tables, _ = quick
-    kinetic = tables[KINETIC.name]
-    limits = kinetic[np.isinf(kinetic["resolution"].astype(float)) & (kinetic["ra"] == 5000)].set_index("method")["ke"]
-    assert limits["pypde-compressible"] == pytest.approx(limits["compressible"], rel=0.01)
-    assert limits["pypde-boussinesq"] == pytest.approx(limits["boussinesq"], rel=0.01)
-
-
-def test_quick_particles_are_still_below_onset_and_move_above(quick):
-    tables, _ = quick
-    means = tables["means"]
-    printed = means[(means["method"] == "spam")].set_index("ra")["ke_field"]
-    assert printed[1500] < 2e-4 < 8e-4 < printed[10000]     # the smoothed field of 512 particles: noise below 1e-4
 
 
 @pytest.mark.parametrize(("wrong", "words"), [

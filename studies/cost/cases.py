@@ -1,39 +1,123 @@
-"""What does an error cost, and which method is the cheapest for 10, 3, 1, 0.1 %?    [KHP95 Secs II, V-VII; RR98 Sec. III]
+"""Which methods take part in which scene, at which resolutions.
 
-Every method that can take a scene runs at rising resolutions, each at the longest step that is good enough beside the error of
-its space (studies/cost/problem.py has the rule; py-pde's is by its formula); CPU seconds of one thread, medians of repeats,
-without compiling; nothing else runs.
-Writes results/cost/*.csv and *.png and the rows of study cost in results/claims.csv; `paper` takes an hour, `quick` minutes.
-What a case takes is told beforehand (`python -m studies.cost.plan`): a ladder of resolutions, four at least, ends before
-its cases take more than DEAREST seconds each, and all of them more than TOGETHER. Seconds alone, at the steps that are known
-and with the errors as they are, are measured anew by `python -m studies.cost.again`: on another machine, after a change
-that made something faster.
+Every method runs at rising resolutions, each at the longest step that is good enough beside the error of its space
+(studies/cost/problem.py has the rule; py-pde's is by its formula); CPU seconds of one thread, medians of repeats, without
+compiling; nothing else runs. A ladder of resolutions, four at least, ends before its cases take more than DEAREST seconds
+each, and all of them more than TOGETHER. `paper` takes an hour, `quick` minutes.
 """
 from collections.abc import Iterable, Iterator
+from typing import Any
 
-from studies.cost import claims as speed_claims
-from studies.cost import convection, names, others, pypde, torus, vortex
-from studies.cost import derive as speed_derive
-from studies.cost import figures as speed_figures
-from studies.cost import plates as slab
-from studies.cost import tables as speed_tables
-from studies.cost import waves as wave
+from studies.cost import contestants, convection, direct, names, pypde
+from studies.cost.contestants import Contestant
+from studies.cost.flows import Plates, Vortex, Wave
 from studies.cost.growth import Growth, Threads
-from studies.cost.problem import Race
-from studies.cost.start import Start
+from studies.cost.layer import LOWER_RA, SETTLED
+from studies.cost.problem import Price, Race
 from studies.kit.case import Case
-from studies.kit.study import Part
 
 SEEDS = (1, 2, 3)
 DEAREST, TOGETHER = 300.0, 55*60.0   # seconds
+#: name -> method of `studies.build`
+LATTICES = {names.NEAREST: "fixed-lattice-h1.2", names.LATTICE: "fixed-lattice", names.WIDE: "fixed-lattice-h3"}
+WEIGHTS = {names.LATTICE_MONAGHAN: "fixed-lattice-monaghan", names.LATTICE_WENDLAND: "fixed-lattice-wendland-c2"}
+PARTICLES = {names.LUCY: "spam", names.MONAGHAN: "spam-monaghan", names.WENDLAND: "spam-wendland-c2"}
+MORE_PARTICLES = {**PARTICLES, names.LESS_STATIC: "spam-less-static-50"}
 
 
-def race(scene: str, methods: Iterable, resolutions: Iterable[int], seeds: Iterable[int] = (1,),
-         kind: type[Race] = Race, **more) -> Iterator[Race]:
-    """Methods on one scene."""
-    for method in methods:
-        for resolution in resolutions:
-            yield from (kind(scene=scene, method=method, resolution=resolution, seed=seed, **more) for seed in seeds)
+# --- who takes part ---------------------------------------------------------------------------------------------
+
+
+def vortex(mach: float = 0.05) -> dict[str, Any]:
+    """Contestants by name."""
+    flow, price = Vortex(mach), Price(0.5, 1.3e-5, 3)
+    points = {**LATTICES, **WEIGHTS, names.JITTERED: "fixed-jittered-delaunay"}
+    return by_name(
+        *(Contestant(name, flow, method, price) for name, method in points.items()),
+        Contestant(names.TWO_STEP, flow, "fixed-lattice", Price(0.5, 0.013), contestants.two_step_points),
+        *(Contestant(name, flow, method, Price(1.3, 1e-4, 3), contestants.particles, 0.7, True)
+          for name, method in PARTICLES.items()),
+        Contestant(names.MOVING, flow, "moving", Price(0.5, 1.8e-4, 3)),
+        contestants.OnGrid(names.GRID, flow, Price(0.5, 8e-6, 3)), contestants.OnMac(names.MAC_IMEX),
+        pypde.InFlow(names.PYPDE_GAS, flow, Price(5, 3e-5, 3), pypde.vortex))
+
+
+def wave() -> dict[str, Any]:
+    """In sound."""
+    flow, price = Wave(), Price(0.5, 7e-5)
+    points = {**LATTICES, **WEIGHTS, names.JITTERED: "fixed-jittered-delaunay"}
+    dear = {names.MONAGHAN: 2e-3}
+    return by_name(
+        *(Contestant(name, flow, method, price) for name, method in points.items()),
+        Contestant(names.TWO_STEP, flow, "fixed-lattice", Price(0.5, 4e-4), contestants.two_step_points),
+        *(Contestant(name, flow, method, Price(1.5, dear.get(name, 0.0)), contestants.particles)
+          for name, method in PARTICLES.items()),
+        Contestant(names.LUCY_TWO_STEP, flow, "spam", Price(1.5, 2e-3), contestants.two_step_particles),
+        Contestant(names.MOVING, flow, "moving", Price(0.3, 2.7e-4), contestants.on_lattice),
+        contestants.OnGrid(names.GRID, flow, Price(0.3, 3e-5)),
+        pypde.InFlow(names.PYPDE_GAS, flow, Price(5, 1e-4), pypde.sound))
+
+
+def between(name: str) -> dict[str, Any]:
+    """Between plates; those of moving points do not slide."""
+    flow, price = Plates(name), Price(0.5, 7e-5)
+    moving = (Contestant(names.MOVING, flow, "moving", Price(0.3, 1.3e-4)),)
+    return by_name(
+        contestants.OnGrid(names.GRID, flow, price),
+        *(Contestant(name, flow, method, price) for name, method in LATTICES.items()),
+        Contestant(names.JITTERED, flow, "fixed-jittered-plates", price, contestants.less_jittered),
+        *(Contestant(name, flow, method, Price(1.7), contestants.particles, 0.7, True)
+          for name, method in PARTICLES.items()),
+        *(moving if name == "conduction" else ()),
+        pypde.InFlow(names.PYPDE_GAS, flow, Price(5, 2e-4), pypde.between))
+
+
+def layer() -> dict[str, Any]:
+    """In convection; relaxing random points takes minutes where they are many."""
+    price, dear = Price(1, 2.2e-4, 3), Price(1, 5.3e-4, 3)
+    return by_name(
+        convection.OnGrid(names.GRID),
+        *(convection.OnPoints(name, method, price) for name, method in LATTICES.items()),
+        convection.OnPoints(names.JITTERED, "fixed-jittered-plates", dear),
+        convection.OnPoints(names.RELAXED, "relaxed-plates", Price(1, 0.11)),
+        convection.OnPoints(names.MOVING, "moving", Price(1, 2.1e-3, 3), 1.0, SETTLED),
+        *(convection.OnParticles(name, method) for name, method in MORE_PARTICLES.items()),
+        direct.OnNewton(names.NEWTON), pypde.InLayer(names.PYPDE_GAS, True))
+
+
+def boussinesq() -> dict[str, Any]:
+    """Another fluid, which is no answer for the gas."""
+    return by_name(convection.OnMac(names.MAC_IMEX), direct.OnMacNewton(names.MAC_NEWTON),
+                   pypde.InLayer(names.PYPDE_BOUSSINESQ, False))
+
+
+def lower() -> dict[str, Any]:
+    """The two that decide what fixed points cost, at half the Rayleigh number."""
+    grid, nearest = (layer()[name] for name in (names.GRID, names.NEAREST))
+    return by_name(grid._replace(ra=LOWER_RA), nearest._replace(ra=LOWER_RA))
+
+
+def by_name(*methods: Any) -> dict[str, Any]:
+    """Methods by the name that tables and figures have for them."""
+    return {method.name: method for method in methods}
+
+
+#: scene -> its contestants
+CONTESTS = {"taylor-green": vortex(), "sound": wave(), "conduction": between("conduction"), "couette": between("couette"),
+            "convection": layer(), "convection-5000": lower(), "convection-boussinesq": boussinesq()}
+
+
+# --- at which resolutions ---------------------------------------------------------------------------------------
+
+
+def race(scene: str, who: Iterable[str], resolutions: Iterable[int], seeds: Iterable[int] = (1,),
+         **more: Any) -> Iterator[Race]:
+    """Methods in a scene."""
+    for name in who:
+        method = CONTESTS[scene][name]
+        kind = direct.Direct if hasattr(method, "solve") else Race
+        for size in resolutions:
+            yield from (kind(scene=scene, method=method, resolution=size, seed=seed, **more) for seed in seeds)
 
 
 def cases(size: str) -> list[Case]:
@@ -43,14 +127,21 @@ def cases(size: str) -> list[Case]:
 
 def quick() -> Iterator[Case]:
     """A few methods on small scenes, against coarse references."""
-    small, fast = (8, 10, 12), 0.001
-    yield from race("taylor-green", (vortex.OnPoints(names.NEAREST, 1.2, mach=0.2), vortex.MAC), (16, 20, 24), short=fast)
-    yield from race("convection", (convection.GRID._replace(sizes=small), convection.LATTICES[1]._replace(sizes=small)),
-                    (8, 10, 12), short=fast)
-    for scene, methods in slab.CONTESTANTS.items():
-        yield from race(scene, [methods[name] for name in (names.GRID, names.LATTICE)], (8, 12, 16), short=fast)
-    yield from race("sound", (wave.POINTS[0],), (16, 24, 32), short=fast)
+    small, fast, slow = layer_sizes(8, 10, 12), 0.001, vortex(0.2)
+    for method in (slow[names.NEAREST], slow[names.MAC_IMEX]):
+        yield from (Race(scene="taylor-green", method=method, resolution=n, short=fast) for n in (16, 20, 24))
+    for name in (names.GRID, names.LATTICE):
+        method = CONTESTS["convection"][name]._replace(sizes=small)
+        yield from (Race(scene="convection", method=method, resolution=n, short=fast) for n in (8, 10, 12))
+    for scene in ("conduction", "couette"):
+        yield from race(scene, (names.GRID, names.LATTICE), (8, 12, 16), short=fast)
+    yield from race("sound", (names.NEAREST,), (16, 24, 32), short=fast)
     yield from (Growth(rows=rows, fixed=fixed, short=fast) for fixed in (False, True) for rows in (16, 22, 32))
+
+
+def layer_sizes(*rows: int) -> convection.Sizes:
+    """Coarse references."""
+    return convection.Sizes(rows, rows)  # type: ignore[arg-type]
 
 
 def paper() -> Iterator[Case]:
@@ -63,66 +154,58 @@ def paper() -> Iterator[Case]:
 
 
 def vortices() -> Iterator[Case]:
-    """Smooth particles are far off at any resolution; of one lattice up to 0.02 %, of the grid to 0.1 %, in sound, too."""
-    yield from race("taylor-green", (*vortex.POINTS, vortex.MAC), (16, 24, 32, 48, 64))
-    yield from race("taylor-green", (torus.VORTEX,), (16, 24, 32, 48, 64, 96, 128))
-    yield from race("taylor-green", vortex.POINTS[1:2], (96, 128, 192))
-    yield from race("taylor-green", (pypde.VORTEX,), (16, 24, 32, 48, 64), kind=others.Direct)
-    yield from race("taylor-green", vortex.WEIGHTS, (16, 24, 32, 48))
-    yield from race("taylor-green", (vortex.IRREGULAR,), (16, 24, 32, 48, 64), SEEDS)
-    yield from race("taylor-green", (vortex.TWO_STEP,), (12, 16, 24, 32))
-    yield from race("taylor-green", vortex.PARTICLES, (12, 16, 24, 32))
-    yield from race("taylor-green", (vortex.MOVING,), (12, 16, 24, 32, 48), SEEDS[:2])
+    """Smooth particles are far off at any resolution; of one lattice up to 0.02 %, of the grid to 0.1 %."""
+    yield from race("taylor-green", (*LATTICES, names.MAC_IMEX), (16, 24, 32, 48, 64))
+    yield from race("taylor-green", (names.GRID,), (16, 24, 32, 48, 64, 96, 128))
+    yield from race("taylor-green", (names.LATTICE,), (96, 128, 192))
+    yield from race("taylor-green", (names.PYPDE_GAS,), (16, 24, 32, 48, 64))
+    yield from race("taylor-green", WEIGHTS, (16, 24, 32, 48))
+    yield from race("taylor-green", (names.JITTERED,), (16, 24, 32, 48, 64), SEEDS)
+    yield from race("taylor-green", (names.TWO_STEP, *PARTICLES), (12, 16, 24, 32))
+    yield from race("taylor-green", (names.MOVING,), (12, 16, 24, 32, 48), SEEDS[:2])
 
 
 def waves() -> Iterator[Case]:
     """Sound: two periods take a hundred spacings for 1 %."""
-    yield from race("sound", (*wave.POINTS, wave.TWO_STEP, *wave.WEIGHTS, wave.MOVING), (16, 24, 32, 48, 64, 96, 128))
-    yield from race("sound", (wave.MOVING,), (192,))
-    yield from race("sound", (torus.WAVE,), (16, 24, 32, 48, 64, 96, 128, 192, 256))
-    yield from race("sound", (pypde.WAVE,), (16, 24, 32, 48, 64, 96, 128), kind=others.Direct)
-    yield from race("sound", (*wave.PARTICLES, wave.PARTICLES_TWO_STEP), (16, 24, 32, 48, 64))
-    yield from race("sound", (wave.IRREGULAR,), (16, 24, 32, 48, 64, 96, 128), SEEDS)
+    yield from race("sound", (*LATTICES, names.TWO_STEP, *WEIGHTS), (16, 24, 32, 48, 64, 96, 128))
+    yield from race("sound", (names.MOVING,), (16, 24, 32, 48, 64, 96, 128, 192))
+    yield from race("sound", (names.GRID,), (16, 24, 32, 48, 64, 96, 128, 192, 256))
+    yield from race("sound", (names.PYPDE_GAS,), (16, 24, 32, 48, 64, 96, 128))
+    yield from race("sound", (*PARTICLES, names.LUCY_TWO_STEP), (16, 24, 32, 48, 64))
+    yield from race("sound", (names.JITTERED,), (16, 24, 32, 48, 64, 96, 128), SEEDS)
 
 
 def slabs() -> Iterator[Case]:
-    """Heat conduction and Couette flow; seeds of what is jittered. Smooth particles err by about the same at any resolution."""
-    for scene, methods in slab.CONTESTANTS.items():
-        loose = [methods[name] for name in (names.JITTERED, names.MOVING) if name in methods]
-        smooth = [methods[name] for name in (names.LUCY, names.MONAGHAN, names.WENDLAND)]
-        yield from race(scene, [one for one in methods.values() if one not in (*loose, *smooth)], (8, 12, 16, 24, 32, 48, 64, 96))
-        yield from race(scene, smooth, (16, 32, 48, 64, 96))
+    """Heat conduction and Couette flow; seeds of what is jittered. Smooth particles err alike at any resolution."""
+    for scene in ("conduction", "couette"):
+        loose = [name for name in (names.JITTERED, names.MOVING) if name in CONTESTS[scene]]
+        yield from race(scene, (names.GRID, *LATTICES, names.PYPDE_GAS), (8, 12, 16, 24, 32, 48, 64, 96))
+        yield from race(scene, PARTICLES, (16, 32, 48, 64, 96))
         yield from race(scene, loose, (8, 12, 16, 24, 32, 48, 64), SEEDS)
-        yield from race(scene, (pypde.SLABS[scene],), (8, 12, 16, 24, 32, 48, 64, 96), kind=others.Direct)
 
 
 def layers() -> Iterator[Case]:
-    """Rayleigh-Benard; relaxing random points takes minutes where they are many. Grids go on to 0.1 %, which no points pay."""
-    yield from race("convection", (convection.GRID,), (8, 12, 16, 20, 24, 32, 40, 48, 64, 88))
-    yield from race("convection", convection.LATTICES, (12, 16, 24, 32, 48))
-    yield from race("convection", (convection.JITTERED,), (12, 16, 24, 32, 40), SEEDS[:2])
-    yield from race("convection", (convection.RELAXED,), (8, 10, 12, 16))
-    yield from race("convection", (convection.MOVING,), (10, 12, 16, 24, 32, 44))
-    yield from race("convection", (convection.PRINTED,), (16, 20, 25, 30))
-    yield from race("convection", convection.PARTICLES, (12, 16, 20, 25))
-    yield from race("convection", (others.OnNewton(),), (8, 12, 16, 24, 32, 48), kind=others.Direct)
-    yield from race("convection", (others.OnPypde(names.PYPDE_GAS, True),), (12, 16, 24, 32), kind=others.Direct)
-    yield from race("convection-5000", (convection.GRID_LOWER,), (8, 12, 16, 24, 32, 48))
-    yield from race("convection-5000", (convection.NEAREST_LOWER,), (8, 10, 12, 16, 24, 32, 48))     # K: 1 % at ten rows already
-    other = "convection-boussinesq"      # another fluid, which is no answer for the gas
-    yield from race(other, (others.OnMac(),), (12, 16, 20, 24, 32))
-    yield from race(other, (others.OnMacNewton(),), (8, 12, 16, 24, 32, 48, 64, 112), kind=others.Direct)
-    yield from race(other, (others.OnPypde(names.PYPDE_BOUSSINESQ, False),), (12, 16, 24, 32), kind=others.Direct)
+    """Rayleigh-Benard. Grids go on to 0.1 %, which no points pay."""
+    yield from race("convection", (names.GRID,), (8, 12, 16, 20, 24, 32, 40, 48, 64, 88))
+    yield from race("convection", LATTICES, (12, 16, 24, 32, 48))
+    yield from race("convection", (names.JITTERED,), (12, 16, 24, 32, 40), SEEDS[:2])
+    yield from race("convection", (names.RELAXED,), (8, 10, 12, 16))
+    yield from race("convection", (names.MOVING,), (10, 12, 16, 24, 32, 44))
+    yield from race("convection", (names.LUCY,), (16, 20, 25, 30))
+    yield from race("convection", (names.MONAGHAN, names.WENDLAND, names.LESS_STATIC), (12, 16, 20, 25))
+    yield from race("convection", (names.NEWTON,), (8, 12, 16, 24, 32, 48))
+    yield from race("convection", (names.PYPDE_GAS,), (12, 16, 24, 32))
+    yield from race("convection-5000", (names.GRID,), (8, 12, 16, 24, 32, 48))
+    yield from race("convection-5000", (names.NEAREST,), (8, 10, 12, 16, 24, 32, 48))   # K: 1 % at ten rows already
+    yield from race("convection-boussinesq", (names.MAC_IMEX,), (12, 16, 20, 24, 32))
+    yield from race("convection-boussinesq", (names.MAC_NEWTON,), (8, 12, 16, 24, 32, 48, 64, 112))
+    yield from race("convection-boussinesq", (names.PYPDE_BOUSSINESQ,), (12, 16, 24, 32))
 
 
 def numbers() -> Iterator[Case]:
-    """A thousand to a million, of stored edges more sizes, which see the caches; two threads from 20 000 on; fresh processes."""
-    yield from (Growth(rows=rows, fixed=fixed) for fixed in (False, True)
-                for rows in (22, 30, 40, 53, 71, 95, 126, 168, 224, 299, 398, 531, 707))
-    yield from (Threads(rows=rows, fixed=fixed) for fixed in (False, True) for rows in (100, 224))
-    yield from (Start(scene="conduction", method=name, resolution=32) for name in (
-        names.GRID, names.LATTICE, names.LUCY, names.MOVING))
-
-
-PART = Part(cases=cases, tables=speed_tables.ALL, derive=speed_derive.derive, figures=speed_figures.figures,
-              claims=speed_claims.CLAIMS)
+    """A thousand to a million, of stored edges more sizes, which see the caches; two threads from 20 000 on."""
+    rows = (22, 30, 40, 53, 71, 95, 126, 168, 224, 299, 398, 531, 707)
+    for fixed in (False, True):
+        yield from (Growth(rows=number, fixed=fixed) for number in rows)
+    for fixed in (False, True):
+        yield from (Threads(rows=number, fixed=fixed) for number in (100, 224))

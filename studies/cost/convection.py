@@ -1,166 +1,151 @@
-"""Who takes part in Rayleigh-Benard convection: the compressible grid, fixed and moving points, smooth particles.
+"""Methods in Rayleigh-Benard convection: points, smooth particles, the compressible grid, the MAC grid in time.
 
-Of smooth particles K is that of the smoothed field, told against the grid's field smoothed alike.
+Of smooth particles K is that of the smoothed field, held against the grid's field smoothed alike.
 """
 from collections.abc import Callable
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import temperature
-from continuum.gas.fields import block, initial, kinetic_energy, node_densities, nodes
-from continuum.gas.loop import VX, VY, E, FluxForm
-from continuum.gas.solve import March, limits
+from continuum.boussinesq import LAYER, Case, State, khp95
+from continuum.boussinesq.mac import mac
+from continuum.boussinesq.projection import CFL_LIMIT, Projection
+from continuum.gas.fields import kinetic_energy
 from continuum.scene import RayleighBenard
-from particles.integral.closed_faces import EXCHANGED
 from particles.limits import limit_of
-from particles.observe import field_kinetic, fields_at
-from particles.run import Plan, run
-from particles.threads import Team
-from studies.build import fixed as dih
-from studies.build import moving, ready, spam
+from particles.observe import fields_at
+from particles.plan import Plan
+from particles.run import run
+from particles.smooth.spam import Spam
+from studies.build import ready, variant
 from studies.build.names import START_ENERGY
 from studies.build.smoothing import Smoothing, smoothed_energy
+from studies.build.spam import OF_LIMIT
 from studies.build.unguarded import Unguarded
-from studies.cost import names
-from studies.cost.layer_runs import LATE, LOWER_RA, OFTEN, RA, SETTLED, SIZES, Followed, Seen, problem_of, reference, scene_of
-from studies.cost.problem import Problem, holding, plain
+from studies.cost import layer
+from studies.cost.contestants import projected
+from studies.cost.layer import END, OFTEN, PR, RA, Followed, Rules, Sizes, reference, scene_of
+from studies.cost.problem import Price, Problem, of_method
 
 
-def sampled(method: Any, quantity: Callable, unit: float) -> Callable[[np.ndarray, float, int], Followed]:
-    """`go` of a method of the particles' time loop, with K on the way."""
-    def follow(first: np.ndarray, dt: float, steps: int) -> Followed:
-        every = max(1, round(unit/OFTEN/dt))
-        done = run(Unguarded(method), first, Plan(dt=dt, steps=steps, series={"ke": quantity}, every=every))
-        # the rolls of the start
-        return Followed(np.array([0.0, *done.times])/unit, np.array([START_ENERGY, *done.series["ke"]]), done.by_id())
-    return follow
-
-
-class OnFixed(NamedTuple):
-    """Fixed points."""
+class OnPoints(NamedTuple):
+    """Fixed points, or moving ones, whose K fluctuates: they are averaged from `late` on."""
     name: str
-    scheme: dih.Scheme
+    method: str
+    price: Price
     first: float = 0.9
-    sizes: tuple[int, int, int] = SIZES
-    dear: float = 2.2e-4        # seconds of a case over rows^3
-    makes: float = 0.0          # the same of making points, over rows^2
+    late: float = 0.0
+    sizes: Sizes = Sizes()
     ra: float = RA
 
-    def seconds(self, rows: int) -> float:
-        return 1 + self.dear*rows**3 + self.makes*rows**2
-
     def problem(self, rows: int, seed: int) -> Problem:
+        """At a resolution."""
         scene = scene_of(rows, self.ra)
-        (method, first, _), unit = self.scheme.ready(scene, seed), scene.L/scene.free_fall
-
-        def see(state: np.ndarray) -> Seen:
-            v = (state[1:3]/state[0]).T
-            T = temperature(scene.eos, state[0], state[3]/state[0] - (v**2).sum(axis=1)/2)
-            return Seen(method.x/scene.L, v, T, method.edges.V)
-        return problem_of(first.shape[1], first, limit_of(method, first), sampled(method, dih.kinetic, unit), plain(method),
-                          holding(method, first), see, unit=unit, found=reference(self.sizes, self.ra))
+        made = ready(scene, self.method, seed)
+        problem = followed(scene, made.method, made.start, variant(self.method).series["ke"])
+        rules = Rules(reference(self.sizes, self.ra), self.late)
+        return rules.judged(problem, lambda state: in_heights(scene, made.method.fields(state)))
 
 
-class OnMoving(NamedTuple):
-    """Moving points."""
-    name: str
-    first: float = 1.0
-    sizes: tuple[int, int, int] = SIZES
-
-    def seconds(self, rows: int) -> float:
-        return 1 + 2.1e-3*rows**3
-
-    def problem(self, rows: int, seed: int) -> Problem:
-        scene = scene_of(rows)
-        (method, first, _), unit = ready(scene, "moving", seed), scene.L/scene.free_fall
-
-        def see(state: np.ndarray) -> Seen:
-            px, py, m, V, total = state[EXCHANGED]
-            v = np.stack([px, py], axis=1)/m[:, None]
-            return Seen(state[:2].T/scene.L, v, temperature(scene.eos, m/V, total/m - (v**2).sum(axis=1)/2), V)
-        return problem_of(first.shape[1], first, limit_of(method, first), sampled(method, moving.kinetic, unit), plain(method),
-                          holding(method, first), see, unit=unit, late=SETTLED, found=reference(self.sizes))
-
-
-class OnSpam(NamedTuple):
+class OnParticles(NamedTuple):
     """Smooth particles; K of the smoothed field."""
     name: str
-    variant: spam.Variant
-    first: float = 2*spam.OF_LIMIT
-    sizes: tuple[int, int, int] = SIZES
-
-    def seconds(self, rows: int) -> float:
-        return 4 + 6.8e-4*rows**3
+    method: str
+    price: Price = Price(4, 6.8e-4, 3)
+    first: float = 2*OF_LIMIT
+    sizes: Sizes = Sizes()
 
     def problem(self, rows: int, seed: int) -> Problem:
-        scene, found = scene_of(rows), reference(self.sizes)
-        (method, first, _), unit = self.variant.ready(scene, seed), scene.L/scene.free_fall
-        plainly, smooth = smoothed_energy(found.fields[1], Smoothing(self.variant.weight, self.variant.h, rows))
+        """At a resolution."""
+        scene, limit, chosen = scene_of(rows), reference(self.sizes), variant(self.method)
+        made = ready(scene, self.method, seed)
+        plain, smooth = smoothed_energy(limit.fields[1], Smoothing(chosen.weight, chosen.h, rows))
+        rules = Rules(limit, layer.LATE, smooth/plain)
+        return rules.judged(followed(scene, made.method, made.start, chosen.series["kg"]),
+                            lambda state: in_heights(scene, smoothed(made.method, state)))
 
-        def see(state: np.ndarray) -> Seen:
-            n = state.shape[1]
-            sums, copy = method.start(n, Team(1)), state.copy()
-            sums.around.relist(copy, np.arange(n), 0.0)
-            sums.densities(copy)
-            at = fields_at(sums, copy, *state[:2])
-            return Seen(state[:2].T/scene.L, np.stack([at.vx, at.vy], axis=1), at.T, np.full(n, 1.0/n))
-        return problem_of(first.shape[1], first, limit_of(method, first), sampled(method, field_kinetic, unit), plain(method),
-                          holding(method, first), see, unit=unit, late=LATE, factor=smooth/plainly, found=found, firm=True)
+
+def smoothed(method: Spam, state: np.ndarray) -> Any:
+    """The smoothed field where the particles are, each of which counts as much    [KHP95, Sec. VI]"""
+    sums, ordered, _ = method.look(state)
+    at, n = fields_at(sums, ordered, *state[:2]), state.shape[1]
+    return method.fields(state)._replace(v=np.stack([at.vx, at.vy], axis=1), T=at.T, V=np.full(n, 1.0/n))
+
+
+def in_heights(scene: RayleighBenard, fields: Any) -> Any:
+    """Fields with places in heights."""
+    return fields._replace(x=fields.x/scene.L)
+
+
+def followed(scene: RayleighBenard, method: Any, first: np.ndarray, energy: Callable) -> Problem:
+    """A method of the particles' time loop, with K on the way."""
+    unit = scene.L/scene.free_fall
+
+    def follow(state: np.ndarray, dt: float, steps: int) -> Followed:
+        plan = Plan(dt=dt, steps=steps, series={"ke": energy}, every=max(1, round(unit/OFTEN/dt)))
+        done = run(Unguarded(method), state, plan)
+        # the rolls of the start
+        times, ke = np.array([0.0, *done.times])/unit, np.array([START_ENERGY, *done.series["ke"]])
+        return Followed(times, ke, done.by_id())
+    return of_method(method, first, END*unit, lambda done: {})._replace(go=follow)
 
 
 class OnGrid(NamedTuple):
     """The compressible grid in time."""
     name: str
+    price: Price = Price(0.3, 7e-5, 3)
     first: float = 0.9
-    sizes: tuple[int, int, int] = SIZES
+    sizes: Sizes = Sizes()
     ra: float = RA
 
-    def seconds(self, rows: int) -> float:
-        return 0.3 + 7e-5*rows**3
-
     def problem(self, rows: int, seed: int) -> Problem:
+        """At a resolution."""
         scene = scene_of(rows, self.ra)
-        first, unit = block(initial(scene, rows, START_ENERGY)), scene.L/scene.free_fall
+        method, first, _ = ready(scene, "grid")
+        unit, march = scene.L/scene.free_fall, method.march(first)
 
         def follow(S: np.ndarray, dt: float, steps: int) -> Followed:
-            march, every = March(scene, S.copy(), FluxForm(), dt), max(1, round(unit/OFTEN/dt))
+            going, every = method.march(S, dt), max(1, round(unit/OFTEN/dt))
             t, ke = [0.0], [START_ENERGY]
-            while march.steps < steps:
-                march.go(min(every, steps - march.steps))
-                t.append(march.t/unit)
-                ke.append(kinetic_energy(march.S))
-            return Followed(np.array(t), np.array(ke), march.S)
-
-        def see(S: np.ndarray) -> Seen:
-            """All nodes but those on the right side, which are those on the left."""
-            x, y = nodes(scene, rows)
-            X, Y = (q[:, :-1].ravel()/scene.L for q in np.meshgrid(x, y))
-            rho, (vx, vy, e) = node_densities(S)[:, :-1], (S[f, 1:, 1:-1] for f in (VX, VY, E))
-            V = np.ones_like(rho)
-            V[[0, -1]] = 0.5
-            return Seen(np.stack([X, Y], axis=1), np.stack([vx.ravel(), vy.ravel()], axis=1),
-                        temperature(scene.eos, rho, e).ravel(), V.ravel())
-        march = March(scene, first.copy(), FluxForm(), 1.0)
-        return problem_of(rows*round(scene.aspect*rows), first, limits(scene, filled(scene, first)).both, follow,
-                          lambda S, dt, steps: March(scene, S.copy(), FluxForm(), dt).go(steps),
-                          lambda: (march.S, march.scratch), see, unit=unit, found=reference(self.sizes, self.ra))
+            while going.steps < steps:
+                going.go(min(every, steps - going.steps))
+                t.append(going.t/unit)
+                ke.append(kinetic_energy(going.S))
+            return Followed(np.array(t), np.array(ke), going.S)
+        problem = Problem(rows*round(scene.aspect*rows), first, limit_of(method, march.S), END*unit, follow,
+                          lambda done: {}, lambda: (march.S, march.scratch), step=method.go)
+        rules = Rules(reference(self.sizes, self.ra))
+        return rules.judged(problem, lambda S: in_heights(scene, method.fields(S)))
 
 
-def filled(scene: RayleighBenard, S: np.ndarray) -> np.ndarray:
-    """A block with its ghosts."""
-    march = March(scene, S.copy(), FluxForm(), 1.0)
-    return march.S
+class OnMac(NamedTuple):
+    """The MAC grid in time, IMEX; the limit is that of advection with the free-fall velocity."""
+    name: str
+    price: Price = Price(0.5, 1.5e-4, 3)
+    first: float = 0.9
+    sizes: Sizes = Sizes()
+
+    def problem(self, rows: int, seed: int) -> Problem:
+        """At a resolution."""
+        mac.cache_clear()       # what set-up takes is to be seen each time
+        case = Case(ra=RA, pr=PR, box=LAYER, rows=rows)
+        first = khp95(case, START_ENERGY).q
+        made = Projection(case, first)
+        problem = Problem(case.rows*case.columns, first, CFL_LIMIT/rows, END, partial(falling, case), lambda done: {},
+                          lambda: (made,), step=partial(projected, case))
+        return Rules(layer.boussinesq_reference(self.sizes)).judged(problem)
 
 
-GRID = OnGrid(names.GRID)
-LATTICES = (OnFixed(names.NEAREST, dih.SCHEMES["fixed-lattice-h1.2"]), OnFixed(names.LATTICE, dih.SCHEMES["fixed-lattice"]),
-            OnFixed(names.WIDE, dih.SCHEMES["fixed-lattice-h3"]))
-JITTERED = OnFixed(names.JITTERED, dih.SCHEMES["fixed-jittered-plates"], dear=5.3e-4)
-RELAXED = OnFixed(names.RELAXED, dih.SCHEMES["relaxed-plates"], dear=5.3e-4, makes=0.11)
-PRINTED = OnSpam(names.LUCY, spam.PRINTED)
-PARTICLES = (OnSpam(names.MONAGHAN, spam.VARIANTS["printed-monaghan"]), OnSpam(names.WENDLAND, spam.VARIANTS["wendland-c2"]),
-             OnSpam(names.LESS_STATIC, spam.VARIANTS["less-static-50"]))
-MOVING = OnMoving(names.MOVING)
-#: the two that decide what fixed points cost, at half the Rayleigh number
-GRID_LOWER, NEAREST_LOWER = GRID._replace(ra=LOWER_RA), LATTICES[0]._replace(ra=LOWER_RA)
+def falling(case: Case, q: np.ndarray, dt: float, steps: int) -> Followed:
+    """The MAC grid with K on the way."""
+    flow, every = Projection(case, q), max(1, round(1/OFTEN/dt))
+    t, ke = [0.0], [START_ENERGY]
+    for number in range(1, steps + 1):
+        flow.advance(dt)
+        if number % every == 0 or number == steps:
+            t.append(number*dt)
+            ke.append(State(case=case, q=flow.q).K)
+            if not np.isfinite(ke[-1]):
+                raise FloatingPointError(f"K is {ke[-1]} after {number} steps of {dt:.3g}")
+    return Followed(np.array(t), np.array(ke), flow.q)

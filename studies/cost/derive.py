@@ -1,43 +1,42 @@
-"""Derived rows of the study `speed`: error against cost, its exponent, what a level of error costs, who is the cheapest."""
+"""What follows from the runs: error against cost, its exponent, what a level of error costs, what leaving out saves."""
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from studies.build.read import ratio
+from studies.cost.names import GRID, LUCY, MAC_IMEX, NEAREST
 from studies.cost.tables import RUN, SERIES
+from studies.kit.fits import power_law
 from studies.kit.stats import Measured, combine
-from studies.kit.table import Tables
-from studies.ordering.derive import line
-from studies.rb.looks import groups
+from studies.kit.table import Tables, groups
 
+#: quantities of the scenes that are fields
+FIELD = {"convection": "K", "taylor-green": "velocity", "sound": "velocity", "conduction": "temperature",
+         "couette": "velocity"}
 LEVELS = (0.1, 0.03, 0.01, 0.001)
 LEAST = 3           # resolutions of an exponent
-PARTS = ("early", "late")               # of the repeats
+NO_NUMBER = Measured(np.nan, np.nan)
+MATTERS = 0.01      # of the answer: the error at which methods are compared
+Rows = list[dict[str, Any]]
+COST = ("step_s", "step_s_err", "time_s", "time_s_err")
+OF_TERM = ("scene", "base", "left_out", "quantity", "step_s", "step_s_err", "bytes", "loops", "error", "changed")
 
 
-def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
-    """All of them."""
-    mean = list(over_seeds(tables))
-    points = pd.DataFrame(mean)
-    found: dict[str, list[dict[str, Any]]] = {"growth_laws": list(growth_laws(tables.get("growth", pd.DataFrame())))}
+def errors(tables: Tables) -> dict[str, Rows]:
+    """What errors cost."""
+    rows: dict[str, Rows] = {"growth_laws": list(growth_laws(tables.get("growth", pd.DataFrame())))}
+    means = list(over_seeds(tables))
+    points = pd.DataFrame(means)
     if points.empty:
-        return found
+        return rows
     needed = list(over_levels(points))
-    return {**found, "points": mean, "exponents": list(exponents(points)), "needed": needed,
-            "cheapest": list(cheapest(pd.DataFrame(needed))), "memory": list(memory(tables["runs"]))}
+    return {**rows, "points": means, "exponents": list(exponents(points)), "needed": needed,
+            "cheapest": list(cheapest(pd.DataFrame(needed))), "rivals": list(rivals(points)),
+            "memory": list(memory(tables["runs"]))}
 
 
-def of_part(tables: Tables, part: str) -> Tables:
-    """The tables as they were if the first, `early`, or the last, `late`, of the repeats of all seconds were all there are."""
-    found = {name: tables[name] for name in ("errors", "runs", "steps", "growth") if name in tables}
-    if "runs" in found:
-        both = found["runs"].merge(tables.get("repeats", pd.DataFrame(columns=RUN)), on=RUN, suffixes=("", "_part"))
-        found["runs"] = both.assign(run_s=both[f"{part}_s"])
-    if "growth" in found:
-        found["growth"] = found["growth"].assign(step_s=found["growth"][f"{part}_s"])
-    return Tables(found | {name: pd.DataFrame(rows) for name, rows in derive(Tables(found)).items() if rows})
+# --- error against cost -----------------------------------------------------------------------------------------
 
 
 def over_seeds(tables: Tables) -> Iterator[dict[str, Any]]:
@@ -46,102 +45,132 @@ def over_seeds(tables: Tables) -> Iterator[dict[str, Any]]:
     if errors.empty or runs.empty:
         return
     both = with_steps(errors, tables.get("steps", pd.DataFrame())).merge(runs, on=RUN, suffixes=("", "_run"))
-    lost = {tuple(row) for row in errors.loc[errors["quantity"] == "diverged", ["scene", "method", "resolution"]].to_numpy()}
-    for key, group in both.groupby([*SERIES, "resolution"]):
-        scene, _, method, resolution = key
-        if (scene, method, resolution) in lost:
-            continue
-        error = combine(list(zip(group["error"].abs(), group["error_err"], strict=True)))
-        run_s, err = group["share"]*group["run_s"], np.hypot(group["share"]*group["run_s_err"], group["setup_s_err"])
-        seconds = combine(list(zip(run_s + group["setup_s"], err, strict=True)))
-        yield {**dict(zip([*SERIES, "resolution"], key, strict=True)), "points": group["points"].iloc[0], "seeds": len(group),
+    rung = ["scene", "method", "resolution"]
+    diverged = errors[errors["quantity"] == "diverged"][rung].drop_duplicates()
+    both = both.merge(diverged, on=rung, how="left", indicator=True)
+    for key, group in both[both["_merge"] == "left_only"].groupby([*SERIES, "resolution"]):
+        error = mean(group["error"].abs(), group["error_err"])
+        err = np.hypot(group["share"]*group["run_s_err"], group["setup_s_err"])
+        seconds = mean(group["share"]*group["run_s"] + group["setup_s"], pd.Series(err))
+        yield {**dict(zip([*SERIES, "resolution"], key, strict=True)),
+               "points": group["points"].iloc[0], "seeds": len(group),
                "error": error.value, "error_err": error.err, "cpu_s": seconds.value, "cpu_s_err": seconds.err,
                "setup_s": group["setup_s"].mean(), "bytes": group["bytes"].mean()}
 
 
+def mean(values: pd.Series, errs: pd.Series) -> Measured:
+    """Over seeds."""
+    return combine(list(zip(values, errs, strict=True)))
+
+
 def with_steps(errors: pd.DataFrame, steps: pd.DataFrame) -> pd.DataFrame:
-    """Errors with what the step chosen changes (`steps`) in their intervals: runs that nothing random enters have no other."""
+    """Errors whose intervals hold what halving the chosen step changes: of runs without chance they have no other."""
     if steps.empty:
         return errors
     key = [*RUN, "quantity"]
-    chosen = steps[steps["accepted"] == 1].sort_values("of_limit").drop_duplicates(key, keep="last")[[*key, "time_error"]]
+    good = steps[steps["accepted"] == 1].sort_values("of_limit")
+    chosen = good.drop_duplicates(key, keep="last")[[*key, "time_error"]]
     both = errors.merge(chosen, on=key, how="left")
-    return both.assign(error_err=np.hypot(both["error_err"], both["time_error"].fillna(0))).drop(columns="time_error")
+    err = np.hypot(both["error_err"], both["time_error"].fillna(0))
+    return both.assign(error_err=err).drop(columns="time_error")
+
+
+def series(points: pd.DataFrame) -> Iterator[tuple[dict[str, Any], pd.DataFrame]]:
+    """Key columns and rows of each series, resolutions ascending."""
+    for key, group in points.groupby(SERIES):
+        yield dict(zip(SERIES, key, strict=True)), group.sort_values("resolution")
 
 
 def exponents(points: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """d ln(seconds)/d ln(1/error); of methods whose error falls from each resolution to the next."""
-    for key, group in points.groupby(SERIES):
-        group = group.sort_values("resolution")
-        error = group["error"].to_numpy(float)
-        if len(group) >= LEAST and (np.diff(error) < 0).all():
-            slope, err = line(-np.log(error), np.log(group["cpu_s"].to_numpy(float)))
-            yield {**dict(zip(SERIES, key, strict=True)), "number": len(group), "exponent": slope, "exponent_err": err}
+    for key, group in series(points):
+        if len(group) >= LEAST and (np.diff(group["error"]) < 0).all():
+            slope = power_law(1/group["error"].to_numpy(float), group["cpu_s"].to_numpy(float)).slope
+            yield {**key, "number": len(group), "exponent": slope.value, "exponent_err": slope.err}
 
 
 def over_levels(points: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """Every method at every level."""
-    for key, group in points.groupby(SERIES):
-        group = group.sort_values("resolution")
+    for key, group in series(points):
         for level in LEVELS:
-            yield {**dict(zip(SERIES, key, strict=True)), "level": level, **reached(group, level)}
+            yield {**key, "level": level, **reached(group, level)}
 
 
 def reached(group: pd.DataFrame, level: float) -> dict[str, Any]:
     """Where the errors of rising resolutions come below a level and stay there, between two by a power law.
 
-    An error that is not told from zero counts with its uncertainty: where its sign changes the error itself is no measure.
+    An error that is not told from zero counts with its uncertainty: where its sign changes it is no measure itself.
     """
     error = group[["error", "error_err"]].max(axis=1).to_numpy(float)
     above = np.flatnonzero(~(error <= level))
-    at = {name: group[name].to_numpy(float) for name in ("cpu_s", "cpu_s_err", "points")}
     if len(above) == 0:
-        first, err = at["cpu_s"][0], at["cpu_s_err"][0]
-        return {"reached": "at most", "cpu_s": first, "low": 0.0, "high": first + err, "points": at["points"][0],
-                "error": error[0]}
+        first = group.iloc[0]
+        return {"reached": "at most", "cpu_s": first["cpu_s"], "low": 0.0, "high": first["cpu_s"] + first["cpu_s_err"],
+                "points": first["points"], "error": error[0]}
     if above[-1] == len(error) - 1:
-        return {"reached": "no", "cpu_s": np.nan, "low": np.nan, "high": np.nan, "points": np.nan, "error": error.min()}
+        return {"reached": "no", **dict.fromkeys(("cpu_s", "low", "high", "points"), np.nan), "error": error.min()}
     pair = slice(above[-1], above[-1] + 2)
-    err = group["error_err"].to_numpy(float)[pair]
-    cpu = crossing(error[pair], err, at["cpu_s"][pair], at["cpu_s_err"][pair], level)
-    number = crossing(error[pair], err, at["points"][pair], np.zeros(2), level)
-    return {"reached": "yes", "cpu_s": cpu[0], "low": cpu[0]*np.exp(-cpu[1]), "high": cpu[0]*np.exp(cpu[1]), "points": number[0],
-            "error": level}
+    err, cpu, cpu_err, points = (group[name].to_numpy(float)[pair]
+                                 for name in ("error_err", "cpu_s", "cpu_s_err", "points"))
+    seconds, half = crossing(error[pair], err, cpu, cpu_err, level)
+    number, _ = crossing(error[pair], err, points, np.zeros(2), level)
+    return {"reached": "yes", "cpu_s": seconds, "low": seconds*np.exp(-half), "high": seconds*np.exp(half),
+            "points": number, "error": level}
 
 
 def crossing(error: np.ndarray, error_err: np.ndarray, cost: np.ndarray, cost_err: np.ndarray,
              level: float) -> tuple[float, float]:
     """Cost at a level between two errors, and the half width of the interval of its logarithm.
 
-    ln cost = ln cost_0 + s (ln cost_1 - ln cost_0), s = ln(error_0/level)/ln(error_0/error_1); errors of all four numbers count.
+    ln cost = ln cost_0 + s (ln cost_1 - ln cost_0), s = ln(error_0/level)/ln(error_0/error_1); all four have errors.
     """
     fall = np.log(error[0]/error[1])
     share, rise = np.log(error[0]/level)/fall, np.log(cost[1]/cost[0])
-    off = np.array([(1 - share)*rise/fall*error_err[0]/error[0], share*rise/fall*error_err[1]/error[1],
-                    (1 - share)*cost_err[0]/cost[0], share*cost_err[1]/cost[1]])
-    return float(cost[0]*np.exp(share*rise)), float(np.sqrt((off**2).sum()))
+    slopes = np.array([(1 - share)*rise/fall, share*rise/fall, 1 - share, share])
+    errs = np.array([*error_err/error, *cost_err/cost])
+    return float(cost[0]*np.exp(share*rise)), float(np.sqrt(((slopes*errs)**2).sum()))
 
 
 def cheapest(needed: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """The least seconds of each scene, quantity and level."""
+    columns = ["reached", "cpu_s", "low", "high", "points"]
     for key, group in needed.groupby(["scene", "quantity", "level"]):
-        told = group[group["reached"] != "no"]
         row = dict(zip(("scene", "quantity", "level"), key, strict=True))
-        if told.empty:
-            nothing = dict.fromkeys(("cpu_s", "low", "high", "points"), np.nan)
-            yield {**row, "method": "not reached", "reached": "no", **nothing}
-        else:
-            best = told.sort_values("cpu_s").iloc[0]
-            yield {**row, **{name: best[name] for name in ("method", "reached", "cpu_s", "low", "high", "points")}}
+        best = group[group["reached"] != "no"].sort_values("cpu_s").head(1)
+        for one in (best if len(best) else group.head(1).assign(method="not reached")).to_dict("records"):
+            yield {**row, **{name: one[name] for name in ("method", *columns)}}
+
+
+def rivals(points: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """Printed particles over the grid of each scene, or the lattice that is one where no grid takes it."""
+    for scene, quantity in FIELD.items():
+        here = points[(points["scene"] == scene) & (points["quantity"] == quantity)]
+        grid = next((name for name in (GRID, MAC_IMEX, NEAREST) if name in set(here["method"])), "")
+        best = here[here["method"] == LUCY].nsmallest(1, "error")
+        known = here[here["method"] == grid].sort_values("error")
+        for row in best[best["error"] >= known["error"].min()].to_dict("records"):
+            yield {"scene": scene, "quantity": quantity, "rival": grid, "error": row["error"],
+                   **over_rival(row, known, "points", "points"), **over_rival(row, known, "cpu_s", "seconds")}
+
+
+def over_rival(best: dict, known: pd.DataFrame, column: str, name: str) -> dict[str, float]:
+    """`column` of a run over that of a grid with the same error, by a power law between its resolutions.
+
+    Where the coarsest grid is better already, over that of the coarsest grid: the ratio is then at least this.
+    """
+    x, y = np.log(known["error"].to_numpy(float)), np.log(known[column].to_numpy(float))
+    ratio = float(best[column])/float(np.exp(np.interp(np.log(best["error"]), x, y)))
+    slope = np.gradient(y, x).min() if len(known) > 1 else 0.0
+    return {name: ratio, f"{name}_err": float(abs(ratio*slope*best["error_err"]/best["error"]))}
 
 
 def memory(runs: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """Bytes a point at the highest resolution of each method in each scene, means over seeds."""
     finest = runs[runs["resolution"] == runs.groupby(["scene", "method"])["resolution"].transform("max")]
-    for (scene, method), group in groups(finest, ["scene", "method"]):
+    for (scene, method), group in finest.groupby(["scene", "method"]):
         size, points = group["bytes"].mean(), group["points"].mean()
-        yield {"scene": scene, "method": method, "resolution": group["resolution"].iloc[0], "points": points, "bytes": size,
-               "bytes_a_point": size/points}
+        yield {"scene": scene, "method": method, "resolution": group["resolution"].iloc[0], "points": points,
+               "bytes": size, "bytes_a_point": size/points}
 
 
 def growth_laws(growth: pd.DataFrame) -> Iterator[dict[str, Any]]:
@@ -150,12 +179,44 @@ def growth_laws(growth: pd.DataFrame) -> Iterator[dict[str, Any]]:
         return
     for method, group in groups(growth[growth["clock"] == "cpu"], "method"):
         if len(group) >= LEAST:
-            slope, err = line(*(np.log(group[name].to_numpy(float)) for name in ("points", "step_s")))
-            yield {"method": method, "what": "exponent", "least": group["points"].min(), "most": group["points"].max(),
-                   "value": slope, "value_err": err}
+            law = power_law(group["points"].to_numpy(float), group["step_s"].to_numpy(float)).slope
+            yield {"method": method, "what": "exponent", "least": group["points"].min(),
+                   "most": group["points"].max(), "value": law.value, "value_err": law.err}
     for (method, points), group in groups(growth[growth["clock"] == "wall"], ["method", "points"]):
         if set(group["threads"]) == {1, 2}:
             one, two = (Measured(*row) for row in group.sort_values("threads")[["step_s", "step_s_err"]].to_numpy(float))
-            faster = ratio(one, two)
+            faster = one/two
             yield {"method": method, "what": "two threads", "least": points, "most": points, "value": faster.value,
                    "value_err": faster.err}
+
+
+# --- terms ------------------------------------------------------------------------------------------------------
+
+
+def terms(tables: Tables) -> dict[str, Rows]:
+    """What leaving out saves and costs: ratios to the whole of each base."""
+    measured: pd.DataFrame = tables.get("measured", pd.DataFrame())
+    return {"scenes": list(ratios(measured))} if len(measured) else {}
+
+
+def ratios(measured: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """One row a variant; a base whose whole is not there has none."""
+    for _, group in measured.groupby(["scene", "base"]):
+        whole = group[group["left_out"] == "nothing"].to_dict("records")
+        for row in group.to_dict("records") if whole else ():
+            yield compared(row, whole[0])
+
+
+def compared(row: dict, whole: dict) -> dict[str, Any]:
+    """Ratios, and whether what is changed matters; a run that diverges does, and what it took to do so is no cost."""
+    if np.isnan(row["changed"]):
+        row = {**row, **dict.fromkeys(COST, np.nan)}
+    step, time = (over(*(Measured(of[name], of[f"{name}_err"]) for of in (row, whole))) for name in ("step_s", "time_s"))
+    return {**{name: row[name] for name in OF_TERM}, "step_ratio": step.value, "step_ratio_err": step.err,
+            "time_ratio": time.value, "time_ratio_err": time.err, "bytes_ratio": row["bytes"]/whole["bytes"],
+            "needed": "no" if row["changed"] <= MATTERS else "yes"}
+
+
+def over(part: Measured, whole: Measured) -> Measured:
+    """A ratio of times; none where they scatter as much as they last, on a busy machine."""
+    return part/whole if abs(whole.value) > whole.err else NO_NUMBER

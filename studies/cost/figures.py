@@ -1,4 +1,4 @@
-"""Error against CPU seconds, and seconds against the number of particles, from the tables of the study `speed`."""
+"""Error against CPU seconds, seconds against the number of particles, and what leaving a term out saves."""
 from typing import Any
 
 import numpy as np
@@ -9,9 +9,9 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from studies.cost.derive import LEVELS
 from studies.cost.names import FAMILIES, ORDER, family
-from studies.kit.figure import LINES, below, figure, look
-from studies.kit.table import Tables
-from studies.rb.looks import groups
+from studies.kit.drawing import Drawing, Drawings
+from studies.kit.figure import COLOURS, LINES, below, figure, look
+from studies.kit.table import groups
 
 #: scene, quantity, title of each panel
 PANELS = (("convection", "K", "Rayleigh-Benard, Ra 10 000: K, steady"), ("convection", "velocity", "velocity, steady"),
@@ -19,33 +19,28 @@ PANELS = (("convection", "K", "Rayleigh-Benard, Ra 10 000: K, steady"), ("convec
           ("taylor-green", "velocity", "Taylor-Green: velocity"), ("sound", "velocity", "sound wave: velocity"),
           ("conduction", "temperature", "heat conduction: temperature"), ("couette", "velocity", "Couette: velocity"))
 ACROSS = 4
-WORST = 10.0        # relative error that is drawn: ten times the answer; what is beyond is told by its number
+WORST = 10.0        # relative error that is drawn: ten times the answer; what is beyond is a number
 #: a family each; those with many members have one that shows how it is filled
-SHAPES = {"compressible": "X", "MAC": "P", "py-pde": "*", "DIH lattice": "o", "DIH Delaunay": "^", "SPAM": "s", "moving": "D"}
-HOLLOW = {"markerfacecolor": "white"}
-FILLS: tuple[dict[str, str], ...] = ({}, HOLLOW, *({"fillstyle": side, "markerfacecoloralt": "white"}
-                                                   for side in ("left", "bottom", "right", "top")))
+SHAPES = {"compressible": "X", "MAC": "P", "py-pde": "*", "DIH lattice": "o", "DIH Delaunay": "^", "SPAM": "s",
+          "moving": "D"}
+HALVES = ("left", "bottom", "right", "top")
+FILLS: tuple[dict[str, str], ...] = ({}, {"markerfacecolor": "white"},
+                                     *({"fillstyle": side, "markerfacecoloralt": "white"} for side in HALVES))
+#: what leaving out saves: column, label, hatch
+KINDS = (("step_ratio", "CPU seconds of a point and step", ""),
+         ("time_ratio", "CPU seconds of a point and unit of time", "//"), ("bytes_ratio", "bytes a point", ".."))
+THICK = 0.26
 
 
-def figures(tables: Tables) -> dict[str, Figure]:
-    """What the tables allow."""
-    found: dict[str, Figure] = {}
-    if len(tables.get("points", ())):
-        found["work_precision"] = work_precision(tables["points"])
-    if len(tables.get("memory", ())):
-        found["memory"] = memory(tables["memory"])
-    if len(tables.get("growth", ())):
-        found["growth"] = growth(tables["growth"])
-    return found
+# --- what an error costs ----------------------------------------------------------------------------------------
 
 
 def work_precision(points: pd.DataFrame) -> Figure:
-    """A panel a quantity; a line a method, its resolutions from left to right."""
+    """Relative error against CPU seconds: a panel a scene and quantity, a line a method, resolutions along it."""
     shown = [panel for panel in PANELS if len(pick(points, *panel[:2]))]
     across = min(ACROSS, len(shown))
-    down = -(-len(shown)//across)
-    page, all_axes = figure(down, across, width=4.1, height=3.9, squeeze=False)
-    for axes, (scene, quantity, title) in zip(all_axes.flat, shown):
+    page, all_axes = figure(-(-len(shown)//across), across, width=4.1, height=3.9, squeeze=False)
+    for axes, (scene, quantity, title) in zip(all_axes.flat, shown, strict=False):
         rows = pick(points, scene, quantity)
         draw(axes, rows, "cpu_s", "error")
         beyond(axes, rows)
@@ -58,37 +53,45 @@ def work_precision(points: pd.DataFrame) -> Figure:
         axes.set_ylabel("relative error")
     legend(page, all_axes)
     page.suptitle("What does an error cost?\n"
-                  "Each method at its own best step (py-pde: by formula), one thread, without compiling; bars: 95 %; arrows: "
-                  "beyond the axis. MAC and py-pde, Boussinesq: another fluid, against its own limit", fontsize=10)
+                  "Each method at its own best step (py-pde: by formula), one thread, without compiling; bars: 95 %; "
+                  "arrows: beyond the axis. MAC and py-pde, Boussinesq: another fluid, against its own limit", fontsize=10)
     return page
 
 
 def pick(points: pd.DataFrame, scene: str, quantity: str) -> pd.DataFrame:
-    """Rows of one panel; grids of another fluid, told against their own limit, are shown beside those of the gas."""
-    return points[points["scene"].isin([scene, f"{scene}-boussinesq"]) & (points["quantity"] == quantity) & (points["error"] > 0)]
+    """Rows of one panel; grids of another fluid, held against their own limit, are shown beside those of the gas."""
+    here = points["scene"].isin([scene, f"{scene}-boussinesq"])
+    return points[here & (points["quantity"] == quantity) & (points["error"] > 0)]
 
 
 def draw(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
     """All methods, with errors in both directions."""
-    for name in [name for name in ORDER if name in set(rows["method"])]:
-        series = rows[(rows["method"] == name) & (rows[x] > 0)].sort_values("resolution")     # a short time may drown
-        errs: dict[str, Any] = {f"{side}err": limited(series, column) for side, column in (("x", x), ("y", y))}
-        axes.errorbar(series[x], series[y], label=name, **errs, **style(name))
+    rows = rows[rows[x] > 0]        # a short time may drown
+    for name in present(rows):
+        series = rows[rows["method"] == name].sort_values("resolution")
+        axes.errorbar(series[x], series[y], xerr=limited(series, x), yerr=limited(series, y), label=name, **style(name))
+
+
+def present(rows: pd.DataFrame) -> list[str]:
+    """Methods in their order."""
+    return [name for name in ORDER if name in set(rows["method"])]
 
 
 def style(name: str) -> dict[str, Any]:
     """Look of a method, the same in every figure: colour and marker of its family, filling and line its own."""
-    member = [other for other in ORDER if family(other) == family(name)].index(name)
-    return {"color": FAMILIES[family(name)][0], "marker": SHAPES[family(name)], "linestyle": LINES[member], "markersize": 6,
+    kind = family(name)
+    member = [other for other in ORDER if family(other) == kind].index(name)
+    return {"color": FAMILIES[kind], "marker": SHAPES[kind], "linestyle": LINES[member], "markersize": 6,
             **FILLS[member]}
 
 
 def beyond(axes: Axes, rows: pd.DataFrame) -> None:
-    """End the axes at WORST; errors that are larger are told by an arrow and their number."""
+    """End the axes at WORST; larger errors are an arrow and their number."""
     large = rows[rows["error"] > WORST]
-    for _, row in large.iterrows():
+    for row in large.to_dict("records"):
         colour = style(row["method"])["color"]
-        axes.annotate(f"{float(f'{row.error:.2g}'):.0f}", (row["cpu_s"], WORST), (0, -26), ha="center", fontsize=8,
+        size = float(f"{row['error']:.2g}")
+        axes.annotate(f"{size:.0f}", (row["cpu_s"], WORST), (0, -26), ha="center", fontsize=8,
                       color=colour, textcoords="offset points", arrowprops={"arrowstyle": "->", "color": colour})
     if len(large):
         axes.set(yscale="log")
@@ -106,10 +109,15 @@ def loglog(axes: Axes, title: str, xlabel: str) -> None:
     axes.set(xscale="log", yscale="log", title=title, xlabel=xlabel)
     for axis in (axes.xaxis, axes.yaxis):
         low, high = axis.get_view_interval()
-        subs = (1,) if high > 100*low else (1, 2, 5) if high > 4*low else (1, 1.5, 2, 3, 4, 6)
-        axis.set_major_locator(LogLocator(subs=subs))
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        axis.set_minor_formatter(NullFormatter())
+        few = (1, 2, 5) if high > 4*low else (1, 1.5, 2, 3, 4, 6)
+        written(axis, (1,) if high > 100*low else few)
+
+
+def written(axis: Any, steps: tuple[float, ...]) -> None:
+    """Numbers at these steps of each power of ten, no others."""
+    axis.set_major_locator(LogLocator(subs=steps))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def legend(page: Figure, all_axes: np.ndarray) -> None:
@@ -123,18 +131,15 @@ def legend(page: Figure, all_axes: np.ndarray) -> None:
 
 def memory(rows: pd.DataFrame) -> Figure:
     """Bytes a point of each method in each scene, at its highest resolution."""
-    scenes = list(dict.fromkeys(rows["scene"]))
-    order = [name for name in ORDER if name in set(rows["method"])]
+    order = present(rows)
     page, axes = figure(width=7.5, height=1.3 + 0.28*len(order))
-    for number, scene in enumerate(scenes):
+    for number, scene in enumerate(dict.fromkeys(rows["scene"])):
         some = rows[rows["scene"] == scene]
         places = [len(order) - 1 - order.index(name) for name in some["method"]]
         axes.plot(some["bytes_a_point"], places, label=scene, **{**look(number), "linestyle": "none"})
     axes.set_yticks(range(len(order)), labels=order[::-1])
     axes.set(xscale="log", xlabel="bytes of arrays a point while it runs", title="Memory at the highest resolution")
-    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.xaxis.set_minor_formatter(NullFormatter())
+    written(axes.xaxis, (1, 2, 5))
     page.legend(loc="outside lower center", ncols=5)
     return page
 
@@ -148,11 +153,44 @@ def growth(rows: pd.DataFrame) -> Figure:
         some = rows[rows["clock"] == clock].sort_values("points")
         for (method, threads), series in groups(some, ["method", "threads"]):
             value, err = (1e9*series[name]/series["points"] for name in ("step_s", "step_s_err"))
-            told = style(method) | {"markerfacecolor": "white" if threads > 1 else style(method)["color"],
-                                    "linestyle": LINES[int(threads) - 1], "fillstyle": "full"}
-            axes.errorbar(series["points"], value, err, label=f"{method}, {threads:.0f} thread{'s'*(threads > 1)}", **told)
+            fill = "white" if threads > 1 else style(method)["color"]
+            kind = {**style(method), "markerfacecolor": fill, "linestyle": LINES[int(threads) - 1], "fillstyle": "full"}
+            axes.errorbar(series["points"], value, err, label=f"{method}, {threads:.0f} thread{'s'*(threads > 1)}", **kind)
         loglog(axes, title, "particles or points")
         below(axes)
     all_axes[0, 0].set_ylabel("a particle and step  [ns]")
     page.suptitle("How does the cost of a step grow? Lists of neighbours included; bars: 95 %", fontsize=10)
     return page
+
+
+# --- what leaving out saves -------------------------------------------------------------------------------------
+
+
+def scenes(rows: pd.DataFrame) -> Figure:
+    """What is left of seconds and bytes without a term, over the whole; beside it the error that leaving it out makes."""
+    rows = rows[rows["left_out"] != "nothing"].sort_values(["scene", "base", "left_out"], ascending=False)
+    page, axes = figure(width=8.4, height=1.4 + 0.62*len(rows))
+    at = np.arange(len(rows))
+    for number, (column, label, hatch) in enumerate(KINDS):
+        axes.barh(at + THICK*(1 - number), rows[column], THICK, xerr=rows.get(f"{column}_err"), label=label,
+                  color=COLOURS[number], hatch=hatch, edgecolor="white", capsize=2)
+    names = [f"{row['scene']}, {row['base']}\nwithout {row['left_out']}: {effect(row['changed'], row['needed'])}"
+             for row in rows.to_dict("records")]
+    axes.axvline(1, color="black", linewidth=0.8)
+    axes.set_yticks(at, labels=names)
+    axes.set(xscale="log", xlabel="what is left over what the whole takes; bars: 95 %")
+    written(axes.xaxis, (1, 2, 5))
+    page.suptitle("Model only what a scene needs: what does leaving out save, and what error does it make?", fontsize=10)
+    page.legend(loc="outside lower center", ncols=3)
+    return page
+
+
+def effect(changed: float, needed: str) -> str:
+    """What it makes of the answer, in words."""
+    size = "diverges" if not np.isfinite(changed) else f"off by {100*changed:{'.0f' if changed > 0.1 else '.2g'}} %"
+    return f"{size}, {'needed' if needed == 'yes' else 'not needed'}"
+
+
+ERRORS = Drawings(Drawing("work_precision", ("points",), work_precision), Drawing("memory", ("memory",), memory),
+                  Drawing("growth", ("growth",), growth))
+TERMS = Drawings(Drawing("scenes", ("scenes",), scenes))

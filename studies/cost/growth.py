@@ -105,7 +105,7 @@ class Growth(Case):
     def row(self, seconds: Timed, size: int, peak: float, threads: int = 1, clock: str = "cpu") -> dict[str, Any]:
         """Of the table."""
         return {"method": self.name, "points": self.points, "threads": threads, "clock": clock, "step_s": seconds.value,
-                "step_s_err": seconds.err, "early_s": seconds.early, "late_s": seconds.late, "bytes": size, "peak_bytes": peak}
+                "step_s_err": seconds.err, "bytes": size, "peak_bytes": peak}
 
     def _timed(self) -> tuple[Timed, int]:
         if self.fixed:

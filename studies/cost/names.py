@@ -1,4 +1,4 @@
-"""Names of methods as tables and figures have them, and how each family looks: a colour and a line."""
+"""Names of methods as tables and figures have them, and the colour of each family."""
 
 GRID, NEWTON = "compressible grid, RK4", "compressible grid, Newton"
 MAC_NEWTON, MAC_IMEX = "MAC grid, Newton", "MAC grid, IMEX"
@@ -11,10 +11,9 @@ LUCY, MONAGHAN, WENDLAND = "SPAM, Lucy (as printed)", "SPAM, Monaghan", "SPAM, W
 LESS_STATIC, LUCY_TWO_STEP = "SPAM, Lucy, less static pressure", "SPAM, Lucy, two-step"
 MOVING = "moving points"
 
-#: by how a name begins
-FAMILIES = {"compressible": ("#000000", "-"), "MAC": ("#882255", (0, (3, 1, 1, 1))), "py-pde": ("#E69F00", ":"),
-            "DIH lattice": ("#0072B2", "--"), "DIH Delaunay": ("#56B4E9", (0, (5, 1))), "SPAM": ("#D55E00", "-."),
-            "moving": ("#009E73", (0, (8, 3)))}
+#: how a name begins -> colour
+FAMILIES = {"compressible": "#000000", "MAC": "#882255", "py-pde": "#E69F00", "DIH lattice": "#0072B2",
+            "DIH Delaunay": "#56B4E9", "SPAM": "#D55E00", "moving": "#009E73"}
 ORDER = (GRID, NEWTON, MAC_NEWTON, MAC_IMEX, PYPDE_GAS, PYPDE_BOUSSINESQ, NEAREST, LATTICE, WIDE, TWO_STEP,
          LATTICE_MONAGHAN, LATTICE_WENDLAND, JITTERED, RELAXED, LUCY, MONAGHAN, WENDLAND, LESS_STATIC, LUCY_TWO_STEP, MOVING)
 

@@ -97,6 +97,24 @@ def of_method(method: Any, first: np.ndarray, time: float, residuals: Callable[[
                    holding(method, first), known, chaotic, firm, plain(method))
 
 
+class Price(NamedTuple):
+    """CPU seconds that a case takes, about: fixed + factor resolution^power."""
+    fixed: float
+    factor: float = 0.0
+    power: int = 2
+
+    def seconds(self, resolution: int) -> float:
+        """At a resolution."""
+        return self.fixed + self.factor*resolution**self.power
+
+
+def relative(V: np.ndarray, off: np.ndarray, scale: np.ndarray) -> np.ndarray:
+    """What is off, (n,), at points of volumes V, over the rms of a scale."""
+    w = np.sqrt(len(V)*V/V.sum())
+    weighted: np.ndarray = w*off/np.sqrt(np.mean(w**2*scale**2))
+    return weighted
+
+
 def rms(residual: np.ndarray) -> float:
     """Root mean square; not a number where one of them is none."""
     return float(np.sqrt(np.mean(np.asarray(residual)**2)))
@@ -188,7 +206,7 @@ def rung_of(problem: Problem, fraction: float, coarse: Result | None, fine: Resu
 class Race(Case):
     """One method on one scene at one resolution."""
     scene: str
-    method: Any             # name, first (fraction of the limit that is tried first), problem(resolution, seed) -> Problem
+    method: Any             # name, price, first (fraction of the limit that is tried first), problem(resolution, seed)
     resolution: int
     seed: int = 1
     short: float = SHORT
@@ -196,7 +214,7 @@ class Race(Case):
 
     @property
     def cost(self) -> float:
-        return TRIES*float(self.method.seconds(self.resolution))
+        return TRIES*self.method.price.seconds(self.resolution)
 
     @property
     def label(self) -> str:
@@ -217,12 +235,6 @@ class Race(Case):
         if found is None:
             return Outcome(rows)
         return Outcome({**rows, **self._run(problem, fraction, found, compile_s)})
-
-    def again(self, fraction: float) -> dict[str, list[dict[str, Any]]]:
-        """Seconds alone, of a step that is known; no rows where the run diverges."""
-        problem, compile_s = self._compiled()
-        found = result(problem, fraction) if problem.chaotic else None
-        return {} if problem.chaotic and found is None else self._run(problem, fraction, found, compile_s)
 
     def _make(self) -> Problem:
         made: Problem = self.method.problem(self.resolution, self.seed)
@@ -268,6 +280,5 @@ class Race(Case):
             "setup_s_err": set_up.err, "compile_s": compile_s, "bytes": array_bytes(problem.held()), "threads": 1})
 
     def timings(self, run: Timed, more: dict[str, Any]) -> dict[str, list[dict[str, Any]]]:
-        """Rows of the tables `runs` and `repeats`."""
-        return {"runs": [{**self.key_columns, "run_s": run.value, "run_s_err": run.err, **more}],
-                "repeats": [{**self.key_columns, "early_s": run.early, "late_s": run.late}]}
+        """The row of the table `runs`."""
+        return {"runs": [{**self.key_columns, "run_s": run.value, "run_s_err": run.err, **more}]}

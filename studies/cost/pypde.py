@@ -1,7 +1,8 @@
-"""py-pde's solver of the gas where nothing convects: the vortex, sound, heat and shear between plates.
+"""py-pde's solvers, compiled at each call: of the gas in all flows, of the Boussinesq fluid in convection.
 
-At the limit of its own formula, a step an eighth longer than which ends in the vortex; compiling, at each call, is not counted,
-nor what py-pde does around the steps. Each component of the velocity is told where the staggered grid has it.
+Steps are at the limit of its own formula, an eighth longer than which ends in the vortex (in convection the driver's
+0.8 of it); compiling is not counted, nor what py-pde does around the steps. Each component of the velocity is compared
+where the staggered grid has it.
 """
 from collections.abc import Callable
 from functools import partial
@@ -9,23 +10,28 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.exact.plates import FLOWS, Flow
-from continuum.fluid import ConstEta, energy, sound_speed, temperature
+from continuum.exact.vortex import solved as gas_of_mach
+from continuum.exact.vortex import velocities
+from continuum.fluid import energy, sound_speed, temperature
+from continuum.pypde import solve as pypde
 from continuum.pypde.gas import RK4_DECAY, RK4_WAVE, Gas
 from continuum.pypde.gas_loop import RHO, VX, VY, E
-from continuum.pypde.solve import solve
-from continuum.scene import Tile
+from continuum.scene import RayleighBenard
 from continuum.steady import Time
-from studies.cost import names, waves
-from studies.cost import plates as slabs
-from studies.cost import vortex as vortices
-from studies.cost.others import Solved
-from studies.cost.problem import Residuals
+from particles.fields import Fields
+from studies.build.grid import started
+from studies.build.names import START_ENERGY
+from studies.cost.direct import Solved
+from studies.cost.flows import Plates, Vortex, Wave
+from studies.cost.layer import END, OFTEN, PR, RA, Followed, Rules, Sizes, boussinesq_reference, reference, scene_of
+from studies.cost.problem import Price, Residuals
 from studies.cost.timing import Laps, array_bytes, of_calls
 
 SAMPLES = 5         # of the seconds, which are those of as many equal parts of the run
 #: (rho, u, v, T) at places x, y
 Start = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, ...]]
+#: residuals of a state (4, columns, rows) of a gas in a contest
+Held = Callable[["Still", Any, np.ndarray], Residuals]
 
 
 class Still(Gas):
@@ -59,88 +65,90 @@ class Still(Gas):
         return data
 
 
-def solved(make: Callable[[], Still], start: Start, time: float, residuals: Callable[[np.ndarray], Residuals],
-           known: float) -> Solved:
-    """What comes out at a time, and what it takes."""
-    gas, laps = make(), Laps()
-    done = solve(gas, until=Time(time, SAMPLES), start=gas.begun(start), dt=gas.step_limit(), progress=laps)
-    return Solved(residuals(done.state), {}, done.state[0].size, done.steps, array_bytes(done.state, gas), known,
-                  laps.total(SAMPLES), done.compile_s, of_calls(lambda: make().begun(start)), 1.0)
-
-
 def places(gas: Gas, field: int) -> np.ndarray:
     """(n, 2) of a field's points."""
     return np.stack([q.ravel() for q in gas.mesh(field)], axis=1)
 
 
-class OnVortex(NamedTuple):
-    """The Taylor-Green vortex."""
-    name: str = names.PYPDE_GAS
-    mach: float = vortices.MACH
-
-    def seconds(self, resolution: int) -> float:
-        return 5 + 3e-5*resolution**3
-
-    def solve(self, resolution: int) -> Solved:
-        vortex = vortices.Vortex(self.mach, resolution)
-        tile = Tile(width=resolution, L=resolution, law=ConstEta(vortex.eta, vortex.eta))
-
-        def make() -> Still:
-            return Still(tile, resolution, 2*vortex.speed)
-        gas = make()
-
-        def residuals(data: np.ndarray) -> Residuals:
-            exactly = np.stack([vortices.exactly(vortex, places(gas, f))[:, f - VX] for f in (VX, VY)], axis=1)
-            found = data[[VX, VY]].reshape(2, -1).T
-            return vortices.told(vortex, np.ones(len(found)), exactly, found)
-        return solved(make, partial(vortices.start_at, vortex), vortex.time, residuals, vortices.KNOWN[self.mach])
+# --- flows with exact answers -----------------------------------------------------------------------------------
 
 
-class OnWave(NamedTuple):
-    """Sound along rows."""
-    name: str = names.PYPDE_GAS
+class InFlow(NamedTuple):
+    """The gas in a contest. held : residuals of its state."""
+    name: str
+    contest: Any
+    price: Price
+    held: Held
 
-    def seconds(self, length: int) -> float:
-        return 5 + 1e-4*length**2
-
-    def solve(self, length: int) -> Solved:
-        wave = waves.Wave(length)
-        tile = Tile(width=length, L=waves.BREADTH, law=ConstEta(wave.eta, wave.eta))
+    def solve(self, size: int) -> Solved:
+        """At a resolution."""
+        scene, laps = self.contest.scene(size), Laps()
 
         def make() -> Still:
-            return Still(tile, waves.BREADTH, 0.0)
-        gas = make()
+            return Still(scene, round(scene.L), fastest(scene), scene.slide)
+        gas, start = make(), partial(started, scene)
+        done = pypde.solve(gas, until=Time(scene.time, SAMPLES), start=gas.begun(start), dt=gas.step_limit(),
+                           progress=laps)
+        return Solved(self.held(gas, self.contest, done.state), {}, done.state[0].size, done.steps,
+                      array_bytes(done.state, gas), self.contest.known, laps.total(SAMPLES), done.compile_s,
+                      of_calls(lambda: make().begun(start)), 1.0)
 
-        def residuals(data: np.ndarray) -> Residuals:
-            T = temperature(gas.scene.eos, data[RHO], data[E]).ravel()
-            return wave.compared(np.ones(T.size), places(gas, E)[:, 0], data[VX].ravel(), T, places(gas, VX)[:, 0])
-        return solved(make, wave.start_at, wave.time, residuals, waves.KNOWN)
+
+def fastest(scene: Any) -> float:
+    """The largest velocity that the formula counts: twice that of a vortex, that of a plate, none of small waves."""
+    return float(2*scene.speed if hasattr(scene, "speed") else scene.slide)
 
 
-class OnSlab(NamedTuple):
-    """Heat or shear between plates; velocities along them are told at the heights of the cells, where they are."""
-    flow: Flow
-    name: str = names.PYPDE_GAS
+def vortex(gas: Still, contest: Vortex, data: np.ndarray) -> Residuals:
+    """Both components where they are."""
+    scene, answer = gas.scene, gas_of_mach(contest.mach)
+    exact = np.stack([velocities(answer, places(gas, f)/scene.L)[:, f - VX] for f in (VX, VY)], axis=1)
+    v = data[[VX, VY]].reshape(2, -1).T
+    return contest.against(scene, np.ones(len(v)), exact, v)
 
-    def seconds(self, rows: int) -> float:
-        return 5 + 2e-4*rows**2
+
+def sound(gas: Still, contest: Wave, data: np.ndarray) -> Residuals:
+    """The velocity on the sides of cells, the temperature in them."""
+    T = temperature(gas.scene.eos, data[RHO], data[E]).ravel()
+    u, x = data[VX].ravel(), places(gas, E)[:, 0]
+    return contest.against(gas.scene, np.ones(T.size), (places(gas, VX)[:, 0], u), (x, T))
+
+
+def between(gas: Still, contest: Plates, data: np.ndarray) -> Residuals:
+    """Velocities along plates at the heights of the cells, where they are."""
+    T, s = temperature(gas.scene.eos, data[RHO], data[E]).ravel(), places(gas, E)[:, 1]/gas.scene.L + 0.5
+    return contest.against(gas.scene, np.ones(T.size), s, data[VX].ravel(), T)
+
+
+# --- convection -------------------------------------------------------------------------------------------------
+
+
+class InLayer(NamedTuple):
+    """Convection at the driver's own step: the gas, or Boussinesq where `gas` is False."""
+    name: str
+    gas: bool
+    price: Price = Price(4, 2e-4, 3)
+    sizes: Sizes = Sizes()
 
     def solve(self, rows: int) -> Solved:
-        flow = self.flow
+        """At a resolution."""
+        laps, samples, scene = Laps(), round(END*OFTEN), scene_of(rows)
+        unit = scene.L/scene.free_fall if self.gas else 1.0
+        options: dict[str, Any] = {"until": Time(END*unit, samples), "start": pypde.Rolls(START_ENERGY),
+                                   "progress": laps}
+        done = (pypde.solve_gas(scene, rows, **options) if self.gas
+                else pypde.solve_boussinesq(ra=RA, pr=PR, rows=rows, **options))
+        rules = Rules(reference(self.sizes) if self.gas else boussinesq_reference(self.sizes))
+        followed = Followed(done.series.t/unit, done.series.ke, done)
+        residuals = rules.residuals(followed, seen(scene, done) if self.gas else None)
+        if not self.gas:
+            residuals.pop("K(t)")     # its rolls at the start are not KHP95's, which are not free of divergence
+        return Solved(residuals, rules.share(followed, residuals), done.state[0].size, done.steps,
+                      array_bytes(done.state, done.equation), rules.against.known, laps.total(samples), done.compile_s)
 
-        def make() -> Still:
-            return Still(slabs.Slab(rows=rows), rows, flow.U, flow.U)
-        gas = make()
 
-        def start(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
-            rho, v, u, T = (q.reshape(y.shape) for q in flow.start(y.ravel()/rows + 0.5))
-            return rho, u, v, T
-
-        def residuals(data: np.ndarray) -> Residuals:
-            T, s = temperature(gas.scene.eos, data[RHO], data[E]).ravel(), places(gas, E)[:, 1]/rows + 0.5
-            return slabs.compared(flow, np.ones(T.size), s, data[VX].ravel(), T)
-        return solved(make, start, flow.time*rows, residuals, slabs.known(flow))
-
-
-VORTEX, WAVE = OnVortex(), OnWave()
-SLABS = {scene: OnSlab(flow) for scene, flow in FLOWS.items()}
+def seen(scene: RayleighBenard, done: pypde.Solution) -> Fields:
+    """Fields of a solution, places in heights."""
+    x, y, vx, vy, T = (done.fields[name].ravel() for name in ("x", "y", "v_x", "v_y", "T"))
+    one = np.ones_like(T)
+    return Fields(np.stack([x, y], axis=1)/scene.L, np.stack([vx, vy], axis=1), one, T, one)

@@ -7,7 +7,6 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from scipy.special import stdtrit
 
-from studies.kit.stats import Measured
 from studies.kit.timing import REPEATS, SPREAD_TO_ERR
 
 T = TypeVar("T")
@@ -22,27 +21,19 @@ STATUS, FORGET = Path("/proc/self/status"), Path("/proc/self/clear_refs")
 
 
 class Timed(NamedTuple):
-    """Median of repeats, half width of its 95 % interval, median of the first and of the last of them (a half, rounded down)."""
+    """Median of repeats and half width of its 95 % interval."""
     value: float
     err: float
-    early: float
-    late: float
 
     def times(self, factor: float) -> "Timed":
         """All of it, as often."""
         return Timed(*(factor*number for number in self))
 
-    @property
-    def measured(self) -> Measured:
-        return Measured(self.value, self.err)
-
 
 def timed(seconds: Sequence[float], to_err: float) -> Timed:
-    """Repeats in the order in which they came; to_err: half of their interquartile range to the error of their median."""
-    half = len(seconds)//2
+    """to_err: half of the interquartile range of repeats to the error of their median."""
     low, middle, high = np.percentile(seconds, [25, 50, 75])
-    early, late = (float(np.median(part)) for part in (seconds[:half], seconds[-half:]))
-    return Timed(float(middle), to_err*float(high - low)/2, early, late)
+    return Timed(float(middle), to_err*float(high - low)/2)
 
 
 def took(f: Callable[[], Any], clock: Callable[[], float] = process_time) -> float:

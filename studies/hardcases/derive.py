@@ -20,7 +20,7 @@ from studies.hardcases.scenes import BOXES, LAYERS, ROWS, SOUND, Strip
 from studies.hardcases.tubes import CELL_NUMBER, FINE, STEPS
 from studies.kit.fits import line
 from studies.kit.stats import Measured, combine, over_seeds
-from studies.kit.table import Tables
+from studies.kit.table import Tables, groups
 
 Rows = Iterator[dict[str, Any]]
 SETTLED = 0.3           # part of the time from the shock to its return that the ripple takes to grow steadily
@@ -67,11 +67,15 @@ def ripple(run: pd.DataFrame, theory: Impulse) -> tuple[Measured, Measured, Meas
     """
     before = run[run["time"] < theory.meets]
     late = run[run["time"] > theory.meets + SETTLED*(theory.back - theory.meets)]
-    up, down = (line(part["time"], part["height"]).slope for part in (late, before))
-    growth = line(late["time"], late["amplitude"]).slope
+    up, down, growth = slope(late, "height"), slope(before, "height"), slope(late, "amplitude")
     since = float(late["time"].mean() - theory.meets)
     amplitude = Measured(float(late["amplitude"].mean()) - growth.value*since, growth.err*since)
     return (up - down)/theory.kick, amplitude/theory.amplitude, growth/theory.growth
+
+
+def slope(run: pd.DataFrame, name: str) -> Measured:
+    """Of a column in time."""
+    return line(run["time"].to_numpy(), run[name].to_numpy()).slope
 
 
 # --- the highest Ra -------------------------------------------------------------------------------
@@ -187,15 +191,15 @@ def known(ratio: Measured) -> str:
 def of_tubes(tubes: pd.DataFrame) -> Rows:
     """Shock tubes by viscosity, usual step: how much v rings in the longest, or that one ended."""
     tubes = tubes[(tubes["step"] == STEPS[0]) & (tubes["method"] != FINE)]
-    for (method, eta), rows in tubes.groupby(["method", "eta"]):
+    for (method, eta), rows in groups(tubes, ["method", "eta"]):
         variant, longest = f"eta {eta:g}", rows[rows["L"] == rows["L"].max()]
         ring, error = longest["wiggles"], longest["v_grid" if eta else "v_exact"].mean()
         if rows["reached"].min() < 1:
-            yield entry("shock tube", method, variant, "diverges", PART_OF_TIME, rows["reached"].min())
+            yield entry("shock tube", str(method), variant, "diverges", PART_OF_TIME, rows["reached"].min())
         else:
             verdict = "right" if max(ring.mean(), error) <= NEAR else "wrong"
-            yield entry("shock tube",
-                        method, variant, verdict, "ringing of v", ring.mean(), float(np.ptp(ring))/2, 0.0)
+            yield entry("shock tube", str(method),
+                        variant, verdict, "ringing of v", ring.mean(), float(np.ptp(ring))/2, 0.0)
 
 
 def of_smooth_tubes(tubes: pd.DataFrame) -> Rows:

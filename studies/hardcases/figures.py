@@ -68,7 +68,7 @@ def cell(axes: Any, x: int, y: int, row: pd.Series) -> None:
 
 def heading(case: str, runs: pd.DataFrame) -> str:
     """A case, and rows of the grid that it is held against."""
-    grids = finished_grids(runs, case).index if case in LAYERS else []
+    grids = list(finished_grids(runs, case).index) if case in LAYERS else []
     return case.replace(" ", "\n", 1) + (f"\ngrid of {max(grids)}" if len(grids) else "")
 
 

@@ -19,8 +19,8 @@ def shocks(profiles: pd.DataFrame, ripples: pd.DataFrame) -> Figure:
     """Above: density and velocity in the longest tube without and with viscosity. Below: the ripple in time.
     """
     page, (above, (height, amplitude)) = figure(2, 2, width=4.4, height=3.2)
-    for axes, (eta, rows) in zip(above, profiles.groupby("eta"), strict=False):
-        tube(axes, rows.sort_values("x"), float(eta))
+    for axes, eta in zip(above, sorted(set(profiles["eta"])), strict=False):
+        tube(axes, profiles[profiles["eta"] == eta].sort_values("x"), eta)
     for number, (_, group) in enumerate(ripples.groupby(["steep", "scale"])):
         ripple(height, amplitude, group, {**look(number), "marker": ""})
     expected(height, amplitude, ripples)

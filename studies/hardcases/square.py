@@ -85,7 +85,8 @@ class Neighbours:
         """x (points, 2): n particles of the fluid first, then images."""
         bulk = x[:n][np.abs(x[:n, 1]) < SIDE/2 - RANGE]
         tree = cKDTree(x)
-        _, first, second = tree.query(bulk, 3)[0].T
+        distances, _ = tree.query(bulk, 3)
+        _, first, second = np.asarray(distances).T
         return cls(first, second, tree.query_ball_point(bulk, SHARED, return_length=True) - 1)
 
     @property

@@ -1,6 +1,6 @@
 """The figures of a study: of each its name, the tables that it is drawn from, and the function that draws it."""
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import Any, NamedTuple
+from collections.abc import Callable
+from typing import NamedTuple
 
 from matplotlib.figure import Figure
 
@@ -40,35 +40,6 @@ class Drawings:
         """The figures for which there are rows."""
         pages = {drawing.name: drawing.page(tables) for drawing in self.drawings}
         return {name: page for name, page in pages.items() if page is not None}
-
-
-class Joined:
-    """The figures of several parts; of a part that gives a plain function the tables are not known."""
-
-    def __init__(self, parts: Iterable[Callable[[Tables], Mapping[str, Any]]]):
-        self.parts = tuple(parts)
-
-    @property
-    def drawings(self) -> Iterator[Drawing | Overview]:
-        """Of all parts that list them."""
-        for part in self.parts:
-            yield from getattr(part, "drawings", ())
-
-    def __call__(self, tables: Tables) -> dict[str, Any]:
-        """The figures for which there are rows.
-
-        Raises
-        ------
-        ValueError
-            Two of them have one name.
-        """
-        pages: dict[str, Any] = {}
-        for part in self.parts:
-            for name, page in part(tables).items():
-                if name in pages:
-                    raise ValueError(f"two figures of one study are called {name!r}: give one of them another name")
-                pages[name] = page
-        return pages
 
 
 def caption(drawing: Drawing | Overview) -> str:

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from studies.kit.case import Case
 from studies.kit.claim import Claim
-from studies.kit.drawing import Joined
+from studies.kit.drawing import Drawing, Overview
 from studies.kit.table import Rows, Table, Tables
 
 T = TypeVar("T")
@@ -67,3 +67,21 @@ def derived(parts: Iterable[Part], tables: Tables) -> Rows:
         once("derived tables", ((name, name) for name in [*rows, *new]))
         rows.update(new)
     return rows
+
+
+class Joined:
+    """The figures of parts. drawings : of those parts that list them; of a plain function the tables are unknown."""
+
+    def __init__(self, figures: Iterable[Callable[[Tables], Mapping[str, Figure]]]):
+        self.figures = tuple(figures)
+
+    @property
+    def drawings(self) -> tuple[Drawing | Overview, ...]:
+        """Each figure with the tables that it is drawn from."""
+        return tuple(drawing for one in self.figures for drawing in getattr(one, "drawings", ()))
+
+    def __call__(self, tables: Tables) -> dict[str, Figure]:
+        """The figures for which there are rows."""
+        pairs = [pair for one in self.figures for pair in one(tables).items()]
+        once("figures", pairs)
+        return dict(pairs)

@@ -13,7 +13,7 @@ import pandas as pd
 from studies.kit import provenance
 from studies.kit.csvfile import DIGITS, read, write
 
-__all__ = ["SIZES", "Rows", "Table", "Tables", "changed", "check_size", "merge", "read"]
+__all__ = ["SIZES", "Rows", "Table", "Tables", "changed", "check_size", "groups", "merge", "read"]
 
 SIZES = ("quick", "paper", "fine")
 #: columns that a row may have besides those of its table
@@ -49,6 +49,11 @@ class Tables(dict[str, pd.DataFrame]):
 
     def __missing__(self, name: str) -> pd.DataFrame:
         raise KeyError(f"no table {name!r} among {', '.join(self) or 'none'}: list it in the study's tables")
+
+
+def groups(frame: pd.DataFrame, by: str | list[str]) -> list[tuple[Any, pd.DataFrame]]:
+    """(value, its rows), values ascending."""
+    return list(frame.groupby(by))
 
 
 def check_size(size: str) -> str:

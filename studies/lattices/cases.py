@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 
 from continuum.fluid import DenseFluid, IdealGas, VanDerWaals
-from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4
+from particles.weights import Lucy, Monaghan, Weight, WendlandC2, WendlandC4
 from studies.kit.case import Case
 from studies.lattices.crystals import Crystal, Growth, Moduli, Onset
 from studies.lattices.freezing import Fate, Freezing
@@ -14,7 +14,7 @@ from studies.lattices.molecules import METHODS, Reversal, Twins
 from studies.lattices.sound import Ringing, Speed
 from studies.lattices.waves import CELLS
 
-WEIGHTS = (Lucy, Monaghan, WendlandC2)
+WEIGHTS: tuple[type[Weight], ...] = (Lucy, Monaghan, WendlandC2)
 WIDEST = 24.0           # range whose modulus is summed
 HEXAGONAL = Crystal(lattice="hexagonal", cells=(14, 8), weight=Lucy, h=3.0, eos=IdealGas())
 SQUARE = replace(HEXAGONAL, lattice="square", cells=(15, 15))
@@ -61,8 +61,8 @@ def onsets() -> Iterator[Case]:
     """In the range of the weight, and in the temperature of van der Waals fluids."""
     for crystal, weight, stable, unstable in UNSTABLE_RANGES:
         yield Onset(crystal=replace(crystal, weight=weight), parameter="h", stable=stable, unstable=unstable)
-    for (weight, h), rho in product(((Lucy, 2.5), (WendlandC2, 2.5), (WendlandC4, 3.0)), (1.0, 1.2)):
-        crystal = replace(COLD, weight=weight, h=h, rho=rho)
+    for (kind, h), rho in product(((Lucy, 2.5), (WendlandC2, 2.5), (WendlandC4, 3.0)), (1.0, 1.2)):
+        crystal = replace(COLD, weight=kind, h=h, rho=rho)
         yield Onset(crystal=crystal, parameter="T", stable=0.4, unstable=0.15)
 
 

@@ -1,5 +1,6 @@
 """What KHP95 say of smooth particles as lattices and molecules, and how it turned out."""
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from studies.kit.stats import over_seeds as mean_of
 from studies.kit.table import Tables
 
 #: the layer of Fig. 4 that most is asked of
-GAS = {"eos": "IdealGas", "weight": "Lucy", "ra": 3000.0, "step": 1.0}
+GAS: dict[str, Any] = {"eos": "IdealGas", "weight": "Lucy", "ra": 3000.0, "step": 1.0}
 SHORT = 0.25        # of the step of other studies
 #: relative difference of what was measured from what lattice sums say
 DIFFERENCE = "abs(measured/predicted - 1)"

@@ -100,7 +100,7 @@ def freezing(rows: pd.DataFrame, limits: pd.DataFrame) -> Figure:
         errorbar(left, some["P"].tolist(), some["flow"].tolist(), some["flow_err"].tolist(), number=number, label=label)
         right.plot(some["P"], some["lindemann"], **{**look(number), "linestyle": "none"})
         for name, style in (("melting", "--"), ("barrier", ":")):
-            at = float(limits.loc[[layer], name].mean())
+            at = float(limits.loc[[layer]][name].mean())
             left.axvline(at, color=look(number)["color"], linestyle=style, linewidth=0.9)
     left.set(xscale="log", ylabel="K of mean flow / grid's, smoothed")
     right.set(xscale="log", ylabel="fluctuation of distances", ylim=(0, None))

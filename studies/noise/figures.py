@@ -70,9 +70,9 @@ def steps(rows: pd.DataFrame) -> Figure:
 def modes(rows: pd.DataFrame) -> Figure:
     """Variance of each plane wave of a gas at rest on jittered points over its exact value."""
     page, panels = figure(1, 4, width=2.6, height=3.0, sharey=True)
-    for axes, field in zip(panels, ("rho", "u", "v", "T"), strict=True):
+    for number, (axes, field) in enumerate(zip(panels, ("rho", "u", "v", "T"), strict=True)):
         some = rows[rows["field"] == field]
-        errorbar(axes, *columns(some, "wavenumber", "ratio", "ratio_err"))
+        errorbar(axes, *columns(some, "wavenumber", "ratio", "ratio_err"), number=number)
         axes.axhline(1, color="black", lw=1)
         axes.set(title=field, xlabel="$ka$")
     panels[0].set_ylabel("variance / exact")
@@ -133,7 +133,7 @@ def temperature(states: pd.DataFrame) -> Figure:
 def cylinder(flow: pd.DataFrame, drag: pd.DataFrame) -> Figure:
     """Mean stream of dissipative particles past a cylinder of frozen ones, one of a square array.
 
-    Its drag is that of a smooth cylinder in slow flow but for slip, and for 2 % that inertia adds.
+    The published drag of a smooth cylinder is that of slow flow; inertia adds about 2 % to it here.
     """
     page, axes = figure(width=5.4, height=4.4)
     u, v = (flow.pivot(index="y", columns="x", values=name) for name in ("u", "v"))

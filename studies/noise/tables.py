@@ -40,8 +40,8 @@ ERRORS = Table("errors", key=["integrator", "a", "temperature"], columns=[
 SHEAR = Table("shear", key=[*FLUID, "rate"], columns=[
     *FLUID, "rate", "n", "time", "viscosity", "viscosity_err", "kinetic", "kinetic_err"])
 #: a stream past a cylinder; inside and outside (`fluid`): density of free particles
-CYLINDER = Table("cylinder", key=["side", "dt"], columns=[
-    "side", "dt", "n", "held", "time", "push", "speed", "speed_err", "force", "inside", "fluid"])
+CYLINDER = Table("cylinder", key=FLUID, columns=[
+    *FLUID, "n", "held", "time", "push", "speed", "speed_err", "force", "inside", "fluid"])
 #: velocity over the mean one in squares of the cell, places in radii
 FLOW = Table("flow", key=["x", "y"], columns=["x", "y", "u", "v"])
 #: drag of the cylinder over eta times speed and depth; ratio: to the published one of slow flow

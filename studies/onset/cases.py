@@ -18,8 +18,8 @@ from studies.kit.study import Part
 from studies.onset import tables as onset_tables
 from studies.onset.claims import ONSET_CLAIMS
 from studies.onset.derive import derive
-from studies.onset.figures import figures
-from studies.onset.growth import LINES, Energies, Growth, GrowthRun, LinearTheory, SpamGrowth
+from studies.onset.figures import FIGURES
+from studies.onset.runs import LINES, Energies, Growth, GrowthRun, LinearTheory, SpamGrowth
 
 LAYER: dict[str, Any] = {"aspect": 2.0, "sides": Periodic()}
 SQUARE: dict[str, Any] = {"aspect": 1.0, "sides": Walls()}
@@ -130,5 +130,4 @@ def fine() -> Iterator[Case]:
         yield from particles(1e-4, rows, FROZEN)
 
 
-PART = Part(cases=cases, tables=onset_tables.ALL, derive=derive, figures=figures,
-              claims=ONSET_CLAIMS)
+PART = Part(cases=cases, tables=onset_tables.ALL, derive=derive, figures=FIGURES, claims=ONSET_CLAIMS)

@@ -4,13 +4,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
-from scipy.special import stdtrit
 
-from continuum.richardson import richardson
+from studies.kit import fits
 from studies.kit.stats import Measured, combine
 from studies.kit.table import Tables
-from studies.onset.digits import figures_given
-from studies.onset.growth import BOX_NAMES, LINES
+from studies.onset.runs import BOX_NAMES, LINES
 from studies.onset.tables import POINT
 
 Rows = dict[str, list[dict[str, Any]]]
@@ -42,12 +40,13 @@ def derive(tables: Tables) -> Rows:
         single = tables["energies"][np.isfinite(tables["energies"]["resolution"])]
         limits = list(extrapolated_energies(single))
         lines = list(all_lines(single, pd.DataFrame(limits, columns=single.columns)))
-        critical += [critical_row(line, line["ra_c"], line["err"], way="line", reach=line["reach"], lines=line["lines"])
-                     for line in lines]
-    known = tables["critical_ra"][tables["critical_ra"]["method"] == "linear"] if "critical_ra" in tables else pd.DataFrame()
-    everything = pd.concat([known, pd.DataFrame(critical)], ignore_index=True)
-    given = list(figures_given(everything)) if len(everything) else []
-    return {"energies": limits, "lines": lines, "critical_ra": critical, "figures": given}
+        critical += [of_line(line) for line in lines]
+    return {"energies": limits, "lines": lines, "critical_ra": critical}
+
+
+def of_line(line: dict[str, Any]) -> dict[str, Any]:
+    """Row of `critical_ra` of a row of `lines`."""
+    return critical_row(line, line["ra_c"], line["err"], way="line", reach=line["reach"], lines=line["lines"])
 
 
 def critical_row(at: Any, value: float, err: float, *, way: str, reach: float = 0.0, ke_start: float = 0.0,
@@ -131,9 +130,9 @@ def middle_crossing(ra: np.ndarray, sigma: np.ndarray) -> float:
 
 
 def limit(rows: list[dict[str, Any]]) -> Measured:
-    """Extrapolated over grids."""
-    found = richardson([row["value"] for row in rows], [row["resolution"] for row in rows])
-    return Measured(found.limit, found.error + 3*max(row["err"] for row in rows))
+    """Extrapolated over grids; errors of each grid's own are added."""
+    value, err = fits.grid_limit([row["resolution"] for row in rows], [row["value"] for row in rows])
+    return Measured(value, err + 3*max(row["err"] for row in rows))
 
 
 def small_differences(critical: pd.DataFrame) -> Iterator[dict[str, Any]]:
@@ -142,9 +141,9 @@ def small_differences(critical: pd.DataFrame) -> Iterator[dict[str, Any]]:
     for _, group in rows.groupby(["method", "eos", "transport", "sides"]):
         group = group.sort_values("dT")
         if len(group) > 2:
-            found = richardson(group["value"].tolist(), (1/group["dT"]).tolist())
-            yield critical_row({**group.iloc[0].to_dict(), "dT": 0.0}, found.limit, found.error + group["err"].max(),
-                               way="operator")
+            value, err = fits.grid_limit(1/group["dT"], group["value"])
+            at = {**group.iloc[0].to_dict(), "dT": 0.0}
+            yield critical_row(at, value, err + group["err"].max(), way="operator")
 
 
 # --- lines ------------------------------------------------------------------------------------------------
@@ -154,7 +153,7 @@ def extrapolated_energies(energies: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """Ra and K at each share, over three grids or more with the same rolls."""
     for _, group in energies.groupby([*SERIES, "share"], dropna=False):
         if len(group) > 2 and group["rolls"].nunique() == 1:
-            ra, ke = (richardson(group[name].tolist(), group["resolution"].tolist()).limit for name in ("ra", "ke"))
+            ra, ke = (fits.grid_limit(group["resolution"], group[name]).value for name in ("ra", "ke"))
             same = {name: group[name].iloc[-1] for name in (*SERIES, "share", "rolls")}
             yield {**same, "resolution": np.inf, "ra": ra, "ke": ke}
 
@@ -183,23 +182,23 @@ def line_row(at: dict[Any, Any], share: float, size: float, line: Line, lines: s
 
 
 def straight(points: pd.DataFrame) -> Line:
-    """Least squares."""
-    x, K = points["ra"].to_numpy()**-0.5, points["ke"].to_numpy()
-    (slope, intercept), cov = np.polyfit(x, K, 1, cov=True)
-    residual = np.abs(K - slope*x - intercept).max()/K.max()
-    # of (slope/intercept)^2, to first order, at 95 %
-    toward = 2*(slope/intercept)**2*np.array([1/slope, -1/intercept])
-    wide = stdtrit(len(x) - 2, 0.975)*np.sqrt(toward@cov@toward)
-    return Line(float(slope), float(intercept), float(wide), float(residual), len(x))
+    """Least squares; err is that of (slope/intercept)^2, to first order, at 95 %."""
+    fit = fits.line(points["ra"]**-0.5, points["ke"])
+    intercept, slope = fit.coefficients
+    toward = 2*(slope/intercept)**2*np.array([-1/intercept, 1/slope])
+    residual = np.abs(fit.residuals).max()/points["ke"].max()
+    return Line(float(slope), float(intercept), fit.along(toward).err, float(residual), len(points))
 
 
 def without_grid(lines: dict[float, Line]) -> Line:
     """Slopes and intercepts linear in L^-2, L in cells; err is that of the lines and what the coarsest grid changes."""
-    sizes, found = np.array(list(lines)), list(lines.values())
-
-    def extrapolated(first: int) -> Line:
-        slope, intercept = (np.polyfit(sizes[first:]**-2.0, [getattr(line, name) for line in found[first:]], 1)[1]
-                            for name in ("slope", "intercept"))
-        return Line(float(slope), float(intercept), found[-1].err, found[-1].residual, found[-1].points)
-    line, other = extrapolated(0), extrapolated(1)
+    line, other = extrapolated(lines), extrapolated(dict(list(lines.items())[1:]))
     return line._replace(err=float(np.hypot(line.err, abs(line.ra_c - other.ra_c))))
+
+
+def extrapolated(lines: dict[float, Line]) -> Line:
+    """The line at L^-2 = 0; what else it has is the finest grid's."""
+    x, finest = np.array(list(lines))**-2.0, list(lines.values())[-1]
+    slope, intercept = (np.polyfit(x, [getattr(line, name) for line in lines.values()], 1)[1]
+                        for name in ("slope", "intercept"))
+    return finest._replace(slope=float(slope), intercept=float(intercept))

@@ -6,11 +6,12 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from studies.build.axes import ENERGY, ra_axis
+from studies.kit.drawing import Drawings, Overview
 from studies.kit.figure import COLOURS, MARKERS, below, errorbar, figure, look
 from studies.kit.stats import combine
 from studies.kit.table import Tables
 from studies.onset.tables import ALL
-from studies.rb.looks import ENERGY, ra_axis
 
 COLUMNS = {table.name: table.columns for table in ALL}
 GAS = {"method": "compressible", "eos": "ideal", "transport": "const-eta", "dT": 1.0, "sides": "periodic"}
@@ -37,12 +38,6 @@ def rows(tables: Tables, name: str, **wanted: Any) -> pd.DataFrame:
     if frame is None:
         return pd.DataFrame(columns=list(COLUMNS[name]))
     return frame[np.logical_and.reduce([np.ones(len(frame), bool), *(frame[key] == value for key, value in wanted.items())])]
-
-
-def figures(tables: Tables) -> dict[str, Figure]:
-    """The figures for which there are rows."""
-    drawn = {"growth": growth(tables), "line": line(tables), "figures_given": figures_given(tables)}
-    return {name: page for name, page in drawn.items() if page is not None}
 
 
 # --- growth rates -----------------------------------------------------------------------------------------
@@ -157,45 +152,5 @@ def zeros(axes: Axes, tables: Tables) -> None:
     axes.legend(title=r"bars at $L \to \infty$: 95 %, scatter about the line", title_fontsize=8)
 
 
-# --- figures ----------------------------------------------------------------------------------------------
-
-
-#: words that a way begins with -> title of its block
-BLOCKS = {"growth rates": "growth rates of weakest disturbances", "K line": "where a straight line through $K$ is zero",
-          "runs": "growth in runs, from rolls of energy $K$"}
-#: solver -> label, look; the gases, ideal and van der Waals with constant eta and nu, have one
-SOLVERS = {"boussinesq": ("Boussinesq fluid", look(0)), "pypde-boussinesq": ("Boussinesq fluid, py-pde", look(5)),
-           "compressible": (r"gases: ideal or van der Waals, $\eta$ or $\nu$ constant", look(1)),
-           "pypde-compressible": ("the same gases, py-pde", look(3)), "printed": ("particles as printed", look(4)),
-           "less-static-90": ("particles, a tenth of the static pressure", look(7))}
-
-
-def figures_given(tables: Tables) -> Figure | None:
-    """Correct figures of Ra_c by each way, in blocks, the best above."""
-    found = rows(tables, "figures", sides="periodic")
-    found = found[found["dT"].isin([0.0, 1.0])]
-    if found.empty:
-        return None
-    found = found.assign(solver=found["variant"].where(found["method"] == "spam", found["method"]))
-    lines = blocks(found)
-    page, axes = figure(width=7.5, height=2.4 + 0.28*len(lines))
-    for number, (name, (label, style)) in enumerate(SOLVERS.items()):
-        part = found[found["solver"] == name]
-        aside = 0.6*((number + 0.5)/len(SOLVERS) - 0.5)        # marks of one way under each other, not on each other
-        axes.plot(part["figures"], [lines.index(way) + aside for way in part["way"]], label=label,
-                  **style | {"linestyle": "none", "markerfacecolor": "none"})
-    axes.axvline(-np.log10(0.05/1708), color="black", linestyle="--", marker="", label="five significant figures of 1708")
-    axes.set_yticks(range(len(lines)), labels=[way.replace("Ra_c", "Ra$_c$") for way in lines], fontsize=8)
-    for tick, way in zip(axes.get_yticklabels(), lines):
-        tick.set_fontweight("bold" if way in BLOCKS.values() else "normal")
-    axes.set(ylim=(len(lines) - 0.4, -0.6), title="How many figures of the critical Ra does each way give?")
-    axes.set_xlabel(r"correct figures of Ra$_c$:  $-\log_{10}$ of the relative error")
-    below(axes, ncols=2, bbox_to_anchor=(0.3, -0.1))
-    return page
-
-
-def blocks(found: pd.DataFrame) -> list[str]:
-    """Titles of blocks and, below each, its ways, the best first."""
-    best = found.groupby("way")["figures"].median().sort_values(ascending=False, kind="stable").index
-    return [line for begin, title in BLOCKS.items() if any(way.startswith(begin) for way in best)
-            for line in (title, *(way for way in best if way.startswith(begin)))]
+#: name of the file, tables that are needed, what draws it
+FIGURES = Drawings(Overview("growth", ("growth_rates",), growth), Overview("line", ("energies", "lines", "critical_ra"), line))

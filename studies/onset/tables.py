@@ -21,8 +21,5 @@ LINES = Table("lines", key=[*POINT, "reach", "lines"],
 #: growth_rates, or `eigenvalue` or `line`; `reach` is 0 but for lines, `ke_start` but for runs
 CRITICAL = Table("critical_ra", key=["method", "quantity"],
                  columns=["method", "quantity", "value", "err", *POINT[1:], "way", "reach", "ke_start"])
-#: correct figures, -log10 of the relative distance from `reference`, or of `err` where that is larger
-FIGURES = Table("figures", key=["way", *POINT[:-1]],
-                columns=["way", *POINT[:-1], "value", "err", "reference", "figures"])
 
-ALL = (GROWTH, ENERGIES, LINES, CRITICAL, FIGURES)
+ALL = (GROWTH, ENERGIES, LINES, CRITICAL)

@@ -1,5 +1,7 @@
 """Rayleigh-Benard convection: do particles converge on the equations of the gas, and what does KHP95 print that holds?"""
-from studies.kit.study import Study
+from studies.kit.study import Part, Study
 from studies.rb import cases
+from studies.rb.runs.arithmetic import SUBJECTS, Arithmetic
 
-STUDY = Study.of("rb", __doc__, (cases.PART,))
+NUMBERS = Part(cases=lambda size: [Arithmetic(subject=subject) for subject in SUBJECTS], tables=())
+STUDY = Study.of("rb", __doc__, (cases.PART, NUMBERS))

@@ -11,6 +11,7 @@ from studies.build.names import one_energy
 from studies.build.spam import VARIANTS
 from studies.kit.stats import combine
 from studies.kit.table import Tables
+from studies.rb.snapshots import field_errors, snapshots
 from studies.rb.tables import POINT
 
 GRIDS = ("compressible", "boussinesq", "pypde-boussinesq", "pypde-compressible")
@@ -30,7 +31,9 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     limits = [*extrapolated(runs), *extrapolated_points(runs)]
     everything = pd.concat([runs, pd.DataFrame(limits)], ignore_index=True) if limits else runs
     means = list(over_seeds(everything))
-    return {"kinetic_energy": limits, "means": means, "errors": list(errors(runs, pd.DataFrame(means), tables))}
+    frame = pd.DataFrame(means)
+    return {"kinetic_energy": limits, "means": means, "errors": list(errors(runs, frame, tables)),
+            "snapshots": list(snapshots(tables)), "field_errors": list(field_errors(tables, frame))}
 
 
 def finite(frame: pd.DataFrame) -> pd.DataFrame:

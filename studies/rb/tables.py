@@ -42,5 +42,18 @@ ERRORS = Table("errors", key=[*POINT, "energy"], columns=[
 #: K of the finest grid's field, and of that field smoothed with a weight of range h spacings, `rows` of them a height
 SMOOTHED = Table("smoothed", key=[*POINT, "weight", "h", "rows"],
                  columns=[*POINT, "weight", "h", "rows", "ke", "ke_smoothed"])
+#: of the particles at the end, first seed: mean number of neighbours in range, first peak of g(r), median of second over
+#: first neighbour distance, particles a site, largest v^2, correlation of accelerations with those of the potential 2 w
+SNAPSHOTS = Table("snapshots", key=POINT, columns=[
+    *POINT, "neighbours", "neighbours_err", "spacing", "spacing_err", "pairing", "pairing_err", "occupancy", "fastest",
+    "newtonian", "newtonian_err"])
+#: mean fields of particles against the finest grid's, rolls aligned: rms difference over places, of velocity over the rms
+#: velocity, of T and rho over the range of the grid's; rho along the plates, seen by the weight and counted in a layer
+FIELD_ERRORS = Table("field_errors", key=POINT, columns=[
+    *POINT, "velocity", "velocity_err", "T", "T_err", "rho", "rho_err", "rho_plates", "rho_plates_err", "rho_layer",
+    "rho_layer_err"])
+#: numbers that need no flow
+ARITHMETIC = Table("arithmetic", key=["quantity"], columns=["quantity", "value", "err"])
 
-ALL = (KINETIC, MEANS, HISTORY, FIELDS, PARTICLES, PROFILES, WALLS, COST, SMOOTHED, ERRORS)
+ALL = (KINETIC, MEANS, HISTORY, FIELDS, PARTICLES, PROFILES, WALLS, COST, SMOOTHED, ERRORS, SNAPSHOTS, FIELD_ERRORS,
+       ARITHMETIC)

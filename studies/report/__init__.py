@@ -1,1 +1,1 @@
-"""One page of everything in results/: findings, verdicts, figures with their tables, cost against error, films."""
+"""One page of what is in results/: findings, verdicts, error against cost, films, figures."""

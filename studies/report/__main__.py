@@ -1,11 +1,13 @@
-"""python -m studies.report [page|films]: results/index.html from what is in results/, or the films that it shows."""
+"""python -m studies.report [page|films]: results/index.html from the tables, or the films that it shows."""
 import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from studies.kit.study import say
 from studies.kit.sweep import RESULTS
-from studies.report.found import NoReport
+from studies.report.inventory import NoReport
+from studies.report.page import write_page
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -16,29 +18,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--only", default="", metavar="TEXT", help="only films with this text in their name")
     words = parser.parse_args(arguments)
     try:
-        for path in films(words.out, words.only) if words.command == "films" else page(words.out):
-            say(f"{path}  {path.stat().st_size/1e6:.2f} MB")
+        paths = films(words.out, words.only) if words.command == "films" else [write_page(words.out)]
     except (NoReport, ValueError) as error:
-        say(f"report: {error}")
-        return 1
+        return say(f"report: {error}", 1)
+    for path in paths:
+        say(f"{path}  {path.stat().st_size/1e6:.2f} MB")
     return 0
 
 
 def films(out: Path, only: str) -> list[Path]:
-    """Loaded when it is asked for: films need the solvers, the page needs none."""
+    """The films with this text in their name; loaded here, as they alone need the solvers."""
     from studies.report.films import make_all
     return make_all(out, only)
-
-
-def page(out: Path) -> list[Path]:
-    """The page alone."""
-    from studies.report.page import write_page
-    return [write_page(out, say)]
-
-
-def say(text: str) -> None:
-    """A message for the user."""
-    print(text, file=sys.stderr, flush=True)
 
 
 if __name__ == "__main__":

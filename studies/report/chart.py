@@ -1,22 +1,21 @@
-"""A panel of error against cost as SVG: readable without scripts, each point with its values for pointer and keyboard."""
+"""A panel of error against cost as SVG: readable without scripts, each point with its values."""
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from studies.report.cost import Panel, Point, Series
 
 WIDTH, HEIGHT = 760, 440
 LEFT, RIGHT, TOP, BOTTOM = 66, 18, 16, 50
 #: paths of marks around (0, 0); colours are classes c0 to c7 of the style sheet
-MARKS = ("M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0z", "M-4.5,-4.5h9v9h-9z", "M0,-6L5.5,4.5H-5.5z", "M0,-6.5L5.5,0L0,6.5L-5.5,0z",
-         "M0,6L5.5,-4.5H-5.5z", "M-2,-5.5h4v3.5h3.5v4h-3.5v3.5h-4v-3.5h-3.5v-4h3.5z",
-         "M-6,0L4.5,-5.5V5.5z", "M0,-6.5L1.8,-2H6.2L2.8,1L4,5.8L0,3.2L-4,5.8L-2.8,1L-6.2,-2H-1.8z")
+MARKS = ("M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0z", "M-4.5,-4.5h9v9h-9z", "M0,-6L5.5,4.5H-5.5z",
+         "M0,-6.5L5.5,0L0,6.5L-5.5,0z", "M0,6L5.5,-4.5H-5.5z",
+         "M-2,-5.5h4v3.5h3.5v4h-3.5v3.5h-4v-3.5h-3.5v-4h3.5z", "M-6,0L4.5,-5.5V5.5z",
+         "M0,-6.5L1.8,-2H6.2L2.8,1L4,5.8L0,3.2L-4,5.8L-2.8,1L-6.2,-2H-1.8z")
 DASHES = ("", "6 3", "8 3 2 3", "2 3", "10 3", "4 2", "1 2", "12 4")
 
 
-@dataclass(frozen=True)
-class Scale:
+class Scale(NamedTuple):
     """A logarithmic axis from low to high onto pixels."""
-
     low: float
     high: float
     start: float
@@ -24,8 +23,9 @@ class Scale:
 
     def __call__(self, value: float) -> float:
         """Pixels; what lies outside stays on the edge."""
-        at = (math.log(max(value, 1e-300)) - math.log(self.low))/(math.log(self.high) - math.log(self.low))
-        return round(self.start + min(max(at, 0.0), 1.0)*(self.end - self.start), 1)
+        inside = min(max(value, self.low), self.high)
+        share = math.log(inside/self.low)/math.log(self.high/self.low)
+        return round(self.start + share*(self.end - self.start), 1)
 
     @property
     def ticks(self) -> list[tuple[float, float]]:
@@ -36,22 +36,18 @@ class Scale:
         return [(value, self(value)) for value in values if self.low <= value <= self.high]
 
 
-@dataclass(frozen=True)
-class Mark:
+class Mark(NamedTuple):
     """A point on the page: its place, the ends of its bars and its words."""
-
     x: float
     y: float
     bar: tuple[float, float]
     wide: tuple[float, float] | None
     hollow: bool
-    told: list[str]
+    words: list[str]
 
 
-@dataclass(frozen=True)
-class Curve:
+class Curve(NamedTuple):
     """A series on the page."""
-
     label: str
     usual: bool
     colour: int
@@ -61,34 +57,39 @@ class Curve:
     marks: list[Mark]
 
 
-@dataclass(frozen=True)
-class Chart:
+class Chart(NamedTuple):
     """A panel on the page."""
-
     x: Scale
     y: Scale
     curves: list[Curve]
 
 
 def chart(panel: Panel) -> Chart:
-    """Places of everything; axes hold all seconds, errors up to a few times those of the usual series (others on the edge)."""
+    """Places of everything; axes hold all seconds and the errors of usual series, others lie on the edge."""
     points = [point for series in panel.series for point in series.points]
-    seconds, sizes = [point.cpu_s for point in points], [point.size for point in points if point.size > 0]
-    usual = [point.size for series in panel.series if series.usual for point in series.points]
+    seconds, sizes = [point.cpu_s for point in points], sizes_of(panel.series)
+    usual = sizes_of([series for series in panel.series if series.usual])
+    low, high = max(0.6*min(sizes), 0.2*min(usual)), min(1.6*max(sizes), 2*max(usual))
     x = Scale(0.7*min(seconds), 1.4*max(seconds), LEFT, WIDTH - RIGHT)
-    y = Scale(max(0.6*min(sizes), 0.2*min(filter(None, usual))), min(1.6*max(sizes), 2*max(usual)), HEIGHT - BOTTOM, TOP)
+    y = Scale(low, high, HEIGHT - BOTTOM, TOP)
     return Chart(x, y, [curve(number, series, x, y) for number, series in enumerate(panel.series)])
 
 
+def sizes_of(series: list[Series]) -> list[float]:
+    """Errors that a logarithmic axis can show."""
+    return [point.size for one in series for point in one.points if point.size > 0]
+
+
 def curve(number: int, series: Series, x: Scale, y: Scale) -> Curve:
-    """A series and its look."""
+    """A series and its look: after eight the marks shift by one against the colours."""
     marks = [mark(point, x, y) for point in series.points]
     line = "M" + "L".join(f"{one.x},{one.y}" for one in marks)
-    return Curve(series.label, series.usual, number % 8, MARKS[(number + number//8) % len(MARKS)],
-                 DASHES[number % len(DASHES)], line, marks)
+    look = MARKS[(number + number//8) % len(MARKS)]
+    return Curve(series.label, series.usual, number % 8, look, DASHES[number % len(DASHES)], line, marks)
 
 
 def mark(point: Point, x: Scale, y: Scale) -> Mark:
     """A point and its bars."""
-    wide = (x(point.fast), x(point.slow)) if point.slow > point.cpu_s else None
-    return Mark(x(point.cpu_s), y(point.size), (y(point.low), y(point.high)), wide, not point.above, point.told)
+    bar = y(point.size - point.err), y(point.size + point.err)
+    wide = (x(point.cpu_s - point.spread), x(point.cpu_s + point.spread)) if point.spread else None
+    return Mark(x(point.cpu_s), y(point.size), bar, wide, not point.above, point.words)

@@ -1,24 +1,22 @@
-"""Error against CPU seconds, from every table that has both: panels of series of points, and what an error costs.
+"""Error against CPU seconds, from every table that has both: panels of series, and what errors cost.
 
-A table takes part if it has the columns of NEEDED; those of SCENE name its panels, those of SERIES the series within. What a
-level of error costs is read from the study's table `needed` where it has one.
+A table takes part if it has the columns of REQUIRED; those of SCENE name its panels, those of SERIES its
+series. What a level of error costs is read from the study's table `needed` where it has one.
 """
 import math
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
 
-from studies.rb.figures.names import METHODS, WORDS
-from studies.rb.looks import LABELS
-from studies.report.behind import plain
-from studies.report.found import Part, Sheet
-from studies.report.needs import Need, given, needed_of, needs
+from studies.rb.figures.names import METHODS
+from studies.report.inventory import Part, Sheet
+from studies.report.levels import Need, by_runs, by_table, needed_of
 from studies.report.numbers import percent, seconds, short
 
-NEEDED = {"method", "resolution", "error", "error_err", "cpu_s"}
+REQUIRED = {"method", "resolution", "error", "error_err", "cpu_s"}
 SCENE = ("scene", "eos", "transport", "sides", "ra", "pr", "quantity")
 SERIES = ("method", "variant", "weight", "integrator", "energy")
 #: of the scene, not said where it is as in most rows
@@ -31,30 +29,43 @@ LEAST, MOST = 3, 8
 FAMILIES = ("compressible", "MAC", "DIH lattice", "DIH Delaunay", "moving", "SPAM", "py-pde")
 #: levels at which members of a family are compared: the first that one of them reaches
 DECIDE = (0.01, 0.03, 0.1)
+PRINTED = ("spam", "printed")
 
 
 @dataclass(frozen=True)
 class Point:
-    """A run or the mean of runs: seconds, |error| and their intervals, and what is said about it."""
+    """A run or a mean of runs: seconds, |error|, their intervals, whether it is too large, and words."""
 
     cpu_s: float
+    spread: float
     size: float
-    low: float
-    high: float
-    fast: float
-    slow: float
+    err: float
     above: bool
-    told: list[str]
+    words: list[str]
 
 
 @dataclass(frozen=True)
 class Series:
-    """One method; the usual ones are shown at first. `needs`: level of error -> what it costs, of those that are reached."""
+    """One method; the usual ones are shown at first. needs : level of error -> what it costs."""
 
     label: str
-    usual: bool
+    family: str
     points: list[Point]
     needs: dict[float, Need]
+    usual: bool = False
+
+    @property
+    def rank(self) -> tuple[int, float]:
+        """Less for less seconds at the first level of DECIDE that it reaches, then for less error."""
+        for number, level in enumerate(DECIDE):
+            if level in self.needs:
+                return number, self.needs[level].cpu_s
+        return len(DECIDE), min(point.size for point in self.points)
+
+    @property
+    def place(self) -> tuple[int, tuple[int, float]]:
+        """Its place in the order of families."""
+        return (FAMILIES.index(self.family) if self.family in FAMILIES else len(FAMILIES)), self.rank
 
 
 @dataclass(frozen=True)
@@ -66,31 +77,45 @@ class Panel:
     series: list[Series]
     needed: Sheet | None = None
 
+    @property
+    def scene(self) -> str:
+        """The first words of the title."""
+        return self.title.partition(",")[0]
 
-def panels(found: list[Part]) -> list[Panel]:
-    """All panels, of the scene with most of them first, there those with most series; a study about speed before others."""
-    made = [panel for part in found for sheet in part.sheets for panel in of_sheet(sheet, needed_of(part))]
-    scenes = Counter(panel.title.partition(",")[0] for panel in made)
-    return sorted(made, key=lambda panel: (not panel.sheet.name.startswith("speed/"), -scenes[panel.title.partition(",")[0]],
-                                           -sum(len(series.points) > 2 for series in panel.series), panel.title))
+
+def panels(known: list[Part]) -> list[Panel]:
+    """All panels: the study of cost first, the scene with most panels, the panel with most series."""
+    made = [panel for part in known for sheet in part.sheets for panel in of_sheet(sheet, needed_of(part))]
+    scenes = Counter(panel.scene for panel in made)
+
+    def rank(panel: Panel) -> tuple:
+        long = sum(len(series.points) > 2 for series in panel.series)
+        return (not panel.title.startswith("cost:"), -scenes[panel.scene], -long, panel.title)
+    return sorted(made, key=rank)
 
 
 def of_sheet(sheet: Sheet, needed: Sheet | None = None) -> Iterator[Panel]:
     """Panels of one table, if it is of this kind."""
-    if not set(sheet.frame.columns) >= NEEDED:
+    if not set(sheet.frame.columns) >= REQUIRED:
         return
-    rows = sheet.frame[(sheet.frame["cpu_s"] > 0) & sheet.frame["error"].notna() & np.isfinite(sheet.frame["resolution"])]
-    if "quantity" not in rows:
-        heat = rows.get("energy", pd.Series("", index=rows.index)).eq("Nu")
-        rows = rows.assign(quantity=np.where(heat, "Nusselt number", "kinetic energy"))
+    rows = with_quantity(sheet.frame)
+    rows = rows[(rows["cpu_s"] > 0) & rows["error"].notna() & np.isfinite(rows["resolution"])]
     scenes = [name for name in SCENE if name in rows and (rows[name].nunique() > 1 or name in SAID)]
     common = {name: rows[name].mode().iloc[0] for name in scenes if name in UNSAID}
     for key, group in rows.groupby(scenes, sort=True):
         about = dict(zip(scenes, key))
         series = list(of_panel(group, None if needed is None else where(needed.frame, about)))
         if sum(len(one.points) > 1 for one in series) >= LEAST:
-            words = [named(*pair) for pair in about.items() if common.get(pair[0]) != pair[1]]
+            words = [in_words(name, value) for name, value in about.items() if common.get(name) != value]
             yield Panel(f"{sheet.path.parent.name}: {', '.join(words)}", sheet, series, needed)
+
+
+def with_quantity(rows: pd.DataFrame) -> pd.DataFrame:
+    """Rows with the quantity that is measured, which rb's table tells by its column `energy`."""
+    if "quantity" in rows:
+        return rows
+    heat = rows["energy"].eq("Nu") if "energy" in rows else False
+    return rows.assign(quantity=np.where(heat, "Nusselt number", "kinetic energy"))
 
 
 def where(frame: pd.DataFrame, about: dict) -> pd.DataFrame:
@@ -100,7 +125,7 @@ def where(frame: pd.DataFrame, about: dict) -> pd.DataFrame:
     return frame
 
 
-def named(column: str, value: object) -> str:
+def in_words(column: str, value: object) -> str:
     """A value of the scene's name: numbers with their column."""
     return f"{column.capitalize()} {value:g}" if isinstance(value, float | int) else f"{value}"
 
@@ -111,80 +136,47 @@ def of_panel(group: pd.DataFrame, needed: pd.DataFrame | None = None) -> Iterato
     made = []
     for key, rows in group.groupby(names, sort=True):
         about, rows = dict(zip(names, key)), rows.sort_values("resolution")
-        made.append(Made(about, rows, needs(rows) if needed is None else given(where(needed, about))))
+        needs = by_runs(rows) if needed is None else by_table(where(needed, about))
+        points = [point(row) for row in rows.to_dict("records")]
+        made.append(Series(label(about), family(str(about["method"])), points, needs))
     usual = usual_ones(made)
-    for one in (*usual, *(one for one in made if one not in usual)):
-        yield Series(label(one.about), one in usual, [point(row) for row in one.rows.to_dict("records")], one.needs)
+    yield from (replace(one, usual=True) for one in usual)
+    yield from (one for one in made if one not in usual)
 
 
-@dataclass(frozen=True, eq=False)
-class Made:
-    """A series before it is known whether it is shown at first."""
-
-    about: dict
-    rows: pd.DataFrame
-    needs: dict[float, Need]
-
-    @property
-    def family(self) -> str:
-        """How its method's name begins; of a method that is not known all of it."""
-        name = str(self.about.get("method", ""))
-        return next((start for start in FAMILIES if name.startswith(start)), label(self.about))
-
-    @property
-    def rank(self) -> tuple[int, float]:
-        """Less for less seconds at the first level of DECIDE that it reaches, then for less error."""
-        reached = [(number, self.needs[level].cpu_s) for number, level in enumerate(DECIDE) if level in self.needs]
-        return reached[0] if reached else (len(DECIDE), float(self.rows["error"].abs().min()))
-
-    @property
-    def place(self) -> tuple:
-        """Its place in the order of families."""
-        return (FAMILIES.index(self.family) if self.family in FAMILIES else len(FAMILIES), self.rank)
-
-
-def usual_ones(made: list[Made]) -> list[Made]:
-    """Those that figures of convection know; in other tables the cheapest of each family, and what is as printed."""
-    if known := [one for one in made if is_known(one.about)]:
-        return known
-    best: dict[str, Made] = {}
-    for one in sorted([one for one in made if len(one.rows) > 2] or made, key=lambda one: one.rank):
+def usual_ones(made: list[Series]) -> list[Series]:
+    """The cheapest of each family, and what is as printed."""
+    long = [one for one in made if len(one.points) > 2] or made
+    best: dict[str, Series] = {}
+    for one in sorted(long, key=lambda one: one.rank):
         best.setdefault(one.family, one)
-    chosen = [*best.values(), *(one for one in made if "as printed" in label(one.about) and one not in best.values())]
-    return sorted(chosen[:MOST], key=lambda one: one.place)
+    printed = [one for one in made if "as printed" in one.label and one not in best.values()]
+    return sorted([*best.values(), *printed][:MOST], key=lambda one: one.place)
 
 
-def is_known(about: dict) -> bool:
-    """Whether figures of convection have a look for it."""
-    what = (about.get("method", ""), about.get("variant", ""))
-    return what in METHODS or what == ("spam", "printed")
+def family(method: str) -> str:
+    """How the name of a method begins; of one that is not known all of it."""
+    return next((start for start in FAMILIES if method.startswith(start)), method)
 
 
 def label(about: dict) -> str:
-    """Words for a series."""
-    what = (about.get("method", ""), about.get("variant", ""))
-    energy = LABELS.get(str(about.get("energy", "")).lower(), "") if about.get("method") == "spam" else ""
-    if what in METHODS:
-        words = METHODS[what][0]
-    elif what == ("spam", "printed"):
-        words = "smooth particles as printed"
-    elif what[1] in WORDS:
-        words = f"{WORDS[what[1]]} ({what[1]})"
-    else:
-        words = ", ".join(str(value) for name, value in about.items() if value and name != "energy")
-    return plain(f"{words}: {energy}" if energy else words)
+    """Words for a series: those of the figures of convection where they have some."""
+    method = (about["method"], about.get("variant", ""))
+    if method in METHODS:
+        return METHODS[method][0]
+    words = {**about, "method": "SPAM", "variant": "as printed"} if method == PRINTED else about
+    return ", ".join(str(value) for value in words.values() if value)
 
 
 def point(row: dict) -> Point:
     """From a row of the table."""
     size, err, cpu = abs(row["error"]), finite(row["error_err"]), row["cpu_s"]
     spread = finite(row.get("cpu_s_err", 0.0))
-    told = [f"{short(row['resolution'])} rows" if "ra" in row else f"resolution {short(row['resolution'])}",
-            f"error {percent(row['error'])} ± {100*err:.2g} %",
-            f"{seconds(cpu)} CPU seconds" + (f" ± {spread:.2g}" if spread else "")]
     count = row.get("particles") or row.get("points")
-    told += [f"{short(count)} points"]*bool(count) + [f"commit {row['commit']}"]*bool(row.get("commit"))
-    return Point(cpu, size, max(size - err, 0.0), size + err, max(cpu - spread, 0.0), cpu + spread, row["error"] >= 0, told)
+    words = [f"resolution {short(row['resolution'])}", f"error {percent(row['error'])} ± {100*err:.2g} %",
+             f"{seconds(cpu)} CPU seconds" + (f" ± {spread:.2g}" if spread else "")]
+    words += [f"{short(count)} points"]*bool(count) + [f"commit {row['commit']}"]*bool(row.get("commit"))
+    return Point(cpu, spread, size, err, row["error"] >= 0, words)
 
 
 def finite(value: float) -> float:

@@ -2,7 +2,7 @@
 import math
 
 
-def told(value: float, err: float, times: float = 1.0) -> str:
+def with_error(value: float, err: float, times: float = 1.0) -> str:
     """17.5(15) for 17.5 +- 1.5: the error in units of the last digit, two of its digits where the first is 1.
 
     ``times`` multiplies both, 100 for per cent; without an error four digits.
@@ -15,8 +15,10 @@ def told(value: float, err: float, times: float = 1.0) -> str:
     size = math.floor(math.log10(err))
     digits = 2 if err/10**size < 2 else 1
     places = max(0, digits - 1 - size)
+    if places >= 8:
+        return signed(f"{value:.3g} ± {err:.1g}")
     last = round(err*10**places)
-    return signed(f"{value:.{places}f}({last})") if places < 8 else signed(f"{value:.3g} ± {err:.1g}")
+    return signed(f"{value:.{places}f}({last})")
 
 
 def signed(text: str) -> str:
@@ -30,14 +32,14 @@ def short(value: object) -> str:
         return str(value)
     if math.isnan(value):
         return ""
-    if math.isinf(value):
-        return "∞" if value > 0 else "−∞"
-    return signed(f"{value:.5g}")
+    return signed(f"{value:.5g}").replace("inf", "∞")
 
 
 def seconds(value: float) -> str:
     """CPU seconds with two digits."""
-    return f"{value:.1f}" if 1 <= value < 10 else f"{value:.0f}" if value >= 10 else f"{value:.2g}"
+    if value >= 10:
+        return f"{value:.0f}"
+    return f"{value:.1f}" if value >= 1 else f"{value:.2g}"
 
 
 def percent(value: float) -> str:
@@ -52,4 +54,6 @@ def grouped(value: float) -> str:
 
 def many(words: list[str]) -> str:
     """a, b and c"""
-    return " and ".join([", ".join(words[:-1]), words[-1]]) if len(words) > 1 else "".join(words)
+    if len(words) < 2:
+        return "".join(words)
+    return f"{', '.join(words[:-1])} and {words[-1]}"

@@ -1,100 +1,98 @@
-"""results/index.html: one file with everything in it, from tables, figures and films on disk; no solver is run."""
+"""results/index.html: one file with everything in it, from tables, figures and films; no solver is run."""
 import base64
 import gzip
 import hashlib
 import math
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
-from functools import partial
-from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pandas as pd
 from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescape
 from markupsafe import Markup
 
 from studies.kit.csvfile import write_atomic
-from studies.report import cost, needs
-from studies.report.behind import catalogue, digest
+from studies.kit.drawing import caption
+from studies.report import cost, levels
 from studies.report.chart import HEIGHT, WIDTH, chart
 from studies.report.findings import Known, answer, claims_of, findings
-from studies.report.found import NoReport, Part, Sheet, check_columns, parts, rows_of, sheets_of
-from studies.report.numbers import short, signed, told
-from studies.report.pictures import NEAR, opened, still, webp
-from studies.report.tables import FILMS, ORDER
+from studies.report.inventory import NoReport, Part, Sheet, check_columns, drawings, parts, sheets_of
+from studies.report.numbers import short, signed, with_error
+from studies.report.pictures import films, opened, webp
 
-QUESTION = ("Do fluid particles converge on the continuum equations, at what error, at what cost, and where do they break?")
-#: rows of a table that are in the page as they are; more of them when it is opened, if the file is below EMBED
+QUESTION = ("Do fluid particles converge on the continuum equations, at what error, at what cost, and where "
+            "do they break?")
+#: rows of a table that are in the page; the others are packed into it if the file is below EMBED [bytes]
 ROWS, EMBED = 5, 60_000
 #: what the page may weigh [bytes]
 LIMIT = 7_800_000
 VERDICTS = {"holds": "✓", "fails": "✗", "undecidable": "?"}
 
 
-def write_page(out: Path, say: Callable[[str], None] = lambda text: None) -> Path:
+def write_page(out: Path) -> Path:
     """Write index.html, all or nothing; its path.
 
     Raises
     ------
     NoReport
-        Something is missing or broken; an older page stays as it is.
+        Something is missing or broken, or too large; an older page stays as it is.
     """
-    found = parts(out)
-    check_columns(found)
-    known = catalogue(out, found, say)
-    for near in NEAR:
-        text = render(out, found, known, partial(webp, near=near))
-        if (size := len(text.encode())) <= LIMIT:
-            write_atomic(out/"index.html", text)
-            return out/"index.html"
-        say(f"{size/1e6:.1f} MB with figures in which colours nearer than {near} of 441 are one")
-    raise NoReport(f"the page has {size/1e6:.1f} MB, {LIMIT/1e6:.1f} are allowed, fewer colours would mix up series: draw "
-                   f"smaller, or take out of {out}, what is large, {', '.join(largest(out, found))}")
+    known = parts(out)
+    for part in known:
+        check_columns(part)
+    text = render(out, known)
+    size = len(text.encode())
+    if size > LIMIT:
+        raise NoReport(f"the page has {size/1e6:.1f} MB, {LIMIT/1e6:.1f} are allowed: draw smaller, or take "
+                       f"out of {out}, what is large, {', '.join(largest(out, known))}")
+    write_atomic(out/"index.html", text)
+    return out/"index.html"
 
 
-def largest(out: Path, found: list[Part]) -> list[str]:
+def largest(out: Path, known: list[Part]) -> list[str]:
     """Figures and films that weigh most."""
-    files = [*(path for part in found for path in part.pictures), *out.glob("films/*.mp4")]
-    heavy = sorted(files, key=lambda path: -path.stat().st_size)[:5]
+    paths = [*(path for part in known for path in part.pictures), *out.glob("films/*.mp4")]
+    heavy = sorted(paths, key=lambda path: -path.stat().st_size)[:5]
     return [f"{path.relative_to(out)} ({path.stat().st_size/1000:.0f} kB)" for path in heavy]
 
 
-def render(out: Path, found: list[Part], known: pd.DataFrame, encode: Callable[[Path], str] | None = None) -> str:
+def render(out: Path, known: list[Part], encode: Callable[[Path], str] = webp) -> str:
     """The page as text; ``encode`` makes the address of a figure from its PNG."""
-    claims, panels = claims_of(out), cost.panels(found)
-    knows = Known(out, claims, panels)
-    env = Environment(loader=PackageLoader("studies.report", "page"), autoescape=select_autoescape(), undefined=StrictUndefined,
-                      trim_blocks=True, lstrip_blocks=True)
+    claims, panels = claims_of(out), cost.panels(known)
+    knowledge = Known(out, claims, panels)
+    shown = {part.name: figures(part, encode) for part in known}
+    env = Environment(loader=PackageLoader("studies.report", "page"), autoescape=select_autoescape(),
+                      undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
     env.filters |= {"short": short, "signed": signed}
-    shown = figures(out, found, known, encode or webp)
     return env.get_template("page.html").render(
-        question=QUESTION, answer=answer(knows), findings=findings(knows), claims=claim_rows(claims), verdicts=VERDICTS,
-        counts=claims["verdict"].value_counts().to_dict(), papers=sorted({paper(source) for source in claims["source"]}),
-        claims_made=" ".join(Sheet(out/"claims.csv").commits), panels=[(panel, chart(panel)) for panel in panels],
-        size=(WIDTH, HEIGHT), levels=needs.LEVELS, said=needs.said, parts=found, figures=shown, films=films(out),
-        main=shown["rb"][0] if shown.get("rb") and shown["rb"][0].name == "main" else None,
-        tables={sheet.name: table(sheet) for sheet in sheets_of(found)}, style=part_of("style.css"), script=part_of("script.js"),
-        inputs=fingerprint(out))
+        question=QUESTION, answer=answer(knowledge), findings=findings(knowledge), verdicts=VERDICTS,
+        claims=claim_rows(claims), claims_made=" ".join(Sheet(out/"claims.csv").commits),
+        counts=claims["verdict"].value_counts().to_dict(), papers=sorted(set(map(paper, claims["source"]))),
+        panels=[(panel, chart(panel)) for panel in panels], size=(WIDTH, HEIGHT), levels=levels.LEVELS,
+        parts=known, figures=shown, films=films(out),
+        main=next((one for one in shown.get("rb", []) if one.name == "main"), None),
+        tables={sheet.name: table(sheet) for sheet in sheets_of(known)},
+        style=file("style.css"), script=file("script.js"), inputs=fingerprint(out))
 
 
 def fingerprint(out: Path) -> str:
     """Hash of everything that the page is made of."""
-    made_of = [*out.glob("*/*.csv"), *out.glob("*/*.png"), *out.glob("films/*.mp4"), out/"claims.csv", out/"figures.csv"]
-    kept = [path for path in made_of if path.exists() and path.parent.name not in ("raw", "quick")]
-    lines = sorted(f"{path.relative_to(out)} {digest(path)}" for path in kept)
-    sources = sorted(f"{path.name} {digest(Path(str(path)))}" for path in files("studies.report").joinpath("page").iterdir()
-                     if path.is_file())
-    return hashlib.sha256("\n".join([*lines, *sources]).encode()).hexdigest()[:16]
+    kinds = ("claims.csv", "*/*.csv", "*/*.png", "films/*.mp4")
+    made_of = [path for kind in kinds for path in out.glob(kind) if path.parent.name not in ("raw", "quick")]
+    sources = Path(__file__).with_name("page").glob("*.*")
+    whole = hashlib.sha256()
+    for path in sorted([*made_of, *sources]):
+        whole.update(path.read_bytes())
+    return whole.hexdigest()[:16]
 
 
-def part_of(name: str) -> Markup:
+def file(name: str) -> Markup:
     """A file of the page as it is."""
-    return Markup(files("studies.report").joinpath("page", name).read_text())
+    return Markup(Path(__file__).with_name("page").joinpath(name).read_text())
 
 
-# --- claims -------------------------------------------------------------------------------------------------------
+# --- claims ---------------------------------------------------------------------------------------
 
 
 def paper(source: str) -> str:
@@ -104,10 +102,10 @@ def paper(source: str) -> str:
 
 
 def claim_rows(claims: pd.DataFrame) -> list[dict[str, Any]]:
-    """Claims with numbers as people read them, those that fail first within a study."""
+    """Claims with numbers as people read them."""
     rows = [{str(name): value for name, value in row.items()} for row in claims.to_dict("records")]
     return [{**row, "paper": paper(row["source"]), "accepted": accepted(row["low"], row["high"]),
-             "found": found_value(row["measured"], row["err"])} for row in rows]
+             "value": value_of(row["measured"], row["err"])} for row in rows]
 
 
 def accepted(low: float, high: float) -> str:
@@ -119,74 +117,48 @@ def accepted(low: float, high: float) -> str:
     return f"≤ {short(high)}" if math.isinf(low) else f"{short(low)} to {short(high)}"
 
 
-def found_value(value: float, err: float) -> str:
+def value_of(value: float, err: float) -> str:
     """A measured value with its interval; none."""
     if math.isnan(value):
         return "—"
-    small = value != 0 and (abs(value) < 1e-3 or abs(value) >= 1e6)
-    if err > 0 and not small and err > 1e-6*abs(value):
-        return told(value, err)
+    if 1e-3 <= abs(value) < 1e6 and err > 1e-6*abs(value):
+        return with_error(value, err)
     return signed(f"{value:.3g}" + (f" ± {err:.1g}" if err > 0 else ""))
 
 
-# --- figures, films -------------------------------------------------------------------------------------------------
+# --- figures, tables ------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Shown:
-    """A figure: its address, size in pixels, words, and the tables behind it."""
-
+class Shown(NamedTuple):
+    """A figure: its address, size in pixels, words, and the tables that it is drawn from."""
     study: str
     name: str
     src: str
     size: tuple[int, int]
-    title: str
-    alt: str
+    caption: str
     sheets: list[Sheet]
 
     @property
     def made(self) -> str:
-        """Commits of the tables behind it."""
+        """Commits of these tables."""
         return ", ".join(dict.fromkeys(commit for sheet in self.sheets for commit in sheet.commits))
 
 
-def figures(out: Path, found: list[Part], known: pd.DataFrame, encode: Callable[[Path], str]) -> dict[str, list[Shown]]:
-    """Figures by study, `main` first."""
-    about = {(row["study"], row["figure"]): row for row in known.to_dict("records")}
-    shown: dict[str, list[Shown]] = {}
-    for part in found:
-        by_name = {sheet.path.stem: sheet for sheet in part.sheets}
-        for png in sorted(part.pictures, key=lambda path: (path.stem != "main", path.stem)):
-            unknown = {"title": png.stem.replace("_", " "), "panels": part.question, "tables": " ".join(by_name)}
-            row = about.get((part.name, png.stem), unknown)
-            sheets = [by_name[name] for name in row["tables"].split() if name in by_name]
-            alt = f"{row['title']}. {row['panels']}".strip()
-            shown.setdefault(part.name, []).append(
-                Shown(part.name, png.stem, encode(png), opened(png).size, row["title"], alt, sheets))
+def figures(part: Part, encode: Callable[[Path], str]) -> list[Shown]:
+    """Figures of a study, `main` first; of one that its study does not list the tables are all there are."""
+    listed, shown = drawings(part), []
+    for png in sorted(part.pictures, key=lambda path: (path.stem != "main", path.stem)):
+        one = listed.get(png.stem)
+        sheets = [sheet for sheet in part.sheets if one is None or sheet.path.stem in one.tables]
+        words = caption(one) if one else f"{png.stem.replace('_', ' ')}: {part.question}"
+        shown.append(Shown(part.name, png.stem, encode(png), opened(png).size, words, sheets))
     return shown
-
-
-def films(out: Path) -> list[dict[str, Any]]:
-    """Films with their last picture and what films.csv says of them."""
-    rows = rows_of(out/"films/films.csv", (*FILMS.columns, "seed", "commit"))
-    made = []
-    for row in sorted(rows.to_dict("records"), key=lambda row: ORDER.index(row["film"]) if row["film"] in ORDER else len(ORDER)):
-        path = out/"films"/f"{row['film']}.mp4"
-        if not path.exists():
-            raise NoReport(f"{path} is missing: make films makes it again")
-        made.append({**{str(name): value for name, value in row.items()}, **still(path),
-                     "content": base64.b64encode(path.read_bytes()).decode()})
-    return made
-
-
-# --- tables ---------------------------------------------------------------------------------------------------------
 
 
 def table(sheet: Sheet) -> dict[str, Any]:
     """A table: its head, its first rows, and, of one that is not too large, all of it packed."""
-    size = sheet.path.stat().st_size
-    content = gzip.compress(sheet.path.read_bytes(), 9, mtime=0) if size <= EMBED else b""
-    frame = sheet.frame.head(ROWS)
-    return {"sheet": sheet, "bytes": size, "rows": len(sheet.frame), "columns": list(frame.columns),
+    content, frame = sheet.path.read_bytes(), sheet.frame.head(ROWS)
+    packed = gzip.compress(content, 9, mtime=0) if len(content) <= EMBED else b""
+    return {"sheet": sheet, "bytes": len(content), "rows": len(sheet.frame), "columns": list(frame.columns),
             "first": [[short(value) for value in row] for row in frame.itertuples(index=False)],
-            "packed": base64.b64encode(content).decode()}
+            "packed": base64.b64encode(packed).decode()}

@@ -16,8 +16,6 @@ SPAM_GROUPS = {
     "viscosity, conduction": {"direct": "along pairs, not nested", "direct-less-static-90": "the same, a tenth of the pressure",
                               "arithmetic-mean": "arithmetic mean of densities"},
 }
-#: variants that differ from the printed one in their walls alone
-WALLS = {"printed": "images at rest, $T_w$", **SPAM_GROUPS["walls"]}
 #: schemes on points that stay, by what they are for
 FIXED_GROUPS = {
     "on a lattice, weight of Lucy": {
