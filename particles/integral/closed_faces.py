@@ -199,10 +199,7 @@ class Exchanging(Listed):
         self.shift *= np.minimum(1.0, most/np.maximum(size, 1e-300))[:, None]
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
-        """Refuse points in one place or without neighbours; warn where the weight is too narrow to tell their density.
-
-        Raises ValueError: two points overlap, or one has no neighbours in two directions; names them.
-        """
+        """Refuse points in one place or without neighbours: ValueError names them. Warn where the weight is too narrow."""
         V, weight = state[7], self.method.weight
         a = float(np.sqrt(V.mean()))
         self.around.place(state, 1.0)

@@ -98,10 +98,7 @@ class Edges:
 
 
 def combined(i: np.ndarray, j: np.ndarray, S: np.ndarray, k: np.ndarray, apart: np.ndarray, V: np.ndarray, a: float) -> Edges:
-    """Edges with i < j, those that join the same points added up.
-
-    Two points may be joined in two directions where the box is a few spacings wide: told apart by where they lead.
-    """
+    """Edges with i < j; those that join the same points in the same direction are added up."""
     turn = np.where(i > j, -1.0, 1.0)[:, None]
     S, apart, i, j = turn*S, turn*apart, np.minimum(i, j), np.maximum(i, j)
     keys = np.column_stack([i, j, np.round(apart/a*1e6).astype(np.int64)])

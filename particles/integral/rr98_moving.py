@@ -250,10 +250,7 @@ class Drifts(Listed):
         self.exchange = Exchange(OverPairs(Drifting(method.motion, listed)), needed, n, team)
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
-        """Refuse points in one place; warn where the weight is too narrow for them    [Eq. 45]
-
-        Raises ValueError: two points overlap; names them.
-        """
+        """Refuse points in one place: ValueError names them. Warn where the weight is too narrow    [Eq. 45]"""
         a = float(np.sqrt(state[6].mean()))
         self.around.place(state, self.method.scale)
         check_apart(self.around, ids, a)
