@@ -11,8 +11,6 @@ import numpy as np
 
 from continuum.jit import formula, generic
 
-# --- equations of state -----------------------------------------------------------------------------------
-
 
 class IdealGas(NamedTuple):
     """P = rho e, T = e: two-dimensional ideal gas, C_V = 1    [KHP95, Eq. 1]"""
@@ -155,9 +153,6 @@ def check_state(eos, rho: Any, e: Any) -> None:
                          f"{rule}rho, T and c^2 must be positive; lower the density or the step")
 
 
-# --- transport --------------------------------------------------------------------------------------------
-
-
 def _spreading(*names: str) -> Callable[[type], type]:
     """A law whose coefficients of these names are refused where they are negative or no numbers."""
     def decorate(kind: type) -> type:
@@ -228,9 +223,6 @@ for _number in (int, float, np.float64):
 def constant_viscosity(law: Any) -> bool:
     """Is the shear viscosity the same in all states? A law not known for that is taken to vary, which is right for all."""
     return isinstance(law, ConstEta)
-
-
-# --- stress -----------------------------------------------------------------------------------------------
 
 
 @formula

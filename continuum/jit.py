@@ -1,8 +1,7 @@
 """numba's settings, once, and formulas that are chosen by the type of what a scene lists.
 
-Import this module before numba: it puts the disk cache of compiled code in a folder named after the
-sources, because numba itself notices a change only in the file of the compiled function and would go on
-using an old formula of another module.
+Import this module before numba: it names the disk cache of compiled code after the sources. numba itself notices a change only
+in the file of the compiled function.
 """
 import hashlib
 import os
@@ -33,10 +32,7 @@ _load_index = caching.IndexDataCacheFile._load_index
 
 
 def _load_index_if_known(file: Any) -> dict:
-    """numba's index of compiled code; empty if it names types of another program, such as somebody's own weight.
-
-    numba would stop with an ImportError, and so would every other program that runs the same function.
-    """
+    """numba's index of compiled code; empty where it names types of another program and numba would stop."""
     try:
         return _load_index(file)
     except (ImportError, AttributeError):
@@ -58,9 +54,8 @@ llvmlite.binding.set_option("fluidized-grid", "-slp-max-reg-size=256")
 def lanes(function: Callable) -> Any:
     """Compile with sums in the order that is written and with LLVM's SLP vectoriser, as loops over records want it.
 
-    SLP puts equal operations on neighbouring fields of a record into one vector instruction. numba leaves it off since
-    LLVM 14 miscompiled with it, so it is on here only, for loops that tests hold against a slow twin. Reassociation
-    would make LLVM gather the fields of several partners instead, which is twice as slow.
+    SLP puts equal operations on neighbouring fields of a record into one vector instruction. LLVM 14 miscompiled with it, so it
+    is on for loops only that tests hold against a slow twin. Reassociation would be twice as slow: it gathers fields.
     """
     compiled: Any = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=FASTMATH - {"reassoc"})(function)
     plain = compiled.compile
@@ -100,9 +95,7 @@ def generic(stub: Callable) -> Any:
     """A function whose formula is chosen by the type of its first argument (a NamedTuple), or by a class it inherits from.
 
     ``@pressure.of(IdealGas)`` adds a formula; calling works from Python and from compiled code.
-
-    Raises TypeError: no formula is known for that type, or a class was given in place of an object.
-    ValueError: modules define two formulas for one type.
+    Raises TypeError: no formula for that type, or a class in place of an object. ValueError: two formulas for one type.
     """
     table: dict[type, Callable] = {}
     places: dict[type, str] = {}

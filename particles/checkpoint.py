@@ -43,10 +43,7 @@ def save(path: Path, method: Any, plan: Plan, start: np.ndarray, now: Run) -> No
 
 
 def load(path: Path | None, method: Any, plan: Plan, start: np.ndarray) -> Run | None:
-    """The run stored at `path`, or None if there is none.
-
-    Raises ValueError: the file is unreadable, or of other code, parameters or particles.
-    """
+    """The run at `path`, None without one. Raises ValueError: unreadable, or of other code, parameters or particles."""
     if path is None or not path.exists():
         return None
     try:

@@ -40,10 +40,7 @@ def _(method: Spam, start: np.ndarray) -> float:
 
 
 def step_limit(method: Spam, e: Any, rho: float = 1.0) -> float:
-    """The largest dt at which RK4 does not make lattice waves grow, particles at mean density rho and energies e.
-
-    Raises ValueError: (rho, e) is outside of the validity of the equation of state.
-    """
+    """The largest dt at which RK4 does not make lattice waves grow; ValueError where (rho, e) is outside of the eos."""
     check_state(method.eos, rho, e)
     symbols = lattice_sums(method.weight, method.m, rho, zone(np.sqrt(method.m/rho)))
     return min(largest_step(waves(method, symbols, float(extreme))) for extreme in {np.min(e), np.max(e)})
@@ -55,10 +52,7 @@ def zone(a: float, points: int = 33) -> np.ndarray:
 
 
 def lattice_sums(weight: Any, m: float, rho: float, k: np.ndarray) -> Symbols:
-    """Sums over the square lattice of mean density rho at wave vectors (k, 2).
-
-    Raises ValueError: the weight's range does not reach the next particle.
-    """
+    """Sums over the square lattice at wave vectors (k, 2). Raises ValueError: the weight reaches no particle."""
     a = np.sqrt(m/rho)
     x = a*np.arange(-int(weight.h/a) - 1, int(weight.h/a) + 2)
     x, y = (q.ravel() for q in np.meshgrid(x, x))
@@ -122,10 +116,7 @@ def largest_step(eigenvalues: np.ndarray) -> float:
 
 @cache
 def _edge() -> tuple[np.ndarray, np.ndarray]:
-    """RK4's stability region: (angle from the imaginary towards the negative real axis, |lambda dt| at its edge).
-
-    From 2.828 on the imaginary axis to 2.785 on the real one, to 0.001.
-    """
+    """RK4's stability region: (angle from the imaginary to the negative real axis, |lambda dt| at its edge, to 0.001)."""
     angle, r = np.linspace(0, np.pi/2, 181), np.arange(1, 3200)*0.001
     z = 1j*r*np.exp(1j*angle[:, None])
     growth = abs(1 + z + z**2/2 + z**3/6 + z**4/24)

@@ -23,10 +23,7 @@ def fastest(state: np.ndarray) -> float:
 
 
 def outside(walls: tuple, state: np.ndarray) -> np.ndarray:
-    """Numbers of the particles that lie beyond walls: those that these would reflect.
-
-    Periodic sides have no beyond; what has left through them is wrapped.
-    """
+    """Numbers of the particles that walls would reflect; periodic sides have no beyond."""
     inside = state.copy()
     for wall in walls:
         confine(wall, inside)
@@ -36,8 +33,6 @@ def outside(walls: tuple, state: np.ndarray) -> np.ndarray:
 class Surroundings:
     """Fixed particles, ghosts, neighbour lists and pairs of N particles between walls.
 
-    Attributes
-    ----------
     x, y, vx, vy, T, rho, P : (points,) fields of all points; of the particles written by the method.
     pairs : lists and pairs in range of the `rows` particles and fixed particles.
     blocks : (wall, parents, first, last) of the ghosts, in the order in which they are filled.
@@ -70,10 +65,7 @@ class Surroundings:
         self.anchor = None
 
     def relist(self, state: np.ndarray, ids: np.ndarray, dt: float) -> None:
-        """Wrap the particles into the box, put them in the order of cells (in place) and make lists anew.
-
-        The skin grows when the fastest particle would outrun it within one step.
-        """
+        """Wrap the particles, put them in the order of cells (in place), make lists; the skin grows with the speed."""
         stride = MARGIN*fastest(state)*dt
         if not stride < self.weight.h:
             raise FloatingPointError(f"a particle at speed {fastest(state):.4g} would cross the weight's range "

@@ -1,8 +1,7 @@
-"""Who may be near whom: cell order, linked cells and a Verlet list with skin.
+"""Cell order, linked cells and a Verlet list with skin: who may be near whom.
 
-The list of row i holds all points within `reach` = range + skin of it, both directions (j in the list of i and i in
-that of j), so that each row of a pair sum is written by one thread only and does not depend on their number.
-Indices are unsigned: a signed one costs numba three instructions at every use, for Python's negative indices.
+The list of row i holds all points within `reach` = range + skin of it, in both directions: each row of a pair
+sum is written by one thread. Indices are unsigned: signed ones cost numba three instructions at every use.
 """
 from typing import NamedTuple
 
@@ -72,11 +71,10 @@ def _gather(cells, home, ring, x, y, j):
 
 @jit
 def list_rows(first, last, cells, x, y, reach, itself, capacity, start, length, listed):
-    """Write the Verlet lists of rows first..last behind each other, from first*capacity on; False if they do not fit.
+    """Write the Verlet lists of rows first..last from first*capacity on; False if they do not fit.
 
-    `capacity` is the room per row: the caller grows it and repeats. Row i is the listed point i + `itself`, which is
-    left out. Rows that follow each other are mostly in one cell and share what is gathered around it; comparing all of
-    that before the list is compressed leaves LLVM a loop for vector instructions.
+    Row i is the listed point i + `itself`, which is left out. Rows of one cell share what is gathered around it;
+    comparing all of that before the list is compressed leaves LLVM a loop for vector instructions.
     """
     ring = int(np.ceil(reach/cells.side))
     most = (2*ring + 1)**2*np.diff(cells.start).max()
@@ -107,8 +105,7 @@ def make_lists(team: Team, cells: Cells, x: np.ndarray, y: np.ndarray, reach: fl
                listed: np.ndarray = NOTHING) -> tuple:
     """(start, length, listed) of all points of `cells` within `reach` of (x, y), but for point i + `itself` of row i.
 
-    An array `listed` of earlier lists is used again where it has room: new memory costs more than to write to it.
-
+    `listed` of earlier lists is used again where it has room.
     Raises FloatingPointError: there are more than 2000 neighbours of each: the particles have collapsed.
     """
     rows, room = len(x), 4 + int(1.1*np.pi*reach**2*_density(cells))

@@ -1,8 +1,7 @@
-"""What is measured on particles. Each function takes the sums of a method, with densities and gradients of the state, and
-the state (5, n) = x, y, vx, vy, e; the run calls it with both up to date.
+"""What is measured on particles, from the sums of a method and the state (5, n) = x, y, vx, vy, e, both up to date.
 
-KHP95's text compares (rho/2)<v>^2 of the smoothed field with the grid but does not say which energy its figures show, so
-all three are kept: Kp of the particles, Kg of the smoothed field, Kfl = Kp - Kg of their fluctuations.
+KHP95 do not say which kinetic energy their figures show, so all three are kept: Kp of the particles, Kg of the
+smoothed field, Kfl = Kp - Kg of their fluctuations.
 """
 from typing import Any, NamedTuple
 
@@ -48,10 +47,7 @@ def field_kinetic(sums: Any, state: np.ndarray) -> float:
 
 
 def heat_flow(sums: Any, state: np.ndarray) -> float:
-    """Mean upward flux of total energy Q_y + rho v_y (e + P/rho + v^2/2 + g y) - (stress.v)_y, per area.
-
-    In a steady flow its mean over every height is the same, so that divided by k dT/L it is the Nusselt number.
-    """
+    """Mean upward flux of energy Q_y + rho v_y (e + P/rho + v^2/2 + g y) - (stress.v)_y: the Nusselt number, steady."""
     n, around, method = sums.n, sums.around, sums.method
     _, y, vx, vy, e = state
     rho, T = around.rho[:n], around.T[:n]
@@ -65,10 +61,8 @@ def heat_flow(sums: Any, state: np.ndarray) -> float:
 class PlateHeat(NamedTuple):
     """Energy per area and time that fluid particles get from what is behind a plate: side -1 the lower, +1 the upper one.
 
-    The part of the third sum that comes from images and fixed particles there: heat and viscous work, and the work of
-    pressure if wanted. In a steady flow lower and upper plate exchange what `heat_flow` carries: an independent way to the
-    Nusselt number. Pressure does no work on resting plates, but particles that turned are only seen after their turn, when
-    pressure drives them: with it the mean over samples is off in the first order of dt.
+    The part of the third sum that comes from there: heat, viscous work, and the work of pressure if wanted. Pressure does no
+    work on resting plates; but particles are only seen after their turn, and the mean is off in the first order of dt.
     """
     side: int
     pressure: bool = False

@@ -6,10 +6,7 @@ from typing import Any
 
 
 class Team:
-    """Calls a compiled function(first, last, ...) on equal ranges of rows, one per thread.
-
-    Each row is computed by one thread in the same way whatever their number, so results do not depend on it.
-    """
+    """Calls a compiled function(first, last, ...) on equal ranges of rows, one a thread: bitwise for any number."""
 
     def __init__(self, threads: int = 1):
         if threads < 1:

@@ -123,10 +123,7 @@ class State:
 
     @property
     def rolls(self) -> int:
-        """How many rolls lie in the box, 0 at rest: regions of one sign of psi, above 10 % of its largest.
-
-        The limit leaves out eddies in corners (a few per cent) and keeps a roll whole whose centre has split.
-        """
+        """How many rolls lie in the box, 0 at rest: regions of one sign of psi, above 10 % of its largest."""
         if self.K < STILL:
             return 0
         psi = np.pad(self.psi, ((0, 0), (1, 1)))
@@ -170,8 +167,6 @@ class State:
         parts = np.concatenate([u, still, -u[::-1], still]), np.concatenate([v, v[::-1]]), np.concatenate([T, T[::-1]])
         return State(case=whole, q=np.concatenate([f.ravel() for f in parts]), t=self.t)
 
-
-# --- heat through walls -----------------------------------------------------------------------------------
 
 BOTTOM, TOP, LEFT, RIGHT = (1, 0), (1, -1), (0, 0), (0, -1)     # (axis, end)
 

@@ -56,9 +56,8 @@ def steady(case: Case, start: State | None = None, *, within: float = 1e-9,
            progress: Callable[[float], None] | None = None) -> State:
     """The steady state that start leads to: a roll, or a state of any grid, Ra and Pr in the same box.
 
-    Implicit steps lengthen as the rates of change fall and become Newton's; they end when no value changes by
-    more than `within`, the error is then about its square. The state need not be stable, and is at rest
-    (rolls == 0) below onset. Its `residuals` are the largest rates of change before each step and at the end.
+    Implicit steps lengthen as the rates of change fall and become Newton's; they end when no value changes by more than `within`.
+    The state need not be stable. Its `residuals` are the largest rates of change before each step and at the end.
     """
     if case.mac.periodic:
         raise ValueError(f"the box is periodic ({case.box}): its steady flows may be shifted, which leaves Newton no "

@@ -15,11 +15,7 @@ def rest(case: Case) -> State:
 
 
 def roll(case: Case, rolls: int = 1) -> State:
-    """Rolls side by side, rising at the left side, with the steady amplitude of the three-mode (Lorenz) model.
-
-    That model has free plates; its ratio Ra/Ra_c is taken with the rigid one, and not below 1.1, so that the
-    start is finite also below onset.
-    """
+    """Rolls side by side, rising at the left side, of the Lorenz model (free plates, Ra/Ra_c at least 1.1)."""
     if rolls < 1 or (case.mac.periodic and rolls % 2):
         raise ValueError(f"{rolls} rolls do not fit: a box has at least 1, a periodic one an even number")
     mac, a = case.mac, rolls/case.box.width

@@ -71,10 +71,7 @@ def shares(nodes: int, periodic: bool) -> np.ndarray:
 
 
 def nodes(scene, rows: int) -> tuple[np.ndarray, np.ndarray]:
-    """Coordinates of the columns and rows of nodes: `rows` square cells over the height.
-
-    Raises ValueError: `rows` is odd or below 8, or the cells cannot be square.
-    """
+    """Coordinates of columns and rows of nodes. Raises ValueError: rows odd or below 8, or cells are not square."""
     if rows < 8 or rows % 2:
         raise ValueError(f"rows must be even and at least 8, got {rows}: rolls are counted at mid-height")
     columns = round(scene.aspect*rows)
@@ -103,9 +100,6 @@ def placed(scene, rows: int, start: Callable[[np.ndarray, np.ndarray], tuple]) -
     return Fields(scene, x, y, Values(vx, vy, energy(scene.eos, rho, T), T, rho), cells)
 
 
-# --- between the block of the loop and fields --------------------------------------------------------------
-
-
 def block(fields: Fields) -> np.ndarray:
     """The state as the loop wants it; its ghosts are not yet filled."""
     S = np.ones((4, len(fields.y) + 1, len(fields.x) + 1))
@@ -132,14 +126,8 @@ def node_densities(S: np.ndarray) -> np.ndarray:
     return (rho[:-1, :-1] + rho[1:, :-1] + rho[:-1, 1:] + rho[1:, 1:])/4
 
 
-# --- interpolation ----------------------------------------------------------------------------------------
-
-
 def interpolate(fields: Fields, x, y) -> Values:
-    """Cubic splines through the nodes, at points (x, y) in the box; x is periodic where the sides are.
-
-    Raises ValueError: a point lies outside of the box.
-    """
+    """Cubic splines through the nodes, at points (x, y), periodic as the sides. Raises ValueError: a point is outside."""
     x, y = np.asarray(x, float), np.asarray(y, float)
     if fields.periodic:
         x = fields.x[0] + (x - fields.x[0]) % fields.scene.width
@@ -169,9 +157,6 @@ def onto(scene, rows: int, fields: Fields) -> Fields:
     centre_x, centre_y = X[:-1, :-1] + scene.L/rows/2, Y[:-1, :-1] + scene.L/rows/2
     cells = interpolate(fields, centre_x/scale, centre_y/scale).rho
     return Fields(scene, x, y, interpolate(fields, X/scale, Y/scale), cells/cells.mean())
-
-
-# --- what is measured -------------------------------------------------------------------------------------
 
 
 def kinetic_energy(S: np.ndarray) -> float:

@@ -33,9 +33,6 @@ def box_of(scene, rows: int) -> Box:
                1 if isinstance(scene.sides, Torus) else 2)
 
 
-# --- ghosts and walls -------------------------------------------------------------------------------------
-
-
 class FluxForm(NamedTuple):
     """d rho/dt = -div(rho v): mass goes from cell to cell and is conserved to round-off."""
 
@@ -112,9 +109,6 @@ def _(sides, eos, form, box, S):
         T = box.T_hot + (box.T_cold - box.T_hot)*(j - 1)/ny
         for i in (1, nx + 1):
             S[E, j, i] = energy(eos, node_density(rho, j, i), T)
-
-
-# --- rates ------------------------------------------------------------------------------------------------
 
 
 @generic
@@ -248,9 +242,6 @@ def rates(sides, eos, law, form, box, S, rows, out):
         cell_row(eos, law, form, box, S, n, T, cell[here], out, j)
         if j >= box.lowest:
             rate_row(box, S, n[here], cell[above], cell[here], out, j)
-
-
-# --- time -------------------------------------------------------------------------------------------------
 
 
 @jit

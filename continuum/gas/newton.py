@@ -1,15 +1,11 @@
-"""Steady states and disturbances of the compressible grid without its time: Newton's method on the rates of the loop.
+"""Steady states and disturbances of the compressible grid: Newton's method on the rates of the loop, to the last bit the same.
 
-    state = steady(RayleighBenard(ra=2000.0), rows=30)
-    state.ke
-
-The equations are those of `compressible_loop`, to the last bit: a run in time ends, to its tolerance, in the same state.
 Between periodic sides the flow is taken as its own mirror image about the middle of a rising and of a falling stream,
-which leaves one half of the box and fixes the rolls in place. The slopes of the rates come from their differences:
-unknowns five nodes apart meet in no rate, so that a hundred pairs of evaluations give the whole sparse matrix.
+which leaves one half of the box and fixes the rolls. Slopes of the rates come from their differences: unknowns five nodes
+apart meet in no rate, so that a hundred pairs of evaluations give the whole sparse matrix.
 
-The grid keeps two sums of densities, whatever the flow: the mass, and the sum with signs that alternate like the squares
-of a chessboard, which no node sees. Both are zero deviations at the start of a run and constraints of Newton's method.
+The grid keeps two sums of densities: the mass, and the sum with signs that alternate like the squares of a chessboard, which
+no node sees. Both are constraints of Newton's method.
 """
 from dataclasses import replace
 from functools import cached_property
@@ -154,9 +150,7 @@ def warm_rolls(scene, rows: int, ke: float) -> Fields:
 def steady(scene, rows: int, start: Fields | None = None, *, within: float = 1e-9) -> Steady:
     """The steady state that Newton's method finds from start, of any grid or Ra; by default from weak warm rolls.
 
-    It ends when no unknown changes by more than `within`; the error is then about its square. It is at rest below
-    onset.
-
+    It ends when no unknown changes by more than `within`; the error is then about its square. At rest below onset.
     Raises NewtonFailed: no convergence.
     """
     equations, unit = Discrete(scene, rows), scene.L/scene.free_fall

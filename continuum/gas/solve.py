@@ -3,8 +3,7 @@
     solution = run(RayleighBenard(ra=1e4), rows=32)
     solutions = steady_on(RayleighBenard(ra=1e4), (16, 24, 32, 48))
 
-Second order in space, fourth in time, fixed step. The loop is in `compressible_loop`, fields and what is
-measured on them in `compressible_fields`, rules when to stop in `steady`.
+Second order in space, fourth in time, fixed step.
 """
 import time
 from collections.abc import Callable, Sequence
@@ -82,9 +81,6 @@ class Solution:
         return self.nusselt.loss
 
 
-# --- step -------------------------------------------------------------------------------------------------
-
-
 class Limits(NamedTuple):
     """Largest stable steps: for sound and advection alone, for diffusion alone, for both."""
     sound: float
@@ -122,9 +118,6 @@ def choose_step(scene, S: np.ndarray, dt: float | None) -> float:
         raise ValueError(f"dt = {dt:.4g} must be positive and not above the stability limit {limit.both:.4g} "
                          f"(sound {limit.sound:.4g}, diffusion {limit.diffusion:.4g}): lower or omit dt")
     return dt
-
-
-# --- marching ---------------------------------------------------------------------------------------------
 
 
 class March:
@@ -185,22 +178,13 @@ def sample(scene, S: np.ndarray, t: float) -> tuple[float, float, float, float]:
     return t, kinetic_energy(S), flux/(scene.k*scene.dT*scene.aspect), float(np.mean(S[RHO, 1:-1, 1:-1]))
 
 
-# --- runs -------------------------------------------------------------------------------------------------
-
-
 def run(scene, rows: int, *, until: Any = Steady(), start: Fields | None = None, dt: float | None = None,  # noqa: B008
         continuity: Any = FluxForm(), progress: Callable[[float], None] | None = None) -> Solution:  # noqa: B008
-    """Solve a scene on `rows` rows of square cells.
+    """Solve a scene (RayleighBenard, or anything with its attributes) on `rows` rows of square cells.
 
-    Parameters
-    ----------
-    scene : RayleighBenard, or anything with its attributes.
-    until : Steady(rtol=...) or Time(t_end).
-    start : fields to start from, of any grid; KHP95's two rolls by default.
+    until : Steady(rtol=...) or Time(t_end). start : fields of any grid; KHP95's two rolls by default.
     dt : largest step (by default 0.8 of the stability limit); the one taken divides the time between samples.
-    continuity : FluxForm() or PaperForm().
-    progress : called with the fraction done.
-
+    continuity : FluxForm() or PaperForm(). progress : called with the fraction done.
     Raises ValueError: rows odd or below 8, dt above the stability limit, start outside of the equation of
     state's validity. DivergedError: names step, time, field and node.
     """
@@ -230,10 +214,7 @@ def finish(rows: int, march: March, until, series: Series) -> Solution:
 
 
 def steady_on(scene, sizes: Sequence[int], *, start: Fields | None = None, **options) -> list[Solution]:
-    """Steady solutions on ever finer grids, each started from the one before.
-
-    Raises ValueError: there are no sizes.
-    """
+    """Steady solutions on ever finer grids, each started from the one before. Raises ValueError: there are no sizes."""
     if not len(sizes):
         raise ValueError(f"there are no grids (sizes = {sizes}): give their rows, coarsest first, as in (16, 24, 32)")
     solutions: list[Solution] = []

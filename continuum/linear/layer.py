@@ -88,11 +88,7 @@ def growth_rate(*, ra: float, pr: float, k: float, plates: Plates = Plates.RIGID
 
 
 def critical_ra(k: float, plates: Plates = Plates.RIGID, degree: int = DEGREE) -> float:
-    """The Rayleigh number at which wavenumber k (1/H) neither grows nor decays; it does not depend on Pr.
-
-    With nu = kappa = 1/sqrt(Ra) and sigma = 0 the largest eigenvalue of the work of buoyancy against
-    dissipation is 1/sqrt(Ra).
-    """
+    """The Rayleigh number at which wavenumber k (1/H) neither grows nor decays; it does not depend on Pr."""
     positive(k=k)
     i = forms(k, plates, degree)
     none = np.zeros_like(i.lift)

@@ -12,10 +12,7 @@ DEGREE = 14     # trial functions in each direction: Ra_c has 8 figures; 8 gives
 
 
 def critical_ra_square(number: int = 0, degree: int = DEGREE) -> float:
-    """The Rayleigh number at which disturbance `number` grows: 0 is one roll, 1 two rolls side by side.
-
-    No other is found before these, whatever their symmetry: the trial functions have none.
-    """
+    """The Rayleigh number at which disturbance `number` grows: 0 is one roll, 1 two rolls side by side."""
     if not 0 <= number < degree:
         raise ValueError(f"number must be from 0 to {degree - 1}, got {number}: higher ones are not resolved")
     friction, conduction, lift = forms(degree)

@@ -3,11 +3,8 @@
     domega/dt + u.grad omega = nu Lap omega + dT/dx,    dT/dt + u.grad T = kappa Lap T,    Lap psi = -omega
 
 with u = (dpsi/dy, -dpsi/dx), in free-fall units: nu = sqrt(Pr/Ra), kappa = 1/sqrt(Pr Ra), height 1, T = 1/2 on the
-lower and -1/2 on the upper plate. psi = 0 on both: no net flow along the layer.
-
-The rows of py-pde's grid lie at y = h, 2 h, ..., 1 - h, so that its ghosts lie on the plates themselves. There no slip
-gives Thom's vorticity -2 psi(h)/h^2; on py-pde's ordinary cells, with the plates half a cell outside, that formula is
-not consistent. It is of first order on the plate, the solution is of second.
+lower and -1/2 on the upper plate, psi = 0 on both. The rows of py-pde's grid lie at y = h, 2 h, ..., 1 - h, so that its ghosts
+lie on the plates. There no slip gives Thom's vorticity -2 psi(h)/h^2, of first order; the solution is of second.
 """
 from typing import Any
 
@@ -59,8 +56,6 @@ class Boussinesq(PDEBase):
         decay, wave = 8*max(self.nu, self.kappa)/self.h**2, FREE_FALL/self.h
         return 1/(decay/RK4_DECAY + wave/RK4_WAVE)
 
-    # --- streamfunction -----------------------------------------------------------------------------------
-
     def _poisson_basis(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Eigenvectors of the second differences in x and y, and the inverse of -Lap_h in them."""
         columns, inner = self.grid.shape
@@ -78,8 +73,6 @@ class Boussinesq(PDEBase):
         """Ghosts of the vorticity: -2 psi/h^2 on the plates from psi = `args` beside them, periodic in x."""
         data_full[1:-1, 0], data_full[1:-1, -1] = -2*args[:, 0]/self.h**2, -2*args[:, -1]/self.h**2
         data_full[0], data_full[-1] = data_full[-2], data_full[1]
-
-    # --- rates --------------------------------------------------------------------------------------------
 
     def evolution_rate(self, state: Any, t: float = 0) -> Any:
         """The rates with py-pde's operators."""
@@ -104,8 +97,6 @@ class Boussinesq(PDEBase):
             return out
 
         return rate
-
-    # --- states -------------------------------------------------------------------------------------------
 
     def points(self, field: int) -> tuple[np.ndarray, np.ndarray]:
         """x and y of the points, the ghosts' included."""
@@ -146,8 +137,6 @@ class Boussinesq(PDEBase):
         names = [name for name, f in zip(("omega", "T"), data) if not np.isfinite(f).all()]
         return f"{' and '.join(names)} not finite" if names else ""
 
-    # --- what is measured ---------------------------------------------------------------------------------
-
     def kinetic_energy(self, data: np.ndarray) -> float:
         """K = <psi omega>/2, the sum of (grad_h psi)^2/2 over all links."""
         return float(0.5*np.sum(self.streamfunction(data[0])*data[0])*self.h**2/self.grid_box[0])
@@ -180,9 +169,6 @@ class Boussinesq(PDEBase):
         u[:, [0, -1]] = 0
         named = {"x": x, "y": y, "u": u, "v": v, "T": T, "omega": omega, "psi": psi}
         return {name: f[1:-1] for name, f in named.items()}
-
-
-# --- compiled ---------------------------------------------------------------------------------------------
 
 
 @jit

@@ -4,11 +4,9 @@
     dv/dt   = -v.grad v + (div sigma - grad P)/rho - g e_y
     de/dt   = -v.grad e + (sigma:grad v - P div v - div Q)/rho
 
-rho and e sit in cells, v_x on their right and v_y on their upper sides. The density needs no condition at a plate, as
-it has none in the continuum: no gas crosses the plate, the pressure is not differenced there, and mass is conserved
-to round-off. (With all fields at the same points the central difference of the pressure would not see a density that
-alternates from point to point, and nothing would damp it.) Only transport coefficients at a plate want a density: it
-is extrapolated. The upper row of v_y lies on the cold plate and stays zero; on a torus, which has no plates, it moves.
+rho and e sit in cells, v_x on their right and v_y on their upper sides: no density is needed at a plate, and mass is conserved
+to round-off. Only transport coefficients at a plate want a density: it is extrapolated. The upper row of v_y lies on the cold
+plate and stays zero; on a torus, which has no plates, it moves.
 """
 from typing import Any
 
@@ -83,8 +81,6 @@ class Gas(PDEBase):
         decay = 8*max(scene.nu, scene.kappa)/self.h**2
         return float(1/(decay/RK4_DECAY + wave/RK4_WAVE))
 
-    # --- states -------------------------------------------------------------------------------------------
-
     def points(self, field: int) -> tuple[np.ndarray, np.ndarray]:
         """x and y of a field's points, the ghosts' included."""
         return tuple(low + self.h*(np.arange(n + 2) - 0.5 + up) for (low, _), n, up in zip(
@@ -133,8 +129,6 @@ class Gas(PDEBase):
         values = ", ".join(f"{name} = {value:.4g}" for name, value in zip(NAMES, data[:, i, j]))
         return f"{values} in cell ({i}, {j}) is not a state of {type(self.scene.eos).__name__}"
 
-    # --- rates --------------------------------------------------------------------------------------------
-
     def dx(self, f):
         """Difference of neighbours in x, between them."""
         return (f[1:] - f[:-1])/self.h
@@ -177,8 +171,6 @@ class Gas(PDEBase):
             return out
 
         return rate
-
-    # --- what is measured ---------------------------------------------------------------------------------
 
     def measure(self, data: np.ndarray) -> tuple[float, float, float]:
         """K, Nusselt number of the lower plate, mean density."""

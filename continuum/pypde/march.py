@@ -40,10 +40,7 @@ class Watch(TrackerBase):
 
 
 class StageLoop(RungeKuttaSolver):
-    """Classical Runge-Kutta steps with a loop over the stages.
-
-    py-pde's own writes the rate in four times, which takes 15 s to compile instead of 4.
-    """
+    """Classical Runge-Kutta with a loop over the stages: py-pde's own takes 15 s to compile instead of 4."""
 
     name = "runge-kutta stage loop"
 

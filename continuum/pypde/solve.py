@@ -3,9 +3,8 @@
     solve_gas(RayleighBenard(ra=1e4), rows=32)
     solve_boussinesq(ra=5000, pr=7, rows=32, until=Time(100), start=Rolls(ke=1e-6))
 
-The equations are in `pypde_boussinesq` and `pypde_gas`: second order in space, different from the other grids of this
-package in unknowns and placing. py-pde brings grids, boundary conditions, differences, the stepping in compiled code
-and the trackers that record, report and stop.
+Second order in space, different from the other grids here in unknowns and placing. py-pde brings grids, boundary conditions,
+differences, steps in compiled code and trackers.
 """
 import math
 from dataclasses import dataclass, field
@@ -84,9 +83,6 @@ class Solution:
         return self.equation.fields(self.state)
 
 
-# --- what users call --------------------------------------------------------------------------------------
-
-
 def solve_boussinesq(*, ra: float, pr: float, rows: int, aspect: float = 2.0, **options) -> Solution:
     """Boussinesq convection between rigid plates on `rows` rows of square cells, periodic in x; options of `solve`."""
     return solve(Boussinesq(ra=ra, pr=pr, rows=rows, aspect=aspect), **options)
@@ -99,19 +95,13 @@ def solve_gas(scene: RayleighBenard, rows: int, **options) -> Solution:
 
 def solve(equation: Any, *, until: Until = Steady(), start: Rolls | Solution | np.ndarray = Rolls(),  # noqa: B008
           dt: float | None = None, backend: str = "numba", progress: Progress | None = None) -> Solution:
-    """Solve an equation.
+    """Solve an equation: Boussinesq or Gas.
 
-    Parameters
-    ----------
-    equation : Boussinesq or Gas.
     until : Steady(rtol=...) or Time(t_end) of `continuum.steady`.
     start : Rolls(ke, number), a solution of the same box on any grid, or a state (fields, columns, rows).
     dt : largest step (by default 0.8 of the stability limit); the one taken divides the time between samples.
-    backend : "numba", which compiles for some seconds at every call, or "numpy".
-    progress : called with the fraction done.
-
-    Raises ValueError: dt above the stability limit; a start from another box. DivergedError: says when and
-    where.
+    backend : "numba", which compiles for some seconds at every call, or "numpy". progress : called with the fraction done.
+    Raises ValueError: dt above the stability limit; a start from another box. DivergedError: says when and where.
     """
     data = start_of(equation, start)
     interval = until.interval(equation)

@@ -27,10 +27,8 @@ SORT = 20       # steps after which particles are put in the order of cells agai
 class Dpd:
     """A fluid of dissipative particles in a periodic box (width, height[, depth]) centred on the origin.
 
-    a, gamma, kT, rc : repulsion, friction, temperature, range. noise : `Uniform(seed)`.
-    integrator : of `integrators_dpd`, or `TwoStep` for RR98 Eqs 40, 41. rate : of a shear v_x = rate y between sliding sides.
-    skin : of the neighbour lists, in units of length.
-
+    a, gamma, kT, rc : repulsion, friction, temperature, range. noise : `Uniform(seed)`. skin : of the lists, a length.
+    integrator : of `integrators`, or `TwoStep` for RR98 Eqs 40, 41. rate : of a shear v_x = rate y between sliding sides.
     Raises ValueError: a parameter that makes no fluid.
     """
     box: tuple[float, ...]
@@ -88,10 +86,7 @@ class Dpd:
         return float(min(2/max(omega, 1e-300), 2/max(friction, 1e-300)))
 
     def random_start(self, rho: float, seed: int = 1) -> np.ndarray:
-        """State (3 d, n) of rho volume particles anywhere, velocities of kT without a mean, moving with the shear.
-
-        Raises ValueError: the density is not positive or leaves no two particles.
-        """
+        """State (3 d, n) at random, velocities of kT in the shear. Raises ValueError: rho leaves no two particles."""
         if not (isfinite(rho) and rho > 0 and round(rho*self.volume) >= 2):
             raise ValueError(f"rho must be positive and make two particles at least in a volume of {self.volume:g}, got {rho}: "
                              "rho = 3 is usual")
@@ -153,10 +148,7 @@ class Forces:
             self.images.anchor, now.anchor = None, anchor
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """Lists that will last for the step, particles in the order of cells; before the first step its force.
-
-        Raises ValueError: the step is above the stability limit.
-        """
+        """Lists for the step; before the first its force. Raises ValueError: the step is above the stability limit."""
         d, self.now, self.dt = self.places, now, dt
         if now.step == 0 and not dt <= self.method.longest_step(self.n):
             limit = self.method.longest_step(self.n)

@@ -1,8 +1,7 @@
 """Linked cells and Verlet lists in three dimensions; those of `particles.neighbours` are in two.
 
-Lists hold both directions of a pair, so that each row of a pair sum is written by one thread only. The two are kept apart because
-these take twice as long in one layer of cells, where there is less to leave out 64 at a time, and those are also of places that
-are no points, over rings of several cells.
+Lists hold both directions of a pair, so that each row of a pair sum is written by one thread. In one layer of cells these
+take twice as long as those.
 """
 from typing import NamedTuple
 
@@ -59,10 +58,7 @@ def _count_sort(cells, x):
 
 
 def sort_into_cells(x: np.ndarray, side: float) -> Cells:
-    """Linked cells over the bounding box of points (n, 3), with one empty cell around it.
-
-    Raises FloatingPointError: the points are spread over far more cells than there are points.
-    """
+    """Linked cells over points (n, 3), an empty one around them. Raises FloatingPointError: far more cells than points."""
     low = x.min(axis=0) - side
     across = (x.max(axis=0) - low)/side + 2
     if not np.prod(across) <= 64*len(x) + 4096:

@@ -55,10 +55,7 @@ def kinetic_temperature(sums: Any, state: np.ndarray) -> float:
 
 
 def configurational_temperature(sums: Any, state: np.ndarray) -> float:
-    """kT of positions, <|grad U|^2>/<lap U>    [Rugh 1997; Butler et al. 1998]
-
-    A mean over states is one of ratios, too high by about 1/n.
-    """
+    """kT of positions, <|grad U|^2>/<lap U>, of one state too high by 1/n    [Rugh 1997; Butler et al. 1998]"""
     total = static_sums(sums, state)
     return float((total[:, :3]**2).sum()/total[:, 3].sum())
 

@@ -1,8 +1,4 @@
-"""Pair sums of dissipative particles, compiled: a block of rows after the other, whose pairs stay in the cache.
-
-Each block finds the pairs in range, draws their random numbers, weighs them in loops for vector instructions, and sums a term
-over them with `pairs.sweep`.
-"""
+"""Pair sums of dissipative particles, compiled: a block of rows after the other, whose pairs stay in the cache."""
 from typing import NamedTuple
 
 import numpy as np

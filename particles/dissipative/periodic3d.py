@@ -77,10 +77,7 @@ class Points(NamedTuple):
 
 
 class Images:
-    """Ghosts and lists of n particles in a periodic box (d,), d = 2 or 3, centred on the origin.
-
-    Particles may be anywhere: their coordinates need no wrapping. `lists` are of the particles over all `points`.
-    """
+    """Ghosts and lists of n particles, anywhere, in a periodic box (d,), d = 2 or 3, centred on the origin."""
 
     def __init__(self, n: int, box: tuple[float, ...], reach: float, skin: float, rate: float, team: Team):
         self.n, self.box, self.reach, self.skin, self.rate, self.team = n, np.array(box, float), reach, skin, rate, team

@@ -1,7 +1,4 @@
-"""Dissipative particles that stream past others which are held, and so form a body    [RR98, Sec. IV]
-
-Held particles push and rub as all do, and stay where they are. The fluid gets into the body, as soft as its particles are.
-"""
+"""Dissipative particles that stream past others which are held, and so form a soft body    [RR98, Sec. IV]"""
 from dataclasses import dataclass
 from typing import Any
 
@@ -83,10 +80,7 @@ class Streaming(Forces):
 
 
 def force_on_body(sums: Streaming, state: np.ndarray) -> float:
-    """Along x, mean since the last record; a restart forgets what was received before it.
-
-    Every force that is evaluated acts for an equal part of the time.
-    """
+    """Along x, mean over all forces evaluated since the last record or restart."""
     force = sums.received/max(sums.calls, 1)
     sums.begin()
     return float(force[0])

@@ -1,13 +1,11 @@
 """Points that are held: frozen points that form a rigid body, rows of fixed points that form a wall    [RR98, Sec. IV]
 
-RR98 leaves boundaries open and names the trick: freeze some of the points. A held point exchanges over its edges as all points
-do; its velocity and temperature are given, its density evolves. What the edges carry to it is the force on the body and the
-heat that it takes. Where the surface lies then depends on the points: on the outermost of them for edges to nearest neighbours,
-so a body of lattice points has a staircase for a surface, and points placed on the surface itself give the true one.
+A held point exchanges over its edges as all points do; its velocity and temperature are given, its density evolves. What the
+edges carry to it is the force on the body and its heat. A body of lattice points has a staircase for a surface; points placed
+on the surface give the true one.
 
-Friction along edges is eta lap v, whose flux through a surface is eta dv/dn: the traction on a body that does not turn. One that
-turns with Omega feels a torque -2 eta Omega area besides. It comes from the edges inside of the body, whose forces are not
-central: so the torque is that on all points of a body, those inside too.
+The flux of eta lap v through a surface is eta dv/dn, the traction on a body that does not turn. One that turns with Omega feels
+a torque -2 eta Omega area besides, from edges inside of it: take the torque on all points of a body.
 """
 from typing import NamedTuple
 
@@ -28,10 +26,7 @@ class Held(NamedTuple):
 
 
 def held(which: np.ndarray, v: tuple[float, float] = (0.0, 0.0), T: float = np.nan) -> Held:
-    """Points of one velocity and temperature.
-
-    Raises ValueError: there are none of them, one is named twice, or the temperature is not positive.
-    """
+    """Points of one velocity and temperature. Raises ValueError: there are none, one is named twice, or T <= 0."""
     which = np.asarray(which)
     if len(which) < 1 or len(np.unique(which)) < len(which):
         raise ValueError(f"{len(which)} points are to be held, {len(np.unique(which))} of them different: name at least one, and "
@@ -69,9 +64,8 @@ def check_disc(points: Points, radius: float) -> None:
 def with_surface(counts: tuple[int, int], radius: float) -> tuple[Points, np.ndarray]:
     """A lattice of spacing 1 with a disc about its middle, and the points of the disc, those on its surface among them.
 
-    Points a spacing apart lie on the circle; the lattice inside and outside keeps off it by CLEAR, so that the chords between
-    neighbours on the circle are edges of a Delaunay triangulation. The surface is then a polygon, which lacks a fraction
-    (2 pi/n)^2/6 of the area of the disc: second order in the spacing.
+    The lattice keeps off the circle by CLEAR, so that chords between neighbours on it are edges of a Delaunay triangulation.
+    The polygon lacks a fraction (2 pi/n)^2/6 of the area of the disc: second order in the spacing.
     """
     at = lattice(counts)
     check_disc(at, radius)

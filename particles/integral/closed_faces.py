@@ -1,10 +1,8 @@
 """A conservative scheme on moving points: volume, mass, momentum and energy exchanged over faces, in 2D.
 
-Points have volumes that change as their surroundings do. Faces S_ij = -S_ji between points within the range of a weight close
-and are exact on linear fields, as nearly as an iteration a step makes them; points drift with the fluid and a little towards even
-spacing, and what volume they leave to each other carries mass, momentum and energy along. RR98's moving points (Eqs 46-48, on
-volumes that stay) lose all of these. How faces are made and closed is in `faces`. Between plates convection and pressure see
-images without friction, friction and heat others: see `layer`.
+Faces S_ij = -S_ji close and are exact on linear fields, see `faces`. Points drift with the fluid and a little towards even
+spacing; the volume that they leave to each other carries mass, momentum and energy along. RR98's moving points (Eqs 46-48, on
+volumes that stay) lose all of these. Images beyond plates are those of `layer`.
 """
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -201,10 +199,7 @@ class Exchanging(Listed):
         self.shift *= np.minimum(1.0, most/np.maximum(size, 1e-300))[:, None]
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
-        """Refuse points in one place or without neighbours; warn where the weight is too narrow to tell their density.
-
-        Raises ValueError: two points overlap, or one has no neighbours in two directions; names them.
-        """
+        """Refuse points in one place or without neighbours: ValueError names them. Warn where the weight is too narrow."""
         V, weight = state[7], self.method.weight
         a = float(np.sqrt(V.mean()))
         self.around.place(state, 1.0)
@@ -212,8 +207,6 @@ class Exchanging(Listed):
         check_reach(weight, moments(self.around, V), ids)
         off = V*self.around.rho[:self.n] - 1
         check_ordering(weight, 2, a, float(np.sqrt((off**2).mean())), wrong="volumes, which follow the density of points, are")
-
-    # --- exchange ---------------------------------------------------------------------------------------------
 
     def look_at(self, state: np.ndarray) -> None:
         """Fields of all points and images on the faces as they are."""
@@ -245,8 +238,6 @@ class Exchanging(Listed):
         self.look_at(state)
         total, rho0 = self.exchange.sum(self.at(state)), method.rho0 if chosen.static else 0.0
         self.team(_rates, self.n, total, state, self.points, method.g, rho0, self.P0, out)
-
-    # --- motion -----------------------------------------------------------------------------------------------
 
     def set_drift(self, state: np.ndarray) -> None:
         """Points follow the fluid, and shift."""

@@ -47,10 +47,7 @@ def waves(columns: np.ndarray, counts: tuple[int, int], k: float) -> np.ndarray:
 
 
 def steady(J: np.ndarray, Q: np.ndarray, conserved: np.ndarray | None = None) -> np.ndarray:
-    """C with J C + C J^* + Q = 0, at fixed values of the rows `conserved` (q, N).
-
-    Raises ArithmeticError: a mode grows, or neither decays nor is conserved: it has no steady covariance.
-    """
+    """C with J C + C J^* + Q = 0, at fixed rows `conserved` (q, N). Raises ArithmeticError: a mode does not decay."""
     Z = free(len(J), conserved)
     J, Q = Z.conj().T@J@Z, Z.conj().T@Q@Z
     check_decay(np.linalg.eigvals(J).real, UNDAMPED*np.abs(J).max())
@@ -66,10 +63,7 @@ class Step(NamedTuple):
 
 
 def steady_of_steps(step: Step, conserved: np.ndarray | None = None) -> np.ndarray:
-    """C = A C A^* + Q, at fixed values of the rows `conserved`.
-
-    Raises ArithmeticError: the step is above its limit, or a mode neither decays nor is conserved.
-    """
+    """C = A C A^* + Q, at fixed rows `conserved`. Raises ArithmeticError: a mode does not decay."""
     Z = free(len(step.A), conserved)
     A, Q = Z.conj().T@step.A@Z, Z.conj().T@step.Q@Z
     check_decay(np.abs(np.linalg.eigvals(A)) - 1, UNDAMPED)
@@ -89,9 +83,6 @@ def check_decay(rates: np.ndarray, least: float) -> None:
         raise ArithmeticError(f"{np.count_nonzero(rates >= -least)} modes do not decay, the fastest grows at {worst:.3g}: there "
                               "is no steady covariance; for null modes take a share of transport along edges or an odd number "
                               "of points, for modes that grow edges that close and a smaller step")
-
-
-# --- time steps -----------------------------------------------------------------------------------------------------------------
 
 
 def forward_euler(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:

@@ -97,10 +97,7 @@ class Pairwise:
     everywhere: bool = False
 
     def fluxes(self, dih: "Dih", flow: Flow) -> Fluxes:
-        """Through all edges.
-
-        Raises ValueError: a bulk viscosity that would make one of the two frictions negative.
-        """
+        """Through all edges. Raises ValueError: a bulk viscosity that would make one of the frictions negative."""
         edges, coefficients = dih.edges, dih.coefficients(flow)
         check_bulk(coefficients.eta, coefficients.zeta, edges.d)
         found = along(edges, means(coefficients, edges.i, edges.j), take(flow, edges.i), take(flow, edges.j))
@@ -198,11 +195,7 @@ class Dih:
         return np.stack([rho, *(rho[:, None]*v).T, rho*(internal + (v**2).sum(axis=1)/2)])
 
     def flow(self, state: np.ndarray) -> Flow:
-        """Fields of a state.
-
-        Raises FloatingPointError: a density or an energy is outside of the validity of the equation of state;
-        names the point.
-        """
+        """Fields of a state. Raises FloatingPointError: one is outside of the equation of state; names the point."""
         rho, eps = state[0], state[-1]
         with np.errstate(all="ignore"):
             v = (state[1:-1]/rho).T

@@ -54,9 +54,7 @@ def printed(points: Points, weight: Any) -> Edges:
 def renormalised(points: Points, weight: Any) -> Edges:
     """Plain quadrature times the number that makes the mean discrete first moment sum_j W r_ij dV equal to d.
 
-    Warns where Eq. 45 does not hold and points are irregular; on a lattice linear fields are exact at any range.
-
-    Raises ValueError: no two points are within the weight's range.
+    Warns where Eq. 45 does not hold and points are irregular. Raises ValueError: no two points are within the weight's range.
     """
     return judged(_renormalised(points, weight), points, weight)
 
@@ -74,9 +72,7 @@ def _renormalised(points: Points, weight: Any) -> Edges:
 def closed(points: Points, weight: Any) -> Edges:
     """A': S_ij + k_ij (l_j - l_i), l from the graph Laplacian so that all edges close.
 
-    Conserves, keeps uniform flow uniform, is skew; its gradients are wrong by a fixed share that the disorder sets.
-
-    Raises ValueError: the points fall into parts without an edge between them.
+    Gradients are wrong by a share that the disorder sets. Raises ValueError: points fall into parts without an edge between them.
     """
     edges = judged(_renormalised(points, weight), points, weight)
     l = np.stack([_potential(edges, -c) for c in edges.closure.T], axis=1)
@@ -108,9 +104,7 @@ def exact(points: Points, weight: Any) -> Edges:
     """The nearest edges to the renormalised ones, in the norm sum (dS)^2/k, that close and are exact on linear fields.
 
     dS_ij = k_ij [lam_i - lam_j + (mu_i + mu_j).(x_j - x_i)/2] for each direction, lam (n,), mu (n, d) from the constraints.
-
-    Raises ArithmeticError: the constraints cannot be met: the points are too irregular for the reach of the
-    weight.
+    Raises ArithmeticError: the points are too irregular for the reach of the weight.
     """
     edges = _renormalised(points, weight)       # whatever Eq. 45 says: these become exact
     check_connected(edges)

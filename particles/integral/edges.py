@@ -98,10 +98,7 @@ class Edges:
 
 
 def combined(i: np.ndarray, j: np.ndarray, S: np.ndarray, k: np.ndarray, apart: np.ndarray, V: np.ndarray, a: float) -> Edges:
-    """Edges with i < j, those that join the same points added up.
-
-    Two points may be joined in two directions where the box is a few spacings wide: told apart by where they lead.
-    """
+    """Edges with i < j; those that join the same points in the same direction are added up."""
     turn = np.where(i > j, -1.0, 1.0)[:, None]
     S, apart, i, j = turn*S, turn*apart, np.minimum(i, j), np.maximum(i, j)
     keys = np.column_stack([i, j, np.round(apart/a*1e6).astype(np.int64)])
@@ -184,12 +181,9 @@ def between_plates(make: Callable[[Points, Any], Edges], x: np.ndarray, width: A
     """Edges among points x (n, d) and to their mirror images in the plates -+ height/2 of the last axis, periodic along them.
 
     width : of the box along the plates: () in 1D, a number in 2D, a pair in 3D.
-    The maker sees points and images together, a box twice as high that is periodic. What it makes is averaged with its own
-    mirror image (two points and their images lie on one circle: a triangulation has to choose one of two diagonals; in 3D three
-    and theirs lie on one sphere, which leaves it flat simplices: edges of a weight only).
-
-    Raises ValueError: a point is on a plate or beyond it, or the width is not that of such a box; what makers
-    refuse of points and images.
+    The maker sees points and images in a periodic box twice as high; what it makes is averaged with its own mirror image, since
+    a triangulation has to choose one of two diagonals. In 3D it finds flat simplices: take edges of a weight.
+    Raises ValueError: a point is on a plate or beyond it, or the width is not that of such a box; what makers refuse.
     """
     widths = check_widths(x, width)
     check_between(x, height)

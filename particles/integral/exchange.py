@@ -76,9 +76,6 @@ def _(term, a, b, ab):
     return 0.0, 0.0, 0.0, 0.5*term.share*(a.k + b.k)*ab.k*(b.Td - a.Td)
 
 
-# --- lists of terms -----------------------------------------------------------------------------------------
-
-
 class Listing(NamedTuple):
     """The sum of the listed terms, in their order: heat, friction, convection, pressure is the quickest."""
     terms: tuple
@@ -121,9 +118,6 @@ rate.of(Listing)(lambda term, a, b, ab: total(term.terms, a, b, ab))
 
 #: how a term reads edges
 Over = Callable[[Any], Any]
-
-
-# --- the loop -----------------------------------------------------------------------------------------------
 
 
 class At(NamedTuple):

@@ -40,9 +40,6 @@ def mismatch(pair: Partners, twice: float) -> float:
     return float(abs(pair.Q - wanted).max()/abs(wanted).max())
 
 
-# --- one random stress and one random heat current a point: the partners of gradients whose divergence is taken -----------
-
-
 def stress(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
     """Viscous forces D (eta Delta + zeta 11)/V D^T, each point with its own viscosities, and one random stress a point:
 
@@ -60,10 +57,7 @@ def stress(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
 
 
 def heat(edges: Edges, kappa: Any, kT2: Any) -> Partners:
-    """Heat D kappa/V D^T, and one random current a point, sqrt(2 k T_i^2 kappa_i/V_i) r_i. kT2 = k T^2, (n,).
-
-    Raises ValueError: a conductivity or k T^2 is negative.
-    """
+    """Heat D kappa/V D^T, and a random current a point, sqrt(2 kT2_i kappa_i/V_i) r_i; kT2 = k T^2, not negative."""
     kappa, kT2 = checked(edges.n, kappa=kappa, kT2=kT2)
     d, div = edges.d, sparse.hstack(edges.D, format="csr")
     Gamma = div@kron(np.eye(d), kappa/edges.V)@div.T
@@ -103,9 +97,6 @@ def each(d: int, matrix: Any) -> sparse.csr_array:
     return sparse.csr_array(sparse.kron(sparse.eye_array(d), matrix))
 
 
-# --- noise along edges: the partners of friction and heat between two points [Eq. 51] ----------------------------------------
-
-
 def friction(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
     """Friction k (A + B e e) of `dih.along`, and sqrt(2 kT k A) R + sqrt(2 kT k B) e r on each edge; means over its two points.
 
@@ -121,10 +112,7 @@ def friction(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
 
 
 def between(edges: Edges, A: np.ndarray, B: np.ndarray, kT: np.ndarray) -> Partners:
-    """Friction k (A + B e e) between the points of each edge, A, B, kT (E,), and its noise.
-
-    Raises ValueError: k is negative.
-    """
+    """Friction k (A + B e e) between the points of each edge, A, B, kT (E,), and its noise; k is not negative."""
     k, d, across = conductances(edges), edges.d, incidence(edges)
     A, B = np.maximum(A, 0), np.maximum(B, 0)       # zero to round-off at the ends of the range of zeta
     e = edges.apart/np.sqrt((edges.apart**2).sum(axis=1))[:, None]
@@ -146,10 +134,7 @@ def conduction(edges: Edges, kappa: Any, kT2: Any) -> Partners:
 
 
 def mixed(points: Partners, along: Partners, share: float) -> Partners:
-    """A share of friction along edges and the rest of stresses at points, each with its own noise: exact as both are.
-
-    Raises ValueError: the share is not between 0 and 1.
-    """
+    """A share of friction along edges, the rest of stresses at points, each with its noise; ValueError: no share."""
     if not 0 <= share <= 1:
         raise ValueError(f"the share of transport along edges must be between 0 (points) and 1 (edges), got {share}")
     Gamma = (1 - share)*points.Gamma + share*along.Gamma
@@ -176,9 +161,6 @@ def conductances(edges: Edges) -> np.ndarray:
         raise ValueError(f"the edge between points {edges.i[worst]} and {edges.j[worst]} conducts k = {edges.k[worst]:.4g} < 0, "
                          "and no noise has a negative variance: take stresses at points, or edges of a weight")
     return np.maximum(edges.k, 0)
-
-
-# --- as printed ---------------------------------------------------------------------------------------------------------------
 
 
 def printed_stress(edges: Edges, eta: Any, zeta: Any, kT: Any, *, doubled: bool, volume: bool = True,

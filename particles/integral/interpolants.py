@@ -136,11 +136,7 @@ def check_ordering(weight: Any, d: int, a: float, error: float, wavelength: floa
 
 
 def check(weight: Any, d: int) -> None:
-    """Refuse a weight that is no representation of the delta function in d dimensions.
-
-    Raises ValueError: its width is not positive and finite, or M_1 differs from d: the gradient of a linear
-    field would be wrong by M_1/d.
-    """
+    """Refuse a weight whose M_1 differs from d, as no gradient would be right, or whose width is none: ValueError."""
     name = "range h" if isinstance(weight, Weight) else "width r0"
     if not 0 < width(weight) < np.inf:
         raise ValueError(f"the {name} of {type(weight).__name__} must be positive and finite, got {width(weight)}: Eq. 45 asks "

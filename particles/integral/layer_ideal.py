@@ -1,13 +1,9 @@
 """The sums of `layer` for an ideal gas with constant viscosity and conductivity, along edges with the heating mended.
 
-There P_ij = rho_i T_j, and every bracket of Eqs 34-36 and 51 is made of products of a point's own fields with sums over its
-neighbours, such as sum_j S.(rho_i v_j + rho_j v_i) = rho_i sum_j S.v_j + v_i.sum_j S rho_j. Edges then carry linear sums only,
-which vector instructions do several at a time; fields meet once a point. Sums are of differences to the point,
-sum_j S (f_j - f_i): of whole fields they would lose digits, and with them the conservation that edges give. Equal to `layer` to
-round-off.
-
-A step of a thousand points takes a tenth of a millisecond: few calls, arrays as plain tuples (a NamedTuple costs a microsecond
-each), and blocks of rows whose sums stay in the fastest cache until their points have taken them.
+There P_ij = rho_i T_j: every bracket of Eqs 34-36 and 51 is made of a point's own fields and linear sums over its neighbours,
+such as sum_j S.(rho_i v_j + rho_j v_i) = rho_i sum_j S.v_j + v_i.sum_j S rho_j. Vector instructions do several of these at a
+time. Sums are of differences sum_j S (f_j - f_i), which keep the conservation of edges. Equal to `layer` to round-off.
+Arrays go as plain tuples (a NamedTuple costs a microsecond each), rows in blocks whose sums stay in the fastest cache.
 """
 from typing import Any, NamedTuple
 

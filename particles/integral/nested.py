@@ -1,7 +1,4 @@
-"""Stress and heat current of points, from gradients by differences, and their divergence: a term over edges, in 2D.
-
-A share of it stabilises: nested transport alone does not see waves two spacings long.
-"""
+"""Stress and heat current of points, from gradients by differences, and their divergence: a term over edges, in 2D."""
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -49,10 +46,7 @@ def _(term, a, b, ab):
 
 
 def mixed(share: float, mended: bool = True) -> tuple:
-    """Terms of a share of friction and conduction along edges [Eq. 51], mended or as printed, the rest nested [Eqs 37, 38].
-
-    Raises ValueError: the share is not between 0 and 1.
-    """
+    """A share of transport along edges [Eq. 51], mended or as printed, the rest nested [Eqs 37, 38]; ValueError: no share."""
     if not 0 <= share <= 1:
         raise ValueError(f"the share of transport along edges must be between 0 (nested) and 1 (all), got {share}")
     along = (Conduction(share), *(Mending(share),)*mended, Friction(share))*(share > 0)

@@ -73,10 +73,7 @@ def jittered(counts: tuple[int, ...], size: float, seed: int, a: float = 1.0) ->
 
 
 def random(counts: tuple[int, ...], apart: float, seed: int, a: float = 1.0) -> Points:
-    """As many points at random, none nearer to another than `apart` spacings.
-
-    Raises ValueError: no room is found for the last points.
-    """
+    """Points at random, none nearer than `apart` spacings to another. Raises ValueError: the last find no place."""
     at = lattice(counts, a)
     rng, x = np.random.default_rng(seed), np.empty((0, at.d))
     for _ in range(400):
@@ -106,11 +103,7 @@ def wrapped(x: np.ndarray, box: np.ndarray) -> np.ndarray:
 
 
 def pairs(points: Points, distance: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """(i, j, x_j - x_i, r) of the pairs i < j nearer than `distance`.
-
-    Raises ValueError: the distance is wider than half of the box, so that two images of one point would
-    count; or two points coincide.
-    """
+    """(i, j, x_j - x_i, r) of pairs i < j nearer than `distance`. Raises ValueError: it is half of the box, or r = 0."""
     if 2*distance >= points.box.min():
         raise ValueError(f"the reach {distance:g} is wider than half of the box {points.box}: take more points or a narrower "
                          "weight")

@@ -1,9 +1,8 @@
-"""Points that move in the ways that RR98 names, compiled, in 2D: what `motions` says slowly, over neighbour lists    [Sec. III]
+"""Points that move in the ways that RR98 names, compiled, in 2D: `rr98_moving_plain` over neighbour lists    [Sec. III]
 
-The bracket is plain quadrature W dV times a number, `motions.scale_of`; friction goes along pairs [Eq. 51] without bulk
-viscosity. Every motion is one sum over pairs of what the first of the two gains of mass, momentum, energy and volume; a second
-one comes first where the heating of friction is mended. Between plates the images are those of `layer`: convection and pressure
-see fluid that slips, friction and heat fluid that does not. Points that come to a plate turn back.
+The bracket is plain quadrature W dV times `scale_of`; friction goes along pairs [Eq. 51] without bulk viscosity. Every motion is
+one sum over pairs of what the first of the two gains of mass, momentum, energy and volume. Images are those of `layer`; points
+that come to a plate turn back.
 """
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -251,10 +250,7 @@ class Drifts(Listed):
         self.exchange = Exchange(OverPairs(Drifting(method.motion, listed)), needed, n, team)
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
-        """Refuse points in one place; warn where the weight is too narrow for them    [Eq. 45]
-
-        Raises ValueError: two points overlap; names them.
-        """
+        """Refuse points in one place: ValueError names them. Warn where the weight is too narrow    [Eq. 45]"""
         a = float(np.sqrt(state[6].mean()))
         self.around.place(state, self.method.scale)
         check_apart(self.around, ids, a)

@@ -72,10 +72,7 @@ class Motion:
         return (*axes, "rho", *(f"p{axis}" for axis in axes), "eps")
 
     def fluid(self, x: np.ndarray, V: np.ndarray) -> Dih:
-        """The fluid as if points x (n, d) of volumes V (n,) stood still.
-
-        Raises FloatingPointError: a position is not finite, or a volume not positive; names the point.
-        """
+        """The fluid as if points x (n, d) of volumes V (n,) stood still; FloatingPointError names a point that is none."""
         bad = np.flatnonzero(~(np.isfinite(x).all(axis=1) & (V > 0)))
         if len(bad):
             raise FloatingPointError(f"point {bad[0]} is at {x[bad[0]]} with volume {V[bad[0]]:.6g}: positions must be finite "

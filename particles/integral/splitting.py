@@ -18,11 +18,7 @@ class KickDriftFrictionDriftKick:
         self._new = np.empty((shape[0]//3, shape[1]))
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
-        """Advance y in place by dt.
-
-        Raises ValueError: the box is sheared: friction at half time would see images where they were at its
-        beginning.
-        """
+        """Advance y in place by dt. Raises ValueError: the box is sheared, and its images are not those of half time."""
         if sums.method.rate:
             raise ValueError(f"a box sheared at the rate {sums.method.rate:g} has images that slide during a step: take "
                              "Shardlow or GrootWarren")

@@ -1,10 +1,8 @@
 """Discretized integral hydrodynamics on fixed points around bodies, compiled: the terms of `layer`, periodic, in 2D.
 
-Held points (`particles.integral.bodies`) are walls and bodies: they exchange mass with the fluid, so that their density
-follows, and keep their velocity and temperature. What they receive of momentum is the force on them, exactly what the fluid lost.
-
-Slow flow around bodies feeds patterns of pressure that no gradient sees, as finite elements of equal order do, and creeps towards
-a drag that is too high. A filter of the density, chi of some 0.05 a^2 c^2/nu (c^2 = dP/drho at constant T), ends that.
+Held points (`particles.integral.bodies`) keep their velocity and temperature; their density follows. What they receive of
+momentum is the force on them, exactly what the fluid lost. Slow flow around bodies feeds patterns of pressure that no gradient
+sees; a filter of the density, chi of some 0.05 a^2 c^2/nu (c^2 = dP/drho at constant T), ends that.
 """
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
@@ -152,10 +150,7 @@ def hold(eos, law, which, v, T, points):
 
 @jit
 def keep(eos, which, v, T, total, V, points, received, out):
-    """Rates of held points, whose density alone is free, and what they take besides mass.
-
-    Whoever holds an adiabatic body that moves does work on it, which is no heat.
-    """
+    """Rates of held points, whose density alone is free, and what they take; work on adiabatic bodies is no heat."""
     for m in range(len(which)):
         i, (vx, vy) = which[m], v[m]
         mass, rho, d = total[i, 0], points[i].rho, 1e-6*points[i].rho

@@ -30,10 +30,8 @@ STAGED = (1 + BETAS[0]*BETAS[1])/6 + (2 + BETAS[2]*(BETAS[0] + BETAS[1]))/6
 class Thermal:
     """A fluid on fixed points with the fluctuations of its own transport, of which a share goes along edges.
 
-    The part at points has the stress of Eqs 37, 38, eta of one point with the slope of the other: where eta, zeta or kappa vary
-    from point to point that is no symmetric matrix and has no exact partner [`fluctuating.stress` has its own eta at each
-    point]; with constant ones, and along edges, noise and dissipation are partners.
-
+    Noise and dissipation are partners along edges, and with constant coefficients; where these vary the stress of Eqs 37, 38 at
+    points is no symmetric matrix and has no exact partner.
     edges, eos, law, zeta : as in `dih.Dih`. k : Boltzmann's constant in the units of the fluid.
     """
     edges: Any
@@ -76,11 +74,7 @@ class Thermal:
         return f"Thermal({sums}, {self.eos}, {self.law}, {self.k}, {self.seed}, {self.zeta}, {self.share})"
 
     def start(self, n: int, team: Team) -> "Agitated":
-        """The sums over edges.
-
-        Raises ValueError: the state has not as many points as there are, or the viscosities have no noise
-        along edges.
-        """
+        """The sums over edges. Raises ValueError: another number of points, or viscosities without noise along edges."""
         check_number(n, self.edges.n)
         return Agitated(self, team)
 

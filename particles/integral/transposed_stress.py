@@ -56,8 +56,7 @@ def _(term, a, b, ab):
 class Heating(Stage):
     """Makes F of points and images.
 
-    Slopes see -v beyond a plate; what is their adjoint sees tau odd along it and even across. So heating is tau times the slopes
-    that made it, images included, and F along a plate is even, across it odd: no energy goes through.
+    Slopes see -v beyond a plate; tau is odd along it and even across, F the other way round: no energy goes through.
     over : how terms read edges; places : what this reads of points.
     """
 

@@ -95,10 +95,7 @@ class Spam:
         return sums, ordered, ids
 
     def start(self, n: int, team: Team) -> "Nested | Direct":
-        """The sums of n particles, with their arrays.
-
-        Raises ValueError: there are no particles, or the weight is wider than half of the box.
-        """
+        """The sums of n particles. Raises ValueError: there are none, or the weight is wider than half of the box."""
         if n < 1:
             raise ValueError(f"there are no particles (n = {n}): a run needs at least one")
         return (self.transport or Nested)(self, n, team)

@@ -1,16 +1,9 @@
 """Lees-Edwards sides for fixed points: the images above and below slide past, faster by rate times height    [RR98, Sec. IV]
 
-The points of a lattice stay where they are; their images above have slid by s = rate height t = (m + theta) a along x. A point
-sees, at each place of the lattice beyond the side, the two images next to it: one edge with the share 1 - theta of S and k, one
-with theta. Why so:
-- i sees j with the share with which j sees i, so nothing is lost; edges close at every s, as those of the lattice do; volumes
-  stay. Edges made anew of the slid points would do neither: those of a weight are open between two places of the lattice, where a
-  uniform pressure would push, and those of a triangulation change the volumes, and so the mass, whenever a diagonal flips.
-- no share is negative, so friction never feeds a motion; shares change continuously, so does what is exchanged.
-- it is linear interpolation between images: second order in the spacing, as all the rest.
-Each point exchanges in its own frame with images that move at their own speed, v + rate height: nothing depends on which of two
-boxes is called the one at rest. Each sum over edges through the side, of S_x times a field of one of their ends, vanishes (edges
-are mirror images of each other in x), hence what both sides count, each in its frame, is the same.
+Images above have slid by s = rate height t = (m + theta) a along x. A point sees, at each place of the lattice beyond the side,
+the two images next to it: one edge with the share 1 - theta of S and k, one with theta. So nothing is lost, edges close at every
+s and volumes stay; no share is negative; what is exchanged is continuous, and second order in the spacing.
+Each point exchanges in its own frame with images of velocity v + rate height: which of two boxes is at rest does not matter.
 """
 from typing import NamedTuple
 
