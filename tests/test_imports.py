@@ -11,12 +11,6 @@ PACKAGES = ("continuum", "particles", "studies")
 SHARED = ("continuum", "continuum.fluid", "continuum.jit")
 #: rooms of studies that are no study: what every study uses, and the page, which shows all of them
 BELOW, PAGE = ("kit", "build"), "report"
-#: what is still imported across studies, until it has moved to build, kit or below
-MENDING = {"studies.conservation.bodies.drag", "studies.hardcases.interface.runs", "studies.hardcases.read",
-           "studies.hardcases.square.claims", "studies.hardcases.square.runs", "studies.hardcases.tube.spam",
-           "studies.lattices.cases", "studies.lattices.claims", "studies.lattices.derive", "studies.lattices.long_sound",
-           "studies.lattices.ringing_part", "studies.operators.transport.walls", "studies.ordering.derive",
-           "studies.ordering.vortices", "studies.ordering.waves", "studies.rb.looks", "studies.rb.tables"}
 
 
 def named(path: Path) -> str:
@@ -39,8 +33,8 @@ def imports(module: str) -> frozenset[str]:
         elif isinstance(node, ast.ImportFrom):
             assert not node.level, f"{module} imports relative to itself: name the package"
             found |= {f"{node.module}.{alias.name}" for alias in node.names}
-    mended = {known for name in found if (known := longest_known(name)) and (known not in MENDING or room(known) == room(module))}
-    return frozenset(each for known in mended for each in with_packages(known) if not f"{module}.".startswith(f"{each}."))
+    known_ones = filter(None, map(longest_known, found))
+    return frozenset(each for known in known_ones for each in with_packages(known) if not f"{module}.".startswith(f"{each}."))
 
 
 def with_packages(module: str) -> list[str]:
@@ -71,7 +65,7 @@ def allowed(module: str, other: str) -> bool:
     if own == "particles":
         return other in SHARED
     if own == "studies.kit":
-        return other == "continuum.jit"     # whose hash of sources is part of a key
+        return other in ("continuum", "continuum.jit", "continuum.richardson")     # the hash of sources; fits over sizes of grids
     if own == f"studies.{PAGE}":
         return True
     rooms = BELOW[:1] if own == "studies.build" else BELOW
