@@ -1,15 +1,26 @@
 """Names of methods as tables and figures have them, and the colour of each family."""
+from studies.build.labels import LABELS
 
-GRID, NEWTON = "compressible grid, RK4", "compressible grid, Newton"
-MAC_NEWTON, MAC_IMEX = "MAC grid, Newton", "MAC grid, IMEX"
-PYPDE_GAS, PYPDE_BOUSSINESQ = "py-pde, gas", "py-pde, Boussinesq"
-NEAREST, LATTICE, WIDE = "DIH lattice, h = 1.2 a", "DIH lattice, h = 2 a", "DIH lattice, h = 3 a"
+GRID = LABELS["grid"]
+NEWTON = "compressible grid, Newton"
+MAC_NEWTON = "MAC grid, Newton"
+MAC_IMEX = "MAC grid, IMEX"
+PYPDE_GAS = "py-pde, gas"
+PYPDE_BOUSSINESQ = "py-pde, Boussinesq"
+NEAREST = LABELS["fixed-lattice-h1.2"]
+LATTICE = LABELS["fixed-lattice"]
+WIDE = LABELS["fixed-lattice-h3"]
 TWO_STEP = "DIH lattice, h = 2 a, two-step"
-LATTICE_MONAGHAN, LATTICE_WENDLAND = "DIH lattice, h = 2 a, Monaghan", "DIH lattice, h = 2 a, Wendland C2"
-JITTERED, RELAXED = "DIH Delaunay, jittered", "DIH Delaunay, relaxed"
-LUCY, MONAGHAN, WENDLAND = "SPAM, Lucy (as printed)", "SPAM, Monaghan", "SPAM, Wendland C2"
-LESS_STATIC, LUCY_TWO_STEP = "SPAM, Lucy, less static pressure", "SPAM, Lucy, two-step"
-MOVING = "moving points"
+LATTICE_MONAGHAN = LABELS["fixed-lattice-monaghan"]
+LATTICE_WENDLAND = LABELS["fixed-lattice-wendland-c2"]
+JITTERED = LABELS["fixed-jittered-plates"]
+RELAXED = LABELS["relaxed-plates"]
+LUCY = LABELS["spam"]
+MONAGHAN = LABELS["spam-monaghan"]
+WENDLAND = LABELS["spam-wendland-c2"]
+LESS_STATIC = LABELS["spam-less-static-50"]
+LUCY_TWO_STEP = "SPAM, Lucy, two-step"
+MOVING = LABELS["moving"]
 
 #: how a name begins -> colour
 FAMILIES = {"compressible": "#000000", "MAC": "#882255", "py-pde": "#E69F00", "DIH lattice": "#0072B2",
