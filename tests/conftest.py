@@ -8,7 +8,6 @@ import os
 import signal
 
 import numba
-import pytest
 
 import continuum.jit  # noqa: F401  (names the folder for users)
 
@@ -19,11 +18,3 @@ numba.config.reload_config()
 # a shell that starts the tests in the background, as nohup does, has Ctrl-C ignored, and what tests start would inherit that
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
-
-
-def pytest_collection_modifyitems(items):
-    """A file stays in one process, which has its fixtures; of what is said of every study, each study does."""
-    for item in items:
-        study = getattr(item, "callspec", None) and item.callspec.params.get("study")
-        group = study if isinstance(study, str) and item.path.stem == "test_studies" else item.path.stem
-        item.add_marker(pytest.mark.xdist_group(group))

@@ -12,7 +12,7 @@ from scipy.special import gammaincc
 
 from continuum.exact.waves import Gas, quantities
 from particles.integral.interpolants import Exponential, W, f, moment, reach, sphere, width
-from particles.weights import WEIGHTS, Lucy
+from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
 from studies.build.symbols import lattice_waves
 from studies.kit.case import Case, Outcome, Report
 from studies.operators.weights import MOMENTS, smoothed, weight_of
@@ -209,8 +209,9 @@ class Arithmetic(Case):
 
 
 def first_moment_error() -> float:
-    """Largest |M_1/d - 1| of all weights in 1, 2 and 3 dimensions    [RR98 Eq. 2]"""
-    compact = [(kind.of(h=1.3, d=d), d) for kind in WEIGHTS.values() for d in (1, 2, 3)]
+    """Largest |M_1/d - 1| of six weights in 1, 2 and 3 dimensions    [RR98 Eq. 2]"""
+    kinds = (Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6)
+    compact = [(kind.of(h=1.3, d=d), d) for kind in kinds for d in (1, 2, 3)]
     exponential = [(Exponential(0.3, d), d) for d in (1, 2, 3)]
     return max(abs(moment(weight, 1, d)/d - 1) for weight, d in (*compact, *exponential))
 
