@@ -9,13 +9,14 @@ from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
 from continuum.scene import RayleighBenard
 from particles.integral.brackets import Powers
 from particles.integral.dih import Pairwise
+from particles.integral.drifts import DRIFTS, ConstantMassDrift
 from particles.integral.edge_makers import plain
 from particles.integral.edges import between_plates
 from particles.integral.exchange import PRINTED
 from particles.integral.interpolants import OrderingWarning
 from particles.integral.layer import Layer, edge_by_edge
 from particles.integral.points import jittered, lattice
-from particles.integral.rr98_moving import DRIFTS, ConstantMassDrift, Drift
+from particles.integral.rr98_moving import Drift
 from particles.integral.rr98_moving_plain import MOTIONS, ConstantMass, scale_of
 from particles.integral.transposed_stress import MENDED
 from particles.integrators import RK4

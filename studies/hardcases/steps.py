@@ -16,12 +16,13 @@ from continuum.gas.fields import block, initial
 from continuum.gas.loop import FluxForm
 from continuum.gas.solve import RK4_DECAY, RK4_SOUND, March, limits
 from particles.integral.closed_faces import Moving
+from particles.integral.drifts import DRIFTS
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import between_plates
 from particles.integral.layer import Layer
 from particles.integral.nested import mixed
 from particles.integral.points import lattice
-from particles.integral.rr98_moving import DRIFTS, Drift
+from particles.integral.rr98_moving import Drift
 from particles.integral.rr98_moving_plain import scale_of
 from particles.integral.thermal import Thermal
 from particles.integral.triangulation import delaunay
