@@ -36,7 +36,8 @@ def read(name: str) -> pd.DataFrame:
 
 
 def table(name: str) -> pd.DataFrame:
-    """All numbers of a paper, with id, symbol, units, source, reading. Raises ValueError: no file of that name."""
+    """All numbers of a paper, with id, symbol, units, source, reading. Raises ValueError: no file of that
+    name."""
     if name not in names():
         raise ValueError(f"no published numbers of {name!r}: there are {', '.join(names())}; "
                          f"a new paper is a new file in {FOLDER.parent.name}/{FOLDER.name}/")
@@ -52,7 +53,8 @@ def numbers() -> dict[str, Value]:
 
 
 def published(key: str) -> Value:
-    """The number with this id, e.g. "chandrasekhar-ra-rigid". Raises ValueError: unknown; names ids that are close."""
+    """The number with this id, e.g. "chandrasekhar-ra-rigid". Raises ValueError: unknown; names ids that are
+    close."""
     if key not in numbers():
         close = get_close_matches(key, numbers(), n=5)
         raise ValueError(f"no published number {key!r}: " + (

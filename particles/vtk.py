@@ -7,7 +7,8 @@ import numpy as np
 
 def _array(parent: Xml.Element, name: str, values: np.ndarray, kind: str = "Float64") -> None:
     components = "1" if values.ndim == 1 else str(values.shape[1])
-    element = Xml.SubElement(parent, "DataArray", type=kind, Name=name, NumberOfComponents=components, format="ascii")
+    element = Xml.SubElement(parent, "DataArray", type=kind, Name=name, NumberOfComponents=components,
+                             format="ascii")
     element.text = " ".join(f"{v:.9g}" for v in values.ravel())
 
 
@@ -19,7 +20,8 @@ def write_particles(path: Path, state: np.ndarray, **fields: np.ndarray) -> None
     """State (5, n) = x, y, vx, vy, e and further fields (n,) as PolyData (.vtp)."""
     n = state.shape[1]
     root = Xml.Element("VTKFile", type="PolyData", version="1.0", byte_order="LittleEndian")
-    piece = Xml.SubElement(Xml.SubElement(root, "PolyData"), "Piece", NumberOfPoints=str(n), NumberOfVerts=str(n))
+    piece = Xml.SubElement(Xml.SubElement(root, "PolyData"), "Piece", NumberOfPoints=str(n),
+                           NumberOfVerts=str(n))
     data = Xml.SubElement(piece, "PointData")
     _array(data, "v", _vectors(state[2], state[3]))
     for name, values in {"e": state[4], **fields}.items():
@@ -32,7 +34,8 @@ def write_particles(path: Path, state: np.ndarray, **fields: np.ndarray) -> None
 
 
 def write_grid(path: Path, x: np.ndarray, y: np.ndarray, fields: dict[str, np.ndarray]) -> None:
-    """Fields (rows, columns) on a regular grid x, y of the same shape as ImageData (.vti); v from vx and vy."""
+    """Fields (rows, columns) on a regular grid x, y of the same shape as ImageData (.vti); v from vx and
+    vy."""
     rows, columns = x.shape
     extent = f"0 {columns - 1} 0 {rows - 1} 0 0"
     root = Xml.Element("VTKFile", type="ImageData", version="1.0", byte_order="LittleEndian")

@@ -1,4 +1,5 @@
-"""The Riemann problem of an ideal gas, exactly: a shock or a rarefaction on either side of a contact    [Toro 1997, ch. 4]"""
+"""The Riemann problem of an ideal gas, exactly: a shock or a rarefaction on either side of a contact    [Toro
+1997, ch. 4]"""
 from math import sqrt
 from typing import NamedTuple
 
@@ -53,7 +54,8 @@ def shock_speed(gas: Gas, P: float, gamma: float) -> float:
 def solution(left: Gas, right: Gas, gamma: float, s: np.ndarray) -> np.ndarray:
     """(3, n): rho, v, P at places x/t = s."""
     between = middle(left, right, gamma)
-    mirror = [side(Gas(right.rho, -right.v, right.P), Middle(-between.v, between.P, between.right, between.left), gamma, -s)]
+    mirror = [side(Gas(right.rho, -right.v, right.P),
+                   Middle(-between.v, between.P, between.right, between.left), gamma, -s)]
     one, other = side(left, between, gamma, s), mirror[0]*np.array([[1], [-1], [1]])
     return np.where(s < between.v, one, other)
 

@@ -4,7 +4,8 @@ About rho = T = 1 of an ideal gas, P = rho T, C_V = 1, waves exp(ik.r) of (rho, 
 
     rho' = -i s u        u' = -i s (rho + T) - l u        T' = -i s u - q T        and across k: v' = -t v
 
-with s = k, l = (2 eta (1 - 1/d) + zeta) k^2, q = kappa k^2, t = eta k^2. A scheme on a lattice has numbers of its own.
+with s = k, l = (2 eta (1 - 1/d) + zeta) k^2, q = kappa k^2, t = eta k^2. A scheme on a lattice has numbers of
+its own.
 """
 from typing import NamedTuple
 

@@ -45,7 +45,8 @@ class Fields:
 
 
 class Nodes(NamedTuple):
-    """Places x (n, 2), velocities v (n, 2), densities, temperatures and volumes (n,) of the nodes, each place once."""
+    """Places x (n, 2), velocities v (n, 2), densities, temperatures and volumes (n,) of the nodes, each place
+    once."""
     x: np.ndarray
     v: np.ndarray
     rho: np.ndarray
@@ -59,7 +60,8 @@ def at_nodes(fields: Fields) -> Nodes:
     columns, rows = shares(len(fields.x), fields.periodic or torus), shares(len(fields.y), torus)
     kept = np.ix_(rows > 0, columns > 0)
     X, Y, V = *np.meshgrid(fields.x, fields.y), fields.h**2*np.outer(rows, columns)
-    x, y, vx, vy, rho, T, V = (q[kept].ravel() for q in (X, Y, fields.at.vx, fields.at.vy, fields.at.rho, fields.at.T, V))
+    x, y, vx, vy, rho, T, V = (q[kept].ravel()
+                               for q in (X, Y, fields.at.vx, fields.at.vy, fields.at.rho, fields.at.T, V))
     return Nodes(np.stack([x, y], axis=1), np.stack([vx, vy], axis=1), rho, T, V)
 
 
@@ -71,7 +73,8 @@ def shares(nodes: int, periodic: bool) -> np.ndarray:
 
 
 def nodes(scene, rows: int) -> tuple[np.ndarray, np.ndarray]:
-    """Coordinates of columns and rows of nodes. Raises ValueError: rows odd or below 8, or cells are not square."""
+    """Coordinates of columns and rows of nodes. Raises ValueError: rows odd or below 8, or cells are not
+    square."""
     if rows < 8 or rows % 2:
         raise ValueError(f"rows must be even and at least 8, got {rows}: rolls are counted at mid-height")
     columns = round(scene.aspect*rows)
@@ -127,7 +130,8 @@ def node_densities(S: np.ndarray) -> np.ndarray:
 
 
 def interpolate(fields: Fields, x, y) -> Values:
-    """Cubic splines through the nodes, at points (x, y), periodic as the sides. Raises ValueError: a point is outside."""
+    """Cubic splines through the nodes, at points (x, y), periodic as the sides. Raises ValueError: a point is
+    outside."""
     x, y = np.asarray(x, float), np.asarray(y, float)
     if fields.periodic:
         x = fields.x[0] + (x - fields.x[0]) % fields.scene.width

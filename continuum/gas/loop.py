@@ -17,7 +17,8 @@ BULK_VISCOSITY = 0.0  # [KHP95, Sec. II]
 
 
 class Box(NamedTuple):
-    """Spacing of the grid, gravity, temperatures of the plates, first column and lowest row of nodes that move."""
+    """Spacing of the grid, gravity, temperatures of the plates, first column and lowest row of nodes that
+    move."""
     h: float
     g: float
     T_hot: float

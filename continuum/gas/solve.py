@@ -12,7 +12,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import check_state, conductivity, pressure, pressure_slopes, temperature, valid, viscosity
+from continuum.fluid import (
+    check_state,
+    conductivity,
+    pressure,
+    pressure_slopes,
+    temperature,
+    valid,
+    viscosity,
+)
 from continuum.gas.fields import (
     Fields,
     Nusselt,
@@ -71,7 +79,8 @@ class Solution:
 
     @property
     def nu(self) -> float:
-        """Nusselt number: of the volume, whose error is purely second order; between side walls of the plates."""
+        """Nusselt number: of the volume, whose error is purely second order; between side walls of the
+        plates."""
         plates = (self.nusselt.bottom + self.nusselt.top)/2
         return self.nusselt.volume if self.fields.periodic else plates
 
@@ -103,7 +112,8 @@ def limits(scene, S: np.ndarray) -> Limits:
 
 
 def sound_of_grid(eos, rho, e):
-    """Largest omega h/2: omega^2 = (4/h^2) s (P_rho + (1 - s) P P_e/rho^2), 0 < s < 1, e being averaged to cells."""
+    """Largest omega h/2: omega^2 = (4/h^2) s (P_rho + (1 - s) P P_e/rho^2), 0 < s < 1, e being averaged to
+    cells."""
     a, b = pressure_slopes(eos, rho, e)
     b = b*pressure(eos, rho, e)/rho**2
     inside = np.where(b > a, b, a)  # the maximum over s lies inside if b > a, else at s = 1
@@ -214,9 +224,11 @@ def finish(rows: int, march: March, until, series: Series) -> Solution:
 
 
 def steady_on(scene, sizes: Sequence[int], *, start: Fields | None = None, **options) -> list[Solution]:
-    """Steady solutions on ever finer grids, each started from the one before. Raises ValueError: there are no sizes."""
+    """Steady solutions on ever finer grids, each started from the one before. Raises ValueError: there are no
+    sizes."""
     if not len(sizes):
-        raise ValueError(f"there are no grids (sizes = {sizes}): give their rows, coarsest first, as in (16, 24, 32)")
+        raise ValueError(f"there are no grids (sizes = {sizes}): give their rows, coarsest first, as in (16, "
+                         "24, 32)")
     solutions: list[Solution] = []
     for rows in sizes:
         solutions.append(run(scene, rows, start=start, **options))

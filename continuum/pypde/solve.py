@@ -3,8 +3,8 @@
     solve_gas(RayleighBenard(ra=1e4), rows=32)
     solve_boussinesq(ra=5000, pr=7, rows=32, until=Time(100), start=Rolls(ke=1e-6))
 
-Second order in space, different from the other grids here in unknowns and placing. py-pde brings grids, boundary conditions,
-differences, steps in compiled code and trackers.
+Second order in space, different from the other grids here in unknowns and placing. py-pde brings grids,
+boundary conditions, differences, steps in compiled code and trackers.
 """
 import math
 from dataclasses import dataclass, field
@@ -25,7 +25,8 @@ STILL = 1e-12           # K of a fluid at rest
 
 
 class Rolls(NamedTuple):
-    """A start: rolls of kinetic energy `ke` per mass, `number` of them along x (by default two in a box of width 2)."""
+    """A start: rolls of kinetic energy `ke` per mass, `number` of them along x (by default two in a box of
+    width 2)."""
     ke: float = 0.0018
     number: int | None = None
 
@@ -41,9 +42,10 @@ class Nusselt(NamedTuple):
 class Solution:
     """What a run ended with.
 
-    `ke` is K at the end with what is left of its decay added, `ke_err` the size of that (not the error of the grid),
-    both in free-fall units for the Boussinesq layer and in those of the scene for the gas; the three of `nusselt`
-    agree to the error of the grid when steady; `mass_drift` is relative (0 for the Boussinesq layer).
+    `ke` is K at the end with what is left of its decay added, `ke_err` the size of that (not the error of the
+    grid), both in free-fall units for the Boussinesq layer and in those of the scene for the gas; the three
+    of `nusselt` agree to the error of the grid when steady; `mass_drift` is relative (0 for the Boussinesq
+    layer).
     """
     equation: Boussinesq | Gas
     state: np.ndarray = field(repr=False)
@@ -84,12 +86,14 @@ class Solution:
 
 
 def solve_boussinesq(*, ra: float, pr: float, rows: int, aspect: float = 2.0, **options) -> Solution:
-    """Boussinesq convection between rigid plates on `rows` rows of square cells, periodic in x; options of `solve`."""
+    """Boussinesq convection between rigid plates on `rows` rows of square cells, periodic in x; options of
+    `solve`."""
     return solve(Boussinesq(ra=ra, pr=pr, rows=rows, aspect=aspect), **options)
 
 
 def solve_gas(scene: RayleighBenard, rows: int, **options) -> Solution:
-    """The compressible fluid of a scene between periodic sides on `rows` rows of square cells; options of `solve`."""
+    """The compressible fluid of a scene between periodic sides on `rows` rows of square cells; options of
+    `solve`."""
     return solve(Gas(scene, rows), **options)
 
 
@@ -98,18 +102,19 @@ def solve(equation: Any, *, until: Until = Steady(), start: Rolls | Solution | n
     """Solve an equation: Boussinesq or Gas.
 
     until : Steady(rtol=...) or Time(t_end) of `continuum.steady`.
-    start : Rolls(ke, number), a solution of the same box on any grid, or a state (fields, columns, rows).
-    dt : largest step (by default 0.8 of the stability limit); the one taken divides the time between samples.
-    backend : "numba", which compiles for some seconds at every call, or "numpy". progress : called with the fraction done.
-    Raises ValueError: dt above the stability limit; a start from another box. DivergedError: says when and where.
+    start : Rolls(ke, number), a solution of the same box on any grid, or a state (fields, columns, rows). dt
+    : largest step (by default 0.8 of the stability limit); the one taken divides the time between samples.
+    backend : "numba", which compiles for some seconds at every call, or "numpy". progress : called with the
+    fraction done. Raises ValueError: dt above the stability limit; a start from another box. DivergedError:
+    says when and where.
     """
     data = start_of(equation, start)
     interval = until.interval(equation)
     count = math.ceil(interval/choose_step(equation, dt)*(1 - 1e-12))
     watch = Watch(equation, until, interval, interval/count, progress)
     try:
-        state, info = equation.solve(equation.state(data), t_range=math.inf, dt=interval/count, tracker=[watch],
-                                     solver=StageLoop, backend=backend, ret_info=True)
+        state, info = equation.solve(equation.state(data), t_range=math.inf, dt=interval/count,
+                                     tracker=[watch], solver=StageLoop, backend=backend, ret_info=True)
     finally:
         restore_interrupt(equation)
     return finish(equation, watch, state.data, info)
@@ -155,17 +160,20 @@ def finish(equation: Any, watch: Watch, data: np.ndarray, info: dict) -> Solutio
 
 
 def count_rolls(v: np.ndarray) -> int:
-    """Changes of sign of the vertical velocity along the periodic mid-height; below 5 % of its largest it is zero."""
+    """Changes of sign of the vertical velocity along the periodic mid-height; below 5 % of its largest it is
+    zero."""
     up = v[np.abs(v) > 0.05*np.abs(v).max()] > 0
     return int(np.sum(up != np.roll(up, 1)))
 
 
 def onto(equation: Any, start: Solution) -> np.ndarray:
-    """The state of a solution on the grid of another equation: cubic splines through its points and ghosts."""
+    """The state of a solution on the grid of another equation: cubic splines through its points and
+    ghosts."""
     old = start.equation
     if type(old) is not type(equation) or not np.allclose(old.grid_box, equation.grid_box):
         raise ValueError(f"start is a {type(old).__name__} in a box {old.grid_box}, the equation a "
-                         f"{type(equation).__name__} in {equation.grid_box}: start from rolls or from the same box")
+                         f"{type(equation).__name__} in {equation.grid_box}: start from rolls or from the "
+                         "same box")
     parts = []
     for n, f in enumerate(old.padded(start.state)[:len(start.state)]):
         x, y = equation.points(n)

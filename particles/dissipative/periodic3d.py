@@ -1,7 +1,7 @@
 """A periodic box in two or three dimensions: cell order, ghosts and neighbour lists of the particles in it.
 
-Two dimensions are three with z = 0: one layer of cells, no ghosts above or below. With `rate` the images beyond y slide along x
-[Lees & Edwards 1972].
+Two dimensions are three with z = 0: one layer of cells, no ghosts above or below. With `rate` the images
+beyond y slide along x [Lees & Edwards 1972].
 """
 from typing import NamedTuple
 
@@ -29,10 +29,11 @@ def farthest(x, anchor):
 
 @jit
 def _ghosts(x, sides, d, slid, margin, parent, shift, up):
-    """Shifts of n points into the box, then ghosts: of what is within `margin` of a side its image beyond the other one.
+    """Shifts of n points into the box, then ghosts: of what is within `margin` of a side its image beyond the
+    other one.
 
-    x (d, n); parent (room,), shift (room, 3), up (room,) are filled; the number of points, or -1 if they do not fit. Along y
-    first, since what has slid may need images along x.
+    x (d, n); parent (room,), shift (room, 3), up (room,) are filled; the number of points, or -1 if they do
+    not fit. Along y first, since what has slid may need images along x.
     """
     n = count = x.shape[1]
     for i in range(n):
@@ -61,7 +62,8 @@ def _ghosts(x, sides, d, slid, margin, parent, shift, up):
 
 @jit
 def place(first, last, x, images, slid, out):
-    """out[k] = (x, y, z) of points first..last, images having slid by so much since their shifts were made."""
+    """out[k] = (x, y, z) of points first..last, images having slid by so much since their shifts were
+    made."""
     for k in range(first, last):
         i = images.parent[k]
         out[k, 0] = x[0, i] + (images.shift[k, 0] + images.up[k]*slid)
@@ -70,17 +72,20 @@ def place(first, last, x, images, slid, out):
 
 
 class Points(NamedTuple):
-    """Particles in the box, then ghosts: image of which particle each is, where from there (points, 3), how many boxes above."""
+    """Particles in the box, then ghosts: image of which particle each is, where from there (points, 3), how
+    many boxes above."""
     parent: np.ndarray
     shift: np.ndarray
     up: np.ndarray
 
 
 class Images:
-    """Ghosts and lists of n particles, anywhere, in a periodic box (d,), d = 2 or 3, centred on the origin."""
+    """Ghosts and lists of n particles, anywhere, in a periodic box (d,), d = 2 or 3, centred on the
+    origin."""
 
     def __init__(self, n: int, box: tuple[float, ...], reach: float, skin: float, rate: float, team: Team):
-        self.n, self.box, self.reach, self.skin, self.rate, self.team = n, np.array(box, float), reach, skin, rate, team
+        self.n, self.box, self.team = n, np.array(box, float), team
+        self.reach, self.skin, self.rate = reach, skin, rate
         self.anchor: np.ndarray | None = None
         self.anchor_slid, self.made = 0.0, 0
         self.lists = Lists(np.empty(n, u64), np.empty(n, u32), np.empty(0, u32))
@@ -115,8 +120,8 @@ class Images:
             if all(self.team(list_rows, len(places), self.n, cells, reach, room, self.lists)):
                 return
             room = int(1.3*room) + 1
-        raise FloatingPointError(f"more than {int(room/1.3)} neighbours within {reach:g} of each particle: they have collapsed "
-                                 "onto each other; lower the step or the attraction")
+        raise FloatingPointError(f"more than {int(room/1.3)} neighbours within {reach:g} of each particle: "
+                                 "they have collapsed onto each other; lower the step or the attraction")
 
     def _make_points(self, x: np.ndarray) -> np.ndarray:
         """Particles in the box and ghosts; their places (points, 3)."""

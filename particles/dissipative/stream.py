@@ -24,13 +24,13 @@ class DpdStream(Dpd):
     def __post_init__(self):
         super().__post_init__()
         if len(self.held) < 1 or len(np.unique(self.held)) < len(self.held):
-            raise ValueError(f"{len(self.held)} particles are to be held, {len(np.unique(self.held))} of them different: name at "
-                             "least one, and each once")
+            raise ValueError(f"{len(self.held)} particles are to be held, {len(np.unique(self.held))} of "
+                             "them different: name at least one, and each once")
         if not np.isfinite(self.push):
             raise ValueError(f"the push must be finite, got {self.push}")
         if issubclass(self.integrator, (Shardlow, TwoStep)):
-            raise ValueError(f"{self.integrator.__name__} does not step with forces alone, by which particles are held: take "
-                             "VelocityVerlet")
+            raise ValueError(f"{self.integrator.__name__} does not step with forces alone, by which "
+                             "particles are held: take VelocityVerlet")
 
     def at_rest(self, state: np.ndarray, speed: float) -> np.ndarray:
         """A state (3 d, n) with the held particles at rest, `speed` added to the others along x."""

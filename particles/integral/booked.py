@@ -12,10 +12,11 @@ from particles.threads import Team
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Booked(Stream):
-    """A stream with a book in its first point's columns: momentum and energy that all walls have taken, over its volume.
+    """A stream with a book in its first point's columns: momentum and energy that all walls have taken, over
+    its volume.
 
-    One book of the sum: what held points push each other by cancels at once. Books of single points grow to a thousand times
-    the fluid's momentum, and round accordingly.
+    One book of the sum: what held points push each other by cancels at once. Books of single points grow to a
+    thousand times the fluid's momentum, and round accordingly.
     """
 
     names = (*Stream.names, "taken_x", "taken_y", "taken_e")
@@ -43,8 +44,8 @@ class Booking(Streaming):
 class BookedSides(Sheared):
     """Sliding sides with a book: momentum along them and energy that they have given, per volume of the box.
 
-    What leaves below is what enters above seen from the box above, which moves with U: of mass m, momentum p and energy e that
-    enter, U m of momentum and U p - U^2 m/2 of energy stay.
+    What leaves below is what enters above seen from the box above, which moves with U: of mass m, momentum p
+    and energy e that enter, U m of momentum and U p - U^2 m/2 of energy stay.
     """
 
     names = (*Sheared.names, "given_x", "given_e")

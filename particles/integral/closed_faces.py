@@ -1,8 +1,8 @@
 """A conservative scheme on moving points: volume, mass, momentum and energy exchanged over faces, in 2D.
 
-Faces S_ij = -S_ji close and are exact on linear fields, see `faces`. Points drift with the fluid and a little towards even
-spacing; the volume that they leave to each other carries mass, momentum and energy along. RR98's moving points (Eqs 46-48, on
-volumes that stay) lose all of these. Images beyond plates are those of `layer`.
+Faces S_ij = -S_ji close and are exact on linear fields, see `faces`. Points drift with the fluid and a little
+towards even spacing; the volume that they leave to each other carries mass, momentum and energy along. RR98's
+moving points (Eqs 46-48, on volumes that stay) lose all of these. Images beyond plates are those of `layer`.
 """
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -24,22 +24,25 @@ from particles.threads import Team
 from particles.walls import confine
 from particles.weights import check_unit
 
-#: rows of a state: places, drift velocity, momentum, mass, volume, total energy, and the last solution for the faces
+#: rows of a state: places, drift velocity, momentum, mass, volume, total energy, and the last solution for
+#: the faces
 ROWS = ("x", "y", "wx", "wy", "px", "py", "m", "V", "E", *POTENTIALS)
 EXCHANGED, SOLVED = slice(4, 9), slice(9, 15)
-#: seen by convection and pressure: vx .. theta; by friction and heat: ux, uy, Td; F mends the heating, (gx, gy) = grad P'
-Point = np.dtype([(name, "f8") for name in ("vx", "vy", "P", "rho", "e", "per_c", "shift_x", "shift_y", "theta", "gx", "gy", "ux",
-                                            "uy", "Td", "eta", "k", "Fx", "Fy")])
+#: seen by convection and pressure: vx .. theta; by friction and heat: ux, uy, Td; F mends the heating, (gx,
+#: gy) = grad P'
+Point = np.dtype([(name, "f8") for name in ("vx", "vy", "P", "rho", "e", "per_c", "shift_x", "shift_y",
+                                            "theta", "gx", "gy", "ux", "uy", "Td", "eta", "k", "Fx", "Fy")])
 
 
 class Ingredients(NamedTuple):
     """What the scheme is made of; each can be left out.
 
-    iterations : at most, for the faces, from what a step before found; 0 leaves them open, 12 change K by less than 1e-3.
-    within : relative residual at which they are good enough.
-    shift : of points towards even spacing, in spacings^2. follow : how fast volumes follow the density of points.
-    spread : of mass against pressure waves at the spacing, over a c/2; smooth : of what a linear pressure leaves only.
-    static : hydrostatic and mean pressure taken from the faces. transport : listed terms of friction and heat along faces.
+    iterations : at most, for the faces, from what a step before found; 0 leaves them open, 12 change K by
+    less than 1e-3. within : relative residual at which they are good enough.
+    shift : of points towards even spacing, in spacings^2. follow : how fast volumes follow the density of
+    points. spread : of mass against pressure waves at the spacing, over a c/2; smooth : of what a linear
+    pressure leaves only. static : hydrostatic and mean pressure taken from the faces. transport : listed
+    terms of friction and heat along faces.
     """
     iterations: int = 1
     within: float = 1e-3
@@ -83,15 +86,17 @@ def _(term, a, b, ab):
     P = a.P + b.P
     _, fx, fy, heat = rate(term.transport, a, b, ab)
     through = heat + 0.5*mass*(a.e + b.e + a.vx*b.vx + a.vy*b.vy) - a.P*to_b - b.P*to_a
-    return (mass, fx - sx*P + 0.5*mass*(a.vx + b.vx), fy - sy*P + 0.5*mass*(a.vy + b.vy), through, to_a + to_b, left)
+    return (mass, fx - sx*P + 0.5*mass*(a.vx + b.vx), fy - sy*P + 0.5*mass*(a.vy + b.vy), through,
+            to_a + to_b, left)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Moving:
     """A fluid on moving points, about one a unit area.
 
-    weight : of `particles.weights`. walls : tuple of mirror plates and periodic sides. box : (width, height). g : gravity,
-    downwards. rho0 : mean density, of the hydrostatic pressure -rho0 g y that is left out of the faces.
+    weight : of `particles.weights`. walls : tuple of mirror plates and periodic sides. box : (width, height).
+    g : gravity, downwards. rho0 : mean density, of the hydrostatic pressure -rho0 g y that is left out of the
+    faces.
     """
     weight: Any
     eos: Any
@@ -109,7 +114,8 @@ class Moving:
         check_unit(self.weight)
 
     def state(self, x: np.ndarray, v: np.ndarray, rho: Any, T: np.ndarray) -> np.ndarray:
-        """(15, n) of places (n, 2), velocities (n, 2), densities, temperatures (n,); all volumes are equal."""
+        """(15, n) of places (n, 2), velocities (n, 2), densities, temperatures (n,); all volumes are
+        equal."""
         V = np.full(len(x), self.box[0]*self.box[1]/len(x))
         m, e = rho*V, energy(self.eos, rho, T)
         exchanged = [*(m[:, None]*v).T, m, V, m*(e + (v**2).sum(axis=1)/2)]
@@ -131,10 +137,11 @@ class Moving:
 
 @limit_of.register
 def _(method: Moving, start: np.ndarray) -> float:
-    """Three-stage Runge-Kutta, 1.73 on the imaginary and 2.5 on the real axis; points lie off a lattice, so 1.4 times faster.
+    """Three-stage Runge-Kutta, 1.73 on the imaginary and 2.5 on the real axis; points lie off a lattice, so
+    1.4 times faster.
 
-    On a lattice of spacing 1 sound is slower than c, diffusion than 4 chi, and volumes follow at 2.9 `follow` (Wendland C2,
-    h = 3).
+    On a lattice of spacing 1 sound is slower than c, diffusion than 4 chi, and volumes follow at 2.9 `follow`
+    (Wendland C2, h = 3).
     """
     px, py, m, V, E = start[EXCHANGED]
     check_volumes(V)
@@ -148,7 +155,8 @@ def _(method: Moving, start: np.ndarray) -> float:
 
 
 class DriftKickDrift:
-    """Points drift half a step, exchange over frozen faces in three Runge-Kutta stages, drift the other half."""
+    """Points drift half a step, exchange over frozen faces in three Runge-Kutta stages, drift the other
+    half."""
     evaluations = 3
 
     def __init__(self, shape: tuple[int, ...]):
@@ -162,7 +170,8 @@ class DriftKickDrift:
         first[:] = now
         for new in (1.0, 1/4, 2/3):
             sums.rates(y, self.rates)
-            now[:] = first + new*(now - first + dt*k)      # (1 - new) first + new now rounds to less than the sum
+            # (1 - new) first + new now rounds to less than the sum
+            now[:] = first + new*(now - first + dt*k)
         sums.set_drift(y)
         sums.drift(y, dt/2)
 
@@ -199,14 +208,16 @@ class Exchanging(Listed):
         self.shift *= np.minimum(1.0, most/np.maximum(size, 1e-300))[:, None]
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
-        """Refuse points in one place or without neighbours: ValueError names them. Warn where the weight is too narrow."""
+        """Refuse points in one place or without neighbours: ValueError names them. Warn where the weight is
+        too narrow."""
         V, weight = state[7], self.method.weight
         a = float(np.sqrt(V.mean()))
         self.around.place(state, 1.0)
         check_apart(self.around, ids, a)
         check_reach(weight, moments(self.around, V), ids)
         off = V*self.around.rho[:self.n] - 1
-        check_ordering(weight, 2, a, float(np.sqrt((off**2).mean())), wrong="volumes, which follow the density of points, are")
+        check_ordering(weight, 2, a, float(np.sqrt((off**2).mean())),
+                       wrong="volumes, which follow the density of points, are")
 
     def look_at(self, state: np.ndarray) -> None:
         """Fields of all points and images on the faces as they are."""
@@ -265,7 +276,8 @@ class Exchanging(Listed):
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """The first point with a volume, mass or state that no fluid has; empty if there is none."""
         px, py, m, V, E = state[EXCHANGED]
-        return self.unphysical(self.method.eos, V, m/V, (E - (px**2 + py**2)/(2*m))/m, ids) or self.outran(state)
+        return self.unphysical(self.method.eos, V, m/V, (E - (px**2 + py**2)/(2*m))/m,
+                               ids) or self.outran(state)
 
 
 @jit
@@ -304,6 +316,7 @@ def _rates(first, last, total, state, points, g, rho0, P0, out):
     """Gravity bears rho0 already; the pressure left out works on what the volume changes with the fluid."""
     for i in range(first, last):
         mass, px, py, through, flow, left = total[i]
-        out[4, i], out[5, i], out[6, i], out[7, i] = px, py - g*(state[6, i] - rho0*state[7, i]), mass, flow + left
+        out[4, i], out[5, i] = px, py - g*(state[6, i] - rho0*state[7, i])
+        out[6, i], out[7, i] = mass, flow + left
         held = P0 - rho0*g*state[1, i]
         out[8, i] = through - held*flow - g*(state[6, i] - rho0*state[7, i])*points[i].vy

@@ -1,4 +1,5 @@
-"""What pairs of moving points exchange in the ways that RR98 names, in 2D: terms listed by a motion    [Sec. III]"""
+"""What pairs of moving points exchange in the ways that RR98 names, in 2D: terms listed by a motion    [Sec.
+III]"""
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -48,7 +49,8 @@ class LiteralDrift(NamedTuple):
 
 
 class ConvectiveDrift(NamedTuple):
-    """Eqs 34-36, 39, 46-48. follow : 0 for volumes that stay, as printed; 1 for volumes with the flow, dV/dt = V div v."""
+    """Eqs 34-36, 39, 46-48. follow : 0 for volumes that stay, as printed; 1 for volumes with the flow, dV/dt
+    = V div v."""
     follow: float = 0.0
 
     def terms(self, eos: Any, transport: tuple) -> tuple:
@@ -74,8 +76,8 @@ class ConstantMassDrift(NamedTuple):
 
 
 #: by the names of `rr98_moving_plain.MOTIONS`
-DRIFTS: dict[str, Any] = {"literal": LiteralDrift(), "convective": ConvectiveDrift(), "carried": ConvectiveDrift(1.0),
-                          "constant-mass": ConstantMassDrift()}
+DRIFTS: dict[str, Any] = {"literal": LiteralDrift(), "convective": ConvectiveDrift(),
+                          "carried": ConvectiveDrift(1.0), "constant-mass": ConstantMassDrift()}
 
 
 @generic

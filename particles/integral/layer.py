@@ -1,8 +1,10 @@
-"""Discretized integral hydrodynamics on fixed points of a layer, compiled: the terms of `dih` over stored edges, in 2D.
+"""Discretized integral hydrodynamics on fixed points of a layer, compiled: the terms of `dih` over stored
+edges, in 2D.
 
-Between plates, which RR98 leaves open, convection and pressure see images without friction, so that the divergence stays the
-adjoint of the gradient: rho, T, eps and the velocity along the plate of their parents, the velocity across it reversed, and a
-pressure that goes on hydrostatically. Friction and heat see images with -v and 2 T_w - T. Any other mixture lets sound grow.
+Between plates, which RR98 leaves open, convection and pressure see images without friction, so that the
+divergence stays the adjoint of the gradient: rho, T, eps and the velocity along the plate of their parents,
+the velocity across it reversed, and a pressure that goes on hydrostatically. Friction and heat see images
+with -v and 2 T_w - T. Any other mixture lets sound grow.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -31,7 +33,8 @@ class Exchanging(FixedSums):
     def __init__(self, method: "Layer", team: Team):
         n, beyond, T_plates = len(method.x), method.beyond, np.array(method.T_plates)
         ghosts, ghost = np.unique(np.stack([beyond.parent, beyond.plate]), axis=1, return_inverse=True)
-        (self.parent, self.plate), self.image = ghosts, ghost.ravel()       # of images; the image of each edge to one
+        # of images; the image of each edge to one
+        (self.parent, self.plate), self.image = ghosts, ghost.ravel()
         self.rise = np.zeros(len(self.parent))      # how much higher a parent lies than its image
         self.rise[self.image] = method.x[beyond.parent, 1] - (method.x[beyond.i, 1] + beyond.apart[:, 1])
         edges = stored(method.edges, beyond, n + self.image)
@@ -45,7 +48,8 @@ class Exchanging(FixedSums):
         _images(self.parent, self.at.images.plate_T, self.rise, self.method.g, self.points, self.n)
 
     def heat_through(self, plate: int) -> float:
-        """Heat that enters through a plate (0: lower, 1: upper) per time, along edges and nested; needs fields looked at."""
+        """Heat that enters through a plate (0: lower, 1: upper) per time, along edges and nested; needs
+        fields looked at."""
         beyond, here = self.method.beyond, self.method.beyond.plate == plate
         i, image = beyond.i[here], self.n + self.image[here]
         a, b = self.points[i], self.points[image]
@@ -91,10 +95,12 @@ def edge_by_edge(method: "Layer") -> type[Exchanging]:
 
 @dataclass(frozen=True, kw_only=True)
 class Layer(OnPoints):
-    """A fluid on fixed points x (n, 2), periodic in x, between plates at T_plates (lower, upper) under gravity g.
+    """A fluid on fixed points x (n, 2), periodic in x, between plates at T_plates (lower, upper) under
+    gravity g.
 
-    edges, beyond : of `edges.between_plates`. transport : listed terms of friction and heat: `MENDED`, `PRINTED` as Eq. 51
-    has it, which heats even a rigid rotation, or of `nested.mixed`. form : which sums, `quickest` or `edge_by_edge`.
+    edges, beyond : of `edges.between_plates`. transport : listed terms of friction and heat: `MENDED`,
+    `PRINTED` as Eq. 51 has it, which heats even a rigid rotation, or of `nested.mixed`. form : which sums,
+    `quickest` or `edge_by_edge`.
     """
     x: np.ndarray
     edges: Edges
@@ -109,7 +115,8 @@ class Layer(OnPoints):
 
     def __repr__(self) -> str:
         """What tells a checkpoint's method from another: edges by their sums."""
-        sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.x, self.edges.S, self.edges.k, self.beyond.S))
+        sums = ", ".join(f"{float(np.abs(q).sum())!r}"
+                         for q in (self.x, self.edges.S, self.edges.k, self.beyond.S))
         return (f"Layer({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.T_plates}, {self.g}, "
                 f"{self.transport}, {self.form(self).__name__}, {self.integrator.__name__})")
 
@@ -125,7 +132,8 @@ class Layer(OnPoints):
 
 @limit_of.register
 def _(method: Layer, start: np.ndarray) -> float:
-    """RK4: the fastest sound and the fastest diffusion of edges and images together, both at the hottest point."""
+    """RK4: the fastest sound and the fastest diffusion of edges and images together, both at the hottest
+    point."""
     rho = start[0]
     e = start[3]/rho - (start[1]**2 + start[2]**2)/(2*rho**2)
     check_state(method.eos, rho, e)

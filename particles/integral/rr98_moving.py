@@ -1,7 +1,9 @@
-"""Points that move in the ways that RR98 names, compiled, in 2D: `rr98_moving_plain` over neighbour lists    [Sec. III]
+"""Points that move in the ways that RR98 names, compiled, in 2D: `rr98_moving_plain` over neighbour
+lists    [Sec. III]
 
-The bracket is plain quadrature W dV times `scale_of`; friction goes along pairs [Eq. 51] without bulk viscosity.
-Every motion is one sum over pairs, see `drifts`. Images are those of `layer`; points that come to a plate turn back.
+The bracket is plain quadrature W dV times `scale_of`; friction goes along pairs [Eq. 51] without bulk
+viscosity. Every motion is one sum over pairs, see `drifts`. Images are those of `layer`; points that come to
+a plate turn back.
 """
 from dataclasses import dataclass
 from typing import Any
@@ -33,9 +35,10 @@ Place = np.dtype([*fixed.Point.descr, ("x", "f8"), ("y", "f8"), ("V", "f8")])
 class Drift:
     """A fluid on points that move, in a box (width, height) centred on the origin.
 
-    motion : one of DRIFTS. weight : of `particles.weights`; scale : of its plain quadrature. walls : tuple of mirror plates and
-    periodic sides. g : gravity, downwards. transport : listed terms of friction and heat.
-    static : a share of the static pressure that pairs leave out, at constant mass; what it bears and its work stay.
+    motion : one of DRIFTS. weight : of `particles.weights`; scale : of its plain quadrature. walls : tuple of
+    mirror plates and periodic sides. g : gravity, downwards. transport : listed terms of friction and heat.
+    static : a share of the static pressure that pairs leave out, at constant mass; what it bears and its work
+    stay.
     """
     motion: Any
     weight: Any
@@ -52,12 +55,14 @@ class Drift:
     def __post_init__(self):
         check_unit(self.weight)
         if self.static.fraction and not isinstance(self.motion, ConstantMassDrift):
-            raise ValueError(f"{type(self.motion).__name__} needs the whole pressure, got {self.static}: its volumes do not "
-                             "follow the flow, so that no work of what is left out is defined; take ConstantMassDrift")
+            raise ValueError(f"{type(self.motion).__name__} needs the whole pressure, got {self.static}: its "
+                             "volumes do not follow the flow, so that no work of what is left out is "
+                             "defined; take ConstantMassDrift")
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the rows of a state: places, then m, p, E per volume, or of the point at constant mass, then volumes."""
+        """Names of the rows of a state: places, then m, p, E per volume, or of the point at constant mass,
+        then volumes."""
         mass = isinstance(self.motion, ConstantMassDrift)
         return ("x", "y", "px", "py", *(("m", "E") if mass else ("rho", "eps")), "V")
 
@@ -96,8 +101,8 @@ class Drift:
 def _(method: Drift, start: np.ndarray) -> float:
     """RK4: waves on a lattice of the mean spacing; points lie off it, where they may be 1.4 times as fast.
 
-    Volumes that stay add 2 P grad(n dV) to the force: omega^2 = S^2 c^2 + 2 D P/rho, S and D as in `limits`. Where volumes
-    follow the flow waves are slower.
+    Volumes that stay add 2 P grad(n dV) to the force: omega^2 = S^2 c^2 + 2 D P/rho, S and D as in `limits`.
+    Where volumes follow the flow waves are slower.
     """
     check_volumes(start[6])
     rho, e = method.thermal(start)
@@ -123,7 +128,8 @@ class Drifts(Listed):
         self.exchange = Exchange(OverPairs(Drifting(method.motion, Listing(terms))), needed, n, team)
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
-        """Refuse points in one place: ValueError names them. Warn where the weight is too narrow    [Eq. 45]"""
+        """Refuse points in one place: ValueError names them. Warn where the weight is too narrow    [Eq.
+        45]"""
         a = float(np.sqrt(state[6].mean()))
         self.around.place(state, self.method.scale)
         check_apart(self.around, ids, a)
@@ -131,7 +137,8 @@ class Drifts(Listed):
         check_ordering(self.method.weight, 2, a, float(np.sqrt((off**2).sum(axis=(1, 2)).mean()/2)))
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """New lists if points may leave the old ones within the step: one in which momenta lead as far as velocities in dt."""
+        """New lists if points may leave the old ones within the step: one in which momenta lead as far as
+        velocities in dt."""
         momentum = fastest(now.state)
         speed = np.sqrt(((now.state[2]**2 + now.state[3]**2)/now.state[4]**2).max())
         super().make_ready(now, dt*float(speed)/momentum if momentum else dt)
@@ -144,7 +151,8 @@ class Drifts(Listed):
             self._lists, self.ghosts = around.lists_made, ghosts_of(around)
             self.points = np.zeros(len(around.x), Place)
         points = self.points
-        self.team(_read, n, state, method.motion.owned(state[6]), method.eos, method.law, method.static, method.g, points)
+        self.team(_read, n, state, method.motion.owned(state[6]), method.eos, method.law, method.static,
+                  method.g, points)
         _image_fields(n, *self.ghosts, around.x, around.y, method.static, method.g, points)
         self.exchange.prepare(self.at(state))
 
@@ -157,7 +165,8 @@ class Drifts(Listed):
         method = self.method
         self.look_at(state)
         total = self.exchange.sum(self.at(state))
-        self.team(_rates, self.n, total, method.motion.owned(state[6]), self.points, method.static, method.g, out)
+        self.team(_rates, self.n, total, method.motion.owned(state[6]), self.points, method.static, method.g,
+                  out)
 
     def evaluate(self, state: np.ndarray) -> None:
         """All sums once."""
@@ -169,7 +178,8 @@ class Drifts(Listed):
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """The first point with a volume, mass or state that no fluid has; empty if there is none."""
-        return self.unphysical(self.method.eos, state[6], *self.method.thermal(state), ids) or self.outran(state)
+        return self.unphysical(self.method.eos, state[6], *self.method.thermal(state),
+                               ids) or self.outran(state)
 
 
 @jit
@@ -187,7 +197,8 @@ def _read(first, last, state, owned, eos, law, static, g, points):
 
 @jit
 def _image_fields(n, origin, turn, plate_T, x, y, static, g, points):
-    """Shifted images are their origins; those in a mirror slip for convection and pressure, which goes on hydrostatically."""
+    """Shifted images are their origins; those in a mirror slip for convection and pressure, which goes on
+    hydrostatically."""
     for m in range(len(origin)):
         a, b, s = points[origin[m]], points[n + m], turn[m]
         b.x, b.y, b.V, b.rho, b.T, b.eps, b.eta, b.k = x[n + m], y[n + m], a.V, a.rho, a.T, a.eps, a.eta, a.k

@@ -1,13 +1,15 @@
-"""Points that move, in the three ways that RR98 names; edges are made again at every evaluation    [RR98, Sec. III]
+"""Points that move, in the three ways that RR98 names; edges are made again at every evaluation    [RR98,
+Sec. III]
 
-    literal         dr_i/dt = v_i [Eq. 39], fields as on fixed points [Eqs 34-36], every volume dV: convection counts twice
-    convective      d/dt is the partial derivative and what Eqs 46-48 add to it, with their signs; every volume dV
-    carried         the same, but volumes go with the flow, dV_i/dt = V_i div v
-    constant mass   m_i dv_i/dt = sum_j .. [Eq. 49], pressure crossed [Eq. 13] or of Eq. 50: smoothed particle hydrodynamics
+    literal         dr_i/dt = v_i [Eq. 39], fields as on fixed points [Eqs 34-36], every volume dV: convection
+    counts twice convective      d/dt is the partial derivative and what Eqs 46-48 add to it, with their
+    signs; every volume dV carried         the same, but volumes go with the flow, dV_i/dt = V_i div v
+    constant mass   m_i dv_i/dt = sum_j .. [Eq. 49], pressure crossed [Eq. 13] or of Eq. 50: smoothed particle
+    hydrodynamics
 
-A state (2 d + 2 or more, n) begins with positions, which are not wrapped into the box. Then come rho, p, eps per volume, as
-RR98's m_i, p_i, eps_i are of equal volumes dV; or, at constant mass, m, p, E of the point; then V where it changes.
-A scheme that is conservative and consistent is another one: see `moving`.
+A state (2 d + 2 or more, n) begins with positions, which are not wrapped into the box. Then come rho, p, eps
+per volume, as RR98's m_i, p_i, eps_i are of equal volumes dV; or, at constant mass, m, p, E of the point;
+then V where it changes. A scheme that is conservative and consistent is another one: see `moving`.
 """
 from dataclasses import dataclass
 from typing import Any
@@ -25,21 +27,25 @@ from particles.integral.points import Points, of_positions, pairs, wrapped
 
 
 def scale_of(points: Points, weight: Any) -> float:
-    """The number that plain quadrature W dV is multiplied by on these points so that its mean first moment is d."""
+    """The number that plain quadrature W dV is multiplied by on these points so that its mean first moment is
+    d."""
     return float(renormalised(points, weight).k.sum()/plain(points, weight).k.sum())
 
 
 def convected(edges: Edges, v: np.ndarray, fields: np.ndarray) -> np.ndarray:
-    """-sum_j W_ij e_ij.v_i q_j, (m, n), of v (n, d), fields q (m, n): what Eqs 46-48 add; v.grad q on a lattice."""
+    """-sum_j W_ij e_ij.v_i q_j, (m, n), of v (n, d), fields q (m, n): what Eqs 46-48 add; v.grad q on a
+    lattice."""
     i, j, half = edges.i, edges.j, edges.S/2
     ahead, back = (half*v[i]).sum(axis=1), (half*v[j]).sum(axis=1)
-    return np.stack([np.bincount(i, ahead*q[j], edges.n) - np.bincount(j, back*q[i], edges.n) for q in fields])/edges.V
+    return np.stack([np.bincount(i, ahead*q[j], edges.n) - np.bincount(j, back*q[i], edges.n)
+                     for q in fields])/edges.V
 
 
 def divergence(edges: Edges, v: np.ndarray) -> np.ndarray:
     """-sum_j W_ij e_ij.v_j, (n,): the divergence that remains of Eqs 34 and 46."""
     i, j, half = edges.i, edges.j, edges.S/2
-    return (np.bincount(i, (half*v[j]).sum(axis=1), edges.n) - np.bincount(j, (half*v[i]).sum(axis=1), edges.n))/edges.V
+    out, back = (half*v[j]).sum(axis=1), (half*v[i]).sum(axis=1)
+    return (np.bincount(i, out, edges.n) - np.bincount(j, back, edges.n))/edges.V
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,11 +78,13 @@ class Motion:
         return (*axes, "rho", *(f"p{axis}" for axis in axes), "eps")
 
     def fluid(self, x: np.ndarray, V: np.ndarray) -> Dih:
-        """The fluid as if points x (n, d) of volumes V (n,) stood still; FloatingPointError names a point that is none."""
+        """The fluid as if points x (n, d) of volumes V (n,) stood still; FloatingPointError names a point
+        that is none."""
         bad = np.flatnonzero(~(np.isfinite(x).all(axis=1) & (V > 0)))
         if len(bad):
-            raise FloatingPointError(f"point {bad[0]} is at {x[bad[0]]} with volume {V[bad[0]]:.6g}: positions must be finite "
-                                     "and volumes positive; take a shorter step or more viscosity")
+            raise FloatingPointError(f"point {bad[0]} is at {x[bad[0]]} with volume {V[bad[0]]:.6g}: "
+                                     "positions must be finite and volumes positive; take a shorter step or "
+                                     "more viscosity")
         box = np.asarray(self.box, float)
         points = Points(x=wrapped(x, box), box=box, V=V)
         near = pairs(points, reach(self.weight))
@@ -181,9 +189,11 @@ class Carried(Convective):
 
 @dataclass(frozen=True, kw_only=True)
 class ConstantMass(Motion):
-    """Eq. 49 with masses that stay: momentum and energy are exchanged, volumes follow the flow, dV_i/dt = V_i div v.
+    """Eq. 49 with masses that stay: momentum and energy are exchanged, volumes follow the flow, dV_i/dt = V_i
+    div v.
 
-    bracket : `brackets.Crossed` or `Powers`. The divergence takes differences v_j - v_i, the adjoint of the sum P_ij + P_ji.
+    bracket : `brackets.Crossed` or `Powers`. The divergence takes differences v_j - v_i, the adjoint of the
+    sum P_ij + P_ji.
     """
     bracket: Any = CROSSED
 
@@ -222,4 +232,5 @@ class ConstantMass(Motion):
 
 
 #: by name
-MOTIONS: dict[str, Any] = {"literal": Literal, "convective": Convective, "carried": Carried, "constant-mass": ConstantMass}
+MOTIONS: dict[str, Any] = {"literal": Literal, "convective": Convective, "carried": Carried,
+                           "constant-mass": ConstantMass}

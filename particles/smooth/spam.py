@@ -1,8 +1,8 @@
 """Smooth-particle applied mechanics as printed [KHP95, Sec. II], and its named variants.
 
-Three sums: density; gradients of v and T; divergence of P/rho^2 and Q/rho^2. The variants are objects in place of the
-printed choice: `ArithmeticGradients()` for the mean density, `Direct` for `Nested` transport, `LessStatic(...)` for
-the whole pressure, another weight.
+Three sums: density; gradients of v and T; divergence of P/rho^2 and Q/rho^2. The variants are objects in
+place of the printed choice: `ArithmeticGradients()` for the mean density, `Direct` for `Nested` transport,
+`LessStatic(...)` for the whole pressure, another weight.
 """
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
@@ -10,7 +10,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import conductivity, constant_viscosity, energy, pressure, stress, temperature, valid, viscosity
+from continuum.fluid import (
+    conductivity,
+    constant_viscosity,
+    energy,
+    pressure,
+    stress,
+    temperature,
+    valid,
+    viscosity,
+)
 from continuum.jit import formula, jit
 from particles.fields import Fields
 from particles.integrators import RK4
@@ -30,8 +39,9 @@ class LessStatic(NamedTuple):
     """Subtract `fraction` of the static pressure P0 - rho0 g y from P, and its support from gravity.
 
     The continuum equations stay the same; of the background pressure that holds the particles on a lattice
-    [KHP95, Sec. IV] less is left. fraction = 0 is the printed scheme. A static part taken from the gradients' div v does
-    not do the work that the pair sums would do: energy is no longer conserved exactly, see tests/test_spam_in_time.py.
+    [KHP95, Sec. IV] less is left. fraction = 0 is the printed scheme. A static part taken from the gradients'
+    div v does not do the work that the pair sums would do: energy is no longer conserved exactly, see
+    tests/test_spam_in_time.py.
     """
     fraction: float
     P0: float
@@ -68,20 +78,23 @@ class Spam:
 
     def __post_init__(self):
         if not self.m > 0:
-            raise ValueError(f"the mass of a particle must be positive, got {self.m}: total mass / number of particles")
+            raise ValueError(f"the mass of a particle must be positive, got {self.m}: total mass / number of "
+                             "particles")
         if self.transport is None:      # the class is written below
             object.__setattr__(self, "transport", Nested)
         check_unit(self.weight)
         if self.transport is Direct and not constant_viscosity(self.law):
-            raise ValueError(f"Direct takes friction along pairs, which lacks a part of the stress where viscosity varies, as by "
-                             f"{self.law}: take Nested, or ConstEta")
+            raise ValueError("Direct takes friction along pairs, which lacks a part of the stress where "
+                             f"viscosity varies, as by {self.law}: take Nested, or ConstEta")
 
     def state(self, x: np.ndarray, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-        """(5, n) of places (n, 2), velocities (n, 2), and temperatures (n,) at densities that give the energies."""
+        """(5, n) of places (n, 2), velocities (n, 2), and temperatures (n,) at densities that give the
+        energies."""
         return np.stack([*x.T, *v.T, energy(self.eos, rho, T)*np.ones(len(x))])
 
     def fields(self, state: np.ndarray) -> Fields:
-        """Of the particles, (n,) each, in the order of the state; density and volume by the method's own sums."""
+        """Of the particles, (n,) each, in the order of the state; density and volume by the method's own
+        sums."""
         sums, _, ids = self.look(state)
         rho, T = (q[:sums.n][np.argsort(ids)] for q in (sums.around.rho, sums.around.T))
         return Fields(state[:2].T.copy(), state[2:4].T.copy(), rho, T, self.m/rho)
@@ -95,16 +108,19 @@ class Spam:
         return sums, ordered, ids
 
     def start(self, n: int, team: Team) -> "Nested | Direct":
-        """The sums of n particles. Raises ValueError: there are none, or the weight is wider than half of the box."""
+        """The sums of n particles. Raises ValueError: there are none, or the weight is wider than half of the
+        box."""
         if n < 1:
             raise ValueError(f"there are no particles (n = {n}): a run needs at least one")
         return (self.transport or Nested)(self, n, team)
 
 
 class Sums(Listed, ABC):
-    """What both kinds of transport share: arrays, the density sum, the equations of state, what the time loop asks for.
+    """What both kinds of transport share: arrays, the density sum, the equations of state, what the time loop
+    asks for.
 
-    places : rows of a state that are positions; `velocity` : their rates, for integrators that step them apart.
+    places : rows of a state that are positions; `velocity` : their rates, for integrators that step them
+    apart.
     """
     places = 2
 
@@ -120,12 +136,12 @@ class Sums(Listed, ABC):
         around.place(state, method.m)
         if len(self.less) != len(around.x):
             self.allocate(len(around.x))
-        self.team(_thermal, around.rows, self.n, state, method.eos, method.static, method.g, around.y, around.rho,
-                  around.vx, around.vy, around.T, around.P, self.less)
+        self.team(_thermal, around.rows, self.n, state, method.eos, method.static, method.g, around.y,
+                  around.rho, around.vx, around.vy, around.T, around.P, self.less)
         around.move()
         for wall, parent, first, last in around.blocks:
-            _image_pressures(first, last, wall, parent, method.eos, method.static, method.g, around.y, around.rho,
-                             around.T, around.P, self.less)
+            _image_pressures(first, last, wall, parent, method.eos, method.static, method.g, around.y,
+                             around.rho, around.T, around.P, self.less)
 
     @abstractmethod
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
@@ -175,21 +191,24 @@ class Sums(Listed, ABC):
 
     def finish(self, state: np.ndarray, out: np.ndarray) -> None:
         """Rates of the particles from the third sum, gravity and what the static pressure was left out of."""
-        self.team(_rates, self.n, state, self.pull, self.around.rho, self.slopes, self.method.g, self.method.static, out)
+        self.team(_rates, self.n, state, self.pull, self.around.rho, self.slopes, self.method.g,
+                  self.method.static, out)
 
 
 class Nested(Sums):
-    """Stress and heat flux from the gradients of the second sum, their divergence in the third    [KHP95, Sec. II]"""
+    """Stress and heat flux from the gradients of the second sum, their divergence in the third    [KHP95,
+    Sec. II]"""
 
     def allocate(self, points: int) -> None:
         super().allocate(points)
         self.flux = np.empty(points, Flux)
 
     def exchange(self, pressure: bool = True) -> tuple[Any, np.ndarray]:
-        """Term and records of the third sum, from densities and gradients that are up to date; without pressure on wish."""
+        """Term and records of the third sum, from densities and gradients that are up to date; without
+        pressure on wish."""
         around, method, less = self.around, self.method, self.less if pressure else np.zeros_like(self.less)
-        self.team(_fluxes, around.rows, method.law, around.rho, around.vx, around.vy, around.T, less, self.slopes,
-                  self.flux)
+        self.team(_fluxes, around.rows, method.law, around.rho, around.vx, around.vy, around.T, less,
+                  self.slopes, self.flux)
         for _, parent, first, last in around.blocks:
             _image_fluxes(first, last, parent, around.rho, around.vx, around.vy, less, self.flux)
         return Fluxes(), self.flux
@@ -202,7 +221,8 @@ class Nested(Sums):
 
 
 class Direct(Sums):
-    """Viscosity and conduction from differences along each pair: no gradients, unless the static pressure needs div v."""
+    """Viscosity and conduction from differences along each pair: no gradients, unless the static pressure
+    needs div v."""
 
     def allocate(self, points: int) -> None:
         super().allocate(points)
@@ -211,8 +231,8 @@ class Direct(Sums):
     def exchange(self, pressure: bool = True) -> tuple[Any, np.ndarray]:
         """Term and records of the third sum, from densities that are up to date; without pressure on wish."""
         around, less = self.around, self.less if pressure else np.zeros_like(self.less)
-        self.team(_direct, len(around.x), self.method.law, around.x, around.y, around.rho, around.vx, around.vy, around.T,
-                  less, self.records)
+        self.team(_direct, len(around.x), self.method.law, around.x, around.y, around.rho, around.vx,
+                  around.vy, around.T, less, self.records)
         return DirectFluxes(), self.records
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
@@ -290,7 +310,8 @@ def _direct(first, last, law, x, y, rho, vx, vy, T, less, records):
 
 @jit
 def _rates(first, last, state, pull, rho, slopes, g, static, out):
-    """Rates of the particles; if the pair sums left out some static pressure, its support of gravity and its work."""
+    """Rates of the particles; if the pair sums left out some static pressure, its support of gravity and its
+    work."""
     for i in range(first, last):
         out[0, i], out[1, i] = state[2, i], state[3, i]
         out[2, i], out[3, i], out[4, i] = pull[i, 0], pull[i, 1] - g, pull[i, 2] + pull[i, 4]
