@@ -1,5 +1,4 @@
-"""Production as it is timed: KHP95's gas at Ra = 10 000, particles in motion, the time loop of
-`particles.run`."""
+"""Production as it is timed: KHP95's gas at Ra = 10 000, in the time loop of `particles.run`."""
 import math
 import time
 from collections.abc import Callable

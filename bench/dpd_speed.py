@@ -1,5 +1,4 @@
-"""How fast are dissipative particles: a step of Groot & Warren's fluid, lists and noise with it; beside
-LAMMPS, in one run.
+"""How fast are dissipative particles: a step of Groot & Warren's fluid, beside LAMMPS, in one run.
 
     python -m bench.dpd_speed [--no-lammps]
 
@@ -57,8 +56,7 @@ def melted() -> np.ndarray:
 
 def ours(state: np.ndarray, skin: float, blocks: int,
          between: Callable[[], None] = lambda: None) -> np.ndarray:
-    """Nanoseconds a particle and step of each of so many blocks; `between` is called after each and does not
-    count."""
+    """Nanoseconds a particle and step, block by block; `between` is called after each, untimed."""
     seconds: list[float] = []
     began = math.nan
 

@@ -1,5 +1,4 @@
-"""The comparable three sums in LAMMPS: density, pressure with viscosity, conduction, each over all pairs in
-range.
+"""The comparable three sums in LAMMPS: density, pressure with viscosity, conduction.
 
 `sph/rhosum` (Lucy's weight, every step) + `sph/idealgas` + `sph/heatconduction` in hybrid/overlay, 2D, h = 3,
 density 1: the same particles per range. Its lists hold each pair once where ours hold it twice (Newton's

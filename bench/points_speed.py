@@ -1,5 +1,4 @@
-"""How fast are points: an evaluation of fixed ones over stored edges, of moving ones over pairs, a step over
-closed faces.
+"""How fast are points: an evaluation over stored edges or over pairs, a step over closed faces.
 
     python -m bench.points_speed
 
@@ -47,8 +46,7 @@ def fixed(name: str, fast: bool = True) -> Callable[[], float]:
 
 
 def step(method: Any, first: np.ndarray, evaluations: int = 1) -> Callable[[], float]:
-    """Nanoseconds a point and step of moving points, or an evaluation of which a step has so many; lists and
-    faces are in it.
+    """Nanoseconds a point and step, or evaluation of which a step has so many, lists and faces included.
 
     The difference of two lengths of a run.
     """

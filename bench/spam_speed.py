@@ -1,5 +1,4 @@
-"""How fast is SPAM: three sums, list upkeep, RK4 and walls, as production pays them; beside LAMMPS, in one
-run.
+"""How fast is SPAM: three sums, lists, RK4 and walls; beside LAMMPS, in one run.
 
     python -m bench.spam_speed [--no-lammps]
 
@@ -89,8 +88,7 @@ def peak_memory(particles: int) -> list[dict[str, Any]]:
 
 
 def print_memory(particles: int) -> None:
-    """What the process of `peak_memory` does: steps with new lists, then says how much memory it took at
-    most."""
+    """The process of `peak_memory`: steps with new lists, then prints the most memory it took."""
     case = method(particles)
     run(case, lattice(case.box), Plan(dt=DT, steps=4))
     kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss

@@ -1,5 +1,4 @@
-"""Where the time of production goes: list upkeep, weights, the two sweeps, the rest (ns per particle and
-evaluation).
+"""Where the time goes: list upkeep, weights, two sweeps, the rest (ns per particle and evaluation).
 
 The stages are timed by wrapping the functions that hand them to the threads, about a microsecond a call.
 """

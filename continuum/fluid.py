@@ -55,8 +55,7 @@ def pressure_slopes(eos, rho, e):
 
 @generic
 def thermal_pressure(eos, rho, T):
-    """dP/dT at constant rho: gravity that keeps the static density constant is its product with
-    |dT/dy|/rho."""
+    """dP/dT at constant rhodT/dy|/rho|: times |dT/dy|/rho, the gravity that keeps rho constant|dT/dy|/rho."""
 
 
 @generic
@@ -136,8 +135,7 @@ def sound_speed(eos, rho, e):
 
 
 def expansivity(eos, rho: float, T: float) -> float:
-    """alpha = -(1/rho) (drho/dT)_P, the thermal expansion at (rho, T), from (dP/drho)_T = P_rho + P_e
-    (de/drho)_T."""
+    """alpha = -(1/rho) (drho/dT)_P at (rho, T), from (dP/drho)_T = P_rho + P_e (de/drho)_T."""
     step = 1e-6*rho
     e = energy(eos, rho, T)
     e_rho = (energy(eos, rho + step, T) - energy(eos, rho - step, T))/(2*step)
@@ -184,8 +182,7 @@ class ConstEta(NamedTuple):
 
 @_spreading("nu", "kappa")
 class ConstNu(NamedTuple):
-    """Constant kinematic viscosity nu = eta/rho and diffusivity kappa = k/(rho C_V)    [KHP95, Sec. IV,
-    second]"""
+    """Constant nu = eta/rho and diffusivity kappa = k/(rho C_V)    [KHP95, Sec. IV, second]"""
     nu: float
     kappa: float
     cv: float = 1.0
@@ -226,8 +223,7 @@ for _number in (int, float, np.float64):
 
 
 def constant_viscosity(law: Any) -> bool:
-    """Is the shear viscosity the same in all states? A law not known for that is taken to vary, which is
-    right for all."""
+    """Is the shear viscosity the same in all states? Unknown laws are taken to vary."""
     return isinstance(law, ConstEta)
 
 
@@ -239,8 +235,7 @@ def stress(eta, zeta, xx, xy, yx, yy):
 
 
 def stress_tensor(eta, zeta, grad: np.ndarray) -> np.ndarray:
-    """Newtonian stress in any dimension d, shape (..., d, d); grad[..., a, b] = d_a v_b; the trace factor is
-    2/d."""
+    """Newtonian stress in any dimension, (..., d, d); grad[..., a, b] = d_a v_b; trace factor 2/d."""
     d = grad.shape[-1]
     div = np.trace(grad, axis1=-2, axis2=-1)[..., None, None]*np.eye(d)
     eta, zeta = (np.asarray(q)[..., None, None] for q in (eta, zeta))

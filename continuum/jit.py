@@ -52,8 +52,7 @@ llvmlite.binding.set_option("fluidized-grid", "-slp-max-reg-size=256")
 
 
 def lanes(function: Callable) -> Any:
-    """Compile with sums in the order that is written and with LLVM's SLP vectoriser, as loops over records
-    want it.
+    """Compile with sums in the written order and LLVM's SLP vectoriser, as loops over records want it.
 
     SLP puts equal operations on neighbouring fields of a record into one vector instruction. LLVM 14
     miscompiled with it, so it is on for loops only that tests hold against a slow twin. Reassociation would
@@ -91,16 +90,14 @@ def made(kind: type) -> str:
 
 
 def place(frame: Any) -> str:
-    """File and line of a statement of a module; nothing inside a function or a notebook, where formulas are
-    tried out."""
+    """File and line of a statement of a module; nothing in a function or a notebook."""
     code = frame.f_code
     in_file = code.co_name == "<module>" and Path(code.co_filename).is_file()
     return f"{code.co_filename}:{frame.f_lineno}" if in_file else ""
 
 
 def generic(stub: Callable) -> Any:
-    """A function whose formula is chosen by the type of its first argument (a NamedTuple), or by a class it
-    inherits from.
+    """A function whose formula is chosen by the type of its first argument, or a parent class.
 
     ``@pressure.of(IdealGas)`` adds a formula; calling works from Python and from compiled code. Raises
     TypeError: no formula for that type, or a class in place of an object. ValueError: two formulas for one

@@ -36,8 +36,7 @@ def read(name: str) -> pd.DataFrame:
 
 
 def table(name: str) -> pd.DataFrame:
-    """All numbers of a paper, with id, symbol, units, source, reading. Raises ValueError: no file of that
-    name."""
+    """All numbers of a paper, with id, symbol, units, source, reading. ValueError: no such file."""
     if name not in names():
         raise ValueError(f"no published numbers of {name!r}: there are {', '.join(names())}; "
                          f"a new paper is a new file in {FOLDER.parent.name}/{FOLDER.name}/")

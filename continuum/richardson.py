@@ -10,8 +10,7 @@ NEAR = 0.25             # of the assumed order: the grids are fine enough for it
 
 
 class Extrapolated(NamedTuple):
-    """Order seen on the three finest grids (nan if their values do not converge), limit, and its
-    uncertainty."""
+    """Order on the three finest grids (nan: values do not converge), limit, and its uncertainty."""
     order: float
     limit: float
     error: float

@@ -67,8 +67,7 @@ class Walls(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Tile:
-    """A box that repeats itself along both axes: all that a grid in time asks of a scene that is not
-    convection.
+    """A box periodic along both axes: all that a grid in time asks of a scene without plates.
 
     width, L : its sides, in cells of any size. eos, law : the fluid, and its transport with its numbers.
     """
@@ -225,8 +224,7 @@ class RayleighBenard:
         return scale*u, scale*v
 
     def fields(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Density (n,), velocity (n, 2) and temperature (n,) at the start, at places (n, 2)    [KHP95, Sec.
-        VI]"""
+        """Density, velocity and temperature at the start, at places (n, 2)    [KHP95, Sec. VI]"""
         return np.ones(len(x)), np.stack(self.flow(x[:, 0], x[:, 1], ROLL_ENERGY), axis=1), self.T(x[:, 1])
 
     def _roll_energy(self, rolls: int) -> float:

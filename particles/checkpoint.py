@@ -1,5 +1,4 @@
-"""Checkpoints of a run as HDF5: written beside and then renamed, so the last good one survives whatever
-happens."""
+"""Checkpoints of a run as HDF5: written beside and then renamed, so the last good one survives."""
 import hashlib
 import os
 from errno import ENOSPC
@@ -45,8 +44,7 @@ def save(path: Path, method: Any, plan: Plan, start: np.ndarray, now: Run) -> No
 
 
 def load(path: Path | None, method: Any, plan: Plan, start: np.ndarray) -> Run | None:
-    """The run at `path`, None without one. Raises ValueError: unreadable, or of other code, parameters or
-    particles."""
+    """The run at `path`, None without one. ValueError: unreadable, or of another run."""
     if path is None or not path.exists():
         return None
     try:

@@ -7,8 +7,7 @@ from continuum.fluid import temperature
 
 
 class Fields(NamedTuple):
-    """Places x (n, d), velocities v (n, d), densities, temperatures and volumes (n,), in the order of the
-    state.
+    """Places x (n, d), velocities v (n, d), densities, temperatures and volumes (n,).
 
     x is not a number where a method knows edges alone.
     """

@@ -1,5 +1,4 @@
-"""The largest stable step: the fastest small motions of particles on their square lattice, and RK4's
-stability region.
+"""The largest stable step: fastest small motions of a square lattice, and RK4's stability region.
 
 Linearised about rest at uniform rho and e, with p = P/rho^2, S(k) = sum_r grad w sin k.r, D(k) = sum_r (grad
 grad w) (1 - cos k.r), waves exp(ik.r) of displacement u, velocity v and energy e' obey
@@ -23,8 +22,7 @@ from particles.weights import value_and_slope
 
 
 class Symbols(NamedTuple):
-    """Lattice sums: density, and over wave vectors S (k, 2), D (k, 2, 2), k2 of nested and of direct sums
-    (k,)."""
+    """Sums: density, and over wave vectors S (k, 2), D (k, 2, 2), k2 of nested and of direct sums (k,)."""
     rho: float
     S: np.ndarray
     D: np.ndarray
@@ -52,14 +50,12 @@ def step_limit(method: Spam, e: Any, rho: float = 1.0) -> float:
 
 
 def zone(a: float, points: int = 33) -> np.ndarray:
-    """Wave vectors (k, 2) of an eighth of the zone of the square lattice with spacing a; symmetry gives the
-    rest."""
+    """Wave vectors (k, 2) of an eighth of the zone of a square lattice; symmetry gives the rest."""
     return np.array([(i, j) for i in range(points) for j in range(i + 1)])*np.pi/a/(points - 1)
 
 
 def lattice_sums(weight: Any, m: float, rho: float, k: np.ndarray) -> Symbols:
-    """Sums over the square lattice at wave vectors (k, 2). Raises ValueError: the weight reaches no
-    particle."""
+    """Sums over the square lattice at wave vectors (k, 2). ValueError: the weight reaches no particle."""
     a = np.sqrt(m/rho)
     x = a*np.arange(-int(weight.h/a) - 1, int(weight.h/a) + 2)
     x, y = (q.ravel() for q in np.meshgrid(x, x))
@@ -104,8 +100,7 @@ def waves(method: Spam, symbols: Symbols, e: float) -> np.ndarray:
 
 
 def static_part(method: Spam, P: float) -> float:
-    """What `LessStatic` leaves out of the pressure P: at the height where the static pressure is nearest to
-    P."""
+    """What `LessStatic` leaves out of P: at the height whose static pressure is nearest to P."""
     static, half = method.static, method.static.rho0*method.g*method.box[1]/2
     return static.fraction*float(np.clip(P, static.P0 - abs(half), static.P0 + abs(half)))
 
@@ -118,8 +113,7 @@ def _thermal_slopes(eos, rho: float, e: float) -> tuple[float, float]:
 
 
 def largest_step(eigenvalues: np.ndarray) -> float:
-    """The step that brings the first eigenvalue to the edge of RK4's region; what grows by itself counts as
-    neutral."""
+    """The step that brings the first eigenvalue to the edge of RK4's region; growth counts as neutral."""
     decay, omega = np.maximum(-eigenvalues.real, 0), np.abs(eigenvalues.imag)
     size = np.hypot(decay, omega)
     return float(np.min(np.interp(np.arctan2(decay, omega), *_edge())/np.maximum(size, 1e-300)))

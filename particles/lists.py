@@ -1,5 +1,4 @@
-"""Everything that the pair loops need besides the particles: fixed particles, ghosts of the walls, lists,
-pairs.
+"""What the pair loops need besides particles: fixed ones, ghosts of the walls, lists, pairs.
 
 Points are numbered particles first, then fixed particles, then ghosts wall by wall; only the first two have
 rows.
@@ -68,8 +67,7 @@ class Surroundings:
         self.anchor = None
 
     def relist(self, state: np.ndarray, ids: np.ndarray, dt: float) -> None:
-        """Wrap the particles, put them in the order of cells (in place), make lists; the skin grows with the
-        speed."""
+        """Wrap the particles, sort them by cells (in place), make lists; the skin grows with the speed."""
         stride = MARGIN*fastest(state)*dt
         if not stride < self.weight.h:
             raise FloatingPointError(f"a particle at speed {fastest(state):.4g} would cross the weight's "
@@ -140,8 +138,7 @@ class Listed:
             self.around.make_lists(now.anchor)
 
     def try_out(self, now: Any) -> None:
-        """One evaluation on a copy of the particles, which leaves no trace; at a start they are looked
-        over."""
+        """One evaluation on a copy of the particles; at a start they are looked over."""
         state, fresh = now.state.copy(), now.anchor is None
         if fresh:
             ids = now.ids.copy()
@@ -155,8 +152,7 @@ class Listed:
         """Refuse points that the sums would take without a word, once at the start; here none."""
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """New lists if particles may leave the old ones within the step; the particles are then in the order
-        of cells.
+        """New lists if particles may leave the old ones within the step; particles are then sorted.
 
         Raises FloatingPointError: a particle is too fast for any list.
         """

@@ -44,8 +44,7 @@ def _count_sort(x, y, left, bottom, side, columns, start, cell, order):
 
 
 def sort_into_cells(x: np.ndarray, y: np.ndarray, side: float) -> Cells:
-    """Linked cells [KHP95, Ref. 13] over the bounding box of the points (N,), with two empty cells around
-    it."""
+    """Linked cells [KHP95, Ref. 13] around the points (N,), two empty cells around them."""
     left, bottom = float(x.min()) - 2*side, float(y.min()) - 2*side
     across, up = ((float(q.max()) - low)/side + 4 for q, low in ((x, left), (y, bottom)))
     if not across*up <= 64*len(x) + 4096:
@@ -104,8 +103,7 @@ def list_rows(first, last, cells, x, y, reach, itself, capacity, start, length, 
 
 def make_lists(team: Team, cells: Cells, x: np.ndarray, y: np.ndarray, reach: float, itself: int,
                listed: np.ndarray = NOTHING) -> tuple:
-    """(start, length, listed) of all points of `cells` within `reach` of (x, y), but for point i + `itself`
-    of row i.
+    """(start, length, listed) of points within `reach` of (x, y), but for point i + `itself` of row i.
 
     `listed` of earlier lists is used again where it has room.
     Raises FloatingPointError: there are more than 2000 neighbours of each: the particles have collapsed.

@@ -1,5 +1,4 @@
-"""The only pair loops: `weigh` finds the pairs in range and their weights, `sweep` sums pair terms over
-them."""
+"""The only pair loops: `weigh` finds pairs in range and their weights, `sweep` sums terms over them."""
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,8 +25,7 @@ class Pairs(NamedTuple):
 
 
 class Stored(NamedTuple):
-    """Edges of fixed points: those of row i are near, sx, sy, k [first[i]:first[i] + taken[i]]; (sx, sy) is
-    S_ij/2."""
+    """Edges of fixed points; of row i: near, sx, sy, k [first[i]:first[i] + taken[i]]; (sx, sy) = S_ij/2."""
     first: np.ndarray
     taken: np.ndarray
     near: np.ndarray
@@ -122,8 +120,7 @@ def weigh(first, last, weight, m, x, y, pairs, rho):
 
 @generic
 def rate(term, a, b, ab):
-    """What the pair (a, b) adds to the sum of a: a tuple of numbers from two particle records and their
-    Pair."""
+    """What the pair (a, b) adds to the sum of a: a tuple of numbers, from two records and their Pair."""
 
 
 @generic
@@ -163,8 +160,7 @@ def _(out, i, k, values):
 
 @lanes
 def sweep(first, last, term, particle, pairs, out):
-    """out[i] = sum of rate(term, i, j, ij) over the pairs of rows first..last; `particle`: a structured
-    array."""
+    """out[i] = sum of rate(term, i, j, ij) over the pairs of rows first..last; `particle`: records."""
     for i in range(u64(first), u64(last)):
         a, total, begin = particle[i], nothing(term), pairs.first[i]
         for k in range(begin, begin + pairs.taken[i]):

@@ -28,8 +28,7 @@ class Divergence(FloatingPointError):
 
 
 def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], None] | None = None) -> Run:
-    """Advance the particles or points `start`, array-like (fields, n), by the plan; `progress` is told the
-    fraction done.
+    """Advance `start`, array-like (fields, n), by the plan; `progress` gets the fraction done.
 
     Raises ValueError: the step is above the stability limit, a state is invalid or a particle beyond a wall
     at the start, or the checkpoint is of other code or other parameters. Divergence: a field is not finite or

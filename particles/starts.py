@@ -38,8 +38,7 @@ def check_apart(around: Surroundings, ids: np.ndarray, a: float) -> None:
 
 
 def moments(around: Surroundings, V: np.ndarray) -> np.ndarray:
-    """sum_j V_j W e (x_j - x_i) of plain quadrature, (n, 2, 2): the unit matrix where linear fields have
-    exact gradients."""
+    """sum_j V_j W e (x_j - x_i) of plain quadrature, (n, 2, 2): 1 where linear gradients are exact."""
     out = np.zeros((around.n, 2, 2))
     _moments(around.n, around.pairs, around.x, around.y, np.concatenate([V, V[ghosts_of(around).origin]]),
              out)

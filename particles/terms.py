@@ -59,8 +59,7 @@ def _(term, a, b, ab):
 
 @formula
 def _differences(a, b, x, y):
-    """Differences of vx, vy, T times x, then times y. That of s is there to make them four, one vector
-    register."""
+    """Differences of vx, vy, T times x, then times y; s makes them four, one vector register."""
     u, v, T, s = b.vx - a.vx, b.vy - a.vy, b.T - a.T, b.s - a.s
     return u*x, v*x, T*x, s*x, u*y, v*y, T*y, s*y
 

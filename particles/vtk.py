@@ -34,8 +34,7 @@ def write_particles(path: Path, state: np.ndarray, **fields: np.ndarray) -> None
 
 
 def write_grid(path: Path, x: np.ndarray, y: np.ndarray, fields: dict[str, np.ndarray]) -> None:
-    """Fields (rows, columns) on a regular grid x, y of the same shape as ImageData (.vti); v from vx and
-    vy."""
+    """Fields (rows, columns) on a regular grid x, y as ImageData (.vti); v from vx and vy."""
     rows, columns = x.shape
     extent = f"0 {columns - 1} 0 {rows - 1} 0 0"
     root = Xml.Element("VTKFile", type="ImageData", version="1.0", byte_order="LittleEndian")

@@ -147,8 +147,7 @@ class State:
                         wall_power=sum(h.power for h in heat))
 
     def on(self, case: Case) -> "State":
-        """The same fields on another grid or at another Ra, Pr; cubic splines, not exactly free of
-        divergence."""
+        """The same fields on another grid or at another Ra, Pr, by cubic splines."""
         if case.box != self.case.box:
             raise ValueError(f"state is of {self.case.box}, the case has {case.box}: resample only within "
                              "one box")
@@ -176,8 +175,7 @@ BOTTOM, TOP, LEFT, RIGHT = (1, 0), (1, -1), (0, 0), (0, -1)     # (axis, end)
 
 
 class Entering(NamedTuple):
-    """At one wall: mean gradient of T out of the box, dissipation in the half cells at it, power
-    T_wall*flux."""
+    """At a wall: mean gradient of T out of the box, dissipation in its half cells, power T_wall*flux."""
     gradient: float
     dissipation: float
     power: float
@@ -196,8 +194,7 @@ def enters(mac: Mac, T: np.ndarray, axis: int, end: int) -> Entering:
 
 
 def resample(f: np.ndarray, old: tuple, new: tuple, mac: Mac) -> np.ndarray:
-    """f from the points old = (x, y) to new; it goes on periodically, or is zero in walls that its points
-    leave out."""
+    """f from the points old = (x, y) to new; periodic, or zero in walls that its points leave out."""
     (x, y), width = old, mac.box.width
     if mac.periodic:
         x, f = np.r_[x[-3:] - width, x, x[:3] + width], np.concatenate([f[-3:], f, f[:3]])

@@ -50,8 +50,7 @@ CONDUCTING = Edges(flow=End.WALL, heat=End.WALL, low=0.5, high=0.5, ramp=-1.0)
 
 @dataclass(frozen=True, kw_only=True)
 class Box:
-    """Width in heights, sides (left, right), plates (bottom, top). T is +1/2 on what is hot, -1/2 on what is
-    cold"""
+    """Width in heights, sides (left, right), plates (bottom, top). T is +-1/2 on what is hot or cold"""
     width: float = 1.0
     sides: Edges = SYMMETRY
     plates: Edges = PLATES
@@ -91,8 +90,7 @@ class Axis:
         self.back = self.mean.T.tocsr()
 
     def bend(self, end: End) -> sparse.csr_array:
-        """Second difference of what sits in cells; 2 T_wall - T lies beyond a WALL, T_wall counts
-        elsewhere."""
+        """Second difference in cells; 2 T_wall - T lies beyond a WALL, T_wall counts elsewhere."""
         return self.div@self.grad - 2*sparse.diags_array(self.wall(1.0, 1.0)*(end is End.WALL))/self.h
 
     def bend_faces(self) -> sparse.csr_array:

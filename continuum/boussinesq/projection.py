@@ -18,8 +18,7 @@ class Unstable(RuntimeError):
 
 
 class Projection(Equations):
-    """Buoyancy and advection by two-step extrapolation, diffusion by the trapezoidal rule, pressure by
-    projection.
+    """Buoyancy and advection extrapolated, diffusion by the trapezoidal rule, pressure by projection.
 
     Second order in time. Everything is in increments of q and p: in a steady state nothing is left of
     splitting.
@@ -62,8 +61,7 @@ class Projection(Equations):
 
 
 class Series(NamedTuple):
-    """A transient: K and plate Nusselt numbers at times t, the last state, and whether K had settled by
-    then."""
+    """A transient: K and plate Nusselt numbers at times t, the last state, whether K had settled."""
     t: np.ndarray
     K: np.ndarray
     nu_bottom: np.ndarray
@@ -141,8 +139,7 @@ def record(flow: Projection, t: float) -> tuple[float, float, float, float]:
 
 
 def change_left(history: np.ndarray, block: float) -> float:
-    """Change of K still to come over K, from rows (t, K) of the last three blocks; fluid come to rest has
-    none.
+    """Change of K still to come over K, from rows (t, K) of the last three blocks.
 
     The two changes between blocks count as terms of a geometric series; while they do not shrink it is inf.
     Near onset their ratio is nearly 1, hence a spline: records do not come at the ends of blocks.

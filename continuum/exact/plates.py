@@ -1,5 +1,4 @@
-"""Flows between plates that depend on the height only, solved to many digits: 1D collocation at Chebyshev
-points.
+"""Flows between plates that depend on the height only: 1D collocation at Chebyshev points.
 
     rho' = -(rho v)_s        v' = -v v_s + (eta v_s - P)_s/rho        u' = -v u_s + eta u_ss/rho T' = -v T_s +
     (-P v_s + eta (v_s^2 + u_s^2) + k T_ss)/rho          P = rho T, C_V = 1, 2D without bulk viscosity
@@ -21,8 +20,7 @@ NEAR = 1e-10        # of the steps in time
 
 
 class Flow(NamedTuple):
-    """Temperature 1 + `heat` sin(3 pi s) at uniform pressure, velocity U (s + sin(3 pi s)/2), for so long in
-    heights^2/MU."""
+    """Temperature 1 + `heat` sin(3 pi s) at uniform pressure, velocity U (s + sin(3 pi s)/2)."""
     name: str
     heat: float = 0.0
     U: float = 0.0

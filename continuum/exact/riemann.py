@@ -1,5 +1,4 @@
-"""The Riemann problem of an ideal gas, exactly: a shock or a rarefaction on either side of a contact    [Toro
-1997, ch. 4]"""
+"""The Riemann problem of an ideal gas: shock or rarefaction beside a contact    [Toro 1997, ch. 4]"""
 from math import sqrt
 from typing import NamedTuple
 

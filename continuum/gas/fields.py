@@ -45,8 +45,7 @@ class Fields:
 
 
 class Nodes(NamedTuple):
-    """Places x (n, 2), velocities v (n, 2), densities, temperatures and volumes (n,) of the nodes, each place
-    once."""
+    """Places x (n, 2), velocities v (n, 2), densities, temperatures, volumes (n,) of the nodes."""
     x: np.ndarray
     v: np.ndarray
     rho: np.ndarray
@@ -73,8 +72,7 @@ def shares(nodes: int, periodic: bool) -> np.ndarray:
 
 
 def nodes(scene, rows: int) -> tuple[np.ndarray, np.ndarray]:
-    """Coordinates of columns and rows of nodes. Raises ValueError: rows odd or below 8, or cells are not
-    square."""
+    """Coordinates of columns and rows of nodes. ValueError: rows odd or below 8, cells not square."""
     if rows < 8 or rows % 2:
         raise ValueError(f"rows must be even and at least 8, got {rows}: rolls are counted at mid-height")
     columns = round(scene.aspect*rows)
@@ -130,8 +128,7 @@ def node_densities(S: np.ndarray) -> np.ndarray:
 
 
 def interpolate(fields: Fields, x, y) -> Values:
-    """Cubic splines through the nodes, at points (x, y), periodic as the sides. Raises ValueError: a point is
-    outside."""
+    """Cubic splines through the nodes, at points (x, y), periodic as the sides. ValueError: outside."""
     x, y = np.asarray(x, float), np.asarray(y, float)
     if fields.periodic:
         x = fields.x[0] + (x - fields.x[0]) % fields.scene.width

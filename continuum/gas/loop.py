@@ -17,8 +17,7 @@ BULK_VISCOSITY = 0.0  # [KHP95, Sec. II]
 
 
 class Box(NamedTuple):
-    """Spacing of the grid, gravity, temperatures of the plates, first column and lowest row of nodes that
-    move."""
+    """Spacing, gravity, temperatures of the plates, first column and lowest row of nodes that move."""
     h: float
     g: float
     T_hot: float

@@ -1,5 +1,4 @@
-"""Steady states and disturbances of the compressible grid: Newton's method on the rates of the loop, to the
-last bit the same.
+"""Steady states and disturbances of the compressible grid: Newton's method on the rates of the loop.
 
 Between periodic sides the flow is taken as its own mirror image about the middle of a rising and of a falling
 stream, which leaves one half of the box and fixes the rolls. Slopes of the rates come from their differences:
@@ -45,8 +44,7 @@ class Steady(NamedTuple):
 
 
 class Discrete:
-    """The rates of one scene on one grid as a function of the unknowns q, deviations from the state at
-    rest."""
+    """The rates of one scene on one grid as a function of q, deviations from the state at rest."""
 
     def __init__(self, scene, rows: int):
         self.scene, self.rest = scene, block(initial(scene, rows, 0.0))
@@ -56,8 +54,7 @@ class Discrete:
         self.places, self.mirrors, self.signs = self._unknowns(rows, columns)
 
     def _unknowns(self, rows: int, columns: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Places (3, n) = field, row, column of the unknowns, those of their mirror images, and the images'
-        signs."""
+        """Places (3, n) = field, row, column of the unknowns, of their mirror images, and signs."""
         half = isinstance(self.scene.sides, Periodic)
         last = columns//2 + 1 if half else columns
         inner, all_ = range(2, rows + 1), range(1, rows + 1)
@@ -91,8 +88,7 @@ class Discrete:
 
     @property
     def kept(self) -> list[np.ndarray]:
-        """Weights of the sums of densities that are kept; between mirrors the chessboard is zero by
-        symmetry."""
+        """Weights of the kept sums of densities; between mirrors the chessboard is zero."""
         field, j, i = self.places
         mass, chess = 1.0*(field == RHO), (field == RHO)*(-1.0)**(i + j)
         return [mass] if isinstance(self.scene.sides, Periodic) else [mass, chess]
@@ -143,8 +139,7 @@ def near(n: int) -> sparse.coo_array:
 
 
 def heat_of_rolls(scene, vy: np.ndarray) -> np.ndarray:
-    """Temperature at which conduction takes what slow rolls as wide as high bring: kappa (2 pi^2/L^2) T' =
-    v_y dT/L.
+    """Temperature of slow rolls as wide as high: kappa (2 pi^2/L^2) T' = v_y dT/L.
 
     Gas carries half of it (adiabatic gradient) and conducts as much less (isobaric heat): the factors cancel.
     """
@@ -159,8 +154,7 @@ def warm_rolls(scene, rows: int, ke: float) -> Fields:
 
 
 def steady(scene, rows: int, start: Fields | None = None, *, within: float = 1e-9) -> Steady:
-    """The steady state that Newton's method finds from start, of any grid or Ra; by default from weak warm
-    rolls.
+    """The steady state by Newton's method from a start, of any grid or Ra; by default from weak rolls.
 
     It ends when no unknown changes by more than `within`; the error is then about its square. At rest below
     onset. Raises NewtonFailed: no convergence.

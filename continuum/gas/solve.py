@@ -79,8 +79,7 @@ class Solution:
 
     @property
     def nu(self) -> float:
-        """Nusselt number: of the volume, whose error is purely second order; between side walls of the
-        plates."""
+        """Nusselt number: of the volume, of second order; between side walls of the plates."""
         plates = (self.nusselt.bottom + self.nusselt.top)/2
         return self.nusselt.volume if self.fields.periodic else plates
 
@@ -224,8 +223,7 @@ def finish(rows: int, march: March, until, series: Series) -> Solution:
 
 
 def steady_on(scene, sizes: Sequence[int], *, start: Fields | None = None, **options) -> list[Solution]:
-    """Steady solutions on ever finer grids, each started from the one before. Raises ValueError: there are no
-    sizes."""
+    """Steady solutions on ever finer grids, each from the one before. ValueError: no sizes."""
     if not len(sizes):
         raise ValueError(f"there are no grids (sizes = {sizes}): give their rows, coarsest first, as in (16, "
                          "24, 32)")

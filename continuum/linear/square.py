@@ -1,5 +1,4 @@
-"""Onset of Boussinesq convection in a square with four rigid walls, the temperature of the sides linear in
-height.
+"""Onset of Boussinesq convection in a square with rigid walls and sides of linear temperature.
 
 As in `linear`, sigma = 0 with nu = kappa = Ra^-1/2 makes 1/sqrt(Ra) an eigenvalue of the work of buoyancy
 against dissipation; here in two directions: streamfunction psi and temperature are products of the trial
@@ -24,8 +23,7 @@ def critical_ra_square(number: int = 0, degree: int = DEGREE) -> float:
 
 
 def forms(degree: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Integrals of (Lap psi)^2, (grad T)^2 and w T with w = d psi/dx, matrices over products of trial
-    functions.
+    """Integrals of (Lap psi)^2, (grad T)^2 and w T, w = d psi/dx, over products of trial functions.
 
     psi and its slope vanish on the walls: psi_xx psi_yy integrates to psi_xy^2.
     """

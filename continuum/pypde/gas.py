@@ -76,8 +76,7 @@ class Gas(PDEBase):
         return self.scene.width, self.scene.L
 
     def step_limit(self) -> float:
-        """Largest stable step of RK4 at density 1: sound and advection on the imaginary axis, decay on the
-        real one."""
+        """Largest stable step of RK4 at density 1: sound and advection, and decay."""
         scene = self.scene
         c = max(sound_speed(scene.eos, 1.0, energy(scene.eos, 1.0, T)) for T in (scene.T_hot, scene.T_cold))
         wave = (2*np.sqrt(2)*c + scene.free_fall)/self.h
@@ -141,8 +140,7 @@ class Gas(PDEBase):
         return (f[:, 1:] - f[:, :-1])/self.h
 
     def evolution_rate(self, state: Any, t: float = 0) -> Any:
-        """The rates, as readable as they get: differences and means of neighbours alternate between the
-        points."""
+        """The rates in readable form: differences and means of neighbours alternate."""
         rho, u, v, e, T = self.padded(state.data)
         dx, dy, (eos, law) = self.dx, self.dy, (self.scene.eos, self.scene.law)
         P = pressure(eos, rho, e)[1:, 1:]

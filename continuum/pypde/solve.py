@@ -25,8 +25,7 @@ STILL = 1e-12           # K of a fluid at rest
 
 
 class Rolls(NamedTuple):
-    """A start: rolls of kinetic energy `ke` per mass, `number` of them along x (by default two in a box of
-    width 2)."""
+    """A start: rolls of kinetic energy `ke` per mass, `number` of them along x (default: the width)."""
     ke: float = 0.0018
     number: int | None = None
 
@@ -86,14 +85,12 @@ class Solution:
 
 
 def solve_boussinesq(*, ra: float, pr: float, rows: int, aspect: float = 2.0, **options) -> Solution:
-    """Boussinesq convection between rigid plates on `rows` rows of square cells, periodic in x; options of
-    `solve`."""
+    """Boussinesq convection between rigid plates on `rows` rows, periodic in x; options of `solve`."""
     return solve(Boussinesq(ra=ra, pr=pr, rows=rows, aspect=aspect), **options)
 
 
 def solve_gas(scene: RayleighBenard, rows: int, **options) -> Solution:
-    """The compressible fluid of a scene between periodic sides on `rows` rows of square cells; options of
-    `solve`."""
+    """The compressible fluid of a scene, periodic in x, on `rows` rows; options of `solve`."""
     return solve(Gas(scene, rows), **options)
 
 
@@ -160,15 +157,13 @@ def finish(equation: Any, watch: Watch, data: np.ndarray, info: dict) -> Solutio
 
 
 def count_rolls(v: np.ndarray) -> int:
-    """Changes of sign of the vertical velocity along the periodic mid-height; below 5 % of its largest it is
-    zero."""
+    """Changes of sign of the vertical velocity along mid-height; below 5 % of its largest it is zero."""
     up = v[np.abs(v) > 0.05*np.abs(v).max()] > 0
     return int(np.sum(up != np.roll(up, 1)))
 
 
 def onto(equation: Any, start: Solution) -> np.ndarray:
-    """The state of a solution on the grid of another equation: cubic splines through its points and
-    ghosts."""
+    """The state of a solution on another grid: cubic splines through its points and ghosts."""
     old = start.equation
     if type(old) is not type(equation) or not np.allclose(old.grid_box, equation.grid_box):
         raise ValueError(f"start is a {type(old).__name__} in a box {old.grid_box}, the equation a "

@@ -88,8 +88,7 @@ class Dpd:
         return Law(self.a, self.gamma, float(np.sqrt(2*self.gamma*self.kT/dt)), 1/self.rc)
 
     def longest_step(self, n: int) -> float:
-        """2/omega of velocity-Verlet and 2/Lambda of forward friction, for a pair of waves in which all
-        neighbours oppose.
+        """2/omega of velocity-Verlet and 2/Lambda of forward friction, where all neighbours oppose.
 
         Per particle rho V springs of a/rc and friction gamma <w^2> each, a d-th of them along a direction,
         twice that when neighbours move against each other: omega^2 = 2 rho V a/(d rc), Lambda = 2 rho V gamma
@@ -164,8 +163,7 @@ class Forces:
             self.images.anchor, now.anchor = None, anchor
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """Lists for the step; before the first its force. Raises ValueError: the step is above the stability
-        limit."""
+        """Lists for the step; before the first its force. ValueError: the step is above the limit."""
         d, self.now, self.dt = self.places, now, dt
         if now.step == 0 and not dt <= self.method.longest_step(self.n):
             limit = self.method.longest_step(self.n)
@@ -197,8 +195,7 @@ class Forces:
         return state[self.places:2*self.places]
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt with the noise of this step, as `TwoStep` wants it; the last rows stay    [RR98 Eqs 39,
-        40, 49, 51]"""
+        """d(state)/dt with the noise of this step, for `TwoStep`    [RR98 Eqs 39, 40, 49, 51]"""
         d = self.places
         out[:d], out[2*d:] = state[d:2*d], 0.0
         self.forces(state[:d], state[d:2*d], 0.0, out[d:2*d])

@@ -15,8 +15,7 @@ from particles.neighbours import ONE, u32, u64
 
 
 class Cells(NamedTuple):
-    """Points sorted into cubes: cell c holds order[start[c]:start[c+1]] at x (points, 3); counts of cells
-    along x, y, z."""
+    """Points sorted into cubes: cell c holds order[start[c]:start[c+1]] at x; counts along x, y, z."""
     low: np.ndarray
     side: float
     counts: np.ndarray
@@ -59,8 +58,7 @@ def _count_sort(cells, x):
 
 
 def sort_into_cells(x: np.ndarray, side: float) -> Cells:
-    """Linked cells over points (n, 3), an empty one around them. Raises FloatingPointError: far more cells
-    than points."""
+    """Linked cells over points (n, 3), one empty around. FloatingPointError: far more cells than points."""
     low = x.min(axis=0) - side
     across = (x.max(axis=0) - low)/side + 2
     if not np.prod(across) <= 64*len(x) + 4096:

@@ -1,5 +1,4 @@
-"""Pair sums of dissipative particles, compiled: a block of rows after the other, whose pairs stay in the
-cache."""
+"""Pair sums of dissipative particles, compiled, block by block of rows, whose pairs stay in the cache."""
 from typing import NamedTuple
 
 import numpy as np
@@ -99,8 +98,7 @@ nothing.of(Force)(lambda term: (0.0, 0.0, 0.0))
 
 @jit
 def find_near(first, last, rc2, particle, lists, pairs):
-    """The pairs in range of rows first..last, r^2 as f; their number. The list is compressed without a
-    branch."""
+    """The pairs in range of rows first..last, r^2 as f; their number. Without a branch."""
     end = u64(0)
     for i in range(u64(first), u64(last)):
         a, begin = particle[i], end
@@ -172,8 +170,7 @@ def turn(first, last, total, out):
 
 @jit
 def rub_pairs(n, law, noise, step, dt, particle, lists, taken, up, boost):
-    """Friction and noise on one pair after the other, implicit midpoint, which keeps kT at any
-    step    [Shardlow 2003]
+    """Friction and noise pair by pair, implicit midpoint: keeps kT at any step    [Shardlow 2003]
 
     u' = u - K (u + u') + 2 s zeta along the pair, K = gamma w^2 dt, s^2 = 2 K kT: half of the change for each
     of the two.

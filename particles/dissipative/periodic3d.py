@@ -29,8 +29,7 @@ def farthest(x, anchor):
 
 @jit
 def _ghosts(x, sides, d, slid, margin, parent, shift, up):
-    """Shifts of n points into the box, then ghosts: of what is within `margin` of a side its image beyond the
-    other one.
+    """Shifts of n points into the box, then ghosts of what is within `margin` of a side.
 
     x (d, n); parent (room,), shift (room, 3), up (room,) are filled; the number of points, or -1 if they do
     not fit. Along y first, since what has slid may need images along x.
@@ -62,8 +61,7 @@ def _ghosts(x, sides, d, slid, margin, parent, shift, up):
 
 @jit
 def place(first, last, x, images, slid, out):
-    """out[k] = (x, y, z) of points first..last, images having slid by so much since their shifts were
-    made."""
+    """out[k] = (x, y, z) of points first..last, images having slid since."""
     for k in range(first, last):
         i = images.parent[k]
         out[k, 0] = x[0, i] + (images.shift[k, 0] + images.up[k]*slid)
@@ -72,16 +70,14 @@ def place(first, last, x, images, slid, out):
 
 
 class Points(NamedTuple):
-    """Particles in the box, then ghosts: image of which particle each is, where from there (points, 3), how
-    many boxes above."""
+    """Particles, then ghosts: of which particle, where from there (points, 3), how many boxes above."""
     parent: np.ndarray
     shift: np.ndarray
     up: np.ndarray
 
 
 class Images:
-    """Ghosts and lists of n particles, anywhere, in a periodic box (d,), d = 2 or 3, centred on the
-    origin."""
+    """Ghosts and lists of n particles in a periodic box (d,), d = 2 or 3, centred on the origin."""
 
     def __init__(self, n: int, box: tuple[float, ...], reach: float, skin: float, rate: float, team: Team):
         self.n, self.box, self.team = n, np.array(box, float), team

@@ -1,5 +1,4 @@
-"""Points that are held: frozen points that form a rigid body, rows of fixed points that form a wall    [RR98,
-Sec. IV]
+"""Held points: frozen ones form a rigid body, rows of fixed ones a wall    [RR98, Sec. IV]
 
 A held point exchanges over its edges as all points do; its velocity and temperature are given, its density
 evolves. What the edges carry to it is the force on the body and its heat. A body of lattice points has a
@@ -21,8 +20,7 @@ CLEAR = 0.6
 
 
 class Held(NamedTuple):
-    """Points `which` (m,) of velocity v (m, 2), temperature T (m,), whatever they receive; T nan: adiabatic.
-    body: its number."""
+    """Points `which` (m,) held at v (m, 2) and T (m,); T nan: adiabatic. body: its number."""
     which: np.ndarray
     v: np.ndarray
     T: np.ndarray
@@ -30,8 +28,7 @@ class Held(NamedTuple):
 
 
 def held(which: np.ndarray, v: tuple[float, float] = (0.0, 0.0), T: float = np.nan) -> Held:
-    """Points of one velocity and temperature. Raises ValueError: there are none, one is named twice, or T <=
-    0."""
+    """Points of one velocity and temperature. ValueError: there are none, or one twice, or T <= 0."""
     which = np.asarray(which)
     if len(which) < 1 or len(np.unique(which)) < len(which):
         raise ValueError(f"{len(which)} points are to be held, {len(np.unique(which))} of them different: "
@@ -50,8 +47,7 @@ def turning(points: Points, which: np.ndarray, rate: float, T: float = np.nan) -
 
 
 def together(*bodies: Held) -> Held:
-    """Several bodies, such as the two plates of a channel; where they touch they do not rub against each
-    other."""
+    """Several bodies, such as two plates of a channel; they do not rub against each other."""
     which, v, T, _ = (np.concatenate(column) for column in zip(*bodies, strict=True))
     return Held(which, v, T, np.repeat(np.arange(len(bodies)), [len(body.which) for body in bodies]))
 
@@ -71,8 +67,7 @@ def check_disc(points: Points, radius: float) -> None:
 
 
 def with_surface(counts: tuple[int, int], radius: float) -> tuple[Points, np.ndarray]:
-    """A lattice of spacing 1 with a disc about its middle, and the points of the disc, those on its surface
-    among them.
+    """A lattice of spacing 1 with a disc about its middle, and the disc's points, surface included.
 
     The lattice keeps off the circle by CLEAR, so that chords between neighbours on it are edges of a Delaunay
     triangulation. The polygon lacks a fraction (2 pi/n)^2/6 of the area of the disc: second order in the
@@ -96,8 +91,7 @@ def on_circle(radius: float) -> np.ndarray:
 
 def between_circles(counts: tuple[int, int], inner: float,
                     outer: float) -> tuple[Points, np.ndarray, np.ndarray]:
-    """A lattice of spacing 1 with points on two circles about its middle; those up to the inner and those
-    from the outer one on.
+    """A lattice of spacing 1 with points on two circles; points up to the inner, and from the outer.
 
     Raises ValueError: there is no room between the circles, or between one of them and its image.
     """
@@ -115,8 +109,7 @@ def between_circles(counts: tuple[int, int], inner: float,
 
 
 def with_plates(inner: np.ndarray, columns: int, height: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Points (n, 2) with rows of `columns` points, a spacing of 1 apart, on the plates y = -+height/2, and
-    which these are.
+    """Points (n, 2) with rows of `columns` points on the plates y = -+height/2, and which these are.
 
     For triangles that end there, `triangulation.between`. The rows inside are one less than the spacings of
     the height.

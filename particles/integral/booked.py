@@ -12,8 +12,7 @@ from particles.threads import Team
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Booked(Stream):
-    """A stream with a book in its first point's columns: momentum and energy that all walls have taken, over
-    its volume.
+    """A stream with a book in its first point's columns: momentum and energy taken by all walls.
 
     One book of the sum: what held points push each other by cancels at once. Books of single points grow to a
     thousand times the fluid's momentum, and round accordingly.

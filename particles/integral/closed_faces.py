@@ -114,8 +114,7 @@ class Moving:
         check_unit(self.weight)
 
     def state(self, x: np.ndarray, v: np.ndarray, rho: Any, T: np.ndarray) -> np.ndarray:
-        """(15, n) of places (n, 2), velocities (n, 2), densities, temperatures (n,); all volumes are
-        equal."""
+        """(15, n) of places (n, 2), velocities (n, 2), densities, temperatures (n,); equal volumes."""
         V = np.full(len(x), self.box[0]*self.box[1]/len(x))
         m, e = rho*V, energy(self.eos, rho, T)
         exchanged = [*(m[:, None]*v).T, m, V, m*(e + (v**2).sum(axis=1)/2)]
@@ -137,8 +136,7 @@ class Moving:
 
 @limit_of.register
 def _(method: Moving, start: np.ndarray) -> float:
-    """Three-stage Runge-Kutta, 1.73 on the imaginary and 2.5 on the real axis; points lie off a lattice, so
-    1.4 times faster.
+    """Three-stage Runge-Kutta, 1.73 and 2.5 on its axes; points off a lattice are 1.4 times faster.
 
     On a lattice of spacing 1 sound is slower than c, diffusion than 4 chi, and volumes follow at 2.9 `follow`
     (Wendland C2, h = 3).
@@ -155,8 +153,7 @@ def _(method: Moving, start: np.ndarray) -> float:
 
 
 class DriftKickDrift:
-    """Points drift half a step, exchange over frozen faces in three Runge-Kutta stages, drift the other
-    half."""
+    """Points drift half a step, exchange over frozen faces in three stages, drift the other half."""
     evaluations = 3
 
     def __init__(self, shape: tuple[int, ...]):
@@ -208,8 +205,7 @@ class Exchanging(Listed):
         self.shift *= np.minimum(1.0, most/np.maximum(size, 1e-300))[:, None]
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
-        """Refuse points in one place or without neighbours: ValueError names them. Warn where the weight is
-        too narrow."""
+        """Refuse points in one place or without neighbours; warn where the weight is too narrow."""
         V, weight = state[7], self.method.weight
         a = float(np.sqrt(V.mean()))
         self.around.place(state, 1.0)

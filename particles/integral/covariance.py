@@ -1,5 +1,4 @@
-"""Steady covariances of linear fluctuations about a given flow: Lyapunov solves, in continuous time and of
-time steps
+"""Steady covariances of linear fluctuations about a flow: Lyapunov solves, in time and of steps
 
     dx = J x dt + B dW, Q = B B^T            J C + C J^* + Q = 0                 [RR98 Eqs 20-25]
     x(t + dt) = A x(t) + noise of variance Q_dt       C = A C A^* + Q_dt                 [RR98 Eq. 40]
@@ -39,8 +38,7 @@ def jacobian(rates: Callable[[np.ndarray, np.ndarray], None], state: np.ndarray,
 
 
 def waves(columns: np.ndarray, counts: tuple[int, int], k: float) -> np.ndarray:
-    """The block (m ny, m ny) of waves exp(ikx), k per spacing, of a matrix on a lattice that is uniform along
-    x.
+    """The block (m ny, m ny) of waves exp(ikx), k per spacing, of a matrix on a lattice uniform along x.
 
     columns : its (m nx ny, m ny) columns of the points at x = 0, with point (x, y) numbered x ny + y, m
     fields. nx is odd and more than twice the reach of the matrix: then k may be any number.
@@ -53,8 +51,7 @@ def waves(columns: np.ndarray, counts: tuple[int, int], k: float) -> np.ndarray:
 
 
 def steady(J: np.ndarray, Q: np.ndarray, conserved: np.ndarray | None = None) -> np.ndarray:
-    """C with J C + C J^* + Q = 0, at fixed rows `conserved` (q, N). Raises ArithmeticError: a mode does not
-    decay."""
+    """C with J C + C J^* + Q = 0, at fixed rows `conserved` (q, N). ArithmeticError: no decay."""
     Z = free(len(J), conserved)
     J, Q = Z.conj().T@J@Z, Z.conj().T@Q@Z
     check_decay(np.linalg.eigvals(J).real, UNDAMPED*np.abs(J).max())
@@ -115,8 +112,7 @@ OLD = (0.0, 3/4, 1/3)
 
 
 def three_stage(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:
-    """Three Euler steps, averaged; each has the noise W_A + beta W_B of its own beta, W_A and W_B
-    independent."""
+    """Three Euler steps, averaged; each has the noise W_A + beta W_B of its own beta."""
     one = np.eye(len(J))
     euler, A, of_A, of_B = one + dt*J, one, 0*one, 0*one
     for old, beta in zip(OLD, BETAS, strict=True):

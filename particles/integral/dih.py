@@ -1,5 +1,4 @@
-"""Discretized integral hydrodynamics: mass, momentum and energy exchanged over edges, in d
-dimensions    [RR98, Sec. III]
+"""Discretized integral hydrodynamics: exchange over edges, in d dimensions    [RR98, Sec. III]
 
 The state (2 + d, n) holds densities rho, p^alpha = rho v^alpha, total energy eps per volume; RR98's m_i, p_i,
 eps_i are these times the volume V_i (Eq. 26). What leaves point i over an edge is what point j gains:
@@ -59,8 +58,7 @@ def take(flow: Flow, points: np.ndarray) -> Flow:
 
 
 def carried(eos: Any, S: np.ndarray, a: Flow, b: Flow, weight: Any = 0.0) -> Fluxes:
-    """Brackets of Eqs 34-36 without stress and heat, from points a to b; `weight` is added to the pressure in
-    b."""
+    """Brackets of Eqs 34-36 without stress and heat, from a to b; `weight` adds to the pressure in b."""
     half = S/2
     to_b, to_a = (half*b.v).sum(axis=1), (half*a.v).sum(axis=1)      # S.v_b/2, S.v_a/2
     P_ab, P_ba = pressure(eos, a.rho, energy(eos, a.rho, b.T)), pressure(eos, b.rho, energy(eos, b.rho, a.T))
@@ -113,8 +111,7 @@ class Pairwise:
     everywhere: bool = False
 
     def fluxes(self, dih: "Dih", flow: Flow) -> Fluxes:
-        """Through all edges. Raises ValueError: a bulk viscosity that would make one of the frictions
-        negative."""
+        """Through all edges. ValueError: a bulk viscosity that makes a friction negative."""
         edges, coefficients = dih.edges, dih.coefficients(flow)
         check_bulk(coefficients.eta, coefficients.zeta, edges.d)
         found = along(edges, means(coefficients, edges.i, edges.j), take(flow, edges.i), take(flow, edges.j))
@@ -132,8 +129,7 @@ class Pairwise:
 
 @dataclass(frozen=True, kw_only=True)
 class Mixed:
-    """A share of friction and conduction along edges [Eq. 51], the rest by stresses and currents of points
-    [Eqs 37, 38]."""
+    """A share of transport along edges [Eq. 51], the rest by stresses and currents [Eqs 37, 38]."""
     share: float
     pairwise: Pairwise = Pairwise()
     nested: Nested = Nested()
@@ -161,22 +157,19 @@ def along(edges: Any, coefficients: Coefficients, a: Flow, b: Flow) -> Fluxes:
 
 
 def lacking(coefficients: Coefficients, v: np.ndarray, slope: np.ndarray) -> np.ndarray:
-    """F = B [(v.grad) v - v div v], B = eta (1/2 + 1/d) - zeta/2, (n, d), from v (n, d) and slope[n, a, b] =
-    d_a v_b."""
+    """F = B [(v.grad) v - v div v], B = eta (1/2 + 1/d) - zeta/2, (n, d); slope[n, a, b] = d_a v_b."""
     return np.einsum("nab,nb->na", transposed(coefficients, slope), v)
 
 
 def transposed(coefficients: Coefficients, slope: np.ndarray) -> np.ndarray:
-    """tau[n, a, b] = B (d_b v_a - delta_ab div v), B = eta (1/2 + 1/d) - zeta/2, from slope[n, a, b] = d_a
-    v_b."""
+    """tau[n, a, b] = B (d_b v_a - delta_ab div v), B as in `lacking`, slope[n, a, b] = d_a v_b."""
     d, (eta, zeta, _) = slope.shape[1], coefficients
     div = np.einsum("naa->n", slope)[:, None, None]*np.eye(d)
     return (eta*(1/2 + 1/d) - zeta/2)[:, None, None]*(np.swapaxes(slope, 1, 2) - div)
 
 
 def check_bulk(eta: np.ndarray, zeta: np.ndarray, d: int) -> None:
-    """Frictions A and B of an edge must not be negative; on a line both act along it and only their sum,
-    zeta, counts."""
+    """Frictions A and B of an edge must not be negative; on a line only their sum, zeta, counts."""
     low, high = (0*eta, np.inf + 0*eta) if d == 1 else (-eta*(1 - 2/d), eta*(1 + 2/d))
     bad = np.flatnonzero((zeta < low - 1e-12*eta) | (zeta > high + 1e-12*eta))
     if len(bad):
@@ -220,8 +213,7 @@ class Dih:
         return np.stack([rho, *(rho[:, None]*v).T, rho*(internal + (v**2).sum(axis=1)/2)])
 
     def flow(self, state: np.ndarray) -> Flow:
-        """Fields of a state. Raises FloatingPointError: one is outside of the equation of state; names the
-        point."""
+        """Fields of a state. FloatingPointError names a point outside of the equation of state."""
         rho, eps = state[0], state[-1]
         with np.errstate(all="ignore"):
             v = (state[1:-1]/rho).T

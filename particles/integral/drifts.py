@@ -1,5 +1,4 @@
-"""What pairs of moving points exchange in the ways that RR98 names, in 2D: terms listed by a motion    [Sec.
-III]"""
+"""What pairs of moving points exchange, in 2D: terms listed by RR98's motions    [Sec. III]"""
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -49,8 +48,7 @@ class LiteralDrift(NamedTuple):
 
 
 class ConvectiveDrift(NamedTuple):
-    """Eqs 34-36, 39, 46-48. follow : 0 for volumes that stay, as printed; 1 for volumes with the flow, dV/dt
-    = V div v."""
+    """Eqs 34-36, 39, 46-48. follow : 0 for volumes that stay, as printed; 1 for dV/dt = V div v."""
     follow: float = 0.0
 
     def terms(self, eos: Any, transport: tuple) -> tuple:

@@ -15,8 +15,7 @@ from particles.threads import Team
 
 @dataclass(frozen=True, kw_only=True, repr=False)
 class Driven(Layer):
-    """A layer whose plates slide along themselves with velocities `slide` (lower, upper), under a force per
-    mass along x.
+    """A layer whose plates slide at velocities `slide` (lower, upper), under a force per mass along x.
 
     For constant viscosity and all transport along edges; the mended heating takes plates to be at rest, of no
     moment where the velocity across the plates is zero.

@@ -1,5 +1,4 @@
-"""Who makes edges of points and a weight: RR98's Eq. 29 as printed, plain quadrature, and what repairs it off
-a lattice."""
+"""Edges of points and a weight: RR98's Eq. 29 as printed, plain quadrature, and repairs."""
 import warnings
 from collections.abc import Callable
 from typing import Any
@@ -108,8 +107,7 @@ def check_connected(edges: Edges) -> None:
 
 
 def exact(points: Points, weight: Any) -> Edges:
-    """The nearest edges to the renormalised ones, in the norm sum (dS)^2/k, that close and are exact on
-    linear fields.
+    """The edges nearest to the renormalised ones, by sum (dS)^2/k, that close and are exact.
 
     dS_ij = k_ij [lam_i - lam_j + (mu_i + mu_j).(x_j - x_i)/2] for each direction, lam (n,), mu (n, d) from
     the constraints. Raises ArithmeticError: the points are too irregular for the reach of the weight.
@@ -145,8 +143,7 @@ def exact(points: Points, weight: Any) -> Edges:
 
 
 def _constraints(edges: Edges) -> sparse.csr_array:
-    """B with B S = (sum_j S_ij, 1/2 sum_j S_ij (x_j - x_i)) for one direction: rows (1 + d) n, edges as
-    columns."""
+    """B with B S = (sum_j S_ij, 1/2 sum_j S_ij (x_j - x_i)) for one direction: ((1 + d) n, E)."""
     e, n = np.arange(len(edges.i)), edges.n
     rows, columns = [edges.i, edges.j], [e, e]
     values = [np.ones(len(e)), -np.ones(len(e))]

@@ -25,8 +25,7 @@ from particles.integral.points import Points, of_positions
 
 @dataclass(frozen=True, kw_only=True)
 class Edges:
-    """Edges i -> j (each once) with S (E, d), k (E,) and apart = x_j - x_i (E, d); volumes V (n,) of the
-    points."""
+    """Edges i -> j (each once) with S (E, d), k (E,), apart = x_j - x_i (E, d); volumes V (n,)."""
     i: np.ndarray
     j: np.ndarray
     S: np.ndarray
@@ -58,8 +57,7 @@ class Edges:
 
     @cached_property
     def linear(self) -> np.ndarray:
-        """(1/2 V_i) sum_j S_ij (x_j - x_i), (n, d, d): the unit matrix where edges are exact on linear
-        fields."""
+        """(1/2 V_i) sum_j S_ij (x_j - x_i), (n, d, d): 1 where edges are exact on linear fields."""
         half = 0.5*self.S[:, :, None]*self.apart[:, None, :]
         total = np.zeros((self.n, self.d, self.d))
         np.add.at(total, self.i, half)
@@ -124,15 +122,13 @@ def _fastest(V: np.ndarray, G: list[sparse.csr_array], laplacian: sparse.csr_arr
 
 
 def mirror(d: int) -> np.ndarray:
-    """(d,) signs of what a vector is in a plate, which is across the last axis: as it was along, reversed
-    across."""
+    """(d,) signs of a vector mirrored in a plate across the last axis."""
     return np.array([1.0]*(d - 1) + [-1.0])
 
 
 @dataclass(frozen=True, kw_only=True)
 class Beyond:
-    """Edges from points i to the mirror images of points `parent` behind plate 0 (lower) or 1 (upper), each
-    one way only."""
+    """Edges from points i to mirror images of points `parent` behind plate 0 (lower) or 1 (upper)."""
     i: np.ndarray
     parent: np.ndarray
     S: np.ndarray
@@ -148,8 +144,7 @@ NONE_BEYOND = Beyond(i=NOWHERE, parent=NOWHERE, S=np.empty((0, 2)), k=np.empty(0
 
 
 def fastest(edges: Edges, beyond: Beyond) -> tuple[float, float]:
-    """`Edges.fastest` between plates: pressures of images are those of their parents, velocities and
-    temperatures opposite."""
+    """`Edges.fastest` between plates: images have their parents' pressure, opposite velocity, T."""
     def seen(q: np.ndarray, sign: float) -> sparse.csr_array:
         own, image = (sparse.csr_array((q, (beyond.i, to)), shape=(edges.n, edges.n))
                       for to in (beyond.i, beyond.parent))
@@ -159,8 +154,7 @@ def fastest(edges: Edges, beyond: Beyond) -> tuple[float, float]:
 
 
 def symmetric(edges: Edges, a: float) -> Edges:
-    """Mean of edges and their mirror image in the plane 0 of the last axis, where point m + n/2 is the image
-    of point m."""
+    """Mean of edges and their mirror image in the last axis; point m + n/2 is the image of point m."""
     half, turn = edges.n//2, mirror(edges.d)
     i, j = ((q + half) % edges.n for q in (edges.i, edges.j))
     joined = np.concatenate
@@ -181,8 +175,7 @@ def check_between(x: np.ndarray, height: float) -> None:
 
 
 def check_widths(x: np.ndarray, width: Any) -> np.ndarray:
-    """Widths (d - 1,) of the box along the plates of points (n, d); refuses all but positive numbers, one for
-    each axis."""
+    """Widths (d - 1,) of the box along the plates; refuses all but positive numbers, one an axis."""
     if x.ndim != 2 or x.shape[1] not in (1, 2, 3):
         raise ValueError(f"points have the shape {x.shape}, which must be (n, d) with d = 1, 2, 3: on a line "
                          "give x[:, None]")
@@ -196,8 +189,7 @@ def check_widths(x: np.ndarray, width: Any) -> np.ndarray:
 
 def between_plates(make: Callable[[Points, Any], Edges], x: np.ndarray, width: Any, height: float,
                    weight: Any) -> tuple[Edges, Beyond]:
-    """Edges among points x (n, d) and to their mirror images in the plates -+ height/2 of the last axis,
-    periodic along them.
+    """Edges among points x (n, d) and to mirror images in the plates -+ height/2 of the last axis.
 
     width : of the box along the plates: () in 1D, a number in 2D, a pair in 3D.
     The maker sees points and images in a periodic box twice as high; what it makes is averaged with its own

@@ -1,5 +1,4 @@
-"""The one exchange over edges of all compiled schemes: listed terms in one sweep, and stages for what some
-need besides.
+"""The one exchange over edges of all compiled schemes: listed terms in one sweep, and their stages.
 
 A term takes two points and their edge and gives what the first gains of mass, momentum (2) and
 energy    [RR98 Eqs 34-36, 51]. What is not listed is not compiled. A term that needs more than the fields of
@@ -80,8 +79,7 @@ def _(term, a, b, ab):
 
 
 class Listing(NamedTuple):
-    """The sum of the listed terms, in their order. It decides which sums share a vector register:
-    bench/points_speed."""
+    """The sum of the terms in their order, which decides what shares vectors: bench/points_speed."""
     terms: tuple
 
 
@@ -125,8 +123,7 @@ Over = Callable[[Any], Any]
 
 
 class At(NamedTuple):
-    """Where points exchange: their records and, last, those of images; edges; what images are of; volumes of
-    the points."""
+    """Where points exchange: records, those of images last; edges; what images are of; volumes."""
     points: np.ndarray
     edges: Any
     images: Any

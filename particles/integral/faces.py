@@ -1,5 +1,4 @@
-"""Faces between moving points that close and are exact on linear fields, in 2D: made anew wherever the points
-are.
+"""Faces between moving points that close and are exact on linear fields, in 2D.
 
 With x_ij = x_j - x_i, F = -w'/r of a weight w and volumes V:
 
@@ -40,8 +39,7 @@ def _(term, a, b, ab):
 
 
 class FaceMaker:
-    """Makes faces of the points in their surroundings, closed by so many `iterations` at most, to the
-    residual `within`.
+    """Makes faces of points, closed by so many `iterations` at most, to the residual `within`.
 
     faces, count (n,), pull (n, 2), iterations_done : what was made last, the density of points, the sum of
     V_j F x_ij that pulls points to where they are dense. ghosts : of the lists. lists_made : how often the
@@ -56,8 +54,7 @@ class FaceMaker:
         self.ghosts: Ghosts = Ghosts(*np.empty((3, 0)))
 
     def make(self, state: np.ndarray, V: np.ndarray, solution: np.ndarray) -> None:
-        """Pairs and faces of points at state[:2] with volumes (n,); the solution (6, n) is found from what it
-        was, in place."""
+        """Pairs and faces of points at state[:2] with volumes (n,); solution (6, n) in place."""
         around, n = self.around, self.n
         around.place(state, 1.0)
         self._allocate()
@@ -120,8 +117,7 @@ class FaceMaker:
 
 
 def inner(a: np.ndarray, b: np.ndarray) -> float:
-    """Sum of products, not by BLAS: from 10 000 points on its threads wait for work on all cores, and sum in
-    another order."""
+    """Sum of products, not by BLAS, whose threads wait on all cores and sum in another order."""
     return float((a*b).sum())
 
 

@@ -1,5 +1,4 @@
-"""What all methods on fixed points share, compiled, in 2D: stored edges, fields, rates, what the time loop
-asks for."""
+"""What methods on fixed points share, in 2D: stored edges, fields, rates, for the time loop."""
 from math import fsum
 from typing import Any, ClassVar
 
@@ -36,8 +35,7 @@ def opened(edges: Stored) -> np.ndarray:
 
 
 class OwnPressure(Stage):
-    """Sets P of a row's own point, which `Pressure` takes off twice along each edge, and takes it off the
-    area that stays open.
+    """Sets P of a row's own point, which `Pressure` takes off twice, and takes it off the open area.
 
     Whole pressures, many times what they differ by, would leave a rounding in every row, one way at every
     step. open (n, 2) : what the area vectors of a row add up to, of `opened`.
@@ -78,8 +76,7 @@ class OnPoints:
 
     @property
     def fastest(self) -> tuple[float, float]:
-        """Largest frequency of sound over its speed, and largest rate of diffusion over the diffusivity: of
-        the edges."""
+        """Largest frequency of sound over its speed, largest rate of diffusion over diffusivity."""
         return self.edges.fastest
 
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
@@ -133,8 +130,7 @@ class Summing:
 
 
 class FixedSums(Summing):
-    """Compiled sums over stored edges: fields, what the listed terms of a method need, one exchange, rates
-    per volume.
+    """Compiled sums over stored edges: fields, stages of the terms, one exchange, rates per volume.
 
     at : points, edges, images. push (2,) : force per mass.
     """

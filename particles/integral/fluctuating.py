@@ -1,5 +1,4 @@
-"""Random stress and heat current of a fluid on fixed points, as matrices over edges    [RR98 Secs II D, III
-A; Eqs 22-25, 42-44]
+"""Random stress and heat current on fixed points, as matrices over edges    [RR98 Eqs 22-25, 42-44]
 
 Momenta p (d, n) of points with velocities v and energies E (n,) with temperatures T obey, at rest,
 
@@ -38,15 +37,13 @@ class Partners(NamedTuple):
 
 
 def mismatch(pair: Partners, twice: float) -> float:
-    """|Q - twice Gamma|/|twice Gamma|, the largest elements; `twice` is 2 kT of momenta, 2 k T^2 of
-    energies."""
+    """|Q - twice Gamma|/|twice Gamma|, largest elements; `twice`: 2 kT of momenta, 2 k T^2 of energies."""
     wanted = twice*pair.Gamma
     return float(abs(pair.Q - wanted).max()/abs(wanted).max())
 
 
 def stress(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
-    """Viscous forces D (eta Delta + zeta 11)/V D^T, each point with its own viscosities, and one random
-    stress a point:
+    """Viscous forces D (eta Delta + zeta 11)/V D^T, and one random stress a point:
 
     s_i = sqrt(2 kT_i eta_i/V_i) [(R + R^T)/sqrt 2 - 1 tr R sqrt 2/d] + sqrt(2 kT_i zeta_i/V_i) 1 r, R (d, d)
     and r of dW. eta, zeta, kT are (n,) or numbers, here and below.
@@ -63,8 +60,7 @@ def stress(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
 
 
 def heat(edges: Edges, kappa: Any, kT2: Any) -> Partners:
-    """Heat D kappa/V D^T, and a random current a point, sqrt(2 kT2_i kappa_i/V_i) r_i; kT2 = k T^2, not
-    negative."""
+    """Heat D kappa/V D^T, and a random current a point, sqrt(2 kT2_i kappa_i/V_i) r_i; kT2 = k T^2."""
     kappa, kT2 = checked(edges.n, kappa=kappa, kT2=kT2)
     d, div = edges.d, sparse.hstack(edges.D, format="csr")
     Gamma = div@kron(np.eye(d), kappa/edges.V)@div.T
@@ -73,14 +69,12 @@ def heat(edges: Edges, kappa: Any, kT2: Any) -> Partners:
 
 
 def divergence(edges: Edges) -> sparse.csr_array:
-    """V div of a tensor (d, d, n), components (a, b) of point j in column (a d + b) n + j: sum_b D^b
-    tau_ab."""
+    """V div of a tensor, component (a, b) of point j in column (a d + b) n + j: sum_b D^b tau_ab."""
     return each(edges.d, sparse.hstack(edges.D))
 
 
 def shear(d: int, trace: float | None = None) -> np.ndarray:
-    """Delta_ab,cd = delta_ac delta_bd + delta_ad delta_bc - trace delta_ab delta_cd, (d^2, d^2); trace = 2/d
-    if not given."""
+    """Delta_ab,cd = delta_ac delta_bd + delta_ad delta_bc - trace delta_ab delta_cd; trace 2/d."""
     unit = np.eye(d)
     both = np.einsum("ac,bd->abcd", unit, unit) + np.einsum("ad,bc->abcd", unit, unit)
     return both.reshape(d*d, d*d) - (2/d if trace is None else trace)*np.outer(one(d), one(d))
@@ -108,8 +102,7 @@ def each(d: int, matrix: Any) -> sparse.csr_array:
 
 
 def friction(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
-    """Friction k (A + B e e) of `dih.along`, and sqrt(2 kT k A) R + sqrt(2 kT k B) e r on each edge; means
-    over its two points.
+    """Friction k (A + B e e) of `dih.along`, and sqrt(2 kT k A) R + sqrt(2 kT k B) e r on each edge.
 
     Raises ValueError: a coefficient is negative, zeta is outside of what forces along edges allow, or an edge
     conducts a negative amount.
@@ -123,8 +116,7 @@ def friction(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
 
 
 def between(edges: Edges, A: np.ndarray, B: np.ndarray, kT: np.ndarray) -> Partners:
-    """Friction k (A + B e e) between the points of each edge, A, B, kT (E,), and its noise; k is not
-    negative."""
+    """Friction k (A + B e e) between the points of each edge, A, B, kT (E,), and its noise."""
     k, d, across = conductances(edges), edges.d, incidence(edges)
     A, B = np.maximum(A, 0), np.maximum(B, 0)       # zero to round-off at the ends of the range of zeta
     e = edges.apart/np.sqrt((edges.apart**2).sum(axis=1))[:, None]
@@ -147,8 +139,7 @@ def conduction(edges: Edges, kappa: Any, kT2: Any) -> Partners:
 
 
 def mixed(points: Partners, along: Partners, share: float) -> Partners:
-    """A share of friction along edges, the rest of stresses at points, each with its noise; ValueError: no
-    share."""
+    """A share of friction along edges, the rest of stresses at points, each with its noise."""
     if not 0 <= share <= 1:
         raise ValueError("the share of transport along edges must be between 0 (points) and 1 (edges), got "
                          f"{share}")
@@ -201,8 +192,7 @@ def printed_stress(edges: Edges, eta: Any, zeta: Any, kT: Any, *, doubled: bool,
 
 def printed_viscosity(edges: Edges, eta: np.ndarray, zeta: np.ndarray,
                       trace: float = 2/3) -> sparse.csr_array:
-    """Gamma of Eqs 35, 37: pi_ij = -eta_i E(sum_k w_jk e_jk v_k), with the values v_k and not their
-    differences."""
+    """Gamma of Eqs 35, 37: pi_ij = -eta_i E(sum_k w_jk e_jk v_k), of values v_k, not differences."""
     d = edges.d
     slope = each(d, sparse.vstack([S/2 for S in edges.areas]))
     of_shear, of_trace = kron(shear(d, trace), 1/edges.V), kron(np.outer(one(d), one(d)), 1/edges.V)
@@ -210,16 +200,14 @@ def printed_viscosity(edges: Edges, eta: np.ndarray, zeta: np.ndarray,
 
 
 def swapped(edges: Edges, eta: np.ndarray) -> sparse.csr_array:
-    """sum_j S_ij (eta_i E_j + eta_j E_i)/2 of a tensor E: the coefficient of one point with the slope of the
-    other."""
+    """sum_j S_ij (eta_i E_j + eta_j E_i)/2 of a tensor E: one point's coefficient, the other's slope."""
     both = [sparse.diags_array(eta)@S/2 + sparse.diags_array(S@eta/2) for S in edges.areas]
     return each(edges.d, sparse.hstack(both))
 
 
 def printed_heat(edges: Edges, kappa: Any, k: float, T: Any, *, doubled: bool,
                  of25: bool = False) -> Partners:
-    """Eqs 43, 44: an independent random current on each pair, beside the heat of Eq. 38; `of25` with the
-    variance of Eq. 25."""
+    """Eqs 43, 44: a random current on each pair, beside the heat of Eq. 38; `of25`: as Eq. 25."""
     kappa, T = checked(edges.n, kappa=kappa, T=T)
     i, j, n = edges.i, edges.j, edges.n
     variance = k*(2*(T[i]**2*kappa[j] + T[j]**2*kappa[i]) if of25

@@ -110,8 +110,7 @@ def moment(weight: Any, n: int, d: int) -> float:
 
 
 def rms_width(weight: Any, d: int) -> float:
-    """sqrt(int r^2 f dV), from M_3: the r0 of Eq. 45 for any weight (sqrt 2 times that of the exponential of
-    Eq. 30)."""
+    """sqrt(int r^2 f dV), from M_3: the r0 of Eq. 45 for any weight (sqrt 2 times Eq. 30's)."""
     return width(weight)*float(np.sqrt(moment(weight, 3, d)/(d + 2)))
 
 
@@ -140,8 +139,7 @@ def check_ordering(weight: Any, d: int, a: float, error: float, wavelength: floa
 
 
 def check(weight: Any, d: int) -> None:
-    """Refuse a weight whose M_1 differs from d, as no gradient would be right, or whose width is none:
-    ValueError."""
+    """Refuse a weight whose M_1 is not d, or without a width: ValueError."""
     name = "range h" if isinstance(weight, Weight) else "width r0"
     if not 0 < width(weight) < np.inf:
         raise ValueError(f"the {name} of {type(weight).__name__} must be positive and finite, got "

@@ -1,5 +1,4 @@
-"""A fluid on fixed points that has no more than its scene lists: density and momentum, and of the terms those
-that are named.
+"""A fluid on fixed points that has no more than its scene lists: density, momentum, named terms.
 
 P = c^2 rho: without heat there is neither energy nor temperature nor conductivity in the state nor in the
 records. The brackets are those of Eqs 34, 35 and 51    [RR98]

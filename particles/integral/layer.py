@@ -1,5 +1,4 @@
-"""Discretized integral hydrodynamics on fixed points of a layer, compiled: the terms of `dih` over stored
-edges, in 2D.
+"""Fixed points of a layer, compiled: the terms of `dih` over stored edges, in 2D.
 
 Between plates, which RR98 leaves open, convection and pressure see images without friction, so that the
 divergence stays the adjoint of the gradient: rho, T, eps and the velocity along the plate of their parents,
@@ -48,8 +47,7 @@ class Exchanging(FixedSums):
         _images(self.parent, self.at.images.plate_T, self.rise, self.method.g, self.points, self.n)
 
     def heat_through(self, plate: int) -> float:
-        """Heat that enters through a plate (0: lower, 1: upper) per time, along edges and nested; needs
-        fields looked at."""
+        """Heat per time that enters through plate 0 (lower) or 1; needs fields looked at."""
         beyond, here = self.method.beyond, self.method.beyond.plate == plate
         i, image = beyond.i[here], self.n + self.image[here]
         a, b = self.points[i], self.points[image]
@@ -95,8 +93,7 @@ def edge_by_edge(method: "Layer") -> type[Exchanging]:
 
 @dataclass(frozen=True, kw_only=True)
 class Layer(OnPoints):
-    """A fluid on fixed points x (n, 2), periodic in x, between plates at T_plates (lower, upper) under
-    gravity g.
+    """A fluid on fixed points x (n, 2), periodic in x, between plates at T_plates (lower, upper).
 
     edges, beyond : of `edges.between_plates`. transport : listed terms of friction and heat: `MENDED`,
     `PRINTED` as Eq. 51 has it, which heats even a rigid rotation, or of `nested.mixed`. form : which sums,
@@ -132,8 +129,7 @@ class Layer(OnPoints):
 
 @limit_of.register
 def _(method: Layer, start: np.ndarray) -> float:
-    """RK4: the fastest sound and the fastest diffusion of edges and images together, both at the hottest
-    point."""
+    """RK4: the fastest sound and diffusion of edges and images together, at the hottest point."""
     rho = start[0]
     e = start[3]/rho - (start[1]**2 + start[2]**2)/(2*rho**2)
     check_state(method.eos, rho, e)

@@ -1,5 +1,4 @@
-"""The sums of `layer` for an ideal gas with constant viscosity and conductivity, along edges with the heating
-mended.
+"""The sums of `layer` for an ideal gas with constant coefficients, along edges, heating mended.
 
 There P_ij = rho_i T_j: every bracket of Eqs 34-36 and 51 is made of a point's own fields and linear sums over
 its neighbours, such as sum_j S.(rho_i v_j + rho_j v_i) = rho_i sum_j S.v_j + v_i.sum_j S rho_j. Vector
@@ -23,8 +22,7 @@ ROWS = 32           # of a block
 
 
 class LinearSums(NamedTuple):
-    """sum S_x, S_y and k times what the fields of the neighbours differ; S w and k T fill vectors and are not
-    used."""
+    """sum S_x, S_y and k times differences of the neighbours' fields; S w, k T fill vectors."""
 
 
 class LackSums(NamedTuple):
@@ -74,8 +72,7 @@ class IdealSums:
 
 @lanes
 def _give(first, last, state, parent, twice_T, gas, given):
-    """Fields of points and, after them, of images: rho, T, eps, the momentum along of their parents, -v and 2
-    T_w - T."""
+    """Fields of points, then of images: rho, T, eps, momentum along of their parents, -v, 2 T_w - T."""
     n, kappa = u64(state.shape[1]), gas[2]
     for i in range(u64(first), min(u64(last), n)):
         _read(state, i, gas, given[i])
@@ -110,8 +107,7 @@ def _exchange(first, last, given, edges, open, per_V, gas, g, lack, out):
 
 @jit
 def _products(i, a, s, open, f, eta, g, lack, out):
-    """Sums of differences, and what the point's own fields bring where its edges do not close; F from slopes
-    by differences."""
+    """Sums of differences, and what own fields bring where edges do not close; F from slopes."""
     u, v, rho, T, sx, sy = a.u, a.v, a.rho, a.T, open[i, 0], open[i, 1]
     lack.Fx, lack.Fy = eta*f*(v*s[13] - u*s[14]), eta*f*(u*s[6] - v*s[5])
     flow = s[5] + s[14] + sx*u + sy*v                               # S.v
@@ -127,8 +123,7 @@ def _products(i, a, s, open, f, eta, g, lack, out):
 
 @jit
 def _plates(beyond, parent, given, per_V, lack, out):
-    """What convection and pressure see of images, which give +u along the plate and go on hydrostatically; F
-    of images.
+    """What convection and pressure see of images, which slip and go on hydrostatically; F of images.
 
     F along a plate is even, across it odd.
     """

@@ -1,5 +1,4 @@
-"""Stress and heat current of points, from gradients by differences, and their divergence: a term over edges,
-in 2D."""
+"""Stress and heat current of points from gradients, and their divergence: a term over edges, in 2D."""
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,8 +24,7 @@ class Slopes(NamedTuple):
 
 
 class Currents(NamedTuple):
-    """Stress and heat current of the points, over edges: momentum and energy    [Eqs 37, 38, for coefficients
-    of one point]"""
+    """Stress and heat current of the points, over edges: momentum and energy    [Eqs 37, 38]"""
 
 
 nothing.of(NestedTransport)(lambda term: (0.0, 0.0, 0.0, 0.0))
@@ -49,8 +47,7 @@ def _(term, a, b, ab):
 
 
 def mixed(share: float, mended: bool = True) -> tuple:
-    """A share of transport along edges [Eq. 51], mended or as printed, the rest nested [Eqs 37, 38];
-    ValueError: no share."""
+    """A share of transport along edges [Eq. 51], mended or not, the rest nested [Eqs 37, 38]."""
     if not 0 <= share <= 1:
         raise ValueError("the share of transport along edges must be between 0 (nested) and 1 (all), got "
                          f"{share}")
@@ -66,8 +63,7 @@ class Nesting(Stage):
         self.slopes, self.gain, self.currents = np.empty((n, 6)), np.empty((n, 3)), np.zeros(0, Current)
 
     def prepare(self, at: At) -> None:
-        """Images have the adjoint of gradients that see -v and 2 T_w - T: what goes along the plate is odd,
-        across it even.
+        """Images have the adjoint of gradients that see -v, 2 T_w - T: odd along the plate, even across.
 
         Of a shear stress that is another number for each of its two directions.
         """

@@ -1,5 +1,4 @@
-"""Point sets in a box: lattice, jittered, random, relaxed; how regular they are; which of them are near each
-other."""
+"""Point sets in a box: lattice, jittered, random, relaxed; their regularity; near pairs."""
 from dataclasses import dataclass
 from typing import Any
 
@@ -74,8 +73,7 @@ def jittered(counts: tuple[int, ...], size: float, seed: int, a: float = 1.0) ->
 
 
 def random(counts: tuple[int, ...], apart: float, seed: int, a: float = 1.0) -> Points:
-    """Points at random, none nearer than `apart` spacings to another. Raises ValueError: the last find no
-    place."""
+    """Points at random, none nearer than `apart` spacings. ValueError: the last find no place."""
     at = lattice(counts, a)
     rng, x = np.random.default_rng(seed), np.empty((0, at.d))
     for _ in range(400):
@@ -105,8 +103,7 @@ def wrapped(x: np.ndarray, box: np.ndarray) -> np.ndarray:
 
 
 def pairs(points: Points, distance: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """(i, j, x_j - x_i, r) of pairs i < j nearer than `distance`. Raises ValueError: it is half of the box,
-    or r = 0."""
+    """(i, j, x_j - x_i, r) of pairs i < j nearer than `distance`. ValueError: half of the box, or r = 0."""
     if 2*distance >= points.box.min():
         raise ValueError(f"the reach {distance:g} is wider than half of the box {points.box}: take more "
                          "points or a narrower weight")

@@ -1,5 +1,4 @@
-"""Points that move in the ways that RR98 names, compiled, in 2D: `rr98_moving_plain` over neighbour
-lists    [Sec. III]
+"""RR98's moving points, compiled, in 2D: `rr98_moving_plain` over neighbour lists    [Sec. III]
 
 The bracket is plain quadrature W dV times `scale_of`; friction goes along pairs [Eq. 51] without bulk
 viscosity. Every motion is one sum over pairs, see `drifts`. Images are those of `layer`; points that come to
@@ -61,8 +60,7 @@ class Drift:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the rows of a state: places, then m, p, E per volume, or of the point at constant mass,
-        then volumes."""
+        """Names of rows: places, then m, p, E per volume, or of the point at constant mass, volumes."""
         mass = isinstance(self.motion, ConstantMassDrift)
         return ("x", "y", "px", "py", *(("m", "E") if mass else ("rho", "eps")), "V")
 
@@ -128,8 +126,7 @@ class Drifts(Listed):
         self.exchange = Exchange(OverPairs(Drifting(method.motion, Listing(terms))), needed, n, team)
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
-        """Refuse points in one place: ValueError names them. Warn where the weight is too narrow    [Eq.
-        45]"""
+        """Refuse points in one place: ValueError. Warn where the weight is too narrow    [Eq. 45]"""
         a = float(np.sqrt(state[6].mean()))
         self.around.place(state, self.method.scale)
         check_apart(self.around, ids, a)
@@ -137,8 +134,7 @@ class Drifts(Listed):
         check_ordering(self.method.weight, 2, a, float(np.sqrt((off**2).sum(axis=(1, 2)).mean()/2)))
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """New lists if points may leave the old ones within the step: one in which momenta lead as far as
-        velocities in dt."""
+        """New lists if points may leave the old ones: momenta lead as far in a step as velocities in dt."""
         momentum = fastest(now.state)
         speed = np.sqrt(((now.state[2]**2 + now.state[3]**2)/now.state[4]**2).max())
         super().make_ready(now, dt*float(speed)/momentum if momentum else dt)
@@ -197,8 +193,7 @@ def _read(first, last, state, owned, eos, law, static, g, points):
 
 @jit
 def _image_fields(n, origin, turn, plate_T, x, y, static, g, points):
-    """Shifted images are their origins; those in a mirror slip for convection and pressure, which goes on
-    hydrostatically."""
+    """Shifted images are their origins; mirrored ones slip for convection and hydrostatic pressure."""
     for m in range(len(origin)):
         a, b, s = points[origin[m]], points[n + m], turn[m]
         b.x, b.y, b.V, b.rho, b.T, b.eps, b.eta, b.k = x[n + m], y[n + m], a.V, a.rho, a.T, a.eps, a.eta, a.k

@@ -1,5 +1,4 @@
-"""Points that move, in the three ways that RR98 names; edges are made again at every evaluation    [RR98,
-Sec. III]
+"""Points that move, in RR98's three ways; edges are made again at every evaluation    [RR98, Sec. III]
 
     literal         dr_i/dt = v_i [Eq. 39], fields as on fixed points [Eqs 34-36], every volume dV: convection
     counts twice convective      d/dt is the partial derivative and what Eqs 46-48 add to it, with their
@@ -27,14 +26,12 @@ from particles.integral.points import Points, of_positions, pairs, wrapped
 
 
 def scale_of(points: Points, weight: Any) -> float:
-    """The number that plain quadrature W dV is multiplied by on these points so that its mean first moment is
-    d."""
+    """The factor of plain quadrature W dV on these points that makes its mean first moment d."""
     return float(renormalised(points, weight).k.sum()/plain(points, weight).k.sum())
 
 
 def convected(edges: Edges, v: np.ndarray, fields: np.ndarray) -> np.ndarray:
-    """-sum_j W_ij e_ij.v_i q_j, (m, n), of v (n, d), fields q (m, n): what Eqs 46-48 add; v.grad q on a
-    lattice."""
+    """-sum_j W_ij e_ij.v_i q_j, (m, n), of fields q (m, n): what Eqs 46-48 add; v.grad q on a lattice."""
     i, j, half = edges.i, edges.j, edges.S/2
     ahead, back = (half*v[i]).sum(axis=1), (half*v[j]).sum(axis=1)
     return np.stack([np.bincount(i, ahead*q[j], edges.n) - np.bincount(j, back*q[i], edges.n)
@@ -78,8 +75,7 @@ class Motion:
         return (*axes, "rho", *(f"p{axis}" for axis in axes), "eps")
 
     def fluid(self, x: np.ndarray, V: np.ndarray) -> Dih:
-        """The fluid as if points x (n, d) of volumes V (n,) stood still; FloatingPointError names a point
-        that is none."""
+        """The fluid as if points x (n, d) of volumes V (n,) stood still."""
         bad = np.flatnonzero(~(np.isfinite(x).all(axis=1) & (V > 0)))
         if len(bad):
             raise FloatingPointError(f"point {bad[0]} is at {x[bad[0]]} with volume {V[bad[0]]:.6g}: "
@@ -189,8 +185,7 @@ class Carried(Convective):
 
 @dataclass(frozen=True, kw_only=True)
 class ConstantMass(Motion):
-    """Eq. 49 with masses that stay: momentum and energy are exchanged, volumes follow the flow, dV_i/dt = V_i
-    div v.
+    """Eq. 49 with masses that stay; volumes follow the flow, dV_i/dt = V_i div v.
 
     bracket : `brackets.Crossed` or `Powers`. The divergence takes differences v_j - v_i, the adjoint of the
     sum P_ij + P_ji.

@@ -112,8 +112,7 @@ class Shearing(FixedSums):
         boosted(images.parent, images.boost, self.points, self.n)
 
     def through(self, state: np.ndarray) -> np.ndarray:
-        """Mass, momentum (2) and energy that enter through the upper side per time, in the frame of the
-        box."""
+        """Mass, momentum (2) and energy that enter through the upper side per time."""
         self.look_at(state)
         return self.exchange.sum(self.at._replace(edges=above(self.at.edges, self.method.sides))).sum(axis=0)
 

@@ -1,5 +1,4 @@
-"""Discretized integral hydrodynamics on fixed points around bodies, compiled: the terms of `layer`, periodic,
-in 2D.
+"""Fixed points around bodies, compiled: the terms of `layer`, periodic, in 2D.
 
 Held points (`particles.integral.bodies`) keep their velocity and temperature; their density follows. What
 they receive of momentum is the force on them, exactly what the fluid lost. Slow flow around bodies feeds
@@ -26,8 +25,7 @@ from particles.threads import Team
 
 
 class Filter(NamedTuple):
-    """Mass chi k_ab (rho_a - rho_b) leaves a for b, with the mean velocity and internal energy of both:
-    conserves all."""
+    """Mass chi k_ab (rho_a - rho_b) leaves a for b, with the mean velocity and internal energy."""
     chi: float
 
 
@@ -43,8 +41,7 @@ def _(term, a, b, ab):
 
 @dataclass(frozen=True, kw_only=True)
 class Stream(OnPoints):
-    """A fluid on fixed points x (n, 2), periodic, driven by a force `push` per mass, around points that are
-    `held`.
+    """A fluid on fixed points x (n, 2), periodic, driven by a force `push` per mass, around `held` points.
 
     transport : listed terms of friction and heat. chi : diffusivity of the filter of the density, 0 for none.
     """
@@ -70,8 +67,7 @@ class Stream(OnPoints):
                 f"{self.transport})")
 
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
-        """(4, n) of densities, velocities (n, 2), temperatures; held points get their own where they have
-        one."""
+        """(4, n) of densities, velocities (n, 2), temperatures; held points get their own."""
         T, v = T*np.ones(len(self.x)), v.copy()
         v[self.held.which] = self.held.v
         warm = np.isfinite(self.held.T)
@@ -100,8 +96,7 @@ class Filtering(Stage):
 
 
 class Streaming(FixedSums):
-    """The compiled sums of a stream. received (m, 3): momentum and energy that each held point takes, per
-    time."""
+    """The compiled sums of a stream. received (m, 3): momentum and energy of held points, per time."""
     method: Stream
 
     def __init__(self, method: Stream, team: Team):
@@ -161,8 +156,7 @@ def hold(eos, law, which, v, T, points):
 
 @jit
 def keep(eos, which, v, T, total, V, points, received, out):
-    """Rates of held points, whose density alone is free, and what they take; work on adiabatic bodies is no
-    heat."""
+    """Rates of held points, whose density alone is free, and what they take."""
     for m in range(len(which)):
         i, (vx, vy) = which[m], v[m]
         mass, rho, d = total[i, 0], points[i].rho, 1e-6*points[i].rho

@@ -78,8 +78,7 @@ class Thermal:
         return f"Thermal({sums}, {self.eos}, {self.law}, {self.k}, {self.seed}, {self.zeta}, {self.share})"
 
     def start(self, n: int, team: Team) -> "Agitated":
-        """The sums over edges. Raises ValueError: another number of points, or viscosities without noise
-        along edges."""
+        """The sums over edges. ValueError: another number of points, or viscosities without noise."""
         check_number(n, self.edges.n)
         return Agitated(self, team)
 
@@ -139,8 +138,7 @@ class Agitated(Summing):
             row[:] = (np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n))/edges.V
 
     def _at_points(self, flow: Flow, dW: np.ndarray) -> Fluxes:
-        """Through edges by random stresses s_i and currents q_i: -S.(s_i + s_j)/2, -S.(s_j.v_i + s_i.v_j)/2 +
-        S.(q_i + q_j)/2."""
+        """By random stresses and currents: -S.(s_i + s_j)/2, -S.(s_j.v_i + s_i.v_j)/2 + S.(q_i + q_j)/2."""
         edges, (eta, zeta, kappa), k = self.dih.edges, self.dih.coefficients(flow), self.method.k
         i, j, d, half = edges.i, edges.j, edges.d, edges.S/2
         s = np.sqrt(2*k*flow.T*eta/edges.V)[:, None]*(dW[:, :d*d]@traceless(d).T)
@@ -183,8 +181,7 @@ def fill_pairs(first, last, seed, step, i, j, out):
 
 
 class ThreeStage:
-    """Three Euler steps, averaged, each with its own share of two sets of noise; covariances are right to
-    third order.
+    """Three Euler steps, averaged, each with its share of two noises; covariances of third order.
 
     sums.kicks(y, beta, dt, out) writes what the noise W_A + beta W_B adds    [Delong, Griffith,
     Vanden-Eijnden & Donev 2013]
@@ -205,8 +202,7 @@ class ThreeStage:
 
 @limit_of.register
 def _(method: Thermal, start: np.ndarray) -> float:
-    """Three stages: 1.73 on the imaginary axis for sound, 2.51 on the real one for diffusion, at the hottest
-    point.
+    """Three stages: 1.73 on the imaginary axis for sound, 2.51 on the real one for diffusion.
 
     Warns where a point holds so little heat that current amplitudes bias its fluctuations.
     """

@@ -23,8 +23,7 @@ Tau = np.dtype([(name, "f8") for name in ("xx", "xy", "yx", "yy")])
 
 
 class Mending(NamedTuple):
-    """S.(F_a + F_b)/2: energy; and S.(tau_a + tau_b)/2, momentum, where viscosity varies. Of a share of the
-    viscosity."""
+    """S.(F_a + F_b)/2: energy; S.(tau_a + tau_b)/2, momentum, where viscosity varies. Of a share of it."""
     share: float = 1.0
 
 

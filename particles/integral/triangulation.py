@@ -1,5 +1,4 @@
-"""Edges of P1 finite elements on the Delaunay triangulation of points: closed and exact on linear fields, no
-weight."""
+"""Edges of P1 finite elements on the Delaunay triangulation: closed, exact on linear fields."""
 from typing import Any
 
 import numpy as np
@@ -14,8 +13,7 @@ SHIFT, APART = 1e-7, 1e-6
 
 
 def delaunay(points: Points, weight: Any = None) -> Edges:
-    """P1 elements on the Delaunay triangulation: S_ij = A_ij - A_ji, A_ij = int phi_i grad phi_j, V_i = int
-    phi_i.
+    """P1 elements on the triangulation: S_ij = A_ij - A_ji, A_ij = int phi_i grad phi_j, V_i = int phi_i.
 
     Closed and exact on linear fields on any points; the conductances are those of P1, (cot + cot)/2 in 2D. d
     = 2, 3.
@@ -27,8 +25,7 @@ def delaunay(points: Points, weight: Any = None) -> Edges:
 
 
 def between(x: np.ndarray, width: float, height: float) -> Edges:
-    """The same on points (n, 2), periodic in x, of which some lie on the plates y = -+height/2: none is
-    mirrored there.
+    """The same on points (n, 2), periodic in x, some of which lie on the plates y = -+height/2.
 
     Closed on all points but those on the plates, where what is missing is half of the plate beside the point,
     outwards.
@@ -59,8 +56,7 @@ def _simplices(points: Points) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _check_apart(points: Points) -> None:
-    """Refuse points that the shift could move past each other, and triangles that no step of time could
-    follow."""
+    """Refuse points that the shift could move past each other, and too thin triangles."""
     tree = cKDTree((points.x + points.box/2) % points.box, boxsize=points.box*(1 + 1e-15))
     met = tree.query_pairs(APART*points.a, output_type="ndarray")
     if len(met):

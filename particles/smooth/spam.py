@@ -88,13 +88,11 @@ class Spam:
                              f"viscosity varies, as by {self.law}: take Nested, or ConstEta")
 
     def state(self, x: np.ndarray, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-        """(5, n) of places (n, 2), velocities (n, 2), and temperatures (n,) at densities that give the
-        energies."""
+        """(5, n) of places (n, 2), velocities (n, 2), temperatures (n,) at densities rho."""
         return np.stack([*x.T, *v.T, energy(self.eos, rho, T)*np.ones(len(x))])
 
     def fields(self, state: np.ndarray) -> Fields:
-        """Of the particles, (n,) each, in the order of the state; density and volume by the method's own
-        sums."""
+        """Of the particles, (n,) each, in the order of the state; density by the method's own sum."""
         sums, _, ids = self.look(state)
         rho, T = (q[:sums.n][np.argsort(ids)] for q in (sums.around.rho, sums.around.T))
         return Fields(state[:2].T.copy(), state[2:4].T.copy(), rho, T, self.m/rho)
@@ -108,16 +106,14 @@ class Spam:
         return sums, ordered, ids
 
     def start(self, n: int, team: Team) -> "Nested | Direct":
-        """The sums of n particles. Raises ValueError: there are none, or the weight is wider than half of the
-        box."""
+        """The sums of n particles. ValueError: there are none, or the weight is too wide for the box."""
         if n < 1:
             raise ValueError(f"there are no particles (n = {n}): a run needs at least one")
         return (self.transport or Nested)(self, n, team)
 
 
 class Sums(Listed, ABC):
-    """What both kinds of transport share: arrays, the density sum, the equations of state, what the time loop
-    asks for.
+    """What both kinds of transport share: arrays, density sum, equations of state, for the time loop.
 
     places : rows of a state that are positions; `velocity` : their rates, for integrators that step them
     apart.
@@ -196,16 +192,14 @@ class Sums(Listed, ABC):
 
 
 class Nested(Sums):
-    """Stress and heat flux from the gradients of the second sum, their divergence in the third    [KHP95,
-    Sec. II]"""
+    """Stress and heat flux from gradients of the second sum, divergence in the third    [KHP95, Sec. II]"""
 
     def allocate(self, points: int) -> None:
         super().allocate(points)
         self.flux = np.empty(points, Flux)
 
     def exchange(self, pressure: bool = True) -> tuple[Any, np.ndarray]:
-        """Term and records of the third sum, from densities and gradients that are up to date; without
-        pressure on wish."""
+        """Term and records of the third sum, from up-to-date densities and gradients."""
         around, method, less = self.around, self.method, self.less if pressure else np.zeros_like(self.less)
         self.team(_fluxes, around.rows, method.law, around.rho, around.vx, around.vy, around.T, less,
                   self.slopes, self.flux)
@@ -221,8 +215,7 @@ class Nested(Sums):
 
 
 class Direct(Sums):
-    """Viscosity and conduction from differences along each pair: no gradients, unless the static pressure
-    needs div v."""
+    """Viscosity and conduction along each pair: no gradients, unless the static part needs div v."""
 
     def allocate(self, points: int) -> None:
         super().allocate(points)
@@ -310,8 +303,7 @@ def _direct(first, last, law, x, y, rho, vx, vy, T, less, records):
 
 @jit
 def _rates(first, last, state, pull, rho, slopes, g, static, out):
-    """Rates of the particles; if the pair sums left out some static pressure, its support of gravity and its
-    work."""
+    """Rates of the particles, with support and work of what pressure the pair sums leave out."""
     for i in range(first, last):
         out[0, i], out[1, i] = state[2, i], state[3, i]
         out[2, i], out[3, i], out[4, i] = pull[i, 0], pull[i, 1] - g, pull[i, 2] + pull[i, 4]

@@ -29,8 +29,7 @@ def image_pressure(wall, own, copied):
 
 @generic
 def confine(wall, state):
-    """Reflect elastically what has crossed the wall, state rows (x, y, vx, vy, e); the number of
-    reflections."""
+    """Reflect elastically what has crossed the wall, rows (x, y, vx, vy, e); their number."""
 
 
 @generic

@@ -1,5 +1,4 @@
-"""Lees-Edwards sides for fixed points: the images above and below slide past, faster by rate times
-height    [RR98, Sec. IV]
+"""Lees-Edwards sides for fixed points: images slide past, faster by rate times height    [RR98, Sec. IV]
 
 Images above have slid by s = rate height t = (m + theta) a along x. A point sees, at each place of the
 lattice beyond the side, the two images next to it: one edge with the share 1 - theta of S and k, one with
@@ -77,8 +76,7 @@ def sides(points: Points, edges: Edges) -> Sides:
 
 
 def images(through: Through, counts: tuple[int, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Parents of the images, which way they lie, and their numbers (2, n): all points of the rows that edges
-    lead to."""
+    """Parents of the images, which way they lie, their numbers (2, n): all points of rows with edges."""
     n = counts[0]*counts[1]
     column, sides = np.arange(counts[0])[:, None]*counts[1], (-1, 1)
     found = [(column + np.unique(through.row[through.up == side])).ravel() for side in sides]
@@ -105,8 +103,7 @@ def crossing(points: Points, edges: Edges) -> np.ndarray:
 
 
 def check_alike(points: Points, edges: Edges, counts: tuple[int, int]) -> None:
-    """Refuse edges through the side that differ from column to column, or whose S_x do not add up to zero at
-    a point."""
+    """Refuse edges through the side that differ between columns, or whose S_x do not add up to zero."""
     up = crossing(points, edges)
     turn, through = np.where(up < 0, -1.0, 1.0)[up != 0, None], up != 0
     S, apart = turn*edges.S[through], turn*edges.apart[through]
