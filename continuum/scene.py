@@ -89,11 +89,11 @@ class Tile:
 class RayleighBenard:
     """A layer of fluid heated from below.
 
-    ra : Rayleigh number g alpha L^3 dT/(nu kappa) at density 1 and mean temperature, kappa = k/(rho C_V). eos
-    : equation of state of `continuum.fluid`. transport : class of the transport law; its numbers follow from
-    ra and pr. L : height in sigma, which fixes the units of length and time only. aspect : width / height.
-    T_hot, T_cold : temperatures of the plates at y = -L/2 and y = +L/2. sides : Periodic() or Walls(). pr :
-    nu/kappa; 1 is KHP95's eta = k where C_V = 1.
+    ra : Rayleigh number g alpha L^3 dT/(nu kappa) at density 1 and mean temperature, kappa = k/(rho C_V).
+    eos : equation of state. transport : class of the transport law; its numbers follow from ra and pr.
+    L : height in sigma, which fixes the units of length and time only. aspect : width / height.
+    T_hot, T_cold : temperatures of the plates at y = -L/2 and y = +L/2. sides : Periodic() or Walls().
+    pr : nu/kappa; 1 is KHP95's eta = k where C_V = 1.
     """
     ra: float
     eos: Any = IdealGas()  # noqa: RUF009  (immutable)

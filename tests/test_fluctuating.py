@@ -4,7 +4,7 @@ import pytest
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral import covariance, fluctuating
-from particles.integral.dih import Dih, Nested, Pairwise
+from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import MAKERS
 from particles.integral.points import jittered, lattice, random
 from particles.weights import Lucy, WendlandC2
@@ -67,7 +67,7 @@ def test_dissipation_is_the_force_that_runs(name, kind, d):
     edges = edges_of(name, kind, d)
     rng = np.random.default_rng(3)
     v, T = rng.normal(size=(edges.n, d)), rng.uniform(0.5, 1.5, edges.n)
-    for transport, stress, heat in ((Nested(), fluctuating.stress, fluctuating.heat),
+    for transport, stress, heat in ((NestedFluxes(), fluctuating.stress, fluctuating.heat),
                                     (Pairwise(mended=False), fluctuating.friction, fluctuating.conduction)):
         dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(0.3, 0.4), zeta=0.1, transport=transport)
         moving, warm = (transport.fluxes(dih, dih.flow(dih.state(np.ones(edges.n), *given)))

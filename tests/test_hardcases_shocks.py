@@ -3,7 +3,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from continuum.exact.riemann import Gas, density, middle, shock_speed, solution
+from continuum.exact.riemann import GasState, density, middle, shock_speed, solution
 from continuum.fluid import ConstEta, IdealGas
 from particles.fields import Fields
 from studies.hardcases import cases, high_ra, tubes
@@ -33,11 +33,11 @@ def test_riemann_solution_of_sod_is_the_published_one():
 
 @pytest.mark.parametrize("gamma", [1.4, 2.0])
 def test_shocks_keep_mass_momentum_and_energy(gamma):
-    gas, P = Gas(0.4, -0.7, 0.3), 1.1
+    gas, P = GasState(0.4, -0.7, 0.3), 1.1
     rho, W = density(gas, P, gamma), shock_speed(gas, P, gamma)
     v = W*(1 - gas.rho/rho)                         # of what is behind, in the frame of the gas before
     assert gas.P + gas.rho*W**2 == pytest.approx(P + rho*(W - v)**2)
-    enthalpy = [gamma/(gamma - 1)*q.P/q.rho + u**2/2 for q, u in ((gas, W), (Gas(rho, 0, P), W - v))]
+    enthalpy = [gamma/(gamma - 1)*q.P/q.rho + u**2/2 for q, u in ((gas, W), (GasState(rho, 0, P), W - v))]
     assert enthalpy[0] == pytest.approx(enthalpy[1])
 
 
@@ -51,7 +51,7 @@ def test_solution_is_continuous_in_the_fan_and_isentropic():
 
 def test_gases_that_part_too_fast_are_refused():
     with pytest.raises(ValueError, match="vacuum"):
-        middle(Gas(1, -9, 1), Gas(1, 9, 1), GAMMA)
+        middle(GasState(1, -9, 1), GasState(1, 9, 1), GAMMA)
 
 
 def test_viscous_tube_keeps_its_sums_and_follows_the_exact_solution():

@@ -5,7 +5,7 @@ import pytest
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.brackets import Powers
-from particles.integral.dih import Dih, Nested, Pairwise
+from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import renormalised
 from particles.integral.interpolants import OrderingWarning
 from particles.integral.points import jittered, lattice
@@ -18,7 +18,7 @@ from studies.conservation.motions import moving, seen_slope
 from studies.conservation.waves import Growth, MovingSound, Pattern, by_halves, march, rate, roots
 
 COUNTS = {1: (14,), 2: (7, 8), 3: (5, 5, 5)}
-TRANSPORT = {"nested": Nested(), "pairwise": Pairwise(mended=False), "mended": Pairwise()}
+TRANSPORT = {"nested": NestedFluxes(), "pairwise": Pairwise(mended=False), "mended": Pairwise()}
 
 
 def made(kind, d=2, size=0.15, weight=WendlandC2, transport="pairwise", eta=0.2, **more):

@@ -9,7 +9,7 @@ import pytest
 from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import RayleighBenard
 from particles.fields import kinetic
-from particles.integral.dih import Dih, Flow, Nested, carried, take
+from particles.integral.dih import Dih, Flow, NestedFluxes, carried, take
 from particles.integral.edge_makers import MAKERS, plain, printed, renormalised
 from particles.integral.interpolants import Exponential, Gaussian, W
 from particles.integral.points import jittered, lattice
@@ -176,8 +176,8 @@ def test_euler_limit_is_where_a_wave_begins_to_grow():
 
 def test_uniform_streams_stay_on_edges_that_close_alone():
     at, weight = jittered((8, 9), 0.3, 1), WendlandC2.of(h=2.7)
-    assert kept(MAKERS["delaunay"](at, weight), Nested())["uniform"] < 1e-13
-    assert kept(MAKERS["plain"](at, weight), Nested())["uniform"] > 0.1
+    assert kept(MAKERS["delaunay"](at, weight), NestedFluxes())["uniform"] < 1e-13
+    assert kept(MAKERS["plain"](at, weight), NestedFluxes())["uniform"] > 0.1
     assert one_kernel(MAKERS["plain"](at, weight), 1) > 1e-4
 
 
@@ -197,7 +197,7 @@ def test_a_uniform_stream_does_no_work_of_pressure_on_any_points(make):
 def test_differences_in_the_inner_sum_mend_nested_transport_on_any_points():
     """[Eqs 37, 38]: no friction in a uniform stream, no heat at uniform temperature, the same both ways, nothing grows."""
     edges = renormalised(jittered((10, 10), 0.3, 1), WendlandC2.of(h=3.0))
-    mended, as_printed = (stream(edges, Nested(differences=differences)) for differences in (True, False))
+    mended, as_printed = (stream(edges, NestedFluxes(differences=differences)) for differences in (True, False))
     assert max(mended[name] for name in ("force", "heat", "asymmetry")) < 1e-13
     assert mended["growth"] < 1e-13
     assert min(as_printed[name] for name in ("force", "heat", "asymmetry")) > 0.01

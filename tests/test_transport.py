@@ -7,7 +7,7 @@ import pytest
 from scipy.special import stdtrit
 
 from continuum.exact.shear import couette, poiseuille
-from continuum.exact.waves import QUANTITIES, Gas, continuum, quantities
+from continuum.exact.waves import QUANTITIES, LinearGas, continuum, quantities
 from continuum.fluid import ConstEta, ConstNu, IdealGas
 from particles.integral.dih import Dih
 from particles.integral.edge_makers import MAKERS, renormalised
@@ -19,7 +19,7 @@ from studies.build.symbols import lattice_waves
 from studies.operators.derive import endless, shear_orders
 from studies.operators.transport import FLOWS, SPEED, Decay, between_rows, driven, propagators
 
-GAS = Gas(0.3, 0.2, 0.4)
+GAS = LinearGas(0.3, 0.2, 0.4)
 
 
 def decay(transport="pairwise", maker="renormalised", disorder="lattice", counts=(12, 8), **more):

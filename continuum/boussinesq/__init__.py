@@ -18,13 +18,34 @@ from continuum.boussinesq.mac import (
            LAYER,
            SQUARE,
            Box,
-           Edges,
+           BoxEdges,
            End,
 )
-from continuum.boussinesq.newton import NewtonFailed, growth_rates, steady
-from continuum.boussinesq.projection import Series, Unstable, transient
+from continuum.boussinesq.newton import growth_rates, steady
+from continuum.boussinesq.projection import Transient, Unstable, transient
 from continuum.boussinesq.starts import khp95, rest, roll
+from continuum.steady import NewtonFailed
 
-__all__ = ["CAVITY", "CONDUCTING_SQUARE", "FREE_PLATES", "HALF_LAYER", "LAYER", "SQUARE", "Box", "Case",
-           "Edges", "End", "NewtonFailed", "Observed", "Series", "State", "Unstable", "growth_rates",
-           "khp95", "rest", "roll", "steady", "transient"]
+__all__ = [
+           "CAVITY",
+           "CONDUCTING_SQUARE",
+           "FREE_PLATES",
+           "HALF_LAYER",
+           "LAYER",
+           "SQUARE",
+           "Box",
+           "BoxEdges",
+           "Case",
+           "End",
+           "NewtonFailed",
+           "Observed",
+           "State",
+           "Transient",
+           "Unstable",
+           "growth_rates",
+           "khp95",
+           "rest",
+           "roll",
+           "steady",
+           "transient",
+]

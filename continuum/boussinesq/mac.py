@@ -26,7 +26,7 @@ class End(Enum):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Edges:
+class BoxEdges:
     """Both ends of one axis, for flow and for heat; T on a WALL is low (or high) + ramp*position along it."""
     flow: End
     heat: End
@@ -40,20 +40,20 @@ class Edges:
                              "none")
 
 
-PLATES = Edges(flow=End.WALL, heat=End.WALL, low=0.5, high=-0.5)
-FREE_PLATES = Edges(flow=End.MIRROR, heat=End.WALL, low=0.5, high=-0.5)
-PERIODIC = Edges(flow=End.PERIODIC, heat=End.PERIODIC)
-SYMMETRY = Edges(flow=End.MIRROR, heat=End.MIRROR)
-INSULATED = Edges(flow=End.WALL, heat=End.MIRROR)
-CONDUCTING = Edges(flow=End.WALL, heat=End.WALL, low=0.5, high=0.5, ramp=-1.0)
+PLATES = BoxEdges(flow=End.WALL, heat=End.WALL, low=0.5, high=-0.5)
+FREE_PLATES = BoxEdges(flow=End.MIRROR, heat=End.WALL, low=0.5, high=-0.5)
+PERIODIC = BoxEdges(flow=End.PERIODIC, heat=End.PERIODIC)
+SYMMETRY = BoxEdges(flow=End.MIRROR, heat=End.MIRROR)
+INSULATED = BoxEdges(flow=End.WALL, heat=End.MIRROR)
+CONDUCTING = BoxEdges(flow=End.WALL, heat=End.WALL, low=0.5, high=0.5, ramp=-1.0)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Box:
     """Width in heights, sides (left, right), plates (bottom, top). T is +-1/2 on what is hot or cold"""
     width: float = 1.0
-    sides: Edges = SYMMETRY
-    plates: Edges = PLATES
+    sides: BoxEdges = SYMMETRY
+    plates: BoxEdges = PLATES
 
     def __post_init__(self):
         if not 0 < self.width < np.inf:
@@ -69,7 +69,7 @@ LAYER = Box(width=2.0, sides=PERIODIC)
 SQUARE = Box(width=1.0, sides=INSULATED)
 CONDUCTING_SQUARE = Box(width=1.0, sides=CONDUCTING)
 CAVITY = Box(width=1.0, plates=INSULATED,           # de Vahl Davis: hot left side, cold right side
-             sides=Edges(flow=End.WALL, heat=End.WALL, low=0.5, high=-0.5))
+             sides=BoxEdges(flow=End.WALL, heat=End.WALL, low=0.5, high=-0.5))
 
 
 class Axis:

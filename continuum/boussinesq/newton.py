@@ -8,13 +8,10 @@ from scipy.sparse.linalg import eigs, splu
 
 from continuum.boussinesq.flow import Case, Equations, State
 from continuum.boussinesq.starts import roll
+from continuum.steady import NewtonFailed
 
 RELAX = 5.0     # the implicit steps that lead to Newton's are RELAX/(largest rate of change) long
 STEPS = 60      # the slowest case that got through took 46 (cavity at Ra = 1e7 on 64 rows)
-
-
-class NewtonFailed(RuntimeError):
-    """No steady state was found; the message has the residuals."""
 
 
 class Newton(Equations):

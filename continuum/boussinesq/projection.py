@@ -60,7 +60,7 @@ class Projection(Equations):
         return float(np.max(x.back@u/x.h + v@y.mean/y.h))
 
 
-class Series(NamedTuple):
+class Transient(NamedTuple):
     """A transient: K and plate Nusselt numbers at times t, the last state, whether K had settled."""
     t: np.ndarray
     K: np.ndarray
@@ -81,7 +81,7 @@ class Series(NamedTuple):
 
 def transient(case: Case, start: State, *, until: float | None = None, dt: float | None = None,
               cfl: float = 0.4, within: float = 1e-6, block: float | None = None,
-              progress: Callable[[float], None] | None = None) -> Series:
+              progress: Callable[[float], None] | None = None) -> Transient:
     """Follow the flow from start until K has settled `within` (relative), or for `until` free-fall times.
 
     K is compared over blocks of time, if not given H^2/(20 kappa) but at least 2; `until` is 20 H^2/kappa if
@@ -104,7 +104,7 @@ def transient(case: Case, start: State, *, until: float | None = None, dt: float
         if progress:
             progress(min(1.0, t/until))
     times, K, bottom, top = np.array(rows).T
-    return Series(t=times, K=K, nu_bottom=bottom, nu_top=top, state=State(case=case, q=flow.q, t=t),
+    return Transient(t=times, K=K, nu_bottom=bottom, nu_top=top, state=State(case=case, q=flow.q, t=t),
                   settled=left < within, left=left)
 
 

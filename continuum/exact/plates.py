@@ -19,7 +19,7 @@ DEGREE, COARSER = 40, 32
 NEAR = 1e-10        # of the steps in time
 
 
-class Flow(NamedTuple):
+class PlateFlow(NamedTuple):
     """Temperature 1 + `heat` sin(3 pi s) at uniform pressure, velocity U (s + sin(3 pi s)/2)."""
     name: str
     heat: float = 0.0
@@ -39,11 +39,11 @@ class Flow(NamedTuple):
         return np.array([1/(mean*T), 0*s, self.U*(s + wave/2), T])
 
 
-FLOWS = {flow.name: flow for flow in (Flow("conduction", heat=0.1), Flow("couette", U=0.1))}
+FLOWS = {flow.name: flow for flow in (PlateFlow("conduction", heat=0.1), PlateFlow("couette", U=0.1))}
 
 
 @cache
-def solved(flow: Flow, degree: int = DEGREE) -> np.ndarray:
+def solved(flow: PlateFlow, degree: int = DEGREE) -> np.ndarray:
     """Chebyshev coefficients (degree + 1, 4) of (rho, v, u, T) at the end."""
     x = np.cos(np.pi*np.arange(degree, -1, -1)/degree)
     to_values = chebyshev.chebvander(x, degree)
@@ -62,6 +62,6 @@ def solved(flow: Flow, degree: int = DEGREE) -> np.ndarray:
     return np.linalg.solve(to_values, done.y[:, -1].reshape(4, -1).T)
 
 
-def fields(flow: Flow, s: np.ndarray, degree: int = DEGREE) -> np.ndarray:
+def fields(flow: PlateFlow, s: np.ndarray, degree: int = DEGREE) -> np.ndarray:
     """(rho, v, u, T), each (n,), at heights s at the end."""
     return chebyshev.chebval(2*s - 1, solved(flow, degree))

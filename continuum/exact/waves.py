@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 
-class Gas(NamedTuple):
+class LinearGas(NamedTuple):
     """Shear and bulk viscosity, conductivity."""
     eta: float
     zeta: float
@@ -34,7 +34,7 @@ def waves(s: float, l: float, q: float, t: float) -> Waves:
     return Waves(np.array([[0, -1j*s, 0], [-1j*s, -l, -1j*s], [0, -1j*s, -q]]), t)
 
 
-def continuum(gas: Gas, k: float, d: int = 2) -> Waves:
+def continuum(gas: LinearGas, k: float, d: int = 2) -> Waves:
     """Navier, Stokes and Fourier."""
     return waves(k, (2*gas.eta*(1 - 1/d) + gas.zeta)*k**2, gas.kappa*k**2, gas.eta*k**2)
 

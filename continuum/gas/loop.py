@@ -16,7 +16,7 @@ FIELDS = ("v_x", "v_y", "e", "rho")
 BULK_VISCOSITY = 0.0  # [KHP95, Sec. II]
 
 
-class Box(NamedTuple):
+class NodeGrid(NamedTuple):
     """Spacing, gravity, temperatures of the plates, first column and lowest row of nodes that move."""
     h: float
     g: float
@@ -26,10 +26,10 @@ class Box(NamedTuple):
     lowest: int = 2
 
 
-def box_of(scene, rows: int) -> Box:
+def box_of(scene, rows: int) -> NodeGrid:
     """Of a scene on rows of cells."""
     first = 2 if isinstance(scene.sides, Walls) else 1
-    return Box(scene.L/rows, float(scene.g), float(scene.T_hot), float(scene.T_cold), first,
+    return NodeGrid(scene.L/rows, float(scene.g), float(scene.T_hot), float(scene.T_cold), first,
                1 if isinstance(scene.sides, Torus) else 2)
 
 

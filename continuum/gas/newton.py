@@ -17,9 +17,10 @@ from scipy import sparse
 from scipy.sparse.linalg import eigs, splu
 
 from continuum.fluid import energy
-from continuum.gas.fields import Fields, block, count_rolls, initial, kinetic_energy, onto, unblock
+from continuum.gas.fields import NodeFields, block, count_rolls, initial, kinetic_energy, onto, unblock
 from continuum.gas.loop import RHO, VX, VY, E, FluxForm, box_of, fill, rates
 from continuum.scene import Periodic
+from continuum.steady import NewtonFailed
 
 REACH = 2       # of a node or cell in rates, in rows and columns
 STEP = 1e-5     # of the differences: their error is about its square, and round-off over it
@@ -31,13 +32,9 @@ WEAK = 5e-4
 STILL = 1e-10   # square of the share of the velocity below which a disturbance is a change of mass only
 
 
-class NewtonFailed(RuntimeError):
-    """No steady state was found; the message has the changes of the last steps."""
-
-
-class Steady(NamedTuple):
+class SteadyState(NamedTuple):
     """A steady state: fields, kinetic energy per mass, number of rolls, largest change in each step."""
-    fields: Fields
+    fields: NodeFields
     ke: float
     rolls: int
     changes: tuple[float, ...]
@@ -124,7 +121,7 @@ class Discrete:
         return sparse.csc_array((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))),
                                 self.pattern.shape)
 
-    def fields(self, q: np.ndarray) -> tuple[Fields, np.ndarray]:
+    def fields(self, q: np.ndarray) -> tuple[NodeFields, np.ndarray]:
         """Fields, and the block with its ghosts."""
         S = self.state(q)
         sides, eos, _, form, box = self.laws
@@ -146,14 +143,14 @@ def heat_of_rolls(scene, vy: np.ndarray) -> np.ndarray:
     return vy*scene.dT*scene.L/(2*np.pi**2*scene.kappa)
 
 
-def warm_rolls(scene, rows: int, ke: float) -> Fields:
+def warm_rolls(scene, rows: int, ke: float) -> NodeFields:
     """KHP95's initial rolls of kinetic energy `ke` per mass, with their heat."""
     fields = initial(scene, rows, ke)
     T = fields.at.T + heat_of_rolls(scene, fields.at.vy)
     return replace(fields, at=fields.at._replace(T=T, e=energy(scene.eos, fields.at.rho, T)))
 
 
-def steady(scene, rows: int, start: Fields | None = None, *, within: float = 1e-9) -> Steady:
+def steady(scene, rows: int, start: NodeFields | None = None, *, within: float = 1e-9) -> SteadyState:
     """The steady state by Newton's method from a start, of any grid or Ra; by default from weak rolls.
 
     It ends when no unknown changes by more than `within`; the error is then about its square. At rest below
@@ -173,7 +170,7 @@ def steady(scene, rows: int, start: Fields | None = None, *, within: float = 1e-
             raise NewtonFailed(f"no steady state at Ra = {scene.ra:g} on {rows} rows, last changes {last}: "
                                "start from one nearby in Ra, or from a run in time")
     fields, S = equations.fields(q)
-    return Steady(fields, kinetic_energy(S), count_rolls(fields), tuple(changes))
+    return SteadyState(fields, kinetic_energy(S), count_rolls(fields), tuple(changes))
 
 
 def step(equations: Discrete, q: np.ndarray, rates: np.ndarray, dt: float) -> np.ndarray:

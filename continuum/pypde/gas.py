@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from continuum.fluid import conductivity, energy, pressure, sound_speed, stress, temperature, valid, viscosity
-from continuum.pypde.gas_loop import BULK_VISCOSITY, RHO, VX, VY, Box, E, rates
+from continuum.pypde.gas_loop import BULK_VISCOSITY, RHO, VX, VY, E, Mesh, rates
 from continuum.scene import Periodic, Torus
 
 # continuum.jit comes before everything that loads numba
@@ -46,7 +46,7 @@ class Gas(PDEBase):
         self.scene, self.rows, self.h, torus = scene, rows, scene.L/rows, isinstance(scene.sides, Torus)
         sides = [(-scene.width/2, scene.width/2), (-scene.L/2, scene.L/2)]
         self.grid = CartesianGrid(sides, (columns, rows), periodic=(True, torus))
-        self.box = Box(self.h, scene.g, scene.T_hot, scene.T_cold, float(slide), torus)
+        self.box = Mesh(self.h, scene.g, scene.T_hot, scene.T_cold, float(slide), torus)
         self._pad = [self._padding(*ghosts) for ghosts in (
             ({"curvature": 0},), ({"value": 0}, {"value": slide}), ({"virtual_point": 0},), ({"curvature": 0},
             ), ({"value": scene.T_hot}, {"value": scene.T_cold}))]

@@ -13,7 +13,7 @@ RHO, VX, VY, E, T, ETA, K, SXX, SYY, SXY = range(10)
 BULK_VISCOSITY = 0.0    # [KHP95, Sec. II]
 
 
-class Box(NamedTuple):
+class Mesh(NamedTuple):
     """What the loops need beside fluid and state."""
     h: float
     g: float

@@ -18,9 +18,8 @@ from continuum.pypde.boussinesq import Boussinesq
 from continuum.pypde.gas import Gas
 from continuum.pypde.march import Progress, StageLoop, Until, Watch
 from continuum.scene import RayleighBenard
-from continuum.steady import Steady
+from continuum.steady import Steady, choose_step
 
-SAFETY = 0.8            # of the stability limit, which is taken at density 1 and velocity 1
 STILL = 1e-12           # K of a fluid at rest
 
 
@@ -30,7 +29,7 @@ class Rolls(NamedTuple):
     number: int | None = None
 
 
-class Nusselt(NamedTuple):
+class PdeNusselt(NamedTuple):
     """Heat per conduction: in at the bottom, out at the top, upwards on average over the volume."""
     bottom: float
     top: float
@@ -38,7 +37,7 @@ class Nusselt(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Solution:
+class PdeSolution:
     """What a run ended with.
 
     `ke` is K at the end with what is left of its decay added, `ke_err` the size of that (not the error of the
@@ -52,7 +51,7 @@ class Solution:
     series: Series = field(repr=False)
     ke: float
     ke_err: float
-    nusselt: Nusselt
+    nusselt: PdeNusselt
     rolls: int
     mass_drift: float
     converged: bool
@@ -84,30 +83,29 @@ class Solution:
         return self.equation.fields(self.state)
 
 
-def solve_boussinesq(*, ra: float, pr: float, rows: int, aspect: float = 2.0, **options) -> Solution:
+def solve_boussinesq(*, ra: float, pr: float, rows: int, aspect: float = 2.0, **options) -> PdeSolution:
     """Boussinesq convection between rigid plates on `rows` rows, periodic in x; options of `solve`."""
     return solve(Boussinesq(ra=ra, pr=pr, rows=rows, aspect=aspect), **options)
 
 
-def solve_gas(scene: RayleighBenard, rows: int, **options) -> Solution:
+def solve_gas(scene: RayleighBenard, rows: int, **options) -> PdeSolution:
     """The compressible fluid of a scene, periodic in x, on `rows` rows; options of `solve`."""
     return solve(Gas(scene, rows), **options)
 
 
-def solve(equation: Any, *, until: Until = Steady(), start: Rolls | Solution | np.ndarray = Rolls(),  # noqa: B008
-          dt: float | None = None, backend: str = "numba", progress: Progress | None = None) -> Solution:
+def solve(equation: Any, *, until: Until = Steady(), start: Rolls | PdeSolution | np.ndarray = Rolls(),  # noqa: B008
+          dt: float | None = None, backend: str = "numba", progress: Progress | None = None) -> PdeSolution:
     """Solve an equation: Boussinesq or Gas.
 
     until : Steady(rtol=...) or Time(t_end) of `continuum.steady`.
-    start : Rolls(ke, number), a solution of the same box on any grid, or a state (fields, columns, rows). dt
-    : largest step (by default 0.8 of the stability limit); the one taken divides the time between samples.
-    backend : "numba", which compiles for some seconds at every call, or "numpy". progress : called with the
-    fraction done. Raises ValueError: dt above the stability limit; a start from another box. DivergedError:
-    says when and where.
+    start : Rolls(ke, number), a solution of the same box on any grid, or a state (fields, columns, rows).
+    dt : largest step (by default 0.8 of the stability limit); the one taken divides the time between samples.
+    backend : "numba", which compiles at every call, or "numpy". progress : called with the fraction done.
+    Raises ValueError: dt above the stability limit; a start from another box. DivergedError: when and where.
     """
     data = start_of(equation, start)
     interval = until.interval(equation)
-    count = math.ceil(interval/choose_step(equation, dt)*(1 - 1e-12))
+    count = math.ceil(interval/choose_step(equation.step_limit(), dt)*(1 - 1e-12))
     watch = Watch(equation, until, interval, interval/count, progress)
     try:
         state, info = equation.solve(equation.state(data), t_range=math.inf, dt=interval/count,
@@ -117,23 +115,12 @@ def solve(equation: Any, *, until: Until = Steady(), start: Rolls | Solution | n
     return finish(equation, watch, state.data, info)
 
 
-def start_of(equation: Any, start: Rolls | Solution | np.ndarray) -> np.ndarray:
+def start_of(equation: Any, start: Rolls | PdeSolution | np.ndarray) -> np.ndarray:
     """The state that a run begins with."""
     if isinstance(start, np.ndarray):
         return start.copy()
     data: np.ndarray = equation.rolls(*start) if isinstance(start, Rolls) else onto(equation, start)
     return data
-
-
-def choose_step(equation: Any, dt: float | None) -> float:
-    """The step that is asked for, or a safe one."""
-    limit = equation.step_limit()
-    if dt is None:
-        return SAFETY*limit
-    if not 0 < dt <= limit:
-        raise ValueError(f"dt = {dt:.4g} must be positive and not above the stability limit {limit:.4g}: "
-                         "lower or omit it")
-    return dt
 
 
 def restore_interrupt(equation: Any) -> None:
@@ -142,15 +129,15 @@ def restore_interrupt(equation: Any) -> None:
         raise KeyboardInterrupt
 
 
-def finish(equation: Any, watch: Watch, data: np.ndarray, info: dict) -> Solution:
+def finish(equation: Any, watch: Watch, data: np.ndarray, info: dict) -> PdeSolution:
     """What the run measured and what it cost."""
     ke, ke_err = watch.until.estimate(watch.ke)
     series = Series(*np.array(watch.samples).T)
     seconds = info["controller"]["profiler"]
     v = equation.rising(data)
-    return Solution(
+    return PdeSolution(
         equation=equation, state=data.copy(), t=watch.samples[-1][0], series=series, ke=ke, ke_err=ke_err,
-        nusselt=Nusselt(*equation.nusselt(data)), rolls=0 if watch.ke[-1] < STILL else count_rolls(v),
+        nusselt=PdeNusselt(*equation.nusselt(data)), rolls=0 if watch.ke[-1] < STILL else count_rolls(v),
         mass_drift=series.mass[-1]/series.mass[0] - 1, converged=watch.until.settled(watch.ke),
         dt=info["solver"]["dt"], steps=info["solver"]["steps"], cpu_s=seconds["solver"] + seconds["tracker"],
         compile_s=seconds["compilation"])
@@ -162,7 +149,7 @@ def count_rolls(v: np.ndarray) -> int:
     return int(np.sum(up != np.roll(up, 1)))
 
 
-def onto(equation: Any, start: Solution) -> np.ndarray:
+def onto(equation: Any, start: PdeSolution) -> np.ndarray:
     """The state of a solution on another grid: cubic splines through its points and ghosts."""
     old = start.equation
     if type(old) is not type(equation) or not np.allclose(old.grid_box, equation.grid_box):

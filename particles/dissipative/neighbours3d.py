@@ -14,7 +14,7 @@ from continuum.jit import jit
 from particles.neighbours import ONE, u32, u64
 
 
-class Cells(NamedTuple):
+class Cubes(NamedTuple):
     """Points sorted into cubes: cell c holds order[start[c]:start[c+1]] at x; counts along x, y, z."""
     low: np.ndarray
     side: float
@@ -57,7 +57,7 @@ def _count_sort(cells, x):
         fill[cell[k]] += 1
 
 
-def sort_into_cells(x: np.ndarray, side: float) -> Cells:
+def sort_into_cells(x: np.ndarray, side: float) -> Cubes:
     """Linked cells over points (n, 3), one empty around. FloatingPointError: far more cells than points."""
     low = x.min(axis=0) - side
     across = (x.max(axis=0) - low)/side + 2
@@ -66,7 +66,7 @@ def sort_into_cells(x: np.ndarray, side: float) -> Cells:
                                  f"{across[2]:.4g} cells, far more than their number {len(x)}: some are no "
                                  "longer in the box; lower the step")
     counts = across.astype(np.int64)
-    cells = Cells(low, side, counts, np.zeros(np.prod(counts) + 1, np.int64), np.empty(len(x), u32),
+    cells = Cubes(low, side, counts, np.zeros(np.prod(counts) + 1, np.int64), np.empty(len(x), u32),
                   np.empty_like(x))
     _count_sort(cells, x)
     return cells

@@ -69,7 +69,7 @@ def place(first, last, x, images, slid, out):
         out[k, 2] = x[2, i] + images.shift[k, 2] if len(x) == 3 else 0.0
 
 
-class Points(NamedTuple):
+class WithGhosts(NamedTuple):
     """Particles, then ghosts: of which particle, where from there (points, 3), how many boxes above."""
     parent: np.ndarray
     shift: np.ndarray
@@ -85,7 +85,7 @@ class Images:
         self.anchor: np.ndarray | None = None
         self.anchor_slid, self.made = 0.0, 0
         self.lists = Lists(np.empty(n, u64), np.empty(n, u32), np.empty(0, u32))
-        self.points = Points(np.empty(0, np.int64), np.empty((0, 3)), np.empty(0))
+        self.points = WithGhosts(np.empty(0, np.int64), np.empty((0, 3)), np.empty(0))
 
     def slid(self, time: float) -> float:
         """How far the images above have slid."""
@@ -126,7 +126,7 @@ class Images:
         while count < 0:
             parent, shift, up = np.empty(room, np.int64), np.empty((room, 3)), np.empty(room)
             count, room = _ghosts(x, self.box, len(x), self.anchor_slid, margin, parent, shift, up), 2*room
-        self.points = Points(parent[:count], shift[:count], up[:count])
+        self.points = WithGhosts(parent[:count], shift[:count], up[:count])
         out = np.empty((count, 3))
         place(0, count, x, self.points, 0.0, out)
         return out

@@ -39,12 +39,12 @@ class DpdStream(Dpd):
         out[d:, self.held] = 0.0
         return out
 
-    def start(self, n: int, team: Team) -> "Streaming":
+    def start(self, n: int, team: Team) -> "PairStreaming":
         """The pair sums."""
-        return Streaming(self, n, team)
+        return PairStreaming(self, n, team)
 
 
-class Streaming(Forces):
+class PairStreaming(Forces):
     """The pair sums, and the momentum that the body has received since it was last asked for."""
     method: DpdStream
 
@@ -79,13 +79,13 @@ class Streaming(Forces):
         self.drive(out)
 
 
-def force_on_body(sums: Streaming, state: np.ndarray) -> float:
+def force_on_body(sums: PairStreaming, state: np.ndarray) -> float:
     """Along x, mean over all forces evaluated since the last record or restart."""
     force = sums.received/max(sums.calls, 1)
     sums.begin()
     return float(force[0])
 
 
-def speed(sums: Streaming, state: np.ndarray) -> float:
+def speed(sums: PairStreaming, state: np.ndarray) -> float:
     """Mean velocity along x of all particles, the held ones among them."""
     return float(state[sums.places].mean())

@@ -125,9 +125,9 @@ class Moving:
         px, py, m, V, E = state[EXCHANGED]
         return from_densities(self.eos, state[:2].T.copy(), V.copy(), m/V, np.stack([px, py])/V, E/V)
 
-    def start(self, n: int, team: Team) -> "Exchanging":
+    def start(self, n: int, team: Team) -> "FaceSums":
         """The sums of n points, with their arrays."""
-        return Exchanging(self, n, team)
+        return FaceSums(self, n, team)
 
     def integrator(self, shape: tuple[int, ...], team: Team) -> "DriftKickDrift":
         """Half a drift, faces and what goes through them, half a drift."""
@@ -159,7 +159,7 @@ class DriftKickDrift:
     def __init__(self, shape: tuple[int, ...]):
         self.rates, self.first = np.zeros(shape), np.zeros(shape)
 
-    def step(self, sums: "Exchanging", y: np.ndarray, dt: float) -> None:
+    def step(self, sums: "FaceSums", y: np.ndarray, dt: float) -> None:
         """Advance y in place by dt    [third-order strong-stability-preserving Runge-Kutta in between]"""
         sums.drift(y, dt/2)
         sums.make_faces(y)
@@ -173,7 +173,7 @@ class DriftKickDrift:
         sums.drift(y, dt/2)
 
 
-class Exchanging(Listed):
+class FaceSums(Listed):
     """The compiled sums of moving points, with what the time loop asks for."""
 
     def __init__(self, method: Moving, n: int, team: Team):

@@ -45,7 +45,7 @@ class Coefficients(NamedTuple):
     kappa: np.ndarray
 
 
-class Fluxes(NamedTuple):
+class EdgeFluxes(NamedTuple):
     """What leaves the first point of each edge: mass (E,), momentum (E, d), energy (E,)."""
     mass: np.ndarray
     momentum: np.ndarray
@@ -57,18 +57,18 @@ def take(flow: Flow, points: np.ndarray) -> Flow:
     return Flow(*(field[points] for field in flow))
 
 
-def carried(eos: Any, S: np.ndarray, a: Flow, b: Flow, weight: Any = 0.0) -> Fluxes:
+def carried(eos: Any, S: np.ndarray, a: Flow, b: Flow, weight: Any = 0.0) -> EdgeFluxes:
     """Brackets of Eqs 34-36 without stress and heat, from a to b; `weight` adds to the pressure in b."""
     half = S/2
     to_b, to_a = (half*b.v).sum(axis=1), (half*a.v).sum(axis=1)      # S.v_b/2, S.v_a/2
     P_ab, P_ba = pressure(eos, a.rho, energy(eos, a.rho, b.T)), pressure(eos, b.rho, energy(eos, b.rho, a.T))
     momentum = (a.rho*to_b)[:, None]*a.v + (b.rho*to_a)[:, None]*b.v + half*(P_ab + P_ba + weight)[:, None]
-    return Fluxes(a.rho*to_b + b.rho*to_a, momentum,
+    return EdgeFluxes(a.rho*to_b + b.rho*to_a, momentum,
                   a.eps*to_b + b.eps*to_a + (P_ab + weight)*to_a + P_ba*to_b)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Nested:
+class NestedFluxes:
     """Stress and heat current of Eqs 37, 38: pi_ij = eta_i E(grad v_j), J_ij = -kappa_i grad T_j.
 
     differences : the inner sum takes v_k - v_j, exact on uniform flow, instead of v_k as printed; the same on
@@ -76,7 +76,7 @@ class Nested:
     """
     differences: bool = True
 
-    def fluxes(self, dih: "Dih", flow: Flow) -> Fluxes:
+    def fluxes(self, dih: "Dih", flow: Flow) -> EdgeFluxes:
         """Through all edges."""
         edges = dih.edges
         i, j, eta, zeta, kappa = edges.i, edges.j, *dih.coefficients(flow)
@@ -88,7 +88,7 @@ class Nested:
         work = np.einsum("eb,eab,ea->e", half, one, flow.v[i])
         work += np.einsum("eb,eab,ea->e", half, other, flow.v[j])
         current = -kappa[i, None]*heat[j] - kappa[j, None]*heat[i]
-        return Fluxes(np.zeros(len(i)), momentum, (half*current).sum(axis=1) - work)
+        return EdgeFluxes(np.zeros(len(i)), momentum, (half*current).sum(axis=1) - work)
 
     def gradient(self, edges: Edges, f: np.ndarray) -> np.ndarray:
         """(n, d, m) of f (n, m): by differences, or -sum_k w_jk e_jk f_k as printed."""
@@ -110,7 +110,7 @@ class Pairwise:
     mended: bool = True
     everywhere: bool = False
 
-    def fluxes(self, dih: "Dih", flow: Flow) -> Fluxes:
+    def fluxes(self, dih: "Dih", flow: Flow) -> EdgeFluxes:
         """Through all edges. ValueError: a bulk viscosity that makes a friction negative."""
         edges, coefficients = dih.edges, dih.coefficients(flow)
         check_bulk(coefficients.eta, coefficients.zeta, edges.d)
@@ -132,28 +132,28 @@ class Mixed:
     """A share of transport along edges [Eq. 51], the rest by stresses and currents [Eqs 37, 38]."""
     share: float
     pairwise: Pairwise = Pairwise()
-    nested: Nested = Nested()
+    nested: NestedFluxes = NestedFluxes()
 
     def __post_init__(self):
         if not 0 <= self.share <= 1:
             raise ValueError("the share of transport along edges must be between 0 (points) and 1 (edges), "
                              f"got {self.share}")
 
-    def fluxes(self, dih: "Dih", flow: Flow) -> Fluxes:
+    def fluxes(self, dih: "Dih", flow: Flow) -> EdgeFluxes:
         """Through all edges."""
         parts: list[tuple[float, Any]] = [(1 - self.share, self.nested), (self.share, self.pairwise)]
         found = [[part*q for q in kind.fluxes(dih, flow)] for part, kind in parts if part > 0]
-        return Fluxes(*(sum(q) for q in zip(*found, strict=True)))
+        return EdgeFluxes(*(sum(q) for q in zip(*found, strict=True)))
 
 
-def along(edges: Any, coefficients: Coefficients, a: Flow, b: Flow) -> Fluxes:
+def along(edges: Any, coefficients: Coefficients, a: Flow, b: Flow) -> EdgeFluxes:
     """Friction and heat along edges (with k and apart), from points a to b    [Eq. 51]"""
     d, (eta, zeta, kappa) = edges.apart.shape[1], coefficients
     B, A = eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
     dv, e = b.v - a.v, edges.apart/np.sqrt((edges.apart**2).sum(axis=1))[:, None]
     force = edges.k[:, None]*(B[:, None]*dv + A[:, None]*e*(e*dv).sum(axis=1)[:, None])
     work, heat = (force*(a.v + b.v)).sum(axis=1)/2, edges.k*kappa*(b.T - a.T)
-    return Fluxes(np.zeros(len(heat)), -force, -work - heat)
+    return EdgeFluxes(np.zeros(len(heat)), -force, -work - heat)
 
 
 def lacking(coefficients: Coefficients, v: np.ndarray, slope: np.ndarray) -> np.ndarray:
@@ -179,7 +179,7 @@ def check_bulk(eta: np.ndarray, zeta: np.ndarray, d: int) -> None:
                          "nested transport (Eqs 37, 38)")
 
 
-def rows(one: Fluxes, other: Fluxes) -> list[np.ndarray]:
+def rows(one: EdgeFluxes, other: EdgeFluxes) -> list[np.ndarray]:
     """The sum of two fluxes, row by row of the state."""
     return [one.mass + other.mass, *(one.momentum + other.momentum).T, one.energy + other.energy]
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from continuum.fluid import constant_viscosity
 from particles.integral.exchange import PRINTED
-from particles.integral.layer import Exchanging, Layer
+from particles.integral.layer import Layer, LayerSums
 from particles.integral.transposed_stress import MENDED
 from particles.threads import Team
 
@@ -36,7 +36,7 @@ class Driven(Layer):
         return Driving(self, team)
 
 
-class Driving(Exchanging):
+class Driving(LayerSums):
     """The compiled sums of a layer, and what drives it."""
 
     def __init__(self, method: Driven, team: Team):

@@ -25,7 +25,7 @@ from particles.limits import limit_of
 from particles.threads import Team
 
 
-class Exchanging(FixedSums):
+class LayerSums(FixedSums):
     """The compiled sums of a layer, with what the time loop asks for."""
     method: "Layer"
 
@@ -56,7 +56,7 @@ class Exchanging(FixedSums):
         return share*along + sum(stage.heat(i, image, beyond.S[here]) for stage in self.exchange.stages)
 
 
-class LinearSums(Exchanging):
+class LinearSums(LayerSums):
     """The same where brackets are products of a point's fields and sums over its neighbours."""
 
     def __init__(self, method: "Layer", team: Team):
@@ -81,14 +81,14 @@ def _images(parent, plate_T, rise, g, points, n):
 FORMS = {(IdealGas, ConstEta, MENDED): LinearSums}
 
 
-def quickest(method: "Layer") -> type[Exchanging]:
+def quickest(method: "Layer") -> type[LayerSums]:
     """Sums in the form that suits a fluid best."""
-    return FORMS.get((type(method.eos), type(method.law), method.transport), Exchanging)
+    return FORMS.get((type(method.eos), type(method.law), method.transport), LayerSums)
 
 
-def edge_by_edge(method: "Layer") -> type[Exchanging]:
+def edge_by_edge(method: "Layer") -> type[LayerSums]:
     """Sums as all fluids have them."""
-    return Exchanging
+    return LayerSums
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,7 +107,7 @@ class Layer(OnPoints):
     T_plates: tuple[float, float]
     g: float
     transport: tuple = MENDED
-    form: Callable[[Any], type[Exchanging]] = quickest
+    form: Callable[[Any], type[LayerSums]] = quickest
     integrator: type = RK4
 
     def __repr__(self) -> str:
@@ -122,7 +122,7 @@ class Layer(OnPoints):
         """Largest frequency of sound over its speed, and largest rate of diffusion over the diffusivity."""
         return fastest(self.edges, self.beyond)
 
-    def sums(self, team: Team) -> "Exchanging":
+    def sums(self, team: Team) -> "LayerSums":
         """In the form that is asked for."""
         return self.form(self)(self, team)
 

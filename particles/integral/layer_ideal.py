@@ -21,7 +21,7 @@ Lack = np.dtype([("Fx", "f8"), ("Fy", "f8")])
 ROWS = 32           # of a block
 
 
-class LinearSums(NamedTuple):
+class ProductSums(NamedTuple):
     """sum S_x, S_y and k times differences of the neighbours' fields; S w, k T fill vectors."""
 
 
@@ -29,11 +29,11 @@ class LackSums(NamedTuple):
     """sum S.F."""
 
 
-nothing.of(LinearSums)(lambda term: (0.0,)*20)
+nothing.of(ProductSums)(lambda term: (0.0,)*20)
 nothing.of(LackSums)(lambda term: (0.0,))
 
 
-@rate.of(LinearSums)
+@rate.of(ProductSums)
 def _(term, a, b, ab):
     x, y, k = ab.sx, ab.sy, ab.k
     rho, mx, my, eps = b.rho - a.rho, b.mx - a.mx, b.my - a.my, b.eps - a.eps
@@ -100,7 +100,7 @@ def _exchange(first, last, given, edges, open, per_V, gas, g, lack, out):
     pairs, sums = Stored(*edges), np.empty((ROWS, 20))
     for begin in range(u64(first), u64(last), u64(ROWS)):
         end = min(begin + u64(ROWS), u64(last))
-        sweep(begin, end, LinearSums(), given, pairs, Block(begin, sums))
+        sweep(begin, end, ProductSums(), given, pairs, Block(begin, sums))
         for i in range(begin, end):
             _products(i, given[i], sums[i - begin], open, per_V[i], gas[1], g, lack[i], out)
 

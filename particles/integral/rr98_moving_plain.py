@@ -18,7 +18,7 @@ import numpy as np
 from continuum.fluid import energy
 from particles.fields import Fields, from_densities
 from particles.integral.brackets import CROSSED
-from particles.integral.dih import Dih, Fluxes, Pairwise, rows, take
+from particles.integral.dih import Dih, EdgeFluxes, Pairwise, rows, take
 from particles.integral.edge_makers import from_weights, judged, plain, renormalised
 from particles.integral.edges import Edges
 from particles.integral.interpolants import W, check, reach
@@ -215,7 +215,7 @@ class ConstantMass(Motion):
         a, b, half = take(flow, edges.i), take(flow, edges.j), edges.S/2
         P_ab, P_ba = self.bracket.both(self.eos, a, b)
         to_a, to_b = (half*a.v).sum(axis=1), (half*b.v).sum(axis=1)
-        pushed = Fluxes(np.zeros(len(half)), half*(P_ab + P_ba)[:, None], P_ab*to_a + P_ba*to_b)
+        pushed = EdgeFluxes(np.zeros(len(half)), half*(P_ab + P_ba)[:, None], P_ab*to_a + P_ba*to_b)
         for row, flux in zip(out[d:-1], rows(pushed, self.transport.fluxes(dih, flow)), strict=True):
             row[:] = np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n)
         out[:d] = flow.v.T

@@ -14,7 +14,7 @@ from continuum.fluid import energy, sound_speed
 from continuum.jit import jit
 from particles.fields import Fields
 from particles.integral.covariance import BETAS, OLD
-from particles.integral.dih import Dih, Flow, Fluxes, Mixed, check_bulk, means, rows, take
+from particles.integral.dih import Dih, EdgeFluxes, Flow, Mixed, check_bulk, means, rows, take
 from particles.integral.fixed import Summing, check_number
 from particles.integral.fluctuating import conductances, traceless
 from particles.limits import limit_of
@@ -137,7 +137,7 @@ class Agitated(Summing):
         for row, flux in zip(out, total, strict=True):
             row[:] = (np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n))/edges.V
 
-    def _at_points(self, flow: Flow, dW: np.ndarray) -> Fluxes:
+    def _at_points(self, flow: Flow, dW: np.ndarray) -> EdgeFluxes:
         """By random stresses and currents: -S.(s_i + s_j)/2, -S.(s_j.v_i + s_i.v_j)/2 + S.(q_i + q_j)/2."""
         edges, (eta, zeta, kappa), k = self.dih.edges, self.dih.coefficients(flow), self.method.k
         i, j, d, half = edges.i, edges.j, edges.d, edges.S/2
@@ -147,9 +147,9 @@ class Agitated(Summing):
         q = (flow.T*np.sqrt(2*k*kappa/edges.V))[:, None]*dW[:, d*d + 1:]
         one, other = np.einsum("eb,eab->ea", half, s[i]), np.einsum("eb,eab->ea", half, s[j])
         work = (other*flow.v[i]).sum(axis=1) + (one*flow.v[j]).sum(axis=1)
-        return Fluxes(np.zeros(len(i)), -one - other, -work + (half*(q[i] + q[j])).sum(axis=1))
+        return EdgeFluxes(np.zeros(len(i)), -one - other, -work + (half*(q[i] + q[j])).sum(axis=1))
 
-    def _along_edges(self, flow: Flow, dW: np.ndarray) -> Fluxes:
+    def _along_edges(self, flow: Flow, dW: np.ndarray) -> EdgeFluxes:
         """Through edges by random forces along them, their work, and heat."""
         edges, d = self.dih.edges, self.dih.edges.d
         a, b, all_of = take(flow, edges.i), take(flow, edges.j), self.dih.coefficients(flow)
@@ -161,7 +161,7 @@ class Agitated(Summing):
         force = np.sqrt(2*k*T*np.maximum(A, 0))[:, None]*dW[:, :d]
         force += (np.sqrt(2*k*T*np.maximum(B, 0))*dW[:, d])[:, None]*e
         heat = np.sqrt(2*k*a.T*b.T*kappa)*dW[:, d + 1]
-        return Fluxes(np.zeros(len(heat)), -force, -(force*(a.v + b.v)).sum(axis=1)/2 - heat)
+        return EdgeFluxes(np.zeros(len(heat)), -force, -(force*(a.v + b.v)).sum(axis=1)/2 - heat)
 
 
 def halves(normals: np.ndarray, beta: float) -> np.ndarray:

@@ -10,7 +10,7 @@ from particles.integral.bodies import held, together, with_plates
 from particles.integral.driven import Driven
 from particles.integral.edge_makers import closed, exact, plain, renormalised
 from particles.integral.edges import NONE_BEYOND, between_plates
-from particles.integral.layer import Exchanging, Layer
+from particles.integral.layer import Layer, LayerSums
 from particles.integral.nested import mixed
 from particles.integral.points import of_positions, random, relaxed
 from particles.integral.stream import Stream, Streaming
@@ -116,7 +116,7 @@ def plates(scene: Any, scheme: Scheme, seed: int) -> Stream:
     return Stream(x=x, edges=between(x, scene.width, scene.L), eos=scene.eos, law=scene.law, held=both, push=(0.0, 0.0 - scene.g))
 
 
-def kinetic(sums: Exchanging | Streaming, state: np.ndarray) -> float:
+def kinetic(sums: LayerSums | Streaming, state: np.ndarray) -> float:
     """K per mass."""
     V = sums.method.edges.V
     return float(0.5*V@((state[1]**2 + state[2]**2)/state[0])/(V@state[0]))
@@ -126,7 +126,7 @@ class PlateHeat(NamedTuple):
     """Heat that enters the fluid through a plate (0: lower, 1: upper), per time."""
     plate: int
 
-    def __call__(self, sums: Exchanging | Streaming, state: np.ndarray) -> float:
+    def __call__(self, sums: LayerSums | Streaming, state: np.ndarray) -> float:
         """Over all edges to images behind the plate, along them and nested; what its points give."""
         if isinstance(sums, Streaming):
             sums.rates(state, np.empty_like(state))

@@ -4,10 +4,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.gas.fields import Fields, Nodes, at_nodes, block, initial, placed, unblock
+from continuum.gas.fields import NodeFields, Nodes, at_nodes, block, initial, placed, unblock
 from continuum.gas.loop import VX, EdgeHeat, FluxForm, PaperForm
-from continuum.gas.solve import SAFETY, March, limits
+from continuum.gas.solve import March, limits
 from continuum.scene import RayleighBenard
+from continuum.steady import SAFETY
 from particles.limits import limit_of
 from studies.build.names import START_ENERGY
 from studies.build.setting import Ready, stepped
@@ -71,7 +72,7 @@ def begun(scene: Any, rows: int, form: Form) -> np.ndarray:
     return S
 
 
-def beginning(scene: Any, rows: int, form: Form) -> Fields:
+def beginning(scene: Any, rows: int, form: Form) -> NodeFields:
     """As the scene has it; of convection rolls of Sec. VI, and those aside    [KHP95]"""
     if not isinstance(scene, RayleighBenard):
         return placed(scene, rows, lambda x, y: started(scene, x, y))

@@ -3,7 +3,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from particles.integral.closed_faces import EXCHANGED, Exchanging, Ingredients, Moving
+from particles.integral.closed_faces import EXCHANGED, FaceSums, Ingredients, Moving
 from particles.integral.exchange import PRINTED
 from particles.weights import WendlandC2
 from studies.build.setting import Ready, check_open, check_spacings, check_still, shaken, stepped, walls
@@ -52,7 +52,7 @@ def method(scene: Any, motion: Motion) -> Moving:
                   walls=walls(scene), ingredients=motion.ingredients)
 
 
-def kinetic(sums: Exchanging, state: np.ndarray) -> float:
+def kinetic(sums: FaceSums, state: np.ndarray) -> float:
     """K per mass."""
     px, py, m, _, _ = state[EXCHANGED]
     return float(0.5*np.sum((px**2 + py**2)/m)/m.sum())
@@ -62,7 +62,7 @@ class PlateHeat(NamedTuple):
     """Heat that enters the fluid through a plate (-1: lower, 1: upper), per time."""
     side: int
 
-    def __call__(self, sums: Exchanging, state: np.ndarray) -> float:
+    def __call__(self, sums: FaceSums, state: np.ndarray) -> float:
         """Over all faces to images behind the plate."""
         faces, points, n, half = sums.faces, sums.points, sums.n, sums.method.box[1]/2
         near = np.flatnonzero(self.side*state[1] > half - sums.method.weight.h)

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from scipy.linalg import expm
 
-from continuum.exact.plates import FLOWS, MU, Flow
+from continuum.exact.plates import FLOWS, MU, PlateFlow
 from continuum.exact.vortex import Vortex
-from continuum.exact.waves import Gas, continuum
+from continuum.exact.waves import LinearGas, continuum
 from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import Periodic, RayleighBenard, Torus
 
@@ -107,7 +107,7 @@ class Sound(Scene):
 
     def exactly(self, time: float, x: np.ndarray) -> np.ndarray:
         """(rho, u, T), each (n,), less their means, at x (n,)."""
-        matrix = continuum(Gas(self.law.eta, 0.0, self.law.k), self.k).matrix
+        matrix = continuum(LinearGas(self.law.eta, 0.0, self.law.k), self.k).matrix
         return self.amplitude*np.real(np.outer(expm(matrix*time)@np.array([1, 0, 1]), np.exp(1j*self.k*x)))
 
     def fields(self, x: np.ndarray) -> Start:
@@ -118,7 +118,7 @@ class Sound(Scene):
 @dataclass(frozen=True, kw_only=True)
 class BetweenPlates(Scene):
     """Heat that spreads or shear that settles between plates of temperature 1, L rows apart; nothing depends on x."""
-    flow: Flow
+    flow: PlateFlow
     L: int
     width: int = 8          # wider than twice a range of three
     sides: Periodic = Periodic()  # noqa: RUF009 (immutable)

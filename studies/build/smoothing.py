@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.signal import oaconvolve
 
-from continuum.gas.fields import Fields, interpolate
+from continuum.gas.fields import NodeFields, interpolate
 from particles.weights import value_and_slope
 
 FINE = 240     # places over the height: the range of 100 rows covers 7
@@ -18,7 +18,7 @@ class Smoothing(NamedTuple):
     rows: int
 
 
-def smoothed_energy(fields: Fields, smoothing: Smoothing) -> tuple[float, float]:
+def smoothed_energy(fields: NodeFields, smoothing: Smoothing) -> tuple[float, float]:
     """(K, K of <v> = sum m v w/sum m w) of a field, particles lying as densely as the fluid does.
 
     Behind walls the density is mirrored and the velocity zero, as for the printed images    [KHP95, Secs II, VI, Fig. 3]
@@ -48,7 +48,7 @@ def padded(q: np.ndarray, margin: int, along: str, across: str) -> np.ndarray:
     return np.pad(wide, ((margin, margin), (0, 0)), across)  # type: ignore[call-overload]
 
 
-def smoothed_rows(point: dict, fields: Fields, smoothings: tuple[Smoothing, ...]) -> Iterator[dict]:
+def smoothed_rows(point: dict, fields: NodeFields, smoothings: tuple[Smoothing, ...]) -> Iterator[dict]:
     """Rows of the table `smoothed`; `point` has the key columns of the grid's row."""
     for smoothing in smoothings:
         plain, smooth = smoothed_energy(fields, smoothing)

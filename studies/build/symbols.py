@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from continuum.exact.waves import Gas, Waves, continuum, waves
+from continuum.exact.waves import LinearGas, Waves, continuum, waves
 from particles.integral.interpolants import W, reach
 
 
@@ -25,7 +25,7 @@ def neighbours(weight: Any, d: int) -> np.ndarray:
     return r[(size > 0) & (size < reach(weight))]
 
 
-def lattice_waves(gas: Gas, weight: Any, k: np.ndarray, nested: bool) -> Waves:
+def lattice_waves(gas: LinearGas, weight: Any, k: np.ndarray, nested: bool) -> Waves:
     """At the wave vector k (2,) on the square lattice; along an axis or a diagonal, where the gradient is along k."""
     d = len(k)
     r = neighbours(weight, d)

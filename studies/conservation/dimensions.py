@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas, energy, pressure
-from particles.integral.dih import Dih, Nested, Pairwise
+from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import MAKERS
 from particles.integral.points import Points
 from particles.integrators import RK4
@@ -56,8 +56,8 @@ FORMS = {form.name: form for form in (
     Form("pairwise"),
     Form("unmended", transport=Pairwise(mended=False)),
     Form("everywhere", transport=Pairwise(everywhere=True)),
-    Form("nested", transport=Nested()),
-    Form("printed", transport=Nested(differences=False)),
+    Form("nested", transport=NestedFluxes()),
+    Form("printed", transport=NestedFluxes(differences=False)),
     Form("one-sided", OneSided, claimed="mass energy"))}
 
 

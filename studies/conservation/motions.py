@@ -9,7 +9,7 @@ import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.brackets import Powers
-from particles.integral.dih import Nested, Pairwise
+from particles.integral.dih import NestedFluxes, Pairwise
 from particles.integral.points import Points, jittered, lattice
 from particles.integral.rr98_moving_plain import (
     MOTIONS,
@@ -27,7 +27,7 @@ from studies.conservation.drift import EVERYTHING, drift_row
 from studies.conservation.sums import Watch
 from studies.kit.case import Case, Outcome, Report
 
-ALONG, NESTED = Pairwise(mended=False), Nested()
+ALONG, NESTED = Pairwise(mended=False), NestedFluxes()
 GAS, STILL, C = IdealGas(), ConstEta(0.0, 0.0), np.sqrt(2.0)      # c^2 = gamma P/rho = 2 at rho = T = 1
 AMPLITUDE = 1e-4        # of waves: what is quadratic in it is 1e-4 of what is linear, and of another length
 BREADTH = 8             # spacings across a wave: more than twice the widest weight

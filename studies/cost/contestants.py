@@ -6,12 +6,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.boussinesq import Box, Case, Edges, End, State
+from continuum.boussinesq import Box, BoxEdges, Case, End, State
 from continuum.boussinesq.mac import mac
 from continuum.boussinesq.projection import Projection
 from continuum.exact.vortex import DECAYS, RE, SOUND
 from continuum.fluid import energy
-from continuum.gas.fields import Fields, Nodes, Values, block, nodes
+from continuum.gas.fields import NodeFields, Nodes, Values, block, nodes
 from continuum.gas.loop import VX
 from particles.integral.points import lattice
 from particles.integrators import TwoStep
@@ -25,8 +25,8 @@ from studies.cost.problem import Price, Problem, Residuals, of_method
 RK4_TO_EULER = 2/2.785      # ends of both stability regions on the negative real axis, where diffusion is
 C2 = SOUND**2
 #: one of the four vortices between free-slip walls of equal temperature: the flow beyond is its mirror image
-FREE = Edges(flow=End.MIRROR, heat=End.WALL)
-CELL = Box(width=1.0, sides=Edges(flow=End.MIRROR, heat=End.MIRROR), plates=FREE)
+FREE = BoxEdges(flow=End.MIRROR, heat=End.WALL)
+CELL = Box(width=1.0, sides=BoxEdges(flow=End.MIRROR, heat=End.MIRROR), plates=FREE)
 CFL = 0.8           # of two-step advection with some viscosity: `projection.CFL_LIMIT`
 
 
@@ -144,7 +144,7 @@ def beside_plates(scene: BetweenPlates) -> np.ndarray:
     rho = scene.flow.start((np.arange(scene.L) + 0.5)/scene.L)[0]
     cells = np.tile((rho/rho.mean())[:, None], len(x) - 1)
     at = Values(u, v, energy(scene.eos, 1.0, T), T, np.ones_like(T))
-    S = block(Fields(scene, x, y, at, cells))
+    S = block(NodeFields(scene, x, y, at, cells))
     S[VX, -1] = scene.slide
     return S
 

@@ -16,7 +16,7 @@ from scipy.interpolate import CubicSpline
 
 from continuum.boussinesq import HALF_LAYER, LAYER, Case, khp95, steady, transient
 from continuum.boussinesq.projection import CFL_LIMIT
-from continuum.gas.fields import Fields, initial, interpolate
+from continuum.gas.fields import NodeFields, initial, interpolate
 from continuum.gas.newton import steady as newton
 from continuum.gas.solve import run as run_grid
 from continuum.scene import RayleighBenard
@@ -46,7 +46,7 @@ class Reference(NamedTuple):
     """K of the steady state and its uncertainty, its fields on two grids, K(t) and its uncertainty."""
     ke: float
     known: float
-    fields: tuple[Fields, ...]
+    fields: tuple[NodeFields, ...]
     history: CubicSpline
     history_known: float
 

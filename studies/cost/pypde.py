@@ -147,7 +147,7 @@ class InLayer(NamedTuple):
                       array_bytes(done.state, done.equation), rules.against.known, laps.total(samples), done.compile_s)
 
 
-def seen(scene: RayleighBenard, done: pypde.Solution) -> Fields:
+def seen(scene: RayleighBenard, done: pypde.PdeSolution) -> Fields:
     """Fields of a solution, places in heights."""
     x, y, vx, vy, T = (done.fields[name].ravel() for name in ("x", "y", "v_x", "v_y", "T"))
     one = np.ones_like(T)

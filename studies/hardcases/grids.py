@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from continuum.gas.fields import Fields, block, initial, placed, unblock
+from continuum.gas.fields import NodeFields, block, initial, placed, unblock
 from continuum.gas.loop import FluxForm
-from continuum.gas.solve import SAFETY, DivergedError, March, limits
+from continuum.gas.solve import DivergedError, March, limits
 from continuum.gas.solve import run as march
 from continuum.scene import Tile, Torus
-from continuum.steady import Time
+from continuum.steady import SAFETY, Time
 from studies.build.grid import started
 from studies.build.names import START_ENERGY
 from studies.hardcases.methods import Body, Built
@@ -68,7 +68,7 @@ class OnGrid(Case):
                                      "k_start": k_start, "flow_start": flow_start}, self.rows)
 
 
-def of_grid(fields: Fields) -> Body:
+def of_grid(fields: NodeFields) -> Body:
     """Nodes as bodies, without columns and rows that repeat the first."""
     torus, whole, but_last = isinstance(fields.scene.sides, Torus), slice(None), slice(None, -1)
     rows, columns = but_last if torus else whole, but_last if torus or fields.periodic else whole

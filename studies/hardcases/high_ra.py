@@ -20,9 +20,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.gas.fields import block, initial
-from continuum.gas.solve import SAFETY, DivergedError, limits
+from continuum.gas.solve import DivergedError, limits
 from continuum.gas.solve import run as on_grid
-from continuum.steady import Time
+from continuum.steady import SAFETY, Time
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, run
 from studies.build import fixed as fixed_points

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.exact.riemann import Gas, middle, shock_speed
+from continuum.exact.riemann import GasState, middle, shock_speed
 from continuum.fluid import IdealGas
 from particles.limits import step_limit
 from particles.run import STUDIES, Divergence, Plan, run
@@ -24,7 +24,7 @@ from studies.build.periodic_box import FRICTIONLESS, at_rest
 from studies.kit.case import Case, Outcome, Report
 
 GAMMA, MACH = 2.0, 1.5
-LIGHT, HEAVY = Gas(0.4, 0.0, 0.4), Gas(1.6, 0.0, 0.4)       # mean density of about 1, light gas at T = 1
+LIGHT, HEAVY = GasState(0.4, 0.0, 0.4), GasState(1.6, 0.0, 0.4)       # mean density of about 1, light gas at T = 1
 WIDTH, HEIGHT, BELOW = 30.0, 100.0, 60.0                    # of them the lowest 60 are light
 JITTER = 0.2        # of rows and columns
 STRIPS = 16         # in which the interface is looked for
@@ -51,9 +51,10 @@ def impulse(scale: float, steep: float) -> Impulse:
     """
     c = sqrt(GAMMA*LIGHT.P/LIGHT.rho)
     fall, W = 2*c/(GAMMA + 1)*(MACH - 1/MACH), MACH*c
-    behind = middle(Gas(LIGHT.rho, fall, LIGHT.P), Gas(LIGHT.rho, -fall, LIGHT.P), GAMMA)      # a gas against its mirror image
-    shocked = Gas(behind.right, 0.0, behind.P)
-    after = middle(shocked, Gas(HEAVY.rho, -fall, HEAVY.P), GAMMA)
+    # a gas against its mirror image
+    behind = middle(GasState(LIGHT.rho, fall, LIGHT.P), GasState(LIGHT.rho, -fall, LIGHT.P), GAMMA)
+    shocked = GasState(behind.right, 0.0, behind.P)
+    after = middle(shocked, GasState(HEAVY.rho, -fall, HEAVY.P), GAMMA)
     kick, meets = after.v + fall, BELOW*scale/W
     height = BELOW*scale - fall*meets
     k = 2*pi/(WIDTH*scale)

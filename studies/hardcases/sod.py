@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from continuum.exact.riemann import Gas, solution
+from continuum.exact.riemann import GasState, solution
 from continuum.fluid import ConstEta, IdealGas, pressure, stress, temperature
 from particles.limits import step_limit
 from particles.observe import fields_at
@@ -25,7 +25,7 @@ from studies.build.periodic_box import at_rest, fluid
 from studies.kit.case import Case, Outcome, Report
 
 EOS, GAMMA = IdealGas(cv=2.5), 1.4
-DENSE, THIN = Gas(1.0, 0.0, 1.0), Gas(0.125, 0.0, 0.1)
+DENSE, THIN = GasState(1.0, 0.0, 1.0), GasState(0.125, 0.0, 0.1)
 HEIGHT, MASS = 9.0, 9/16        # mean density 9/16 is one particle a unit of area
 ROWS = {DENSE: 12, THIN: 4}     # then columns are 0.75 and 2 apart, and fit if L is a multiple of 3
 JITTER = 0.05                   # of the columns and rows: a perfect lattice keeps its rows in a flow along one axis

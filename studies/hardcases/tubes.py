@@ -20,8 +20,7 @@ import numpy as np
 
 from continuum.exact.riemann import middle
 from continuum.fluid import ConstEta
-from continuum.gas.fields import Fields as GridFields
-from continuum.gas.fields import Values, block, nodes, unblock
+from continuum.gas.fields import NodeFields, Values, block, nodes, unblock
 from continuum.gas.loop import FluxForm
 from continuum.gas.solve import DivergedError, March, limits
 from particles.fields import Fields
@@ -135,14 +134,14 @@ def grid(L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
     return Seen(np.array([rho, v, rho*T]), float(np.sqrt((done.at.vx**2).mean())))
 
 
-def upright(scene: Upright, L: int) -> GridFields:
+def upright(scene: Upright, L: int) -> NodeFields:
     """The grid's start; the node on the diaphragm has the mean temperature."""
     x, y = nodes(scene, 2*L)
     rows = np.where(y < 0, scene.T_hot, np.where(y > 0, scene.T_cold, scene.T_mean))
     T = np.repeat(rows[:, None], len(x), axis=1)
     cells = np.where(np.arange(2*L) < L, DENSE.rho, THIN.rho)
     values = Values(0*T, 0*T, EOS.cv*T, T, np.ones_like(T))
-    return GridFields(scene, x, y, values, np.repeat(cells[:, None], len(x) - 1, axis=1))
+    return NodeFields(scene, x, y, values, np.repeat(cells[:, None], len(x) - 1, axis=1))
 
 
 METHODS: dict[str, Callable[[int, ConstEta, int, float, Report], Seen]] = {

@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.linalg import expm
 
-from continuum.exact.waves import Gas, continuum
+from continuum.exact.waves import LinearGas, continuum
 from continuum.fluid import ConstEta, IdealGas
 from particles.limits import Symbols, step_limit
 from particles.limits import waves as rates_of
@@ -109,9 +109,9 @@ class Ringing(Case):
         return 2*np.pi/self.at.box[0]
 
     @property
-    def gas(self) -> Gas:
+    def gas(self) -> LinearGas:
         """Viscosity and conductivity, in proportion to the length."""
-        return Gas(DAMPING*self.at.box[0], 0.0, DAMPING*self.at.box[0])
+        return LinearGas(DAMPING*self.at.box[0], 0.0, DAMPING*self.at.box[0])
 
     @property
     def time(self) -> float:

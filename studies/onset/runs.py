@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 
 from continuum import boussinesq
 from continuum.gas import newton as compressible_newton
-from continuum.gas.fields import Fields, initial
+from continuum.gas.fields import NodeFields, initial
 from continuum.linear import layer as linear
 from continuum.linear.square import DEGREE, critical_ra_square
 from continuum.scene import Periodic, RayleighBenard
@@ -56,11 +56,11 @@ class LinearTheory(Case):
         return "linear theory"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        rigid, free = linear.critical(linear.Plates.RIGID), linear.critical(linear.Plates.FREE)
-        found = [("ra_c infinite layer rigid", self._layer(rigid.k, linear.Plates.RIGID), "infinite"),
-                 ("ra_c infinite layer free", self._layer(free.k, linear.Plates.FREE), "infinite"),
-                 ("ra_c periodic aspect 2", self._layer(np.pi, linear.Plates.RIGID), "periodic"),
-                 ("ra_c periodic aspect 2, two pairs", self._layer(2*np.pi, linear.Plates.RIGID), "periodic"),
+        rigid, free = linear.critical(linear.PlateKind.RIGID), linear.critical(linear.PlateKind.FREE)
+        found = [("ra_c infinite layer rigid", self._layer(rigid.k, linear.PlateKind.RIGID), "infinite"),
+                 ("ra_c infinite layer free", self._layer(free.k, linear.PlateKind.FREE), "infinite"),
+                 ("ra_c periodic aspect 2", self._layer(np.pi, linear.PlateKind.RIGID), "periodic"),
+                 ("ra_c periodic aspect 2, two pairs", self._layer(2*np.pi, linear.PlateKind.RIGID), "periodic"),
                  ("ra_c square conducting", self._square(0), "walls"),
                  ("ra_c square conducting, two rolls", self._square(1), "walls")]
         return Outcome({"growth_rates": [self._growth(ra, pr) for pr in self.prs for ra in self.ras], "critical_ra": [
@@ -74,7 +74,7 @@ class LinearTheory(Case):
                 "ra": ra, "sigma": linear.growth_rate(ra=ra, pr=pr, k=np.pi), "err": 0.0, "ke_end": np.nan}
 
     @staticmethod
-    def _layer(k: float, plates: linear.Plates) -> tuple[float, float]:
+    def _layer(k: float, plates: linear.PlateKind) -> tuple[float, float]:
         value, other = (linear.critical_ra(k, plates, degree) for degree in (linear.DEGREE, linear.DEGREE - 4))
         return value, abs(value - other)
 
@@ -208,13 +208,13 @@ class Energies(Case):
                             xtol=1e-6*near))
 
 
-def gas_state(scene: RayleighBenard, rows: int, before: Fields | None) -> tuple[Fields, float, int]:
+def gas_state(scene: RayleighBenard, rows: int, before: NodeFields | None) -> tuple[NodeFields, float, int]:
     """Steady rolls of the compressible grid, from those at a higher Ra: weaker rolls have weaker velocity and heat."""
     found = compressible_newton.steady(scene, rows, before and faded(scene, rows, before))
     return found.fields, found.ke, found.rolls
 
 
-def faded(scene: RayleighBenard, rows: int, fields: Fields) -> Fields:
+def faded(scene: RayleighBenard, rows: int, fields: NodeFields) -> NodeFields:
     """Deviations from rest in the ratio of 1 - sqrt(Ra_c/Ra), which K is nearly proportional to."""
     near, old = onset_of(scene)/scene.ra, onset_of(scene)/fields.scene.ra
     factor = np.sqrt(max(1 - near**0.5, 0.005)/max(1 - old**0.5, 0.005))

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from itertools import product
 from typing import Any
 
-from particles.integral.dih import Nested, Pairwise
+from particles.integral.dih import NestedFluxes, Pairwise
 from particles.integral.edge_makers import MAKERS
 from particles.integral.interpolants import Exponential, Gaussian
 from particles.weights import WEIGHTS, Lucy, Monaghan, WendlandC2
@@ -101,7 +101,7 @@ def exchange(quick: bool) -> Iterator[Case]:
     for kind, d, seed in product(KEPT[1:], dimensions, seeds):
         yield OneKernel(disorder=DISORDERS[kind], d=d, seed=seed)
     for eta, zeta, kappa in GASES:
-        yield Euler(transport=Nested(), eta=eta, zeta=zeta, kappa=kappa)
+        yield Euler(transport=NestedFluxes(), eta=eta, zeta=zeta, kappa=kappa)
         yield Euler(transport=Pairwise(), eta=eta, zeta=zeta, kappa=kappa)
 
 

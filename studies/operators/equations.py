@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from continuum.fluid import ConstEta, PowerLaw, VanDerWaals
-from particles.integral.dih import Dih, Flow, Nested, Pairwise, carried, rows, take
+from particles.integral.dih import Dih, Flow, NestedFluxes, Pairwise, carried, rows, take
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.points import lattice
@@ -15,7 +15,7 @@ from studies.kit.case import Case, Outcome, Report
 from studies.operators.weights import weight_of
 
 ETA, ZETA, KAPPA = 0.02, 0.01, 0.03
-PRINTED, ALONG, MENDED = Nested(differences=False), Pairwise(mended=False), Pairwise()
+PRINTED, ALONG, MENDED = NestedFluxes(differences=False), Pairwise(mended=False), Pairwise()
 CHANGING = PowerLaw(ETA, KAPPA, n=1.0)      # eta and kappa proportional to T
 CONSTANT = ConstEta(ETA, KAPPA)
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
-from particles.integral.dih import Dih, Nested, Pairwise
+from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.interpolants import W
@@ -21,7 +21,7 @@ from studies.operators.weights import integral
 COUNTS = {1: (20,), 2: (10, 12), 3: (6, 6, 7)}
 RANGE = {1: 2.7, 2: 2.7, 3: 2.2}
 WIND = np.array([0.3, -0.2, 0.1])
-TRANSPORT = {"nested": Nested(), "printed": Nested(differences=False), "pairwise": Pairwise(mended=False)}
+TRANSPORT = {"nested": NestedFluxes(), "printed": NestedFluxes(differences=False), "pairwise": Pairwise(mended=False)}
 KEPT = ("lost", "uniform")
 
 

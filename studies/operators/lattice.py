@@ -10,7 +10,7 @@ import numpy as np
 from scipy.linalg import circulant
 from scipy.special import gammaincc
 
-from continuum.exact.waves import Gas, quantities
+from continuum.exact.waves import LinearGas, quantities
 from particles.integral.interpolants import Exponential, W, f, moment, reach, sphere, width
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
 from studies.build.symbols import lattice_waves
@@ -18,7 +18,7 @@ from studies.kit.case import Case, Outcome, Report
 from studies.operators.weights import MOMENTS, smoothed, weight_of
 
 TAIL = 26.0         # r0 of the exponential weight beyond which 1e-9 of the first moment lies
-GAS = Gas(0.3, 0.2, 0.4)
+GAS = LinearGas(0.3, 0.2, 0.4)
 LONG = 5000.0       # spacings of a wave that is endless to four digits
 
 

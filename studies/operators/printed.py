@@ -9,7 +9,7 @@ import numpy as np
 from scipy import sparse
 
 from continuum.fluid import ConstEta, IdealGas
-from particles.integral.dih import Dih, Nested, Pairwise
+from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import plain, renormalised
 from particles.integral.edges import Edges
 from particles.integral.interpolants import reach
@@ -145,12 +145,12 @@ class Stream(Case):
         at = self.disorder.make(self.counts, self.disorder.size, self.seed)
         edges = renormalised(at, WendlandC2.of(h=3.0))
         key = {"points": self.disorder.name, "seed": self.seed}
-        kinds = {"printed": Nested(differences=False), "differences": Nested()}
+        kinds = {"printed": NestedFluxes(differences=False), "differences": NestedFluxes()}
         return Outcome({"stream": [{**key, "inner": name, **stream(edges, nested)}
                                    for name, nested in kinds.items()]})
 
 
-def stream(edges: Edges, transport: Nested) -> dict[str, float]:
+def stream(edges: Edges, transport: NestedFluxes) -> dict[str, float]:
     """Columns of the table `stream`, eta = kappa = rho = 1."""
     dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(1.0, 1.0), transport=transport)
     one = np.ones(edges.n)
@@ -165,7 +165,7 @@ def stream(edges: Edges, transport: Nested) -> dict[str, float]:
             "growth": float(np.linalg.eigvals(root[:, None]*K*root).real.max())}
 
 
-def operator(edges: Edges, transport: Nested) -> np.ndarray:
+def operator(edges: Edges, transport: NestedFluxes) -> np.ndarray:
     """The matrix K with V div(grad T) = K T."""
     slopes = edges.G if transport.differences else [S/2 for S in edges.areas]
     per_volume = sparse.diags_array(1/edges.V)

@@ -8,7 +8,7 @@ import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import RayleighBenard
-from particles.integral.dih import Dih, Nested, Pairwise
+from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.points import Points, lattice
@@ -117,7 +117,7 @@ def euler_limit(eigenvalues: np.ndarray) -> float:
 @dataclass(frozen=True, kw_only=True)
 class Euler(Case):
     """Largest stable step of Eq. 40 in the 2D gas, wave by wave on a lattice, transport nested or pairwise."""
-    transport: Nested | Pairwise
+    transport: NestedFluxes | Pairwise
     eta: float
     zeta: float
     kappa: float

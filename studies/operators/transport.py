@@ -17,11 +17,11 @@ import numpy as np
 from scipy.linalg import logm
 
 from continuum.exact.shear import couette, poiseuille
-from continuum.exact.waves import QUANTITIES, Gas, Waves, continuum, quantities
+from continuum.exact.waves import QUANTITIES, LinearGas, Waves, continuum, quantities
 from continuum.fluid import ConstEta, IdealGas
 from particles.fields import Fields
 from particles.integral.bodies import held, together, with_plates
-from particles.integral.dih import Dih, Nested, Pairwise
+from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.driven import Driven
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges, between_plates
@@ -42,7 +42,7 @@ STEPS = 10          # at least, in a radian of sound: RK4 is off by 5 (1/10)^4/1
 TRUNCATION = 5*STEPS**-4/120
 MARGIN = 1.25       # of the step to its limit
 #: of Eqs 37, 38 and of Eq. 51
-TRANSPORT = {"nested": Nested(), "pairwise": Pairwise()}
+TRANSPORT = {"nested": NestedFluxes(), "pairwise": Pairwise()}
 ETA, KAPPA = 0.3, 0.4
 
 LAW = ConstEta(0.5, 0.5)                # of shear flows
@@ -113,7 +113,7 @@ def rates(U: np.ndarray, time: float) -> list[Waves]:
 def measured(dih: Dih, points: Points, k: np.ndarray, phases: tuple[float, ...]) -> Pairs:
     """Quantities and their errors: what the last two times differ by, and RK4's own."""
     size = float(np.hypot(*k))
-    time = 1/float(np.abs(np.linalg.eigvals(continuum(Gas(ETA, dih.zeta, KAPPA), size).matrix)).max())
+    time = 1/float(np.abs(np.linalg.eigvals(continuum(LinearGas(ETA, dih.zeta, KAPPA), size).matrix)).max())
     before, last = (quantities(one, size) for one in rates(propagators(dih, points, k, time, phases), time))
     return {name: (last[name], abs(last[name] - before[name]) + TRUNCATION*abs(last[name]))
             for name in QUANTITIES}
@@ -168,7 +168,7 @@ class Decay(Case):
 
     def rows(self, values: Pairs, k: np.ndarray, weight: Any) -> list[dict[str, Any]]:
         """One a quantity: measured, by the lattice symbol, of the continuum."""
-        size, gas = float(np.hypot(*k)), Gas(ETA, self.zeta, KAPPA)
+        size, gas = float(np.hypot(*k)), LinearGas(ETA, self.zeta, KAPPA)
         exact = quantities(continuum(gas, size), size)
         symbol = dict.fromkeys(QUANTITIES, np.nan)
         if self.even:

@@ -16,8 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image as Picture
 
-from continuum.gas.fields import Fields as Grid
-from continuum.gas.fields import initial
+from continuum.gas.fields import NodeFields, initial
 from continuum.gas.solve import run as march
 from continuum.scene import RayleighBenard
 from continuum.steady import Time
@@ -80,7 +79,7 @@ def seen(fields: Fields, scene: RayleighBenard) -> Dots:
     return Dots(fields.x/scene.L, fields.T, kinetic_energy(fields))
 
 
-def grid(scene: RayleighBenard, rows: int, times: np.ndarray) -> Iterator[tuple[Grid, float]]:
+def grid(scene: RayleighBenard, rows: int, times: np.ndarray) -> Iterator[tuple[NodeFields, float]]:
     """The compressible grid at `times`, equally far apart from 0 on, in free-fall times, and its K."""
     fields, between = initial(scene, rows, START_ENERGY), (times[1] - times[0])*scene.L/scene.free_fall
     yield fields, START_ENERGY
@@ -93,7 +92,7 @@ def grid(scene: RayleighBenard, rows: int, times: np.ndarray) -> Iterator[tuple[
 # --- pictures -------------------------------------------------------------------------------------
 
 
-def pages(dots: Sequence[Dots], grids: Sequence[tuple[Grid, float]], times: np.ndarray,
+def pages(dots: Sequence[Dots], grids: Sequence[tuple[NodeFields, float]], times: np.ndarray,
           titles: tuple[str, str]) -> Iterator[Picture.Image]:
     """One picture a time: points, the grid, and both K until then."""
     page = Figure(figsize=SIZE, dpi=DPI)
@@ -122,7 +121,7 @@ def draw_points(axes: Axes, dots: Dots, title: str) -> None:
     axes.set_facecolor("#30243a")
 
 
-def draw_grid(axes: Axes, fields: Grid, title: str) -> None:
+def draw_grid(axes: Axes, fields: NodeFields, title: str) -> None:
     """Temperature, and arrows along the velocity."""
     at, L, every = fields.at, fields.scene.L, slice(3, None, 6)
     axes.imshow(at.T, origin="lower", extent=(-1, 1, -0.5, 0.5), interpolation="bilinear", **HEAT)
@@ -189,7 +188,7 @@ MAKERS = {
 
 
 @cache
-def beside() -> list[tuple[Grid, float]]:
+def beside() -> list[tuple[NodeFields, float]]:
     """The grid at all times."""
     return list(grid(RayleighBenard(ra=RA), GRID_ROWS, TIMES))
 

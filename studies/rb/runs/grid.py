@@ -196,7 +196,7 @@ class PypdeSteady(Refined):
             report((number + 1)/len(self.sizes))
         return Outcome({"kinetic_energy": rows})
 
-    def _solve(self, rows: int, start: dict) -> pypde.Solution:
+    def _solve(self, rows: int, start: dict) -> pypde.PdeSolution:
         if self.scene is None:
             return pypde.solve_boussinesq(ra=self.ra, pr=self.pr, rows=rows, **start)
         return pypde.solve_gas(self.scene, rows, **start)

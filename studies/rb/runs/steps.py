@@ -9,8 +9,9 @@ import numpy as np
 
 from continuum.gas.fields import block, initial
 from continuum.gas.loop import FluxForm
-from continuum.gas.solve import March, choose_step
+from continuum.gas.solve import March, limits
 from continuum.scene import RayleighBenard
+from continuum.steady import choose_step
 from particles.run import Plan, run
 from studies.build.names import scene_columns
 from studies.build.spam import PRINTED, Variant
@@ -61,7 +62,8 @@ class CompressibleStep(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         S = block(initial(self.scene, self.rows))
-        march, steps = March(self.scene, S, FluxForm(), choose_step(self.scene, S, None)), max(10, 400000//self.rows**2)
+        dt, steps = choose_step(limits(self.scene, S).both, None), max(10, 400000//self.rows**2)
+        march = March(self.scene, S, FluxForm(), dt)
         seconds = median_seconds(lambda: march.go(steps), REPEATS, process_time)
         scene = self.scene
         return Outcome({"cost": [row("compressible", "flux-form", scene, self.rows**2*round(scene.aspect), march.dt, seconds,
