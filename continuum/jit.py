@@ -92,8 +92,8 @@ def made(kind: type) -> str:
 def place(frame: Any) -> str:
     """File and line of a statement of a module; nothing in a function or a notebook."""
     code = frame.f_code
-    in_file = code.co_name == "<module>" and Path(code.co_filename).is_file()
-    return f"{code.co_filename}:{frame.f_lineno}" if in_file else ""
+    return (f"{code.co_filename}:{frame.f_lineno}"
+            if code.co_name == "<module>" and Path(code.co_filename).is_file() else "")
 
 
 def generic(stub: Callable) -> Any:

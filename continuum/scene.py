@@ -138,8 +138,8 @@ class RayleighBenard:
             raise ValueError(f"sides must be Periodic() or Walls(), got {self.sides!r}")
         kind = self.transport if isinstance(self.transport, type) else type(self.transport)
         if kind is not self.transport or not hasattr(kind, "_fields"):
-            known = [kind] if kind in viscosity.kinds else viscosity.kinds
-            laws = " or ".join(law.__name__ for law in known)
+            laws = (kind.__name__ if kind in viscosity.kinds
+                    else " or ".join(law.__name__ for law in viscosity.kinds))
             raise TypeError(f"transport must be a class of transport laws, got {self.transport!r}: give "
                             f"{laws}, without quotes or numbers, which follow from ra and pr")
 

@@ -17,7 +17,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import check_state, conductivity, pressure, pressure_slopes, temperature, viscosity
-from particles.smooth.spam import Direct, Nested, Spam
+from particles.smooth.spam import Spam
+from particles.smooth.sums import Direct, Nested
 from particles.weights import value_and_slope
 
 
@@ -85,8 +86,8 @@ def waves(method: Spam, symbols: Symbols, e: float) -> np.ndarray:
     """Eigenvalues of the linearised method, (k, 5): exp(lambda t)."""
     rho, S, D, k2 = symbols.rho, symbols.S, symbols.D, symbols.k2[method.transport or Nested]
     eos, m, T = method.eos, method.m, temperature(method.eos, symbols.rho, e)
-    P, (P_rho, P_e) = pressure(eos, rho, e), pressure_slopes(eos, rho, e)
-    T_rho, T_e = _thermal_slopes(eos, rho, e)
+    P, (P_rho, P_e), (T_rho, T_e) = (pressure(eos, rho, e), pressure_slopes(eos, rho, e),
+                                     _thermal_slopes(eos, rho, e))
     less = P - static_part(method, P)
     nu, chi = viscosity(method.law, rho, T)/rho, conductivity(method.law, rho, T)/rho
     A = np.zeros((len(S), 5, 5), complex)

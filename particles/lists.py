@@ -105,8 +105,8 @@ class Surroundings:
         if listed is old.listed:
             self.pairs = old._replace(start=start, length=length)
         else:
-            fresh = empty_pairs(self.rows, len(listed))
-            self.pairs = fresh._replace(start=start, length=length, listed=listed)
+            self.pairs = empty_pairs(self.rows, len(listed))._replace(
+                start=start, length=length, listed=listed)
 
     def place(self, state: np.ndarray, m: float) -> None:
         """Positions of all points and, over the pairs in range, density of the rows and of their images."""

@@ -101,8 +101,8 @@ class Grid(NamedTuple):
     def over(cls, box: tuple[float, float], rows: int) -> "Grid":
         """`rows` places over the height, square cells; KHP95's Fig. 12 has 30 x 60."""
         columns = round(rows*box[0]/box[1])
-        x = (np.arange(columns) + 0.5)*box[0]/columns - box[0]/2
-        y = (np.arange(rows) + 0.5)*box[1]/rows - box[1]/2
+        x, y = ((np.arange(columns) + 0.5)*box[0]/columns - box[0]/2,
+                (np.arange(rows) + 0.5)*box[1]/rows - box[1]/2)
         return cls(*np.meshgrid(x, y))
 
     def __call__(self, sums: Any, state: np.ndarray) -> np.ndarray:

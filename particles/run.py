@@ -38,8 +38,8 @@ def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], N
     _check_start(method, start, plan)
     team = Team(plan.threads)
     now = load(plan.checkpoint, method, plan, start) or Run(state=start.copy(), ids=np.arange(start.shape[1]))
-    sums = method.start(start.shape[1], team)
-    integrator = getattr(method, "integrator", RK4)(start.shape, team)
+    sums, integrator = (method.start(start.shape[1], team),
+                        getattr(method, "integrator", RK4)(start.shape, team))
     sums.resume(now)
     began, saved = process_time(), monotonic()
     now.compile_s += _first_evaluation(sums, now)

@@ -8,7 +8,8 @@ from scipy.integrate import solve_ivp
 
 from continuum.fluid import IdealGas, VanDerWaals, pressure
 from particles.limits import lattice_sums
-from particles.smooth.spam import Direct, Nested, Spam
+from particles.smooth.spam import Spam
+from particles.smooth.sums import Direct, Nested
 from particles.threads import Team
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.build.periodic_box import at_rest, fluid

@@ -20,7 +20,8 @@ from particles.integral.interpolants import check_ordering
 from particles.integral.transposed_stress import MENDED
 from particles.limits import lattice_sums, limit_of, zone
 from particles.lists import Listed, Surroundings, fastest
-from particles.smooth.spam import Direct, LessStatic
+from particles.smooth.spam import LessStatic
+from particles.smooth.sums import Direct
 from particles.starts import check_apart, check_volumes, moments
 from particles.threads import Team
 from particles.walls import confine

@@ -11,7 +11,8 @@ from continuum.gas.solve import steady_on
 from continuum.scene import Torus
 from particles.limits import step_limit
 from particles.observe import PlateHeat, field_kinetic, heat_flow, particle_kinetic
-from particles.smooth.spam import Direct, LessStatic, Nested, Spam
+from particles.smooth.spam import LessStatic, Spam
+from particles.smooth.sums import Direct, Nested
 from particles.terms import ArithmeticGradients, Gradients
 from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import Odd, Own

@@ -27,7 +27,7 @@ from particles.integral.rr98_moving_plain import scale_of
 from particles.integral.thermal import Thermal
 from particles.integral.triangulation import delaunay
 from particles.limits import limit_of
-from particles.smooth.spam import Direct
+from particles.smooth.sums import Direct
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2

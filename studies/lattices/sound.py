@@ -26,7 +26,8 @@ from continuum.fluid import ConstEta, IdealGas
 from particles.limits import Symbols, step_limit
 from particles.limits import waves as rates_of
 from particles.run import STUDIES, Divergence, Plan, run
-from particles.smooth.spam import Direct, Nested, Spam
+from particles.smooth.spam import Spam
+from particles.smooth.sums import Direct, Nested
 from particles.weights import value_and_slope
 from studies.build.periodic_box import fluid
 from studies.kit.case import Case, Outcome, Report
