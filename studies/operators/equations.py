@@ -42,7 +42,7 @@ class Spectral(NamedTuple):
 
     def div(self, F: np.ndarray) -> np.ndarray:
         """sum_a d_a F[:, a]."""
-        return sum(self.derivative(F[:, a], a) for a in range(len(self.shape)))
+        return np.sum([self.derivative(F[:, a], a) for a in range(len(self.shape))], axis=0)
 
 
 def smooth_flow(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

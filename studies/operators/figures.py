@@ -1,5 +1,6 @@
 """Figures of the study operators, from its tables."""
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -39,7 +40,7 @@ def second_order(axes: Axes, x: float, y: float, end: float, label: str) -> None
     axes.plot([x, end], [y, y*(x/end)**2], color="grey", linestyle=":", marker="", label=label)
 
 
-def legend(page: Figure, axes: Axes, columns: int, **more: object) -> None:
+def legend(page: Figure, axes: Axes, columns: int, **more: Any) -> None:
     """Of one panel, for all."""
     page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=columns, **more)
 

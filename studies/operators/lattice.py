@@ -217,9 +217,10 @@ class EdgeViscosities(Case):
         d, h, (name, *laws) = self.d, self.h, self.forces
         weight, at = WendlandC2.of(h=h, d=d), around(h, d)
         half = W(weight, at.r)*at.r**2/2
-        eta, zeta = wave_viscosities(d, *(half*X(at.r/h) for X in laws), at)
-        moments = (self.second_moment(weight, X) for X in laws)
-        eta_predicted, zeta_predicted = viscosities(d, *moments)
+        A, B = (half*X(at.r/h) for X in laws)
+        eta, zeta = wave_viscosities(d, A, B, at)
+        M_A, M_B = (self.second_moment(weight, X) for X in laws)
+        eta_predicted, zeta_predicted = viscosities(d, M_A, M_B)
         return Outcome({"friction": [{"d": d, "form": name, "h": h, "eta": eta, "zeta": zeta,
                                       "eta_predicted": eta_predicted, "zeta_predicted": zeta_predicted}]})
 
