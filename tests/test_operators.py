@@ -3,12 +3,11 @@ import re
 from math import ceil
 
 import numpy as np
-import pandas as pd
 import pytest
 
 from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import RayleighBenard
-from particles.integral.dih import Dih, Flow, Nested, Pairwise, carried, take
+from particles.integral.dih import Dih, Nested, Pairwise
 from particles.integral.edge_makers import MAKERS, delaunay, plain, printed, renormalised
 from particles.integral.interpolants import Exponential, Gaussian, W
 from particles.integral.points import jittered, lattice
@@ -17,10 +16,8 @@ from particles.run import Plan, run
 from particles.threads import Team
 from particles.weights import Lucy, WendlandC2
 from studies.build.fixed import SCHEMES, fluid
-from studies.kit.table import Tables
-from studies.operators.cases import SHARES
 from studies.operators.claims import CLAIMS
-from studies.operators.claims.scheme import STILL, smallest_share
+from studies.operators.claims.scheme import STILL
 from studies.operators.derive import extrapolated
 from studies.operators.equations import PRINTED, Spectral, arriving, rates
 from studies.operators.integrals import interpolated, smoothed
@@ -169,19 +166,6 @@ def test_uniform_streams_stay_on_edges_that_close_alone():
     assert next(one_kernel.rows(plain(at, weight)))["lost"] > 1e-4
 
 
-@pytest.mark.parametrize("make", [plain, renormalised])
-def test_a_uniform_stream_does_no_work_of_pressure_on_any_points(make):
-    """[Eq. 36]: P_ij v_i, not P_i v_i; edges that do not close push the fluid, and the work is that of the push."""
-    edges = make(jittered((10, 12), 0.3, 2), WendlandC2.of(h=2.7))
-    rho, T = np.random.default_rng(2).uniform(0.5, 1.5, (2, edges.n))
-    U = np.array([0.6, 0.8])
-    flow = Flow(rho, np.ones((edges.n, 1))*U, T, np.zeros(edges.n), rho*T)      # no energy to carry
-    stream, rest = (carried(IdealGas(), edges.S, take(one, edges.i), take(one, edges.j))
-                    for one in (flow, flow._replace(v=0*flow.v)))
-    push = arriving(edges, rest.momentum)@U
-    assert np.abs(arriving(edges, stream.energy) - push).max() < 1e-14 < 0.01 < np.abs(push).max()
-
-
 @pytest.mark.parametrize(("transport", "right"), [(Nested(), True), (PRINTED, False)])
 def test_differences_in_the_inner_sum_mend_nested_transport_on_any_points(transport, right):
     """[Eqs 37, 38]: no friction in a uniform stream, no heat at uniform temperature."""
@@ -248,11 +232,6 @@ def test_the_derivative_is_one():
     change = np.random.default_rng(1).normal(size=state.shape)*1e-4
     product = (jacobian(sums, state)@change.ravel()).reshape(state.shape)
     assert np.abs(linear(sums, state, change) - product).max() < 1e-6*np.abs(product).max()     # third order of 1e-4
-
-
-def test_the_smallest_share_is_the_one_from_which_on_nothing_grows():
-    rows = [{"h": 2.0, "share": share, "growth": 1e-3 if share < 0.1 else 1e-15} for share in SHARES]
-    assert smallest_share(Tables({"nested_growth": pd.DataFrame(rows)})) == pytest.approx((0.1, 0.03))
 
 
 # --- claims -----------------------------------------------------------------------------------------------------

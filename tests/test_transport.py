@@ -11,9 +11,9 @@ from continuum.exact.waves import QUANTITIES, Gas, continuum, quantities
 from continuum.fluid import ConstEta, ConstNu, IdealGas
 from particles.integral.dih import Dih, Nested, Pairwise
 from particles.integral.edge_makers import delaunay, renormalised
-from particles.integral.points import jittered, lattice
+from particles.integral.points import jittered
 from particles.threads import Team
-from particles.weights import Lucy, Monaghan, WendlandC2
+from particles.weights import Lucy
 from studies.build.disorder import DISORDERS
 from studies.build.symbols import lattice_waves
 from studies.operators.cases import DRIVES
@@ -28,7 +28,7 @@ from studies.operators.transport import (
 )
 
 GAS = Gas(0.3, 0.2, 0.4)
-COUETTE, POISEUILLE = DRIVES
+COUETTE, _ = DRIVES
 #: what the continuum is told by
 TOLD = ("viscosity", "bulk viscosity", "conductivity", "sound speed")
 
@@ -37,17 +37,6 @@ def decay(transport, make=renormalised, disorder="lattice", counts=(12, 8)):
     """Rows by quantity."""
     case = Decay(transport=transport, make=make, disorder=DISORDERS[disorder], counts=counts, h=2.0, zeta=0.2)
     return {row["quantity"]: row for row in case.run(lambda done: None, None).rows["waves"]}
-
-
-@pytest.mark.parametrize("turns", [(1, 0), (1, 1)])
-@pytest.mark.parametrize("weight", [Lucy.of(h=3.0), Monaghan.of(h=2.5), WendlandC2.of(h=2.0)])
-def test_symbol_is_what_edges_make_of_a_wave(weight, turns):
-    at, k = lattice((16, 16)), 2*np.pi*np.array(turns)/16
-    edges, wave = renormalised(at, weight), np.exp(1j*at.x@k)
-    symbol = lattice_waves(GAS, weight, k, nested=False).matrix
-    slope = sum(n*(G@wave)/wave for n, G in zip(k/np.hypot(*k), edges.G, strict=True))
-    np.testing.assert_allclose(slope, -symbol[0, 1], atol=1e-13)
-    np.testing.assert_allclose(edges.laplacian@wave/wave, symbol[2, 2]/GAS.kappa, atol=1e-12)
 
 
 def test_continuum_of_long_waves_has_the_coefficients_put_in():
@@ -114,13 +103,6 @@ def test_linear_shear_is_steady_where_edges_are_exact_on_it_up_to_the_plates(mak
     assert (np.abs(change[:3]).max() < 1e-15*len(method.x)) == steady
     if make is on_lattice:      # heated by the work of the plates
         assert change[3].mean() == pytest.approx(method.law.eta*(SPEED/8)**2, rel=1e-9)
-
-
-def test_a_force_pulls_all_points_alike():
-    method = on_lattice(POISEUILLE, 8, 1)
-    change = rates(method, 0*method.x[:, 0])
-    np.testing.assert_allclose(change[1], 8*0.5*SPEED/64, rtol=1e-12)
-    assert np.abs(change[[0, 2, 3]]).max() < 1e-15
 
 
 def test_plates_that_slide_refuse_other_laws():
