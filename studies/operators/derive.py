@@ -1,5 +1,5 @@
 """Orders of errors, limits of fine spacings and long waves, means over seeds."""
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -7,8 +7,15 @@ import pandas as pd
 
 from studies.kit.fits import power_law
 from studies.kit.stats import Measured, seed_means
-from studies.kit.table import Tables
-from studies.operators.tables import FLOW, GROWN, SERIES, TERM, WAVE
+from studies.kit.table import Table, Tables
+from studies.operators.tables import (
+    COEFFICIENTS,
+    GROWTH_MEANS,
+    ORDERS,
+    SHEAR_MEANS,
+    SHEAR_ORDERS,
+    TRANSPORT_ORDERS,
+)
 
 LEAST = 3           # sizes of an order
 SHORTEST = 16       # spacings of the waves that make an order: (h/lambda)^4 takes 2 % of the error there
@@ -29,20 +36,21 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
         rows["coefficients"] = list(coefficients(tables["waves"]))
         rows["transport_orders"] = list(transport_orders(pd.DataFrame(rows["coefficients"])))
     if "shear" in tables:
-        rows["shear_means"] = list(seed_means(tables["shear"], [*FLOW, "time"], NORMS))
+        rows["shear_means"] = list(seed_means(tables["shear"], SHEAR_MEANS.key, NORMS))
         rows["shear_orders"] = list(shear_orders(tables["shear"]))
     return rows
 
 
-def groups(rows: pd.DataFrame, key: Sequence[str], by: str) -> Iterator[tuple[dict[str, Any], pd.DataFrame]]:
-    """What the rows of a group have in common, and these rows, sorted."""
-    for values, group in rows.sort_values(by, kind="stable").groupby(list(key)):
+def groups(rows: pd.DataFrame, table: Table, by: str) -> Iterator[tuple[dict[str, Any], pd.DataFrame]]:
+    """The key of each row of a table, and the rows that it comes from, sorted."""
+    key = list(table.key)
+    for values, group in rows.sort_values(by, kind="stable").groupby(key):
         yield dict(zip(key, values, strict=True)), group
 
 
 def orders(rows: pd.DataFrame) -> Rows:
     """One row a term: the slope of its error, and its projection in the limit of no spacing."""
-    for key, group in groups(rows, TERM, "cells"):
+    for key, group in groups(rows, ORDERS, "cells"):
         if len(group) >= LEAST:
             a = 1/group["cells"].to_numpy()
             order = power_law(a, group["error"]).slope
@@ -53,7 +61,8 @@ def orders(rows: pd.DataFrame) -> Rows:
 
 def extrapolated(a: np.ndarray, values: np.ndarray) -> Measured:
     """Limit of values = limit + C a^2 from the two finest; error: the distance to that of the two before."""
-    coarse, fine = (at_zero(a[pair]**2)@values[pair] for pair in (slice(-3, -1), slice(-2, None)))
+    coarse = at_zero(a[-3:-1]**2)@values[-3:-1]
+    fine = at_zero(a[-2:]**2)@values[-2:]
     return Measured(float(fine), float(abs(fine - coarse)))
 
 
@@ -64,24 +73,27 @@ def at_zero(x: np.ndarray) -> np.ndarray:
 
 def growth_means(rows: pd.DataFrame) -> Rows:
     """Over sets of points, and the largest of them."""
-    largest = rows.groupby(GROWN)["rate"].max()
-    for mean in seed_means(rows, GROWN, ("rate", "closure")):
-        yield mean | {"largest": largest[tuple(mean[name] for name in GROWN)]}
+    key = list(GROWTH_MEANS.key)
+    largest = rows.groupby(key)["rate"].max()
+    for mean in seed_means(rows, key, ("rate", "closure")):
+        yield mean | {"largest": largest[tuple(mean[name] for name in key)]}
 
 
 def coefficients(rows: pd.DataFrame) -> Rows:
     """One row a wave; errors from within the runs or from the scatter between point sets: the larger."""
-    for mean in seed_means(rows, [*WAVE, "continuum"], ["measured"]):
+    for mean in seed_means(rows, [*COEFFICIENTS.key, "continuum"], ["measured"]):
         measured, exact = mean["measured"], mean["continuum"]
         yield mean | {"error": (measured - exact)/exact, "error_err": mean["measured_err"]/exact}
 
 
 def transport_orders(rows: pd.DataFrame) -> Rows:
     """Over the wavelengths where the error is told from zero."""
-    for key, group in groups(rows[rows["wavelength"] >= SHORTEST], SERIES, "wavelength"):
+    rows = rows[rows["wavelength"] >= SHORTEST]
+    for key, group in groups(rows, TRANSPORT_ORDERS, "wavelength"):
         sure = group[group["error"].abs() > group["error_err"]]
         order = power_law(1/sure["wavelength"], sure["error"]).slope if len(sure) >= LEAST else NOTHING
-        limit = endless(*group[["wavelength", "error", "error_err"]].to_numpy(float).T)
+        length, error, err = group[["wavelength", "error", "error_err"]].to_numpy(float).T
+        limit = endless(length, error, err)
         yield key | {"order": order.value, "order_err": order.err, "long": limit.value, "long_err": limit.err}
 
 
@@ -92,15 +104,17 @@ def endless(length: np.ndarray, error: np.ndarray, err: np.ndarray) -> Measured:
     """
     if len(length) < LEAST:
         return NOTHING
-    three, two = (at_zero(length[-n:]**-2) for n in (3, 2))
+    three, two = at_zero(length[-3:]**-2), at_zero(length[-2:]**-2)
     value = three@error[-3:]
     change = abs(value - two@error[-2:])
-    return Measured(float(value), float(change + np.sqrt(np.sum((three*err[-3:])**2))))
+    known = np.sqrt(np.sum((three*err[-3:])**2))
+    return Measured(float(value), float(change + known))
 
 
 def shear_orders(rows: pd.DataFrame) -> Rows:
     """Over the numbers of rows, all runs in one fit: three runs of a size show their scatter badly."""
-    for key, group in groups(rows, ["flow", "points", "time"], "rows"):
-        for norm in NORMS if group["rows"].nunique() >= LEAST else ():
-            order = power_law(1/group["rows"], group[norm]).slope
-            yield key | {"norm": norm, "order": order.value, "order_err": order.err}
+    errors = rows.melt(["flow", "points", "time", "rows"], NORMS, "norm", "error")
+    for key, group in groups(errors, SHEAR_ORDERS, "rows"):
+        if group["rows"].nunique() >= LEAST:
+            order = power_law(1/group["rows"], group["error"]).slope
+            yield key | {"order": order.value, "order_err": order.err}

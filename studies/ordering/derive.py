@@ -13,7 +13,7 @@ from studies.kit.stats import CannotTell, seed_means
 from studies.kit.sweep import RESULTS
 from studies.kit.table import Tables
 from studies.ordering.runs import FORMS, RA
-from studies.ordering.tables import BRACKET_POINT, POINT, SERIES
+from studies.ordering.tables import BRACKET_MEANS, BRACKETS, CHEAPEST, FLOWS, MEANS
 
 OPERATORS = ("gradient", "laplacian")
 WIDE = 2.0          # spacings: ranges from which on errors are a power of the range
@@ -23,7 +23,7 @@ WANTED = 0.01       # the error at which costs are compared
 #: the grid of the study rb, extrapolated
 GRID = {"method": "compressible", "variant": "flux-form", "eos": "ideal", "transport": "const-eta",
         "sides": "periodic", "ra": RA, "pr": 1.0, "resolution": inf}
-FLOW_POINT = [*SERIES, "resolution"]
+FLOW_POINT = list(FLOWS.key)
 
 Rows = list[dict[str, Any]]
 
@@ -49,8 +49,8 @@ def slopes(rows: pd.DataFrame, key: Sequence[str], x: str, least: int) -> Iterat
 
 def of_operators(rows: pd.DataFrame) -> dict[str, Rows]:
     """Of gradients and Laplacians of waves: slopes over wavelengths, and over ranges from 2 spacings on."""
-    means = list(seed_means(rows[rows["gradient"].notna()], POINT, OPERATORS))
-    errors = pd.DataFrame(means).melt(POINT, OPERATORS, "operator", "error")
+    means = list(seed_means(rows[rows["gradient"].notna()], MEANS.key, OPERATORS))
+    errors = pd.DataFrame(means).melt(MEANS.key, OPERATORS, "operator", "error")
     errors = errors.assign(ratio=errors["h"]/errors["wavelength"])
     finer = wave_slopes(errors, "h/a", "h")
     wider = wave_slopes(errors[errors["h"] >= WIDE], "a", "wavelength")
@@ -68,8 +68,8 @@ def wave_slopes(errors: pd.DataFrame, fixed: str, at: str) -> Iterator[dict[str,
 
 def of_brackets(rows: pd.DataFrame) -> dict[str, Rows]:
     """Of gradients in three forms; slopes at h = 3 a."""
-    errors = rows.melt([*BRACKET_POINT, "seed"], FORMS, "form", "error")
-    means = list(seed_means(errors, [*BRACKET_POINT, "form"], ["error"]))
+    errors = rows.melt(BRACKETS.key, FORMS, "form", "error")
+    means = list(seed_means(errors, BRACKET_MEANS.key, ["error"]))
     frame = pd.DataFrame(means)
     frame = frame[frame["h"] == 3.0].assign(ratio=1/frame["wavelength"])
     orders = slopes(frame, ["points", "form"], "ratio", RESOLUTIONS)
@@ -147,8 +147,9 @@ def flow_slopes(runs: pd.DataFrame, means: pd.DataFrame) -> Iterator[dict[str, A
 def cheapest(means: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """Where the error comes below 1 % and stays there."""
     means = means.assign(error=means["error"].abs()).sort_values("resolution")
-    for key, group in means.groupby(SERIES):
-        yield {**dict(zip(SERIES, key, strict=True)), **needed(group), "finest": group["error"].iloc[-1]}
+    for values, group in means.groupby(list(CHEAPEST.key)):
+        key = dict(zip(CHEAPEST.key, values, strict=True))
+        yield key | needed(group) | {"finest": group["error"].iloc[-1]}
 
 
 def needed(group: pd.DataFrame) -> dict[str, float]:
