@@ -19,11 +19,21 @@ from studies.build.fixed import SCHEMES, fluid
 from studies.operators.claims import CLAIMS
 from studies.operators.claims.scheme import STILL
 from studies.operators.derive import extrapolated
-from studies.operators.equations import PRINTED, Spectral, arriving, rates
+from studies.operators.equations import (
+    PRINTED,
+    Spectral,
+    added_bulk,
+    arriving,
+    brackets,
+    gathered,
+    inner,
+    kernel,
+    mass_rate,
+    rates,
+)
 from studies.operators.integrals import interpolated, smoothed
 from studies.operators.kept import WAVE, LayerGrowth, OneKernel, euler_limit, jacobian, linear, sound
 from studies.operators.lattice import around, gradient_symbol, line_weight, shells, spread_symbol, viscosities
-from studies.operators.literal import added_bulk, brackets, gathered, inner, kernel, mass_rate
 
 #: of RR98; 7-9 are the continuum's, 20, 22-25 and 42-44 of noise, 39, 41 and 46-50 of motion, 45 of ordering
 EQUATIONS = {*range(1, 7), *range(10, 20), 21, *range(26, 39), 40, 51}

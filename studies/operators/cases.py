@@ -8,6 +8,7 @@ minutes of one core.
 """
 from collections.abc import Iterator
 from itertools import product
+from typing import Any
 
 from continuum.exact.shear import couette, poiseuille
 from continuum.exact.waves import Gas
@@ -17,8 +18,8 @@ from particles.integral.interpolants import Exponential, Gaussian
 from particles.weights import WEIGHTS, Lucy, WendlandC2
 from studies.build.disorder import DISORDERS
 from studies.kit.case import Case
-from studies.operators.equations import EquationErrors
-from studies.operators.integrals import Continuum
+from studies.operators.equations import EquationErrors, of_dilation, of_rotation, of_volumes
+from studies.operators.integrals import Arithmetic, Continuum, of_weights
 from studies.operators.kept import EulerLimit, Invariance, LayerGrowth, OneKernel, OnPoints, SoundGrowth
 from studies.operators.lattice import (
     Counted,
@@ -28,8 +29,8 @@ from studies.operators.lattice import (
     LatticeSums,
     Power,
     WeightSymbols,
+    of_edges,
 )
-from studies.operators.literal import Arithmetic, of_dilation, of_rotation, of_volumes, of_weights
 from studies.operators.transport import (
     Between,
     Decay,
@@ -43,7 +44,9 @@ from studies.operators.transport import (
 KINDS = (*WEIGHTS.values(), Exponential, Gaussian)
 SEEDS = (1, 2, 3)
 #: range of the weight, cells across the wave, by dimension
-CELLS = {1: (3.0, (32, 64, 128, 256)), 2: (3.0, (32, 48, 64, 96)), 3: (2.0, (16, 20, 24, 32))}
+CELLS = {1: (3.0, (32, 64, 128, 256)),
+         2: (3.0, (32, 48, 64, 96)),
+         3: (2.0, (16, 20, 24, 32))}
 #: A(r) and B(r)
 FORCES = (Forces("A 1/r", Power(1.0, -1), Power(0.0, 0)),
           Forces("B 1/r", Power(0.0, 0), Power(1.0, -1)),
@@ -72,12 +75,13 @@ MANY = tuple(range(1, 13))      # sets of points between rows of points: their e
 def cases(size: str) -> list[Case]:
     """`quick` has fewer sizes, seeds and kinds of points."""
     quick = size == "quick"
-    return [*weights(quick), *equations(quick), *points(quick), *waves(quick), *shear(quick), *layers(quick)]
+    parts = (weights, equations, points, waves, shear, layers)
+    return [case for part in parts for case in part(quick)]
 
 
 def weights(quick: bool) -> Iterator[Case]:
     """Every weight as an integral and on the lattice; the exponential one at many widths."""
-    for numbers in (of_weights, of_volumes, of_dilation, of_rotation):
+    for numbers in (of_weights, of_edges, of_volumes, of_dilation, of_rotation):
         yield Arithmetic(numbers=numbers)
     kinds, count = ((Lucy, Exponential), 6) if quick else (KINDS, 24)
     for kind in kinds:
@@ -132,8 +136,9 @@ def one_maker(case: type[OnPoints], box: tuple[tuple[int, ...], float], maker: s
 
 def waves(quick: bool) -> Iterator[Case]:
     """On a lattice, a strip as narrow as the range allows, and on three sets of points jittered by 0.3 a."""
+    wavelengths = (16, 24, 32) if quick else (8, 16, 24, 32, 48, 64)
     for way in (Nested(), Pairwise()):
-        for h, n in product((2.0, 3.0), (16, 24, 32) if quick else (8, 16, 24, 32, 48, 64)):
+        for h, n in product((2.0, 3.0), wavelengths):
             yield Decay(transport=way, make=renormalised, h=h, disorder=DISORDERS["lattice"],
                         counts=(n, round(2*h) + 1), zeta=ZETA)
         irregular = product((delaunay, exact), (16, 24, LONG), SEEDS)
@@ -144,9 +149,10 @@ def waves(quick: bool) -> Iterator[Case]:
 
 def shear(quick: bool) -> Iterator[Case]:
     """Flows between plates; a lattice has no seeds."""
-    plans = (((LATTICE, (8, 12, 16), (1,)), (IMAGES, (8,), SEEDS), (ROWS, (8,), SEEDS)) if quick else
-             ((LATTICE, (8, 16, 32, 64), (1,)), (IMAGES, (8, 16, 32, 48), SEEDS),
-              (ROWS, (8, 16, 32, 48, 64), MANY)))
+    plans: Any = ((LATTICE, (8, 16, 32, 64), (1,)), (IMAGES, (8, 16, 32, 48), SEEDS),
+                  (ROWS, (8, 16, 32, 48, 64), MANY))
+    if quick:
+        plans = ((LATTICE, (8, 12, 16), (1,)), (IMAGES, (8,), SEEDS), (ROWS, (8,), SEEDS))
     for drive, (between, rows, seeds) in product(DRIVES, plans):
         for n, seed in product(rows, seeds):
             yield ShearFlow(drive=drive, between=between, rows=n, seed=seed)

@@ -1,16 +1,18 @@
-"""Terms of the equations on lattices against exact derivatives    [RR98 Eqs 10-19, 34-38, 51]"""
+"""Terms on lattices against exact derivatives, and sums read literally    [RR98 Eqs 10-19, 21, 26-38, 51]"""
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy import sparse
 
-from continuum.fluid import ConstEta, PowerLaw, VanDerWaals, stress_tensor
+from continuum.fluid import ConstEta, IdealGas, PowerLaw, VanDerWaals, stress_tensor
 from particles.integral.dih import Dih, Flow, Nested, Pairwise
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.points import lattice
+from particles.weights import Lucy, WendlandC2
 from studies.kit.case import Case, Outcome, Report
 from studies.operators.integrals import weight_of
 
@@ -19,6 +21,11 @@ PRINTED, ALONG = Nested(differences=False), Pairwise(mended=False)
 CHANGING = PowerLaw(ETA, KAPPA, n=1.0)      # eta and kappa proportional to T
 CONSTANT = ConstEta(ETA, KAPPA)
 
+ROWS, SPACING = 64, 0.5     # of the lattice on which dV is 1/4
+STEP = 1e-4         # of a central difference of Eq. 34, which is quadratic: it is exact
+OMEGA = 0.05        # of a rigid rotation
+
+Sums = list[sparse.csr_array]
 #: (operator, discrete, exact)
 Terms = Iterator[tuple[str, np.ndarray, np.ndarray]]
 
@@ -75,7 +82,6 @@ def terms(dih: Dih, flow: Flow, exact: Spectral) -> Terms:
     eta, _, kappa = dih.coefficients(flow)
     stress = stress_tensor(eta, ZETA, exact.grad(v))
     current = kappa[:, None]*exact.grad(T)
-    yield "gradient", dih.edges.grad(T), exact.grad(T)
     yield "viscous nested", arriving(dih.edges, PRINTED.fluxes(dih, flow).momentum), exact.div(stress)
     still = rates(dih, dih.state(rho, 0*v, T))
     yield "pressure", still[1:-1].T, -exact.grad(P)
@@ -131,3 +137,97 @@ class EquationErrors(Case):
             ratio = np.sum(discrete*true)/size
             rows.append(key | {"operator": name, "error": float(error), "ratio": float(ratio)})
         return Outcome({"equations": rows})
+
+
+# --- sums written out ---------------------------------------------------------------------------------------
+
+
+def brackets(edges: Edges) -> Sums:
+    """The matrices W(r_ij) e^alpha_ij of Eqs 29, 33-38, one a direction; e_ij leads from j to i."""
+    return [sparse.csr_array(sparse.diags_array(-0.5/edges.V)@S) for S in edges.areas]
+
+
+def inner(w: Sums, v: np.ndarray) -> np.ndarray:
+    """sum_k W e^alpha_jk v^beta_k, (n, d, d): -grad v."""
+    return np.stack([M@v for M in w], axis=1)
+
+
+def kernel(g: np.ndarray, eta: float, zeta: float, trace: float) -> np.ndarray:
+    """pi_ij of Eq. 37 without i, constant viscosities, the trace factor as given; g as from `inner`."""
+    div = np.trace(g, axis1=1, axis2=2)[:, None, None]*np.eye(g.shape[1])
+    return -eta*(g + g.transpose(0, 2, 1) - trace*div) - zeta*div
+
+
+def gathered(w: Sums, F: np.ndarray) -> np.ndarray:
+    """sum_j W e^b_ij (F^b_i + F^b_j), of F (n, d) or symmetric (n, d, d)    [RR98 Eqs 35, 36]"""
+    return sum(M@q + (q.T*M.sum(axis=1)).T for M, q in zip(w, F.swapaxes(0, 1), strict=True))
+
+
+def mass_rate(w: Sums, m: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """dm_i/dt    [RR98 Eq. 34]; of a component of p_i what convection brings to it    [Eq. 35]"""
+    return sum(m*(M@u) + u*(M@m) for M, u in zip(w, v.T, strict=True))
+
+
+def ratio(literal: np.ndarray, true: np.ndarray) -> float:
+    """Projection of one field on another."""
+    return float(np.sum(literal*true)/np.sum(true**2))
+
+
+def of_volumes() -> dict[str, float]:
+    """Eqs 26, 27, 33-37 read literally, over what they stand for: a wave along x where dV is 1/4, 2D."""
+    at = lattice((ROWS, 8), SPACING)
+    edges = renormalised(at, Lucy.of(h=3*SPACING))
+    w, dV, k = brackets(edges), edges.V[0], 2*np.pi/(ROWS*SPACING)
+    s, c = np.sin(k*at.x[:, 0]), np.cos(k*at.x[:, 0])
+    v, mass, thinning = np.stack([s, c], axis=1), dV*np.ones(edges.n), -k*c*dV
+    moved = np.stack([mass_rate(w, p, v*dV) for p in (dV*v*dV).T])
+    momentum = -k*np.stack([2*s*c, c**2 - s**2])*dV             # -div(v v) dV, rho = 1
+    P = np.stack([(1 + 0.1*s)*dV, 0*s], axis=1)                 # at rest, uniform T: P_ij + P_ji = P_i + P_j
+    stress = kernel(inner(w, v), 1.0, 0.0, 1.0)                 # eta = 1, zeta = 0 in 2D: div Pi = lap v
+    return {"divergence, Eq. 33 in Eq. 1": ratio(-(w[0]@s), k*c),
+            "mass, v_i = v": ratio(mass_rate(w, mass, v), thinning),
+            "mass, v_i = v dV": ratio(mass_rate(w, mass, v*dV), thinning),
+            "momentum, p_i = m_i v_i, v_i = v dV": ratio(moved, momentum),
+            "pressure, P_ij = P dV": ratio(gathered(w, P), 0.1*thinning),
+            "stress, v_i = v": ratio(-gathered(w, stress), -k**2*v*dV),
+            "linearised mass, Eq. 21": ratio(*linearised(w, s, c))}
+
+
+def linearised(w: Sums, s: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Right-hand side of Eq. 21 as printed, and the derivative of Eq. 34."""
+    rho, d_rho = 1 + 0.2*s, 0.1*c
+    v, dv = np.stack([0.3 + 0.1*c, 0*c], axis=1), 0.1*np.stack([s, c], axis=1)
+    printed = -sum((M@rho)*du + (M@d_rho)*u + rho*(M@du) + d_rho*(M@u) for M, u, du in zip(w, v.T, dv.T))
+    above = mass_rate(w, rho + STEP*d_rho, v + STEP*dv)
+    below = mass_rate(w, rho - STEP*d_rho, v - STEP*dv)
+    return printed, (above - below)/(2*STEP)
+
+
+def of_dilation() -> dict[str, float]:
+    """What the printed trace factor 2/3 adds to zeta over eta    [RR98 Eq. 37]"""
+    return {f"dilation in {d}D": added_bulk(d, 2/3) for d in (2, 3)}
+
+
+def added_bulk(d: int, trace: float) -> float:
+    """Mean normal stress of v = x in the middle of a patch, less zeta, over eta = 1."""
+    at, zeta = lattice((12,)*d), 0.3
+    edges = renormalised(at, WendlandC2.of(h=2.5, d=d))
+    middle = (np.abs(at.x) < 2).all(axis=1)
+    stress = kernel(inner(brackets(edges), at.x), 1.0, zeta, trace)[middle]
+    normal = np.trace(stress, axis1=1, axis2=2).mean()/d**2         # div v = d
+    return float(normal - zeta)
+
+
+def of_rotation() -> dict[str, float]:
+    """Heating of a rigid rotation by forces along edges as printed, over eta omega^2    [RR98 Eq. 51]
+
+    Lengths of edges stay, so only the force along v_ij heats: with 2 B omega^2, B = eta (1/2 + 1/d).
+    """
+    at = lattice((24, 24))
+    edges, one = renormalised(at, WendlandC2.of(h=2.2)), np.ones(at.n)
+    v = OMEGA*np.stack([-at.x[:, 1], at.x[:, 0]], axis=1)
+    dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(1.0, 1.0), transport=ALONG)
+    fluxes = ALONG.fluxes(dih, dih.flow(dih.state(one, v, one)))
+    heating = arriving(edges, fluxes.energy) - (v*arriving(edges, fluxes.momentum)).sum(axis=1)
+    middle = np.hypot(*at.x.T) < 2.5        # two ranges from where the rotation ends
+    return {"heating of a rotation": float(heating[middle].mean()/OMEGA**2)}

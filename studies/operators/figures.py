@@ -8,16 +8,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from studies.kit.drawing import Drawing, Drawings
-from studies.kit.figure import below, errorbar, figure, look
+from studies.kit.figure import errorbar, figure, look
 
 KINDS = ("lattice", "jittered-0.1", "jittered-0.3", "random", "relaxed")
 MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
 FLOOR = 1e-16       # growth rates of round-off are drawn there
-#: operator -> label
-TERMS = {name: name for name in ("gradient", "pressure", "viscous nested", "heat nested", "mass", "momentum",
-                                 "energy")}
-FRICTIONS = {"friction, zeta 0": r"$\zeta = 0$", "friction, zeta 0.01": r"$\zeta = \eta/2$",
-             "friction, eta(T)": r"$\eta(T)$"}
 SHARES = {"gradient": "gradient / $k$", "nested": "nested Laplacian / $k^2$",
           "pairwise": "pairwise Laplacian / $k^2$"}
 #: points between plates -> title
@@ -33,11 +28,6 @@ def logarithmic(axes: Axes, ticks: Iterable[float]) -> None:
     axes.set(xscale="log", yscale="log")
     axes.set_xticks(list(ticks), labels=[f"{tick:g}" for tick in ticks])
     axes.minorticks_off()
-
-
-def second_order(axes: Axes, x: float, y: float, end: float, label: str) -> None:
-    """A line of slope -2 from (x, y) on."""
-    axes.plot([x, end], [y, y*(x/end)**2], color="grey", linestyle=":", marker="", label=label)
 
 
 def legend(page: Figure, axes: Axes, columns: int, **more: Any) -> None:
@@ -61,27 +51,6 @@ def symbols(rows: pd.DataFrame) -> Figure:
                  "without a lattice")
     page.suptitle("What weights leave of a wave along an axis; nested transport is blind to the shortest",
                   fontsize=10)
-    return page
-
-
-def convergence(rows: pd.DataFrame) -> Figure | None:
-    """Errors of the terms over the spacing, and of forces along edges."""
-    rows = rows[rows["d"] == 2].sort_values("cells")
-    if rows.empty:
-        return None
-    page, panels = figure(1, 2, width=4.4, height=4.4)
-    cells = sorted(set(rows["cells"]))
-    titles = ("terms as printed (trace $2/d$), $h = 3a$", "friction along edges [Eq. 51], $h = 3a$")
-    for axes, names, title in zip(panels, (TERMS, FRICTIONS), titles, strict=True):
-        for number, (name, label) in enumerate(names.items()):
-            group = rows[rows["operator"] == name]
-            axes.plot(group["cells"], group["error"], **look(number), label=label)
-        least = rows["error"].min()/2
-        second_order(axes, cells[0], least*(cells[-1]/cells[0])**2, cells[-1], r"$(a/\lambda)^2$")
-        logarithmic(axes, cells)
-        axes.set(title=title, xlabel=r"spacings in a wave, $\lambda/a$")
-        below(axes, ncols=2, bbox_to_anchor=(0.5, -0.16))
-    panels[0].set_ylabel("relative rms error, 2D lattice")
     return page
 
 
@@ -119,7 +88,7 @@ def shear(rows: pd.DataFrame) -> Figure:
             for number, (time, group) in enumerate(groups[flow, points].groupby("time")):
                 errorbar(axes, *group[["rows", "rms", "rms_err"]].to_numpy().T, number=number,
                          linestyle=look(number)["linestyle"], label=rf"$t = {time:g}\,H^2/\nu$")
-            second_order(axes, 8, 4e-3, 64, r"rows$^{-2}$")
+            axes.plot([8, 64], [4e-3, 4e-3/64], color="grey", linestyle=":", marker="", label=r"rows$^{-2}$")
             axes.set_title(WALLED[points])
             logarithmic(axes, (8, 16, 32, 64))
         line[0].set_ylabel(f"{FLOWS[flow]}\nrms error of the velocity over $U$", fontsize=9)
@@ -153,6 +122,5 @@ def nested_growth(frame: pd.DataFrame) -> Figure:
 
 
 FIGURES = Drawings(Drawing("symbols", ("symbols",), symbols),
-                   Drawing("convergence", ("equations",), convergence),
                    Drawing("growth", ("growth_means",), growth), Drawing("shear", ("shear_means",), shear),
                    Drawing("nested_growth", ("nested_growth",), nested_growth))

@@ -9,13 +9,15 @@ import numpy as np
 from scipy.integrate import quad
 from scipy.special import j0, j1, spherical_jn
 
-from particles.integral.interpolants import W, f, reach, sphere, width
+from particles.integral.interpolants import Exponential, W, f, moment, reach, sphere, width
+from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
 
 WAVES = (0.3, 1.0, 2.0, 4.0)        # k r0 at which the interpolant is held against the smoothed field
 MOMENTS = (1, 2, 3, 4)
 SMALL = 0.1         # k r0 at which the order is taken
+SHELLS = 20000      # of a sum over the radius that stands for an integral
 
 #: means over directions e of cos(z e_x), 1 - cos(z e_x) and e_x sin(z e_x), by dimension
 COSINE: dict[int, Callable] = {1: np.cos, 2: j0, 3: lambda z: np.sinc(z/pi)}
@@ -34,8 +36,10 @@ def integral(weight: Any, d: int, g: Callable[[float], Any]) -> Measured:
     r0 = width(weight)
     end = reach(weight)/r0
     breaks = [0.5, 1.0] if end > 1 else [0.5]
-    value, err = quad(lambda q: float(g(q*r0))*(q*r0)**(d - 1), 0, end, limit=400, epsabs=1e-13,
-                      epsrel=1e-12, points=breaks)
+
+    def shell(q: float) -> float:
+        return float(g(q*r0))*(q*r0)**(d - 1)
+    value, err = quad(shell, 0, end, limit=400, epsabs=1e-13, epsrel=1e-12, points=breaks)
     return Measured(sphere(d)*r0*value, sphere(d)*r0*err)
 
 
@@ -99,3 +103,39 @@ class Continuum(Case):
         rows = [key | {"quantity": name, "value": value, "value_err": err, "predicted": predicted}
                 for name, (value, err), predicted in quantities(weight, self.d)]
         return Outcome({"continuum": rows})
+
+
+# --- single numbers -----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class Arithmetic(Case):
+    """Single numbers without parameters. numbers : makes them, by name."""
+    numbers: Callable[[], dict[str, float]]
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        rows = [{"quantity": name, "value": value} for name, value in self.numbers().items()]
+        return Outcome({"numbers": rows})
+
+
+def of_weights() -> dict[str, float]:
+    """What takes neither points nor a flow."""
+    return {"first moment": first_moment_error(), "third derivatives": third_factor()}
+
+
+def first_moment_error() -> float:
+    """Largest |M_1/d - 1| of six weights in 1, 2 and 3 dimensions    [RR98 Eq. 2]"""
+    errors = []
+    for d in (1, 2, 3):
+        compact = [kind.of(h=1.3, d=d) for kind in (Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6)]
+        errors += [moment(weight, 1, d)/d - 1 for weight in (*compact, Exponential(0.3, d))]
+    return max(map(abs, errors))
+
+
+def third_factor() -> float:
+    """Factor before the third derivatives in 3D: 1 - f^ at small k over 3 k^2 r0^2 M_3/15    [RR98 Eq. 5]"""
+    weight, k = Lucy.of(h=1.0, d=3), 0.05
+    r = (np.arange(SHELLS) + 0.5)/SHELLS
+    wave = np.sin(k*r)/(k*r)
+    transform = float(np.sum(4*pi*r**2*f(weight, r)*wave)/SHELLS)
+    return (1 - transform)/(3*k**2*moment(weight, 3, 3)/15)

@@ -49,7 +49,8 @@ class OnPoints(Case):
         return 0.05 + 1e-8*size**3
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        points, d = self.disorder.make(self.counts, self.disorder.size, self.seed), len(self.counts)
+        points = self.disorder.make(self.counts, self.disorder.size, self.seed)
+        d = len(self.counts)
         try:
             edges = self.make(points, WendlandC2.of(h=self.h, d=d))
         except ArithmeticError:     # no such edges exist on these points: that is a result
@@ -69,8 +70,10 @@ class Invariance(OnPoints):
     def rows(self, edges: Edges) -> Iterator[dict[str, Any]]:
         for name, transport in TRANSPORT.items():
             dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(0.3, 0.4), zeta=0.1, transport=transport)
-            rng, n = np.random.default_rng(0), edges.n
-            rho, v, T = rng.uniform(0.9, 1.1, n), rng.normal(0, 0.2, (n, edges.d)), rng.uniform(0.9, 1.1, n)
+            rng = np.random.default_rng(0)
+            rho = rng.uniform(0.9, 1.1, edges.n)
+            v = rng.normal(0, 0.2, (edges.n, edges.d))
+            T = rng.uniform(0.9, 1.1, edges.n)
             change = rates(dih, dih.state(rho, v, T))
             lost = np.abs(dih.conserved(change))/(np.abs(change)@edges.V)
             yield {"transport": name, "lost": float(lost.max())}
@@ -86,7 +89,8 @@ class OneKernel(OnPoints):
     def rows(self, edges: Edges) -> Iterator[dict[str, Any]]:
         rho, T = np.random.default_rng(self.seed).uniform(0.5, 1.5, (2, edges.n))
         i, j, half = edges.i, edges.j, edges.S/2
-        there, back = half*(rho[i]*T[j])[:, None], half*(rho[j]*T[i])[:, None]
+        there = half*(rho[i]*T[j])[:, None]
+        back = half*(rho[j]*T[i])[:, None]
         lost = np.abs(back.sum(axis=0) - there.sum(axis=0)).max()
         size = (np.abs(there) + np.abs(back)).sum(axis=0).max()
         yield {"lost": float(lost/size)}
@@ -113,7 +117,8 @@ def sound(edges: Edges, eta: float = 0.0) -> np.ndarray:
     friction = eta*root[:, None]*edges.laplacian.toarray()*root
     for a, D in enumerate(edges.D, start=1):
         p = slice(a*n, (a + 1)*n)
-        A[:n, p] = A[p, :n] = -root[:, None]*D.toarray()*root
+        scaled = root[:, None]*D.toarray()*root
+        A[:n, p] = A[p, :n] = -scaled
         A[p, p] = friction
     return A
 
@@ -137,8 +142,9 @@ def response(dih: Dih, x: np.ndarray, k: float) -> np.ndarray:
     matrix = np.empty((d + 2, d + 2), complex)
     for row in range(d + 2):
         one = WAVE*(np.arange(d + 2) == row)[:, None]
-        change = linear(dih, rest, one*wave.real) + 1j*linear(dih, rest, one*wave.imag)
-        matrix[:, row] = (change/wave).mean(axis=1)/WAVE
+        real = linear(dih, rest, one*wave.real)
+        imaginary = linear(dih, rest, one*wave.imag)
+        matrix[:, row] = ((real + 1j*imaginary)/wave).mean(axis=1)/WAVE
     return matrix
 
 
@@ -198,8 +204,9 @@ class LayerGrowth(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         scene = RayleighBenard(ra=self.ra, L=float(self.rows), aspect=1.0)
         method = fluid(scene, SCHEMES["fixed-lattice"]._replace(h=self.h, share=self.share))
-        y = method.x[:, 1]
+        y, c = method.x[:, 1], np.sqrt(2*scene.T_mean)
         state = method.state(1.0, np.zeros_like(method.x), scene.T(y))
-        growth = np.linalg.eigvals(jacobian(method.start(len(y), Team(1)), state)).real.max()
+        sums = method.start(len(y), Team(1))
+        growth = np.linalg.eigvals(jacobian(sums, state)).real.max()
         return Outcome({"nested_growth": [{"h": self.h, "rows": self.rows, "ra": self.ra, "share": self.share,
-                                           "growth": growth/np.sqrt(2*scene.T_mean)}]})
+                                           "growth": growth/c}]})

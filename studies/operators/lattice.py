@@ -8,11 +8,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from continuum.exact.waves import Gas, quantities
 from particles.integral.interpolants import Exponential, W, f, moment, reach, sphere, width
-from particles.weights import WendlandC2
+from particles.weights import Lucy, WendlandC2
+from studies.build.symbols import lattice_waves
 from studies.kit.case import Case, Outcome, Report
 from studies.operators.integrals import MOMENTS, integral, smoothed, weight_of
 
+GAS = Gas(0.3, 0.2, 0.4)
+LONG = 5000.0       # spacings of a wave that is endless to four digits
 TAIL = 26.0         # r0 of the exponential weight beyond which 1e-9 of the first moment lies
 
 
@@ -85,9 +89,9 @@ def sums(weight: Any, d: int) -> Iterator[dict[str, Any]]:
     r = np.arange(1, span(weight) + 1)
     r = r[r < reach(weight)]
     for n in (0, *MOMENTS):
-        value = float(np.sum(line_weight(weight, d, r)*r**n))/r0**(n - 1)
+        total = float(np.sum(line_weight(weight, d, r)*r**n))
         predicted = moment(weight, n, d) if n else np.nan
-        yield {"how": "line", "n": n, "value": value, "predicted": predicted}
+        yield {"how": "line", "n": n, "value": total/r0**(n - 1), "predicted": predicted}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -227,3 +231,11 @@ class EdgeViscosities(Case):
     def second_moment(self, weight: Any, X: Power) -> float:
         """M_X = int W X r^2 dV."""
         return integral(weight, self.d, lambda r: W(weight, r)*X(r/self.h)*r**2).value
+
+
+def of_edges() -> dict[str, float]:
+    """Largest error of both viscosities of forces along edges: long waves along an axis, by the symbol."""
+    k = 2*np.pi/LONG
+    values = quantities(lattice_waves(GAS, Lucy.of(h=8.0), np.array([k, 0.0]), nested=False), k)
+    shear, bulk = values["viscosity"]/GAS.eta - 1, values["bulk viscosity"]/GAS.zeta - 1
+    return {"viscosities, h = 8 a": max(abs(shear), abs(bulk))}

@@ -14,7 +14,7 @@ SYMBOLS = Table.of("symbols", "weight d r0 k", "smoothed gradient nested pairwis
 LATTICE = Table.of("lattice", "how weight d r0 n", "value predicted")
 #: relative error of the gradient of a plane wave, exponential weight
 EXPONENTIAL = Table.of("exponential", "d wavelength r0", "plain renormalised")
-#: of weights; of Eqs 21, 26, 27, 33-37 read literally, over what they stand for; see `literal.py`
+#: of weights; of Eqs 21, 26, 27, 33-37 read literally, over what they stand for
 NUMBERS = Table.of("numbers", "quantity", "value")
 
 TERM = "d weight h operator"

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.linalg import logm
 
-from continuum.exact.waves import QUANTITIES, Gas, Waves, continuum, quantities
+from continuum.exact.waves import Gas, Waves, continuum, quantities
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.bodies import held, together, with_plates
 from particles.integral.dih import Dih, Nested, Pairwise
@@ -70,7 +70,8 @@ def propagators(dih: Dih, x: np.ndarray, k: float, time: float, phases: tuple[fl
             for part in range(len(U)):
                 for _ in range(steps):
                     integrator.step(dih, state, time/steps)
-                U[part, :, field] += np.exp(1j*phase)*amplitudes(dih, state, place)*2/len(phases)
+                shifted = np.exp(1j*phase)*amplitudes(dih, state, place)
+                U[part, :, field] += shifted*2/len(phases)
     return U/AMPLITUDE
 
 
@@ -85,7 +86,8 @@ def start(dih: Dih, wave: np.ndarray, field: int) -> np.ndarray:
 def amplitudes(dih: Dih, state: np.ndarray, place: np.ndarray) -> np.ndarray:
     """Parts exp(ikx) of (rho, u, T, v)."""
     flow, V = dih.flow(state), dih.edges.V
-    fields = np.stack([flow.rho - 1, flow.v[:, 0], flow.T - 1, flow.v[:, 1]])
+    u, v = flow.v.T
+    fields = np.stack([flow.rho - 1, u, flow.T - 1, v])
     return fields@(V*np.exp(-1j*place))/V.sum()
 
 
@@ -104,11 +106,16 @@ def rates_between(before: np.ndarray, after: np.ndarray, time: float) -> Waves:
 def measured(dih: Dih, x: np.ndarray, k: float, phases: tuple[float, ...]) -> dict[str, Measured]:
     """Quantities of the last of the times; errors: what the time before gives another one, and RK4's own."""
     gas = Gas(ETA, dih.zeta, KAPPA)
-    time = 1/float(np.abs(np.linalg.eigvals(continuum(gas, k).matrix)).max())
+    fastest = np.abs(np.linalg.eigvals(continuum(gas, k).matrix)).max()
+    time = 1/float(fastest)
     *_, first, second, third = (np.eye(4), *propagators(dih, x, k, time, phases))
-    before, last = (quantities(rates_between(*pair, time), k) for pair in ((first, second), (second, third)))
-    return {name: Measured(last[name], abs(last[name] - before[name]) + TRUNCATION*abs(last[name]))
-            for name in QUANTITIES}
+    before = quantities(rates_between(first, second, time), k)
+    last = quantities(rates_between(second, third, time), k)
+    values = {}
+    for name, value in last.items():
+        change = abs(value - before[name])
+        values[name] = Measured(value, change + TRUNCATION*abs(value))
+    return values
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -188,7 +195,8 @@ def on_lattice(drive: Drive, rows: int, seed: int) -> Driven:
 def jittered_images(drive: Drive, rows: int, seed: int) -> Driven:
     """Jittered points and their images, Delaunay edges."""
     x = jittered((COLUMNS, rows), JITTER, seed).x
-    y = np.clip(x[:, 1], -rows/2 + FROM_PLATE, rows/2 - FROM_PLATE)
+    highest = rows/2 - FROM_PLATE
+    y = np.clip(x[:, 1], -highest, highest)
     return between_images(drive, rows, np.stack([x[:, 0], y], axis=1), delaunay)
 
 
@@ -231,7 +239,9 @@ class ShearFlow(Case):
             state, last = run(method, state, plan).state, time
             report(time/TIMES[-1])
             flow = method.fields(state)
-            error = flow.v[:, 0]/SPEED - self.drive.series(flow.x[:, 1]/self.rows + 0.5, time)
-            rms = np.sqrt(flow.V@error**2/flow.V.sum())
-            rows.append(key | {"time": time, "rms": float(rms), "largest": float(np.abs(error).max())})
+            height = flow.x[:, 1]/self.rows + 0.5
+            error = flow.v[:, 0]/SPEED - self.drive.series(height, time)
+            rms = float(np.sqrt(flow.V@error**2/flow.V.sum()))
+            largest = float(np.abs(error).max())
+            rows.append(key | {"time": time, "rms": rms, "largest": largest})
         return Outcome({"shear": rows})

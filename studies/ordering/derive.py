@@ -111,7 +111,7 @@ def vortices(tables: Tables) -> pd.DataFrame:
 
 
 def convection(tables: Tables, known: Rows) -> pd.DataFrame:
-    """Errors of K, with what the last tenth of a run changed; a run that ends in other than two rolls: none."""
+    """Errors of K, with what the last tenth of a run changed; none of a run that ends in other rolls."""
     rows = tables.get("convection", pd.DataFrame())
     if not known or rows.empty:
         return pd.DataFrame()
@@ -157,8 +157,8 @@ def needed(group: pd.DataFrame) -> dict[str, float]:
     above = np.flatnonzero(~(group["error"] <= WANTED) | (group["lost"] > 0))
     if not len(above):
         first = group.iloc[0]
-        return {"needed": first["resolution"], "needed_err": np.nan, "exchanges": first["exchanges"],
-                "bound": 1}
+        return {"needed": first["resolution"], "needed_err": np.nan,
+                "exchanges": first["exchanges"], "bound": 1}
     pair = group.iloc[above[-1]:above[-1] + 2]
     if len(pair) < 2 or not np.isfinite(pair["error"].iloc[0]):
         return {"needed": np.nan, "needed_err": np.nan, "exchanges": np.nan, "bound": 0}
@@ -168,7 +168,8 @@ def needed(group: pd.DataFrame) -> dict[str, float]:
 def crossing(pair: pd.DataFrame) -> dict[str, float]:
     """Between two resolutions with errors above and below 1 %, by a power law."""
     coarse, fine = pair["error"]
-    size, exchanges = np.log(pair["resolution"].astype(float)), np.log(pair["exchanges"])
+    size = np.log(pair["resolution"].astype(float))
+    exchanges = np.log(pair["exchanges"])
     share = np.log(coarse/WANTED)/np.log(coarse/fine)
     weights = np.array([1 - share, share])
     order = np.log(coarse/fine)/np.diff(size)[0]

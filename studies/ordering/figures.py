@@ -91,7 +91,7 @@ def makers(means: pd.DataFrame) -> Figure:
 
 
 def curve(axes: Axes, rows: pd.DataFrame, x: str, number: int, label: str) -> None:
-    """Sizes of errors over x, hollow where errors are negative; the label says how many points lost a seed."""
+    """Sizes of errors over x, hollow where negative; the label says how many points lost a seed."""
     if rows.empty:
         return
     known = rows[(rows["lost"] == 0) & rows["error"].notna()]
@@ -124,13 +124,13 @@ def over_range(flows: pd.DataFrame) -> Figure:
 def over_points(flows: pd.DataFrame) -> Figure:
     """Errors of whole flows over the points of a wavelength or height: lattices and irregular points."""
     page, panels = figure(2, 3, width=3.9, height=4.1)
-    lattices = ((panels[0, 0], "taylor-green", SIZES), (panels[1, 1], "convection", ROWS[:4]))
-    for axes, flow, ticks in lattices:
+    first, jittered, random, relaxed, layer, irregular = panels.ravel()
+    for axes, flow, ticks in ((first, "taylor-green", SIZES), (layer, "convection", ROWS[:4])):
         rows = flows[(flows["flow"] == flow) & (flows["points"] == "lattice")]
         for number, (h, group) in enumerate(rows.groupby("h")):
             curve(axes, group, "resolution", number, f"$h = {h:g} a$")
         decorate(axes, flow, "lattice", ticks)
-    for axes, kind in zip((panels[0, 1], panels[0, 2], panels[1, 0]), IRREGULAR, strict=True):
+    for axes, kind in zip((jittered, random, relaxed), IRREGULAR, strict=True):
         rows = flows[(flows["flow"] == "taylor-green") & (flows["points"] == kind)]
         for number, (maker, h) in enumerate(MADE):
             group = rows[(rows["maker"] == maker) & (rows["h"] == h)]
@@ -138,8 +138,9 @@ def over_points(flows: pd.DataFrame) -> Figure:
         decorate(axes, "taylor-green", kind, SIZES)
     rows = flows[(flows["flow"] == "convection") & (flows["maker"] == "delaunay")]
     for number, kind in enumerate(IRREGULAR):
-        curve(panels[1, 2], rows[rows["points"] == kind], "resolution", number, f"{kind}, delaunay")
-    decorate(panels[1, 2], "convection", "irregular", ROWS)
+        group = rows[rows["points"] == kind]
+        curve(irregular, group, "resolution", number, f"{kind}, delaunay")
+    decorate(irregular, "convection", "irregular", ROWS)
     for axes in panels[:, 0]:
         axes.set_ylabel("relative error")
     page.suptitle("Dotted: 1 %; hollow: K too low; bars: 95 % over point sets; lost: a set diverged",

@@ -73,13 +73,15 @@ def wave_errors(edges: Edges, x: np.ndarray, k: float) -> tuple[float, float]:
     """Rms errors of grad and lap of a wave over the rms of the true ones; both phases."""
     grad, lap = [], []
     for phase in (0.0, np.pi/2):
-        f, slope = np.sin(k*x + phase), k*np.cos(k*x + phase)
+        f = np.sin(k*x + phase)
+        slope = k*np.cos(k*x + phase)
         along, across = edges.grad(f).T
         grad.append((along - slope)**2 + across**2)
         lap.append((edges.lap(f) + k**2*f)**2)
-    V = edges.V/edges.V.sum()
-    gradient, laplacian = (float(np.sqrt(V@np.mean(squares, axis=0))) for squares in (grad, lap))
-    return gradient/(k/np.sqrt(2)), laplacian/(k**2/np.sqrt(2))
+    V, size = edges.V/edges.V.sum(), np.sqrt(1/2)
+    gradient = np.sqrt(V@np.mean(grad, axis=0))/(k*size)
+    laplacian = np.sqrt(V@np.mean(lap, axis=0))/(k**2*size)
+    return float(gradient), float(laplacian)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,7 +99,8 @@ class GradientForms(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         points = self.disorder.make((self.wavelength, BREADTH), self.disorder.size, self.seed)
         key = {"h": self.h, "points": self.disorder.name, "wavelength": self.wavelength, "seed": self.seed}
-        errors = form_errors(plain(points, Lucy.of(h=self.h)), points.x[:, 0], 2*np.pi/self.wavelength)
+        edges = plain(points, Lucy.of(h=self.h))
+        errors = form_errors(edges, points.x[:, 0], 2*np.pi/self.wavelength)
         return Outcome({"brackets": [key | errors]})
 
 
@@ -116,7 +119,8 @@ def form_error(edges: Edges, matrices: Sequence[Any], x: np.ndarray, k: float) -
     """That of V times the gradient by these matrices, one a direction."""
     squares = np.zeros(edges.n)
     for phase in (0.0, np.pi/2):
-        f, slope = np.sin(k*x + phase), k*np.cos(k*x + phase)
+        f = np.sin(k*x + phase)
+        slope = k*np.cos(k*x + phase)
         along, *across = (M@f/edges.V for M in matrices)
         squares += ((along - slope)**2 + sum(g**2 for g in across))/2
     return float(np.sqrt(2*(edges.V@squares)/edges.V.sum()))/k
@@ -174,8 +178,10 @@ def moved_apart(width: float, height: float, size: float, seed: int) -> np.ndarr
 
 
 #: kinds of irregular points: makers and size of their disorder, in spacings
-POINTS: dict[str, tuple[Callable, float]] = {"jittered-0.3": (positions, 0.3), "random": (hard_core, 0.5),
-                                             "relaxed": (moved_apart, 0.5)}
+POINTS: dict[str, tuple[Callable, float]] = {
+    "jittered-0.3": (positions, 0.3),
+    "random": (hard_core, 0.5),
+    "relaxed": (moved_apart, 0.5)}
 
 
 def on_lattice(h: float) -> Scheme:
@@ -203,8 +209,9 @@ class FixedConvection(Case):
         """Points that move apart take the longer the more there are."""
         L, h = self.scene.L, self.scheme.h
         steps = self.t_end*L/self.scene.free_fall/max(0.2, 1.1 - L/100)
+        points = self.scene.width*(L + self.scheme.held)
         apart = 0.04*L**2 if self.kind == "relaxed" else 0.0
-        return steps*4*self.scene.width*(L + self.scheme.held)*100e-9*(h/2)**2 + 5 + apart
+        return steps*points*1e-7*h**2 + 5 + apart
 
     @property
     def label(self) -> str:
@@ -233,8 +240,9 @@ class FixedConvection(Case):
         method, flow = ready.method, ready.method.fields(done.state)
         beyond = getattr(method, "beyond", None)
         number = len(method.edges.i) + (len(beyond.i) if beyond else 0)
-        return {**ended(self.scene, done)._asdict(), "rolls": rolls(self.scene, flow.x, flow.v[:, 1]),
-                "exchanges": RK4.evaluations*done.step*number}
+        end = ended(self.scene, done)._asdict()
+        number_of_rolls = rolls(self.scene, flow.x, flow.v[:, 1])
+        return end | {"rolls": number_of_rolls, "exchanges": RK4.evaluations*done.step*number}
 
 
 def convection(kind: str, scheme: Scheme, rows: int, seed: int = 1) -> FixedConvection:
