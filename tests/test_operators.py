@@ -1,5 +1,4 @@
 """What the measurements of the study operators rest on: sums against transforms, double loops, time steps."""
-import re
 from math import ceil
 
 import numpy as np
@@ -16,7 +15,6 @@ from particles.run import Plan, run
 from particles.threads import Team
 from particles.weights import Lucy, WendlandC2
 from studies.build.fixed import SCHEMES, fluid
-from studies.operators.claims import CLAIMS
 from studies.operators.claims.scheme import STILL
 from studies.operators.derive import extrapolated
 from studies.operators.equations import (
@@ -33,10 +31,7 @@ from studies.operators.equations import (
 )
 from studies.operators.integrals import interpolated, smoothed
 from studies.operators.kept import WAVE, LayerGrowth, OneKernel, euler_limit, jacobian, linear, sound
-from studies.operators.lattice import around, gradient_symbol, line_weight, shells, spread_symbol, viscosities
-
-#: of RR98; 7-9 are the continuum's, 20, 22-25 and 42-44 of noise, 39, 41 and 46-50 of motion, 45 of ordering
-EQUATIONS = {*range(1, 7), *range(10, 20), 21, *range(26, 39), 40, 51}
+from studies.operators.lattice import around, gradient_symbol, line_weight, spread_symbol, viscosities
 
 
 # --- weights ----------------------------------------------------------------------------------------------------
@@ -49,15 +44,6 @@ def test_transforms_of_weights_are_the_known_ones(kind, d, known):
     k, r0 = 1.3, 0.7
     assert smoothed(kind(r0, d), d, k).value == pytest.approx(known(k*r0), rel=1e-10)
     assert interpolated(kind(r0, d), d, k).value == pytest.approx(k*known(k*r0), rel=1e-10)
-
-
-def test_shells_count_lattice_points():
-    x = np.stack(np.meshgrid(*[np.arange(-5, 6)]*3), axis=-1).reshape(-1, 3)
-    squared = (x**2).sum(axis=1)
-    assert np.array_equal(shells(3, 25), np.bincount(squared)[:26])
-    at, there = around(4.5, 3), (squared > 0) & (squared <= 4.5**2)
-    assert at.number.sum() == there.sum()
-    assert at.number@at.x**2 == (x[there, 0]**2).sum()
 
 
 @pytest.mark.parametrize("d", [1, 2, 3])
@@ -242,17 +228,3 @@ def test_the_derivative_is_one():
     change = np.random.default_rng(1).normal(size=state.shape)*1e-4
     product = (jacobian(sums, state)@change.ravel()).reshape(state.shape)
     assert np.abs(linear(sums, state, change) - product).max() < 1e-6*np.abs(product).max()     # third order of 1e-4
-
-
-# --- claims -----------------------------------------------------------------------------------------------------
-
-
-def test_claims_cover_the_equations_of_the_study():
-    assert EQUATIONS <= {n for claim in CLAIMS for n in numbers(claim.source)}
-
-
-def numbers(source: str) -> set[int]:
-    """Equations of a citation: single ones and ranges."""
-    singles = {int(n) for n in re.findall(r"\b\d+\b", source.removeprefix("RR98"))}
-    ranges = (range(int(low), int(high) + 1) for low, high in re.findall(r"(\d+)-(\d+)", source))
-    return singles.union(*ranges)

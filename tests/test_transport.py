@@ -123,7 +123,7 @@ def test_an_order_between_plates_takes_every_run():
     factor = np.exp(rng.normal(0, 0.1, len(sizes)))
     rows = pd.DataFrame({"flow": "couette", "points": "some", "time": 0.1, "rows": sizes,
                          "seed": np.tile([1, 2, 3], 3), "rms": 3*factor/sizes**2, "largest": 5/sizes**2})
-    rms, largest = shear_orders(rows)
+    largest, rms = shear_orders(rows)
     fit, cov = np.polyfit(-np.log(sizes), np.log(rows["rms"]), 1, cov=True)
     assert rms["order"] == pytest.approx(fit[0]) and rms["order_err"] == pytest.approx(stdtrit(7, 0.975)*np.sqrt(cov[0, 0]))
     assert largest["order"] == pytest.approx(2) and largest["order_err"] < 1e-9
