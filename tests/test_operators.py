@@ -33,8 +33,7 @@ from studies.operators.integrals import interpolated, smoothed
 from studies.operators.kept import WAVE, LayerGrowth, OneKernel, euler_limit, jacobian, linear, sound
 from studies.operators.lattice import around, gradient_symbol, line_weight, spread_symbol, viscosities
 
-
-# --- weights ----------------------------------------------------------------------------------------------------
+# --- weights --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("kind", "d", "known"), [
@@ -69,7 +68,7 @@ def test_nested_transport_is_blind_to_zigzags_and_edges_are_not():
 
 
 def test_the_printed_exponential_weight_is_the_slope_of_its_interpolant():
-    """[Eqs 3, 4, 30, 31]: W = (2/r^3 + 1/r^2) e^-r/4 pi in units of r0, of f = e^-r/(4 pi r^2), by central differences."""
+    """[Eqs 3, 4, 30, 31]: W = (2/r^3 + 1/r^2) e^-r/4 pi in units of r0, of f = e^-r/(4 pi r^2)."""
     r, step = np.linspace(0.3, 5, 20), 1e-5
     as_printed = (2/r**3 + 1/r**2)*np.exp(-r)/(4*np.pi)
     before, after = (np.exp(-x)/(4*np.pi*x*x) for x in (r - step, r + step))
@@ -77,7 +76,7 @@ def test_the_printed_exponential_weight_is_the_slope_of_its_interpolant():
     np.testing.assert_allclose(W(Exponential(1.0, 3), r), as_printed, rtol=1e-12)
 
 
-# --- sums written out -------------------------------------------------------------------------------------------
+# --- sums written out -----------------------------------------------------------------------------
 
 
 def gas(edges, transport=PRINTED, zeta=0.0):
@@ -123,12 +122,12 @@ def test_a_dilation_meets_the_bulk_viscosity_only_with_the_trace_factor_2_over_d
     assert added_bulk(d, 2/3) == pytest.approx(2/d - 2/3, abs=1e-14)
 
 
-# --- what is kept and what grows --------------------------------------------------------------------------------
+# --- what is kept and what grows ------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("maker", ["plain", "delaunay"])
 def test_the_matrix_of_sound_is_that_of_the_rates(maker):
-    """d/dt of energy and momentum at rest, by differences of the scheme, inviscid gas: e' is P', P' enters without c."""
+    """d/dt of energy and momentum at rest, inviscid gas: e' is P', P' enters without c."""
     at = jittered((7, 7), 0.2, 5)
     edges = MAKERS[maker](at, WendlandC2.of(h=2.7))
     dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(0.0, 0.0))
@@ -176,7 +175,7 @@ def test_differences_in_the_inner_sum_mend_nested_transport_on_any_points(transp
 
 @pytest.mark.parametrize("d", [2, 3])
 def test_viscosities_of_central_forces_are_cauchys(d):
-    """Central forces: waves along and across k decay as 3 to 1. Forces along v_ij: a plain Laplacian, 1 to 1."""
+    """Central forces: waves along and across k decay as 3 to 1. Forces along v_ij: 1 to 1, a Laplacian."""
     for moments, ratio in (((1.0, 0.0), 3), ((0.0, 1.0), 1)):
         eta, bulk = viscosities(d, *moments)
         assert 2*eta*(1 - 1/d) + bulk == pytest.approx(ratio*eta, rel=1e-14)
@@ -190,7 +189,7 @@ def test_limits_are_extrapolated_in_the_square_of_the_spacing():
     assert abs(bent.value - 2) < bent.err
 
 
-# --- the layer between plates -----------------------------------------------------------------------------------
+# --- the layer between plates ---------------------------------------------------------------------
 
 SCENE = RayleighBenard(ra=1500.0, L=8.0, aspect=1.0)
 
@@ -207,7 +206,7 @@ def growth(share):
 
 
 def test_eigenvalues_and_time_steps_give_one_growth():
-    """h = 2 a, nested only: the fastest mode grows e-fold in a growth time, and what it feeds on only by its square."""
+    """h = 2 a, nested only: the fastest mode grows e-fold in a growth time, but for its square."""
     method, state = at_rest(share=0.0)
     values, vectors = np.linalg.eig(jacobian(method.start(state.shape[1], Team(1)), state))
     worst = np.argmax(values.real)
@@ -227,4 +226,5 @@ def test_the_derivative_is_one():
     sums = method.start(state.shape[1], Team(1))
     change = np.random.default_rng(1).normal(size=state.shape)*1e-4
     product = (jacobian(sums, state)@change.ravel()).reshape(state.shape)
-    assert np.abs(linear(sums, state, change) - product).max() < 1e-6*np.abs(product).max()     # third order of 1e-4
+    error = np.abs(linear(sums, state, change) - product).max()
+    assert error < 1e-6*np.abs(product).max()     # third order of 1e-4

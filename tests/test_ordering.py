@@ -19,6 +19,7 @@ from studies.ordering.cases import PLATES
 from studies.ordering.derive import of_flows, reference
 from studies.ordering.figures import over_points
 from studies.ordering.runs import (
+    FORMS,
     OperatorErrors,
     VortexDecay,
     between_images,
@@ -39,12 +40,12 @@ def refused(points, weight):
     raise ArithmeticError("no such edges")
 
 
-# --- waves ------------------------------------------------------------------------------------------------------
+# --- waves ----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("weight", WEIGHTS.values())
 def test_the_error_of_a_lattice_is_its_symbol_and_of_second_order(weight):
-    """grad sin kx = (sum over the lattice) cos kx: the measured error is that of the wave number that edges see."""
+    """grad sin kx = (sum over the lattice) cos kx: the error is that of the wave number that edges see."""
     errors = []
     for size in (32, 64):
         at, k = lattice((size, 16)), 2*np.pi/size
@@ -57,13 +58,13 @@ def test_the_error_of_a_lattice_is_its_symbol_and_of_second_order(weight):
 
 
 def test_forms_of_the_gradient_differ_by_what_they_make_of_a_constant():
-    """On a lattice, where the sum over e_ij is zero, all three are one; by hand for points of which each has two neighbours."""
+    """On a lattice, where the sum over e_ij is zero, all are one; by hand for points on a line."""
     at, k = lattice((32, 16)), 2*np.pi/32
     edges = plain(at, Lucy.of(h=3.0))
     error, _ = wave_errors(edges, at.x[:, 0], k)
-    assert form_errors(edges, at.x[:, 0], k) == pytest.approx(dict.fromkeys(("single", "sum", "difference"), error))
+    assert form_errors(edges, at.x[:, 0], k) == pytest.approx(dict.fromkeys(FORMS, error))
 
-    shift = np.where(np.arange(16) % 2, 0.2, 0.0)        # every second point of a line moved: neighbours at 1.2 and 0.8
+    shift = np.where(np.arange(16) % 2, 0.2, 0.0)        # neighbours on a line at 1.2 and 0.8
     uneven = of_positions(wrapped(lattice((16,)).x + shift[:, None], np.array([16.0])), (16.0,))
     near, x, k = Lucy.of(h=1.5, d=1), uneven.x[:, 0], np.pi/8
     right, left = np.where(shift > 0, 0.8, 1.2), np.where(shift > 0, 1.2, 0.8)
@@ -78,16 +79,17 @@ def test_forms_of_the_gradient_differ_by_what_they_make_of_a_constant():
     assert errors["sum"] > 2*errors["difference"]
 
 
-# --- vortices ---------------------------------------------------------------------------------------------------
+# --- vortices -------------------------------------------------------------------------------------
 
 
 def vortex(maker, h, disorder, wavelength):
-    return row_of(VortexDecay(make=MAKERS[maker], h=h, disorder=DISORDERS[disorder], wavelength=wavelength, mach=0.3))
+    return row_of(VortexDecay(make=MAKERS[maker], h=h, disorder=DISORDERS[disorder], wavelength=wavelength,
+                              mach=0.3))
 
 
 @pytest.mark.parametrize("wavelength", [12, 16])
 def test_a_vortex_on_a_lattice_decays_as_the_symbol_of_its_nearest_neighbours_says(wavelength):
-    """Friction with nearest neighbours takes 2 (1 - cos k) for k^2; 3 %: what Mach 0.1 compresses is 2 % of that."""
+    """Nearest neighbours take 2 (1 - cos k) for k^2; 3 %: what Mach 0.1 compresses is 2 % of that."""
     at, k = lattice((wavelength, wavelength)), 2*np.pi/wavelength
     end = decayed(Vortex(0.1, wavelength), at, renormalised(at, Lucy.of(h=1.2)))
     assert end.decay/solved(0.1).decay - 1 == pytest.approx(2*(1 - np.cos(k))/k**2 - 1, rel=0.03)
@@ -105,7 +107,7 @@ def test_points_without_such_edges_leave_a_row_without_numbers(kind, column):
     assert np.isnan(row[column]) and row["maker"] == "refused"
 
 
-# --- layers -----------------------------------------------------------------------------------------------------
+# --- layers ---------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("kind", "scheme", "key"), [
@@ -127,7 +129,7 @@ def test_points_without_exact_edges_leave_a_row_and_others_must_exist(tmp_path, 
     assert np.isnan(row["ke"]) and (row["rolls"], row["exchanges"]) == (0, 0)
 
 
-# --- tables -----------------------------------------------------------------------------------------------------
+# --- tables ---------------------------------------------------------------------------------------
 
 
 def vortices(constant, order, sizes=(16, 24, 32, 48), h=2.0):
@@ -155,8 +157,8 @@ def test_costs_say_where_they_are_bounds_and_where_there_is_none():
 
 
 def layer(maker, h=3.0, points="random", **more):
-    return {"maker": maker, "h": h, "points": points, "rows": 16, "seed": 1, "ke": 0.005, "ke_err": 1e-4, "rolls": 2,
-            "exchanges": 1e6, **more}
+    return {"maker": maker, "h": h, "points": points, "rows": 16, "seed": 1, "ke": 0.005, "ke_err": 1e-4,
+            "rolls": 2, "exchanges": 1e6, **more}
 
 
 def test_convection_with_other_rolls_has_no_error_and_what_is_not_steady_a_larger_one():
@@ -177,8 +179,8 @@ def test_claims_count_the_runs_that_they_are_about():
 
 
 def test_missing_sets_of_points_are_in_the_figure():
-    means = pd.DataFrame([{"flow": "taylor-green", "maker": "closed", "h": 3.0, "points": "random", "resolution": n,
-                           "seeds": 3, "lost": lost, "error": error, "error_err": 0.0}
+    means = pd.DataFrame([{"flow": "taylor-green", "maker": "closed", "h": 3.0, "points": "random",
+                           "resolution": n, "seeds": 3, "lost": lost, "error": error, "error_err": 0.0}
                           for n, lost, error in ((16, 1, np.nan), (24, 0, 0.1))])
     labels = over_points(means).axes[2].get_legend_handles_labels()[1]
     assert "closed, 3 $a$ (lost: 1 of 2)" in labels

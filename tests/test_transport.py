@@ -1,4 +1,4 @@
-"""Transport in the study operators: symbols against edges, waves against symbols, series against their equations, plates."""
+"""Transport in the study operators: waves against symbols, series against their equations, plates."""
 from dataclasses import replace
 
 import numpy as np
@@ -49,9 +49,11 @@ def test_continuum_of_long_waves_has_the_coefficients_put_in():
 @pytest.mark.parametrize("transport", [Nested(), Pairwise()])
 def test_waves_measured_in_time_are_those_of_the_symbol(transport):
     k = 2*np.pi/12
-    symbol = quantities(lattice_waves(GAS, Lucy.of(h=2.0), np.array([k, 0.0]), isinstance(transport, Nested)), k)
+    waves = lattice_waves(GAS, Lucy.of(h=2.0), np.array([k, 0.0]), nested=transport == Nested())
+    symbol = quantities(waves, k)
     for name, row in decay(transport).items():
-        assert abs(row["measured"] - symbol[name]) < 1e-5*max(row["continuum"], 0.1)      # time steps leave 4e-6
+        steps = 1e-5*max(row["continuum"], 0.1)     # they leave 4e-6
+        assert abs(row["measured"] - symbol[name]) < steps
         assert name not in TOLD or abs(symbol[name]/row["continuum"] - 1) > 0.01
 
 
@@ -67,17 +69,19 @@ def test_waves_that_have_no_time_stay_as_they_are():
     at = jittered((12, 8), 0.3, 1)
     dih = Dih(edges=renormalised(at, Lucy.of(h=2.0)), eos=IdealGas(), law=ConstEta(0.3, 0.4))
     U = propagators(dih, at.x, 2*np.pi/12, 1e-9, (0.0, np.pi/2))
-    np.testing.assert_allclose(U, np.broadcast_to(np.eye(4), (3, 4, 4)), atol=1e-4)     # pressures push by 1e-9/AMPLITUDE
+    np.testing.assert_allclose(U, np.stack([np.eye(4)]*3), atol=1e-4)     # pushed by 1e-9/AMPLITUDE
 
 
-@pytest.mark.parametrize(("series", "force", "final"), [(couette, 0.0, lambda y: y), (poiseuille, 8.0, lambda y: 4*y*(1 - y))])
+@pytest.mark.parametrize(("series", "force", "final"), [(couette, 0.0, lambda y: y),
+                                                        (poiseuille, 8.0, lambda y: 4*y*(1 - y))])
 def test_series_solve_their_equation(series, force, final):
     y, time, d = np.linspace(0.05, 0.95, 19), 0.07, 1e-4
     slope = (series(y, time + d) - series(y, time - d))/(2*d)
     curvature = (series(y + d, time) - 2*series(y, time) + series(y - d, time))/d**2
-    np.testing.assert_allclose(slope, curvature + force, atol=1e-4)         # round-off over d^2 is 2e-8, the rest d^2 u''''
+    np.testing.assert_allclose(slope, curvature + force, atol=1e-4)     # round-off over d^2 is 2e-8
     np.testing.assert_allclose(series(y, 5.0), final(y), atol=1e-12)
-    np.testing.assert_allclose(series(np.array([0.0, 1.0]), time), final(np.array([0.0, 1.0])), atol=1e-12)
+    plates = np.array([0.0, 1.0])
+    np.testing.assert_allclose(series(plates, time), final(plates), atol=1e-12)
     assert np.abs(series(y, 1e-3)[:15]).max() < 0.01        # from rest
 
 
@@ -95,7 +99,8 @@ def test_a_fluid_that_moves_with_both_plates_goes_on(make):
     assert np.abs(rates(method, 0.3 + 0*method.x[:, 0])).max() < 1e-12
 
 
-@pytest.mark.parametrize(("make", "steady"), [(on_lattice, True), (between_rows, True), (jittered_images, False)])
+@pytest.mark.parametrize(("make", "steady"),
+                         [(on_lattice, True), (between_rows, True), (jittered_images, False)])
 def test_linear_shear_is_steady_where_edges_are_exact_on_it_up_to_the_plates(make, steady):
     """Triangles end on rows of points; what images see of irregular points has a kink, and is not steady."""
     method = make(COUETTE, 8, 1)
@@ -118,13 +123,14 @@ def test_limits_of_long_waves_are_those_of_their_polynomial():
 
 
 def test_an_order_between_plates_takes_every_run():
-    """Three runs of a size, errors 3/rows^2 up to a factor: the interval of one fit is that of least squares over all of them."""
+    """Three runs of a size, errors 3/rows^2 up to a factor: the interval is that of one fit to all."""
     rng, sizes = np.random.default_rng(1), np.repeat([8, 16, 32], 3)
     factor = np.exp(rng.normal(0, 0.1, len(sizes)))
     rows = pd.DataFrame({"flow": "couette", "points": "some", "time": 0.1, "rows": sizes,
                          "seed": np.tile([1, 2, 3], 3), "rms": 3*factor/sizes**2, "largest": 5/sizes**2})
     largest, rms = shear_orders(rows)
     fit, cov = np.polyfit(-np.log(sizes), np.log(rows["rms"]), 1, cov=True)
-    assert rms["order"] == pytest.approx(fit[0]) and rms["order_err"] == pytest.approx(stdtrit(7, 0.975)*np.sqrt(cov[0, 0]))
+    assert rms["order"] == pytest.approx(fit[0])
+    assert rms["order_err"] == pytest.approx(stdtrit(7, 0.975)*np.sqrt(cov[0, 0]))
     assert largest["order"] == pytest.approx(2) and largest["order_err"] < 1e-9
     assert not list(shear_orders(rows[rows["rows"] < 32]))
