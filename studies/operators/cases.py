@@ -20,12 +20,12 @@ from studies.build.disorder import DISORDERS
 from studies.kit.case import Case
 from studies.operators.equations import EquationErrors, of_dilation, of_rotation, of_volumes
 from studies.operators.integrals import Arithmetic, Continuum, of_weights
-from studies.operators.kept import EulerLimit, Invariance, LayerGrowth, OneKernel, OnPoints, SoundGrowth
+from studies.operators.kept import EulerLimit, Invariance, LayerGrowth, OneKernel, PointSet, SoundGrowth
 from studies.operators.lattice import (
     Counted,
+    EdgeForces,
     EdgeViscosities,
     ExponentialWave,
-    Forces,
     LatticeSums,
     Power,
     WeightSymbols,
@@ -48,11 +48,11 @@ CELLS = {1: (3.0, (32, 64, 128, 256)),
          2: (3.0, (32, 48, 64, 96)),
          3: (2.0, (16, 20, 24, 32))}
 #: A(r) and B(r)
-FORCES = (Forces("A 1/r", Power(1.0, -1), Power(0.0, 0)),
-          Forces("B 1/r", Power(0.0, 0), Power(1.0, -1)),
-          Forces("A and B 1/r", Power(3.0, -1), Power(1.0, -1)),
-          Forces("A 1, B r^2", Power(1.0, 0), Power(2.0, 2)),
-          Forces("A r, B 1", Power(5.0, 1), Power(1.0, 0)))
+FORCES = (EdgeForces("A 1/r", Power(1.0, -1), Power(0.0, 0)),
+          EdgeForces("B 1/r", Power(0.0, 0), Power(1.0, -1)),
+          EdgeForces("A and B 1/r", Power(3.0, -1), Power(1.0, -1)),
+          EdgeForces("A 1, B r^2", Power(1.0, 0), Power(2.0, 2)),
+          EdgeForces("A r, B 1", Power(5.0, 1), Power(1.0, 0)))
 
 KEPT = ("lattice", "jittered-0.3", "random")
 OFF_LATTICE = ("jittered-0.1", "jittered-0.3", "random", "relaxed")
@@ -117,8 +117,8 @@ def points(quick: bool) -> Iterator[Case]:
     yield from (EulerLimit(gas=gas) for gas in GASES)
 
 
-def on_points(case: type[OnPoints], box: tuple[tuple[int, ...], float], kind: str,
-              seeds: tuple[int, ...]) -> Iterator[OnPoints]:
+def on_points(case: type[PointSet], box: tuple[tuple[int, ...], float], kind: str,
+              seeds: tuple[int, ...]) -> Iterator[PointSet]:
     """All makers; triangles need two dimensions, and points that do not lie on spheres."""
     d = len(box[0])
     for maker in MAKERS:
@@ -126,8 +126,8 @@ def on_points(case: type[OnPoints], box: tuple[tuple[int, ...], float], kind: st
             yield from one_maker(case, box, maker, kind, seeds)
 
 
-def one_maker(case: type[OnPoints], box: tuple[tuple[int, ...], float], maker: str, kind: str,
-              seeds: tuple[int, ...]) -> Iterator[OnPoints]:
+def one_maker(case: type[PointSet], box: tuple[tuple[int, ...], float], maker: str, kind: str,
+              seeds: tuple[int, ...]) -> Iterator[PointSet]:
     """One kind of edges on sets of points."""
     counts, h = box
     for seed in seeds:

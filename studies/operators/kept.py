@@ -30,7 +30,7 @@ SINGLE = 1e-6   # the same, of one field of one point
 
 
 @dataclass(frozen=True, kw_only=True)
-class OnPoints(Case):
+class PointSet(Case):
     """What edges do on one set of points; no rows where the maker has none there.
 
     make : of `particles.integral.edge_makers.MAKERS`. h : range of the weight, in spacings.
@@ -63,7 +63,7 @@ class OnPoints(Case):
         raise NotImplementedError
 
 
-class Invariance(OnPoints):
+class Invariance(PointSet):
     """What a random state loses of mass, momentum and energy, over what is exchanged    [RR98 Eqs 34-36]"""
     table = "invariance"
 
@@ -79,7 +79,7 @@ class Invariance(OnPoints):
             yield {"transport": name, "lost": float(lost.max())}
 
 
-class OneKernel(OnPoints):
+class OneKernel(PointSet):
     """Momentum that the pressure's kernel P(rho(r), T(r')) alone would not keep    [RR98 Eqs 13, 14]
 
     P = rho T, rho and T random: i gets S.P_ij/2, j gets S.P_ji/2. lost : over the sum of sizes.
@@ -96,7 +96,7 @@ class OneKernel(OnPoints):
         yield {"lost": float(lost/size)}
 
 
-class SoundGrowth(OnPoints):
+class SoundGrowth(PointSet):
     """Largest growth rate of sound at rest."""
     table = "growth"
 

@@ -187,7 +187,7 @@ class Power(NamedTuple):
         return self.c*q**self.p
 
 
-class Forces(NamedTuple):
+class EdgeForces(NamedTuple):
     """A(r) and B(r) of Eq. 51."""
     name: str
     A: Power
@@ -214,7 +214,7 @@ def wave_viscosities(d: int, A: np.ndarray, B: np.ndarray, at: Around) -> tuple[
 class EdgeViscosities(Case):
     """Of forces A(r) e (e.v_ij) + B(r) v_ij [RR98 Eq. 51]: long waves on a lattice, and M_A and M_B."""
     d: int
-    forces: Forces
+    forces: EdgeForces
     h: float
 
     def run(self, report: Report, folder: Path) -> Outcome:
