@@ -2,12 +2,12 @@
 import numpy as np
 import pandas as pd
 import pytest
+from studies.conservation.bodies import CylinderDrag, TurningCylinder, TurningWave, sliding
+from studies.conservation.derive import drag_limits
 
 from continuum.exact.cylinder import series
 from continuum.published import published
 from studies.build.cylinder import VARIANTS
-from studies.conservation.bodies import CylinderDrag, TurningCylinder, TurningWave, sliding
-from studies.conservation.derive import drag_limits
 
 # --- published drags ----------------------------------------------------------------------------------------------------------
 

@@ -2,6 +2,7 @@
 import numpy as np
 import pandas as pd
 import pytest
+from studies.conservation.waves import Growth, MovingSound, Pattern, by_halves, march, rate, roots
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.brackets import Powers
@@ -15,7 +16,6 @@ from particles.threads import Team
 from particles.weights import WEIGHTS, Lucy, WendlandC2
 from studies.conservation import derive
 from studies.conservation.motions import moving, seen_slope
-from studies.conservation.waves import Growth, MovingSound, Pattern, by_halves, march, rate, roots
 
 COUNTS = {1: (14,), 2: (7, 8), 3: (5, 5, 5)}
 TRANSPORT = {"nested": Nested(), "pairwise": Pairwise(mended=False), "mended": Pairwise()}

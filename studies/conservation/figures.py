@@ -1,5 +1,4 @@
 """Figures of the study conservation, from its tables."""
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -8,13 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from studies.conservation.tables import SUMS
+from studies.kit.drawing import Drawing, Drawings
 from studies.kit.figure import below, errorbar, figure, look
-from studies.kit.table import Tables
 
-MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
-POINTS = {"lattice": "lattice", "jittered-0.3": "shifted by up to $0.3a$", "random": "random",
-          "relaxed": "moved apart"}
-BRACKETS = {"plus": "$(f_i + f_j)$ in both, Eqs 34, 35", "adjoint": "differences in the gradient"}
 MOTIONS = {"literal": "literal (39-41)", "convective": "convective (46-48)", "carried": "46-48, dV carried",
            "constant-mass": "constant mass (49)"}
 INTEGRATORS = {"euler": "forward Euler [40]", "two-step": "two steps [40, 41]"}
@@ -30,14 +25,10 @@ COLUMNS = {
     ("layer", "mixed", "periodic"): "nested and along edges",
     ("layer", "ideal", "periodic"): "no friction",
     ("dih", "printed", ""): "nested, Eq. 37 as printed",
-    ("dih", "one-sided", ""): "pressure not symmetric",
     ("dih", "", ""): "1D, 3D, bulk viscosity",
     ("layer", "ideal", "plates, gravity"): "plates, gravity",
     ("layer", "ideal", "plates"): "plates, no friction",
     ("layer", "", "plates"): "plates, friction",
-    ("held", "", "body"): "fluid and body",
-    ("held", "", ""): "fluid and held rows",
-    ("sliding", "", ""): "sliding sides",
     ("motions", "literal", ""): "Eqs 39-41",
     ("motions", "constant", ""): "Eq. 49",
     ("motions", "convective", ""): "Eqs 46-48",
@@ -46,16 +37,6 @@ COLUMNS = {
     ("moving", "", "periodic"): "the same, parts left out",
     ("moving", "", "plates"): "the same, plates",
 }
-
-
-def figures(tables: Tables) -> dict[str, Figure]:
-    """What the tables allow."""
-    drawn: dict[str, tuple[Callable[..., Figure], tuple[str, ...]]] = {
-        "drift": (drift, ("drift",)), "sound": (sound, ("sound_means",)),
-        "speeds": (speeds, ("patterns", "moving_sound")), "steps": (steps, ("euler", "steps")),
-        "drag": (drags, ("drag",))}
-    return {name: draw(*(tables[table] for table in wanted)) for name, (draw, wanted) in drawn.items()
-            if all(len(tables.get(table, [])) for table in wanted)}
 
 
 def column(scheme: str, mode: str, wall: str) -> int:
@@ -87,25 +68,6 @@ def drift(rows: pd.DataFrame) -> Figure:
                    "sound outran the step);\nopen: not claimed, also in such runs; dotted: 1e-13; no change "
                    "at all is drawn as 1e-17", fontsize=9)
     page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    return page
-
-
-def sound(rows: pd.DataFrame) -> Figure:
-    """Growth of linear sound by makers of edges, for both brackets."""
-    page, both = figure(1, 2, width=4.4, height=4.4, sharey=True)
-    for axes, (bracket, title) in zip(both, BRACKETS.items(), strict=True):
-        for number, (kind, words) in enumerate(POINTS.items()):
-            some = rows[(rows["bracket"] == bracket) & (rows["points"] == kind)]
-            some = some.assign(growth=some["growth"].clip(lower=LEAST),
-                               x=some["maker"].map(MAKERS.index) + 0.12*(number - 1.5))
-            bars(axes, some, "x", "growth", number=number, label=words)
-        axes.set(yscale="log", title=title, xlabel="edges", ylim=(LEAST/3, 300))
-        axes.set_xticks(range(len(MAKERS)), labels=MAKERS, rotation=45, ha="right")
-    both[0].set_ylabel("fastest growth of sound per period")
-    page.legend(*both[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    page.suptitle("Sound without friction: does it keep its energy? Below 1e-13: round-off; bars: 95 % over "
-                  "sets of points",
-                  fontsize=10)
     return page
 
 
@@ -142,30 +104,18 @@ def speeds(patterns: pd.DataFrame, sound: pd.DataFrame) -> Figure:
     return page
 
 
-def steps(euler: pd.DataFrame, places: pd.DataFrame) -> Figure:
-    """Forward Euler and sound on fixed points; places of points that move."""
-    page, (left, right) = figure(1, 2, width=4.8, height=5.2)
-    k2 = (2*np.pi/euler["wavelength"])**2
-    euler = euler.assign(rate=euler["growth"]/k2, rate_err=euler["growth_err"]/k2,
-                         dotted=euler["predicted"]/k2)
-    for number, (wavelength, group) in enumerate(euler.groupby("wavelength")):
-        bars(left, group, "dt_over_limit", "rate", number=number, label=rf"$\lambda = {wavelength:g}a$")
-        left.plot(group["dt_over_limit"], group["dotted"], color="grey", linestyle=":", marker="")
-    left.axhline(0, color="black", linewidth=0.6, linestyle="-", marker="")
-    left.set(title="fixed points: growth of sound",
-             xlabel=r"step $\Delta t\, \rho c^2/(\eta + \zeta + \kappa/2)$",
-             ylabel=r"growth rate$/(ka)^2$  [$(k_BT/m)^{1/2}/a$]")
-    groups = places.sort_values("dt").groupby(["motion", "flow", "integrator"])
+def steps(rows: pd.DataFrame) -> Figure:
+    """Where points end that move with old velocities (Eq. 40) and with new ones (Eq. 41)."""
+    page, axes = figure(1, 1, width=6.0, height=4.8)
+    groups = rows.sort_values("dt").groupby(["motion", "flow", "integrator"])
     for number, ((motion, flow, integrator), group) in enumerate(groups):
         words = f"{MOTIONS[str(motion)]}, {flow},\n{INTEGRATORS[str(integrator)]}"
-        bars(right, group, "dt", "error", number=number, linestyle=look(number)["linestyle"], label=words)
-    right.set(xlabel=rf"step $\Delta t$  [{UNIT}]", ylabel="rms error of places over displacement",
-              xscale="log", yscale="log", title="points that move: where they end")
-    ticks(right, (0.03, 0.1, 0.3))
-    for axes in (left, right):
-        below(axes, ncols=2, bbox_to_anchor=(0.5, -0.16))
-    page.suptitle("Which steps do Eqs 40, 41 allow?\ndotted: predicted growth; bars: what halves of a run, "
-                  "or finer steps, differ by", fontsize=10)
+        bars(axes, group, "dt", "error", number=number, linestyle=look(number)["linestyle"], label=words)
+    axes.set(xlabel=rf"step $\Delta t$  [{UNIT}]", ylabel="rms error of places over displacement",
+             xscale="log", yscale="log")
+    ticks(axes, (0.03, 0.1, 0.3))
+    below(axes, ncols=2, bbox_to_anchor=(0.5, -0.16))
+    axes.set_title("Are new velocities better? Bars: what finer steps differ by")
     return page
 
 
@@ -189,3 +139,10 @@ def drags(drag: pd.DataFrame) -> Figure:
     page.suptitle("Drag of a cylinder against Sangani & Acrivos (1982); bars: print and what was not steady",
                   fontsize=10)
     return page
+
+
+FIGURES = Drawings(
+    Drawing("drift", ("drift",), drift),
+    Drawing("speeds", ("patterns", "moving_sound"), speeds),
+    Drawing("steps", ("steps",), steps),
+    Drawing("drag", ("drag",), drags))

@@ -1,5 +1,4 @@
-"""Bodies of held points and sliding sides: drag, torque, shear    [RR98 Secs III, IV]"""
-from collections.abc import Iterator
+"""Slow flows around bodies of held points and between sliding sides: drag, torque, shear    [RR98 Secs III, IV]"""
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,7 +17,7 @@ from particles.limits import limit_of
 from particles.run import Plan, Run, run
 from particles.threads import Team
 from particles.weights import Lucy
-from studies.build.cylinder import PRESSURE, VARIANTS, Variant, drag, force, free, momentum, radius_of, stream
+from studies.build.cylinder import PRESSURE, Variant, drag, force, momentum, radius_of, stream
 from studies.kit.case import Case, Outcome, Report
 
 ETA, SPEED = 2.0, 1e-3      # sound and friction limit the step alike; Re and Mach below 0.01
@@ -28,6 +27,14 @@ INNER, OUTER = 0.18, 0.42   # radii over the size of the box
 BOXES = 2.0                 # lengths of the box that images slide
 DIFFERENCE = 0.1            # of the speeds of neighbouring boxes
 SOUND = np.sqrt(2.0)        # its speed at rho = T = 1
+
+
+def spent(done: Run) -> dict[str, float]:
+    """How long a run was."""
+    return {"steps": done.step, "cpu_s": done.cpu_s, "compile_s": done.compile_s}
+
+
+# --- bodies -------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,27 +70,20 @@ class CylinderDrag(Case):
         steps = round(TIMES*self.rows**2/(self.slowest*ETA)/dt)
         series = {"momentum": momentum, "force": force}
         done = run(method, first, Plan(dt=dt, steps=steps, every=max(1, steps//40), series=series), report)
-        return Outcome({"drag": [{**self.columns(method, done), "dt": dt, "steps": steps, **spent(done)}]})
+        known = {"variant": self.variant.name, "fraction": self.fraction, "rows": self.rows, "dt": dt}
+        return Outcome({"drag": [{**known, **self.columns(method, done), **spent(done)}]})
 
     def columns(self, method: Stream, done: Run) -> dict[str, Any]:
-        """Drag, its error, what the fluid and the body are."""
-        fluid, radius = free(method), radius_of(self.rows, self.fraction)
-        rho, V = method.fields(done.state).rho[fluid], method.edges.V[fluid]
-        forces = np.array(done.series["force"])
-        drags = drag(method, float(self.rows**2), np.array(done.series["momentum"]), forces)
+        """Drag, its error against print, what the fluid and the body are."""
+        radius = radius_of(self.rows, self.fraction)
+        pulls = (np.array(done.series[name]) for name in ("momentum", "force"))
+        drags = drag(method, float(self.rows**2), *pulls)
         last, err = drags[-1], float(np.ptp(drags[-4:]))        # the last tenth of the time
         known, known_err = drag_of(self.fraction)
-        return {"variant": self.variant.name, "fraction": self.fraction, "rows": self.rows, "radius": radius,
-                "points": int(fluid.sum()), "drag": last, "drag_err": err, "published": known,
-                "published_err": known_err, "error": last/known - 1,
+        return {"radius": radius, "drag": last, "drag_err": err,
+                "published": known, "published_err": known_err, "error": last/known - 1,
                 "error_err": float(np.hypot(err/known, last*known_err/known**2)),
-                "balance": forces[-1]/(method.push[0]*(V*rho).sum()) - 1, "reynolds": 2*self.speed*radius/ETA,
-                "mach": self.speed/SOUND, "density_range": float(np.ptp(rho))}
-
-
-def spent(done: Run) -> dict[str, float]:
-    """Seconds of a run."""
-    return {"cpu_s": done.cpu_s, "compile_s": done.compile_s}
+                "reynolds": 2*self.speed*radius/ETA, "mach": self.speed/SOUND}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,10 +123,8 @@ class TurningCylinder(Case):
         done = run(method, first, Plan(dt=dt, steps=steps), report)
         whole = 4*np.pi*ETA*SPEED*inner/(1 - (inner/outer)**2)
         on_turned, on_fixed = torques(method, done.state)/whole
-        profile = float(np.abs(method.fields(done.state).v - exact).max()/SPEED)
-        return Outcome({"torque": [{
-            "rows": self.rows, "radius": inner, "turned": -on_turned - 1, "fixed": on_fixed - 1,
-            "balance": on_turned + on_fixed, "profile": profile, "steps": steps, **spent(done)}]})
+        return Outcome({"torque": [{"rows": self.rows, "radius": inner, "turned": -on_turned - 1,
+                                    "fixed": on_fixed - 1, **spent(done)}]})
 
 
 def torques(method: Stream, state: np.ndarray) -> np.ndarray:
@@ -148,10 +146,15 @@ def sliding(rows: int, eta: float) -> Sheared:
                    law=ConstEta(eta, eta), rate=DIFFERENCE/rows)
 
 
-def whole_steps(method: Sheared, first: np.ndarray) -> float:
-    """The longest step that divides the time of one spacing: shares of sliding edges bend between steps."""
+def slid(method: Sheared, first: np.ndarray, report: Report) -> tuple[Run, float]:
+    """A run until images have slid BOXES, and its time.
+
+    The step divides the time of one spacing: shares of sliding edges bend between steps.
+    """
     spacing = 1/DIFFERENCE
-    return spacing/np.ceil(spacing/(OF_LIMIT*limit_of(method, first)))
+    dt = spacing/np.ceil(spacing/(OF_LIMIT*limit_of(method, first)))
+    done = run(method, first, Plan(dt=dt, steps=round(BOXES/method.rate/dt)), report)
+    return done, done.step*dt
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -161,27 +164,22 @@ class SlidingShear(Case):
     rows: int
     eta: float = 0.3
 
-    @property
-    def label(self) -> str:
-        return f"shear between sliding sides, {self.rows} rows"
-
     def run(self, report: Report, folder: Path) -> Outcome:
         method = sliding(self.rows, self.eta)
         rate, V, y = method.rate, method.edges.V, method.points.x[:, 1]
         exact = np.stack([rate*y, 0*y], axis=1)
         first = method.state(1.0, exact, 1.0)
-        dt = whole_steps(method, first)
-        done = run(method, first, Plan(dt=dt, steps=round(BOXES/rate/dt)), report)
+        done, time = slid(method, first, report)
         last = done.state
         stress = method.start(len(y), Team(1)).through(last)[1]/self.rows
-        mass, px, py, energy, slid = (last@V - first@V)/V.sum()
-        heat = energy/(done.step*dt)
-        off = method.fields(done.state).v - exact
+        mass, px, py, energy, _ = (last@V - first@V)/V.sum()
+        heat = energy/time
+        change = np.abs(method.fields(last).v - exact).max()
         return Outcome({"shear": [{
             "rows": self.rows, "stress": abs(stress/(self.eta*rate) - 1),
-            "heating": abs(heat/(self.eta*rate**2) - 1), "profile": float(np.abs(off).max()/DIFFERENCE),
+            "heating": abs(heat/(self.eta*rate**2) - 1), "profile": float(change/DIFFERENCE),
             "mass_drift": abs(mass), "momentum_drift": float(max(abs(px), abs(py))/DIFFERENCE),
-            "slid": slid/self.rows, "steps": done.step, **spent(done)}]})
+            **spent(done)}]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -195,27 +193,17 @@ class TurningWave(Case):
     eta: float = 0.02/32        # per row: the same Reynolds number at all sizes
     size: float = 1e-3          # of the wave, so small that its square does not count
 
-    @property
-    def label(self) -> str:
-        return f"turning wave between sliding sides, {self.rows} rows"
-
     def run(self, report: Report, folder: Path) -> Outcome:
         method = sliding(self.rows, self.eta*self.rows)
-        rate, V, y = method.rate, method.edges.V, method.points.x[:, 1]
         v, p = self.wave(method, 0.0)
         first = method.state(1 + p/2, v, 1 + p/2)          # isentropic: gamma = 2, P = 1
-        dt = whole_steps(method, first)
-        done = run(method, first, Plan(dt=dt, steps=round(BOXES/rate/dt)), report)
-        last = method.fields(done.state)
-        exact, _ = self.wave(method, done.step*dt)
-        of_wave = exact - np.stack([rate*y, 0*y], axis=1)
+        done, time = slid(method, first, report)
+        exact, _ = self.wave(method, time)
+        y = method.points.x[:, 1]
+        of_wave = exact - np.stack([method.rate*y, 0*y], axis=1)
         scale = float(np.sqrt((of_wave**2).sum(axis=1).mean()))
-        mass = V@last.rho/(V@method.fields(first).rho)
-        slid = float(done.state[-1, 0]/self.rows)
-        return Outcome({"wave": [{
-            "rows": self.rows, "error": without_divergence(last.v - exact, self.rows)/scale,
-            "mach": DIFFERENCE/SOUND, "mass_drift": abs(float(mass) - 1), "slid": slid, "steps": done.step,
-            **spent(done)}]})
+        error = without_divergence(method.fields(done.state).v - exact, self.rows)
+        return Outcome({"wave": [{"rows": self.rows, "error": error/scale, **spent(done)}]})
 
     def wave(self, method: Sheared, t: float) -> tuple[np.ndarray, np.ndarray]:
         """(velocity (n, 2) with the shear, pressure (n,)) at a time: grad^2 p = -2 rho rate dv/dx."""
@@ -233,34 +221,7 @@ def without_divergence(v: np.ndarray, rows: int) -> float:
     F = np.fft.fft2(v.reshape(rows, rows, 2), axes=(0, 1))/rows**2
     k = np.fft.fftfreq(rows)
     kx, ky = np.meshgrid(k, k, indexing="ij")
-    size = np.where((kx == 0) & (ky == 0), 1.0, np.hypot(kx, ky))
-    along = np.abs(kx*F[:, :, 0] + ky*F[:, :, 1])**2/size**2
+    k2 = np.maximum(kx**2 + ky**2, 1e-300)
+    along = np.abs(kx*F[:, :, 0] + ky*F[:, :, 1])**2/k2
     whole = (np.abs(F)**2).sum(axis=2)
     return float(np.sqrt((whole - along).sum()))
-
-
-SMOOTH = (24, 28, 32, 36, 40, 44, 48, 52, 56)      # sizes where errors are smooth, and where they are not
-SCATTERED = tuple(range(24, 50, 2))
-
-
-def bodies(size: str) -> Iterator[Case]:
-    """`quick` has small sizes at one solid fraction, too few and too small to extrapolate drags from."""
-    quick = size == "quick"
-    waves = (12, 16, 24) if quick else (16, 24, 32, 48, 64)
-    yield from (TurningWave(rows=rows) for rows in waves)
-    yield from (SlidingShear(rows=rows) for rows in waves[:3])
-    yield from (TurningCylinder(rows=rows) for rows in ((16, 20) if quick else range(24, 68, 4)))
-    if quick:
-        yield from drags(0.1, {"surface": (12, 16), "frozen": (12, 16)})
-        return
-    for fraction, every in ((0.1, 1), (0.3, 4)):
-        scattered = SCATTERED[::every]
-        sizes = {"surface": SMOOTH, "surface-unfiltered": (24, 32, 48), "frozen": scattered,
-                 "frozen-grown": scattered}
-        yield from drags(fraction, sizes)
-
-
-def drags(fraction: float, sizes: dict[str, tuple[int, ...]]) -> Iterator[Case]:
-    """Drags of some variants."""
-    for name, rows in sizes.items():
-        yield from (CylinderDrag(variant=VARIANTS[name], fraction=fraction, rows=n) for n in rows)
