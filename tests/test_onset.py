@@ -5,6 +5,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from continuum import boussinesq
 from continuum.fluid import ConstNu, VanDerWaals
 from continuum.gas import newton as compressible_newton
 from continuum.gas import solve as compressible
@@ -15,13 +16,14 @@ from continuum.linear.square import critical_ra_square
 from continuum.richardson import richardson
 from continuum.scene import RayleighBenard, Walls
 from continuum.steady import Steady
-from studies.build.spam import PRINTED
+from studies.kit.stats import Measured
 from studies.kit.study import Study
 from studies.onset import STUDY
 from studies.onset import cases as onset
-from studies.onset import derive as onset_derive
-from studies.onset.rates import RUNS, SOLVERS, History, boussinesq_mac, spam_run
-from studies.onset.runs import Energies, Growth, GrowthRun, LinearTheory, SpamGrowth
+from studies.onset import tables as onset_tables
+from studies.onset.rates import GridGrowth, LinearTheory, boussinesq_mac, pypde_boussinesq
+from studies.onset.rates import compressible as of_gas
+from studies.onset.runs import GrowthRun, History, OnsetEnergies, SpamGrowth
 
 LAYER = RayleighBenard(ra=1750.0)
 SQUARE = RayleighBenard(ra=8000.0, aspect=1.0, sides=Walls())
@@ -31,8 +33,8 @@ SCENE_IDS = ["eta", "nu", "vdw", "square"]
 
 def crossing(solver, scene, rows, ras):
     """Ra where the growth rate of a solver on a grid is zero."""
-    sigma = [SOLVERS[solver](replace(scene, ra=ra), rows)[0] for ra in ras]
-    return onset_derive.interpolated(np.array(sigma), np.array(ras))
+    sigma = [solver(replace(scene, ra=ra), rows)[0] for ra in ras]
+    return onset_tables.interpolated(np.array(sigma), np.array(ras))
 
 
 # --- eigenvalue problem in the square ---------------------------------------------------------------------
@@ -40,7 +42,11 @@ def crossing(solver, scene, rows, ras):
 
 def test_square_agrees_with_the_staggered_grid():
     """Newton's Jacobian on three grids, extrapolated, is within its own uncertainty of the Chebyshev value."""
-    values = [crossing("boussinesq", replace(SQUARE, ra=1.0), rows, (4800.0, 4950.0, 5100.0)) for rows in (16, 24, 32)]
+    def sigma(rows, ra):
+        case = boussinesq.Case(ra=ra, pr=1.0, box=boussinesq.CONDUCTING_SQUARE, rows=rows)
+        return boussinesq.growth_rates(boussinesq.rest(case), count=2)[0].real
+    ras = np.array([4800.0, 4950.0, 5100.0])
+    values = [onset_tables.interpolated(np.array([sigma(rows, ra) for ra in ras]), ras) for rows in (16, 24, 32)]
     found = richardson(values, (16, 24, 32))
     # 0.5: the parabola through three Ra is off by 1e-5 of Ra, sigma''' times their distances
     assert abs(found.limit - critical_ra_square()) < found.error + 0.5
@@ -60,7 +66,7 @@ def test_square_refuses_unresolved_disturbances():
 # --- growth rates -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("solver", ["boussinesq", "pypde-boussinesq"])
+@pytest.mark.parametrize("solver", [boussinesq_mac, pypde_boussinesq])
 def test_boussinesq_grids_approach_linear_theory(solver):
     scene = RayleighBenard(ra=1.0, pr=7.0)
     values = [crossing(solver, scene, rows, (1600.0, 1660.0, 1700.0, 1750.0)) for rows in (16, 24, 32)]
@@ -79,7 +85,7 @@ def test_growth_rate_of_linear_theory_is_approached_too():
 def test_gas_of_small_differences_is_boussinesq_fluid_of_half_the_gradient():
     """As dT -> 0 its growth rate is that of Pr = 2, times 1/sqrt 2 for half the gradient, to order dT^2 = 0.0025."""
     scene = RayleighBenard(ra=2500.0, T_hot=1.025, T_cold=0.975)
-    found = richardson([SOLVERS["compressible"](scene, rows)[0] for rows in (16, 24, 32)], (16, 24, 32))
+    found = richardson([of_gas(scene, rows)[0] for rows in (16, 24, 32)], (16, 24, 32))
     expected = linear.growth_rate(ra=2500.0, pr=2.0, k=np.pi)/np.sqrt(2)
     assert abs(found.limit - expected) < found.error + 0.0025*expected
 
@@ -88,17 +94,14 @@ def test_gas_of_small_differences_is_boussinesq_fluid_of_half_the_gradient():
 def test_both_matrices_of_the_gas_agree(scene):
     """A few numbers a row against the sparse matrix of half the box; 1e-9: round-off of differences with steps of 1e-5."""
     whole = compressible_newton.growth_rate(scene, 16)*scene.L/scene.free_fall
-    assert whole == pytest.approx(SOLVERS["compressible"](scene, 16)[0], abs=1e-9)
+    assert whole == pytest.approx(of_gas(scene, 16)[0], abs=1e-9)
 
 
-@pytest.mark.parametrize("solver, within", [
-    ("compressible", 1e-8),     # RK4: sigma^5 dt^4; what is left of other disturbances is e^-0.54*40 of these rolls
-    ("boussinesq", 2e-5),       # two-step extrapolation: a share 0.05^2 of sigma, which vanishes where sigma does
-])
-def test_runs_grow_as_the_matrix_says(solver, within):
-    scene = replace(LAYER, ra=1800.0)
-    history = RUNS[solver](scene, 12, 1e-10, 80.0, lambda fraction: None)
-    assert history.growth(40.0)[0] == pytest.approx(SOLVERS[solver](scene, 12)[0], abs=within)
+def test_runs_grow_as_the_matrix_says():
+    """1e-8: RK4 errs by sigma^5 dt^4; what is left of other disturbances is e^-0.54*40 of these rolls."""
+    case = GrowthRun(scene=replace(LAYER, ra=1800.0), rows=12, ke=1e-10, until=80.0)
+    history = case.history(lambda fraction: None, None)
+    assert history.growth(40.0)[0] == pytest.approx(of_gas(case.scene, 12)[0], abs=1e-8)
 
 
 def test_runs_measure_a_known_growth():
@@ -172,7 +175,7 @@ def rates(ra, sigma, err=0.0):
 
 def test_smooth_zero_covers_the_true_one():
     ra = np.array([1500, 1600, 1650, 1700, 1750, 1800, 1900.0])
-    found = onset_derive.smooth_zero(rates(ra, [linear.growth_rate(ra=r, pr=2.0, k=np.pi) for r in ra]))
+    found = onset_tables.smooth_zero(rates(ra, [linear.growth_rate(ra=r, pr=2.0, k=np.pi) for r in ra]))
     assert abs(found.value - linear.critical_ra(np.pi)) <= found.err + 1e-9*found.value     # 1e-9: round-off in sigma
     assert found.err < 1e-3
 
@@ -183,25 +186,26 @@ def test_zero_of_noisy_rates_covers_the_true_one(noise):
     deviations of 200 samples."""
     rng, ra = np.random.default_rng(3), np.array([1400, 1700, 2000, 2300.0])
     truth = 0.1*(1 - np.sqrt(1850/ra))
-    zeros = [onset_derive.nearby_zero(rates(ra, truth + noise*rng.normal(size=4), 2*noise)) for _ in range(200)]
+    zeros = [onset_tables.nearby_zero(rates(ra, truth + noise*rng.normal(size=4), 2*noise)) for _ in range(200)]
     assert np.mean([abs(zero.value - 1850) <= zero.err for zero in zeros]) > 0.9
 
 
 def test_nothing_crosses_where_all_grow():
-    assert not onset_derive.crosses(rates([1, 2, 3], [0.1, 0.2, 0.3]))
+    assert not onset_tables.crosses(rates([1, 2, 3], [0.1, 0.2, 0.3]))
 
 
 def test_a_straight_line_has_its_zero():
     ra = np.array([2000, 3000, 5000, 6800.0])
-    line = onset_derive.straight(pd.DataFrame({"ra": ra, "ke": 0.01*(1 - np.sqrt(1708/ra))}))
+    line = onset_tables.straight(pd.DataFrame({"ra": ra, "ke": 0.01*(1 - np.sqrt(1708/ra))}))
     assert line.ra_c == pytest.approx(1708, rel=1e-12)      # round-off
     assert line.residual < 1e-12
 
 
 def test_lines_are_extrapolated_in_inverse_squares():
     def line(N):
-        return onset_derive.Line(-0.41*(1 + 3/N**2), 0.01*(1 + 5/N**2), 0.0, 0.0, 5)
-    found = onset_derive.without_grid({N: line(N) for N in (30.0, 40.0, 50.0)})
+        slope, intercept = -0.41*(1 + 3/N**2), 0.01*(1 + 5/N**2)
+        return onset_tables.Line(5, slope, intercept, (slope/intercept)**2, 0.0, 0.0)
+    found = onset_tables.without_grid({N: line(N) for N in (30.0, 40.0, 50.0)})
     assert found.ra_c == pytest.approx(41**2, rel=1e-12)    # round-off
     assert found.err < 1e-8
 
@@ -211,22 +215,21 @@ def test_lines_are_extrapolated_in_inverse_squares():
 
 def test_particles_start_with_the_rolls_asked_for(tmp_path):
     """0.15: rolls of two periods over a jittered lattice of 16 rows, and what 15 steps have changed."""
-    case = SpamGrowth(scene=RayleighBenard(ra=3000.0, L=16.0))
-    history = spam_run(case.scene, PRINTED, 1, 4e-4, 0.6, case.dt, lambda fraction: None, tmp_path)
+    case = SpamGrowth(scene=RayleighBenard(ra=3000.0, L=16.0), ke=4e-4, until=0.6)
+    history = case.history(lambda fraction: None, tmp_path)
     assert history.amplitude[0] == pytest.approx(2*np.sqrt(4e-4), rel=0.15)
 
 
 def small():
     """Every kind of case, on the smallest grids."""
-    sizes, layer = (8, 10, 12), onset.scene()
-    yield LinearTheory(ras=(1600.0, 1800.0), prs=(2.0,))
-    for method in ("boussinesq", "compressible"):
-        scene = onset.scene(pr=2.0) if method == "boussinesq" else layer
-        yield Growth(method=method, scene=scene, sizes=sizes, ras=(1500.0, 1600.0, 1700.0, 1800.0))
-        for rows in sizes:
-            yield Energies(method=method, scene=scene, rows=rows, shares=(0.1, 0.3, 0.5))
+    sizes, ras = (8, 10, 12), (1500.0, 1600.0, 1700.0, 1800.0)
+    yield LinearTheory(ras=(1600.0, 1800.0), pr=2.0)
+    yield GridGrowth(method="boussinesq", solver=boussinesq_mac, scene=onset.BOUSSINESQ, sizes=sizes, ras=ras)
+    yield GridGrowth(method="compressible", solver=of_gas, scene=onset.scene(), sizes=sizes, ras=ras)
+    for rows in sizes:
+        yield OnsetEnergies(scene=onset.scene(), rows=rows, shares=(0.1, 0.3, 0.5))
     for ra in (1400.0, 1800.0, 2600.0):
-        yield GrowthRun(method="compressible", scene=RayleighBenard(ra=ra), rows=8, ke=4e-4, after=2.0, until=10.0)
+        yield GrowthRun(scene=RayleighBenard(ra=ra), rows=8, ke=4e-4, until=10.0)
         yield SpamGrowth(scene=RayleighBenard(ra=ra, L=12.0), ke=4e-4, until=6.0)
 
 
@@ -263,13 +266,9 @@ def test_study_has_lines_of_each_grid_and_beyond(tables):
 
 
 def test_quantities_name_what_differs():
-    at = {"variant": "", "eos": "ideal", "transport": "const-nu", "dT": 0.1, "sides": "periodic", "resolution": np.inf}
-    assert onset_derive.quantity(at, "operator", 0.0, 0.0, "") == "ra_c periodic aspect 2, const-nu, dT 0.1 (growth rates)"
-    at = {**at, "variant": "printed", "transport": "const-eta", "dT": 1.0, "resolution": 25.0}
-    word = "ra_c periodic aspect 2 (growth rates, run from K = 0.0004, 25 rows)"
-    assert onset_derive.quantity(at, "run", 0.0, 4e-4, "") == word
-
-
-def test_sizes_differ_as_they_say():
-    quick, paper, fine = ({case.key for case in onset.cases(size)} for size in ("quick", "paper", "fine"))
-    assert paper < fine and len(quick) < len(paper)
+    at = dict.fromkeys(onset_tables.POINT, "") | {"sides": "periodic", "resolution": np.inf, "eos": "ideal"}
+    row = onset_tables.critical_row({**at, "transport": "const-nu", "dT": 0.1}, Measured(1.0), "operator")
+    assert row["quantity"] == "ra_c periodic aspect 2, const-nu, dT 0.1 (growth rates)"
+    at |= {"variant": "printed", "transport": "const-eta", "dT": 1.0, "resolution": 25.0}
+    row = onset_tables.critical_row(at, Measured(1.0), "run", ke_start=4e-4)
+    assert row["quantity"] == "ra_c periodic aspect 2 (growth rates, run from K = 0.0004, 25 rows)"
