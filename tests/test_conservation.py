@@ -1,6 +1,5 @@
 """The study conservation: what changes are divided by, what runs keep and controls lose, winds that rates do not know of."""
 from dataclasses import replace
-from itertools import combinations, product
 from math import fsum
 
 import numpy as np
@@ -12,10 +11,9 @@ from particles.fields import Fields
 from particles.integral.dih import Dih, Nested, Pairwise
 from particles.integral.edge_makers import MAKERS
 from particles.integral.points import jittered, lattice
-from particles.integral.rr98_moving_plain import MOTIONS
-from particles.weights import WEIGHTS, Lucy, Monaghan
+from particles.weights import Lucy, Monaghan
 from studies.conservation.drift import MODES, PLATES, MovingDrift
-from studies.conservation.plain_runs import CUBE, LINE, SQUARE, DihDrift, MotionDrift, Unsymmetric
+from studies.conservation.plain_runs import CUBE, LINE, SQUARE, DihDrift, Unsymmetric
 from studies.conservation.sums import Changes, exact_sums, parts, random_fields, sizes
 
 PRINTED = Nested(differences=False)
@@ -88,13 +86,6 @@ def test_a_pressure_that_is_not_symmetric_loses_momentum():
     assert 1e-3 < columns["lost"] < 1 and columns["reached"] == 60
 
 
-@pytest.mark.parametrize(("motion", "keeps"),
-                         [("literal", True), ("constant-mass", True), ("convective", False)])
-def test_motions_keep_their_sums_or_lose_them(motion, keeps):
-    columns = row(MotionDrift(motion=motion, kind=MOTIONS[motion], steps=60))
-    assert (largest(columns) < 1e-14) == keeps
-
-
 def test_plates_with_friction_take_momentum_and_without_it_none():
     with_friction, without = (row(conservation.layer("delaunay", "jittered-0.3", mode, PLATES, steps=200))
                               for mode in (MODES[0], MODES[-1]))
@@ -156,23 +147,3 @@ def test_closed_edges_do_not_know_of_a_wind(transport):
 def test_inner_sums_as_printed_know_of_a_wind_off_a_lattice_and_so_does_mended_heating():
     assert error_in_wind(PRINTED, "plain")[1:3].max() > 1e-4
     assert error_in_wind(Pairwise(), "delaunay")[3] > 1e-4
-
-
-# --- which runs there are -----------------------------------------------------------------------
-
-
-def test_any_two_values_of_two_factors_meet():
-    """Of transports, weights, makers, points in periodic boxes; of makers, points, weights between plates."""
-    runs = [{"mode": case.mode.name, "weight": case.weight.__name__, "maker": case.maker,
-             "wall": case.wall.name, "points": case.disorder.name}
-            for case in conservation.cases("paper") if getattr(case, "scheme", "") == "layer"]
-    weights = {kind.__name__ for kind in WEIGHTS.values()}
-    values = {"mode": {mode.name for mode in MODES}, "weight": weights, "maker": set(MAKERS),
-              "points": set(conservation.KINDS)}
-    impossible = {(maker, "lattice") for maker in ("closed", "exact")}
-    impossible |= {(kind, "delaunay") for kind in weights if kind != "Lucy"}
-    for one, other in combinations(values, 2):
-        met = {(a[one], a[other]) for a in runs if a["wall"] == "periodic"}
-        assert set(product(values[one], values[other])) - met <= impossible
-    for factor in ("weight", "maker", "points"):
-        assert {one[factor] for one in runs if one["wall"] == "plates"} == values[factor]

@@ -6,12 +6,10 @@ from continuum.fluid import ConstEta, IdealGas
 from particles.integral.brackets import Powers
 from particles.integral.dih import Dih, Nested, Pairwise
 from particles.integral.edge_makers import renormalised
-from particles.integral.interpolants import OrderingWarning
 from particles.integral.points import jittered, lattice
 from particles.integral.rr98_moving_plain import MOTIONS, Carried, ConstantMass, Convective, Literal
 from particles.integrators import RK4, Euler, TwoStep
-from particles.threads import Team
-from particles.weights import WEIGHTS, Lucy, WendlandC2
+from particles.weights import Lucy, WendlandC2
 from studies.conservation.motions import MovingSound, Pattern, by_halves, frequency, march, moving, seen_slope
 
 COUNTS = {1: (14,), 2: (7, 8), 3: (5, 5, 5)}
@@ -54,13 +52,6 @@ def test_mass_momentum_and_energy_stay_while_points_move(kind, d, transport):
     assert np.abs(moved[:d] - state[:d]).max() > 0.05
     # 5 steps of 4 stages, some 30 terms each
     assert np.abs(method.conserved(moved) - method.conserved(state)).max() < 1e-14*at.n
-
-
-@pytest.mark.parametrize("integrator", [Euler, TwoStep, RK4])
-def test_every_integrator_conserves_in_literal_motion(integrator):
-    method, at = made(Literal)
-    state = crowd(method, at)
-    assert np.abs(method.conserved(after(method, state, 20, 0.02, integrator)) - method.conserved(state)).max() < 1e-14*at.n
 
 
 def test_equations_46_to_48_on_equal_volumes_conserve_nothing():
@@ -186,19 +177,6 @@ def test_two_steps_are_equations_40_and_41():
     np.testing.assert_allclose(old, state + dt*k, rtol=0, atol=1e-15)
 
 
-def test_on_fixed_points_two_steps_are_eulers():
-    at = lattice((7, 7))
-    dih = Dih(edges=renormalised(at, Lucy.of(h=3.0)), eos=IdealGas(), law=ConstEta(0.1, 0.1))
-    rng, ends = np.random.default_rng(0), []
-    start = dih.state(rng.uniform(0.9, 1.1, at.n), rng.normal(0, 0.1, (at.n, 2)), np.ones(at.n))
-    for integrator in (Euler, TwoStep):
-        state = start.copy()
-        stepper = integrator(state.shape, Team(1))
-        stepper.step(dih, state, 0.1)
-        ends.append(state)
-    np.testing.assert_array_equal(*ends)
-
-
 # --- bad input ------------------------------------------------------------------------------------------------
 
 
@@ -218,20 +196,3 @@ def test_what_cannot_be_moved_is_refused():
     twice[7] = twice[8]
     with pytest.raises(ValueError, match="points 7 and 8 overlap"):
         method.state(twice, np.ones(at.n), 0*at.x, np.ones(at.n))
-
-
-@pytest.mark.parametrize("kind", MOTIONS.values())
-def test_a_weight_too_narrow_for_the_points_is_told_at_the_start(kind):
-    at = lattice((9, 9))
-    method = kind(box=(9.0, 9.0), weight=Lucy.of(h=1.05), eos=IdealGas(), law=ConstEta(0.1, 0.1))
-    with pytest.warns(OrderingWarning, match=r"below the spacing 1, the left side of Eq\. 45: gradients of linear fields are"):
-        method.state(at.x, np.ones(at.n), 0*at.x, np.ones(at.n))
-
-
-@pytest.mark.parametrize("weight", WEIGHTS.values())
-@pytest.mark.parametrize("kind", [Literal, Convective])
-def test_every_weight_can_move_points(kind, weight):
-    method, at = made(kind, weight=weight)
-    state = after(method, crowd(method, at), 3, 0.05, TwoStep)
-    assert np.isfinite(state).all()
-    assert len(method.names) == len(state)

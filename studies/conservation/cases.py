@@ -21,7 +21,16 @@ from particles.weights import WEIGHTS, WendlandC2
 from studies.build.cylinder import VARIANTS
 from studies.build.disorder import DISORDERS
 from studies.conservation.claims import CLAIMS
-from studies.conservation.drift import MODES, OPEN, PAIRWISE, PLATES, UNDER_GRAVITY, LayerDrift, MovingDrift, Wall
+from studies.conservation.drift import (
+    MODES,
+    OPEN,
+    PAIRWISE,
+    PLATES,
+    UNDER_GRAVITY,
+    LayerDrift,
+    MovingDrift,
+    Wall,
+)
 from studies.conservation.figures import FIGURES
 from studies.conservation.motions import ALONG, STILL, BracketForce, Identity, MovingSound, Pattern, Signs
 from studies.conservation.plain_runs import (
@@ -61,13 +70,14 @@ SCATTERED = tuple(range(24, 50, 2))
 
 def pairs(kinds: tuple[str, ...]) -> list[tuple[str, str]]:
     """Makers and sets of points that go together."""
-    both = product(MAKERS, kinds)
-    return [(maker, points) for maker, points in both if points != "lattice" or maker not in ("closed", "exact")]
+    without = product(("closed", "exact"), ("lattice",))
+    return sorted(set(product(MAKERS, kinds)) - set(without))
 
 
 def layer(maker: str, points: str, mode=PAIRWISE, wall: Wall = OPEN, **more) -> LayerDrift:
     """A run of the compiled scheme."""
-    return LayerDrift(mode=mode, maker=maker, make=MAKERS[maker], disorder=DISORDERS[points], wall=wall, **more)
+    return LayerDrift(mode=mode, maker=maker, make=MAKERS[maker], disorder=DISORDERS[points], wall=wall,
+                      **more)
 
 
 def layers(kinds: tuple[str, ...], weights: tuple[type, ...], steps: int) -> Iterator[LayerDrift]:
@@ -94,7 +104,7 @@ def plates(kinds: tuple[str, ...], weights: tuple[type, ...], steps: int) -> Ite
 
 
 def dimensions(steps: int, seeds: int) -> Iterator[Case]:
-    """One to three dimensions, Eq. 37 as printed; random starts on a line, of which six left the claim open."""
+    """One to three dimensions, Eq. 37 as printed; starts on a line, of which six left the claim open."""
     printed = Nested(differences=False)
     for box, mode, transport in ((LINE, "pairwise", Pairwise()), (LINE, "nested", Nested()),
                                  (LINE, "printed", printed), (SQUARE, "printed", printed),
@@ -109,7 +119,8 @@ def motions(steps: int, weights: tuple[type, ...]) -> Iterator[Case]:
     for name, kind in MOTIONS.items():
         claimed = EVERYTHING if name in KEEP else "nothing"
         yield MotionDrift(motion=name, kind=kind, steps=steps, claimed=claimed)
-    two: dict[str, Any] = {"integrator": TwoStep, "disorder": DISORDERS["lattice"], "dt": 0.05, "steps": steps}
+    two: dict[str, Any] = {
+        "integrator": TwoStep, "disorder": DISORDERS["lattice"], "dt": 0.05, "steps": steps}
     for weight in weights:
         yield MotionDrift(motion="literal", kind=MOTIONS["literal"], weight=weight, **two)
     yield MotionDrift(motion="convective", kind=MOTIONS["convective"], claimed="nothing", **two)
@@ -152,7 +163,8 @@ def place(motion: str, flow: str, start: Any, **more: Any) -> Places:
 PLACES = (
     place("literal", "sound", sound_flow, counts=(16, 7), law=STILL, time=13.0, steps=60),
     place("constant-mass", "sound", sound_flow, counts=(16, 7), law=STILL, time=18.9, steps=80),
-    place("constant-mass", "vortices", vortex_flow, counts=(12, 12), law=ConstEta(0.2, 0.2), time=10.0, steps=80))
+    place("constant-mass", "vortices", vortex_flow, counts=(12, 12), law=ConstEta(0.2, 0.2), time=10.0,
+          steps=80))
 
 
 # --- slow flows ---------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""Points that move as RR98 prints it: equations evaluated once, speeds of patterns and sound    [RR98 Eqs 39-50]"""
+"""Points that move as RR98 prints it: equations evaluated once, speeds of waves    [RR98 Eqs 39-50]"""
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -159,7 +159,7 @@ def by_halves(series: np.ndarray, measure: Callable[[np.ndarray], float]) -> Mea
 class Pattern(Case):
     """Speed of a density wave under uniform pressure over that of the stream that carries it, no viscosity.
 
-    kind : of `rr98_moving_plain.MOTIONS`, `motion` its name. The error is what the halves of the run differ by.
+    kind : of `rr98_moving_plain.MOTIONS`, `motion` its name. Its error: what the halves of the run differ by.
     """
 
     motion: str

@@ -1,4 +1,4 @@
-"""Slow flows around bodies of held points and between sliding sides: drag, torque, shear    [RR98 Secs III, IV]"""
+"""Slow flows around held points and between sliding sides: drag, torque, shear    [RR98 Secs III, IV]"""
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any

@@ -1,28 +1,21 @@
-"""Onset of convection: the critical Rayleigh number by linear theory, by growth rates of each solver, and by the zero of the
-straight line of K against Ra^-1/2, extrapolated in L^-2 (KHP95, Sec. V); how many figures does each really give?
+"""Which runs there are: linear theory, growth rates of each solver, rolls in time, energies near onset.
 
-Growth rates are per free-fall time, energies in KHP95's units; nothing depends on L. Size `quick` takes a minute, `paper` six
-on two cores; `fine` (twelve) has more particles and weaker rolls.
+Nothing depends on L. Size `quick` takes a minute, `paper` six on two cores; `fine` (twelve) has other numbers
+of particles.
 """
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import product
 from typing import Any
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, VanDerWaals
 from continuum.scene import Periodic, RayleighBenard, Walls
-from studies.build.spam import PRINTED, VARIANTS, Variant
+from studies.build.spam import PRINTED, VARIANTS
 from studies.kit.case import Case
 from studies.kit.study import Part
 from studies.onset.claims import ONSET_CLAIMS
 from studies.onset.figures import FIGURES
-from studies.onset.rates import (
-    GridGrowth,
-    LinearTheory,
-    boussinesq_mac,
-    compressible,
-    pypde_boussinesq,
-    pypde_compressible,
-)
+from studies.onset.rates import GridGrowth, LinearTheory, boussinesq_mac, compressible, pypde_compressible
 from studies.onset.runs import LINES, GrowthRun, OnsetEnergies, SpamGrowth
 from studies.onset.tables import ALL, derive
 
@@ -31,12 +24,13 @@ DIFFERENCES = (1.0, 0.5, 0.25, 0.1)
 NEAR = (1500.0, 1600.0, 1650.0, 1700.0, 1750.0, 1800.0, 1900.0)
 NEAR_SQUARE = (4700.0, 4900.0, 5000.0, 5100.0, 5300.0)
 GRIDS = (16, 24, 32, 48, 64)
+SEEDS = (1, 2, 3)
 STRONG = (1400.0, 1600.0, 1700.0, 1800.0, 2000.0, 2200.0, 2600.0, 3000.0, 3400.0)
 SHARES = tuple(sorted({share for line in LINES.values() for share in line}))
-#: as printed, and with less of the static pressure that holds particles on a lattice, where rolls grow earlier
+#: as printed, and with less of the static pressure that holds particles on a lattice: rolls grow earlier
 PARTICLES = {PRINTED: (1600.0, 1800.0, 2200.0, 2600.0, 3000.0, 3400.0),
              VARIANTS["less-static-90"]: (1000.0, 1150.0, 1300.0, 1450.0, 1600.0, 1800.0)}
-FROZEN = (2200.0, 2600.0, 3000.0, 3400.0, 4200.0, 5000.0)   # where weaker rolls among printed particles may begin to grow
+KE = 4e-4           # of rolls of finite energy
 
 
 def scene(dT: float = 1.0, **more: Any) -> RayleighBenard:
@@ -51,8 +45,7 @@ SQUARE = scene(aspect=1.0, sides=Walls())
 
 def growth(sizes: tuple[int, ...], differences: tuple[float, ...]) -> Iterator[GridGrowth]:
     """All grids; the gas of all kinds on KHP95's, at all temperature differences there."""
-    for method, solver in (("boussinesq", boussinesq_mac), ("pypde-boussinesq", pypde_boussinesq)):
-        yield GridGrowth(method=method, solver=solver, scene=BOUSSINESQ, sizes=sizes, ras=NEAR)
+    yield GridGrowth(method="boussinesq", solver=boussinesq_mac, scene=BOUSSINESQ, sizes=sizes, ras=NEAR)
     gas = GridGrowth(method="compressible", solver=compressible, scene=SQUARE, sizes=sizes, ras=NEAR_SQUARE)
     yield gas
     for eos in (IdealGas(), VanDerWaals()):
@@ -63,18 +56,18 @@ def growth(sizes: tuple[int, ...], differences: tuple[float, ...]) -> Iterator[G
                              scene=scene(eos=eos, transport=law), sizes=sizes, ras=NEAR)
 
 
-def strong(ke: float, ras: tuple[float, ...] = STRONG, rows: int = 32) -> Iterator[GrowthRun]:
+def strong(ras: tuple[float, ...], rows: int) -> Iterator[GrowthRun]:
     """Rolls as strong as those of the particles, on the grid."""
     for ra in ras:
-        yield GrowthRun(scene=RayleighBenard(ra=ra), rows=rows, ke=ke)
+        yield GrowthRun(scene=RayleighBenard(ra=ra), rows=rows, ke=KE)
 
 
-def particles(ke: float, rows: int, ras: tuple[float, ...], seeds: tuple[int, ...] = (1, 2, 3),
-              variant: Variant = PRINTED) -> Iterator[SpamGrowth]:
+def particles(rows: int, seeds: tuple[int, ...], every: int = 1) -> Iterator[SpamGrowth]:
     """Rolls among particles."""
-    for ra in ras:
-        for seed in seeds:
-            yield SpamGrowth(scene=RayleighBenard(ra=ra, L=float(rows)), variant=variant, seed=seed, ke=ke)
+    for variant, ras in PARTICLES.items():
+        for ra, seed in product(ras[::every], seeds):
+            layer = RayleighBenard(ra=ra, L=float(rows))
+            yield SpamGrowth(scene=layer, variant=variant, seed=seed, ke=KE)
 
 
 def energies(sizes: tuple[int, ...], shares: tuple[float, ...]) -> Iterator[OnsetEnergies]:
@@ -87,8 +80,8 @@ def energies(sizes: tuple[int, ...], shares: tuple[float, ...]) -> Iterator[Onse
 def cases(size: str) -> list[Case]:
     """All cases of a size; `fine` has those of `paper` besides its own."""
     if size == "quick":
-        return list(quick())
-    return [*paper(), *(fine() if size == "fine" else ())]
+        return [*quick()]
+    return [*paper(), *fine()] if size == "fine" else [*paper()]
 
 
 def theory() -> LinearTheory:
@@ -101,9 +94,8 @@ def quick() -> Iterator[Case]:
     yield theory()
     yield from growth((12, 16, 24), (1.0, 0.5, 0.25))
     yield from energies((12, 16, 24), LINES[0.5][1::2])
-    yield from strong(4e-4, STRONG[::2], rows=16)
-    for variant, ras in PARTICLES.items():
-        yield from particles(4e-4, 16, ras[::2], seeds=(1,), variant=variant)
+    yield from strong(STRONG[::2], 16)
+    yield from particles(16, seeds=(1,), every=2)
 
 
 def paper() -> Iterator[Case]:
@@ -111,19 +103,14 @@ def paper() -> Iterator[Case]:
     yield theory()
     yield from growth(GRIDS, DIFFERENCES)
     yield from energies((30, 40, 50, 60), SHARES)
-    yield from strong(4e-4)
-    for variant, ras in PARTICLES.items():
-        yield from particles(4e-4, 25, ras, variant=variant)
+    yield from strong(STRONG, 32)
+    yield from particles(25, SEEDS)
 
 
 def fine() -> Iterator[Case]:
-    """Other numbers of particles, weaker rolls."""
-    yield from strong(1e-4)
+    """Other numbers of particles."""
     for rows in (16, 35, 50):
-        for variant, ras in PARTICLES.items():
-            yield from particles(4e-4, rows, ras, variant=variant)
-    for rows in (25, 35):
-        yield from particles(1e-4, rows, FROZEN)
+        yield from particles(rows, SEEDS)
 
 
 PART = Part(cases=cases, tables=ALL, derive=derive, figures=FIGURES, claims=ONSET_CLAIMS)

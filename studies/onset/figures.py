@@ -15,7 +15,6 @@ GAS = {"method": "compressible", "eos": "ideal", "transport": "const-eta", "dT":
 #: series of growth rates: label -> rows
 GRIDS: dict[str, dict[str, Any]] = {
     "Boussinesq, staggered": {"method": "boussinesq"},
-    "Boussinesq, py-pde": {"method": "pypde-boussinesq"},
     r"gas, $\eta$ constant": GAS,
     r"gas, $\nu$ constant": {**GAS, "transport": "const-nu"},
     r"gas, $\eta$ constant, py-pde": {**GAS, "method": "pypde-compressible"},
@@ -23,7 +22,7 @@ GRIDS: dict[str, dict[str, Any]] = {
 }
 #: schemes of particles that have a panel: variant -> title
 SCHEMES = {"printed": "particles as printed", "less-static-90": "particles, a tenth of the static pressure"}
-#: linear theory in the gas's free-fall time: half of the gradient is adiabatic, so that rolls grow sqrt 2 times more slowly
+#: linear theory in the gas's free-fall time: half of the gradient is adiabatic
 GAS_TIME = r"the same for the gas: over $\sqrt{2}$, half of" "\nits gradient is adiabatic"
 WIDE, NARROW = (950.0, 3500.0), (1550.0, 1860.0)
 ZERO: dict[str, Any] = {"color": "black", "linewidth": 0.6, "linestyle": "-", "marker": ""}
@@ -40,7 +39,7 @@ def rows(frame: pd.DataFrame, **wanted: Any) -> pd.DataFrame:
 
 
 def growth(rates: pd.DataFrame) -> Figure | None:
-    """sigma against Ra: weak rolls on all grids with linear theory; stronger rolls of particles and of the gas."""
+    """sigma against Ra: weak rolls of grids and linear theory; stronger rolls of particles and of the gas."""
     weakest = rows(rates, way="operator")
     if weakest.empty:
         return None
@@ -60,8 +59,8 @@ def growth(rates: pd.DataFrame) -> Figure | None:
         axes.axhline(0, **ZERO)
         axes.set(xlabel="Rayleigh number Ra", ylabel=r"growth rate $\sigma$  [1/free-fall time]")
         below(axes)
-    page.suptitle("From which Ra on do rolls grow? Right: rolls of finite energy $K_0$, filled marks: the stronger ones; "
-                  "bars: 95 % over seeds", fontsize=10)
+    page.suptitle("From which Ra on do rolls grow? Right: rolls of K = 0.0004; bars: 95 % over seeds",
+                  fontsize=10)
     return page
 
 
@@ -84,21 +83,18 @@ def draw_weakest(axes: Axes, rates: pd.DataFrame, known: pd.DataFrame) -> None:
 
 
 def draw_rolls(axes: Axes, runs: pd.DataFrame, first: int) -> None:
-    """Means over seeds for each number of rows, which has a look, and strength: full where strong, open where weak."""
-    sizes, strongest = sorted(runs["resolution"].unique()), runs["ke_start"].max()
-    for (method, size, ke), group in runs.groupby(["method", "resolution", "ke_start"]):
-        mean = means(group)
+    """Means over seeds for each number of rows."""
+    for number, ((method, size), group) in enumerate(runs.groupby(["method", "resolution"])):
         where = "" if method == "spam" else "gas on a grid, "
-        style = look(first + sizes.index(size))
-        style |= {"lw": 0.9, "markerfacecolor": None if ke == strongest else "white"}
-        errorbar(axes, *mean.to_numpy().T.tolist(), label=f"{where}{size:.0f} rows, $K_0$ = {ke:g}", **style)
+        style = look(first + number) | {"lw": 0.9, "label": f"{where}{size:.0f} rows"}
+        errorbar(axes, *means(group).to_numpy().T.tolist(), **style)
 
 
 # --- straight lines -----------------------------------------------------------------------------
 
 
 def line(energies: pd.DataFrame, lines: pd.DataFrame, critical: pd.DataFrame) -> Figure | None:
-    """K against Ra^-1/2 on KHP95's grids with its lines, how far K is from the line; where they and growth rates put Ra_c."""
+    """K against Ra^-1/2 on KHP95's grids, its lines, what is left; where they and growth rates put Ra_c."""
     K, far = rows(energies, **GAS), rows(lines, **GAS)
     if K.empty:
         return None
@@ -110,7 +106,8 @@ def line(energies: pd.DataFrame, lines: pd.DataFrame, critical: pd.DataFrame) ->
         one_line(axes["K"], axes["rest"], rows(K, resolution=at["resolution"]), at, number)
     axes["K"].set(ylabel=ENERGY, ylim=(0, None))
     axes["rest"].axhline(0, **ZERO)
-    axes["rest"].set(xlabel=r"$\mathrm{Ra}^{-1/2}$", xlim=axes["K"].get_xlim(), ylabel="off the line\n[% of largest $K$]")
+    axes["rest"].set(xlabel=r"$\mathrm{Ra}^{-1/2}$", xlim=axes["K"].get_xlim(),
+                     ylabel="off the line\n[% of largest $K$]")
     ra_axis(axes["K"])
     axes["K"].set(xlabel="")
     axes["K"].legend(title="gas, $\\eta$ constant, line to 4 Ra$_c$")
@@ -121,7 +118,8 @@ def line(energies: pd.DataFrame, lines: pd.DataFrame, critical: pd.DataFrame) ->
 def one_line(upper: Axes, lower: Axes, points: pd.DataFrame, at: pd.Series, number: int) -> None:
     """K of one grid with its line; below, what is left, in per cent of the largest K."""
     limit, x = np.isinf(at["resolution"]), points["ra"]**-0.5
-    style: dict[str, Any] = {"color": "black" if limit else COLOURS[number], "marker": MARKERS[number], "linestyle": "none"}
+    colour = "black" if limit else COLOURS[number]
+    style: dict[str, Any] = {"color": colour, "marker": MARKERS[number], "linestyle": "none"}
     name = r"$L \to \infty$" if limit else f"L = {at['resolution']:.0f} cells"
     upper.plot(x, points["ke"], **style, label=f"{name}: zero at {at['ra_c']:.1f}")
     ends = np.array([x.min(), at["ra_c"]**-0.5])
@@ -146,4 +144,6 @@ def zeros(axes: Axes, critical: pd.DataFrame) -> None:
     axes.legend(title=r"bars at $L \to \infty$: 95 %, scatter about the line", title_fontsize=8)
 
 
-FIGURES = Drawings(Drawing("growth", ("growth_rates",), growth), Drawing("line", ("energies", "lines", "critical_ra"), line))
+FIGURES = Drawings(
+    Drawing("growth", ("growth_rates",), growth),
+    Drawing("line", ("energies", "lines", "critical_ra"), line))

@@ -1,8 +1,8 @@
 """Growth rates of the weakest rolls: of linear theory, and of grids from their own rates, linearised.
 
-Over a fluid at rest between periodic sides a disturbance that varies as cos(kx) and sin(kx) keeps doing so: the
-rates are then a matrix of a few numbers a row of the grid, and sigma is its largest eigenvalue. A step in time
-turns it into another growth rate, but where sigma = 0, at onset, it stays 0.
+Over a fluid at rest between periodic sides a disturbance that varies as cos(kx) and sin(kx) keeps doing so:
+the rates are then a matrix of a few numbers a row of the grid, and sigma is its largest eigenvalue. A step in
+time turns it into another growth rate, but where sigma = 0, at onset, it stays 0.
 """
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -16,10 +16,9 @@ from continuum.gas import newton
 from continuum.gas.fields import block, initial
 from continuum.gas.loop import FluxForm, box_of, rates
 from continuum.linear.layer import DEGREE, Plates, critical, critical_ra, growth_rate
-from continuum.pypde.boussinesq import Boussinesq
 from continuum.pypde.gas import Gas
 from continuum.scene import RayleighBenard, Walls
-from studies.build.names import EOS_NAMES, TRANSPORT_NAMES
+from studies.build.names import scene_columns
 from studies.kit.case import Case, Outcome, Report
 
 STEP = 1e-5     # of the differences of the rates
@@ -34,7 +33,7 @@ Solver = Callable[[RayleighBenard, int], tuple[float, float]]
 class RollGrid(NamedTuple):
     """A solver on a grid: d/dt of a state (fields, columns, rows), the state at rest.
 
-    wave : cos or sin(kx) of each field at its points (fields, columns). moves : which rows of a field do (fields, rows).
+    wave : cos or sin(kx) of each field at its points (fields, columns). moves : which rows do (fields, rows).
     """
 
     rate: Callable[[np.ndarray], np.ndarray]
@@ -81,14 +80,16 @@ def compressible_rolls(scene: RayleighBenard, rows: int) -> RollGrid:
     return RollGrid(rate, S[inside].swapaxes(1, 2).copy(), wave, moves)
 
 
-def pypde_rolls(equation: Gas | Boussinesq, rest: np.ndarray, odd: int) -> RollGrid:
-    """A grid of py-pde's, where field `odd` varies as sin(kx); all of its rows move."""
-    rate = equation.make_evolution_rate(None, None)
-    k = 2*np.pi/equation.grid_box[0]
-    at = np.array([k*equation.points(field)[0][1:-1] for field in range(len(rest))])
+def pypde_rolls(scene: RayleighBenard, rows: int) -> RollGrid:
+    """py-pde's grid, rho, v and e of the gas."""
+    gas = Gas(scene, rows)
+    rate, rest = gas.make_evolution_rate(None, None), gas.rolls(0.0)
+    k = 2*np.pi/gas.grid_box[0]
+    at = np.array([k*gas.points(field)[0][1:-1] for field in range(4)])
     wave = np.cos(at)
-    wave[odd] = np.sin(at[odd])
-    moves = np.ones((len(rest), rest.shape[2]), bool)
+    wave[1] = np.sin(at[1])
+    moves = np.ones((4, rest.shape[2]), bool)
+    moves[2, -1] = False        # v_y on the upper plate
     return RollGrid(lambda data: rate(data, 0.0), rest, wave, moves)
 
 
@@ -106,20 +107,9 @@ def compressible(scene: RayleighBenard, rows: int) -> tuple[float, float]:
 
 def pypde_compressible(scene: RayleighBenard, rows: int) -> tuple[float, float]:
     """Of the gas on py-pde's grid."""
-    gas = Gas(scene, rows)
-    grid = pypde_rolls(gas, gas.rolls(0.0), odd=1)
-    grid.moves[2, -1] = False       # v_y on the upper plate
-    sigma, err = fastest(grid)
-    return sigma*scene.L/scene.free_fall, err*scene.L/scene.free_fall
-
-
-def pypde_boussinesq(scene: RayleighBenard, rows: int) -> tuple[float, float]:
-    """Of the Boussinesq fluid on py-pde's grid, (omega, T); of the scene only Ra and Pr count."""
-    equation = Boussinesq(ra=scene.ra, pr=scene.pr, rows=rows)
-    conduction = 0.5 - equation.points(1)[1][1:-1]
-    still = np.zeros((2, *equation.grid.shape))
-    still[1] = conduction
-    return fastest(pypde_rolls(equation, still, odd=0))
+    sigma, err = fastest(pypde_rolls(scene, rows))
+    unit = scene.L/scene.free_fall
+    return unit*sigma, unit*err
 
 
 def boussinesq_mac(scene: RayleighBenard, rows: int) -> tuple[float, float]:
@@ -133,29 +123,31 @@ def boussinesq_mac(scene: RayleighBenard, rows: int) -> tuple[float, float]:
 
 def point(method: str, scene: RayleighBenard, resolution: float, variant: str = "") -> dict[str, Any]:
     """Columns that all rows share; a Boussinesq fluid has no equation of state."""
-    known = {"method": method, "variant": variant, "sides": type(scene.sides).__name__.lower(),
-             "pr": float(scene.pr), "resolution": float(resolution)}
-    if method.endswith(("boussinesq", "linear")):
-        return {**known, "eos": "", "transport": "", "dT": 0.0}
-    return {**known, "eos": EOS_NAMES[type(scene.eos).__name__],
-            "transport": TRANSPORT_NAMES[scene.transport.__name__], "dT": scene.dT/scene.T_mean}
+    known = {**scene_columns(scene), "dT": scene.dT/scene.T_mean}
+    known |= {"method": method, "variant": variant, "resolution": float(resolution)}
+    if method in ("boussinesq", "linear"):
+        known |= {"eos": "", "transport": "", "dT": 0.0}
+    return known
 
 
-def weakest(at: dict[str, Any], way: str, ra: float, sigma: float, err: float) -> dict[str, Any]:
+def weakest(at: dict[str, Any], way: str, sigma: float, err: float) -> dict[str, Any]:
     """Row of `growth_rates` of rolls without energy."""
-    return {**at, "way": way, "ke_start": 0.0, "seed": 0, "ra": ra, "sigma": sigma, "err": err}
+    return {**at, "way": way, "ke_start": 0.0, "seed": 0, "sigma": sigma, "err": err}
 
 
 @dataclass(frozen=True, kw_only=True)
 class LinearTheory(Case):
-    """Critical Rayleigh numbers of the eigenvalue problem, each with what fewer trial functions change; growth rates."""
+    """Critical Rayleigh numbers, each with what fewer trial functions change, and growth rates."""
 
     ras: tuple[float, ...]
     pr: float
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        at = point("linear", RayleighBenard(ra=self.ras[0], pr=self.pr), np.inf)
-        rows = [weakest(at, "eigenvalue", ra, growth_rate(ra=ra, pr=self.pr, k=np.pi), 0.0) for ra in self.ras]
+        rows = []
+        for ra in self.ras:
+            at = point("linear", RayleighBenard(ra=ra, pr=self.pr), np.inf)
+            sigma = growth_rate(ra=ra, pr=self.pr, k=np.pi)
+            rows.append(weakest(at, "eigenvalue", sigma, 0.0))
         onsets = [self.onset("ra_c infinite layer rigid", critical(Plates.RIGID).k, "infinite"),
                   self.onset("ra_c periodic aspect 2", np.pi, "periodic")]
         return Outcome({"growth_rates": rows, "critical_ra": onsets})
@@ -163,13 +155,15 @@ class LinearTheory(Case):
     def onset(self, quantity: str, k: float, sides: str) -> dict[str, Any]:
         """Row of `critical_ra`."""
         value, other = (critical_ra(k, Plates.RIGID, degree) for degree in (DEGREE, DEGREE - 4))
-        return {**point("linear", RayleighBenard(ra=1.0), np.inf), "sides": sides, "quantity": quantity,
-                "value": value, "err": abs(value - other), "way": "eigenvalue", "reach": 0.0, "ke_start": 0.0}
+        at = point("linear", RayleighBenard(ra=value), np.inf)
+        at.pop("ra")
+        return {**at, "sides": sides, "quantity": quantity, "value": value, "err": abs(value - other),
+                "way": "eigenvalue", "reach": 0.0, "ke_start": 0.0}
 
 
 @dataclass(frozen=True, kw_only=True)
 class GridGrowth(Case):
-    """Growth rates of a grid's own linearised rates at some Ra on some grids. solver : one of the above, `method` its name."""
+    """Growth rates of a grid's own rates at some Ra. solver : one of the above, `method` its name."""
 
     method: str
     solver: Solver
@@ -187,6 +181,6 @@ class GridGrowth(Case):
             scene = replace(self.scene, ra=ra)
             for size in self.sizes:
                 at = point(self.method, scene, size)
-                rows.append(weakest(at, "operator", ra, *self.solver(scene, size)))
+                rows.append(weakest(at, "operator", *self.solver(scene, size)))
             report((number + 1)/len(self.ras))
         return Outcome({"growth_rates": rows})

@@ -21,7 +21,7 @@ from studies.onset.rates import compressible, point
 
 SAMPLES = 200
 BAND = 2.0      # a growth rate counts while the amplitude is within this factor of its first
-#: straight lines of K: the largest share 1 - sqrt(Ra_c/Ra) -> shares of the points; 0.5 is KHP95's four times Ra_c
+#: lines of K: the largest share 1 - sqrt(Ra_c/Ra) -> shares of the points; 0.5 is KHP95's four times Ra_c
 LINES = {0.5: (0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5), 0.1: (0.02, 0.04, 0.06, 0.08, 0.1),
          0.02: (0.005, 0.01, 0.015, 0.02)}
 
@@ -47,8 +47,8 @@ class History(NamedTuple):
         inside = (a > a[0]/BAND) & (a < a[0]*BAND)
         stop = len(a) if inside.all() else int(np.argmin(inside))
         if stop < 8:
-            raise ValueError(f"{stop} samples after t = {after} within a factor {BAND} of the amplitude {a[0]:.3g}: "
-                             "a growth rate needs 8; sample more often or start with stronger rolls")
+            raise ValueError(f"{stop} samples after t = {after} within a factor {BAND} of the amplitude "
+                             f"{a[0]:.3g}: a growth rate needs 8; sample more often or start from more")
         t, log, half = t[:stop], np.log(a[:stop]), stop//2
         whole, first, last = (float(np.polyfit(t[part], log[part], 1)[0])
                               for part in (slice(None), slice(half), slice(half, None)))
@@ -75,7 +75,7 @@ class RollRun(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         sigma, err = self.history(report, folder).growth(self.after)
-        known = {"way": "run", "ke_start": self.ke, "seed": self.seed, "ra": float(self.scene.ra)}
+        known = {"way": "run", "ke_start": self.ke, "seed": self.seed}
         return Outcome({"growth_rates": [{**self.at(), **known, "sigma": sigma, "err": err}]})
 
 
@@ -154,7 +154,7 @@ class SpamGrowth(RollRun):
 
 @dataclass(frozen=True, kw_only=True)
 class OnsetEnergies(Case):
-    """Steady K of the gas on one grid where 1 - sqrt(Ra_c/Ra) has the values `shares`, Ra_c being the grid's own."""
+    """Steady K of the gas on one grid where 1 - sqrt(Ra_c/Ra), with the grid's own Ra_c, has some values."""
 
     scene: RayleighBenard
     rows: int
@@ -170,8 +170,8 @@ class OnsetEnergies(Case):
             scene = replace(self.scene, ra=own/(1 - share)**2)
             steady = newton.steady(scene, self.rows, fields and faded(scene, self.rows, fields))
             fields = steady.fields
-            rows.append({**point("compressible", scene, self.rows), "share": share, "ra": scene.ra,
-                         "ke": steady.ke, "rolls": steady.rolls})
+            at = point("compressible", scene, self.rows)
+            rows.append({**at, "share": share, "ke": steady.ke, "rolls": steady.rolls})
             report((number + 1)/len(self.shares))
         return Outcome({"energies": rows})
 

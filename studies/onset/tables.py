@@ -1,10 +1,10 @@
 """Tables of the study onset, and the critical Rayleigh numbers that follow from growth rates and energies.
 
-Growth rates are of the velocity, per free-fall time; K in units of the scene. Every `err` is the half width of a 95 %
-interval or, of a grid, the bound that its extrapolation gives. `dT` is over the mean temperature, 0 for Boussinesq and
-for limits; `resolution` is rows per height, `inf` where extrapolated.
+Growth rates are of the velocity, per free-fall time; K in units of the scene. Every `err` is the half width
+of a 95 % interval or, of a grid, the bound that its extrapolation gives. `dT` is over the mean temperature, 0
+for Boussinesq and for limits; `resolution` is rows per height, `inf` where extrapolated.
 """
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,15 +19,15 @@ POINT = ["method", "variant", "eos", "transport", "dT", "sides", "pr", "resoluti
 #: `way` is `operator` (from the linearised rates), `run` (a run in time from rolls of energy `ke_start`)
 GROWTH = Table("growth_rates", key=[*POINT, "way", "ke_start", "seed", "ra"],
                columns=[*POINT, "way", "ke_start", "seed", "ra", "sigma", "err"])
-#: steady K; `share` is 1 - sqrt(Ra_c/Ra) with the grid's own Ra_c; extrapolated rows have extrapolated ra and ke
+#: steady K; `share` is 1 - sqrt(Ra_c/Ra) with the grid's own Ra_c; extrapolated rows have both extrapolated
 ENERGIES = Table("energies", key=[*POINT, "share"], columns=[*POINT, "share", "ra", "ke", "rolls"])
-#: K = slope Ra^-1/2 + intercept up to `reach` Ra_c; `residual` is the largest distance from it over the largest K
-#: `lines` says how slope and intercept without a grid were found: from those of grids, or through extrapolated points ("")
-LINE_TABLE = Table("lines", key=[*POINT, "reach", "lines"],
-                   columns=[*POINT, "reach", "lines", "points", "slope", "intercept", "ra_c", "err", "residual"])
-#: `quantity` alone tells rows of a method apart: the box, what differs from the ideal gas with constant eta and dT = 1,
-#: and in brackets how it was found, extrapolated where no rows are named. The rest are the same in columns: `way` as in
-#: growth_rates, or `eigenvalue` or `line`; `reach` is 0 but for lines, `ke_start` but for runs
+#: K = slope Ra^-1/2 + intercept up to `reach` Ra_c; `residual`: largest distance from it over the largest K
+#: `lines`: where a line without a grid is from, the lines of grids or ("") extrapolated points
+LINE_TABLE = Table("lines", key=[*POINT, "reach", "lines"], columns=[
+    *POINT, "reach", "lines", "points", "slope", "intercept", "ra_c", "err", "residual"])
+#: `quantity` tells rows of a method apart: the box, what differs from the ideal gas with constant eta and
+#: dT = 1, and in brackets how it was found, extrapolated where no rows are named. Other columns say the same:
+#: `way` as in growth_rates, or `eigenvalue` or `line`; `reach` is 0 but for lines, `ke_start` but for runs
 CRITICAL = Table("critical_ra", key=["method", "quantity"],
                  columns=["method", "quantity", "value", "err", *POINT[1:], "way", "reach", "ke_start"])
 
@@ -62,7 +62,8 @@ def derive(tables: Tables) -> Rows:
     return {"energies": limits, "lines": lines, "critical_ra": critical}
 
 
-def critical_row(at: Any, ra: Measured, way: str, reach: float = 0.0, ke_start: float = 0.0, lines: str = "") -> Row:
+def critical_row(at: Any, ra: Measured, way: str, reach: float = 0.0, ke_start: float = 0.0,
+                 lines: str = "") -> Row:
     """Row of `critical_ra` at the point of another row."""
     how = [f"K line{near(reach)}" if reach else "growth rates"]
     if way == "run":
@@ -71,8 +72,9 @@ def critical_row(at: Any, ra: Measured, way: str, reach: float = 0.0, ke_start: 
     if np.isfinite(at["resolution"]):
         how.append(f"{at['resolution']:.0f} rows")
     quantity = f"{place(at)} ({', '.join(filter(None, how))})"
-    return {**{name: at[name] for name in POINT}, "quantity": quantity, "value": ra.value, "err": ra.err, "way": way,
-            "reach": reach, "ke_start": ke_start}
+    point = {name: at[name] for name in POINT}
+    return {**point, "quantity": quantity, "value": ra.value, "err": ra.err, "way": way, "reach": reach,
+            "ke_start": ke_start}
 
 
 def near(reach: float) -> str:
@@ -109,7 +111,10 @@ def from_growth(rates: pd.DataFrame) -> Iterator[Row]:
 
 def means(runs: pd.DataFrame) -> pd.DataFrame:
     """Mean sigma over seeds at each Ra."""
-    rows = [(ra, *combine(list(zip(some["sigma"], some["err"], strict=True)))) for ra, some in runs.groupby("ra")]
+    rows = []
+    for ra, some in runs.groupby("ra"):
+        of_seeds = zip(some["sigma"], some["err"], strict=True)
+        rows.append((ra, *combine(list(of_seeds))))
     return pd.DataFrame(rows, columns=["ra", "sigma", "err"])
 
 
@@ -119,7 +124,7 @@ def crosses(rates: pd.DataFrame) -> bool:
 
 
 def smooth_zero(rates: pd.DataFrame) -> Measured:
-    """From the polynomial Ra(sigma) through all points; err is what the farthest point changes, and the errors of sigma."""
+    """From the polynomial Ra(sigma) through all points; err: what the farthest changes, and that of sigma."""
     rates = rates.iloc[np.argsort(np.abs(rates["sigma"]))]
     sigma, ra = rates["sigma"].to_numpy(), rates["ra"].to_numpy()
     value, other = interpolated(sigma, ra), interpolated(sigma[:-1], ra[:-1])
@@ -136,8 +141,8 @@ def interpolated(sigma: np.ndarray, ra: np.ndarray) -> float:
 def nearby_zero(rates: pd.DataFrame) -> Measured:
     """From straight lines between neighbours; of several crossings, which noise makes, the middle one.
 
-    The error is that of the same on DRAWS samples with noise like the errors, and of the bend: what a parabola through
-    the three nearest Ra changes, at most a quarter of the distance of neighbours.
+    The error is that of the same on DRAWS samples with noise like the errors, and of the bend: what a
+    parabola through the three nearest Ra changes, at most a quarter of the distance of neighbours.
     """
     ra, sigma = rates["ra"].to_numpy(), rates["sigma"].to_numpy()
     value, rng = middle_crossing(ra, sigma), np.random.default_rng(1)
@@ -150,7 +155,7 @@ def nearby_zero(rates: pd.DataFrame) -> Measured:
 
 
 def middle_crossing(ra: np.ndarray, sigma: np.ndarray) -> float:
-    """The median of the zeros of the lines between neighbours; where there is none, the end towards which it lies."""
+    """Median of the zeros of lines between neighbours; where there is none, the end towards which it lies."""
     at = np.flatnonzero(sigma[1:]*sigma[:-1] < 0)
     if not len(at):
         return float(ra[0] if sigma.sum() > 0 else ra[-1])
@@ -166,7 +171,7 @@ def limit(rows: list[Row]) -> Measured:
 
 
 def small_differences(critical: pd.DataFrame) -> Iterator[Row]:
-    """Limit dT -> 0 of the gas: even in dT, because turning the box upside down changes the sign of dT alone."""
+    """Limit dT -> 0 of the gas: even in dT, because turning the box upside down changes its sign alone."""
     rows = critical[np.isinf(critical["resolution"].astype(float)) & (critical["eos"] != "")]
     for _, group in rows.sort_values("dT").groupby(["method", "eos", "transport", "sides"]):
         if len(group) >= GRIDS:
@@ -198,8 +203,7 @@ def extrapolated_energies(energies: pd.DataFrame) -> Iterator[Row]:
 
 
 def all_lines(energies: pd.DataFrame) -> Iterator[Row]:
-    """K against Ra^-1/2 for each reach and grid, with slope and intercept extrapolated in L^-2 as in KHP95, Sec. V, and
-    through points that were extrapolated each."""
+    """K against Ra^-1/2 for each reach: of grids, of extrapolated points, extrapolated as KHP95, Sec. V."""
     for key, series in energies.groupby(SERIES, dropna=False):
         for share, shares in LINES.items():
             at = {**dict(zip(SERIES, key, strict=True)), "reach": round((1 - share)**-2, 3)}
@@ -210,7 +214,8 @@ def all_lines(energies: pd.DataFrame) -> Iterator[Row]:
                 yield {**at, "resolution": size, "lines": "", **line._asdict()}
             lines.pop(np.inf, None)
             if len(lines) >= GRIDS:
-                yield {**at, "resolution": np.inf, "lines": "L^-2 extrapolated", **without_grid(lines)._asdict()}
+                fine = without_grid(lines)
+                yield {**at, "resolution": np.inf, "lines": "L^-2 extrapolated", **fine._asdict()}
 
 
 def straight(points: pd.DataFrame) -> Line:
@@ -224,14 +229,13 @@ def straight(points: pd.DataFrame) -> Line:
 
 
 def without_grid(lines: dict[float, Line]) -> Line:
-    """Slopes and intercepts linear in L^-2, L in cells; err is that of the lines and what the coarsest grid changes."""
-    sizes = sorted(lines)
-    line, other = (extrapolated(some, [lines[size] for size in some]) for some in (sizes, sizes[1:]))
+    """Linear in L^-2, L in cells; err: that of the lines and what the coarsest grid changes."""
+    x, of_grids = np.array(list(lines))**-2.0, list(lines.values())
+    line, other = extrapolated(x, of_grids), extrapolated(x[1:], of_grids[1:])
     return line._replace(err=float(np.hypot(line.err, abs(line.ra_c - other.ra_c))))
 
 
-def extrapolated(sizes: Iterable[float], lines: list[Line]) -> Line:
-    """The line at L^-2 = 0; what else it has is the finest grid's."""
-    x = np.array(sizes)**-2.0
-    slope, intercept = (np.polyfit(x, some, 1)[1] for some in zip(*((one.slope, one.intercept) for one in lines), strict=True))
+def extrapolated(x: np.ndarray, lines: list[Line]) -> Line:
+    """The line at x = 0; what else it has is the finest grid's."""
+    slope, intercept = np.polyfit(x, [(line.slope, line.intercept) for line in lines], 1)[1]
     return lines[-1]._replace(slope=slope, intercept=intercept, ra_c=(slope/intercept)**2)
