@@ -228,10 +228,6 @@ class Places(Case):
     time: float
     steps: int
 
-    @property
-    def cost(self) -> float:
-        return 1e-4*self.steps*np.prod(self.counts)
-
     def run(self, report: Report, folder: Path) -> Outcome:
         counts = [self.steps*m for m in (1, 2, 4)]
         exact, coarse = self.places(RK4, counts[2]), self.places(RK4, counts[1])

@@ -19,6 +19,7 @@ from particles.threads import Team
 from particles.weights import Lucy
 from studies.build.cylinder import PRESSURE, Variant, drag, force, momentum, radius_of, stream
 from studies.kit.case import Case, Outcome, Report
+from studies.kit.stats import Measured
 
 ETA, SPEED = 2.0, 1e-3      # sound and friction limit the step alike; Re and Mach below 0.01
 TIMES = 15.0                # until the end, in those of the slowest motion
@@ -65,11 +66,13 @@ class CylinderDrag(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         method = stream(self.variant, self.fraction, self.rows, self.speed, ETA)
-        first = method.state(1.0, np.full(method.x.shape, [self.speed, 0.0]), 1.0)
+        v = np.full(method.x.shape, [self.speed, 0.0])
+        first = method.state(1.0, v, 1.0)
         dt = OF_LIMIT*limit_of(method, first)
-        steps = round(TIMES*self.rows**2/(self.slowest*ETA)/dt)
-        series = {"momentum": momentum, "force": force}
-        done = run(method, first, Plan(dt=dt, steps=steps, every=max(1, steps//40), series=series), report)
+        time = TIMES*self.rows**2/(self.slowest*ETA)
+        steps = round(time/dt)
+        plan = Plan(dt=dt, steps=steps, every=max(1, steps//40), series={"momentum": momentum, "force": force})
+        done = run(method, first, plan, report)
         known = {"variant": self.variant.name, "fraction": self.fraction, "rows": self.rows, "dt": dt}
         return Outcome({"drag": [{**known, **self.columns(method, done), **spent(done)}]})
 
@@ -78,11 +81,11 @@ class CylinderDrag(Case):
         radius = radius_of(self.rows, self.fraction)
         pulls = (np.array(done.series[name]) for name in ("momentum", "force"))
         drags = drag(method, float(self.rows**2), *pulls)
-        last, err = drags[-1], float(np.ptp(drags[-4:]))        # the last tenth of the time
-        known, known_err = drag_of(self.fraction)
-        return {"radius": radius, "drag": last, "drag_err": err,
-                "published": known, "published_err": known_err, "error": last/known - 1,
-                "error_err": float(np.hypot(err/known, last*known_err/known**2)),
+        last = Measured(drags[-1], float(np.ptp(drags[-4:])))       # the last tenth of the time
+        published = Measured(*drag_of(self.fraction))
+        error = last/published - 1
+        return {"radius": radius, "drag": last.value, "drag_err": last.err, "published": published.value,
+                "published_err": published.err, "error": error.value, "error_err": error.err,
                 "reynolds": 2*self.speed*radius/ETA, "mach": self.speed/SOUND}
 
 
@@ -103,11 +106,13 @@ class TurningCylinder(Case):
     def cost(self) -> float:
         return 4e-7*self.rows**4
 
-    def turns(self, r: np.ndarray) -> np.ndarray:
-        """Angular velocity at r."""
+    def exact(self, x: np.ndarray) -> np.ndarray:
+        """Velocity (n, 2) at x (n, 2)."""
         inner, outer = INNER*self.rows, OUTER*self.rows
-        between = (outer**2/np.maximum(r, inner)**2 - 1)/(outer**2/inner**2 - 1)
-        return SPEED/inner*np.clip(between, 0, 1)
+        r = np.maximum(np.hypot(*x.T), inner)
+        between = (outer**2/r**2 - 1)/(outer**2/inner**2 - 1)
+        turns = SPEED/inner*np.clip(between, 0, 1)
+        return turns[:, None]*np.stack([-x[:, 1], x[:, 0]], axis=1)
 
     def run(self, report: Report, folder: Path) -> Outcome:
         inner, outer = INNER*self.rows, OUTER*self.rows
@@ -115,12 +120,10 @@ class TurningCylinder(Case):
         body = together(turning(points, turned, SPEED/inner, 1.0), turning(points, fixed, 0.0, 1.0))
         method = Stream(x=points.x, edges=delaunay(points), eos=IdealGas(), law=ConstEta(ETA, ETA), held=body,
                         chi=PRESSURE/ETA)
-        x, y = points.x.T
-        exact = self.turns(np.hypot(x, y))[:, None]*np.stack([-y, x], axis=1)
-        first = method.state(1.0, exact, 1.0)
+        first = method.state(1.0, self.exact(points.x), 1.0)
         dt = OF_LIMIT*limit_of(method, first)
-        steps = round(TIMES*(outer - inner)**2/(np.pi**2*ETA)/dt)
-        done = run(method, first, Plan(dt=dt, steps=steps), report)
+        time = TIMES*(outer - inner)**2/(np.pi**2*ETA)
+        done = run(method, first, Plan(dt=dt, steps=round(time/dt)), report)
         whole = 4*np.pi*ETA*SPEED*inner/(1 - (inner/outer)**2)
         on_turned, on_fixed = torques(method, done.state)/whole
         return Outcome({"torque": [{"rows": self.rows, "radius": inner, "turned": -on_turned - 1,
@@ -175,11 +178,10 @@ class SlidingShear(Case):
         mass, px, py, energy, _ = (last@V - first@V)/V.sum()
         heat = energy/time
         change = np.abs(method.fields(last).v - exact).max()
-        return Outcome({"shear": [{
-            "rows": self.rows, "stress": abs(stress/(self.eta*rate) - 1),
-            "heating": abs(heat/(self.eta*rate**2) - 1), "profile": float(change/DIFFERENCE),
-            "mass_drift": abs(mass), "momentum_drift": float(max(abs(px), abs(py))/DIFFERENCE),
-            **spent(done)}]})
+        errors = {"stress": abs(stress/(self.eta*rate) - 1), "heating": abs(heat/(self.eta*rate**2) - 1),
+                  "profile": float(change/DIFFERENCE)}
+        drifts = {"mass_drift": abs(mass), "momentum_drift": float(max(abs(px), abs(py))/DIFFERENCE)}
+        return Outcome({"shear": [{"rows": self.rows, **errors, **drifts, **spent(done)}]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -209,11 +211,13 @@ class TurningWave(Case):
         """(velocity (n, 2) with the shear, pressure (n,)) at a time: grad^2 p = -2 rho rate dv/dx."""
         (x, y), rate, kx = method.points.x.T, method.rate, 2*np.pi/self.rows
         ky = kx*(1 - rate*t)
-        k2, damped = kx**2 + ky**2, kx**2*t + (kx**3 - ky**3)/(3*rate*kx)
+        k2 = kx**2 + ky**2
+        damped = kx**2*t + (kx**3 - ky**3)/(3*rate*kx)
         stream = self.size*kx/k2*np.exp(-self.eta*self.rows*damped)
         phase = kx*x + ky*y
-        v = np.stack([rate*y - ky*stream*np.sin(phase), kx*stream*np.sin(phase)], axis=1)
-        return v, 2*rate*kx**2*stream/k2*np.cos(phase)
+        vx = rate*y - ky*stream*np.sin(phase)
+        vy = kx*stream*np.sin(phase)
+        return np.stack([vx, vy], axis=1), 2*rate*kx**2*stream/k2*np.cos(phase)
 
 
 def without_divergence(v: np.ndarray, rows: int) -> float:

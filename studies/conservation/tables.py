@@ -75,9 +75,11 @@ DERIVED = Iterator[dict[str, Any]]
 
 def derive(tables: Tables) -> Rows:
     """Derived rows of the study, of the tables there are."""
-    made = (("long_sound", "moving_sound", long_sound), ("accuracy", "steps", accuracy),
-            ("drag_limits", "drag", drag_limits))
-    rows = {name: list(make(tables[source])) for name, source, make in made if source in tables}
+    rows = {}
+    for name, source, make in (("long_sound", "moving_sound", long_sound), ("accuracy", "steps", accuracy),
+                               ("drag_limits", "drag", drag_limits)):
+        if source in tables:
+            rows[name] = list(make(tables[source]))
     return {name: some for name, some in rows.items() if some}
 
 
@@ -86,13 +88,13 @@ def long_sound(sound: pd.DataFrame) -> DERIVED:
 
     The error is the difference of two extrapolations.
     """
+    short, middle, long = LONG
     for (motion, weight), group in sound.groupby(["motion", "weight"]):
         of_waves = group.set_index("wavelength")
         if set(LONG) <= set(of_waves.index):
-            short, middle, long = LONG
-            speed = extrapolated(of_waves["speed"], middle, long)
-            change = speed - extrapolated(of_waves["speed"], short, middle)
-            errs = of_waves["speed_err"]
+            speeds, errs = of_waves["speed"], of_waves["speed_err"]
+            speed = extrapolated(speeds, middle, long)
+            change = speed - extrapolated(speeds, short, middle)
             err = hypot(change, 3*errs[long], 3*errs[middle])
             yield {"motion": motion, "weight": weight, "speed": speed, "speed_err": err}
 
@@ -116,10 +118,11 @@ def drag_limits(drags: pd.DataFrame) -> DERIVED:
     """Drags of infinitely fine points."""
     for (variant, fraction), group in drags[drags["radius"] > WIDE].groupby(["variant", "fraction"]):
         if len(group) >= LEAST:
-            rows, published = group["rows"].to_numpy(float), group[["published", "published_err"]].iloc[0]
+            rows = group["rows"].to_numpy(float)
             spacing = rows**-2 if variant in SMOOTH else 1/rows
             unsteady = Measured(0.0, group["drag_err"].max())
             limit = fits.line(spacing, group["drag"].to_numpy()).intercept + unsteady
-            error = limit/Measured(*published) - 1
+            published = Measured(*group[["published", "published_err"]].iloc[0])
+            error = limit/published - 1
             yield {"variant": variant, "fraction": fraction, "sizes": len(group), "limit": limit.value,
                    "limit_err": limit.err, "error": error.value, "error_err": error.err}
