@@ -36,12 +36,9 @@ class History(NamedTuple):
     amplitude: np.ndarray
 
     def growth(self, after: float) -> tuple[float, float]:
-        """Slope of ln A after a time while A stays in its band, and how much its halves disagree.
+        """Slope of ln A after a time while A stays in its band, and how its halves disagree.
 
-        Raises
-        ------
-        ValueError
-            Fewer than 8 samples are left.
+        Raises ValueError: fewer than 8 samples are left.
         """
         t, a = self.t[self.t >= after], self.amplitude[self.t >= after]
         inside = (a > a[0]/BAND) & (a < a[0]*BAND)
