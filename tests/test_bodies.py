@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
+from continuum.exact.cylinder import drag_of, series
 from particles.integral.bodies import CLEAR, between_circles, held, in_disc, together, turning, with_surface
 from particles.integral.dih import Dih, Pairwise
 from particles.integral.edge_makers import renormalised
@@ -211,7 +212,7 @@ def test_what_leaves_through_one_sliding_side_enters_through_the_other(law, offs
 @pytest.mark.parametrize("h", [2.0, 3.0])
 @LAWS
 def test_a_box_exchanges_as_between_two_true_ones(law, h, slid):
-    """Three boxes on top of each other on one lattice, others faster and slower by U, whole spacings apart."""
+    """Three boxes on one lattice, others faster and slower by U, shifted by whole spacings."""
     counts = (9, 8)
     fluid = sheared(counts, h=h, law=law)
     state = shaken(fluid, fluid.points.n)
@@ -248,6 +249,11 @@ def test_points_and_edges_that_cannot_slide_are_refused():
 
 def row(case, table):
     return case.run(lambda done: None, None).rows[table][0]
+
+
+def test_published_drags_are_those_of_the_series_where_it_is_good():
+    for c, good in ((0.05, 4e-4), (0.1, 8e-4), (0.2, 0.016), (0.3, 0.13)):      # as its note says
+        assert series(c) == pytest.approx(drag_of(c).value, rel=good)
 
 
 def test_points_on_the_surface_have_the_drag_and_a_staircase_has_less():
