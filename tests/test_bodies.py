@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
 from continuum.exact.cylinder import drag_of, series
+from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
 from particles.integral.bodies import CLEAR, between_circles, held, in_disc, together, turning, with_surface
 from particles.integral.dih import Dih, Pairwise
 from particles.integral.edge_makers import renormalised

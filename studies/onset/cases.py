@@ -39,13 +39,12 @@ def scene(dT: float = 1.0, **more: Any) -> RayleighBenard:
     return RayleighBenard(ra=1700.0, T_hot=1 + dT/2, T_cold=1 - dT/2, **box)
 
 
-BOUSSINESQ = scene(pr=PR)
 SQUARE = scene(aspect=1.0, sides=Walls())
 
 
 def growth(sizes: tuple[int, ...], differences: tuple[float, ...]) -> Iterator[GridGrowth]:
     """All grids; the gas of all kinds on KHP95's, at all temperature differences there."""
-    yield GridGrowth(method="boussinesq", solver=boussinesq_mac, scene=BOUSSINESQ, sizes=sizes, ras=NEAR)
+    yield GridGrowth(method="boussinesq", solver=boussinesq_mac, scene=scene(pr=PR), sizes=sizes, ras=NEAR)
     gas = GridGrowth(method="compressible", solver=compressible, scene=SQUARE, sizes=sizes, ras=NEAR_SQUARE)
     yield gas
     for eos in (IdealGas(), VanDerWaals()):

@@ -24,7 +24,7 @@ GRIDS: dict[str, dict[str, Any]] = {
 SCHEMES = {"printed": "particles as printed", "less-static-90": "particles, a tenth of the static pressure"}
 #: linear theory in the gas's free-fall time: half of the gradient is adiabatic
 GAS_TIME = r"the same for the gas: over $\sqrt{2}$, half of" "\nits gradient is adiabatic"
-WIDE, NARROW = (950.0, 3500.0), (1550.0, 1860.0)
+NARROW = (1550.0, 1860.0)
 ZERO: dict[str, Any] = {"color": "black", "linewidth": 0.6, "linestyle": "-", "marker": ""}
 
 
@@ -43,8 +43,8 @@ def growth(rates: pd.DataFrame) -> Figure | None:
     weakest = rows(rates, way="operator")
     if weakest.empty:
         return None
-    known, finite = rows(rates, method="linear").sort_values("ra"), rows(rates, way="run")
-    finite = finite[finite["ra"].between(*WIDE)]
+    known = rows(rates, method="linear").sort_values("ra")
+    finite = rows(rates, way="run")
     schemes = [name for name in SCHEMES if name in set(finite["variant"])]
     page, all_axes = figure(1, 1 + len(schemes), width=4.6, height=5.6, squeeze=False)
     weak, *strong = all_axes[0]

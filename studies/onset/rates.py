@@ -55,10 +55,11 @@ def matrix(grid: RollGrid, step: float) -> np.ndarray:
     return slopes
 
 
-def fastest(grid: RollGrid) -> tuple[float, float]:
-    """Growth rate of rolls per unit of time, and what another step of the differences makes of it."""
-    sigma, other = (float(np.linalg.eigvals(matrix(grid, step)).real.max()) for step in (STEP, 4*STEP))
-    return sigma, abs(sigma - other)
+def fastest(scene: RayleighBenard, grid: RollGrid) -> tuple[float, float]:
+    """Growth rate of rolls per free-fall time, and what another step of the differences makes of it."""
+    unit = scene.L/scene.free_fall
+    sigma, other = (np.linalg.eigvals(matrix(grid, step)).real.max() for step in (STEP, 4*STEP))
+    return float(unit*sigma), float(unit*abs(sigma - other))
 
 
 def compressible_rolls(scene: RayleighBenard, rows: int) -> RollGrid:
@@ -74,9 +75,10 @@ def compressible_rolls(scene: RayleighBenard, rows: int) -> RollGrid:
         rates(scene.sides, scene.eos, scene.law, FluxForm(), box, full, scratch, out)
         return out[inside].swapaxes(1, 2)
     at = 2*np.pi/columns*np.arange(columns)
+    cos = np.cos(at)
+    wave = np.array([np.sin(at), cos, cos, np.cos(at + np.pi/columns)])
     moves = np.ones((4, rows), bool)
     moves[:3, 0] = False
-    wave = np.array([np.sin(at), np.cos(at), np.cos(at), np.cos(at + np.pi/columns)])
     return RollGrid(rate, S[inside].swapaxes(1, 2).copy(), wave, moves)
 
 
@@ -98,18 +100,14 @@ def pypde_rolls(scene: RayleighBenard, rows: int) -> RollGrid:
 
 def compressible(scene: RayleighBenard, rows: int) -> tuple[float, float]:
     """Of the gas on KHP95's grid; between walls from its sparse matrix."""
-    unit = scene.L/scene.free_fall
     if isinstance(scene.sides, Walls):
-        return unit*newton.growth_rate(scene, rows), 1e-8
-    sigma, err = fastest(compressible_rolls(scene, rows))
-    return unit*sigma, unit*err
+        return newton.growth_rate(scene, rows)*scene.L/scene.free_fall, 1e-8
+    return fastest(scene, compressible_rolls(scene, rows))
 
 
 def pypde_compressible(scene: RayleighBenard, rows: int) -> tuple[float, float]:
     """Of the gas on py-pde's grid."""
-    sigma, err = fastest(pypde_rolls(scene, rows))
-    unit = scene.L/scene.free_fall
-    return unit*sigma, unit*err
+    return fastest(scene, pypde_rolls(scene, rows))
 
 
 def boussinesq_mac(scene: RayleighBenard, rows: int) -> tuple[float, float]:

@@ -118,10 +118,6 @@ class SpamGrowth(RollRun):
     seed: int = 1
 
     @property
-    def particles(self) -> int:
-        return round(self.scene.width)*round(self.scene.L)
-
-    @property
     def dt(self) -> float:
         """Step of the study rb."""
         return step(self.scene, self.variant)
@@ -129,7 +125,7 @@ class SpamGrowth(RollRun):
     @property
     def cost(self) -> float:
         steps = self.until*self.scene.L/self.scene.free_fall/self.dt
-        return steps*4*self.particles*230e-9*(self.variant.h/3)**2 + 2
+        return steps*4*self.scene.width*self.scene.L*230e-9*(self.variant.h/3)**2 + 2
 
     def at(self) -> dict[str, Any]:
         return point("spam", self.scene, round(self.scene.L), self.variant.name)
