@@ -52,12 +52,13 @@ def drift(rows: pd.DataFrame) -> Figure:
     order = sorted(set(rows["column"]))
     whole = rows["reached"] == rows["steps"]
     for number, name in enumerate(SUMS):
-        claimed = np.array([name in text.split() for text in rows["claimed"]], bool)
+        claimed = rows["claimed"].str.contains(name)
         style = {**look(number), "linestyle": "none", "markersize": 6}
+        x = rows["column"].map(order.index) + 0.15*(number - 1.5)
+        y = rows[name].clip(lower=LEAST)
         for chosen, more in ((claimed & whole, {"label": name}), (claimed & ~whole, {"fillstyle": "left"}),
                              (~claimed, {"fillstyle": "none"})):
-            x = [order.index(place) + 0.15*(number - 1.5) for place in rows["column"][chosen]]
-            axes.plot(x, np.maximum(rows[name][chosen], LEAST), **{**style, **more})
+            axes.plot(x[chosen], y[chosen], **{**style, **more})
     axes.set_xlim(-0.6, len(order) - 0.4)
     axes.axhline(1e-13, color="grey", linestyle=":", marker="")
     axes.set(yscale="log", ylabel="largest relative change over the run")
@@ -86,15 +87,8 @@ def ticks(axes: Axes, values: Any) -> None:
 def speeds(patterns: pd.DataFrame, sound: pd.DataFrame) -> Figure:
     """How fast a density pattern goes on a stream, and sound."""
     page, (left, right) = figure(1, 2, width=4.4, height=4.0)
-    for axes, frame in ((left, patterns), (right, sound[sound["weight"] == "Lucy"])):
-        for number, (name, words) in enumerate(MOTIONS.items()):
-            group = frame[frame["motion"] == name].sort_values("wavelength")
-            bars(axes, group, "wavelength", "speed", number=number, label=words, markerfacecolor="none",
-                 markersize=10 - 2*number)      # some lie on each other
-            axes.plot(group["wavelength"], group["predicted"], color="grey", linestyle=":", marker="")
-        axes.set(xlabel=r"wavelength $\lambda/a$", xscale="log")
-        ticks(axes, sorted(set(frame["wavelength"])))
-        below(axes, ncols=2)
+    draw_speeds(left, patterns)
+    draw_speeds(right, sound[sound["weight"] == "Lucy"])
     left.set(ylabel="speed of the pattern over the stream's", title="density pattern on a uniform stream")
     right.set(ylabel="speed of sound over $c$", title="standing sound")
     right.axhline(np.sqrt(2), color="grey", linewidth=0.6)
@@ -102,6 +96,18 @@ def speeds(patterns: pd.DataFrame, sound: pd.DataFrame) -> Figure:
     page.suptitle("Which motion of the points carries patterns and sound at the right speed?\n"
                   "Lucy's weight, $h = 3a$; dotted: predicted from sums over the lattice", fontsize=10)
     return page
+
+
+def draw_speeds(axes: Axes, rows: pd.DataFrame) -> None:
+    """Of each motion over the wavelength; some lie on each other."""
+    for number, (name, words) in enumerate(MOTIONS.items()):
+        group = rows[rows["motion"] == name].sort_values("wavelength")
+        style = {"markerfacecolor": "none", "markersize": 10 - 2*number}
+        bars(axes, group, "wavelength", "speed", number=number, label=words, **style)
+        axes.plot(group["wavelength"], group["predicted"], color="grey", linestyle=":", marker="")
+    axes.set(xlabel=r"wavelength $\lambda/a$", xscale="log")
+    ticks(axes, sorted(set(rows["wavelength"])))
+    below(axes, ncols=2)
 
 
 def steps(rows: pd.DataFrame) -> Figure:
@@ -124,13 +130,11 @@ def drags(drag: pd.DataFrame) -> Figure:
     fractions = sorted(set(drag["fraction"]))
     page, axes = figure(1, len(fractions), width=4.4, height=4.2, squeeze=False, sharey=True)
     drag = drag.assign(percent=100*drag["error"].abs(), percent_err=100*drag["error_err"])
-    across = np.array([drag["radius"].min(), drag["radius"].max()])
     for panel, fraction in zip(axes[0], fractions, strict=True):
-        for number, (name, words) in enumerate(BODIES.items()):
-            group = drag[(drag["variant"] == name) & (drag["fraction"] == fraction)].sort_values("rows")
-            bars(panel, group, "radius", "percent", number=number, linestyle="-", label=words)
+        draw_drags(panel, drag[drag["fraction"] == fraction].sort_values("rows"))
         for power, style, at in ((1, ":", 60.0), (2, "--", 16.0)):
-            panel.plot(across, at*across**-power, color="grey", linestyle=style, marker="",
+            radius = np.array([drag["radius"].min(), drag["radius"].max()])
+            panel.plot(radius, at*radius**-power, color="grey", linestyle=style, marker="",
                        label=f"$(a/R)^{power}$")
         panel.set(xscale="log", yscale="log", title=f"solid fraction {fraction:g}", xlabel="radius $R/a$")
         ticks(panel, (4, 6, 10, 20))
@@ -139,6 +143,13 @@ def drags(drag: pd.DataFrame) -> Figure:
     page.suptitle("Drag of a cylinder against Sangani & Acrivos (1982); bars: print and what was not steady",
                   fontsize=10)
     return page
+
+
+def draw_drags(axes: Axes, rows: pd.DataFrame) -> None:
+    """Of each variant over the radius."""
+    for number, (name, words) in enumerate(BODIES.items()):
+        group = rows[rows["variant"] == name]
+        bars(axes, group, "radius", "percent", number=number, linestyle="-", label=words)
 
 
 FIGURES = Drawings(

@@ -39,7 +39,7 @@ def moving(kind: Any, points: Points, weight: Any, law: Any = STILL, **more: Any
     return kind(box=tuple(points.box), weight=weight, eos=IdealGas(), law=law, **settings)
 
 
-class Seen(NamedTuple):
+class SeenWave(NamedTuple):
     """What sums over the lattice see of a wave, 1 in the continuum, with the scale of `renormalised`.
 
     slope : of gradients, wave number over k. stiffness : of a moved lattice, (1/k^2) sum_r w_xx (1 - cos kx).
@@ -49,12 +49,12 @@ class Seen(NamedTuple):
     stiffness: float
 
 
-def seen(weight: Any, points: Points, k: float) -> Seen:
+def seen(weight: Any, points: Points, k: float) -> SeenWave:
     """Of a wave along x."""
     sums, scale = lattice_sums(weight, 1.0, 1.0, np.array([[k, 0.0]])), scale_of(points, weight)
     slope = np.abs(sums.S[0, 0])/k
     stiffness = sums.D[0, 0, 0]/k**2
-    return Seen(float(scale*slope), float(scale*stiffness))
+    return SeenWave(float(scale*slope), float(scale*stiffness))
 
 
 # --- equations evaluated once -------------------------------------------------------------------

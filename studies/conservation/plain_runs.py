@@ -1,7 +1,4 @@
-"""Runs of schemes in numpy, edge by edge: sums over long runs in one to three dimensions, points that move.
-
-On fixed points with bulk viscosity and the inner sums of Eq. 37 as printed [RR98 Eqs 34-38].
-"""
+"""Runs in numpy, edge by edge: in one to three dimensions [RR98 Eqs 34-38], on points that move [Eqs 39-49]."""
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -36,7 +33,7 @@ LOOKS = 100             # at runs that lose momentum
 SIDE, H = 6, 2.7        # of the box of points that move, range of their weights
 
 
-class Box(NamedTuple):
+class SmallBox(NamedTuple):
     """How many points along each axis, range of the weight, seconds a step."""
 
     counts: tuple[int, ...]
@@ -44,7 +41,8 @@ class Box(NamedTuple):
     cost: float
 
 
-LINE, SQUARE, CUBE = Box((32,), 3.0, 5e-4), Box((6, 6), 2.8, 1.5e-3), Box((4, 4, 4), 1.9, 1.5e-3)
+LINE, SQUARE = SmallBox((32,), 3.0, 5e-4), SmallBox((6, 6), 2.8, 1.5e-3)
+CUBE = SmallBox((4, 4, 4), 1.9, 1.5e-3)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,7 +51,7 @@ class DihDrift(WatchedRun):
 
     mode: str
     transport: Any
-    box: Box
+    box: SmallBox
     disorder: Disorder = DISORDERS["jittered-0.1"]
     scheme = "dih"
     kind: ClassVar[type[Dih]] = Dih
@@ -115,7 +113,7 @@ class Unsymmetric(DihDrift):
 
     mode: str = "one-sided"
     transport: Any = Pairwise()  # noqa: RUF009 (immutable)
-    box: Box = LINE
+    box: SmallBox = LINE
     kind = OneSided
 
     def run(self, report: Report, folder: Path) -> Outcome:
