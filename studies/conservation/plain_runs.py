@@ -1,4 +1,4 @@
-"""Runs in numpy, edge by edge: in one to three dimensions [RR98 Eqs 34-38], on points that move [Eqs 39-49]."""
+"""Runs in numpy, edge by edge: in one to three dimensions [RR98 Eqs 34-38], on moving points [Eqs 39-49]."""
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path

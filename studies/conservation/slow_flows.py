@@ -71,7 +71,8 @@ class CylinderDrag(Case):
         dt = OF_LIMIT*limit_of(method, first)
         time = TIMES*self.rows**2/(self.slowest*ETA)
         steps = round(time/dt)
-        plan = Plan(dt=dt, steps=steps, every=max(1, steps//40), series={"momentum": momentum, "force": force})
+        series = {"momentum": momentum, "force": force}
+        plan = Plan(dt=dt, steps=steps, every=max(1, steps//40), series=series)
         done = run(method, first, plan, report)
         known = {"variant": self.variant.name, "fraction": self.fraction, "rows": self.rows, "dt": dt}
         return Outcome({"drag": [{**known, **self.columns(method, done), **spent(done)}]})
