@@ -117,18 +117,23 @@ class TurningCylinder(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         inner, outer = INNER*self.rows, OUTER*self.rows
-        points, turned, fixed = between_circles((self.rows, self.rows), inner, outer)
-        body = together(turning(points, turned, SPEED/inner, 1.0), turning(points, fixed, 0.0, 1.0))
-        method = Stream(x=points.x, edges=delaunay(points), eos=IdealGas(), law=ConstEta(ETA, ETA), held=body,
-                        chi=PRESSURE/ETA)
-        first = method.state(1.0, self.exact(points.x), 1.0)
+        method = self.method(inner, outer)
+        first = method.state(1.0, self.exact(method.x), 1.0)
         dt = OF_LIMIT*limit_of(method, first)
         time = TIMES*(outer - inner)**2/(np.pi**2*ETA)
         done = run(method, first, Plan(dt=dt, steps=round(time/dt)), report)
         whole = 4*np.pi*ETA*SPEED*inner/(1 - (inner/outer)**2)
         on_turned, on_fixed = torques(method, done.state)/whole
-        return Outcome({"torque": [{"rows": self.rows, "radius": inner, "turned": -on_turned - 1,
-                                    "fixed": on_fixed - 1, **spent(done)}]})
+        errors = {"turned": -on_turned - 1, "fixed": on_fixed - 1}
+        return Outcome({"torque": [{"rows": self.rows, "radius": inner, **errors, **spent(done)}]})
+
+    def method(self, inner: float, outer: float) -> Stream:
+        """The gas between the cylinders, and their points."""
+        points, turned, fixed = between_circles((self.rows, self.rows), inner, outer)
+        in_motion = turning(points, turned, SPEED/inner, 1.0)
+        at_rest = turning(points, fixed, 0.0, 1.0)
+        return Stream(x=points.x, edges=delaunay(points), eos=IdealGas(), law=ConstEta(ETA, ETA),
+                      held=together(in_motion, at_rest), chi=PRESSURE/ETA)
 
 
 def torques(method: Stream, state: np.ndarray) -> np.ndarray:
@@ -223,10 +228,11 @@ class TurningWave(Case):
 
 def without_divergence(v: np.ndarray, rows: int) -> float:
     """Rms of the part of a velocity (n, 2) that has none; the mean belongs to it."""
-    F = np.fft.fft2(v.reshape(rows, rows, 2), axes=(0, 1))/rows**2
+    waves = np.fft.fft2(v.reshape(rows, rows, 2), axes=(0, 1))/rows**2
+    x, y = waves[:, :, 0], waves[:, :, 1]
     k = np.fft.fftfreq(rows)
     kx, ky = np.meshgrid(k, k, indexing="ij")
     k2 = np.maximum(kx**2 + ky**2, 1e-300)
-    along = np.abs(kx*F[:, :, 0] + ky*F[:, :, 1])**2/k2
-    whole = (np.abs(F)**2).sum(axis=2)
+    along = np.abs(kx*x + ky*y)**2/k2
+    whole = np.abs(x)**2 + np.abs(y)**2
     return float(np.sqrt((whole - along).sum()))
