@@ -9,7 +9,7 @@ from continuum.scene import RayleighBenard
 from particles.integral.dih import Dih
 from particles.integral.edge_makers import renormalised
 from particles.integral.exchange import PRINTED
-from particles.integral.isothermal import CarriedMass, ConstantFriction, Isothermal
+from particles.integral.isothermal import Carried, ConstantFriction, Isothermal
 from particles.integral.points import jittered, lattice
 from particles.integral.triangulation import delaunay
 from particles.integrators import RK4
@@ -47,13 +47,13 @@ def test_listed_terms_are_the_brackets_of_the_paper(off_lattice):
         momentum = (S@v[j]*rho[i]*v[i] + S@v[i]*rho[j]*v[j])/2 + 2.0*S*(rho[i] + rho[j])/2 - 0.3*k*(v[j] - v[i])
         wanted[i] -= np.r_[mass, momentum]
         wanted[j] += np.r_[mass, momentum]
-    found = rates(Isothermal(x=points.x, edges=edges, terms=(CarriedMass(2.0), ConstantFriction(0.3))), state)
+    found = rates(Isothermal(x=points.x, edges=edges, terms=(Carried(2.0), ConstantFriction(0.3))), state)
     np.testing.assert_allclose(found, wanted.T/edges.V, atol=1e-13)
 
 
 def test_terms_add_up_and_their_order_does_not_matter(off_lattice):
     points, edges, state = off_lattice
-    a, b = CarriedMass(2.0), ConstantFriction(0.3)
+    a, b = Carried(2.0), ConstantFriction(0.3)
     one, other, both, turned = (rates(Isothermal(x=points.x, edges=edges, terms=terms), state)
                                 for terms in ((a,), (b,), (a, b), (b, a)))
     np.testing.assert_allclose(both, one + other, atol=1e-13)
@@ -63,7 +63,7 @@ def test_terms_add_up_and_their_order_does_not_matter(off_lattice):
 
 def test_mass_and_momentum_are_kept(off_lattice):
     points, edges, state = off_lattice
-    method = Isothermal(x=points.x, edges=edges, terms=(CarriedMass(2.0), ConstantFriction(0.3)))
+    method = Isothermal(x=points.x, edges=edges, terms=(Carried(2.0), ConstantFriction(0.3)))
     end = run(method, state, Plan(dt=0.5*limit_of(method, state), steps=50)).state
     np.testing.assert_allclose(end@edges.V, state@edges.V, rtol=0, atol=50*4*points.n*1e-16)
 
@@ -71,7 +71,7 @@ def test_mass_and_momentum_are_kept(off_lattice):
 def test_the_limit_of_the_step_is_that_of_sound():
     """Without friction: stable below, not above."""
     points = lattice((12, 12))
-    method = Isothermal(x=points.x, edges=renormalised(points, Lucy.of(h=2.0)), terms=(CarriedMass(2.0),))
+    method = Isothermal(x=points.x, edges=renormalised(points, Lucy.of(h=2.0)), terms=(Carried(2.0),))
     state = np.array([1 + 1e-6*np.random.default_rng(1).normal(size=points.n), *np.zeros((2, points.n))])
     limit, sums = limit_of(method, state), method.start(points.n, Team(1))
     grown = []
@@ -85,7 +85,7 @@ def test_the_limit_of_the_step_is_that_of_sound():
 
 def test_a_density_that_is_not_positive_ends_a_run():
     points = lattice((6, 6))
-    method = Isothermal(x=points.x, edges=renormalised(points, Lucy.of(h=2.0)), terms=(CarriedMass(2.0),))
+    method = Isothermal(x=points.x, edges=renormalised(points, Lucy.of(h=2.0)), terms=(Carried(2.0),))
     state = np.array([np.ones(36), *np.zeros((2, 36))])
     state[0, 3] = -1.0
     with pytest.raises(Divergence, match="point 3 has rho = -"):
@@ -94,7 +94,7 @@ def test_a_density_that_is_not_positive_ends_a_run():
 
 def test_what_is_not_listed_is_neither_called_nor_stored():
     """Loops by name; state and records have three fields instead of four and thirteen."""
-    with_heat, cold, bare = terms.GAS(8), terms.COLD(8), terms.listed(8, (CarriedMass,))
+    with_heat, cold, bare = terms.GAS(8), terms.COLD(8), terms.listed(8, (Carried,))
     assert "sweep Listing(Carried+ConstantFriction)" in cold.called and "sweep Listing(Carried)" in bare.called
     assert not any("Friction" in name for name in bare.called)
     assert len(cold.problem.first) == 3 and len(with_heat.problem.first) == 4

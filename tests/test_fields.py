@@ -22,7 +22,7 @@ from particles.integral.drifts import DRIFTS
 from particles.integral.driven import Driven
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import between_plates
-from particles.integral.isothermal import CarriedMass, Isothermal
+from particles.integral.isothermal import Carried, Isothermal
 from particles.integral.layer import Layer
 from particles.integral.points import jittered, lattice
 from particles.integral.rr98_moving import Drift
@@ -49,7 +49,7 @@ FIXED = {"dih": Dih(edges=EDGES, **FLUID), "layer": Layer(**INSIDE),
          "thermal": Thermal(edges=EDGES, k=1e-3, seed=1, **FLUID),
          "stream": Stream(x=SQUARE.x, edges=EDGES, held=held(np.array([0])), **FLUID),
          "sheared": Sheared(points=SQUARE, edges=EDGES, rate=0.1, **FLUID), "driven": Driven(**INSIDE)}
-COLD = Isothermal(x=SQUARE.x, edges=EDGES, terms=(CarriedMass(2.0),))
+COLD = Isothermal(x=SQUARE.x, edges=EDGES, terms=(Carried(2.0),))
 MOVING = {**{f"rr98-{name}": Drift(motion=motion, **EVERYWHERE) for name, motion in DRIFTS.items()},
           **{f"plain-{name}": kind(box=BOX, weight=WendlandC2.of(h=2.9), **FLUID) for name, kind in MOTIONS.items()},
           "closed-faces": Moving(**EVERYWHERE)}

@@ -21,7 +21,7 @@ from particles.threads import Team
 Point = np.dtype([(name, "f8") for name in ("rho", "vx", "vy")])
 
 
-class CarriedMass(NamedTuple):
+class Carried(NamedTuple):
     """Mass and momentum that move with the fluid, and pressure    [Eqs 34, 35]"""
     c2: float
 
@@ -31,11 +31,11 @@ class ConstantFriction(NamedTuple):
     eta: float
 
 
-nothing.of(CarriedMass)(lambda term: (0.0, 0.0, 0.0))
+nothing.of(Carried)(lambda term: (0.0, 0.0, 0.0))
 nothing.of(ConstantFriction)(lambda term: (0.0, 0.0, 0.0))
 
 
-@rate.of(CarriedMass)
+@rate.of(Carried)
 def _(term, a, b, ab):
     from_a, from_b = a.rho*(ab.sx*b.vx + ab.sy*b.vy), b.rho*(ab.sx*a.vx + ab.sy*a.vy)
     P = term.c2*(a.rho + b.rho)

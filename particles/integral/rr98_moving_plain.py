@@ -175,7 +175,7 @@ class Convective(Motion):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Carried(Convective):
+class CarriedVolumes(Convective):
     """Eqs 46-48 on volumes that go with the flow: rho_i V_i then stays as it is, as at constant mass."""
 
     def growth(self, edges: Edges, v: np.ndarray) -> np.ndarray:
@@ -227,5 +227,5 @@ class ConstantMass(Motion):
 
 
 #: by name
-MOTIONS: dict[str, Any] = {"literal": Literal, "convective": Convective, "carried": Carried,
+MOTIONS: dict[str, Any] = {"literal": Literal, "convective": Convective, "carried": CarriedVolumes,
                            "constant-mass": ConstantMass}

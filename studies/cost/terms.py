@@ -18,7 +18,7 @@ import numpy as np
 from continuum.exact.vortex import SOUND, incompressible, solved, velocities
 from continuum.fluid import IdealGas
 from particles.integral.edge_makers import renormalised
-from particles.integral.isothermal import CarriedMass, ConstantFriction, Isothermal
+from particles.integral.isothermal import Carried, ConstantFriction, Isothermal
 from particles.integral.layer import edge_by_edge, quickest
 from particles.integral.points import lattice
 from particles.integral.thermal import Thermal
@@ -117,10 +117,10 @@ def in_vortex(scene: TaylorGreen, method: Any, first: np.ndarray) -> Problem:
     return of_method(method, first, scene.time, residuals)
 
 
-def listed(size: int, kinds: tuple = (CarriedMass, ConstantFriction)) -> Made:
+def listed(size: int, kinds: tuple = (Carried, ConstantFriction)) -> Made:
     """Fixed points without heat; terms by kind."""
     scene, points = FLOW.scene(size), lattice((size, size))
-    terms = tuple(kind(SOUND**2 if kind is CarriedMass else scene.eta) for kind in kinds)
+    terms = tuple(kind(SOUND**2 if kind is Carried else scene.eta) for kind in kinds)
     method = Isothermal(x=points.x, edges=renormalised(points, Lucy.of(h=H)), terms=terms)
     density, v, _ = scene.fields(points.x)
     rho = 1 + (density**2 - 1)/SOUND**2        # the same pressure
@@ -191,7 +191,7 @@ BASES: dict[tuple[str, str], dict[str, Callable[[int], Made]]] = {
         "nothing": partial(contestant, "taylor-green", names.MOVING), "motion": GAS},
     ("taylor-green", "fixed points"): {"nothing": GAS, "heat": COLD, "compressibility": without_sound},
     ("taylor-green", "fixed points, loops of all fluids"): {"nothing": gas_alike, "heat": COLD},
-    ("taylor-green", "fixed points without heat"): {"nothing": COLD, "viscosity": partial(listed, kinds=(CarriedMass,))},
+    ("taylor-green", "fixed points without heat"): {"nothing": COLD, "viscosity": partial(listed, kinds=(Carried,))},
     ("taylor-green", "fixed points with noise"): {"nothing": noisy, "noise": silent},
     ("convection", "moving points"): {
         "nothing": partial(contestant, "convection", names.MOVING),

@@ -36,6 +36,7 @@ from studies.build.disorder import Disorder
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
 
+NAMES = {NestedFluxes: "nested", Pairwise: "pairwise"}       # in tables
 AMPLITUDE = 1e-5    # its square is the share of waves that feed back on the first; round-off over it is 1e-11
 STEPS = 10          # at least, in a radian of sound: RK4 is off by 5 (1/10)^4/120 of a rate
 TRUNCATION = 5*STEPS**-4/120
@@ -158,7 +159,7 @@ class Decay(Case):
 
     def rows(self, values: dict[str, Measured], k: float) -> Iterator[dict[str, Any]]:
         """One a quantity."""
-        key = {"transport": type(self.transport).__name__.lower(), "maker": self.make.__name__, "h": self.h,
+        key = {"transport": NAMES[type(self.transport)], "maker": self.make.__name__, "h": self.h,
                "points": self.disorder.name, "zeta": self.zeta, "wavelength": self.counts[0],
                "seed": self.seed}
         exact = quantities(continuum(LinearGas(ETA, self.zeta, KAPPA), k), k)
