@@ -1,35 +1,41 @@
-"""Figures of the map, of steps and of the highest Ra; those of shocks are in `shocks`."""
+"""Figures: the map, shocks, the highest Ra, limits of the step."""
 from typing import Any
 
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from studies.hardcases.cases import FLUIDS
+from studies.hardcases.cases import FLUIDS, IN_LAYERS, IN_TUBES
 from studies.hardcases.derive import PART_OF_TIME, finished_grids
-from studies.hardcases.high_ra import METHODS, OFF, STEPS
-from studies.hardcases.scenes import BOXES, LAYERS, ROWS
-from studies.hardcases.shocks import shock_methods, shocks
-from studies.kit.figure import below, errorbar, figure, look
-from studies.kit.table import Tables
+from studies.hardcases.extremes import BOXES, LAYERS, ROWS
+from studies.hardcases.high_ra import OFF
+from studies.hardcases.interface import impulse
+from studies.hardcases.sod import exact
+from studies.hardcases.tubes import ETAS, STEPS
+from studies.kit.drawing import Drawing, Drawings
+from studies.kit.figure import figure, look
+from studies.kit.table import groups
 
-CASES = (*LAYERS, "highest Ra", *BOXES, "shear layer", "shock tube")
-#: letter, shade and hatch of an outcome; the darker, the worse
-LOOKS = {"right": ("R",
-                   "white",
-""), "wrong": ("W", "0.85", "/"), "leaks": ("L", "0.85", "\\"), "freezes": ("F", "0.7", "x"),
-         "diverges": ("D", "0.5", ""), "refused": ("-", "white", ""), "unjudged": ("?", "white", "")}
-WORDS = {"unjudged": "not judged, no two other grids came to their end, or noise"}
-CLEAR = 0.2             # between scenes of one method, in rows
+THIN_LINE: dict[str, Any] = {"color": "black", "linewidth": 0.7, "linestyle": "-", "marker": ""}
+DASHED: dict[str, Any] = {"color": "black", "linestyle": "--", "marker": ""}
 
 
-def figures(tables: Tables) -> dict[str, Figure]:
-    """What the tables allow."""
-    return {name: draw(*(tables[source] for source in sources)) for name, (draw, sources) in DRAWINGS.items()
-            if all(len(tables.get(source, ())) for source in sources)}
+def dots(number: int, size: float = 2) -> dict[str, Any]:
+    """Marks without a line."""
+    return {**look(number), "linestyle": "none", "markersize": size}
 
 
 # --- the map --------------------------------------------------------------------------------------
+
+CASES = (*LAYERS, "highest Ra", *BOXES, "shear layer", "shock tube")
+#: letter, shade and hatch of an outcome; the darker, the worse
+LOOKS = {"right": ("R", "white", ""), "wrong": ("W", "0.85", "/"), "leaks": ("L", "0.85", "\\"),
+         "freezes": ("F", "0.7", "x"), "diverges": ("D", "0.5", ""), "refused": ("-", "white", ""),
+         "unjudged": ("?", "white", "")}
+WORDS = {"unjudged": "not judged, no two other grids came to their end, or noise"}
+KEY = ("  empty: not run\nnumber: flow over the start's, or over that of the grid of so many rows;\nvacuum: K over exact; "
+       "corner: speed over sound's; shear: growth over linear; tube: ringing; highest Ra: the first that is wrong or ends")
 
 
 def chart(rows: pd.DataFrame, runs: pd.DataFrame) -> Figure:
@@ -43,14 +49,12 @@ def chart(rows: pd.DataFrame, runs: pd.DataFrame) -> Figure:
     page, axes = figure(width=1.5 + 0.95*len(cases), height=1.2 + 0.3*len(methods))
     for _, row in rows.iterrows():
         cell(axes, cases.index(row["case"]), methods.index(row["method"]), row)
-    axes.set(xlim=(-0.5, len(cases) - 0.5), ylim=(len(methods) - 0.5, -0.5), yticks=range(len(methods)), yticklabels=methods)
+    axes.set(xlim=(-0.5, len(cases) - 0.5), ylim=(len(methods) - 0.5, -0.5))
+    axes.set_yticks(range(len(methods)), labels=methods)
     axes.set_xticks(range(len(cases)), fontsize=8, labels=[heading(case, runs) for case in cases])
     axes.grid(False)
-    letters = [f"{LOOKS[name][0]}: {WORDS.get(name, name)}" for name in LOOKS if name in set(rows["outcome"])]
-    axes.set_xlabel("  ".join(letters) + "  empty: not run\nnumber: flow over the start's, or over that of "
-                                         "the grid of so many rows;\nvacuum: K over exact; corner: speed over "
-                                         "sound's; shear: growth over linear; tube: ringing; highest Ra: the "
-                                         "first that is wrong or ends")
+    there = [name for name in LOOKS if name in set(rows["outcome"])]
+    axes.set_xlabel("  ".join(f"{LOOKS[name][0]}: {WORDS.get(name, name)}" for name in there) + KEY)
     axes.set_title(f"Which method takes which hard case? Layers of {ROWS} rows")
     return page
 
@@ -58,8 +62,8 @@ def chart(rows: pd.DataFrame, runs: pd.DataFrame) -> Figure:
 def cell(axes: Any, x: int, y: int, row: pd.Series) -> None:
     """One method in one case."""
     letter, shade, hatch = LOOKS[row["outcome"]]
-    axes.add_patch(Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=shade, edgecolor="0.6",
-                              hatch=hatch, linewidth=0.5))
+    square = Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=shade, edgecolor="0.6", hatch=hatch, linewidth=0.5)
+    axes.add_patch(square)
     shown = pd.notna(row["measured"]) and row["number"] != PART_OF_TIME
     value = f" {row['measured']:.2g}" if shown else ""
     axes.text(x, y, f"{letter}{value}", ha="center", va="center", fontsize=8,
@@ -68,24 +72,120 @@ def cell(axes: Any, x: int, y: int, row: pd.Series) -> None:
 
 def heading(case: str, runs: pd.DataFrame) -> str:
     """A case, and rows of the grid that it is held against."""
-    grids = list(finished_grids(runs, case).index) if case in LAYERS else []
+    grids = finished_grids(runs, case).index if case in LAYERS else ()
     return case.replace(" ", "\n", 1) + (f"\ngrid of {max(grids)}" if len(grids) else "")
 
 
-def steadiness(rows: pd.DataFrame) -> Figure:
-    """Swing of K in the last two quarters, and the part of the time that was reached, over rows."""
-    page, (axes, end) = figure(1, 2)
-    for number, (ra, some) in enumerate(rows.groupby("ra")):
-        end.plot(some["rows"], some["reached"], label=f"Ra {ra:g}", **look(number))
-        some = some.dropna(subset=["swing"])
-        mean, half = (some["swing"] + some["before"])/2, (some["swing"] - some["before"]).abs()/2
-        errorbar(axes, some["rows"].tolist(), mean.tolist(), half.tolist(), number=number, label=f"Ra {ra:g}")
-    axes.axhline(0.01, color="black", linewidth=0.8)
-    axes.set(xlabel="rows of the grid", ylabel="(largest - smallest K)/mean K", yscale="log",
-             title="bars: from the last quarter to the one before")
-    end.set(xlabel="rows of the grid", ylabel="part of the time that was reached", ylim=(0, 1.05))
-    below(end, ncols=3)
+# --- shocks through smooth particles --------------------------------------------------------------
+
+
+def shocks(profiles: pd.DataFrame, ripples: pd.DataFrame) -> Figure:
+    """Above: density and velocity in the longest tube without and with viscosity. Below: the ripple in time."""
+    page, (above, below) = figure(2, 2, width=4.4, height=3.2)
+    for axes, (eta, rows) in zip(above, groups(profiles, "eta"), strict=False):
+        tube(axes, rows.sort_values("x"), eta)
+    for number, ((steep, scale), rows) in enumerate(groups(ripples, ["steep", "scale"])):
+        label = rf"$ka$ = {steep:g}, {scale:g} x printed size"
+        ripple(below, rows, scale, steep, {**look(number), "marker": "", "label": label})
+    expected(*below, float(ripples["scale"].max()), float(ripples["steep"].max()))
+    below[0].set(ylabel="height of the interface / kick x time", title="shocked interface")
+    below[1].set(ylabel="amplitude / that behind the shock", title="its ripple", ylim=(0.4, 2.9))
+    for axes, place in zip(below, ("upper right", "upper left"), strict=True):
+        axes.set_xlabel("time / time of the shock's arrival")
+        axes.legend(loc=place)
+    page.legend(*above[-1].get_legend_handles_labels(), loc="outside lower center", ncols=5)
+    page.suptitle("Shocks through smooth particles as printed, without artificial viscosity\nabove: Sod's tube at "
+                  r"$t = 0.4 L$; below: density ratio 4, Mach 1.5; bands: all seeds", fontsize=10)
     return page
+
+
+def tube(axes: Any, rows: pd.DataFrame, eta: float) -> None:
+    """Density and velocity of particles, of the exact solution and of the viscous grid."""
+    x = rows["x"]
+    for number, (name, label) in enumerate((("rho", r"$\rho$"), ("v", "$v$"))):
+        axes.plot(x, rows[name], **dots(number), label=f"{label}, particles")
+        axes.plot(x, rows[f"{name}_exact"], **THIN_LINE, label="without viscosity, exact" if number else "")
+        if rows[f"{name}_grid"].notna().all():
+            style = {**look(number), "linestyle": "--", "marker": ""}
+            axes.plot(x, rows[f"{name}_grid"], **style, label=f"{label}, viscous grid")
+    title = rf"$L$ = {rows['L'].iloc[0]:g} spacings, $\eta$ = {eta:g}"
+    axes.set(xlabel="distance from the diaphragm / $L$", ylabel=r"$\rho$, $v$", title=title)
+
+
+def ripple(both: Any, rows: pd.DataFrame, scale: float, steep: float, style: dict[str, Any]) -> None:
+    """Means and all seeds of one size and steepness: height and amplitude."""
+    theory = impulse(scale, steep)
+    heights, amplitudes = (rows.groupby("time")[name].agg(["mean", "min", "max"]) for name in ("height", "amplitude"))
+    heights = (heights - heights["mean"].iloc[0])/(theory.kick*theory.back)
+    for axes, band in zip(both, (heights, amplitudes/theory.amplitude), strict=True):
+        x = band.index/theory.meets
+        axes.plot(x, band["mean"], **style)
+        axes.fill_between(x, band["min"], band["max"], color=style["color"], alpha=0.2)
+
+
+def expected(height: Any, amplitude: Any, scale: float, steep: float) -> None:
+    """The exact height of the interface, and impulsive growth of its ripple."""
+    theory = impulse(scale, steep)
+    times = np.array([0.0, theory.meets, theory.back])
+    heights = theory.kick*np.maximum(times - theory.meets, 0) - theory.fall*times
+    height.plot(times/theory.meets, heights/(theory.kick*theory.back), **DASHED, label="exact")
+    growth = 1 + theory.growth*(times[1:] - theory.meets)/theory.amplitude
+    amplitude.plot(times[1:]/theory.meets, growth, **DASHED, label="impulsive theory")
+
+
+# --- shocks through all methods -------------------------------------------------------------------
+
+ALL = (*IN_TUBES, "smooth particles")
+SHIFT = 0.5             # between methods' densities, upwards
+
+
+def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame, tubes: pd.DataFrame, others: pd.DataFrame) -> Figure:
+    """Above: densities, one above the other, without viscosity, with little and with that of smooth particles.
+    Below: errors.
+
+    Of the shorter step: what ends with it is not the step's fault.
+    """
+    rows, profiles = (frame[frame["step"] == min(STEPS)] for frame in (rows, profiles))
+    smooth = tubes[tubes["diverged"].isna()].assign(method=ALL[-1])
+    points, lines = pd.concat([rows, smooth]), pd.concat([profiles, others.assign(method=ALL[-1])])
+    page, all_axes = figure(2, len(ETAS), width=4.0, height=4.4)
+    for above, under, eta in zip(*all_axes, ETAS, strict=True):
+        densities(above, *(frame[np.isclose(frame["eta"], eta)] for frame in (lines, rows)))
+        above.set(title=rf"$\eta = k = {eta:g}$", xlabel="distance from the diaphragm / $L$",
+                  xlim=(-0.8, 1.0), ylim=(-0.1, SHIFT*(len(ALL) - 1) + 1.15), yticks=[])
+        by_length(under, points[np.isclose(points["eta"], eta)])
+    all_axes[0, 0].set_ylabel("density, methods one above the other")
+    page.legend(*all_axes[1, 1].get_legend_handles_labels(), loc="outside lower center", ncols=len(ALL))
+    page.suptitle("Sod's shock tube at $t = 0.4 L$ without artificial viscosity; thin: exact, frictionless",
+                  fontsize=10)
+    return page
+
+
+def densities(axes: Any, lines: pd.DataFrame, rows: pd.DataFrame) -> None:
+    """Each method's own, or when its longest run ended."""
+    for number, method in enumerate(ALL):
+        some, up = lines[lines["method"] == method].sort_values("x"), SHIFT*number
+        run = rows[(rows["method"] == method) & (rows["seed"] == 1)].sort_values("L")
+        if len(some):
+            x, L = some["x"].to_numpy(), float(some["L"].iloc[0])
+            axes.plot(x, up + exact(L, (x + 1)*L)[0], **THIN_LINE)
+            axes.plot(x, up + some["rho"], **dots(number))
+            axes.text(0.98, up + 0.02, f"{method}, $L$ = {L:g}", ha="right", fontsize=8)
+        elif len(run):
+            words = f"{method}: ended at {run['reached'].iloc[-1]:.2g} of the time"
+            axes.text(0.98, up + 0.2, words, ha="right", fontsize=8)
+
+
+def by_length(axes: Any, rows: pd.DataFrame) -> None:
+    """Errors of v against the exact solution."""
+    for number, method in enumerate(ALL):
+        some = rows[rows["method"] == method].dropna(subset=["v_exact"])
+        means = some.groupby("L")["v_exact"].mean()
+        axes.plot(means.index, means, **look(number), label=method)
+    axes.set(xscale="log", yscale="log", ylim=(5e-3, 0.3), xlim=(22, 210),
+             xlabel="half the tube's length $L$ / spacings", ylabel="mean error of $v$ / range")
+    axes.set_xticks([24, 48, 96, 192], labels=["24", "48", "96", "192"])
+    axes.minorticks_off()
 
 
 # --- the highest Ra, steps ------------------------------------------------------------------------
@@ -94,12 +194,12 @@ def steadiness(rows: pd.DataFrame) -> Figure:
 def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
     """K over the fine grid's against Ra, and the part of the time that was reached."""
     page, (above, under) = figure(2, 1, width=6.4, height=2.9, sharex=True)
-    for number, method in enumerate(METHODS):
-        some = rows[(rows["method"] == method) & (rows["step"] == STEPS[0])].sort_values("ra")
+    rows = rows[rows["step"] == 1].sort_values("ra")
+    for number, method in enumerate(IN_LAYERS):
+        some = rows[rows["method"] == method]
         ra = 10**(0.01*number)*some["ra"]       # that marks on one another are seen
-        style = {**look(number), "linestyle": "none", "markersize": 4}
-        above.plot(ra, some["over"], **style, label=method)
-        under.plot(ra, some["reached"], **style, label=method)
+        above.plot(ra, some["over"], **dots(number, 4), label=method)
+        under.plot(ra, some["reached"], **dots(number, 4), label=method)
     for level in (OFF, 1/OFF):
         above.axhline(level, color="grey", linewidth=0.8)
     for axes in (above, under):
@@ -112,27 +212,29 @@ def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
     return page
 
 
+#: column of `limits` -> what it is
+FORMULAS = {"predicted": "the method's own formula", "shorter": "for sound or diffusion alone",
+            "exact": "by eigenvalues"}
+CLEAR = 0.2             # between scenes of one method, in rows
+
+
 def limits(rows: pd.DataFrame) -> Figure:
     """Measured limits of the step over those of formulas, all methods."""
-    page, (own, alone, exact) = figure(1, 3, width=3.9, height=4.4, sharey=True)
+    page, all_axes = figure(1, 3, width=3.9, height=4.4, sharey=True)
     methods = list(dict.fromkeys(rows["method"]))
-    group = rows.groupby("method")["scene"]
-    place = group.cumcount() - (group.transform("size") - 1)/2
-    rows = rows.assign(at=rows["method"].map(methods.index) + CLEAR*place)
-    for number, scene in enumerate(FLUIDS):
-        some = rows[rows["scene"] == scene]
-        for axes, column in ((own, "predicted"), (alone, "shorter"), (exact, "exact")):
-            axes.errorbar(some["measured"]/some[column], some["at"], xerr=some["measured_err"]/some[column], label=scene,
+    for axes, (column, words) in zip(all_axes, FORMULAS.items(), strict=True):
+        for number, scene in enumerate(FLUIDS):
+            some = rows[rows["scene"] == scene]
+            at = some["method"].map(methods.index) + CLEAR*(number - 1.5)
+            axes.errorbar(some["measured"]/some[column], at, xerr=some["measured_err"]/some[column], label=scene,
                           **{**look(number), "linestyle": "none"})
-    own.set(yticks=range(len(methods)), yticklabels=methods, xscale="log",
-                             xlabel="measured / the method's own formula")
-    own.set_xticks([1, 1.4, 2, 3, 5], labels=["1", "1.4", "2", "3", "5"])
-    own.set_xticks([], minor=True)
-    alone.set_xlabel("measured / for sound or diffusion alone")
-    exact.set_xlabel("measured / by eigenvalues")
-    for axes in (own, alone, exact):
         axes.axvline(1, color="black", linewidth=0.8)
         axes.axvspan(0.9, 1.1, color="0.9", zorder=0)
+        axes.set_xlabel(f"measured / {words}")
+    own = all_axes[0]
+    own.set(yticks=range(len(methods)), yticklabels=methods, xscale="log")
+    own.set_xticks([1, 1.4, 2, 3, 5], labels=["1", "1.4", "2", "3", "5"])
+    own.set_xticks([], minor=True)
     own.invert_yaxis()
     page.legend(*own.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     page.suptitle("At which step does noise begin to grow? Measured over predicted\nbars: half of the last "
@@ -140,8 +242,9 @@ def limits(rows: pd.DataFrame) -> Figure:
     return page
 
 
-DRAWINGS: dict[str, tuple[Any, tuple[str, ...]]] = {
-    "map": (chart, ("map", "hard_runs")), "steadiness": (steadiness, ("steadiness",)),
-    "high_ra": (highest, ("high_ra_trials", "high_ra_summary")), "limits": (limits, ("limits",)),
-    "shocks": (shocks, ("tube_profiles", "ripples")),
-    "shock_methods": (shock_methods, ("method_tubes", "method_tube_profiles", "tubes", "tube_profiles"))}
+figures = Drawings(
+    Drawing("map", ("map", "hard_runs"), chart),
+    Drawing("high_ra", ("high_ra_trials", "high_ra_summary"), highest),
+    Drawing("limits", ("limits",), limits),
+    Drawing("shocks", ("tube_profiles", "ripples"), shocks),
+    Drawing("shock_methods", ("method_tubes", "method_tube_profiles", "tubes", "tube_profiles"), shock_methods))

@@ -30,11 +30,12 @@ HEIGHT, MASS = 9.0, 9/16        # mean density 9/16 is one particle a unit of ar
 ROWS = {DENSE: 12, THIN: 4}     # then columns are 0.75 and 2 apart, and fit if L is a multiple of 3
 JITTER = 0.05                   # of the columns and rows: a perfect lattice keeps its rows in a flow along one axis
 END = 0.4                       # time over L
-SKIN = 1.5                      # of neighbour lists: at the diaphragm particles start from rest to their full speed in a step
+SKIN = 1.5                      # of neighbour lists: at the diaphragm particles reach full speed in a step
 FINE = 0.25                     # cells of the grid, spacings
-ACCURATE = 1e-6                 # relative, of the grid's steps in time: a thousandth of the errors that are compared
+ACCURATE = 1e-6                 # relative, of the grid's steps in time: a thousandth of the errors compared
 NAMES = ("rho", "v", "P")
 ERRORS = tuple(f"{name}_{of}" for of in ("exact", "grid") for name in NAMES)
+PROFILES = tuple(f"{name}{of}" for of in ("", "_exact", "_grid") for name in NAMES)
 
 
 # --- what to expect -------------------------------------------------------------------------------
@@ -45,27 +46,32 @@ def exact(L: float, x: np.ndarray) -> np.ndarray:
     return solution(DENSE, THIN, GAMMA, (x - L)/(END*L))
 
 
-def grid(L: float, law: ConstEta, x: np.ndarray) -> np.ndarray:
-    """The same of the viscous gas, on the fine grid."""
+def viscous(L: float, eta: float, x: np.ndarray) -> np.ndarray:
+    """The same of a gas with viscosity and conductivity eta on the fine grid; not numbers if it has none."""
+    if not eta:
+        return np.full((3, len(x)), np.nan)
     cells = (np.arange(round(2*L/FINE)) + 0.5)*FINE
-    rho = np.where(cells < L, DENSE.rho, THIN.rho)
-    e = EOS.cv*np.where(cells < L, DENSE.P, THIN.P)/rho
-    rho, v, e = march(EOS, law, FINE, np.array([rho, 0*rho, e]), END*L)
-    return np.array([np.interp(x, cells, q) for q in (rho, v, e*rho/EOS.cv)])
+    rho, P = (np.where(cells < L, dense, thin) for dense, thin in ((DENSE.rho, THIN.rho), (DENSE.P, THIN.P)))
+    rho, v, e = march(EOS, ConstEta(eta, eta), FINE, np.array([rho, 0*rho, EOS.cv*P/rho]), END*L)
+    return np.array([np.interp(x, cells, field) for field in (rho, v, e*rho/EOS.cv)])
 
 
 def march(eos: Any, law: ConstEta, dx: float, start: np.ndarray, time: float) -> np.ndarray:
     """rho, v, e (3, n) of cells after a time, from those at the start."""
     rho, v, e = start
     U = np.array([rho, rho*v, rho*(e + v**2/2)])
-    done = solve_ivp(lambda t, U: rates(eos, law, dx, U.reshape(3, -1)).ravel(), (0, time), U.ravel(), method="RK45",
-                     rtol=ACCURATE, atol=ACCURATE, t_eval=[time])
+
+    def slopes(t: float, U: np.ndarray) -> np.ndarray:
+        return rates(eos, law, dx, U.reshape(3, -1)).ravel()
+    done = solve_ivp(slopes, (0, time), U.ravel(), method="RK45", rtol=ACCURATE, atol=ACCURATE, t_eval=[time])
     return primitive(done.y[:, -1].reshape(3, -1))
 
 
 def primitive(U: np.ndarray) -> np.ndarray:
     """rho, v, e from densities of mass, momentum and energy."""
-    return np.array([U[0], U[1]/U[0], U[2]/U[0] - (U[1]/U[0])**2/2])
+    rho, p, energy = U
+    v = p/rho
+    return np.array([rho, v, energy/rho - v**2/2])
 
 
 def rates(eos: Any, law: ConstEta, dx: float, U: np.ndarray) -> np.ndarray:
@@ -80,11 +86,12 @@ def rates(eos: Any, law: ConstEta, dx: float, U: np.ndarray) -> np.ndarray:
     return -np.diff(flux, axis=1)/dx
 
 
-def errors(fields: np.ndarray, truth: np.ndarray, twin: np.ndarray) -> dict[str, float]:
-    """ERRORS: mean |difference| of fields (3, n) from both others, over the range of the exact ones."""
+def compared(fields: np.ndarray, truth: np.ndarray, twin: np.ndarray) -> dict[str, float]:
+    """ERRORS, mean |difference| of fields (3, n) from both others over the range of the exact ones; wiggles."""
     size = np.ptp(truth, axis=1)
     values = [np.abs(fields - other).mean(axis=1)/size for other in (truth, twin)]
-    return dict(zip(ERRORS, np.concatenate(values).tolist(), strict=True))
+    errors = dict(zip(ERRORS, np.concatenate(values).tolist(), strict=True))
+    return {**errors, "wiggles": wiggles(fields[1], truth[1])}
 
 
 def wiggles(v: np.ndarray, truth: np.ndarray) -> float:
@@ -92,28 +99,44 @@ def wiggles(v: np.ndarray, truth: np.ndarray) -> float:
     return float(np.abs(np.diff(v)).sum()/np.abs(np.diff(truth)).sum() - 1)
 
 
+def profiles(point: dict[str, Any], x: np.ndarray, names: tuple[str, ...], fields: np.ndarray) -> list[dict[str, Any]]:
+    """A row a place x (n,), over L from the diaphragm, of fields (names, n)."""
+    values = fields.T.tolist()
+    return [{**point, "x": at, **dict(zip(names, row, strict=True))} for at, row in zip(x, values, strict=True)]
+
+
 # --- smooth particles -----------------------------------------------------------------------------
 
 
-def tube(L: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
-    """State (5, n) at the start, and which particles are of the dense gas."""
-    rng, parts, dense = np.random.default_rng(seed), [], []
-    for gas, centre in ((DENSE, 0.0), (THIN, 2*L)):
-        rows = ROWS[gas]
-        columns = round(2*L*HEIGHT*gas.rho/MASS/rows)
-        dx, dy = 2*L/columns, HEIGHT/rows
-        x, y = np.meshgrid((np.arange(columns) + 0.5)*dx - L + centre, (np.arange(rows) + 0.5)*dy - HEIGHT/2)
-        x, y = (q.ravel() + JITTER*d*rng.uniform(-1, 1, q.size) for q, d in ((x, dx), (y, dy)))
-        at = np.stack([(x + 2*L) % (4*L) - 2*L, (y + HEIGHT/2) % HEIGHT - HEIGHT/2], axis=1)
-        parts.append(at_rest(at, EOS.cv*gas.P/gas.rho))
-        dense.append(np.full(x.size, gas is DENSE))
-    return np.concatenate(parts, axis=1), np.concatenate(dense)
+def jittered(counts: tuple[int, int], cell: tuple[float, float], corner: tuple[float, float], jitter: float,
+             rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    """x, y (n,) in the middle of columns and rows of cells, shifted by up to `jitter` of a cell."""
+    lines = [(np.arange(n) + 0.5)*size + first for n, size, first in zip(counts, cell, corner, strict=True)]
+    x, y = (axis.ravel() for axis in np.meshgrid(*lines))
+    shift_x, shift_y = rng.uniform(-1, 1, (2, x.size))
+    return x + jitter*cell[0]*shift_x, y + jitter*cell[1]*shift_y
+
+
+def within(x: np.ndarray, size: float) -> np.ndarray:
+    """Places in a periodic interval about 0."""
+    return (x + size/2) % size - size/2
+
+
+def tube(L: float, seed: int) -> np.ndarray:
+    """State (5, n) at the start."""
+    rng, gases = np.random.default_rng(seed), []
+    for gas, left in ((DENSE, -L), (THIN, L)):
+        counts = round(2*L*HEIGHT*gas.rho/MASS/ROWS[gas]), ROWS[gas]
+        cell = 2*L/counts[0], HEIGHT/counts[1]
+        x, y = jittered(counts, cell, (left, -HEIGHT/2), JITTER, rng)
+        at = np.stack([within(x, 4*L), within(y, HEIGHT)], axis=1)
+        gases.append(at_rest(at, EOS.cv*gas.P/gas.rho))
+    return np.concatenate(gases, axis=1)
 
 
 @dataclass(frozen=True, kw_only=True)
 class ShockTube(Case):
-    """One tube. L : half of its length, spacings, a multiple of 3. eta : viscosity and conductivity; 0 has no
-    grid beside it.
+    """One tube. L : half of its length, spacings, a multiple of 3. eta : viscosity and conductivity.
 
     keep : whether profiles go to the table.
     """
@@ -126,34 +149,22 @@ class ShockTube(Case):
     def cost(self) -> float:
         return 1e-4*self.L**2 + 1
 
-    @property
-    def point(self) -> dict[str, Any]:
-        """Key columns."""
-        return {"L": self.L, "eta": self.eta, "seed": self.seed}
-
     def run(self, report: Report, folder: Path) -> Outcome:
-        law, (start, dense) = ConstEta(self.eta, self.eta), tube(self.L, self.seed)
+        point = {"L": self.L, "eta": self.eta, "seed": self.seed}
+        law, start = ConstEta(self.eta, self.eta), tube(self.L, self.seed)
         method = fluid(Lucy.of(h=3.0), (4*self.L, HEIGHT), EOS, law, m=MASS, skin=SKIN)
         dt = STUDIES*step_limit(method, start[4])
         steps = round(END*self.L/dt) + 1
         try:
             end = run(method, start, Plan(dt=END*self.L/steps, steps=steps), report).by_id()
         except Divergence as error:
-            empty = dict.fromkeys(("wiggles", "overlap", "noise", *ERRORS), np.nan)
-            return Outcome({"tubes": [{**self.point, **empty, "diverged": error.step*dt/self.L}]})
+            return Outcome({"tubes": [{**point, "diverged": error.step*dt/self.L}]})
         x = np.arange(0.5, 2*self.L)
-        fields, truth = smoothed(method, end, x), exact(self.L, x)
-        twin = grid(self.L, law, x) if self.eta else np.full_like(truth, np.nan)
-        row = {**self.point, **errors(fields, truth, twin), "wiggles": wiggles(fields[1], truth[1]),
-               "overlap": overlap(end[0], dense), "noise": float(np.sqrt(np.mean(end[3]**2))/truth[1].max()), "diverged": np.nan}
-        return Outcome({"tubes": [row], "tube_profiles": self._profiles(x, fields, truth, twin) if self.keep else []})
-
-    def _profiles(self, x: np.ndarray, *fields: np.ndarray) -> list[dict[str, Any]]:
-        """Rows of the particles', the exact and the grid's fields, each (3, n)."""
-        names = [f"{name}{of}" for of in ("", "_exact", "_grid") for name in NAMES]
-        values = np.concatenate(fields).T.tolist()
-        return [{**self.point, "x": float(at)/self.L - 1, **dict(zip(names, row, strict=True))}
-                for at, row in zip(x, values, strict=True)]
+        fields, truth, twin = smoothed(method, end, x), exact(self.L, x), viscous(self.L, self.eta, x)
+        noise = float(np.sqrt(np.mean(end[3]**2))/truth[1].max())
+        row = {**point, **compared(fields, truth, twin), "noise": noise, "diverged": np.nan}
+        lines = profiles(point, x/self.L - 1, PROFILES, np.concatenate([fields, truth, twin]))
+        return Outcome({"tubes": [row], "tube_profiles": lines if self.keep else []})
 
 
 def smoothed(method: Any, state: np.ndarray, x: np.ndarray) -> np.ndarray:
@@ -162,15 +173,8 @@ def smoothed(method: Any, state: np.ndarray, x: np.ndarray) -> np.ndarray:
     sums.around.relist(state, np.arange(state.shape[1]), 0.0)
     sums.look_at(state)
     y = np.arange(HEIGHT) + 0.5 - HEIGHT/2
-    both = [fields_at(sums, state, *np.meshgrid(sign*x, y)) for sign in (1, -1)]
-    return np.mean([[at.rho.mean(axis=0), sign*at.vx.mean(axis=0), (at.rho*at.e).mean(axis=0)/EOS.cv]
-                    for sign, at in zip((1, -1), both)], axis=0)
-
-
-def overlap(x: np.ndarray, dense: np.ndarray) -> float:
-    """How far dense and thin gas reach into each other, spacings: 0 or less if in order.
-
-    Both ends of the dense gas count.
-    """
-    inside, outside = np.sort(np.abs(x)[dense]), np.sort(np.abs(x)[~dense])
-    return float(inside[-4:].mean() - outside[:4].mean())
+    tubes = []
+    for sign in (1, -1):
+        at = fields_at(sums, state, *np.meshgrid(sign*x, y))
+        tubes.append([at.rho.mean(axis=0), sign*at.vx.mean(axis=0), (at.rho*at.e).mean(axis=0)/EOS.cv])
+    return np.mean(tubes, axis=0)

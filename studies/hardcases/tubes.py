@@ -12,7 +12,7 @@ the dense gas; a quarter of this step tells the scheme's end from the step's.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -20,16 +20,12 @@ import numpy as np
 
 from continuum.exact.riemann import middle
 from continuum.fluid import ConstEta
-from continuum.gas.fields import Fields as GridFields
-from continuum.gas.fields import Values, block, nodes, unblock
-from continuum.gas.loop import FluxForm
+from continuum.gas.fields import block, placed, unblock
 from continuum.gas.solve import DivergedError, March, limits
 from particles.fields import Fields
 from particles.run import Divergence, Plan, run
-from studies.build import ready
 from studies.build.scenes import Scene, Slab, Start
-from studies.hardcases.sod import DENSE, END, EOS, GAMMA, HEIGHT, NAMES, THIN, errors, exact, wiggles
-from studies.hardcases.sod import grid as fine_grid
+from studies.hardcases.sod import DENSE, END, EOS, GAMMA, HEIGHT, NAMES, THIN, compared, exact, profiles, viscous
 from studies.kit.case import Case, Outcome, Report
 
 PARTS = 16              # of a point, over which it is spread when it is put into cells
@@ -54,21 +50,6 @@ def ended(L: int, reached: float) -> Seen:
     return Seen(np.full((3, 2*L), np.nan), np.nan, reached)
 
 
-def binned(L: int, at: Fields) -> np.ndarray:
-    """rho, v, P (3, 2 L) in cells, of points by volume; means over the height and both tubes.
-
-    A point is as wide as its volume and one spacing high: where the gas is thin rows of points lie farther
-    apart than cells.
-    """
-    m, offsets = at.rho*at.V, (np.arange(PARTS) + 0.5)/PARTS - 0.5
-    places = (at.x[:, 0] + at.V*offsets[:, None]).ravel()
-    cell, side = np.minimum(np.abs(places).astype(int), 2*L - 1), np.sign(places)
-    volume, mass, heat = (np.bincount(cell, np.tile(q, PARTS), 2*L) for q in (at.V, m, m*at.T))
-    p = np.bincount(cell, side*np.tile(m*at.v[:, 0], PARTS), 2*L)
-    with np.errstate(all="ignore"):
-        return np.array([mass/volume, p/mass, heat/volume])
-
-
 # --- points ---------------------------------------------------------------------------------------
 
 
@@ -86,13 +67,13 @@ class Tubes(Scene):
 
     def fields(self, x: np.ndarray) -> Start:
         dense = np.abs(x[:, 0]) < self.half
-        rho, P = (np.where(dense, one, other) for one, other in zip((DENSE.rho, DENSE.P), (THIN.rho, THIN.P), strict=True))
+        rho, P = np.where(dense, DENSE.rho, THIN.rho), np.where(dense, DENSE.P, THIN.P)
         return rho, np.zeros((len(x), 2)), P/rho
 
 
-def points(L: int, law: ConstEta, seed: int, step: float, report: Report, name: str) -> Seen:
-    """Fixed or moving points; step : over the limit of the start."""
-    tubes = ready(Tubes(half=L, law=law), name, seed)
+def points(variant: Any, L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
+    """Fixed or moving points of a variant; step : over the limit of the start."""
+    tubes = variant.ready(Tubes(half=L, law=law), seed)
     steps = int(END*L/(step*tubes.limit)) + 1
     try:
         end = run(tubes.method, tubes.start, Plan(dt=END*L/steps, steps=steps), report).by_id()
@@ -103,7 +84,25 @@ def points(L: int, law: ConstEta, seed: int, step: float, report: Report, name: 
     return Seen(binned(L, at), float(np.sqrt(m@at.v[:, 1]**2/m.sum())))
 
 
-# --- the grid -------------------------------------------------------------------------------------
+def binned(L: int, at: Fields) -> np.ndarray:
+    """rho, v, P (3, 2 L) in cells, of points by volume; means over the height and both tubes.
+
+    A point is as wide as its volume and one spacing high: where the gas is thin rows of points lie farther
+    apart than cells.
+    """
+    m, offsets = at.rho*at.V, (np.arange(PARTS) + 0.5)/PARTS - 0.5
+    places = (at.x[:, 0] + at.V*offsets[:, None]).ravel()
+    cell = np.minimum(np.abs(places).astype(int), 2*L - 1)
+
+    def total(q: np.ndarray, sign: Any = 1.0) -> np.ndarray:
+        return np.bincount(cell, sign*np.tile(q, PARTS), 2*L)
+    volume, mass, heat = total(at.V), total(m), total(m*at.T)
+    p = total(m*at.v[:, 0], np.sign(places))
+    with np.errstate(all="ignore"):
+        return np.array([mass/volume, p/mass, heat/volume])
+
+
+# --- grids ----------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -117,14 +116,18 @@ class Upright(Slab):
     def g(self) -> float:
         return 0.0
 
+    def begin(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
+        """rho, v_x, v_y, T; a node on the diaphragm has the mean temperature."""
+        T = np.select([y < 0, y > 0], [self.T_hot, self.T_cold], self.T_mean)
+        return np.where(y < 0, DENSE.rho, THIN.rho), 0*T, 0*T, T
 
-def grid(L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
-    """The compressible grid as it is, cells of one spacing; it has no disorder, so that `seed` says nothing.
-    """
+
+def grid(continuity: Any, L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
+    """The compressible grid, cells of one spacing; it has no disorder, so that `seed` says nothing."""
     scene = Upright(L=float(2*L), aspect=2/L, viscosity=law.eta, heat=law.k)
-    S = block(upright(scene, L))
+    S = block(placed(scene, 2*L, scene.begin))
     steps = int(END*L/(step*limits(scene, S).both)) + 1
-    march = March(scene, S, FluxForm(), END*L/steps)
+    march = March(scene, S, continuity, END*L/steps)
     try:
         march.go(steps)
     except DivergedError:
@@ -135,21 +138,20 @@ def grid(L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
     return Seen(np.array([rho, v, rho*T]), float(np.sqrt((done.at.vx**2).mean())))
 
 
-def upright(scene: Upright, L: int) -> GridFields:
-    """The grid's start; the node on the diaphragm has the mean temperature."""
-    x, y = nodes(scene, 2*L)
-    rows = np.where(y < 0, scene.T_hot, np.where(y > 0, scene.T_cold, scene.T_mean))
-    T = np.repeat(rows[:, None], len(x), axis=1)
-    cells = np.where(np.arange(2*L) < L, DENSE.rho, THIN.rho)
-    values = Values(0*T, 0*T, EOS.cv*T, T, np.ones_like(T))
-    return GridFields(scene, x, y, values, np.repeat(cells[:, None], len(x) - 1, axis=1))
+def fine(variant: None, L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
+    """The fine grid itself."""
+    return Seen(twin(L, law.eta), 0.0)
 
 
-METHODS: dict[str, Callable[[int, ConstEta, int, float, Report], Seen]] = {
-    "grid": grid,
-    "fixed lattice": partial(points, name="fixed-lattice"),
-    "fixed jittered": partial(points, name="fixed-jittered-delaunay"),
-    "moving": partial(points, name="moving")}
+def centres(L: int) -> np.ndarray:
+    """(2 L,) of cells of one spacing."""
+    return np.arange(2*L) + 0.5
+
+
+@cache
+def twin(L: int, eta: float) -> np.ndarray:
+    """(3, 2 L): the fine grid's fields."""
+    return viscous(L, eta, centres(L))
 
 
 # --- the case -------------------------------------------------------------------------------------
@@ -157,12 +159,13 @@ METHODS: dict[str, Callable[[int, ConstEta, int, float, Report], Seen]] = {
 
 @dataclass(frozen=True, kw_only=True)
 class MethodTube(Case):
-    """One tube. L : half of its length, spacings. eta : viscosity and conductivity. step : over the limit at
-    the start.
+    """One tube. L : half of its length, spacings. eta : viscosity and conductivity. step : over the limit at the start.
 
-    keep : whether profiles go to the table.
+    tube : takes variant, L, law, seed, step, report. keep : whether profiles go to the table.
     """
     method: str
+    tube: Callable[..., Seen]
+    variant: Any
     L: int
     eta: float
     seed: int = 1
@@ -177,33 +180,13 @@ class MethodTube(Case):
     def label(self) -> str:
         return f"tube of {self.method}, L {self.L}, eta {self.eta:g}, seed {self.seed}, step {self.step:g}"
 
-    @property
-    def point(self) -> dict[str, Any]:
-        """Key columns."""
-        return {"method": self.method, "eta": self.eta, "step": self.step, "L": self.L, "seed": self.seed}
-
     def run(self, report: Report, folder: Path) -> Outcome:
-        seen, x = self._seen(report), centres(self.L)
-        truth = exact(self.L, x)
-        twin = viscous(self.L, self.eta) if seen.reached == 1 else np.full_like(truth, np.nan)
-        row = {**self.point, **errors(seen.fields, truth, twin), "wiggles": wiggles(seen.fields[1], truth[1]),
-               "noise": seen.across/BETWEEN.v, "reached": seen.reached}
-        profiles = [{**self.point, "x": at/self.L - 1, **dict(zip(NAMES, values, strict=True))}
-                    for at, values in zip(x, seen.fields.T, strict=True)]
-        return Outcome({"method_tubes": [row], "method_tube_profiles": profiles if self.keep and seen.reached == 1 else []})
-
-    def _seen(self, report: Report) -> Seen:
-        if self.method == FINE:
-            return Seen(viscous(self.L, self.eta), 0.0)
-        return METHODS[self.method](self.L, ConstEta(self.eta, self.eta), self.seed, self.step, report)
-
-
-def centres(L: int) -> np.ndarray:
-    """(2 L,) of cells of one spacing."""
-    return np.arange(2*L) + 0.5
-
-
-@cache
-def viscous(L: int, eta: float) -> np.ndarray:
-    """(3, 2 L): the fine grid's fields."""
-    return fine_grid(L, ConstEta(eta, eta), centres(L)) if eta else np.full((3, 2*L), np.nan)
+        law, x = ConstEta(self.eta, self.eta), centres(self.L)
+        fields, across, reached = self.tube(self.variant, self.L, law, self.seed, self.step, report)
+        point = {"method": self.method, "eta": self.eta, "step": self.step, "L": self.L, "seed": self.seed}
+        if reached < 1:
+            return Outcome({"method_tubes": [{**point, "reached": reached}]})
+        errors = compared(fields, exact(self.L, x), twin(self.L, self.eta))
+        row = {**point, **errors, "noise": across/BETWEEN.v, "reached": reached}
+        lines = profiles(point, x/self.L - 1, NAMES, fields) if self.keep else []
+        return Outcome({"method_tubes": [row], "method_tube_profiles": lines})
