@@ -100,7 +100,8 @@ class Box(Slab):
 VORTEX = Box(L=ROWS, aspect=1.0, velocities=vortex)
 STRIP = Box(L=8.0, aspect=12.0, density=in_strip)
 CORNER = Box(L=12.0, aspect=1.0, viscosity=0.3, heat=0.3, sides=Walls())
-SHEAR_FLOW = Box(L=16.0, aspect=2.0, velocities=sheared)
+#: without viscosity; that it conducts heat keeps drifting points from ending at once
+SHEAR_FLOW = Box(L=16.0, aspect=2.0, heat=2*pi/16, velocities=sheared)
 #: of the shear flow, and the growth rate of its fastest wave, which is twice as long
 WAVE_NUMBER = 2*pi/SHEAR_FLOW.L
 RATE = fastest(WAVE_NUMBER, WAVE_NUMBER/2).rate

@@ -144,11 +144,6 @@ def noise(*shape: int) -> np.ndarray:
     return NOISE*np.random.default_rng(1).standard_normal(shape)
 
 
-def noisy(n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """rho (n,), v (n, 2), T (n,)."""
-    return 1 + noise(n), noise(n, 2), 1 + noise(n)
-
-
 def trial_of(method: Any, start: np.ndarray, rows: tuple[int, ...], integrator: str = "RK4", **more: Any) -> Trial:
     """Points whose noise is looked for in some rows of the state, and what eigenvalues of their rates say."""
     rates, visible = eigenvalues(method, start), log(GROWN*start.size**0.5)/STEPS
@@ -163,21 +158,26 @@ def unknown(method: Any, start: np.ndarray, rows: tuple[int, ...], integrator: s
     return Trial(limit_of(method, start), grows, integrator, **more)
 
 
-def on_lattice(variant: Any, law: ConstEta, sides: Any) -> tuple[Any, np.ndarray]:
-    """Method and start of particles on a square lattice that is stable by itself."""
+def on_lattice(variant: Any, scene: Quiet, v: np.ndarray) -> tuple[Any, np.ndarray]:
+    """Method and start of particles with velocities v (n, 2) on a square lattice that is stable by itself."""
     x = lattice((SIDE, SIDE)).x
-    method, start, _ = variant.ready(Quiet(law=law, sides=sides), x=x, fields=noisy(len(x)))
+    method, start, _ = variant.ready(scene, x=x, fields=(1.0, v, 1 + noise(len(x))))
     return method, start
+
+
+def on_points(n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """rho (n,), v (n, 2), T (n,) of points that stay."""
+    return 1 + noise(n), noise(n, 2), 1 + noise(n)
 
 
 def spam(variant: Variant, law: ConstEta) -> Trial:
     """Smooth particles in a periodic box."""
-    return trial_of(*on_lattice(variant, law, Torus()), (2, 3, 4))
+    return trial_of(*on_lattice(variant, Quiet(law=law, sides=Torus()), noise(2, SIDE**2).T), (2, 3, 4))
 
 
 def fixed(scheme: Scheme, law: ConstEta) -> Trial:
     """Fixed points between plates."""
-    method, start, _ = scheme.ready(Quiet(law=law), fields=noisy(SIDE**2))
+    method, start, _ = scheme.ready(Quiet(law=law), fields=on_points(SIDE**2))
     return trial_of(method, start, (0, 1, 2, 3), shorter=alone(method, scheme.share))
 
 
@@ -193,17 +193,17 @@ def thermal(k: float, law: ConstEta) -> Trial:
     points = lattice((SMALL, SMALL))
     edges = renormalised(points, Lucy.of(h=2.0))
     method = Thermal(edges=edges, eos=IdealGas(), law=law, k=k, seed=1, share=1.0)
-    return trial_of(method, method.state(*noisy(points.n)), (0, 1, 2, 3), "ThreeStage")
+    return trial_of(method, method.state(*on_points(points.n)), (0, 1, 2, 3), "ThreeStage")
 
 
 def drifting(motion: DriftMotion, law: ConstEta) -> Trial:
     """Points that move in one of RR98's ways, between plates."""
-    return trial_of(*on_lattice(motion, law, Periodic()), (2, 3, 4, 5), margin=DISORDER)
+    return trial_of(*on_lattice(motion, Quiet(law=law), noise(SIDE**2, 2)), (2, 3, 4, 5), margin=DISORDER)
 
 
 def moving(motion: Motion, law: ConstEta) -> Trial:
     """Moving points that exchange over closed faces, between plates."""
-    return unknown(*on_lattice(motion, law, Periodic()), (4, 5, 6, 7, 8), "ThreeStage", margin=DISORDER)
+    return unknown(*on_lattice(motion, Quiet(law=law), noise(SIDE**2, 2)), (4, 5, 6, 7, 8), "ThreeStage", margin=DISORDER)
 
 
 # --- the grid -------------------------------------------------------------------------------------
