@@ -5,9 +5,9 @@ import pytest
 
 from continuum.fluid import ConstEta
 from studies.build.unguarded import bisected
+from studies.hardcases.cases import AT_REST
 from studies.hardcases.claims import LIMITS
-from studies.hardcases.stability import largest_step
-from studies.hardcases.steps import METHODS, Limit
+from studies.hardcases.largest_step import Limit, largest_step
 from studies.kit.claim import judged
 from studies.kit.table import Tables
 
@@ -32,22 +32,25 @@ def test_bisection_says_so_when_there_is_no_limit():
     assert np.isnan(bisected(lambda dt: False, 1.0).value) and np.isnan(bisected(lambda dt: True, 1.0).value)
 
 
-@pytest.mark.parametrize("method, scene, eta, k", [("spam Lucy", "balanced", 0.3, 0.3), ("fixed lattice", "sound", 0.0, 0.0)])
-def test_trial_eigenvalues_and_formula_agree(method, scene, eta, k):
-    [row] = Limit(method=method, scene=scene, eta=eta, k=k).run(lambda done: None, None).rows["limits"]
+@pytest.mark.parametrize("method, eta", [("spam Lucy", 0.3), ("fixed lattice", 0.0)])
+def test_trial_eigenvalues_and_formula_agree(method, eta):
+    trial, variant = AT_REST[method]
+    case = Limit(method=method, trial=trial, variant=variant, scene="any", eta=eta, k=eta)
+    [row] = case.run(lambda done: None, None).rows["limits"]
     assert abs(row["measured"] - row["exact"]) < row["measured_err"] + 0.01*row["exact"]
     assert 0.95 < row["measured"]/row["predicted"] < 1.1      # ten points lack the very wave that limits most: 1 % here
 
 
 def test_the_grid_takes_the_step_of_its_formula_without_viscosity():
-    grid = METHODS["grid"](ConstEta(0.0, 0.0))
+    make, continuity = AT_REST["grid"]
+    grid = make(continuity, ConstEta(0.0, 0.0))
     assert not grid.grows(0.98*grid.predicted) and grid.grows(1.2*grid.predicted)
 
 
 def test_claims_fail_where_limits_are_off():
     row = {"scene": "zero viscosity", "predicted": 1.0, "shorter": 1.0, "measured_err": 0.01}
     good, bad = (Tables(limits=pd.DataFrame([{**row, "method": method, "measured": value}
-                                             for method in ("grid", "spam Lucy")])) for value in (1.02, 0.8))
+                                             for method in ("fixed lattice", "spam Lucy")])) for value in (1.02, 0.8))
     claims = {claim.id: claim for claim in LIMITS}
-    for name in ("limit-step-grid-shorter", "limit-step-spam", "limit-step-safe"):
+    for name in ("limit-step-points-shorter", "limit-step-spam", "limit-step-safe"):
         assert judged(claims[name], good)["verdict"] == "holds" and judged(claims[name], bad)["verdict"] == "fails"

@@ -20,7 +20,7 @@ from studies.hardcases.interface import Interface
 from studies.hardcases.largest_step import Limit
 from studies.hardcases.sod import ShockTube
 from studies.hardcases.survival import GRID, SAMPLES, Hard, HardOnGrid, Inside, ShearWave, Smooth, Tiled, marched
-from studies.hardcases.tubes import ETAS, FINE, MethodTube
+from studies.hardcases.tubes import ETAS, MethodTube
 from studies.kit.case import Case
 
 # --- methods --------------------------------------------------------------------------------------
@@ -159,8 +159,6 @@ def method_tubes(lengths: tuple[int, ...], seeds: int) -> Iterator[Case]:
         for seed in range(1, last + 1):
             yield MethodTube(method=method, tube=tube, variant=variant, eta=eta, L=L, seed=seed, step=step,
                              keep=L == max(lengths) and seed == 1)
-    for eta, L in product(ETAS[1:], lengths):
-        yield MethodTube(method=FINE, tube=tubes.fine, variant=None, eta=eta, L=L, keep=L == max(lengths))
 
 
 def highest() -> Iterator[Case]:

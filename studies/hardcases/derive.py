@@ -16,7 +16,7 @@ import pandas as pd
 
 from studies.hardcases.extremes import BOXES, ROWS, SITUATIONS, SOUND, rarefied
 from studies.hardcases.interface import impulse
-from studies.hardcases.tubes import CELL_NUMBER, FINE, STEPS
+from studies.hardcases.tubes import CELL_NUMBER, STEPS
 from studies.kit.fits import line
 from studies.kit.stats import Measured, combine, over_seeds
 from studies.kit.table import Tables, groups
@@ -196,7 +196,7 @@ def of_shear(shear: pd.DataFrame) -> Rows:
 
 def of_tubes(tubes: pd.DataFrame) -> Rows:
     """Shock tubes by viscosity, usual step: how much v rings in the longest, or that one ended."""
-    tubes = tubes[(tubes["step"] == STEPS[0]) & (tubes["method"] != FINE)]
+    tubes = tubes[tubes["step"] == STEPS[0]]
     for (method, eta), rows in groups(tubes, ["method", "eta"]):
         longest, reached = rows[rows["L"] == rows["L"].max()], rows["reached"].min()
         ring, error = longest["wiggles"], longest["v_grid" if eta else "v_exact"].mean()

@@ -1,4 +1,4 @@
-"""Figures: the map, shocks, the highest Ra, limits of the step."""
+"""Figures: the map, shocks, the highest Ra."""
 from typing import Any
 
 import numpy as np
@@ -6,7 +6,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from studies.hardcases.cases import FLUIDS, IN_LAYERS, IN_TUBES
+from studies.hardcases.cases import IN_LAYERS, IN_TUBES
 from studies.hardcases.derive import PART_OF_TIME, finished_grids
 from studies.hardcases.extremes import BOXES, LAYERS, ROWS
 from studies.hardcases.high_ra import OFF
@@ -76,51 +76,29 @@ def heading(case: str, runs: pd.DataFrame) -> str:
     return case.replace(" ", "\n", 1) + (f"\ngrid of {max(grids)}" if len(grids) else "")
 
 
-# --- shocks through smooth particles --------------------------------------------------------------
+# --- the ripple -----------------------------------------------------------------------------------
 
 
-def shocks(profiles: pd.DataFrame, ripples: pd.DataFrame) -> Figure:
-    """Above: density and velocity in the longest tube without and with viscosity. Below: the ripple in time."""
-    page, (above, below) = figure(2, 2, width=4.4, height=3.2)
-    for axes, (eta, rows) in zip(above, groups(profiles, "eta"), strict=False):
-        tube(axes, rows.sort_values("x"), eta)
+def shocks(ripples: pd.DataFrame) -> Figure:
+    """Height and ripple of a shocked interface in time: means and all seeds by size and steepness."""
+    page, both = figure(1, 2, width=4.4, height=3.2)
     for number, ((steep, scale), rows) in enumerate(groups(ripples, ["steep", "scale"])):
-        label = rf"$ka$ = {steep:g}, {scale:g} x printed size"
-        ripple(below, rows, scale, steep, {**look(number), "marker": "", "label": label})
-    expected(*below, float(ripples["scale"].max()), float(ripples["steep"].max()))
-    below[0].set(ylabel="height of the interface / kick x time", title="shocked interface")
-    below[1].set(ylabel="amplitude / that behind the shock", title="its ripple", ylim=(0.4, 2.9))
-    for axes, place in zip(below, ("upper right", "upper left"), strict=True):
+        theory, style = impulse(scale, steep), {**look(number), "marker": ""}
+        start = rows.groupby("time")["height"].mean().iloc[0]
+        heights = (rows["height"] - start)/(theory.kick*theory.back)
+        for axes, y in zip(both, (heights, rows["amplitude"]/theory.amplitude), strict=True):
+            band = y.groupby(rows["time"]/theory.meets).agg(["mean", "min", "max"])
+            axes.plot(band.index, band["mean"], **style, label=rf"$ka$ = {steep:g}, {scale:g} x printed size")
+            axes.fill_between(band.index, band["min"], band["max"], color=style["color"], alpha=0.2)
+    expected(both[0], both[1], ripples["scale"].max(), ripples["steep"].max())
+    both[0].set(ylabel="height of the interface / kick x time")
+    both[1].set(ylabel="amplitude / that behind the shock", ylim=(0.4, 2.9))
+    for axes, place in zip(both, ("upper right", "upper left"), strict=True):
         axes.set_xlabel("time / time of the shock's arrival")
         axes.legend(loc=place)
-    page.legend(*above[-1].get_legend_handles_labels(), loc="outside lower center", ncols=5)
-    page.suptitle("Shocks through smooth particles as printed, without artificial viscosity\nabove: Sod's tube at "
-                  r"$t = 0.4 L$; below: density ratio 4, Mach 1.5; bands: all seeds", fontsize=10)
+    page.suptitle("A shock of Mach 1.5 passes an interface of density ratio 4: smooth particles as printed,\n"
+                  "without artificial viscosity; bands: all seeds", fontsize=10)
     return page
-
-
-def tube(axes: Any, rows: pd.DataFrame, eta: float) -> None:
-    """Density and velocity of particles, of the exact solution and of the viscous grid."""
-    x = rows["x"]
-    for number, (name, label) in enumerate((("rho", r"$\rho$"), ("v", "$v$"))):
-        axes.plot(x, rows[name], **dots(number), label=f"{label}, particles")
-        axes.plot(x, rows[f"{name}_exact"], **THIN_LINE, label="without viscosity, exact" if number else "")
-        if rows[f"{name}_grid"].notna().all():
-            style = {**look(number), "linestyle": "--", "marker": ""}
-            axes.plot(x, rows[f"{name}_grid"], **style, label=f"{label}, viscous grid")
-    title = rf"$L$ = {rows['L'].iloc[0]:g} spacings, $\eta$ = {eta:g}"
-    axes.set(xlabel="distance from the diaphragm / $L$", ylabel=r"$\rho$, $v$", title=title)
-
-
-def ripple(both: Any, rows: pd.DataFrame, scale: float, steep: float, style: dict[str, Any]) -> None:
-    """Means and all seeds of one size and steepness: height and amplitude."""
-    theory = impulse(scale, steep)
-    heights, amplitudes = (rows.groupby("time")[name].agg(["mean", "min", "max"]) for name in ("height", "amplitude"))
-    heights = (heights - heights["mean"].iloc[0])/(theory.kick*theory.back)
-    for axes, band in zip(both, (heights, amplitudes/theory.amplitude), strict=True):
-        x = band.index/theory.meets
-        axes.plot(x, band["mean"], **style)
-        axes.fill_between(x, band["min"], band["max"], color=style["color"], alpha=0.2)
 
 
 def expected(height: Any, amplitude: Any, scale: float, steep: float) -> None:
@@ -188,7 +166,7 @@ def by_length(axes: Any, rows: pd.DataFrame) -> None:
     axes.minorticks_off()
 
 
-# --- the highest Ra, steps ------------------------------------------------------------------------
+# --- the highest Ra -------------------------------------------------------------------------------
 
 
 def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
@@ -212,39 +190,8 @@ def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
     return page
 
 
-#: column of `limits` -> what it is
-FORMULAS = {"predicted": "the method's own formula", "shorter": "for sound or diffusion alone",
-            "exact": "by eigenvalues"}
-CLEAR = 0.2             # between scenes of one method, in rows
-
-
-def limits(rows: pd.DataFrame) -> Figure:
-    """Measured limits of the step over those of formulas, all methods."""
-    page, all_axes = figure(1, 3, width=3.9, height=4.4, sharey=True)
-    methods = list(dict.fromkeys(rows["method"]))
-    for axes, (column, words) in zip(all_axes, FORMULAS.items(), strict=True):
-        for number, scene in enumerate(FLUIDS):
-            some = rows[rows["scene"] == scene]
-            at = some["method"].map(methods.index) + CLEAR*(number - 1.5)
-            axes.errorbar(some["measured"]/some[column], at, xerr=some["measured_err"]/some[column], label=scene,
-                          **{**look(number), "linestyle": "none"})
-        axes.axvline(1, color="black", linewidth=0.8)
-        axes.axvspan(0.9, 1.1, color="0.9", zorder=0)
-        axes.set_xlabel(f"measured / {words}")
-    own = all_axes[0]
-    own.set(yticks=range(len(methods)), yticklabels=methods, xscale="log")
-    own.set_xticks([1, 1.4, 2, 3, 5], labels=["1", "1.4", "2", "3", "5"])
-    own.set_xticks([], minor=True)
-    own.invert_yaxis()
-    page.legend(*own.get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    page.suptitle("At which step does noise begin to grow? Measured over predicted\nbars: half of the last "
-                  "interval of the search, and growth that is too slow to be seen; grey: 10 %", fontsize=10)
-    return page
-
-
 figures = Drawings(
     Drawing("map", ("map", "hard_runs"), chart),
     Drawing("high_ra", ("high_ra_trials", "high_ra_summary"), highest),
-    Drawing("limits", ("limits",), limits),
-    Drawing("shocks", ("tube_profiles", "ripples"), shocks),
+    Drawing("shocks", ("ripples",), shocks),
     Drawing("shock_methods", ("method_tubes", "method_tube_profiles", "tubes", "tube_profiles"), shock_methods))

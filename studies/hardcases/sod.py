@@ -35,7 +35,6 @@ FINE = 0.25                     # cells of the grid, spacings
 ACCURATE = 1e-6                 # relative, of the grid's steps in time: a thousandth of the errors compared
 NAMES = ("rho", "v", "P")
 ERRORS = tuple(f"{name}_{of}" for of in ("exact", "grid") for name in NAMES)
-PROFILES = tuple(f"{name}{of}" for of in ("", "_exact", "_grid") for name in NAMES)
 
 
 # --- what to expect -------------------------------------------------------------------------------
@@ -99,10 +98,9 @@ def wiggles(v: np.ndarray, truth: np.ndarray) -> float:
     return float(np.abs(np.diff(v)).sum()/np.abs(np.diff(truth)).sum() - 1)
 
 
-def profiles(point: dict[str, Any], x: np.ndarray, names: tuple[str, ...], fields: np.ndarray) -> list[dict[str, Any]]:
-    """A row a place x (n,), over L from the diaphragm, of fields (names, n)."""
-    values = fields.T.tolist()
-    return [{**point, "x": at, **dict(zip(names, row, strict=True))} for at, row in zip(x, values, strict=True)]
+def profiles(point: dict[str, Any], x: np.ndarray, fields: np.ndarray) -> list[dict[str, Any]]:
+    """A row a place x (n,), over L from the diaphragm, of rho, v, P (3, n)."""
+    return [{**point, "x": at, "rho": rho, "v": v, "P": P} for at, rho, v, P in np.vstack([x, fields]).T.tolist()]
 
 
 # --- smooth particles -----------------------------------------------------------------------------
@@ -163,8 +161,8 @@ class ShockTube(Case):
         fields, truth, twin = smoothed(method, end, x), exact(self.L, x), viscous(self.L, self.eta, x)
         noise = float(np.sqrt(np.mean(end[3]**2))/truth[1].max())
         row = {**point, **compared(fields, truth, twin), "noise": noise, "diverged": np.nan}
-        lines = profiles(point, x/self.L - 1, PROFILES, np.concatenate([fields, truth, twin]))
-        return Outcome({"tubes": [row], "tube_profiles": lines if self.keep else []})
+        lines = profiles(point, x/self.L - 1, fields) if self.keep else []
+        return Outcome({"tubes": [row], "tube_profiles": lines})
 
 
 def smoothed(method: Any, state: np.ndarray, x: np.ndarray) -> np.ndarray:

@@ -1,5 +1,5 @@
 """Tables of the study. Lengths in spacings, masses of particles or points; `_err` 95 % half widths."""
-from studies.hardcases.sod import ERRORS, NAMES, PROFILES
+from studies.hardcases.sod import ERRORS, NAMES
 from studies.kit.table import Table
 
 
@@ -22,7 +22,7 @@ ALL = (
     #: v beyond that of the exact one; rms v across the tube over the contact's v; time over L at which it diverged
     table("tubes", TUBE, *ERRORS, "wiggles", "noise", "diverged"),
     #: x: from the diaphragm, over L
-    table("tube_profiles", [*TUBE, "x"], *PROFILES),
+    table("tube_profiles", [*TUBE, "x"], *NAMES),
     #: the same of other methods; reached: part of the time
     table("method_tubes", METHOD_TUBE, *ERRORS, "wiggles", "noise", "reached"),
     table("method_tube_profiles", [*METHOD_TUBE, "x"], *NAMES, digits=dict.fromkeys(("x", *NAMES), ".5g"),

@@ -25,7 +25,7 @@ from continuum.gas.solve import DivergedError, March, limits
 from particles.fields import Fields
 from particles.run import Divergence, Plan, run
 from studies.build.scenes import Scene, Slab, Start
-from studies.hardcases.sod import DENSE, END, EOS, GAMMA, HEIGHT, NAMES, THIN, compared, exact, profiles, viscous
+from studies.hardcases.sod import DENSE, END, EOS, GAMMA, HEIGHT, THIN, compared, exact, profiles, viscous
 from studies.kit.case import Case, Outcome, Report
 
 PARTS = 16              # of a point, over which it is spread when it is put into cells
@@ -34,7 +34,6 @@ CELL_NUMBER = 2.0
 BARELY = round(BETWEEN.v*BETWEEN.right/CELL_NUMBER, 3)      # 0.123
 ETAS = (0.0, BARELY, 0.5)
 STEPS = (0.5, 0.125)                        # over the limit at the start
-FINE = "fine grid"                          # what a fluid as viscous does
 assert END*BETWEEN.v < 1        # the contact stays in its half of the tube
 
 
@@ -138,11 +137,6 @@ def grid(continuity: Any, L: int, law: ConstEta, seed: int, step: float, report:
     return Seen(np.array([rho, v, rho*T]), float(np.sqrt((done.at.vx**2).mean())))
 
 
-def fine(variant: None, L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
-    """The fine grid itself."""
-    return Seen(twin(L, law.eta), 0.0)
-
-
 def centres(L: int) -> np.ndarray:
     """(2 L,) of cells of one spacing."""
     return np.arange(2*L) + 0.5
@@ -188,5 +182,5 @@ class MethodTube(Case):
             return Outcome({"method_tubes": [{**point, "reached": reached}]})
         errors = compared(fields, exact(self.L, x), twin(self.L, self.eta))
         row = {**point, **errors, "noise": across/BETWEEN.v, "reached": reached}
-        lines = profiles(point, x/self.L - 1, NAMES, fields) if self.keep else []
+        lines = profiles(point, x/self.L - 1, fields) if self.keep else []
         return Outcome({"method_tubes": [row], "method_tube_profiles": lines})
