@@ -5,23 +5,12 @@ import pytest
 from scipy.integrate import quad
 
 from particles.fields import Fields, kinetic_energy
+from studies.build.snapshot import Snapshot
+from studies.hardcases import extremes
 from studies.hardcases.cases import TILED, cases
 from studies.hardcases.claims import MAP, SQUARES
 from studies.hardcases.derive import derive
-from studies.hardcases.extremes import (
-    BEGIN,
-    BOXES,
-    LAYERS,
-    SHEAR_FLOW,
-    SITUATIONS,
-    SOUND,
-    STRIP,
-    VORTEX,
-    U,
-    fastest,
-    rarefied,
-)
-from studies.hardcases.figures import figures
+from studies.hardcases.extremes import BEGIN, BOXES, LAYERS, SHEAR_FLOW, SITUATIONS, SOUND, STRIP, VORTEX, fastest, rarefied
 from studies.hardcases.survival import SAMPLES, Hard, amplitude, energies, flow, marched
 from studies.kit.claim import judged
 from studies.kit.table import Tables
@@ -56,10 +45,7 @@ def test_flows_have_no_divergence(scene):
     d, (x, y) = 1e-5, np.random.default_rng(1).uniform(-8, 8, (2, 20))
     across, along = scene.flow(x + d, y)[0] - scene.flow(x - d, y)[0], scene.flow(x, y + d)[1] - scene.flow(x, y - d)[1]
     assert np.abs(across + along).max()/(2*d) < 1e-9
-
-
-def test_the_vortex_passes_through_no_wall():
-    assert np.abs(VORTEX.flow(np.full(2, 1.3), np.array([-8.0, 8.0]))[1]).max() < 1e-15
+    assert np.abs(VORTEX.flow(x, np.full(20, 8.0))[1]).max() < 1e-15, "it passes through a wall"
 
 
 @pytest.mark.parametrize("case", SITUATIONS)
@@ -146,28 +132,6 @@ def test_a_grid_is_not_held_against_itself():
     assert judged_grid({16: 0.02, 32: 0.0099, 48: 0.01})["outcome"] == "wrong"
 
 
-def words(page) -> str:
-    """All that is written on a page."""
-    return "\n".join(text.get_text() for text in page.findobj(lambda one: hasattr(one, "get_text")))
-
-
-def test_the_map_says_which_grid_it_is_held_against_what_was_not_judged_and_what_was_not_run():
-    runs = [run(case="Prandtl 0.01"), *(run(case="Prandtl 0.01", method="grid", rows=rows) for rows in (16, 32)),
-            run(case="Prandtl 0.01", method="grid", rows=48, flow=np.nan, reached=0.9)]
-    tables = Tables(hard_runs=pd.DataFrame(runs))
-    tables["map"] = pd.DataFrame(derive(tables)["map"])
-    said = words(figures(tables)["map"])
-    assert "grid of 32" in said and "?: not judged" in said and "empty: not run" in said and "Which method" in said
-
-
-@pytest.mark.parametrize("swing, before, verdict", [(0.0026, 0.0433, "undecidable"), (0.06, 0.05, "holds"),
-                                                    (0.0026, 0.0036, "fails"), (0.06, 0.001, "undecidable")])
-def test_a_swing_is_as_uncertain_as_the_quarter_before_says(swing, before, verdict):
-    rows = pd.DataFrame([{"ra": 3.5e5, "rows": 16, "swing": swing, "before": before, "reached": 1.0}])
-    row = judged({claim.id: claim for claim in MAP}["map-grid-fluctuates"], Tables(steadiness=rows))
-    assert row["verdict"] == verdict and row["err"] == pytest.approx(abs(swing - before))
-
-
 @pytest.mark.parametrize("flow_, verdict", [(0.0100, "holds"), (0.0050, "fails")])
 def test_claims_of_the_map_can_fail(flow_, verdict):
     tables = Tables(hard_runs=pd.DataFrame([run(case="zero viscosity", flow=flow_)]))
@@ -177,23 +141,26 @@ def test_claims_of_the_map_can_fail(flow_, verdict):
 
 def test_the_growth_of_a_wave_on_a_shear_flow_follows_from_its_own_equation():
     """At long waves Kolmogorov's flow grows at k_x U/sqrt 2; short ones, k_x >= k, do not."""
-    assert fastest(1.0, 1e-3).rate == pytest.approx(1e-3*U/2**0.5, rel=1e-3)
+    assert fastest(1.0, 1e-3).rate == pytest.approx(1e-3*extremes.U/2**0.5, rel=1e-3)
     assert fastest(1.0, 1.01).rate == pytest.approx(0, abs=1e-9)
 
 
 def test_the_shear_flow_has_its_wave():
     x = np.stack(np.meshgrid(np.arange(32) - 15.5, np.arange(16) - 7.5), axis=-1).reshape(-1, 2)
     at = fields(x, np.stack(SHEAR_FLOW.flow(*x.T), axis=1))
-    assert amplitude(at) == pytest.approx(BEGIN*U/2, rel=1e-6)  # half, being real; harmonic 16 aliases
+    assert amplitude(at) == pytest.approx(BEGIN*extremes.U/2, rel=1e-6)  # half, being real; harmonic 16 aliases
 
 
-# --- the square of Fig. 10 ----------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("flow, rolls, verdict", [(0.02, 1, "holds"), (0.02, 2, "fails"), (0.0003, 2, "undecidable"),
-                                                  (0.0003, 1, "undecidable")])
+@pytest.mark.parametrize("flow, rolls, verdict", [(0.02, 1, "holds"), (0.02, 2, "fails"), (0.0003, 1, "undecidable")])
 def test_rolls_of_a_flow_that_has_stopped_are_not_counted(flow, rolls, verdict):
     squares = pd.DataFrame([{"eos": "IdealGas", "weight": "Monaghan", "ra": 1e4, "begun": 0.03, "flow": flow, "rolls": rolls,
                              "shared": 0.92}])
     row = judged({claim.id: claim for claim in SQUARES}["khp95-hard-fig10-one-roll"], Tables(squares=squares))
     assert row["verdict"] == verdict and ("stopped" in row["reason"]) == (verdict == "undecidable")
+
+
+def test_pairs_are_told_from_single_particles():
+    x = np.stack(np.meshgrid(np.arange(50) - 24.5, np.arange(50) - 24.5), axis=-1).reshape(-1, 2)
+    alone, twice = (Snapshot(places, 0*places, len(places), 50.0) for places in (x, np.concatenate([x, x + 0.01])))
+    assert alone.pairing.value == pytest.approx(1.0) and alone.occupancy == 1
+    assert twice.pairing.value > 50 and twice.occupancy == 2
