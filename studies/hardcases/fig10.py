@@ -12,7 +12,7 @@ import numpy as np
 
 from continuum.fluid import IdealGas
 from continuum.scene import RayleighBenard, Walls
-from particles.observe import Grid, Smoothed, particle_kinetic
+from particles.observe import Grid, Smoothed
 from particles.run import Plan, run
 from studies.build.measure import at_end, turns
 from studies.build.names import START_ENERGY
@@ -57,17 +57,16 @@ class Square(Case):
         method, start, dt = variant.ready(scene, self.seed)
         unit = scene.L/scene.free_fall
         plan = Plan(dt=dt, steps=round(self.t_end*unit/dt), every=max(1, round(unit/4/dt)),
-                    mean_from=self.mean_from*unit, series={"kp": particle_kinetic},
+                    mean_from=self.mean_from*unit,
                     means={"grid": Grid.over(method.box, 30)}, checkpoint=folder/"run.h5")
         done = run(method, start, plan, report)
         mean, (sums, _) = Smoothed(*done.means["grid"]), at_end(method, done)
         x = np.stack([sums.around.x, sums.around.y], axis=1)
         near = Snapshot(x, np.zeros_like(x), sums.n, SIDE)
-        kp = np.array(done.series["kp"])[np.array(done.times) > plan.mean_from]
         return Outcome({"squares": [{
             "eos": type(self.eos).__name__, "weight": self.weight.__name__, "ra": self.ra, "seed": self.seed,
-            "eta": scene.eta, "alpha": scene.alpha, "rolls": turns(scene, mean.vy),
-            "begun": START_ENERGY*scene.free_fall**2, "ke": float(kp.mean()), "flow": kinetic_energy(mean),
+            "alpha": scene.alpha, "rolls": turns(scene, mean.vy),
+            "begun": START_ENERGY*scene.free_fall**2, "flow": kinetic_energy(mean),
             "ratio": near.pairing.value, "ratio_err": near.pairing.err,
             "shared": float(np.mean(near.near(SHARED) > 0))}]})
 

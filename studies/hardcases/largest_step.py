@@ -109,10 +109,6 @@ class Limit(Case):
     k: float
 
     @property
-    def cost(self) -> float:
-        return {"moving": 6.0, "fluctuating": 6.0}.get(self.method, 2.0)
-
-    @property
     def label(self) -> str:
         return f"limit {self.method}, {self.scene}"
 

@@ -14,17 +14,17 @@ RIPPLE = ["scale", "steep"]
 HIGH = ["method", "step", "seed"]
 
 ALL = (
-    #: squares of Fig. 10: expansivity at mid-height; rolls; K at the start, of particles and of the mean flow;
-    #: at the end the median of second over first neighbour distance, and the part that shares a site
+    #: squares of Fig. 10: expansivity at mid-height; rolls; K at the start and of the mean flow; at the end the
+    #: median of second over first neighbour distance, and the part that shares a site
     table("squares", ["eos", "weight", "ra", "seed"],
-          "eta", "alpha", "rolls", "begun", "ke", "flow", "ratio", "ratio_err", "shared"),
+          "alpha", "rolls", "begun", "flow", "ratio", "ratio_err", "shared"),
     #: mean |error| over the range of the exact solution, against it and against the viscous grid; variation of
-    #: v beyond that of the exact one; rms v across the tube over the contact's v; time over L at which it diverged
-    table("tubes", TUBE, *ERRORS, "wiggles", "noise", "diverged"),
+    #: v beyond that of the exact one; time over L at which it diverged
+    table("tubes", TUBE, *ERRORS, "wiggles", "diverged"),
     #: x: from the diaphragm, over L
     table("tube_profiles", [*TUBE, "x"], *NAMES),
     #: the same of other methods; reached: part of the time
-    table("method_tubes", METHOD_TUBE, *ERRORS, "wiggles", "noise", "reached"),
+    table("method_tubes", METHOD_TUBE, *ERRORS, "wiggles", "reached"),
     table("method_tube_profiles", [*METHOD_TUBE, "x"], *NAMES, digits=dict.fromkeys(("x", *NAMES), ".5g"),
           once=METHOD_TUBE),
     #: mean height and amplitude of the interface, nothing where a run diverged; lengths over the printed ones,
@@ -38,9 +38,8 @@ ALL = (
     #: every run of a search: K of its last third, over that of the fine grid where this is known
     table("high_ra_trials", [*HIGH, "ra"], "k", "over", "reached"),
     #: Ra from which on runs are wrong (K, or they ended), and end; half of the interval between two trials;
-    #: none is up to `tried` if there is no such Ra; again: trials beyond it that are not bad, as where islands
-    #: end; outcome: of the first bad one
-    table("high_ra", [*HIGH, "kind"], "ra", "ra_err", "tried", "again", "outcome"),
+    #: none is up to `tried` if there is no such Ra; outcome: of the first bad one
+    table("high_ra", [*HIGH, "kind"], "ra", "ra_err", "tried", "outcome"),
     #: means over seeds, of logarithms; predicted: where the cell number of the fastest flow is 2; outcome:
     #: wrong but stable, or ends; cell_number: of the fastest flow at the limit, or at the highest Ra tried
     table("high_ra_summary", ["method", "step", "kind"],
@@ -58,9 +57,9 @@ ALL = (
           "k", "flow", "mass_drift", "k_start", "flow_start", "reached", "refused"),
     #: growth rates of the wave on a shear flow; reached: part of the time
     table("shear", ["method"], "predicted", "measured", "measured_err", "reached"),
-    #: the grid at high Ra: mean K, and largest less smallest K over the mean in the last quarter of the time
-    #: and in the one before; reached: part of the time, where it diverges
-    table("steadiness", ["ra", "rows"], "k", "swing", "before", "rolls", "reached"),
+    #: the grid at high Ra: largest less smallest K over the mean in the last quarter of the time and in the one
+    #: before; reached: part of the time, where it diverges
+    table("steadiness", ["ra", "rows"], "swing", "before", "reached"),
     #: outcome by the rules of `derive`; number: the name of what is predicted and measured
     table("map", ["case", "method", "variant"], "number", "predicted", "measured", "measured_err", "outcome"),
 )

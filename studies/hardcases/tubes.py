@@ -38,15 +38,9 @@ assert END*BETWEEN.v < 1        # the contact stays in its half of the tube
 
 
 class Seen(NamedTuple):
-    """rho, v, P (3, n) in cells of one spacing; rms v across the tube; part of the time reached."""
-    fields: np.ndarray
-    across: float
+    """rho, v, P (3, n) in cells of one spacing, None if the run ended before; part of the time reached."""
+    fields: np.ndarray | None
     reached: float = 1.0
-
-
-def ended(L: int, reached: float) -> Seen:
-    """Nothing but when."""
-    return Seen(np.full((3, 2*L), np.nan), np.nan, reached)
 
 
 # --- points ---------------------------------------------------------------------------------------
@@ -77,10 +71,8 @@ def points(variant: Any, L: int, law: ConstEta, seed: int, step: float, report: 
     try:
         end = run(tubes.method, tubes.start, Plan(dt=END*L/steps, steps=steps), report).by_id()
     except Divergence as error:
-        return ended(L, error.step/steps)
-    at = tubes.method.fields(end)
-    m = at.rho*at.V
-    return Seen(binned(L, at), float(np.sqrt(m@at.v[:, 1]**2/m.sum())))
+        return Seen(None, error.step/steps)
+    return Seen(binned(L, tubes.method.fields(end)))
 
 
 def binned(L: int, at: Fields) -> np.ndarray:
@@ -130,11 +122,11 @@ def grid(continuity: Any, L: int, law: ConstEta, seed: int, step: float, report:
     try:
         march.go(steps)
     except DivergedError:
-        return ended(L, march.steps/steps)
+        return Seen(None, march.steps/steps)
     done = unblock(scene, march.S)
     v, T = ((q[1:] + q[:-1])[:, :-1].mean(axis=1)/2 for q in (done.at.vy, done.at.T))
     rho = done.cells.mean(axis=1)
-    return Seen(np.array([rho, v, rho*T]), float(np.sqrt((done.at.vx**2).mean())))
+    return Seen(np.array([rho, v, rho*T]))
 
 
 def centres(L: int) -> np.ndarray:
@@ -176,11 +168,11 @@ class MethodTube(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         law, x = ConstEta(self.eta, self.eta), centres(self.L)
-        fields, across, reached = self.tube(self.variant, self.L, law, self.seed, self.step, report)
+        fields, reached = self.tube(self.variant, self.L, law, self.seed, self.step, report)
         point = {"method": self.method, "eta": self.eta, "step": self.step, "L": self.L, "seed": self.seed}
-        if reached < 1:
+        if fields is None:
             return Outcome({"method_tubes": [{**point, "reached": reached}]})
         errors = compared(fields, exact(self.L, x), twin(self.L, self.eta))
-        row = {**point, **errors, "noise": across/BETWEEN.v, "reached": reached}
+        row = {**point, **errors, "reached": reached}
         lines = profiles(point, x/self.L - 1, fields) if self.keep else []
         return Outcome({"method_tubes": [row], "method_tube_profiles": lines})
