@@ -13,13 +13,13 @@ from studies.build.rr98_moving import DRIFT_MOTIONS
 from studies.build.setting import positions
 from studies.build.spam import PRINTED, VARIANTS
 from studies.hardcases import high_ra, largest_step, tubes
-from studies.hardcases.extremes import BOXES, LAYERS, ROWS, Open
+from studies.hardcases.extremes import BOXES, LAYERS, ROWS, Inside, Open, Smooth, Tiled
 from studies.hardcases.fig10 import Square
 from studies.hardcases.high_ra import FineGrid, HighRa, Rippled, Steadiness
 from studies.hardcases.interface import Interface
 from studies.hardcases.largest_step import Limit
 from studies.hardcases.sod import ShockTube
-from studies.hardcases.survival import GRID, SAMPLES, Hard, HardOnGrid, Inside, ShearWave, Smooth, Tiled, marched
+from studies.hardcases.survival import GRID, SAMPLES, Hard, HardOnGrid, ShearWave, marched
 from studies.hardcases.tubes import ETAS, MethodTube
 from studies.kit.case import Case
 
@@ -161,7 +161,7 @@ def method_tubes(lengths: tuple[int, ...], seeds: int) -> Iterator[Case]:
 
 def highest() -> Iterator[Case]:
     """Five starts each, three of the moving points, which cost most."""
-    yield from (FineGrid(rows=rows) for rows in (high_ra.FINE, high_ra.FINER))
+    yield FineGrid()
     for (method, (attempt, variant)), step in product(IN_LAYERS.items(), high_ra.STEPS):
         for seed in range(1, 4 if method == "moving" else 6):
             yield HighRa(method=method, attempt=attempt, variant=variant, seed=seed, step=step)

@@ -24,7 +24,6 @@ from studies.kit.table import Tables, groups
 Rows = Iterator[dict[str, Any]]
 SETTLED = 0.3           # part of the time from the shock to its return that the ripple takes to grow steadily
 ENOUGH = 0.65           # until which a run has to last: half of what is then left
-FINEST = 48             # rows of the grid that cell numbers are of
 LEAK, FROZEN, NEAR = 1e-3, 0.1, 0.1
 SPURIOUS = 1e-3         # of the speed of sound: a hundredth of what flows of KHP95 have
 MIDDLE = 50.5/60        # mean time of the samples 41 to 60 of 60
@@ -72,7 +71,7 @@ def high_ra_summary(limits: pd.DataFrame, grid: pd.DataFrame) -> Rows:
 
     Cell numbers of the fastest flow are a power of Ra, through the fine grid's.
     """
-    fine = grid[grid["rows"] == FINEST].dropna(subset=["cell_number"])
+    fine = grid.dropna(subset=["cell_number"])
     slope, constant = np.polyfit(np.log(fine["ra"]), np.log(fine["cell_number"]), 1)
     predicted = float(np.exp((np.log(CELL_NUMBER) - constant)/slope))
     for (method, step, kind), rows in groups(limits, ["method", "step", "kind"]):

@@ -1,4 +1,4 @@
-"""Scenes of hard cases: convection at extremes, and gases without convection    [KHP95, Sec. VI; RR98, Sec. III]
+"""Scenes of hard cases, and methods in them: convection at extremes, gases without    [KHP95, Sec. VI; RR98, Sec. III]
 
 All have 16 rows or so: the question is who gives way first. Units: spacing, mean density, P/rho at T = 1.
 """
@@ -9,8 +9,13 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from continuum.gas.fields import block, placed
 from continuum.scene import RayleighBenard, Tile, Torus, Walls
+from studies.build.grid import Form, started
+from studies.build.names import START_JITTER
 from studies.build.scenes import Slab
+from studies.build.setting import Ready, positions
+from studies.build.spam import Variant
 
 ROWS = 16
 SOUND = sqrt(2)
@@ -128,11 +133,6 @@ class Open:
         return getattr(self.scene, name)
 
 
-def tile(scene: Any) -> Tile:
-    """The same for the grid, which then has no gravity."""
-    return Tile(width=scene.width, L=scene.L, eos=scene.eos, law=scene.law)
-
-
 def layer(ra: float, pr: float = 1.0, T: float = 1.0) -> RayleighBenard:
     """KHP95's layer at another mean temperature: the static pressure is T, the flow is that of Ra and Pr."""
     return RayleighBenard(ra=ra, pr=pr, L=float(ROWS), T_hot=T + 0.5, T_cold=T - 0.5)
@@ -171,3 +171,42 @@ BOXES = {
     "wall corner": Situation(CORNER, 300.0),
 }
 SITUATIONS = {**LAYERS, **BOXES}
+
+
+# --- methods in them ------------------------------------------------------------------------------
+
+
+def places(scene: Any) -> np.ndarray:
+    """(n, 2) where particles start: away from where plates would be."""
+    return positions(scene.width, scene.L, START_JITTER, 1)
+
+
+class Smooth(NamedTuple):
+    """Smooth particles, none where the gas is thin; their step is chosen at the start."""
+    variant: Variant
+
+    def ready(self, scene: Any) -> Ready:
+        """In a scene."""
+        x = places(scene)
+        ready = self.variant.ready(scene, x=x[scene.fields(x)[0] > THIN])
+        return ready._replace(dt=self.variant.step*ready.limit)
+
+
+class Inside(NamedTuple):
+    """Moving points that start away from where plates would be."""
+    motion: Any
+
+    def ready(self, scene: Any) -> Ready:
+        """In a scene."""
+        return self.motion.ready(scene, x=places(scene))
+
+
+class Tiled(NamedTuple):
+    """The compressible grid without plates, and so without gravity."""
+    form: Form
+
+    def ready(self, scene: Any) -> Ready:
+        """In a scene, whose plates are left out."""
+        box = Tile(width=scene.width, L=scene.L, eos=scene.eos, law=scene.law)
+        start = placed(box, round(scene.L), lambda x, y: started(scene, x, y))
+        return self.form.ready(box, first=block(start))

@@ -117,53 +117,38 @@ ALL = (*IN_TUBES, "smooth particles")
 SHIFT = 0.5             # between methods' densities, upwards
 
 
-def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame, tubes: pd.DataFrame, others: pd.DataFrame) -> Figure:
-    """Above: densities, one above the other, without viscosity, with little and with that of smooth particles.
-    Below: errors.
+def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame, smooth: pd.DataFrame) -> Figure:
+    """Densities, one method above the other, without viscosity, with little and with that of smooth particles.
 
     Of the shorter step: what ends with it is not the step's fault.
     """
+    page, all_axes = figure(1, len(ETAS), width=4.0, height=4.4)
     rows, profiles = (frame[frame["step"] == min(STEPS)] for frame in (rows, profiles))
-    smooth = tubes[tubes["diverged"].isna()].assign(method=ALL[-1])
-    points, lines = pd.concat([rows, smooth]), pd.concat([profiles, others.assign(method=ALL[-1])])
-    page, all_axes = figure(2, len(ETAS), width=4.0, height=4.4)
-    for above, under, eta in zip(*all_axes, ETAS, strict=True):
-        densities(above, *(frame[np.isclose(frame["eta"], eta)] for frame in (lines, rows)))
-        above.set(title=rf"$\eta = k = {eta:g}$", xlabel="distance from the diaphragm / $L$",
-                  xlim=(-0.8, 1.0), ylim=(-0.1, SHIFT*(len(ALL) - 1) + 1.15), yticks=[])
-        by_length(under, points[np.isclose(points["eta"], eta)])
-    all_axes[0, 0].set_ylabel("density, methods one above the other")
-    page.legend(*all_axes[1, 1].get_legend_handles_labels(), loc="outside lower center", ncols=len(ALL))
+    profiles = pd.concat([profiles, smooth.assign(method=ALL[-1])])
+    for axes, eta in zip(all_axes, ETAS, strict=True):
+        densities(axes, profiles[np.isclose(profiles["eta"], eta)], rows[np.isclose(rows["eta"], eta)])
+        axes.set(title=rf"$\eta = k = {eta:g}$", xlabel="distance from the diaphragm / $L$",
+                 xlim=(-0.8, 1.0), ylim=(-0.1, SHIFT*(len(ALL) - 1) + 1.15), yticks=[])
+    all_axes[0].set_ylabel("density, methods one above the other")
     page.suptitle("Sod's shock tube at $t = 0.4 L$ without artificial viscosity; thin: exact, frictionless",
                   fontsize=10)
     return page
 
 
-def densities(axes: Any, lines: pd.DataFrame, rows: pd.DataFrame) -> None:
+def densities(axes: Any, profiles: pd.DataFrame, rows: pd.DataFrame) -> None:
     """Each method's own, or when its longest run ended."""
     for number, method in enumerate(ALL):
-        some, up = lines[lines["method"] == method].sort_values("x"), SHIFT*number
-        run = rows[(rows["method"] == method) & (rows["seed"] == 1)].sort_values("L")
-        if len(some):
-            x, L = some["x"].to_numpy(), float(some["L"].iloc[0])
+        profile, up = profiles[profiles["method"] == method], SHIFT*number
+        runs = rows[(rows["method"] == method) & (rows["seed"] == 1)]
+        if len(profile):
+            x, L = profile["x"].to_numpy(), profile["L"].iloc[0]
             axes.plot(x, up + exact(L, (x + 1)*L)[0], **THIN_LINE)
-            axes.plot(x, up + some["rho"], **dots(number))
+            axes.plot(x, up + profile["rho"], **dots(number))
             axes.text(0.98, up + 0.02, f"{method}, $L$ = {L:g}", ha="right", fontsize=8)
-        elif len(run):
-            words = f"{method}: ended at {run['reached'].iloc[-1]:.2g} of the time"
+        elif len(runs):
+            reached = runs.sort_values("L")["reached"].iloc[-1]
+            words = f"{method}: ended at {reached:.2g} of the time"
             axes.text(0.98, up + 0.2, words, ha="right", fontsize=8)
-
-
-def by_length(axes: Any, rows: pd.DataFrame) -> None:
-    """Errors of v against the exact solution."""
-    for number, method in enumerate(ALL):
-        some = rows[rows["method"] == method].dropna(subset=["v_exact"])
-        means = some.groupby("L")["v_exact"].mean()
-        axes.plot(means.index, means, **look(number), label=method)
-    axes.set(xscale="log", yscale="log", ylim=(5e-3, 0.3), xlim=(22, 210),
-             xlabel="half the tube's length $L$ / spacings", ylabel="mean error of $v$ / range")
-    axes.set_xticks([24, 48, 96, 192], labels=["24", "48", "96", "192"])
-    axes.minorticks_off()
 
 
 # --- the highest Ra -------------------------------------------------------------------------------
@@ -194,4 +179,4 @@ figures = Drawings(
     Drawing("map", ("map", "hard_runs"), chart),
     Drawing("high_ra", ("high_ra_trials", "high_ra_summary"), highest),
     Drawing("shocks", ("ripples",), shocks),
-    Drawing("shock_methods", ("method_tubes", "method_tube_profiles", "tubes", "tube_profiles"), shock_methods))
+    Drawing("shock_methods", ("method_tubes", "method_tube_profiles", "tube_profiles"), shock_methods))

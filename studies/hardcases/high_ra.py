@@ -32,7 +32,7 @@ from studies.kit.case import Case, Outcome, Report
 
 OFF = 1.25              # factor in K
 STEPS = (1.0, 0.25)     # over those of other studies
-FINE, FINER = 32, 48    # rows of grids that tell what K should be: the second, the first how far off it may be
+FINE = 48               # rows of the grid that tells what K should be
 RUNGS = tuple(float(f"{10.0**(n/2):.9g}") for n in range(8, 17))        # 1e4 .. 1e8
 KNOWN = 1e6             # Ra up to which K is held against the fine grid
 TIME = 50.0             # free-fall times, as in the map
@@ -110,29 +110,24 @@ def no_report(done: float) -> None:
 
 
 @cache
-def reference(rows: int) -> dict[float, Attempt]:
+def reference() -> dict[float, Attempt]:
     """The fine grid on the rungs up to KNOWN."""
-    return {ra: on_grid(rows, ra, 1, 1.0) for ra in RUNGS if ra <= KNOWN}
+    return {ra: on_grid(FINE, ra, 1, 1.0) for ra in RUNGS if ra <= KNOWN}
 
 
 def should_be(ra: float) -> float:
     """K of the fine grid, linear between rungs in Ra^(-1/2)    [KHP95, Sec. VI]; nothing beyond KNOWN."""
-    x, k = np.array([(rung**-0.5, run.k) for rung, run in reference(FINER).items()])[::-1].T
+    x, k = np.array([(rung**-0.5, run.k) for rung, run in reference().items()])[::-1].T
     return float(np.interp(ra**-0.5, x, k)) if ra <= KNOWN*(1 + 1e-9) else np.nan
 
 
 @dataclass(frozen=True, kw_only=True)
 class FineGrid(Case):
     """What K should be."""
-    rows: int
-
-    @property
-    def cost(self) -> float:
-        return 1.5e-4*self.rows**3
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        runs = reference(self.rows).items()
-        return Outcome({"high_ra_grid": [{"ra": ra, "rows": self.rows, **run._asdict()} for ra, run in runs]})
+        rows = [{"ra": ra, "rows": FINE, **run._asdict()} for ra, run in reference().items()]
+        return Outcome({"high_ra_grid": rows})
 
 
 # --- the search -----------------------------------------------------------------------------------

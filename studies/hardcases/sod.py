@@ -15,11 +15,11 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from continuum.exact.riemann import Gas, solution
-from continuum.fluid import ConstEta, IdealGas, pressure, stress, temperature
+from continuum.fluid import ConstEta, IdealGas
 from particles.limits import step_limit
 from particles.observe import fields_at
 from particles.run import STUDIES, Divergence, Plan, run
-from particles.threads import Team
+from particles.smooth.spam import Spam
 from particles.weights import Lucy
 from studies.build.periodic_box import at_rest, fluid
 from studies.kit.case import Case, Outcome, Report
@@ -50,39 +50,42 @@ def viscous(L: float, eta: float, x: np.ndarray) -> np.ndarray:
     if not eta:
         return np.full((3, len(x)), np.nan)
     cells = (np.arange(round(2*L/FINE)) + 0.5)*FINE
-    rho, P = (np.where(cells < L, dense, thin) for dense, thin in ((DENSE.rho, THIN.rho), (DENSE.P, THIN.P)))
-    rho, v, e = march(EOS, ConstEta(eta, eta), FINE, np.array([rho, 0*rho, EOS.cv*P/rho]), END*L)
-    return np.array([np.interp(x, cells, field) for field in (rho, v, e*rho/EOS.cv)])
+    rho, v, P = march(start(cells < L), eta, END*L)
+    return np.array([np.interp(x, cells, field) for field in (rho, v, P)])
 
 
-def march(eos: Any, law: ConstEta, dx: float, start: np.ndarray, time: float) -> np.ndarray:
-    """rho, v, e (3, n) of cells after a time, from those at the start."""
-    rho, v, e = start
-    U = np.array([rho, rho*v, rho*(e + v**2/2)])
+def start(dense: np.ndarray) -> np.ndarray:
+    """rho, v, P (3, n), dense gas in some cells."""
+    return np.where(dense, np.array(DENSE)[:, None], np.array(THIN)[:, None])
+
+
+def march(start: np.ndarray, eta: float, time: float) -> np.ndarray:
+    """rho, v, P (3, n) of fine cells after a time."""
+    rho, v, P = start
+    U = np.array([rho, rho*v, EOS.cv*P + rho*v**2/2])
 
     def slopes(t: float, U: np.ndarray) -> np.ndarray:
-        return rates(eos, law, dx, U.reshape(3, -1)).ravel()
-    done = solve_ivp(slopes, (0, time), U.ravel(), method="RK45", rtol=ACCURATE, atol=ACCURATE, t_eval=[time])
-    return primitive(done.y[:, -1].reshape(3, -1))
+        return rates(U.reshape(3, -1), eta).ravel()
+    done = solve_ivp(slopes, (0, time), U.ravel(), rtol=ACCURATE, atol=ACCURATE, t_eval=[time])
+    rho, v, e = primitive(done.y.reshape(3, -1))
+    return np.array([rho, v, e*rho/EOS.cv])
 
 
 def primitive(U: np.ndarray) -> np.ndarray:
     """rho, v, e from densities of mass, momentum and energy."""
     rho, p, energy = U
-    v = p/rho
-    return np.array([rho, v, energy/rho - v**2/2])
+    return np.array([rho, p/rho, energy/rho - (p/rho)**2/2])
 
 
-def rates(eos: Any, law: ConstEta, dx: float, U: np.ndarray) -> np.ndarray:
-    """dU/dt from fluxes on faces; behind both ends is a mirror image."""
+def rates(U: np.ndarray, eta: float) -> np.ndarray:
+    """dU/dt from fluxes on faces; behind both ends is a mirror image. In 2D friction is eta dv/dx."""
     rho, v, e = np.pad(primitive(U), ((0, 0), (1, 1)), "edge")
-    v[0], v[-1] = -v[1], -v[-2]
-    T, P = temperature(eos, rho, e), pressure(eos, rho, e)
-    rho, u, e, P = ((q[1:] + q[:-1])/2 for q in (rho, v, e, P))
-    friction = stress(law.eta, 0.0, np.diff(v)/dx, 0.0, 0.0, 0.0)[0]
-    heat = law.k*np.diff(T)/dx
-    flux = np.array([rho*u, rho*u*u + P - friction, (rho*(e + u*u/2) + P - friction)*u - heat])
-    return -np.diff(flux, axis=1)/dx
+    v[[0, -1]] *= -1
+    T = e/EOS.cv
+    friction, heat = eta*np.diff(v)/FINE, eta*np.diff(T)/FINE
+    rho, v, e, P = ((q[1:] + q[:-1])/2 for q in (rho, v, e, rho*T))
+    flux = np.array([rho*v, rho*v**2 + P - friction, (rho*(e + v**2/2) + P - friction)*v - heat])
+    return -np.diff(flux, axis=1)/FINE
 
 
 def compared(fields: np.ndarray, truth: np.ndarray, twin: np.ndarray) -> dict[str, float]:
@@ -107,12 +110,11 @@ def profiles(point: dict[str, Any], x: np.ndarray, fields: np.ndarray) -> list[d
 
 
 def jittered(counts: tuple[int, int], cell: tuple[float, float], corner: tuple[float, float], jitter: float,
-             rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
-    """x, y (n,) in the middle of columns and rows of cells, shifted by up to `jitter` of a cell."""
-    lines = [(np.arange(n) + 0.5)*size + first for n, size, first in zip(counts, cell, corner, strict=True)]
-    x, y = (axis.ravel() for axis in np.meshgrid(*lines))
-    shift_x, shift_y = rng.uniform(-1, 1, (2, x.size))
-    return x + jitter*cell[0]*shift_x, y + jitter*cell[1]*shift_y
+             rng: np.random.Generator) -> np.ndarray:
+    """x, y (2, n) in the middle of columns and rows of cells, shifted by up to `jitter` of a cell."""
+    numbers = np.stack(np.meshgrid(*map(np.arange, counts)), axis=-1).reshape(-1, 2)
+    shift = rng.uniform(-1, 1, (2, len(numbers))).T
+    return ((numbers + 0.5)*cell + corner + jitter*np.array(cell)*shift).T
 
 
 def within(x: np.ndarray, size: float) -> np.ndarray:
@@ -164,11 +166,9 @@ class ShockTube(Case):
         return Outcome({"tubes": [row], "tube_profiles": lines})
 
 
-def smoothed(method: Any, state: np.ndarray, x: np.ndarray) -> np.ndarray:
+def smoothed(method: Spam, state: np.ndarray, x: np.ndarray) -> np.ndarray:
     """(3, n): smoothed rho, v, P of a tube and its image, means over the height and over both."""
-    sums, state = method.start(state.shape[1], Team(1)), state.copy()
-    sums.around.relist(state, np.arange(state.shape[1]), 0.0)
-    sums.look_at(state)
+    sums, state, _ = method.look(state)
     y = np.arange(HEIGHT) + 0.5 - HEIGHT/2
     tubes = []
     for sign in (1, -1):

@@ -8,17 +8,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.gas.fields import Fields as GridFields
-from continuum.gas.fields import Nodes, at_nodes, block, initial, placed
+from continuum.gas.fields import Nodes, at_nodes, initial
 from continuum.gas.solve import DivergedError, Solution
 from continuum.gas.solve import run as march
 from continuum.steady import Time
 from particles.fields import Fields, kinetic_energy
 from particles.run import Divergence, Plan, run
-from studies.build.grid import Form, started
-from studies.build.names import START_ENERGY, START_JITTER
-from studies.build.setting import Ready, positions
-from studies.build.spam import Variant
-from studies.hardcases.extremes import RATE, SHEAR_FLOW, THIN, WAVE_NUMBER, Open, tile
+from studies.build.names import START_ENERGY
+from studies.build.setting import Ready
+from studies.hardcases.extremes import RATE, SHEAR_FLOW, WAVE_NUMBER, Open
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.fits import line
 
@@ -30,52 +28,13 @@ GRID = "grid"
 Look = Callable[[Any], Any]
 
 
-# --- methods --------------------------------------------------------------------------------------
-
-
-def places(scene: Any) -> np.ndarray:
-    """(n, 2) where particles start: away from where plates would be."""
-    return positions(scene.width, scene.L, START_JITTER, 1)
-
-
-class Smooth(NamedTuple):
-    """Smooth particles, none where the gas is thin; their step is chosen at the start."""
-    variant: Variant
-
-    def ready(self, scene: Any) -> Ready:
-        """In a scene."""
-        x = places(scene)
-        ready = self.variant.ready(scene, x=x[scene.fields(x)[0] > THIN])
-        return ready._replace(dt=self.variant.step*ready.limit)
-
-
-class Inside(NamedTuple):
-    """Moving points that start away from where plates would be."""
-    motion: Any
-
-    def ready(self, scene: Any) -> Ready:
-        """In a scene."""
-        return self.motion.ready(scene, x=places(scene))
-
-
-class Tiled(NamedTuple):
-    """The compressible grid without plates."""
-    form: Form
-
-    def ready(self, scene: Any) -> Ready:
-        """In a scene, whose plates are left out."""
-        box = tile(scene)
-        start = placed(box, round(scene.L), lambda x, y: started(scene, x, y))
-        return self.form.ready(box, first=block(start))
-
-
 # --- runs -----------------------------------------------------------------------------------------
 
 
 class Course(NamedTuple):
     """What was seen at the start and after each sample, (samples + 1, numbers); the part of the time reached."""
     seen: np.ndarray
-    reached: float
+    reached: float = 1.0
 
 
 def followed(ready: Ready, time: float, samples: int, look: Look, report: Report) -> Course:
@@ -92,7 +51,7 @@ def followed(ready: Ready, time: float, samples: int, look: Look, report: Report
         run(method, ready.start, plan, report)
     except Divergence as error:
         return Course(np.array(seen), error.step/steps)
-    return Course(np.array(seen), 1.0)
+    return Course(np.array(seen))
 
 
 def marched(ready: Ready, time: float, samples: int, look: Look, report: Report) -> Course:
@@ -108,27 +67,21 @@ def marched(ready: Ready, time: float, samples: int, look: Look, report: Report)
             return Course(np.array(seen), march.steps/steps)
         seen.append(look(method.fields(march.S)))
         report(march.steps/steps)
-    return Course(np.array(seen), 1.0)
+    return Course(np.array(seen))
 
 
-class OnPlates(NamedTuple):
-    """A run of the grid between plates, None if it diverged; the part of the time reached."""
-    done: Solution | None
-    reached: float
-
-
-def between_plates(start: GridFields, time: float, samples: int, report: Report, dt: float | None = None) -> OnPlates:
-    """The compressible grid from a start."""
+def between_plates(start: GridFields, time: float, samples: int, report: Report,
+                   dt: float | None = None) -> tuple[Solution | None, float]:
+    """The compressible grid from a start, None if it diverged; the part of the time reached."""
     reached, rows = [0.0], len(start.y) - 1
 
     def progress(done: float) -> None:
         reached.append(done)
         report(done)
     try:
-        done = march(start.scene, rows, until=Time(time, samples), start=start, dt=dt, progress=progress)
+        return march(start.scene, rows, until=Time(time, samples), start=start, dt=dt, progress=progress), 1.0
     except DivergedError:
-        return OnPlates(None, reached[-1])
-    return OnPlates(done, 1.0)
+        return None, reached[-1]
 
 
 # --- what is seen ---------------------------------------------------------------------------------
