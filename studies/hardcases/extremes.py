@@ -26,9 +26,6 @@ HARMONICS = 20              # on either side: the rate is good to 1e-9
 Velocities = tuple[np.ndarray, np.ndarray]
 
 
-# --- what moves at the start ----------------------------------------------------------------------
-
-
 def still(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
     """Rest."""
     return np.zeros_like(x), np.zeros_like(y)
@@ -43,21 +40,17 @@ def vortex(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
 def sheared(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
     """u = psi_y, v = -psi_x of the fastest wave, of size BEGIN U, on top of U sin ky."""
     k = 2*pi/L
-    kx, psi = k/2, fastest(k, k/2).psi
+    kx, (_, psi) = k/2, fastest(k, k/2)
     psi = psi*BEGIN*U/(kx*abs(psi[HARMONICS]))
     n = np.arange(-HARMONICS, HARMONICS + 1)[:, None]
     waves = psi[:, None]*np.exp(1j*(kx*x + n*k*y))
     return U*np.sin(k*y) + (1j*n*k*waves).sum(axis=0).real, -(1j*kx*waves).sum(axis=0).real
 
 
-class Growing(NamedTuple):
-    """Growth rate, and amplitudes psi_n of the harmonics -HARMONICS .. HARMONICS."""
-    rate: float
-    psi: np.ndarray
+def fastest(k: float, kx: float) -> tuple[float, np.ndarray]:
+    """Growth rate of the wave exp(i k_x x) on u = U sin ky that grows fastest, and its amplitudes psi_n.
 
-
-def fastest(k: float, kx: float) -> Growing:
-    """The wave exp(i k_x x) on u = U sin ky that grows fastest    [Rayleigh 1880; Meshalkin & Sinai 1961]
+    n = -HARMONICS .. HARMONICS    [Rayleigh 1880; Meshalkin & Sinai 1961]
 
     Small waves obey q_t = -i k_x u (q + k^2 psi), q = lap psi, so harmonics q_n exp(inky) of each other:
 
@@ -68,7 +61,7 @@ def fastest(k: float, kx: float) -> Growing:
     part = kx*U/2*(1 - k**2/K2)
     rates, modes = np.linalg.eig(np.diag(part[1:], 1) - np.diag(part[:-1], -1))
     best = int(np.argmax(rates.real))
-    return Growing(float(rates[best].real), -modes[:, best]/K2)
+    return float(rates[best].real), -modes[:, best]/K2
 
 
 def everywhere(x: np.ndarray, L: float) -> np.ndarray:
@@ -79,9 +72,6 @@ def everywhere(x: np.ndarray, L: float) -> np.ndarray:
 def in_strip(x: np.ndarray, L: float) -> np.ndarray:
     """Density 1 at |x| < L, next to nothing beside."""
     return np.where(np.abs(x) < L, 1.0, THIN)
-
-
-# --- scenes ---------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -109,7 +99,7 @@ CORNER = Box(L=12.0, aspect=1.0, viscosity=0.3, heat=0.3, sides=Walls())
 SHEAR_FLOW = Box(L=16.0, aspect=2.0, heat=2*pi/16, velocities=sheared)
 #: of the shear flow, and the growth rate of its fastest wave, which is twice as long
 WAVE_NUMBER = 2*pi/SHEAR_FLOW.L
-RATE = fastest(WAVE_NUMBER, WAVE_NUMBER/2).rate
+RATE, _ = fastest(WAVE_NUMBER, WAVE_NUMBER/2)
 
 
 def rarefied(t: float) -> float:
@@ -171,9 +161,6 @@ BOXES = {
     "wall corner": Situation(CORNER, 300.0),
 }
 SITUATIONS = {**LAYERS, **BOXES}
-
-
-# --- methods in them ------------------------------------------------------------------------------
 
 
 def places(scene: Any) -> np.ndarray:

@@ -41,9 +41,6 @@ SAMPLES, LATE = 60, 40  # of a run; from where on K is averaged
 NOISE = 1e-6            # of the density at the start, by which seeds differ where points do not
 
 
-# --- one run --------------------------------------------------------------------------------------
-
-
 class Attempt(NamedTuple):
     """K of the last third, not a number if the run ended before, and the part of the time that it reached.
 
@@ -106,9 +103,6 @@ def no_report(done: float) -> None:
     """A search does not know how far it has come."""
 
 
-# --- what K should be -----------------------------------------------------------------------------
-
-
 @cache
 def reference() -> dict[float, Attempt]:
     """The fine grid on the rungs up to KNOWN."""
@@ -128,9 +122,6 @@ class FineGrid(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         rows = [{"ra": ra, "rows": FINE, **run._asdict()} for ra, run in reference().items()]
         return Outcome({"high_ra_grid": rows})
-
-
-# --- the search -----------------------------------------------------------------------------------
 
 
 class Search:
@@ -200,9 +191,6 @@ class HighRa(Case):
         trials = [{**key, "ra": ra, "k": run.k, "over": run.k/should_be(ra), "reached": run.reached}
                   for ra, run in search.trials.items()]
         return Outcome({"high_ra": rows, "high_ra_trials": trials})
-
-
-# --- a steady flow --------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -37,9 +37,6 @@ NAMES = ("rho", "v", "P")
 ERRORS = tuple(f"{name}_{of}" for of in ("exact", "grid") for name in NAMES)
 
 
-# --- what to expect -------------------------------------------------------------------------------
-
-
 def exact(L: float, x: np.ndarray) -> np.ndarray:
     """(3, n): rho, v, P of the frictionless gas at the end, 0 < x < 2 L."""
     return solution(DENSE, THIN, GAMMA, (x - L)/(END*L))
@@ -104,9 +101,6 @@ def wiggles(v: np.ndarray, truth: np.ndarray) -> float:
 def profiles(point: dict[str, Any], x: np.ndarray, fields: np.ndarray) -> list[dict[str, Any]]:
     """A row a place x (n,), over L from the diaphragm, of rho, v, P (3, n)."""
     return [{**point, "x": at, "rho": rho, "v": v, "P": P} for at, rho, v, P in np.vstack([x, fields]).T.tolist()]
-
-
-# --- smooth particles -----------------------------------------------------------------------------
 
 
 def jittered(counts: tuple[int, int], cell: tuple[float, float], corner: tuple[float, float], jitter: float,

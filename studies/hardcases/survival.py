@@ -28,9 +28,6 @@ GRID = "grid"
 Look = Callable[[Any], Any]
 
 
-# --- runs -----------------------------------------------------------------------------------------
-
-
 class Course(NamedTuple):
     """What was seen at the start and after each sample, (samples + 1, numbers); the part of the time reached."""
     seen: np.ndarray
@@ -84,9 +81,6 @@ def between_plates(start: GridFields, time: float, samples: int, report: Report,
         return None, reached[-1]
 
 
-# --- what is seen ---------------------------------------------------------------------------------
-
-
 def flow(at: Fields | Nodes, box: tuple[float, float]) -> float:
     """K per mass of mean velocities in cells of SPACINGS, which have no noise between neighbours."""
     size = np.array(box)
@@ -119,14 +113,10 @@ def amplitude(at: Fields | Nodes) -> float:
     return float(abs(np.sum(m*at.v[:, 1]*wave))/m.sum())
 
 
-# --- cases ----------------------------------------------------------------------------------------
-
-
 def row(case: str, method: str, rows: int, **values: Any) -> Outcome:
     """One row of `hard_runs`; what is not given is not known."""
-    unknown = dict.fromkeys(("k", "flow", "mass_drift", "k_start", "flow_start"), np.nan)
-    key = {"case": case, "method": method, "rows": rows}
-    return Outcome({"hard_runs": [{**key, **unknown, "reached": 1.0, "refused": "", **values}]})
+    known = {"case": case, "method": method, "rows": rows, "reached": 1.0, "refused": ""}
+    return Outcome({"hard_runs": [{**known, **values}]})
 
 
 @dataclass(frozen=True, kw_only=True)

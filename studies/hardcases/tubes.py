@@ -43,9 +43,6 @@ class Seen(NamedTuple):
     reached: float = 1.0
 
 
-# --- points ---------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True, kw_only=True)
 class Tubes(Scene):
     """Both tubes. half : the length of one."""
@@ -93,9 +90,6 @@ def binned(L: int, at: Fields) -> np.ndarray:
         return np.array([mass/volume, p/mass, heat/volume])
 
 
-# --- grids ----------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True, kw_only=True)
 class Upright(Slab):
     """One tube without gravity, |y| < L/2, dense below; plates are as warm as the gas at them."""
@@ -138,9 +132,6 @@ def centres(L: int) -> np.ndarray:
 def twin(L: int, eta: float) -> np.ndarray:
     """(3, 2 L): the fine grid's fields."""
     return viscous(L, eta, centres(L))
-
-
-# --- the case -------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
