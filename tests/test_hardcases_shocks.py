@@ -115,7 +115,7 @@ def test_every_method_has_sods_waves_and_the_gas_that_it_began_with(method):
 
 def test_nothing_happens_in_a_uniform_gas(monkeypatch):
     """The same pressure and density everywhere stay, on disordered points too."""
-    monkeypatch.setattr("studies.hardcases.tubes.THIN", DENSE)
+    monkeypatch.setattr("studies.hardcases.sod.THIN", DENSE)
     for method in [name for name in IN_TUBES if name != "grid"]:
         _, v, P = seen(method, 0.0).fields
         np.testing.assert_allclose(v, 0, atol=1e-9)

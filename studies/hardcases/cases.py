@@ -55,7 +55,6 @@ AT_REST: dict[str, tuple[Any, Any]] = {
     "fixed lattice": (largest_step.fixed, LATTICE),
     "fixed nested": (largest_step.fixed, NESTED),
     "fixed jittered": (largest_step.fixed, JITTERED),
-    "fluctuating": (largest_step.thermal, 0.0),
     "drift literal": (largest_step.drifting, LITERAL._replace(h=4.0)),
     "drift constant mass": (largest_step.drifting, CONSTANT_MASS._replace(h=4.0)),
     "moving": (largest_step.moving, MOVING),
@@ -104,7 +103,7 @@ METHOD_LENGTHS = (24, 36, 48, 72, 96)
 RIPPLES = ((1.0, 0.25, 3), (1.0, 0.75, 3), (2.0, 0.25, 8), (4.0, 0.25, 7))
 #: viscosity and conductivity, spacing times speed of sound is 1.4: what the step is limited by
 FLUIDS = {"zero viscosity": (0.0, 0.0), "balanced": (0.3, 0.3), "Prandtl 0.01": (0.05, 5.0), "Prandtl 100": (5.0, 0.05)}
-SLOW = ("moving", "fluctuating", "spam direct")         # methods in two of them only
+SLOW = ("moving", "spam direct")         # methods in two of them only
 GRIDS = (ROWS, 2*ROWS, 3*ROWS)
 #: where three left undecided what is a tenth off
 MORE_GRIDS = {"Ra 1e5": (4*ROWS, 6*ROWS), "high pressure": (4*ROWS, 6*ROWS, 8*ROWS)}

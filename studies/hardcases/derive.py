@@ -38,7 +38,10 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     if "high_ra" in tables and "high_ra_grid" in tables:
         rows["high_ra_summary"] = list(high_ra_summary(tables["high_ra"], tables["high_ra_grid"]))
     frames = {**tables, **{name: pd.DataFrame(new) for name, new in rows.items()}}
-    rows["map"] = [row for name, make in OF_MAP.items() if len(frames.get(name, ())) for row in make(frames[name])]
+    rows["map"] = []
+    for name, make in OF_MAP.items():
+        if len(frames.get(name, ())):
+            rows["map"] += make(frames[name])
     return {name: new for name, new in rows.items() if new}
 
 

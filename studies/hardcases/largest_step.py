@@ -10,20 +10,18 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.polynomial.polynomial import polyval
 
-from continuum.fluid import ConstEta, IdealGas
+from continuum.fluid import ConstEta
 from continuum.gas.fields import block, initial
 from continuum.gas.solve import RK4_DECAY, RK4_SOUND, March, limits
 from continuum.scene import Periodic, Torus
 from particles.integral.covariance import jacobian
-from particles.integral.edge_makers import renormalised
 from particles.integral.layer import Layer
 from particles.integral.points import lattice
-from particles.integral.thermal import Thermal
 from particles.limits import limit_of
 from particles.run import Run
 from particles.threads import Team
-from particles.weights import Lucy
 from studies.build.fixed import Scheme
 from studies.build.moving import Motion
 from studies.build.rr98_moving import DriftMotion
@@ -33,7 +31,6 @@ from studies.build.unguarded import GROWN, NOISE, Unguarded, bisected, noise_gro
 from studies.kit.case import Case, Outcome, Report
 
 SIDE = 10               # points along each side: waves of 10, 5, ... 2 spacings
-SMALL = 6               # of the scheme that is not compiled
 DISORDER = 1.4          # by which limits of points that move leave room for disorder: see `limit_of` of each
 #: 1 % beyond its limit RK4 makes motions grow by 4 (diffusion) to 7 % (sound) a step: in 200 steps by 2000
 #: and more
@@ -42,8 +39,8 @@ UNKNOWN = 0.01          # of a limit: how far beyond it growth may stay unseen w
 
 # --- stability regions ----------------------------------------------------------------------------
 
-#: R(z) = sum of these times z^n multiplies a motion exp(lambda t) in a step, z = lambda dt
-FACTORS = {"ThreeStage": (1, 1, 1/2, 1/6), "RK4": (1, 1, 1/2, 1/6, 1/24)}
+#: R(z) = sum of these times z^n multiplies a motion exp(lambda t) in a step of RK4, z = lambda dt
+RK4 = (1, 1, 1/2, 1/6, 1/24)
 NULL = 1e-3             # of the largest eigenvalue: below are motions that the sums do not see, split by round-off
 ROUND_OFF = 1e-7        # growth in a step: rates by differences are good to 1e-9 of the fastest
 TRIED = np.geomspace(1e-3, 10, 4001)        # times the fastest rate: the first that grows is good to 0.1 %
@@ -52,30 +49,32 @@ HALVINGS = 20
 
 def eigenvalues(method: Any, start: np.ndarray) -> np.ndarray:
     """Of the rates of a method about a state (fields, n), those of motions that its sums see."""
-    sums, now = method.start(start.shape[1], Team(1)), Run(state=start.copy(), ids=np.arange(start.shape[1]))
+    n = start.shape[1]
+    sums, now = method.start(n, Team(1)), Run(state=start.copy(), ids=np.arange(n))
     sums.make_ready(now, 0.0)
     rates = np.linalg.eigvals(jacobian(sums.rates, now.state))
     return rates[np.abs(rates) > NULL*np.abs(rates).max()]
 
 
-def growth(rates: np.ndarray, factors: tuple[float, ...], dt: float) -> float:
+def growth(rates: np.ndarray, dt: float) -> float:
     """Largest ln |R| of a step, less what the motion grows by itself."""
     z = rates*dt
     with np.errstate(divide="ignore"):
-        size = np.log(np.abs(np.polynomial.polynomial.polyval(z, factors)))
+        size = np.log(np.abs(polyval(z, RK4)))
     return float(np.max(size - np.maximum(z.real, 0)))
 
 
-def largest_step(rates: np.ndarray, integrator: str, least: float = ROUND_OFF) -> float:
-    """The step at which motions begin to grow by exp(least) a step; 0 if at all steps."""
-    factors, steps = FACTORS[integrator], TRIED/np.abs(rates).max()
-    first = next((i for i, dt in enumerate(steps) if growth(rates, factors, dt) > least), None)
+def largest_step(rates: np.ndarray, least: float = ROUND_OFF) -> float:
+    """The step of RK4 at which motions begin to grow by exp(least) a step; 0 if at all steps."""
+    steps = TRIED/np.abs(rates).max()
+    grow = np.array([growth(rates, dt) > least for dt in steps])
+    first = int(np.argmax(grow))
     if not first:
-        return inf if first is None else 0.0
+        return 0.0 if grow.any() else inf
     low, high = steps[first - 1:first + 1]
     for _ in range(HALVINGS):
         middle = (low + high)/2
-        low, high = (low, middle) if growth(rates, factors, middle) > least else (middle, high)
+        low, high = (low, middle) if growth(rates, middle) > least else (middle, high)
     return float((low + high)/2)
 
 
@@ -91,7 +90,6 @@ class Trial(NamedTuple):
     """
     predicted: float
     grows: Callable[[float], bool]
-    integrator: str = "RK4"
     margin: float = 1.0
     shorter: float = nan
     exact: float = nan
@@ -118,8 +116,8 @@ class Limit(Case):
         # growth that a trial of so many steps is too short to see: no difference of measured and exact
         unseen = trial.seen - trial.exact if np.isfinite(trial.seen) else UNKNOWN*limit.value
         return Outcome({"limits": [{
-            "method": self.method, "scene": self.scene, "eta": self.eta, "k": self.k, "integrator": trial.integrator,
-            "predicted": trial.predicted, "margin": trial.margin, "shorter": trial.shorter, "exact": trial.exact,
+            "method": self.method, "scene": self.scene, "eta": self.eta, "k": self.k,
+            "predicted": trial.predicted, "shorter": trial.shorter, "exact": trial.exact,
             "measured": limit.value, "measured_err": limit.half + unseen}]})
 
 
@@ -140,18 +138,18 @@ def noise(*shape: int) -> np.ndarray:
     return NOISE*np.random.default_rng(1).standard_normal(shape)
 
 
-def trial_of(method: Any, start: np.ndarray, rows: tuple[int, ...], integrator: str = "RK4", **more: Any) -> Trial:
+def trial_of(method: Any, start: np.ndarray, rows: tuple[int, ...], **more: Any) -> Trial:
     """Points whose noise is looked for in some rows of the state, and what eigenvalues of their rates say."""
     rates, visible = eigenvalues(method, start), log(GROWN*start.size**0.5)/STEPS
-    trial = unknown(method, start, rows, integrator, **more)
-    return trial._replace(exact=largest_step(rates, integrator), seen=largest_step(rates, integrator, visible))
+    trial = unknown(method, start, rows, **more)
+    return trial._replace(exact=largest_step(rates), seen=largest_step(rates, visible))
 
 
-def unknown(method: Any, start: np.ndarray, rows: tuple[int, ...], integrator: str, **more: Any) -> Trial:
+def unknown(method: Any, start: np.ndarray, rows: tuple[int, ...], **more: Any) -> Trial:
     """The same where eigenvalues do not say all: faces are made and points drift between stages."""
     def grows(dt: float) -> bool:
         return noise_grows(Unguarded(method), start, rows, STEPS, dt)
-    return Trial(limit_of(method, start), grows, integrator, **more)
+    return Trial(limit_of(method, start), grows, **more)
 
 
 def on_lattice(variant: Any, scene: Quiet, v: np.ndarray) -> tuple[Any, np.ndarray]:
@@ -161,11 +159,6 @@ def on_lattice(variant: Any, scene: Quiet, v: np.ndarray) -> tuple[Any, np.ndarr
     return method, start
 
 
-def on_points(n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """rho (n,), v (n, 2), T (n,) of points that stay."""
-    return 1 + noise(n), noise(n, 2), 1 + noise(n)
-
-
 def spam(variant: Variant, law: ConstEta) -> Trial:
     """Smooth particles in a periodic box."""
     return trial_of(*on_lattice(variant, Quiet(law=law, sides=Torus()), noise(2, SIDE**2).T), (2, 3, 4))
@@ -173,7 +166,8 @@ def spam(variant: Variant, law: ConstEta) -> Trial:
 
 def fixed(scheme: Scheme, law: ConstEta) -> Trial:
     """Fixed points between plates."""
-    method, start, _ = scheme.ready(Quiet(law=law), fields=on_points(SIDE**2))
+    n = SIDE**2
+    method, start, _ = scheme.ready(Quiet(law=law), fields=(1 + noise(n), noise(n, 2), 1 + noise(n)))
     return trial_of(method, start, (0, 1, 2, 3), shorter=alone(method, scheme.share))
 
 
@@ -184,14 +178,6 @@ def alone(method: Layer, share: float) -> float:
     return float(min(RK4_SOUND/(SOUND*sound), RK4_DECAY/max(diffusion, TINY)))
 
 
-def thermal(k: float, law: ConstEta) -> Trial:
-    """Fluctuating hydrodynamics, without fluctuations if Boltzmann's constant is 0."""
-    points = lattice((SMALL, SMALL))
-    edges = renormalised(points, Lucy.of(h=2.0))
-    method = Thermal(edges=edges, eos=IdealGas(), law=law, k=k, seed=1, share=1.0)
-    return trial_of(method, method.state(*on_points(points.n)), (0, 1, 2, 3), "ThreeStage")
-
-
 def drifting(motion: DriftMotion, law: ConstEta) -> Trial:
     """Points that move in one of RR98's ways, between plates."""
     return trial_of(*on_lattice(motion, Quiet(law=law), noise(SIDE**2, 2)), (2, 3, 4, 5), margin=DISORDER)
@@ -199,7 +185,7 @@ def drifting(motion: DriftMotion, law: ConstEta) -> Trial:
 
 def moving(motion: Motion, law: ConstEta) -> Trial:
     """Moving points that exchange over closed faces, between plates."""
-    return unknown(*on_lattice(motion, Quiet(law=law), noise(SIDE**2, 2)), (4, 5, 6, 7, 8), "ThreeStage", margin=DISORDER)
+    return unknown(*on_lattice(motion, Quiet(law=law), noise(SIDE**2, 2)), (4, 5, 6, 7, 8), margin=DISORDER)
 
 
 # --- the grid -------------------------------------------------------------------------------------

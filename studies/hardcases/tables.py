@@ -44,12 +44,11 @@ ALL = (
     #: wrong but stable, or ends; cell_number: of the fastest flow at the limit, or at the highest Ra tried
     table("high_ra_summary", ["method", "step", "kind"],
           "predicted", "ra", "ra_low", "ra_high", "seeds", "outcome", "cell_number", "cell_number_err"),
-    #: largest stable steps in units of spacing over (P/rho)^(1/2). predicted : by the method's own formula,
-    #: smaller by `margin` for disorder; shorter : of the steps that sound alone and diffusion alone allow;
-    #: exact : by eigenvalues of the rates of the same points; measured : by trial. measured_err : half of the
-    #: last interval of the search, and how far beyond the limit growth stays unseen in so many steps
-    table("limits", ["method", "scene"], "eta", "k", "integrator", "predicted", "margin", "shorter", "exact",
-          "measured", "measured_err"),
+    #: largest stable steps in units of spacing over (P/rho)^(1/2). predicted : by the method's own formula;
+    #: shorter : of the steps that sound alone and diffusion alone allow; exact : by eigenvalues of the rates of
+    #: the same points; measured : by trial. measured_err : half of the last interval of the search, and how far
+    #: beyond the limit growth stays unseen in so many steps
+    table("limits", ["method", "scene"], "eta", "k", "predicted", "shorter", "exact", "measured", "measured_err"),
     #: K and K of the flow (velocities averaged over 4 x 4 spacings), means of the last third; mass at the end
     #: over that of the start less 1; reached: part of the time; refused: why a method does not take the case;
     #: rows: over the height

@@ -25,7 +25,7 @@ from continuum.gas.solve import DivergedError, March, limits
 from particles.fields import Fields
 from particles.run import Divergence, Plan, run
 from studies.build.scenes import Scene, Slab, Start
-from studies.hardcases.sod import DENSE, END, EOS, GAMMA, HEIGHT, THIN, compared, exact, profiles, viscous
+from studies.hardcases.sod import DENSE, END, EOS, GAMMA, HEIGHT, THIN, compared, exact, profiles, start, viscous
 from studies.kit.case import Case, Outcome, Report
 
 PARTS = 16              # of a point, over which it is spread when it is put into cells
@@ -56,8 +56,7 @@ class Tubes(Scene):
         return 4.0*self.half
 
     def fields(self, x: np.ndarray) -> Start:
-        dense = np.abs(x[:, 0]) < self.half
-        rho, P = np.where(dense, DENSE.rho, THIN.rho), np.where(dense, DENSE.P, THIN.P)
+        rho, _, P = start(np.abs(x[:, 0]) < self.half)
         return rho, np.zeros((len(x), 2)), P/rho
 
 
