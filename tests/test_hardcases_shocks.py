@@ -10,8 +10,8 @@ from studies.hardcases import high_ra
 from studies.hardcases.cases import IN_LAYERS, IN_TUBES, RANDOM
 from studies.hardcases.derive import high_ra_summary, ripple_growth
 from studies.hardcases.interface import divide, gases, impulse, ripple
-from studies.hardcases.sod import DENSE, EOS, FINE, GAMMA, THIN, exact, march, rates, start, tube, viscous, wiggles
-from studies.hardcases.tubes import Seen, binned, centres
+from studies.hardcases.sod import DENSE, EOS, FINE, GAMMA, THIN, exact, march, rates, start, viscous, wiggles
+from studies.hardcases.tubes import Seen, binned, centres, tube
 
 LEFT, RIGHT = DENSE, THIN
 SHORT = 12
@@ -66,7 +66,7 @@ def test_viscous_tube_keeps_its_sums_and_follows_the_exact_solution():
 
 
 def test_tube_begins_with_both_gases_in_place():
-    x = np.abs(tube(12.0, 1)[0])
+    x = np.abs(tube(12, 1)[0])
     dense = x < 12 + 0.1
     assert len(x) == 36*12 and dense.sum() == 8*(~dense).sum() and x[~dense].min() > 12.5
 

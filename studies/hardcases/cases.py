@@ -1,10 +1,11 @@
 """Which methods meet which case, by size: a method is a line, a case is a line."""
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import product
 from typing import Any
 
 from continuum.fluid import DenseFluid, IdealGas
 from continuum.gas.loop import FluxForm
+from particles.run import STUDIES
 from particles.weights import Lucy, Monaghan
 from studies.build.fixed import SCHEMES
 from studies.build.grid import FORMS
@@ -18,7 +19,6 @@ from studies.hardcases.fig10 import Square
 from studies.hardcases.high_ra import FineGrid, HighRa, Rippled, Steadiness
 from studies.hardcases.interface import Interface
 from studies.hardcases.largest_step import Limit
-from studies.hardcases.sod import ShockTube
 from studies.hardcases.survival import GRID, SAMPLES, Hard, HardOnGrid, ShearWave, marched
 from studies.hardcases.tubes import ETAS, MethodTube
 from studies.kit.case import Case
@@ -96,8 +96,8 @@ TAKES: dict[str, dict[str, Any]] = {
 
 # --- cases ----------------------------------------------------------------------------------------
 
-LENGTHS = (24.0, 36.0, 48.0, 72.0, 96.0, 144.0, 192.0)
-MORE_SEEDS = 16         # of the longest viscous tube, whose ringing is near to what is asked
+LENGTHS = (24, 36, 48, 72, 96, 144, 192)
+MORE_SEEDS = 16         # of the longest viscous tube of smooth particles, whose ringing is near to what is asked
 METHOD_LENGTHS = (24, 36, 48, 72, 96)
 #: scale, k a, number of seeds
 RIPPLES = ((1.0, 0.25, 3), (1.0, 0.75, 3), (2.0, 0.25, 8), (4.0, 0.25, 7))
@@ -115,9 +115,10 @@ def cases(size: str) -> Iterator[Case]:
         yield from quick()
         return
     yield from squares()
-    yield from shocks(LENGTHS, RIPPLES, 3)
-    yield from (ShockTube(L=max(LENGTHS), eta=0.5, seed=seed) for seed in range(4, MORE_SEEDS + 1))
+    yield from smooth_tubes(LENGTHS, (0.0, 0.5), range(1, 4))
+    yield from smooth_tubes(LENGTHS[-1:], (0.5,), range(4, MORE_SEEDS + 1))
     yield from method_tubes(METHOD_LENGTHS, 3)
+    yield from interfaces(RIPPLES)
     yield from highest()
     yield from limits(AT_REST, FLUIDS)
     yield from hard()
@@ -127,8 +128,9 @@ def cases(size: str) -> Iterator[Case]:
 
 def quick() -> Iterator[Case]:
     """A few of each kind that takes seconds."""
-    yield from shocks((12.0, 15.0, 18.0), ((0.5, 0.25, 1),), 1)
+    yield from smooth_tubes((12, 15, 18), (0.0, 0.5), (1,))
     yield from method_tubes((12, 15, 18), 1)
+    yield from interfaces(((0.5, 0.25, 1),))
     yield from limits(("grid", "spam Lucy", "fixed lattice"), ("balanced",))
     scene, time = LAYERS["Prandtl 100"]
     yield Hard(case="Prandtl 100", method="fixed lattice", variant=LATTICE, scene=scene, time=time/10)
@@ -141,15 +143,20 @@ def squares() -> Iterator[Case]:
     yield Square(weight=Monaghan, ra=1e4, t_end=40.0, mean_from=30.0)
 
 
-def shocks(lengths: tuple[float, ...], ripples: tuple[tuple[float, float, int], ...], seeds: int) -> Iterator[Case]:
-    """Tubes without and with viscosity, profiles of the longest; interfaces."""
-    for L, eta, seed in product(lengths, (0.0, 0.5), range(1, seeds + 1)):
-        yield ShockTube(L=L, eta=eta, seed=seed, keep=L == max(lengths) and seed == 1)
+def interfaces(ripples: Iterable[tuple[float, float, int]]) -> Iterator[Case]:
+    """All seeds of some sizes and steepnesses."""
     for scale, steep, last in ripples:
         yield from (Interface(scale=scale, steep=steep, seed=seed) for seed in range(1, last + 1))
 
 
-def method_tubes(lengths: tuple[int, ...], seeds: int) -> Iterator[Case]:
+def smooth_tubes(lengths: Sequence[int], etas: Sequence[float], seeds: Iterable[int]) -> Iterator[Case]:
+    """Smooth particles; profiles of the longest."""
+    for L, eta, seed in product(lengths, etas, seeds):
+        yield MethodTube(method="spam printed", tube=tubes.smooth, variant=Lucy, eta=eta, L=L, seed=seed,
+                         step=STUDIES, keep=L == max(lengths) and seed == 1)
+
+
+def method_tubes(lengths: Sequence[int], seeds: int) -> Iterator[Case]:
     """All methods, viscosities, lengths; several seeds of disordered points in the most viscous gas."""
     for (method, (tube, variant)), eta, step, L in product(IN_TUBES.items(), ETAS, tubes.STEPS, lengths):
         last = seeds if method in RANDOM and eta == max(ETAS) else 1

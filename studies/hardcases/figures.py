@@ -113,18 +113,17 @@ def expected(height: Any, amplitude: Any, scale: float, steep: float) -> None:
 
 # --- shocks through all methods -------------------------------------------------------------------
 
-ALL = (*IN_TUBES, "smooth particles")
+ALL = (*IN_TUBES, "spam printed")
 SHIFT = 0.5             # between methods' densities, upwards
 
 
-def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame, smooth: pd.DataFrame) -> Figure:
+def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame) -> Figure:
     """Densities, one method above the other, without viscosity, with little and with that of smooth particles.
 
     Of the shorter step: what ends with it is not the step's fault.
     """
     page, all_axes = figure(1, len(ETAS), width=4.0, height=4.4)
-    rows, profiles = (frame[frame["step"] == min(STEPS)] for frame in (rows, profiles))
-    profiles = pd.concat([profiles, smooth.assign(method=ALL[-1])])
+    rows, profiles = (frame[frame["step"] != max(STEPS)] for frame in (rows, profiles))
     for axes, eta in zip(all_axes, ETAS, strict=True):
         densities(axes, profiles[np.isclose(profiles["eta"], eta)], rows[np.isclose(rows["eta"], eta)])
         axes.set(title=rf"$\eta = k = {eta:g}$", xlabel="distance from the diaphragm / $L$",
@@ -179,4 +178,4 @@ figures = Drawings(
     Drawing("map", ("map", "hard_runs"), chart),
     Drawing("high_ra", ("high_ra_trials", "high_ra_summary"), highest),
     Drawing("shocks", ("ripples",), shocks),
-    Drawing("shock_methods", ("method_tubes", "method_tube_profiles", "tube_profiles"), shock_methods))
+    Drawing("shock_methods", ("method_tubes", "method_tube_profiles"), shock_methods))

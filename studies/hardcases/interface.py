@@ -21,7 +21,7 @@ from particles.walls.mirror import Copied, Mirror, Odd
 from particles.walls.periodic import periodic
 from particles.weights import Lucy
 from studies.build.periodic_box import FRICTIONLESS, at_rest
-from studies.hardcases.sod import jittered, within
+from studies.hardcases.tubes import jittered, within
 from studies.kit.case import Case, Outcome, Report
 
 GAMMA, MACH = 2.0, 1.5

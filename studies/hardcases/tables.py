@@ -8,7 +8,6 @@ def table(name: str, key: list[str], *columns: str, **more) -> Table:
     return Table(name, key=key, columns=[*key, *columns], **more)
 
 
-TUBE = ["L", "eta", "seed"]
 METHOD_TUBE = ["method", "eta", "step", "L", "seed"]
 RIPPLE = ["scale", "steep"]
 HIGH = ["method", "step", "seed"]
@@ -19,12 +18,9 @@ ALL = (
     table("squares", ["eos", "weight", "ra", "seed"],
           "alpha", "rolls", "begun", "flow", "ratio", "ratio_err", "shared"),
     #: mean |error| over the range of the exact solution, against it and against the viscous grid; variation of
-    #: v beyond that of the exact one; time over L at which it diverged
-    table("tubes", TUBE, *ERRORS, "wiggles", "diverged"),
-    #: x: from the diaphragm, over L
-    table("tube_profiles", [*TUBE, "x"], *NAMES),
-    #: the same of other methods; reached: part of the time
+    #: v beyond that of the exact one; reached: part of the time
     table("method_tubes", METHOD_TUBE, *ERRORS, "wiggles", "reached"),
+    #: x: from the diaphragm, over L
     table("method_tube_profiles", [*METHOD_TUBE, "x"], *NAMES, digits=dict.fromkeys(("x", *NAMES), ".5g"),
           once=METHOD_TUBE),
     #: mean height and amplitude of the interface, nothing where a run diverged; lengths over the printed ones,

@@ -1,8 +1,9 @@
-"""Sod's shock tube by the grid, by fixed and by moving points.
+"""Sod's shock tube by the grid, by points, and by smooth particles as printed; none has artificial viscosity.
 
-The tube and its mirror image of `sod`, in a periodic strip; the grid has one tube between plates, which its
-waves do not reach. One spacing, in both gases: the thin one has points of less mass. No method has artificial
-viscosity.
+A periodic strip holds the tube and its mirror image: dense at |x| < L, thin at L < |x| < 2 L, without walls;
+the grid has one tube between plates, which its waves do not reach. Points and cells have one spacing in both
+gases: thin ones have less mass. Smooth particles have one mass, so the thin gas has eight times fewer of them,
+and one range, 3 mean spacings    [KHP95, Sec. II].
 
 Viscosities in units of spacing and density 1, eta = k, chosen beforehand and for all methods alike: nothing;
 what makes the contact's velocity a cell number of 2 behind the shock, v a/nu, beyond which central
@@ -23,11 +24,20 @@ from continuum.fluid import ConstEta
 from continuum.gas.fields import block, placed, unblock
 from continuum.gas.solve import DivergedError, March, limits
 from particles.fields import Fields
+from particles.limits import step_limit
+from particles.observe import fields_at
 from particles.run import Divergence, Plan, run
+from particles.smooth.spam import Spam
+from studies.build.periodic_box import at_rest, fluid
 from studies.build.scenes import Scene, Slab, Start
-from studies.hardcases.sod import DENSE, END, EOS, GAMMA, HEIGHT, THIN, compared, exact, profiles, start, viscous
+from studies.hardcases.sod import DENSE, END, EOS, GAMMA, NAMES, THIN, compared, exact, start, viscous
 from studies.kit.case import Case, Outcome, Report
 
+HEIGHT = 9.0
+MASS = 9/16                     # of smooth particles: the mean density is one a unit of area
+ROWS = {DENSE: 12, THIN: 4}     # then columns are 0.75 and 2 apart, and fit if L is a multiple of 3
+JITTER = 0.05                   # of the columns and rows: a perfect lattice keeps its rows in a flow along one axis
+SKIN = 1.5                      # of neighbour lists: at the diaphragm particles reach full speed in a step
 PARTS = 16              # of a point, over which it is spread when it is put into cells
 BETWEEN = middle(DENSE, THIN, GAMMA)
 CELL_NUMBER = 2.0
@@ -64,11 +74,19 @@ def points(variant: Any, L: int, law: ConstEta, seed: int, step: float, report: 
     """Fixed or moving points of a variant; step : over the limit of the start."""
     tubes = variant.ready(Tubes(half=L, law=law), seed)
     steps = int(END*L/(step*tubes.limit)) + 1
+
+    def look(state: np.ndarray) -> np.ndarray:
+        return binned(L, tubes.method.fields(state))
+    return ran(tubes.method, tubes.start, L, steps, look, report)
+
+
+def ran(method: Any, begin: np.ndarray, L: int, steps: int, look: Callable, report: Report) -> Seen:
+    """Particles or points; look(state) gives what is seen."""
     try:
-        end = run(tubes.method, tubes.start, Plan(dt=END*L/steps, steps=steps), report).by_id()
+        done = run(method, begin, Plan(dt=END*L/steps, steps=steps), report)
     except Divergence as error:
         return Seen(None, error.step/steps)
-    return Seen(binned(L, tubes.method.fields(end)))
+    return Seen(look(done.by_id()))
 
 
 def binned(L: int, at: Fields) -> np.ndarray:
@@ -87,6 +105,49 @@ def binned(L: int, at: Fields) -> np.ndarray:
     p = total(m*at.v[:, 0], np.sign(places))
     with np.errstate(all="ignore"):
         return np.array([mass/volume, p/mass, heat/volume])
+
+
+def smooth(weight: Any, L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
+    """Smooth particles."""
+    method, begin = fluid(weight.of(h=3.0), (4.0*L, HEIGHT), EOS, law, m=MASS, skin=SKIN), tube(L, seed)
+    steps = round(END*L/(step*step_limit(method, begin[4]))) + 1
+    return ran(method, begin, L, steps, lambda state: smoothed(method, state, centres(L)), report)
+
+
+def jittered(counts: tuple[int, int], cell: tuple[float, float], corner: tuple[float, float], jitter: float,
+             rng: np.random.Generator) -> np.ndarray:
+    """x, y (2, n) in the middle of columns and rows of cells, shifted by up to `jitter` of a cell."""
+    numbers = np.stack(np.meshgrid(*map(np.arange, counts)), axis=-1).reshape(-1, 2)
+    shift = rng.uniform(-1, 1, (2, len(numbers))).T
+    return ((numbers + 0.5)*cell + corner + jitter*np.array(cell)*shift).T
+
+
+def within(x: np.ndarray, size: float) -> np.ndarray:
+    """Places in a periodic interval about 0."""
+    return (x + size/2) % size - size/2
+
+
+def tube(L: float, seed: int) -> np.ndarray:
+    """State (5, n) at the start."""
+    rng, gases = np.random.default_rng(seed), []
+    for gas, left in ((DENSE, -L), (THIN, L)):
+        counts = round(2*L*HEIGHT*gas.rho/MASS/ROWS[gas]), ROWS[gas]
+        cell = 2*L/counts[0], HEIGHT/counts[1]
+        x, y = jittered(counts, cell, (left, -HEIGHT/2), JITTER, rng)
+        at = np.stack([within(x, 4*L), within(y, HEIGHT)], axis=1)
+        gases.append(at_rest(at, EOS.cv*gas.P/gas.rho))
+    return np.concatenate(gases, axis=1)
+
+
+def smoothed(method: Spam, state: np.ndarray, x: np.ndarray) -> np.ndarray:
+    """(3, n): smoothed rho, v, P of a tube and its image, means over the height and over both."""
+    sums, state, _ = method.look(state)
+    y = np.arange(HEIGHT) + 0.5 - HEIGHT/2
+    both = []
+    for sign in (1, -1):
+        at = fields_at(sums, state, *np.meshgrid(sign*x, y))
+        both.append([at.rho.mean(axis=0), sign*at.vx.mean(axis=0), (at.rho*at.e).mean(axis=0)/EOS.cv])
+    return np.mean(both, axis=0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -164,5 +225,6 @@ class MethodTube(Case):
             return Outcome({"method_tubes": [{**point, "reached": reached}]})
         errors = compared(fields, exact(self.L, x), twin(self.L, self.eta))
         row = {**point, **errors, "reached": reached}
-        lines = profiles(point, x/self.L - 1, fields) if self.keep else []
-        return Outcome({"method_tubes": [row], "method_tube_profiles": lines})
+        lines = np.vstack([x/self.L - 1, fields]).T.tolist() if self.keep else []
+        profile = [{**point, **dict(zip(("x", *NAMES), line, strict=True))} for line in lines]
+        return Outcome({"method_tubes": [row], "method_tube_profiles": profile})
