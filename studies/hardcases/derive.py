@@ -99,14 +99,14 @@ def entry(case: str, method: str, variant: str, outcome: str, number: str, measu
 def of_runs(runs: pd.DataFrame) -> Rows:
     """Points and the coarse grid against what is known."""
     for _, run in runs[(runs["method"] != "grid") | (runs["rows"] <= ROWS)].iterrows():
-        known = KNOWN.get(run["case"], Known("flow/grid", flow_over_grid))
+        known = KNOWN.get(run["case"], LIKE_GRID)
         ratio = known.ratio(runs, run)
         result = outcome(run, known, ratio)
-        number, predicted = known.number, known.predicted
+        variant = f"L {SITUATIONS[run['case']].scene.L:g}"
         if result == "diverges":
-            number, predicted, ratio = PART_OF_TIME, 1.0, Measured(run["reached"], 0.0)
-        height = SITUATIONS[run["case"]].scene.L
-        yield entry(run["case"], run["method"], f"L {height:g}", result, number, *ratio, predicted)
+            yield entry(run["case"], run["method"], variant, result, PART_OF_TIME, run["reached"])
+        else:
+            yield entry(run["case"], run["method"], variant, result, known.number, *ratio, known.predicted)
 
 
 def speed(runs: pd.DataFrame, run: pd.Series) -> Measured:
@@ -152,7 +152,8 @@ class Known(NamedTuple):
     predicted: float = 1.0
 
 
-#: all other cases have the flow of a fine grid
+LIKE_GRID = Known("flow/grid", flow_over_grid)
+#: all other cases are like the grid
 KNOWN = {
     "wall corner": Known("speed/c", speed, 0.0),
     "vacuum": Known("K/exact", energy_over_exact),

@@ -18,6 +18,7 @@ from studies.build.measure import at_end, turns
 from studies.build.names import START_ENERGY
 from studies.build.snapshot import Snapshot
 from studies.build.spam import Variant
+from studies.hardcases.extremes import falls
 from studies.kit.case import Case, Outcome, Report
 
 SIDE = 50.0
@@ -43,7 +44,7 @@ class Square(Case):
 
     @property
     def cost(self) -> float:
-        return 0.3*self.t_end*(1 if isinstance(self.eos, IdealGas) else 3)
+        return 0.5*self.t_end
 
     @property
     def scene(self) -> RayleighBenard:
@@ -55,10 +56,10 @@ class Square(Case):
         scene = self.scene
         variant = Variant("square", weight=self.weight, begin=two_rolls)
         method, start, dt = variant.ready(scene, self.seed)
-        unit = scene.L/scene.free_fall
+        unit = falls(scene, 1.0)
         plan = Plan(dt=dt, steps=round(self.t_end*unit/dt), every=max(1, round(unit/4/dt)),
-                    mean_from=self.mean_from*unit,
-                    means={"grid": Grid.over(method.box, 30)}, checkpoint=folder/"run.h5")
+                    mean_from=self.mean_from*unit, means={"grid": Grid.over(method.box, 30)},
+                    checkpoint=folder/"run.h5")
         done = run(method, start, plan, report)
         mean, (sums, _) = Smoothed(*done.means["grid"]), at_end(method, done)
         x = np.stack([sums.around.x, sums.around.y], axis=1)

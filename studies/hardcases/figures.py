@@ -26,8 +26,6 @@ def dots(number: int, size: float = 2) -> dict[str, Any]:
     return {**look(number), "linestyle": "none", "markersize": size}
 
 
-# --- the map --------------------------------------------------------------------------------------
-
 CASES = (*LAYERS, "highest Ra", *BOXES, "shear layer", "shock tube")
 #: letter, shade and hatch of an outcome; the darker, the worse
 LOOKS = {"right": ("R", "white", ""), "wrong": ("W", "0.85", "/"), "leaks": ("L", "0.85", "\\"),
@@ -76,9 +74,6 @@ def heading(case: str, runs: pd.DataFrame) -> str:
     return case.replace(" ", "\n", 1) + (f"\ngrid of {max(grids)}" if len(grids) else "")
 
 
-# --- the ripple -----------------------------------------------------------------------------------
-
-
 def shocks(ripples: pd.DataFrame) -> Figure:
     """Height and ripple of a shocked interface in time: means and all seeds by size and steepness."""
     page, both = figure(1, 2, width=4.4, height=3.2)
@@ -110,8 +105,6 @@ def expected(height: Any, amplitude: Any, scale: float, steep: float) -> None:
     growth = 1 + theory.growth*(times[1:] - theory.meets)/theory.amplitude
     amplitude.plot(times[1:]/theory.meets, growth, **DASHED, label="impulsive theory")
 
-
-# --- shocks through all methods -------------------------------------------------------------------
 
 ALL = (*IN_TUBES, "spam printed")
 SHIFT = 0.5             # between methods' densities, upwards
@@ -148,9 +141,6 @@ def densities(axes: Any, profiles: pd.DataFrame, rows: pd.DataFrame) -> None:
             reached = runs.sort_values("L")["reached"].iloc[-1]
             words = f"{method}: ended at {reached:.2g} of the time"
             axes.text(0.98, up + 0.2, words, ha="right", fontsize=8)
-
-
-# --- the highest Ra -------------------------------------------------------------------------------
 
 
 def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:

@@ -37,8 +37,6 @@ DISORDER = 1.4          # by which limits of points that move leave room for dis
 STEPS = 200
 UNKNOWN = 0.01          # of a limit: how far beyond it growth may stay unseen where no eigenvalues tell
 
-# --- stability regions ----------------------------------------------------------------------------
-
 #: R(z) = sum of these times z^n multiplies a motion exp(lambda t) in a step of RK4, z = lambda dt
 RK4 = (1, 1, 1/2, 1/6, 1/24)
 NULL = 1e-3             # of the largest eigenvalue: below are motions that the sums do not see, split by round-off
@@ -76,9 +74,6 @@ def largest_step(rates: np.ndarray, least: float = ROUND_OFF) -> float:
         middle = (low + high)/2
         low, high = (low, middle) if growth(rates, middle) > least else (middle, high)
     return float((low + high)/2)
-
-
-# --- trials ---------------------------------------------------------------------------------------
 
 
 class Trial(NamedTuple):
@@ -119,9 +114,6 @@ class Limit(Case):
             "method": self.method, "scene": self.scene, "eta": self.eta, "k": self.k,
             "predicted": trial.predicted, "shorter": trial.shorter, "exact": trial.exact,
             "measured": limit.value, "measured_err": limit.half + unseen}]})
-
-
-# --- points ---------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -186,9 +178,6 @@ def drifting(motion: DriftMotion, law: ConstEta) -> Trial:
 def moving(motion: Motion, law: ConstEta) -> Trial:
     """Moving points that exchange over closed faces, between plates."""
     return unknown(*on_lattice(motion, Quiet(law=law), noise(SIDE**2, 2)), (4, 5, 6, 7, 8), margin=DISORDER)
-
-
-# --- the grid -------------------------------------------------------------------------------------
 
 
 def on_grid(continuity: Any, law: ConstEta) -> Trial:
