@@ -1,4 +1,4 @@
-"""Limits of the time step: the search finds what is known, eigenvalues and trials agree, formulas are safe."""
+"""Limits of the time step: the search finds what is known, eigenvalues and trials agree."""
 import numpy as np
 import pytest
 
@@ -30,7 +30,7 @@ def test_trial_eigenvalues_and_formula_agree(method, eta):
     case = Limit(method=method, trial=trial, variant=variant, scene="any", eta=eta, k=eta)
     [row] = case.run(lambda done: None, None).rows["limits"]
     assert abs(row["measured"] - row["exact"]) < row["measured_err"] + 0.01*row["exact"]
-    assert 0.95 < row["measured"]/row["predicted"] < 1.1      # ten points lack the very wave that limits most: 1 % here
+    assert 0.95 < row["measured"]/row["predicted"] < 1.1      # ten points lack the wave that limits most: 1 %
 
 
 def test_the_grid_takes_the_step_of_its_formula_without_viscosity():

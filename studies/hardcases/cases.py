@@ -97,12 +97,13 @@ TAKES: dict[str, dict[str, Any]] = {
 # --- cases ----------------------------------------------------------------------------------------
 
 LENGTHS = (24, 36, 48, 72, 96, 144, 192)
-MORE_SEEDS = 16         # of the longest viscous tube of smooth particles, whose ringing is near to what is asked
+MORE_SEEDS = 16         # of the longest viscous tube of smooth particles, whose ringing is near its limit
 METHOD_LENGTHS = (24, 36, 48, 72, 96)
 #: scale, k a, number of seeds
 RIPPLES = ((1.0, 0.25, 3), (1.0, 0.75, 3), (2.0, 0.25, 8), (4.0, 0.25, 7))
 #: viscosity and conductivity, spacing times speed of sound is 1.4: what the step is limited by
-FLUIDS = {"zero viscosity": (0.0, 0.0), "balanced": (0.3, 0.3), "Prandtl 0.01": (0.05, 5.0), "Prandtl 100": (5.0, 0.05)}
+FLUIDS = {"zero viscosity": (0.0, 0.0), "balanced": (0.3, 0.3), "Prandtl 0.01": (0.05, 5.0),
+          "Prandtl 100": (5.0, 0.05)}
 SLOW = ("moving", "spam direct")         # methods in two of them only
 GRIDS = (ROWS, 2*ROWS, 3*ROWS)
 #: where three left undecided what is a tenth off
@@ -189,8 +190,8 @@ def hard() -> Iterator[Case]:
     for case, (scene, time) in {**LAYERS, **BOXES}.items():
         for method, variant in TAKES.get(case, USUAL).items():
             without = isinstance(variant, Smooth) and case in ("zero viscosity", "vacuum")
-            opened = without or method == "spam without walls"
-            yield Hard(case=case, method=method, variant=variant, scene=Open(scene) if opened else scene, time=time)
+            place = Open(scene) if without or method == "spam without walls" else scene
+            yield Hard(case=case, method=method, variant=variant, scene=place, time=time)
     for case in ("zero viscosity", "vacuum"):
         scene, time = BOXES[case]
         yield Hard(case=case, method=GRID, variant=TILED, follow=marched, scene=scene, time=time)

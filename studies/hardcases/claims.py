@@ -24,11 +24,12 @@ def rolls(ra: float) -> Value:
         left = run["flow"]/run["begun"]
         if left < ALIVE:
             raise CannotTell(f"the flow has stopped, K of the mean flow is {left:.2g} of that at the start "
-                             f"and not {ALIVE:g} at least, and {100*run['shared']:.0f} % of the particles are "
-                             f"paired, of one seed at Ra {ra:g}: its {run['rolls']:.0f} rolls are what is "
-                             "left of the start")
+                             f"and not {ALIVE:g} at least, and {100*run['shared']:.0f} % of the particles "
+                             f"are paired, of one seed at Ra {ra:g}: its {run['rolls']:.0f} rolls are what "
+                             "is left of the start")
         return Measured(float(run["rolls"]))
-    value.__doc__ = f"rolls in squares where eos = IdealGas, weight = Monaghan, ra = {ra:g}, flow/begun >= {ALIVE:g}"
+    value.__doc__ = ("rolls in squares where eos = IdealGas, weight = Monaghan, "
+                     f"ra = {ra:g}, flow/begun >= {ALIVE:g}")
     return of(value)
 
 
@@ -47,7 +48,8 @@ def pairs(eos: str, key: str, fluid: str, ra: float) -> tuple[Claim, Claim]:
 
 def rayleigh(name: str, eos: str, fluid: str, formula: str, words: str) -> Claim:
     """The printed Ra from a reading of its definition."""
-    return Claim(id=f"khp95-hard-fig10-rayleigh-{name}", source=FIG_10, printed="350 000", expect=1, within=0.05,
+    return Claim(id=f"khp95-hard-fig10-rayleigh-{name}", source=FIG_10,
+                 printed="350 000", expect=1, within=0.05,
                  value=last("squares", f"{formula}/350000", by="ra", eos=eos, weight="Monaghan"),
                  because="two printed digits",
                  statement="printed viscosities and a static density of 1 give the printed Ra, alpha "
@@ -66,7 +68,8 @@ SQUARES = (
                     "start with two"),
     rayleigh("gas", "IdealGas", "ideal gas", f"{OWN_GAS}*1/alpha", "taken as 1"),
     rayleigh("gas-own", "IdealGas", "ideal gas", f"{OWN_GAS}*alpha/alpha", "that of the gas at mid-height"),
-    rayleigh("dense", "DenseFluid", "dense fluid", f"{OWN_DENSE}*alpha/alpha", "that of the fluid at mid-height"),
+    rayleigh("dense", "DenseFluid", "dense fluid", f"{OWN_DENSE}*alpha/alpha",
+             "that of the fluid at mid-height"),
 )
 
 # --- shocks ---------------------------------------------------------------------------------------
@@ -95,8 +98,8 @@ def of_method(method: str, words: str) -> tuple[Claim, ...]:
               because="1 %, as is asked of smooth particles"),
         Claim(id=f"sod-{key}-rings", source="Sod 1978", at_most=0.1, value=longest(method, "wiggles", BARELY),
               statement=f"{words}: nothing rings if v a/nu of the contact's velocity behind the shock is "
-                        f"{CELL_NUMBER:g}: variation of v beyond that of the exact solution, over it, longest "
-                        "tube",
+                        f"{CELL_NUMBER:g}: variation of v beyond that of the exact solution, over it, "
+                        "longest tube",
               because=f"central differences keep order below a cell number of 2; {NO_RINGING}"),
         Claim(id=f"sod-{key}-robust-short", source="Sod 1978", at_most=0, because="none",
               value=total("method_tubes", "reached < 1", method=method, eta=0.0, step=SHORT),
@@ -117,8 +120,8 @@ SHOCKS = (
     Claim(id="khp95-hard-ripple-robust",
           source="KHP95 Sec. VI", printed="robust, highly stable", at_most=0, because="none",
           value=total("ripples", "height != height"),
-          statement="gases that fall onto a mirror are taken, however they lie at the start: interfaces whose "
-                    "run diverged [asked after one had]"),
+          statement="gases that fall onto a mirror are taken, however they lie at the start: interfaces "
+                    "whose run diverged [asked after one had]"),
     Claim(id="khp95-hard-ripple-growth", source="KHP95 Sec. VI, Fig. 11", printed="2%", expect=1, within=0.02,
           value=last("ripple_growth", "growth", by="scale", steep=0.25),
           because="the printed 2 %; impulsive theory is itself an approximation",
@@ -131,8 +134,8 @@ SHOCKS = (
 HIGH_RA = tuple(
     Claim(id=f"high-ra-{method.replace(' ', '-')}-foretold", source="KHP95 Sec. VI", at_most=2*CELL_NUMBER,
           value=one("high_ra_summary", "cell_number", method=method, kind="wrong", step=1.0),
-          statement=f"{words}, 16 rows: as Ra is raised a cell number of 2 foretells what ends or goes wrong: "
-                    "v a/nu of the fastest flow, where K is off by a factor of 1.25 or runs end",
+          statement=f"{words}, 16 rows: as Ra is raised a cell number of 2 foretells what ends or goes "
+                    "wrong: v a/nu of the fastest flow, where K is off by a factor of 1.25 or runs end",
           because="no formula is known for the end of a run; a rule of thumb is worth a factor of 2")
     for method, words in METHODS.items())
 
@@ -157,8 +160,9 @@ LIMITS = (
                     "sums give, from zero viscosity to Prandtl 0.01 and 100"),
     Claim(id="limit-step-points-shorter",
           source="RR98 Eq. 51", value=difference("shorter", POINTS), at_most=0.1, because=TENTH,
-          statement="fixed points, friction along edges, on a lattice and jittered: the largest stable step is the "
-                    "shorter one of those of sound alone and of diffusion alone [asked after the inverse sum had failed]"),
+          statement="fixed points, friction along edges, on a lattice and jittered: the largest stable step "
+                    "is the shorter one of those of sound alone and of diffusion alone [asked after the "
+                    "inverse sum had failed]"),
     Claim(id="limit-step-safe", source="RR98 Eqs 34-51", value=first("limits", **RATIO), at_least=0.99,
           statement="no method's own formula of the largest step is above the step at which noise begins to "
                     "grow",

@@ -49,7 +49,7 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
 
 
 def ripple_growth(ripples: pd.DataFrame) -> Rows:
-    """Growth rates over that of theory: means over the runs that lasted; one that ended late counts while it lasts.
+    """Growth rates over that of theory: means over the runs that lasted, also of those that ended late.
 
     Straight lines through amplitudes once growth is steady.
     """
@@ -80,8 +80,10 @@ def high_ra_summary(limits: pd.DataFrame, grid: pd.DataFrame) -> Rows:
     for (method, step, kind), rows in groups(limits, ["method", "step", "kind"]):
         bad = rows.dropna(subset=["ra"])
         cell = over_seeds(np.exp(constant + slope*np.log(rows["ra"].fillna(rows["tried"]))))
-        yield {"method": method, "step": step, "kind": kind, "predicted": predicted if kind == "wrong" else np.nan,
-               "ra": float(np.exp(np.log(bad["ra"]).mean())), "ra_low": bad["ra"].min(), "ra_high": bad["ra"].max(),
+        yield {"method": method, "step": step, "kind": kind,
+               "predicted": predicted if kind == "wrong" else np.nan,
+               "ra": float(np.exp(np.log(bad["ra"]).mean())),
+               "ra_low": bad["ra"].min(), "ra_high": bad["ra"].max(),
                "seeds": len(bad), "outcome": bad["outcome"].mode().get(0, "none"),
                "cell_number": cell.value, "cell_number_err": cell.err}
 
@@ -207,7 +209,8 @@ def of_tubes(tubes: pd.DataFrame) -> Rows:
             yield entry("shock tube", method, f"eta {eta:g}", "diverges", PART_OF_TIME, reached)
             continue
         result = "right" if max(ring.mean(), error) <= NEAR else "wrong"
-        yield entry("shock tube", method, f"eta {eta:g}", result, "ringing of v", ring.mean(), np.ptp(ring)/2, 0.0)
+        yield entry("shock tube", method, f"eta {eta:g}", result, "ringing of v", ring.mean(),
+                    np.ptp(ring)/2, 0.0)
 
 
 def of_high_ra(summary: pd.DataFrame) -> Rows:

@@ -1,4 +1,4 @@
-"""Scenes of hard cases, and methods in them: convection at extremes, gases without    [KHP95, Sec. VI; RR98, Sec. III]
+"""Scenes of hard cases, and methods in them    [KHP95, Sec. VI; RR98, Sec. III]
 
 All have 16 rows or so: the question is who gives way first. Units: spacing, mean density, P/rho at T = 1.
 """
@@ -54,7 +54,8 @@ def fastest(k: float, kx: float) -> tuple[float, np.ndarray]:
 
     Small waves obey q_t = -i k_x u (q + k^2 psi), q = lap psi, so harmonics q_n exp(inky) of each other:
 
-        dq_n/dt = -(k_x U/2) [(1 - k^2/K_(n-1)^2) q_(n-1) - (1 - k^2/K_(n+1)^2) q_(n+1)],    K_n^2 = k_x^2 + n^2 k^2
+        dq_n/dt = -(k_x U/2) [(1 - k^2/K_(n-1)^2) q_(n-1) - (1 - k^2/K_(n+1)^2) q_(n+1)]
+        K_n^2 = k_x^2 + n^2 k^2
     """
     n = np.arange(-HARMONICS, HARMONICS + 1)
     K2 = kx**2 + (n*k)**2
@@ -154,7 +155,7 @@ LAYERS = {
     "disordered points": convection(30.0, 1e4),
     "narrow weight": convection(30.0, 1e4),
 }
-#: the vortex turns SPEED t/L = 5 times, rarefactions come within 0.7 of the middle, sound crosses the box 35 times
+#: the vortex turns SPEED t/L = 5 times, rarefactions come within 0.7 of the middle, sound crosses 35 times
 BOXES = {
     "zero viscosity": Situation(VORTEX, 800.0),
     "vacuum": Situation(STRIP, 0.7*8/SOUND),

@@ -1,4 +1,4 @@
-"""The squares of Fig. 10: rolls and pairs of 2500 particles between temperatures 10 and 0.5    [KHP95, Sec. VI]
+"""The squares of Fig. 10: rolls and pairs of 2500 particles, temperatures 10 and 0.5    [KHP95, Sec. VI]
 
 Printed is Ra 350 000 for eta = k = 0.8 (ideal gas) and 0.4 (dense fluid). The gas has that if alpha is taken
 as 1, and 67 150 with its own alpha = 1/<T>; the dense fluid has 340 800 with its own, and 511 200 as scenes
@@ -49,8 +49,8 @@ class Square(Case):
     @property
     def scene(self) -> RayleighBenard:
         """With eta = k."""
-        return RayleighBenard(ra=self.ra, pr=self.eos.cv, eos=self.eos, L=SIDE, aspect=1.0, T_hot=10.0, T_cold=0.5,
-                              sides=Walls())
+        return RayleighBenard(ra=self.ra, pr=self.eos.cv, eos=self.eos, L=SIDE, aspect=1.0,
+                              T_hot=10.0, T_cold=0.5, sides=Walls())
 
     def run(self, report: Report, folder: Path) -> Outcome:
         scene = self.scene

@@ -32,8 +32,9 @@ LOOKS = {"right": ("R", "white", ""), "wrong": ("W", "0.85", "/"), "leaks": ("L"
          "freezes": ("F", "0.7", "x"), "diverges": ("D", "0.5", ""), "refused": ("-", "white", ""),
          "unjudged": ("?", "white", "")}
 WORDS = {"unjudged": "not judged, no two other grids came to their end, or noise"}
-KEY = ("  empty: not run\nnumber: flow over the start's, or over that of the grid of so many rows;\nvacuum: K over exact; "
-       "corner: speed over sound's; shear: growth over linear; tube: ringing; highest Ra: the first that is wrong or ends")
+KEY = ("  empty: not run\nnumber: flow over the start's, or over that of the grid of so many rows;\n"
+       "vacuum: K over exact; corner: speed over sound's; shear: growth over linear; tube: ringing; "
+       "highest Ra: the first that is wrong or ends")
 
 
 def chart(rows: pd.DataFrame, runs: pd.DataFrame) -> Figure:
@@ -111,7 +112,7 @@ SHIFT = 0.5             # between methods' densities, upwards
 
 
 def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame) -> Figure:
-    """Densities, one method above the other, without viscosity, with little and with that of smooth particles.
+    """Densities, one method above the other, without viscosity, with little, with that of smooth particles.
 
     Of the shorter step: what ends with it is not the step's fault.
     """

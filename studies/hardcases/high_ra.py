@@ -166,7 +166,10 @@ class Search:
 
 @dataclass(frozen=True, kw_only=True)
 class HighRa(Case):
-    """One method's limits from one start. attempt : takes variant, Ra, seed, step. step : over that of other studies."""
+    """One method's limits from one start.
+
+    attempt : takes variant, Ra, seed, step. step : over that of other studies.
+    """
     method: str
     attempt: Callable[..., Attempt]
     variant: Any

@@ -52,7 +52,7 @@ def impulse(scale: float, steep: float) -> Impulse:
     """
     c = sqrt(GAMMA*LIGHT.P/LIGHT.rho)
     fall, W = 2*c/(GAMMA + 1)*(MACH - 1/MACH), MACH*c
-    behind = middle(LIGHT._replace(v=fall), LIGHT._replace(v=-fall), GAMMA)     # a gas against its mirror image
+    behind = middle(LIGHT._replace(v=fall), LIGHT._replace(v=-fall), GAMMA)     # a gas against its image
     shocked = Gas(behind.right, 0.0, behind.P)
     after = middle(shocked, HEAVY._replace(v=-fall), GAMMA)
     kick, meets = after.v + fall, BELOW*scale/W
@@ -125,7 +125,8 @@ class Interface(Case):
         rows: list[dict[str, Any]] = []
         for number in range(1, SAMPLES + 1):
             report(number/SAMPLES)
-            row = {"scale": self.scale, "steep": self.steep, "seed": self.seed, "time": number*plan.steps*plan.dt}
+            row = {"scale": self.scale, "steep": self.steep, "seed": self.seed,
+                   "time": number*plan.steps*plan.dt}
             try:
                 state = run(method, state, plan).by_id()
             except Divergence:

@@ -39,7 +39,7 @@ UNKNOWN = 0.01          # of a limit: how far beyond it growth may stay unseen w
 
 #: R(z) = sum of these times z^n multiplies a motion exp(lambda t) in a step of RK4, z = lambda dt
 RK4 = (1, 1, 1/2, 1/6, 1/24)
-NULL = 1e-3             # of the largest eigenvalue: below are motions that the sums do not see, split by round-off
+NULL = 1e-3             # of the largest eigenvalue: below are motions that the sums do not see
 ROUND_OFF = 1e-7        # growth in a step: rates by differences are good to 1e-9 of the fastest
 TRIED = np.geomspace(1e-3, 10, 4001)        # times the fastest rate: the first that grows is good to 0.1 %
 HALVINGS = 20
@@ -80,8 +80,8 @@ class Trial(NamedTuple):
     """A method at rest. grows(dt) : does noise grow at a step?
 
     predicted : the largest step by the method's own formula, smaller by `margin` for disorder.
-    shorter : the shorter one of the steps that sound alone and diffusion alone allow, by the operators in use.
-    exact : the step at which motions begin to grow, by eigenvalues of the rates; seen : from which trials see it.
+    shorter : the shorter one of the steps that sound alone and diffusion alone allow.
+    exact : the step at which motions begin to grow, by eigenvalues of the rates; seen : where trials see it.
     """
     predicted: float
     grows: Callable[[float], bool]

@@ -68,7 +68,7 @@ def rates(U: np.ndarray, eta: float) -> np.ndarray:
 
 
 def compared(fields: np.ndarray, truth: np.ndarray, twin: np.ndarray) -> dict[str, float]:
-    """ERRORS, mean |difference| of fields (3, n) from both others over the range of the exact ones; wiggles."""
+    """ERRORS, mean |difference| of fields (3, n) from both others over the exact ones' range; wiggles."""
     size = np.ptp(truth, axis=1)
     values = [np.abs(fields - other).mean(axis=1)/size for other in (truth, twin)]
     errors = dict(zip(ERRORS, np.concatenate(values).tolist(), strict=True))

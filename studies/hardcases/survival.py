@@ -22,14 +22,14 @@ from studies.kit.fits import line
 
 SAMPLES = 60            # of a run; means are over the last third
 LATE = 2/3
-SPACINGS = 4            # of a cell over which velocities are averaged: what is left of them is flow, the rest noise
+SPACINGS = 4            # of a cell over which velocities are averaged: what is left is flow, the rest noise
 GROWN = 2.5             # growth times that a shear flow is watched: its wave ends with a tenth of U
 GRID = "grid"
 Look = Callable[[Any], Any]
 
 
 class Course(NamedTuple):
-    """What was seen at the start and after each sample, (samples + 1, numbers); the part of the time reached."""
+    """What was seen, at the start and after each sample, (samples + 1, numbers); part of the time reached."""
     seen: np.ndarray
     reached: float = 1.0
 

@@ -13,18 +13,18 @@ RIPPLE = ["scale", "steep"]
 HIGH = ["method", "step", "seed"]
 
 ALL = (
-    #: squares of Fig. 10: expansivity at mid-height; rolls; K at the start and of the mean flow; at the end the
-    #: median of second over first neighbour distance, and the part that shares a site
+    #: squares of Fig. 10: expansivity at mid-height; rolls; K at the start and of the mean flow; at the end
+    #: the median of second over first neighbour distance, and the part that shares a site
     table("squares", ["eos", "weight", "ra", "seed"],
           "alpha", "rolls", "begun", "flow", "ratio", "ratio_err", "shared"),
-    #: mean |error| over the range of the exact solution, against it and against the viscous grid; variation of
-    #: v beyond that of the exact one; reached: part of the time
+    #: mean |error| over the range of the exact solution, against it and against the viscous grid; variation
+    #: of v beyond that of the exact one; reached: part of the time
     table("method_tubes", METHOD_TUBE, *ERRORS, "wiggles", "reached"),
     #: x: from the diaphragm, over L
     table("method_tube_profiles", [*METHOD_TUBE, "x"], *NAMES, digits=dict.fromkeys(("x", *NAMES), ".5g"),
           once=METHOD_TUBE),
-    #: mean height and amplitude of the interface, nothing where a run diverged; lengths over the printed ones,
-    #: k a before the shock
+    #: mean height and amplitude of the interface, nothing where a run diverged; lengths over the printed
+    #: ones, k a before the shock
     table("ripples", [*RIPPLE, "seed", "time"], "height", "amplitude"),
     #: growth rate over that of theory
     table("ripple_growth", RIPPLE, "seeds", "growth", "growth_err"),
@@ -41,10 +41,11 @@ ALL = (
     table("high_ra_summary", ["method", "step", "kind"],
           "predicted", "ra", "ra_low", "ra_high", "seeds", "outcome", "cell_number", "cell_number_err"),
     #: largest stable steps in units of spacing over (P/rho)^(1/2). predicted : by the method's own formula;
-    #: shorter : of the steps that sound alone and diffusion alone allow; exact : by eigenvalues of the rates of
-    #: the same points; measured : by trial. measured_err : half of the last interval of the search, and how far
-    #: beyond the limit growth stays unseen in so many steps
-    table("limits", ["method", "scene"], "eta", "k", "predicted", "shorter", "exact", "measured", "measured_err"),
+    #: shorter : of the steps that sound alone and diffusion alone allow; exact : by eigenvalues of the rates
+    #: of the same points; measured : by trial. measured_err : half of the last interval of the search, and
+    #: how far beyond the limit growth stays unseen in so many steps
+    table("limits", ["method", "scene"],
+          "eta", "k", "predicted", "shorter", "exact", "measured", "measured_err"),
     #: K and K of the flow (velocities averaged over 4 x 4 spacings), means of the last third; mass at the end
     #: over that of the start less 1; reached: part of the time; refused: why a method does not take the case;
     #: rows: over the height
@@ -52,8 +53,8 @@ ALL = (
           "k", "flow", "mass_drift", "k_start", "flow_start", "reached", "refused"),
     #: growth rates of the wave on a shear flow; reached: part of the time
     table("shear", ["method"], "predicted", "measured", "measured_err", "reached"),
-    #: the grid at high Ra: largest less smallest K over the mean in the last quarter of the time and in the one
-    #: before; reached: part of the time, where it diverges
+    #: the grid at high Ra: largest less smallest K over the mean in the last quarter of the time and in the
+    #: one before; reached: part of the time, where it diverges
     table("steadiness", ["ra", "rows"], "swing", "before", "reached"),
     #: outcome by the rules of `derive`; number: the name of what is predicted and measured
     table("map", ["case", "method", "variant"], "number", "predicted", "measured", "measured_err", "outcome"),

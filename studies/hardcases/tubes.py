@@ -2,8 +2,8 @@
 
 A periodic strip holds the tube and its mirror image: dense at |x| < L, thin at L < |x| < 2 L, without walls;
 the grid has one tube between plates, which its waves do not reach. Points and cells have one spacing in both
-gases: thin ones have less mass. Smooth particles have one mass, so the thin gas has eight times fewer of them,
-and one range, 3 mean spacings    [KHP95, Sec. II].
+gases: thin ones have less mass. Smooth particles have one mass, so the thin gas has eight times fewer, and
+one range, 3 mean spacings    [KHP95, Sec. II].
 
 Viscosities in units of spacing and density 1, eta = k, chosen beforehand and for all methods alike: nothing;
 what makes the contact's velocity a cell number of 2 behind the shock, v a/nu, beyond which central
@@ -36,7 +36,7 @@ from studies.kit.case import Case, Outcome, Report
 HEIGHT = 9.0
 MASS = 9/16                     # of smooth particles: the mean density is one a unit of area
 ROWS = {DENSE: 12, THIN: 4}     # then columns are 0.75 and 2 apart, and fit if L is a multiple of 3
-JITTER = 0.05                   # of the columns and rows: a perfect lattice keeps its rows in a flow along one axis
+JITTER = 0.05                   # of the columns and rows: a perfect lattice keeps its rows in such a flow
 SKIN = 1.5                      # of neighbour lists: at the diaphragm particles reach full speed in a step
 PARTS = 16              # of a point, over which it is spread when it is put into cells
 BETWEEN = middle(DENSE, THIN, GAMMA)
@@ -196,9 +196,10 @@ def twin(L: int, eta: float) -> np.ndarray:
 
 @dataclass(frozen=True, kw_only=True)
 class MethodTube(Case):
-    """One tube. L : half of its length, spacings. eta : viscosity and conductivity. step : over the limit at the start.
+    """One tube. L : half of its length, spacings. eta : viscosity and conductivity.
 
-    tube : takes variant, L, law, seed, step, report. keep : whether profiles go to the table.
+    tube : takes variant, L, law, seed, step, report. step : over the limit at the start.
+    keep : whether profiles go to the table.
     """
     method: str
     tube: Callable[..., Seen]
