@@ -9,27 +9,23 @@ from particles.fields import Fields
 from studies.hardcases import high_ra
 from studies.hardcases.cases import IN_LAYERS, IN_TUBES, RANDOM
 from studies.hardcases.derive import high_ra_summary, ripple_growth
+from studies.hardcases.high_ra import no_report
 from studies.hardcases.interface import divide, gases, impulse, ripple
 from studies.hardcases.sod import DENSE, EOS, FINE, GAMMA, THIN, exact, march, rates, start, viscous, wiggles
 from studies.hardcases.tubes import Seen, binned, centres, tube
 
-LEFT, RIGHT = DENSE, THIN
 SHORT = 12
-
-
-def quiet(done: float) -> None:
-    """No progress."""
 
 
 def seen(method: str, eta: float) -> Seen:
     """A short tube by a method."""
     run, variant = IN_TUBES[method]
-    return run(variant, SHORT, ConstEta(eta, eta), 1, 0.5, quiet)
+    return run(variant, SHORT, ConstEta(eta, eta), 1, 0.5, no_report)
 
 
 def test_riemann_solution_of_sod_is_the_published_one():
     """Toro 1997, table 4.2, test 1."""
-    np.testing.assert_allclose(middle(LEFT, RIGHT, GAMMA), (0.92745, 0.30313, 0.42632, 0.26557), atol=6e-6)
+    np.testing.assert_allclose(middle(DENSE, THIN, GAMMA), (0.92745, 0.30313, 0.42632, 0.26557), atol=6e-6)
 
 
 @pytest.mark.parametrize("gamma", [1.4, 2.0])
@@ -44,9 +40,9 @@ def test_shocks_keep_mass_momentum_and_energy(gamma):
 
 def test_solution_is_continuous_in_the_fan_and_isentropic():
     s = np.linspace(-1.3, 0.9, 2000)
-    rho, v, P = solution(LEFT, RIGHT, GAMMA, s)
+    rho, v, P = solution(DENSE, THIN, GAMMA, s)
     assert np.abs(np.diff(P)).max() < 2e-3 and P/rho**GAMMA == pytest.approx(1.0)
-    np.testing.assert_allclose(solution(RIGHT, LEFT, GAMMA, -s), [rho, -v, P])
+    np.testing.assert_allclose(solution(THIN, DENSE, GAMMA, -s), [rho, -v, P])
 
 
 def test_gases_that_part_too_fast_are_refused():
@@ -60,7 +56,7 @@ def test_viscous_tube_keeps_its_sums_and_follows_the_exact_solution():
     rho, v, P = march(begin, 0.15, 60.0*FINE)
     assert rho.sum() == pytest.approx(begin[0].sum(), rel=1e-5)
     assert (EOS.cv*P + rho*v**2/2).sum() == pytest.approx(EOS.cv*begin[2].sum(), rel=1e-5)
-    expected = solution(LEFT, RIGHT, GAMMA, x/60/FINE)
+    expected = solution(DENSE, THIN, GAMMA, x/60/FINE)
     assert np.abs(v - expected[1]).mean() < 0.03 and np.abs(rho - expected[0]).mean() < 0.02
     assert np.abs(rates(np.array([np.ones(9), np.zeros(9), np.ones(9)]), 0.1)).max() == 0
 
@@ -145,7 +141,7 @@ def test_a_limit_is_found_where_runs_turn_bad_and_each_runs_once(monkeypatch):
         return high_ra.Attempt(0.01*(1 if ra < 2e5 else 1.5), 1.0 if ra < 3e6 else 0.5)
     monkeypatch.setattr(high_ra, "should_be", lambda ra: 0.01)
     case = high_ra.HighRa(method="made up", attempt=attempt, variant=None, seed=1)
-    rows = {row["kind"]: row for row in case.run(quiet, None).rows["high_ra"]}
+    rows = {row["kind"]: row for row in case.run(no_report, None).rows["high_ra"]}
     assert rows["wrong"]["ra"] == pytest.approx(2e5, rel=0.01)
     assert rows["ends"]["ra"] == pytest.approx(3e6, rel=0.01)
     assert all(0 < row["ra_err"] < 0.01*row["ra"] for row in rows.values())
