@@ -14,7 +14,7 @@ from studies.build.rr98_moving import DRIFT_MOTIONS
 from studies.build.setting import positions
 from studies.build.spam import PRINTED, VARIANTS
 from studies.hardcases import high_ra, largest_step, tubes
-from studies.hardcases.extremes import BOXES, LAYERS, ROWS, Inside, Open, Smooth, Tiled
+from studies.hardcases.extremes import LAYERS, ROWS, SITUATIONS, Inside, Open, Smooth, Tiled
 from studies.hardcases.fig10 import Square
 from studies.hardcases.high_ra import FineGrid, HighRa, Rippled, Steadiness
 from studies.hardcases.interface import Interface
@@ -94,6 +94,8 @@ SHEARED = {**SPAM, **{name: Inside(motion) for name, motion in MOVE.items()}, "f
 TAKES: dict[str, dict[str, Any]] = {
     "disordered points": DISORDERED, "narrow weight": NARROW, "wall corner": CORNERS}
 
+WITHOUT_PLATES = ("zero viscosity", "vacuum")       # for smooth particles and the grid
+
 # --- cases ----------------------------------------------------------------------------------------
 
 LENGTHS = (24, 36, 48, 72, 96, 144, 192)
@@ -133,7 +135,7 @@ def quick() -> Iterator[Case]:
     yield from method_tubes((12, 15, 18), 1)
     yield from interfaces(((0.5, 0.25, 1),))
     yield from limits(("grid", "spam Lucy", "fixed lattice"), ("balanced",))
-    scene, time = LAYERS["Prandtl 100"]
+    scene, time = SITUATIONS["Prandtl 100"]
     yield Hard(case="Prandtl 100", method="fixed lattice", variant=LATTICE, scene=scene, time=time/10)
 
 
@@ -187,15 +189,15 @@ def hard() -> Iterator[Case]:
     for case, (scene, time) in LAYERS.items():
         yield from (HardOnGrid(case=case, scene=scene, time=time, rows=rows)
                     for rows in (*GRIDS, *MORE_GRIDS.get(case, ())))
-    for case, (scene, time) in {**LAYERS, **BOXES}.items():
+    for case, (scene, time) in SITUATIONS.items():
         for method, variant in TAKES.get(case, USUAL).items():
-            without = isinstance(variant, Smooth) and case in ("zero viscosity", "vacuum")
+            without = isinstance(variant, Smooth) and case in WITHOUT_PLATES
             place = Open(scene) if without or method == "spam without walls" else scene
             yield Hard(case=case, method=method, variant=variant, scene=place, time=time)
-    for case in ("zero viscosity", "vacuum"):
-        scene, time = BOXES[case]
+    for case in WITHOUT_PLATES:
+        scene, time = SITUATIONS[case]
         yield Hard(case=case, method=GRID, variant=TILED, follow=marched, scene=scene, time=time)
-    scene, time = BOXES["wall corner"]      # nothing moves but for round-off
+    scene, time = SITUATIONS["wall corner"]     # nothing moves but for round-off
     yield HardOnGrid(case="wall corner", scene=scene, time=time, rows=round(scene.L), energy=0.0)
 
 

@@ -101,7 +101,7 @@ def entry(case: str, method: str, variant: str, outcome: str, number: str, measu
 def of_runs(runs: pd.DataFrame) -> Rows:
     """Points and the coarse grid against what is known."""
     for _, run in runs[(runs["method"] != "grid") | (runs["rows"] <= ROWS)].iterrows():
-        known = KNOWN.get(run["case"], LIKE_GRID)
+        known = DECISIVE.get(run["case"], LIKE_GRID)
         ratio = known.ratio(runs, run)
         result = outcome(run, known, ratio)
         variant = f"L {SITUATIONS[run['case']].scene.L:g}"
@@ -147,23 +147,23 @@ def finished_grids(runs: pd.DataFrame, case: str) -> pd.Series:
     return grid.set_index("rows")["flow"].sort_index()
 
 
-class Known(NamedTuple):
+class Decisive(NamedTuple):
     """What decides a case: the name of the number, how it follows from a run, what it should be."""
     number: str
     ratio: Callable[[pd.DataFrame, pd.Series], Measured]
     predicted: float = 1.0
 
 
-LIKE_GRID = Known("flow/grid", flow_over_grid)
+LIKE_GRID = Decisive("flow/grid", flow_over_grid)
 #: all other cases are like the grid
-KNOWN = {
-    "wall corner": Known("speed/c", speed, 0.0),
-    "vacuum": Known("K/exact", energy_over_exact),
-    "zero viscosity": Known("flow/start", flow_over_start),
+DECISIVE = {
+    "wall corner": Decisive("speed/c", speed, 0.0),
+    "vacuum": Decisive("K/exact", energy_over_exact),
+    "zero viscosity": Decisive("flow/start", flow_over_start),
 }
 
 
-def outcome(run: pd.Series, known: Known, ratio: Measured) -> str:
+def outcome(run: pd.Series, known: Decisive, ratio: Measured) -> str:
     """By the rules at the head of this file."""
     if isinstance(run["refused"], str) and run["refused"]:
         return "refused"

@@ -76,7 +76,7 @@ def in_strip(x: np.ndarray, L: float) -> np.ndarray:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Box(Slab):
+class Chamber(Slab):
     """A gas between plates, with velocities(x, y, L) and density(x, L) at the start."""
     viscosity: float = 0.0
     heat: float = 0.0
@@ -93,11 +93,11 @@ class Box(Slab):
         return self.density(x[:, 0], self.L), v, self.T(x[:, 1])
 
 
-VORTEX = Box(L=ROWS, aspect=1.0, velocities=vortex)
-STRIP = Box(L=8.0, aspect=12.0, density=in_strip)
-CORNER = Box(L=12.0, aspect=1.0, viscosity=0.3, heat=0.3, sides=Walls())
+VORTEX = Chamber(L=ROWS, aspect=1.0, velocities=vortex)
+STRIP = Chamber(L=8.0, aspect=12.0, density=in_strip)
+CORNER = Chamber(L=12.0, aspect=1.0, viscosity=0.3, heat=0.3, sides=Walls())
 #: without viscosity; that it conducts heat keeps drifting points from ending at once
-SHEAR_FLOW = Box(L=16.0, aspect=2.0, heat=2*pi/16, velocities=sheared)
+SHEAR_FLOW = Chamber(L=16.0, aspect=2.0, heat=2*pi/16, velocities=sheared)
 #: of the shear flow, and the growth rate of its fastest wave, which is twice as long
 WAVE_NUMBER = 2*pi/SHEAR_FLOW.L
 RATE, _ = fastest(WAVE_NUMBER, WAVE_NUMBER/2)
