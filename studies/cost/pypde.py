@@ -1,17 +1,18 @@
-"""py-pde's solvers, compiled at each call: of the gas in all flows, of the Boussinesq fluid in convection.
+"""py-pde's solver of the gas, compiled at each call, as a case that is one call.
 
 Steps are at the limit of its own formula, an eighth longer than which ends in the vortex (in convection the driver's
 0.8 of it); compiling is not counted, nor what py-pde does around the steps. Each component of the velocity is compared
 where the staggered grid has it.
 """
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.exact.vortex import solved as gas_of_mach
-from continuum.exact.vortex import velocities
+from continuum.exact.vortex import solved, velocities
 from continuum.fluid import energy, sound_speed, temperature
 from continuum.pypde import solve as pypde
 from continuum.pypde.gas import RK4_DECAY, RK4_WAVE, Gas
@@ -21,17 +22,42 @@ from continuum.steady import Time
 from particles.fields import Fields
 from studies.build.grid import started
 from studies.build.names import START_ENERGY
-from studies.cost.direct import Solved
-from studies.cost.flows import Plates, Vortex, Wave
-from studies.cost.layer import END, OFTEN, PR, RA, Followed, Rules, Sizes, boussinesq_reference, reference, scene_of
-from studies.cost.problem import Price, Residuals
-from studies.cost.timing import Laps, array_bytes, of_calls
+from studies.cost.contestants import StandingWave, VortexDecay
+from studies.cost.problem import Result
+from studies.cost.race import Race
+from studies.cost.rolls import END, OFTEN, Followed, HeatedLayer, unit
+from studies.cost.seconds import Laps, array_bytes, of_calls
+from studies.kit.case import Outcome, Report
+from studies.kit.stats import Measured
 
 SAMPLES = 5         # of the seconds, which are those of as many equal parts of the run
-#: (rho, u, v, T) at places x, y
-Start = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, ...]]
-#: residuals of a state (4, columns, rows) of a gas in a contest
-Held = Callable[["Still", Any, np.ndarray], Residuals]
+
+
+class SolverRun(NamedTuple):
+    """What comes out, the uncertainty of the exact answer; seconds of the steps and of setting up; step over its limit."""
+    solution: pypde.Solution
+    result: Result
+    known: float
+    seconds: Measured
+    setup: Measured = Measured(0.0)
+    of_limit: float = np.nan
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolverRace(Race):
+    """The solver, called once; what the entry makes is a `SolverRun`."""
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        one = self.made()
+        done, run_s, setup = one.solution, one.seconds, one.setup
+        row = {**self.columns, "points": done.state[0].size, "of_limit": one.of_limit, "dt": np.nan,
+               "steps": done.steps, "run_s": run_s.value, "run_s_err": run_s.err, "setup_s": setup.value,
+               "setup_s_err": setup.err, "compile_s": done.compile_s,
+               "bytes": array_bytes(done.state, done.equation), "threads": 1}
+        return Outcome({"errors": list(self.errors(one.result, one.known)), "runs": [row]})
+
+
+# --- flows with exact answers -----------------------------------------------------------------------------------
 
 
 class Still(Gas):
@@ -44,7 +70,8 @@ class Still(Gas):
     def step_limit(self) -> float:
         """As that of convection."""
         eos, law = self.scene.eos, self.scene.law
-        wave = (2*np.sqrt(2)*float(sound_speed(eos, 1.0, energy(eos, 1.0, 1.0))) + self.fastest)/self.h
+        sound = float(sound_speed(eos, 1.0, energy(eos, 1.0, 1.0)))
+        wave = (2*np.sqrt(2)*sound + self.fastest)/self.h
         decay = 8*max(law.eta, law.k/eos.cv)/self.h**2
         return float(1/(decay/RK4_DECAY + wave/RK4_WAVE))
 
@@ -56,95 +83,57 @@ class Still(Gas):
         """No heat is driven through it."""
         return np.nan, np.nan, np.nan
 
-    def begun(self, start: Start) -> np.ndarray:
-        """The state (4, columns, rows) of a start, each field where it is."""
-        at = [start(*self.mesh(field)) for field in range(4)]
-        data = np.array([at[RHO][0], at[VX][1], at[VY][2], energy(self.scene.eos, at[E][0], at[E][3])])
-        if not self.box.torus:
-            data[VY, :, -1] = 0
-        return data
+    def begun(self) -> np.ndarray:
+        """The state (4, columns, rows) at the start, each field where it is."""
+        at = [started(self.scene, *self.mesh(field)) for field in range(4)]
+        return np.array([at[RHO][0], at[VX][1], at[VY][2], energy(self.scene.eos, at[E][0], at[E][3])])
+
+    def places(self, field: int) -> np.ndarray:
+        """(n, 2) of a field's points."""
+        return np.stack([q.ravel() for q in self.mesh(field)], axis=1)
 
 
-def places(gas: Gas, field: int) -> np.ndarray:
-    """(n, 2) of a field's points."""
-    return np.stack([q.ravel() for q in gas.mesh(field)], axis=1)
+def vortex(flow: VortexDecay, method: None, size: int, seed: int) -> SolverRun:
+    """The largest velocity counts twice: the formula knows no rest."""
+    scene = flow.scene(size)
+
+    def judge(gas: Still, data: np.ndarray) -> Result:
+        answer, v = solved(flow.mach), data[[VX, VY]].reshape(2, -1).T
+        u, w = (velocities(answer, gas.places(field)/scene.L) for field in (VX, VY))
+        exact = np.stack([u[:, 0], w[:, 1]], axis=1)
+        return Result(flow.against(scene, np.ones(len(v)), exact, v))
+    return in_flow(flow, partial(Still, scene, size, 2*scene.speed), judge)
 
 
-# --- flows with exact answers -----------------------------------------------------------------------------------
+def sound(flow: StandingWave, method: None, size: int, seed: int) -> SolverRun:
+    """Small waves have no velocity that counts."""
+    scene = flow.scene(size)
+
+    def judge(gas: Still, data: np.ndarray) -> Result:
+        T, u = temperature(scene.eos, data[RHO], data[E]).ravel(), data[VX].ravel()
+        middles, sides = (gas.places(field)[:, 0] for field in (E, VX))
+        return Result(flow.against(scene, np.ones(T.size), (sides, u), (middles, T)))
+    return in_flow(flow, partial(Still, scene, scene.L, 0.0), judge)
 
 
-class InFlow(NamedTuple):
-    """The gas in a contest. held : residuals of its state."""
-    name: str
-    contest: Any
-    price: Price
-    held: Held
-
-    def solve(self, size: int) -> Solved:
-        """At a resolution."""
-        scene, laps = self.contest.scene(size), Laps()
-
-        def make() -> Still:
-            return Still(scene, round(scene.L), fastest(scene), scene.slide)
-        gas, start = make(), partial(started, scene)
-        done = pypde.solve(gas, until=Time(scene.time, SAMPLES), start=gas.begun(start), dt=gas.step_limit(),
-                           progress=laps)
-        return Solved(self.held(gas, self.contest, done.state), {}, done.state[0].size, done.steps,
-                      array_bytes(done.state, gas), self.contest.known, laps.total(SAMPLES), done.compile_s,
-                      of_calls(lambda: make().begun(start)), 1.0)
-
-
-def fastest(scene: Any) -> float:
-    """The largest velocity that the formula counts: twice that of a vortex, that of a plate, none of small waves."""
-    return float(2*scene.speed if hasattr(scene, "speed") else scene.slide)
-
-
-def vortex(gas: Still, contest: Vortex, data: np.ndarray) -> Residuals:
-    """Both components where they are."""
-    scene, answer = gas.scene, gas_of_mach(contest.mach)
-    exact = np.stack([velocities(answer, places(gas, f)/scene.L)[:, f - VX] for f in (VX, VY)], axis=1)
-    v = data[[VX, VY]].reshape(2, -1).T
-    return contest.against(scene, np.ones(len(v)), exact, v)
-
-
-def sound(gas: Still, contest: Wave, data: np.ndarray) -> Residuals:
-    """The velocity on the sides of cells, the temperature in them."""
-    T = temperature(gas.scene.eos, data[RHO], data[E]).ravel()
-    u, x = data[VX].ravel(), places(gas, E)[:, 0]
-    return contest.against(gas.scene, np.ones(T.size), (places(gas, VX)[:, 0], u), (x, T))
-
-
-def between(gas: Still, contest: Plates, data: np.ndarray) -> Residuals:
-    """Velocities along plates at the heights of the cells, where they are."""
-    T, s = temperature(gas.scene.eos, data[RHO], data[E]).ravel(), places(gas, E)[:, 1]/gas.scene.L + 0.5
-    return contest.against(gas.scene, np.ones(T.size), s, data[VX].ravel(), T)
+def in_flow(flow: Any, make: Callable[[], Still], judge: Callable[[Still, np.ndarray], Result]) -> SolverRun:
+    """From the start of a scene to its end."""
+    gas, laps = make(), Laps()
+    done = pypde.solve(gas, until=Time(gas.scene.time, SAMPLES), start=gas.begun(), dt=gas.step_limit(), progress=laps)
+    setup = of_calls(lambda: make().begun())
+    return SolverRun(done, judge(gas, done.state), flow.known, laps.total(SAMPLES), setup, 1.0)
 
 
 # --- convection -------------------------------------------------------------------------------------------------
 
 
-class InLayer(NamedTuple):
-    """Convection at the driver's own step: the gas, or Boussinesq where `gas` is False."""
-    name: str
-    gas: bool
-    price: Price = Price(4, 2e-4, 3)
-    sizes: Sizes = Sizes()
-
-    def solve(self, rows: int) -> Solved:
-        """At a resolution."""
-        laps, samples, scene = Laps(), round(END*OFTEN), scene_of(rows)
-        unit = scene.L/scene.free_fall if self.gas else 1.0
-        options: dict[str, Any] = {"until": Time(END*unit, samples), "start": pypde.Rolls(START_ENERGY),
-                                   "progress": laps}
-        done = (pypde.solve_gas(scene, rows, **options) if self.gas
-                else pypde.solve_boussinesq(ra=RA, pr=PR, rows=rows, **options))
-        rules = Rules(reference(self.sizes) if self.gas else boussinesq_reference(self.sizes))
-        followed = Followed(done.series.t/unit, done.series.ke, done)
-        residuals = rules.residuals(followed, seen(scene, done) if self.gas else None)
-        if not self.gas:
-            residuals.pop("K(t)")     # its rolls at the start are not KHP95's, which are not free of divergence
-        return Solved(residuals, rules.share(followed, residuals), done.state[0].size, done.steps,
-                      array_bytes(done.state, done.equation), rules.against.known, laps.total(samples), done.compile_s)
+def convection(flow: HeatedLayer, method: None, rows: int, seed: int) -> SolverRun:
+    """At the driver's own step."""
+    scene, laps, samples = flow.scene(rows), Laps(), round(END*OFTEN)
+    done = pypde.solve_gas(scene, rows, until=Time(END*unit(scene), samples), start=pypde.Rolls(START_ENERGY),
+                           progress=laps)
+    followed = Followed(done.series.t/unit(scene), done.series.ke, done)
+    return SolverRun(done, flow.result(followed, seen(scene, done)), flow.answer.known, laps.total(samples))
 
 
 def seen(scene: RayleighBenard, done: pypde.Solution) -> Fields:

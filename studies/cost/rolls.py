@@ -1,0 +1,236 @@
+"""Convection from KHP95's rolls: references, what a run is held against, what share of it is needed, methods in it.
+
+    K, velocity, temperature    of the steady state, against the compressible grid's by Newton's method, extrapolated
+    K(t)                        over the first 30 free-fall times, against the compressible grid in time, extrapolated
+
+A steady state is reached at the time t* after which K, averaged over a free-fall time, stays as near to its end as the
+quantity's own error; from there on a flow that fluctuates is averaged until the statistical error is as small as that,
+too. What a quantity costs is that share of the run.
+"""
+from collections.abc import Callable, Sequence
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from continuum.gas.fields import Fields as GridFields
+from continuum.gas.fields import initial, interpolate, kinetic_energy
+from continuum.gas.newton import steady as newton
+from continuum.gas.solve import run as run_grid
+from continuum.scene import RayleighBenard
+from continuum.steady import Time
+from particles.fields import Fields
+from particles.plan import Plan
+from particles.run import run
+from studies.build.names import START_ENERGY
+from studies.build.setting import Ready
+from studies.build.smoothing import Smoothing, smoothed_energy
+from studies.build.unguarded import Unguarded
+from studies.cost.contestants import smoothed
+from studies.cost.problem import Go, Problem, Residuals, Result, holding, marching, relative, rms
+from studies.kit.stats import Measured, settled
+
+RA, LOWER_RA = 1e4, 5000.0
+END, EARLY, LATE = 90.0, 30.0, 40.0     # free-fall times: of the run, of K(t), from which averages are taken
+SETTLED = 60.0      # the same where an error of 1 % counts: K of the grid is off by 1 % until 47, by 0.2 % until 60
+OFTEN = 4           # samples a free-fall time
+TIMES = np.arange(1, round(EARLY*OFTEN))/OFTEN      # of K(t)
+MIDDLE = 1/8        # of the height on either side of the middle, where the place of the rolls is read
+
+
+# --- references -------------------------------------------------------------------------------------------------
+
+
+class Reference(NamedTuple):
+    """K of the steady state and its uncertainty, its fields on two grids, K at TIMES and its uncertainty."""
+    ke: float
+    known: float
+    fields: tuple[GridFields, ...]
+    history: np.ndarray
+    history_known: float
+
+
+@cache
+def reference(rows: tuple[int, int, int], ra: float) -> Reference:
+    """Limits of three grids; what the coarsest one changes of them is their uncertainty."""
+    scene = RayleighBenard(ra=ra)
+    until = Time(EARLY*scene.L/scene.free_fall, round(EARLY*OFTEN))
+    states = [newton(scene, n) for n in rows]
+    runs = [run_grid(scene, n, until=until, start=initial(scene, n, START_ENERGY)) for n in rows]
+    coarser, ke = limits([state.ke for state in states], rows)
+    early, curve = limits([one.series.ke for one in runs], rows)
+    fields = tuple(state.fields for state in states[1:])
+    return Reference(ke, abs(ke - coarser)/ke, fields, curve[1:-1], rms(curve - early)/rms(curve))
+
+
+def limits(values: Sequence[Any], rows: Sequence[int]) -> tuple[Any, Any]:
+    """By the two coarser and by the two finer of three grids."""
+    return extrapolated(values[:2], rows[:2]), extrapolated(values[1:], rows[1:])
+
+
+def extrapolated(values: Sequence[Any], rows: Sequence[int]) -> Any:
+    """Second order."""
+    (coarse, fine), (a, b) = values, rows
+    return fine + (fine - coarse)*a**2/(b**2 - a**2)
+
+
+# --- a run ------------------------------------------------------------------------------------------------------
+
+
+class Followed(NamedTuple):
+    """A run: free-fall times, K then, the state at the end."""
+    t: np.ndarray
+    ke: np.ndarray
+    state: Any
+
+
+class HeatedLayer(NamedTuple):
+    """The flow. late : of methods that fluctuate, from when they are averaged. rows : of the references."""
+    ra: float = RA
+    late: float = 0.0
+    rows: tuple[int, int, int] = (32, 48, 64)
+
+    @property
+    def answer(self) -> Reference:
+        return reference(self.rows, self.ra)
+
+    def scene(self, rows: int) -> RayleighBenard:
+        """Unit spacing."""
+        return RayleighBenard(ra=self.ra, L=float(rows))
+
+    def result(self, done: Followed, at: Fields, factor: float = 1.0) -> Result:
+        """All quantities, of fields `at` the end in heights. factor : smoothing's own on K."""
+        ke, history = factor*self.answer.ke, factor*self.answer.history
+        last = self.last(done)
+        change = CubicSpline(done.t, done.ke)(TIMES) - history
+        residuals = {"K": np.array([last.value/ke - 1]), "K(t)": change/rms(history), **compared(at, self.answer.fields)}
+        uncertain = {"K": last.err/ke, "K(t)": self.answer.history_known}
+        return Result(residuals, uncertain, self.share(done, residuals))
+
+    def last(self, done: Followed) -> Measured:
+        """K of the end; of a flow that fluctuates its mean."""
+        if not self.late:
+            return Measured(float(done.ke[-1]))
+        mean, _ = settled(done.ke[done.t > self.late*done.t[-1]/END])
+        return mean
+
+    def share(self, done: Followed, residuals: Residuals) -> dict[str, float]:
+        """Of the run, by quantity: rule at the head of this file."""
+        needed = {name: self.needed(done, max(self.answer.known, rms(q))) for name, q in residuals.items()}
+        needed["K(t)"] = EARLY
+        return {name: min(1.0, float(time/done.t[-1])) for name, time in needed.items()}
+
+    def needed(self, done: Followed, error: float) -> float:
+        """Free-fall times until a quantity of the steady state is as good as its error."""
+        last, width = self.last(done), OFTEN if len(done.ke) > 4*OFTEN else 1
+        means = np.convolve(done.ke/last.value - 1, np.ones(width)/width, "valid")
+        times = done.t[width - 1:]
+        outside = np.flatnonzero(np.abs(means) > error)
+        reached = times[min(outside[-1] + 1, len(times) - 1)] if len(outside) else times[0]
+        if not self.late:
+            return float(reached)
+        return float(reached + (END - self.late)*min(1.0, (last.err/last.value/error)**2))
+
+
+def compared(at: Fields, answer: tuple[GridFields, ...]) -> Residuals:
+    """Velocity and temperature, weighted by volume; the temperature relative to the rms of what differs from 1."""
+    v, T = exact(answer, aligned(at))
+    velocity = relative(np.repeat(at.V, 2), (at.v - v).ravel(), v.ravel())
+    return {"velocity": velocity, "temperature": relative(at.V, at.T - T, T - 1)}
+
+
+def exact(answer: tuple[GridFields, ...], x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Velocities (n, 2) and temperatures at places in heights."""
+    L = answer[0].scene.L
+    at = [interpolate(fields, *(L*x.T)) for fields in answer]
+    rows = [len(fields.y) - 1 for fields in answer]
+    vx, vy, T = (extrapolated([getattr(one, name) for one in at], rows) for name in ("vx", "vy", "T"))
+    return np.stack([vx, vy], axis=1), T
+
+
+def aligned(at: Fields) -> np.ndarray:
+    """Places shifted along x so that the rolls lie as at the start, rising in the middle; in the box |x| <= 1."""
+    x, y = at.x.T
+    near = np.abs(y) < MIDDLE
+    phase = np.angle(np.sum((at.V*at.v[:, 1]*np.exp(-1j*np.pi*x))[near]))
+    return np.stack([(x + phase/np.pi + 1) % 2 - 1, y], axis=1)
+
+
+def in_heights(scene: RayleighBenard, at: Any) -> Any:
+    """Fields with places in heights."""
+    return at._replace(x=at.x/scene.L)
+
+
+# --- methods ----------------------------------------------------------------------------------------------------
+
+
+def on_points(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
+    """Points that stay or move."""
+    scene = flow.scene(rows)
+    ready = method.ready(scene, seed)
+
+    def judge(done: Followed) -> Result:
+        return flow.result(done, in_heights(scene, ready.method.fields(done.state)))
+    return in_time(flow, scene, ready, method.series["ke"], judge)
+
+
+def of_particles(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
+    """Smooth particles; K is that of the smoothed field, held against the grid's field smoothed alike."""
+    scene = flow.scene(rows)
+    ready = method.ready(scene, seed)
+    plain, smooth = smoothed_energy(flow.answer.fields[1], Smoothing(method.weight, method.h, rows))
+
+    def judge(done: Followed) -> Result:
+        return flow.result(done, in_heights(scene, smoothed(ready.method, done.state)), smooth/plain)
+    return in_time(flow, scene, ready, method.series["kg"], judge)._replace(firm=True)
+
+
+def in_time(flow: HeatedLayer, scene: RayleighBenard, ready: Ready, energy: Callable, judge: Callable) -> Problem:
+    """A method of the particles' time loop, with K on the way."""
+    def go(state: np.ndarray, dt: float, steps: int) -> Followed:
+        plan = Plan(dt=dt, steps=steps, series={"ke": energy}, every=every(scene, dt))
+        done = run(Unguarded(ready.method), state, plan)
+        return from_rolls(scene, done.times, done.series["ke"], done.by_id())
+    return Problem(ready.start.shape[1], ready.start, ready.limit, END*unit(scene), go, judge,
+                   holding(ready.method, ready.start), flow.answer.known, bool(flow.late), timed=marching(ready.method))
+
+
+def on_grid(flow: HeatedLayer, form: Any, rows: int, seed: int) -> Problem:
+    """The compressible grid in time."""
+    scene = flow.scene(rows)
+    ready = form.ready(scene)
+    method, march = ready.method, ready.method.march(ready.start)
+
+    def judge(done: Followed) -> Result:
+        return flow.result(done, in_heights(scene, method.fields(done.state)))
+    return Problem(rows*round(scene.width), ready.start, ready.limit, END*unit(scene), sampled(method), judge,
+                   lambda: (march.S, march.scratch), flow.answer.known, timed=method.go)
+
+
+def sampled(method: Any) -> Go:
+    """`go` of a grid with K on the way."""
+    def go(S: np.ndarray, dt: float, steps: int) -> Followed:
+        march, often = method.march(S, dt), every(method.scene, dt)
+        t, ke = list[float](), list[float]()
+        while march.steps < steps:
+            march.go(min(often, steps - march.steps))
+            t.append(march.t)
+            ke.append(kinetic_energy(march.S))
+        return from_rolls(method.scene, t, ke, march.S)
+    return go
+
+
+def unit(scene: RayleighBenard) -> float:
+    """Of time: that of free fall."""
+    return scene.L/scene.free_fall
+
+
+def every(scene: RayleighBenard, dt: float) -> int:
+    """Steps between samples."""
+    return max(1, round(unit(scene)/OFTEN/dt))
+
+
+def from_rolls(scene: RayleighBenard, times: Sequence[float], ke: Sequence[float], state: Any) -> Followed:
+    """Samples, before them the start."""
+    return Followed(np.array([0.0, *times])/unit(scene), np.array([START_ENERGY, *ke]), state)

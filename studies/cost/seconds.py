@@ -1,0 +1,258 @@
+"""Seconds of a step and bytes of arrays: how they are measured, and how they grow with the number of points."""
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from time import perf_counter, process_time
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+from scipy.special import stdtrit
+
+from continuum.fluid import ConstEta, IdealGas
+from continuum.scene import RayleighBenard
+from particles.integral.edge_makers import renormalised
+from particles.integral.edges import NONE_BEYOND
+from particles.integral.layer import Layer
+from particles.integral.points import lattice
+from particles.integrators import RK4
+from particles.run import Plan, run
+from particles.threads import Team
+from particles.weights import Lucy
+from studies.build.spam import PRINTED
+from studies.cost.problem import holding
+from studies.kit.case import Case, Outcome, Report
+from studies.kit.stats import Measured
+from studies.kit.timing import REPEATS, SPREAD_TO_ERR
+
+Clock = Callable[[], float]
+SHORT = 0.01        # CPU seconds that the steps of the shorter of two runs take at least
+MANY = 100_000      # steps of it at most
+FEW, LONG = 3, 0.3  # repeats of what takes longer than so many seconds
+#: half of the interquartile range of 3 repeats -> half width of the 95 % interval of their median: as SPREAD_TO_ERR; the
+#: quartiles of 3 lie half-way between neighbours, on average 0.423 sigma off
+OF_FEW = float(stdtrit(FEW - 1, 0.975)*np.sqrt(np.pi/(2*FEW))/0.423)
+
+WARM = 16           # steps of particles before they are timed, and of a lap: a lattice has no lists to make again
+LAPS, WORK = (5, 25), 2e6               # least and most laps; particles times steps that are enough
+ETA = 0.5
+TURNS, A_TURN = 12, 2                   # of one and two threads; laps of particles in each
+BATCH, STAGE = 10, 4e-8                 # times `short` takes the shorter batch over edges, about; seconds a point and stage
+
+
+# --- how they are measured --------------------------------------------------------------------------------------
+
+
+def median(seconds: Sequence[float], to_err: float) -> Measured:
+    """to_err: half of the interquartile range of repeats to the error of their median."""
+    low, middle, high = np.percentile(seconds, [25, 50, 75])
+    return Measured(float(middle), to_err*float(high - low)/2)
+
+
+def took(f: Callable[[], Any], clock: Clock = process_time) -> float:
+    """Seconds of a call."""
+    began = clock()
+    f()
+    return clock() - began
+
+
+def of_calls(f: Callable[[], Any], clock: Clock = process_time) -> Measured:
+    """Seconds of a call that was made before, so that all is compiled: of REPEATS, or of a FEW where it takes LONG."""
+    first = took(f, clock)
+    count, to_err = (FEW, OF_FEW) if first > LONG else (REPEATS, SPREAD_TO_ERR)
+    more = [took(f, clock) for _ in range(count - 1)]
+    return median([first, *more], to_err)
+
+
+def per_step(advance: Callable[[int], Any], short: float = SHORT, clock: Clock = process_time) -> Measured:
+    """Seconds of one step of advance(steps): the difference of two lengths, which leaves out what every run pays once.
+
+    The steps of the shorter one take at least `short`, and as long as what is paid once: else its scatter would be all
+    that is seen.
+    """
+    def lap(steps: int) -> float:
+        return took(lambda: advance(steps), clock)
+    lap(1)
+    steps = 1
+    while steps < MANY:
+        one, three = lap(steps), lap(3*steps)
+        spent = (three - one)/2
+        if spent >= max(short, one - spent):
+            break
+        steps *= 2
+    return median([(lap(3*steps) - lap(steps))/(2*steps) for _ in range(REPEATS)], SPREAD_TO_ERR)
+
+
+def of_laps(laps: Sequence[float] | np.ndarray) -> Measured:
+    """Of one of them: their median; its error is that of so many, from their quartiles."""
+    return median(list(laps), SPREAD_TO_ERR*np.sqrt(REPEATS/len(laps)))
+
+
+class Laps:
+    """Seconds between calls."""
+
+    def __init__(self, clock: Clock = process_time) -> None:
+        self.clock, self.at = clock, list[float]()
+
+    def __call__(self, fraction: float) -> None:
+        self.at.append(self.clock())
+
+    def total(self, count: int) -> Measured:
+        """Of `count` of them; the error is that of their median, from their quartiles."""
+        return of_laps(np.diff(self.at))*count
+
+
+def array_bytes(*things: Any) -> int:
+    """Bytes of all arrays that things hold, each buffer once; not those of a `method`, which are there to set up only."""
+    sizes = {array.__array_interface__["data"][0]: array.nbytes for array in arrays(things, set())}
+    return sum(sizes.values())
+
+
+def arrays(thing: Any, seen: set[int]) -> Iterator[np.ndarray]:
+    """Arrays in a thing, in what it holds, and so on; of a view its whole buffer."""
+    if id(thing) in seen or isinstance(thing, type | str | int | float):
+        return
+    seen.add(id(thing))
+    if isinstance(thing, np.ndarray):
+        while isinstance(thing.base, np.ndarray):
+            thing = thing.base
+        yield thing
+        return
+    for part in parts(thing):
+        yield from arrays(part, seen)
+
+
+def parts(thing: Any) -> Iterator[Any]:
+    """What a container or an object holds."""
+    if isinstance(thing, tuple | list):
+        yield from thing
+    if isinstance(thing, dict):
+        yield from thing.values()
+    yield from (value for name, value in getattr(thing, "__dict__", {}).items() if name != "method")
+
+
+# --- many points ------------------------------------------------------------------------------------------------
+
+
+class Flock(NamedTuple):
+    """Smooth particles of the printed scheme at Ra = 10 000, lists and walls included; twice as many columns as rows."""
+    method: Any
+    start: np.ndarray
+    dt: float
+    threads: int
+
+    @classmethod
+    def of(cls, rows: int, threads: int = 1) -> "Flock":
+        return cls(*PRINTED.ready(RayleighBenard(ra=1e4, L=float(rows))), threads)
+
+    @property
+    def bytes(self) -> int:
+        return array_bytes(holding(self.method, self.start)())
+
+    def seconds(self, short: float) -> Measured:
+        """Of a step."""
+        count = WORK/(WARM*self.start.shape[1])
+        return of_laps(self.laps(int(np.clip(count, *LAPS)), process_time))
+
+    def turn(self, short: float) -> list[float]:
+        """Some of it."""
+        return list(self.laps(A_TURN, perf_counter))
+
+    def laps(self, count: int, clock: Clock) -> np.ndarray:
+        """Seconds of a step in each of so many laps; the one before the first is left out."""
+        laps, steps = Laps(clock), WARM*(count + 1)
+        run(self.method, self.start, Plan(dt=self.dt, steps=steps, threads=self.threads), laps)
+        return np.diff(laps.at)/WARM
+
+
+class Web(NamedTuple):
+    """RK4 over stored edges of a periodic lattice, twice as many columns as rows."""
+    state: np.ndarray
+    sums: Any
+    integrator: RK4
+
+    @classmethod
+    def of(cls, rows: int, threads: int = 1) -> "Web":
+        points = lattice((2*rows, rows))
+        method = Layer(x=points.x, edges=renormalised(points, Lucy.of(h=2.0)), beyond=NONE_BEYOND, eos=IdealGas(),
+                       law=ConstEta(ETA, ETA), T_plates=(1.0, 1.0), g=0.0)
+        state, team = method.state(1.0, 0.01*np.sin(points.x), np.ones(points.n)), Team(threads)
+        return cls(state, method.start(points.n, team), RK4((4, points.n), team))
+
+    @property
+    def bytes(self) -> int:
+        return array_bytes(*self)
+
+    def seconds(self, short: float) -> Measured:
+        """Of a step."""
+        return per_step(self.advance, short)
+
+    def turn(self, short: float) -> list[float]:
+        """The difference of two lengths, without what every run pays once."""
+        steps = max(1, round(BATCH*short/(RK4.evaluations*STAGE*self.state.shape[1])))
+        one, three = (took(partial(self.advance, count), perf_counter) for count in (steps, 3*steps))
+        return [(three - one)/(2*steps)]
+
+    def advance(self, steps: int) -> None:
+        """From the start, with a step that is stable there for sure."""
+        now = self.state.copy()
+        for _ in range(steps):
+            self.integrator.step(self.sums, now, 0.1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class StepTime(Case):
+    """CPU seconds of a step of so many rows of points."""
+    name: str
+    kind: type[Flock] | type[Web]
+    rows: int
+    a_point: float = 7.6e-5     # seconds that the case takes
+    short: float = SHORT
+    alone: ClassVar[bool] = True
+
+    @property
+    def cost(self) -> float:
+        return 0.5 + self.a_point*self.points
+
+    @property
+    def label(self) -> str:
+        return f"growth, {self.name}, {self.points} points"
+
+    @property
+    def points(self) -> int:
+        return 2*self.rows**2
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        made = self.kind.of(self.rows)
+        return Outcome({"growth": [self.row(made.seconds(self.short), made.bytes, 1, "cpu")]})
+
+    def row(self, seconds: Measured, size: int, threads: int, clock: str) -> dict[str, Any]:
+        """Of the table."""
+        return {"method": self.name, "points": self.points, "threads": threads, "clock": clock,
+                "step_s": seconds.value, "step_s_err": seconds.err, "bytes": size}
+
+
+@dataclass(frozen=True, kw_only=True)
+class TwoThreads(StepTime):
+    """The time that passes in steps of one thread and of two, which take turns: what slows the machine slows both."""
+    turns: int = TURNS
+
+    @property
+    def cost(self) -> float:
+        return 0.5 + self.a_point*self.points*self.turns
+
+    @property
+    def label(self) -> str:
+        return f"threads, {self.name}, {self.points} points, one and two in turns"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        made = {threads: self.kind.of(self.rows, threads) for threads in (1, 2)}
+        seconds: dict[int, list[float]] = {1: [], 2: []}
+        for number in range(self.turns + 1):
+            for threads, laps in seconds.items():
+                turn = made[threads].turn(self.short)
+                laps += turn if number else []      # the first loads what is compiled
+            report(number/self.turns)
+        size = made[1].bytes
+        rows = [self.row(of_laps(laps), size, threads, "wall") for threads, laps in seconds.items()]
+        return Outcome({"growth": rows})
