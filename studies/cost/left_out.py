@@ -81,7 +81,7 @@ def vortex_edge_by_edge(size: int) -> Reduced:
     scene = FLOW.scene(size)
     ready = LATTICE.ready(scene)
     method = replace(ready.method, form=edge_by_edge)
-    return Reduced(of_method(method, ready.start, scene.time, partial(in_vortex, scene)))
+    return Reduced(of_method(method, ready.start, scene.time, partial(in_vortex, scene), known=FLOW.known))
 
 
 def vortex_without_heat(size: int) -> Reduced:
