@@ -108,7 +108,6 @@ def test_growth_laws_are_those_of_the_table():
     said = verdicts(ERRORS, tables)
     assert said["own-speed-growth-spam"][0] == "undecidable"        # a hundred thousand particles of a million
     assert said["own-speed-threads-spam"][0] == "holds"             # 1.8 +- 0.025 against 1.7
-    assert figures.growth(tables["growth"]).axes[0].get_xscale() == "log"
 
 
 # --- what terms cost ------------------------------------------------------------------------------------------------
@@ -165,14 +164,10 @@ def test_every_method_has_a_look_of_its_own():
     assert len(markers) == len({marker for _, marker in markers}) == len(figures.FAMILIES)
 
 
-def test_a_failing_run_does_not_stretch_the_axis_but_is_told_by_its_number():
-    pages = []
-    for worst in (2.0, 9770.0):
-        points = lines({GRID: 1.0})["points"]
-        points.loc[points.index[0], "error"] = worst
-        pages.append(figures.work_precision(points).axes[0])
-    assert not pages[0].texts and pages[0].get_ylim()[1] < 10
-    assert [text.get_text() for text in pages[1].texts] == ["9800"] and pages[1].get_ylim()[1] == 10
+def test_a_failing_run_does_not_stretch_the_axis():
+    points = lines({GRID: 1.0})["points"]
+    points.loc[points.index[0], "error"] = 9770.0
+    assert figures.work_precision(points).axes[0].get_ylim()[1] == 10
 
 
 # --- cases ----------------------------------------------------------------------------------------------------------

@@ -102,7 +102,6 @@ def wave() -> Entries:
         **entries(PARTICLES, flow, particles, Price(1.5, 7e-4)),
         **entries(POINTS_THAT_MOVE, flow, on_lattice, Price(0.3, 2.7e-4)),
         **entries(CELLS, flow, on_grid, Price(0.3, 3e-5)),
-        **entries({PYPDE: None}, flow, pypde.sound, Price(5, 1e-4)),
     }
 
 
@@ -116,7 +115,6 @@ def convection(flow: HeatedLayer = HeatedLayer()) -> Entries:  # noqa: B008 (imm
         **entries(MORE_PARTICLES, smooth, rolls.of_particles, Price(4, 6.8e-4, 3), 2*OF_LIMIT),
         **entries(POINTS_THAT_MOVE, moving, rolls.on_points, Price(1, 2.1e-3, 3), 1.0),
         **entries(CELLS, flow, rolls.on_grid, Price(0.3, 7e-5, 3)),
-        **entries({PYPDE: None}, flow, pypde.convection, Price(4, 2e-4, 3)),
     }
 
 
@@ -162,7 +160,6 @@ LADDERS = (
     Ladder("sound", LATTICES, rungs(16, 128)),
     Ladder("sound", (MOVING,), rungs(16, 192)),
     Ladder("sound", (GRID,), rungs(16, 256)),
-    Ladder("sound", (PYPDE,), rungs(16, 128), kind=SolverRace),
     Ladder("sound", PARTICLES, rungs(16, 64)),
     Ladder("sound", (JITTERED,), rungs(16, 128), THREE),
     Ladder("convection", (GRID,), (*rungs(8, 16), 20, 24, 32, 40, 48, 64, 88)),
@@ -172,7 +169,6 @@ LADDERS = (
     Ladder("convection", (MOVING,), (10, *rungs(12, 32), 44)),
     Ladder("convection", (LUCY,), (16, 20, 25, 30)),
     Ladder("convection", (MONAGHAN, WENDLAND, LESS_STATIC), (12, 16, 20, 25)),
-    Ladder("convection", (PYPDE,), rungs(12, 32), kind=SolverRace),
     Ladder("convection-5000", (GRID,), rungs(8, 48)),
     Ladder("convection-5000", (NEAREST,), (8, 10, *rungs(12, 48))),     # K: 1 % at ten rows already
 )

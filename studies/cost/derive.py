@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from studies.cost.tables import GRID, LUCY, POINTS, RUN, SERIES, TERM
+from studies.cost.tables import GRID, LUCY, POINTS, RUN, SERIES, TERM, with_err
 from studies.kit.fits import power_law
 from studies.kit.stats import Measured, seed_means
 from studies.kit.table import Tables, groups
@@ -25,13 +25,15 @@ NOTHING = pd.DataFrame()
 
 def errors(tables: Tables) -> dict[str, Rows]:
     """What errors cost."""
-    rows = {"growth_laws": list(growth_laws(tables["growth"]))} if "growth" in tables else {}
-    if "errors" not in tables or "runs" not in tables:
-        return rows
-    points = over_seeds(tables["errors"], tables["runs"], tables.get("steps", NOTHING))
-    if points.empty:
-        return rows
-    return {**rows, "points": points.to_dict("records"), "needed": list(needed(points)), "rivals": list(rivals(points))}
+    rows: dict[str, Any] = {}
+    if "growth" in tables:
+        rows["growth_laws"] = list(growth_laws(tables["growth"]))
+    if "errors" in tables and "runs" in tables:
+        points = over_seeds(tables["errors"], tables["runs"], tables.get("steps", NOTHING))
+        rows["points"] = points.to_dict("records")
+        rows["needed"] = list(needed(points))
+        rows["rivals"] = list(rivals(points))
+    return rows
 
 
 # --- error against cost -----------------------------------------------------------------------------------------
@@ -45,8 +47,8 @@ def over_seeds(errors: pd.DataFrame, runs: pd.DataFrame, steps: pd.DataFrame) ->
     seconds = rows["share"]*rows["run_s"] + rows["setup_s"]
     err = np.hypot(rows["share"]*rows["run_s_err"], rows["setup_s_err"])
     rows = rows.assign(error=rows["error"].abs(), cpu_s=seconds, cpu_s_err=err)
-    means = seed_means(rows, [*SERIES, "resolution"], MEANS)
-    return pd.DataFrame(means, columns=POINTS.columns)
+    means = list(seed_means(rows, [*SERIES, "resolution"], MEANS))
+    return pd.DataFrame(means, columns=list(POINTS.columns))
 
 
 def with_steps(errors: pd.DataFrame, steps: pd.DataFrame) -> pd.DataFrame:
@@ -74,33 +76,35 @@ def reached(group: pd.DataFrame, level: float) -> dict[str, Any]:
 
     An error that is not told from zero counts with its uncertainty: where its sign changes it is no measure itself.
     """
-    error = group[["error", "error_err"]].max(axis=1).to_numpy(float)
-    above = np.flatnonzero(~(error <= level))
+    group = group.assign(error=group[["error", "error_err"]].max(axis=1), points_err=0.0)
+    above = np.flatnonzero(~(group["error"] <= level))
     if len(above) == 0:
         first = group.iloc[0]
-        return {"reached": "at most", "cpu_s": first["cpu_s"], "low": 0.0, "high": first["cpu_s"] + first["cpu_s_err"],
-                "points": first["points"], "error": error[0]}
-    if above[-1] == len(error) - 1:
-        return {"reached": "no", "error": error.min()}
-    pair = group.iloc[above[-1]:above[-1] + 2].assign(error=error[above[-1]:above[-1] + 2], points_err=0.0)
+        most = first["cpu_s"] + first["cpu_s_err"]
+        return {"reached": "at most", **first[["cpu_s", "points", "error"]], "low": 0.0, "high": most}
+    last = above[-1]
+    if last == len(group) - 1:
+        return {"reached": "no", "error": group["error"].min()}
+    pair = group.iloc[last:last + 2]
     seconds, half = crossing(pair, "cpu_s", level)
     points, _ = crossing(pair, "points", level)
-    return {"reached": "yes", "cpu_s": seconds, "low": seconds*np.exp(-half), "high": seconds*np.exp(half),
-            "points": points, "error": level}
+    factor = np.exp(half)
+    return {"reached": "yes", "cpu_s": seconds, "low": seconds/factor, "high": seconds*factor, "points": points,
+            "error": level}
 
 
 def crossing(pair: pd.DataFrame, column: str, level: float) -> tuple[float, float]:
     """Cost at a level between the errors of two rows, and the half width of the interval of its logarithm.
 
-    ln cost = ln cost_0 + s (ln cost_1 - ln cost_0), s = ln(error_0/level)/ln(error_0/error_1); all four have errors.
+    ln cost = (1 - s) ln cost_0 + s ln cost_1, s = ln(error_0/level)/ln(error_0/error_1); all four have errors.
     """
-    error, cost = pair["error"].to_numpy(float), pair[column].to_numpy(float)
-    error_err, cost_err = (pair[f"{name}_err"].to_numpy(float) for name in ("error", column))
-    fall, rise = np.log(error[0]/error[1]), np.log(cost[1]/cost[0])
-    s = np.log(error[0]/level)/fall
-    slopes = np.array([(1 - s)*rise/fall, s*rise/fall, 1 - s, s])
-    errs = np.array([*error_err/error, *cost_err/cost])
-    return float(cost[0]*np.exp(s*rise)), float(np.linalg.norm(slopes*errs))
+    error, cost = np.log(pair[["error", column]].to_numpy(float)).T
+    error_err, cost_err = (pair[f"{name}_err"]/pair[name] for name in ("error", column))
+    s = (np.log(level) - error[0])/(error[1] - error[0])
+    weights = np.array([1 - s, s])
+    slope = (cost[1] - cost[0])/(error[1] - error[0])
+    half = np.linalg.norm(weights*np.hypot(cost_err, slope*error_err))
+    return float(np.exp(weights@cost)), float(half)
 
 
 def rivals(points: pd.DataFrame) -> Iterator[dict[str, Any]]:
@@ -111,8 +115,8 @@ def rivals(points: pd.DataFrame) -> Iterator[dict[str, Any]]:
         best = here[here["method"] == LUCY].nsmallest(1, "error")
         for row in best[best["error"] >= grids["error"].min()].to_dict("records"):
             number, seconds = (over_rival(row, grids, column) for column in ("points", "cpu_s"))
-            yield {"scene": scene, "quantity": quantity, "rival": GRID, "error": row["error"], "points": number.value,
-                   "points_err": number.err, "seconds": seconds.value, "seconds_err": seconds.err}
+            yield {"scene": scene, "quantity": quantity, "rival": GRID, "error": row["error"],
+                   **with_err(points=number, seconds=seconds)}
 
 
 def over_rival(best: dict, grids: pd.DataFrame, column: str) -> Measured:
@@ -120,10 +124,12 @@ def over_rival(best: dict, grids: pd.DataFrame, column: str) -> Measured:
 
     Where the coarsest grid is better already, over that of the coarsest grid: the ratio is then at least this.
     """
-    x, y = (np.log(grids[name].to_numpy(float)) for name in ("error", column))
-    ratio = best[column]/np.exp(np.interp(np.log(best["error"]), x, y))
+    x, y = np.log(grids[["error", column]].to_numpy(float)).T
+    error = Measured(best["error"], best["error_err"])
+    rival = np.exp(np.interp(np.log(error.value), x, y))
     slope = np.gradient(y, x).min() if len(x) > 1 else 0.0
-    return Measured(float(ratio), float(abs(ratio*slope*best["error_err"]/best["error"])))
+    ratio = float(best[column]/rival)
+    return Measured(ratio, abs(ratio*slope*error.err/error.value))
 
 
 def growth_laws(growth: pd.DataFrame) -> Iterator[dict[str, Any]]:
@@ -142,8 +148,7 @@ def growth_laws(growth: pd.DataFrame) -> Iterator[dict[str, Any]]:
 def growth_law(method: str, what: str, group: pd.DataFrame, law: Measured) -> dict[str, Any]:
     """A row."""
     points = group["points"]
-    return {"method": method, "what": what, "least": points.min(), "most": points.max(), "value": law.value,
-            "value_err": law.err}
+    return {"method": method, "what": what, "least": points.min(), "most": points.max(), **with_err(value=law)}
 
 
 # --- what leaving out saves -------------------------------------------------------------------------------------
@@ -154,20 +159,22 @@ def terms(tables: Tables) -> dict[str, Rows]:
     if "measured" not in tables:
         return {}
     rows = tables["measured"]
-    wholes = rows[rows["left_out"] == "nothing"].set_index(["scene", "base"]).to_dict("index")
-    parts = [row for row in rows.to_dict("records") if (row["scene"], row["base"]) in wholes]
-    return {"scenes": [saved(row, wholes[row["scene"], row["base"]]) for row in parts]}
+    wholes = rows[rows["left_out"] == "nothing"]
+    both = rows.merge(wholes, on=["scene", "base"], suffixes=("", "_whole"))
+    return {"scenes": [saved(row) for row in both.to_dict("records")]}
 
 
-def saved(part: dict, whole: dict) -> dict[str, Any]:
+def saved(row: dict) -> dict[str, Any]:
     """Ratios, and whether what is changed matters; a run that diverges does, and has taken no time."""
-    step, time = (ratio(part, whole, column) for column in ("step_s", "time_s"))
-    return {**{name: part[name] for name in KEPT}, "step_ratio": step.value, "step_ratio_err": step.err,
-            "time_ratio": time.value, "time_ratio_err": time.err, "bytes_ratio": part["bytes"]/whole["bytes"],
-            "needed": "no" if part["changed"] <= MATTERS else "yes"}
+    step, time = (ratio(row, column) for column in ("step_s", "time_s"))
+    kept = {name: row[name] for name in KEPT}
+    needed = "no" if row["changed"] <= MATTERS else "yes"
+    return {**kept, **with_err(step_ratio=step, time_ratio=time), "bytes_ratio": row["bytes"]/row["bytes_whole"],
+            "needed": needed}
 
 
-def ratio(part: dict, whole: dict, column: str) -> Measured:
+def ratio(row: dict, column: str) -> Measured:
     """Of times; none where they scatter as much as they last, on a busy machine."""
-    over, under = (Measured(row[column], row[f"{column}_err"]) for row in (part, whole))
-    return over/under if abs(under.value) > under.err else NO_NUMBER
+    part = Measured(row[column], row[f"{column}_err"])
+    whole = Measured(row[f"{column}_whole"], row[f"{column}_err_whole"])
+    return part/whole if abs(whole.value) > whole.err else NO_NUMBER

@@ -1,4 +1,4 @@
-"""Error against CPU seconds, seconds against the number of particles, and what leaving a term out saves."""
+"""Error against CPU seconds, and what leaving a term out saves."""
 from typing import Any
 
 import numpy as np
@@ -10,8 +10,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from studies.cost.derive import LEVELS
 from studies.cost.tables import METHODS
 from studies.kit.drawing import Drawing, Drawings
-from studies.kit.figure import COLOURS, LINES, below, figure
-from studies.kit.table import groups
+from studies.kit.figure import COLOURS, LINES, figure
 
 #: scene, quantity, title of each panel
 PANELS = (
@@ -23,7 +22,7 @@ PANELS = (
     ("sound", "velocity", "sound wave: velocity"),
 )
 ACROSS = 3
-WORST = 10.0        # relative error that is drawn: ten times the answer; what is beyond is a number
+WORST = 10.0        # relative error that is drawn: ten times the answer
 #: how the names of a family begin -> its colour, its marker
 FAMILIES = {
     "compressible": ("#000000", "X"),
@@ -47,7 +46,6 @@ KINDS = (
     ("time_ratio", "CPU seconds of a point and unit of time", "//"),
     ("bytes_ratio", "bytes a point", ".."),
 )
-CLOCKS = {"cpu": "one thread, CPU time", "wall": "time that passes"}
 THICK = 0.26
 
 
@@ -68,17 +66,17 @@ def work_precision(points: pd.DataFrame) -> Figure:
         axes.set_ylabel("relative error")
     legend(page, all_axes)
     page.suptitle("What does an error cost?\nEach method at its own best step (py-pde: by formula), one thread, without "
-                  "compiling; bars: 95 %; arrows: beyond the axis", fontsize=10)
+                  "compiling; bars: 95 %", fontsize=10)
     return page
 
 
 def panel(axes: Axes, rows: pd.DataFrame, title: str) -> None:
     """One scene and quantity."""
     draw(axes, rows, "cpu_s", "error")
-    beyond(axes, rows)
     for level in LEVELS:
         axes.axhline(level, color="grey", linewidth=0.6, linestyle=":")
     loglog(axes, title, "CPU seconds, setting up included")
+    axes.set_ylim(top=min(WORST, axes.get_ylim()[1]))
 
 
 def draw(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
@@ -105,19 +103,6 @@ def style(name: str) -> dict[str, Any]:
 def family(name: str) -> str:
     """How a name begins."""
     return next(start for start in FAMILIES if name.startswith(start))
-
-
-def beyond(axes: Axes, rows: pd.DataFrame) -> None:
-    """End the axes at WORST; larger errors are an arrow and their number."""
-    large = rows[rows["error"] > WORST]
-    for row in large.itertuples():
-        colour = style(row.method)["color"]
-        number = float(f"{row.error:.2g}")
-        axes.annotate(f"{number:.0f}", (row.cpu_s, WORST), (0, -26), ha="center", fontsize=8, color=colour,
-                      textcoords="offset points", arrowprops={"arrowstyle": "->", "color": colour})
-    if len(large):
-        axes.set(yscale="log")
-        axes.set_ylim(top=WORST)
 
 
 def limited(rows: pd.DataFrame, column: str) -> np.ndarray:
@@ -152,30 +137,6 @@ def legend(page: Figure, all_axes: np.ndarray) -> None:
     page.legend([handles[name].lines[0] for name in order], order, loc="outside lower center", ncols=4, handlelength=4)
 
 
-def growth(rows: pd.DataFrame) -> Figure:
-    """Nanoseconds a particle and step by number of particles; two threads by the time that passes."""
-    shown = [clock for clock in CLOCKS if clock in set(rows["clock"])]
-    page, all_axes = figure(1, len(shown), width=4.6, height=4.4, squeeze=False)
-    for axes, clock in zip(all_axes[0], shown, strict=True):
-        some = rows[rows["clock"] == clock].sort_values("points")
-        for (method, threads), series in groups(some, ["method", "threads"]):
-            step, err = (1e9*series[name]/series["points"] for name in ("step_s", "step_s_err"))
-            label = f"{method}, {threads:.0f} thread{'s'*(threads > 1)}"
-            axes.errorbar(series["points"], step, err, label=label, **of_threads(method, int(threads)))
-        loglog(axes, CLOCKS[clock], "particles or points")
-        below(axes)
-    all_axes[0, 0].set_ylabel("a particle and step  [ns]")
-    page.suptitle("How does the cost of a step grow? Lists of neighbours included; bars: 95 %", fontsize=10)
-    return page
-
-
-def of_threads(method: str, threads: int) -> dict[str, Any]:
-    """Two are empty and dashed."""
-    look = style(method)
-    fill = "white" if threads > 1 else look["color"]
-    return {**look, "markerfacecolor": fill, "fillstyle": "full", "linestyle": LINES[threads - 1]}
-
-
 # --- what leaving out saves -------------------------------------------------------------------------------------
 
 
@@ -204,5 +165,5 @@ def effect(row: Any) -> str:
     return f"{row.scene}, {row.base}\nwithout {row.left_out}: {size}, {needed}"
 
 
-ERRORS = Drawings(Drawing("work_precision", ("points",), work_precision), Drawing("growth", ("growth",), growth))
+ERRORS = Drawings(Drawing("work_precision", ("points",), work_precision))
 TERMS = Drawings(Drawing("scenes", ("scenes",), scenes))

@@ -28,8 +28,9 @@ from studies.build.moving import MOTIONS
 from studies.build.scenes import TaylorGreen
 from studies.cost.contestants import VortexDecay, on_mac, points
 from studies.cost.problem import Problem, Result, of_method, rms
-from studies.cost.rolls import Followed, HeatedLayer, in_time
+from studies.cost.rolls import HeatedLayer, in_time
 from studies.cost.seconds import SHORT, array_bytes, per_step
+from studies.cost.tables import with_err
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
 
@@ -146,10 +147,7 @@ def layer(rows: int, scheme: Scheme = LATTICE, form: Callable = quickest) -> Red
     scene = LAYER.scene(rows)
     ready = scheme.ready(scene)
     method = replace(ready.method, form=form)
-
-    def judge(done: Followed) -> Result:
-        return Result({"K": np.array([done.ke[-1]/LAYER.answer.ke - 1])})
-    return Reduced(in_time(LAYER, scene, ready._replace(method=method), kinetic, judge))
+    return Reduced(in_time(LAYER, scene, ready._replace(method=method), kinetic, method.fields))
 
 
 def layer_edge_by_edge(rows: int) -> Reduced:
@@ -231,11 +229,11 @@ class LeavingOut(Case):
         dt = problem.dt(OF_LIMIT)
         diverged = np.isnan(residual).any()
         seconds = NO_TIME if diverged else per_step(partial(problem.advance, problem.start, dt), self.short)
-        step, time = seconds*(1/n), seconds*(1/(n*dt*made.unit))
+        step = seconds*(1/n)
+        time = step*(1/(dt*made.unit))
         return {"scene": self.base.scene, "base": self.base.name, "left_out": left_out, "quantity": self.base.quantity,
-                "points": n, "step_s": step.value, "step_s_err": step.err, "time_s": time.value, "time_s_err": time.err,
-                "bytes": array_bytes(problem.held())/n, "error": rms(residual), "error_err": problem.known,
-                "changed": made.change(residual, whole)}
+                "points": n, **with_err(step_s=step, time_s=time), "bytes": array_bytes(problem.held())/n,
+                "error": rms(residual), "error_err": problem.known, "changed": made.change(residual, whole)}
 
 
 def cases(size: str) -> list[Case]:

@@ -9,6 +9,7 @@ import numpy as np
 from particles.run import Divergence
 from studies.cost.problem import Problem, Result, Rung, best, climb, rms
 from studies.cost.seconds import SHORT, array_bytes, of_calls, per_step
+from studies.cost.tables import with_err
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
 from studies.kit.timing import compile_and_run_seconds
@@ -108,8 +109,8 @@ class Race(Case):
         seconds = self.a_step(problem, dt, result.state)*steps
         set_up = of_calls(lambda: self.made().held())
         return {**self.columns, "points": problem.points, "of_limit": fraction, "dt": dt, "steps": steps,
-                "run_s": seconds.value, "run_s_err": seconds.err, "setup_s": set_up.value, "setup_s_err": set_up.err,
-                "compile_s": compile_s, "bytes": array_bytes(problem.held()), "threads": 1}
+                **with_err(run_s=seconds, setup_s=set_up), "compile_s": compile_s,
+                "bytes": array_bytes(problem.held()), "threads": 1}
 
     def a_step(self, problem: Problem, dt: float, end: Any) -> Measured:
         """Seconds; of particles in the disorder of the end: their lists are made more often than at the start."""

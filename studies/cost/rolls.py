@@ -8,7 +8,7 @@ quantity's own error; from there on a flow that fluctuates is averaged until the
 too. What a quantity costs is that share of the run.
 """
 from collections.abc import Callable, Sequence
-from functools import cache
+from functools import cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -37,6 +37,10 @@ SETTLED = 60.0      # the same where an error of 1 % counts: K of the grid is of
 OFTEN = 4           # samples a free-fall time
 TIMES = np.arange(1, round(EARLY*OFTEN))/OFTEN      # of K(t)
 MIDDLE = 1/8        # of the height on either side of the middle, where the place of the rolls is read
+
+
+#: fields of a state
+See = Callable[[np.ndarray], Any]
 
 
 # --- references -------------------------------------------------------------------------------------------------
@@ -123,14 +127,12 @@ class HeatedLayer(NamedTuple):
 
     def needed(self, done: Followed, error: float) -> float:
         """Free-fall times until a quantity of the steady state is as good as its error."""
-        last, width = self.last(done), OFTEN if len(done.ke) > 4*OFTEN else 1
-        means = np.convolve(done.ke/last.value - 1, np.ones(width)/width, "valid")
-        times = done.t[width - 1:]
-        outside = np.flatnonzero(np.abs(means) > error)
-        reached = times[min(outside[-1] + 1, len(times) - 1)] if len(outside) else times[0]
-        if not self.late:
-            return float(reached)
-        return float(reached + (END - self.late)*min(1.0, (last.err/last.value/error)**2))
+        last = self.last(done)
+        means = np.convolve(done.ke/last.value - 1, np.full(OFTEN, 1/OFTEN), "valid")
+        far = np.flatnonzero(np.abs(means) > error)
+        near = min(far.max(initial=-1) + 1, len(means) - 1)
+        averaged = (END - self.late)*min(1.0, (last.err/last.value/error)**2)
+        return float(done.t[near + OFTEN - 1] + averaged)
 
 
 def compared(at: Fields, answer: tuple[GridFields, ...]) -> Residuals:
@@ -157,11 +159,6 @@ def aligned(at: Fields) -> np.ndarray:
     return np.stack([(x + phase/np.pi + 1) % 2 - 1, y], axis=1)
 
 
-def in_heights(scene: RayleighBenard, at: Any) -> Any:
-    """Fields with places in heights."""
-    return at._replace(x=at.x/scene.L)
-
-
 # --- methods ----------------------------------------------------------------------------------------------------
 
 
@@ -169,10 +166,7 @@ def on_points(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
     """Points that stay or move."""
     scene = flow.scene(rows)
     ready = method.ready(scene, seed)
-
-    def judge(done: Followed) -> Result:
-        return flow.result(done, in_heights(scene, ready.method.fields(done.state)))
-    return in_time(flow, scene, ready, method.series["ke"], judge)
+    return in_time(flow, scene, ready, method.series["ke"], ready.method.fields)
 
 
 def of_particles(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
@@ -180,20 +174,21 @@ def of_particles(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Proble
     scene = flow.scene(rows)
     ready = method.ready(scene, seed)
     plain, smooth = smoothed_energy(flow.answer.fields[1], Smoothing(method.weight, method.h, rows))
+    see = partial(smoothed, ready.method)
+    problem = in_time(flow, scene, ready, method.series["kg"], see, smooth/plain)
+    return problem._replace(firm=True)
 
-    def judge(done: Followed) -> Result:
-        return flow.result(done, in_heights(scene, smoothed(ready.method, done.state)), smooth/plain)
-    return in_time(flow, scene, ready, method.series["kg"], judge)._replace(firm=True)
 
-
-def in_time(flow: HeatedLayer, scene: RayleighBenard, ready: Ready, energy: Callable, judge: Callable) -> Problem:
+def in_time(flow: HeatedLayer, scene: RayleighBenard, ready: Ready, energy: Callable, see: See,
+            factor: float = 1.0) -> Problem:
     """A method of the particles' time loop, with K on the way."""
     def go(state: np.ndarray, dt: float, steps: int) -> Followed:
         plan = Plan(dt=dt, steps=steps, series={"ke": energy}, every=every(scene, dt))
         done = run(Unguarded(ready.method), state, plan)
         return from_rolls(scene, done.times, done.series["ke"], done.by_id())
-    return Problem(ready.start.shape[1], ready.start, ready.limit, END*unit(scene), go, judge,
-                   holding(ready.method, ready.start), flow.answer.known, bool(flow.late), timed=marching(ready.method))
+    points = ready.start.shape[1]
+    return problem_of(flow, scene, ready, points, go, see, factor)._replace(
+        held=holding(ready.method, ready.start), timed=marching(ready.method))
 
 
 def on_grid(flow: HeatedLayer, form: Any, rows: int, seed: int) -> Problem:
@@ -201,11 +196,19 @@ def on_grid(flow: HeatedLayer, form: Any, rows: int, seed: int) -> Problem:
     scene = flow.scene(rows)
     ready = form.ready(scene)
     method, march = ready.method, ready.method.march(ready.start)
+    points = rows*round(scene.width)
+    return problem_of(flow, scene, ready, points, sampled(method), method.fields)._replace(
+        held=lambda: (march.S, march.scratch), timed=method.go)
 
+
+def problem_of(flow: HeatedLayer, scene: RayleighBenard, ready: Ready, points: int, go: Go, see: See,
+               factor: float = 1.0) -> Problem:
+    """What all have in common."""
     def judge(done: Followed) -> Result:
-        return flow.result(done, in_heights(scene, method.fields(done.state)))
-    return Problem(rows*round(scene.width), ready.start, ready.limit, END*unit(scene), sampled(method), judge,
-                   lambda: (march.S, march.scratch), flow.answer.known, timed=method.go)
+        at = see(done.state)
+        return flow.result(done, at._replace(x=at.x/scene.L), factor)
+    return Problem(points, ready.start, ready.limit, END*unit(scene), go, judge, tuple, flow.answer.known,
+                   bool(flow.late))
 
 
 def sampled(method: Any) -> Go:

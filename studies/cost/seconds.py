@@ -21,6 +21,7 @@ from particles.threads import Team
 from particles.weights import Lucy
 from studies.build.spam import PRINTED
 from studies.cost.problem import holding
+from studies.cost.tables import with_err
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
 from studies.kit.timing import REPEATS, SPREAD_TO_ERR
@@ -174,10 +175,11 @@ class Web(NamedTuple):
     @classmethod
     def of(cls, rows: int, threads: int = 1) -> "Web":
         points = lattice((2*rows, rows))
-        method = Layer(x=points.x, edges=renormalised(points, Lucy.of(h=2.0)), beyond=NONE_BEYOND, eos=IdealGas(),
-                       law=ConstEta(ETA, ETA), T_plates=(1.0, 1.0), g=0.0)
-        state, team = method.state(1.0, 0.01*np.sin(points.x), np.ones(points.n)), Team(threads)
-        return cls(state, method.start(points.n, team), RK4((4, points.n), team))
+        edges, team = renormalised(points, Lucy.of(h=2.0)), Team(threads)
+        method = Layer(x=points.x, edges=edges, beyond=NONE_BEYOND, eos=IdealGas(), law=ConstEta(ETA, ETA),
+                       T_plates=(1.0, 1.0), g=0.0)
+        state = method.state(1.0, 0.01*np.sin(points.x), np.ones(points.n))
+        return cls(state, method.start(points.n, team), RK4(state.shape, team))
 
     @property
     def bytes(self) -> int:
@@ -189,7 +191,8 @@ class Web(NamedTuple):
 
     def turn(self, short: float) -> list[float]:
         """The difference of two lengths, without what every run pays once."""
-        steps = max(1, round(BATCH*short/(RK4.evaluations*STAGE*self.state.shape[1])))
+        a_step = RK4.evaluations*STAGE*self.state.shape[1]
+        steps = max(1, round(BATCH*short/a_step))
         one, three = (took(partial(self.advance, count), perf_counter) for count in (steps, 3*steps))
         return [(three - one)/(2*steps)]
 
@@ -224,12 +227,13 @@ class StepTime(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         made = self.kind.of(self.rows)
-        return Outcome({"growth": [self.row(made.seconds(self.short), made.bytes, 1, "cpu")]})
+        row = self.row(made.seconds(self.short), made.bytes, 1, "cpu")
+        return Outcome({"growth": [row]})
 
     def row(self, seconds: Measured, size: int, threads: int, clock: str) -> dict[str, Any]:
         """Of the table."""
         return {"method": self.name, "points": self.points, "threads": threads, "clock": clock,
-                "step_s": seconds.value, "step_s_err": seconds.err, "bytes": size}
+                **with_err(step_s=seconds), "bytes": size}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -246,13 +250,14 @@ class TwoThreads(StepTime):
         return f"threads, {self.name}, {self.points} points, one and two in turns"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        made = {threads: self.kind.of(self.rows, threads) for threads in (1, 2)}
-        seconds: dict[int, list[float]] = {1: [], 2: []}
-        for number in range(self.turns + 1):
-            for threads, laps in seconds.items():
-                turn = made[threads].turn(self.short)
-                laps += turn if number else []      # the first loads what is compiled
-            report(number/self.turns)
-        size = made[1].bytes
-        rows = [self.row(of_laps(laps), size, threads, "wall") for threads, laps in seconds.items()]
-        return Outcome({"growth": rows})
+        one, two = (self.kind.of(self.rows, threads) for threads in (1, 2))
+        alone, together = list[float](), list[float]()
+        for turn in range(self.turns + 1):
+            first, second = one.turn(self.short), two.turn(self.short)
+            if turn:        # the first loads what is compiled
+                alone += first
+                together += second
+            report(turn/self.turns)
+        size = one.bytes
+        rows = self.row(of_laps(alone), size, 1, "wall"), self.row(of_laps(together), size, 2, "wall")
+        return Outcome({"growth": list(rows)})

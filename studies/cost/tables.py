@@ -4,6 +4,7 @@ CPU seconds of one thread; errors relative; `_err`: half width of a 95 % interva
 (taylor-green, sound) or rows to the height.
 """
 from studies.build.labels import LABELS
+from studies.kit.stats import Measured
 from studies.kit.table import Table
 
 GRID = LABELS["grid"]
@@ -65,3 +66,11 @@ SCENES = Table("scenes", key=TERM, columns=[
     *TERM, "quantity", "step_s", "step_s_err", "bytes", "step_ratio", "step_ratio_err", "time_ratio", "time_ratio_err",
     "bytes_ratio", "error", "changed", "needed"])
 TERMS = (MEASURED, SCENES)
+
+
+def with_err(**values: Measured) -> dict[str, float]:
+    """Columns of measured values, and of their errors."""
+    row: dict[str, float] = {}
+    for name, (value, err) in values.items():
+        row |= {name: value, f"{name}_err": err}
+    return row
