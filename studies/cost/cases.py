@@ -187,8 +187,7 @@ def paper() -> Iterator[Case]:
         yield StepTime(name=LUCY, kind=Flock, rows=rows)
         yield StepTime(name=LATTICE, kind=Web, rows=rows, a_point=2.5e-5)
     for rows in (100, 224):
-        yield TwoThreads(name=LUCY, kind=Flock, rows=rows)
-        yield TwoThreads(name=LATTICE, kind=Web, rows=rows, a_point=2.5e-5)
+        yield TwoThreads(name=LUCY, rows=rows)
 
 
 def quick() -> Iterator[Case]:

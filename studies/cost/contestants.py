@@ -44,15 +44,16 @@ class VortexDecay(NamedTuple):
 
     def residuals(self, scene: TaylorGreen, at: Fields) -> Residuals:
         """Of fields at the end."""
-        return self.against(scene, at.V, velocities(solved(self.mach), at.x/scene.L), at.v)
+        exact = velocities(solved(self.mach), at.x/scene.L)
+        return self.against(scene, exact, at.V, at.v)
 
-    def against(self, scene: TaylorGreen, V: np.ndarray, exact: np.ndarray, v: np.ndarray) -> Residuals:
-        """Velocities (n, 2) of volumes V against exact ones in units of the speed."""
+    def against(self, scene: TaylorGreen, exact: np.ndarray, V: np.ndarray, v: np.ndarray) -> Residuals:
+        """Of velocities (n, 2) of volumes V; exact ones are in units of the speed."""
         measured = v/scene.speed
-        velocity = relative(np.repeat(V, 2), (measured - exact).ravel(), exact.ravel())
         start, end = V.sum()/2, V@(measured**2).sum(axis=1)
         decay = np.log(start/end)/(2*DECAYS)
-        return {"velocity": velocity, "decay": np.array([decay/solved(self.mach).decay - 1])}
+        off = decay/solved(self.mach).decay - 1
+        return {"velocity": relative(V, measured - exact, exact), "decay": np.array([off])}
 
     def places(self, scene: TaylorGreen, seed: int) -> tuple[np.ndarray, tuple]:
         """A jittered lattice (n, 2), and (rho, v, T) there."""
@@ -69,14 +70,9 @@ class StandingWave(NamedTuple):
 
     def residuals(self, scene: Sound, at: Fields) -> Residuals:
         """Of fields at the end."""
-        x = at.x[:, 0]
-        return self.against(scene, at.V, (x, at.v[:, 0]), (x, at.T))
-
-    def against(self, scene: Sound, V: np.ndarray, u: tuple, T: tuple) -> Residuals:
-        """Velocities and temperatures, each (x, values): a staggered grid has them at different places."""
-        _, exact_u, _ = scene.exactly(scene.time, u[0])
-        _, _, exact_T = scene.exactly(scene.time, T[0])
-        return {"velocity": relative(V, u[1] - exact_u, exact_u), "temperature": relative(V, T[1] - 1 - exact_T, exact_T)}
+        _, u, T = scene.exactly(scene.time, at.x[:, 0])
+        velocity = relative(at.V, at.v[:, 0] - u, u)
+        return {"velocity": velocity, "temperature": relative(at.V, at.T - 1 - T, T)}
 
     def places(self, scene: Sound, seed: int) -> tuple[np.ndarray, tuple]:
         """A lattice that is displaced as the density at the start wants it, with the fields of the lattice."""
@@ -98,7 +94,8 @@ def points(flow: Any, method: Any, size: int, seed: int) -> Problem:
 def on_lattice(flow: Any, method: Any, size: int, seed: int) -> Problem:
     """Moving points from a lattice: in sound jitter would be louder than the wave."""
     scene = flow.scene(size)
-    return in_flow(flow, scene, method.ready(scene, seed, x=lattice((scene.width, scene.L)).x))
+    x = lattice((scene.width, scene.L)).x
+    return in_flow(flow, scene, method.ready(scene, seed, x=x))
 
 
 def in_flow(flow: Any, scene: Any, ready: Ready) -> Problem:
@@ -135,7 +132,8 @@ def smoothed(method: Spam, state: np.ndarray) -> Fields:
     sums, ordered, _ = method.look(state)
     at = fields_at(sums, ordered, *state[:2])
     n = state.shape[1]
-    return Fields(state[:2].T, np.stack([at.vx, at.vy], axis=1), at.rho, at.T, np.full(n, 1/n))
+    v = np.stack([at.vx, at.vy], axis=1)
+    return Fields(state[:2].T, v, at.rho, at.T, np.full(n, 1/n))
 
 
 # --- grids ------------------------------------------------------------------------------------------------------
@@ -149,8 +147,9 @@ def on_grid(flow: Any, form: Any, size: int, seed: int) -> Problem:
 
     def judge(S: np.ndarray) -> Result:
         return Result(flow.residuals(scene, method.fields(S)))
-    return Problem(round(scene.L)*round(scene.width), ready.start, ready.limit, scene.time, method.go, judge,
-                   lambda: (march.S, march.scratch), flow.known)
+    cells = round(scene.L*scene.width)
+    return Problem(cells, ready.start, ready.limit, scene.time, method.go, judge, lambda: (march.S, march.scratch),
+                   flow.known)
 
 
 def on_mac(flow: VortexDecay, form: None, size: int, seed: int) -> Problem:
@@ -162,8 +161,9 @@ def on_mac(flow: VortexDecay, form: None, size: int, seed: int) -> Problem:
     case = Case(ra=1/nu**2, pr=1.0, box=CELL, rows=size//2)
     mac.cache_clear()       # what set-up takes is to be seen each time
     start = stirred(case)
-    made, limit = Projection(case, start), CFL/case.rows/np.abs(start).max()
-    return Problem(case.rows*case.columns, start, limit, DECAYS/(2*nu*np.pi**2), partial(projected, case),
+    made, fastest = Projection(case, start), np.abs(start).max()
+    time = DECAYS/(2*nu*np.pi**2)
+    return Problem(case.rows*case.columns, start, CFL/case.rows/fastest, time, partial(projected, case),
                    partial(decayed, case, start), lambda: (made,), firm=True)
 
 
@@ -179,9 +179,10 @@ def decayed(case: Case, start: np.ndarray, q: np.ndarray) -> Result:
     """Against the start, smaller by e."""
     flow = slice(0, case.mac.ends[1])
     exact = start[flow]*np.exp(-DECAYS)
-    K0, K = (State(case=case, q=state).K for state in (start, q))
+    first, last = (State(case=case, q=state).K for state in (start, q))
+    decay = np.log(first/last)/(2*DECAYS)
     velocity = relative(np.ones(exact.size), q[flow] - exact, exact)
-    return Result({"velocity": velocity, "decay": np.array([np.log(K0/K)/(2*DECAYS) - 1])})
+    return Result({"velocity": velocity, "decay": np.array([decay - 1])})
 
 
 def stirred(case: Case) -> np.ndarray:

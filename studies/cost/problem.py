@@ -125,9 +125,10 @@ def holding(method: Any, start: np.ndarray) -> Callable[[], tuple]:
 
 
 def relative(V: np.ndarray, difference: np.ndarray, scale: np.ndarray) -> np.ndarray:
-    """Differences, (n,), at points of volumes V, over the rms of a scale."""
+    """Differences, (n,) or (n, 2), at points of volumes V, over the rms of a scale."""
     w = np.sqrt(V/V.mean())
-    return np.asarray(w*difference/rms(w*scale))
+    size = rms(w*scale.T)
+    return np.ravel(w*difference.T/size)
 
 
 def rms(values: np.ndarray) -> float:

@@ -1,4 +1,4 @@
-"""A method in a flow at a resolution, as a case: its longest step, its errors, its seconds and bytes."""
+"""A method in a flow at a resolution, as a case: its longest step, its errors, its seconds."""
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,11 +8,10 @@ import numpy as np
 
 from particles.run import Divergence
 from studies.cost.problem import Problem, Result, Rung, best, climb, rms
-from studies.cost.seconds import SHORT, array_bytes, of_calls, per_step
+from studies.cost.seconds import SHORT, of_calls, per_step
 from studies.cost.tables import with_err
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
-from studies.kit.timing import compile_and_run_seconds
 
 TRIES = 1.4         # of what an entry says that a case takes: what trying longer steps does to it
 LONGER = 10         # are the runs that time particles: they have to hold some lists
@@ -68,25 +67,17 @@ class Race(Case):
         return {"scene": self.scene, "method": self.entry.name, "resolution": self.resolution, "seed": self.seed}
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        problem, compile_s = self.compiled()
-        report(0.2)
+        problem = self.made()
         rungs = climb(problem, self.entry.first)
         report(0.7)
         rung = best(rungs)
         errors = self.errors(rung.result or DIVERGED, problem.known)
-        timings = [self.timing(problem, rung.fraction, rung.result, compile_s)] if rung.result else []
+        timings = [self.timing(problem, rung.fraction, rung.result)] if rung.result else []
         return Outcome({"steps": list(self.steps(rungs)), "errors": list(errors), "runs": timings})
 
     def made(self) -> Any:
         """What the entry makes."""
         return self.entry.make(self.entry.flow, self.entry.method, self.resolution, self.seed)
-
-    def compiled(self) -> tuple[Problem, float]:
-        """The problem, and seconds of compiling it and its step."""
-        problem, made_s, _ = compile_and_run_seconds(self.made)
-        dt = self.entry.first*problem.limit
-        _, loop_s, _ = compile_and_run_seconds(lambda: problem.advance(problem.start, dt, 1))
-        return problem, made_s + loop_s
 
     def steps(self, rungs: list[Rung]) -> Iterator[dict[str, Any]]:
         """Rows of the table `steps`."""
@@ -103,14 +94,13 @@ class Race(Case):
             yield {**self.columns, "quantity": name, "error": rms(residual), "error_err": err,
                    "share": result.share.get(name, 1.0)}
 
-    def timing(self, problem: Problem, fraction: float, result: Result, compile_s: float) -> dict[str, Any]:
+    def timing(self, problem: Problem, fraction: float, result: Result) -> dict[str, Any]:
         """The row of the table `runs`."""
         steps, dt = problem.steps(fraction), problem.dt(fraction)
         seconds = self.a_step(problem, dt, result.state)*steps
         set_up = of_calls(lambda: self.made().held())
         return {**self.columns, "points": problem.points, "of_limit": fraction, "dt": dt, "steps": steps,
-                **with_err(run_s=seconds, setup_s=set_up), "compile_s": compile_s,
-                "bytes": array_bytes(problem.held()), "threads": 1}
+                **with_err(run_s=seconds, setup_s=set_up)}
 
     def a_step(self, problem: Problem, dt: float, end: Any) -> Measured:
         """Seconds; of particles in the disorder of the end: their lists are made more often than at the start."""

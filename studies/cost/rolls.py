@@ -15,7 +15,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from continuum.gas.fields import Fields as GridFields
-from continuum.gas.fields import initial, interpolate, kinetic_energy
+from continuum.gas.fields import Values, initial, interpolate, kinetic_energy
 from continuum.gas.newton import steady as newton
 from continuum.gas.solve import run as run_grid
 from continuum.scene import RayleighBenard
@@ -65,12 +65,14 @@ def reference(rows: tuple[int, int, int], ra: float) -> Reference:
     coarser, ke = limits([state.ke for state in states], rows)
     early, curve = limits([one.series.ke for one in runs], rows)
     fields = tuple(state.fields for state in states[1:])
-    return Reference(ke, abs(ke - coarser)/ke, fields, curve[1:-1], rms(curve - early)/rms(curve))
+    known, history_known = abs(ke - coarser)/ke, rms(curve - early)/rms(curve)
+    return Reference(ke, known, fields, curve[1:-1], history_known)
 
 
 def limits(values: Sequence[Any], rows: Sequence[int]) -> tuple[Any, Any]:
     """By the two coarser and by the two finer of three grids."""
-    return extrapolated(values[:2], rows[:2]), extrapolated(values[1:], rows[1:])
+    coarser = extrapolated(values[:2], rows[:2])
+    return coarser, extrapolated(values[1:], rows[1:])
 
 
 def extrapolated(values: Sequence[Any], rows: Sequence[int]) -> Any:
@@ -105,18 +107,19 @@ class HeatedLayer(NamedTuple):
 
     def result(self, done: Followed, at: Fields, factor: float = 1.0) -> Result:
         """All quantities, of fields `at` the end in heights. factor : smoothing's own on K."""
-        ke, history = factor*self.answer.ke, factor*self.answer.history
-        last = self.last(done)
-        change = CubicSpline(done.t, done.ke)(TIMES) - history
-        residuals = {"K": np.array([last.value/ke - 1]), "K(t)": change/rms(history), **compared(at, self.answer.fields)}
-        uncertain = {"K": last.err/ke, "K(t)": self.answer.history_known}
+        last, answer = self.last(done)*(1/factor), self.answer
+        early = CubicSpline(done.t, done.ke/factor)(TIMES) - answer.history
+        residuals = {"K": np.array([last.value/answer.ke - 1]), "K(t)": early/rms(answer.history)}
+        residuals |= compared(at, answer.fields)
+        uncertain = {"K": last.err/answer.ke, "K(t)": answer.history_known}
         return Result(residuals, uncertain, self.share(done, residuals))
 
     def last(self, done: Followed) -> Measured:
         """K of the end; of a flow that fluctuates its mean."""
         if not self.late:
             return Measured(float(done.ke[-1]))
-        mean, _ = settled(done.ke[done.t > self.late*done.t[-1]/END])
+        since = self.late/END*done.t[-1]
+        mean, _ = settled(done.ke[done.t > since])
         return mean
 
     def share(self, done: Followed, residuals: Residuals) -> dict[str, float]:
@@ -137,26 +140,26 @@ class HeatedLayer(NamedTuple):
 
 def compared(at: Fields, answer: tuple[GridFields, ...]) -> Residuals:
     """Velocity and temperature, weighted by volume; the temperature relative to the rms of what differs from 1."""
-    v, T = exact(answer, aligned(at))
-    velocity = relative(np.repeat(at.V, 2), (at.v - v).ravel(), v.ravel())
-    return {"velocity": velocity, "temperature": relative(at.V, at.T - T, T - 1)}
+    exact = at_places(answer, aligned(at))
+    v = np.stack([exact.vx, exact.vy], axis=1)
+    return {"velocity": relative(at.V, at.v - v, v), "temperature": relative(at.V, at.T - exact.T, exact.T - 1)}
 
 
-def exact(answer: tuple[GridFields, ...], x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Velocities (n, 2) and temperatures at places in heights."""
-    L = answer[0].scene.L
-    at = [interpolate(fields, *(L*x.T)) for fields in answer]
+def at_places(answer: tuple[GridFields, ...], x: np.ndarray) -> Values:
+    """The limit at places (n, 2) in heights."""
+    x, y = answer[0].scene.L*x.T
+    values = [np.array(interpolate(fields, x, y)) for fields in answer]
     rows = [len(fields.y) - 1 for fields in answer]
-    vx, vy, T = (extrapolated([getattr(one, name) for one in at], rows) for name in ("vx", "vy", "T"))
-    return np.stack([vx, vy], axis=1), T
+    return Values(*extrapolated(values, rows))
 
 
 def aligned(at: Fields) -> np.ndarray:
     """Places shifted along x so that the rolls lie as at the start, rising in the middle; in the box |x| <= 1."""
     x, y = at.x.T
     near = np.abs(y) < MIDDLE
-    phase = np.angle(np.sum((at.V*at.v[:, 1]*np.exp(-1j*np.pi*x))[near]))
-    return np.stack([(x + phase/np.pi + 1) % 2 - 1, y], axis=1)
+    wave = at.V*at.v[:, 1]*np.exp(-1j*np.pi*x)
+    shift = np.angle(wave[near].sum())/np.pi
+    return np.stack([(x + shift + 1) % 2 - 1, y], axis=1)
 
 
 # --- methods ----------------------------------------------------------------------------------------------------
@@ -236,4 +239,5 @@ def every(scene: RayleighBenard, dt: float) -> int:
 
 def from_rolls(scene: RayleighBenard, times: Sequence[float], ke: Sequence[float], state: Any) -> Followed:
     """Samples, before them the start."""
-    return Followed(np.array([0.0, *times])/unit(scene), np.array([START_ENERGY, *ke]), state)
+    t = np.array([0.0, *times])/unit(scene)
+    return Followed(t, np.array([START_ENERGY, *ke]), state)

@@ -1,7 +1,6 @@
-"""Seconds of a step and bytes of arrays: how they are measured, and how they grow with the number of points."""
+"""Seconds of a step, bytes of arrays: how they are measured; how seconds grow with the number of points."""
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from time import perf_counter, process_time
 from typing import Any, ClassVar, NamedTuple
@@ -20,7 +19,6 @@ from particles.run import Plan, run
 from particles.threads import Team
 from particles.weights import Lucy
 from studies.build.spam import PRINTED
-from studies.cost.problem import holding
 from studies.cost.tables import with_err
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
@@ -38,7 +36,6 @@ WARM = 16           # steps of particles before they are timed, and of a lap: a 
 LAPS, WORK = (5, 25), 2e6               # least and most laps; particles times steps that are enough
 ETA = 0.5
 TURNS, A_TURN = 12, 2                   # of one and two threads; laps of particles in each
-BATCH, STAGE = 10, 4e-8                 # times `short` takes the shorter batch over edges, about; seconds a point and stage
 
 
 # --- how they are measured --------------------------------------------------------------------------------------
@@ -146,18 +143,10 @@ class Flock(NamedTuple):
     def of(cls, rows: int, threads: int = 1) -> "Flock":
         return cls(*PRINTED.ready(RayleighBenard(ra=1e4, L=float(rows))), threads)
 
-    @property
-    def bytes(self) -> int:
-        return array_bytes(holding(self.method, self.start)())
-
     def seconds(self, short: float) -> Measured:
         """Of a step."""
         count = WORK/(WARM*self.start.shape[1])
         return of_laps(self.laps(int(np.clip(count, *LAPS)), process_time))
-
-    def turn(self, short: float) -> list[float]:
-        """Some of it."""
-        return list(self.laps(A_TURN, perf_counter))
 
     def laps(self, count: int, clock: Clock) -> np.ndarray:
         """Seconds of a step in each of so many laps; the one before the first is left out."""
@@ -173,28 +162,17 @@ class Web(NamedTuple):
     integrator: RK4
 
     @classmethod
-    def of(cls, rows: int, threads: int = 1) -> "Web":
+    def of(cls, rows: int) -> "Web":
         points = lattice((2*rows, rows))
-        edges, team = renormalised(points, Lucy.of(h=2.0)), Team(threads)
+        edges, team = renormalised(points, Lucy.of(h=2.0)), Team(1)
         method = Layer(x=points.x, edges=edges, beyond=NONE_BEYOND, eos=IdealGas(), law=ConstEta(ETA, ETA),
                        T_plates=(1.0, 1.0), g=0.0)
         state = method.state(1.0, 0.01*np.sin(points.x), np.ones(points.n))
         return cls(state, method.start(points.n, team), RK4(state.shape, team))
 
-    @property
-    def bytes(self) -> int:
-        return array_bytes(*self)
-
     def seconds(self, short: float) -> Measured:
         """Of a step."""
         return per_step(self.advance, short)
-
-    def turn(self, short: float) -> list[float]:
-        """The difference of two lengths, without what every run pays once."""
-        a_step = RK4.evaluations*STAGE*self.state.shape[1]
-        steps = max(1, round(BATCH*short/a_step))
-        one, three = (took(partial(self.advance, count), perf_counter) for count in (steps, 3*steps))
-        return [(three - one)/(2*steps)]
 
     def advance(self, steps: int) -> None:
         """From the start, with a step that is stable there for sure."""
@@ -227,18 +205,19 @@ class StepTime(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         made = self.kind.of(self.rows)
-        row = self.row(made.seconds(self.short), made.bytes, 1, "cpu")
+        row = self.row(made.seconds(self.short), 1, "cpu")
         return Outcome({"growth": [row]})
 
-    def row(self, seconds: Measured, size: int, threads: int, clock: str) -> dict[str, Any]:
+    def row(self, seconds: Measured, threads: int, clock: str) -> dict[str, Any]:
         """Of the table."""
         return {"method": self.name, "points": self.points, "threads": threads, "clock": clock,
-                **with_err(step_s=seconds), "bytes": size}
+                **with_err(step_s=seconds)}
 
 
 @dataclass(frozen=True, kw_only=True)
 class TwoThreads(StepTime):
     """The time that passes in steps of one thread and of two, which take turns: what slows the machine slows both."""
+    kind: type[Flock] = Flock
     turns: int = TURNS
 
     @property
@@ -250,14 +229,13 @@ class TwoThreads(StepTime):
         return f"threads, {self.name}, {self.points} points, one and two in turns"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        one, two = (self.kind.of(self.rows, threads) for threads in (1, 2))
+        one, two = (Flock.of(self.rows, threads) for threads in (1, 2))
         alone, together = list[float](), list[float]()
         for turn in range(self.turns + 1):
-            first, second = one.turn(self.short), two.turn(self.short)
+            pair = [flock.laps(A_TURN, perf_counter) for flock in (one, two)]
             if turn:        # the first loads what is compiled
-                alone += first
-                together += second
+                alone += list(pair[0])
+                together += list(pair[1])
             report(turn/self.turns)
-        size = one.bytes
-        rows = self.row(of_laps(alone), size, 1, "wall"), self.row(of_laps(together), size, 2, "wall")
+        rows = self.row(of_laps(alone), 1, "wall"), self.row(of_laps(together), 2, "wall")
         return Outcome({"growth": list(rows)})

@@ -24,11 +24,9 @@ METHODS = (GRID, MAC, PYPDE, NEAREST, LATTICE, WIDE, JITTERED, RELAXED, LUCY, MO
 
 RUN = ["scene", "method", "resolution", "seed"]
 #: what the run at the method's own best step takes (py-pde's by formula): points, steps of dt (`of_limit`: of the
-#: stability limit), CPU seconds of the steps, of setting up, of compiling (from the second process on: of loading what
-#: is compiled), bytes of arrays
+#: stability limit), CPU seconds of the steps, of setting up
 RUNS = Table("runs", key=RUN, columns=[
-    *RUN, "points", "of_limit", "dt", "steps", "run_s", "run_s_err", "setup_s", "setup_s_err", "compile_s", "bytes",
-    "threads"])
+    *RUN, "points", "of_limit", "dt", "steps", "run_s", "run_s_err", "setup_s", "setup_s_err"])
 #: share: of the steps that this quantity needs (a steady state is reached, and averaged, before the run ends)
 ERRORS = Table("errors", key=[*RUN, "quantity"], columns=[*RUN, "quantity", "error", "error_err", "share"])
 #: how the step was found: what halving it changes (time_error) against the error that is left then (space_error); for
@@ -38,7 +36,7 @@ STEPS = Table("steps", key=[*RUN, "quantity", "of_limit"], columns=[
 SERIES = ["scene", "quantity", "method"]
 #: means over seeds: error against CPU seconds of steps and setting up
 POINTS = Table("points", key=[*SERIES, "resolution"], columns=[
-    *SERIES, "resolution", "points", "seeds", "error", "error_err", "cpu_s", "cpu_s_err", "setup_s", "bytes"])
+    *SERIES, "resolution", "points", "seeds", "error", "error_err", "cpu_s", "cpu_s_err", "setup_s"])
 #: CPU seconds at which each method comes below a level of error and stays there; reached: yes, at most (its coarsest
 #: run is below already) or no (then error is the least one); points there
 NEEDED = Table("needed", key=[*SERIES, "level"], columns=[
@@ -46,9 +44,9 @@ NEEDED = Table("needed", key=[*SERIES, "level"], columns=[
 #: the printed particles of least error over the grid with that error: points and CPU seconds
 RIVALS = Table("rivals", key=["scene", "quantity"], columns=[
     "scene", "quantity", "rival", "error", "points", "points_err", "seconds", "seconds_err"])
-#: seconds of a step by number of particles: CPU time, or the time that passes; bytes of arrays while it runs
+#: seconds of a step by number of particles: CPU time, or the time that passes
 GROWTH = Table("growth", key=["method", "points", "threads", "clock"], columns=[
-    "method", "points", "threads", "clock", "step_s", "step_s_err", "bytes"])
+    "method", "points", "threads", "clock", "step_s", "step_s_err"])
 #: d ln(seconds of a step)/d ln(particles); of two threads: how much faster than one
 GROWTH_LAWS = Table("growth_laws", key=["method", "what", "most"], columns=[
     "method", "what", "least", "most", "value", "value_err"])
