@@ -15,8 +15,9 @@ from studies.cost.problem import HALVINGS, STRETCH, STRETCHES, WORTH, Problem, R
 from studies.cost.pypde import SolverRace
 from studies.cost.race import Race
 from studies.cost.rolls import END, LATE, LOWER_RA, OFTEN, SETTLED, Followed, HeatedLayer
-from studies.cost.seconds import TwoThreads, Web, array_bytes, median, of_calls, per_step
+from studies.cost.seconds import TwoThreads, Web, array_bytes, median, per_step
 from studies.cost.tables import GRID, MAC, NEAREST, PYPDE
+from studies.kit.timing import SPREAD_TO_ERR
 
 
 def toy(order: int, space: float = 1e-3, limit: float = 1.0, chaotic: bool = False) -> Problem:
@@ -122,18 +123,8 @@ def test_seconds_of_a_step_leave_out_what_every_run_pays_once():
     assert abs(step.value - 0.01) < 2*step.err
 
 
-def test_repeats_are_few_where_a_call_is_long():
-    now, calls = [0.0], []
-
-    def call(seconds):
-        calls.append(seconds)
-        now[0] += seconds
-    assert of_calls(lambda: call(0.1), lambda: now[0]).value == pytest.approx(0.1) and len(calls) == 7
-    assert of_calls(lambda: call(1.0), lambda: now[0]).value == pytest.approx(1) and len(calls) == 10
-
-
 def test_a_time_is_the_median_of_its_repeats_and_its_error_half_of_their_quartiles():
-    assert median([1, 2, 9, 4, 5, 8, 6], 1.0) == (5, pytest.approx((7 - 3)/2))       # by hand: 1 2 4 5 6 8 9
+    assert median([1, 2, 9, 4, 5, 8, 6]) == (5, pytest.approx(SPREAD_TO_ERR*(7 - 3)/2))      # by hand: 1 2 4 5 6 8 9
 
 
 def test_bytes_count_every_buffer_once_and_nothing_that_only_sets_up():

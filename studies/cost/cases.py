@@ -43,7 +43,6 @@ from studies.cost.tables import (
     MOVING,
     NEAREST,
     PYPDE,
-    RELAXED,
     WENDLAND,
     WIDE,
 )
@@ -106,12 +105,10 @@ def wave() -> Entries:
 
 
 def convection(flow: HeatedLayer = HeatedLayer()) -> Entries:  # noqa: B008 (immutable)
-    """In convection; relaxing random points takes minutes where they are many."""
-    relaxed = {RELAXED: SCHEMES["relaxed-plates"]}
+    """In convection."""
     moving, smooth = (flow._replace(late=late) for late in (SETTLED, LATE))
     return {
         **entries(HELD, flow, rolls.on_points, Price(1, 5.3e-4, 3)),
-        **entries(relaxed, flow, rolls.on_points, Price(1, 0.11)),
         **entries(MORE_PARTICLES, smooth, rolls.of_particles, Price(4, 6.8e-4, 3), 2*OF_LIMIT),
         **entries(POINTS_THAT_MOVE, moving, rolls.on_points, Price(1, 2.1e-3, 3), 1.0),
         **entries(CELLS, flow, rolls.on_grid, Price(0.3, 7e-5, 3)),
@@ -165,7 +162,6 @@ LADDERS = (
     Ladder("convection", (GRID,), (*rungs(8, 16), 20, 24, 32, 40, 48, 64, 88)),
     Ladder("convection", LATTICES, rungs(12, 48)),
     Ladder("convection", (JITTERED,), (*rungs(12, 32), 40), TWO),
-    Ladder("convection", (RELAXED,), (8, 10, 12, 16)),
     Ladder("convection", (MOVING,), (10, *rungs(12, 32), 44)),
     Ladder("convection", (LUCY,), (16, 20, 25, 30)),
     Ladder("convection", (MONAGHAN, WENDLAND, LESS_STATIC), (12, 16, 20, 25)),

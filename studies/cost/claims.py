@@ -1,11 +1,11 @@
 """What errors cost and what terms cost, judged: particles, points and grids    [KHP95 Secs I, II, VII; RR98 Sec. III]"""
 import numpy as np
 
-from studies.cost.tables import GRID, JITTERED, LATTICE, LUCY, MOVING, NEAREST, PYPDE, RELAXED, WIDE
+from studies.cost.tables import GRID, JITTERED, LATTICE, LUCY, MOVING, NEAREST, PYPDE, WIDE
 from studies.kit.ask import Value, first, last, one
 from studies.kit.claim import Claim
 
-FIXED = (NEAREST, LATTICE, WIDE, JITTERED, RELAXED)
+FIXED = (NEAREST, LATTICE, WIDE, JITTERED)
 K = {"scene": "convection", "quantity": "K"}
 LOWER_K = {"scene": "convection-5000", "quantity": "K"}
 VORTEX, SOUND, LOWER = ({"scene": name, "quantity": "velocity"} for name in ("taylor-green", "sound", "convection-5000"))

@@ -41,12 +41,12 @@ def errors(tables: Tables) -> dict[str, Rows]:
 
 def over_seeds(errors: pd.DataFrame, runs: pd.DataFrame, steps: pd.DataFrame) -> pd.DataFrame:
     """Means, of resolutions at which no seed diverged. Their intervals hold the error of time."""
-    diverged = errors[errors["quantity"] == "diverged"].set_index(RUNG).index
+    diverged = errors.query("quantity == 'diverged'").set_index(RUNG).index
     rows = with_steps(errors, steps).merge(runs, on=RUN)
     rows = rows[~rows.set_index(RUNG).index.isin(diverged)]
-    seconds = rows["share"]*rows["run_s"] + rows["setup_s"]
-    err = np.hypot(rows["share"]*rows["run_s_err"], rows["setup_s_err"])
-    rows = rows.assign(error=rows["error"].abs(), cpu_s=seconds, cpu_s_err=err)
+    seconds = rows.share*rows.run_s + rows.setup_s
+    err = np.hypot(rows.share*rows.run_s_err, rows.setup_s_err)
+    rows = rows.assign(error=rows.error.abs(), cpu_s=seconds, cpu_s_err=err)
     means = list(seed_means(rows, [*SERIES, "resolution"], MEANS))
     return pd.DataFrame(means, columns=list(POINTS.columns))
 
@@ -56,19 +56,20 @@ def with_steps(errors: pd.DataFrame, steps: pd.DataFrame) -> pd.DataFrame:
     if steps.empty:
         return errors
     key = [*RUN, "quantity"]
-    good = steps[steps["accepted"] == 1].sort_values("of_limit")
-    chosen = good.drop_duplicates(key, keep="last")[[*key, "time_error"]]
-    rows = errors.merge(chosen, on=key, how="left")
-    err = np.hypot(rows["error_err"], rows["time_error"].fillna(0))
+    good = steps.query("accepted == 1").sort_values("of_limit")
+    chosen = good.drop_duplicates(key, keep="last")
+    rows = errors.merge(chosen[[*key, "time_error"]], on=key, how="left")
+    err = np.hypot(rows.error_err, rows.time_error.fillna(0))
     return rows.assign(error_err=err).drop(columns="time_error")
 
 
 def needed(points: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """Every method at every level."""
     for key, group in points.groupby(SERIES):
+        names = dict(zip(SERIES, key, strict=True))
         rising = group.sort_values("resolution")
         for level in LEVELS:
-            yield {**dict(zip(SERIES, key, strict=True)), "level": level, **reached(rising, level)}
+            yield {**names, "level": level, **reached(rising, level)}
 
 
 def reached(group: pd.DataFrame, level: float) -> dict[str, Any]:
@@ -77,14 +78,14 @@ def reached(group: pd.DataFrame, level: float) -> dict[str, Any]:
     An error that is not told from zero counts with its uncertainty: where its sign changes it is no measure itself.
     """
     group = group.assign(error=group[["error", "error_err"]].max(axis=1), points_err=0.0)
-    above = np.flatnonzero(~(group["error"] <= level))
+    above = np.flatnonzero(~(group.error <= level))
     if len(above) == 0:
         first = group.iloc[0]
-        most = first["cpu_s"] + first["cpu_s_err"]
+        most = first.cpu_s + first.cpu_s_err
         return {"reached": "at most", **first[["cpu_s", "points", "error"]], "low": 0.0, "high": most}
     last = above[-1]
     if last == len(group) - 1:
-        return {"reached": "no", "error": group["error"].min()}
+        return {"reached": "no", "error": group.error.min()}
     pair = group.iloc[last:last + 2]
     seconds, half = crossing(pair, "cpu_s", level)
     points, _ = crossing(pair, "points", level)
@@ -110,45 +111,44 @@ def crossing(pair: pd.DataFrame, column: str, level: float) -> tuple[float, floa
 def rivals(points: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """Printed particles over the grid of each scene; none that are better than all grids."""
     for scene, quantity in FIELD.items():
-        here = points[(points["scene"] == scene) & (points["quantity"] == quantity)]
-        grids = here[here["method"] == GRID].sort_values("error")
-        best = here[here["method"] == LUCY].nsmallest(1, "error")
-        for row in best[best["error"] >= grids["error"].min()].to_dict("records"):
+        here = points.query("scene == @scene and quantity == @quantity").sort_values("error")
+        grids, particles = (here[here.method == name] for name in (GRID, LUCY))
+        if particles.error.min() >= grids.error.min():      # false where there are none of them
+            row = particles.iloc[0]
             number, seconds = (over_rival(row, grids, column) for column in ("points", "cpu_s"))
-            yield {"scene": scene, "quantity": quantity, "rival": GRID, "error": row["error"],
+            yield {"scene": scene, "quantity": quantity, "rival": GRID, "error": row.error,
                    **with_err(points=number, seconds=seconds)}
 
 
-def over_rival(best: dict, grids: pd.DataFrame, column: str) -> Measured:
+def over_rival(best: pd.Series, grids: pd.DataFrame, column: str) -> Measured:
     """`column` of a run over that of a grid with the same error, by a power law between its resolutions.
 
     Where the coarsest grid is better already, over that of the coarsest grid: the ratio is then at least this.
     """
     x, y = np.log(grids[["error", column]].to_numpy(float)).T
-    error = Measured(best["error"], best["error_err"])
-    rival = np.exp(np.interp(np.log(error.value), x, y))
+    rival = np.exp(np.interp(np.log(best.error), x, y))
     slope = np.gradient(y, x).min() if len(x) > 1 else 0.0
     ratio = float(best[column]/rival)
-    return Measured(ratio, abs(ratio*slope*error.err/error.value))
+    return Measured(ratio, abs(ratio*slope*best.error_err/best.error))
 
 
 def growth_laws(growth: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """Exponents over the number of particles, and speed-ups by two threads."""
-    for method, group in groups(growth[growth["clock"] == "cpu"], "method"):
+    for method, group in groups(growth.query("clock == 'cpu'"), "method"):
         if len(group) >= LEAST:
-            law = power_law(group["points"], group["step_s"]).slope
-            yield growth_law(method, "exponent", group, law)
-    for (method, _), group in groups(growth[growth["clock"] == "wall"], ["method", "points"]):
-        if set(group["threads"]) == {1, 2}:
-            pairs = group.sort_values("threads")[["step_s", "step_s_err"]].to_numpy(float)
-            one, two = (Measured(*pair) for pair in pairs)
+            law = power_law(group.points, group.step_s)
+            yield growth_law(method, "exponent", group, law.slope)
+    for (method, _), group in groups(growth.query("clock == 'wall'"), ["method", "points"]):
+        if set(group.threads) == {1, 2}:
+            pairs = group.sort_values("threads")[["step_s", "step_s_err"]]
+            one, two = (Measured(*pair) for pair in pairs.to_numpy(float))
             yield growth_law(method, "two threads", group, one/two)
 
 
 def growth_law(method: str, what: str, group: pd.DataFrame, law: Measured) -> dict[str, Any]:
     """A row."""
-    points = group["points"]
-    return {"method": method, "what": what, "least": points.min(), "most": points.max(), **with_err(value=law)}
+    return {"method": method, "what": what, "least": group.points.min(), "most": group.points.max(),
+            **with_err(value=law)}
 
 
 # --- what leaving out saves -------------------------------------------------------------------------------------
@@ -159,7 +159,7 @@ def terms(tables: Tables) -> dict[str, Rows]:
     if "measured" not in tables:
         return {}
     rows = tables["measured"]
-    wholes = rows[rows["left_out"] == "nothing"]
+    wholes = rows.query("left_out == 'nothing'")
     both = rows.merge(wholes, on=["scene", "base"], suffixes=("", "_whole"))
     return {"scenes": [saved(row) for row in both.to_dict("records")]}
 

@@ -54,7 +54,7 @@ THICK = 0.26
 
 def work_precision(points: pd.DataFrame) -> Figure:
     """Relative error against CPU seconds: a panel a scene and quantity, a line a method, resolutions along it."""
-    rows = points[points["error"] > 0].set_index(["scene", "quantity"])
+    rows = points.query("error > 0").set_index(["scene", "quantity"])
     shown = [panel for panel in PANELS if panel[:2] in rows.index]
     across = min(ACROSS, len(shown))
     page, all_axes = figure(-(-len(shown)//across), across, width=4.4, height=3.9, squeeze=False)
@@ -83,13 +83,14 @@ def draw(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
     """All methods, with errors in both directions."""
     rows = rows[rows[x] > 0]        # a short time may drown
     for name in present(rows):
-        series = rows[rows["method"] == name].sort_values("resolution")
-        axes.errorbar(series[x], series[y], xerr=limited(series, x), yerr=limited(series, y), label=name, **style(name))
+        series = rows[rows.method == name].sort_values("resolution")
+        axes.errorbar(series[x], series[y], xerr=limited(series, x), yerr=limited(series, y), label=name,
+                      **style(name))
 
 
 def present(rows: pd.DataFrame) -> list[str]:
     """Methods in their order."""
-    return [name for name in METHODS if name in set(rows["method"])]
+    return [name for name in METHODS if name in set(rows.method)]
 
 
 def style(name: str) -> dict[str, Any]:
@@ -116,8 +117,7 @@ def loglog(axes: Axes, title: str, xlabel: str) -> None:
     axes.set(xscale="log", yscale="log", title=title, xlabel=xlabel)
     for axis in (axes.xaxis, axes.yaxis):
         low, high = axis.get_view_interval()
-        few = (1, 2, 5) if high > 4*low else (1, 1.5, 2, 3, 4, 6)
-        written(axis, (1,) if high > 100*low else few)
+        written(axis, (1,) if high > 100*low else (1, 2, 5))
 
 
 def written(axis: Any, steps: tuple[float, ...]) -> None:
@@ -142,7 +142,7 @@ def legend(page: Figure, all_axes: np.ndarray) -> None:
 
 def scenes(rows: pd.DataFrame) -> Figure:
     """What is left of seconds and bytes without a term, over the whole; beside it the error that leaving it out makes."""
-    rows = rows[rows["left_out"] != "nothing"].sort_values(["scene", "base", "left_out"], ascending=False)
+    rows = rows.query("left_out != 'nothing'").sort_values(["scene", "base", "left_out"], ascending=False)
     page, axes = figure(width=8.4, height=1.4 + 0.62*len(rows))
     at = np.arange(len(rows))
     for number, (column, label, hatch) in enumerate(KINDS):

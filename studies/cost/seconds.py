@@ -6,7 +6,6 @@ from time import perf_counter, process_time
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
-from scipy.special import stdtrit
 
 from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import RayleighBenard
@@ -27,10 +26,6 @@ from studies.kit.timing import REPEATS, SPREAD_TO_ERR
 Clock = Callable[[], float]
 SHORT = 0.01        # CPU seconds that the steps of the shorter of two runs take at least
 MANY = 100_000      # steps of it at most
-FEW, LONG = 3, 0.3  # repeats of what takes longer than so many seconds
-#: half of the interquartile range of 3 repeats -> half width of the 95 % interval of their median: as SPREAD_TO_ERR; the
-#: quartiles of 3 lie half-way between neighbours, on average 0.423 sigma off
-OF_FEW = float(stdtrit(FEW - 1, 0.975)*np.sqrt(np.pi/(2*FEW))/0.423)
 
 WARM = 16           # steps of particles before they are timed, and of a lap: a lattice has no lists to make again
 LAPS, WORK = (5, 25), 2e6               # least and most laps; particles times steps that are enough
@@ -41,10 +36,11 @@ TURNS, A_TURN = 12, 2                   # of one and two threads; laps of partic
 # --- how they are measured --------------------------------------------------------------------------------------
 
 
-def median(seconds: Sequence[float], to_err: float) -> Measured:
-    """to_err: half of the interquartile range of repeats to the error of their median."""
+def median(seconds: Sequence[float] | np.ndarray) -> Measured:
+    """Its error is that of so many repeats, by their quartiles."""
     low, middle, high = np.percentile(seconds, [25, 50, 75])
-    return Measured(float(middle), to_err*float(high - low)/2)
+    to_err = SPREAD_TO_ERR*np.sqrt(REPEATS/len(seconds))
+    return Measured(float(middle), float(to_err*(high - low)/2))
 
 
 def took(f: Callable[[], Any], clock: Clock = process_time) -> float:
@@ -55,11 +51,8 @@ def took(f: Callable[[], Any], clock: Clock = process_time) -> float:
 
 
 def of_calls(f: Callable[[], Any], clock: Clock = process_time) -> Measured:
-    """Seconds of a call that was made before, so that all is compiled: of REPEATS, or of a FEW where it takes LONG."""
-    first = took(f, clock)
-    count, to_err = (FEW, OF_FEW) if first > LONG else (REPEATS, SPREAD_TO_ERR)
-    more = [took(f, clock) for _ in range(count - 1)]
-    return median([first, *more], to_err)
+    """Seconds of a call that was made before, so that all is compiled."""
+    return median([took(f, clock) for _ in range(REPEATS)])
 
 
 def per_step(advance: Callable[[int], Any], short: float = SHORT, clock: Clock = process_time) -> Measured:
@@ -78,12 +71,8 @@ def per_step(advance: Callable[[int], Any], short: float = SHORT, clock: Clock =
         if spent >= max(short, one - spent):
             break
         steps *= 2
-    return median([(lap(3*steps) - lap(steps))/(2*steps) for _ in range(REPEATS)], SPREAD_TO_ERR)
-
-
-def of_laps(laps: Sequence[float] | np.ndarray) -> Measured:
-    """Of one of them: their median; its error is that of so many, from their quartiles."""
-    return median(list(laps), SPREAD_TO_ERR*np.sqrt(REPEATS/len(laps)))
+    more = [lap(3*steps) - lap(steps) for _ in range(REPEATS)]
+    return median(more)*(0.5/steps)
 
 
 class Laps:
@@ -96,8 +85,8 @@ class Laps:
         self.at.append(self.clock())
 
     def total(self, count: int) -> Measured:
-        """Of `count` of them; the error is that of their median, from their quartiles."""
-        return of_laps(np.diff(self.at))*count
+        """Of `count` of them."""
+        return median(np.diff(self.at))*count
 
 
 def array_bytes(*things: Any) -> int:
@@ -146,7 +135,7 @@ class Flock(NamedTuple):
     def seconds(self, short: float) -> Measured:
         """Of a step."""
         count = WORK/(WARM*self.start.shape[1])
-        return of_laps(self.laps(int(np.clip(count, *LAPS)), process_time))
+        return median(self.laps(int(np.clip(count, *LAPS)), process_time))
 
     def laps(self, count: int, clock: Clock) -> np.ndarray:
         """Seconds of a step in each of so many laps; the one before the first is left out."""
@@ -237,5 +226,5 @@ class TwoThreads(StepTime):
                 alone += list(pair[0])
                 together += list(pair[1])
             report(turn/self.turns)
-        rows = self.row(of_laps(alone), 1, "wall"), self.row(of_laps(together), 2, "wall")
+        rows = self.row(median(alone), 1, "wall"), self.row(median(together), 2, "wall")
         return Outcome({"growth": list(rows)})

@@ -14,13 +14,12 @@ NEAREST = LABELS["fixed-lattice-h1.2"]
 LATTICE = LABELS["fixed-lattice"]
 WIDE = LABELS["fixed-lattice-h3"]
 JITTERED = LABELS["fixed-jittered-plates"]
-RELAXED = LABELS["relaxed-plates"]
 LUCY = LABELS["spam"]
 MONAGHAN = LABELS["spam-monaghan"]
 WENDLAND = LABELS["spam-wendland-c2"]
 LESS_STATIC = LABELS["spam-less-static-50"]
 MOVING = LABELS["moving"]
-METHODS = (GRID, MAC, PYPDE, NEAREST, LATTICE, WIDE, JITTERED, RELAXED, LUCY, MONAGHAN, WENDLAND, LESS_STATIC, MOVING)
+METHODS = (GRID, MAC, PYPDE, NEAREST, LATTICE, WIDE, JITTERED, LUCY, MONAGHAN, WENDLAND, LESS_STATIC, MOVING)
 
 RUN = ["scene", "method", "resolution", "seed"]
 #: what the run at the method's own best step takes (py-pde's by formula): points, steps of dt (`of_limit`: of the
