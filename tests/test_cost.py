@@ -31,7 +31,7 @@ def verdicts(claims, tables):
     return {row["id"]: (row["verdict"], row["measured"]) for row in judge(claims, tables, "cost")}
 
 
-# --- what errors cost -----------------------------------------------------------------------------------------------
+# --- what errors cost ---------------------------------------------------------------------------------------
 
 
 def test_cost_at_a_level_is_that_of_the_power_law():
@@ -110,7 +110,7 @@ def test_growth_laws_are_those_of_the_table():
     assert said["own-speed-threads-spam"][0] == "holds"             # 1.8 +- 0.025 against 1.7
 
 
-# --- what terms cost ------------------------------------------------------------------------------------------------
+# --- what terms cost ----------------------------------------------------------------------------------------
 
 
 def left_out(**parts) -> Tables:
@@ -147,7 +147,7 @@ def test_the_figure_names_what_is_needed():
     assert "without heat: off by 0.1 %, not needed" in words and "without noise: diverges, needed" in words
 
 
-# --- the figure of errors -------------------------------------------------------------------------------------------
+# --- the figure of errors -----------------------------------------------------------------------------------
 
 
 def test_the_figure_has_a_line_a_method_with_errors_in_both_directions():
@@ -170,7 +170,7 @@ def test_a_failing_run_does_not_stretch_the_axis():
     assert figures.work_precision(points).axes[0].get_ylim()[1] == 10
 
 
-# --- cases ----------------------------------------------------------------------------------------------------------
+# --- cases --------------------------------------------------------------------------------------------------
 
 
 def test_cases_have_names_of_their_own_time_themselves_alone_and_take_what_was_planned():

@@ -38,7 +38,7 @@ def steps(rungs):
     return [rung.fraction for rung in rungs], [rung.accepted for rung in rungs]
 
 
-# --- the step -------------------------------------------------------------------------------------------------------
+# --- the step -----------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("order", "fraction"), [(4, 1/8), (2, 1/32)])
@@ -108,7 +108,7 @@ def test_chaos_compares_the_sizes_of_errors_only():
     assert calm < chaos == pytest.approx(0.1*STRETCH**STRETCHES)     # half of the error changes from step to step
 
 
-# --- seconds and bytes ----------------------------------------------------------------------------------------------
+# --- seconds and bytes --------------------------------------------------------------------------------------
 
 
 def test_seconds_of_a_step_leave_out_what_every_run_pays_once():
@@ -152,7 +152,7 @@ def test_one_and_two_threads_take_turns_and_give_what_the_speed_up_reads(tmp_pat
     assert law["what"] == "two threads" and law["value"] == pytest.approx(rows[0]["step_s"]/rows[1]["step_s"])
 
 
-# --- flows with exact answers ---------------------------------------------------------------------------------------
+# --- flows with exact answers -------------------------------------------------------------------------------
 
 
 def test_a_sound_wave_without_friction_comes_back():
@@ -197,7 +197,7 @@ def test_a_lattice_carries_sound_with_second_order_error():
     assert coarse/fine == pytest.approx(4, rel=0.15)
 
 
-# --- convection -----------------------------------------------------------------------------------------------------
+# --- convection ---------------------------------------------------------------------------------------------
 
 T = np.arange(1, 361)/OFTEN
 

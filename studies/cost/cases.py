@@ -4,10 +4,9 @@ taylor-green   a vortex of Mach 0.05 and Re 100 that decays by e; against the ga
 sound          a wave of small amplitude for two periods
 convection     Rayleigh-Benard at Ra = 10 000, and 5000, from KHP95's rolls
 
-Every method runs at rising resolutions, each at the longest step that is good enough beside the error of its space
-(studies/cost/problem.py has the rule; py-pde's is by its formula); CPU seconds of one thread, medians of repeats, without
-compiling; nothing else runs. A ladder of resolutions, four at least, ends before its cases take more than DEAREST seconds
-each, and all of them more than TOGETHER. `paper` takes an hour, `quick` minutes.
+Every method runs at rising resolutions, each at the longest step that is good enough beside the error of its
+space (rule: problem.py; py-pde's is by its formula). CPU seconds of one thread, medians of repeats, without
+compiling. A case takes DEAREST seconds at most, all take TOGETHER. `paper` takes an hour, `quick` minutes.
 """
 from collections.abc import Collection, Iterator, Mapping
 from itertools import product
@@ -56,7 +55,7 @@ ROWS = (22, 30, 40, 53, 71, 95, 126, 168, 224, 299, 398, 531, 707)      # a thou
 Entries = dict[str, Entry]
 
 
-# --- who takes part ---------------------------------------------------------------------------------------------
+# --- who takes part -----------------------------------------------------------------------------------------
 
 LATTICES = {
     NEAREST: SCHEMES["fixed-lattice-h1.2"],
@@ -124,7 +123,7 @@ CONTESTS = {
 }
 
 
-# --- at which resolutions ---------------------------------------------------------------------------------------
+# --- at which resolutions -----------------------------------------------------------------------------------
 
 
 class Ladder(NamedTuple):

@@ -1,7 +1,4 @@
-"""Flows with exact answers, and methods in them: points, smooth particles, the compressible grid, the MAC grid.
-
-A flow has a scene of a size, places where smooth particles start, and what fields at the end are off from the answer.
-"""
+"""Flows with exact answers, and methods in them: points, smooth particles, a compressible and a MAC grid."""
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -28,11 +25,11 @@ CELL = Box(width=1.0, sides=Edges(flow=End.MIRROR, heat=End.MIRROR), plates=FREE
 CFL = 0.8           # of two-step advection with some viscosity: `projection.CFL_LIMIT`
 
 
-# --- flows ------------------------------------------------------------------------------------------------------
+# --- flows --------------------------------------------------------------------------------------------------
 
 
 class VortexDecay(NamedTuple):
-    """A Taylor-Green vortex of Re 100 that decays by e, as a gas of that Mach number; `velocity` and the `decay` of K."""
+    """A Taylor-Green vortex of Re 100 that decays by e, as a gas; `velocity` and the `decay` of K."""
     mach: float = 0.05
 
     @property
@@ -50,8 +47,8 @@ class VortexDecay(NamedTuple):
     def against(self, scene: TaylorGreen, exact: np.ndarray, V: np.ndarray, v: np.ndarray) -> Residuals:
         """Of velocities (n, 2) of volumes V; exact ones are in units of the speed."""
         measured = v/scene.speed
-        start, end = V.sum()/2, V@(measured**2).sum(axis=1)
-        decay = np.log(start/end)/(2*DECAYS)
+        squares = (measured**2).sum(axis=1)
+        decay = np.log(V.sum()/2/(V@squares))/(2*DECAYS)
         off = decay/solved(self.mach).decay - 1
         return {"velocity": relative(V, measured - exact, exact), "decay": np.array([off])}
 
@@ -72,17 +69,18 @@ class StandingWave(NamedTuple):
         """Of fields at the end."""
         _, u, T = scene.exactly(scene.time, at.x[:, 0])
         velocity = relative(at.V, at.v[:, 0] - u, u)
-        return {"velocity": velocity, "temperature": relative(at.V, at.T - 1 - T, T)}
+        temperature = relative(at.V, at.T - 1 - T, T)
+        return {"velocity": velocity, "temperature": temperature}
 
     def places(self, scene: Sound, seed: int) -> tuple[np.ndarray, tuple]:
-        """A lattice that is displaced as the density at the start wants it, with the fields of the lattice."""
+        """A lattice, displaced as the density at the start wants it, with the fields of the lattice."""
         x = lattice((scene.width, scene.L)).x
         fields = scene.fields(x)
         x[:, 0] -= scene.amplitude/scene.k*np.sin(scene.k*x[:, 0])
         return x, fields
 
 
-# --- points and particles ---------------------------------------------------------------------------------------
+# --- points and particles -----------------------------------------------------------------------------------
 
 
 def points(flow: Any, method: Any, size: int, seed: int) -> Problem:
@@ -101,7 +99,8 @@ def on_lattice(flow: Any, method: Any, size: int, seed: int) -> Problem:
 def in_flow(flow: Any, scene: Any, ready: Ready) -> Problem:
     """Fields as the method has them."""
     def judge(state: np.ndarray) -> Result:
-        return Result(flow.residuals(scene, ready.method.fields(state)))
+        at = ready.method.fields(state)
+        return Result(flow.residuals(scene, at))
     return of_method(ready.method, ready.start, scene.time, judge, known=flow.known)
 
 
@@ -123,20 +122,22 @@ def trembling(flow: Any, method: Any, size: int, seed: int) -> Problem:
     _, sums, _ = problem.held()
 
     def judge(state: np.ndarray) -> Result:
-        return Result(flow.residuals(scene, smoothed(sums.method, state)))
+        at = smoothed(sums.method, state)
+        return Result(flow.residuals(scene, at))
     return problem._replace(judge=judge, chaotic=True)
 
 
 def smoothed(method: Spam, state: np.ndarray) -> Fields:
     """The smoothed field where the particles are, each of which counts as much."""
     sums, ordered, _ = method.look(state)
-    at = fields_at(sums, ordered, *state[:2])
-    n = state.shape[1]
+    x, y, *_ = state
+    at = fields_at(sums, ordered, x, y)
     v = np.stack([at.vx, at.vy], axis=1)
-    return Fields(state[:2].T, v, at.rho, at.T, np.full(n, 1/n))
+    V = np.full(len(x), 1/len(x))
+    return Fields(state[:2].T, v, at.rho, at.T, V)
 
 
-# --- grids ------------------------------------------------------------------------------------------------------
+# --- grids --------------------------------------------------------------------------------------------------
 
 
 def on_grid(flow: Any, form: Any, size: int, seed: int) -> Problem:
@@ -146,10 +147,13 @@ def on_grid(flow: Any, form: Any, size: int, seed: int) -> Problem:
     method, march = ready.method, ready.method.march(ready.start)
 
     def judge(S: np.ndarray) -> Result:
-        return Result(flow.residuals(scene, method.fields(S)))
+        at = method.fields(S)
+        return Result(flow.residuals(scene, at))
+
+    def held() -> tuple:
+        return march.S, march.scratch
     cells = round(scene.L*scene.width)
-    return Problem(cells, ready.start, ready.limit, scene.time, method.go, judge, lambda: (march.S, march.scratch),
-                   flow.known)
+    return Problem(cells, ready.start, ready.limit, scene.time, method.go, judge, held, flow.known)
 
 
 def on_mac(flow: VortexDecay, form: None, size: int, seed: int) -> Problem:
@@ -162,9 +166,10 @@ def on_mac(flow: VortexDecay, form: None, size: int, seed: int) -> Problem:
     mac.cache_clear()       # what set-up takes is to be seen each time
     start = stirred(case)
     made, fastest = Projection(case, start), np.abs(start).max()
-    time = DECAYS/(2*nu*np.pi**2)
-    return Problem(case.rows*case.columns, start, CFL/case.rows/fastest, time, partial(projected, case),
-                   partial(decayed, case, start), lambda: (made,), firm=True)
+    limit, time = CFL/case.rows/fastest, DECAYS/(2*nu*np.pi**2)
+
+    go, judge = partial(projected, case), partial(decayed, case, start)
+    return Problem(case.rows*case.columns, start, limit, time, go, judge, lambda: (made,), firm=True)
 
 
 def projected(case: Case, q: np.ndarray, dt: float, steps: int) -> np.ndarray:
@@ -190,5 +195,5 @@ def stirred(case: Case) -> np.ndarray:
     (xu, yu), (xv, yv) = case.mac.points[:2]
     u = np.outer(np.sin(np.pi*xu), np.cos(np.pi*yu))
     v = -np.outer(np.cos(np.pi*xv), np.sin(np.pi*yv))
-    heat = case.mac.ends[-1] - case.mac.ends[1]
-    return np.r_[u.ravel(), v.ravel(), np.zeros(heat)]
+    _, flow, *_, end = case.mac.ends
+    return np.r_[u.ravel(), v.ravel(), np.zeros(end - flow)]

@@ -36,9 +36,6 @@ def errors(tables: Tables) -> dict[str, Rows]:
     return rows
 
 
-# --- error against cost -----------------------------------------------------------------------------------------
-
-
 def over_seeds(errors: pd.DataFrame, runs: pd.DataFrame, steps: pd.DataFrame) -> pd.DataFrame:
     """Means, of resolutions at which no seed diverged. Their intervals hold the error of time."""
     diverged = errors.query("quantity == 'diverged'").set_index(RUNG).index
@@ -52,7 +49,7 @@ def over_seeds(errors: pd.DataFrame, runs: pd.DataFrame, steps: pd.DataFrame) ->
 
 
 def with_steps(errors: pd.DataFrame, steps: pd.DataFrame) -> pd.DataFrame:
-    """Errors whose intervals hold what halving the chosen step changes: of runs without chance they have no other."""
+    """Errors whose intervals hold what halving the chosen step changes."""
     if steps.empty:
         return errors
     key = [*RUN, "quantity"]
@@ -75,7 +72,7 @@ def needed(points: pd.DataFrame) -> Iterator[dict[str, Any]]:
 def reached(group: pd.DataFrame, level: float) -> dict[str, Any]:
     """Where the errors of rising resolutions come below a level and stay there, between two by a power law.
 
-    An error that is not told from zero counts with its uncertainty: where its sign changes it is no measure itself.
+    An error that is not told from zero counts with its uncertainty: where its sign changes it is no measure.
     """
     group = group.assign(error=group[["error", "error_err"]].max(axis=1), points_err=0.0)
     above = np.flatnonzero(~(group.error <= level))
@@ -89,15 +86,14 @@ def reached(group: pd.DataFrame, level: float) -> dict[str, Any]:
     pair = group.iloc[last:last + 2]
     seconds, half = crossing(pair, "cpu_s", level)
     points, _ = crossing(pair, "points", level)
-    factor = np.exp(half)
-    return {"reached": "yes", "cpu_s": seconds, "low": seconds/factor, "high": seconds*factor, "points": points,
-            "error": level}
+    low, high = seconds*np.exp([-half, half])
+    return {"reached": "yes", "cpu_s": seconds, "low": low, "high": high, "points": points, "error": level}
 
 
 def crossing(pair: pd.DataFrame, column: str, level: float) -> tuple[float, float]:
     """Cost at a level between the errors of two rows, and the half width of the interval of its logarithm.
 
-    ln cost = (1 - s) ln cost_0 + s ln cost_1, s = ln(error_0/level)/ln(error_0/error_1); all four have errors.
+    ln cost = (1 - s) ln cost_0 + s ln cost_1, s = ln(error_0/level)/ln(error_0/error_1); all have errors.
     """
     error, cost = np.log(pair[["error", column]].to_numpy(float)).T
     error_err, cost_err = (pair[f"{name}_err"]/pair[name] for name in ("error", column))
@@ -116,14 +112,14 @@ def rivals(points: pd.DataFrame) -> Iterator[dict[str, Any]]:
         if particles.error.min() >= grids.error.min():      # false where there are none of them
             row = particles.iloc[0]
             number, seconds = (over_rival(row, grids, column) for column in ("points", "cpu_s"))
-            yield {"scene": scene, "quantity": quantity, "rival": GRID, "error": row.error,
-                   **with_err(points=number, seconds=seconds)}
+            ratios = with_err(points=number, seconds=seconds)
+            yield {"scene": scene, "quantity": quantity, "rival": GRID, "error": row.error, **ratios}
 
 
 def over_rival(best: pd.Series, grids: pd.DataFrame, column: str) -> Measured:
     """`column` of a run over that of a grid with the same error, by a power law between its resolutions.
 
-    Where the coarsest grid is better already, over that of the coarsest grid: the ratio is then at least this.
+    Where the coarsest grid is better already, over that of the coarsest grid: the ratio is this at least.
     """
     x, y = np.log(grids[["error", column]].to_numpy(float)).T
     rival = np.exp(np.interp(np.log(best.error), x, y))
@@ -151,7 +147,7 @@ def growth_law(method: str, what: str, group: pd.DataFrame, law: Measured) -> di
             **with_err(value=law)}
 
 
-# --- what leaving out saves -------------------------------------------------------------------------------------
+# --- what leaving out saves ---------------------------------------------------------------------------------
 
 
 def terms(tables: Tables) -> dict[str, Rows]:
@@ -168,9 +164,12 @@ def saved(row: dict) -> dict[str, Any]:
     """Ratios, and whether what is changed matters; a run that diverges does, and has taken no time."""
     step, time = (ratio(row, column) for column in ("step_s", "time_s"))
     kept = {name: row[name] for name in KEPT}
-    needed = "no" if row["changed"] <= MATTERS else "yes"
-    return {**kept, **with_err(step_ratio=step, time_ratio=time), "bytes_ratio": row["bytes"]/row["bytes_whole"],
-            "needed": needed}
+    return {
+        **kept,
+        **with_err(step_ratio=step, time_ratio=time),
+        "bytes_ratio": row["bytes"]/row["bytes_whole"],
+        "needed": "no" if row["changed"] <= MATTERS else "yes",
+    }
 
 
 def ratio(row: dict, column: str) -> Measured:

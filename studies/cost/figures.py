@@ -49,11 +49,8 @@ KINDS = (
 THICK = 0.26
 
 
-# --- what an error costs ----------------------------------------------------------------------------------------
-
-
 def work_precision(points: pd.DataFrame) -> Figure:
-    """Relative error against CPU seconds: a panel a scene and quantity, a line a method, resolutions along it."""
+    """Relative error against CPU seconds: a panel a quantity, a line a method, resolutions along it."""
     rows = points.query("error > 0").set_index(["scene", "quantity"])
     shown = [panel for panel in PANELS if panel[:2] in rows.index]
     across = min(ACROSS, len(shown))
@@ -65,8 +62,8 @@ def work_precision(points: pd.DataFrame) -> Figure:
     for axes in all_axes[:, 0]:
         axes.set_ylabel("relative error")
     legend(page, all_axes)
-    page.suptitle("What does an error cost?\nEach method at its own best step (py-pde: by formula), one thread, without "
-                  "compiling; bars: 95 %", fontsize=10)
+    page.suptitle("What does an error cost?\nEach method at its own best step (py-pde: by formula), one "
+                  "thread, without compiling; bars: 95 %", fontsize=10)
     return page
 
 
@@ -94,9 +91,10 @@ def present(rows: pd.DataFrame) -> list[str]:
 
 
 def style(name: str) -> dict[str, Any]:
-    """Look of a method, the same in every figure: colour and marker of its family, filling and line its own."""
+    """Look of a method: colour and marker of its family, filling and line its own."""
     start = family(name)
-    member = [other for other in METHODS if family(other) == start].index(name)
+    members = [other for other in METHODS if family(other) == start]
+    member = members.index(name)
     colour, marker = FAMILIES[start]
     return {"color": colour, "marker": marker, "linestyle": LINES[member], "markersize": 6, **FILLS[member]}
 
@@ -134,25 +132,28 @@ def legend(page: Figure, all_axes: np.ndarray) -> None:
         bars, names = axes.get_legend_handles_labels()
         handles |= dict(zip(names, bars, strict=True))
     order = [name for name in METHODS if name in handles]
-    page.legend([handles[name].lines[0] for name in order], order, loc="outside lower center", ncols=4, handlelength=4)
+    lines = [handles[name].lines[0] for name in order]
+    page.legend(lines, order, loc="outside lower center", ncols=4, handlelength=4)
 
 
-# --- what leaving out saves -------------------------------------------------------------------------------------
+# --- what leaving out saves ---------------------------------------------------------------------------------
 
 
 def scenes(rows: pd.DataFrame) -> Figure:
-    """What is left of seconds and bytes without a term, over the whole; beside it the error that leaving it out makes."""
+    """What is left of seconds and bytes without a term, over the whole; the error that this makes."""
     rows = rows.query("left_out != 'nothing'").sort_values(["scene", "base", "left_out"], ascending=False)
     page, axes = figure(width=8.4, height=1.4 + 0.62*len(rows))
     at = np.arange(len(rows))
     for number, (column, label, hatch) in enumerate(KINDS):
-        axes.barh(at + THICK*(1 - number), rows[column], THICK, xerr=rows.get(f"{column}_err"), label=label,
-                  color=COLOURS[number], hatch=hatch, edgecolor="white", capsize=2)
+        look = {"color": COLOURS[number], "hatch": hatch, "edgecolor": "white", "capsize": 2}
+        heights, err = at + THICK*(1 - number), rows.get(f"{column}_err")
+        axes.barh(heights, rows[column], THICK, xerr=err, label=label, **look)
     axes.axvline(1, color="black", linewidth=0.8)
     axes.set_yticks(at, labels=[effect(row) for row in rows.itertuples()])
     axes.set(xscale="log", xlabel="what is left over what the whole takes; bars: 95 %")
     written(axes.xaxis, (1, 2, 5))
-    page.suptitle("Model only what a scene needs: what does leaving out save, and what error does it make?", fontsize=10)
+    page.suptitle("Model only what a scene needs: what does leaving out save, what error does it make?",
+                  fontsize=10)
     page.legend(loc="outside lower center", ncols=3)
     return page
 
@@ -160,7 +161,8 @@ def scenes(rows: pd.DataFrame) -> Figure:
 def effect(row: Any) -> str:
     """What is left out, and what that makes of the answer."""
     percents = 100*row.changed
-    size = f"off by {percents:{'.0f' if percents > 10 else '.2g'}} %" if np.isfinite(percents) else "diverges"
+    digits = ".0f" if percents > 10 else ".2g"
+    size = f"off by {percents:{digits}} %" if np.isfinite(percents) else "diverges"
     needed = "needed" if row.needed == "yes" else "not needed"
     return f"{row.scene}, {row.base}\nwithout {row.left_out}: {size}, {needed}"
 

@@ -1,11 +1,12 @@
 """A method set up in a flow, and the longest step that is good enough.
 
-The step is a fraction of the method's stability limit. It is halved from the first one until halving it once more changes
-what is measured by less than the error that is left: the error of time is then below that of space. From there it is made
-longer by 2^(1/4) at a time, beyond a limit whose formula is on the safe side, too, while that changes less than an eighth
-of the error: in two dimensions seconds go as error^(-3/2), so an eighth more error would cost what the longer step saves.
-A short run does not show that a step is unstable: steps longer than the first one have to stand a thousand steps. In
-chaotic flows errors differ by more than an eighth at any two steps: all of the error may change.
+The step is halved from a first fraction of the stability limit until halving it once more changes what is
+measured by less than the error that is left: the error of time is then below that of space. From there it is
+made longer by 2^(1/4) at a time, beyond a limit whose formula is on the safe side, too, while that changes
+less than an eighth of the error: in two dimensions seconds go as error^(-3/2), so that would cost what the
+longer step saves. Steps longer than the first one have to stand a thousand steps: a short run does not show
+that they are unstable. In chaotic flows errors differ by more than an eighth at any two steps: all of the
+error may change.
 """
 from collections.abc import Callable, Iterator, Mapping
 from math import ceil
@@ -22,9 +23,9 @@ from studies.build.unguarded import Unguarded
 
 HALVINGS = 7        # at most: steps of 1/128 of the first one
 LONGEST = 60.0      # CPU seconds of halving steps: none is halved again that would take it beyond
-STRETCH, STRETCHES = 2**0.25, 8         # of a step that is good enough, and how often at most: 4 times the first one
+STRETCH, STRETCHES = 2**0.25, 8         # of a step that is good enough: 4 times at most
 WORTH = STRETCH**(2/3) - 1              # of the error: what a longer step may change
-STANDS = 1000       # steps in which round-off grows to order one, and breaks a fluid, if it grows by 4 % a step
+STANDS = 1000       # steps in which round-off breaks a fluid if it grows by 4 % a step
 ROUNDING = 1e-12
 DIVERGES = (Divergence, ArithmeticError)
 #: by quantity, (m,): differences from the exact answer over its rms
@@ -35,26 +36,30 @@ NONE: Mapping[str, float] = {}
 
 
 class Result(NamedTuple):
-    """What a run gives, by quantity. uncertain : of averages over time. share : of the steps, as many as it needs."""
+    """What a run gives, by quantity. uncertain : of averages. share : of the steps that it needs."""
     residuals: Residuals
     uncertain: Mapping[str, float] = NONE
     share: Mapping[str, float] = NONE
     state: Any = None
 
 
+Judge = Callable[[Any], Result]
+
+
 class Problem(NamedTuple):
     """A method at the start of a flow.
 
-    points : particles, points or cells. limit : largest stable step, `time` to go. held() : all that exists in memory
-    while it runs. known : uncertainty of the exact answer. chaotic : small changes grow, so that two steps give two flows
-    and only the sizes of their errors compare. firm : no step beyond the limit is stable. timed : `go` without records.
+    points : particles, points or cells. limit : largest stable step, `time` to go. held() : all that exists
+    in memory while it runs. known : uncertainty of the exact answer. chaotic : two steps give two flows, only
+    the sizes of their errors compare. firm : no step beyond the limit is stable. timed : `go` without
+    records.
     """
     points: int
     start: Any
     limit: float
     time: float
     go: Go
-    judge: Callable[[Any], Result]
+    judge: Judge
     held: Callable[[], tuple]
     known: float = 0.0
     chaotic: bool = False
@@ -84,7 +89,7 @@ class Problem(NamedTuple):
         return result._replace(state=getattr(end, "state", end))
 
     def stands(self, fraction: float) -> bool:
-        """Whether STANDS steps can be made, by a run that has fewer; of methods that tell when nothing fluid is left."""
+        """Whether STANDS steps can be made, by a run that has fewer."""
         if self.steps(fraction) >= STANDS:
             return True
         try:
@@ -94,10 +99,10 @@ class Problem(NamedTuple):
         return bool(np.isfinite(end).all())
 
 
-# --- methods of the particles' time loop ------------------------------------------------------------------------
+# --- methods of the particles' time loop --------------------------------------------------------------------
 
 
-def of_method(method: Any, start: np.ndarray, time: float, judge: Callable[[np.ndarray], Result], **more: Any) -> Problem:
+def of_method(method: Any, start: np.ndarray, time: float, judge: Judge, **more: Any) -> Problem:
     """The problem of such a method."""
     return Problem(start.shape[1], start, limit_of(method, start), time, marching(method), judge,
                    holding(method, start), **more)
@@ -114,14 +119,12 @@ def holding(method: Any, start: np.ndarray) -> Callable[[], tuple]:
     """`held` of such a method: state, sums with their lists, and what the integrator keeps."""
     def held() -> tuple:
         team, n = Team(1), start.shape[1]
-        sums, now = method.start(n, team), Run(state=start.copy(), ids=np.arange(n))
+        sums = method.start(n, team)
+        now = Run(state=start.copy(), ids=np.arange(n))
         sums.try_out(now)
         integrator = getattr(method, "integrator", RK4)
         return now.state, sums, integrator(start.shape, team)
     return held
-
-
-# --- errors -----------------------------------------------------------------------------------------------------
 
 
 def relative(V: np.ndarray, difference: np.ndarray, scale: np.ndarray) -> np.ndarray:
@@ -136,7 +139,7 @@ def rms(values: np.ndarray) -> float:
     return float(np.sqrt(np.mean(np.asarray(values)**2)))
 
 
-# --- the step ---------------------------------------------------------------------------------------------------
+# --- the step -----------------------------------------------------------------------------------------------
 
 
 class Rung(NamedTuple):
@@ -163,9 +166,11 @@ def best(rungs: list[Rung]) -> Rung:
 
 
 def halved(problem: Problem, first: float) -> tuple[list[Rung], Result | None, float]:
-    """Steps down to the first that is good enough, what comes out with half of it, what longer steps stay below."""
+    """Steps down to the first that is good enough, the result of half of it, what longer steps stay below."""
     rungs: list[Rung] = []
-    most = max(first, 1.0) if problem.firm else first*STRETCH**(STRETCHES + 0.5)
+    most = first*STRETCH**(STRETCHES + 0.5)
+    if problem.firm:
+        most = max(first, 1.0)
     began = process_time()
     coarse, fine = problem.result(first), None
     for number in range(HALVINGS):
@@ -181,7 +186,7 @@ def halved(problem: Problem, first: float) -> tuple[list[Rung], Result | None, f
 
 
 def stretched(problem: Problem, good: Rung, fine: Result | None, most: float) -> Iterator[Rung]:
-    """Steps that are longer than a good one, up to the first that changes too much, or diverges; all below `most`."""
+    """Steps longer than a good one, up to the first that changes too much, or diverges; all below `most`."""
     share = 1.0 if problem.chaotic else WORTH
     fraction = good.fraction*STRETCH
     while fraction < most*(1 - ROUNDING) and below(share, good):
@@ -196,14 +201,14 @@ def below(share: float, rung: Rung) -> bool:
     return rung.accepted and all(rung.time[name] <= share*rung.space[name] for name in rung.space)
 
 
-def rung_of(problem: Problem, fraction: float, coarse: Result | None, fine: Result | None, share: float) -> Rung:
+def rung_of(problem: Problem, fraction: float, coarse: Result | None, fine: Result | None,
+            share: float) -> Rung:
     """What comes out with a step against what does with a finer one."""
     if coarse is None or fine is None:
         return Rung(fraction, {}, {}, False, coarse)
-    time = dict[str, float]()
+    time, space = dict[str, float](), dict[str, float]()
     for name, residual in fine.residuals.items():
-        other = coarse.residuals[name]
-        time[name] = abs(rms(other) - rms(residual)) if problem.chaotic else rms(other - residual)
-    space = {name: rms(residual) for name, residual in fine.residuals.items()}
+        other, space[name] = coarse.residuals[name], rms(residual)
+        time[name] = abs(rms(other) - space[name]) if problem.chaotic else rms(other - residual)
     rung = Rung(fraction, time, space, True, coarse)
     return rung._replace(accepted=below(share, rung))

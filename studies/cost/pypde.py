@@ -1,7 +1,7 @@
 """py-pde's solver of the gas on a staggered grid, compiled at each call, as a case that is one call.
 
-Steps are at the limit of its own formula, an eighth longer than which ends in the vortex; compiling is not counted, nor
-what py-pde does around the steps.
+Steps are at the limit of its own formula, an eighth longer than which ends in the vortex; compiling is not
+counted, nor what py-pde does around the steps.
 """
 from dataclasses import dataclass
 from pathlib import Path
@@ -61,9 +61,12 @@ class Slow(Gas):
     def exact(self) -> np.ndarray:
         """Velocities (n, 2) at the end over the initial speed, each component where it is."""
         answer = solved(self.scene.mach)
-        places = [np.stack([q.ravel() for q in self.mesh(field)], axis=1) for field in (VX, VY)]
-        u, v = (velocities(answer, x/self.scene.L) for x in places)
-        return np.stack([u[:, 0], v[:, 1]], axis=1)
+        components = []
+        for axis, field in enumerate((VX, VY)):
+            x, y = self.mesh(field)
+            place = np.stack([x.ravel(), y.ravel()], axis=1)/self.scene.L
+            components.append(velocities(answer, place)[:, axis])
+        return np.stack(components, axis=1)
 
 
 class Stopped(NamedTuple):
@@ -78,7 +81,8 @@ def vortex(flow: VortexDecay, method: None, size: int, seed: int) -> Stopped:
     """From the start to the end."""
     scene, laps = flow.scene(size), Laps()
     gas = Slow.of(scene)
-    end = pypde.solve(gas, until=Time(scene.time, SAMPLES), start=gas.begun(), dt=gas.step_limit(), progress=laps)
+    until = Time(scene.time, SAMPLES)
+    end = pypde.solve(gas, until=until, start=gas.begun(), dt=gas.step_limit(), progress=laps)
     setup = of_calls(lambda: Slow.of(scene).begun())
     v = end.state[[VX, VY]].reshape(2, -1).T
     result = Result(flow.against(scene, gas.exact(), np.ones(len(v)), v))

@@ -32,8 +32,8 @@ class Price(NamedTuple):
 class Entry(NamedTuple):
     """A method in a flow, by the name that tables have.
 
-    method : a record of `studies.build`. make(flow, method, resolution, seed) : its `Problem`. first : fraction of the
-    limit that is tried first.
+    method : a record of `studies.build`. make(flow, method, resolution, seed) : its `Problem`. first :
+    fraction of the limit that is tried first.
     """
     name: str
     flow: Any
@@ -64,16 +64,19 @@ class Race(Case):
     @property
     def columns(self) -> dict[str, Any]:
         """That every row has."""
-        return {"scene": self.scene, "method": self.entry.name, "resolution": self.resolution, "seed": self.seed}
+        name = self.entry.name
+        return {"scene": self.scene, "method": name, "resolution": self.resolution, "seed": self.seed}
 
     def run(self, report: Report, folder: Path) -> Outcome:
         problem = self.made()
         rungs = climb(problem, self.entry.first)
         report(0.7)
         rung = best(rungs)
-        errors = self.errors(rung.result or DIVERGED, problem.known)
-        timings = [self.timing(problem, rung.fraction, rung.result)] if rung.result else []
-        return Outcome({"steps": list(self.steps(rungs)), "errors": list(errors), "runs": timings})
+        steps, errors = self.steps(rungs), self.errors(rung.result or DIVERGED, problem.known)
+        rows = {"steps": list(steps), "errors": list(errors)}
+        if rung.result:
+            rows["runs"] = [self.timing(problem, rung.fraction, rung.result)]
+        return Outcome(rows)
 
     def made(self) -> Any:
         """What the entry makes."""
@@ -83,9 +86,9 @@ class Race(Case):
         """Rows of the table `steps`."""
         for rung in rungs:
             for name in rung.time or ("diverged",):
-                yield {**self.columns, "quantity": name, "of_limit": rung.fraction,
-                       "time_error": rung.time.get(name, np.nan), "space_error": rung.space.get(name, np.nan),
-                       "accepted": int(rung.accepted)}
+                time_error, space_error = (errors.get(name, np.nan) for errors in (rung.time, rung.space))
+                yield {**self.columns, "quantity": name, "of_limit": rung.fraction, "time_error": time_error,
+                       "space_error": space_error, "accepted": int(rung.accepted)}
 
     def errors(self, result: Result, known: float) -> Iterator[dict[str, Any]]:
         """Rows of the table `errors`."""
@@ -103,13 +106,15 @@ class Race(Case):
                 **with_err(run_s=seconds, setup_s=set_up)}
 
     def a_step(self, problem: Problem, dt: float, end: Any) -> Measured:
-        """Seconds; of particles in the disorder of the end: their lists are made more often than at the start."""
-        start, short = (end, LONGER*self.short) if problem.chaotic else (problem.start, self.short)
-        safe = min(dt, self.entry.first*problem.limit)      # of more steps than the run has, which it may not stand
+        """Seconds; of particles in the disorder of the end, when their lists are made more often."""
+        start, short = problem.start, self.short
+        if problem.chaotic:
+            start, short = end, LONGER*self.short
+        safe = min(dt, self.entry.first*problem.limit)      # in more steps than the run has
 
         def seconds(dt: float) -> Measured:
             return per_step(lambda steps: problem.advance(start, dt, steps), short)
         try:
-            return seconds(dt if problem.chaotic and not problem.firm else safe)
+            return seconds(dt if problem.chaotic else safe)
         except Divergence:
             return seconds(safe)

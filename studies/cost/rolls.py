@@ -1,11 +1,11 @@
-"""Convection from KHP95's rolls: references, what a run is held against, what share of it is needed, methods in it.
+"""Convection from KHP95's rolls: references, what share of a run is needed, methods in it.
 
-    K, velocity, temperature    of the steady state, against the compressible grid's by Newton's method, extrapolated
-    K(t)                        over the first 30 free-fall times, against the compressible grid in time, extrapolated
+    K, velocity, temperature    of the steady state, against the compressible grid's by Newton's method
+    K(t)                        over the first 30 free-fall times, against the compressible grid in time
 
-A steady state is reached at the time t* after which K, averaged over a free-fall time, stays as near to its end as the
-quantity's own error; from there on a flow that fluctuates is averaged until the statistical error is as small as that,
-too. What a quantity costs is that share of the run.
+Both are extrapolated. A steady state is reached once K, averaged over a free-fall time, stays as near to its
+end as the quantity's own error; from there on a flow that fluctuates is averaged until the statistical error
+is as small.
 """
 from collections.abc import Callable, Sequence
 from functools import cache, partial
@@ -33,7 +33,7 @@ from studies.kit.stats import Measured, settled
 
 RA, LOWER_RA = 1e4, 5000.0
 END, EARLY, LATE = 90.0, 30.0, 40.0     # free-fall times: of the run, of K(t), from which averages are taken
-SETTLED = 60.0      # the same where an error of 1 % counts: K of the grid is off by 1 % until 47, by 0.2 % until 60
+SETTLED = 60.0      # where an error of 1 % counts: K of the grid is off by 1 % until 47, by 0.2 % until 60
 OFTEN = 4           # samples a free-fall time
 TIMES = np.arange(1, round(EARLY*OFTEN))/OFTEN      # of K(t)
 MIDDLE = 1/8        # of the height on either side of the middle, where the place of the rolls is read
@@ -41,9 +41,6 @@ MIDDLE = 1/8        # of the height on either side of the middle, where the plac
 
 #: fields of a state
 See = Callable[[np.ndarray], Any]
-
-
-# --- references -------------------------------------------------------------------------------------------------
 
 
 class Reference(NamedTuple):
@@ -59,7 +56,7 @@ class Reference(NamedTuple):
 def reference(rows: tuple[int, int, int], ra: float) -> Reference:
     """Limits of three grids; what the coarsest one changes of them is their uncertainty."""
     scene = RayleighBenard(ra=ra)
-    until = Time(EARLY*scene.L/scene.free_fall, round(EARLY*OFTEN))
+    until = Time(EARLY*unit(scene), round(EARLY*OFTEN))
     states = [newton(scene, n) for n in rows]
     runs = [run_grid(scene, n, until=until, start=initial(scene, n, START_ENERGY)) for n in rows]
     coarser, ke = limits([state.ke for state in states], rows)
@@ -81,7 +78,7 @@ def extrapolated(values: Sequence[Any], rows: Sequence[int]) -> Any:
     return fine + (fine - coarse)*a**2/(b**2 - a**2)
 
 
-# --- a run ------------------------------------------------------------------------------------------------------
+# --- a run --------------------------------------------------------------------------------------------------
 
 
 class Followed(NamedTuple):
@@ -107,11 +104,12 @@ class HeatedLayer(NamedTuple):
 
     def result(self, done: Followed, at: Fields, factor: float = 1.0) -> Result:
         """All quantities, of fields `at` the end in heights. factor : smoothing's own on K."""
-        last, answer = self.last(done)*(1/factor), self.answer
-        early = CubicSpline(done.t, done.ke/factor)(TIMES) - answer.history
-        residuals = {"K": np.array([last.value/answer.ke - 1]), "K(t)": early/rms(answer.history)}
-        residuals |= compared(at, answer.fields)
-        uncertain = {"K": last.err/answer.ke, "K(t)": answer.history_known}
+        answer = self.answer
+        last = self.last(done)*(1/factor/answer.ke)
+        early = CubicSpline(done.t, done.ke/factor)(TIMES)
+        history = (early - answer.history)/rms(answer.history)
+        residuals = {"K": np.array([last.value - 1]), "K(t)": history, **compared(at, answer.fields)}
+        uncertain = {"K": last.err, "K(t)": answer.history_known}
         return Result(residuals, uncertain, self.share(done, residuals))
 
     def last(self, done: Followed) -> Measured:
@@ -124,37 +122,39 @@ class HeatedLayer(NamedTuple):
 
     def share(self, done: Followed, residuals: Residuals) -> dict[str, float]:
         """Of the run, by quantity: rule at the head of this file."""
-        needed = {name: self.needed(done, max(self.answer.known, rms(q))) for name, q in residuals.items()}
-        needed["K(t)"] = EARLY
-        return {name: min(1.0, float(time/done.t[-1])) for name, time in needed.items()}
+        share = dict[str, float]()
+        for name, residual in residuals.items():
+            error = max(self.answer.known, rms(residual))
+            time = EARLY if name == "K(t)" else self.needed(done, error)
+            share[name] = min(1.0, float(time/done.t[-1]))
+        return share
 
     def needed(self, done: Followed, error: float) -> float:
         """Free-fall times until a quantity of the steady state is as good as its error."""
         last = self.last(done)
-        means = np.convolve(done.ke/last.value - 1, np.full(OFTEN, 1/OFTEN), "valid")
+        window = np.full(OFTEN, 1/OFTEN)
+        means = np.convolve(done.ke/last.value - 1, window, "valid")
         far = np.flatnonzero(np.abs(means) > error)
         near = min(far.max(initial=-1) + 1, len(means) - 1)
-        averaged = (END - self.late)*min(1.0, (last.err/last.value/error)**2)
+        noise = last.err/last.value/error
+        averaged = (END - self.late)*min(1.0, noise**2)
         return float(done.t[near + OFTEN - 1] + averaged)
 
 
 def compared(at: Fields, answer: tuple[GridFields, ...]) -> Residuals:
-    """Velocity and temperature, weighted by volume; the temperature relative to the rms of what differs from 1."""
-    exact = at_places(answer, aligned(at))
-    v = np.stack([exact.vx, exact.vy], axis=1)
-    return {"velocity": relative(at.V, at.v - v, v), "temperature": relative(at.V, at.T - exact.T, exact.T - 1)}
-
-
-def at_places(answer: tuple[GridFields, ...], x: np.ndarray) -> Values:
-    """The limit at places (n, 2) in heights."""
-    x, y = answer[0].scene.L*x.T
+    """Velocity and temperature, the latter relative to the rms of what differs from 1."""
+    x, y = answer[0].scene.L*aligned(at).T
     values = [np.array(interpolate(fields, x, y)) for fields in answer]
     rows = [len(fields.y) - 1 for fields in answer]
-    return Values(*extrapolated(values, rows))
+    exact = Values(*extrapolated(values, rows))
+    v = np.stack([exact.vx, exact.vy], axis=1)
+    velocity = relative(at.V, at.v - v, v)
+    temperature = relative(at.V, at.T - exact.T, exact.T - 1)
+    return {"velocity": velocity, "temperature": temperature}
 
 
 def aligned(at: Fields) -> np.ndarray:
-    """Places shifted along x so that the rolls lie as at the start, rising in the middle; in the box |x| <= 1."""
+    """Places in |x| <= 1, shifted so that the rolls lie as at the start, rising in the middle."""
     x, y = at.x.T
     near = np.abs(y) < MIDDLE
     wave = at.V*at.v[:, 1]*np.exp(-1j*np.pi*x)
@@ -162,7 +162,7 @@ def aligned(at: Fields) -> np.ndarray:
     return np.stack([(x + shift + 1) % 2 - 1, y], axis=1)
 
 
-# --- methods ----------------------------------------------------------------------------------------------------
+# --- methods ------------------------------------------------------------------------------------------------
 
 
 def on_points(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
@@ -185,13 +185,15 @@ def of_particles(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Proble
 def in_time(flow: HeatedLayer, scene: RayleighBenard, ready: Ready, energy: Callable, see: See,
             factor: float = 1.0) -> Problem:
     """A method of the particles' time loop, with K on the way."""
+    method = Unguarded(ready.method)
+
     def go(state: np.ndarray, dt: float, steps: int) -> Followed:
         plan = Plan(dt=dt, steps=steps, series={"ke": energy}, every=every(scene, dt))
-        done = run(Unguarded(ready.method), state, plan)
+        done = run(method, state, plan)
         return from_rolls(scene, done.times, done.series["ke"], done.by_id())
     points = ready.start.shape[1]
-    return problem_of(flow, scene, ready, points, go, see, factor)._replace(
-        held=holding(ready.method, ready.start), timed=marching(ready.method))
+    problem = problem_of(flow, scene, ready, points, go, see, factor)
+    return problem._replace(held=holding(ready.method, ready.start), timed=marching(ready.method))
 
 
 def on_grid(flow: HeatedLayer, form: Any, rows: int, seed: int) -> Problem:
@@ -199,9 +201,12 @@ def on_grid(flow: HeatedLayer, form: Any, rows: int, seed: int) -> Problem:
     scene = flow.scene(rows)
     ready = form.ready(scene)
     method, march = ready.method, ready.method.march(ready.start)
-    points = rows*round(scene.width)
-    return problem_of(flow, scene, ready, points, sampled(method), method.fields)._replace(
-        held=lambda: (march.S, march.scratch), timed=method.go)
+    cells = rows*round(scene.width)
+
+    def held() -> tuple:
+        return march.S, march.scratch
+    problem = problem_of(flow, scene, ready, cells, sampled(method), method.fields)
+    return problem._replace(held=held, timed=method.go)
 
 
 def problem_of(flow: HeatedLayer, scene: RayleighBenard, ready: Ready, points: int, go: Go, see: See,

@@ -27,13 +27,13 @@ Clock = Callable[[], float]
 SHORT = 0.01        # CPU seconds that the steps of the shorter of two runs take at least
 MANY = 100_000      # steps of it at most
 
-WARM = 16           # steps of particles before they are timed, and of a lap: a lattice has no lists to make again
+WARM = 16           # steps of particles before they are timed, and of a lap: lists are made anew
 LAPS, WORK = (5, 25), 2e6               # least and most laps; particles times steps that are enough
 ETA = 0.5
 TURNS, A_TURN = 12, 2                   # of one and two threads; laps of particles in each
 
 
-# --- how they are measured --------------------------------------------------------------------------------------
+# --- how they are measured ----------------------------------------------------------------------------------
 
 
 def median(seconds: Sequence[float] | np.ndarray) -> Measured:
@@ -56,10 +56,10 @@ def of_calls(f: Callable[[], Any], clock: Clock = process_time) -> Measured:
 
 
 def per_step(advance: Callable[[int], Any], short: float = SHORT, clock: Clock = process_time) -> Measured:
-    """Seconds of one step of advance(steps): the difference of two lengths, which leaves out what every run pays once.
+    """Seconds of one step of advance(steps): the difference of two runs leaves out what every run pays once.
 
-    The steps of the shorter one take at least `short`, and as long as what is paid once: else its scatter would be all
-    that is seen.
+    The steps of the shorter one take `short` at least, and as long as what is paid once, whose scatter
+    counts.
     """
     def lap(steps: int) -> float:
         return took(lambda: advance(steps), clock)
@@ -90,8 +90,11 @@ class Laps:
 
 
 def array_bytes(*things: Any) -> int:
-    """Bytes of all arrays that things hold, each buffer once; not those of a `method`, which are there to set up only."""
-    sizes = {array.__array_interface__["data"][0]: array.nbytes for array in arrays(things, set())}
+    """Bytes of all arrays that things hold, each buffer once; not those of a `method`, which only sets up."""
+    sizes = dict[int, int]()
+    for array in arrays(things, set()):
+        start, _ = array.__array_interface__["data"]
+        sizes[start] = array.nbytes
     return sum(sizes.values())
 
 
@@ -115,14 +118,16 @@ def parts(thing: Any) -> Iterator[Any]:
         yield from thing
     if isinstance(thing, dict):
         yield from thing.values()
-    yield from (value for name, value in getattr(thing, "__dict__", {}).items() if name != "method")
+    for name, value in getattr(thing, "__dict__", {}).items():
+        if name != "method":
+            yield value
 
 
-# --- many points ------------------------------------------------------------------------------------------------
+# --- many points --------------------------------------------------------------------------------------------
 
 
 class Flock(NamedTuple):
-    """Smooth particles of the printed scheme at Ra = 10 000, lists and walls included; twice as many columns as rows."""
+    """The printed scheme at Ra = 10 000, lists and walls included; twice as many columns as rows."""
     method: Any
     start: np.ndarray
     dt: float
@@ -205,7 +210,7 @@ class StepTime(Case):
 
 @dataclass(frozen=True, kw_only=True)
 class TwoThreads(StepTime):
-    """The time that passes in steps of one thread and of two, which take turns: what slows the machine slows both."""
+    """The time that passes in steps of one thread and of two, in turns: what slows the machine slows both."""
     kind: type[Flock] = Flock
     turns: int = TURNS
 
@@ -221,10 +226,10 @@ class TwoThreads(StepTime):
         one, two = (Flock.of(self.rows, threads) for threads in (1, 2))
         alone, together = list[float](), list[float]()
         for turn in range(self.turns + 1):
-            pair = [flock.laps(A_TURN, perf_counter) for flock in (one, two)]
+            first, second = (flock.laps(A_TURN, perf_counter) for flock in (one, two))
             if turn:        # the first loads what is compiled
-                alone += list(pair[0])
-                together += list(pair[1])
+                alone.extend(first)
+                together.extend(second)
             report(turn/self.turns)
         rows = self.row(median(alone), 1, "wall"), self.row(median(together), 2, "wall")
         return Outcome({"growth": list(rows)})
