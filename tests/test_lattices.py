@@ -17,7 +17,7 @@ from studies.lattices.cases import crossing, derive
 from studies.lattices.claims import NO_PRESSURE, SPINODAL
 from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, LatticeMotion, growth, sums
 from studies.lattices.frozen_flow import criteria, lindemann, neighbours
-from studies.lattices.molecules import METHODS, RHO_SQUARED, Molecules, Reversal, Twins, as_fluid, partners, whole_crowd
+from studies.lattices.molecules import METHODS, RHO_SQUARED, Molecules, Reversal, as_fluid, partners, whole_crowd
 from studies.lattices.sound import Ringing, Speed, grown, motions, rounding
 
 HEXAGONAL, SQUARE = LATTICES["hexagonal"], LATTICES["square"]
@@ -143,11 +143,6 @@ def test_paths_come_back_as_their_steps_let_them():
     assert found["whole numbers"]["equal"] == 1 and found["whole numbers"]["apart"] == 0
     assert 0 < found["leapfrog"]["apart"] < 1e-13 and found["leapfrog"]["equal"] < 1
     assert 1e-6 < found["rk4"]["apart"] < 0.1
-
-
-def test_twins_stay_together_for_a_while():
-    row = rows(Twins(weight=Lucy, every=1.0, samples=1), "twins")[0]
-    assert 0 < row["apart"] < 1e-14
 
 
 # --- sound --------------------------------------------------------------------------------------------------------------

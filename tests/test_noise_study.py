@@ -21,7 +21,7 @@ from studies.noise import STUDY, cases
 from studies.noise.below_onset import apart, root, sampled, slowest_amplitude
 from studies.noise.dissipative import blocks, neighbours
 from studies.noise.modes import check_modes, directions, plane_waves
-from studies.noise.partners import equilibrium, factor, transport, viscosity
+from studies.noise.partners import KT, equilibrium, factor, transport, viscosity
 from studies.noise.sampling import check_length, dirichlet, heat_kicks, heat_rates
 
 
@@ -50,6 +50,14 @@ def test_printed_noise_has_the_variance_of_lattice_sums(algebra):
     """To nine digits: solves with condition 1e3."""
     printed = algebra["printed"]
     assert printed["ratio"].to_numpy() == pytest.approx(printed["predicted"].to_numpy(), rel=1e-8)
+
+
+@pytest.mark.parametrize("equation, due", [("42", 1.0), ("43", 1/KT)])
+def test_waves_on_a_line_of_nearest_neighbours_get_one_over_cosine_squared(algebra, equation, due):
+    """Doubled; T/cos^2(ka/2), energies 1/(T cos^2(ka/2)); the corner of the zone, where the cosine is 0.05, costs digits."""
+    rows = algebra["printed"].query("equation == @equation and reading == 'doubled' and h == 1.5")
+    assert len(rows) == 15
+    assert (rows["ratio"]*np.cos(rows["wavenumber"]/2)**2).to_numpy() == pytest.approx(due, rel=1e-10)
 
 
 def test_every_equation_of_noise_and_of_pairs_has_its_verdict():
