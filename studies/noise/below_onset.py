@@ -33,14 +33,6 @@ class BelowOnset(Case):
     rows: int
     below: tuple[float, ...]        # 1 - Ra/Ra_c
 
-    @property
-    def cost(self) -> float:
-        return 2e-5*self.rows**3
-
-    @property
-    def label(self) -> str:
-        return f"below onset, {self.rows} rows"
-
     def run(self, report: Report, folder: Path) -> Outcome:
         critical = onset(self.rows)
         return Outcome({"onset": [self.row(critical, part) for part in self.below]})
@@ -48,8 +40,8 @@ class BelowOnset(Case):
     def row(self, critical: float, below: float) -> dict[str, float]:
         """The variance of vertical velocities, which is 1 in equilibrium."""
         J, Q = matrices(self.rows, critical*(1 - below))
-        w = slice(2*self.rows, 3*self.rows)
-        velocity = np.trace(steady(J, Q)[w, w].real)/self.rows
+        variances = np.diag(steady(J, Q)).real
+        velocity = variances[2*self.rows:3*self.rows].mean()
         return {"rows": self.rows, "below": below, "ra_c": critical, "velocity": float(velocity)}
 
 
@@ -62,15 +54,18 @@ def onset(rows: int) -> float:
 
 def matrices(rows: int, ra: float) -> tuple[np.ndarray, np.ndarray]:
     """J and Q of the waves at one Rayleigh number."""
-    counts, first = (5, rows), np.arange(rows)
+    counts, k = (5, rows), K_HEIGHT/rows
     scene = RayleighBenard(ra=ra, L=float(rows), aspect=5/rows)
     fluid = layer(scene, LATTICE, 1)
-    T = scene.T(fluid.x[:, 1])
-    sums = fluid.start(len(T), Team(1))
-    J = jacobian(sums.rates, fluid.state(1.0, 0*fluid.x, T), first)
-    columns = (np.arange(4)[:, None]*len(T) + first).ravel()
+    x, n = fluid.x, len(fluid.x)
+    T = scene.T(x[:, 1])
+    sums = fluid.start(n, Team(1))
+    first = np.arange(rows)             # points at the left end
+    J = jacobian(sums.rates, fluid.state(1.0, 0*x, T), first)
+    fields = np.arange(4)[:, None]
+    columns = (fields*n + first).ravel()
     Q = layer_noise(fluid, T)[:, columns].toarray()
-    return waves(J, counts, K_HEIGHT/rows), waves(Q, counts, K_HEIGHT/rows)
+    return waves(J, counts, k), waves(Q, counts, k)
 
 
 def layer_noise(fluid: Layer, T: np.ndarray) -> sparse.csr_array:
@@ -80,14 +75,18 @@ def layer_noise(fluid: Layer, T: np.ndarray) -> sparse.csr_array:
     of its two points alike.
     """
     edges, beyond, law, n = fluid.edges, fluid.beyond, fluid.law, len(T)
-    columns, rows = np.tile(beyond.i, 2), np.concatenate([beyond.i, beyond.parent])
-    wall = np.array(fluid.T_plates)[beyond.plate]
+    rows = np.concatenate([beyond.i, beyond.parent])
+    columns = np.tile(beyond.i, 2)
+    T_wall = np.array(fluid.T_plates)[beyond.plate]
 
     def of_plate(q: np.ndarray) -> sparse.csr_array:
-        return sparse.csr_array((np.tile(beyond.k*q, 2), (columns, rows)), shape=(n, n))
+        values = np.tile(beyond.k*q, 2)
+        return sparse.csr_array((values, (columns, rows)), shape=(n, n))
     momenta, energies = transport(edges, 1.0, law.eta, 0.0, law.k, T)
-    both = sparse.kron(sparse.eye_array(2), of_plate(2*law.eta*wall))
-    return noise(edges.V, momenta.Q + both, energies.Q + of_plate(2*law.k*wall**2))
+    friction = of_plate(2*law.eta*T_wall)
+    heat = of_plate(2*law.k*T_wall**2)
+    both = sparse.kron(sparse.eye_array(2), friction)
+    return noise(edges.V, momenta.Q + both, energies.Q + heat)
 
 
 # --- sampled ----------------------------------------------------------------------------------
@@ -105,20 +104,18 @@ class LayerSampled(Case):
     def cost(self) -> float:
         return 5e-5*BATCHES*self.decays/(0.025*self.below*DT)
 
-    @property
-    def label(self) -> str:
-        return f"sampled layer, {self.rows} rows, {self.below:g} below onset"
-
     def run(self, report: Report, folder: Path) -> Outcome:
-        J, Q = matrices(self.rows, onset(self.rows)*(1 - self.below))
-        y = np.pi*(np.arange(self.rows) + 0.5)/self.rows
-        across, along = np.sqrt(2/self.rows)*np.array([np.sin(y), np.cos(y)])
-        modes = {"slowest": slowest_amplitude(J), "w": np.kron([0, 0, 1, 0], across),
-                 "u": np.kron([0, 1, 0, 0], along)}
-        variances = sampled(J, Q, np.array(list(modes.values())), self.seed, report, self.decays)
-        key = {"flow": "layer", "strength": self.below, "rows": self.rows, "wavenumber": K_HEIGHT/self.rows}
-        return Outcome({"sampled": [{**key, "field": name, **row}
-                                    for name, row in zip(modes, variances, strict=True)]})
+        rows, ra = self.rows, onset(self.rows)*(1 - self.below)
+        J, Q = matrices(rows, ra)
+        y = np.pi*(np.arange(rows) + 0.5)/rows
+        unit = np.sqrt(2/rows)
+        w = np.kron([0, 0, 1, 0], unit*np.sin(y))
+        u = np.kron([0, 1, 0, 0], unit*np.cos(y))
+        modes = np.array([slowest_amplitude(J), w, u])
+        variances = sampled(J, Q, modes, self.seed, report, self.decays)
+        key = {"flow": "layer", "strength": self.below, "rows": rows, "wavenumber": K_HEIGHT/rows}
+        fields = zip(("slowest", "w", "u"), variances, strict=True)
+        return Outcome({"sampled": [{**key, "field": field, **row} for field, row in fields]})
 
 
 def slowest_amplitude(J: np.ndarray) -> np.ndarray:
@@ -132,13 +129,17 @@ def sampled(J: np.ndarray, Q: np.ndarray, modes: np.ndarray, seed: int, report: 
             decays: float) -> list[dict[str, float]]:
     """Variances of `modes` (m, N) of dx = J x dt + noise of covariance Q: exact, samples over that."""
     exact = np.einsum("mi,ij,mj->m", modes, steady(J, Q), modes.conj()).real
-    slow = -np.log(np.abs(np.linalg.eigvals(crank_nicolson(J, Q, DT).A)).max())
-    B, looks = sparse.csr_array(apart(root(Q))/np.sqrt(2)), apart(modes)    # of unit variance each part has a half
-    sampler = Sampler(J=apart(J), kicks=of_matrix(B, DT), look=lambda x: (looks@x)**2, dt=DT,
-                      steps=int(np.ceil(decays/slow)), seed=seed)
-    batches = sampler.batches(np.zeros(2*len(J)), report, BATCHES + 1)[1:]      # the first one forgets the start
-    powers = batches.mean(axis=1).reshape(BATCHES, 2, -1).sum(axis=1)/exact
-    return [{"exact": float(due), **ratio(power)} for due, power in zip(exact, powers.T, strict=True)]
+    factors = np.linalg.eigvals(crank_nicolson(J, Q, DT).A)
+    slow = -np.log(np.abs(factors).max())
+    steps = int(np.ceil(decays/slow))
+    B = apart(root(Q))/np.sqrt(2)       # of unit variance each part has a half
+    kicks, parts = of_matrix(sparse.csr_array(B), DT), apart(modes)
+    sampler = Sampler(J=apart(J), kicks=kicks, look=lambda x: (parts@x)**2, dt=DT, steps=steps, seed=seed)
+    start = np.zeros(2*len(J))
+    batches = sampler.batches(start, report, BATCHES + 1)[1:]       # the first one forgets the start
+    of_parts = batches.mean(axis=1).reshape(BATCHES, 2, -1)
+    ratios = of_parts.sum(axis=1)/exact
+    return [{"exact": float(due), **ratio(values)} for due, values in zip(exact, ratios.T, strict=True)]
 
 
 def apart(M: np.ndarray) -> np.ndarray:

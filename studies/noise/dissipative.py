@@ -61,12 +61,14 @@ class Fluid(Case):
         start = first.random_start(RHO, self.seed)
         state = run(first, start, Plan(dt=0.02, steps=round(SETTLE/0.02))).by_id()
         then = replace(method, noise=Uniform(self.seed + 2000))
-        return run(then, state, Plan(dt=self.dt, steps=round(SETTLE/self.dt))).by_id()
+        plan = Plan(dt=self.dt, steps=round(SETTLE/self.dt))
+        return run(then, state, plan).by_id()
 
     def recorded(self, method: Dpd, report: Report, **series: Callable) -> Run:
         """A run of the settled fluid with records every `RECORD`."""
         every = max(1, round(RECORD/self.dt))
-        plan = Plan(dt=self.dt, steps=round(self.time/self.dt/every)*every, every=every, series=series)
+        records = round(self.time/self.dt/every)
+        plan = Plan(dt=self.dt, steps=records*every, every=every, series=series)
         return run(method, self.settled(method), plan, report)
 
     def row(self, done: Run, **measured: Measured) -> dict[str, Any]:
@@ -87,7 +89,8 @@ class AtRest(Fluid):
     def run(self, report: Report, folder: Path) -> Outcome:
         done = self.recorded(self.method(), report, kinetic=kinetic_temperature, P=pressure,
                              configurational=configurational_temperature)
-        return Outcome({"states": [self.row(done, **{name: mean(x) for name, x in done.series.items()})]})
+        means = {name: mean(x) for name, x in done.series.items()}
+        return Outcome({"states": [self.row(done, **means)]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,10 +106,12 @@ class LongRun(Fluid):
         done = self.recorded(method, report, kinetic=kinetic_temperature, F2=forces_squared, lap=laplacian,
                              P=pressure)
         kinetic, F2, lap, P = map(np.array, done.series.values())
-        ratio, rho = F2.mean()/lap.mean(), done.state.shape[1]/method.volume
-        configurational = Measured(ratio, mean((F2 - ratio*lap)/lap.mean()).err)
-        return Outcome({"long": [self.row(done, kinetic=mean(kinetic), configurational=configurational,
-                                          P=mean(P - rho*(kinetic - method.kT)))]})
+        ratio = F2.mean()/lap.mean()
+        error = mean((F2 - ratio*lap)/lap.mean()).err
+        rho = done.state.shape[1]/method.volume
+        asked = P - rho*(kinetic - method.kT)
+        row = self.row(done, kinetic=mean(kinetic), configurational=Measured(ratio, error), P=mean(asked))
+        return Outcome({"long": [row]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -117,9 +122,11 @@ class Shear(Fluid):
     def run(self, report: Report, folder: Path) -> Outcome:
         done = self.recorded(self.method(self.rate), report, kinetic=kinetic_temperature, stress=shear_stress)
         # a run begins with images that have not slid: what that disturbs is left out, too
-        kinetic, stress = (mean(x[round(SETTLE/RECORD):]) for x in done.series.values())
+        begin = round(SETTLE/RECORD)
+        kinetic, stress = (mean(x[begin:]) for x in done.series.values())
         row = self.row(done, viscosity=stress/self.rate, kinetic=kinetic)
-        return Outcome({"shear": [{**row, "rate": self.rate, "time": self.time - SETTLE}]})
+        row |= {"rate": self.rate, "time": self.time - SETTLE}
+        return Outcome({"shear": [row]})
 
 
 # --- a cylinder of frozen particles -----------------------------------------------------------
@@ -153,10 +160,10 @@ class Cylinder(Fluid):
                     series={"speed": speed, "force": force_on_body})
         # a seed of its own: the noise of a run begins anew
         done = run(replace(method, noise=Uniform(self.seed + 3000)), start, plan, report)
-        U = mean(done.series["speed"])
-        stream = {**self.row(done, speed=U), "side": CELL, "held": len(method.held),
-                  "force": float(np.mean(done.series["force"]))}
-        return Outcome({"cylinder": [stream], "flow": list(velocities(done.means["flow"], U.value))})
+        U, force = mean(done.series["speed"]), float(np.mean(done.series["force"]))
+        stream = {**self.row(done, speed=U), "side": CELL, "held": len(method.held), "force": force}
+        field = velocities(done.means["flow"], U.value)
+        return Outcome({"cylinder": [stream], "flow": list(field)})
 
     def stream(self) -> tuple[DpdStream, np.ndarray]:
         """The method, and the steady stream (9, n)."""
@@ -165,8 +172,9 @@ class Cylinder(Fluid):
         U = REYNOLDS*ETA/(2*RADIUS*RHO)
         drag = drag_of(FRACTION).value*ETA*U*DEPTH
         x, y = in_cell(still.fields(state).x).T
-        method = DpdStream(box=still.box, noise=still.noise, integrator=self.integrator,
-                           held=np.flatnonzero(x**2 + y**2 < RADIUS**2), push=drag/state.shape[1])
+        held = np.flatnonzero(x**2 + y**2 < RADIUS**2)
+        method = DpdStream(box=still.box, noise=still.noise, integrator=self.integrator, held=held,
+                           push=drag/state.shape[1])
         plan = Plan(dt=self.dt, steps=round(STEADY/self.dt))
         return method, run(method, method.at_rest(state, U), plan).by_id()
 
@@ -186,11 +194,11 @@ def flow(sums: Any, state: np.ndarray) -> np.ndarray:
 
 def velocities(flow: np.ndarray, U: float) -> Iterator[dict[str, float]]:
     """Rows of the mean field, over the mean velocity U; nan where there never was a particle."""
-    px, py, count = flow
-    mass = np.where(count > 0, count, np.nan)*U
+    *p, count = flow
+    u, v = p/np.where(count > 0, count, np.nan)/U
     at = (BINS[1:] + BINS[:-1])/2/RADIUS
     for i, j in np.ndindex(count.shape):
-        yield {"x": float(at[i]), "y": float(at[j]), "u": px[i, j]/mass[i, j], "v": py[i, j]/mass[i, j]}
+        yield {"x": float(at[i]), "y": float(at[j]), "u": u[i, j], "v": v[i, j]}
 
 
 # --- a special case of Eqs 42, 49, 51 -----------------------------------------------------------
@@ -211,39 +219,44 @@ def special(d: int, dt: float = 0.02) -> float:
     """The same in d dimensions, with the noise of the first step."""
     method = Dpd(box=(3.5,)*d)
     state, w, e = neighbours(method)
-    x, v, n = state[:d], state[d:2*d], state.shape[1]
+    x, v, _ = np.split(state, 3)
+    n = x.shape[1]
     sums, forces = method.start(n, Team(1)), np.empty_like(x)
-    sums.resume(Run(state=state, ids=np.arange(n), step=0))
+    sums.resume(Run(state=state, ids=np.arange(n)))
     sums.dt = dt
     sums.forces(x, v, 0.0, forces)
-    zeta = method.gamma/4       # times V
-    Y = np.array([[uniform_of_pair(method.noise.seed, 1, i, j) for j in range(n)] for i in range(n)])
-    along = (e*(v[:, :, None] - v[:, None, :])).sum(axis=0)
-    noise = 2*np.sqrt(2*method.kT*zeta/dt)*Y
-    due = (w*e*(method.a - method.gamma*w*along + noise)).sum(axis=2)
+    gamma, zeta = method.gamma, method.gamma/4      # zeta times V
+    seed = method.noise.seed
+    Y = [[uniform_of_pair(seed, 1, i, j) for j in range(n)] for i in range(n)]
+    u = v[:, :, None] - v[:, None, :]
+    along = (e*u).sum(axis=0)
+    noise = 2*np.sqrt(2*method.kT*zeta/dt)*np.array(Y)
+    due = (w*e*(method.a - gamma*w*along + noise)).sum(axis=2)
     return float(np.abs(forces - due).max()/np.abs(due).max())
 
 
 def neighbours(method: Dpd) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """A random state (3 d, n), weights w (n, n) by nearest images, unit vectors e_ij (d, n, n)."""
     state, box = method.random_start(RHO), np.array(method.box)[:, None, None]
-    x = state[:method.d]
+    x, rc = state[:method.d], method.rc
     apart = x[:, :, None] - x[:, None, :]
     apart -= box*np.round(apart/box)
-    r = np.sqrt((apart**2).sum(axis=0)) + 2*method.rc*np.eye(x.shape[1])
-    return state, np.maximum(1 - r/method.rc, 0), apart/r
+    r = np.sqrt((apart**2).sum(axis=0))
+    np.fill_diagonal(r, 2*rc)           # no particle is its own neighbour
+    return state, np.maximum(1 - r/rc, 0), apart/r
 
 
 def unmodified() -> float:
     """|Q - 2 kT Gamma|/|Q|, friction of the weight of the noise, not its square, and as much energy in all."""
     _, w, e = neighbours(Dpd(box=(3.0, 3.0, 3.0)))
-    Q, due = blocks(w**2, e), blocks(w, e)
-    return float(np.abs(Q - due*np.trace(Q)/np.trace(due)).max()/np.abs(Q).max())
+    Q, friction = blocks(w**2, e), blocks(w, e)
+    due = friction*np.trace(Q)/np.trace(friction)
+    return float(np.abs(Q - due).max()/np.abs(Q).max())
 
 
 def blocks(weight: np.ndarray, e: np.ndarray) -> np.ndarray:
     """(d n, d n) of forces weight e e.(v_i - v_j) between the points of each pair."""
     d, n = e.shape[:2]
-    pairs = weight*e[:, None]*e[None]                                   # (d, d, n, n)
-    own = np.einsum("abij,ik->abik", pairs.sum(axis=3)[..., None]*np.eye(n), np.eye(n))
+    pairs = weight*e[:, None]*e[None]                       # (d, d, n, n)
+    own = pairs.sum(axis=3)[..., None]*np.eye(n)
     return (own - pairs).transpose(0, 2, 1, 3).reshape(d*n, d*n)

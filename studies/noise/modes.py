@@ -60,30 +60,33 @@ class Equipartition(Case):
         sampler = Sampler(J=J, kicks=of_matrix(B, self.dt), dt=self.dt, steps=self.steps, seed=self.seed,
                           look=lambda x: np.append((F@x)**2, whole(V, x)))
         powers = sampler.batches(start(V, points.d, self.seed), report).mean(axis=1)
-        everything = [("all", (0,)*points.d, "-")]
-        return Outcome({TABLE[points.d]: [self.row(*name, power) for name, power
-                                          in zip(names + everything, powers.T, strict=True)]})
+        names.append(("all", (0,)*points.d, "-"))
+        rows = [self.row(*name, power) for name, power in zip(names, powers.T, strict=True)]
+        return Outcome({TABLE[points.d]: rows})
 
     def row(self, field: str, turns: Turns, phase: str, power: np.ndarray) -> dict[str, Any]:
         """Of one mode, or of all degrees of freedom together, which have no wave number."""
-        k = 2*np.pi*np.linalg.norm(np.array(turns)/self.counts)
-        return {"points": self.disorder.name, "share": self.share, "field": field, **dict(zip(AXES, turns)),
-                "phase": phase, "wavenumber": np.nan if field == "all" else float(k),
-                **ratio(power)}
+        k = 2*np.pi*np.linalg.norm(np.divide(turns, self.counts))
+        key = {"points": self.disorder.name, "share": self.share, "field": field, "phase": phase}
+        axes = dict(zip(AXES, turns))
+        return {**key, **axes, "wavenumber": k if k else np.nan, **ratio(power)}
 
 
 def start(V: np.ndarray, d: int, seed: int) -> np.ndarray:
     """Densities ((2 + d) n,) from rho, v and T of equilibrium, with sums of zero."""
-    state = np.random.default_rng(seed).normal(size=(2 + d, len(V)))/np.sqrt(V)
+    rng = np.random.default_rng(seed)
+    state = rng.normal(size=(2 + d, len(V)))/np.sqrt(V)
     state[-1] += state[0]
-    return (state - (state@V/V.sum())[:, None]).ravel()
+    mean = state@V/V.sum()
+    return (state - mean[:, None]).ravel()
 
 
 def whole(V: np.ndarray, state: np.ndarray) -> float:
     """Mean over all degrees of freedom but the conserved sums of what is 1 in equilibrium."""
-    rho, *p, eps = parts = state.reshape(-1, len(V))
-    square = rho**2 + sum(q**2 for q in p) + (eps - rho)**2
-    return float(V@square/(len(parts)*(len(V) - 1)))
+    fields = state.reshape(-1, len(V)).copy()
+    fields[-1] -= fields[0]
+    square = (fields**2).sum(axis=0)
+    return float(V@square/len(fields)/(len(V) - 1))
 
 
 def plane_waves(points: Points, V: np.ndarray, turns: tuple[Turns, ...]) -> tuple[list[Name], np.ndarray]:
@@ -101,15 +104,15 @@ def plane_waves(points: Points, V: np.ndarray, turns: tuple[Turns, ...]) -> tupl
 def directions(k: np.ndarray) -> dict[str, np.ndarray]:
     """What (rho, p, eps) have of each field; velocities along the axes of a plane, along and across k in space."""
     if len(k) == 2:
-        v = dict(zip("uv", np.eye(2)))
-    else:
-        axes = np.eye(3)
-        others = axes[np.argsort(np.abs(k))[:2]]
-        frame = np.linalg.qr(np.column_stack([k if k.any() else axes[0], others.T]))[0]
-        v = dict(zip(("along", "across", "across 2"), frame.T, strict=True))
-    none = np.zeros(len(k))
-    fields = {"rho": np.array([1, *none, 0]), "T": np.array([-1, *none, 1])}
-    return {name: np.array([0, *direction, 0]) for name, direction in v.items()} | fields
+        return {"u": np.eye(4)[1], "v": np.eye(4)[2], "rho": np.eye(4)[0], "T": np.array([-1, 0, 0, 1])}
+    axes = np.eye(3)
+    along = k if k.any() else axes[0]
+    others = axes[np.argsort(np.abs(k))[:2]]
+    frame, _ = np.linalg.qr(np.stack([along, *others], axis=1))
+    names = ("along", "across", "across 2", "rho", "T")
+    vectors = np.pad(frame.T, ((0, 2), (1, 1)))
+    vectors[3, 0], vectors[4, [0, 4]] = 1, (-1, 1)
+    return dict(zip(names, vectors, strict=True))
 
 
 def check_modes(F: np.ndarray, C: np.ndarray, B: Any, names: list[Name]) -> None:
@@ -120,9 +123,10 @@ def check_modes(F: np.ndarray, C: np.ndarray, B: Any, names: list[Name]) -> None
     ValueError
         There is no mode in the list that relaxes.
     """
-    size = (F**2).sum(axis=1).max(initial=0)        # a sine may be zero at every point, to round-off
-    moves = np.einsum("mi,ij,mj->m", F, C, F) > 1e-12*size*np.diag(C).max()
-    driven = ((F@B)**2).sum(axis=1) > 1e-12*size*(B@B.T).diagonal().max()
+    variance = np.einsum("mi,ij,mj->m", F, C, F)
+    driving = ((F@B)**2).sum(axis=1)
+    least = 1e-12*(F**2).sum(axis=1).max()          # a sine may be zero at every point, to round-off
+    moves, driven = variance > least*C.max(), driving > least*(B@B.T).max()
     if not (moves & driven).any():
         raise ValueError(f"all {len(F)} modes in the list are null modes ({'; '.join(map(str, names[:4]))} "
                          "...): they are conserved, or nothing drives and damps them, so samples say "
@@ -152,41 +156,37 @@ class Brillouin(Case):
     def cost(self) -> float:
         return BATCHES*self.steps*1e-4
 
-    @property
-    def label(self) -> str:
-        return f"Brillouin, {self.points} points"
-
     def run(self, report: Report, folder: Path) -> Outcome:
         edges = renormalised(lattice((self.points,)), Lucy.of(h=2.0, d=1))
         J = rates_at_rest(edges, 1.0, eta=0.0, zeta=ETA)
         B = factor(edges, *transport(edges, 1.0, 0.0, ETA, KAPPA, 1.0))
         check_length(J, self.steps*self.dt)
-        to_state = states_of_fields(edges.n, 1)
-        modes = self.waves()@np.linalg.inv(to_state)
+        modes = self.waves()@np.linalg.inv(states_of_fields(edges.n, 1))
         sampler = Sampler(J=J, kicks=of_matrix(B, self.dt), look=lambda x: modes@x, dt=self.dt,
                           steps=self.steps, seed=self.seed)
-        state = (to_state@np.random.default_rng(self.seed).normal(size=3*self.points)).reshape(3, -1)
-        state -= state.mean(axis=1, keepdims=True)
-        looks = sampler.batches(state.ravel(), report)
-        x = looks.reshape(*looks.shape[:2], len(self.turns), 3)
-        return Outcome({"peaks": [self.peak(x[:, :, number], turns) for number, turns in enumerate(self.turns)]})
+        looks = sampler.batches(start(edges.V, 1, self.seed), report)
+        of_turns = np.split(looks, len(self.turns), axis=2)
+        return Outcome({"peaks": [self.peak(*pair) for pair in zip(of_turns, self.turns, strict=True)]})
 
     def waves(self) -> np.ndarray:
         """Rows: rho, u and T at each wave number, variance 1 in equilibrium; complex."""
-        waves = [np.exp(-2j*np.pi*turns*np.arange(self.points)/self.points) for turns in self.turns]
-        return np.array([np.kron(field, wave) for wave in waves for field in np.eye(3)])/np.sqrt(self.points)
+        phase = 2*np.pi*np.outer(self.turns, np.arange(self.points))/self.points
+        waves = np.exp(-1j*phase)/np.sqrt(self.points)
+        return np.concatenate([np.kron(np.eye(3), wave) for wave in waves])
 
     def peak(self, x: np.ndarray, turns: int) -> dict[str, Any]:
         """The position from waves x (batches, steps, 3); its error by jackknife over batches."""
-        count, after, before = len(x), x[:, self.lag:], x[:, :-self.lag]
+        after, before = x[:, self.lag:], x[:, :-self.lag]
         later, now = (np.einsum("btf,btg->bfg", q, before.conj()) for q in (after, before))
         all_later, all_now = later.sum(axis=0), now.sum(axis=0)
-        without = [self.position(all_later - later[k], all_now - now[k]) for k in range(count)]
-        err = stdtrit(count - 1, 0.975)*np.sqrt(count - 1)*np.std(without)
-        wavenumber = 2*np.pi*turns/self.points
-        return {"points": self.points, "turns": turns, "wavenumber": wavenumber,
+        without = [self.position(all_later - one, all_now - other) for one, other in zip(later, now)]
+        freedom = len(x) - 1
+        err = stdtrit(freedom, 0.975)*np.sqrt(freedom)*np.std(without)
+        k = 2*np.pi*turns/self.points
+        J, _ = gas(k)
+        return {"points": self.points, "turns": turns, "wavenumber": k,
                 "measured": self.position(all_later, all_now), "measured_err": err,
-                "symbol": np.linalg.eigvals(gas(wavenumber)[0]).imag.max()}
+                "symbol": np.linalg.eigvals(J).imag.max()}
 
     def position(self, after: np.ndarray, before: np.ndarray) -> float:
         """From summed products; sound that goes left and right is averaged."""

@@ -32,8 +32,8 @@ def rates_at_rest(edges: Edges, share: float, eta: float = ETA, zeta: float = ZE
     """J (N, N) of the gas at rest; share : of transport along edges."""
     law = ConstEta(eta, KAPPA)
     dih = Dih(edges=edges, eos=IdealGas(), law=law, zeta=zeta, transport=Mixed(share=share))
-    one = np.ones(edges.n)
-    return jacobian(dih.rates, dih.state(one, np.zeros((edges.n, edges.d)), one))
+    one, v = np.ones(edges.n), np.zeros((edges.n, edges.d))
+    return jacobian(dih.rates, dih.state(one, v, one))
 
 
 def transport(edges: Edges, share: float, eta: float, zeta: float, kappa: float,
@@ -71,9 +71,11 @@ def equilibrium(V: np.ndarray, d: int) -> np.ndarray:
     <T T> = kT^2/(rho C_V V).
     """
     to_state = states_of_fields(len(V), d)
-    C = to_state@np.diag(np.tile(1/V, 2 + d))@to_state.T
+    of_fields = np.diag(np.tile(1/V, 2 + d))
+    C = to_state@of_fields@to_state.T
     sums = np.kron(np.eye(2 + d), V)
-    return C - C@sums.T@np.linalg.solve(sums@C@sums.T, sums@C)
+    of_sums = sums@C
+    return C - of_sums.T@np.linalg.solve(of_sums@sums.T, of_sums)
 
 
 def states_of_fields(n: int, d: int) -> np.ndarray:
@@ -106,8 +108,10 @@ class Partnership(Case):
         except ArithmeticError:         # these points have no such edges: see the study operators
             return Outcome({"partners": []})
         key = {"maker": self.maker.__name__, "points": self.disorder.name, "d": points.d}
-        rows = [{**key, "noise": name, "mismatch": mismatch(pair, 2*KT), "sums": sums(edges, pair)}
-                for name, pair in kinds(edges, self.seed).items()]
+        rows = []
+        for name, pair in kinds(edges, self.seed).items():
+            off = {"mismatch": mismatch(pair, 2*KT), "sums": sums(edges, pair)}
+            rows.append({**key, "noise": name, **off})
         return Outcome({"partners": rows})
 
 
@@ -145,10 +149,6 @@ class Formula(Case):
     name: str
     value: Callable[[], float]
 
-    @property
-    def label(self) -> str:
-        return f"formula, {self.name}"
-
     def run(self, report: Report, folder: Path) -> Outcome:
         return Outcome({"formulas": [{"name": self.name, "value": self.value()}]})
 
@@ -157,11 +157,10 @@ def other_partner() -> float:
     """|Q - 2 kT Gamma| of the eta term of Eq. 42 on random points, Gamma along edges, trace factor 2/d."""
     edges = delaunay(random((8, 8), 0.5, 1), None)
     edges = replace(edges, k=np.maximum(edges.k, 1e-3))     # any positive number: A makes it up
-    V, S2 = (edges.V[edges.i] + edges.V[edges.j])/2, (edges.S**2).sum(axis=1)
-    A = 0.3*S2/(2*V)/edges.k            # 2D: S S (1 - 2/d) vanishes, B = 0
+    V, S2 = fluctuating.ends(edges, edges.V), (edges.S**2).sum(axis=1)
+    A, kT = 0.3*S2/(2*V)/edges.k, np.ones(len(S2))          # 2D: S S (1 - 2/d) vanishes, B = 0
     pair = fluctuating.printed_stress(edges, 0.3, 0.0, 1.0, doubled=False, trace=1.0)
-    due = 2*fluctuating.between(edges, A, 0*A, np.ones(len(A))).Gamma
-    return float(abs(pair.Q - due).max()/abs(due).max())
+    return mismatch(Partners(fluctuating.between(edges, A, 0*A, kT).Gamma, pair.B), 2.0)
 
 
 def half_spacing() -> float:
@@ -169,7 +168,7 @@ def half_spacing() -> float:
     def ratio(a: float) -> float:
         edges = renormalised(lattice((8, 8), a), Lucy.of(h=1.5*a))
         pair = fluctuating.printed_stress(edges, 0.3, 0.1, 1.0, doubled=True, volume=False)
-        return float(pair.Q.diagonal().sum()/(2*pair.Gamma.diagonal().sum()))
+        return float(pair.Q.trace()/(2*pair.Gamma.trace()))
     return ratio(0.5)/ratio(1.0)
 
 

@@ -57,13 +57,15 @@ class PrintedWaves(Case):
         points = lattice((self.waves, *[breadth]*(self.d - 1)))
         edges = renormalised(points, Lucy.of(h=self.h, d=self.d))
         pair, twice = self.noise(edges)
+        components = pair.Gamma.shape[0]//edges.n
+        direction = np.eye(components)[1 if self.term == "eta" else 0]
         key = {name: getattr(self, name) for name in ("equation", "term", "reading", "d", "h")}
         rows = []
         for turns in range(1, self.waves//2):
             k = 2*np.pi*turns/self.waves
-            wave = np.zeros((pair.Gamma.shape[0]//edges.n, edges.n), complex)
-            wave[1 if self.term == "eta" else 0] = np.exp(1j*k*points.x[:, 0])
-            ratio = form(pair.Q, wave)/(twice*form(pair.Gamma, wave))
+            wave = np.exp(1j*k*points.x[:, 0])
+            of_all = np.kron(direction, wave)
+            ratio = form(pair.Q, of_all)/(twice*form(pair.Gamma, of_all))
             rows.append({**key, "wavenumber": k, "ratio": ratio, "predicted": self.predicted(k)})
         return Outcome({"printed": rows})
 
@@ -81,11 +83,12 @@ class PrintedWaves(Case):
         g = 2 [1 + (1 - 2/3) e_y^2] for eta, e_x^2 for zeta (2 e_x^2 of Eq. 23), 1/T for kappa (2 of Eq. 25).
         """
         r, size, w = lattice_weights(self.h, self.d)
-        along, last = r[:, 0]/size, r[:, -1]/size
+        e, phase = r/size[:, None], k*r[:, 0]
         heat = 2.0 if self.equation == "25" else 1/KT
-        g = {"eta": 2*(1 + last**2/3), "zeta": self.bulk*along**2, "kappa": heat}[self.term]
-        slope = float((w*along)@np.sin(k*r[:, 0]))
-        return (4 if self.doubled else 1)*float((w**2*g)@(1 - np.cos(k*r[:, 0])))/slope**2
+        g = {"eta": 2*(1 + e[:, -1]**2/3), "zeta": self.bulk*e[:, 0]**2, "kappa": heat}[self.term]
+        slope = (w*e[:, 0])@np.sin(phase)
+        variance = (w**2*g)@(1 - np.cos(phase))
+        return float((4 if self.doubled else 1)*variance/slope**2)
 
 
 def lattice_weights(h: float, d: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -98,9 +101,8 @@ def lattice_weights(h: float, d: int) -> tuple[np.ndarray, np.ndarray, np.ndarra
 
 
 def form(M: Any, wave: np.ndarray) -> float:
-    """wave^* M wave of a wave (components, n)."""
-    flat = wave.ravel()
-    return float((flat.conj()@(M@flat)).real)
+    """wave^* M wave."""
+    return float((wave.conj()@(M@wave)).real)
 
 
 # --- steps ------------------------------------------------------------------------------------
@@ -109,8 +111,10 @@ def form(M: Any, wave: np.ndarray) -> float:
 def line_symbols(k: float) -> tuple[float, float]:
     """(slope, Laplacian) that a line of unit spacing makes of k and k^2 with h = 2, pairwise."""
     r, size, w = lattice_weights(2.0, 1)
-    slope = float((w*r[:, 0]/size)@np.sin(k*r[:, 0]))
-    return slope, float(2*w/size@(1 - np.cos(k*r[:, 0])))
+    x = r[:, 0]
+    slope = (w*np.sign(x))@np.sin(k*x)
+    laplacian = 2*w/size@(1 - np.cos(k*x))
+    return float(slope), float(laplacian)
 
 
 def gas(k: float) -> tuple[np.ndarray, np.ndarray]:
@@ -141,20 +145,19 @@ class Steps(Case):
         """Of the integrator in the table."""
         return self.integrator.__name__.replace("_", "-")
 
-    @property
-    def label(self) -> str:
-        return f"steps {self.name}, k {self.k:g}"
-
     def run(self, report: Report, folder: Path) -> Outcome:
         J, Q = gas(self.k)
-        return Outcome({"steps": [*self.rows("isothermal", J[:2, :2], Q[:2, :2], 1), *self.rows("gas", J, Q, 2)]})
+        isothermal = self.rows("isothermal", J[:2, :2], Q[:2, :2], 1)
+        return Outcome({"steps": [*isothermal, *self.rows("gas", J, Q, 2)]})
 
     def rows(self, fluid: str, J: np.ndarray, Q: np.ndarray, c2: float) -> Iterator[dict[str, Any]]:
         """One a stable step."""
-        for dt, C in stable(lambda dt: (self.integrator(J, Q, dt*ETA/c2),), self.dt):
+        def step(dt: float) -> tuple[Step]:
+            return (self.integrator(J, Q, dt*ETA/c2),)
+        key = {"integrator": self.name, "fluid": fluid, "wavenumber": self.k}
+        for dt, C in stable(step, self.dt):
             error = float(np.abs(C - np.eye(len(C))).max())
-            yield {"integrator": self.name, "fluid": fluid, "wavenumber": self.k, "dt": dt,
-                   "velocity": C[1, 1], "error": error}
+            yield {**key, "dt": dt, "velocity": C[1, 1], "error": error}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -174,23 +177,26 @@ class MovingSteps(Case):
         """Equations of velocities and of positions."""
         return "eq40-eq40" if self.both else "eq40-eq41"
 
-    @property
-    def label(self) -> str:
-        return f"steps moving {self.integrator}, k {self.k:g}"
-
     def run(self, report: Report, folder: Path) -> Outcome:
         key = {"integrator": self.integrator, "fluid": "moving", "wavenumber": self.k}
-        return Outcome({"steps": [{**key, "dt": dt, "velocity": C[1, 1], "error": abs(C[1, 1] - 1)}
-                                  for dt, C in stable(self.step, self.dt)]})
+        rows = []
+        for dt, C in stable(self.step, self.dt):
+            velocity = C[1, 1]
+            rows.append({**key, "dt": dt, "velocity": velocity, "error": abs(velocity - 1)})
+        return Outcome({"steps": rows})
 
     def step(self, of_limit: float) -> tuple[Step, np.ndarray]:
         """One step, and what it keeps: rho + i s x, less i s dt u where x moves with the new velocity."""
         s, lap = line_symbols(self.k)
         l, dt = ETA*lap, of_limit*ETA
-        A = np.eye(3, dtype=complex) + dt*np.array([[0, -1j*s, 0], [-1j*s, -l, -2*s*s], [0, 1, 0]])
+        rates = np.array([[0, -1j*s, 0],
+                          [-1j*s, -l, -2*s*s],
+                          [0, 1, 0]])
+        A = np.eye(3) + dt*rates
         if self.both:
             Q = np.diag([0, 2*l*dt, 0]).astype(complex)
             return Step(A, Q), np.array([[1, 0, 1j*s]])
-        A[2] = np.array([0, 0, 1]) + dt*A[1]        # x' = x + dt u', the new velocity with its noise
-        Q = np.outer([0, 1, dt], [0, 1, dt])*2*l*dt
+        A[2] = np.eye(3)[2] + dt*A[1]       # x' = x + dt u', the new velocity with its noise
+        noise = np.array([0, 1, dt])
+        Q = np.outer(noise, noise)*2*l*dt
         return Step(A, Q), np.array([[1, -1j*s*dt, 1j*s]])

@@ -50,7 +50,8 @@ class Sampler:
         """Looks (count, steps, ...), each batch with noise of its own seed."""
         looks = []
         for number in range(count):
-            batch, state = self.batch(state, self.kicks(1000*self.seed + number))
+            kick = self.kicks(1000*self.seed + number)
+            batch, state = self.batch(state, kick)
             looks.append(batch)
             report((number + 1)/count)
         return np.array(looks)
@@ -116,35 +117,34 @@ class Nonlinear(Case):
     def cost(self) -> float:
         return BATCHES*self.time/0.1*3e-3
 
-    @property
-    def label(self) -> str:
-        return f"nonlinear, share {self.share:g}, k {self.k:g}"
-
     def run(self, report: Report, folder: Path) -> Outcome:
         edges = delaunay(jittered(self.counts, 0.2, self.seed), None)
         method = Thermal(edges=edges, eos=IdealGas(), law=ConstEta(ETA, KAPPA), zeta=ZETA, share=self.share,
                          k=self.k, seed=self.seed)
-        start = method.state(np.ones(edges.n), np.zeros((edges.n, 2)), np.ones(edges.n))
+        one, V = np.ones(edges.n), edges.V
+        start = method.state(one, np.zeros((edges.n, 2)), one)
         check_length(jacobian(method.dih.rates, start), self.time)
         dt = 0.6*limit_of(method, start)
         steps = int(np.ceil(self.time/dt/5))*5
-        means = {"squares": lambda sums, state: edges.V@squares(sums.dih.flow(state))}
+        means = {"squares": lambda sums, state: V@squares(sums.dih.flow(state))}
         plan, state, powers = Plan(dt=dt, steps=steps, every=5, means=means), start, []
         for number in range(BATCHES + 1):
             batch = run(replace(method, seed=1000*self.seed + number), state, plan)
             state = batch.state
             powers.append(batch.means["squares"])
             report((number + 1)/(BATCHES + 1))
-        sums, before = state@edges.V, start@edges.V
-        key = {"share": self.share, "k": self.k, "drift": np.abs(sums - before).max()/before[-1]}
+        before = start@V
+        drift = np.abs(state@V - before).max()/before[-1]
+        key = {"share": self.share, "k": self.k, "drift": drift}
         ratios = np.array(powers[1:])/(edges.n - 1)/self.k      # the first batch forgets the start
-        return Outcome({"nonlinear": [{**key, "field": name, **ratio(values)}
-                                      for name, values in zip(("rho", "v", "T"), ratios.T, strict=True)]})
+        fields = zip(("rho", "v", "T"), ratios.T, strict=True)
+        return Outcome({"nonlinear": [{**key, "field": name, **ratio(values)} for name, values in fields]})
 
 
 def squares(flow: Any) -> np.ndarray:
     """(n, 3): squares of what rho, v and T fluctuate by, each k/V in equilibrium."""
-    return np.stack([(flow.rho - 1)**2, flow.rho*(flow.v**2).sum(axis=1)/2, (flow.T - 1)**2], axis=1)
+    kinetic = flow.rho*(flow.v**2).sum(axis=1)/2
+    return np.stack([(flow.rho - 1)**2, kinetic, (flow.T - 1)**2], axis=1)
 
 
 # --- heat with current amplitudes ------------------------------------------------------------
@@ -158,7 +158,8 @@ def heat_kicks(edges: Edges, C: float, dt: float) -> Callable[[int], Kick]:
         def kick(T: np.ndarray, step: int) -> np.ndarray:
             fill_pairs(0, len(normals), seed, step, edges.i, edges.j, normals)
             squared = np.maximum(T[edges.i]*T[edges.j], 0)      # below zero once in very many
-            return across@(np.sqrt(2*edges.k*squared/C*dt)*normals[:, 0])/edges.V
+            amplitude = np.sqrt(2*edges.k*squared/C*dt)
+            return across@(amplitude*normals[:, 0])/edges.V
         return kick
     return kicks
 
@@ -190,19 +191,16 @@ class Capacity(Case):
     def cost(self) -> float:
         return BATCHES*self.steps*5e-5
 
-    @property
-    def label(self) -> str:
-        return f"heat capacity {self.C:g} k, {'corrected' if self.corrected else 'current amplitudes'}"
-
     def run(self, report: Report, folder: Path) -> Outcome:
         edges = renormalised(lattice(self.counts), Lucy.of(h=1.5))
         J = heat_rates(edges, self.C, self.corrected)
         check_length(J, self.steps*self.dt)
         sampler = Sampler(J=J, kicks=heat_kicks(edges, self.C, self.dt), look=np.var, dt=self.dt,
                           steps=self.steps, seed=self.seed)
-        variances = sampler.batches(np.ones(edges.n), report, BATCHES + 1)[1:, 1::2]
+        batches = sampler.batches(np.ones(edges.n), report, BATCHES + 1)[1:, 1::2]
         # `var` divides by n: (n - 1)/n of the variance of one point about the fixed mean is in it already
-        variance = over_seeds(variances.mean(axis=1))
+        variance = over_seeds(batches.mean(axis=1))
+        predicted = dirichlet(edges.n, self.C, self.corrected)
         return Outcome({"capacity": [{
             "C": self.C, "noise": "corrected" if self.corrected else "current", "measured": variance.value,
-            "measured_err": variance.err, "predicted": dirichlet(edges.n, self.C, self.corrected)}]})
+            "measured_err": variance.err, "predicted": predicted}]})

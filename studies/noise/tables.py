@@ -1,5 +1,5 @@
 """Tables of the study, and the drag that follows. Of dissipative particles: mass, rc and kT are one; `_err` of 95 %."""
-import pandas as pd
+from typing import Any
 
 from continuum.exact.cylinder import drag_of
 from studies.kit.stats import Measured
@@ -51,19 +51,20 @@ ALL = (PARTNERS, PRINTED, ONSET, STEPS, MODES, CUBES, PEAKS, NONLINEAR, CAPACITY
 
 def derive(tables: Tables) -> Rows:
     """The drag, where the stream and the viscosity at its step are known."""
-    if not (len(tables.get("cylinder", ())) and len(tables.get("shear", ()))):
+    if not {"cylinder", "shear"} <= set(tables):
         return {}
-    return {"drag": [drag(tables["cylinder"].iloc[0], tables["shear"].iloc[0])]}
+    pairs = zip(tables["cylinder"].itertuples(), tables["shear"].itertuples())
+    return {"drag": [drag(stream, shear) for stream, shear in pairs]}
 
 
-def drag(stream: pd.Series, shear: pd.Series) -> dict[str, float]:
+def drag(stream: Any, shear: Any) -> dict[str, float]:
     """Drag over eta U and depth: force on what is free, with the mean pressure gradient's on the body."""
-    U = Measured(stream["speed"], stream["speed_err"])
-    eta = Measured(shear["viscosity"], shear["viscosity_err"])
-    force = float(stream["force"]*stream["n"]/(stream["n"] - stream["held"]))
+    U = Measured(stream.speed, stream.speed_err)
+    eta = Measured(shear.viscosity, shear.viscosity_err)
+    force = stream.force*stream.n/(stream.n - stream.held)
     drag = force/DEPTH/(eta*U)
     ratio = drag/drag_of(FRACTION).value
-    density = stream["n"]/(stream["side"]**2*DEPTH)
+    density = stream.n/(stream.side**2*DEPTH)
     reynolds = 2*RADIUS*density*U.value/eta.value
-    return {"side": stream["side"], "dt": stream["dt"], "reynolds": reynolds, "drag": drag.value,
+    return {"side": stream.side, "dt": stream.dt, "reynolds": reynolds, "drag": drag.value,
             "drag_err": drag.err, "ratio": ratio.value, "ratio_err": ratio.err}
