@@ -35,12 +35,14 @@ KEPT = (replace(WAVE, h=2.5, length=128), replace(WAVE, weight=WendlandC2, lengt
 def cases(size: str) -> list[Case]:
     """All of them; `quick` is for trying the path out."""
     if size == "quick":
-        wave = LENGTHS[1][0]
+        wave, _ = LENGTHS[1]
         return [*list(growth())[::5], *list(onsets())[::9], *fates((3.0,), (1,)),
-                *molecules((5.0, 20.0), 5, (1,)), *speeds(), *(replace(wave, length=L) for L in (40, 44, 48))]
+                *molecules((5.0, 20.0), 5, (1,)), *speeds(),
+                *(replace(wave, length=L) for L in (40, 44, 48))]
     return [*growth(), *onsets(),
-            *fates((2.0, 2.4, 2.8, 3.0, 3.4, 4.0), (1, 2)), *fates((3.0,), (3, 4, 5, 6)), *freezing(),
-            *molecules((5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 100.0), 15, (1, 2)), *speeds(), *ringing()]
+            *fates((2.0, 2.4, 2.8, 3.0, 3.4, 4.0), (1, 2)), *fates((3.0,), (3, 4, 5, 6)),
+            *freezing(), *molecules((5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 100.0), 15, (1, 2)),
+            *speeds(), *ringing()]
 
 
 def growth() -> Iterator[Case]:
@@ -104,10 +106,10 @@ ONSETS = Table("onsets", key=[*CRYSTAL, "parameter", "seed"], columns=[*CRYSTAL,
 FATES = Table("fates", key=["weight", "h", "seed"], columns=["weight", "h", "seed", "shared"])
 #: step: over that of other studies
 LAYER = ["weight", "seed", "step"]
-#: K of the mean flow and of the particles over that of the grid's smoothed field, fluctuation of distances of
-#: neighbours over their mean, at pressures P; nothing where a run diverged
+#: K of the mean flow over that of the grid's smoothed field, fluctuation of distances of neighbours over their
+#: mean, at pressures P; nothing where a run diverged
 FREEZING = Table("freezing", key=[*LAYER, "P"],
-                 columns=[*LAYER, "P", "flow", "flow_err", "kp", "kp_err", "lindemann"])
+                 columns=[*LAYER, "P", "flow", "flow_err", "lindemann"])
 #: P at which K of the mean flow falls below a tenth; K of the grid, and P at which 2 K is 2 P w(0), 2 P
 #: [w(0.9) - w(1)]
 FREEZING_LIMITS = Table("freezing_limits", key=LAYER,
@@ -121,9 +123,9 @@ REVERSAL = Table("reversal", key=["integrator", "weight", "seed", "time"],
 #: speed of the longest waves along x over the fluid's
 SPEEDS = Table("sound_speeds", key=["lattice", "weight"], columns=["lattice", "weight", "speed"])
 SOUND = ["lattice", "weight", "h", "length", "seed"]
-#: time: that the wave rings; rms velocities then: wave: of the exact wave; foretold, across: along y, where the
-#: wave has none, by linear theory from round-off and measured
-RINGING = Table("ringing", key=SOUND, columns=[*SOUND, "time", "wave", "foretold", "across"])
+#: rms velocities when the wave has rung: wave: of the exact wave; foretold, across: along y, where the wave has
+#: none, by linear theory from round-off and measured
+RINGING = Table("ringing", key=SOUND, columns=[*SOUND, "wave", "foretold", "across"])
 #: length of the wave from which what grows is as fast as the wave when it has rung, over seeds
 LOST = Table("ringing_lost", key=["lattice", "weight"], columns=["lattice", "weight", "seeds", *RATES])
 
@@ -135,7 +137,8 @@ def derive(tables: Tables) -> Rows:
     if "ringing" not in tables:
         return {}
     rows = tables["ringing"].query("h == 3").groupby(["lattice", "weight", "seed"])
-    crossings = pd.DataFrame({"predicted": rows.apply(crossing, "foretold"), "measured": rows.apply(crossing, "across")})
+    predicted, measured = rows.apply(crossing, "foretold"), rows.apply(crossing, "across")
+    crossings = pd.DataFrame({"predicted": predicted, "measured": measured})
     lost = []
     for (lattice, weight), lengths in crossings.dropna().groupby(["lattice", "weight"]):
         try:
@@ -152,5 +155,7 @@ def crossing(rows: pd.DataFrame, name: str) -> float:
     rows = rows.sort_values("length")
     ratio = np.log(rows[name].to_numpy()/rows["wave"].to_numpy())
     i = int(np.argmax(ratio > 0))
-    lengths = rows["length"].to_numpy(float)
-    return float(np.interp(0.0, ratio[i - 1:i + 1], lengths[i - 1:i + 1])) if i else np.nan
+    if not i:
+        return np.nan
+    beside = slice(i - 1, i + 1)
+    return float(np.interp(0.0, ratio[beside], rows["length"].to_numpy(float)[beside]))

@@ -45,7 +45,8 @@ class Lattice(NamedTuple):
         """Particles (n, 2) in a box centred on the origin."""
         corners = whole_numbers(cells).reshape(-1, 1, 2)
         x = (corners + self.inside)*self.size
-        return x.reshape(-1, 2) - np.array(self.box(cells))/2
+        middle = np.array(self.box(cells))/2
+        return x.reshape(-1, 2) - middle
 
     def neighbours(self, reach: float) -> np.ndarray:
         """(n, 2): vectors to the neighbours nearer than `reach`, the same for all particles."""
@@ -94,21 +95,23 @@ def sums(weight: Any, lattice: Lattice, k: np.ndarray) -> Symbols:
     r = np.hypot(*x.T)
     w, slope, curvature = np.array([derivatives(weight, one) for one in r]).T
     n = x/r[:, None]
-    along = n[:, :, None]*n[:, None, :]
-    hessian = slope[:, None, None]*(np.eye(2) - along) + curvature[:, None, None]*along
+    along = np.einsum("ra,rb->abr", n, n)
+    hessian = slope*(np.eye(2)[..., None] - along) + curvature*along
     phase = k@x.T
     S = np.sin(phase)@(slope[:, None]*x)
     slow = 1 - np.cos(phase)
-    D = np.einsum("kr,rab->kab", slow, hessian)
-    rho = float(w.sum()) + float(value_and_slope(weight, 0.0)[0])
-    return Symbols(rho, S, D, {Nested: (S**2).sum(axis=1)/rho**2, Direct: 2/rho*slow@-slope})
+    D = np.einsum("kr,abr->kab", slow, hessian)
+    rho = float(w.sum() + value_and_slope(weight, 0.0)[0])
+    nested, direct = (S**2).sum(axis=1)/rho**2, 2/rho*slow@-slope
+    return Symbols(rho, S, D, {Nested: nested, Direct: direct})
 
 
 def derivatives(weight: Any, r: float, step: float = 1e-5) -> tuple[float, float, float]:
     """w, w'/r and w'' at r; w'' by a central difference, good to 1e-9."""
     w, slope = value_and_slope(weight, r)
-    before, after = (value_and_slope(weight, s)[1]*s for s in (r - step, r + step))
-    return w, slope, (after - before)/(2*step)
+    low, high = r - step, r + step
+    change = value_and_slope(weight, high)[1]*high - value_and_slope(weight, low)[1]*low
+    return w, slope, change/(2*step)
 
 
 def matrices(symbols: Symbols, eos: Any, e: float, m: float = 1.0) -> np.ndarray:
@@ -117,7 +120,8 @@ def matrices(symbols: Symbols, eos: Any, e: float, m: float = 1.0) -> np.ndarray
     P = pressure(eos, rho, e)
     by_rho, by_e = pressure_slopes(eos, rho, e)
     c2 = float(by_rho + P/rho**2*by_e)      # negative where the fluid itself is unstable
-    return (m/rho)**2*(c2 - 2*P/rho)*S[:, :, None]*S[:, None, :] + 2*m*P/rho**2*symbols.D
+    SS = np.einsum("ka,kb->kab", S, S)
+    return (m/rho)**2*(c2 - 2*P/rho)*SS + 2*m*P/rho**2*symbols.D
 
 
 # --- motions that grow ----------------------------------------------------------------------------
@@ -155,7 +159,8 @@ class Crystal:
         squares, a = np.linalg.eigh(matrices(symbols, self.eos, self.e, self.rho))
         i = int(np.argmin(squares[:, 0]))
         square = float(squares[i, 0])
-        return LatticeMotion(k[i], a[i, :, 0], square, float(-np.sign(square)*np.sqrt(abs(square))))
+        rate = -np.sign(square)*np.sqrt(abs(square))
+        return LatticeMotion(k[i], a[i, :, 0], square, float(rate))
 
     @property
     def columns(self) -> dict[str, Any]:
@@ -165,26 +170,28 @@ class Crystal:
 
     def energies(self, time: float, shifts: Shifts) -> tuple[np.ndarray, np.ndarray]:
         """Times and kinetic energies per mass until the run diverges. shifts : of places x (n, 2)."""
-        x, energies = self.lattice.places(self.cells), list[float]()
+        x, box, energies = self.lattice.places(self.cells), self.lattice.box(self.cells), list[float]()
 
         def kinetic(sums: Any, state: np.ndarray) -> float:
             energies.append(particle_kinetic(sums, state))      # kept also when the run diverges
             return energies[-1]
-        method = fluid(self.weight.of(h=self.h), self.lattice.box(self.cells), self.eos, m=self.rho)
+        method = fluid(self.weight.of(h=self.h), box, self.eos, m=self.rho)
         dt = STUDIES*step_limit(method, self.e, self.rho)
         plan = Plan(dt=dt, steps=round(time/dt), series={"k": kinetic}, every=2)
         try:
             run(method, at_rest(x + SHIFT*shifts(x), self.e), plan)
         except Divergence:
             pass
-        return 2*dt*(1 + np.arange(len(energies))), np.array(energies)
+        times = 2*dt*(1 + np.arange(len(energies)))
+        return times, np.array(energies)
 
 
 def growth(times: np.ndarray, energies: np.ndarray) -> Measured:
     """Rate of the motion, half of the energy's, where the motion is small and has left the start behind."""
     low, high = LINEAR
     until = np.argmax(energies > high)
-    linear = (energies > low) & (energies < high) & (np.arange(len(energies)) < until)
+    times, energies = times[:until], energies[:until]
+    linear = energies > low
     return line(times[linear], np.log(energies[linear])/2).slope
 
 
@@ -203,10 +210,13 @@ class LatticeGrowth(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         k, a, _, predicted = self.crystal.motion
+
+        def shifts(x: np.ndarray) -> np.ndarray:
+            return np.outer(np.cos(x@k + PHASE), a)
         time = 20/predicted         # e^20: from 1e-8 to beyond what is linear
-        rate = growth(*self.crystal.energies(time, lambda x: a*np.cos(x@k + PHASE)[:, None]))
-        return Outcome({"growth": [{**self.crystal.columns, "predicted": predicted, "measured": rate.value,
-                                    "measured_err": rate.err}]})
+        rate, err = growth(*self.crystal.energies(time, shifts))
+        return Outcome({"growth": [
+            {**self.crystal.columns, "predicted": predicted, "measured": rate, "measured_err": err}]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -227,8 +237,8 @@ class Onset(Case):
         return f"onset in {self.parameter} {self.crystal.columns} seed {self.seed}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        predicted = brentq(lambda value: self.at(value).motion.rate, self.stable, self.unstable, xtol=1e-6)
         stable, unstable = self.stable, self.unstable
+        predicted = brentq(lambda value: self.at(value).motion.rate, stable, unstable, xtol=1e-6)
         for number in range(HALVINGS):
             report(number/HALVINGS)
             middle = (stable + unstable)/2
@@ -250,4 +260,5 @@ class Onset(Case):
         rng = np.random.default_rng(self.seed)
         _, energies = self.at(value).energies(PATIENCE, lambda x: rng.standard_normal(x.shape))
         tenth = max(1, len(energies)//10)
-        return bool(energies[-tenth:].mean() > GROWN*energies[tenth:2*tenth].mean())
+        early, late = energies[tenth:2*tenth].mean(), energies[-tenth:].mean()
+        return bool(late > GROWN*early)

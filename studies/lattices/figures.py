@@ -75,10 +75,10 @@ def ringing(rows: pd.DataFrame) -> Figure:
     page, axes = figure(width=5.8, height=4.6)
     rows = rows.assign(across=rows["across"]/rows["wave"], foretold=rows["foretold"]/rows["wave"])
     for number, ((kind, weight, h), some) in enumerate(rows.groupby(["lattice", "weight", "h"])):
-        label = f"{kind}, {WEIGHTS[str(weight)]}, $h$ = {h:g}"
-        axes.plot(some["length"], some["across"], **{**look(number), "linestyle": "none"}, label=label)
+        style, label = look(number), f"{kind}, {WEIGHTS[str(weight)]}, $h$ = {h:g}"
+        axes.plot(some["length"], some["across"], **{**style, "linestyle": "none"}, label=label)
         line = some.groupby("length")["foretold"].mean()
-        axes.plot(line.index, line, color=look(number)["color"], linestyle="-", marker="")
+        axes.plot(line, color=style["color"], linestyle="-", marker="")
     axes.axhline(1.0, color="grey", linewidth=0.8)
     axes.set(yscale="log", xscale="log", ylim=(1e-11, 1e6), xlabel="length of the wave / spacings",
              ylabel="velocity across the wave / the wave's")

@@ -13,7 +13,7 @@ from scipy.spatial import cKDTree
 
 from continuum.gas.solve import steady_on
 from continuum.scene import RayleighBenard
-from particles.observe import Grid, Smoothed, particle_kinetic
+from particles.observe import Grid, Smoothed
 from particles.run import Divergence, Plan, Run, run
 from particles.smooth.spam import Spam
 from particles.weights import value_and_slope
@@ -21,7 +21,6 @@ from studies.build.smoothing import Smoothing, smoothed_energy
 from studies.build.spam import OF_LIMIT, Variant
 from studies.build.symmetry import flowing
 from studies.kit.case import Case, Outcome, Report
-from studies.kit.stats import mean
 
 ROWS = 16
 SCENE = RayleighBenard(ra=3000.0, L=float(ROWS))
@@ -45,7 +44,8 @@ def grid_energies(weight: Any) -> tuple[float, float]:
 
 def criteria(weight: Any, K: float) -> dict[str, float]:
     """P at which m<v^2> = 2 K equals the printed potentials 2 P w(0) and 2 P [w(0.9) - w(1)]    [KHP95, Sec. IV]"""
-    centre, near, far = (value_and_slope(weight.of(h=RANGE), r)[0] for r in (0.0, 0.9, 1.0))
+    w = weight.of(h=RANGE)
+    centre, near, far = (value_and_slope(w, r)[0] for r in (0.0, 0.9, 1.0))
     return {"K": K, "barrier": K/centre, "melting": K/(near - far)}
 
 
@@ -92,35 +92,33 @@ class Freezing(Case):
         """One run at pressure P. K : of the grid's field, smoothed."""
         variant = Variant("pressure", weight=self.weight, h=RANGE, fraction=1 - P, step=self.step*OF_LIMIT)
         method, start, dt = variant.ready(SCENE, self.seed)
-        plan = Plan(dt=dt, steps=round(T_END*UNIT/dt), every=max(1, round(UNIT/4/dt)), mean_from=MEAN_FROM*UNIT,
-                    series={"kp": particle_kinetic}, means={"grid": Grid.over(method.box, ROWS)})
+        grid, every = Grid.over(method.box, ROWS), max(1, round(UNIT/4/dt))
+        plan = Plan(dt=dt, steps=round(T_END*UNIT/dt), every=every, mean_from=MEAN_FROM*UNIT, means={"grid": grid})
         key = {**self.columns, "P": P}
         try:
             done = run(method, start, plan)
             fluctuation = lindemann(places(method, done, dt), SCENE.width)
         except Divergence:
-            return {**key, **dict.fromkeys(("flow", "flow_err", "kp", "kp_err", "lindemann"), np.nan)}
-        fields = Smoothed(*done.means["grid"])._asdict()
-        flow = flowing({name: fields[name] for name in ("rho", "vx", "vy")}, periodic=True)
-        kp = mean(np.array(done.series["kp"])[np.array(done.times) > plan.mean_from])
-        return {**key, "flow": flow.value/K, "flow_err": flow.err/K, "kp": kp.value/K, "kp_err": kp.err/K,
-                "lindemann": fluctuation}
+            return {**key, **dict.fromkeys(("flow", "flow_err", "lindemann"), np.nan)}
+        means = Smoothed(*done.means["grid"])
+        flow = flowing({"rho": means.rho, "vx": means.vx, "vy": means.vy}, periodic=True)
+        return {**key, "flow": flow.value/K, "flow_err": flow.err/K, "lindemann": fluctuation}
 
 
 def places(method: Spam, done: Run, dt: float) -> np.ndarray:
     """(times, n, 2) of the particles in a window after a run, in the order of their numbers."""
-    state = done.by_id()
-    looks, steps = [state], max(1, round(WINDOW*UNIT/dt/LOOKS))
+    looks = [done.by_id()]
+    plan = Plan(dt=dt, steps=max(1, round(WINDOW*UNIT/dt/LOOKS)))
     for _ in range(LOOKS):
-        looks.append(run(method, looks[-1], Plan(dt=dt, steps=steps)).by_id())
+        looks.append(run(method, looks[-1], plan).by_id())
     return np.array([method.fields(look).x for look in looks])
 
 
 def neighbours(x: np.ndarray, width: float) -> tuple[np.ndarray, np.ndarray]:
     """Pairs (i, j) of particles (n, 2), periodic in x: of each the six nearest beyond half a spacing."""
-    tall = 3*float(np.ptp(x[:, 1]))
-    at = np.stack([np.mod(x[:, 0], width) % width, x[:, 1] - x[:, 1].min()], axis=1)
-    distance, number = cKDTree(at, boxsize=np.array([width, tall])).query(at, 2*SHELL + 4)
+    along, up = x[:, 0] % width % width, x[:, 1] - x[:, 1].min()        # twice: see `molecules.partners`
+    tree = cKDTree(np.stack([along, up], axis=1), boxsize=np.array([width, 3*up.max()]))
+    distance, number = tree.query(tree.data, 2*SHELL + 4)
     beyond = distance > SITE
     chosen = beyond & (np.cumsum(beyond, axis=1) <= SHELL)
     return np.nonzero(chosen)[0], np.asarray(number)[chosen]

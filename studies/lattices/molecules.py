@@ -55,8 +55,10 @@ class Fate(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         method = fluid(self.weight.of(h=self.h), (float(SIDE), float(SIDE)), law=LAW)
         dt = STUDIES*step_limit(method, 1.0)
-        done = run(method, crowd(SIDE, self.seed, 1.0, 0.3), Plan(dt=dt, steps=round(TIME/dt)), report)
-        shared = float(np.mean(partners(method.fields(done.state).x, method.box) > 0))
+        start, plan = crowd(SIDE, self.seed, 1.0, 0.3), Plan(dt=dt, steps=round(TIME/dt))
+        end = run(method, start, plan, report).state
+        x = method.fields(end).x
+        shared = float(np.mean(partners(x, method.box) > 0))
         return Outcome({"fates": [
             {"weight": self.weight.__name__, "h": self.h, "seed": self.seed, "shared": shared}]})
 
@@ -130,8 +132,9 @@ class Twins(Case):
         return 30.0
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        weight, smooth, rows = self.weight.of(h=RANGE), whole_crowd(self.side, self.seed), []
-        method, molecules = as_fluid(RK4, weight, float(self.side)), Molecules(weight, float(self.side))
+        weight, side = self.weight.of(h=RANGE), float(self.side)
+        method, molecules = as_fluid(RK4, weight, side), Molecules(weight, side)
+        smooth, rows = whole_crowd(self.side, self.seed), []
         steps = round(self.every/(STUDIES*step_limit(method, ENERGY)))
         plan, twin = Plan(dt=self.every/steps, steps=steps), smooth.copy()
         integrator = RK4(twin.shape, Team(1))

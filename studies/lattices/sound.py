@@ -27,7 +27,7 @@ from particles.limits import step_limit
 from particles.limits import waves as rates_of
 from particles.run import STUDIES, Divergence, Plan, run
 from particles.smooth.spam import Spam
-from studies.build.periodic_box import fluid
+from studies.build.periodic_box import at_rest, fluid
 from studies.kit.case import Case, Outcome, Report
 from studies.lattices.crystals import Lattice, LatticeMotion, matrices, sums
 
@@ -53,9 +53,9 @@ class Speed(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         k = 2*np.pi/LONG
         symbols = sums(self.weight.of(h=self.h), self.lattice, np.array([[k, 0.0]]))
-        speed = float(np.sqrt(matrices(symbols, IdealGas(), T)[0, 0, 0])/k/SOUND)
-        return Outcome({"sound_speeds": [
-            {"lattice": self.lattice.name, "weight": self.weight.__name__, "speed": speed}]})
+        square = matrices(symbols, IdealGas(), T)[0, 0, 0]
+        row = {"lattice": self.lattice.name, "weight": self.weight.__name__, "speed": np.sqrt(square)/k/SOUND}
+        return Outcome({"sound_speeds": [row]})
 
 
 # --- what grows beside it -------------------------------------------------------------------------
@@ -93,7 +93,8 @@ class Ringing(Case):
     @property
     def places(self) -> np.ndarray:
         """(n, 2) before the wave, off the centre by a part of a cell."""
-        shift = np.random.default_rng(self.seed).random(2)*np.array(self.lattice.size)/4
+        rng = np.random.default_rng(self.seed)
+        shift = rng.random(2)*self.lattice.size/4
         return self.lattice.places(self.cells) - shift
 
     @property
@@ -113,9 +114,10 @@ class Ringing(Case):
     def start(self) -> np.ndarray:
         """State (5, n): places displaced as the density wants it, isentropic, at rest."""
         x, y = self.places.T
-        k, zero = 2*np.pi/self.box[0], np.zeros(len(x))
-        wave = AMPLITUDE*np.cos(k*x)
-        return np.array([x - AMPLITUDE/k*np.sin(k*x), y, zero, zero, T*(1 + wave)])
+        k = 2*np.pi/self.box[0]
+        displaced = x - AMPLITUDE/k*np.sin(k*x)
+        e = T*(1 + AMPLITUDE*np.cos(k*x))
+        return at_rest(np.stack([displaced, y], axis=1), e)
 
     @property
     def speed(self) -> float:
@@ -133,21 +135,22 @@ class Ringing(Case):
         return "ringing " + " ".join(map(str, self.columns.values()))
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        steps = int(np.ceil(self.time/(STUDIES*step_limit(self.method, T))))
-        dt = self.time/steps
-        foretold = grown(motions(self), self.time, dt, rounding(self.places))
+        longest = STUDIES*step_limit(self.method, T)
+        steps = int(np.ceil(self.time/longest))
+        plan = Plan(dt=self.time/steps, steps=steps, series={"v": across}, every=2)
+        foretold = grown(motions(self), self.time, plan.dt, rounding(self.places))
         try:
-            done = run(self.method, self.start(), Plan(dt=dt, steps=steps, series={"v": across}, every=2))
-            measured = done.series["v"][-1]
+            measured = run(self.method, self.start(), plan).series["v"][-1]
         except Divergence:
             measured = np.nan
-        return Outcome({"ringing": [{**self.columns, "time": self.time, "wave": self.speed,
-                                     "foretold": foretold, "across": measured}]})
+        return Outcome({"ringing": [
+            {**self.columns, "wave": self.speed, "foretold": foretold, "across": measured}]})
 
 
 def across(sums: Any, state: np.ndarray) -> float:
     """Rms velocity along y."""
-    return float(np.sqrt(np.mean(sums.method.fields(state).v[:, 1]**2)))
+    v = sums.method.fields(state).v[:, 1]
+    return float(np.sqrt(np.mean(v**2)))
 
 
 def motions(wave: Ringing) -> list[LatticeMotion]:
@@ -170,5 +173,6 @@ def grown(motions: Sequence[LatticeMotion], time: float, dt: float, round_off: n
     for _, a, square, s in motions:
         if square < 0 < s:
             seed = a**2@round_off**2*(1 + 1/(2*s*dt))
-            total += seed*(a[1]*np.exp(s*time)*s*-square/(s**2 - square))**2
+            c = -s*square/(s**2 - square)
+            total += seed*(c*np.exp(s*time)*a[1])**2
     return float(np.sqrt(total/len(motions)))

@@ -61,8 +61,7 @@ class Fluid(Case):
         start = first.random_start(RHO, self.seed)
         state = run(first, start, Plan(dt=0.02, steps=round(SETTLE/0.02))).by_id()
         then = replace(method, noise=Uniform(self.seed + 2000))
-        plan = Plan(dt=self.dt, steps=round(SETTLE/self.dt))
-        return run(then, state, plan).by_id()
+        return run(then, state, Plan(dt=self.dt, steps=round(SETTLE/self.dt))).by_id()
 
     def recorded(self, method: Dpd, report: Report, **series: Callable) -> Run:
         """A run of the settled fluid with records every `RECORD`."""
@@ -149,10 +148,6 @@ class Cylinder(Fluid):
     integrator: type = VelocityVerlet
     dt: float = 0.04
 
-    @property
-    def cost(self) -> float:
-        return 1e-6*RHO*CELL**2*DEPTH*(self.time + STEADY)/self.dt
-
     def run(self, report: Report, folder: Path) -> Outcome:
         method, start = self.stream()
         every = round(1/self.dt)        # about what sound needs across the cell
@@ -202,21 +197,22 @@ def velocities(flow: np.ndarray, U: float) -> Iterator[dict[str, float]]:
 
 
 # --- a special case of Eqs 42, 49, 51 -----------------------------------------------------------
-#
-# Eq. 49 with Eq. 51, B = 0, and the zeta term of Eq. 42 beside it, its brackets doubled as in Eq. 35:
-#
-#     force on i = sum_j w e_ij [P_ij - A e.(v_i - v_j) - 2 sqrt(2 kT zeta V/dt) Y_ij],    W dV = w
-#
-# With w = 1 - r/rc, A = gamma w, 8 zeta V = 2 gamma these are Groot and Warren's; Y_ij and -Y_ij are alike.
 
 
 def form() -> float:
     """Largest difference between the forces that run and those of RR98's equations, over the largest; 2D, 3D."""
-    return max(special(2), special(3))
+    return max(special(d) for d in (2, 3))
 
 
 def special(d: int, dt: float = 0.02) -> float:
-    """The same in d dimensions, with the noise of the first step."""
+    """The same in d dimensions, with the noise of the first step.
+
+    Eq. 49 with Eq. 51, B = 0, and the zeta term of Eq. 42 beside it, its brackets doubled as in Eq. 35, is
+
+        force on i = sum_j w e_ij [P_ij - A e.(v_i - v_j) - 2 sqrt(2 kT zeta V/dt) Y_ij],    W dV = w
+
+    With w = 1 - r/rc, A = gamma w, 8 zeta V = 2 gamma these are Groot and Warren's; Y and -Y are alike.
+    """
     method = Dpd(box=(3.5,)*d)
     state, w, e = neighbours(method)
     x, v, _ = np.split(state, 3)
