@@ -45,8 +45,7 @@ class Lattice(NamedTuple):
         """Particles (n, 2) in a box centred on the origin."""
         corners = whole_numbers(cells).reshape(-1, 1, 2)
         x = (corners + self.inside)*self.size
-        middle = np.array(self.box(cells))/2
-        return x.reshape(-1, 2) - middle
+        return x.reshape(-1, 2) - np.array(self.box(cells))/2
 
     def neighbours(self, reach: float) -> np.ndarray:
         """(n, 2): vectors to the neighbours nearer than `reach`, the same for all particles."""
@@ -79,10 +78,7 @@ LATTICES = {lattice.name: lattice for lattice in (
 
 
 class LatticeMotion(NamedTuple):
-    """Displacements a cos k.r, a of unit length, their omega^2, and the rate at which they grow.
-
-    Without friction the rate of what does not grow is minus its frequency.
-    """
+    """Displacements a cos k.r, a of unit length, omega^2, rate of growth (minus the frequency of what does not grow)."""
     k: np.ndarray
     a: np.ndarray
     square: float
@@ -133,8 +129,6 @@ PATIENCE = 200.0                # time that a search waits: ln 10/200 is a rate 
 HALVINGS = 8
 PHASE = 1.0                     # without it a cosine may vanish at all places at the edge of the zone
 
-Shifts = Callable[[np.ndarray], np.ndarray]
-
 
 @dataclass(frozen=True, kw_only=True)
 class Crystal:
@@ -168,7 +162,7 @@ class Crystal:
         return {"lattice": self.lattice.name, "weight": self.weight.__name__, "h": self.h,
                 "eos": type(self.eos).__name__, "T": self.T, "rho": self.rho}
 
-    def energies(self, time: float, shifts: Shifts) -> tuple[np.ndarray, np.ndarray]:
+    def energies(self, time: float, shifts: Callable) -> tuple[np.ndarray, np.ndarray]:
         """Times and kinetic energies per mass until the run diverges. shifts : of places x (n, 2)."""
         x, box, energies = self.lattice.places(self.cells), self.lattice.box(self.cells), list[float]()
 
@@ -201,10 +195,6 @@ class LatticeGrowth(Case):
     crystal: Crystal
 
     @property
-    def cost(self) -> float:
-        return 2.0
-
-    @property
     def label(self) -> str:
         return f"growth {self.crystal.columns}"
 
@@ -227,10 +217,6 @@ class Onset(Case):
     stable: float
     unstable: float
     seed: int = 1
-
-    @property
-    def cost(self) -> float:
-        return 10.0
 
     @property
     def label(self) -> str:

@@ -31,7 +31,6 @@ from studies.kit.stats import Measured, mean
 RHO = 3.0
 SETTLE = 10.0       # time: some twenty times of friction, 1/(rho gamma int w^2/d) = 0.5, and of rearrangement
 RECORD = 0.1        # between records: less than any correlation that counts
-COST = 5e-7         # CPU seconds of a particle and step, records included
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,12 +43,9 @@ class Fluid(Case):
     seed: int = 1
 
     @property
-    def label(self) -> str:
-        return f"{type(self).__name__} {self.integrator.__name__} side {self.side:g} dt {self.dt:g}"
-
-    @property
     def cost(self) -> float:
-        return COST*RHO*self.side**3*(self.time/self.dt + SETTLE/0.02)
+        steps = self.time/self.dt + SETTLE/0.02
+        return 5e-7*RHO*self.side**3*steps      # records included
 
     def method(self, rate: float = 0.0) -> Dpd:
         """Particles in the cube, sheared at some rate."""
@@ -94,10 +90,9 @@ class AtRest(Fluid):
 
 @dataclass(frozen=True, kw_only=True)
 class LongRun(Fluid):
-    """The same for a long time, without the noise of two readings.
+    """The same for a long time; the configurational kT is one ratio of means, which is not off by 1/n.
 
-    The configurational kT is one ratio of means, which is not off by 1/n; the pressure has rho kT with the kT
-    that is asked for, as that of Allen & Tildesley has.
+    The pressure has rho kT with the kT that is asked for, as that of Allen & Tildesley has.
     """
 
     def run(self, report: Report, folder: Path) -> Outcome:
@@ -121,15 +116,13 @@ class Shear(Fluid):
     def run(self, report: Report, folder: Path) -> Outcome:
         done = self.recorded(self.method(self.rate), report, kinetic=kinetic_temperature, stress=shear_stress)
         # a run begins with images that have not slid: what that disturbs is left out, too
-        begin = round(SETTLE/RECORD)
-        kinetic, stress = (mean(x[begin:]) for x in done.series.values())
+        kinetic, stress = (mean(x[round(SETTLE/RECORD):]) for x in done.series.values())
         row = self.row(done, viscosity=stress/self.rate, kinetic=kinetic)
         row |= {"rate": self.rate, "time": self.time - SETTLE}
         return Outcome({"shear": [row]})
 
 
 # --- a cylinder of frozen particles -----------------------------------------------------------
-
 
 FRACTION, RADIUS, DEPTH = 0.2, 2.0, 4.0     # solid fraction of a square array, radius, depth of the box
 CELL = RADIUS*float(np.sqrt(np.pi/FRACTION))
@@ -142,8 +135,8 @@ BINS = np.linspace(-CELL/2, CELL/2, 17)
 class Cylinder(Fluid):
     """A stream past a cylinder across the box, in a square array.
 
-    A settled fluid fills the box; those of its particles that are in the cylinder are frozen, which leaves
-    the structure as it was. The force is on what is free, as a mean pressure gradient would be.
+    Those of the particles of a settled fluid that are in the cylinder are frozen. The force is on what is free,
+    as a mean pressure gradient would be.
     """
     integrator: type = VelocityVerlet
     dt: float = 0.04
@@ -155,10 +148,10 @@ class Cylinder(Fluid):
                     series={"speed": speed, "force": force_on_body})
         # a seed of its own: the noise of a run begins anew
         done = run(replace(method, noise=Uniform(self.seed + 3000)), start, plan, report)
-        U, force = mean(done.series["speed"]), float(np.mean(done.series["force"]))
-        stream = {**self.row(done, speed=U), "side": CELL, "held": len(method.held), "force": force}
-        field = velocities(done.means["flow"], U.value)
-        return Outcome({"cylinder": [stream], "flow": list(field)})
+        U = mean(done.series["speed"])
+        stream = self.row(done, speed=U)
+        stream |= {"side": CELL, "held": len(method.held), "force": float(np.mean(done.series["force"]))}
+        return Outcome({"cylinder": [stream], "flow": list(velocities(done.means["flow"], U.value))})
 
     def stream(self) -> tuple[DpdStream, np.ndarray]:
         """The method, and the steady stream (9, n)."""
@@ -192,8 +185,9 @@ def velocities(flow: np.ndarray, U: float) -> Iterator[dict[str, float]]:
     *p, count = flow
     u, v = p/np.where(count > 0, count, np.nan)/U
     at = (BINS[1:] + BINS[:-1])/2/RADIUS
-    for i, j in np.ndindex(count.shape):
-        yield {"x": float(at[i]), "y": float(at[j]), "u": u[i, j], "v": v[i, j]}
+    x, y = np.meshgrid(at, at, indexing="ij")
+    for values in zip(x.flat, y.flat, u.flat, v.flat):
+        yield dict(zip(("x", "y", "u", "v"), map(float, values)))
 
 
 # --- a special case of Eqs 42, 49, 51 -----------------------------------------------------------
@@ -221,12 +215,11 @@ def special(d: int, dt: float = 0.02) -> float:
     sums.resume(Run(state=state, ids=np.arange(n)))
     sums.dt = dt
     sums.forces(x, v, 0.0, forces)
-    gamma, zeta = method.gamma, method.gamma/4      # zeta times V
-    seed = method.noise.seed
+    gamma, zeta, seed = method.gamma, method.gamma/4, method.noise.seed     # zeta times V
     Y = [[uniform_of_pair(seed, 1, i, j) for j in range(n)] for i in range(n)]
     u = v[:, :, None] - v[:, None, :]
     along = (e*u).sum(axis=0)
-    noise = 2*np.sqrt(2*method.kT*zeta/dt)*np.array(Y)
+    noise = np.sqrt(8*method.kT*zeta/dt)*np.array(Y)
     due = (w*e*(method.a - gamma*w*along + noise)).sum(axis=2)
     return float(np.abs(forces - due).max()/np.abs(due).max())
 

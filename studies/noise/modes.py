@@ -41,7 +41,8 @@ class Equipartition(Case):
 
     @property
     def cost(self) -> float:
-        return BATCHES*self.steps*1.5e-9*((2 + len(self.counts))*np.prod(self.counts))**2 + 10
+        numbers = (2 + len(self.counts))*np.prod(self.counts)
+        return BATCHES*self.steps*1.5e-9*numbers**2 + 10
 
     @property
     def label(self) -> str:
@@ -103,16 +104,20 @@ def plane_waves(points: Points, V: np.ndarray, turns: tuple[Turns, ...]) -> tupl
 
 def directions(k: np.ndarray) -> dict[str, np.ndarray]:
     """What (rho, p, eps) have of each field; velocities along the axes of a plane, along and across k in space."""
-    if len(k) == 2:
-        return {"u": np.eye(4)[1], "v": np.eye(4)[2], "rho": np.eye(4)[0], "T": np.array([-1, 0, 0, 1])}
+    frame, names = np.eye(2), ["u", "v"]
+    if len(k) == 3:
+        frame, names = along_and_across(k), ["along", "across", "across 2"]
+    rho, *_, eps = np.eye(2 + len(k))
+    vectors = [*np.pad(frame, ((0, 0), (1, 1))), rho, eps - rho]
+    return dict(zip([*names, "rho", "T"], vectors, strict=True))
+
+
+def along_and_across(k: np.ndarray) -> np.ndarray:
+    """Rows: three unit vectors, the first along k (3,)."""
     axes = np.eye(3)
     along = k if k.any() else axes[0]
     others = axes[np.argsort(np.abs(k))[:2]]
-    frame, _ = np.linalg.qr(np.stack([along, *others], axis=1))
-    names = ("along", "across", "across 2", "rho", "T")
-    vectors = np.pad(frame.T, ((0, 2), (1, 1)))
-    vectors[3, 0], vectors[4, [0, 4]] = 1, (-1, 1)
-    return dict(zip(names, vectors, strict=True))
+    return np.linalg.qr(np.stack([along, *others], axis=1))[0].T
 
 
 def check_modes(F: np.ndarray, C: np.ndarray, B: Any, names: list[Name]) -> None:

@@ -83,10 +83,13 @@ class PrintedWaves(Case):
         g = 2 [1 + (1 - 2/3) e_y^2] for eta, e_x^2 for zeta (2 e_x^2 of Eq. 23), 1/T for kappa (2 of Eq. 25).
         """
         r, size, w = lattice_weights(self.h, self.d)
-        e, phase = r/size[:, None], k*r[:, 0]
+        along, last = r[:, 0]/size, r[:, -1]/size
+        phase = k*r[:, 0]
         heat = 2.0 if self.equation == "25" else 1/KT
-        g = {"eta": 2*(1 + e[:, -1]**2/3), "zeta": self.bulk*e[:, 0]**2, "kappa": heat}[self.term]
-        slope = (w*e[:, 0])@np.sin(phase)
+        g = {"eta": 2*(1 + last**2/3),
+             "zeta": self.bulk*along**2,
+             "kappa": heat}[self.term]
+        slope = (w*along)@np.sin(phase)
         variance = (w**2*g)@(1 - np.cos(phase))
         return float((4 if self.doubled else 1)*variance/slope**2)
 
