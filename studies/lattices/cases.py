@@ -1,4 +1,4 @@
-"""Which cases, by size, and the tables that they fill. Lengths in spacings, masses of particles, T = 1 or as said."""
+"""Which cases, by size, and the tables that they fill. Lengths in spacings, masses of particles, T = 1."""
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
@@ -66,12 +66,14 @@ def onsets() -> Iterator[Case]:
 
 def fates(ranges: tuple[float, ...], seeds: tuple[int, ...]) -> Iterator[Case]:
     """One a site or two?"""
-    yield from (Fate(weight=weight, h=h, seed=seed) for weight, h, seed in product(WEIGHTS, ranges, seeds))
+    for weight, h, seed in product(WEIGHTS, ranges, seeds):
+        yield Fate(weight=weight, h=h, seed=seed)
 
 
 def freezing() -> Iterator[Case]:
     """The gas of Fig. 4 with both weights; with shorter steps, too."""
-    yield from (Freezing(weight=weight, seed=seed) for weight, seed in product((Lucy, Monaghan), (1, 2, 3)))
+    for weight, seed in product((Lucy, Monaghan), (1, 2, 3)):
+        yield Freezing(weight=weight, seed=seed)
     yield Freezing(weight=Lucy, step=0.25)
 
 
@@ -84,7 +86,8 @@ def molecules(times: tuple[float, ...], samples: int, seeds: tuple[int, ...]) ->
 
 def speeds() -> Iterator[Case]:
     """Of sound."""
-    yield from (Speed(lattice=lattice, weight=weight) for lattice, weight in product(LATTICES.values(), WEIGHTS))
+    for lattice, weight in product(LATTICES.values(), WEIGHTS):
+        yield Speed(lattice=lattice, weight=weight)
 
 
 def ringing() -> Iterator[Case]:
@@ -106,8 +109,8 @@ ONSETS = Table("onsets", key=[*CRYSTAL, "parameter", "seed"], columns=[*CRYSTAL,
 FATES = Table("fates", key=["weight", "h", "seed"], columns=["weight", "h", "seed", "shared"])
 #: step: over that of other studies
 LAYER = ["weight", "seed", "step"]
-#: K of the mean flow over that of the grid's smoothed field, fluctuation of distances of neighbours over their
-#: mean, at pressures P; nothing where a run diverged
+#: K of the mean flow over that of the grid's smoothed field, fluctuation of distances of neighbours over
+#: their mean, at pressures P; nothing where a run diverged
 FREEZING = Table("freezing", key=[*LAYER, "P"],
                  columns=[*LAYER, "P", "flow", "flow_err", "lindemann"])
 #: P at which K of the mean flow falls below a tenth; K of the grid, and P at which 2 K is 2 P w(0), 2 P
@@ -123,8 +126,8 @@ REVERSAL = Table("reversal", key=["integrator", "weight", "seed", "time"],
 #: speed of the longest waves along x over the fluid's
 SPEEDS = Table("sound_speeds", key=["lattice", "weight"], columns=["lattice", "weight", "speed"])
 SOUND = ["lattice", "weight", "h", "length", "seed"]
-#: rms velocities when the wave has rung: wave: of the exact wave; foretold, across: along y, where the wave has
-#: none, by linear theory from round-off and measured
+#: rms velocities when the wave has rung: wave: of the exact wave; foretold, across: along y, where the wave
+#: has none, by linear theory from round-off and measured
 RINGING = Table("ringing", key=SOUND, columns=[*SOUND, "wave", "foretold", "across"])
 #: length of the wave from which what grows is as fast as the wave when it has rung, over seeds
 LOST = Table("ringing_lost", key=["lattice", "weight"], columns=["lattice", "weight", "seeds", *RATES])
@@ -145,8 +148,9 @@ def derive(tables: Tables) -> Rows:
             length = over_seeds(lengths["measured"])
         except CannotTell:
             continue
-        lost.append({"lattice": lattice, "weight": weight, "seeds": len(lengths),
-                     "predicted": lengths["predicted"].mean(), "measured": length.value, "measured_err": length.err})
+        key = {"lattice": lattice, "weight": weight, "seeds": len(lengths)}
+        lost.append({**key, "predicted": lengths["predicted"].mean(), "measured": length.value,
+                     "measured_err": length.err})
     return {"ringing_lost": lost}
 
 

@@ -25,7 +25,8 @@ def frozen_at(criterion: str, **where) -> Value:
         ratio, half = runs["measured"]/runs[criterion], runs["measured_err"]/runs[criterion]
         scatter = mean_of(ratio).err if len(runs) > 1 else 0.0
         return Measured(ratio.mean(), max(scatter, half.max()))
-    value.__doc__ = f"mean over seeds of measured/{criterion} in freezing_limits; error: scatter or the largest half width"
+    ratio = f"measured/{criterion} in freezing_limits"
+    value.__doc__ = f"mean over seeds of {ratio}; error: scatter or the largest half width"
     return of(value)
 
 
@@ -58,7 +59,8 @@ LATTICES = (
           value=largest("onsets", DIFFERENCE, err="measured_err/abs(predicted)", parameter="T"),
           statement="the temperature below which van der Waals lattices clump is that of lattice sums: "
                     "largest relative difference"),
-    Claim(id="khp95-hard-clumping-pressure", source="KHP95 Sec. IV, Eq. 2", expect=1, within=0.1, because=TENTH,
+    Claim(id="khp95-hard-clumping-pressure", source="KHP95 Sec. IV, Eq. 2", expect=1, within=0.1,
+          because=TENTH,
           value=largest("onsets", f"measured/({NO_PRESSURE})", err=f"measured_err/({NO_PRESSURE})",
                         parameter="T", rho=1.2),
           statement="particles clump from where the pressure is negative: temperature over that of P = 0, "
@@ -76,8 +78,8 @@ PAIRS = (
     Claim(id="khp95-hard-pairs-monaghan",
           source="KHP95 Sec. VI", printed="closely associated pairs", at_least=0.8,
           value=over_seeds("fates", "shared", weight="Monaghan", h=3.0), because=CHANCE,
-          statement="with Monaghan's weight, h = 3, particles end in pairs: part that has another within half "
-                    "a spacing, gas left to rest"),
+          statement="with Monaghan's weight, h = 3, particles end in pairs: part that has another within "
+                    "half a spacing, gas left to rest"),
     Claim(id="khp95-hard-pairs-lucy", source="KHP95 Sec. VI", printed="no such pairing", at_most=0.1,
           value=over_seeds("fates", "shared", weight="Lucy", h=3.0), because=CHANCE,
           statement="with Lucy's weight, h = 3, particles do not end in pairs: part that has another within "
@@ -114,8 +116,8 @@ FREEZING = (
 MOLECULES = (
     Claim(id="khp95-hard-molecules", source="KHP95 Sec. III", printed="identical", at_most=1e-11,
           value=one("twins", "apart", weight="Lucy", time=10.0),
-          statement="for P ~ rho^2 compiled smooth particles keep paths of molecules: rms distance at t = 10, "
-                    "64 particles",
+          statement="for P ~ rho^2 compiled smooth particles keep paths of molecules: rms distance at "
+                    "t = 10, 64 particles",
           because="round-off of 1e-16 that grows by a factor of e in a time of 1 at the fastest"),
     Claim(id="khp95-hard-reversal",
           source="KHP95 Sec. III", printed="exact reversibility", expect=1, within=0,
@@ -133,16 +135,16 @@ SOUND = (
           because="1 %, what KHP95 have for the spurious shear modulus over the bulk modulus"),
     Claim(id="khp95-hard-sound-length", source="KHP95 Sec. II", at_most=0.1,
           value=largest("ringing_lost", DIFFERENCE, err="measured_err/predicted", need=3),
-          statement="sound on a lattice is lost to round-off that grew, from the length that lattice sums and "
-                    "the last digit of places foretell: largest relative difference, two periods, Lucy and "
-                    "Monaghan, square and hexagonal",
+          statement="sound on a lattice is lost to round-off that grew, from the length that lattice sums "
+                    "and the last digit of places foretell: largest relative difference, two periods, Lucy "
+                    "and Monaghan, square and hexagonal",
           because=f"{TENTH}; three e-foldings of some thirty for how much of the round-off is alike"),
     Claim(id="khp95-hard-sound-kept", source="KHP95 Sec. II", at_most=1e-6,
           value=largest("ringing", "across/wave", length=128),
-          statement="on a square lattice that is stable, Lucy's with h = 2.5 a, or all but stable, Wendland's "
-                    "with h = 3 a, sound of 128 spacings rings for two periods: velocity across the wave over "
-                    "the wave's",
-          because="round-off of places, 1e-15 in hundreds of steps, is 1e-8 of the wave; a hundred times that "
-                  "is none of its"),
+          statement="on a square lattice that is stable, Lucy's with h = 2.5 a, or all but stable, "
+                    "Wendland's with h = 3 a, sound of 128 spacings rings for two periods: velocity across "
+                    "the wave over the wave's",
+          because="round-off of places, 1e-15 in hundreds of steps, is 1e-8 of the wave; a hundred times "
+                  "that is none of its"),
 )
 CLAIMS = (*LATTICES, *PAIRS, *FREEZING, *MOLECULES, *SOUND)

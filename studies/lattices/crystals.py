@@ -1,4 +1,4 @@
-"""Small motions of inviscid smooth particles on a lattice: by lattice sums, and as they run    [KHP95, Secs II, III, VI]
+"""Small motions of inviscid smooth particles on a lattice, by sums and by runs    [KHP95, Secs II, III, VI]
 
 About rest at summed density rho, without conduction, displacements u exp(ik.r) obey d2u/dt2 = -M u,
 
@@ -78,7 +78,7 @@ LATTICES = {lattice.name: lattice for lattice in (
 
 
 class LatticeMotion(NamedTuple):
-    """Displacements a cos k.r, a of unit length, omega^2, rate of growth (minus the frequency of what does not grow)."""
+    """Displacements a cos k.r, |a| = 1, omega^2, rate of growth, minus the frequency if nothing grows."""
     k: np.ndarray
     a: np.ndarray
     square: float
@@ -123,7 +123,7 @@ def matrices(symbols: Symbols, eos: Any, e: float, m: float = 1.0) -> np.ndarray
 # --- motions that grow ----------------------------------------------------------------------------
 
 SHIFT = 1e-8                    # of the places at the start, spacings
-LINEAR = (1e-12, 1e-6)          # kinetic energies of shifts of 1e-6 to 1e-2 spacings: there a motion grows by its own rate
+LINEAR = (1e-12, 1e-6)          # kinetic energies at shifts of 1e-6 to 1e-2 spacings, where motions are small
 GROWN = 100.0                   # of the energy: what counts as growth in the search for the onset
 PATIENCE = 200.0                # time that a search waits: ln 10/200 is a rate of 0.012
 HALVINGS = 8
@@ -232,9 +232,9 @@ class Onset(Case):
                 unstable = middle
             else:
                 stable = middle
-        columns = {**self.crystal.columns, self.parameter: 0.0, "parameter": self.parameter, "seed": self.seed}
-        return Outcome({"onsets": [{**columns, "predicted": predicted, "measured": (stable + unstable)/2,
-                                    "measured_err": abs(stable - unstable)/2}]})
+        columns = {**self.crystal.columns, self.parameter: 0.0, "parameter": self.parameter}
+        measured = {"measured": (stable + unstable)/2, "measured_err": abs(stable - unstable)/2}
+        return Outcome({"onsets": [{**columns, "seed": self.seed, "predicted": predicted, **measured}]})
 
     def at(self, value: float) -> Crystal:
         """The crystal with this value of the parameter."""

@@ -37,7 +37,8 @@ def freezing(rows: pd.DataFrame, limits: pd.DataFrame) -> Figure:
     rows, limits = rows.sort_values("P").set_index(keys), limits.groupby(keys).mean(numeric_only=True)
     for number, (layer, label) in enumerate(LAYERS.items()):
         some, style = rows.loc[[layer]], look(number)
-        errorbar(left, list(some["P"]), list(some["flow"]), list(some["flow_err"]), number=number, label=label)
+        P, flow, err = (list(some[name]) for name in ("P", "flow", "flow_err"))
+        errorbar(left, P, flow, err, number=number, label=label)
         right.plot(some["P"], some["lindemann"], **{**style, "linestyle": "none"})
         for name, dashes in (("melting", "--"), ("barrier", ":")):
             left.axvline(limits.loc[layer, name], color=style["color"], linestyle=dashes, linewidth=0.9)
@@ -49,8 +50,9 @@ def freezing(rows: pd.DataFrame, limits: pd.DataFrame) -> Figure:
     right.set_xticks([0.5, 1, 2, 4, 8], labels=["0.5", "1", "2", "4", "8"])
     right.minorticks_off()
     page.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=3)
-    page.suptitle("At which pressure do 512 particles freeze that should convect? Ideal gas, Ra 3000\ndashed: "
-                  "printed criterion of melting, dotted: of the largest potential; grey: a tenth", fontsize=10)
+    page.suptitle("At which pressure do 512 particles freeze that should convect? Ideal gas, Ra 3000\n"
+                  "dashed: printed criterion of melting, dotted: of the largest potential; grey: a tenth",
+                  fontsize=10)
     return page
 
 
@@ -65,8 +67,9 @@ def reversal(rows: pd.DataFrame, twins: pd.DataFrame) -> Figure:
     axes.set(yscale="log", ylim=(3e-18, 30), xlabel=r"time $t/\sigma(m/\epsilon)^{1/2}$",
              ylabel=r"rms distance / $\sigma$")
     page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
-    page.suptitle(r"Do paths run back? $P\propto\rho^2$, Lucy's weight" "\nforward, velocities turned, and back; "
-                  "whole numbers: exactly 0, drawn at $10^{-17}$", fontsize=10)
+    page.suptitle(r"Do paths run back? $P\propto\rho^2$, Lucy's weight"
+                  "\nforward, velocities turned, and back; whole numbers: exactly 0, drawn at $10^{-17}$",
+                  fontsize=10)
     return page
 
 

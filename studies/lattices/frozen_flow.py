@@ -1,7 +1,8 @@
-"""At which static pressure does convection of 512 particles freeze, in the scene of Fig. 4?    [KHP95, Sec. IV]
+"""At which static pressure does convection of 512 particles freeze?    [KHP95, Sec. IV, Fig. 4]
 
 The continuum does not feel this pressure: it is added to the sums as a negative fraction of the static one
-that `LessStatic` leaves out, with the gravity that balances it; P is what is left at mid-height, 1 as printed.
+that `LessStatic` leaves out, with the gravity that balances it; P is what is left at mid-height, 1 as
+printed.
 """
 from dataclasses import dataclass
 from functools import cache
@@ -30,8 +31,8 @@ HALVINGS = 5
 FROZEN = 0.1            # of the energy of the grid's field, smoothed by the same weight
 T_END = 60.0            # free-fall times
 MEAN_FROM = 30.0
-WINDOW, LOOKS = 2.0, 20             # free-fall times in which distances of neighbours fluctuate, and looks at them
-SITE, SHELL = 0.5, 6                # neighbours: the six nearest beyond half a spacing, where partners of a pair are
+WINDOW, LOOKS = 2.0, 20     # free-fall times in which distances of neighbours fluctuate, looks at them
+SITE, SHELL = 0.5, 6        # neighbours: the six nearest beyond half a spacing, where partners of a pair are
 GRIDS = (16, 24)                    # rows of the grid: K of 24 is good to 1.5 %
 
 
@@ -43,7 +44,7 @@ def grid_energies(weight: Any) -> tuple[float, float]:
 
 
 def criteria(weight: Any, K: float) -> dict[str, float]:
-    """P at which m<v^2> = 2 K equals the printed potentials 2 P w(0) and 2 P [w(0.9) - w(1)]    [KHP95, Sec. IV]"""
+    """P at which m<v^2> = 2 K is the printed potential 2 P w(0) or 2 P [w(0.9) - w(1)]    [KHP95, Sec. IV]"""
     w = weight.of(h=RANGE)
     centre, near, far = (value_and_slope(w, r)[0] for r in (0.0, 0.9, 1.0))
     return {"K": K, "barrier": K/centre, "melting": K/(near - far)}
@@ -93,7 +94,8 @@ class Freezing(Case):
         variant = Variant("pressure", weight=self.weight, h=RANGE, fraction=1 - P, step=self.step*OF_LIMIT)
         method, start, dt = variant.ready(SCENE, self.seed)
         grid, every = Grid.over(method.box, ROWS), max(1, round(UNIT/4/dt))
-        plan = Plan(dt=dt, steps=round(T_END*UNIT/dt), every=every, mean_from=MEAN_FROM*UNIT, means={"grid": grid})
+        plan = Plan(dt=dt, steps=round(T_END*UNIT/dt), every=every, mean_from=MEAN_FROM*UNIT,
+                    means={"grid": grid})
         key = {**self.columns, "P": P}
         try:
             done = run(method, start, plan)

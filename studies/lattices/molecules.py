@@ -1,8 +1,8 @@
 """Crowds of particles: do they pair; are they molecules, whose paths run back?    [KHP95, Secs III, VI]
 
 `Fate` leaves a gas to rest. Inviscid particles with P/rho^2 = 1 obey dv/dt = -sum_j m 2 grad w: Newton's
-equations with the potential 2 m^2 w of a pair. `Twins` follows one path by both kinds of sums: they must agree
-until round-off has grown. `Reversal` turns the velocities: the path comes back, to what truncation or
+equations with the potential 2 m^2 w of a pair. `Twins` follows one path by both kinds of sums: they must
+agree until round-off has grown. `Reversal` turns the velocities: the path comes back, to what truncation or
 round-off makes of it, and bit by bit if places and velocities are whole numbers.
 """
 from dataclasses import dataclass, replace
@@ -42,7 +42,7 @@ def crowd(side: int, seed: int, e: float, speed: float) -> np.ndarray:
 SIDE = 16               # particles along each side
 LAW = ConstEta(0.5, 0.5)
 TIME = 300.0            # 20 times L/c
-PARTNER = 0.5           # spacings within which a neighbour shares a site: sites of one particle are 1.07 apart
+PARTNER = 0.5           # spacings within which a neighbour shares a site: sites of one are 1.07 apart
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,7 +75,7 @@ def partners(x: np.ndarray, box: tuple[float, float]) -> np.ndarray:
 #: the pressure
 RHO_SQUARED = VanDerWaals(a=-1.0, b=0.0, cv=1e300)
 ENERGY = 1e3        # per mass: any that stays above rho is valid
-SPEED = 0.4         # rms of each velocity: m v^2 = 0.32 is about phi(0) = 2 w(0) = 0.35, so that particles pass each other
+SPEED = 0.4         # rms of each velocity: m v^2 = 0.32 is about 2 w(0) = 0.35: particles pass each other
 METHODS = {"rk4": RK4, "leapfrog": Leapfrog, "whole numbers": Whole}
 
 
@@ -120,7 +120,7 @@ class Molecules:
 
 @dataclass(frozen=True, kw_only=True)
 class Twins(Case):
-    """The same path by the compiled sums of smooth particles and as molecules: how far apart after some time."""
+    """The same path by the sums of smooth particles and as molecules: how far apart after some time."""
     weight: Any
     side: int = 8
     every: float = 2.0
@@ -151,7 +151,7 @@ class Twins(Case):
 
 @dataclass(frozen=True, kw_only=True)
 class Reversal(Case):
-    """Forward for some time, velocities turned, and back: how far from the start. name : of the integrator."""
+    """Forward for some time, velocities turned, and back: how far from the start. name : of integrator."""
     name: str
     integrator: type
     weight: Any

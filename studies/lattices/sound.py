@@ -6,7 +6,8 @@ round-off of places. About a lattice that is not stable it grows at the rate s o
 until it is as fast as the wave. Steps dt round places off by rms (u_x, u_y); n particles have n motions a cos
 k.r of least omega^2, and
 
-    v_y^2 = (1/n) sum_k (c e^(s t) a_y)^2 (a_x^2 u_x^2 + a_y^2 u_y^2) (1 + 1/(2 s dt)),    c = s w/(s^2 + w),  w = -omega^2
+    v_y^2 = (1/n) sum_k (c e^(s t) a_y)^2 (a_x^2 u_x^2 + a_y^2 u_y^2) (1 + 1/(2 s dt))
+    c = s w/(s^2 + w),  w = -omega^2
 
 where c is that of u'' + (w/s - s) u' = w u, let go at rest. It tells the power of ten: particles of one x are
 often rounded off alike, which seeds nothing. A longer wave rings for longer, so that round-off grows by more
@@ -154,7 +155,7 @@ def across(sums: Any, state: np.ndarray) -> float:
 
 
 def motions(wave: Ringing) -> list[LatticeMotion]:
-    """Of each wave vector the motion of least omega^2, about rest at T = 1 and mass 1; rates with friction."""
+    """Of each wave vector the motion of least omega^2, about rest at T = 1, mass 1; rates with friction."""
     k = wave.lattice.vectors(wave.cells)
     symbols = sums(wave.method.weight, wave.lattice, k)
     squares, a = np.linalg.eigh(matrices(symbols, wave.method.eos, T))

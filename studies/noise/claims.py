@@ -1,7 +1,19 @@
 """What RR98 says of noise and of its steps, judged    [RR98 Eqs 20-25, 40-44, Sec. III B]"""
 from typing import Any
 
-from studies.kit.ask import Value, farthest, farthest_per, first, largest, largest_per, last, log, one, power, spread
+from studies.kit.ask import (
+    Value,
+    farthest,
+    farthest_per,
+    first,
+    largest,
+    largest_per,
+    last,
+    log,
+    one,
+    power,
+    spread,
+)
 from studies.kit.claim import Claim
 
 MOMENTA = ("stress", "friction", "stress+friction")
@@ -115,7 +127,8 @@ CLAIMS = (
           statement="sampled in 3D, all degrees of freedom of a gas at rest together have their variance: "
                     "mean ratio, farther from 1 of a lattice and jittered points"),
     Claim(id="rr98-fluct-brillouin-position", source="RR98 Eqs 20-25", expect=1, within=0.005,
-          value=last("peaks", "measured/symbol", by="turns", err="measured_err/symbol"), because=HALF_PER_CENT,
+          value=last("peaks", "measured/symbol", by="turns", err="measured_err/symbol"),
+          because=HALF_PER_CENT,
           statement="the Brillouin peak of sampled density waves lies where the lattice symbol has sound: "
                     "ratio, waves of 8 spacings"),
     Claim(id="rr98-fluct-eq40-euler", source="RR98 Eq. 40", expect=1, within=0.01, because="1 %",
@@ -145,7 +158,8 @@ CLAIMS = (
           value=longest("42", "zeta", "single")/longest("23", "zeta", "single"),
           statement="the zeta term of Eq. 42 has the variance of Eq. 23: their ratio; a factor sqrt 2 is "
                     "missing"),
-    Claim(id="rr98-fluct-eq42-shape", source="RR98 Eq. 42", at_most=1.01, because="1 %: of one factor for all waves",
+    Claim(id="rr98-fluct-eq42-shape", source="RR98 Eq. 42", at_most=1.01,
+          because="1 %: of one factor for all waves",
           value=spread("printed", "ratio", equation="42", term="eta", reading="doubled", d=2, h=1.2),
           statement="with some factor Eq. 42 is the partner of Eq. 37: largest over smallest ratio of its "
                     "variance to its due, waves along an axis of the square lattice, nearest neighbours"),
@@ -206,8 +220,9 @@ CLAIMS = (
             statement=f"{words} keeps the {temperature} kT within 1 % at dt = 0.02: |error|, runs made "
                       "longer until that was decided")
       for integrator, words in GOOD.items() for temperature in ("kinetic", "configurational")),
-    Claim(id="own-dpd-pressure-asked", source="Allen & Tildesley 2017, example dpd", printed="23.635 to 23.637",
-          expect=23.64, within=0.02, value=one("long", "P", integrator="KickDriftFrictionDriftKick"),
+    Claim(id="own-dpd-pressure-asked", source="Allen & Tildesley 2017, example dpd",
+          printed="23.635 to 23.637", expect=23.64, within=0.02,
+          value=one("long", "P", integrator="KickDriftFrictionDriftKick"),
           statement="pressure of dissipative particles at a = 25, rho = 3, kT = 1, with rho kT as it is "
                     "asked for, which print has, friction in the middle of the step, dt = 0.02; the same "
                     "pressure with the velocities' kT had been left open", because="0.1 %"),

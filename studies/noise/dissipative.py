@@ -1,4 +1,4 @@
-"""Dissipative particles: as a special case of RR98; kT and pressure at rest; a cylinder of frozen ones    [RR98 Sec. III B]
+"""Dissipative particles: kT and pressure, a cylinder of frozen ones, the special case    [RR98 Sec. III B]
 
 The fluid has a = 25, rho = 3, gamma = 4.5, rc = kT = 1, unit masses, in a periodic cube.
 """
@@ -135,8 +135,8 @@ BINS = np.linspace(-CELL/2, CELL/2, 17)
 class Cylinder(Fluid):
     """A stream past a cylinder across the box, in a square array.
 
-    Those of the particles of a settled fluid that are in the cylinder are frozen. The force is on what is free,
-    as a mean pressure gradient would be.
+    Those of the particles of a settled fluid that are in the cylinder are frozen. The force is on what is
+    free, as a mean pressure gradient would be.
     """
     integrator: type = VelocityVerlet
     dt: float = 0.04
@@ -194,7 +194,7 @@ def velocities(flow: np.ndarray, U: float) -> Iterator[dict[str, float]]:
 
 
 def form() -> float:
-    """Largest difference between the forces that run and those of RR98's equations, over the largest; 2D, 3D."""
+    """Largest difference between the forces that run and RR98's, over the largest; 2D and 3D."""
     return max(special(d) for d in (2, 3))
 
 
@@ -236,7 +236,7 @@ def neighbours(method: Dpd) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def unmodified() -> float:
-    """|Q - 2 kT Gamma|/|Q|, friction of the weight of the noise, not its square, and as much energy in all."""
+    """|Q - 2 kT Gamma|/|Q|, friction of the weight of the noise, not its square, as much energy in all."""
     _, w, e = neighbours(Dpd(box=(3.0, 3.0, 3.0)))
     Q, friction = blocks(w**2, e), blocks(w, e)
     due = friction*np.trace(Q)/np.trace(friction)

@@ -1,4 +1,4 @@
-"""Sampled plane waves of a gas at rest: variances against equilibrium, the Brillouin peak    [RR98 Eqs 20-25]"""
+"""Sampled plane waves of a gas at rest: variances, the Brillouin peak    [RR98 Eqs 20-25]"""
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +12,16 @@ from particles.integral.points import Points, lattice
 from particles.weights import Lucy
 from studies.build.disorder import DISORDERS, Disorder
 from studies.kit.case import Case, Outcome, Report
-from studies.noise.partners import ETA, KAPPA, ZETA, equilibrium, factor, rates_at_rest, states_of_fields, transport
+from studies.noise.partners import (
+    ETA,
+    KAPPA,
+    ZETA,
+    equilibrium,
+    factor,
+    rates_at_rest,
+    states_of_fields,
+    transport,
+)
 from studies.noise.printed_noise import gas
 from studies.noise.sampling import BATCHES, Sampler, check_length, of_matrix, ratio
 
@@ -103,7 +112,7 @@ def plane_waves(points: Points, V: np.ndarray, turns: tuple[Turns, ...]) -> tupl
 
 
 def directions(k: np.ndarray) -> dict[str, np.ndarray]:
-    """What (rho, p, eps) have of each field; velocities along the axes of a plane, along and across k in space."""
+    """What (rho, p, eps) have of each field; velocities along the axes, in 3D along and across k."""
     frame, names = np.eye(2), ["u", "v"]
     if len(k) == 3:
         frame, names = along_and_across(k), ["along", "across", "across 2"]

@@ -116,7 +116,7 @@ class Partnership(Case):
 
 
 def kinds(edges: Edges, seed: int) -> dict[str, Partners]:
-    """Noise by name, coefficients random by factors of five; along edges only where all conduct a positive amount."""
+    """Noise by name, coefficients random by factors of five; along edges where none conducts below zero."""
     rng = np.random.default_rng(seed)
     eta, kappa = rng.uniform(0.2, 1, (2, edges.n))
     zeta = 0.9*(1 + 2/edges.d)*rng.uniform(0, 1, edges.n)*eta
@@ -175,7 +175,7 @@ def half_spacing() -> float:
 def half_step() -> float:
     """<u u> with increments of unit variance whatever the step, at dt/2 over that at dt; u decays."""
     def variance(dt: float) -> float:
-        step = crank_nicolson(-np.eye(1), dt*np.eye(1), dt)         # dt X is noise of the variance dt per time
+        step = crank_nicolson(-np.eye(1), dt*np.eye(1), dt)     # dt X is noise of the variance dt per time
         return float(steady_of_steps(step)[0, 0])
     return variance(0.5)/variance(1.0)
 
@@ -187,7 +187,7 @@ def trace_2d() -> float:
 
 
 def viscosity(rho: float = 3.0, gamma: float = 4.5) -> float:
-    """Bulk viscosity that Eq. 42, doubled, needs for the noise of dissipative particles, over that of their friction, 3D.
+    """Bulk viscosity that Eq. 42, doubled, needs for the noise of dissipative particles, over their own.
 
     RR98's W, of which the moment int W r dV is 3, is c w, c = 15/pi. Noise, with W dV = c w V and the volume
     that Eq. 42 lacks: 4 c^2 w^2 2 kT zeta V^3 is 2 gamma kT w^2; V = 1/rho. Friction, by the moments of Eq.

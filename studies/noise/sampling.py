@@ -1,4 +1,4 @@
-"""Samples of linear systems with noise, of the full equations, of heat between points    [RR98 Eqs 20-25, 42, 43]
+"""Samples of linear systems, of the full equations, of heat between points    [RR98 Eqs 20-25, 42, 43]
 
 Each mean is made of 20 batches, each ten decay times of the slowest mode or longer, started where the one
 before ended: their scatter, with its t factor, is the error.
@@ -165,7 +165,7 @@ def heat_kicks(edges: Edges, C: float, dt: float) -> Callable[[int], Kick]:
 
 
 def heat_rates(edges: Edges, C: float, corrected: bool) -> np.ndarray:
-    """J of their temperatures; `corrected` with 1 + k/C, the part of Ito's rule that current amplitudes need."""
+    """J of their temperatures; corrected : with 1 + k/C, what current amplitudes need of Ito's rule."""
     return (1 + corrected/C)*edges.laplacian.toarray()/edges.V[:, None]
 
 

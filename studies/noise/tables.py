@@ -1,4 +1,4 @@
-"""Tables of the study, and the drag that follows. Of dissipative particles: mass, rc and kT are one; `_err` of 95 %."""
+"""Tables of the study, and the drag that follows. Dissipative particles have mass, rc and kT of one."""
 from typing import Any
 
 from continuum.exact.cylinder import drag_of
