@@ -118,8 +118,7 @@ class Shear(Fluid):
         # a run begins with images that have not slid: what that disturbs is left out, too
         kinetic, stress = (mean(x[round(SETTLE/RECORD):]) for x in done.series.values())
         row = self.row(done, viscosity=stress/self.rate, kinetic=kinetic)
-        row |= {"rate": self.rate, "time": self.time - SETTLE}
-        return Outcome({"shear": [row]})
+        return Outcome({"shear": [{**row, "rate": self.rate, "time": self.time - SETTLE}]})
 
 
 # --- a cylinder of frozen particles -----------------------------------------------------------
