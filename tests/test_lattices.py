@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 from continuum.fluid import IdealGas, VanDerWaals, pressure
 from particles.limits import lattice_sums
-from particles.smooth.spam import Direct, Nested, Spam
+from particles.smooth.spam import Spam
 from particles.threads import Team
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.build.periodic_box import at_rest, fluid
@@ -35,8 +35,8 @@ def test_sums_over_the_square_lattice_are_those_of_the_step_limit(weight):
     assert found.rho == pytest.approx(known.rho, rel=1e-14)
     np.testing.assert_allclose(found.S, known.S, atol=1e-14)
     np.testing.assert_allclose(found.D, known.D, atol=1e-8)       # second derivatives by differences
-    for kind in (Nested, Direct):
-        np.testing.assert_allclose(found.k2[kind], known.k2[kind], atol=1e-13)
+    np.testing.assert_allclose(found.nested, known.nested, atol=1e-13)
+    np.testing.assert_allclose(found.direct, known.direct, atol=1e-13)
 
 
 @pytest.mark.parametrize(("lattice", "nearest", "far"), [(SQUARE, 4, 1.0), (HEXAGONAL, 6, 1.0745699)])

@@ -21,7 +21,6 @@ from continuum.fluid import energy, pressure, pressure_slopes
 from particles.limits import Symbols, step_limit
 from particles.observe import particle_kinetic
 from particles.run import STUDIES, Divergence, Plan, run
-from particles.smooth.spam import Direct, Nested
 from particles.weights import value_and_slope
 from studies.build.periodic_box import at_rest, fluid
 from studies.kit.case import Case, Outcome, Report
@@ -98,8 +97,7 @@ def sums(weight: Any, lattice: Lattice, k: np.ndarray) -> Symbols:
     slow = 1 - np.cos(phase)
     D = np.einsum("kr,abr->kab", slow, hessian)
     rho = float(w.sum() + value_and_slope(weight, 0.0)[0])
-    nested, direct = (S**2).sum(axis=1)/rho**2, 2/rho*slow@-slope
-    return Symbols(rho, S, D, {Nested: nested, Direct: direct})
+    return Symbols(rho, S, D, nested=(S**2).sum(axis=1)/rho**2, direct=2/rho*slow@-slope)
 
 
 def derivatives(weight: Any, r: float, step: float = 1e-5) -> tuple[float, float, float]:
