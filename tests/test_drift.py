@@ -26,7 +26,7 @@ from particles.threads import Team
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
-from studies.build.rr98_moving import DRIFT_MOTIONS, PlateHeat
+from studies.build.rr98_moving import DRIFT_MOTIONS, heat_in
 from studies.rb.runs.points import DriftRun
 from studies.rb.tables import HISTORY, KINETIC, PROFILES
 
@@ -262,7 +262,7 @@ def test_heat_through_plates_is_conduction_where_temperature_is_linear():
     sums.around.relist(now, np.arange(len(x)), 0.0)
     sums.look_at(now)
     for side in (-1, 1):
-        assert PlateHeat(side)(sums, now) == pytest.approx(-side*scene.k*scene.dT/scene.L*scene.width, rel=1e-12)
+        assert heat_in(sums, now, side) == pytest.approx(-side*scene.k*scene.dT/scene.L*scene.width, rel=1e-12)
 
 
 def test_literal_points_come_to_rest_where_density_times_the_square_of_their_number_is_uniform():

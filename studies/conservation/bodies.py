@@ -18,7 +18,7 @@ from particles.limits import limit_of
 from particles.run import Plan, Run, run
 from particles.threads import Team
 from particles.weights import Lucy
-from studies.build.cylinder import PRESSURE, VARIANTS, Variant, drag, force, free, momentum, radius_of, stream
+from studies.build.cylinder import PRESSURE, VARIANTS, Obstacle, drag, force, free, momentum, radius_of, stream
 from studies.kit.case import Case, Outcome, Report
 
 ETA, SPEED = 2.0, 1e-3      # sound and friction limit the step alike; Re and Mach below 0.01
@@ -37,7 +37,7 @@ class CylinderDrag(Case):
     speed : about that which the mean velocity gets, by the published drag.
     """
 
-    variant: Variant
+    variant: Obstacle
     fraction: float
     rows: int
     speed: float = SPEED

@@ -19,8 +19,8 @@ from particles.plan import Plan
 from particles.run import run
 from particles.smooth.spam import Spam
 from studies.build import ready, variant
+from studies.build.measure import Smoothing, smoothed_energy
 from studies.build.names import START_ENERGY
-from studies.build.smoothing import Smoothing, smoothed_energy
 from studies.build.spam import OF_LIMIT
 from studies.build.unguarded import Unguarded
 from studies.cost import layer

@@ -1,5 +1,5 @@
 """Names of methods as tables and figures have them, and the colour of each family."""
-from studies.build.labels import LABELS
+from studies.build.names import LABELS
 
 GRID = LABELS["grid"]
 NEWTON = "compressible grid, Newton"

@@ -22,11 +22,10 @@ from particles.observe import Grid, Smoothed, particle_kinetic
 from particles.run import STUDIES, Divergence, Plan, run
 from particles.smooth.spam import Spam
 from particles.weights import value_and_slope
+from studies.build.measure import Smoothing, flowing, smoothed_energy
 from studies.build.names import START_JITTER
 from studies.build.periodic_box import at_rest, fluid
-from studies.build.smoothing import Smoothing, smoothed_energy
 from studies.build.spam import OF_LIMIT, Variant
-from studies.build.symmetry import flowing
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import mean
 from studies.lattices.waves import sites_of_least_energy
