@@ -8,7 +8,7 @@
     done = run(method, start, Plan(dt=dt, steps=100))
 
 A record of a family (`Variant`, `Scheme`, `FacesMotion`, `DriftMotion`, `GridForm`) or a method of one's own,
-with `state(x, rho, v, T)`, may stand in place of the name. Flows with exact answers are in `studies.build.scenes`.
+with `state(x, rho, v, T)`, may stand in its place. Flows with exact answers are in `studies.build.scenes`.
 """
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
@@ -19,13 +19,7 @@ from studies.build.setting import Ready, of_method
 
 
 def named(*families: Iterable[tuple[str, Any]]) -> dict[str, Any]:
-    """One table of names.
-
-    Raises
-    ------
-    ValueError
-        A name stands for two variants.
-    """
+    """One table of names. Raises ValueError: A name stands for two variants."""
     table: dict[str, Any] = {}
     for name, variant in (pair for family in families for pair in family):
         if name in table:
@@ -51,12 +45,9 @@ METHODS = named(
 
 
 def ready(scene: Any, method: Any, seed: int = 1, **more: Any) -> Ready:
-    """A method in a scene, by its name, by a variant, or as an object. more : x, fields, rows; see the family.
+    """A method in a scene, by its name, by a variant, or as an object; more : as the family takes.
 
-    Raises
-    ------
-    ValueError
-        No method has this name, or the family cannot take the scene.
+    Raises ValueError: No method has this name, or the family cannot take the scene.
     """
     chosen = variant(method) if isinstance(method, str) else method
     if hasattr(chosen, "ready"):
@@ -66,13 +57,7 @@ def ready(scene: Any, method: Any, seed: int = 1, **more: Any) -> Ready:
 
 
 def variant(name: str) -> Any:
-    """The variant of a name.
-
-    Raises
-    ------
-    ValueError
-        There is none.
-    """
+    """The variant of a name. Raises ValueError: there is none."""
     if name not in METHODS:
         near = get_close_matches(name, METHODS, 4, 0.4) or list(METHODS)
         raise ValueError(f"no method is called {name!r}; near to it are {', '.join(near)}; "

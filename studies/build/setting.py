@@ -86,10 +86,7 @@ def shaken(scene: Any, seed: int) -> np.ndarray:
 def check_spacings(scene: Any) -> None:
     """Refuse a box that whole columns and rows of points of unit spacing do not fill.
 
-    Raises
-    ------
-    ValueError
-        Height or width is no whole number.
+    Raises ValueError: Height or width is no whole number.
     """
     for name, length in (("height L", scene.L), ("width aspect L", scene.width)):
         if not isclose(length, max(1, round(length)), rel_tol=1e-9):
@@ -98,13 +95,7 @@ def check_spacings(scene: Any) -> None:
 
 
 def check_open(scene: Any, kind: str) -> None:
-    """Refuse four walls.
-
-    Raises
-    ------
-    ValueError
-        Sides are walls.
-    """
+    """Refuse four walls. Raises ValueError: Sides are walls."""
     if isinstance(scene.sides, Walls):
         raise ValueError(f"{kind} points have plates above and below only: take a scene with periodic sides")
 
@@ -112,10 +103,7 @@ def check_open(scene: Any, kind: str) -> None:
 def check_still(scene: Any) -> None:
     """Refuse plates that slide, for methods whose images do not.
 
-    Raises
-    ------
-    ValueError
-        The upper plate slides.
+    Raises ValueError: the upper plate slides.
     """
     if scene.slide:
         raise ValueError(f"plates of moving points do not slide, got slide = {scene.slide}: take "

@@ -115,10 +115,7 @@ VARIANTS = {v.name: v for v in (
 def method(scene: Any, variant: Variant) -> Spam:
     """The method of unit spacing and mass: a scene of L = rows spacings.
 
-    Raises
-    ------
-    TypeError
-        The weight is no class of weights.
+    Raises TypeError: the weight is no class of weights.
     """
     weight, eos = variant.weight, scene.eos
     if not (isinstance(weight, type) and hasattr(weight, "of")):

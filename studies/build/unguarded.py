@@ -41,7 +41,8 @@ class Noise(NamedTuple):
 
 def noise_grows(method: Unguarded, start: np.ndarray, rows: tuple[int, ...], steps: int, dt: float) -> bool:
     """Whether noise is GROWN times larger at the end than after a tenth of the steps, or the run diverges."""
-    plan = Plan(dt=dt, steps=steps, series={"noise": Noise(rows)}, every=steps//10)
+    quantities: dict[str, Any] = {"noise": Noise(rows)}
+    plan = Plan(dt=dt, steps=steps, series=quantities, every=steps//10)
     try:
         series = run(method, start, plan).series["noise"]
     except Divergence:

@@ -76,7 +76,7 @@ def fixed(scene: Any, scheme: fixed_points.Scheme) -> Built:
     return Built(method, start, dt, moved(method))
 
 
-def drifting(scene: Any, motion: rr98_moving.DriftMotion | moving.Motion) -> Built:
+def drifting(scene: Any, motion: rr98_moving.DriftMotion | moving.FacesMotion) -> Built:
     """RR98's own motions, and moving points with closed faces."""
     method, start, dt = motion.ready(scene, x=places(scene))
     return Built(method, start, dt, moved(method))

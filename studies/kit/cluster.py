@@ -40,13 +40,7 @@ class Cancelled(BaseException):
 
 
 def check_scheduler(address: str) -> str:
-    """The address itself.
-
-    Raises
-    ------
-    ValueError
-        It is not one of a scheduler.
-    """
+    """The address itself. Raises ValueError: it is not one of a scheduler."""
     if address and not ADDRESS.fullmatch(address):
         raise ValueError(f"SCHEDULER={address} is no address of a Dask scheduler: give tcp://host:port, or nothing "
                          "to compute on this machine")
@@ -139,10 +133,7 @@ def perform(sent: bytes, versions: str, number: int, topic: str) -> str | Failur
 
     Checkpoints lie in a folder of the worker, as long as it lives.
 
-    Raises
-    ------
-    CannotRun
-        This worker cannot run it as the study would.
+    Raises CannotRun: This worker cannot run it as the study would.
     """
     from distributed import get_worker
     worker = get_worker()

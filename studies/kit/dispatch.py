@@ -88,10 +88,7 @@ def dispatch(cases: Sequence[Case], folder: Path, name: str, connect: Callable[[
 
     Each of the two groups has a transport of its own: times are taken in fresh processes.
 
-    Raises
-    ------
-    KeyboardInterrupt, CannotRun
-        What ran is ended, what is finished is kept.
+    Raises KeyboardInterrupt, CannotRun: What ran is ended, what is finished is kept.
     """
     bar, failures = Bar(cases, name), []
     with remember_interrupt(), bar.line:

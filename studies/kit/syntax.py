@@ -77,10 +77,7 @@ def names_in(*nodes: ast.AST) -> list[str]:
 def imported(tree: ast.AST, package: str) -> Iterator[tuple[str, str]]:
     """(name, what it stands for) of all import statements in a tree.
 
-    Raises
-    ------
-    ValueError
-        ``from x import *``: nobody could tell what a name means.
+    Raises ValueError: ``from x import *``: nobody could tell what a name means.
     """
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):

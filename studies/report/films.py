@@ -144,10 +144,7 @@ def picture(page: Figure) -> Picture.Image:
 def write(path: Path, frames: Sequence[Picture.Image]) -> None:
     """An MP4, all or nothing; the same frames give the same bytes.
 
-    Raises
-    ------
-    ValueError
-        The encoder failed; an older film stays as it is.
+    Raises ValueError: the encoder failed; an older film stays as it is.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f".{path.name}.{os.getpid()}")
@@ -206,13 +203,7 @@ def make(name: str, film: Film, folder: Path) -> dict[str, Any]:
 
 
 def make_all(out: Path, only: str = "") -> list[Path]:
-    """The films with this text in their name.
-
-    Raises
-    ------
-    ValueError
-        There are none.
-    """
+    """The films with this text in their name. Raises ValueError: there are none."""
     chosen = {name: film for name, film in MAKERS.items() if only in name}
     if not chosen:
         raise ValueError(f"no film has {only!r} in its name: there are {', '.join(MAKERS)}")

@@ -109,10 +109,7 @@ def question(name: str) -> str:
 def study_of(part: Part) -> Study | None:
     """The study with these tables; none of a folder that has other tables.
 
-    Raises
-    ------
-    NoReport
-        Its code cannot be loaded.
+    Raises NoReport: Its code cannot be loaded.
     """
     name = part.name
     if not (part.sheets and (ROOT/"studies"/name/"__init__.py").exists()):
@@ -145,10 +142,7 @@ def drawings(part: Part) -> dict[str, Drawing | Overview]:
 def rows_of(path: Path, columns: tuple[str, ...] = (), **where: Any) -> pd.DataFrame:
     """Rows of a table with these values; of a file that is missing none.
 
-    Raises
-    ------
-    NoReport
-        The file is no table, or lacks some of ``columns``.
+    Raises NoReport: the file is no table, or lacks some of ``columns``.
     """
     if not path.exists():
         return pd.DataFrame(columns=[*columns, *where])

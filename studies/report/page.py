@@ -33,10 +33,7 @@ VERDICTS = {"holds": "✓", "fails": "✗", "undecidable": "?"}
 def write_page(out: Path) -> Path:
     """Write index.html, all or nothing; its path.
 
-    Raises
-    ------
-    NoReport
-        Something is missing or broken, or too large; an older page stays as it is.
+    Raises NoReport: Something is missing or broken, or too large; an older page stays as it is.
     """
     known = parts(out)
     for part in known:
