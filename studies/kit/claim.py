@@ -33,8 +33,8 @@ WRITTEN = (*COLUMNS, "formula")
 #: of columns, in the head of the file
 MEANING = ("whose: a statement that the paper prints, or our own about the same equation",
            "formula: the question that the claim puts to the tables of its study, as in studies/kit/ask.py",
-           "err is the half width of the 95 % interval, low to high is accepted; studies/kit/claim.py has the "
-           "rule of the verdicts")
+           "err is the half width of the 95 % interval, low to high is accepted; studies/kit/claim.py has "
+           "the rule of the verdicts")
 NAMED = re.compile(r"(KHP95|RR98)\b|[A-Z].*\b(1[89]|20)\d\d\b", re.IGNORECASE)
 
 

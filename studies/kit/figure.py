@@ -83,7 +83,7 @@ def save(page: Figure, path: Path) -> None:
 
 
 def compact(page: Figure) -> bytes:
-    """A PNG of 256 colours, a third as large: blends of colours along edges move by less than the eye sees."""
+    """A PNG of 256 colours, a third as large: blends of colours move by less than the eye sees."""
     full, small = io.BytesIO(), io.BytesIO()
     page.savefig(full, format="png")
     picture = Image.open(full)
