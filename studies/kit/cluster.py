@@ -2,7 +2,7 @@
 
 A cluster shares the code with the study and nothing else, no disk either: a case travels to a worker, its
 outcome comes back as text. Dask gives a case whose worker is lost to another one, as often as the scheduler
-allows (``allowed-failures``). ``make worker SCHEDULER=tcp://...`` starts a worker, which runs one case at a time.
+allows (``allowed-failures``). ``make worker SCHEDULER=tcp://...`` starts a worker, for one case at a time.
 """
 import io
 import math
@@ -106,8 +106,8 @@ def outcome(future: "Future", label: str) -> str | Failure:
         return future.result()
     except KilledWorker as error:
         count, last = error.allowed_failures + 1, error.last_worker.address
-        message = (f"{count} workers died while they ran it, the last one {last}, perhaps for want of memory: "
-                   "dask worker --memory-limit gives more")
+        message = (f"{count} workers died while they ran it, the last one {last}, perhaps for want of "
+                   "memory: dask worker --memory-limit gives more")
         return Failure(label, message, story=str(error))
     except Exception as error:      # failures of cases are handed back: this is trouble of the cluster
         raise CannotRun(f"{error}: {WAY_OUT}" if future.status == "error" else NO_ANSWER) from error

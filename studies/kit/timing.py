@@ -10,8 +10,8 @@ from scipy.special import stdtrit
 from numba.core import event  # isort: skip
 
 REPEATS = 7
-#: half of the interquartile range of 7 repeats -> half width of the 95 % interval of their median, t sqrt(pi/(2n))
-#: sigma of a normal scatter: its quartiles lie between the 2nd and 3rd of 7, on average 0.757 and 0.353 sigma off
+#: half of the interquartile range of 7 repeats -> half width of the 95 % interval of their median:
+#: t sqrt(pi/(2n)) of a normal scatter, whose quartiles are on average 0.757 and 0.353 sigma off
 SPREAD_TO_ERR = float(stdtrit(REPEATS - 1, 0.975)*np.sqrt(np.pi/(2*REPEATS))/((0.757 + 0.353)/2))
 T = TypeVar("T")
 
