@@ -8,6 +8,7 @@ import os
 import signal
 
 import numba
+import pytest
 
 import continuum.jit  # noqa: F401  (names the folder for users)
 
@@ -18,3 +19,12 @@ numba.config.reload_config()
 # a shell that starts the tests in the background, as nohup does, has Ctrl-C ignored, and what tests start would inherit that
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Two processes share tests by file, whose fixtures are made once, and test_studies by study."""
+    for item in items:
+        shared = item.callspec.params["study"] if item.path.stem == "test_studies" else item.path.stem
+        item.add_marker(pytest.mark.xdist_group(shared))
+    items.sort(key=lambda item: item.path.stem != "test_studies")
