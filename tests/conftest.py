@@ -25,6 +25,7 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 def pytest_collection_modifyitems(items):
     """Two processes share tests by file, whose fixtures are made once, and test_studies by study."""
     for item in items:
-        shared = item.callspec.params["study"] if item.path.stem == "test_studies" else item.path.stem
-        item.add_marker(pytest.mark.xdist_group(shared))
+        name = item.path.stem
+        shared = item.callspec.params["study"] if name == "test_studies" else name
+        item.add_marker(pytest.mark.xdist_group("report" if name.startswith("test_report") else shared))
     items.sort(key=lambda item: item.path.stem != "test_studies")

@@ -10,7 +10,7 @@ import pytest
 from imageio_ffmpeg import read_frames
 from matplotlib.colors import to_rgb
 from PIL import Image
-from report_tables import errors, one_study
+from report_tables import committed, errors, one_study
 
 from studies.kit.csvfile import read, write
 from studies.kit.drawing import Drawing, Drawings
@@ -96,7 +96,8 @@ def test_each_family_is_shown_by_its_cheapest_grid_first(small):
 def test_what_is_said_of_cost_is_what_the_study_found():
     """Its cheapest method in each panel."""
     best = read(RESULTS/"cost/cheapest.csv").set_index(["scene", "quantity", "level"])
-    panels = [panel for panel in cost.panels(folders(RESULTS)) if panel.sheet.name == "cost/points"]
+    study, = (folder for folder in committed() if folder.name == "cost")
+    panels = [panel for panel in cost.panels([study]) if panel.sheet.name == "cost/points"]
     assert panels
     for panel in panels:
         row = best.loc[(*panel.title.removeprefix("cost: ").split(", "), 0.01)]
@@ -230,9 +231,9 @@ def test_a_film_keeps_its_colours_from_its_first_picture_to_its_last(tmp_path):
 
 def test_results_as_they_are_make_a_page():
     """With figures left out, whose packing is tested above; every figure that a study lists has tables that are there."""
-    text = render(RESULTS, folders(RESULTS), lambda path: "data:,")
+    text = render(RESULTS, committed(), lambda path: "data:,")
     assert text.count("<tr data-paper=") == len(claims_of(RESULTS))
-    for part in folders(RESULTS):
+    for part in committed():
         tables = {sheet.path.stem for sheet in part.sheets}
         for name, drawing in inventory.drawings(part).items():
             assert set(drawing.tables) <= tables, f"{part.name}/{name}"
