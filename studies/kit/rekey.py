@@ -39,7 +39,7 @@ def keys() -> Iterator[tuple[str, Any, str]]:
     from studies.kit.case import parameters
     folder = importlib.import_module("studies").__path__
     for name in sorted(module.name for module in iter_modules(folder)):
-        study = getattr(importlib.import_module(f"studies.{name}"), "STUDY", None)
+        study: Any = getattr(importlib.import_module(f"studies.{name}"), "STUDY", None)
         for size in SIZES if study else ():
             for case in study.cases(size):
                 yield name, parameters(case), case.key

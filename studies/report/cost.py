@@ -126,7 +126,7 @@ def of_sheet(sheet: Sheet, needed: Sheet | None = None) -> Iterator[Panel]:
     common = {name: rows[name].mode().iloc[0] for name in scenes if name in UNSAID}
     for key, group in rows.groupby(scenes, sort=True):
         about = dict(zip(scenes, key))
-        lines = of_panel(group, needed and where(needed.frame, about))
+        lines = of_panel(group, where(needed.frame, about) if needed else None)
         if sum(len(line.points) > 1 for line in lines) >= LEAST:
             words = [in_words(name, value) for name, value in about.items() if common.get(name) != value]
             yield Panel(f"{sheet.path.parent.name}: {', '.join(words)}", sheet, lines, needed)
