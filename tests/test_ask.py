@@ -159,7 +159,7 @@ def test_every_claim_asks_for_what_the_tables_of_its_study_have(name):
             ask.check(claim.value, study.tables)
 
 
-# --- arithmetic, seeds, fits -----------------------------------------------------------------------
+# --- arithmetic, seeds, fits ----------------------------------------------------------------------
 
 
 def test_means_over_seeds():

@@ -92,7 +92,7 @@ def test_accelerations_of_a_snapshot_are_those_of_the_sums():
     np.testing.assert_allclose(simple[middle], few.rates(state, few.quadratic)[2:4].T, rtol=0, atol=1e-12)
 
 
-# --- onset ------------------------------------------------------------------------------------------------------------
+# --- onset ----------------------------------------------------------------------------------------
 
 
 def critical(**values: float) -> Tables:

@@ -66,7 +66,7 @@ def reached(case, *place):
     return Place(*place) in CODE.reached(filter(None, starts(case)), case)
 
 
-# --- in the whole repository ---------------------------------------------------------------------------------
+# --- in the whole repository ----------------------------------------------------------------------
 
 def test_a_new_weight_a_function_that_moves_and_a_docstring_change_no_key(cases, copy):
     with open(copy/"particles/weights.py", "a") as file:
@@ -87,7 +87,7 @@ def test_a_line_in_the_fluxes_changes_the_keys_of_spam_and_not_of_grids(cases, c
     assert {type(case).__name__ for case in cases if reached(case, "particles.terms", "Fluxes")} == names
 
 
-# --- in a small one ------------------------------------------------------------------------------------------
+# --- in a small one -------------------------------------------------------------------------------
 
 FILES = {
     "continuum/laws.py": "import numpy as np\nfrom continuum.jit import generic\n\nSIZE = 3\nOTHER = 4\n\n\n"
@@ -183,7 +183,7 @@ def test_a_star_import_is_refused(tree):
         hashed(tree)
 
 
-# --- registries ----------------------------------------------------------------------------------------------
+# --- registries -----------------------------------------------------------------------------------
 
 def test_a_second_formula_for_one_type_is_refused_with_both_places(tmp_path):
     class Kind:
@@ -202,7 +202,7 @@ def test_a_second_formula_for_one_type_is_refused_with_both_places(tmp_path):
     assert rule(Kind()) == 0
 
 
-# --- old keys ------------------------------------------------------------------------------------------------
+# --- old keys -------------------------------------------------------------------------------------
 
 def test_finished_cases_get_their_new_names_once(tmp_path):
     (tmp_path/"old").mkdir()

@@ -89,7 +89,7 @@ def bench(tmp_path):
     return Bench(tmp_path)
 
 
-# --- finished work is kept, and only that ---------------------------------------------------------------
+# --- finished work is kept, and only that ---------------------------------------------------------
 
 def test_a_finished_case_is_not_run_again_and_the_longest_starts_first(bench):
     first = bench.sweep(bench.cases(1, 3, 2, 3))
@@ -159,7 +159,7 @@ def test_a_label_has_the_parameters_as_people_write_them():
     assert word((1, 2)) == "(1, 2)" and word(1e5) == "100000"
 
 
-# --- what a result depends on ---------------------------------------------------------------------------
+# --- what a result depends on ---------------------------------------------------------------------
 
 def test_the_key_of_a_case_is_that_of_its_parameters():
     base = Square(x=0.1)

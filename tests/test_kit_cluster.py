@@ -169,7 +169,7 @@ def test_a_deadly_case_costs_no_more_than_itself(toy):
     assert len(body(toy.folder/"results/toy/waves.csv")) == 7, "the row of an earlier run stays"
 
 
-# --- in this process ----------------------------------------------------------------------------------------------
+# --- in this process ------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -102,7 +102,7 @@ def test_what_is_not_understood_is_said_before_anything_runs(words, rule, capsys
     assert rule in capsys.readouterr().err
 
 
-# --- in this process ----------------------------------------------------------------------------------------------
+# --- in this process ------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)

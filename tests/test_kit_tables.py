@@ -142,7 +142,7 @@ def test_a_table_that_cannot_be_written_stays_as_it_was(tmp_path, monkeypatch):
     assert path.read_text() == text and [p.name for p in tmp_path.iterdir()] == ["squares.csv"]
 
 
-# --- claims ---------------------------------------------------------------------------------------------
+# --- claims ---------------------------------------------------------------------------------------
 
 def claim(**more):
     base = dict(source="KHP95, Sec. V", statement="K is 1", printed="1.0", value=lambda tables: (1.0, 0.1))

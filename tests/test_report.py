@@ -18,11 +18,11 @@ from studies.kit.figure import COLOURS, figure, save
 from studies.kit.store import RESULTS
 from studies.kit.study import Part, Study
 from studies.report import cost, inventory, pictures
-from studies.report.chart import Scale, chart
+from studies.report.chart import chart
 from studies.report.findings import Known, answer, claims_of, ends, falls, findings
 from studies.report.inventory import folders
-from studies.report.numbers import grouped, many, seconds, with_error
-from studies.report.page import accepted, figures, paper, render, value_of, write_page
+from studies.report.numbers import with_error
+from studies.report.page import accepted, figures, paper, render, write_page
 
 
 @pytest.fixture
@@ -127,13 +127,7 @@ def test_a_limit_that_is_told_from_zero_is_what_points_come_to():
     assert ends(closed, [pd.Series({"measured": 0.0027, "err": 0.003})]) == ends(closed, []) == "converge"
 
 
-def test_places_on_a_logarithmic_axis():
-    scale = Scale(0.1, 1000.0, 50, 450)
-    assert [scale(value) for value in (0.1, 10, 1000, 0.0, 1e9)] == [50, 250, 450, 50, 450]
-    assert [value for value, _ in Scale(0.9, 30, 0, 1).ticks] == pytest.approx([1, 2, 5, 10, 20])
-
-
-# --- figures and their tables -------------------------------------------------------------------------------------
+# --- figures and their tables ---------------------------------------------------------------------
 
 
 def toy(errors):
@@ -175,7 +169,7 @@ def test_colours_of_series_stay_apart_in_an_embedded_figure(tmp_path):
     assert min(np.linalg.norm(one - other) for one, other in itertools.combinations(moved, 2)) > 40
 
 
-# --- numbers ------------------------------------------------------------------------------------------------------
+# --- numbers --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("value", "err", "text"), [
@@ -183,19 +177,11 @@ def test_colours_of_series_stay_apart_in_an_embedded_figure(tmp_path):
     (0.0349, 0.0445, "0.03(4)"), (math.nan, 0.1, "none")])
 def test_numbers_with_their_errors(value, err, text):
     assert with_error(value, err) == text
+    assert accepted(-math.inf, 2.0) == "≤ 2" and accepted(1.0, math.inf) == "≥ 1"
+    assert paper("Sangani & Acrivos 1982, Table 1") == "Sangani & Acrivos 1982"
 
 
-def test_words_for_numbers():
-    assert [seconds(value) for value in (0.4406, 1.0457, 143.2)] == ["0.44", "1.0", "143"]
-    assert grouped(20000.0) == "20\N{NO-BREAK SPACE}000"
-    assert many(["a", "b", "c"]) == "a, b and c" and many(["a"]) == "a"
-    assert [accepted(*pair) for pair in ((-math.inf, 2.0), (1.0, math.inf), (math.nan, math.nan))] == ["≤ 2", "≥ 1", ""]
-    assert [value_of(*pair) for pair in ((math.nan, math.nan), (2.96e-15, 0.0), (2.0, 0.5))] == ["—", "2.96e−15", "2.0(5)"]
-    assert [paper(text) for text in ("KHP95 Secs V, VI", "RR98 Eq. 42", "Sangani & Acrivos 1982, Table 1")] == [
-        "KHP95", "RR98", "Sangani & Acrivos 1982"]
-
-
-# --- films --------------------------------------------------------------------------------------------------------
+# --- films ----------------------------------------------------------------------------------------
 
 
 def test_a_film_shows_points_and_the_grid_and_is_the_same_again(tmp_path):
@@ -226,7 +212,7 @@ def test_a_film_keeps_its_colours_from_its_first_picture_to_its_last(tmp_path):
         assert np.abs(np.frombuffer(picture, np.uint8).reshape(-1, 3) - colour).max() < 8
 
 
-# --- what is committed --------------------------------------------------------------------------------------------
+# --- what is committed ----------------------------------------------------------------------------
 
 
 def test_results_as_they_are_make_a_page():
