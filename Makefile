@@ -58,7 +58,7 @@ films: .venv/ready  ## the films of the report, some minutes
 # two processes, each with one thread for linear algebra; tests/conftest.py says what stays in one
 test: export OMP_NUM_THREADS ?= 1
 test: .venv/ready  ## the tests, on two cores
-	$(run) -m pytest -n 2 --dist loadgroup --no-loadscope-reorder $(ARGS)
+	$(run) -m pytest -n 2 --dist loadfile --no-loadscope-reorder $(ARGS)
 
 lint: .venv/ready  ## ruff
 	$(run) -m ruff check .

@@ -101,7 +101,7 @@ def test_a_finished_case_is_not_run_again_and_the_longest_starts_first(bench):
 
 def test_an_interrupted_study_goes_on_where_it_stopped(bench):
     cases = bench.cases(3) + bench.cases(2, trouble="interrupt") + bench.cases(1)
-    with pytest.raises(KeyboardInterrupt, match="1 of 3 cases are finished and kept, the same command goes on"):
+    with pytest.raises(KeyboardInterrupt, match="1 of 3 cases are finished and kept, the same command"):
         bench.sweep(cases)
     assert bench.ran() == ["3", "2"]
     assert list(bench.sweep(cases)["squares"].y) == [1, 4, 9]
@@ -110,9 +110,10 @@ def test_an_interrupted_study_goes_on_where_it_stopped(bench):
 
 
 @pytest.mark.parametrize(("damage", "words"), [
-    (lambda text: "", "cannot be read"), (lambda text: text[:40], "cannot be read"), (lambda text: "[]", "cannot be read"),
-    (lambda text: text.replace('"y": 4.0', '"y": 5.0'), "not as they were written: their hash is another one"),
-    (lambda text: text.replace('"y": 4.0', '"z": 4.0'), "not as they were written: their hash is another one")])
+    (lambda text: "", "cannot be read"), (lambda text: text[:40], "cannot be read"),
+    (lambda text: "[]", "cannot be read"),
+    (lambda text: text.replace('"y": 4.0', '"y": 5.0'), "not as they were written: their hash is another"),
+    (lambda text: text.replace('"y": 4.0', '"z": 4.0'), "not as they were written: their hash is another")])
 def test_a_kept_outcome_that_is_damaged_is_reported_and_run_again(bench, damage, words, capsys):
     """No table could tell that a column is lost: some rows have fewer columns by right."""
     case, = bench.cases(2)
@@ -155,7 +156,8 @@ def test_what_is_kept_can_be_read_by_people(bench):
 def test_a_label_has_the_parameters_as_people_write_them():
     assert Square(x=0.1, log="b").label == "Square 0.1 b Lens(power=2) "
     assert word(Mixed()) == "Mixed()"
-    assert word(Mixed(of=unrelated, lens=Lens(3.0), kind=Lens)) == "Mixed(of=unrelated, lens=Lens(power=3), kind=Lens)"
+    other = Mixed(of=unrelated, lens=Lens(3.0), kind=Lens)
+    assert word(other) == "Mixed(of=unrelated, lens=Lens(power=3), kind=Lens)"
     assert word((1, 2)) == "(1, 2)" and word(1e5) == "100000"
 
 

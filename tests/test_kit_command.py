@@ -117,7 +117,8 @@ class Cube(Case):
 def derive(tables):
     """Each row halved, and the sum of all."""
     frame = tables["cubes"]
-    return {"halves": [{"x": row.x, "half": row.y/2} for row in frame.itertuples()] + [{"x": -1, "half": frame.y.sum()}]}
+    halves = [{"x": row.x, "half": row.y/2} for row in frame.itertuples()]
+    return {"halves": [*halves, {"x": -1, "half": frame.y.sum()}]}
 
 
 def drawn(tables):
@@ -128,10 +129,10 @@ def drawn(tables):
 
 CUBES = Study(name="toy", cases=lambda size: [Cube(x=1.0), Cube(x=1/3), Cube(x=7.0, name="Quartic")],
               derive=derive, figures=drawn,
-              tables=[Table("cubes", key=["x"], columns=["x", "y"]), Table("halves", key=["x"], columns=["x", "half"]),
-                      Table("never", key=["x"], columns=["x"])],
-              claims=[Claim(id="grows", source="KHP95, Sec. V", statement="cubes grow", at_least=1, because="1 is in the table",
-                            value=lambda tables: (tables["cubes"].y.max(), 0.0))])
+              tables=[Table("cubes", key=["x"], columns=["x", "y"]),
+                      Table("halves", key=["x"], columns=["x", "half"]), Table("never", key=["x"], columns=["x"])],
+              claims=[Claim(id="grows", source="KHP95, Sec. V", statement="cubes grow", at_least=1,
+                            because="1 is there", value=lambda tables: (tables["cubes"].y.max(), 0.0))])
 
 
 @pytest.fixture
@@ -169,7 +170,8 @@ def test_only_runs_what_has_the_text_in_its_label_and_leaves_other_rows_as_they_
     assert sizes(toy/"cubes.csv") == {1: "paper", 0.33: "paper", 7: "fine"}
     # the sum has changed and 7 is new: what follows from rows that did not run is not called fine
     assert sizes(toy/"halves.csv") == {-1: "fine", 0.33: "paper", 1: "paper", 7: "fine"}
-    assert list(read(toy/"halves.csv").half.round(6)) == [344.037037, 0.018519, 0.5, 171.5] and len(before) == 3
+    assert list(read(toy/"halves.csv").half.round(6)) == [344.037037, 0.018519, 0.5, 171.5]
+    assert len(before) == 3
     assert typed("--size", "fine")[0] == 0
     assert set(sizes(toy/"halves.csv").values()) == {"fine"}
 
@@ -177,8 +179,8 @@ def test_only_runs_what_has_the_text_in_its_label_and_leaves_other_rows_as_they_
 def test_only_that_matches_nothing_names_labels_that_exist(typed, tmp_path):
     code, text = typed("--only", "quintic")
     assert code == 2 and not (tmp_path/"results/toy").exists()
-    assert text == ("toy: no case of size paper has 'quintic' in its label; some of its 3 labels are: Cube 1 plain; "
-                    "Cube 0.333333 plain; Cube 7 Quartic\n")
+    assert text == ("toy: no case of size paper has 'quintic' in its label; some of its 3 labels are: "
+                    "Cube 1 plain; Cube 0.333333 plain; Cube 7 Quartic\n")
     code, text = typed("figures", "--only", "plain")
     assert code == 2 and "--only chooses what to run, figures reads whole tables" in text
 
@@ -187,7 +189,8 @@ def test_quick_leaves_the_tables_of_other_sizes_alone(typed, tmp_path):
     typed("--size", "paper")
     before = {path: path.read_bytes() for path in (tmp_path/"results").rglob("*") if path.is_file()}
     code, text = typed("--size", "quick")
-    assert code == 0 and text.endswith("size quick: all of it is in results/quick, what is in results stays as it is\n")
+    assert code == 0
+    assert text.endswith("size quick: all of it is in results/quick, what is in results stays as it is\n")
     for command in ("figures", "claims"):
         assert typed(command, "--size", "quick")[0] == 0
     quick = tmp_path/"results/quick"
@@ -206,7 +209,8 @@ def test_the_repository_ignores_what_quick_writes():
 
 
 @pytest.mark.parametrize(("words", "way"), [
-    ([], "results/toy: run make study-toy first"), (["--size", "fine"], "results/toy: run make study-toy first"),
+    ([], "results/toy: run make study-toy first"),
+    (["--size", "fine"], "results/toy: run make study-toy first"),
     (["--size", "quick"], "results/quick/toy: run make study-toy SIZE=quick first"),
     (["--out", "here"], "here/toy: run python -m studies.toy --size paper --out here first")])
 @pytest.mark.parametrize("command", ["figures", "claims"])
@@ -228,7 +232,7 @@ def test_an_out_that_is_no_folder_is_one_line(typed, tmp_path):
         code, text = typed(command, "--out", "file")
         assert code == 2 and text.splitlines()[-1].endswith("error: --out file is a file: give a folder")
     code, text = typed("--out", "file/below")
-    assert code == 2 and "--out file/below cannot be made (Not a directory): give another folder" in text.splitlines()[-1]
+    assert code == 2 and "--out file/below cannot be made (Not a directory): give another folder" in text
 
 
 @pytest.mark.parametrize(("number", "words"), [

@@ -59,7 +59,8 @@ def test_a_worker_that_dies_takes_along_no_case_of_another(tmp_path):
 
 
 def test_workers_that_end_before_they_begin_a_case_are_told(tmp_path, monkeypatch):
-    monkeypatch.setattr(sys, "path", [path for path in sys.path if Path(path).name != "tests"])     # no `Step` there
+    elsewhere = [path for path in sys.path if Path(path).name != "tests"]       # no `Step` there
+    monkeypatch.setattr(sys, "path", elsewhere)
     with pytest.raises(CannotRun, match="worker processes end before they run a case: --workers 1 shows why"):
         run([Step(x=1.0, folder=str(tmp_path))], tmp_path, 1)
 

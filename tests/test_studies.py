@@ -6,6 +6,7 @@ import matplotlib.pyplot as plt
 import pandas as pd
 import pytest
 
+from studies.kit import ask
 from studies.kit.case import Case
 from studies.kit.claim import COLUMNS, judge
 from studies.kit.csvfile import read
@@ -14,7 +15,7 @@ from studies.kit.study import Study
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import SIZES, Tables
 
-NAMES = sorted(path.parent.name for path in (ROOT/"studies").glob("*/__main__.py") if path.parent.name != "report")
+NAMES = sorted({path.parent.name for path in (ROOT/"studies").glob("*/__main__.py")} - {"report"})
 
 
 @pytest.fixture(scope="module", params=NAMES)
@@ -57,6 +58,12 @@ def test_committed_tables_give_the_committed_verdicts_and_none_cannot_tell(study
     monkeypatch.setattr("studies.rb.claims.RESULTS", tmp_path)      # one reads a table of the bench
     told = [row["id"] for row in judge(study.claims, Tables(), study.name) if row["verdict"] != "undecidable"]
     assert told == []
+
+
+def test_every_claim_asks_for_what_the_tables_of_its_study_have(study):
+    for claim in study.claims:
+        if isinstance(claim.value, ask.Value):
+            ask.check(claim.value, study.tables)
 
 
 def test_figures_are_drawn_from_committed_tables_and_none_without(study):

@@ -18,7 +18,8 @@ class Toy:
 
     def __init__(self, folder: Path, study: str, **formulas: str):
         self.folder = folder
-        shutil.copytree(key.ROOT/"studies/kit", folder/"studies/kit", ignore=shutil.ignore_patterns("__pycache__"))
+        ignored = shutil.ignore_patterns("__pycache__")
+        shutil.copytree(key.ROOT/"studies/kit", folder/"studies/kit", ignore=ignored)
         (folder/"continuum").mkdir()
         (folder/"studies/toy.py").write_text(study)
         for name in ("studies/__init__", "continuum/__init__"):
