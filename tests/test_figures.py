@@ -301,6 +301,6 @@ def test_the_onset_draws_its_committed_figures_too():
     zeros = next(axes for axes in pages["line"].axes if axes.get_ylabel() == "Ra$_c$")
     bars = [np.ptp(bar[:, 1]) for drawn in zeros.containers if isinstance(drawn, ErrorbarContainer)
             for bar in drawn[2][0].get_segments()]
-    lines = onset_figures.rows(known, "critical_ra", **onset_figures.GAS, way="line")
+    lines = onset_figures.rows(known["critical_ra"], **onset_figures.GAS, way="line")
     widest = lines.loc[np.isinf(lines["resolution"]) & lines["quantity"].str.contains("extrapolated"), "err"].max()
     assert max(bars) == pytest.approx(2*widest)

@@ -8,15 +8,14 @@ import studies.operators as operators
 from studies.kit.claim import judge
 from studies.kit.table import Tables
 from studies.onset import STUDY
-from studies.onset import derive as onset_derive
 
 
 def test_no_critical_number_follows_from_one_growth_rate():
     columns = next(table for table in STUDY.tables if table.name == "growth_rates").columns
     one = pd.DataFrame([{**dict.fromkeys(columns, 0.0), "method": "linear", "variant": "", "eos": "", "transport": "",
                          "sides": "periodic", "way": "eigenvalue", "resolution": np.inf}])
-    assert not any(onset_derive.derive(Tables({"growth_rates": one})).values()), "the rate of linear theory is no run"
-    assert not any(onset_derive.derive(Tables()).values())
+    assert not any(STUDY.derive(Tables({"growth_rates": one})).values()), "the rate of linear theory is no run"
+    assert not any(STUDY.derive(Tables()).values())
 
 
 @pytest.mark.parametrize(("study", "rows", "names"), [

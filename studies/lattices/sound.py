@@ -26,7 +26,7 @@ from continuum.fluid import ConstEta, IdealGas
 from particles.limits import Symbols, step_limit
 from particles.limits import waves as rates_of
 from particles.run import STUDIES, Divergence, Plan, run
-from particles.smooth.spam import Direct, Nested, Spam
+from particles.smooth.spam import Spam
 from particles.weights import value_and_slope
 from studies.build.periodic_box import fluid
 from studies.kit.case import Case, Outcome, Report
@@ -194,7 +194,7 @@ def symbols(weight: Any, kind: str, k: np.ndarray) -> Symbols:
     rho, S, D = sums(weight, kind, k)
     r = neighbours(kind, weight.h)
     slope = np.array([value_and_slope(weight, one)[1] for one in np.hypot(*r.T)])
-    return Symbols(rho, S, D, {Nested: (S**2).sum(axis=1)/rho**2, Direct: 2/rho*(1 - np.cos(k@r.T))@-slope})
+    return Symbols(rho, S, D, nested=(S**2).sum(axis=1)/rho**2, direct=2/rho*(1 - np.cos(k@r.T))@-slope)
 
 
 def rounding(x: np.ndarray) -> np.ndarray:

@@ -1,7 +1,6 @@
-"""RR98's weights as integrals, before anything is discretised: moments, symbols, leading errors    [RR98 Eqs 1-6]"""
+"""RR98's weights as integrals: moments, symbols, order of the error    [RR98 Eqs 1-6]"""
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -10,12 +9,15 @@ import numpy as np
 from scipy.integrate import quad
 from scipy.special import j0, j1, spherical_jn
 
-from particles.integral.interpolants import W, f, moment, reach, sphere, width
+from particles.integral.interpolants import Exponential, W, f, moment, reach, sphere, width
+from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
 
 WAVES = (0.3, 1.0, 2.0, 4.0)        # k r0 at which the interpolant is held against the smoothed field
 MOMENTS = (1, 2, 3, 4)
+SMALL = 0.1         # k r0 at which the order is taken
+SHELLS = 20000      # of a sum over the radius that stands for an integral
 
 #: means over directions e of cos(z e_x), 1 - cos(z e_x) and e_x sin(z e_x), by dimension
 COSINE: dict[int, Callable] = {1: np.cos, 2: j0, 3: lambda z: np.sinc(z/pi)}
@@ -31,9 +33,13 @@ def weight_of(kind: Any, r0: float, d: int) -> Any:
 
 def integral(weight: Any, d: int, g: Callable[[float], Any]) -> Measured:
     """int g(r) dV over the reach of a weight, with the quadrature's estimate of its error."""
-    r0, end = width(weight), reach(weight)/width(weight)
-    value, err = quad(lambda q: float(g(q*r0))*(q*r0)**(d - 1), 0, end, limit=400, epsabs=1e-13, epsrel=1e-12,
-                      points=[0.5, 1.0] if end > 1 else [0.5])
+    r0 = width(weight)
+    end = reach(weight)/r0
+    breaks = [0.5, 1.0] if end > 1 else [0.5]
+
+    def shell(q: float) -> float:
+        return float(g(q*r0))*(q*r0)**(d - 1)
+    value, err = quad(shell, 0, end, limit=400, epsabs=1e-13, epsrel=1e-12, points=breaks)
     return Measured(sphere(d)*r0*value, sphere(d)*r0*err)
 
 
@@ -57,28 +63,12 @@ def defect(weight: Any, d: int, k: float) -> float:
     return integral(weight, d, lambda r: f(weight, r)*LESS[d](k*r)).value
 
 
-def leading(weight: Any, d: int, k: float = 0.2) -> Measured:
-    """Limit of (1 - f^)/(k r0)^2: three wave numbers, each half of the one before, extrapolated in k^2 twice."""
-    r0 = width(weight)
-    C = [defect(weight, d, k/r0/2**n)/(k/2**n)**2 for n in range(3)]
-    once = [(4*fine - coarse)/3 for coarse, fine in pairwise(C)]
-    twice = (16*once[1] - once[0])/15
-    return Measured(twice, abs(twice - once[1]))
-
-
-def order(weight: Any, d: int, k: float = 0.1) -> Measured:
+def order(weight: Any, d: int) -> Measured:
     """d ln(1 - f^)/d ln k at small k; the error is what halving k changes."""
-    E = [defect(weight, d, k/width(weight)/2**n) for n in range(3)]
-    coarse, fine = np.log2(E[0]/E[1]), np.log2(E[1]/E[2])
+    k = SMALL/width(weight)
+    first, second, third = (defect(weight, d, k/n) for n in (1, 2, 4))
+    coarse, fine = np.log2(first/second), np.log2(second/third)
     return Measured(float(fine), float(abs(fine - coarse)))
-
-
-def slope_error(weight: Any) -> float:
-    """Largest |W + f'|/|W|, f' by central differences."""
-    r0 = width(weight)
-    r, step = np.linspace(0.2, 0.9, 8)*r0, 1e-5*r0
-    slope = (f(weight, r + step) - f(weight, r - step))/(2*step)
-    return float(np.abs(1 + slope/W(weight, r)).max())
 
 
 def symbol_error(weight: Any, d: int) -> Measured:
@@ -95,10 +85,9 @@ def quantities(weight: Any, d: int) -> Iterator[tuple[str, Measured, float]]:
     """(name, measured, predicted) of a weight with r0 = 1; M_n = (n + d - 1) <r^(n-1)>_f by parts."""
     yield "integral", integral(weight, d, lambda r: f(weight, r)), 1.0
     for n in MOMENTS:
-        yield f"moment {n}", power_of(W, weight, d, n), (n + d - 1)*power_of(f, weight, d, n - 1).value
-    yield "slope", Measured(slope_error(weight), 0.0), 0.0
+        predicted = (n + d - 1)*power_of(f, weight, d, n - 1).value
+        yield f"moment {n}", power_of(W, weight, d, n), predicted
     yield "symbol", symbol_error(weight, d), 0.0
-    yield "leading", leading(weight, d), moment(weight, 3, d)/(2*d*(d + 2))
     yield "order", order(weight, d), 2.0
 
 
@@ -111,6 +100,42 @@ class Continuum(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         weight = weight_of(self.kind, 1.0, self.d)
         key = {"weight": self.kind.__name__, "d": self.d}
-        return Outcome({"continuum": [
-            {**key, "quantity": name, "value": value, "value_err": err, "predicted": predicted}
-            for name, (value, err), predicted in quantities(weight, self.d)]})
+        rows = [key | {"quantity": name, "value": value, "value_err": err, "predicted": predicted}
+                for name, (value, err), predicted in quantities(weight, self.d)]
+        return Outcome({"continuum": rows})
+
+
+# --- single numbers -----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class Arithmetic(Case):
+    """Single numbers without parameters. numbers : makes them, by name."""
+    numbers: Callable[[], dict[str, float]]
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        rows = [{"quantity": name, "value": value} for name, value in self.numbers().items()]
+        return Outcome({"numbers": rows})
+
+
+def of_weights() -> dict[str, float]:
+    """What takes neither points nor a flow."""
+    return {"first moment": first_moment_error(), "third derivatives": third_factor()}
+
+
+def first_moment_error() -> float:
+    """Largest |M_1/d - 1| of six weights in 1, 2 and 3 dimensions    [RR98 Eq. 2]"""
+    errors = []
+    for d in (1, 2, 3):
+        compact = [kind.of(h=1.3, d=d) for kind in (Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6)]
+        errors += [moment(weight, 1, d)/d - 1 for weight in (*compact, Exponential(0.3, d))]
+    return max(map(abs, errors))
+
+
+def third_factor() -> float:
+    """Factor before the third derivatives in 3D: 1 - f^ at small k over 3 k^2 r0^2 M_3/15    [RR98 Eq. 5]"""
+    weight, k = Lucy.of(h=1.0, d=3), 0.05
+    r = (np.arange(SHELLS) + 0.5)/SHELLS
+    wave = np.sin(k*r)/(k*r)
+    transform = float(np.sum(4*pi*r**2*f(weight, r)*wave)/SHELLS)
+    return (1 - transform)/(3*k**2*moment(weight, 3, 3)/15)
