@@ -3,6 +3,7 @@
 Lengths in spacings; the gas is ideal with C_V = 1, density and temperature about 1, conductivity = viscosity.
 """
 from dataclasses import dataclass
+from math import sqrt
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from continuum.exact.waves import Gas, continuum
 from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import Periodic, RayleighBenard, Torus
 
+SOUND = sqrt(2)         # of the gas at T = 1, in 2D
 TINY = 1e-12            # in place of zero: the grid divides by coefficients
 Start = tuple[np.ndarray, np.ndarray, np.ndarray]
 
