@@ -8,7 +8,7 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import Any, ClassVar
 
-from studies.kit.key import CODE, PACKAGES, ROOT, Code, digest, followed
+from studies.kit.key import CODE, PACKAGES, ROOT, Code, digest, followed, name_of
 from studies.kit.syntax import CASE, WHOLE, Place
 
 #: called with the fraction done, in [0, 1]
@@ -106,7 +106,7 @@ def parameters(value: Any) -> Any:
 def key_of(case: Case, code: Code) -> str:
     """Key of a case with the definitions of another copy of our packages, or of these."""
     values = json.dumps(parameters(case), sort_keys=True)
-    return digest(values, code.hash(filter(None, starts(case)), case))
+    return digest(values, code.hash(filter(None, starts(case))))
 
 
 def starts(case: Case) -> Iterator[Place | None]:
@@ -151,6 +151,5 @@ def resolved(file: str) -> Path:
 @cache
 def module_of(path: Path) -> str | None:
     """Dotted name of a file of our packages: ``python -m studies.rb`` calls itself __main__."""
-    if not any(path.is_relative_to(ROOT/package) for package in PACKAGES):
-        return None
-    return ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
+    ours = any(path.is_relative_to(ROOT/package) for package in PACKAGES)
+    return name_of(path) if ours else None
