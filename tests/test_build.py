@@ -10,7 +10,7 @@ from continuum.scene import Periodic, RayleighBenard, Walls
 from particles.fields import kinetic_energy
 from particles.run import Plan, run
 from studies.build import METHODS, named, ready
-from studies.build.labels import LABELS
+from studies.build.names import LABELS
 from studies.build.scenes import Scene, Slab, Sound, TaylorGreen, between_plates
 from studies.build.spam import VARIANTS
 
@@ -84,7 +84,7 @@ def test_words_stand_for_one_method_each():
 
 
 def test_two_definitions_of_a_name_are_refused_with_both():
-    with pytest.raises(ValueError, match=r"two methods are called 'moving': Motion.* and Scheme"):
+    with pytest.raises(ValueError, match=r"two methods are called 'moving': FacesMotion.* and Scheme"):
         named([("moving", METHODS["moving"])], [("moving", METHODS["fixed-lattice"])])
 
 

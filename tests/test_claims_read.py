@@ -5,7 +5,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from studies.build.symmetry import flowing
+from studies.build.measure import flowing
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
 from studies.rb import snapshots

@@ -27,7 +27,7 @@ from particles.threads import Team
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
-from studies.build.rr98_moving import DRIFT_MOTIONS, PlateHeat
+from studies.build.rr98_moving import DRIFT_MOTIONS, heat_in
 
 COUNTS = COLUMNS, ROWS = 10, 8
 WEIGHT = WendlandC2.of(h=2.9)
@@ -232,4 +232,4 @@ def test_heat_through_plates_is_conduction_where_temperature_is_linear():
     sums.look_at(now)
     for side in (-1, 1):
         conducted = -side*scene.k*scene.dT/scene.L*scene.width
-        assert PlateHeat(side)(sums, now) == pytest.approx(conducted, rel=1e-12)
+        assert heat_in(sums, now, side) == pytest.approx(conducted, rel=1e-12)

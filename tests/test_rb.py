@@ -7,7 +7,6 @@ import pytest
 import studies.rb.cases as rb
 from continuum.gas.solve import steady_on
 from continuum.scene import RayleighBenard
-from particles.weights import Lucy
 from studies.build import spam
 from studies.kit.sweep import RESULTS
 from studies.kit.table import read
@@ -41,12 +40,6 @@ def test_no_grids_are_refused(kind, sizes):
         kind(sizes=sizes)
     with pytest.raises(ValueError, match=r"no grids \(sizes = \(\)\): give their rows"):
         steady_on(RayleighBenard(ra=1e4), ())
-
-
-@pytest.mark.parametrize("weight", [Lucy.of, Lucy.of(3.0), "Lucy"])
-def test_a_variant_wants_a_class_of_weights(weight):
-    with pytest.raises(TypeError, match=r"a class of weights, got .*: give the class, such as Lucy, and its range as h"):
-        spam.Variant("mine", weight=weight)
 
 
 def test_sizes_nest():

@@ -9,7 +9,7 @@ from continuum.scene import RayleighBenard
 from particles.observe import field_kinetic
 from particles.weights import Lucy, value_and_slope
 from studies.build import spam
-from studies.build.smoothing import Smoothing, smoothed_energy
+from studies.build.measure import Smoothing, smoothed_energy
 
 
 def test_particles_on_a_lattice_see_the_same():

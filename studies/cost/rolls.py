@@ -22,9 +22,9 @@ from continuum.steady import Time
 from particles.fields import Fields
 from particles.plan import Plan
 from particles.run import run
+from studies.build.measure import Smoothing, smoothed_energy
 from studies.build.names import START_ENERGY
 from studies.build.setting import Ready
-from studies.build.smoothing import Smoothing, smoothed_energy
 from studies.build.unguarded import Unguarded
 from studies.cost.contestants import smoothed
 from studies.cost.problem import Go, Problem, Residuals, Result, holding, marching, relative, rms

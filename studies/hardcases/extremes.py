@@ -11,7 +11,7 @@ import numpy as np
 
 from continuum.gas.fields import block, placed
 from continuum.scene import RayleighBenard, Tile, Torus, Walls
-from studies.build.grid import Form, started
+from studies.build.grid import GridForm, started
 from studies.build.names import START_JITTER
 from studies.build.scenes import Slab
 from studies.build.setting import Ready, positions
@@ -191,7 +191,7 @@ class Inside(NamedTuple):
 
 class Tiled(NamedTuple):
     """The compressible grid without plates, and so without gravity."""
-    form: Form
+    form: GridForm
 
     def ready(self, scene: Any) -> Ready:
         """In a scene, whose plates are left out."""

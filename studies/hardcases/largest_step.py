@@ -23,7 +23,7 @@ from particles.limits import limit_of
 from particles.run import Run
 from particles.threads import Team
 from studies.build.fixed import Scheme
-from studies.build.moving import Motion
+from studies.build.moving import FacesMotion
 from studies.build.rr98_moving import DriftMotion
 from studies.build.scenes import SOUND, TINY, Scene, Slab
 from studies.build.spam import Variant
@@ -175,7 +175,7 @@ def drifting(motion: DriftMotion, law: ConstEta) -> Trial:
     return trial_of(*on_lattice(motion, Quiet(law=law), noise(SIDE**2, 2)), (2, 3, 4, 5), margin=DISORDER)
 
 
-def moving(motion: Motion, law: ConstEta) -> Trial:
+def moving(motion: FacesMotion, law: ConstEta) -> Trial:
     """Moving points that exchange over closed faces, between plates."""
     return unknown(*on_lattice(motion, Quiet(law=law), noise(SIDE**2, 2)), (4, 5, 6, 7, 8), margin=DISORDER)
 

@@ -18,9 +18,8 @@ from particles.observe import Grid, Smoothed
 from particles.run import Divergence, Plan, Run, run
 from particles.smooth.spam import Spam
 from particles.weights import value_and_slope
-from studies.build.smoothing import Smoothing, smoothed_energy
+from studies.build.measure import Smoothing, flowing, smoothed_energy
 from studies.build.spam import OF_LIMIT, Variant
-from studies.build.symmetry import flowing
 from studies.kit.case import Case, Outcome, Report
 
 ROWS = 16

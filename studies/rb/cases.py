@@ -13,9 +13,9 @@ from continuum.fluid import ConstNu, DenseFluid, VanDerWaals
 from continuum.scene import Periodic, RayleighBenard, Walls
 from particles.weights import Lucy
 from studies.build.fixed import SCHEMES
+from studies.build.measure import Smoothing
 from studies.build.moving import MOTIONS
 from studies.build.rr98_moving import DRIFT_MOTIONS
-from studies.build.smoothing import Smoothing
 from studies.build.spam import PRINTED, VARIANTS, Variant
 from studies.kit.case import Case
 from studies.kit.study import Part

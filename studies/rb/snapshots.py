@@ -9,8 +9,8 @@ from scipy.spatial import cKDTree
 from scipy.special import stdtrit
 
 from continuum.fluid import stress_tensor
+from studies.build.measure import Fields, mirrored, upright
 from studies.build.snapshot import RANGE, Snapshot
-from studies.build.symmetry import Fields, mirrored, upright
 from studies.kit.stats import Measured, combine, over_seeds
 from studies.kit.table import Tables
 from studies.rb.flows import grid

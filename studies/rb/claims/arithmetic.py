@@ -1,5 +1,5 @@
 """Claims that arithmetic decides: weights, equations of state, printed numbers side by side    [KHP95]"""
-from studies.build.printed import as_printed
+from studies.build.names import as_printed
 from studies.kit.ask import Value, one
 from studies.kit.claim import Claim
 

@@ -8,7 +8,7 @@ with the grid smoothed alike.
 from collections.abc import Iterator
 from itertools import product
 
-from studies.build.printed import as_printed
+from studies.build.names import as_printed
 from studies.kit import stats
 from studies.kit.ask import Value, largest_of, of, rows
 from studies.kit.claim import Claim

@@ -1,7 +1,7 @@
 """Claims about the flow of smooth particles: fields, approach to the steady state, neighbours, walls"""
 from math import inf, sqrt
 
-from studies.build.printed import as_printed
+from studies.build.names import as_printed
 from studies.build.snapshot import RANGE
 from studies.kit import stats
 from studies.kit.ask import Value, of, one, rows

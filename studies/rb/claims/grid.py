@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from studies.build.printed import as_printed, number
+from studies.build.names import as_printed, number
 from studies.kit import fits
 from studies.kit.ask import Value, curve, largest, largest_of, last, of, rows
 from studies.kit.claim import Claim

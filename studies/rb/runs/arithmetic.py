@@ -23,7 +23,7 @@ from continuum.fluid import (
 from continuum.linear.layer import critical_ra
 from continuum.published import published
 from continuum.scene import RayleighBenard, Walls
-from studies.build.printed import number
+from studies.build.names import number
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured, measured
 from studies.rb.runs import few_particles as few

@@ -14,8 +14,8 @@ from continuum.scene import RayleighBenard
 from continuum.steady import Steady, Time
 from particles.observe import Grid
 from studies.build.grid import FORMS, beginning
+from studies.build.measure import Smoothing, smoothed_rows
 from studies.build.names import START_ENERGY, one_energy, scene_columns
-from studies.build.smoothing import Smoothing, smoothed_rows
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.timing import compile_and_run_seconds
 

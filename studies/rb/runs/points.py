@@ -11,7 +11,7 @@ from continuum.scene import RayleighBenard
 from particles.run import Run
 from studies.build.fixed import SCHEMES, Scheme
 from studies.build.measure import ended, followed, heat_at_rest, rolls
-from studies.build.moving import MOTIONS, Motion
+from studies.build.moving import MOTIONS, FacesMotion
 from studies.build.names import HALVES, TRANSPORT_NAMES, VALUES, one_energy, scene_columns
 from studies.build.rr98_moving import DRIFT_MOTIONS, DriftMotion
 from studies.build.setting import Ready, check_spacings
@@ -121,7 +121,7 @@ class AveragedRun(PointsRun):
 @dataclass(frozen=True, kw_only=True)
 class MovingRun(AveragedRun):
     """One run of the conservative scheme."""
-    motion: Motion = MOTIONS["moving"]
+    motion: FacesMotion = MOTIONS["moving"]
 
     @property
     def cost(self) -> float:

@@ -9,11 +9,10 @@ from particles.observe import Grid, Profile, Smoothed, wall_layers
 from particles.run import Divergence, Plan, Run, run
 from particles.smooth.spam import Spam
 from particles.vtk import write_grid, write_particles
-from studies.build.measure import at_end, turns
+from studies.build.measure import at_end, flowing, turns
 from studies.build.names import HALVES, scene_columns
 from studies.build.setting import check_spacings
 from studies.build.spam import PRINTED, Variant, step
-from studies.build.symmetry import flowing
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import mean, settled
 from studies.rb.runs.grid import field_rows
