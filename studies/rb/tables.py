@@ -7,7 +7,8 @@ L^2/eta where not said otherwise. Every `_err` is the half width of a 95 % inter
 """
 from studies.kit.table import STAMP, Table
 
-POINT = ["method", "variant", "eos", "transport", "sides", "ra", "pr", "resolution"]
+SCENE = ["eos", "transport", "sides", "ra", "pr"]
+POINT = ["method", "variant", *SCENE, "resolution"]
 RUN = [*POINT, "seed"]
 
 KINETIC = Table(
