@@ -13,6 +13,7 @@ from continuum.fluid import ConstNu, DenseFluid, VanDerWaals
 from continuum.scene import Periodic, RayleighBenard, Walls
 from particles.weights import Lucy
 from studies.build.fixed import SCHEMES
+from studies.build.grid import FORMS
 from studies.build.moving import MOTIONS
 from studies.build.rr98_moving import DRIFT_MOTIONS
 from studies.build.smoothing import Smoothing
@@ -49,11 +50,11 @@ def spam(ra: float, rows: int, seeds=SEEDS, variant: Variant = PRINTED, keep="",
                       keep=keep if seed == seeds[0] else keep and "history")
 
 
-def gas(ra: float, sizes: tuple[int, ...], keep="", variant="flux-form", longest=60.0, **scene) -> CompressibleSteady:
+def gas(ra: float, sizes: tuple[int, ...], keep="", form="flux-form", longest=60.0, **scene) -> CompressibleSteady:
     """Steady states on grids, seen through the weights of the particles that are compared with them."""
     where = RayleighBenard(ra=ra, **(LAYER | scene))
-    smooth = seen_by(where) if variant == "flux-form" else ()
-    return CompressibleSteady(scene=where, sizes=sizes, keep=keep, variant=variant, longest=longest, smooth=smooth)
+    smooth = seen_by(where) if form == "flux-form" else ()
+    return CompressibleSteady(scene=where, sizes=sizes, keep=keep, form=FORMS[form], longest=longest, smooth=smooth)
 
 
 def seen_by(scene: RayleighBenard) -> tuple[Smoothing, ...]:
@@ -114,7 +115,7 @@ def grids() -> Iterator[Case]:
         for pr in (1.0, 7.0):
             yield PypdeSteady(ra=ra, pr=pr, sizes=(16, 24, 32, 48))
     yield CompressibleApproach(scene=RayleighBenard(ra=1e4))
-    yield gas(1e4, (16, 24, 32, 48), variant="paper-form", longest=3.0)    # it loses mass and never settles
+    yield gas(1e4, (16, 24, 32, 48), form="paper-form", longest=3.0)    # it loses mass and never settles
 
 
 def layers() -> Iterator[Case]:
@@ -152,7 +153,7 @@ def squares() -> Iterator[Case]:
         start = 80.0 if ra == 20000 else 40.0
         for rows in (40, 28, 20):
             yield from spam(ra, rows, t_end=2.25*start, mean_from=start, **BOX)
-    yield gas(7000.0, (24, 32), variant="two-rolls", **BOX)
+    yield gas(7000.0, (24, 32), form="two-rolls", **BOX)
 
 
 def others() -> Iterator[Case]:
@@ -182,7 +183,7 @@ def fine() -> Iterator[Case]:
     for ra in (5e4, 1e5):
         yield from spam(ra, 50, t_end=180.0, mean_from=90.0)
     yield gas(1e5, (32, 48, 64), longest=4.0)        # the flow itself oscillates: means over its last half
-    hot: dict[str, Any] = {"variant": "fig10", "longest": 6.0, "T_hot": 10.0, "T_cold": 0.5}
+    hot: dict[str, Any] = {"form": "fig10", "longest": 6.0, "T_hot": 10.0, "T_cold": 0.5}
     yield gas(67150.0, (32, 48), **hot, **BOX)
     yield gas(67150.0, (32, 48), **hot, **BOX, **DENSE)
     for ra, rows in product((5e4, 2e5), (50, 100)):
@@ -206,7 +207,7 @@ FINER = ("moving-literal", "moving-convective", "moving-constant-mass", "moving-
 def points() -> Iterator[Case]:
     """Discretized integral hydrodynamics: fixed lattice, irregular points, moving points and what they are made of."""
     for ra in (5e3, 1e4):
-        yield gas(ra, (24, 32, 48), variant="edge-heat")
+        yield gas(ra, (24, 32, 48), form="edge-heat")
         for rows in (25, 40, 50, 64, 80):
             where = RayleighBenard(ra=ra, L=float(rows))
             for name, scheme in SCHEMES.items():

@@ -29,7 +29,6 @@ FIELDS = Table("fields", key=[*RUN, "x", "y"], columns=[*RUN, "x", "y", "rho", "
 #: particles at the end of a run [Figs 2, 3, 7, 12]; kind: fluid, fixed or image
 PARTICLES = Table("particles", key=[*RUN, "number"], columns=[*RUN, "number", "kind", "x", "y", "vx", "vy", "T"],
                   digits={"x": ".6f", "y": ".6f", "vx": ".5f", "vy": ".5f", "T": ".4f"}, once=[*RUN, "kind", *STAMP])
-PROFILES = Table("profiles", key=[*POINT, "seed", "y"], columns=[*POINT, "seed", "y", "rho", "T", "vy2", "vyT"])
 WALLS = Table("walls", key=[*POINT, "seed", "plate"],
               columns=[*POINT, "seed", "plate", "T_wall", "T_layer", "rho_layer", "reflections", "nu_plate", "nu_plate_err"])
 #: seconds of one step, measured alone on the machine
@@ -56,5 +55,5 @@ FIELD_ERRORS = Table("field_errors", key=POINT, columns=[
 #: numbers that need no flow
 ARITHMETIC = Table("arithmetic", key=["quantity"], columns=["quantity", "value", "err"])
 
-ALL = (KINETIC, MEANS, HISTORY, FIELDS, PARTICLES, PROFILES, WALLS, COST, SMOOTHED, ERRORS, SNAPSHOTS, FIELD_ERRORS,
+ALL = (KINETIC, MEANS, HISTORY, FIELDS, PARTICLES, WALLS, COST, SMOOTHED, ERRORS, SNAPSHOTS, FIELD_ERRORS,
        ARITHMETIC)

@@ -27,7 +27,8 @@ class SpamStep(Case):
 
     @property
     def label(self) -> str:
-        return f"seconds of a step, spam {self.variant.name} {scene_columns(self.scene)['eos']}, {self.scene.L:g} rows"
+        eos = scene_columns(self.scene)["eos"]
+        return f"seconds of a step, spam {self.variant.name} {eos}, {self.scene.L:g} rows"
 
     @property
     def cost(self) -> float:
@@ -41,7 +42,8 @@ class SpamStep(Case):
         short, long = (median_seconds(partial(run, method, warm.state, Plan(dt=dt, steps=n)), REPEATS, process_time)
                        for n in (steps, 3*steps))
         seconds = Seconds(long.median - short.median, float(np.hypot(long.spread, short.spread)))
-        return Outcome({"cost": [row("spam", self.variant.name, self.scene, particles, dt, seconds, 2*steps)]})
+        return Outcome({"cost": [{"method": "spam", "variant": self.variant.name, "resolution": round(self.scene.L),
+                                  **of_step(self.scene, particles, dt, seconds, 2*steps)}]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,17 +62,16 @@ class CompressibleStep(Case):
         return 1e-4*self.rows**2 + 2
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        S = block(initial(self.scene, self.rows))
-        march, steps = March(self.scene, S, FluxForm(), choose_step(self.scene, S, None)), max(10, 400000//self.rows**2)
-        seconds = median_seconds(lambda: march.go(steps), REPEATS, process_time)
-        scene = self.scene
-        return Outcome({"cost": [row("compressible", "flux-form", scene, self.rows**2*round(scene.aspect), march.dt, seconds,
-                                     steps, rows=self.rows)]})
+        cells = block(initial(self.scene, self.rows))
+        march = March(self.scene, cells, FluxForm(), choose_step(self.scene, cells, None))
+        steps, points = max(10, 400000//self.rows**2), self.rows**2*round(self.scene.aspect)
+        seconds = median_seconds(partial(march.go, steps), REPEATS, process_time)
+        return Outcome({"cost": [{"method": "compressible", "variant": "flux-form", "resolution": self.rows,
+                                  **of_step(self.scene, points, march.dt, seconds, steps)}]})
 
 
-def row(name: str, variant: str, scene, points: int, dt: float, seconds: Seconds, steps: int, rows: int = 0) -> dict:
-    """Row of the table `cost`."""
+def of_step(scene: RayleighBenard, points: int, dt: float, seconds: Seconds, steps: int) -> dict:
+    """Columns of the table `cost`."""
     where = scene_columns(scene)
-    return {"method": name, "variant": variant, "eos": where["eos"], "sides": where["sides"],
-            "resolution": rows or round(scene.L), "points": points, "step_s": seconds.median/steps,
+    return {"eos": where["eos"], "sides": where["sides"], "points": points, "step_s": seconds.median/steps,
             "step_s_err": seconds.spread*SPREAD_TO_ERR/steps, "dt": dt, "threads": 1}
