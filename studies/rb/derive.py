@@ -10,9 +10,8 @@ from studies.build.spam import VARIANTS
 from studies.kit import fits
 from studies.kit.stats import combine
 from studies.kit.table import Rows, Tables
-from studies.rb.flows import STILL
 from studies.rb.snapshots import field_errors, snapshots
-from studies.rb.tables import POINT, SCENE
+from studies.rb.tables import POINT, SCENE, STILL
 
 GRIDS = ("compressible", "boussinesq", "pypde-boussinesq", "pypde-compressible")
 MACHINE = ["method", "variant", "eos", "sides", "resolution"]

@@ -5,8 +5,11 @@ where `free_fall`, the unit of velocity sqrt(g alpha dT L), is 1; Boussinesq row
 all particles, `ke_field` of the smoothed field, `ke_mean` of velocities averaged over time. Lengths in heights L, times in
 L^2/eta where not said otherwise. Every `_err` is the half width of a 95 % interval.
 """
+from math import inf
+
 from studies.kit.table import STAMP, Table
 
+Point = dict
 SCENE = ["eos", "transport", "sides", "ra", "pr"]
 POINT = ["method", "variant", *SCENE, "resolution"]
 RUN = [*POINT, "seed"]
@@ -57,3 +60,34 @@ ARITHMETIC = Table("arithmetic", key=["quantity"], columns=["quantity", "value",
 
 ALL = (KINETIC, MEANS, HISTORY, FIELDS, PARTICLES, WALLS, COST, SMOOTHED, ERRORS, SNAPSHOTS, FIELD_ERRORS,
        ARITHMETIC)
+
+# --- points ---------------------------------------------------------------------------------------
+
+STILL = 1e-6        # K of a grid whose onset lies a little higher: nothing flows, and rolls are of round-off
+#: Prandtl number nu/kappa, kappa = k/(rho C_V), that KHP95's eta = k means
+PRANDTL = {"ideal": 1.0, "vdw": 1.0, "dense": 1.5}
+
+
+def scene(ra: float, eos="ideal", transport="const-eta", sides="periodic") -> Point:
+    """Columns of a scene with KHP95's eta = k."""
+    return {"eos": eos, "transport": transport, "sides": sides, "ra": float(ra), "pr": PRANDTL[eos]}
+
+
+def particles(ra: float, height: int = 50, variant="printed", **where) -> Point:
+    """Of smooth particles, `height` rows of them: KHP95's 5000 are 50 rows of 100."""
+    return {"method": "spam", "variant": variant, "resolution": float(height), **scene(ra, **where)}
+
+
+def grid(ra: float, height: float = inf, variant="flux-form", **where) -> Point:
+    """Of the compressible grid; extrapolated without rows."""
+    return {"method": "compressible", "variant": variant, "resolution": float(height), **scene(ra, **where)}
+
+
+def points(ra: float, variant: str, height: float = inf, **where) -> Point:
+    """Of a scheme on RR98's points; extrapolated without rows."""
+    return {"method": "dih", "variant": variant, "resolution": float(height), **scene(ra, **where)}
+
+
+def besides(point: Point, *names: str) -> Point:
+    """The columns of a point without these."""
+    return {name: value for name, value in point.items() if name not in names}

@@ -9,7 +9,6 @@ from matplotlib.figure import Figure
 from studies.build.axes import ENERGY, ra_axis
 from studies.kit.figure import below, figure
 from studies.kit.table import Tables, groups
-from studies.rb.flows import STILL
 from studies.rb.looks import (
     BOX,
     ENERGIES,
@@ -29,6 +28,7 @@ from studies.rb.looks import (
     rows,
     seen,
 )
+from studies.rb.tables import STILL
 
 Style = dict[str, Any]
 #: how far marks at the same Ra are moved apart, in Ra^-1/2

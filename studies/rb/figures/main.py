@@ -13,7 +13,6 @@ from studies.kit.figure import below, plain_ticks
 from studies.kit.table import Tables, groups
 from studies.rb.figures.energy import ASIDE, SMOOTHED_GRID, energies, finish, grid, name_frozen, smoothed_grid
 from studies.rb.figures.errors import ROWS
-from studies.rb.flows import STILL
 from studies.rb.looks import (
     ENERGIES,
     FROM_FLOW,
@@ -30,6 +29,7 @@ from studies.rb.looks import (
     rows,
     seen,
 )
+from studies.rb.tables import STILL
 
 RA_C = published("chandrasekhar-ra-rigid").value
 #: an Ra little above onset, where particles come to rest
