@@ -12,7 +12,7 @@ from studies.rb import snapshots
 from studies.rb.claims import curves
 from studies.rb.claims.grid import PYPDE
 from studies.rb.claims.points import LATTICES
-from studies.rb.flows import grid, particles, points
+from studies.rb.tables import grid, particles, points
 from tests.claim_tables import crystal, flow, grids, judged, kept, means, seeds, seen, straight, verdict
 
 # --- lines ------------------------------------------------------------------------------------------------------

@@ -84,10 +84,10 @@ def threshold(tables: Tables) -> Measured:
             left[name] = kept(name)(tables).value
     x = np.array([mean_square(MELTING, 5e3, PRESSURES[name])(tables).value for name in left])
     y = np.array([*left.values()])
-    here = int(np.argmax(y >= 0.5))
     if len(x) < 3 or not y.min() < 0.5 < y.max():
         raise CannotTell("the particles' K does not fall to half of the grid's at the pressures that were run: "
                          "the more-static variants of SIZE=fine are to reach it")
+    here = int(np.argmax(y >= 0.5))
     if here == 0 or (y[here:] < 0.5).any():
         raise CannotTell("the particles' K crosses half of the grid's more than once as pressure grows: no threshold")
     middle = float(np.interp(0.5, y[here - 1:here + 1], np.log(x[here - 1:here + 1])))

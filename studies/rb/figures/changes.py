@@ -56,7 +56,7 @@ def changes(tables: Tables, method: str, order: Iterable[str], sizes: tuple[int,
     for row in gone[gone["variant"].isin(names)].itertuples():
         say_diverged(axes, row, names.index(row.variant) + LOWER*sizes.index(row.resolution))
     axes.set_yticks(range(len(names)), labels=[label(method, name) for name in names], fontsize=8)
-    axes.set(ylim=(len(names) - 0.4, -0.6), title=f"{title}  Ra = {RA}",
+    axes.set(ylabel="variant", ylim=(len(names) - 0.4, -0.6), title=f"{title}  Ra = {RA}",
              xlabel=f"error of $K$ against the grid  [%], linear to {LINEAR} %, logarithmic beyond")
     symlog(axes, frame["error"])
     page.legend(loc="outside lower center", ncols=3, title_fontsize=8,
