@@ -83,7 +83,8 @@ def kinetic():
 
 def point_rows():
     """Fixed and moving points: second order, the moving ones from below."""
-    for ra, rows, (variant, sign) in itertools.product((5000.0, 10000.0), (25, 40, 50), (("fixed-lattice", 1), ("moving", -1), ("moving-no-shift", -1))):
+    signs = {"fixed-lattice": 1, "moving": -1, "moving-no-shift": -1}
+    for ra, rows, (variant, sign) in itertools.product((5000.0, 10000.0), (25, 40, 50), signs.items()):
         ke = k(ra)*(1 + sign*15/rows**2)
         yield energies(("dih", variant), "layer", ra, rows, ke, ke, particles=2*rows**2)
 

@@ -7,7 +7,6 @@ import pytest
 
 from studies.kit.table import Tables
 from studies.rb import snapshots
-from studies.rb.claims.flows import rolls_in
 from studies.rb.tables import grid, particles
 from tests.claim_tables import crystal, grids, judged, means, seeds, straight, verdict
 
@@ -50,13 +49,6 @@ def test_two_rolls_that_still_change_or_have_died_are_no_answer(rolls, steady, k
     row = {**grid(7e3, 32, "two-rolls", sides="walls"), "ke": ke, "rolls": rolls, "converged": steady, "t_end": 9000.0}
     found = judged("khp95-one-roll-square", Tables({"kinetic_energy": pd.DataFrame([row])}))
     assert found["verdict"] == said and ("died" in found["reason"]) == (ke < 1e-6)
-
-
-def test_rolls_of_round_off_are_none():
-    dead = means([{**grid(1e4), "ke": 1e-12, "ke_err": 0.0}, {**grid(3000, eos="dense"), "ke": -1e-20, "ke_err": 0.0}])
-    for name in ("khp95-transient-grid", "khp95-freeze-grid"):
-        assert "died" in judged(name, dead)["reason"], name
-    assert rolls_in(dead, grid(1e4)) == 0
 
 
 def test_what_smoothing_takes_is_told_from_what_is_lost():
