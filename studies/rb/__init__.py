@@ -1,4 +1,4 @@
-"""Rayleigh-Benard convection: do particles converge on the equations of the gas, and what does KHP95 print that holds?"""
+"""Rayleigh-Benard convection: do particles converge on the gas, and what does KHP95 print that holds?"""
 from studies.kit.study import Part, Study
 from studies.rb import cases
 from studies.rb.runs.arithmetic import SUBJECTS, WithoutFlow

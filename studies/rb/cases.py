@@ -1,7 +1,8 @@
-"""Which cases: spacing, mass and kB are 1, L = particle rows, g = dT/L, eta from Ra: energies do not depend on L.
+"""Which cases: spacing, mass and kB are 1, L = particle rows, g = dT/L, eta from Ra: energies do not depend
+on L.
 
-`paper` (half an hour on two cores) has what the main figure and the verdicts need, `quick` (minutes) the same path
-small, `fine` (hours) all variants, walls, resolutions.
+`paper` (half an hour on two cores) has what the main figure and the verdicts need, `quick` (minutes) the same
+path small, `fine` (hours) all variants, walls, resolutions.
 """
 from collections.abc import Iterator
 from itertools import product
@@ -33,7 +34,7 @@ NU: dict[str, Any] = {"transport": ConstNu}
 VDW: dict[str, Any] = {"eos": VanDerWaals()}
 DENSE: dict[str, Any] = {"eos": DenseFluid(), "pr": 1.5}    # C_V = 1.5: pr = 1.5 is the printed eta = k
 SEEDS = (1, 2, 3)
-MANY = tuple(range(1, 9))       # of the point that most printed statements are about, 5000 particles at Ra 10 000
+MANY = tuple(range(1, 9))       # of 5000 particles at Ra 10 000, which most printed statements are about
 KEPT = {1e4: "all", 5e3: "fields", 2.5e3: "fields"}
 RA = (1500.0, 2500.0, 5000.0, 10000.0, 20000.0)  # of the particles
 LINE = (1500.0, 1750.0, 2000.0, 2500.0, 3000.0, 3500.0, 4200.0, 5000.0, 6000.0, 6830.0, 10000.0, 20000.0,
@@ -49,11 +50,13 @@ def spam(ra: float, rows: int, seeds=SEEDS, variant: Variant = PRINTED, keep="",
                       keep=keep if seed == seeds[0] else keep and "history")
 
 
-def gas(ra: float, sizes: tuple[int, ...], keep="", form="flux-form", longest=60.0, **scene) -> CompressibleSteady:
+def gas(ra: float, sizes: tuple[int, ...], keep="", form="flux-form", longest=60.0,
+        **scene) -> CompressibleSteady:
     """Steady states on grids, seen through the weights of the particles that are compared with them."""
     where = RayleighBenard(ra=ra, **(LAYER | scene))
     smooth = seen_by(where) if form == "flux-form" else ()
-    return CompressibleSteady(scene=where, sizes=sizes, keep=keep, form=FORMS[form], longest=longest, smooth=smooth)
+    return CompressibleSteady(scene=where, sizes=sizes, keep=keep, form=FORMS[form], longest=longest,
+                              smooth=smooth)
 
 
 def seen_by(scene: RayleighBenard) -> tuple[Smoothing, ...]:
@@ -153,7 +156,7 @@ def squares() -> Iterator[Case]:
 
 
 def others() -> Iterator[Case]:
-    """512 particles: of Fig. 7, of the frozen dense fluid of Fig. 4, and of gases that should not freeze there."""
+    """512 particles: of Fig. 7, of the frozen fluid of Fig. 4, and of gases that should not freeze there."""
     for ra in (1e4, 3e3):
         yield from spam(ra, 16, keep="all")
         yield from spam(ra, 16, keep="all", **VDW)
@@ -163,7 +166,7 @@ def others() -> Iterator[Case]:
 
 
 def fine() -> Iterator[Case]:
-    """Every variant at two sizes (of pressure at two Ra), finer particles, higher Rayleigh numbers, long runs of the grid."""
+    """Every variant at two sizes (of pressure at two Ra), finer particles, higher Ra, long grids."""
     for name in sorted(set(VARIANTS) - {"printed", "printed-half-step", "printed-from-flow"}):
         variant = VARIANTS[name]
         yield from spam(1e4, 25, variant=variant)
@@ -188,9 +191,10 @@ def fine() -> Iterator[Case]:
 
 
 #: rows of the schemes on points that converge; 40 of the others
-MOST = {"fixed-lattice": 80, "fixed-lattice-printed-heat": 80, "fixed-lattice-h3": 80, "fixed-lattice-nested": 80,
-        "fixed-jittered-plates": 64, "fixed-random-plates": 50, "relaxed-plates": 50, "fixed-jittered-delaunay": 50,
-        "fixed-random-delaunay": 50, "relaxed-delaunay": 50}
+MOST = {"fixed-lattice": 80, "fixed-lattice-printed-heat": 80, "fixed-lattice-h3": 80,
+        "fixed-lattice-nested": 80, "fixed-jittered-plates": 64, "fixed-random-plates": 50,
+        "relaxed-plates": 50, "fixed-jittered-delaunay": 50, "fixed-random-delaunay": 50,
+        "relaxed-delaunay": 50}
 #: schemes that only other studies run
 ELSEWHERE = {"fixed-lattice-h1.2", "fixed-lattice-monaghan", "fixed-lattice-wendland-c2"}
 #: of RR98's own motions, those with 40 rows besides 25
@@ -198,7 +202,7 @@ FINER = ("moving-literal", "moving-convective", "moving-constant-mass", "moving-
 
 
 def points() -> Iterator[Case]:
-    """Discretized integral hydrodynamics: fixed lattice, irregular points, moving points and what they are made of."""
+    """Discretized integral hydrodynamics: points on a lattice, irregular points, moving points."""
     for ra in (5e3, 1e4):
         yield gas(ra, (24, 32, 48), form="edge-heat")
         for height in (25.0, 40.0, 50.0, 64.0, 80.0):
@@ -206,8 +210,9 @@ def points() -> Iterator[Case]:
     for height in (25.0, 40.0, 50.0):
         yield DihRun(scene=RayleighBenard(ra=1e4, L=height, **NU))
     few, many = RayleighBenard(ra=1e4, L=25.0), RayleighBenard(ra=1e4, L=40.0)
+    # seeds differ by 0.03 %, ingredients by more
     for name, where, seed in product(sorted({*MOTIONS} - {"moving"}), (few, many), SEEDS[:2]):
-        yield MovingRun(scene=where, motion=MOTIONS[name], seed=seed)   # seeds differ by 0.03 %, ingredients by more
+        yield MovingRun(scene=where, motion=MOTIONS[name], seed=seed)
     for motion, seed in product(DRIFT_MOTIONS.values(), SEEDS):
         yield DriftRun(scene=few, motion=motion, seed=seed)
     for name, seed in product(FINER, SEEDS[:2]):

@@ -11,10 +11,9 @@ from studies.kit import fits
 from studies.kit.stats import combine
 from studies.kit.table import Rows, Tables
 from studies.rb.snapshots import field_errors, snapshots
-from studies.rb.tables import POINT, SCENE, STILL
+from studies.rb.tables import POINT, SCENE, STEP, STILL
 
 GRIDS = ("compressible", "boussinesq", "pypde-boussinesq", "pypde-compressible")
-MACHINE = ["method", "variant", "eos", "sides", "resolution"]
 SERIES = [name for name in POINT if name != "resolution"]
 ENERGIES = ["ke", "ke_field", "ke_mean", "nu"]
 HALF = "printed-half-step"
@@ -46,7 +45,8 @@ def records(frame: pd.DataFrame) -> list[dict[str, Any]]:
 
 
 def extrapolated(runs: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    """One row `resolution = inf` of each series of grids or points with three settled sizes or more, one state in all.
+    """One row `resolution = inf` of each series of grids or points with three settled sizes or more, one
+    state in all.
 
     Grids and lattices have no chance in them; of sets of points that differ each run counts by itself.
     """
@@ -56,24 +56,25 @@ def extrapolated(runs: pd.DataFrame) -> Iterator[dict[str, Any]]:
         if len(set(sizes)) < 3 or group["rolls"].nunique() > 1:
             continue
         limit = grid_limit if len(set(sizes)) == len(sizes) else line_limit
-        ke, nu = (limit(group[name].to_numpy(), group[f"{name}_err"].to_numpy(), sizes) for name in ("ke", "nu"))
-        kept = group.iloc[-1][["rolls", "free_fall", "converged", "threads"]].to_dict()
-        spent = group[["cpu_s", "compile_s"]].sum().to_dict()
-        yield {**dict(zip(SERIES, point, strict=True)), **kept, **spent, "seed": 0, "particles": 0,
+        ke, nu = (limit(group[name], group[f"{name}_err"], sizes) for name in ("ke", "nu"))
+        kept = {name: group[name].iloc[-1] for name in ("rolls", "free_fall", "converged", "threads")}
+        seconds = {name: group[name].sum() for name in ("cpu_s", "compile_s")}
+        yield {**dict(zip(SERIES, point, strict=True)), **kept, **seconds, "seed": 0, "particles": 0,
                "resolution": np.inf, **one_energy(*ke), "nu": nu[0], "nu_err": nu[1]}
 
 
-def grid_limit(values: np.ndarray, errs: np.ndarray, sizes: np.ndarray) -> tuple[float, float]:
+def grid_limit(values: pd.Series, errs: pd.Series, sizes: np.ndarray) -> tuple[float, float]:
     """Extrapolated value; its error has a part of the grid and one of the values' own (in time)."""
     limit = fits.grid_limit(sizes, values)
     return limit.value, float(np.hypot(limit.err, 2*errs.max()))
 
 
-def line_limit(values: np.ndarray, errs: np.ndarray, sizes: np.ndarray) -> tuple[float, float]:
-    """Value at 1/rows^2 = 0 of a line through all runs; its error: of the fit, and twice what the coarsest change.
+def line_limit(values: pd.Series, errs: pd.Series, sizes: np.ndarray) -> tuple[float, float]:
+    """Value at 1/rows^2 = 0 of a line through all runs; its error: of the fit, and twice what the coarsest
+    change.
 
-    K of sets of points scatters as 1/rows^2 or faster, 0.6 % to 0.04 % from 25 to 50 rows: hence weights of rows^2.
-    One scatter stands for all that is left over, which three runs of one size tell badly.
+    K of sets of points scatters as 1/rows^2 or faster, 0.6 % to 0.04 % from 25 to 50 rows: hence weights of
+    rows^2. One scatter stands for all that is left over, which three runs of one size tell badly.
     """
     x, weight, finer = 1/sizes**2, sizes**2, sizes > sizes.min()
     limit = fits.line(x, values, weight=weight).intercept
@@ -85,10 +86,11 @@ def line_limit(values: np.ndarray, errs: np.ndarray, sizes: np.ndarray) -> tuple
 
 
 def over_seeds(runs: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    """Means over the seeds of each point that settled in its commonest number of rolls; grid rows pass as they are.
+    """Means over the seeds of each point that settled in its commonest number of rolls; grid rows pass as
+    they are.
 
-    To the error of particles belongs twice what half of the time step changes: its error is of first order, from the
-    walls.
+    To the error of particles belongs twice what half of the time step changes: its error is of first order,
+    from the walls.
     """
     changes = step_changes(runs)
     for point, group in runs.groupby(POINT, dropna=False):
@@ -105,15 +107,15 @@ def over_seeds(runs: pd.DataFrame) -> Iterator[dict[str, Any]]:
 
 def step_changes(runs: pd.DataFrame) -> pd.DataFrame:
     """How much of each energy half of the time step changes, relative, by scene and resolution."""
-    means = runs.groupby(["variant", *SCENE, "resolution"], dropna=False)[ENERGIES].mean()
-    there = {*means.index.get_level_values("variant")}
-    if not {HALF, "printed"} <= there:
-        return pd.DataFrame(columns=[*SCENE, "resolution", *ENERGIES])
-    return (means.loc[HALF]/means.loc["printed"] - 1).abs().dropna().reset_index()
+    by_point = [*SCENE, "resolution"]
+    half, whole = (runs[runs["variant"] == name].groupby(by_point, dropna=False)[ENERGIES].mean()
+                   for name in (HALF, "printed"))
+    return (half/whole - 1).abs().dropna().reset_index()
 
 
 def step_change(changes: pd.DataFrame, row: dict[str, Any]) -> pd.Series:
-    """That of the next coarser resolution of the same fluid and box, or else of any; none for grids and fixed points.
+    """That of the next coarser resolution of the same fluid and box, or else of any; none for grids and fixed
+    points.
 
     Steady states of grids do not depend on the step.
     """
@@ -131,13 +133,15 @@ def step_change(changes: pd.DataFrame, row: dict[str, Any]) -> pd.Series:
 def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> pd.DataFrame:
     """Relative errors of K and Nu against the compressible limit of the scene, with what they cost.
 
-    Kp, of all particles, is compared with the grid's K; Kg, of the smoothed field, with K of the grid's field smoothed
-    by the same weight: smoothing alone is no error of the flow.
+    Kp, of all particles, is compared with the grid's K; Kg, of the smoothed field, with K of the grid's field
+    smoothed by the same weight: smoothing alone is no error of the flow.
     """
-    grid = means[(means["method"] == "compressible") & (means["variant"] == "flux-form") & (means["ke"] > STILL)]
-    limits = grid[np.isinf(grid["resolution"].astype(float))][[*SCENE, "ke", "ke_err", "nu", "nu_err", "rolls"]]
+    grid = (means["method"] == "compressible") & (means["variant"] == "flux-form") & (means["ke"] > STILL)
+    limits = means[grid & np.isinf(means["resolution"].astype(float))]
+    limits = limits[[*SCENE, "ke", "ke_err", "nu", "nu_err", "rolls"]]
     rows = finite(means[means["eos"] != ""]).merge(limits, on=SCENE, suffixes=("", "_limit"))
-    rows = rows[(rows["method"] == "spam") | (rows["rolls"] == rows["rolls_limit"])]     # else it is another flow
+    same_flow = rows["rolls"] == rows["rolls_limit"]
+    rows = rows[(rows["method"] == "spam") | same_flow]
     rows = rows.merge(spent(runs, tables), on=POINT)
     field = with_smoothing(rows, tables)
     return pd.concat([compared(rows, "Nu", "nu", "nu"), compared(rows, "Kp", "ke", "ke"),
@@ -168,12 +172,14 @@ def with_smoothing(rows: pd.DataFrame, tables: Tables) -> pd.DataFrame:
 
 
 def spent(runs: pd.DataFrame, tables: Tables) -> pd.DataFrame:
-    """CPU seconds of what a mean is made of: all seeds of particles and points; of grids with the coarser ones.
+    """CPU seconds of what a mean is made of: all seeds of particles and points; of grids with the coarser
+    ones.
 
-    Steps times the seconds of one step measured alone where there is such a row, else what the run took beside others.
+    Steps times the seconds of one step measured alone where there is such a row, else what the run took
+    beside others.
     """
-    alone = tables.get("cost", pd.DataFrame(columns=[*MACHINE, "step_s"]))
-    runs = runs.merge(alone[[*MACHINE, "step_s"]].astype({"resolution": float}), how="left", on=MACHINE)
+    alone = tables.get("cost", pd.DataFrame(columns=[*STEP, "step_s"]))
+    runs = runs.merge(alone[[*STEP, "step_s"]].astype({"resolution": float}), how="left", on=STEP)
     runs["cpu_s"] = (runs["steps"]*runs["step_s"].astype(float)).fillna(runs["cpu_s"])
     seconds = runs.groupby(POINT, dropna=False)["cpu_s"].sum().reset_index()
     grids = seconds["method"].isin(GRIDS)

@@ -31,7 +31,8 @@ OPEN = {"markerfacecolor": "white"}
 MARKS = {"linestyle": "none"}
 #: kind -> column of `means`, words
 ENERGIES = {"kp": ("ke", "$K_p$, all particles"), "kg": ("ke_field", "$K_g$, smoothed field")}
-UNSETTLED: dict[str, Any] = {"color": "black", "linestyle": "none", "marker": "x", "markersize": 8, "zorder": 6}
+UNSETTLED: dict[str, Any] = {"color": "black", "linestyle": "none", "marker": "x", "markersize": 8,
+                             "zorder": 6}
 NOT_STEADY = "not steady: halves of the mean differ"
 
 

@@ -54,8 +54,9 @@ def snapshot(run: pd.DataFrame) -> Snapshot:
 def newtonian(at: Snapshot, point: Point, T: np.ndarray) -> Measured:
     """Correlation of the accelerations with those of the potential 2 P n^-2 w    [KHP95, Sec. VII]
 
-    Within layers of twice the range of the weight. Particles in range of each other are not independent, so each layer
-    is one sample. For the ideal gas with Lucy's weight; not a number elsewhere, and where no two layers fit.
+    Within layers of twice the range of the weight. Particles in range of each other are not independent, so
+    each layer is one sample. For the ideal gas with Lucy's weight; not a number elsewhere, and where no two
+    layers fit.
     """
     inner = at.height/2 - 3*RANGE
     if (point["variant"], point["eos"]) != ("printed", "ideal") or inner < 2*RANGE:
@@ -69,7 +70,8 @@ def newtonian(at: Snapshot, point: Point, T: np.ndarray) -> Measured:
 
 def accelerations(x: np.ndarray, v: np.ndarray, T: np.ndarray, eta: float,
                   width: float) -> tuple[np.ndarray, np.ndarray]:
-    """(n, 2) each: -sum [(P/rho^2)_i + (P/rho^2)_j].grad w of the viscous ideal gas, and -sum 2 grad w (P = n = 1).
+    """(n, 2) each: -sum [(P/rho^2)_i + (P/rho^2)_j].grad w of the viscous ideal gas, and -sum 2 grad w (P = n
+    = 1).
 
     Periodic in x, nothing beyond the plates: right from three ranges off them.
     """
@@ -91,7 +93,7 @@ def accelerations(x: np.ndarray, v: np.ndarray, T: np.ndarray, eta: float,
 
 
 def correlation(a: np.ndarray, b: np.ndarray) -> float:
-    """Of what two fields of vectors (n, 2) differ from their means: the mean upwards bears the weight of the fluid."""
+    """Of two fields of vectors (n, 2) less their means: the mean upwards bears the weight of the fluid."""
     a, b = a - a.mean(axis=0), b - b.mean(axis=0)
     return float(np.sum(a*b)/sqrt(np.sum(a*a)*np.sum(b*b)))
 
@@ -102,15 +104,17 @@ def correlation(a: np.ndarray, b: np.ndarray) -> float:
 #: plate -> how rows of places are counted from it
 PLATES = {"lower": 1, "upper": -1}
 EVERYWHERE = slice(None)
+GRID = {"method": "compressible", "variant": "flux-form"}
 
 
 def field_errors(tables: Tables, means: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    """One row for each point of particles in `fields` beside which the same flow of the finest grid stands."""
+    """One row for each point of particles in `fields` of which the finest grid has the same flow."""
     frame = tables.get("fields", pd.DataFrame(columns=[*POINT, "seed"]))
     tables = Tables({**tables, "means": means})
     for key, runs in frame[frame["method"] == "spam"].groupby(POINT):
-        point, run = dict(zip(POINT, key, strict=True)), first_seed(runs)
-        grid = {name: point[name] for name in SCENE} | {"method": "compressible", "variant": "flux-form"}
+        point: Point = dict(zip(POINT, key, strict=True))
+        run = first_seed(runs)
+        grid: Point = {name: point[name] for name in SCENE} | GRID
         try:
             cells = rows(tables, "fields", **grid)
             ours = rows(tables, "kinetic_energy", **point, seed=run["seed"].iloc[0])
@@ -123,13 +127,13 @@ def field_errors(tables: Tables, means: pd.DataFrame) -> Iterator[dict[str, Any]
 
 
 def fields(run: pd.DataFrame) -> Fields:
-    """rho, T, vx, vy (rows, columns) on the places of Fig. 12, shifted along x so that warm fluid rises at column 0."""
+    """rho, T, vx, vy (rows, columns) on the places of Fig. 12; warm fluid rises at column 0."""
     names = ("rho", "T", "vx", "vy")
     return upright({name: run.pivot(index="y", columns="x", values=name).to_numpy(float) for name in names})
 
 
 def errors_of(tables: Tables, point: Point, ours: Fields, theirs: Fields) -> dict[str, Measured]:
-    """Rms differences over places: of velocities over the grid's rms velocity, of the others over the grid's range."""
+    """Rms differences over places: of velocities over the grid's rms velocity, of others over its range."""
     relative = one_seed(tables, point)
     span = {name: float(np.ptp(theirs[name])) for name in ("rho", "T")}
     speed = sqrt(np.mean(theirs["vx"]**2 + theirs["vy"]**2))
@@ -139,8 +143,9 @@ def errors_of(tables: Tables, point: Point, ours: Fields, theirs: Fields) -> dic
         others = relative/2*from_rest(ours, names)
         return Measured(apart.value/size, hypot(apart.err, others)/size)
     at_plates = [error(["rho"], span["rho"], at) for at in (slice(1), slice(-1, None))]
-    return {"velocity": error(["vx", "vy"], speed), "T": error(["T"], span["T"]), "rho": error(["rho"], span["rho"]),
-            "rho_plates": worse(at_plates), "rho_layer": layer_error(tables, point, theirs)}
+    return {"velocity": error(["vx", "vy"], speed), "T": error(["T"], span["T"]),
+            "rho": error(["rho"], span["rho"]), "rho_plates": worse(at_plates),
+            "rho_layer": layer_error(tables, point, theirs)}
 
 
 def worse(errors: Iterable[Measured]) -> Measured:
@@ -152,8 +157,8 @@ def worse(errors: Iterable[Measured]) -> Measured:
 def difference(one: Fields, other: Fields, names: Sequence[str], at: slice = EVERYWHERE) -> Measured:
     """Root mean square of one - other over places, in some rows of them, summed over the named fields.
 
-    Both flows are symmetric in the mirror; what is not symmetric in the difference is noise, and as much of it is in
-    the symmetric part: that is the error.
+    Both flows are symmetric in the mirror; what is not symmetric in the difference is noise, and as much of
+    it is in the symmetric part: that is the error.
     """
     apart = {name: one[name] - other[name] for name in one}
     image = mirrored(apart)
@@ -163,9 +168,11 @@ def difference(one: Fields, other: Fields, names: Sequence[str], at: slice = EVE
 
 
 def from_rest(at: Fields, names: Sequence[str]) -> float:
-    """Rms distance of fields from the motionless state, rho = 1, T = 1 - y/L, over places, summed over the fields.
+    """Rms distance of fields from the motionless state, rho = 1, T = 1 - y/L, over places, summed over the
+    fields.
 
-    A relative error d of K moves velocities by d/2; what they carry is taken to move in proportion to this distance.
+    A relative error d of K moves velocities by d/2; what they carry is taken to move in proportion to this
+    distance.
     """
     y = (np.arange(len(at["T"])) + 0.5)[:, None]/len(at["T"]) - 0.5
     rest = {"rho": 1.0, "T": 1 - y, "vx": 0.0, "vy": 0.0}
@@ -175,8 +182,8 @@ def from_rest(at: Fields, names: Sequence[str]) -> float:
 def one_seed(tables: Tables, point: Point) -> float:
     """Relative 95 % interval with which K of one seed, whose fields are kept, stands for the point.
 
-    The scatter of Kg between seeds with its t factor, and the error of their mean, to which that of the time step
-    belongs. Not a number with one seed.
+    The scatter of Kg between seeds with its t factor, and the error of their mean, to which that of the time
+    step belongs. Not a number with one seed.
     """
     whole = rows(tables, "means", **point).iloc[0]
     seeds = rows(tables, "kinetic_energy", **point)["ke_field"].dropna()
@@ -187,7 +194,7 @@ def one_seed(tables: Tables, point: Point) -> float:
 
 
 def layer_error(tables: Tables, point: Point, cells: Fields) -> Measured:
-    """Largest |rho - rho_grid| within one spacing of a plate, horizontal mean, over the range of the grid's."""
+    """Largest |rho - rho_grid| within one spacing of a plate, horizontal mean, over the grid's range."""
     try:
         layers = rows(tables, "walls", **point)
         beside = layers["plate"].map({plate: density_beside(cells, side) for plate, side in PLATES.items()})
@@ -200,7 +207,7 @@ def layer_error(tables: Tables, point: Point, cells: Fields) -> Measured:
 
 
 def density_beside(at: Fields, side: int) -> float:
-    """The grid's mean density half a spacing of 50 rows from a plate: the line through the two places next to it."""
+    """The grid's mean density half a spacing of 50 rows from a plate, by a line through two places."""
     mean = at["rho"].mean(axis=1)[::side]
     places = len(mean)*0.5/50 - 0.5       # from the first place, in distances of places
     return float(mean[0] + places*(mean[1] - mean[0]))

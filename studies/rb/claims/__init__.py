@@ -1,7 +1,8 @@
-"""Every number and statement of KHP95 on convection, and RR98's equations there, judged by the tables of `rb`.
+"""Every number and statement of KHP95 on convection, and RR98's equations there, judged by the tables of
+`rb`.
 
-One module a theme, each with its CLAIMS. Here are the statements that neither print nor runs decide. The study
-`onset` judges claims on critical Rayleigh numbers.
+One module a theme, each with its CLAIMS. Here are the statements that neither print nor runs decide. The
+study `onset` judges claims on critical Rayleigh numbers.
 """
 from studies.kit.ask import of
 from studies.kit.claim import Claim

@@ -12,9 +12,8 @@ def calculated(quantity: str) -> Value:
 
 
 A, B = calculated("a, vdw"), calculated("b, vdw")
-FOURTH = ("0.2 below 4 for steps that are not small; third derivatives of both weights jump at the range, so each "
-          "pair that crosses it leaves a velocity error of dt^3, of either sign, and the order goes to 3 as dt "
-          "falls on")
+FOURTH = ("0.2 below 4 for steps that are not small; third derivatives of both weights jump at the range, so "
+          "each pair that crosses it leaves a velocity error of dt^3, and the order goes to 3 as dt falls on")
 HEXAGONAL = "statement is about symmetric lattices: the hexagonal one, on which smooth particles freeze"
 RULE = "what rounding of the printed digits allows"
 EXACT = (     # name, place, printed, the number, its value, statement
@@ -50,8 +49,8 @@ EXACT = (     # name, place, printed, the number, its value, statement
 def exact() -> Iterator[Claim]:
     """Numbers that follow from the printed formulas and digits without rounding."""
     for name, place, printed, number, value, statement in EXACT:
-        yield Claim(id=f"khp95-{name}", source=f"KHP95 {place}", printed=printed, statement=statement, value=value,
-                    expect=number, within=1e-12, because="round-off")
+        yield Claim(id=f"khp95-{name}", source=f"KHP95 {place}", printed=printed, statement=statement,
+                    value=value, expect=number, within=1e-12, because="round-off")
 
 
 def decays() -> Iterator[Claim]:
@@ -60,7 +59,8 @@ def decays() -> Iterator[Claim]:
         yield Claim(id=f"khp95-spurious-decay{end}", source="KHP95 Secs II, III", printed="rapid convergence",
                     at_most=0.1, value=calculated(f"|G/B| at h = 6 over h = 3, {kind}"),
                     statement="spurious shear moduli vanish rapidly as the range grows: at 6 sigma over at 3 "
-                              f"sigma, {kind} lattice", because='"rapid" has no number: ten times for twice the range')
+                              f"sigma, {kind} lattice",
+                    because='"rapid" has no number: ten times for twice the range')
 
 
 def printed_errors() -> Iterator[Claim]:
@@ -69,9 +69,9 @@ def printed_errors() -> Iterator[Claim]:
                           ("-10000", "10 000", "")):
         yield Claim(id=f"khp95-kinetic-errors{end}", source="KHP95 Sec. VI", printed="10%", at_most=0.105,
                     value=calculated(f"1 - K/K printed, Ra {ra}"), because=f"two digits are printed{more}",
-                    statement=f"at Ra {ra} the printed energies of particles and grid differ by no more than 10 %")
-        yield Claim(id=f"khp95-velocity-errors-printed{end}", source="KHP95 Sec. VI", printed="5%", at_most=0.075,
-                    value=calculated(f"1 - sqrt(K/K) printed, Ra {ra}"),
+                    statement=f"the printed energies of particles and grid at Ra {ra} differ by 10 % at most")
+        yield Claim(id=f"khp95-velocity-errors-printed{end}", source="KHP95 Sec. VI", printed="5%",
+                    at_most=0.075, value=calculated(f"1 - sqrt(K/K) printed, Ra {ra}"),
                     statement=f"the printed energies at Ra {ra} mean velocity errors of the order of 5 %",
                     because='"of the order of", one digit: half as much again; less is no contradiction')
 

@@ -13,8 +13,8 @@ from studies.rb.tables import STILL, Point, besides, grid
 NEAR = 0.05     # of the steady value: K of particles fluctuates by 1 % or 2 %, and noise is not to be timed
 SAMPLES = 20    # of K(t) at least
 LEAST = 5       # points of a line: three are left to tell how straight it is
-#: critical Ra of the Boussinesq fluid, by linear theory: a pair of rolls in the layer, one in the square, whose sides
-#: conduct; the study onset measures both again
+#: critical Ra of the Boussinesq fluid, by linear theory: a pair of rolls in the layer, one in the square,
+#: whose sides conduct; the study onset measures both again
 ONSET = {"periodic": 1707.9222997145034, "walls": 5011.71}
 ONE_STATE = {"periodic": 2, "walls": 1}     # rolls of the states that make a line
 CELLS = (24, 32, 48)                        # rows of the grids that have lines
@@ -82,7 +82,7 @@ def approach(point: Point, beside: Point, energy: str) -> Value:
 
 
 def line(question: Any, low: float = 1.0, height: float = np.inf, sides: str = "periodic", **where) -> Value:
-    """A question about K over Ra^-1/2 from `low` to 4 times onset; states with one pair of rolls (square: one roll)."""
+    """A question about K over Ra^-1/2 from `low` to 4 times onset, of states with two rolls (square: one)."""
     point = besides(grid(1.0, height, sides=sides, **where), "ra")
     inside = f"{low*ONSET[sides]:.1f} < ra <= {4*ONSET[sides]:.1f} and ke > {STILL:g}"
     states = {"rolls": ONE_STATE[sides], **point}

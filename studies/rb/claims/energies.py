@@ -1,9 +1,9 @@
 """Claims about the energies of smooth particles beside the grid's    [KHP95, Sec. VI]
 
-The text squares the smoothed velocity, (rho/2)<v>^2, so K is that of the field where nothing else is said. The
-printed numbers may be of the particles themselves, and which wall gave them is not said: each has its row. Claims
-on printed numbers compare with the grid's K as it is, as the paper does. Claims on whether the flow is right compare
-with the grid smoothed alike.
+The text squares the smoothed velocity, (rho/2)<v>^2, so K is that of the field where nothing else is said.
+The printed numbers may be of the particles themselves, and which wall gave them is not said: each has its
+row. Claims on printed numbers compare with the grid's K as it is, as the paper does. Claims on whether the
+flow is right compare with the grid smoothed alike.
 """
 from collections.abc import Iterator
 from itertools import product
@@ -72,7 +72,7 @@ def plates(tables: Tables) -> Measured:
     both = rows(tables, "walls", **layer).merge(fluxes, on=run)
     ratio = (both["nu_plate"]/both["nu"]).dropna()
     if ratio.empty:
-        raise CannotTell("no run that came to its end has its heat at the plates beside that through the layer")
+        raise CannotTell("no run that came to its end has its heat at the plates and through the layer")
     by_point = ratio.groupby([both["ra"], both["resolution"], both["plate"]])
     return max(abs(stats.over_seeds(group) - 1) for _, group in by_point)
 
@@ -85,9 +85,9 @@ def figure_points() -> Iterator[Claim]:
     said = {"vdw": ("van der Waals", {"eos": "vdw"}), "nu": ("constant nu", {"transport": "const-nu"})}
     for ra, (name, (words, where)) in product((5000, 10000), said.items()):
         yield Claim(id=f"khp95-fig5-{name}-{ra}", source="KHP95 Sec. VI, Fig. 5", printed="about 5%",
-                    at_most=0.075, statement=f"velocities of 5000 particles, {words}, are good to about 5 % at "
-                                             f"Ra {ra}, from energies",
-                    because=SOME, value=velocity(ra, 50, **where))
+                    at_most=0.075, because=SOME,
+                    statement=f"velocities of 5000 particles, {words}, are good to about 5 % at Ra {ra}, "
+                              "from energies", value=velocity(ra, 50, **where))
     for ra in (10000, 20000):
         yield Claim(id=f"khp95-fig6-{ra}", source="KHP95 Sec. VI, Fig. 6", printed="about 5%", at_most=0.075,
                     statement="velocities of 1600 particles in the square are good to about 5 % at "
@@ -110,8 +110,8 @@ def energies() -> Iterator[Claim]:
 
 
 FIVE = f'"about 5 %": half as much again; {PLAIN}'
-SOME = (f"{FIVE}; Ra of the points is not printed, near onset particles that start from weak rolls do not flow at "
-        "all")
+SOME = (f"{FIVE}; Ra of the points is not printed, near onset particles that start from weak rolls do not "
+        "flow at all")
 CONVINCING = f'"convincing" has no number: half of the energy, {ALIKE}'
 HALF = "half of the 10 % that Sec. VI allows: a larger error of the step would decide the claims on energies"
 MOST = "more than half of what is lacking"
@@ -160,15 +160,16 @@ CLAIMS = (
           because="a whole number; Ra is not printed", value=rolls(particles(1e4, 16, eos="vdw"))),
     *(Claim(id=f"own-half-step-{height}", source="KHP95 Sec. II", printed="efficient", at_most=0.05,
             value=half_step(height), because=HALF,
-            statement=f"the time step of our runs is small enough: error of K, of {height} rows and of their field, "
-                      "twice the largest change if it is halved") for height in (16, 25, 50)),
+            statement=f"the time step of our runs is small enough: error of K, of {height} rows and of their "
+                      "field, twice the largest change if it is halved") for height in (16, 25, 50)),
     *(Claim(id=f"own-smoothed-{ra}", source="KHP95 Sec. VI", printed="10%", at_most=0.105, value=error(ra),
-            statement="the field has the energy of the grid's field smoothed alike: |K/K - 1|, 5000 particles, "
-                      f"mirror images, Ra {ra}", because=f"{TEN}; {ALIKE}") for ra in (5000, 10000)),
+            because=f"{TEN}; {ALIKE}",
+            statement="the field has the energy of the grid's field smoothed alike: |K/K - 1|, 5000 "
+                      f"particles, mirror images, Ra {ra}") for ra in (5000, 10000)),
     *(Claim(id=f"own-smoothing-share-{ra}", source="KHP95 Sec. VI", printed="(rho/2)<v>^2", at_least=0.5,
             value=by_smoothing(ra), because=MOST,
-            statement="smoothing itself takes most of the energy that the field lacks: share of it, 5000 particles, "
-                      f"mirror images, Ra {ra}") for ra in (5000, 10000)),
+            statement="smoothing itself takes most of the energy that the field lacks: share of it, 5000 "
+                      f"particles, mirror images, Ra {ra}") for ra in (5000, 10000)),
     Claim(id="own-nusselt-plates", source="KHP95 Sec. II", printed="exact conservation", at_most=0.01,
           value=of(plates), because=DISGUISED,
           statement="energy that goes in at the lower plate goes through the layer and out at the upper "

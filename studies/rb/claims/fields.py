@@ -48,14 +48,16 @@ def robust(tables: Tables) -> Measured:
 def right_at_high(tables: Tables) -> Measured:
     """|Kg/K - 1| at Ra 100 000, K of the finest grid smoothed alike
 
-    The grid's flow oscillates there for good: it is not extrapolated, its error is what the next coarser grid changes.
+    The grid's flow oscillates there for good: it is not extrapolated, its error is what the next coarser grid
+    changes.
     """
     point = besides(grid(HIGHEST), "resolution")
     cells = rows(tables, "kinetic_energy", "resolution < inf", need=2, **point).sort_values("resolution")
     coarse, fine = cells.iloc[-2], cells.iloc[-1]
     if rolls_in(tables, particles(HIGHEST)) != int(fine["rolls"]):
         raise CannotTell("particles and grid have different numbers of rolls at Ra 100 000: another flow")
-    left = one("smoothed", "ke_smoothed/ke", err="0", weight="Lucy", h=3.0, rows=50, **besides(point, "variant"))(tables)
+    seen = {"weight": "Lucy", "h": 3.0, "rows": 50, **besides(point, "variant")}
+    left = one("smoothed", "ke_smoothed/ke", err="0", **seen)(tables)
     reference = left*Measured(fine["ke"], hypot(fine["ke"] - coarse["ke"], fine["ke_err"]))
     return abs(mean(particles(HIGHEST), "ke_field")(tables)/reference - 1)
 
@@ -71,9 +73,9 @@ def losses(variant: str) -> Value:
     def answer(tables: Tables) -> Measured:
         number = turns(tables)
         if number.value > 0:
-            raise CannotTell(f"the elastic wall turned particles back, {number.value:.2g} times a particle and run; "
-                             "but a turn is no loss: a particle beyond the plate may come back by itself, and no run "
-                             "here goes without it")
+            turned = f"turned particles back, {number.value:.2g} times a particle and run"
+            raise CannotTell(f"the elastic wall {turned}; but a turn is no loss: a particle beyond the plate may "
+                             "come back by itself, and no run here goes without it")
         return number
     return Value(answer, str(turns), turns.asks)
 

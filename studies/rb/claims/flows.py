@@ -39,7 +39,7 @@ def limit(ra: float, column: str = "ke", **where) -> Value:
 
 
 def alike(point: Point) -> Value:
-    """K of the grid's field smoothed as the particles of `point` smooth theirs: that of Kg if the flow is right."""
+    """K of the grid's field smoothed as the particles smooth theirs: that of Kg if the flow is right."""
     return one("errors", "reference", energy="Kg", **point)
 
 
@@ -63,7 +63,7 @@ def over_seeds(value: Value) -> Value:
 
 
 def over_runs(point: Point, energy: str = "ke_field") -> Value:
-    """Mean of the runs of a point that have its rolls; its error is statistics alone, `means` adds that of the step."""
+    """Mean of the runs of a point that have its rolls; its error is statistics alone, not of the step."""
     asked = one("kinetic_energy", energy, **point)
 
     def answer(tables: Tables) -> Measured:
@@ -88,7 +88,7 @@ def refuse_diverged(point: Point) -> Callable[[Tables], None]:
     """A check that refuses a point of which any run diverged."""
     def check(tables: Tables) -> None:
         if diverged(tables, point).any():
-            raise CannotTell(f"runs of {point['variant']} with {point['resolution']:g} rows diverged: there is no K")
+            raise CannotTell(f"runs of {point['variant']} with {point['resolution']:g} rows diverged: no K")
     return check
 
 
@@ -98,13 +98,14 @@ def one_flow(tables: Tables, point: Point) -> pd.Series:
     Raises
     ------
     CannotTell
-        All runs diverged, or seeds ended in different flows: which one the point has is then a matter of chance.
+        All runs diverged, or seeds ended in different flows: which one the point has is a matter of chance.
     """
     if diverged(tables, point).all():
         raise CannotTell(f"all runs of {point['method']}, {point['variant']} at Ra {point['ra']:g} diverged")
     row = rows(tables, "means", **point).iloc[0]
     if row["mixed"] > 0:
-        raise CannotTell(f"{row['mixed']:.0f} of {row['mixed'] + row['seeds']:.0f} seeds of {point['variant']}, "
+        seeds = row["mixed"] + row["seeds"]
+        raise CannotTell(f"{row['mixed']:.0f} of {seeds:.0f} seeds of {point['variant']}, "
                          f"{point['resolution']:g} rows, ended with another number of rolls than the "
                          f"{row['rolls']:.0f} of the others at Ra {point['ra']:g}: the flow is not decided")
     return row
@@ -137,4 +138,4 @@ def rolls(point: Point) -> Value:
 def refuse_dead(row: pd.Series) -> None:
     """Refuse a row of `means` or `kinetic_energy` where nothing moves."""
     if not row["ke"] > STILL:
-        raise CannotTell(f"K is {row['ke']:.1g} at the end: the flow has died, rolls would be those of round-off")
+        raise CannotTell(f"K is {row['ke']:.1g} at the end: the flow has died, its rolls are of round-off")

@@ -2,8 +2,8 @@
 
 The eta of Fig. 4 is not printed: Ra 3000 is taken with kappa = k/(rho C_V) and eta = k, so nu/kappa = 1.5.
 Pressure is added as a negative fraction of the static one that a variant subtracts, with the gravity that
-balances it: the continuum does not feel it. The paper does not say from what its runs at Ra 2500 started: judged is
-the start that leaves them more flow.
+balances it: the continuum does not feel it. The paper does not say from what its runs at Ra 2500 started:
+judged is the start that leaves them more flow.
 """
 from contextlib import suppress
 from math import hypot, inf, pi
@@ -42,7 +42,7 @@ STARTS = ("printed", "printed-from-flow")   # from the weak rolls of Sec. VI, fr
 
 
 def flows(ra: float, height: int = 16, variant: str = "printed", **where) -> Value:
-    """K of the particles' mean flow over the grid's smoothed alike: 1 where they flow, 0 where they rattle."""
+    """K of the particles' mean flow over the grid's smoothed alike: 1 if they flow, 0 if they rattle."""
     point = particles(ra, height, variant, **where)
     return mean(point, "ke_mean")/alike(point)
 
@@ -50,8 +50,8 @@ def flows(ra: float, height: int = 16, variant: str = "printed", **where) -> Val
 def rattling(tables: Tables) -> Measured:
     """2 K(dt/2) - K(dt) of 512 particles of dense fluid, Lucy, Ra 3000, over the grid's K
 
-    For a step that vanishes. First order is that of the turns at the plates. Nothing says that these steps are
-    small enough for it, so what is extrapolated is the error, too.
+    For a step that vanishes. First order is that of the turns at the plates. Nothing says that these steps
+    are small enough for it, so what is extrapolated is the error, too.
     """
     names = "printed-half-step", "printed"
     half, whole = (over_runs(particles(3000, 16, name, **DENSE), "ke")(tables) for name in names)
@@ -85,11 +85,11 @@ def threshold(tables: Tables) -> Measured:
     x = np.array([mean_square(MELTING, 5e3, PRESSURES[name])(tables).value for name in left])
     y = np.array([*left.values()])
     if len(x) < 3 or not y.min() < 0.5 < y.max():
-        raise CannotTell("the particles' K does not fall to half of the grid's at the pressures that were run: "
-                         "the more-static variants of SIZE=fine are to reach it")
+        raise CannotTell("the particles' K does not fall to half of the grid's at the pressures that were "
+                         "run: the more-static variants of SIZE=fine are to reach it")
     here = int(np.argmax(y >= 0.5))
     if here == 0 or (y[here:] < 0.5).any():
-        raise CannotTell("the particles' K crosses half of the grid's more than once as pressure grows: no threshold")
+        raise CannotTell("the particles' K crosses half of the grid's more than once: no threshold")
     middle = float(np.interp(0.5, y[here - 1:here + 1], np.log(x[here - 1:here + 1])))
     return Measured(float(np.exp(middle)), float(x[here] - x[here - 1])/2)
 
@@ -113,7 +113,8 @@ def sites(variant: str) -> Value:
 
 
 def most_flow(tables: Tables) -> tuple[Point, Measured]:
-    """5000 particles at Ra 2500, started from weak rolls or from the grid's flow: the larger Kg, over the grid's.
+    """5000 particles at Ra 2500, started from weak rolls or from the grid's flow: the larger Kg, over the
+    grid's.
 
     Both are needed: a flow may go on where it does not begin.
     """
@@ -178,7 +179,8 @@ CLAIMS = (
           value=rolls(grid(3000, **DENSE))),
     Claim(id="khp95-freeze-grid-flows", source="KHP95 Sec. IV, Fig. 4", printed="convecting", at_least=10,
           statement="the grid easily gives convecting flows of the dense fluid at Ra 3000: K over its error",
-          value=one("means", "ke/ke_err", err="0", **grid(3000, **DENSE)), because="ten errors away from rest"),
+          value=one("means", "ke/ke_err", err="0", **grid(3000, **DENSE)),
+          because="ten errors away from rest"),
     Claim(id="khp95-freeze-not-ideal", source="KHP95 Sec. IV", printed="good description", at_least=0.5,
           because=FLOWING,
           statement="the ideal gas does not freeze under the conditions of Fig. 4: K of its mean flow over "

@@ -47,7 +47,7 @@ FINISHED = "ke == ke and resolution < inf"      # runs that did not diverge
 def two_solvers(tables: Tables) -> Measured:
     """|K - K| at Ra 10 000 of the limit of grids of 5000 cells at most and of py-pde's, errors added."""
     coarse = rows(tables, "means", "2*resolution**2 <= 5000", **GRIDS)
-    mine, other = fits.grid_limit(coarse["resolution"].to_numpy(), coarse["ke"].to_numpy()), mean(PYPDE)(tables)
+    mine, other = fits.grid_limit(coarse["resolution"], coarse["ke"]), mean(PYPDE)(tables)
     in_time = 2*float(coarse["ke_err"].max())
     return Measured(abs(mine.value - other.value), mine.err + in_time + other.err)
 
@@ -106,7 +106,7 @@ def scatter_refined() -> Value:
 
     def check(tables: Tables) -> None:
         if (calm := coarse(tables).value) < FLUCTUATES:
-            raise CannotTell(f"K scatters by {calm:.1g} on 50 rows: nothing fluctuates that a finer grid calms")
+            raise CannotTell(f"K scatters by {calm:.1g} on 50 rows: nothing fluctuates")
     return guarded(fine/coarse, check)
 
 
@@ -117,8 +117,8 @@ def drift_of_dense() -> Value:
 
     def check(tables: Tables) -> None:
         if (least := change(tables).value) < DRIFTS:
-            raise CannotTell(f'"some of our attempts" diverged: that one run does not (change of K {least:.2g}) is no '
-                             "proof")
+            raise CannotTell('"some of our attempts" diverged: that one run does not (change of K '
+                             f"{least:.2g}) is no proof")
     return guarded(change, check)
 
 
@@ -144,8 +144,8 @@ def refuse_changing(row: pd.Series) -> None:
 
 
 LAST = "half of the last printed digit"
-ALMOST = ('"almost exactly" has no number: 1 %, what Sec. VI says that the fluctuations disguise of the particles '
-          "which the line is there to be compared with")
+ALMOST = ('"almost exactly" has no number: 1 %, what Sec. VI says that the fluctuations disguise of the '
+          "particles which the line is there to be compared with")
 CLAIMS = (
     Claim(id="khp95-ke-5000", source="KHP95 Sec. VI", printed="0.003 40",
           statement="K of the infinitely fine grid, ideal gas, Ra 5000, constant eta", value=limit(5000),

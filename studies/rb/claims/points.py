@@ -40,7 +40,7 @@ def beside_first_order(tables: Tables) -> Measured:
     runs = rows(tables, "kinetic_energy", "ke == ke and resolution < inf", need=5, **point)
     height = runs["resolution"].to_numpy(float)
     if len(set(height)) < 4:
-        raise CannotTell(f"moving points have {len(set(height))} sizes: a fit of three coefficients takes four")
+        raise CannotTell(f"moving points have {len(set(height))} sizes: three coefficients take four")
     fit = fits.polynomial(1/height, runs["ke"], 2, weight=height**2)
     return abs(fit.intercept/limit(RA)(tables) - 1)
 
@@ -69,12 +69,13 @@ def on_plates() -> Iterator[Claim]:
     """Irregular points with Delaunay edges, and rows of points on the plates or mirror images behind them."""
     jittered, random = "points off a lattice by up to 0.3 spacings", "random points half a spacing apart"
     plates, images = "that end on rows of points on the plates", "between mirror images"
-    for name, kind, edges in (("fixed-jittered-plates", jittered, plates), ("fixed-random-plates", random, plates),
+    for name, kind, edges in (("fixed-jittered-plates", jittered, plates),
+                              ("fixed-random-plates", random, plates),
                               ("relaxed-plates", "random points that have moved apart", plates),
                               ("fixed-random-delaunay", random, images)):
-        yield Claim(id=f"rr98-rb-{name}-10000", source=SOURCE, value=error(name), at_most=0.005, because=SCATTER,
-                    statement=f"{kind} with Delaunay edges {edges} converge on the gas: |K/K_grid - 1| at Ra 10000, "
-                              "extrapolated over 1/rows^2")
+        yield Claim(id=f"rr98-rb-{name}-10000", source=SOURCE, value=error(name), at_most=0.005,
+                    statement=f"{kind} with Delaunay edges {edges} converge on the gas: |K/K_grid - 1| at Ra "
+                              "10000, extrapolated over 1/rows^2", because=SCATTER)
 
 
 #: of heating as Eq. 51 has it, both here and on the grid
@@ -83,8 +84,7 @@ ALL_PLAIN = besides(points(RA, "fixed-jittered-plain"), "resolution")
 SCATTER = "0.5 %: sets of points scatter by 0.2 to 0.7 % at these sizes"
 GOAL = ("0.3 % is a tenth of what a wall or a weight changes; the grid's own limit is good to a hundredth of "
         "it")
-PRINTED_GOAL = ("what points that move and conserve are good to: 1.5 % with 40 rows, their goal here, 3 % with "
-                "25")
+PRINTED_GOAL = "what points that move and conserve are good to: 1.5 % with 40 rows, 3 % with 25"
 CONSERVED = "the total mass, total momentum, and total energy are conserved"
 SOURCE, MOVING = "RR98 Secs III, IV", "RR98 Eqs 46-48"
 CLAIMS = (

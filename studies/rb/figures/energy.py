@@ -1,4 +1,4 @@
-"""Kinetic energy against Ra^-1/2 and time: KHP95's Figs 5, 6, 8, and what they share with the README's figure."""
+"""Kinetic energy against Ra^-1/2 and time: KHP95's Figs 5, 6, 8, and what the README's figure shares."""
 from typing import Any
 
 import numpy as np
@@ -33,7 +33,8 @@ from studies.rb.tables import STILL
 Style = dict[str, Any]
 #: how far marks at the same Ra are moved apart, in Ra^-1/2
 ASIDE = 1.5e-4
-SMOOTHED_GRID = {"color": KIND["kg"]["color"], "marker": "", "linestyle": "-.", "lw": 1.5}
+SMOOTHED_GRID: Style = {"color": KIND["kg"]["color"], "marker": "", "linestyle": "-.", "lw": 1.5,
+                        "label": "the grid's field, smoothed like $K_g$"}
 #: a second series of the same kind in one panel
 SECOND = {"linestyle": "--", **OPEN}
 ETA, NU = "constant $\\eta$", "constant $\\nu$"
@@ -52,7 +53,7 @@ def smoothed_grid(axes: Axes, field: pd.DataFrame, limit: pd.DataFrame) -> None:
     """K of the grid's field, smoothed as the particles smooth theirs: what Kg is to be compared with."""
     field = field[(field["ke"] > STILL) & field["ra"].isin(limit["ra"])]
     if len(field):
-        axes.plot(field["ra"]**-0.5, field["ke_smoothed"], label="the grid's field, smoothed like $K_g$", **SMOOTHED_GRID)
+        axes.plot(field["ra"]**-0.5, field["ke_smoothed"], **SMOOTHED_GRID)
 
 
 def grid(axes: Axes, limit: pd.DataFrame, words: str, **more: Any) -> None:
@@ -63,7 +64,7 @@ def grid(axes: Axes, limit: pd.DataFrame, words: str, **more: Any) -> None:
         axes.plot(limit["ra"]**-0.5, limit["ke"], **style | MARKS)
 
 
-def energies(axes: Axes, spam: pd.DataFrame, column: str, words: str, style: Style, aside: float = 0.0) -> None:
+def energies(axes: Axes, spam: pd.DataFrame, column: str, words: str, style: Style, aside=0.0) -> None:
     """An energy of particles by Ra, marks a little to the right; no interval reaches below zero."""
     if spam.empty:
         return
@@ -72,14 +73,14 @@ def energies(axes: Axes, spam: pd.DataFrame, column: str, words: str, style: Sty
     cross_out(axes, x, ke, spam["steady"])
 
 
-def name_frozen(axes: Axes, limit: pd.DataFrame, spam: pd.DataFrame, aside: tuple[float, float] = (-14, 16)) -> None:
-    """A word where the grid convects and the finest particles, started from weak rolls, stand still on a lattice."""
+def name_frozen(axes: Axes, limit: pd.DataFrame, spam: pd.DataFrame, aside=(-14, 16)) -> None:
+    """A word where the grid convects and the finest particles, from weak rolls, stand still on a lattice."""
     both = finest(spam).merge(limit[["ra", "ke"]], on="ra", suffixes=("", "_grid"))
     frozen = both[(both["ke_grid"] > STILL) & (both["ke_field"] < 0.01*both["ke_grid"])]
     line = {"arrowstyle": "-", "lw": 0.6, "shrinkB": 4}
     for ra in frozen["ra"]:
-        axes.annotate("frozen, from weak rolls", (ra**-0.5, 0), xytext=aside, textcoords="offset points", fontsize=8,
-                      ha="right" if aside[0] < 0 else "left", arrowprops=line)
+        axes.annotate("frozen, from weak rolls", (ra**-0.5, 0), xytext=aside, textcoords="offset points",
+                      fontsize=8, ha="right" if aside[0] < 0 else "left", arrowprops=line)
 
 
 def finish(axes: Axes, note: str = "") -> None:
@@ -94,8 +95,8 @@ def finish(axes: Axes, note: str = "") -> None:
 
 
 def fig5(tables: Tables) -> Figure | None:
-    """Kinetic energy K of convection against the Rayleigh number: grid and 5000 particles. Two gases, two transport
-    laws.
+    """Kinetic energy K of convection against the Rayleigh number: grid and 5000 particles. Two gases, two
+    transport laws.
     """
     page, all_axes = figure(1, len(PANELS), width=5, height=4.6, sharex=True, sharey=True)
     for axes, (title, fluids) in zip(all_axes, PANELS):
@@ -123,7 +124,7 @@ def pair(axes: Axes, tables: Tables, scene: dict[str, Any], name: str, aside: fl
 
 
 def fig6(tables: Tables) -> Figure | None:
-    """Kinetic energy in a square box with four walls. Left all particles beside the grid, right the smoothed field."""
+    """Kinetic energy in a box with four walls. Left all particles beside the grid, right their field."""
     limit, spam = reference(tables, **BOX), particles(tables, **BOX)
     if limit.empty or spam.empty:
         return None
@@ -131,14 +132,14 @@ def fig6(tables: Tables) -> Figure | None:
     for axes, (kind, (column, words)) in zip(both, ENERGIES.items()):
         grid(axes, limit, "compressible grid, extrapolated")
         for number, (_, group) in enumerate(reversed(groups(spam, "resolution"))):
-            style = KIND[kind] | (OPEN if number else {}) | {"markersize": 7 - 1.2*number, "zorder": 4 - number}
+            smaller = {"markersize": 7 - 1.2*number, "zorder": 4 - number, **(OPEN if number else {})}
             many = f"{words}, {group['particles'].iloc[0]:.0f} particles"
-            energies(axes, group, column, many, style, ASIDE*number)
+            energies(axes, group, column, many, KIND[kind] | smaller, ASIDE*number)
     smoothed_grid(both[1], seen(tables, **BOX, rows=spam["resolution"].max()), limit)
     name_frozen(both[1], limit, spam, aside=(36, 44))
     from_flow = KIND["from-flow"] | {"markersize": 10, "markerfacecolor": "none", "zorder": 6}
-    energies(both[1], finest(particles(tables, **BOX, **FROM_FLOW)), "ke_field", "$K_g$, started from the grid's flow",
-             from_flow)
+    started = finest(particles(tables, **BOX, **FROM_FLOW))
+    energies(both[1], started, "ke_field", "$K_g$, started from the grid's flow", from_flow)
     both[0].set(ylabel=ENERGY, ylim=(0, 1.1*max([*limit["ke"], *spam["ke"]])))
     for axes in both:
         finish(axes, "; smaller marks: moved right")
@@ -148,7 +149,7 @@ def fig6(tables: Tables) -> Figure | None:
 
 
 def fig8(tables: Tables) -> Figure | None:
-    """Kinetic energy against time while weak rolls grow to steady ones: particles, one line a seed, and the grid."""
+    """Kinetic energy against time while weak rolls grow: particles, one line a seed, and the grid."""
     spam = nearest(rows(tables, "history", **SPAM, **LAYER))
     spam = finest(spam[spam["resolution"] <= 50])     # KHP95's 5000 particles; finer runs keep few samples
     cells = finest(nearest(rows(tables, "history", **GRID, **LAYER)))
@@ -158,10 +159,11 @@ def fig8(tables: Tables) -> Figure | None:
     for kind, (column, words) in ENERGIES.items():
         for number, (_, run) in enumerate(groups(spam, "seed")):
             style = KIND[kind] | {"marker": "", "lw": 0.9, "alpha": 0.8, "linestyle": STROKES[number % 3]}
-            axes.plot(run["t_viscous"], run[column], label="" if number else f"{words}, one line a seed", **style)
+            first = "" if number else f"{words}, one line a seed"
+            axes.plot(run["t_viscous"], run[column], label=first, **style)
     style = KIND["grid"] | {"marker": "", "lw": 2.2}
     axes.plot(cells["t_viscous"], cells["ke"], label="compressible grid", **style)
-    axes.set(title=f"Approach to steady rolls at Ra = {spam['ra'].max():g}, grid and particles    [KHP95, Fig. 8]",
+    axes.set(title=f"Approach to steady rolls at Ra = {spam['ra'].max():g}    [KHP95, Fig. 8]",
              xlabel=r"time  [$L^2/\nu$]; 1 is 5000 in KHP95's units", ylabel=ENERGY, ylim=(0, None))
     axes.legend(loc="upper right")
     return page

@@ -1,4 +1,4 @@
-"""Errors of K and of heat transport against rows over the height: of all methods, of all edges of fixed points."""
+"""Errors of K and of heat transport against rows over the height: of methods, of edges of fixed points."""
 from typing import Any
 
 import numpy as np
@@ -60,8 +60,8 @@ EDGES = {
 
 
 def convergence(tables: Tables) -> Figure | None:
-    """Relative errors of kinetic energy and heat transport against rows over the height, for each method. A dotted
-    line is what smoothing alone takes from the grid.
+    """Relative errors of kinetic energy and heat transport against rows over the height, for each method. A
+    dotted line is what smoothing alone takes from the grid.
     """
     chosen = errors(tables, **LAYER)
     chosen = chosen[of_methods(chosen, METHODS)]
@@ -81,8 +81,8 @@ def convergence(tables: Tables) -> Figure | None:
 
 
 def fixed_points(tables: Tables) -> Figure | None:
-    """Errors of K on points that stay, against rows over the height: lattices above, then points off a lattice. Each
-    line is one kind of edges. Crossed out is also what ended in another number of rolls.
+    """Errors of K on points that stay, against rows over the height: lattices above, then points off a
+    lattice. Each line is one kind of edges. Crossed out is also what ended in another number of rolls.
     """
     chosen = pd.concat([errors(tables, method="dih", energy="Kp", **LAYER), other_flows(tables)])
     gone = diverged(tables, method="dih", **LAYER)
@@ -126,14 +126,16 @@ def other_flows(tables: Tables) -> pd.DataFrame:
 def smoothing(axes: Axes, grid: pd.DataFrame) -> None:
     """1 - K_smoothed/K of the grid's own field: what the weight alone takes away, drawn as a line."""
     if len(grid):
-        axes.plot(grid["rows"], 1 - grid["ke_smoothed"]/grid["ke"], color=KIND["kg"]["color"], marker="", lw=2.5,
-                  ls=":", label=r"$1 - K_\mathrm{smoothed}/K$: the smoothing alone")
+        taken = 1 - grid["ke_smoothed"]/grid["ke"]
+        axes.plot(grid["rows"], taken, color=KIND["kg"]["color"], marker="", lw=2.5, ls=":",
+                  label=r"$1 - K_\mathrm{smoothed}/K$: the smoothing alone")
 
 
 # --- one panel ------------------------------------------------------------------------------------
 
 
-def over_rows(axes: Axes, chosen: pd.DataFrame, keys: dict[Key, Style], gone: pd.DataFrame | None = None) -> None:
+def over_rows(axes: Axes, chosen: pd.DataFrame, keys: dict[Key, Style],
+              gone: pd.DataFrame | None = None) -> None:
     """Errors of each series with its power law; at which rows runs diverged is said in the legend."""
     for key, style in keys.items():
         series = chosen[of_methods(chosen, {key: style})].sort_values("resolution")
@@ -147,7 +149,7 @@ def over_rows(axes: Axes, chosen: pd.DataFrame, keys: dict[Key, Style], gone: pd
 
 
 def powers(axes: Axes, series: pd.DataFrame, words: str, style: Style) -> None:
-    """Errors of one method with the power law through them or, where there is none, the range that they have."""
+    """Errors of one method with the power law through them or, where there is none, their range."""
     n, error, err = (series[name].to_numpy(float) for name in ("resolution", "error", "error_err"))
     line = style | {"marker": "", "lw": 0.8}
     if falling(error):
@@ -162,7 +164,7 @@ def powers(axes: Axes, series: pd.DataFrame, words: str, style: Style) -> None:
 
 
 def falling(error: np.ndarray) -> bool:
-    """Whether three errors or more, of one sign, become smaller from each to the next: others have no power."""
+    """Whether three errors or more, of one sign, become ever smaller: others have no power."""
     one_sign = abs(np.sign(error).sum()) == len(error)
     return bool(len(error) > 2 and one_sign and (np.diff(np.abs(error)) < 0).all())
 
@@ -179,7 +181,7 @@ def signed(axes: Axes, series: pd.DataFrame, words: str, style: Style) -> None:
 
 
 def finish(axes: Axes, title: str, line: pd.DataFrame) -> None:
-    """Logarithmic axes with plain numbers in the range of a line of panels, the legend below; none without data."""
+    """Logarithmic axes in the range of a line of panels, the legend below; a panel without data goes."""
     if not axes.has_data():
         axes.set_visible(False)
         return

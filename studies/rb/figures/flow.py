@@ -32,8 +32,8 @@ def run_of(tables: Tables, name: str, **wanted: Any) -> pd.DataFrame:
 
 
 def fig2_3(tables: Tables) -> Figure | None:
-    """Particles in convection, one instant. Arrows are velocities, open circles what stands behind the plates."""
-    runs = {title: run_of(tables, "particles", method="spam", variant=variant, **LAYER) for variant, title in BEHIND}
+    """Particles in convection, one instant. Arrows are velocities, circles what stands behind the plates."""
+    runs = {title: run_of(tables, "particles", **SPAM | LAYER | {"variant": name}) for name, title in BEHIND}
     runs = {title: run for title, run in runs.items() if len(run)}
     if not runs:
         return None
@@ -47,8 +47,8 @@ def fig2_3(tables: Tables) -> Figure | None:
 
 
 def fig7(tables: Tables) -> Figure | None:
-    """512 particles of a van der Waals gas already roll. Above the particles at one instant, below their smoothed
-    velocities.
+    """512 particles of a van der Waals gas already roll. Above the particles at one instant, below their
+    smoothed velocities.
     """
     runs = rows(tables, "particles", **SPAM, **LAYER | {"eos": "vdw"})
     few = {"particles": runs[runs["resolution"] == runs["resolution"].min()]}
@@ -56,12 +56,12 @@ def fig7(tables: Tables) -> Figure | None:
 
 
 def fig12(tables: Tables) -> Figure | None:
-    """5000 particles in convection. Above the particles at one instant, below their velocities smoothed by the weight."""
+    """5000 particles in convection. Above the particles at one instant, below their smoothed velocities."""
     return two_views(run_of(tables, "particles", **SPAM, **LAYER), "at one instant    [KHP95, Fig. 12]")
 
 
 def two_views(run: pd.DataFrame, title: str) -> Figure | None:
-    """Particles above, below them their velocities of the same instant smoothed by the weight, in the same scale."""
+    """Particles above, below them their velocities of the same instant smoothed by the weight."""
     if run.empty:
         return None
     page, (upper, lower) = figure(2, 1, width=7, height=3.75)
@@ -88,7 +88,7 @@ def heading(run: pd.DataFrame) -> str:
 
 
 def arrow_scale(run: pd.DataFrame) -> float:
-    """Velocity of an arrow as long as L: the fastest 1 % of the particles have arrows longer than two spacings."""
+    """Velocity of an arrow as long as L: arrows of the fastest 1 % are longer than two spacings."""
     at = fluid(run)
     spacing = (np.ptp(at["x"])*np.ptp(at["y"])/len(at))**0.5
     return float(np.quantile(np.hypot(at["vx"], at["vy"]), 0.99)/(2*spacing))
@@ -96,15 +96,15 @@ def arrow_scale(run: pd.DataFrame) -> float:
 
 def arrows(axes: Axes, at: pd.DataFrame, scale: float) -> None:
     """Velocities."""
-    axes.quiver(at["x"], at["y"], at["vx"], at["vy"], color="black", angles="xy", scale_units="xy", scale=scale,
-                width=0.0015, headwidth=4, headlength=5, headaxislength=4.5)
+    axes.quiver(at["x"], at["y"], at["vx"], at["vy"], angles="xy", scale_units="xy", scale=scale,
+                color="black", width=0.0015, headwidth=4, headlength=5, headaxislength=4.5)
 
 
 def behind_plates(axes: Axes, run: pd.DataFrame) -> None:
     """Open circles at fixed and image particles; copies of the periodic sides are left out."""
     behind = (run["kind"] != "fluid") & (run["y"].abs() > 0.5) & (run["x"].abs() <= half_width(run))
-    axes.plot(run["x"][behind], run["y"][behind], "o", markersize=2.2, markerfacecolor="none", markeredgewidth=0.4,
-              color="#D55E00")
+    axes.plot(run["x"][behind], run["y"][behind], "o", markersize=2.2, markerfacecolor="none",
+              markeredgewidth=0.4, color="#D55E00")
 
 
 def half_width(run: pd.DataFrame) -> float:
@@ -122,7 +122,8 @@ def box(axes: Axes, half: float, title: str, scale: float) -> None:
 
 
 def smoothed(run: pd.DataFrame) -> pd.DataFrame:
-    """<v> = sum v w/sum w at the places of Fig. 12, or as many as there are particles; Lucy's weight [KHP95, Sec. II]
+    """<v> = sum v w/sum w at the places of Fig. 12, or as many as there are particles; Lucy's weight [KHP95,
+    Sec. II]
 
     Particles behind plates and sides are in the sums, as in a run.
     """
@@ -142,10 +143,11 @@ def smoothed(run: pd.DataFrame) -> pd.DataFrame:
 
 
 def fig9(tables: Tables) -> Figure | None:
-    """Density (above) and temperature (below) of the steady flow: left the grid, right the mean of the particles. Both
-    sides have the same levels.
+    """Density (above) and temperature (below) of the steady flow: left the grid, right the mean of the
+    particles. Both sides have the same levels.
     """
-    runs = {"grid": run_of(tables, "fields", **GRID, **LAYER), "particles, mean": run_of(tables, "fields", **SPAM, **LAYER)}
+    runs = {"grid": run_of(tables, "fields", **GRID, **LAYER),
+            "particles, mean": run_of(tables, "fields", **SPAM, **LAYER)}
     ras = {ra for run in runs.values() for ra in run["ra"].unique()}
     if len(ras) != 1 or any(run.empty for run in runs.values()):
         return None
@@ -164,7 +166,7 @@ def fig9(tables: Tables) -> Figure | None:
     return page
 
 
-def contours(axes: Axes, run: pd.DataFrame, column: str, levels: np.ndarray) -> Any:
+def contours(axes: Axes, run: pd.DataFrame, column: str, levels: Any) -> Any:
     """Filled contours with lines, which remain in grey."""
     field = run.pivot(index="y", columns="x", values=column)
     drawn = axes.contourf(field.columns, field.index, field, levels)

@@ -42,14 +42,15 @@ STARTS: tuple[Any, ...] = (
 
 
 def main(tables: Tables) -> Figure | None:
-    """Convection of an ideal gas: kinetic energy K of smooth particles beside a converged grid. Below, their errors
-    with more rows of particles, and what is left of the flow near onset.
+    """Convection of an ideal gas: kinetic energy K of smooth particles beside a converged grid. Below, their
+    errors with more rows of particles, and what is left of the flow near onset.
     """
     limit, spam = reference(tables, **LAYER), particles(tables, **LAYER)
     if limit.empty and spam.empty:
         return None
     page = Figure(figsize=(7.4, 8.8), layout="constrained")
-    upper, lower = page.subfigures(2, 1, height_ratios=(3, 2))
+    parts: Any = page.subfigures(2, 1, height_ratios=(3, 2))
+    upper, lower = parts
     whole(upper.subplots(), tables, limit, finest(spam[spam["particles"] <= KHP95_PARTICLES]))
     left, right = lower.subplots(1, 2)
     over_rows(left, errors(tables, method="spam", variant="printed", **LAYER))
@@ -89,17 +90,20 @@ def fitted_line(axes: Axes, limit: pd.DataFrame) -> None:
     axes.annotate(f"onset, linear theory: {RA_C:.0f}", (onset, 0.3), xycoords=("data", "axes fraction"),
                   xytext=(3, 0), textcoords="offset points", rotation=90, ha="left", va="center", fontsize=8)
     zero = -line.coefficients[0]/line.coefficients[1]
-    style = {"color": "0.55", "lw": 5, "alpha": 0.5, "marker": "", "ls": "-", "zorder": 0}
-    axes.plot([last, zero], [line.at(last).value, 0], label=r"line fitted from Ra$_c$ to 4 Ra$_c$, dotted beyond", **style)
+    style: Any = {"color": "0.55", "lw": 5, "alpha": 0.5, "marker": "", "ls": "-", "zorder": 0,
+                  "label": r"line fitted from Ra$_c$ to 4 Ra$_c$, dotted beyond"}
+    axes.plot([last, zero], [line.at(last).value, 0], **style)
     end = limit["ra"].max()**-0.5
-    axes.plot([end, last], [line.at(end).value, line.at(last).value], color="0.4", lw=1.5, marker="", ls=":", zorder=0)
+    beyond = [line.at(end).value, line.at(last).value]
+    axes.plot([end, last], beyond, color="0.4", lw=1.5, marker="", ls=":", zorder=0)
 
 
 def boussinesq(axes: Axes, limit: pd.DataFrame) -> None:
     """K_ff(Ra, Pr = 2)/2: at gamma = 2 half of the gradient is adiabatic and heat travels isobarically."""
     if len(limit):
         style = KIND["boussinesq"] | {"markerfacecolor": "none", "markersize": 8}
-        axes.errorbar(limit["ra"]**-0.5, limit["ke"]/2, limit["ke_err"]/2, label="Boussinesq, Pr = 2, halved", **style)
+        half, err, words = limit["ke"]/2, limit["ke_err"]/2, "Boussinesq, Pr = 2, halved"
+        axes.errorbar(limit["ra"]**-0.5, half, err, label=words, **style)
 
 
 def printed_numbers(axes: Axes) -> None:
@@ -112,7 +116,7 @@ def printed_numbers(axes: Axes) -> None:
 
 
 def over_rows(axes: Axes, chosen: pd.DataFrame) -> None:
-    """Errors of Kp and Kg against rows: at the highest Ra filled and full lines, open and dashed at the others."""
+    """Errors of Kp and Kg against rows: at the highest Ra filled and full, open and dashed at the others."""
     chosen = chosen[chosen["ra"].isin(RA_SHOWN) & (chosen["energy"] != "Nu")]
     for (ra, energy), group in groups(chosen, ["ra", "energy"]):
         more = {"linestyle": "-"} if ra == max(RA_SHOWN) else {**OPEN, "linestyle": "--"}
@@ -120,7 +124,8 @@ def over_rows(axes: Axes, chosen: pd.DataFrame) -> None:
                       label=f"${energy[0]}_{energy[1]}$, Ra {ra:g}", **KIND[energy.lower()] | more)
         cross_out(axes, group["resolution"], 100*group["error"], group["steady"])
     axes.axhline(0, color="black", lw=1, marker="", ls="-", zorder=0)
-    axes.set(ylabel="error  [%]", title="More particles: $K_p$ against $K$,\n$K_g$ against $K$ smoothed likewise")
+    axes.set(ylabel="error  [%]",
+             title="More particles: $K_p$ against $K$,\n$K_g$ against $K$ smoothed likewise")
     rows_axis(axes, chosen["resolution"], ncols=2)
 
 
@@ -136,7 +141,7 @@ def near_onset(axes: Axes, tables: Tables) -> None:
             axes.errorbar(chosen["resolution"], chosen[column], [low, err], label=words, **style)
     field = seen(tables, **scene)
     if len(field):
-        axes.plot(field["rows"], field["ke_smoothed"], label="the grid's field, smoothed like $K_g$", **SMOOTHED_GRID)
+        axes.plot(field["rows"], field["ke_smoothed"], **SMOOTHED_GRID)
     axes.set(yscale="log", ylabel=r"energy per mass  [$\varepsilon/m$]",
              title=f"Near onset, Ra = {NEAR_ONSET}:\nwhat is left of convection")
     rows_axis(axes, [*particles(tables, **scene)["resolution"], *field["rows"]])

@@ -6,4 +6,6 @@ import pandas as pd
 
 def table_rows(key: dict[str, Any], **columns: Any) -> list[dict[str, Any]]:
     """Rows of a table that have one key, from columns of the same length."""
-    return [{**key, **row} for row in pd.DataFrame(columns).to_dict("records")]
+    frame = pd.DataFrame(columns)
+    values = frame.itertuples(index=False, name=None)
+    return [{**key, **dict(zip(columns, row, strict=True))} for row in values]

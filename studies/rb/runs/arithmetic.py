@@ -1,4 +1,4 @@
-"""Numbers that need no flow: printed ones beside each other, equations of state, weights, a few particles    [KHP95]"""
+"""Numbers that need no flow: printed ones, equations of state, weights, a few particles    [KHP95]"""
 from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import product
@@ -85,7 +85,7 @@ def velocity_error(ra: int) -> Measured:
 
 
 def zero_of_pair() -> Measured:
-    """Ra where the line in Ra^-1/2 through both printed grid energies is zero; error from rounding of both."""
+    """Ra where the line in Ra^-1/2 through both printed grid energies is zero; error from rounding."""
     (a, k), (b, q) = ((ra**-0.5, published(f"khp95-ke-{ra}")) for ra in (5000, 10000))
 
     def zero(low: float = 0.0, high: float = 0.0) -> float:
@@ -160,7 +160,7 @@ def imbalance(eos: Any) -> float:
 
 
 def energy_by_volume() -> float:
-    """(dE/dV)_T = -rho^2 (de/drho)_T of the dense fluid; e is quadratic, so that wide differences are exact."""
+    """(dE/dV)_T = -rho^2 (de/drho)_T of the dense fluid; e is quadratic: wide differences are exact."""
     return -float(energy(DENSE, 1.5, 1.0) - energy(DENSE, 0.5, 1.0))
 
 
@@ -176,7 +176,7 @@ def wall_mismatch() -> float:
 
 
 def critical_slopes(step: float = 1e-4) -> float:
-    """Largest of dP/drho and d2P/drho2 along the printed critical isotherm at the printed critical density."""
+    """Largest of dP/drho and d2P/drho2 along the critical isotherm at the critical density, as printed."""
     rho, T = number("vdw-critical-density"), number("vdw-critical-temperature")
     P = [pressure(VDW, r, energy(VDW, r, T)) for r in (rho - step, rho, rho + step)]
     first, second = (P[2] - P[0])/(2*step), (P[2] - 2*P[1] + P[0])/step**2
@@ -213,7 +213,7 @@ def weights() -> Numbers:
     """The two weights as printed, and lattices summed with them: of both the worse, or the lesser energy."""
     jumps = [jump for weight in BOTH for order in (0, 1, 2) for jump in weight.jumps(order)]
     at_range = [weight.pieces[-1][1].deriv(order)(RANGE) for weight in BOTH for order in (1, 2)]
-    apart = RANGE**2*sqrt(3)/2      # particles a site of a hexagonal lattice whose sites are a whole range apart
+    apart = RANGE**2*sqrt(3)/2      # particles a site of a hexagonal lattice with sites a range apart
     crowded = [density(weight, "hexagonal", apart)/least(weight, "hexagonal")[0] for weight in BOTH]
     square = [least(weight, "square")[0]/least(weight, "hexagonal")[0] for weight in BOTH]
     return {

@@ -147,7 +147,7 @@ def end(seed: int, steps: int, **law) -> np.ndarray:
 
 
 def order(error: Errors, steps: tuple[int, ...], **law) -> Measured:
-    """Slope of log error against log dt, mean over starts; `error` gets the start and the ends for all steps."""
+    """Slope of log error against log dt, mean over starts; `error` gets the start and all ends."""
     orders = []
     for seed in SEEDS:
         errors = error(start(seed), [end(seed, n, **law) for n in steps])
@@ -157,7 +157,7 @@ def order(error: Errors, steps: tuple[int, ...], **law) -> Measured:
 
 
 def against_midpoint() -> Measured:
-    """Error of the state by Runge-Kutta of order 4, dt = 0.4, over that of order 2 with as many evaluations."""
+    """Error of Runge-Kutta of order 4, dt = 0.4, over that of order 2 with as many evaluations."""
     ratios = []
     for seed in SEEDS:
         true, fourth = end(seed, SMALL[-1], eta=0.3), end(seed, AS_RUN, eta=0.3)

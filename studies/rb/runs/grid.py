@@ -18,6 +18,8 @@ from studies.kit.case import Case, Outcome, Report
 from studies.kit.timing import compile_and_run_seconds
 from studies.rb.runs import table_rows
 
+#: columns that solutions have, too
+SAME = ("mass_drift", "converged", "dt", "steps", "cpu_s", "compile_s")
 STILL = 1e-8        # K of a grid at rest, whose rolls would be those of round-off
 
 
@@ -33,19 +35,19 @@ def no_particles(free_fall: float) -> dict:
 
 def boussinesq_point(method: str, variant: str, ra: float, pr: float) -> dict:
     """Columns that all Boussinesq rows share; their state is steady to round-off."""
-    return {"method": method, "variant": variant, "eos": "", "transport": "", "sides": "periodic", "ra": ra, "pr": pr,
-            **no_particles(1.0), "mass_drift": 0.0, "converged": True, "dt": 0.0, "t_end": 0.0}
+    return {"method": method, "variant": variant, "eos": "", "transport": "", "sides": "periodic", "ra": ra,
+            "pr": pr, **no_particles(1.0), "mass_drift": 0.0, "converged": True, "dt": 0.0, "t_end": 0.0}
 
 
 def spent(solution: Any) -> dict:
     """Columns of energy and effort of a solution in time.
 
-    What is left of settling in Nu is in proportion to that in K; the error of the grid shows in the extrapolation.
+    What is left of settling in Nu is in proportion to that in K; the error of the grid shows in the
+    extrapolation.
     """
     left = 2*solution.ke_err/solution.ke*solution.nu if solution.ke > 1e-9 else 0.0
     return {**one_energy(solution.ke, 2*solution.ke_err), "nu": solution.nu, "nu_err": float(left),
-            "mass_drift": solution.mass_drift, "converged": solution.converged, "dt": solution.dt,
-            "steps": solution.steps, "t_end": solution.t, "cpu_s": solution.cpu_s, "compile_s": solution.compile_s}
+            "t_end": solution.t, **{name: getattr(solution, name) for name in SAME}}
 
 
 def field_rows(key: dict, scene: RayleighBenard, grid: Grid, at: Any) -> list[dict]:
@@ -94,15 +96,16 @@ class CompressibleSteady(Refined):
     def run(self, report: Report, folder: Path) -> Outcome:
         first = beginning(self.scene, self.sizes[0], self.form)
         until = Steady(rtol=self.rtol, longest=self.longest)
-        solutions = steady_on(self.scene, self.sizes, start=first, continuity=self.form.continuity, until=until,
-                              progress=report)
+        solutions = steady_on(self.scene, self.sizes, start=first, until=until, progress=report,
+                              continuity=self.form.continuity)
         finest = solutions[-1].fields
         point = compressible(self.scene, self.sizes[-1], self.form.name)
         rows = {"kinetic_energy": [self._row(one) for one in solutions],
                 "smoothed": list(smoothed_rows(point, finest, self.smooth))}
         if self.keep:
-            grid = Grid.over((self.scene.width, self.scene.L), 30)      # the places where particles' fields are kept
-            rows["fields"] = field_rows({**point, "seed": 0}, self.scene, grid, interpolate(finest, grid.x, grid.y))
+            grid = Grid.over((self.scene.width, self.scene.L), 30)      # where particles' fields are kept
+            at = interpolate(finest, grid.x, grid.y)
+            rows["fields"] = field_rows({**point, "seed": 0}, self.scene, grid, at)
         return Outcome(rows)
 
     def _row(self, solution: Solution) -> dict:
@@ -130,7 +133,8 @@ class CompressibleApproach(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         scene = self.scene
         until = Time(self.t_end*scene.L/scene.free_fall, 300)
-        solution = run(scene, self.rows, until=until, start=initial(scene, self.rows, START_ENERGY), progress=report)
+        start = initial(scene, self.rows, START_ENERGY)
+        solution = run(scene, self.rows, until=until, start=start, progress=report)
         t, ke = solution.series.t, solution.series.ke
         key = {**compressible(scene, self.rows, "flux-form"), "seed": 0}
         return Outcome({"history": table_rows(key, t=t, t_viscous=t/scene.viscous_time, ke=ke, ke_field=ke)})
@@ -159,8 +163,9 @@ class BoussinesqSteady(Refined):
         state: boussinesq.State | None = None
         for size in self.sizes:
             case = boussinesq.Case(ra=self.ra, pr=self.pr, box=boussinesq.HALF_LAYER, rows=size)
-            state, compile_s, cpu_s = compile_and_run_seconds(partial(boussinesq.steady, case, state))
-            rows.append({**self._row(state), "resolution": size, "cpu_s": cpu_s, "compile_s": compile_s})
+            steady, compile_s, cpu_s = compile_and_run_seconds(partial(boussinesq.steady, case, state))
+            state = steady
+            rows.append({**self._row(steady), "resolution": size, "cpu_s": cpu_s, "compile_s": compile_s})
             report(len(rows)/len(self.sizes))
         return Outcome({"kinetic_energy": rows})
 

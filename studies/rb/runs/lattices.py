@@ -1,7 +1,7 @@
 """The two weights as KHP95 print them (Sec. II), and lattices of particles summed with them.
 
-Lengths in sigma, mass 1 a particle, density 1. `particles.weights` normalises its weights by quadrature. Here the
-printed factors stand, so that they can be judged.
+Lengths in sigma, mass 1 a particle, density 1. `particles.weights` normalises its weights by quadrature. Here
+the printed factors stand, so that they can be judged.
 """
 from typing import NamedTuple
 
@@ -37,7 +37,7 @@ class Printed(NamedTuple):
         return float(total)
 
     def jumps(self, order: int) -> list[float]:
-        """Jumps of the derivative of that order at the ends of the pieces, over w(0); at r = 0 the slope itself."""
+        """Jumps of the derivative of that order at the ends of the pieces, over w(0); at r = 0 the slope."""
         slopes = [piece.deriv(order) if order else piece for _, piece in self.pieces]
         slopes.append(Polynomial([0.0]))
         ends = [end for end, _ in self.pieces]
@@ -71,7 +71,8 @@ def density(weight: Printed, kind: str, per_site: float = 1.0, h: float = RANGE)
 def shear_modulus(weight: Printed, kind: str, h: float, angle: float, step: float = 1e-3) -> float:
     """Shear over bulk modulus of the ideal gas on a lattice turned by an angle, by differences of three sums.
 
-    At constant area only the sum of the density changes: G = P d2(rho)/d(gamma)^2, B = rho c^2 = 2 P, gamma = 2 step.
+    At constant area only the sum of the density changes: G = P d2(rho)/d(gamma)^2, B = rho c^2 = 2 P, gamma =
+    2 step.
     """
     cos, sin = np.cos(angle), np.sin(angle)
     turn = np.array([[cos, sin], [-sin, cos]])

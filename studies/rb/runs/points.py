@@ -28,7 +28,7 @@ DIVERGED = {**dict.fromkeys((*VALUES, "cpu_s"), np.nan), "rolls": 0, "converged"
 
 @dataclass(frozen=True, kw_only=True)
 class PointsRun(Case):
-    """One run of a variant until t_end, in free-fall times; a run that diverges leaves a row without values."""
+    """One run of a variant until t_end, in free-fall times; one that diverges leaves a row without values."""
     scene: RayleighBenard
     seed: int = 1
     t_end: float
@@ -65,8 +65,8 @@ class PointsRun(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         ready, steps, done = followed(self.scene, self.variant, self.seed, self.t_end, self.often, report,
                                       folder/"run.h5")
-        row = {**self.point, "particles": self.points, "free_fall": self.scene.free_fall, "threads": 1, "dt": ready.dt,
-               "steps": steps, "t_end": steps*ready.dt}
+        row = {**self.point, "particles": self.points, "free_fall": self.scene.free_fall, "threads": 1,
+               "dt": ready.dt, "steps": steps, "t_end": steps*ready.dt}
         if done is None:
             return Outcome({"kinetic_energy": [row | DIVERGED]})
         values = {**self.energies(done), "cpu_s": done.cpu_s, "compile_s": done.compile_s}
@@ -108,7 +108,8 @@ class DihRun(PointsRun):
     def energies(self, done: Run) -> dict:
         """The last ones."""
         end = ended(self.scene, done)
-        return {**one_energy(end.ke, end.ke_err), "nu": end.nu, "nu_err": end.nu_err, "converged": end.converged}
+        return {**one_energy(end.ke, end.ke_err), "nu": end.nu, "nu_err": end.nu_err,
+                "converged": end.converged}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -161,4 +162,5 @@ class DriftRun(AveragedRun):
         if self.seed != 1:
             return {}
         t, ke = np.array(done.times)[::OFTEN], np.array(done.series["ke"])[::OFTEN]
-        return {"history": table_rows(self.point, t=t, t_viscous=t/self.scene.viscous_time, ke=ke, ke_field=ke)}
+        viscous = t/self.scene.viscous_time
+        return {"history": table_rows(self.point, t=t, t_viscous=viscous, ke=ke, ke_field=ke)}

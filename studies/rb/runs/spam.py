@@ -1,4 +1,4 @@
-"""One run of smooth particles in the layer or the box, as a case, and what a step costs    [KHP95, Secs IV-VI]"""
+"""One run of smooth particles in the layer or the box, as a case    [KHP95, Secs IV-VI]"""
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -26,10 +26,10 @@ RECORDS = 8            # a time L/free_fall
 class SpamRun(Case):
     """One run of smooth particles.
 
-    scene : with L = particle rows over the height (unit spacing). t_end, mean_from : in free-fall times L/free_fall,
-    averages are taken after `mean_from`. keep : "" for energies only, "history" for K(t) in detail, "fields" for the
-    mean fields besides, "all" for the particles at the end besides. A run that diverges is a result: its row has no
-    energies and the time of the failure.
+    scene : with L = particle rows over the height (unit spacing). t_end, mean_from : in free-fall times
+    L/free_fall, averages are taken after `mean_from`. keep : "" for energies only, "history" for K(t) in
+    detail, "fields" for the mean fields besides, "all" for the particles at the end besides. A run that
+    diverges is a result: its row has no energies and the time of the failure.
     """
     scene: RayleighBenard
     variant: Variant = PRINTED
@@ -58,7 +58,8 @@ class SpamRun(Case):
     @property
     def label(self) -> str:
         eos = scene_columns(self.scene)["eos"]
-        return f"spam {self.variant.name} {eos} Ra {self.scene.ra:g}, {self.particles} particles, seed {self.seed}"
+        name, ra = self.variant.name, self.scene.ra
+        return f"spam {name} {eos} Ra {ra:g}, {self.particles} particles, seed {self.seed}"
 
     @property
     def point(self) -> dict:
@@ -72,7 +73,7 @@ class SpamRun(Case):
         return Grid.over((self.scene.width, self.scene.L), min(30, round(self.scene.L)))
 
     def plan(self, folder: Path) -> Plan:
-        """Steps, a fraction of the stability limit at the temperatures of the plates, and what is recorded."""
+        """Steps, a fraction of the limit at the temperatures of the plates, and what is recorded."""
         dt = step(self.scene, self.variant)
         return Plan(dt=dt, steps=round(self.t_end*self.unit/dt), mean_from=self.mean_from*self.unit,
                     series=self.variant.series, means={"grid": self.grid, "walls": wall_layers},
@@ -84,8 +85,8 @@ class SpamRun(Case):
             done = run(chosen, start, plan, report)
         except Divergence as error:
             return Outcome({"kinetic_energy": [self.row(plan.dt, error.step) | DIVERGED]})
-        rows = {"kinetic_energy": [self.row(plan.dt, plan.steps) | self.energies(done)], "walls": self.walls(done),
-                "history": self.history(done)}
+        row = self.row(plan.dt, plan.steps) | self.energies(done)
+        rows = {"kinetic_energy": [row], "walls": self.walls(done), "history": self.history(done)}
         if self.keep in ("fields", "all"):
             rows["fields"] = field_rows(self.point, self.scene, self.grid, Smoothed(*done.means["grid"]))
         if self.keep == "all":
@@ -94,19 +95,21 @@ class SpamRun(Case):
 
     def row(self, dt: float, steps: int) -> dict:
         """Of `kinetic_energy`, but for the energies."""
-        return {**self.point, "particles": self.particles, "free_fall": self.scene.free_fall, "mass_drift": 0.0,
-                "threads": 1, "dt": dt, "steps": steps, "t_end": steps*dt}
+        return {**self.point, "particles": self.particles, "free_fall": self.scene.free_fall,
+                "mass_drift": 0.0, "threads": 1, "dt": dt, "steps": steps, "t_end": steps*dt}
 
     def energies(self, done: Run) -> dict:
         """Means of K, of its parts, and of Nu."""
-        (kp, steady), (kg, too), (heat, _) = (settled(self.late(done, name), HALVES) for name in ("kp", "kg", "heat"))
+        late = [self.late(done, name) for name in ("kp", "kg", "heat")]
+        (kp, steady), (kg, too), (heat, _) = (settled(series, HALVES) for series in late)
         at = Smoothed(*done.means["grid"])
         periodic = isinstance(self.scene.sides, Periodic)
         flow = flowing({"rho": at.rho, "vx": at.vx, "vy": at.vy}, periodic)
-        return {"ke": kp.value, "ke_err": kp.err, "ke_field": kg.value, "ke_field_err": kg.err, "ke_mean": flow.value,
-                "ke_mean_err": flow.err, "ke_fluctuation": kp.value - kg.value, "nu": heat.value/self.conduction,
-                "nu_err": heat.err/self.conduction, "rolls": turns(self.scene, at.vy), "converged": steady and too,
-                "cpu_s": done.cpu_s, "compile_s": done.compile_s}
+        return {"ke": kp.value, "ke_err": kp.err, "ke_field": kg.value, "ke_field_err": kg.err,
+                "ke_mean": flow.value, "ke_mean_err": flow.err, "ke_fluctuation": kp.value - kg.value,
+                "nu": heat.value/self.conduction, "nu_err": heat.err/self.conduction,
+                "rolls": turns(self.scene, at.vy), "converged": steady and too, "cpu_s": done.cpu_s,
+                "compile_s": done.compile_s}
 
     @property
     def conduction(self) -> float:

@@ -38,12 +38,12 @@ class SpamStep(Case):
         method, start, dt = self.variant.ready(self.scene)
         warm, particles = run(method, start, Plan(dt=dt, steps=50)), start.shape[1]
         steps = max(10, round(40000/particles))
-        # the difference of two lengths leaves out what every run pays once: lists, first evaluation, step limit
-        short, long = (median_seconds(partial(run, method, warm.state, Plan(dt=dt, steps=n)), REPEATS, process_time)
-                       for n in (steps, 3*steps))
+        # the difference of two lengths leaves out what every run pays once: lists, first evaluation, limit
+        runs = [partial(run, method, warm.state, Plan(dt=dt, steps=n)) for n in (steps, 3*steps)]
+        short, long = (median_seconds(one, REPEATS, process_time) for one in runs)
         seconds = Seconds(long.median - short.median, float(np.hypot(long.spread, short.spread)))
-        return Outcome({"cost": [{"method": "spam", "variant": self.variant.name, "resolution": round(self.scene.L),
-                                  **of_step(self.scene, particles, dt, seconds, 2*steps)}]})
+        point = {"method": "spam", "variant": self.variant.name, "resolution": round(self.scene.L)}
+        return Outcome({"cost": [{**point, **of_step(self.scene, particles, dt, seconds, 2*steps)}]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,8 +66,8 @@ class CompressibleStep(Case):
         march = March(self.scene, cells, FluxForm(), choose_step(self.scene, cells, None))
         steps, points = max(10, 400000//self.rows**2), self.rows**2*round(self.scene.aspect)
         seconds = median_seconds(partial(march.go, steps), REPEATS, process_time)
-        return Outcome({"cost": [{"method": "compressible", "variant": "flux-form", "resolution": self.rows,
-                                  **of_step(self.scene, points, march.dt, seconds, steps)}]})
+        point = {"method": "compressible", "variant": "flux-form", "resolution": self.rows}
+        return Outcome({"cost": [{**point, **of_step(self.scene, points, march.dt, seconds, steps)}]})
 
 
 def of_step(scene: RayleighBenard, points: int, dt: float, seconds: Seconds, steps: int) -> dict:
