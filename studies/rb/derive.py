@@ -114,17 +114,14 @@ def step_changes(runs: pd.DataFrame) -> pd.DataFrame:
 
 
 def step_change(changes: pd.DataFrame, row: dict[str, Any]) -> pd.Series:
-    """That of the next coarser resolution of the same fluid and box, or else of any; none for grids and fixed
-    points.
-
-    Steady states of grids do not depend on the step.
-    """
+    """That of the next coarser resolution of the same fluid and box, or else of any; none for grids and points."""
     coarser = changes[changes["resolution"] <= float(row["resolution"])]
     alike = coarser[(coarser["eos"] == row["eos"]) & (coarser["sides"] == row["sides"])]
     chosen = alike if len(alike) else coarser
     if row["method"] != "spam" or chosen.empty:
         return pd.Series(0.0, ENERGIES)
-    return chosen.loc[chosen["resolution"].idxmax(), ENERGIES]
+    finest_first = chosen.sort_values("resolution", ascending=False, kind="stable")
+    return finest_first[ENERGIES].iloc[0]
 
 
 # --- errors and costs -----------------------------------------------------------------------------

@@ -25,16 +25,17 @@ def with_err(*names: str) -> list[str]:
 KINETIC = Table("kinetic_energy", key=RUN, columns=[
     *POINT, "particles", "seed", *with_err("ke", "ke_field", "ke_mean"), "ke_fluctuation", *with_err("nu"),
     "rolls", "free_fall", "mass_drift", "converged", "dt", "steps", "t_end", "cpu_s", "compile_s", "threads"])
-#: means over the `seeds` that settled in the commonest number of rolls: the error is the larger of those within
-#: runs and between seeds, and twice what half of the time step changes; `mixed` counts seeds that ended in other
-#: rolls
+#: means over the `seeds` that settled in the commonest number of rolls: the error is the larger of those
+#: within runs and between seeds, and twice what half of the time step changes; `mixed` counts seeds that
+#: ended in other rolls
 MEANS = Table("means", key=POINT, columns=[
     *POINT, "particles", "seeds", "mixed", *with_err("ke", "ke_field", "ke_mean"), "ke_fluctuation",
     *with_err("nu"), "rolls"])
 #: approach to the steady state [KHP95, Fig. 8]; t in units of time, not L^2/eta
 HISTORY = Table("history", key=[*RUN, "t"], columns=[*RUN, "t", "t_viscous", "ke", "ke_field"],
                 digits={"t_viscous": ".6g", "ke": ".8g", "ke_field": ".8g"}, once=[*RUN, *STAMP])
-#: steady fields on KHP95's 30 x 60 places [Figs 9, 12]; x, y in units of L; particles: means over the second half
+#: steady fields on KHP95's 30 x 60 places [Figs 9, 12]; x, y in units of L; particles: means over the second
+#: half
 FIELDS = Table("fields", key=[*RUN, "x", "y"], columns=[*RUN, "x", "y", "rho", "T", "vx", "vy"],
                digits={"x": ".4f", "y": ".4f", "rho": ".5f", "T": ".5f", "vx": ".6f", "vy": ".6f"},
                once=[*RUN, *STAMP])
@@ -47,21 +48,21 @@ WALLS = Table("walls", key=[*RUN, "plate"], columns=[
     *RUN, "plate", "T_wall", "T_layer", "rho_layer", "reflections", *with_err("nu_plate")])
 #: seconds of a step, measured alone
 COST = Table("cost", key=STEP, columns=[*STEP, "points", *with_err("step_s"), "dt", "threads"])
-#: error against cost, derived; energy Kp: of all particles against the grid, Kg: smoothed against the grid smoothed
-#: alike, Nu: the Nusselt number (then ke, reference are Nusselt numbers)
+#: error against cost, derived; energy Kp: of all particles against the grid, Kg: smoothed against the grid
+#: smoothed alike, Nu: the Nusselt number (then ke, reference are Nusselt numbers)
 ERRORS = Table("errors", key=[*POINT, "energy"], columns=[
     *POINT, "energy", "particles", *with_err("ke", "reference", "error"), "cpu_s"])
 #: K of the finest grid's field, and smoothed with a weight of range h spacings, `rows` of them a height
 SMOOTHED = Table("smoothed", key=[*POINT, "weight", "h", "rows"],
                  columns=[*POINT, "weight", "h", "rows", "ke", "ke_smoothed"])
-#: of the particles at the end, first seed: mean number of neighbours in range, first peak of g(r), median of second
-#: over first neighbour distance, particles a site, largest v^2, correlation of accelerations with those of the
-#: potential 2 w
+#: of the particles at the end, first seed: mean number of neighbours in range, first peak of g(r), median of
+#: second over first neighbour distance, particles a site, largest v^2, correlation of accelerations with
+#: those of the potential 2 w
 SNAPSHOTS = Table("snapshots", key=POINT, columns=[
     *POINT, *with_err("neighbours", "spacing", "pairing"), "occupancy", "fastest", *with_err("newtonian")])
-#: mean fields of particles against the finest grid's, rolls aligned: rms difference over places, of velocity over
-#: the rms velocity, of T and rho over the range of the grid's; rho along the plates, seen by the weight and counted
-#: in a layer
+#: mean fields of particles against the finest grid's, rolls aligned: rms difference over places, of velocity
+#: over the rms velocity, of T and rho over the range of the grid's; rho along the plates, seen by the weight
+#: and counted in a layer
 FIELD_ERRORS = Table("field_errors", key=POINT, columns=[
     *POINT, *with_err("velocity", "T", "rho", "rho_plates", "rho_layer")])
 #: numbers that need no flow

@@ -74,8 +74,8 @@ def losses(variant: str) -> Value:
         number = turns(tables)
         if number.value > 0:
             turned = f"turned particles back, {number.value:.2g} times a particle and run"
-            raise CannotTell(f"the elastic wall {turned}; but a turn is no loss: a particle beyond the plate may "
-                             "come back by itself, and no run here goes without it")
+            raise CannotTell(f"the elastic wall {turned}; but a turn is no loss: a particle beyond the plate "
+                             "may come back by itself, and no run here goes without it")
         return number
     return Value(answer, str(turns), turns.asks)
 

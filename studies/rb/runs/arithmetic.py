@@ -40,10 +40,6 @@ class WithoutFlow(Case):
     numbers: Callable[[], Numbers]
 
     @property
-    def label(self) -> str:
-        return f"arithmetic of {self.numbers.__name__}"
-
-    @property
     def cost(self) -> float:
         return 15.0
 

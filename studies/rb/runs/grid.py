@@ -126,10 +126,6 @@ class CompressibleApproach(Case):
     def cost(self) -> float:
         return 4e-5*self.rows**3*self.t_end/90 + 3
 
-    @property
-    def label(self) -> str:
-        return f"compressible approach Ra {self.scene.ra:g}, rows {self.rows}"
-
     def run(self, report: Report, folder: Path) -> Outcome:
         scene = self.scene
         until = Time(self.t_end*scene.L/scene.free_fall, 300)
@@ -153,10 +149,6 @@ class BoussinesqSteady(Refined):
     @property
     def cost(self) -> float:
         return sum(6e-5*rows**2 for rows in self.sizes)
-
-    @property
-    def label(self) -> str:
-        return f"boussinesq Ra {self.ra:g}, Pr {self.pr:g}, rows {self.sizes}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
         rows: list[dict] = []
@@ -187,11 +179,6 @@ class PypdeSteady(Refined):
     @property
     def cost(self) -> float:
         return sum(5 + 6e-5*rows**3 for rows in self.sizes)
-
-    @property
-    def label(self) -> str:
-        fluid = "boussinesq" if self.scene is None else "gas"
-        return f"py-pde {fluid} Ra {self.ra:g}, Pr {self.pr:g}, rows {self.sizes}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
         rows: list[dict] = []

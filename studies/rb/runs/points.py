@@ -6,13 +6,12 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from continuum.fluid import ConstEta
 from continuum.scene import RayleighBenard
 from particles.run import Run
 from studies.build.fixed import SCHEMES, Scheme
 from studies.build.measure import ended, followed, heat_at_rest, rolls
 from studies.build.moving import MOTIONS, Motion
-from studies.build.names import HALVES, TRANSPORT_NAMES, VALUES, one_energy, scene_columns
+from studies.build.names import HALVES, VALUES, one_energy, scene_columns
 from studies.build.rr98_moving import DRIFT_MOTIONS, DriftMotion
 from studies.build.setting import Ready, check_spacings
 from studies.kit.case import Case, Outcome, Report
@@ -49,12 +48,6 @@ class PointsRun(Case):
     @property
     def points(self) -> int:
         return round(self.scene.width)*round(self.scene.L)
-
-    @property
-    def label(self) -> str:
-        law = self.scene.transport
-        named = "" if law is ConstEta else f", {TRANSPORT_NAMES[law.__name__]}"
-        return f"dih {self.variant.name} Ra {self.scene.ra:g}{named}, {self.points} points, seed {self.seed}"
 
     @property
     def point(self) -> dict:

@@ -56,12 +56,6 @@ class SpamRun(Case):
         return steps*4*self.particles*230e-9*(self.variant.h/3)**2 + 2
 
     @property
-    def label(self) -> str:
-        eos = scene_columns(self.scene)["eos"]
-        name, ra = self.variant.name, self.scene.ra
-        return f"spam {name} {eos} Ra {ra:g}, {self.particles} particles, seed {self.seed}"
-
-    @property
     def point(self) -> dict:
         """Key columns of every row."""
         return {"method": "spam", "variant": self.variant.name, **scene_columns(self.scene),

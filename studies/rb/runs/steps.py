@@ -26,11 +26,6 @@ class SpamStep(Case):
     alone: ClassVar[bool] = True
 
     @property
-    def label(self) -> str:
-        eos = scene_columns(self.scene)["eos"]
-        return f"seconds of a step, spam {self.variant.name} {eos}, {self.scene.L:g} rows"
-
-    @property
     def cost(self) -> float:
         return 32*max(40000, 10*self.scene.L**2*self.scene.aspect)*4*300e-9 + 4
 
@@ -52,10 +47,6 @@ class CompressibleStep(Case):
     scene: RayleighBenard
     rows: int
     alone: ClassVar[bool] = True
-
-    @property
-    def label(self) -> str:
-        return f"seconds of a step, compressible {scene_columns(self.scene)['eos']}, {self.rows} rows"
 
     @property
     def cost(self) -> float:
