@@ -4,7 +4,7 @@ import pandas as pd
 import pytest
 
 from studies.kit.table import Tables
-from studies.rb.derive import HALF, derive, over_seeds
+from studies.rb.derive import HALF, derive, extrapolated, over_seeds
 from studies.rb.tables import POINT
 
 AT = {"eos": "ideal", "transport": "const-eta", "sides": "periodic", "ra": 1e4, "pr": 1.0}
@@ -72,7 +72,7 @@ def endless(value, seeds):
     """(limit, error) of points whose K with so many rows is value(rows, seed)."""
     runs = [spam(rows, seed, value(rows, seed), method="dih", variant="fixed", ke_err=0.0, nu_err=0.0, free_fall=1.0, threads=1,
                  compile_s=0.0) for rows in (25, 40, 50, 64) for seed in seeds]
-    [row] = derive(Tables(kinetic_energy=pd.DataFrame(runs)))["kinetic_energy"]
+    [row] = extrapolated(pd.DataFrame(runs))
     assert row["resolution"] == np.inf and row["seed"] == 0
     return row["ke"], row["ke_err"]
 
