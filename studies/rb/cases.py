@@ -23,10 +23,15 @@ from studies.rb import tables
 from studies.rb.claims import RB_CLAIMS
 from studies.rb.derive import derive
 from studies.rb.figures import figures
-from studies.rb.runs.grid import BoussinesqSteady, CompressibleApproach, CompressibleSteady, PypdeSteady
+from studies.rb.runs.grid import (
+    BoussinesqSteady,
+    CompressibleApproach,
+    CompressibleSteady,
+    CompressibleStep,
+    PypdeSteady,
+)
 from studies.rb.runs.points import DihRun, DriftRun, MovingRun
-from studies.rb.runs.spam import SpamRun
-from studies.rb.runs.steps import CompressibleStep, SpamStep
+from studies.rb.runs.spam import SpamRun, SpamStep
 
 LAYER: dict[str, Any] = {"aspect": 2.0, "sides": Periodic()}     # Fig. 5
 BOX: dict[str, Any] = {"aspect": 1.0, "sides": Walls()}          # Fig. 6
