@@ -25,7 +25,8 @@ class Symbols(NamedTuple):
     rho: float
     S: np.ndarray
     D: np.ndarray
-    k2: dict[type, np.ndarray]
+    nested: np.ndarray
+    direct: np.ndarray
 
 
 @singledispatch
@@ -66,8 +67,8 @@ def lattice_sums(weight: Any, m: float, rho: float, k: np.ndarray) -> Symbols:
     S, slow = np.sin(phase)@(n*(r*f)[:, None]), 1 - np.cos(phase)
     hessian = f[:, None, None]*np.eye(2) + (curvature - f)[:, None, None]*n[:, :, None]*n[:, None, :]
     rho = m*(w.sum() + value_and_slope(weight, 0.0)[0])
-    return Symbols(rho, S, np.einsum("kr,rab->kab", slow, hessian),
-                   {Nested: (m/rho)**2*(S**2).sum(axis=1), Direct: 2*m/rho*(slow@-f)})
+    D = np.einsum("kr,rab->kab", slow, hessian)
+    return Symbols(rho, S, D, nested=(m/rho)**2*(S**2).sum(axis=1), direct=2*m/rho*(slow@-f))
 
 
 def _derivatives(weight, r: float) -> tuple[float, float, float]:
@@ -79,7 +80,8 @@ def _derivatives(weight, r: float) -> tuple[float, float, float]:
 
 def waves(method: Spam, symbols: Symbols, e: float) -> np.ndarray:
     """Eigenvalues of the linearised method, (k, 5): exp(lambda t)."""
-    rho, S, D, k2 = symbols.rho, symbols.S, symbols.D, symbols.k2[method.transport or Nested]
+    rho, S, D, nested, direct = symbols
+    k2 = {Nested: nested, Direct: direct}[method.transport or Nested]
     eos, m, T = method.eos, method.m, temperature(method.eos, symbols.rho, e)
     P, (P_rho, P_e), (T_rho, T_e) = pressure(eos, rho, e), pressure_slopes(eos, rho, e), _thermal_slopes(eos, rho, e)
     less = P - static_part(method, P)

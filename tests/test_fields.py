@@ -16,7 +16,6 @@ from particles.dissipative.stream import DpdStream
 from particles.fields import kinetic
 from particles.fields import kinetic_energy as of_fields
 from particles.integral.bodies import held
-from particles.integral.booked import Booked, BookedSides
 from particles.integral.closed_faces import Moving
 from particles.integral.dih import Dih
 from particles.integral.driven import Driven
@@ -48,9 +47,7 @@ INSIDE = dict(zip(("edges", "beyond"), between_plates(renormalised, SQUARE.x, CO
 FIXED = {"dih": Dih(edges=EDGES, **FLUID), "layer": Layer(**INSIDE),
          "thermal": Thermal(edges=EDGES, k=1e-3, seed=1, **FLUID),
          "stream": Stream(x=SQUARE.x, edges=EDGES, held=held(np.array([0])), **FLUID),
-         "sheared": Sheared(points=SQUARE, edges=EDGES, rate=0.1, **FLUID), "driven": Driven(**INSIDE),
-         "booked": Booked(x=SQUARE.x, edges=EDGES, held=held(np.array([0])), **FLUID),
-         "booked-sides": BookedSides(points=SQUARE, edges=EDGES, rate=0.1, **FLUID)}
+         "sheared": Sheared(points=SQUARE, edges=EDGES, rate=0.1, **FLUID), "driven": Driven(**INSIDE)}
 COLD = Isothermal(x=SQUARE.x, edges=EDGES, terms=(Carried(2.0),))
 MOVING = {**{f"rr98-{name}": Drift(motion=motion, **EVERYWHERE) for name, motion in DRIFTS.items()},
           **{f"plain-{name}": kind(box=BOX, weight=WendlandC2.of(h=2.9), **FLUID) for name, kind in MOTIONS.items()},

@@ -7,11 +7,14 @@ import numpy as np
 import pandas as pd
 import pytest
 from figure_tables import LOST, errors, fields, history, means, particles, runs, smoothed
+from matplotlib.container import ErrorbarContainer
 from matplotlib.text import Text
 
 from studies.build.labels import label
 from studies.kit.sweep import load
 from studies.kit.table import Tables, merge
+from studies.onset import figures as onset_figures
+from studies.onset import tables as onset_tables
 from studies.rb import tables
 from studies.rb.figures import figures, flow, main
 from studies.rb.looks import LAYER, NOT_STEADY, reference
@@ -168,3 +171,21 @@ def test_starts_and_frozen_particles_are_named(full):
     more = Tables({**full, "means": pd.concat([full["means"], started.assign(variant="printed-from-flow")])})
     for name in ("main", "fig6"):
         assert [texts(ALL[name](known)).count("started from the grid's flow") for known in (full, more)] == [0, 1]
+
+
+def test_circles_are_what_is_behind_the_plates(full):
+    for axes in ALL["fig2_3"](full).axes:
+        x, y = next(line for line in axes.lines if len(line.get_xdata()) > 2).get_data()
+        assert len(x) == 2*3*24 and (np.abs(y) > 0.5).all() and (np.abs(x) <= 1).all()   # 3 rows of 24, two plates
+
+
+def test_the_onset_draws_the_interval_of_each_zero():
+    known = load(onset_tables.ALL, "onset")
+    if not known:
+        pytest.skip("no tables of onset committed yet: make study-onset writes them")
+    zeros = next(axes for axes in onset_figures.FIGURES(known)["line"].axes if axes.get_ylabel() == "Ra$_c$")
+    bars = [np.ptp(bar[:, 1]) for drawn in zeros.containers if isinstance(drawn, ErrorbarContainer)
+            for bar in drawn[2][0].get_segments()]
+    lines = onset_figures.rows(known["critical_ra"], **onset_figures.GAS, way="line")
+    limits = np.isinf(lines["resolution"]) & lines["quantity"].str.contains("extrapolated")
+    assert max(bars) == pytest.approx(2*lines.loc[limits, "err"].max())

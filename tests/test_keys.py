@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import pytest
 
 from continuum.jit import generic
+from studies.cost import STUDY as cost
 from studies.kit import rekey
 from studies.kit.case import Case, key_of, starts
 from studies.kit.key import CODE, PACKAGES, ROOT, Code
@@ -24,6 +25,13 @@ shape.of(Quartic)(lambda weight, q: (1 - q**2)**4)
 slope.of(Quartic)(lambda weight, q: -8*(1 - q**2)**3)
 WEIGHTS["quartic"] = Quartic
 '''
+#: file, its first method, a new one
+METHODS = (
+    ("studies/build/spam.py", 'Variant("printed-half-step"', 'Variant("new", h=7.0)'),
+    ("studies/build/fixed.py", 'Scheme("fixed-lattice"', 'Scheme("new", h=7.0)'),
+    ("studies/build/moving.py", 'Motion("moving-open-faces"', 'Motion("new", of_limit=0.1)'),
+    ("studies/build/grid.py", 'Form("paper-form"', 'Form("new")'),
+)
 
 
 @pytest.fixture(scope="module")
@@ -79,6 +87,16 @@ def test_a_line_in_the_fluxes_changes_the_keys_of_spam_and_not_of_grids(cases, c
     assert {"SpamRun"} <= names
     assert not any("Compressible" in name or "Pypde" in name for name in names)
     assert {type(case).__name__ for case in cases if reached(case, "particles.terms", "Fluxes")} == names
+
+
+def test_cost_depends_on_no_method_besides_its_own(copy):
+    """Of each method in each scene one case: methods that are new change none, a formula of smooth particles theirs alone."""
+    cases = list({case.label.split(", resolution")[0]: case for case in cost.cases("paper")}.values())
+    for file, first, new in METHODS:
+        edit(copy, file, first, f"{new}, {first}")
+    assert len(cases) > 50 and not changed(cases, copy)
+    edit(copy, "particles/terms.py", "q = (a.qx + b.qx)*ab.wx", "q = (a.qx - b.qx)*ab.wx")
+    assert changed(cases, copy) == [case for case in cases if "SPAM" in case.label]
 
 
 def test_a_function_that_moves_and_a_docstring_change_no_key(cases, copy):

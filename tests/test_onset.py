@@ -1,10 +1,11 @@
-"""Onset: disturbances and steady states of the grids, zeros of growth rates and lines, the study itself made small."""
+"""Onset: disturbances and steady states of the grids, zeros of growth rates and lines."""
 from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pytest
 
+from continuum import boussinesq
 from continuum.fluid import ConstNu, VanDerWaals
 from continuum.gas import newton as compressible_newton
 from continuum.gas import solve as compressible
@@ -15,90 +16,81 @@ from continuum.linear.square import critical_ra_square
 from continuum.richardson import richardson
 from continuum.scene import RayleighBenard, Walls
 from continuum.steady import Steady
-from studies.build.spam import PRINTED
-from studies.kit.study import Study
-from studies.onset import STUDY
-from studies.onset import cases as onset
-from studies.onset import derive as onset_derive
-from studies.onset.rates import RUNS, SOLVERS, History, boussinesq_mac, spam_run
-from studies.onset.runs import Energies, Growth, GrowthRun, LinearTheory, SpamGrowth
+from studies.kit.stats import Measured
+from studies.onset import tables as onset_tables
+from studies.onset.rates import boussinesq_mac, pypde_compressible
+from studies.onset.rates import compressible as of_gas
+from studies.onset.runs import GrowthRun, History, SpamGrowth
 
+SIZES = (16, 24, 32)
 LAYER = RayleighBenard(ra=1750.0)
 SQUARE = RayleighBenard(ra=8000.0, aspect=1.0, sides=Walls())
 SCENES = [LAYER, replace(LAYER, transport=ConstNu), replace(LAYER, eos=VanDerWaals()), SQUARE]
 SCENE_IDS = ["eta", "nu", "vdw", "square"]
 
 
-def crossing(solver, scene, rows, ras):
-    """Ra where the growth rate of a solver on a grid is zero."""
-    sigma = [SOLVERS[solver](replace(scene, ra=ra), rows)[0] for ra in ras]
-    return onset_derive.interpolated(np.array(sigma), np.array(ras))
+def onset_of(solver, scene, ras):
+    """Where the growth rate of a solver is zero, extrapolated from three grids."""
+    values = []
+    for rows in SIZES:
+        sigma = [solver(replace(scene, ra=ra), rows)[0] for ra in ras]
+        values.append(onset_tables.interpolated(np.array(sigma), np.array(ras)))
+    return richardson(values, SIZES)
 
 
-# --- eigenvalue problem in the square ---------------------------------------------------------------------
+# --- eigenvalue problem in the square -----------------------------------------------------------
 
 
 def test_square_agrees_with_the_staggered_grid():
-    """Newton's Jacobian on three grids, extrapolated, is within its own uncertainty of the Chebyshev value."""
-    values = [crossing("boussinesq", replace(SQUARE, ra=1.0), rows, (4800.0, 4950.0, 5100.0)) for rows in (16, 24, 32)]
-    found = richardson(values, (16, 24, 32))
+    """Newton's Jacobian on three grids, extrapolated, is within its uncertainty of the Chebyshev value."""
+    def sigma(rows, ra):
+        case = boussinesq.Case(ra=ra, pr=1.0, box=boussinesq.CONDUCTING_SQUARE, rows=rows)
+        return boussinesq.growth_rates(boussinesq.rest(case), count=2)[0].real
+    ras = np.array([4800.0, 4950.0, 5100.0])
+    values = [onset_tables.interpolated(np.array([sigma(rows, ra) for ra in ras]), ras) for rows in SIZES]
+    found = richardson(values, SIZES)
     # 0.5: the parabola through three Ra is off by 1e-5 of Ra, sigma''' times their distances
     assert abs(found.limit - critical_ra_square()) < found.error + 0.5
 
 
-def test_square_is_approached_from_above():
-    """Trial functions bound the smallest Ra from above: more of them never raise it."""
-    values = [critical_ra_square(degree=degree) for degree in (4, 6, 8, 10)]
-    assert all(np.diff(values) < 0)
+# --- growth rates -------------------------------------------------------------------------------
 
 
-def test_square_refuses_unresolved_disturbances():
-    with pytest.raises(ValueError, match="from 0 to 13"):
-        critical_ra_square(14)
-
-
-# --- growth rates -----------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("solver", ["boussinesq", "pypde-boussinesq"])
-def test_boussinesq_grids_approach_linear_theory(solver):
+def test_the_staggered_grid_approaches_linear_theory():
     scene = RayleighBenard(ra=1.0, pr=7.0)
-    values = [crossing(solver, scene, rows, (1600.0, 1660.0, 1700.0, 1750.0)) for rows in (16, 24, 32)]
-    found = richardson(values, (16, 24, 32))
-    assert abs(found.limit - linear.critical_ra(np.pi)) < found.error + 0.05    # 0.05: of the cubic through four Ra
+    found = onset_of(boussinesq_mac, scene, (1600.0, 1660.0, 1700.0, 1750.0))
+    # 0.05: of the cubic through four Ra
+    assert abs(found.limit - linear.critical_ra(np.pi)) < found.error + 0.05
     assert abs(found.order - 2) < 0.15      # the next power, h^4, at these sizes
 
 
-def test_growth_rate_of_linear_theory_is_approached_too():
-    """At a Pr other than 1 nu and kappa have their own places."""
-    rates = [boussinesq_mac(RayleighBenard(ra=2500.0, pr=7.0), rows)[0] for rows in (16, 24, 32)]
-    found = richardson(rates, (16, 24, 32))
-    assert abs(found.limit - linear.growth_rate(ra=2500.0, pr=7.0, k=np.pi)) < found.error
+def test_gases_of_both_grids_have_one_onset():
+    """Extrapolated from three grids, within the sum of their uncertainties and those of the cubics."""
+    ras = (1650.0, 1700.0, 1750.0, 1800.0)
+    one, other = (onset_of(solver, LAYER, ras) for solver in (of_gas, pypde_compressible))
+    assert abs(one.limit - other.limit) < one.error + other.error + 0.1
 
 
 def test_gas_of_small_differences_is_boussinesq_fluid_of_half_the_gradient():
-    """As dT -> 0 its growth rate is that of Pr = 2, times 1/sqrt 2 for half the gradient, to order dT^2 = 0.0025."""
+    """As dT -> 0 sigma is that of Pr = 2, over sqrt 2 for half the gradient, to order dT^2 = 0.0025."""
     scene = RayleighBenard(ra=2500.0, T_hot=1.025, T_cold=0.975)
-    found = richardson([SOLVERS["compressible"](scene, rows)[0] for rows in (16, 24, 32)], (16, 24, 32))
+    found = richardson([of_gas(scene, rows)[0] for rows in (16, 24, 32)], (16, 24, 32))
     expected = linear.growth_rate(ra=2500.0, pr=2.0, k=np.pi)/np.sqrt(2)
     assert abs(found.limit - expected) < found.error + 0.0025*expected
 
 
 @pytest.mark.parametrize("scene", SCENES[:3], ids=SCENE_IDS[:3])
 def test_both_matrices_of_the_gas_agree(scene):
-    """A few numbers a row against the sparse matrix of half the box; 1e-9: round-off of differences with steps of 1e-5."""
+    """A few numbers a row against the sparse matrix; 1e-9: round-off of differences with steps of 1e-5."""
     whole = compressible_newton.growth_rate(scene, 16)*scene.L/scene.free_fall
-    assert whole == pytest.approx(SOLVERS["compressible"](scene, 16)[0], abs=1e-9)
+    assert whole == pytest.approx(of_gas(scene, 16)[0], abs=1e-9)
 
 
-@pytest.mark.parametrize("solver, within", [
-    ("compressible", 1e-8),     # RK4: sigma^5 dt^4; what is left of other disturbances is e^-0.54*40 of these rolls
-    ("boussinesq", 2e-5),       # two-step extrapolation: a share 0.05^2 of sigma, which vanishes where sigma does
-])
-def test_runs_grow_as_the_matrix_says(solver, within):
-    scene = replace(LAYER, ra=1800.0)
-    history = RUNS[solver](scene, 12, 1e-10, 80.0, lambda fraction: None)
-    assert history.growth(40.0)[0] == pytest.approx(SOLVERS[solver](scene, 12)[0], abs=within)
+def test_runs_grow_as_the_matrix_says():
+    """1e-8: RK4 errs by sigma^5 dt^4; what is left of other disturbances is e^-0.54*40 of these rolls."""
+    case = GrowthRun(scene=replace(LAYER, ra=1800.0), rows=12, ke=1e-10, until=80.0)
+    history = case.history(lambda fraction: None, None)
+    assert history.growth(40.0)[0] == pytest.approx(of_gas(case.scene, 12)[0], abs=1e-8)
 
 
 def test_runs_measure_a_known_growth():
@@ -120,12 +112,12 @@ def test_too_few_samples_are_refused():
         History(np.arange(10.0), np.array([1, 1, 1, 1, 9, 9, 9, 9, 9, 9.0])).growth(0.0)
 
 
-# --- Newton's method on the compressible grid -------------------------------------------------------------
+# --- Newton's method on the compressible grid ---------------------------------------------------
 
 
 @pytest.mark.parametrize("scene", SCENES, ids=SCENE_IDS)
 def test_slopes_are_those_of_the_rates(scene):
-    """Along a random direction, about a state in motion; 1e-8 of the largest: steps of 1e-5 squared, round-off over 1e-5."""
+    """Along a random direction, about a state in motion; 1e-8: steps of 1e-5 squared, round-off over 1e-5."""
     equations, rng = Discrete(scene, 10), np.random.default_rng(1)
     q = equations.unknowns(block(initial(scene, 10, 1e-3)))
     along = rng.normal(size=len(q))
@@ -144,9 +136,10 @@ def test_two_sums_of_densities_are_kept(scene):
         assert abs(kept@rates) < 1e-12*np.abs(kept*rates).sum()
 
 
-@pytest.mark.parametrize("scene", [replace(LAYER, ra=5000.0), replace(SQUARE, ra=12000.0)], ids=["layer", "square"])
+@pytest.mark.parametrize("scene", [replace(LAYER, ra=5000.0), replace(SQUARE, ra=12000.0)])
 def test_newton_ends_where_the_run_in_time_does(scene):
-    run = compressible.run(scene, 8, until=Steady(rtol=1e-6), start=compressible_newton.warm_rolls(scene, 8, 5e-4))
+    rolls = compressible_newton.warm_rolls(scene, 8, 5e-4)
+    run = compressible.run(scene, 8, until=Steady(rtol=1e-6), start=rolls)
     state = compressible_newton.steady(scene, 8)
     assert (state.rolls, run.converged) == (run.rolls, True)
     assert abs(state.ke - run.ke) < 3*run.ke_err + 3e-6*run.ke     # what the run says is left
@@ -163,7 +156,7 @@ def test_newton_says_where_it_failed():
         compressible_newton.steady(replace(LAYER, ra=5e4), 8, wild)
 
 
-# --- zeros and lines --------------------------------------------------------------------------------------
+# --- zeros and lines ----------------------------------------------------------------------------
 
 
 def rates(ra, sigma, err=0.0):
@@ -172,104 +165,55 @@ def rates(ra, sigma, err=0.0):
 
 def test_smooth_zero_covers_the_true_one():
     ra = np.array([1500, 1600, 1650, 1700, 1750, 1800, 1900.0])
-    found = onset_derive.smooth_zero(rates(ra, [linear.growth_rate(ra=r, pr=2.0, k=np.pi) for r in ra]))
-    assert abs(found.value - linear.critical_ra(np.pi)) <= found.err + 1e-9*found.value     # 1e-9: round-off in sigma
+    found = onset_tables.smooth_zero(rates(ra, [linear.growth_rate(ra=r, pr=2.0, k=np.pi) for r in ra]))
+    # 1e-9: round-off in sigma
+    assert abs(found.value - linear.critical_ra(np.pi)) <= found.err + 1e-9*found.value
     assert found.err < 1e-3
 
 
 @pytest.mark.parametrize("noise", [0.0005, 0.002, 0.004])
 def test_zero_of_noisy_rates_covers_the_true_one(noise):
-    """Neighbours differ by 0.008: from noise far below to one that makes several zeros. 0.9: 95 % less three standard
-    deviations of 200 samples."""
+    """Neighbours differ by 0.008: from noise far below to one that makes several zeros.
+
+    0.9: 95 % less three standard deviations of 200 samples.
+    """
     rng, ra = np.random.default_rng(3), np.array([1400, 1700, 2000, 2300.0])
     truth = 0.1*(1 - np.sqrt(1850/ra))
-    zeros = [onset_derive.nearby_zero(rates(ra, truth + noise*rng.normal(size=4), 2*noise)) for _ in range(200)]
+    sigmas = (truth + noise*rng.normal(size=4) for _ in range(200))
+    zeros = [onset_tables.nearby_zero(rates(ra, sigma, 2*noise)) for sigma in sigmas]
     assert np.mean([abs(zero.value - 1850) <= zero.err for zero in zeros]) > 0.9
-
-
-def test_nothing_crosses_where_all_grow():
-    assert not onset_derive.crosses(rates([1, 2, 3], [0.1, 0.2, 0.3]))
 
 
 def test_a_straight_line_has_its_zero():
     ra = np.array([2000, 3000, 5000, 6800.0])
-    line = onset_derive.straight(pd.DataFrame({"ra": ra, "ke": 0.01*(1 - np.sqrt(1708/ra))}))
+    line = onset_tables.straight(pd.DataFrame({"ra": ra, "ke": 0.01*(1 - np.sqrt(1708/ra))}))
     assert line.ra_c == pytest.approx(1708, rel=1e-12)      # round-off
     assert line.residual < 1e-12
 
 
 def test_lines_are_extrapolated_in_inverse_squares():
     def line(N):
-        return onset_derive.Line(-0.41*(1 + 3/N**2), 0.01*(1 + 5/N**2), 0.0, 0.0, 5)
-    found = onset_derive.without_grid({N: line(N) for N in (30.0, 40.0, 50.0)})
+        slope, intercept = -0.41*(1 + 3/N**2), 0.01*(1 + 5/N**2)
+        return onset_tables.Line(5, slope, intercept, (slope/intercept)**2, 0.0, 0.0)
+    found = onset_tables.without_grid({N: line(N) for N in (30.0, 40.0, 50.0)})
     assert found.ra_c == pytest.approx(41**2, rel=1e-12)    # round-off
     assert found.err < 1e-8
 
 
-# --- the study --------------------------------------------------------------------------------------------
+# --- the study ----------------------------------------------------------------------------------
 
 
 def test_particles_start_with_the_rolls_asked_for(tmp_path):
     """0.15: rolls of two periods over a jittered lattice of 16 rows, and what 15 steps have changed."""
-    case = SpamGrowth(scene=RayleighBenard(ra=3000.0, L=16.0))
-    history = spam_run(case.scene, PRINTED, 1, 4e-4, 0.6, case.dt, lambda fraction: None, tmp_path)
+    case = SpamGrowth(scene=RayleighBenard(ra=3000.0, L=16.0), ke=4e-4, until=0.6)
+    history = case.history(lambda fraction: None, tmp_path)
     assert history.amplitude[0] == pytest.approx(2*np.sqrt(4e-4), rel=0.15)
 
 
-def small():
-    """Every kind of case, on the smallest grids."""
-    sizes, layer = (8, 10, 12), onset.scene()
-    yield LinearTheory(ras=(1600.0, 1800.0), prs=(2.0,))
-    for method in ("boussinesq", "compressible"):
-        scene = onset.scene(pr=2.0) if method == "boussinesq" else layer
-        yield Growth(method=method, scene=scene, sizes=sizes, ras=(1500.0, 1600.0, 1700.0, 1800.0))
-        for rows in sizes:
-            yield Energies(method=method, scene=scene, rows=rows, shares=(0.1, 0.3, 0.5))
-    for ra in (1400.0, 1800.0, 2600.0):
-        yield GrowthRun(method="compressible", scene=RayleighBenard(ra=ra), rows=8, ke=4e-4, after=2.0, until=10.0)
-        yield SpamGrowth(scene=RayleighBenard(ra=ra, L=12.0), ke=4e-4, until=6.0)
-
-
-@pytest.fixture(scope="module")
-def tables(tmp_path_factory):
-    study = Study(name="onset", cases=lambda size: small(), tables=STUDY.tables, derive=STUDY.derive,
-                  figures=STUDY.figures)
-    out = tmp_path_factory.mktemp("onset")
-    found = study.run("quick", workers=1, out=out)
-    assert {path.stem for path in study.draw(out)} == {"growth", "line"}
-    return found
-
-
-def critical(tables, **wanted):
-    frame = tables["critical_ra"]
-    frame = frame[np.logical_and.reduce([frame[name] == value for name, value in wanted.items()])]
-    assert len(frame) == 1
-    return frame.iloc[0]
-
-
-def test_study_finds_linear_theory(tables):
-    theory = critical(tables, method="linear", quantity="ra_c periodic aspect 2")
-    assert theory["value"] == pytest.approx(1707.92, abs=0.005)     # as printed in the last of its figures
-    found = critical(tables, method="boussinesq", quantity="ra_c periodic aspect 2 (growth rates)", resolution=np.inf)
-    assert abs(found["value"] - theory["value"]) < found["err"]
-
-
-def test_study_has_lines_of_each_grid_and_beyond(tables):
-    lines = tables["lines"]
-    assert sorted(lines.loc[lines["method"] == "compressible", "resolution"]) == [8, 10, 12, np.inf, np.inf]
-    for word in ("(K line, L^-2 extrapolated)", "(K line)"):    # 5 %: five figures are for the study to judge
-        row = critical(tables, method="compressible", quantity=f"ra_c periodic aspect 2 {word}")
-        assert row["value"] == pytest.approx(1700, rel=0.05)
-
-
 def test_quantities_name_what_differs():
-    at = {"variant": "", "eos": "ideal", "transport": "const-nu", "dT": 0.1, "sides": "periodic", "resolution": np.inf}
-    assert onset_derive.quantity(at, "operator", 0.0, 0.0, "") == "ra_c periodic aspect 2, const-nu, dT 0.1 (growth rates)"
-    at = {**at, "variant": "printed", "transport": "const-eta", "dT": 1.0, "resolution": 25.0}
-    word = "ra_c periodic aspect 2 (growth rates, run from K = 0.0004, 25 rows)"
-    assert onset_derive.quantity(at, "run", 0.0, 4e-4, "") == word
-
-
-def test_sizes_differ_as_they_say():
-    quick, paper, fine = ({case.key for case in onset.cases(size)} for size in ("quick", "paper", "fine"))
-    assert paper < fine and len(quick) < len(paper)
+    at = dict.fromkeys(onset_tables.POINT, "") | {"sides": "periodic", "resolution": np.inf, "eos": "ideal"}
+    row = onset_tables.critical_row({**at, "transport": "const-nu", "dT": 0.1}, Measured(1.0), "operator")
+    assert row["quantity"] == "ra_c periodic aspect 2, const-nu, dT 0.1 (growth rates)"
+    at |= {"variant": "printed", "transport": "const-eta", "dT": 1.0, "resolution": 25.0}
+    row = onset_tables.critical_row(at, Measured(1.0), "run", ke_start=4e-4)
+    assert row["quantity"] == "ra_c periodic aspect 2 (growth rates, run from K = 0.0004, 25 rows)"

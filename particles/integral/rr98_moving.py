@@ -21,7 +21,7 @@ from particles.integral.transposed_stress import MENDED
 from particles.limits import lattice_sums, limit_of, zone
 from particles.lists import Listed, Surroundings, fastest
 from particles.pairs import Edge, nothing, rate
-from particles.smooth.spam import Direct, LessStatic
+from particles.smooth.spam import LessStatic
 from particles.starts import check_apart, check_volumes, moments
 from particles.threads import Team
 from particles.walls import confine
@@ -235,7 +235,7 @@ def _(method: Drift, start: np.ndarray) -> float:
     c2, P = np.max(sound_speed(method.eos, rho, e)**2), np.max(np.abs(pressure(method.eos, rho, e))/rho)
     cv = 1e-6/(temperature(method.eos, rho, e + 1e-6) - T)
     chi = np.max(np.maximum(viscosity(method.law, rho, T), conductivity(method.law, rho, T)/cv)/rho)
-    fast, spread = np.sqrt(np.max(c2*slow + 2*P*stiff)), chi*method.scale*np.max(sums.k2[Direct])
+    fast, spread = np.sqrt(np.max(c2*slow + 2*P*stiff)), chi*method.scale*np.max(sums.direct)
     return float(1/1.4/(fast/2.82 + spread/2.78))
 
 

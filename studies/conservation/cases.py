@@ -1,121 +1,212 @@
 """Which runs there are.
 
-Sums over 10 000 steps; rates in a wind; energy of linear sound over 10 000 periods; patterns and sound on
-points that move, time steps; drags, torques, shear. Not all of RR98's modes, weights, makers of edges, sets
-of points and walls are combined. On fixed points in periodic boxes all makers meet all sets of points, with
-friction along edges for every weight; any other transport has one weight, and on one set of points every
-weight; so do mirror plates, held rows and bodies. Any two values of two factors meet in some run, where they
-can: Delaunay edges have no weight, sliding sides take edges of a weight on a lattice, on which closed and
-exact edges are the plain ones times a number. Paper size takes about 15 minutes of one core.
+On fixed points in periodic boxes all makers of edges meet all sets of points, with friction along edges for
+every weight. Any other transport has one weight, and on one set of points every weight; so do mirror plates.
+Any two values of two factors meet in some run, where they can: Delaunay edges have no weight, on a lattice
+closed and exact edges are the plain ones times a number. Paper size takes a quarter of an hour of one core.
 """
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import product
+from typing import Any
 
+from continuum.fluid import ConstEta
 from particles.integral.closed_faces import Ingredients
+from particles.integral.dih import Nested, Pairwise
 from particles.integral.edge_makers import MAKERS
 from particles.integral.exchange import PRINTED
-from particles.weights import WEIGHTS, Lucy
+from particles.integral.rr98_moving_plain import MOTIONS
+from particles.integrators import TwoStep
+from particles.weights import WEIGHTS, WendlandC2
+from studies.build.cylinder import VARIANTS
 from studies.build.disorder import DISORDERS
-from studies.conservation.bodies import bodies
 from studies.conservation.claims import CLAIMS
-from studies.conservation.derive import derive
-from studies.conservation.dimensions import dimensions, unsymmetric
-from studies.conservation.drift import FILTERED, MODES, WALLS, LayerDrift, MovingDrift
-from studies.conservation.figures import figures
-from studies.conservation.frames import KINDS, frames
-from studies.conservation.motions import motions
-from studies.conservation.tables import ALL
-from studies.conservation.walls import HOLDS, HeldDrift, SlidingDrift
-from studies.conservation.waves import waves
+from studies.conservation.drift import (
+    MODES,
+    OPEN,
+    PAIRWISE,
+    PLATES,
+    UNDER_GRAVITY,
+    LayerDrift,
+    MovingDrift,
+    Wall,
+)
+from studies.conservation.figures import FIGURES
+from studies.conservation.motions import ALONG, STILL, BracketForce, Identity, MovingSound, Pattern, Signs
+from studies.conservation.plain_runs import (
+    CUBE,
+    LINE,
+    SQUARE,
+    DihDrift,
+    MotionDrift,
+    Places,
+    Unsymmetric,
+    sound_flow,
+    vortex_flow,
+)
+from studies.conservation.slow_flows import CylinderDrag, SlidingShear, TurningCylinder, TurningWave
+from studies.conservation.sums import EVERYTHING
+from studies.conservation.tables import ALL, derive
 from studies.kit.case import Case
 from studies.kit.part import Part
 
 WEIGHT_KINDS = tuple(WEIGHTS.values())
-OTHERS = tuple(name for name in MODES if name != "pairwise")
+KINDS = ("lattice", "jittered-0.3", "random", "relaxed")
+IDEAL = MODES[-1]
 #: one maker on a lattice, one off it
 TWO = (("renormalised", "lattice"), ("delaunay", "jittered-0.3"))
 #: what is left out of the scheme of moving points
 LESS = {"heating as printed": Ingredients(transport=PRINTED), "open faces": Ingredients(iterations=0),
         "whole pressure": Ingredients(static=False), "mass not spread": Ingredients(spread=0.0)}
+KEEP = ("literal", "constant-mass")
+POWERS = ((0, 0), (1, -1), (2, -2), (0, -1), (1, 0), (2, 0), (1, 1), (3, 0))
+REYNOLDS = (0.1, 10.0, 1000.0, float("inf"))
+SMOOTH = (24, 28, 32, 36, 40, 44, 48, 52, 56)      # rows where errors are smooth, and where they are not
+SCATTERED = tuple(range(24, 50, 2))
+
+
+# --- long runs ----------------------------------------------------------------------------------
 
 
 def pairs(kinds: tuple[str, ...]) -> list[tuple[str, str]]:
     """Makers and sets of points that go together."""
-    return [(maker, points) for points, maker in product(kinds, MAKERS)
-            if points != "lattice" or maker not in ("closed", "exact")]
+    without = product(("closed", "exact"), ("lattice",))
+    return sorted(set(product(MAKERS, kinds)) - set(without))
 
 
-def layer(mode: str, maker: str, points: str, wall: str = "periodic", weight=Lucy, **more) -> LayerDrift:
+def layer(maker: str, points: str, mode=PAIRWISE, wall: Wall = OPEN, **more) -> LayerDrift:
     """A run of the compiled scheme."""
-    return LayerDrift(mode=MODES[mode], maker=maker, make=MAKERS[maker], weight=weight, h=3.0,
-                      disorder=DISORDERS[points], wall=WALLS[wall], **more)
+    return LayerDrift(mode=mode, maker=maker, make=MAKERS[maker], disorder=DISORDERS[points], wall=wall,
+                      **more)
 
 
-def layers(kinds: tuple[str, ...], weights: tuple[type, ...], **more) -> Iterator[LayerDrift]:
+def layers(kinds: tuple[str, ...], weights: tuple[type, ...], steps: int) -> Iterator[LayerDrift]:
     """Periodic boxes."""
     for maker, points in pairs(kinds):
-        some = weights if maker != "delaunay" else weights[:1]
-        yield from (layer("pairwise", maker, points, weight=weight, **more) for weight in some)
-        yield from (layer(mode, maker, points, **more) for mode in OTHERS)
-    for mode, weight in product(OTHERS, weights[1:]):
-        yield layer(mode, "exact", "jittered-0.3", weight=weight, **more)
+        for weight in weights if maker != "delaunay" else weights[:1]:
+            yield layer(maker, points, weight=weight, steps=steps)
+        for mode in MODES[1:]:
+            yield layer(maker, points, mode, steps=steps)
+    for mode, weight in product(MODES[1:], weights[1:]):
+        yield layer("exact", "jittered-0.3", mode, weight=weight, steps=steps)
 
 
-def plates(kinds: tuple[str, ...], weights: tuple[type, ...], **more) -> Iterator[LayerDrift]:
+def plates(kinds: tuple[str, ...], weights: tuple[type, ...], steps: int) -> Iterator[LayerDrift]:
     """Between mirror images, which take momentum and heat where there is friction."""
-    for mode, (maker, points) in product(("pairwise", "ideal"), pairs(kinds)):
-        yield layer(mode, maker, points, "plates", **more)
-    for maker, points in TWO:
-        yield from (layer(mode, maker, points, "plates", **more) for mode in OTHERS[:-1])
-        yield layer("ideal", maker, points, "plates, gravity", **more)
+    for mode, pair in product((PAIRWISE, IDEAL), pairs(kinds)):
+        yield layer(*pair, mode, PLATES, steps=steps)
+    for pair in TWO:
+        for mode in MODES[1:-1]:
+            yield layer(*pair, mode, PLATES, steps=steps)
+        yield layer(*pair, IDEAL, UNDER_GRAVITY, steps=steps)
     for weight in weights[1:]:
-        yield layer("ideal", "exact", "jittered-0.3", "plates", weight, **more)
+        yield layer("exact", "jittered-0.3", IDEAL, PLATES, weight=weight, steps=steps)
 
 
-def hold(wall: str, maker: str, points: str, mode=MODES["pairwise"], weight=Lucy, **more) -> HeldDrift:
-    """A run with held points."""
-    return HeldDrift(mode=mode, maker=maker, make=MAKERS[maker], weight=weight, h=3.0,
-                     disorder=DISORDERS[points], wall=HOLDS[wall], **more)
+def dimensions(steps: int, seeds: int) -> Iterator[Case]:
+    """One to three dimensions, Eq. 37 as printed; starts on a line, of which six left the claim open."""
+    printed = Nested(differences=False)
+    for box, mode, transport in ((LINE, "pairwise", Pairwise()), (LINE, "nested", Nested()),
+                                 (LINE, "printed", printed), (SQUARE, "printed", printed),
+                                 (CUBE, "pairwise", Pairwise())):
+        yield DihDrift(mode=mode, transport=transport, box=box, steps=steps)
+    for seed in range(1, seeds + 1):
+        yield Unsymmetric(seed=seed, steps=steps)
 
 
-def walls(kinds: tuple[str, ...], weights: tuple[type, ...], **more) -> Iterator[Case]:
-    """Held rows and bodies, then sliding sides on a lattice."""
-    for wall in ("rows", "body"):
-        yield from (hold(wall, maker, points, **more) for maker, points in pairs(kinds))
-        for mode, (maker, points) in product((FILTERED, MODES["ideal"]), TWO):
-            yield hold(wall, maker, points, mode, **more)
-        yield from (hold(wall, "exact", "jittered-0.3", weight=weight, **more) for weight in weights[1:])
-    yield from (hold("sliding rows", "renormalised", "lattice", weight=weight, **more) for weight in weights)
-    yield from (hold("rows on plates", "delaunay", points, **more) for points in kinds)
-    yield from (sliding("pairwise", maker, Lucy, **more) for maker in ("printed", "plain"))
-    for name, weight in product(("pairwise", "ideal"), weights):
-        yield sliding(name, "renormalised", weight, **more)
-
-
-def sliding(mode: str, maker: str, weight: type, **more) -> SlidingDrift:
-    """A run between sliding sides."""
-    return SlidingDrift(mode=MODES[mode], maker=maker, make=MAKERS[maker], weight=weight, h=3.0,
-                        disorder=DISORDERS["lattice"], **more)
+def motions(steps: int, weights: tuple[type, ...]) -> Iterator[Case]:
+    """On jittered points with RK4; on a lattice, with the paper's two steps, those that it prints."""
+    for name, kind in MOTIONS.items():
+        claimed = EVERYTHING if name in KEEP else "nothing"
+        yield MotionDrift(motion=name, kind=kind, steps=steps, claimed=claimed)
+    two: dict[str, Any] = {
+        "integrator": TwoStep, "disorder": DISORDERS["lattice"], "dt": 0.05, "steps": steps}
+    for weight in weights:
+        yield MotionDrift(motion="literal", kind=MOTIONS["literal"], weight=weight, **two)
+    yield MotionDrift(motion="convective", kind=MOTIONS["convective"], claimed="nothing", **two)
 
 
 def moving() -> Iterator[MovingDrift]:
     """Every start in a box and between plates, then every weight, then without an ingredient."""
-    for kind, wall in product(KINDS, ("periodic", "plates")):
-        yield MovingDrift(disorder=DISORDERS[kind], wall=WALLS[wall])
-    yield from (MovingDrift(weight=weight) for weight in WEIGHT_KINDS)
+    for kind, wall in product(KINDS, (OPEN, PLATES)):
+        yield MovingDrift(disorder=DISORDERS[kind], wall=wall)
+    yield from (MovingDrift(weight=weight) for weight in WEIGHT_KINDS if weight is not WendlandC2)
     yield from (MovingDrift(name=name, ingredients=ingredients) for name, ingredients in LESS.items())
 
 
+# --- moving points ------------------------------------------------------------------------------
+
+
+def once() -> Iterator[Case]:
+    """Equations evaluated once."""
+    yield Signs()
+    yield from (BracketForce(a=float(a), b=float(b)) for a, b in POWERS)
+    for (name, transport), reynolds in product((("nested", Nested()), ("pairwise", ALONG)), REYNOLDS):
+        yield Identity(name=name, transport=transport, reynolds=reynolds)
+
+
+def speeds(wavelengths: tuple[int, ...]) -> Iterator[Case]:
+    """Of patterns and of sound."""
+    for (name, kind), wavelength in product(MOTIONS.items(), wavelengths):
+        yield Pattern(motion=name, kind=kind, wavelength=wavelength)
+        yield MovingSound(motion=name, kind=kind, wavelength=wavelength)
+        if name != "carried" and len(wavelengths) > 1:
+            yield MovingSound(motion=name, kind=kind, wavelength=wavelength, weight=WendlandC2, h=4.0)
+
+
+def place(motion: str, flow: str, start: Any, **more: Any) -> Places:
+    """Where points end."""
+    return Places(motion=motion, kind=MOTIONS[motion], flow=flow, start=start, **more)
+
+
+#: sound for one and a half periods: after whole ones the errors of some integrators are small by chance
+PLACES = (
+    place("literal", "sound", sound_flow, counts=(16, 7), law=STILL, time=13.0, steps=60),
+    place("constant-mass", "sound", sound_flow, counts=(16, 7), law=STILL, time=18.9, steps=80),
+    place("constant-mass", "vortices", vortex_flow, counts=(12, 12), law=ConstEta(0.2, 0.2), time=10.0,
+          steps=80))
+
+
+# --- slow flows ---------------------------------------------------------------------------------
+
+
+def drags(fraction: float, sizes: dict[str, tuple[int, ...]]) -> Iterator[Case]:
+    """Of some variants."""
+    for name, rows in sizes.items():
+        yield from (CylinderDrag(variant=VARIANTS[name], fraction=fraction, rows=n) for n in rows)
+
+
+def slow_flows(waves: tuple[int, ...], torques: tuple[int, ...]) -> Iterator[Case]:
+    """Sliding sides and a cylinder that turns."""
+    yield from (TurningWave(rows=rows) for rows in waves)
+    yield from (SlidingShear(rows=rows) for rows in waves[:3])
+    yield from (TurningCylinder(rows=rows) for rows in torques)
+
+
+def quick() -> Iterator[Case]:
+    """Short runs with one weight, no relaxed points and none that move over closed faces; small bodies."""
+    some = KINDS[:2], WEIGHT_KINDS[:1]
+    yield from (*layers(*some, steps=300), *plates(*some, steps=300))
+    yield from (*dimensions(300, seeds=2), *motions(40, WEIGHT_KINDS[:1]), *once(), *speeds((8,)))
+    yield from (replace(case, steps=case.steps//8) for case in PLACES)
+    yield from slow_flows((12, 16, 24), (16, 20))
+    yield from drags(0.1, {"surface": (12, 16), "frozen": (12, 16)})
+
+
+def paper() -> Iterator[Case]:
+    """All of them."""
+    yield from (*layers(KINDS, WEIGHT_KINDS, 10_000), *plates(KINDS, WEIGHT_KINDS, 10_000))
+    yield from (*dimensions(10_000, seeds=24), *motions(10_000, WEIGHT_KINDS), *once(), *moving())
+    yield from (*speeds((8, 16, 24, 32)), *PLACES)
+    yield from slow_flows((16, 24, 32, 48, 64), tuple(range(24, 68, 4)))
+    for fraction, every in ((0.1, 1), (0.3, 4)):
+        yield from drags(fraction, {"surface": SMOOTH, "surface-unfiltered": (24, 32, 48),
+                                    "frozen": SCATTERED[::every], "frozen-grown": SCATTERED[::every]})
+
+
 def cases(size: str) -> list[Case]:
-    """`quick` has short runs with one weight, no relaxed points and none that move over closed faces."""
-    if size == "quick":
-        some, steps = (KINDS[:2], WEIGHT_KINDS[:1]), 300
-        return [*layers(*some, steps=steps), *plates(*some, steps=steps), *walls(*some, steps=steps),
-                *dimensions(steps=steps), *unsymmetric(2, steps=steps), *frames((1,)),
-                *motions(40, WEIGHT_KINDS[:1]), *waves(size), *bodies(size)]
-    whole = KINDS, WEIGHT_KINDS
-    return [*layers(*whole), *plates(*whole), *walls(*whole), *dimensions(), *unsymmetric(), *moving(),
-            *frames((1, 2, 3)), *motions(), *waves(size), *bodies(size)]
+    """All cases of a size."""
+    return list(quick() if size == "quick" else paper())
 
 
-PART = Part(cases=cases, tables=ALL, derive=derive, figures=figures, claims=CLAIMS)
+PART = Part(cases=cases, tables=ALL, derive=derive, figures=FIGURES, claims=CLAIMS)

@@ -3,11 +3,10 @@ from functools import partial
 from math import inf, sqrt
 from typing import Any
 
-from studies.conservation.drift import EVERYTHING
+from studies.conservation.sums import EVERYTHING
 from studies.kit.ask import Value, largest, largest_of, least, one, over_seeds, power
 from studies.kit.claim import Claim
 
-CLOSING = ("closed", "exact", "delaunay")
 SUMS = ("mass", "momentum", "energy")
 #: by what runs claim to keep, as the column `claimed` has it
 CLAIMED = {
@@ -44,11 +43,10 @@ def drag_error(variant: str, fraction: float) -> Value:
 
 
 BY_CONSTRUCTION = "by construction, the total mass, total momentum, and total energy are conserved"
-TERMS: dict[str, Any] = {"at_most": 1e-12, "because": "round-off of sums of 30 terms"}
-SAME: dict[str, Any] = {"at_most": 1e-13, "because": "1e-13: sums of some hundred numbers that 40 000 "
-                                                     "additions have rounded"}
-STEPS: dict[str, Any] = {"at_most": 1e-13, "because": "round-off: 1e4 steps of some 1e-17 each, in a random "
-                                                      "walk"}
+SAME: dict[str, Any] = {
+    "at_most": 1e-13, "because": "1e-13: sums of some hundred numbers that 40 000 additions have rounded"}
+STEPS: dict[str, Any] = {
+    "at_most": 1e-13, "because": "round-off: 1e4 steps of some 1e-17 each, in a random walk"}
 ALL: dict[str, Any] = {"at_least": 1.0, "because": "all of them"}
 FINER: dict[str, Any] = {"at_most": 1, "printed": "more accurate",
                          "because": "smaller than one is more accurate; the reference is RK4"}
@@ -81,16 +79,6 @@ FIXED = (
           statement="without forms symmetric in ij momentum is lost: P_ij + P_ij for point i in place of "
                     "P_ij + P_ji, change over the sum of its sizes in 10 000 steps, or until shortly before "
                     "a run diverges, mean of 24 random starts on a line"),
-    Claim(id="rr98-conservation-held-momentum", source="RR98 Secs III A, IV", value=kept("momentum", "held"),
-          **SAME,
-          statement="rows of held points and frozen bodies take what the fluid loses of momentum: largest "
-                    "relative change of both together in 10 000 steps, every maker of edges, set of points "
-                    "and weight"),
-    Claim(id="rr98-conservation-sliding", source="RR98 Sec. IV", **SAME,
-          value=largest_of(*(kept(name, "sliding") for name in SUMS)),
-          statement="sliding sides give momentum and energy to what passes through them from one speed to "
-                    "the other, and none besides: largest relative change of mass, momentum, energy in 10 "
-                    "000 steps, every weight, lattice"),
     Claim(id="rr98-conservation-plates-gravity", source="RR98 Sec. III A", **SAME,
           value=largest("drift", "energy", err="err", mode="ideal", wall="plates, gravity"),
           statement="energy with that of height is conserved between plates without friction under gravity: "
@@ -102,26 +90,6 @@ FIXED = (
       for name, maker, points, edges, where in (
           ("jittered", "plain", "jittered-0.3", "with plain quadrature", "points jittered by 0.3 a"),
           ("delaunay", "delaunay", "random", "over Delaunay edges", "random points"))),
-    Claim(id="rr98-conservation-sound-closed", source="RR98 Eqs 34, 35", at_most=1e-9,
-          value=largest("sound", "abs(ln_energy)", bracket="plus", maker=CLOSING),
-          because="10 000 products of 192 terms: 4e-10",
-          statement="linear sound neither grows nor decays with (f_i + f_j) in divergence and gradient over "
-                    "edges that close: largest |ln| of its energy after 10 000 periods"),
-    Claim(id="rr98-conservation-sound-jittered", source="RR98 Eqs 34, 35", at_most=1e-9,
-          value=one("sound_means", "growth", bracket="plus", maker="plain", points="jittered-0.3"),
-          because="round-off of eigenvalues is 1e-12",
-          statement="linear sound does not grow with the brackets as printed and plain quadrature on points "
-                    "jittered by 0.3 a: growth per period of a wave of 8 spacings"),
-    Claim(id="rr98-conservation-galilean-printed", source="RR98 Eq. 37", **TERMS,
-          value=one("frame_means", "momentum", mode="printed", maker="plain", points="jittered-0.3"),
-          statement="rates of momentum in a wind are those at rest, carried along, with the inner sum of "
-                    "Eq. 37 as printed and plain quadrature on points jittered by 0.3 a: largest difference "
-                    "over the largest rate"),
-    Claim(id="rr98-conservation-galilean-heating", source="RR98 Eq. 51", **TERMS,
-          value=one("frame_means", "energy", mode="pairwise", maker="delaunay", points="jittered-0.3"),
-          statement="rates of energy in a wind are those at rest, carried along, with the mended heating of "
-                    "forces along edges, Delaunay edges on points jittered by 0.3 a: largest difference "
-                    "over the largest rate"),
     *(Claim(id=f"rr98-conservation-moving-{name}", source="RR98 Sec. III B", value=kept(name, "moving"),
             **SAME,
             statement=f"points can move and keep {name}: largest relative change in 10 000 steps of volumes, "
@@ -129,8 +97,7 @@ FIXED = (
 )
 MOVING = (
     Claim(id="rr98-eq39-pattern", source="RR98 Secs I, III", printed="fully consistent; a bold assumption",
-          expect=1,
-          within=0.02, value=one("patterns", "speed", motion="literal", wavelength=32),
+          expect=1, within=0.02, value=one("patterns", "speed", motion="literal", wavelength=32),
           statement="points that move with v under Eqs 34-36 show the fluid: speed of a density pattern "
                     "over that of the stream that carries it, wavelength 32 a",
           because=f"2 %: what a weight of h = 3 a does to such a wave; {HALVES}"),
@@ -153,11 +120,6 @@ MOVING = (
           value=changed("literal, RK4", "literal, TwoStep"),
           statement="mass, momentum and energy stay while points move literally: largest relative drift "
                     "over 1e4 steps, all weights, both integrators"),
-    Claim(id="rr98-eq40-limit", source="RR98 Eq. 40", expect=1, within=0.01,
-          value=one("euler_limits", "limit", wavelength=32),
-          statement="forward Euler is stable below dt = (eta + zeta + kappa/2)/(rho c^2), 2D gas: measured "
-                    "limit over that, nested transport, wavelength 32 a",
-          because="1 %: (D k/c)^2, left out of the formula, is 8e-4; the error is that of the growth rates"),
     *(Claim(id=f"rr98-eq41-accuracy{name}", source="RR98 Eq. 41", **FINER,
             value=one("accuracy", "ratio", motion=motion, flow=flow),
             statement="positions with new velocities are more accurate: their error over that with old "
@@ -167,8 +129,7 @@ MOVING = (
           ("-mass", "constant-mass", "sound", "sound at constant mass"),
           ("-vortices", "constant-mass", "vortices", "decaying vortices at constant mass"))),
     *(Claim(id=f"rr98-eq{n}-sign", source=f"RR98 Eq. {n}", printed="-", expect=1, within=0.02,
-            because=SMOOTHED,
-            value=one("signs", "factor", equation=n, wavelength=32),
+            because=SMOOTHED, value=one("signs", "factor", equation=n, wavelength=32),
             statement=f"what is added to the change of {name} is v.grad of it: over the exact one, lattice, "
                       "wavelength 32 a")
       for n, name in zip((46, 47, 48), SUMS, strict=True)),
@@ -191,14 +152,12 @@ MOVING = (
           value=largest("identity", "abs(convective)"),
           statement="Eqs 34, 35, 46, 47 with p = m v are Eq. 49: largest difference of accelerations over "
                     "the largest, random fields on jittered points, all Reynolds numbers",
-                    because="round-off of some 30 terms; "
-                                                                               f"{ALONE}"),
+          because=f"round-off of some 30 terms; {ALONE}"),
     Claim(id="rr98-eq49-reynolds", source="RR98 after Eq. 48", printed="not too large Reynolds numbers",
-          at_least=0.01,
-          value=largest("identity", "abs(convective)", reynolds=inf),
+          at_least=0.01, value=largest("identity", "abs(convective)", reynolds=inf),
           statement="Eq. 49 leaves out what Eqs 46-48 bring at large Reynolds numbers: difference of "
                     "accelerations over the largest, without viscosity",
-                    because=f"a per cent would limit its use; {ALONE}"),
+          because=f"a per cent would limit its use; {ALONE}"),
     Claim(id="rr98-eq49-sound", source="RR98 Eq. 49", expect=1, within=0.01,
           value=one("long_sound", "speed", motion="constant-mass", weight="WendlandC2"),
           statement="constant mass, volumes that follow the flow: speed of long sound over c, Wendland C2, "
@@ -239,30 +198,22 @@ BODIES = (
                     "cylinder in a square array, solid fraction 0.1, lattice points within the circle "
                     "frozen, 17 spacings across"),
     *(Claim(id=f"own-bodies-surface-{c:g}", source=ACRIVOS, printed=printed, value=drag_error("surface", c),
-            at_most=0.01,
-            because=PERCENT, statement="points on the surface, Delaunay edges: |error| of the drag, solid "
-                                       f"fraction {c:g}, {across} spacings across")
+            at_most=0.01, because=PERCENT,
+            statement="points on the surface, Delaunay edges: |error| of the drag, solid "
+                      f"fraction {c:g}, {across} spacings across")
       for c, printed, across in ((0.1, "24.83", 17), (0.3, "102.90", 30))),
     *(Claim(id=f"own-bodies-limit-{c:g}", source=ACRIVOS, printed=printed, expect=0, within=0.003,
-            because=LIMIT,
-            value=one("drag_limits", "error", variant="surface", fraction=c),
+            because=LIMIT, value=one("drag_limits", "error", variant="surface", fraction=c),
             statement="points on the surface: drag extrapolated to infinitely fine points against print, "
                       f"relative, solid fraction {c:g}") for c, printed in ((0.1, "24.83"), (0.3, "102.90"))),
-    Claim(id="own-bodies-balance", source="RR98 Sec. IV", at_most=1e-4,
-          value=largest("drag", "abs(balance)", variant="surface"),
-          statement="the force that edges carry to the body is that which drives the fluid: largest "
-                    "relative difference, points on the surface",
-                    because="1e-4: what was not steady yet; the exchange itself is "
-                                                     "exact to round-off"),
-    Claim(id="own-bodies-filter", source="RR98 Sec. IV", at_least=10, because="ten times: no matter of "
-                                                                              "chance",
+    Claim(id="own-bodies-filter", source="RR98 Sec. IV", at_least=10,
+          because="ten times: no matter of chance",
           value=last_tenth("surface-unfiltered")/last_tenth("surface"),
           statement="without a filter of the density slow flow around a body creeps on: change of the drag "
                     "in the last tenth of the time over that with the filter, points on the surface, 32 "
                     "rows"),
     Claim(id="own-bodies-torque", source="RR98 Sec. IV", printed="moving boundaries", at_most=0.01,
-          because=PERCENT,
-          value=abs(one("torque", "turned", rows=48)),
+          because=PERCENT, value=abs(one("torque", "turned", rows=48)),
           statement="held points can simulate moving boundaries: |error| of the torque on a cylinder that "
                     "turns in one at rest, from all its edges, those inside too, 17 spacings across"),
 )

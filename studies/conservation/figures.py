@@ -1,5 +1,4 @@
 """Figures of the study conservation, from its tables."""
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -8,13 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from studies.conservation.tables import SUMS
+from studies.kit.drawing import Drawing, Drawings
 from studies.kit.figure import below, errorbar, figure, look
-from studies.kit.table import Tables
 
-MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
-POINTS = {"lattice": "lattice", "jittered-0.3": "shifted by up to $0.3a$", "random": "random",
-          "relaxed": "moved apart"}
-BRACKETS = {"plus": "$(f_i + f_j)$ in both, Eqs 34, 35", "adjoint": "differences in the gradient"}
 MOTIONS = {"literal": "literal (39-41)", "convective": "convective (46-48)", "carried": "46-48, dV carried",
            "constant-mass": "constant mass (49)"}
 INTEGRATORS = {"euler": "forward Euler [40]", "two-step": "two steps [40, 41]"}
@@ -30,14 +25,10 @@ COLUMNS = {
     ("layer", "mixed", "periodic"): "nested and along edges",
     ("layer", "ideal", "periodic"): "no friction",
     ("dih", "printed", ""): "nested, Eq. 37 as printed",
-    ("dih", "one-sided", ""): "pressure not symmetric",
     ("dih", "", ""): "1D, 3D, bulk viscosity",
     ("layer", "ideal", "plates, gravity"): "plates, gravity",
     ("layer", "ideal", "plates"): "plates, no friction",
     ("layer", "", "plates"): "plates, friction",
-    ("held", "", "body"): "fluid and body",
-    ("held", "", ""): "fluid and held rows",
-    ("sliding", "", ""): "sliding sides",
     ("motions", "literal", ""): "Eqs 39-41",
     ("motions", "constant", ""): "Eq. 49",
     ("motions", "convective", ""): "Eqs 46-48",
@@ -46,16 +37,6 @@ COLUMNS = {
     ("moving", "", "periodic"): "the same, parts left out",
     ("moving", "", "plates"): "the same, plates",
 }
-
-
-def figures(tables: Tables) -> dict[str, Figure]:
-    """What the tables allow."""
-    drawn: dict[str, tuple[Callable[..., Figure], tuple[str, ...]]] = {
-        "drift": (drift, ("drift",)), "sound": (sound, ("sound_means",)),
-        "speeds": (speeds, ("patterns", "moving_sound")), "steps": (steps, ("euler", "steps")),
-        "drag": (drags, ("drag",))}
-    return {name: draw(*(tables[table] for table in wanted)) for name, (draw, wanted) in drawn.items()
-            if all(len(tables.get(table, [])) for table in wanted)}
 
 
 def column(scheme: str, mode: str, wall: str) -> int:
@@ -71,12 +52,13 @@ def drift(rows: pd.DataFrame) -> Figure:
     order = sorted(set(rows["column"]))
     whole = rows["reached"] == rows["steps"]
     for number, name in enumerate(SUMS):
-        claimed = np.array([name in text.split() for text in rows["claimed"]], bool)
+        claimed = rows["claimed"].str.contains(name)
         style = {**look(number), "linestyle": "none", "markersize": 6}
+        x = rows["column"].map(order.index) + 0.15*(number - 1.5)
+        y = rows[name].clip(lower=LEAST)
         for chosen, more in ((claimed & whole, {"label": name}), (claimed & ~whole, {"fillstyle": "left"}),
                              (~claimed, {"fillstyle": "none"})):
-            x = [order.index(place) + 0.15*(number - 1.5) for place in rows["column"][chosen]]
-            axes.plot(x, np.maximum(rows[name][chosen], LEAST), **{**style, **more})
+            axes.plot(x[chosen], y[chosen], **{**style, **more})
     axes.set_xlim(-0.6, len(order) - 0.4)
     axes.axhline(1e-13, color="grey", linestyle=":", marker="")
     axes.set(yscale="log", ylabel="largest relative change over the run")
@@ -87,25 +69,6 @@ def drift(rows: pd.DataFrame) -> Figure:
                    "sound outran the step);\nopen: not claimed, also in such runs; dotted: 1e-13; no change "
                    "at all is drawn as 1e-17", fontsize=9)
     page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    return page
-
-
-def sound(rows: pd.DataFrame) -> Figure:
-    """Growth of linear sound by makers of edges, for both brackets."""
-    page, both = figure(1, 2, width=4.4, height=4.4, sharey=True)
-    for axes, (bracket, title) in zip(both, BRACKETS.items(), strict=True):
-        for number, (kind, words) in enumerate(POINTS.items()):
-            some = rows[(rows["bracket"] == bracket) & (rows["points"] == kind)]
-            some = some.assign(growth=some["growth"].clip(lower=LEAST),
-                               x=some["maker"].map(MAKERS.index) + 0.12*(number - 1.5))
-            bars(axes, some, "x", "growth", number=number, label=words)
-        axes.set(yscale="log", title=title, xlabel="edges", ylim=(LEAST/3, 300))
-        axes.set_xticks(range(len(MAKERS)), labels=MAKERS, rotation=45, ha="right")
-    both[0].set_ylabel("fastest growth of sound per period")
-    page.legend(*both[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    page.suptitle("Sound without friction: does it keep its energy? Below 1e-13: round-off; bars: 95 % over "
-                  "sets of points",
-                  fontsize=10)
     return page
 
 
@@ -124,15 +87,8 @@ def ticks(axes: Axes, values: Any) -> None:
 def speeds(patterns: pd.DataFrame, sound: pd.DataFrame) -> Figure:
     """How fast a density pattern goes on a stream, and sound."""
     page, (left, right) = figure(1, 2, width=4.4, height=4.0)
-    for axes, frame in ((left, patterns), (right, sound[sound["weight"] == "Lucy"])):
-        for number, (name, words) in enumerate(MOTIONS.items()):
-            group = frame[frame["motion"] == name].sort_values("wavelength")
-            bars(axes, group, "wavelength", "speed", number=number, label=words, markerfacecolor="none",
-                 markersize=10 - 2*number)      # some lie on each other
-            axes.plot(group["wavelength"], group["predicted"], color="grey", linestyle=":", marker="")
-        axes.set(xlabel=r"wavelength $\lambda/a$", xscale="log")
-        ticks(axes, sorted(set(frame["wavelength"])))
-        below(axes, ncols=2)
+    draw_speeds(left, patterns)
+    draw_speeds(right, sound[sound["weight"] == "Lucy"])
     left.set(ylabel="speed of the pattern over the stream's", title="density pattern on a uniform stream")
     right.set(ylabel="speed of sound over $c$", title="standing sound")
     right.axhline(np.sqrt(2), color="grey", linewidth=0.6)
@@ -142,30 +98,30 @@ def speeds(patterns: pd.DataFrame, sound: pd.DataFrame) -> Figure:
     return page
 
 
-def steps(euler: pd.DataFrame, places: pd.DataFrame) -> Figure:
-    """Forward Euler and sound on fixed points; places of points that move."""
-    page, (left, right) = figure(1, 2, width=4.8, height=5.2)
-    k2 = (2*np.pi/euler["wavelength"])**2
-    euler = euler.assign(rate=euler["growth"]/k2, rate_err=euler["growth_err"]/k2,
-                         dotted=euler["predicted"]/k2)
-    for number, (wavelength, group) in enumerate(euler.groupby("wavelength")):
-        bars(left, group, "dt_over_limit", "rate", number=number, label=rf"$\lambda = {wavelength:g}a$")
-        left.plot(group["dt_over_limit"], group["dotted"], color="grey", linestyle=":", marker="")
-    left.axhline(0, color="black", linewidth=0.6, linestyle="-", marker="")
-    left.set(title="fixed points: growth of sound",
-             xlabel=r"step $\Delta t\, \rho c^2/(\eta + \zeta + \kappa/2)$",
-             ylabel=r"growth rate$/(ka)^2$  [$(k_BT/m)^{1/2}/a$]")
-    groups = places.sort_values("dt").groupby(["motion", "flow", "integrator"])
+def draw_speeds(axes: Axes, rows: pd.DataFrame) -> None:
+    """Of each motion over the wavelength; some lie on each other."""
+    for number, (name, words) in enumerate(MOTIONS.items()):
+        group = rows[rows["motion"] == name].sort_values("wavelength")
+        style = {"markerfacecolor": "none", "markersize": 10 - 2*number}
+        bars(axes, group, "wavelength", "speed", number=number, label=words, **style)
+        axes.plot(group["wavelength"], group["predicted"], color="grey", linestyle=":", marker="")
+    axes.set(xlabel=r"wavelength $\lambda/a$", xscale="log")
+    ticks(axes, sorted(set(rows["wavelength"])))
+    below(axes, ncols=2)
+
+
+def steps(rows: pd.DataFrame) -> Figure:
+    """Where points end that move with old velocities (Eq. 40) and with new ones (Eq. 41)."""
+    page, axes = figure(1, 1, width=6.0, height=4.8)
+    groups = rows.sort_values("dt").groupby(["motion", "flow", "integrator"])
     for number, ((motion, flow, integrator), group) in enumerate(groups):
         words = f"{MOTIONS[str(motion)]}, {flow},\n{INTEGRATORS[str(integrator)]}"
-        bars(right, group, "dt", "error", number=number, linestyle=look(number)["linestyle"], label=words)
-    right.set(xlabel=rf"step $\Delta t$  [{UNIT}]", ylabel="rms error of places over displacement",
-              xscale="log", yscale="log", title="points that move: where they end")
-    ticks(right, (0.03, 0.1, 0.3))
-    for axes in (left, right):
-        below(axes, ncols=2, bbox_to_anchor=(0.5, -0.16))
-    page.suptitle("Which steps do Eqs 40, 41 allow?\ndotted: predicted growth; bars: what halves of a run, "
-                  "or finer steps, differ by", fontsize=10)
+        bars(axes, group, "dt", "error", number=number, linestyle=look(number)["linestyle"], label=words)
+    axes.set(xlabel=rf"step $\Delta t$  [{UNIT}]", ylabel="rms error of places over displacement",
+             xscale="log", yscale="log")
+    ticks(axes, (0.03, 0.1, 0.3))
+    below(axes, ncols=2, bbox_to_anchor=(0.5, -0.16))
+    axes.set_title("Are new velocities better? Bars: what finer steps differ by")
     return page
 
 
@@ -174,13 +130,11 @@ def drags(drag: pd.DataFrame) -> Figure:
     fractions = sorted(set(drag["fraction"]))
     page, axes = figure(1, len(fractions), width=4.4, height=4.2, squeeze=False, sharey=True)
     drag = drag.assign(percent=100*drag["error"].abs(), percent_err=100*drag["error_err"])
-    across = np.array([drag["radius"].min(), drag["radius"].max()])
     for panel, fraction in zip(axes[0], fractions, strict=True):
-        for number, (name, words) in enumerate(BODIES.items()):
-            group = drag[(drag["variant"] == name) & (drag["fraction"] == fraction)].sort_values("rows")
-            bars(panel, group, "radius", "percent", number=number, linestyle="-", label=words)
+        draw_drags(panel, drag[drag["fraction"] == fraction].sort_values("rows"))
         for power, style, at in ((1, ":", 60.0), (2, "--", 16.0)):
-            panel.plot(across, at*across**-power, color="grey", linestyle=style, marker="",
+            radius = np.array([drag["radius"].min(), drag["radius"].max()])
+            panel.plot(radius, at*radius**-power, color="grey", linestyle=style, marker="",
                        label=f"$(a/R)^{power}$")
         panel.set(xscale="log", yscale="log", title=f"solid fraction {fraction:g}", xlabel="radius $R/a$")
         ticks(panel, (4, 6, 10, 20))
@@ -189,3 +143,17 @@ def drags(drag: pd.DataFrame) -> Figure:
     page.suptitle("Drag of a cylinder against Sangani & Acrivos (1982); bars: print and what was not steady",
                   fontsize=10)
     return page
+
+
+def draw_drags(axes: Axes, rows: pd.DataFrame) -> None:
+    """Of each variant over the radius."""
+    for number, (name, words) in enumerate(BODIES.items()):
+        group = rows[rows["variant"] == name]
+        bars(axes, group, "radius", "percent", number=number, linestyle="-", label=words)
+
+
+FIGURES = Drawings(
+    Drawing("drift", ("drift",), drift),
+    Drawing("speeds", ("patterns", "moving_sound"), speeds),
+    Drawing("steps", ("steps",), steps),
+    Drawing("drag", ("drag",), drags))

@@ -1,42 +1,30 @@
-"""Points that move as RR98 prints it: what long runs keep, Eqs 46-48 against 49, the force of Eq. 50"""
-from collections.abc import Iterator
+"""Points that move as RR98 prints it: equations evaluated once, speeds of waves    [RR98 Eqs 39-50]"""
+from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.brackets import Powers
-from particles.integral.dih import Nested, Pairwise
+from particles.integral.dih import Pairwise
 from particles.integral.points import Points, jittered, lattice
-from particles.integral.rr98_moving_plain import (
-    MOTIONS,
-    ConstantMass,
-    Convective,
-    Literal,
-    convected,
-    scale_of,
-)
-from particles.integrators import RK4, TwoStep
+from particles.integral.rr98_moving_plain import ConstantMass, Convective, Motion, convected, scale_of
+from particles.integrators import RK4
 from particles.limits import lattice_sums
 from particles.threads import Team
-from particles.weights import WEIGHTS, Lucy
-from studies.conservation.drift import EVERYTHING, drift_row
-from studies.conservation.sums import Watch
+from particles.weights import Lucy
 from studies.kit.case import Case, Outcome, Report
+from studies.kit.stats import Measured
 
-ALONG, NESTED = Pairwise(mended=False), Nested()
-GAS, STILL, C = IdealGas(), ConstEta(0.0, 0.0), np.sqrt(2.0)      # c^2 = gamma P/rho = 2 at rho = T = 1
+ALONG = Pairwise(mended=False)
+STILL, C = ConstEta(0.0, 0.0), np.sqrt(2.0)     # c^2 = gamma P/rho = 2 at rho = T = 1
 AMPLITUDE = 1e-4        # of waves: what is quadratic in it is 1e-4 of what is linear, and of another length
 BREADTH = 8             # spacings across a wave: more than twice the widest weight
-SIDE, H = 6, 2.7        # of the box of long runs, range of their weights
 LENGTH = 32             # spacings of a wave on which equations are evaluated once
-KEEP = ("literal", "constant-mass")
-POINTS = {"lattice": 0.0, "jittered-0.1": 0.1}
-POWERS = ((0, 0), (1, -1), (2, -2), (0, -1), (1, 0), (2, 0), (1, 1), (3, 0))
-REYNOLDS = (0.1, 10.0, 1000.0, np.inf)
+STREAM = 0.2
+DT = 0.2                # of waves on moving points, with RK4
 
 
 def strip(wavelength: int, breadth: int = BREADTH) -> Points:
@@ -48,68 +36,25 @@ def strip(wavelength: int, breadth: int = BREADTH) -> Points:
 def moving(kind: Any, points: Points, weight: Any, law: Any = STILL, **more: Any) -> Any:
     """A motion on points with renormalised edges; forces along edges, whose heating most runs do not need."""
     settings = {"transport": ALONG, "scale": scale_of(points, weight), **more}
-    return kind(box=tuple(points.box), weight=weight, eos=GAS, law=law, **settings)
+    return kind(box=tuple(points.box), weight=weight, eos=IdealGas(), law=law, **settings)
 
 
-def seen_slope(weight: Any, points: Points, k: float) -> float:
-    """Wave number that gradients see on the lattice, over k, with the scale of `renormalised`."""
-    S = lattice_sums(weight, 1.0, 1.0, np.array([[k, 0.0]])).S
-    return float(scale_of(points, weight)*np.abs(S[0, 0])/k)
+class SeenWave(NamedTuple):
+    """What sums over the lattice see of a wave, 1 in the continuum, with the scale of `renormalised`.
 
-
-# --- what is kept -------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, kw_only=True)
-class MotionDrift(Case):
-    """Vortices and sound on a stream, SIDE^2 points that move, a viscous gas; sums are watched at every step.
-
-    kind, weight, integrator : classes. points : of POINTS.
+    slope : of gradients, wave number over k. stiffness : of a moved lattice, (1/k^2) sum_r w_xx (1 - cos kx).
     """
 
-    motion: str
-    kind: type
-    integrator: Any = RK4
-    weight: Any = Lucy
-    points: str = "jittered-0.1"
-    dt: float = 0.2
-    steps: int = 10_000
-
-    @property
-    def cost(self) -> float:
-        return 5e-4*self.steps*self.integrator.evaluations
-
-    @property
-    def label(self) -> str:
-        return f"motions {self.motion} {self.weight.__name__} {self.points} {self.integrator.__name__}"
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        points = jittered((SIDE, SIDE), POINTS[self.points], 1)
-        method = moving(self.kind, points, self.weight.of(h=H), ConstEta(0.2, 0.2))
-        state = method.state(points.x, *stirred(points))
-        sums, v = method.conserved(state), method.fields(state).v
-        m = method.fields(state).rho/len(v)
-        momentum = np.abs(m[:, None]*v).sum(axis=0)*sums[0]/m.sum()
-        watch = Watch(method.conserved, np.array([sums[0], *momentum, sums[-1]]))
-        watch(state)
-        stepper = self.integrator(state.shape, Team(1))
-        for step in range(self.steps):
-            stepper.step(method, state, self.dt)
-            watch(state)
-            if step % 256 == 0:
-                report(step/self.steps)
-        return drift_row(
-            watch, scheme="motions", mode=f"{self.motion}, {self.integrator.__name__}", maker="renormalised",
-            weight=self.weight.__name__, h=H, points=self.points, wall="periodic", seed=1, n=points.n,
-            steps=self.steps, reached=self.steps, claimed=EVERYTHING if self.motion in KEEP else "nothing",
-            motion=np.nan)
+    slope: float
+    stiffness: float
 
 
-def stirred(points: Points) -> tuple[np.ndarray, ...]:
-    """Vortices and sound on a stream: rho, v, T."""
-    X, Y = (2*np.pi*points.x/points.box).T
-    v = 0.1*np.stack([0.5 + np.sin(X)*np.cos(Y), 0.3 - np.cos(X)*np.sin(Y)], axis=1)
-    return 1 + 0.05*np.cos(X + Y), v, 1 + 0.05*np.sin(Y)
+def seen(weight: Any, points: Points, k: float) -> SeenWave:
+    """Of a wave along x."""
+    sums, scale = lattice_sums(weight, 1.0, 1.0, np.array([[k, 0.0]])), scale_of(points, weight)
+    slope = np.abs(sums.S[0, 0])/k
+    stiffness = sums.D[0, 0, 0]/k**2
+    return SeenWave(float(scale*slope), float(scale*stiffness))
 
 
 # --- equations evaluated once -------------------------------------------------------------------
@@ -135,17 +80,19 @@ class Identity(Case):
     reynolds: float
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        points, eta = jittered((10, 10), 0.2, 2), 0.1/self.reynolds
-        exact, other = (self.acceleration(kind, points, eta) for kind in (ConstantMass, Convective))
+        exact, other = (self.acceleration(kind) for kind in (ConstantMass, Convective))
         difference = float(np.abs(other - exact).max()/np.abs(exact).max())
         known = {"transport": self.name, "reynolds": self.reynolds}
         return Outcome({"identity": [{**known, "convective": difference}]})
 
-    def acceleration(self, kind: type, points: Points, eta: float) -> np.ndarray:
+    def acceleration(self, kind: type[Motion]) -> np.ndarray:
         """Of random fields."""
+        points = jittered((10, 10), 0.2, 2)
         rng = np.random.default_rng(0)
-        rho, v = rng.uniform(0.9, 1.1, points.n), rng.normal(0, 0.1, (points.n, 2))
+        rho = rng.uniform(0.9, 1.1, points.n)
+        v = rng.normal(0, 0.1, (points.n, 2))
         T = rng.uniform(0.9, 1.1, points.n)
+        eta = 0.1/self.reynolds
         method = moving(kind, points, Lucy.of(h=3.0), ConstEta(eta, eta), transport=self.transport)
         return acceleration(method, method.state(points.x, rho, v, T))
 
@@ -155,44 +102,132 @@ class Signs(Case):
     """What Eqs 46-48 add to d/dt over v.grad of smooth fields on a lattice, by least squares."""
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        points, k, weight = strip(LENGTH), 2*np.pi/LENGTH, Lucy.of(h=3.0)
-        edges = moving(Convective, points, weight).fluid(points.x, points.V).edges
-        x, v = points.x[:, 0], np.tile([0.3, -0.1], (points.n, 1))
+        points, k = strip(LENGTH), 2*np.pi/LENGTH
+        edges = moving(Convective, points, Lucy.of(h=3.0)).fluid(points.x, points.V).edges
+        v = np.tile([0.3, -0.1], (points.n, 1))
         rows = []
         for equation, phase in ((46, 0.0), (47, 0.7), (48, 1.9)):
-            exact = -0.3*k*np.sin(k*x + phase)
-            [added] = convected(edges, v, np.cos(k*x + phase)[None])
-            rows.append({"equation": equation, "wavelength": LENGTH, "factor": added@exact/(exact@exact),
-                         "predicted": seen_slope(weight, points, k)})
+            along = k*points.x[:, 0] + phase
+            exact = -0.3*k*np.sin(along)
+            [added] = convected(edges, v, np.cos(along)[None])
+            factor = added@exact/(exact@exact)
+            rows.append({"equation": equation, "wavelength": LENGTH, "factor": factor})
         return Outcome({"signs": rows})
 
 
 @dataclass(frozen=True, kw_only=True)
-class Brackets(Case):
+class BracketForce(Case):
     """Acceleration by Eq. 50, powers a and b, in a wave without entropy (P = rho^2), over -grad P/rho."""
 
     a: float
     b: float
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        points, k, weight = strip(LENGTH), 2*np.pi/LENGTH, Lucy.of(h=3.0)
-        x, lost = points.x[:, 0], self.a + self.b
+        points, k = strip(LENGTH), 2*np.pi/LENGTH
+        x = points.x[:, 0]
         wave = 1 + AMPLITUDE*np.cos(k*x)
-        method = moving(ConstantMass, points, weight, bracket=Powers(self.a, self.b))
+        method = moving(ConstantMass, points, Lucy.of(h=3.0), bracket=Powers(self.a, self.b))
         along, _ = acceleration(method, method.state(points.x, wave, 0*points.x, wave))
         # -grad rho^2 = 2 k A sin kx
         force = np.mean(along*np.sin(k*x))/(k*AMPLITUDE)
-        predicted = seen_slope(weight, points, k)*(1 - lost/2)
-        return Outcome({"brackets": [{"a": self.a, "b": self.b, "force": force, "predicted": predicted}]})
+        return Outcome({"brackets": [{"a": self.a, "b": self.b, "force": force}]})
 
 
-def motions(steps: int = 10_000, weights: tuple[type, ...] = tuple(WEIGHTS.values())) -> Iterator[Case]:
-    """All motions on jittered points with RK4; on a lattice, with the paper's two steps, those it prints."""
-    two: dict[str, Any] = {"integrator": TwoStep, "points": "lattice", "dt": 0.05, "steps": steps}
-    yield from (MotionDrift(motion=name, kind=kind, steps=steps) for name, kind in MOTIONS.items())
-    yield from (MotionDrift(motion="literal", kind=Literal, weight=weight, **two) for weight in weights)
-    yield MotionDrift(motion="convective", kind=Convective, **two)
-    yield Signs()
-    yield from (Brackets(a=float(a), b=float(b)) for a, b in POWERS)
-    for (name, transport), reynolds in product({"nested": NESTED, "pairwise": ALONG}.items(), REYNOLDS):
-        yield Identity(name=name, transport=transport, reynolds=reynolds)
+# --- speeds -------------------------------------------------------------------------------------
+
+
+def march(method: Any, state: np.ndarray, dt: float, steps: int, look: Callable[[np.ndarray], Any],
+          integrator: Any = RK4) -> np.ndarray:
+    """look(state) before the first and after every step."""
+    stepper, looks = integrator(state.shape, Team(1)), [look(state)]
+    for _ in range(steps):
+        stepper.step(method, state, dt)
+        looks.append(look(state))
+    return np.array(looks)
+
+
+def amplitude(q: np.ndarray, x: np.ndarray, k: float) -> complex:
+    """Mean of (q - <q>) exp(-ikx)."""
+    return complex(np.mean((q - q.mean())*np.exp(-1j*k*x)))
+
+
+def frequency(series: np.ndarray, dt: float) -> float:
+    """omega > 0 of a wave that stands: its series is a sum of two powers, by least squares."""
+    known = np.stack([series[:-2], series[1:-1]], axis=1)
+    b, c = np.linalg.lstsq(known, series[2:], rcond=None)[0]
+    powers = np.asarray(np.roots([1.0, -c, -b]), complex)
+    return float((np.log(powers)/dt).imag.max())
+
+
+def by_halves(series: np.ndarray, measure: Callable[[np.ndarray], float]) -> Measured:
+    """A number from the whole series; its error is what the two halves differ by."""
+    one, other = (measure(half) for half in np.array_split(series, 2))
+    return Measured(float(measure(series)), float(abs(one - other)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pattern(Case):
+    """Speed of a density wave under uniform pressure over that of the stream that carries it, no viscosity.
+
+    kind : of `rr98_moving_plain.MOTIONS`, `motion` its name. Its error: what the halves of the run differ by.
+    """
+
+    motion: str
+    kind: type[Motion]
+    wavelength: int
+    time: float = 10.0
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        points, k = strip(self.wavelength), 2*np.pi/self.wavelength
+        weight = Lucy.of(h=3.0)
+        method = moving(self.kind, points, weight)
+        rho = 1 + AMPLITUDE*np.cos(k*points.x[:, 0])
+        v = np.tile([STREAM, 0.0], (points.n, 1))
+        first = method.state(points.x, rho, v, 1/rho)
+        waves = march(method, first, DT, round(self.time/DT), lambda state: amplitude(state[2], state[0], k))
+        phases = np.unwrap(np.angle(waves))
+        speed = by_halves(-phases/(k*STREAM*DT), slope)
+        twice = seen(weight, points, k).slope if self.motion == "literal" else 0.0
+        known = {"motion": self.motion, "h": 3.0, "wavelength": self.wavelength}
+        found = {"speed": speed.value, "speed_err": speed.err, "predicted": 1 + twice}
+        return Outcome({"patterns": [{**known, **found}]})
+
+
+def slope(series: np.ndarray) -> float:
+    """Of a straight line through a series, per sample."""
+    return float(np.polyfit(np.arange(len(series)), series, 1)[0])
+
+
+@dataclass(frozen=True, kw_only=True)
+class MovingSound(Case):
+    """Speed of standing sound without viscosity over c, for two periods. weight : class."""
+
+    motion: str
+    kind: type[Motion]
+    wavelength: int
+    weight: Any = Lucy
+    h: float = 3.0
+
+    @property
+    def cost(self) -> float:
+        return 1e-5*self.wavelength**2*self.h**2
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        points, k = strip(self.wavelength, 2*int(self.h) + 2), 2*np.pi/self.wavelength
+        weight, one = self.weight.of(h=self.h), np.ones(points.n)
+        method = moving(self.kind, points, weight)
+        wave = np.sin(k*points.x[:, 0])
+        v = AMPLITUDE*np.stack([wave, 0*wave], axis=1)
+        steps = round(2*self.wavelength/C/DT)
+        waves = march(method, method.state(points.x, one, v, one), DT, steps, lambda state: state[3]@wave)
+        speed = by_halves(waves, lambda part: frequency(part, DT)/(k*C))
+        known = {"motion": self.motion, "weight": self.weight.__name__, "h": self.h,
+                 "wavelength": self.wavelength}
+        found = {"speed": speed.value, "speed_err": speed.err,
+                 "predicted": self.predicted(*seen(weight, points, k))}
+        return Outcome({"moving_sound": [{**known, **found}]})
+
+    def predicted(self, slope: float, stiffness: float) -> float:
+        """Where volumes stay pressure is not balanced by volumes that give way."""
+        squared = stiffness + slope**2 if self.motion in ("literal", "convective") else stiffness
+        return float(np.sqrt(squared))

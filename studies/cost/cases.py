@@ -1,123 +1,172 @@
 """Which methods take part in which scene, at which resolutions.
 
-Every method runs at rising resolutions, each at the longest step that is good enough beside the error of its space
-(studies/cost/problem.py has the rule; py-pde's is by its formula); CPU seconds of one thread, medians of repeats, without
-compiling; nothing else runs. A ladder of resolutions, four at least, ends before its cases take more than DEAREST seconds
-each, and all of them more than TOGETHER. `paper` takes an hour, `quick` minutes.
-"""
-from collections.abc import Iterable, Iterator
-from typing import Any
+taylor-green   a vortex of Mach 0.05 and Re 100 that decays by e; against the gas of that Mach number
+sound          a wave of small amplitude for two periods
+convection     Rayleigh-Benard at Ra = 10 000, and 5000, from KHP95's rolls
 
-from studies.cost import contestants, convection, direct, names, pypde
-from studies.cost.contestants import Contestant
-from studies.cost.flows import Plates, Vortex, Wave
-from studies.cost.growth import Growth, Threads
-from studies.cost.layer import LOWER_RA, SETTLED
-from studies.cost.problem import Price, Race
+Every method runs at rising resolutions, each at the longest step that is good enough beside the error of its
+space (rule: problem.py; py-pde's is by its formula). CPU seconds of one thread, medians of repeats, without
+compiling. A case takes DEAREST seconds at most, all take TOGETHER. `paper` takes an hour, `quick` minutes.
+"""
+from collections.abc import Collection, Iterator, Mapping
+from itertools import product
+from typing import Any, NamedTuple
+
+from studies.build.fixed import SCHEMES
+from studies.build.grid import FORMS
+from studies.build.moving import MOTIONS
+from studies.build.spam import OF_LIMIT, VARIANTS
+from studies.cost import pypde, rolls
+from studies.cost.contestants import (
+    StandingWave,
+    VortexDecay,
+    on_grid,
+    on_lattice,
+    on_mac,
+    particles,
+    points,
+    trembling,
+)
+from studies.cost.pypde import SolverRace
+from studies.cost.race import Entry, Price, Race
+from studies.cost.rolls import LATE, LOWER_RA, SETTLED, HeatedLayer
+from studies.cost.seconds import Flock, StepTime, TwoThreads, Web
+from studies.cost.tables import (
+    GRID,
+    JITTERED,
+    LATTICE,
+    LESS_STATIC,
+    LUCY,
+    MAC,
+    MONAGHAN,
+    MOVING,
+    NEAREST,
+    PYPDE,
+    WENDLAND,
+    WIDE,
+)
 from studies.kit.case import Case
 
-SEEDS = (1, 2, 3)
 DEAREST, TOGETHER = 300.0, 55*60.0   # seconds
-#: name -> method of `studies.build`
-LATTICES = {names.NEAREST: "fixed-lattice-h1.2", names.LATTICE: "fixed-lattice", names.WIDE: "fixed-lattice-h3"}
-WEIGHTS = {names.LATTICE_MONAGHAN: "fixed-lattice-monaghan", names.LATTICE_WENDLAND: "fixed-lattice-wendland-c2"}
-PARTICLES = {names.LUCY: "spam", names.MONAGHAN: "spam-monaghan", names.WENDLAND: "spam-wendland-c2"}
-MORE_PARTICLES = {**PARTICLES, names.LESS_STATIC: "spam-less-static-50"}
+FAST = 0.001        # seconds of timings of size quick
+TWO, THREE = (1, 2), (1, 2, 3)          # seeds
+RUNGS = (8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256)
+ROWS = (22, 30, 40, 53, 71, 95, 126, 168, 224, 299, 398, 531, 707)      # a thousand points to a million
+Entries = dict[str, Entry]
 
 
-# --- who takes part ---------------------------------------------------------------------------------------------
+# --- who takes part -----------------------------------------------------------------------------------------
+
+LATTICES = {
+    NEAREST: SCHEMES["fixed-lattice-h1.2"],
+    LATTICE: SCHEMES["fixed-lattice"],
+    WIDE: SCHEMES["fixed-lattice-h3"],
+}
+STAYING = {**LATTICES, JITTERED: SCHEMES["fixed-jittered-delaunay"]}
+HELD = {**LATTICES, JITTERED: SCHEMES["fixed-jittered-plates"]}
+PARTICLES = {
+    LUCY: VARIANTS["printed"],
+    MONAGHAN: VARIANTS["printed-monaghan"],
+    WENDLAND: VARIANTS["wendland-c2"],
+}
+MORE_PARTICLES = {**PARTICLES, LESS_STATIC: VARIANTS["less-static-50"]}
+POINTS_THAT_MOVE = {MOVING: MOTIONS["moving"]}
+CELLS = {GRID: FORMS["flux-form"]}
 
 
-def vortex(mach: float = 0.05) -> dict[str, Any]:
-    """Contestants by name."""
-    flow, price = Vortex(mach), Price(0.5, 1.3e-5, 3)
-    points = {**LATTICES, **WEIGHTS, names.JITTERED: "fixed-jittered-delaunay"}
-    return by_name(
-        *(Contestant(name, flow, method, price) for name, method in points.items()),
-        Contestant(names.TWO_STEP, flow, "fixed-lattice", Price(0.5, 0.013), contestants.two_step_points),
-        *(Contestant(name, flow, method, Price(1.3, 1e-4, 3), contestants.particles, 0.7, True)
-          for name, method in PARTICLES.items()),
-        Contestant(names.MOVING, flow, "moving", Price(0.5, 1.8e-4, 3)),
-        contestants.OnGrid(names.GRID, flow, Price(0.5, 8e-6, 3)), contestants.OnMac(names.MAC_IMEX),
-        pypde.InFlow(names.PYPDE_GAS, flow, Price(5, 3e-5, 3), pypde.vortex))
+def entries(methods: Mapping[str, Any], *rest: Any) -> Entries:
+    """Methods by name, with the rest of what an entry has: a flow, `make`, price, first step."""
+    return {name: Entry(name, rest[0], method, *rest[1:]) for name, method in methods.items()}
 
 
-def wave() -> dict[str, Any]:
+def vortex(mach: float = 0.05) -> Entries:
+    """In the vortex."""
+    flow = VortexDecay(mach)
+    return {
+        **entries(STAYING, flow, points, Price(0.5, 1.3e-5, 3)),
+        **entries(PARTICLES, flow, trembling, Price(1.3, 1e-4, 3), 0.7),
+        **entries(POINTS_THAT_MOVE, flow, points, Price(0.5, 1.8e-4, 3)),
+        **entries(CELLS, flow, on_grid, Price(0.5, 8e-6, 3)),
+        **entries({MAC: None}, flow, on_mac, Price(0.3)),
+        **entries({PYPDE: None}, flow, pypde.vortex, Price(5, 3e-5, 3)),
+    }
+
+
+def wave() -> Entries:
     """In sound."""
-    flow, price = Wave(), Price(0.5, 7e-5)
-    points = {**LATTICES, **WEIGHTS, names.JITTERED: "fixed-jittered-delaunay"}
-    dear = {names.MONAGHAN: 2e-3}
-    return by_name(
-        *(Contestant(name, flow, method, price) for name, method in points.items()),
-        Contestant(names.TWO_STEP, flow, "fixed-lattice", Price(0.5, 4e-4), contestants.two_step_points),
-        *(Contestant(name, flow, method, Price(1.5, dear.get(name, 0.0)), contestants.particles)
-          for name, method in PARTICLES.items()),
-        Contestant(names.LUCY_TWO_STEP, flow, "spam", Price(1.5, 2e-3), contestants.two_step_particles),
-        Contestant(names.MOVING, flow, "moving", Price(0.3, 2.7e-4), contestants.on_lattice),
-        contestants.OnGrid(names.GRID, flow, Price(0.3, 3e-5)),
-        pypde.InFlow(names.PYPDE_GAS, flow, Price(5, 1e-4), pypde.sound))
+    flow = StandingWave()
+    return {
+        **entries(STAYING, flow, points, Price(0.5, 7e-5)),
+        **entries(PARTICLES, flow, particles, Price(1.5, 7e-4)),
+        **entries(POINTS_THAT_MOVE, flow, on_lattice, Price(0.3, 2.7e-4)),
+        **entries(CELLS, flow, on_grid, Price(0.3, 3e-5)),
+    }
 
 
-def between(name: str) -> dict[str, Any]:
-    """Between plates; those of moving points do not slide."""
-    flow, price = Plates(name), Price(0.5, 7e-5)
-    moving = (Contestant(names.MOVING, flow, "moving", Price(0.3, 1.3e-4)),)
-    return by_name(
-        contestants.OnGrid(names.GRID, flow, price),
-        *(Contestant(name, flow, method, price) for name, method in LATTICES.items()),
-        Contestant(names.JITTERED, flow, "fixed-jittered-plates", price, contestants.less_jittered),
-        *(Contestant(name, flow, method, Price(1.7), contestants.particles, 0.7, True)
-          for name, method in PARTICLES.items()),
-        *(moving if name == "conduction" else ()),
-        pypde.InFlow(names.PYPDE_GAS, flow, Price(5, 2e-4), pypde.between))
+def convection(flow: HeatedLayer = HeatedLayer()) -> Entries:  # noqa: B008 (immutable)
+    """In convection."""
+    moving, smooth = (flow._replace(late=late) for late in (SETTLED, LATE))
+    return {
+        **entries(HELD, flow, rolls.on_points, Price(1, 5.3e-4, 3)),
+        **entries(MORE_PARTICLES, smooth, rolls.of_particles, Price(4, 6.8e-4, 3), 2*OF_LIMIT),
+        **entries(POINTS_THAT_MOVE, moving, rolls.on_points, Price(1, 2.1e-3, 3), 1.0),
+        **entries(CELLS, flow, rolls.on_grid, Price(0.3, 7e-5, 3)),
+    }
 
 
-def layer() -> dict[str, Any]:
-    """In convection; relaxing random points takes minutes where they are many."""
-    price, dear = Price(1, 2.2e-4, 3), Price(1, 5.3e-4, 3)
-    return by_name(
-        convection.OnGrid(names.GRID),
-        *(convection.OnPoints(name, method, price) for name, method in LATTICES.items()),
-        convection.OnPoints(names.JITTERED, "fixed-jittered-plates", dear),
-        convection.OnPoints(names.RELAXED, "relaxed-plates", Price(1, 0.11)),
-        convection.OnPoints(names.MOVING, "moving", Price(1, 2.1e-3, 3), 1.0, SETTLED),
-        *(convection.OnParticles(name, method) for name, method in MORE_PARTICLES.items()),
-        direct.OnNewton(names.NEWTON), pypde.InLayer(names.PYPDE_GAS, True))
+#: scene -> entries by name; at half the Rayleigh number those two that decide what fixed points cost
+CONTESTS = {
+    "taylor-green": vortex(),
+    "sound": wave(),
+    "convection": convection(),
+    "convection-5000": convection(HeatedLayer(ra=LOWER_RA)),
+}
 
 
-def boussinesq() -> dict[str, Any]:
-    """Another fluid, which is no answer for the gas."""
-    return by_name(convection.OnMac(names.MAC_IMEX), direct.OnMacNewton(names.MAC_NEWTON),
-                   pypde.InLayer(names.PYPDE_BOUSSINESQ, False))
+# --- at which resolutions -----------------------------------------------------------------------------------
 
 
-def lower() -> dict[str, Any]:
-    """The two that decide what fixed points cost, at half the Rayleigh number."""
-    grid, nearest = (layer()[name] for name in (names.GRID, names.NEAREST))
-    return by_name(grid._replace(ra=LOWER_RA), nearest._replace(ra=LOWER_RA))
+class Ladder(NamedTuple):
+    """Rising resolutions of some methods in a scene."""
+    scene: str
+    names: Collection[str]
+    resolutions: tuple[int, ...]
+    seeds: tuple[int, ...] = (1,)
+    kind: type[Race] = Race
+
+    def cases(self, contest: Entries, **more: Any) -> Iterator[Race]:
+        """Of the methods of a contest."""
+        for name, resolution, seed in product(self.names, self.resolutions, self.seeds):
+            yield self.kind(scene=self.scene, entry=contest[name], resolution=resolution, seed=seed, **more)
 
 
-def by_name(*methods: Any) -> dict[str, Any]:
-    """Methods by the name that tables and figures have for them."""
-    return {method.name: method for method in methods}
+def rungs(least: int, most: int) -> tuple[int, ...]:
+    """The usual ones from the least to the most."""
+    return tuple(rung for rung in RUNGS if least <= rung <= most)
 
 
-#: scene -> its contestants
-CONTESTS = {"taylor-green": vortex(), "sound": wave(), "conduction": between("conduction"), "couette": between("couette"),
-            "convection": layer(), "convection-5000": lower(), "convection-boussinesq": boussinesq()}
-
-
-# --- at which resolutions ---------------------------------------------------------------------------------------
-
-
-def race(scene: str, who: Iterable[str], resolutions: Iterable[int], seeds: Iterable[int] = (1,),
-         **more: Any) -> Iterator[Race]:
-    """Methods in a scene."""
-    for name in who:
-        method = CONTESTS[scene][name]
-        kind = direct.Direct if hasattr(method, "solve") else Race
-        for size in resolutions:
-            yield from (kind(scene=scene, method=method, resolution=size, seed=seed, **more) for seed in seeds)
+LADDERS = (
+    Ladder("taylor-green", (NEAREST, WIDE, MAC), rungs(16, 64)),
+    Ladder("taylor-green", (LATTICE,), rungs(16, 192)),
+    Ladder("taylor-green", (GRID,), rungs(16, 128)),
+    Ladder("taylor-green", (PYPDE,), rungs(16, 64), kind=SolverRace),
+    Ladder("taylor-green", (JITTERED,), rungs(16, 64), THREE),
+    Ladder("taylor-green", PARTICLES, rungs(12, 32)),       # they are far off at any resolution
+    Ladder("taylor-green", (MOVING,), rungs(12, 48), TWO),
+    Ladder("sound", LATTICES, rungs(16, 128)),
+    Ladder("sound", (MOVING,), rungs(16, 192)),
+    Ladder("sound", (GRID,), rungs(16, 256)),
+    Ladder("sound", PARTICLES, rungs(16, 64)),
+    Ladder("sound", (JITTERED,), rungs(16, 128), THREE),
+    Ladder("convection", (GRID,), (*rungs(8, 16), 20, 24, 32, 40, 48, 64, 88)),
+    Ladder("convection", LATTICES, rungs(12, 48)),
+    Ladder("convection", (JITTERED,), (*rungs(12, 32), 40), TWO),
+    Ladder("convection", (MOVING,), (10, *rungs(12, 32), 44)),
+    Ladder("convection", (LUCY,), (16, 20, 25, 30)),
+    Ladder("convection", (MONAGHAN, WENDLAND, LESS_STATIC), (12, 16, 20, 25)),
+    Ladder("convection-5000", (GRID,), rungs(8, 48)),
+    Ladder("convection-5000", (NEAREST,), (8, 10, *rungs(12, 48))),     # K: 1 % at ten rows already
+)
 
 
 def cases(size: str) -> list[Case]:
@@ -125,87 +174,23 @@ def cases(size: str) -> list[Case]:
     return list(quick() if size == "quick" else paper())
 
 
+def paper() -> Iterator[Case]:
+    """All; two threads from 20 000 points on."""
+    for ladder in LADDERS:
+        yield from ladder.cases(CONTESTS[ladder.scene])
+    for rows in ROWS:
+        yield StepTime(name=LUCY, kind=Flock, rows=rows)
+        yield StepTime(name=LATTICE, kind=Web, rows=rows, a_point=2.5e-5)
+    for rows in (100, 224):
+        yield TwoThreads(name=LUCY, rows=rows)
+
+
 def quick() -> Iterator[Case]:
     """A few methods on small scenes, against coarse references."""
-    small, fast, slow = layer_sizes(8, 10, 12), 0.001, vortex(0.2)
-    for method in (slow[names.NEAREST], slow[names.MAC_IMEX]):
-        yield from (Race(scene="taylor-green", method=method, resolution=n, short=fast) for n in (16, 20, 24))
-    for name in (names.GRID, names.LATTICE):
-        method = CONTESTS["convection"][name]._replace(sizes=small)
-        yield from (Race(scene="convection", method=method, resolution=n, short=fast) for n in (8, 10, 12))
-    for scene in ("conduction", "couette"):
-        yield from race(scene, (names.GRID, names.LATTICE), (8, 12, 16), short=fast)
-    yield from race("sound", (names.NEAREST,), (16, 24, 32), short=fast)
-    yield from (Growth(rows=rows, fixed=fixed, short=fast) for fixed in (False, True) for rows in (16, 22, 32))
-
-
-def layer_sizes(*rows: int) -> convection.Sizes:
-    """Coarse references."""
-    return convection.Sizes(rows, rows)  # type: ignore[arg-type]
-
-
-def paper() -> Iterator[Case]:
-    """All."""
-    yield from vortices()
-    yield from waves()
-    yield from slabs()
-    yield from layers()
-    yield from numbers()
-
-
-def vortices() -> Iterator[Case]:
-    """Smooth particles are far off at any resolution; of one lattice up to 0.02 %, of the grid to 0.1 %."""
-    yield from race("taylor-green", (*LATTICES, names.MAC_IMEX), (16, 24, 32, 48, 64))
-    yield from race("taylor-green", (names.GRID,), (16, 24, 32, 48, 64, 96, 128))
-    yield from race("taylor-green", (names.LATTICE,), (96, 128, 192))
-    yield from race("taylor-green", (names.PYPDE_GAS,), (16, 24, 32, 48, 64))
-    yield from race("taylor-green", WEIGHTS, (16, 24, 32, 48))
-    yield from race("taylor-green", (names.JITTERED,), (16, 24, 32, 48, 64), SEEDS)
-    yield from race("taylor-green", (names.TWO_STEP, *PARTICLES), (12, 16, 24, 32))
-    yield from race("taylor-green", (names.MOVING,), (12, 16, 24, 32, 48), SEEDS[:2])
-
-
-def waves() -> Iterator[Case]:
-    """Sound: two periods take a hundred spacings for 1 %."""
-    yield from race("sound", (*LATTICES, names.TWO_STEP, *WEIGHTS), (16, 24, 32, 48, 64, 96, 128))
-    yield from race("sound", (names.MOVING,), (16, 24, 32, 48, 64, 96, 128, 192))
-    yield from race("sound", (names.GRID,), (16, 24, 32, 48, 64, 96, 128, 192, 256))
-    yield from race("sound", (names.PYPDE_GAS,), (16, 24, 32, 48, 64, 96, 128))
-    yield from race("sound", (*PARTICLES, names.LUCY_TWO_STEP), (16, 24, 32, 48, 64))
-    yield from race("sound", (names.JITTERED,), (16, 24, 32, 48, 64, 96, 128), SEEDS)
-
-
-def slabs() -> Iterator[Case]:
-    """Heat conduction and Couette flow; seeds of what is jittered. Smooth particles err alike at any resolution."""
-    for scene in ("conduction", "couette"):
-        loose = [name for name in (names.JITTERED, names.MOVING) if name in CONTESTS[scene]]
-        yield from race(scene, (names.GRID, *LATTICES, names.PYPDE_GAS), (8, 12, 16, 24, 32, 48, 64, 96))
-        yield from race(scene, PARTICLES, (16, 32, 48, 64, 96))
-        yield from race(scene, loose, (8, 12, 16, 24, 32, 48, 64), SEEDS)
-
-
-def layers() -> Iterator[Case]:
-    """Rayleigh-Benard. Grids go on to 0.1 %, which no points pay."""
-    yield from race("convection", (names.GRID,), (8, 12, 16, 20, 24, 32, 40, 48, 64, 88))
-    yield from race("convection", LATTICES, (12, 16, 24, 32, 48))
-    yield from race("convection", (names.JITTERED,), (12, 16, 24, 32, 40), SEEDS[:2])
-    yield from race("convection", (names.RELAXED,), (8, 10, 12, 16))
-    yield from race("convection", (names.MOVING,), (10, 12, 16, 24, 32, 44))
-    yield from race("convection", (names.LUCY,), (16, 20, 25, 30))
-    yield from race("convection", (names.MONAGHAN, names.WENDLAND, names.LESS_STATIC), (12, 16, 20, 25))
-    yield from race("convection", (names.NEWTON,), (8, 12, 16, 24, 32, 48))
-    yield from race("convection", (names.PYPDE_GAS,), (12, 16, 24, 32))
-    yield from race("convection-5000", (names.GRID,), (8, 12, 16, 24, 32, 48))
-    yield from race("convection-5000", (names.NEAREST,), (8, 10, 12, 16, 24, 32, 48))   # K: 1 % at ten rows already
-    yield from race("convection-boussinesq", (names.MAC_IMEX,), (12, 16, 20, 24, 32))
-    yield from race("convection-boussinesq", (names.MAC_NEWTON,), (8, 12, 16, 24, 32, 48, 64, 112))
-    yield from race("convection-boussinesq", (names.PYPDE_BOUSSINESQ,), (12, 16, 24, 32))
-
-
-def numbers() -> Iterator[Case]:
-    """A thousand to a million, of stored edges more sizes, which see the caches; two threads from 20 000 on."""
-    rows = (22, 30, 40, 53, 71, 95, 126, 168, 224, 299, 398, 531, 707)
-    for fixed in (False, True):
-        yield from (Growth(rows=number, fixed=fixed) for number in rows)
-    for fixed in (False, True):
-        yield from (Threads(rows=number, fixed=fixed) for number in (100, 224))
+    small = convection(HeatedLayer(rows=(8, 10, 12)))
+    yield from Ladder("taylor-green", (NEAREST, MAC), (16, 20, 24)).cases(vortex(0.2), short=FAST)
+    yield from Ladder("sound", (NEAREST,), rungs(16, 32)).cases(wave(), short=FAST)
+    yield from Ladder("convection", (GRID, LATTICE), (8, 10, 12)).cases(small, short=FAST)
+    for rows in (16, 22, 32):
+        yield StepTime(name=LUCY, kind=Flock, rows=rows, short=FAST)
+        yield StepTime(name=LATTICE, kind=Web, rows=rows, a_point=2.5e-5, short=FAST)

@@ -1,20 +1,22 @@
-"""What errors cost and what terms cost, judged: particles, points and grids    [KHP95 Secs I, II, VII; RR98 Sec. III]"""
+"""What errors cost and what terms cost, judged    [KHP95 Secs I, II, VII; RR98 Sec. III]"""
 import numpy as np
 
-from studies.cost import names
+from studies.cost.tables import GRID, JITTERED, LATTICE, LUCY, MOVING, NEAREST, PYPDE, WIDE
 from studies.kit.ask import Value, first, last, one
 from studies.kit.claim import Claim
 
-FIXED = (names.NEAREST, names.LATTICE, names.WIDE, names.JITTERED, names.RELAXED)
-K, K_T = {"scene": "convection", "quantity": "K"}, {"scene": "convection", "quantity": "K(t)"}
-VELOCITY = {name: {"scene": name, "quantity": "velocity"} for name in ("taylor-green", "sound", "convection-5000")}
-VORTEX, LOWER = VELOCITY["taylor-green"], VELOCITY["convection-5000"]
+FIXED = (NEAREST, LATTICE, WIDE, JITTERED)
+K = {"scene": "convection", "quantity": "K"}
+LOWER_K = {"scene": "convection-5000", "quantity": "K"}
+VORTEX = {"scene": "taylor-green", "quantity": "velocity"}
+SOUND = {"scene": "sound", "quantity": "velocity"}
+LOWER = {"scene": "convection-5000", "quantity": "velocity"}
 #: N ln N from 1e3 to 1e6: ln(1e6)/ln(1e3) = 2 over three decades
 N_LN_N = round(1 + np.log10(2)/3, 3)
 REACHED = 'reached == "yes"'    # runs on both sides of the level
 
 
-def seconds(method: str, **where: str) -> Value:
+def seconds(method: str, where: dict[str, str]) -> Value:
     """CPU seconds to an error of 1 %; the upper half of the interval is the wider one."""
     return one("needed", "cpu_s", REACHED, err="high - cpu_s", method=method, level=0.01, **where)
 
@@ -24,139 +26,123 @@ def points(method: str) -> Value:
     return one("needed", "points", REACHED, err="0", method=method, level=0.01, **K)
 
 
-def exponent(method: str, **where: str) -> Value:
-    """d ln(CPU seconds)/d ln(1/error)."""
-    return one("exponents", "exponent", method=method, **where)
-
-
 def growth(method: str) -> Value:
     """Exponent of the seconds of a step over the number of particles, up to a million (to one digit)."""
     return one("growth_laws", "value", "most >= 0.95e6", method=method, what="exponent")
 
 
-FASTER = "a factor of 2 was asked for before anything was measured"
 ASKED = "the factor asked for in convection"
 OVER_GRID = "CPU seconds of a lattice with h = 1.2 a for 1 % in velocity over the compressible grid's"
-HALF = ("at half the Rayleigh number, 5000, fixed points are no dearer than a grid, either: CPU seconds of a lattice "
-        "with h = 1.2 a")
+LOWER_ASKED = "the factor asked for at Ra 10 000"
+HALF = ("at half the Rayleigh number, 5000, fixed points are no dearer than a grid, either: CPU seconds of a "
+        "lattice with h = 1.2 a")
+CHEAPEST = first("needed", "cpu_s", REACHED, by="cpu_s", err="high - cpu_s", method=FIXED, level=0.01, **K)
 ERRORS = (
     Claim(id="own-speed-fixed-points", source="RR98 Sec. III", at_most=2,
-          value=first("needed", "cpu_s", REACHED, by="cpu_s", err="high - cpu_s", method=FIXED, level=0.01, **K)
-          / seconds(names.GRID, **K), because=FASTER,
-          statement="fixed points are no dearer than a grid: CPU seconds, setting up included, to the steady state of "
-                    "Rayleigh-Benard at Ra 10 000 with 1 % in K, the cheapest fixed points' over the compressible grid's"),
-    Claim(id="own-speed-fixed-points-5000", source="RR98 Sec. III", at_most=2, because="the factor asked for at Ra 10 000",
-          value=seconds(names.NEAREST, **(LOWER | {"quantity": "K"}))/seconds(names.GRID, **(LOWER | {"quantity": "K"})),
-          statement=f"{HALF} for 1 % in K, where their errors of second order happen to cancel, over the compressible "
-                    "grid's"),
+          value=CHEAPEST/seconds(GRID, K), because="a factor of 2 was asked for before anything was measured",
+          statement="fixed points are no dearer than a grid: CPU seconds, setting up included, to the "
+                    "steady state of Rayleigh-Benard at Ra 10 000 with 1 % in K, the cheapest fixed "
+                    "points' over the compressible grid's"),
+    Claim(id="own-speed-fixed-points-5000", source="RR98 Sec. III", at_most=2, because=LOWER_ASKED,
+          value=seconds(NEAREST, LOWER_K)/seconds(GRID, LOWER_K),
+          statement=f"{HALF} for 1 % in K, where their errors of second order happen to cancel, over the "
+                    "compressible grid's"),
     Claim(id="own-speed-fixed-points-5000-velocity", source="RR98 Sec. III", at_most=2,
-          value=seconds(names.NEAREST, **LOWER)/seconds(names.GRID, **LOWER), because="the factor asked for at Ra 10 000",
-          statement=f"{HALF} for 1 % in velocity over the compressible grid's [asked after errors of K had been seen to "
-                    "cancel]"),
+          value=seconds(NEAREST, LOWER)/seconds(GRID, LOWER), because=LOWER_ASKED,
+          statement=f"{HALF} for 1 % in velocity over the compressible grid's [asked after errors of K had "
+                    "been seen to cancel]"),
     Claim(id="own-speed-fixed-points-vortex", source="RR98 Sec. III", at_most=2, because=ASKED,
-          value=seconds(names.NEAREST, **VORTEX)/seconds(names.GRID, **VORTEX),
-          statement=f"in a Taylor-Green vortex fixed points are no dearer than a grid: {OVER_GRID} [asked after the grid's "
-                    "times had been seen]"),
+          value=seconds(NEAREST, VORTEX)/seconds(GRID, VORTEX),
+          statement=f"in a Taylor-Green vortex fixed points are no dearer than a grid: {OVER_GRID} [asked "
+                    "after the grid's times had been seen]"),
     Claim(id="own-speed-fixed-points-sound", source="RR98 Sec. III", at_most=2, because=ASKED,
-          value=seconds(names.NEAREST, **VELOCITY["sound"])/seconds(names.GRID, **VELOCITY["sound"]),
-          statement=f"in a sound wave fixed points are no dearer than a grid: {OVER_GRID} [asked after the grid's times had "
-                    "been seen]"),
+          value=seconds(NEAREST, SOUND)/seconds(GRID, SOUND),
+          statement=f"in a sound wave fixed points are no dearer than a grid: {OVER_GRID} [asked after the "
+                    "grid's times had been seen]"),
     Claim(id="own-speed-fixed-points-staggered", source="RR98 Sec. III", at_most=2, because=ASKED,
-          value=seconds(names.NEAREST, **VORTEX)/seconds(names.PYPDE_GAS, **VORTEX),
-          statement="in a Taylor-Green vortex fixed points are no dearer than a staggered grid, whose friction is between "
-                    "nearest neighbours, too: CPU seconds of a lattice with h = 1.2 a for 1 % in velocity over py-pde's, at "
-                    "the limit of its formula [asked after both had been seen]"),
-    Claim(id="own-speed-lattice", source="RR98 Sec. III", at_most=2, because=FASTER,
-          value=seconds(names.LATTICE, **K)/seconds(names.GRID, **K),
-          statement="a lattice with h = 2 a is no dearer than a grid: its CPU seconds for 1 % in K over the compressible "
-                    "grid's"),
+          value=seconds(NEAREST, VORTEX)/seconds(PYPDE, VORTEX),
+          statement="in a Taylor-Green vortex fixed points are no dearer than a staggered grid, whose "
+                    "friction is between nearest neighbours, too: CPU seconds of a lattice with h = 1.2 a "
+                    "for 1 % in velocity over py-pde's, at the limit of its formula [asked after both had "
+                    "been seen]"),
     Claim(id="own-speed-moving-points", source="RR98 Sec. III", at_most=10, because="an order of magnitude",
-          value=seconds(names.MOVING, **K)/seconds(names.GRID, **K),
-          statement="points that move and exchange over closed faces cost less than ten grids: CPU seconds for 1 % in K "
-                    "over those of the compressible grid"),
+          value=seconds(MOVING, K)/seconds(GRID, K),
+          statement="points that move and exchange over closed faces cost less than ten grids: CPU seconds "
+                    "for 1 % in K over those of the compressible grid"),
     Claim(id="own-speed-particles", source="KHP95 Sec. VII", printed="economically desirable", at_most=1,
           value=one("rivals", "seconds", **K), because="as cheap as the grid that the paper compares with",
-          statement="smooth particles are economical: CPU seconds of the printed scheme, at its least error in K at Ra "
-                    "10 000, over those of the compressible grid with that error (the coarsest one if it is better)"),
-    Claim(id="own-speed-freedoms", source="KHP95 Sec. VII", printed="many fewer degrees of freedom", at_most=0.5,
-          value=first("rivals", "points", by="points"), because="half at most: many fewer",
-          statement="in some cases particles need many fewer degrees of freedom than equally accurate grids: particles of "
-                    "the printed scheme over points of a grid or lattice with the same error, least ratio over all scenes"),
-    Claim(id="own-speed-rk4-vortex", source="RR98 Eq. 40", at_most=1, because="no dearer than the other",
-          value=seconds(names.TWO_STEP, **VORTEX)/seconds(names.LATTICE, **VORTEX),
-          statement="forward Euler is enough: CPU seconds of the two-step scheme for 1 % in a Taylor-Green vortex over "
-                    "those of fourth-order Runge-Kutta, each at its largest step"),
-    Claim(id="own-speed-growth-spam", source="KHP95 Sec. II", printed="N ln N", at_most=N_LN_N, value=growth(names.LUCY),
-          statement="a step takes a time no worse than N ln N: exponent of its CPU seconds over a thousand to a million "
-                    "smooth particles, lists included",
+          statement="smooth particles are economical: CPU seconds of the printed scheme, at its least "
+                    "error in K at Ra 10 000, over those of the compressible grid with that error (the "
+                    "coarsest one if it is better)"),
+    Claim(id="own-speed-freedoms", source="KHP95 Sec. VII", printed="many fewer degrees of freedom",
+          value=first("rivals", "points", by="points"), at_most=0.5, because="half at most: many fewer",
+          statement="in some cases particles need many fewer degrees of freedom than equally accurate "
+                    "grids: particles of the printed scheme over points of a grid with the same error, "
+                    "least ratio over all scenes"),
+    Claim(id="own-speed-growth-spam", source="KHP95 Sec. II", printed="N ln N", at_most=N_LN_N,
+          value=growth(LUCY),
+          statement="a step takes a time no worse than N ln N: exponent of its CPU seconds over a thousand "
+                    "to a million smooth particles, lists included",
           because="N ln N over three decades has the exponent 1 + log10(2)/3 = 1.100"),
-    Claim(id="own-speed-growth-fixed", source="RR98 Sec. III", at_most=N_LN_N, value=growth(names.LATTICE),
-          statement="a step over stored edges takes a time no worse than N ln N: exponent of its CPU seconds over a "
-                    "thousand to a million fixed points", because="the same limit as for smooth particles"),
+    Claim(id="own-speed-growth-fixed", source="RR98 Sec. III", at_most=N_LN_N, value=growth(LATTICE),
+          statement="a step over stored edges takes a time no worse than N ln N: exponent of its CPU "
+                    "seconds over a thousand "
+                    "to a million fixed points", because="the same limit as for smooth particles"),
     Claim(id="own-speed-threads-spam", source="KHP95 Sec. I", printed="straightforward", at_least=1.7,
-          value=last("growth_laws", "value", "most >= 1e5", by="most", method=names.LUCY, what="two threads"),
-          statement="smooth particles are easily computed in parallel: time that passes with one thread over that with "
-                    "two, at the largest number of particles", because="85 % of what two cores can give"),
-    *(Claim(id=f"own-speed-exponent-{name}", source="RR98 Sec. III", expect=1.5, within=0.25, value=value,
-            statement=f"second order in space, steps as long as they are good: d ln(CPU seconds)/d ln(1/error) of {what}",
-            because="points a^-2 times steps a^-1 over an error a^2; 0.25: set-up and short loops weigh at small sizes")
-      for name, value, what in (
-          ("grid-fall", exponent(names.GRID, **K_T), "the compressible grid, K(t) of convection over 30 free-fall times, "
-           "so that no run is longer for a smaller error"),
-          ("vortex", exponent(names.LATTICE, **VORTEX), "a lattice, h = 2 a, Taylor-Green"))),
+          value=last("growth_laws", "value", "most >= 1e5", by="most", method=LUCY, what="two threads"),
+          statement="smooth particles are easily computed in parallel: time that passes with one thread "
+                    "over that with two, at "
+                    "the largest number of particles", because="85 % of what two cores can give"),
     #: RR98's r0, the rms width of Lucy's weight, is 1.27, 0.85, 0.51 spacings for h = 3, 2, 1.2
-    *(Claim(id=f"rr98-speed-points-{name}", source="RR98 Sec. IV", printed=printed, at_least=1, because="as many",
-            value=points(method)/points(names.GRID),
-            statement=f"one needs more particles than points in a grid, for Eq. 45: points of a lattice with {h} the "
-                      "spacing, over those of the compressible grid, each with 1 % error in K of Rayleigh-Benard at Ra "
-                      "10 000")
+    *(Claim(id=f"rr98-speed-points-{name}", source="RR98 Sec. IV", printed=printed, at_least=1,
+            value=points(method)/points(GRID), because="as many",
+            statement="one needs more particles than points in a grid, for Eq. 45: points of a lattice "
+                      f"with {h} the spacing, over those of the compressible grid, each with 1 % error in K "
+                      "of Rayleigh-Benard at Ra 10 000")
       for name, method, h, printed in (
-          ("wide", names.WIDE, "h = 3 a, r0 = 1.27 a above", "more particles than points in a grid"),
-          ("nearest", names.NEAREST, "h = 1.2 a, r0 = 0.51 a below", ""))),
+          ("wide", WIDE, "h = 3 a, r0 = 1.27 a above", "more particles than points in a grid"),
+          ("nearest", NEAREST, "h = 1.2 a, r0 = 0.51 a below", ""))),
 )
 
 
-# --- terms ------------------------------------------------------------------------------------------------------
+# --- terms --------------------------------------------------------------------------------------------------
 
 
-def saved(ratio: str, scene: str, base: str, left_out: str) -> Value:
+def saved(ratio: str, base: str, left_out: str) -> Value:
     """What is left without a term over the whole; no number where times scatter as much as they last."""
-    return one("scenes", ratio, f"{ratio} > 0", scene=scene, base=base, left_out=left_out)
+    return one("scenes", ratio, f"{ratio} > 0", scene="taylor-green", base=base, left_out=left_out)
 
 
-def wrong(scene: str, base: str, left_out: str) -> Value:
+def wrong(scene: str, left_out: str) -> Value:
     """What leaving out changes of the answer; no number where the run diverges."""
-    return one("measured", "changed", "changed >= 0", err="error_err", scene=scene, base=base, left_out=left_out)
+    return one("measured", "changed", "changed >= 0", err="error_err", scene=scene, base="fixed points",
+               left_out=left_out)
 
 
 MATTERS = "1 % of the answer is the error at which methods are compared"
 TERMS = (
     Claim(id="own-scenes-heat-alike", source="RR98 Sec. III", at_most=0.8,
-          value=saved("step_ratio", "taylor-green", "fixed points, loops of all fluids", "heat"),
-          statement="a scene without heat pays for none, loop for like loop: CPU seconds of a point and step of a "
-                    "Taylor-Green vortex without its energy equation over those with it, both in the loops that all fluids "
-                    "take [asked after the ideal gas's own loops had been as fast with heat]",
+          value=saved("step_ratio", "fixed points, loops of all fluids", "heat"),
+          statement="a scene without heat pays for none, loop for like loop: CPU seconds of a point and "
+                    "step of a Taylor-Green vortex without its energy equation over those with it, both in "
+                    "the loops that all fluids take [asked after the ideal gas's own loops had been as "
+                    "fast with heat]",
           because="one of four equations and all of the temperature are gone"),
     Claim(id="own-scenes-heat-error", source="RR98 Sec. III", at_most=0.01, because=MATTERS,
-          value=wrong("taylor-green", "fixed points", "heat"),
-          statement="slow vortices need no heat: what the missing energy equation changes of the velocity, Mach 0.05"),
+          value=wrong("taylor-green", "heat"),
+          statement="slow vortices need no heat: what the missing energy equation changes of the velocity, "
+                    "Mach 0.05"),
     Claim(id="own-scenes-motion", source="RR98 Sec. III", at_most=0.1, because="an order of magnitude",
-          value=saved("time_ratio", "taylor-green", "moving points", "motion"),
-          statement="points that stay are ten times cheaper: CPU seconds of a point and unit of time of a Taylor-Green "
-                    "vortex on a lattice over those on moving points"),
-    Claim(id="own-scenes-motion-error", source="RR98 Sec. III", at_most=0.01, because=MATTERS,
-          value=wrong("convection", "moving points", "motion"),
-          statement="convection needs no moving points: what fixing them adds to the error of K, 16 rows"),
+          value=saved("time_ratio", "moving points", "motion"),
+          statement="points that stay are ten times cheaper: CPU seconds of a point and unit of time of a "
+                    "Taylor-Green vortex on a lattice over those on moving points"),
     Claim(id="own-scenes-compressibility", source="RR98 Sec. III", at_most=0.1,
-          value=saved("time_ratio", "taylor-green", "fixed points", "compressibility"),
-          statement="a slow flow without sound is ten times cheaper: CPU seconds of a cell and unit of time of a "
-                    "Taylor-Green vortex on the MAC grid over those of a point of the gas, Mach 0.05",
+          value=saved("time_ratio", "fixed points", "compressibility"),
+          statement="a slow flow without sound is ten times cheaper: CPU seconds of a cell and unit of "
+                    "time of a Taylor-Green vortex on the MAC grid over those of a point of the gas, Mach "
+                    "0.05",
           because="steps are longer by one over the Mach number, and cost more"),
-    Claim(id="own-scenes-compressibility-error", source="KHP95 Sec. IV", at_most=0.01, because=MATTERS,
-          value=wrong("convection", "fixed points", "compressibility"),
-          statement="the gas of the paper convects like a Boussinesq fluid: how far half of its K at Pr 2 is from that of "
-                    "the gas at Ra 10 000"),
     Claim(id="own-scenes-mending", source="RR98 Eq. 51", at_most=0.01, because=MATTERS,
-          value=wrong("convection", "fixed points", "mended heating"),
+          value=wrong("convection", "mended heating"),
           statement="the work of forces along edges is heating enough: what it changes of K, 16 rows"),
 )

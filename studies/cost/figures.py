@@ -1,4 +1,4 @@
-"""Error against CPU seconds, seconds against the number of particles, and what leaving a term out saves."""
+"""Error against CPU seconds, and what leaving a term out saves."""
 from typing import Any
 
 import numpy as np
@@ -8,94 +8,100 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from studies.cost.derive import LEVELS
-from studies.cost.names import FAMILIES, ORDER, family
+from studies.cost.tables import METHODS
 from studies.kit.drawing import Drawing, Drawings
-from studies.kit.figure import COLOURS, LINES, below, figure, look
-from studies.kit.table import groups
+from studies.kit.figure import COLOURS, LINES, figure
 
 #: scene, quantity, title of each panel
-PANELS = (("convection", "K", "Rayleigh-Benard, Ra 10 000: K, steady"), ("convection", "velocity", "velocity, steady"),
-          ("convection", "temperature", "temperature, steady"), ("convection", "K(t)", "K(t), 30 free-fall times"),
-          ("taylor-green", "velocity", "Taylor-Green: velocity"), ("sound", "velocity", "sound wave: velocity"),
-          ("conduction", "temperature", "heat conduction: temperature"), ("couette", "velocity", "Couette: velocity"))
-ACROSS = 4
-WORST = 10.0        # relative error that is drawn: ten times the answer; what is beyond is a number
-#: a family each; those with many members have one that shows how it is filled
-SHAPES = {"compressible": "X", "MAC": "P", "py-pde": "*", "DIH lattice": "o", "DIH Delaunay": "^", "SPAM": "s",
-          "moving": "D"}
-HALVES = ("left", "bottom", "right", "top")
-FILLS: tuple[dict[str, str], ...] = ({}, {"markerfacecolor": "white"},
-                                     *({"fillstyle": side, "markerfacecoloralt": "white"} for side in HALVES))
+PANELS = (
+    ("convection", "K", "Rayleigh-Benard, Ra 10 000: K, steady"),
+    ("convection", "velocity", "velocity, steady"),
+    ("convection", "temperature", "temperature, steady"),
+    ("convection", "K(t)", "K(t), 30 free-fall times"),
+    ("taylor-green", "velocity", "Taylor-Green: velocity"),
+    ("sound", "velocity", "sound wave: velocity"),
+)
+ACROSS = 3
+WORST = 10.0        # relative error that is drawn: ten times the answer
+#: how the names of a family begin -> its colour, its marker
+FAMILIES = {
+    "compressible": ("#000000", "X"),
+    "MAC": ("#882255", "P"),
+    "py-pde": ("#E69F00", "*"),
+    "DIH lattice": ("#0072B2", "o"),
+    "DIH Delaunay": ("#56B4E9", "^"),
+    "SPAM": ("#D55E00", "s"),
+    "moving": ("#009E73", "D"),
+}
+#: how the markers of a family's members are filled
+FILLS: tuple[dict[str, str], ...] = (
+    {},
+    {"markerfacecolor": "white"},
+    {"fillstyle": "left", "markerfacecoloralt": "white"},
+    {"fillstyle": "bottom", "markerfacecoloralt": "white"},
+)
 #: what leaving out saves: column, label, hatch
-KINDS = (("step_ratio", "CPU seconds of a point and step", ""),
-         ("time_ratio", "CPU seconds of a point and unit of time", "//"), ("bytes_ratio", "bytes a point", ".."))
+KINDS = (
+    ("step_ratio", "CPU seconds of a point and step", ""),
+    ("time_ratio", "CPU seconds of a point and unit of time", "//"),
+    ("bytes_ratio", "bytes a point", ".."),
+)
 THICK = 0.26
 
 
-# --- what an error costs ----------------------------------------------------------------------------------------
-
-
 def work_precision(points: pd.DataFrame) -> Figure:
-    """Relative error against CPU seconds: a panel a scene and quantity, a line a method, resolutions along it."""
-    shown = [panel for panel in PANELS if len(pick(points, *panel[:2]))]
+    """Relative error against CPU seconds: a panel a quantity, a line a method, resolutions along it."""
+    rows = points.query("error > 0").set_index(["scene", "quantity"])
+    shown = [panel for panel in PANELS if panel[:2] in rows.index]
     across = min(ACROSS, len(shown))
-    page, all_axes = figure(-(-len(shown)//across), across, width=4.1, height=3.9, squeeze=False)
+    page, all_axes = figure(-(-len(shown)//across), across, width=4.4, height=3.9, squeeze=False)
     for axes, (scene, quantity, title) in zip(all_axes.flat, shown, strict=False):
-        rows = pick(points, scene, quantity)
-        draw(axes, rows, "cpu_s", "error")
-        beyond(axes, rows)
-        for level in LEVELS:
-            axes.axhline(level, color="grey", linewidth=0.6, linestyle=":")
-        loglog(axes, title, "CPU seconds, setting up included")
-    for axes in list(all_axes.flat)[len(shown):]:
+        panel(axes, rows.loc[[(scene, quantity)]], title)
+    for axes in all_axes.flat[len(shown):]:
         axes.set_visible(False)
     for axes in all_axes[:, 0]:
         axes.set_ylabel("relative error")
     legend(page, all_axes)
-    page.suptitle("What does an error cost?\n"
-                  "Each method at its own best step (py-pde: by formula), one thread, without compiling; bars: 95 %; "
-                  "arrows: beyond the axis. MAC and py-pde, Boussinesq: another fluid, against its own limit", fontsize=10)
+    page.suptitle("What does an error cost?\nEach method at its own best step (py-pde: by formula), one "
+                  "thread, without compiling; bars: 95 %", fontsize=10)
     return page
 
 
-def pick(points: pd.DataFrame, scene: str, quantity: str) -> pd.DataFrame:
-    """Rows of one panel; grids of another fluid, held against their own limit, are shown beside those of the gas."""
-    here = points["scene"].isin([scene, f"{scene}-boussinesq"])
-    return points[here & (points["quantity"] == quantity) & (points["error"] > 0)]
+def panel(axes: Axes, rows: pd.DataFrame, title: str) -> None:
+    """One scene and quantity."""
+    draw(axes, rows, "cpu_s", "error")
+    for level in LEVELS:
+        axes.axhline(level, color="grey", linewidth=0.6, linestyle=":")
+    loglog(axes, title, "CPU seconds, setting up included")
+    axes.set_ylim(top=min(WORST, axes.get_ylim()[1]))
 
 
 def draw(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
     """All methods, with errors in both directions."""
     rows = rows[rows[x] > 0]        # a short time may drown
     for name in present(rows):
-        series = rows[rows["method"] == name].sort_values("resolution")
-        axes.errorbar(series[x], series[y], xerr=limited(series, x), yerr=limited(series, y), label=name, **style(name))
+        series = rows[rows.method == name].sort_values("resolution")
+        axes.errorbar(series[x], series[y], xerr=limited(series, x), yerr=limited(series, y), label=name,
+                      **style(name))
 
 
 def present(rows: pd.DataFrame) -> list[str]:
     """Methods in their order."""
-    return [name for name in ORDER if name in set(rows["method"])]
+    return [name for name in METHODS if name in set(rows.method)]
 
 
 def style(name: str) -> dict[str, Any]:
-    """Look of a method, the same in every figure: colour and marker of its family, filling and line its own."""
-    kind = family(name)
-    member = [other for other in ORDER if family(other) == kind].index(name)
-    return {"color": FAMILIES[kind], "marker": SHAPES[kind], "linestyle": LINES[member], "markersize": 6,
-            **FILLS[member]}
+    """Look of a method: colour and marker of its family, filling and line its own."""
+    start = family(name)
+    members = [other for other in METHODS if family(other) == start]
+    member = members.index(name)
+    colour, marker = FAMILIES[start]
+    return {"color": colour, "marker": marker, "linestyle": LINES[member], "markersize": 6, **FILLS[member]}
 
 
-def beyond(axes: Axes, rows: pd.DataFrame) -> None:
-    """End the axes at WORST; larger errors are an arrow and their number."""
-    large = rows[rows["error"] > WORST]
-    for row in large.to_dict("records"):
-        colour = style(row["method"])["color"]
-        size = float(f"{row['error']:.2g}")
-        axes.annotate(f"{size:.0f}", (row["cpu_s"], WORST), (0, -26), ha="center", fontsize=8,
-                      color=colour, textcoords="offset points", arrowprops={"arrowstyle": "->", "color": colour})
-    if len(large):
-        axes.set(yscale="log")
-        axes.set_ylim(top=WORST)
+def family(name: str) -> str:
+    """How a name begins."""
+    return next(start for start in FAMILIES if name.startswith(start))
 
 
 def limited(rows: pd.DataFrame, column: str) -> np.ndarray:
@@ -109,8 +115,7 @@ def loglog(axes: Axes, title: str, xlabel: str) -> None:
     axes.set(xscale="log", yscale="log", title=title, xlabel=xlabel)
     for axis in (axes.xaxis, axes.yaxis):
         low, high = axis.get_view_interval()
-        few = (1, 2, 5) if high > 4*low else (1, 1.5, 2, 3, 4, 6)
-        written(axis, (1,) if high > 100*low else few)
+        written(axis, (1,) if high > 100*low else (1, 2, 5))
 
 
 def written(axis: Any, steps: tuple[float, ...]) -> None:
@@ -124,73 +129,43 @@ def legend(page: Figure, all_axes: np.ndarray) -> None:
     """One for all panels, below; without bars, which hide markers."""
     handles: dict = {}
     for axes in all_axes.flat:
-        handles |= dict(zip(*axes.get_legend_handles_labels()[::-1], strict=True))
-    order = [name for name in ORDER if name in handles]
-    page.legend([handles[name].lines[0] for name in order], order, loc="outside lower center", ncols=4, handlelength=4)
+        bars, names = axes.get_legend_handles_labels()
+        handles |= dict(zip(names, bars, strict=True))
+    order = [name for name in METHODS if name in handles]
+    lines = [handles[name].lines[0] for name in order]
+    page.legend(lines, order, loc="outside lower center", ncols=4, handlelength=4)
 
 
-def memory(rows: pd.DataFrame) -> Figure:
-    """Bytes a point of each method in each scene, at its highest resolution."""
-    order = present(rows)
-    page, axes = figure(width=7.5, height=1.3 + 0.28*len(order))
-    for number, scene in enumerate(dict.fromkeys(rows["scene"])):
-        some = rows[rows["scene"] == scene]
-        places = [len(order) - 1 - order.index(name) for name in some["method"]]
-        axes.plot(some["bytes_a_point"], places, label=scene, **{**look(number), "linestyle": "none"})
-    axes.set_yticks(range(len(order)), labels=order[::-1])
-    axes.set(xscale="log", xlabel="bytes of arrays a point while it runs", title="Memory at the highest resolution")
-    written(axes.xaxis, (1, 2, 5))
-    page.legend(loc="outside lower center", ncols=5)
-    return page
-
-
-def growth(rows: pd.DataFrame) -> Figure:
-    """Nanoseconds a particle and step by number of particles; two threads by the time that passes."""
-    panels = (("cpu", "one thread, CPU time"), ("wall", "time that passes"))
-    shown = [panel for panel in panels if (rows["clock"] == panel[0]).any()]
-    page, all_axes = figure(1, len(shown), width=4.6, height=4.4, squeeze=False)
-    for axes, (clock, title) in zip(all_axes[0], shown, strict=True):
-        some = rows[rows["clock"] == clock].sort_values("points")
-        for (method, threads), series in groups(some, ["method", "threads"]):
-            value, err = (1e9*series[name]/series["points"] for name in ("step_s", "step_s_err"))
-            fill = "white" if threads > 1 else style(method)["color"]
-            kind = {**style(method), "markerfacecolor": fill, "linestyle": LINES[int(threads) - 1], "fillstyle": "full"}
-            axes.errorbar(series["points"], value, err, label=f"{method}, {threads:.0f} thread{'s'*(threads > 1)}", **kind)
-        loglog(axes, title, "particles or points")
-        below(axes)
-    all_axes[0, 0].set_ylabel("a particle and step  [ns]")
-    page.suptitle("How does the cost of a step grow? Lists of neighbours included; bars: 95 %", fontsize=10)
-    return page
-
-
-# --- what leaving out saves -------------------------------------------------------------------------------------
+# --- what leaving out saves ---------------------------------------------------------------------------------
 
 
 def scenes(rows: pd.DataFrame) -> Figure:
-    """What is left of seconds and bytes without a term, over the whole; beside it the error that leaving it out makes."""
-    rows = rows[rows["left_out"] != "nothing"].sort_values(["scene", "base", "left_out"], ascending=False)
+    """What is left of seconds and bytes without a term, over the whole; the error that this makes."""
+    rows = rows.query("left_out != 'nothing'").sort_values(["scene", "base", "left_out"], ascending=False)
     page, axes = figure(width=8.4, height=1.4 + 0.62*len(rows))
     at = np.arange(len(rows))
     for number, (column, label, hatch) in enumerate(KINDS):
-        axes.barh(at + THICK*(1 - number), rows[column], THICK, xerr=rows.get(f"{column}_err"), label=label,
-                  color=COLOURS[number], hatch=hatch, edgecolor="white", capsize=2)
-    names = [f"{row['scene']}, {row['base']}\nwithout {row['left_out']}: {effect(row['changed'], row['needed'])}"
-             for row in rows.to_dict("records")]
+        look = {"color": COLOURS[number], "hatch": hatch, "edgecolor": "white", "capsize": 2}
+        heights, err = at + THICK*(1 - number), rows.get(f"{column}_err")
+        axes.barh(heights, rows[column], THICK, xerr=err, label=label, **look)
     axes.axvline(1, color="black", linewidth=0.8)
-    axes.set_yticks(at, labels=names)
+    axes.set_yticks(at, labels=[effect(row) for row in rows.itertuples()])
     axes.set(xscale="log", xlabel="what is left over what the whole takes; bars: 95 %")
     written(axes.xaxis, (1, 2, 5))
-    page.suptitle("Model only what a scene needs: what does leaving out save, and what error does it make?", fontsize=10)
+    page.suptitle("Model only what a scene needs: what does leaving out save, what error does it make?",
+                  fontsize=10)
     page.legend(loc="outside lower center", ncols=3)
     return page
 
 
-def effect(changed: float, needed: str) -> str:
-    """What it makes of the answer, in words."""
-    size = "diverges" if not np.isfinite(changed) else f"off by {100*changed:{'.0f' if changed > 0.1 else '.2g'}} %"
-    return f"{size}, {'needed' if needed == 'yes' else 'not needed'}"
+def effect(row: Any) -> str:
+    """What is left out, and what that makes of the answer."""
+    percents = 100*row.changed
+    digits = ".0f" if percents > 10 else ".2g"
+    size = f"off by {percents:{digits}} %" if np.isfinite(percents) else "diverges"
+    needed = "needed" if row.needed == "yes" else "not needed"
+    return f"{row.scene}, {row.base}\nwithout {row.left_out}: {size}, {needed}"
 
 
-ERRORS = Drawings(Drawing("work_precision", ("points",), work_precision), Drawing("memory", ("memory",), memory),
-                  Drawing("growth", ("growth",), growth))
+ERRORS = Drawings(Drawing("work_precision", ("points",), work_precision))
 TERMS = Drawings(Drawing("scenes", ("scenes",), scenes))

@@ -38,6 +38,11 @@ class Table:
     digits: Mapping[str, str] = field(default_factory=dict)
     once: Sequence[str] = ()
 
+    @classmethod
+    def of(cls, name: str, key: str, values: str) -> "Table":
+        """A table from the names of its columns with spaces between them: those of the key, and the others."""
+        return cls(name, key=key.split(), columns=[*key.split(), *values.split()])
+
     def __post_init__(self):
         if not self.key or not {*self.key} <= {*self.columns}:
             raise ValueError(f"table {self.name} has key {list(self.key)}: a key is some of the columns, "

@@ -1,7 +1,7 @@
 """Claims of KHP95 on critical Rayleigh numbers, judged by the study `onset`.
 
-Its table critical_ra has columns method, quantity, value, err. A quantity is a place, what differs from the ideal gas
-with constant eta and dT = 1, and in brackets how it was found: "ra_c periodic aspect 2, const-nu (growth rates)".
+A quantity of the table critical_ra is a place, what differs from the ideal gas with constant eta and dT = 1,
+and in brackets how it was found: "ra_c periodic aspect 2, const-nu (growth rates)".
 """
 from studies.build.printed import as_printed
 from studies.kit.ask import Value, of, one

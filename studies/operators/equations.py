@@ -1,86 +1,65 @@
-"""Terms of the equations on lattices against exact derivatives    [RR98 Eqs 10-19, 34-38, 51]"""
+"""Terms on lattices against exact derivatives, and sums read literally    [RR98 Eqs 10-19, 21, 26-38, 51]"""
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from scipy import sparse
 
-from continuum.fluid import ConstEta, PowerLaw, VanDerWaals
-from particles.integral.dih import Dih, Flow, Nested, Pairwise, carried, rows, take
+from continuum.fluid import ConstEta, IdealGas, PowerLaw, VanDerWaals, stress_tensor
+from particles.integral.dih import Dih, Flow, Nested, Pairwise
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.points import lattice
+from particles.weights import Lucy, WendlandC2
 from studies.kit.case import Case, Outcome, Report
-from studies.operators.weights import weight_of
+from studies.operators.integrals import weight_of
 
 ETA, ZETA, KAPPA = 0.02, 0.01, 0.03
-PRINTED, ALONG, MENDED = Nested(differences=False), Pairwise(mended=False), Pairwise()
+PRINTED, ALONG = Nested(differences=False), Pairwise(mended=False)
 CHANGING = PowerLaw(ETA, KAPPA, n=1.0)      # eta and kappa proportional to T
 CONSTANT = ConstEta(ETA, KAPPA)
 
+ROWS, SPACING = 64, 0.5     # of the lattice on which dV is 1/4
+STEP = 1e-4         # of a central difference of Eq. 34, which is quadratic: it is exact
+OMEGA = 0.05        # of a rigid rotation
 
-def derivative(f: np.ndarray, axis: int, cells: int) -> np.ndarray:
-    """d f/d x_axis of periodic values (cells^d,) on the unit box: exact for waves longer than two spacings."""
-    box = f.reshape((cells,)*round(np.log(f.size)/np.log(cells)))
-    k = 2*np.pi*np.fft.fftfreq(cells, 1/cells)
-    k[cells//2] = 0
-    shape = [-1 if a == axis else 1 for a in range(box.ndim)]
-    return np.fft.ifft(1j*k.reshape(shape)*np.fft.fft(box, axis=axis), axis=axis).real.ravel()
+Sums = list[sparse.csr_array]
+#: (operator, discrete, exact)
+Terms = Iterator[tuple[str, np.ndarray, np.ndarray]]
+
+
+class Spectral(NamedTuple):
+    """Derivatives of fields (n, ...) on a lattice in the unit box, exact for waves above two spacings."""
+    shape: tuple[int, ...]
+
+    def derivative(self, f: np.ndarray, axis: int) -> np.ndarray:
+        """d f/d x_axis."""
+        cells = self.shape[axis]
+        k = 2*np.pi*np.fft.fftfreq(cells, 1/cells)
+        k[cells//2] = 0
+        box = np.moveaxis(f.reshape(*self.shape, -1), axis, -1)
+        slope = np.fft.ifft(1j*k*np.fft.fft(box)).real
+        return np.moveaxis(slope, -1, axis).reshape(f.shape)
+
+    def grad(self, f: np.ndarray) -> np.ndarray:
+        """[n, a, ...] = d_a f."""
+        return np.stack([self.derivative(f, a) for a in range(len(self.shape))], axis=1)
+
+    def div(self, F: np.ndarray) -> np.ndarray:
+        """sum_a d_a F[:, a]."""
+        return np.sum([self.derivative(F[:, a], a) for a in range(len(self.shape))], axis=0)
 
 
 def smooth_flow(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """(rho, v, T) of one wave along each axis of the unit box; phases differ, so that no term is zero or symmetric."""
+    """(rho, v, T) of one wave along each axis of the unit box; no term is zero or symmetric."""
     phi = 2*np.pi*x
-    turned = np.roll(phi, 1, axis=1)
-    rho = 1 + 0.05*np.sin(phi + np.arange(phi.shape[1])).sum(axis=1)
-    T = 1 + 0.05*np.cos(phi + 0.5 + 2*np.arange(phi.shape[1])).sum(axis=1)
-    v = 0.2*np.sin(turned + 0.3) + 0.1*np.cos(phi + 0.7)
+    axes = np.arange(phi.shape[1])
+    rho = 1 + 0.05*np.sin(phi + axes).sum(axis=1)
+    T = 1 + 0.05*np.cos(phi + 0.5 + 2*axes).sum(axis=1)
+    v = 0.2*np.sin(np.roll(phi, 1, axis=1) + 0.3) + 0.1*np.cos(phi + 0.7)
     return rho, v, T
-
-
-@dataclass(frozen=True)
-class Exact:
-    """Right-hand sides of Eqs 7-9, term by term, of fields (n,) or (n, d) on a lattice in the unit box."""
-    cells: int
-    flow: Flow
-    zeta: float
-
-    def grad(self, f: np.ndarray) -> np.ndarray:
-        """(n, d) of f (n,)."""
-        return np.stack([derivative(f, a, self.cells) for a in range(self.flow.v.shape[1])], axis=1)
-
-    def div(self, F: np.ndarray) -> np.ndarray:
-        """sum_a d_a F[:, a] of F (n, d, ...)."""
-        if F.ndim == 3:
-            return np.stack([self.div(F[:, :, b]) for b in range(F.shape[2])], axis=1)
-        return np.sum([derivative(q, a, self.cells) for a, q in enumerate(F.T)], axis=0)
-
-    def slope(self) -> np.ndarray:
-        """[n, a, b] = d_a v_b."""
-        return np.stack([self.grad(q) for q in self.flow.v.T], axis=2)
-
-    def stress(self, eta: np.ndarray) -> np.ndarray:
-        """eta (grad v + grad v^T - (2/d) div v) + zeta div v, (n, d, d)."""
-        g, one = self.slope(), np.eye(self.flow.v.shape[1])
-        div = np.trace(g, axis1=1, axis2=2)[:, None, None]*one
-        return eta[:, None, None]*(g + g.transpose(0, 2, 1) - 2/len(one)*div) + self.zeta*div
-
-    def mass(self) -> np.ndarray:
-        """-div(rho v)    [RR98 Eq. 7]"""
-        return -self.div(self.flow.rho[:, None]*self.flow.v)
-
-    def momentum(self, eta: np.ndarray) -> np.ndarray:
-        """-div(j v + P 1 - Pi)    [RR98 Eq. 8]"""
-        rho, v, P = self.flow.rho, self.flow.v, self.flow.P
-        carried = rho[:, None, None]*v[:, :, None]*v[:, None, :]
-        return self.div(self.stress(eta)) - self.div(carried) - self.grad(P)
-
-    def energy(self, eta: np.ndarray, kappa: np.ndarray) -> np.ndarray:
-        """-div[e v + (P 1 - Pi).v + J]    [RR98 Eq. 9]"""
-        v, flow = self.flow.v, self.flow
-        work = np.einsum("nab,nb->na", self.stress(eta), v)
-        return -self.div((flow.eps + flow.P)[:, None]*v - work - kappa[:, None]*self.grad(flow.T))
 
 
 def arriving(edges: Edges, flux: np.ndarray) -> np.ndarray:
@@ -90,60 +69,48 @@ def arriving(edges: Edges, flux: np.ndarray) -> np.ndarray:
     return (np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n))/edges.V
 
 
-def terms(dih: Dih, flow: Flow, exact: Exact) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
-    """(operator, found, exact) with Eqs 34-38 as printed but for the trace factor, eta and kappa proportional to T."""
-    edges, still = dih.edges, flow._replace(v=np.zeros_like(flow.v))
-    eta, kappa = dih.coefficients(flow).eta, dih.coefficients(flow).kappa
-    grad_T = exact.grad(flow.T)
-    current = kappa[:, None]*grad_T
-    yield "gradient", edges.grad(flow.T), grad_T
-    kernel = carried(dih.eos, edges.S, take(still, edges.i), take(still, edges.j)).momentum
-    yield "pressure", arriving(edges, kernel), -exact.grad(flow.P)
-    yield "stress kernel", PRINTED.gradient(edges, flow.v), exact.slope()
-    yield "heat kernel", -kappa[:, None]*PRINTED.gradient(edges, flow.T[:, None])[:, :, 0], -current
-    yield "viscous nested", arriving(edges, PRINTED.fluxes(dih, flow).momentum), exact.div(exact.stress(eta))
-    for name, transport in (("nested", PRINTED), ("pairwise", ALONG)):
-        yield f"heat {name}", arriving(edges, transport.fluxes(dih, still).energy), exact.div(current)
-    moved = carried(dih.eos, edges.S, take(flow, edges.i), take(flow, edges.j))
-    mass, *momentum, energy = (arriving(edges, q) for q in rows(moved, PRINTED.fluxes(dih, flow)))
-    yield "mass", mass, exact.mass()
-    yield "momentum", np.stack(momentum, axis=1), exact.momentum(eta)
-    yield "energy", energy, exact.energy(eta, kappa)
+def rates(dih: Dih, state: np.ndarray) -> np.ndarray:
+    """d(state)/dt."""
+    out = np.empty_like(state)
+    dih.rates(state, out)
+    return out
 
 
-def frictions(dih: Dih, flow: Flow, exact: Exact) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
-    """(operator, found, exact) of forces along edges    [RR98 Eq. 51]: constant viscosities, and eta proportional to T.
-
-    With q = (zeta - eta (1 + 2/d))/2 they make div(q (grad v - div v)) more than the Navier-Stokes force; constant q makes none.
-    """
-    d = dih.edges.d
-    for zeta in (ZETA, 0.0) if d > 1 else (ZETA,):       # on a line only zeta counts
-        constant, there = replace(dih, law=CONSTANT, zeta=zeta), replace(exact, zeta=zeta)
-        force = arriving(dih.edges, ALONG.fluxes(constant, flow).momentum)
-        yield f"friction, zeta {zeta:g}", force, there.div(there.stress(constant.coefficients(flow).eta))
-    if d == 1:
-        return
-    changing = replace(dih, zeta=0.0)
-    eta, slope = changing.coefficients(flow).eta, exact.slope()
-    force = arriving(dih.edges, ALONG.fluxes(changing, flow).momentum)
-    true = there.div(there.stress(eta))
-    div = np.trace(slope, axis1=1, axis2=2)[:, None]
-    more = -(1 + 2/d)/2*(np.einsum("nc,nac->na", exact.grad(eta), slope) - exact.grad(eta)*div)
-    yield "friction, eta(T)", force, true
-    yield "friction, eta(T), foretold", force, true + more
-    yield "friction, eta(T), mended", arriving(dih.edges, MENDED.fluxes(changing, flow).momentum), true
+def terms(dih: Dih, flow: Flow, exact: Spectral) -> Terms:
+    """Eqs 34-38 as printed but for the trace factor, eta and kappa proportional to T."""
+    rho, v, T, eps, P = flow
+    eta, _, kappa = dih.coefficients(flow)
+    stress = stress_tensor(eta, ZETA, exact.grad(v))
+    current = kappa[:, None]*exact.grad(T)
+    yield "viscous nested", arriving(dih.edges, PRINTED.fluxes(dih, flow).momentum), exact.div(stress)
+    still = rates(dih, dih.state(rho, 0*v, T))
+    yield "pressure", still[1:-1].T, -exact.grad(P)
+    yield "heat nested", still[-1], exact.div(current)
+    mass, *momentum, energy = rates(dih, dih.state(rho, v, T))
+    yield "mass", mass, -exact.div(rho[:, None]*v)                                             # [Eq. 7]
+    convected = rho[:, None, None]*v[:, :, None]*v[:, None, :]
+    yield "momentum", np.stack(momentum, axis=1), exact.div(stress - convected) - exact.grad(P)     # [Eq. 8]
+    work = np.einsum("nab,nb->na", stress, v)
+    yield "energy", energy, -exact.div((eps + P)[:, None]*v - work - current)                  # [Eq. 9]
 
 
-def comparison(discrete: np.ndarray, exact: np.ndarray) -> dict[str, float]:
-    """Relative rms error, and projection of the discrete field on the exact one."""
-    size = float(np.sum(exact**2))
-    error = np.sqrt(np.sum((discrete - exact)**2)/size)
-    return {"error": float(error), "ratio": float(np.sum(discrete*exact)/size)}
+def frictions(dih: Dih, flow: Flow, exact: Spectral) -> Terms:
+    """Forces along edges with constant viscosities, and with eta proportional to T    [RR98 Eq. 51]"""
+    fluids = {"zeta 0.01": replace(dih, law=CONSTANT), "zeta 0": replace(dih, law=CONSTANT, zeta=0.0),
+              "eta(T)": replace(dih, zeta=0.0)}
+    slope = exact.grad(flow.v)
+    for name, fluid in fluids.items():
+        stress = stress_tensor(fluid.coefficients(flow).eta, fluid.zeta, slope)
+        force = arriving(dih.edges, ALONG.fluxes(fluid, flow).momentum)
+        yield f"friction, {name}", force, exact.div(stress)
 
 
 @dataclass(frozen=True, kw_only=True)
 class EquationErrors(Case):
-    """All terms of the equations for one smooth flow on a lattice of cells^d points, h in spacings; printed where printed."""
+    """All terms for one smooth flow on a lattice of cells^d points, h in spacings; those of Eq. 51 in 2D.
+
+    error : relative rms. ratio : projection of the discrete field on the exact one.
+    """
     d: int
     kind: Any
     h: float
@@ -158,9 +125,109 @@ class EquationErrors(Case):
         edges = renormalised(at, weight_of(self.kind, self.h/self.cells, self.d))
         dih = Dih(edges=edges, eos=VanDerWaals(), law=CHANGING, zeta=ZETA, transport=PRINTED)
         flow = dih.flow(dih.state(*smooth_flow(at.x)))
-        exact = Exact(self.cells, flow, ZETA)
+        exact = Spectral((self.cells,)*self.d)
+        pairs = [*terms(dih, flow, exact)]
+        if self.d == 2:
+            pairs += frictions(dih, flow, exact)
         key = {"d": self.d, "weight": self.kind.__name__, "h": self.h, "cells": self.cells}
-        pairs = (*terms(dih, flow, exact), *frictions(dih, flow, exact))
-        return Outcome({"equations": [{**key, "operator": name, **comparison(discrete, true)}
-                                      for name, discrete, true in pairs]})
+        rows = []
+        for name, discrete, true in pairs:
+            size = np.sum(true**2)
+            error = np.sqrt(np.sum((discrete - true)**2)/size)
+            ratio = np.sum(discrete*true)/size
+            rows.append(key | {"operator": name, "error": float(error), "ratio": float(ratio)})
+        return Outcome({"equations": rows})
 
+
+# --- sums written out ---------------------------------------------------------------------------------------
+
+
+def brackets(edges: Edges) -> Sums:
+    """The matrices W(r_ij) e^alpha_ij of Eqs 29, 33-38, one a direction; e_ij leads from j to i."""
+    return [sparse.csr_array(sparse.diags_array(-0.5/edges.V)@S) for S in edges.areas]
+
+
+def inner(w: Sums, v: np.ndarray) -> np.ndarray:
+    """sum_k W e^alpha_jk v^beta_k, (n, d, d): -grad v."""
+    return np.stack([M@v for M in w], axis=1)
+
+
+def kernel(g: np.ndarray, eta: float, zeta: float, trace: float) -> np.ndarray:
+    """pi_ij of Eq. 37 without i, constant viscosities, the trace factor as given; g as from `inner`."""
+    div = np.trace(g, axis1=1, axis2=2)[:, None, None]*np.eye(g.shape[1])
+    return -eta*(g + g.transpose(0, 2, 1) - trace*div) - zeta*div
+
+
+def gathered(w: Sums, F: np.ndarray) -> np.ndarray:
+    """sum_j W e^b_ij (F^b_i + F^b_j), of F (n, d) or symmetric (n, d, d)    [RR98 Eqs 35, 36]"""
+    return sum(M@q + (q.T*M.sum(axis=1)).T for M, q in zip(w, F.swapaxes(0, 1), strict=True))
+
+
+def mass_rate(w: Sums, m: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """dm_i/dt    [RR98 Eq. 34]; of a component of p_i what convection brings to it    [Eq. 35]"""
+    return sum(m*(M@u) + u*(M@m) for M, u in zip(w, v.T, strict=True))
+
+
+def ratio(literal: np.ndarray, true: np.ndarray) -> float:
+    """Projection of one field on another."""
+    return float(np.sum(literal*true)/np.sum(true**2))
+
+
+def of_volumes() -> dict[str, float]:
+    """Eqs 26, 27, 33-37 read literally, over what they stand for: a wave along x where dV is 1/4, 2D."""
+    at = lattice((ROWS, 8), SPACING)
+    edges = renormalised(at, Lucy.of(h=3*SPACING))
+    w, dV, k = brackets(edges), edges.V[0], 2*np.pi/(ROWS*SPACING)
+    s, c = np.sin(k*at.x[:, 0]), np.cos(k*at.x[:, 0])
+    v, mass, thinning = np.stack([s, c], axis=1), dV*np.ones(edges.n), -k*c*dV
+    moved = np.stack([mass_rate(w, p, v*dV) for p in (dV*v*dV).T])
+    momentum = -k*np.stack([2*s*c, c**2 - s**2])*dV             # -div(v v) dV, rho = 1
+    P = np.stack([(1 + 0.1*s)*dV, 0*s], axis=1)                 # at rest, uniform T: P_ij + P_ji = P_i + P_j
+    stress = kernel(inner(w, v), 1.0, 0.0, 1.0)                 # eta = 1, zeta = 0 in 2D: div Pi = lap v
+    return {"divergence, Eq. 33 in Eq. 1": ratio(-(w[0]@s), k*c),
+            "mass, v_i = v": ratio(mass_rate(w, mass, v), thinning),
+            "mass, v_i = v dV": ratio(mass_rate(w, mass, v*dV), thinning),
+            "momentum, p_i = m_i v_i, v_i = v dV": ratio(moved, momentum),
+            "pressure, P_ij = P dV": ratio(gathered(w, P), 0.1*thinning),
+            "stress, v_i = v": ratio(-gathered(w, stress), -k**2*v*dV),
+            "linearised mass, Eq. 21": ratio(*linearised(w, s, c))}
+
+
+def linearised(w: Sums, s: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Right-hand side of Eq. 21 as printed, and the derivative of Eq. 34."""
+    rho, d_rho = 1 + 0.2*s, 0.1*c
+    v, dv = np.stack([0.3 + 0.1*c, 0*c], axis=1), 0.1*np.stack([s, c], axis=1)
+    printed = -sum((M@rho)*du + (M@d_rho)*u + rho*(M@du) + d_rho*(M@u) for M, u, du in zip(w, v.T, dv.T))
+    above = mass_rate(w, rho + STEP*d_rho, v + STEP*dv)
+    below = mass_rate(w, rho - STEP*d_rho, v - STEP*dv)
+    return printed, (above - below)/(2*STEP)
+
+
+def of_dilation() -> dict[str, float]:
+    """What the printed trace factor 2/3 adds to zeta over eta    [RR98 Eq. 37]"""
+    return {f"dilation in {d}D": added_bulk(d, 2/3) for d in (2, 3)}
+
+
+def added_bulk(d: int, trace: float) -> float:
+    """Mean normal stress of v = x in the middle of a patch, less zeta, over eta = 1."""
+    at, zeta = lattice((12,)*d), 0.3
+    edges = renormalised(at, WendlandC2.of(h=2.5, d=d))
+    middle = (np.abs(at.x) < 2).all(axis=1)
+    stress = kernel(inner(brackets(edges), at.x), 1.0, zeta, trace)[middle]
+    normal = np.trace(stress, axis1=1, axis2=2).mean()/d**2         # div v = d
+    return float(normal - zeta)
+
+
+def of_rotation() -> dict[str, float]:
+    """Heating of a rigid rotation by forces along edges as printed, over eta omega^2    [RR98 Eq. 51]
+
+    Lengths of edges stay, so only the force along v_ij heats: with 2 B omega^2, B = eta (1/2 + 1/d).
+    """
+    at = lattice((24, 24))
+    edges, one = renormalised(at, WendlandC2.of(h=2.2)), np.ones(at.n)
+    v = OMEGA*np.stack([-at.x[:, 1], at.x[:, 0]], axis=1)
+    dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(1.0, 1.0), transport=ALONG)
+    fluxes = ALONG.fluxes(dih, dih.flow(dih.state(one, v, one)))
+    heating = arriving(edges, fluxes.energy) - (v*arriving(edges, fluxes.momentum)).sum(axis=1)
+    middle = np.hypot(*at.x.T) < 2.5        # two ranges from where the rotation ends
+    return {"heating of a rotation": float(heating[middle].mean()/OMEGA**2)}

@@ -1,29 +1,30 @@
-"""RR98's weights on lattices: discrete moments, symbols, weights counted point by point    [RR98 Eqs 1-5, 28-32, 34-38, 51]"""
+"""RR98's weights as sums over lattices: moments, symbols, forces along edges    [RR98 Eqs 2-5, 28-32, 51]"""
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
-from math import gamma, isqrt, pi
+from math import isqrt
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.linalg import circulant
-from scipy.special import gammaincc
 
 from continuum.exact.waves import Gas, quantities
 from particles.integral.interpolants import Exponential, W, f, moment, reach, sphere, width
-from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
+from particles.weights import Lucy, WendlandC2
 from studies.build.symbols import lattice_waves
 from studies.kit.case import Case, Outcome, Report
-from studies.operators.weights import MOMENTS, smoothed, weight_of
+from studies.operators.integrals import MOMENTS, integral, smoothed, weight_of
 
-TAIL = 26.0         # r0 of the exponential weight beyond which 1e-9 of the first moment lies
 GAS = Gas(0.3, 0.2, 0.4)
 LONG = 5000.0       # spacings of a wave that is endless to four digits
+TAIL = 26.0         # r0 of the exponential weight beyond which 1e-9 of the first moment lies
 
 
 class Around(NamedTuple):
-    """Lattice points around one, alike ones together: x >= 0 along an axis, distance r, how many (of both signs of x)."""
+    """Lattice points around one, alike ones together.
+
+    x : >= 0 along an axis. r : distance. number : of points, with both signs of x.
+    """
     x: np.ndarray
     r: np.ndarray
     number: np.ndarray
@@ -50,13 +51,22 @@ def around(distance: float, d: int) -> Around:
     squared = n[:, None]**2 + m
     there = (squared > 0) & (squared <= most)
     x = np.broadcast_to(n[:, None], there.shape)[there]
-    number = (np.where(n > 0, 2, 1)[:, None]*across[m])[there]
+    signs = np.where(n > 0, 2, 1)
+    number = (signs[:, None]*across[m])[there]
     return Around(x.astype(float), np.sqrt(squared[there]), number)
 
 
+def around_weight(weight: Any, d: int) -> Around:
+    """The points that a weight sees, but for 1e-9 of the first moment of the exponential one."""
+    return around(span(weight), d)
+
+
 def span(weight: Any) -> float:
-    """How far sums go; those of the exponential weight end where 1e-9 of the first moment is left."""
+    """How far sums go."""
     return TAIL*weight.r0 if isinstance(weight, Exponential) else reach(weight)
+
+
+# --- moments ------------------------------------------------------------------------------------------------
 
 
 def line_weight(weight: Any, d: int, r: np.ndarray) -> np.ndarray:
@@ -64,38 +74,24 @@ def line_weight(weight: Any, d: int, r: np.ndarray) -> np.ndarray:
     return sphere(d)*r**(d - 1)*W(weight, r)
 
 
-def epstein(s: float, d: int) -> float:
-    """sum over Z^d without 0 of |n|^-s, continued to s < d (by theta functions)."""
-    count = shells(d, 20)
-    m = np.flatnonzero(count)[1:]
-    terms = sum(gammaincc(p, pi*m)*gamma(p)*(pi*m)**-p for p in (s/2, (d - s)/2))
-    return pi**(s/2)/gamma(s/2)*(float(count[m]@terms) - 2/s - 2/(d - s))
-
-
-def predicted_first(weight: Any, d: int) -> float:
-    """First moment over d of plain sums: of the exponential weight 1 - q^2/12, 1 + Z(1) q/4 pi, 1 + Z(2) q/6 pi, q = 1/r0.
-
-    The leading singularity of r W at r = 0 is summed by Epstein's zeta function Z; compact weights have none.
-    """
-    if not isinstance(weight, Exponential):
-        return 1.0
-    q = 1/weight.r0
-    return 1 - q*q/12 if d == 1 else 1 + epstein(d - 1, d)*q/(2*d*pi)
+def first_moment(w: np.ndarray, at: Around) -> float:
+    """sum w r."""
+    return float(at.number@(w*at.r))
 
 
 def sums(weight: Any, d: int) -> Iterator[dict[str, Any]]:
     """Discrete moments: over the whole lattice (n = 1), and along one half line from a point (n = 0 to 4)."""
-    r0, at = width(weight), around(span(weight), d)
-    plain = float(at.number@(W(weight, at.r)*at.r))
-    printed = float(at.number@(line_weight(weight, d, at.r)*at.r))
-    yield {"how": "plain", "n": 1, "value": plain, "predicted": d*predicted_first(weight, d)}
-    yield {"how": "printed", "n": 1, "value": printed,
-           "predicted": sphere(d)*moment(weight, d, d)*r0**(d - 1)}
+    r0, at = width(weight), around_weight(weight, d)
+    yield {"how": "plain", "n": 1, "value": first_moment(W(weight, at.r), at), "predicted": d}
+    factor = sphere(d)*moment(weight, d, d)*r0**(d - 1)
+    yield {"how": "printed", "n": 1, "value": first_moment(line_weight(weight, d, at.r), at),
+           "predicted": factor}
     r = np.arange(1, span(weight) + 1)
     r = r[r < reach(weight)]
     for n in (0, *MOMENTS):
-        value = float(np.sum(line_weight(weight, d, r)*r**n))/r0**(n - 1)
-        yield {"how": "line", "n": n, "value": value, "predicted": moment(weight, n, d) if n else np.nan}
+        total = float(np.sum(line_weight(weight, d, r)*r**n))
+        predicted = moment(weight, n, d) if n else np.nan
+        yield {"how": "line", "n": n, "value": total/r0**(n - 1), "predicted": predicted}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,9 +102,30 @@ class LatticeSums(Case):
     r0: float
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        key = {"weight": self.kind.__name__, "d": self.d, "r0": self.r0}
         weight = weight_of(self.kind, self.r0, self.d)
+        key = {"weight": self.kind.__name__, "d": self.d, "r0": self.r0}
         return Outcome({"lattice": [key | row for row in sums(weight, self.d)]})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Counted(Case):
+    """Sum of f over the points of a lattice with `points` to r0: the integral of Eq. 4 without quadrature.
+
+    Compact weights are made to have it by an integral over r; a second one would say nothing.
+    """
+    kind: Any
+    d: int
+    points: float
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        weight = weight_of(self.kind, self.points, self.d)
+        at = around(reach(weight), self.d)
+        total = float(at.number@f(weight, at.r)) + float(f(weight, 0.0))
+        return Outcome({"continuum": [{"weight": self.kind.__name__, "d": self.d, "quantity": "counted",
+                                       "value": total, "value_err": 0.0, "predicted": 1.0}]})
+
+
+# --- symbols ------------------------------------------------------------------------------------------------
 
 
 def gradient_symbol(w: np.ndarray, at: Around, k: float) -> float:
@@ -121,111 +138,104 @@ def spread_symbol(w: np.ndarray, at: Around, k: float) -> float:
     return float(at.number@(4*w/at.r*np.sin(k*at.x/2)**2))/k**2
 
 
-def slopes(w: np.ndarray, at: Around, n: int) -> np.ndarray:
-    """The gradient along an axis of fields that vary along it alone, as a matrix (n, n) on a ring of n spacings."""
-    ring, half, x = np.zeros(n), at.number*w*at.x/at.r/2, at.x.astype(int)
-    np.add.at(ring, x % n, half)
-    np.add.at(ring, -x % n, -half)
-    return circulant(ring).T
-
-
-def twice_symbol(G: np.ndarray, k: float) -> float:
-    """-grad grad A over k^2 of a wave A, the gradient taken of the gradient."""
-    A = np.cos(k*np.arange(len(G)))
-    return float(-(A@(G@(G@A)))/(A@A))/k**2
-
-
 @dataclass(frozen=True, kw_only=True)
-class Symbols(Case):
-    """Symbols of gradient and Laplacians on the lattice, plain sums scaled to the right first moment, along an axis."""
+class WeightSymbols(Case):
+    """Gradient and Laplacians of waves along an axis of the square lattice; w has the right first moment."""
     kind: Any
-    d: int
     r0: float
     count: int = 24
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        weight = weight_of(self.kind, self.r0, self.d)
-        at = around(span(weight), self.d)
+        weight = weight_of(self.kind, self.r0, 2)
+        at = around_weight(weight, 2)
         w = W(weight, at.r)
-        w *= self.d/float(at.number@(w*at.r))
-        G = slopes(w, at, 2*self.count)
-        key = {"weight": self.kind.__name__, "d": self.d, "r0": self.r0}
-        waves = np.pi*np.arange(1, self.count + 1)/self.count
-        return Outcome({"symbols": [
-            {**key, "k": k, "smoothed": smoothed(weight, self.d, k).value,
-             "gradient": gradient_symbol(w, at, k),
-             "nested": twice_symbol(G, k), "pairwise": spread_symbol(w, at, k)} for k in waves]})
+        w *= 2/first_moment(w, at)
+        key = {"weight": self.kind.__name__, "d": 2, "r0": self.r0}
+        rows = []
+        for k in np.pi*np.arange(1, self.count + 1)/self.count:
+            gradient = gradient_symbol(w, at, k)
+            rows.append(key | {"k": k, "smoothed": smoothed(weight, 2, k).value, "gradient": gradient,
+                               "nested": gradient**2, "pairwise": spread_symbol(w, at, k)})
+        return Outcome({"symbols": rows})
 
 
 @dataclass(frozen=True, kw_only=True)
 class ExponentialWave(Case):
-    """Error of the gradient of a plane wave with the exponential weight    [RR98 Eq. 31]"""
-    d: int
+    """Error of the gradient of a plane wave, exponential weight, square lattice    [RR98 Eq. 31]"""
     r0: float
     wavelength: float
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        weight, k = Exponential(self.r0, self.d), 2*np.pi/self.wavelength
-        at = around(span(weight), self.d)
+        weight = Exponential(self.r0, 2)
+        at = around_weight(weight, 2)
         w = W(weight, at.r)
-        symbol = gradient_symbol(w, at, k)
-        first = float(at.number@(w*at.r))/self.d
-        key = {"d": self.d, "wavelength": self.wavelength, "r0": self.r0}
-        return Outcome({"exponential": [key | {"plain": abs(symbol - 1),
-                                               "renormalised": abs(symbol/first - 1)}]})
+        symbol = gradient_symbol(w, at, 2*np.pi/self.wavelength)
+        mended = symbol/(first_moment(w, at)/2)
+        return Outcome({"exponential": [{"d": 2, "wavelength": self.wavelength, "r0": self.r0,
+                                         "plain": abs(symbol - 1), "renormalised": abs(mended - 1)}]})
+
+
+# --- forces along edges -------------------------------------------------------------------------------------
+
+
+class Power(NamedTuple):
+    """c q^p of q = r/h."""
+    c: float
+    p: int
+
+    def __call__(self, q: Any) -> Any:
+        return self.c*q**self.p
+
+
+class EdgeForces(NamedTuple):
+    """A(r) and B(r) of Eq. 51."""
+    name: str
+    A: Power
+    B: Power
+
+
+def viscosities(d: int, M_A: float, M_B: float) -> tuple[float, float]:
+    """eta = M_A/2d(d+2) + M_B/2d, zeta = M_A/d(d+2) - (1 - 2/d) eta, with M_X = int W X r^2 dV."""
+    eta = M_A/(2*d*(d + 2)) + M_B/(2*d)
+    return eta, M_A/(d*(d + 2)) - (1 - 2/d)*eta
+
+
+def wave_viscosities(d: int, A: np.ndarray, B: np.ndarray, at: Around) -> tuple[float, float]:
+    """eta and zeta of long waves along an axis. A, B : times W r^2/2."""
+    ex2 = (at.x/at.r)**2
+    fourth = at.number@(A*ex2**2)
+    mixed = at.number@(A*ex2*(1 - ex2))/(d - 1)
+    plain = at.number@(B*ex2)
+    eta = mixed + plain
+    return eta, fourth + plain - 2*(1 - 1/d)*eta
 
 
 @dataclass(frozen=True, kw_only=True)
-class Counted(Case):
-    """Sum of f and of W r over the points of a fine lattice: the two integrals of Eqs 4 and 2 without any quadrature.
-
-    Compact weights are made to have the first one, by an integral over r: a check that takes it again would say nothing.
-    """
-    kind: Any
+class EdgeViscosities(Case):
+    """Of forces A(r) e (e.v_ij) + B(r) v_ij [RR98 Eq. 51]: long waves on a lattice, and M_A and M_B."""
     d: int
-    r0: float
+    forces: EdgeForces
+    h: float
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        weight = weight_of(self.kind, self.r0, self.d)
-        at = around(reach(weight), self.d)
-        integral = float(at.number@f(weight, at.r)) + float(f(weight, 0.0))
-        first = float(at.number@(W(weight, at.r)*at.r))
-        key = {"weight": self.kind.__name__, "d": self.d, "r0": self.r0}
-        return Outcome({"counted": [key | {"n": 0, "value": integral, "predicted": 1.0},
-                                    key | {"n": 1, "value": first, "predicted": float(self.d)}]})
+        d, h, (name, *laws) = self.d, self.h, self.forces
+        weight, at = WendlandC2.of(h=h, d=d), around(h, d)
+        half = W(weight, at.r)*at.r**2/2
+        A, B = (half*X(at.r/h) for X in laws)
+        eta, zeta = wave_viscosities(d, A, B, at)
+        M_A, M_B = (self.second_moment(weight, X) for X in laws)
+        eta_predicted, zeta_predicted = viscosities(d, M_A, M_B)
+        return Outcome({"friction": [{"d": d, "form": name, "h": h, "eta": eta, "zeta": zeta,
+                                      "eta_predicted": eta_predicted, "zeta_predicted": zeta_predicted}]})
+
+    def second_moment(self, weight: Any, X: Power) -> float:
+        """M_X = int W X r^2 dV."""
+        return integral(weight, self.d, lambda r: W(weight, r)*X(r/self.h)*r**2).value
 
 
-# --- single numbers -----------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, kw_only=True)
-class Arithmetic(Case):
-    """Numbers of weights that need no points and no flow."""
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        numbers = {"first moment": first_moment_error(), "third derivatives": third_factor(),
-                   "viscosities, h = 8 a": anisotropy(8.0)}
-        return Outcome({"numbers": [{"quantity": name, "value": value} for name, value in numbers.items()]})
-
-
-def first_moment_error() -> float:
-    """Largest |M_1/d - 1| of six weights in 1, 2 and 3 dimensions    [RR98 Eq. 2]"""
-    kinds = (Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6)
-    compact = [(kind.of(h=1.3, d=d), d) for kind in kinds for d in (1, 2, 3)]
-    exponential = [(Exponential(0.3, d), d) for d in (1, 2, 3)]
-    return max(abs(moment(weight, 1, d)/d - 1) for weight, d in (*compact, *exponential))
-
-
-def third_factor() -> float:
-    """Factor before the third derivatives in 3D: 1 - f^(k) at small k over 3 k^2 r0^2 M_3/15    [RR98 Eq. 5]"""
-    weight, k = Lucy.of(h=1.0, d=3), 0.05
-    r = (np.arange(20000) + 0.5)/20000
-    transform = float(np.sum(4*pi*r**2*f(weight, r)*np.sin(k*r)/(k*r))/20000)
-    return (1 - transform)/(3*k**2*moment(weight, 3, 3)/15)
-
-
-def anisotropy(h: float) -> float:
-    """Largest relative error of the two viscosities of forces along edges, long waves along an axis, by the symbol."""
-    k = 2*pi/LONG
-    measured = quantities(lattice_waves(GAS, Lucy.of(h=h), np.array([k, 0.0]), nested=False), k)
-    return max(abs(measured["viscosity"]/GAS.eta - 1), abs(measured["bulk viscosity"]/GAS.zeta - 1))
+def of_edges() -> dict[str, float]:
+    """Largest error of both viscosities of forces along edges: long waves along an axis, by the symbol."""
+    k = 2*np.pi/LONG
+    values = quantities(lattice_waves(GAS, Lucy.of(h=8.0), np.array([k, 0.0]), nested=False), k)
+    shear, bulk = values["viscosity"]/GAS.eta - 1, values["bulk viscosity"]/GAS.zeta - 1
+    return {"viscosities, h = 8 a": max(abs(shear), abs(bulk))}

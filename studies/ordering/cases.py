@@ -1,21 +1,25 @@
 """Which waves, vortices and layers the study ordering runs, by size.
 
-Gradients and Laplacians of plane waves, a decaying Taylor-Green vortex and Rayleigh-Benard convection on lattices,
-jittered, random and relaxed points: error over a/h and h/lambda, a the spacing, h the range of the weight (RR98's r0 is
-its rms width, 0.42 h for Lucy's), lambda the wavelength or the height; gradients as printed beside those by differences.
-Paper size takes 40 minutes of one core.
+Gradients and Laplacians of plane waves, a decaying Taylor-Green vortex and Rayleigh-Benard convection on
+lattices, jittered, random and relaxed points: error over a/h and h/lambda. a is the spacing, h the range of
+Lucy's weight (RR98's r0 is its rms width, 0.42 h), lambda the wavelength or the height. Gradients as printed
+stand beside those by differences. Paper size takes 40 minutes of one core.
 """
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
-from typing import Any
 
 from particles.integral.edge_makers import MAKERS
-from particles.weights import WEIGHTS, Lucy, Monaghan, WendlandC2
 from studies.build.disorder import DISORDERS
+from studies.build.fixed import SCHEMES
 from studies.kit.case import Case
-from studies.ordering.convection import between_images, convection, images, irregular_layers, on_lattice
-from studies.ordering.gradients import Brackets, OperatorErrors
-from studies.ordering.vortices import TaylorGreen
+from studies.ordering.runs import (
+    GradientForms,
+    OperatorErrors,
+    VortexDecay,
+    between_images,
+    convection,
+    on_lattice,
+)
 
 H = (1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0)
 #: on a lattice, where each has a factor of its own: between these, to have a range every half spacing
@@ -24,9 +28,13 @@ SEEDS = (1, 2, 3)
 #: of the flows
 RANGES = (1.2, 1.5, 2.0, 2.5, 3.0, 4.0)
 IRREGULAR = ("jittered-0.3", "random", "relaxed")
-#: rows of convection between points on the plates, until the error of K is 1 %
-PLATES = {"jittered-0.3": (12, 16, 24, 32, 40, 50), "random": (12, 16, 24, 32, 40, 50),
-          "relaxed": (12, 16, 24, 32, 40)}
+#: irregular points with triangles that end on rows of points on the plates
+PLATES = {"jittered-0.3": SCHEMES["fixed-jittered-plates"], "random": SCHEMES["fixed-random-plates"],
+          "relaxed": SCHEMES["relaxed-plates"]}
+#: rows of convection between these, until the error of K is 1 %
+ROWS = (12, 16, 24, 32, 40, 50)
+#: makers of edges and ranges of the weight between mirror images; exact ones need the wider
+MADE = (*product(("plain", "renormalised", "closed"), (2.0, 3.0)), ("exact", 3.0))
 #: wavelengths; more points take longer to relax
 WAVES = dict.fromkeys(DISORDERS, (16, 24, 32, 48, 64, 96)) | {"relaxed": (16, 20, 24, 32)}
 WAVE = 32           # at which ranges and makers are compared
@@ -36,11 +44,8 @@ def cases(size: str) -> list[Case]:
     """`quick` has few wavelengths and kinds of points."""
     if size == "quick":
         waves = {"lattice": (16, 32), "jittered-0.3": (16, 32)}
-        return [*surface(waves), *brackets((1.2, 3.0), ("jittered-0.3",), (1,)), *quick_flows()]
-    layers = (convection("lattice", on_lattice(h), rows) for rows, h in product((12, 16, 24, 32), RANGES))
-    kinds = ("lattice", "jittered-0.3", "random", "relaxed")
-    return [*surface(WAVES), *brackets(H, kinds, SEEDS), *vortices(), *layers,
-            *irregular_layers(PLATES, SEEDS), *images((16, 24, 32), SEEDS)]
+        return [*surface(waves), *forms((1.2, 3.0), ("jittered-0.3",)), *quick_flows()]
+    return [*surface(WAVES), *forms(H, ("lattice", *IRREGULAR)), *vortices(), *layers()]
 
 
 def seeds(disorder: str) -> tuple[int, ...]:
@@ -48,70 +53,63 @@ def seeds(disorder: str) -> tuple[int, ...]:
     return SEEDS if disorder != "lattice" else SEEDS[:1]
 
 
-def surface(waves: Mapping[str, tuple[int, ...]]) -> Iterator[Case]:
-    """Lucy's weight everywhere; other weights, all of them on a lattice, and all makers of edges at two ranges."""
+def surface(waves: Mapping[str, Sequence[int]]) -> Iterator[Case]:
+    """Renormalised edges of all ranges, and all makers of edges at two."""
+    others = (*product(("plain", "printed", "closed"), (2.0, 3.0)), ("exact", 3.0), ("delaunay", 2.0))
     for disorder, wavelengths in waves.items():
-        for wavelength, (maker, weight, h) in product(wavelengths, edges(disorder)):
-            yield from wave(maker, weight, h, disorder, wavelength)
+        ranges = (*H, *BETWEEN) if disorder == "lattice" else H
+        edges = [*(("renormalised", h) for h in ranges), *others]
+        for wavelength, (maker, h) in product(wavelengths, edges):
+            yield from wave(maker, h, disorder, wavelength)
         if WAVE in wavelengths:
-            yield from wave("plain", Lucy, 1.2, disorder, WAVE)     # where Eq. 45 does not hold
+            yield from wave("plain", 1.2, disorder, WAVE)     # where Eq. 45 does not hold
 
 
-def edges(disorder: str) -> Iterator[tuple[str, Any, float]]:
-    """(maker, weight, range) on a kind of points."""
-    even = disorder == "lattice"
-    yield from (("renormalised", Lucy, h) for h in (*H, *BETWEEN*even))
-    yield from ((maker, Lucy, h) for maker, h in product(("plain", "printed", "closed"), (2.0, 3.0)))
-    yield "exact", Lucy, 3.0
-    weights = WEIGHTS.values() if even else (Monaghan, WendlandC2)
-    yield from (("renormalised", weight, 3.0) for weight in weights)
-    yield "delaunay", Lucy, 2.0
-
-
-def wave(maker: str, weight: Any, h: float, disorder: str, wavelength: int) -> Iterator[OperatorErrors]:
+def wave(maker: str, h: float, disorder: str, wavelength: int) -> Iterator[OperatorErrors]:
     """One point of the error surface."""
     for seed in seeds(disorder):
-        yield OperatorErrors(maker=maker, make=MAKERS[maker], weight=weight, h=h,
-                             disorder=DISORDERS[disorder],
-                             wavelength=wavelength, seed=seed)
+        yield OperatorErrors(make=MAKERS[maker], h=h, disorder=DISORDERS[disorder], wavelength=wavelength,
+                             seed=seed)
 
 
-def brackets(ranges: tuple[float, ...], kinds: tuple[str, ...], some: tuple[int, ...]) -> Iterator[Case]:
-    """All ranges at one wavelength, h = 3 a at all wavelengths."""
+def forms(ranges: Sequence[float], kinds: Sequence[str]) -> Iterator[Case]:
+    """Gradients as printed: all ranges at one wavelength, h = 3 a at all wavelengths."""
     for kind in kinds:
         places = {*product(ranges, [WAVE]), *product([3.0], WAVES[kind])}
-        for (h, wavelength), seed in product(sorted(places), some if kind != "lattice" else some[:1]):
-            yield Brackets(disorder=DISORDERS[kind], h=h, wavelength=wavelength, seed=seed)
+        for (h, wavelength), seed in product(sorted(places), seeds(kind)):
+            yield GradientForms(disorder=DISORDERS[kind], h=h, wavelength=wavelength, seed=seed)
 
 
-def vortex(maker: str, h: float, disorder: str, wavelengths: tuple[int, ...], weight: Any = Lucy,
-           **more: Any) -> Iterator[TaylorGreen]:
+def vortex(maker: str, h: float, disorder: str, wavelengths: Sequence[int]) -> Iterator[VortexDecay]:
     """Vortices of one kind; without a weight where h = 0."""
     for wavelength, seed in product(wavelengths, seeds(disorder)):
-        yield TaylorGreen(maker=maker, make=MAKERS[maker], weight=weight if h else None, h=h,
-                          disorder=DISORDERS[disorder], wavelength=wavelength, seed=seed, **more)
+        yield VortexDecay(make=MAKERS[maker], h=h, disorder=DISORDERS[disorder], wavelength=wavelength,
+                          seed=seed)
 
 
 def vortices() -> Iterator[Case]:
-    """On a lattice renormalised, closed and exact edges are the same. Exact ones take long to find, relaxed points to relax."""
+    """On a lattice renormalised, closed and exact edges are one. Exact ones take long to find."""
     for h in (*RANGES, 6.0):
         yield from vortex("renormalised", h, "lattice", (16, 24, 32, 48, 64))
-    for disorder in IRREGULAR:
-        yield from irregular_vortices(disorder)
-    yield from vortex("plain", 3.0, "relaxed", (16, 24, 32), WendlandC2)      # with which these points relax
-    for mach, maker in product((0.02, 0.1), ("delaunay", "closed", "renormalised")):
-        yield from vortex(maker, 3.0*(maker != "delaunay"), "jittered-0.3", (32,), mach=mach)
-
-
-def irregular_vortices(disorder: str) -> Iterator[Case]:
-    """All makers on one kind of irregular points."""
     three, four = (16, 24, 32), (16, 24, 32, 48)
-    relaxed = disorder == "relaxed"
-    yield from vortex("delaunay", 0.0, disorder, four if relaxed else (*four, 64))
-    for maker, h in (*product(("renormalised", "closed"), (2.0, 3.0, 4.0)), ("plain", 3.0)):
-        yield from vortex(maker, h, disorder, three if relaxed else four)
-    yield from vortex("exact", 3.0, disorder, four if disorder == "jittered-0.3" else three)
-    yield from vortex("exact", 4.0, disorder, three)
+    for disorder in IRREGULAR:
+        some = three if disorder == "relaxed" else four
+        yield from vortex("delaunay", 0.0, disorder, four if disorder == "relaxed" else (*four, 64))
+        for maker, h in (*product(("renormalised", "closed"), (2.0, 3.0, 4.0)), ("plain", 3.0)):
+            yield from vortex(maker, h, disorder, some)
+        yield from vortex("exact", 3.0, disorder, four if disorder == "jittered-0.3" else three)
+        yield from vortex("exact", 4.0, disorder, three)
+
+
+def layers() -> Iterator[Case]:
+    """A lattice, triangles between rows of points, edges of a weight between mirror images."""
+    for rows, h in product((12, 16, 24, 32), RANGES):
+        yield convection("lattice", on_lattice(h), rows)
+    for kind, scheme in PLATES.items():
+        numbers = ROWS[:-1] if kind == "relaxed" else ROWS
+        yield from (convection(kind, scheme, rows, seed) for rows, seed in product(numbers, SEEDS))
+        for (maker, h), rows, seed in product(MADE, (16, 24, 32), SEEDS):
+            yield convection(kind, between_images(kind, maker, h), rows, seed)
 
 
 def quick_flows() -> Iterator[Case]:

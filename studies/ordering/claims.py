@@ -9,13 +9,11 @@ from studies.kit.claim import Claim
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
 from studies.ordering.cases import IRREGULAR, WAVE
-from studies.ordering.derive import MACH, WANTED
-from studies.ordering.figures import LAYER, VORTEX
+from studies.ordering.derive import WANTED
 from studies.ordering.tables import WIDTH
 
-LATTICE: dict[str, Any] = {"maker": "renormalised", "weight": "Lucy", "points": "lattice"}
-LUCY: dict[str, Any] = {"maker": "renormalised", "weight": "Lucy"}
-TRIANGLES: dict[str, Any] = {"maker": "delaunay", "weight": "none"}
+VORTEX, LAYER = "taylor-green", "convection"
+LATTICE = {"maker": "renormalised", "points": "lattice"}
 KINDS = {"jittered-0.3": "points jittered by 0.3 a", "random": "random points half a spacing apart and more",
          "relaxed": "random points relaxed"}
 FORMS = {"single": "f_j alone under the sum, Eq. 1", "sum": "f_i + f_j, Eqs 14 and 34-36"}
@@ -24,13 +22,14 @@ ROUGH = 0.1         # an error beyond which a flow is another one
 
 
 def gradient(points: str, maker: str, h: float) -> Value:
-    """Error of the gradient of a wave of 32 spacings, Lucy's weight."""
-    return one("means", "gradient", maker=maker, weight="Lucy", points=points, h=h, wavelength=WAVE)
+    """Error of the gradient of a wave of 32 spacings."""
+    return one("means", "gradient", maker=maker, points=points, h=h, wavelength=WAVE)
 
 
 def slope(points: str, fixed: str, at: float) -> Value:
     """Of the gradient's error in h/lambda."""
-    return one("slopes", "slope", **LUCY, points=points, fixed=fixed, at=at, operator="gradient")
+    return one("slopes", "slope", maker="renormalised", operator="gradient", points=points, fixed=fixed,
+               at=at)
 
 
 def form_error(form: str, h: float = 3.0) -> Value:
@@ -38,31 +37,27 @@ def form_error(form: str, h: float = 3.0) -> Value:
     return one("bracket_means", "error", points="jittered-0.3", form=form, h=h, wavelength=WAVE)
 
 
-def form_slope(form: str) -> Value:
-    """Of the gradient's error in h/lambda at h = 3 a, in one of three forms, on jittered points."""
-    return one("bracket_slopes", "slope", points="jittered-0.3", form=form)
-
-
-def error(flow: dict[str, str], **where: Any) -> Value:
+def error(flow: str, resolution: int, h: float, **where: Any) -> Value:
     """Size of the mean error of a flow."""
-    return abs(one("flows", "error", **flow, **where))
+    return abs(one("flows", "error", flow=flow, resolution=resolution, h=h, **where))
 
 
-def order(flow: dict[str, str], at: float, **where: Any) -> Value:
+def order(flow: str, at: float, maker: str, points: str) -> Value:
     """Order of the error of a flow in the spacing, at a range."""
-    return one("flow_slopes", "slope", **flow, **where, fixed="h/a", at=at)
+    return one("flow_slopes", "slope", flow=flow, maker=maker, points=points, fixed="h/a", at=at)
 
 
-def cost(flow: dict[str, str], **where: Any) -> Value:
-    """Exchanges of the run that 1 % takes, cubic in the resolution: points and, for sound, steps."""
-    return one("cheapest", "exchanges", "bound == 0", err="3*exchanges*needed_err/needed", **flow, **where)
+def cost(h: float, maker: str, points: str) -> Value:
+    """Exchanges of the layer that 1 % takes, cubic in the resolution: points and, for sound, steps."""
+    return one("cheapest", "exchanges", "bound == 0", err="3*exchanges*needed_err/needed", flow=LAYER, h=h,
+               maker=maker, points=points)
 
 
 @of
 def near_grid(tables: Tables) -> Measured:
     """share(rolls = 2 and |ke/K - 1| < 0.1) in convection, K of reference, plain and renormalised, r0 > a"""
     known = one("reference", "ke", flow="convection")(tables).value
-    runs = rows(tables, "convection", f"{WIDTH}*h > 1", maker=("plain", "renormalised"), weight="Lucy",
+    runs = rows(tables, "convection", f"{WIDTH}*h > 1", maker=("plain", "renormalised"),
                 points=IRREGULAR)
     near = (runs["rolls"] == 2) & ((runs["ke"]/known - 1).abs() < ROUGH)
     return Measured(float(near.mean()))
@@ -116,7 +111,7 @@ BRACKETS = (
           ("sum", "wide", 6.0, "a tenth, as with h = 3 a"))),
     *(Claim(id=f"rr98-continuum-limit-jittered-{form}", source="RR98 Sec. III", printed="continuum limit",
             at_least=0.5,
-            value=form_slope(form), because=HALF,
+            value=one("bracket_slopes", "slope", points="jittered-0.3", form=form), because=HALF,
             statement="r0 -> 0 with a < r0 gives the continuum limit also off a lattice: slope of the "
                       f"gradient's error ({words}) in h/lambda at h = 3 a, {JITTERED}")
       for form, words in FORMS.items()),
@@ -128,17 +123,17 @@ BRACKETS = (
 )
 VORTICES = (
     Claim(id="rr98-eq45-vortex-lattice", source="RR98 Eq. 45", at_most=1, because=RATIO,
-          value=error(VORTEX, **LATTICE, h=3.0, resolution=32)/error(VORTEX, **LATTICE, h=1.2, resolution=32),
+          value=error(VORTEX, 32, 3.0, **LATTICE)/error(VORTEX, 32, 1.2, **LATTICE),
           statement=f"{SPACING} a Taylor-Green vortex with h = 3 a over that with h = 1.2 a, lattice, "
                     "wavelength 32 a"),
     Claim(id="rr98-eq45-vortex-lambda", source="RR98 Eq. 45", printed="r0 < lambda", expect=2, within=0.1,
-          value=one("flow_slopes", "slope", **VORTEX, **LATTICE, fixed="a", at=64.0),
+          value=one("flow_slopes", "slope", flow=VORTEX, fixed="a", at=64.0, **LATTICE),
           because="0.1: sums over a few neighbours differ from integrals",
           statement="r0 must be smaller than lambda: slope of a Taylor-Green vortex's error in r0/lambda at "
                     "fixed spacing, lattice, h = 2 a to 4 a"),
     Claim(id="rr98-eq45-vortex-irregular", source="RR98 Eq. 45", printed="(dV)^(1/3) < r0 < lambda",
           at_least=1,
-          value=share("vortices", f"velocity < {ROUGH}", f"{WIDTH:.3f}*h > 1", mach=MACH,
+          value=share("vortices", f"velocity < {ROUGH}", f"{WIDTH:.3f}*h > 1",
                       maker=("plain", "renormalised"), points=IRREGULAR),
           because="every run: the ordering is all that RR98 asks for",
           statement="the ordering is enough: share of Taylor-Green vortices with RR98's bracket on fixed "
@@ -148,41 +143,33 @@ VORTICES = (
           statement="errors are of second order in r0/lambda: slope of a Taylor-Green vortex's, lattice, h = "
                     "2 a"),
     Claim(id="rr98-eq45-cheapest-vortex", source="RR98 Eq. 45", at_least=1,
-          value=WIDTH*first("cheapest", "h", "exchanges > 0", by="exchanges", need=2, **VORTEX, **LATTICE),
+          value=WIDTH*first("cheapest", "h", "exchanges > 0", by="exchanges", need=2, flow=VORTEX, **LATTICE),
           because="the ordering itself, for the cheapest of six ranges",
           statement="the spacing must be smaller than r0: r0/a at the cheapest 1 % in a Taylor-Green vortex, "
                     "lattice"),
     *(Claim(id=f"own-vortex-triangles-{points.split('-')[0]}", source="RR98 Sec. III", at_least=1.95,
-            value=order(VORTEX, 0.0, **TRIANGLES, points=points),
+            value=order(VORTEX, 0.0, "delaunay", points),
             because="second order, within the 0.05 that slopes of compact weights are given; faster is no "
                     "fault",
             statement="a triangulation gives the continuum limit without weights, to second order: order of "
                       f"a Taylor-Green vortex's error on {words}, no filter")
       for points, words in KINDS.items()),
     *(Claim(id=f"own-vortex-exact{name}", source="RR98 Sec. III", at_least=1.5,
-            because="nearer to second order than to first",
-            value=order(VORTEX, 3.0, maker="exact", weight="Lucy", points=points),
+            because="nearer to second order than to first", value=order(VORTEX, 3.0, "exact", points),
             statement="edges of a weight that close and are exact on linear fields give the continuum limit: "
                       f"order of a Taylor-Green vortex's error on {KINDS[points]}, h = 3 a{more}")
       for name, points, more in (("", "jittered-0.3", ""),
                                  ("-random", "random", "; asked after that of jittered points was known"))),
-    *(Claim(id=f"own-vortex-closed-{points.split('-')[0]}", source="RR98 Sec. III", at_least=0.5,
-            value=order(VORTEX, 3.0, maker="closed", weight="Lucy", points=points),
-            because="an error that falls at least as the square root of the spacing",
-            statement="closing the edges is enough for the continuum limit: order of a Taylor-Green vortex's "
-                      f"error on {KINDS[points]}, h = 3 a")
-      for points in ("jittered-0.3", "random")),
     Claim(id="own-vortex-closed-error", source="RR98 Sec. III", at_most=WANTED,
           value=first("flows", "error", "points != 'relaxed' and error == error", by="error", maker="closed",
-                      **VORTEX,
-                      resolution=48),
+                      flow=VORTEX, resolution=48),
           because="1 %, the error at which resolutions are compared",
           statement="closing the edges is enough: least error of a Taylor-Green vortex over jittered and "
                     "random points and three ranges at the largest wavelength"),
 )
 CONVECTION = (
     Claim(id="rr98-eq45-convection-lattice", source="RR98 Eq. 45", at_most=1, because=RATIO,
-          value=error(LAYER, **LATTICE, h=3.0, resolution=24)/error(LAYER, **LATTICE, h=1.2, resolution=24),
+          value=error(LAYER, 24, 3.0, **LATTICE)/error(LAYER, 24, 1.2, **LATTICE),
           statement="the spacing must be smaller than r0: |error| of K in Rayleigh-Benard, Ra 10 000, with h "
                     "= 3 a over that with h = 1.2 a, lattice, 24 rows"),
     Claim(id="rr98-eq6-convection-order", source="RR98 Eq. 6", printed="r0^2", expect=2, within=0.2,
@@ -197,25 +184,19 @@ CONVECTION = (
                     "ends within a tenth of the grid's"),
     *(Claim(id=f"rr98-convection-plain-{points.split('-')[0]}", source="RR98 Sec. III",
             printed="continuum limit", at_least=1,
-            value=share("convection", "rolls == 2", maker="plain", weight="Lucy", points=points),
+            value=share("convection", "rolls == 2", maker="plain", points=points),
             because="every run: one that ends early has no limit",
             statement="plain quadrature runs off a lattice: share of Rayleigh-Benard runs, Ra 10 000, 16 to "
                       f"32 rows, h = 2 a and 3 a, that come to their end in two rolls, {words}")
       for points, words in KINDS.items()),
     Claim(id="own-convection-closed-error", source="RR98 Sec. III", at_most=WANTED,
-          value=error(LAYER, maker="closed", weight="Lucy", points="jittered-0.3", h=2.0, resolution=32),
+          value=error(LAYER, 32, 2.0, maker="closed", points="jittered-0.3"),
           because="1 %, the error at which resolutions are compared",
           statement="closing the edges is enough: |error| of K in Rayleigh-Benard at 32 rows, h = 2 a, "
                     f"{KINDS['jittered-0.3']}; asked after no order could be told, as runs with h = 3 a "
                     "diverge"),
-    *(Claim(id=f"own-convection-triangles-{points.split('-')[0]}", source="RR98 Sec. III", at_least=1,
-            value=order(LAYER, 0.0, **TRIANGLES, points=points),
-            because="first order at least: 12 rows are not yet in the range of the second",
-            statement="a triangulation gives the continuum limit without weights: order of K in "
-                      f"Rayleigh-Benard on {words}")
-      for points, words in KINDS.items()),
     *(Claim(id=f"own-convection-triangles-cost-{points.split('-')[0]}", source="RR98 Sec. III", at_most=10,
-            value=cost(LAYER, **TRIANGLES, points=points, h=0.0)/cost(LAYER, **LATTICE, h=1.2),
+            value=cost(0.0, "delaunay", points)/cost(1.2, **LATTICE),
             because="an order of magnitude, as is asked of the vortex",
             statement="irregular points cost little: exchanges over edges for 1 % of K in Rayleigh-Benard, "
                       f"Ra 10 000, on {words}, triangulated, over those on a lattice with its nearest "

@@ -1,4 +1,4 @@
-"""Tables of the study ordering. Lengths in spacings a; errors relative; `_err` half widths of 95 % intervals."""
+"""Tables of the study ordering. Lengths in spacings; errors relative; `_err`: half of the 95 % interval."""
 import numpy as np
 
 from particles.integral.interpolants import moment
@@ -8,57 +8,42 @@ from studies.kit.table import Table
 #: rms width of Lucy's weight in 2D, RR98's r0, over its range
 WIDTH = float(np.sqrt(moment(Lucy.of(h=1.0, d=2), 3, 2)/4))
 
-POINT = ["maker", "weight", "h", "points", "wavelength"]
+POINT = "maker h points wavelength"
 #: rms errors of gradient and Laplacian of a plane wave; closure and linear: how far edges are from closed and
 #: from linearly exact
-OPERATORS = Table("operators", key=[*POINT, "seed"], columns=[
-    *POINT, "seed", "a_over_h", "h_over_lambda", "gradient", "laplacian", "closure", "linear"])
+OPERATORS = Table.of("operators", f"{POINT} seed", "gradient laplacian closure linear")
 #: the same over seeds
-MEANS = Table("means", key=POINT, columns=[
-    *POINT, "seeds", "a_over_h", "h_over_lambda", "gradient", "gradient_err", "laplacian", "laplacian_err"])
-SLOPE = ["maker", "weight", "points", "fixed", "at", "operator"]
+MEANS = Table.of("means", POINT, "seeds gradient gradient_err laplacian laplacian_err")
 #: d ln error/d ln(h/lambda); `fixed` says what stays as it is: h/a (finer points for a wave) or a (a wider
 #: weight)
-SLOPES = Table("slopes", key=SLOPE, columns=[*SLOPE, "slope", "slope_err", "floor"])
+SLOPES = Table.of("slopes", "maker points operator fixed at", "slope slope_err floor")
 
-BRACKET_POINT = ["h", "points", "wavelength"]
-#: rms errors of the gradient of a plane wave by plain quadrature, Lucy's weight: with f_j alone [Eq. 1],
-#: f_i + f_j [Eqs 14, 34-36], f_j - f_i
-BRACKETS = Table("brackets", key=[*BRACKET_POINT, "seed"], columns=[
-    *BRACKET_POINT, "seed", "single", "sum", "difference"])
+#: rms errors of the gradient of a plane wave by plain quadrature: with f_j alone [Eq. 1], f_i + f_j [Eqs 14,
+#: 34-36], f_j - f_i
+BRACKETS = Table.of("brackets", "h points wavelength seed", "single sum difference")
 #: the same over seeds
-BRACKET_MEANS = Table("bracket_means", key=[*BRACKET_POINT, "form"], columns=[
-    *BRACKET_POINT, "form", "seeds", "error", "error_err"])
+BRACKET_MEANS = Table.of("bracket_means", "h points wavelength form", "seeds error error_err")
 #: d ln error/d ln(h/lambda) at h = 3 a
-BRACKET_SLOPES = Table("bracket_slopes", key=["points", "form"],
-                       columns=["points", "form", "slope", "slope_err"])
+BRACKET_SLOPES = Table.of("bracket_slopes", "points form", "slope slope_err")
 
-#: a Taylor-Green vortex that has decayed by e: relative rms error of the velocity, relative error of ln(K at
-#: the start/K at the end), both against the gas of that Mach number; incompressible: of the velocity against
-#: the incompressible vortex; reached: share of the time until the run diverged, 0 where there are no such
-#: edges; exchanges: over edges, of the whole run; h = 0: edges of no weight
-VORTICES = Table("vortices", key=[*POINT, "mach", "seed"], columns=[
-    *POINT, "mach", "seed", "velocity", "decay", "incompressible", "reached", "exchanges"])
-LAYER = ["maker", "weight", "h", "points", "rows", "seed"]
+#: a Taylor-Green vortex that has decayed by e: relative rms error of the velocity against the gas of its Mach
+#: number, none where the run diverged; exchanges: over edges, of the whole run; h = 0: edges of no weight
+VORTICES = Table.of("vortices", f"{POINT} seed", "velocity exchanges")
 #: Rayleigh-Benard at Ra 10 000, `rows` spacings high: K per mass and Nusselt number in the end
-CONVECTION = Table("convection", key=LAYER, columns=[
-    *LAYER, "ke", "ke_err", "nu", "nu_err", "rolls", "converged", "exchanges"])
+CONVECTION = Table.of("convection", "maker h points rows seed",
+                      "ke ke_err nu nu_err rolls converged exchanges")
 #: K of the grid of study rb, extrapolated
-REFERENCE = Table("reference", key=["flow"], columns=["flow", "ke", "ke_err"])
-SERIES = ["flow", "quantity", "maker", "weight", "h", "points"]
-#: means over seeds of relative errors, with sign; resolution: spacings to the wavelength or to the height;
-#: lost: seeds without a number
-FLOWS = Table("flows", key=[*SERIES, "resolution"], columns=[
-    *SERIES, "resolution", "seeds", "lost", "a_over_h", "h_over_lambda", "error", "error_err", "exchanges"])
-FLOW_SLOPE = ["flow", "quantity", "maker", "weight", "points", "fixed", "at"]
+REFERENCE = Table.of("reference", "flow", "ke ke_err")
+SERIES = "flow maker h points"
+#: means over seeds of relative errors, with sign, of the velocity of vortices and of K of convection;
+#: resolution: spacings to the wavelength or to the height; lost: seeds without a number
+FLOWS = Table.of("flows", f"{SERIES} resolution", "seeds lost error error_err exchanges")
 #: d ln |error|/d ln(a/lambda) at fixed h/a and d ln |error|/d ln h at fixed a, over all runs; `at`: that h or
 #: resolution
-FLOW_SLOPES = Table("flow_slopes", key=FLOW_SLOPE, columns=[*FLOW_SLOPE, "number", "slope", "slope_err"])
+FLOW_SLOPES = Table.of("flow_slopes", "flow maker points fixed at", "slope slope_err")
 #: least resolution from which on the error stays below 1 %, and exchanges there; bound = 1: the least that
 #: was run; finest: the error at the highest one
-CHEAPEST = Table("cheapest", key=SERIES, columns=[*SERIES, "needed", "needed_err", "exchanges", "bound",
-                                                  "finest"])
+CHEAPEST = Table.of("cheapest", SERIES, "needed needed_err exchanges bound finest")
 
 ALL = (OPERATORS, MEANS, SLOPES, BRACKETS, BRACKET_MEANS, BRACKET_SLOPES, VORTICES, CONVECTION, REFERENCE,
-       FLOWS,
-       FLOW_SLOPES, CHEAPEST)
+       FLOWS, FLOW_SLOPES, CHEAPEST)

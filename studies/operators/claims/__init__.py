@@ -9,20 +9,12 @@ from studies.kit.ask import Value, largest, largest_of, largest_per, least, of, 
 from studies.kit.claim import Claim
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
-from studies.operators.claims import scheme
+from studies.operators.claims.scheme import SCHEME, number, second_order
 
 GIVEN = ("Exponential", "Gaussian")      # whose integrals are known in closed form and not made to be 1
 WEIGHTS = "seven weights, 1 to 3 dimensions"
 QUADRATURE = "quadrature to 1e-12, nine digits in the table"
 LONG = "0.4 to 0.8 % are (k h)^2 of a wave 64 spacings long"
-SUMS = "2 %: lattice sums with h = 3 a are good to that"
-ROUND_OFF = "round-off of sums over a lattice"
-LAWS = "the continuum's own laws, which the paper takes from elsewhere: its sums are judged by them"
-
-
-def volume(quantity: str) -> Value:
-    """A sum read literally where dV = 1/4, over what it stands for."""
-    return one("volumes", "ratio", quantity=quantity)
 
 
 def on_line(r0: float, n: Any) -> Value:
@@ -39,6 +31,12 @@ def doubling(tables: Tables) -> Measured:
     return Measured(last, abs(last - before))
 
 
+def literally(name: str, source: str, quantity: str, statement: str, printed: str = "") -> Claim:
+    """A sum read literally is what it stands for."""
+    return Claim(id=f"rr98-{name}", source=f"RR98 {source}", printed=printed, expect=1, within=0.02,
+                 because=LONG, value=number(quantity), statement=statement)
+
+
 INTERPOLANT = (
     Claim(id="rr98-eq1-symbol", source="RR98 Eq. 1", printed="grad A", at_most=1e-9, because=QUADRATURE,
           value=largest("continuum", "abs(value)", err="value_err", quantity="symbol"),
@@ -46,52 +44,33 @@ INTERPOLANT = (
                     f"largest difference over k at k r0 = 0.3 to 4, {WEIGHTS}"),
     Claim(id="rr98-eq2-first-moment", source="RR98 Eq. 2", printed="3", at_most=1e-9,
           because="quadrature to 1e-12",
-          value=one("numbers", "value", quantity="first moment"),
+          value=number("first moment"),
           statement="W = -f' of a normalised f has M_1 = d: all weights, 1 to 3 dimensions, largest relative "
                     "difference"),
-    Claim(id="rr98-eq2-moments", source="RR98 Eq. 2", printed="all its moments exist", at_most=1e-9,
+    Claim(id="rr98-eq2-moments", source="RR98 Eqs 2, 3", printed="all its moments exist", at_most=1e-9,
           because=QUADRATURE,
           value=largest("continuum", "abs(value/predicted - 1)", err="value_err",
                         quantity=("moment 1", "moment 2", "moment 3", "moment 4")),
           statement="moments of W exist and are those of f, M_n = (n + d - 1) <r^(n-1)>/r0^(n-1): largest "
                     f"relative difference for n = 1 to 4, {WEIGHTS}; M_3 = (d + 2) <r^2>/r0^2"),
-    Claim(id="rr98-eq3-slope", source="RR98 Eq. 3", at_most=1e-6,
-          value=largest_of(largest("continuum", "abs(value)", err="0", quantity="slope", weight=GIVEN),
-                           largest("counted", "abs(value/predicted - 1)", n=1)),
-          because="central differences over 1e-5 r0 are good to 1e-7, counting to (a/r0)^3 = 1e-7",
-          statement="W is minus the slope of f: largest relative difference of the two, exponential and "
-                    "Gaussian weight, and of the first moment of W from d, the other weights and the "
-                    "Gaussian one, counted over the points of lattices with 200 and 20 spacings to r0; 1 to "
-                    "3 dimensions"),
-    Claim(id="rr98-eq4-integral", source="RR98 Eq. 4", printed="delta(r)/(4 pi r^2)", at_most=1e-9,
+    Claim(id="rr98-eq4-integral", source="RR98 Eqs 4, 30", printed="delta(r)/(4 pi r^2)", at_most=1e-9,
           value=largest_of(largest("continuum", "abs(value - predicted)", err="value_err",
                                    quantity="integral", weight=GIVEN),
-                           largest("counted", "abs(value - predicted)", n=0)),
+                           largest("continuum", "abs(value - predicted)", err="0", quantity="counted")),
           because="quadrature to 1e-12; counting to (a/r0)^4 = 6e-10; nine digits in the table",
           statement="f has the integral 1 in d dimensions: largest difference, exponential weight by "
                     "quadrature, the others counted over the points of lattices with 200 spacings (Gaussian: "
                     "20) to r0; 1 to 3 dimensions"),
     Claim(id="rr98-eq5-factor", source="RR98 Eq. 5", printed="1/2", expect=1/2, within=1e-3,
-          value=one("numbers", "value", quantity="third derivatives"),
+          value=number("third derivatives"),
           because="the next term is 1e-4; Taylor's factor is 1/6, so that the error is M_3 r0^2/30",
           statement="the factor before the third derivatives in the gradient's expansion: from the transform "
                     "of Lucy's weight in 3D at small k"),
-    Claim(id="rr98-eq5-coefficient", source="RR98 Eq. 5", at_most=1e-3,
-          value=largest("continuum", "abs(value/predicted - 1)", err="value_err", quantity="leading"),
-          because="three wave numbers, extrapolated: the tail of the exponential weight leaves 2e-5",
-          statement="with Taylor's 1/6 for the printed 1/2 the gradient loses (k r0)^2 M_3/(2 d (d + 2)), "
-                    "M_3 r0^2/30 in 3D: largest relative difference of measured factor and this one, "
-                    f"{WEIGHTS}"),
     Claim(id="rr98-eq6-continuum", source="RR98 Eq. 6", printed="r0^2", at_most=0.05,
           value=largest("continuum", "abs(value - 2)", err="value_err", quantity="order"),
           because="0.01 is what k r0 = 0.05 leaves of the next order for the exponential weight",
           statement=f"the interpolant's error is of second order in r0: largest |order - 2|, {WEIGHTS}, "
                     "before anything is discretised"),
-    Claim(id="rr98-eq7-law", source="RR98 Eqs 7-9", undecidable=LAWS,
-          statement="conservation of mass, momentum and energy in the continuum"),
-    *(scheme.second_order(f"eq{n}-integral", f"Eq. {n}", what,
-                          f"the integral form of the conservation of {what}", 1, h=12.0)
-      for n, what in ((10, "mass"), (11, "momentum"), (12, "energy"))),
     Claim(id="rr98-eq13-symmetrised", source="RR98 Eq. 13", printed="we need the symmetrization",
           at_least=1e-3,
           value=least("one_kernel", "lost"), because="round-off would be 1e-15",
@@ -100,8 +79,8 @@ INTERPOLANT = (
                     "points, 1 to 3 dimensions"),
 )
 KERNELS = (
-    *(scheme.second_order(f"eq14-pressure-{d}d", "Eq. 14", "pressure",
-                          "the pressure's kernel, van der Waals fluid,", d)
+    *(second_order(f"eq14-pressure-{d}d", "Eq. 14", "pressure",
+                   "the pressure's kernel, van der Waals fluid,", d)
       for d in (1, 2, 3)),
     Claim(id="rr98-eq15-size", source="RR98 Eq. 15", printed="-grad P", at_most=1e-3,
           value=largest("orders", "abs(ratio - 1)", err="ratio_err", operator="pressure"),
@@ -110,64 +89,42 @@ KERNELS = (
                     "grad T, extrapolated to no spacing, less 1"),
     *(Claim(id=f"rr98-eq16-trace-{d}d", source="RR98 Eqs 16, 37", printed="2/3"*(d == 3), expect=0,
             within=1e-9,
-            value=one("dilation", "bulk", d=d, trace="2/3"), because=ROUND_OFF,
+            value=number(f"dilation in {d}D"), because="round-off of sums over a lattice",
             statement=f"a uniform dilation in {d}D meets the bulk viscosity only: what the trace factor 2/3 "
                       "adds to zeta, over eta")
       for d in (2, 3)),
-    Claim(id="rr98-eq16-mended", source="RR98 Eqs 16, 37", at_most=1e-9, because=ROUND_OFF,
-          value=largest("dilation", "abs(bulk - predicted)"),
-          statement="the trace factor must be 2/d: what a trace factor t adds to zeta over eta is 2/d - t, "
-                    "nothing for t = 2/d: largest difference in 1, 2 and 3 dimensions"),
-    *(scheme.second_order(f"eq17-viscous-{d}d", "Eq. 17", "viscous nested",
-                          "the nested viscous force, trace factor 2/d, eta(T) and zeta,",
-                          d) for d in (1, 2, 3)),
-    Claim(id="rr98-eq18-current", source="RR98 Eq. 18", at_most=1e-3,
-          value=largest("orders", "abs(ratio - 1)", err="ratio_err", operator="heat kernel"),
-          because="extrapolated in the spacing to 4e-5",
-          statement="sign and size of the heat current's kernel: its projection on -kappa grad T, "
-                    "extrapolated to no spacing, less 1"),
-    *(scheme.second_order(f"eq19-heat-{d}d", "Eq. 19", "heat nested", "nested conduction, kappa(T),", d)
+    *(second_order(f"eq17-viscous-{d}d", "Eq. 17", "viscous nested",
+                   "the nested viscous force, trace factor 2/d, eta(T) and zeta,", d)
+      for d in (1, 2, 3)),
+    *(second_order(f"eq19-heat-{d}d", "Eqs 18, 19", "heat nested", "nested conduction, kappa(T),", d)
       for d in (1, 2, 3)),
     Claim(id="rr98-eq21-sign", source="RR98 Eq. 21", printed="-", expect=1, within=1e-6,
-          value=volume("linearised mass, Eq. 21"), because="a quadratic form, differentiated exactly",
+          value=number("linearised mass, Eq. 21"), because="a quadratic form, differentiated exactly",
           statement="the linearised continuity equation follows from Eq. 10: projection of the printed "
                     "right-hand side on the derivative of Eq. 34; it is -1, the overall sign is wrong"),
 )
 DISCRETE = (
-    Claim(id="rr98-eq26-velocity", source="RR98 Eq. 26", printed="v dV", expect=1, within=0.02, because=LONG,
-          value=volume("mass, v_i = v dV"),
-          statement="v_i stands for v dV: rate of the mass by Eq. 34 over -div(rho v) dV where dV = 1/4; it "
-                    "is dV"),
-    Claim(id="rr98-eq26-field-velocity", source="RR98 Eq. 26", expect=1, within=0.02, because=LONG,
-          value=volume("mass, v_i = v"),
-          statement="v_i must be the field velocity itself: rate of the mass by Eq. 34 with it over -div(rho "
-                    "v) dV where dV = 1/4"),
-    Claim(id="rr98-eq26-momentum", source="RR98 Eqs 26, 35", printed="p_i = m_i v_i", expect=1, within=0.02,
-          because=LONG,
-          value=volume("momentum, p_i = m_i v_i, v_i = v dV"),
-          statement="p_i = m_i v_i, as is used for Eq. 49, with v_i = v dV in both: momentum that Eq. 35 "
-                    "convects over -div(rho v v) dV where dV = 1/4; it is dV^2"),
-    Claim(id="rr98-eq27-pressure", source="RR98 Eq. 27", printed="P dV", expect=1, within=0.02, because=LONG,
-          value=volume("pressure, P_ij = P dV"),
-          statement="with P_ij = P dV the force in Eq. 35 is -grad P dV: their ratio where dV = 1/4"),
+    literally("eq26-velocity", "Eq. 26", "mass, v_i = v dV", printed="v dV",
+              statement="v_i stands for v dV: rate of the mass by Eq. 34 over -div(rho v) dV where dV = 1/4; "
+                        "it is dV"),
+    literally("eq26-field-velocity", "Eq. 26", "mass, v_i = v",
+              statement="v_i must be the field velocity itself: rate of the mass by Eq. 34 with it over "
+                        "-div(rho v) dV where dV = 1/4"),
+    literally("eq26-momentum", "Eqs 26, 35", "momentum, p_i = m_i v_i, v_i = v dV", printed="p_i = m_i v_i",
+              statement="p_i = m_i v_i, as is used for Eq. 49, with v_i = v dV in both: momentum that Eq. 35 "
+                        "convects over -div(rho v v) dV where dV = 1/4; it is dV^2"),
+    literally("eq27-pressure", "Eq. 27", "pressure, P_ij = P dV", printed="P dV",
+              statement="with P_ij = P dV the force in Eq. 35 is -grad P dV: their ratio where dV = 1/4"),
     Claim(id="rr98-eq28-sums", source="RR98 Eq. 28", at_most=0.02,
           value=largest("lattice", "abs(value/predicted - 1)", how="plain", weight="Lucy", r0=6.0),
           because="steps of a/h = 1/6 in a smooth integrand leave less than (a/h)^2",
           statement="sums over cells times dV stand for integrals: first moment of Lucy's weight on "
                     "lattices, h = 6 a, 1 to 3 dimensions, largest relative error"),
     Claim(id="rr98-eq29-moments-3d", source="RR98 Eq. 29", printed="correct moments", expect=1, within=0.02,
-          because=SUMS,
+          because="2 %: lattice sums with h = 3 a are good to that",
           value=one("lattice", "value/d", how="printed", weight="Lucy", d=3, r0=3.0, n=1),
           statement="the printed discretisation of W gives the right first moment: gradient of a linear "
                     "field, 3D lattice"),
-    Claim(id="rr98-eq29-line", source="RR98 Eq. 29", expect=3, within=0.06, because="2 %: steps of a/h = 1/6",
-          value=one("lattice", "value", how="line", weight="Lucy", d=3, r0=6.0, n=1),
-          statement="along a half line from a point 4 pi r^2 a W(r) has the right first moment, which summed "
-                    "over all points around it has not: Lucy, h = 6 a"),
-    Claim(id="rr98-eq30-delta", source="RR98 Eq. 30", expect=1, within=1e-9, because=QUADRATURE,
-          value=one("continuum", "value", weight="Exponential", d=3, quantity="integral"),
-          statement="exp(-r/r0)/r0 represents delta(r), so that f = delta(r)/(4 pi r^2) has the integral 1 "
-                    "in space"),
     Claim(id="rr98-eq31-wave", source="RR98 Eqs 31, 45", printed="a good representation of the gradients",
           at_most=0.01,
           value=least("exponential", "plain", d=2, wavelength=128.0),
@@ -201,9 +158,8 @@ DISCRETE = (
           because="extrapolated in a/r0; (a/r0)^2/12 is left",
           statement="all moments but the zeroth are well defined: largest relative difference of M_1 to M_4 "
                     "along a line and the integrals, r0 = 4 and 8 a extrapolated"),
-    Claim(id="rr98-eq33-direction", source="RR98 Eq. 33", expect=1, within=0.02, because=LONG,
-          value=volume("divergence, Eq. 33 in Eq. 1"),
-          statement="with e_ij from j to i, -sum_j W e_ij A_j is grad A, as Eq. 1 has it: projection on the "
-                    "exact gradient of a wave"),
+    literally("eq33-direction", "Eq. 33", "divergence, Eq. 33 in Eq. 1",
+              statement="with e_ij from j to i, -sum_j W e_ij A_j is grad A, as Eq. 1 has it: projection on "
+                        "the exact gradient of a wave"),
 )
-CLAIMS = (*INTERPOLANT, *KERNELS, *DISCRETE, *scheme.CLAIMS)
+CLAIMS = (*INTERPOLANT, *KERNELS, *DISCRETE, *SCHEME)

@@ -1,0 +1,249 @@
+"""Model only what a scene needs: what do heat, noise, motion and compressibility cost, and who needs them?
+
+The same flow with and without what it may need: CPU seconds of a point and step, bytes a point, the error
+that is made of the velocity of a vortex at Mach 0.05 or K of convection at Ra 10 000. What is left out has no
+code that runs and no arrays. The ideal gas with everything has faster loops of its own: what leaving out
+alone saves is seen in the loops that all fluids take.
+"""
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from continuum.exact.vortex import SOUND, incompressible, solved, velocities
+from continuum.fluid import IdealGas
+from particles.integral.edge_makers import renormalised
+from particles.integral.isothermal import Carried, ConstantFriction, Isothermal
+from particles.integral.layer import edge_by_edge, quickest
+from particles.integral.points import lattice
+from particles.integral.thermal import Thermal
+from particles.integrators import RK4
+from particles.threads import Team
+from particles.weights import Lucy
+from studies.build.fixed import SCHEMES, Scheme, kinetic
+from studies.build.moving import MOTIONS
+from studies.cost.contestants import VortexDecay, on_mac, points
+from studies.cost.problem import Problem, Result, of_method, rms
+from studies.cost.rolls import HeatedLayer, in_time
+from studies.cost.seconds import SHORT, array_bytes, per_step
+from studies.cost.tables import with_err
+from studies.kit.case import Case, Outcome, Report
+from studies.kit.stats import Measured
+
+OF_LIMIT = 0.9
+K_BOLTZMANN = 1e-12     # noise of 1e-6: a flow of 0.07 does not see it
+H = 2.0
+FLOW, LAYER = VortexDecay(), HeatedLayer()
+NO_TIME = Measured(np.nan, np.nan)      # what diverges may do so while its steps are timed
+LATTICE = SCHEMES["fixed-lattice"]
+
+
+def difference(part: np.ndarray, whole: np.ndarray) -> float:
+    """What leaving out changes of the answer."""
+    return rms(part - whole)
+
+
+def excess(part: np.ndarray, whole: np.ndarray) -> float:
+    """Between points in other places: what it adds to the error."""
+    return float(np.maximum(0.0, rms(part) - rms(whole)))
+
+
+class Reduced(NamedTuple):
+    """What is left. change(its residual, that of the whole). unit : of its time, in that of the whole."""
+    problem: Problem
+    change: Callable[[np.ndarray, np.ndarray], float] = difference
+    unit: float = 1.0
+
+
+# --- taylor-green -------------------------------------------------------------------------------------------
+
+
+def vortex_moving(size: int) -> Reduced:
+    """Points that move."""
+    return Reduced(points(FLOW, MOTIONS["moving"], size, 1))
+
+
+def vortex_without_motion(size: int) -> Reduced:
+    """A lattice, elsewhere than the points that move."""
+    return vortex(size)._replace(change=excess)
+
+
+def vortex(size: int) -> Reduced:
+    """A lattice."""
+    return Reduced(points(FLOW, LATTICE, size, 1))
+
+
+def vortex_edge_by_edge(size: int) -> Reduced:
+    """In the loops that all fluids take, as what leaves a term out does, not in the ideal gas's own."""
+    ready = LATTICE.ready(FLOW.scene(size))
+    return on_square(size, replace(ready.method, form=edge_by_edge), ready.start, FLOW.known)
+
+
+def vortex_without_heat(size: int) -> Reduced:
+    """Mass and momentum at a pressure that the density gives."""
+    scene, place = FLOW.scene(size), lattice((size, size))
+    terms = Carried(SOUND**2), ConstantFriction(scene.eta)
+    method = Isothermal(x=place.x, edges=renormalised(place, Lucy.of(h=H)), terms=terms)
+    density, v, _ = scene.fields(place.x)
+    rho = 1 + (density**2 - 1)/SOUND**2        # the same pressure
+    return on_square(size, method, np.array([rho, *(rho*v.T)]))
+
+
+def vortex_with_noise(size: int) -> Reduced:
+    """The readable sums with noise."""
+    scene = FLOW.scene(size)
+    still, start, _ = LATTICE.ready(scene)
+    method = Thermal(edges=still.edges, eos=IdealGas(), law=scene.law, k=K_BOLTZMANN, seed=1, share=1.0)
+    return on_square(size, method, start)
+
+
+def on_square(size: int, method: Any, start: np.ndarray, known: float = 0.0) -> Reduced:
+    """A method on a lattice; edges alone know no places."""
+    scene, x = FLOW.scene(size), lattice((size, size)).x
+
+    def judge(state: np.ndarray) -> Result:
+        at = method.fields(state)
+        return Result(FLOW.residuals(scene, at._replace(x=x)))
+    return Reduced(of_method(method, start, scene.time, judge, known=known))
+
+
+def vortex_without_noise(size: int) -> Reduced:
+    """The same sums, in four stages."""
+    problem = vortex_with_noise(size).problem
+    _, sums, _ = problem.held()
+    silent = sums.method.dih
+
+    def go(state: np.ndarray, dt: float, steps: int) -> np.ndarray:
+        integrator, now = RK4(state.shape, Team(1)), state.copy()
+        for _ in range(steps):
+            integrator.step(silent, now, dt)
+        return now
+
+    def held() -> tuple:
+        return problem.start, silent, RK4(problem.start.shape, Team(1))
+    return Reduced(problem._replace(go=go, held=held))
+
+
+def vortex_without_sound(size: int) -> Reduced:
+    """The MAC grid; its height, half of the wavelength, over its velocity is the unit of time.
+
+    What another fluid changes of the answer is known without any grid.
+    """
+    scene, place = FLOW.scene(size), lattice((size, size)).x/size
+    flow = incompressible(place)
+    gas = velocities(solved(FLOW.mach), place)
+    known = rms(gas - flow)/rms(flow)
+    return Reduced(on_mac(FLOW, None, size, 1), lambda part, whole: known, size/2/scene.speed)
+
+
+# --- convection ---------------------------------------------------------------------------------------------
+
+
+def layer(rows: int, scheme: Scheme = LATTICE, form: Callable = quickest) -> Reduced:
+    """A lattice between plates. form : of its loops."""
+    scene = LAYER.scene(rows)
+    ready = scheme.ready(scene)
+    method = replace(ready.method, form=form)
+    return Reduced(in_time(LAYER, scene, ready._replace(method=method), kinetic, method.fields))
+
+
+def layer_edge_by_edge(rows: int) -> Reduced:
+    """In the loops that all fluids take."""
+    return layer(rows, form=edge_by_edge)
+
+
+def layer_without_mending(rows: int) -> Reduced:
+    """Heating is the work of forces along edges, as printed."""
+    return layer(rows, SCHEMES["fixed-lattice-printed-heat"])
+
+
+# --- cases --------------------------------------------------------------------------------------------------
+
+Make = Callable[[int], Reduced]
+
+
+class Base(NamedTuple):
+    """A flow with everything, and what is left without each of what may be left out."""
+    scene: str
+    name: str
+    quantity: str
+    size: int
+    whole: Make
+    without: tuple[tuple[str, Make], ...]
+
+
+BASES = (
+    Base("taylor-green", "moving points", "velocity", 24, vortex_moving, (
+        ("motion", vortex_without_motion),)),
+    Base("taylor-green", "fixed points", "velocity", 24, vortex, (
+        ("heat", vortex_without_heat), ("compressibility", vortex_without_sound))),
+    Base("taylor-green", "fixed points, loops of all fluids", "velocity", 24, vortex_edge_by_edge, (
+        ("heat", vortex_without_heat),)),
+    Base("taylor-green", "fixed points with noise", "velocity", 24, vortex_with_noise, (
+        ("noise", vortex_without_noise),)),
+    Base("convection", "fixed points", "K", 16, layer, (("mended heating", layer_without_mending),)),
+    Base("convection", "fixed points, loops of all fluids", "K", 16, layer_edge_by_edge, (
+        ("mended heating", layer_without_mending),)),
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class LeavingOut(Case):
+    """One base with everything, and without each of what may be left out, one after the other."""
+    base: Base
+    size: int
+    short: float = SHORT
+    alone: ClassVar[bool] = True
+
+    @property
+    def cost(self) -> float:
+        return 0.05*self.size**2
+
+    @property
+    def label(self) -> str:
+        return f"{self.base.scene}, {self.base.name}, {self.size} spacings"
+
+    @property
+    def columns(self) -> dict[str, str]:
+        """That every row has."""
+        return {"scene": self.base.scene, "base": self.base.name, "quantity": self.base.quantity}
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        return Outcome({"measured": list(self.rows(report))})
+
+    def rows(self, report: Report) -> Iterator[dict[str, Any]]:
+        """Of the table; the whole first."""
+        whole = self.base.whole(self.size)
+        residual = self.residual(whole)
+        yield self.row("nothing", whole, residual, residual)
+        for number, (name, make) in enumerate(self.base.without):
+            report((number + 1)/(len(self.base.without) + 1))
+            part = make(self.size)
+            yield self.row(name, part, self.residual(part), residual)
+
+    def residual(self, made: Reduced) -> np.ndarray:
+        """Of the main quantity; not a number where the run diverged."""
+        result = made.problem.result(OF_LIMIT)
+        return result.residuals[self.base.quantity] if result else np.array([np.nan])
+
+    def row(self, left_out: str, made: Reduced, residual: np.ndarray, whole: np.ndarray) -> dict[str, Any]:
+        """Of the table."""
+        problem, n = made.problem, made.problem.points
+        dt = problem.dt(OF_LIMIT)
+        diverged = np.isnan(residual).any()
+        advance = partial(problem.advance, problem.start, dt)
+        step = NO_TIME if diverged else per_step(advance, self.short)*(1/n)
+        time = step*(1/(dt*made.unit))
+        size, change = array_bytes(problem.held())/n, made.change(residual, whole)
+        return {**self.columns, "left_out": left_out, "points": n, **with_err(step_s=step, time_s=time),
+                "bytes": size, "error": rms(residual), "error_err": problem.known, "changed": change}
+
+
+def cases(size: str) -> list[Case]:
+    """`quick` has two of the bases, timed shortly; `paper` takes two minutes."""
+    if size == "quick":
+        return [LeavingOut(base=base, size=12, short=0.001) for base in (BASES[2], BASES[4])]
+    return [LeavingOut(base=base, size=base.size) for base in BASES]

@@ -1,0 +1,120 @@
+"""A method in a flow at a resolution, as a case: its longest step, its errors, its seconds."""
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from particles.run import Divergence
+from studies.cost.problem import Problem, Result, Rung, best, climb, rms
+from studies.cost.seconds import SHORT, of_calls, per_step
+from studies.cost.tables import with_err
+from studies.kit.case import Case, Outcome, Report
+from studies.kit.stats import Measured
+
+TRIES = 1.4         # of what an entry says that a case takes: what trying longer steps does to it
+LONGER = 10         # are the runs that time particles: they have to hold some lists
+DIVERGED = Result({"diverged": np.array([np.nan])}, {"diverged": np.nan}, {"diverged": np.nan})
+
+
+class Price(NamedTuple):
+    """CPU seconds that a case takes, about: fixed + factor resolution^power."""
+    fixed: float
+    factor: float = 0.0
+    power: int = 2
+
+    def seconds(self, resolution: int) -> float:
+        """At a resolution."""
+        return self.fixed + self.factor*resolution**self.power
+
+
+class Entry(NamedTuple):
+    """A method in a flow, by the name that tables have.
+
+    method : a record of `studies.build`. make(flow, method, resolution, seed) : its `Problem`. first :
+    fraction of the limit that is tried first.
+    """
+    name: str
+    flow: Any
+    method: Any
+    make: Callable[[Any, Any, int, int], Any]
+    price: Price
+    first: float = 0.9
+
+
+@dataclass(frozen=True, kw_only=True)
+class Race(Case):
+    """One method in one flow at one resolution."""
+    scene: str
+    entry: Entry
+    resolution: int
+    seed: int = 1
+    short: float = SHORT
+    alone: ClassVar[bool] = True
+
+    @property
+    def cost(self) -> float:
+        return TRIES*self.entry.price.seconds(self.resolution)
+
+    @property
+    def label(self) -> str:
+        return f"{self.scene}, {self.entry.name}, resolution {self.resolution}, seed {self.seed}"
+
+    @property
+    def columns(self) -> dict[str, Any]:
+        """That every row has."""
+        name = self.entry.name
+        return {"scene": self.scene, "method": name, "resolution": self.resolution, "seed": self.seed}
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        problem = self.made()
+        rungs = climb(problem, self.entry.first)
+        report(0.7)
+        rung = best(rungs)
+        steps, errors = self.steps(rungs), self.errors(rung.result or DIVERGED, problem.known)
+        rows = {"steps": list(steps), "errors": list(errors)}
+        if rung.result:
+            rows["runs"] = [self.timing(problem, rung.fraction, rung.result)]
+        return Outcome(rows)
+
+    def made(self) -> Any:
+        """What the entry makes."""
+        return self.entry.make(self.entry.flow, self.entry.method, self.resolution, self.seed)
+
+    def steps(self, rungs: list[Rung]) -> Iterator[dict[str, Any]]:
+        """Rows of the table `steps`."""
+        for rung in rungs:
+            for name in rung.time or ("diverged",):
+                time_error, space_error = (errors.get(name, np.nan) for errors in (rung.time, rung.space))
+                yield {**self.columns, "quantity": name, "of_limit": rung.fraction, "time_error": time_error,
+                       "space_error": space_error, "accepted": int(rung.accepted)}
+
+    def errors(self, result: Result, known: float) -> Iterator[dict[str, Any]]:
+        """Rows of the table `errors`."""
+        for name, residual in result.residuals.items():
+            err = float(np.hypot(known, result.uncertain.get(name, 0.0)))
+            yield {**self.columns, "quantity": name, "error": rms(residual), "error_err": err,
+                   "share": result.share.get(name, 1.0)}
+
+    def timing(self, problem: Problem, fraction: float, result: Result) -> dict[str, Any]:
+        """The row of the table `runs`."""
+        steps, dt = problem.steps(fraction), problem.dt(fraction)
+        seconds = self.a_step(problem, dt, result.state)*steps
+        set_up = of_calls(lambda: self.made().held())
+        return {**self.columns, "points": problem.points, "of_limit": fraction, "dt": dt, "steps": steps,
+                **with_err(run_s=seconds, setup_s=set_up)}
+
+    def a_step(self, problem: Problem, dt: float, end: Any) -> Measured:
+        """Seconds; of particles in the disorder of the end, when their lists are made more often."""
+        start, short = problem.start, self.short
+        if problem.chaotic:
+            start, short = end, LONGER*self.short
+        safe = min(dt, self.entry.first*problem.limit)      # in more steps than the run has
+
+        def seconds(dt: float) -> Measured:
+            return per_step(lambda steps: problem.advance(start, dt, steps), short)
+        try:
+            return seconds(dt if problem.chaotic else safe)
+        except Divergence:
+            return seconds(safe)

@@ -1,0 +1,248 @@
+"""Convection from KHP95's rolls: references, what share of a run is needed, methods in it.
+
+    K, velocity, temperature    of the steady state, against the compressible grid's by Newton's method
+    K(t)                        over the first 30 free-fall times, against the compressible grid in time
+
+Both are extrapolated. A steady state is reached once K, averaged over a free-fall time, stays as near to its
+end as the quantity's own error; from there on a flow that fluctuates is averaged until the statistical error
+is as small.
+"""
+from collections.abc import Callable, Sequence
+from functools import cache, partial
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from continuum.gas.fields import Fields as GridFields
+from continuum.gas.fields import Values, initial, interpolate, kinetic_energy
+from continuum.gas.newton import steady as newton
+from continuum.gas.solve import run as run_grid
+from continuum.scene import RayleighBenard
+from continuum.steady import Time
+from particles.fields import Fields
+from particles.plan import Plan
+from particles.run import run
+from studies.build.names import START_ENERGY
+from studies.build.setting import Ready
+from studies.build.smoothing import Smoothing, smoothed_energy
+from studies.build.unguarded import Unguarded
+from studies.cost.contestants import smoothed
+from studies.cost.problem import Go, Problem, Residuals, Result, holding, marching, relative, rms
+from studies.kit.stats import Measured, settled
+
+RA, LOWER_RA = 1e4, 5000.0
+END, EARLY, LATE = 90.0, 30.0, 40.0     # free-fall times: of the run, of K(t), from which averages are taken
+SETTLED = 60.0      # where an error of 1 % counts: K of the grid is off by 1 % until 47, by 0.2 % until 60
+OFTEN = 4           # samples a free-fall time
+TIMES = np.arange(1, round(EARLY*OFTEN))/OFTEN      # of K(t)
+MIDDLE = 1/8        # of the height on either side of the middle, where the place of the rolls is read
+
+
+#: fields of a state
+See = Callable[[np.ndarray], Any]
+
+
+class Reference(NamedTuple):
+    """K of the steady state and its uncertainty, its fields on two grids, K at TIMES and its uncertainty."""
+    ke: float
+    known: float
+    fields: tuple[GridFields, ...]
+    history: np.ndarray
+    history_known: float
+
+
+@cache
+def reference(rows: tuple[int, int, int], ra: float) -> Reference:
+    """Limits of three grids; what the coarsest one changes of them is their uncertainty."""
+    scene = RayleighBenard(ra=ra)
+    until = Time(EARLY*unit(scene), round(EARLY*OFTEN))
+    states = [newton(scene, n) for n in rows]
+    runs = [run_grid(scene, n, until=until, start=initial(scene, n, START_ENERGY)) for n in rows]
+    coarser, ke = limits([state.ke for state in states], rows)
+    early, curve = limits([one.series.ke for one in runs], rows)
+    fields = tuple(state.fields for state in states[1:])
+    known, history_known = abs(ke - coarser)/ke, rms(curve - early)/rms(curve)
+    return Reference(ke, known, fields, curve[1:-1], history_known)
+
+
+def limits(values: Sequence[Any], rows: Sequence[int]) -> tuple[Any, Any]:
+    """By the two coarser and by the two finer of three grids."""
+    coarser = extrapolated(values[:2], rows[:2])
+    return coarser, extrapolated(values[1:], rows[1:])
+
+
+def extrapolated(values: Sequence[Any], rows: Sequence[int]) -> Any:
+    """Second order."""
+    (coarse, fine), (a, b) = values, rows
+    return fine + (fine - coarse)*a**2/(b**2 - a**2)
+
+
+# --- a run --------------------------------------------------------------------------------------------------
+
+
+class Followed(NamedTuple):
+    """A run: free-fall times, K then, the state at the end."""
+    t: np.ndarray
+    ke: np.ndarray
+    state: Any
+
+
+class HeatedLayer(NamedTuple):
+    """The flow. late : of methods that fluctuate, from when they are averaged. rows : of the references."""
+    ra: float = RA
+    late: float = 0.0
+    rows: tuple[int, int, int] = (32, 48, 64)
+
+    @property
+    def answer(self) -> Reference:
+        return reference(self.rows, self.ra)
+
+    def scene(self, rows: int) -> RayleighBenard:
+        """Unit spacing."""
+        return RayleighBenard(ra=self.ra, L=float(rows))
+
+    def result(self, done: Followed, at: Fields, factor: float = 1.0) -> Result:
+        """All quantities, of fields `at` the end in heights. factor : smoothing's own on K."""
+        answer = self.answer
+        last = self.last(done)*(1/factor/answer.ke)
+        early = CubicSpline(done.t, done.ke/factor)(TIMES)
+        history = (early - answer.history)/rms(answer.history)
+        residuals = {"K": np.array([last.value - 1]), "K(t)": history, **compared(at, answer.fields)}
+        uncertain = {"K": last.err, "K(t)": answer.history_known}
+        return Result(residuals, uncertain, self.share(done, residuals))
+
+    def last(self, done: Followed) -> Measured:
+        """K of the end; of a flow that fluctuates its mean."""
+        if not self.late:
+            return Measured(float(done.ke[-1]))
+        since = self.late/END*done.t[-1]
+        mean, _ = settled(done.ke[done.t > since])
+        return mean
+
+    def share(self, done: Followed, residuals: Residuals) -> dict[str, float]:
+        """Of the run, by quantity: rule at the head of this file."""
+        share = dict[str, float]()
+        for name, residual in residuals.items():
+            error = max(self.answer.known, rms(residual))
+            time = EARLY if name == "K(t)" else self.needed(done, error)
+            share[name] = min(1.0, float(time/done.t[-1]))
+        return share
+
+    def needed(self, done: Followed, error: float) -> float:
+        """Free-fall times until a quantity of the steady state is as good as its error."""
+        last = self.last(done)
+        window = np.full(OFTEN, 1/OFTEN)
+        means = np.convolve(done.ke/last.value - 1, window, "valid")
+        far = np.flatnonzero(np.abs(means) > error)
+        near = min(far.max(initial=-1) + 1, len(means) - 1)
+        noise = last.err/last.value/error
+        averaged = (END - self.late)*min(1.0, noise**2)
+        return float(done.t[near + OFTEN - 1] + averaged)
+
+
+def compared(at: Fields, answer: tuple[GridFields, ...]) -> Residuals:
+    """Velocity and temperature, the latter relative to the rms of what differs from 1."""
+    x, y = answer[0].scene.L*aligned(at).T
+    values = [np.array(interpolate(fields, x, y)) for fields in answer]
+    rows = [len(fields.y) - 1 for fields in answer]
+    exact = Values(*extrapolated(values, rows))
+    v = np.stack([exact.vx, exact.vy], axis=1)
+    velocity = relative(at.V, at.v - v, v)
+    temperature = relative(at.V, at.T - exact.T, exact.T - 1)
+    return {"velocity": velocity, "temperature": temperature}
+
+
+def aligned(at: Fields) -> np.ndarray:
+    """Places in |x| <= 1, shifted so that the rolls lie as at the start, rising in the middle."""
+    x, y = at.x.T
+    near = np.abs(y) < MIDDLE
+    wave = at.V*at.v[:, 1]*np.exp(-1j*np.pi*x)
+    shift = np.angle(wave[near].sum())/np.pi
+    return np.stack([(x + shift + 1) % 2 - 1, y], axis=1)
+
+
+# --- methods ------------------------------------------------------------------------------------------------
+
+
+def on_points(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
+    """Points that stay or move."""
+    scene = flow.scene(rows)
+    ready = method.ready(scene, seed)
+    return in_time(flow, scene, ready, method.series["ke"], ready.method.fields)
+
+
+def of_particles(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
+    """Smooth particles; K is that of the smoothed field, held against the grid's field smoothed alike."""
+    scene = flow.scene(rows)
+    ready = method.ready(scene, seed)
+    plain, smooth = smoothed_energy(flow.answer.fields[1], Smoothing(method.weight, method.h, rows))
+    see = partial(smoothed, ready.method)
+    problem = in_time(flow, scene, ready, method.series["kg"], see, smooth/plain)
+    return problem._replace(firm=True)
+
+
+def in_time(flow: HeatedLayer, scene: RayleighBenard, ready: Ready, energy: Callable, see: See,
+            factor: float = 1.0) -> Problem:
+    """A method of the particles' time loop, with K on the way."""
+    method = Unguarded(ready.method)
+
+    def go(state: np.ndarray, dt: float, steps: int) -> Followed:
+        plan = Plan(dt=dt, steps=steps, series={"ke": energy}, every=every(scene, dt))
+        done = run(method, state, plan)
+        return from_rolls(scene, done.times, done.series["ke"], done.by_id())
+    points = ready.start.shape[1]
+    problem = problem_of(flow, scene, ready, points, go, see, factor)
+    return problem._replace(held=holding(ready.method, ready.start), timed=marching(ready.method))
+
+
+def on_grid(flow: HeatedLayer, form: Any, rows: int, seed: int) -> Problem:
+    """The compressible grid in time."""
+    scene = flow.scene(rows)
+    ready = form.ready(scene)
+    method, march = ready.method, ready.method.march(ready.start)
+    cells = rows*round(scene.width)
+
+    def held() -> tuple:
+        return march.S, march.scratch
+    problem = problem_of(flow, scene, ready, cells, sampled(method), method.fields)
+    return problem._replace(held=held, timed=method.go)
+
+
+def problem_of(flow: HeatedLayer, scene: RayleighBenard, ready: Ready, points: int, go: Go, see: See,
+               factor: float = 1.0) -> Problem:
+    """What all have in common."""
+    def judge(done: Followed) -> Result:
+        at = see(done.state)
+        return flow.result(done, at._replace(x=at.x/scene.L), factor)
+    return Problem(points, ready.start, ready.limit, END*unit(scene), go, judge, tuple, flow.answer.known,
+                   bool(flow.late))
+
+
+def sampled(method: Any) -> Go:
+    """`go` of a grid with K on the way."""
+    def go(S: np.ndarray, dt: float, steps: int) -> Followed:
+        march, often = method.march(S, dt), every(method.scene, dt)
+        t, ke = list[float](), list[float]()
+        while march.steps < steps:
+            march.go(min(often, steps - march.steps))
+            t.append(march.t)
+            ke.append(kinetic_energy(march.S))
+        return from_rolls(method.scene, t, ke, march.S)
+    return go
+
+
+def unit(scene: RayleighBenard) -> float:
+    """Of time: that of free fall."""
+    return scene.L/scene.free_fall
+
+
+def every(scene: RayleighBenard, dt: float) -> int:
+    """Steps between samples."""
+    return max(1, round(unit(scene)/OFTEN/dt))
+
+
+def from_rolls(scene: RayleighBenard, times: Sequence[float], ke: Sequence[float], state: Any) -> Followed:
+    """Samples, before them the start."""
+    t = np.array([0.0, *times])/unit(scene)
+    return Followed(t, np.array([START_ENERGY, *ke]), state)

@@ -1,0 +1,235 @@
+"""Seconds of a step, bytes of arrays: how they are measured; how seconds grow with the number of points."""
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter, process_time
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import ConstEta, IdealGas
+from continuum.scene import RayleighBenard
+from particles.integral.edge_makers import renormalised
+from particles.integral.edges import NONE_BEYOND
+from particles.integral.layer import Layer
+from particles.integral.points import lattice
+from particles.integrators import RK4
+from particles.run import Plan, run
+from particles.threads import Team
+from particles.weights import Lucy
+from studies.build.spam import PRINTED
+from studies.cost.tables import with_err
+from studies.kit.case import Case, Outcome, Report
+from studies.kit.stats import Measured
+from studies.kit.timing import REPEATS, SPREAD_TO_ERR
+
+Clock = Callable[[], float]
+SHORT = 0.01        # CPU seconds that the steps of the shorter of two runs take at least
+MANY = 100_000      # steps of it at most
+
+WARM = 16           # steps of particles before they are timed, and of a lap: lists are made anew
+LAPS, WORK = (5, 25), 2e6               # least and most laps; particles times steps that are enough
+ETA = 0.5
+TURNS, A_TURN = 12, 2                   # of one and two threads; laps of particles in each
+
+
+# --- how they are measured ----------------------------------------------------------------------------------
+
+
+def median(seconds: Sequence[float] | np.ndarray) -> Measured:
+    """Its error is that of so many repeats, by their quartiles."""
+    low, middle, high = np.percentile(seconds, [25, 50, 75])
+    to_err = SPREAD_TO_ERR*np.sqrt(REPEATS/len(seconds))
+    return Measured(float(middle), float(to_err*(high - low)/2))
+
+
+def took(f: Callable[[], Any], clock: Clock = process_time) -> float:
+    """Seconds of a call."""
+    began = clock()
+    f()
+    return clock() - began
+
+
+def of_calls(f: Callable[[], Any], clock: Clock = process_time) -> Measured:
+    """Seconds of a call that was made before, so that all is compiled."""
+    return median([took(f, clock) for _ in range(REPEATS)])
+
+
+def per_step(advance: Callable[[int], Any], short: float = SHORT, clock: Clock = process_time) -> Measured:
+    """Seconds of one step of advance(steps): the difference of two runs leaves out what every run pays once.
+
+    The steps of the shorter one take `short` at least, and as long as what is paid once, whose scatter
+    counts.
+    """
+    def lap(steps: int) -> float:
+        return took(lambda: advance(steps), clock)
+    lap(1)
+    steps = 1
+    while steps < MANY:
+        one, three = lap(steps), lap(3*steps)
+        spent = (three - one)/2
+        if spent >= max(short, one - spent):
+            break
+        steps *= 2
+    more = [lap(3*steps) - lap(steps) for _ in range(REPEATS)]
+    return median(more)*(0.5/steps)
+
+
+class Laps:
+    """Seconds between calls."""
+
+    def __init__(self, clock: Clock = process_time) -> None:
+        self.clock, self.at = clock, list[float]()
+
+    def __call__(self, fraction: float) -> None:
+        self.at.append(self.clock())
+
+    def total(self, count: int) -> Measured:
+        """Of `count` of them."""
+        return median(np.diff(self.at))*count
+
+
+def array_bytes(*things: Any) -> int:
+    """Bytes of all arrays that things hold, each buffer once; not those of a `method`, which only sets up."""
+    sizes = dict[int, int]()
+    for array in arrays(things, set()):
+        start, _ = array.__array_interface__["data"]
+        sizes[start] = array.nbytes
+    return sum(sizes.values())
+
+
+def arrays(thing: Any, seen: set[int]) -> Iterator[np.ndarray]:
+    """Arrays in a thing, in what it holds, and so on; of a view its whole buffer."""
+    if id(thing) in seen or isinstance(thing, type | str | int | float):
+        return
+    seen.add(id(thing))
+    if isinstance(thing, np.ndarray):
+        while isinstance(thing.base, np.ndarray):
+            thing = thing.base
+        yield thing
+        return
+    for part in parts(thing):
+        yield from arrays(part, seen)
+
+
+def parts(thing: Any) -> Iterator[Any]:
+    """What a container or an object holds."""
+    if isinstance(thing, tuple | list):
+        yield from thing
+    if isinstance(thing, dict):
+        yield from thing.values()
+    for name, value in getattr(thing, "__dict__", {}).items():
+        if name != "method":
+            yield value
+
+
+# --- many points --------------------------------------------------------------------------------------------
+
+
+class Flock(NamedTuple):
+    """The printed scheme at Ra = 10 000, lists and walls included; twice as many columns as rows."""
+    method: Any
+    start: np.ndarray
+    dt: float
+    threads: int
+
+    @classmethod
+    def of(cls, rows: int, threads: int = 1) -> "Flock":
+        return cls(*PRINTED.ready(RayleighBenard(ra=1e4, L=float(rows))), threads)
+
+    def seconds(self, short: float) -> Measured:
+        """Of a step."""
+        count = WORK/(WARM*self.start.shape[1])
+        return median(self.laps(int(np.clip(count, *LAPS)), process_time))
+
+    def laps(self, count: int, clock: Clock) -> np.ndarray:
+        """Seconds of a step in each of so many laps; the one before the first is left out."""
+        laps, steps = Laps(clock), WARM*(count + 1)
+        run(self.method, self.start, Plan(dt=self.dt, steps=steps, threads=self.threads), laps)
+        return np.diff(laps.at)/WARM
+
+
+class Web(NamedTuple):
+    """RK4 over stored edges of a periodic lattice, twice as many columns as rows."""
+    state: np.ndarray
+    sums: Any
+    integrator: RK4
+
+    @classmethod
+    def of(cls, rows: int) -> "Web":
+        points = lattice((2*rows, rows))
+        edges, team = renormalised(points, Lucy.of(h=2.0)), Team(1)
+        method = Layer(x=points.x, edges=edges, beyond=NONE_BEYOND, eos=IdealGas(), law=ConstEta(ETA, ETA),
+                       T_plates=(1.0, 1.0), g=0.0)
+        state = method.state(1.0, 0.01*np.sin(points.x), np.ones(points.n))
+        return cls(state, method.start(points.n, team), RK4(state.shape, team))
+
+    def seconds(self, short: float) -> Measured:
+        """Of a step."""
+        return per_step(self.advance, short)
+
+    def advance(self, steps: int) -> None:
+        """From the start, with a step that is stable there for sure."""
+        now = self.state.copy()
+        for _ in range(steps):
+            self.integrator.step(self.sums, now, 0.1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class StepTime(Case):
+    """CPU seconds of a step of so many rows of points."""
+    name: str
+    kind: type[Flock] | type[Web]
+    rows: int
+    a_point: float = 7.6e-5     # seconds that the case takes
+    short: float = SHORT
+    alone: ClassVar[bool] = True
+
+    @property
+    def cost(self) -> float:
+        return 0.5 + self.a_point*self.points
+
+    @property
+    def label(self) -> str:
+        return f"growth, {self.name}, {self.points} points"
+
+    @property
+    def points(self) -> int:
+        return 2*self.rows**2
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        made = self.kind.of(self.rows)
+        row = self.row(made.seconds(self.short), 1, "cpu")
+        return Outcome({"growth": [row]})
+
+    def row(self, seconds: Measured, threads: int, clock: str) -> dict[str, Any]:
+        """Of the table."""
+        return {"method": self.name, "points": self.points, "threads": threads, "clock": clock,
+                **with_err(step_s=seconds)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class TwoThreads(StepTime):
+    """The time that passes in steps of one thread and of two, in turns: what slows the machine slows both."""
+    kind: type[Flock] = Flock
+    turns: int = TURNS
+
+    @property
+    def cost(self) -> float:
+        return 0.5 + self.a_point*self.points*self.turns
+
+    @property
+    def label(self) -> str:
+        return f"threads, {self.name}, {self.points} points, one and two in turns"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        one, two = (Flock.of(self.rows, threads) for threads in (1, 2))
+        alone, together = list[float](), list[float]()
+        for turn in range(self.turns + 1):
+            first, second = (flock.laps(A_TURN, perf_counter) for flock in (one, two))
+            if turn:        # the first loads what is compiled
+                alone.extend(first)
+                together.extend(second)
+            report(turn/self.turns)
+        rows = self.row(median(alone), 1, "wall"), self.row(median(together), 2, "wall")
+        return Outcome({"growth": list(rows)})
