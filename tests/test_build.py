@@ -10,7 +10,7 @@ from continuum.scene import Periodic, RayleighBenard, Walls
 from particles.fields import kinetic_energy
 from particles.run import Plan, run
 from studies.build import METHODS, named, ready
-from studies.build.names import LABELS
+from studies.build.labels import LABELS
 from studies.build.scenes import Scene, Slab, Sound, TaylorGreen, between_plates
 from studies.build.spam import VARIANTS
 

@@ -56,11 +56,11 @@ def test_what_is_said_comes_from_the_tables(small):
 def test_what_an_error_costs_is_read_where_it_stays_below(small):
     panel, = (panel for panel in known(small).panels if "kinetic" in panel.title)
     costs = {series.label: {level: need.cpu_s for level, need in series.needs.items()} for series in panel.lines}
-    assert panel.lines[0].label == "compressible grid" and panel.lines[0].usual
+    assert panel.lines[0].label == "compressible grid, RK4" and panel.lines[0].usual
     grid = {0.1: 1e-4*16**3, 0.03: 1e-4*16**3, 0.01: 1e-4*50**3}     # 7/16^2 = 0.027, 7/25^2 = 0.0112, 7/50^2 = 0.0028
-    assert costs["compressible grid"] == pytest.approx(grid)
+    assert costs["compressible grid, RK4"] == pytest.approx(grid)
     # 0.05 with 25 rows is passed on the way to -0.2 with 50: it does not stay below 10 %
-    assert costs["SPAM, as printed, Kp"] == {}
+    assert costs["SPAM, Lucy (as printed), Kp"] == {}
 
 
 def raced(out, methods):

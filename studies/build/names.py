@@ -9,21 +9,6 @@ START_JITTER = 0.2     # of points at the start, in spacings: a perfect lattice 
 HALVES = 0.3           # of K: if halves of the averaging time differ by more, the flow is not steady
 EOS_NAMES = {"IdealGas": "ideal", "VanDerWaals": "vdw", "DenseFluid": "dense"}
 TRANSPORT_NAMES = {"ConstEta": "const-eta", "ConstNu": "const-nu"}
-#: what people call methods of `studies.build.METHODS` in legends, tables and texts
-LABELS = {
-    "grid": "compressible grid, RK4",
-    "spam": "SPAM, Lucy (as printed)",
-    "spam-monaghan": "SPAM, Monaghan",
-    "spam-wendland-c2": "SPAM, Wendland C2",
-    "spam-less-static-50": "SPAM, Lucy, less static pressure",
-    "fixed-lattice": "DIH lattice, h = 2 a",
-    "fixed-lattice-h1.2": "DIH lattice, h = 1.2 a",
-    "fixed-lattice-h3": "DIH lattice, h = 3 a",
-    "fixed-lattice-monaghan": "DIH lattice, h = 2 a, Monaghan",
-    "fixed-lattice-wendland-c2": "DIH lattice, h = 2 a, Wendland C2",
-    "fixed-jittered-plates": "DIH Delaunay, jittered",
-    "relaxed-plates": "DIH Delaunay, relaxed",
-    "moving": "moving points"}
 #: what a row of `kinetic_energy` is there for; not finite where a run diverged
 VALUES = ("ke", "ke_err", "ke_field", "ke_field_err", "ke_mean", "ke_mean_err", "ke_fluctuation",
           "nu", "nu_err")

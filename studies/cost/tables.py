@@ -3,7 +3,7 @@
 CPU seconds of one thread; errors relative; `_err`: half width of a 95 % interval. resolution: points to the
 wavelength (taylor-green, sound) or rows to the height.
 """
-from studies.build.names import LABELS
+from studies.build.labels import LABELS
 from studies.kit.stats import Measured
 from studies.kit.table import Table
 

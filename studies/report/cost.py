@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pandas as pd
 
-from studies.rb.figures.names import METHODS
+from studies.build import labels
 from studies.report.inventory import Folder, Sheet
 from studies.report.numbers import percent, seconds, short, with_error
 
@@ -28,7 +28,6 @@ LEAST, MOST = 3, 8
 FAMILIES = ("compressible", "MAC", "DIH lattice", "DIH Delaunay", "moving", "SPAM", "py-pde")
 #: levels at which members of a family are compared: the first that one of them reaches
 DECIDE = (0.01, 0.03, 0.1)
-PRINTED = ("spam", "printed")
 #: of error, whose cost is told; columns of the table that tells it
 LEVELS = (0.1, 0.03, 0.01, 0.001)
 NEEDED = {"level", "reached", "cpu_s", "low", "high"}
@@ -181,11 +180,11 @@ def family(method: str) -> str:
 
 
 def label(about: dict) -> str:
-    """Words for a series: those of the figures of convection where they have some."""
-    method = (about["method"], about.get("variant", ""))
-    if method in METHODS:
-        return METHODS[method][0]
-    words = {**about, "method": "SPAM", "variant": "as printed"} if method == PRINTED else about
+    """Words for a series: those that all studies use where there are some; only smooth particles have several energies."""
+    named = labels.label(about["method"], about.get("variant", ""))
+    if named and about["method"] != "spam":
+        return named
+    words = {**about, "method": named, "variant": ""} if named else about
     return ", ".join(str(value) for value in words.values() if value)
 
 
