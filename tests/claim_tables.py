@@ -29,7 +29,8 @@ def verdict(name: str, tables: Tables) -> str:
 
 def means(rows: list[dict], kept: float = 1.0) -> Tables:
     """Tables `means` from points and K, and `errors` of particles' fields: smoothing leaves `kept` of the grid's K."""
-    full = [{"particles": 0, "seeds": 3, "mixed": 0, "rolls": 2, "ke_fluctuation": 1e-4, "nu": 1.5, "nu_err": 0.0,
+    full = [{"particles": 0, "seeds": 3, "mixed": 0, "rolls": 2, "ke_fluctuation": 1e-4, "nu": 1.5,
+             "nu_err": 0.0,
              "ke_field": row["ke"], "ke_field_err": row["ke_err"], "ke_mean": row["ke"],
              "ke_mean_err": row["ke_err"], **row} for row in rows]
     return Tables({"means": pd.DataFrame(full), "errors": errors(pd.DataFrame(full), kept)})
@@ -45,7 +46,8 @@ def errors(means: pd.DataFrame, kept: float) -> pd.DataFrame:
 
 def seeds(point: dict, ke: tuple[float, ...], **more) -> pd.DataFrame:
     """Rows of `kinetic_energy`, one a seed with its K."""
-    return pd.DataFrame([{**point, "seed": seed, "ke": k, "ke_err": 1e-3*k, "ke_field": k, "ke_field_err": 1e-3*k, "ke_mean": k,
+    return pd.DataFrame([{**point, "seed": seed, "ke": k, "ke_err": 1e-3*k, "ke_field": k,
+                          "ke_field_err": 1e-3*k, "ke_mean": k,
                           "ke_mean_err": 1e-3*k, "rolls": 2,
                           "ke_fluctuation": 1e-4, "converged": True, **more} for seed, k in enumerate(ke, 1)])
 
@@ -58,7 +60,8 @@ def straight(ra: float, bend: float = 0.0) -> float:
 
 def grids(bend: float = 0.0, order: float = 2.0) -> list[dict]:
     """The compressible grid on 24, 32, 48 rows and its limit."""
-    return [{**grid(ra, rows), "ke": straight(ra, bend) + 0.03*rows**-order*(1 + math.sqrt(5000/ra)), "ke_err": 1e-8}
+    return [{**grid(ra, rows), "ke": straight(ra, bend) + 0.03*rows**-order*(1 + math.sqrt(5000/ra)),
+             "ke_err": 1e-8}
             for ra in RA for rows in (24, 32, 48, math.inf)]
 
 
@@ -85,13 +88,9 @@ def crystal(per_site: int, height: float = 30.0) -> pd.DataFrame:
     inside = (np.abs(x) < height + 3) & (np.abs(y) < height/2 + 3)
     x, y = (np.concatenate([q[inside] + 0.05*n*(q is x) for n in range(per_site)]) for q in (x, y))
     fluid = (np.abs(x) < height) & (np.abs(y) < height/2)
-    return pd.DataFrame({**particles(1e4), "seed": 1, "number": np.arange(len(x)), "x": x/50, "y": y/50, "vx": 0.1,
+    return pd.DataFrame({**particles(1e4), "seed": 1, "number": np.arange(len(x)), "x": x/50, "y": y/50,
+                         "vx": 0.1,
                          "vy": 0.0, "kind": np.where(fluid, "fluid", "image")})
-
-
-def seen(ra: float, kept: float) -> pd.DataFrame:
-    """The finest grid's K as 50 rows of the printed weight see it: the share `kept` of it."""
-    return pd.DataFrame([{**grid(ra, 48), "weight": "Lucy", "h": 3.0, "rows": 50, "ke": 1.0, "ke_smoothed": kept}])
 
 
 @cache

@@ -22,17 +22,21 @@ def errors() -> pd.DataFrame:
                                                     ("spam", "printed", "Kg", -0.1 - 0.002*n, 1e-2*n**3),
                                                     ("spam", "printed", "Kp", 0.3 - 0.01*n, 1e-2*n**3),
                                                     ("dih", "fixed-lattice", "Kp", 12/n**2, 1e-3*n**3)):
-            rows.append({"method": method, "variant": variant, **LAYER, "ra": 1e4, "resolution": n, "energy": energy,
-                         "particles": 2*n**2, "ke": 0.005*(1 + error), "ke_err": 5e-7, "reference": 0.005, "reference_err": 0.0,
+            rows.append({"method": method, "variant": variant, **LAYER, "ra": 1e4, "resolution": n,
+                         "energy": energy,
+                         "particles": 2*n**2, "ke": 0.005*(1 + error), "ke_err": 5e-7, "reference": 0.005,
+                         "reference_err": 0.0,
                          "error": error, "error_err": 1e-4, "cpu_s": cpu, "size": "fine",
                          "commit": "abc1234567"})
     return pd.DataFrame(rows)
 
 
 def claims() -> pd.DataFrame:
-    rows = [("toy-one", "KHP95 Sec. V", "one is one", "paper", "1", 1.0, 0.01, 0.9, 1.1, "holds", "why", "rb"),
+    rows = [("toy-one", "KHP95 Sec. V", "one is one", "paper", "1", 1.0, 0.01, 0.9, 1.1, "holds", "why",
+             "rb"),
             ("toy-two", "RR98 Eq. 42", "two is one", "paper", "1", 2.0, 0.0, 0.9, 1.1, "fails", "why", "rb"),
-            ("toy-three", "RR98 Eq. 42", "three <b>& more", "own", "", math.nan, math.nan, math.nan, math.nan, "undecidable",
+            ("toy-three", "RR98 Eq. 42", "three <b>& more", "own", "", math.nan, math.nan, math.nan, math.nan,
+             "undecidable",
              "not run", "onset")]
     return pd.DataFrame(rows, columns=list(COLUMNS))[list(COLUMNS)]
 

@@ -5,13 +5,12 @@ import pytest
 from scipy.integrate import quad
 
 from particles.fields import Fields, kinetic_energy
-from studies.build.snapshot import Snapshot
 from studies.hardcases import extremes
 from studies.hardcases.cases import TILED, cases
 from studies.hardcases.claims import SQUARES
 from studies.hardcases.derive import derive
 from studies.hardcases.extremes import BOXES, LAYERS, SHEAR_FLOW, SITUATIONS, SOUND, VORTEX, fastest, rarefied
-from studies.hardcases.survival import SAMPLES, Hard, amplitude, energies, flow, marched
+from studies.hardcases.survival import SAMPLES, Hard, energies, flow, marched
 from studies.kit.claim import judged
 from studies.kit.table import Tables
 
@@ -145,12 +144,6 @@ def test_the_growth_of_a_wave_on_a_shear_flow_follows_from_its_own_equation():
     assert fastest(1.0, 1.01)[0] == pytest.approx(0, abs=1e-9)
 
 
-def test_the_shear_flow_has_its_wave():
-    x = np.stack(np.meshgrid(np.arange(32) - 15.5, np.arange(16) - 7.5), axis=-1).reshape(-1, 2)
-    at = fields(x, np.stack(SHEAR_FLOW.flow(*x.T), axis=1))
-    assert amplitude(at) == pytest.approx(extremes.BEGIN*extremes.U/2, rel=1e-6)  # half, being real
-
-
 @pytest.mark.parametrize("flow, rolls, verdict", [
     (0.02, 1, "holds"), (0.02, 2, "fails"), (0.0003, 1, "undecidable")])
 def test_rolls_of_a_flow_that_has_stopped_are_not_counted(flow, rolls, verdict):
@@ -158,11 +151,3 @@ def test_rolls_of_a_flow_that_has_stopped_are_not_counted(flow, rolls, verdict):
                              "rolls": rolls, "shared": 0.92}])
     row = judged({claim.id: claim for claim in SQUARES}["khp95-hard-fig10-one-roll"], Tables(squares=squares))
     assert row["verdict"] == verdict and ("stopped" in row["reason"]) == (verdict == "undecidable")
-
-
-def test_pairs_are_told_from_single_particles():
-    x = np.stack(np.meshgrid(np.arange(50) - 24.5, np.arange(50) - 24.5), axis=-1).reshape(-1, 2)
-    both = np.concatenate([x, x + 0.01])
-    alone, twice = (Snapshot(places, 0*places, len(places), 50.0) for places in (x, both))
-    assert alone.pairing.value == pytest.approx(1.0) and alone.occupancy == 1
-    assert twice.pairing.value > 50 and twice.occupancy == 2

@@ -1,6 +1,5 @@
 """Shocks: against jumps, by all methods, ripples and their impulse. High Ra: how a limit is sought."""
 import numpy as np
-import pandas as pd
 import pytest
 
 from continuum.exact.riemann import GasState, density, middle, shock_speed, solution
@@ -8,11 +7,10 @@ from continuum.fluid import ConstEta
 from particles.fields import Fields
 from studies.hardcases import high_ra
 from studies.hardcases.cases import IN_LAYERS, IN_TUBES, RANDOM
-from studies.hardcases.derive import high_ra_summary, ripple_growth
 from studies.hardcases.high_ra import no_report
 from studies.hardcases.interface import divide, gases, impulse, ripple
 from studies.hardcases.sod import DENSE, EOS, FINE, GAMMA, THIN, exact, march, rates, start, viscous, wiggles
-from studies.hardcases.tubes import Seen, binned, centres, tube
+from studies.hardcases.tubes import Seen, binned, centres
 
 SHORT = 12
 
@@ -61,12 +59,6 @@ def test_viscous_tube_keeps_its_sums_and_follows_the_exact_solution():
     assert np.abs(rates(np.array([np.ones(9), np.zeros(9), np.ones(9)]), 0.1)).max() == 0
 
 
-def test_tube_begins_with_both_gases_in_place():
-    x = np.abs(tube(12, 1)[0])
-    dense = x < 12 + 0.1
-    assert len(x) == 36*12 and dense.sum() == 8*(~dense).sum() and x[~dense].min() > 12.5
-
-
 def test_ripple_is_read_off_particles():
     state, light = gases(1.0, 0.25, 1)
     height, a = ripple(state[0], state[1], light, 30.0)
@@ -84,15 +76,6 @@ def test_impulse_by_hand():
     twice = impulse(2.0, 0.25)
     np.testing.assert_allclose([twice.meets, twice.back, twice.amplitude, twice.growth],
                                [2*theory.meets, 2*theory.back, 2*theory.amplitude, theory.growth])
-
-
-def test_growth_of_a_ripple_is_a_slope_over_that_of_theory():
-    theory = impulse(1.0, 0.25)
-    t = np.linspace(0.5, theory.back, 60)
-    late = np.maximum(t - theory.meets, 0)
-    frame = pd.DataFrame({"time": t, "height": 0.0, "amplitude": theory.amplitude + 0.8*theory.growth*late,
-                          "scale": 1.0, "steep": 0.25, "seed": 1})
-    assert next(ripple_growth(frame))["growth"] == pytest.approx(0.8)
 
 
 @pytest.mark.parametrize("method", IN_TUBES)
@@ -157,17 +140,6 @@ def test_a_limit_is_the_first_bad_trial_though_later_ones_are_good(trials, ra, e
     limit = search.limit(search.ends, 1e8)
     assert limit == pytest.approx({"ra": ra, "ra_err": err, "tried": max(trials)[0], "outcome": outcome},
                                   nan_ok=True)
-
-
-def test_expected_is_where_the_fastest_flow_has_a_cell_number_of_two():
-    grid = pd.DataFrame({"ra": [1e4, 1e5, 1e6], "cell_number": [2.0, 2*10**0.5, 20.0]})
-    limits = pd.DataFrame([{"method": "grid", "step": 1.0, "seed": seed, "kind": kind, "ra": ra, "tried": 1e8,
-                            "outcome": "wrong but stable"} for seed, kind, ra in (
-        (1, "wrong", 1e5), (2, "wrong", 4e5), (1, "ends", 1e5), (2, "ends", np.nan))])
-    rows = {row["kind"]: row for row in high_ra_summary(limits, grid)}
-    assert rows["wrong"]["predicted"] == pytest.approx(1e4) and rows["wrong"]["ra"] == pytest.approx(2e5)
-    assert rows["wrong"]["outcome"] == "wrong but stable" and rows["ends"]["seeds"] == 1
-    assert rows["wrong"]["cell_number"] == pytest.approx((2*10**0.5 + 2*40**0.5)/2)
 
 
 @pytest.mark.parametrize("method", IN_LAYERS)

@@ -1,6 +1,5 @@
 """Nothing finished is lost, nothing stale is taken for finished."""
 import errno
-import json
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -11,7 +10,7 @@ import pytest
 
 from studies.kit.case import Case, Outcome, starts, word
 from studies.kit.key import CODE
-from studies.kit.store import CannotRun, kept
+from studies.kit.store import CannotRun
 from studies.kit.study import Study
 from studies.kit.sweep import CasesFailed
 from studies.kit.table import Table, read
@@ -141,16 +140,6 @@ def test_a_full_disk_stops_the_study_and_keeps_what_is_finished(bench):
     with pytest.raises(CannotRun, match=r"the disk is full: make room .* 1 of 3 cases are finished"):
         bench.sweep(bench.cases(3) + bench.cases(2, trouble="full") + bench.cases(1))
     assert bench.ran() == ["3", "2"]
-
-
-def test_what_is_kept_can_be_read_by_people(bench):
-    case, = bench.cases(2)
-    bench.sweep([case])
-    content = json.loads((bench.folder / f"raw/toy/{case.key}.json").read_text())
-    assert content["case"]["x"] == 2.0 and content["case"]["lens"] == {"": "Lens", "power": 2.0}
-    assert {"commit", "versions", "date"} <= set(content)
-    assert kept(case, bench.folder / "raw/toy") == {
-        "squares": [{"x": 2.0, "note": "", "y": 4.0, "commit": content["commit"]}]}
 
 
 def test_a_label_has_the_parameters_as_people_write_them():

@@ -18,7 +18,7 @@ from toy import Toy, finish, until
 
 from studies.kit import cluster, provenance
 from studies.kit.case import Case, Outcome
-from studies.kit.cluster import Cluster, check_scheduler, check_worker, packed, unpacked
+from studies.kit.cluster import check_scheduler, check_worker, packed, unpacked
 from studies.kit.processes import THREADS
 from studies.kit.store import CannotRun
 from studies.kit.study import Study, main
@@ -87,7 +87,8 @@ class Clustered(Toy):
         # nannies see to one thread
         outside = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", *THREADS)}
         environment = {**outside, **more, "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1"}
-        self.processes.append(subprocess.Popen(command, cwd=cwd, stdout=log, stderr=log, start_new_session=True,
+        self.processes.append(subprocess.Popen(command, cwd=cwd, stdout=log, stderr=log,
+                                               start_new_session=True,
                                                env=environment))
 
     def workers(self):
@@ -155,7 +156,8 @@ def test_the_same_command_goes_on_and_the_rows_are_those_of_one_process(toy):
     assert "make study-toy SIZE=paper SCHEDULER=tcp://...\n" in table.read_text()
     assert toy.run("--workers", "1", "--out", "here", OMP_NUM_THREADS="1", SCHEDULER="")[0] == 0
     assert body(table) == body(toy.folder/"here/toy/waves.csv") and len(body(table)) == 7
-    mine, other = ({path.name for path in (toy.folder/out/"raw/toy").iterdir()} for out in ("results", "here"))
+    mine, other = ({path.name for path in (toy.folder/out/"raw/toy").iterdir()}
+                   for out in ("results", "here"))
     assert mine == other, "the study keeps what comes back under the same keys, and no scratch folder"
 
 
@@ -212,10 +214,6 @@ def test_without_an_answer_nothing_is_lost(tmp_path, monkeypatch, capsys):
 def test_a_scheduler_that_is_lost_ends_the_study():
     def lost():
         raise OSError("Timed out trying to connect")
-    transport = Cluster.__new__(Cluster)
-    transport.client = SimpleNamespace(nthreads=lost)
-    with pytest.raises(CannotRun, match="the connection to the scheduler was lost"):
-        transport.places()
     future = SimpleNamespace(result=lost, status="cancelled")
     with pytest.raises(CannotRun, match="the connection to the scheduler was lost"):
         cluster.outcome(future, "Cube 1")
@@ -223,7 +221,8 @@ def test_a_scheduler_that_is_lost_ends_the_study():
 
 def test_without_the_package_the_way_out_is_told(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(CannotRun, match=r"needs the package distributed .*: make env installs it; without SCH"):
+    with pytest.raises(CannotRun,
+                       match=r"needs the package distributed .*: make env installs it; without SCH"):
         STUDY.run("paper", out=tmp_path, scheduler="tcp://here:1")
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import pytest
 from toy import Toy, finish, until
 
-from studies.kit import dispatch, key, store, study, sweep
+from studies.kit import dispatch, store, study
 from studies.kit.case import Case, Outcome
 from studies.kit.claim import Claim
 from studies.kit.figure import figure
@@ -130,7 +130,8 @@ def drawn(tables):
 CUBES = Study(name="toy", cases=lambda size: [Cube(x=1.0), Cube(x=1/3), Cube(x=7.0, name="Quartic")],
               derive=derive, figures=drawn,
               tables=[Table("cubes", key=["x"], columns=["x", "y"]),
-                      Table("halves", key=["x"], columns=["x", "half"]), Table("never", key=["x"], columns=["x"])],
+                      Table("halves", key=["x"], columns=["x", "half"]),
+                      Table("never", key=["x"], columns=["x"])],
               claims=[Claim(id="grows", source="KHP95, Sec. V", statement="cubes grow", at_least=1,
                             because="1 is there", value=lambda tables: (tables["cubes"].y.max(), 0.0))])
 
@@ -202,12 +203,6 @@ def test_quick_leaves_the_tables_of_other_sizes_alone(typed, tmp_path):
     assert {path: path.read_bytes() for path in before} == before
 
 
-def test_the_repository_ignores_what_quick_writes():
-    path = study.results("quick").relative_to(key.ROOT)
-    assert f"{path}/" in (key.ROOT/".gitignore").read_text().splitlines()
-    assert study.results("paper") == study.results("fine") == sweep.RESULTS
-
-
 @pytest.mark.parametrize(("words", "way"), [
     ([], "results/toy: run make study-toy first"),
     (["--size", "fine"], "results/toy: run make study-toy first"),
@@ -217,13 +212,6 @@ def test_the_repository_ignores_what_quick_writes():
 def test_without_tables_nothing_is_drawn_or_judged(typed, tmp_path, command, words, way):
     code, text = typed(command, *words)
     assert (code, text) == (1, f"toy: no table in {way}\n") and not list(tmp_path.iterdir())
-
-
-def test_only_tables_that_exist_are_listed(typed):
-    typed()
-    for command in ("run", "figures", "claims"):
-        told = [line.split()[1] for line in typed(command)[1].splitlines() if line.startswith("table")]
-        assert told == ["results/toy/cubes.csv", "results/toy/halves.csv"]
 
 
 def test_an_out_that_is_no_folder_is_one_line(typed, tmp_path):

@@ -23,7 +23,8 @@ class Work(Case):
         return Outcome({"squares": [{"x": self.x, "y": self.x**2}]})
 
 
-TOY = Study(name="toy", cases=lambda size: [Work(x=x) for x in ((1.0, 2.0) if size == "quick" else (1.0, 2.0, 3.0, 6.0))],
+SIZES = {"quick": (1.0, 2.0), "paper": (1.0, 2.0, 3.0, 6.0)}
+TOY = Study(name="toy", cases=lambda size: [Work(x=x) for x in SIZES[size]],
             tables=[Table("squares", key=["x"], columns=["x", "y"])])
 
 
@@ -45,17 +46,6 @@ def test_a_whole_run_leaves_its_cpu_seconds(tmp_path):
     assert 0 < row["cpu_s"] < 10
     TOY.run("quick", workers=1, out=tmp_path)
     assert list(read(tmp_path/"times.csv")["size"]) == ["paper", "quick"], "a size has a row of its own"
-
-
-def test_what_was_not_measured_leaves_no_row(tmp_path):
-    """Some cases alone, or those that were finished before their seconds were kept."""
-    TOY.run("paper", workers=1, out=tmp_path, only="Work 2")
-    assert not (tmp_path/"times.csv").exists()
-    [path] = (tmp_path/"raw/toy").glob("*.json")
-    content = json.loads(path.read_text())
-    path.write_text(json.dumps({name: value for name, value in content.items() if name != "cpu_s"}))
-    TOY.run("paper", workers=1, out=tmp_path)
-    assert not (tmp_path/"times.csv").exists()
 
 
 def test_what_is_left_is_told_by_estimates_and_by_what_they_were_worth(tmp_path):

@@ -19,13 +19,15 @@ def make(tmp_path):
         (tmp_path / f"studies/{name}/{file}").touch()
 
     def run(*words: str) -> tuple[int, str]:
-        done = subprocess.run(["make", *words, "PYTHON=false"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        done = subprocess.run(["make", *words, "PYTHON=false"], cwd=tmp_path, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT,
                               text=True)
         return done.returncode, done.stdout
     return run
 
 
-@pytest.mark.parametrize(("target", "name"), [("study-three", "three"), ("figures-three", "three"), ("study-", "named")])
+@pytest.mark.parametrize(("target", "name"),
+                         [("study-three", "three"), ("figures-three", "three"), ("study-", "named")])
 def test_an_unknown_study_is_told_those_that_exist_before_anything_is_set_up(make, target, name, tmp_path):
     code, text = make(target)
     assert code != 0 and f"no study {name}: there are one two" in text
@@ -37,11 +39,6 @@ def test_a_study_that_was_renamed_is_told_its_new_name(make):
     assert code != 0 and text.splitlines()[0] == "no study dpd any more: it is part of noise: there are one two"
 
 
-def test_a_known_study_needs_the_environment_first(make):
-    code, text = make("study-one")
-    assert code != 0 and "no study" not in text and ".venv/ready" in text
-
-
 def test_help_lists_every_target_by_the_name_that_is_typed(make):
     code, text = make()
     assert code == 0 and "%" not in text
@@ -50,24 +47,19 @@ def test_help_lists_every_target_by_the_name_that_is_typed(make):
     assert "one" not in listed
 
 
-@pytest.mark.parametrize(("size", "last"), [("paper", ["films", "execute", "report"]), ("quick", ["report --out results/quick"])])
-def test_all_studies_are_told_their_hours_first_and_become_notebooks_films_and_the_page_last(make, size, last, tmp_path):
+@pytest.mark.parametrize(("size", "last"),
+                         [("paper", ["films", "execute", "report"]),
+                          ("quick", ["report --out results/quick"])])
+def test_all_studies_are_told_their_hours_first_and_become_notebooks_films_and_the_page_last(make, size, last,
+                                                                                             tmp_path):
     (tmp_path / ".venv").mkdir()
     (tmp_path / ".venv/ready").touch()
     code, text = make("-n", "studies", f"SIZE={size}")
-    lines = [line.strip() for line in text.splitlines() if line.strip().startswith((".venv/bin/python", "for one in"))]
+    lines = [line.strip() for line in text.splitlines()
+             if line.strip().startswith((".venv/bin/python", "for one in"))]
     wanted = ["kit.budget one two", "studies.one", "studies.two", *last]
     assert code == 0 and len(lines) == len(wanted), text
     assert all(word in line for word, line in zip(wanted, lines)), lines
-
-
-def test_env_sets_up_and_does_nothing_else(make, tmp_path):
-    (tmp_path / ".venv").mkdir()
-    (tmp_path / ".venv/ready").touch()
-    assert make("env")[0] == 0
-    (tmp_path / ".venv/ready").unlink()
-    code, text = make("env")
-    assert code != 0 and ".venv/ready" in text
 
 
 def test_a_worker_is_told_that_it_needs_the_address_of_a_scheduler(make, tmp_path):

@@ -38,9 +38,11 @@ def page(tables):
 
 LARGE = Claim(id="large", source="KHP95, Sec. V", statement="quarters grow", at_least=1, because="by hand",
               value=lambda tables: (tables["quarters"].y.max(), 0.0))
-SQUARES = Part(cases=lambda size: [Power(x=2.0, exponent=2)], tables=(table("power2"), table("halves")), derive=halves,
+SQUARES = Part(cases=lambda size: [Power(x=2.0, exponent=2)], tables=(table("power2"), table("halves")),
+               derive=halves,
                figures=page)
-CUBES = Part(cases=lambda size: [Power(x=3.0, exponent=3)], tables=(table("power3"), table("quarters")), derive=quarters,
+CUBES = Part(cases=lambda size: [Power(x=3.0, exponent=3)], tables=(table("power3"), table("quarters")),
+             derive=quarters,
              claims=(LARGE,))
 
 

@@ -39,12 +39,14 @@ def test_empty_text_reads_back_as_text_and_numbers_as_numbers(tmp_path):
     assert all(word in head for word in ("# commit", "numpy", "numba", "py-pde", "cores", "UTC"))
 
 
-RUNS = Table("runs", key=["who", "ra", "t"], columns=["who", "ra", "t", "ke", "kind"], digits={"t": ".3g", "ke": ".4f"},
+RUNS = Table("runs", key=["who", "ra", "t"], columns=["who", "ra", "t", "ke", "kind"],
+             digits={"t": ".3g", "ke": ".4f"},
              once=["who", "ra", "kind", "size", "commit"])
 
 
 def long(**more):
-    return [{"who": who, "ra": ra, "t": t/3, "ke": -1e-9 if t == 3 else math.pi*t, "kind": "" if t == 2 else "a", **more}
+    return [{"who": who, "ra": ra, "t": t/3, "ke": -1e-9 if t == 3 else math.pi*t, "kind": ""
+             if t == 2 else "a", **more}
             for who in ("spam", "dih") for ra in (1e4, 2.5e3, math.inf) for t in (3, 2, 1)]
 
 
@@ -70,13 +72,15 @@ def test_rows_that_differ_in_digits_that_are_not_kept_are_the_same(tmp_path):
     assert path.read_text() == text
     frame, _ = merge(path, RUNS, [{**long()[0], "ke": 0.5}], size="fine")
     fine = frame[frame["size"] == "fine"]
-    assert len(frame) == 18 and fine[["who", "ra", "t", "ke"]].to_numpy().tolist() == [["spam", 1e4, 1.0, 0.5]]
+    assert len(frame) == 18 and fine[["who", "ra", "t", "ke"]].to_numpy().tolist() == [["spam", 1e4, 1.0,
+                                                                                        0.5]]
 
 
 @pytest.mark.parametrize(("content", "words"), [
     (b"", "is no table"), (b"a,b\n1,2\n3,4,5,6\n", "is no table"), (b"\xff\xfe\x00", "is no table"),
     (b"# text columns: note\nx,note,y\n1,one,2\nabc,one,2\n", "has 'abc' in x, a column of numbers"),
-    (b"# text columns: note\n# empty is as above: note, x\nnote,x,y\nspam,10,1\n,ten,1\n", "is no table .*ten"),
+    (b"# text columns: note\n# empty is as above: note, x\nnote,x,y\nspam,10,1\n,ten,1\n",
+     "is no table .*ten"),
     (b"x,note\n1,one\n", "has no column y: it has an older layout")])
 def test_a_file_that_is_no_table_is_told_with_the_way_out(tmp_path, content, words):
     path = tmp_path / "squares.csv"
@@ -99,7 +103,8 @@ def test_a_table_does_not_depend_on_the_order_of_rows_and_stays_when_nothing_cha
 
 def test_rows_that_stand_in_a_table_are_told_from_those_that_changed(tmp_path):
     path = tmp_path / "squares.csv"
-    rows = [row(1/3, 1e-7/3), row(2, np.float64(4)), row(math.inf, math.nan), row(4, True, "a, b"), row(5, None)]
+    rows = [row(1/3, 1e-7/3), row(2, np.float64(4)), row(math.inf, math.nan), row(4, True, "a, b"),
+            row(5, None)]
     assert changed(path, SQUARES, rows) == rows
     merge(path, SQUARES, [{**one, "seed": 3} for one in rows], size="quick")
     assert changed(path, SQUARES, rows) == []
@@ -203,11 +208,13 @@ def test_claims_of_other_studies_stay(tmp_path):
 
 
 @pytest.mark.parametrize("value", [
-    lambda frame: frame["ke"].max(), lambda frame: frame.ke.max(), lambda frame: frame.query("ke > 1")["ra"].max(),
+    lambda frame: frame["ke"].max(), lambda frame: frame.ke.max(),
+    lambda frame: frame.query("ke > 1")["ra"].max(),
     lambda frame: frame[["ra", "ke"]].max().max(), lambda frame: frame.groupby("ke").size().max()])
 def test_a_claim_that_asks_for_a_column_that_is_not_there_says_so(value):
     broken = claim(value=lambda tables: (value(tables["energy"]), 0.0), expect=1.0, within=0.5)
-    with pytest.raises(ClaimError, match=r"claim c asks for what is not there: .*\bke\b.*: correct the claim") as told:
+    with pytest.raises(ClaimError,
+                       match=r"claim c asks for what is not there: .*\bke\b.*: correct the claim") as told:
         judge([broken], Tables(energy=pd.DataFrame({"ra": [1.0]})), "rb")
     assert "\n" not in str(told.value)
 

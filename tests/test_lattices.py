@@ -16,9 +16,9 @@ from studies.kit.table import Tables
 from studies.lattices.cases import crossing, derive
 from studies.lattices.claims import NO_PRESSURE, SPINODAL
 from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, LatticeMotion, growth, sums
-from studies.lattices.frozen_flow import criteria, lindemann, neighbours
-from studies.lattices.molecules import METHODS, RHO_SQUARED, Molecules, Reversal, as_fluid, partners, whole_crowd
-from studies.lattices.sound import Ringing, Speed, grown, motions, rounding
+from studies.lattices.frozen_flow import criteria, neighbours
+from studies.lattices.molecules import METHODS, RHO_SQUARED, Molecules, Reversal, as_fluid, whole_crowd
+from studies.lattices.sound import Ringing, Speed, grown, motions
 
 HEXAGONAL, SQUARE = LATTICES["hexagonal"], LATTICES["square"]
 WEIGHTS = (Lucy, Monaghan, WendlandC2)
@@ -56,13 +56,15 @@ def test_least_stable_motion_is_pushed_as_its_eigenvalue_says(weight, eos):
     (k, a, square, _), shift, x = crystal.motion, 1e-5, HEXAGONAL.places((8, 5))
     u = shift*a*np.cos(x@k + 1.0)[:, None]
     kernel = fluid(weight.of(h=2.9), HEXAGONAL.box((8, 5)), eos).start(len(x), Team(1))
-    state, ids, rho = at_rest(x + u, crystal.e), np.arange(len(x)), sums(weight.of(h=2.9), HEXAGONAL, k[None]).rho
+    state, ids, rho = at_rest(x + u, crystal.e), np.arange(len(x)), sums(weight.of(h=2.9), HEXAGONAL,
+                                                                         k[None]).rho
     kernel.around.relist(state, ids, 0.0)
     kernel.densities(state)
     state[4] += pressure(eos, rho, crystal.e)/rho**2*(kernel.around.rho[:len(x)] - rho)
     out = np.empty_like(state)
     kernel.rates(state, out)
-    np.testing.assert_allclose(out[2:4, np.argsort(ids)].T, -square*u, atol=2e-4*abs(square)*shift + 1e-9)     # squares of shifts
+    # squares of shifts
+    np.testing.assert_allclose(out[2:4, np.argsort(ids)].T, -square*u, atol=2e-4*abs(square)*shift + 1e-9)
 
 
 def test_a_motion_that_grows_does_so_at_its_rate():
@@ -87,11 +89,6 @@ def test_van_der_waals_limits_by_hand():
     assert pressure(VanDerWaals(), rho, T - rho/2) == pytest.approx(0, abs=1e-15)
 
 
-def test_pairs_are_told_from_single_particles():
-    x, box = HEXAGONAL.places((6, 4)), HEXAGONAL.box((6, 4))
-    assert not partners(x, box).any() and (partners(np.concatenate([x, x + 0.01]), box) == 1).all()
-
-
 # --- freezing -----------------------------------------------------------------------------------------------------------
 
 
@@ -104,14 +101,6 @@ def test_neighbours_are_the_six_of_a_lattice_partners_left_out():
     assert (np.bincount(i) == 6).all() and np.hypot(*apart[inner].T) == pytest.approx(1.0745699, rel=1e-6)
     i, j = neighbours(np.concatenate([x, x + 0.01]), width)
     assert (np.abs(i - j) != len(x)).all()
-
-
-def test_lindemann_ratio_of_particles_that_shake():
-    """Independent shakes s of both partners along one line make distances fluctuate by sqrt 2 s times the cosine."""
-    x, (width, _), rng = HEXAGONAL.places((14, 8)), HEXAGONAL.box((14, 8)), np.random.default_rng(1)
-    places = x + 0.02*rng.standard_normal((200, *x.shape))
-    assert lindemann(places, width) == pytest.approx(np.sqrt(2)*0.02/1.0746, rel=0.1)      # ends have farther neighbours
-    assert lindemann(np.repeat(x[None], 3, axis=0), width) < 1e-15
 
 
 def test_criteria_are_the_printed_inequalities():
@@ -138,7 +127,8 @@ def test_pressure_of_the_square_of_the_density_makes_molecules(weight):
 
 
 def test_paths_come_back_as_their_steps_let_them():
-    found = {name: rows(Reversal(name=name, integrator=integrator, weight=Lucy, times=(3.0,), side=8), "reversal")[0]
+    found = {name: rows(Reversal(name=name, integrator=integrator, weight=Lucy, times=(3.0,), side=8),
+                        "reversal")[0]
              for name, integrator in METHODS.items()}
     assert found["whole numbers"]["equal"] == 1 and found["whole numbers"]["apart"] == 0
     assert 0 < found["leapfrog"]["apart"] < 1e-13 and found["leapfrog"]["equal"] < 1
@@ -155,13 +145,10 @@ def test_what_is_let_go_grows_as_the_sum_says(friction):
     """One motion, rounded off once: u'' + friction u' = w u."""
     w, time, dt = 0.12, 60.0, 1e9
     s = -friction/2 + np.hypot(friction/2, np.sqrt(w))
-    known = solve_ivp(lambda t, y: (y[1], w*y[0] - friction*y[1]), (0, time), (1.0, 0.0), rtol=1e-10, atol=1e-12).y[1, -1]
+    known = solve_ivp(lambda t, y: (y[1], w*y[0] - friction*y[1]), (0, time), (1.0, 0.0), rtol=1e-10,
+                      atol=1e-12).y[1, -1]
     found = grown([LatticeMotion(np.zeros(2), np.array([0.0, 1.0]), -w, s)], time, dt, np.array([7.0, 1.0]))
     assert found == pytest.approx(known, rel=1e-3)
-
-
-def test_places_are_rounded_off_by_their_last_digit():
-    assert rounding(np.array([[1.5, -3.0]])) == pytest.approx(np.array([2.0**-52, 2.0**-51])/np.sqrt(12))
 
 
 def test_stable_lattices_have_nothing_that_grows():
@@ -174,14 +161,6 @@ def test_stable_lattices_have_nothing_that_grows():
 def test_a_wave_is_lost_to_round_off_as_lattice_sums_say():
     row = rows(SHORT, "ringing")[0]
     assert 0.1 < row["foretold"]/row["across"] < 10 and 1e-3 < row["across"]/row["wave"] < 1
-
-
-def test_starts_are_waves_in_their_box():
-    for lattice in (SQUARE, HEXAGONAL):
-        case = replace(SHORT, lattice=lattice)
-        x, y, *v, T = case.start()
-        assert np.abs(x).max() < case.box[0]/2 and np.abs(y).max() < case.box[1]/2
-        assert not np.any(v) and np.mean(T) == pytest.approx(1.0, abs=1e-12)
 
 
 def test_lengths_are_interpolated():

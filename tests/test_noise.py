@@ -79,7 +79,8 @@ def moments(x):
 
 
 @pytest.mark.parametrize("x, known, law", [
-    (uniforms(), (0, 1, 9/5), ("uniform", (-np.sqrt(3), 2*np.sqrt(3)))), (normals().ravel(), (0, 1, 3), ("norm", ()))])
+    (uniforms(), (0, 1, 9/5), ("uniform", (-np.sqrt(3), 2*np.sqrt(3)))),
+    (normals().ravel(), (0, 1, 3), ("norm", ()))])
 def test_moments_and_law(x, known, law):
     for (measured, spread), expected in zip(moments(x), known, strict=True):
         assert abs(measured - expected) < SIGMAS*spread

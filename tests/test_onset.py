@@ -20,7 +20,7 @@ from studies.kit.stats import Measured
 from studies.onset import tables as onset_tables
 from studies.onset.rates import boussinesq_mac, pypde_compressible
 from studies.onset.rates import compressible as of_gas
-from studies.onset.runs import GrowthRun, History, SpamGrowth
+from studies.onset.runs import GrowthRun, History
 
 SIZES = (16, 24, 32)
 LAYER = RayleighBenard(ra=1750.0)
@@ -100,13 +100,6 @@ def test_runs_measure_a_known_growth():
     assert err < 1e-12
 
 
-def test_growth_counts_only_within_the_band():
-    """Growth that stops beyond a factor 2 is not seen."""
-    t = np.linspace(0, 40, 401)
-    rate, _ = History(t, 0.1*np.exp(0.05*np.minimum(t, 15.0))).growth(0.0)
-    assert rate == pytest.approx(0.05, abs=1e-12)
-
-
 def test_too_few_samples_are_refused():
     with pytest.raises(ValueError, match="4 samples after t = 0"):
         History(np.arange(10.0), np.array([1, 1, 1, 1, 9, 9, 9, 9, 9, 9.0])).growth(0.0)
@@ -143,11 +136,6 @@ def test_newton_ends_where_the_run_in_time_does(scene):
     state = compressible_newton.steady(scene, 8)
     assert (state.rolls, run.converged) == (run.rolls, True)
     assert abs(state.ke - run.ke) < 3*run.ke_err + 3e-6*run.ke     # what the run says is left
-
-
-def test_newton_is_at_rest_below_onset():
-    state = compressible_newton.steady(replace(LAYER, ra=1500.0), 8)
-    assert state.rolls == 0 and state.ke < 1e-20    # the square of 1e-9, at which it ends, and less
 
 
 def test_newton_says_where_it_failed():
@@ -191,23 +179,7 @@ def test_a_straight_line_has_its_zero():
     assert line.residual < 1e-12
 
 
-def test_lines_are_extrapolated_in_inverse_squares():
-    def line(N):
-        slope, intercept = -0.41*(1 + 3/N**2), 0.01*(1 + 5/N**2)
-        return onset_tables.Line(5, slope, intercept, (slope/intercept)**2, 0.0, 0.0)
-    found = onset_tables.without_grid({N: line(N) for N in (30.0, 40.0, 50.0)})
-    assert found.ra_c == pytest.approx(41**2, rel=1e-12)    # round-off
-    assert found.err < 1e-8
-
-
 # --- the study ----------------------------------------------------------------------------------
-
-
-def test_particles_start_with_the_rolls_asked_for(tmp_path):
-    """0.15: rolls of two periods over a jittered lattice of 16 rows, and what 15 steps have changed."""
-    case = SpamGrowth(scene=RayleighBenard(ra=3000.0, L=16.0), ke=4e-4, until=0.6)
-    history = case.history(lambda fraction: None, tmp_path)
-    assert history.amplitude[0] == pytest.approx(2*np.sqrt(4e-4), rel=0.15)
 
 
 def test_quantities_name_what_differs():

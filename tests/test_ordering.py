@@ -17,7 +17,6 @@ from studies.kit.table import Tables
 from studies.ordering import claims
 from studies.ordering.cases import PLATES
 from studies.ordering.derive import of_flows, reference
-from studies.ordering.figures import over_points
 from studies.ordering.runs import (
     FORMS,
     OperatorErrors,
@@ -168,19 +167,3 @@ def test_convection_with_other_rolls_has_no_error_and_what_is_not_steady_a_large
     row, = of_flows(Tables({"convection": pd.DataFrame([one, {**one, "seed": 2, "rolls": 4}])}))["flows"]
     assert (row["seeds"], row["lost"]) == (2, 1)
     assert (row["error"], row["error_err"]) == (pytest.approx(0.1), pytest.approx(0.02))
-
-
-def test_claims_count_the_runs_that_they_are_about():
-    runs = pd.DataFrame([layer("plain"), layer("plain", ke=0.008), layer("renormalised", rolls=0, ke=np.nan),
-                         layer("plain", 2.0), layer("closed"), layer("plain", points="lattice")])
-    known = pd.DataFrame([{"flow": "convection", "ke": 0.005, "ke_err": 0.0}])
-    share = claims.near_grid(Tables({"convection": runs, "reference": known}))
-    assert share.value == pytest.approx(1/3)       # h = 2 a has its r0 below the spacing
-
-
-def test_missing_sets_of_points_are_in_the_figure():
-    means = pd.DataFrame([{"flow": "taylor-green", "maker": "closed", "h": 3.0, "points": "random",
-                           "resolution": n, "seeds": 3, "lost": lost, "error": error, "error_err": 0.0}
-                          for n, lost, error in ((16, 1, np.nan), (24, 0, 0.1))])
-    labels = over_points(means).axes[2].get_legend_handles_labels()[1]
-    assert "closed, 3 $a$ (lost: 1 of 2)" in labels

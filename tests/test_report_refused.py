@@ -54,19 +54,13 @@ def test_no_table_of_a_study_may_lack_a_column_that_it_declares(small, capsys):
     """Not even one that others than findings read: diagrams would be left out, findings come from another table."""
     write_page(small)
     columns = [*cost_tables.POINTS.columns, "size", "commit"]
-    texts = {"scene": "sound", "quantity": "velocity", "method": "moving points", "size": "fine", "commit": "abc"}
+    texts = {"scene": "sound", "quantity": "velocity", "method": "moving points", "size": "fine",
+             "commit": "abc"}
     for column in ("error_err", "setup_s", "commit"):
         row = {name: texts.get(name, 1.0) for name in columns if name != column}
         write(small/"cost/points.csv", pd.DataFrame([row]), head=["x"])
         said = refused(small, capsys)
         assert f"cost/points.csv has no column {column}: it was written by other code" in said and "run the study again" in said
-
-
-def test_a_study_that_cannot_be_loaded_is_named(small, capsys, monkeypatch):
-    def broken(name):
-        raise ImportError("no such term")
-    monkeypatch.setattr("studies.report.inventory.importlib.import_module", broken)
-    assert "studies/rb cannot be loaded (ImportError: no such term)" in refused(small, capsys)
 
 
 def test_a_figure_that_is_broken(small, capsys):
@@ -98,13 +92,9 @@ def test_a_film_that_cannot_be_written(tmp_path, monkeypatch, fails):
     assert path.read_bytes() == b"older" and [*tmp_path.iterdir()] == [path]
 
 
-def test_a_film_that_nobody_knows(small, capsys):
-    assert main(["films", "--out", str(small), "--only", "nonsense"]) == 1
-    assert "no film has 'nonsense'" in capsys.readouterr().err
-
-
 def test_a_page_that_is_too_heavy_is_not_written(small, monkeypatch):
     monkeypatch.setattr("studies.report.page.LIMIT", 1000)
-    with pytest.raises(NoReport, match=r"the page has .* MB, 0.0 are allowed.*: draw smaller, .* rb/toy.png \(\d+ kB\)"):
+    with pytest.raises(NoReport,
+                       match=r"the page has .* MB, 0.0 are allowed.*: draw smaller, .* rb/toy.png \(\d+ kB\)"):
         write_page(small)
     assert not (small/"index.html").exists()
