@@ -14,7 +14,8 @@ def programs() -> tuple[str, str]:
     """Browser and driver; without them the tests are skipped, or fail where CI is set."""
     found = [next(filter(None, map(shutil.which, names)), None) for names in NAMES.values()]
     if None in found:
-        say = f"no {' and no '.join(name for name, path in zip(NAMES, found) if not path)}: apt-get install " + " ".join(NAMES)
+        missing = " and no ".join(name for name, path in zip(NAMES, found) if not path)
+        say = f"no {missing}: apt-get install {' '.join(NAMES)}"
         (pytest.fail if os.environ.get("CI") else pytest.skip)(say)
     return found[0], found[1]
 

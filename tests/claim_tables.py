@@ -1,4 +1,4 @@
-"""Tables of known content, for the tests of claims: lines, energies, fields, crystals, numbers without a flow."""
+"""Tables of known content, for the tests of claims: lines, energies, fields, crystals."""
 import math
 from functools import cache
 from pathlib import Path
@@ -28,7 +28,7 @@ def verdict(name: str, tables: Tables) -> str:
 
 
 def means(rows: list[dict], kept: float = 1.0) -> Tables:
-    """Tables `means` from points and K, and `errors` of particles' fields: smoothing leaves `kept` of the grid's K."""
+    """Tables `means` and `errors` from points and K: smoothing leaves `kept` of the grid's K."""
     full = [{"particles": 0, "seeds": 3, "mixed": 0, "rolls": 2, "ke_fluctuation": 1e-4, "nu": 1.5,
              "nu_err": 0.0,
              "ke_field": row["ke"], "ke_field_err": row["ke_err"], "ke_mean": row["ke"],
@@ -37,7 +37,7 @@ def means(rows: list[dict], kept: float = 1.0) -> Tables:
 
 
 def errors(means: pd.DataFrame, kept: float) -> pd.DataFrame:
-    """Rows Kg of the table `errors`: the particles of `means` against the extrapolated grid of the same scene."""
+    """Rows Kg of the table `errors`: particles against the extrapolated grid of the same scene."""
     limits = means[np.isinf(means["resolution"]) & (means["variant"] == "flux-form")]
     limits = limits[[*SCENE, "ke"]].rename(columns={"ke": "reference"})
     rows = means[means["method"] == "spam"].merge(limits, on=SCENE)
@@ -83,7 +83,7 @@ def kept(point: dict, at: dict[str, np.ndarray], rows: float) -> pd.DataFrame:
 
 
 def crystal(per_site: int, height: float = 30.0) -> pd.DataFrame:
-    """Rows of the table `particles`: hexagonal sites of density 1, the particles of a site 0.05 apart, with images."""
+    """Rows of `particles`: hexagonal sites of density 1, particles of a site 0.05 apart, images."""
     x, y = lattices.lattice("hexagonal", per_site, reach=3*height)
     inside = (np.abs(x) < height + 3) & (np.abs(y) < height/2 + 3)
     x, y = (np.concatenate([q[inside] + 0.05*n*(q is x) for n in range(per_site)]) for q in (x, y))

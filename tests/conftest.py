@@ -1,7 +1,7 @@
 """Before any test: a cache folder of compiled code that belongs to the tests.
 
-Its name holds the hash of the sources, but what a test changes at run time is in no source: a gas or weight of its
-own ends in the index of library functions (every later run would throw that index away and compile again), and a
+Its name holds the hash of the sources, but what a test changes at run time is in no source: a gas or weight
+of its own ends in the index of library functions (every later run would compile again), and a
 patched formula or constant would be kept under the key of the true one.
 """
 import os

@@ -1,4 +1,4 @@
-"""Laws over the table of methods: each is made in the layer and runs, starts with the scene's fields; names are unique."""
+"""Laws over the table of methods: each runs and starts with the scene's fields; names are unique."""
 from dataclasses import dataclass
 from functools import cache, partial
 
@@ -30,7 +30,7 @@ def advanced(method, start, dt, steps):
 
 @pytest.mark.parametrize("name", PAIRS)
 def test_every_method_starts_with_the_fields_of_the_layer(name):
-    """Velocity and temperature are those of the places to round-off of p/rho and e; K is that of the rolls, 9/5000."""
+    """Velocity and temperature to round-off of p/rho and e; K is that of the rolls, 9/5000."""
     method, start, _ = in_layer(name)
     x, v, _, T, _ = method.fields(start)
     _, u, known = LAYER.fields(x)
@@ -60,7 +60,7 @@ def test_a_method_of_each_family_starts_scenes_with_exact_answers(scene, name):
 
 
 def test_plates_slide_for_methods_that_know_how():
-    """A fluid at rest is pulled along by the upper plate, first where it is near: friction has come a third of the height."""
+    """A fluid at rest is pulled along by the upper plate, first near it: friction has come a third up."""
     scene = Dragged()
     for name in ("grid", "spam", "fixed-lattice", "fixed-jittered-plates"):
         method, start, dt = ready(scene, name)
@@ -100,7 +100,7 @@ def test_a_variant_of_ones_own_stands_in_place_of_a_name():
 
 @pytest.mark.parametrize("name", ["spam", "fixed-lattice", "moving-literal"])
 def test_a_method_of_ones_own_starts_like_the_family(name):
-    """Any object with state(x, rho, v, T) that the limit of the step is known of; fixed points bring their own places."""
+    """Any object with state(x, rho, v, T) and a known limit of the step; fixed points bring places."""
     known = ready(LAYER, name)
     made = ready(LAYER, known.method)
     assert made.start.shape == known.start.shape and 0 < made.dt < made.limit

@@ -1,4 +1,4 @@
-"""Values of claims from tables of known content: lines, energies, fields, snapshots, histories; no path untried."""
+"""Values of claims from tables of known content: lines, energies, fields, snapshots, histories."""
 import math
 
 import numpy as np
@@ -15,7 +15,7 @@ from studies.rb.claims.points import LATTICES
 from studies.rb.tables import grid, particles, points
 from tests.claim_tables import crystal, flow, grids, judged, kept, means, seeds, straight, verdict
 
-# --- lines ------------------------------------------------------------------------------------------------------
+# --- lines ----------------------------------------------------------------------------------------
 
 def test_a_straight_line_holds_and_gives_the_number_that_was_read_from_it():
     tables = means([*grids(), {**PYPDE, "ke": straight(1e4), "ke_err": 1e-7}])
@@ -36,7 +36,7 @@ def test_a_bent_line_fails():
     assert verdict("khp95-slopes-l2", means(grids(order=0.5))) == "fails"
 
 
-# --- particles against grid ----------------------------------------------------------------------------------------
+# --- particles against grid -----------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("share", "err", "said"),
@@ -88,7 +88,7 @@ def test_fields_are_compared_wherever_their_rolls_lie():
     size = math.sqrt(np.mean(flow(0)["vx"]**2 + flow(0)["vy"]**2))
     for part in (value, err):       # noise of two components is half even, half odd; 3600 samples: 2 % each
         assert part == pytest.approx(0.01/size, rel=0.08)
-    # three seeds, 10 % apart: t(2) = 4.303 times 10 % of K is half of that in velocity, and K's own error is 2 %
+    # three seeds, 10 % apart: t(2) = 4.303 times 10 % of K, half of that in velocity; K's own error is 2 %
     assert error(ke=(0.0045, 0.005, 0.0055), shift=0.1).err == pytest.approx(math.hypot(4.3027*0.1, 0.02)/2,
                                                                              rel=1e-4)
     assert math.isnan(error(ke=(0.005,), shift=0.1).err), "one seed has no error"
@@ -101,7 +101,7 @@ def one_point(point: dict, ke: tuple[float, ...]) -> Tables:
 
 
 def test_points_are_judged_by_their_limit_and_their_order():
-    """K = K_grid (1.002 + 12/rows^2): 0.2 % off, of an order that the constant bends; exactly second order without it."""
+    """K = K_grid (1.002 + 12/rows^2): 0.2 % off; exactly of second order without the constant."""
     def tables(constant, err=1e-7):
         def ke(n):
             return straight(1e4)*(1 + constant + (12/n**2 if n < math.inf else 0))

@@ -1,4 +1,4 @@
-"""Claims on what happens to runs: divergence, time step, plates and walls, fluctuations, freezing; tables by hand."""
+"""Claims on what happens to runs: divergence, plates and walls, fluctuations, freezing."""
 import math
 
 import numpy as np
@@ -37,14 +37,14 @@ def test_two_rolls_that_still_change_or_have_died_are_no_answer(rolls, steady, k
 
 
 def test_what_smoothing_takes_is_told_from_what_is_lost():
-    """The weight leaves 0.9 of K, the particles' field has 0.8: half of the loss is smoothing, 1/9 is left."""
+    """The weight leaves 0.9 of K, the field has 0.8: half of the loss is smoothing, 1/9 is left."""
     tables = means(grids() + [{**particles(5e3), "ke": 0.8*0.0034, "ke_err": 1e-8}], kept=0.9)
     assert judged("own-smoothed-5000", tables)["measured"] == pytest.approx(1/9)
     assert judged("own-smoothing-share-5000", tables)["measured"] == pytest.approx(0.5)
 
 
 def walled(reflections: int, variant: str = "printed-fixed-rows", fast: float = 0.5) -> Tables:
-    """Two seeds, 1000 units of time, density 1 and T = 1 at both plates; the fastest particle has speed `fast`."""
+    """Two seeds, 1000 units of time, density 1 and T = 1 at both plates."""
     point = particles(1e4, variant=variant)
     layers = [{**point, "seed": seed, "plate": plate, "rho_layer": 1.0, "T_layer": 1.0,
                "reflections": reflections}
@@ -62,7 +62,8 @@ def test_walls_are_needed_where_particles_reach_them():
     for name, variant in (("khp95-walls-leakproof", "printed-fixed-rows"),
                           ("khp95-images-instead", "printed")):
         found = judged(name, walled(3000, variant))
-        assert found["verdict"] == "undecidable" and "0.6 times a particle and run; but a turn is no loss" in found["reason"]
+        assert found["verdict"] == "undecidable"
+        assert "0.6 times a particle and run; but a turn is no loss" in found["reason"]
 
 
 def wild(rows: int, size: float, ends: float = 3.0) -> pd.DataFrame:
@@ -100,11 +101,11 @@ def test_the_pressure_that_freezes_is_found_between_two(shares, said):
         assert min(ends) < found["measured"] < max(ends)
 
 
-# --- what the start and the step decide ---------------------------------------------------------------------------
+# --- what the start decides -----------------------------------------------------------------------
 
 
 def started(weak: float, developed: float | None = None, settled: bool = True) -> Tables:
-    """5000 particles at Ra 2500 that are left with these shares of the grid's K, from weak rolls and from its flow."""
+    """Particles at Ra 2500 that keep these shares of the grid's K, from weak rolls and from its flow."""
     shares = {"printed": weak} | ({} if developed is None else {"printed-from-flow": developed})
     points = [({**particles(2500, variant=name), "rolls": 2*(share > 0.1)}, share*straight(2500))
               for name, share in shares.items()] + [({**particles(1e4), "rolls": 2}, 0.8*straight(1e4))]
@@ -130,7 +131,7 @@ def test_fluctuations_are_those_of_the_flowing_state():
     assert "variant = printed-from-flow" in judged("khp95-ra2500-fluctuations", started(1e-4))["reason"]
 
 
-# --- trajectories ---------------------------------------------------------------------------------------------------
+# --- trajectories ---------------------------------------------------------------------------------
 
 
 def test_what_bears_the_weight_is_no_correlation():

@@ -95,7 +95,7 @@ def test_a_lattice_is_extrapolated_as_grids_are():
 
 
 def test_the_interval_of_scattered_sets_holds_their_limit():
-    """19 in 20, somewhat more for what leaving out the coarsest adds: below 0.90 once in 10 000 at the nominal rate."""
+    """19 in 20, more for what leaving out the coarsest adds: below 0.90 once in 10 000 by chance."""
     rng = np.random.default_rng(1)
     found = np.array([endless(lambda rows, seed: 4 + 9/rows**2 + rng.normal()*10/rows**2, seeds=(1, 2, 3))
                       for _ in range(200)])

@@ -62,7 +62,7 @@ def test_empty_tables_give_no_figures():
 @pytest.mark.parametrize("only", [{"ra": 5000.0}, {"method": "spam"}, {"variant": "printed-fixed-rows"}],
                          ids=str)
 def test_figures_cope_with_few_rows(full, only):
-    """Drawn from what is left or left out; a warning of matplotlib (empty legend, log of 0) is an error here."""
+    """Drawn or left out; a warning of matplotlib (empty legend, log of 0) is an error here."""
     [(column, value)] = only.items()
     few = {name: frame[frame[column] == value] if column in frame else frame for name, frame in full.items()}
     with warnings.catch_warnings():

@@ -1,4 +1,4 @@
-"""Imports point down and have no circle: a study imports build, kit, particles, continuum, none of these a study."""
+"""Imports point down, without circle: a study imports build, kit, particles, continuum, no study."""
 import ast
 from functools import cache
 from graphlib import TopologicalSorter

@@ -88,7 +88,7 @@ def test_a_new_weight_a_function_that_moves_and_a_docstring_change_no_key(cases,
 
 
 def test_cost_depends_on_no_method_besides_its_own(copy):
-    """Of each method in each scene one case: new methods change none, a formula of smooth particles theirs alone."""
+    """One case a method and scene: new methods change none, a formula of smooth particles theirs."""
     cases = list({case.label.split(", resolution")[0]: case for case in cost.cases("paper")}.values())
     for file, first, new in METHODS:
         edit(copy, file, first, f"{new}, {first}")
@@ -115,7 +115,8 @@ FILES = {
                          "law.of(A)(lambda kind, x: x + SIZE)\nTABLE = {'a': A, 'b': B}\n",
     "continuum/jit.py": "def generic(stub):\n    return stub\n",
     "studies/one.py": "from continuum import laws\nfrom continuum.laws import TABLE\n\n\n"
-                      "def run(x):\n    # why\n    SIZE = [np for np in x]\n    return laws.law(TABLE['a'](), x), SIZE\n",
+                      "def run(x):\n    # why\n    SIZE = [np for np in x]\n"
+                      "    return laws.law(TABLE['a'](), x), SIZE\n",
 }
 RUN = Place("studies.one", "run")
 
@@ -205,8 +206,8 @@ def test_a_second_formula_for_one_type_is_refused_with_both_places(tmp_path):
         file.write_text(f"\nrule.of(Kind)(lambda kind: {number})\n")
     for _ in range(2):      # a module that is loaded again
         run_path(str(files[0]), {"rule": rule, "Kind": Kind})
-    with pytest.raises(ValueError,
-                       match=f"rule of Kind is defined in {files[0]}:2 and again in {files[1]}:2: delete one"):
+    words = f"rule of Kind is defined in {files[0]}:2 and again in {files[1]}:2: delete one"
+    with pytest.raises(ValueError, match=words):
         run_path(str(files[1]), {"rule": rule, "Kind": Kind})
     assert rule(Kind()) == 0
 

@@ -1,7 +1,6 @@
 """A study on a Dask cluster: a real one, of a scheduler and two workers on this machine, and what goes wrong.
 
-A cluster takes seconds to start, so the tests of `toy` share one and run in their order, each from where the last
-one left it.
+A cluster takes seconds to start: the tests of `toy` share one, each goes on where the last one ended.
 """
 import json
 import os

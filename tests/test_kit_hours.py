@@ -54,7 +54,7 @@ def test_what_is_left_is_told_by_estimates_and_by_what_they_were_worth(tmp_path)
     claim_seconds(tmp_path, 5.0)
     TOY.run("quick", workers=1, out=tmp_path)       # nothing runs, the seconds are read anew
     assert left("quick", tmp_path) == ("toy", 0, 2, 0.0, True)
-    assert left("paper", tmp_path) == ("toy", 2, 4, 45.0, True), "five times the estimates, as at the other size"
+    assert left("paper", tmp_path) == ("toy", 2, 4, 45.0, True), "five times the estimates"
     assert str(left("paper", tmp_path)) == "toy               2 of 4    cases    0.8 min"
 
 

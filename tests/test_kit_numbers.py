@@ -98,7 +98,7 @@ def test_the_interval_of_a_measured_step_covers_the_truth_as_often_as_it_says():
     times = np.random.default_rng(5).standard_normal((4000, REPEATS))
     low, median, high = np.quantile(times, (0.25, 0.5, 0.75), axis=1)
     covered = np.mean(np.abs(median) < SPREAD_TO_ERR*(high - low)/2)
-    # the quartiles of 7 know sigma less well than t with 6 degrees of freedom takes for granted: up to 2 % are lost
+    # quartiles of 7 know sigma less well than t with 6 degrees of freedom takes for granted: up to 2 %
     assert 0.93 < covered < 0.97
 
 
@@ -114,6 +114,6 @@ def test_a_series_that_changes_says_so_in_its_error():
     assert steady and (value, err) == stats.mean(flat)
     (_, wide), steady = stats.settled(flat + np.repeat([0, 0.4], n//2))
     assert not steady and wide > 0.19          # half of what the halves differ by, 0.2
-    # a steady rise looks like a long correlation in either half, too: nothing is flagged, the error covers both ends
+    # a steady rise looks like a long correlation in either half, too: the error covers both ends
     (_, wide), _ = stats.settled(flat + np.linspace(0, 0.4, n))
     assert wide > 0.19

@@ -57,7 +57,8 @@ def test_large_tables_keep_the_digits_they_need_and_leave_out_what_is_as_above(t
         "# empty is as above: who, ra, size, commit", "who,ra,t,ke,kind,size,commit",
         f"dih,2500,0.333,3.1416,a,paper,{frame.commit[0]}", ",,0.667,6.2832,,,", ",,1,0,a,,",       # not -0
         ",10000,0.333,3.1416,a,,", ",,0.667,6.2832,,,"]
-    assert frame.who.tolist() == ["dih"]*9 + ["spam"]*9 and frame.ra.tolist() == ([2500]*3 + [1e4]*3 + [math.inf]*3)*2
+    assert frame.who.tolist() == ["dih"]*9 + ["spam"]*9
+    assert frame.ra.tolist() == ([2500]*3 + [1e4]*3 + [math.inf]*3)*2
     assert frame.kind.tolist() == ["a", "", "a"]*6 and (frame["size"] == "paper").all()
     pd.testing.assert_frame_equal(read(path, RUNS.columns), frame)
 
@@ -200,7 +201,8 @@ def test_claims_of_other_studies_stay(tmp_path):
     open_claim = Claim(id="d", source="RR98, Eq. 5", statement="smooth", undecidable="no number is printed")
     put_claims(path, judge([old[1], open_claim], Tables(), "rb"), "rb")
     frame = read(path)
-    assert " ".join(frame.columns) == "id source statement whose printed measured err low high verdict reason study formula"
+    names = "id source statement whose printed measured err low high verdict reason study formula"
+    assert " ".join(frame.columns) == names
     assert list(frame.low.dropna()) == list(frame.low[frame.id.isin(["b", "z"])]) == [0.5, 0.5]
     assert list(zip(frame.study, frame.id, frame.verdict, frame.reason)) == [
         ("rb", "b", "undecidable", "run SIZE=paper"), ("rb", "d", "undecidable", "no number is printed"),

@@ -89,7 +89,7 @@ def test_van_der_waals_limits_by_hand():
     assert pressure(VanDerWaals(), rho, T - rho/2) == pytest.approx(0, abs=1e-15)
 
 
-# --- freezing -----------------------------------------------------------------------------------------------------------
+# --- freezing ---------------------------------------------------------------------------------------
 
 
 def test_neighbours_are_the_six_of_a_lattice_partners_left_out():
@@ -110,7 +110,7 @@ def test_criteria_are_the_printed_inequalities():
     assert printed["melting"]*2*0.010452 == pytest.approx(2*0.002, rel=1e-3)
 
 
-# --- molecules ----------------------------------------------------------------------------------------------------------
+# --- molecules --------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("weight", [Lucy, Monaghan])
@@ -135,7 +135,7 @@ def test_paths_come_back_as_their_steps_let_them():
     assert 1e-6 < found["rk4"]["apart"] < 0.1
 
 
-# --- sound --------------------------------------------------------------------------------------------------------------
+# --- sound ------------------------------------------------------------------------------------------
 
 SHORT = Ringing(lattice=SQUARE, weight=Monaghan, length=40)
 

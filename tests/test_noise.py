@@ -18,7 +18,7 @@ from particles.noise import (
 from particles.threads import Team
 
 u64 = np.uint64
-#: counter, key, answer: kat_vectors of the library that Salmon et al. 2011 published; the third are digits of pi
+#: counter, key, answer: kat_vectors of the library of Salmon et al. 2011; the third are digits of pi
 KNOWN = [
     ((0, 0, 0, 0), (0, 0), (0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8)),
     ((0xffffffff,)*4, (0xffffffff,)*2, (0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd)),
@@ -74,7 +74,7 @@ def test_every_argument_counts():
 
 
 def moments(x):
-    """Mean, and mean of x^2 and x^4, with the standard deviations that independent numbers would give them."""
+    """Means of x, x^2, x^4, with the standard deviations that independent numbers would give them."""
     return [(float(np.mean(x**p)), float(np.std(x**p)/np.sqrt(x.size))) for p in (1, 2, 4)]
 
 
@@ -95,7 +95,7 @@ def test_components_are_independent():
 
 @pytest.mark.parametrize("lag", [1, 2, 3, 64])
 def test_neighbouring_counters_are_independent(lag):
-    """Correlations along i, along components, from step to step and from seed to seed, of numbers and of their squares."""
+    """Correlations along i, from step to step and from seed to seed, of numbers and of squares."""
     x, others = normals(), (normals(step=7 + lag), normals(seed=1 + lag))
     limit = SIGMAS/np.sqrt(x.size)
     for a, b in ((x[lag:], x[:-lag]), *((x, other) for other in others)):

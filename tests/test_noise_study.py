@@ -1,4 +1,4 @@
-"""The study noise: what its algebra gives at any size, dissipative particles as a special case, samples of complex waves."""
+"""The study noise: its algebra at any size, dissipative particles, samples of complex waves."""
 import re
 from dataclasses import replace
 
@@ -54,7 +54,7 @@ def test_printed_noise_has_the_variance_of_lattice_sums(algebra):
 
 @pytest.mark.parametrize("equation, due", [("42", 1.0), ("43", 1/KT)])
 def test_waves_on_a_line_of_nearest_neighbours_get_one_over_cosine_squared(algebra, equation, due):
-    """Doubled; T/cos^2(ka/2), energies 1/(T cos^2(ka/2)); the corner of the zone, where the cosine is 0.05, costs digits."""
+    """Doubled; T/cos^2(ka/2), energies 1/(T cos^2(ka/2)); the corner of the zone costs digits."""
     rows = algebra["printed"].query("equation == @equation and reading == 'doubled' and h == 1.5")
     assert len(rows) == 15
     assert (rows["ratio"]*np.cos(rows["wavenumber"]/2)**2).to_numpy() == pytest.approx(due, rel=1e-10)
@@ -152,7 +152,7 @@ def test_a_list_of_null_modes_is_refused(counts, h, null, other):
 
 @pytest.mark.parametrize("corrected", [True, False])
 def test_current_amplitudes_have_dirichlet_moments(corrected):
-    """d<T T>/dt = 0: J C + C J^T + <B B^T> with the second moments of Dirichlet(C/k + 1) or, without correction, (C/k)."""
+    """d<T T>/dt = 0: J C + C J^T + <B B^T>, second moments of Dirichlet(C/k + 1) or, uncorrected, (C/k)."""
     n, C = 16, 12.0
     edges = replace(delaunay(jittered((4, 4), 0.2, 1), None), V=np.ones(n))
     alpha = C + corrected

@@ -47,7 +47,7 @@ def test_what_is_said_comes_from_the_tables(small):
     first = findings(known(small))[0]
     assert "do not converge" in first.title and "−13.200(10)" in first.text
     assert "−20.000(10) % with 16, 25 and 50 rows" in first.text
-    assert answer(known(small)).endswith("Of 2 statements of the papers 1 hold, 1 fail, 0 are undecidable here.")
+    assert answer(known(small)).endswith("2 statements of the papers 1 hold, 1 fail, 0 are undecidable here.")
     better = errors().assign(error=lambda rows: rows["error"].where(rows["energy"] != "Kg",
                                                                     -40/rows["resolution"]**2))
     write(small/"rb/errors.csv", better, head=["commit abc1234567"])
@@ -149,7 +149,7 @@ def rgb(name):
 
 
 def test_colours_of_series_stay_apart_in_an_embedded_figure(tmp_path):
-    """Thin lines in all colours over a field: none moves by more than it may, all are still told from each other."""
+    """Thin lines in all colours over a field: none moves by much, all are told from each other."""
     page, axes = figure()
     axes.imshow(np.linspace(0, 1, 10_000).reshape(100, 100), extent=(0, 1, 0, 1), aspect="auto", cmap="gray",
                 alpha=0.3)
@@ -203,7 +203,7 @@ def test_a_film_shows_points_and_the_grid_and_is_the_same_again(tmp_path):
 
 
 def test_results_as_they_are_make_a_page():
-    """With figures left out, whose packing is tested above; every figure that a study lists has tables that are there."""
+    """Figures left out, whose packing is tested above; every listed figure has tables that are there."""
     text = render(RESULTS, committed(), lambda path: "data:,")
     assert text.count("<tr data-paper=") == len(claims_of(RESULTS))
     for part in committed():

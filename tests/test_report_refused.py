@@ -51,7 +51,7 @@ def test_a_table_that_lacks_columns_or_is_none(small, capsys):
 
 
 def test_no_table_of_a_study_may_lack_a_column_that_it_declares(small, capsys):
-    """Not even one that others than findings read: diagrams would be left out, findings come from another table."""
+    """Not even one that findings do not read: diagrams would be left out."""
     write_page(small)
     columns = [*cost_tables.POINTS.columns, "size", "commit"]
     texts = {"scene": "sound", "quantity": "velocity", "method": "moving points", "size": "fine",
@@ -60,7 +60,8 @@ def test_no_table_of_a_study_may_lack_a_column_that_it_declares(small, capsys):
         row = {name: texts.get(name, 1.0) for name in columns if name != column}
         write(small/"cost/points.csv", pd.DataFrame([row]), head=["x"])
         said = refused(small, capsys)
-        assert f"cost/points.csv has no column {column}: it was written by other code" in said and "run the study again" in said
+        assert f"cost/points.csv has no column {column}: it was written by other code" in said
+        assert "run the study again" in said
 
 
 def test_a_figure_that_is_broken(small, capsys):
@@ -94,7 +95,7 @@ def test_a_film_that_cannot_be_written(tmp_path, monkeypatch, fails):
 
 def test_a_page_that_is_too_heavy_is_not_written(small, monkeypatch):
     monkeypatch.setattr("studies.report.page.LIMIT", 1000)
-    with pytest.raises(NoReport,
-                       match=r"the page has .* MB, 0.0 are allowed.*: draw smaller, .* rb/toy.png \(\d+ kB\)"):
+    words = r"the page has .* MB, 0.0 are allowed.*: draw smaller, .* rb/toy.png \(\d+ kB\)"
+    with pytest.raises(NoReport, match=words):
         write_page(small)
     assert not (small/"index.html").exists()
