@@ -55,10 +55,10 @@ report: .venv/ready  ## results/index.html: one page of findings, verdicts, figu
 films: .venv/ready  ## the films of the report, some minutes
 	$(run) -m studies.report films
 
-# two processes, each with one thread for linear algebra; a file stays in one, which has its fixtures
+# two processes, each with one thread for linear algebra; tests/conftest.py says what stays in one
 test: export OMP_NUM_THREADS ?= 1
 test: .venv/ready  ## the tests, on two cores
-	$(run) -m pytest -n 2 --dist loadfile $(ARGS)
+	$(run) -m pytest -n 2 --dist loadfile --no-loadscope-reorder $(ARGS)
 
 lint: .venv/ready  ## ruff
 	$(run) -m ruff check .

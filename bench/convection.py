@@ -1,4 +1,4 @@
-"""Production as it is timed: KHP95's gas at Ra = 10 000, particles in motion, the time loop of `particles.run`."""
+"""Production as it is timed: KHP95's gas at Ra = 10 000, in the time loop of `particles.run`."""
 import math
 import time
 from collections.abc import Callable
@@ -22,17 +22,20 @@ def method(particles: int) -> Spam:
     """SPAM between mirror plates, periodic in x, aspect 2; `particles` is rounded to 2 L^2."""
     scene = RayleighBenard(ra=10_000, L=round(math.sqrt(particles/2)))
     walls = (*periodic(scene.width), *plates(scene.L, scene.T_hot, scene.T_cold))
-    return Spam(weight=Lucy.of(h=H), eos=scene.eos, law=scene.law, walls=walls, box=(scene.width, scene.L), g=scene.g)
+    return Spam(weight=Lucy.of(h=H), eos=scene.eos, law=scene.law, walls=walls, box=(scene.width, scene.L),
+                g=scene.g)
 
 
 def lattice(box: tuple[float, float]) -> np.ndarray:
     """State (5, n) on a jittered square lattice with rolls of twice the energy of steady convection.
 
-    What the first turnover leaves of it moves as steady convection does: its fastest particle has 0.20 to 0.26.
+    What the first turnover leaves of it moves as steady convection does: its fastest particle has 0.20 to
+    0.26.
     """
     width, height = box
     scene, rng = RayleighBenard(ra=10_000, L=height), np.random.default_rng(1)
-    x, y = (q.ravel() for q in np.meshgrid(np.arange(width) + 0.5 - width/2, np.arange(height) + 0.5 - height/2))
+    x, y = (q.ravel() for q in np.meshgrid(np.arange(width) + 0.5 - width/2,
+                                           np.arange(height) + 0.5 - height/2))
     x, y = x + rng.uniform(-0.1, 0.1, x.size), y + rng.uniform(-0.1, 0.1, x.size)
     return np.array([x, y, *scene.flow(x, y, 0.0096), scene.e(y)])
 
@@ -44,7 +47,8 @@ def melted(particles: int, steps: int = 10*BLOCK) -> np.ndarray:
     return run(case, lattice(case.box), Plan(dt=DT, steps=steps, every=steps)).state
 
 
-def block_seconds(particles: int, blocks: int, *, threads: int = 1, clock: Callable[[], float] = time.process_time,
+def block_seconds(particles: int, blocks: int, *, threads: int = 1,
+                  clock: Callable[[], float] = time.process_time,
                   between: Callable[[], None] = lambda: None) -> list[float]:
     """Seconds of each of so many blocks of production; `between` is called after each and does not count."""
     seconds: list[float] = []
@@ -57,7 +61,8 @@ def block_seconds(particles: int, blocks: int, *, threads: int = 1, clock: Calla
         began = clock()
 
     steps = (blocks + 1)*BLOCK
-    run(method(particles), melted(particles), Plan(dt=DT, steps=steps, every=steps + 1, threads=threads), progress=lap)
+    run(method(particles), melted(particles), Plan(dt=DT, steps=steps, every=steps + 1, threads=threads),
+        progress=lap)
     return seconds[1:]      # the first holds the start
 
 

@@ -1,10 +1,11 @@
-"""How fast are dissipative particles: a step of Groot & Warren's fluid, lists and noise with it; beside LAMMPS, in one run.
+"""How fast are dissipative particles: a step of Groot & Warren's fluid, beside LAMMPS, in one run.
 
     python -m bench.dpd_speed [--no-lammps]
 
-rho = 3, 24 000 particles, one core, CPU time; each with the skin that makes it fastest, block by block in turns. Ours computes
-every pair twice, LAMMPS (`pair dpd`, newton on) once, with a stream of random numbers that depends on the order of its pairs.
-Rows are medians and quartiles over the blocks. Writes results/bench/dpd_speed.csv; takes two minutes, on a quiet machine.
+rho = 3, 24 000 particles, one core, CPU time; each with the skin that makes it fastest, block by block in
+turns. Ours computes every pair twice, LAMMPS (`pair dpd`, newton on) once, with a stream of random numbers
+that depends on the order of its pairs. Rows are medians and quartiles over the blocks. Writes
+results/bench/dpd_speed.csv; takes two minutes, on a quiet machine.
 """
 import argparse
 import math
@@ -53,8 +54,9 @@ def melted() -> np.ndarray:
     return run(FLUID, FLUID.random_start(RHO), Plan(dt=DT, steps=10*BLOCK)).by_id()
 
 
-def ours(state: np.ndarray, skin: float, blocks: int, between: Callable[[], None] = lambda: None) -> np.ndarray:
-    """Nanoseconds a particle and step of each of so many blocks; `between` is called after each and does not count."""
+def ours(state: np.ndarray, skin: float, blocks: int,
+         between: Callable[[], None] = lambda: None) -> np.ndarray:
+    """Nanoseconds a particle and step, block by block; `between` is called after each, untimed."""
     seconds: list[float] = []
     began = math.nan
 
@@ -79,7 +81,8 @@ class Lammps:
         self._lammps = lammps(cmdargs=["-screen", "none", "-log", "none", "-nocite"])
         self._lammps.commands_string(LAMMPS.format(half=SIDE/2))
         self._lammps.create_atoms(self.n, None, [1]*self.n, self._x.tolist(), self._v.tolist())
-        self._lammps.commands_string(PHYSICS.format(kT=FLUID.kT, rc=FLUID.rc, a=FLUID.a, gamma=FLUID.gamma, skin=skin, dt=DT))
+        self._lammps.commands_string(PHYSICS.format(kT=FLUID.kT, rc=FLUID.rc, a=FLUID.a, gamma=FLUID.gamma,
+                                                    skin=skin, dt=DT))
 
     def ns(self) -> float:
         """Nanoseconds a particle and step of a block, from the particles that were given."""
@@ -129,7 +132,8 @@ def main() -> None:
     table = pd.DataFrame(measure(15, not words.no_lammps), columns=COLUMNS)
     print(table.to_string(index=False, float_format="%.4g", na_rep=""))
     FILE.parent.mkdir(parents=True, exist_ok=True)
-    write(FILE, table.assign(cpu=cpu(), versions=versions(), date=now(), commit=commit()), head=["python -m bench.dpd_speed"])
+    write(FILE, table.assign(cpu=cpu(), versions=versions(), date=now(), commit=commit()),
+          head=["python -m bench.dpd_speed"])
 
 
 if __name__ == "__main__":

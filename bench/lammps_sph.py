@@ -1,11 +1,12 @@
-"""The comparable three sums in LAMMPS: density, pressure with viscosity, conduction, each over all pairs in range.
+"""The comparable three sums in LAMMPS: density, pressure with viscosity, conduction.
 
-`sph/rhosum` (Lucy's weight, every step) + `sph/idealgas` + `sph/heatconduction` in hybrid/overlay, 2D, h = 3, density 1:
-the same particles per range. Its lists hold each pair once where ours hold it twice (Newton's third law; only the
-density sum takes a full list), it knows neither the gradients of v and T nor a stress tensor: its viscosity is
-artificial, along the pair; and it integrates the density besides, which `sph/rhosum` overwrites. One evaluation a step of
-a quarter of our step: particles move as far per evaluation as in our RK4, so lists grow old as fast. Every block starts
-from our particles and their velocities. Periodic in both directions with T = 1, without gravity: no walls to pay for.
+`sph/rhosum` (Lucy's weight, every step) + `sph/idealgas` + `sph/heatconduction` in hybrid/overlay, 2D, h = 3,
+density 1: the same particles per range. Its lists hold each pair once where ours hold it twice (Newton's
+third law; only the density sum takes a full list), it knows neither the gradients of v and T nor a stress
+tensor: its viscosity is artificial, along the pair; and it integrates the density besides, which `sph/rhosum`
+overwrites. One evaluation a step of a quarter of our step: particles move as far per evaluation as in our
+RK4, so lists grow old as fast. Every block starts from our particles and their velocities. Periodic in both
+directions with T = 1, without gravity: no walls to pay for.
 """
 import ctypes
 import os
@@ -74,7 +75,8 @@ class Lammps:
         self._x, self._v = (flat_points(q) for q in (state[:2], state[2:4]))
         self._x[::3] = (self._x[::3] + width/2) % width - width/2
         self._lammps = lammps(cmdargs=["-screen", "none", "-log", "none", "-nocite"])
-        self._lammps.commands_string(SETTINGS.format(left=-width/2, right=width/2, bottom=-height/2, top=height/2))
+        self._lammps.commands_string(SETTINGS.format(left=-width/2, right=width/2, bottom=-height/2,
+                                                     top=height/2))
         self._lammps.create_atoms(self.n, None, [1]*self.n, self._x.tolist(), self._v.tolist())
         self._lammps.commands_string(PHYSICS.format(h=H, skin=skin, dt=DT/EVALUATIONS))
 

@@ -1,9 +1,10 @@
-"""How fast are points: an evaluation of fixed ones over stored edges, of moving ones over pairs, a step over closed faces.
+"""How fast are points: an evaluation over stored edges or over pairs, a step over closed faces.
 
     python -m bench.points_speed
 
-One core, CPU time, 20 000 points between plates in the developing rolls of the start; the kinds take turns. Rows are medians and
-quartiles over the repeats. Writes results/bench/points_speed.csv; takes a minute, on a quiet machine.
+One core, CPU time, 20 000 points between plates in the developing rolls of the start; the kinds take turns.
+Rows are medians and quartiles over the repeats. Writes results/bench/points_speed.csv; takes a minute, on a
+quiet machine.
 """
 import time
 from collections.abc import Callable
@@ -45,7 +46,7 @@ def fixed(name: str, fast: bool = True) -> Callable[[], float]:
 
 
 def step(method: Any, first: np.ndarray, evaluations: int = 1) -> Callable[[], float]:
-    """Nanoseconds a point and step of moving points, or an evaluation of which a step has so many; lists and faces are in it.
+    """Nanoseconds a point and step, or evaluation of which a step has so many, lists and faces included.
 
     The difference of two lengths of a run.
     """
@@ -89,10 +90,12 @@ def marched(name: str) -> Callable[[], float]:
 
 def main() -> None:
     """Measure and write."""
-    kinds = {"fixed points, h = 2 a": fixed("fixed-lattice"), "fixed points, h = 3 a": fixed("fixed-lattice-h3"),
+    kinds = {"fixed points, h = 2 a": fixed("fixed-lattice"),
+             "fixed points, h = 3 a": fixed("fixed-lattice-h3"),
              "fixed points, h = 3 a, edge by edge": fixed("fixed-lattice-h3", fast=False),
              "fixed points, Delaunay": fixed("fixed-jittered-delaunay"),
-             "moving points, a step": closed("moving"), "moving points, a step, open faces": closed("moving-open-faces"),
+             "moving points, a step": closed("moving"),
+             "moving points, a step, open faces": closed("moving-open-faces"),
              "moving, plain bracket": bracket("moving-literal-printed-heat"),
              "moving, plain bracket, mended": bracket("moving-literal"),
              "moving, plain bracket, constant mass": bracket("moving-constant-mass-printed-heat"),
@@ -106,9 +109,11 @@ def main() -> None:
     points = round(SCENE.width*SCENE.L)
     rows = [time_row(name, points, 1, values) for name, values in found.items()]
     for row in rows:
-        print(f"{row['what']:40s} {row['ns_per_particle_evaluation']:8.1f} ns  ({row['q25']:.1f} to {row['q75']:.1f})")
+        print(f"{row['what']:40s} {row['ns_per_particle_evaluation']:8.1f} ns  ({row['q25']:.1f} to "
+              f"{row['q75']:.1f})")
     FILE.parent.mkdir(parents=True, exist_ok=True)
-    table = pd.DataFrame(rows, columns=COLUMNS).assign(cpu=cpu(), versions=versions(), date=now(), commit=commit())
+    table = pd.DataFrame(rows, columns=COLUMNS).assign(cpu=cpu(), versions=versions(), date=now(),
+                                                       commit=commit())
     write(FILE, table, head=["python -m bench.points_speed"])
 
 

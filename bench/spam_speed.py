@@ -1,11 +1,11 @@
-"""How fast is SPAM: three sums, list upkeep, RK4 and walls, as production pays them; beside LAMMPS, in one run.
+"""How fast is SPAM: three sums, lists, RK4 and walls; beside LAMMPS, in one run.
 
     python -m bench.spam_speed [--no-lammps]
 
-Ours and LAMMPS take turns, block by block of 64 evaluations, so that both see the same machine; so do one thread and
-two. One core: CPU time, which others on the machine do not lengthen; two threads: the time that passes. Rows are
-medians and quartiles over the blocks. Compiling (or loading compiled code) is a row of its own. Writes
-results/bench/spam_speed.csv; takes about two minutes, on a quiet machine.
+Ours and LAMMPS take turns, block by block of 64 evaluations, so that both see the same machine; so do one
+thread and two. One core: CPU time, which others on the machine do not lengthen; two threads: the time that
+passes. Rows are medians and quartiles over the blocks. Compiling (or loading compiled code) is a row of its
+own. Writes results/bench/spam_speed.csv; takes about two minutes, on a quiet machine.
 """
 import argparse
 import os
@@ -29,14 +29,15 @@ from studies.kit.timing import compile_and_run_seconds
 
 FILE = ROOT/"results"/"bench"/"spam_speed.csv"
 ONE_CORE, THREADED, MILLION = 20_000, 100_000, 1_000_000
-COLUMNS = ["what", "particles", "threads", "ns_per_particle_evaluation", "q25", "q75", "repeats", "value", "unit"]
+COLUMNS = ["what", "particles", "threads", "ns_per_particle_evaluation", "q25", "q75", "repeats", "value",
+           "unit"]
 
 
 def time_row(what: str, particles: int, threads: int, ns: Any) -> dict[str, Any]:
     """Median and quartiles of times per particle and evaluation."""
     low, median, high = np.percentile(ns, [25, 50, 75])
-    return {"what": what, "particles": particles, "threads": threads, "ns_per_particle_evaluation": median, "q25": low,
-            "q75": high, "repeats": len(ns), "unit": "ns"}
+    return {"what": what, "particles": particles, "threads": threads, "ns_per_particle_evaluation": median,
+            "q25": low, "q75": high, "repeats": len(ns), "unit": "ns"}
 
 
 def value_row(what: str, particles: int, threads: int, value: float, unit: str) -> dict[str, Any]:
@@ -73,7 +74,8 @@ def two_threads(particles: int, rounds: int) -> list[dict[str, Any]]:
     for _ in range(rounds):
         for threads, laps in seconds.items():
             laps += block_seconds(particles, 1, threads=threads, clock=time.perf_counter)
-    rows = [time_row("spam, time that passes", particles, threads, ns(laps, particles)) for threads, laps in seconds.items()]
+    rows = [time_row("spam, time that passes", particles, threads, ns(laps, particles))
+            for threads, laps in seconds.items()]
     one, two = (row["ns_per_particle_evaluation"] for row in rows)
     return [*rows, value_row("speed-up", particles, 2, one/two, "times")]
 
@@ -86,7 +88,7 @@ def peak_memory(particles: int) -> list[dict[str, Any]]:
 
 
 def print_memory(particles: int) -> None:
-    """What the process of `peak_memory` does: steps with new lists, then says how much memory it took at most."""
+    """The process of `peak_memory`: steps with new lists, then prints the most memory it took."""
     case = method(particles)
     run(case, lattice(case.box), Plan(dt=DT, steps=4))
     kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
@@ -103,7 +105,8 @@ def goals(table: pd.DataFrame) -> list[tuple[str, float, str, bool]]:
     many = size(THREADED)
     return [("below 300 ns per particle and evaluation, one core, 20 000", speed, "ns", speed < 300),
             ("at least 2.5 times as fast as LAMMPS", versus, "times", versus >= 2.5),
-            ("at least 1.7 times faster on two threads, 100 000", of("speed-up", many), "times", of("speed-up", many) >= 1.7),
+            ("at least 1.7 times faster on two threads, 100 000", of("speed-up", many), "times",
+             of("speed-up", many) >= 1.7),
             ("a million particles in less than 2 GB", of("peak_rss_gb", size(MILLION)), "GB",
              of("peak_rss_gb", size(MILLION)) < 2)]
 
@@ -131,12 +134,17 @@ def measure(no_lammps: bool) -> None:
     if load > 0.5:
         print(f"The machine is not quiet (load {load:.1f}): times are too long, those that pass most of all")
     _, compiling, loading = compile_and_run_seconds(lambda: melted(200, BLOCK))
-    rows = [value_row("compiling", 200, 1, compiling, "s"), value_row("first run, of 200 particles", 200, 1, loading, "s")]
-    rows += one_core(ONE_CORE, 15) if no_lammps else [*beside_lammps(ONE_CORE, 15), *one_core(ONE_CORE, 9)[1:]]
+    rows = [value_row("compiling", 200, 1, compiling, "s"),
+            value_row("first run, of 200 particles", 200, 1, loading, "s")]
+    if no_lammps:
+        rows += one_core(ONE_CORE, 15)
+    else:
+        rows += [*beside_lammps(ONE_CORE, 15), *one_core(ONE_CORE, 9)[1:]]
     rows += one_core(5000, 15)
     rows += two_threads(size(THREADED), 5)
     rows += peak_memory(size(MILLION))
-    table = pd.DataFrame(rows, columns=COLUMNS).assign(cpu=cpu(), versions=versions(), date=now(), commit=commit())
+    table = pd.DataFrame(rows, columns=COLUMNS).assign(cpu=cpu(), versions=versions(), date=now(),
+                                                       commit=commit())
     write(FILE, table, head=["python -m bench.spam_speed", f"load of the machine at the start: {load:.2f}"])
     print(table[COLUMNS].to_string(index=False, float_format="%.4g", na_rep=""))
     for goal, measured, unit, met in goals(table):

@@ -1,4 +1,4 @@
-"""Where the time of production goes: list upkeep, weights, the two sweeps, the rest (ns per particle and evaluation).
+"""Where the time goes: list upkeep, weights, two sweeps, the rest (ns per particle and evaluation).
 
 The stages are timed by wrapping the functions that hand them to the threads, about a microsecond a call.
 """
@@ -57,4 +57,5 @@ def stages(particles: int, blocks: int) -> dict[str, np.ndarray]:
         total = block_seconds(particles, blocks, between=keep)
     for lap, seconds in zip(laps[1:], total, strict=True):
         lap["stage rest"] = seconds - sum(lap.get(name, 0.0) for name in STAGES[:-1])
-    return {name: np.array([per_evaluation(lap.get(name, 0.0), particles) for lap in laps[1:]]) for name in STAGES}
+    return {name: np.array([per_evaluation(lap.get(name, 0.0), particles) for lap in laps[1:]])
+            for name in STAGES}

@@ -1,8 +1,8 @@
 """Constitutive relations, used by every solver: equations of state, transport, stress.
 
-Units of KHP95: m = kB = sigma = epsilon = 1. `rho` is mass per area, `e` internal energy per mass, `T` temperature.
-Every relation is plain arithmetic: it takes numbers or arrays, in Python and in compiled code. An equation of state
-or a transport law is a NamedTuple; a new one is a class and its formulas in this file.
+Units of KHP95: m = kB = sigma = epsilon = 1. `rho` is mass per area, `e` internal energy per mass, `T`
+temperature. Every relation is plain arithmetic: it takes numbers or arrays, in Python and in compiled code.
+An equation of state or a transport law is a NamedTuple; a new one is a class and its formulas in this file.
 """
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -27,8 +27,8 @@ class VanDerWaals(NamedTuple):
 class DenseFluid(NamedTuple):
     """Quadratic fit to molecular dynamics about rho = 1, T = 1, e = 1.443    [KHP95, Eq. 3]
 
-    The printed T(rho, e) and e(rho, T) are separate expansions: at rho = 1, T(rho, e(rho, T)) - 1 is 1.05 (T - 1),
-    and P and e satisfy the Maxwell relation not even at the reference state [KHP95, Sec. IV].
+    The printed T(rho, e) and e(rho, T) are separate expansions: at rho = 1, T(rho, e(rho, T)) - 1 is 1.05 (T
+    - 1), and P and e satisfy the Maxwell relation not even at the reference state [KHP95, Sec. IV].
     """
     cv: float = 1.5
 
@@ -55,7 +55,7 @@ def pressure_slopes(eos, rho, e):
 
 @generic
 def thermal_pressure(eos, rho, T):
-    """dP/dT at constant rho: gravity that keeps the static density constant is its product with |dT/dy|/rho."""
+    """dP/dT at constant rhodT/dy|/rho|: times |dT/dy|/rho, the gravity that keeps rho constant|dT/dy|/rho."""
 
 
 @generic
@@ -135,7 +135,7 @@ def sound_speed(eos, rho, e):
 
 
 def expansivity(eos, rho: float, T: float) -> float:
-    """alpha = -(1/rho) (drho/dT)_P, the thermal expansion at (rho, T), from (dP/drho)_T = P_rho + P_e (de/drho)_T."""
+    """alpha = -(1/rho) (drho/dT)_P at (rho, T), from (dP/drho)_T = P_rho + P_e (de/drho)_T."""
     step = 1e-6*rho
     e = energy(eos, rho, T)
     e_rho = (energy(eos, rho + step, T) - energy(eos, rho - step, T))/(2*step)
@@ -147,10 +147,12 @@ def check_state(eos, rho: Any, e: Any) -> None:
     """Raise ValueError with the first state outside of the validity of the equation of state."""
     bad = np.flatnonzero(~np.atleast_1d(valid(eos, np.asarray(rho), np.asarray(e))).ravel())
     if bad.size:
-        r, u = (np.broadcast_to(q, np.broadcast_shapes(np.shape(rho), np.shape(e))).ravel()[bad[0]] for q in (rho, e))
+        r, u = (np.broadcast_to(q, np.broadcast_shapes(np.shape(rho), np.shape(e))).ravel()[bad[0]]
+                for q in (rho, e))
         rule = f"rho b = {r*eos.b:.4g} must stay below 1 and " if isinstance(eos, VanDerWaals) else ""
-        raise ValueError(f"rho = {r:.6g}, e = {u:.6g} (item {bad[0]}) is outside the validity of {type(eos).__name__}: "
-                         f"{rule}rho, T and c^2 must be positive; lower the density or the step")
+        raise ValueError(f"rho = {r:.6g}, e = {u:.6g} (item {bad[0]}) is outside the validity of "
+                         f"{type(eos).__name__}: {rule}rho, T and c^2 must be positive; lower the density or "
+                         "the step")
 
 
 def _spreading(*names: str) -> Callable[[type], type]:
@@ -163,8 +165,8 @@ def _spreading(*names: str) -> Callable[[type], type]:
             for name in names:
                 value = getattr(law, name)
                 if not np.all(np.asarray(value) >= 0):
-                    raise ValueError(f"{name} of {kind.__name__} must not be negative, got {value}: momentum or heat would "
-                                     "gather in place of spreading; 0 switches it off")
+                    raise ValueError(f"{name} of {kind.__name__} must not be negative, got {value}: momentum "
+                                     "or heat would gather in place of spreading; 0 switches it off")
             return law
         setattr(kind, "__new__", checked)  # noqa: B010  (mypy allows it so)
         return kind
@@ -180,7 +182,7 @@ class ConstEta(NamedTuple):
 
 @_spreading("nu", "kappa")
 class ConstNu(NamedTuple):
-    """Constant kinematic viscosity nu = eta/rho and diffusivity kappa = k/(rho C_V)    [KHP95, Sec. IV, second]"""
+    """Constant nu = eta/rho and diffusivity kappa = k/(rho C_V)    [KHP95, Sec. IV, second]"""
     nu: float
     kappa: float
     cv: float = 1.0
@@ -221,7 +223,7 @@ for _number in (int, float, np.float64):
 
 
 def constant_viscosity(law: Any) -> bool:
-    """Is the shear viscosity the same in all states? A law not known for that is taken to vary, which is right for all."""
+    """Is the shear viscosity the same in all states? Unknown laws are taken to vary."""
     return isinstance(law, ConstEta)
 
 
@@ -233,7 +235,7 @@ def stress(eta, zeta, xx, xy, yx, yy):
 
 
 def stress_tensor(eta, zeta, grad: np.ndarray) -> np.ndarray:
-    """Newtonian stress in any dimension d, shape (..., d, d); grad[..., a, b] = d_a v_b; the trace factor is 2/d."""
+    """Newtonian stress in any dimension, (..., d, d); grad[..., a, b] = d_a v_b; trace factor 2/d."""
     d = grad.shape[-1]
     div = np.trace(grad, axis1=-2, axis2=-1)[..., None, None]*np.eye(d)
     eta, zeta = (np.asarray(q)[..., None, None] for q in (eta, zeta))

@@ -1,7 +1,7 @@
 """numba's settings, once, and formulas that are chosen by the type of what a scene lists.
 
-Import this module before numba: it names the disk cache of compiled code after the sources. numba itself notices a change only
-in the file of the compiled function.
+Import this module before numba: it names the disk cache of compiled code after the sources. numba itself
+notices a change only in the file of the compiled function.
 """
 import hashlib
 import os
@@ -52,18 +52,21 @@ llvmlite.binding.set_option("fluidized-grid", "-slp-max-reg-size=256")
 
 
 def lanes(function: Callable) -> Any:
-    """Compile with sums in the order that is written and with LLVM's SLP vectoriser, as loops over records want it.
+    """Compile with sums in the written order and LLVM's SLP vectoriser, as loops over records want it.
 
-    SLP puts equal operations on neighbouring fields of a record into one vector instruction. LLVM 14 miscompiled with it, so it
-    is on for loops only that tests hold against a slow twin. Reassociation would be twice as slow: it gathers fields.
+    SLP puts equal operations on neighbouring fields of a record into one vector instruction. LLVM 14
+    miscompiled with it, so it is on for loops only that tests hold against a slow twin. Reassociation would
+    be twice as slow: it gathers fields.
     """
-    compiled: Any = numba.njit(cache=True, nogil=True, error_model="numpy", fastmath=FASTMATH - {"reassoc"})(function)
+    compiled: Any = numba.njit(cache=True, nogil=True, error_model="numpy",
+                               fastmath=FASTMATH - {"reassoc"})(function)
     plain = compiled.compile
 
     def compile_with_slp(signature):
         config = numba.config
         before = config.SLP_VECTORIZE, config.LOOP_VECTORIZE
-        config.SLP_VECTORIZE, config.LOOP_VECTORIZE = 1, 0      # several rows at a time would be gathered and scattered
+        # several rows at a time would be gathered and scattered
+        config.SLP_VECTORIZE, config.LOOP_VECTORIZE = 1, 0
         try:
             return plain(signature)
         finally:
@@ -81,21 +84,24 @@ def made(kind: type) -> str:
     """How an object of a class is written: `VanDerWaals()`, `ConstEta(eta=..., k=...)`, `Lucy.of(...)`."""
     if hasattr(kind, "of"):
         return f"{kind.__name__}.of(...)"
-    needed = [name for name in getattr(kind, "_fields", ()) if name not in getattr(kind, "_field_defaults", {})]
+    needed = [name for name in getattr(kind, "_fields", ())
+              if name not in getattr(kind, "_field_defaults", {})]
     return f"{kind.__name__}({', '.join(f'{name}=...' for name in needed)})"
 
 
 def place(frame: Any) -> str:
-    """File and line of a statement of a module; nothing inside a function or a notebook, where formulas are tried out."""
+    """File and line of a statement of a module; nothing in a function or a notebook."""
     code = frame.f_code
-    return f"{code.co_filename}:{frame.f_lineno}" if code.co_name == "<module>" and Path(code.co_filename).is_file() else ""
+    return (f"{code.co_filename}:{frame.f_lineno}"
+            if code.co_name == "<module>" and Path(code.co_filename).is_file() else "")
 
 
 def generic(stub: Callable) -> Any:
-    """A function whose formula is chosen by the type of its first argument (a NamedTuple), or by a class it inherits from.
+    """A function whose formula is chosen by the type of its first argument, or a parent class.
 
-    ``@pressure.of(IdealGas)`` adds a formula; calling works from Python and from compiled code.
-    Raises TypeError: no formula for that type, or a class in place of an object. ValueError: two formulas for one type.
+    ``@pressure.of(IdealGas)`` adds a formula; calling works from Python and from compiled code. Raises
+    TypeError: no formula for that type, or a class in place of an object. ValueError: two formulas for one
+    type.
     """
     table: dict[type, Callable] = {}
     places: dict[type, str] = {}
@@ -108,7 +114,8 @@ def generic(stub: Callable) -> Any:
         if chosen is None:
             known = ", ".join(kind.__name__ for kind in table)
             if isinstance(first, type):
-                raise TypeError(f"{stub.__name__} needs an object, got the class {first.__name__} itself: give {made(first)}")
+                raise TypeError(f"{stub.__name__} needs an object, got the class {first.__name__} itself: "
+                                f"give {made(first)}")
             raise TypeError(f"{stub.__name__}({type(first).__name__}, ...) is not defined: it knows {known}; "
                             f"add a formula with @{stub.__name__}.of({type(first).__name__})")
         return chosen(first, *rest)
@@ -121,8 +128,8 @@ def generic(stub: Callable) -> Any:
         def register(function: Callable) -> Callable:
             here, before = place(sys._getframe(1)), places.get(kind, "")
             if here and before and here != before:
-                raise ValueError(f"{stub.__name__} of {kind.__name__} is defined in {before} and again in {here}: delete one, "
-                                 "or give the second kind a class of its own")
+                raise ValueError(f"{stub.__name__} of {kind.__name__} is defined in {before} and again in "
+                                 f"{here}: delete one, or give the second kind a class of its own")
             table[kind], places[kind] = function, here
             return function
         return register

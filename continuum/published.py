@@ -14,7 +14,7 @@ FOLDER = Path(__file__).with_suffix("")     # no __init__.py in it: as a package
 
 
 @dataclass(frozen=True)
-class Value:
+class PrintedNumber:
     """One printed number; ``uncertainty`` is 0 where it is a definition or a choice."""
     value: float
     uncertainty: float
@@ -36,7 +36,7 @@ def read(name: str) -> pd.DataFrame:
 
 
 def table(name: str) -> pd.DataFrame:
-    """All numbers of a paper, with id, symbol, units, source, reading. Raises ValueError: no file of that name."""
+    """All numbers of a paper, with id, symbol, units, source, reading. ValueError: no such file."""
     if name not in names():
         raise ValueError(f"no published numbers of {name!r}: there are {', '.join(names())}; "
                          f"a new paper is a new file in {FOLDER.parent.name}/{FOLDER.name}/")
@@ -44,15 +44,15 @@ def table(name: str) -> pd.DataFrame:
 
 
 @cache
-def numbers() -> dict[str, Value]:
+def numbers() -> dict[str, PrintedNumber]:
     """Every number by its id."""
-    fields = list(Value.__dataclass_fields__)
-    return {row["id"]: Value(**{name: row[name] for name in fields})
+    fields = list(PrintedNumber.__dataclass_fields__)
+    return {row["id"]: PrintedNumber(**{name: row[name] for name in fields})
             for paper in names() for row in read(paper).to_dict("records")}
 
 
-def published(key: str) -> Value:
-    """The number with this id, e.g. "chandrasekhar-ra-rigid". Raises ValueError: unknown; names ids that are close."""
+def published(key: str) -> PrintedNumber:
+    """The number with this id. Raises ValueError: unknown; names ids that are close."""
     if key not in numbers():
         close = get_close_matches(key, numbers(), n=5)
         raise ValueError(f"no published number {key!r}: " + (

@@ -10,7 +10,7 @@ NEAR = 0.25             # of the assumed order: the grids are fine enough for it
 
 
 class Extrapolated(NamedTuple):
-    """Order seen on the three finest grids (nan if their values do not converge), limit, and its uncertainty."""
+    """Order on the three finest grids (nan: values do not converge), limit, and its uncertainty."""
     order: float
     limit: float
     error: float
@@ -20,11 +20,11 @@ def richardson(values: Sequence[float], sizes: Sequence[float], *, order: float 
                step: float = 2.0) -> Extrapolated:
     """Limit of values for h = 1/size -> 0, sizes being cells per length in any order and ratio.
 
-    The three finest grids give f + a h^order + b h^(order + step); centred differences have step = 2, most other
-    schemes 1. The error is the larger of the distances to two other limits: that of the two finest grids with
-    a alone, and that of the two with the order they show. Where that order is more than NEAR off, its own limit
-    is given, with the whole distance to the finest grid for its error; where there is none, the finest value
-    with twice the spread of all three.
+    The three finest grids give f + a h^order + b h^(order + step); centred differences have step = 2, most
+    other schemes 1. The error is the larger of the distances to two other limits: that of the two finest
+    grids with a alone, and that of the two with the order they show. Where that order is more than NEAR off,
+    its own limit is given, with the whole distance to the finest grid for its error; where there is none, the
+    finest value with twice the spread of all three.
     """
     f, h = finest(values, sizes)
     seen = observed_order(f, h)
@@ -45,8 +45,8 @@ def finest(values: Sequence[float], sizes: Sequence[float]) -> tuple[np.ndarray,
         raise ValueError(f"{f.size} values on sizes {n.tolist()}: give one value for each of three or more "
                          "different sizes")
     if not (np.isfinite(f).all() and (n > 0).all()):
-        raise ValueError(f"values {f.tolist()} on sizes {n.tolist()}: values must be finite, sizes positive; leave "
-                         "out the grid that failed")
+        raise ValueError(f"values {f.tolist()} on sizes {n.tolist()}: values must be finite, sizes positive; "
+                         "leave out the grid that failed")
     last = np.argsort(n)[-3:]
     return f[last], 1/n[last]
 

@@ -11,7 +11,16 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import ConstEta, IdealGas, check_state, conductivity, energy, expansivity, thermal_pressure, viscosity
+from continuum.fluid import (
+    ConstEta,
+    IdealGas,
+    check_state,
+    conductivity,
+    energy,
+    expansivity,
+    thermal_pressure,
+    viscosity,
+)
 
 ROLL_ENERGY = 9/5000    # kinetic energy per mass of the initial rolls    [KHP95, Fig. 9]
 
@@ -58,7 +67,7 @@ class Walls(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Tile:
-    """A box that repeats itself along both axes: all that a grid in time asks of a scene that is not convection.
+    """A box periodic along both axes: all that a grid in time asks of a scene without plates.
 
     width, L : its sides, in cells of any size. eos, law : the fluid, and its transport with its numbers.
     """
@@ -81,7 +90,7 @@ class RayleighBenard:
     """A layer of fluid heated from below.
 
     ra : Rayleigh number g alpha L^3 dT/(nu kappa) at density 1 and mean temperature, kappa = k/(rho C_V).
-    eos : equation of state of `continuum.fluid`. transport : class of the transport law; its numbers follow from ra and pr.
+    eos : equation of state. transport : class of the transport law; its numbers follow from ra and pr.
     L : height in sigma, which fixes the units of length and time only. aspect : width / height.
     T_hot, T_cold : temperatures of the plates at y = -L/2 and y = +L/2. sides : Periodic() or Walls().
     pr : nu/kappa; 1 is KHP95's eta = k where C_V = 1.
@@ -111,25 +120,28 @@ class RayleighBenard:
     def _check_numbers(self):
         for name in ("ra", "pr", "L", "aspect", "T_hot", "T_cold"):
             if not isinstance(value := getattr(self, name), Real):
-                raise TypeError(f"{name} must be a number, got {value!r}: give it without quotes or brackets, as in ra=1e4")
+                raise TypeError(f"{name} must be a number, got {value!r}: give it without quotes or "
+                                "brackets, as in ra=1e4")
         if not 0 < self.ra < inf:
             raise ValueError(f"Ra must be positive and finite, got {self.ra}: the lower plate is the hot one")
         if not 0 < self.pr < inf:
             raise ValueError(f"Pr = nu/kappa must be positive and finite, got {self.pr}")
         if not (0 < self.L < inf and 0 < self.aspect < inf):
-            raise ValueError(f"L and aspect must be positive and finite, got L = {self.L}, aspect = {self.aspect}: "
-                             "KHP95 use a height of 50 sigma and twice that width")
+            raise ValueError(f"L and aspect must be positive and finite, got L = {self.L}, aspect = "
+                             f"{self.aspect}: KHP95 use a height of 50 sigma and twice that width")
         if not inf > self.T_hot > self.T_cold > 0:
-            raise ValueError(f"temperatures must be finite and obey T_hot > T_cold > 0, got {self.T_hot} and {self.T_cold}")
+            raise ValueError(f"temperatures must be finite and obey T_hot > T_cold > 0, got {self.T_hot} and "
+                             f"{self.T_cold}")
 
     def _check_objects(self):
         if not isinstance(self.sides, (Periodic, Walls)):
             raise ValueError(f"sides must be Periodic() or Walls(), got {self.sides!r}")
         kind = self.transport if isinstance(self.transport, type) else type(self.transport)
         if kind is not self.transport or not hasattr(kind, "_fields"):
-            laws = kind.__name__ if kind in viscosity.kinds else " or ".join(law.__name__ for law in viscosity.kinds)
-            raise TypeError(f"transport must be a class of transport laws, got {self.transport!r}: give {laws}, without quotes "
-                            "or numbers, which follow from ra and pr")
+            laws = (kind.__name__ if kind in viscosity.kinds
+                    else " or ".join(law.__name__ for law in viscosity.kinds))
+            raise TypeError(f"transport must be a class of transport laws, got {self.transport!r}: give "
+                            f"{laws}, without quotes or numbers, which follow from ra and pr")
 
     @property
     def width(self) -> float:
@@ -212,7 +224,7 @@ class RayleighBenard:
         return scale*u, scale*v
 
     def fields(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Density (n,), velocity (n, 2) and temperature (n,) at the start, at places (n, 2)    [KHP95, Sec. VI]"""
+        """Density, velocity and temperature at the start, at places (n, 2)    [KHP95, Sec. VI]"""
         return np.ones(len(x)), np.stack(self.flow(x[:, 0], x[:, 1], ROLL_ENERGY), axis=1), self.T(x[:, 1])
 
     def _roll_energy(self, rolls: int) -> float:

@@ -1,9 +1,24 @@
-"""When a run may stop: rules that look at its samples of K."""
+"""When a run of a grid may stop: rules that look at its samples of K; the step that it takes."""
 from dataclasses import dataclass
 
 import numpy as np
 
+SAFETY = 0.8  # of the stability limit, which is taken at the start
 SMALL = 1e-9  # remaining change of K that no longer matters, K of convection being 1e-3
+
+
+class NewtonFailed(RuntimeError):
+    """No steady state was found; the message has the changes of the last steps."""
+
+
+def choose_step(limit: float, dt: float | None) -> float:
+    """The step that is asked for, or a safe one. Raises ValueError: it is above the stability limit."""
+    if dt is None:
+        return SAFETY*limit
+    if not 0 < dt <= limit:
+        raise ValueError(f"dt = {dt:.4g} must be positive and not above the stability limit {limit:.4g}: "
+                         "lower or omit it")
+    return dt
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Checkpoints of a run as HDF5: written beside and then renamed, so the last good one survives whatever happens."""
+"""Checkpoints of a run as HDF5: written beside and then renamed, so the last good one survives."""
 import hashlib
 import os
 from errno import ENOSPC
@@ -16,7 +16,8 @@ SCALARS = ("step", "samples", "reflections", "skin", "cpu_s", "compile_s")
 
 def _identity(method: Any, plan: Plan, start: np.ndarray) -> dict[str, str]:
     """What must be the same for a restart to be the same run."""
-    words = f"{method!r} dt={plan.dt!r} every={plan.every} mean_from={plan.mean_from!r} {[*plan.series]} {[*plan.means]}"
+    words = (f"{method!r} dt={plan.dt!r} every={plan.every} mean_from={plan.mean_from!r} "
+             f"{[*plan.series]} {[*plan.means]}")
     return {"code": source_hash(), "parameters": words, "start": hashlib.sha256(start.tobytes()).hexdigest()}
 
 
@@ -38,12 +39,12 @@ def save(path: Path, method: Any, plan: Plan, start: np.ndarray, now: Run) -> No
     except OSError as error:
         beside.unlink(missing_ok=True)
         why = "the disk is full" if error.errno == ENOSPC or "No space" in str(error) else str(error)
-        raise OSError(f"cannot write checkpoint {path.name} at step {now.step}: {why}; the former one is kept, make room "
-                      "and start again to go on from it") from error
+        raise OSError(f"cannot write checkpoint {path.name} at step {now.step}: {why}; the former one is "
+                      "kept, make room and start again to go on from it") from error
 
 
 def load(path: Path | None, method: Any, plan: Plan, start: np.ndarray) -> Run | None:
-    """The run at `path`, None without one. Raises ValueError: unreadable, or of other code, parameters or particles."""
+    """The run at `path`, None without one. ValueError: unreadable, or of another run."""
     if path is None or not path.exists():
         return None
     try:
@@ -52,10 +53,12 @@ def load(path: Path | None, method: Any, plan: Plan, start: np.ndarray) -> Run |
             numbers = {name: file.attrs[name].item() for name in SCALARS}
             arrays = {name: file[name][()] for name in ("state", "ids", "anchor")}
             arrays["anchor"] = arrays["anchor"] if arrays["anchor"].size else None    # fixed points have none
-            groups = {g: {name: item[()] for name, item in file.get(g, {}).items()} for g in ("series", "sums")}
+            groups = {g: {name: item[()] for name, item in file.get(g, {}).items()}
+                      for g in ("series", "sums")}
             times = list(file["times"][()])
     except (OSError, KeyError) as error:
-        raise ValueError(f"checkpoint {path.name} cannot be read ({error}): delete it to start the run anew") from error
+        raise ValueError(f"checkpoint {path.name} cannot be read ({error}): delete it to start the run "
+                         "anew") from error
     series = {name: list(values) for name, values in groups["series"].items()}
     return Run(**arrays, **numbers, times=times, series=series, sums=groups["sums"])
 
@@ -66,5 +69,6 @@ def _same(path: Path, stored: dict, wanted: dict[str, str]) -> None:
         if had != value:
             same = next((k for k, (a, b) in enumerate(zip(had, value, strict=False)) if a != b), 0)
             at = max(0, same - 20)
-            raise ValueError(f"checkpoint {path.name} is of other {what}: it has ...{had[at:at + 60]}..., this run "
-                             f"...{value[at:at + 60]}...; delete it to start anew, or run what it was made with")
+            raise ValueError(f"checkpoint {path.name} is of other {what}: it has ...{had[at:at + 60]}..., "
+                             f"this run ...{value[at:at + 60]}...; delete it to start anew, or run what it "
+                             "was made with")

@@ -7,7 +7,7 @@ from continuum.fluid import temperature
 
 
 class Fields(NamedTuple):
-    """Places x (n, d), velocities v (n, d), densities, temperatures and volumes (n,), in the order of the state.
+    """Places x (n, d), velocities v (n, d), densities, temperatures and volumes (n,).
 
     x is not a number where a method knows edges alone.
     """
@@ -18,7 +18,8 @@ class Fields(NamedTuple):
     V: np.ndarray
 
 
-def from_densities(eos: Any, x: np.ndarray, V: np.ndarray, rho: np.ndarray, p: np.ndarray, eps: np.ndarray) -> Fields:
+def from_densities(eos: Any, x: np.ndarray, V: np.ndarray, rho: np.ndarray, p: np.ndarray,
+                   eps: np.ndarray) -> Fields:
     """Fields of density rho (n,), momentum p (d, n) and total energy eps (n,), each per volume."""
     v = (p/rho).T
     e = eps/rho - (v**2).sum(axis=1)/2

@@ -8,13 +8,13 @@ from particles.walls.mirror import Mirror
 
 
 class Ghosts(NamedTuple):
-    """Of each ghost: its origin among the points, -1 behind an odd number of plates (else 1), temperature of the last plate."""
+    """Of each ghost: its origin, -1 behind an odd number of plates (else 1), the last plate's T."""
     origin: np.ndarray
     turn: np.ndarray
     plate_T: np.ndarray
 
     def fill(self, records: np.ndarray, even: tuple[str, ...], odd: tuple[str, ...] = ()) -> None:
-        """Fields of the ghosts, which come last, from those of their origins; odd ones change sign in a mirror."""
+        """Fields of ghosts, which come last, from their origins; odd ones change sign in a mirror."""
         first = len(records) - len(self.origin)
         for name in (*even, *odd):
             found = records[name][self.origin]

@@ -55,8 +55,8 @@ class Euler:
 class TwoStep(Euler):
     """Forward Euler for the fields, then positions with the velocities that come out    [RR98 Eqs 40, 41]
 
-    sums.places : number of the first rows of a state that are positions; sums.velocity(y) their rates. Points that stand still
-    have neither: then this is Euler.
+    sums.places : number of the first rows of a state that are positions; sums.velocity(y) their rates. Points
+    that stand still have neither: then this is Euler.
     """
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
@@ -74,7 +74,7 @@ def whole(q: np.ndarray) -> np.ndarray:
 
 
 class Leapfrog:
-    """Half a kick, a drift, half a kick [Verlet 1967]: the same steps lead back when velocities turn, but for round-off."""
+    """Half a kick, a drift, half a kick [Verlet 1967]: reversible but for round-off."""
     evaluations = 2
 
     def __init__(self, shape: tuple[int, ...], team: Team):
@@ -93,7 +93,7 @@ class Leapfrog:
 
 
 class Whole(Leapfrog):
-    """The same in whole numbers: what was added is taken away again, bit by bit    [Levesque & Verlet 1993]"""
+    """The same in whole numbers, reversible bit by bit    [Levesque & Verlet 1993]"""
 
     def rounded(self, change: np.ndarray) -> np.ndarray:
         return whole(change)

@@ -1,14 +1,15 @@
-"""The largest stable step: the fastest small motions of particles on their square lattice, and RK4's stability region.
+"""The largest stable step: fastest small motions of a square lattice, and RK4's stability region.
 
-Linearised about rest at uniform rho and e, with p = P/rho^2, S(k) = sum_r grad w sin k.r, D(k) = sum_r (grad grad w)
-(1 - cos k.r), waves exp(ik.r) of displacement u, velocity v and energy e' obey
+Linearised about rest at uniform rho and e, with p = P/rho^2, S(k) = sum_r grad w sin k.r, D(k) = sum_r (grad
+grad w) (1 - cos k.r), waves exp(ik.r) of displacement u, velocity v and energy e' obey
 
     rho' = i m S.u                                   p' = P'/rho^2 - 2 P rho'/rho^3
     du/dt = v    dv/dt = i m S p' - 2 m p D u - (eta/rho) k2 v    de'/dt = i m p S.v - (k/rho) k2 T'
 
-where k2 stands for the wave number squared: |m S/rho|^2 in nested sums, (2 m/rho) sum_r (-w'/r)(1 - cos k.r) in direct
-ones. Sound is in S, the stiffness of pairs in D. Walls and gravity are left out. Particles off the lattice oscillate
-faster: by 1 (Wendland C2), 10 (Lucy) or 21 % (B-spline) once they have settled, by up to 40 % where they lie at random.
+where k2 stands for the wave number squared: |m S/rho|^2 in nested sums, (2 m/rho) sum_r (-w'/r)(1 - cos k.r)
+in direct ones. Sound is in S, the stiffness of pairs in D. Walls and gravity are left out. Particles off the
+lattice oscillate faster: by 1 (Wendland C2), 10 (Lucy) or 21 % (B-spline) once they have settled, by up to 40
+% where they lie at random.
 """
 from functools import cache, singledispatch
 from typing import Any, NamedTuple
@@ -16,12 +17,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import check_state, conductivity, pressure, pressure_slopes, temperature, viscosity
-from particles.smooth.spam import Direct, Nested, Spam
+from particles.smooth.spam import Spam
+from particles.smooth.sums import Direct, Nested
 from particles.weights import value_and_slope
 
 
 class Symbols(NamedTuple):
-    """Lattice sums: density, and over wave vectors S (k, 2), D (k, 2, 2), k2 of nested and of direct sums (k,)."""
+    """Sums: density, and over wave vectors S (k, 2), D (k, 2, 2), k2 of nested and of direct sums (k,)."""
     rho: float
     S: np.ndarray
     D: np.ndarray
@@ -32,7 +34,8 @@ class Symbols(NamedTuple):
 @singledispatch
 def limit_of(method: Any, start: np.ndarray) -> float:
     """The largest stable step of RK4 from a start (fields, n); each kind of method registers its own."""
-    raise TypeError(f"no stability limit is known for {type(method).__name__}: register one with limit_of.register")
+    raise TypeError(f"no stability limit is known for {type(method).__name__}: register one with "
+                    "limit_of.register")
 
 
 @limit_of.register
@@ -41,27 +44,29 @@ def _(method: Spam, start: np.ndarray) -> float:
 
 
 def step_limit(method: Spam, e: Any, rho: float = 1.0) -> float:
-    """The largest dt at which RK4 does not make lattice waves grow; ValueError where (rho, e) is outside of the eos."""
+    """The largest dt at which RK4 does not make lattice waves grow; ValueError where (rho, e) is outside of
+    the eos."""
     check_state(method.eos, rho, e)
     symbols = lattice_sums(method.weight, method.m, rho, zone(np.sqrt(method.m/rho)))
     return min(largest_step(waves(method, symbols, float(extreme))) for extreme in {np.min(e), np.max(e)})
 
 
 def zone(a: float, points: int = 33) -> np.ndarray:
-    """Wave vectors (k, 2) of an eighth of the zone of the square lattice with spacing a; symmetry gives the rest."""
+    """Wave vectors (k, 2) of an eighth of the zone of a square lattice; symmetry gives the rest."""
     return np.array([(i, j) for i in range(points) for j in range(i + 1)])*np.pi/a/(points - 1)
 
 
 def lattice_sums(weight: Any, m: float, rho: float, k: np.ndarray) -> Symbols:
-    """Sums over the square lattice at wave vectors (k, 2). Raises ValueError: the weight reaches no particle."""
+    """Sums over the square lattice at wave vectors (k, 2). ValueError: the weight reaches no particle."""
     a = np.sqrt(m/rho)
     x = a*np.arange(-int(weight.h/a) - 1, int(weight.h/a) + 2)
     x, y = (q.ravel() for q in np.meshgrid(x, x))
     r = np.hypot(x, y)
     x, y, r = (q[(0 < r) & (r < weight.h)] for q in (x, y, r))
     if not len(r):
-        raise ValueError(f"particles {a:.4g} apart do not see each other: the weight's range h = {weight.h:.4g} must be larger "
-                         f"(Eq. 45 asks for several spacings): take a larger h or more particles")
+        raise ValueError(f"particles {a:.4g} apart do not see each other: the weight's range h = "
+                         f"{weight.h:.4g} must be larger (Eq. 45 asks for several spacings): take a larger h "
+                         "or more particles")
     w, f, curvature = (np.array(q) for q in zip(*(_derivatives(weight, s) for s in r)))
     phase, n = k@np.stack([x, y]), np.stack([x, y], axis=1)/r[:, None]
     S, slow = np.sin(phase)@(n*(r*f)[:, None]), 1 - np.cos(phase)
@@ -83,7 +88,8 @@ def waves(method: Spam, symbols: Symbols, e: float) -> np.ndarray:
     rho, S, D, nested, direct = symbols
     k2 = {Nested: nested, Direct: direct}[method.transport or Nested]
     eos, m, T = method.eos, method.m, temperature(method.eos, symbols.rho, e)
-    P, (P_rho, P_e), (T_rho, T_e) = pressure(eos, rho, e), pressure_slopes(eos, rho, e), _thermal_slopes(eos, rho, e)
+    P, (P_rho, P_e), (T_rho, T_e) = (pressure(eos, rho, e), pressure_slopes(eos, rho, e),
+                                     _thermal_slopes(eos, rho, e))
     less = P - static_part(method, P)
     nu, chi = viscosity(method.law, rho, T)/rho, conductivity(method.law, rho, T)/rho
     A = np.zeros((len(S), 5, 5), complex)
@@ -97,7 +103,7 @@ def waves(method: Spam, symbols: Symbols, e: float) -> np.ndarray:
 
 
 def static_part(method: Spam, P: float) -> float:
-    """What `LessStatic` leaves out of the pressure P: at the height where the static pressure is nearest to P."""
+    """What `LessStatic` leaves out of P: at the height whose static pressure is nearest to P."""
     static, half = method.static, method.static.rho0*method.g*method.box[1]/2
     return static.fraction*float(np.clip(P, static.P0 - abs(half), static.P0 + abs(half)))
 
@@ -110,7 +116,7 @@ def _thermal_slopes(eos, rho: float, e: float) -> tuple[float, float]:
 
 
 def largest_step(eigenvalues: np.ndarray) -> float:
-    """The step that brings the first eigenvalue to the edge of RK4's region; what grows by itself counts as neutral."""
+    """The step that brings the first eigenvalue to the edge of RK4's region; growth counts as neutral."""
     decay, omega = np.maximum(-eigenvalues.real, 0), np.abs(eigenvalues.imag)
     size = np.hypot(decay, omega)
     return float(np.min(np.interp(np.arctan2(decay, omega), *_edge())/np.maximum(size, 1e-300)))
@@ -118,7 +124,8 @@ def largest_step(eigenvalues: np.ndarray) -> float:
 
 @cache
 def _edge() -> tuple[np.ndarray, np.ndarray]:
-    """RK4's stability region: (angle from the imaginary to the negative real axis, |lambda dt| at its edge, to 0.001)."""
+    """RK4's stability region: (angle from the imaginary to the negative real axis, |lambda dt| at its edge,
+    to 0.001)."""
     angle, r = np.linspace(0, np.pi/2, 181), np.arange(1, 3200)*0.001
     z = 1j*r*np.exp(1j*angle[:, None])
     growth = abs(1 + z + z**2/2 + z**3/6 + z**4/24)

@@ -1,6 +1,7 @@
-"""Everything that the pair loops need besides the particles: fixed particles, ghosts of the walls, lists, pairs.
+"""What the pair loops need besides particles: fixed ones, ghosts of the walls, lists, pairs.
 
-Points are numbered particles first, then fixed particles, then ghosts wall by wall; only the first two have rows.
+Points are numbered particles first, then fixed particles, then ghosts wall by wall; only the first two have
+rows.
 """
 from typing import Any
 
@@ -40,10 +41,11 @@ class Surroundings:
 
     def __init__(self, weight, walls, n: int, box: tuple[float, float], *, skin: float, team: Team):
         if not skin > 0:
-            raise ValueError(f"the skin of the neighbour list must be positive, got {skin}: 0.2 h is a good start")
+            raise ValueError(f"the skin of the neighbour list must be positive, got {skin}: 0.2 h is a good "
+                             "start")
         if 2*weight.h > min(box):
-            raise ValueError(f"the weight's diameter 2 h = {2*weight.h:g} is wider than the box {box[0]:g} x {box[1]:g}: "
-                             "take more particles or a shorter range")
+            raise ValueError(f"the weight's diameter 2 h = {2*weight.h:g} is wider than the box {box[0]:g} x "
+                             f"{box[1]:g}: take more particles or a shorter range")
         self.weight, self.walls, self.skin, self.team, self.n = weight, walls, skin, team, n
         held = [fixed_points(wall, *box) for wall in walls] or [(EMPTY, EMPTY, EMPTY)]
         self._fixed = tuple(np.concatenate(column) for column in zip(*held, strict=True))
@@ -65,11 +67,11 @@ class Surroundings:
         self.anchor = None
 
     def relist(self, state: np.ndarray, ids: np.ndarray, dt: float) -> None:
-        """Wrap the particles, put them in the order of cells (in place), make lists; the skin grows with the speed."""
+        """Wrap the particles, sort them by cells (in place), make lists; the skin grows with the speed."""
         stride = MARGIN*fastest(state)*dt
         if not stride < self.weight.h:
-            raise FloatingPointError(f"a particle at speed {fastest(state):.4g} would cross the weight's range "
-                                     f"{self.weight.h:g} within one step")
+            raise FloatingPointError(f"a particle at speed {fastest(state):.4g} would cross the weight's "
+                                     f"range {self.weight.h:g} within one step")
         if 2*stride > self.skin:
             self.skin = 2.4*stride
         wrap(self.walls, state)
@@ -103,7 +105,8 @@ class Surroundings:
         if listed is old.listed:
             self.pairs = old._replace(start=start, length=length)
         else:
-            self.pairs = empty_pairs(self.rows, len(listed))._replace(start=start, length=length, listed=listed)
+            self.pairs = empty_pairs(self.rows, len(listed))._replace(
+                start=start, length=length, listed=listed)
 
     def place(self, state: np.ndarray, m: float) -> None:
         """Positions of all points and, over the pairs in range, density of the rows and of their images."""
@@ -135,7 +138,7 @@ class Listed:
             self.around.make_lists(now.anchor)
 
     def try_out(self, now: Any) -> None:
-        """One evaluation on a copy of the particles, which leaves no trace; at a start they are looked over."""
+        """One evaluation on a copy of the particles; at a start they are looked over."""
         state, fresh = now.state.copy(), now.anchor is None
         if fresh:
             ids = now.ids.copy()
@@ -149,7 +152,7 @@ class Listed:
         """Refuse points that the sums would take without a word, once at the start; here none."""
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """New lists if particles may leave the old ones within the step; the particles are then in the order of cells.
+        """New lists if particles may leave the old ones within the step; particles are then sorted.
 
         Raises FloatingPointError: a particle is too fast for any list.
         """
@@ -163,8 +166,8 @@ class Listed:
         if good.all():
             return ""
         i = int(np.argmin(good))
-        return (f"point {ids[i]} has V = {V[i]:.4g}, rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of "
-                f"{type(eos).__name__}")
+        return (f"point {ids[i]} has V = {V[i]:.4g}, rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the "
+                f"validity of {type(eos).__name__}")
 
     def outran(self, state: np.ndarray) -> str:
         """What is wrong if a particle has left the skin of the lists; empty if none has."""

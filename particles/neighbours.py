@@ -44,13 +44,13 @@ def _count_sort(x, y, left, bottom, side, columns, start, cell, order):
 
 
 def sort_into_cells(x: np.ndarray, y: np.ndarray, side: float) -> Cells:
-    """Linked cells [KHP95, Ref. 13] over the bounding box of the points (N,), with two empty cells around it."""
+    """Linked cells [KHP95, Ref. 13] around the points (N,), two empty cells around them."""
     left, bottom = float(x.min()) - 2*side, float(y.min()) - 2*side
     across, up = ((float(q.max()) - low)/side + 4 for q, low in ((x, left), (y, bottom)))
     if not across*up <= 64*len(x) + 4096:
         raise FloatingPointError(
-            f"the points spread over {across:.4g} x {up:.4g} cells, far more than their number {len(x)}: some have left "
-            "the box; lower the step or put an elastic wall behind each wall")
+            f"the points spread over {across:.4g} x {up:.4g} cells, far more than their number {len(x)}: "
+            "some have left the box; lower the step or put an elastic wall behind each wall")
     columns, rows = int(across), int(up)
     start, order = np.zeros(columns*rows + 1, np.int64), np.empty(len(x), u32)
     _count_sort(x, y, left, bottom, side, columns, start, np.empty(len(x), np.int64), order)
@@ -73,8 +73,8 @@ def _gather(cells, home, ring, x, y, j):
 def list_rows(first, last, cells, x, y, reach, itself, capacity, start, length, listed):
     """Write the Verlet lists of rows first..last from first*capacity on; False if they do not fit.
 
-    Row i is the listed point i + `itself`, which is left out. Rows of one cell share what is gathered around it;
-    comparing all of that before the list is compressed leaves LLVM a loop for vector instructions.
+    Row i is the listed point i + `itself`, which is left out. Rows of one cell share what is gathered around
+    it; comparing all of that before the list is compressed leaves LLVM a loop for vector instructions.
     """
     ring = int(np.ceil(reach/cells.side))
     most = (2*ring + 1)**2*np.diff(cells.start).max()
@@ -103,7 +103,7 @@ def list_rows(first, last, cells, x, y, reach, itself, capacity, start, length, 
 
 def make_lists(team: Team, cells: Cells, x: np.ndarray, y: np.ndarray, reach: float, itself: int,
                listed: np.ndarray = NOTHING) -> tuple:
-    """(start, length, listed) of all points of `cells` within `reach` of (x, y), but for point i + `itself` of row i.
+    """(start, length, listed) of points within `reach` of (x, y), but for point i + `itself` of row i.
 
     `listed` of earlier lists is used again where it has room.
     Raises FloatingPointError: there are more than 2000 neighbours of each: the particles have collapsed.
@@ -116,8 +116,9 @@ def make_lists(team: Team, cells: Cells, x: np.ndarray, y: np.ndarray, reach: fl
         if all(team(list_rows, rows, cells, x, y, reach, itself, room, start, length, listed)):
             return start, length, listed
         room = int(1.3*room) + 1
-    raise FloatingPointError(f"more than {int(room/1.3)} neighbours within {reach:g} of each particle: they have collapsed "
-                             "onto each other; lower the step or the attraction in the pressure")
+    raise FloatingPointError(f"more than {int(room/1.3)} neighbours within {reach:g} of each particle: they "
+                             "have collapsed onto each other; lower the step or the attraction in the "
+                             "pressure")
 
 
 def _density(cells: Cells) -> float:

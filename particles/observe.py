@@ -1,7 +1,7 @@
-"""What is measured on particles, from the sums of a method and the state (5, n) = x, y, vx, vy, e, both up to date.
+"""What is measured on particles, from up-to-date sums and the state (5, n) = x, y, vx, vy, e.
 
-KHP95 do not say which kinetic energy their figures show, so all three are kept: Kp of the particles, Kg of the
-smoothed field, Kfl = Kp - Kg of their fluctuations.
+KHP95 do not say which kinetic energy their figures show, so all three are kept: Kp of the particles, Kg of
+the smoothed field, Kfl = Kp - Kg of their fluctuations.
 """
 from typing import Any, NamedTuple
 
@@ -13,7 +13,7 @@ from particles.pairs import Pairs, interpolate, sweep
 
 
 class Smoothed(NamedTuple):
-    """Smoothed density, velocity, energy per mass and temperature at some places, each in the places' shape."""
+    """Smoothed density, velocity, energy per mass and temperature at places, in their shape."""
     rho: np.ndarray
     vx: np.ndarray
     vy: np.ndarray
@@ -47,7 +47,7 @@ def field_kinetic(sums: Any, state: np.ndarray) -> float:
 
 
 def heat_flow(sums: Any, state: np.ndarray) -> float:
-    """Mean upward flux of energy Q_y + rho v_y (e + P/rho + v^2/2 + g y) - (stress.v)_y: the Nusselt number, steady."""
+    """Mean upward energy flux Q_y + rho v_y (e + P/rho + v^2/2 + g y) - (stress.v)_y: steady Nu."""
     n, around, method = sums.n, sums.around, sums.method
     _, y, vx, vy, e = state
     rho, T = around.rho[:n], around.T[:n]
@@ -59,10 +59,11 @@ def heat_flow(sums: Any, state: np.ndarray) -> float:
 
 
 class PlateHeat(NamedTuple):
-    """Energy per area and time that fluid particles get from what is behind a plate: side -1 the lower, +1 the upper one.
+    """Energy per area and time that particles get from behind a plate: side -1 lower, +1 upper.
 
-    The part of the third sum that comes from there: heat, viscous work, and the work of pressure if wanted. Pressure does no
-    work on resting plates; but particles are only seen after their turn, and the mean is off in the first order of dt.
+    The part of the third sum that comes from there: heat, viscous work, and the work of pressure if wanted.
+    Pressure does no work on resting plates; but particles are only seen after their turn, and the mean is off
+    in the first order of dt.
     """
     side: int
     pressure: bool = False
@@ -100,7 +101,8 @@ class Grid(NamedTuple):
     def over(cls, box: tuple[float, float], rows: int) -> "Grid":
         """`rows` places over the height, square cells; KHP95's Fig. 12 has 30 x 60."""
         columns = round(rows*box[0]/box[1])
-        x, y = (np.arange(columns) + 0.5)*box[0]/columns - box[0]/2, (np.arange(rows) + 0.5)*box[1]/rows - box[1]/2
+        x, y = ((np.arange(columns) + 0.5)*box[0]/columns - box[0]/2,
+                (np.arange(rows) + 0.5)*box[1]/rows - box[1]/2)
         return cls(*np.meshgrid(x, y))
 
     def __call__(self, sums: Any, state: np.ndarray) -> np.ndarray:
@@ -121,11 +123,12 @@ class Profile(NamedTuple):
 
 
 def wall_layers(sums: Any, state: np.ndarray) -> np.ndarray:
-    """(2, 2): density (particles per area times m) and mean temperature within one spacing of the lower and upper plate."""
+    """(2, 2): density and mean temperature within one spacing of the lower and upper plate."""
     width, height = sums.method.box
     depth = np.sqrt(width*height/sums.n)
     rows = []
     for distance in (state[1] + height/2, height/2 - state[1]):
         near = distance < depth
-        rows.append([sums.method.m*near.sum()/(width*depth), sums.around.T[:sums.n][near].mean() if near.any() else np.nan])
+        rows.append([sums.method.m*near.sum()/(width*depth),
+                     sums.around.T[:sums.n][near].mean() if near.any() else np.nan])
     return np.array(rows)

@@ -1,4 +1,4 @@
-"""The only pair loops: `weigh` finds the pairs in range and their weights, `sweep` sums pair terms over them."""
+"""The only pair loops: `weigh` finds pairs in range and their weights, `sweep` sums terms over them."""
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,8 +11,8 @@ from particles.weights import shape, slope
 class Pairs(NamedTuple):
     """Verlet lists, listed[start[i]:start[i] + length[i]] of row i, and of them the pairs in range.
 
-    The pairs of row i are near, wx, wy [first[i]:first[i] + taken[i]]; (wx, wy) is the gradient of m w(r_ij) with
-    respect to r_i.
+    The pairs of row i are near, wx, wy [first[i]:first[i] + taken[i]]; (wx, wy) is the gradient of m w(r_ij)
+    with respect to r_i.
     """
     start: np.ndarray
     length: np.ndarray
@@ -25,7 +25,7 @@ class Pairs(NamedTuple):
 
 
 class Stored(NamedTuple):
-    """Edges of fixed points: those of row i are near, sx, sy, k [first[i]:first[i] + taken[i]]; (sx, sy) is S_ij/2."""
+    """Edges of fixed points; of row i: near, sx, sy, k [first[i]:first[i] + taken[i]]; (sx, sy) = S_ij/2."""
     first: np.ndarray
     taken: np.ndarray
     near: np.ndarray
@@ -95,8 +95,8 @@ between.of(Faces)(lambda pairs, k: Face(pairs.sx[k], pairs.sy[k], pairs.k[k], pa
 def weigh(first, last, weight, m, x, y, pairs, rho):
     """rho_i = sum_j m w(r_ij), the particle itself included, and grad_i m w(r_ij), for rows first..last.
 
-    The list is compressed without a branch, which would be mispredicted for one entry in three; the square roots
-    follow in a loop of their own over what is left, which LLVM turns into vector instructions.
+    The list is compressed without a branch, which would be mispredicted for one entry in three; the square
+    roots follow in a loop of their own over what is left, which LLVM turns into vector instructions.
     """
     h2, per_h, per_slope = weight.h*weight.h, 1/weight.h, m*weight.scale/weight.h**2
     begin = pairs.start[first] if first < last else u64(0)
@@ -120,7 +120,7 @@ def weigh(first, last, weight, m, x, y, pairs, rho):
 
 @generic
 def rate(term, a, b, ab):
-    """What the pair (a, b) adds to the sum of a: a tuple of numbers from two particle records and their Pair."""
+    """What the pair (a, b) adds to the sum of a: a tuple of numbers, from two records and their Pair."""
 
 
 @generic
@@ -160,7 +160,7 @@ def _(out, i, k, values):
 
 @lanes
 def sweep(first, last, term, particle, pairs, out):
-    """out[i] = sum of rate(term, i, j, ij) over the pairs of rows first..last; `particle`: a structured array."""
+    """out[i] = sum of rate(term, i, j, ij) over the pairs of rows first..last; `particle`: records."""
     for i in range(u64(first), u64(last)):
         a, total, begin = particle[i], nothing(term), pairs.first[i]
         for k in range(begin, begin + pairs.taken[i]):
@@ -170,7 +170,8 @@ def sweep(first, last, term, particle, pairs, out):
 
 @jit
 def interpolate(first, last, weight, m, at_x, at_y, lists, x, y, values, out):
-    """out[i] = sum_j m values[j] w(|r_i - r_j|) over the listed points j of place i; `values` (points, columns)."""
+    """out[i] = sum_j m values[j] w(|r_i - r_j|) over the listed points j of place i; `values` (points,
+    columns)."""
     start, length, listed = lists
     for i in range(u64(first), u64(last)):
         out[i] = 0.0

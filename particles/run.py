@@ -13,7 +13,8 @@ from particles.lists import outside
 from particles.plan import Plan, Run
 from particles.threads import Team
 
-#: of the step limit: what is stable where moving particles lie at random (see `limits`), what the studies take
+#: of the step limit: what is stable where moving particles lie at random (see `limits`), what the studies
+#: take
 RANDOM, STUDIES = 1/1.4, 0.22
 
 
@@ -27,7 +28,7 @@ class Divergence(FloatingPointError):
 
 
 def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], None] | None = None) -> Run:
-    """Advance the particles or points `start`, array-like (fields, n), by the plan; `progress` is told the fraction done.
+    """Advance `start`, array-like (fields, n), by the plan; `progress` gets the fraction done.
 
     Raises ValueError: the step is above the stability limit, a state is invalid or a particle beyond a wall
     at the start, or the checkpoint is of other code or other parameters. Divergence: a field is not finite or
@@ -37,7 +38,8 @@ def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], N
     _check_start(method, start, plan)
     team = Team(plan.threads)
     now = load(plan.checkpoint, method, plan, start) or Run(state=start.copy(), ids=np.arange(start.shape[1]))
-    sums, integrator = method.start(start.shape[1], team), getattr(method, "integrator", RK4)(start.shape, team)
+    sums, integrator = (method.start(start.shape[1], team),
+                        getattr(method, "integrator", RK4)(start.shape, team))
     sums.resume(now)
     began, saved = process_time(), monotonic()
     now.compile_s += _first_evaluation(sums, now)
@@ -109,14 +111,15 @@ def _check_start(method, start: np.ndarray, plan: Plan) -> None:
     walls = getattr(method, "walls", ())     # a method on fixed points has none
     if len(lost := outside(walls, start)):
         i, (width, height) = lost[0], method.box
-        raise ValueError(f"particle {i} at ({start[0, i]:g}, {start[1, i]:g}) is beyond a wall of the box |x| <= {width/2:g}, "
-                         f"|y| <= {height/2:g} ({len(lost)} of {start.shape[1]} are): the box is centred on the origin; move "
-                         "them inside")
+        raise ValueError(f"particle {i} at ({start[0, i]:g}, {start[1, i]:g}) is beyond a wall of the box "
+                         f"|x| <= {width/2:g}, |y| <= {height/2:g} ({len(lost)} of {start.shape[1]} are): "
+                         "the box is centred on the origin; move them inside")
     limit = _limit(method, start)
     if plan.dt > limit:
-        raise ValueError(f"dt = {plan.dt:g} is above the stability limit {limit:.3g} of RK4 for these particles: what is below "
-                         f"is stable, below {RANDOM*limit:.2g} also where they lie at random; the studies take {STUDIES} of "
-                         f"the limit, {STUDIES*limit:.2g}, because errors at plates grow with dt")
+        raise ValueError(f"dt = {plan.dt:g} is above the stability limit {limit:.3g} of RK4 for these "
+                         f"particles: what is below is stable, below {RANDOM*limit:.2g} also where they lie "
+                         f"at random; the studies take {STUDIES} of the limit, {STUDIES*limit:.2g}, because "
+                         "errors at plates grow with dt")
 
 
 def _limit(method, start: np.ndarray) -> float:
@@ -126,8 +129,9 @@ def _limit(method, start: np.ndarray) -> float:
     except FloatingPointError as error:
         raise ValueError(f"the particles at the start are no fluid: {error}") from error
     if not limit > 0:
-        raise ValueError(f"the particles at the start have no stable step: the limit of RK4 is {limit}; look for densities or "
-                         "temperatures that are not positive, and for viscosities that are not finite")
+        raise ValueError(f"the particles at the start have no stable step: the limit of RK4 is {limit}; look "
+                         "for densities or temperatures that are not positive, and for viscosities that are "
+                         "not finite")
     return limit
 
 

@@ -1,6 +1,7 @@
 """Pair terms: two particles and their geometry in, what the pair adds to the sum of the first one out.
 
-The papers' symbols: a, b are the two particles, (ab.wx, ab.wy) = grad_a m w(r_ab). A new term is one NamedTuple here.
+The papers' symbols: a, b are the two particles, (ab.wx, ab.wy) = grad_a m w(r_ab). A new term is one
+NamedTuple here.
 """
 from typing import NamedTuple
 
@@ -11,7 +12,8 @@ from particles.pairs import nothing, rate
 
 
 class Gradients(NamedTuple):
-    """sum_b sqrt(1/rho_b) {v_b - v_a, T_b - T_a} grad_a m w: times sqrt(1/rho_a), the printed gradients of v and T
+    """sum_b sqrt(1/rho_b) {v_b - v_a, T_b - T_a} grad_a m w: times sqrt(1/rho_a), the printed gradients of v
+    and T
 
     with the geometric mean density rho_ab = sqrt(rho_a rho_b)    [KHP95, Sec. II].
     """
@@ -34,7 +36,8 @@ class Fluxes(NamedTuple):
     """Acceleration and heating by P/rho^2 and Q/rho^2    [KHP95, Sec. II]
 
     a_a = -sum_b [(P/rho^2)_a + (P/rho^2)_b].grad w,
-    de_a = -sum_b (1/2) [(P/rho^2)_a + (P/rho^2)_b] : (v_b - v_a) grad w - sum_b [(Q/rho^2)_a + (Q/rho^2)_b].grad w
+    de_a = -sum_b (1/2) [(P/rho^2)_a + (P/rho^2)_b] : (v_b - v_a) grad w - sum_b [(Q/rho^2)_a +
+    (Q/rho^2)_b].grad w
     """
 
 
@@ -56,7 +59,7 @@ def _(term, a, b, ab):
 
 @formula
 def _differences(a, b, x, y):
-    """Differences of vx, vy, T times x, then times y. That of s is there to make them four, one vector register."""
+    """Differences of vx, vy, T times x, then times y; s makes them four, one vector register."""
     u, v, T, s = b.vx - a.vx, b.vy - a.vy, b.T - a.T, b.s - a.s
     return u*x, v*x, T*x, s*x, u*y, v*y, T*y, s*y
 
@@ -72,10 +75,12 @@ def _(term, a, b, ab):
 
 
 class DirectFluxes(NamedTuple):
-    """Pressure as in `Fluxes`; viscosity and conduction directly from differences along the pair, without gradients:
+    """Pressure as in `Fluxes`; viscosity and conduction directly from differences along the pair, without
+    gradients:
 
     a_a = sum_b [(eta_a + eta_b)/(rho_a rho_b)] (v_a - v_b) F m, de_a = the work of that force shared equally
-    + sum_b [(k_a + k_b)/(rho_a rho_b)] (T_a - T_b) F m, F = w'/r (the forms known by Morris and by Brookshaw).
+    + sum_b [(k_a + k_b)/(rho_a rho_b)] (T_a - T_b) F m, F = w'/r (the forms known by Morris and by
+    Brookshaw).
     """
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 
 class Team:
-    """Calls a compiled function(first, last, ...) on equal ranges of rows, one a thread: bitwise for any number."""
+    """Calls a compiled function(first, last, ...) on equal ranges of rows, one a thread: bitwise the same."""
 
     def __init__(self, threads: int = 1):
         if threads < 1:

@@ -1,7 +1,8 @@
 """The weight family: w(r) = scale phi(r/h) in d dimensions, zero from the range h on, with unit integral.
 
-A weight is a NamedTuple made by ``Lucy.of(h=3.0)`` and two formulas of q = r/h, both zero at q = 1 so that the pair
-loop needs no branch: `shape` phi(q) and `slope` phi'(q)/q, which is finite at q = 0. A new weight is one class here.
+A weight is a NamedTuple made by ``Lucy.of(h=3.0)`` and two formulas of q = r/h, both zero at q = 1 so that
+the pair loop needs no branch: `shape` phi(q) and `slope` phi'(q)/q, which is finite at q = 0. A new weight is
+one class here.
 """
 from collections.abc import Callable
 from functools import cache
@@ -29,7 +30,8 @@ Formula = Callable[[None, float], float]
 PLACES, STEP = (0.1370, 0.3891, 0.6129, 0.8713), 1e-5
 #: of the largest value: expanded polynomials with coefficients in the thousands cancel to this at q = 1
 ROUND_OFF = 1e-12
-#: of the steepest slope: the difference is good to phi''' STEP^2/6 = 2e-8 for phi''' = 1000 phi', and round-off 1e-10
+#: of the steepest slope: the difference is good to phi''' STEP^2/6 = 2e-8 for phi''' = 1000 phi', and
+#: round-off 1e-10
 DIFFERENCE = 1e-6
 
 
@@ -44,9 +46,10 @@ def formulas(kind: type) -> tuple[Formula, Formula]:
     """(phi(q), phi'(q)/q) of a kind of weight. Raises TypeError: one of them is missing."""
     wanted = (("shape", shape.kinds, "phi(q), q = r/h"), ("slope", slope.kinds, "phi'(q)/q"))
     if lacking := [(name, text) for name, known, text in wanted if kind not in known]:
-        add = " and ".join(f"{name}.of({kind.__name__})(lambda weight, q: ...) with {text}" for name, text in lacking)
-        raise TypeError(f"{kind.__name__} has no {' and no '.join(name for name, _ in lacking)}: add {add}, as in "
-                        "particles/weights.py")
+        add = " and ".join(f"{name}.of({kind.__name__})(lambda weight, q: ...) with {text}"
+                           for name, text in lacking)
+        raise TypeError(f"{kind.__name__} has no {' and no '.join(name for name, _ in lacking)}: add {add}, "
+                        "as in particles/weights.py")
     return shape.kinds[kind], slope.kinds[kind]
 
 
@@ -60,16 +63,16 @@ def check_formulas(name: str, phi: Formula, over_q: Formula) -> None:
     largest, steepest = (max(abs(f(None, q)) for q in PLACES) for f in (phi, over_q))
     for what, edge, size in (("phi", phi(None, 1.0), largest), ("phi'/q", over_q(None, 1.0), steepest)):
         if not abs(edge) <= ROUND_OFF*size:
-            raise ValueError(f"{what} of {name} is {edge:.6g} at q = 1, where it must be zero: pairs beyond the range would "
-                             "feel it; let phi end in (1 - q)^2 or a higher power")
+            raise ValueError(f"{what} of {name} is {edge:.6g} at q = 1, where it must be zero: pairs beyond "
+                             "the range would feel it; let phi end in (1 - q)^2 or a higher power")
     if not isfinite(centre := _or_nan(over_q, 0.0)):
-        raise ValueError(f"phi'/q of {name} is {centre} at q = 0, where a particle meets itself: let phi begin as 1 - c q^2, and "
-                         "write its slope without a division by q")
+        raise ValueError(f"phi'/q of {name} is {centre} at q = 0, where a particle meets itself: let phi "
+                         "begin as 1 - c q^2, and write its slope without a division by q")
     found = [(q, q*over_q(None, q), (phi(None, q + STEP) - phi(None, q - STEP))/(2*STEP)) for q in PLACES]
     for q, given, difference in found:
         if not abs(given - difference) <= DIFFERENCE*max(abs(d) for _, _, d in found):
-            raise ValueError(f"slope of {name} is {given/q:.6g} at q = {q}, but phi'(q)/q there is {difference/q:.6g}: give the "
-                             "derivative of phi, divided by q")
+            raise ValueError(f"slope of {name} is {given/q:.6g} at q = {q}, but phi'(q)/q there is "
+                             f"{difference/q:.6g}: give the derivative of phi, divided by q")
 
 
 def _or_nan(f: Formula, q: float) -> float:
@@ -98,7 +101,8 @@ class Weight(_Fields):
         if not isinstance(h, Real):
             raise TypeError(f"the range h of a weight must be a number, got {h!r}: KHP95 use h = 3 sigma")
         if not 0 < h < inf:
-            raise ValueError(f"the range h of a weight must be positive and finite, got {h}: KHP95 use h = 3 sigma")
+            raise ValueError(f"the range h of a weight must be positive and finite, got {h}: KHP95 use h = 3 "
+                             "sigma")
         if d not in (1, 2, 3):
             raise ValueError(f"weights exist in d = 1, 2, 3 dimensions, got d = {d}")
         phi, over_q = formulas(cls)
@@ -112,10 +116,11 @@ def check_unit(weight: Weight, d: int = 2) -> None:
     Raises ValueError: it is not, or the range is not positive and finite.
     """
     kind = type(weight).__name__
-    whole = weight.scale*unit_integral(formulas(type(weight))[0], d)*weight.h**d if 0 < weight.h < inf else float("nan")
+    whole = weight.scale*unit_integral(formulas(type(weight))[0],
+                                       d)*weight.h**d if 0 < weight.h < inf else float("nan")
     if not abs(whole - 1) <= 1e-9:
-        raise ValueError(f"{kind} of range h = {weight.h:g} has the integral {whole:.6g} in {d} dimensions, which must be 1: "
-                         f"make it with {kind}.of(h=..., d={d})")
+        raise ValueError(f"{kind} of range h = {weight.h:g} has the integral {whole:.6g} in {d} dimensions, "
+                         f"which must be 1: make it with {kind}.of(h=..., d={d})")
 
 
 class Lucy(Weight):
@@ -123,7 +128,8 @@ class Lucy(Weight):
 
 
 class Monaghan(Weight):
-    """Cubic B-spline, (40/7 pi h^2)(1 - 6q^2 + 6q^3), 2(1 - q)^3 from q = 1/2 on, in 2D    [KHP95, Sec. II, Fig. 1]"""
+    """Cubic B-spline, (40/7 pi h^2)(1 - 6q^2 + 6q^3), 2(1 - q)^3 from q = 1/2 on, in 2D    [KHP95, Sec. II,
+    Fig. 1]"""
 
 
 class WendlandC2(Weight):

@@ -9,9 +9,10 @@ import pandas as pd
 from studies.kit.claim import judge
 from studies.kit.table import Tables
 from studies.rb.claims import RB_CLAIMS
-from studies.rb.flows import ONSET, grid, particles
+from studies.rb.claims.curves import ONSET
 from studies.rb.runs import lattices
-from studies.rb.runs.arithmetic import SUBJECTS, Arithmetic
+from studies.rb.runs.arithmetic import SUBJECTS, WithoutFlow
+from studies.rb.tables import SCENE, grid, particles
 
 BY_ID = {claim.id: claim for claim in RB_CLAIMS}
 RA = (1750.0, 2000.0, 2500.0, 3500.0, 4200.0, 5000.0, 6830.0, 10000.0)
@@ -36,13 +37,10 @@ def means(rows: list[dict], kept: float = 1.0) -> Tables:
 
 def errors(means: pd.DataFrame, kept: float) -> pd.DataFrame:
     """Rows Kg of the table `errors`: the particles of `means` against the extrapolated grid of the same scene."""
-    scene = ["eos", "transport", "sides", "ra", "pr"]
-    limits = means[np.isinf(means["resolution"]) & (means["variant"] == "flux-form")].set_index(scene)["ke"]*kept
-    found = [{**row, "energy": "Kg", "reference": limits[where], "reference_err": 0.0,
-              "error": row["ke_field"]/limits[where] - 1, "error_err": row["ke_field_err"]/limits[where]}
-             for row in means[means["method"] == "spam"].to_dict("records")
-             for where in [tuple(row[name] for name in scene)] if where in limits.index]
-    return pd.DataFrame(found, columns=[*means.columns, "energy", "reference", "reference_err", "error", "error_err"])
+    limits = means[np.isinf(means["resolution"]) & (means["variant"] == "flux-form")]
+    limits = limits[[*SCENE, "ke"]].rename(columns={"ke": "reference"})
+    rows = means[means["method"] == "spam"].merge(limits, on=SCENE)
+    return rows.assign(energy="Kg", reference=kept*rows["reference"], reference_err=0.0)
 
 
 def seeds(point: dict, ke: tuple[float, ...], **more) -> pd.DataFrame:
@@ -99,5 +97,5 @@ def seen(ra: float, kept: float) -> pd.DataFrame:
 @cache
 def numbers() -> pd.DataFrame:
     """The table `arithmetic`, computed."""
-    outcomes = [Arithmetic(subject=subject).run(lambda done: None, Path()) for subject in SUBJECTS]
+    outcomes = [WithoutFlow(numbers=subject).run(lambda done: None, Path()) for subject in SUBJECTS]
     return pd.DataFrame([row for outcome in outcomes for row in outcome.rows["arithmetic"]])

@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 
 from studies.build.names import VALUES
-from studies.rb import looks as pick
 from studies.rb import tables
+from studies.rb.figures.main import RA_C
 
 SCENES = {"layer": ("ideal", "const-eta", "periodic"), "nu": ("ideal", "const-nu", "periodic"),
           "vdw": ("vdw", "const-eta", "periodic"), "box": ("ideal", "const-eta", "walls")}
@@ -29,7 +29,7 @@ def point(method, scene, ra, resolution, pr=1.0):
 def k(ra, scene="layer"):
     """K of a made-up fluid: the line A (1 - sqrt(Ra_c/Ra)) to 4 Ra_c, a little less beyond."""
     top = {"layer": 0.0082, "nu": 0.0079, "vdw": 0.0051, "box": 0.0043}[scene]
-    onset = 3500 if scene == "box" else pick.RA_C
+    onset = 3500 if scene == "box" else RA_C
     return top*max(0.0, 1 - math.sqrt(onset/ra))*(1 - 0.02*max(0, ra/(4*onset) - 1))
 
 
@@ -83,7 +83,8 @@ def kinetic():
 
 def point_rows():
     """Fixed and moving points: second order, the moving ones from below."""
-    for ra, rows, (variant, sign) in itertools.product((5000.0, 10000.0), (25, 40, 50), (("fixed-lattice", 1), ("moving", -1))):
+    signs = {"fixed-lattice": 1, "moving": -1, "moving-no-shift": -1}
+    for ra, rows, (variant, sign) in itertools.product((5000.0, 10000.0), (25, 40, 50), signs.items()):
         ke = k(ra)*(1 + sign*15/rows**2)
         yield energies(("dih", variant), "layer", ra, rows, ke, ke, particles=2*rows**2)
 
@@ -145,25 +146,6 @@ def particles():
             kind = "fluid" if abs(px) < 1 and abs(py) < 0.5 else behind if abs(px) < 1 else "image"
             yield {**point(("spam", variant), scene, 1e4, rows), "seed": 1, "number": number, "kind": kind, "x": px,
                    "y": py, "vx": vx, "vy": vy}
-
-
-def walls():
-    for number, variant in enumerate(RULES):
-        for rows in (25, 50):
-            for seed in (1, 2, 3):
-                for plate, T, inward in (("lower", 1.5, -1), ("upper", 0.5, 1)):
-                    yield {**point(("spam", variant), "layer", 1e4, rows), "seed": seed, "plate": plate, "T_wall": T,
-                           "T_layer": T + inward*(0.05*number + 1/rows) + 0.002*seed, "reflections": 10,
-                           "nu_plate": 2 + 0.01*seed, "nu_plate_err": 0.001,
-                           "rho_layer": 1 - inward*(0.1 + 0.02*number)}
-
-
-def cost():
-    for method, variant, sizes, unit in ((*SPAM, (16, 25, 50), 1e-6), (*GRID, (16, 24, 48), 2e-7)):
-        for rows in sizes:
-            points = 2*rows**2
-            yield {"method": method, "variant": variant, "eos": "ideal", "sides": "periodic", "resolution": rows,
-                   "points": points, "step_s": unit*points + 1e-5, "step_s_err": 2e-6, "dt": 0.5, "threads": 1}
 
 
 def errors(mean):

@@ -9,7 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import conductivity, energy, pressure, temperature, viscosity
-from particles.smooth.spam import Direct, Spam
+from particles.smooth.spam import Spam
+from particles.smooth.sums import Direct
 from particles.terms import ArithmeticGradients
 from particles.walls.fixed import FixedRows
 from particles.walls.mirror import Mirror, Odd, Own

@@ -20,7 +20,7 @@ import numpy as np
 
 from continuum.fluid import stress_tensor
 from particles.integral import dih
-from particles.integral.dih import Dih, Flow, Fluxes, Mixed, Nested, Pairwise, take
+from particles.integral.dih import Dih, EdgeFluxes, Flow, Mixed, NestedFluxes, Pairwise, take
 from particles.integral.edges import Beyond, mirror
 
 
@@ -74,7 +74,7 @@ class PlainPlates(Dih):
         far, ends = take(flow, self.ends.to), self.ends
         return far._replace(v=far.v*ends.odd, T=far.T*ends.odd[:, 0] + ends.T_twice)
 
-    def gradient(self, transport: Nested, f: np.ndarray, far: np.ndarray) -> np.ndarray:
+    def gradient(self, transport: NestedFluxes, f: np.ndarray, far: np.ndarray) -> np.ndarray:
         """(n, d, m) of f (n, m), `far` (E, m) at the far ends: `Nested.gradient` with images."""
         edges, beyond = self.edges, self.beyond
         step = far[len(edges.i):] - (f[beyond.i] if transport.differences else 0)
@@ -84,20 +84,20 @@ class PlainPlates(Dih):
 
 
 @singledispatch
-def spread(transport: Any, fluid: PlainPlates, flow: Flow) -> Fluxes:
+def spread(transport: Any, fluid: PlainPlates, flow: Flow) -> EdgeFluxes:
     """Friction and heat through all edges and those to images."""
     raise TypeError(transport)
 
 
 @spread.register
-def _(transport: Pairwise, fluid: PlainPlates, flow: Flow) -> Fluxes:
+def _(transport: Pairwise, fluid: PlainPlates, flow: Flow) -> EdgeFluxes:
     ends, c, far = fluid.ends, fluid.coefficients(flow), fluid.opposite(flow)
     dih.check_bulk(c.eta, c.zeta, fluid.edges.d)
     twins = ends._replace(apart=ends.apart*ends.mirror)
     both = (dih.along(edges, dih.means(c, ends.i, ends.to), take(flow, ends.i), far) for edges in (ends, twins))
-    found = Fluxes(*((a + b)/2 for a, b in zip(*both, strict=True)))
+    found = EdgeFluxes(*((a + b)/2 for a, b in zip(*both, strict=True)))
     if transport.mended:
-        slope = fluid.gradient(Nested(), flow.v, far.v)
+        slope = fluid.gradient(NestedFluxes(), flow.v, far.v)
         F, tau = dih.lacking(c, flow.v, slope), dih.transposed(c, slope)
         found = found._replace(energy=found.energy - (ends.S*(F[ends.i] + ends.mirror*F[ends.to])).sum(axis=1)/2)
         if transport.everywhere or np.ptp(c.eta) > 0 or np.ptp(c.zeta) > 0:
@@ -107,7 +107,7 @@ def _(transport: Pairwise, fluid: PlainPlates, flow: Flow) -> Fluxes:
 
 
 @spread.register
-def _(transport: Nested, fluid: PlainPlates, flow: Flow) -> Fluxes:
+def _(transport: NestedFluxes, fluid: PlainPlates, flow: Flow) -> EdgeFluxes:
     ends, far, (eta, zeta, kappa) = fluid.ends, fluid.opposite(flow), fluid.coefficients(flow)
     i, to, half, sign = ends.i, ends.to, ends.S/2, ends.odd*ends.mirror
     slope = fluid.gradient(transport, flow.v, far.v)
@@ -115,10 +115,10 @@ def _(transport: Nested, fluid: PlainPlates, flow: Flow) -> Fluxes:
     one, other = sign[:, :, None]*stress_tensor(eta[i], zeta[i], slope[to]), stress_tensor(eta[to], zeta[to], slope[i])
     work = np.einsum("ea,eab,eb->e", half, one, flow.v[i]) + np.einsum("ea,eab,eb->e", half, other, far.v)
     current = -kappa[i, None]*sign*heat[to] - kappa[to, None]*heat[i]
-    return Fluxes(np.zeros(len(i)), -np.einsum("ea,eab->eb", half, one + other), (half*current).sum(axis=1) - work)
+    return EdgeFluxes(np.zeros(len(i)), -np.einsum("ea,eab->eb", half, one + other), (half*current).sum(axis=1) - work)
 
 
 @spread.register
-def _(transport: Mixed, fluid: PlainPlates, flow: Flow) -> Fluxes:
+def _(transport: Mixed, fluid: PlainPlates, flow: Flow) -> EdgeFluxes:
     share, both = transport.share, (spread(kind, fluid, flow) for kind in (transport.pairwise, transport.nested))
-    return Fluxes(*(share*one + (1 - share)*other for one, other in zip(*both, strict=True)))
+    return EdgeFluxes(*(share*one + (1 - share)*other for one, other in zip(*both, strict=True)))

@@ -1,5 +1,6 @@
 """Results of one study, made up, from which the page is made."""
 import math
+from functools import cache
 from pathlib import Path
 
 import pandas as pd
@@ -7,6 +8,8 @@ from PIL import Image
 
 from studies.kit.claim import COLUMNS
 from studies.kit.csvfile import write
+from studies.kit.store import RESULTS
+from studies.report.inventory import Folder, folders
 
 LAYER = {"eos": "ideal", "transport": "const-eta", "sides": "periodic", "pr": 1}
 
@@ -32,6 +35,12 @@ def claims() -> pd.DataFrame:
             ("toy-three", "RR98 Eq. 42", "three <b>& more", "own", "", math.nan, math.nan, math.nan, math.nan, "undecidable",
              "not run", "onset")]
     return pd.DataFrame(rows, columns=list(COLUMNS))[list(COLUMNS)]
+
+
+@cache
+def committed() -> list[Folder]:
+    """Studies with the committed tables, read once."""
+    return folders(RESULTS)
 
 
 def one_study(out: Path) -> Path:

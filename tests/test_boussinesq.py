@@ -9,8 +9,8 @@ from continuum.boussinesq import (
     LAYER,
     SQUARE,
     Box,
+    BoxEdges,
     Case,
-    Edges,
     End,
     NewtonFailed,
     State,
@@ -191,11 +191,11 @@ def test_refuses_bad_boxes():
     with pytest.raises(ValueError, match="width must be positive"):
         Box(width=0.0)
     with pytest.raises(ValueError, match="no wall has a temperature"):
-        Box(plates=Edges(flow=End.WALL, heat=End.MIRROR))
+        Box(plates=BoxEdges(flow=End.WALL, heat=End.MIRROR))
     with pytest.raises(ValueError, match="periodic in both or in none"):
-        Edges(flow=End.PERIODIC, heat=End.WALL)
+        BoxEdges(flow=End.PERIODIC, heat=End.WALL)
     with pytest.raises(ValueError, match="plates cannot be periodic"):
-        Box(plates=Edges(flow=End.PERIODIC, heat=End.PERIODIC))
+        Box(plates=BoxEdges(flow=End.PERIODIC, heat=End.PERIODIC))
 
 
 def test_refuses_bad_states_and_runs():

@@ -84,7 +84,7 @@ def test_words_stand_for_one_method_each():
 
 
 def test_two_definitions_of_a_name_are_refused_with_both():
-    with pytest.raises(ValueError, match=r"two methods are called 'moving': Motion.* and Scheme"):
+    with pytest.raises(ValueError, match=r"two methods are called 'moving': FacesMotion.* and Scheme"):
         named([("moving", METHODS["moving"])], [("moving", METHODS["fixed-lattice"])])
 
 

@@ -5,39 +5,33 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from studies.kit.sweep import RESULTS
 from studies.kit.table import Tables
-from studies.kit.table import read as csv
 from studies.rb import snapshots
-from studies.rb.claims import energies
-from studies.rb.flows import grid, particles, rolls_in
+from studies.rb.tables import grid, particles
 from tests.claim_tables import crystal, grids, judged, means, seeds, straight, verdict
 
 
 def test_a_run_that_diverged_has_no_energy():
     """Its row is in kinetic_energy, without numbers; means leaves it out."""
     rows = grids() + [{**particles(1e4), "ke": 0.0048, "ke_err": 1e-7}]
-    lost = pd.DataFrame([{**particles(ra), "seed": 1, "ke": math.nan, "t_end": 12.0, "rolls": 0} for ra in (1e4, 5e4)])
+    lost = pd.DataFrame([{**particles(ra), "seed": 1, "ke": math.nan, "t_end": 12.0, "rolls": 0} for ra in (1e4, 1e5)])
     tables = Tables({**means(rows), "kinetic_energy": lost})
     assert "diverged" in judged("khp95-energy-error-10000", tables)["reason"]
     assert verdict("khp95-robust", tables) == "fails"
     none = Tables({**tables, "kinetic_energy": lost[:0]})
-    assert "has 0 rows of 1" in judged("khp95-robust", none)["reason"]
+    assert "not run yet" in judged("khp95-robust", none)["reason"]
     paper = lost.assign(**grid(1e4, 48, "paper-form"), mass_drift=math.nan)
     assert "grid diverged" in judged("khp95-ghost-density-mass", Tables({"kinetic_energy": paper}))["reason"]
 
 
 @pytest.mark.parametrize(("change", "said"), [(0.01, "holds"), (0.1, "fails")])
-def test_half_of_the_step_is_compared_at_all_rayleigh_numbers_that_flow(change, said):
-    both = [{**particles(ra, 25, name), "ke": ke, "ke_err": 0.001*ke}
-            for name, changed in (("printed", 0), ("printed-half-step", change))
-            for ra, ke in ((2500.0, 1e-6*(1 + 9*changed)), (5e3, 0.003), (1e4, 0.0045*(1 - changed)))]
-    tables = with_runs(both)
-    assert verdict("own-half-step-25", tables) == said
-    assert judged("own-half-step-25", tables)["measured"] == pytest.approx(2*change)       # of first order
-    assert judged("own-half-step-25", tables)["err"] == pytest.approx(2*0.001*math.sqrt(2/3), rel=0.02)     # three seeds
-    assert verdict("own-half-step-50", tables) == "undecidable"
-    assert "where little flows" in judged("own-half-step-25", with_runs(both[3:4]))["reason"]
+def test_half_of_the_step_is_compared_over_seeds_of_the_same_flow(change, said):
+    both = [{**particles(1e4, 25, name), "ke": ke, "ke_err": 0.001*ke}
+            for name, ke in (("printed", 0.0045), ("printed-half-step", 0.0045*(1 - change)))]
+    found = judged("own-half-step-25", with_runs(both))
+    assert found["verdict"] == said and found["measured"] == pytest.approx(2*change)            # of first order
+    assert found["err"] == pytest.approx(2*0.001*math.sqrt(2/3), rel=0.2)       # three seeds, both steps
+    assert verdict("own-half-step-50", with_runs(both)) == "undecidable"
 
 
 def with_runs(points: list[dict]) -> Tables:
@@ -57,13 +51,6 @@ def test_two_rolls_that_still_change_or_have_died_are_no_answer(rolls, steady, k
     assert found["verdict"] == said and ("died" in found["reason"]) == (ke < 1e-6)
 
 
-def test_rolls_of_round_off_are_none():
-    dead = means([{**grid(1e4), "ke": 1e-12, "ke_err": 0.0}, {**grid(3000, eos="dense"), "ke": -1e-20, "ke_err": 0.0}])
-    for name in ("khp95-transient-grid", "khp95-freeze-grid"):
-        assert "died" in judged(name, dead)["reason"], name
-    assert rolls_in(dead, grid(1e4)) == 0
-
-
 def test_what_smoothing_takes_is_told_from_what_is_lost():
     """The weight leaves 0.9 of K, the particles' field has 0.8: half of the loss is smoothing, 1/9 is left."""
     tables = means(grids() + [{**particles(5e3), "ke": 0.8*0.0034, "ke_err": 1e-8}], kept=0.9)
@@ -80,16 +67,6 @@ def test_plates_must_exchange_what_the_layer_carries(lower, said):
              for rows, seed in points for plate, nu in (("lower", lower if rows == 16 else 1.8), ("upper", 1.8))]
     tables = Tables({"kinetic_energy": pd.DataFrame(runs), "walls": pd.DataFrame(walls)})
     assert verdict("own-nusselt-plates", tables) == said
-    assert energies.imbalances(tables)[1e4, 50.0] == pytest.approx((0, 0), abs=1e-12)
-
-
-def test_the_plates_of_the_fewest_rows_are_the_worst_as_the_reason_says():
-    tables = Tables({name: csv(RESULTS/"rb"/f"{name}.csv") for name in ("walls", "kinetic_energy")
-                     if (RESULTS/"rb"/f"{name}.csv").exists()})
-    if len(tables) < 2:
-        pytest.skip("no tables of rb committed yet: make study-rb writes them")
-    found = energies.imbalances(tables)
-    assert max(found, key=found.get)[1] == 16
 
 
 def walled(reflections: int, variant: str = "printed-fixed-rows", fast: float = 0.5) -> Tables:
@@ -120,10 +97,11 @@ def test_what_rows_carry_is_the_pressure_less_the_impacts():
 
 
 def wild(rows: int, size: float, ends: float = 3.0) -> pd.DataFrame:
-    """K(t) of the grid at Ra 50 000 that oscillates by `size` of K until `ends` L^2/eta."""
+    """K(t) of the grid at two high Ra that oscillates by `size` of K until `ends` L^2/eta."""
     t = np.linspace(0, 1, 300)
-    return pd.DataFrame({**grid(5e4, rows), "seed": 0, "t": t, "t_viscous": ends*t, "ke": 1 + size*np.sin(200*t),
-                         "ke_field": 1.0})
+    runs = [pd.DataFrame({**grid(ra, rows), "seed": 0, "t": t, "t_viscous": ends*t, "ke": 1 + size*np.sin(200*t)})
+            for ra in (5e4, 2e5)]
+    return pd.concat(runs)
 
 
 def test_fluctuations_of_the_grid_are_told_from_those_of_the_flow():
@@ -134,14 +112,14 @@ def test_fluctuations_of_the_grid_are_told_from_those_of_the_flow():
     assert "nothing fluctuates" in said(wild(50, 1e-6), wild(100, 1e-6))["reason"]
     assert said(wild(50, 1e-6), name="khp95-grid-fluctuates")["verdict"] == "fails"
     assert said(wild(50, 0.1), name="khp95-grid-fluctuates")["verdict"] == "holds"
-    assert "run at Ra 50000 ends at 1 L^2/eta" in said(wild(50, 0.1, ends=1.0), name="khp95-grid-fluctuates")["reason"]
+    assert "ends at 1 L^2/eta" in said(wild(50, 0.1, ends=1.0), name="khp95-grid-fluctuates")["reason"]
 
 
 @pytest.mark.parametrize(("shares", "said"), [((0.8, 0.7, 0.1), "holds"), ((0.8, 0.3, 0.1), "holds"), ((0.8, 0.3, 0.6), "")])
 def test_the_pressure_that_freezes_is_found_between_two(shares, said):
     """K left at P = 1, 2, 5: the criterion's ratio is 2K/(2 P 0.01045)."""
     names = ("printed", "more-static-100", "more-static-400")
-    rows = grids() + [{**particles(5e3, 25, name), "ke": share*0.0034, "ke_err": 1e-7}
+    rows = grids() + [{**particles(5e3, 50, name), "ke": share*0.0034, "ke_err": 1e-7}
                       for name, share in zip(names, shares, strict=True)]
     found = judged("khp95-melting-threshold", means(rows))
     if not said:

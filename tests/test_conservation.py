@@ -7,7 +7,7 @@ import pytest
 import studies.conservation.cases as conservation
 from continuum.fluid import ConstEta, IdealGas
 from particles.fields import Fields
-from particles.integral.dih import Dih, Nested, Pairwise
+from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import MAKERS
 from particles.integral.points import jittered, lattice
 from particles.weights import Lucy, Monaghan
@@ -15,7 +15,7 @@ from studies.conservation.drift import MODES, PLATES, MovingDrift
 from studies.conservation.plain_runs import CUBE, LINE, SQUARE, DihDrift, Unsymmetric
 from studies.conservation.sums import Changes, random_fields, sizes
 
-PRINTED = Nested(differences=False)
+PRINTED = NestedFluxes(differences=False)
 
 
 def row(case, table="drift"):
@@ -127,7 +127,7 @@ def error_in_wind(transport, maker):
     return np.abs(windy - boosted(still) + carried).max(axis=1)/np.abs(windy).max(axis=1)
 
 
-@pytest.mark.parametrize("transport", [Nested(), PRINTED, Pairwise(mended=False), Pairwise(everywhere=True)])
+@pytest.mark.parametrize("transport", [NestedFluxes(), PRINTED, Pairwise(mended=False), Pairwise(everywhere=True)])
 def test_closed_edges_do_not_know_of_a_wind(transport):
     assert error_in_wind(transport, "delaunay").max() < 1e-12       # round-off of sums of 30 terms
 

@@ -4,7 +4,7 @@ import pandas as pd
 import pytest
 
 from studies.kit.table import Tables
-from studies.rb.derive import HALF, derive, over_seeds
+from studies.rb.derive import HALF, derive, extrapolated, over_seeds
 from studies.rb.tables import POINT
 
 AT = {"eos": "ideal", "transport": "const-eta", "sides": "periodic", "ra": 1e4, "pr": 1.0}
@@ -72,7 +72,7 @@ def endless(value, seeds):
     """(limit, error) of points whose K with so many rows is value(rows, seed)."""
     runs = [spam(rows, seed, value(rows, seed), method="dih", variant="fixed", ke_err=0.0, nu_err=0.0, free_fall=1.0, threads=1,
                  compile_s=0.0) for rows in (25, 40, 50, 64) for seed in seeds]
-    [row] = derive(Tables(kinetic_energy=pd.DataFrame(runs)))["kinetic_energy"]
+    [row] = extrapolated(pd.DataFrame(runs))
     assert row["resolution"] == np.inf and row["seed"] == 0
     return row["ke"], row["ke_err"]
 
@@ -101,13 +101,3 @@ def test_runs_that_diverged_are_in_no_mean():
     broken = spam(seed=2, ke=np.nan, kg=np.nan, rolls=0, converged=False)
     found = pd.DataFrame(derive(tables(spam(seed=1), broken))["means"])
     assert len(found) == 1 and found["seeds"].iloc[0] == 1 and found["ke"].iloc[0] == 4.0
-
-
-def test_the_step_of_another_fluid_counts_only_where_its_own_is_unknown():
-    dense = {"eos": "dense"}
-    rows = [spam(25), spam(25, ke=5.0, variant=HALF), spam(25, **dense), spam(25, ke=8.0, variant=HALF, **dense),
-            spam(25, sides="walls")]
-    found = pd.DataFrame(over_seeds(pd.DataFrame(rows)))
-    found = found[found["variant"] == "printed"].set_index(["eos", "sides"])["ke_err"]
-    assert found["dense", "periodic"] == pytest.approx(np.hypot(0.1, 2*4.0*1.0))
-    assert found["ideal", "walls"] >= np.hypot(0.1, 2*4.0*0.25) - 1e-12

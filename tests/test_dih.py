@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals, bulk_viscosity
-from particles.integral.dih import Dih, Nested, Pairwise
+from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import MAKERS
 from particles.integral.points import jittered, lattice
 from particles.integrators import RK4
@@ -11,8 +11,8 @@ from particles.threads import Team
 from particles.weights import WendlandC2
 
 COUNTS = {1: (16,), 2: (10, 9), 3: (6, 6, 7)}
-TRANSPORT = {"nested": Nested(), "printed": Nested(differences=False), "pairwise": Pairwise(), "unmended": Pairwise(mended=False),
-             "everywhere": Pairwise(everywhere=True)}
+TRANSPORT = {"nested": NestedFluxes(), "printed": NestedFluxes(differences=False), "pairwise": Pairwise(),
+             "unmended": Pairwise(mended=False), "everywhere": Pairwise(everywhere=True)}
 
 
 def fluid(maker="renormalised", d=2, size=0.2, transport="pairwise", counts=None, h=2.7, **more):

@@ -9,13 +9,14 @@ from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
 from continuum.scene import RayleighBenard
 from particles.integral.brackets import Powers
 from particles.integral.dih import Pairwise
+from particles.integral.drifts import DRIFTS, ConstantMassDrift
 from particles.integral.edge_makers import plain
 from particles.integral.edges import between_plates
 from particles.integral.exchange import PRINTED
 from particles.integral.interpolants import OrderingWarning
 from particles.integral.layer import Layer, edge_by_edge
 from particles.integral.points import jittered, lattice
-from particles.integral.rr98_moving import DRIFTS, ConstantMassDrift, Drift
+from particles.integral.rr98_moving import Drift
 from particles.integral.rr98_moving_plain import MOTIONS, ConstantMass, scale_of
 from particles.integral.transposed_stress import MENDED
 from particles.integrators import RK4
@@ -26,7 +27,7 @@ from particles.threads import Team
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
-from studies.build.rr98_moving import DRIFT_MOTIONS, PlateHeat
+from studies.build.rr98_moving import DRIFT_MOTIONS, heat_in
 
 COUNTS = COLUMNS, ROWS = 10, 8
 WEIGHT = WendlandC2.of(h=2.9)
@@ -231,4 +232,4 @@ def test_heat_through_plates_is_conduction_where_temperature_is_linear():
     sums.look_at(now)
     for side in (-1, 1):
         conducted = -side*scene.k*scene.dT/scene.L*scene.width
-        assert PlateHeat(side)(sums, now) == pytest.approx(conducted, rel=1e-12)
+        assert heat_in(sums, now, side) == pytest.approx(conducted, rel=1e-12)

@@ -1,53 +1,36 @@
-"""Limits of the time step: the search finds what is known, eigenvalues and trials agree, formulas are safe."""
+"""Limits of the time step: the search finds what is known, eigenvalues and trials agree."""
 import numpy as np
-import pandas as pd
 import pytest
 
 from continuum.fluid import ConstEta
 from studies.build.unguarded import bisected
-from studies.hardcases.claims import LIMITS
-from studies.hardcases.stability import largest_step
-from studies.hardcases.steps import METHODS, Limit
-from studies.kit.claim import judged
-from studies.kit.table import Tables
+from studies.hardcases.cases import AT_REST
+from studies.hardcases.largest_step import Limit, largest_step
 
 
-@pytest.mark.parametrize("integrator, rate, limit", [
-    ("RK4", 1j, 8**0.5), ("RK4", -1.0, 2.7853), ("ThreeStage", 1j, 3**0.5), ("ThreeStage", -1.0, 2.5127)])
-def test_the_regions_of_stability_end_where_they_are_known_to(integrator, rate, limit):
-    assert largest_step(np.array([2*rate, -0.1]), integrator) == pytest.approx(limit/2, rel=2e-4)
-
-
-def test_what_grows_by_itself_sets_no_limit():
-    assert largest_step(np.array([0.01, 1j]), "RK4") == pytest.approx(8**0.5, rel=1e-3)
+@pytest.mark.parametrize("rates, limit", [((1j, -0.1), 8**0.5), ((-1.0, -0.1), 2.7853), ((1j, 0.01), 8**0.5)])
+def test_the_region_of_stability_ends_where_it_is_known_to(rates, limit):
+    """What grows by itself, 0.01, sets no limit."""
+    assert largest_step(np.array(rates)) == pytest.approx(limit, rel=1e-3)
 
 
 @pytest.mark.parametrize("first", [0.3, 1.0, 7.0])
-def test_bisection_finds_a_limit_from_either_side(first):
-    found = bisected(lambda dt: dt > 1.2345, first)
-    assert abs(found.value - 1.2345) <= found.half < 0.006*found.value
+def test_bisection_finds_a_limit_from_either_side_and_says_so_when_there_is_none(first):
+    limit = bisected(lambda dt: dt > 1.2345, first)
+    assert abs(limit.value - 1.2345) <= limit.half < 0.006*limit.value
+    assert all(np.isnan(bisected(lambda dt, bad=bad: bad, first).value) for bad in (True, False))
 
 
-def test_bisection_says_so_when_there_is_no_limit():
-    assert np.isnan(bisected(lambda dt: False, 1.0).value) and np.isnan(bisected(lambda dt: True, 1.0).value)
-
-
-@pytest.mark.parametrize("method, scene, eta, k", [("spam Lucy", "balanced", 0.3, 0.3), ("fixed lattice", "sound", 0.0, 0.0)])
-def test_trial_eigenvalues_and_formula_agree(method, scene, eta, k):
-    [row] = Limit(method=method, scene=scene, eta=eta, k=k).run(lambda done: None, None).rows["limits"]
+@pytest.mark.parametrize("method, eta", [("spam Lucy", 0.3), ("fixed lattice", 0.0)])
+def test_trial_eigenvalues_and_formula_agree(method, eta):
+    trial, variant = AT_REST[method]
+    case = Limit(method=method, trial=trial, variant=variant, scene="any", eta=eta, k=eta)
+    [row] = case.run(lambda done: None, None).rows["limits"]
     assert abs(row["measured"] - row["exact"]) < row["measured_err"] + 0.01*row["exact"]
-    assert 0.95 < row["measured"]/row["predicted"] < 1.1      # ten points lack the very wave that limits most: 1 % here
+    assert 0.95 < row["measured"]/row["predicted"] < 1.1      # ten points lack the wave that limits most: 1 %
 
 
 def test_the_grid_takes_the_step_of_its_formula_without_viscosity():
-    grid = METHODS["grid"](ConstEta(0.0, 0.0))
+    make, continuity = AT_REST["grid"]
+    grid = make(continuity, ConstEta(0.0, 0.0))
     assert not grid.grows(0.98*grid.predicted) and grid.grows(1.2*grid.predicted)
-
-
-def test_claims_fail_where_limits_are_off():
-    row = {"scene": "zero viscosity", "predicted": 1.0, "shorter": 1.0, "measured_err": 0.01}
-    good, bad = (Tables(limits=pd.DataFrame([{**row, "method": method, "measured": value}
-                                             for method in ("grid", "spam Lucy")])) for value in (1.02, 0.8))
-    claims = {claim.id: claim for claim in LIMITS}
-    for name in ("limit-step-grid-shorter", "limit-step-spam", "limit-step-safe"):
-        assert judged(claims[name], good)["verdict"] == "holds" and judged(claims[name], bad)["verdict"] == "fails"

@@ -11,7 +11,7 @@ import pytest
 
 from studies.kit.case import Case, Outcome, starts, word
 from studies.kit.key import CODE
-from studies.kit.store import SEAL, CannotRun, kept
+from studies.kit.store import CannotRun, kept
 from studies.kit.study import Study
 from studies.kit.sweep import CasesFailed
 from studies.kit.table import Table, read
@@ -89,7 +89,7 @@ def bench(tmp_path):
     return Bench(tmp_path)
 
 
-# --- finished work is kept, and only that ---------------------------------------------------------------
+# --- finished work is kept, and only that ---------------------------------------------------------
 
 def test_a_finished_case_is_not_run_again_and_the_longest_starts_first(bench):
     first = bench.sweep(bench.cases(1, 3, 2, 3))
@@ -101,7 +101,7 @@ def test_a_finished_case_is_not_run_again_and_the_longest_starts_first(bench):
 
 def test_an_interrupted_study_goes_on_where_it_stopped(bench):
     cases = bench.cases(3) + bench.cases(2, trouble="interrupt") + bench.cases(1)
-    with pytest.raises(KeyboardInterrupt, match="1 of 3 cases are finished and kept, the same command goes on"):
+    with pytest.raises(KeyboardInterrupt, match="1 of 3 cases are finished and kept, the same command"):
         bench.sweep(cases)
     assert bench.ran() == ["3", "2"]
     assert list(bench.sweep(cases)["squares"].y) == [1, 4, 9]
@@ -109,41 +109,22 @@ def test_an_interrupted_study_goes_on_where_it_stopped(bench):
     assert not [path for path in (bench.folder / "raw/toy").iterdir() if path.is_dir()], "scratch folders go"
 
 
-@pytest.mark.parametrize("content", ["", "{\"rows\": ", "[]", "{\"commit\": \"a\", \"rows\": [1]}"])
-def test_a_kept_outcome_that_is_damaged_is_reported_and_run_again(bench, content, capsys):
+@pytest.mark.parametrize(("damage", "words"), [
+    (lambda text: "", "cannot be read"), (lambda text: text[:40], "cannot be read"),
+    (lambda text: "[]", "cannot be read"),
+    (lambda text: text.replace('"y": 4.0', '"y": 5.0'), "not as they were written: their hash is another"),
+    (lambda text: text.replace('"y": 4.0', '"z": 4.0'), "not as they were written: their hash is another")])
+def test_a_kept_outcome_that_is_damaged_is_reported_and_run_again(bench, damage, words, capsys):
+    """No table could tell that a column is lost: some rows have fewer columns by right."""
     case, = bench.cases(2)
     bench.sweep([case])
-    (bench.folder / f"raw/toy/{case.key}.json").write_text(content)
+    path = bench.folder/f"raw/toy/{case.key}.json"
+    path.write_text(damage(path.read_text()))
     bench.ran()
     assert list(bench.sweep([case])["squares"].y) == [4]
     assert bench.ran() == ["2"]
-    assert capsys.readouterr().err.count("is run again") == 1
-
-
-@pytest.mark.parametrize("damage", [lambda row: row.pop("y"), lambda row: row.update(y=5.0), lambda row: row.update(z=1.0)])
-def test_a_kept_row_that_is_not_as_its_case_wrote_it_is_run_again(bench, damage, capsys):
-    """A column lost, a number changed, one too many: no table could tell, some rows have fewer columns by right."""
-    case, = bench.cases(2)
-    bench.sweep([case])
-    path = bench.folder / f"raw/toy/{case.key}.json"
-    content = json.loads(path.read_text())
-    damage(content["rows"]["squares"][0])
-    path.write_text(json.dumps(content))
-    bench.ran()
-    assert list(bench.sweep([case])["squares"].y) == [4]
-    assert bench.ran() == ["2"]
-    assert capsys.readouterr().err.count("not as they were written: their hash is another one): Square 2") == 1
-
-
-def test_a_case_kept_before_there_were_seals_is_taken_as_it_is(bench):
-    case, = bench.cases(2)
-    bench.sweep([case])
-    path = bench.folder / f"raw/toy/{case.key}.json"
-    content = json.loads(path.read_text())
-    del content[SEAL]
-    path.write_text(json.dumps(content))
-    bench.ran()
-    assert list(bench.sweep([case])["squares"].y) == [4] and not bench.ran()
+    text = capsys.readouterr().err
+    assert words in text and text.count("Square 2") == text.count("is run again") == 1
 
 
 def test_a_case_that_raises_leaves_the_others_and_tells_where_the_story_is(bench):
@@ -162,11 +143,6 @@ def test_a_full_disk_stops_the_study_and_keeps_what_is_finished(bench):
     assert bench.ran() == ["3", "2"]
 
 
-def test_unknown_size_names_the_three(bench):
-    with pytest.raises(ValueError, match="'huge': choose one of quick, paper, fine"):
-        bench.sweep([], size="huge")
-
-
 def test_what_is_kept_can_be_read_by_people(bench):
     case, = bench.cases(2)
     bench.sweep([case])
@@ -180,11 +156,12 @@ def test_what_is_kept_can_be_read_by_people(bench):
 def test_a_label_has_the_parameters_as_people_write_them():
     assert Square(x=0.1, log="b").label == "Square 0.1 b Lens(power=2) "
     assert word(Mixed()) == "Mixed()"
-    assert word(Mixed(of=unrelated, lens=Lens(3.0), kind=Lens)) == "Mixed(of=unrelated, lens=Lens(power=3), kind=Lens)"
+    other = Mixed(of=unrelated, lens=Lens(3.0), kind=Lens)
+    assert word(other) == "Mixed(of=unrelated, lens=Lens(power=3), kind=Lens)"
     assert word((1, 2)) == "(1, 2)" and word(1e5) == "100000"
 
 
-# --- what a result depends on ---------------------------------------------------------------------------
+# --- what a result depends on ---------------------------------------------------------------------
 
 def test_the_key_of_a_case_is_that_of_its_parameters():
     base = Square(x=0.1)

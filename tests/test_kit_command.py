@@ -1,15 +1,12 @@
-"""A study as it is typed: workers, Ctrl-C, a worker that dies, code that changed, words that are wrong."""
+"""A study as it is typed: workers, Ctrl-C, words that are wrong."""
 import errno
 import os
-import shutil
 import signal
-import subprocess
-import sys
 import time
 from dataclasses import dataclass
-from pathlib import Path
 
 import pytest
+from toy import Toy, finish, until
 
 from studies.kit import dispatch, key, store, study, sweep
 from studies.kit.case import Case, Outcome
@@ -35,12 +32,9 @@ class Run(Case):
     def run(self, report, folder):
         deaf = signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, [])
         with open("log", "a") as log:
-            log.write(f"{self.x:g} {os.environ['OMP_NUM_THREADS']}{' deaf'*deaf}\\n")
-        if self.x == 2 and not os.path.exists("go"):
-            open("waiting", "w").close()
-            time.sleep(60)
-        if self.x == 3 and os.path.exists("die"):
-            os._exit(9)
+            log.write(f"{self.x:g} {os.environ['OMP_NUM_THREADS']} {'deaf'*deaf}\\n")
+        while self.x == 2 and not os.path.exists("go"):
+            time.sleep(0.05)
         return Outcome({"cubes": [{"x": self.x, "y": law.power(self.x)}]})
 
 class Timed(Run):
@@ -60,35 +54,6 @@ if __name__ == "__main__":
 '''
 
 
-class Toy:
-    """A repository with one study: case 2 waits until told to go, 3 dies if told to, 4 runs alone."""
-
-    def __init__(self, folder: Path):
-        self.folder = folder
-        shutil.copytree(key.ROOT / "studies/kit", folder / "studies/kit",
-                        ignore=shutil.ignore_patterns("__pycache__"))
-        for name, text in {"studies/__init__": "", "studies/toy": TOY, "continuum/__init__": "",
-                           "continuum/law": "def power(x):\n    return x**3\n"}.items():
-            (folder / name).parent.mkdir(exist_ok=True)
-            (folder / f"{name}.py").write_text(text)
-
-    def start(self, *words):
-        return subprocess.Popen([sys.executable, "-m", "studies.toy", *words], cwd=self.folder, text=True,
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
-                                env={**os.environ, "OMP_NUM_THREADS": "2"})
-
-    def run(self, *words):
-        process = self.start(*words)
-        text = process.communicate(timeout=60)[0]
-        return process.returncode, text
-
-    def ran(self):
-        """Cases that ran since last asked, and how their workers were set up."""
-        lines = (self.folder / "log").read_text().splitlines() if (self.folder / "log").exists() else []
-        (self.folder / "log").unlink(missing_ok=True)
-        return [line.split()[0] for line in lines], {line.split(" ", 1)[1] for line in lines}
-
-
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 def test_an_interrupt_that_python_drops_stops_the_study_all_the_same():
     """Exceptions in destructors are printed and forgotten."""
@@ -106,53 +71,38 @@ def test_an_interrupt_that_python_drops_stops_the_study_all_the_same():
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
-def test_a_study_from_the_command_line(tmp_path):
-    toy = Toy(tmp_path)
-
-    process = toy.start()
-    for _ in range(600):
-        if (tmp_path / "waiting").exists() and len(list((tmp_path / "results/raw/toy").glob("*.json"))) == 3:
-            break
-        time.sleep(0.1)
-    os.killpg(process.pid, signal.SIGINT)    # as Ctrl-C does: to the study and to its workers
-    text = process.communicate(timeout=30)[0]
-    assert process.returncode == 130
-    assert "3 of 5 cases are finished and kept, the same command goes on from there" in text
+def test_an_interrupted_study_goes_on_with_the_same_command(tmp_path):
+    toy = Toy(tmp_path, TOY, law="def power(x):\n    return x**3\n")
+    running = toy.start(OMP_NUM_THREADS="2")
+    until(lambda: len(toy.log()) == 4 and toy.kept() == 3, running)
+    os.killpg(running.pid, signal.SIGINT)       # as Ctrl-C does: to the study and to its workers
+    code, text = finish(running)
+    assert code == 130 and "3 of 5 cases are finished and kept, the same command goes on from there" in text
     assert "Traceback" not in text and "KeyboardInterrupt" not in text
-    ran, workers = toy.ran()
+    ran, threads, deaf = zip(*toy.log())
     assert sorted(ran) == ["0", "1", "2", "3"], "4 times itself: it waits for the others"
-    assert workers == {"1 deaf"}, "one thread each, and Ctrl-C is left to the study"
+    assert {*threads} == {"1"} and {*deaf} == {"deaf"}, "one thread each, and Ctrl-C is left to the study"
 
-    (tmp_path / "go").touch()
+    (tmp_path/"go").touch()
+    (tmp_path/"log").unlink()
     code, text = toy.run()
-    assert code == 0 and toy.ran()[0] == ["2", "4"]
+    assert code == 0 and [x for x, *_ in toy.log()] == ["2", "4"]
     assert "holds" in text and "measured 64 +- 0" in text
-    assert list(read(tmp_path / "results/toy/cubes.csv").y) == [0, 1, 8, 27, 64]
-    assert (tmp_path / "results/toy/cubes.png").exists()
-    assert list(read(tmp_path / "results/claims.csv").verdict) == ["holds"]
-
-    (tmp_path / "continuum/law.py").write_text("def power(x):\n    return 2*x**3\n")
-    (tmp_path / "die").touch()
-    code, text = toy.run()
-    ran = toy.ran()[0]
-    assert code == 1 and ran.count("3") == 1 and ran[-1] == "4"
-    assert "Run 3: its worker process died" in text
-    (tmp_path / "die").unlink()
-    code, text = toy.run()
-    assert code == 0 and "3" in toy.ran()[0]
-    assert list(read(tmp_path / "results/toy/cubes.csv").y) == [0, 2, 16, 54, 128], "other code"
+    assert list(read(tmp_path/"results/toy/cubes.csv").y) == [0, 1, 8, 27, 64]
+    assert (tmp_path/"results/toy/cubes.png").exists()
+    assert list(read(tmp_path/"results/claims.csv").verdict) == ["holds"]
 
 
-@pytest.mark.parametrize(("words", "rule"), [(["--size", "huge"], "choose one of quick, paper, fine"),
-                                             (["--workers", "0"], "at least 1, got 0"),
-                                             (["bake"], "invalid choice: 'bake'")])
+@pytest.mark.parametrize(("words", "rule"), [
+    (["--size", "huge"], "choose one of quick, paper, fine"), (["--workers", "0"], "at least 1, got 0"),
+    (["bake"], "invalid choice: 'bake'")])
 def test_what_is_not_understood_is_said_before_anything_runs(words, rule, capsys):
     with pytest.raises(SystemExit, match="2"):
         main(Study(name="toy", cases=lambda size: pytest.fail("ran"), tables=[]), words)
     assert rule in capsys.readouterr().err
 
 
-# --- in this process ------------------------------------------------------------------------------------
+# --- in this process ------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -167,7 +117,8 @@ class Cube(Case):
 def derive(tables):
     """Each row halved, and the sum of all."""
     frame = tables["cubes"]
-    return {"halves": [{"x": row.x, "half": row.y/2} for row in frame.itertuples()] + [{"x": -1, "half": frame.y.sum()}]}
+    halves = [{"x": row.x, "half": row.y/2} for row in frame.itertuples()]
+    return {"halves": [*halves, {"x": -1, "half": frame.y.sum()}]}
 
 
 def drawn(tables):
@@ -178,17 +129,17 @@ def drawn(tables):
 
 CUBES = Study(name="toy", cases=lambda size: [Cube(x=1.0), Cube(x=1/3), Cube(x=7.0, name="Quartic")],
               derive=derive, figures=drawn,
-              tables=[Table("cubes", key=["x"], columns=["x", "y"]), Table("halves", key=["x"], columns=["x", "half"]),
-                      Table("never", key=["x"], columns=["x"])],
-              claims=[Claim(id="grows", source="KHP95, Sec. V", statement="cubes grow", at_least=1, because="1 is in the table",
-                            value=lambda tables: (tables["cubes"].y.max(), 0.0))])
+              tables=[Table("cubes", key=["x"], columns=["x", "y"]),
+                      Table("halves", key=["x"], columns=["x", "half"]), Table("never", key=["x"], columns=["x"])],
+              claims=[Claim(id="grows", source="KHP95, Sec. V", statement="cubes grow", at_least=1,
+                            because="1 is there", value=lambda tables: (tables["cubes"].y.max(), 0.0))])
 
 
 @pytest.fixture
 def typed(tmp_path, monkeypatch, capsys):
     """What a command does: exit status and all that it prints; its results are in tmp_path/results."""
     monkeypatch.delenv("SIZE", raising=False)
-    monkeypatch.setattr(store, "RESULTS", tmp_path / "results")
+    monkeypatch.setattr(store, "RESULTS", tmp_path/"results")
     monkeypatch.chdir(tmp_path)
 
     def type_(*words):
@@ -205,58 +156,61 @@ def sizes(path):
 
 
 def test_only_runs_what_has_the_text_in_its_label_and_leaves_other_rows_as_they_were(typed, tmp_path):
-    toy = tmp_path / "results/toy"
+    toy = tmp_path/"results/toy"
     code, text = typed("--size", "fine", "--only", "quartic")
-    assert code == 0 and list(read(toy / "cubes.csv").x) == [7], "Quartic, whatever the capitals"
-    assert "python -m studies.toy --size fine --only quartic" in (toy / "cubes.csv").read_text()
-    assert (toy / "cubes.png").exists() and "holds" in text
+    assert code == 0 and list(read(toy/"cubes.csv").x) == [7], "Quartic, whatever the capitals"
+    assert "python -m studies.toy --size fine --only quartic" in (toy/"cubes.csv").read_text()
+    assert (toy/"cubes.png").exists() and "holds" in text
 
-    (toy / "cubes.csv").unlink(), (toy / "halves.csv").unlink()
+    (toy/"cubes.csv").unlink(), (toy/"halves.csv").unlink()
     assert typed("--only", "plain")[0] == 0
-    assert sizes(toy / "cubes.csv") == {1: "paper", 0.33: "paper"}
-    before = read(toy / "halves.csv")
+    assert sizes(toy/"cubes.csv") == {1: "paper", 0.33: "paper"}
+    before = read(toy/"halves.csv")
     assert typed("--size", "fine", "--only", "quartic")[0] == 0
-    assert sizes(toy / "cubes.csv") == {1: "paper", 0.33: "paper", 7: "fine"}
+    assert sizes(toy/"cubes.csv") == {1: "paper", 0.33: "paper", 7: "fine"}
     # the sum has changed and 7 is new: what follows from rows that did not run is not called fine
-    assert sizes(toy / "halves.csv") == {-1: "fine", 0.33: "paper", 1: "paper", 7: "fine"}
-    assert list(read(toy / "halves.csv").half.round(6)) == [344.037037, 0.018519, 0.5, 171.5] and len(before) == 3
+    assert sizes(toy/"halves.csv") == {-1: "fine", 0.33: "paper", 1: "paper", 7: "fine"}
+    assert list(read(toy/"halves.csv").half.round(6)) == [344.037037, 0.018519, 0.5, 171.5]
+    assert len(before) == 3
     assert typed("--size", "fine")[0] == 0
-    assert set(sizes(toy / "halves.csv").values()) == {"fine"}
+    assert set(sizes(toy/"halves.csv").values()) == {"fine"}
 
 
 def test_only_that_matches_nothing_names_labels_that_exist(typed, tmp_path):
     code, text = typed("--only", "quintic")
-    assert code == 2 and not (tmp_path / "results/toy").exists()
-    assert text == ("toy: no case of size paper has 'quintic' in its label; some of its 3 labels are: Cube 1 plain; "
-                    "Cube 0.333333 plain; Cube 7 Quartic\n")
+    assert code == 2 and not (tmp_path/"results/toy").exists()
+    assert text == ("toy: no case of size paper has 'quintic' in its label; some of its 3 labels are: "
+                    "Cube 1 plain; Cube 0.333333 plain; Cube 7 Quartic\n")
     code, text = typed("figures", "--only", "plain")
     assert code == 2 and "--only chooses what to run, figures reads whole tables" in text
 
 
 def test_quick_leaves_the_tables_of_other_sizes_alone(typed, tmp_path):
     typed("--size", "paper")
-    before = {path: path.read_bytes() for path in (tmp_path / "results").rglob("*") if path.is_file()}
+    before = {path: path.read_bytes() for path in (tmp_path/"results").rglob("*") if path.is_file()}
     code, text = typed("--size", "quick")
-    assert code == 0 and text.endswith("size quick: all of it is in results/quick, what is in results stays as it is\n")
+    assert code == 0
+    assert text.endswith("size quick: all of it is in results/quick, what is in results stays as it is\n")
     for command in ("figures", "claims"):
         assert typed(command, "--size", "quick")[0] == 0
-    quick = tmp_path / "results/quick"
+    quick = tmp_path/"results/quick"
     assert {path: path.read_bytes() for path in before} == before
-    assert {path.name for path in (quick / "toy").iterdir()} == {"cubes.csv", "halves.csv", "cubes.png"}
-    assert (quick / "claims.csv").exists() and len(list((quick / "raw/toy").glob("*.json"))) == 3
+    assert {path.name for path in (quick/"toy").iterdir()} == {"cubes.csv", "halves.csv", "cubes.png"}
+    assert (quick/"claims.csv").exists() and len(list((quick/"raw/toy").glob("*.json"))) == 3
     assert CUBES.run("quick", workers=1, only="quartic").keys() == {"cubes", "halves"}
-    assert sizes(quick / "toy/cubes.csv")[7] == "quick"
+    assert sizes(quick/"toy/cubes.csv")[7] == "quick"
     assert {path: path.read_bytes() for path in before} == before
 
 
 def test_the_repository_ignores_what_quick_writes():
     path = study.results("quick").relative_to(key.ROOT)
-    assert f"{path}/" in (key.ROOT / ".gitignore").read_text().splitlines()
+    assert f"{path}/" in (key.ROOT/".gitignore").read_text().splitlines()
     assert study.results("paper") == study.results("fine") == sweep.RESULTS
 
 
 @pytest.mark.parametrize(("words", "way"), [
-    ([], "results/toy: run make study-toy first"), (["--size", "fine"], "results/toy: run make study-toy first"),
+    ([], "results/toy: run make study-toy first"),
+    (["--size", "fine"], "results/toy: run make study-toy first"),
     (["--size", "quick"], "results/quick/toy: run make study-toy SIZE=quick first"),
     (["--out", "here"], "here/toy: run python -m studies.toy --size paper --out here first")])
 @pytest.mark.parametrize("command", ["figures", "claims"])
@@ -273,12 +227,12 @@ def test_only_tables_that_exist_are_listed(typed):
 
 
 def test_an_out_that_is_no_folder_is_one_line(typed, tmp_path):
-    (tmp_path / "file").touch()
+    (tmp_path/"file").touch()
     for command in ("run", "figures"):
         code, text = typed(command, "--out", "file")
         assert code == 2 and text.splitlines()[-1].endswith("error: --out file is a file: give a folder")
     code, text = typed("--out", "file/below")
-    assert code == 2 and "--out file/below cannot be made (Not a directory): give another folder" in text.splitlines()[-1]
+    assert code == 2 and "--out file/below cannot be made (Not a directory): give another folder" in text
 
 
 @pytest.mark.parametrize(("number", "words"), [

@@ -1,6 +1,5 @@
 """Worker processes: one that dies takes its own case along and nothing else, and none outlives the study."""
 import os
-import signal
 import subprocess
 import sys
 import time
@@ -8,14 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from toy import until
 
 from studies.kit import key
 from studies.kit.case import Case, Outcome
-from studies.kit.dispatch import Bar, dispatch
+from studies.kit.dispatch import dispatch
 from studies.kit.processes import Processes
 from studies.kit.store import CannotRun, kept
-
-LIMIT = 60      # seconds after which something hangs: each test takes five on an idle machine
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,8 +25,8 @@ class Step(Case):
     dies: bool = False
 
     def run(self, report, folder):
-        (Path(self.folder) / f"pid-{self.x:g}").write_text(str(os.getpid()))
-        while self.waits and not (Path(self.folder) / self.waits).exists():
+        (Path(self.folder)/f"pid-{self.x:g}").write_text(str(os.getpid()))
+        while self.waits and not (Path(self.folder)/self.waits).exists():
             time.sleep(0.02)
         if self.dies:
             os._exit(9)
@@ -36,7 +34,7 @@ class Step(Case):
 
 
 def pid(folder, x):
-    path = folder / f"pid-{x}"
+    path = folder/f"pid-{x}"
     return int(path.read_text()) if path.exists() and path.read_text() else 0
 
 
@@ -45,64 +43,44 @@ def alive(pid):
     return state.exists() and state.read_text().rpartition(")")[2].split()[0] != "Z"
 
 
-def until(true):
-    end = time.monotonic() + LIMIT
-    while not true():
-        assert time.monotonic() < end, f"waited {LIMIT} s in vain"
-        time.sleep(0.02)
+def run(cases, folder, workers):
+    return dispatch(cases, folder, "toy", lambda bar: Processes(workers, folder, bar))
 
 
 def test_a_worker_that_dies_takes_along_no_case_of_another(tmp_path):
     """The second waits for the first to be dead and the third, which a new worker runs, to be done."""
-    cases = [Step(x=1.0, folder=str(tmp_path), dies=True), Step(x=2.0, folder=str(tmp_path), waits="pid-3"),
-             Step(x=3.0, folder=str(tmp_path))]
-    failures = dispatch(cases, tmp_path / "raw", "toy", lambda bar: Processes(2, tmp_path / "raw", bar))
-    assert [failure.label for failure in failures] == [cases[0].label]
-    assert "its worker process died, perhaps for want of memory" in failures[0].message
-    assert [kept(case, tmp_path / "raw") is None for case in cases] == [True, False, False]
+    first, *others = cases = [Step(x=1.0, folder=str(tmp_path), dies=True), Step(x=3.0, folder=str(tmp_path)),
+                              Step(x=2.0, folder=str(tmp_path), waits="pid-3")]
+    failure, = run([first, others[1], others[0]], tmp_path/"raw", 2)
+    assert failure.label == first.label
+    assert "its worker process died, perhaps for want of memory" in failure.message
+    assert [kept(case, tmp_path/"raw") is None for case in cases] == [True, False, False]
     assert not any(alive(pid(tmp_path, x)) for x in (1, 2, 3))
 
 
-def test_a_worker_that_dies_without_a_case_is_replaced(tmp_path):
-    cases = [Step(x=1.0, folder=str(tmp_path)), Step(x=2.0, folder=str(tmp_path))]
-    bar = Bar(cases, "toy")
-    transport = Processes(1, tmp_path / "raw", bar)
-    for number, case in enumerate(cases):
-        transport.submit(number, case)
-        ended = []
-        until(lambda ended=ended: ended.extend(transport.ready()) or ended)
-        assert ended[0][0] == number and '"x": ' in ended[0][1]
-        os.kill(pid(tmp_path, number + 1), signal.SIGKILL)
-        until(lambda: not list(transport.ready()) and not transport.workers)
-    transport.close()
-    assert pid(tmp_path, 1) != pid(tmp_path, 2)
-
-
 def test_workers_that_end_before_they_begin_a_case_are_told(tmp_path, monkeypatch):
-    monkeypatch.setattr(sys, "path", [path for path in sys.path if Path(path).name != "tests"])      # a worker finds no `Step`
+    elsewhere = [path for path in sys.path if Path(path).name != "tests"]       # no `Step` there
+    monkeypatch.setattr(sys, "path", elsewhere)
     with pytest.raises(CannotRun, match="worker processes end before they run a case: --workers 1 shows why"):
-        dispatch([Step(x=1.0, folder=str(tmp_path))], tmp_path, "toy", lambda bar: Processes(1, tmp_path, bar))
+        run([Step(x=1.0, folder=str(tmp_path))], tmp_path, 1)
 
 
 def test_a_study_that_is_killed_leaves_no_workers_and_keeps_what_is_finished(tmp_path):
-    script = tmp_path / "study.py"
+    script = tmp_path/"study.py"
     script.write_text(f"""
 import sys
 from pathlib import Path
-sys.path[:0] = [{str(key.ROOT / "tests")!r}, {str(key.ROOT)!r}]
-from studies.kit.dispatch import dispatch
-from studies.kit.processes import Processes
-from test_kit_processes import Step
+sys.path[:0] = [{str(key.ROOT/"tests")!r}, {str(key.ROOT)!r}]
+from test_kit_processes import Step, run
 
 folder = Path({str(tmp_path)!r})
 if __name__ == "__main__":
-    cases = [Step(x=1.0, folder=str(folder)), Step(x=2.0, folder=str(folder), waits="never")]
-    dispatch(cases, folder, "toy", lambda bar: Processes(2, folder, bar))
+    run([Step(x=1.0, folder=str(folder)), Step(x=2.0, folder=str(folder), waits="never")], folder, 1)
 """)
     study = subprocess.Popen([sys.executable, script])
-    until(lambda: pid(tmp_path, 1) and pid(tmp_path, 2) and list(tmp_path.glob("*.json")))
-    assert alive(pid(tmp_path, 1)) and alive(pid(tmp_path, 2))
+    until(lambda: pid(tmp_path, 2), study)
+    assert alive(pid(tmp_path, 2))
     study.kill()
     study.wait()
-    until(lambda: not alive(pid(tmp_path, 1)) and not alive(pid(tmp_path, 2)))
+    until(lambda: not alive(pid(tmp_path, 2)))
     assert len(list(tmp_path.glob("*.json"))) == 1

@@ -7,7 +7,7 @@ from plain_plates import PlainPlates
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
 from continuum.scene import RayleighBenard
-from particles.integral.dih import Mixed, Nested, Pairwise
+from particles.integral.dih import Mixed, NestedFluxes, Pairwise
 from particles.integral.edge_makers import exact, renormalised
 from particles.integral.edges import between_plates
 from particles.integral.exchange import PRINTED
@@ -55,7 +55,7 @@ MADE = [(renormalised, 0.0, 2.0), (exact, 0.2, 2.8), (delaunay, 0.2, 2.0)]
 
 
 TRANSPORT = {"pairwise": (MENDED, Pairwise()), "unmended": (PRINTED, Pairwise(mended=False)),
-             "nested": (mixed(0.0), Nested()), "mixed": (mixed(0.3), Mixed(share=0.3))}
+             "nested": (mixed(0.0), NestedFluxes()), "mixed": (mixed(0.3), Mixed(share=0.3))}
 
 
 @pytest.mark.parametrize(("transport", "law", "eos"), [

@@ -5,7 +5,8 @@ from crowd import advance, everywhere, lattice, prepare
 
 from continuum.fluid import ConstEta, IdealGas, PowerLaw, VanDerWaals, energy, pressure, sound_speed
 from particles.limits import largest_step, lattice_sums, step_limit, waves, zone
-from particles.smooth.spam import Direct, LessStatic, Nested, Spam
+from particles.smooth.spam import LessStatic, Spam
+from particles.smooth.sums import Direct, Nested
 from particles.weights import Lucy, Monaghan, WendlandC2
 
 BOX, SIDE = (8.0, 8.0), 8

@@ -2,27 +2,27 @@
 import numpy as np
 import pytest
 
-from continuum.linear.layer import Plates, critical, critical_ra, growth_rate
+from continuum.linear.layer import PlateKind, critical, critical_ra, growth_rate
 
 ROUND_OFF = 1e-11       # eigenvalues of forms whose condition is about 1e4
 
 
 def test_onset_of_the_infinite_layer_to_all_printed_figures():
-    assert round(critical(Plates.RIGID).ra, 3) == 1707.762
-    assert round(critical(Plates.RIGID).k, 3) == 3.116 and round(critical(Plates.FREE).k, 3) == 2.221
-    assert round(critical(Plates.FREE).ra, 3) == 657.511
-    assert round(critical(Plates.RIGID_FREE).ra, 2) == 1100.65
+    assert round(critical(PlateKind.RIGID).ra, 3) == 1707.762
+    assert round(critical(PlateKind.RIGID).k, 3) == 3.116 and round(critical(PlateKind.FREE).k, 3) == 2.221
+    assert round(critical(PlateKind.FREE).ra, 3) == 657.511
+    assert round(critical(PlateKind.RIGID_FREE).ra, 2) == 1100.65
 
 
 def test_free_plates_are_exact():
-    assert critical(Plates.FREE).ra == pytest.approx(27*np.pi**4/4, rel=ROUND_OFF)
+    assert critical(PlateKind.FREE).ra == pytest.approx(27*np.pi**4/4, rel=ROUND_OFF)
     # the wavenumber of a minimum is known to the root of round-off only
-    assert critical(Plates.FREE).k == pytest.approx(np.pi/np.sqrt(2), rel=1e-7)
+    assert critical(PlateKind.FREE).k == pytest.approx(np.pi/np.sqrt(2), rel=1e-7)
     for k in (0.5, 2.0, 6.0):
-        assert critical_ra(k, Plates.FREE) == pytest.approx((np.pi**2 + k**2)**3/k**2, rel=ROUND_OFF)
+        assert critical_ra(k, PlateKind.FREE) == pytest.approx((np.pi**2 + k**2)**3/k**2, rel=ROUND_OFF)
 
 
-@pytest.mark.parametrize("plates", Plates)
+@pytest.mark.parametrize("plates", PlateKind)
 @pytest.mark.parametrize("k", [1.0, 3.117, 7.0])
 def test_critical_ra_converges_with_the_degree(plates, k):
     coarse, fine, finest = (critical_ra(k, plates, degree) for degree in (6, 20, 28))
@@ -37,10 +37,10 @@ def test_free_plates_grow_as_the_exact_dispersion_relation_says(ra, pr):
     k, nu, kappa = 2.0, np.sqrt(pr/ra), 1/np.sqrt(pr*ra)
     a2 = np.pi**2 + k**2
     exact = max(np.roots([1, (nu + kappa)*a2, nu*kappa*a2**2 - k**2/a2]))
-    assert growth_rate(ra=ra, pr=pr, k=k, plates=Plates.FREE) == pytest.approx(exact, abs=ROUND_OFF)
+    assert growth_rate(ra=ra, pr=pr, k=k, plates=PlateKind.FREE) == pytest.approx(exact, abs=ROUND_OFF)
 
 
-@pytest.mark.parametrize("plates", Plates)
+@pytest.mark.parametrize("plates", PlateKind)
 @pytest.mark.parametrize("pr", [0.01, 0.71, 1.0, 100.0])
 def test_nothing_grows_or_decays_at_the_critical_ra_whatever_pr(plates, pr):
     k = 2.7
@@ -59,7 +59,7 @@ def test_a_weakly_driven_layer_loses_its_slowest_mode_by_the_right_diffusivity()
 
 def test_one_rigid_and_one_free_plate_are_half_of_the_odd_mode_between_rigid_plates():
     """Chandrasekhar's odd mode has Ra = 17610.39 at k = 5.365; half the height makes 2^4 and 2 of these."""
-    onset = critical(Plates.RIGID_FREE)
+    onset = critical(PlateKind.RIGID_FREE)
     assert round(16*onset.ra, 2) == 17610.39
     assert round(2*onset.k, 3) == 5.365
 

@@ -4,16 +4,16 @@ import pytest
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.brackets import Powers
-from particles.integral.dih import Dih, Nested, Pairwise
+from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import renormalised
 from particles.integral.points import jittered, lattice
-from particles.integral.rr98_moving_plain import MOTIONS, Carried, ConstantMass, Convective, Literal
+from particles.integral.rr98_moving_plain import MOTIONS, CarriedVolumes, ConstantMass, Convective, Literal
 from particles.integrators import RK4, Euler, TwoStep
 from particles.weights import Lucy, WendlandC2
 from studies.conservation.motions import MovingSound, Pattern, by_halves, frequency, march, moving, seen
 
 COUNTS = {1: (14,), 2: (7, 8), 3: (5, 5, 5)}
-TRANSPORT = {"nested": Nested(), "pairwise": Pairwise(mended=False), "mended": Pairwise()}
+TRANSPORT = {"nested": NestedFluxes(), "pairwise": Pairwise(mended=False), "mended": Pairwise()}
 
 
 def made(kind, d=2, size=0.15, weight=WendlandC2, transport="pairwise", eta=0.2, **more):
@@ -64,7 +64,7 @@ def test_equations_46_to_48_on_equal_volumes_conserve_nothing():
 
 def test_volumes_that_go_with_the_flow_give_it_all_back_but_the_error_of_time_steps():
     """rho V is a product of two fields, each good to dt^4: half the step takes the drift down 16 times."""
-    method, at = made(Carried)
+    method, at = made(CarriedVolumes)
     state = crowd(method, at)
     ends = [after(method, state, n, 1.0/n) for n in (8, 16)]
     drift = [np.abs(method.conserved(end) - method.conserved(state)).max() for end in ends]
@@ -81,12 +81,12 @@ def test_volumes_that_go_with_the_flow_give_it_all_back_but_the_error_of_time_st
 def test_equations_46_and_47_are_equation_49(eta, d, transport):
     """m dv/dt = dp/dt - v dm/dt, term by term, at any Reynolds number."""
     found = {}
-    for kind in (Convective, Carried, ConstantMass):
+    for kind in (Convective, CarriedVolumes, ConstantMass):
         method, at = made(kind, d, transport=transport, eta=eta)
         state = crowd(method, at)
         out = rates(method, state)
         found[kind] = (out[d + 1:2*d + 1] - method.velocity(state)*out[d])/state[d]
-    for kind in (Convective, Carried):
+    for kind in (Convective, CarriedVolumes):
         size = np.abs(found[kind]).max()
         np.testing.assert_allclose(found[kind], found[ConstantMass], rtol=0, atol=1e-13*size)
 

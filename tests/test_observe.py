@@ -1,11 +1,9 @@
 """What is measured on particles, against sums written out and states with known answers."""
-from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 
 from particles.observe import (
-    Grid,
     PlateHeat,
     Profile,
     field_kinetic,
@@ -15,7 +13,6 @@ from particles.observe import (
     wall_layers,
 )
 from particles.threads import Team
-from particles.vtk import write_grid, write_particles
 from particles.weights import value_and_slope
 from studies.build.spam import VARIANTS
 from tests.scenes import small
@@ -82,22 +79,6 @@ def test_wall_layers_see_hot_and_cold(measured):
     lower, upper = wall_layers(*measured)
     assert lower[1] > 1.3 and upper[1] < 0.7
     assert lower[0] == pytest.approx(1.0, abs=0.3)
-
-
-def test_paraview_files_hold_what_was_given(measured, tmp_path):
-    sums, state = measured
-    write_particles(tmp_path/"p.vtp", state, rho=sums.around.rho[:sums.n])
-    root = ElementTree.parse(tmp_path/"p.vtp").getroot()
-    arrays = {a.get("Name"): np.array(a.text.split(), float) for a in root.iter("DataArray")}
-    assert root.get("type") == "PolyData"
-    np.testing.assert_allclose(arrays["Points"].reshape(-1, 3)[:, :2], state[:2].T, rtol=1e-8)    # 9 digits written
-    np.testing.assert_allclose(arrays["rho"], sums.around.rho[:sums.n], rtol=1e-8)
-    grid = Grid.over(sums.method.box, 4)
-    values = grid(sums, state)
-    write_grid(tmp_path/"g.vti", grid.x, grid.y, dict(zip(("rho", "vx", "vy", "e", "T"), values, strict=True)))
-    image = ElementTree.parse(tmp_path/"g.vti").getroot()
-    assert image.find("ImageData").get("WholeExtent") == "0 7 0 3 0 0"
-    assert {a.get("Name") for a in image.iter("DataArray")} == {"v", "rho", "e", "T"}
 
 
 @pytest.mark.parametrize("name", ["printed", "printed-fixed-rows", "walls-odd-own-pressure", "direct"])

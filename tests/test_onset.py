@@ -10,12 +10,12 @@ from continuum.fluid import ConstNu, VanDerWaals
 from continuum.gas import newton as compressible_newton
 from continuum.gas import solve as compressible
 from continuum.gas.fields import block, initial
-from continuum.gas.newton import Discrete, NewtonFailed
+from continuum.gas.newton import Discrete
 from continuum.linear import layer as linear
 from continuum.linear.square import critical_ra_square
 from continuum.richardson import richardson
 from continuum.scene import RayleighBenard, Walls
-from continuum.steady import Steady
+from continuum.steady import NewtonFailed, Steady
 from studies.kit.stats import Measured
 from studies.onset import tables as onset_tables
 from studies.onset.rates import boussinesq_mac, pypde_compressible

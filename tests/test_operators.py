@@ -6,7 +6,7 @@ import pytest
 
 from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import RayleighBenard
-from particles.integral.dih import Dih, Nested, Pairwise
+from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import MAKERS, delaunay, plain, printed, renormalised
 from particles.integral.interpolants import Exponential, Gaussian, W
 from particles.integral.points import jittered, lattice
@@ -155,13 +155,13 @@ def wind(edges, transport):
 
 def test_uniform_streams_stay_on_edges_that_close_alone():
     at, weight = jittered((8, 9), 0.3, 1), WendlandC2.of(h=2.7)
-    assert max(wind(delaunay(at, weight), way) for way in (Nested(), PRINTED, Pairwise())) < 1e-13
-    assert wind(plain(at, weight), Nested()) > 0.1
+    assert max(wind(delaunay(at, weight), way) for way in (NestedFluxes(), PRINTED, Pairwise())) < 1e-13
+    assert wind(plain(at, weight), NestedFluxes()) > 0.1
     one_kernel = OneKernel(make=plain, disorder=None, counts=(), h=2.7)
     assert next(one_kernel.rows(plain(at, weight)))["lost"] > 1e-4
 
 
-@pytest.mark.parametrize(("transport", "right"), [(Nested(), True), (PRINTED, False)])
+@pytest.mark.parametrize(("transport", "right"), [(NestedFluxes(), True), (PRINTED, False)])
 def test_differences_in_the_inner_sum_mend_nested_transport_on_any_points(transport, right):
     """[Eqs 37, 38]: no friction in a uniform stream, no heat at uniform temperature."""
     edges = renormalised(jittered((10, 10), 0.3, 1), WendlandC2.of(h=3.0))

@@ -4,6 +4,7 @@ from contextlib import contextmanager
 
 import pytest
 from browser import start
+from report_tables import committed
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
@@ -11,7 +12,6 @@ from selenium.webdriver.support.ui import Select, WebDriverWait
 
 from studies.kit.csvfile import read
 from studies.kit.store import RESULTS
-from studies.report.inventory import parts
 from studies.report.page import render
 from studies.report.pictures import address
 
@@ -21,7 +21,7 @@ pytestmark = pytest.mark.skipif(not (RESULTS/"claims.csv").exists(), reason="no 
 @pytest.fixture(scope="module")
 def page(tmp_path_factory) -> str:
     """The page of the committed results; figures as they are, which is quicker than to pack them."""
-    text = render(RESULTS, parts(RESULTS), lambda path: address("image/png", path.read_bytes()))
+    text = render(RESULTS, committed(), lambda path: address("image/png", path.read_bytes()))
     path = tmp_path_factory.mktemp("page")/"index.html"
     path.write_text(text)
     return path.as_uri()

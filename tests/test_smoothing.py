@@ -4,12 +4,12 @@ import pytest
 from crowd import prepare
 from scipy.special import j0
 
-from continuum.gas.fields import Fields, Values, initial
+from continuum.gas.fields import NodeFields, Values, initial
 from continuum.scene import RayleighBenard
 from particles.observe import field_kinetic
 from particles.weights import Lucy, value_and_slope
 from studies.build import spam
-from studies.build.smoothing import Smoothing, smoothed_energy
+from studies.build.measure import Smoothing, smoothed_energy
 
 
 def test_particles_on_a_lattice_see_the_same():
@@ -34,7 +34,7 @@ def test_a_shear_wave_shrinks_by_the_transform_of_the_weight():
     base = initial(scene, 64, 0.0)
     k, rows = 2*np.pi, 12
     v = np.tile(np.sin(k*base.x), (len(base.y), 1))
-    fields = Fields(scene, base.x, base.y, Values(0*v, v, base.at.e, base.at.T, np.ones_like(v)), base.cells)
+    fields = NodeFields(scene, base.x, base.y, Values(0*v, v, base.at.e, base.at.T, np.ones_like(v)), base.cells)
     plain, smooth = smoothed_energy(fields, Smoothing(Lucy, 3.0, rows))
     r, weight = (np.arange(4000) + 0.5)/4000*3, Lucy.of(h=3.0)
     transform = sum(value_and_slope(weight, s)[0]*j0(k*s/rows)*2*np.pi*s for s in r)*3/4000

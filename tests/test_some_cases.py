@@ -25,7 +25,7 @@ def test_no_critical_number_follows_from_one_growth_rate():
     (noise, {"onset": [{"rows": 8, "below": below, "velocity": 2.0} for below in (0.5, 0.02)],
                     "sampled": [{"flow": "layer", "field": "slowest", "strength": 0.02, "exact": 2.0, "ratio": 1.0,
                                  "ratio_err": 0.1}]},
-     ("rr98-fluct-eq25-onset", "own-fluct-onset-nearest", "rr98-fluct-eq25-onset-sampled"))])
+     ("rr98-fluct-eq25-onset", "rr98-fluct-eq25-onset-sampled"))])
 def test_few_rows_decide_nothing(study, rows, names):
     tables = Tables({name: pd.DataFrame(some) for name, some in rows.items()})
     said = {row["id"]: row for row in judge([claim for claim in study.STUDY.claims if claim.id in names], tables, "toy")}

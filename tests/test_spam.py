@@ -8,7 +8,8 @@ import pytest
 from crowd import crowd, everywhere, prepare, rates
 
 from continuum.fluid import EQUATIONS_OF_STATE, ConstEta, ConstNu, DenseFluid, IdealGas, PowerLaw, VanDerWaals
-from particles.smooth.spam import Direct, LessStatic, Nested, Spam
+from particles.smooth.spam import LessStatic, Spam
+from particles.smooth.sums import Direct, Nested
 from particles.terms import ArithmeticGradients
 from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import AtWall, Copied, Odd, Own, plates, sides

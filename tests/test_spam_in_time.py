@@ -8,7 +8,8 @@ import pytest
 from crowd import advance, crowd, everywhere, lattice, prepare, rates, total_energy
 
 from continuum.fluid import ConstEta, IdealGas, energy, pressure, temperature
-from particles.smooth.spam import Direct, Nested, Spam
+from particles.smooth.spam import Spam
+from particles.smooth.sums import Direct, Nested
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, Monaghan, WendlandC2

@@ -17,11 +17,8 @@ from particles.limits import limit_of
 from particles.run import Plan, run
 from particles.threads import Team
 from particles.weights import Lucy
-from studies.noise.flows import layer_noise
-from studies.noise.modes import check_modes, plane_waves
-from studies.noise.nonlinear import Exchange, Exchanged, dirichlet
+from studies.noise.below_onset import layer_noise
 from studies.noise.partners import equilibrium, noise, transport
-from studies.noise.sampling import check_length
 
 
 def gas(share: float = 0.1, k: float = 1e-3, **more) -> Thermal:
@@ -185,26 +182,6 @@ def test_three_stages_in_time_are_those_of_the_lyapunov_solve():
     assert noises@noises.T == pytest.approx(step.Q, abs=1e-15)
 
 
-# --- modes that say nothing, batches that are too short -------------------------------------------------------------
-
-
-def test_a_list_of_null_modes_is_refused():
-    points = lattice((6, 6))
-    edges = MAKERS["renormalised"](points, Lucy.of(h=2.0))
-    Q = noise(edges.V, *(part.Q for part in transport(edges, 0.0, 0.3, 0.0, 0.4, 1.0)))
-    for turns in (((0, 0),), ((3, 3), (3, 0))):
-        names, F = plane_waves(points, edges.V, turns)
-        with pytest.raises(ValueError, match=r"all \d+ modes in the list are null modes"):
-            check_modes(F, equilibrium(edges.V, 2), Q, names)
-    names, F = plane_waves(points, edges.V, ((3, 3), (1, 0)))
-    check_modes(F, equilibrium(edges.V, 2), Q, names)
-
-
-def test_short_batches_are_refused():
-    with pytest.raises(ValueError, match=r"5 decay times .* take 20 or longer"):
-        check_length(np.diag([-0.5, -3.0, 0.0]), 10.0)
-
-
 # --- exact values ---------------------------------------------------------------------------------------------------
 
 
@@ -231,18 +208,3 @@ def test_plates_have_the_noise_of_their_friction_and_heat():
     exactly = np.block([[one, none, none, T*one], [none, T*one, none, none], [none, none, T*one, none],
                         [T*one, none, none, 2*T*T*one]])
     assert np.abs(C - exactly).max() < 1e-9
-
-
-@pytest.mark.parametrize("corrected", [True, False])
-def test_current_amplitudes_have_dirichlet_moments(corrected):
-    """d<T T>/dt = 0: J C + C J^T + <B B^T> with the second moments of Dirichlet(C/k + 1) or, without correction, (C/k)."""
-    edges, C = MAKERS["delaunay"](jittered((4, 4), 0.2, 1), None), 12.0
-    edges = replace(edges, V=np.ones(16))
-    n, alpha = 16, C + corrected
-    sums = Exchanged(Exchange(edges=edges, C=C, corrected=corrected, seed=1))
-    second = n*alpha/(n*alpha + 1)*(np.ones((n, n)) + np.eye(n)/alpha)        # <T_i T_j>, mean 1
-    assert second[0, 0] - 1 == pytest.approx(dirichlet(n, C, corrected), rel=1e-12)
-    rate = np.diag(2*edges.k/C*second[edges.i, edges.j])
-    across = sums.across.toarray()
-    left = sums.J@second + second@sums.J.T + across@rate@across.T
-    assert np.abs(left).max() < 1e-13*np.abs(sums.J).max()

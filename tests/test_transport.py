@@ -7,9 +7,9 @@ import pytest
 from scipy.special import stdtrit
 
 from continuum.exact.shear import couette, poiseuille
-from continuum.exact.waves import QUANTITIES, Gas, continuum, quantities
+from continuum.exact.waves import QUANTITIES, LinearGas, continuum, quantities
 from continuum.fluid import ConstEta, ConstNu, IdealGas
-from particles.integral.dih import Dih, Nested, Pairwise
+from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import delaunay, renormalised
 from particles.integral.points import jittered
 from particles.threads import Team
@@ -27,7 +27,7 @@ from studies.operators.transport import (
     propagators,
 )
 
-GAS = Gas(0.3, 0.2, 0.4)
+GAS = LinearGas(0.3, 0.2, 0.4)
 COUETTE, _ = DRIVES
 #: what the continuum is told by
 TOLD = ("viscosity", "bulk viscosity", "conductivity", "sound speed")
@@ -46,10 +46,10 @@ def test_continuum_of_long_waves_has_the_coefficients_put_in():
     np.testing.assert_allclose([values[name] for name in QUANTITIES], expected, rtol=1e-5)
 
 
-@pytest.mark.parametrize("transport", [Nested(), Pairwise()])
+@pytest.mark.parametrize("transport", [NestedFluxes(), Pairwise()])
 def test_waves_measured_in_time_are_those_of_the_symbol(transport):
     k = 2*np.pi/12
-    waves = lattice_waves(GAS, Lucy.of(h=2.0), np.array([k, 0.0]), nested=transport == Nested())
+    waves = lattice_waves(GAS, Lucy.of(h=2.0), np.array([k, 0.0]), nested=transport == NestedFluxes())
     symbol = quantities(waves, k)
     for name, row in decay(transport).items():
         steps = 1e-5*max(row["continuum"], 0.1)     # they leave 4e-6
@@ -59,7 +59,7 @@ def test_waves_measured_in_time_are_those_of_the_symbol(transport):
 
 def test_coefficients_on_irregular_points_are_near_the_continuum():
     """Second order: (2 pi/16)^2 times some tenths."""
-    for row in decay(Nested(), delaunay, "jittered-0.1", (16, 8)).values():
+    for row in decay(NestedFluxes(), delaunay, "jittered-0.1", (16, 8)).values():
         assert abs(row["measured"] - row["continuum"]) < 0.05*row["continuum"]
         assert 0 < row["measured_err"] < 0.02*row["continuum"]
 

@@ -11,7 +11,8 @@ from particles.integral.edges import NONE_BEYOND
 from particles.integral.layer import Layer, edge_by_edge
 from particles.integral.points import jittered, lattice
 from particles.integral.triangulation import delaunay
-from particles.smooth.spam import Direct, Spam
+from particles.smooth.spam import Spam
+from particles.smooth.sums import Direct
 from particles.threads import Team
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2

@@ -6,7 +6,8 @@ from crowd import crowd, lattice, prepare, rates
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.run import Plan, run
-from particles.smooth.spam import Direct, LessStatic, Nested, Spam
+from particles.smooth.spam import LessStatic, Spam
+from particles.smooth.sums import Direct, Nested
 from particles.walls import confine
 from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import AtWall, Copied, Odd, Own, plates, sides

@@ -93,12 +93,12 @@ class State:
 
     def __post_init__(self):
         if self.q.shape != (self.case.mac.ends[-1],):
-            raise ValueError(f"state has shape {self.q.shape}, its grid has {self.case.mac.ends[-1]} numbers: use "
-                             "state.on(case) to change grids")
+            raise ValueError(f"state has shape {self.q.shape}, its grid has {self.case.mac.ends[-1]} "
+                             "numbers: use state.on(case) to change grids")
         if not np.isfinite(self.q).all():
             bad = next(name for name, a in zip("uvT", self.parts) if not np.isfinite(a).all())
-            raise ValueError(f"{bad} is not finite at t = {self.t:.6g}: start from finite fields, with a step "
-                             "that is stable")
+            raise ValueError(f"{bad} is not finite at t = {self.t:.6g}: start from finite fields, with a "
+                             "step that is stable")
 
     @cached_property
     def parts(self) -> list[np.ndarray]:
@@ -147,9 +147,10 @@ class State:
                         wall_power=sum(h.power for h in heat))
 
     def on(self, case: Case) -> "State":
-        """The same fields on another grid or at another Ra, Pr; cubic splines, not exactly free of divergence."""
+        """The same fields on another grid or at another Ra, Pr, by cubic splines."""
         if case.box != self.case.box:
-            raise ValueError(f"state is of {self.case.box}, the case has {case.box}: resample only within one box")
+            raise ValueError(f"state is of {self.case.box}, the case has {case.box}: resample only within "
+                             "one box")
         if (case.rows, case.columns) == (self.case.rows, self.case.columns):
             return replace(self, case=case, residuals=())
         old, new = self.case.mac, case.mac
@@ -160,11 +161,13 @@ class State:
         """The periodic flow of which this one, between planes of symmetry, is half."""
         case = self.case
         if case.box.sides != SYMMETRY:
-            raise ValueError(f"sides are {case.box.sides}: only a box with SYMMETRY sides is half of a periodic one")
+            raise ValueError(f"sides are {case.box.sides}: only a box with SYMMETRY sides is half of a "
+                             "periodic one")
         u, v, T = self.parts
         still = np.zeros((1, case.rows))
-        whole = replace(case, box=replace(case.box, width=2*case.box.width, sides=PERIODIC), columns=2*case.columns)
-        parts = np.concatenate([u, still, -u[::-1], still]), np.concatenate([v, v[::-1]]), np.concatenate([T, T[::-1]])
+        whole = replace(case, box=replace(case.box, width=2*case.box.width, sides=PERIODIC),
+                        columns=2*case.columns)
+        parts = [np.concatenate(q) for q in ([u, still, -u[::-1], still], [v, v[::-1]], [T, T[::-1]])]
         return State(case=whole, q=np.concatenate([f.ravel() for f in parts]), t=self.t)
 
 
@@ -172,7 +175,7 @@ BOTTOM, TOP, LEFT, RIGHT = (1, 0), (1, -1), (0, 0), (0, -1)     # (axis, end)
 
 
 class Entering(NamedTuple):
-    """At one wall: mean gradient of T out of the box, dissipation in the half cells at it, power T_wall*flux."""
+    """At a wall: mean gradient of T out of the box, dissipation in its half cells, power T_wall*flux."""
     gradient: float
     dissipation: float
     power: float
@@ -191,7 +194,7 @@ def enters(mac: Mac, T: np.ndarray, axis: int, end: int) -> Entering:
 
 
 def resample(f: np.ndarray, old: tuple, new: tuple, mac: Mac) -> np.ndarray:
-    """f from the points old = (x, y) to new; it goes on periodically, or is zero in walls that its points leave out."""
+    """f from the points old = (x, y) to new; periodic, or zero in walls that its points leave out."""
     (x, y), width = old, mac.box.width
     if mac.periodic:
         x, f = np.r_[x[-3:] - width, x, x[:3] + width], np.concatenate([f[-3:], f, f[:3]])

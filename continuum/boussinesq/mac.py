@@ -1,12 +1,14 @@
 """Staggered (MAC) discretisation of a box of Boussinesq fluid: what bounds it, and the assembled operators.
 
-x runs along the plates over `columns` cells, y across over `rows` cells; the height is 1. T sits in cells, u on
-faces between neighbours in x, v on those between neighbours in y, the streamfunction psi on corners. Faces in a
-wall carry no unknown: their normal velocity is zero. A state is a vector q = (u, v, T), each in C order (x, y).
+x runs along the plates over `columns` cells, y across over `rows` cells; the height is 1. T sits in cells, u
+on faces between neighbours in x, v on those between neighbours in y, the streamfunction psi on corners. Faces
+in a wall carry no unknown: their normal velocity is zero. A state is a vector q = (u, v, T), each in C order
+(x, y).
 
-Diffusion is the five-point sum with mirrored values beyond a wall; advection is the centred flux form, a sum of
-products D[(A q)(B q)]. With div v = 0 in each cell advection makes neither v^2 nor T^2: the discrete flow keeps
-the energy balances of the exact one, and Nu from the plates, from <vT> and from both dissipations are equal.
+Diffusion is the five-point sum with mirrored values beyond a wall; advection is the centred flux form, a sum
+of products D[(A q)(B q)]. With div v = 0 in each cell advection makes neither v^2 nor T^2: the discrete flow
+keeps the energy balances of the exact one, and Nu from the plates, from <vT> and from both dissipations are
+equal.
 """
 from dataclasses import dataclass
 from enum import Enum
@@ -24,7 +26,7 @@ class End(Enum):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Edges:
+class BoxEdges:
     """Both ends of one axis, for flow and for heat; T on a WALL is low (or high) + ramp*position along it."""
     flow: End
     heat: End
@@ -34,23 +36,24 @@ class Edges:
 
     def __post_init__(self):
         if (self.flow is End.PERIODIC) != (self.heat is End.PERIODIC):
-            raise ValueError(f"flow is {self.flow}, heat is {self.heat}: an axis is periodic in both or in none")
+            raise ValueError(f"flow is {self.flow}, heat is {self.heat}: an axis is periodic in both or in "
+                             "none")
 
 
-PLATES = Edges(flow=End.WALL, heat=End.WALL, low=0.5, high=-0.5)
-FREE_PLATES = Edges(flow=End.MIRROR, heat=End.WALL, low=0.5, high=-0.5)
-PERIODIC = Edges(flow=End.PERIODIC, heat=End.PERIODIC)
-SYMMETRY = Edges(flow=End.MIRROR, heat=End.MIRROR)
-INSULATED = Edges(flow=End.WALL, heat=End.MIRROR)
-CONDUCTING = Edges(flow=End.WALL, heat=End.WALL, low=0.5, high=0.5, ramp=-1.0)
+PLATES = BoxEdges(flow=End.WALL, heat=End.WALL, low=0.5, high=-0.5)
+FREE_PLATES = BoxEdges(flow=End.MIRROR, heat=End.WALL, low=0.5, high=-0.5)
+PERIODIC = BoxEdges(flow=End.PERIODIC, heat=End.PERIODIC)
+SYMMETRY = BoxEdges(flow=End.MIRROR, heat=End.MIRROR)
+INSULATED = BoxEdges(flow=End.WALL, heat=End.MIRROR)
+CONDUCTING = BoxEdges(flow=End.WALL, heat=End.WALL, low=0.5, high=0.5, ramp=-1.0)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Box:
-    """Width in heights, sides (left, right), plates (bottom, top). T is +1/2 on what is hot, -1/2 on what is cold"""
+    """Width in heights, sides (left, right), plates (bottom, top). T is +-1/2 on what is hot or cold"""
     width: float = 1.0
-    sides: Edges = SYMMETRY
-    plates: Edges = PLATES
+    sides: BoxEdges = SYMMETRY
+    plates: BoxEdges = PLATES
 
     def __post_init__(self):
         if not 0 < self.width < np.inf:
@@ -66,7 +69,7 @@ LAYER = Box(width=2.0, sides=PERIODIC)
 SQUARE = Box(width=1.0, sides=INSULATED)
 CONDUCTING_SQUARE = Box(width=1.0, sides=CONDUCTING)
 CAVITY = Box(width=1.0, plates=INSULATED,           # de Vahl Davis: hot left side, cold right side
-             sides=Edges(flow=End.WALL, heat=End.WALL, low=0.5, high=-0.5))
+             sides=BoxEdges(flow=End.WALL, heat=End.WALL, low=0.5, high=-0.5))
 
 
 class Axis:
@@ -87,7 +90,7 @@ class Axis:
         self.back = self.mean.T.tocsr()
 
     def bend(self, end: End) -> sparse.csr_array:
-        """Second difference of what sits in cells; 2 T_wall - T lies beyond a WALL, T_wall counts elsewhere."""
+        """Second difference in cells; 2 T_wall - T lies beyond a WALL, T_wall counts elsewhere."""
         return self.div@self.grad - 2*sparse.diags_array(self.wall(1.0, 1.0)*(end is End.WALL))/self.h
 
     def bend_faces(self) -> sparse.csr_array:
@@ -142,7 +145,8 @@ class Mac:
     def wall_heat(self) -> np.ndarray:
         """What the temperatures of the walls add to Lap T, (columns, rows)."""
         def part(edges, across, along):
-            enters = across.wall(edges.low, edges.high)[:, None] + np.outer(across.wall(1, 1), edges.ramp*along)
+            ramp = np.outer(across.wall(1, 1), edges.ramp*along)
+            enters = across.wall(edges.low, edges.high)[:, None] + ramp
             return 2/across.h*enters*(edges.heat is End.WALL)
         x, y = self.x, self.y
         return part(self.box.sides, x, y.centre) + part(self.box.plates, y, x.centre).T
@@ -178,7 +182,8 @@ def check_grid(rows: int, columns: int) -> None:
     """Refuse a grid without a middle or with hardly an inside."""
     for name, cells in (("rows", rows), ("columns", columns)):
         if cells < 8 or cells % 2:
-            raise ValueError(f"{name} must be even and at least 8, got {cells}: the middle of the box is a face")
+            raise ValueError(f"{name} must be even and at least 8, got {cells}: the middle of the box is a "
+                             "face")
 
 
 @lru_cache(maxsize=16)

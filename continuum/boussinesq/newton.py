@@ -8,13 +8,10 @@ from scipy.sparse.linalg import eigs, splu
 
 from continuum.boussinesq.flow import Case, Equations, State
 from continuum.boussinesq.starts import roll
+from continuum.steady import NewtonFailed
 
 RELAX = 5.0     # the implicit steps that lead to Newton's are RELAX/(largest rate of change) long
 STEPS = 60      # the slowest case that got through took 46 (cavity at Ra = 1e7 on 64 rows)
-
-
-class NewtonFailed(RuntimeError):
-    """No steady state was found; the message has the residuals."""
 
 
 class Newton(Equations):
@@ -47,8 +44,8 @@ class Newton(Equations):
         The matrix is symmetric in structure and heavy on the diagonal: minimum degree on A + A^T with mild
         pivoting makes factors half as large as column ordering does.
         """
-        lu = splu((self.inertia/dt - self.jacobian(q)).tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.1,
-                  options={"SymmetricMode": True})
+        lu = splu((self.inertia/dt - self.jacobian(q)).tocsc(), permc_spec="MMD_AT_PLUS_A",
+                  diag_pivot_thresh=0.1, options={"SymmetricMode": True})
         return self.C@lu.solve(residual)
 
 
@@ -56,12 +53,14 @@ def steady(case: Case, start: State | None = None, *, within: float = 1e-9,
            progress: Callable[[float], None] | None = None) -> State:
     """The steady state that start leads to: a roll, or a state of any grid, Ra and Pr in the same box.
 
-    Implicit steps lengthen as the rates of change fall and become Newton's; they end when no value changes by more than `within`.
-    The state need not be stable. Its `residuals` are the largest rates of change before each step and at the end.
+    Implicit steps lengthen as the rates of change fall and become Newton's; they end when no value changes by
+    more than `within`. The state need not be stable. Its `residuals` are the largest rates of change before
+    each step and at the end.
     """
     if case.mac.periodic:
-        raise ValueError(f"the box is periodic ({case.box}): its steady flows may be shifted, which leaves Newton no "
-                         "unique answer; solve the half with SYMMETRY sides and unfold() it, or use transient")
+        raise ValueError(f"the box is periodic ({case.box}): its steady flows may be shifted, which leaves "
+                         "Newton no unique answer; solve the half with SYMMETRY sides and unfold() it, or "
+                         "use transient")
     newton, first = Newton(case), (start or roll(case)).on(case)
     q = newton.C@np.r_[first.psi.ravel(), first.parts[2].ravel()]   # steps in s never mend a divergence
     residual = newton.residual(q)
@@ -79,15 +78,15 @@ def steady(case: Case, start: State | None = None, *, within: float = 1e-9,
             return State(case=case, q=q, residuals=tuple(sizes))
     last = ", ".join(f"{size:.1e}" for size in sizes[-5:])
     raise NewtonFailed(f"no steady state in {len(sizes) - 1} steps at Ra = {case.ra}, Pr = {case.pr}, "
-                       f"{case.rows} rows; last rates of change {last}: start from the steady state of a smaller "
-                       "Ra, refine the grid, or see with transient whether there is one")
+                       f"{case.rows} rows; last rates of change {last}: start from the steady state of a "
+                       "smaller Ra, refine the grid, or see with transient whether there is one")
 
 
 def growth_rates(state: State, count: int = 4, near: float = 0.2) -> np.ndarray:
     """The growth rates (complex, fastest first) of disturbances of a steady state; below zero it is stable.
 
-    They are the `count` eigenvalues nearest to `near`, which should be above the fastest: nothing in free fall grows
-    faster than 1. Only disturbances with the symmetry of the box count.
+    They are the `count` eigenvalues nearest to `near`, which should be above the fastest: nothing in free
+    fall grows faster than 1. Only disturbances with the symmetry of the box count.
     """
     newton = Newton(state.case)
     slope, inertia = newton.jacobian(state.q).tocsc(), newton.inertia.tocsc()

@@ -18,9 +18,10 @@ class Unstable(RuntimeError):
 
 
 class Projection(Equations):
-    """Buoyancy and advection by two-step extrapolation, diffusion by the trapezoidal rule, pressure by projection.
+    """Buoyancy and advection extrapolated, diffusion by the trapezoidal rule, pressure by projection.
 
-    Second order in time. Everything is in increments of q and p: in a steady state nothing is left of splitting.
+    Second order in time. Everything is in increments of q and p: in a steady state nothing is left of
+    splitting.
     """
 
     def __init__(self, case: Case, q: np.ndarray):
@@ -59,8 +60,8 @@ class Projection(Equations):
         return float(np.max(x.back@u/x.h + v@y.mean/y.h))
 
 
-class Series(NamedTuple):
-    """A transient: K and plate Nusselt numbers at times t, the last state, and whether K had settled by then."""
+class Transient(NamedTuple):
+    """A transient: K and plate Nusselt numbers at times t, the last state, whether K had settled."""
     t: np.ndarray
     K: np.ndarray
     nu_bottom: np.ndarray
@@ -73,18 +74,18 @@ class Series(NamedTuple):
         """Growth rate of the velocity between two times: half the slope of ln K."""
         window = (self.t >= after) & (self.t <= before)
         if window.sum() < 3:
-            raise ValueError(f"{window.sum()} records from t = {after} to {before}: a slope needs 3, and the run "
-                             f"has t = {self.t[0]} to {self.t[-1]}")
+            raise ValueError(f"{window.sum()} records from t = {after} to {before}: a slope needs 3, and the "
+                             f"run has t = {self.t[0]} to {self.t[-1]}")
         return float(np.polyfit(self.t[window], np.log(self.K[window]), 1)[0]/2)
 
 
-def transient(case: Case, start: State, *, until: float | None = None, dt: float | None = None, cfl: float = 0.4,
-              within: float = 1e-6, block: float | None = None,
-              progress: Callable[[float], None] | None = None) -> Series:
+def transient(case: Case, start: State, *, until: float | None = None, dt: float | None = None,
+              cfl: float = 0.4, within: float = 1e-6, block: float | None = None,
+              progress: Callable[[float], None] | None = None) -> Transient:
     """Follow the flow from start until K has settled `within` (relative), or for `until` free-fall times.
 
-    K is compared over blocks of time, if not given H^2/(20 kappa) but at least 2; `until` is 20 H^2/kappa if not
-    given. Without dt, steps keep the CFL number at cfl. `within = 0` never settles.
+    K is compared over blocks of time, if not given H^2/(20 kappa) but at least 2; `until` is 20 H^2/kappa if
+    not given. Without dt, steps keep the CFL number at cfl. `within = 0` never settles.
     """
     until, block = until or 20/case.kappa, block or max(0.05/case.kappa, 2.0)
     check_times(until, block, dt, cfl)
@@ -103,7 +104,7 @@ def transient(case: Case, start: State, *, until: float | None = None, dt: float
         if progress:
             progress(min(1.0, t/until))
     times, K, bottom, top = np.array(rows).T
-    return Series(t=times, K=K, nu_bottom=bottom, nu_top=top, state=State(case=case, q=flow.q, t=t),
+    return Transient(t=times, K=K, nu_bottom=bottom, nu_top=top, state=State(case=case, q=flow.q, t=t),
                   settled=left < within, left=left)
 
 
@@ -113,7 +114,8 @@ def check_times(until: float, block: float, dt: float | None, cfl: float) -> Non
         if not 0 < value < np.inf:
             raise ValueError(f"{name} must be positive and finite, got {value}: it is in free-fall times")
     if block < RECORD*(dt or LONGEST):
-        raise ValueError(f"block is {block}, shorter than {RECORD} steps of {dt or LONGEST}: K is recorded so often")
+        raise ValueError(f"block is {block}, shorter than {RECORD} steps of {dt or LONGEST}: K is recorded "
+                         "so often")
     if not 0 < cfl <= CFL_LIMIT:
         raise ValueError(f"cfl is {cfl}, outside 0 ... {CFL_LIMIT}: advection is unstable above; take 0.4")
 
@@ -124,8 +126,8 @@ def length(flow: Projection, t: float, dt: float | None, cfl: float) -> float:
     if not np.isfinite(rate):
         raise Unstable(f"velocity is not finite at t = {t:.6g}: take a smaller {'dt' if dt else 'cfl'}")
     if dt and dt*rate > CFL_LIMIT:
-        raise Unstable(f"CFL number is {dt*rate:.2f} at t = {t:.6g} with dt = {dt}, above {CFL_LIMIT}: take dt "
-                       f"below {CFL_LIMIT/rate:.2g}, or leave it out")
+        raise Unstable(f"CFL number is {dt*rate:.2f} at t = {t:.6g} with dt = {dt}, above {CFL_LIMIT}: take "
+                       f"dt below {CFL_LIMIT/rate:.2g}, or leave it out")
     return dt or min(LONGEST, cfl/max(rate, cfl/LONGEST))
 
 
@@ -137,10 +139,10 @@ def record(flow: Projection, t: float) -> tuple[float, float, float, float]:
 
 
 def change_left(history: np.ndarray, block: float) -> float:
-    """Change of K still to come over K, from rows (t, K) of the last three blocks; fluid come to rest has none.
+    """Change of K still to come over K, from rows (t, K) of the last three blocks.
 
-    The two changes between blocks count as terms of a geometric series; while they do not shrink it is inf. Near
-    onset their ratio is nearly 1, hence a spline: records do not come at the ends of blocks.
+    The two changes between blocks count as terms of a geometric series; while they do not shrink it is inf.
+    Near onset their ratio is nearly 1, hence a spline: records do not come at the ends of blocks.
     """
     t, K = history[history[:, 0] > history[-1, 0] - 3.5*block].T
     sums = CubicSpline(t, K).antiderivative()(t[-1] - block*np.arange(3, -1, -1))

@@ -15,7 +15,7 @@ def rest(case: Case) -> State:
 
 
 def roll(case: Case, rolls: int = 1) -> State:
-    """Rolls side by side, rising at the left side, of the Lorenz model (free plates, Ra/Ra_c at least 1.1)."""
+    """Rolls, rising at the left side, of the Lorenz model (free plates, Ra/Ra_c at least 1.1)."""
     if rolls < 1 or (case.mac.periodic and rolls % 2):
         raise ValueError(f"{rolls} rolls do not fit: a box has at least 1, a periodic one an even number")
     mac, a = case.mac, rolls/case.box.width
@@ -30,7 +30,7 @@ def roll(case: Case, rolls: int = 1) -> State:
 
 
 def khp95(case: Case, K: float) -> State:
-    """Initial rolls of KHP95, Sec. VI, with linear T and kinetic energy K; they are not free of divergence."""
+    """Initial rolls of KHP95, Sec. VI, with linear T and kinetic energy K; not free of divergence."""
     if not case.mac.periodic or case.box.width != 2:
         raise ValueError(f"box is {case.box}: the two rolls of KHP95 need LAYER, periodic and of width 2")
     u, v = (np.meshgrid(np.pi*(x - 1), np.pi*(y - 0.5), indexing="ij") for x, y in case.mac.points[:2])

@@ -1,4 +1,4 @@
-"""Slow flow past a square array of cylinders: published drags, and the series of a dilute array    [Sangani & Acrivos 1982]
+"""Slow flow past a square array of cylinders: published drags, and a series    [Sangani & Acrivos 1982]
 
 Drags are forces on a unit length over viscosity and mean velocity, F/(mu U); c is the solid fraction.
 """

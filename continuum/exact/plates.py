@@ -1,7 +1,7 @@
-"""Flows between plates that depend on the height only, solved to many digits: 1D collocation at Chebyshev points.
+"""Flows between plates that depend on the height only: 1D collocation at Chebyshev points.
 
-    rho' = -(rho v)_s        v' = -v v_s + (eta v_s - P)_s/rho        u' = -v u_s + eta u_ss/rho
-    T' = -v T_s + (-P v_s + eta (v_s^2 + u_s^2) + k T_ss)/rho          P = rho T, C_V = 1, 2D without bulk viscosity
+    rho' = -(rho v)_s        v' = -v v_s + (eta v_s - P)_s/rho        u' = -v u_s + eta u_ss/rho T' = -v T_s +
+    (-P v_s + eta (v_s^2 + u_s^2) + k T_ss)/rho          P = rho T, C_V = 1, 2D without bulk viscosity
 
 over the height s from 0 to 1, all lengths in heights; v = 0, T = 1, u = 0 and U at the plates.
 """
@@ -12,14 +12,15 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from scipy.integrate import quad, solve_ivp
 
-MU = 0.02           # eta = k, in heights: sound crosses many times while heat does once, and layers are many spacings wide
+# eta = k, in heights: sound crosses many times while heat does once, and layers are many spacings wide
+MU = 0.02
 WAVE = 3            # half waves of what decays
 DEGREE, COARSER = 40, 32
 NEAR = 1e-10        # of the steps in time
 
 
-class Flow(NamedTuple):
-    """Temperature 1 + `heat` sin(3 pi s) at uniform pressure, velocity U (s + sin(3 pi s)/2), for so long in heights^2/MU."""
+class PlateFlow(NamedTuple):
+    """Temperature 1 + `heat` sin(3 pi s) at uniform pressure, velocity U (s + sin(3 pi s)/2)."""
     name: str
     heat: float = 0.0
     U: float = 0.0
@@ -38,11 +39,11 @@ class Flow(NamedTuple):
         return np.array([1/(mean*T), 0*s, self.U*(s + wave/2), T])
 
 
-FLOWS = {flow.name: flow for flow in (Flow("conduction", heat=0.1), Flow("couette", U=0.1))}
+FLOWS = {flow.name: flow for flow in (PlateFlow("conduction", heat=0.1), PlateFlow("couette", U=0.1))}
 
 
 @cache
-def solved(flow: Flow, degree: int = DEGREE) -> np.ndarray:
+def solved(flow: PlateFlow, degree: int = DEGREE) -> np.ndarray:
     """Chebyshev coefficients (degree + 1, 4) of (rho, v, u, T) at the end."""
     x = np.cos(np.pi*np.arange(degree, -1, -1)/degree)
     to_values = chebyshev.chebvander(x, degree)
@@ -61,6 +62,6 @@ def solved(flow: Flow, degree: int = DEGREE) -> np.ndarray:
     return np.linalg.solve(to_values, done.y[:, -1].reshape(4, -1).T)
 
 
-def fields(flow: Flow, s: np.ndarray, degree: int = DEGREE) -> np.ndarray:
+def fields(flow: PlateFlow, s: np.ndarray, degree: int = DEGREE) -> np.ndarray:
     """(rho, v, u, T), each (n,), at heights s at the end."""
     return chebyshev.chebval(2*s - 1, solved(flow, degree))

@@ -1,4 +1,4 @@
-"""The Riemann problem of an ideal gas, exactly: a shock or a rarefaction on either side of a contact    [Toro 1997, ch. 4]"""
+"""The Riemann problem of an ideal gas: shock or rarefaction beside a contact    [Toro 1997, ch. 4]"""
 from math import sqrt
 from typing import NamedTuple
 
@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 
-class Gas(NamedTuple):
+class GasState(NamedTuple):
     """Density, velocity and pressure, uniform."""
     rho: float
     v: float
@@ -21,7 +21,7 @@ class Middle(NamedTuple):
     right: float
 
 
-def jump(gas: Gas, P: float, gamma: float) -> float:
+def jump(gas: GasState, P: float, gamma: float) -> float:
     """How much faster than `gas` what has passed its wave moves away from it, at pressure P."""
     c = sqrt(gamma*gas.P/gas.rho)
     if P > gas.P:
@@ -29,13 +29,13 @@ def jump(gas: Gas, P: float, gamma: float) -> float:
     return 2*c/(gamma - 1)*((P/gas.P)**((gamma - 1)/(2*gamma)) - 1)
 
 
-def density(gas: Gas, P: float, gamma: float) -> float:
+def density(gas: GasState, P: float, gamma: float) -> float:
     """Behind the wave: Hugoniot's for a shock, the isentrope's for a rarefaction."""
     ratio, g = P/gas.P, (gamma - 1)/(gamma + 1)
     return gas.rho*((ratio + g)/(g*ratio + 1) if P > gas.P else ratio**(1/gamma))
 
 
-def middle(left: Gas, right: Gas, gamma: float) -> Middle:
+def middle(left: GasState, right: GasState, gamma: float) -> Middle:
     """The state between both waves. Raises ValueError: the gases part so fast that a vacuum opens."""
     def gap(P: float) -> float:
         return jump(left, P, gamma) + jump(right, P, gamma) + right.v - left.v
@@ -45,20 +45,21 @@ def middle(left: Gas, right: Gas, gamma: float) -> Middle:
     return Middle(left.v - jump(left, P, gamma), P, density(left, P, gamma), density(right, P, gamma))
 
 
-def shock_speed(gas: Gas, P: float, gamma: float) -> float:
+def shock_speed(gas: GasState, P: float, gamma: float) -> float:
     """Of a shock that raises the pressure to P, relative to the gas before it."""
     return sqrt(((gamma + 1)*P/gas.P + gamma - 1)*gas.P/(2*gas.rho))
 
 
-def solution(left: Gas, right: Gas, gamma: float, s: np.ndarray) -> np.ndarray:
+def solution(left: GasState, right: GasState, gamma: float, s: np.ndarray) -> np.ndarray:
     """(3, n): rho, v, P at places x/t = s."""
     between = middle(left, right, gamma)
-    mirror = [side(Gas(right.rho, -right.v, right.P), Middle(-between.v, between.P, between.right, between.left), gamma, -s)]
+    mirror = [side(GasState(right.rho, -right.v, right.P),
+                   Middle(-between.v, between.P, between.right, between.left), gamma, -s)]
     one, other = side(left, between, gamma, s), mirror[0]*np.array([[1], [-1], [1]])
     return np.where(s < between.v, one, other)
 
 
-def side(gas: Gas, between: Middle, gamma: float, s: np.ndarray) -> np.ndarray:
+def side(gas: GasState, between: Middle, gamma: float, s: np.ndarray) -> np.ndarray:
     """(3, n): what is left of the contact."""
     there, c = np.array([[between.left], [between.v], [between.P]]), sqrt(gamma*gas.P/gas.rho)
     if between.P > gas.P:

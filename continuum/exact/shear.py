@@ -1,4 +1,4 @@
-"""Shear flows between plates that start from rest, as series; heights y over the distance H, times in H^2/nu."""
+"""Shear flows between plates that start from rest, as series; heights y/H, times in H^2/nu."""
 import numpy as np
 
 TERMS = 60          # the next one is exp(-60^2 pi^2 0.02) = 1e-308 at t = 0.02

@@ -1,10 +1,11 @@
-"""A Taylor-Green vortex that decays: incompressible in closed form, and as a gas of a Mach number by Fourier sums.
+"""A Taylor-Green vortex that decays: incompressible in closed form, as a gas by Fourier sums.
 
-    rho' = -div(rho v)        p' = -div(v p) - grad P + eta lap v        P = rho T, C_V = 1, 2D without bulk viscosity
-    e' = -div((e + P) v) + eta [lap |v|^2/2 + div((v.grad) v - v div v)] + k lap T                               k = eta
+    rho' = -div(rho v)        p' = -div(v p) - grad P + eta lap v        P = rho T, C_V = 1, 2D without bulk
+    viscosity e' = -div((e + P) v) + eta [lap |v|^2/2 + div((v.grad) v - v div v)] + k lap T
+    k = eta
 
-One wavelength to the periodic box, lengths in spacings of the points that the vortex is put on. Products of two fields
-are differentiated as a grad b + b grad a, which keeps their sums.
+One wavelength to the periodic box, lengths in spacings of the points that the vortex is put on. Products of
+two fields are differentiated as a grad b + b grad a, which keeps their sums.
 """
 from functools import cache
 from math import ceil
@@ -48,7 +49,7 @@ class Vortex(NamedTuple):
         return self.speed*np.stack([np.sin(a)*np.cos(b), -np.cos(a)*np.sin(b)], axis=1)
 
     def density(self, x: np.ndarray) -> np.ndarray:
-        """(n,) at the start: the pressure of the incompressible vortex at constant entropy, P = rho^2 and T = rho."""
+        """(n,) at the start: the incompressible pressure at constant entropy, P = rho^2, T = rho."""
         return np.sqrt(1 + self.speed**2/4*np.cos(2*self.k*x).sum(axis=1))
 
 

@@ -4,14 +4,15 @@ About rho = T = 1 of an ideal gas, P = rho T, C_V = 1, waves exp(ik.r) of (rho, 
 
     rho' = -i s u        u' = -i s (rho + T) - l u        T' = -i s u - q T        and across k: v' = -t v
 
-with s = k, l = (2 eta (1 - 1/d) + zeta) k^2, q = kappa k^2, t = eta k^2. A scheme on a lattice has numbers of its own.
+with s = k, l = (2 eta (1 - 1/d) + zeta) k^2, q = kappa k^2, t = eta k^2. A scheme on a lattice has numbers of
+its own.
 """
 from typing import NamedTuple
 
 import numpy as np
 
 
-class Gas(NamedTuple):
+class LinearGas(NamedTuple):
     """Shear and bulk viscosity, conductivity."""
     eta: float
     zeta: float
@@ -33,7 +34,7 @@ def waves(s: float, l: float, q: float, t: float) -> Waves:
     return Waves(np.array([[0, -1j*s, 0], [-1j*s, -l, -1j*s], [0, -1j*s, -q]]), t)
 
 
-def continuum(gas: Gas, k: float, d: int = 2) -> Waves:
+def continuum(gas: LinearGas, k: float, d: int = 2) -> Waves:
     """Navier, Stokes and Fourier."""
     return waves(k, (2*gas.eta*(1 - 1/d) + gas.zeta)*k**2, gas.kappa*k**2, gas.eta*k**2)
 

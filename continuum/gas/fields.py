@@ -23,7 +23,7 @@ class Values(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Fields:
+class NodeFields:
     """A state on its grid: `at` nodes, walls included, each (rows+1, columns+1); `cells`: densities in cells.
 
     `x`, `y` are the coordinates of the nodes; rows go up. Between periodic sides the last column repeats the
@@ -45,7 +45,7 @@ class Fields:
 
 
 class Nodes(NamedTuple):
-    """Places x (n, 2), velocities v (n, 2), densities, temperatures and volumes (n,) of the nodes, each place once."""
+    """Places x (n, 2), velocities v (n, 2), densities, temperatures, volumes (n,) of the nodes."""
     x: np.ndarray
     v: np.ndarray
     rho: np.ndarray
@@ -53,13 +53,14 @@ class Nodes(NamedTuple):
     V: np.ndarray
 
 
-def at_nodes(fields: Fields) -> Nodes:
+def at_nodes(fields: NodeFields) -> Nodes:
     """Rows from the lower one up; nodes in walls have half of a cell, those in corners a quarter."""
     torus = isinstance(fields.scene.sides, Torus)
     columns, rows = shares(len(fields.x), fields.periodic or torus), shares(len(fields.y), torus)
     kept = np.ix_(rows > 0, columns > 0)
     X, Y, V = *np.meshgrid(fields.x, fields.y), fields.h**2*np.outer(rows, columns)
-    x, y, vx, vy, rho, T, V = (q[kept].ravel() for q in (X, Y, fields.at.vx, fields.at.vy, fields.at.rho, fields.at.T, V))
+    x, y, vx, vy, rho, T, V = (q[kept].ravel()
+                               for q in (X, Y, fields.at.vx, fields.at.vy, fields.at.rho, fields.at.T, V))
     return Nodes(np.stack([x, y], axis=1), np.stack([vx, vy], axis=1), rho, T, V)
 
 
@@ -71,7 +72,7 @@ def shares(nodes: int, periodic: bool) -> np.ndarray:
 
 
 def nodes(scene, rows: int) -> tuple[np.ndarray, np.ndarray]:
-    """Coordinates of columns and rows of nodes. Raises ValueError: rows odd or below 8, or cells are not square."""
+    """Coordinates of columns and rows of nodes. ValueError: rows odd or below 8, cells not square."""
     if rows < 8 or rows % 2:
         raise ValueError(f"rows must be even and at least 8, got {rows}: rolls are counted at mid-height")
     columns = round(scene.aspect*rows)
@@ -81,26 +82,26 @@ def nodes(scene, rows: int) -> tuple[np.ndarray, np.ndarray]:
     return scene.width*np.linspace(-0.5, 0.5, columns + 1), scene.L*np.linspace(-0.5, 0.5, rows + 1)
 
 
-def initial(scene, rows: int, ke: float = 0.0018, rolls: int | None = None) -> Fields:
+def initial(scene, rows: int, ke: float = 0.0018, rolls: int | None = None) -> NodeFields:
     """Rolls of kinetic energy `ke` per mass, linear temperature    [KHP95, Sec. VI; Fig. 9: 9/5000]"""
     x, y = nodes(scene, rows)
     X, Y = np.meshgrid(x, y)
     vx, vy = scene.flow(X, Y, ke, rolls)
     T = scene.T(Y)
-    return Fields(scene, x, y, Values(vx, vy, energy(scene.eos, 1.0, T), T, np.ones_like(T)),
+    return NodeFields(scene, x, y, Values(vx, vy, energy(scene.eos, 1.0, T), T, np.ones_like(T)),
                   np.ones((rows, len(x) - 1)))
 
 
-def placed(scene, rows: int, start: Callable[[np.ndarray, np.ndarray], tuple]) -> Fields:
+def placed(scene, rows: int, start: Callable[[np.ndarray, np.ndarray], tuple]) -> NodeFields:
     """Fields of a start(x, y) = (rho, v_x, v_y, T): densities in the middle of cells, all else at nodes."""
     x, y = nodes(scene, rows)
     rho, vx, vy, T = (np.broadcast_to(f, (len(y), len(x))) for f in start(*np.meshgrid(x, y)))
     middle = np.meshgrid((x[1:] + x[:-1])/2, (y[1:] + y[:-1])/2)
     cells = np.broadcast_to(start(*middle)[0], middle[0].shape)
-    return Fields(scene, x, y, Values(vx, vy, energy(scene.eos, rho, T), T, rho), cells)
+    return NodeFields(scene, x, y, Values(vx, vy, energy(scene.eos, rho, T), T, rho), cells)
 
 
-def block(fields: Fields) -> np.ndarray:
+def block(fields: NodeFields) -> np.ndarray:
     """The state as the loop wants it; its ghosts are not yet filled."""
     S = np.ones((4, len(fields.y) + 1, len(fields.x) + 1))
     S[VX, 1:, 1:], S[VY, 1:, 1:], S[E, 1:, 1:] = fields.at[:3]
@@ -112,13 +113,13 @@ def block(fields: Fields) -> np.ndarray:
     return S
 
 
-def unblock(scene, S: np.ndarray) -> Fields:
+def unblock(scene, S: np.ndarray) -> NodeFields:
     """Fields of a block whose ghosts are filled."""
     x, y = nodes(scene, S.shape[1] - 2)
     rho = node_densities(S)
     vx, vy, e = (S[f, 1:, 1:].copy() for f in (VX, VY, E))
     at = Values(vx, vy, e, temperature(scene.eos, rho, e), rho)
-    return Fields(scene, x, y, at, S[RHO, 1:-1, 1:-1].copy())
+    return NodeFields(scene, x, y, at, S[RHO, 1:-1, 1:-1].copy())
 
 
 def node_densities(S: np.ndarray) -> np.ndarray:
@@ -126,8 +127,8 @@ def node_densities(S: np.ndarray) -> np.ndarray:
     return (rho[:-1, :-1] + rho[1:, :-1] + rho[:-1, 1:] + rho[1:, 1:])/4
 
 
-def interpolate(fields: Fields, x, y) -> Values:
-    """Cubic splines through the nodes, at points (x, y), periodic as the sides. Raises ValueError: a point is outside."""
+def interpolate(fields: NodeFields, x, y) -> Values:
+    """Cubic splines through the nodes, at points (x, y), periodic as the sides. ValueError: outside."""
     x, y = np.asarray(x, float), np.asarray(y, float)
     if fields.periodic:
         x = fields.x[0] + (x - fields.x[0]) % fields.scene.width
@@ -139,7 +140,7 @@ def interpolate(fields: Fields, x, y) -> Values:
     return Values(*(spline(fields, f)(y, x, grid=False) for f in fields.at))
 
 
-def spline(fields: Fields, f: np.ndarray) -> RectBivariateSpline:
+def spline(fields: NodeFields, f: np.ndarray) -> RectBivariateSpline:
     if not fields.periodic:
         return RectBivariateSpline(fields.y, fields.x, f)
     more = 4
@@ -147,16 +148,16 @@ def spline(fields: Fields, f: np.ndarray) -> RectBivariateSpline:
     return RectBivariateSpline(fields.y, fields.x[0] + fields.h*np.arange(-more, len(fields.x) + more), wide)
 
 
-def onto(scene, rows: int, fields: Fields) -> Fields:
+def onto(scene, rows: int, fields: NodeFields) -> NodeFields:
     """`fields` on another grid or in another scene of the same shape; mean density exactly 1."""
     x, y = nodes(scene, rows)
     scale = scene.L/fields.scene.L
     if len(x) == len(fields.x) and len(y) == len(fields.y):
-        return Fields(scene, x, y, fields.at, fields.cells)
+        return NodeFields(scene, x, y, fields.at, fields.cells)
     X, Y = np.meshgrid(x, y)
     centre_x, centre_y = X[:-1, :-1] + scene.L/rows/2, Y[:-1, :-1] + scene.L/rows/2
     cells = interpolate(fields, centre_x/scale, centre_y/scale).rho
-    return Fields(scene, x, y, interpolate(fields, X/scale, Y/scale), cells/cells.mean())
+    return NodeFields(scene, x, y, interpolate(fields, X/scale, Y/scale), cells/cells.mean())
 
 
 def kinetic_energy(S: np.ndarray) -> float:
@@ -166,7 +167,7 @@ def kinetic_energy(S: np.ndarray) -> float:
     return float(0.5*np.sum(rho*v2)/np.sum(S[RHO, 1:-1, 1:-1]))
 
 
-def count_rolls(fields: Fields) -> int:
+def count_rolls(fields: NodeFields) -> int:
     """Changes of sign of v_y along mid-height; 0 at rest."""
     v = fields.at.vy[len(fields.y)//2]
     if np.max(v**2)/2 < STILL:
@@ -183,7 +184,7 @@ class Nusselt(NamedTuple):
     loss: float  # what enters through all walls and does not leave, per heat through the bottom
 
 
-def nusselt(fields: Fields) -> Nusselt:
+def nusselt(fields: NodeFields) -> Nusselt:
     """`bottom`, `top` from one-sided second-order gradients; side walls let heat through too."""
     scene = fields.scene
     unit = scene.k*scene.dT/scene.L
@@ -199,7 +200,7 @@ def wall_flux(T: np.ndarray, k: np.ndarray, h: float) -> float:
     return float(h*np.trapezoid(k[0]*(3*T[0] - 4*T[1] + T[2])/(2*h)))
 
 
-def energy_flux(fields: Fields) -> np.ndarray:
+def energy_flux(fields: NodeFields) -> np.ndarray:
     """Vertical flux of total energy in cells: rho v_y (e + P/rho + v^2/2 + g y) - (sigma.v)_y - k dT/dy.
 
     In a steady state between periodic sides its mean over x is the same at every y: the flux of the plates.

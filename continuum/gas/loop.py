@@ -16,8 +16,8 @@ FIELDS = ("v_x", "v_y", "e", "rho")
 BULK_VISCOSITY = 0.0  # [KHP95, Sec. II]
 
 
-class Box(NamedTuple):
-    """Spacing of the grid, gravity, temperatures of the plates, first column and lowest row of nodes that move."""
+class NodeGrid(NamedTuple):
+    """Spacing, gravity, temperatures of the plates, first column and lowest row of nodes that move."""
     h: float
     g: float
     T_hot: float
@@ -26,10 +26,10 @@ class Box(NamedTuple):
     lowest: int = 2
 
 
-def box_of(scene, rows: int) -> Box:
+def box_of(scene, rows: int) -> NodeGrid:
     """Of a scene on rows of cells."""
     first = 2 if isinstance(scene.sides, Walls) else 1
-    return Box(scene.L/rows, float(scene.g), float(scene.T_hot), float(scene.T_cold), first,
+    return NodeGrid(scene.L/rows, float(scene.g), float(scene.T_hot), float(scene.T_cold), first,
                1 if isinstance(scene.sides, Torus) else 2)
 
 

@@ -1,11 +1,12 @@
-"""Steady states and disturbances of the compressible grid: Newton's method on the rates of the loop, to the last bit the same.
+"""Steady states and disturbances of the compressible grid: Newton's method on the rates of the loop.
 
-Between periodic sides the flow is taken as its own mirror image about the middle of a rising and of a falling stream,
-which leaves one half of the box and fixes the rolls. Slopes of the rates come from their differences: unknowns five nodes
-apart meet in no rate, so that a hundred pairs of evaluations give the whole sparse matrix.
+Between periodic sides the flow is taken as its own mirror image about the middle of a rising and of a falling
+stream, which leaves one half of the box and fixes the rolls. Slopes of the rates come from their differences:
+unknowns five nodes apart meet in no rate, so that a hundred pairs of evaluations give the whole sparse
+matrix.
 
-The grid keeps two sums of densities: the mass, and the sum with signs that alternate like the squares of a chessboard, which
-no node sees. Both are constraints of Newton's method.
+The grid keeps two sums of densities: the mass, and the sum with signs that alternate like the squares of a
+chessboard, which no node sees. Both are constraints of Newton's method.
 """
 from dataclasses import replace
 from functools import cached_property
@@ -16,32 +17,31 @@ from scipy import sparse
 from scipy.sparse.linalg import eigs, splu
 
 from continuum.fluid import energy
-from continuum.gas.fields import Fields, block, count_rolls, initial, kinetic_energy, onto, unblock
+from continuum.gas.fields import NodeFields, block, count_rolls, initial, kinetic_energy, onto, unblock
 from continuum.gas.loop import RHO, VX, VY, E, FluxForm, box_of, fill, rates
 from continuum.scene import Periodic
+from continuum.steady import NewtonFailed
 
 REACH = 2       # of a node or cell in rates, in rows and columns
 STEP = 1e-5     # of the differences: their error is about its square, and round-off over it
-RELAX = 1.0     # the implicit steps that lead to Newton's are RELAX/(largest rate of change) free-fall times long
+# the implicit steps that lead to Newton's are RELAX/(largest rate of change) free-fall times long
+RELAX = 1.0
 STEPS = 60
-WEAK = 5e-4     # K of rolls to start from, in free-fall units: from KHP95's, cold and stronger, it may end in other states
+# K of rolls to start from, in free-fall units: from KHP95's, cold and stronger, it may end in other states
+WEAK = 5e-4
 STILL = 1e-10   # square of the share of the velocity below which a disturbance is a change of mass only
 
 
-class NewtonFailed(RuntimeError):
-    """No steady state was found; the message has the changes of the last steps."""
-
-
-class Steady(NamedTuple):
+class SteadyState(NamedTuple):
     """A steady state: fields, kinetic energy per mass, number of rolls, largest change in each step."""
-    fields: Fields
+    fields: NodeFields
     ke: float
     rolls: int
     changes: tuple[float, ...]
 
 
 class Discrete:
-    """The rates of one scene on one grid as a function of the unknowns q, deviations from the state at rest."""
+    """The rates of one scene on one grid as a function of q, deviations from the state at rest."""
 
     def __init__(self, scene, rows: int):
         self.scene, self.rest = scene, block(initial(scene, rows, 0.0))
@@ -51,13 +51,14 @@ class Discrete:
         self.places, self.mirrors, self.signs = self._unknowns(rows, columns)
 
     def _unknowns(self, rows: int, columns: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Places (3, n) = field, row, column of the unknowns, those of their mirror images, and the images' signs."""
+        """Places (3, n) = field, row, column of the unknowns, of their mirror images, and signs."""
         half = isinstance(self.scene.sides, Periodic)
         last = columns//2 + 1 if half else columns
         inner, all_ = range(2, rows + 1), range(1, rows + 1)
         nodes = range(1, last + 1) if half else range(2, last + 1)
         cells = range(1, last) if half else range(1, last + 1)
-        layout = ((VX, inner, range(2, last) if half else nodes), (VY, inner, nodes), (E, inner, nodes), (RHO, all_, cells))
+        layout = ((VX, inner, range(2, last) if half else nodes), (VY, inner, nodes), (E, inner, nodes),
+                  (RHO, all_, cells))
         places = np.array([(f, j, i) for f, js, is_ in layout for j in js for i in is_]).T
         mirrors, signs = places.copy(), np.where(places[0] == VX, -1.0, 1.0)
         if half:
@@ -84,7 +85,7 @@ class Discrete:
 
     @property
     def kept(self) -> list[np.ndarray]:
-        """Weights of the sums of densities that are kept; between mirrors the chessboard is zero by symmetry."""
+        """Weights of the kept sums of densities; between mirrors the chessboard is zero."""
         field, j, i = self.places
         mass, chess = 1.0*(field == RHO), (field == RHO)*(-1.0)**(i + j)
         return [mass] if isinstance(self.scene.sides, Periodic) else [mass, chess]
@@ -94,7 +95,8 @@ class Discrete:
         """Which rate depends on which unknown, at most."""
         fields, height, width = self.rest.shape
         meet = sparse.kron(np.ones((fields, fields)), sparse.kron(near(height), near(width))).tocsr()
-        places, mirrors = (np.ravel_multi_index(tuple(at), self.rest.shape) for at in (self.places, self.mirrors))
+        places, mirrors = (np.ravel_multi_index(tuple(at), self.rest.shape)
+                           for at in (self.places, self.mirrors))
         return ((meet[places][:, places] + meet[places][:, mirrors]) > 0).tocsc()
 
     @cached_property
@@ -116,9 +118,10 @@ class Discrete:
             rows.append(part.row)
             columns.append(group[part.col])
             values.append(slope[part.row])
-        return sparse.csc_array((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))), self.pattern.shape)
+        return sparse.csc_array((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))),
+                                self.pattern.shape)
 
-    def fields(self, q: np.ndarray) -> tuple[Fields, np.ndarray]:
+    def fields(self, q: np.ndarray) -> tuple[NodeFields, np.ndarray]:
         """Fields, and the block with its ghosts."""
         S = self.state(q)
         sides, eos, _, form, box = self.laws
@@ -133,25 +136,25 @@ def near(n: int) -> sparse.coo_array:
 
 
 def heat_of_rolls(scene, vy: np.ndarray) -> np.ndarray:
-    """Temperature at which conduction takes what slow rolls as wide as high bring: kappa (2 pi^2/L^2) T' = v_y dT/L.
+    """Temperature of slow rolls as wide as high: kappa (2 pi^2/L^2) T' = v_y dT/L.
 
     Gas carries half of it (adiabatic gradient) and conducts as much less (isobaric heat): the factors cancel.
     """
     return vy*scene.dT*scene.L/(2*np.pi**2*scene.kappa)
 
 
-def warm_rolls(scene, rows: int, ke: float) -> Fields:
+def warm_rolls(scene, rows: int, ke: float) -> NodeFields:
     """KHP95's initial rolls of kinetic energy `ke` per mass, with their heat."""
     fields = initial(scene, rows, ke)
     T = fields.at.T + heat_of_rolls(scene, fields.at.vy)
     return replace(fields, at=fields.at._replace(T=T, e=energy(scene.eos, fields.at.rho, T)))
 
 
-def steady(scene, rows: int, start: Fields | None = None, *, within: float = 1e-9) -> Steady:
-    """The steady state that Newton's method finds from start, of any grid or Ra; by default from weak warm rolls.
+def steady(scene, rows: int, start: NodeFields | None = None, *, within: float = 1e-9) -> SteadyState:
+    """The steady state by Newton's method from a start, of any grid or Ra; by default from weak rolls.
 
-    It ends when no unknown changes by more than `within`; the error is then about its square. At rest below onset.
-    Raises NewtonFailed: no convergence.
+    It ends when no unknown changes by more than `within`; the error is then about its square. At rest below
+    onset. Raises NewtonFailed: no convergence.
     """
     equations, unit = Discrete(scene, rows), scene.L/scene.free_fall
     start = warm_rolls(scene, rows, WEAK*scene.free_fall**2) if start is None else onto(scene, rows, start)
@@ -164,17 +167,18 @@ def steady(scene, rows: int, start: Fields | None = None, *, within: float = 1e-
         changes.append(largest(change))
         if not changes[-1] < 1e3 or len(changes) == STEPS:
             last = ", ".join(f"{size:.1e}" for size in changes[-4:])
-            raise NewtonFailed(f"no steady state at Ra = {scene.ra:g} on {rows} rows, last changes {last}: start from one "
-                               "nearby in Ra, or from a run in time")
+            raise NewtonFailed(f"no steady state at Ra = {scene.ra:g} on {rows} rows, last changes {last}: "
+                               "start from one nearby in Ra, or from a run in time")
     fields, S = equations.fields(q)
-    return Steady(fields, kinetic_energy(S), count_rolls(fields), tuple(changes))
+    return SteadyState(fields, kinetic_energy(S), count_rolls(fields), tuple(changes))
 
 
 def step(equations: Discrete, q: np.ndarray, rates: np.ndarray, dt: float) -> np.ndarray:
     """The change of q in an implicit step; dt = inf makes it Newton's.
 
-    Of the rates of densities one follows from the others for each kept sum. It gives way to "no change of this density",
-    and what such a change alone would do, `free`, is added so that the sums are kept; their own rows would fill the factors.
+    Of the rates of densities one follows from the others for each kept sum. It gives way to "no change of
+    this density", and what such a change alone would do, `free`, is added so that the sums are kept; their
+    own rows would fill the factors.
     """
     kept = np.array(equations.kept)
     spare = np.flatnonzero(equations.places[0] == RHO)[:len(kept)]
@@ -196,8 +200,9 @@ def largest(a: np.ndarray) -> float:
 def growth_rate(scene, rows: int, near: float = 0.3) -> float:
     """Growth rate of the fastest disturbance of the fluid at rest that moves it, per unit of time.
 
-    Looked for around `near` per free-fall time, which should be above it. Between periodic sides disturbances of all
-    widths count that have the mirror planes of the box's pair of rolls. A change of mass, which lasts for ever, does not count.
+    Looked for around `near` per free-fall time, which should be above it. Between periodic sides disturbances
+    of all widths count that have the mirror planes of the box's pair of rolls. A change of mass, which lasts
+    for ever, does not count.
     """
     equations = Discrete(scene, rows)
     q = np.zeros(equations.places.shape[1])

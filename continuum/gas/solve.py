@@ -12,9 +12,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import check_state, conductivity, pressure, pressure_slopes, temperature, valid, viscosity
+from continuum.fluid import (
+    check_state,
+    conductivity,
+    pressure,
+    pressure_slopes,
+    temperature,
+    valid,
+    viscosity,
+)
 from continuum.gas.fields import (
-    Fields,
+    NodeFields,
     Nusselt,
     block,
     count_rolls,
@@ -27,10 +35,9 @@ from continuum.gas.fields import (
     wall_flux,
 )
 from continuum.gas.loop import FIELDS, RHO, VX, VY, E, FluxForm, advance, box_of
-from continuum.steady import Steady
+from continuum.steady import Steady, choose_step
 
 RK4_SOUND, RK4_DECAY = 2.82, 2.78  # where RK4's stability region ends on the imaginary and on the real axis
-SAFETY = 0.8
 
 
 class DivergedError(ArithmeticError):
@@ -55,7 +62,7 @@ class Solution:
     """
     scene: Any
     rows: int
-    fields: Fields
+    fields: NodeFields
     t: float
     series: Series
     ke: float
@@ -71,7 +78,7 @@ class Solution:
 
     @property
     def nu(self) -> float:
-        """Nusselt number: of the volume, whose error is purely second order; between side walls of the plates."""
+        """Nusselt number: of the volume, of second order; between side walls of the plates."""
         plates = (self.nusselt.bottom + self.nusselt.top)/2
         return self.nusselt.volume if self.fields.periodic else plates
 
@@ -103,21 +110,12 @@ def limits(scene, S: np.ndarray) -> Limits:
 
 
 def sound_of_grid(eos, rho, e):
-    """Largest omega h/2: omega^2 = (4/h^2) s (P_rho + (1 - s) P P_e/rho^2), 0 < s < 1, e being averaged to cells."""
+    """Largest omega h/2: omega^2 = (4/h^2) s (P_rho + (1 - s) P P_e/rho^2), 0 < s < 1, e being averaged to
+    cells."""
     a, b = pressure_slopes(eos, rho, e)
     b = b*pressure(eos, rho, e)/rho**2
     inside = np.where(b > a, b, a)  # the maximum over s lies inside if b > a, else at s = 1
     return (a + inside)/(2*np.sqrt(inside))
-
-
-def choose_step(scene, S: np.ndarray, dt: float | None) -> float:
-    limit = limits(scene, S)
-    if dt is None:
-        return SAFETY*limit.both
-    if not 0 < dt <= limit.both:
-        raise ValueError(f"dt = {dt:.4g} must be positive and not above the stability limit {limit.both:.4g} "
-                         f"(sound {limit.sound:.4g}, diffusion {limit.diffusion:.4g}): lower or omit dt")
-    return dt
 
 
 class March:
@@ -178,7 +176,7 @@ def sample(scene, S: np.ndarray, t: float) -> tuple[float, float, float, float]:
     return t, kinetic_energy(S), flux/(scene.k*scene.dT*scene.aspect), float(np.mean(S[RHO, 1:-1, 1:-1]))
 
 
-def run(scene, rows: int, *, until: Any = Steady(), start: Fields | None = None, dt: float | None = None,  # noqa: B008
+def run(scene, rows: int, *, until: Any = Steady(), start: NodeFields | None = None, dt: float | None = None,  # noqa: B008
         continuity: Any = FluxForm(), progress: Callable[[float], None] | None = None) -> Solution:  # noqa: B008
     """Solve a scene (RayleighBenard, or anything with its attributes) on `rows` rows of square cells.
 
@@ -192,7 +190,7 @@ def run(scene, rows: int, *, until: Any = Steady(), start: Fields | None = None,
     check_state(scene.eos, fields.at.rho, fields.at.e)
     S = block(fields)
     interval = until.interval(scene)
-    count = int(np.ceil(interval/choose_step(scene, S, dt)*(1 - 1e-12)))
+    count = int(np.ceil(interval/choose_step(limits(scene, S).both, dt)*(1 - 1e-12)))
     march = March(scene, S, continuity, interval/count)
     samples = [sample(scene, S, 0.0)]
     while not until.done(scene, [s[1] for s in samples]):
@@ -213,10 +211,11 @@ def finish(rows: int, march: March, until, series: Series) -> Solution:
         cpu_s=time.process_time() - march.start, compile_s=march.compile_s)
 
 
-def steady_on(scene, sizes: Sequence[int], *, start: Fields | None = None, **options) -> list[Solution]:
-    """Steady solutions on ever finer grids, each started from the one before. Raises ValueError: there are no sizes."""
+def steady_on(scene, sizes: Sequence[int], *, start: NodeFields | None = None, **options) -> list[Solution]:
+    """Steady solutions on ever finer grids, each from the one before. ValueError: no sizes."""
     if not len(sizes):
-        raise ValueError(f"there are no grids (sizes = {sizes}): give their rows, coarsest first, as in (16, 24, 32)")
+        raise ValueError(f"there are no grids (sizes = {sizes}): give their rows, coarsest first, as in (16, "
+                         "24, 32)")
     solutions: list[Solution] = []
     for rows in sizes:
         solutions.append(run(scene, rows, start=start, **options))

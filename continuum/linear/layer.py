@@ -5,9 +5,10 @@ kappa = 1/sqrt(Pr Ra). A disturbance w(z), theta(z) times cos(kx) exp(sigma t), 
 
     sigma Lap w = nu Lap^2 w - k^2 theta,    sigma theta = w + kappa Lap theta.
 
-Multiplied by -w and by k^2 theta and integrated over the height this is a symmetric eigenvalue problem: sigma is
-real. Trial functions are Chebyshev polynomials times the factor that meets the conditions at the plates, integrals
-are exact Gauss sums. What is not imposed on a free plate, w'' = 0, follows from the variation itself.
+Multiplied by -w and by k^2 theta and integrated over the height this is a symmetric eigenvalue problem: sigma
+is real. Trial functions are Chebyshev polynomials times the factor that meets the conditions at the plates,
+integrals are exact Gauss sums. What is not imposed on a free plate, w'' = 0, follows from the variation
+itself.
 """
 from enum import Enum
 from functools import lru_cache
@@ -21,7 +22,7 @@ from scipy.optimize import minimize_scalar
 DEGREE = 20     # trial functions for w and for theta: Ra_c has its 12 figures from 14 on
 
 
-class Plates(Enum):
+class PlateKind(Enum):
     """Multiplicity of the zero of w on (lower, upper) plate; 2: w = w' = 0, rigid; 1: w = w'' = 0, free."""
     RIGID = (2, 2)
     FREE = (1, 1)
@@ -53,7 +54,7 @@ def trial(below: int, above: int, degree: int) -> tuple[np.ndarray, np.ndarray, 
     return weights/2, values[0], values[1], values[2]
 
 
-def forms(k: float, plates: Plates, degree: int) -> Forms:
+def forms(k: float, plates: PlateKind, degree: int) -> Forms:
     """All integrals at wavenumber k."""
     dz, w, w1, w2 = trial(*plates.value, degree)
     _, theta, theta1, _ = trial(1, 1, degree)
@@ -76,7 +77,7 @@ WHY = {"Ra": "the lower plate is the hot one", "Pr": "it is nu/kappa",
        "k": "it is 2 pi/wavelength, in 1/H; onset is near 3.1"}
 
 
-def growth_rate(*, ra: float, pr: float, k: float, plates: Plates = Plates.RIGID,
+def growth_rate(*, ra: float, pr: float, k: float, plates: PlateKind = PlateKind.RIGID,
                 degree: int = DEGREE) -> float:
     """Largest growth rate sigma of wavenumber k (1/H), per free-fall time; negative below onset."""
     positive(Ra=ra, Pr=pr, k=k)
@@ -87,7 +88,7 @@ def growth_rate(*, ra: float, pr: float, k: float, plates: Plates = Plates.RIGID
     return float(eigh(rate, block_diag(i.inertia, k**2*i.heat), eigvals_only=True)[-1])
 
 
-def critical_ra(k: float, plates: Plates = Plates.RIGID, degree: int = DEGREE) -> float:
+def critical_ra(k: float, plates: PlateKind = PlateKind.RIGID, degree: int = DEGREE) -> float:
     """The Rayleigh number at which wavenumber k (1/H) neither grows nor decays; it does not depend on Pr."""
     positive(k=k)
     i = forms(k, plates, degree)
@@ -97,7 +98,7 @@ def critical_ra(k: float, plates: Plates = Plates.RIGID, degree: int = DEGREE) -
 
 
 @lru_cache
-def critical(plates: Plates = Plates.RIGID) -> Critical:
+def critical(plates: PlateKind = PlateKind.RIGID) -> Critical:
     """Onset of the infinite layer: the smallest Ra over all wavenumbers."""
     lowest = minimize_scalar(lambda k: critical_ra(k, plates), bracket=(1.5, 2.5, 4.5),
                              options={"xtol": 1e-10})

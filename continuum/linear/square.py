@@ -1,7 +1,8 @@
-"""Onset of Boussinesq convection in a square with four rigid walls, the temperature of the sides linear in height.
+"""Onset of Boussinesq convection in a square with rigid walls and sides of linear temperature.
 
-As in `linear`, sigma = 0 with nu = kappa = Ra^-1/2 makes 1/sqrt(Ra) an eigenvalue of the work of buoyancy against
-dissipation; here in two directions: streamfunction psi and temperature are products of the trial functions of a layer.
+As in `linear`, sigma = 0 with nu = kappa = Ra^-1/2 makes 1/sqrt(Ra) an eigenvalue of the work of buoyancy
+against dissipation; here in two directions: streamfunction psi and temperature are products of the trial
+functions of a layer.
 """
 import numpy as np
 from scipy.linalg import block_diag, eigh
@@ -22,7 +23,7 @@ def critical_ra_square(number: int = 0, degree: int = DEGREE) -> float:
 
 
 def forms(degree: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Integrals of (Lap psi)^2, (grad T)^2 and w T with w = d psi/dx, matrices over products of trial functions.
+    """Integrals of (Lap psi)^2, (grad T)^2 and w T, w = d psi/dx, over products of trial functions.
 
     psi and its slope vanish on the walls: psi_xx psi_yy integrates to psi_xy^2.
     """
@@ -34,4 +35,5 @@ def forms(degree: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     zero, one, two = (both(f, f) for f in psi)
     friction = np.kron(two, zero) + np.kron(zero, two) + 2*np.kron(one, one)
     mass, slope = both(T[0], T[0]), both(T[1], T[1])
-    return friction, np.kron(slope, mass) + np.kron(mass, slope), np.kron(both(psi[1], T[0]), both(psi[0], T[0]))
+    lift = np.kron(both(psi[1], T[0]), both(psi[0], T[0]))
+    return friction, np.kron(slope, mass) + np.kron(mass, slope), lift

@@ -2,9 +2,10 @@
 
     domega/dt + u.grad omega = nu Lap omega + dT/dx,    dT/dt + u.grad T = kappa Lap T,    Lap psi = -omega
 
-with u = (dpsi/dy, -dpsi/dx), in free-fall units: nu = sqrt(Pr/Ra), kappa = 1/sqrt(Pr Ra), height 1, T = 1/2 on the
-lower and -1/2 on the upper plate, psi = 0 on both. The rows of py-pde's grid lie at y = h, 2 h, ..., 1 - h, so that its ghosts
-lie on the plates. There no slip gives Thom's vorticity -2 psi(h)/h^2, of first order; the solution is of second.
+with u = (dpsi/dy, -dpsi/dx), in free-fall units: nu = sqrt(Pr/Ra), kappa = 1/sqrt(Pr Ra), height 1, T = 1/2
+on the lower and -1/2 on the upper plate, psi = 0 on both. The rows of py-pde's grid lie at y = h, 2 h, ..., 1
+- h, so that its ghosts lie on the plates. There no slip gives Thom's vorticity -2 psi(h)/h^2, of first order;
+the solution is of second.
 """
 from typing import Any
 
@@ -32,11 +33,12 @@ class Boussinesq(PDEBase):
         positive(Ra=ra, Pr=pr)
         columns = round(aspect*rows)
         if rows < 8 or rows % 2 or columns < 4 or not np.isclose(columns, aspect*rows):
-            raise ValueError(f"rows must be even, at least 8, and times aspect {aspect} a whole number, got {rows}: "
-                             "rolls are counted at mid-height, cells are square")
+            raise ValueError(f"rows must be even, at least 8, and times aspect {aspect} a whole number, got "
+                             f"{rows}: rolls are counted at mid-height, cells are square")
         self.ra, self.pr, self.rows, self.h = ra, pr, rows, 1/rows
         self.nu, self.kappa = float(np.sqrt(pr/ra)), float(1/np.sqrt(pr*ra))
-        self.grid = CartesianGrid([(0, aspect), (self.h/2, 1 - self.h/2)], (columns, rows - 1), periodic=(True, False))
+        self.grid = CartesianGrid([(0, aspect), (self.h/2, 1 - self.h/2)], (columns, rows - 1),
+                                  periodic=(True, False))
         self.basis = self._poisson_basis()
         self.psi_bc = PERIODIC | {"y": {"virtual_point": 0}}
         self.T_bc = PERIODIC | {"y-": {"virtual_point": 0.5}, "y+": {"virtual_point": -0.5}}
@@ -153,8 +155,8 @@ class Boussinesq(PDEBase):
     def nusselt(self, data: np.ndarray) -> tuple[float, float, float]:
         """Of the plates, and of the volume 1 + <vT>/kappa.
 
-        The difference of the first two rows is the flux that the scheme itself sends through a plate; it is of second
-        order because T'' is zero there, where nothing moves.
+        The difference of the first two rows is the flux that the scheme itself sends through a plate; it is
+        of second order because T'' is zero there, where nothing moves.
         """
         _, T, psi = self.padded(data)
         bottom, top = (float(np.mean((f[:, 0] - f[:, 1])[1:-1]))/self.h for f in (T, -T[:, ::-1]))
@@ -165,7 +167,8 @@ class Boussinesq(PDEBase):
         """x, y, u, v, T, omega, psi at the points of the grid, plates included; each (columns, rows+1)."""
         omega, T, psi = self.padded(data)
         x, y = np.meshgrid(*self.points(0), indexing="ij")
-        u, v = np.gradient(psi, self.h, axis=1, edge_order=2), (np.roll(psi, 1, 0) - np.roll(psi, -1, 0))/(2*self.h)
+        u, v = np.gradient(psi, self.h, axis=1,
+                           edge_order=2), (np.roll(psi, 1, 0) - np.roll(psi, -1, 0))/(2*self.h)
         u[:, [0, -1]] = 0
         named = {"x": x, "y": y, "u": u, "v": v, "T": T, "omega": omega, "psi": psi}
         return {name: f[1:-1] for name, f in named.items()}
@@ -177,7 +180,8 @@ def pad(h, data, psi, S):
     nx, ny = psi.shape
     for i in range(nx):
         for j in range(ny):
-            S[0, i + 1, j + 1], S[1, i + 1, j + 1], S[2, i + 1, j + 1] = data[0, i, j], data[1, i, j], psi[i, j]
+            S[0, i + 1, j + 1], S[1, i + 1, j + 1] = data[0, i, j], data[1, i, j]
+            S[2, i + 1, j + 1] = psi[i, j]
         S[0, i + 1, 0], S[0, i + 1, ny + 1] = -2*psi[i, 0]/h**2, -2*psi[i, ny - 1]/h**2
         S[1, i + 1, 0], S[1, i + 1, ny + 1] = 0.5, -0.5
         S[2, i + 1, 0], S[2, i + 1, ny + 1] = 0.0, 0.0

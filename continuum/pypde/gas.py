@@ -4,16 +4,16 @@
     dv/dt   = -v.grad v + (div sigma - grad P)/rho - g e_y
     de/dt   = -v.grad e + (sigma:grad v - P div v - div Q)/rho
 
-rho and e sit in cells, v_x on their right and v_y on their upper sides: no density is needed at a plate, and mass is conserved
-to round-off. Only transport coefficients at a plate want a density: it is extrapolated. The upper row of v_y lies on the cold
-plate and stays zero; on a torus, which has no plates, it moves.
+rho and e sit in cells, v_x on their right and v_y on their upper sides: no density is needed at a plate, and
+mass is conserved to round-off. Only transport coefficients at a plate want a density: it is extrapolated. The
+upper row of v_y lies on the cold plate and stays zero; on a torus, which has no plates, it moves.
 """
 from typing import Any
 
 import numpy as np
 
 from continuum.fluid import conductivity, energy, pressure, sound_speed, stress, temperature, valid, viscosity
-from continuum.pypde.gas_loop import BULK_VISCOSITY, RHO, VX, VY, Box, E, rates
+from continuum.pypde.gas_loop import BULK_VISCOSITY, RHO, VX, VY, E, Mesh, rates
 from continuum.scene import Periodic, Torus
 
 # continuum.jit comes before everything that loads numba
@@ -22,7 +22,8 @@ from pde import CartesianGrid, FieldCollection, PDEBase, ScalarField, get_backen
 
 NAMES = ("rho", "v_x", "v_y", "e")
 RK4_DECAY, RK4_WAVE = 2.78, 2.82    # where RK4's stability region ends on the real and on the imaginary axis
-HALF_UP = np.array([[0, 0], [1, 0], [0, 1], [0, 0]])/2      # where a field sits, in cells from the centre: x, y
+# where a field sits, in cells from the centre: x, y
+HALF_UP = np.array([[0, 0], [1, 0], [0, 1], [0, 0]])/2
 
 
 class Gas(PDEBase):
@@ -36,18 +37,19 @@ class Gas(PDEBase):
     def __init__(self, scene: Any, rows: int, slide: float = 0.0):
         super().__init__()
         if not isinstance(scene.sides, (Periodic, Torus)):
-            raise ValueError(f"sides are {scene.sides!r}: this grid is periodic, take continuum.gas.solve for walls")
+            raise ValueError(f"sides are {scene.sides!r}: this grid is periodic, take continuum.gas.solve "
+                             "for walls")
         columns = round(scene.aspect*rows)
         if rows < 8 or rows % 2 or not np.isclose(columns, scene.aspect*rows):
-            raise ValueError(f"rows must be even, at least 8, and times aspect {scene.aspect} a whole number, "
-                             f"got {rows}: rolls are counted at mid-height, cells are square")
+            raise ValueError(f"rows must be even, at least 8, and times aspect {scene.aspect} a whole "
+                             f"number, got {rows}: rolls are counted at mid-height, cells are square")
         self.scene, self.rows, self.h, torus = scene, rows, scene.L/rows, isinstance(scene.sides, Torus)
         sides = [(-scene.width/2, scene.width/2), (-scene.L/2, scene.L/2)]
         self.grid = CartesianGrid(sides, (columns, rows), periodic=(True, torus))
-        self.box = Box(self.h, scene.g, scene.T_hot, scene.T_cold, float(slide), torus)
+        self.box = Mesh(self.h, scene.g, scene.T_hot, scene.T_cold, float(slide), torus)
         self._pad = [self._padding(*ghosts) for ghosts in (
-            ({"curvature": 0},), ({"value": 0}, {"value": slide}), ({"virtual_point": 0},), ({"curvature": 0},),
-            ({"value": scene.T_hot}, {"value": scene.T_cold}))]
+            ({"curvature": 0},), ({"value": 0}, {"value": slide}), ({"virtual_point": 0},), ({"curvature": 0},
+            ), ({"value": scene.T_hot}, {"value": scene.T_cold}))]
 
     def _padding(self, bottom: dict, top: dict | None = None):
         """py-pde's function that copies a field and sets its ghosts."""
@@ -74,7 +76,7 @@ class Gas(PDEBase):
         return self.scene.width, self.scene.L
 
     def step_limit(self) -> float:
-        """Largest stable step of RK4 at density 1: sound and advection on the imaginary axis, decay on the real one."""
+        """Largest stable step of RK4 at density 1: sound and advection, and decay."""
         scene = self.scene
         c = max(sound_speed(scene.eos, 1.0, energy(scene.eos, 1.0, T)) for T in (scene.T_hot, scene.T_cold))
         wave = (2*np.sqrt(2)*c + scene.free_fall)/self.h
@@ -138,7 +140,7 @@ class Gas(PDEBase):
         return (f[:, 1:] - f[:, :-1])/self.h
 
     def evolution_rate(self, state: Any, t: float = 0) -> Any:
-        """The rates, as readable as they get: differences and means of neighbours alternate between the points."""
+        """The rates in readable form: differences and means of neighbours alternate."""
         rho, u, v, e, T = self.padded(state.data)
         dx, dy, (eos, law) = self.dx, self.dy, (self.scene.eos, self.scene.law)
         P = pressure(eos, rho, e)[1:, 1:]
@@ -183,10 +185,12 @@ class Gas(PDEBase):
         return data[VY, :, self.rows//2 - 1]
 
     def nusselt(self, data: np.ndarray) -> tuple[float, float, float]:
-        """Of the plates from the flux that the scheme sends through them, of the volume from the flux of energy.
+        """Of the plates from the flux that the scheme sends through them, of the volume from the flux of
+        energy.
 
-        One-sided gradients of higher order would be worse: friction heats the plate's surroundings, and the error
-        h^2 T''/8 that the first cell has from that is an error h T''/4 of such a gradient, but not of the flux.
+        One-sided gradients of higher order would be worse: friction heats the plate's surroundings, and the
+        error h^2 T''/8 that the first cell has from that is an error h T''/4 of such a gradient, but not of
+        the flux.
         """
         full, unit = self.padded(data), self.scene.k*self.scene.dT/self.scene.L
         flux = self._energy_flux(full).mean(axis=0)

@@ -1,8 +1,8 @@
 """The compiled rates of `continuum.pypde.gas`: the same terms, point by point.
 
-`S[field, i, j]` holds the state with one row of ghosts around and what is derived from it; i counts columns, j rows.
-rho, e, T, coefficients and normal stresses are in cell (i, j), v_x on its right and v_y on its upper side, the shear
-stress at its upper right corner.
+`S[field, i, j]` holds the state with one row of ghosts around and what is derived from it; i counts columns,
+j rows. rho, e, T, coefficients and normal stresses are in cell (i, j), v_x on its right and v_y on its upper
+side, the shear stress at its upper right corner.
 """
 from typing import NamedTuple
 
@@ -13,7 +13,7 @@ RHO, VX, VY, E, T, ETA, K, SXX, SYY, SXY = range(10)
 BULK_VISCOSITY = 0.0    # [KHP95, Sec. II]
 
 
-class Box(NamedTuple):
+class Mesh(NamedTuple):
     """What the loops need beside fluid and state."""
     h: float
     g: float
@@ -176,7 +176,8 @@ def rates(eos, law, box, data, S, out):
         for j in range(1, ny + 1):
             out[RHO, i - 1, j - 1] = compress(box, S, i, j)
             out[VX, i - 1, j - 1] = push_x(box, S, i, j) - carry_x(box, S, i, j)
-            out[E, i - 1, j - 1] = (work(box, S, i, j) + conduct(box, S, i, j))/S[RHO, i, j] - carry_e(box, S, i, j)
+            gained = work(box, S, i, j) + conduct(box, S, i, j)
+            out[E, i - 1, j - 1] = gained/S[RHO, i, j] - carry_e(box, S, i, j)
         out[VY, i - 1, ny - 1] = 0.0
         for j in range(1, ny + (1 if box.torus else 0)):
             out[VY, i - 1, j - 1] = push_y(box, S, i, j) - carry_y(box, S, i, j) - box.g

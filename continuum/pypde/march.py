@@ -1,4 +1,4 @@
-"""What py-pde calls while it solves: a tracker that records, checks, reports and stops, and the Runge-Kutta step."""
+"""What py-pde calls while it solves: a tracker that records, checks and stops; the Runge-Kutta step."""
 from collections.abc import Callable
 from typing import Any
 

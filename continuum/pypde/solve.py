@@ -3,8 +3,8 @@
     solve_gas(RayleighBenard(ra=1e4), rows=32)
     solve_boussinesq(ra=5000, pr=7, rows=32, until=Time(100), start=Rolls(ke=1e-6))
 
-Second order in space, different from the other grids here in unknowns and placing. py-pde brings grids, boundary conditions,
-differences, steps in compiled code and trackers.
+Second order in space, different from the other grids here in unknowns and placing. py-pde brings grids,
+boundary conditions, differences, steps in compiled code and trackers.
 """
 import math
 from dataclasses import dataclass, field
@@ -18,19 +18,18 @@ from continuum.pypde.boussinesq import Boussinesq
 from continuum.pypde.gas import Gas
 from continuum.pypde.march import Progress, StageLoop, Until, Watch
 from continuum.scene import RayleighBenard
-from continuum.steady import Steady
+from continuum.steady import Steady, choose_step
 
-SAFETY = 0.8            # of the stability limit, which is taken at density 1 and velocity 1
 STILL = 1e-12           # K of a fluid at rest
 
 
 class Rolls(NamedTuple):
-    """A start: rolls of kinetic energy `ke` per mass, `number` of them along x (by default two in a box of width 2)."""
+    """A start: rolls of kinetic energy `ke` per mass, `number` of them along x (default: the width)."""
     ke: float = 0.0018
     number: int | None = None
 
 
-class Nusselt(NamedTuple):
+class PdeNusselt(NamedTuple):
     """Heat per conduction: in at the bottom, out at the top, upwards on average over the volume."""
     bottom: float
     top: float
@@ -38,12 +37,13 @@ class Nusselt(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Solution:
+class PdeSolution:
     """What a run ended with.
 
-    `ke` is K at the end with what is left of its decay added, `ke_err` the size of that (not the error of the grid),
-    both in free-fall units for the Boussinesq layer and in those of the scene for the gas; the three of `nusselt`
-    agree to the error of the grid when steady; `mass_drift` is relative (0 for the Boussinesq layer).
+    `ke` is K at the end with what is left of its decay added, `ke_err` the size of that (not the error of the
+    grid), both in free-fall units for the Boussinesq layer and in those of the scene for the gas; the three
+    of `nusselt` agree to the error of the grid when steady; `mass_drift` is relative (0 for the Boussinesq
+    layer).
     """
     equation: Boussinesq | Gas
     state: np.ndarray = field(repr=False)
@@ -51,7 +51,7 @@ class Solution:
     series: Series = field(repr=False)
     ke: float
     ke_err: float
-    nusselt: Nusselt
+    nusselt: PdeNusselt
     rolls: int
     mass_drift: float
     converged: bool
@@ -83,55 +83,44 @@ class Solution:
         return self.equation.fields(self.state)
 
 
-def solve_boussinesq(*, ra: float, pr: float, rows: int, aspect: float = 2.0, **options) -> Solution:
-    """Boussinesq convection between rigid plates on `rows` rows of square cells, periodic in x; options of `solve`."""
+def solve_boussinesq(*, ra: float, pr: float, rows: int, aspect: float = 2.0, **options) -> PdeSolution:
+    """Boussinesq convection between rigid plates on `rows` rows, periodic in x; options of `solve`."""
     return solve(Boussinesq(ra=ra, pr=pr, rows=rows, aspect=aspect), **options)
 
 
-def solve_gas(scene: RayleighBenard, rows: int, **options) -> Solution:
-    """The compressible fluid of a scene between periodic sides on `rows` rows of square cells; options of `solve`."""
+def solve_gas(scene: RayleighBenard, rows: int, **options) -> PdeSolution:
+    """The compressible fluid of a scene, periodic in x, on `rows` rows; options of `solve`."""
     return solve(Gas(scene, rows), **options)
 
 
-def solve(equation: Any, *, until: Until = Steady(), start: Rolls | Solution | np.ndarray = Rolls(),  # noqa: B008
-          dt: float | None = None, backend: str = "numba", progress: Progress | None = None) -> Solution:
+def solve(equation: Any, *, until: Until = Steady(), start: Rolls | PdeSolution | np.ndarray = Rolls(),  # noqa: B008
+          dt: float | None = None, backend: str = "numba", progress: Progress | None = None) -> PdeSolution:
     """Solve an equation: Boussinesq or Gas.
 
     until : Steady(rtol=...) or Time(t_end) of `continuum.steady`.
     start : Rolls(ke, number), a solution of the same box on any grid, or a state (fields, columns, rows).
     dt : largest step (by default 0.8 of the stability limit); the one taken divides the time between samples.
-    backend : "numba", which compiles for some seconds at every call, or "numpy". progress : called with the fraction done.
-    Raises ValueError: dt above the stability limit; a start from another box. DivergedError: says when and where.
+    backend : "numba", which compiles at every call, or "numpy". progress : called with the fraction done.
+    Raises ValueError: dt above the stability limit; a start from another box. DivergedError: when and where.
     """
     data = start_of(equation, start)
     interval = until.interval(equation)
-    count = math.ceil(interval/choose_step(equation, dt)*(1 - 1e-12))
+    count = math.ceil(interval/choose_step(equation.step_limit(), dt)*(1 - 1e-12))
     watch = Watch(equation, until, interval, interval/count, progress)
     try:
-        state, info = equation.solve(equation.state(data), t_range=math.inf, dt=interval/count, tracker=[watch],
-                                     solver=StageLoop, backend=backend, ret_info=True)
+        state, info = equation.solve(equation.state(data), t_range=math.inf, dt=interval/count,
+                                     tracker=[watch], solver=StageLoop, backend=backend, ret_info=True)
     finally:
         restore_interrupt(equation)
     return finish(equation, watch, state.data, info)
 
 
-def start_of(equation: Any, start: Rolls | Solution | np.ndarray) -> np.ndarray:
+def start_of(equation: Any, start: Rolls | PdeSolution | np.ndarray) -> np.ndarray:
     """The state that a run begins with."""
     if isinstance(start, np.ndarray):
         return start.copy()
     data: np.ndarray = equation.rolls(*start) if isinstance(start, Rolls) else onto(equation, start)
     return data
-
-
-def choose_step(equation: Any, dt: float | None) -> float:
-    """The step that is asked for, or a safe one."""
-    limit = equation.step_limit()
-    if dt is None:
-        return SAFETY*limit
-    if not 0 < dt <= limit:
-        raise ValueError(f"dt = {dt:.4g} must be positive and not above the stability limit {limit:.4g}: "
-                         "lower or omit it")
-    return dt
 
 
 def restore_interrupt(equation: Any) -> None:
@@ -140,32 +129,33 @@ def restore_interrupt(equation: Any) -> None:
         raise KeyboardInterrupt
 
 
-def finish(equation: Any, watch: Watch, data: np.ndarray, info: dict) -> Solution:
+def finish(equation: Any, watch: Watch, data: np.ndarray, info: dict) -> PdeSolution:
     """What the run measured and what it cost."""
     ke, ke_err = watch.until.estimate(watch.ke)
     series = Series(*np.array(watch.samples).T)
     seconds = info["controller"]["profiler"]
     v = equation.rising(data)
-    return Solution(
+    return PdeSolution(
         equation=equation, state=data.copy(), t=watch.samples[-1][0], series=series, ke=ke, ke_err=ke_err,
-        nusselt=Nusselt(*equation.nusselt(data)), rolls=0 if watch.ke[-1] < STILL else count_rolls(v),
+        nusselt=PdeNusselt(*equation.nusselt(data)), rolls=0 if watch.ke[-1] < STILL else count_rolls(v),
         mass_drift=series.mass[-1]/series.mass[0] - 1, converged=watch.until.settled(watch.ke),
         dt=info["solver"]["dt"], steps=info["solver"]["steps"], cpu_s=seconds["solver"] + seconds["tracker"],
         compile_s=seconds["compilation"])
 
 
 def count_rolls(v: np.ndarray) -> int:
-    """Changes of sign of the vertical velocity along the periodic mid-height; below 5 % of its largest it is zero."""
+    """Changes of sign of the vertical velocity along mid-height; below 5 % of its largest it is zero."""
     up = v[np.abs(v) > 0.05*np.abs(v).max()] > 0
     return int(np.sum(up != np.roll(up, 1)))
 
 
-def onto(equation: Any, start: Solution) -> np.ndarray:
-    """The state of a solution on the grid of another equation: cubic splines through its points and ghosts."""
+def onto(equation: Any, start: PdeSolution) -> np.ndarray:
+    """The state of a solution on another grid: cubic splines through its points and ghosts."""
     old = start.equation
     if type(old) is not type(equation) or not np.allclose(old.grid_box, equation.grid_box):
         raise ValueError(f"start is a {type(old).__name__} in a box {old.grid_box}, the equation a "
-                         f"{type(equation).__name__} in {equation.grid_box}: start from rolls or from the same box")
+                         f"{type(equation).__name__} in {equation.grid_box}: start from rolls or from the "
+                         "same box")
     parts = []
     for n, f in enumerate(old.padded(start.state)[:len(start.state)]):
         x, y = equation.points(n)

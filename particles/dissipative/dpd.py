@@ -2,8 +2,8 @@
 
     F_ij = [a w - gamma w^2 (e.v_ij) + sqrt(2 gamma kT/dt) w zeta_ij] e,    w = 1 - r/rc,    e = r_ij/r
 
-zeta_ij = zeta_ji of mean 0 and variance 1, new in every step. Units: masses are 1. The state (3 d, n) is x, v and the force of
-the end of the last step, so that integrators and restarts know it.
+zeta_ij = zeta_ji of mean 0 and variance 1, new in every step. Units: masses are 1. The state (3 d, n) is x, v
+and the force of the end of the last step, so that integrators and restarts know it.
 """
 from dataclasses import dataclass
 from math import isfinite
@@ -12,7 +12,18 @@ from typing import Any
 import numpy as np
 
 from particles.dissipative.integrators import GrootWarren65
-from particles.dissipative.pairs3d import Force, Law, Record, Silent, Uniform, record, rub_pairs, sum_pairs, turn, velocities
+from particles.dissipative.pairs3d import (
+    Force,
+    Law,
+    Record,
+    Silent,
+    Uniform,
+    record,
+    rub_pairs,
+    sum_pairs,
+    turn,
+    velocities,
+)
 from particles.dissipative.periodic3d import Images
 from particles.fields import Fields
 from particles.limits import limit_of
@@ -27,9 +38,9 @@ SORT = 20       # steps after which particles are put in the order of cells agai
 class Dpd:
     """A fluid of dissipative particles in a periodic box (width, height[, depth]) centred on the origin.
 
-    a, gamma, kT, rc : repulsion, friction, temperature, range. noise : `Uniform(seed)`. skin : of the lists, a length.
-    integrator : of `integrators`, or `TwoStep` for RR98 Eqs 40, 41. rate : of a shear v_x = rate y between sliding sides.
-    Raises ValueError: a parameter that makes no fluid.
+    a, gamma, kT, rc : repulsion, friction, temperature, range. noise : `Uniform(seed)`. skin : of the lists,
+    a length. integrator : of `integrators`, or `TwoStep` for RR98 Eqs 40, 41. rate : of a shear v_x = rate y
+    between sliding sides. Raises ValueError: a parameter that makes no fluid.
     """
     box: tuple[float, ...]
     a: float = 25.0
@@ -43,18 +54,20 @@ class Dpd:
 
     def __post_init__(self):
         check_seed(self.noise.seed)
-        for name, why in (("a", "negative repulsion collapses the fluid"), ("gamma", "negative friction feeds motions"),
+        for name, why in (("a", "negative repulsion collapses the fluid"),
+                          ("gamma", "negative friction feeds motions"),
                           ("kT", "a temperature is not negative")):
             if not (isfinite(getattr(self, name)) and getattr(self, name) >= 0):
                 raise ValueError(f"{name} must be zero or positive, got {getattr(self, name)}: {why}")
         for name in ("rc", "skin"):
             if not (isfinite(getattr(self, name)) and getattr(self, name) > 0):
-                raise ValueError(f"{name} must be positive, got {getattr(self, name)}: rc = 1, skin = 0.3 are usual")
+                raise ValueError(f"{name} must be positive, got {getattr(self, name)}: rc = 1, skin = 0.3 "
+                                 "are usual")
         if not isfinite(self.rate):
             raise ValueError(f"the shear rate must be finite, got {self.rate}")
         if len(self.box) not in (2, 3) or not min(self.box) >= 3*self.rc:
-            raise ValueError(f"the box {self.box} needs two or three sides of at least 3 rc = {3*self.rc:g}, or a particle would "
-                             "meet the same one twice: take a larger box")
+            raise ValueError(f"the box {self.box} needs two or three sides of at least 3 rc = {3*self.rc:g}, "
+                             "or a particle would meet the same one twice: take a larger box")
 
     @property
     def d(self) -> int:
@@ -75,10 +88,11 @@ class Dpd:
         return Law(self.a, self.gamma, float(np.sqrt(2*self.gamma*self.kT/dt)), 1/self.rc)
 
     def longest_step(self, n: int) -> float:
-        """2/omega of velocity-Verlet and 2/Lambda of forward friction, for a pair of waves in which all neighbours oppose.
+        """2/omega of velocity-Verlet and 2/Lambda of forward friction, where all neighbours oppose.
 
-        Per particle rho V springs of a/rc and friction gamma <w^2> each, a d-th of them along a direction, twice that when
-        neighbours move against each other: omega^2 = 2 rho V a/(d rc), Lambda = 2 rho V gamma <w^2>/d.
+        Per particle rho V springs of a/rc and friction gamma <w^2> each, a d-th of them along a direction,
+        twice that when neighbours move against each other: omega^2 = 2 rho V a/(d rc), Lambda = 2 rho V gamma
+        <w^2>/d.
         """
         rho_V = n/self.volume*{2: np.pi, 3: 4*np.pi/3}[self.d]*self.rc**self.d
         w2 = 2/((self.d + 1)*(self.d + 2))       # mean over the ball: d int (1 - s)^2 s^(d - 1) ds
@@ -86,10 +100,11 @@ class Dpd:
         return float(min(2/max(omega, 1e-300), 2/max(friction, 1e-300)))
 
     def random_start(self, rho: float, seed: int = 1) -> np.ndarray:
-        """State (3 d, n) at random, velocities of kT in the shear. Raises ValueError: rho leaves no two particles."""
+        """State (3 d, n) at random, velocities of kT in the shear. Raises ValueError: rho leaves no two
+        particles."""
         if not (isfinite(rho) and rho > 0 and round(rho*self.volume) >= 2):
-            raise ValueError(f"rho must be positive and make two particles at least in a volume of {self.volume:g}, got {rho}: "
-                             "rho = 3 is usual")
+            raise ValueError("rho must be positive and make two particles at least in a volume of "
+                             f"{self.volume:g}, got {rho}: rho = 3 is usual")
         rng, n = np.random.default_rng(seed), round(rho*self.volume)
         x = rng.uniform(-0.5, 0.5, (self.d, n))*np.array(self.box)[:, None]
         v = np.sqrt(self.kT)*rng.standard_normal((self.d, n))
@@ -148,17 +163,18 @@ class Forces:
             self.images.anchor, now.anchor = None, anchor
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """Lists for the step; before the first its force. Raises ValueError: the step is above the stability limit."""
+        """Lists for the step; before the first its force. ValueError: the step is above the limit."""
         d, self.now, self.dt = self.places, now, dt
         if now.step == 0 and not dt <= self.method.longest_step(self.n):
             limit = self.method.longest_step(self.n)
-            raise ValueError(f"dt = {dt:g} is above the stability limit {limit:.3g} of these particles: take a shorter step, "
-                             "0.02 to 0.04 is usual at a = 25, rho = 3")
+            raise ValueError(f"dt = {dt:g} is above the stability limit {limit:.3g} of these particles: take "
+                             "a shorter step, 0.02 to 0.04 is usual at a = 25, rho = 3")
         if now.step % SORT == 0:
             order = self.images.order(now.state[:d])
             now.state[:], now.ids[:], self.images.anchor = now.state[:, order], now.ids[order], None
         if now.step == 0:
-            self._sum(Force(), self.method.law(dt), self.method.noise, 0, now.state[:d], now.state[d:2*d], 0.0, now.state[2*d:])
+            self._sum(Force(), self.method.law(dt), self.method.noise, 0, now.state[:d], now.state[d:2*d],
+                      0.0, now.state[2*d:])
 
     def confine(self, state: np.ndarray) -> int:
         """No walls, no reflections."""
@@ -179,7 +195,7 @@ class Forces:
         return state[self.places:2*self.places]
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt with the noise of this step, as `TwoStep` wants it; the last rows stay    [RR98 Eqs 39, 40, 49, 51]"""
+        """d(state)/dt with the noise of this step, for `TwoStep`    [RR98 Eqs 39, 40, 49, 51]"""
         d = self.places
         out[:d], out[2*d:] = state[d:2*d], 0.0
         self.forces(state[:d], state[d:2*d], 0.0, out[d:2*d])
@@ -206,13 +222,14 @@ class Forces:
         """Sums (n, columns) of a term over the pairs of a state, without noise."""
         d, out = self.places, np.empty((self.n, columns))
         self._records(state[:d], state[d:2*d], 0.0)
-        self.team(sum_pairs, self.n, term, self.method.law(self.dt), Silent(0), 0, self.particle, self.images.lists, self.taken,
-                  out)
+        self.team(sum_pairs, self.n, term, self.method.law(self.dt), Silent(0), 0, self.particle,
+                  self.images.lists, self.taken, out)
         return out
 
     def _sum(self, term, law, noise, step, x, v, later, out):
         self._records(x, v, later)
-        self.team(sum_pairs, self.n, term, law, noise, step, self.particle, self.images.lists, self.taken, self.total)
+        self.team(sum_pairs, self.n, term, law, noise, step, self.particle, self.images.lists, self.taken,
+                  self.total)
         self.team(turn, self.n, self.total, out)
 
     def _records(self, x, v, later):

@@ -1,8 +1,9 @@
-"""Time steps of particles with friction and noise; rows of a state are x, v and the force of the end of the last step.
+"""Time steps of particles with friction and noise; a state is x, v and the last force.
 
-sums.places : d. sums.forces(x, v, later, out) writes the forces at x, v, `later` than the start of the step, with the noise of
-this step; sums.soft(x, later, out) those that depend neither on velocities nor on noise; sums.rub(x, v, dt) lets friction and
-noise act on v, pair by pair. Masses are 1. RR98's own step is `integrators.TwoStep`.
+sums.places : d. sums.forces(x, v, later, out) writes the forces at x, v, `later` than the start of the step,
+with the noise of this step; sums.soft(x, later, out) those that depend neither on velocities nor on noise;
+sums.rub(x, v, dt) lets friction and noise act on v, pair by pair. Masses are 1. RR98's own step is
+`integrators.TwoStep`.
 """
 from typing import Any
 
@@ -29,7 +30,7 @@ def _kick(first, last, v, f, new, dt):
 
 
 class GrootWarren:
-    """Velocity-Verlet with friction at a guess of the velocity, v + lam dt f    [Groot & Warren 1997, lam = 1/2]"""
+    """Velocity-Verlet with friction at v + lam dt f    [Groot & Warren 1997, lam = 1/2]"""
     lam = 0.5
 
     def __init__(self, shape: tuple[int, ...], team: Team):
@@ -46,12 +47,12 @@ class GrootWarren:
 
 
 class GrootWarren65(GrootWarren):
-    """The same with lam = 0.65, which Groot & Warren found to keep the kinetic temperature best at rho = 3."""
+    """The same with lam = 0.65, Groot & Warren's best for the temperature at rho = 3."""
     lam = 0.65
 
 
 class VelocityVerlet(GrootWarren):
-    """Velocity-Verlet with friction evaluated once more at the velocities that come out    [Besold et al. 2000, DPD-VV]"""
+    """Velocity-Verlet with friction once more at the final velocities    [Besold et al. 2000, DPD-VV]"""
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
         """Advance y in place by dt."""

@@ -1,7 +1,7 @@
 """Linked cells and Verlet lists in three dimensions; those of `particles.neighbours` are in two.
 
-Lists hold both directions of a pair, so that each row of a pair sum is written by one thread. In one layer of cells these
-take twice as long as those.
+Lists hold both directions of a pair, so that each row of a pair sum is written by one thread. In one layer of
+cells these take twice as long as those.
 """
 from typing import NamedTuple
 
@@ -14,8 +14,8 @@ from continuum.jit import jit
 from particles.neighbours import ONE, u32, u64
 
 
-class Cells(NamedTuple):
-    """Points sorted into cubes: cell c holds order[start[c]:start[c+1]] at x (points, 3); counts of cells along x, y, z."""
+class Cubes(NamedTuple):
+    """Points sorted into cubes: cell c holds order[start[c]:start[c+1]] at x; counts along x, y, z."""
     low: np.ndarray
     side: float
     counts: np.ndarray
@@ -57,15 +57,17 @@ def _count_sort(cells, x):
         fill[cell[k]] += 1
 
 
-def sort_into_cells(x: np.ndarray, side: float) -> Cells:
-    """Linked cells over points (n, 3), an empty one around them. Raises FloatingPointError: far more cells than points."""
+def sort_into_cells(x: np.ndarray, side: float) -> Cubes:
+    """Linked cells over points (n, 3), one empty around. FloatingPointError: far more cells than points."""
     low = x.min(axis=0) - side
     across = (x.max(axis=0) - low)/side + 2
     if not np.prod(across) <= 64*len(x) + 4096:
-        raise FloatingPointError(f"the particles spread over {across[0]:.4g} x {across[1]:.4g} x {across[2]:.4g} cells, far more "
-                                 f"than their number {len(x)}: some are no longer in the box; lower the step")
+        raise FloatingPointError(f"the particles spread over {across[0]:.4g} x {across[1]:.4g} x "
+                                 f"{across[2]:.4g} cells, far more than their number {len(x)}: some are no "
+                                 "longer in the box; lower the step")
     counts = across.astype(np.int64)
-    cells = Cells(low, side, counts, np.zeros(np.prod(counts) + 1, np.int64), np.empty(len(x), u32), np.empty_like(x))
+    cells = Cubes(low, side, counts, np.zeros(np.prod(counts) + 1, np.int64), np.empty(len(x), u32),
+                  np.empty_like(x))
     _count_sort(cells, x)
     return cells
 
@@ -104,9 +106,11 @@ def _within(x, y, z, far2, near, first):
 
 @jit
 def list_rows(first, last, n, cells, reach, capacity, lists):
-    """Write the lists of those of n particles that are first..last in the cells, from first*capacity on; False without room.
+    """Write the lists of those of n particles that are first..last in the cells, from first*capacity on;
+    False without room.
 
-    What is around a cell is compared 64 at a time, in vector instructions, and only what is within reach is looked at again.
+    What is around a cell is compared 64 at a time, in vector instructions, and only what is within reach is
+    looked at again.
     """
     most = 27*np.diff(cells.start).max() + 64
     near, number = np.empty((3, most)), np.empty(most, u32)

@@ -1,4 +1,4 @@
-"""What is measured on dissipative particles. Each function takes the pair sums and the state (3 d, n) = x, v, f."""
+"""What is measured on dissipative particles, of the pair sums and the state (3 d, n) = x, v, f."""
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -7,7 +7,7 @@ from particles.pairs import nothing, rate
 
 
 class Static(NamedTuple):
-    """Sums of the repulsion F in d dimensions: components, Laplacian of its potential, F.r, and (F less friction)_x y."""
+    """Sums of the repulsion F: components, Laplacian of its potential, F.r, (F less friction)_x y."""
     d: int
     stiffness: float        # a/rc
 
@@ -17,7 +17,8 @@ def _(term, a, b, ab):
     """U'' + (d - 1) U'/r = a/rc - (d - 1) f"""
     fx, fy, fz = ab.f*ab.dx, ab.f*ab.dy, ab.f*ab.dz
     friction = ab.g*(ab.dx*(a.vx - b.vx) + ab.dy*(a.vy - b.vy) + ab.dz*(a.vz - b.vz))
-    return (fx, fy, fz, term.stiffness - (term.d - 1)*ab.f, fx*ab.dx + fy*ab.dy + fz*ab.dz, (ab.f - friction)*ab.dx*ab.dy)
+    return (fx, fy, fz, term.stiffness - (term.d - 1)*ab.f, fx*ab.dx + fy*ab.dy + fz*ab.dz,
+            (ab.f - friction)*ab.dx*ab.dy)
 
 
 nothing.of(Static)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
@@ -55,7 +56,7 @@ def kinetic_temperature(sums: Any, state: np.ndarray) -> float:
 
 
 def configurational_temperature(sums: Any, state: np.ndarray) -> float:
-    """kT of positions, <|grad U|^2>/<lap U>, of one state too high by 1/n    [Rugh 1997; Butler et al. 1998]"""
+    """kT of positions, <|grad U|^2>/<lap U>, too high by 1/n    [Rugh 1997; Butler et al. 1998]"""
     total = static_sums(sums, state)
     return float((total[:, :3]**2).sum()/total[:, 3].sum())
 
@@ -63,11 +64,12 @@ def configurational_temperature(sums: Any, state: np.ndarray) -> float:
 def pressure(sums: Any, state: np.ndarray) -> float:
     """P = [n kT + sum over pairs F.r/d]/V, kT that of the velocities."""
     n, d = sums.n, sums.places
-    return float((n*kinetic_temperature(sums, state) + static_sums(sums, state)[:, 4].sum()/2/d)/sums.method.volume)
+    virial = static_sums(sums, state)[:, 4].sum()/2
+    return float((n*kinetic_temperature(sums, state) + virial/d)/sums.method.volume)
 
 
 def shear_stress(sums: Any, state: np.ndarray) -> float:
-    """Stress_xy, positive with the shear: -[sum v_x v_y + sum over pairs (F - friction)_x y]/V; of the noise the mean is zero."""
+    """Stress_xy, positive with the shear: -[sum v_x v_y + sum over pairs (F - friction)_x y]/V."""
     v = peculiar(sums, state)
     return float(-(np.sum(v[0]*v[1]) + static_sums(sums, state)[:, 5].sum()/2)/sums.method.volume)
 

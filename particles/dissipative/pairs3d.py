@@ -1,4 +1,4 @@
-"""Pair sums of dissipative particles, compiled: a block of rows after the other, whose pairs stay in the cache."""
+"""Pair sums of dissipative particles, compiled, block by block of rows, whose pairs stay in the cache."""
 from typing import NamedTuple
 
 import numpy as np
@@ -8,7 +8,8 @@ from particles.neighbours import u32, u64
 from particles.noise import uniform_of_pair
 from particles.pairs import between, nothing, rate, sweep
 
-Record = np.dtype([(name, "f8") for name in ("x", "y", "z", "vx", "vy", "vz")] + [("id", "u8"), ("image", "u8")])
+Record = np.dtype([*((name, "f8") for name in ("x", "y", "z", "vx", "vy", "vz")),
+                   ("id", "u8"), ("image", "u8")])
 ROWS = 32       # of a block: their pairs take some 30 KB
 
 
@@ -51,7 +52,8 @@ class Law(NamedTuple):
 
 
 class Near(NamedTuple):
-    """Pairs of row i within rc: near, (dx, dy, dz) = r_i - r_j [first[i]:first[i] + taken[i]]; own, other: their numbers.
+    """Pairs of row i within rc: near, (dx, dy, dz) = r_i - r_j [first[i]:first[i] + taken[i]]; own, other:
+    their numbers.
 
     f r is the force that does not depend on velocities, g r^2 the friction.
     """
@@ -96,7 +98,7 @@ nothing.of(Force)(lambda term: (0.0, 0.0, 0.0))
 
 @jit
 def find_near(first, last, rc2, particle, lists, pairs):
-    """The pairs in range of rows first..last, r^2 as f; their number. The list is compressed without a branch."""
+    """The pairs in range of rows first..last, r^2 as f; their number. Without a branch."""
     end = u64(0)
     for i in range(u64(first), u64(last)):
         a, begin = particle[i], end
@@ -125,13 +127,15 @@ def weigh_near(law, count, zeta, f, g):
 def room_for(first, last, lists, taken):
     """Arrays for the pairs of the longest block of rows first..last.
 
-    Each has memory of its own: rows of one array LLVM takes for the same memory, and makes no vector instructions.
+    Each has memory of its own: rows of one array LLVM takes for the same memory, and makes no vector
+    instructions.
     """
     room = 1
     for start in range(first, last, ROWS):
         room = max(room, int(lists.length[start:min(start + ROWS, last)].sum()) + 1)
-    return Near(taken[0], taken[1], np.empty(room, u32), np.empty(room, u64), np.empty(room, u64), np.empty(room), np.empty(room),
-                np.empty(room), np.empty(room), np.empty(room), np.empty(room))
+    return Near(taken[0], taken[1], np.empty(room, u32), np.empty(room, u64), np.empty(room, u64),
+                np.empty(room), np.empty(room), np.empty(room), np.empty(room), np.empty(room),
+                np.empty(room))
 
 
 @jit
@@ -166,9 +170,10 @@ def turn(first, last, total, out):
 
 @jit
 def rub_pairs(n, law, noise, step, dt, particle, lists, taken, up, boost):
-    """Friction and noise on one pair after the other, implicit midpoint, which keeps kT at any step    [Shardlow 2003]
+    """Friction and noise pair by pair, implicit midpoint: keeps kT at any step    [Shardlow 2003]
 
-    u' = u - K (u + u') + 2 s zeta along the pair, K = gamma w^2 dt, s^2 = 2 K kT: half of the change for each of the two.
+    u' = u - K (u + u') + 2 s zeta along the pair, K = gamma w^2 dt, s^2 = 2 K kT: half of the change for each
+    of the two.
     """
     pairs = room_for(0, n, lists, taken)
     for start in range(0, n, ROWS):

@@ -1,7 +1,7 @@
 """A periodic box in two or three dimensions: cell order, ghosts and neighbour lists of the particles in it.
 
-Two dimensions are three with z = 0: one layer of cells, no ghosts above or below. With `rate` the images beyond y slide along x
-[Lees & Edwards 1972].
+Two dimensions are three with z = 0: one layer of cells, no ghosts above or below. With `rate` the images
+beyond y slide along x [Lees & Edwards 1972].
 """
 from typing import NamedTuple
 
@@ -29,10 +29,10 @@ def farthest(x, anchor):
 
 @jit
 def _ghosts(x, sides, d, slid, margin, parent, shift, up):
-    """Shifts of n points into the box, then ghosts: of what is within `margin` of a side its image beyond the other one.
+    """Shifts of n points into the box, then ghosts of what is within `margin` of a side.
 
-    x (d, n); parent (room,), shift (room, 3), up (room,) are filled; the number of points, or -1 if they do not fit. Along y
-    first, since what has slid may need images along x.
+    x (d, n); parent (room,), shift (room, 3), up (room,) are filled; the number of points, or -1 if they do
+    not fit. Along y first, since what has slid may need images along x.
     """
     n = count = x.shape[1]
     for i in range(n):
@@ -61,7 +61,7 @@ def _ghosts(x, sides, d, slid, margin, parent, shift, up):
 
 @jit
 def place(first, last, x, images, slid, out):
-    """out[k] = (x, y, z) of points first..last, images having slid by so much since their shifts were made."""
+    """out[k] = (x, y, z) of points first..last, images having slid since."""
     for k in range(first, last):
         i = images.parent[k]
         out[k, 0] = x[0, i] + (images.shift[k, 0] + images.up[k]*slid)
@@ -69,22 +69,23 @@ def place(first, last, x, images, slid, out):
         out[k, 2] = x[2, i] + images.shift[k, 2] if len(x) == 3 else 0.0
 
 
-class Points(NamedTuple):
-    """Particles in the box, then ghosts: image of which particle each is, where from there (points, 3), how many boxes above."""
+class WithGhosts(NamedTuple):
+    """Particles, then ghosts: of which particle, where from there (points, 3), how many boxes above."""
     parent: np.ndarray
     shift: np.ndarray
     up: np.ndarray
 
 
 class Images:
-    """Ghosts and lists of n particles, anywhere, in a periodic box (d,), d = 2 or 3, centred on the origin."""
+    """Ghosts and lists of n particles in a periodic box (d,), d = 2 or 3, centred on the origin."""
 
     def __init__(self, n: int, box: tuple[float, ...], reach: float, skin: float, rate: float, team: Team):
-        self.n, self.box, self.reach, self.skin, self.rate, self.team = n, np.array(box, float), reach, skin, rate, team
+        self.n, self.box, self.team = n, np.array(box, float), team
+        self.reach, self.skin, self.rate = reach, skin, rate
         self.anchor: np.ndarray | None = None
         self.anchor_slid, self.made = 0.0, 0
         self.lists = Lists(np.empty(n, u64), np.empty(n, u32), np.empty(0, u32))
-        self.points = Points(np.empty(0, np.int64), np.empty((0, 3)), np.empty(0))
+        self.points = WithGhosts(np.empty(0, np.int64), np.empty((0, 3)), np.empty(0))
 
     def slid(self, time: float) -> float:
         """How far the images above have slid."""
@@ -115,8 +116,8 @@ class Images:
             if all(self.team(list_rows, len(places), self.n, cells, reach, room, self.lists)):
                 return
             room = int(1.3*room) + 1
-        raise FloatingPointError(f"more than {int(room/1.3)} neighbours within {reach:g} of each particle: they have collapsed "
-                                 "onto each other; lower the step or the attraction")
+        raise FloatingPointError(f"more than {int(room/1.3)} neighbours within {reach:g} of each particle: "
+                                 "they have collapsed onto each other; lower the step or the attraction")
 
     def _make_points(self, x: np.ndarray) -> np.ndarray:
         """Particles in the box and ghosts; their places (points, 3)."""
@@ -125,7 +126,7 @@ class Images:
         while count < 0:
             parent, shift, up = np.empty(room, np.int64), np.empty((room, 3)), np.empty(room)
             count, room = _ghosts(x, self.box, len(x), self.anchor_slid, margin, parent, shift, up), 2*room
-        self.points = Points(parent[:count], shift[:count], up[:count])
+        self.points = WithGhosts(parent[:count], shift[:count], up[:count])
         out = np.empty((count, 3))
         place(0, count, x, self.points, 0.0, out)
         return out

@@ -24,13 +24,13 @@ class DpdStream(Dpd):
     def __post_init__(self):
         super().__post_init__()
         if len(self.held) < 1 or len(np.unique(self.held)) < len(self.held):
-            raise ValueError(f"{len(self.held)} particles are to be held, {len(np.unique(self.held))} of them different: name at "
-                             "least one, and each once")
+            raise ValueError(f"{len(self.held)} particles are to be held, {len(np.unique(self.held))} of "
+                             "them different: name at least one, and each once")
         if not np.isfinite(self.push):
             raise ValueError(f"the push must be finite, got {self.push}")
         if issubclass(self.integrator, (Shardlow, TwoStep)):
-            raise ValueError(f"{self.integrator.__name__} does not step with forces alone, by which particles are held: take "
-                             "VelocityVerlet")
+            raise ValueError(f"{self.integrator.__name__} does not step with forces alone, by which "
+                             "particles are held: take VelocityVerlet")
 
     def at_rest(self, state: np.ndarray, speed: float) -> np.ndarray:
         """A state (3 d, n) with the held particles at rest, `speed` added to the others along x."""
@@ -39,12 +39,12 @@ class DpdStream(Dpd):
         out[d:, self.held] = 0.0
         return out
 
-    def start(self, n: int, team: Team) -> "Streaming":
+    def start(self, n: int, team: Team) -> "PairStreaming":
         """The pair sums."""
-        return Streaming(self, n, team)
+        return PairStreaming(self, n, team)
 
 
-class Streaming(Forces):
+class PairStreaming(Forces):
     """The pair sums, and the momentum that the body has received since it was last asked for."""
     method: DpdStream
 
@@ -79,13 +79,13 @@ class Streaming(Forces):
         self.drive(out)
 
 
-def force_on_body(sums: Streaming, state: np.ndarray) -> float:
+def force_on_body(sums: PairStreaming, state: np.ndarray) -> float:
     """Along x, mean over all forces evaluated since the last record or restart."""
     force = sums.received/max(sums.calls, 1)
     sums.begin()
     return float(force[0])
 
 
-def speed(sums: Streaming, state: np.ndarray) -> float:
+def speed(sums: PairStreaming, state: np.ndarray) -> float:
     """Mean velocity along x of all particles, the held ones among them."""
     return float(state[sums.places].mean())

@@ -1,11 +1,12 @@
-"""Points that are held: frozen points that form a rigid body, rows of fixed points that form a wall    [RR98, Sec. IV]
+"""Held points: frozen ones form a rigid body, rows of fixed ones a wall    [RR98, Sec. IV]
 
-A held point exchanges over its edges as all points do; its velocity and temperature are given, its density evolves. What the
-edges carry to it is the force on the body and its heat. A body of lattice points has a staircase for a surface; points placed
-on the surface give the true one.
+A held point exchanges over its edges as all points do; its velocity and temperature are given, its density
+evolves. What the edges carry to it is the force on the body and its heat. A body of lattice points has a
+staircase for a surface; points placed on the surface give the true one.
 
-The flux of eta lap v through a surface is eta dv/dn, the traction on a body that does not turn. One that turns with Omega feels
-a torque -2 eta Omega area besides, from edges inside of it: take the torque on all points of a body.
+The flux of eta lap v through a surface is eta dv/dn, the traction on a body that does not turn. One that
+turns with Omega feels a torque -2 eta Omega area besides, from edges inside of it: take the torque on all
+points of a body.
 """
 from typing import NamedTuple
 
@@ -14,11 +15,12 @@ import numpy as np
 from particles.integral.edges import mirror
 from particles.integral.points import Points, lattice, of_positions
 
-CLEAR = 0.6     # spacings between a surface and points that are not on it: nearer ones would cut its edges or take short steps
+#: spacings between a surface and points off it: nearer ones would cut its edges or take short steps
+CLEAR = 0.6
 
 
 class Held(NamedTuple):
-    """Points `which` (m,) of velocity v (m, 2), temperature T (m,), whatever they receive; T nan: adiabatic. body: its number."""
+    """Points `which` (m,) held at v (m, 2) and T (m,); T nan: adiabatic. body: its number."""
     which: np.ndarray
     v: np.ndarray
     T: np.ndarray
@@ -26,14 +28,16 @@ class Held(NamedTuple):
 
 
 def held(which: np.ndarray, v: tuple[float, float] = (0.0, 0.0), T: float = np.nan) -> Held:
-    """Points of one velocity and temperature. Raises ValueError: there are none, one is named twice, or T <= 0."""
+    """Points of one velocity and temperature. ValueError: there are none, or one twice, or T <= 0."""
     which = np.asarray(which)
     if len(which) < 1 or len(np.unique(which)) < len(which):
-        raise ValueError(f"{len(which)} points are to be held, {len(np.unique(which))} of them different: name at least one, and "
-                         "each once; a body narrower than a spacing may hold none")
+        raise ValueError(f"{len(which)} points are to be held, {len(np.unique(which))} of them different: "
+                         "name at least one, and each once; a body narrower than a spacing may hold none")
     if T <= 0:
-        raise ValueError(f"held points have T = {T:g}, which must be positive; leave it out for a body that takes no heat")
-    return Held(which, np.tile(np.asarray(v, float), (len(which), 1)), np.full(len(which), float(T)), np.zeros(len(which), int))
+        raise ValueError(f"held points have T = {T:g}, which must be positive; leave it out for a body that "
+                         "takes no heat")
+    return Held(which, np.tile(np.asarray(v, float), (len(which), 1)), np.full(len(which), float(T)),
+                np.zeros(len(which), int))
 
 
 def turning(points: Points, which: np.ndarray, rate: float, T: float = np.nan) -> Held:
@@ -43,7 +47,7 @@ def turning(points: Points, which: np.ndarray, rate: float, T: float = np.nan) -
 
 
 def together(*bodies: Held) -> Held:
-    """Several bodies, such as the two plates of a channel; where they touch they do not rub against each other."""
+    """Several bodies, such as two plates of a channel; they do not rub against each other."""
     which, v, T, _ = (np.concatenate(column) for column in zip(*bodies, strict=True))
     return Held(which, v, T, np.repeat(np.arange(len(bodies)), [len(body.which) for body in bodies]))
 
@@ -57,22 +61,25 @@ def in_disc(points: Points, radius: float) -> np.ndarray:
 def check_disc(points: Points, radius: float) -> None:
     """Refuse a disc without a point, and one that touches its own image."""
     if not points.a <= radius <= points.box.min()/2 - points.a:
-        raise ValueError(f"a disc of radius {radius:g} in a box {points.box} with spacing {points.a:.3g}: it must be at least a "
-                         "spacing wide and as far from its image beyond the side; take more points")
+        raise ValueError(f"a disc of radius {radius:g} in a box {points.box} with spacing {points.a:.3g}: it "
+                         "must be at least a spacing wide and as far from its image beyond the side; take "
+                         "more points")
 
 
 def with_surface(counts: tuple[int, int], radius: float) -> tuple[Points, np.ndarray]:
-    """A lattice of spacing 1 with a disc about its middle, and the points of the disc, those on its surface among them.
+    """A lattice of spacing 1 with a disc about its middle, and the disc's points, surface included.
 
-    The lattice keeps off the circle by CLEAR, so that chords between neighbours on it are edges of a Delaunay triangulation.
-    The polygon lacks a fraction (2 pi/n)^2/6 of the area of the disc: second order in the spacing.
+    The lattice keeps off the circle by CLEAR, so that chords between neighbours on it are edges of a Delaunay
+    triangulation. The polygon lacks a fraction (2 pi/n)^2/6 of the area of the disc: second order in the
+    spacing.
     """
     at = lattice(counts)
     check_disc(at, radius)
     r = np.hypot(*at.x.T)
     circle = on_circle(radius)
     inside, outside = at.x[r < radius - CLEAR], at.x[r > radius + CLEAR]
-    return of_positions(np.concatenate([circle, inside, outside]), at.box), np.arange(len(circle) + len(inside))
+    return of_positions(np.concatenate([circle, inside, outside]),
+                        at.box), np.arange(len(circle) + len(inside))
 
 
 def on_circle(radius: float) -> np.ndarray:
@@ -82,8 +89,9 @@ def on_circle(radius: float) -> np.ndarray:
     return radius*np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
-def between_circles(counts: tuple[int, int], inner: float, outer: float) -> tuple[Points, np.ndarray, np.ndarray]:
-    """A lattice of spacing 1 with points on two circles about its middle; those up to the inner and those from the outer one on.
+def between_circles(counts: tuple[int, int], inner: float,
+                    outer: float) -> tuple[Points, np.ndarray, np.ndarray]:
+    """A lattice of spacing 1 with points on two circles; points up to the inner, and from the outer.
 
     Raises ValueError: there is no room between the circles, or between one of them and its image.
     """
@@ -91,7 +99,8 @@ def between_circles(counts: tuple[int, int], inner: float, outer: float) -> tupl
     check_disc(at, inner)
     check_disc(at, outer)
     if outer - inner < 2:
-        raise ValueError(f"circles of radius {inner:g} and {outer:g} leave no point of the fluid between them: take more points")
+        raise ValueError(f"circles of radius {inner:g} and {outer:g} leave no point of the fluid between "
+                         "them: take more points")
     r = np.hypot(*at.x.T)
     off = (np.abs(r - inner) > CLEAR) & (np.abs(r - outer) > CLEAR)
     points = of_positions(np.concatenate([on_circle(inner), on_circle(outer), at.x[off]]), at.box)
@@ -100,9 +109,10 @@ def between_circles(counts: tuple[int, int], inner: float, outer: float) -> tupl
 
 
 def with_plates(inner: np.ndarray, columns: int, height: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Points (n, 2) with rows of `columns` points, a spacing of 1 apart, on the plates y = -+height/2, and which these are.
+    """Points (n, 2) with rows of `columns` points on the plates y = -+height/2, and which these are.
 
-    For triangles that end there, `triangulation.between`. The rows inside are one less than the spacings of the height.
+    For triangles that end there, `triangulation.between`. The rows inside are one less than the spacings of
+    the height.
     """
     row = np.stack([np.arange(columns) + 0.5 - columns/2, np.full(columns, -height/2)], axis=1)
     return np.concatenate([row, row*mirror(2), inner]), np.arange(columns), np.arange(columns, 2*columns)

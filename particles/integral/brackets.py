@@ -21,8 +21,9 @@ CROSSED = Crossed()
 class Powers(NamedTuple):
     """P_ij + P_ji = P_i/(m_i^a m_j^b) + P_j/(m_j^a m_i^b), m the density    [RR98 Eq. 50 and note 18]
 
-    Consistent with Eq. 49 for a + b = 0 only: the force is -grad (P/rho^(a+b)). What the points' own pressure does is done
-    with the velocity of the other, so that internal energy changes by -P_i times the growth of the volume.
+    Consistent with Eq. 49 for a + b = 0 only: the force is -grad (P/rho^(a+b)). What the points' own pressure
+    does is done with the velocity of the other, so that internal energy changes by -P_i times the growth of
+    the volume.
     """
     a: float = 0.0
     b: float = 0.0

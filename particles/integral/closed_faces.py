@@ -1,8 +1,8 @@
 """A conservative scheme on moving points: volume, mass, momentum and energy exchanged over faces, in 2D.
 
-Faces S_ij = -S_ji close and are exact on linear fields, see `faces`. Points drift with the fluid and a little towards even
-spacing; the volume that they leave to each other carries mass, momentum and energy along. RR98's moving points (Eqs 46-48, on
-volumes that stay) lose all of these. Images beyond plates are those of `layer`.
+Faces S_ij = -S_ji close and are exact on linear fields, see `faces`. Points drift with the fluid and a little
+towards even spacing; the volume that they leave to each other carries mass, momentum and energy along. RR98's
+moving points (Eqs 46-48, on volumes that stay) lose all of these. Images beyond plates are those of `layer`.
 """
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -13,33 +13,37 @@ from continuum.fluid import check_state, conductivity, energy, pressure, sound_s
 from continuum.jit import jit
 from particles.fields import Fields, from_densities
 from particles.integral.exchange import At, Exchange, Listing, stages
+from particles.integral.face_terms import FaceDifferences, FaceExchange
 from particles.integral.faces import POTENTIALS, FaceMaker, inner
 from particles.integral.interpolants import check_ordering
 from particles.integral.transposed_stress import MENDED
 from particles.limits import limit_of
 from particles.lists import Listed, Surroundings
-from particles.pairs import Faces, nothing, rate, sweep
+from particles.pairs import Faces, sweep
 from particles.starts import check_apart, check_reach, check_volumes, moments
 from particles.threads import Team
 from particles.walls import confine
 from particles.weights import check_unit
 
-#: rows of a state: places, drift velocity, momentum, mass, volume, total energy, and the last solution for the faces
+#: rows of a state: places, drift velocity, momentum, mass, volume, total energy, and the last solution for
+#: the faces
 ROWS = ("x", "y", "wx", "wy", "px", "py", "m", "V", "E", *POTENTIALS)
 EXCHANGED, SOLVED = slice(4, 9), slice(9, 15)
-#: seen by convection and pressure: vx .. theta; by friction and heat: ux, uy, Td; F mends the heating, (gx, gy) = grad P'
-Point = np.dtype([(name, "f8") for name in ("vx", "vy", "P", "rho", "e", "per_c", "shift_x", "shift_y", "theta", "gx", "gy", "ux",
-                                            "uy", "Td", "eta", "k", "Fx", "Fy")])
+#: seen by convection and pressure: vx .. theta; by friction and heat: ux, uy, Td; F mends the heating, (gx,
+#: gy) = grad P'
+Point = np.dtype([(name, "f8") for name in ("vx", "vy", "P", "rho", "e", "per_c", "shift_x", "shift_y",
+                                            "theta", "gx", "gy", "ux", "uy", "Td", "eta", "k", "Fx", "Fy")])
 
 
 class Ingredients(NamedTuple):
     """What the scheme is made of; each can be left out.
 
-    iterations : at most, for the faces, from what a step before found; 0 leaves them open, 12 change K by less than 1e-3.
-    within : relative residual at which they are good enough.
-    shift : of points towards even spacing, in spacings^2. follow : how fast volumes follow the density of points.
-    spread : of mass against pressure waves at the spacing, over a c/2; smooth : of what a linear pressure leaves only.
-    static : hydrostatic and mean pressure taken from the faces. transport : listed terms of friction and heat along faces.
+    iterations : at most, for the faces, from what a step before found; 0 leaves them open, 12 change K by
+    less than 1e-3. within : relative residual at which they are good enough.
+    shift : of points towards even spacing, in spacings^2. follow : how fast volumes follow the density of
+    points. spread : of mass against pressure waves at the spacing, over a c/2; smooth : of what a linear
+    pressure leaves only. static : hydrostatic and mean pressure taken from the faces. transport : listed
+    terms of friction and heat along faces.
     """
     iterations: int = 1
     within: float = 1e-3
@@ -51,47 +55,13 @@ class Ingredients(NamedTuple):
     transport: tuple = MENDED
 
 
-class FaceDifferences(NamedTuple):
-    """V grad of v and P by differences: d_x u, d_y u, d_x v, d_y v, d_x P, d_y P."""
-
-
-class FaceExchange(NamedTuple):
-    """What a face lets through: mass, momentum, energy, volume twice (with the fluid, between points)."""
-    follow: float
-    spread: float
-    smooth: float
-    transport: Listing
-
-
-nothing.of(FaceDifferences)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-nothing.of(FaceExchange)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-
-
-@rate.of(FaceDifferences)
-def _(term, a, b, ab):
-    du, dv, dP = b.ux - a.ux, b.uy - a.uy, b.P - a.P
-    return ab.sx*du, ab.sy*du, ab.sx*dv, ab.sy*dv, ab.sx*dP, ab.sy*dP
-
-
-@rate.of(FaceExchange)
-def _(term, a, b, ab):
-    sx, sy, k = ab.sx, ab.sy, ab.k
-    to_a, to_b = sx*a.vx + sy*a.vy, sx*b.vx + sy*b.vy
-    left = sx*(a.shift_x + b.shift_x) + sy*(a.shift_y + b.shift_y) + term.follow*k*(b.theta - a.theta)
-    linear = 0.5*term.smooth*((a.gx + b.gx)*ab.dx + (a.gy + b.gy)*ab.dy)
-    mass = left*0.5*(a.rho + b.rho) + 0.25*term.spread*(a.per_c + b.per_c)*k*(b.P - a.P - linear)
-    P = a.P + b.P
-    _, fx, fy, heat = rate(term.transport, a, b, ab)
-    through = heat + 0.5*mass*(a.e + b.e + a.vx*b.vx + a.vy*b.vy) - a.P*to_b - b.P*to_a
-    return (mass, fx - sx*P + 0.5*mass*(a.vx + b.vx), fy - sy*P + 0.5*mass*(a.vy + b.vy), through, to_a + to_b, left)
-
-
 @dataclass(frozen=True, kw_only=True)
 class Moving:
     """A fluid on moving points, about one a unit area.
 
-    weight : of `particles.weights`. walls : tuple of mirror plates and periodic sides. box : (width, height). g : gravity,
-    downwards. rho0 : mean density, of the hydrostatic pressure -rho0 g y that is left out of the faces.
+    weight : of `particles.weights`. walls : tuple of mirror plates and periodic sides. box : (width, height).
+    g : gravity, downwards. rho0 : mean density, of the hydrostatic pressure -rho0 g y that is left out of the
+    faces.
     """
     weight: Any
     eos: Any
@@ -109,7 +79,7 @@ class Moving:
         check_unit(self.weight)
 
     def state(self, x: np.ndarray, v: np.ndarray, rho: Any, T: np.ndarray) -> np.ndarray:
-        """(15, n) of places (n, 2), velocities (n, 2), densities, temperatures (n,); all volumes are equal."""
+        """(15, n) of places (n, 2), velocities (n, 2), densities, temperatures (n,); equal volumes."""
         V = np.full(len(x), self.box[0]*self.box[1]/len(x))
         m, e = rho*V, energy(self.eos, rho, T)
         exchanged = [*(m[:, None]*v).T, m, V, m*(e + (v**2).sum(axis=1)/2)]
@@ -120,9 +90,9 @@ class Moving:
         px, py, m, V, E = state[EXCHANGED]
         return from_densities(self.eos, state[:2].T.copy(), V.copy(), m/V, np.stack([px, py])/V, E/V)
 
-    def start(self, n: int, team: Team) -> "Exchanging":
+    def start(self, n: int, team: Team) -> "FaceSums":
         """The sums of n points, with their arrays."""
-        return Exchanging(self, n, team)
+        return FaceSums(self, n, team)
 
     def integrator(self, shape: tuple[int, ...], team: Team) -> "DriftKickDrift":
         """Half a drift, faces and what goes through them, half a drift."""
@@ -131,10 +101,10 @@ class Moving:
 
 @limit_of.register
 def _(method: Moving, start: np.ndarray) -> float:
-    """Three-stage Runge-Kutta, 1.73 on the imaginary and 2.5 on the real axis; points lie off a lattice, so 1.4 times faster.
+    """Three-stage Runge-Kutta, 1.73 and 2.5 on its axes; points off a lattice are 1.4 times faster.
 
-    On a lattice of spacing 1 sound is slower than c, diffusion than 4 chi, and volumes follow at 2.9 `follow` (Wendland C2,
-    h = 3).
+    On a lattice of spacing 1 sound is slower than c, diffusion than 4 chi, and volumes follow at 2.9 `follow`
+    (Wendland C2, h = 3).
     """
     px, py, m, V, E = start[EXCHANGED]
     check_volumes(V)
@@ -148,13 +118,13 @@ def _(method: Moving, start: np.ndarray) -> float:
 
 
 class DriftKickDrift:
-    """Points drift half a step, exchange over frozen faces in three Runge-Kutta stages, drift the other half."""
+    """Points drift half a step, exchange over frozen faces in three stages, drift the other half."""
     evaluations = 3
 
     def __init__(self, shape: tuple[int, ...]):
         self.rates, self.first = np.zeros(shape), np.zeros(shape)
 
-    def step(self, sums: "Exchanging", y: np.ndarray, dt: float) -> None:
+    def step(self, sums: "FaceSums", y: np.ndarray, dt: float) -> None:
         """Advance y in place by dt    [third-order strong-stability-preserving Runge-Kutta in between]"""
         sums.drift(y, dt/2)
         sums.make_faces(y)
@@ -162,12 +132,13 @@ class DriftKickDrift:
         first[:] = now
         for new in (1.0, 1/4, 2/3):
             sums.rates(y, self.rates)
-            now[:] = first + new*(now - first + dt*k)      # (1 - new) first + new now rounds to less than the sum
+            # (1 - new) first + new now rounds to less than the sum
+            now[:] = first + new*(now - first + dt*k)
         sums.set_drift(y)
         sums.drift(y, dt/2)
 
 
-class Exchanging(Listed):
+class FaceSums(Listed):
     """The compiled sums of moving points, with what the time loop asks for."""
 
     def __init__(self, method: Moving, n: int, team: Team):
@@ -199,14 +170,15 @@ class Exchanging(Listed):
         self.shift *= np.minimum(1.0, most/np.maximum(size, 1e-300))[:, None]
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
-        """Refuse points in one place or without neighbours: ValueError names them. Warn where the weight is too narrow."""
+        """Refuse points in one place or without neighbours; warn where the weight is too narrow."""
         V, weight = state[7], self.method.weight
         a = float(np.sqrt(V.mean()))
         self.around.place(state, 1.0)
         check_apart(self.around, ids, a)
         check_reach(weight, moments(self.around, V), ids)
         off = V*self.around.rho[:self.n] - 1
-        check_ordering(weight, 2, a, float(np.sqrt((off**2).mean())), wrong="volumes, which follow the density of points, are")
+        check_ordering(weight, 2, a, float(np.sqrt((off**2).mean())),
+                       wrong="volumes, which follow the density of points, are")
 
     def look_at(self, state: np.ndarray) -> None:
         """Fields of all points and images on the faces as they are."""
@@ -265,7 +237,8 @@ class Exchanging(Listed):
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """The first point with a volume, mass or state that no fluid has; empty if there is none."""
         px, py, m, V, E = state[EXCHANGED]
-        return self.unphysical(self.method.eos, V, m/V, (E - (px**2 + py**2)/(2*m))/m, ids) or self.outran(state)
+        return self.unphysical(self.method.eos, V, m/V, (E - (px**2 + py**2)/(2*m))/m,
+                               ids) or self.outran(state)
 
 
 @jit
@@ -304,6 +277,7 @@ def _rates(first, last, total, state, points, g, rho0, P0, out):
     """Gravity bears rho0 already; the pressure left out works on what the volume changes with the fluid."""
     for i in range(first, last):
         mass, px, py, through, flow, left = total[i]
-        out[4, i], out[5, i], out[6, i], out[7, i] = px, py - g*(state[6, i] - rho0*state[7, i]), mass, flow + left
+        out[4, i], out[5, i] = px, py - g*(state[6, i] - rho0*state[7, i])
+        out[6, i], out[7, i] = mass, flow + left
         held = P0 - rho0*g*state[1, i]
         out[8, i] = through - held*flow - g*(state[6, i] - rho0*state[7, i])*points[i].vy

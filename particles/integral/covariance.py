@@ -1,9 +1,10 @@
-"""Steady covariances of linear fluctuations about a given flow: Lyapunov solves, in continuous time and of time steps
+"""Steady covariances of linear fluctuations about a flow: Lyapunov solves, in time and of steps
 
     dx = J x dt + B dW, Q = B B^T            J C + C J^* + Q = 0                 [RR98 Eqs 20-25]
     x(t + dt) = A x(t) + noise of variance Q_dt       C = A C A^* + Q_dt                 [RR98 Eq. 40]
 
-What is conserved (rows L with L J = 0, L Q = 0) keeps its value: covariances are those at fixed conserved sums.
+What is conserved (rows L with L J = 0, L Q = 0) keeps its value: covariances are those at fixed conserved
+sums.
 """
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -13,12 +14,15 @@ from scipy.linalg import null_space, solve_continuous_lyapunov, solve_discrete_l
 
 #: of the size of J: rates above its negative belong to modes that do not decay; differences leave 1e-12
 UNDAMPED = 1e-10
-#: of the four-point differences, relative to fields of order 1: STEP^4 = 1e-12 of fifth derivatives, round-off 1e-13
+#: of the four-point differences, relative to fields of order 1: STEP^4 = 1e-12 of fifth derivatives,
+#: round-off 1e-13
 STEP = 1e-3
 
 
-def jacobian(rates: Callable[[np.ndarray, np.ndarray], None], state: np.ndarray, points: Any = slice(None)) -> np.ndarray:
-    """d rates/d state of a state (fields, n) by differences of fourth order, at the columns of `points` only: (size, columns).
+def jacobian(rates: Callable[[np.ndarray, np.ndarray], None], state: np.ndarray,
+             points: Any = slice(None)) -> np.ndarray:
+    """d rates/d state of a state (fields, n) by differences of fourth order, at the columns of `points` only:
+    (size, columns).
 
     rates(state, out) writes the rates to `out`.
     """
@@ -34,10 +38,10 @@ def jacobian(rates: Callable[[np.ndarray, np.ndarray], None], state: np.ndarray,
 
 
 def waves(columns: np.ndarray, counts: tuple[int, int], k: float) -> np.ndarray:
-    """The block (m ny, m ny) of waves exp(ikx), k per spacing, of a matrix on a lattice that is uniform along x.
+    """The block (m ny, m ny) of waves exp(ikx), k per spacing, of a matrix on a lattice uniform along x.
 
-    columns : its (m nx ny, m ny) columns of the points at x = 0, with point (x, y) numbered x ny + y, m fields. nx is odd and
-    more than twice the reach of the matrix: then k may be any number.
+    columns : its (m nx ny, m ny) columns of the points at x = 0, with point (x, y) numbered x ny + y, m
+    fields. nx is odd and more than twice the reach of the matrix: then k may be any number.
     """
     nx, ny = counts
     fields = columns.shape[1]//ny
@@ -47,12 +51,13 @@ def waves(columns: np.ndarray, counts: tuple[int, int], k: float) -> np.ndarray:
 
 
 def steady(J: np.ndarray, Q: np.ndarray, conserved: np.ndarray | None = None) -> np.ndarray:
-    """C with J C + C J^* + Q = 0, at fixed rows `conserved` (q, N). Raises ArithmeticError: a mode does not decay."""
+    """C with J C + C J^* + Q = 0, at fixed rows `conserved` (q, N). ArithmeticError: no decay."""
     Z = free(len(J), conserved)
     J, Q = Z.conj().T@J@Z, Z.conj().T@Q@Z
     check_decay(np.linalg.eigvals(J).real, UNDAMPED*np.abs(J).max())
     C = solve_continuous_lyapunov(J, -Q)
-    C += solve_continuous_lyapunov(J, -(Q + J@C + C@J.conj().T))      # once more for what the first solve left
+    # once more for what the first solve left
+    C += solve_continuous_lyapunov(J, -(Q + J@C + C@J.conj().T))
     return Z@C@Z.conj().T
 
 
@@ -80,9 +85,10 @@ def free(n: int, conserved: np.ndarray | None) -> np.ndarray:
 def check_decay(rates: np.ndarray, least: float) -> None:
     """Refuse modes that grow or stay."""
     if not (worst := rates.max()) < -least:
-        raise ArithmeticError(f"{np.count_nonzero(rates >= -least)} modes do not decay, the fastest grows at {worst:.3g}: there "
-                              "is no steady covariance; for null modes take a share of transport along edges or an odd number "
-                              "of points, for modes that grow edges that close and a smaller step")
+        raise ArithmeticError(f"{np.count_nonzero(rates >= -least)} modes do not decay, the fastest grows at "
+                              f"{worst:.3g}: there is no steady covariance; for null modes take a share of "
+                              "transport along edges or an odd number of points, for modes that grow edges "
+                              "that close and a smaller step")
 
 
 def forward_euler(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:
@@ -100,12 +106,13 @@ def crank_nicolson(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:
 #: of the second half of the noise in stages 1, 2, 3    [Delong, Griffith, Vanden-Eijnden & Donev 2013]
 BETAS = tuple(float(b) for b in ((2*np.sqrt(2) + np.sqrt(3))/5, (-4*np.sqrt(2) + 3*np.sqrt(3))/5,
                                  (np.sqrt(2) - 2*np.sqrt(3))/10))
-#: shares of the state before the step in stages 1, 2, 3; the rest is what comes out of an Euler step of the last stage
+#: shares of the state before the step in stages 1, 2, 3; the rest is what comes out of an Euler step of the
+#: last stage
 OLD = (0.0, 3/4, 1/3)
 
 
 def three_stage(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:
-    """Three Euler steps, averaged; each has the noise W_A + beta W_B of its own beta, W_A and W_B independent."""
+    """Three Euler steps, averaged; each has the noise W_A + beta W_B of its own beta."""
     one = np.eye(len(J))
     euler, A, of_A, of_B = one + dt*J, one, 0*one, 0*one
     for old, beta in zip(OLD, BETAS, strict=True):

@@ -1,11 +1,12 @@
-"""Discretized integral hydrodynamics: mass, momentum and energy exchanged over edges, in d dimensions    [RR98, Sec. III]
+"""Discretized integral hydrodynamics: exchange over edges, in d dimensions    [RR98, Sec. III]
 
-The state (2 + d, n) holds densities rho, p^alpha = rho v^alpha, total energy eps per volume; RR98's m_i, p_i, eps_i are these
-times the volume V_i (Eq. 26). What leaves point i over an edge is what point j gains:
+The state (2 + d, n) holds densities rho, p^alpha = rho v^alpha, total energy eps per volume; RR98's m_i, p_i,
+eps_i are these times the volume V_i (Eq. 26). What leaves point i over an edge is what point j gains:
 
     mass       1/2 S.(rho_i v_j + rho_j v_i)                                                   [Eq. 34]
     momentum   1/2 S.{(p_i v_j + p_j v_i) + (P_ij + P_ji) 1 - (pi_ij + pi_ji)}                   [Eq. 35]
-    energy     1/2 S.{(eps_i v_j + eps_j v_i) + (P_ij v_i + P_ji v_j) - (pi_ij.v_i + pi_ji.v_j) + (J_ij + J_ji)}    [Eq. 36]
+    energy     1/2 S.{(eps_i v_j + eps_j v_i) + (P_ij v_i + P_ji v_j) - (pi_ij.v_i + pi_ji.v_j) + (J_ij +
+    J_ji)}    [Eq. 36]
 
 with P_ij = P(rho_i, T_j), and stress and heat current nested (Eqs 37, 38) or pairwise (Eq. 51).
 """
@@ -14,7 +15,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import bulk_viscosity, conductivity, energy, pressure, stress_tensor, temperature, valid, viscosity
+from continuum.fluid import (
+    bulk_viscosity,
+    conductivity,
+    energy,
+    pressure,
+    stress_tensor,
+    temperature,
+    valid,
+    viscosity,
+)
 from particles.fields import Fields, from_densities
 from particles.integral.edges import Edges
 
@@ -35,7 +45,7 @@ class Coefficients(NamedTuple):
     kappa: np.ndarray
 
 
-class Fluxes(NamedTuple):
+class EdgeFluxes(NamedTuple):
     """What leaves the first point of each edge: mass (E,), momentum (E, d), energy (E,)."""
     mass: np.ndarray
     momentum: np.ndarray
@@ -47,24 +57,26 @@ def take(flow: Flow, points: np.ndarray) -> Flow:
     return Flow(*(field[points] for field in flow))
 
 
-def carried(eos: Any, S: np.ndarray, a: Flow, b: Flow, weight: Any = 0.0) -> Fluxes:
-    """Brackets of Eqs 34-36 without stress and heat, from points a to b; `weight` is added to the pressure in b."""
+def carried(eos: Any, S: np.ndarray, a: Flow, b: Flow, weight: Any = 0.0) -> EdgeFluxes:
+    """Brackets of Eqs 34-36 without stress and heat, from a to b; `weight` adds to the pressure in b."""
     half = S/2
     to_b, to_a = (half*b.v).sum(axis=1), (half*a.v).sum(axis=1)      # S.v_b/2, S.v_a/2
     P_ab, P_ba = pressure(eos, a.rho, energy(eos, a.rho, b.T)), pressure(eos, b.rho, energy(eos, b.rho, a.T))
     momentum = (a.rho*to_b)[:, None]*a.v + (b.rho*to_a)[:, None]*b.v + half*(P_ab + P_ba + weight)[:, None]
-    return Fluxes(a.rho*to_b + b.rho*to_a, momentum, a.eps*to_b + b.eps*to_a + (P_ab + weight)*to_a + P_ba*to_b)
+    return EdgeFluxes(a.rho*to_b + b.rho*to_a, momentum,
+                  a.eps*to_b + b.eps*to_a + (P_ab + weight)*to_a + P_ba*to_b)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Nested:
+class NestedFluxes:
     """Stress and heat current of Eqs 37, 38: pi_ij = eta_i E(grad v_j), J_ij = -kappa_i grad T_j.
 
-    differences : the inner sum takes v_k - v_j, exact on uniform flow, instead of v_k as printed; the same on a lattice.
+    differences : the inner sum takes v_k - v_j, exact on uniform flow, instead of v_k as printed; the same on
+    a lattice.
     """
     differences: bool = True
 
-    def fluxes(self, dih: "Dih", flow: Flow) -> Fluxes:
+    def fluxes(self, dih: "Dih", flow: Flow) -> EdgeFluxes:
         """Through all edges."""
         edges = dih.edges
         i, j, eta, zeta, kappa = edges.i, edges.j, *dih.coefficients(flow)
@@ -73,9 +85,10 @@ class Nested:
         heat = self.gradient(edges, flow.T[:, None])[:, :, 0]
         half = edges.S/2
         momentum = -np.einsum("eb,eab->ea", half, one + other)
-        work = np.einsum("eb,eab,ea->e", half, one, flow.v[i]) + np.einsum("eb,eab,ea->e", half, other, flow.v[j])
+        work = np.einsum("eb,eab,ea->e", half, one, flow.v[i])
+        work += np.einsum("eb,eab,ea->e", half, other, flow.v[j])
         current = -kappa[i, None]*heat[j] - kappa[j, None]*heat[i]
-        return Fluxes(np.zeros(len(i)), momentum, (half*current).sum(axis=1) - work)
+        return EdgeFluxes(np.zeros(len(i)), momentum, (half*current).sum(axis=1) - work)
 
     def gradient(self, edges: Edges, f: np.ndarray) -> np.ndarray:
         """(n, d, m) of f (n, m): by differences, or -sum_k w_jk e_jk f_k as printed."""
@@ -87,81 +100,86 @@ class Nested:
 class Pairwise:
     """Forces along edges [Eq. 51]: k [B (v_j - v_i) + A e e.(v_j - v_i)], heat k kappa (T_j - T_i).
 
-    B = eta (1/2 + 1/d) - zeta/2, A = (d + 2)/2 [eta (1 - 2/d) + zeta], letters as printed but for weights and their moments.
-    mended : with the stress tau_ab = B (d_b v_a - delta_ab div v) of the points, and its work F_a = tau_ab v_b. In the
-    continuum tau has no divergence where viscosity is constant, and the force is left as it is then; where it varies forces along
-    edges lack it. F has one always: without it even a rigid rotation heats. everywhere : tau is in the force always: off a
-    lattice slopes do not commute, and where momentum lacks div tau a uniform stream changes the energy.
+    B = eta (1/2 + 1/d) - zeta/2, A = (d + 2)/2 [eta (1 - 2/d) + zeta], letters as printed but for weights and
+    their moments. mended : with the stress tau_ab = B (d_b v_a - delta_ab div v) of the points, and its work
+    F_a = tau_ab v_b. In the continuum tau has no divergence where viscosity is constant, and the force is
+    left as it is then; where it varies forces along edges lack it. F has one always: without it even a rigid
+    rotation heats. everywhere : tau is in the force always: off a lattice slopes do not commute, and where
+    momentum lacks div tau a uniform stream changes the energy.
     """
     mended: bool = True
     everywhere: bool = False
 
-    def fluxes(self, dih: "Dih", flow: Flow) -> Fluxes:
-        """Through all edges. Raises ValueError: a bulk viscosity that would make one of the frictions negative."""
+    def fluxes(self, dih: "Dih", flow: Flow) -> EdgeFluxes:
+        """Through all edges. ValueError: a bulk viscosity that makes a friction negative."""
         edges, coefficients = dih.edges, dih.coefficients(flow)
         check_bulk(coefficients.eta, coefficients.zeta, edges.d)
         found = along(edges, means(coefficients, edges.i, edges.j), take(flow, edges.i), take(flow, edges.j))
         if self.mended:
-            slope = np.stack([G@flow.v for G in edges.G], axis=1)/edges.V[:, None, None]      # [n, a, b] = d_a v_b
+            # [n, a, b] = d_a v_b
+            slope = np.stack([G@flow.v for G in edges.G], axis=1)/edges.V[:, None, None]
             F = lacking(coefficients, flow.v, slope)
             found = found._replace(energy=found.energy - (edges.S*(F[edges.i] + F[edges.j])).sum(axis=1)/2)
             if self.everywhere or np.ptp(coefficients.eta) > 0 or np.ptp(coefficients.zeta) > 0:
                 tau = transposed(coefficients, slope)
-                found = found._replace(momentum=found.momentum - np.einsum("ea,eab->eb", edges.S, tau[edges.i] + tau[edges.j])/2)
+                push = np.einsum("ea,eab->eb", edges.S, tau[edges.i] + tau[edges.j])/2
+                found = found._replace(momentum=found.momentum - push)
         return found
 
 
 @dataclass(frozen=True, kw_only=True)
 class Mixed:
-    """A share of friction and conduction along edges [Eq. 51], the rest by stresses and currents of points [Eqs 37, 38]."""
+    """A share of transport along edges [Eq. 51], the rest by stresses and currents [Eqs 37, 38]."""
     share: float
     pairwise: Pairwise = Pairwise()
-    nested: Nested = Nested()
+    nested: NestedFluxes = NestedFluxes()
 
     def __post_init__(self):
         if not 0 <= self.share <= 1:
-            raise ValueError(f"the share of transport along edges must be between 0 (points) and 1 (edges), got {self.share}")
+            raise ValueError("the share of transport along edges must be between 0 (points) and 1 (edges), "
+                             f"got {self.share}")
 
-    def fluxes(self, dih: "Dih", flow: Flow) -> Fluxes:
+    def fluxes(self, dih: "Dih", flow: Flow) -> EdgeFluxes:
         """Through all edges."""
         parts: list[tuple[float, Any]] = [(1 - self.share, self.nested), (self.share, self.pairwise)]
         found = [[part*q for q in kind.fluxes(dih, flow)] for part, kind in parts if part > 0]
-        return Fluxes(*(sum(q) for q in zip(*found, strict=True)))
+        return EdgeFluxes(*(sum(q) for q in zip(*found, strict=True)))
 
 
-def along(edges: Any, coefficients: Coefficients, a: Flow, b: Flow) -> Fluxes:
+def along(edges: Any, coefficients: Coefficients, a: Flow, b: Flow) -> EdgeFluxes:
     """Friction and heat along edges (with k and apart), from points a to b    [Eq. 51]"""
     d, (eta, zeta, kappa) = edges.apart.shape[1], coefficients
     B, A = eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
     dv, e = b.v - a.v, edges.apart/np.sqrt((edges.apart**2).sum(axis=1))[:, None]
     force = edges.k[:, None]*(B[:, None]*dv + A[:, None]*e*(e*dv).sum(axis=1)[:, None])
     work, heat = (force*(a.v + b.v)).sum(axis=1)/2, edges.k*kappa*(b.T - a.T)
-    return Fluxes(np.zeros(len(heat)), -force, -work - heat)
+    return EdgeFluxes(np.zeros(len(heat)), -force, -work - heat)
 
 
 def lacking(coefficients: Coefficients, v: np.ndarray, slope: np.ndarray) -> np.ndarray:
-    """F = B [(v.grad) v - v div v], B = eta (1/2 + 1/d) - zeta/2, (n, d), from v (n, d) and slope[n, a, b] = d_a v_b."""
+    """F = B [(v.grad) v - v div v], B = eta (1/2 + 1/d) - zeta/2, (n, d); slope[n, a, b] = d_a v_b."""
     return np.einsum("nab,nb->na", transposed(coefficients, slope), v)
 
 
 def transposed(coefficients: Coefficients, slope: np.ndarray) -> np.ndarray:
-    """tau[n, a, b] = B (d_b v_a - delta_ab div v), B = eta (1/2 + 1/d) - zeta/2, from slope[n, a, b] = d_a v_b."""
+    """tau[n, a, b] = B (d_b v_a - delta_ab div v), B as in `lacking`, slope[n, a, b] = d_a v_b."""
     d, (eta, zeta, _) = slope.shape[1], coefficients
     div = np.einsum("naa->n", slope)[:, None, None]*np.eye(d)
     return (eta*(1/2 + 1/d) - zeta/2)[:, None, None]*(np.swapaxes(slope, 1, 2) - div)
 
 
 def check_bulk(eta: np.ndarray, zeta: np.ndarray, d: int) -> None:
-    """Frictions A and B of an edge must not be negative; on a line both act along it and only their sum, zeta, counts."""
+    """Frictions A and B of an edge must not be negative; on a line only their sum, zeta, counts."""
     low, high = (0*eta, np.inf + 0*eta) if d == 1 else (-eta*(1 - 2/d), eta*(1 + 2/d))
     bad = np.flatnonzero((zeta < low - 1e-12*eta) | (zeta > high + 1e-12*eta))
     if len(bad):
         k = bad[0]
-        raise ValueError(f"bulk viscosity {zeta[k]:.4g} with shear viscosity {eta[k]:.4g} is outside of what forces along edges "
-                         f"allow in {d} dimensions, {low[k]:.4g} to {high[k]:.4g}: take nested transport (Eqs 37, 38)")
+        raise ValueError(f"bulk viscosity {zeta[k]:.4g} with shear viscosity {eta[k]:.4g} is outside of what "
+                         f"forces along edges allow in {d} dimensions, {low[k]:.4g} to {high[k]:.4g}: take "
+                         "nested transport (Eqs 37, 38)")
 
 
-def rows(one: Fluxes, other: Fluxes) -> list[np.ndarray]:
+def rows(one: EdgeFluxes, other: EdgeFluxes) -> list[np.ndarray]:
     """The sum of two fluxes, row by row of the state."""
     return [one.mass + other.mass, *(one.momentum + other.momentum).T, one.energy + other.energy]
 
@@ -175,8 +193,8 @@ def means(q: Coefficients, i: np.ndarray, j: np.ndarray) -> Coefficients:
 class Dih:
     """A fluid on fixed points.
 
-    edges : of `particles.integral.edges`. eos, law : of `continuum.fluid`. zeta : bulk viscosity, a number or a law.
-    transport : Nested, Pairwise or Mixed.
+    edges : of `particles.integral.edges`. eos, law : of `continuum.fluid`. zeta : bulk viscosity, a number or
+    a law. transport : Nested, Pairwise or Mixed.
     """
     edges: Edges
     eos: Any
@@ -195,7 +213,7 @@ class Dih:
         return np.stack([rho, *(rho[:, None]*v).T, rho*(internal + (v**2).sum(axis=1)/2)])
 
     def flow(self, state: np.ndarray) -> Flow:
-        """Fields of a state. Raises FloatingPointError: one is outside of the equation of state; names the point."""
+        """Fields of a state. FloatingPointError names a point outside of the equation of state."""
         rho, eps = state[0], state[-1]
         with np.errstate(all="ignore"):
             v = (state[1:-1]/rho).T
@@ -203,8 +221,9 @@ class Dih:
             good = np.isfinite(e) & valid(self.eos, rho, e)
         if not good.all():
             i = int(np.argmin(good))
-            raise FloatingPointError(f"point {i} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of "
-                                     f"{type(self.eos).__name__}: take a shorter step, more viscosity or a smoother start")
+            raise FloatingPointError(f"point {i} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the "
+                                     f"validity of {type(self.eos).__name__}: take a shorter step, more "
+                                     "viscosity or a smoother start")
         return Flow(rho, v, temperature(self.eos, rho, e), eps, pressure(self.eos, rho, e))
 
     def fields(self, state: np.ndarray) -> Fields:
@@ -215,7 +234,8 @@ class Dih:
     def coefficients(self, flow: Flow) -> Coefficients:
         """Of all points."""
         one = np.ones_like(flow.rho)
-        return Coefficients(viscosity(self.law, flow.rho, flow.T)*one, bulk_viscosity(self.zeta, flow.rho, flow.T)*one,
+        return Coefficients(viscosity(self.law, flow.rho, flow.T)*one,
+                            bulk_viscosity(self.zeta, flow.rho, flow.T)*one,
                             conductivity(self.law, flow.rho, flow.T)*one)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:

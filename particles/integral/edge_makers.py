@@ -1,4 +1,4 @@
-"""Who makes edges of points and a weight: RR98's Eq. 29 as printed, plain quadrature, and what repairs it off a lattice."""
+"""Edges of points and a weight: RR98's Eq. 29 as printed, plain quadrature, and repairs."""
 import warnings
 from collections.abc import Callable
 from typing import Any
@@ -40,21 +40,24 @@ def _plain(points: Points, weight: Any) -> Edges:
 
 
 def printed(points: Points, weight: Any) -> Edges:
-    """RR98 Eq. 29 as printed, in 3D W(r) dV -> 4 pi r^2 dV^(1/3) W(r); |S_d| r^(d-1) dV^(1/d) W in d dimensions.
+    """RR98 Eq. 29 as printed, in 3D W(r) dV -> 4 pi r^2 dV^(1/3) W(r); |S_d| r^(d-1) dV^(1/d) W in d
+    dimensions.
 
-    Right along one line from a point only: summed over all points around, it multiplies gradients of linear fields by
-    (|S_d|/d) M_d (r0/a)^(d-1).
+    Right along one line from a point only: summed over all points around, it multiplies gradients of linear
+    fields by (|S_d|/d) M_d (r0/a)^(d-1).
     """
     check(weight, points.d)
     d, near = points.d, pairs(points, reach(weight))
     r = near[3]
-    return judged(from_weights(points, weight, sphere(d)*r**(d - 1)*points.a**(1 - d)*W(weight, r), near), points, weight)
+    return judged(from_weights(points, weight, sphere(d)*r**(d - 1)*points.a**(1 - d)*W(weight, r), near),
+                  points, weight)
 
 
 def renormalised(points: Points, weight: Any) -> Edges:
     """Plain quadrature times the number that makes the mean discrete first moment sum_j W r_ij dV equal to d.
 
-    Warns where Eq. 45 does not hold and points are irregular. Raises ValueError: no two points are within the weight's range.
+    Warns where Eq. 45 does not hold and points are irregular. Raises ValueError: no two points are within the
+    weight's range.
     """
     return judged(_renormalised(points, weight), points, weight)
 
@@ -62,9 +65,11 @@ def renormalised(points: Points, weight: Any) -> Edges:
 def _renormalised(points: Points, weight: Any) -> Edges:
     edges = _plain(points, weight)
     if not edges.k.any():
-        raise ValueError(f"no two of the {points.n} points, on average {points.a:.4g} apart, are within the weight's range "
-                         f"{reach(weight):.4g} (Eq. 45 asks for r0 above the spacing): take a larger h or more points")
-    first = float(np.einsum("iaa,i->", edges.linear, edges.V)/edges.V.sum())    # d times the factor of linear gradients
+        raise ValueError(f"no two of the {points.n} points, on average {points.a:.4g} apart, are within the "
+                         f"weight's range {reach(weight):.4g} (Eq. 45 asks for r0 above the spacing): take a "
+                         "larger h or more points")
+    # d times the factor of linear gradients
+    first = float(np.einsum("iaa,i->", edges.linear, edges.V)/edges.V.sum())
     c = points.d/first
     return Edges(i=edges.i, j=edges.j, S=c*edges.S, k=c*edges.k, apart=edges.apart, V=edges.V)
 
@@ -72,7 +77,8 @@ def _renormalised(points: Points, weight: Any) -> Edges:
 def closed(points: Points, weight: Any) -> Edges:
     """A': S_ij + k_ij (l_j - l_i), l from the graph Laplacian so that all edges close.
 
-    Gradients are wrong by a share that the disorder sets. Raises ValueError: points fall into parts without an edge between them.
+    Gradients are wrong by a share that the disorder sets. Raises ValueError: points fall into parts without
+    an edge between them.
     """
     edges = judged(_renormalised(points, weight), points, weight)
     l = np.stack([_potential(edges, -c) for c in edges.closure.T], axis=1)
@@ -96,15 +102,15 @@ def check_connected(edges: Edges) -> None:
     parts, label = connected_components(edges.laplacian, directed=False)
     if parts > 1:
         lonely = int(np.argmax(label == np.argmin(np.bincount(label))))
-        raise ValueError(f"the points fall into {parts} parts without an edge between them (point {lonely} is in the "
-                         "smallest): take a wider weight or more points")
+        raise ValueError(f"the points fall into {parts} parts without an edge between them (point {lonely} "
+                         "is in the smallest): take a wider weight or more points")
 
 
 def exact(points: Points, weight: Any) -> Edges:
-    """The nearest edges to the renormalised ones, in the norm sum (dS)^2/k, that close and are exact on linear fields.
+    """The edges nearest to the renormalised ones, by sum (dS)^2/k, that close and are exact.
 
-    dS_ij = k_ij [lam_i - lam_j + (mu_i + mu_j).(x_j - x_i)/2] for each direction, lam (n,), mu (n, d) from the constraints.
-    Raises ArithmeticError: the points are too irregular for the reach of the weight.
+    dS_ij = k_ij [lam_i - lam_j + (mu_i + mu_j).(x_j - x_i)/2] for each direction, lam (n,), mu (n, d) from
+    the constraints. Raises ArithmeticError: the points are too irregular for the reach of the weight.
     """
     edges = _renormalised(points, weight)       # whatever Eq. 45 says: these become exact
     check_connected(edges)
@@ -126,17 +132,18 @@ def exact(points: Points, weight: Any) -> Edges:
     if not np.isfinite(worst):
         met = np.bincount(np.concatenate([edges.i, edges.j]), minlength=points.n)
         least = int(np.argmin(met))
-        raise ArithmeticError(f"no edges of {type(weight).__name__} close and are exact on linear fields: the equations for them "
-                              f"are singular, as where a point has too few neighbours (point {least} has {met[least]}): take a "
-                              "wider weight or less random points")
+        raise ArithmeticError(f"no edges of {type(weight).__name__} close and are exact on linear fields: "
+                              "the equations for them are singular, as where a point has too few neighbours "
+                              f"(point {least} has {met[least]}): take a wider weight or less random points")
     if not worst < 1e-9:
-        raise ArithmeticError(f"no edges of {type(weight).__name__} close and are exact on linear fields: the best miss the "
-                              f"unit matrix by {worst:.2g}; take a wider weight or less random points")
+        raise ArithmeticError(f"no edges of {type(weight).__name__} close and are exact on linear fields: "
+                              f"the best miss the unit matrix by {worst:.2g}; take a wider weight or less "
+                              "random points")
     return made
 
 
 def _constraints(edges: Edges) -> sparse.csr_array:
-    """B with B S = (sum_j S_ij, 1/2 sum_j S_ij (x_j - x_i)) for one direction: rows (1 + d) n, edges as columns."""
+    """B with B S = (sum_j S_ij, 1/2 sum_j S_ij (x_j - x_i)) for one direction: ((1 + d) n, E)."""
     e, n = np.arange(len(edges.i)), edges.n
     rows, columns = [edges.i, edges.j], [e, e]
     values = [np.ones(len(e)), -np.ones(len(e))]
@@ -150,5 +157,6 @@ def _constraints(edges: Edges) -> sparse.csr_array:
 
 
 #: by name; each makes edges of points and a weight, which `delaunay` does not use
-MAKERS: dict[str, Callable[[Points, Any], Edges]] = {"printed": printed, "plain": plain, "renormalised": renormalised,
-                                                     "closed": closed, "exact": exact, "delaunay": delaunay}
+MAKERS: dict[str, Callable[[Points, Any], Edges]] = {"printed": printed, "plain": plain,
+                                                     "renormalised": renormalised, "closed": closed,
+                                                     "exact": exact, "delaunay": delaunay}

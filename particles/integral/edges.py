@@ -3,12 +3,13 @@
 An edge (i, j) has an area vector S_ij = -S_ji and a conductance k_ij = k_ji; points have volumes V_i:
 
     V_i (div F)_i = sum_j S_ij.(F_i + F_j)/2          conserves, since S is antisymmetric
-    V_i (grad f)_i = sum_j S_ij (f_j - f_i)/2         exact on constants; the adjoint of -div where edges close
-    V_i (lap f)_i = sum_j k_ij (f_j - f_i)            never grows
+    V_i (grad f)_i = sum_j S_ij (f_j - f_i)/2         exact on constants; the adjoint of -div where edges
+    close V_i (lap f)_i = sum_j k_ij (f_j - f_i)            never grows
 
-RR98's bracket sum_j w_ij e_ij.(...) is this form with S_ij = 2 w_ij V_i V_j e_ji, k_ij = 2 w_ij V_i V_j/r_ij (Eqs 34-36, 51).
-Edges close if sum_j S_ij = 0, and are exact on linear fields if 1/2 sum_j S_ij (x_j - x_i) = V_i 1. Physics is written over
-edges; schemes differ in who makes them: `makers` from a weight, `triangulation` from points alone.
+RR98's bracket sum_j w_ij e_ij.(...) is this form with S_ij = 2 w_ij V_i V_j e_ji, k_ij = 2 w_ij V_i V_j/r_ij
+(Eqs 34-36, 51). Edges close if sum_j S_ij = 0, and are exact on linear fields if 1/2 sum_j S_ij (x_j - x_i) =
+V_i 1. Physics is written over edges; schemes differ in who makes them: `makers` from a weight,
+`triangulation` from points alone.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,7 +25,7 @@ from particles.integral.points import Points, of_positions
 
 @dataclass(frozen=True, kw_only=True)
 class Edges:
-    """Edges i -> j (each once) with S (E, d), k (E,) and apart = x_j - x_i (E, d); volumes V (n,) of the points."""
+    """Edges i -> j (each once) with S (E, d), k (E,), apart = x_j - x_i (E, d); volumes V (n,)."""
     i: np.ndarray
     j: np.ndarray
     S: np.ndarray
@@ -56,7 +57,7 @@ class Edges:
 
     @cached_property
     def linear(self) -> np.ndarray:
-        """(1/2 V_i) sum_j S_ij (x_j - x_i), (n, d, d): the unit matrix where edges are exact on linear fields."""
+        """(1/2 V_i) sum_j S_ij (x_j - x_i), (n, d, d): 1 where edges are exact on linear fields."""
         half = 0.5*self.S[:, :, None]*self.apart[:, None, :]
         total = np.zeros((self.n, self.d, self.d))
         np.add.at(total, self.i, half)
@@ -72,12 +73,14 @@ class Edges:
     @cached_property
     def D(self) -> list[sparse.csr_array]:
         """V div F = sum_alpha D^alpha F^alpha, with the "+" bracket (F_i + F_j)."""
-        return [sparse.csr_array((S + sparse.diags_array(c))/2) for S, c in zip(self.areas, self.closure.T, strict=True)]
+        return [sparse.csr_array((S + sparse.diags_array(c))/2)
+                for S, c in zip(self.areas, self.closure.T, strict=True)]
 
     @cached_property
     def G(self) -> list[sparse.csr_array]:
         """V grad f = G f with differences f_j - f_i: G = -D^T."""
-        return [sparse.csr_array((S - sparse.diags_array(c))/2) for S, c in zip(self.areas, self.closure.T, strict=True)]
+        return [sparse.csr_array((S - sparse.diags_array(c))/2)
+                for S, c in zip(self.areas, self.closure.T, strict=True)]
 
     @cached_property
     def fastest(self) -> tuple[float, float]:
@@ -97,7 +100,8 @@ class Edges:
         return self.laplacian@f/self.V
 
 
-def combined(i: np.ndarray, j: np.ndarray, S: np.ndarray, k: np.ndarray, apart: np.ndarray, V: np.ndarray, a: float) -> Edges:
+def combined(i: np.ndarray, j: np.ndarray, S: np.ndarray, k: np.ndarray, apart: np.ndarray, V: np.ndarray,
+             a: float) -> Edges:
     """Edges with i < j; those that join the same points in the same direction are added up."""
     turn = np.where(i > j, -1.0, 1.0)[:, None]
     S, apart, i, j = turn*S, turn*apart, np.minimum(i, j), np.maximum(i, j)
@@ -112,18 +116,19 @@ def _fastest(V: np.ndarray, G: list[sparse.csr_array], laplacian: sparse.csr_arr
     root = sparse.diags_array(1/np.sqrt(V))
     slopes = sparse.vstack([root@g@root for g in G])
     sound = svds(slopes, k=1, return_singular_vectors=False, random_state=0)
-    spread = eigsh(root@laplacian@root, k=1, which="LM", return_eigenvectors=False, v0=np.cos(np.arange(len(V))))
+    spread = eigsh(root@laplacian@root, k=1, which="LM", return_eigenvectors=False,
+                   v0=np.cos(np.arange(len(V))))
     return float(sound[0]), float(-spread[0])
 
 
 def mirror(d: int) -> np.ndarray:
-    """(d,) signs of what a vector is in a plate, which is across the last axis: as it was along, reversed across."""
+    """(d,) signs of a vector mirrored in a plate across the last axis."""
     return np.array([1.0]*(d - 1) + [-1.0])
 
 
 @dataclass(frozen=True, kw_only=True)
 class Beyond:
-    """Edges from points i to the mirror images of points `parent` behind plate 0 (lower) or 1 (upper), each one way only."""
+    """Edges from points i to mirror images of points `parent` behind plate 0 (lower) or 1 (upper)."""
     i: np.ndarray
     parent: np.ndarray
     S: np.ndarray
@@ -134,25 +139,28 @@ class Beyond:
 
 NOWHERE = np.empty(0, int)
 #: no images
-NONE_BEYOND = Beyond(i=NOWHERE, parent=NOWHERE, S=np.empty((0, 2)), k=np.empty(0), apart=np.empty((0, 2)), plate=NOWHERE)
+NONE_BEYOND = Beyond(i=NOWHERE, parent=NOWHERE, S=np.empty((0, 2)), k=np.empty(0), apart=np.empty((0, 2)),
+                     plate=NOWHERE)
 
 
 def fastest(edges: Edges, beyond: Beyond) -> tuple[float, float]:
-    """`Edges.fastest` between plates: pressures of images are those of their parents, velocities and temperatures opposite."""
+    """`Edges.fastest` between plates: images have their parents' pressure, opposite velocity, T."""
     def seen(q: np.ndarray, sign: float) -> sparse.csr_array:
-        own, image = (sparse.csr_array((q, (beyond.i, to)), shape=(edges.n, edges.n)) for to in (beyond.i, beyond.parent))
+        own, image = (sparse.csr_array((q, (beyond.i, to)), shape=(edges.n, edges.n))
+                      for to in (beyond.i, beyond.parent))
         return sparse.csr_array(sign*image - own)
     return _fastest(edges.V, [G + seen(S/2, 1.0) for G, S in zip(edges.G, beyond.S.T, strict=True)],
                     edges.laplacian + seen(beyond.k, -1.0))
 
 
 def symmetric(edges: Edges, a: float) -> Edges:
-    """Mean of edges and their mirror image in the plane 0 of the last axis, where point m + n/2 is the image of point m."""
+    """Mean of edges and their mirror image in the last axis; point m + n/2 is the image of point m."""
     half, turn = edges.n//2, mirror(edges.d)
     i, j = ((q + half) % edges.n for q in (edges.i, edges.j))
     joined = np.concatenate
-    return combined(joined([edges.i, i]), joined([edges.j, j]), joined([edges.S, edges.S*turn])/2, joined([edges.k]*2)/2,
-                    joined([edges.apart, edges.apart*turn]), (edges.V + np.roll(edges.V, half))/2, a)
+    return combined(joined([edges.i, i]), joined([edges.j, j]), joined([edges.S, edges.S*turn])/2,
+                    joined([edges.k]*2)/2, joined([edges.apart, edges.apart*turn]),
+                    (edges.V + np.roll(edges.V, half))/2, a)
 
 
 def check_between(x: np.ndarray, height: float) -> None:
@@ -161,45 +169,52 @@ def check_between(x: np.ndarray, height: float) -> None:
     out = np.flatnonzero(~(np.abs(across) < height/2*(1 - 1e-9)))
     if len(out):
         i = out[0]
-        raise ValueError(f"point {i} at {axis} = {across[i]:g} is not between the plates {axis} = -+{height/2:g} ({len(out)} of "
-                         f"{len(x)} are not), where its mirror image would be another point's or its own: move it inside")
+        raise ValueError(f"point {i} at {axis} = {across[i]:g} is not between the plates {axis} = "
+                         f"-+{height/2:g} ({len(out)} of {len(x)} are not), where its mirror image would be "
+                         "another point's or its own: move it inside")
 
 
 def check_widths(x: np.ndarray, width: Any) -> np.ndarray:
-    """Widths (d - 1,) of the box along the plates of points (n, d); refuses all but positive numbers, one for each axis."""
+    """Widths (d - 1,) of the box along the plates; refuses all but positive numbers, one an axis."""
     if x.ndim != 2 or x.shape[1] not in (1, 2, 3):
-        raise ValueError(f"points have the shape {x.shape}, which must be (n, d) with d = 1, 2, 3: on a line give x[:, None]")
+        raise ValueError(f"points have the shape {x.shape}, which must be (n, d) with d = 1, 2, 3: on a line "
+                         "give x[:, None]")
     widths, d = np.atleast_1d(np.asarray(width, float)), x.shape[1]
     if widths.shape != (d - 1,) or not ((widths > 0) & np.isfinite(widths)).all():
-        raise ValueError(f"the box is {width} wide, which must be {('()', 'a positive number', 'two positive numbers')[d - 1]} "
-                         f"in {d}D: one for each axis along the plates, which are across the last")
+        raise ValueError(f"the box is {width} wide, which must be "
+                         f"{('()', 'a positive number', 'two positive numbers')[d - 1]} in {d}D: one for "
+                         "each axis along the plates, which are across the last")
     return widths
 
 
 def between_plates(make: Callable[[Points, Any], Edges], x: np.ndarray, width: Any, height: float,
                    weight: Any) -> tuple[Edges, Beyond]:
-    """Edges among points x (n, d) and to their mirror images in the plates -+ height/2 of the last axis, periodic along them.
+    """Edges among points x (n, d) and to mirror images in the plates -+ height/2 of the last axis.
 
     width : of the box along the plates: () in 1D, a number in 2D, a pair in 3D.
-    The maker sees points and images in a periodic box twice as high; what it makes is averaged with its own mirror image, since
-    a triangulation has to choose one of two diagonals. In 3D it finds flat simplices: take edges of a weight.
-    Raises ValueError: a point is on a plate or beyond it, or the width is not that of such a box; what makers refuse.
+    The maker sees points and images in a periodic box twice as high; what it makes is averaged with its own
+    mirror image, since a triangulation has to choose one of two diagonals. In 3D it finds flat simplices:
+    take edges of a weight. Raises ValueError: a point is on a plate or beyond it, or the width is not that of
+    such a box; what makers refuse.
     """
     widths = check_widths(x, width)
     check_between(x, height)
     n, d = x.shape
     turn, shift = mirror(d), np.array([0.0]*(d - 1) + [height/2])
-    lower = x - shift                                # -height < last axis < 0; the upper plate is at 0, the lower at the edge
+    # -height < last axis < 0; the upper plate is at 0, the lower at the edge
+    lower = x - shift
     points = of_positions(np.concatenate([lower, lower*turn]), (*widths, 2*height))
     try:
         edges = symmetric(make(points, weight), points.a)
     except (ValueError, ArithmeticError) as error:
-        error.add_note(f"asked for were edges of {n} points between plates and of their mirror images, point m + {n} that of "
-                       "point m, in a box twice as high" + ("; three points and their images lie on one sphere, so that only a "
+        error.add_note(f"asked for were edges of {n} points between plates and of their mirror images, point "
+                       f"m + {n} that of point m, in a box twice as high"
+                       + ("; three points and their images lie on one sphere, so that only a "
                                                             "weight makes edges in 3D" if d == 3 else ""))
         raise
     ours, images = (edges.i < n) & (edges.j < n), (edges.i < n) != (edges.j < n)
-    inner = Edges(**{name: getattr(edges, name)[ours] for name in ("i", "j", "S", "k", "apart")}, V=edges.V[:n])
+    inner = Edges(**{name: getattr(edges, name)[ours] for name in ("i", "j", "S", "k", "apart")},
+                  V=edges.V[:n])
     back = np.where(edges.i[images] < n, 1.0, -1.0)
     i, parent = np.minimum(edges.i, edges.j)[images], np.maximum(edges.i, edges.j)[images] - n
     S, apart = back[:, None]*edges.S[images], back[:, None]*edges.apart[images]

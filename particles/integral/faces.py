@@ -1,12 +1,12 @@
-"""Faces between moving points that close and are exact on linear fields, in 2D: made anew wherever the points are.
+"""Faces between moving points that close and are exact on linear fields, in 2D.
 
 With x_ij = x_j - x_i, F = -w'/r of a weight w and volumes V:
 
     B_i = (sum_j V_j F x x)^-1,  s_i = 2/sum_j V_j F r^2,  k_ij = V_i V_j F (s_i + s_j)
     S_ij = V_i V_j F (B_i + B_j) x_ij + k_ij [phi_j - phi_i + (psi_i + psi_j).x_ij]
 
-phi, psi from sum_j S_ij = 0 and 1/2 sum_j S_ij x_ij = V_i 1: symmetric positive equations, solved by conjugate gradients from
-what was found before.
+phi, psi from sum_j S_ij = 0 and 1/2 sum_j S_ij x_ij = V_i 1: symmetric positive equations, solved by
+conjugate gradients from what was found before.
 """
 from typing import NamedTuple
 
@@ -39,20 +39,22 @@ def _(term, a, b, ab):
 
 
 class FaceMaker:
-    """Makes faces of the points in their surroundings, closed by so many `iterations` at most, to the residual `within`.
+    """Makes faces of points, closed by so many `iterations` at most, to the residual `within`.
 
-    faces, count (n,), pull (n, 2), iterations_done : what was made last, the density of points, the sum of V_j F x_ij that pulls
-    points to where they are dense. ghosts : of the lists. lists_made : how often the lists have been made anew.
+    faces, count (n,), pull (n, 2), iterations_done : what was made last, the density of points, the sum of
+    V_j F x_ij that pulls points to where they are dense. ghosts : of the lists. lists_made : how often the
+    lists have been made anew.
     """
 
     def __init__(self, around: Surroundings, iterations: int, within: float):
-        self.around, self.n, self.team, self.most, self.within = around, around.n, around.team, iterations, within
+        self.around, self.n, self.team = around, around.n, around.team
+        self.most, self.within = iterations, within
         self.pull, self.count, self.iterations_done = np.zeros((self.n, 2)), np.zeros(self.n), 0
         self.lists_made, self._entries = -1, -1
         self.ghosts: Ghosts = Ghosts(*np.empty((3, 0)))
 
     def make(self, state: np.ndarray, V: np.ndarray, solution: np.ndarray) -> None:
-        """Pairs and faces of points at state[:2] with volumes (n,); the solution (6, n) is found from what it was, in place."""
+        """Pairs and faces of points at state[:2] with volumes (n,); solution (6, n) in place."""
         around, n = self.around, self.n
         around.place(state, 1.0)
         self._allocate()
@@ -115,7 +117,7 @@ class FaceMaker:
 
 
 def inner(a: np.ndarray, b: np.ndarray) -> float:
-    """Sum of products, not by BLAS: from 10 000 points on its threads wait for work on all cores, and sum in another order."""
+    """Sum of products, not by BLAS, whose threads wait on all cores and sum in another order."""
     return float((a*b).sum())
 
 
@@ -172,7 +174,8 @@ def _to_records(x, origin, turn, potential):
     for g in range(len(origin)):
         a, s = potential[n + g], turn[g]
         phi_x, psi_xx, psi_xy, phi_y, psi_yx, psi_yy = x[origin[g]]
-        a.phi_x, a.psi_xx, a.psi_xy, a.phi_y, a.psi_yx, a.psi_yy = phi_x, psi_xx, s*psi_xy, s*phi_y, s*psi_yx, psi_yy
+        a.phi_x, a.psi_xx, a.psi_xy = phi_x, psi_xx, s*psi_xy
+        a.phi_y, a.psi_yx, a.psi_yy = s*phi_y, s*psi_yx, psi_yy
 
 
 @jit

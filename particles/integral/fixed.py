@@ -1,4 +1,4 @@
-"""What all methods on fixed points share, compiled, in 2D: stored edges, fields, rates, what the time loop asks for."""
+"""What methods on fixed points share, in 2D: stored edges, fields, rates, for the time loop."""
 from math import fsum
 from typing import Any, ClassVar
 
@@ -8,26 +8,37 @@ from continuum.fluid import conductivity, energy, temperature, valid, viscosity
 from continuum.jit import formula, jit
 from particles.fields import Fields, from_densities
 from particles.integral.edges import Beyond, Edges
-from particles.integral.exchange import At, Convection, Exchange, Listing, Pressure, Stage, pressure_of, stages
+from particles.integral.exchange import (
+    At,
+    Convection,
+    Exchange,
+    Listing,
+    Pressure,
+    Stage,
+    pressure_of,
+    stages,
+)
 from particles.neighbours import u32, u64
 from particles.pairs import Stored
 from particles.threads import Team
 
-#: seen by convection and pressure: vx .. eps, hydro; by friction and heat: ux, uy, Td; F mends the heating; P is the point's own
+#: seen by convection and pressure: vx .. eps, hydro; by friction and heat: ux, uy, Td; F mends the heating; P
+#: is the point's own
 FIELDS = "rho vx vy T eps ux uy Td eta k Fx Fy hydro P"
 Point = np.dtype([(name, "f8") for name in FIELDS.split()])
 
 
 def opened(edges: Stored) -> np.ndarray:
     """sum_j S_ij of each row, images included, exact: (n, 2), zero where edges close."""
-    return np.array([[2*fsum(part) for part in np.split(q, edges.first[1:])] for q in (edges.sx, edges.sy)]).T.copy()
+    return np.array([[2*fsum(part) for part in np.split(q, edges.first[1:])]
+                     for q in (edges.sx, edges.sy)]).T.copy()
 
 
 class OwnPressure(Stage):
-    """Sets P of a row's own point, which `Pressure` takes off twice along each edge, and takes it off the area that stays open.
+    """Sets P of a row's own point, which `Pressure` takes off twice, and takes it off the open area.
 
-    Whole pressures, many times what they differ by, would leave a rounding in every row, one way at every step.
-    open (n, 2) : what the area vectors of a row add up to, of `opened`.
+    Whole pressures, many times what they differ by, would leave a rounding in every row, one way at every
+    step. open (n, 2) : what the area vectors of a row add up to, of `opened`.
     """
 
     def __init__(self, eos: Any, open: np.ndarray, n: int, team: Team):
@@ -65,7 +76,7 @@ class OnPoints:
 
     @property
     def fastest(self) -> tuple[float, float]:
-        """Largest frequency of sound over its speed, and largest rate of diffusion over the diffusivity: of the edges."""
+        """Largest frequency of sound over its speed, largest rate of diffusion over diffusivity."""
         return self.edges.fastest
 
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
@@ -114,12 +125,12 @@ class Summing:
         i = first_invalid(state, self.method.eos)
         if i == state.shape[1]:
             return ""
-        rho, e = inner(*state[:4, i])
-        return f"point {i} has rho = {rho:.6g}, e = {e:.6g}, outside the validity of {type(self.method.eos).__name__}"
+        eos, (rho, e) = type(self.method.eos).__name__, inner(*state[:4, i])
+        return f"point {i} has rho = {rho:.6g}, e = {e:.6g}, outside the validity of {eos}"
 
 
 class FixedSums(Summing):
-    """Compiled sums over stored edges: fields, what the listed terms of a method need, one exchange, rates per volume.
+    """Compiled sums over stored edges: fields, stages of the terms, one exchange, rates per volume.
 
     at : points, edges, images. push (2,) : force per mass.
     """
@@ -182,7 +193,8 @@ def stored(edges: Edges, beyond: Beyond, image: np.ndarray) -> Stored:
     k = np.concatenate([edges.k, edges.k, beyond.k])[order]
     taken = np.bincount(rows, minlength=edges.n)
     first = np.cumsum(taken) - taken
-    return Stored(first.astype(u64), taken.astype(u32), near[order].astype(u32), S[:, 0].copy(), S[:, 1].copy(), k)
+    return Stored(first.astype(u64), taken.astype(u32), near[order].astype(u32), S[:, 0].copy(),
+                  S[:, 1].copy(), k)
 
 
 @jit

@@ -1,15 +1,17 @@
-"""Random stress and heat current of a fluid on fixed points, as matrices over edges    [RR98 Secs II D, III A; Eqs 22-25, 42-44]
+"""Random stress and heat current on fixed points, as matrices over edges    [RR98 Eqs 22-25, 42-44]
 
 Momenta p (d, n) of points with velocities v and energies E (n,) with temperatures T obey, at rest,
 
     dp = -Gamma v dt + B dW        dE = -Gamma T dt + B dW        B B^T = Q
 
-dW independent Wiener processes, Gamma and B sparse. In equilibrium <p_i p_j> = kT m_i delta_ij and <E_i E_j> = k T^2 C_i delta_ij
-on any points if and only if Q = 2 kT Gamma (momenta) and Q = 2 k T^2 Gamma (energies): the fluctuation-dissipation theorem.
-Rows are numbered a n + i: component a of point i. k is Boltzmann's constant in the units of the fluid, which sets the noise.
+dW independent Wiener processes, Gamma and B sparse. In equilibrium <p_i p_j> = kT m_i delta_ij and <E_i E_j>
+= k T^2 C_i delta_ij on any points if and only if Q = 2 kT Gamma (momenta) and Q = 2 k T^2 Gamma (energies):
+the fluctuation-dissipation theorem. Rows are numbered a n + i: component a of point i. k is Boltzmann's
+constant in the units of the fluid, which sets the noise.
 
-RR98's Eqs 42-44 have the increments of a whole step and no volume: with them a stress would need the factor 1/sqrt(V dt), and a
-potential pi = Pi dV (Eq. 27) the factor sqrt(V/dt); V is in all of the matrices here, dt in dW.
+RR98's Eqs 42-44 have the increments of a whole step and no volume: with them a stress would need the factor
+1/sqrt(V dt), and a potential pi = Pi dV (Eq. 27) the factor sqrt(V/dt); V is in all of the matrices here, dt
+in dW.
 """
 from typing import Any, NamedTuple
 
@@ -35,16 +37,16 @@ class Partners(NamedTuple):
 
 
 def mismatch(pair: Partners, twice: float) -> float:
-    """|Q - twice Gamma|/|twice Gamma|, the largest elements; `twice` is 2 kT of momenta, 2 k T^2 of energies."""
+    """|Q - twice Gamma|/|twice Gamma|, largest elements; `twice`: 2 kT of momenta, 2 k T^2 of energies."""
     wanted = twice*pair.Gamma
     return float(abs(pair.Q - wanted).max()/abs(wanted).max())
 
 
 def stress(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
-    """Viscous forces D (eta Delta + zeta 11)/V D^T, each point with its own viscosities, and one random stress a point:
+    """Viscous forces D (eta Delta + zeta 11)/V D^T, and one random stress a point:
 
-    s_i = sqrt(2 kT_i eta_i/V_i) [(R + R^T)/sqrt 2 - 1 tr R sqrt 2/d] + sqrt(2 kT_i zeta_i/V_i) 1 r, R (d, d) and r of dW.
-    eta, zeta, kT are (n,) or numbers, here and below.
+    s_i = sqrt(2 kT_i eta_i/V_i) [(R + R^T)/sqrt 2 - 1 tr R sqrt 2/d] + sqrt(2 kT_i zeta_i/V_i) 1 r, R (d, d)
+    and r of dW. eta, zeta, kT are (n,) or numbers, here and below.
 
     Raises ValueError: one of them is negative.
     """
@@ -52,25 +54,27 @@ def stress(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
     d, V = edges.d, edges.V
     div = divergence(edges)
     middle = kron(shear(d), eta/V) + kron(np.outer(one(d), one(d)), zeta/V)
-    normals = sparse.hstack([kron(traceless(d), np.sqrt(2*kT*eta/V)), kron(one(d)[:, None], np.sqrt(2*kT*zeta/V))])
+    normals = sparse.hstack([kron(traceless(d), np.sqrt(2*kT*eta/V)),
+                             kron(one(d)[:, None], np.sqrt(2*kT*zeta/V))])
     return Partners(sparse.csr_array(div@middle@div.T), sparse.csr_array(div@normals))
 
 
 def heat(edges: Edges, kappa: Any, kT2: Any) -> Partners:
-    """Heat D kappa/V D^T, and a random current a point, sqrt(2 kT2_i kappa_i/V_i) r_i; kT2 = k T^2, not negative."""
+    """Heat D kappa/V D^T, and a random current a point, sqrt(2 kT2_i kappa_i/V_i) r_i; kT2 = k T^2."""
     kappa, kT2 = checked(edges.n, kappa=kappa, kT2=kT2)
     d, div = edges.d, sparse.hstack(edges.D, format="csr")
     Gamma = div@kron(np.eye(d), kappa/edges.V)@div.T
-    return Partners(sparse.csr_array(Gamma), sparse.csr_array(div@kron(np.eye(d), np.sqrt(2*kT2*kappa/edges.V))))
+    return Partners(sparse.csr_array(Gamma),
+                    sparse.csr_array(div@kron(np.eye(d), np.sqrt(2*kT2*kappa/edges.V))))
 
 
 def divergence(edges: Edges) -> sparse.csr_array:
-    """V div of a tensor (d, d, n), components (a, b) of point j in column (a d + b) n + j: sum_b D^b tau_ab."""
+    """V div of a tensor, component (a, b) of point j in column (a d + b) n + j: sum_b D^b tau_ab."""
     return each(edges.d, sparse.hstack(edges.D))
 
 
 def shear(d: int, trace: float | None = None) -> np.ndarray:
-    """Delta_ab,cd = delta_ac delta_bd + delta_ad delta_bc - trace delta_ab delta_cd, (d^2, d^2); trace = 2/d if not given."""
+    """Delta_ab,cd = delta_ac delta_bd + delta_ad delta_bc - trace delta_ab delta_cd; trace 2/d."""
     unit = np.eye(d)
     both = np.einsum("ac,bd->abcd", unit, unit) + np.einsum("ad,bc->abcd", unit, unit)
     return both.reshape(d*d, d*d) - (2/d if trace is None else trace)*np.outer(one(d), one(d))
@@ -98,7 +102,7 @@ def each(d: int, matrix: Any) -> sparse.csr_array:
 
 
 def friction(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
-    """Friction k (A + B e e) of `dih.along`, and sqrt(2 kT k A) R + sqrt(2 kT k B) e r on each edge; means over its two points.
+    """Friction k (A + B e e) of `dih.along`, and sqrt(2 kT k A) R + sqrt(2 kT k B) e r on each edge.
 
     Raises ValueError: a coefficient is negative, zeta is outside of what forces along edges allow, or an edge
     conducts a negative amount.
@@ -112,13 +116,14 @@ def friction(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
 
 
 def between(edges: Edges, A: np.ndarray, B: np.ndarray, kT: np.ndarray) -> Partners:
-    """Friction k (A + B e e) between the points of each edge, A, B, kT (E,), and its noise; k is not negative."""
+    """Friction k (A + B e e) between the points of each edge, A, B, kT (E,), and its noise."""
     k, d, across = conductances(edges), edges.d, incidence(edges)
     A, B = np.maximum(A, 0), np.maximum(B, 0)       # zero to round-off at the ends of the range of zeta
     e = edges.apart/np.sqrt((edges.apart**2).sum(axis=1))[:, None]
     along = sparse.vstack([across@sparse.diags_array(q) for q in e.T])
     Gamma = each(d, across@sparse.diags_array(k*A)@across.T) + along@sparse.diags_array(k*B)@along.T
-    noise = [each(d, across@sparse.diags_array(np.sqrt(2*kT*k*A))), along@sparse.diags_array(np.sqrt(2*kT*k*B))]
+    noise = [each(d, across@sparse.diags_array(np.sqrt(2*kT*k*A))),
+             along@sparse.diags_array(np.sqrt(2*kT*k*B))]
     return Partners(sparse.csr_array(Gamma), sparse.csr_array(sparse.hstack(noise)))
 
 
@@ -134,9 +139,10 @@ def conduction(edges: Edges, kappa: Any, kT2: Any) -> Partners:
 
 
 def mixed(points: Partners, along: Partners, share: float) -> Partners:
-    """A share of friction along edges, the rest of stresses at points, each with its noise; ValueError: no share."""
+    """A share of friction along edges, the rest of stresses at points, each with its noise."""
     if not 0 <= share <= 1:
-        raise ValueError(f"the share of transport along edges must be between 0 (points) and 1 (edges), got {share}")
+        raise ValueError("the share of transport along edges must be between 0 (points) and 1 (edges), got "
+                         f"{share}")
     Gamma = (1 - share)*points.Gamma + share*along.Gamma
     return Partners(sparse.csr_array(Gamma),
                     sparse.csr_array(sparse.hstack([np.sqrt(1 - share)*points.B, np.sqrt(share)*along.B])))
@@ -158,8 +164,9 @@ def conductances(edges: Edges) -> np.ndarray:
     """k (E,), zero for zero to round-off; refused where it is negative, as of some edges of tetrahedra."""
     if not (edges.k >= -ROUND_OFF*edges.k.max()).all():
         worst = int(np.argmin(edges.k))
-        raise ValueError(f"the edge between points {edges.i[worst]} and {edges.j[worst]} conducts k = {edges.k[worst]:.4g} < 0, "
-                         "and no noise has a negative variance: take stresses at points, or edges of a weight")
+        raise ValueError(f"the edge between points {edges.i[worst]} and {edges.j[worst]} conducts k = "
+                         f"{edges.k[worst]:.4g} < 0, and no noise has a negative variance: take stresses at "
+                         "points, or edges of a weight")
     return np.maximum(edges.k, 0)
 
 
@@ -167,9 +174,9 @@ def printed_stress(edges: Edges, eta: Any, zeta: Any, kT: Any, *, doubled: bool,
                    trace: float = 2/3, bulk: float = 1.0) -> Partners:
     """Eqs 42, 44: an independent random stress on each pair, beside the viscous force of Eq. 37 as printed.
 
-    The printed square roots hold as they stand: 2 kT_i eta_j + 2 kT_j eta_i of X, kT_i zeta_j + kT_j zeta_i of Y.
-    doubled : the bracket takes pi_ij + pi_ji = 2 pi_ij (Eq. 35), not pi_ij (Eq. 22). volume : with the factor 1/V it lacks.
-    trace : 2/3 as printed. bulk : 1 as printed, 2 makes the zeta term that of Eq. 23.
+    The printed square roots hold as they stand: 2 kT_i eta_j + 2 kT_j eta_i of X, kT_i zeta_j + kT_j zeta_i
+    of Y. doubled : the bracket takes pi_ij + pi_ji = 2 pi_ij (Eq. 35), not pi_ij (Eq. 22). volume : with the
+    factor 1/V it lacks. trace : 2/3 as printed. bulk : 1 as printed, 2 makes the zeta term that of Eq. 23.
     """
     eta, zeta, kT = checked(edges.n, eta=eta, zeta=zeta, kT=kT)
     i, j, d = edges.i, edges.j, edges.d
@@ -183,8 +190,9 @@ def printed_stress(edges: Edges, eta: Any, zeta: Any, kT: Any, *, doubled: bool,
     return Partners(printed_viscosity(edges, eta, zeta, trace), sparse.csr_array(bracket@normals))
 
 
-def printed_viscosity(edges: Edges, eta: np.ndarray, zeta: np.ndarray, trace: float = 2/3) -> sparse.csr_array:
-    """Gamma of Eqs 35, 37: pi_ij = -eta_i E(sum_k w_jk e_jk v_k), with the values v_k and not their differences."""
+def printed_viscosity(edges: Edges, eta: np.ndarray, zeta: np.ndarray,
+                      trace: float = 2/3) -> sparse.csr_array:
+    """Gamma of Eqs 35, 37: pi_ij = -eta_i E(sum_k w_jk e_jk v_k), of values v_k, not differences."""
     d = edges.d
     slope = each(d, sparse.vstack([S/2 for S in edges.areas]))
     of_shear, of_trace = kron(shear(d, trace), 1/edges.V), kron(np.outer(one(d), one(d)), 1/edges.V)
@@ -192,16 +200,18 @@ def printed_viscosity(edges: Edges, eta: np.ndarray, zeta: np.ndarray, trace: fl
 
 
 def swapped(edges: Edges, eta: np.ndarray) -> sparse.csr_array:
-    """sum_j S_ij (eta_i E_j + eta_j E_i)/2 of a tensor E: the coefficient of one point with the slope of the other."""
+    """sum_j S_ij (eta_i E_j + eta_j E_i)/2 of a tensor E: one point's coefficient, the other's slope."""
     both = [sparse.diags_array(eta)@S/2 + sparse.diags_array(S@eta/2) for S in edges.areas]
     return each(edges.d, sparse.hstack(both))
 
 
-def printed_heat(edges: Edges, kappa: Any, k: float, T: Any, *, doubled: bool, of25: bool = False) -> Partners:
-    """Eqs 43, 44: an independent random current on each pair, beside the heat of Eq. 38; `of25` with the variance of Eq. 25."""
+def printed_heat(edges: Edges, kappa: Any, k: float, T: Any, *, doubled: bool,
+                 of25: bool = False) -> Partners:
+    """Eqs 43, 44: a random current on each pair, beside the heat of Eq. 38; `of25`: as Eq. 25."""
     kappa, T = checked(edges.n, kappa=kappa, T=T)
     i, j, n = edges.i, edges.j, edges.n
-    variance = k*(2*(T[i]**2*kappa[j] + T[j]**2*kappa[i]) if of25 else T[i]*kappa[j] + T[j]*kappa[i])/ends(edges, edges.V)
+    variance = k*(2*(T[i]**2*kappa[j] + T[j]**2*kappa[i]) if of25
+                  else T[i]*kappa[j] + T[j]*kappa[i])/ends(edges, edges.V)
     across, factor = incidence(edges), 1.0 if doubled else 0.5
     B = sparse.hstack([across@sparse.diags_array(factor*s*np.sqrt(variance)) for s in edges.S.T])
     bracket = swapped(edges, kappa)[:n, :edges.d*n]        # of the first component: the heat has but one
@@ -216,7 +226,7 @@ def checked(n: int, **fields: Any) -> list[np.ndarray]:
         q = np.broadcast_to(np.asarray(field, float), (n,))
         if not (q >= 0).all():
             i = int(np.flatnonzero(~(q >= 0))[0])
-            raise ValueError(f"{name} of point {i} is {q[i]:.6g}: viscosities, conductivities and temperatures are not negative, "
-                             "or noise would have a negative variance")
+            raise ValueError(f"{name} of point {i} is {q[i]:.6g}: viscosities, conductivities and "
+                             "temperatures are not negative, or noise would have a negative variance")
         found.append(q)
     return found

@@ -2,8 +2,8 @@
 
     grad A(r) = -lim int A(r') e W(|r - r'|) dr', e = (r - r')/|r - r'|    [RR98 Eq. 1]
 
-Any weight f will do: those of `weights` (compact), the paper's exponential (Eqs 30, 31) and the Gaussian, which have tails and
-singularities of their own and so serve operators on few points, not the fast loops.
+Any weight f will do: those of `weights` (compact), the paper's exponential (Eqs 30, 31) and the Gaussian,
+which have tails and singularities of their own and so serve operators on few points, not the fast loops.
 """
 import warnings
 from collections.abc import Callable
@@ -75,7 +75,8 @@ def _tail(share: Callable[[float], float]) -> float:
 
 
 # first moment beyond r: int W r dV = int (d f + ...) in parts, gamma functions of r/r0
-reach.of(Exponential)(lambda weight: weight.r0*_tail(lambda r: float(gammaincc(2, r)) + (weight.d - 1)*np.exp(-r)))
+reach.of(Exponential)(lambda weight: weight.r0*_tail(lambda r: float(gammaincc(2, r))
+                                                     + (weight.d - 1)*np.exp(-r)))
 reach.of(Gaussian)(lambda weight: weight.r0*_tail(lambda r: float(gammaincc(weight.d/2 + 1, r*r/2))))
 
 
@@ -103,13 +104,13 @@ width.of(Weight)(lambda weight: weight.h)
 def moment(weight: Any, n: int, d: int) -> float:
     """M_n = r0^(1-n) int r^n W dV in d dimensions    [RR98 Eq. 2]; M_1 = d for every normalised f."""
     r0 = width(weight)
-    integral, _ = quad(lambda q: (q*r0)**(n + d - 1)*float(W(weight, q*r0)), 0, reach(weight)/r0, limit=400, epsabs=1e-13,
-                       epsrel=1e-12, points=[0.5, 1.0] if reach(weight) > r0 else [0.5])
+    integral, _ = quad(lambda q: (q*r0)**(n + d - 1)*float(W(weight, q*r0)), 0, reach(weight)/r0, limit=400,
+                       epsabs=1e-13, epsrel=1e-12, points=[0.5, 1.0] if reach(weight) > r0 else [0.5])
     return sphere(d)*integral*r0**(2 - n)
 
 
 def rms_width(weight: Any, d: int) -> float:
-    """sqrt(int r^2 f dV), from M_3: the r0 of Eq. 45 for any weight (sqrt 2 times that of the exponential of Eq. 30)."""
+    """sqrt(int r^2 f dV), from M_3: the r0 of Eq. 45 for any weight (sqrt 2 times Eq. 30's)."""
     return width(weight)*float(np.sqrt(moment(weight, 3, d)/(d + 2)))
 
 
@@ -121,27 +122,30 @@ def check_ordering(weight: Any, d: int, a: float, error: float, wavelength: floa
                    wrong: str = "gradients of linear fields are") -> None:
     """Warn where Eq. 45 is violated, with the side and the error to expect.
 
-    a : spacing (dV)^(1/d). error : of the discrete first moment on the points, or of what else is `wrong`. wavelength : the
-    shortest that matters; its gradients lose 1 - f^(k), about 1 - exp(-(k r0)^2/2d).
+    a : spacing (dV)^(1/d). error : of the discrete first moment on the points, or of what else is `wrong`.
+    wavelength : the shortest that matters; its gradients lose 1 - f^(k), about 1 - exp(-(k r0)^2/2d).
     """
     r0 = rms_width(weight, d)
     told = f"r0 = {r0:.3g} (rms width of {type(weight).__name__})"
     if r0 < a and error > SEEN:
-        warnings.warn(f"{told} is below the spacing {a:.3g}, the left side of Eq. 45: {wrong} off by {100*error:.3g} % "
-                      f"(rms) on these points; take a wider weight, or exact edges", OrderingWarning, 4)
+        warnings.warn(f"{told} is below the spacing {a:.3g}, the left side of Eq. 45: {wrong} off by "
+                      f"{100*error:.3g} % (rms) on these points; take a wider weight, or exact edges",
+                      OrderingWarning, 4)
     if r0 > wavelength:
         lost = 1 - np.exp(-(2*pi/wavelength*r0)**2/(2*d))
-        warnings.warn(f"{told} is above the wavelength {wavelength:.3g}, the right side of Eq. 45: its gradients lose about "
-                      f"{100*lost:.3g} %; take a narrower weight", OrderingWarning, stacklevel=4)
+        warnings.warn(f"{told} is above the wavelength {wavelength:.3g}, the right side of Eq. 45: its "
+                      f"gradients lose about {100*lost:.3g} %; take a narrower weight", OrderingWarning,
+                      stacklevel=4)
 
 
 def check(weight: Any, d: int) -> None:
-    """Refuse a weight whose M_1 differs from d, as no gradient would be right, or whose width is none: ValueError."""
+    """Refuse a weight whose M_1 is not d, or without a width: ValueError."""
     name = "range h" if isinstance(weight, Weight) else "width r0"
     if not 0 < width(weight) < np.inf:
-        raise ValueError(f"the {name} of {type(weight).__name__} must be positive and finite, got {width(weight)}: Eq. 45 asks "
-                         "for more than a spacing")
+        raise ValueError(f"the {name} of {type(weight).__name__} must be positive and finite, got "
+                         f"{width(weight)}: Eq. 45 asks for more than a spacing")
     first = moment(weight, 1, d)
     if not abs(first - d) <= 1e-6*d:
-        raise ValueError(f"{type(weight).__name__} has M_1 = {first:.6g} in {d} dimensions, which must be {d} (RR98 Eq. 2): "
-                         f"every gradient would be multiplied by {first/d:.4g}; normalise it, or make it for d = {d}")
+        raise ValueError(f"{type(weight).__name__} has M_1 = {first:.6g} in {d} dimensions, which must be "
+                         f"{d} (RR98 Eq. 2): every gradient would be multiplied by {first/d:.4g}; normalise "
+                         f"it, or make it for d = {d}")

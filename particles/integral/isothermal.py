@@ -1,7 +1,7 @@
-"""A fluid on fixed points that has no more than its scene lists: density and momentum, and of the terms those that are named.
+"""A fluid on fixed points that has no more than its scene lists: density, momentum, named terms.
 
-P = c^2 rho: without heat there is neither energy nor temperature nor conductivity in the state nor in the records.
-The brackets are those of Eqs 34, 35 and 51    [RR98]
+P = c^2 rho: without heat there is neither energy nor temperature nor conductivity in the state nor in the
+records. The brackets are those of Eqs 34, 35 and 51    [RR98]
 """
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -63,7 +63,8 @@ class Isothermal:
 
     def fields(self, state: np.ndarray) -> Fields:
         """Of the points, (n,) each; without heat there is no temperature."""
-        return Fields(self.x, (state[1:]/state[0]).T, state[0].copy(), np.full(len(self.x), np.nan), self.edges.V)
+        return Fields(self.x, (state[1:]/state[0]).T, state[0].copy(), np.full(len(self.x), np.nan),
+                      self.edges.V)
 
     def start(self, n: int, team: Team) -> "Summed":
         """The sums over stored edges. Raises ValueError: the state has not as many points as there are."""
@@ -91,7 +92,9 @@ class Summed(Summing):
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """The first point without a positive density; empty if there is none."""
         bad = np.flatnonzero(~(state[0] > 0))
-        return f"point {ids[bad[0]]} has rho = {state[0, bad[0]]:.6g}, which must be positive" if len(bad) else ""
+        if not len(bad):
+            return ""
+        return f"point {ids[bad[0]]} has rho = {state[0, bad[0]]:.6g}, which must be positive"
 
 
 @limit_of.register

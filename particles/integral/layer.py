@@ -1,8 +1,9 @@
-"""Discretized integral hydrodynamics on fixed points of a layer, compiled: the terms of `dih` over stored edges, in 2D.
+"""Fixed points of a layer, compiled: the terms of `dih` over stored edges, in 2D.
 
-Between plates, which RR98 leaves open, convection and pressure see images without friction, so that the divergence stays the
-adjoint of the gradient: rho, T, eps and the velocity along the plate of their parents, the velocity across it reversed, and a
-pressure that goes on hydrostatically. Friction and heat see images with -v and 2 T_w - T. Any other mixture lets sound grow.
+Between plates, which RR98 leaves open, convection and pressure see images without friction, so that the
+divergence stays the adjoint of the gradient: rho, T, eps and the velocity along the plate of their parents,
+the velocity across it reversed, and a pressure that goes on hydrostatically. Friction and heat see images
+with -v and 2 T_w - T. Any other mixture lets sound grow.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,14 +25,15 @@ from particles.limits import limit_of
 from particles.threads import Team
 
 
-class Exchanging(FixedSums):
+class LayerSums(FixedSums):
     """The compiled sums of a layer, with what the time loop asks for."""
     method: "Layer"
 
     def __init__(self, method: "Layer", team: Team):
         n, beyond, T_plates = len(method.x), method.beyond, np.array(method.T_plates)
         ghosts, ghost = np.unique(np.stack([beyond.parent, beyond.plate]), axis=1, return_inverse=True)
-        (self.parent, self.plate), self.image = ghosts, ghost.ravel()       # of images; the image of each edge to one
+        # of images; the image of each edge to one
+        (self.parent, self.plate), self.image = ghosts, ghost.ravel()
         self.rise = np.zeros(len(self.parent))      # how much higher a parent lies than its image
         self.rise[self.image] = method.x[beyond.parent, 1] - (method.x[beyond.i, 1] + beyond.apart[:, 1])
         edges = stored(method.edges, beyond, n + self.image)
@@ -45,7 +47,7 @@ class Exchanging(FixedSums):
         _images(self.parent, self.at.images.plate_T, self.rise, self.method.g, self.points, self.n)
 
     def heat_through(self, plate: int) -> float:
-        """Heat that enters through a plate (0: lower, 1: upper) per time, along edges and nested; needs fields looked at."""
+        """Heat per time that enters through plate 0 (lower) or 1; needs fields looked at."""
         beyond, here = self.method.beyond, self.method.beyond.plate == plate
         i, image = beyond.i[here], self.n + self.image[here]
         a, b = self.points[i], self.points[image]
@@ -54,7 +56,7 @@ class Exchanging(FixedSums):
         return share*along + sum(stage.heat(i, image, beyond.S[here]) for stage in self.exchange.stages)
 
 
-class LinearSums(Exchanging):
+class LinearSums(LayerSums):
     """The same where brackets are products of a point's fields and sums over its neighbours."""
 
     def __init__(self, method: "Layer", team: Team):
@@ -79,22 +81,23 @@ def _images(parent, plate_T, rise, g, points, n):
 FORMS = {(IdealGas, ConstEta, MENDED): LinearSums}
 
 
-def quickest(method: "Layer") -> type[Exchanging]:
+def quickest(method: "Layer") -> type[LayerSums]:
     """Sums in the form that suits a fluid best."""
-    return FORMS.get((type(method.eos), type(method.law), method.transport), Exchanging)
+    return FORMS.get((type(method.eos), type(method.law), method.transport), LayerSums)
 
 
-def edge_by_edge(method: "Layer") -> type[Exchanging]:
+def edge_by_edge(method: "Layer") -> type[LayerSums]:
     """Sums as all fluids have them."""
-    return Exchanging
+    return LayerSums
 
 
 @dataclass(frozen=True, kw_only=True)
 class Layer(OnPoints):
-    """A fluid on fixed points x (n, 2), periodic in x, between plates at T_plates (lower, upper) under gravity g.
+    """A fluid on fixed points x (n, 2), periodic in x, between plates at T_plates (lower, upper).
 
-    edges, beyond : of `edges.between_plates`. transport : listed terms of friction and heat: `MENDED`, `PRINTED` as Eq. 51
-    has it, which heats even a rigid rotation, or of `nested.mixed`. form : which sums, `quickest` or `edge_by_edge`.
+    edges, beyond : of `edges.between_plates`. transport : listed terms of friction and heat: `MENDED`,
+    `PRINTED` as Eq. 51 has it, which heats even a rigid rotation, or of `nested.mixed`. form : which sums,
+    `quickest` or `edge_by_edge`.
     """
     x: np.ndarray
     edges: Edges
@@ -104,12 +107,13 @@ class Layer(OnPoints):
     T_plates: tuple[float, float]
     g: float
     transport: tuple = MENDED
-    form: Callable[[Any], type[Exchanging]] = quickest
+    form: Callable[[Any], type[LayerSums]] = quickest
     integrator: type = RK4
 
     def __repr__(self) -> str:
         """What tells a checkpoint's method from another: edges by their sums."""
-        sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.x, self.edges.S, self.edges.k, self.beyond.S))
+        sums = ", ".join(f"{float(np.abs(q).sum())!r}"
+                         for q in (self.x, self.edges.S, self.edges.k, self.beyond.S))
         return (f"Layer({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.T_plates}, {self.g}, "
                 f"{self.transport}, {self.form(self).__name__}, {self.integrator.__name__})")
 
@@ -118,14 +122,14 @@ class Layer(OnPoints):
         """Largest frequency of sound over its speed, and largest rate of diffusion over the diffusivity."""
         return fastest(self.edges, self.beyond)
 
-    def sums(self, team: Team) -> "Exchanging":
+    def sums(self, team: Team) -> "LayerSums":
         """In the form that is asked for."""
         return self.form(self)(self, team)
 
 
 @limit_of.register
 def _(method: Layer, start: np.ndarray) -> float:
-    """RK4: the fastest sound and the fastest diffusion of edges and images together, both at the hottest point."""
+    """RK4: the fastest sound and diffusion of edges and images together, at the hottest point."""
     rho = start[0]
     e = start[3]/rho - (start[1]**2 + start[2]**2)/(2*rho**2)
     check_state(method.eos, rho, e)

@@ -1,9 +1,10 @@
-"""The sums of `layer` for an ideal gas with constant viscosity and conductivity, along edges with the heating mended.
+"""The sums of `layer` for an ideal gas with constant coefficients, along edges, heating mended.
 
-There P_ij = rho_i T_j: every bracket of Eqs 34-36 and 51 is made of a point's own fields and linear sums over its neighbours,
-such as sum_j S.(rho_i v_j + rho_j v_i) = rho_i sum_j S.v_j + v_i.sum_j S rho_j. Vector instructions do several of these at a
-time. Sums are of differences sum_j S (f_j - f_i), which keep the conservation of edges. Equal to `layer` to round-off.
-Arrays go as plain tuples (a NamedTuple costs a microsecond each), rows in blocks whose sums stay in the fastest cache.
+There P_ij = rho_i T_j: every bracket of Eqs 34-36 and 51 is made of a point's own fields and linear sums over
+its neighbours, such as sum_j S.(rho_i v_j + rho_j v_i) = rho_i sum_j S.v_j + v_i.sum_j S rho_j. Vector
+instructions do several of these at a time. Sums are of differences sum_j S (f_j - f_i), which keep the
+conservation of edges. Equal to `layer` to round-off. Arrays go as plain tuples (a NamedTuple costs a
+microsecond each), rows in blocks whose sums stay in the fastest cache.
 """
 from typing import Any, NamedTuple
 
@@ -20,24 +21,25 @@ Lack = np.dtype([("Fx", "f8"), ("Fy", "f8")])
 ROWS = 32           # of a block
 
 
-class LinearSums(NamedTuple):
-    """sum S_x, S_y and k times what the fields of the neighbours differ; S w and k T fill vectors and are not used."""
+class ProductSums(NamedTuple):
+    """sum S_x, S_y and k times differences of the neighbours' fields; S w, k T fill vectors."""
 
 
 class LackSums(NamedTuple):
     """sum S.F."""
 
 
-nothing.of(LinearSums)(lambda term: (0.0,)*20)
+nothing.of(ProductSums)(lambda term: (0.0,)*20)
 nothing.of(LackSums)(lambda term: (0.0,))
 
 
-@rate.of(LinearSums)
+@rate.of(ProductSums)
 def _(term, a, b, ab):
     x, y, k = ab.sx, ab.sy, ab.k
     rho, mx, my, eps = b.rho - a.rho, b.mx - a.mx, b.my - a.my, b.eps - a.eps
     T, u, v, w = b.T - a.T, b.u - a.u, b.v - a.v, b.w - a.w
-    return (x*rho, x*mx, x*my, x*eps, x*T, x*u, x*v, x*w, y*rho, y*mx, y*my, y*eps, y*T, y*u, y*v, y*w, k*T, k*u, k*v, k*w)
+    return (x*rho, x*mx, x*my, x*eps, x*T, x*u, x*v, x*w, y*rho, y*mx, y*my, y*eps, y*T, y*u, y*v, y*w, k*T,
+            k*u, k*v, k*w)
 
 
 @rate.of(LackSums)
@@ -70,7 +72,7 @@ class IdealSums:
 
 @lanes
 def _give(first, last, state, parent, twice_T, gas, given):
-    """Fields of points and, after them, of images: rho, T, eps, the momentum along of their parents, -v and 2 T_w - T."""
+    """Fields of points, then of images: rho, T, eps, momentum along of their parents, -v, 2 T_w - T."""
     n, kappa = u64(state.shape[1]), gas[2]
     for i in range(u64(first), min(u64(last), n)):
         _read(state, i, gas, given[i])
@@ -98,14 +100,14 @@ def _exchange(first, last, given, edges, open, per_V, gas, g, lack, out):
     pairs, sums = Stored(*edges), np.empty((ROWS, 20))
     for begin in range(u64(first), u64(last), u64(ROWS)):
         end = min(begin + u64(ROWS), u64(last))
-        sweep(begin, end, LinearSums(), given, pairs, Block(begin, sums))
+        sweep(begin, end, ProductSums(), given, pairs, Block(begin, sums))
         for i in range(begin, end):
             _products(i, given[i], sums[i - begin], open, per_V[i], gas[1], g, lack[i], out)
 
 
 @jit
 def _products(i, a, s, open, f, eta, g, lack, out):
-    """Sums of differences, and what the point's own fields bring where its edges do not close; F from slopes by differences."""
+    """Sums of differences, and what own fields bring where edges do not close; F from slopes."""
     u, v, rho, T, sx, sy = a.u, a.v, a.rho, a.T, open[i, 0], open[i, 1]
     lack.Fx, lack.Fy = eta*f*(v*s[13] - u*s[14]), eta*f*(u*s[6] - v*s[5])
     flow = s[5] + s[14] + sx*u + sy*v                               # S.v
@@ -121,7 +123,7 @@ def _products(i, a, s, open, f, eta, g, lack, out):
 
 @jit
 def _plates(beyond, parent, given, per_V, lack, out):
-    """What convection and pressure see of images, which give +u along the plate and go on hydrostatically; F of images.
+    """What convection and pressure see of images, which slip and go on hydrostatically; F of images.
 
     F along a plate is even, across it odd.
     """

@@ -1,4 +1,4 @@
-"""Stress and heat current of points, from gradients by differences, and their divergence: a term over edges, in 2D."""
+"""Stress and heat current of points from gradients, and their divergence: a term over edges, in 2D."""
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -24,7 +24,7 @@ class Slopes(NamedTuple):
 
 
 class Currents(NamedTuple):
-    """Stress and heat current of the points, over edges: momentum and energy    [Eqs 37, 38, for coefficients of one point]"""
+    """Stress and heat current of the points, over edges: momentum and energy    [Eqs 37, 38]"""
 
 
 nothing.of(NestedTransport)(lambda term: (0.0, 0.0, 0.0, 0.0))
@@ -41,14 +41,16 @@ def _(term, a, b, ab):
 
 @rate.of(Currents)
 def _(term, a, b, ab):
-    ax, ay, bx, by = ab.sx*a.xx + ab.sy*a.yx, ab.sx*a.xy + ab.sy*a.yy, ab.sx*b.xx + ab.sy*b.yx, ab.sx*b.xy + ab.sy*b.yy
+    ax, ay = ab.sx*a.xx + ab.sy*a.yx, ab.sx*a.xy + ab.sy*a.yy
+    bx, by = ab.sx*b.xx + ab.sy*b.yx, ab.sx*b.xy + ab.sy*b.yy
     return ax + bx, ay + by, bx*a.ux + by*a.uy + ax*b.ux + ay*b.uy + ab.sx*(a.qx + b.qx) + ab.sy*(a.qy + b.qy)
 
 
 def mixed(share: float, mended: bool = True) -> tuple:
-    """A share of transport along edges [Eq. 51], mended or as printed, the rest nested [Eqs 37, 38]; ValueError: no share."""
+    """A share of transport along edges [Eq. 51], mended or not, the rest nested [Eqs 37, 38]."""
     if not 0 <= share <= 1:
-        raise ValueError(f"the share of transport along edges must be between 0 (nested) and 1 (all), got {share}")
+        raise ValueError("the share of transport along edges must be between 0 (nested) and 1 (all), got "
+                         f"{share}")
     along = (Conduction(share), *(Mending(share),)*mended, Friction(share))*(share > 0)
     return (*along, *(NestedTransport(1 - share),)*(share < 1))
 
@@ -61,7 +63,7 @@ class Nesting(Stage):
         self.slopes, self.gain, self.currents = np.empty((n, 6)), np.empty((n, 3)), np.zeros(0, Current)
 
     def prepare(self, at: At) -> None:
-        """Images have the adjoint of gradients that see -v and 2 T_w - T: what goes along the plate is odd, across it even.
+        """Images have the adjoint of gradients that see -v, 2 T_w - T: odd along the plate, even across.
 
         Of a shear stress that is another number for each of its two directions.
         """
@@ -75,7 +77,8 @@ class Nesting(Stage):
 
     def use(self, slopes: np.ndarray, at: At) -> None:
         """Gradients of the velocity alone do not do."""
-        raise TypeError("nested transport needs gradients of T: over closed faces take friction and conduction along them")
+        raise TypeError("nested transport needs gradients of T: over closed faces take friction and "
+                        "conduction along them")
 
     def heat(self, i: np.ndarray, image: np.ndarray, S: np.ndarray) -> float:
         """Through areas S between points and images."""

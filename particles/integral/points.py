@@ -1,4 +1,4 @@
-"""Point sets in a box: lattice, jittered, random, relaxed; how regular they are; which of them are near each other."""
+"""Point sets in a box: lattice, jittered, random, relaxed; their regularity; near pairs."""
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,13 +22,13 @@ class Points:
                              f"{self.box.shape}, {self.V.shape}")
         lost = np.flatnonzero(~np.isfinite(self.x).all(axis=1))
         if len(lost):
-            raise ValueError(f"point {lost[0]} is at {self.x[lost[0]]}: positions must be finite numbers; {len(lost)} of {n} are "
-                             "not: mend what made them")
+            raise ValueError(f"point {lost[0]} is at {self.x[lost[0]]}: positions must be finite numbers; "
+                             f"{len(lost)} of {n} are not: mend what made them")
         outside = np.flatnonzero((np.abs(self.x) > self.box/2*(1 + 1e-12)).any(axis=1))
         if len(outside):
             i = outside[0]
-            raise ValueError(f"point {i} at {self.x[i]} is outside of the box {self.box}, centred on the origin: wrap it "
-                             "or widen the box")
+            raise ValueError(f"point {i} at {self.x[i]} is outside of the box {self.box}, centred on the "
+                             "origin: wrap it or widen the box")
         if not (self.V > 0).all():
             i = int(np.argmin(self.V))
             raise ValueError(f"point {i} has volume {self.V[i]}: volumes must be positive")
@@ -73,7 +73,7 @@ def jittered(counts: tuple[int, ...], size: float, seed: int, a: float = 1.0) ->
 
 
 def random(counts: tuple[int, ...], apart: float, seed: int, a: float = 1.0) -> Points:
-    """Points at random, none nearer than `apart` spacings to another. Raises ValueError: the last find no place."""
+    """Points at random, none nearer than `apart` spacings. ValueError: the last find no place."""
     at = lattice(counts, a)
     rng, x = np.random.default_rng(seed), np.empty((0, at.d))
     for _ in range(400):
@@ -81,8 +81,8 @@ def random(counts: tuple[int, ...], apart: float, seed: int, a: float = 1.0) -> 
         x = _thinned(np.concatenate([x, new]), at.box, apart*a)
         if len(x) == at.n:
             return of_positions(x, at.box)
-    raise ValueError(f"{at.n - len(x)} of {at.n} points found no place {apart} spacings from all others: random points fill "
-                     "half of a plane at most at 0.75; take a smaller distance")
+    raise ValueError(f"{at.n - len(x)} of {at.n} points found no place {apart} spacings from all others: "
+                     "random points fill half of a plane at most at 0.75; take a smaller distance")
 
 
 def _thinned(x: np.ndarray, box: np.ndarray, apart: float) -> np.ndarray:
@@ -103,10 +103,10 @@ def wrapped(x: np.ndarray, box: np.ndarray) -> np.ndarray:
 
 
 def pairs(points: Points, distance: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """(i, j, x_j - x_i, r) of pairs i < j nearer than `distance`. Raises ValueError: it is half of the box, or r = 0."""
+    """(i, j, x_j - x_i, r) of pairs i < j nearer than `distance`. ValueError: half of the box, or r = 0."""
     if 2*distance >= points.box.min():
-        raise ValueError(f"the reach {distance:g} is wider than half of the box {points.box}: take more points or a narrower "
-                         "weight")
+        raise ValueError(f"the reach {distance:g} is wider than half of the box {points.box}: take more "
+                         "points or a narrower weight")
     tree = cKDTree(points.x + points.box/2, boxsize=points.box*(1 + 1e-15))
     i, j = tree.query_pairs(distance, output_type="ndarray").T
     order = np.lexsort((j, i))
@@ -115,8 +115,8 @@ def pairs(points: Points, distance: float) -> tuple[np.ndarray, np.ndarray, np.n
     r = np.sqrt((apart**2).sum(axis=1))
     if len(r) and r.min() < 1e-9*points.a:
         k = int(np.argmin(r))
-        raise ValueError(f"points {i[k]} and {j[k]} overlap at {points.x[i[k]]}: no direction leads from one to the other; "
-                         "move one of them")
+        raise ValueError(f"points {i[k]} and {j[k]} overlap at {points.x[i[k]]}: no direction leads from one "
+                         "to the other; move one of them")
     return i, j, apart, r
 
 
@@ -142,5 +142,5 @@ def relaxed(points: Points, weight: Any, until: float = 2e-3, sweeps: int = 2000
         if worst < until:
             return points
         points = of_positions(wrapped(points.x + 0.12*points.a**2*c, points.box), points.box)
-    raise ArithmeticError(f"a |c| is still {worst:.3g} after {sweeps} sweeps, not below {until:g}: take more sweeps, a wider "
-                          "weight, or start from less disorder")
+    raise ArithmeticError(f"a |c| is still {worst:.3g} after {sweeps} sweeps, not below {until:g}: take more "
+                          "sweeps, a wider weight, or start from less disorder")

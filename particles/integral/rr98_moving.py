@@ -1,26 +1,25 @@
-"""Points that move in the ways that RR98 names, compiled, in 2D: `rr98_moving_plain` over neighbour lists    [Sec. III]
+"""RR98's moving points, compiled, in 2D: `rr98_moving_plain` over neighbour lists    [Sec. III]
 
-The bracket is plain quadrature W dV times `scale_of`; friction goes along pairs [Eq. 51] without bulk viscosity. Every motion is
-one sum over pairs of what the first of the two gains of mass, momentum, energy and volume. Images are those of `layer`; points
-that come to a plate turn back.
+The bracket is plain quadrature W dV times `scale_of`; friction goes along pairs [Eq. 51] without bulk
+viscosity. Every motion is one sum over pairs, see `drifts`. Images are those of `layer`; points that come to
+a plate turn back.
 """
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from continuum.fluid import check_state, conductivity, pressure, sound_speed, temperature, viscosity
-from continuum.jit import generic, jit
+from continuum.jit import jit
 from particles.fields import Fields, from_densities
 from particles.ghosts import ghosts_of
 from particles.integral import fixed
-from particles.integral.brackets import CROSSED, Crossed, Powers
-from particles.integral.exchange import At, Convection, Exchange, Listing, Pressure, pressure_of, stages
+from particles.integral.drifts import ConstantMassDrift, Drifting, OverPairs
+from particles.integral.exchange import At, Exchange, Listing, stages
 from particles.integral.interpolants import check_ordering
 from particles.integral.transposed_stress import MENDED
 from particles.limits import lattice_sums, limit_of, zone
 from particles.lists import Listed, Surroundings, fastest
-from particles.pairs import Edge, nothing, rate
 from particles.smooth.spam import LessStatic
 from particles.starts import check_apart, check_volumes, moments
 from particles.threads import Team
@@ -31,138 +30,14 @@ from particles.weights import check_unit
 Place = np.dtype([*fixed.Point.descr, ("x", "f8"), ("y", "f8"), ("V", "f8")])
 
 
-class OverPairs(NamedTuple):
-    """A term over edges, on the edges that pairs are at this moment: S_ab/2 = V_a V_b W e_ba, k = 2 V_a V_b W/r."""
-    term: Any
-
-
-nothing.of(OverPairs)(lambda term: nothing(term.term))
-
-
-@rate.of(OverPairs)
-def _(term, a, b, ab):
-    VV, x, y = a.V*b.V, b.x - a.x, b.y - a.y
-    # points in one place exchange nothing
-    k = 2*VV*(x*ab.wx + y*ab.wy)/(x*x + y*y + 1e-300)
-    return rate(term.term, a, b, Edge(VV*ab.wx, VV*ab.wy, k))
-
-
-class BracketPressure(NamedTuple):
-    """Pressures P_ab, P_ba of Eq. 49 or 50; both points may leave out a static part."""
-    bracket: Any
-    eos: Any
-
-
-class LiteralDrift(NamedTuple):
-    """Eqs 34-36 and 39 as printed: points move, and what convection brings is exchanged as well."""
-
-    def terms(self, eos: Any) -> tuple:
-        """What is exchanged besides friction and heat."""
-        return Convection(), Pressure(eos)
-
-    def owned(self, V: np.ndarray) -> np.ndarray:
-        """The volume (n,) that m, p, E of a state are those of."""
-        return np.ones_like(V)
-
-
-class ConvectiveDrift(NamedTuple):
-    """Eqs 34-36, 39, 46-48. follow : 0 for volumes that stay, as printed; 1 where they go with the flow, dV/dt = V div v."""
-    follow: float = 0.0
-
-    def terms(self, eos: Any) -> tuple:
-        """What is exchanged besides friction and heat."""
-        return Convection(), Pressure(eos)
-
-    def owned(self, V: np.ndarray) -> np.ndarray:
-        """The volume (n,) that m, p, E of a state are those of."""
-        return np.ones_like(V)
-
-
-class ConstantMassDrift(NamedTuple):
-    """Eq. 49 with masses that stay and volumes that follow the flow. bracket : `brackets.Crossed` or `Powers` [Eq. 50]."""
-    bracket: Any = CROSSED
-
-    def terms(self, eos: Any) -> tuple:
-        """What is exchanged besides friction and heat."""
-        return (BracketPressure(self.bracket, eos),)
-
-    def owned(self, V: np.ndarray) -> np.ndarray:
-        """The volume (n,) that m, p, E of a state are those of."""
-        return V
-
-
-class Drifting(NamedTuple):
-    """What a pair of points adds to the first: mass, momentum, energy, volume."""
-    motion: Any
-    exchanged: Listing
-
-
-@generic
-def drifting(motion, exchanged, a, b, ab):
-    """The five numbers of `Drifting`, for the motion."""
-
-
-@generic
-def both(bracket, eos, a, b):
-    """(P_ab, P_ba); in the energy P_ab goes with v_a."""
-
-
-nothing.of(Drifting)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0))
-rate.of(Drifting)(lambda term, a, b, ab: drifting(term.motion, term.exchanged, a, b, ab))
-nothing.of(BracketPressure)(lambda term: (0.0, 0.0, 0.0, 0.0))
-
-
-@rate.of(BracketPressure)
-def _(term, a, b, ab):
-    to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy
-    P_ab, P_ba = both(term.bracket, term.eos, a, b)
-    P_ab, P_ba = P_ab + b.hydro, P_ba + a.hydro
-    P = P_ab + P_ba
-    return 0.0, -ab.sx*P, -ab.sy*P, -P_ab*to_a - P_ba*to_b
-
-
-@drifting.of(LiteralDrift)
-def _(motion, exchanged, a, b, ab):
-    return (*rate(exchanged, a, b, ab), 0.0)
-
-
-@drifting.of(ConvectiveDrift)
-def _(motion, exchanged, a, b, ab):
-    """-sum_b W e_ab.v_a q_b is what Eqs 46-48 add."""
-    mass, px, py, through = rate(exchanged, a, b, ab)
-    to_a = ab.sx*a.vx + ab.sy*a.vy
-    came = to_a*b.rho
-    return mass + came, px + came*b.vx, py + came*b.vy, through + to_a*b.eps, motion.follow*(ab.sx*b.vx + ab.sy*b.vy)
-
-
-@drifting.of(ConstantMassDrift)
-def _(motion, exchanged, a, b, ab):
-    return (*rate(exchanged, a, b, ab), ab.sx*(b.vx - a.vx) + ab.sy*(b.vy - a.vy))
-
-
-@both.of(Crossed)
-def _(bracket, eos, a, b):
-    return pressure_of(eos, a.rho, b.T), pressure_of(eos, b.rho, a.T)
-
-
-@both.of(Powers)
-def _(bracket, eos, a, b):
-    return (pressure_of(eos, b.rho, b.T)/(b.rho**bracket.a*a.rho**bracket.b),
-            pressure_of(eos, a.rho, a.T)/(a.rho**bracket.a*b.rho**bracket.b))
-
-
-#: by the names of `motions.MOTIONS`
-DRIFTS: dict[str, Any] = {"literal": LiteralDrift(), "convective": ConvectiveDrift(), "carried": ConvectiveDrift(1.0),
-                          "constant-mass": ConstantMassDrift()}
-
-
 @dataclass(frozen=True, kw_only=True)
 class Drift:
     """A fluid on points that move, in a box (width, height) centred on the origin.
 
-    motion : one of DRIFTS. weight : of `particles.weights`; scale : of its plain quadrature. walls : tuple of mirror plates and
-    periodic sides. g : gravity, downwards. transport : listed terms of friction and heat.
-    static : a share of the static pressure that pairs leave out, at constant mass; what it bears and its work stay.
+    motion : one of DRIFTS. weight : of `particles.weights`; scale : of its plain quadrature. walls : tuple of
+    mirror plates and periodic sides. g : gravity, downwards. transport : listed terms of friction and heat.
+    static : a share of the static pressure that pairs leave out, at constant mass; what it bears and its work
+    stay.
     """
     motion: Any
     weight: Any
@@ -179,12 +54,13 @@ class Drift:
     def __post_init__(self):
         check_unit(self.weight)
         if self.static.fraction and not isinstance(self.motion, ConstantMassDrift):
-            raise ValueError(f"{type(self.motion).__name__} needs the whole pressure, got {self.static}: its volumes do not "
-                             "follow the flow, so that no work of what is left out is defined; take ConstantMassDrift")
+            raise ValueError(f"{type(self.motion).__name__} needs the whole pressure, got {self.static}: its "
+                             "volumes do not follow the flow, so that no work of what is left out is "
+                             "defined; take ConstantMassDrift")
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the rows of a state: places, then m, p, E per volume, or of the point at constant mass, then volumes."""
+        """Names of rows: places, then m, p, E per volume, or of the point at constant mass, volumes."""
         mass = isinstance(self.motion, ConstantMassDrift)
         return ("x", "y", "px", "py", *(("m", "E") if mass else ("rho", "eps")), "V")
 
@@ -223,8 +99,8 @@ class Drift:
 def _(method: Drift, start: np.ndarray) -> float:
     """RK4: waves on a lattice of the mean spacing; points lie off it, where they may be 1.4 times as fast.
 
-    Volumes that stay add 2 P grad(n dV) to the force: omega^2 = S^2 c^2 + 2 D P/rho, S and D as in `limits`. Where volumes
-    follow the flow waves are slower.
+    Volumes that stay add 2 P grad(n dV) to the force: omega^2 = S^2 c^2 + 2 D P/rho, S and D as in `limits`.
+    Where volumes follow the flow waves are slower.
     """
     check_volumes(start[6])
     rho, e = method.thermal(start)
@@ -245,12 +121,12 @@ class Drifts(Listed):
     def __init__(self, method: Drift, n: int, team: Team):
         self.method, self.team, self.n = method, team, n
         self.around = Surroundings(method.weight, method.walls, n, method.box, skin=method.skin, team=team)
-        self._lists, listed = -1, Listing((*method.transport, *method.motion.terms(method.eos)))
-        needed = stages(method.transport, method.law, n, team, OverPairs, ("x", "y", "V"))
-        self.exchange = Exchange(OverPairs(Drifting(method.motion, listed)), needed, n, team)
+        self._lists, terms = -1, method.motion.terms(method.eos, method.transport)
+        needed = stages(terms, method.law, n, team, OverPairs, ("x", "y", "V"))
+        self.exchange = Exchange(OverPairs(Drifting(method.motion, Listing(terms))), needed, n, team)
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
-        """Refuse points in one place: ValueError names them. Warn where the weight is too narrow    [Eq. 45]"""
+        """Refuse points in one place: ValueError. Warn where the weight is too narrow    [Eq. 45]"""
         a = float(np.sqrt(state[6].mean()))
         self.around.place(state, self.method.scale)
         check_apart(self.around, ids, a)
@@ -258,7 +134,7 @@ class Drifts(Listed):
         check_ordering(self.method.weight, 2, a, float(np.sqrt((off**2).sum(axis=(1, 2)).mean()/2)))
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """New lists if points may leave the old ones within the step: one in which momenta lead as far as velocities in dt."""
+        """New lists if points may leave the old ones: momenta lead as far in a step as velocities in dt."""
         momentum = fastest(now.state)
         speed = np.sqrt(((now.state[2]**2 + now.state[3]**2)/now.state[4]**2).max())
         super().make_ready(now, dt*float(speed)/momentum if momentum else dt)
@@ -271,7 +147,8 @@ class Drifts(Listed):
             self._lists, self.ghosts = around.lists_made, ghosts_of(around)
             self.points = np.zeros(len(around.x), Place)
         points = self.points
-        self.team(_read, n, state, method.motion.owned(state[6]), method.eos, method.law, method.static, method.g, points)
+        self.team(_read, n, state, method.motion.owned(state[6]), method.eos, method.law, method.static,
+                  method.g, points)
         _image_fields(n, *self.ghosts, around.x, around.y, method.static, method.g, points)
         self.exchange.prepare(self.at(state))
 
@@ -284,7 +161,8 @@ class Drifts(Listed):
         method = self.method
         self.look_at(state)
         total = self.exchange.sum(self.at(state))
-        self.team(_rates, self.n, total, method.motion.owned(state[6]), self.points, method.static, method.g, out)
+        self.team(_rates, self.n, total, method.motion.owned(state[6]), self.points, method.static, method.g,
+                  out)
 
     def evaluate(self, state: np.ndarray) -> None:
         """All sums once."""
@@ -296,7 +174,8 @@ class Drifts(Listed):
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """The first point with a volume, mass or state that no fluid has; empty if there is none."""
-        return self.unphysical(self.method.eos, state[6], *self.method.thermal(state), ids) or self.outran(state)
+        return self.unphysical(self.method.eos, state[6], *self.method.thermal(state),
+                               ids) or self.outran(state)
 
 
 @jit
@@ -314,7 +193,7 @@ def _read(first, last, state, owned, eos, law, static, g, points):
 
 @jit
 def _image_fields(n, origin, turn, plate_T, x, y, static, g, points):
-    """Shifted images are their origins; those in a mirror slip for convection and pressure, which goes on hydrostatically."""
+    """Shifted images are their origins; mirrored ones slip for convection and hydrostatic pressure."""
     for m in range(len(origin)):
         a, b, s = points[origin[m]], points[n + m], turn[m]
         b.x, b.y, b.V, b.rho, b.T, b.eps, b.eta, b.k = x[n + m], y[n + m], a.V, a.rho, a.T, a.eps, a.eta, a.k

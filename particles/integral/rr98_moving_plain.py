@@ -1,13 +1,14 @@
-"""Points that move, in the three ways that RR98 names; edges are made again at every evaluation    [RR98, Sec. III]
+"""Points that move, in RR98's three ways; edges are made again at every evaluation    [RR98, Sec. III]
 
-    literal         dr_i/dt = v_i [Eq. 39], fields as on fixed points [Eqs 34-36], every volume dV: convection counts twice
-    convective      d/dt is the partial derivative and what Eqs 46-48 add to it, with their signs; every volume dV
-    carried         the same, but volumes go with the flow, dV_i/dt = V_i div v
-    constant mass   m_i dv_i/dt = sum_j .. [Eq. 49], pressure crossed [Eq. 13] or of Eq. 50: smoothed particle hydrodynamics
+    literal         dr_i/dt = v_i [Eq. 39], fields as on fixed points [Eqs 34-36], every volume dV: convection
+    counts twice convective      d/dt is the partial derivative and what Eqs 46-48 add to it, with their
+    signs; every volume dV carried         the same, but volumes go with the flow, dV_i/dt = V_i div v
+    constant mass   m_i dv_i/dt = sum_j .. [Eq. 49], pressure crossed [Eq. 13] or of Eq. 50: smoothed particle
+    hydrodynamics
 
-A state (2 d + 2 or more, n) begins with positions, which are not wrapped into the box. Then come rho, p, eps per volume, as
-RR98's m_i, p_i, eps_i are of equal volumes dV; or, at constant mass, m, p, E of the point; then V where it changes.
-A scheme that is conservative and consistent is another one: see `moving`.
+A state (2 d + 2 or more, n) begins with positions, which are not wrapped into the box. Then come rho, p, eps
+per volume, as RR98's m_i, p_i, eps_i are of equal volumes dV; or, at constant mass, m, p, E of the point;
+then V where it changes. A scheme that is conservative and consistent is another one: see `moving`.
 """
 from dataclasses import dataclass
 from typing import Any
@@ -17,7 +18,7 @@ import numpy as np
 from continuum.fluid import energy
 from particles.fields import Fields, from_densities
 from particles.integral.brackets import CROSSED
-from particles.integral.dih import Dih, Fluxes, Pairwise, rows, take
+from particles.integral.dih import Dih, EdgeFluxes, Pairwise, rows, take
 from particles.integral.edge_makers import from_weights, judged, plain, renormalised
 from particles.integral.edges import Edges
 from particles.integral.interpolants import W, check, reach
@@ -25,21 +26,23 @@ from particles.integral.points import Points, of_positions, pairs, wrapped
 
 
 def scale_of(points: Points, weight: Any) -> float:
-    """The number that plain quadrature W dV is multiplied by on these points so that its mean first moment is d."""
+    """The factor of plain quadrature W dV on these points that makes its mean first moment d."""
     return float(renormalised(points, weight).k.sum()/plain(points, weight).k.sum())
 
 
 def convected(edges: Edges, v: np.ndarray, fields: np.ndarray) -> np.ndarray:
-    """-sum_j W_ij e_ij.v_i q_j, (m, n), of v (n, d), fields q (m, n): what Eqs 46-48 add; v.grad q on a lattice."""
+    """-sum_j W_ij e_ij.v_i q_j, (m, n), of fields q (m, n): what Eqs 46-48 add; v.grad q on a lattice."""
     i, j, half = edges.i, edges.j, edges.S/2
     ahead, back = (half*v[i]).sum(axis=1), (half*v[j]).sum(axis=1)
-    return np.stack([np.bincount(i, ahead*q[j], edges.n) - np.bincount(j, back*q[i], edges.n) for q in fields])/edges.V
+    return np.stack([np.bincount(i, ahead*q[j], edges.n) - np.bincount(j, back*q[i], edges.n)
+                     for q in fields])/edges.V
 
 
 def divergence(edges: Edges, v: np.ndarray) -> np.ndarray:
     """-sum_j W_ij e_ij.v_j, (n,): the divergence that remains of Eqs 34 and 46."""
     i, j, half = edges.i, edges.j, edges.S/2
-    return (np.bincount(i, (half*v[j]).sum(axis=1), edges.n) - np.bincount(j, (half*v[i]).sum(axis=1), edges.n))/edges.V
+    out, back = (half*v[j]).sum(axis=1), (half*v[i]).sum(axis=1)
+    return (np.bincount(i, out, edges.n) - np.bincount(j, back, edges.n))/edges.V
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,11 +75,12 @@ class Motion:
         return (*axes, "rho", *(f"p{axis}" for axis in axes), "eps")
 
     def fluid(self, x: np.ndarray, V: np.ndarray) -> Dih:
-        """The fluid as if points x (n, d) of volumes V (n,) stood still; FloatingPointError names a point that is none."""
+        """The fluid as if points x (n, d) of volumes V (n,) stood still."""
         bad = np.flatnonzero(~(np.isfinite(x).all(axis=1) & (V > 0)))
         if len(bad):
-            raise FloatingPointError(f"point {bad[0]} is at {x[bad[0]]} with volume {V[bad[0]]:.6g}: positions must be finite "
-                                     "and volumes positive; take a shorter step or more viscosity")
+            raise FloatingPointError(f"point {bad[0]} is at {x[bad[0]]} with volume {V[bad[0]]:.6g}: "
+                                     "positions must be finite and volumes positive; take a shorter step or "
+                                     "more viscosity")
         box = np.asarray(self.box, float)
         points = Points(x=wrapped(x, box), box=box, V=V)
         near = pairs(points, reach(self.weight))
@@ -171,7 +175,7 @@ class Convective(Motion):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Carried(Convective):
+class CarriedVolumes(Convective):
     """Eqs 46-48 on volumes that go with the flow: rho_i V_i then stays as it is, as at constant mass."""
 
     def growth(self, edges: Edges, v: np.ndarray) -> np.ndarray:
@@ -181,9 +185,10 @@ class Carried(Convective):
 
 @dataclass(frozen=True, kw_only=True)
 class ConstantMass(Motion):
-    """Eq. 49 with masses that stay: momentum and energy are exchanged, volumes follow the flow, dV_i/dt = V_i div v.
+    """Eq. 49 with masses that stay; volumes follow the flow, dV_i/dt = V_i div v.
 
-    bracket : `brackets.Crossed` or `Powers`. The divergence takes differences v_j - v_i, the adjoint of the sum P_ij + P_ji.
+    bracket : `brackets.Crossed` or `Powers`. The divergence takes differences v_j - v_i, the adjoint of the
+    sum P_ij + P_ji.
     """
     bracket: Any = CROSSED
 
@@ -210,7 +215,7 @@ class ConstantMass(Motion):
         a, b, half = take(flow, edges.i), take(flow, edges.j), edges.S/2
         P_ab, P_ba = self.bracket.both(self.eos, a, b)
         to_a, to_b = (half*a.v).sum(axis=1), (half*b.v).sum(axis=1)
-        pushed = Fluxes(np.zeros(len(half)), half*(P_ab + P_ba)[:, None], P_ab*to_a + P_ba*to_b)
+        pushed = EdgeFluxes(np.zeros(len(half)), half*(P_ab + P_ba)[:, None], P_ab*to_a + P_ba*to_b)
         for row, flux in zip(out[d:-1], rows(pushed, self.transport.fluxes(dih, flow)), strict=True):
             row[:] = np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n)
         out[:d] = flow.v.T
@@ -222,4 +227,5 @@ class ConstantMass(Motion):
 
 
 #: by name
-MOTIONS: dict[str, Any] = {"literal": Literal, "convective": Convective, "carried": Carried, "constant-mass": ConstantMass}
+MOTIONS: dict[str, Any] = {"literal": Literal, "convective": Convective, "carried": CarriedVolumes,
+                           "constant-mass": ConstantMass}

@@ -1,7 +1,7 @@
 """Discretized integral hydrodynamics on a lattice between sliding sides [Lees and Edwards], compiled; in 2D.
 
-The state has a fifth row, how far the images above have slid: its rate is their speed, so that every integrator and every
-restart knows the time.
+The state has a fifth row, how far the images above have slid: its rate is their speed, so that every
+integrator and every restart knows the time.
 """
 from dataclasses import dataclass
 from functools import cached_property
@@ -97,7 +97,8 @@ class Shearing(FixedSums):
         made, n = method.sides, method.points.n
         edges = Stored(*(q.copy() for q in made.edges))      # they follow the sliding
         images = Boosted(made.parent, method.speed*made.up)
-        super().__init__(method, team, At(np.zeros(n + len(made.parent), Point), edges, images, method.edges.V), (0.0, 0.0))
+        super().__init__(method, team, At(np.zeros(n + len(made.parent), Point), edges, images,
+                                          method.edges.V), (0.0, 0.0))
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (5, n), written to `out`    [Eqs 34-36, 51]"""
@@ -111,7 +112,7 @@ class Shearing(FixedSums):
         boosted(images.parent, images.boost, self.points, self.n)
 
     def through(self, state: np.ndarray) -> np.ndarray:
-        """Mass, momentum (2) and energy that enter through the upper side per time, in the frame of the box."""
+        """Mass, momentum (2) and energy that enter through the upper side per time."""
         self.look_at(state)
         return self.exchange.sum(self.at._replace(edges=above(self.at.edges, self.method.sides))).sum(axis=0)
 

@@ -1,8 +1,9 @@
-"""Discretized integral hydrodynamics on fixed points around bodies, compiled: the terms of `layer`, periodic, in 2D.
+"""Fixed points around bodies, compiled: the terms of `layer`, periodic, in 2D.
 
-Held points (`particles.integral.bodies`) keep their velocity and temperature; their density follows. What they receive of
-momentum is the force on them, exactly what the fluid lost. Slow flow around bodies feeds patterns of pressure that no gradient
-sees; a filter of the density, chi of some 0.05 a^2 c^2/nu (c^2 = dP/drho at constant T), ends that.
+Held points (`particles.integral.bodies`) keep their velocity and temperature; their density follows. What
+they receive of momentum is the force on them, exactly what the fluid lost. Slow flow around bodies feeds
+patterns of pressure that no gradient sees; a filter of the density, chi of some 0.05 a^2 c^2/nu (c^2 =
+dP/drho at constant T), ends that.
 """
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
@@ -24,7 +25,7 @@ from particles.threads import Team
 
 
 class Filter(NamedTuple):
-    """Mass chi k_ab (rho_a - rho_b) leaves a for b, with the mean velocity and internal energy of both: conserves all."""
+    """Mass chi k_ab (rho_a - rho_b) leaves a for b, with the mean velocity and internal energy."""
     chi: float
 
 
@@ -40,7 +41,7 @@ def _(term, a, b, ab):
 
 @dataclass(frozen=True, kw_only=True)
 class Stream(OnPoints):
-    """A fluid on fixed points x (n, 2), periodic, driven by a force `push` per mass, around points that are `held`.
+    """A fluid on fixed points x (n, 2), periodic, driven by a force `push` per mass, around `held` points.
 
     transport : listed terms of friction and heat. chi : diffusivity of the filter of the density, 0 for none.
     """
@@ -55,15 +56,18 @@ class Stream(OnPoints):
 
     def __post_init__(self):
         if not self.chi >= 0:
-            raise ValueError(f"the filter's diffusivity chi must not be negative, got {self.chi}: 0.05 a^2 c^2/nu is enough")
+            raise ValueError(f"the filter's diffusivity chi must not be negative, got {self.chi}: 0.05 a^2 "
+                             "c^2/nu is enough")
 
     def __repr__(self) -> str:
         """What tells a checkpoint's method from another: edges by their sums."""
-        sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.x, self.edges.S, self.edges.k, *self.held))
-        return f"Stream({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.push}, {self.chi}, {self.transport})"
+        sums = ", ".join(f"{float(np.abs(q).sum())!r}"
+                         for q in (self.x, self.edges.S, self.edges.k, *self.held))
+        return (f"Stream({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.push}, {self.chi}, "
+                f"{self.transport})")
 
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
-        """(4, n) of densities, velocities (n, 2), temperatures; held points get their own where they have one."""
+        """(4, n) of densities, velocities (n, 2), temperatures; held points get their own."""
         T, v = T*np.ones(len(self.x)), v.copy()
         v[self.held.which] = self.held.v
         warm = np.isfinite(self.held.T)
@@ -92,7 +96,7 @@ class Filtering(Stage):
 
 
 class Streaming(FixedSums):
-    """The compiled sums of a stream. received (m, 3): momentum and energy that each held point takes, per time."""
+    """The compiled sums of a stream. received (m, 3): momentum and energy of held points, per time."""
     method: Stream
 
     def __init__(self, method: Stream, team: Team):
@@ -102,7 +106,8 @@ class Streaming(FixedSums):
         first: tuple[Stage, ...] = (OwnPressure(method.eos, opened(edges), n, team),)
         if method.chi:
             first += (Filtering(Filter(method.chi), around, n, team),)
-        super().__init__(method, team, At(np.zeros(n, Point), edges, NO_IMAGES, method.edges.V), method.push, *first)
+        super().__init__(method, team, At(np.zeros(n, Point), edges, NO_IMAGES, method.edges.V), method.push,
+                         *first)
         self.received = np.zeros((len(method.held.which), 3))
 
     def surround(self, state: np.ndarray) -> None:
@@ -112,7 +117,8 @@ class Streaming(FixedSums):
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (4, n), written to `out`    [Eqs 34-36, 51]"""
         super().rates(state, out)
-        keep(self.method.eos, *self.method.held[:3], self.exchange.total, self.at.V, self.points, self.received, out)
+        keep(self.method.eos, *self.method.held[:3], self.exchange.total, self.at.V, self.points,
+             self.received, out)
 
     def force(self, state: np.ndarray) -> np.ndarray:
         """(fx, fy, heat and work) that all held points take together from the fluid, per time."""
@@ -150,7 +156,7 @@ def hold(eos, law, which, v, T, points):
 
 @jit
 def keep(eos, which, v, T, total, V, points, received, out):
-    """Rates of held points, whose density alone is free, and what they take; work on adiabatic bodies is no heat."""
+    """Rates of held points, whose density alone is free, and what they take."""
     for m in range(len(which)):
         i, (vx, vy) = which[m], v[m]
         mass, rho, d = total[i, 0], points[i].rho, 1e-6*points[i].rho
@@ -158,7 +164,9 @@ def keep(eos, which, v, T, total, V, points, received, out):
         taken = fx*vx + fy*vy
         if T[m] == T[m]:
             # d(rho e)/d(rho) at constant T: exact to round-off for an ideal gas, to 1e-10 for others
-            slope = ((rho + d)*energy(eos, rho + d, T[m]) - (rho - d)*energy(eos, rho - d, T[m]))/(2*d) + 0.5*(vx**2 + vy**2)
+            above, below = (rho + d)*energy(eos, rho + d, T[m]), (rho - d)*energy(eos, rho - d, T[m])
+            slope = (above - below)/(2*d) + 0.5*(vx**2 + vy**2)
             taken = total[i, 3] - slope*mass
         received[m, 0], received[m, 1], received[m, 2] = fx, fy, taken
-        out[0, i], out[1, i], out[2, i], out[3, i] = mass/V[i], vx*mass/V[i], vy*mass/V[i], (total[i, 3] - taken)/V[i]
+        out[0, i], out[1, i], out[2, i] = mass/V[i], vx*mass/V[i], vy*mass/V[i]
+        out[3, i] = (total[i, 3] - taken)/V[i]

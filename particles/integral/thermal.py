@@ -1,7 +1,8 @@
-"""Fluctuating hydrodynamics on fixed points in time: `dih` with a random stress and heat current    [RR98 Secs II D, III A]
+"""Fluctuating hydrodynamics on fixed points in time: `dih` with a random stress and heat current    [RR98
+Secs II D, III A]
 
-Amplitudes are those of `fluctuating`, at current temperatures as RR98 says after Eq. 44; random numbers are functions of (seed,
-step, i, j). What is not listed is not drawn: no share along edges, no numbers of pairs.
+Amplitudes are those of `fluctuating`, at current temperatures as RR98 says after Eq. 44; random numbers are
+functions of (seed, step, i, j). What is not listed is not drawn: no share along edges, no numbers of pairs.
 """
 import warnings
 from dataclasses import dataclass
@@ -13,7 +14,7 @@ from continuum.fluid import energy, sound_speed
 from continuum.jit import jit
 from particles.fields import Fields
 from particles.integral.covariance import BETAS, OLD
-from particles.integral.dih import Dih, Flow, Fluxes, Mixed, check_bulk, means, rows, take
+from particles.integral.dih import Dih, EdgeFluxes, Flow, Mixed, check_bulk, means, rows, take
 from particles.integral.fixed import Summing, check_number
 from particles.integral.fluctuating import conductances, traceless
 from particles.limits import limit_of
@@ -22,7 +23,8 @@ from particles.threads import Team
 
 #: heat capacity of a point over k, below which current amplitudes bias energy fluctuations by 1 % and more
 LEAST_CAPACITY = 50
-#: c in <dx> = c B B' dt of three stages, each with the amplitude B of its own state: 0 would be Ito's, 1/2 Stratonovich's
+#: c in <dx> = c B B' dt of three stages, each with the amplitude B of its own state: 0 would be Ito's, 1/2
+#: Stratonovich's
 STAGED = (1 + BETAS[0]*BETAS[1])/6 + (2 + BETAS[2]*(BETAS[0] + BETAS[1]))/6
 
 
@@ -30,8 +32,8 @@ STAGED = (1 + BETAS[0]*BETAS[1])/6 + (2 + BETAS[2]*(BETAS[0] + BETAS[1]))/6
 class Thermal:
     """A fluid on fixed points with the fluctuations of its own transport, of which a share goes along edges.
 
-    Noise and dissipation are partners along edges, and with constant coefficients; where these vary the stress of Eqs 37, 38 at
-    points is no symmetric matrix and has no exact partner.
+    Noise and dissipation are partners along edges, and with constant coefficients; where these vary the
+    stress of Eqs 37, 38 at points is no symmetric matrix and has no exact partner.
     edges, eos, law, zeta : as in `dih.Dih`. k : Boltzmann's constant in the units of the fluid.
     """
     edges: Any
@@ -44,7 +46,8 @@ class Thermal:
 
     def __post_init__(self):
         if not self.k >= 0:
-            raise ValueError(f"Boltzmann's constant k must not be negative, got {self.k}: kT is the energy of a fluctuation")
+            raise ValueError(f"Boltzmann's constant k must not be negative, got {self.k}: kT is the energy "
+                             "of a fluctuation")
         check_seed(self.seed)
 
     @property
@@ -58,7 +61,8 @@ class Thermal:
     @property
     def dih(self) -> Dih:
         """What flows without noise."""
-        return Dih(edges=self.edges, eos=self.eos, law=self.law, zeta=self.zeta, transport=Mixed(share=self.share))
+        return Dih(edges=self.edges, eos=self.eos, law=self.law, zeta=self.zeta,
+                   transport=Mixed(share=self.share))
 
     def state(self, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
         """(2 + d, n) of densities (n,), velocities (n, d), temperatures (n,)."""
@@ -74,7 +78,7 @@ class Thermal:
         return f"Thermal({sums}, {self.eos}, {self.law}, {self.k}, {self.seed}, {self.zeta}, {self.share})"
 
     def start(self, n: int, team: Team) -> "Agitated":
-        """The sums over edges. Raises ValueError: another number of points, or viscosities without noise along edges."""
+        """The sums over edges. ValueError: another number of points, or viscosities without noise."""
         check_number(n, self.edges.n)
         return Agitated(self, team)
 
@@ -86,13 +90,15 @@ class Agitated(Summing):
     def __init__(self, method: Thermal, team: Team):
         self.method, self.team, self.dih, edges = method, team, method.dih, method.edges
         d, n = edges.d, edges.n
-        self.of_points = np.empty((n, 2*(d*d + 1 + d))) if method.share < 1 else None       # R, r, heat; of W_A and W_B
+        # R, r, heat; of W_A and W_B
+        self.of_points = np.empty((n, 2*(d*d + 1 + d))) if method.share < 1 else None
         self.of_edges = np.empty((len(edges.i), 2*(d + 2))) if method.share > 0 else None   # R, r, heat
         if method.share > 0:
             self.k = conductances(edges)
             pairs = np.stack([edges.i, edges.j])
             if len(np.unique(pairs, axis=1).T) < len(edges.i):
-                raise ValueError("two edges join the same points by different images: their noise would be one; take more points")
+                raise ValueError("two edges join the same points by different images: their noise would be "
+                                 "one; take more points")
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """Of the flow without noise."""
@@ -115,22 +121,24 @@ class Agitated(Summing):
         if self.of_points is not None:
             self.team(fill_normals, len(self.of_points), self.method.seed, step, self.of_points)
         if self.of_edges is not None:
-            self.team(fill_pairs, len(self.of_edges), self.method.seed, step, self.dih.edges.i, self.dih.edges.j, self.of_edges)
+            self.team(fill_pairs, len(self.of_edges), self.method.seed, step, self.dih.edges.i,
+                      self.dih.edges.j, self.of_edges)
 
     def kicks(self, state: np.ndarray, beta: float, dt: float, out: np.ndarray) -> None:
         """What the noise W_A + beta W_B adds to a state in dt, with the amplitudes of that state."""
         edges, flow = self.dih.edges, self.dih.flow(state)
         parts = []
         if self.of_points is not None:
-            parts.append(self._at_points(flow, halves(self.of_points, beta)*np.sqrt((1 - self.method.share)*dt)))
+            parts.append(self._at_points(flow,
+                                         halves(self.of_points, beta)*np.sqrt((1 - self.method.share)*dt)))
         if self.of_edges is not None:
             parts.append(self._along_edges(flow, halves(self.of_edges, beta)*np.sqrt(self.method.share*dt)))
         total = rows(*parts) if len(parts) > 1 else [parts[0].mass, *parts[0].momentum.T, parts[0].energy]
         for row, flux in zip(out, total, strict=True):
             row[:] = (np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n))/edges.V
 
-    def _at_points(self, flow: Flow, dW: np.ndarray) -> Fluxes:
-        """Through edges by random stresses s_i and currents q_i: -S.(s_i + s_j)/2, -S.(s_j.v_i + s_i.v_j)/2 + S.(q_i + q_j)/2."""
+    def _at_points(self, flow: Flow, dW: np.ndarray) -> EdgeFluxes:
+        """By random stresses and currents: -S.(s_i + s_j)/2, -S.(s_j.v_i + s_i.v_j)/2 + S.(q_i + q_j)/2."""
         edges, (eta, zeta, kappa), k = self.dih.edges, self.dih.coefficients(flow), self.method.k
         i, j, d, half = edges.i, edges.j, edges.d, edges.S/2
         s = np.sqrt(2*k*flow.T*eta/edges.V)[:, None]*(dW[:, :d*d]@traceless(d).T)
@@ -139,9 +147,9 @@ class Agitated(Summing):
         q = (flow.T*np.sqrt(2*k*kappa/edges.V))[:, None]*dW[:, d*d + 1:]
         one, other = np.einsum("eb,eab->ea", half, s[i]), np.einsum("eb,eab->ea", half, s[j])
         work = (other*flow.v[i]).sum(axis=1) + (one*flow.v[j]).sum(axis=1)
-        return Fluxes(np.zeros(len(i)), -one - other, -work + (half*(q[i] + q[j])).sum(axis=1))
+        return EdgeFluxes(np.zeros(len(i)), -one - other, -work + (half*(q[i] + q[j])).sum(axis=1))
 
-    def _along_edges(self, flow: Flow, dW: np.ndarray) -> Fluxes:
+    def _along_edges(self, flow: Flow, dW: np.ndarray) -> EdgeFluxes:
         """Through edges by random forces along them, their work, and heat."""
         edges, d = self.dih.edges, self.dih.edges.d
         a, b, all_of = take(flow, edges.i), take(flow, edges.j), self.dih.coefficients(flow)
@@ -150,9 +158,10 @@ class Agitated(Summing):
         A, B = eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
         A, B = (A, B) if d > 1 else (A + B, 0*B)
         e, T = edges.apart/np.sqrt((edges.apart**2).sum(axis=1))[:, None], (a.T + b.T)/2
-        force = np.sqrt(2*k*T*np.maximum(A, 0))[:, None]*dW[:, :d] + (np.sqrt(2*k*T*np.maximum(B, 0))*dW[:, d])[:, None]*e
+        force = np.sqrt(2*k*T*np.maximum(A, 0))[:, None]*dW[:, :d]
+        force += (np.sqrt(2*k*T*np.maximum(B, 0))*dW[:, d])[:, None]*e
         heat = np.sqrt(2*k*a.T*b.T*kappa)*dW[:, d + 1]
-        return Fluxes(np.zeros(len(heat)), -force, -(force*(a.v + b.v)).sum(axis=1)/2 - heat)
+        return EdgeFluxes(np.zeros(len(heat)), -force, -(force*(a.v + b.v)).sum(axis=1)/2 - heat)
 
 
 def halves(normals: np.ndarray, beta: float) -> np.ndarray:
@@ -172,9 +181,10 @@ def fill_pairs(first, last, seed, step, i, j, out):
 
 
 class ThreeStage:
-    """Three Euler steps, averaged, each with its own share of two sets of noise; covariances are right to third order.
+    """Three Euler steps, averaged, each with its share of two noises; covariances of third order.
 
-    sums.kicks(y, beta, dt, out) writes what the noise W_A + beta W_B adds    [Delong, Griffith, Vanden-Eijnden & Donev 2013]
+    sums.kicks(y, beta, dt, out) writes what the noise W_A + beta W_B adds    [Delong, Griffith,
+    Vanden-Eijnden & Donev 2013]
     """
     evaluations = 3
 
@@ -192,7 +202,7 @@ class ThreeStage:
 
 @limit_of.register
 def _(method: Thermal, start: np.ndarray) -> float:
-    """Three stages: 1.73 on the imaginary axis for sound, 2.51 on the real one for diffusion, at the hottest point.
+    """Three stages: 1.73 on the imaginary axis for sound, 2.51 on the real one for diffusion.
 
     Warns where a point holds so little heat that current amplitudes bias its fluctuations.
     """
@@ -201,9 +211,10 @@ def _(method: Thermal, start: np.ndarray) -> float:
     C = (energy(method.eos, flow.rho, flow.T*(1 + 1e-6)) - e)/(1e-6*flow.T)
     least = float((method.edges.V*flow.rho*C).min())
     if method.k*LEAST_CAPACITY > least:
-        warnings.warn(f"a point has the heat capacity {least/method.k:.3g} k: noise with current amplitudes makes its energy "
-                      f"fluctuate by a share of up to k/C = {method.k/least:.2g} too much, {1 - STAGED:.2f} k/C where heat goes "
-                      f"along edges; take C >= {LEAST_CAPACITY} k, larger points or a smaller k", stacklevel=2)
+        warnings.warn(f"a point has the heat capacity {least/method.k:.3g} k: noise with current amplitudes "
+                      f"makes its energy fluctuate by a share of up to k/C = {method.k/least:.2g} too much, "
+                      f"{1 - STAGED:.2f} k/C where heat goes along edges; take C >= {LEAST_CAPACITY} k, "
+                      "larger points or a smaller k", stacklevel=2)
     eta, zeta, kappa = method.dih.coefficients(flow)
     chi = np.maximum(2*eta + zeta, kappa/C)/flow.rho
     fast = sound_speed(method.eos, flow.rho, e) + np.sqrt((flow.v**2).sum(axis=1))

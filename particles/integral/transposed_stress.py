@@ -1,11 +1,13 @@
 """What forces along edges lack of a fluid's stress, and its work, in 2D without bulk viscosity.
 
-Forces along edges push by d_b(eta d_b v_a); a fluid's stress by d_b(eta d_a v_b) - d_a(eta div v) besides, the divergence of
+Forces along edges push by d_b(eta d_b v_a); a fluid's stress by d_b(eta d_a v_b) - d_a(eta div v) besides,
+the divergence of
 
-    tau = eta ((-d_y v, d_y u), (d_x v, -d_x u))      first the direction, then the component    [`dih.transposed`]
+    tau = eta ((-d_y v, d_y u), (d_x v, -d_x u))      first the direction, then the
+    component    [`dih.transposed`]
 
-It vanishes where eta is constant; its work F = tau.v never does: without it even a rigid rotation heats. What feels F feels tau
-where a law makes eta vary.
+It vanishes where eta is constant; its work F = tau.v never does: without it even a rigid rotation heats. What
+feels F feels tau where a law makes eta vary.
 """
 from typing import Any, NamedTuple
 
@@ -21,7 +23,7 @@ Tau = np.dtype([(name, "f8") for name in ("xx", "xy", "yx", "yy")])
 
 
 class Mending(NamedTuple):
-    """S.(F_a + F_b)/2: energy; and S.(tau_a + tau_b)/2, momentum, where viscosity varies. Of a share of the viscosity."""
+    """S.(F_a + F_b)/2: energy; S.(tau_a + tau_b)/2, momentum, where viscosity varies. Of a share of it."""
     share: float = 1.0
 
 
@@ -56,11 +58,12 @@ def _(term, a, b, ab):
 class Heating(Stage):
     """Makes F of points and images.
 
-    Slopes see -v beyond a plate; tau is odd along it and even across, F the other way round: no energy goes through.
-    over : how terms read edges; places : what this reads of points.
+    Slopes see -v beyond a plate; tau is odd along it and even across, F the other way round: no energy goes
+    through. over : how terms read edges; places : what this reads of points.
     """
 
-    def __init__(self, share: float, n: int, team: Team, over: Over = lambda term: term, places: tuple[str, ...] = ()):
+    def __init__(self, share: float, n: int, team: Team, over: Over = lambda term: term,
+                 places: tuple[str, ...] = ()):
         self.share, self.n, self.team, self.over, self.places = share, n, team, over, places
         self.slopes = np.zeros((n, 4))
 

@@ -1,4 +1,4 @@
-"""Edges of P1 finite elements on the Delaunay triangulation of points: closed and exact on linear fields, no weight."""
+"""Edges of P1 finite elements on the Delaunay triangulation: closed, exact on linear fields."""
 from typing import Any
 
 import numpy as np
@@ -7,14 +7,16 @@ from scipy.spatial import Delaunay, cKDTree
 from particles.integral.edges import Edges, combined
 from particles.integral.points import Points, of_positions
 
-#: spacings by which points are shifted where several triangulations are right, and that they must be apart to keep their order
+#: spacings by which points are shifted where several triangulations are right, and that they must be apart to
+#: keep their order
 SHIFT, APART = 1e-7, 1e-6
 
 
 def delaunay(points: Points, weight: Any = None) -> Edges:
-    """P1 elements on the Delaunay triangulation: S_ij = A_ij - A_ji, A_ij = int phi_i grad phi_j, V_i = int phi_i.
+    """P1 elements on the triangulation: S_ij = A_ij - A_ji, A_ij = int phi_i grad phi_j, V_i = int phi_i.
 
-    Closed and exact on linear fields on any points; the conductances are those of P1, (cot + cot)/2 in 2D. d = 2, 3.
+    Closed and exact on linear fields on any points; the conductances are those of P1, (cot + cot)/2 in 2D. d
+    = 2, 3.
 
     Raises ValueError: d = 1, two points overlap, or points of a flat simplex lie on one sphere (a lattice in
     3D).
@@ -23,9 +25,10 @@ def delaunay(points: Points, weight: Any = None) -> Edges:
 
 
 def between(x: np.ndarray, width: float, height: float) -> Edges:
-    """The same on points (n, 2), periodic in x, of which some lie on the plates y = -+height/2: none is mirrored there.
+    """The same on points (n, 2), periodic in x, some of which lie on the plates y = -+height/2.
 
-    Closed on all points but those on the plates, where what is missing is half of the plate beside the point, outwards.
+    Closed on all points but those on the plates, where what is missing is half of the plate beside the point,
+    outwards.
 
     Raises ValueError: there is no point on one of the plates, or one beyond them; or two points overlap.
     """
@@ -53,14 +56,15 @@ def _simplices(points: Points) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _check_apart(points: Points) -> None:
-    """Refuse points that the shift could move past each other, and triangles that no step of time could follow."""
+    """Refuse points that the shift could move past each other, and too thin triangles."""
     tree = cKDTree((points.x + points.box/2) % points.box, boxsize=points.box*(1 + 1e-15))
     met = tree.query_pairs(APART*points.a, output_type="ndarray")
     if len(met):
         i, j = sorted(met[0])
         r = float(np.sqrt((points.separation(i, j)**2).sum()))
-        raise ValueError(f"points {i} and {j} overlap, or nearly so: {r/points.a:.2g} spacings from each other at {points.x[i]}, "
-                         f"where triangles need {APART:g} at least (and 0.4 not to shorten the step): move one of them")
+        raise ValueError(f"points {i} and {j} overlap, or nearly so: {r/points.a:.2g} spacings from each "
+                         f"other at {points.x[i]}, where triangles need {APART:g} at least (and 0.4 not to "
+                         "shorten the step): move one of them")
 
 
 def _assembled(points: Points, corner: np.ndarray, x: np.ndarray) -> Edges:
@@ -69,9 +73,9 @@ def _assembled(points: Points, corner: np.ndarray, x: np.ndarray) -> Edges:
     jacobian = x[:, 1:] - x[:, :1]
     volume = np.abs(np.linalg.det(jacobian))/(2 if d == 2 else 6)
     if volume.min() < 1e-9*points.a**d:
-        raise ValueError(f"points {corner[np.argmin(volume)]} span a flat simplex: points that lie on one sphere, as on a "
-                         "lattice or with their mirror images in 3D, have no unique triangulation; shift them, or let a weight "
-                         "make the edges")
+        raise ValueError(f"points {corner[np.argmin(volume)]} span a flat simplex: points that lie on one "
+                         "sphere, as on a lattice or with their mirror images in 3D, have no unique "
+                         "triangulation; shift them, or let a weight make the edges")
     slopes = np.linalg.inv(jacobian).transpose(0, 2, 1)                 # grad phi_1..d
     slopes = np.concatenate([-slopes.sum(axis=1, keepdims=True), slopes], axis=1)
     V = np.bincount(corner.ravel(), np.repeat(volume/(d + 1), d + 1), n)

@@ -1,7 +1,8 @@
 """Walls: what is beyond the fluid, as particles. The pair loops know nothing of them.
 
-A wall is a NamedTuple. It makes ghosts, each the image of a parent (a fluid particle, a fixed one or a ghost of an
-earlier wall), and keeps the particles inside. One kind of wall a file; each gives formulas for the generics below.
+A wall is a NamedTuple. It makes ghosts, each the image of a parent (a fluid particle, a fixed one or a ghost
+of an earlier wall), and keeps the particles inside. One kind of wall a file; each gives formulas for the
+generics below.
 """
 from continuum.jit import generic, jit
 
@@ -28,7 +29,7 @@ def image_pressure(wall, own, copied):
 
 @generic
 def confine(wall, state):
-    """Reflect elastically what has crossed the wall, state rows (x, y, vx, vy, e); the number of reflections."""
+    """Reflect elastically what has crossed the wall, rows (x, y, vx, vy, e); their number."""
 
 
 @generic

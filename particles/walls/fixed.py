@@ -28,8 +28,9 @@ def fixed_plates(height: float, T_hot: float, T_cold: float, rows: int = 6, spac
     slope = (T_cold - T_hot)/height
     last = T_cold + slope*(rows - 0.5)*spacing
     if not last > 0:
-        raise ValueError(f"the last of {rows} fixed rows would have T = {last:.4g}, extrapolated from {T_cold:g} by "
-                         f"{slope:.4g} y: it must be positive; take a higher box, fewer rows or closer temperatures")
+        raise ValueError(f"the last of {rows} fixed rows would have T = {last:.4g}, extrapolated from "
+                         f"{T_cold:g} by {slope:.4g} y: it must be positive; take a higher box, fewer rows "
+                         "or closer temperatures")
     return (FixedRows(-height/2, 1.0, T_hot, slope, rows, spacing),
             FixedRows(height/2, -1.0, T_cold, slope, rows, spacing))
 

@@ -8,7 +8,7 @@ from particles.walls import confine, fixed_points, image_motion, image_point, im
 
 
 class AtWall(NamedTuple):
-    """Images at rest with the wall's temperature: velocity and temperature are *specified*    [KHP95, Fig. 3]"""
+    """Images at rest at the wall's temperature: both are *specified*    [KHP95, Fig. 3]"""
 
 
 class Odd(NamedTuple):

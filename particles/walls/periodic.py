@@ -7,7 +7,8 @@ from particles.walls import confine, fixed_points, image_motion, image_point, im
 
 
 class Shift(NamedTuple):
-    """One side of a box that is periodic along `axis` (0: x, 1: y): points near `near` have images shifted by `by`."""
+    """One side of a box that is periodic along `axis` (0: x, 1: y): points near `near` have images shifted by
+    `by`."""
     axis: int
     near: float
     by: float

@@ -1,9 +1,10 @@
-"""Lees-Edwards sides for fixed points: the images above and below slide past, faster by rate times height    [RR98, Sec. IV]
+"""Lees-Edwards sides for fixed points: images slide past, faster by rate times height    [RR98, Sec. IV]
 
-Images above have slid by s = rate height t = (m + theta) a along x. A point sees, at each place of the lattice beyond the side,
-the two images next to it: one edge with the share 1 - theta of S and k, one with theta. So nothing is lost, edges close at every
-s and volumes stay; no share is negative; what is exchanged is continuous, and second order in the spacing.
-Each point exchanges in its own frame with images of velocity v + rate height: which of two boxes is at rest does not matter.
+Images above have slid by s = rate height t = (m + theta) a along x. A point sees, at each place of the
+lattice beyond the side, the two images next to it: one edge with the share 1 - theta of S and k, one with
+theta. So nothing is lost, edges close at every s and volumes stay; no share is negative; what is exchanged is
+continuous, and second order in the spacing. Each point exchanges in its own frame with images of velocity v +
+rate height: which of two boxes is at rest does not matter.
 """
 from typing import NamedTuple
 
@@ -19,7 +20,8 @@ SYMMETRIC = 1e-12       # of S through the side: round-off of some ten edges
 
 
 class Through(NamedTuple):
-    """Entries of the stored edges that lead through a side: which, up (1) or down (-1), share 1 - theta (0) or theta (1);
+    """Entries of the stored edges that lead through a side: which, up (1) or down (-1), share 1 - theta (0)
+    or theta (1);
 
     S/2 and k of the whole edge; column and row of the place of the lattice to which it leads.
     """
@@ -58,13 +60,15 @@ def sides(points: Points, edges: Edges) -> Sides:
     S, k = np.concatenate([edges.S, -edges.S])/2, np.concatenate([edges.k, edges.k])
     up = crossing(points, edges)
     up = np.concatenate([up, -up])
-    split = np.concatenate([np.arange(len(i)), np.flatnonzero(up)])       # edges through a side stand there twice
+    # edges through a side stand there twice
+    split = np.concatenate([np.arange(len(i)), np.flatnonzero(up)])
     second = np.arange(len(split)) >= len(i)
     order = np.lexsort((j[split], i[split]))
     split, second = split[order], second[order]
     i, j, S, k, up = (q[split] for q in (i, j, S, k, up))
     taken = np.bincount(i, minlength=points.n)
-    stored = Stored((np.cumsum(taken) - taken).astype(u64), taken.astype(u32), j.astype(u32), S[:, 0].copy(), S[:, 1].copy(), k)
+    stored = Stored((np.cumsum(taken) - taken).astype(u64), taken.astype(u32), j.astype(u32), S[:, 0].copy(),
+                    S[:, 1].copy(), k)
     entry = np.flatnonzero(up)
     through = Through(entry, up[entry], second[entry].astype(int), S[entry, 0], S[entry, 1], k[entry],
                       j[entry]//counts[1], j[entry] % counts[1])
@@ -72,7 +76,7 @@ def sides(points: Points, edges: Edges) -> Sides:
 
 
 def images(through: Through, counts: tuple[int, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Parents of the images, which way they lie, and their numbers (2, n): all points of the rows that edges lead to."""
+    """Parents of the images, which way they lie, their numbers (2, n): all points of rows with edges."""
     n = counts[0]*counts[1]
     column, sides = np.arange(counts[0])[:, None]*counts[1], (-1, 1)
     found = [(column + np.unique(through.row[through.up == side])).ravel() for side in sides]
@@ -87,8 +91,8 @@ def check_lattice(points: Points) -> tuple[int, int]:
     columns, rows = (len(np.unique(np.round(q/points.a, 6))) for q in points.x.T)
     place = np.stack([np.repeat(np.arange(columns), rows), np.tile(np.arange(rows), columns)], axis=1)
     if columns*rows != points.n or np.abs(points.x - points.x[0] - place*points.a).max() > 1e-9*points.a:
-        raise ValueError(f"{points.n} points in {columns} different columns and {rows} rows are no square lattice: sliding sides "
-                         "need one, made by `points.lattice`")
+        raise ValueError(f"{points.n} points in {columns} different columns and {rows} rows are no square "
+                         "lattice: sliding sides need one, made by `points.lattice`")
     return columns, rows
 
 
@@ -99,7 +103,7 @@ def crossing(points: Points, edges: Edges) -> np.ndarray:
 
 
 def check_alike(points: Points, edges: Edges, counts: tuple[int, int]) -> None:
-    """Refuse edges through the side that differ from column to column, or whose S_x do not add up to zero at a point."""
+    """Refuse edges through the side that differ between columns, or whose S_x do not add up to zero."""
     up = crossing(points, edges)
     turn, through = np.where(up < 0, -1.0, 1.0)[up != 0, None], up != 0
     S, apart = turn*edges.S[through], turn*edges.apart[through]
@@ -109,12 +113,14 @@ def check_alike(points: Points, edges: Edges, counts: tuple[int, int]) -> None:
     mean = np.stack([np.bincount(kind.ravel(), s)/number for s in S.T], axis=1)
     size = np.abs(edges.S).sum(axis=1).max()
     if (number != counts[0]).any() or np.abs(S - mean[kind.ravel()]).max() > SYMMETRIC*size:
-        raise ValueError("edges through the side differ from column to column, so that a point would not see another as that "
-                         "sees it when images slide: take edges of a weight, not of a triangulation, which chooses diagonals")
+        raise ValueError("edges through the side differ from column to column, so that a point would not see "
+                         "another as that sees it when images slide: take edges of a weight, not of a "
+                         "triangulation, which chooses diagonals")
     worst = np.abs(np.bincount(below, S[:, 0], points.n)).max()
     if worst > SYMMETRIC*size:
-        raise ValueError(f"edges through the side have a sum of S_x of {worst:.3g} at a point, which must be zero or momentum is "
-                         "lost: take edges that are their own mirror images in x, such as those of a weight")
+        raise ValueError(f"edges through the side have a sum of S_x of {worst:.3g} at a point, which must be "
+                         "zero or momentum is lost: take edges that are their own mirror images in x, such "
+                         "as those of a weight")
 
 
 @jit

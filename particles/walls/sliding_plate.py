@@ -6,7 +6,7 @@ from particles.walls.mirror import Mirror
 
 
 class Sliding(NamedTuple):
-    """A mirror plate that slides along x with velocity U: images as the plate's rule has them in its own frame."""
+    """A mirror plate that slides along x with velocity U: its rule holds in its own frame."""
     mirror: Mirror
     U: float
 

@@ -7,8 +7,8 @@
     method, start, dt = ready(RayleighBenard(ra=1e4, L=16.0), "fixed-lattice", seed=1)
     done = run(method, start, Plan(dt=dt, steps=100))
 
-A variant (`Variant`, `Scheme`, `Motion`, `DriftMotion`, `Form`) or a method of one's own, with `state(x, rho, v, T)`, may
-stand in place of the name. Scenes with exact answers are in `studies.build.scenes`.
+A record of a family (`Variant`, `Scheme`, `FacesMotion`, `DriftMotion`, `GridForm`) or a method of one's own,
+with `state(x, rho, v, T)`, may stand in its place. Flows with exact answers are in `studies.build.scenes`.
 """
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
@@ -19,53 +19,47 @@ from studies.build.setting import Ready, of_method
 
 
 def named(*families: Iterable[tuple[str, Any]]) -> dict[str, Any]:
-    """One table of names.
-
-    Raises
-    ------
-    ValueError
-        A name stands for two variants.
-    """
+    """One table of names. Raises ValueError: A name stands for two variants."""
     table: dict[str, Any] = {}
     for name, variant in (pair for family in families for pair in family):
         if name in table:
-            raise ValueError(f"two methods are called {name!r}: {table[name]} and {variant}; give one of them another name")
+            raise ValueError(f"two methods are called {name!r}: {table[name]} and {variant}; "
+                             "give one of them another name")
         table[name] = variant
     return table
 
 
 def prefixed(family: str, variants: Mapping[str, Any], usual: str) -> Iterable[tuple[str, Any]]:
-    """Names that say the family, which those in tables leave to another column; the usual variant has the family's own."""
+    """Names with the family before them; the usual variant has the family's own."""
     for name, variant in variants.items():
         yield family if name == usual else f"{family}-{name.removeprefix(f'{usual}-')}", variant
 
 
-#: name -> variant; of smooth particles and grids, what rows of `rb` have as `variant` with the family before it
-METHODS = named(prefixed("grid", grid.FORMS, "flux-form"), prefixed("spam", spam.VARIANTS, "printed"), fixed.SCHEMES.items(),
-                moving.MOTIONS.items(), rr98_moving.DRIFT_MOTIONS.items())
+#: name -> variant; tables have the family in another column
+METHODS = named(
+    prefixed("grid", grid.FORMS, "flux-form"),
+    prefixed("spam", spam.VARIANTS, "printed"),
+    fixed.SCHEMES.items(),
+    moving.MOTIONS.items(),
+    rr98_moving.DRIFT_MOTIONS.items())
 
 
 def ready(scene: Any, method: Any, seed: int = 1, **more: Any) -> Ready:
-    """A method in a scene, by its name, by a variant, or as an object; `more`: places x, fields, rows that the family takes.
+    """A method in a scene, by its name, by a variant, or as an object; more : as the family takes.
 
-    Raises
-    ------
-    ValueError
-        No method has this name, or the family cannot take the scene.
+    Raises ValueError: No method has this name, or the family cannot take the scene.
     """
     chosen = variant(method) if isinstance(method, str) else method
-    return chosen.ready(scene, seed, **more) if hasattr(chosen, "ready") else of_method(chosen, scene, seed, **more)
+    if hasattr(chosen, "ready"):
+        made: Ready = chosen.ready(scene, seed, **more)
+        return made
+    return of_method(chosen, scene, seed)
 
 
 def variant(name: str) -> Any:
-    """The variant of a name.
-
-    Raises
-    ------
-    ValueError
-        There is none.
-    """
+    """The variant of a name. Raises ValueError: there is none."""
     if name not in METHODS:
         near = get_close_matches(name, METHODS, 4, 0.4) or list(METHODS)
-        raise ValueError(f"no method is called {name!r}; near to it are {', '.join(near)}; studies.build.METHODS lists all")
+        raise ValueError(f"no method is called {name!r}; near to it are {', '.join(near)}; "
+                         "studies.build.METHODS lists all")
     return METHODS[name]

@@ -26,7 +26,7 @@ class Cell(NamedTuple):
     edges: Edges
 
 
-class Variant(NamedTuple):
+class Obstacle(NamedTuple):
     """Points and edges of a body. grown : spacings by which the frozen disc exceeds the body."""
 
     name: str
@@ -52,10 +52,10 @@ def triangulated(rows: int, radius: float) -> Cell:
 
 
 VARIANTS = {variant.name: variant for variant in (
-    Variant("surface", triangulated),
-    Variant("surface-unfiltered", triangulated, filtered=0.0),
-    Variant("frozen", frozen),
-    Variant("frozen-grown", frozen, grown=0.5))}
+    Obstacle("surface", triangulated),
+    Obstacle("surface-unfiltered", triangulated, filtered=0.0),
+    Obstacle("frozen", frozen),
+    Obstacle("frozen-grown", frozen, grown=0.5))}
 
 
 def radius_of(rows: int, fraction: float) -> float:
@@ -63,7 +63,7 @@ def radius_of(rows: int, fraction: float) -> float:
     return rows*float(np.sqrt(fraction/np.pi))
 
 
-def stream(variant: Variant, fraction: float, rows: int, speed: float, eta: float) -> Stream:
+def stream(variant: Obstacle, fraction: float, rows: int, speed: float, eta: float) -> Stream:
     """A gas of viscosity eta that is pushed so that the published drag holds it at this mean speed."""
     points, body, edges = variant.cell(rows, radius_of(rows, fraction))
     push = drag_of(fraction).value*eta*speed/rows**2
@@ -89,6 +89,6 @@ def free(method: Stream) -> np.ndarray:
 
 
 def drag(method: Stream, cell: float, momentum: np.ndarray, force: np.ndarray) -> np.ndarray:
-    """F/(eta U) of a cell of this area: force over edges, and what the push would do to the volume left out."""
+    """F/(eta U) of a cell of this area: force over edges, and the push on the volume left out."""
     inside = cell - method.edges.V[free(method)].sum()
     return (force + method.push[0]*inside)/(method.law.eta*momentum/cell)

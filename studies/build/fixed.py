@@ -1,16 +1,17 @@
 """Discretized integral hydrodynamics on fixed points, in any scene    [RR98, Sec. III]"""
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from continuum.scene import Torus
+from particles.fields import kinetic
 from particles.integral.bodies import held, together, with_plates
 from particles.integral.driven import Driven
 from particles.integral.edge_makers import closed, exact, plain, renormalised
 from particles.integral.edges import NONE_BEYOND, between_plates
-from particles.integral.layer import Exchanging, Layer
+from particles.integral.layer import Layer, LayerSums
 from particles.integral.nested import mixed
 from particles.integral.points import of_positions, random, relaxed
 from particles.integral.stream import Stream, Streaming
@@ -18,7 +19,7 @@ from particles.integral.triangulation import between, delaunay
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.build.setting import Ready, check_open, check_spacings, inside, positions, shifted, stepped
 
-OF_LIMIT = 0.8          # of the step to its stability limit: the flow is steady, its errors are of space alone
+OF_LIMIT = 0.8      # of the step to its stability limit: the flow is steady, its errors are of space alone
 
 
 def hard_core(width: float, height: float, size: float, seed: int) -> np.ndarray:
@@ -28,15 +29,16 @@ def hard_core(width: float, height: float, size: float, seed: int) -> np.ndarray
 
 @cache
 def settled(width: float, height: float, size: float, seed: int) -> np.ndarray:
-    """Random points that have moved apart together with their mirror images until each is surrounded evenly."""
+    """Random points that have moved apart with their mirror images until each is surrounded evenly."""
     x, shift, mirror = hard_core(width, height, size, seed), np.array([0.0, height/2]), np.array([1.0, -1.0])
     both = of_positions(np.concatenate([x - shift, (x - shift)*mirror]), (width, 2*height))
     return inside(height, relaxed(both, WendlandC2.of(h=3.0), sweeps=4000).x[:len(x)] + shift)
 
 
 class Scheme(NamedTuple):
-    """One way to make points and edges; `size`: of the points' disorder, in spacings; `share` of transport along edges.
+    """One way to make points and edges.
 
+    size : of the points' disorder, in spacings. share : of transport along edges.
     held : plates are rows of points that are held, in place of mirror images behind them.
     """
     name: str
@@ -57,12 +59,13 @@ class Scheme(NamedTuple):
     @property
     def series(self) -> dict[str, Any]:
         """Quantities of a run: K, and heat through both plates."""
-        return {"ke": kinetic, "lower": PlateHeat(0), "upper": PlateHeat(1)}
+        heat = heat_of_rows if self.held else heat_in
+        return {"ke": kinetic, "lower": partial(heat, plate=0), "upper": partial(heat, plate=1)}
 
 
 SCHEMES = {s.name: s for s in (
     Scheme("fixed-lattice"),
-    Scheme("fixed-lattice-printed-heat", mended=False),     # Eq. 51 with the work of its forces as the only heating
+    Scheme("fixed-lattice-printed-heat", mended=False),     # Eq. 51, heated by its forces alone
     Scheme("fixed-lattice-h1.2", h=1.2),
     Scheme("fixed-lattice-h3", h=3.0),
     Scheme("fixed-lattice-monaghan", weight=Monaghan),
@@ -93,19 +96,21 @@ def fluid(scene: Any, scheme: Scheme, seed: int = 1) -> Layer | Stream:
 
 def torus(scene: Any, scheme: Scheme, seed: int) -> Layer:
     """No plates, on which points could be held."""
-    place = shifted if scheme.points is positions else scheme.points        # there is no plate to stay away from
-    points = of_positions(place(scene.width, scene.L, scheme.size, seed), (scene.width, scene.L))
-    return Layer(x=points.x, edges=scheme.make(points, scheme.weight.of(h=scheme.h)), beyond=NONE_BEYOND, eos=scene.eos,
-                 law=scene.law, T_plates=(1.0, 1.0), g=0.0, transport=mixed(scheme.share, scheme.mended))
+    box = scene.width, scene.L
+    place = shifted if scheme.points is positions else scheme.points    # there is no plate to stay away from
+    points = of_positions(place(*box, scheme.size, seed), box)
+    edges = scheme.make(points, scheme.weight.of(h=scheme.h))
+    return Layer(x=points.x, edges=edges, beyond=NONE_BEYOND, eos=scene.eos, law=scene.law,
+                 T_plates=(1.0, 1.0), g=0.0, transport=mixed(scheme.share, scheme.mended))
 
 
 def layer(scene: Any, scheme: Scheme, seed: int) -> Layer:
     """Plates with mirror images behind."""
     x = inside(scene.L, scheme.points(scene.width, scene.L, scheme.size, seed))
     edges, beyond = between_plates(scheme.make, x, scene.width, scene.L, scheme.weight.of(h=scheme.h))
-    parts: dict[str, Any] = {"x": x, "edges": edges, "beyond": beyond, "eos": scene.eos, "law": scene.law, "g": scene.g,
-                             "T_plates": (scene.T_hot, scene.T_cold), "transport": mixed(scheme.share, scheme.mended)}
-    return Driven(**parts, slide=(0.0, scene.slide)) if scene.slide else Layer(**parts)
+    kind: Any = partial(Driven, slide=(0.0, scene.slide)) if scene.slide else Layer
+    return kind(x=x, edges=edges, beyond=beyond, eos=scene.eos, law=scene.law, g=scene.g,
+                T_plates=(scene.T_hot, scene.T_cold), transport=mixed(scheme.share, scheme.mended))
 
 
 def plates(scene: Any, scheme: Scheme, seed: int) -> Stream:
@@ -113,22 +118,17 @@ def plates(scene: Any, scheme: Scheme, seed: int) -> Stream:
     inner = inside(scene.L - 1, scheme.points(scene.width, scene.L - 1, scheme.size, seed))
     x, lower, upper = with_plates(inner, round(scene.width), scene.L)
     both = together(held(lower, T=scene.T_hot), held(upper, (scene.slide, 0.0), T=scene.T_cold))
-    return Stream(x=x, edges=between(x, scene.width, scene.L), eos=scene.eos, law=scene.law, held=both, push=(0.0, 0.0 - scene.g))
+    edges = between(x, scene.width, scene.L)
+    return Stream(x=x, edges=edges, eos=scene.eos, law=scene.law, held=both, push=(0.0, 0.0 - scene.g))
 
 
-def kinetic(sums: Exchanging | Streaming, state: np.ndarray) -> float:
-    """K per mass."""
-    V = sums.method.edges.V
-    return float(0.5*V@((state[1]**2 + state[2]**2)/state[0])/(V@state[0]))
-
-
-class PlateHeat(NamedTuple):
+def heat_in(sums: LayerSums, state: np.ndarray, plate: int) -> float:
     """Heat that enters the fluid through a plate (0: lower, 1: upper), per time."""
-    plate: int
+    return sums.heat_through(plate)
 
-    def __call__(self, sums: Exchanging | Streaming, state: np.ndarray) -> float:
-        """Over all edges to images behind the plate, along them and nested; what its points give."""
-        if isinstance(sums, Streaming):
-            sums.rates(state, np.empty_like(state))
-            return -float(sums.received[sums.method.held.body == self.plate, 2].sum())
-        return sums.heat_through(self.plate)
+
+def heat_of_rows(sums: Streaming, state: np.ndarray, plate: int) -> float:
+    """The same where rows of points are the plate."""
+    sums.rates(state, np.empty_like(state))
+    points = sums.method.held.body == plate
+    return -float(sums.received[points, 2].sum())

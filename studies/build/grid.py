@@ -4,10 +4,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.gas.fields import Fields, Nodes, at_nodes, block, initial, placed, unblock
+from continuum.gas.fields import NodeFields, Nodes, at_nodes, block, initial, placed, unblock
 from continuum.gas.loop import VX, EdgeHeat, FluxForm, PaperForm
-from continuum.gas.solve import SAFETY, March, limits
+from continuum.gas.solve import March, limits
 from continuum.scene import RayleighBenard
+from continuum.steady import SAFETY
 from particles.limits import limit_of
 from studies.build.names import START_ENERGY
 from studies.build.setting import Ready, stepped
@@ -15,7 +16,7 @@ from studies.build.setting import Ready, stepped
 
 @dataclass(frozen=True, kw_only=True)
 class Gridded:
-    """The gas in square cells, `rows` of them over the height; its states are blocks (4, rows + 2, columns + 2) with ghosts."""
+    """The gas in square cells, `rows` over the height; states are blocks (4, rows + 2, columns + 2)."""
     scene: Any
     rows: int
     continuity: Any = FluxForm()  # noqa: RUF009 (immutable)
@@ -40,10 +41,10 @@ def _(method: Gridded, start: np.ndarray) -> float:
     return float(limits(method.scene, start).both)
 
 
-class Form(NamedTuple):
-    """One way to solve the gas on a grid: its continuity equation, the rolls of the start (None: as the scene has it).
+class GridForm(NamedTuple):
+    """One way to solve the gas on a grid. rolls : of the start; None: as the scene has it.
 
-    aside : rolls of a hundredth of their energy besides, without which a flow could not leave the symmetry of its start.
+    aside : rolls of a hundredth of their energy besides: the flow can leave the symmetry of its start.
     """
     name: str
     continuity: Any = FluxForm()
@@ -52,18 +53,22 @@ class Form(NamedTuple):
     step: float = SAFETY
 
     def ready(self, scene: Any, seed: int = 1, rows: int = 0, first: np.ndarray | None = None) -> Ready:
-        """The grid in a scene, cells of one spacing unless `rows` are given, from a block, if given; seeds say nothing."""
+        """The grid in a scene, cells of one spacing unless `rows` are given; from a block, if given."""
         method = Gridded(scene=scene, rows=rows or round(scene.L), continuity=self.continuity)
         first = begun(scene, method.rows, self) if first is None else first
         return stepped(method, method.march(first).S, self.step)
 
 
 #: "fig10" is a scene of its own temperatures, told apart from others by this name only
-FORMS = {form.name: form for form in (Form("flux-form"), Form("paper-form", PaperForm()), Form("edge-heat", EdgeHeat()),
-                                      Form("two-rolls", rolls=2, aside=1), Form("fig10", rolls=2, aside=1))}
+FORMS = {form.name: form for form in (
+    GridForm("flux-form"),
+    GridForm("paper-form", PaperForm()),
+    GridForm("edge-heat", EdgeHeat()),
+    GridForm("two-rolls", rolls=2, aside=1),
+    GridForm("fig10", rolls=2, aside=1))}
 
 
-def begun(scene: Any, rows: int, form: Form) -> np.ndarray:
+def begun(scene: Any, rows: int, form: GridForm) -> np.ndarray:
     """The block of the start; a plate slides where its nodes, which never change, have a velocity."""
     S = block(beginning(scene, rows, form))
     if scene.slide:
@@ -71,7 +76,7 @@ def begun(scene: Any, rows: int, form: Form) -> np.ndarray:
     return S
 
 
-def beginning(scene: Any, rows: int, form: Form) -> Fields:
+def beginning(scene: Any, rows: int, form: GridForm) -> NodeFields:
     """As the scene has it; of convection rolls of Sec. VI, and those aside    [KHP95]"""
     if not isinstance(scene, RayleighBenard):
         return placed(scene, rows, lambda x, y: started(scene, x, y))

@@ -34,3 +34,13 @@ LABELS = {
     "moving-constant-mass": "RR98 moving, constant mass [Eq. 49]",
     "moving-constant-mass-printed-heat": "RR98 moving, constant mass, heating as printed",
     "moving-sph": "RR98 moving, Eq. 50 with a = -b = 1", "moving-less-static": "RR98 moving, Eq. 49 without static pressure"}
+
+#: of `METHODS`, the family of a method in tables, and the variant that has the family's own name
+FAMILIES = {"compressible": ("grid", "flux-form"), "spam": ("spam", "printed"), "dih": ("", "")}
+
+
+def label(method: str, variant: str) -> str:
+    """What people call the rows of a method and its variant; nothing where nobody calls them anything."""
+    family, usual = FAMILIES.get(method, (method, ""))
+    other = variant.removeprefix(usual).removeprefix("-")
+    return LABELS.get("-".join(filter(None, (family, other))), "")

@@ -1,14 +1,24 @@
-"""A run in the layer heated from below, and what is measured there, of any method."""
-from collections.abc import Callable
+"""A run in the layer heated from below, of any method, and what is measured there.
+
+The symmetric part of a flow is told from noise, the grid's field is seen through a weight.
+"""
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.signal import oaconvolve
 
+from continuum.gas import fields as gas
 from continuum.scene import Periodic
 from particles.run import Divergence, Plan, Run, run
 from particles.threads import Team
+from particles.weights import value_and_slope
 from studies.build.setting import Ready
+from studies.kit.stats import Measured
+
+FINE = 240     # places over the height that a weight is seen with: the range of 100 rows covers 7
+Fields = dict[str, np.ndarray]
 
 
 class LayerRun(NamedTuple):
@@ -19,7 +29,7 @@ class LayerRun(NamedTuple):
 
 
 class Ended(NamedTuple):
-    """K per mass and Nu at the end of a run that settles; errors are what its last tenth changed; whether that is little."""
+    """K per mass and Nu at the end of a run; errors are what its last tenth changed."""
     ke: float
     ke_err: float
     nu: float
@@ -27,8 +37,8 @@ class Ended(NamedTuple):
     converged: bool
 
 
-def followed(scene: Any, variant: Any, seed: int, t_end: float, often: int, report: Callable[[float], None] | None = None,
-             checkpoint: Path | None = None) -> LayerRun:
+def followed(scene: Any, variant: Any, seed: int, t_end: float, often: int,
+             report: Callable[[float], None] | None = None, checkpoint: Path | None = None) -> LayerRun:
     """Run until t_end in free-fall times; `variant.series` is read `often` times in one."""
     ready, unit = variant.ready(scene, seed), scene.L/scene.free_fall
     plan = Plan(dt=ready.dt, steps=round(t_end*unit/ready.dt), series=variant.series,
@@ -64,7 +74,7 @@ def rolls(scene: Any, x: np.ndarray, vy: np.ndarray) -> int:
 
 
 def turns(scene: Any, vy: np.ndarray) -> int:
-    """Changes of sign of a mean vy (rows, columns) along mid-height that stand out of the noise, a fifth of its largest value."""
+    """Changes of sign of a mean vy (rows, columns) along mid-height, above a fifth of its largest value."""
     mid = vy[len(vy)//2 - 1:len(vy)//2 + 1].mean(axis=0)
     if np.abs(mid).max() < 5e-3*scene.free_fall:
         return 0
@@ -73,8 +83,96 @@ def turns(scene: Any, vy: np.ndarray) -> int:
 
 
 def at_end(method: Any, done: Run) -> tuple[Any, np.ndarray]:
-    """(sums, state) of smooth particles: the last state in the order of new lists, with densities, motion and images."""
+    """(sums, state) of smooth particles: the last state in the order of new lists, with densities."""
     sums, state = method.start(done.state.shape[1], Team(1)), done.state.copy()
     sums.around.relist(state, done.ids.copy(), 0.0)
     sums.densities(state)
     return sums, state
+
+
+# --- symmetric flows ------------------------------------------------------------------------------
+
+
+def upright(at: Fields) -> Fields:
+    """The same periodic flow with the crest of the first harmonic of vy at column 0."""
+    columns = at["vy"].shape[1]
+    shift = np.angle(np.fft.rfft(at["vy"].mean(axis=0))[1])
+    turn = np.exp(-1j*shift*np.arange(columns//2 + 1))
+    return {name: np.fft.irfft(np.fft.rfft(f, axis=1)*turn, columns, axis=1) for name, f in at.items()}
+
+
+def mirrored(at: Fields) -> Fields:
+    """The flow seen in a mirror at column 0, which does not change two equal rolls."""
+    return {name: (-1 if name == "vx" else 1)*np.roll(f[:, ::-1], 1, axis=1) for name, f in at.items()}
+
+
+def turned(at: Fields) -> Fields:
+    """The flow turned by half a circle, which does not change one roll in a box; density stays."""
+    return {name: -f[::-1, ::-1] if name in ("vx", "vy") else f for name, f in at.items()}
+
+
+def flowing(at: Fields, periodic: bool) -> Measured:
+    """Kinetic energy per mass of mean velocities (rows, columns): the part that rolls have by symmetry.
+
+    All that is not symmetric is in the error: noise, of which the symmetric part holds as much, and in a box
+    what compressibility does. If rolls wander while velocities are averaged, it is a lower bound.
+    """
+    at = upright(at) if periodic else at
+    other = mirrored(at) if periodic else turned(at)
+    return Measured(kinetic(at, other, 1), kinetic(at, other, -1))
+
+
+def kinetic(at: Fields, other: Fields, sign: int) -> float:
+    """Of half the sum, or difference, of two flows of the first one's density, per mass."""
+    v2 = sum(((at[name] + sign*other[name])/2)**2 for name in ("vx", "vy"))
+    return 0.5*float(np.mean(at["rho"]*v2))/float(np.mean(at["rho"]))
+
+
+# --- fields seen through a weight -----------------------------------------------------------------
+
+
+class Smoothing(NamedTuple):
+    """A weight of `particles.weights` with range h spacings, `rows` spacings over the height."""
+    weight: Any
+    h: float
+    rows: int
+
+
+def smoothed_energy(fields: gas.NodeFields, smoothing: Smoothing) -> tuple[float, float]:
+    """(K, K of <v> = sum m v w/sum m w) of a field, particles lying as densely as the fluid does.
+
+    Behind walls the density is mirrored, the velocity zero, as for printed images    [KHP95, Fig. 3]
+    """
+    width, L = fields.scene.width, fields.scene.L
+    columns = round(FINE*width/L)
+    x, y = ((np.arange(n) + 0.5)/n*size - size/2 for n, size in ((columns, width), (FINE, L)))
+    at, w = gas.interpolate(fields, *np.meshgrid(x, y)), kernel(smoothing)
+    mirror, rest = ("wrap", "wrap") if fields.periodic else ("symmetric", "constant")
+    margin = len(w)//2
+    rho = oaconvolve(padded(at.rho, margin, mirror, "symmetric"), w, mode="valid")
+    px = oaconvolve(padded(at.rho*at.vx, margin, rest, "constant"), w, mode="valid")
+    py = oaconvolve(padded(at.rho*at.vy, margin, rest, "constant"), w, mode="valid")
+    mass = np.sum(at.rho)
+    plain = 0.5*np.sum(at.rho*(at.vx**2 + at.vy**2))/mass
+    return float(plain), float(0.5*np.sum(at.rho*((px**2 + py**2)/rho**2))/mass)
+
+
+def kernel(smoothing: Smoothing) -> np.ndarray:
+    """The weight on the fine places, (2n + 1, 2n + 1)."""
+    weight, finer = smoothing.weight.of(smoothing.h), smoothing.rows/FINE
+    n = np.arange(-int(smoothing.h/finer), int(smoothing.h/finer) + 1)*finer
+    return np.array([[value_and_slope(weight, float(np.hypot(a, b)))[0] for a in n] for b in n])
+
+
+def padded(q: np.ndarray, margin: int, along: str, across: str) -> np.ndarray:
+    """A field with `margin` more places beyond the sides and beyond the plates."""
+    wide = np.pad(q, ((0, 0), (margin, margin)), along)  # type: ignore[call-overload]
+    return np.pad(wide, ((margin, margin), (0, 0)), across)  # type: ignore[call-overload]
+
+
+def smoothed_rows(point: dict, fields: gas.NodeFields, smoothings: tuple[Smoothing, ...]) -> Iterator[dict]:
+    """Rows of the table `smoothed`; `point` has the key columns of the grid's row."""
+    for smoothing in smoothings:
+        plain, smooth = smoothed_energy(fields, smoothing)
+        yield {**point, "weight": smoothing.weight.__name__, "h": smoothing.h, "rows": smoothing.rows,
+               "ke": plain, "ke_smoothed": smooth}

@@ -11,9 +11,11 @@ from particles.walls.periodic import periodic
 FRICTIONLESS = ConstEta(0.0, 0.0)
 
 
-def fluid(weight: Any, box: tuple[float, float], eos: Any = IdealGas(), law: Any = FRICTIONLESS, **more: Any) -> Spam:  # noqa: B008
+def fluid(weight: Any, box: tuple[float, float], eos: Any = IdealGas(), law: Any = FRICTIONLESS,  # noqa: B008
+          **more: Any) -> Spam:
     """As printed, in a box that is periodic along both axes    [KHP95, Sec. II]"""
-    return Spam(weight=weight, eos=eos, law=law, walls=(*periodic(box[0]), *periodic(box[1], axis=1)), box=box, **more)
+    walls = (*periodic(box[0]), *periodic(box[1], axis=1))
+    return Spam(weight=weight, eos=eos, law=law, walls=walls, box=box, **more)
 
 
 def at_rest(x: np.ndarray, e: Any) -> np.ndarray:

@@ -1,13 +1,15 @@
 """RR98's own moving points: motions by name, in any scene    [RR98 Eqs 39, 46-51]"""
-from functools import cache
+from functools import cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from particles.fields import kinetic
 from particles.integral.brackets import Powers
+from particles.integral.drifts import DRIFTS, ConstantMassDrift, OverPairs
 from particles.integral.exchange import PRINTED
 from particles.integral.points import lattice
-from particles.integral.rr98_moving import DRIFTS, ConstantMassDrift, Drift, Drifts, OverPairs
+from particles.integral.rr98_moving import Drift, Drifts
 from particles.integral.rr98_moving_plain import scale_of
 from particles.integral.transposed_stress import MENDED
 from particles.observe import pairs_behind
@@ -26,15 +28,17 @@ class DriftMotion(NamedTuple):
     weight: Any = WendlandC2
     h: float = 3.0
 
-    def ready(self, scene: Any, seed: int = 1, x: np.ndarray | None = None, fields: tuple | None = None) -> Ready:
+    def ready(self, scene: Any, seed: int = 1, x: np.ndarray | None = None,
+              fields: tuple | None = None) -> Ready:
         """The method in a scene; from places x (n, 2) and fields (rho, v, T) there, if given."""
-        fluid, x = method(scene, self), shaken(scene, seed) if x is None else x
+        fluid = method(scene, self)
+        x = shaken(scene, seed) if x is None else x
         return stepped(fluid, fluid.state(x, *(fields or scene.fields(x))), 1.0)
 
     @property
     def series(self) -> dict[str, Any]:
         """Quantities of a run: K, and heat through both plates."""
-        return {"ke": kinetic, "lower": PlateHeat(-1), "upper": PlateHeat(1)}
+        return {"ke": kinetic, "lower": partial(heat_in, side=-1), "upper": partial(heat_in, side=1)}
 
 
 DRIFT_MOTIONS = {m.name: m for m in (
@@ -66,26 +70,16 @@ def scale(weight: Any) -> float:
     return scale_of(lattice((12, 12)), weight)
 
 
-def kinetic(sums: Drifts, state: np.ndarray) -> float:
-    """K per mass."""
-    m = state[4]*state[6]/sums.method.motion.owned(state[6])
-    return float(0.5*m@((state[2]**2 + state[3]**2)/state[4]**2)/m.sum())
-
-
-class EdgeHeat(NamedTuple):
+class PairHeat(NamedTuple):
     """Heat that the first of two points gets from the other."""
 
 
-nothing.of(EdgeHeat)(lambda term: (0.0,))
-rate.of(EdgeHeat)(lambda term, a, b, ab: (0.5*(a.k + b.k)*ab.k*(b.Td - a.Td),))
+nothing.of(PairHeat)(lambda term: (0.0,))
+rate.of(PairHeat)(lambda term, a, b, ab: (0.5*(a.k + b.k)*ab.k*(b.Td - a.Td),))
 
 
-class PlateHeat(NamedTuple):
-    """Heat that enters the fluid through a plate (-1: lower, 1: upper), per time."""
-    side: int
-
-    def __call__(self, sums: Drifts, state: np.ndarray) -> float:
-        """Over all pairs with images behind the plate."""
-        heat = np.zeros((sums.n, 1))
-        sums.team(sweep, sums.n, OverPairs(EdgeHeat()), sums.points, pairs_behind(sums, self.side), heat)
-        return float(heat.sum())
+def heat_in(sums: Drifts, state: np.ndarray, side: int) -> float:
+    """Heat per time that enters the fluid through a plate (-1: lower, 1: upper), from images behind it."""
+    heat = np.zeros((sums.n, 1))
+    sums.team(sweep, sums.n, OverPairs(PairHeat()), sums.points, pairs_behind(sums, side), heat)
+    return float(heat.sum())

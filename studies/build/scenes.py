@@ -1,4 +1,4 @@
-"""Flows with exact answers, as scenes that every method takes; convection is `continuum.scene.RayleighBenard`.
+"""Flows with exact answers, as scenes; convection is `continuum.scene.RayleighBenard`.
 
 Lengths in spacings; the gas is ideal with C_V = 1, density and temperature about 1, conductivity = viscosity.
 """
@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from scipy.linalg import expm
 
-from continuum.exact.plates import FLOWS, MU, Flow
+from continuum.exact.plates import FLOWS, MU, PlateFlow
 from continuum.exact.vortex import Vortex
-from continuum.exact.waves import Gas, continuum
+from continuum.exact.waves import LinearGas, continuum
 from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import Periodic, RayleighBenard, Torus
 
@@ -21,7 +21,7 @@ Start = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 class Scene:
-    """A gas at rest without gravity, periodic along both axes: what a scene of another kind leaves as it is."""
+    """A gas at rest without gravity, periodic along both axes: what other scenes leave as it is."""
     eos: Any = IdealGas()
     sides: Any = Torus()
     slide = 0.0
@@ -42,7 +42,7 @@ class Scene:
 
 @dataclass(frozen=True, kw_only=True)
 class TaylorGreen(Scene):
-    """A vortex of a Mach number in a periodic box of L spacings, one wavelength, that decays by e: `continuum.exact.vortex`."""
+    """A vortex of a Mach number that decays by e in a periodic box of L spacings, one wavelength."""
     L: int
     mach: float = 0.05
 
@@ -86,10 +86,10 @@ class TaylorGreen(Scene):
 
 @dataclass(frozen=True, kw_only=True)
 class Sound(Scene):
-    """A standing sound wave of one wavelength L along x, at rest at first; the answer is exact for small amplitudes."""
+    """A standing wave of one wavelength along x, at rest at first; exact for small amplitudes."""
     L: int = 8              # across: wider than twice a range of three
     width: int
-    amplitude: float = 1e-5     # steepening is of the order of its product with the phase, 12: 1e-4 of the wave
+    amplitude: float = 1e-5      # steepening, some 12 times this, is 1e-4 of the wave
     damping: float = 0.01       # eta = kappa, in wavelengths: a third of the wave is left at the end
     periods: float = 2.125      # and an eighth: density and velocity are both there
 
@@ -107,7 +107,7 @@ class Sound(Scene):
 
     def exactly(self, time: float, x: np.ndarray) -> np.ndarray:
         """(rho, u, T), each (n,), less their means, at x (n,)."""
-        matrix = continuum(Gas(self.law.eta, 0.0, self.law.k), self.k).matrix
+        matrix = continuum(LinearGas(self.law.eta, 0.0, self.law.k), self.k).matrix
         return self.amplitude*np.real(np.outer(expm(matrix*time)@np.array([1, 0, 1]), np.exp(1j*self.k*x)))
 
     def fields(self, x: np.ndarray) -> Start:
@@ -117,8 +117,8 @@ class Sound(Scene):
 
 @dataclass(frozen=True, kw_only=True)
 class BetweenPlates(Scene):
-    """Heat that spreads or shear that settles between plates of temperature 1, L rows apart; nothing depends on x."""
-    flow: Flow
+    """Heat that spreads or shear that settles between plates of temperature 1, L rows apart."""
+    flow: PlateFlow
     L: int
     width: int = 8          # wider than twice a range of three
     sides: Periodic = Periodic()  # noqa: RUF009 (immutable)
@@ -143,7 +143,7 @@ class BetweenPlates(Scene):
 
 @dataclass(frozen=True, kw_only=True)
 class Slab(RayleighBenard):
-    """A layer of L rows at rest, plates all but equally warm: any solver that takes a layer takes it. `ra`, `pr` say nothing."""
+    """A layer of L rows at rest between plates all but equally warm; `ra`, `pr` say nothing."""
     viscosity: float
     heat: float
     ra: float = 1.0

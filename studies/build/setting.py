@@ -1,7 +1,7 @@
 """A method set up in a scene, and how: what all families of methods share.
 
-A scene has `width, L` (in spacings), `sides` (`Periodic`, `Walls`, `Torus`), the plates' `T_hot, T_cold`, the velocity `slide`
-of the upper one along itself, gravity `g`, the fluid `eos, law`, and `fields(x) -> rho, v, T`, the start at places (n, 2).
+A scene has `width, L` (in spacings), `sides` (`Periodic`, `Walls`, `Torus`), the plates' `T_hot, T_cold`, the
+velocity `slide` of the upper one, gravity `g`, the fluid `eos, law`, and `fields(x) -> rho, v, T`, its start.
 """
 from math import isclose
 from typing import Any, NamedTuple
@@ -16,11 +16,11 @@ from particles.walls.periodic import periodic
 from particles.walls.sliding_plate import Sliding
 from studies.build.names import START_JITTER
 
-FROM_EDGE = 0.25        # of a spacing: jittered points come no nearer to a plate with images, three quarters to one with points
+FROM_EDGE = 0.25        # of a spacing: jittered points come no nearer to a plate with images
 
 
 class Ready(NamedTuple):
-    """A method, its state at the start (rows, n), and a step that is good for it; `run` of `particles.run` takes these."""
+    """A method, its state at the start (rows, n), and a step that is good for it, for `particles.run`."""
     method: Any
     start: np.ndarray
     dt: float
@@ -36,11 +36,14 @@ def stepped(method: Any, start: np.ndarray, of_limit: float) -> Ready:
     return Ready(method, start, of_limit*limit_of(method, start))
 
 
-def of_method(method: Any, scene: Any, seed: int = 1, x: np.ndarray | None = None, of_limit: float = 0.8) -> Ready:
-    """Any method with places `x` and `state(rho, v, T)`; with `state(x, rho, v, T)` from a jittered lattice or given places."""
-    own = {} if hasattr(method, "x") else {"x": shaken(scene, seed) if x is None else x}
-    rho, v, T = scene.fields(own.get("x", getattr(method, "x", None)))
-    return stepped(method, method.state(**own, rho=rho, v=v, T=T), of_limit)
+def of_method(method: Any, scene: Any, seed: int = 1) -> Ready:
+    """Any method with places `x` and `state(rho, v, T)`, or `state(x, rho, v, T)` from a jittered lattice."""
+    if hasattr(method, "x"):
+        start = method.state(*scene.fields(method.x))
+    else:
+        x = shaken(scene, seed)
+        start = method.state(x, *scene.fields(x))
+    return stepped(method, start, 0.8)
 
 
 def walls(scene: Any, rule: Any = AtWall(), pressure: Any = Copied()) -> tuple:  # noqa: B008
@@ -59,7 +62,7 @@ def beside(scene: Any, rule: Any, pressure: Any) -> tuple:
 
 
 def shifted(width: float, height: float, size: float, seed: int) -> np.ndarray:
-    """Points (n, 2) of unit spacing in a periodic box: a lattice, every coordinate shifted by up to `size`."""
+    """Points (n, 2) of unit spacing in a periodic box: a lattice, coordinates shifted by up to `size`."""
     x = lattice((round(width), round(height))).x
     return wrapped(x + np.random.default_rng(seed).uniform(-size, size, x.shape), np.array([width, height]))
 
@@ -76,31 +79,23 @@ def positions(width: float, height: float, size: float, seed: int) -> np.ndarray
 
 def shaken(scene: Any, seed: int) -> np.ndarray:
     """Where points that move start."""
-    return (shifted if isinstance(scene.sides, Torus) else positions)(scene.width, scene.L, START_JITTER, seed)
+    place = shifted if isinstance(scene.sides, Torus) else positions
+    return place(scene.width, scene.L, START_JITTER, seed)
 
 
 def check_spacings(scene: Any) -> None:
     """Refuse a box that whole columns and rows of points of unit spacing do not fill.
 
-    Raises
-    ------
-    ValueError
-        Height or width is no whole number.
+    Raises ValueError: Height or width is no whole number.
     """
     for name, length in (("height L", scene.L), ("width aspect L", scene.width)):
         if not isclose(length, max(1, round(length)), rel_tol=1e-9):
-            raise ValueError(f"points of unit spacing need whole rows and columns, got {name} = {length:.6g}: give L as the "
-                             "number of rows, aspect as columns over rows")
+            raise ValueError(f"points of unit spacing need whole rows and columns, got {name} = "
+                             f"{length:.6g}: give L as the number of rows, aspect as columns over rows")
 
 
 def check_open(scene: Any, kind: str) -> None:
-    """Refuse four walls.
-
-    Raises
-    ------
-    ValueError
-        Sides are walls.
-    """
+    """Refuse four walls. Raises ValueError: Sides are walls."""
     if isinstance(scene.sides, Walls):
         raise ValueError(f"{kind} points have plates above and below only: take a scene with periodic sides")
 
@@ -108,11 +103,8 @@ def check_open(scene: Any, kind: str) -> None:
 def check_still(scene: Any) -> None:
     """Refuse plates that slide, for methods whose images do not.
 
-    Raises
-    ------
-    ValueError
-        The upper plate slides.
+    Raises ValueError: the upper plate slides.
     """
     if scene.slide:
-        raise ValueError(f"plates of moving points do not slide, got slide = {scene.slide}: take fixed points, smooth particles "
-                         "or the grid")
+        raise ValueError(f"plates of moving points do not slide, got slide = {scene.slide}: take "
+                         "fixed points, smooth particles or the grid")

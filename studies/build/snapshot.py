@@ -13,7 +13,7 @@ RANGE = 3.0     # of the printed weights, in spacings
 
 @dataclass(frozen=True)
 class Snapshot:
-    """Positions and velocities (points, 2) in spacings, the `n` fluid particles first, then fixed ones and images."""
+    """Positions and velocities (points, 2) in spacings: `n` fluid particles, then fixed ones and images."""
     x: np.ndarray
     v: np.ndarray
     n: int

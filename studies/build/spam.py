@@ -11,7 +11,8 @@ from continuum.gas.solve import steady_on
 from continuum.scene import Torus
 from particles.limits import step_limit
 from particles.observe import PlateHeat, field_kinetic, heat_flow, particle_kinetic
-from particles.smooth.spam import Direct, LessStatic, Nested, Spam
+from particles.smooth.spam import LessStatic, Spam
+from particles.smooth.sums import Direct, Nested
 from particles.terms import ArithmeticGradients, Gradients
 from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import Odd, Own
@@ -21,9 +22,8 @@ from studies.build.names import START_JITTER
 from studies.build.setting import Ready, check_spacings
 from studies.build.setting import walls as around
 
-#: time step over its stability limit: dt = 0.4 for the printed scheme. RK4 damps the fastest waves by 0.04 % a step; what
-#: counts is that particles turn at a plate up to v dt beyond it, which leaves errors of first order in dt g L: half of the
-#: step raises the Nusselt number by 4 % at 16 rows, 0.6 % at 25, 0.2 % at 50.
+#: time step over its limit: dt = 0.4 for the printed scheme. Particles turn at a plate up to v dt beyond
+#: it, an error of first order: half of the step raises Nu by 4 % at 16 rows, 0.6 % at 25, 0.2 % at 50.
 OF_LIMIT = 0.22
 
 
@@ -53,12 +53,19 @@ def fixed_rows(scene: Any) -> tuple:
 
 
 def developed(scene: Any, x: np.ndarray) -> tuple:
-    """(rho, v, T) of the grid's steady flow at x (n, 2): not every state that can go on is reached from weak rolls."""
-    at = interpolate(steady_on(scene, (16, 24))[-1].fields, x[:, 0], np.clip(x[:, 1], -scene.L/2, scene.L/2))
+    """(rho, v, T) of the grid's steady flow at x (n, 2), which weak rolls need not lead to."""
+    grid = steady_on(scene, (16, 24))[-1].fields
+    at = interpolate(grid, x[:, 0], np.clip(x[:, 1], -scene.L/2, scene.L/2))
     return np.ones(len(x)), np.stack([at.vx, at.vy], axis=1), at.T
 
 
-class _Choices(NamedTuple):
+class Variant(NamedTuple):
+    """One way to build the method; the defaults are the scheme as printed with the walls of Fig. 3.
+
+    weight : a class of `particles.weights`; h : its range. step : over its limit.
+    begin : (scene, x) -> (rho, v, T) at the start; None for the scene's own.
+    """
+
     name: str
     weight: Any = Lucy
     h: float = 3.0
@@ -69,34 +76,16 @@ class _Choices(NamedTuple):
     step: float = OF_LIMIT
     begin: Callable | None = None
 
-
-class Variant(_Choices):
-    """One way to build the method; the defaults are the scheme as printed with the walls of Fig. 3.
-
-    weight : a class of `particles.weights`; h : its range. step : over its limit. begin : (scene, x) -> (rho, v, T) at the start;
-    None for the scene's own.
-
-    Raises
-    ------
-    TypeError
-        The weight is no class of weights.
-    """
-
-    def __new__(cls, *choices, **more):
-        self = super().__new__(cls, *choices, **more)
-        if not (isinstance(self.weight, type) and hasattr(self.weight, "of")):
-            raise TypeError(f"the weight of a variant must be a class of weights, got {self.weight!r}: give the class, such as "
-                            "Lucy, and its range as h")
-        return self
-
-    def ready(self, scene: Any, seed: int = 1, x: np.ndarray | None = None, fields: tuple | None = None) -> Ready:
+    def ready(self, scene: Any, seed: int = 1, x: np.ndarray | None = None,
+              fields: tuple | None = None) -> Ready:
         """The method in a scene; from places x (n, 2) and fields (rho, v, T) there, if given."""
         return Ready(method(scene, self), start(scene, seed, self.begin, x, fields), step(scene, self))
 
     @property
     def series(self) -> dict[str, Any]:
-        """Quantities of a run: K of all particles and of the smoothed field, heat upwards and through both plates."""
-        return {"kp": particle_kinetic, "kg": field_kinetic, "heat": heat_flow, "lower": PlateHeat(-1), "upper": PlateHeat(1)}
+        """Quantities of a run: K of particles and of the smoothed field, heat upwards and through plates."""
+        return {"kp": particle_kinetic, "kg": field_kinetic, "heat": heat_flow,
+                "lower": PlateHeat(-1), "upper": PlateHeat(1)}
 
 
 PRINTED = Variant("printed")
@@ -125,17 +114,26 @@ VARIANTS = {v.name: v for v in (
 
 
 def method(scene: Any, variant: Variant) -> Spam:
-    """The method of unit spacing and mass: a scene of L = rows spacings."""
-    static = LessStatic(variant.fraction, float(pressure(scene.eos, 1.0, energy(scene.eos, 1.0, scene.T_mean))))
-    walls = (around if isinstance(scene.sides, Torus) else variant.walls)(scene)
-    return Spam(weight=variant.weight.of(variant.h), eos=scene.eos, law=scene.law, walls=walls, box=(scene.width, scene.L),
-                g=scene.g, gradients=variant.gradients, transport=variant.transport, static=static)
+    """The method of unit spacing and mass: a scene of L = rows spacings.
+
+    Raises TypeError: the weight is no class of weights.
+    """
+    weight, eos = variant.weight, scene.eos
+    if not (isinstance(weight, type) and hasattr(weight, "of")):
+        raise TypeError(f"the weight of a variant must be a class of weights, got {weight!r}: give the "
+                        "class, such as Lucy, and its range as h")
+    p = pressure(eos, 1.0, energy(eos, 1.0, scene.T_mean))
+    walls = around if isinstance(scene.sides, Torus) else variant.walls
+    return Spam(weight=weight.of(variant.h), eos=eos, law=scene.law, walls=walls(scene),
+                box=(scene.width, scene.L), g=scene.g, gradients=variant.gradients,
+                transport=variant.transport, static=LessStatic(variant.fraction, float(p)))
 
 
 @cache
 def step(scene: Any, variant: Variant) -> float:
-    """Time step, in units of time: its fraction of the limit of lattice waves at the plates' temperatures, for all seeds."""
-    return variant.step*step_limit(method(scene, variant), energy(scene.eos, 1.0, np.array([scene.T_cold, scene.T_hot])))
+    """Time step for all seeds: its fraction of the limit of lattice waves at the plates' temperatures."""
+    plates = np.array([scene.T_cold, scene.T_hot])
+    return variant.step*step_limit(method(scene, variant), energy(scene.eos, 1.0, plates))
 
 
 def start(scene: Any, seed: int = 1, begin: Callable | None = None, x: np.ndarray | None = None,

@@ -1,11 +1,12 @@
 """What a square lattice makes of plane waves of small amplitude in a gas at rest    [RR98, Sec. III]
 
-In the numbers of `continuum.exact.waves` a lattice of unit spacing has sums over its points r, w = c W(r) with c from
-sum_r w r = d, e = r/r:
+Numbers as in `continuum.exact.waves`. Sums are over points r of a lattice of unit spacing, w = c W(r) with
+c from sum_r w r = d, e = r/r, n = k/k, m across n:
 
-    s = sum_r w e.n sin k.r                                           [Eqs 34-36], n = k/k
-    nested: l, q, t with s^2 for k^2                                    [Eqs 37, 38]
-    pairwise: sum_r (2 w/r) (1 - cos k.r) times A + B (e.n)^2 for l, A + B (e.m)^2 for t, m across k, kappa for q   [Eq. 51]
+    s = sum_r w e.n sin k.r                                        [Eqs 34-36]
+    nested: l, q, t with s^2 for k^2                               [Eqs 37, 38]
+    pairwise: sum_r (2 w/r) (1 - cos k.r) times                    [Eq. 51]
+        A + B (e.n)^2 for l, A + B (e.m)^2 for t, kappa for q
 
 Nothing here knows the matrices that are under test.
 """
@@ -13,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from continuum.exact.waves import Gas, Waves, continuum, waves
+from continuum.exact.waves import LinearGas, Waves, continuum, waves
 from particles.integral.interpolants import W, reach
 
 
@@ -25,17 +26,20 @@ def neighbours(weight: Any, d: int) -> np.ndarray:
     return r[(size > 0) & (size < reach(weight))]
 
 
-def lattice_waves(gas: Gas, weight: Any, k: np.ndarray, nested: bool) -> Waves:
-    """At the wave vector k (2,) on the square lattice; along an axis or a diagonal, where the gradient is along k."""
+def lattice_waves(gas: LinearGas, weight: Any, k: np.ndarray, nested: bool) -> Waves:
+    """At the wave vector k (2,) along an axis or a diagonal, where the gradient is along k."""
     d = len(k)
     r = neighbours(weight, d)
     size, n = np.sqrt((r**2).sum(axis=1)), k/np.hypot(*k)
     w = W(weight, size)
     w *= d/(w@size)
-    along, across = r@n/size, r@np.array([-n[1], n[0]])/size
+    m = np.array([-n[1], n[0]])
+    along, across = r@n/size, r@m/size
     s = float((w*along)@np.sin(r@k))
     if nested:
         return continuum(gas, s, d)
     slow = 2*w/size*(1 - np.cos(r@k))
-    B, A = gas.eta*(1/2 + 1/d) - gas.zeta/2, (d + 2)/2*(gas.eta*(1 - 2/d) + gas.zeta)
-    return waves(s, float(slow@(B + A*along**2)), gas.kappa*float(slow.sum()), float(slow@(B + A*across**2)))
+    A = gas.eta*(1/2 + 1/d) - gas.zeta/2
+    B = (d + 2)/2*(gas.eta*(1 - 2/d) + gas.zeta)
+    l, t = slow@(A + B*along**2), slow@(A + B*across**2)
+    return waves(s, float(l), gas.kappa*float(slow.sum()), float(t))

@@ -8,8 +8,8 @@ import numpy as np
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, run
 
-NOISE = 1e-6            # of density, speed of sound and temperature, all about 1: what grows by 10 is still linear
-GROWN = 10.0            # times the noise of a tenth of the run, when what the start does not share has died out
+NOISE = 1e-6            # of quantities that are about 1: what grows by 10 is still linear
+GROWN = 10.0            # times the noise of a tenth of the run, when fast decays are over
 HALVINGS = 8            # of the factor 2 between a step that is stable and one that is not: 0.3 %
 WIDENINGS = 6           # factors of 2 on either side before the search gives up
 
@@ -32,7 +32,7 @@ def _(method: Unguarded, start: np.ndarray) -> float:
 
 
 class Noise(NamedTuple):
-    """Rms deviation of some rows of a state from their means, which at rest on a lattice is all that moves."""
+    """Rms deviation of some rows of a state from their means."""
     rows: tuple[int, ...]
 
     def __call__(self, sums: Any, state: np.ndarray) -> float:
@@ -42,8 +42,9 @@ class Noise(NamedTuple):
 def noise_grows(method: Unguarded, start: np.ndarray, rows: tuple[int, ...], steps: int, dt: float) -> bool:
     """Whether noise is GROWN times larger at the end than after a tenth of the steps, or the run diverges."""
     quantities: dict[str, Any] = {"noise": Noise(rows)}
+    plan = Plan(dt=dt, steps=steps, series=quantities, every=steps//10)
     try:
-        series = run(method, start, Plan(dt=dt, steps=steps, series=quantities, every=steps//10)).series["noise"]
+        series = run(method, start, plan).series["noise"]
     except Divergence:
         return True
     return series[-1] > GROWN*series[0]
@@ -56,7 +57,7 @@ class Found(NamedTuple):
 
 
 def bisected(grows: Callable[[float], bool], first: float) -> Found:
-    """The step at which `grows` turns true, sought from `first` on by factors of 2, then by halving on a logarithmic scale."""
+    """The step at which `grows` turns true: from `first` by factors of 2, then by halving its logarithm."""
     low, high = bracket(grows, first)
     for _ in range(HALVINGS if low < high else 0):
         middle = float(np.sqrt(low*high))

@@ -30,7 +30,7 @@ def start(vortex: Vortex, method: Layer) -> np.ndarray:
     return method.state(rho, vortex.velocity(method.x), rho)
 
 
-class End(NamedTuple):
+class Decayed(NamedTuple):
     """Velocities (n, 2) over the initial speed, ln(K at the start/K) over what friction alone makes of it.
 
     reached : share of the time; steps : of the whole run.
@@ -41,7 +41,7 @@ class End(NamedTuple):
     steps: int
 
 
-def decayed(vortex: Vortex, points: Points, edges: Edges, report: Report | None = None) -> End:
+def decayed(vortex: Vortex, points: Points, edges: Edges, report: Report | None = None) -> Decayed:
     """The vortex after `vortex.time`; where it diverges there are no velocities."""
     method = fluid(vortex, points, edges)
     first = start(vortex, method)
@@ -49,7 +49,7 @@ def decayed(vortex: Vortex, points: Points, edges: Edges, report: Report | None 
     try:
         last = run(method, first, Plan(dt=vortex.time/steps, steps=steps), report).state
     except Divergence as end:
-        return End(np.full((points.n, 2), np.nan), np.nan, end.step/steps, steps)
+        return Decayed(np.full((points.n, 2), np.nan), np.nan, end.step/steps, steps)
     before, after = method.fields(first), method.fields(last)
     decay = float(np.log(kinetic_energy(before)/kinetic_energy(after)))/(2*DECAYS)
-    return End(after.v/vortex.speed, decay, 1.0, steps)
+    return Decayed(after.v/vortex.speed, decay, 1.0, steps)

@@ -12,7 +12,7 @@ from typing import Any
 
 from continuum.fluid import ConstEta
 from particles.integral.closed_faces import Ingredients
-from particles.integral.dih import Nested, Pairwise
+from particles.integral.dih import NestedFluxes, Pairwise
 from particles.integral.edge_makers import MAKERS
 from particles.integral.exchange import PRINTED
 from particles.integral.rr98_moving_plain import MOTIONS
@@ -105,8 +105,8 @@ def plates(kinds: tuple[str, ...], weights: tuple[type, ...], steps: int) -> Ite
 
 def dimensions(steps: int, seeds: int) -> Iterator[Case]:
     """One to three dimensions, Eq. 37 as printed; starts on a line, of which six left the claim open."""
-    printed = Nested(differences=False)
-    for box, mode, transport in ((LINE, "pairwise", Pairwise()), (LINE, "nested", Nested()),
+    printed = NestedFluxes(differences=False)
+    for box, mode, transport in ((LINE, "pairwise", Pairwise()), (LINE, "nested", NestedFluxes()),
                                  (LINE, "printed", printed), (SQUARE, "printed", printed),
                                  (CUBE, "pairwise", Pairwise())):
         yield DihDrift(mode=mode, transport=transport, box=box, steps=steps)
@@ -141,7 +141,7 @@ def once() -> Iterator[Case]:
     """Equations evaluated once."""
     yield Signs()
     yield from (BracketForce(a=float(a), b=float(b)) for a, b in POWERS)
-    for (name, transport), reynolds in product((("nested", Nested()), ("pairwise", ALONG)), REYNOLDS):
+    for (name, transport), reynolds in product((("nested", NestedFluxes()), ("pairwise", ALONG)), REYNOLDS):
         yield Identity(name=name, transport=transport, reynolds=reynolds)
 
 

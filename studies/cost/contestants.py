@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
-from continuum.boussinesq import Box, Case, Edges, End, State
+from continuum.boussinesq import Box, BoxEdges, Case, End, State
 from continuum.boussinesq.mac import mac
 from continuum.boussinesq.projection import Projection
 from continuum.exact import plates
@@ -23,8 +23,8 @@ from studies.cost.problem import Problem, Residuals, Result, of_method, relative
 #: uncertainty of the Fourier sums by Mach number, from the study ordering: velocities of 33 against 29 points
 KNOWN = {0.05: 1.4e-6, 0.2: 2.9e-5}
 #: one of the four vortices between free-slip walls of equal temperature: the flow beyond is its mirror image
-FREE = Edges(flow=End.MIRROR, heat=End.WALL)
-CELL = Box(width=1.0, sides=Edges(flow=End.MIRROR, heat=End.MIRROR), plates=FREE)
+FREE = BoxEdges(flow=End.MIRROR, heat=End.WALL)
+CELL = Box(width=1.0, sides=BoxEdges(flow=End.MIRROR, heat=End.MIRROR), plates=FREE)
 CFL = 0.8           # of two-step advection with some viscosity: `projection.CFL_LIMIT`
 
 

@@ -71,7 +71,7 @@ class Slow(Gas):
 
 class Stopped(NamedTuple):
     """The end, what it is worth, seconds of the steps and of setting up."""
-    end: pypde.Solution
+    end: pypde.PdeSolution
     result: Result
     seconds: Measured
     setup: Measured

@@ -14,8 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from continuum.gas.fields import Fields as GridFields
-from continuum.gas.fields import Values, initial, interpolate, kinetic_energy
+from continuum.gas.fields import NodeFields, Values, initial, interpolate, kinetic_energy
 from continuum.gas.newton import steady as newton
 from continuum.gas.solve import run as run_grid
 from continuum.scene import RayleighBenard
@@ -23,9 +22,9 @@ from continuum.steady import Time
 from particles.fields import Fields
 from particles.plan import Plan
 from particles.run import run
+from studies.build.measure import Smoothing, smoothed_energy
 from studies.build.names import START_ENERGY
 from studies.build.setting import Ready
-from studies.build.smoothing import Smoothing, smoothed_energy
 from studies.build.unguarded import Unguarded
 from studies.cost.contestants import smoothed
 from studies.cost.problem import Go, Problem, Residuals, Result, holding, marching, relative, rms
@@ -47,7 +46,7 @@ class Reference(NamedTuple):
     """K of the steady state and its uncertainty, its fields on two grids, K at TIMES and its uncertainty."""
     ke: float
     known: float
-    fields: tuple[GridFields, ...]
+    fields: tuple[NodeFields, ...]
     history: np.ndarray
     history_known: float
 
@@ -141,7 +140,7 @@ class HeatedLayer(NamedTuple):
         return float(done.t[near + OFTEN - 1] + averaged)
 
 
-def compared(at: Fields, answer: tuple[GridFields, ...]) -> Residuals:
+def compared(at: Fields, answer: tuple[NodeFields, ...]) -> Residuals:
     """Velocity and temperature, the latter relative to the rms of what differs from 1."""
     x, y = answer[0].scene.L*aligned(at).T
     values = [np.array(interpolate(fields, x, y)) for fields in answer]

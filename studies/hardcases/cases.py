@@ -1,60 +1,142 @@
-"""Which cases, by size."""
-from collections.abc import Iterator
+"""Which methods meet which case, by size: a method is a line, a case is a line."""
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import product
+from typing import Any
 
 from continuum.fluid import DenseFluid, IdealGas
+from continuum.gas.loop import FluxForm
+from particles.run import STUDIES
 from particles.weights import Lucy, Monaghan
-from studies.hardcases import high_ra, steps
-from studies.hardcases.grids import OnGrid, OnTorus, Sheared, Steadiness
-from studies.hardcases.high_ra import FineGrid, HighRa
+from studies.build.fixed import SCHEMES
+from studies.build.grid import FORMS
+from studies.build.moving import MOTIONS
+from studies.build.rr98_moving import DRIFT_MOTIONS
+from studies.build.setting import positions
+from studies.build.spam import PRINTED, VARIANTS
+from studies.hardcases import high_ra, largest_step, tubes
+from studies.hardcases.extremes import LAYERS, ROWS, SITUATIONS, Inside, Open, Smooth, Tiled
+from studies.hardcases.fig10 import Square
+from studies.hardcases.high_ra import FineGrid, HighRa, Rippled, Steadiness
 from studies.hardcases.interface import Interface
-from studies.hardcases.methods import SHEARED, TAKES
-from studies.hardcases.points import Hard, Shear
-from studies.hardcases.scenes import BOXES, LAYERS, ROWS
-from studies.hardcases.sod import ShockTube
-from studies.hardcases.square import Square
-from studies.hardcases.steps import Limit
-from studies.hardcases.tubes import ETAS, FINE, METHODS, STEPS, MethodTube
+from studies.hardcases.largest_step import Limit
+from studies.hardcases.survival import GRID, SAMPLES, Hard, HardOnGrid, ShearWave, marched
+from studies.hardcases.tubes import ETAS, MethodTube
 from studies.kit.case import Case
 
-LENGTHS = (24.0, 36.0, 48.0, 72.0, 96.0, 144.0, 192.0)
-MORE_SEEDS = 16         # of the longest viscous tube, whose ringing is near to what is asked
-METHOD_LENGTHS = (24, 36, 48, 72, 96)
+# --- methods --------------------------------------------------------------------------------------
+
 RANDOM = ("fixed jittered", "moving")       # whose points lie as a seed says
+RANGES = (0.9, 1.2, 1.5, 2.0)
+LATTICE, JITTERED, MOVING = SCHEMES["fixed-lattice"], SCHEMES["fixed-jittered-delaunay"], MOTIONS["moving"]
+NESTED = SCHEMES["fixed-lattice-nested-only"]
+LITERAL, CONSTANT_MASS = (DRIFT_MOTIONS[f"moving-{name}"] for name in ("literal", "constant-mass"))
+TILED = Tiled(FORMS["flux-form"])
+
+#: tubes: name -> (what runs it, variant)
+IN_TUBES: dict[str, tuple[Any, Any]] = {
+    "grid": (tubes.grid, FluxForm()),
+    "fixed lattice": (tubes.points, LATTICE),
+    "fixed jittered": (tubes.points, JITTERED),
+    "moving": (tubes.points, MOVING),
+}
+#: the highest Ra, likewise
+IN_LAYERS: dict[str, tuple[Any, Any]] = {
+    "grid": (high_ra.on_grid, ROWS),
+    "fixed lattice": (high_ra.on_points, Rippled(LATTICE)),
+    "fixed jittered": (high_ra.on_points, Rippled(JITTERED)),
+    "moving": (high_ra.on_points, MOVING),
+}
+#: limits of the step, likewise; at h = 3 the lattice of drifting points itself gives way
+AT_REST: dict[str, tuple[Any, Any]] = {
+    "grid": (largest_step.on_grid, FluxForm()),
+    "spam Lucy": (largest_step.spam, PRINTED._replace(h=2.5)),
+    "spam Wendland": (largest_step.spam, VARIANTS["wendland-c2"]._replace(h=4.0)),
+    "spam direct": (largest_step.spam, VARIANTS["direct"]._replace(h=2.5)),
+    "fixed lattice": (largest_step.fixed, LATTICE),
+    "fixed nested": (largest_step.fixed, NESTED),
+    "fixed jittered": (largest_step.fixed, JITTERED),
+    "drift literal": (largest_step.drifting, LITERAL._replace(h=4.0)),
+    "drift constant mass": (largest_step.drifting, CONSTANT_MASS._replace(h=4.0)),
+    "moving": (largest_step.moving, MOVING),
+}
+
+#: the map: name -> what has ready(scene)
+SPAM = {"spam printed": Smooth(PRINTED), "spam Wendland": Smooth(VARIANTS["wendland-c2"])}
+MOVE = {"drift literal": LITERAL, "drift constant mass": CONSTANT_MASS, "moving": MOVING}
+#: those that are tried on all layers and on the vortex
+USUAL = {**SPAM, "fixed lattice": LATTICE, "fixed nested": NESTED, "fixed jittered": JITTERED, **MOVE}
+DISORDERED = {
+    "fixed lattice": LATTICE,
+    "fixed jittered": JITTERED,
+    "fixed random": SCHEMES["fixed-random-delaunay"],
+    "fixed jittered plain": SCHEMES["fixed-jittered-plain"],
+    "fixed jittered closed": SCHEMES["fixed-jittered-closed"],
+}
+NARROW = {**{f"spam h {h:g}": Smooth(PRINTED._replace(h=h)) for h in RANGES},
+          **{f"fixed h {h:g}": LATTICE._replace(h=h) for h in RANGES}}
+CORNERS = {
+    **SPAM,
+    "spam without walls": Smooth(PRINTED),
+    "spam odd images": Smooth(VARIANTS["walls-odd"]),
+    "spam images' own pressure": Smooth(VARIANTS["walls-own-pressure"]),
+    "spam direct": Smooth(VARIANTS["direct"]),
+}
+
+
+def positions_inside(width: float, height: float, size: float, seed: int) -> Any:
+    """Points that keep away from where plates would be, on a torus too."""
+    return positions(width, height, size, seed)
+
+
+SHEARED = {**SPAM, **{name: Inside(motion) for name, motion in MOVE.items()}, "fixed lattice": LATTICE,
+           "fixed jittered": JITTERED._replace(points=positions_inside)}
+#: which methods take which case; all others take the usual ones
+TAKES: dict[str, dict[str, Any]] = {
+    "disordered points": DISORDERED, "narrow weight": NARROW, "wall corner": CORNERS}
+
+WITHOUT_PLATES = ("zero viscosity", "vacuum")       # for smooth particles and the grid
+
+# --- cases ----------------------------------------------------------------------------------------
+
+LENGTHS = (24, 36, 48, 72, 96, 144, 192)
+MORE_SEEDS = 16         # of the longest viscous tube of smooth particles, whose ringing is near its limit
+METHOD_LENGTHS = (24, 36, 48, 72, 96)
 #: scale, k a, number of seeds
 RIPPLES = ((1.0, 0.25, 3), (1.0, 0.75, 3), (2.0, 0.25, 8), (4.0, 0.25, 7))
 #: viscosity and conductivity, spacing times speed of sound is 1.4: what the step is limited by
-FLUIDS = {"zero viscosity": (0.0, 0.0), "balanced": (0.3, 0.3), "Prandtl 0.01": (0.05, 5.0), "Prandtl 100": (5.0, 0.05)}
-SLOW = ("moving", "fluctuating", "spam direct")         # methods in two of them only
+FLUIDS = {"zero viscosity": (0.0, 0.0), "balanced": (0.3, 0.3), "Prandtl 0.01": (0.05, 5.0),
+          "Prandtl 100": (5.0, 0.05)}
+SLOW = ("moving", "spam direct")         # methods in two of them only
 GRIDS = (ROWS, 2*ROWS, 3*ROWS)
 #: where three left undecided what is a tenth off
 MORE_GRIDS = {"Ra 1e5": (4*ROWS, 6*ROWS), "high pressure": (4*ROWS, 6*ROWS, 8*ROWS)}
-#: Ra and rows on which it is asked whether the grid is steady
-HIGH, FINER = (1e5, 2e5, 3.5e5), (16, 24, 32, 48)
 
 
 def cases(size: str) -> Iterator[Case]:
     """All of them; `quick` is for trying the path out."""
     if size == "quick":
-        yield from shocks((12.0, 15.0, 18.0), ((0.5, 0.25, 1),), 1)
-        yield from method_tubes((12, 15, 18), 1)
-        yield from (Limit(method=name, scene="balanced", eta=0.3, k=0.3) for name in ("grid",
-                                                                                      "spam Lucy",
-"fixed lattice"))
-        scene, time = LAYERS["Prandtl 100"]
-        yield Hard(case="Prandtl 100", method="fixed lattice",
-                   scene=scene, time=time/10*scene.L/scene.free_fall)
+        yield from quick()
         return
     yield from squares()
-    yield from shocks(LENGTHS, RIPPLES, 3)
-    yield from (ShockTube(L=max(LENGTHS), eta=0.5, seed=seed) for seed in range(4, MORE_SEEDS + 1))
+    yield from smooth_tubes(LENGTHS, (0.0, 0.5), range(1, 4))
+    yield from smooth_tubes(LENGTHS[-1:], (0.5,), range(4, MORE_SEEDS + 1))
     yield from method_tubes(METHOD_LENGTHS, 3)
+    yield from interfaces(RIPPLES)
     yield from highest()
-    yield from limits()
+    yield from limits(AT_REST, FLUIDS)
     yield from hard()
-    yield from (Shear(method=method) for method in SHEARED)
-    yield Sheared()
-    yield from (Steadiness(ra=ra, rows=rows) for ra, rows in product(HIGH, FINER))
+    yield from shear_waves()
+    yield Steadiness(ra=3.5e5, rows=ROWS)
+
+
+def quick() -> Iterator[Case]:
+    """A few of each kind that takes seconds."""
+    yield from smooth_tubes((12, 15, 18), (0.0, 0.5), (1,))
+    yield from method_tubes((12, 15, 18), 1)
+    yield from interfaces(((0.5, 0.25, 1),))
+    yield from limits(("grid", "spam Lucy", "fixed lattice"), ("balanced",))
+    scene, time = SITUATIONS["Prandtl 100"]
+    yield Hard(case="Prandtl 100", method="fixed lattice", variant=LATTICE, scene=scene, time=time/10)
 
 
 def squares() -> Iterator[Case]:
@@ -64,47 +146,62 @@ def squares() -> Iterator[Case]:
     yield Square(weight=Monaghan, ra=1e4, t_end=40.0, mean_from=30.0)
 
 
-def shocks(lengths: tuple[float, ...], ripples: tuple[tuple[float, float, int], ...], seeds: int) -> Iterator[Case]:
-    """Tubes without and with viscosity, profiles of the longest; interfaces."""
-    for L, eta, seed in product(lengths, (0.0, 0.5), range(1, seeds + 1)):
-        yield ShockTube(L=L, eta=eta, seed=seed, keep=L == max(lengths) and seed == 1)
+def interfaces(ripples: Iterable[tuple[float, float, int]]) -> Iterator[Case]:
+    """All seeds of some sizes and steepnesses."""
     for scale, steep, last in ripples:
         yield from (Interface(scale=scale, steep=steep, seed=seed) for seed in range(1, last + 1))
 
 
-def method_tubes(lengths: tuple[int, ...], seeds: int) -> Iterator[Case]:
+def smooth_tubes(lengths: Sequence[int], etas: Sequence[float], seeds: Iterable[int]) -> Iterator[Case]:
+    """Smooth particles; profiles of the longest."""
+    for L, eta, seed in product(lengths, etas, seeds):
+        yield MethodTube(method="spam printed", tube=tubes.smooth, variant=Lucy, eta=eta, L=L, seed=seed,
+                         step=STUDIES, keep=L == max(lengths) and seed == 1)
+
+
+def method_tubes(lengths: Sequence[int], seeds: int) -> Iterator[Case]:
     """All methods, viscosities, lengths; several seeds of disordered points in the most viscous gas."""
-    for method, eta, step, L in product(METHODS, ETAS, STEPS, lengths):
-        many = method in RANDOM and eta == max(ETAS)
-        for seed in range(1, seeds + 1 if many else 2):
-            yield MethodTube(method=method, eta=eta, L=L, seed=seed, step=step, keep=L == max(lengths) and seed == 1)
-    for eta, L in product(ETAS[1:], lengths):
-        yield MethodTube(method=FINE, eta=eta, L=L, keep=L == max(lengths))
+    for (method, (tube, variant)), eta, step, L in product(IN_TUBES.items(), ETAS, tubes.STEPS, lengths):
+        last = seeds if method in RANDOM and eta == max(ETAS) else 1
+        for seed in range(1, last + 1):
+            yield MethodTube(method=method, tube=tube, variant=variant, eta=eta, L=L, seed=seed, step=step,
+                             keep=L == max(lengths) and seed == 1)
 
 
 def highest() -> Iterator[Case]:
     """Five starts each, three of the moving points, which cost most."""
-    yield from (FineGrid(rows=rows) for rows in (high_ra.FINE, high_ra.FINER))
-    for method, step in product(high_ra.METHODS, high_ra.STEPS):
-        yield from (HighRa(method=method, seed=seed, step=step) for seed in range(1, 4 if method == "moving" else 6))
+    yield FineGrid()
+    for (method, (attempt, variant)), step in product(IN_LAYERS.items(), high_ra.STEPS):
+        for seed in range(1, 4 if method == "moving" else 6):
+            yield HighRa(method=method, attempt=attempt, variant=variant, seed=seed, step=step)
 
 
-def limits() -> Iterator[Case]:
+def limits(methods: Any, scenes: Any) -> Iterator[Case]:
     """Of the time step."""
-    for method, (scene, (eta, k)) in product(steps.METHODS, FLUIDS.items()):
+    for method, scene in product(methods, scenes):
+        (trial, variant), (eta, k) = AT_REST[method], FLUIDS[scene]
         if method not in SLOW or scene in ("balanced", "Prandtl 100"):
-            yield Limit(method=method, scene=scene, eta=eta, k=k)
+            yield Limit(method=method, trial=trial, variant=variant, scene=scene, eta=eta, k=k)
 
 
 def hard() -> Iterator[Case]:
-    """Layers and boxes."""
-    for case, (scene, units) in LAYERS.items():
-        time = units*scene.L/scene.free_fall
-        for rows in (*GRIDS, *MORE_GRIDS.get(case, ())):
-            yield OnGrid(case=case, scene=scene, time=time, rows=rows)
-        yield from (Hard(case=case, method=method, scene=scene, time=time) for method in TAKES[case])
-    for case, (scene, time) in BOXES.items():
-        yield from (Hard(case=case, method=method, scene=scene, time=time) for method in TAKES[case])
-    corner, time = BOXES["wall corner"]
-    yield OnGrid(case="wall corner", scene=corner, time=time, rows=round(corner.L))
-    yield from (OnTorus(case=case) for case in ("zero viscosity", "vacuum"))
+    """Layers and boxes; a flow without plates has none for smooth particles and for the grid, either."""
+    for case, (scene, time) in LAYERS.items():
+        yield from (HardOnGrid(case=case, scene=scene, time=time, rows=rows)
+                    for rows in (*GRIDS, *MORE_GRIDS.get(case, ())))
+    for case, (scene, time) in SITUATIONS.items():
+        for method, variant in TAKES.get(case, USUAL).items():
+            without = isinstance(variant, Smooth) and case in WITHOUT_PLATES
+            place = Open(scene) if without or method == "spam without walls" else scene
+            yield Hard(case=case, method=method, variant=variant, scene=place, time=time)
+    for case in WITHOUT_PLATES:
+        scene, time = SITUATIONS[case]
+        yield Hard(case=case, method=GRID, variant=TILED, follow=marched, scene=scene, time=time)
+    scene, time = SITUATIONS["wall corner"]     # nothing moves but for round-off
+    yield HardOnGrid(case="wall corner", scene=scene, time=time, rows=round(scene.L), energy=0.0)
+
+
+def shear_waves() -> Iterator[Case]:
+    """All methods that take a torus."""
+    yield from (ShearWave(method=method, variant=variant) for method, variant in SHEARED.items())
+    yield ShearWave(method=GRID, variant=TILED, follow=marched, samples=SAMPLES)

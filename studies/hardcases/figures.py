@@ -1,35 +1,40 @@
-"""Figures of the map, of steps and of the highest Ra; those of shocks are in `shocks`."""
+"""Figures: the map, shocks, the highest Ra."""
 from typing import Any
 
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from studies.hardcases.cases import FLUIDS
+from studies.hardcases.cases import IN_LAYERS, IN_TUBES
 from studies.hardcases.derive import PART_OF_TIME, finished_grids
-from studies.hardcases.high_ra import METHODS, OFF, STEPS
-from studies.hardcases.scenes import BOXES, LAYERS, ROWS
-from studies.hardcases.shocks import shock_methods, shocks
-from studies.kit.figure import below, errorbar, figure, look
-from studies.kit.table import Tables
+from studies.hardcases.extremes import BOXES, LAYERS, ROWS
+from studies.hardcases.high_ra import OFF
+from studies.hardcases.interface import impulse
+from studies.hardcases.sod import exact
+from studies.hardcases.tubes import ETAS, STEPS
+from studies.kit.drawing import Drawing, Drawings
+from studies.kit.figure import figure, look
+from studies.kit.table import groups
+
+THIN_LINE: dict[str, Any] = {"color": "black", "linewidth": 0.7, "linestyle": "-", "marker": ""}
+DASHED: dict[str, Any] = {"color": "black", "linestyle": "--", "marker": ""}
+
+
+def dots(number: int, size: float = 2) -> dict[str, Any]:
+    """Marks without a line."""
+    return {**look(number), "linestyle": "none", "markersize": size}
+
 
 CASES = (*LAYERS, "highest Ra", *BOXES, "shear layer", "shock tube")
 #: letter, shade and hatch of an outcome; the darker, the worse
-LOOKS = {"right": ("R",
-                   "white",
-""), "wrong": ("W", "0.85", "/"), "leaks": ("L", "0.85", "\\"), "freezes": ("F", "0.7", "x"),
-         "diverges": ("D", "0.5", ""), "refused": ("-", "white", ""), "unjudged": ("?", "white", "")}
+LOOKS = {"right": ("R", "white", ""), "wrong": ("W", "0.85", "/"), "leaks": ("L", "0.85", "\\"),
+         "freezes": ("F", "0.7", "x"), "diverges": ("D", "0.5", ""), "refused": ("-", "white", ""),
+         "unjudged": ("?", "white", "")}
 WORDS = {"unjudged": "not judged, no two other grids came to their end, or noise"}
-CLEAR = 0.2             # between scenes of one method, in rows
-
-
-def figures(tables: Tables) -> dict[str, Figure]:
-    """What the tables allow."""
-    return {name: draw(*(tables[source] for source in sources)) for name, (draw, sources) in DRAWINGS.items()
-            if all(len(tables.get(source, ())) for source in sources)}
-
-
-# --- the map --------------------------------------------------------------------------------------
+KEY = ("  empty: not run\nnumber: flow over the start's, or over that of the grid of so many rows;\n"
+       "vacuum: K over exact; corner: speed over sound's; shear: growth over linear; tube: ringing; "
+       "highest Ra: the first that is wrong or ends")
 
 
 def chart(rows: pd.DataFrame, runs: pd.DataFrame) -> Figure:
@@ -43,14 +48,12 @@ def chart(rows: pd.DataFrame, runs: pd.DataFrame) -> Figure:
     page, axes = figure(width=1.5 + 0.95*len(cases), height=1.2 + 0.3*len(methods))
     for _, row in rows.iterrows():
         cell(axes, cases.index(row["case"]), methods.index(row["method"]), row)
-    axes.set(xlim=(-0.5, len(cases) - 0.5), ylim=(len(methods) - 0.5, -0.5), yticks=range(len(methods)), yticklabels=methods)
+    axes.set(xlim=(-0.5, len(cases) - 0.5), ylim=(len(methods) - 0.5, -0.5))
+    axes.set_yticks(range(len(methods)), labels=methods)
     axes.set_xticks(range(len(cases)), fontsize=8, labels=[heading(case, runs) for case in cases])
     axes.grid(False)
-    letters = [f"{LOOKS[name][0]}: {WORDS.get(name, name)}" for name in LOOKS if name in set(rows["outcome"])]
-    axes.set_xlabel("  ".join(letters) + "  empty: not run\nnumber: flow over the start's, or over that of "
-                                         "the grid of so many rows;\nvacuum: K over exact; corner: speed over "
-                                         "sound's; shear: growth over linear; tube: ringing; highest Ra: the "
-                                         "first that is wrong or ends")
+    there = [name for name in LOOKS if name in set(rows["outcome"])]
+    axes.set_xlabel("  ".join(f"{LOOKS[name][0]}: {WORDS.get(name, name)}" for name in there) + KEY)
     axes.set_title(f"Which method takes which hard case? Layers of {ROWS} rows")
     return page
 
@@ -58,8 +61,8 @@ def chart(rows: pd.DataFrame, runs: pd.DataFrame) -> Figure:
 def cell(axes: Any, x: int, y: int, row: pd.Series) -> None:
     """One method in one case."""
     letter, shade, hatch = LOOKS[row["outcome"]]
-    axes.add_patch(Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=shade, edgecolor="0.6",
-                              hatch=hatch, linewidth=0.5))
+    square = Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=shade, edgecolor="0.6", hatch=hatch, linewidth=0.5)
+    axes.add_patch(square)
     shown = pd.notna(row["measured"]) and row["number"] != PART_OF_TIME
     value = f" {row['measured']:.2g}" if shown else ""
     axes.text(x, y, f"{letter}{value}", ha="center", va="center", fontsize=8,
@@ -68,38 +71,88 @@ def cell(axes: Any, x: int, y: int, row: pd.Series) -> None:
 
 def heading(case: str, runs: pd.DataFrame) -> str:
     """A case, and rows of the grid that it is held against."""
-    grids = list(finished_grids(runs, case).index) if case in LAYERS else []
+    grids = finished_grids(runs, case).index if case in LAYERS else ()
     return case.replace(" ", "\n", 1) + (f"\ngrid of {max(grids)}" if len(grids) else "")
 
 
-def steadiness(rows: pd.DataFrame) -> Figure:
-    """Swing of K in the last two quarters, and the part of the time that was reached, over rows."""
-    page, (axes, end) = figure(1, 2)
-    for number, (ra, some) in enumerate(rows.groupby("ra")):
-        end.plot(some["rows"], some["reached"], label=f"Ra {ra:g}", **look(number))
-        some = some.dropna(subset=["swing"])
-        mean, half = (some["swing"] + some["before"])/2, (some["swing"] - some["before"]).abs()/2
-        errorbar(axes, some["rows"].tolist(), mean.tolist(), half.tolist(), number=number, label=f"Ra {ra:g}")
-    axes.axhline(0.01, color="black", linewidth=0.8)
-    axes.set(xlabel="rows of the grid", ylabel="(largest - smallest K)/mean K", yscale="log",
-             title="bars: from the last quarter to the one before")
-    end.set(xlabel="rows of the grid", ylabel="part of the time that was reached", ylim=(0, 1.05))
-    below(end, ncols=3)
+def shocks(ripples: pd.DataFrame) -> Figure:
+    """Height and ripple of a shocked interface in time: means and all seeds by size and steepness."""
+    page, both = figure(1, 2, width=4.4, height=3.2)
+    for number, ((steep, scale), rows) in enumerate(groups(ripples, ["steep", "scale"])):
+        theory, style = impulse(scale, steep), {**look(number), "marker": ""}
+        start = rows.groupby("time")["height"].mean().iloc[0]
+        heights = (rows["height"] - start)/(theory.kick*theory.back)
+        for axes, y in zip(both, (heights, rows["amplitude"]/theory.amplitude), strict=True):
+            band = y.groupby(rows["time"]/theory.meets).agg(["mean", "min", "max"])
+            axes.plot(band.index, band["mean"], **style, label=rf"$ka$ = {steep:g}, {scale:g} x printed size")
+            axes.fill_between(band.index, band["min"], band["max"], color=style["color"], alpha=0.2)
+    expected(both[0], both[1], ripples["scale"].max(), ripples["steep"].max())
+    both[0].set(ylabel="height of the interface / kick x time")
+    both[1].set(ylabel="amplitude / that behind the shock", ylim=(0.4, 2.9))
+    for axes, place in zip(both, ("upper right", "upper left"), strict=True):
+        axes.set_xlabel("time / time of the shock's arrival")
+        axes.legend(loc=place)
+    page.suptitle("A shock of Mach 1.5 passes an interface of density ratio 4: smooth particles as printed,\n"
+                  "without artificial viscosity; bands: all seeds", fontsize=10)
     return page
 
 
-# --- the highest Ra, steps ------------------------------------------------------------------------
+def expected(height: Any, amplitude: Any, scale: float, steep: float) -> None:
+    """The exact height of the interface, and impulsive growth of its ripple."""
+    theory = impulse(scale, steep)
+    times = np.array([0.0, theory.meets, theory.back])
+    heights = theory.kick*np.maximum(times - theory.meets, 0) - theory.fall*times
+    height.plot(times/theory.meets, heights/(theory.kick*theory.back), **DASHED, label="exact")
+    growth = 1 + theory.growth*(times[1:] - theory.meets)/theory.amplitude
+    amplitude.plot(times[1:]/theory.meets, growth, **DASHED, label="impulsive theory")
+
+
+ALL = (*IN_TUBES, "spam printed")
+SHIFT = 0.5             # between methods' densities, upwards
+
+
+def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame) -> Figure:
+    """Densities, one method above the other, without viscosity, with little, with that of smooth particles.
+
+    Of the shorter step: what ends with it is not the step's fault.
+    """
+    page, all_axes = figure(1, len(ETAS), width=4.0, height=4.4)
+    rows, profiles = (frame[frame["step"] != max(STEPS)] for frame in (rows, profiles))
+    for axes, eta in zip(all_axes, ETAS, strict=True):
+        densities(axes, profiles[np.isclose(profiles["eta"], eta)], rows[np.isclose(rows["eta"], eta)])
+        axes.set(title=rf"$\eta = k = {eta:g}$", xlabel="distance from the diaphragm / $L$",
+                 xlim=(-0.8, 1.0), ylim=(-0.1, SHIFT*(len(ALL) - 1) + 1.15), yticks=[])
+    all_axes[0].set_ylabel("density, methods one above the other")
+    page.suptitle("Sod's shock tube at $t = 0.4 L$ without artificial viscosity; thin: exact, frictionless",
+                  fontsize=10)
+    return page
+
+
+def densities(axes: Any, profiles: pd.DataFrame, rows: pd.DataFrame) -> None:
+    """Each method's own, or when its longest run ended."""
+    for number, method in enumerate(ALL):
+        profile, up = profiles[profiles["method"] == method], SHIFT*number
+        runs = rows[(rows["method"] == method) & (rows["seed"] == 1)]
+        if len(profile):
+            x, L = profile["x"].to_numpy(), profile["L"].iloc[0]
+            axes.plot(x, up + exact(L, (x + 1)*L)[0], **THIN_LINE)
+            axes.plot(x, up + profile["rho"], **dots(number))
+            axes.text(0.98, up + 0.02, f"{method}, $L$ = {L:g}", ha="right", fontsize=8)
+        elif len(runs):
+            reached = runs.sort_values("L")["reached"].iloc[-1]
+            words = f"{method}: ended at {reached:.2g} of the time"
+            axes.text(0.98, up + 0.2, words, ha="right", fontsize=8)
 
 
 def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
     """K over the fine grid's against Ra, and the part of the time that was reached."""
     page, (above, under) = figure(2, 1, width=6.4, height=2.9, sharex=True)
-    for number, method in enumerate(METHODS):
-        some = rows[(rows["method"] == method) & (rows["step"] == STEPS[0])].sort_values("ra")
+    rows = rows[rows["step"] == 1].sort_values("ra")
+    for number, method in enumerate(IN_LAYERS):
+        some = rows[rows["method"] == method]
         ra = 10**(0.01*number)*some["ra"]       # that marks on one another are seen
-        style = {**look(number), "linestyle": "none", "markersize": 4}
-        above.plot(ra, some["over"], **style, label=method)
-        under.plot(ra, some["reached"], **style, label=method)
+        above.plot(ra, some["over"], **dots(number, 4), label=method)
+        under.plot(ra, some["reached"], **dots(number, 4), label=method)
     for level in (OFF, 1/OFF):
         above.axhline(level, color="grey", linewidth=0.8)
     for axes in (above, under):
@@ -112,36 +165,8 @@ def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
     return page
 
 
-def limits(rows: pd.DataFrame) -> Figure:
-    """Measured limits of the step over those of formulas, all methods."""
-    page, (own, alone, exact) = figure(1, 3, width=3.9, height=4.4, sharey=True)
-    methods = list(dict.fromkeys(rows["method"]))
-    group = rows.groupby("method")["scene"]
-    place = group.cumcount() - (group.transform("size") - 1)/2
-    rows = rows.assign(at=rows["method"].map(methods.index) + CLEAR*place)
-    for number, scene in enumerate(FLUIDS):
-        some = rows[rows["scene"] == scene]
-        for axes, column in ((own, "predicted"), (alone, "shorter"), (exact, "exact")):
-            axes.errorbar(some["measured"]/some[column], some["at"], xerr=some["measured_err"]/some[column], label=scene,
-                          **{**look(number), "linestyle": "none"})
-    own.set(yticks=range(len(methods)), yticklabels=methods, xscale="log",
-                             xlabel="measured / the method's own formula")
-    own.set_xticks([1, 1.4, 2, 3, 5], labels=["1", "1.4", "2", "3", "5"])
-    own.set_xticks([], minor=True)
-    alone.set_xlabel("measured / for sound or diffusion alone")
-    exact.set_xlabel("measured / by eigenvalues")
-    for axes in (own, alone, exact):
-        axes.axvline(1, color="black", linewidth=0.8)
-        axes.axvspan(0.9, 1.1, color="0.9", zorder=0)
-    own.invert_yaxis()
-    page.legend(*own.get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    page.suptitle("At which step does noise begin to grow? Measured over predicted\nbars: half of the last "
-                  "interval of the search, and growth that is too slow to be seen; grey: 10 %", fontsize=10)
-    return page
-
-
-DRAWINGS: dict[str, tuple[Any, tuple[str, ...]]] = {
-    "map": (chart, ("map", "hard_runs")), "steadiness": (steadiness, ("steadiness",)),
-    "high_ra": (highest, ("high_ra_trials", "high_ra_summary")), "limits": (limits, ("limits",)),
-    "shocks": (shocks, ("tube_profiles", "ripples")),
-    "shock_methods": (shock_methods, ("method_tubes", "method_tube_profiles", "tubes", "tube_profiles"))}
+figures = Drawings(
+    Drawing("map", ("map", "hard_runs"), chart),
+    Drawing("high_ra", ("high_ra_trials", "high_ra_summary"), highest),
+    Drawing("shocks", ("ripples",), shocks),
+    Drawing("shock_methods", ("method_tubes", "method_tube_profiles"), shock_methods))

@@ -12,7 +12,7 @@ This is no limit of stability: no formula is known that says where a run ends.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, partial
+from functools import cache
 from math import ceil, log
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -20,35 +20,36 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.gas.fields import block, initial
-from continuum.gas.solve import SAFETY, DivergedError, limits
-from continuum.gas.solve import run as on_grid
-from continuum.steady import Time
-from particles.limits import limit_of
+from continuum.gas.solve import limits
+from continuum.steady import SAFETY
 from particles.run import Divergence, Plan, run
-from studies.build import fixed as fixed_points
-from studies.build import moving, ready
+from studies.build.fixed import OF_LIMIT, Scheme
 from studies.build.names import START_ENERGY
+from studies.build.setting import Ready, stepped
 from studies.build.unguarded import bisected
-from studies.hardcases.scenes import ROWS, layer
+from studies.hardcases.extremes import ROWS, falls, layer
+from studies.hardcases.survival import between_plates
 from studies.kit.case import Case, Outcome, Report
 
 OFF = 1.25              # factor in K
 STEPS = (1.0, 0.25)     # over those of other studies
-FINE, FINER = 32, 48    # rows of grids that tell what K should be: the second, from which the first tells how far off it may be
+FINE = 48               # rows of the grid that tells what K should be
 RUNGS = tuple(float(f"{10.0**(n/2):.9g}") for n in range(8, 17))        # 1e4 .. 1e8
 KNOWN = 1e6             # Ra up to which K is held against the fine grid
 TIME = 50.0             # free-fall times, as in the map
+SETTLED = 150.0         # free-fall times after which a steady flow has long settled
 SAMPLES, LATE = 60, 40  # of a run; from where on K is averaged
 NOISE = 1e-6            # of the density at the start, by which seeds differ where points do not
 
 
-# --- one run --------------------------------------------------------------------------------------
-
-
 class Attempt(NamedTuple):
-    """K of the last third, not a number if the run ended before, and the part of the time that it reached."""
+    """K of the last third, not a number if the run ended before, and the part of the time that it reached.
+
+    cell_number : of a grid's fastest flow at the end, in cells of 16 rows.
+    """
     k: float
     reached: float
+    cell_number: float = np.nan
 
 
 def ripple(seed: int, *shape: int) -> np.ndarray:
@@ -56,122 +57,86 @@ def ripple(seed: int, *shape: int) -> np.ndarray:
     return 1 + NOISE*np.random.default_rng(seed).standard_normal(shape)
 
 
-class Energies:
-    """K in time, kept also when the run ends."""
+class Rippled(NamedTuple):
+    """Fixed points whose densities differ by NOISE."""
+    scheme: Scheme
 
-    def __init__(self, kinetic: Callable):
-        self.kinetic = kinetic
-        self.k: list[float] = []
+    def ready(self, scene: Any, seed: int) -> Ready:
+        """In a scene."""
+        method, start, _ = self.scheme.ready(scene, seed)
+        return stepped(method, start*ripple(seed, len(method.x)), OF_LIMIT)
 
-    def __call__(self, sums: Any, state: np.ndarray) -> float:
-        self.k.append(self.kinetic(sums, state))
-        return self.k[-1]
+    @property
+    def series(self) -> dict[str, Any]:
+        """Quantities of a run."""
+        return self.scheme.series
 
 
-def points(ra: float, seed: int, step: float, build: Callable) -> Attempt:
-    """Fixed or moving points."""
+def on_points(variant: Any, ra: float, seed: int, step: float) -> Attempt:
+    """Fixed or moving points. variant : has ready(scene, seed) and series."""
     scene = layer(ra)
-    method, start, dt, kinetic = build(scene, seed)
-    time, energies = TIME*scene.L/scene.free_fall, Energies(kinetic)
+    method, start, dt = variant.ready(scene, seed)
+    time = falls(scene, TIME)
     every = ceil(time/(step*dt)/SAMPLES)
     steps = every*SAMPLES
+    plan = Plan(dt=time/steps, steps=steps, series={"k": variant.series["ke"]}, every=every)
     try:
-        run(method, start, Plan(dt=time/steps, steps=steps, series={"k": energies}, every=every))
+        done = run(method, start, plan)
     except Divergence as error:
         return Attempt(np.nan, error.step/steps)
-    return Attempt(float(np.mean(energies.k[LATE:])), 1.0)
+    return Attempt(float(np.mean(done.series["k"][LATE:])), 1.0)
 
 
-def fixed(scheme: str) -> Callable:
-    """Fixed points between plates, by the name of a scheme."""
-    def build(scene: Any, seed: int) -> tuple:
-        method, start, _ = ready(scene, scheme, seed)
-        start *= ripple(seed, len(method.x))
-        return method, start, fixed_points.OF_LIMIT*limit_of(method, start), fixed_points.kinetic
-    return build
-
-
-def shifted(scene: Any, seed: int) -> tuple:
-    """Moving points with closed faces."""
-    return *ready(scene, "moving", seed), moving.kinetic
-
-
-def gridded(ra: float, seed: int, step: float) -> Attempt:
+def on_grid(rows: int, ra: float, seed: int, step: float) -> Attempt:
     """The compressible grid."""
-    return grid_run(ra, seed, step, ROWS)[0]
-
-
-def grid_run(ra: float, seed: int, step: float, rows: int) -> tuple[Attempt, float]:
-    """A run and the cell number of its fastest flow at the end, in cells of 16 rows."""
-    scene, reached = layer(ra), [0.0]
-    start, until = initial(scene, rows, START_ENERGY), Time(TIME*scene.L/scene.free_fall, SAMPLES)
+    scene = layer(ra)
+    start = initial(scene, rows, START_ENERGY)
     dt = step*SAFETY*limits(scene, block(start)).both
     start.cells[:] *= ripple(seed, *start.cells.shape)
-    try:
-        done = on_grid(scene, rows, until=until, start=start, dt=dt, progress=reached.append)
-    except DivergedError:
-        return Attempt(np.nan, reached[-1]), np.nan
+    done, reached = between_plates(start, falls(scene, TIME), SAMPLES, no_report, dt)
+    if done is None:
+        return Attempt(np.nan, reached)
     fastest = float(np.hypot(done.fields.at.vx, done.fields.at.vy).max())
-    return Attempt(float(done.series.ke[LATE + 1:].mean()), 1.0), fastest*scene.L/ROWS/scene.nu
+    return Attempt(float(done.series.ke[LATE + 1:].mean()), 1.0, fastest*scene.L/ROWS/scene.nu)
 
 
-#: of Ra, seed, and the step over that of other studies
-METHODS: dict[str, Callable[[float, int, float], Attempt]] = {
-    "grid": gridded,
-    "fixed lattice": partial(points, build=fixed("fixed-lattice")),
-    "fixed jittered": partial(points, build=fixed("fixed-jittered-delaunay")),
-    "moving": partial(points, build=shifted)}
-
-
-# --- what K should be -----------------------------------------------------------------------------
+def no_report(done: float) -> None:
+    """A search does not know how far it has come."""
 
 
 @cache
-def reference(rows: int) -> list[dict[str, float]]:
-    """Rows of the table: the fine grid on the rungs up to KNOWN."""
-    runs = [(ra, *grid_run(ra, 1, 1.0, rows)) for ra in RUNGS if ra <= KNOWN]
-    return [{"ra": ra, "rows": rows, "k": trial.k, "cell_number": cell_number, "reached": trial.reached}
-            for ra, trial, cell_number in runs]
+def reference() -> dict[float, Attempt]:
+    """The fine grid on the rungs up to KNOWN."""
+    return {ra: on_grid(FINE, ra, 1, 1.0) for ra in RUNGS if ra <= KNOWN}
 
 
 def should_be(ra: float) -> float:
     """K of the fine grid, linear between rungs in Ra^(-1/2)    [KHP95, Sec. VI]; nothing beyond KNOWN."""
-    x, k = np.array([(row["ra"]**-0.5, row["k"]) for row in reference(FINER)])[::-1].T
+    x, k = np.array([(rung**-0.5, run.k) for rung, run in reference().items()])[::-1].T
     return float(np.interp(ra**-0.5, x, k)) if ra <= KNOWN*(1 + 1e-9) else np.nan
 
 
 @dataclass(frozen=True, kw_only=True)
 class FineGrid(Case):
     """What K should be."""
-    rows: int
-
-    @property
-    def cost(self) -> float:
-        return 1.5e-4*self.rows**3
-
-    @property
-    def label(self) -> str:
-        return f"high Ra, grid of {self.rows} rows"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        return Outcome({"high_ra_grid": reference(self.rows)})
-
-
-# --- the search -----------------------------------------------------------------------------------
+        rows = [{"ra": ra, "rows": FINE, **run._asdict()} for ra, run in reference().items()]
+        return Outcome({"high_ra_grid": rows})
 
 
 class Search:
-    """Trials of one method, each run once."""
+    """Trials (Ra -> run) of attempt(ra), each run once."""
 
-    def __init__(self, method: str, seed: int, step: float):
-        self.method, self.seed, self.step = method, seed, step
+    def __init__(self, attempt: Callable[[float], Attempt]):
+        self.attempt = attempt
         self.trials: dict[float, Attempt] = {}
 
     def at(self, ra: float) -> Attempt:
         """The run at a Rayleigh number; nine digits count, so that rungs are met again."""
         ra = float(f"{ra:.9g}")
         if ra not in self.trials:
-            self.trials[ra] = METHODS[self.method](ra, self.seed, self.step)
+            self.trials[ra] = self.attempt(ra)
         return self.trials[ra]
 
     def ends(self, ra: float) -> bool:
@@ -182,29 +147,33 @@ class Search:
         """Ends, or K is off."""
         return self.ends(ra) or abs(log(self.at(ra).k/should_be(ra))) > log(OFF)
 
-    def seek(self, bad: Callable[[float], bool], rungs: tuple[float, ...]) -> None:
-        """Try up to the first rung at which a run is bad, and halve the interval."""
-        for ra in rungs:
-            if bad(ra):
-                bisected(lambda cell: bad((ROWS*cell)**2), ra**0.5/ROWS)
-                return
+    def seek(self, bad: Callable[[float], bool], most: float) -> None:
+        """Try rungs up to the first at which a run is bad, and halve the interval."""
+        ra = next((ra for ra in RUNGS if ra <= most and bad(ra)), None)
+        if ra is not None:
+            bisected(lambda cell: bad((ROWS*cell)**2), ra**0.5/ROWS)
 
     def limit(self, bad: Callable[[float], bool], most: float) -> dict[str, Any]:
         """The first bad trial up to `most`, and the last before it: a search may pass over an island."""
         tried = sorted(ra for ra in self.trials if ra <= most)
         judged = [bad(ra) for ra in tried]
         if not any(judged):
-            return {"ra": np.nan, "ra_err": np.nan, "tried": tried[-1], "again": 0, "outcome": "none"}
+            return {"ra": np.nan, "ra_err": np.nan, "tried": tried[-1], "outcome": "none"}
         first = judged.index(True)
         low, high = tried[max(first - 1, 0)], tried[first]
-        return {"ra": (low*high)**0.5, "ra_err": (high - low)/2, "tried": tried[-1], "again": judged[first:].count(False),
+        return {"ra": (low*high)**0.5, "ra_err": (high - low)/2, "tried": tried[-1],
                 "outcome": "ends" if self.ends(high) else "wrong but stable"}
 
 
 @dataclass(frozen=True, kw_only=True)
 class HighRa(Case):
-    """One method's limits from one start. step : over that of other studies."""
+    """One method's limits from one start.
+
+    attempt : takes variant, Ra, seed, step. step : over that of other studies.
+    """
     method: str
+    attempt: Callable[..., Attempt]
+    variant: Any
     seed: int
     step: float = STEPS[0]
 
@@ -217,12 +186,34 @@ class HighRa(Case):
         return f"high Ra, {self.method}, seed {self.seed}, step {self.step:g}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        search = Search(self.method, self.seed, self.step)
+        search = Search(lambda ra: self.attempt(self.variant, ra, self.seed, self.step))
         kinds = {"wrong": (search.wrong, KNOWN), "ends": (search.ends, RUNGS[-1])}
         for bad, most in kinds.values():
-            search.seek(bad, tuple(ra for ra in RUNGS if ra <= most))
+            search.seek(bad, most)
         key = {"method": self.method, "step": self.step, "seed": self.seed}
-        rows = [{**key, "kind": kind, **search.limit(bad, most)} for kind, (bad, most) in kinds.items()]
-        trials = [{**key, "ra": ra, "k": trial.k, "over": trial.k/should_be(ra), "reached": trial.reached}
-                  for ra, trial in search.trials.items()]
+        rows = [{**key, "kind": kind, **search.limit(*question)} for kind, question in kinds.items()]
+        trials = [{**key, "ra": ra, "k": run.k, "over": run.k/should_be(ra), "reached": run.reached}
+                  for ra, run in search.trials.items()]
         return Outcome({"high_ra": rows, "high_ra_trials": trials})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Steadiness(Case):
+    """Does the grid at high Ra come to rest?    [KHP95, Sec. VI]"""
+    ra: float
+    rows: int
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        scene = layer(self.ra)
+        start = initial(scene, self.rows, START_ENERGY)
+        done, reached = between_plates(start, falls(scene, SETTLED), 4*SAMPLES, report)
+        row = {"ra": self.ra, "rows": self.rows, "reached": reached}
+        if done is not None:
+            before, late = np.split(done.series.ke[-2*SAMPLES:], 2)
+            row |= {"swing": swing(late), "before": swing(before)}
+        return Outcome({"steadiness": [row]})
+
+
+def swing(k: np.ndarray) -> float:
+    """Largest less smallest over the mean."""
+    return float(np.ptp(k)/k.mean())

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.exact.riemann import Gas, middle, shock_speed
+from continuum.exact.riemann import GasState, middle, shock_speed
 from continuum.fluid import IdealGas
 from particles.limits import step_limit
 from particles.run import STUDIES, Divergence, Plan, run
@@ -21,10 +21,11 @@ from particles.walls.mirror import Copied, Mirror, Odd
 from particles.walls.periodic import periodic
 from particles.weights import Lucy
 from studies.build.periodic_box import FRICTIONLESS, at_rest
+from studies.hardcases.tubes import jittered, within
 from studies.kit.case import Case, Outcome, Report
 
 GAMMA, MACH = 2.0, 1.5
-LIGHT, HEAVY = Gas(0.4, 0.0, 0.4), Gas(1.6, 0.0, 0.4)       # mean density of about 1, light gas at T = 1
+LIGHT, HEAVY = GasState(0.4, 0.0, 0.4), GasState(1.6, 0.0, 0.4)       # mean density of about 1, light gas at T = 1
 WIDTH, HEIGHT, BELOW = 30.0, 100.0, 60.0                    # of them the lowest 60 are light
 JITTER = 0.2        # of rows and columns
 STRIPS = 16         # in which the interface is looked for
@@ -51,9 +52,9 @@ def impulse(scale: float, steep: float) -> Impulse:
     """
     c = sqrt(GAMMA*LIGHT.P/LIGHT.rho)
     fall, W = 2*c/(GAMMA + 1)*(MACH - 1/MACH), MACH*c
-    behind = middle(Gas(LIGHT.rho, fall, LIGHT.P), Gas(LIGHT.rho, -fall, LIGHT.P), GAMMA)      # a gas against its mirror image
-    shocked = Gas(behind.right, 0.0, behind.P)
-    after = middle(shocked, Gas(HEAVY.rho, -fall, HEAVY.P), GAMMA)
+    behind = middle(LIGHT._replace(v=fall), LIGHT._replace(v=-fall), GAMMA)     # a gas against its image
+    shocked = GasState(behind.right, 0.0, behind.P)
+    after = middle(shocked, HEAVY._replace(v=-fall), GAMMA)
     kick, meets = after.v + fall, BELOW*scale/W
     height = BELOW*scale - fall*meets
     k = 2*pi/(WIDTH*scale)
@@ -65,20 +66,18 @@ def impulse(scale: float, steep: float) -> Impulse:
 def gases(scale: float, steep: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
     """State (5, n) at the start, and which particles are light: rows cut at the rippled interface."""
     rng, width, bottom = np.random.default_rng(seed), WIDTH*scale, -HEIGHT*scale/2
-    k, parts, light = 2*pi/width, [], []
+    k, states, light = 2*pi/width, [], []
     for gas in (LIGHT, HEAVY):
         columns = round(width*sqrt(gas.rho))
         dx = width/columns
         dy = 1/(gas.rho*dx)
-        rows = round(HEIGHT*scale/dy)
-        x, y = np.meshgrid((np.arange(columns) + 0.5)*dx - width/2, (np.arange(rows) + 0.5)*dy + bottom)
-        x, y = (q.ravel() + JITTER*d*rng.uniform(-1, 1, q.size) for q, d in ((x, dx), (y, dy)))
+        counts = columns, round(HEIGHT*scale/dy)
+        x, y = jittered(counts, (dx, dy), (-width/2, bottom), JITTER, rng)
         below = y < bottom + BELOW*scale + steep/k*np.cos(k*x)
         own = below == (gas is LIGHT)
-        at = np.stack([(x[own] + width/2) % width - width/2, y[own]], axis=1)
-        parts.append(at_rest(at, gas.P/gas.rho))
+        states.append(at_rest(np.stack([within(x, width), y], axis=1)[own], gas.P/gas.rho))
         light.append(np.full(own.sum(), gas is LIGHT))
-    state = np.concatenate(parts, axis=1)
+    state = np.concatenate(states, axis=1)
     state[3] = -impulse(scale, steep).fall
     return state, np.concatenate(light)
 
@@ -87,17 +86,17 @@ def ripple(x: np.ndarray, y: np.ndarray, light: np.ndarray, width: float) -> tup
     """Mean height and amplitude of the interface, from the best division of each strip."""
     strip = np.floor((x/width + 0.5)*STRIPS).astype(int) % STRIPS
     at = np.array([divide(y[strip == i], light[strip == i]) for i in range(STRIPS)])
-    middle_of_strips = (np.arange(STRIPS) + 0.5)/STRIPS - 0.5
-    return float(at.mean()), float(2*np.mean(at*np.cos(2*pi*middle_of_strips)))
+    middles = (np.arange(STRIPS) + 0.5)/STRIPS - 0.5
+    return float(at.mean()), float(2*np.mean(at*np.cos(2*pi*middles)))
 
 
 def divide(y: np.ndarray, light: np.ndarray) -> float:
     """The height with the fewest particles on the wrong side; of several their mean."""
     order = np.argsort(y)
     heights, below = y[order], light[order]
-    heavy_below = np.concatenate([[0], np.cumsum(~below)])
-    light_above = light.sum() - np.concatenate([[0], np.cumsum(below)])
-    wrong = (heavy_below + light_above)[1:-1]
+    heavy_below = np.cumsum(~below)
+    light_above = light.sum() - np.cumsum(below)
+    wrong = (heavy_below + light_above)[:-1]
     best = np.flatnonzero(wrong == wrong.min())
     return float(np.mean((heights[best] + heights[best + 1])/2))
 
@@ -118,21 +117,16 @@ class Interface(Case):
         """Until the reflected shock is at the mirror, when nothing can be back at the interface."""
         return impulse(self.scale, self.steep).back
 
-    @property
-    def point(self) -> dict[str, Any]:
-        """Key columns."""
-        return {"scale": self.scale, "steep": self.steep, "seed": self.seed}
-
     def run(self, report: Report, folder: Path) -> Outcome:
         state, light = gases(self.scale, self.steep, self.seed)
         method = self.method
-        dt = STUDIES*step_limit(method, state[4], 4.0)
-        steps = round(self.time/SAMPLES/dt) + 1
+        steps = round(self.time/SAMPLES/(STUDIES*step_limit(method, state[4], 4.0))) + 1
         plan = Plan(dt=self.time/SAMPLES/steps, steps=steps)
         rows: list[dict[str, Any]] = []
         for number in range(1, SAMPLES + 1):
             report(number/SAMPLES)
-            row = {**self.point, "time": number*plan.steps*plan.dt}
+            row = {"scale": self.scale, "steep": self.steep, "seed": self.seed,
+                   "time": number*plan.steps*plan.dt}
             try:
                 state = run(method, state, plan).by_id()
             except Divergence:

@@ -1,16 +1,5 @@
-"""What all studies share: cases on workers, tables, claims, figures.
+"""What all studies share: cases that run on workers, tables, claims, figures; no physics.
 
-A study is one file:
-
-    @dataclass(frozen=True, kw_only=True)
-    class Run(Case):
-        ra: float
-        def run(self, report, folder):
-            return Outcome({"energy": [{"ra": self.ra, "ke": ..., "ke_err": ...}]})
-
-    STUDY = Study(name="rb", cases=cases, figures=figures, claims=CLAIMS,
-                  tables=[Table("energy", key=["ra"], columns=["ra", "ke", "ke_err"])])
-
-    if __name__ == "__main__":
-        main(STUDY)
+A study is a `Study` (study.py) of `Part`s: cases (case.py) whose rows fill tables (table.py), which figures
+(drawing.py) and claims (claim.py, ask.py) read.
 """

@@ -15,6 +15,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from studies.kit import fits, stats
 from studies.kit.formula import NoRows, Rows, WrongQuestion, error_of, numbers, rows
@@ -33,9 +34,9 @@ from studies.kit.value import (
 )
 
 __all__ = [
-    "NoRows", "Value", "WrongQuestion", "check", "farthest", "farthest_of", "farthest_per", "first",
-    "intercept", "largest", "largest_of", "largest_per", "last", "least", "limit", "log", "mean",
-    "nearest_power", "of", "one", "over_seeds", "power", "rows", "share", "slope", "span", "spread", "total",
+    "NoRows", "Value", "WrongQuestion", "check", "curve", "farthest", "farthest_of", "farthest_per", "first",
+    "largest", "largest_of", "largest_per", "last", "least", "log", "mean", "nearest_power", "of", "one",
+    "over_seeds", "power", "question", "rows", "share", "spread", "total",
 ]
 
 Pick = Callable[[np.ndarray, np.ndarray], Measured]
@@ -49,9 +50,7 @@ def question(pick: Pick) -> Callable[..., Value]:
         chosen = Rows(table, such, need, where)
 
         def answer(tables: Tables) -> Measured:
-            frame = chosen(tables)
-            if by:
-                frame = frame.iloc[np.argsort(numbers(frame, by, table), kind="stable")]
+            frame = ordered(chosen(tables), by, table) if by else chosen(tables)
             error = error_of(value, err, table, frame.columns)
             return pick(numbers(frame, value, table), numbers(frame, error, table))
         words = f"{ask.__name__}({value})" + f" by {by}"*bool(by)
@@ -60,24 +59,34 @@ def question(pick: Pick) -> Callable[..., Value]:
     return ask
 
 
+def ordered(frame: pd.DataFrame, by: str, table: str) -> pd.DataFrame:
+    """Rows sorted by a formula."""
+    return frame.iloc[np.argsort(numbers(frame, by, table), kind="stable")]
+
+
+def at(number: int, x: np.ndarray, err: np.ndarray) -> Measured:
+    """One of many values, with its own error."""
+    return Measured(float(x[number]), float(err[number]))
+
+
 @question
 def one(x: np.ndarray, err: np.ndarray) -> Measured:
     """That of the only row there is."""
     if len(x) > 1:
         raise WrongQuestion(f"there are {len(x)} such rows: say which, or ask for first, last, mean ...")
-    return Measured(float(x[0]), float(err[0]))
+    return at(0, x, err)
 
 
 @question
 def first(x: np.ndarray, err: np.ndarray) -> Measured:
     """That of the first row, by a formula."""
-    return Measured(float(x[0]), float(err[0]))
+    return at(0, x, err)
 
 
 @question
 def last(x: np.ndarray, err: np.ndarray) -> Measured:
     """That of the last row, by a formula: by the value itself the largest, with its own error."""
-    return Measured(float(x[-1]), float(err[-1]))
+    return at(-1, x, err)
 
 
 @question
@@ -95,8 +104,7 @@ def least(x: np.ndarray, err: np.ndarray) -> Measured:
 def farthest(table: str, value: str, such: str = "", *, centre: float = 1.0, **more: Any) -> Value:
     """The one farthest from `centre`, with its own error."""
     def pick(x: np.ndarray, err: np.ndarray) -> Measured:
-        at = int(np.argmax(np.abs(x - centre)))
-        return Measured(float(x[at]), float(err[at]))
+        return at(int(np.argmax(np.abs(x - centre))), x, err)
     pick.__name__ = f"farthest from {centre:g} "
     return question(pick)(table, value, such, **more)
 
@@ -128,15 +136,7 @@ def over_seeds(x: np.ndarray, err: np.ndarray) -> Measured:
 @question
 def spread(x: np.ndarray, err: np.ndarray) -> Measured:
     """Largest over smallest."""
-    low, high = int(np.argmin(x)), int(np.argmax(x))
-    return Measured(float(x[high]), float(err[high]))/Measured(float(x[low]), float(err[low]))
-
-
-@question
-def span(x: np.ndarray, err: np.ndarray) -> Measured:
-    """Largest less smallest."""
-    low, high = int(np.argmin(x)), int(np.argmax(x))
-    return Measured(float(x[high]), float(err[high])) - Measured(float(x[low]), float(err[low]))
+    return at(int(np.argmax(x)), x, err)/at(int(np.argmin(x)), x, err)
 
 
 # --- curves -------------------------------------------------------------------------------------
@@ -149,24 +149,11 @@ def curve(fit: Curve) -> Callable[..., Value]:
         chosen = Rows(table, such, need, where)
 
         def answer(tables: Tables) -> Measured:
-            frame = chosen(tables)
-            frame = frame.iloc[np.argsort(numbers(frame, x, table), kind="stable")]
+            frame = ordered(chosen(tables), x, table)
             return fit(*(numbers(frame, formula, table) for formula in (x, y, err)))
         return Value(answer, f"{ask.__name__}({y} over {x}) in {chosen}", (Asked(chosen, y, err, x),))
     ask.__doc__, ask.__name__ = fit.__doc__, fit.__name__
     return ask
-
-
-@curve
-def slope(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
-    """Of a straight line by least squares; error from the scatter about it and from the errors of y."""
-    return fits.line(x, y, err=err).slope
-
-
-@curve
-def intercept(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
-    """Of the same line, at x = 0."""
-    return fits.line(x, y, err=err).intercept
 
 
 @curve
@@ -179,9 +166,3 @@ def power(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
 def nearest_power(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
     """d ln|y|/d ln x from the two smallest x; error: what the next two give another power."""
     return fits.nearest_power(x, y)
-
-
-@curve
-def limit(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
-    """Of infinitely fine grids from the three finest, x in cells per length; largest err added in squares."""
-    return fits.grid_limit(x, y) + Measured(0.0, float(err.max()))

@@ -1,4 +1,4 @@
-"""CPU seconds of whole studies: measured as they run, in times.csv beside claims.csv, and expected of what is left.
+"""CPU seconds of whole studies: measured as they run, in times.csv, and expected of what is left.
 
     python -m studies.kit.budget STUDY ...      prints what these studies have still to do, in minutes of CPU
 """
@@ -24,20 +24,21 @@ COLUMNS = ("study", "size", "cases", "estimate_s", "cpu_s", "commit")
 
 def put_times(out: Path, study: str, size: str, cases: Sequence[Case]) -> None:
     """Replace the row of a study and size, if each of its cases is finished and was measured."""
-    spent = sum(seconds(case, out / "raw" / study) for case in cases)
+    spent = sum(seconds(case, out/"raw"/study) for case in cases)
     if not cases or math.isnan(spent):
         return
-    old = times(out)
-    others = old[(old["study"] != study) | (old["size"] != size)]
     values = (study, size, len(cases), estimate(cases), spent, provenance.commit())
     new = pd.DataFrame([values], columns=list(COLUMNS))
+    old = times(out)
+    others = old[(old["study"] != study) | (old["size"] != size)]
     frame = pd.concat([others, new]) if len(others) else new
-    write(out / "times.csv", frame.sort_values(["study", "size"]), head=[provenance.versions(), provenance.cpu()])
+    head = [provenance.versions(), provenance.cpu()]
+    write(out/"times.csv", frame.sort_values(["study", "size"]), head=head)
 
 
 def times(out: Path) -> pd.DataFrame:
     """What was measured; no rows where nothing was."""
-    path = out / "times.csv"
+    path = out/"times.csv"
     return read(path, COLUMNS) if path.exists() else pd.DataFrame(columns=list(COLUMNS))
 
 
@@ -63,15 +64,14 @@ class Left(NamedTuple):
 def left(study: str, cases: Iterable[Case], size: str, out: Path) -> Left:
     """The estimates of cases without result, times what a whole run took over its own estimates.
 
-    That run is of the same size, or of the longest that was measured; without any, estimates stay as they are.
+    That run is of the same size, or the longest that was measured; without any, estimates stay as they are.
     """
     every = {case.key: case for case in cases}
-    todo = [case for key, case in every.items() if not (out / "raw" / study / f"{key}.json").exists()]
+    todo = [case for key, case in every.items() if not (out/"raw"/study/f"{key}.json").exists()]
     runs = times(out).query("study == @study").sort_values("cpu_s")
-    same = runs[runs["size"] == size]
-    best = (same if len(same) else runs).tail(1)
-    ratio = float((best["cpu_s"]/best["estimate_s"]).sum()) if len(best) else 1.0
-    return Left(study, len(todo), len(every), ratio*estimate(todo), len(best) > 0)
+    runs = runs[runs["size"] == size] if size in set(runs["size"]) else runs
+    ratio = 1.0 if runs.empty else float(runs["cpu_s"].iloc[-1]/runs["estimate_s"].iloc[-1])
+    return Left(study, len(todo), len(every), ratio*estimate(todo), not runs.empty)
 
 
 def main(names: Sequence[str]) -> int:
@@ -89,7 +89,7 @@ def main(names: Sequence[str]) -> int:
         one = left(study.name, study.cases(size), size, results(size))
         hours += one.cpu_s/3600
         print(one, flush=True)
-    print(f"together {hours:.1f} hours of CPU, {hours/2:.1f} on two cores; Ctrl-C keeps what is finished", flush=True)
+    print(f"together {hours:.1f} hours of CPU, {hours/2:.1f} on two cores; Ctrl-C keeps what is finished")
     return 0
 
 

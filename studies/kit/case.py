@@ -8,7 +8,7 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import Any, ClassVar
 
-from studies.kit.key import CODE, PACKAGES, ROOT, Code, digest, followed
+from studies.kit.key import CODE, PACKAGES, ROOT, Code, digest, followed, name_of
 from studies.kit.syntax import CASE, WHOLE, Place
 
 #: called with the fraction done, in [0, 1]
@@ -55,39 +55,49 @@ class Case:
 
 
 def word(value: Any) -> str:
-    """A parameter as people write it: of a record what differs from its defaults, of a function or class the name."""
+    """A parameter as people write it: of a record what differs from its defaults, of a function its name."""
     if isinstance(value, float):
         return f"{value:g}"
     if hasattr(value, "__qualname__"):
         return str(value.__qualname__)
-    kind: Any = type(value)
-    if dataclasses.is_dataclass(kind):
-        usual: dict[str, Any] = {field.name: field.default for field in dataclasses.fields(kind)}
-    elif hasattr(kind, "_field_defaults"):
-        usual = {name: kind._field_defaults.get(name, dataclasses.MISSING) for name in kind._fields}
-    else:
+    usual = defaults(type(value))
+    if usual is None:
         return str(value)
-    own = [f"{name}={word(getattr(value, name))}" for name, default in usual.items() if getattr(value, name) != default]
-    return f"{kind.__name__}({', '.join(own)})"
+    own = [f"{name}={word(getattr(value, name))}" for name, default in usual.items()
+           if getattr(value, name) != default]
+    return f"{type(value).__name__}({', '.join(own)})"
+
+
+def defaults(kind: Any) -> dict[str, Any] | None:
+    """Field -> default of a class of records, None of another class."""
+    if dataclasses.is_dataclass(kind):
+        return {field.name: field.default for field in dataclasses.fields(kind)}
+    if hasattr(kind, "_field_defaults"):
+        return {name: kind._field_defaults.get(name, dataclasses.MISSING) for name in kind._fields}
+    return None
+
+
+def fields_of(value: Any) -> dict[str, Any] | None:
+    """Field -> value of a record, None of another object."""
+    names = None if isinstance(value, type) else defaults(type(value))
+    return None if names is None else {name: getattr(value, name) for name in names}
 
 
 def parameters(value: Any) -> Any:
     """Parameters as JSON: exact (floats by repr), the type of every record with it."""
-    if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        fields = {field.name: parameters(getattr(value, field.name)) for field in dataclasses.fields(value)}
-        return {"": type(value).__qualname__, **fields}
-    if isinstance(value, Enum):
-        return {"": type(value).__qualname__, "name": value.name}
-    if isinstance(value, tuple) and hasattr(value, "_asdict"):
-        return {"": type(value).__qualname__, **{k: parameters(v) for k, v in value._asdict().items()}}
-    if isinstance(value, tuple | list):
-        return [parameters(item) for item in value]
-    if isinstance(value, dict):
-        return {"": "dict", **{str(k): parameters(v) for k, v in value.items()}}
     if value is None or isinstance(value, bool | int | float | str):
         return value
+    kind = {"": type(value).__qualname__}
+    if isinstance(value, Enum):
+        return {**kind, "name": value.name}
+    fields = value if isinstance(value, dict) else fields_of(value)
+    if fields is not None:
+        return kind | {str(name): parameters(item) for name, item in fields.items()}
+    if isinstance(value, tuple | list):
+        return [parameters(item) for item in value]
     if hasattr(value, "__qualname__") and "<" not in value.__qualname__:
-        ours = value.__module__.split(".")[0] in (*PACKAGES, "__main__", "__mp_main__")     # what it says is in the key
+        package = value.__module__.partition(".")[0]
+        ours = package in (*PACKAGES, "__main__", "__mp_main__")    # what it says is in the key
         return {"": value.__qualname__} | ({} if ours else {"module": value.__module__})
     raise TypeError(f"a case cannot hold {value!r}: use numbers, texts, tuples, NamedTuples, dataclasses, "
                     "enums, or functions and classes of a module")
@@ -96,7 +106,7 @@ def parameters(value: Any) -> Any:
 def key_of(case: Case, code: Code) -> str:
     """Key of a case with the definitions of another copy of our packages, or of these."""
     values = json.dumps(parameters(case), sort_keys=True)
-    return digest(values, code.hash(filter(None, starts(case)), case))
+    return digest(values, code.hash(filter(None, starts(case))))
 
 
 def starts(case: Case) -> Iterator[Place | None]:
@@ -118,10 +128,9 @@ def place_of(kind: Any, own: Path | None, part: str = WHOLE) -> Place | None:
 def kinds(value: Any) -> Iterator[Any]:
     """Types of all parameters, nested ones too, and parameters that are functions or classes themselves."""
     yield value if hasattr(value, "__qualname__") else type(value)
-    if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        value = [getattr(value, field.name) for field in dataclasses.fields(value)]
-    if isinstance(value, dict):
-        value = list(value.values())
+    fields = value if isinstance(value, dict) else fields_of(value)
+    if fields is not None:
+        value = list(fields.values())
     if isinstance(value, tuple | list):
         for item in value:
             yield from kinds(item)
@@ -142,6 +151,5 @@ def resolved(file: str) -> Path:
 @cache
 def module_of(path: Path) -> str | None:
     """Dotted name of a file of our packages: ``python -m studies.rb`` calls itself __main__."""
-    if not any(path.is_relative_to(ROOT/package) for package in PACKAGES):
-        return None
-    return ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__")
+    ours = any(path.is_relative_to(ROOT/package) for package in PACKAGES)
+    return name_of(path) if ours else None

@@ -12,8 +12,8 @@ cases at most, and more computing moves an undecidable claim one way or the othe
 """
 import math
 import re
-import traceback
-from collections.abc import Callable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -22,17 +22,20 @@ import pandas as pd
 
 from studies.kit import provenance
 from studies.kit.csvfile import OtherTable, read, write
-from studies.kit.key import ROOT
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
 from studies.kit.value import Value
 
-COLUMNS = ("id", "source", "statement", "whose", "printed", "measured", "err", "low", "high", "verdict", "reason", "study")
+COLUMNS = ("id", "source", "statement", "whose", "printed", "measured", "err", "low", "high", "verdict",
+           "reason", "study")
 #: the same and how the value is asked for
 WRITTEN = (*COLUMNS, "formula")
+#: of columns, in the head of the file
+MEANING = ("whose: a statement that the paper prints, or our own about the same equation",
+           "formula: the question that the claim puts to the tables of its study, as in studies/kit/ask.py",
+           "err is the half width of the 95 % interval, low to high is accepted; studies/kit/claim.py has "
+           "the rule of the verdicts")
 NAMED = re.compile(r"(KHP95|RR98)\b|[A-Z].*\b(1[89]|20)\d\d\b", re.IGNORECASE)
-
-STUDIES, KIT = ROOT / "studies", ROOT / "studies" / "kit"
 
 
 class ClaimError(Exception):
@@ -41,7 +44,7 @@ class ClaimError(Exception):
 
 @dataclass(frozen=True, kw_only=True)
 class Claim:
-    """One statement, testable or not: a paper's, with what is ``printed``, or our own about the same equation.
+    """One statement, testable or not: a paper's, with what is ``printed``, or our own.
 
     ``value(tables)`` gives (value, err), err the half width of the 95 % interval. Accepted is ``expect`` +-
     ``within``, or ``at_least``, or ``at_most``, or both of these; ``because`` says where these limits come
@@ -113,29 +116,26 @@ def verdict(claim: Claim, value: float, err: float) -> str:
 
 def judge(claims: Sequence[Claim], tables: Tables, study: str) -> list[dict[str, Any]]:
     """One row a claim, with the columns of results/claims.csv."""
-    names = [claim.id for claim in claims]
-    if twice := sorted({name for name in names if names.count(name) > 1}):
+    count = Counter(claim.id for claim in claims)
+    if twice := sorted(name for name, number in count.items() if number > 1):
         raise ValueError(f"two claims of study {study} are called {', '.join(twice)}: an id names one claim")
-    return [{"id": claim.id, "source": claim.source, "statement": claim.statement, "printed": claim.printed,
-             "whose": "paper" if claim.printed else "own", "study": study,
-             **asked(claim), **judged(claim, tables, study)} for claim in claims]
+    return [{**stated(claim), "study": study, **judged(claim, tables, study)} for claim in claims]
 
 
-def asked(claim: Claim) -> dict[str, Any]:
-    """The accepted range of a claim that is tested, and the formula of its value where that has one."""
+def stated(claim: Claim) -> dict[str, Any]:
+    """What a claim says: of one that is tested the accepted range, and the formula where it has one."""
+    row = {"id": claim.id, "source": claim.source, "statement": claim.statement, "printed": claim.printed,
+           "whose": "paper" if claim.printed else "own"}
     if claim.value is None:
-        return {}
+        return row
     formula = str(claim.value) if isinstance(claim.value, Value) else ""
-    return {"low": claim.low, "high": claim.high, "formula": formula}
+    return {**row, "low": claim.low, "high": claim.high, "formula": formula}
 
 
 def judged(claim: Claim, tables: Tables, study: str = "") -> dict[str, Any]:
     """Measured value, error, verdict and reason of one claim.
 
-    Raises
-    ------
-    OtherTable
-        The claim asks for a column that its table does not have: in one line, with the study and the claim.
+    Raises OtherTable, ClaimError: a column or a table that the claim asks for is not there.
     """
     unknown = {"measured": math.nan, "err": math.nan, "verdict": "undecidable"}
     if claim.value is None:
@@ -145,9 +145,12 @@ def judged(claim: Claim, tables: Tables, study: str = "") -> dict[str, Any]:
     except CannotTell as why:
         return {**unknown, "reason": str(why)}
     except OtherTable as error:
-        raise OtherTable(f"study {study}, claim {claim.id}, {claim.value}: {error}; correct the claim") from error
-    except (KeyError, AttributeError, NameError) as error:
-        raise ClaimError(missing(claim, error)) from error
+        words = f"study {study}, claim {claim.id}, {claim.value}: {error}; correct the claim"
+        raise OtherTable(words) from error
+    except (KeyError, AttributeError, NameError) as error:      # pandas names a column by any of these
+        what = error.args[0] if isinstance(error, KeyError) and error.args else error
+        raise ClaimError(f"claim {claim.id} asks for what is not there: {what}: correct the claim, or list "
+                         "it in the tables of the study and run the study again") from error
     except Exception as error:
         error.add_note(f"while judging claim {claim.id}")
         raise
@@ -157,33 +160,11 @@ def judged(claim: Claim, tables: Tables, study: str = "") -> dict[str, Any]:
     return {"measured": value, "err": err, "verdict": said, "reason": reason}
 
 
-def missing(claim: Claim, error: Exception) -> str:
-    """What a claim asks for in vain, where, and the way out; pandas names a column by KeyError and by others."""
-    name = error.args[0] if isinstance(error, KeyError) and error.args else error
-    return (f"claim {claim.id} asks for what is not there: {name}{place(error)}: correct the claim, or list it in the "
-            "tables of the study and run the study again")
-
-
-def place(error: Exception) -> str:
-    """Where in the code of a study an error was raised."""
-    frames = [frame for frame in traceback.extract_tb(error.__traceback__) if STUDIES in Path(frame.filename).parents]
-    own = [frame for frame in frames if KIT not in Path(frame.filename).parents]
-    return f" ({Path(own[-1].filename).relative_to(ROOT)}, line {own[-1].lineno})" if own else ""
-
-
 def put_claims(path: Path, rows: Sequence[dict[str, Any]], study: str) -> None:
     """Replace the claims of one study in results/claims.csv; those of others stay."""
     old = read(path, COLUMNS) if path.exists() else pd.DataFrame(columns=list(COLUMNS))
-    old = old.reindex(columns=list(WRITTEN))
     others = old[old["study"] != study]
     new = pd.DataFrame(rows, columns=list(WRITTEN))
-    frame = pd.concat([part for part in (others, new) if len(part)]) if len(others) + len(new) else new
-    write(path, frame.sort_values(["study", "id"]), head=claims_head())
-
-
-def claims_head() -> Iterator[str]:
-    """What the columns mean."""
-    yield f"commit {provenance.commit()}"
-    yield "whose: a statement that the paper prints, or our own about the same equation"
-    yield "formula: the question that the claim puts to the tables of its study, as in studies/kit/ask.py"
-    yield "err is the half width of the 95 % interval, low to high is accepted; studies/kit/claim.py has the rule of the verdicts"
+    parts = [part.reindex(columns=list(WRITTEN)) for part in (others, new) if len(part)]
+    frame = pd.concat(parts) if parts else new
+    write(path, frame.sort_values(["study", "id"]), head=[f"commit {provenance.commit()}", *MEANING])

@@ -1,8 +1,8 @@
 """A transport to the workers of a Dask cluster that is there already, known by the address of its scheduler.
 
-A cluster shares the code with the study and nothing else, no disk either: a case travels to a worker, its outcome comes
-back as text. Dask gives a case whose worker is lost to another one, as often as the scheduler allows
-(``allowed-failures``, 3 unless set). Workers run one case at a time; ``make worker SCHEDULER=tcp://...`` starts one.
+A cluster shares the code with the study and nothing else, no disk either: a case travels to a worker, its
+outcome comes back as text. Dask gives a case whose worker is lost to another one, as often as the scheduler
+allows (``allowed-failures``). ``make worker SCHEDULER=tcp://...`` starts a worker, for one case at a time.
 """
 import io
 import math
@@ -40,16 +40,10 @@ class Cancelled(BaseException):
 
 
 def check_scheduler(address: str) -> str:
-    """The address itself.
-
-    Raises
-    ------
-    ValueError
-        It is not one of a scheduler.
-    """
+    """The address itself. Raises ValueError: it is not one of a scheduler."""
     if address and not ADDRESS.fullmatch(address):
-        raise ValueError(f"SCHEDULER={address} is no address of a Dask scheduler: give tcp://host:port, or nothing "
-                         "to compute on this machine")
+        raise ValueError(f"SCHEDULER={address} is no address of a Dask scheduler: give tcp://host:port, or "
+                         "nothing to compute on this machine")
     return address
 
 
@@ -96,13 +90,13 @@ def connected(address: str) -> "Client":
     try:
         from distributed import Client
     except ImportError as error:
-        raise CannotRun(f"SCHEDULER={address} needs the package distributed ({error}): make env installs it, or pip "
-                        "install distributed; without SCHEDULER cases run on this machine") from error
+        raise CannotRun(f"SCHEDULER={address} needs the package distributed ({error}): make env installs it; "
+                        "without SCHEDULER cases run on this machine") from error
     try:
         return Client(address, timeout=CONNECT, set_as_default=False)
     except OSError as error:
-        raise CannotRun(f"no Dask scheduler answers at {address} within {CONNECT:g} s: start one by dask scheduler, "
-                        "or leave SCHEDULER out to compute on this machine") from error
+        raise CannotRun(f"no Dask scheduler answers at {address} within {CONNECT:g} s: start one by dask "
+                        "scheduler, or leave SCHEDULER out to compute on this machine") from error
 
 
 def outcome(future: "Future", label: str) -> str | Failure:
@@ -111,15 +105,16 @@ def outcome(future: "Future", label: str) -> str | Failure:
     try:
         return future.result()
     except KilledWorker as error:
-        message = (f"{error.allowed_failures + 1} workers died while they ran it, the last one "
-                   f"{error.last_worker.address}, perhaps for want of memory: dask worker --memory-limit gives more")
+        count, last = error.allowed_failures + 1, error.last_worker.address
+        message = (f"{count} workers died while they ran it, the last one {last}, perhaps for want of "
+                   "memory: dask worker --memory-limit gives more")
         return Failure(label, message, story=str(error))
-    except Exception as error:      # failures of cases are handed back: whatever is raised is trouble of the cluster
+    except Exception as error:      # failures of cases are handed back: this is trouble of the cluster
         raise CannotRun(f"{error}: {WAY_OUT}" if future.status == "error" else NO_ANSWER) from error
 
 
 class Pack(pickle.Pickler):
-    """Calls what the script that was started defines by the name of its module: there, another is __main__."""
+    """Names the module of what the script that was started defines: there, another is __main__."""
 
     def reducer_override(self, thing: Any) -> Any:
         if getattr(thing, "__module__", "") == "__main__" and hasattr(thing, "__qualname__"):
@@ -139,10 +134,7 @@ def perform(sent: bytes, versions: str, number: int, topic: str) -> str | Failur
 
     Checkpoints lie in a folder of the worker, as long as it lives.
 
-    Raises
-    ------
-    CannotRun
-        This worker cannot run it as the study would.
+    Raises CannotRun: This worker cannot run it as the study would.
     """
     from distributed import get_worker
     worker = get_worker()
@@ -161,7 +153,7 @@ def check_worker(worker: "Worker", versions: str) -> None:
     name, threads = f"worker {worker.address}", worker.state.nthreads
     if threads != 1:
         raise CannotRun(f"{name} runs {threads} cases at once: it needs --nthreads 1")
-    os.environ.setdefault("NUMBA_NUM_THREADS", "1")     # numba is loaded with the first case; Dask sets the others
+    os.environ.setdefault("NUMBA_NUM_THREADS", "1")     # Dask sets the others
     if more := [variable for variable in THREADS if os.environ.get(variable) != "1"]:
         raise CannotRun(f"{name} computes with more threads than one: it needs {'=1 '.join(more)}=1")
     if versions != provenance.versions():
@@ -183,7 +175,7 @@ def unpacked(sent: bytes, worker: "Worker") -> Case:
 
 
 def read_code() -> None:
-    """Remember the code that is loaded: a worker lives long, and files that change later are not what it runs."""
+    """Remember the code that is loaded: files that change later are not what a worker runs."""
     for path in filter(None, map(key.find, list(sys.modules))):
         key.parse(path)
 

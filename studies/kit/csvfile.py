@@ -1,4 +1,4 @@
-"""CSV with a head of comments: where the numbers come from, which columns are text, and in which an empty cell is as above."""
+"""CSV below a head of comments: where numbers come from, which columns are text, where empty is as above."""
 import os
 from collections.abc import Iterable
 from pathlib import Path
@@ -17,32 +17,36 @@ class OtherTable(ValueError):
 def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
     """A table from CSV; empty text is "", an empty number NaN.
 
-    Raises
-    ------
-    FileNotFoundError, OtherTable
-        There is no such file; it is no table, lacks some of ``columns``, or has text among numbers.
+    Raises FileNotFoundError, OtherTable: there is no such file; it is no table, lacks some of ``columns``, or
+    has text among numbers.
     """
     path = Path(path)
     if not path.exists():
         raise FileNotFoundError(f"{path} does not exist: make study-{path.parent.name} writes it")
     try:
-        names, text, above = pd.read_csv(path, comment="#", nrows=0).columns, named(path, TEXT), named(path, ABOVE)
-    except ValueError as error:     # of pandas, and of letters that are none
-        raise OtherTable(f"{path} is no table ({str(error).strip()}): {AGAIN}") from error
-    if missing := [column for column in columns if column not in names]:
-        raise OtherTable(f"{path} has no column {', '.join(missing)}: it has an older layout; {AGAIN}")
-    try:
-        frame = pd.read_csv(path, comment="#", dtype=dict.fromkeys((*text, *above), str), keep_default_na=False,
-                            na_values={name: ["", "nan"] for name in names if name not in (*text, *above)})
+        text, above = named(path, TEXT), named(path, ABOVE)
+        names = pd.read_csv(path, comment="#", nrows=0).columns
+        if missing := [column for column in columns if column not in names]:
+            raise OtherTable(f"{path} has no column {', '.join(missing)}: it has an older layout; {AGAIN}")
+        frame = parsed(path, [name for name in names if name not in (*text, *above)], [*text, *above])
         for name in above:
             full = frame[name].mask(frame[name] == "").ffill()
             frame[name] = full if name in text else pd.to_numeric(full)
-    except ValueError as error:
+    except OtherTable:
+        raise
+    except ValueError as error:     # of pandas, and of letters that are none
         raise OtherTable(f"{path} is no table ({str(error).strip()}): {AGAIN}") from error
     for name in frame.columns.difference(text) if text else ():
         if words := [value for value in frame[name] if isinstance(value, str) and not is_number(value)]:
             raise OtherTable(f"{path} has {words[0]!r} in {name}, a column of numbers: {AGAIN}")
     return frame
+
+
+def parsed(path: Path, numbers: Iterable[str], texts: Iterable[str]) -> pd.DataFrame:
+    """The rows, some columns as texts."""
+    empty = {name: ["", "nan"] for name in numbers}
+    types = dict.fromkeys(texts, str)
+    return pd.read_csv(path, comment="#", dtype=types, keep_default_na=False, na_values=empty)
 
 
 def is_number(text: str) -> bool:
@@ -55,10 +59,12 @@ def is_number(text: str) -> bool:
 
 
 def named(path: Path, begin: str) -> list[str]:
-    """The columns that a line of the head names: a column of empty texts, say, does not tell by itself that it is text."""
+    """The columns that a line of the head names: empty texts, say, do not tell that they are texts."""
     with path.open() as lines:
-        lists = [line.removeprefix(begin).strip().split(", ") for line in lines if line.startswith(begin)]
-    return [name for name in lists[0] if name] if lists else []
+        for line in lines:
+            if line.startswith(begin):
+                return line.removeprefix(begin).strip().split(", ")
+    return []
 
 
 def write(path: Path, frame: pd.DataFrame, *, head: Iterable[str], once: Iterable[str] = ()) -> None:
@@ -66,25 +72,32 @@ def write(path: Path, frame: pd.DataFrame, *, head: Iterable[str], once: Iterabl
 
     Of columns ``once`` what repeats the cell above is left out, unless something is empty there anyway.
 
-    Raises
-    ------
-    ValueError
-        A column mixes text and numbers, or a text holds the sign of a comment.
+    Raises ValueError: A column mixes text and numbers, or a text holds the sign of a comment.
     """
     text = [str(name) for name in frame if is_text(frame[name], path)]
     frame = frame.assign(**{name: frame[name].fillna("") for name in text})
     above = without_repeats(frame, once)
-    body = f"{TEXT} {', '.join(text)}\n" + (f"{ABOVE} {', '.join(above)}\n" if above else "")
-    body += frame.assign(**above).to_csv(index=False, float_format=DIGITS)
+    notes = [f"{TEXT} {', '.join(text)}\n"]
+    if above:
+        notes.append(f"{ABOVE} {', '.join(above)}\n")
+    body = "".join(notes) + frame.assign(**above).to_csv(index=False, float_format=DIGITS)
     if not (path.exists() and path.read_text().endswith(body)):
         write_atomic(path, "".join(f"# {line}\n" for line in head) + body)
 
 
 def without_repeats(frame: pd.DataFrame, once: Iterable[str]) -> dict[str, pd.Series]:
     """Those columns ``once`` that have no empty cell, as texts, empty where they repeat the one above."""
-    texts = {name: frame[name].map(lambda value: DIGITS % value if isinstance(value, float) else str(value))
-             for name in once if name in frame and len(frame)}
-    return {name: text.mask(text == text.shift(), "") for name, text in texts.items() if not text.isin(["", "nan"]).any()}
+    columns = {}
+    for name in once if len(frame) else ():
+        texts = frame[name].map(written)
+        if not texts.isin(["", "nan"]).any():
+            columns[name] = texts.mask(texts == texts.shift(), "")
+    return columns
+
+
+def written(value: object) -> str:
+    """A cell as it stands in the file."""
+    return DIGITS % value if isinstance(value, float) else str(value)
 
 
 def is_text(column: pd.Series, path: Path) -> bool:

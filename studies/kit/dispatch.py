@@ -73,7 +73,7 @@ class Here:
         def report(fraction: float) -> None:
             self.bar.tell(number, fraction)
             self.bar.show()
-        self.results.append((number, attempt(case, self.folder / case.key, report)))
+        self.results.append((number, attempt(case, self.folder/case.key, report)))
 
     def ready(self) -> Iterator[tuple[int, str | Failure]]:
         while self.results:
@@ -83,20 +83,19 @@ class Here:
         pass
 
 
-def dispatch(cases: Sequence[Case], folder: Path, name: str, connect: Callable[[Bar], Transport]) -> list[Failure]:
+def dispatch(cases: Sequence[Case], folder: Path, name: str,
+             connect: Callable[[Bar], Transport]) -> list[Failure]:
     """Run cases in their order and keep their outcomes; those that time themselves come last, one by one.
 
     Each of the two groups has a transport of its own: times are taken in fresh processes.
-
-    Raises
-    ------
-    KeyboardInterrupt, CannotRun
-        What ran is ended, what is finished is kept.
+    Raises KeyboardInterrupt, CannotRun: what ran is ended, what is finished is kept.
     """
     bar, failures = Bar(cases, name), []
+    numbers = range(len(cases))
+    together = deque(number for number in numbers if not cases[number].alone)
+    alone = deque(number for number in numbers if cases[number].alone)
     with remember_interrupt(), bar.line:
-        for alone, limit in ((False, len(cases)), (True, 1)):
-            todo = deque(number for number, case in enumerate(cases) if case.alone == alone)
+        for todo, limit in ((together, len(cases)), (alone, 1)):
             if todo:
                 with closing(connect(bar)) as transport:
                     for number, result in drain(transport, cases, todo, limit, bar):
@@ -106,7 +105,7 @@ def dispatch(cases: Sequence[Case], folder: Path, name: str, connect: Callable[[
 
 def drain(transport: Transport, cases: Sequence[Case], todo: deque[int], limit: int,
           bar: Bar) -> Iterator[tuple[int, str | Failure]]:
-    """Give each place a case, ``limit`` at once, until all have ended; their numbers and outcomes as they come."""
+    """Give each place a case, ``limit`` at once, until all have ended; numbers and outcomes as they come."""
     running = 0
     while todo or running:
         if pressed:
@@ -129,7 +128,7 @@ pressed: list[int] = []
 
 @contextmanager
 def remember_interrupt() -> Iterator[None]:
-    """Keep in `pressed` that the study was told to end, by Ctrl-C or SIGTERM, besides raising KeyboardInterrupt."""
+    """Keep Ctrl-C and SIGTERM in `pressed`, besides raising KeyboardInterrupt."""
     def stop(number: int, frame: object) -> None:
         pressed.append(number)
         raise KeyboardInterrupt

@@ -1,4 +1,4 @@
-"""The figures of a study: of each its name, the tables that it is drawn from, and the function that draws it."""
+"""The figures of a study: of each its name, its tables, and the function that draws it."""
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -8,19 +8,20 @@ from studies.kit.table import Tables
 
 
 class Drawing(NamedTuple):
-    """A figure that needs rows of all its tables. draw : takes their frames in this order; its docstring is the caption."""
+    """A figure that needs rows of all its tables. draw : takes their frames; its docstring is the caption."""
     name: str
     tables: tuple[str, ...]
     draw: Callable[..., Figure | None]
 
     def page(self, tables: Tables) -> Figure | None:
         """The figure; none where a table lacks rows, or has none to show."""
-        frames = [tables[name] for name in self.tables if len(tables.get(name, ()))]
-        return self.draw(*frames) if len(frames) == len(self.tables) else None
+        if not all(len(tables.get(name, ())) for name in self.tables):
+            return None
+        return self.draw(*(tables[name] for name in self.tables))
 
 
 class Overview(NamedTuple):
-    """A figure of what there is of its tables. draw : takes these as `Tables`; its docstring is the caption."""
+    """A figure of what there is of its tables. draw : takes `Tables`; its docstring is the caption."""
     name: str
     tables: tuple[str, ...]
     draw: Callable[[Tables], Figure | None]

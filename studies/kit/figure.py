@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
-#: Okabe and Ito's colours, which colour-blind readers can tell apart; a dark red in place of their yellow, which white swallows
+#: Okabe and Ito's colours, which colour-blind readers can tell apart; a dark red in place of their yellow
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#882255")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 LINES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), (0, (8, 3)))
@@ -48,14 +48,15 @@ def errorbar(axes: Axes, x: Sequence[float], y: Sequence[float], err: Sequence[f
 
 
 def plain_ticks(axes: Axes, values: Iterable[float], others: Iterable[float] = ()) -> None:
-    """Ticks along x at the values there are, in this order until their numbers would touch; without number at the rest."""
-    low, high = np.log10(axes.get_xlim()) if axes.get_xscale() == "log" else axes.get_xlim()
-    wide, kept = 72*width(axes), dict[float, tuple[float, float]]()
-    for value in dict.fromkeys(values):
-        at = wide*((np.log10(value) if axes.get_xscale() == "log" else value) - low)/(high - low)
-        half = DIGIT*(len(f"{value:.0f}") + 0.5)/2
+    """Ticks along x at values, the first ones with their number, others without where numbers would touch."""
+    scale = np.log10 if axes.get_xscale() == "log" else float
+    low, high = map(scale, axes.get_xlim())
+    points = 72*width(axes)/(high - low)
+    kept: dict[float, tuple[float, float]] = {}
+    for value in values:
+        at, half = points*(scale(value) - low), DIGIT*(len(f"{value:.0f}") + 0.5)/2
         if all(abs(at - other) > half + reach for other, reach in kept.values()):
-            kept[value] = (at, half)
+            kept[value] = at, half
     axes.set_xticks(list(kept), labels=[f"{value:.0f}" for value in kept])
     axes.set_xticks(sorted({*values, *others} - {*kept}), minor=True)
     axes.tick_params(axis="x", which="minor", labelbottom=False)
@@ -82,7 +83,7 @@ def save(page: Figure, path: Path) -> None:
 
 
 def compact(page: Figure) -> bytes:
-    """A PNG of 256 colours, a third as large: only blends of colours along edges move, by less than the eye sees."""
+    """A PNG of 256 colours, a third as large: blends of colours move by less than the eye sees."""
     full, small = io.BytesIO(), io.BytesIO()
     page.savefig(full, format="png")
     picture = Image.open(full)

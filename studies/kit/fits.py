@@ -36,12 +36,12 @@ class Fit:
     @property
     def slope(self) -> Measured:
         """c_1."""
-        return self.along(np.eye(len(self.coefficients))[1])
+        return self.along(np.arange(len(self.coefficients)) == 1)
 
     @property
     def intercept(self) -> Measured:
         """c_0."""
-        return self.along(np.eye(len(self.coefficients))[0])
+        return self.at(0.0)
 
 
 def polynomial(x: Numbers, y: Numbers, degree: int = 1, *, weight: Numbers | None = None,
@@ -54,33 +54,38 @@ def polynomial(x: Numbers, y: Numbers, degree: int = 1, *, weight: Numbers | Non
 
     t is Student's, of n - p degrees of freedom; ``err`` (n,) are errors of the values besides the scatter.
 
-    Raises
-    ------
-    CannotTell
-        There are no more values than coefficients.
+    Raises CannotTell: there are no more values than coefficients.
     """
-    x, y = np.asarray(x, float), np.asarray(y, float)
-    w = np.ones(len(x)) if weight is None else np.asarray(weight, float)
-    X, freedom = np.vander(x, degree + 1, increasing=True), len(x) - degree - 1
+    X, y = powers(x, degree), np.asarray(y, float)
+    w = np.ones(len(y)) if weight is None else np.asarray(weight, float)
+    freedom = len(y) - degree - 1
     if freedom < 1:
         raise CannotTell(f"not run yet: {degree + 1} coefficients and their error take {degree + 2} values "
-                         f"or more, there are {len(x)}")
-    size = np.linalg.norm(w[:, None]*X, axis=0)
-    inverse = np.linalg.pinv(w[:, None]*X/size)/size[:, None]
+                         f"or more, there are {len(y)}")
+    wX = w[:, None]*X
+    size = np.linalg.norm(wX, axis=0)
+    inverse = np.linalg.pinv(wX/size)/size[:, None]
     A = inverse*w
     residuals = y - X@(A@y)
     scatter = stdtrit(freedom, 0.975)**2*np.sum((w*residuals)**2)/freedom
-    known = 0.0 if err is None else (A*np.asarray(err, float)**2)@A.T
-    return Fit(A@y, scatter*inverse@inverse.T + known, residuals)
+    spread = scatter*inverse@inverse.T
+    if err is not None:
+        spread = spread + (A*np.asarray(err, float)**2)@A.T
+    return Fit(A@y, spread, residuals)
+
+
+def powers(x: Numbers, degree: int) -> np.ndarray:
+    """x_n^j, (n, degree + 1)."""
+    return np.vander(np.asarray(x, float), degree + 1, increasing=True)
 
 
 def weighted(x: Numbers, y: Numbers, err: Numbers, degree: int = 1) -> Fit:
     """Least squares of (y - c_0 - c_1 x ...)/err; the error is what those of the values leave."""
-    x, y, err = (np.asarray(q, float) for q in (x, y, err))
-    X = np.vander(x, degree + 1, increasing=True)/err[:, None]
+    y, err = np.asarray(y, float), np.asarray(err, float)
+    X = powers(x, degree)/err[:, None]
     spread = np.linalg.inv(X.T@X)
     c = spread@X.T@(y/err)
-    return Fit(c, spread, y - np.vander(x, degree + 1, increasing=True)@c)
+    return Fit(c, spread, y - powers(x, degree)@c)
 
 
 def line(x: Numbers, y: Numbers, *, weight: Numbers | None = None, err: Numbers | None = None) -> Fit:
@@ -96,16 +101,14 @@ def power_law(x: Numbers, y: Numbers, err: Numbers | None = None) -> Fit:
 
 def between(x: Numbers, y: Numbers) -> np.ndarray:
     """d ln |y|/d ln x between neighbours, (n - 1,)."""
-    return np.diff(np.log(np.abs(np.asarray(y, float))))/np.diff(np.log(np.asarray(x, float)))
+    x, y = np.asarray(x, float), np.asarray(y, float)
+    return np.diff(np.log(np.abs(y)))/np.diff(np.log(x))
 
 
 def nearest_power(x: Numbers, y: Numbers) -> Measured:
     """d ln |y|/d ln x from the first two values; error: what the next two give another power.
 
-    Raises
-    ------
-    CannotTell
-        There are fewer than three values.
+    Raises CannotTell: there are fewer than three values.
     """
     if len(x) < 3:
         raise CannotTell(f"not run yet: a power and its change take three values, got {len(x)}")
@@ -116,12 +119,9 @@ def nearest_power(x: Numbers, y: Numbers) -> Measured:
 def grid_limit(sizes: Numbers, values: Numbers) -> Measured:
     """Limit of infinitely fine grids, ``sizes`` in cells per length, from the three finest [Richardson].
 
-    Raises
-    ------
-    CannotTell
-        There are fewer than three grids.
+    Raises CannotTell: there are fewer than three grids.
     """
     if len(set(sizes)) < 3:
         raise CannotTell(f"not run yet: a limit takes three grids, got {len(set(sizes))}")
-    found = richardson(list(values), list(sizes))
-    return Measured(float(found.limit), float(found.error))
+    fine = richardson(list(values), list(sizes))
+    return Measured(float(fine.limit), float(fine.error))

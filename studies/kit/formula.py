@@ -30,7 +30,7 @@ class WrongQuestion(OtherTable):
 
 @dataclass(frozen=True)
 class Rows:
-    """Rows of a table: columns are as in ``where``, the condition ``such`` holds; ``need`` of them at least."""
+    """Rows of a table: columns as in ``where``, the condition ``such`` holds; ``need`` of them or more."""
 
     table: str
     such: str = ""
@@ -59,19 +59,16 @@ class Rows:
 
     def __str__(self) -> str:
         words = [f"{column} {is_in(value)}" for column, value in self.where.items()]
-        words += [self.such]*bool(self.such)
-        return " where ".join([self.table, *[" and ".join(words)]*bool(words)])
+        if self.such:
+            words.append(self.such)
+        return f"{self.table} where {' and '.join(words)}" if words else self.table
 
 
 def rows(tables: Tables, table: str, such: str = "", need: int = 1, **where: Any) -> pd.DataFrame:
     """The rows in which columns are as said (a tuple lists several values) and the condition ``such`` holds.
 
-    Raises
-    ------
-    CannotTell
-        There are fewer than ``need``: they have not been run.
-    WrongQuestion
-        The table has no such column.
+    Raises CannotTell: there are fewer than ``need``: they have not been run. WrongQuestion: The table has
+    no such column.
     """
     return Rows(table, such, need, where)(tables)
 
@@ -89,20 +86,13 @@ def cell(value: Any) -> str:
 
 
 def names(formula: str) -> set[str]:
-    """The columns that a formula uses.
-
-    Raises
-    ------
-    WrongQuestion
-        It is no formula.
-    """
+    """The columns that a formula uses. Raises WrongQuestion: it is no formula."""
     try:
         nodes = list(ast.walk(ast.parse(formula or "0", mode="eval")))
     except SyntaxError as error:
         words = f"{formula!r} is no formula ({error.msg}): write one as pandas' eval takes it"
         raise WrongQuestion(words) from error
-    functions = [node.func for node in nodes if isinstance(node, ast.Call)]
-    called = {function.id for function in functions if isinstance(function, ast.Name)}
+    called = {ast.unparse(node.func) for node in nodes if isinstance(node, ast.Call)}
     return {node.id for node in nodes if isinstance(node, ast.Name)} - called - set(CONSTANTS)
 
 
@@ -126,27 +116,17 @@ def evaluated(frame: pd.DataFrame, formula: str, table: str) -> np.ndarray:
 
 
 def numbers(frame: pd.DataFrame, formula: str, table: str) -> np.ndarray:
-    """The same where each row has to have a number.
-
-    Raises
-    ------
-    CannotTell
-        One has none.
-    """
+    """The same where each row has to have a number. Raises CannotTell: One has none."""
     values = evaluated(frame, formula, table)
-    if np.isnan(values).any():
-        lost = np.isnan(values).sum()
-        raise CannotTell(f"{formula} is not a number in {lost} of {len(values)} rows of table {table}")
+    if missing := np.isnan(values).sum():
+        raise CannotTell(f"{formula} is not a number in {missing} of {len(values)} rows of table {table}")
     return values
 
 
 def error_of(formula: str, err: str, table: str, columns: Iterable[str]) -> str:
     """The formula of an error: as given, else the `_err` of a column, else 0 if no column in it has one.
 
-    Raises
-    ------
-    WrongQuestion
-        None is given, but one of the columns in the formula has an error.
+    Raises WrongQuestion: None is given, but one of the columns in the formula has an error.
     """
     columns = set(columns)
     if err or f"{formula}_err" in columns:

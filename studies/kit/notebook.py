@@ -1,4 +1,4 @@
-"""What notebooks share: sentences that their cells compute, numbers with intervals, tables and small pictures."""
+"""What notebooks share: sentences that cells compute, numbers with intervals, tables, small pictures."""
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -23,8 +23,8 @@ def say(sentence: str) -> None:
 
 def note(*words: str) -> None:
     """What is taken in place of what was asked for; nothing if nothing is."""
-    if told := [word for word in words if word]:
-        display(Markdown(f"**Note.** {'; '.join(told)}."))
+    if any(words):
+        display(Markdown(f"**Note.** {'; '.join(filter(None, words))}."))
 
 
 def show(page: Figure) -> None:
@@ -69,7 +69,7 @@ def percent(value: float, err: float = 0.0) -> str:
 
 
 def verdicts(results: Path, study: str, *, source: str = "") -> None:
-    """The claims of a study, or those whose source begins so: counts by verdict, and what does not hold in a table."""
+    """Of the claims of a study, or those whose source begins so, counts by verdict and what does not hold."""
     chosen = claims_of(results, study)
     chosen = chosen[chosen["source"].str.startswith(source)]
     counts = chosen.groupby("verdict").size()

@@ -1,7 +1,7 @@
 """A part of a study, and how parts become one: a study of many questions is a list of parts."""
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import Any
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -10,8 +10,6 @@ from studies.kit.case import Case
 from studies.kit.claim import Claim
 from studies.kit.drawing import Drawing, Overview
 from studies.kit.table import Rows, Table, Tables
-
-T = TypeVar("T")
 
 
 def nothing(tables: Tables) -> dict[str, Any]:
@@ -35,27 +33,25 @@ class Part:
 def joined(parts: Sequence[Part]) -> Part:
     """One part of many. Rows are derived in order: each part finds what those before it derived.
 
-    Raises
-    ------
-    ValueError
-        Two tables or two claims have one name; of figures and of derived rows when they are made.
+    Raises ValueError: Two tables or two claims have one name; of figures and of derived rows when they
+    are made.
     """
-    return Part(
-        cases=lambda size: [case for part in parts for case in part.cases(size)],
-        tables=once("tables", ((table.name, table) for part in parts for table in part.tables)),
-        derive=lambda tables: derived(parts, tables),
-        figures=Joined(part.figures for part in parts),
-        claims=once("claims", ((claim.id, claim) for part in parts for claim in part.claims)))
+    tables = [table for part in parts for table in part.tables]
+    claims = [claim for part in parts for claim in part.claims]
+    check_once("tables", (table.name for table in tables))
+    check_once("claims", (claim.id for claim in claims))
+    return Part(cases=lambda size: [case for part in parts for case in part.cases(size)],
+                tables=tables, derive=lambda tables: derived(parts, tables),
+                figures=Joined(part.figures for part in parts), claims=claims)
 
 
-def once(what: str, pairs: Iterable[tuple[str, T]]) -> tuple[T, ...]:
-    """The values of pairs (name, value), if no name comes twice."""
-    values: dict[str, T] = {}
-    for name, value in pairs:
-        if name in values:
+def check_once(what: str, names: Iterable[str]) -> None:
+    """Refuse a name that comes twice."""
+    known: set[str] = set()
+    for name in names:
+        if name in known:
             raise ValueError(f"two {what} of one study are called {name!r}: give one of them another name")
-        values[name] = value
-    return tuple(values.values())
+        known.add(name)
 
 
 def derived(parts: Iterable[Part], tables: Tables) -> Rows:
@@ -64,13 +60,13 @@ def derived(parts: Iterable[Part], tables: Tables) -> Rows:
     for part in parts:
         frames = {name: pd.DataFrame(new) for name, new in rows.items() if new}
         new = part.derive(Tables({**tables, **frames}))
-        once("derived tables", ((name, name) for name in [*rows, *new]))
+        check_once("derived tables", [*rows, *new])
         rows.update(new)
     return rows
 
 
 class Joined:
-    """The figures of parts. drawings : of those parts that list them; of a plain function the tables are unknown."""
+    """The figures of parts. drawings : of those parts that list them, with their tables."""
 
     def __init__(self, figures: Iterable[Callable[[Tables], Mapping[str, Figure]]]):
         self.figures = tuple(figures)
@@ -82,6 +78,6 @@ class Joined:
 
     def __call__(self, tables: Tables) -> dict[str, Figure]:
         """The figures for which there are rows."""
-        pairs = [pair for one in self.figures for pair in one(tables).items()]
-        once("figures", pairs)
-        return dict(pairs)
+        pages = [one(tables) for one in self.figures]
+        check_once("figures", (name for page in pages for name in page))
+        return {name: figure for page in pages for name, figure in page.items()}

@@ -58,13 +58,7 @@ class Processes:
                 yield number, result or self.died(case)
 
     def died(self, case: Case) -> Failure:
-        """The failure of a case whose worker died.
-
-        Raises
-        ------
-        CannotRun
-            No worker has begun a case.
-        """
+        """The failure of a case whose worker died. Raises CannotRun: No worker has begun a case."""
         if not any(self.fractions):
             raise CannotRun("worker processes end before they run a case: --workers 1 shows why")
         return Failure(case.label, "its worker process died, perhaps for want of memory: "

@@ -23,9 +23,9 @@ def commit() -> str:
 
 def git(*words: str) -> str:
     """What git answers; empty without git or outside a repository."""
+    command = ["git", "-C", str(ROOT), *words]
     try:
-        return subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True,
-                              check=True).stdout.strip()
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
     except (OSError, subprocess.CalledProcessError):
         return ""
 
@@ -40,8 +40,8 @@ def cpu() -> str:
     """Model and number of cores."""
     info = Path("/proc/cpuinfo")
     lines = info.read_text().splitlines() if info.exists() else []
-    names = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
-    return f"{names[0] if names else platform.processor() or platform.machine()}, {cpu_count()} cores"
+    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return f"{models[0] if models else platform.machine()}, {cpu_count()} cores"
 
 
 def now() -> str:

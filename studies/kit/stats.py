@@ -19,8 +19,7 @@ class CannotTell(Exception):
 class Measured(NamedTuple):
     """A value and the half width of its 95 % interval.
 
-    Sums, differences, products, quotients and powers take errors as independent: they add in squares, to
-    first order. The other operand may be a number, which has no error.
+    Arithmetic takes errors as independent: they add in squares, to first order. A number has no error.
     """
 
     value: float
@@ -106,10 +105,7 @@ def mean(x: Sequence[float] | np.ndarray) -> Measured:
     The estimated variance of the mean has itself a relative variance 2 (2W + 1)/n, as a chi^2 with
     n/(2W + 1) degrees of freedom has: hence the t factor, which keeps short series honest.
 
-    Raises
-    ------
-    ValueError
-        The series is too short or not finite.
+    Raises ValueError: the series is too short or not finite.
     """
     x = np.asarray(x, dtype=float)
     if len(x) < 10 or not np.isfinite(x).all():
@@ -118,19 +114,19 @@ def mean(x: Sequence[float] | np.ndarray) -> Measured:
     if np.ptp(x) == 0:
         return Measured(float(x[0]), 0.0)
     window, tau = window_and_tau(x)
-    freedom = max(1.0, len(x)/(2*window + 1))
-    return Measured(float(x.mean()), float(stdtrit(freedom, 0.975)*x.std()*np.sqrt(2*tau/len(x))))
+    t = stdtrit(max(1.0, len(x)/(2*window + 1)), 0.975)
+    return Measured(float(x.mean()), float(t*x.std()*np.sqrt(2*tau/len(x))))
 
 
 def settled(x: Sequence[float] | np.ndarray, most: float = np.inf) -> tuple[Measured, bool]:
-    """Mean of a series and whether its halves agree; where they do not, half of their difference is in the error.
+    """Mean of a series and whether its halves agree; if not, half of their difference is in the error.
 
-    Two halves of a steady series differ by more than 1.5 times the root of the sum of squares of their 95 % intervals
-    once in 300 times. Where noise is as long as the series these intervals exclude nothing: halves that differ by more than
-    the fraction `most` of the mean do not agree, either.
+    Two halves of a steady series differ by more than 1.5 times the root of the sum of squares of their 95 %
+    intervals once in 300 times. Where noise is as long as the series these intervals exclude nothing: halves
+    that differ by more than the fraction `most` of the mean do not agree, either.
     """
-    x = np.asarray(x, dtype=float)
-    whole, (first, last) = mean(x), (mean(half) for half in np.array_split(x, 2))
+    whole = mean(x)
+    first, last = map(mean, np.array_split(np.asarray(x, float), 2))
     apart = abs(first.value - last.value)
     if apart <= 1.5*np.hypot(first.err, last.err) and apart <= most*abs(whole.value):
         return whole, True
@@ -156,10 +152,7 @@ def combine(runs: Sequence[tuple[float, float]]) -> Measured:
 def over_seeds(values: Sequence[float] | np.ndarray | pd.Series) -> Measured:
     """Mean over seeds of values that have no error of their own: t(n - 1) times the scatter over sqrt n.
 
-    Raises
-    ------
-    CannotTell
-        There is one seed.
+    Raises CannotTell: there is one seed.
     """
     if len(values) < 2:
         raise CannotTell(f"{len(values)} seed was run: there is no error bar without a second")
@@ -173,8 +166,8 @@ def seed_means(rows: pd.DataFrame, by: Sequence[str], columns: Sequence[str]) ->
     alone has only this.
     """
     for key, group in rows.groupby(list(by)):
-        means: dict[str, float] = {}
+        row: dict[str, Any] = {**dict(zip(by, key, strict=True)), "seeds": len(group)}
         for column in columns:
             within = group.get(f"{column}_err", pd.Series(0.0, index=group.index))
-            means[column], means[f"{column}_err"] = combine(list(zip(group[column], within, strict=True)))
-        yield {**dict(zip(by, key, strict=True)), "seeds": len(group), **means}
+            row[column], row[f"{column}_err"] = combine(list(zip(group[column], within, strict=True)))
+        yield row

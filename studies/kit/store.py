@@ -19,6 +19,7 @@ from studies.kit.key import ROOT
 RESULTS = ROOT / "results"
 SEAL = "sha256"     # of the rows of a kept case and their commit
 
+
 def results(size: str) -> Path:
     """Where the results of a size go by default; ``quick`` is for trying out and has a folder of its own."""
     return RESULTS / "quick" if size == "quick" else RESULTS
@@ -68,12 +69,9 @@ def same_code(case: Case) -> bool:
 
 
 def keep(case: Case, result: str | Failure, folder: Path) -> Failure | None:
-    """Write the outcome of a case, wherever it ran, and clear its scratch folder; of a failure write the traceback.
+    """Write the outcome of a case and clear its scratch folder; of a failure write the traceback.
 
-    Raises
-    ------
-    CannotRun
-        The disk is full.
+    Raises CannotRun: the disk is full.
     """
     story = folder / f"{case.key}.error.txt"
     if isinstance(result, Failure):

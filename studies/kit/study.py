@@ -21,13 +21,15 @@ from studies.kit.table import SIZES, Rows, Tables
 
 __all__ = ["Part", "Rows", "Study", "main", "nothing", "results", "say", "verdict_line"]
 
-#: number of the system's error -> what to do about it
+GO_ON = "finished cases are kept, the same command goes on from there"
+FULL = "the disk is full; make room where {out} lies; " + GO_ON
 REFUSED = "{file} cannot be written: give --out another folder"
-DISK = {errno.ENOSPC: "the disk is full; make room where {out} lies; finished cases are kept, the same command goes "
-                      "on from there",
-        **dict.fromkeys((errno.EACCES, errno.EPERM, errno.EROFS), REFUSED)}
+#: number of the system's error -> what to do about it
+DISK = {errno.ENOSPC: FULL, errno.EACCES: REFUSED, errno.EPERM: REFUSED, errno.EROFS: REFUSED}
 #: what ends a study with one line
 EXPECTED = (CasesFailed, CannotRun, ClaimError, OtherTable, FileNotFoundError)
+#: words that say where cases run, which of them, and where their rows go
+RUN_WORDS = ("workers", "scheduler", "out", "only")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,13 +41,7 @@ class Study(Part):
 
     @classmethod
     def of(cls, name: str, question: str, parts: Sequence[Part]) -> "Study":
-        """A study made of parts.
-
-        Raises
-        ------
-        ValueError
-            Two tables or two claims have one name.
-        """
+        """A study made of parts; ValueError if two tables or two claims have one name."""
         return cls(name=name, question=question.split("\n")[0], **vars(joined(parts)))
 
     def sweep(self, size: str, **more: Any) -> Sweep:
@@ -55,14 +51,8 @@ class Study(Part):
     def run(self, size: str, *, out: Path | None = None, **more: Any) -> Tables:
         """Cases to tables, derived rows among them; more, such as ``workers``, are fields of `Sweep`.
 
-        Raises
-        ------
-        NoSuchCase
-            No label contains ``only``.
-        CasesFailed
-            After all that the finished cases give has been derived and written: one that diverges costs its own row.
-        CannotRun
-            The tables are as they were.
+        Raises NoSuchCase: No label contains ``only``. CasesFailed: Some did; what follows from the
+        others has been derived and written. CannotRun: The tables are as they were.
         """
         sweep = self.sweep(size, out=out or results(size), **more)
         tables, failed = sweep.run(self.cases(size))
@@ -75,7 +65,7 @@ class Study(Part):
     def draw(self, out: Path = RESULTS) -> list[Path]:
         """Figures from the tables on disk."""
         pages = self.figures(load(self.tables, self.name, out))
-        paths = {name: out / self.name / f"{name}.png" for name in pages}
+        paths = {name: out/self.name/f"{name}.png" for name in pages}
         for name, page in pages.items():
             save(page, paths[name])
         return list(paths.values())
@@ -84,8 +74,13 @@ class Study(Part):
         """Verdicts from the tables on disk, put into claims.csv."""
         rows = judge(self.claims, load(self.tables, self.name, out), self.name)
         if rows:
-            put_claims(out / "claims.csv", rows, self.name)
+            put_claims(out/"claims.csv", rows, self.name)
         return rows
+
+    def written(self, out: Path) -> list[Path]:
+        """The tables that exist."""
+        paths = [out/self.name/f"{table.name}.csv" for table in self.tables]
+        return [path for path in paths if path.exists()]
 
 
 def main(study: Study, arguments: Sequence[str] | None = None) -> None:
@@ -95,8 +90,7 @@ def main(study: Study, arguments: Sequence[str] | None = None) -> None:
     try:
         sys.exit(perform(study, words))
     except KeyboardInterrupt as stop:
-        text = str(stop) or "interrupted: finished cases are kept, the same command goes on from there"
-        sys.exit(say(f"\n{text}", 130))
+        sys.exit(say(f"\n{str(stop) or f'interrupted: {GO_ON}'}", 130))
     except NoSuchCase as error:
         sys.exit(say(f"{study.name}: {error}", 2))
     except EXPECTED as error:
@@ -104,23 +98,26 @@ def main(study: Study, arguments: Sequence[str] | None = None) -> None:
     except OSError as error:
         if error.errno not in DISK:
             raise
-        sys.exit(say(f"{study.name}: {DISK[error.errno].format(out=words.out, file=error.filename)}", 1))
+        text = DISK[error.errno].format(out=words.out, file=error.filename)
+        sys.exit(say(f"{study.name}: {text}", 1))
 
 
 def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
-    """Command, size (default: SIZE of the environment, else paper), workers or cluster, folder, which cases."""
-    parser = argparse.ArgumentParser(prog=f"python -m studies.{study.name}", description=study.question or None)
+    """Command, size (default: SIZE of the environment, else paper), where it runs, folder, which cases."""
+    name, about = f"python -m studies.{study.name}", study.question or None
+    parser = argparse.ArgumentParser(prog=name, description=about)
     add, size = parser.add_argument, os.environ.get("SIZE") or "paper"
     add("command", nargs="?", default="run", choices=["run", "figures", "claims"])
     add("--size", default=size, help=f"{', '.join(SIZES)} (default: {size})")
     add("--workers", type=int, default=2, help="processes; 1 computes in this one (default: 2)")
     add("--scheduler", default=os.environ.get("SCHEDULER") or "", metavar="tcp://HOST:PORT",
         help="of a Dask cluster that runs the cases instead (default: SCHEDULER of the environment)")
-    add("--out", type=Path, help="where tables and figures go (default: results; of size quick: results/quick)")
+    add("--out", type=Path, help="where tables and figures go (default: results, or results/quick)")
     add("--only", default="", metavar="TEXT",
         help="run only cases with this text in their label, such as a variant's name")
     words = parser.parse_args(arguments)
     words.usual, words.out = words.out is None, words.out or results(words.size)
+    words.cases = {name: getattr(words, name) for name in RUN_WORDS}
     try:
         check_words(study, words)
     except ValueError as error:
@@ -129,24 +126,15 @@ def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
 
 
 def check_words(study: Study, words: argparse.Namespace) -> None:
-    """Refuse what cannot be done, before anything is."""
-    study.sweep(words.size, **options(words))
-    if words.only and words.command != "run":
+    """Refuse what cannot be done, before anything is; make the folder that is written to."""
+    study.sweep(words.size, **words.cases)
+    out, runs = words.out, words.command == "run"
+    if words.only and not runs:
         raise ValueError(f"--only chooses what to run, {words.command} reads whole tables: leave it out")
-    check_out(words.out, make=words.command == "run")
-
-
-def options(words: argparse.Namespace) -> dict[str, Any]:
-    """The words that say where cases run, which of them, and where their rows go."""
-    return {name: getattr(words, name) for name in ("workers", "scheduler", "out", "only")}
-
-
-def check_out(out: Path, *, make: bool) -> None:
-    """Refuse what is no folder; make it on wish."""
     if out.exists() and not out.is_dir():
         raise ValueError(f"--out {out} is a file: give a folder")
     try:
-        if make:
+        if runs:
             out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise ValueError(f"--out {out} cannot be made ({error.strerror}): give another folder") from error
@@ -154,34 +142,28 @@ def check_out(out: Path, *, make: bool) -> None:
 
 def perform(study: Study, words: argparse.Namespace) -> int:
     """Run what was asked for and say where it is."""
-    failed = None
+    out, failed = words.out, None
     if words.command == "run":
         try:
-            study.run(words.size, **options(words))
+            study.run(words.size, **words.cases)
         except CasesFailed as error:
             failed = error
-    elif not written(study, words.out):
-        raise FileNotFoundError(f"no table in {shown(words.out / study.name)}: run {first(study, words)} first")
+    elif not study.written(out):
+        raise FileNotFoundError(f"no table in {shown(out/study.name)}: run {first(study, words)} first")
     if words.command in ("run", "figures"):
-        for path in study.draw(words.out):
+        for path in study.draw(out):
             say(f"figure  {shown(path)}")
     if words.command in ("run", "claims"):
-        for row in study.judge(words.out):
+        for row in study.judge(out):
             print(verdict_line(row))
-    for path in written(study, words.out):
+    for path in study.written(out):
         say(f"table   {shown(path)}")
-    if words.usual and words.out != results("paper"):
-        usual = shown(results("paper"))
-        say(f"size {words.size}: all of it is in {shown(words.out)}, what is in {usual} stays as it is")
+    usual = results("paper")
+    if words.usual and out != usual:
+        say(f"size {words.size}: all of it is in {shown(out)}, what is in {shown(usual)} stays as it is")
     if failed:
         raise failed
     return 0
-
-
-def written(study: Study, out: Path) -> list[Path]:
-    """The tables that exist."""
-    paths = [out / study.name / f"{table.name}.csv" for table in study.tables]
-    return [path for path in paths if path.exists()]
 
 
 def first(study: Study, words: argparse.Namespace) -> str:
@@ -193,12 +175,12 @@ def first(study: Study, words: argparse.Namespace) -> str:
 
 def verdict_line(row: Mapping[str, Any]) -> str:
     """A claim and its verdict in two lines."""
-    printed = f"printed {row['printed']}, " if row["printed"] else ""
-    known = math.isfinite(row["measured"])
-    value = f"{printed}measured {row['measured']:.5g} +- {row['err']:.2g}" if known else row["reason"]
-    indent = " "*13
-    text = textwrap.fill(f"{row['source']}: {row['statement']}", 100, initial_indent=indent, subsequent_indent=indent)
-    return f"{row['verdict']:<12} {row['id']}: {value}\n{text}"
+    value = row["reason"]
+    if math.isfinite(row["measured"]):
+        printed = f"printed {row['printed']}, " if row["printed"] else ""
+        value = f"{printed}measured {row['measured']:.5g} +- {row['err']:.2g}"
+    text = textwrap.wrap(f"{row['source']}: {row['statement']}", 87)
+    return f"{row['verdict']:<12} {row['id']}: {value}\n" + textwrap.indent("\n".join(text), " "*13)
 
 
 def shown(path: Path) -> Path:

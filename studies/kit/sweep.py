@@ -49,25 +49,21 @@ class Sweep:
     @property
     def folder(self) -> Path:
         """Of finished cases."""
-        return self.out / "raw" / self.study
+        return self.out/"raw"/self.study
 
     def run(self, cases: Iterable[Case]) -> tuple[Tables, CasesFailed | None]:
         """Run the cases that are not finished yet, the longest first; merge all rows into the tables.
 
-        Raises
-        ------
-        NoSuchCase
-            No label contains ``only``.
-        KeyboardInterrupt, CannotRun
-            What is finished is kept, the tables are as they were.
+        Raises NoSuchCase: No label contains ``only``. KeyboardInterrupt, CannotRun: What is finished
+        is kept, the tables are as they were.
         """
         chosen = labelled(list(cases), self.only, self.size)
         wanted = list({case.key: case for case in chosen}.values())
         failures = self.run_missing(wanted)
         tables = self.put(collected(kept(case, self.folder) for case in wanted))
         if failures:
-            return tables, CasesFailed(f"{len(failures)} of {len(wanted)} cases failed, the tables hold the others:\n"
-                                       + "\n".join(map(str, failures)))
+            count = f"{len(failures)} of {len(wanted)} cases failed, the tables hold the others:"
+            return tables, CasesFailed("\n".join([count, *map(str, failures)]))
         if not self.only:
             put_times(self.out, self.study, self.size, wanted)
         return tables, None
@@ -100,42 +96,48 @@ class Sweep:
         """Merge rows into the tables and read all of these that exist."""
         known = {table.name: table for table in self.tables}
         if unknown := sorted(rows.keys() - known):
-            raise ValueError(f"no table {', '.join(unknown)} in study {self.study}: it has {', '.join(known)}")
+            names = ", ".join(known)
+            raise ValueError(f"no table {', '.join(unknown)} in study {self.study}: it has {names}")
         for name, new in rows.items():
             _, better = merge(self.path(name), known[name], new, size=self.size, command=self.command)
             if better:
-                print(f"{self.study}/{name}.csv: {better} rows of a better size than {self.size} stay", file=sys.stderr)
+                print(f"{self.study}/{name}.csv: {better} rows of a better size than {self.size} stay",
+                      file=sys.stderr)
         return load(self.tables, self.study, self.out)
 
     def put_derived(self, rows: Rows) -> Tables:
         """The same for rows that follow from whole tables.
 
-        When ``only`` some cases ran, rows that came out as they were keep size and commit: what they follow from has
-        not run.
+        When ``only`` some cases ran, rows that came out as they were keep size and commit: what they follow
+        from has not run.
         """
-        if self.only:
-            known = [table for table in self.tables if table.name in rows]
-            rows = {**rows, **{table.name: changed(self.path(table.name), table, rows[table.name]) for table in known}}
-        return self.put(rows)
+        if not self.only:
+            return self.put(rows)
+        new = dict(rows)
+        for table in self.tables:
+            if table.name in rows:
+                new[table.name] = changed(self.path(table.name), table, rows[table.name])
+        return self.put(new)
 
     def path(self, name: str) -> Path:
         """Of a table."""
-        return self.out / self.study / f"{name}.csv"
+        return self.out/self.study/f"{name}.csv"
 
     @property
     def command(self) -> str:
-        """What makes the tables; of a cluster, whose CPUs the head of a table does not name, that it is one."""
+        """What makes the tables; a cluster has CPUs that the head of a table does not name."""
         there = " SCHEDULER=tcp://..." if self.scheduler else ""
         if self.only:
-            return f"python -m studies.{self.study} --size {self.size} --only {shlex.quote(self.only)}{there}"
+            only = shlex.quote(self.only)
+            return f"python -m studies.{self.study} --size {self.size} --only {only}{there}"
         return f"make study-{self.study} SIZE={self.size}{there}"
 
 
 def collected(outcomes: Iterable[Rows | None]) -> Rows:
     """The rows of many cases, by table; None stands for a case that has none."""
     rows: dict[str, list[dict[str, Any]]] = {}
-    for outcome in outcomes:
-        for name, new in (outcome or {}).items():
+    for outcome in filter(None, outcomes):
+        for name, new in outcome.items():
             rows.setdefault(name, []).extend(new)
     return rows
 
@@ -143,16 +145,20 @@ def collected(outcomes: Iterable[Rows | None]) -> Rows:
 def labelled(cases: Sequence[Case], only: str, size: str) -> Sequence[Case]:
     """The cases whose label contains a text, in capitals or not."""
     chosen = [case for case in cases if only.casefold() in case.label.casefold()]
-    if only and not chosen:
-        labels = list(dict.fromkeys(case.label for case in cases))
-        some = "; ".join(labels[::max(1, len(labels)//LABELS)][:LABELS]) or "none"
-        raise NoSuchCase(f"no case of size {size} has {only!r} in its label; "
-                         f"some of its {len(labels)} labels are: {some}")
-    return chosen
+    if chosen or not only:
+        return chosen
+    labels = list(dict.fromkeys(case.label for case in cases))
+    step = max(1, len(labels)//LABELS)
+    some = "; ".join(labels[::step][:LABELS]) or "none"
+    raise NoSuchCase(f"no case of size {size} has {only!r} in its label; "
+                     f"some of its {len(labels)} labels are: {some}")
 
 
 def load(tables: Sequence[Table], study: str, out: Path = RESULTS) -> Tables:
     """The tables of a study that have been written, from CSV."""
-    paths = [out / study / f"{table.name}.csv" for table in tables]
-    pairs = zip(tables, paths)
-    return Tables({table.name: read(path, table.columns) for table, path in pairs if path.exists()})
+    frames = Tables()
+    for table in tables:
+        path = out/study/f"{table.name}.csv"
+        if path.exists():
+            frames[table.name] = read(path, table.columns)
+    return frames

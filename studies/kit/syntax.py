@@ -1,6 +1,6 @@
-"""Our own modules as syntax: what defines a name, what a name means, and how a statement reads without its layout.
+"""Our own modules as syntax: what defines a name, what it means, how a statement reads without layout.
 
-Docstrings, comments, layout, annotations of functions and names of modules are left out: none of them changes a result.
+Docstrings, comments, annotations of functions and names of modules are left out: none changes a result.
 """
 import ast
 from collections.abc import Iterator
@@ -17,7 +17,7 @@ UNNAMED = "_"       # what functions are called that are only registered
 
 
 class Place(NamedTuple):
-    """A definition of a module: all of it, one entry of a table, a class as a case has it, or an action of the module."""
+    """A definition of a module: all of it, one entry of a table, a class as a case has it, or an action."""
 
     module: str
     name: str
@@ -25,15 +25,14 @@ class Place(NamedTuple):
 
 
 class Reading(NamedTuple):
-    """What a definition says: its syntax, the places that it uses, and the fields of a case that choose from tables."""
+    """What a definition says: its syntax, and the places that it uses."""
 
     text: str
     uses: tuple[Place, ...] = ()
-    choices: tuple[tuple[Place, str], ...] = ()
 
 
 class Module:
-    """A file: its name, what its top-level statements define, what they import, and what they do besides."""
+    """A file: what its top-level statements define, what they import, and what they do besides."""
 
     def __init__(self, name: str, path: Path):
         self.name, self.path = name, path
@@ -56,42 +55,32 @@ def parse(path: Path) -> ast.Module:
     return ast.parse(path.read_text(), filename=str(path))
 
 
-def undocumented(body: list[ast.stmt]) -> list[ast.stmt]:
-    """Statements without the docstring."""
-    first = body[0]
-    documented = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) and isinstance(first.value.value, str)
-    return body[documented:] or [ast.Pass()]
+# --- statements ------------------------------------------------------------------------------------
 
 
 def counts(node: ast.stmt) -> bool:
     """Does a top-level statement run when its module is imported, and change anything?"""
-    main = isinstance(node, ast.If) and "__name__" in names_in(node.test)
+    main = isinstance(node, ast.If) and "__name__" in ast.unparse(node.test)
     return not main and not isinstance(node, ast.Assert | ast.Pass)
-
-
-def names_in(*nodes: ast.AST) -> list[str]:
-    """All plain names, in the order of the text."""
-    return [name.id for node in nodes for name in ast.walk(node) if isinstance(name, ast.Name)]
 
 
 def imported(tree: ast.AST, package: str) -> Iterator[tuple[str, str]]:
     """(name, what it stands for) of all import statements in a tree.
 
-    Raises
-    ------
-    ValueError
-        ``from x import *``: nobody could tell what a name means.
+    Raises ValueError: ``from x import *``, after which nobody could tell what a name means.
     """
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
-            yield from ((alias.asname or alias.name.split(".")[0], alias.name if alias.asname else alias.name.split(".")[0])
-                        for alias in node.names)
+            for alias in node.names:
+                top = alias.name.split(".")[0]
+                yield (alias.asname, alias.name) if alias.asname else (top, top)
         elif isinstance(node, ast.ImportFrom):
             origin = origin_of(node, package)
-            if node.names[0].name == "*":
-                raise ValueError(f"from {origin} import * in {package or 'a script'}: import names one by one, so that keys can "
-                                 "follow them")
-            yield from ((alias.asname or alias.name, f"{origin}.{alias.name}") for alias in node.names)
+            for alias in node.names:
+                if alias.name == "*":
+                    raise ValueError(f"from {origin} import * in {package or 'a script'}: import names one "
+                                     "by one, so that keys can follow them")
+                yield alias.asname or alias.name, f"{origin}.{alias.name}"
 
 
 def origin_of(node: ast.ImportFrom, package: str) -> str:
@@ -103,10 +92,10 @@ def origin_of(node: ast.ImportFrom, package: str) -> str:
 
 def defines(node: ast.stmt) -> Iterator[str]:
     """Names that a top-level statement binds, other than by an import; ``_`` is no name."""
-    if isinstance(node, FUNCTION | ast.ClassDef):
-        yield from {node.name} - {UNNAMED}
-    else:
-        yield from dict.fromkeys(stores(node))
+    names = dict.fromkeys(stores(node))
+    if isinstance(node, FUNCTION):
+        names.pop(UNNAMED, None)
+    yield from names
 
 
 def stores(node: ast.AST) -> Iterator[str]:
@@ -116,7 +105,9 @@ def stores(node: ast.AST) -> Iterator[str]:
     elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store | ast.Del):
         yield node.id
     elif isinstance(node, COMPREHENSION | ast.Lambda):
-        yield from (name for inner in ast.walk(node) if isinstance(inner, ast.NamedExpr) for name in stores(inner.target))
+        for inner in ast.walk(node):
+            if isinstance(inner, ast.NamedExpr):
+                yield from stores(inner.target)
     else:
         if isinstance(node, ast.ExceptHandler | ast.MatchAs | ast.MatchStar) and node.name:
             yield node.name
@@ -127,12 +118,13 @@ def stores(node: ast.AST) -> Iterator[str]:
 def acts(node: ast.stmt) -> bool:
     """Does a top-level statement do more than to define: register a formula, fill a table, set something?"""
     if isinstance(node, FUNCTION | ast.ClassDef):
-        return node.name == UNNAMED or any(registers(decorator) for decorator in node.decorator_list)
+        return node.name == UNNAMED or any(map(registers, node.decorator_list))
     if isinstance(node, COMPOUND):
         return any(acts(child) for child in ast.iter_child_nodes(node) if isinstance(child, ast.stmt))
     if isinstance(node, ast.Assign | ast.AugAssign):
         return not all(isinstance(target, ast.Name | ast.Tuple | ast.List) for target in targets(node))
-    return isinstance(node, ast.Expr | ast.Delete) and not isinstance(getattr(node, "value", None), ast.Constant)
+    documents = isinstance(getattr(node, "value", None), ast.Constant)
+    return isinstance(node, ast.Expr | ast.Delete) and not documents
 
 
 def targets(node: ast.Assign | ast.AugAssign) -> list[ast.expr]:
@@ -143,7 +135,9 @@ def targets(node: ast.Assign | ast.AugAssign) -> list[ast.expr]:
 def registers(node: ast.expr) -> bool:
     """Is it ``f.of(K)``, ``f.register`` or ``f.register(K)``?"""
     head = node.func if isinstance(node, ast.Call) else node
-    return isinstance(head, ast.Attribute) and head.attr in ("of", "register") and isinstance(head.value, ast.Name)
+    if not (isinstance(head, ast.Attribute) and isinstance(head.value, ast.Name)):
+        return False
+    return head.attr in ("of", "register")
 
 
 def chain(node: ast.AST) -> tuple[str, ...]:
@@ -154,26 +148,38 @@ def chain(node: ast.AST) -> tuple[str, ...]:
     return (*above, node.attr) if above and isinstance(node, ast.Attribute) else ()
 
 
+def parameters_of(arguments: ast.arguments) -> list[ast.arg]:
+    """All parameters of a function."""
+    some = [arguments.vararg, arguments.kwarg]
+    return [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs, *filter(None, some)]
+
+
+def undocumented(body: list[ast.stmt]) -> list[ast.stmt]:
+    """Statements without the docstring."""
+    first = body[0]
+    documents = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant)
+    return body[1:] or [ast.Pass()] if documents else body
+
+
+# --- how they read ---------------------------------------------------------------------------------
+
+
 class Reader(ast.NodeTransformer):
-    """Rewrites statements so that a name reads the same wherever it is defined, and notes which places they use."""
+    """Rewrites statements so that a name reads the same wherever it is defined; notes the places they use."""
 
     def __init__(self, code: Any, module: Module):
         self.code, self.module = code, module
         self.uses: dict[Place, None] = {}
-        self.choices: dict[tuple[Place, str], None] = {}
-        self.scopes: list[dict[str, str]] = []      # name -> what it was imported from, nothing if it is a variable
-        self.case = ""      # what methods of a case call it, while they are read as such
+        self.scopes: list[dict[str, str]] = []      # name -> origin of an import, nothing of a variable
         self.fields = False     # is it the body of a class, whose annotations make fields?
 
     def read(self, *nodes: ast.AST) -> Reading:
         """Syntax and uses of statements, in an order of their own."""
         texts = sorted(ast.dump(self.visit(deepcopy(node))) for node in nodes)
-        return Reading("\n".join(texts), tuple(self.uses), tuple(self.choices))
-
-    # --- names -------------------------------------------------------------------------------------------------
+        return Reading("\n".join(texts), tuple(self.uses))
 
     def visit_Name(self, node: ast.Name) -> ast.expr:
-        return self.renamed(node)
+        return self.renamed(node) if isinstance(node.ctx, ast.Load) else node
 
     def visit_Attribute(self, node: ast.Attribute) -> ast.expr:
         whole = chain(node) and isinstance(node.ctx, ast.Load)
@@ -182,40 +188,40 @@ class Reader(ast.NodeTransformer):
     def renamed(self, node: ast.expr) -> ast.expr:
         """A chain of names with the definition's own name in place of what leads to it."""
         dotted = self.meaning(chain(node))
-        if not dotted or not isinstance(getattr(node, "ctx", None), ast.Load):
+        if not dotted:
             return node
         place, rest = self.code.locate(dotted)
-        if place:
-            self.uses[place] = None
-        result: ast.expr = ast.Name(place.name if place else ".".join(dotted), ast.Load())
-        for name in rest if place else ():
+        if not place:
+            return ast.Name(".".join(dotted), ast.Load())
+        self.uses[place] = None
+        result: ast.expr = ast.Name(place.name, ast.Load())
+        for name in rest:
             result = ast.Attribute(result, name, ast.Load())
         return result
 
     def meaning(self, parts: tuple[str, ...]) -> tuple[str, ...]:
         """Full dotted name, nothing for variables and for names that Python itself knows."""
+        if not parts:
+            return ()
+        first, *rest = parts
         for scope in reversed(self.scopes):
-            if parts[0] in scope:
-                return (*scope[parts[0]].split("."), *parts[1:]) if scope[parts[0]] else ()
-        if parts[0] in self.module.definitions:
+            if first in scope:
+                return (*scope[first].split("."), *rest) if scope[first] else ()
+        if first in self.module.definitions:
             return (self.module.name, *parts)
-        origin = self.module.imports.get(parts[0])
-        return (*origin.split("."), *parts[1:]) if origin else ()
+        origin = self.module.imports.get(first)
+        return (*origin.split("."), *rest) if origin else ()
 
     def visit_Subscript(self, node: ast.Subscript) -> ast.expr:
-        """``TABLE["name"]`` uses one entry, ``TABLE[self.field]`` of a case the one that its field names."""
-        parts, key = self.meaning(chain(node.value)) if chain(node.value) else (), node.slice
-        place, rest = self.code.locate(parts) if parts else (None, ())
-        field = chain(key)[1:] if self.case and chain(key)[:1] == (self.case,) else ()
-        if not place or rest or not (isinstance(key, ast.Constant) or field) or not isinstance(node.ctx, ast.Load):
+        """``TABLE["name"]`` uses one entry."""
+        place, rest = self.code.locate(self.meaning(chain(node.value)))
+        key = node.slice
+        if not place or rest or not isinstance(key, ast.Constant) or not isinstance(node.ctx, ast.Load):
             return self.generic_visit(node)  # type: ignore[return-value]
-        if isinstance(key, ast.Constant):
-            self.uses[self.code.entry(place, key.value)] = None
-        else:
-            self.choices[place, ".".join(field)] = None
+        self.uses[self.code.entry(place, key.value)] = None
         return ast.Subscript(ast.Name(place.name, ast.Load()), key, node.ctx)
 
-    # --- scopes ------------------------------------------------------------------------------------------------
+    # --- scopes ------------------------------------------------------------------------------------
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.FunctionDef:
         node.decorator_list = [self.visit(decorator) for decorator in node.decorator_list]
@@ -247,22 +253,25 @@ class Reader(ast.NodeTransformer):
 
     def inner(self, body: list[Any], arguments: ast.arguments) -> list[Any]:
         """A function's body, read with its variables."""
-        public = {name for node in body for one in ast.walk(node) if isinstance(one, ast.Global) for name in one.names}
-        scope = dict.fromkeys([one.arg for one in parameters_of(arguments)], "")
-        scope |= dict.fromkeys((name for node in body for name in stores(node) if name not in public), "")
+        scope = dict.fromkeys((one.arg for one in parameters_of(arguments)), "")
+        public: set[str] = set()
+        for node in body:
+            scope |= dict.fromkeys(stores(node), "")
+            public |= {name for one in ast.walk(node) if isinstance(one, ast.Global) for name in one.names}
         for node in body:
             scope |= dict(imported(node, self.module.package))
-        self.scopes.append(scope)
+        self.scopes.append({name: origin for name, origin in scope.items() if origin or name not in public})
         before, self.fields = self.fields, False
-        result = [new for node in body if (new := self.visit(node)) is not None]
+        nodes = [self.visit(node) for node in body]
         self.fields = before
         self.scopes.pop()
-        return result
+        return [node for node in nodes if node is not None]
 
     def visit_comprehension_of(self, node: Any) -> Any:
         first, *others = node.generators
         first.iter = self.visit(first.iter)
-        self.scopes.append(dict.fromkeys((name for one in node.generators for name in stores(one.target)), ""))
+        names = (name for one in node.generators for name in stores(one.target))
+        self.scopes.append(dict.fromkeys(names, ""))
         first.target, first.ifs = self.visit(first.target), [self.visit(test) for test in first.ifs]
         node.generators = [first, *map(self.visit, others)]
         for field in ("elt", "key", "value"):
@@ -273,7 +282,7 @@ class Reader(ast.NodeTransformer):
 
     visit_ListComp = visit_SetComp = visit_DictComp = visit_GeneratorExp = visit_comprehension_of
 
-    # --- what does not count -----------------------------------------------------------------------------------
+    # --- what does not count -----------------------------------------------------------------------
 
     def visit_Import(self, node: Any) -> None:
         """What is imported shows where it is used."""
@@ -295,9 +304,3 @@ class Reader(ast.NodeTransformer):
         if getattr(node, "body", None) == []:
             setattr(node, "body", [ast.Pass()])  # noqa: B010  (mypy allows it so)
         return node
-
-
-def parameters_of(arguments: ast.arguments) -> list[ast.arg]:
-    """All parameters of a function."""
-    some = [arguments.vararg, arguments.kwarg]
-    return [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs, *filter(None, some)]

@@ -2,7 +2,7 @@
 
 A row of a better size (quick < paper < fine) is never replaced by one of a lesser size.
 """
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from numbers import Real
 from pathlib import Path
@@ -28,8 +28,8 @@ Rows = Mapping[str, list[dict[str, Any]]]
 class Table:
     """A table by name: its columns, and those (``key``) in which no two rows agree.
 
-    Large ones say besides which digits suffice (``digits``: column -> such as ".4f"), and in which columns a cell that repeats
-    the one above is left out (``once``).
+    Of large ones: which digits suffice (``digits``: column -> such as ".4f"), and in which columns a cell
+    that repeats the one above is left out (``once``).
     """
 
     name: str
@@ -62,13 +62,7 @@ def groups(frame: pd.DataFrame, by: str | list[str]) -> list[tuple[Any, pd.DataF
 
 
 def check_size(size: str) -> str:
-    """``size`` itself.
-
-    Raises
-    ------
-    ValueError
-        It is none of the three.
-    """
+    """``size`` itself. Raises ValueError: it is none of the three."""
     if size not in SIZES:
         raise ValueError(f"unknown size {size!r}: choose one of {', '.join(SIZES)}, as in SIZE=quick")
     return size
@@ -79,19 +73,19 @@ def merge(path: Path, table: Table, rows: Sequence[dict[str, Any]], *, size: str
     """Put ``rows`` into the CSV at ``path``; the table as it then is, and how many better rows stayed.
 
     No rows leave the table as it is; where there is none yet they make an empty one.
-
-    Raises
-    ------
-    ValueError
-        Rows lack key columns, have unknown columns, or two of them have the same key.
+    Raises ValueError: rows lack key columns, have unknown columns, or two of them have the same key.
     """
     check_size(size)
+    columns = [*table.columns, *STAMP]
     if not rows:
-        return none_new(path, table, command), 0
+        if not path.exists():
+            write(path, pd.DataFrame(columns=columns), head=head(command))
+        return read(path, columns), 0
     new = rounded(table, pd.DataFrame([{"commit": provenance.commit(), **row, "size": size} for row in rows]))
     check_rows(table, new)
-    old = read(path, [*table.columns, *STAMP]) if path.exists() else pd.DataFrame()
-    chosen = best(pd.concat([part for part in (old, new) if len(part)], ignore_index=True), table.key)
+    old = read(path, columns) if path.exists() else pd.DataFrame()
+    parts = [part for part in (old, new) if len(part)]
+    chosen = best(pd.concat(parts, ignore_index=True), table.key)
     spent = [column for column in SPENT if column in chosen and column not in table.columns]
     frame = chosen.reindex(columns=[*table.columns, *spent, *STAMP])
     write(path, frame.sort_values(list(table.key), kind="stable"), head=head(command), once=table.once)
@@ -102,10 +96,15 @@ def changed(path: Path, table: Table, rows: Sequence[dict[str, Any]]) -> list[di
     """Those of ``rows`` that do not stand in the CSV at ``path`` as they are."""
     if not path.exists():
         return list(rows)
-    old, new = (lines(frame.reindex(columns=list(table.columns)))
-                for frame in (read(path, table.columns), rounded(table, pd.DataFrame(rows))))
-    there = set(old)
-    return [row for row, line in zip(rows, new) if line not in there]
+    old = set(lines(table, read(path, table.columns)))
+    new = lines(table, rounded(table, pd.DataFrame(rows)))
+    return [row for row, line in zip(rows, new) if line not in old]
+
+
+def lines(table: Table, frame: pd.DataFrame) -> list[str]:
+    """Rows as they are written, without what was spent on them."""
+    columns = frame.reindex(columns=list(table.columns))
+    return columns.to_csv(index=False, header=False, float_format=DIGITS).splitlines()
 
 
 def rounded(table: Table, frame: pd.DataFrame) -> pd.DataFrame:
@@ -113,19 +112,6 @@ def rounded(table: Table, frame: pd.DataFrame) -> pd.DataFrame:
     kept = {name: [float(format(value, digits)) + 0.0 for value in frame[name]]     # no -0
             for name, digits in table.digits.items() if name in frame}
     return frame.assign(**kept)
-
-
-def lines(frame: pd.DataFrame) -> list[str]:
-    """Rows as they are written."""
-    return frame.to_csv(index=False, header=False, float_format=DIGITS).splitlines()
-
-
-def none_new(path: Path, table: Table, command: str) -> pd.DataFrame:
-    """The table as it is, or an empty one."""
-    columns = [*table.columns, *STAMP]
-    if not path.exists():
-        write(path, pd.DataFrame(columns=columns), head=head(command))
-    return read(path, columns)
 
 
 def best(frame: pd.DataFrame, key: Sequence[str]) -> pd.DataFrame:
@@ -140,7 +126,8 @@ def check_rows(table: Table, new: pd.DataFrame) -> None:
         raise ValueError(f"table {table.name} has no column {', '.join(unknown)}: "
                          f"it has {', '.join(table.columns)}")
     if missing := [name for name in table.key if name not in new.columns or new[name].isna().any()]:
-        raise ValueError(f"rows of table {table.name} lack {', '.join(missing)}: every row needs its whole key")
+        raise ValueError(f"rows of table {table.name} lack {', '.join(missing)}: "
+                         "every row needs its whole key")
     names = identity(new, table.key)
     if names.duplicated().any():
         raise ValueError(f"two rows of table {table.name} have the key {names[names.duplicated()].iloc[0]}: "
@@ -156,12 +143,10 @@ def as_text(value: Any) -> str:
     """A number as it stands in the CSV (9 digits; whole numbers in full), anything else as it is."""
     if not isinstance(value, Real):
         return str(value)
-    return f"{value:.0f}" if float(value).is_integer() else f"{value:.9g}"
+    return f"{value:.0f}" if float(value).is_integer() else DIGITS % value
 
 
-def head(command: str) -> Iterator[str]:
+def head(command: str) -> list[str]:
     """Lines on where a table comes from."""
-    yield f"commit {provenance.commit()}"
-    yield provenance.versions()
-    yield provenance.cpu()
-    yield f"{provenance.now()}, {command}"
+    return [f"commit {provenance.commit()}", provenance.versions(), provenance.cpu(),
+            f"{provenance.now()}, {command}"]

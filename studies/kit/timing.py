@@ -10,8 +10,8 @@ from scipy.special import stdtrit
 from numba.core import event  # isort: skip
 
 REPEATS = 7
-#: half of the interquartile range of 7 repeats -> half width of the 95 % interval of their median: t sqrt(pi/(2n)) sigma of a
-#: normal scatter, whose quartiles lie between the 2nd and 3rd and the 5th and 6th of 7, on average 0.757 and 0.353 sigma off
+#: half of the interquartile range of 7 repeats -> half width of the 95 % interval of their median:
+#: t sqrt(pi/(2n)) of a normal scatter, whose quartiles are on average 0.757 and 0.353 sigma off
 SPREAD_TO_ERR = float(stdtrit(REPEATS - 1, 0.975)*np.sqrt(np.pi/(2*REPEATS))/((0.757 + 0.353)/2))
 T = TypeVar("T")
 
@@ -54,10 +54,7 @@ def median_seconds(f: Callable[[], Any], repeats: int = 7,
 
     ``clock=time.process_time`` counts the CPU time of all threads instead of the time that passes.
 
-    Raises
-    ------
-    ValueError
-        Fewer than 3 repeats.
+    Raises ValueError: Fewer than 3 repeats.
     """
     if repeats < 3:
         raise ValueError(f"repeats must be at least 3, got {repeats}: a median of fewer is no median")

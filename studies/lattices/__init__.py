@@ -1,12 +1,11 @@
 """Is a fluid of smooth particles a lattice, or one of molecules?
 
-KHP95, Secs II-IV: how stiff lattices are, when they pair, clump or melt, what that does to sound, by lattice
-sums and by runs; at which pressure convection freezes, against the printed criteria; whether paths are those
-of molecules and run back. Particles have unit mass at mean density 1, so lengths are in spacings. Paper size
-takes a quarter of an hour.
+KHP95, Secs II-IV: when lattices pair, clump or melt, what that does to sound, by lattice sums and by runs; at
+which pressure convection freezes, against the printed criteria; whether paths are those of molecules and run
+back. Particles have unit mass at mean density 1, so lengths are in spacings.
 """
 from studies.kit.study import Study
-from studies.lattices import cases, claims, figures, tables
+from studies.lattices import cases, claims, figures
 
-STUDY = Study(name="lattices", question=__doc__.split("\n")[0], cases=cases.cases, tables=tables.ALL,
-              derive=tables.derive, figures=figures.figures, claims=claims.CLAIMS)
+STUDY = Study(name="lattices", question=__doc__.split("\n")[0], cases=cases.cases, tables=cases.TABLES,
+              derive=cases.derive, figures=figures.FIGURES, claims=claims.CLAIMS)

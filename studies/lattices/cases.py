@@ -1,32 +1,33 @@
-"""Which cases, by size."""
+"""Which cases, by size, and the tables that they fill. Lengths in spacings, masses of particles, T = 1."""
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
 
 import numpy as np
+import pandas as pd
 
-from continuum.fluid import DenseFluid, IdealGas, VanDerWaals
+from continuum.fluid import IdealGas, VanDerWaals
 from particles.weights import Lucy, Monaghan, Weight, WendlandC2, WendlandC4
 from studies.kit.case import Case
-from studies.lattices.crystals import Crystal, Growth, Moduli, Onset
-from studies.lattices.freezing import Fate, Freezing
-from studies.lattices.molecules import METHODS, Reversal, Twins
+from studies.kit.stats import CannotTell, over_seeds
+from studies.kit.table import Rows, Table, Tables
+from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Onset
+from studies.lattices.frozen_flow import Freezing
+from studies.lattices.molecules import METHODS, Fate, Reversal, Twins
 from studies.lattices.sound import Ringing, Speed
-from studies.lattices.waves import CELLS
 
 WEIGHTS: tuple[type[Weight], ...] = (Lucy, Monaghan, WendlandC2)
-WIDEST = 24.0           # range whose modulus is summed
-HEXAGONAL = Crystal(lattice="hexagonal", cells=(14, 8), weight=Lucy, h=3.0, eos=IdealGas())
-SQUARE = replace(HEXAGONAL, lattice="square", cells=(15, 15))
+HEXAGONAL = Crystal(lattice=LATTICES["hexagonal"], cells=(14, 8), weight=Lucy, h=3.0, eos=IdealGas())
+SQUARE = replace(HEXAGONAL, lattice=LATTICES["square"], cells=(15, 15))
 #: a van der Waals fluid on a hexagonal lattice that an ideal gas would keep
 COLD = replace(HEXAGONAL, h=2.5, eos=VanDerWaals())
 #: (crystal, weight, stable range, unstable range)
 UNSTABLE_RANGES = ((HEXAGONAL, Monaghan, 2.2, 2.6), (HEXAGONAL, Lucy, 2.6, 2.8),
                    (HEXAGONAL, WendlandC2, 2.8, 3.0), (SQUARE, Monaghan, 2.4, 2.6))
-WAVE = Ringing(lattice="square", weight=Lucy, length=64)
+WAVE = Ringing(lattice=LATTICES["square"], weight=Lucy, length=64)
 #: waves of many lengths on lattices that melt
 LENGTHS = ((WAVE, (48, 56, 64, 72, 80)), (replace(WAVE, weight=Monaghan), (36, 40, 44, 48, 52)),
-           (replace(WAVE, lattice="hexagonal"), (192, 224, 256, 288)))
+           (replace(WAVE, lattice=LATTICES["hexagonal"]), (192, 224, 256, 288)))
 #: lattices that keep a wave
 KEPT = (replace(WAVE, h=2.5, length=128), replace(WAVE, weight=WendlandC2, length=128))
 
@@ -34,27 +35,24 @@ KEPT = (replace(WAVE, h=2.5, length=128), replace(WAVE, weight=WendlandC2, lengt
 def cases(size: str) -> list[Case]:
     """All of them; `quick` is for trying the path out."""
     if size == "quick":
-        return [*moduli(1.0), *list(growth())[::5], *list(onsets())[::9], *fates((3.0,), (1,)),
-                *newton((5.0, 20.0), 5, (1,)), *speeds(), *(replace(LENGTHS[1][0], length=L) for L in (40, 44, 48))]
-    return [*moduli(0.1), *growth(), *onsets(),
-            *fates((2.0, 2.4, 2.8, 3.0, 3.4, 4.0), (1, 2)), *fates((3.0,), (3, 4, 5, 6)), *freezing(),
-            *newton((5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 100.0), 15, (1, 2)), *speeds(), *ringing()]
-
-
-def moduli(step: float) -> Iterator[Case]:
-    """Ranges from 2 to 24 spacings, by so much."""
-    ranges = tuple(round(float(h), 3) for h in np.arange(2, WIDEST + step/2, step))
-    yield from (Moduli(lattice=kind, weight=weight, h=ranges) for kind, weight in product(CELLS, WEIGHTS))
+        wave, _ = LENGTHS[1]
+        return [*list(growth())[::5], *list(onsets())[::9], *fates((3.0,), (1,)),
+                *molecules((5.0, 20.0), 5, (1,)), *speeds(),
+                *(replace(wave, length=L) for L in (40, 44, 48))]
+    return [*growth(), *onsets(),
+            *fates((2.0, 2.4, 2.8, 3.0, 3.4, 4.0), (1, 2)), *fates((3.0,), (3, 4, 5, 6)),
+            *freezing(), *molecules((5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 100.0), 15, (1, 2)),
+            *speeds(), *ringing()]
 
 
 def growth() -> Iterator[Case]:
     """The lattices that runs begin and freeze on; pairs; fluids under negative pressure."""
     for crystal, weight in product((HEXAGONAL, SQUARE), WEIGHTS):
-        yield Growth(crystal=replace(crystal, weight=weight))
+        yield LatticeGrowth(crystal=replace(crystal, weight=weight))
     for h in (2.6, 2.8):
-        yield Growth(crystal=replace(HEXAGONAL, weight=Monaghan, h=h))
+        yield LatticeGrowth(crystal=replace(HEXAGONAL, weight=Monaghan, h=h))
     for T, rho in ((0.1, 1.0), (0.15, 1.0), (0.2, 1.0), (0.15, 1.2), (0.2, 1.2)):
-        yield Growth(crystal=replace(COLD, T=T, rho=rho))
+        yield LatticeGrowth(crystal=replace(COLD, T=T, rho=rho))
 
 
 def onsets() -> Iterator[Case]:
@@ -68,29 +66,28 @@ def onsets() -> Iterator[Case]:
 
 def fates(ranges: tuple[float, ...], seeds: tuple[int, ...]) -> Iterator[Case]:
     """One a site or two?"""
-    yield from (Fate(weight=weight, h=h, seed=seed) for weight, h, seed in product(WEIGHTS, ranges, seeds))
+    for weight, h, seed in product(WEIGHTS, ranges, seeds):
+        yield Fate(weight=weight, h=h, seed=seed)
 
 
 def freezing() -> Iterator[Case]:
-    """The gas of Fig. 4 with both weights, at another Ra, the dense fluid; with shorter steps, too."""
+    """The gas of Fig. 4 with both weights; with shorter steps, too."""
     for weight, seed in product((Lucy, Monaghan), (1, 2, 3)):
-        yield Freezing(eos=IdealGas(), weight=weight, seed=seed)
-    for step in (1.0, 0.25):
-        yield Freezing(eos=IdealGas(), weight=Lucy, ra=1e4, step=step)
-        yield Freezing(eos=DenseFluid(), weight=Lucy, step=step)
-    yield Freezing(eos=IdealGas(), weight=Lucy, step=0.25)
+        yield Freezing(weight=weight, seed=seed)
+    yield Freezing(weight=Lucy, step=0.25)
 
 
-def newton(times: tuple[float, ...], samples: int, seeds: tuple[int, ...]) -> Iterator[Case]:
+def molecules(times: tuple[float, ...], samples: int, seeds: tuple[int, ...]) -> Iterator[Case]:
     """Paths of molecules, and back."""
     yield Twins(weight=Lucy, samples=samples)
-    yield from (Reversal(integrator=name, weight=Lucy, times=times, seed=seed) for name, seed in product(METHODS, seeds))
+    for (name, integrator), seed in product(METHODS.items(), seeds):
+        yield Reversal(name=name, integrator=integrator, weight=Lucy, times=times, seed=seed)
 
 
 def speeds() -> Iterator[Case]:
     """Of sound."""
-    yield from (Speed(lattice=kind, weight=weight) for kind, weight in product(("square",
-                                                                                "hexagonal"), WEIGHTS))
+    for lattice, weight in product(LATTICES.values(), WEIGHTS):
+        yield Speed(lattice=lattice, weight=weight)
 
 
 def ringing() -> Iterator[Case]:
@@ -98,3 +95,71 @@ def ringing() -> Iterator[Case]:
     for wave, lengths in LENGTHS:
         yield from (replace(wave, length=L, seed=seed) for L, seed in product(lengths, (1, 2, 3)))
     yield from KEPT
+
+
+# --- tables ---------------------------------------------------------------------------------------
+
+CRYSTAL = ["lattice", "weight", "h", "eos", "T", "rho"]
+RATES = ["predicted", "measured", "measured_err"]
+#: rate of the fastest growing motion: by lattice sums, and measured
+GROWTH = Table("growth", key=CRYSTAL, columns=[*CRYSTAL, *RATES])
+#: value of a parameter (h or T, its own column is then 0) at which motions begin to grow
+ONSETS = Table("onsets", key=[*CRYSTAL, "parameter", "seed"], columns=[*CRYSTAL, "parameter", "seed", *RATES])
+#: part of the particles that share a site
+FATES = Table("fates", key=["weight", "h", "seed"], columns=["weight", "h", "seed", "shared"])
+#: step: over that of other studies
+LAYER = ["weight", "seed", "step"]
+#: K of the mean flow over that of the grid's smoothed field, fluctuation of distances of neighbours over
+#: their mean, at pressures P; nothing where a run diverged
+FREEZING = Table("freezing", key=[*LAYER, "P"],
+                 columns=[*LAYER, "P", "flow", "flow_err", "lindemann"])
+#: P at which K of the mean flow falls below a tenth; K of the grid, and P at which 2 K is 2 P w(0), 2 P
+#: [w(0.9) - w(1)]
+FREEZING_LIMITS = Table("freezing_limits", key=LAYER,
+                        columns=[*LAYER, "measured", "measured_err", "K", "barrier", "melting"])
+#: rms distance of places of the same path by smooth particles and as molecules
+TWINS = Table("twins", key=["weight", "seed", "time"], columns=["weight", "seed", "time", "apart"])
+#: rms distance from the start, and part of the coordinates that are it to the last bit, after so much time
+#: there and back
+REVERSAL = Table("reversal", key=["integrator", "weight", "seed", "time"],
+                 columns=["integrator", "weight", "seed", "time", "apart", "equal"])
+#: speed of the longest waves along x over the fluid's
+SPEEDS = Table("sound_speeds", key=["lattice", "weight"], columns=["lattice", "weight", "speed"])
+SOUND = ["lattice", "weight", "h", "length", "seed"]
+#: rms velocities when the wave has rung: wave: of the exact wave; foretold, across: along y, where the wave
+#: has none, by linear theory from round-off and measured
+RINGING = Table("ringing", key=SOUND, columns=[*SOUND, "wave", "foretold", "across"])
+#: length of the wave from which what grows is as fast as the wave when it has rung, over seeds
+LOST = Table("ringing_lost", key=["lattice", "weight"], columns=["lattice", "weight", "seeds", *RATES])
+
+TABLES = (GROWTH, ONSETS, FATES, FREEZING, FREEZING_LIMITS, TWINS, REVERSAL, SPEEDS, RINGING, LOST)
+
+
+def derive(tables: Tables) -> Rows:
+    """Where waves are lost, of the lattices and weights of which many lengths ring."""
+    if "ringing" not in tables:
+        return {}
+    rows = tables["ringing"].query("h == 3").groupby(["lattice", "weight", "seed"])
+    predicted, measured = rows.apply(crossing, "foretold"), rows.apply(crossing, "across")
+    crossings = pd.DataFrame({"predicted": predicted, "measured": measured})
+    lost = []
+    for (lattice, weight), lengths in crossings.dropna().groupby(["lattice", "weight"]):
+        try:
+            length = over_seeds(lengths["measured"])
+        except CannotTell:
+            continue
+        key = {"lattice": lattice, "weight": weight, "seeds": len(lengths)}
+        lost.append({**key, "predicted": lengths["predicted"].mean(), "measured": length.value,
+                     "measured_err": length.err})
+    return {"ringing_lost": lost}
+
+
+def crossing(rows: pd.DataFrame, name: str) -> float:
+    """Length at which a velocity passes that of the wave, its logarithm interpolated; nan if it does not."""
+    rows = rows.sort_values("length")
+    ratio = np.log(rows[name].to_numpy()/rows["wave"].to_numpy())
+    i = int(np.argmax(ratio > 0))
+    if not i:
+        return np.nan
+    beside = slice(i - 1, i + 1)
+    return float(np.interp(0.0, ratio[beside], rows["length"].to_numpy(float)[beside]))

@@ -1,93 +1,137 @@
-"""Lattices of smooth particles: how stiff they are, and what grows    [KHP95, Secs II, III, VI]
+"""Small motions of inviscid smooth particles on a lattice, by sums and by runs    [KHP95, Secs II, III, VI]
 
-A fluid resists no shear, a lattice of particles does: its modulus is an error. Where the modulus, or any
-other omega^2, is negative, the lattice gives way. Weights with pairs melt into pairs, fluids under negative
-pressure clump; both begin as a small motion that grows.
+About rest at summed density rho, without conduction, displacements u exp(ik.r) obey d2u/dt2 = -M u,
+
+    M(k) = (m/rho)^2 (c^2 - 2 P/rho) S S^T + (2 m P/rho^2) D
+    S = sum_r grad w sin k.r
+    D = sum_r (grad grad w)(1 - cos k.r)
+
+The sums are over the neighbours r of a particle; c is the isentropic speed of sound. A negative eigenvalue of
+M is a motion that grows: weights with pairs melt into pairs, fluids under negative pressure clump.
 """
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
 
-from continuum.fluid import energy
-from particles.limits import step_limit
+from continuum.fluid import energy, pressure, pressure_slopes
+from particles.limits import Symbols, step_limit
 from particles.observe import particle_kinetic
 from particles.run import STUDIES, Divergence, Plan, run
-from studies.build.periodic_box import at_rest, densities, fluid
+from particles.weights import value_and_slope
+from studies.build.periodic_box import at_rest, fluid
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.fits import line
 from studies.kit.stats import Measured
-from studies.lattices.waves import Motion, at_centre, lattice, least_stable, neighbours, total
 
-# --- moduli ---------------------------------------------------------------------------------------
-
-STRAIN = 1e-3       # of second differences: truncation 1e-6, round-off 1e-10
-WIDEST = 6.0        # range up to which particles sum moduli, too: half of the box that they need
-CELL_COUNTS = {"square": (14, 14), "diagonal": (10, 10), "hexagonal": (14, 8)}
+# --- lattices -------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class Moduli(Case):
-    """Shear over bulk modulus of one lattice and one weight over ranges h, in spacings."""
-    lattice: str
-    weight: Any
-    h: tuple[float, ...]
+class Lattice(NamedTuple):
+    """Rectangular cells of a size (2,) with the particles in them, at density 1."""
+    name: str
+    size: tuple[float, float]
+    inside: tuple[tuple[float, float], ...]
 
-    @property
-    def cost(self) -> float:
-        return 1e-4*sum(h**2 for h in self.h)
+    def box(self, cells: tuple[int, int]) -> tuple[float, float]:
+        """Sides of so many cells along x and y."""
+        return self.size[0]*cells[0], self.size[1]*cells[1]
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        return Outcome({"moduli": [self._row(h) for h in self.h]})
+    def places(self, cells: tuple[int, int]) -> np.ndarray:
+        """Particles (n, 2) in a box centred on the origin."""
+        corners = whole_numbers(cells).reshape(-1, 1, 2)
+        x = (corners + self.inside)*self.size
+        return x.reshape(-1, 2) - np.array(self.box(cells))/2
 
-    def _row(self, h: float) -> dict[str, Any]:
-        weight = self.weight.of(h=h)
-        exact = modulus(lambda strain: stretched_density(weight, self.lattice, strain))
-        measured = modulus(lambda strain: self._summed(weight, strain)) if h <= WIDEST else np.nan
-        return {"lattice": self.lattice, "weight": self.weight.__name__, "h": h, "exact": exact, "measured": measured}
+    def neighbours(self, reach: float) -> np.ndarray:
+        """(n, 2): vectors to the neighbours nearer than `reach`, the same for all particles."""
+        columns, rows = (int(2*reach/side) + 4 for side in self.size)
+        x = self.places((columns, rows))
+        r = x - x[np.argmin(np.hypot(*x.T))]
+        distance = np.hypot(*r.T)
+        return r[(distance < reach) & (distance > 0)]
 
-    def _summed(self, weight: Any, strain: float) -> float:
-        """Mean density by the compiled sums of particles."""
-        at = lattice(self.lattice, CELL_COUNTS[self.lattice], strain)
-        return float(densities(fluid(weight, at.box), at.x).mean())
-
-
-def modulus(density_at: Callable[[float], float]) -> float:
-    """G/B of the ideal gas from its density at strains, at constant area.
-
-    G = P d2(rho)/d(gamma)^2 with gamma twice the strain. Without heat the energy per mass goes as rho, so B =
-    2 P.
-    """
-    rho = [density_at(strain) for strain in (-STRAIN, 0.0, STRAIN)]
-    return float(np.diff(rho, 2)[0]/STRAIN**2/8)
+    def vectors(self, cells: tuple[int, int]) -> np.ndarray:
+        """(n, 2): wave vectors that fit into a box, without those that move all particles alike."""
+        turns = whole_numbers(len(self.inside)*np.array(cells))
+        k = 2*np.pi*turns/self.box(cells)
+        phase = k@self.neighbours(2.0).T
+        return k[np.abs(np.sin(phase/2)).max(axis=1) > 1e-9]
 
 
-def stretched_density(weight: Any, kind: str, strain: float) -> float:
-    """Sum of w on a lattice stretched by exp(strain) along x and by exp(-strain) along y."""
-    x = neighbours(kind, weight.h*np.exp(abs(strain)))
-    r = np.hypot(*(x*np.exp([strain, -strain])).T)
-    return at_centre(weight) + total(weight, r)
+def whole_numbers(counts: Any) -> np.ndarray:
+    """(n, 2): all pairs of whole numbers below two counts."""
+    grids = np.meshgrid(*map(np.arange, counts), indexing="ij")
+    return np.stack(grids, axis=-1).reshape(-1, 2)
+
+
+WIDTH = float(np.sqrt(2/np.sqrt(3)))
+LATTICES = {lattice.name: lattice for lattice in (
+    Lattice("square", (1.0, 1.0), ((0.25, 0.25),)),
+    Lattice("hexagonal", (WIDTH, float(np.sqrt(3))*WIDTH), ((0.25, 0.25), (0.75, 0.75))))}
+
+# --- lattice sums ---------------------------------------------------------------------------------
+
+
+class LatticeMotion(NamedTuple):
+    """Displacements a cos k.r, |a| = 1, omega^2, rate of growth, minus the frequency if nothing grows."""
+    k: np.ndarray
+    a: np.ndarray
+    square: float
+    rate: float
+
+
+def sums(weight: Any, lattice: Lattice, k: np.ndarray) -> Symbols:
+    """Of unit masses at wave vectors k (n, 2), as `particles.limits` has them for the square lattice."""
+    x = lattice.neighbours(weight.h)
+    r = np.hypot(*x.T)
+    w, slope, curvature = np.array([derivatives(weight, one) for one in r]).T
+    n = x/r[:, None]
+    along = np.einsum("ra,rb->abr", n, n)
+    hessian = slope*(np.eye(2)[..., None] - along) + curvature*along
+    phase = k@x.T
+    S = np.sin(phase)@(slope[:, None]*x)
+    slow = 1 - np.cos(phase)
+    D = np.einsum("kr,abr->kab", slow, hessian)
+    rho = float(w.sum() + value_and_slope(weight, 0.0)[0])
+    return Symbols(rho, S, D, nested=(S**2).sum(axis=1)/rho**2, direct=2/rho*slow@-slope)
+
+
+def derivatives(weight: Any, r: float, step: float = 1e-5) -> tuple[float, float, float]:
+    """w, w'/r and w'' at r; w'' by a central difference, good to 1e-9."""
+    w, slope = value_and_slope(weight, r)
+    low, high = r - step, r + step
+    change = value_and_slope(weight, high)[1]*high - value_and_slope(weight, low)[1]*low
+    return w, slope, change/(2*step)
+
+
+def matrices(symbols: Symbols, eos: Any, e: float, m: float = 1.0) -> np.ndarray:
+    """M (n, 2, 2) of the wave vectors of the symbols."""
+    rho, S = m*symbols.rho, symbols.S
+    P = pressure(eos, rho, e)
+    by_rho, by_e = pressure_slopes(eos, rho, e)
+    c2 = float(by_rho + P/rho**2*by_e)      # negative where the fluid itself is unstable
+    SS = np.einsum("ka,kb->kab", S, S)
+    return (m/rho)**2*(c2 - 2*P/rho)*SS + 2*m*P/rho**2*symbols.D
 
 
 # --- motions that grow ----------------------------------------------------------------------------
 
 SHIFT = 1e-8                    # of the places at the start, spacings
-LINEAR = (1e-12, 1e-6)          # kinetic energies of shifts of 1e-6 to 1e-2 spacings: there a motion grows by its own rate
+LINEAR = (1e-12, 1e-6)          # kinetic energies at shifts of 1e-6 to 1e-2 spacings, where motions are small
 GROWN = 100.0                   # of the energy: what counts as growth in the search for the onset
 PATIENCE = 200.0                # time that a search waits: ln 10/200 is a rate of 0.012
 HALVINGS = 8
 PHASE = 1.0                     # without it a cosine may vanish at all places at the edge of the zone
 
-Shifts = Callable[[np.ndarray], np.ndarray]
-
 
 @dataclass(frozen=True, kw_only=True)
 class Crystal:
     """A lattice of inviscid particles at rest. rho : density, also the mass of a particle."""
-    lattice: str
+    lattice: Lattice
     cells: tuple[int, int]
     weight: Any
     h: float
@@ -100,68 +144,67 @@ class Crystal:
         return float(energy(self.eos, self.rho, self.T))
 
     @property
-    def motion(self) -> Motion:
+    def motion(self) -> LatticeMotion:
         """What grows fastest by lattice sums, or is slowest if nothing grows."""
-        weight = self.weight.of(h=self.h)
-        return least_stable(weight, self.eos, self.e, self.lattice, self.cells, self.rho)
+        k = self.lattice.vectors(self.cells)
+        symbols = sums(self.weight.of(h=self.h), self.lattice, k)
+        squares, a = np.linalg.eigh(matrices(symbols, self.eos, self.e, self.rho))
+        i = int(np.argmin(squares[:, 0]))
+        square = float(squares[i, 0])
+        rate = -np.sign(square)*np.sqrt(abs(square))
+        return LatticeMotion(k[i], a[i, :, 0], square, float(rate))
 
     @property
     def columns(self) -> dict[str, Any]:
         """Key columns of its rows."""
-        return {"lattice": self.lattice, "weight": self.weight.__name__, "h": self.h,
+        return {"lattice": self.lattice.name, "weight": self.weight.__name__, "h": self.h,
                 "eos": type(self.eos).__name__, "T": self.T, "rho": self.rho}
 
-    def energies(self, time: float, shifts: Shifts) -> tuple[np.ndarray, np.ndarray]:
+    def energies(self, time: float, shifts: Callable) -> tuple[np.ndarray, np.ndarray]:
         """Times and kinetic energies per mass until the run diverges. shifts : of places x (n, 2)."""
-        at = lattice(self.lattice, self.cells)
-        method = fluid(self.weight.of(h=self.h), at.box, self.eos, m=self.rho)
-        start = at_rest(at.x + SHIFT*shifts(at.x), self.e)
-        dt, kinetic = STUDIES*step_limit(method, self.e, self.rho), Kinetic()
+        x, box, energies = self.lattice.places(self.cells), self.lattice.box(self.cells), list[float]()
+
+        def kinetic(sums: Any, state: np.ndarray) -> float:
+            energies.append(particle_kinetic(sums, state))      # kept also when the run diverges
+            return energies[-1]
+        method = fluid(self.weight.of(h=self.h), box, self.eos, m=self.rho)
+        dt = STUDIES*step_limit(method, self.e, self.rho)
+        plan = Plan(dt=dt, steps=round(time/dt), series={"k": kinetic}, every=2)
         try:
-            run(method, start, Plan(dt=dt, steps=round(time/dt), series={"k": kinetic}, every=2))
+            run(method, at_rest(x + SHIFT*shifts(x), self.e), plan)
         except Divergence:
             pass
-        return 2*dt*(1 + np.arange(len(kinetic.energies))), np.array(kinetic.energies)
-
-
-class Kinetic:
-    """Kinetic energies in time, kept also when the run diverges."""
-
-    def __init__(self):
-        self.energies: list[float] = []
-
-    def __call__(self, sums: Any, state: np.ndarray) -> float:
-        self.energies.append(particle_kinetic(sums, state))
-        return self.energies[-1]
+        times = 2*dt*(1 + np.arange(len(energies)))
+        return times, np.array(energies)
 
 
 def growth(times: np.ndarray, energies: np.ndarray) -> Measured:
     """Rate of the motion, half of the energy's, where the motion is small and has left the start behind."""
     low, high = LINEAR
     until = np.argmax(energies > high)
-    linear = (energies > low) & (energies < high) & (np.arange(len(energies)) < until)
+    times, energies = times[:until], energies[:until]
+    linear = energies > low
     return line(times[linear], np.log(energies[linear])/2).slope
 
 
 @dataclass(frozen=True, kw_only=True)
-class Growth(Case):
+class LatticeGrowth(Case):
     """The rate at which the fastest growing motion of a lattice grows, started alone."""
     crystal: Crystal
-
-    @property
-    def cost(self) -> float:
-        return 2.0
 
     @property
     def label(self) -> str:
         return f"growth {self.crystal.columns}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        k, a, _ = motion = self.crystal.motion
-        time = 20/motion.rate       # e^20: from 1e-8 to beyond what is linear
-        rate = growth(*self.crystal.energies(time, lambda x: a*np.cos(x@k + PHASE)[:, None]))
-        return Outcome({"growth": [{**self.crystal.columns, "predicted": motion.rate, "measured": rate.value,
-                                    "measured_err": rate.err}]})
+        k, a, _, predicted = self.crystal.motion
+
+        def shifts(x: np.ndarray) -> np.ndarray:
+            return np.outer(np.cos(x@k + PHASE), a)
+        time = 20/predicted         # e^20: from 1e-8 to beyond what is linear
+        rate, err = growth(*self.crystal.energies(time, shifts))
+        return Outcome({"growth": [
+            {**self.crystal.columns, "predicted": predicted, "measured": rate, "measured_err": err}]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -174,31 +217,32 @@ class Onset(Case):
     seed: int = 1
 
     @property
-    def cost(self) -> float:
-        return 10.0
-
-    @property
     def label(self) -> str:
         return f"onset in {self.parameter} {self.crystal.columns} seed {self.seed}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        predicted = brentq(lambda value: self._with(value).motion.rate, self.stable, self.unstable, xtol=1e-6)
         stable, unstable = self.stable, self.unstable
+        predicted = brentq(lambda value: self.at(value).motion.rate, stable, unstable, xtol=1e-6)
         for number in range(HALVINGS):
             report(number/HALVINGS)
             middle = (stable + unstable)/2
-            stable, unstable = (stable, middle) if self._grows(middle) else (middle, unstable)
-        return Outcome({"onsets": [{
-            **self.crystal.columns, self.parameter: 0.0, "parameter": self.parameter, "seed": self.seed,
-            "predicted": predicted, "measured": (stable + unstable)/2, "measured_err": abs(stable - unstable)/2}]})
+            if self.grows(middle):
+                unstable = middle
+            else:
+                stable = middle
+        columns = {**self.crystal.columns, self.parameter: 0.0, "parameter": self.parameter}
+        measured = {"measured": (stable + unstable)/2, "measured_err": abs(stable - unstable)/2}
+        return Outcome({"onsets": [{**columns, "seed": self.seed, "predicted": predicted, **measured}]})
 
-    def _with(self, value: float) -> Crystal:
+    def at(self, value: float) -> Crystal:
+        """The crystal with this value of the parameter."""
         changed: dict[str, Any] = {self.parameter: value}
         return replace(self.crystal, **changed)
 
-    def _grows(self, value: float) -> bool:
+    def grows(self, value: float) -> bool:
         """Whether the mean energy of the last tenth is much larger than that of the second one."""
         rng = np.random.default_rng(self.seed)
-        _, energies = self._with(value).energies(PATIENCE, lambda x: rng.standard_normal(x.shape))
+        _, energies = self.at(value).energies(PATIENCE, lambda x: rng.standard_normal(x.shape))
         tenth = max(1, len(energies)//10)
-        return bool(energies[-tenth:].mean() > GROWN*energies[tenth:2*tenth].mean())
+        early, late = energies[tenth:2*tenth].mean(), energies[-tenth:].mean()
+        return bool(late > GROWN*early)

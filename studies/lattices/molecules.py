@@ -1,17 +1,18 @@
-"""P = rho^2: smooth particles are molecules, and their paths run back    [KHP95, Sec. III]
+"""Crowds of particles: do they pair; are they molecules, whose paths run back?    [KHP95, Secs III, VI]
 
-Inviscid particles with P/rho^2 = 1 obey dv/dt = -sum_j m 2 grad w: Newton's equations with the potential 2
-m^2 w of a pair. `Twins` follows one path by both kinds of sums: they must agree until round-off has grown.
-`Reversal` turns the velocities: the path comes back, to what truncation or round-off makes of it, and bit by
-bit if places and velocities are whole numbers.
+`Fate` leaves a gas to rest. Inviscid particles with P/rho^2 = 1 obey dv/dt = -sum_j m 2 grad w: Newton's
+equations with the potential 2 m^2 w of a pair. `Twins` follows one path by both kinds of sums: they must
+agree until round-off has grown. `Reversal` turns the velocities: the path comes back, to what truncation or
+round-off makes of it, and bit by bit if places and velocities are whole numbers.
 """
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.spatial import cKDTree
 
-from continuum.fluid import VanDerWaals
+from continuum.fluid import ConstEta, VanDerWaals
 from particles.integrators import RK4, Leapfrog, Whole, whole
 from particles.limits import step_limit
 from particles.run import STUDIES, Plan, run
@@ -23,22 +24,65 @@ from studies.build.names import START_JITTER
 from studies.build.periodic_box import FRICTIONLESS, at_rest, fluid
 from studies.kit.case import Case, Outcome, Report
 
+RANGE = 3.0
+
+
+def crowd(side: int, seed: int, e: float, speed: float) -> np.ndarray:
+    """State (5, side^2): a shifted lattice with random velocities, of so large an rms."""
+    rng = np.random.default_rng(seed)
+    centres = np.arange(side) + 0.5 - side/2
+    x = np.stack(np.meshgrid(centres, centres), axis=-1).reshape(-1, 2)
+    state = at_rest(x + rng.uniform(-START_JITTER, START_JITTER, x.shape), e)
+    state[2:4] = speed*rng.standard_normal((2, len(x)))
+    return state
+
+
+# --- left alone -----------------------------------------------------------------------------------
+
+SIDE = 16               # particles along each side
+LAW = ConstEta(0.5, 0.5)
+TIME = 300.0            # 20 times L/c
+PARTNER = 0.5           # spacings within which a neighbour shares a site: sites of one are 1.07 apart
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fate(Case):
+    """A viscous, conducting ideal gas in a periodic square, from velocities that friction takes away."""
+    weight: Any
+    h: float
+    seed: int = 1
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        method = fluid(self.weight.of(h=self.h), (float(SIDE), float(SIDE)), law=LAW)
+        dt = STUDIES*step_limit(method, 1.0)
+        start, plan = crowd(SIDE, self.seed, 1.0, 0.3), Plan(dt=dt, steps=round(TIME/dt))
+        end = run(method, start, plan, report).state
+        x = method.fields(end).x
+        shared = float(np.mean(partners(x, method.box) > 0))
+        return Outcome({"fates": [
+            {"weight": self.weight.__name__, "h": self.h, "seed": self.seed, "shared": shared}]})
+
+
+def partners(x: np.ndarray, box: tuple[float, float]) -> np.ndarray:
+    """(n,): other particles within half a spacing, of places x (n, 2) in a periodic box."""
+    at = np.mod(x, box) % box           # a second time: scipy takes no place at the end of the box
+    return cKDTree(at, boxsize=np.array(box)).query_ball_point(at, PARTNER, return_length=True) - 1
+
+
+# --- molecules ------------------------------------------------------------------------------------
+
 #: P = rho^2: van der Waals without excluded volume, of a heat capacity so large that energy adds nothing to
 #: the pressure
 RHO_SQUARED = VanDerWaals(a=-1.0, b=0.0, cv=1e300)
 ENERGY = 1e3        # per mass: any that stays above rho is valid
-RANGE = 3.0
-SPEED = 0.4         # rms of each velocity: m v^2 = 0.32 is about phi(0) = 2 w(0) = 0.35, so that particles pass each other
+SPEED = 0.4         # rms of each velocity: m v^2 = 0.32 is about 2 w(0) = 0.35: particles pass each other
+METHODS = {"rk4": RK4, "leapfrog": Leapfrog, "whole numbers": Whole}
 
 
-def crowd(side: int, seed: int) -> np.ndarray:
-    """State (5, side^2), a shifted lattice with random velocities, in whole numbers; momentum is zero."""
-    rng = np.random.default_rng(seed)
-    centres = np.arange(side) + 0.5 - side/2
-    x = np.stack(np.meshgrid(centres, centres), axis=-1).reshape(-1, 2)
-    state = at_rest(x + rng.uniform(-START_JITTER, START_JITTER, x.shape), ENERGY)
-    v = SPEED*rng.standard_normal((2, len(x)))
-    state[2:4] = v - v.mean(axis=1, keepdims=True)
+def whole_crowd(side: int, seed: int) -> np.ndarray:
+    """A crowd in whole numbers, without momentum."""
+    state = crowd(side, seed, ENERGY, SPEED)
+    state[2:4] -= state[2:4].mean(axis=1, keepdims=True)
     state[:4] = whole(state[:4])
     return state
 
@@ -50,19 +94,13 @@ def distance(one: np.ndarray, other: np.ndarray, side: float) -> float:
     return float(np.sqrt(np.mean(apart**2)*2))
 
 
-# --- methods --------------------------------------------------------------------------------------
-
-
-METHODS = {"rk4": RK4, "leapfrog": Leapfrog, "whole numbers": Whole}
-
-
-def molecules(integrator: type, weight: Any, side: float) -> Spam:
+def as_fluid(integrator: type, weight: Any, side: float) -> Spam:
     """The fluid that is one of molecules, in a periodic square."""
     return replace(fluid(weight, (side, side), RHO_SQUARED, FRICTIONLESS), integrator=integrator)
 
 
-class Newton:
-    """dv/dt = -sum_j 2 grad w of molecules in a periodic square, by sums over all pairs."""
+class Molecules:
+    """dv/dt = -sum_j 2 grad w in a periodic square, by sums over all pairs."""
 
     def __init__(self, weight: Any, side: float):
         self.weight, self.side = weight, side
@@ -80,13 +118,9 @@ class Newton:
         out[4] = 0.0
 
 
-# --- cases ----------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True, kw_only=True)
 class Twins(Case):
-    """The same path by the compiled sums of smooth particles and as molecules: how far apart after some time.
-    """
+    """The same path by the sums of smooth particles and as molecules: how far apart after some time."""
     weight: Any
     side: int = 8
     every: float = 2.0
@@ -98,26 +132,28 @@ class Twins(Case):
         return 30.0
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        weight, smooth, rows = self.weight.of(h=RANGE), crowd(self.side, self.seed), []
-        method, newton = molecules(RK4, weight, float(self.side)), Newton(weight, float(self.side))
+        weight, side = self.weight.of(h=RANGE), float(self.side)
+        method, molecules = as_fluid(RK4, weight, side), Molecules(weight, side)
+        smooth, rows = whole_crowd(self.side, self.seed), []
         steps = round(self.every/(STUDIES*step_limit(method, ENERGY)))
-        plan, molecular = Plan(dt=self.every/steps, steps=steps), smooth.copy()
-        integrator = RK4(molecular.shape, Team(1))
+        plan, twin = Plan(dt=self.every/steps, steps=steps), smooth.copy()
+        integrator = RK4(twin.shape, Team(1))
         for number in range(1, self.samples + 1):
             report(number/self.samples)
             smooth = run(method, smooth, plan).by_id()
             for _ in range(steps):
-                integrator.step(newton, molecular, plan.dt)
-            wrap(method.walls, molecular)
+                integrator.step(molecules, twin, plan.dt)
+            wrap(method.walls, twin)
             rows.append({"weight": self.weight.__name__, "seed": self.seed, "time": number*self.every,
-                         "apart": distance(smooth, molecular, self.side)})
+                         "apart": distance(smooth, twin, self.side)})
         return Outcome({"twins": rows})
 
 
 @dataclass(frozen=True, kw_only=True)
 class Reversal(Case):
-    """Forward for some time, velocities turned, and back: how far from the start."""
-    integrator: str
+    """Forward for some time, velocities turned, and back: how far from the start. name : of integrator."""
+    name: str
+    integrator: type
     weight: Any
     times: tuple[float, ...]
     side: int = 16
@@ -128,17 +164,18 @@ class Reversal(Case):
         return 0.02*sum(self.times)
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        method = molecules(METHODS[self.integrator], self.weight.of(h=RANGE), float(self.side))
-        return Outcome({"reversal": [self._row(method, time) for time in self.times]})
+        method = as_fluid(self.integrator, self.weight.of(h=RANGE), float(self.side))
+        return Outcome({"reversal": [self.row(method, time) for time in self.times]})
 
-    def _row(self, method: Spam, time: float) -> dict[str, Any]:
-        start, dt = crowd(self.side, self.seed), STUDIES*step_limit(method, ENERGY)
+    def row(self, method: Spam, time: float) -> dict[str, Any]:
+        """There and back."""
+        start, dt = whole_crowd(self.side, self.seed), STUDIES*step_limit(method, ENERGY)
         plan = Plan(dt=dt, steps=round(time/dt))
         there = turned(run(method, start, plan).by_id())
         back = turned(run(method, there, plan).by_id())
         for state in (start, back):     # what has left since the last lists is the same place
             wrap(method.walls, state)
-        return {"integrator": self.integrator, "weight": self.weight.__name__, "seed": self.seed,
+        return {"integrator": self.name, "weight": self.weight.__name__, "seed": self.seed,
                 "time": plan.steps*dt, "apart": distance(back, start, self.side),
                 "equal": float(np.mean(back[:4] == start[:4]))}
 

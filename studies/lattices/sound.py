@@ -6,7 +6,8 @@ round-off of places. About a lattice that is not stable it grows at the rate s o
 until it is as fast as the wave. Steps dt round places off by rms (u_x, u_y); n particles have n motions a cos
 k.r of least omega^2, and
 
-    v_y^2 = (1/n) sum_k (c e^(s t) a_y)^2 (a_x^2 u_x^2 + a_y^2 u_y^2) (1 + 1/(2 s dt)),    c = s w/(s^2 + w),  w = -omega^2
+    v_y^2 = (1/n) sum_k (c e^(s t) a_y)^2 (a_x^2 u_x^2 + a_y^2 u_y^2) (1 + 1/(2 s dt))
+    c = s w/(s^2 + w),  w = -omega^2
 
 where c is that of u'' + (w/s - s) u' = w u, let go at rest. It tells the power of ten: particles of one x are
 often rounded off alike, which seeds nothing. A longer wave rings for longer, so that round-off grows by more
@@ -16,23 +17,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from scipy.linalg import expm
 
-from continuum.exact.waves import Gas, continuum
+from continuum.exact.waves import LinearGas, continuum
 from continuum.fluid import ConstEta, IdealGas
-from particles.limits import Symbols, step_limit
+from particles.limits import step_limit
 from particles.limits import waves as rates_of
 from particles.run import STUDIES, Divergence, Plan, run
 from particles.smooth.spam import Spam
-from particles.weights import value_and_slope
-from studies.build.periodic_box import fluid
+from studies.build.periodic_box import at_rest, fluid
 from studies.kit.case import Case, Outcome, Report
-from studies.kit.fits import line
-from studies.kit.stats import Measured
-from studies.lattices.waves import CELLS, Lattice, lattice, matrices, neighbours, sums, vectors
+from studies.lattices.crystals import Lattice, LatticeMotion, matrices, sums
 
 T, SOUND = 1.0, np.sqrt(2.0)    # of the ideal gas
 AMPLITUDE = 1e-5                # of the density
@@ -40,45 +38,37 @@ DAMPING = 0.01                  # viscosity over length, sound speed and density
 PERIODS = 2.125
 BREADTH = 8                     # of the box, spacings
 LONG = 1000.0                   # spacings: sound that long has the speed of the longest to 1e-5
-BEGUN, SMALL = 30.0, 1e-5       # times round-off, and spacings per time: between these a motion grows by its own rate
-SEEN = 5.0                      # e-foldings: fewer do not come out of round-off
-
-
-# --- the speed of sound ---------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
 class Speed(Case):
     """Speed of the longest waves along x over the fluid's, by lattice sums."""
-    lattice: str
+    lattice: Lattice
     weight: Any
     h: float = 3.0
 
+    @property
+    def label(self) -> str:
+        return f"speed {self.lattice.name} {self.weight.__name__}"
+
     def run(self, report: Report, folder: Path) -> Outcome:
-        weight, k = self.weight.of(h=self.h), 2*np.pi/LONG
-        M = matrices(weight, IdealGas(), T, self.lattice, np.array([[k, 0.0]]))
-        speed = float(np.sqrt(M[0, 0, 0])/k/SOUND)
-        return Outcome({"sound_speeds": [{"lattice": self.lattice, "weight": self.weight.__name__, "speed": speed}]})
+        k = 2*np.pi/LONG
+        symbols = sums(self.weight.of(h=self.h), self.lattice, np.array([[k, 0.0]]))
+        square = matrices(symbols, IdealGas(), T)[0, 0, 0]
+        row = {"lattice": self.lattice.name, "weight": self.weight.__name__, "speed": np.sqrt(square)/k/SOUND}
+        return Outcome({"sound_speeds": [row]})
 
 
 # --- what grows beside it -------------------------------------------------------------------------
 
 
-class Ripple(NamedTuple):
-    """A motion that fits into the box: wave vector, direction, omega^2 without friction, rate with it."""
-    k: np.ndarray
-    a: np.ndarray
-    square: float
-    rate: float
-
-
 @dataclass(frozen=True, kw_only=True)
 class Ringing(Case):
-    """A wave of a length in spacings, and what grows beside it. lattice : name in `waves.CELLS`.
+    """A wave of a length in spacings, and what grows beside it.
 
     seed : of where the lattice is, in [0, 1/4) cells, by which it is rounded off in another way.
     """
-    lattice: str
+    lattice: Lattice
     weight: Any
     length: int
     h: float = 3.0
@@ -87,55 +77,54 @@ class Ringing(Case):
     @property
     def columns(self) -> dict[str, Any]:
         """Key columns of its rows."""
-        return {"lattice": self.lattice, "weight": self.weight.__name__, "h": self.h, "length": self.length,
-                "seed": self.seed}
+        return {"lattice": self.lattice.name, "weight": self.weight.__name__, "h": self.h,
+                "length": self.length, "seed": self.seed}
 
-    @cached_property
+    @property
     def cells(self) -> tuple[int, int]:
         """Of the lattice in the box."""
-        (width, height), _ = CELLS[self.lattice]
+        width, height = self.lattice.size
         return round(self.length/width), round(BREADTH/height)
 
-    @cached_property
-    def at(self) -> Lattice:
-        """Places before the wave, off the centre by a part of a cell."""
-        at = lattice(self.lattice, self.cells)
-        shift = np.random.default_rng(self.seed).random(2)*CELLS[self.lattice][0]/4
-        return at._replace(x=at.x - shift)
+    @property
+    def box(self) -> tuple[float, float]:
+        """Its length is the wave's."""
+        return self.lattice.box(self.cells)
 
     @property
-    def k(self) -> float:
-        """Wave number."""
-        return 2*np.pi/self.at.box[0]
+    def places(self) -> np.ndarray:
+        """(n, 2) before the wave, off the centre by a part of a cell."""
+        rng = np.random.default_rng(self.seed)
+        shift = rng.random(2)*self.lattice.size/4
+        return self.lattice.places(self.cells) - shift
 
     @property
-    def gas(self) -> Gas:
+    def gas(self) -> LinearGas:
         """Viscosity and conductivity, in proportion to the length."""
-        return Gas(DAMPING*self.at.box[0], 0.0, DAMPING*self.at.box[0])
+        return LinearGas(DAMPING*self.box[0], 0.0, DAMPING*self.box[0])
 
     @property
     def time(self) -> float:
-        return PERIODS*self.at.box[0]/SOUND
+        return PERIODS*self.box[0]/SOUND
 
     @cached_property
     def method(self) -> Spam:
         law = ConstEta(self.gas.eta, self.gas.kappa)
-        return fluid(self.weight.of(h=self.h), self.at.box, IdealGas(), law)
-
-    @cached_property
-    def steps(self) -> int:
-        return int(np.ceil(self.time/(STUDIES*step_limit(self.method, T))))
+        return fluid(self.weight.of(h=self.h), self.box, IdealGas(), law)
 
     def start(self) -> np.ndarray:
         """State (5, n): places displaced as the density wants it, isentropic, at rest."""
-        (x, y), zero = self.at.x.T, np.zeros(len(self.at.x))
-        wave = AMPLITUDE*np.cos(self.k*x)
-        return np.array([x - AMPLITUDE/self.k*np.sin(self.k*x), y, zero, zero, T*(1 + wave)])
+        x, y = self.places.T
+        k = 2*np.pi/self.box[0]
+        displaced = x - AMPLITUDE/k*np.sin(k*x)
+        e = T*(1 + AMPLITUDE*np.cos(k*x))
+        return at_rest(np.stack([displaced, y], axis=1), e)
 
     @property
     def speed(self) -> float:
         """Rms velocity of the exact wave at the end."""
-        amplitudes = expm(continuum(self.gas, self.k).matrix*self.time)@np.array([1, 0, 1])
+        matrix = continuum(self.gas, 2*np.pi/self.box[0]).matrix
+        amplitudes = expm(matrix*self.time)@np.array([1, 0, 1])
         return float(AMPLITUDE*abs(amplitudes[1])/np.sqrt(2))
 
     @property
@@ -147,54 +136,31 @@ class Ringing(Case):
         return "ringing " + " ".join(map(str, self.columns.values()))
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        motions, round_off = ripples(self), rounding(self.at.x)
-        dt, fastest = self.time/self.steps, max(motions, key=lambda motion: motion.rate)
-        track = Track(fastest)
+        longest = STUDIES*step_limit(self.method, T)
+        steps = int(np.ceil(self.time/longest))
+        plan = Plan(dt=self.time/steps, steps=steps, series={"v": across}, every=2)
+        foretold = grown(motions(self), self.time, plan.dt, rounding(self.places))
         try:
-            run(self.method, self.start(), Plan(dt=dt, steps=self.steps, series={"v": track}, every=2))
-            across = track.across
+            measured = run(self.method, self.start(), plan).series["v"][-1]
         except Divergence:
-            across = np.nan
-        rate = Measured(np.nan, np.nan)
-        if fastest.rate*self.time > SEEN:
-            times = 2*dt*(1 + np.arange(len(track.along)))
-            begun = BEGUN*fastest.rate*round_off.max()/np.sqrt(len(self.at.x))
-            rate = growth(times, np.array(track.along), begun)
-        return Outcome({"ringing": [{
-            **self.columns, "predicted": fastest.rate, "measured": rate.value, "measured_err": rate.err,
-            "time": self.time, "wave": self.speed, "foretold": grown(motions, self.time, dt, round_off),
-            "across": across}]})
+            measured = np.nan
+        return Outcome({"ringing": [
+            {**self.columns, "wave": self.speed, "foretold": foretold, "across": measured}]})
 
 
-class Track:
-    """The part of one motion in the velocities, in time, and the last rms velocity across the wave."""
-
-    def __init__(self, ripple: Ripple):
-        self.ripple = ripple
-        self.along: list[float] = []
-        self.across = np.nan
-
-    def __call__(self, sums: Any, state: np.ndarray) -> float:
-        phase = np.exp(-1j*(self.ripple.k@state[:2]))
-        self.along.append(float(abs(np.mean(self.ripple.a@state[2:4]*phase))))
-        self.across = float(np.sqrt(np.mean(state[3]**2)))
-        return self.across
+def across(sums: Any, state: np.ndarray) -> float:
+    """Rms velocity along y."""
+    v = sums.method.fields(state).v[:, 1]
+    return float(np.sqrt(np.mean(v**2)))
 
 
-def ripples(wave: Ringing) -> list[Ripple]:
-    """Of each wave vector the motion of least omega^2, about rest at T = 1 and mass 1."""
-    method, k = wave.method, vectors(wave.lattice, wave.cells)
-    squares, a = np.linalg.eigh(matrices(method.weight, method.eos, T, wave.lattice, k))
-    rates = rates_of(method, symbols(method.weight, wave.lattice, k), T).real.max(axis=1)
-    return [*map(Ripple, k, a[:, :, 0], squares[:, 0], rates)]
-
-
-def symbols(weight: Any, kind: str, k: np.ndarray) -> Symbols:
-    """What `particles.limits` sums over square lattices, for any: with k^2 of nested and of direct sums."""
-    rho, S, D = sums(weight, kind, k)
-    r = neighbours(kind, weight.h)
-    slope = np.array([value_and_slope(weight, one)[1] for one in np.hypot(*r.T)])
-    return Symbols(rho, S, D, nested=(S**2).sum(axis=1)/rho**2, direct=2/rho*(1 - np.cos(k@r.T))@-slope)
+def motions(wave: Ringing) -> list[LatticeMotion]:
+    """Of each wave vector the motion of least omega^2, about rest at T = 1, mass 1; rates with friction."""
+    k = wave.lattice.vectors(wave.cells)
+    symbols = sums(wave.method.weight, wave.lattice, k)
+    squares, a = np.linalg.eigh(matrices(symbols, wave.method.eos, T))
+    rates = rates_of(wave.method, symbols, T).real.max(axis=1)
+    return [*map(LatticeMotion, k, a[:, :, 0], squares[:, 0], rates)]
 
 
 def rounding(x: np.ndarray) -> np.ndarray:
@@ -202,20 +168,12 @@ def rounding(x: np.ndarray) -> np.ndarray:
     return np.sqrt(np.mean(np.spacing(np.abs(x))**2, axis=0)/12)
 
 
-def grown(motions: Sequence[Ripple], time: float, dt: float, round_off: np.ndarray) -> float:
+def grown(motions: Sequence[LatticeMotion], time: float, dt: float, round_off: np.ndarray) -> float:
     """Rms velocity along y at the end, of the sum at the head of this file."""
-    square = 0.0
-    for _, a, omega2, s in motions:
-        if omega2 < 0 < s:
+    total = 0.0
+    for _, a, square, s in motions:
+        if square < 0 < s:
             seed = a**2@round_off**2*(1 + 1/(2*s*dt))
-            square += seed*(a[1]*np.exp(s*time)*s*-omega2/(s**2 - omega2))**2
-    return float(np.sqrt(square/len(motions)))
-
-
-def growth(times: np.ndarray, along: np.ndarray, begun: float) -> Measured:
-    """Rate of one motion while it is above what began and still small; nan if that is too short."""
-    end = int(np.argmax(along > SMALL)) or len(along)
-    first = 1 + max(np.flatnonzero(along[:end] < begun), default=-1)
-    if end - first < 10:
-        return Measured(np.nan, np.nan)
-    return line(times[first:end], np.log(along[first:end])).slope
+            c = -s*square/(s**2 - square)
+            total += seed*(c*np.exp(s*time)*a[1])**2
+    return float(np.sqrt(total/len(motions)))

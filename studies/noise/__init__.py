@@ -1,8 +1,6 @@
 """Which noise is the partner of which friction, and do dissipative particles keep their temperature?"""
-from studies.kit.part import Part
 from studies.kit.study import Study
-from studies.noise import cases, claims, derive, figures, step_claims, tables
+from studies.noise import cases, claims, figures, tables
 
-STUDY = Study.of("noise", __doc__, [
-    Part(cases=cases.cases, tables=tables.ALL, derive=derive.derive, figures=figures.FIGURES,
-         claims=(*claims.CLAIMS, *step_claims.CLAIMS))])
+STUDY = Study(name="noise", question=__doc__, cases=cases.cases, tables=tables.ALL, derive=tables.derive,
+              figures=figures.FIGURES, claims=claims.CLAIMS)

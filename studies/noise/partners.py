@@ -1,8 +1,9 @@
 """Noise and dissipation as matrices: on which points is Q = 2 kT Gamma?    [RR98 Eqs 22-25, 42-44]
 
-States of a gas about rho = T = 1 are densities (rho, p, eps); Boltzmann's k is 1.
+States of a gas about rho = T = 1, C_V = 1 are densities (rho, p, eps); Boltzmann's k is 1.
 """
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,32 +12,33 @@ from scipy import sparse
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral import fluctuating
-from particles.integral.closed_faces import Moving
-from particles.integral.edge_makers import MAKERS
+from particles.integral.covariance import crank_nicolson, jacobian, steady_of_steps
+from particles.integral.dih import Dih, Mixed
+from particles.integral.edge_makers import delaunay, renormalised
 from particles.integral.edges import Edges
 from particles.integral.fluctuating import Partners, mismatch
-from particles.integral.points import jittered
-from particles.limits import limit_of
-from particles.run import Plan, run
-from particles.threads import Team
-from particles.walls.periodic import periodic
-from particles.weights import WendlandC2
+from particles.integral.points import lattice, random
+from particles.weights import Lucy, WendlandC2
 from studies.build.disorder import Disorder
 from studies.kit.case import Case, Outcome, Report
 
 ETA, ZETA, KAPPA = 0.3, 0.1, 0.4
 KT = 0.7
-NULL = 1e-12        # of the largest eigenvalue of a dissipation: what is below does not dissipate
-ENERGIES = ("heat", "conduction", "heat+conduction")
-
 
 # --- a gas at rest ----------------------------------------------------------------------------
+
+
+def rates_at_rest(edges: Edges, share: float, eta: float = ETA, zeta: float = ZETA) -> np.ndarray:
+    """J (N, N) of the gas at rest; share : of transport along edges."""
+    law = ConstEta(eta, KAPPA)
+    dih = Dih(edges=edges, eos=IdealGas(), law=law, zeta=zeta, transport=Mixed(share=share))
+    one, v = np.ones(edges.n), np.zeros((edges.n, edges.d))
+    return jacobian(dih.rates, dih.state(one, v, one))
 
 
 def transport(edges: Edges, share: float, eta: float, zeta: float, kappa: float,
               T: Any) -> tuple[Partners, Partners]:
     """Viscosity and conduction with their noise, a share of it along edges: of momenta and of energies."""
-    T = np.broadcast_to(T, (edges.n,))
     stress = fluctuating.stress(edges, eta, zeta, T)
     heat = fluctuating.heat(edges, kappa, T**2)
     if share == 0:
@@ -68,21 +70,18 @@ def equilibrium(V: np.ndarray, d: int) -> np.ndarray:
     rho, v and T are independent, each with variance 1/V: <rho rho> = kT rho/(c_T^2 V), <v v> = kT/(rho V),
     <T T> = kT^2/(rho C_V V).
     """
-    to_state = states_of_fields(np.zeros((len(V), d)))
-    C = to_state@np.diag(np.tile(1/V, 2 + d))@to_state.T
+    to_state = states_of_fields(len(V), d)
+    of_fields = np.diag(np.tile(1/V, 2 + d))
+    C = to_state@of_fields@to_state.T
     sums = np.kron(np.eye(2 + d), V)
-    return C - C@sums.T@np.linalg.solve(sums@C@sums.T, sums@C)
+    of_sums = sums@C
+    return C - of_sums.T@np.linalg.solve(of_sums@sums.T, of_sums)
 
 
-def states_of_fields(v: np.ndarray) -> np.ndarray:
-    """(N, N), changes of densities from those of (rho, v, T) at v (n, d); eps = rho (T + v^2/2)."""
-    n, d = v.shape
+def states_of_fields(n: int, d: int) -> np.ndarray:
+    """(N, N), changes of densities at rest from those of (rho, v, T): eps = rho T."""
     M = np.eye((2 + d)*n)
-    rho, eps = slice(n), slice((1 + d)*n, None)
-    for a in range(d):
-        p = slice((1 + a)*n, (2 + a)*n)
-        M[p, rho] = M[eps, p] = np.diag(v[:, a])
-    M[eps, rho] = np.diag(1 + (v**2).sum(axis=1)/2)
+    M[-n:, :n] = np.eye(n)
     return M
 
 
@@ -91,8 +90,8 @@ def states_of_fields(v: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True, kw_only=True)
 class Partnership(Case):
-    """All kinds of noise on one set of points, with coefficients that vary by factors of five."""
-    maker: str
+    """Kinds of noise that are to be exact, on one set of points."""
+    maker: Callable
     disorder: Disorder
     counts: tuple[int, ...]
     h: float = 2.7
@@ -100,101 +99,104 @@ class Partnership(Case):
 
     @property
     def label(self) -> str:
-        return f"partners {self.maker}, {self.disorder.name}, {self.counts}"
+        return f"partners {self.maker.__name__}, {self.disorder.name}, {self.counts}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        d = len(self.counts)
         points = self.disorder.make(self.counts, self.disorder.size, self.seed)
         try:
-            edges = MAKERS[self.maker](points, WendlandC2.of(h=self.h, d=d))
+            edges = self.maker(points, WendlandC2.of(h=self.h, d=points.d))
         except ArithmeticError:         # these points have no such edges: see the study operators
             return Outcome({"partners": []})
-        key = {"maker": self.maker, "points": self.disorder.name, "d": d}
-        return Outcome({"partners": [{**key, **row} for row in all_kinds(edges, self.seed)]})
+        key = {"maker": self.maker.__name__, "points": self.disorder.name, "d": points.d}
+        rows = []
+        for name, pair in kinds(edges, self.seed).items():
+            off = {"mismatch": mismatch(pair, 2*KT), "sums": sums(edges, pair)}
+            rows.append({**key, "noise": name, **off})
+        return Outcome({"partners": rows})
 
 
-@dataclass(frozen=True, kw_only=True)
-class MovingPartnership(Case):
-    """The same on the faces between points that have moved for so many steps, in a periodic box of 2D."""
-    steps: int
-    side: int = 8
-    h: float = 2.9
-    seed: int = 1
-
-    @property
-    def label(self) -> str:
-        return f"partners moving, {self.steps} steps"
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        box, walls = (self.side, self.side), (*periodic(self.side), *periodic(self.side, 1))
-        method = Moving(weight=WendlandC2.of(h=self.h), eos=IdealGas(), law=ConstEta(ETA, KAPPA), box=box,
-                        walls=walls)
-        points, rng = jittered(box, 0.2, self.seed), np.random.default_rng(self.seed)
-        state = method.state(points.x, rng.normal(0, 0.2, points.x.shape), 1.0, np.ones(points.n))
-        plan = Plan(dt=0.2*limit_of(method, state), steps=self.steps)
-        edges = edges_between(method, run(method, state, plan).by_id())
-        key = {"maker": "moving", "points": f"moved {self.steps} steps", "d": 2}
-        return Outcome({"partners": [{**key, **row} for row in all_kinds(edges, self.seed)]})
-
-
-def edges_between(method: Moving, state: np.ndarray) -> Edges:
-    """The faces that a step of moving points begins with, as edges; periodic images are their points."""
-    n, now = state.shape[1], state.copy()
-    sums = method.start(n, Team(1))
-    sums.around.relist(now, np.arange(n), 0.0)
-    sums.make_faces(now)
-    faces = sums.faces
-    parent = np.concatenate([np.arange(n), sums.maker.ghosts.origin]).astype(int)
-    i = np.repeat(np.arange(n), faces.taken)
-    ends = faces.first + faces.taken
-    entry = np.concatenate([np.arange(*range_) for range_ in zip(faces.first, ends, strict=True)])
-    entry = entry.astype(int)
-    j = parent[faces.near[entry]]
-    once = i < j            # each face is stored with both of its points
-    entry = entry[once]
-    half = np.stack([faces.sx[entry], faces.sy[entry]], axis=1)
-    apart = np.stack([faces.dx[entry], faces.dy[entry]], axis=1)
-    V = method.fields(now).V
-    return Edges(i=i[once], j=j[once], S=2*half, k=faces.k[entry], apart=apart, V=V)
-
-
-def all_kinds(edges: Edges, seed: int) -> list[dict[str, Any]]:
-    """A row for each kind of noise, coefficients random from point to point; in Eq. 42 constant once."""
-    rng, d = np.random.default_rng(seed), edges.d
-    eta, kappa = rng.uniform(0.2, 1, edges.n), rng.uniform(0.2, 1, edges.n)
-    zeta = 0.9*(1 + 2/d)*rng.uniform(0, 1, edges.n)*eta
-    kinds = exact_kinds(edges, eta, zeta, kappa)
-    kinds["eq42"] = fluctuating.printed_stress(edges, eta, zeta, KT, doubled=True)
-    kinds["eq42 constant"] = fluctuating.printed_stress(edges, 0.3, 0.1, KT, doubled=True)
-    kinds["eq43"] = fluctuating.printed_heat(edges, kappa, KT, np.ones(edges.n), doubled=True)
-    scalar = (*ENERGIES, "eq43")
-    return [{"noise": name, **properties(pair, 1 if name in scalar else d)} for name, pair in kinds.items()]
-
-
-def exact_kinds(edges: Edges, eta: Any, zeta: Any, kappa: Any) -> dict[str, Partners]:
-    """Noise that is to be exact, by name; along edges only where all conduct a positive amount."""
+def kinds(edges: Edges, seed: int) -> dict[str, Partners]:
+    """Noise by name, coefficients random by factors of five; along edges where none conducts below zero."""
+    rng = np.random.default_rng(seed)
+    eta, kappa = rng.uniform(0.2, 1, (2, edges.n))
+    zeta = 0.9*(1 + 2/edges.d)*rng.uniform(0, 1, edges.n)*eta
     stress = fluctuating.stress(edges, eta, zeta, KT)
     heat = fluctuating.heat(edges, kappa, KT)
-    kinds = {"stress": stress, "heat": heat}
+    at_points = {"stress": stress, "heat": heat}
     try:
         friction = fluctuating.friction(edges, eta, zeta, KT)
         conduction = fluctuating.conduction(edges, kappa, KT)
     except ValueError:
-        return kinds
-    mixtures = {"stress+friction": fluctuating.mixed(stress, friction, 0.1),
-                "heat+conduction": fluctuating.mixed(heat, conduction, 0.1)}
-    return {**kinds, "friction": friction, "conduction": conduction, **mixtures}
+        return at_points
+    return {**at_points, "friction": friction, "conduction": conduction,
+            "stress+friction": fluctuating.mixed(stress, friction, 0.1),
+            "heat+conduction": fluctuating.mixed(heat, conduction, 0.1)}
 
 
-def properties(pair: Partners, components: int) -> dict[str, float]:
-    """Relative sizes of what must be zero: Q - 2 kT Gamma, asymmetry, sums, uniform motion; null modes."""
-    Gamma, n = pair.Gamma, pair.Gamma.shape[0]//components
-    size = float(abs(Gamma).max())
-    uniform = np.kron(np.eye(components), np.ones(n))
-    values = np.linalg.eigvalsh((Gamma + Gamma.T).toarray()/2)
-    return {"mismatch": mismatch(pair, 2*KT),
-            "asymmetry": float(abs(Gamma - Gamma.T).max())/size,
-            "sums": float(np.abs(uniform@pair.B).max()/abs(pair.B).max()),
-            "uniform": float(np.abs(Gamma@uniform.T).max())/size,
-            "nulls": int(np.count_nonzero(np.abs(values) < NULL*np.abs(values).max())),
-            "negative": float(min(values[0], 0)/size)}
+def sums(edges: Edges, pair: Partners) -> float:
+    """Largest sum of the noise over all points, over its largest part."""
+    components = pair.B.shape[0]//edges.n
+    of_all = np.kron(np.eye(components), np.ones(edges.n))
+    return float(np.abs(of_all@pair.B).max()/abs(pair.B).max())
+
+
+# --- formulas ---------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class Formula(Case):
+    """What a printed formula gives by arithmetic."""
+    name: str
+    value: Callable[[], float]
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        return Outcome({"formulas": [{"name": self.name, "value": self.value()}]})
+
+
+def other_partner() -> float:
+    """|Q - 2 kT Gamma| of the eta term of Eq. 42 on random points, Gamma along edges, trace factor 2/d."""
+    edges = delaunay(random((8, 8), 0.5, 1), None)
+    edges = replace(edges, k=np.maximum(edges.k, 1e-3))     # any positive number: A makes it up
+    V, S2 = fluctuating.ends(edges, edges.V), (edges.S**2).sum(axis=1)
+    A, kT = 0.3*S2/(2*V)/edges.k, np.ones(len(S2))          # 2D: S S (1 - 2/d) vanishes, B = 0
+    pair = fluctuating.printed_stress(edges, 0.3, 0.0, 1.0, doubled=False, trace=1.0)
+    return mismatch(Partners(fluctuating.between(edges, A, 0*A, kT).Gamma, pair.B), 2.0)
+
+
+def half_spacing() -> float:
+    """Variance of the literal noise over its due at the spacing 1/2 over that at 1, 2D: a missing volume."""
+    def ratio(a: float) -> float:
+        edges = renormalised(lattice((8, 8), a), Lucy.of(h=1.5*a))
+        pair = fluctuating.printed_stress(edges, 0.3, 0.1, 1.0, doubled=True, volume=False)
+        return float(pair.Q.trace()/(2*pair.Gamma.trace()))
+    return ratio(0.5)/ratio(1.0)
+
+
+def half_step() -> float:
+    """<u u> with increments of unit variance whatever the step, at dt/2 over that at dt; u decays."""
+    def variance(dt: float) -> float:
+        step = crank_nicolson(-np.eye(1), dt*np.eye(1), dt)     # dt X is noise of the variance dt per time
+        return float(steady_of_steps(step)[0, 0])
+    return variance(0.5)/variance(1.0)
+
+
+def trace_2d() -> float:
+    """Variance of the trace of X in 2D, over d^2: noise of a bulk viscosity that is not there."""
+    tensor = fluctuating.shear(2, 2/3).reshape(2, 2, 2, 2)
+    return float(np.einsum("aacc->", tensor))/4
+
+
+def viscosity(rho: float = 3.0, gamma: float = 4.5) -> float:
+    """Bulk viscosity that Eq. 42, doubled, needs for the noise of dissipative particles, over their own.
+
+    RR98's W, of which the moment int W r dV is 3, is c w, c = 15/pi. Noise, with W dV = c w V and the volume
+    that Eq. 42 lacks: 4 c^2 w^2 2 kT zeta V^3 is 2 gamma kT w^2; V = 1/rho. Friction, by the moments of Eq.
+    51: zeta = (5/3) eta, eta = 2 pi gamma rho^2/1575.
+    """
+    noise = gamma*rho**3/(2*15/np.pi)**2
+    return noise/(5/3*2*np.pi*gamma*rho**2/1575)
+
+
+def viscosity_single() -> float:
+    """The same of brackets as in Eq. 22."""
+    return 4*viscosity()

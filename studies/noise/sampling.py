@@ -1,108 +1,83 @@
-"""Linear systems with noise in time, and averages with honest intervals.
+"""Samples of linear systems, of the full equations, of heat between points    [RR98 Eqs 20-25, 42, 43]
 
-Each average is made of 20 batches, each ten decay times of the slowest mode or longer, started where the one
+Each mean is made of 20 batches, each ten decay times of the slowest mode or longer, started where the one
 before ended: their scatter, with its t factor, is the error.
 """
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import inf
+from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy import sparse
 
-from particles.integral.fixed import Summing, check_number
+from continuum.fluid import ConstEta, IdealGas
+from particles.integral import fluctuating
+from particles.integral.covariance import jacobian
+from particles.integral.edge_makers import delaunay, renormalised
+from particles.integral.edges import Edges
+from particles.integral.points import jittered, lattice
+from particles.integral.thermal import Thermal, fill_pairs
 from particles.limits import limit_of
 from particles.noise import fill_normals
-from particles.run import Plan, Run, run
-from particles.threads import Team
-from studies.kit.case import Report
+from particles.run import Plan, run
+from particles.weights import Lucy
+from studies.kit.case import Case, Outcome, Report
+from studies.kit.stats import over_seeds
+from studies.noise.partners import ETA, KAPPA, ZETA
 
 BATCHES = 20
 DECAYS = 10         # of the slowest mode, at least, in a batch
 
-
-class CrankNicolson:
-    """(1 - dt J/2) y' = (1 + dt J/2) y + kick, with sums.J (N, N) and sums.kick(y, dt): exact at any step."""
-    evaluations = 1
-
-    def __init__(self, shape: tuple[int, ...], team: Team):
-        self._made: tuple[float, np.ndarray, np.ndarray] = (0.0, np.empty(0), np.empty(0))
-
-    def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
-        """Advance y in place by dt."""
-        if self._made[0] != dt:
-            one = np.eye(len(sums.J))
-            inverse = np.linalg.inv(one - dt/2*sums.J)
-            self._made = (dt, inverse@(one + dt/2*sums.J), inverse)
-        _, A, inverse = self._made
-        new = A@y.ravel() + inverse@sums.kick(y, dt)
-        y[:] = new.reshape(y.shape)
+#: from a state (N,) and the number of the step
+Kick = Callable[[np.ndarray, int], np.ndarray]
+Look = Callable[[np.ndarray], Any]
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Linear:
-    """dx = J x dt + B dW of a state (names, n), J (N, N), B (N, normals). modes (m, N): what is measured."""
+@dataclass(frozen=True, kw_only=True)
+class Sampler:
+    """Batches of dx = J x dt + noise, x (N,), by Crank-Nicolson, whose covariance is exact at any step.
+
+    kicks : from the seed of a batch what a step of it adds to (1 + dt J/2) x. look : what of a state is kept.
+    """
     J: np.ndarray
-    B: sparse.csr_array
+    kicks: Callable[[int], Kick]
+    look: Look
+    dt: float
+    steps: int
     seed: int
-    modes: np.ndarray
-    names: tuple[str, ...]
-    integrator = CrankNicolson
 
-    def __repr__(self) -> str:
-        sizes = float(np.abs(self.J).sum()), float(abs(self.B).sum())
-        return f"Linear({sizes[0]!r}, {sizes[1]!r}, {self.seed}, {len(self.modes)})"
+    def batches(self, state: np.ndarray, report: Report, count: int = BATCHES) -> np.ndarray:
+        """Looks (count, steps, ...), each batch with noise of its own seed."""
+        looks = []
+        for number in range(count):
+            kick = self.kicks(1000*self.seed + number)
+            batch, state = self.batch(state, kick)
+            looks.append(batch)
+            report((number + 1)/count)
+        return np.array(looks)
 
-    def start(self, n: int, team: Team) -> "Sampled":
-        check_number(n, len(self.J)//len(self.names))
-        return Sampled(self)
-
-
-class Sampled(Summing):
-    """Kicks of a linear system, and its modes."""
-
-    def __init__(self, method: Linear):
-        self.method, self.J = method, method.J
-        self.normals = np.empty((-(-method.B.shape[1]//4), 4))
-
-    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        out[:] = (self.J@state.ravel()).reshape(state.shape)
-
-    def make_ready(self, now: Any, dt: float) -> None:
-        """Random numbers of the coming step."""
-        fill_normals(0, len(self.normals), self.method.seed, now.step, self.normals)
-
-    def kick(self, y: np.ndarray, dt: float) -> np.ndarray:
-        """B dW."""
-        normals = self.normals.ravel()[:self.method.B.shape[1]]
-        return np.sqrt(dt)*(self.method.B@normals)
-
-    def look_at(self, state: np.ndarray) -> None:
-        self.found = self.method.modes@state.ravel()
-
-    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
-        return ""
+    def batch(self, state: np.ndarray, kick: Kick) -> tuple[np.ndarray, np.ndarray]:
+        """Looks (steps, ...) and the last state."""
+        one, looks = np.eye(len(self.J)), []
+        inverse = np.linalg.inv(one - self.dt/2*self.J)
+        A = inverse@(one + self.dt/2*self.J)
+        for step in range(self.steps):
+            state = A@state + inverse@kick(state, step)
+            looks.append(self.look(state))
+        return np.array(looks), state
 
 
-@limit_of.register
-def _(method: Linear, start: np.ndarray) -> float:
-    """Crank-Nicolson has none."""
-    return inf
+def of_matrix(B: Any, dt: float) -> Callable[[int], Kick]:
+    """Kicks B dW."""
+    count = B.shape[1]
+    normals = np.empty((-(-count//4), 4))
 
-
-def squares(sums: Sampled, state: np.ndarray) -> np.ndarray:
-    """Of all modes."""
-    return sums.found**2
-
-
-def batches(method: Any, state: np.ndarray, plan: Plan, report: Report, count: int = BATCHES) -> list[Run]:
-    """Runs that go on where the one before ended, each with noise of its own seed."""
-    legs = list[Run]()
-    for number in range(count):
-        legs.append(run(replace(method, seed=1000*method.seed + number), state, plan))
-        state = legs[-1].state
-        report((number + 1)/count)
-    return legs
+    def kicks(seed: int) -> Kick:
+        def kick(state: np.ndarray, step: int) -> np.ndarray:
+            fill_normals(0, len(normals), seed, step, normals)
+            return np.sqrt(dt)*(B@normals.ravel()[:count])
+        return kick
+    return kicks
 
 
 def check_length(J: np.ndarray, time: float) -> None:
@@ -118,3 +93,114 @@ def check_length(J: np.ndarray, time: float) -> None:
     if time*slow < DECAYS:
         raise ValueError(f"a batch of {time:.4g} is {time*slow:.3g} decay times of the slowest mode, less "
                          f"than {DECAYS}: batches would be correlated; take {DECAYS/slow:.4g} or longer")
+
+
+def ratio(batches: np.ndarray) -> dict[str, float]:
+    """Columns of a mean over batches."""
+    value, err = over_seeds(batches)
+    return {"ratio": value, "ratio_err": err}
+
+
+# --- the full equations -----------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class Nonlinear(Case):
+    """Variances of rho, v and T in the full equations on jittered points, over equilibrium."""
+    counts: tuple[int, int]
+    share: float
+    k: float
+    time: float         # of a batch
+    seed: int = 1
+
+    @property
+    def cost(self) -> float:
+        return BATCHES*self.time/0.1*3e-3
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        edges = delaunay(jittered(self.counts, 0.2, self.seed), None)
+        method = Thermal(edges=edges, eos=IdealGas(), law=ConstEta(ETA, KAPPA), zeta=ZETA, share=self.share,
+                         k=self.k, seed=self.seed)
+        one, V = np.ones(edges.n), edges.V
+        start = method.state(one, np.zeros((edges.n, 2)), one)
+        check_length(jacobian(method.dih.rates, start), self.time)
+        dt = 0.6*limit_of(method, start)
+        steps = int(np.ceil(self.time/dt/5))*5
+        means = {"squares": lambda sums, state: V@squares(sums.dih.flow(state))}
+        plan, state, powers = Plan(dt=dt, steps=steps, every=5, means=means), start, []
+        for number in range(BATCHES + 1):
+            batch = run(replace(method, seed=1000*self.seed + number), state, plan)
+            state = batch.state
+            powers.append(batch.means["squares"])
+            report((number + 1)/(BATCHES + 1))
+        before = start@V
+        drift = np.abs(state@V - before).max()/before[-1]
+        key = {"share": self.share, "k": self.k, "drift": drift}
+        ratios = np.array(powers[1:])/(edges.n - 1)/self.k      # the first batch forgets the start
+        fields = zip(("rho", "v", "T"), ratios.T, strict=True)
+        return Outcome({"nonlinear": [{**key, "field": name, **ratio(values)} for name, values in fields]})
+
+
+def squares(flow: Any) -> np.ndarray:
+    """(n, 3): squares of what rho, v and T fluctuate by, each k/V in equilibrium."""
+    kinetic = flow.rho*(flow.v**2).sum(axis=1)/2
+    return np.stack([(flow.rho - 1)**2, kinetic, (flow.T - 1)**2], axis=1)
+
+
+# --- heat with current amplitudes ------------------------------------------------------------
+
+
+def heat_kicks(edges: Edges, C: float, dt: float) -> Callable[[int], Kick]:
+    """Heat with the amplitude of the current T_i T_j between points of heat capacity C (in k), kappa = C."""
+    across, normals = fluctuating.incidence(edges), np.empty((len(edges.i), 1))
+
+    def kicks(seed: int) -> Kick:
+        def kick(T: np.ndarray, step: int) -> np.ndarray:
+            fill_pairs(0, len(normals), seed, step, edges.i, edges.j, normals)
+            squared = np.maximum(T[edges.i]*T[edges.j], 0)      # below zero once in very many
+            amplitude = np.sqrt(2*edges.k*squared/C*dt)
+            return across@(amplitude*normals[:, 0])/edges.V
+        return kick
+    return kicks
+
+
+def heat_rates(edges: Edges, C: float, corrected: bool) -> np.ndarray:
+    """J of their temperatures; corrected : with 1 + k/C, what current amplitudes need of Ito's rule."""
+    return (1 + corrected/C)*edges.laplacian.toarray()/edges.V[:, None]
+
+
+def dirichlet(n: int, C: float, corrected: bool) -> float:
+    """Var T/T^2 of n points with entropies C ln T at fixed total.
+
+    Energies are Dirichlet(C/k + 1), without correction Dirichlet(C/k).
+    """
+    return (n - 1)/(n*(C + corrected) + 1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Capacity(Case):
+    """Variance of temperature with current amplitudes, with and without Ito's correction."""
+    C: float
+    corrected: bool
+    steps: int
+    counts: tuple[int, int] = (6, 6)
+    dt: float = 0.05
+    seed: int = 1
+
+    @property
+    def cost(self) -> float:
+        return BATCHES*self.steps*5e-5
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        edges = renormalised(lattice(self.counts), Lucy.of(h=1.5))
+        J = heat_rates(edges, self.C, self.corrected)
+        check_length(J, self.steps*self.dt)
+        sampler = Sampler(J=J, kicks=heat_kicks(edges, self.C, self.dt), look=np.var, dt=self.dt,
+                          steps=self.steps, seed=self.seed)
+        batches = sampler.batches(np.ones(edges.n), report, BATCHES + 1)[1:, 1::2]
+        # `var` divides by n: (n - 1)/n of the variance of one point about the fixed mean is in it already
+        variance = over_seeds(batches.mean(axis=1))
+        predicted = dirichlet(edges.n, self.C, self.corrected)
+        return Outcome({"capacity": [{
+            "C": self.C, "noise": "corrected" if self.corrected else "current", "measured": variance.value,
+            "measured_err": variance.err, "predicted": predicted}]})

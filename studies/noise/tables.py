@@ -1,21 +1,24 @@
-"""Tables of the study. Of dissipative particles: units in which mass, rc and kT are one; `_err` of 95 %."""
-from studies.kit.table import Table
+"""Tables of the study, and the drag that follows. Dissipative particles have mass, rc and kT of one."""
+from typing import Any
+
+from continuum.exact.cylinder import drag_of
+from studies.kit.stats import Measured
+from studies.kit.table import Rows, Table, Tables
+from studies.noise.dissipative import DEPTH, FRACTION, RADIUS
 
 PARTNERS = Table("partners", key=["maker", "points", "d", "noise"], columns=[
-    "maker", "points", "d", "noise", "mismatch", "asymmetry", "sums", "uniform", "nulls", "negative"])
+    "maker", "points", "d", "noise", "mismatch", "sums"])
 WAVE = ["equation", "term", "reading", "d", "h", "wavenumber"]
 PRINTED = Table("printed", key=WAVE, columns=[*WAVE, "ratio", "predicted"])
-REST = Table("rest", key=["maker", "points", "d", "share", "n"], columns=[
-    "maker", "points", "d", "share", "n", "growth", "error", "kinetic"])
-ONSET = Table("onset", key=["rows", "below"], columns=["rows", "below", "ra_c", "slowest", "velocity"])
+ONSET = Table("onset", key=["rows", "below"], columns=["rows", "below", "ra_c", "velocity"])
 STEPS = Table("steps", key=["integrator", "fluid", "wavenumber", "dt"], columns=[
-    "integrator", "fluid", "wavenumber", "dt", "velocity", "density", "error", "by_hand"])
+    "integrator", "fluid", "wavenumber", "dt", "velocity", "error"])
 MODE = ["points", "share", "field", "turns_x", "turns_y", "phase"]
 MODES = Table("modes", key=MODE, columns=[*MODE, "wavenumber", "ratio", "ratio_err"])
 CUBE = ["points", "share", "field", "turns_x", "turns_y", "turns_z", "phase"]
 CUBES = Table("cubes", key=CUBE, columns=[*CUBE, "wavenumber", "ratio", "ratio_err"])
-PEAKS = Table("peaks", key=["points", "turns", "peak"], columns=[
-    "points", "turns", "wavenumber", "peak", "measured", "measured_err", "symbol"])
+PEAKS = Table("peaks", key=["points", "turns"], columns=[
+    "points", "turns", "wavenumber", "measured", "measured_err", "symbol"])
 NONLINEAR = Table("nonlinear", key=["share", "k", "field"], columns=[
     "share", "k", "field", "ratio", "ratio_err", "drift"])
 CAPACITY = Table("capacity", key=["C", "noise"], columns=["C", "noise", "measured", "measured_err",
@@ -26,27 +29,42 @@ SAMPLED = Table("sampled", key=GIVEN, columns=[*GIVEN, "exact", "ratio", "ratio_
 #: what printed formulas give by arithmetic
 FORMULAS = Table("formulas", key=["name"], columns=["name", "value"])
 
-FLUID = ["integrator", "a", "side", "dt"]
+FLUID = ["integrator", "side", "dt"]
 KT = ["kinetic", "kinetic_err", "configurational", "configurational_err"]
-#: steady states of dissipative particles: both kT, pressure, largest mean velocity
-STATES = Table("states", key=FLUID, columns=[*FLUID, "n", "time", *KT, "P", "P_err", "drift"])
+#: steady states of dissipative particles
+STATES = Table("states", key=FLUID, columns=[*FLUID, "n", "time", *KT, "P", "P_err"])
 #: long runs at the usual step; P with rho kT as it is asked for
 LONG = Table("long", key=FLUID, columns=[*FLUID, "n", "time", *KT, "P", "P_err"])
-#: kT - 1 = linear dt + quadratic dt^2 + cubic dt^3 of the table states; order: d ln|kT - 1|/d ln dt, of the
-#: steps (`used`) whose error is no chance
-ERRORS = Table("errors", key=["integrator", "a", "temperature"], columns=[
-    "integrator", "a", "temperature", "steps", "linear", "linear_err", "quadratic", "quadratic_err", "cubic",
-    "cubic_err", "used", "order", "order_err"])
 SHEAR = Table("shear", key=[*FLUID, "rate"], columns=[
     *FLUID, "rate", "n", "time", "viscosity", "viscosity_err", "kinetic", "kinetic_err"])
-#: a stream past a cylinder; inside and outside (`fluid`): density of free particles
-CYLINDER = Table("cylinder", key=FLUID, columns=[
-    *FLUID, "n", "held", "time", "push", "speed", "speed_err", "force", "inside", "fluid"])
+#: a stream past a cylinder
+CYLINDER = Table("cylinder", key=FLUID, columns=[*FLUID, "n", "held", "time", "speed", "speed_err", "force"])
 #: velocity over the mean one in squares of the cell, places in radii
 FLOW = Table("flow", key=["x", "y"], columns=["x", "y", "u", "v"])
 #: drag of the cylinder over eta times speed and depth; ratio: to the published one of slow flow
 DRAG = Table("drag", key=["side", "dt"], columns=[
     "side", "dt", "reynolds", "drag", "drag_err", "ratio", "ratio_err"])
 
-ALL = (PARTNERS, PRINTED, REST, ONSET, STEPS, MODES, CUBES, PEAKS, NONLINEAR, CAPACITY, SAMPLED, FORMULAS,
-       STATES, LONG, ERRORS, SHEAR, CYLINDER, FLOW, DRAG)
+ALL = (PARTNERS, PRINTED, ONSET, STEPS, MODES, CUBES, PEAKS, NONLINEAR, CAPACITY, SAMPLED, FORMULAS, STATES,
+       LONG, SHEAR, CYLINDER, FLOW, DRAG)
+
+
+def derive(tables: Tables) -> Rows:
+    """The drag, where the stream and the viscosity at its step are known."""
+    if not {"cylinder", "shear"} <= set(tables):
+        return {}
+    pairs = zip(tables["cylinder"].itertuples(), tables["shear"].itertuples())
+    return {"drag": [drag(stream, shear) for stream, shear in pairs]}
+
+
+def drag(stream: Any, shear: Any) -> dict[str, float]:
+    """Drag over eta U and depth: force on what is free, with the mean pressure gradient's on the body."""
+    U = Measured(stream.speed, stream.speed_err)
+    eta = Measured(shear.viscosity, shear.viscosity_err)
+    force = stream.force*stream.n/(stream.n - stream.held)
+    drag = force/DEPTH/(eta*U)
+    ratio = drag/drag_of(FRACTION).value
+    density = stream.n/(stream.side**2*DEPTH)
+    reynolds = 2*RADIUS*density*U.value/eta.value
+    return {"side": stream.side, "dt": stream.dt, "reynolds": reynolds, "drag": drag.value,
+            "drag_err": drag.err, "ratio": ratio.value, "ratio_err": ratio.err}

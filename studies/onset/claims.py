@@ -3,7 +3,7 @@
 A quantity of the table critical_ra is a place, what differs from the ideal gas with constant eta and dT = 1,
 and in brackets how it was found: "ra_c periodic aspect 2, const-nu (growth rates)".
 """
-from studies.build.printed import as_printed
+from studies.build.names import as_printed
 from studies.kit.ask import Value, of, one
 from studies.kit.claim import Claim
 from studies.kit.stats import Measured

@@ -15,7 +15,7 @@ from continuum import boussinesq
 from continuum.gas import newton
 from continuum.gas.fields import block, initial
 from continuum.gas.loop import FluxForm, box_of, rates
-from continuum.linear.layer import DEGREE, Plates, critical, critical_ra, growth_rate
+from continuum.linear.layer import DEGREE, PlateKind, critical, critical_ra, growth_rate
 from continuum.pypde.gas import Gas
 from continuum.scene import RayleighBenard, Walls
 from studies.build.names import scene_columns
@@ -146,13 +146,13 @@ class LinearTheory(Case):
             at = point("linear", RayleighBenard(ra=ra, pr=self.pr), np.inf)
             sigma = growth_rate(ra=ra, pr=self.pr, k=np.pi)
             rows.append(weakest(at, "eigenvalue", sigma, 0.0))
-        onsets = [self.onset("ra_c infinite layer rigid", critical(Plates.RIGID).k, "infinite"),
+        onsets = [self.onset("ra_c infinite layer rigid", critical(PlateKind.RIGID).k, "infinite"),
                   self.onset("ra_c periodic aspect 2", np.pi, "periodic")]
         return Outcome({"growth_rates": rows, "critical_ra": onsets})
 
     def onset(self, quantity: str, k: float, sides: str) -> dict[str, Any]:
         """Row of `critical_ra`."""
-        value, other = (critical_ra(k, Plates.RIGID, degree) for degree in (DEGREE, DEGREE - 4))
+        value, other = (critical_ra(k, PlateKind.RIGID, degree) for degree in (DEGREE, DEGREE - 4))
         at = point("linear", RayleighBenard(ra=value), np.inf)
         at.pop("ra")
         return {**at, "sides": sides, "quantity": quantity, "value": value, "err": abs(value - other),

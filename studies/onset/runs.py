@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from continuum.gas import newton, solve
-from continuum.gas.fields import Fields, Values, initial
+from continuum.gas.fields import NodeFields, Values, initial
 from continuum.linear.layer import critical_ra
 from continuum.linear.square import critical_ra_square
 from continuum.scene import Periodic, RayleighBenard
@@ -182,7 +182,7 @@ def boussinesq_onset(scene: RayleighBenard) -> float:
     return critical_ra(np.pi) if isinstance(scene.sides, Periodic) else critical_ra_square()
 
 
-def faded(scene: RayleighBenard, rows: int, fields: Fields) -> Fields:
+def faded(scene: RayleighBenard, rows: int, fields: NodeFields) -> NodeFields:
     """Steady rolls of a higher Ra made weaker: K is nearly proportional to 1 - sqrt(Ra_c/Ra)."""
     old, new = (1 - np.sqrt(boussinesq_onset(scene)/ra) for ra in (fields.scene.ra, scene.ra))
     factor = np.sqrt(max(new, 0.005)/max(old, 0.005))

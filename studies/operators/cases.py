@@ -11,8 +11,8 @@ from itertools import product
 from typing import Any
 
 from continuum.exact.shear import couette, poiseuille
-from continuum.exact.waves import Gas
-from particles.integral.dih import Nested, Pairwise
+from continuum.exact.waves import LinearGas
+from particles.integral.dih import NestedFluxes, Pairwise
 from particles.integral.edge_makers import MAKERS, delaunay, exact, renormalised
 from particles.integral.interpolants import Exponential, Gaussian
 from particles.weights import WEIGHTS, Lucy, WendlandC2
@@ -59,7 +59,7 @@ OFF_LATTICE = ("jittered-0.1", "jittered-0.3", "random", "relaxed")
 #: points and range of the weight in 1, 2 and 3 dimensions: of random states, and of sound
 STATES = (((20,), 2.7), ((10, 12), 2.7), ((6, 6, 7), 2.2))
 BOXES = (((40,), 3.0), ((10, 10), 3.0), ((6, 6, 6), 2.0))
-GASES = (Gas(0.02, 0.01, 0.03), Gas(0.03, 0.0, 0.0), Gas(0.01, 0.0, 0.05))
+GASES = (LinearGas(0.02, 0.01, 0.03), LinearGas(0.03, 0.0, 0.0), LinearGas(0.01, 0.0, 0.05))
 #: share of transport along edges in the motionless layer
 SHARES = (0.0, 0.003, 0.01, 0.03, 0.05, 0.07, 0.1, 0.3, 1.0)
 
@@ -137,7 +137,7 @@ def one_maker(case: type[PointSet], box: tuple[tuple[int, ...], float], maker: s
 def waves(quick: bool) -> Iterator[Case]:
     """On a lattice, a strip as narrow as the range allows, and on three sets of points jittered by 0.3 a."""
     wavelengths = (16, 24, 32) if quick else (8, 16, 24, 32, 48, 64)
-    for way in (Nested(), Pairwise()):
+    for way in (NestedFluxes(), Pairwise()):
         for h, n in product((2.0, 3.0), wavelengths):
             yield Decay(transport=way, make=renormalised, h=h, disorder=DISORDERS["lattice"],
                         counts=(n, round(2*h) + 1), zeta=ZETA)

@@ -8,7 +8,7 @@ import numpy as np
 from scipy import sparse
 
 from continuum.fluid import ConstEta, IdealGas, PowerLaw, VanDerWaals, stress_tensor
-from particles.integral.dih import Dih, Flow, Nested, Pairwise
+from particles.integral.dih import Dih, Flow, NestedFluxes, Pairwise
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.points import lattice
@@ -17,7 +17,7 @@ from studies.kit.case import Case, Outcome, Report
 from studies.operators.integrals import weight_of
 
 ETA, ZETA, KAPPA = 0.02, 0.01, 0.03
-PRINTED, ALONG = Nested(differences=False), Pairwise(mended=False)
+PRINTED, ALONG = NestedFluxes(differences=False), Pairwise(mended=False)
 CHANGING = PowerLaw(ETA, KAPPA, n=1.0)      # eta and kappa proportional to T
 CONSTANT = ConstEta(ETA, KAPPA)
 

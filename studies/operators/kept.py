@@ -7,10 +7,10 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from continuum.exact.waves import Gas
+from continuum.exact.waves import LinearGas
 from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import RayleighBenard
-from particles.integral.dih import Dih, Nested, Pairwise
+from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.points import Points, lattice
@@ -21,7 +21,7 @@ from studies.build.fixed import SCHEMES, fluid
 from studies.kit.case import Case, Outcome, Report
 from studies.operators.equations import rates
 
-TRANSPORT = {"nested": Nested(), "printed": Nested(differences=False), "pairwise": Pairwise(mended=False)}
+TRANSPORT = {"nested": NestedFluxes(), "printed": NestedFluxes(differences=False), "pairwise": Pairwise(mended=False)}
 VISCOSITIES = (0.0, 0.1)    # rho c a
 C2 = 2.0                    # gamma P/rho of the ideal gas at rho = T = 1
 NULL = 1e-6                 # rates that small belong to waves that the operators do not see
@@ -157,13 +157,13 @@ def euler_limit(eigenvalues: np.ndarray) -> float:
 @dataclass(frozen=True, kw_only=True)
 class EulerLimit(Case):
     """Largest stable step of Eq. 40 in the 2D gas, nested transport, for waves along an axis of a lattice."""
-    gas: Gas
+    gas: LinearGas
     rows: int = 32
 
     def run(self, report: Report, folder: Path) -> Outcome:
         at, (eta, zeta, kappa) = lattice((self.rows, 8)), self.gas
         dih = Dih(edges=renormalised(at, WendlandC2.of(h=3.0)), eos=IdealGas(), law=ConstEta(eta, kappa),
-                  zeta=zeta, transport=Nested())
+                  zeta=zeta, transport=NestedFluxes())
         key = {**self.gas._asdict(), "predicted": (eta + zeta + kappa/2)/C2}
         rows = []
         for mode in range(1, self.rows//2 + 1):

@@ -8,14 +8,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.exact.waves import Gas, quantities
+from continuum.exact.waves import LinearGas, quantities
 from particles.integral.interpolants import Exponential, W, f, moment, reach, sphere, width
 from particles.weights import Lucy, WendlandC2
 from studies.build.symbols import lattice_waves
 from studies.kit.case import Case, Outcome, Report
 from studies.operators.integrals import MOMENTS, integral, smoothed, weight_of
 
-GAS = Gas(0.3, 0.2, 0.4)
+GAS = LinearGas(0.3, 0.2, 0.4)
 LONG = 5000.0       # spacings of a wave that is endless to four digits
 TAIL = 26.0         # r0 of the exponential weight beyond which 1e-9 of the first moment lies
 

@@ -17,10 +17,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.linalg import logm
 
-from continuum.exact.waves import Gas, Waves, continuum, quantities
+from continuum.exact.waves import LinearGas, Waves, continuum, quantities
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.bodies import held, together, with_plates
-from particles.integral.dih import Dih, Nested, Pairwise
+from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.driven import Driven
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges, between_plates
@@ -36,6 +36,7 @@ from studies.build.disorder import Disorder
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
 
+NAMES = {NestedFluxes: "nested", Pairwise: "pairwise"}       # in tables
 AMPLITUDE = 1e-5    # its square is the share of waves that feed back on the first; round-off over it is 1e-11
 STEPS = 10          # at least, in a radian of sound: RK4 is off by 5 (1/10)^4/120 of a rate
 TRUNCATION = 5*STEPS**-4/120
@@ -105,7 +106,7 @@ def rates_between(before: np.ndarray, after: np.ndarray, time: float) -> Waves:
 
 def measured(dih: Dih, x: np.ndarray, k: float, phases: tuple[float, ...]) -> dict[str, Measured]:
     """Quantities of the last of the times; errors: what the time before gives another one, and RK4's own."""
-    gas = Gas(ETA, dih.zeta, KAPPA)
+    gas = LinearGas(ETA, dih.zeta, KAPPA)
     fastest = np.abs(np.linalg.eigvals(continuum(gas, k).matrix)).max()
     time = 1/float(fastest)
     *_, first, second, third = (np.eye(4), *propagators(dih, x, k, time, phases))
@@ -125,7 +126,7 @@ class Decay(Case):
     make : of `particles.integral.edge_makers.MAKERS`. h : range of Lucy's weight, in spacings. counts : of
     points along x and y.
     """
-    transport: Nested | Pairwise
+    transport: NestedFluxes | Pairwise
     make: Callable[[Points, Any], Edges]
     h: float
     disorder: Disorder
@@ -158,10 +159,10 @@ class Decay(Case):
 
     def rows(self, values: dict[str, Measured], k: float) -> Iterator[dict[str, Any]]:
         """One a quantity."""
-        key = {"transport": type(self.transport).__name__.lower(), "maker": self.make.__name__, "h": self.h,
+        key = {"transport": NAMES[type(self.transport)], "maker": self.make.__name__, "h": self.h,
                "points": self.disorder.name, "zeta": self.zeta, "wavelength": self.counts[0],
                "seed": self.seed}
-        exact = quantities(continuum(Gas(ETA, self.zeta, KAPPA), k), k)
+        exact = quantities(continuum(LinearGas(ETA, self.zeta, KAPPA), k), k)
         for name, (value, err) in values.items():
             yield key | {"quantity": name, "measured": value, "measured_err": err, "continuum": exact[name]}
 

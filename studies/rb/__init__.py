@@ -1,7 +1,7 @@
-"""Rayleigh-Benard convection: do particles converge on the equations of the gas, and what does KHP95 print that holds?"""
+"""Rayleigh-Benard convection: do particles converge on the gas, and what does KHP95 print that holds?"""
 from studies.kit.study import Part, Study
 from studies.rb import cases
-from studies.rb.runs.arithmetic import SUBJECTS, Arithmetic
+from studies.rb.runs.arithmetic import SUBJECTS, WithoutFlow
 
-NUMBERS = Part(cases=lambda size: [Arithmetic(subject=subject) for subject in SUBJECTS], tables=())
+NUMBERS = Part(cases=lambda size: [WithoutFlow(numbers=subject) for subject in SUBJECTS], tables=())
 STUDY = Study.of("rb", __doc__, (cases.PART, NUMBERS))

@@ -1,9 +1,8 @@
-"""Rayleigh-Benard: do smooth particles converge on the equations of the gas, and what does KHP95 print that holds?
+"""Which cases: spacing, mass and kB are 1, L = particle rows, g = dT/L, eta from Ra: energies do not depend
+on L.
 
-Scaling: spacing, mass and kB are 1, L = particle rows, g = dT/L, eta from Ra: energies then do not depend on L.
-Sizes: `paper` (half an hour on two cores) has what the main figure and the verdicts need, `quick` (minutes) the same
+`paper` (half an hour on two cores) has what the main figure and the verdicts need, `quick` (minutes) the same
 path small, `fine` (hours) all variants, walls, resolutions.
-Writes results/rb/*.csv and *.png and the rows of study rb in results/claims.csv; `quick` the same in results/quick.
 """
 from collections.abc import Iterator
 from itertools import product
@@ -13,9 +12,10 @@ from continuum.fluid import ConstNu, DenseFluid, VanDerWaals
 from continuum.scene import Periodic, RayleighBenard, Walls
 from particles.weights import Lucy
 from studies.build.fixed import SCHEMES
+from studies.build.grid import FORMS
+from studies.build.measure import Smoothing
 from studies.build.moving import MOTIONS
 from studies.build.rr98_moving import DRIFT_MOTIONS
-from studies.build.smoothing import Smoothing
 from studies.build.spam import PRINTED, VARIANTS, Variant
 from studies.kit.case import Case
 from studies.kit.study import Part
@@ -23,10 +23,15 @@ from studies.rb import tables
 from studies.rb.claims import RB_CLAIMS
 from studies.rb.derive import derive
 from studies.rb.figures import figures
-from studies.rb.runs.grid import BoussinesqSteady, CompressibleApproach, CompressibleSteady, PypdeSteady
+from studies.rb.runs.grid import (
+    BoussinesqSteady,
+    CompressibleApproach,
+    CompressibleSteady,
+    CompressibleStep,
+    PypdeSteady,
+)
 from studies.rb.runs.points import DihRun, DriftRun, MovingRun
-from studies.rb.runs.spam import SpamRun
-from studies.rb.runs.steps import CompressibleStep, SpamStep
+from studies.rb.runs.spam import SpamRun, SpamStep
 
 LAYER: dict[str, Any] = {"aspect": 2.0, "sides": Periodic()}     # Fig. 5
 BOX: dict[str, Any] = {"aspect": 1.0, "sides": Walls()}          # Fig. 6
@@ -34,7 +39,8 @@ NU: dict[str, Any] = {"transport": ConstNu}
 VDW: dict[str, Any] = {"eos": VanDerWaals()}
 DENSE: dict[str, Any] = {"eos": DenseFluid(), "pr": 1.5}    # C_V = 1.5: pr = 1.5 is the printed eta = k
 SEEDS = (1, 2, 3)
-MANY = tuple(range(1, 9))       # of the point that most printed statements are about, 5000 particles at Ra 10 000
+MANY = tuple(range(1, 9))       # of 5000 particles at Ra 10 000, which most printed statements are about
+KEPT = {1e4: "all", 5e3: "fields", 2.5e3: "fields"}
 RA = (1500.0, 2500.0, 5000.0, 10000.0, 20000.0)  # of the particles
 LINE = (1500.0, 1750.0, 2000.0, 2500.0, 3000.0, 3500.0, 4200.0, 5000.0, 6000.0, 6830.0, 10000.0, 20000.0,
         50000.0)  # of the grids
@@ -49,20 +55,23 @@ def spam(ra: float, rows: int, seeds=SEEDS, variant: Variant = PRINTED, keep="",
                       keep=keep if seed == seeds[0] else keep and "history")
 
 
-def gas(ra: float, sizes: tuple[int, ...], keep="", variant="flux-form", longest=60.0, **scene) -> CompressibleSteady:
+def gas(ra: float, sizes: tuple[int, ...], keep="", form="flux-form", longest=60.0,
+        **scene) -> CompressibleSteady:
     """Steady states on grids, seen through the weights of the particles that are compared with them."""
     where = RayleighBenard(ra=ra, **(LAYER | scene))
-    smooth = seen_by(where) if variant == "flux-form" else ()
-    return CompressibleSteady(scene=where, sizes=sizes, keep=keep, variant=variant, longest=longest, smooth=smooth)
+    smooth = seen_by(where) if form == "flux-form" else ()
+    return CompressibleSteady(scene=where, sizes=sizes, keep=keep, form=FORMS[form], longest=longest,
+                              smooth=smooth)
 
 
 def seen_by(scene: RayleighBenard) -> tuple[Smoothing, ...]:
     """The printed weight at all numbers of particles, those of the variants where these are run."""
-    square = isinstance(scene.sides, Walls)
-    lucy = [Smoothing(Lucy, 3.0, rows) for rows in ((20, 28, 40) if square else (16, 25, 35, 50, 70, 100))]
-    kinds = {(v.weight, v.h) for v in VARIANTS.values()} - {(Lucy, 3.0)}
+    if isinstance(scene.sides, Walls):
+        return tuple(Smoothing(Lucy, 3.0, rows) for rows in (20, 28, 40))
+    lucy = [Smoothing(Lucy, 3.0, rows) for rows in (16, 25, 35, 50, 70, 100)]
+    kinds = {(variant.weight, variant.h) for variant in VARIANTS.values()} - {(Lucy, 3.0)}
     others = [Smoothing(*kind, rows) for kind in sorted(kinds, key=str) for rows in (16, 25, 50)]
-    return (*lucy, *others) if scene.ra in (3e3, 5e3, 1e4) and not square else tuple(lucy)
+    return (*lucy, *others) if scene.ra in (3e3, 5e3, 1e4) else tuple(lucy)
 
 
 def cases(size: str) -> list[Case]:
@@ -80,14 +89,8 @@ def quick() -> Iterator[Case]:
     yield CompressibleApproach(scene=RayleighBenard(ra=1e4), rows=16)
     yield PypdeSteady(ra=5000.0, pr=2.0, sizes=(12, 16, 24))
     yield PypdeSteady(ra=5000.0, scene=RayleighBenard(ra=5000.0), sizes=(12, 16, 24))
-    yield from speed((16,), (12, 16, 24))
-
-
-def speed(particle_rows: tuple[int, ...], grid_rows: tuple[int, ...]) -> Iterator[Case]:
-    """What a step costs, measured alone."""
-    for rows in particle_rows:
-        yield SpamStep(scene=RayleighBenard(ra=1e4, L=float(rows)))
-    for rows in grid_rows:
+    yield SpamStep(scene=RayleighBenard(ra=1e4, L=16.0))
+    for rows in (12, 16, 24):
         yield CompressibleStep(scene=RayleighBenard(ra=1e4), rows=rows)
 
 
@@ -97,7 +100,10 @@ def paper() -> Iterator[Case]:
     yield from layers()
     yield from squares()
     yield from others()
-    yield from speed((16, 25, 35, 50, 70), (16, 24, 32, 48, 64))
+    for height in (16.0, 25.0, 35.0, 50.0, 70.0):
+        yield SpamStep(scene=RayleighBenard(ra=1e4, L=height))
+    for rows in (16, 24, 32, 48, 64):
+        yield CompressibleStep(scene=RayleighBenard(ra=1e4), rows=rows)
 
 
 def grids() -> Iterator[Case]:
@@ -106,21 +112,20 @@ def grids() -> Iterator[Case]:
         yield gas(ra, (24, 32, 48), keep="fields" if ra in (3e3, 5e3, 1e4) else "")
         for pr in (0.71, 1.0, 2.0, 7.0):
             yield BoussinesqSteady(ra=ra, pr=pr)
-    for ra in (2000.0, 2500.0, 3000.0, 3500.0, 5000.0, 6830.0, 10000.0):
-        yield gas(ra, (24, 32, 48), **NU)
-        yield gas(ra, (24, 32, 48), **VDW)
+    for ra, fluid in product((2000.0, 2500.0, 3000.0, 3500.0, 5000.0, 6830.0, 10000.0), (NU, VDW)):
+        yield gas(ra, (24, 32, 48), **fluid)
     for ra in (5000.0, 10000.0):
         yield PypdeSteady(ra=ra, scene=RayleighBenard(ra=ra), sizes=(16, 24, 32, 48))
         for pr in (1.0, 7.0):
             yield PypdeSteady(ra=ra, pr=pr, sizes=(16, 24, 32, 48))
     yield CompressibleApproach(scene=RayleighBenard(ra=1e4))
-    yield gas(1e4, (16, 24, 32, 48), variant="paper-form", longest=3.0)    # it loses mass and never settles
+    yield gas(1e4, (16, 24, 32, 48), form="paper-form", longest=3.0)    # it loses mass and never settles
 
 
 def layers() -> Iterator[Case]:
     """Particles in the layer, Figs 2, 3, 5, 8, 9, 12: numbers, fluids, walls; half of the time step."""
     for ra in RA:
-        yield from spam(ra, 50, MANY if ra == 1e4 else SEEDS, keep={1e4: "all", 5e3: "fields", 2.5e3: "fields"}.get(ra, ""))
+        yield from spam(ra, 50, MANY if ra == 1e4 else SEEDS, keep=KEPT.get(ra, ""))
         yield from spam(ra, 35)
         yield from spam(ra, 25)
     for ra in (5000.0, 10000.0):
@@ -152,21 +157,21 @@ def squares() -> Iterator[Case]:
         start = 80.0 if ra == 20000 else 40.0
         for rows in (40, 28, 20):
             yield from spam(ra, rows, t_end=2.25*start, mean_from=start, **BOX)
-    yield gas(7000.0, (24, 32), variant="two-rolls", **BOX)
+    yield gas(7000.0, (24, 32), form="two-rolls", **BOX)
 
 
 def others() -> Iterator[Case]:
-    """512 particles: of Fig. 7, of the frozen dense fluid of Fig. 4, and of gases that should not freeze there."""
-    for ra, keep in ((1e4, "all"), (3e3, "all")):
-        yield from spam(ra, 16, keep=keep)
-        yield from spam(ra, 16, keep=keep, **VDW)
+    """512 particles: of Fig. 7, of the frozen fluid of Fig. 4, and of gases that should not freeze there."""
+    for ra in (1e4, 3e3):
+        yield from spam(ra, 16, keep="all")
+        yield from spam(ra, 16, keep="all", **VDW)
     yield gas(3000.0, (16, 24, 32), **DENSE)
     for name in ("printed", "printed-monaghan"):
         yield from spam(3000.0, 16, variant=VARIANTS[name], keep="all", **DENSE)
 
 
 def fine() -> Iterator[Case]:
-    """Every variant at two sizes (of pressure at two Ra), finer particles, higher Rayleigh numbers, long runs of the grid."""
+    """Every variant at two sizes (of pressure at two Ra), finer particles, higher Ra, long grids."""
     for name in sorted(set(VARIANTS) - {"printed", "printed-half-step", "printed-from-flow"}):
         variant = VARIANTS[name]
         yield from spam(1e4, 25, variant=variant)
@@ -182,48 +187,53 @@ def fine() -> Iterator[Case]:
     for ra in (5e4, 1e5):
         yield from spam(ra, 50, t_end=180.0, mean_from=90.0)
     yield gas(1e5, (32, 48, 64), longest=4.0)        # the flow itself oscillates: means over its last half
-    hot: dict[str, Any] = {"variant": "fig10", "longest": 6.0, "T_hot": 10.0, "T_cold": 0.5}
-    yield gas(67150.0, (32, 48), **hot, **BOX)
-    yield gas(67150.0, (32, 48), **hot, **BOX, **DENSE)
+    hot: dict[str, Any] = {"form": "fig10", "longest": 6.0, "T_hot": 10.0, "T_cold": 0.5} | BOX
+    yield gas(67150.0, (32, 48), **hot)
+    yield gas(67150.0, (32, 48), **hot, **DENSE)
     for ra, rows in product((5e4, 2e5), (50, 100)):
         yield CompressibleApproach(scene=RayleighBenard(ra=ra), rows=rows, t_end=2.1*ra**0.5)    # 2.1 L^2/eta
     yield CompressibleApproach(scene=RayleighBenard(ra=3e3, **DENSE), rows=24, t_end=22*(3000/1.5)**0.5)
 
 
 #: rows of the schemes on points that converge; 40 of the others
-MOST = {**dict.fromkeys(("fixed-lattice", "fixed-lattice-printed-heat", "fixed-lattice-h3", "fixed-lattice-nested"), 80),
-        "fixed-jittered-plates": 64,
-        **dict.fromkeys(("fixed-random-plates", "relaxed-plates"), 50),
-        **dict.fromkeys(("fixed-jittered-delaunay", "fixed-random-delaunay", "relaxed-delaunay"), 50)}
-
-
-#: of the schemes, those that only other studies run
+MOST = {"fixed-lattice": 80, "fixed-lattice-printed-heat": 80, "fixed-lattice-h3": 80,
+        "fixed-lattice-nested": 80, "fixed-jittered-plates": 64, "fixed-random-plates": 50,
+        "relaxed-plates": 50, "fixed-jittered-delaunay": 50, "fixed-random-delaunay": 50,
+        "relaxed-delaunay": 50}
+#: schemes that only other studies run
 ELSEWHERE = {"fixed-lattice-h1.2", "fixed-lattice-monaghan", "fixed-lattice-wendland-c2"}
 #: of RR98's own motions, those with 40 rows besides 25
 FINER = ("moving-literal", "moving-convective", "moving-constant-mass", "moving-less-static")
 
 
 def points() -> Iterator[Case]:
-    """Discretized integral hydrodynamics: fixed lattice, irregular points, moving points and what they are made of."""
+    """Discretized integral hydrodynamics: points on a lattice, irregular points, moving points."""
     for ra in (5e3, 1e4):
-        yield gas(ra, (24, 32, 48), variant="edge-heat")
-        for rows in (25, 40, 50, 64, 80):
-            where = RayleighBenard(ra=ra, L=float(rows))
-            for name, scheme in SCHEMES.items():
-                if name not in ELSEWHERE and rows <= MOST.get(name, 40):
-                    yield from (DihRun(scene=where, scheme=scheme, seed=seed) for seed in SEEDS[:1 if "lattice" in name else 3])
-            if rows <= 64:
-                yield from (MovingRun(scene=where, seed=seed) for seed in SEEDS)
-            elif ra == 1e4:     # an error of first order, from the plates, shows in the finest
-                yield from (MovingRun(scene=where, seed=seed) for seed in SEEDS[:2])
-    for rows in (25, 40, 50):
-        yield DihRun(scene=RayleighBenard(ra=1e4, L=float(rows), **NU), scheme=SCHEMES["fixed-lattice"])
-    for name, rows in product(sorted(set(MOTIONS) - {"moving"}), (25, 40)):
-        for seed in SEEDS[:2]:      # seeds differ by 0.03 %, ingredients by more
-            yield MovingRun(scene=RayleighBenard(ra=1e4, L=float(rows)), motion=MOTIONS[name], seed=seed)
-    for name, rows, seed in product(DRIFT_MOTIONS, (25, 40), SEEDS):
-        if rows == 25 or (name in FINER and seed < 3):
-            yield DriftRun(scene=RayleighBenard(ra=1e4, L=float(rows)), motion=DRIFT_MOTIONS[name], seed=seed)
+        yield gas(ra, (24, 32, 48), form="edge-heat")
+        for height in (25.0, 40.0, 50.0, 64.0, 80.0):
+            yield from on_points(RayleighBenard(ra=ra, L=height))
+    for height in (25.0, 40.0, 50.0):
+        yield DihRun(scene=RayleighBenard(ra=1e4, L=height, **NU))
+    few, many = RayleighBenard(ra=1e4, L=25.0), RayleighBenard(ra=1e4, L=40.0)
+    # seeds differ by 0.03 %, ingredients by more
+    for name, where, seed in product(sorted({*MOTIONS} - {"moving"}), (few, many), SEEDS[:2]):
+        yield MovingRun(scene=where, motion=MOTIONS[name], seed=seed)
+    for motion, seed in product(DRIFT_MOTIONS.values(), SEEDS):
+        yield DriftRun(scene=few, motion=motion, seed=seed)
+    for name, seed in product(FINER, SEEDS[:2]):
+        yield DriftRun(scene=many, motion=DRIFT_MOTIONS[name], seed=seed)
+
+
+def on_points(where: RayleighBenard) -> Iterator[Case]:
+    """All schemes on points that stay, as fine as each is run, and the one on points that move."""
+    for name in sorted(SCHEMES.keys() - ELSEWHERE):
+        seeds = SEEDS[:1] if "lattice" in name else SEEDS
+        if where.L <= MOST.get(name, 40):
+            yield from (DihRun(scene=where, scheme=SCHEMES[name], seed=seed) for seed in seeds)
+    if where.L <= 64:
+        yield from (MovingRun(scene=where, seed=seed) for seed in SEEDS)
+    elif where.ra == 1e4:     # an error of first order, from the plates, shows in the finest
+        yield from (MovingRun(scene=where, seed=seed) for seed in SEEDS[:2])
 
 
 PART = Part(cases=cases, tables=tables.ALL, derive=derive, figures=figures, claims=RB_CLAIMS)

@@ -1,205 +1,184 @@
 """Rows that follow from other rows: grids extrapolated, means over seeds, errors against the reference."""
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 import pandas as pd
-from scipy.special import stdtrit
 
-from continuum.richardson import richardson
 from studies.build.names import one_energy
 from studies.build.spam import VARIANTS
+from studies.kit import fits
 from studies.kit.stats import combine
-from studies.kit.table import Tables
+from studies.kit.table import Rows, Tables
 from studies.rb.snapshots import field_errors, snapshots
-from studies.rb.tables import POINT
+from studies.rb.tables import POINT, SCENE, STEP, STILL
 
 GRIDS = ("compressible", "boussinesq", "pypde-boussinesq", "pypde-compressible")
-MACHINE = ["method", "variant", "eos", "sides", "resolution"]
 SERIES = [name for name in POINT if name != "resolution"]
-SCENE = ["eos", "transport", "sides", "ra", "pr"]
-ENERGIES = ("ke", "ke_field", "ke_mean", "nu")
+ENERGIES = ["ke", "ke_field", "ke_mean", "nu"]
 HALF = "printed-half-step"
-STILL = 1e-6        # K of a grid that does not convect
 
 
-def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
+def derive(tables: Tables) -> Rows:
     """All derived rows of the study."""
     if "kinetic_energy" not in tables:
         return {}
     runs = finite(tables["kinetic_energy"])
-    limits = [*extrapolated(runs), *extrapolated_points(runs)]
-    everything = pd.concat([runs, pd.DataFrame(limits)], ignore_index=True) if limits else runs
-    means = list(over_seeds(everything))
-    frame = pd.DataFrame(means)
-    return {"kinetic_energy": limits, "means": means, "errors": list(errors(runs, frame, tables)),
-            "snapshots": list(snapshots(tables)), "field_errors": list(field_errors(tables, frame))}
+    runs = runs[runs["ke"].notna()]
+    limits = list(extrapolated(runs))
+    means = pd.DataFrame(over_seeds(pd.concat([runs, pd.DataFrame(limits)], ignore_index=True)))
+    return {"kinetic_energy": limits, "means": records(means), "errors": records(errors(runs, means, tables)),
+            "snapshots": list(snapshots(tables)), "field_errors": list(field_errors(tables, means))}
 
 
 def finite(frame: pd.DataFrame) -> pd.DataFrame:
-    """Rows of real runs that did not diverge, not extrapolated ones."""
-    return frame[np.isfinite(frame["resolution"].astype(float)) & frame["ke"].notna()]
+    """Rows that are not extrapolated."""
+    return frame[np.isfinite(frame["resolution"].astype(float))] if len(frame) else frame
 
 
-def extrapolated(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    """One row `resolution = inf` of each grid series with three converged resolutions or more, one state in all."""
-    rows = rows[rows["method"].isin(GRIDS) & rows["converged"].astype(str).eq("True")]
-    for point, group in rows.groupby(SERIES, dropna=False):
-        if len(group) < 3 or group["rolls"].nunique() > 1:
-            continue
-        finest = group.sort_values("resolution").iloc[-1].to_dict()
-        sizes = group["resolution"].astype(int).to_numpy()
-        ke, nu = (limit(group[name].to_numpy(), group[f"{name}_err"].to_numpy(), sizes) for name in ("ke", "nu"))
-        kept = {name: finest[name] for name in ("seed", "particles", "rolls", "free_fall", "converged", "threads")}
-        yield {**dict(zip(SERIES, point, strict=True)), **kept, "resolution": np.inf, **one_energy(*ke), "nu": nu[0],
-               "nu_err": nu[1], "cpu_s": group["cpu_s"].sum(), "compile_s": group["compile_s"].sum()}
+def records(frame: pd.DataFrame) -> list[dict[str, Any]]:
+    """Rows of a table."""
+    return [{str(name): value for name, value in row.items()} for row in frame.to_dict("records")]
 
 
-def extrapolated_points(rows: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    """One row `resolution = inf` of each scheme on points with three sizes or more that settled, in one state.
+# --- infinitely fine ------------------------------------------------------------------------------
 
-    Lattices have no chance in them and are extrapolated as grids are; of sets of points that differ each run counts by itself.
+
+def extrapolated(runs: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """One row `resolution = inf` of each series of grids or points with three settled sizes or more, one
+    state in all.
+
+    Grids and lattices have no chance in them; of sets of points that differ each run counts by itself.
     """
-    rows = rows[(rows["method"] == "dih") & rows["converged"].astype(str).eq("True")]
-    for point, group in rows.groupby(SERIES, dropna=False):
-        group = group.sort_values("resolution")
-        sizes = group["resolution"].to_numpy()
+    steady = runs["converged"].astype(str).eq("True") & runs["method"].isin([*GRIDS, "dih"])
+    for point, group in runs[steady].sort_values("resolution").groupby(SERIES, dropna=False):
+        sizes = group["resolution"].to_numpy(float)
         if len(set(sizes)) < 3 or group["rolls"].nunique() > 1:
             continue
-        alone = len(set(sizes)) == len(sizes)
-        ke, nu = (limit(group[name].to_numpy(), group[f"{name}_err"].to_numpy(), sizes) if alone
-                  else line(group[name].to_numpy(), sizes) for name in ("ke", "nu"))
-        kept = {name: group.iloc[-1][name] for name in ("rolls", "free_fall", "converged", "threads")}
-        yield {**dict(zip(SERIES, point, strict=True)), **kept, "seed": 0, "particles": 0, "resolution": np.inf,
-               **one_energy(*ke), "nu": nu[0], "nu_err": nu[1], "cpu_s": group["cpu_s"].sum(),
-               "compile_s": group["compile_s"].sum()}
+        limit = grid_limit if len(set(sizes)) == len(sizes) else line_limit
+        ke, nu = (limit(group[name], group[f"{name}_err"], sizes) for name in ("ke", "nu"))
+        kept = {name: group[name].iloc[-1] for name in ("rolls", "free_fall", "converged", "threads")}
+        seconds = {name: group[name].sum() for name in ("cpu_s", "compile_s")}
+        yield {**dict(zip(SERIES, point, strict=True)), **kept, **seconds, "seed": 0, "particles": 0,
+               "resolution": np.inf, **one_energy(*ke), "nu": nu[0], "nu_err": nu[1]}
 
 
-def line(values: np.ndarray, sizes: np.ndarray) -> tuple[float, float]:
-    """Value at 1/rows^2 = 0 of a line through all runs; its error: of the fit, and twice what leaving out the coarsest changes.
+def grid_limit(values: pd.Series, errs: pd.Series, sizes: np.ndarray) -> tuple[float, float]:
+    """Extrapolated value; its error has a part of the grid and one of the values' own (in time)."""
+    limit = fits.grid_limit(sizes, values)
+    return limit.value, float(np.hypot(limit.err, 2*errs.max()))
 
-    K of sets of points scatters as 1/rows^2 or faster, 0.6 % to 0.04 % from 25 to 50 rows: hence weights of rows^2, and one
-    scatter for all that is left over, which three runs of one size tell badly.
+
+def line_limit(values: pd.Series, errs: pd.Series, sizes: np.ndarray) -> tuple[float, float]:
+    """Value at 1/rows^2 = 0 of a line through all runs; its error: of the fit, and twice what the coarsest
+    change.
+
+    K of sets of points scatters as 1/rows^2 or faster, 0.6 % to 0.04 % from 25 to 50 rows: hence weights of
+    rows^2. One scatter stands for all that is left over, which three runs of one size tell badly.
     """
     x, weight, finer = 1/sizes**2, sizes**2, sizes > sizes.min()
-    fit, cov = np.polyfit(x, values, 1, w=weight, cov=True)
+    limit = fits.line(x, values, weight=weight).intercept
     without = np.polyfit(x[finer], values[finer], 1, w=weight[finer])[1]
-    return float(fit[1]), float(np.hypot(stdtrit(len(x) - 2, 0.975)*np.sqrt(cov[1, 1]), 2*(fit[1] - without)))
+    return limit.value, float(np.hypot(limit.err, 2*(limit.value - without)))
 
 
-def limit(values: np.ndarray, errs: np.ndarray, sizes: np.ndarray) -> tuple[float, float]:
-    """Extrapolated value; its error has a part of the grid and one of the values' own (in time)."""
-    found = richardson(list(values), list(sizes))
-    return float(found.limit), float(np.hypot(found.error, 2*errs.max()))
+# --- means over seeds -----------------------------------------------------------------------------
 
 
-def over_seeds(kinetic: pd.DataFrame) -> Iterator[dict[str, Any]]:
-    """Means over the seeds of each particle point that settled in its commonest number of rolls; grid rows pass as they are.
+def over_seeds(runs: pd.DataFrame) -> Iterator[dict[str, Any]]:
+    """Means over the seeds of each point that settled in its commonest number of rolls; grid rows pass as
+    they are.
 
-    To the error of particles belongs twice what half of the time step changes: its error is of first order, from the walls.
+    To the error of particles belongs twice what half of the time step changes: its error is of first order,
+    from the walls.
     """
-    shifts = step_shifts(kinetic)
-    for point, group in kinetic.groupby(POINT, dropna=False):
+    changes = step_changes(runs)
+    for point, group in runs.groupby(POINT, dropna=False):
         row = dict(zip(POINT, point, strict=True))
         same = group[group["rolls"] == group["rolls"].mode().iloc[0]]
+        change = step_change(changes, row)
         for name in ENERGIES:
             value, err = combine(list(zip(same[name], same[f"{name}_err"], strict=True)))
-            row[name], row[f"{name}_err"] = value, float(np.hypot(err, 2*value*shift(shifts, row, name)))
-        yield {**row, "particles": same["particles"].iloc[0], "seeds": len(same), "mixed": len(group) - len(same),
-               "ke_fluctuation": same["ke_fluctuation"].mean(), "rolls": same["rolls"].iloc[0]}
+            row |= {name: value, f"{name}_err": float(np.hypot(err, 2*value*change[name]))}
+        first = same[["particles", "rolls"]].iloc[0].to_dict()
+        yield {**row, **first, "seeds": len(same), "mixed": len(group) - len(same),
+               "ke_fluctuation": same["ke_fluctuation"].mean()}
 
 
-def step_shifts(kinetic: pd.DataFrame) -> list[tuple[dict[str, Any], dict[str, float]]]:
-    """(point, how much of K and Nu half of the time step changes there, relative)."""
-    found = []
-    for _, half in kinetic[kinetic["variant"] == HALF].groupby(POINT, dropna=False):
-        first = half.iloc[0]
-        whole = kinetic[(kinetic["variant"] == "printed") & (kinetic[SCENE] == first[SCENE]).all(axis=1)
-                        & (kinetic["resolution"] == first["resolution"])]
-        if len(whole):
-            change = {name: float(abs(half[name].mean()/whole[name].mean() - 1)) for name in ENERGIES}
-            found.append(({str(column): value for column, value in first.items()}, change))
-    return found
+def step_changes(runs: pd.DataFrame) -> pd.DataFrame:
+    """How much of each energy half of the time step changes, relative, by scene and resolution."""
+    by_point = [*SCENE, "resolution"]
+    half, whole = (runs[runs["variant"] == name].groupby(by_point, dropna=False)[ENERGIES].mean()
+                   for name in (HALF, "printed"))
+    return (half/whole - 1).abs().dropna().reset_index()
 
 
-def shift(shifts: list[tuple[dict[str, Any], dict[str, float]]], row: dict[str, Any], name: str) -> float:
-    """The one of the next coarser resolution of the same fluid and box, or else of any; none for grids and fixed points.
+def step_change(changes: pd.DataFrame, row: dict[str, Any]) -> pd.Series:
+    """That of the next coarser resolution of the same fluid and box, or else of any; none for grids and points."""
+    coarser = changes[changes["resolution"] <= float(row["resolution"])]
+    alike = coarser[(coarser["eos"] == row["eos"]) & (coarser["sides"] == row["sides"])]
+    chosen = alike if len(alike) else coarser
+    if row["method"] != "spam" or chosen.empty:
+        return pd.Series(0.0, ENERGIES)
+    finest_first = chosen.sort_values("resolution", ascending=False, kind="stable")
+    return finest_first[ENERGIES].iloc[0]
 
-    Steady states of grids do not depend on the step.
+
+# --- errors and costs -----------------------------------------------------------------------------
+
+
+def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> pd.DataFrame:
+    """Relative errors of K and Nu against the compressible limit of the scene, with what they cost.
+
+    Kp, of all particles, is compared with the grid's K; Kg, of the smoothed field, with K of the grid's field
+    smoothed by the same weight: smoothing alone is no error of the flow.
     """
-    if row["method"] != "spam":
-        return 0.0
-    coarser = [(at, change[name]) for at, change in shifts if at["resolution"] <= float(row["resolution"])]
-    alike = [one for one in coarser if all(one[0][column] == row[column] for column in ("eos", "sides"))] or coarser
-    return max(alike, key=lambda one: one[0]["resolution"])[1] if alike else 0.0
+    grid = (means["method"] == "compressible") & (means["variant"] == "flux-form") & (means["ke"] > STILL)
+    limits = means[grid & np.isinf(means["resolution"].astype(float))]
+    limits = limits[[*SCENE, "ke", "ke_err", "nu", "nu_err", "rolls"]]
+    rows = finite(means[means["eos"] != ""]).merge(limits, on=SCENE, suffixes=("", "_limit"))
+    same_flow = rows["rolls"] == rows["rolls_limit"]
+    rows = rows[(rows["method"] == "spam") | same_flow]
+    rows = rows.merge(spent(runs, tables), on=POINT)
+    field = with_smoothing(rows, tables)
+    return pd.concat([compared(rows, "Nu", "nu", "nu"), compared(rows, "Kp", "ke", "ke"),
+                      compared(field, "Kg", "ke_field", "ke", field["left"])])
 
 
-def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> Iterator[dict[str, Any]]:
-    """Relative errors of K against the compressible limit of the scene, with what they cost.
-
-    Kp, of all particles, is compared with the grid's K; Kg, of the smoothed field, with K of the grid's field smoothed by the
-    same weight: smoothing alone is no error of the flow.
-    """
-    if means.empty:
-        return
-    limits = means[(means["method"] == "compressible") & (means["variant"] == "flux-form")
-                   & ~np.isfinite(means["resolution"].astype(float)) & (means["ke"] > STILL)].set_index(SCENE)
-    seen, seconds = smoothing_factors(tables), step_seconds(tables)
-    for row in means[(means["eos"] != "") & np.isfinite(means["resolution"].astype(float))].to_dict("records"):
-        where = tuple(row[name] for name in SCENE)
-        if where not in limits.index:
-            continue
-        limit = limits.loc[where]
-        if row["method"] != "spam" and row["rolls"] != limit["rolls"]:
-            continue        # another flow
-        cpu_s = cost(runs, row, seconds)
-        yield error(row, "Nu", row["nu"], row["nu_err"], limit[["nu", "nu_err"]].set_axis(["ke", "ke_err"]),
-                    1.0, cpu_s)
-        yield error(row, "Kp", row["ke"], row["ke_err"], limit, 1.0, cpu_s)
-        if row["method"] == "spam" and (*where, *view(row)) in seen:
-            yield error(row, "Kg", row["ke_field"], row["ke_field_err"], limit, seen[(*where, *view(row))], cpu_s)
+def compared(rows: pd.DataFrame, energy: str, column: str, limit: str, left: Any = 1.0) -> pd.DataFrame:
+    """Rows of the table `errors`: a column against the grid's limit, of which smoothing has `left` a part."""
+    ke, ke_err = rows[column], rows[f"{column}_err"]
+    reference, reference_err = rows[f"{limit}_limit"]*left, rows[f"{limit}_err_limit"]*left
+    error_err = np.hypot(ke_err, ke/reference*reference_err)/reference
+    return rows[[*POINT, "particles", "cpu_s"]].assign(
+        energy=energy, ke=ke, ke_err=ke_err, reference=reference, reference_err=reference_err,
+        error=ke/reference - 1, error_err=error_err)
 
 
-def error(row: Mapping[Any, Any], energy: str, ke: float, ke_err: float, limit: pd.Series, factor: float,
-          cpu_s: float) -> dict[str, Any]:
-    """A row of the table `errors`; the reference is the grid's limit times `factor`."""
-    reference, reference_err = limit["ke"]*factor, limit["ke_err"]*factor
-    return {**{name: row[name] for name in (*POINT, "particles")}, "energy": energy, "ke": ke, "ke_err": ke_err,
-            "reference": reference, "reference_err": reference_err, "error": ke/reference - 1,
-            "error_err": float(np.hypot(ke_err, ke/reference*reference_err)/reference), "cpu_s": cpu_s}
-
-
-def smoothing_factors(tables: Tables) -> dict[tuple, float]:
-    """(scene, weight, h, rows) -> K of the smoothed field over K."""
+def with_smoothing(rows: pd.DataFrame, tables: Tables) -> pd.DataFrame:
+    """Rows of particles with what their weight leaves of the K of the grid's field."""
+    spam = rows[rows["method"] == "spam"]
     if "smoothed" not in tables:
-        return {}
-    return {(*(row[name] for name in SCENE), row["weight"], float(row["h"]), int(row["rows"])): row["ke_smoothed"]/row["ke"]
-            for row in tables["smoothed"].to_dict("records")}
+        return spam[:0].assign(left=1.0)
+    views = [VARIANTS[name] for name in spam["variant"]]
+    spam = spam.assign(weight=[view.weight.__name__ for view in views], h=[view.h for view in views])
+    seen = tables["smoothed"]
+    seen = seen.assign(left=seen["ke_smoothed"]/seen["ke"], resolution=seen["rows"])
+    key = [*SCENE, "weight", "h", "resolution"]
+    return spam.merge(seen[[*key, "left"]].drop_duplicates(key, keep="last"), on=key)
 
 
-def view(row: Mapping[Any, Any]) -> tuple[str, float, int]:
-    """(weight, h, rows) of a particle point."""
-    variant = VARIANTS[row["variant"]]
-    return variant.weight.__name__, variant.h, int(row["resolution"])
+def spent(runs: pd.DataFrame, tables: Tables) -> pd.DataFrame:
+    """CPU seconds of what a mean is made of: all seeds of particles and points; of grids with the coarser
+    ones.
 
-
-def step_seconds(tables: Tables) -> dict[tuple, float]:
-    """Seconds of a step, measured alone on the machine."""
-    if "cost" not in tables:
-        return {}
-    return {tuple(row[name] for name in MACHINE): row["step_s"] for row in tables["cost"].to_dict("records")}
-
-
-def cost(runs: pd.DataFrame, row: Mapping[Any, Any], seconds: dict[tuple, float]) -> float:
-    """CPU seconds of what a mean is made of: all seeds of particles and points; a grid with the coarser ones it starts from.
-
-    Steps times the seconds of one step measured alone where there is such a row, else what the run took beside others.
+    Steps times the seconds of one step measured alone where there is such a row, else what the run took
+    beside others.
     """
-    same = [name for name in POINT if name != "resolution"]
-    group = runs[(runs[same] == pd.Series({name: row[name] for name in same})).all(axis=1)]
-    if row["method"] not in GRIDS:
-        group = group[group["resolution"] == row["resolution"]]
-    group = group[group["resolution"] <= row["resolution"]]
-    machine = [tuple(run[name] for name in MACHINE) for run in group.to_dict("records")]
-    return float(sum(steps*seconds[m] if m in seconds else cpu_s
-                     for m, steps, cpu_s in zip(machine, group["steps"], group["cpu_s"], strict=True)))
+    alone = tables.get("cost", pd.DataFrame(columns=[*STEP, "step_s"]))
+    runs = runs.merge(alone[[*STEP, "step_s"]].astype({"resolution": float}), how="left", on=STEP)
+    runs["cpu_s"] = (runs["steps"]*runs["step_s"].astype(float)).fillna(runs["cpu_s"])
+    seconds = runs.groupby(POINT, dropna=False)["cpu_s"].sum().reset_index()
+    grids = seconds["method"].isin(GRIDS)
+    seconds.loc[grids, "cpu_s"] = seconds[grids].groupby(SERIES, dropna=False)["cpu_s"].cumsum()
+    return seconds

@@ -5,11 +5,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
-from continuum.published import published
-from studies.kit import fits
 from studies.kit.figure import look
-from studies.kit.table import Tables, groups
-from studies.rb.flows import STILL
+from studies.kit.table import Tables
 from studies.rb.tables import ALL, POINT
 
 COLUMNS = {table.name: table.columns for table in ALL}
@@ -19,12 +16,9 @@ BOX = {**LAYER, "sides": "walls"}
 GRID = {"method": "compressible", "variant": "flux-form"}
 SPAM = {"method": "spam", "variant": "printed"}
 FROM_FLOW = {"variant": "printed-from-flow"}     # the same, but started from the grid's steady flow
-RA_C = published("chandrasekhar-ra-rigid").value
 #: Rayleigh numbers that have a panel
 RA_SHOWN = (5000, 10000)
 KHP95_PARTICLES = 5000
-#: K_s of the printed weight, see the table `smoothed`
-PRINTED_WEIGHT = {"weight": "Lucy", "h": 3}
 
 #: the same kind of row looks the same in every figure
 KIND: dict[str, dict[str, Any]] = {
@@ -35,15 +29,11 @@ KIND: dict[str, dict[str, Any]] = {
             "markeredgewidth": 1.4, "zorder": 5}}
 OPEN = {"markerfacecolor": "white"}
 MARKS = {"linestyle": "none"}
-LABELS = {"kp": "$K_p$, all particles", "kg": "$K_g$, smoothed field"}
-#: of the column `energy` of `errors`, besides
-NUSSELT = {"nu": "Nusselt number, particles"}
-UNSETTLED: dict[str, Any] = {"color": "black", "linestyle": "none", "marker": "x", "markersize": 8, "zorder": 6}
+#: kind -> column of `means`, words
+ENERGIES = {"kp": ("ke", "$K_p$, all particles"), "kg": ("ke_field", "$K_g$, smoothed field")}
+UNSETTLED: dict[str, Any] = {"color": "black", "linestyle": "none", "marker": "x", "markersize": 8,
+                             "zorder": 6}
 NOT_STEADY = "not steady: halves of the mean differ"
-TIME = r"$(m\sigma^2/\varepsilon)^{1/2}$"
-
-
-# --- rows -----------------------------------------------------------------------------------------
 
 
 def rows(tables: Tables, name: str, **wanted: Any) -> pd.DataFrame:
@@ -61,21 +51,21 @@ def reference(tables: Tables, **scene: Any) -> pd.DataFrame:
     return rows(tables, "means", **GRID, **scene, resolution=np.inf).sort_values("ra")
 
 
+def seen(tables: Tables, **scene: Any) -> pd.DataFrame:
+    """The grid's field, smoothed by the printed weight on so many `rows`."""
+    return rows(tables, "smoothed", **GRID, **scene, weight="Lucy", h=3).sort_values(["rows", "ra"])
+
+
 def particles(tables: Tables, **scene: Any) -> pd.DataFrame:
-    """The printed scheme, means over seeds, by resolution and Ra; `steady` says that every seed has settled."""
+    """The printed scheme, means over seeds; `steady` says that every seed has settled."""
     means = rows(tables, "means", **(SPAM | scene)).sort_values(["resolution", "ra"])
     return means.assign(steady=steady(tables, means))
 
 
 def errors(tables: Tables, **scene: Any) -> pd.DataFrame:
     """Relative errors by method, resolution and energy (Kp, Kg or Nu), with `steady`."""
-    chosen = rows(tables, "errors", **scene)
+    chosen = rows(tables, "errors", **scene).sort_values("resolution")
     return chosen.assign(steady=steady(tables, chosen))
-
-
-def of_energy(chosen: pd.DataFrame) -> pd.DataFrame:
-    """Errors of K alone."""
-    return chosen[chosen["energy"].str.lower().isin(LABELS)]
 
 
 def steady(tables: Tables, points: pd.DataFrame) -> pd.Series:
@@ -87,14 +77,11 @@ def steady(tables: Tables, points: pd.DataFrame) -> pd.Series:
 
 
 def diverged(tables: Tables, **scene: Any) -> pd.DataFrame:
-    """Points of a method, particles if none is named, at which runs diverged: `t` of the first, `lost` of `seeds`."""
-    chosen = []
-    for point, runs in groups(rows(tables, "kinetic_energy", **{"method": SPAM["method"]} | scene), POINT):
-        gone = runs["ke"].isna()
-        if gone.any():
-            first = runs.loc[gone, "t_end"].min()
-            chosen.append((*point, first, int(gone.sum()), len(runs)))
-    return pd.DataFrame(chosen, columns=[*POINT, "t", "lost", "seeds"])
+    """Points of a method, particles if none is named, at which runs diverged: `lost` of `seeds`."""
+    runs = rows(tables, "kinetic_energy", **{"method": SPAM["method"]} | scene)
+    by_point = runs["ke"].isna().groupby([runs[name] for name in POINT])
+    lost = by_point.agg(lost="sum", seeds="size").reset_index()
+    return lost[lost["lost"] > 0]
 
 
 def finest(frame: pd.DataFrame) -> pd.DataFrame:
@@ -106,15 +93,6 @@ def nearest(frame: pd.DataFrame, ra: float = 1e4) -> pd.DataFrame:
     """The rows of the Ra that is nearest to the one wanted (of two, the lower)."""
     ras = np.sort(frame["ra"].unique().astype(float))
     return frame[frame["ra"] == ras[np.argmin(np.abs(ras - ra))]] if len(ras) else frame
-
-
-def straight_line(limit: pd.DataFrame) -> fits.Fit | None:
-    """K over Ra^-1/2 from Ra_c to 4 Ra_c, None for fewer than three rows    [KHP95, Sec. V]"""
-    inside = limit[(limit["ra"] > RA_C) & (limit["ra"] <= 4*RA_C) & (limit["ke"] > STILL)]
-    return fits.line(inside["ra"].to_numpy()**-0.5, inside["ke"].to_numpy()) if len(inside) > 2 else None
-
-
-# --- marks ----------------------------------------------------------------------------------------
 
 
 def cross_out(axes: Axes, x: pd.Series, y: pd.Series, steady: pd.Series) -> None:

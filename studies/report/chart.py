@@ -2,7 +2,7 @@
 import math
 from typing import NamedTuple
 
-from studies.report.cost import Panel, Point, Series
+from studies.report.cost import Line, Panel, Point
 
 WIDTH, HEIGHT = 760, 440
 LEFT, RIGHT, TOP, BOTTOM = 66, 18, 16, 50
@@ -65,27 +65,26 @@ class Chart(NamedTuple):
 
 
 def chart(panel: Panel) -> Chart:
-    """Places of everything; axes hold all seconds and the errors of usual series, others lie on the edge."""
-    points = [point for series in panel.series for point in series.points]
-    seconds, sizes = [point.cpu_s for point in points], sizes_of(panel.series)
-    usual = sizes_of([series for series in panel.series if series.usual])
+    """Places of everything; axes hold all seconds and the errors of usual lines, others lie on the edge."""
+    seconds = [point.cpu_s for line in panel.lines for point in line.points]
+    sizes, usual = sizes_of(panel.lines), sizes_of([line for line in panel.lines if line.usual])
     low, high = max(0.6*min(sizes), 0.2*min(usual)), min(1.6*max(sizes), 2*max(usual))
     x = Scale(0.7*min(seconds), 1.4*max(seconds), LEFT, WIDTH - RIGHT)
     y = Scale(low, high, HEIGHT - BOTTOM, TOP)
-    return Chart(x, y, [curve(number, series, x, y) for number, series in enumerate(panel.series)])
+    return Chart(x, y, [curve(number, line, x, y) for number, line in enumerate(panel.lines)])
 
 
-def sizes_of(series: list[Series]) -> list[float]:
+def sizes_of(lines: list[Line]) -> list[float]:
     """Errors that a logarithmic axis can show."""
-    return [point.size for one in series for point in one.points if point.size > 0]
+    return [point.size for line in lines for point in line.points if point.size > 0]
 
 
-def curve(number: int, series: Series, x: Scale, y: Scale) -> Curve:
-    """A series and its look: after eight the marks shift by one against the colours."""
-    marks = [mark(point, x, y) for point in series.points]
-    line = "M" + "L".join(f"{one.x},{one.y}" for one in marks)
-    look = MARKS[(number + number//8) % len(MARKS)]
-    return Curve(series.label, series.usual, number % 8, look, DASHES[number % len(DASHES)], line, marks)
+def curve(number: int, line: Line, x: Scale, y: Scale) -> Curve:
+    """A line and its look: after eight the marks shift by one against the colours."""
+    marks = [mark(point, x, y) for point in line.points]
+    path = "M" + "L".join(f"{one.x},{one.y}" for one in marks)
+    look, dash = MARKS[(number + number//8) % len(MARKS)], DASHES[number % len(DASHES)]
+    return Curve(line.label, line.usual, number % 8, look, dash, path, marks)
 
 
 def mark(point: Point, x: Scale, y: Scale) -> Mark:

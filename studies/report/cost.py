@@ -1,7 +1,7 @@
 """Error against CPU seconds, from every table that has both: panels of series, and what errors cost.
 
-A table takes part if it has the columns of REQUIRED; those of SCENE name its panels, those of SERIES its
-series. What a level of error costs is read from the study's table `needed` where it has one.
+A table takes part if it has the columns of REQUIRED; those of SCENE name panels, those of SERIES lines.
+What a level of error costs is read from the study's table `needed`, or follows from the runs alone.
 """
 import math
 from collections import Counter
@@ -11,10 +11,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pandas as pd
 
-from studies.rb.figures.names import METHODS
-from studies.report.inventory import Part, Sheet
-from studies.report.levels import Need, by_runs, by_table, needed_of
-from studies.report.numbers import percent, seconds, short
+from studies.build import labels
+from studies.report.inventory import Folder, Sheet
+from studies.report.numbers import percent, seconds, short, with_error
 
 REQUIRED = {"method", "resolution", "error", "error_err", "cpu_s"}
 SCENE = ("scene", "eos", "transport", "sides", "ra", "pr", "quantity")
@@ -29,7 +28,28 @@ LEAST, MOST = 3, 8
 FAMILIES = ("compressible", "MAC", "DIH lattice", "DIH Delaunay", "moving", "SPAM", "py-pde")
 #: levels at which members of a family are compared: the first that one of them reaches
 DECIDE = (0.01, 0.03, 0.1)
-PRINTED = ("spam", "printed")
+#: of error, whose cost is told; columns of the table that tells it
+LEVELS = (0.1, 0.03, 0.01, 0.001)
+NEEDED = {"level", "reached", "cpu_s", "low", "high"}
+
+
+@dataclass(frozen=True)
+class Need:
+    """CPU seconds with their interval; at most these where the coarsest run has the error already."""
+
+    cpu_s: float
+    low: float
+    high: float
+    at_most: bool = False
+
+    def __str__(self) -> str:
+        if self.at_most:
+            return f"≤ {seconds(self.cpu_s)}"
+        if self.high > 2*self.low:
+            return f"{seconds(self.low)} to {seconds(self.high)}"
+        if self.high > self.low:
+            return with_error(self.cpu_s, (self.high - self.low)/2)
+        return seconds(self.cpu_s)
 
 
 @dataclass(frozen=True)
@@ -45,7 +65,7 @@ class Point:
 
 
 @dataclass(frozen=True)
-class Series:
+class Line:
     """One method; the usual ones are shown at first. needs : level of error -> what it costs."""
 
     label: str
@@ -74,7 +94,7 @@ class Panel:
 
     title: str
     sheet: Sheet
-    series: list[Series]
+    lines: list[Line]
     needed: Sheet | None = None
 
     @property
@@ -83,13 +103,14 @@ class Panel:
         return self.title.partition(",")[0]
 
 
-def panels(known: list[Part]) -> list[Panel]:
+def panels(folders: list[Folder]) -> list[Panel]:
     """All panels: the study of cost first, the scene with most panels, the panel with most series."""
-    made = [panel for part in known for sheet in part.sheets for panel in of_sheet(sheet, needed_of(part))]
+    made = [panel for folder in folders for sheet in folder.sheets
+            for panel in of_sheet(sheet, needed_of(folder))]
     scenes = Counter(panel.scene for panel in made)
 
     def rank(panel: Panel) -> tuple:
-        long = sum(len(series.points) > 2 for series in panel.series)
+        long = sum(len(line.points) > 2 for line in panel.lines)
         return (not panel.title.startswith("cost:"), -scenes[panel.scene], -long, panel.title)
     return sorted(made, key=rank)
 
@@ -100,14 +121,14 @@ def of_sheet(sheet: Sheet, needed: Sheet | None = None) -> Iterator[Panel]:
         return
     rows = with_quantity(sheet.frame)
     rows = rows[(rows["cpu_s"] > 0) & rows["error"].notna() & np.isfinite(rows["resolution"])]
-    scenes = [name for name in SCENE if name in rows and (rows[name].nunique() > 1 or name in SAID)]
+    scenes = [name for name in SCENE if name in rows and (name in SAID or rows[name].nunique() > 1)]
     common = {name: rows[name].mode().iloc[0] for name in scenes if name in UNSAID}
     for key, group in rows.groupby(scenes, sort=True):
         about = dict(zip(scenes, key))
-        series = list(of_panel(group, None if needed is None else where(needed.frame, about)))
-        if sum(len(one.points) > 1 for one in series) >= LEAST:
+        lines = of_panel(group, where(needed.frame, about) if needed else None)
+        if sum(len(line.points) > 1 for line in lines) >= LEAST:
             words = [in_words(name, value) for name, value in about.items() if common.get(name) != value]
-            yield Panel(f"{sheet.path.parent.name}: {', '.join(words)}", sheet, series, needed)
+            yield Panel(f"{sheet.path.parent.name}: {', '.join(words)}", sheet, lines, needed)
 
 
 def with_quantity(rows: pd.DataFrame) -> pd.DataFrame:
@@ -130,28 +151,27 @@ def in_words(column: str, value: object) -> str:
     return f"{column.capitalize()} {value:g}" if isinstance(value, float | int) else f"{value}"
 
 
-def of_panel(group: pd.DataFrame, needed: pd.DataFrame | None = None) -> Iterator[Series]:
-    """Its series, the usual ones first."""
+def of_panel(group: pd.DataFrame, needed: pd.DataFrame | None = None) -> list[Line]:
+    """Its lines, the usual ones first."""
     names = [name for name in SERIES if name in group]
-    made = []
+    lines = []
     for key, rows in group.groupby(names, sort=True):
         about, rows = dict(zip(names, key)), rows.sort_values("resolution")
         needs = by_runs(rows) if needed is None else by_table(where(needed, about))
         points = [point(row) for row in rows.to_dict("records")]
-        made.append(Series(label(about), family(str(about["method"])), points, needs))
-    usual = usual_ones(made)
-    yield from (replace(one, usual=True) for one in usual)
-    yield from (one for one in made if one not in usual)
+        lines.append(Line(label(about), family(str(about["method"])), points, needs))
+    usual = usual_ones(lines)
+    return [*(replace(line, usual=True) for line in usual), *(line for line in lines if line not in usual)]
 
 
-def usual_ones(made: list[Series]) -> list[Series]:
+def usual_ones(lines: list[Line]) -> list[Line]:
     """The cheapest of each family, and what is as printed."""
-    long = [one for one in made if len(one.points) > 2] or made
-    best: dict[str, Series] = {}
-    for one in sorted(long, key=lambda one: one.rank):
-        best.setdefault(one.family, one)
-    printed = [one for one in made if "as printed" in one.label and one not in best.values()]
-    return sorted([*best.values(), *printed][:MOST], key=lambda one: one.place)
+    long = [line for line in lines if len(line.points) > 2] or lines
+    best: dict[str, Line] = {}
+    for line in sorted(long, key=lambda line: line.rank):
+        best.setdefault(line.family, line)
+    printed = [line for line in lines if "as printed" in line.label and line not in best.values()]
+    return sorted([*best.values(), *printed][:MOST], key=lambda line: line.place)
 
 
 def family(method: str) -> str:
@@ -160,11 +180,11 @@ def family(method: str) -> str:
 
 
 def label(about: dict) -> str:
-    """Words for a series: those of the figures of convection where they have some."""
-    method = (about["method"], about.get("variant", ""))
-    if method in METHODS:
-        return METHODS[method][0]
-    words = {**about, "method": "SPAM", "variant": "as printed"} if method == PRINTED else about
+    """Words for a series: those that all studies use where there are some; only smooth particles have several energies."""
+    named = labels.label(about["method"], about.get("variant", ""))
+    if named and about["method"] != "spam":
+        return named
+    words = {**about, "method": named, "variant": ""} if named else about
     return ", ".join(str(value) for value in words.values() if value)
 
 
@@ -175,10 +195,42 @@ def point(row: dict) -> Point:
     count = row.get("particles") or row.get("points")
     words = [f"resolution {short(row['resolution'])}", f"error {percent(row['error'])} ± {100*err:.2g} %",
              f"{seconds(cpu)} CPU seconds" + (f" ± {spread:.2g}" if spread else "")]
-    words += [f"{short(count)} points"]*bool(count) + [f"commit {row['commit']}"]*bool(row.get("commit"))
+    if count:
+        words.append(f"{short(count)} points")
+    if row.get("commit"):
+        words.append(f"commit {row['commit']}")
     return Point(cpu, spread, size, err, row["error"] >= 0, words)
 
 
 def finite(value: float) -> float:
     """The number, nothing for none."""
     return value if math.isfinite(value) else 0.0
+
+
+# --- what a level of error costs ---------------------------------------------------------------------
+
+
+def needed_of(folder: Folder) -> Sheet | None:
+    """The study's table of what a level of error costs."""
+    sheets = [sheet for sheet in folder.sheets if sheet.path.stem == "needed"]
+    return next((sheet for sheet in sheets if set(sheet.frame.columns) >= NEEDED), None)
+
+
+def by_runs(rows: pd.DataFrame) -> dict[float, Need]:
+    """Level -> the coarsest run from which on error and interval stay below it with finer resolution."""
+    size = rows["error"].abs() + rows["error_err"].fillna(0.0)
+    worst = np.maximum.accumulate(size.to_numpy()[::-1])[::-1]      # of this run and all finer ones
+    needs = {}
+    for level in LEVELS:
+        below = rows["cpu_s"].to_numpy()[worst <= level]
+        if len(below):
+            needs[level] = Need(below[0], below[0], below[0], len(below) == len(rows))
+    return needs
+
+
+def by_table(rows: pd.DataFrame) -> dict[float, Need]:
+    """The same from the study's own table, which interpolates between runs."""
+    reached = rows[rows["reached"] != "no"]
+    at_most = reached["reached"] == "at most"
+    columns = (reached[name] for name in ("level", "cpu_s", "low", "high"))
+    return {level: Need(*numbers) for level, *numbers in zip(*columns, at_most, strict=True)}

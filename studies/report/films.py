@@ -16,8 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image as Picture
 
-from continuum.gas.fields import Fields as Grid
-from continuum.gas.fields import initial
+from continuum.gas.fields import NodeFields, initial
 from continuum.gas.solve import run as march
 from continuum.scene import RayleighBenard
 from continuum.steady import Time
@@ -80,7 +79,7 @@ def seen(fields: Fields, scene: RayleighBenard) -> Dots:
     return Dots(fields.x/scene.L, fields.T, kinetic_energy(fields))
 
 
-def grid(scene: RayleighBenard, rows: int, times: np.ndarray) -> Iterator[tuple[Grid, float]]:
+def grid(scene: RayleighBenard, rows: int, times: np.ndarray) -> Iterator[tuple[NodeFields, float]]:
     """The compressible grid at `times`, equally far apart from 0 on, in free-fall times, and its K."""
     fields, between = initial(scene, rows, START_ENERGY), (times[1] - times[0])*scene.L/scene.free_fall
     yield fields, START_ENERGY
@@ -93,23 +92,25 @@ def grid(scene: RayleighBenard, rows: int, times: np.ndarray) -> Iterator[tuple[
 # --- pictures -------------------------------------------------------------------------------------
 
 
-def pages(dots: Sequence[Dots], grids: Sequence[tuple[Grid, float]], times: np.ndarray,
+def pages(dots: Sequence[Dots], grids: Sequence[tuple[NodeFields, float]], times: np.ndarray,
           titles: tuple[str, str]) -> Iterator[Picture.Image]:
     """One picture a time: points, the grid, and both K until then."""
     page = Figure(figsize=SIZE, dpi=DPI)
     left, right = page.add_axes((0.012, 0.38, 0.482, 0.54)), page.add_axes((0.506, 0.38, 0.482, 0.54))
     below = page.add_axes((0.115, 0.155, 0.873, 0.19))
-    curves = {"of the grid": [ke for _, ke in grids], "of all points": [one.ke for one in dots]}
-    top = 1.1*max(max(ke) for ke in curves.values())
+    grid_ke, ke = [energy for _, energy in grids], [one.ke for one in dots]
+    frame: dict[str, Any] = {"xlim": (0, times[-1]), "ylim": (0, 1.1*max(*grid_ke, *ke)), "ylabel": "$K$",
+                             "xlabel": "time  [free-fall times]"}
+    line: dict[str, Any] = {"linestyle": "-", "marker": "o", "markersize": 4, "markevery": [-1]}
     for number in range(len(times)):
-        for axes in (left, right, below):
+        for axes in page.axes:
             axes.clear()
         draw_points(left, dots[number], titles[0])
         draw_grid(right, grids[number][0], titles[1])
-        below.set(xlim=(0, times[-1]), ylim=(0, top), ylabel="$K$", xlabel="time  [free-fall times]")
-        for (label, ke), colour in zip(curves.items(), ("black", COLOURS[1]), strict=True):
-            look: dict[str, Any] = {"color": colour, "marker": "o", "markersize": 4, "markevery": [-1]}
-            below.plot(times[:number + 1], ke[:number + 1], linestyle="-", label=label, **look)
+        now = slice(number + 1)
+        below.set(**frame)
+        below.plot(times[now], grid_ke[now], color="black", label="of the grid", **line)
+        below.plot(times[now], ke[now], color=COLOURS[1], label="of all points", **line)
         below.legend(loc="upper right", ncols=2)
         yield picture(page)
 
@@ -122,7 +123,7 @@ def draw_points(axes: Axes, dots: Dots, title: str) -> None:
     axes.set_facecolor("#30243a")
 
 
-def draw_grid(axes: Axes, fields: Grid, title: str) -> None:
+def draw_grid(axes: Axes, fields: NodeFields, title: str) -> None:
     """Temperature, and arrows along the velocity."""
     at, L, every = fields.at, fields.scene.L, slice(3, None, 6)
     axes.imshow(at.T, origin="lower", extent=(-1, 1, -0.5, 0.5), interpolation="bilinear", **HEAT)
@@ -144,10 +145,7 @@ def picture(page: Figure) -> Picture.Image:
 def write(path: Path, frames: Sequence[Picture.Image]) -> None:
     """An MP4, all or nothing; the same frames give the same bytes.
 
-    Raises
-    ------
-    ValueError
-        The encoder failed; an older film stays as it is.
+    Raises ValueError: the encoder failed; an older film stays as it is.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f".{path.name}.{os.getpid()}")
@@ -189,7 +187,7 @@ MAKERS = {
 
 
 @cache
-def beside() -> list[tuple[Grid, float]]:
+def beside() -> list[tuple[NodeFields, float]]:
     """The grid at all times."""
     return list(grid(RayleighBenard(ra=RA), GRID_ROWS, TIMES))
 
@@ -198,21 +196,16 @@ def make(name: str, film: Film, folder: Path) -> dict[str, Any]:
     """Run, draw and write one film; its row of films.csv."""
     scene, grids = RayleighBenard(ra=RA, L=float(ROWS)), beside()
     dots = list(points(film, scene, TIMES))
-    titles = f"{len(dots[0].x)} {film.title}", f"compressible grid, {GRID_ROWS} rows"
+    count = len(dots[0].x)
+    titles = f"{count} {film.title}", f"compressible grid, {GRID_ROWS} rows"
     write(folder/f"{name}.mp4", list(pages(dots, grids, TIMES, titles)))
     return {"film": name, "title": film.title, "caption": film.caption, "ra": RA, "rows": ROWS, "seed": SEED,
-            "points": len(dots[0].x), "grid_rows": GRID_ROWS, "t_end": TIMES[-1], "frames": len(TIMES),
+            "points": count, "grid_rows": GRID_ROWS, "t_end": TIMES[-1], "frames": len(TIMES),
             "last_ke": dots[-1].ke, "last_ke_grid": grids[-1][1]}
 
 
 def make_all(out: Path, only: str = "") -> list[Path]:
-    """The films with this text in their name.
-
-    Raises
-    ------
-    ValueError
-        There are none.
-    """
+    """The films with this text in their name. Raises ValueError: there are none."""
     chosen = {name: film for name, film in MAKERS.items() if only in name}
     if not chosen:
         raise ValueError(f"no film has {only!r} in its name: there are {', '.join(MAKERS)}")

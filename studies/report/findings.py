@@ -1,6 +1,6 @@
 """What was found, in words whose numbers and verdicts follow from tables and claims."""
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -54,8 +54,7 @@ def claims_of(out: Path) -> pd.DataFrame:
 
 def findings(known: Known) -> list[Finding]:
     """Those for which there are numbers."""
-    made = (find(known) for find in ALL)
-    return [one for one in made if one]
+    return [one for find in ALL if (one := find(known))]
 
 
 # --- words ----------------------------------------------------------------------------------------
@@ -63,12 +62,13 @@ def findings(known: Known) -> list[Finding]:
 
 def listed(rows: pd.DataFrame) -> str:
     """Errors in per cent with their rows over the height."""
-    return f"{each(rows, 'error', 'error_err', 100)} % with {resolutions(rows)} rows"
+    return f"{each(rows, 'error', 100)} % with {resolutions(rows)} rows"
 
 
-def each(rows: pd.DataFrame, value: str, err: str, times: float = 1.0) -> str:
-    """The numbers of a column with their errors."""
-    return many([with_error(x, dx, times) for x, dx in zip(rows[value], rows[err], strict=True)])
+def each(rows: pd.DataFrame, value: str, times: float = 1.0) -> str:
+    """The numbers of a column with their errors, those of `error` in `error_err`."""
+    errors = rows["error_err" if value == "error" else "err"]
+    return many([with_error(x, dx, times) for x, dx in zip(rows[value], errors, strict=True)])
 
 
 def resolutions(rows: pd.DataFrame) -> str:
@@ -117,14 +117,15 @@ def onset(known: Known) -> Finding | None:
     rows = rows_of(known.out/"onset/critical_ra.csv", CRITICAL, way="run").sort_values("resolution")
     weak = rows["quantity"].str.contains("K = 0.0004,", regex=False)
     rows = rows[weak & rows["variant"].isin(["", "printed"])]
-    spam, grid = (rows[rows["method"] == method] for method in ("spam", "compressible"))
+    spam, grid = rows[rows["method"] == "spam"], rows[rows["method"] == "compressible"][-1:]
     if len(spam) < 2 or grid.empty:
         return None
-    later = (spam["value"] - spam["err"]).iloc[-1] > (grid["value"] + grid["err"]).iloc[-1]
+    last, finest = spam.iloc[-1], grid.iloc[0]
+    later = last["value"] - last["err"] > finest["value"] + finest["err"]
     title = ("Near onset smooth particles come to rest where the gas convects" if later
              else "Smooth particles begin to convect as the gas does")
-    text = (f"Rolls of K = 0.0004 grow above Ra {each(spam, 'value', 'err')} with {resolutions(spam)} rows, "
-            f"on the grid above {each(grid[-1:], 'value', 'err')}. [KHP95]")
+    text = (f"Rolls of K = 0.0004 grow above Ra {each(spam, 'value')} with {resolutions(spam)} rows, "
+            f"on the grid above {each(grid, 'value')}. [KHP95]")
     return Finding(title, text, "onset/critical_ra")
 
 
@@ -135,24 +136,24 @@ def fixed_points(known: Known) -> Finding | None:
         return None
     verb = "converge" if falls(rows) else "do not converge"
     end = "" if limit is None else f", {measured(limit, 100)} % off in the limit ({limit['verdict']})"
-    text = f"Energy on a lattice at Ra 10 000: {listed(rows)}{end}."
-    return Finding(f"Sums over neighbours {verb} on points that stay",
-                   f"{text} [RR98, friction along edges, heated right]", "rb/errors")
+    text = f"Energy on a lattice at Ra 10 000: {listed(rows)}{end}. [RR98, friction along edges]"
+    return Finding(f"Sums over neighbours {verb} on points that stay", text, "rb/errors")
 
 
 def moving_points(known: Known) -> Finding | None:
     """Points that move, as printed and over closed faces."""
-    printed, closed = (known.errors("dih", variant) for variant in ("moving-literal", "moving"))
+    printed, closed = known.errors("dih", "moving-literal")[-1:], known.errors("dih", "moving")
     if printed.empty or len(closed) < 2:
         return None
-    last = printed.iloc[-1]
+    last = printed.iloc[0]
     verb = "fail" if abs(last["error"]) - last["error_err"] > 0.1 else "convect"
     limits = [one for one in map(known.claim, MOVING_LIMITS) if one is not None]
     sizes = " or ".join(measured(one, 100) for one in limits)
     end = f"; in the limit {sizes} % off" if limits else ""
-    text = f"as printed: {listed(printed[-1:])}; over closed faces, a repair: {listed(closed)}{end}."
-    return Finding(f"Points that move as printed {verb}, over closed faces they {ends(closed, limits)}",
-                   f"Energy at Ra 10 000, {text} [RR98]", "rb/errors")
+    title = f"Points that move as printed {verb}, over closed faces they {ends(closed, limits)}"
+    text = (f"Energy at Ra 10 000, as printed: {listed(printed)}; over closed faces, a repair: "
+            f"{listed(closed)}{end}. [RR98]")
+    return Finding(title, text, "rb/errors")
 
 
 def off_lattice(known: Known) -> Finding | None:
@@ -183,17 +184,18 @@ def noise(known: Known) -> Finding | None:
 
 def price(known: Known) -> Finding | None:
     """CPU seconds for an error of 1 %, of the panel shown first."""
-    panel = next(iter(known.panels), None)
-    reach = [one for one in panel.series if LEVEL in one.needs] if panel else []
-    if not (panel and reach):
+    lines = known.panels[0].lines if known.panels else []
+    reach = sorted((line for line in lines if LEVEL in line.needs), key=lambda line: line.needs[LEVEL].cpu_s)
+    if not reach:
         return None
-    reach.sort(key=lambda one: one.needs[LEVEL].cpu_s)
-    shown = [one for one in reach if one.usual or one is reach[0]][:SHOWN]
-    costs = "; ".join(f"{one.needs[LEVEL]} s, {one.label}" for one in shown)
-    never = [one.label.split(",")[0] for one in panel.series if one.usual and LEVEL not in one.needs]
+    panel, best = known.panels[0], reach[0]
+    shown = [line for line in reach if line.usual or line is best][:SHOWN]
+    costs = "; ".join(f"{line.needs[LEVEL]} s, {line.label}" for line in shown)
+    never = [line.label.split(",")[0] for line in lines if line.usual and LEVEL not in line.needs]
     rest = f"; not reached by {many(list(dict.fromkeys(never)))}" if never else ""
-    return Finding(f"An error of 1 % costs {reach[0].needs[LEVEL]} CPU seconds at best",
-                   f"{panel.title.split(': ', 1)[-1]}: {costs}{rest}.", (panel.needed or panel.sheet).name)
+    text = f"{panel.title.split(': ', 1)[-1]}: {costs}{rest}."
+    return Finding(f"An error of 1 % costs {best.needs[LEVEL]} CPU seconds at best", text,
+                   (panel.needed or panel.sheet).name)
 
 
 #: one screen of them
@@ -202,24 +204,18 @@ ALL: tuple[Callable[[Known], Finding | None], ...] = (
 
 
 def answer(known: Known) -> str:
-    """The question's answer in two sentences."""
-    return " ".join([*compared(known), *counts(known.claims)])
-
-
-def compared(known: Known) -> Iterator[str]:
-    """The most particles beside the coarsest grid."""
+    """The question's answer in two sentences: the most particles beside the coarsest grid; what holds."""
     spam, grid = known.errors("spam", "printed", "Kg"), known.errors("compressible", "flux-form")
+    sentences = []
     if len(spam) and len(grid):
         most, coarse = spam.iloc[-1], grid.iloc[0]
-        yield (f"{grouped(most['particles'])} smooth particles as printed miss the energy of convection by "
-               f"{percent(most['error'])}, where a grid of {coarse['resolution']:.0f} rows is off by "
-               f"{percent(coarse['error'])} in {seconds(coarse['cpu_s'])} CPU seconds.")
-
-
-def counts(claims: pd.DataFrame) -> Iterator[str]:
-    """How many statements of the papers hold."""
-    verdicts = claims.loc[claims["whose"] == "paper", "verdict"]
-    holds, fails, open_ = (int((verdicts == one).sum()) for one in ("holds", "fails", "undecidable"))
+        sentences.append(
+            f"{grouped(most['particles'])} smooth particles as printed miss the energy of convection by "
+            f"{percent(most['error'])}, where a grid of {coarse['resolution']:.0f} rows is off by "
+            f"{percent(coarse['error'])} in {seconds(coarse['cpu_s'])} CPU seconds.")
+    verdicts = known.claims.loc[known.claims["whose"] == "paper", "verdict"]
     if len(verdicts):
-        yield (f"Of {len(verdicts)} statements of the papers {holds} hold, {fails} fail, {open_} are "
-               "undecidable here.")
+        holds, fails, unknown = ((verdicts == one).sum() for one in ("holds", "fails", "undecidable"))
+        sentences.append(f"Of {len(verdicts)} statements of the papers {holds} hold, {fails} fail, {unknown} "
+                         "are undecidable here.")
+    return " ".join(sentences)

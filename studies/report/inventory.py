@@ -1,7 +1,6 @@
 """What results/ holds: studies with their tables and figures, found by name, and where each comes from."""
 import ast
 import importlib
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -68,7 +67,7 @@ class Sheet:
 
 
 @dataclass(frozen=True)
-class Part:
+class Folder:
     """A study: what it asks, its tables and figures."""
 
     name: str
@@ -77,24 +76,20 @@ class Part:
     pictures: list[Path] = field(default_factory=list)
 
 
-def parts(out: Path) -> list[Part]:
+def folders(out: Path) -> list[Folder]:
     """All studies that have tables or figures; NoReport where there are none."""
-    folders = [folder for folder in out.glob("*/") if OTHERS.get(folder.name, "a study")]
-    known = [part for part in map(part_of, folders) if part.sheets or part.pictures]
+    paths = [path for path in out.glob("*/") if OTHERS.get(path.name, "a study")]
+    known = [folder for folder in map(folder_of, paths) if folder.sheets or folder.pictures]
     if not known:
         raise NoReport(f"no tables in {out}: run a study first, make study-rb writes the main ones")
-    return sorted(known, key=place)
+    order = {name: number for number, name in enumerate(FIRST)}
+    return sorted(known, key=lambda folder: (order.get(folder.name, len(FIRST)), folder.name))
 
 
-def part_of(folder: Path) -> Part:
+def folder_of(path: Path) -> Folder:
     """The study of a folder."""
-    sheets = [Sheet(path) for path in sorted(folder.glob("*.csv"))]
-    return Part(folder.name, question(folder.name), sheets, sorted(folder.glob("*.png")))
-
-
-def place(part: Part) -> tuple[int, str]:
-    """Where a study is on the page."""
-    return (FIRST.index(part.name) if part.name in FIRST else len(FIRST), part.name)
+    sheets = [Sheet(table) for table in sorted(path.glob("*.csv"))]
+    return Folder(path.name, question(path.name), sheets, sorted(path.glob("*.png")))
 
 
 def question(name: str) -> str:
@@ -106,16 +101,13 @@ def question(name: str) -> str:
     return " ".join(text.split("\n\n")[0].split())
 
 
-def study_of(part: Part) -> Study | None:
+def study_of(folder: Folder) -> Study | None:
     """The study with these tables; none of a folder that has other tables.
 
-    Raises
-    ------
-    NoReport
-        Its code cannot be loaded.
+    Raises NoReport: its code cannot be loaded.
     """
-    name = part.name
-    if not (part.sheets and (ROOT/"studies"/name/"__init__.py").exists()):
+    name = folder.name
+    if not (folder.sheets and (ROOT/"studies"/name/"__init__.py").exists()):
         return None
     try:
         study: Study = importlib.import_module(f"studies.{name}").STUDY
@@ -125,45 +117,34 @@ def study_of(part: Part) -> Study | None:
     return study
 
 
-def check_columns(part: Part) -> None:
+def check_columns(folder: Folder) -> None:
     """Refuse a table that lacks a column which its study declares: the page would leave things out."""
-    study = study_of(part)
+    study = study_of(folder)
     declared = {table.name: (*table.columns, *STAMP) for table in study.tables} if study else {}
-    for sheet in part.sheets:
-        missing = [name for name in declared.get(sheet.path.stem, ()) if name not in sheet.frame]
-        if missing:
-            raise NoReport(f"{sheet.path} has no column {', '.join(missing)}: it was written by other code; "
-                           f"{AGAIN}")
+    for sheet in folder.sheets:
+        columns = declared.get(sheet.path.stem, ())
+        if missing := [name for name in columns if name not in sheet.frame]:
+            names = ", ".join(missing)
+            raise NoReport(f"{sheet.path} has no column {names}: it was written by other code; {AGAIN}")
 
 
-def drawings(part: Part) -> dict[str, Drawing | Overview]:
+def drawings(folder: Folder) -> dict[str, Drawing | Overview]:
     """Figure -> what draws it, of those that the study lists."""
-    study = study_of(part)
+    study = study_of(folder)
     return {drawing.name: drawing for drawing in getattr(study.figures, "drawings", ())} if study else {}
 
 
 def rows_of(path: Path, columns: tuple[str, ...] = (), **where: Any) -> pd.DataFrame:
     """Rows of a table with these values; of a file that is missing none.
 
-    Raises
-    ------
-    NoReport
-        The file is no table, or lacks some of ``columns``.
+    Raises NoReport: the file is no table, or lacks some of ``columns``.
     """
     if not path.exists():
         return pd.DataFrame(columns=[*columns, *where])
     try:
         frame = read(path, [*columns, *where])
-    except (ValueError, UnicodeDecodeError) as error:      # pandas' errors of parsing are ValueErrors
-        if str(path) in str(error):
-            raise NoReport(str(error)) from error
-        raise NoReport(f"{path} is no table ({error}): remove it and run the study again") from error
+    except ValueError as error:
+        raise NoReport(str(error)) from error
     for column, value in where.items():
         frame = frame[frame[column] == value]
     return frame
-
-
-def sheets_of(known: list[Part]) -> Iterator[Sheet]:
-    """All tables."""
-    for part in known:
-        yield from part.sheets

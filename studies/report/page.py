@@ -14,10 +14,10 @@ from markupsafe import Markup
 
 from studies.kit.csvfile import write_atomic
 from studies.kit.drawing import caption
-from studies.report import cost, levels
+from studies.report import cost
 from studies.report.chart import HEIGHT, WIDTH, chart
 from studies.report.findings import Known, answer, claims_of, findings
-from studies.report.inventory import NoReport, Part, Sheet, check_columns, drawings, parts, sheets_of
+from studies.report.inventory import Folder, NoReport, Sheet, check_columns, drawings, folders
 from studies.report.numbers import short, signed, with_error
 from studies.report.pictures import films, opened, webp
 
@@ -33,14 +33,11 @@ VERDICTS = {"holds": "✓", "fails": "✗", "undecidable": "?"}
 def write_page(out: Path) -> Path:
     """Write index.html, all or nothing; its path.
 
-    Raises
-    ------
-    NoReport
-        Something is missing or broken, or too large; an older page stays as it is.
+    Raises NoReport: Something is missing or broken, or too large; an older page stays as it is.
     """
-    known = parts(out)
-    for part in known:
-        check_columns(part)
+    known = folders(out)
+    for folder in known:
+        check_columns(folder)
     text = render(out, known)
     size = len(text.encode())
     if size > LIMIT:
@@ -50,18 +47,18 @@ def write_page(out: Path) -> Path:
     return out/"index.html"
 
 
-def largest(out: Path, known: list[Part]) -> list[str]:
+def largest(out: Path, known: list[Folder]) -> list[str]:
     """Figures and films that weigh most."""
-    paths = [*(path for part in known for path in part.pictures), *out.glob("films/*.mp4")]
+    paths = [*(path for folder in known for path in folder.pictures), *out.glob("films/*.mp4")]
     heavy = sorted(paths, key=lambda path: -path.stat().st_size)[:5]
     return [f"{path.relative_to(out)} ({path.stat().st_size/1000:.0f} kB)" for path in heavy]
 
 
-def render(out: Path, known: list[Part], encode: Callable[[Path], str] = webp) -> str:
+def render(out: Path, known: list[Folder], encode: Callable[[Path], str] = webp) -> str:
     """The page as text; ``encode`` makes the address of a figure from its PNG."""
     claims, panels = claims_of(out), cost.panels(known)
     knowledge = Known(out, claims, panels)
-    shown = {part.name: figures(part, encode) for part in known}
+    shown = {folder.name: figures(folder, encode) for folder in known}
     env = Environment(loader=PackageLoader("studies.report", "page"), autoescape=select_autoescape(),
                       undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
     env.filters |= {"short": short, "signed": signed}
@@ -69,10 +66,10 @@ def render(out: Path, known: list[Part], encode: Callable[[Path], str] = webp) -
         question=QUESTION, answer=answer(knowledge), findings=findings(knowledge), verdicts=VERDICTS,
         claims=claim_rows(claims), claims_made=" ".join(Sheet(out/"claims.csv").commits),
         counts=claims["verdict"].value_counts().to_dict(), papers=sorted(set(map(paper, claims["source"]))),
-        panels=[(panel, chart(panel)) for panel in panels], size=(WIDTH, HEIGHT), levels=levels.LEVELS,
+        panels=[(panel, chart(panel)) for panel in panels], size=(WIDTH, HEIGHT), levels=cost.LEVELS,
         parts=known, figures=shown, films=films(out),
         main=next((one for one in shown.get("rb", []) if one.name == "main"), None),
-        tables={sheet.name: table(sheet) for sheet in sheets_of(known)},
+        tables={sheet.name: table(sheet) for folder in known for sheet in folder.sheets},
         style=file("style.css"), script=file("script.js"), inputs=fingerprint(out))
 
 
@@ -144,14 +141,14 @@ class Shown(NamedTuple):
         return ", ".join(dict.fromkeys(commit for sheet in self.sheets for commit in sheet.commits))
 
 
-def figures(part: Part, encode: Callable[[Path], str]) -> list[Shown]:
+def figures(folder: Folder, encode: Callable[[Path], str]) -> list[Shown]:
     """Figures of a study, `main` first; of one that its study does not list the tables are all there are."""
-    listed, shown = drawings(part), []
-    for png in sorted(part.pictures, key=lambda path: (path.stem != "main", path.stem)):
+    listed, shown = drawings(folder), []
+    for png in sorted(folder.pictures, key=lambda path: (path.stem != "main", path.stem)):
         one = listed.get(png.stem)
-        sheets = [sheet for sheet in part.sheets if one is None or sheet.path.stem in one.tables]
-        words = caption(one) if one else f"{png.stem.replace('_', ' ')}: {part.question}"
-        shown.append(Shown(part.name, png.stem, encode(png), opened(png).size, words, sheets))
+        sheets = [sheet for sheet in folder.sheets if one is None or sheet.path.stem in one.tables]
+        words = caption(one) if one else f"{png.stem.replace('_', ' ')}: {folder.question}"
+        shown.append(Shown(folder.name, png.stem, encode(png), opened(png).size, words, sheets))
     return shown
 
 

@@ -1,14 +1,15 @@
-"""Every number and statement of KHP95 on convection, and RR98's equations there, judged by the tables of `rb`.
+"""Every number and statement of KHP95 on convection, and RR98's equations there, judged by the tables of
+`rb`.
 
-One module a theme, each with its CLAIMS. Here are the statements that neither print nor runs decide. The study
-`onset` judges claims on critical Rayleigh numbers.
+One module a theme, each with its CLAIMS. Here are the statements that neither print nor runs decide. The
+study `onset` judges claims on critical Rayleigh numbers.
 """
 from studies.kit.ask import of
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.sweep import RESULTS
 from studies.kit.table import Tables, read
-from studies.rb.claims import arithmetic, energies, flow, freezing, grid, points
+from studies.rb.claims import arithmetic, energies, fields, freezing, grid, points
 
 
 def most_particles(tables: Tables) -> Measured:
@@ -37,37 +38,13 @@ OPEN = (
     undecided("fig11-growth", "Sec. VI, Fig. 11",
               "a shocked interface grows as linear theory says, within 2 %",
               "amplitude, wavelength and strength of the shock are not printed; no convection", "2%"),
-    undecided("rows-high-density", "Sec. II, Fig. 2",
-              "the fixed particles are a container region of high density",
-              "how far they are apart is in a drawing only; here they have the mean density of the fluid, "
-              "and whether that suffices to repel is a claim of its own"),
-    undecided("fluctuation-definition", "Sec. VI",
-              "fluctuations are the mean-squared deviation of particle velocities from their "
-              "neighbourhood's average, <v^2> - <v>^2, the analog of a kinetic temperature",
-              "a definition is neither right nor wrong; how large they are is a claim of its own, and each "
-              "energy table has a column ke_fluctuation"),
     undecided("fig12-views", "Fig. 12",
               "velocities of particles and averaged velocities are equivalent views of a flow",
               '"equivalent" has no number, and averaging is to take the noise away: how much of it there '
               "is, is another claim", "two equivalent views"),
-    undecided("phonons", "Sec. VII", "density fluctuations follow the Debye spectrum",
-              "no thermal start is defined, and the paper measures nothing"),
-    undecided("flux-continuous", "Sec. IV",
-              "image values match those of their parents, so that fluxes are continuous at the walls",
-              "a rule, not a result; a copied flux has no divergence across the wall, so that particles "
-              "there feel neither drag nor cooling: the claims on walls tell what comes of it"),
     undecided("list-cost", "Sec. II", "finding neighbours takes a time proportional to N ln N",
               "from 10 000 to a million particles ln N adds 0.09 to the exponent of N, less than caches do; "
               "linked cells take N for a given density", "N ln N"),
-    undecided("most-time", "Sec. II", "finding the pairs takes most of the time",
-              "it depends on how often lists are renewed and on whether distances count as finding, "
-              "neither is printed; make bench tells both shares here"),
-    undecided("artificial-viscosity", "Sec. III",
-              "smooth particles bring an artificial viscosity and heat conduction",
-              "convection tells the sum of all errors, not one coefficient: that takes simple flows with "
-              "exact answers"),
-    undecided("fewer-than-atoms", "Sec. VII", "convection needs far fewer smooth particles than atoms",
-              "no molecular dynamics is run here and no number is printed"),
 )
-THEMES = (arithmetic, grid, energies, flow, freezing, points)
+THEMES = (arithmetic, grid, energies, fields, freezing, points)
 RB_CLAIMS = (*(claim for theme in THEMES for claim in theme.CLAIMS), *OPEN)

@@ -1,5 +1,7 @@
 """Claims that arithmetic decides: weights, equations of state, printed numbers side by side    [KHP95]"""
-from studies.build.printed import as_printed
+from collections.abc import Iterator
+
+from studies.build.names import as_printed
 from studies.kit.ask import Value, one
 from studies.kit.claim import Claim
 
@@ -10,18 +12,74 @@ def calculated(quantity: str) -> Value:
 
 
 A, B = calculated("a, vdw"), calculated("b, vdw")
-FOURTH = ("0.2 below 4 for steps that are not small; third derivatives of both weights jump at the range, so each "
-          "pair that crosses it leaves a velocity error of dt^3, of either sign, and the order goes to 3 as dt "
-          "falls on")
+FOURTH = ("0.2 below 4 for steps that are not small; third derivatives of both weights jump at the range, so "
+          "each pair that crosses it leaves a velocity error of dt^3, and the order goes to 3 as dt falls on")
 HEXAGONAL = "statement is about symmetric lattices: the hexagonal one, on which smooth particles freeze"
 RULE = "what rounding of the printed digits allows"
+EXACT = (     # name, place, printed, the number, its value, statement
+    ("lucy-normalised", "Sec. II", "1", 1, calculated("integral, Lucy"),
+     "Lucy's weight as printed, factor 5/(9 pi), integrates to 1"),
+    ("monaghan-normalised", "Sec. II", "1", 1, calculated("integral, Monaghan"),
+     "Monaghan's weight as printed, factors 40/(63 pi) and 80/(63 pi), integrates to 1"),
+    ("isentrope", "Sec. III", "P ~ rho^2", 2, calculated("rho c^2/P, ideal"),
+     "P ~ rho^2 is the isentrope of the two-dimensional ideal gas: exponent rho c^2/P"),
+    ("vdw-critical-density", "Sec. IV", "2/3", 2/3, 1/(3*B),
+     "critical density of the van der Waals fluid, 1/(3 b)"),
+    ("vdw-critical-temperature", "Sec. IV", "8/27", 8/27, 8*A/(27*B),
+     "critical temperature of the van der Waals fluid, 8 a/(27 b)"),
+    ("vdw-density-reference", "Fig. 7", "half", 0.5, B,
+     "n sigma^2 = 1 is half the maximum density of the van der Waals fluid"),
+    ("vdw-temperature-reference", "Fig. 7", "27/8", 27/8, 27*B/(8*A),
+     "T = 1 is 27/8 of the critical temperature of the van der Waals fluid"),
+    ("gravity-ideal", "Sec. IV", "kB dT/L", 1, calculated("g L/dT, ideal"),
+     "(dP/dT)_rho dT/(rho L) is dT/L for the ideal gas: g L/dT"),
+    ("dense-maxwell-energy", "Sec. IV", "-1.5", -1.5, calculated("(dE/dV)_T, dense"),
+     "(dE/dV)_T of the dense fluid at its reference state"),
+    ("dense-maxwell-pressure", "Sec. IV", "1.25", 1.25, calculated("d(beta P)/d(beta), dense"),
+     "d(beta P)/d(beta) at constant V of the dense fluid at its reference state: P - T (dP/dT)_rho"),
+    ("range-consistent", "Secs I, V", "2, 4", 2, calculated("4^(1/2)"),
+     "a factor of 2 in Ra^-1/2 and four times the critical Ra are the same range"),
+    ("fig9-diffusion-time", "Figs 9, 12", "5000", 1, calculated("5000 eta/L^2"),
+     "t = 5000 is one diffusion time L^2/eta"),
+    ("fig12-grid", "Fig. 12", "1800", 30, calculated("rows of 1800 points in a box 1 x 2"),
+     "1800 points of a square grid over 50 x 100 are whole rows: 30 of 60"),
+)
+
+
+def exact() -> Iterator[Claim]:
+    """Numbers that follow from the printed formulas and digits without rounding."""
+    for name, place, printed, number, value, statement in EXACT:
+        yield Claim(id=f"khp95-{name}", source=f"KHP95 {place}", printed=printed, statement=statement,
+                    value=value, expect=number, within=1e-12, because="round-off")
+
+
+def decays() -> Iterator[Claim]:
+    """Spurious shear moduli as the range of the weight grows."""
+    for end, kind in (("", "hexagonal"), ("-square", "square")):
+        yield Claim(id=f"khp95-spurious-decay{end}", source="KHP95 Secs II, III", printed="rapid convergence",
+                    at_most=0.1, value=calculated(f"|G/B| at h = 6 over h = 3, {kind}"),
+                    statement="spurious shear moduli vanish rapidly as the range grows: at 6 sigma over at 3 "
+                              f"sigma, {kind} lattice",
+                    because='"rapid" has no number: ten times for twice the range')
+
+
+def printed_errors() -> Iterator[Claim]:
+    """What the printed energies of particles and grid say of each other."""
+    for end, ra, more in (("", "5000", "; 0.0030 and 0.003 40 differ by 10.3 % to 13.2 %, by rounding alone"),
+                          ("-10000", "10 000", "")):
+        yield Claim(id=f"khp95-kinetic-errors{end}", source="KHP95 Sec. VI", printed="10%", at_most=0.105,
+                    value=calculated(f"1 - K/K printed, Ra {ra}"), because=f"two digits are printed{more}",
+                    statement=f"the printed energies of particles and grid at Ra {ra} differ by 10 % at most")
+        yield Claim(id=f"khp95-velocity-errors-printed{end}", source="KHP95 Sec. VI", printed="5%",
+                    at_most=0.075, value=calculated(f"1 - sqrt(K/K) printed, Ra {ra}"),
+                    statement=f"the printed energies at Ra {ra} mean velocity errors of the order of 5 %",
+                    because='"of the order of", one digit: half as much again; less is no contradiction')
+
+
 CLAIMS = (
-    Claim(id="khp95-lucy-normalised", source="KHP95 Sec. II", printed="1",
-          statement="Lucy's weight as printed, factor 5/(9 pi), integrates to 1",
-          value=calculated("integral, Lucy"), expect=1, within=1e-12, because="round-off"),
-    Claim(id="khp95-monaghan-normalised", source="KHP95 Sec. II", printed="1",
-          statement="Monaghan's weight as printed, factors 40/(63 pi) and 80/(63 pi), integrates to 1",
-          value=calculated("integral, Monaghan"), expect=1, within=1e-12, because="round-off"),
+    *exact(),
+    *decays(),
+    *printed_errors(),
     Claim(id="khp95-weights-smooth", source="KHP95 Sec. II",
           statement="both weights have continuous first and second derivatives for all r: largest jump over "
                     "w(0)", value=calculated("largest jump of w, w', w''"), at_most=1e-12,
@@ -52,15 +110,6 @@ CLAIMS = (
                     "modulus of Lucy's weight, hexagonal lattice, ideal gas",
           value=calculated("|G/B|, hexagonal, Lucy"),
           because="a fluid has none; differences over strains of 1e-3 leave 1e-9"),
-    Claim(id="khp95-spurious-decay", source="KHP95 Secs II, III", printed="rapid convergence", at_most=0.1,
-          statement="spurious shear moduli vanish rapidly as the range grows: at 6 sigma over at 3 sigma, "
-                    "hexagonal lattice", value=calculated("|G/B| at h = 6 over h = 3, hexagonal"),
-          because='"rapid" has no number: ten times for twice the range'),
-    Claim(id="khp95-spurious-decay-square", source="KHP95 Secs II, III", printed="rapid convergence",
-          at_most=0.1,
-          statement="spurious shear moduli vanish rapidly as the range grows: at 6 sigma over at 3 sigma, "
-                    "square lattice", value=calculated("|G/B| at h = 6 over h = 3, square"),
-          because='"rapid" has no number: ten times for twice the range'),
     Claim(id="khp95-high-pressure-lattice", source="KHP95 Sec. III", printed="0 or h", at_most=1,
           statement="as P grows without bound no two particles stay between 0 and h apart: energy of the "
                     "lattice with sites h apart over the least one of those with 1 to 4 particles a site",
@@ -111,32 +160,14 @@ CLAIMS = (
           statement="smooth weights let fourth-order Runge-Kutta be so as dt vanishes: order in dt of the "
                     "state after t = 4.8, dt 0.075 to 0.019",
           value=calculated("order of RK4, dt 0.075 to 0.019"), because=FOURTH),
-    Claim(id="khp95-isentrope", source="KHP95 Sec. III", printed="P ~ rho^2",
-          statement="P ~ rho^2 is the isentrope of the two-dimensional ideal gas: exponent rho c^2/P",
-          value=calculated("rho c^2/P, ideal"), expect=2, within=1e-12, because="round-off"),
-    Claim(id="khp95-vdw-critical-density", source="KHP95 Sec. IV", printed="2/3",
-          statement="critical density of the van der Waals fluid, 1/(3 b)", value=1/(3*B), expect=2/3,
-          within=1e-12, because="round-off"),
-    Claim(id="khp95-vdw-critical-temperature", source="KHP95 Sec. IV", printed="8/27",
-          statement="critical temperature of the van der Waals fluid, 8 a/(27 b)", value=8*A/(27*B),
-          expect=8/27, within=1e-12, because="round-off"),
     Claim(id="khp95-vdw-critical-point", source="KHP95 Sec. IV, Eq. 2", printed="2/3, 8/27",
           statement="slope and curvature of Eq. 2 along its isotherm vanish there",
           value=calculated("slope and curvature at the critical point, vdw"), at_most=1e-6,
           because="differences over 1e-4: truncation and round-off are 1e-8"),
-    Claim(id="khp95-vdw-density-reference", source="KHP95 Fig. 7", printed="half",
-          statement="n sigma^2 = 1 is half the maximum density of the van der Waals fluid", value=B,
-          expect=0.5, within=1e-12, because="exact numbers"),
-    Claim(id="khp95-vdw-temperature-reference", source="KHP95 Fig. 7", printed="27/8",
-          statement="T = 1 is 27/8 of the critical temperature of the van der Waals fluid", value=27*B/(8*A),
-          expect=27/8, within=1e-12, because="round-off"),
     Claim(id="khp95-static-density", source="KHP95 Sec. IV", printed="g = kB dT/L",
           statement="the printed gravity keeps the motionless density exactly constant, for all three "
                     "equations of state; largest imbalance of forces", at_most=1e-12, because="round-off",
           value=calculated("imbalance of forces at rest")),
-    Claim(id="khp95-gravity-ideal", source="KHP95 Sec. IV", printed="kB dT/L",
-          statement="(dP/dT)_rho dT/(rho L) is dT/L for the ideal gas: g L/dT",
-          value=calculated("g L/dT, ideal"), expect=1, within=1e-12, because="round-off"),
     Claim(id="khp95-prandtl", source="KHP95 Sec. IV", printed="unity",
           statement="equal coefficients eta = k mean Pr = 1, with C_V: ideal gas and van der Waals",
           value=calculated("|C_V - 1|, ideal and vdw"), at_most=1e-12, because="exact: Pr = eta C_V/k = C_V"),
@@ -148,13 +179,6 @@ CLAIMS = (
           value=calculated("C_P, ideal"),
           because="one digit is printed, in words; the paper takes C_V, in which flow at constant pressure "
                   "has no part"),
-    Claim(id="khp95-dense-maxwell-energy", source="KHP95 Sec. IV", printed="-1.5",
-          statement="(dE/dV)_T of the dense fluid at its reference state",
-          value=calculated("(dE/dV)_T, dense"), expect=-1.5, within=1e-12, because="round-off"),
-    Claim(id="khp95-dense-maxwell-pressure", source="KHP95 Sec. IV", printed="1.25",
-          statement="d(beta P)/d(beta) at constant V of the dense fluid at its reference state: P - T "
-                    "(dP/dT)_rho", value=calculated("d(beta P)/d(beta), dense"), expect=1.25, within=1e-12,
-          because="round-off"),
     Claim(id="khp95-dense-inconsistent", source="KHP95 Sec. IV", printed="-1.5, 1.25",
           statement="the dense fluid violates the Maxwell relation: (dE/dV)_T over -d(beta P)/d(beta), "
                     "which should be 1", value=calculated("(dE/dV)_T over -d(beta P)/d(beta), dense"),
@@ -195,22 +219,6 @@ CLAIMS = (
           statement="Ra 3000 is about twice the critical value (of the box, wavenumber pi)",
           value=calculated("Ra of Fig. 4 over onset"), **as_printed("fig4-supercritical"),
           because='"about" and one digit'),
-    Claim(id="khp95-kinetic-errors", source="KHP95 Sec. VI", printed="10%",
-          statement="at Ra 5000 the printed energies of particles and grid differ by no more than 10 %",
-          value=calculated("1 - K/K printed, Ra 5000"), at_most=0.105,
-          because="two digits are printed; 0.0030 and 0.003 40 differ by 10.3 % to 13.2 %, by rounding "
-                  "alone"),
-    Claim(id="khp95-kinetic-errors-10000", source="KHP95 Sec. VI", printed="10%",
-          statement="at Ra 10 000 the printed energies of particles and grid differ by no more than 10 %",
-          value=calculated("1 - K/K printed, Ra 10 000"), at_most=0.105, because="two digits are printed"),
-    Claim(id="khp95-velocity-errors-printed", source="KHP95 Sec. VI", printed="5%",
-          statement="the printed energies at Ra 5000 mean velocity errors of the order of 5 %",
-          value=calculated("1 - sqrt(K/K) printed, Ra 5000"), at_most=0.075,
-          because='"of the order of", one digit: half as much again'),
-    Claim(id="khp95-velocity-errors-printed-10000", source="KHP95 Sec. VI", printed="5%",
-          statement="the printed energies at Ra 10 000 mean velocity errors of the order of 5 %",
-          value=calculated("1 - sqrt(K/K) printed, Ra 10 000"), at_most=0.075,
-          because='"of the order of", one digit: half as much again; less is no contradiction'),
     Claim(id="khp95-line-pair", source="KHP95 Secs V, VI", printed="0.003 40, 0.004 81",
           statement="both printed grid energies lie on one line in Ra^-1/2 that begins at the critical Ra",
           value=calculated("zero of the line through both printed K"), **as_printed("ra-critical"),
@@ -219,20 +227,10 @@ CLAIMS = (
           statement="the printed K at Ra 10 000 is the line through the critical Ra and the printed K at Ra "
                     "5000", value=calculated("K at Ra 10 000 on the line from onset through K at Ra 5000"),
           **as_printed("ke-10000"), because=f"{RULE}, of both energies"),
-    Claim(id="khp95-range-consistent", source="KHP95 Secs I, V", printed="2, 4",
-          statement="a factor of 2 in Ra^-1/2 and four times the critical Ra are the same range",
-          value=calculated("4^(1/2)"), expect=2, within=1e-12, because="exact numbers"),
     Claim(id="khp95-initial-energy", source="KHP95 Figs 8, 9", printed="9, one half",
           statement="9 epsilon of initial kinetic energy in 5000 particles are about half of the printed "
                     "final value", value=calculated("initial over final kinetic energy"),
           **as_printed("fig8-initial"),
           because='"about one half": 10 %; "about 9" is 8.5 to 9.5; if Figs 8 and 9 show the same run, '
                   "which is not said"),
-    Claim(id="khp95-fig9-diffusion-time", source="KHP95 Figs 9, 12", printed="5000",
-          statement="t = 5000 is one diffusion time L^2/eta", value=calculated("5000 eta/L^2"), expect=1,
-          within=1e-12, because="exact numbers"),
-    Claim(id="khp95-fig12-grid", source="KHP95 Fig. 12", printed="1800",
-          statement="1800 points of a square grid over 50 x 100 are whole rows: 30 of 60",
-          value=calculated("rows of 1800 points in a box 1 x 2"), expect=30, within=1e-12,
-          because="exact numbers"),
 )

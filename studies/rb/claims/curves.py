@@ -1,22 +1,31 @@
 """Questions of this study about curves: K against time, K against Ra^-1/2, two K(t) against each other."""
-from contextlib import suppress
 from typing import Any
 
 import numpy as np
 
 from studies.kit import fits
-from studies.kit.ask import NoRows, Value, curve, rows
-from studies.kit.stats import CannotTell, Measured, over_seeds
+from studies.kit.ask import Value, curve, rows
+from studies.kit.stats import Measured, over_seeds
 from studies.kit.table import Tables
-from studies.rb.flows import ONSET, STILL, Point, besides, grid, limit
+from studies.rb.claims.flows import limit
+from studies.rb.tables import STILL, Point, besides, grid
 
 NEAR = 0.05     # of the steady value: K of particles fluctuates by 1 % or 2 %, and noise is not to be timed
 SAMPLES = 20    # of K(t) at least
 LEAST = 5       # points of a line: three are left to tell how straight it is
+#: critical Ra of the Boussinesq fluid, by linear theory: a pair of rolls in the layer, one in the square,
+#: whose sides conduct; the study onset measures both again
+ONSET = {"periodic": 1707.9222997145034, "walls": 5011.71}
 ONE_STATE = {"periodic": 2, "walls": 1}     # rolls of the states that make a line
+CELLS = (24, 32, 48)                        # rows of the grids that have lines
 
 
 # --- K against time -------------------------------------------------------------------------------
+
+
+def history(question: Any, point: Point, energy: str = "ke_field", such: str = "") -> Value:
+    """A question about K(t) of one run."""
+    return question("history", energy, "t", such, need=SAMPLES, **point)
 
 
 def late(t: np.ndarray, ke: np.ndarray) -> np.ndarray:
@@ -56,27 +65,28 @@ def peak(t: np.ndarray, ke: np.ndarray, err: np.ndarray) -> Measured:
     return Measured(float(ke[k]) + above, above)
 
 
-def history(question: Any, point: Point, energy: str = "ke_field", such: str = "") -> Value:
-    """A question about K(t) of one run."""
-    return question("history", energy, "t", such, need=SAMPLES, **point)
-
-
 def approach(point: Point, beside: Point, energy: str) -> Value:
     """Largest |K(t) - K_grid(t)|, mean over seeds, over the steady K of the grid's limit."""
     unit = limit(point["ra"])
 
     def answer(tables: Tables) -> Measured:
-        other = rows(tables, "history", **beside).sort_values("t")
-        apart = []
-        for _, run in rows(tables, "history", need=SAMPLES, **point).groupby("seed"):
-            apart.append(np.abs(run[energy] - np.interp(run["t"], other["t"], other["ke"])).max())
-        return over_seeds(np.array(apart)/unit(tables).value)
-    asked = history(scatter, point, energy).asks
+        cells = rows(tables, "history", **beside).sort_values("t")
+        runs = rows(tables, "history", need=SAMPLES, **point)
+        apart = np.abs(runs[energy] - np.interp(runs["t"], cells["t"], cells["ke"]))
+        return over_seeds(apart.groupby(runs["seed"]).max()/unit(tables).value)
     words = f"mean over seeds of largest |{energy}(t) - ke(t) of the grid| in history, over {unit}"
-    return Value(answer, words, asked)
+    return Value(answer, words, history(scatter, point, energy).asks)
 
 
 # --- K against Ra^-1/2 ----------------------------------------------------------------------------
+
+
+def line(question: Any, low: float = 1.0, height: float = np.inf, sides: str = "periodic", **where) -> Value:
+    """A question about K over Ra^-1/2 from `low` to 4 times onset, of states with two rolls (square: one)."""
+    point = besides(grid(1.0, height, sides=sides, **where), "ra")
+    inside = f"{low*ONSET[sides]:.1f} < ra <= {4*ONSET[sides]:.1f} and ke > {STILL:g}"
+    states = {"rolls": ONE_STATE[sides], **point}
+    return question("means", "ke", "ra**-0.5", inside, err="ke_err", need=LEAST, **states)
 
 
 @curve
@@ -97,28 +107,20 @@ def intercept_alone(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
     return Measured(fits.line(x, y).intercept.value, float(err.max()))
 
 
-def line(question: Any, low: float = 1.0, height: float = np.inf, sides: str = "periodic", **where) -> Value:
-    """A question about K over Ra^-1/2 from `low` to 4 times onset; states with one pair of rolls (square: one roll)."""
-    point = besides(grid(1.0, height, sides=sides, **where), "ra")
-    inside = f"{low*ONSET[sides]:.1f} < ra <= {4*ONSET[sides]:.1f} and ke > {STILL:g}"
-    states = {"rolls": ONE_STATE[sides], **point}
-    return question("means", "ke", "ra**-0.5", inside, err="ke_err", need=LEAST, **states)
-
-
-def reading(ra: float) -> Any:
-    """The line read at a Rayleigh number; its error is that of the points."""
+def foretelling(ra: float) -> Any:
+    """The line read at a Rayleigh number, as if it were drawn through other points with the same scatter."""
     def read(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
-        at = ra**-0.5
-        far = (at - x.mean())**2/np.sum((x - x.mean())**2)
-        return Measured(fits.line(x, y).at(at).value, float(err.max()*np.sqrt(1/len(x) + far)))
+        return fits.line(x, y).at(ra**-0.5)
     read.__name__ = f"line at Ra {ra:g} through "
     return curve(read)
 
 
-def foretelling(ra: float) -> Any:
-    """The same as if the line were drawn through other points with the same scatter."""
+def reading(ra: float) -> Any:
+    """The same with the error of the points alone."""
     def read(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
-        return fits.line(x, y).at(ra**-0.5)
+        at = ra**-0.5
+        far = (at - x.mean())**2/np.sum((x - x.mean())**2)
+        return Measured(fits.line(x, y).at(at).value, float(err.max()*np.sqrt(1/len(x) + far)))
     read.__name__ = f"line at Ra {ra:g} through "
     return curve(read)
 
@@ -130,32 +132,11 @@ def straightness(sides: str = "periodic", **where) -> Value:
 
 def against_cells(question: Any) -> Value:
     """Slopes or intercepts of the lines of grids against L^-2: largest residual over their whole change."""
-    asked = line(question)
+    lines = [line(question, height=height) for height in CELLS]
 
     def answer(tables: Tables) -> Measured:
-        lines = on_grids(tables, question)
-        values = np.array([one.value for one in lines.values()])
-        err = max(one.err for one in lines.values())
-        residuals = fits.line(np.array(list(lines))**-2.0, values).residuals
-        return Measured(float(np.abs(residuals).max()), err)/Measured(float(np.ptp(values)), err)
-    words = f"distance from a line over resolution**-2, over the whole change, of {asked}"
-    return Value(answer, words, asked.asks)
-
-
-def on_grids(tables: Tables, question: Any) -> dict[float, Measured]:
-    """The question about the line of each grid on which enough Rayleigh numbers were run.
-
-    Raises
-    ------
-    CannotTell
-        Fewer than three.
-    """
-    lines = {}
-    point = besides(grid(1.0), "ra", "resolution")
-    for size in sorted(rows(tables, "means", "resolution < inf", **point)["resolution"].unique()):
-        with suppress(NoRows):
-            lines[float(size)] = line(question, height=size)(tables)
-    if len(lines) < 3:
-        raise CannotTell(f"{len(lines)} grids have {LEAST} Rayleigh numbers in the linear range, three or more show "
-                         "how slopes and intercepts go with L: a larger SIZE of the study has them")
-    return lines
+        values, errs = zip(*(one(tables) for one in lines), strict=True)
+        residuals = fits.line(np.array(CELLS)**-2.0, values).residuals
+        return Measured(float(np.abs(residuals).max()), max(errs))/Measured(float(np.ptp(values)), max(errs))
+    words = f"distance from a line over resolution**-2, over the whole change, of {line(question)}"
+    return Value(answer, words, lines[0].asks)

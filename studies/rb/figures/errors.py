@@ -1,5 +1,4 @@
-"""How errors of K and of heat transport fall with resolution, and what errors in other figures share."""
-from collections.abc import Iterator
+"""Errors of K and of heat transport against rows over the height: of methods, of edges of fixed points."""
 from typing import Any
 
 import numpy as np
@@ -8,136 +7,190 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from studies.kit.figure import below, figure, plain_ticks
-from studies.kit.table import Tables, groups
-from studies.rb.figures.names import method
-from studies.rb.looks import GRID, KIND, LABELS, LAYER, MARKS, NUSSELT, OPEN, PRINTED_WEIGHT, RA_SHOWN, SPAM, cross_out, rows
-from studies.rb.looks import errors as errors_of
+from studies.build.labels import label
+from studies.kit import fits
+from studies.kit.figure import LINES, below, figure, look, plain_ticks
+from studies.kit.table import Tables
+from studies.rb.looks import (
+    ENERGIES,
+    KIND,
+    LAYER,
+    MARKS,
+    OPEN,
+    RA_SHOWN,
+    cross_out,
+    diverged,
+    errors,
+    reference,
+    rows,
+    seen,
+)
 
 Style = dict[str, Any]
-#: grids with another number of rolls, other temperatures or wrong heating, which the particles are not compared with
-OTHER_FLOWS = ("two-rolls", "fig10", "edge-heat")
-#: of discretized integral hydrodynamics; the others have a figure of their own
-POINTS = ("fixed-lattice", "fixed-jittered-plates", "moving")
-#: what an error is relative to: the grid, for Kg its field smoothed as the particles smooth theirs
-RELATIVE = r"$|K_p/K - 1|$, $|K_g/K_\mathrm{smoothed} - 1|$"
-NU_ERROR = r"$|\mathrm{Nu}_p/\mathrm{Nu} - 1|$"
+Key = tuple[str, str, str]      # method, variant, energy
+ROWS = "rows over the height $L$"
 SIGNS = "filled marks: too large, open: too small; bars: 95 % intervals"
 PALE = "pale lines: no power law, but a range"
+PANEL: Style = {"width": 5.2, "sharex": "row", "sharey": "row", "squeeze": False}
+#: of particles and of a grid that is not of this repository
+WORDS = {("spam", "printed", "Kp"): ENERGIES["kp"][1], ("spam", "printed", "Kg"): ENERGIES["kg"][1],
+         ("spam", "printed", "Nu"): "Nusselt number, particles",
+         ("pypde-compressible", "staggered", "Kp"): "grid in py-pde"}
+METHODS: dict[Key, Style] = {
+    ("compressible", "flux-form", "Kp"): KIND["grid"],
+    ("compressible", "paper-form", "Kp"): {"color": "0.45", "marker": "X", "linestyle": ":"},
+    ("pypde-compressible", "staggered", "Kp"): look(5),
+    ("dih", "fixed-lattice", "Kp"): {**look(2), "marker": "v", "linestyle": LINES[4]},
+    ("dih", "fixed-jittered-plates", "Kp"): {**look(4), "marker": "<"},
+    ("dih", "moving", "Kp"): {**look(7), "marker": "*", "markersize": 8},
+    ("spam", "printed", "Kp"): KIND["kp"],
+    ("spam", "printed", "Kg"): KIND["kg"],
+    ("spam", "printed", "Nu"): KIND["nu"],
+}
+EDGES = {
+    "on a lattice, weight of Lucy": (
+        "fixed-lattice", "fixed-lattice-h3", "fixed-lattice-nested", "fixed-lattice-nested-only",
+        "fixed-lattice-printed-heat"),
+    "off a lattice, edges of Delaunay triangles": (
+        "relaxed-plates", "relaxed-delaunay", "fixed-jittered-plates", "fixed-jittered-delaunay",
+        "fixed-random-plates", "fixed-random-delaunay"),
+    "off a lattice, edges of a weight": (
+        "relaxed-plain", "fixed-jittered-plain", "fixed-jittered-closed", "fixed-jittered-exact"),
+}
 
 
 def convergence(tables: Tables) -> Figure | None:
-    """Relative errors of kinetic energy and heat transport against rows over the height, for each method. A dotted line is
-    what smoothing alone takes from the grid.
+    """Relative errors of kinetic energy and heat transport against rows over the height, for each method. A
+    dotted line is what smoothing alone takes from the grid.
     """
-    chosen = errors_of(tables, **LAYER)
-    panels = shown(chosen[(chosen["method"] == SPAM["method"]) | (chosen["energy"] == "Kp")])
-    if not panels:
+    chosen = errors(tables, **LAYER)
+    chosen = chosen[of_methods(chosen, METHODS)]
+    ras = panels(chosen)
+    if not ras:
         return None
-    page, all_axes = figure(1, len(panels), width=5, height=5.8, sharex=True, sharey=True, squeeze=False)
-    whole = pd.concat([group for _, group in panels])
-    sizes = [whole["error"].abs()]
-    for axes, (ra, group) in zip(all_axes[0], panels):
-        for series, label, style in methods(group):
-            powers(axes, series, label, style)
-        sizes.append(smoothing(axes, tables, ra))
-    floor(all_axes[0, 0], pd.concat(sizes))
-    particles = sorted({*whole.loc[whole["method"] == SPAM["method"], "resolution"]})
-    for axes, (ra, _) in zip(all_axes[0], panels):
-        loglog(axes, f"Ra = {ra:g}", "rows over the height $L$", PALE)
-        plain_ticks(axes, particles or sorted({*whole["resolution"]}), whole["resolution"])
-    heat = (whole["energy"] == "Nu").any()
-    all_axes[0, 0].set_ylabel("relative error")
-    page.suptitle(f"Does $K$ converge{', does the heat transport' if heat else ''}?\n"
-                  f"{RELATIVE}{', ' + NU_ERROR if heat else ''}\n{SIGNS}", fontsize=10)
+    page, [line] = figure(1, len(ras), height=5.8, **PANEL)
+    for axes, ra in zip(line, ras):
+        smoothing(axes, seen(tables, **LAYER, ra=ra))
+        over_rows(axes, chosen[chosen["ra"] == ra], METHODS)
+        finish(axes, f"Ra = {ra:g}", chosen)
+    line[0].set_ylabel("relative error")
+    page.suptitle("Does $K$ converge, does the heat transport?\n"
+                  r"$|K_p/K - 1|$, $|K_g/K_\mathrm{smoothed} - 1|$, $|\mathrm{Nu}_p/\mathrm{Nu} - 1|$"
+                  f"\n{SIGNS}", fontsize=10)
     return page
 
 
-def shown(chosen: pd.DataFrame) -> list[tuple[float, pd.DataFrame]]:
-    """The Rayleigh numbers of the panels, each with its rows of grids, of the printed particles and of some on points."""
-    variant, of_points = chosen["variant"], chosen["method"] == "dih"
-    printed = (chosen["method"] != "spam") | (variant == SPAM["variant"])
-    chosen = chosen[printed & ~variant.isin(OTHER_FLOWS) & (~of_points | variant.isin(POINTS))]
-    return [(ra, group) for ra, group in groups(chosen, "ra") if ra in RA_SHOWN]
+def fixed_points(tables: Tables) -> Figure | None:
+    """Errors of K on points that stay, against rows over the height: lattices above, then points off a
+    lattice. Each line is one kind of edges. Crossed out is also what ended in another number of rolls.
+    """
+    chosen = pd.concat([errors(tables, method="dih", energy="Kp", **LAYER), other_flows(tables)])
+    gone = diverged(tables, method="dih", **LAYER)
+    kinds = {kind: {("dih", name, "Kp"): look(number) for number, name in enumerate(names)}
+             for kind, names in EDGES.items()}
+    kinds = {kind: keys for kind, keys in kinds.items() if of_methods(chosen, keys).any()}
+    ras = panels(chosen)
+    if not kinds or not ras:
+        return None
+    page, all_axes = figure(len(kinds), len(ras), height=4.7, **PANEL)
+    for line, (kind, keys) in zip(all_axes, kinds.items()):
+        for axes, ra in zip(line, ras):
+            over_rows(axes, chosen[chosen["ra"] == ra], keys, gone[gone["ra"] == ra])
+            finish(axes, f"Ra = {ra:g}: {kind}", chosen[of_methods(chosen, keys)])
+        line[0].set_ylabel(r"relative error  $|K/K_\mathrm{grid} - 1|$")
+    page.suptitle(f"What do fixed points and their edges make of $K$?\n{SIGNS}", fontsize=10)
+    return page
 
 
-def methods(chosen: pd.DataFrame) -> Iterator[tuple[pd.DataFrame, str, Style]]:
-    """(rows by resolution, label, look) of each method: particles for Kp, Kg and Nu, each grid once."""
-    for (name, variant, energy), series in groups(chosen.sort_values("resolution"), ["method", "variant", "energy"]):
-        if name == "spam":
-            yield series, (LABELS | NUSSELT)[energy.lower()], KIND[energy.lower()]
-        elif energy == "Kp":      # the field is all that a grid has
-            yield series, *method(name, variant)
+def panels(chosen: pd.DataFrame) -> list[float]:
+    """Rayleigh numbers that have a panel and rows."""
+    return [ra for ra in RA_SHOWN if (chosen["ra"] == ra).any()]
 
 
-def smoothing(axes: Axes, tables: Tables, ra: float) -> pd.Series:
+def of_methods(chosen: pd.DataFrame, keys: dict[Key, Style]) -> pd.Series:
+    """Which rows of `errors` are of these series."""
+    found = pd.MultiIndex.from_frame(chosen[["method", "variant", "energy"]]).isin(keys)
+    return pd.Series(found, index=chosen.index, dtype=bool)
+
+
+def other_flows(tables: Tables) -> pd.DataFrame:
+    """Points that ended in another number of rolls than the grid: no rows of `errors`, and never `steady`."""
+    grid = reference(tables, **LAYER)[["ra", "ke", "rolls"]]
+    means = rows(tables, "means", method="dih", **LAYER)
+    both = means.merge(grid[grid["ke"] > 0], on="ra", suffixes=("", "_grid"))
+    other = np.isfinite(both["resolution"].astype(float)) & (both["rolls"] != both["rolls_grid"])
+    both = both.assign(error=both["ke"]/both["ke_grid"] - 1, error_err=both["ke_err"]/both["ke_grid"])
+    return both.assign(energy="Kp", steady=False)[other]
+
+
+def smoothing(axes: Axes, grid: pd.DataFrame) -> None:
     """1 - K_smoothed/K of the grid's own field: what the weight alone takes away, drawn as a line."""
-    seen = rows(tables, "smoothed", **GRID, **LAYER, **PRINTED_WEIGHT, ra=ra).sort_values("rows")
-    taken = 1 - seen["ke_smoothed"]/seen["ke"]
-    if len(seen):
-        axes.plot(seen["rows"], taken, color=KIND["kg"]["color"], marker="", lw=2.5, ls=":",
+    if len(grid):
+        taken = 1 - grid["ke_smoothed"]/grid["ke"]
+        axes.plot(grid["rows"], taken, color=KIND["kg"]["color"], marker="", lw=2.5, ls=":",
                   label=r"$1 - K_\mathrm{smoothed}/K$: the smoothing alone")
-    return taken
 
 
-# --- errors over a resolution ---------------------------------------------------------------------
+# --- one panel ------------------------------------------------------------------------------------
 
 
-def powers(axes: Axes, series: pd.DataFrame, label: str, style: Style) -> None:
-    """Errors of one method with the power law through them or, where there is none, the range that they have."""
+def over_rows(axes: Axes, chosen: pd.DataFrame, keys: dict[Key, Style],
+              gone: pd.DataFrame | None = None) -> None:
+    """Errors of each series with its power law; at which rows runs diverged is said in the legend."""
+    for key, style in keys.items():
+        series = chosen[of_methods(chosen, {key: style})].sort_values("resolution")
+        words = WORDS.get(key) or label(*key[:2])
+        if gone is not None and (lost := gone.loc[gone["variant"] == key[1], "resolution"]).any():
+            words += f" [{', '.join(f'{size:.0f}' for size in lost)} rows: diverged]"
+        if len(series):
+            powers(axes, series, words, style)
+        elif "diverged" in words:
+            axes.errorbar([], [], [], label=words, **style)
+
+
+def powers(axes: Axes, series: pd.DataFrame, words: str, style: Style) -> None:
+    """Errors of one method with the power law through them or, where there is none, their range."""
     n, error, err = (series[name].to_numpy(float) for name in ("resolution", "error", "error_err"))
     line = style | {"marker": "", "lw": 0.8}
-    if len(n) > 1 and falling(error):
-        fit, slope_err = power(n, np.abs(error), err)
-        axes.plot(n, np.exp(np.polyval(fit, np.log(n))), **line)
-        label += f": slope {fit[0]:.1f}" + (f" $\\pm$ {slope_err:.1f}" if slope_err > 0.05 else "")
+    if falling(error):
+        fit = fits.weighted(np.log(n), np.log(np.abs(error)), np.maximum(err/np.abs(error), 1e-6))
+        power = fit.slope
+        axes.plot(n, np.exp([fit.at(x).value for x in np.log(n)]), **line)
+        words += f": slope {power.value:.1f}" + f" $\\pm$ {power.err:.1f}"*bool(power.err > 0.05)
     elif len(n) > 1:
         axes.plot(n, np.abs(error), **line | {"alpha": 0.4})
-        label += f": {100*error.min():+.2g} to {100*error.max():+.2g} %"
-    signed(axes, series, label, style)
+        words += f": {100*error.min():+.2g} to {100*error.max():+.2g} %"
+    signed(axes, series, words, style)
 
 
 def falling(error: np.ndarray) -> bool:
-    """Whether three errors or more, of one sign, become smaller from each to the next: others have no power."""
+    """Whether three errors or more, of one sign, become ever smaller: others have no power."""
     one_sign = abs(np.sign(error).sum()) == len(error)
     return bool(len(error) > 2 and one_sign and (np.diff(np.abs(error)) < 0).all())
 
 
-def power(n: np.ndarray, size: np.ndarray, err: np.ndarray) -> tuple[np.ndarray, float]:
-    """(slope, constant) of log size over log n, and the half width of the slope's 95 % interval.
-
-    Where the points scatter about the line by more than their errors, the interval is as much wider.
-    """
-    weight = size/np.maximum(err, 1e-6*size)
-    fit, cov = np.polyfit(np.log(n), np.log(size), 1, w=weight, cov="unscaled")
-    left = np.log(size) - np.polyval(fit, np.log(n))
-    chi2 = float(np.sum((1.96*weight*left)**2))
-    return fit, float(np.sqrt(cov[0, 0]*max(1.0, chi2/max(1, len(n) - 2))))
-
-
-def signed(axes: Axes, series: pd.DataFrame, label: str, style: Style) -> None:
-    """|error| over rows, with its interval; filled where the error is positive, open where negative, as in no legend."""
-    axes.errorbar([], [], [], label=label, **style | {"linestyle": style.get("linestyle", "-"), "lw": 0.8})
+def signed(axes: Axes, series: pd.DataFrame, words: str, style: Style) -> None:
+    """|error| over rows, with its interval; filled where the error is positive, open where negative."""
+    axes.errorbar([], [], [], label=words, **style | {"lw": 0.8})
     x, size, err = series["resolution"], series["error"].abs(), series["error_err"]
     down = np.minimum(err, 0.999*size)       # a logarithmic axis has no room for an interval across zero
     positive = series["error"] >= 0
     for sign, face in ((positive, {}), (~positive, OPEN)):
-        if sign.any():
-            axes.errorbar(x[sign], size[sign], [down[sign], err[sign]], **style | face | MARKS)
+        axes.errorbar(x[sign], size[sign], [down[sign], err[sign]], **style | face | MARKS)
     cross_out(axes, x, size, series["steady"])
 
 
-def floor(axes: Axes, size: pd.Series) -> None:
-    """Intervals that reach zero leave the picture below the smallest error."""
-    axes.set_ylim(0.4*size[size > 0].min(), 2*size.max())
-
-
-def loglog(axes: Axes, title: str, xlabel: str, note: str = "") -> None:
-    """Logarithmic axes with plain numbers, and the legend below."""
-    axes.set(xscale="log", yscale="log", title=title, xlabel=xlabel)
+def finish(axes: Axes, title: str, line: pd.DataFrame) -> None:
+    """Logarithmic axes in the range of a line of panels, the legend below; a panel without data goes."""
+    if not axes.has_data():
+        axes.set_visible(False)
+        return
+    size = line["error"].abs()
+    axes.set(xscale="log", yscale="log", title=title, xlabel=ROWS, ylim=(0.4*size.min(), 2*size.max()))
     for axis in (axes.xaxis, axes.yaxis):
-        low, high = axis.get_view_interval()
-        axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 2000*low else (1,)))
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axis.set_minor_formatter(NullFormatter())
-    below(axes, title=note or None, title_fontsize=8)
+    axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    plain_ticks(axes, sorted({*line["resolution"]}))
+    axes.tick_params(labelbottom=True)
+    below(axes, title=PALE, title_fontsize=8)

@@ -2,54 +2,60 @@
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
-
-import numpy as np
+from time import process_time
+from typing import Any, ClassVar
 
 from continuum import boussinesq
-from continuum.gas.fields import initial, interpolate
-from continuum.gas.solve import Solution, run, steady_on
+from continuum.gas.fields import block, initial, interpolate
+from continuum.gas.loop import FluxForm
+from continuum.gas.solve import March, Solution, limits, run, steady_on
 from continuum.pypde import solve as pypde
 from continuum.scene import RayleighBenard
-from continuum.steady import Steady, Time
+from continuum.steady import SAFETY, Steady, Time
 from particles.observe import Grid
-from studies.build.grid import FORMS, beginning
+from studies.build.grid import FORMS, GridForm, beginning
+from studies.build.measure import Smoothing, smoothed_rows
 from studies.build.names import START_ENERGY, one_energy, scene_columns
-from studies.build.smoothing import Smoothing, smoothed_rows
 from studies.kit.case import Case, Outcome, Report
-from studies.kit.timing import compile_and_run_seconds
+from studies.kit.timing import REPEATS, compile_and_run_seconds, median_seconds
+from studies.rb.runs import of_step, table_rows
 
+#: columns that solutions have, too
+SAME = ("mass_drift", "converged", "dt", "steps", "cpu_s", "compile_s")
 STILL = 1e-8        # K of a grid at rest, whose rolls would be those of round-off
 
 
-def point(scene: RayleighBenard, solution: Solution, variant: str) -> dict:
+def compressible(scene: RayleighBenard, rows: int, variant: str) -> dict:
     """Key columns of a row of one compressible solution."""
-    return {"method": "compressible", "variant": variant, **scene_columns(scene), "resolution": solution.rows}
+    return {"method": "compressible", "variant": variant, **scene_columns(scene), "resolution": rows}
 
 
-def settling(solution: Any) -> float:
-    """Error of Nu that is left of settling, in proportion to that of K; that of the grid shows in the extrapolation."""
-    return float(2*solution.ke_err/solution.ke*solution.nu) if solution.ke > 1e-9 else 0.0
-
-
-def spent(solution: Any) -> dict:
-    """Columns of energy and effort of a solution in time."""
-    return {**one_energy(solution.ke, 2*solution.ke_err), "nu": solution.nu, "nu_err": settling(solution),
-            "mass_drift": solution.mass_drift, "converged": solution.converged, "dt": solution.dt, "steps": solution.steps,
-            "t_end": solution.t, "cpu_s": solution.cpu_s, "compile_s": solution.compile_s}
-
-
-def energies(scene: RayleighBenard, solution: Solution, variant: str) -> dict:
-    """Row of `kinetic_energy` of one compressible solution."""
-    return {**point(scene, solution, variant), "particles": 0, "seed": 0, **spent(solution), "free_fall": scene.free_fall,
-            "rolls": solution.rolls if solution.ke > STILL else 0, "threads": 1}
+def no_particles(free_fall: float) -> dict:
+    """Columns of `kinetic_energy` that are the same for all grids."""
+    return {"particles": 0, "seed": 0, "free_fall": free_fall, "threads": 1}
 
 
 def boussinesq_point(method: str, variant: str, ra: float, pr: float) -> dict:
     """Columns that all Boussinesq rows share; their state is steady to round-off."""
-    return {"method": method, "variant": variant, "eos": "", "transport": "", "sides": "periodic", "ra": ra, "pr": pr,
-            "particles": 0, "seed": 0, "free_fall": 1.0,
-            "mass_drift": 0.0, "converged": True, "dt": 0.0, "t_end": 0.0, "threads": 1}
+    return {"method": method, "variant": variant, "eos": "", "transport": "", "sides": "periodic", "ra": ra,
+            "pr": pr, **no_particles(1.0), "mass_drift": 0.0, "converged": True, "dt": 0.0, "t_end": 0.0}
+
+
+def spent(solution: Any) -> dict:
+    """Columns of energy and effort of a solution in time.
+
+    What is left of settling in Nu is in proportion to that in K; the error of the grid shows in the
+    extrapolation.
+    """
+    left = 2*solution.ke_err/solution.ke*solution.nu if solution.ke > 1e-9 else 0.0
+    return {**one_energy(solution.ke, 2*solution.ke_err), "nu": solution.nu, "nu_err": float(left),
+            "t_end": solution.t, **{name: getattr(solution, name) for name in SAME}}
+
+
+def field_rows(key: dict, scene: RayleighBenard, grid: Grid, at: Any) -> list[dict]:
+    """Rows of `fields` at the places of a grid."""
+    columns = {"x": grid.x/scene.L, "y": grid.y/scene.L, "rho": at.rho, "T": at.T, "vx": at.vx, "vy": at.vy}
+    return table_rows(key, **{name: column.ravel() for name, column in columns.items()})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,8 +71,8 @@ class Refined(Case):
 
     def __post_init__(self):
         if not (isinstance(self.sizes, tuple) and self.sizes):
-            raise ValueError(f"sizes must be the rows of one grid or more, got {self.sizes!r}: give them coarsest first, as in "
-                             "(16, 24, 32)")
+            raise ValueError(f"sizes must be the rows of one grid or more, got {self.sizes!r}: "
+                             "give them coarsest first, as in (16, 24, 32)")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,7 +82,7 @@ class CompressibleSteady(Refined):
     rtol: float = 1e-5
     keep: str = ""
     smooth: tuple[Smoothing, ...] = ()
-    variant: str = "flux-form"
+    form: GridForm = FORMS["flux-form"]
     longest: float = 60.0
 
     @property
@@ -86,30 +92,29 @@ class CompressibleSteady(Refined):
     @property
     def label(self) -> str:
         where = scene_columns(self.scene)
-        return (f"compressible {self.variant} {where['eos']} {where['transport']} {where['sides']} Ra {self.scene.ra:g}, "
-                f"rows {self.sizes}")
+        return (f"compressible {self.form.name} {where['eos']} {where['transport']} {where['sides']} "
+                f"Ra {self.scene.ra:g}, rows {self.sizes}")
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        form = FORMS[self.variant]
-        first = beginning(self.scene, self.sizes[0], form)
-        solutions = steady_on(self.scene, self.sizes, start=first, continuity=form.continuity,
-                              until=Steady(rtol=self.rtol, longest=self.longest), progress=report)
-        rows = {"kinetic_energy": [energies(self.scene, s, self.variant) for s in solutions]}
-        finest = point(self.scene, solutions[-1], self.variant)
-        if self.smooth:
-            rows["smoothed"] = list(smoothed_rows(finest, solutions[-1].fields, self.smooth))
+        first = beginning(self.scene, self.sizes[0], self.form)
+        until = Steady(rtol=self.rtol, longest=self.longest)
+        solutions = steady_on(self.scene, self.sizes, start=first, until=until, progress=report,
+                              continuity=self.form.continuity)
+        finest = solutions[-1].fields
+        point = compressible(self.scene, self.sizes[-1], self.form.name)
+        rows = {"kinetic_energy": [self._row(one) for one in solutions],
+                "smoothed": list(smoothed_rows(point, finest, self.smooth))}
         if self.keep:
-            grid = Grid.over((self.scene.width, self.scene.L), 30)      # the places where particles' fields are kept
-            at = interpolate(solutions[-1].fields, grid.x, grid.y)
-            rows["fields"] = field_rows({**finest, "seed": 0}, self.scene, grid, at)
+            grid = Grid.over((self.scene.width, self.scene.L), 30)      # where particles' fields are kept
+            at = interpolate(finest, grid.x, grid.y)
+            rows["fields"] = field_rows({**point, "seed": 0}, self.scene, grid, at)
         return Outcome(rows)
 
-
-def field_rows(key: dict, scene: RayleighBenard, grid: Grid, at: Any) -> list[dict]:
-    """Rows of `fields` at the places of a grid."""
-    columns = (grid.x/scene.L, grid.y/scene.L, at.rho, at.T, at.vx, at.vy)
-    return [{**key, **dict(zip(("x", "y", "rho", "T", "vx", "vy"), map(float, row), strict=True))}
-            for row in zip(*(np.ravel(c) for c in columns), strict=True)]
+    def _row(self, solution: Solution) -> dict:
+        """Of `kinetic_energy`."""
+        point = compressible(self.scene, solution.rows, self.form.name)
+        rolls = solution.rolls if solution.ke > STILL else 0
+        return {**point, **no_particles(self.scene.free_fall), **spent(solution), "rolls": rolls}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,17 +128,14 @@ class CompressibleApproach(Case):
     def cost(self) -> float:
         return 4e-5*self.rows**3*self.t_end/90 + 3
 
-    @property
-    def label(self) -> str:
-        return f"compressible approach Ra {self.scene.ra:g}, rows {self.rows}"
-
     def run(self, report: Report, folder: Path) -> Outcome:
         scene = self.scene
-        start, t_end = initial(scene, self.rows, START_ENERGY), self.t_end*scene.L/scene.free_fall
-        solution = run(scene, self.rows, until=Time(t_end, 300), start=start, progress=report)
-        key = {**point(scene, solution, "flux-form"), "seed": 0}
-        return Outcome({"history": [{**key, "t": t, "t_viscous": t/scene.viscous_time, "ke": ke, "ke_field": ke}
-                                    for t, ke in zip(solution.series.t, solution.series.ke, strict=True)]})
+        until = Time(self.t_end*scene.L/scene.free_fall, 300)
+        start = initial(scene, self.rows, START_ENERGY)
+        solution = run(scene, self.rows, until=until, start=start, progress=report)
+        t, ke = solution.series.t, solution.series.ke
+        key = {**compressible(scene, self.rows, "flux-form"), "seed": 0}
+        return Outcome({"history": table_rows(key, t=t, t_viscous=t/scene.viscous_time, ke=ke, ke_field=ke)})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -150,19 +152,15 @@ class BoussinesqSteady(Refined):
     def cost(self) -> float:
         return sum(6e-5*rows**2 for rows in self.sizes)
 
-    @property
-    def label(self) -> str:
-        return f"boussinesq Ra {self.ra:g}, Pr {self.pr:g}, rows {self.sizes}"
-
     def run(self, report: Report, folder: Path) -> Outcome:
         rows: list[dict] = []
         state: boussinesq.State | None = None
-        for number, size in enumerate(self.sizes):
+        for size in self.sizes:
             case = boussinesq.Case(ra=self.ra, pr=self.pr, box=boussinesq.HALF_LAYER, rows=size)
             steady, compile_s, cpu_s = compile_and_run_seconds(partial(boussinesq.steady, case, state))
             state = steady
             rows.append({**self._row(steady), "resolution": size, "cpu_s": cpu_s, "compile_s": compile_s})
-            report((number + 1)/len(self.sizes))
+            report(len(rows)/len(self.sizes))
         return Outcome({"kinetic_energy": rows})
 
     def _row(self, state: boussinesq.State) -> dict:
@@ -184,24 +182,43 @@ class PypdeSteady(Refined):
     def cost(self) -> float:
         return sum(5 + 6e-5*rows**3 for rows in self.sizes)
 
-    @property
-    def label(self) -> str:
-        return f"py-pde {'boussinesq' if self.scene is None else 'gas'} Ra {self.ra:g}, Pr {self.pr:g}, rows {self.sizes}"
-
     def run(self, report: Report, folder: Path) -> Outcome:
-        rows, last = [], None
-        for number, size in enumerate(self.sizes):
-            last = self._solve(size, {} if last is None else {"start": last})
-            rows.append({**self._point(), "resolution": last.rows, **spent(last), "rolls": last.rolls})
-            report((number + 1)/len(self.sizes))
+        rows: list[dict] = []
+        start: dict = {}
+        for size in self.sizes:
+            solution = self._solve(size, start)
+            start = {"start": solution}
+            rows.append({**self._point(), "resolution": size, **spent(solution), "rolls": solution.rolls})
+            report(len(rows)/len(self.sizes))
         return Outcome({"kinetic_energy": rows})
 
-    def _solve(self, rows: int, start: dict) -> pypde.Solution:
+    def _solve(self, rows: int, start: dict) -> pypde.PdeSolution:
         if self.scene is None:
             return pypde.solve_boussinesq(ra=self.ra, pr=self.pr, rows=rows, **start)
         return pypde.solve_gas(self.scene, rows, **start)
 
     def _point(self) -> dict:
-        point = boussinesq_point("pypde-boussinesq", "vorticity", self.ra, self.pr)
-        return point if self.scene is None else {**point, "method": "pypde-compressible", "variant": "staggered",
-                                                 **scene_columns(self.scene), "free_fall": self.scene.free_fall}
+        if self.scene is None:
+            return boussinesq_point("pypde-boussinesq", "vorticity", self.ra, self.pr)
+        return {"method": "pypde-compressible", "variant": "staggered", **scene_columns(self.scene),
+                **no_particles(self.scene.free_fall)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class CompressibleStep(Case):
+    """A step of the compressible grid."""
+    scene: RayleighBenard
+    rows: int
+    alone: ClassVar[bool] = True
+
+    @property
+    def cost(self) -> float:
+        return 1e-4*self.rows**2 + 2
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        cells = block(initial(self.scene, self.rows))
+        march = March(self.scene, cells, FluxForm(), SAFETY*limits(self.scene, cells).both)
+        steps, points = max(10, 400000//self.rows**2), self.rows**2*round(self.scene.aspect)
+        seconds = median_seconds(partial(march.go, steps), REPEATS, process_time)
+        point = {"method": "compressible", "variant": "flux-form", "resolution": self.rows}
+        return Outcome({"cost": [{**point, **of_step(self.scene, points, march.dt, seconds, steps)}]})

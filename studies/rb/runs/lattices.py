@@ -1,7 +1,7 @@
 """The two weights as KHP95 print them (Sec. II), and lattices of particles summed with them.
 
-Lengths in sigma, mass 1 a particle, density 1. `particles.weights` normalises its weights by quadrature. Here the
-printed factors stand, so that they can be judged.
+Lengths in sigma, mass 1 a particle, density 1. `particles.weights` normalises its weights by quadrature. Here
+the printed factors stand, so that they can be judged.
 """
 from typing import NamedTuple
 
@@ -10,7 +10,8 @@ from numpy.polynomial import Polynomial
 
 R = Polynomial([0, 1])
 RANGE = 3.0
-KINDS = ("square", "hexagonal")
+#: primitive vectors, as columns
+AXES = {"square": np.eye(2), "hexagonal": np.array([[1.0, 0.5], [0.0, np.sqrt(3)/2]])}
 SITES = (1, 2, 3, 4)        # particles on a site of a lattice
 
 
@@ -36,7 +37,7 @@ class Printed(NamedTuple):
         return float(total)
 
     def jumps(self, order: int) -> list[float]:
-        """Jumps of the derivative of that order at the ends of the pieces, over w(0); at r = 0 the slope itself."""
+        """Jumps of the derivative of that order at the ends of the pieces, over w(0); at r = 0 the slope."""
         slopes = [piece.deriv(order) if order else piece for _, piece in self.pieces]
         slopes.append(Polynomial([0.0]))
         ends = [end for end, _ in self.pieces]
@@ -55,9 +56,7 @@ BOTH = (LUCY, MONAGHAN)
 
 def lattice(kind: str, per_site: float = 1.0, reach: float = 12.0) -> np.ndarray:
     """(2, sites): a lattice of density 1 with so many particles a site, one site at the origin."""
-    axes = np.array([[1.0, 0.0], [0.0, 1.0]])
-    if kind == "hexagonal":
-        axes = np.array([[1.0, 0.5], [0.0, np.sqrt(3)/2]])
+    axes = AXES[kind]
     n = np.arange(-int(2*reach), int(2*reach) + 1)
     sites = axes@np.stack(np.meshgrid(n, n)).reshape(2, -1)
     return sites*np.sqrt(per_site/np.linalg.det(axes))
@@ -69,16 +68,12 @@ def density(weight: Printed, kind: str, per_site: float = 1.0, h: float = RANGE)
     return float(per_site*weight(r, h).sum())
 
 
-def shear_moduli(weight: Printed, kind: str, h: float = RANGE) -> np.ndarray:
-    """(2,): shear over bulk modulus of the ideal gas on a lattice, for shears along an axis and at 45 degrees.
-
-    At constant area only the sum of the density changes: G = P d2(rho)/d(gamma)^2, B = rho c^2 = 2 P.
-    """
-    return np.array([shear_modulus(weight, kind, h, angle) for angle in (0.0, np.pi/4)])
-
-
 def shear_modulus(weight: Printed, kind: str, h: float, angle: float, step: float = 1e-3) -> float:
-    """The same for one shear, by differences of three sums: gamma = 2 step."""
+    """Shear over bulk modulus of the ideal gas on a lattice turned by an angle, by differences of three sums.
+
+    At constant area only the sum of the density changes: G = P d2(rho)/d(gamma)^2, B = rho c^2 = 2 P, gamma =
+    2 step.
+    """
     cos, sin = np.cos(angle), np.sin(angle)
     turn = np.array([[cos, sin], [-sin, cos]])
     sums = []
@@ -88,14 +83,9 @@ def shear_modulus(weight: Printed, kind: str, h: float, angle: float, step: floa
     return float(np.diff(sums, 2)[0]/step**2/4/2)
 
 
-def stiffest(kind: str, h: float = RANGE) -> float:
-    """Largest |G/B| of both weights and both shears."""
-    return max(largest_modulus(weight, kind, h) for weight in BOTH)
-
-
 def largest_modulus(weight: Printed, kind: str, h: float = RANGE) -> float:
-    """Largest |G/B| of both shears."""
-    return float(np.abs(shear_moduli(weight, kind, h)).max())
+    """Largest |G/B| of shears along an axis and at 45 degrees."""
+    return max(abs(shear_modulus(weight, kind, h, angle)) for angle in (0.0, np.pi/4))
 
 
 def decay(kind: str) -> float:
@@ -106,33 +96,3 @@ def decay(kind: str) -> float:
 def least(weight: Printed, kind: str) -> tuple[float, int]:
     """Least density sum, and so least energy at any pressure, and how many particles a site have it."""
     return min((density(weight, kind, sites), sites) for sites in SITES)
-
-
-def occupancy(weight: Printed) -> int:
-    """Particles a site of the lattice with the least energy, square or hexagonal."""
-    return min(least(weight, kind) for kind in KINDS)[1]
-
-
-def crowded() -> float:
-    """Density sum of the lattice whose sites are a whole range apart over the least one; the lesser of both weights."""
-    per_site = RANGE**2*np.sqrt(3)/2
-    return min(density(weight, "hexagonal", per_site)/least(weight, "hexagonal")[0] for weight in BOTH)
-
-
-def square_over_hexagonal() -> float:
-    """Least energy of the square over that of the hexagonal lattice, the lesser of both weights."""
-    return min(least(weight, "square")[0]/least(weight, "hexagonal")[0] for weight in BOTH)
-
-
-# --- smoothness -----------------------------------------------------------------------------------
-
-
-def roughest() -> float:
-    """Largest jump of w, w' and w'' of both weights, over w(0)."""
-    return max(abs(jump) for weight in BOTH for order in (0, 1, 2) for jump in weight.jumps(order))
-
-
-def at_cutoff() -> float:
-    """Largest first or second derivative of both weights at the range, over w(0)."""
-    ends = [weight.pieces[-1][1].deriv(order)(RANGE) for weight in BOTH for order in (1, 2)]
-    return max(map(abs, ends))/float(LUCY(0.0))

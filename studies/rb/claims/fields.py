@@ -1,7 +1,7 @@
 """Claims about the flow of smooth particles: fields, approach to the steady state, neighbours, walls"""
-from math import inf, sqrt
+from math import hypot, inf, sqrt
 
-from studies.build.printed import as_printed
+from studies.build.names import as_printed
 from studies.build.snapshot import RANGE
 from studies.kit import stats
 from studies.kit.ask import Value, of, one, rows
@@ -9,22 +9,13 @@ from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
 from studies.rb.claims.curves import approach, drift, history, scatter, settling
-from studies.rb.flows import (
-    ALIKE,
-    Point,
-    besides,
-    diverged,
-    grid,
-    mean,
-    over_seeds,
-    particles,
-    rolls_in,
-    same_flow,
-)
+from studies.rb.claims.flows import ALIKE, diverged, mean, over_seeds, rolls_in, same_flow
+from studies.rb.tables import Point, besides, grid, particles
 
 STEADY, ROWS = particles(1e4), particles(1e4, variant="printed-fixed-rows")
 CELLS = grid(1e4, 50)       # of which K(t) is kept
 PARTICLES, WIDTH = 5000, 100
+HIGHEST = 1e5               # of smooth particles
 
 
 def beside_grid(column: str, ra: float = 1e4) -> Value:
@@ -46,52 +37,29 @@ def time_of_approach() -> Value:
 # --- high Rayleigh numbers ------------------------------------------------------------------------
 
 
-def highest(tables: Tables) -> float:
-    """The largest Ra >= 50 000 of smooth particles of 50 rows, whether they came to the end or not.
-
-    Raises
-    ------
-    CannotTell
-        None was run.
-    """
-    ra = float(rows(tables, "kinetic_energy", **besides(STEADY, "ra"))["ra"].max())
-    if ra < 5e4:
-        raise CannotTell(f"smooth particles were run up to Ra {ra:g} only, not 50 000 or more")
-    return ra
-
-
 def robust(tables: Tables) -> Measured:
-    """Relative change of K between third and last quarter of the run at the highest Ra; inf if it diverged"""
-    point = particles(highest(tables))
+    """Relative change of K between third and last quarter of the run at Ra 100 000; inf if it diverged"""
+    point = particles(HIGHEST)
     if diverged(tables, point).any():
         return Measured(inf, 0.0)
     return over_seeds(history(drift, point))(tables)
 
 
 def right_at_high(tables: Tables) -> Measured:
-    """|Kg/K - 1| at the highest Ra, K of the finest grid smoothed alike
+    """|Kg/K - 1| at Ra 100 000, K of the finest grid smoothed alike
 
-    The grid's flow may oscillate there for good: then it is not extrapolated.
+    The grid's flow oscillates there for good: it is not extrapolated, its error is what the next coarser grid
+    changes.
     """
-    ra = highest(tables)
-    cells = rows(tables, "kinetic_energy", "resolution < inf", **besides(grid(ra), "resolution"))
-    cells = cells.sort_values("resolution")
-    if len(cells) < 2:
-        raise CannotTell(f"the grid was run with one resolution at Ra {ra:g}: a reference needs two")
-    fine, coarse = cells.iloc[-1], cells.iloc[-2]
-    if rolls_in(tables, particles(ra)) != int(fine["rolls"]):
-        raise CannotTell(f"particles and grid have different numbers of rolls at Ra {ra:g}: another flow")
-    change = Measured(fine["ke"] - coarse["ke"], fine["ke_err"])
-    left = last_kept(tables, ra)
-    reference = Measured(left*fine["ke"], left*sqrt(change.value**2 + change.err**2))
-    return abs(mean(particles(ra), "ke_field")(tables)/reference - 1)
-
-
-def last_kept(tables: Tables, ra: float) -> float:
-    """What the printed weight on 50 rows leaves of the K of the finest grid."""
-    point = besides(grid(ra), "resolution", "variant")
-    row = rows(tables, "smoothed", weight="Lucy", h=3.0, rows=50, **point).iloc[-1]
-    return float(row["ke_smoothed"]/row["ke"])
+    point = besides(grid(HIGHEST), "resolution")
+    cells = rows(tables, "kinetic_energy", "resolution < inf", need=2, **point).sort_values("resolution")
+    coarse, fine = cells.iloc[-2], cells.iloc[-1]
+    if rolls_in(tables, particles(HIGHEST)) != int(fine["rolls"]):
+        raise CannotTell("particles and grid have different numbers of rolls at Ra 100 000: another flow")
+    seen = {"weight": "Lucy", "h": 3.0, "rows": 50, **besides(point, "variant")}
+    left = one("smoothed", "ke_smoothed/ke", err="0", **seen)(tables)
+    reference = left*Measured(fine["ke"], hypot(fine["ke"] - coarse["ke"], fine["ke_err"]))
+    return abs(mean(particles(HIGHEST), "ke_field")(tables)/reference - 1)
 
 
 # --- walls ----------------------------------------------------------------------------------------
@@ -99,15 +67,16 @@ def last_kept(tables: Tables, ra: float) -> float:
 
 def losses(variant: str) -> Value:
     """Particles lost without the elastic wall, a particle and run: none where it turned none back."""
-    asked = one("walls", f"reflections/{PARTICLES}", plate="lower", **particles(1e4, variant=variant))
-    turns = over_seeds(asked)
+    point = particles(1e4, variant=variant)
+    turns = over_seeds(one("walls", f"reflections/{PARTICLES}", plate="lower", **point))
 
     def answer(tables: Tables) -> Measured:
-        if (found := turns(tables)).value > 0:
-            raise CannotTell(f"the elastic wall turned particles back, {found.value:.2g} times a particle and run; but "
-                             "a turn is no loss: a particle beyond the plate may come back by itself, and no run here "
-                             "goes without it")
-        return found
+        number = turns(tables)
+        if number.value > 0:
+            turned = f"turned particles back, {number.value:.2g} times a particle and run"
+            raise CannotTell(f"the elastic wall {turned}; but a turn is no loss: a particle beyond the plate "
+                             "may come back by itself, and no run here goes without it")
+        return number
     return Value(answer, str(turns), turns.asks)
 
 
@@ -117,21 +86,18 @@ def carried(tables: Tables) -> Measured:
     An impact gives 2 m |v_y|, here twice the largest speed of a particle at the end; P = rho T of the layer.
     """
     fastest = sqrt(seen("fastest", ROWS)(tables).value)
-    shares = []
-    for seed, plates in rows(tables, "walls", **ROWS).groupby("seed"):
-        time = float(rows(tables, "kinetic_energy", **ROWS, seed=seed)["t_end"].iloc[0])
-        impacts = 2*fastest*plates["reflections"].iloc[0]/(time*2*WIDTH)
-        pressure = (plates["rho_layer"]*plates["T_layer"]).mean()
-        shares.append(float(1 - impacts/pressure))
-    return stats.over_seeds(shares)
+    runs = rows(tables, "kinetic_energy", **ROWS)[["seed", "t_end"]]
+    walls = rows(tables, "walls", **ROWS).merge(runs, on="seed")
+    impacts = 2*fastest*walls["reflections"]/(walls["t_end"]*2*WIDTH)
+    both = (walls["rho_layer"]*walls["T_layer"]).groupby(walls["seed"]).mean()
+    return stats.over_seeds(1 - impacts.groupby(walls["seed"]).first()/both)
 
 
 FIELD = "against the grid's field as it is, not smoothed"
 PLACE_BY_PLACE = f'"of the order of", one digit: half as much again; {FIELD}'
 ONE_CONTOUR = "no number is printed: one contour of ten"
 SEMI = "semiquantitatively, errors of a few percent"
-LAG = ('"semiquantitatively" alone has no number; particles come later, the figure fig8 tells how much of it that '
-       "is")
+LAG = '"semiquantitatively" alone has no number; particles come later'
 NO_SINGLE = "Lucy's single particles have 1.3, pairs 2 or more"
 CLAIMS = (
     Claim(id="khp95-neighbours-range", source="KHP95 Sec. II", printed="20 to 30", at_least=20, at_most=30,

@@ -1,10 +1,6 @@
-"""Flows of the study: their columns in its tables, their energies, and what refuses to compare two that differ.
-
-KHP95's 5000 particles are 50 rows of 100, so `height=50`; grids extrapolated to infinitely fine have height inf.
-"""
+"""Energies of flows as questions, and what refuses to compare two that differ."""
 from collections.abc import Callable
 from dataclasses import replace
-from math import inf
 
 import numpy as np
 import pandas as pd
@@ -14,48 +10,11 @@ from studies.kit.ask import NoRows, Value, one, rows
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
 from studies.kit.value import each
+from studies.rb.tables import SCENE, STILL, Point, grid
 
-STILL = 1e-6        # K of a grid whose onset lies a little higher: nothing flows, and rolls are of round-off
 #: which K of the grid a claim takes, for its reason: two yardsticks are in use
 PLAIN = "against the grid's K as it is, as the paper compares"
 ALIKE = "against K of the grid's field smoothed by the same weight"
-#: Prandtl number nu/kappa, kappa = k/(rho C_V), that KHP95's eta = k means
-PRANDTL = {"ideal": 1.0, "vdw": 1.0, "dense": 1.5}
-#: critical Ra of the Boussinesq fluid, by linear theory: a pair of rolls in the layer, one in the square, whose sides
-#: conduct; the study onset measures both again
-ONSET = {"periodic": 1707.9222997145034, "walls": 5011.71}
-Point = dict
-
-
-# --- columns --------------------------------------------------------------------------------------
-
-
-def scene(ra: float, eos="ideal", transport="const-eta", sides="periodic", pr: float | None = None) -> Point:
-    """Of a scene; KHP95's eta = k unless `pr` is given."""
-    return {"eos": eos, "transport": transport, "sides": sides, "ra": float(ra), "pr": pr or PRANDTL[eos]}
-
-
-def particles(ra: float, height: int = 50, variant="printed", **where) -> Point:
-    """Of smooth particles, `height` rows of them."""
-    return {"method": "spam", "variant": variant, "resolution": float(height), **scene(ra, **where)}
-
-
-def grid(ra: float, height: float = inf, variant="flux-form", **where) -> Point:
-    """Of the compressible grid."""
-    return {"method": "compressible", "variant": variant, "resolution": float(height), **scene(ra, **where)}
-
-
-def points(ra: float, variant: str, height: float = inf, **where) -> Point:
-    """Of a scheme on RR98's points; extrapolated without rows."""
-    return {"method": "dih", "variant": variant, "resolution": float(height), **scene(ra, **where)}
-
-
-def besides(point: Point, *names: str) -> Point:
-    """The columns of a point without these."""
-    return {name: value for name, value in point.items() if name not in names}
-
-
-# --- energies -------------------------------------------------------------------------------------
 
 
 def guarded(value: Value, check: Callable[[Tables], object]) -> Value:
@@ -64,6 +23,9 @@ def guarded(value: Value, check: Callable[[Tables], object]) -> Value:
         check(tables)
         return value(tables)
     return replace(value, answer=answer)
+
+
+# --- energies -------------------------------------------------------------------------------------
 
 
 def mean(point: Point, column: str = "ke") -> Value:
@@ -77,8 +39,20 @@ def limit(ra: float, column: str = "ke", **where) -> Value:
 
 
 def alike(point: Point) -> Value:
-    """K of the grid's field smoothed as the particles of `point` smooth theirs: that of Kg if the flow is right."""
+    """K of the grid's field smoothed as the particles smooth theirs: that of Kg if the flow is right."""
     return one("errors", "reference", energy="Kg", **point)
+
+
+def against_grid(point: Point, column: str = "ke_field") -> Value:
+    """K of particles over that of the grid, extrapolated, in the same flow."""
+    beside = grid(1.0) | {name: point[name] for name in SCENE}
+    return same_flow(mean(point, column)/mean(beside), point, beside)
+
+
+def against_alike(point: Point) -> Value:
+    """Kg over K of the grid's field smoothed alike, in the same flow: 1 if it is right."""
+    beside = grid(1.0) | {name: point[name] for name in SCENE}
+    return same_flow(mean(point, "ke_field")/alike(point), point, beside)
 
 
 def over_seeds(value: Value) -> Value:
@@ -89,7 +63,7 @@ def over_seeds(value: Value) -> Value:
 
 
 def over_runs(point: Point, energy: str = "ke_field") -> Value:
-    """Mean of the runs of a point that have its rolls; its error is statistics alone, `means` adds that of the step."""
+    """Mean of the runs of a point that have its rolls; its error is statistics alone, not of the step."""
     asked = one("kinetic_energy", energy, **point)
 
     def answer(tables: Tables) -> Measured:
@@ -114,7 +88,7 @@ def refuse_diverged(point: Point) -> Callable[[Tables], None]:
     """A check that refuses a point of which any run diverged."""
     def check(tables: Tables) -> None:
         if diverged(tables, point).any():
-            raise CannotTell(f"runs of {point['variant']} with {point['resolution']:g} rows diverged: there is no K")
+            raise CannotTell(f"runs of {point['variant']} with {point['resolution']:g} rows diverged: no K")
     return check
 
 
@@ -124,13 +98,14 @@ def one_flow(tables: Tables, point: Point) -> pd.Series:
     Raises
     ------
     CannotTell
-        All runs diverged, or seeds ended in different flows: which one the point has is then a matter of chance.
+        All runs diverged, or seeds ended in different flows: which one the point has is a matter of chance.
     """
     if diverged(tables, point).all():
         raise CannotTell(f"all runs of {point['method']}, {point['variant']} at Ra {point['ra']:g} diverged")
     row = rows(tables, "means", **point).iloc[0]
     if row["mixed"] > 0:
-        raise CannotTell(f"{row['mixed']:.0f} of {row['mixed'] + row['seeds']:.0f} seeds of {point['variant']}, "
+        seeds = row["mixed"] + row["seeds"]
+        raise CannotTell(f"{row['mixed']:.0f} of {seeds:.0f} seeds of {point['variant']}, "
                          f"{point['resolution']:g} rows, ended with another number of rolls than the "
                          f"{row['rolls']:.0f} of the others at Ra {point['ra']:g}: the flow is not decided")
     return row
@@ -163,40 +138,4 @@ def rolls(point: Point) -> Value:
 def refuse_dead(row: pd.Series) -> None:
     """Refuse a row of `means` or `kinetic_energy` where nothing moves."""
     if not row["ke"] > STILL:
-        raise CannotTell(f"K is {row['ke']:.1g} at the end: the flow has died, rolls would be those of round-off")
-
-
-# --- particles beside the grid --------------------------------------------------------------------
-
-
-def against_grid(point: Point, column: str = "ke_field") -> Value:
-    """K of particles over that of the grid, extrapolated, in the same flow."""
-    beside = {**point, **besides(grid(1.0), "eos", "transport", "sides", "ra", "pr")}
-    return same_flow(mean(point, column)/mean(beside), point, beside)
-
-
-def against_alike(point: Point) -> Value:
-    """Kg over K of the grid's field smoothed alike, in the same flow: 1 if it is right."""
-    beside = {**point, **besides(grid(1.0), "eos", "transport", "sides", "ra", "pr")}
-    return same_flow(mean(point, "ke_field")/alike(point), point, beside)
-
-
-def off_one(ratio: Value) -> Value:
-    """|ratio - 1|."""
-    return abs(ratio - 1)
-
-
-def shared_height(tables: Tables, ra: float, *variants: str) -> int:
-    """Most rows of particles that all these variants have at one Ra.
-
-    Raises
-    ------
-    CannotTell
-        One was not run, or they have no number in common.
-    """
-    each_has = [set(rows(tables, "means", **besides(particles(ra, variant=name), "resolution"))["resolution"])
-                for name in variants]
-    shared = set.intersection(*each_has)
-    if not shared:
-        raise CannotTell(f"{' and '.join(variants)} were run with different numbers of particles only")
-    return int(max(shared))
+        raise CannotTell(f"K is {row['ke']:.1g} at the end: the flow has died, its rolls are of round-off")

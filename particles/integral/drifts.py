@@ -1,0 +1,163 @@
+"""What pairs of moving points exchange, in 2D: terms listed by RR98's motions    [Sec. III]"""
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.jit import generic, jit
+from particles.integral.brackets import CROSSED, Crossed, Powers
+from particles.integral.exchange import At, Convection, Listing, Pressure, Stage, pressure_of, stages_of
+from particles.pairs import Edge, nothing, rate
+from particles.threads import Team
+
+
+class OverPairs(NamedTuple):
+    """A term over edges, on the edges that pairs are now: S_ab/2 = V_a V_b W e_ba, k = 2 V_a V_b W/r."""
+    term: Any
+
+
+class Drifting(NamedTuple):
+    """What a pair of points adds to the first: the listed mass, momentum and energy, and volume."""
+    motion: Any
+    exchanged: Listing
+
+
+class BracketPressure(NamedTuple):
+    """Pressures P_ab, P_ba of Eq. 49 or 50; both points may leave out a static part."""
+    bracket: Any
+    eos: Any
+
+
+class Dilution(NamedTuple):
+    """-q_a div v for rho, rho v and eps: what is left of convection where points move along    [Eqs 46-48]
+
+    follow : volumes grow by so much of V div v.
+    """
+    follow: float
+
+
+class LiteralDrift(NamedTuple):
+    """Eqs 34-36 and 39 as printed: points move, and what convection brings is exchanged as well."""
+
+    def terms(self, eos: Any, transport: tuple) -> tuple:
+        """What is exchanged, in the order that is the quickest."""
+        return Convection(), *transport, Pressure(eos)
+
+    def owned(self, V: np.ndarray) -> np.ndarray:
+        """The volume (n,) that m, p, E of a state are those of."""
+        return np.ones_like(V)
+
+
+class ConvectiveDrift(NamedTuple):
+    """Eqs 34-36, 39, 46-48. follow : 0 for volumes that stay, as printed; 1 for dV/dt = V div v."""
+    follow: float = 0.0
+
+    def terms(self, eos: Any, transport: tuple) -> tuple:
+        """What is exchanged."""
+        return Dilution(self.follow), *transport, Pressure(eos)
+
+    def owned(self, V: np.ndarray) -> np.ndarray:
+        """The volume (n,) that m, p, E of a state are those of."""
+        return np.ones_like(V)
+
+
+class ConstantMassDrift(NamedTuple):
+    """Eq. 49: masses stay, volumes follow the flow. bracket : `brackets.Crossed` or `Powers` [Eq. 50]."""
+    bracket: Any = CROSSED
+
+    def terms(self, eos: Any, transport: tuple) -> tuple:
+        """What is exchanged."""
+        return *transport, BracketPressure(self.bracket, eos)
+
+    def owned(self, V: np.ndarray) -> np.ndarray:
+        """The volume (n,) that m, p, E of a state are those of."""
+        return V
+
+
+#: by the names of `rr98_moving_plain.MOTIONS`
+DRIFTS: dict[str, Any] = {"literal": LiteralDrift(), "convective": ConvectiveDrift(),
+                          "carried": ConvectiveDrift(1.0), "constant-mass": ConstantMassDrift()}
+
+
+@generic
+def growth(motion, a, b, ab):
+    """What a pair adds to the volume of a, before stages."""
+
+
+@generic
+def both(bracket, eos, a, b):
+    """(P_ab, P_ba); in the energy P_ab goes with v_a."""
+
+
+nothing.of(OverPairs)(lambda term: nothing(term.term))
+nothing.of(Drifting)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0))
+nothing.of(BracketPressure)(lambda term: (0.0, 0.0, 0.0, 0.0))
+nothing.of(Dilution)(lambda term: (0.0, 0.0, 0.0, 0.0))
+rate.of(Dilution)(lambda term, a, b, ab: (0.0, 0.0, 0.0, 0.0))
+growth.of(LiteralDrift)(lambda motion, a, b, ab: 0.0)
+growth.of(ConvectiveDrift)(lambda motion, a, b, ab: ab.sx*b.vx + ab.sy*b.vy)
+
+
+@rate.of(OverPairs)
+def _(term, a, b, ab):
+    VV, x, y = a.V*b.V, b.x - a.x, b.y - a.y
+    # points in one place exchange nothing
+    k = 2*VV*(x*ab.wx + y*ab.wy)/(x*x + y*y + 1e-300)
+    return rate(term.term, a, b, Edge(VV*ab.wx, VV*ab.wy, k))
+
+
+@rate.of(Drifting)
+def _(term, a, b, ab):
+    return (*rate(term.exchanged, a, b, ab), growth(term.motion, a, b, ab))
+
+
+@rate.of(BracketPressure)
+def _(term, a, b, ab):
+    to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy
+    P_ab, P_ba = both(term.bracket, term.eos, a, b)
+    P_ab, P_ba = P_ab + b.hydro, P_ba + a.hydro
+    P = P_ab + P_ba
+    return 0.0, -ab.sx*P, -ab.sy*P, -P_ab*to_a - P_ba*to_b
+
+
+@growth.of(ConstantMassDrift)
+def _(motion, a, b, ab):
+    to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy
+    return to_b - to_a
+
+
+@both.of(Crossed)
+def _(bracket, eos, a, b):
+    return pressure_of(eos, a.rho, b.T), pressure_of(eos, b.rho, a.T)
+
+
+@both.of(Powers)
+def _(bracket, eos, a, b):
+    return (pressure_of(eos, b.rho, b.T)/(b.rho**bracket.a*a.rho**bracket.b),
+            pressure_of(eos, a.rho, a.T)/(a.rho**bracket.a*b.rho**bracket.b))
+
+
+class Diluting(Stage):
+    """Takes q_a div v off, of the volume that the sweep found."""
+
+    def __init__(self, follow: float, n: int, team: Team):
+        self.follow, self.n, self.team = follow, n, team
+
+    def add(self, at: At, total: np.ndarray) -> None:
+        """Mass, momentum, energy, and the share by which volumes follow."""
+        self.team(_dilute, self.n, self.follow, at.points, total)
+
+
+@stages_of.register
+def _(term: Dilution, law: Any, n: int, team: Team, *more: Any) -> tuple[Stage, ...]:
+    return (Diluting(term.follow, n, team),)
+
+
+@jit
+def _dilute(first, last, follow, points, total):
+    for i in range(first, last):
+        a, grown = points[i], total[i, 4]
+        total[i, 0] -= a.rho*grown
+        total[i, 1] -= a.rho*a.vx*grown
+        total[i, 2] -= a.rho*a.vy*grown
+        total[i, 3] -= a.eps*grown
+        total[i, 4] = follow*grown

@@ -1,0 +1,218 @@
+"""The sums of `spam`: densities, gradients, stress and heat flux over pairs, compiled    [KHP95, Sec. II]"""
+from abc import ABC, abstractmethod
+from typing import Any
+
+import numpy as np
+
+from continuum.fluid import conductivity, energy, pressure, stress, temperature, valid, viscosity
+from continuum.jit import formula, jit
+from particles.lists import Listed, Surroundings
+from particles.pairs import sweep
+from particles.terms import DirectFluxes, Fluxes, density_factor
+from particles.threads import Team
+from particles.walls import confine, image_pressure
+
+Moving = np.dtype([(name, "f8") for name in ("vx", "vy", "T", "s")])
+Flux = np.dtype([(name, "f8") for name in ("xx", "xy", "qx", "vx", "yx", "yy", "qy", "vy")])  # one cache line
+DirectState = np.dtype([(name, "f8") for name in ("x", "y", "vx", "vy", "T", "P_rho2", "irho", "eta", "k")])
+
+
+class Sums(Listed, ABC):
+    """What both kinds of transport share: arrays, density sum, equations of state, for the time loop.
+
+    places : rows of a state that are positions; `velocity` : their rates, for integrators that step them
+    apart.
+    """
+    places = 2
+
+    def __init__(self, method: Any, n: int, team: Team):
+        self.method, self.team, self.n = method, team, n
+        self.around = Surroundings(method.weight, method.walls, n, method.box, skin=method.skin, team=team)
+        self.slopes, self.pull = np.zeros((self.around.rows, 8)), np.zeros((self.around.rows, 5))
+        self.less, self.moving = np.empty(0), np.empty(0, Moving)
+
+    def densities(self, state: np.ndarray) -> None:
+        """First sum, equations of state, motion and pressure of the images."""
+        around, method = self.around, self.method
+        around.place(state, method.m)
+        if len(self.less) != len(around.x):
+            self.allocate(len(around.x))
+        self.team(_thermal, around.rows, self.n, state, method.eos, method.static, method.g, around.y,
+                  around.rho, around.vx, around.vy, around.T, around.P, self.less)
+        around.move()
+        for wall, parent, first, last in around.blocks:
+            _image_pressures(first, last, wall, parent, method.eos, method.static, method.g, around.y,
+                             around.rho, around.T, around.P, self.less)
+
+    @abstractmethod
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(state)/dt, written to `out`."""
+
+    def velocity(self, state: np.ndarray) -> np.ndarray:
+        """Rates of the positions."""
+        return state[2:4]
+
+    def look_at(self, state: np.ndarray) -> None:
+        """Densities and gradients of a state, for whatever is measured on it."""
+        self.densities(state)
+        self.gradients()
+
+    def evaluate(self, state: np.ndarray) -> None:
+        """All sums once."""
+        self.rates(state, np.empty_like(state))
+
+    def confine(self, state: np.ndarray) -> int:
+        """Reflect particles beyond walls; their number."""
+        return sum(confine(wall, state) for wall in self.method.walls)
+
+    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
+        """What is wrong with a finite state after a step; empty if nothing is."""
+        rho, e, eos = self.around.rho[:self.n], state[4], self.method.eos
+        good = valid(eos, rho, e)
+        if not good.all():
+            i = int(np.argmin(good))
+            return (f"particle {ids[i]} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of "
+                    f"{type(eos).__name__}")
+        return self.outran(state)
+
+    def allocate(self, points: int) -> None:
+        """Arrays over all points, whose number changes with the lists."""
+        self.less, self.moving = np.empty(points), np.empty(points, Moving)
+
+    def gradients(self) -> None:
+        """Second sum: self.slopes (rows, 8)."""
+        around, kind = self.around, self.method.gradients
+        self.team(_moving, len(around.x), kind, around.vx, around.vy, around.T, around.rho, self.moving)
+        self.team(sweep, around.rows, kind, self.moving, around.pairs, self.slopes)
+
+    @property
+    def gradient(self) -> np.ndarray:
+        """(rows, 6): dvx/dx, dvy/dx, dT/dx, dvx/dy, dvy/dy, dT/dy."""
+        return self.slopes.reshape(-1, 2, 4)[:, :, :3].reshape(-1, 6)
+
+    def finish(self, state: np.ndarray, out: np.ndarray) -> None:
+        """Rates of the particles from the third sum, gravity and what the static pressure was left out of."""
+        self.team(_rates, self.n, state, self.pull, self.around.rho, self.slopes, self.method.g,
+                  self.method.static, out)
+
+
+class Nested(Sums):
+    """Stress and heat flux from gradients of the second sum, divergence in the third    [KHP95, Sec. II]"""
+
+    def allocate(self, points: int) -> None:
+        super().allocate(points)
+        self.flux = np.empty(points, Flux)
+
+    def exchange(self, pressure: bool = True) -> tuple[Any, np.ndarray]:
+        """Term and records of the third sum, from up-to-date densities and gradients."""
+        around, method, less = self.around, self.method, self.less if pressure else np.zeros_like(self.less)
+        self.team(_fluxes, around.rows, method.law, around.rho, around.vx, around.vy, around.T, less,
+                  self.slopes, self.flux)
+        for _, parent, first, last in around.blocks:
+            _image_fluxes(first, last, parent, around.rho, around.vx, around.vy, less, self.flux)
+        return Fluxes(), self.flux
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(x, y, vx, vy, e)/dt of a state (5, n), written to `out`."""
+        self.look_at(state)
+        self.team(sweep, self.n, *self.exchange(), self.around.pairs, self.pull)
+        self.finish(state, out)
+
+
+class Direct(Sums):
+    """Viscosity and conduction along each pair: no gradients, unless the static part needs div v."""
+
+    def allocate(self, points: int) -> None:
+        super().allocate(points)
+        self.records = np.empty(points, DirectState)
+
+    def exchange(self, pressure: bool = True) -> tuple[Any, np.ndarray]:
+        """Term and records of the third sum, from densities that are up to date; without pressure on wish."""
+        around, less = self.around, self.less if pressure else np.zeros_like(self.less)
+        self.team(_direct, len(around.x), self.method.law, around.x, around.y, around.rho, around.vx,
+                  around.vy, around.T, less, self.records)
+        return DirectFluxes(), self.records
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(x, y, vx, vy, e)/dt of a state (5, n), written to `out`."""
+        self.densities(state)
+        if self.method.static.fraction:
+            self.gradients()
+        self.team(sweep, self.n, *self.exchange(), self.around.pairs, self.pull)
+        self.finish(state, out)
+
+
+@jit
+def _thermal(first, last, n, state, eos, static, g, y, rho, vx, vy, T, P, less):
+    for i in range(first, last):
+        if i < n:
+            vx[i], vy[i] = state[2, i], state[3, i]
+            T[i], P[i] = temperature(eos, rho[i], state[4, i]), pressure(eos, rho[i], state[4, i])
+        else:
+            P[i] = pressure(eos, rho[i], energy(eos, rho[i], T[i]))
+        less[i] = P[i] - _static(static, g, y[i])
+
+
+@formula
+def _static(static, g, y):
+    """The part of the static pressure that is left out."""
+    return static.fraction*(static.P0 - static.rho0*g*y)
+
+
+@jit
+def _image_pressures(first, last, wall, parent, eos, static, g, y, rho, T, P, less):
+    for i in range(first, last):
+        p = parent[i - first]
+        own = pressure(eos, rho[i], energy(eos, rho[i], T[i]))
+        P[i] = image_pressure(wall, own, P[p])
+        less[i] = image_pressure(wall, own - _static(static, g, y[i]), less[p])
+
+
+@jit
+def _moving(first, last, kind, vx, vy, T, rho, moving):
+    for i in range(first, last):
+        a = moving[i]
+        a.vx, a.vy, a.T, a.s = vx[i], vy[i], T[i], density_factor(kind, rho[i])
+
+
+@jit
+def _fluxes(first, last, law, rho, vx, vy, T, less, slopes, flux):
+    """P/rho^2 and Q/rho^2 with P = (P - static) I - stress, Q = -k grad T."""
+    for i in range(first, last):
+        xx, yx, Tx, _, xy, yy, Ty, _ = slopes[i]  # xy: dvx/dy
+        sxx, sxy, syy = stress(viscosity(law, rho[i], T[i]), 0.0, xx, yx, xy, yy)
+        k, f, a = conductivity(law, rho[i], T[i]), 1/rho[i]**2, flux[i]
+        a.vx, a.vy = vx[i], vy[i]
+        a.xx, a.xy, a.yx, a.yy = (less[i] - sxx)*f, -sxy*f, -sxy*f, (less[i] - syy)*f
+        a.qx, a.qy = -k*Tx*f, -k*Ty*f
+
+
+@jit
+def _image_fluxes(first, last, parent, rho, vx, vy, less, flux):
+    """Stress and heat flux copied from the parents, pressure by the wall's rule    [KHP95, Sec. IV]"""
+    for i in range(first, last):
+        p = parent[i - first]
+        a, b, f = flux[i], flux[p], (less[i] - less[p])/rho[i]**2
+        a.vx, a.vy = vx[i], vy[i]
+        a.xx, a.xy, a.yx, a.yy, a.qx, a.qy = b.xx + f, b.xy, b.yx, b.yy + f, b.qx, b.qy
+
+
+@jit
+def _direct(first, last, law, x, y, rho, vx, vy, T, less, records):
+    for i in range(first, last):
+        a = records[i]
+        a.x, a.y, a.vx, a.vy, a.T = x[i], y[i], vx[i], vy[i], T[i]
+        a.P_rho2, a.irho = less[i]/rho[i]**2, 1/rho[i]
+        a.eta, a.k = viscosity(law, rho[i], T[i]), conductivity(law, rho[i], T[i])
+
+
+@jit
+def _rates(first, last, state, pull, rho, slopes, g, static, out):
+    """Rates of the particles, with support and work of what pressure the pair sums leave out."""
+    for i in range(first, last):
+        out[0, i], out[1, i] = state[2, i], state[3, i]
+        out[2, i], out[3, i], out[4, i] = pull[i, 0], pull[i, 1] - g, pull[i, 2] + pull[i, 4]
+    if static.fraction != 0:
+        for i in range(first, last):
+            out[3, i] += g*static.fraction*static.rho0/rho[i]
+            out[4, i] -= _static(static, g, state[1, i])/rho[i]*(slopes[i, 0] + slopes[i, 5])

@@ -1,0 +1,205 @@
+"""Does a method come through a hard case, and with which K, flow and mass? Points, and grids beside them."""
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import ceil
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.gas.fields import NodeFields, Nodes, at_nodes, initial
+from continuum.gas.solve import DivergedError, Solution
+from continuum.gas.solve import run as march
+from continuum.steady import Time
+from particles.fields import Fields, kinetic_energy
+from particles.run import Divergence, Plan, run
+from studies.build.names import START_ENERGY
+from studies.build.setting import Ready
+from studies.hardcases.extremes import RATE, SHEAR_FLOW, WAVE_NUMBER, Open
+from studies.kit.case import Case, Outcome, Report
+from studies.kit.fits import line
+
+SAMPLES = 60            # of a run; means are over the last third
+LATE = 2/3
+SPACINGS = 4            # of a cell over which velocities are averaged: what is left is flow, the rest noise
+GROWN = 2.5             # growth times that a shear flow is watched: its wave ends with a tenth of U
+GRID = "grid"
+Look = Callable[[Any], Any]
+
+
+class Course(NamedTuple):
+    """What was seen, at the start and after each sample, (samples + 1, numbers); part of the time reached."""
+    seen: np.ndarray
+    reached: float = 1.0
+
+
+def followed(ready: Ready, time: float, samples: int, look: Look, report: Report) -> Course:
+    """Points or particles; `look` takes their fields."""
+    method, seen = ready.method, [look(ready.method.fields(ready.start))]
+
+    def see(sums: Any, state: np.ndarray) -> float:
+        seen.append(look(method.fields(state)))
+        return 0.0
+    every = ceil(time/ready.dt/samples)
+    steps = every*samples
+    plan = Plan(dt=time/steps, steps=steps, series={"seen": see}, every=every)
+    try:
+        run(method, ready.start, plan, report)
+    except Divergence as error:
+        return Course(np.array(seen), error.step/steps)
+    return Course(np.array(seen))
+
+
+def marched(ready: Ready, time: float, samples: int, look: Look, report: Report) -> Course:
+    """The same of a grid."""
+    method, seen = ready.method, [look(ready.method.fields(ready.start))]
+    every = ceil(time/samples/ready.dt)
+    steps = every*samples
+    march = method.march(ready.start, time/samples/every)
+    while march.steps < steps:
+        try:
+            march.go(every)
+        except DivergedError:
+            return Course(np.array(seen), march.steps/steps)
+        seen.append(look(method.fields(march.S)))
+        report(march.steps/steps)
+    return Course(np.array(seen))
+
+
+def between_plates(start: NodeFields, time: float, samples: int, report: Report,
+                   dt: float | None = None) -> tuple[Solution | None, float]:
+    """The compressible grid from a start, None if it diverged; the part of the time reached."""
+    reached, rows = [0.0], len(start.y) - 1
+
+    def progress(done: float) -> None:
+        reached.append(done)
+        report(done)
+    try:
+        return march(start.scene, rows, until=Time(time, samples), start=start, dt=dt, progress=progress), 1.0
+    except DivergedError:
+        return None, reached[-1]
+
+
+def flow(at: Fields | Nodes, box: tuple[float, float]) -> float:
+    """K per mass of mean velocities in cells of SPACINGS, which have no noise between neighbours."""
+    size = np.array(box)
+    cells = np.maximum(1, np.round(size/SPACINGS)).astype(int)
+    column, row = np.clip(((at.x/size + 0.5)*cells).astype(int), 0, cells - 1).T
+    cell, m = column*cells[1] + row, at.rho*at.V
+    mass = np.bincount(cell, m, cells.prod())
+    p = np.stack([np.bincount(cell, m*u, cells.prod()) for u in at.v.T])
+    return float(0.5*np.sum(p**2/np.maximum(mass, 1e-300))/mass.sum())
+
+
+def energies(scene: Any) -> Look:
+    """K and the flow's per mass, and the mass."""
+    box = scene.width, scene.L
+
+    def look(at: Fields) -> tuple[float, float, float]:
+        return kinetic_energy(at), flow(at, box), float((at.rho*at.V).sum())
+    return look
+
+
+def of_grid(fields: NodeFields) -> Nodes:
+    """Nodes of one mass each, those in plates too."""
+    at = at_nodes(fields)
+    return at._replace(V=np.ones_like(at.rho))
+
+
+def amplitude(at: Fields | Nodes) -> float:
+    """Size of v exp(-i k_x x), the mean over the mass, of the wave on the shear flow."""
+    wave, m = np.exp(-1j*WAVE_NUMBER/2*at.x[:, 0]), at.rho*at.V
+    return float(abs(np.sum(m*at.v[:, 1]*wave))/m.sum())
+
+
+def row(case: str, method: str, rows: int, **values: Any) -> Outcome:
+    """One row of `hard_runs`; what is not given is not known."""
+    known = {"case": case, "method": method, "rows": rows, "reached": 1.0, "refused": ""}
+    return Outcome({"hard_runs": [{**known, **values}]})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Hard(Case):
+    """One method in one case; if it refuses, a row that says why.
+
+    variant : has ready(scene). follow : `followed` or `marched`. time : in the units of the scene.
+    """
+    case: str
+    method: str
+    variant: Any
+    scene: Any
+    time: float
+    follow: Callable[..., Course] = followed
+
+    @property
+    def label(self) -> str:
+        return f"map {self.case}, {self.method}"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        rows = round(self.scene.L)
+        try:
+            ready = self.variant.ready(self.scene)
+        except (ValueError, ArithmeticError) as error:
+            refused = f"{type(error).__name__}: {str(error)[:60]}"
+            return row(self.case, self.method, rows, reached=0.0, refused=refused)
+        course = self.follow(ready, self.time, SAMPLES, energies(self.scene), report)
+        return row(self.case, self.method, rows, **late(course))
+
+
+def late(course: Course) -> dict[str, float]:
+    """Means over the last third, if it was reached; the mass, and what there was at the start."""
+    k, moves, mass = course.seen.T
+    last = slice(min(round(LATE*len(k)), len(k) - 1), None)
+    known = 1.0 if course.reached == 1 else np.nan
+    return {"k": known*k[last].mean(), "flow": known*moves[last].mean(), "mass_drift": mass[-1]/mass[0] - 1,
+            "k_start": k[0], "flow_start": moves[0], "reached": course.reached}
+
+
+@dataclass(frozen=True, kw_only=True)
+class HardOnGrid(Case):
+    """The compressible grid between plates in one case. energy : of its rolls at the start."""
+    case: str
+    scene: Any
+    time: float
+    rows: int
+    energy: float = START_ENERGY
+
+    @property
+    def cost(self) -> float:
+        return 3e-5*self.rows**3
+
+    @property
+    def label(self) -> str:
+        return f"map {self.case}, grid of {self.rows} rows"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        start, look = initial(self.scene, self.rows, self.energy), energies(self.scene)
+        done, reached = between_plates(start, self.time, SAMPLES, report)
+        if done is None:
+            return row(self.case, GRID, self.rows, reached=reached)
+        (k_start, flow_start, _), (k_end, flow_end, _) = look(of_grid(start)), look(of_grid(done.fields))
+        k = float(done.series.ke[round(LATE*len(done.series.ke)):].mean())
+        return row(self.case, GRID, self.rows, k=k, flow=k*flow_end/max(k_end, 1e-300),
+                   mass_drift=done.mass_drift, k_start=k_start, flow_start=flow_start)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShearWave(Case):
+    """The growth rate of the wave on the shear flow; fields as of `Hard`."""
+    method: str
+    variant: Any
+    follow: Callable[..., Course] = followed
+    samples: int = 50
+
+    @property
+    def label(self) -> str:
+        return f"map shear layer, {self.method}"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        ready, time = self.variant.ready(Open(SHEAR_FLOW)), GROWN/RATE
+        seen, reached = self.follow(ready, time, self.samples, amplitude, report)
+        rate = err = np.nan
+        if reached == 1:
+            rate, err = line(np.linspace(0, time, len(seen)), np.log(seen)).slope
+        return Outcome({"shear": [{"method": self.method, "predicted": RATE, "measured": rate,
+                                   "measured_err": err, "reached": reached}]})

@@ -1,0 +1,205 @@
+"""What printed noise and printed steps do to waves on a lattice    [RR98 Eqs 23, 25, 40-43]
+
+One wave of the gas on a line has density, velocity, temperature, with the symbols of the lattice; each has
+the variance 1 in equilibrium. Steps are in units of nu/c^2, c the adiabatic speed: that limits forward Euler,
+not k.
+"""
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from continuum.exact.waves import waves
+from particles.integral import fluctuating
+from particles.integral.covariance import Step, steady_of_steps
+from particles.integral.edge_makers import renormalised
+from particles.integral.edges import Edges
+from particles.integral.fluctuating import Partners
+from particles.integral.interpolants import W
+from particles.integral.points import lattice
+from particles.weights import Lucy
+from studies.build.symbols import neighbours
+from studies.kit.case import Case, Outcome, Report
+from studies.noise.partners import ETA, KAPPA, KT
+
+
+@dataclass(frozen=True, kw_only=True)
+class PrintedWaves(Case):
+    """Variance of printed noise over its due, 2 kT Gamma of Eq. 37 or 38, on a lattice; T = 0.7.
+
+    term : "eta" across k, "zeta" along k, "kappa". h 1.5 in 1D and 1.2 in 2D: nearest neighbours.
+    """
+    equation: str
+    term: str
+    doubled: bool
+    d: int
+    h: float
+    waves: int = 32
+
+    @property
+    def reading(self) -> str:
+        """Of the bracket: pi_ij + pi_ji (Eq. 35), or pi_ij (Eq. 22)."""
+        return "doubled" if self.doubled else "single"
+
+    @property
+    def bulk(self) -> float:
+        """The zeta term of Eq. 23 has twice the variance of Eq. 42's."""
+        return 2.0 if self.equation == "23" else 1.0
+
+    @property
+    def label(self) -> str:
+        return f"Eq. {self.equation} {self.term} {self.reading}, {self.d}D, h {self.h:g}"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        breadth = 2*int(np.ceil(self.h)) + 1
+        points = lattice((self.waves, *[breadth]*(self.d - 1)))
+        edges = renormalised(points, Lucy.of(h=self.h, d=self.d))
+        pair, twice = self.noise(edges)
+        components = pair.Gamma.shape[0]//edges.n
+        direction = np.eye(components)[1 if self.term == "eta" else 0]
+        key = {name: getattr(self, name) for name in ("equation", "term", "reading", "d", "h")}
+        rows = []
+        for turns in range(1, self.waves//2):
+            k = 2*np.pi*turns/self.waves
+            wave = np.exp(1j*k*points.x[:, 0])
+            of_all = np.kron(direction, wave)
+            ratio = form(pair.Q, of_all)/(twice*form(pair.Gamma, of_all))
+            rows.append({**key, "wavenumber": k, "ratio": ratio, "predicted": self.predicted(k)})
+        return Outcome({"printed": rows})
+
+    def noise(self, edges: Edges) -> tuple[Partners, float]:
+        """The printed one, and 2 kT or 2 k T^2."""
+        if self.term == "kappa":
+            T, of25 = np.full(edges.n, KT), self.equation == "25"
+            return fluctuating.printed_heat(edges, KAPPA, 1.0, T, doubled=self.doubled, of25=of25), 2*KT**2
+        eta, zeta = (ETA, 0.0) if self.term == "eta" else (0.0, ETA)
+        return fluctuating.printed_stress(edges, eta, zeta, KT, doubled=self.doubled, bulk=self.bulk), 2*KT
+
+    def predicted(self, k: float) -> float:
+        """From sums over the lattice: c^2 sum w^2 (1 - cos k.r) g/(sum w e_x sin k.r)^2, c = 2 if doubled.
+
+        g = 2 [1 + (1 - 2/3) e_y^2] for eta, e_x^2 for zeta (2 e_x^2 of Eq. 23), 1/T for kappa (2 of Eq. 25).
+        """
+        r, size, w = lattice_weights(self.h, self.d)
+        along, last = r[:, 0]/size, r[:, -1]/size
+        phase = k*r[:, 0]
+        heat = 2.0 if self.equation == "25" else 1/KT
+        g = {"eta": 2*(1 + last**2/3),
+             "zeta": self.bulk*along**2,
+             "kappa": heat}[self.term]
+        slope = (w*along)@np.sin(phase)
+        variance = (w**2*g)@(1 - np.cos(phase))
+        return float((4 if self.doubled else 1)*variance/slope**2)
+
+
+def lattice_weights(h: float, d: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Places r (m, d) about a point of the unit lattice, |r| (m,), and Lucy's weights with sum w |r| = d."""
+    weight = Lucy.of(h=h, d=d)
+    r = neighbours(weight, d)
+    size = np.sqrt((r**2).sum(axis=1))
+    w = W(weight, size)
+    return r, size, w*(d/(w@size))
+
+
+def form(M: Any, wave: np.ndarray) -> float:
+    """wave^* M wave."""
+    return float((wave.conj()@(M@wave)).real)
+
+
+# --- steps ------------------------------------------------------------------------------------
+
+
+def line_symbols(k: float) -> tuple[float, float]:
+    """(slope, Laplacian) that a line of unit spacing makes of k and k^2 with h = 2, pairwise."""
+    r, size, w = lattice_weights(2.0, 1)
+    x = r[:, 0]
+    slope = (w*np.sign(x))@np.sin(k*x)
+    laplacian = 2*w/size@(1 - np.cos(k*x))
+    return float(slope), float(laplacian)
+
+
+def gas(k: float) -> tuple[np.ndarray, np.ndarray]:
+    """J and Q of (rho, u, T): ideal gas, C_V = 1, C = 1 in equilibrium, since J + J^* = -Q."""
+    s, lap = line_symbols(k)
+    J = waves(s, ETA*lap, KAPPA*lap, 0.0).matrix
+    return J, -(J + J.conj().T).real
+
+
+def stable(step: Callable[[float], tuple], times: Iterable[float]) -> Iterator[tuple[float, np.ndarray]]:
+    """Steps dt that have a steady covariance, and this one."""
+    for dt in times:
+        try:
+            yield dt, steady_of_steps(*step(dt)).real
+        except ArithmeticError:
+            continue
+
+
+@dataclass(frozen=True, kw_only=True)
+class Steps(Case):
+    """What one integrator makes of one wave; dt in eta/(rho c^2), c^2 = 1 isothermal, 2 of the gas."""
+    integrator: Callable
+    k: float
+    dt: tuple[float, ...]
+
+    @property
+    def name(self) -> str:
+        """Of the integrator in the table."""
+        return self.integrator.__name__.replace("_", "-")
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        J, Q = gas(self.k)
+        isothermal = self.rows("isothermal", J[:2, :2], Q[:2, :2], 1)
+        return Outcome({"steps": [*isothermal, *self.rows("gas", J, Q, 2)]})
+
+    def rows(self, fluid: str, J: np.ndarray, Q: np.ndarray, c2: float) -> Iterator[dict[str, Any]]:
+        """One a stable step."""
+        def step(dt: float) -> tuple[Step]:
+            return (self.integrator(J, Q, dt*ETA/c2),)
+        key = {"integrator": self.name, "fluid": fluid, "wavenumber": self.k}
+        for dt, C in stable(step, self.dt):
+            error = float(np.abs(C - np.eye(len(C))).max())
+            yield {**key, "dt": dt, "velocity": C[1, 1], "error": error}
+
+
+@dataclass(frozen=True, kw_only=True)
+class MovingSteps(Case):
+    """Points that move as Eq. 39 says, isothermal: density, velocity and displacement of one wave.
+
+    As printed, the constant volume lets displacements x push back with 2 P grad(n dV): u' = -i s rho - 2 s^2
+    x - l u, besides rho' = -i s u, x' = u. With rho = -i s x, as it stays from rest on, stiffness is (1 + 2)
+    c_T^2; <u u> is 1. both : the positions by Eq. 40 as well, not by Eq. 41.
+    """
+    k: float
+    dt: tuple[float, ...]
+    both: bool
+
+    @property
+    def integrator(self) -> str:
+        """Equations of velocities and of positions."""
+        return "eq40-eq40" if self.both else "eq40-eq41"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        key = {"integrator": self.integrator, "fluid": "moving", "wavenumber": self.k}
+        rows = []
+        for dt, C in stable(self.step, self.dt):
+            velocity = C[1, 1]
+            rows.append({**key, "dt": dt, "velocity": velocity, "error": abs(velocity - 1)})
+        return Outcome({"steps": rows})
+
+    def step(self, of_limit: float) -> tuple[Step, np.ndarray]:
+        """One step, and what it keeps: rho + i s x, less i s dt u where x moves with the new velocity."""
+        s, lap = line_symbols(self.k)
+        l, dt = ETA*lap, of_limit*ETA
+        rates = np.array([[0, -1j*s, 0],
+                          [-1j*s, -l, -2*s*s],
+                          [0, 1, 0]])
+        A = np.eye(3) + dt*rates
+        if self.both:
+            Q = np.diag([0, 2*l*dt, 0]).astype(complex)
+            return Step(A, Q), np.array([[1, 0, 1j*s]])
+        A[2] = np.eye(3)[2] + dt*A[1]       # x' = x + dt u', the new velocity with its noise
+        noise = np.array([0, 1, dt])
+        Q = np.outer(noise, noise)*2*l*dt
+        return Step(A, Q), np.array([[1, -1j*s*dt, 1j*s]])
