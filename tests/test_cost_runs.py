@@ -178,7 +178,7 @@ def test_a_lattice_carries_sound_with_second_order_error():
 @pytest.mark.parametrize("scene", ["conduction", "couette"])
 @pytest.mark.parametrize("name", [GRID, NEAREST, LATTICE, WIDE])
 def test_errors_between_plates_are_of_second_order(scene, name):
-    """Order 2 between 48 and 96 rows. 0.2: terms of fourth order add 16 % to the error of heat at 48, h = 3 a."""
+    """Between 48 and 96 rows. 0.2: terms of fourth order are 16 % of the error of heat at 48, h = 3 a."""
     entry = CONTESTS[scene][name]
     problems = (entry.make(entry.flow, entry.method, rows, 1) for rows in (48, 96))
     coarse, fine = (rms(*problem.result(entry.first).residuals.values()) for problem in problems)

@@ -21,7 +21,7 @@ from studies.build.names import START_JITTER
 from studies.build.spam import OF_LIMIT, VARIANTS
 from studies.cost import pypde, rolls
 from studies.cost.contestants import (
-    PlateFlow,
+    SlabFlow,
     StandingWave,
     VortexDecay,
     of_mean_one,
@@ -110,7 +110,7 @@ def wave() -> Entries:
     }
 
 
-def between(flow: PlateFlow, methods: Mapping[str, Any]) -> Entries:
+def between(flow: SlabFlow, methods: Mapping[str, Any]) -> Entries:
     """Between plates."""
     return {
         **entries(CELLS, flow, of_mean_one, Price(0.5, 7e-5)),
@@ -134,8 +134,8 @@ def convection(flow: HeatedLayer = HeatedLayer()) -> Entries:  # noqa: B008 (imm
 CONTESTS = {
     "taylor-green": vortex(),
     "sound": wave(),
-    "conduction": between(PlateFlow(FLOWS["conduction"]), {**SHAKEN, **POINTS_THAT_MOVE}),
-    "couette": between(PlateFlow(FLOWS["couette"]), SHAKEN),      # plates of moving points do not slide
+    "conduction": between(SlabFlow(FLOWS["conduction"]), {**SHAKEN, **POINTS_THAT_MOVE}),
+    "couette": between(SlabFlow(FLOWS["couette"]), SHAKEN),      # plates of moving points do not slide
     "convection": convection(),
     "convection-5000": convection(HeatedLayer(ra=LOWER_RA)),
 }

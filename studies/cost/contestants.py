@@ -83,16 +83,16 @@ class StandingWave(NamedTuple):
         return x, fields
 
 
-class PlateFlow(NamedTuple):
+class SlabFlow(NamedTuple):
     """Heat that spreads or shear that settles between plates: the `temperature`, or the `velocity`."""
-    flow: plates.Flow
+    flow: plates.PlateFlow
 
     @property
     def known(self) -> float:
         """What fewer Chebyshev points make of the answer."""
         s = np.linspace(0, 1, 200)
         row = 2 if self.flow.U else 3
-        fine, coarse = (plates.fields(self.flow, s, degree)[row] for degree in (plates.DEGREE, plates.COARSER))
+        fine, coarse = plates.fields(self.flow, s)[row], plates.fields(self.flow, s, plates.COARSER)[row]
         return rms(fine - coarse)/float(np.std(fine))
 
     def scene(self, size: int) -> BetweenPlates:
@@ -185,7 +185,7 @@ def on_grid(flow: Any, form: Any, size: int, seed: int) -> Problem:
     return in_cells(flow, scene, form.ready(scene))
 
 
-def of_mean_one(flow: PlateFlow, form: Any, size: int, seed: int) -> Problem:
+def of_mean_one(flow: SlabFlow, form: Any, size: int, seed: int) -> Problem:
     """The same from densities whose mean over cells is 1."""
     scene = flow.scene(size)
     first = form.ready(scene).start
