@@ -5,11 +5,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from studies.build.measure import flowing
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
 from studies.rb import snapshots
-from studies.rb.claims import curves
 from studies.rb.claims.grid import PYPDE
 from studies.rb.claims.points import LATTICES
 from studies.rb.tables import grid, particles, points
@@ -115,17 +113,6 @@ def test_points_are_judged_by_their_limit_and_their_order():
     assert verdict("rr98-rb-lattice-order-10000", tables(0.0, 1e-5)) == "undecidable"
 
 
-def test_one_roll_in_a_box_keeps_its_energy_and_what_lacks_its_symmetry_is_its_error():
-    x, y = np.meshgrid(np.arange(20) + 0.5 - 10, np.arange(20) + 0.5 - 10)
-    wave, across = np.cos(np.pi*x/20)*np.sin(np.pi*y/20), np.cos(np.pi*y/20)*np.sin(np.pi*x/20)
-    roll = {"rho": np.ones_like(x), "vx": -wave, "vy": across}
-    energy = 0.5*np.mean(wave**2 + across**2)
-    assert flowing(roll, periodic=False) == pytest.approx((energy, 0.0), abs=1e-15)
-    # uniform motion: even where the roll is odd
-    more = flowing({**roll, "vx": roll["vx"] + 0.1}, periodic=False)
-    assert more == pytest.approx((energy, 0.5*0.1**2), rel=1e-12)
-
-
 @pytest.mark.parametrize(("per_site", "said"), [(1, "holds"), (2, "fails")])
 def test_particles_are_counted_and_pairs_are_seen(per_site, said):
     [row] = snapshots.snapshots(Tables({"particles": crystal(per_site).assign(T=1.0)}))
@@ -134,20 +121,3 @@ def test_particles_are_counted_and_pairs_are_seen(per_site, said):
     if per_site == 1:
         assert row["neighbours"] == 30
         assert row["spacing"] == pytest.approx(math.sqrt(2/math.sqrt(3)), abs=0.05)   # half a bin
-
-
-def test_the_approach_is_followed():
-    t = np.linspace(0, 4500, 200)
-    ke = 0.0048*(1 - 0.6*np.exp(-t/300))
-    run = pd.DataFrame({**particles(1e4), "seed": 1, "t": t, "ke": ke, "ke_field": 0.9*ke})
-    cells = pd.DataFrame({**grid(1e4, 50), "seed": 0, "t": t, "ke": ke, "ke_field": ke})
-    limit = means([{**grid(1e4), "ke": 0.0048, "ke_err": 0.0}])
-    tables = Tables({**limit, "history": pd.concat([run, run.assign(seed=2), cells])})
-
-    def seen(question) -> float:
-        return curves.history(question, {**particles(1e4), "seed": 1})(tables).value
-    # sampled, averaged over five
-    assert seen(curves.settling) == pytest.approx(300*math.log(0.6/0.05), abs=2*t[1])
-    assert seen(curves.drift) < 1e-3 and seen(curves.scatter) < 1e-3
-    value, err = curves.approach(particles(1e4), grid(1e4, 50), "ke_field")(tables)
-    assert value == pytest.approx(0.1, abs=1e-4) and err == pytest.approx(0, abs=1e-12)

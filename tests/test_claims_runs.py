@@ -66,26 +66,6 @@ def test_walls_are_needed_where_particles_reach_them():
         assert "0.6 times a particle and run; but a turn is no loss" in found["reason"]
 
 
-def wild(rows: int, size: float, ends: float = 3.0) -> pd.DataFrame:
-    """K(t) of the grid at two high Ra that oscillates by `size` of K until `ends` L^2/eta."""
-    t = np.linspace(0, 1, 300)
-    runs = [pd.DataFrame({**grid(ra, rows), "seed": 0, "t": t, "t_viscous": ends*t,
-                          "ke": 1 + size*np.sin(200*t)})
-            for ra in (5e4, 2e5)]
-    return pd.concat(runs)
-
-
-def test_fluctuations_of_the_grid_are_told_from_those_of_the_flow():
-    def said(*histories: pd.DataFrame, name: str = "khp95-fluctuate-physical") -> dict:
-        return judged(name, Tables({"history": pd.concat(histories)}))
-    assert said(wild(50, 0.1), wild(100, 0.01))["verdict"] == "holds"
-    assert said(wild(50, 0.1), wild(100, 0.1))["verdict"] == "fails"
-    assert "nothing fluctuates" in said(wild(50, 1e-6), wild(100, 1e-6))["reason"]
-    assert said(wild(50, 1e-6), name="khp95-grid-fluctuates")["verdict"] == "fails"
-    assert said(wild(50, 0.1), name="khp95-grid-fluctuates")["verdict"] == "holds"
-    assert "ends at 1 L^2/eta" in said(wild(50, 0.1, ends=1.0), name="khp95-grid-fluctuates")["reason"]
-
-
 @pytest.mark.parametrize(("shares", "said"),
                          [((0.8, 0.7, 0.1), "holds"), ((0.8, 0.3, 0.1), "holds"), ((0.8, 0.3, 0.6), "")])
 def test_the_pressure_that_freezes_is_found_between_two(shares, said):

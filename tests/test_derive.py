@@ -63,20 +63,6 @@ def test_smoothed_energy_is_judged_by_what_the_weight_leaves_of_the_grid():
     assert errors["Kg"] == pytest.approx(3/4 - 1, abs=1e-3)
 
 
-def test_cost_counts_all_seeds_and_the_coarser_grids():
-    grids = [grid(rows, 5.0*(1 + 1/rows**2), steps) for rows, steps in ((16, 10), (24, 20), (32, 30))]
-    steps = [{"method": "compressible", "variant": "flux-form", "eos": "ideal", "sides": "periodic",
-              "resolution": rows,
-              "step_s": s} for rows, s in ((16, 1.0), (24, 2.0), (32, 3.0))]
-    points = [spam(rows, method="dih", variant="fixed", cpu_s=3.0) for rows in (25, 50)]
-    found = pd.DataFrame(derive(tables(*grids, spam(seed=1), spam(seed=2), *points, cost=steps))["errors"])
-    cpu = found[found["energy"] == "Kp"].set_index(["method", "resolution"])["cpu_s"]
-    assert cpu[("compressible", 24)] == pytest.approx(10*1 + 20*2)
-    # no step of it was measured alone: what the runs took
-    assert cpu[("spam", 50)] == pytest.approx(18.0)
-    assert cpu[("dih", 50)] == 3.0                             # points do not start from coarser ones
-
-
 def endless(value, seeds):
     """(limit, error) of points whose K with so many rows is value(rows, seed)."""
     runs = [spam(rows, seed, value(rows, seed), method="dih", variant="fixed", ke_err=0.0, nu_err=0.0,

@@ -12,9 +12,7 @@ from particles.integral.points import lattice, of_positions, wrapped
 from particles.weights import WEIGHTS, Lucy
 from studies.build.disorder import DISORDERS
 from studies.build.vortex import decayed
-from studies.kit.claim import CannotTell
 from studies.kit.table import Tables
-from studies.ordering import claims
 from studies.ordering.cases import PLATES
 from studies.ordering.derive import of_flows, reference
 from studies.ordering.runs import (
@@ -142,17 +140,6 @@ def test_slopes_and_costs_of_power_laws_are_theirs():
     assert [row["slope"] for row in rows["flow_slopes"]] == pytest.approx([2])
     row, = rows["cheapest"]       # 4/n^2 = 0.01
     assert (row["needed"], row["exchanges"], row["bound"]) == (pytest.approx(20), pytest.approx(8000), 0)
-
-
-def test_costs_say_where_they_are_bounds_and_where_there_is_none():
-    low, high = (of_flows(Tables({"vortices": vortices(c, 2.0)}))["cheapest"][0] for c in (0.1, 400.0))
-    assert (low["bound"], low["needed"]) == (1, 16)
-    assert np.isnan(high["needed"]) and high["finest"] == pytest.approx(400/48**2)
-    runs = vortices(4.0, 2.0)
-    runs.loc[runs["wavelength"] == 48, "velocity"] = np.nan
-    assert np.isnan(of_flows(Tables({"vortices": runs}))["cheapest"][0]["needed"])      # a seed is lost
-    with pytest.raises(CannotTell):
-        claims.cost(2.0, "renormalised", "lattice")(Tables({"cheapest": pd.DataFrame([low])}))
 
 
 def layer(maker, h=3.0, points="random", **more):

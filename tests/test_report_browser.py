@@ -174,20 +174,6 @@ def test_every_committed_figure_is_there_with_its_commit_and_words(desk):
         assert len(commit) >= 7 and len(alt) > 10 and width > 100, name
 
 
-def test_a_table_opens_where_a_link_points_and_shows_all_its_rows(desk):
-    name = "rb-cost"
-    desk.execute_script(f"location.hash = 'table-{name}'")
-    table = desk.find_element(By.ID, f"table-{name}")
-    desk.execute_async_script("setTimeout(arguments[0], 50)")
-    assert table.get_attribute("open")
-    desk.execute_script("arguments[0].click()", table.find_element(By.CLASS_NAME, "more"))
-    desk.execute_async_script("setTimeout(arguments[0], 200)")
-    frame = read(RESULTS/"rb/cost.csv")
-    cells = desk.execute_script(f"return [...document.querySelectorAll('#table-{name} tbody tr')]"
-                                ".map(row => [...row.cells].map(cell => cell.textContent))")
-    assert len(cells) == len(frame) and cells[0][:2] == [str(value) for value in frame.iloc[0, :2]]
-
-
 def test_films_play_while_they_are_seen(page):
     with closing(start(1280, 900)) as chrome:
         chrome.get(page)

@@ -15,6 +15,9 @@ from studies.kit.study import Study
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import SIZES, Tables
 
+#: class of cases -> fields with which one of them is cheaper than any of size quick
+SMALLER = {"PypdeSteady": {"sizes": (8, 10, 12)}, "CompressibleSteady": {"sizes": (8, 10, 12)},
+           "Nonlinear": {"counts": (3, 3), "time": 93.0}, "LeavingOut": {"size": 8, "short": 0.01}}
 NAMES = sorted({path.parent.name for path in (ROOT/"studies").glob("*/__main__.py")} - {"report"})
 
 
@@ -24,11 +27,10 @@ def study(request) -> Study:
 
 
 def kinds(study: Study) -> list[Case]:
-    """The cheapest quick case of each class."""
-    cheapest: dict[type, Case] = {}
-    for case in sorted(study.cases("quick"), key=lambda case: -case.cost):
-        cheapest[type(case)] = case
-    return list(cheapest.values())
+    """The cheapest quick case of each class, smaller still where it can be."""
+    cases = sorted(study.cases("quick"), key=lambda case: -case.cost)
+    cheapest = {type(case): case for case in cases}
+    return [replace(case, **SMALLER.get(kind.__name__, {})) for kind, case in cheapest.items()]
 
 
 def test_the_question_is_one_sentence(study):
@@ -42,6 +44,7 @@ def test_every_case_has_its_own_label_and_key(study, size):
 
 
 def test_each_kind_of_case_fills_tables_of_the_study_and_runs_once(study, tmp_path, monkeypatch):
+    monkeypatch.setattr("studies.noise.sampling.BATCHES", 4)
     small = replace(study, cases=lambda size: kinds(study))
     tables = small.run("quick", workers=1, out=tmp_path)
     assert set(tables) <= {table.name for table in study.tables} and any(map(len, tables.values()))

@@ -2,9 +2,7 @@
 from dataclasses import replace
 
 import numpy as np
-import pandas as pd
 import pytest
-from scipy.special import stdtrit
 
 from continuum.exact.shear import couette, poiseuille
 from continuum.exact.waves import QUANTITIES, LinearGas, continuum, quantities
@@ -17,7 +15,7 @@ from particles.weights import Lucy
 from studies.build.disorder import DISORDERS
 from studies.build.symbols import lattice_waves
 from studies.operators.cases import DRIVES
-from studies.operators.derive import endless, shear_orders
+from studies.operators.derive import endless
 from studies.operators.transport import (
     SPEED,
     Decay,
@@ -120,17 +118,3 @@ def test_limits_of_long_waves_are_those_of_their_polynomial():
     value, err = endless(length, 0.05 + 3/length**2 - 100/length**4, np.zeros(4))
     assert value == pytest.approx(0.05, abs=1e-13) and 1e-5 < err < 1e-3
     assert np.isnan(endless(length[:2], length[:2], length[:2]).value)
-
-
-def test_an_order_between_plates_takes_every_run():
-    """Three runs of a size, errors 3/rows^2 up to a factor: the interval is that of one fit to all."""
-    rng, sizes = np.random.default_rng(1), np.repeat([8, 16, 32], 3)
-    factor = np.exp(rng.normal(0, 0.1, len(sizes)))
-    rows = pd.DataFrame({"flow": "couette", "points": "some", "time": 0.1, "rows": sizes,
-                         "seed": np.tile([1, 2, 3], 3), "rms": 3*factor/sizes**2, "largest": 5/sizes**2})
-    largest, rms = shear_orders(rows)
-    fit, cov = np.polyfit(-np.log(sizes), np.log(rows["rms"]), 1, cov=True)
-    assert rms["order"] == pytest.approx(fit[0])
-    assert rms["order_err"] == pytest.approx(stdtrit(7, 0.975)*np.sqrt(cov[0, 0]))
-    assert largest["order"] == pytest.approx(2) and largest["order_err"] < 1e-9
-    assert not list(shear_orders(rows[rows["rows"] < 32]))
