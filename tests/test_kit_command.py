@@ -232,11 +232,3 @@ def test_what_cannot_be_written_is_one_line(typed, monkeypatch, number, words):
     monkeypatch.setattr(study, "put_claims", refused)
     code, text = typed()
     assert code == 1 and text.splitlines()[-1].startswith(f"toy: {words}")
-
-
-def test_any_other_trouble_of_the_system_is_shown_in_full(monkeypatch, tmp_path):
-    def broken(*arguments):
-        raise OSError(errno.EIO, "Input/output error")
-    monkeypatch.setattr(study, "put_claims", broken)
-    with pytest.raises(OSError, match="Input/output"):
-        main(CUBES, ["--workers", "1", "--out", str(tmp_path)])
