@@ -16,8 +16,7 @@ from studies.kit.sweep import RESULTS, load
 from studies.kit.table import SIZES, Tables
 
 #: class of cases -> fields with which one of them is cheaper than any of size quick
-SMALLER = {"PypdeSteady": {"sizes": (8, 10, 12)}, "CompressibleSteady": {"sizes": (8, 10, 12)},
-           "Nonlinear": {"counts": (3, 3), "time": 93.0}, "LeavingOut": {"size": 8, "short": 0.01}}
+SMALLER = {"Nonlinear": {"counts": (3, 3), "time": 93.0}}
 NAMES = sorted({path.parent.name for path in (ROOT/"studies").glob("*/__main__.py")} - {"report"})
 
 
