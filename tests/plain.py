@@ -15,7 +15,7 @@ from particles.terms import ArithmeticGradients
 from particles.walls.fixed import FixedRows
 from particles.walls.mirror import Mirror, Odd, Own
 from particles.walls.periodic import Shift
-from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6, value_and_slope
+from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
 
 # --- weights in 2D: w(r) and dw/dr inside of the range -----------------------------------------------------
 
@@ -44,15 +44,6 @@ def wendland(norm, power, *c):
 
 PRINTED = {Lucy: lucy, Monaghan: monaghan, WendlandC2: wendland(7/np.pi, 4, 1, 4),
            WendlandC4: wendland(9/np.pi, 6, 1, 6, 35/3), WendlandC6: wendland(78/(7*np.pi), 8, 1, 8, 25, 32)}
-
-
-def as_given(kind):
-    """A weight without a second formula here, one distance after the other; test_weights holds value against slope."""
-    def weight(r, h):
-        one = kind.of(h)
-        w, over_r = np.array([value_and_slope(one, float(s)) for s in r.ravel()]).T.reshape(2, *r.shape)
-        return w, over_r*r
-    return weight
 
 
 # --- points: particles, fixed particles, images -----------------------------------------------------------

@@ -17,7 +17,7 @@ from particles.integral.triangulation import delaunay
 from particles.threads import Team
 from particles.weights import Lucy
 from studies.build.cylinder import VARIANTS
-from studies.conservation.slow_flows import CylinderDrag, TurningCylinder, TurningWave, sliding
+from studies.conservation.slow_flows import CylinderDrag, TurningCylinder, TurningWave
 
 LAW = ConstEta(0.3, 0.4)
 LAWS = pytest.mark.parametrize("law", [LAW, ConstNu(0.3, 0.4)], ids=["const-eta", "const-nu"])
@@ -274,19 +274,3 @@ def test_a_sliding_wave_is_of_second_order():
     errors = [row(TurningWave(rows=rows), "wave")["error"] for rows in (12, 16, 24)]
     orders = -np.diff(np.log(errors))/np.diff(np.log([12, 16, 24]))
     assert np.all(np.abs(orders - 2) < 0.3)     # at 12 rows the next order is a fifth of the error
-
-
-def test_the_turning_wave_solves_its_equation():
-    """d omega/dt + rate y d omega/dx = nu lap omega, by differences of the exact velocity in time."""
-    case, t, dt = TurningWave(rows=32), 150.0, 0.01
-    method = sliding(32, case.eta*32)
-    (x, y), kx = method.points.x.T, 2*np.pi/32
-
-    def amplitude(at):
-        """Of the vorticity."""
-        v, _ = case.wave(method, at)
-        ky = kx*(1 - method.rate*at)
-        return 2*np.mean(v[:, 1]*np.sin(kx*x + ky*y))*(kx**2 + ky**2)/kx
-    slope, ky = (amplitude(t + dt) - amplitude(t - dt))/(2*dt), kx*(1 - method.rate*t)
-    damped = -case.eta*32*(kx**2 + ky**2)*amplitude(t)
-    assert slope == pytest.approx(damped, rel=1e-6)     # dt^2 times 1e-3, over round-off

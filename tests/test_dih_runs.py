@@ -36,12 +36,6 @@ def test_heating_as_the_pairs_work_lowers_the_energy(tmp_path):
     assert 0.98 < ratio < 0.995
 
 
-def test_points_off_the_lattice_conserve_mass_and_convect(tmp_path):
-    row = one(tmp_path, "fixed-jittered-delaunay", 12)
-    assert abs(row["mass_drift"]) < 1e-13
-    assert row["ke"] == pytest.approx(0.0049, rel=0.1)
-
-
 def test_heat_through_plates_is_conduction_at_rest_whatever_the_share_along_edges(tmp_path):
     """Far below onset the layer comes to rest: Nu = 1 with forces along edges, with a tenth of them, on a lattice exactly."""
     for scheme in ("fixed-lattice", "fixed-lattice-nested"):

@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 
 from particles.integral.edge_makers import MAKERS, plain, printed, renormalised
-from particles.integral.edges import between_plates
 from particles.integral.interpolants import Exponential, Gaussian, OrderingWarning, W, check_ordering, f, moment, reach
 from particles.integral.points import jittered, lattice, of_positions, pairs, random, relaxed
 from particles.integral.triangulation import between, delaunay
@@ -96,11 +95,6 @@ def test_first_moment_is_the_dimension(kind, d):
     np.testing.assert_allclose(W(weight, r), -slope, rtol=1e-5, atol=1e-8)
 
 
-@pytest.mark.parametrize(("d", "third"), [(1, 6.0), (2, 8.0), (3, 10.0)])
-def test_third_moment_of_the_exponential_weight(d, third):
-    assert moment(Exponential(0.4, d), 3, d) == pytest.approx(third, rel=1e-8)
-
-
 def test_a_weight_of_another_dimension_is_refused():
     with pytest.raises(ValueError, match=r"M_1 = .* which must be 2"):
         plain(lattice((10, 10)), Lucy.of(h=2.0, d=3))
@@ -154,15 +148,6 @@ def test_a_position_that_is_no_number_is_named():
     at.x[3, 0] = np.nan
     with pytest.raises(ValueError, match=r"point 3 is at \[ *nan .*must be finite numbers; 1 of 36"):
         of_positions(at.x, at.box)
-
-
-@pytest.mark.parametrize("y", [5.6, 5.0, -12.0, np.nan])
-@pytest.mark.parametrize("make", [plain, delaunay])
-def test_points_that_are_not_between_plates_are_refused(make, y):
-    x = lattice((10, 10)).x.copy()
-    x[3, 1] = y
-    with pytest.raises(ValueError, match=rf"point 3 at y = {y:g} is not between the plates y = -\+5 \(1 of 100 are not\)"):
-        between_plates(make, x, 10, 10, Lucy.of(h=2.0))
 
 
 @pytest.mark.parametrize("weight", [Exponential(-1.0, 2), Gaussian(0.0, 2), Gaussian(np.nan, 2), Lucy(-2.0, 1.0)])
@@ -224,21 +209,3 @@ def test_triangles_between_plates_need_points_on_them():
     x, width, height = between_plates_of()
     with pytest.raises(ValueError, match="row of points on each plate"):
         between(x[2*width:], width, height)
-
-
-@pytest.mark.parametrize("rows", [12, 24])
-def test_mirrored_triangles_see_a_divergence_at_plates_that_no_refinement_removes(rows):
-    """Convection sees |y| for the velocity along a plate: its divergence is zero, and of the size of its slope off a lattice.
-
-    In one layer of points, which flow across the plate of slope times spacing balances: an error of first order.
-    """
-    def worst(size: float) -> float:
-        at = jittered((2*rows, rows), size, 1)
-        x = np.stack([at.x[:, 0], np.clip(at.x[:, 1], -rows/2 + 0.25, rows/2 - 0.25)], axis=1)
-        edges, beyond = between_plates(delaunay, x, 2*rows, rows, None)
-        along = rows/2 - np.abs(x[:, 1])        # distance from the nearer plate
-        near = along < 1
-        total = sum(S@along for S in edges.areas[:1]) + np.bincount(beyond.i, beyond.S[:, 0]*along[beyond.parent], edges.n)
-        return float(np.abs(0.5*total/edges.V)[near].max())
-
-    assert worst(0.0) < 1e-12 and 0.1 < worst(0.3) < 1

@@ -13,7 +13,6 @@ from continuum.gas.fields import block as as_block
 from continuum.scene import RayleighBenard, Torus, Walls
 from particles.dissipative.dpd import Dpd
 from particles.dissipative.stream import DpdStream
-from particles.fields import kinetic
 from particles.fields import kinetic_energy as of_fields
 from particles.integral.bodies import held
 from particles.integral.closed_faces import Moving
@@ -30,9 +29,7 @@ from particles.integral.rr98_moving_plain import MOTIONS
 from particles.integral.sheared import Sheared
 from particles.integral.stream import Stream
 from particles.integral.thermal import Thermal
-from particles.observe import particle_kinetic
 from particles.smooth.spam import Spam
-from particles.threads import Team
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2
 
@@ -123,12 +120,6 @@ def test_one_kinetic_energy_serves_all(method):
     places = () if method in FIXED.values() else (SQUARE.x,)
     state = method.state(*places, rho=rho, v=v, T=T)
     assert of_fields(method.fields(state)) == pytest.approx(0.5*rho@(v**2).sum(axis=1)/rho.sum(), rel=1e-13)
-
-
-def test_kinetic_energy_is_a_quantity_of_runs():
-    _, v, T = given(AT.n)
-    state = SPAM.state(AT.x, 1.0, v, T)
-    assert kinetic(SPAM.start(AT.n, Team(1)), state) == pytest.approx(particle_kinetic(None, state), rel=1e-14)
 
 
 def kinds():

@@ -7,7 +7,7 @@ from particles.integral import covariance, fluctuating
 from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import MAKERS
 from particles.integral.points import jittered, lattice, random
-from particles.weights import Lucy, WendlandC2
+from particles.weights import WendlandC2
 
 COUNTS = {1: (20,), 2: (8, 9), 3: (5, 5, 6)}
 SETS = {"lattice": lambda d: lattice(COUNTS[d]), "jittered": lambda d: jittered(COUNTS[d], 0.2, 1),
@@ -78,15 +78,6 @@ def test_dissipation_is_the_force_that_runs(name, kind, d):
         assert force.ravel() == pytest.approx(expected, abs=1e-12*np.abs(expected).max())
         expected = -(heat(edges, 0.4, KT).Gamma@T)
         assert gain == pytest.approx(expected, abs=1e-12*np.abs(expected).max())
-
-
-@pytest.mark.parametrize(("counts", "nulls"), [((9, 9), 2), ((10, 10), 8), ((10, 9), 4)])
-def test_null_modes_of_stresses_on_a_lattice_are_the_corners_of_its_zone(counts, nulls):
-    edges = MAKERS["renormalised"](lattice(counts), Lucy.of(h=2.0))
-    stress, friction = (make(edges, 1.0, 0.0, KT) for make in (fluctuating.stress, fluctuating.friction))
-    for pair, expected in ((stress, nulls), (fluctuating.mixed(stress, friction, 0.1), 2)):
-        values = np.linalg.eigvalsh(pair.Gamma.toarray())
-        assert np.count_nonzero(values < 1e-12*values.max()) == expected
 
 
 def test_printed_viscosity_that_varies_has_no_partner():

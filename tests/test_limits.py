@@ -114,16 +114,6 @@ def test_the_hottest_particle_sets_the_limit():
     assert step_limit(method, e) == step_limit(method, 1.5) == pytest.approx(step_limit(method, 0.5)/np.sqrt(3), rel=1e-6)
 
 
-def test_less_static_pressure_allows_longer_steps():
-    limits = [step_limit(spam(Lucy.of(h=3.0), static=LessStatic(f, 1.0)), 1.0) for f in (0.0, 0.5, 1.0)]
-    assert limits[0] < limits[1] < limits[2]
-
-
-def test_state_outside_the_equation_of_state_is_refused():
-    with pytest.raises(ValueError, match=r"rho = 2.*rho b = 1 must stay below 1"):
-        step_limit(spam(Lucy.of(h=2.0), VanDerWaals()), 1.0, rho=2.0)
-
-
 def test_particles_that_do_not_see_each_other_are_refused():
     with pytest.raises(ValueError, match=r"1 apart do not see each other: .* h = 0\.9 must be larger"):
         step_limit(spam(Lucy.of(h=0.9)), 1.0)

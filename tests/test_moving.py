@@ -7,7 +7,6 @@ import pytest
 from crowd import goes_on_bitwise
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
-from continuum.scene import RayleighBenard
 from particles.integral.closed_faces import EXCHANGED, SOLVED, Ingredients, Moving
 from particles.integral.exchange import PRINTED
 from particles.integral.interpolants import OrderingWarning
@@ -182,18 +181,3 @@ def test_fewer_iterations_leave_faces_more_open():
         left.append(np.abs(np.bincount(rows, sums.faces.sx[entry], sums.n)).max())
         assert np.any(now[SOLVED]) == (iterations > 0)
     assert left[0] > left[1] > left[2]
-
-
-def test_convection_of_few_points_is_near_the_grid():
-    """12 rows at Ra 10 000: K = 0.00559, 14 % above the limit 0.004891 as order 2.2 has it from 2.8 % at 25 rows."""
-    scene = RayleighBenard(ra=1e4, L=12.0)
-    method = Moving(weight=WendlandC2.of(h=3.0), eos=scene.eos, law=scene.law, box=(scene.width, scene.L), g=scene.g,
-                    walls=(*plates(scene.L, scene.T_hot, scene.T_cold), *periodic(scene.width)))
-    x = jittered((24, 12), 0.2, 1).x
-    start = method.state(x, np.stack(scene.flow(*x.T, 9/5000), axis=1), 1.0, scene.T(x[:, 1]))
-    dt = limit_of(method, start)
-    done = run(method, start, Plan(dt=dt, steps=round(60*12/dt)))
-    px, py, m, _, _ = done.state[EXCHANGED]
-    K = 0.5*np.sum((px**2 + py**2)/m)/m.sum()
-    assert pytest.approx(0.00559, rel=0.01) == K       # of three sets of points 0.00558 to 0.00560
-    assert m.sum() == pytest.approx(start[6].sum(), rel=1e-13)

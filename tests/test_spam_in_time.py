@@ -10,8 +10,6 @@ from crowd import advance, crowd, everywhere, lattice, prepare, rates, total_ene
 from continuum.fluid import ConstEta, IdealGas, energy, pressure, temperature
 from particles.smooth.spam import Spam
 from particles.smooth.sums import Direct, Nested
-from particles.walls.mirror import plates
-from particles.walls.periodic import periodic
 from particles.weights import Lucy, Monaghan, WendlandC2
 
 BOX = (10.0, 10.0)
@@ -116,14 +114,6 @@ def test_internal_energy_is_the_potential():
     assert total_energy(NEWTON, end) == pytest.approx(total_energy(NEWTON, atoms()), abs=1e-7)
 
 
-def test_forces_do_not_know_the_direction_of_time():
-    state = atoms()
-    back = state.copy()
-    back[2:4] *= -1
-    forward, backward = rates(NEWTON, state), rates(NEWTON, back)
-    assert (forward[2:4] == backward[2:4]).all() and (forward[4] == -backward[4]).all()
-
-
 def test_motion_is_reversible_without_viscosity_only():
     def leapfrog(method, state, dt, steps):
         sums, now, ids = prepare(method, state)
@@ -153,23 +143,3 @@ def test_motion_is_reversible_without_viscosity_only():
 
 
 # --- lists and threads -------------------------------------------------------------------------------------
-
-
-def layer() -> Spam:
-    walls = periodic(20.0) + plates(20.0, 1.5, 0.5)
-    return Spam(weight=Lucy.of(h=3.0), eos=IdealGas(), law=ConstEta(0.4, 0.4), walls=walls, box=(20.0, 20.0), g=0.05)
-
-
-@pytest.mark.parametrize("threads", [2, 3])
-def test_threads_do_not_change_a_bit_of_the_path(threads):
-    start = crowd((20.0, 20.0), 20, 20)
-    assert (advance(layer(), start, 0.3, 30, threads) == advance(layer(), start, 0.3, 30)).all()
-
-
-@pytest.mark.parametrize("skin", [0.1, 2.0])
-def test_path_does_not_depend_on_the_skin(skin):
-    # 20 steps: lists with the longest skin are kept, with the shortest made anew at each step. Sums in another order
-    # differ by round-off, which grows less than a thousandfold.
-    start = crowd(BOX, 10, 10)
-    one, other = (advance(free(skin=s), start, 0.1, 20) for s in (0.6, skin))
-    assert one[2:] == pytest.approx(other[2:], abs=1e-12)

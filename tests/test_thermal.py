@@ -42,11 +42,6 @@ def test_noise_conserves_and_moves(share):
     assert np.abs(end[1:3]).max() > 1e-3
 
 
-def test_without_temperature_there_is_no_noise():
-    method = gas(k=0.0)
-    assert run(method, rest(method), Plan(dt=0.05, steps=3)).state == pytest.approx(rest(method), abs=1e-14)
-
-
 def test_a_restarted_run_is_the_same_to_the_last_bit(tmp_path):
     method = gas(0.3)
     start, file = rest(method), tmp_path/"run.h5"

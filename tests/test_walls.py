@@ -38,75 +38,6 @@ def wall_T(y):
 # --- images ------------------------------------------------------------------------------------------------
 
 
-def ghosts(method, state):
-    """Parent, position, velocity and temperature of every image; the parent of an image of an image is a particle."""
-    sums, state, _ = prepare(method, state)
-    sums.densities(state)
-    around, root = sums.around, np.arange(len(sums.around.x))
-    for _, parent, first, last in around.blocks:
-        root[first:last] = root[parent]
-    n = sums.around.rows
-    return state, root[n:], *(q[n:] for q in (around.x, around.y, around.vx, around.vy, around.T, around.rho)), around.rho
-
-
-def places(x, y):
-    return {(round(a, 9), round(b, 9)) for a, b in zip(x, y)}
-
-
-def test_four_mirrors_make_an_image_in_every_side_and_corner():
-    state, _, x, y, *_ = ghosts(spam(four(), skin=0.6), crowd(BOX, 10, 10, jitter=0.4))
-    reach, expected = 3.6, set()
-    for a, b in state[:2].T:
-        across = [10 - a if a > 0 else -10 - a] if 5 - abs(a) <= reach else []
-        along = [10 - b if b > 0 else -10 - b] if 5 - abs(b) <= reach else []
-        expected |= places([*across, *([a]*len(along)), *across*len(along)], [*([b]*len(across)), *along, *along*len(across)])
-    assert places(x, y) == expected
-
-
-def test_periodic_sides_make_an_image_in_every_side_and_corner():
-    walls = periodic(BOX[0]) + periodic(BOX[1], axis=1)
-    state, _, x, y, *_ = ghosts(spam(walls, skin=0.6), crowd(BOX, 10, 10, jitter=0.4))
-    shifts = [(i, j) for i in (-10, 0, 10) for j in (-10, 0, 10) if i or j]
-    every = np.concatenate([state[:2].T + s for s in shifts])
-    near = every[(abs(every) <= 5 + 3.6).all(axis=1)]
-    assert places(x, y) == places(*near.T)
-
-
-def test_odd_images_make_the_wall_value_the_mean():
-    state, parent, x, y, vx, vy, T, _, _ = ghosts(spam(four(Odd())), crowd(BOX, 10, 10))
-    # mirrored once: the mean of particle and image; in a corner, mirrored twice: velocities return, and T returns
-    # but for twice the difference of the two walls' temperatures
-    once = (x == state[0, parent]) | (y == state[1, parent])
-    sign = np.where(once, -1, 1)
-    assert (vx == sign*state[2, parent]).all() and (vy == sign*state[3, parent]).all()
-    at = np.where(once, wall_T(np.clip(y, -5, 5)), 0)
-    assert T[once] == pytest.approx(2*at[once] - state[4, parent][once], rel=1e-14)
-    plate, side = wall_T(5*np.sign(y)), wall_T(state[1, parent])
-    assert T[~once] == pytest.approx((2*plate - (2*side - state[4, parent]))[~once], rel=1e-14)
-    assert once.any() and not once.all()
-
-
-def test_images_at_wall_rest_at_its_temperature():
-    _, _, _, y, vx, vy, T, _, _ = ghosts(spam(four(AtWall())), crowd(BOX, 10, 10))
-    assert not vx.any() and not vy.any()
-    assert T == pytest.approx(wall_T(np.clip(y, -5, 5)), rel=1e-14)
-
-
-@rules
-def test_density_is_even_about_a_mirror(rule, pressure):
-    _, parent, *_, image, rho = ghosts(spam(four(rule, pressure)), crowd(BOX, 10, 10, jitter=0.4))
-    assert (image == rho[parent]).all()
-    # the smoothed density itself, at places on both sides of the lower plate; images reach a skin beyond the range
-    sums, *_ = prepare(spam(four(rule, pressure), skin=1.0), crowd(BOX, 10, 10, jitter=0.4))
-    points = np.stack([sums.around.x, sums.around.y], axis=1)
-
-    def density(x, y):
-        r = np.hypot(*(points - (x, y)).T)
-        return plain.lucy(r[r < 3], 3.0)[0].sum()
-    for x in (-4.8, 0.3, 2.2):
-        assert density(x, -5.4) == pytest.approx(density(x, -4.6), rel=1e-12)
-
-
 # --- statics -----------------------------------------------------------------------------------------------
 
 
@@ -217,13 +148,6 @@ def test_fixed_rows_continue_the_lattice_at_rest_with_the_profile():
     # up to one range behind the plate the density is that of the fluid, to round-off: two ranges are enough rows
     near = abs(around.y[:sums.around.rows]) < 8
     assert around.rho[:sums.around.rows][near] == pytest.approx(lattice_moments(method.weight)[0], rel=1e-13)
-
-
-def test_fixed_rows_carry_the_fluid_as_own_odd_images_do():
-    # on the lattice both continue density and temperature, hence pressure, beyond the plate
-    one = rates(spam(periodic(BOX[0]) + fixed_plates(BOX[1], HOT, COLD)), still(None))
-    other = rates(spam(periodic(BOX[0]) + plates(BOX[1], HOT, COLD, Odd(), Own())), still(None))
-    assert one == pytest.approx(other, abs=1e-13)
 
 
 def test_fixed_rows_fit_a_period_that_is_no_multiple_of_their_spacing():
