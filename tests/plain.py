@@ -1,8 +1,7 @@
 """The slow readable twin of `particles`: KHP95's sums as numpy double sums, without lists, cells or compiled code.
 
 It shares only the NamedTuples that describe a scene with particles/; every formula here is written a second time,
-weights as they are printed (r in units of sigma, range 3 sigma), walls as images of all particles, one by one. Only a
-weight that is printed nowhere is taken as it is given.
+weights as they are printed (r in units of sigma, range 3 sigma), walls as images of all particles, one by one.
 """
 from typing import Any, NamedTuple
 
@@ -144,7 +143,7 @@ def pairs(method: Spam, x: np.ndarray, rows: int):
     """w_ij (rows, points) and its gradient with respect to r_i (rows, points, 2)."""
     d = x[:rows, None, :] - x[None, :, :]
     r = np.sqrt((d**2).sum(axis=2))
-    w, slope = PRINTED.get(kind := type(method.weight), as_given(kind))(r, method.weight.h)
+    w, slope = PRINTED[type(method.weight)](r, method.weight.h)
     inside = r < method.weight.h
     return np.where(inside, w, 0), np.where(inside, slope/np.where(r > 0, r, 1), 0)[:, :, None]*d
 

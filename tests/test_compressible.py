@@ -170,10 +170,11 @@ def test_the_continuity_equation_of_the_paper_leaks():
 # --- errors -----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("rows", "words"), [(15, "even and at least 8, got 15"), (6, "got 6")])
-def test_bad_grids_are_refused(rows, words):
+@pytest.mark.parametrize(("rows", "aspect", "words"), [
+    (15, 2.0, "even and at least 8, got 15"), (6, 2.0, "got 6"), (16, 2.03, "whole number")])
+def test_bad_grids_are_refused(rows, aspect, words):
     with pytest.raises(ValueError, match=words):
-        run(GAS, rows)
+        run(replace(GAS, aspect=aspect), rows)
 
 
 def test_a_step_above_the_limit_is_refused():

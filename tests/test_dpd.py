@@ -57,7 +57,9 @@ def plain_forces(method, x: np.ndarray, v: np.ndarray, dt: float, step: int, sli
     u[0] -= over*method.rate*box[1]
     r = np.sqrt((d**2).sum(axis=0)) + np.eye(n)*2*method.rc
     w = np.maximum(1 - r/method.rc, 0)
-    zeta = np.array([[uniform_of_pair(method.noise.seed, step, i, j) for j in range(n)] for i in range(n)])
+    zeta = np.zeros((n, n))
+    for i, j in np.argwhere(w > 0) if method.kT else ():
+        zeta[i, j] = uniform_of_pair(method.noise.seed, step, i, j)
     along = (d*u).sum(axis=0)/r
     size = method.a*w - method.gamma*w**2*along + np.sqrt(2*method.gamma*method.kT/dt)*w*zeta
     return (size*d/r).sum(axis=2)

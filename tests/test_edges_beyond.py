@@ -25,7 +25,6 @@ def made(d, maker, size, counts=None):
     return x, *between_plates(MAKERS[maker], x, counts[:-1], float(counts[-1]), Lucy.of(h=RANGE[d], d=d))
 
 
-
 # --- edges ----------------------------------------------------------------------------------------------------------------
 
 

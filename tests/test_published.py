@@ -74,6 +74,8 @@ def test_wrong_id_names_the_like():
         published("khp95-ke-500")
     with pytest.raises(ValueError, match=r"'zzz'.*khp95.*table\("):
         published("zzz")
+    with pytest.raises(ValueError, match=r"'nobody'.*khp95.*rr98"):
+        table("nobody")
 
 
 def test_numbers_cannot_be_changed():

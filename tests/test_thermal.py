@@ -3,6 +3,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from crowd import goes_on_bitwise
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral import covariance
@@ -44,20 +45,7 @@ def test_noise_conserves_and_moves(share):
 
 def test_a_restarted_run_is_the_same_to_the_last_bit(tmp_path):
     method = gas(0.3)
-    start, file = rest(method), tmp_path/"run.h5"
-    whole = run(method, start, Plan(dt=0.05, steps=12)).state
-    stopped = []
-
-    def stop(sums, state):
-        stopped.append(1)
-        if len(stopped) == 5:
-            raise KeyboardInterrupt
-        return 0.0
-
-    plan = Plan(dt=0.05, steps=12, series={"stop": stop}, every=1, checkpoint=file)
-    with pytest.raises(KeyboardInterrupt):
-        run(method, start, plan)
-    assert np.array_equal(run(method, start, plan).state, whole)
+    goes_on_bitwise(method, rest(method), 0.05, tmp_path)
 
 
 def test_threads_make_no_difference():
