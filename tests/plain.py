@@ -1,7 +1,10 @@
-"""The slow readable twin of `particles`: KHP95's sums as numpy double sums, without lists, cells or compiled code.
+"""The slow readable twin of `particles`: KHP95's sums as numpy double sums, without lists, cells or compiled
+code.
 
-It shares only the NamedTuples that describe a scene with particles/; every formula here is written a second time,
-weights as they are printed (r in units of sigma, range 3 sigma), walls as images of all particles, one by one.
+It shares only the NamedTuples that describe a scene with particles/; every formula here is written a second
+time,
+weights as they are printed (r in units of sigma, range 3 sigma), walls as images of all particles, one by
+one.
 """
 from typing import Any, NamedTuple
 
@@ -86,7 +89,8 @@ def images(method: Spam, x: np.ndarray):
             if isinstance(wall, Shift) and shifted(p, wall.axis, made):
                 continue
             image = list(x[p])
-            image[wall.axis] = image[wall.axis] + wall.by if isinstance(wall, Shift) else 2*wall.at - image[wall.axis]
+            image[wall.axis] = image[wall.axis] + wall.by if isinstance(wall,
+                                                                        Shift) else 2*wall.at - image[wall.axis]
             if abs(image[wall.axis]) <= method.box[wall.axis]/2 + 1.01*method.weight.h:
                 x.append(tuple(image))
                 made.append(Image(wall, p))
@@ -126,7 +130,8 @@ def points(method: Spam, state: np.ndarray) -> Points:
             v[i], T[i] = motion(image, x[i], v[image.of], T[image.of])
             P[i] = P[image.of]
             if isinstance(image.wall, Mirror) and isinstance(image.wall.pressure, Own):
-                P[i] = pressure(method.eos, rho[i], energy(method.eos, rho[i], T[i])) - static_pressure(method, x[i, 1])
+                P[i] = pressure(method.eos, rho[i],
+                                energy(method.eos, rho[i], T[i])) - static_pressure(method, x[i, 1])
     return Points(x, made, v, T, rho, P, rows)
 
 
@@ -152,7 +157,8 @@ def pairs(method: Spam, x: np.ndarray, rows: int):
 
 
 class Rates(NamedTuple):
-    """rho (rows,), grad_v[i, a, b] = d_a v_b and grad_T[i, a] (rows, ...), and d(x, y, vx, vy, e)/dt (5, n)."""
+    """rho (rows,), grad_v[i, a, b] = d_a v_b and grad_T[i, a] (rows, ...), and d(x, y, vx, vy, e)/dt (5,
+    n)."""
     rho: np.ndarray
     grad_v: np.ndarray
     grad_T: np.ndarray
@@ -200,9 +206,11 @@ def nested(method: Spam, p: Points, grad_w, grad_v, grad_T):
 
 
 def direct(method: Spam, p: Points, grad_w, grad_v, grad_T):
-    """Pressure from both partners; viscosity and conduction from differences along the pair (Morris, Brookshaw)."""
+    """Pressure from both partners; viscosity and conduction from differences along the pair (Morris,
+    Brookshaw)."""
     n, P = len(grad_w), p.P/p.rho**2
-    eta, k = (np.array([f(method.law, rho, T) for rho, T in zip(p.rho, p.T)]) for f in (viscosity, conductivity))
+    eta, k = (np.array([f(method.law, rho, T) for rho, T in zip(p.rho, p.T)])
+              for f in (viscosity, conductivity))
     d = p.x[:n, None] - p.x[None]
     r2 = (d**2).sum(axis=2)
     F = np.einsum("ija,ija->ij", d, grad_w)/np.where(r2 > 0, r2, 1)/p.rho[:n, None]/p.rho[None]

@@ -92,7 +92,8 @@ def test_rates_of_change_are_those_of_the_equations_to_second_order():
                  + case.kappa*np.cos(Tx)*(s[2](Ty) - np.pi**2*s[0](Ty)))
         # cells at a plate are of lower order one by one (not in the solution): compare inside
         errors.append([np.max(np.abs(a - b)[:, 2:-2]) for a, b in zip(found, exact)])
-    assert np.divide(*errors) == pytest.approx([4, 4, 4], abs=0.3)      # next order is h^2 relative, and 30 times it
+    # next order is h^2 relative, and 30 times it
+    assert np.divide(*errors) == pytest.approx([4, 4, 4], abs=0.3)
 
 
 def test_shear_decays_by_nu_and_heat_by_kappa():
@@ -150,7 +151,8 @@ def test_start_of_khp95_rises_in_the_middle_with_the_energy_asked_for():
 @pytest.mark.parametrize("bad, rule", [
     ({"ra": 0}, "Ra must be positive and finite, got 0"), ({"ra": -3.0}, "the lower plate is the hot one"),
     ({"pr": 0.0}, "Pr must be positive"), ({"pr": float("inf")}, "Pr must be positive and finite, got inf"),
-    ({"rows": 15}, "rows must be even and at least 8, got 15"), ({"rows": 4}, "rows must be even and at least 8"),
+    ({"rows": 15}, "rows must be even and at least 8, got 15"),
+    ({"rows": 4}, "rows must be even and at least 8"),
     ({"rows": 16, "columns": 7}, "columns must be even"),
 ])
 def test_refuses_bad_cases(bad, rule):
@@ -191,7 +193,8 @@ def test_refuses_bad_states_and_runs():
         transient(case, rest(case), until=0.1).growth(after=5)
 
 
-@pytest.mark.parametrize("bad, rule", [({"until": -1.0}, "until must be positive"), ({"dt": 0.0}, "dt must be positive"),
+@pytest.mark.parametrize("bad, rule",
+                         [({"until": -1.0}, "until must be positive"), ({"dt": 0.0}, "dt must be positive"),
                                        ({"cfl": 1.5}, "advection is unstable above"),
                                        ({"block": 0.01}, "K is recorded so often")])
 def test_refuses_bad_marching(bad, rule):

@@ -43,7 +43,8 @@ def test_side_heated_cavity_of_de_vahl_davis(ra, nusselt, sizes):
 @pytest.mark.parametrize("ra, nusselt", [(1e4, 2.158), (1e5, 3.910)])
 def test_square_heated_from_below(ra, nusselt):
     nu = k_and_nu(Case(ra=ra, pr=0.71, box=SQUARE), (32, 48, 64))[1]
-    assert nu.limit == pytest.approx(nusselt, abs=6e-4)         # half a unit of the last figure printed, and ours
+    # half a unit of the last figure printed, and ours
+    assert nu.limit == pytest.approx(nusselt, abs=6e-4)
 
 
 @pytest.mark.parametrize("ra, pr", [(3000.0, 7.0), (1500.0, 0.5)])
@@ -54,7 +55,8 @@ def test_growth_at_rest_converges_to_linear_theory(ra, pr):
     grown = [growth_rates(rest(Case(ra=ra, pr=pr, rows=rows)))[0].real for rows in (16, 24, 32)]
     seen = richardson(grown, (16, 24, 32))
     assert abs(seen.order - 2) < 0.1
-    assert seen.limit == pytest.approx(exact, abs=2e-5)         # h^6 terms of 16 rows; distance at 32 rows is 1e-3
+    # h^6 terms of 16 rows; distance at 32 rows is 1e-3
+    assert seen.limit == pytest.approx(exact, abs=2e-5)
     assert seen.limit == pytest.approx(exact, abs=seen.error)
 
 
@@ -133,7 +135,8 @@ def test_settles_near_onset_where_decay_is_slow():
     case = Case(ra=1800, pr=1, rows=16)
     series = transient(case, roll(case), within=1e-4)
     assert series.settled
-    assert abs(series.K[-1]/steady(case).K - 1) < 1.1*series.left       # the estimate is of first order in itself
+    # the estimate is of first order in itself
+    assert abs(series.K[-1]/steady(case).K - 1) < 1.1*series.left
 
 
 def test_below_onset_everything_comes_to_rest():

@@ -1,4 +1,5 @@
-"""Convection on the compressible grid: order, Nusselt numbers, onset, boxes, fields and starts. Coarse grids."""
+"""Convection on the compressible grid: order, Nusselt numbers, onset, boxes, fields and starts. Coarse
+grids."""
 from dataclasses import replace
 
 import numpy as np
@@ -38,7 +39,8 @@ def test_nusselt_numbers_agree_to_second_order(grids):
 def test_onset_lies_between():
     """Ra_c = 1708 plus a few per cent of the coarse grid."""
     below, above = (run(RayleighBenard(ra=ra), 12, until=Steady(rtol=1e-3)) for ra in (1400, 2200))
-    assert below.ke == pytest.approx(0, abs=1e-8) and below.nu == pytest.approx(1, abs=1e-4) and below.converged
+    assert below.ke == pytest.approx(0, abs=1e-8) and below.nu == pytest.approx(1,
+                                                                                abs=1e-4) and below.converged
     assert above.ke > 5e-4 and above.nu > 1.05 and above.rolls == 2
 
 
@@ -73,7 +75,8 @@ def test_interpolation(grids):
     np.testing.assert_allclose(there, again, rtol=1e-12)
     coarse = grids[0].fields
     between = interpolate(f, coarse.x[3] + 1.0, 5.0).vy
-    # two grids differ by the error of the coarse one: (24/12)^2 - 1 = 3 times that of the fine, 1 % each of v ~ 0.1
+    # two grids differ by the error of the coarse one: (24/12)^2 - 1 = 3 times that of the fine, 1 % each of
+    # v ~ 0.1
     assert interpolate(coarse, coarse.x[3] + 1.0, 5.0).vy == pytest.approx(between, abs=5e-3)
     with pytest.raises(ValueError, match="y goes from 30 to 30"):
         interpolate(f, 0.0, 30.0)
@@ -82,4 +85,5 @@ def test_interpolation(grids):
 def test_a_state_on_another_grid_keeps_its_mass(grids):
     other = onto(replace(GAS, L=10.0), 20, grids[0].fields)
     assert other.cells.mean() == pytest.approx(1, abs=1e-14) and other.at.e.shape == (21, 41)
-    assert np.abs(other.at.e - interpolate(grids[0].fields, *np.meshgrid(other.x*5, other.y*5)).e).max() < 1e-12
+    assert np.abs(other.at.e
+                  - interpolate(grids[0].fields, *np.meshgrid(other.x*5, other.y*5)).e).max() < 1e-12

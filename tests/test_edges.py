@@ -1,4 +1,5 @@
-"""Edges of every maker: antisymmetry by construction, closure, linear exactness, skewness where they are claimed."""
+"""Edges of every maker: antisymmetry by construction, closure, linear exactness, skewness where they are
+claimed."""
 import warnings
 
 import numpy as np
@@ -75,7 +76,8 @@ def test_plain_gradient_is_that_of_the_smoothed_field():
 
 @pytest.mark.parametrize("d", [2, 3])
 def test_equation_29_multiplies_gradients_by_its_predicted_factor(d):
-    """Summed over a lattice it is int |S_d| r^(d-1) a^(1-d) W r dV/d = (|S_d|/d) M_d (r0/a)^(d-1): 4 pi/3 M_3 (r0/a)^2 in 3D."""
+    """Summed over a lattice it is int |S_d| r^(d-1) a^(1-d) W r dV/d = (|S_d|/d) M_d (r0/a)^(d-1): 4 pi/3
+    M_3 (r0/a)^2 in 3D."""
     at = lattice((48, 48) if d == 2 else (14, 14, 14))
     weight = Lucy.of(h=6.0, d=d)
     factor = renormalised(at, weight).linear[0, 0, 0]/1.0
@@ -100,24 +102,29 @@ def test_a_weight_of_another_dimension_is_refused():
         plain(lattice((10, 10)), Lucy.of(h=2.0, d=3))
 
 
-@pytest.mark.parametrize(("maker", "size", "off"), [("plain", 0, "48.8"), ("printed", 0, "222"), ("renormalised", 0.3, "57")])
+@pytest.mark.parametrize(("maker", "size", "off"),
+                         [("plain", 0, "48.8"), ("printed", 0, "222"), ("renormalised", 0.3, "57")])
 def test_a_weight_narrower_than_the_spacing_is_told_with_its_error(maker, size, off):
-    """Lucy's weight of range 1.2 a has the rms width 0.507 a, and 2 W(a) = 0.512; Eq. 29 has 2 pi times as much."""
+    """Lucy's weight of range 1.2 a has the rms width 0.507 a, and 2 W(a) = 0.512; Eq. 29 has 2 pi times as
+    much."""
     at = jittered((12, 12), size, 1) if size else lattice((12, 12))
-    with pytest.warns(OrderingWarning, match=rf"r0 = 0\.507 .* below the spacing 1, the left side of Eq\. 45: .* by {off}"):
+    with pytest.warns(OrderingWarning,
+                      match=rf"r0 = 0\.507 .* below the spacing 1, the left side of Eq\. 45: .* by {off}"):
         MAKERS[maker](at, Lucy.of(h=1.2))
 
 
 def test_no_warning_where_linear_fields_are_exact_or_the_order_holds():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        for maker, at, h in (("renormalised", lattice((12, 12)), 1.2), ("plain", jittered((12, 12), 0.3, 1), 3.0),
+        for maker, at, h in (("renormalised", lattice((12, 12)), 1.2),
+                             ("plain", jittered((12, 12), 0.3, 1), 3.0),
                              ("exact", jittered((12, 12), 0.2, 1), 2.3)):
             MAKERS[maker](at, Lucy.of(h=h))
 
 
 def test_a_weight_wider_than_a_wave_is_told_with_its_error():
-    with pytest.warns(OrderingWarning, match=r"r0 = 0\.845 .* above the wavelength 0\.8, the right side .* lose about 100 %"):
+    with pytest.warns(OrderingWarning,
+                      match=r"r0 = 0\.845 .* above the wavelength 0\.8, the right side .* lose about 100 %"):
         check_ordering(Lucy.of(h=2.0), 2, 0.5, 0.0, wavelength=0.8)
 
 
@@ -127,7 +134,8 @@ def test_overlapping_points_and_points_outside_are_refused():
     twice[7] = twice[8]
     with pytest.raises(ValueError, match="points 7 and 8 overlap"):
         pairs(of_positions(twice, at.box), 2.0)
-    for value, words in ((9.0, "point 3 .* outside"), (np.nan, r"point 3 is at .*must be finite numbers; 1 of 36")):
+    for value, words in ((9.0, "point 3 .* outside"),
+                         (np.nan, r"point 3 is at .*must be finite numbers; 1 of 36")):
         far = at.x.copy()
         far[3, 1] = value
         with pytest.raises(ValueError, match=words):
@@ -140,7 +148,8 @@ def test_triangles_of_overlapping_points_name_both(kind, apart):
     at = lattice((10, 10)) if kind == "lattice" else jittered((10, 10), 0.3, 1)
     twice = at.x.copy()
     twice[7] = twice[8] + apart
-    with pytest.raises(ValueError, match=r"points 7 and 8 overlap, or nearly so: (0|1\.4e-08) spacings .* move one of them"):
+    with pytest.raises(ValueError,
+                       match=r"points 7 and 8 overlap, or nearly so: (0|1\.4e-08) spacings .* move one of them"):
         delaunay(of_positions(twice, at.box))
 
 
@@ -148,11 +157,15 @@ TWO_PARTS = of_positions(np.concatenate([lattice((3, 3)).x - 6, lattice((3, 3)).
 
 
 @pytest.mark.parametrize(("maker", "at", "weight", "words"), [
-    ("plain", lattice((10, 10)), Exponential(-1.0, 2), r"of Exponential must be positive and finite, got \S+: Eq\. 45"),
+    ("plain", lattice((10, 10)), Exponential(-1.0, 2),
+     r"of Exponential must be positive and finite, got \S+: Eq\. 45"),
     ("plain", lattice((10, 10)), Gaussian(np.nan, 2), "of Gaussian must be positive and finite, got nan"),
-    ("exact", jittered((10, 10), 0.3, 1), Lucy.of(h=1.2), r"singular, .* \(point \d+ has \d\): take a wider weight"),
-    ("delaunay", lattice((6, 6, 6)), None, "flat simplex"), ("closed", TWO_PARTS, WendlandC2.of(h=2.0), "2 parts"),
-    ("renormalised", lattice((6, 6)), Lucy.of(h=0.9), r"no two of the 36 points, .* the weight's range 0\.9 .*Eq\. 45")])
+    ("exact", jittered((10, 10), 0.3, 1), Lucy.of(h=1.2),
+     r"singular, .* \(point \d+ has \d\): take a wider weight"),
+    ("delaunay", lattice((6, 6, 6)), None, "flat simplex"),
+    ("closed", TWO_PARTS, WendlandC2.of(h=2.0), "2 parts"),
+    ("renormalised", lattice((6, 6)), Lucy.of(h=0.9),
+     r"no two of the 36 points, .* the weight's range 0\.9 .*Eq\. 45")])
 def test_points_without_edges_say_why(maker, at, weight, words):
     with pytest.raises((ValueError, ArithmeticError), match=words):
         MAKERS[maker](at, weight)
@@ -180,7 +193,8 @@ def test_triangles_between_plates_are_exact_inside_and_lack_half_the_plate_besid
     edges = between(x, width, height)
     lower, upper, inner = np.arange(width), np.arange(width, 2*width), np.arange(2*width, len(x))
     assert edges.V.sum() == pytest.approx(width*height, rel=1e-12)
-    assert np.abs(edges.closure[inner]).max() < 1e-12 and np.abs(edges.linear[inner] - np.eye(2)).max() < 1e-11
+    assert np.abs(edges.closure[inner]).max() < 1e-12 and np.abs(edges.linear[inner]
+                                                                 - np.eye(2)).max() < 1e-11
     # plate points are one spacing apart: sum_j S_ij is minus the outward normal
     assert edges.closure[lower] == pytest.approx(np.tile([0.0, 1.0], (width, 1)), abs=1e-12)
     assert edges.closure[upper] == pytest.approx(np.tile([0.0, -1.0], (width, 1)), abs=1e-12)

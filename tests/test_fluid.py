@@ -1,4 +1,5 @@
-"""Constitutive relations: each law over every equation of state and transport law found in `continuum.fluid`."""
+"""Constitutive relations: each law over every equation of state and transport law found in
+`continuum.fluid`."""
 import numpy as np
 import pytest
 from scipy.optimize import brentq
@@ -45,7 +46,8 @@ def test_slopes_of_the_pressure(eos):
     e = energy(eos, RHO, T)
     by_rho, by_e = pressure_slopes(eos, RHO, e)
     np.testing.assert_allclose(by_rho, slope(lambda r: pressure(eos, r, e), RHO), rtol=ROUND_OFF)
-    np.testing.assert_allclose(by_e*np.ones_like(e), slope(lambda u: pressure(eos, RHO, u), e), rtol=ROUND_OFF)
+    np.testing.assert_allclose(by_e*np.ones_like(e), slope(lambda u: pressure(eos, RHO, u), e),
+                               rtol=ROUND_OFF)
 
 
 @every_eos
@@ -74,7 +76,8 @@ def test_temperature_of_the_dense_fluid_is_five_percent_off():
 def maxwell(eos, rho, theta):
     """Both sides of (dE/dV)_T = T (dP/dT)_V - P for one particle, V = 1/rho."""
     P_T = slope(lambda q: pressure(eos, rho, energy(eos, rho, q)), theta)
-    return -rho**2*slope(lambda r: energy(eos, r, theta), rho), theta*P_T - pressure(eos, rho, energy(eos, rho, theta))
+    return -rho**2*slope(lambda r: energy(eos, r, theta), rho), theta*P_T - pressure(eos, rho,
+                                                                                     energy(eos, rho, theta))
 
 
 @consistent
@@ -101,7 +104,8 @@ def test_thermal_pressure(eos):
 def test_expansivity_is_the_shrinking_of_density_at_constant_pressure(eos, state):
     rho, theta = state
     P, step = pressure(eos, rho, energy(eos, rho, theta)), 1e-3
-    hot, cold = (brentq(lambda r, q=theta + s: pressure(eos, r, energy(eos, r, q)) - P, 0.9*rho, 1.1*rho, xtol=1e-14)
+    hot, cold = (brentq(lambda r, q=theta + s: pressure(eos, r, energy(eos, r, q)) - P, 0.9*rho, 1.1*rho,
+                        xtol=1e-14)
                  for s in (step, -step))
     # central difference: relative error of order step^2 and the 1e-10 of the inner difference
     assert expansivity(eos, rho, theta) == pytest.approx(-(hot - cold)/(2*step*rho), rel=1e-5)
@@ -148,7 +152,8 @@ def test_transport_laws():
 
 
 @pytest.mark.parametrize("law", [
-    lambda: ConstEta(-0.5, 1.0), lambda: ConstEta(eta=1.0, k=-0.5), lambda: ConstNu(1.0, -0.5), lambda: PowerLaw(-0.5, 1.0),
+    lambda: ConstEta(-0.5, 1.0), lambda: ConstEta(eta=1.0, k=-0.5), lambda: ConstNu(1.0, -0.5),
+    lambda: PowerLaw(-0.5, 1.0),
     lambda: ConstEta(float("nan"), 1.0)])
 def test_a_law_that_does_not_spread_is_refused(law):
     with pytest.raises(ValueError, match=r"must not be negative, got (-0.5|nan): .* 0 switches it off"):
@@ -196,5 +201,6 @@ def test_compiled_code_uses_the_same_formulas(eos):
 def test_an_unknown_type_is_refused_with_what_is_known():
     class Steam(tuple):
         pass
-    with pytest.raises(TypeError, match=r"pressure\(Steam.*it knows IdealGas, VanDerWaals, DenseFluid.*add a formula"):
+    with pytest.raises(TypeError,
+                       match=r"pressure\(Steam.*it knows IdealGas, VanDerWaals, DenseFluid.*add a formula"):
         pressure(Steam(), 1.0, 1.0)

@@ -1,4 +1,5 @@
-"""Discretized integral hydrodynamics between plates: what walls keep, what they let through, what they must not feed."""
+"""Discretized integral hydrodynamics between plates: what walls keep, what they let through, what they must
+not feed."""
 from dataclasses import replace
 
 import numpy as np
@@ -36,7 +37,8 @@ def layer(make=renormalised, size=0.0, mended=True, h=2.0, rows=ROWS, **scene):
 def at(x, where, make=renormalised, mended=True, h=2.0):
     """Points x between the plates of a scene."""
     inner, beyond = between_plates(make, x, where.width, where.L, Lucy.of(h=h))
-    return Layer(x=x, edges=inner, beyond=beyond, eos=where.eos, law=where.law, T_plates=(where.T_hot, where.T_cold), g=where.g,
+    return Layer(x=x, edges=inner, beyond=beyond, eos=where.eos, law=where.law,
+                 T_plates=(where.T_hot, where.T_cold), g=where.g,
                  transport=MENDED if mended else PRINTED)
 
 
@@ -48,7 +50,8 @@ def rates(fluid, state, threads=1):
 
 def shaken(fluid, x, seed=0):
     rng = np.random.default_rng(seed)
-    return fluid.state(rng.uniform(0.9, 1.1, len(x)), rng.normal(0, 0.2, x.shape), rng.uniform(0.9, 1.1, len(x)))
+    return fluid.state(rng.uniform(0.9, 1.1, len(x)), rng.normal(0, 0.2, x.shape),
+                       rng.uniform(0.9, 1.1, len(x)))
 
 
 MADE = [(renormalised, 0.0, 2.0), (exact, 0.2, 2.8), (delaunay, 0.2, 2.0)]
@@ -59,8 +62,10 @@ TRANSPORT = {"pairwise": (MENDED, Pairwise()), "unmended": (PRINTED, Pairwise(me
 
 
 @pytest.mark.parametrize(("transport", "law", "eos"), [
-    ("pairwise", ConstEta, IdealGas()), ("pairwise", ConstEta, VanDerWaals()), ("pairwise", ConstNu, IdealGas()),
-    ("pairwise", PowerLaw, VanDerWaals()), ("unmended", ConstEta, VanDerWaals()), ("unmended", ConstNu, IdealGas()),
+    ("pairwise", ConstEta, IdealGas()), ("pairwise", ConstEta, VanDerWaals()),
+    ("pairwise", ConstNu, IdealGas()),
+    ("pairwise", PowerLaw, VanDerWaals()), ("unmended", ConstEta, VanDerWaals()),
+    ("unmended", ConstNu, IdealGas()),
     ("nested", ConstEta, IdealGas()), ("nested", ConstEta, VanDerWaals()), ("mixed", ConstEta, IdealGas())])
 @pytest.mark.parametrize(("make", "size", "h"), MADE)
 def test_compiled_sums_are_those_of_the_slow_twin(make, size, h, transport, law, eos):
@@ -68,7 +73,8 @@ def test_compiled_sums_are_those_of_the_slow_twin(make, size, h, transport, law,
     fluid, x, where = layer(make, size, h=h, eos=eos, transport=law)
     terms, slow = TRANSPORT[transport]
     fluid = replace(fluid, transport=terms)
-    twin = PlainPlates(x=x, edges=fluid.edges, beyond=fluid.beyond, eos=eos, law=fluid.law, T_plates=fluid.T_plates,
+    twin = PlainPlates(x=x, edges=fluid.edges, beyond=fluid.beyond, eos=eos, law=fluid.law,
+                       T_plates=fluid.T_plates,
                        g=fluid.g, transport=slow)
     state = shaken(fluid, x)
     expected = np.empty_like(state)
@@ -109,7 +115,8 @@ def test_plates_take_no_mass(make, size, h):
 
 @pytest.mark.parametrize("transport", TRANSPORT)
 def test_the_motionless_state_stays_to_round_off(transport):
-    """Linear T at density 1 is an exact solution of the discrete equations on a lattice, too: images go on with it."""
+    """Linear T at density 1 is an exact solution of the discrete equations on a lattice, too: images go on
+    with it."""
     fluid, x, scene = layer()
     fluid = replace(fluid, transport=TRANSPORT[transport][0])
     found = rates(fluid, fluid.state(np.ones(len(x)), 0*x, scene.T(x[:, 1])))
@@ -124,7 +131,8 @@ def test_friction_and_conduction_between_plates_are_symmetric_and_only_damp(make
     Both are linear in the share of transport along edges: its ends are enough.
     """
     fluid, x, _ = layer(make, size, h=h, rows=8)
-    fluid = replace(fluid, law=type(fluid.law)(0.3, 0.2), T_plates=(1.0, 1.0), g=0.0, transport=mixed(share, mended=False))
+    fluid = replace(fluid, law=type(fluid.law)(0.3, 0.2), T_plates=(1.0, 1.0), g=0.0,
+                    transport=mixed(share, mended=False))
     n, rest, small = len(x), np.zeros((len(x), 2)), 1e-6
 
     def forces(v, T):
@@ -147,7 +155,8 @@ def test_friction_and_conduction_between_plates_are_symmetric_and_only_damp(make
 
 @pytest.mark.parametrize(("make", "size", "h"), MADE)
 def test_friction_that_varies_is_symmetric_and_only_damps(make, size, h):
-    """Forces at rest are -K v with eta(T) of random temperatures: K is symmetric and has no negative eigenvalue."""
+    """Forces at rest are -K v with eta(T) of random temperatures: K is symmetric and has no negative
+    eigenvalue."""
     fluid, x, where = layer(make, size, h=h, rows=8, transport=PowerLaw)
     n, small, T = len(x), 1e-6, np.random.default_rng(0).uniform(0.7, 1.3, len(x))
     quiet = replace(fluid, law=ConstEta(0.0, 0.0), form=edge_by_edge)
@@ -187,22 +196,26 @@ def eigenvalues(quiet, rest, step=1e-6):
 
 
 def test_sound_between_adjoint_walls_does_not_grow():
-    """Without friction and gravity the linearised operator has no eigenvalue with a positive real part above round-off."""
+    """Without friction and gravity the linearised operator has no eigenvalue with a positive real part above
+    round-off."""
     fluid, x, _ = layer(rows=8)
     grows = eigenvalues(*at_rest(fluid, x, 0.0, 0.0)).real.max()
-    assert grows < 1e-4        # differences over 1e-6: 1e-10; defective zeros of modes at rest spread as its square root
+    # differences over 1e-6: 1e-10; defective zeros of modes at rest spread as its square root
+    assert grows < 1e-4
 
 
 @pytest.mark.parametrize(("eta", "k"), [(0.0, 0.0), (2.0, 0.02), (0.02, 2.0)])
 def test_a_point_near_its_own_image_limits_the_step(eta, k):
-    """The fastest rate of the linearised layer, sound alone or diffusion alone, is what the limit is made of, to 0.1 %."""
+    """The fastest rate of the linearised layer, sound alone or diffusion alone, is what the limit is made
+    of, to 0.1 %."""
     _, x, where = layer(rows=8)
     x[0, 1] = -where.L/2 + 0.15                 # 0.3 spacings from its image, 1 from the next point
     quiet, rest = at_rest(at(x, where, delaunay), x, eta, k)
     sound, spread = quiet.fastest
     assert spread > 1.3*quiet.edges.fastest[1]
     foretold = max(np.sqrt(2)*sound, max(eta, k)*spread)
-    assert foretold == pytest.approx(np.abs(eigenvalues(quiet, rest)).max(), rel=1e-3)      # damped sound is slower by 1e-3
+    # damped sound is slower by 1e-3
+    assert foretold == pytest.approx(np.abs(eigenvalues(quiet, rest)).max(), rel=1e-3)
 
 
 def test_a_step_above_the_limit_is_refused():

@@ -1,4 +1,5 @@
-"""Neighbour lists hold exactly the points within reach, whatever the points and the threads; clear errors otherwise."""
+"""Neighbour lists hold exactly the points within reach, whatever the points and the threads; clear errors
+otherwise."""
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings

@@ -40,7 +40,8 @@ def test_fields_are_the_sums_of_the_paper(measured):
 
 
 def test_heat_flow_of_rest_is_conduction():
-    """A lattice at rest carries k dT/L; away from the plates the sums take the slope of a linear T to 0.5 %."""
+    """A lattice at rest carries k dT/L; away from the plates the sums take the slope of a linear T to 0.5
+    %."""
     method, state = small(rows=24)
     state[2:4] = 0
     sums = method.start(state.shape[1], Team(1))
@@ -60,12 +61,14 @@ def test_profile_of_a_linear_temperature(measured):
     sums, state = measured
     rho, T, _, _ = Profile(8)(sums, state)
     assert rho.mean() == pytest.approx(1.0, rel=1e-12)
-    assert np.polyfit(np.arange(8), T, 1)[0] == pytest.approx(-1/8, rel=0.02)   # jitter 0.2/sqrt(3*16*8) a layer
+    # jitter 0.2/sqrt(3*16*8) a layer
+    assert np.polyfit(np.arange(8), T, 1)[0] == pytest.approx(-1/8, rel=0.02)
 
 
 @pytest.mark.parametrize("name", ["printed", "printed-fixed-rows", "walls-odd-own-pressure", "direct"])
 def test_plates_give_all_the_energy_that_the_fluid_gains(name):
-    """Between particles the sums conserve energy: kinetic, internal and m g y change by what the plates exchange."""
+    """Between particles the sums conserve energy: kinetic, internal and m g y change by what the plates
+    exchange."""
     method, state = small(VARIANTS[name], rows=12)
     sums, rates = method.start(state.shape[1], Team(1)), np.empty_like(state)
     sums.around.relist(state, np.arange(state.shape[1]), 0.0)

@@ -1,4 +1,5 @@
-"""The time loop: what is interrupted goes on bitwise, what diverges says where, what cannot work is refused."""
+"""The time loop: what is interrupted goes on bitwise, what diverges says where, what cannot work is
+refused."""
 import errno
 from dataclasses import replace
 
@@ -15,8 +16,10 @@ from particles.weights import Lucy
 from studies.build.spam import OF_LIMIT, images, images_odd
 from tests.scenes import small
 
-PLAN = Plan(dt=0.6, steps=60, every=5, series={"kp": particle_kinetic, "kg": field_kinetic, "heat": heat_flow},
-            means={"grid": Grid(*np.meshgrid([-2.0, 0.0, 2.0], [-1.0, 1.0])), "profile": Profile(4)}, mean_from=10.0)
+PLAN = Plan(dt=0.6, steps=60, every=5,
+            series={"kp": particle_kinetic, "kg": field_kinetic, "heat": heat_flow},
+            means={"grid": Grid(*np.meshgrid([-2.0, 0.0, 2.0], [-1.0, 1.0])), "profile": Profile(4)},
+            mean_from=10.0)
 
 
 @pytest.fixture(scope="module")
@@ -134,7 +137,8 @@ def test_energy_below_zero_is_refused_at_the_start():
     (lambda m, s: (m, s[:, :0], PLAN), r"particles are an array \(5, n\).*n >= 1"),
     (lambda m, s: (m, np.full_like(s, np.nan), PLAN), "not finite"),
     (lambda m, s: (m, s.T, PLAN), r"particles are an array \(5, n\) of x, y, vx, vy, e .* got \(128, 5\)"),
-    (lambda m, s: (m, [[1.0, 2.0], [3.0]], PLAN), r"particles are an array \(5, n\).*got a list that is none"),
+    (lambda m, s: (m, [[1.0, 2.0], [3.0]], PLAN),
+     r"particles are an array \(5, n\).*got a list that is none"),
     (lambda m, s: (replace(m, weight=Lucy.of(5.0)), s, PLAN), "wider than the box"),
 ])
 def test_what_cannot_work_is_refused(change, message):
@@ -144,7 +148,8 @@ def test_what_cannot_work_is_refused(change, message):
 
 def test_a_step_above_the_limit_is_told_what_is_stable_and_what_the_studies_take():
     method, start = small()
-    with pytest.raises(ValueError, match=r"dt = 5 is above the stability limit (\S+) of RK4 .* below (\S+) also where they lie "
+    with pytest.raises(ValueError,
+                       match=r"dt = 5 is above the stability limit (\S+) of RK4 .* below (\S+) also where they lie "
                                          r"at random; the studies take (\S+) of the limit, (\S+),") as told:
         run(method, start, replace(PLAN, dt=5.0))
     words = str(told.value).replace(",", "").split()
@@ -159,7 +164,8 @@ def test_a_step_above_the_limit_is_told_what_is_stable_and_what_the_studies_take
 def test_a_start_without_a_stable_step_is_refused(found, monkeypatch):
     method, start = small()
     monkeypatch.setattr("particles.run.limit_of", lambda method, start: found)
-    with pytest.raises(ValueError, match=rf"no stable step: the limit of RK4 is {found}; look for densities or temperatures"):
+    with pytest.raises(ValueError,
+                       match=rf"no stable step: the limit of RK4 is {found}; look for densities or temperatures"):
         run(method, start, PLAN)
 
 
@@ -173,7 +179,8 @@ def test_particles_beyond_a_wall_at_the_start_are_named_with_place_and_box(walls
     start[axis] += shift
     i = int(np.argmax(abs(start[axis]) > 4))
     x, y = start[:2, i]
-    with pytest.raises(ValueError, match=rf"particle {i} at \({x:g}, {y:g}\) is beyond a wall of the box \|x\| <= 8, "
+    with pytest.raises(ValueError,
+                       match=rf"particle {i} at \({x:g}, {y:g}\) is beyond a wall of the box \|x\| <= 8, "
                                          rf"\|y\| <= 4 \({(abs(start[axis]) > 4).sum()} of 128 are\).*centred on the origin"):
         run(method, start, PLAN)
 
@@ -194,11 +201,14 @@ def test_particles_beyond_a_side_wall_are_named_too_and_periodic_sides_have_no_b
     ({"dt": 0.0}, ValueError, "dt > 0"), ({"dt": np.inf}, ValueError, "dt > 0 and finite"),
     ({"steps": -1}, ValueError, "steps >= 0"), ({"every": 0}, ValueError, "every >= 1"),
     ({"steps": 10.5}, ValueError, r"steps = 10\.5.*give whole numbers, such as steps = round"),
-    ({"every": 2.5}, ValueError, r"every = 2\.5.*whole numbers"), ({"steps": np.nan}, ValueError, "steps >= 0"),
+    ({"every": 2.5}, ValueError, r"every = 2\.5.*whole numbers"),
+    ({"steps": np.nan}, ValueError, "steps >= 0"),
     ({"dt": "0.5"}, TypeError, r"are numbers, got dt = '0\.5'"),
-    ({"steps": 4}, ValueError, r"4 steps, recorded every 5, leave kp, kg, heat, grid, profile without a record: take at least 5"),
+    ({"steps": 4}, ValueError,
+     r"4 steps, recorded every 5, leave kp, kg, heat, grid, profile without a record: take at least 5"),
     ({"steps": 0}, ValueError, "without a record"),
-    ({"mean_from": 36.0}, ValueError, r"means from time 36 on have no sample: the last record is at 36; take more steps"),
+    ({"mean_from": 36.0}, ValueError,
+     r"means from time 36 on have no sample: the last record is at 36; take more steps"),
 ])
 def test_plan_refuses_what_cannot_be_done(change, kind, message):
     with pytest.raises(kind, match=message):

@@ -30,7 +30,8 @@ def test_the_motionless_state_is_in_balance_at_constant_density(eos):
     s = RayleighBenard(ra=3000, eos=eos, L=20.0)
     y = np.linspace(-10, 10, 41)
     P = pressure(eos, 1.0, s.e(y))
-    # the pressure is linear in T at constant density for all three: differences are exact to round-off of P ~ 5
+    # the pressure is linear in T at constant density for all three: differences are exact to round-off of P
+    # ~ 5
     np.testing.assert_allclose(np.diff(P)/np.diff(y), -s.g, rtol=1e-12)
 
 
@@ -56,7 +57,8 @@ def test_the_initial_rolls_are_those_printed():
     s = RayleighBenard(ra=1e4)
     x, y, L = 13.0, -7.0, 50.0
     u, v = s.flow(x, y, 0.002)
-    assert u/v == pytest.approx(np.sin(np.pi*x/L)*np.sin(2*np.pi*y/L)/(np.cos(np.pi*x/L)*np.cos(np.pi*y/L)), rel=1e-12)
+    assert u/v == pytest.approx(np.sin(np.pi*x/L)*np.sin(2*np.pi*y/L)/(np.cos(np.pi*x/L)*np.cos(np.pi*y/L)),
+                                rel=1e-12)
 
 
 @pytest.mark.parametrize("count", [1, 2, 3])
@@ -71,7 +73,8 @@ def test_rolls_between_walls_are_free_of_divergence(count):
 
 @pytest.mark.parametrize(("wrong", "words"), [
     ({"ra": 0.0}, "Ra must be positive and finite, got 0"), ({"ra": np.inf}, "finite, got inf"),
-    ({"ra": np.nan}, "Ra must be positive"), ({"pr": 0.0}, "Pr"), ({"L": 0.0}, "L and aspect"), ({"L": np.nan}, "L = nan"),
+    ({"ra": np.nan}, "Ra must be positive"), ({"pr": 0.0}, "Pr"), ({"L": 0.0}, "L and aspect"),
+    ({"L": np.nan}, "L = nan"),
     ({"aspect": -1.0}, "L and aspect"), ({"T_hot": 0.4}, "T_hot > T_cold > 0"),
     ({"T_hot": np.inf}, "finite and obey"), ({"T_cold": np.nan}, "finite and obey"),
     ({"sides": "walls"}, "Periodic"), ({"eos": VanDerWaals(b=1.0)}, "rho b = 1"),
@@ -92,7 +95,8 @@ def test_rolls_that_do_not_fit_are_refused():
 
 
 @pytest.mark.parametrize(("wrong", "words"), [
-    ({"ra": "1e4"}, "ra must be a number, got '1e4': give it without quotes"), ({"L": [50]}, "L must be a number"),
+    ({"ra": "1e4"}, "ra must be a number, got '1e4': give it without quotes"),
+    ({"L": [50]}, "L must be a number"),
     ({"eos": VanDerWaals}, r"needs an object, got the class VanDerWaals itself: give VanDerWaals\(\)"),
     ({"transport": ConstNu(0.1, 0.1)}, "must be a class .*, got .*: give ConstNu, without .* which follow"),
     ({"transport": float}, "must be a class .*, got <class 'float'>: give ConstEta or ConstNu or")])
@@ -102,7 +106,9 @@ def test_what_is_no_number_or_no_object_is_refused(wrong, words):
 
 
 @pytest.mark.parametrize(("kind", "way_out"), [
-    (IdealGas, r"IdealGas\(\)"), (ConstNu, r"ConstNu\(nu=\.\.\., kappa=\.\.\.\)"), (Lucy, r"Lucy\.of\(\.\.\.\)")])
+    (IdealGas, r"IdealGas\(\)"), (ConstNu, r"ConstNu\(nu=\.\.\., kappa=\.\.\.\)"),
+    (Lucy, r"Lucy\.of\(\.\.\.\)")])
 def test_a_class_in_place_of_an_object_is_told(kind, way_out):
-    with pytest.raises(TypeError, match=f"needs an object, got the class {kind.__name__} itself: give {way_out}$"):
+    with pytest.raises(TypeError,
+                       match=f"needs an object, got the class {kind.__name__} itself: give {way_out}$"):
         pressure(kind, 1.0, 1.0)

@@ -29,12 +29,14 @@ def test_particles_on_a_lattice_see_the_same():
 
 
 def test_a_shear_wave_shrinks_by_the_transform_of_the_weight():
-    """vx = sin(k x') in the middle of a high box would shrink by w^(k); the plates' part is left to a thick margin."""
+    """vx = sin(k x') in the middle of a high box would shrink by w^(k); the plates' part is left to a thick
+    margin."""
     scene = RayleighBenard(ra=1e4, L=1.0, aspect=2.0)
     base = initial(scene, 64, 0.0)
     k, rows = 2*np.pi, 12
     v = np.tile(np.sin(k*base.x), (len(base.y), 1))
-    fields = NodeFields(scene, base.x, base.y, Values(0*v, v, base.at.e, base.at.T, np.ones_like(v)), base.cells)
+    fields = NodeFields(scene, base.x, base.y, Values(0*v, v, base.at.e, base.at.T, np.ones_like(v)),
+                        base.cells)
     plain, smooth = smoothed_energy(fields, Smoothing(Lucy, 3.0, rows))
     r, weight = (np.arange(4000) + 0.5)/4000*3, Lucy.of(h=3.0)
     transform = sum(value_and_slope(weight, s)[0]*j0(k*s/rows)*2*np.pi*s for s in r)*3/4000

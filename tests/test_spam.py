@@ -1,4 +1,5 @@
-"""The rates of SPAM: equal to the slow twin in every variant, conservative, the same for every observer and thread."""
+"""The rates of SPAM: equal to the slow twin in every variant, conservative, the same for every observer and
+thread."""
 from itertools import cycle
 from typing import Any, NamedTuple
 
@@ -46,7 +47,8 @@ SETUPS = {
     "monaghan": Setup(Monaghan, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD)),
     "odd, own": Setup(Monaghan, VanDerWaals(), NU, PERIODIC + plates(BOX[1], HOT, COLD, Odd(), Own())),
     "four walls": Setup(WendlandC2, DenseFluid(), ETA, closed(AtWall(), Own())),
-    "four odd walls": Setup(WendlandC4, IdealGas(), NU, closed(Odd(), Copied()), {"gradients": ArithmeticGradients()}),
+    "four odd walls": Setup(WendlandC4, IdealGas(), NU, closed(Odd(), Copied()),
+                            {"gradients": ArithmeticGradients()}),
     "fixed": Setup(WendlandC6, VanDerWaals(), POWER, PERIODIC + FIXED),
     "fixed between mirrors": Setup(Lucy, DenseFluid(), NU, FIXED + sides(BOX[0], 1.0, -0.05, Odd(), Own())),
     "no walls": Setup(WendlandC4, VanDerWaals(), POWER, everywhere(BOX)),
@@ -54,7 +56,8 @@ SETUPS = {
     "direct": Setup(Lucy, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD), {"transport": Direct}),
     "direct, less static": Setup(Monaghan, DenseFluid(), ETA, PERIODIC + FIXED,
                                    {"transport": Direct, "static": LessStatic(0.6, 1.2, 1.1)}),
-    "less static": Setup(WendlandC2, VanDerWaals(), NU, closed(Odd(), Own()), {"static": LessStatic(1.0, 1.2, 1.1)}),
+    "less static": Setup(WendlandC2, VanDerWaals(), NU, closed(Odd(), Own()),
+                         {"static": LessStatic(1.0, 1.2, 1.1)}),
     "half static": Setup(WendlandC6, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD),
                            {"static": LessStatic(0.5, 1.2, 0.9)}),
 }
@@ -77,7 +80,8 @@ def close(fast, slow):
 
 @pytest.mark.parametrize("name", SETUPS)
 def test_equals_the_slow_twin(name):
-    # both add about 30 terms a pair sum in double precision: round-off is 1e-15 of the largest term, and the sums
+    # both add about 30 terms a pair sum in double precision: round-off is 1e-15 of the largest term, and the
+    # sums
     # cancel to a few per cent of their terms
     spam = method(SETUPS[name])
     sums, state, _ = prepare(spam, crowd(BOX, COLUMNS, ROWS, spam.eos))
@@ -99,15 +103,19 @@ def free(weight=Lucy, eos=IdealGas(), law=ETA, **other) -> Spam:  # noqa: B008
     return Spam(weight=weight.of(h=3.0), eos=eos, law=law, walls=everywhere(BOX), box=BOX, m=MASS, **other)
 
 
-COMPANY = [free(weight, eos, ETA) for weight, eos in zip(WEIGHTS.values(), cycle(EQUATIONS_OF_STATE.values()))]
-COMPANY += [free(gradients=ArithmeticGradients()), free(transport=Direct), free(WendlandC2, VanDerWaals(), POWER)]
+COMPANY = [free(weight, eos, ETA) for weight,
+           eos in zip(WEIGHTS.values(), cycle(EQUATIONS_OF_STATE.values()))]
+COMPANY += [free(gradients=ArithmeticGradients()), free(transport=Direct),
+            free(WendlandC2, VanDerWaals(), POWER)]
 each = pytest.mark.parametrize("spam", COMPANY, ids=lambda s: " ".join(
-    [type(s.weight).__name__, type(s.eos).__name__, type(s.law).__name__, type(s.gradients).__name__, s.transport.__name__]))
+    [type(s.weight).__name__, type(s.eos).__name__, type(s.law).__name__, type(s.gradients).__name__,
+     s.transport.__name__]))
 
 
 @each
 def test_momentum_and_energy_are_exchanged_only(spam):
-    # what one particle gains its partner loses: the sum over 99 particles of 30 terms each is round-off, 1e-16 of
+    # what one particle gains its partner loses: the sum over 99 particles of 30 terms each is round-off,
+    # 1e-16 of
     # the terms, which are ten times larger than the rates
     state = crowd(BOX, COLUMNS, ROWS, spam.eos)
     _, _, ax, ay, heat = rates(spam, state)
@@ -181,7 +189,8 @@ def test_errors_name_value_rule_and_way_out():
         Spam(weight=Lucy.of(h=3.0), eos=IdealGas(), law=ETA, walls=(), box=BOX, m=0.0)
     with pytest.raises(ValueError, match=r"no particles \(n = 0\)"):
         prepare(free(), np.empty((5, 0)))
-    with pytest.raises(ValueError, match="2 h = 6 is wider than the box 5 x 8: take more particles or a shorter range"):
+    with pytest.raises(ValueError,
+                       match="2 h = 6 is wider than the box 5 x 8: take more particles or a shorter range"):
         prepare(Spam(**{**vars(free()), "box": (5.0, 8.0)}), crowd(BOX, 3, 3))
     with pytest.raises(ValueError, match="skin of the neighbour list must be positive, got 0"):
         prepare(free(skin=0.0), crowd(BOX, 3, 3))

@@ -1,4 +1,5 @@
-"""SPAM in time: order of the steps, what limits it, the isomorphism with molecular dynamics, threads and lists."""
+"""SPAM in time: order of the steps, what limits it, the isomorphism with molecular dynamics, threads and
+lists."""
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -42,8 +43,10 @@ def halved(request):
 def test_energy_drifts_with_the_fourth_power_of_the_step(halved):
     method, start, ends = halved
     drift = np.abs([total_energy(method, end) - total_energy(method, start) for end in ends])
-    # RK4 damps each oscillation by (omega dt)^6/144 a step, a fifth power of dt in all, which the longest steps still
-    # show beside the fourth. Smallest drift 4e-12, round-off of a sum of 100 energies 1e-13: 0.05 of the last order
+    # RK4 damps each oscillation by (omega dt)^6/144 a step, a fifth power of dt in all, which the longest
+    # steps still
+    # show beside the fourth. Smallest drift 4e-12, round-off of a sum of 100 energies 1e-13: 0.05 of the
+    # last order
     orders = np.log2(drift[:-1]/drift[1:])
     assert ((3.9 < orders) & (orders < 4.4)).all()
     assert abs(orders[-1] - 4) < 0.15
@@ -53,8 +56,10 @@ def test_paths_converge_as_the_weight_is_smooth(halved):
     method, _, ends = halved
     errors = [np.sqrt(np.mean((a[2:] - b[2:])**2)) for a, b in pairwise(ends)]
     order = np.log2(errors[0]/errors[-1])/(len(errors) - 1)
-    # KHP95's weights have w''' that jumps at h (the B-spline's at h/2 too): each pair that crosses such a distance
-    # costs dt^3 of a force with a kink in its slope, at a random place within the step. Hundreds of crossings: 0.3.
+    # KHP95's weights have w''' that jumps at h (the B-spline's at h/2 too): each pair that crosses such a
+    # distance
+    # costs dt^3 of a force with a kink in its slope, at a random place within the step. Hundreds of
+    # crossings: 0.3.
     # Wendland's w''' does not jump.
     expected, within = (4.0, 0.1) if isinstance(method.weight, WendlandC2) else (3.0, 0.3)
     assert abs(order - expected) < within
@@ -72,7 +77,8 @@ def test_momentum_stays(transport):
 
 
 class Quadratic(NamedTuple):
-    """P = rho^2, e = rho: 2 w(r) is then the potential of a pair. Its formulas must not change: compiled code is kept."""
+    """P = rho^2, e = rho: 2 w(r) is then the potential of a pair. Its formulas must not change: compiled
+    code is kept."""
 
 
 pressure.of(Quadratic)(lambda eos, rho, e: rho*rho)
@@ -95,7 +101,8 @@ def potential(state):
 
 
 def test_forces_are_those_of_a_pair_potential():
-    # -d/dr of sum_{i<j} 2 w(r_ij) by central differences: step^2 w''' ~ 1e-10, round-off 1e-16 1e2/step ~ 1e-9
+    # -d/dr of sum_{i<j} 2 w(r_ij) by central differences: step^2 w''' ~ 1e-10, round-off 1e-16 1e2/step ~
+    # 1e-9
     state, step = atoms(), 1e-5
     force = rates(NEWTON, state)[2:4]
     for row in (0, 1):
@@ -108,7 +115,8 @@ def test_forces_are_those_of_a_pair_potential():
 
 def test_internal_energy_is_the_potential():
     end = advance(NEWTON, atoms(), 0.02, 200)
-    # RK4's error of the path at this step, 2e-8, is eight times smaller at half of it; the sum of e and v^2/2 is the
+    # RK4's error of the path at this step, 2e-8, is eight times smaller at half of it; the sum of e and
+    # v^2/2 is the
     # conserved energy of the atoms
     assert end[4] == pytest.approx(potential(end), abs=1e-7)
     assert total_energy(NEWTON, end) == pytest.approx(total_energy(NEWTON, atoms()), abs=1e-7)

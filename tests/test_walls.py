@@ -1,4 +1,5 @@
-"""What walls make of particles: images in the right places with the right motion, statics, reflections, fixed rows."""
+"""What walls make of particles: images in the right places with the right motion, statics, reflections,
+fixed rows."""
 import numpy as np
 import plain
 import pytest
@@ -23,7 +24,8 @@ rules = pytest.mark.parametrize("rule, pressure", RULES, ids=lambda r: type(r)._
 
 
 def spam(walls, **other) -> Spam:
-    return Spam(**{"weight": Lucy.of(h=3.0), "eos": IdealGas(), "law": ETA, "walls": walls, "box": BOX, "g": G, **other})
+    return Spam(**{"weight": Lucy.of(h=3.0), "eos": IdealGas(), "law": ETA, "walls": walls, "box": BOX,
+                   "g": G, **other})
 
 
 def four(rule=Odd(), pressure=Copied()):  # noqa: B008
@@ -58,7 +60,8 @@ def lattice_moments(weight):
 @pytest.mark.parametrize("transport", [Nested, Direct])
 @rules
 def test_without_static_pressure_the_conduction_state_rests(rule, pressure, transport):
-    # all that is left of the pressure is round-off; odd images continue the linear profile, so that nothing is heated
+    # all that is left of the pressure is round-off; odd images continue the linear profile, so that nothing
+    # is heated
     rho, _ = lattice_moments(Lucy.of(h=3.0))
     method = spam(periodic(BOX[0]) + plates(BOX[1], HOT, COLD, rule, pressure), transport=transport,
                   static=LessStatic(1.0, rho, rho))
@@ -73,9 +76,11 @@ def test_without_static_pressure_the_conduction_state_rests(rule, pressure, tran
 
 @pytest.mark.parametrize("fraction", [0.0, 0.3, 0.7])
 def test_static_pressure_pushes_by_the_error_of_the_lattice_only(fraction):
-    # the printed sum gives -dP/dy/rho times the lattice moment; at odd images with their own pressure also at plates
+    # the printed sum gives -dP/dy/rho times the lattice moment; at odd images with their own pressure also
+    # at plates
     rho, moment = lattice_moments(Lucy.of(h=3.0))
-    method = spam(periodic(BOX[0]) + plates(BOX[1], HOT, COLD, Odd(), Own()), static=LessStatic(fraction, rho, rho))
+    method = spam(periodic(BOX[0]) + plates(BOX[1], HOT, COLD, Odd(), Own()),
+                  static=LessStatic(fraction, rho, rho))
     out = rates(method, still(method))
     assert out[3] == pytest.approx((1 - fraction)*G*(moment - 1), abs=1e-14)
     assert 1e-4 < abs(moment - 1) < 0.02
@@ -83,7 +88,8 @@ def test_static_pressure_pushes_by_the_error_of_the_lattice_only(fraction):
 
 
 def test_copied_pressure_does_not_carry_the_row_at_the_plate():
-    # KHP95's images match the pressure of their particles, so the gradient that carries the fluid vanishes at the
+    # KHP95's images match the pressure of their particles, so the gradient that carries the fluid vanishes
+    # at the
     # plate: the row nearest to it feels most of its weight
     _, moment = lattice_moments(Lucy.of(h=3.0))
     method = spam(periodic(BOX[0]) + plates(BOX[1], HOT, COLD, Odd(), Copied()))
@@ -93,9 +99,11 @@ def test_copied_pressure_does_not_carry_the_row_at_the_plate():
 
 
 def test_rest_stays_rest():
-    # t = 100, fifty sound crossings of the range: a growing mode would have been fed by round-off all the time
+    # t = 100, fifty sound crossings of the range: a growing mode would have been fed by round-off all the
+    # time
     rho, _ = lattice_moments(Lucy.of(h=3.0))
-    method = spam(periodic(BOX[0]) + plates(BOX[1], HOT, COLD, Odd(), Own()), static=LessStatic(1.0, rho, rho))
+    method = spam(periodic(BOX[0]) + plates(BOX[1], HOT, COLD, Odd(), Own()),
+                  static=LessStatic(1.0, rho, rho))
     start = still(method)
     end = run(method, start, Plan(dt=0.5, steps=200)).by_id()
     assert abs(end - start).max() < 1e-10
@@ -123,10 +131,12 @@ def test_reflection_is_elastic(walls):
     assert (state[4] == before[4]).all()
 
 
-@pytest.mark.parametrize("walls", [four(AtWall()), four(Odd(), Own()), periodic(10.0) + fixed_plates(10.0, HOT, COLD)],
+@pytest.mark.parametrize("walls",
+                         [four(AtWall()), four(Odd(), Own()), periodic(10.0) + fixed_plates(10.0, HOT, COLD)],
                          ids=["at wall", "odd", "fixed rows"])
 def test_nothing_leaks(walls):
-    # thrown at the walls at the speed of sound; much faster ones cool to e < 0 where they fly apart, as printed
+    # thrown at the walls at the speed of sound; much faster ones cool to e < 0 where they fly apart, as
+    # printed
     start = crowd(BOX, 10, 10)
     start[2:4] *= 4
     done = run(spam(walls), start, Plan(dt=0.1, steps=200))
@@ -145,17 +155,20 @@ def test_fixed_rows_continue_the_lattice_at_rest_with_the_profile():
     assert depth == pytest.approx(np.repeat(np.arange(6) + 5.5, 20), rel=1e-14)
     assert not around.vx[held].any() and not around.vy[held].any()
     assert around.T[held] == pytest.approx(wall_T(around.y[held]), rel=1e-13)
-    # up to one range behind the plate the density is that of the fluid, to round-off: two ranges are enough rows
+    # up to one range behind the plate the density is that of the fluid, to round-off: two ranges are enough
+    # rows
     near = abs(around.y[:sums.around.rows]) < 8
     assert around.rho[:sums.around.rows][near] == pytest.approx(lattice_moments(method.weight)[0], rel=1e-13)
 
 
 def test_fixed_rows_fit_a_period_that_is_no_multiple_of_their_spacing():
-    sums, *_ = prepare(spam(periodic(10.3) + fixed_plates(10.0, HOT, COLD), box=(10.3, 10.0)), crowd((10.3, 10.0), 10, 10))
+    sums, *_ = prepare(spam(periodic(10.3) + fixed_plates(10.0, HOT, COLD), box=(10.3, 10.0)),
+                       crowd((10.3, 10.0), 10, 10))
     row = np.sort(sums.around.x[100:110])
     assert np.diff(np.append(row, row[0] + 10.3)) == pytest.approx(1.03, rel=1e-12)
 
 
 def test_fixed_rows_need_a_positive_temperature():
-    with pytest.raises(ValueError, match=r"last of 6 fixed rows would have T = -0\.05.* take a higher box, fewer rows"):
+    with pytest.raises(ValueError,
+                       match=r"last of 6 fixed rows would have T = -0\.05.* take a higher box, fewer rows"):
         fixed_plates(10.0, 1.5, 0.5)

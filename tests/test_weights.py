@@ -8,7 +8,8 @@ from particles.weights import WEIGHTS, Lucy, Monaghan, Weight, WendlandC2, Wendl
 
 weights = pytest.mark.parametrize("kind", WEIGHTS.values(), ids=WEIGHTS)
 SPHERE = {1: 2.0, 2: 2*np.pi, 3: 4*np.pi}
-# Gauss-Legendre, 20 points on each side of the B-spline's knot: exact for the polynomials, up to degree 14 here
+# Gauss-Legendre, 20 points on each side of the B-spline's knot: exact for the polynomials, up to degree 14
+# here
 NODES, GAUSS = np.polynomial.legendre.leggauss(20)
 Q, DQ = np.concatenate([(NODES + 1)/4, (NODES + 3)/4]), np.concatenate([GAUSS, GAUSS])/4
 
@@ -64,7 +65,8 @@ def second(kind, q):
 @weights
 @pytest.mark.parametrize("knot", [0.5, 1.0])
 def test_second_derivative_is_continuous(kind, knot):
-    # KHP95, Sec. II: "continuous first and second derivatives for all r". The difference across a knot falls in
+    # KHP95, Sec. II: "continuous first and second derivatives for all r". The difference across a knot falls
+    # in
     # proportion to the distance, with phi''' (at most 300 for C6) as factor, so it is no jump.
     for distance in (1e-2, 1e-3):
         beyond = second(kind, knot + distance) if knot < 1 else 0.0
@@ -77,7 +79,8 @@ def test_second_derivative_is_continuous_through_the_centre(kind):
     assert slope(kind.of(h=1.0), 0.0) == pytest.approx(second(kind, 1e-4), rel=2e-3)
 
 
-@pytest.mark.parametrize("kind, knot, jump", [(Lucy, 1.0, 24.0), (Monaghan, 0.5, -48.0), (Monaghan, 1.0, 12.0)])
+@pytest.mark.parametrize("kind, knot, jump",
+                         [(Lucy, 1.0, 24.0), (Monaghan, 0.5, -48.0), (Monaghan, 1.0, 12.0)])
 def test_third_derivative_jumps(kind, knot, jump):
     # what limits the order of the time step when pairs cross these distances: see test_spam_in_time
     d = 1e-3
@@ -88,10 +91,12 @@ def test_third_derivative_jumps(kind, knot, jump):
     assert beyond - third(knot - d) == pytest.approx(jump, rel=0.02)
 
 
-@pytest.mark.parametrize("kind, positive", [(Lucy, False), (Monaghan, False), (WendlandC2, True), (WendlandC4, True),
+@pytest.mark.parametrize("kind, positive",
+                         [(Lucy, False), (Monaghan, False), (WendlandC2, True), (WendlandC4, True),
                                             (WendlandC6, True)])
 def test_only_wendland_weights_have_a_positive_transform(kind, positive):
-    # the 2D transform at k h up to 60; where it is negative, particles pair. Lucy reaches -6e-6, the B-spline -6e-5
+    # the 2D transform at k h up to 60; where it is negative, particles pair. Lucy reaches -6e-6, the
+    # B-spline -6e-5
     fine = (np.arange(4000) + 0.5)/4000
     values = np.array([shape(kind.of(h=1.0), q) for q in fine])
     k = np.linspace(0.5, 60, 239)
@@ -100,7 +105,9 @@ def test_only_wendland_weights_have_a_positive_transform(kind, positive):
     assert (transform.min() > 0) == positive
 
 
-@pytest.mark.parametrize("h, d, words", [(0.0, 2, "must be positive and finite, got 0.0"), (-1.0, 2, "KHP95 use h = 3 sigma"),
+@pytest.mark.parametrize("h, d, words",
+                         [(0.0, 2, "must be positive and finite, got 0.0"),
+                          (-1.0, 2, "KHP95 use h = 3 sigma"),
                                          (np.nan, 2, "finite, got nan"), (np.inf, 2, "finite, got inf"),
                                          (3.0, 4, "d = 1, 2, 3 .*got d = 4")])
 def test_errors(h, d, words):
@@ -139,12 +146,15 @@ def test_a_weight_without_a_formula_is_told_what_to_add(phi, over_q, words):
 
 
 @pytest.mark.parametrize("phi, over_q, words", [
-    (lambda w, q: np.exp(-9*q*q), lambda w, q: -18*np.exp(-9*q*q), r"phi of Own is 0\.00012341 at q = 1, where it must be zero"),
+    (lambda w, q: np.exp(-9*q*q), lambda w, q: -18*np.exp(-9*q*q),
+     r"phi of Own is 0\.00012341 at q = 1, where it must be zero"),
     (lambda w, q: 1 - q**2, lambda w, q: -2.0, r"phi'/q of Own is -2 at q = 1"),
-    (quartic, lambda w, q: -8*q*(1 - q**2)**3, r"slope of Own is -1\.03\S+ at q = 0\.137, but phi'\(q\)/q there is -7\.557"),
+    (quartic, lambda w, q: -8*q*(1 - q**2)**3,
+     r"slope of Own is -1\.03\S+ at q = 0\.137, but phi'\(q\)/q there is -7\.557"),
     (quartic, lambda w, q: -8.0001*(1 - q**2)**3, "slope of Own .* give the derivative"),
     (lambda w, q: (1 - q)**2, lambda w, q: -2*(1 - q)/q, r"phi'/q of Own is nan at q = 0"),
-    (lambda w, q: (1 - q)**2, lambda w, q: -2*(1 - q)/np.float64(q or 1e-320), r"phi'/q of Own is -?inf at q = 0")])
+    (lambda w, q: (1 - q)**2, lambda w, q: -2*(1 - q)/np.float64(q or 1e-320),
+     r"phi'/q of Own is -?inf at q = 0")])
 def test_formulas_that_do_not_fit_are_refused(phi, over_q, words):
     with np.errstate(over="ignore"), pytest.raises(ValueError, match=words):
         own(phi, over_q).of(h=3.0)
