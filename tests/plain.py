@@ -89,8 +89,8 @@ def images(method: Spam, x: np.ndarray):
             if isinstance(wall, Shift) and shifted(p, wall.axis, made):
                 continue
             image = list(x[p])
-            image[wall.axis] = image[wall.axis] + wall.by if isinstance(wall,
-                                                                        Shift) else 2*wall.at - image[wall.axis]
+            place = image[wall.axis]
+            image[wall.axis] = place + wall.by if isinstance(wall, Shift) else 2*wall.at - place
             if abs(image[wall.axis]) <= method.box[wall.axis]/2 + 1.01*method.weight.h:
                 x.append(tuple(image))
                 made.append(Image(wall, p))

@@ -110,7 +110,8 @@ def rates(method, scene, state, S, k, apart, shift, count, images):
             q in {"rho": rho, "per_c": 1/c, "eta": eta, "k": kappa, "e": e}.items()}
     theta = V*count - 1
     left = (half*(shift[:, None]
-                  + (shift[origin]*R)[None])).sum(axis=2) + chosen.follow*k*(theta[origin][None] - theta[:, None])
+                  + (shift[origin]*R)[None])).sum(axis=2)
+    left += chosen.follow*k*(theta[origin][None] - theta[:, None])
     linear = 0.5*chosen.smooth*(apart*(grad_P[:, None] + (grad_P[origin]*R)[None])).sum(axis=2)
     mass = left*both["rho"]/2 + chosen.spread/4*both["per_c"]*k*(P[origin][None] - P[:, None] - linear)
     to_i, to_j = np.einsum("ija,ia->ij", half, v), np.einsum("ija,ja->ij", half, slip)

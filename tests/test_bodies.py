@@ -7,7 +7,7 @@ import pytest
 
 from continuum.exact.cylinder import drag_of, series
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
-from particles.integral.bodies import CLEAR, between_circles, held, in_disc, together, turning, with_surface
+from particles.integral.bodies import between_circles, held, in_disc, together, turning, with_surface
 from particles.integral.dih import Dih, Pairwise
 from particles.integral.edge_makers import renormalised
 from particles.integral.points import jittered, lattice
@@ -113,20 +113,6 @@ def test_a_fluid_at_rest_stays_and_leaves_the_body_alone(kind):
     found, sums = rates(fluid, state)
     assert np.abs(found).max() < 1e-14
     assert np.abs(sums.force(state)).max() < 1e-13       # some 20 pressures that cancel
-
-
-def test_points_lie_on_the_surface_and_its_chords_are_edges():
-    points, which = with_surface((16, 16), 4.0)
-    r = np.hypot(*points.x.T)
-    ring = np.flatnonzero(np.abs(r - 4.0) < 1e-12)
-    assert len(ring) == 25 and set(np.flatnonzero(r < 4.0 + 1e-9)) == set(which)
-    assert np.abs(np.delete(r, ring) - 4.0).min() > CLEAR
-    edges = delaunay(points)
-    pairs = {frozenset(pair) for pair in zip(edges.i.tolist(), edges.j.tolist(), strict=True)}
-    assert all(frozenset((int(a), int(b))) in pairs for a, b in zip(ring, np.roll(ring, 1), strict=True))
-    inside = np.setdiff1d(which, ring)
-    outside = np.setdiff1d(np.arange(points.n), which)
-    assert not any(frozenset((int(a), int(b))) in pairs for a in inside for b in outside)
 
 
 def test_a_body_that_turns_with_the_fluid_around_it_feels_nothing():

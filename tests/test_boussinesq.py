@@ -128,23 +128,6 @@ def test_rolls_are_counted(box, rolls):
     assert rest(case).rolls == 0
 
 
-def test_a_roll_with_two_centres_is_one_and_stacked_rolls_are_two():
-    """At Ra = 1e5 the psi of the cavity has two extrema of one sign."""
-    assert steady(Case(ra=1e5, pr=0.71, box=CAVITY, rows=32)).rolls == 1
-    case = Case(ra=5000, pr=1, box=SQUARE, rows=16)
-    psi = np.outer(np.sin(np.pi*case.mac.x.face), np.sin(2*np.pi*case.mac.y.face))
-    assert State(case=case, q=np.r_[case.mac.curl@psi.ravel(), rest(case).parts[2].ravel()]).rolls == 2
-
-
-def test_start_of_khp95_rises_in_the_middle_with_the_energy_asked_for():
-    case = Case(ra=10_000, pr=1, box=LAYER, rows=16)
-    state = khp95(case, 0.002)
-    v = state.centred()[1][:, 8]
-    assert state.K == pytest.approx(0.002, rel=1e-12)
-    assert abs(np.argmax(v) - 15.5) == 0.5 and v[0] < 0        # two middle columns of 32
-    assert transient(case, state, until=1.0).state.rolls == 2
-
-
 # --- bad input --------------------------------------------------------------------------------------------
 
 

@@ -112,13 +112,6 @@ def test_one_and_two_pairs_of_rolls_are_both_stable_in_the_periodic_box(rolls):
     assert series.K[-1] == pytest.approx(state.K, rel=2e-5)     # twice what the run says is left
 
 
-def test_unfolded_half_is_steady_in_the_periodic_box():
-    state = steady(Case(ra=10_000, pr=2, rows=16)).unfold()
-    series = transient(state.case, state, until=2.0, within=0)
-    assert series.state.q == pytest.approx(state.q, abs=1e-11)      # grows from round-off only
-    assert state.observe() == pytest.approx(steady(Case(ra=10_000, pr=2, rows=16)).observe(), rel=1e-12)
-
-
 def test_what_is_left_of_a_slow_decay_is_not_taken_for_its_last_change():
     """Near onset a block changes K by a small part of what is left of it."""
     t = np.arange(0, 100, 0.53)         # not in step with blocks
@@ -137,10 +130,3 @@ def test_settles_near_onset_where_decay_is_slow():
     assert series.settled
     # the estimate is of first order in itself
     assert abs(series.K[-1]/steady(case).K - 1) < 1.1*series.left
-
-
-def test_below_onset_everything_comes_to_rest():
-    case = Case(ra=1000, pr=1, rows=16)
-    assert steady(case).rolls == 0
-    series = transient(case, roll(case))
-    assert series.settled and series.K[-1] < 1e-12 and series.state.rolls == 0

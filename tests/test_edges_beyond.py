@@ -98,7 +98,7 @@ def test_points_that_are_not_between_plates_are_refused(d, axis, at):
     x = lattice((5,)*d).x.copy()
     x[3, -1] = at
     with pytest.raises(ValueError,
-                       match=rf"point 3 at {axis} = {at:g} is not between the plates {axis} = -\+2\.5 \(1 of {5**d}"):
+                       match=rf"point 3 at {axis} = {at:g} is not between the plates .*2\.5 \(1 of {5**d}"):
         between_plates(renormalised, x, (5.0,)*(d - 1), 5.0, Lucy.of(h=2.0, d=d))
 
 

@@ -115,7 +115,8 @@ def test_dissipative_particles_have_the_temperature_of_their_velocities(method):
     state = method.random_start(3.0)
     fields, d = method.fields(state), method.d
     assert np.array_equal(fields.x, state[:d].T) and np.array_equal(fields.v, state[d:2*d].T)
-    assert fields.V.sum() == pytest.approx(method.volume) and fields.rho@fields.V == pytest.approx(len(fields.T))
+    assert fields.V.sum() == pytest.approx(method.volume)
+    assert fields.rho@fields.V == pytest.approx(len(fields.T))
     # four standard deviations
     assert fields.T[0] == pytest.approx(method.kT, rel=4*np.sqrt(2/(d*len(fields.T))))
 

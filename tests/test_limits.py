@@ -125,15 +125,3 @@ def test_the_hottest_particle_sets_the_limit():
 def test_particles_that_do_not_see_each_other_are_refused():
     with pytest.raises(ValueError, match=r"1 apart do not see each other: .* h = 0\.9 must be larger"):
         step_limit(spam(Lucy.of(h=0.9)), 1.0)
-
-
-@pytest.mark.parametrize("weight", [Lucy, Monaghan])
-def test_settled_particles_oscillate_up_to_a_quarter_faster(weight):
-    # which is why runs are told to take 0.8 of the limit; the lattice itself is not where particles stay
-    method, e = spam(weight.of(h=3.0)), 1.0
-    start = still(e)
-    start[:2] += np.random.default_rng(0).uniform(-0.25, 0.25, (2, SIDE**2))
-    settled = advance(method, start, 0.4, 200)
-    fastest, lattice_wave = abs(np.linalg.eigvals(jacobian(method, settled))).max(), abs(box_waves(method,
-                                                                                                   e)).max()
-    assert 1.0 < fastest/lattice_wave < 1.25

@@ -175,10 +175,10 @@ def test_what_is_no_start_is_refused():
 def test_a_weight_that_is_none_is_refused_and_a_narrow_one_told():
     method, plan = fluid(chosen=Ingredients()), Plan(dt=0.01, steps=1)
     with pytest.raises(ValueError,
-                       match=r"has the integral 2 in 2 dimensions, which must be 1: make it with WendlandC2\.of"):
+                       match=r"has the integral 2 in 2 dimensions, .* make it with WendlandC2\.of"):
         replace(method, weight=method.weight._replace(scale=2*method.weight.scale))
     with pytest.raises(ValueError,
-                       match=r"no neighbours in two directions within the weight's range h = 1\.05 .*Eq\. 45"):
+                       match=r"no neighbours in two directions .* h = 1\.05 .*Eq\. 45"):
         run(replace(method, weight=WendlandC2.of(h=1.05)), shaken(method), plan)
     with pytest.warns(OrderingWarning,
                       match=r"below the spacing .*Eq\. 45: volumes, which follow the density of points"):

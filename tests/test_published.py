@@ -150,16 +150,6 @@ def test_printed_errors_against_printed_energies(ra):
 # --- RR98 -------------------------------------------------------------------------------------------------
 
 
-def test_moments_of_the_exponential_weight():
-    def moment(n):
-        cubed, squared = number("rr98-exponential-cubed"), number("rr98-exponential-squared")
-        # noqa: E731
-        weight = lambda r: number("rr98-exponential-prefactor")*(cubed/r**3 + squared/r**2)*np.exp(-r)
-        return quad(lambda r: 4*np.pi*r**2*r**n*weight(r), 0, np.inf)[0]
-    assert moment(1) == pytest.approx(number("rr98-moment-1"), rel=1e-8)                # of the quadrature
-    assert moment(3) == pytest.approx(number("rr98-derived-moment-3"), rel=1e-8)
-
-
 # --- other references -------------------------------------------------------------------------------------
 
 

@@ -276,15 +276,6 @@ def test_a_solution_on_another_grid_keeps_its_energy(kind, request):
     assert wide.measure(onto(wide, fine))[0] == pytest.approx(fine.series.ke[-1], rel=0.01)
 
 
-@pytest.mark.parametrize("make", [layer, lambda: Gas(GAS, 16)], ids=["layer", "gas"])
-def test_rolls_have_the_energy_asked_for(make):
-    equation = make()
-    # the midpoint rule is exact for a few harmonics
-    assert equation.measure(equation.rolls(0.003, 4))[0] == pytest.approx(0.003, rel=1e-12)
-    solution = solve(equation, until=Time(0.01, samples=1), start=Rolls(0.003, 4), backend="numpy")
-    assert solution.rolls == 4
-
-
 # --- what cannot be ---------------------------------------------------------------------------------------
 
 

@@ -149,7 +149,7 @@ def test_what_cannot_work_is_refused(change, message):
 def test_a_step_above_the_limit_is_told_what_is_stable_and_what_the_studies_take():
     method, start = small()
     with pytest.raises(ValueError,
-                       match=r"dt = 5 is above the stability limit (\S+) of RK4 .* below (\S+) also where they lie "
+                       match=r"dt = 5 is above the stability limit (\S+) .* below (\S+) also where they lie "
                                          r"at random; the studies take (\S+) of the limit, (\S+),") as told:
         run(method, start, replace(PLAN, dt=5.0))
     words = str(told.value).replace(",", "").split()
@@ -165,7 +165,7 @@ def test_a_start_without_a_stable_step_is_refused(found, monkeypatch):
     method, start = small()
     monkeypatch.setattr("particles.run.limit_of", lambda method, start: found)
     with pytest.raises(ValueError,
-                       match=rf"no stable step: the limit of RK4 is {found}; look for densities or temperatures"):
+                       match=rf"no stable step: the limit of RK4 is {found}; look for densities"):
         run(method, start, PLAN)
 
 
@@ -181,7 +181,7 @@ def test_particles_beyond_a_wall_at_the_start_are_named_with_place_and_box(walls
     x, y = start[:2, i]
     with pytest.raises(ValueError,
                        match=rf"particle {i} at \({x:g}, {y:g}\) is beyond a wall of the box \|x\| <= 8, "
-                                         rf"\|y\| <= 4 \({(abs(start[axis]) > 4).sum()} of 128 are\).*centred on the origin"):
+                                         rf"\|y\| <= 4 \({(abs(start[axis]) > 4).sum()} of 128 are\)"):
         run(method, start, PLAN)
 
 

@@ -2,7 +2,16 @@
 import numpy as np
 import pytest
 
-from continuum.fluid import EQUATIONS_OF_STATE, ConstNu, IdealGas, PowerLaw, VanDerWaals, conductivity, pressure, viscosity
+from continuum.fluid import (
+    EQUATIONS_OF_STATE,
+    ConstNu,
+    IdealGas,
+    PowerLaw,
+    VanDerWaals,
+    conductivity,
+    pressure,
+    viscosity,
+)
 from continuum.scene import Periodic, RayleighBenard, Walls
 from particles.weights import Lucy
 

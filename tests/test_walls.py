@@ -87,17 +87,6 @@ def test_static_pressure_pushes_by_the_error_of_the_lattice_only(fraction):
     assert abs(out[2]).max() < 1e-14
 
 
-def test_copied_pressure_does_not_carry_the_row_at_the_plate():
-    # KHP95's images match the pressure of their particles, so the gradient that carries the fluid vanishes
-    # at the
-    # plate: the row nearest to it feels most of its weight
-    _, moment = lattice_moments(Lucy.of(h=3.0))
-    method = spam(periodic(BOX[0]) + plates(BOX[1], HOT, COLD, Odd(), Copied()))
-    fall = rates(method, still(method))[3].reshape(10, 10)[:, 0]/G
-    assert fall[3:7] == pytest.approx(moment - 1, abs=1e-12)  # beyond the range of the plates
-    assert (fall[[0, -1]] < -0.5).all() and (fall >= -1).all()
-
-
 def test_rest_stays_rest():
     # t = 100, fifty sound crossings of the range: a growing mode would have been fed by round-off all the
     # time

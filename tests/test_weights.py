@@ -4,7 +4,18 @@ import plain
 import pytest
 from scipy.special import j0
 
-from particles.weights import WEIGHTS, Lucy, Monaghan, Weight, WendlandC2, WendlandC4, WendlandC6, shape, slope, value_and_slope
+from particles.weights import (
+    WEIGHTS,
+    Lucy,
+    Monaghan,
+    Weight,
+    WendlandC2,
+    WendlandC4,
+    WendlandC6,
+    shape,
+    slope,
+    value_and_slope,
+)
 
 weights = pytest.mark.parametrize("kind", WEIGHTS.values(), ids=WEIGHTS)
 SPHERE = {1: 2.0, 2: 2*np.pi, 3: 4*np.pi}
