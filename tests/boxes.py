@@ -2,10 +2,21 @@
 import numpy as np
 import pytest
 
-from continuum.boussinesq import CAVITY, CONDUCTING_SQUARE, FREE_PLATES, HALF_LAYER, LAYER, SQUARE, Box, Case, State
+from continuum.boussinesq import (
+    CAVITY,
+    CONDUCTING_SQUARE,
+    FREE_PLATES,
+    HALF_LAYER,
+    LAYER,
+    SQUARE,
+    Box,
+    Case,
+    State,
+)
 
 FREE_HALF = Box(width=1.3, plates=FREE_PLATES)
-CLOSED = {"half layer": HALF_LAYER, "free plates": FREE_HALF, "square": SQUARE, "conducting": CONDUCTING_SQUARE,
+CLOSED = {"half layer": HALF_LAYER, "free plates": FREE_HALF, "square": SQUARE,
+          "conducting": CONDUCTING_SQUARE,
           "cavity": CAVITY}
 BOXES = {**CLOSED, "layer": LAYER}
 every_box = pytest.mark.parametrize("box", BOXES.values(), ids=BOXES)

@@ -1,8 +1,10 @@
-"""The slow readable twin of `particles`: KHP95's sums as numpy double sums, without lists, cells or compiled code.
+"""The slow readable twin of `particles`: KHP95's sums as numpy double sums, without lists, cells or compiled
+code.
 
-It shares only the NamedTuples that describe a scene with particles/; every formula here is written a second time,
-weights as they are printed (r in units of sigma, range 3 sigma), walls as images of all particles, one by one. Only a
-weight that is printed nowhere is taken as it is given.
+It shares only the NamedTuples that describe a scene with particles/; every formula here is written a second
+time,
+weights as they are printed (r in units of sigma, range 3 sigma), walls as images of all particles, one by
+one.
 """
 from typing import Any, NamedTuple
 
@@ -15,7 +17,7 @@ from particles.terms import ArithmeticGradients
 from particles.walls.fixed import FixedRows
 from particles.walls.mirror import Mirror, Odd, Own
 from particles.walls.periodic import Shift
-from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6, value_and_slope
+from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
 
 # --- weights in 2D: w(r) and dw/dr inside of the range -----------------------------------------------------
 
@@ -44,15 +46,6 @@ def wendland(norm, power, *c):
 
 PRINTED = {Lucy: lucy, Monaghan: monaghan, WendlandC2: wendland(7/np.pi, 4, 1, 4),
            WendlandC4: wendland(9/np.pi, 6, 1, 6, 35/3), WendlandC6: wendland(78/(7*np.pi), 8, 1, 8, 25, 32)}
-
-
-def as_given(kind):
-    """A weight without a second formula here, one distance after the other; test_weights holds value against slope."""
-    def weight(r, h):
-        one = kind.of(h)
-        w, over_r = np.array([value_and_slope(one, float(s)) for s in r.ravel()]).T.reshape(2, *r.shape)
-        return w, over_r*r
-    return weight
 
 
 # --- points: particles, fixed particles, images -----------------------------------------------------------
@@ -96,7 +89,8 @@ def images(method: Spam, x: np.ndarray):
             if isinstance(wall, Shift) and shifted(p, wall.axis, made):
                 continue
             image = list(x[p])
-            image[wall.axis] = image[wall.axis] + wall.by if isinstance(wall, Shift) else 2*wall.at - image[wall.axis]
+            place = image[wall.axis]
+            image[wall.axis] = place + wall.by if isinstance(wall, Shift) else 2*wall.at - place
             if abs(image[wall.axis]) <= method.box[wall.axis]/2 + 1.01*method.weight.h:
                 x.append(tuple(image))
                 made.append(Image(wall, p))
@@ -136,7 +130,8 @@ def points(method: Spam, state: np.ndarray) -> Points:
             v[i], T[i] = motion(image, x[i], v[image.of], T[image.of])
             P[i] = P[image.of]
             if isinstance(image.wall, Mirror) and isinstance(image.wall.pressure, Own):
-                P[i] = pressure(method.eos, rho[i], energy(method.eos, rho[i], T[i])) - static_pressure(method, x[i, 1])
+                P[i] = pressure(method.eos, rho[i],
+                                energy(method.eos, rho[i], T[i])) - static_pressure(method, x[i, 1])
     return Points(x, made, v, T, rho, P, rows)
 
 
@@ -153,7 +148,7 @@ def pairs(method: Spam, x: np.ndarray, rows: int):
     """w_ij (rows, points) and its gradient with respect to r_i (rows, points, 2)."""
     d = x[:rows, None, :] - x[None, :, :]
     r = np.sqrt((d**2).sum(axis=2))
-    w, slope = PRINTED.get(kind := type(method.weight), as_given(kind))(r, method.weight.h)
+    w, slope = PRINTED[type(method.weight)](r, method.weight.h)
     inside = r < method.weight.h
     return np.where(inside, w, 0), np.where(inside, slope/np.where(r > 0, r, 1), 0)[:, :, None]*d
 
@@ -162,7 +157,8 @@ def pairs(method: Spam, x: np.ndarray, rows: int):
 
 
 class Rates(NamedTuple):
-    """rho (rows,), grad_v[i, a, b] = d_a v_b and grad_T[i, a] (rows, ...), and d(x, y, vx, vy, e)/dt (5, n)."""
+    """rho (rows,), grad_v[i, a, b] = d_a v_b and grad_T[i, a] (rows, ...), and d(x, y, vx, vy, e)/dt (5,
+    n)."""
     rho: np.ndarray
     grad_v: np.ndarray
     grad_T: np.ndarray
@@ -210,9 +206,11 @@ def nested(method: Spam, p: Points, grad_w, grad_v, grad_T):
 
 
 def direct(method: Spam, p: Points, grad_w, grad_v, grad_T):
-    """Pressure from both partners; viscosity and conduction from differences along the pair (Morris, Brookshaw)."""
+    """Pressure from both partners; viscosity and conduction from differences along the pair (Morris,
+    Brookshaw)."""
     n, P = len(grad_w), p.P/p.rho**2
-    eta, k = (np.array([f(method.law, rho, T) for rho, T in zip(p.rho, p.T)]) for f in (viscosity, conductivity))
+    eta, k = (np.array([f(method.law, rho, T) for rho, T in zip(p.rho, p.T)])
+              for f in (viscosity, conductivity))
     d = p.x[:n, None] - p.x[None]
     r2 = (d**2).sum(axis=2)
     F = np.einsum("ija,ija->ij", d, grad_w)/np.where(r2 > 0, r2, 1)/p.rho[:n, None]/p.rho[None]

@@ -1,4 +1,5 @@
-"""Slow, readable twin of `closed_faces`: every face as an entry of dense matrices, faces closed to round-off."""
+"""Slow, readable twin of `closed_faces`: every face as an entry of dense matrices, faces closed to
+round-off."""
 from typing import NamedTuple
 
 import numpy as np
@@ -16,7 +17,8 @@ class Scene(NamedTuple):
 
 
 def ghosts(x, y, scene):
-    """Positions of all points and images in some rows of them; origin, turn (-1 behind a plate), T of the plate."""
+    """Positions of all points and images in some rows of them; origin, turn (-1 behind a plate), T of the
+    plate."""
     width, height = scene.box
     found = [(x, y, np.arange(len(x)), np.ones(len(x)), np.zeros(len(x)))]
     for side in (-1, 1):
@@ -30,7 +32,8 @@ def ghosts(x, y, scene):
 
 
 def faces(method, scene, state):
-    """S (n, all, 2), k (n, all), x_ij (n, all, 2), the pull to even spacing (n, 2), the density of points (n,), images."""
+    """S (n, all, 2), k (n, all), x_ij (n, all, 2), the pull to even spacing (n, 2), the density of points
+    (n,), images."""
     n, V = state.shape[1], state[7]
     gx, gy, origin, turn, T = ghosts(state[0], state[1], scene)
     apart = np.stack([gx[None] - state[0][:, None], gy[None] - state[1][:, None]], axis=2)
@@ -58,7 +61,8 @@ def closed(S, k, apart, V, origin, R):
     n = len(V)
     out = S.copy()
     for a in (0, 1):
-        sign = {0: np.stack([np.ones_like(R[:, 1]), np.ones_like(R[:, 1]), R[:, 1]], axis=1),      # phi, psi_x, psi_y
+        # phi, psi_x, psi_y
+        sign = {0: np.stack([np.ones_like(R[:, 1]), np.ones_like(R[:, 1]), R[:, 1]], axis=1),
                 1: np.stack([R[:, 1], R[:, 1], np.ones_like(R[:, 1])], axis=1)}[a]
         basis = np.zeros((n, len(origin), 3*n))         # what each unknown adds to each face
         for i in range(n):
@@ -69,7 +73,8 @@ def closed(S, k, apart, V, origin, R):
                     for b in (0, 1):
                         basis[i, g, 3*o + 1 + b] += k[i, g]*apart[i, g, b]*sign[g, 1 + b]
                         basis[i, g, 3*i + 1 + b] += k[i, g]*apart[i, g, b]
-        rows = np.concatenate([basis.sum(axis=1), *(np.einsum("ig,igu->iu", apart[:, :, b], basis) for b in (0, 1))])
+        rows = np.concatenate([basis.sum(axis=1),
+                               *(np.einsum("ig,igu->iu", apart[:, :, b], basis) for b in (0, 1))])
         missing = np.concatenate([-S[:, :, a].sum(axis=1),
                                   *(2*V*(a == b) - (S[:, :, a]*apart[:, :, b]).sum(axis=1) for b in (0, 1))])
         out[:, :, a] += basis@np.linalg.lstsq(rows, missing, rcond=1e-12)[0]
@@ -82,25 +87,31 @@ def rates(method, scene, state, S, k, apart, shift, count, images):
     px, py, m, V, E = state[EXCHANGED]
     v, rho = np.stack([px, py], axis=1)/m[:, None], m/V
     e = E/m - (v**2).sum(axis=1)/2
-    T, P_all, c = temperature(method.eos, rho, e), pressure(method.eos, rho, e), sound_speed(method.eos, rho, e)
+    T, P_all, c = temperature(method.eos, rho, e), pressure(method.eos, rho, e), sound_speed(method.eos, rho,
+                                                                                             e)
     held = -method.rho0*method.g*state[1]
     P0 = (V*(P_all - held)).sum()/V.sum()
     P = P_all - held - P0
-    eta, kappa = viscosity(method.law, rho, T)*np.ones_like(T), conductivity(method.law, rho, T)*np.ones_like(T)
+    eta, kappa = viscosity(method.law, rho, T)*np.ones_like(T), conductivity(method.law, rho,
+                                                                             T)*np.ones_like(T)
     slip, friction = v[origin]*R, v[origin]*turn[:, None]
     Td = np.where(turn < 0, 2*T_plate - T[origin], T[origin])
     half = S/2
     grad_v = np.einsum("ija,ijb->iab", half, friction[None] - v[:, None])/V[:, None, None]
     grad_P = np.einsum("ija,ij->ia", half, P[origin][None] - P[:, None])/V[:, None]
     F = eta[:, None]*np.stack([v[:, 1]*grad_v[:, 1, 0] - v[:, 0]*grad_v[:, 1, 1],
-                               v[:, 0]*grad_v[:, 0, 1] - v[:, 1]*grad_v[:, 0, 0]], axis=1)*(chosen.transport == MENDED)
+                               v[:, 0]*grad_v[:, 0, 1] - v[:, 1]*grad_v[:, 0, 0]],
+                               axis=1)*(chosen.transport == MENDED)
     varies = not constant_viscosity(method.law) and chosen.transport == MENDED
     tau = varies*eta[:, None, None]*np.stack(
         [[-grad_v[:, 1, 1], grad_v[:, 1, 0]], [grad_v[:, 0, 1], -grad_v[:, 0, 0]]]).transpose(2, 0, 1)
     adjoint = np.stack([turn, np.ones_like(turn)], axis=1)[:, :, None]
-    both = {name: q[:, None] + q[origin][None] for name, q in {"rho": rho, "per_c": 1/c, "eta": eta, "k": kappa, "e": e}.items()}
+    both = {name: q[:, None] + q[origin][None] for name,
+            q in {"rho": rho, "per_c": 1/c, "eta": eta, "k": kappa, "e": e}.items()}
     theta = V*count - 1
-    left = (half*(shift[:, None] + (shift[origin]*R)[None])).sum(axis=2) + chosen.follow*k*(theta[origin][None] - theta[:, None])
+    left = (half*(shift[:, None]
+                  + (shift[origin]*R)[None])).sum(axis=2)
+    left += chosen.follow*k*(theta[origin][None] - theta[:, None])
     linear = 0.5*chosen.smooth*(apart*(grad_P[:, None] + (grad_P[origin]*R)[None])).sum(axis=2)
     mass = left*both["rho"]/2 + chosen.spread/4*both["per_c"]*k*(P[origin][None] - P[:, None] - linear)
     to_i, to_j = np.einsum("ija,ia->ij", half, v), np.einsum("ija,ja->ij", half, slip)
@@ -108,7 +119,8 @@ def rates(method, scene, state, S, k, apart, shift, count, images):
     force = 0.5*(both["eta"]*k)[:, :, None]*du - half*(P[origin][None] + P[:, None])[:, :, None]
     force += 0.5*mass[:, :, None]*(v[:, None] + slip[None])
     force += np.einsum("ija,ijab->ijb", half, tau[:, None] + (adjoint*tau[origin])[None])
-    work = 0.25*both["eta"]*k*(du*(friction[None] + v[:, None])).sum(axis=2) + 0.5*both["k"]*k*(Td[None] - T[:, None])
+    work = 0.25*both["eta"]*k*(du*(friction[None] + v[:, None])).sum(axis=2) + 0.5*both["k"]*k*(Td[None]
+                                                                                                - T[:, None])
     work += (half*(F[:, None] + (F[origin]*R)[None])).sum(axis=2)
     work += 0.5*mass*(both["e"] + np.einsum("ia,ja->ij", v, slip)) - P[:, None]*to_j - P[origin][None]*to_i
     flow, weight = (to_i + to_j).sum(axis=1), method.g*(m - method.rho0*V)

@@ -7,7 +7,7 @@ import pytest
 
 from continuum.exact.cylinder import drag_of, series
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
-from particles.integral.bodies import CLEAR, between_circles, held, in_disc, together, turning, with_surface
+from particles.integral.bodies import between_circles, held, in_disc, together, turning, with_surface
 from particles.integral.dih import Dih, Pairwise
 from particles.integral.edge_makers import renormalised
 from particles.integral.points import jittered, lattice
@@ -17,7 +17,7 @@ from particles.integral.triangulation import delaunay
 from particles.threads import Team
 from particles.weights import Lucy
 from studies.build.cylinder import VARIANTS
-from studies.conservation.slow_flows import CylinderDrag, TurningCylinder, TurningWave, sliding
+from studies.conservation.slow_flows import CylinderDrag, TurningCylinder, TurningWave
 
 LAW = ConstEta(0.3, 0.4)
 LAWS = pytest.mark.parametrize("law", [LAW, ConstNu(0.3, 0.4)], ids=["const-eta", "const-nu"])
@@ -113,20 +113,6 @@ def test_a_fluid_at_rest_stays_and_leaves_the_body_alone(kind):
     found, sums = rates(fluid, state)
     assert np.abs(found).max() < 1e-14
     assert np.abs(sums.force(state)).max() < 1e-13       # some 20 pressures that cancel
-
-
-def test_points_lie_on_the_surface_and_its_chords_are_edges():
-    points, which = with_surface((16, 16), 4.0)
-    r = np.hypot(*points.x.T)
-    ring = np.flatnonzero(np.abs(r - 4.0) < 1e-12)
-    assert len(ring) == 25 and set(np.flatnonzero(r < 4.0 + 1e-9)) == set(which)
-    assert np.abs(np.delete(r, ring) - 4.0).min() > CLEAR
-    edges = delaunay(points)
-    pairs = {frozenset(pair) for pair in zip(edges.i.tolist(), edges.j.tolist(), strict=True)}
-    assert all(frozenset((int(a), int(b))) in pairs for a, b in zip(ring, np.roll(ring, 1), strict=True))
-    inside = np.setdiff1d(which, ring)
-    outside = np.setdiff1d(np.arange(points.n), which)
-    assert not any(frozenset((int(a), int(b))) in pairs for a in inside for b in outside)
 
 
 def test_a_body_that_turns_with_the_fluid_around_it_feels_nothing():
@@ -274,19 +260,3 @@ def test_a_sliding_wave_is_of_second_order():
     errors = [row(TurningWave(rows=rows), "wave")["error"] for rows in (12, 16, 24)]
     orders = -np.diff(np.log(errors))/np.diff(np.log([12, 16, 24]))
     assert np.all(np.abs(orders - 2) < 0.3)     # at 12 rows the next order is a fifth of the error
-
-
-def test_the_turning_wave_solves_its_equation():
-    """d omega/dt + rate y d omega/dx = nu lap omega, by differences of the exact velocity in time."""
-    case, t, dt = TurningWave(rows=32), 150.0, 0.01
-    method = sliding(32, case.eta*32)
-    (x, y), kx = method.points.x.T, 2*np.pi/32
-
-    def amplitude(at):
-        """Of the vorticity."""
-        v, _ = case.wave(method, at)
-        ky = kx*(1 - method.rate*at)
-        return 2*np.mean(v[:, 1]*np.sin(kx*x + ky*y))*(kx**2 + ky**2)/kx
-    slope, ky = (amplitude(t + dt) - amplitude(t - dt))/(2*dt), kx*(1 - method.rate*t)
-    damped = -case.eta*32*(kx**2 + ky**2)*amplitude(t)
-    assert slope == pytest.approx(damped, rel=1e-6)     # dt^2 times 1e-3, over round-off

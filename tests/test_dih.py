@@ -1,4 +1,5 @@
-"""Discretized integral hydrodynamics on fixed points: conservation, invariance, operators of the equations, heating."""
+"""Discretized integral hydrodynamics on fixed points: conservation, invariance, operators of the equations,
+heating."""
 import numpy as np
 import pytest
 
@@ -25,7 +26,8 @@ def fluid(maker="renormalised", d=2, size=0.2, transport="pairwise", counts=None
 
 def crowd(dih, at, seed=0):
     rng = np.random.default_rng(seed)
-    return dih.state(rng.uniform(0.9, 1.1, at.n), rng.normal(0, 0.2, (at.n, at.d)), rng.uniform(0.9, 1.1, at.n))
+    return dih.state(rng.uniform(0.9, 1.1, at.n), rng.normal(0, 0.2, (at.n, at.d)),
+                     rng.uniform(0.9, 1.1, at.n))
 
 
 def rates(dih, state):
@@ -45,13 +47,16 @@ def test_mass_momentum_and_energy_are_conserved(maker, d, transport):
     assert np.all(np.abs(lost) < 1e-13*size)
 
 
-@pytest.mark.parametrize(("transport", "law"), [("nested", ConstNu(0.2, 0.3)), ("unmended", ConstNu(0.2, 0.3)),
-                                                ("pairwise", ConstNu(0.2, 0.3)), ("everywhere", ConstEta(0.2, 0.3))])
+@pytest.mark.parametrize(("transport", "law"),
+                         [("nested", ConstNu(0.2, 0.3)), ("unmended", ConstNu(0.2, 0.3)),
+                                                ("pairwise", ConstNu(0.2, 0.3)),
+                                                ("everywhere", ConstEta(0.2, 0.3))])
 @pytest.mark.parametrize("maker", ["closed", "exact", "delaunay"])
 def test_a_uniform_wind_changes_nothing_but_what_it_carries(maker, transport, law):
     """Galilean invariance: in a wind U all rates are those at rest, transformed, and -U.grad of the state.
 
-    The work of the stress that mends the heating asks for its force, too: off a lattice it has one with constant viscosity.
+    The work of the stress that mends the heating asks for its force, too: off a lattice it has one with
+    constant viscosity.
     """
     dih, at = fluid(maker, transport=transport, law=law)
     still, wind = crowd(dih, at), np.array([0.3, -0.2])
@@ -59,7 +64,8 @@ def test_a_uniform_wind_changes_nothing_but_what_it_carries(maker, transport, la
     moved = np.stack([rho, *(p + rho*wind[:, None]), eps + wind@p + rho*(wind@wind)/2])
     a, b = rates(dih, still), rates(dih, moved)
     expected = np.stack([a[0], *(a[1:3] + a[0]*wind[:, None]), a[3] + wind@a[1:3] + a[0]*(wind@wind)/2])
-    carried = np.stack([-sum(u*(D@q)/dih.edges.V for u, D in zip(wind, dih.edges.D, strict=True)) for q in moved])
+    carried = np.stack([-sum(u*(D@q)/dih.edges.V for u, D in zip(wind, dih.edges.D, strict=True))
+                        for q in moved])
     np.testing.assert_allclose(b, expected + carried, atol=1e-12*np.abs(b).max())
 
 
@@ -79,9 +85,11 @@ def test_viscous_and_heat_operators_are_those_of_the_equations(transport):
 
 @pytest.mark.parametrize(("transport", "zeta"), [("nested", 0.0), ("nested", 0.1), ("pairwise", 0.0)])
 def test_a_viscosity_that_varies_drags_as_the_equations_say(transport, zeta):
-    """div of the stress with eta proportional to T^1/2 over a wave of T and waves of v across and along it: second order.
+    """div of the stress with eta proportional to T^1/2 over a wave of T and waves of v across and along it:
+    second order.
 
-    Forces along edges alone miss (d_a eta) d_b v_a: a few per cent, however fine the points. (Their bulk viscosity depends on
+    Forces along edges alone miss (d_a eta) d_b v_a: a few per cent, however fine the points. (Their bulk
+    viscosity depends on
     the direction on a lattice, whatever eta.)
     """
     errors = []
@@ -113,7 +121,8 @@ def exact_drag(x, y, k, zeta):
 
 
 def test_rigid_rotation_heats_only_where_the_heating_is_not_mended():
-    """In the middle of a large patch that rotates: eta |grad v|^2 = 2 eta omega^2 without F, nothing with it."""
+    """In the middle of a large patch that rotates: eta |grad v|^2 = 2 eta omega^2 without F, nothing with
+    it."""
     heating = {}
     for transport in ("pairwise", "unmended"):
         dih, at = fluid(size=0, transport=transport, counts=(24, 24), eos=IdealGas())

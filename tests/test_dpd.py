@@ -1,4 +1,5 @@
-"""Dissipative particles: against the slow twin, momentum, antisymmetry, threads, restarts, temperatures; a body; bad input."""
+"""Dissipative particles: against the slow twin, momentum, antisymmetry, threads, restarts, temperatures; a
+body; bad input."""
 import itertools
 
 import numpy as np
@@ -42,7 +43,8 @@ def forces(method, state, step=0, dt=0.02, threads=1):
 
 
 def apart(x: np.ndarray, box: np.ndarray, slid: float = 0.0) -> np.ndarray:
-    """r_i - r_j by the nearest image (d, n, n), images above having slid along x; how many boxes lie between (n, n)."""
+    """r_i - r_j by the nearest image (d, n, n), images above having slid along x; how many boxes lie between
+    (n, n)."""
     d = x[:, :, None] - x[:, None, :]
     over = np.round(d[1]/box[1])
     d[0] -= over*slid
@@ -57,7 +59,9 @@ def plain_forces(method, x: np.ndarray, v: np.ndarray, dt: float, step: int, sli
     u[0] -= over*method.rate*box[1]
     r = np.sqrt((d**2).sum(axis=0)) + np.eye(n)*2*method.rc
     w = np.maximum(1 - r/method.rc, 0)
-    zeta = np.array([[uniform_of_pair(method.noise.seed, step, i, j) for j in range(n)] for i in range(n)])
+    zeta = np.zeros((n, n))
+    for i, j in np.argwhere(w > 0) if method.kT else ():
+        zeta[i, j] = uniform_of_pair(method.noise.seed, step, i, j)
     along = (d*u).sum(axis=0)/r
     size = method.a*w - method.gamma*w**2*along + np.sqrt(2*method.gamma*method.kT/dt)*w*zeta
     return (size*d/r).sum(axis=2)
@@ -91,7 +95,8 @@ def test_two_particles_push_and_rub_each_other_oppositely(box):
 def test_momentum_is_conserved(integrator, box):
     """Drift per particle over 200 steps: round-off."""
     method = Dpd(box=box, integrator=integrator)
-    done = run(method, method.random_start(3.0), Plan(dt=0.02, steps=200, every=20, series={"momentum": momentum}))
+    done = run(method, method.random_start(3.0),
+               Plan(dt=0.02, steps=200, every=20, series={"momentum": momentum}))
     assert max(done.series["momentum"]) < 1e-14
 
 
@@ -129,7 +134,8 @@ def test_numbers_of_particles_decide_the_noise_and_their_order_does_not(box):
 
 @pytest.mark.parametrize("integrator", SHEARED)
 def test_a_shear_is_a_change_of_frame(integrator):
-    """Between sliding sides the flow rate*y stays, and momentum in its frame; no noise, no repulsion: nothing else moves."""
+    """Between sliding sides the flow rate*y stays, and momentum in its frame; no noise, no repulsion:
+    nothing else moves."""
     method = Dpd(box=(4.0, 4.0, 4.0), a=0.0, gamma=0.0, kT=0.0, rate=0.5, integrator=integrator)
     state = method.random_start(3.0)
     done = run(method, state, Plan(dt=0.02, steps=300)).by_id()
@@ -139,10 +145,13 @@ def test_a_shear_is_a_change_of_frame(integrator):
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_noise_balances_friction(integrator):
-    """sigma^2 = 2 gamma kT: without repulsion kT is that of the bath, at a step so short that no integrator errs by 1 %."""
+    """sigma^2 = 2 gamma kT: without repulsion kT is that of the bath, at a step so short that no integrator
+    errs by 1 %."""
     method = Dpd(box=(6.0, 6.0, 6.0), a=0.0, kT=1.7, integrator=integrator)
-    done = run(method, method.random_start(3.0), Plan(dt=0.005, steps=1200, every=100, series={"kT": kinetic_temperature}))
-    spread = 1.7*np.sqrt(2/3/done.state.shape[1])        # of one record; the last eight last for eight times of friction
+    done = run(method, method.random_start(3.0),
+               Plan(dt=0.005, steps=1200, every=100, series={"kT": kinetic_temperature}))
+    # of one record; the last eight last for eight times of friction
+    spread = 1.7*np.sqrt(2/3/done.state.shape[1])
     assert abs(np.mean(done.series["kT"][4:]) - 1.7) < 4*spread/np.sqrt(4) + 0.01*1.7
 
 
@@ -186,7 +195,8 @@ def test_without_friction_kicks_and_drifts_can_be_taken_back():
     there[3:6] *= -1
     back = run(method, there, Plan(dt=0.01, steps=40)).by_id()
     apart = back[:3] - start[:3]
-    assert np.abs(apart - 6*np.round(apart/6)).max() < 1e-10        # round-off, which neighbours amplify some thousandfold
+    # round-off, which neighbours amplify some thousandfold
+    assert np.abs(apart - 6*np.round(apart/6)).max() < 1e-10
     assert np.abs(back[3:6] + start[3:6]).max() < 1e-10
     assert np.abs(there[:3] - start[:3]).max() > 0.1
 
@@ -204,7 +214,8 @@ CELL = (4.0, 4.0, 3.0)
 
 @pytest.mark.parametrize("integrator", [VelocityVerlet, GrootWarren65])
 def test_what_the_fluid_loses_the_body_gets(integrator):
-    """dP/dt = push - force to round-off but for the first and the last half-step, whose forces are in one sum only."""
+    """dP/dt = push - force to round-off but for the first and the last half-step, whose forces are in one
+    sum only."""
     state = Dpd(box=CELL).random_start(3.0)
     held = np.flatnonzero((state[:2]**2).sum(axis=0) < 1)
     method = DpdStream(box=CELL, held=held, push=0.5, integrator=integrator)
@@ -214,14 +225,16 @@ def test_what_the_fluid_loses_the_body_gets(integrator):
     n, d = start.shape[1], method.d
     gained = n*done.series["speed"][0] - start[d].sum()
     pushed = method.push*(n - len(held))*4.0
-    # half a step of the forces of two moments, about 0.005 (m <F^2>)^(1/2); <F^2> = 1000 with the noise of this step
+    # half a step of the forces of two moments, about 0.005 (m <F^2>)^(1/2); <F^2> = 1000 with the noise of
+    # this step
     assert abs(gained - pushed + 4.0*done.series["force"][0]) < 4*0.005*np.sqrt(2*len(held)*1000.0)
     end = done.by_id()
     assert np.array_equal(end[:d, held], start[:d, held]) and not end[d:, held].any()
 
 
 @pytest.mark.parametrize("wrong, message", [
-    ({"held": np.array([], int)}, "0 particles are to be held"), ({"held": np.array([1, 1])}, "2 particles are to be held, 1 of"),
+    ({"held": np.array([], int)}, "0 particles are to be held"),
+    ({"held": np.array([1, 1])}, "2 particles are to be held, 1 of"),
     ({"push": np.nan}, "the push must be finite, got nan"),
     ({"integrator": Shardlow}, "Shardlow does not step with forces alone"),
     ({"integrator": TwoStep}, "TwoStep does not step with forces alone")])
@@ -234,7 +247,8 @@ def test_bad_bodies(wrong, message):
 
 
 @pytest.mark.parametrize("wrong, message", [
-    ({"kT": -1.0}, "kT must be zero or positive, got -1.0"), ({"gamma": -4.5}, "gamma must be zero or positive, got -4.5"),
+    ({"kT": -1.0}, "kT must be zero or positive, got -1.0"),
+    ({"gamma": -4.5}, "gamma must be zero or positive, got -4.5"),
     ({"a": np.nan}, "a must be zero or positive, got nan"), ({"rc": 0.0}, "rc must be positive, got 0.0"),
     ({"skin": -0.1}, "skin must be positive"), ({"rate": np.inf}, "the shear rate must be finite"),
     ({"box": (10.0, 2.9, 10.0)}, "sides of at least 3 rc = 3"), ({"box": (10.0,)}, "two or three sides"),
@@ -248,7 +262,8 @@ def test_bad_fluids(wrong, message):
 
 def test_a_step_beyond_the_stability_limit():
     method = Dpd(box=(4.0, 4.0, 4.0))
-    with pytest.raises(ValueError, match=r"dt = 0\.15 is above the stability limit 0\.138 of these particles"):
+    with pytest.raises(ValueError,
+                       match=r"dt = 0\.15 is above the stability limit 0\.138 of these particles"):
         run(method, method.random_start(3.0), Plan(dt=0.15, steps=1))
 
 
@@ -256,5 +271,6 @@ def test_collapsed_particles_are_an_error():
     method = Dpd(box=(30.0, 30.0, 30.0))
     state = method.random_start(0.1)
     state[:3] *= 1e-3
-    with pytest.raises(FloatingPointError, match=r"neighbours within 1\.3 of each particle: they have collapsed"):
+    with pytest.raises(FloatingPointError,
+                       match=r"neighbours within 1\.3 of each particle: they have collapsed"):
         run(method, state, Plan(dt=0.02, steps=1))

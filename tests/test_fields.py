@@ -13,7 +13,6 @@ from continuum.gas.fields import block as as_block
 from continuum.scene import RayleighBenard, Torus, Walls
 from particles.dissipative.dpd import Dpd
 from particles.dissipative.stream import DpdStream
-from particles.fields import kinetic
 from particles.fields import kinetic_energy as of_fields
 from particles.integral.bodies import held
 from particles.integral.closed_faces import Moving
@@ -30,18 +29,18 @@ from particles.integral.rr98_moving_plain import MOTIONS
 from particles.integral.sheared import Sheared
 from particles.integral.stream import Stream
 from particles.integral.thermal import Thermal
-from particles.observe import particle_kinetic
 from particles.smooth.spam import Spam
-from particles.threads import Team
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2
 
 BOX = COLUMNS, ROWS = 10, 8
 AT, SQUARE = jittered(BOX, 0.1, 1), lattice(BOX)
 FLUID = {"eos": VanDerWaals(), "law": ConstEta(0.3, 0.4)}
-EVERYWHERE = {"weight": WendlandC2.of(h=2.9), "walls": (*periodic(COLUMNS), *periodic(ROWS, 1)), "box": BOX, **FLUID}
+EVERYWHERE = {"weight": WendlandC2.of(h=2.9), "walls": (*periodic(COLUMNS), *periodic(ROWS, 1)), "box": BOX,
+              **FLUID}
 EDGES = renormalised(SQUARE, Lucy.of(h=2.0))
-INSIDE = dict(zip(("edges", "beyond"), between_plates(renormalised, SQUARE.x, COLUMNS, ROWS, Lucy.of(h=2.0)), strict=True),
+INSIDE = dict(zip(("edges", "beyond"), between_plates(renormalised, SQUARE.x, COLUMNS, ROWS, Lucy.of(h=2.0)),
+                  strict=True),
               x=SQUARE.x, T_plates=(1.2, 0.8), g=0.01, **FLUID)
 
 #: methods on points that stay, and on points that move: state(rho, v, T), state(x, rho, v, T)
@@ -51,7 +50,8 @@ FIXED = {"dih": Dih(edges=EDGES, **FLUID), "layer": Layer(**INSIDE),
          "sheared": Sheared(points=SQUARE, edges=EDGES, rate=0.1, **FLUID), "driven": Driven(**INSIDE)}
 COLD = Isothermal(x=SQUARE.x, edges=EDGES, terms=(Carried(2.0),))
 MOVING = {**{f"rr98-{name}": Drift(motion=motion, **EVERYWHERE) for name, motion in DRIFTS.items()},
-          **{f"plain-{name}": kind(box=BOX, weight=WendlandC2.of(h=2.9), **FLUID) for name, kind in MOTIONS.items()},
+          **{f"plain-{name}": kind(box=BOX, weight=WendlandC2.of(h=2.9), **FLUID) for name,
+             kind in MOTIONS.items()},
           "closed-faces": Moving(**EVERYWHERE)}
 DPD = {"dpd": Dpd(box=(5.0, 4.0), rate=0.2), "dpd-3d": Dpd(box=(3.5, 3.0, 4.0)),
        "dpd-stream": DpdStream(box=(5.0, 4.0), held=np.array([0]))}
@@ -100,9 +100,11 @@ def test_smooth_particles_have_the_density_of_their_own_sums():
     state = SPAM.state(AT.x, 1.0, v, T)
     sums, ordered, ids = SPAM.look(state)
     fields = SPAM.fields(state)
-    assert np.array_equal(fields.x, AT.x) and np.array_equal(fields.v, v) and np.array_equal(ordered[2:], state[2:, ids])
+    assert np.array_equal(fields.x, AT.x) and np.array_equal(fields.v, v) and np.array_equal(ordered[2:],
+                                                                                             state[2:, ids])
     assert np.array_equal(fields.rho[ids], sums.around.rho[:AT.n]) and np.array_equal(fields.V, 1/fields.rho)
-    # on the lattice every particle has one density, near 1: then temperatures come back as far as that is from 1
+    # on the lattice every particle has one density, near 1: then temperatures come back as far as that is
+    # from 1
     still = SPAM.fields(SPAM.state(SQUARE.x, 1.0, v, T))
     assert np.ptp(still.rho) < 1e-14 and abs(still.rho[0] - 1) < 0.02
     np.testing.assert_allclose(still.T, T, atol=2*0.02)
@@ -113,8 +115,10 @@ def test_dissipative_particles_have_the_temperature_of_their_velocities(method):
     state = method.random_start(3.0)
     fields, d = method.fields(state), method.d
     assert np.array_equal(fields.x, state[:d].T) and np.array_equal(fields.v, state[d:2*d].T)
-    assert fields.V.sum() == pytest.approx(method.volume) and fields.rho@fields.V == pytest.approx(len(fields.T))
-    assert fields.T[0] == pytest.approx(method.kT, rel=4*np.sqrt(2/(d*len(fields.T))))      # four standard deviations
+    assert fields.V.sum() == pytest.approx(method.volume)
+    assert fields.rho@fields.V == pytest.approx(len(fields.T))
+    # four standard deviations
+    assert fields.T[0] == pytest.approx(method.kT, rel=4*np.sqrt(2/(d*len(fields.T))))
 
 
 @pytest.mark.parametrize("method", (*FIXED.values(), *MOVING.values()), ids=(*FIXED, *MOVING))
@@ -125,19 +129,14 @@ def test_one_kinetic_energy_serves_all(method):
     assert of_fields(method.fields(state)) == pytest.approx(0.5*rho@(v**2).sum(axis=1)/rho.sum(), rel=1e-13)
 
 
-def test_kinetic_energy_is_a_quantity_of_runs():
-    _, v, T = given(AT.n)
-    state = SPAM.state(AT.x, 1.0, v, T)
-    assert kinetic(SPAM.start(AT.n, Team(1)), state) == pytest.approx(particle_kinetic(None, state), rel=1e-14)
-
-
 def kinds():
     """Every class of the package whose states have names."""
     found = {getattr(importlib.import_module(module.name), name)
              for module in pkgutil.walk_packages(particles.__path__, "particles.")
              for name, kind in inspect.getmembers(importlib.import_module(module.name), inspect.isclass)
              if "names" in dir(kind) and {"rates", "start"} & {*dir(kind)}}
-    return {kind for kind in found if not any(kind is not other and issubclass(other, kind) for other in found)}
+    return {kind for kind in found
+            if not any(kind is not other and issubclass(other, kind) for other in found)}
 
 
 def test_no_method_is_left_out():
@@ -145,7 +144,7 @@ def test_no_method_is_left_out():
     assert kinds() <= tried, f"{kinds() - tried} have states, add them to the methods of this test"
 
 
-# --- grids ---------------------------------------------------------------------------------------------------------------------
+# --- grids ----------------------------------------------------------------------------------------------
 
 
 class Box:
@@ -153,7 +152,8 @@ class Box:
     sides, L, width, aspect, eos = Torus(), 8.0, 8.0, 1.0, VanDerWaals()
 
 
-@pytest.mark.parametrize("scene", [RayleighBenard(L=8.0, ra=1e4), RayleighBenard(L=8.0, ra=1e4, sides=Walls())],
+@pytest.mark.parametrize("scene",
+                         [RayleighBenard(L=8.0, ra=1e4), RayleighBenard(L=8.0, ra=1e4, sides=Walls())],
                          ids=["periodic", "walls"])
 def test_nodes_of_a_grid_fill_its_box_and_have_its_kinetic_energy(scene):
     fields = initial(scene, 8)
@@ -166,4 +166,5 @@ def test_nodes_of_a_grid_fill_its_box_and_have_its_kinetic_energy(scene):
 
 def test_nodes_of_a_torus_are_told_once_each():
     at = at_nodes(placed(Box, 8, lambda x, y: (1 + 0*x, 0.1*y, 0*x, 1 + 0*x)))
-    assert len(at.x) == 64 and np.array_equal(at.V, np.ones(64)) and np.array_equal(at.v[:, 0], 0.1*at.x[:, 1])
+    assert len(at.x) == 64 and np.array_equal(at.V, np.ones(64)) and np.array_equal(at.v[:, 0],
+                                                                                    0.1*at.x[:, 1])

@@ -1,11 +1,12 @@
-"""Neighbour lists hold exactly the points within reach, whatever the points and the threads; clear errors otherwise."""
+"""Neighbour lists hold exactly the points within reach, whatever the points and the threads; clear errors
+otherwise."""
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
-from particles.neighbours import farthest, make_lists, sort_into_cells
+from particles.neighbours import make_lists, sort_into_cells
 from particles.threads import Team
 
 
@@ -67,11 +68,6 @@ def test_order_of_the_lists_does_not_depend_on_threads(threads):
     assert rows(threads) == rows(1)
 
 
-def test_only_rows_have_lists():
-    x, y = scattered(3, 300)
-    assert listed(x, y, 2.0, rows=100) == within(x, y, 2.0)[:100]
-
-
 def test_places_outside_of_all_points_have_their_neighbours():
     # fields are evaluated on grids that may reach beyond the particles, which may even have left a void
     x, y = scattered(4, 200)
@@ -83,28 +79,9 @@ def test_places_outside_of_all_points_have_their_neighbours():
     assert length.min() == 0 < length.max()
 
 
-def test_cells_hold_every_point_once_and_in_order():
-    x, y = scattered(5, 300)
-    cells = sort_into_cells(x, y, 1.3)
-    assert sorted(cells.order) == list(range(300))
-    for c in range(cells.columns*cells.rows):
-        members = cells.order[cells.start[c]:cells.start[c + 1]]
-        assert (np.diff(members.astype(int)) > 0).all()  # a stable sort: results are reproducible
-        assert ((x[members] - cells.left)//1.3 == c % cells.columns).all()
-        assert ((y[members] - cells.bottom)//1.3 == c//cells.columns).all()
-
-
 def test_one_point_and_points_in_one_place():
     assert listed(np.zeros(1), np.zeros(1), 1.0) == [set()]
     assert listed(np.ones(3), np.ones(3), 1.0) == [{1, 2}, {0, 2}, {0, 1}]
-
-
-def test_farthest():
-    x, y = scattered(6, 50)
-    moved = x.copy()
-    moved[17] += 3.0
-    y2 = y + 0.5
-    assert farthest(moved, y2, x, y) == pytest.approx(np.hypot(3.0, 0.5), rel=1e-14)
 
 
 def test_collapsed_particles_are_an_error():

@@ -3,6 +3,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from crowd import goes_on_bitwise
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral import covariance
@@ -23,7 +24,8 @@ from studies.noise.partners import equilibrium, noise, transport
 
 def gas(share: float = 0.1, k: float = 1e-3, **more) -> Thermal:
     edges = MAKERS["delaunay"](jittered((5, 5), 0.2, 1), None)
-    return Thermal(**{"edges": edges, "eos": IdealGas(), "law": ConstEta(0.3, 0.4), "zeta": 0.1, "k": k, "seed": 7,
+    return Thermal(**{"edges": edges, "eos": IdealGas(), "law": ConstEta(0.3, 0.4), "zeta": 0.1, "k": k,
+                      "seed": 7,
                       "share": share, **more})
 
 
@@ -42,45 +44,31 @@ def test_noise_conserves_and_moves(share):
     assert np.abs(end[1:3]).max() > 1e-3
 
 
-def test_without_temperature_there_is_no_noise():
-    method = gas(k=0.0)
-    assert run(method, rest(method), Plan(dt=0.05, steps=3)).state == pytest.approx(rest(method), abs=1e-14)
-
-
 def test_a_restarted_run_is_the_same_to_the_last_bit(tmp_path):
     method = gas(0.3)
-    start, file = rest(method), tmp_path/"run.h5"
-    whole = run(method, start, Plan(dt=0.05, steps=12)).state
-    stopped = []
-
-    def stop(sums, state):
-        stopped.append(1)
-        if len(stopped) == 5:
-            raise KeyboardInterrupt
-        return 0.0
-
-    plan = Plan(dt=0.05, steps=12, series={"stop": stop}, every=1, checkpoint=file)
-    with pytest.raises(KeyboardInterrupt):
-        run(method, start, plan)
-    assert np.array_equal(run(method, start, plan).state, whole)
+    goes_on_bitwise(method, rest(method), 0.05, tmp_path)
 
 
 def test_threads_make_no_difference():
-    edges = MAKERS["renormalised"](lattice((14, 14)), Lucy.of(h=2.0))       # rows enough for two threads to share
+    # rows enough for two threads to share
+    edges = MAKERS["renormalised"](lattice((14, 14)), Lucy.of(h=2.0))
     method = gas(0.3, edges=edges)
-    one, two = (run(method, rest(method), Plan(dt=0.05, steps=3, threads=threads)).state for threads in (1, 2))
+    one, two = (run(method, rest(method), Plan(dt=0.05, steps=3, threads=threads)).state
+                for threads in (1, 2))
     assert np.array_equal(one, two)
 
 
 def test_small_heat_capacity_is_warned_of_with_its_bias():
     method = gas(k=0.05)
     least = method.edges.V.min()/0.05
-    with pytest.warns(UserWarning, match=rf"heat capacity {least:.3g} k: .* up to k/C = {1/least:.2g} too much, 0.54 k/C"):
+    with pytest.warns(UserWarning,
+                      match=rf"heat capacity {least:.3g} k: .* up to k/C = {1/least:.2g} too much, 0.54 k/C"):
         limit_of(method, rest(method))
 
 
 def test_three_stages_with_amplitudes_of_their_own_drift_nearly_as_stratonovich_has_it():
-    """dx = sqrt(2 x) dW, B B' = 1: the mean over the normal numbers of a step, by Gauss and Hermite's points."""
+    """dx = sqrt(2 x) dW, B B' = 1: the mean over the normal numbers of a step, by Gauss and Hermite's
+    points."""
     class Root:
         def rates(self, y, out):
             out[:] = 0
@@ -177,34 +165,39 @@ def test_three_stages_in_time_are_those_of_the_lyapunov_solve():
         return y.ravel()
 
     step, unit, none = covariance.three_stage(J, B@B.T, 0.3), np.eye(4).reshape(4, 2, 2), np.zeros(2)
-    assert np.stack([stepped(x, np.zeros((2, 2))) for x in np.eye(2)], axis=1) == pytest.approx(step.A, abs=1e-15)
+    assert np.stack([stepped(x, np.zeros((2, 2))) for x in np.eye(2)], axis=1) == pytest.approx(step.A,
+                                                                                                abs=1e-15)
     noises = np.stack([stepped(none, halves) for halves in unit], axis=1)
     assert noises@noises.T == pytest.approx(step.Q, abs=1e-15)
 
 
-# --- exact values ---------------------------------------------------------------------------------------------------
+# --- exact values ---------------------------------------------------------------------------------------
 
 
 def test_noise_reaches_the_covariance_of_equilibrium_on_irregular_points():
     method = gas(0.4)
     J = jacobian(method.dih.rates, rest(method))
-    Q = noise(method.edges.V, *(part.Q for part in transport(method.edges, 0.4, 0.3, 0.1, 0.4, 1.0))).toarray()
+    Q = noise(method.edges.V,
+              *(part.Q for part in transport(method.edges, 0.4, 0.3, 0.1, 0.4, 1.0))).toarray()
     exactly = equilibrium(method.edges.V, 2)
     C = steady(J, Q, np.kron(np.eye(4), method.edges.V))
     assert C == pytest.approx(exactly, abs=1e-10*exactly.max())
 
 
 def test_plates_have_the_noise_of_their_friction_and_heat():
-    """A layer at rest between plates of its own temperature, waves along it: equilibrium up to the last row."""
+    """A layer at rest between plates of its own temperature, waves along it: equilibrium up to the last
+    row."""
     rows, T = 5, 0.7
     x = lattice((5, rows)).x
     edges, beyond = between_plates(MAKERS["renormalised"], x, 5, rows, Lucy.of(h=2.0))
-    fluid = Layer(x=x, edges=edges, beyond=beyond, eos=IdealGas(), law=ConstEta(0.3, 0.4), T_plates=(T, T), g=0.0)
+    fluid = Layer(x=x, edges=edges, beyond=beyond, eos=IdealGas(), law=ConstEta(0.3, 0.4), T_plates=(T, T),
+                  g=0.0)
     first, at_T = np.arange(rows), np.full(5*rows, T)
     J = jacobian(fluid.start(5*rows, Team(1)).rates, fluid.state(1.0, 0*x, at_T), first)
     Q = layer_noise(fluid, at_T)[:, (5*rows*np.arange(4)[:, None] + first).ravel()].toarray()
     C = steady(*(waves(M, (5, rows), 0.4) for M in (J, Q)))
-    one, none = np.eye(rows), np.zeros((rows, rows))        # <rho rho> = 1, <p p> = T, eps = T rho + dT, <dT dT> = T^2
+    # <rho rho> = 1, <p p> = T, eps = T rho + dT, <dT dT> = T^2
+    one, none = np.eye(rows), np.zeros((rows, rows))
     exactly = np.block([[one, none, none, T*one], [none, T*one, none, none], [none, none, T*one, none],
                         [T*one, none, none, 2*T*T*one]])
     assert np.abs(C - exactly).max() < 1e-9

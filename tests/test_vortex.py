@@ -1,4 +1,5 @@
-"""The decaying Taylor-Green vortex in the continuum: Fourier sums, small Mach numbers, and what fixed points make of it."""
+"""The decaying Taylor-Green vortex in the continuum: Fourier sums, small Mach numbers, and what fixed points
+make of it."""
 import numpy as np
 import pytest
 
@@ -33,7 +34,8 @@ def test_the_gas_becomes_incompressible_as_the_square_of_the_mach_number():
 
 
 def test_all_vortices_decay_by_e():
-    assert DECAYS == 1.0 and np.hypot(*incompressible(np.array([[0.25, 0.0]]))[0]) == pytest.approx(np.exp(-1))
+    assert DECAYS == 1.0 and np.hypot(*incompressible(np.array([[0.25,
+                                                                 0.0]]))[0]) == pytest.approx(np.exp(-1))
 
 
 def test_a_vortex_begins_with_the_pressure_that_keeps_it_incompressible():
