@@ -112,9 +112,7 @@ class Weight(_Fields):
 
 def check_unit(weight: Weight, d: int = 2) -> None:
     """Refuse a weight whose integral in d dimensions is not 1: every density would be multiplied by it.
-
-    Raises ValueError: it is not, or the range is not positive and finite.
-    """
+    Raises ValueError: it is not, or the range is not positive and finite."""
     kind = type(weight).__name__
     whole = weight.scale*unit_integral(formulas(type(weight))[0],
                                        d)*weight.h**d if 0 < weight.h < inf else float("nan")

@@ -18,11 +18,8 @@ class Unstable(RuntimeError):
 
 
 class Projection(Equations):
-    """Buoyancy and advection extrapolated, diffusion by the trapezoidal rule, pressure by projection.
-
-    Second order in time. Everything is in increments of q and p: in a steady state nothing is left of
-    splitting.
-    """
+    """Buoyancy and advection extrapolated, diffusion by the trapezoidal rule, pressure by projection. Second
+    order in time. Everything is in increments of q and p: in a steady state nothing is left of splitting."""
 
     def __init__(self, case: Case, q: np.ndarray):
         super().__init__(case)

@@ -42,10 +42,8 @@ class PaperForm(NamedTuple):
 
 
 class EdgeHeat(NamedTuple):
-    """The flux form with viscous heating eta |grad v|^2, as forces along edges heat    [RR98, Eq. 51]
-
-    Wrong: even a rigid rotation heats. It tells what limit a particle scheme has that heats so.
-    """
+    """The flux form with viscous heating eta |grad v|^2, as forces along edges heat [RR98, Eq. 51]. Wrong:
+    even a rigid rotation heats. It tells what limit a particle scheme has that heats so."""
 
 
 @generic

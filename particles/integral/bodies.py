@@ -91,10 +91,8 @@ def on_circle(radius: float) -> np.ndarray:
 
 def between_circles(counts: tuple[int, int], inner: float,
                     outer: float) -> tuple[Points, np.ndarray, np.ndarray]:
-    """A lattice of spacing 1 with points on two circles; points up to the inner, and from the outer.
-
-    Raises ValueError: there is no room between the circles, or between one of them and its image.
-    """
+    """A lattice of spacing 1 with points on two circles; points up to the inner, and from the outer. Raises
+    ValueError: there is no room between the circles, or between one of them and its image."""
     at = lattice(counts)
     check_disc(at, inner)
     check_disc(at, outer)

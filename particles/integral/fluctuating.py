@@ -128,10 +128,8 @@ def between(edges: Edges, A: np.ndarray, B: np.ndarray, kT: np.ndarray) -> Partn
 
 
 def conduction(edges: Edges, kappa: Any, kT2: Any) -> Partners:
-    """Heat k kappa (T_j - T_i) along each edge, and its random current; means over its two points.
-
-    Raises ValueError: a conductivity or k T^2 is negative, or an edge conducts a negative amount.
-    """
+    """Heat k kappa (T_j - T_i) along each edge, and its random current; means over its two points. Raises
+    ValueError: a conductivity or k T^2 is negative, or an edge conducts a negative amount."""
     kappa, kT2 = (ends(edges, q) for q in checked(edges.n, kappa=kappa, kT2=kT2))
     f, across = conductances(edges)*kappa, incidence(edges)
     return Partners(sparse.csr_array(across@sparse.diags_array(f)@across.T),
