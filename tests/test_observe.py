@@ -5,7 +5,6 @@ import pytest
 
 from particles.observe import (
     PlateHeat,
-    Profile,
     field_kinetic,
     fields_at,
     heat_flow,
@@ -66,13 +65,6 @@ def test_heat_flow_of_rest_is_conduction():
     unit = k/24
     edge = k*np.sum(-sums.gradient[:sums.n, 5]/sums.around.rho[:sums.n])/(48*24)/unit
     assert heat_flow(sums, state)/unit == pytest.approx(edge, rel=1e-12)
-
-
-def test_profile_of_a_linear_temperature(measured):
-    sums, state = measured
-    rho, T, _, _ = Profile(8)(sums, state)
-    assert rho.mean() == pytest.approx(1.0, rel=1e-12)
-    assert np.polyfit(np.arange(8), T, 1)[0] == pytest.approx(-1/8, rel=0.02)   # jitter 0.2/sqrt(3*16*8) a layer
 
 
 def test_wall_layers_see_hot_and_cold(measured):

@@ -9,7 +9,7 @@ import pytest
 from continuum.fluid import VanDerWaals
 from continuum.scene import Walls
 from particles import checkpoint
-from particles.observe import Grid, Profile, field_kinetic, heat_flow, particle_kinetic
+from particles.observe import Grid, field_kinetic, heat_flow, particle_kinetic, wall_layers
 from particles.run import RANDOM, STUDIES, Divergence, Plan, Run, _check, run
 from particles.threads import Team
 from particles.weights import Lucy
@@ -17,7 +17,7 @@ from studies.build.spam import OF_LIMIT, images, images_odd
 from tests.scenes import small
 
 PLAN = Plan(dt=0.6, steps=60, every=5, series={"kp": particle_kinetic, "kg": field_kinetic, "heat": heat_flow},
-            means={"grid": Grid(*np.meshgrid([-2.0, 0.0, 2.0], [-1.0, 1.0])), "profile": Profile(4)}, mean_from=10.0)
+            means={"grid": Grid(*np.meshgrid([-2.0, 0.0, 2.0], [-1.0, 1.0])), "profile": wall_layers}, mean_from=10.0)
 
 
 @pytest.fixture(scope="module")
@@ -239,5 +239,5 @@ def test_plans_without_records_may_be_as_short_as_they_like():
 
 def test_every_series_that_a_plan_allows_has_a_sample():
     method, start = small()
-    done = run(method, start, Plan(dt=0.4, steps=7, every=5, series={"kp": particle_kinetic}, means={"profile": Profile(4)}))
+    done = run(method, start, Plan(dt=0.4, steps=7, every=5, series={"kp": particle_kinetic}, means={"profile": wall_layers}))
     assert len(done.times) == len(done.series["kp"]) == done.samples == 1

@@ -115,17 +115,8 @@ def density_rate(form, S, n, j, i):
 
 
 @density_rate.of(FluxForm)
-def _(form, S, n, j, i):
-    return through_faces(S, n, j, i)
-
-
 @density_rate.of(EdgeHeat)
-def _(form, S, n, j, i):
-    return through_faces(S, n, j, i)
-
-
-@jit
-def through_faces(S, n, j, i):
+def through_faces(form, S, n, j, i):
     """-div(rho v) times 2 h: what goes through the faces of cell (j, i)."""
     vx, vy, a, b = S[VX], S[VY], j % 2, (j + 1) % 2
     return (n[a, i]*(vx[j, i] + vy[j, i]) - n[a, i + 1]*(vx[j, i + 1] - vy[j, i + 1])

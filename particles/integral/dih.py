@@ -104,11 +104,9 @@ class Pairwise:
     their moments. mended : with the stress tau_ab = B (d_b v_a - delta_ab div v) of the points, and its work
     F_a = tau_ab v_b. In the continuum tau has no divergence where viscosity is constant, and the force is
     left as it is then; where it varies forces along edges lack it. F has one always: without it even a rigid
-    rotation heats. everywhere : tau is in the force always: off a lattice slopes do not commute, and where
-    momentum lacks div tau a uniform stream changes the energy.
+    rotation heats.
     """
     mended: bool = True
-    everywhere: bool = False
 
     def fluxes(self, dih: "Dih", flow: Flow) -> EdgeFluxes:
         """Through all edges. ValueError: a bulk viscosity that makes a friction negative."""
@@ -120,7 +118,7 @@ class Pairwise:
             slope = np.stack([G@flow.v for G in edges.G], axis=1)/edges.V[:, None, None]
             F = lacking(coefficients, flow.v, slope)
             found = found._replace(energy=found.energy - (edges.S*(F[edges.i] + F[edges.j])).sum(axis=1)/2)
-            if self.everywhere or np.ptp(coefficients.eta) > 0 or np.ptp(coefficients.zeta) > 0:
+            if np.ptp(coefficients.eta) > 0 or np.ptp(coefficients.zeta) > 0:
                 tau = transposed(coefficients, slope)
                 push = np.einsum("ea,eab->eb", edges.S, tau[edges.i] + tau[edges.j])/2
                 found = found._replace(momentum=found.momentum - push)
