@@ -1,8 +1,8 @@
 """A conservative scheme on moving points: volume, mass, momentum and energy exchanged over faces, in 2D.
 
 Faces S_ij = -S_ji close and are exact on linear fields, see `faces`. Points drift with the fluid and a little
-towards even spacing; the volume that they leave to each other carries mass, momentum and energy along. RR98's
-moving points (Eqs 46-48, on volumes that stay) lose all of these. Images beyond plates are those of `layer`.
+towards even spacing; the volume that they leave to each other carries mass, momentum and energy along, which
+RR98's moving points (Eqs 46-48) lose. Images beyond plates are those of `layer`.
 """
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -32,8 +32,7 @@ from particles.threads import Team
 from particles.walls import confine
 from particles.weights import check_unit
 
-#: rows of a state: places, drift velocity, momentum, mass, volume, total energy, and the last solution for
-#: the faces
+#: of a state: places, drift velocity, momentum, mass, volume, total energy, the last solution for the faces
 ROWS = ("x", "y", "wx", "wy", "px", "py", "m", "V", "E", *POTENTIALS)
 EXCHANGED, SOLVED = slice(4, 9), slice(9, 15)
 

@@ -4,9 +4,8 @@ The state (2 + d, n) holds densities rho, p^alpha = rho v^alpha, total energy ep
 eps_i are these times the volume V_i (Eq. 26). What leaves point i over an edge is what point j gains:
 
     mass       1/2 S.(rho_i v_j + rho_j v_i)                                                   [Eq. 34]
-    momentum   1/2 S.{(p_i v_j + p_j v_i) + (P_ij + P_ji) 1 - (pi_ij + pi_ji)}                   [Eq. 35]
-    energy     1/2 S.{(eps_i v_j + eps_j v_i) + (P_ij v_i + P_ji v_j) - (pi_ij.v_i + pi_ji.v_j) + (J_ij +
-    J_ji)}    [Eq. 36]
+    momentum   1/2 S.{(p_i v_j + p_j v_i) + (P_ij + P_ji) 1 - (pi_ij + pi_ji)}                 [Eq. 35]
+    energy     1/2 S.{(eps_i v_j + ..) + (P_ij v_i + ..) - (pi_ij.v_i + ..) + (J_ij + J_ji)}   [Eq. 36]
 
 with P_ij = P(rho_i, T_j), and stress and heat current nested (Eqs 37, 38) or pairwise (Eq. 51).
 """
@@ -71,8 +70,7 @@ def carried(eos: Any, S: np.ndarray, a: Flow, b: Flow, weight: Any = 0.0) -> Edg
 class NestedFluxes:
     """Stress and heat current of Eqs 37, 38: pi_ij = eta_i E(grad v_j), J_ij = -kappa_i grad T_j.
 
-    differences : the inner sum takes v_k - v_j, exact on uniform flow, instead of v_k as printed; the same on
-    a lattice.
+    differences : the inner sum takes v_k - v_j, exact on uniform flow, not v_k as printed.
     """
     differences: bool = True
 

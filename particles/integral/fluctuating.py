@@ -9,9 +9,8 @@ dW independent Wiener processes, Gamma and B sparse. In equilibrium <p_i p_j> = 
 the fluctuation-dissipation theorem. Rows are numbered a n + i: component a of point i. k is Boltzmann's
 constant in the units of the fluid, which sets the noise.
 
-RR98's Eqs 42-44 have the increments of a whole step and no volume: with them a stress would need the factor
-1/sqrt(V dt), and a potential pi = Pi dV (Eq. 27) the factor sqrt(V/dt); V is in all of the matrices here, dt
-in dW.
+RR98's Eqs 42-44 have the increments of a whole step and no volume; V is in all of the matrices here, dt in
+dW.
 """
 from typing import Any, NamedTuple
 
