@@ -26,6 +26,7 @@ from continuum.boussinesq.starts import rest, roll
 from continuum.steady import NewtonFailed
 
 __all__ = [
-    "CAVITY", "CONDUCTING_SQUARE", "FREE_PLATES", "HALF_LAYER", "LAYER", "SQUARE", "Box", "BoxEdges", "Case", "End",
-    "NewtonFailed", "Observed", "State", "Transient", "Unstable", "growth_rates", "rest", "roll", "steady", "transient",
+    "CAVITY", "CONDUCTING_SQUARE", "FREE_PLATES", "HALF_LAYER", "LAYER", "SQUARE", "Box", "BoxEdges", "Case",
+    "End", "NewtonFailed", "Observed", "State", "Transient", "Unstable", "growth_rates", "rest", "roll",
+    "steady", "transient",
 ]

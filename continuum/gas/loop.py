@@ -41,7 +41,7 @@ class PaperForm(NamedTuple):
 
 
 class EdgeHeat(NamedTuple):
-    """The flux form with heating eta |grad v|^2, as forces along edges heat, even in rotation [RR98, Eq. 51]"""
+    """Flux form with heating eta |grad v|^2, as forces along edges heat, even in rotation [RR98, Eq. 51]"""
 
 
 @generic
