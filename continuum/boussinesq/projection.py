@@ -81,7 +81,8 @@ def transient(case: Case, start: State, *, until: float | None = None, dt: float
             flow.advance(step)
         t += steps*step
         rows.append(record(flow, t))
-    return Transient(*np.array(rows).T, State(case=case, q=flow.q, t=t))
+    times, K, bottom, top = np.array(rows).T
+    return Transient(times, K, bottom, top, State(case=case, q=flow.q, t=t))
 
 
 def length(flow: Projection, t: float, dt: float | None) -> float:
