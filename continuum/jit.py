@@ -54,9 +54,8 @@ llvmlite.binding.set_option("fluidized-grid", "-slp-max-reg-size=256")
 def lanes(function: Callable) -> Any:
     """Compile with sums in the written order and LLVM's SLP vectoriser, as loops over records want it.
 
-    SLP puts equal operations on neighbouring fields of a record into one vector instruction. LLVM 14
-    miscompiled with it, so it is on for loops only that tests hold against a slow twin. Reassociation would
-    be twice as slow: it gathers fields.
+    SLP puts equal operations on neighbouring fields into one vector instruction. LLVM 14 miscompiled with it:
+    it is for loops only that tests hold against a slow twin. Reassociation gathers fields, twice as slow.
     """
     compiled: Any = numba.njit(cache=True, nogil=True, error_model="numpy",
                                fastmath=FASTMATH - {"reassoc"})(function)
@@ -99,9 +98,8 @@ def place(frame: Any) -> str:
 def generic(stub: Callable) -> Any:
     """A function whose formula is chosen by the type of its first argument, or a parent class.
 
-    ``@pressure.of(IdealGas)`` adds a formula; calling works from Python and from compiled code. Raises
-    TypeError: no formula for that type, or a class in place of an object. ValueError: two formulas for one
-    type.
+    ``@pressure.of(IdealGas)`` adds a formula; calling works from Python and from compiled code. TypeError: no
+    formula for that type, or a class in place of an object. ValueError: two formulas for one type.
     """
     table: dict[type, Callable] = {}
     places: dict[type, str] = {}

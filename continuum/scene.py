@@ -210,10 +210,8 @@ class RayleighBenard:
         return energy(self.eos, 1.0, self.T(y))
 
     def flow(self, x, y, ke: float, rolls: int | None = None):
-        """Velocities (v_x, v_y) of the initial rolls with kinetic energy `ke` per mass (density 1).
-
-        `rolls` counts them along x; default: as many as are about as wide as high, in pairs if periodic.
-        """
+        """Velocities (v_x, v_y) of the initial rolls with kinetic energy `ke` per mass (density 1). `rolls`
+        counts them along x; default: as many as are about as wide as high, in pairs if periodic."""
         if not ke >= 0:
             raise ValueError(f"the kinetic energy of the initial rolls cannot be negative, got {ke}")
         if rolls is None:

@@ -7,10 +7,8 @@ from continuum.fluid import temperature
 
 
 class Fields(NamedTuple):
-    """Places x (n, d), velocities v (n, d), densities, temperatures and volumes (n,).
-
-    x is not a number where a method knows edges alone.
-    """
+    """Places x (n, d), velocities v (n, d), densities, temperatures and volumes (n,). x is not a number where
+    a method knows edges alone."""
     x: np.ndarray
     v: np.ndarray
     rho: np.ndarray

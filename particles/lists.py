@@ -152,10 +152,8 @@ class Listed:
         """Refuse points that the sums would take without a word, once at the start; here none."""
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """New lists if particles may leave the old ones within the step; particles are then sorted.
-
-        Raises FloatingPointError: a particle is too fast for any list.
-        """
+        """New lists if particles may leave the old ones within the step; particles are then sorted. Raises
+        FloatingPointError: a particle is too fast for any list."""
         if self.around.must_relist(now.state, dt):
             self.around.relist(now.state, now.ids, dt)
             now.anchor, now.skin = self.around.anchor, self.around.skin

@@ -109,19 +109,6 @@ class Grid(NamedTuple):
         return np.stack(fields_at(sums, state, self.x, self.y))
 
 
-class Profile(NamedTuple):
-    """Horizontal means over `bins` layers of the height: (4, bins) = density, temperature, vy^2 and vy T."""
-    bins: int
-
-    def __call__(self, sums: Any, state: np.ndarray) -> np.ndarray:
-        width, height = sums.method.box
-        layer = np.clip(((state[1] + height/2)/height*self.bins).astype(int), 0, self.bins - 1)
-        T, vy = sums.around.T[:sums.n], state[3]
-        count, *totals = (np.bincount(layer, q, self.bins) for q in (np.ones_like(vy), T, vy**2, vy*T))
-        rho = sums.method.m*count/(width*height/self.bins)
-        return np.stack([rho, *(total/np.maximum(count, 1) for total in totals)])
-
-
 def wall_layers(sums: Any, state: np.ndarray) -> np.ndarray:
     """(2, 2): density and mean temperature within one spacing of the lower and upper plate."""
     width, height = sums.method.box

@@ -26,12 +26,11 @@ def slope(weight, q):
 
 
 Formula = Callable[[None, float], float]
-#: where the slope is held against a difference: beside the knots of splines, which are fractions
+#: where the slope is held against a difference: beside the knots of splines
 PLACES, STEP = (0.1370, 0.3891, 0.6129, 0.8713), 1e-5
 #: of the largest value: expanded polynomials with coefficients in the thousands cancel to this at q = 1
 ROUND_OFF = 1e-12
-#: of the steepest slope: the difference is good to phi''' STEP^2/6 = 2e-8 for phi''' = 1000 phi', and
-#: round-off 1e-10
+#: of the steepest slope: the difference is good to 2e-8 where phi''' = 1000 phi', and round-off 1e-10
 DIFFERENCE = 1e-6
 
 
@@ -95,8 +94,7 @@ class Weight(_Fields):
     def of(cls, h: float, d: int = 2):
         """The weight of range h in d dimensions.
 
-        Raises TypeError: h is not a number, or a formula is missing. ValueError: h is not positive and
-        finite, d is not 1, 2 or 3, or the formulas do not fit each other.
+        TypeError: h is no number, or a formula is missing. ValueError: h, d, or formulas that do not fit.
         """
         if not isinstance(h, Real):
             raise TypeError(f"the range h of a weight must be a number, got {h!r}: KHP95 use h = 3 sigma")
@@ -112,9 +110,7 @@ class Weight(_Fields):
 
 def check_unit(weight: Weight, d: int = 2) -> None:
     """Refuse a weight whose integral in d dimensions is not 1: every density would be multiplied by it.
-
-    Raises ValueError: it is not, or the range is not positive and finite.
-    """
+    Raises ValueError: it is not, or the range is not positive and finite."""
     kind = type(weight).__name__
     whole = weight.scale*unit_integral(formulas(type(weight))[0],
                                        d)*weight.h**d if 0 < weight.h < inf else float("nan")
@@ -128,8 +124,7 @@ class Lucy(Weight):
 
 
 class Monaghan(Weight):
-    """Cubic B-spline, (40/7 pi h^2)(1 - 6q^2 + 6q^3), 2(1 - q)^3 from q = 1/2 on, in 2D    [KHP95, Sec. II,
-    Fig. 1]"""
+    """Cubic B-spline, (40/7 pi h^2)(1 - 6q^2 + 6q^3), 2(1 - q)^3 from q = 1/2 on [KHP95, Sec. II, Fig. 1]"""
 
 
 class WendlandC2(Weight):

@@ -118,7 +118,7 @@ def _(transport: Pairwise, fluid: PlainPlates, flow: Flow) -> EdgeFluxes:
         F, tau = dih.lacking(c, flow.v, slope), dih.transposed(c, slope)
         found = found._replace(energy=found.energy
                                - (ends.S*(F[ends.i] + ends.mirror*F[ends.to])).sum(axis=1)/2)
-        if transport.everywhere or np.ptp(c.eta) > 0 or np.ptp(c.zeta) > 0:
+        if np.ptp(c.eta) > 0 or np.ptp(c.zeta) > 0:
             force = np.einsum("ea,eab->eb", ends.S,
                               tau[ends.i] + (ends.odd*ends.mirror)[:, :, None]*tau[ends.to])/2
             found = found._replace(momentum=found.momentum - force)

@@ -112,8 +112,7 @@ def error_in_wind(transport, maker):
     return np.abs(windy - boosted(still) + carried).max(axis=1)/np.abs(windy).max(axis=1)
 
 
-@pytest.mark.parametrize("transport",
-                         [NestedFluxes(), PRINTED, Pairwise(mended=False), Pairwise(everywhere=True)])
+@pytest.mark.parametrize("transport", [NestedFluxes(), PRINTED, Pairwise(mended=False)])
 def test_closed_edges_do_not_know_of_a_wind(transport):
     assert error_in_wind(transport, "delaunay").max() < 1e-12       # round-off of sums of 30 terms
 

@@ -6,16 +6,8 @@ import numpy as np
 import pytest
 
 from particles.integral.edge_makers import MAKERS, plain, printed, renormalised
-from particles.integral.interpolants import (
-    Exponential,
-    Gaussian,
-    OrderingWarning,
-    W,
-    check_ordering,
-    f,
-    moment,
-    reach,
-)
+from particles.integral.edges import between_plates
+from particles.integral.interpolants import Exponential, Gaussian, OrderingWarning, W, f, moment, reach
 from particles.integral.points import jittered, lattice, of_positions, pairs, random, relaxed
 from particles.integral.triangulation import between, delaunay
 from particles.weights import WEIGHTS, Lucy, WendlandC2
@@ -129,12 +121,6 @@ def test_no_warning_where_linear_fields_are_exact_or_the_order_holds():
                              ("plain", jittered((12, 12), 0.3, 1), 3.0),
                              ("exact", jittered((12, 12), 0.2, 1), 2.3)):
             MAKERS[maker](at, Lucy.of(h=h))
-
-
-def test_a_weight_wider_than_a_wave_is_told_with_its_error():
-    with pytest.warns(OrderingWarning,
-                      match=r"r0 = 0\.845 .* above the wavelength 0\.8, the right side .* lose about 100 %"):
-        check_ordering(Lucy.of(h=2.0), 2, 0.5, 0.0, wavelength=0.8)
 
 
 def test_overlapping_points_and_points_outside_are_refused():

@@ -5,7 +5,6 @@ import pytest
 
 from particles.observe import (
     PlateHeat,
-    Profile,
     fields_at,
 )
 from particles.threads import Team
@@ -38,12 +37,6 @@ def test_fields_are_the_sums_of_the_paper(measured):
         np.testing.assert_allclose([found.rho[k], found.vx[k], found.vy[k]], expected, rtol=1e-13, atol=1e-15)
 
 
-def test_profile_of_a_linear_temperature(measured):
-    sums, state = measured
-    rho, T, _, _ = Profile(8)(sums, state)
-    assert rho.mean() == pytest.approx(1.0, rel=1e-12)
-    # jitter 0.2/sqrt(3*16*8) a layer
-    assert np.polyfit(np.arange(8), T, 1)[0] == pytest.approx(-1/8, rel=0.02)
 
 
 @pytest.mark.parametrize("name", ["printed", "printed-fixed-rows", "walls-odd-own-pressure", "direct"])

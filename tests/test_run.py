@@ -9,7 +9,7 @@ import pytest
 
 from continuum.scene import Walls
 from particles import checkpoint
-from particles.observe import Grid, Profile, field_kinetic, heat_flow, particle_kinetic
+from particles.observe import Grid, field_kinetic, heat_flow, particle_kinetic, wall_layers
 from particles.run import RANDOM, STUDIES, Divergence, Plan, Run, _check, run
 from particles.threads import Team
 from particles.weights import Lucy
@@ -18,7 +18,7 @@ from tests.scenes import small
 
 PLAN = Plan(dt=0.6, steps=60, every=5,
             series={"kp": particle_kinetic, "kg": field_kinetic, "heat": heat_flow},
-            means={"grid": Grid(*np.meshgrid([-2.0, 0.0, 2.0], [-1.0, 1.0])), "profile": Profile(4)},
+            means={"grid": Grid(*np.meshgrid([-2.0, 0.0, 2.0], [-1.0, 1.0])), "profile": wall_layers},
             mean_from=10.0)
 
 

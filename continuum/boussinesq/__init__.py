@@ -3,49 +3,30 @@
     du/dt + u.grad u = -grad p + nu Lap u + T e_y,    dT/dt + u.grad T = kappa Lap T,    div u = 0
 
 in free-fall units (flow.py). `steady` is Newton's method, `transient` marches in time. They share the
-operators: a transient ends, to its tolerance, in the state that Newton finds on the same grid.
+operators: a transient ends in the state that Newton finds on the same grid.
 
     state = steady(Case(ra=10_000, pr=1, box=HALF_LAYER, rows=64))
     state.K, state.rolls, state.observe()
-    series = transient(Case(ra=10_000, pr=1, box=LAYER, rows=64), khp95)
 """
 from continuum.boussinesq.flow import Case, Observed, State
 from continuum.boussinesq.mac import (
-           CAVITY,
-           CONDUCTING_SQUARE,
-           FREE_PLATES,
-           HALF_LAYER,
-           LAYER,
-           SQUARE,
-           Box,
-           BoxEdges,
-           End,
+    CAVITY,
+    CONDUCTING_SQUARE,
+    FREE_PLATES,
+    HALF_LAYER,
+    LAYER,
+    SQUARE,
+    Box,
+    BoxEdges,
+    End,
 )
 from continuum.boussinesq.newton import growth_rates, steady
 from continuum.boussinesq.projection import Transient, Unstable, transient
-from continuum.boussinesq.starts import khp95, rest, roll
+from continuum.boussinesq.starts import rest, roll
 from continuum.steady import NewtonFailed
 
 __all__ = [
-           "CAVITY",
-           "CONDUCTING_SQUARE",
-           "FREE_PLATES",
-           "HALF_LAYER",
-           "LAYER",
-           "SQUARE",
-           "Box",
-           "BoxEdges",
-           "Case",
-           "End",
-           "NewtonFailed",
-           "Observed",
-           "State",
-           "Transient",
-           "Unstable",
-           "growth_rates",
-           "khp95",
-           "rest",
-           "roll",
-           "steady",
-           "transient",
+    "CAVITY", "CONDUCTING_SQUARE", "FREE_PLATES", "HALF_LAYER", "LAYER", "SQUARE", "Box", "BoxEdges", "Case",
+    "End", "NewtonFailed", "Observed", "State", "Transient", "Unstable", "growth_rates", "rest", "roll",
+    "steady", "transient",
 ]

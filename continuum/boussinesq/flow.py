@@ -12,7 +12,7 @@ from scipy import sparse
 from scipy.interpolate import RectBivariateSpline
 from scipy.ndimage import label
 
-from continuum.boussinesq.mac import HALF_LAYER, PERIODIC, SYMMETRY, Box, End, Mac, check_grid, mac
+from continuum.boussinesq.mac import HALF_LAYER, Box, End, Mac, check_grid, mac
 from continuum.linear.layer import positive
 
 STILL = 1e-12       # K of a fluid at rest: rolls at onset have 1e-2 (1 - sqrt(Ra_c/Ra))
@@ -110,12 +110,6 @@ class State:
         """Streamfunction on corners (x faces, y faces): u = dpsi/dy, v = -dpsi/dx, zero on the bottom."""
         return np.cumsum(self.parts[0], axis=1)[:, :-1]*self.case.mac.y.h
 
-    def centred(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """u, v, T in cell centres, (columns, rows) each."""
-        x, y = self.case.mac.x, self.case.mac.y
-        u, v, T = self.parts
-        return x.back@u, v@y.mean, T
-
     @property
     def K(self) -> float:
         """Kinetic energy per mass."""
@@ -156,19 +150,6 @@ class State:
         old, new = self.case.mac, case.mac
         parts = [resample(f, a, b, old) for f, a, b in zip(self.parts, old.points, new.points)]
         return State(case=case, q=np.concatenate([f.ravel() for f in parts]), t=self.t)
-
-    def unfold(self) -> "State":
-        """The periodic flow of which this one, between planes of symmetry, is half."""
-        case = self.case
-        if case.box.sides != SYMMETRY:
-            raise ValueError(f"sides are {case.box.sides}: only a box with SYMMETRY sides is half of a "
-                             "periodic one")
-        u, v, T = self.parts
-        still = np.zeros((1, case.rows))
-        whole = replace(case, box=replace(case.box, width=2*case.box.width, sides=PERIODIC),
-                        columns=2*case.columns)
-        parts = [np.concatenate(q) for q in ([u, still, -u[::-1], still], [v, v[::-1]], [T, T[::-1]])]
-        return State(case=whole, q=np.concatenate([f.ravel() for f in parts]), t=self.t)
 
 
 BOTTOM, TOP, LEFT, RIGHT = (1, 0), (1, -1), (0, 0), (0, -1)     # (axis, end)

@@ -1,5 +1,4 @@
 """Steady states of the discrete equations by Newton's method with sparse LU factors."""
-from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
@@ -49,31 +48,26 @@ class Newton(Equations):
         return self.C@lu.solve(residual)
 
 
-def steady(case: Case, start: State | None = None, *, within: float = 1e-9,
-           progress: Callable[[float], None] | None = None) -> State:
+def steady(case: Case, start: State | None = None, *, within: float = 1e-9) -> State:
     """The steady state that start leads to: a roll, or a state of any grid, Ra and Pr in the same box.
 
-    Implicit steps lengthen as the rates of change fall and become Newton's; they end when no value changes by
-    more than `within`. The state need not be stable. Its `residuals` are the largest rates of change before
-    each step and at the end.
+    Implicit steps lengthen as the rates of change fall and become Newton's, until no value changes by more
+    than `within`. The state need not be stable.
     """
     if case.mac.periodic:
         raise ValueError(f"the box is periodic ({case.box}): its steady flows may be shifted, which leaves "
-                         "Newton no unique answer; solve the half with SYMMETRY sides and unfold() it, or "
-                         "use transient")
+                         "Newton no unique answer; solve the half with SYMMETRY sides, or use transient")
     newton, first = Newton(case), (start or roll(case)).on(case)
     q = newton.C@np.r_[first.psi.ravel(), first.parts[2].ravel()]   # steps in s never mend a divergence
     residual = newton.residual(q)
     sizes = [largest(residual)]
-    for step in range(STEPS):
+    for _ in range(STEPS):
         change = newton.step(q, residual, RELAX/max(sizes[-1], within*1e-6))
         q = q + change
         residual = newton.residual(q)
         sizes.append(largest(residual))
         if not np.isfinite(sizes[-1]):
             break
-        if progress:
-            progress((step + 1)/STEPS)
         if largest(change) < within:
             return State(case=case, q=q, residuals=tuple(sizes))
     last = ", ".join(f"{size:.1e}" for size in sizes[-5:])

@@ -1,4 +1,4 @@
-"""States to start from: rest, rolls, and the initial condition of KHP95."""
+"""States to start from: rest and rolls."""
 import numpy as np
 
 from continuum.boussinesq.flow import Case, State
@@ -27,13 +27,3 @@ def roll(case: Case, rolls: int = 1) -> State:
     warm = (swing*np.cos(x)*np.sin(y) - (r - 1)*np.sin(2*y))/(np.pi*r)
     T = rest(case).parts[2] + warm*(case.box.plates.heat is End.WALL)
     return State(case=case, q=np.r_[mac.curl@psi.ravel(), T.ravel()])
-
-
-def khp95(case: Case, K: float) -> State:
-    """Initial rolls of KHP95, Sec. VI, with linear T and kinetic energy K; not free of divergence."""
-    if not case.mac.periodic or case.box.width != 2:
-        raise ValueError(f"box is {case.box}: the two rolls of KHP95 need LAYER, periodic and of width 2")
-    u, v = (np.meshgrid(np.pi*(x - 1), np.pi*(y - 0.5), indexing="ij") for x, y in case.mac.points[:2])
-    flow = np.r_[(np.sin(u[0])*np.sin(2*u[1])).ravel(), (np.cos(v[0])*np.cos(v[1])).ravel()]
-    flow *= np.sqrt(2*K/(case.mac.cell*float(flow@flow)))
-    return State(case=case, q=np.r_[flow, rest(case).parts[2].ravel()])

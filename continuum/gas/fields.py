@@ -201,10 +201,8 @@ def wall_flux(T: np.ndarray, k: np.ndarray, h: float) -> float:
 
 
 def energy_flux(fields: NodeFields) -> np.ndarray:
-    """Vertical flux of total energy in cells: rho v_y (e + P/rho + v^2/2 + g y) - (sigma.v)_y - k dT/dy.
-
-    In a steady state between periodic sides its mean over x is the same at every y: the flux of the plates.
-    """
+    """Vertical flux of total energy in cells: rho v_y (e + P/rho + v^2/2 + g y) - (sigma.v)_y - k dT/dy. In a
+    steady state between periodic sides its mean over x is the same at every y: the flux of the plates."""
     scene, (vx, vy, e, T, rho) = fields.scene, fields.at
     (mx, xx, yx), (my, xy, yy), (mT, _, slope) = (corners(f, fields.h) for f in (vx, vy, T))
     carried = mean(vy*(rho*(e + (vx**2 + vy**2)/2 + scene.g*fields.y[:, None]) + pressure(scene.eos, rho, e)))

@@ -1,9 +1,8 @@
 """The compiled loop of the compressible grid [KHP95, Sec. V]: v, e at nodes; rho, P, Q in cells.
 
-One block `S[field, j, i]` holds the state; j counts rows upwards, i columns to the right. Nodes are
-(1..ny+1, 1..nx+1), the outer ones on the walls; between periodic sides node nx+1 is node 1, on a torus
-node ny+1 is, too. Cell (j, i) has node (j, i) as its lower left corner, cells are (1..ny, 1..nx). What
-lies outside are ghosts: `fill` makes them, the loop knows no walls. All differences are centred.
+A block `S[field, j, i]` holds the state; j counts rows upwards, i columns. Nodes are (1..ny+1, 1..nx+1), the
+outer ones on the walls; where a side is periodic, the last is the first. Cell (j, i) has node (j, i) as its
+lower left corner. Ghosts lie outside: `fill` makes them, the loop knows no walls. Differences are centred.
 """
 from typing import NamedTuple
 
@@ -42,10 +41,7 @@ class PaperForm(NamedTuple):
 
 
 class EdgeHeat(NamedTuple):
-    """The flux form with viscous heating eta |grad v|^2, as forces along edges heat    [RR98, Eq. 51]
-
-    Wrong: even a rigid rotation heats. It tells what limit a particle scheme has that heats so.
-    """
+    """Flux form with heating eta |grad v|^2, as forces along edges heat, even in rotation [RR98, Eq. 51]"""
 
 
 @generic
@@ -117,17 +113,8 @@ def density_rate(form, S, n, j, i):
 
 
 @density_rate.of(FluxForm)
-def _(form, S, n, j, i):
-    return through_faces(S, n, j, i)
-
-
 @density_rate.of(EdgeHeat)
-def _(form, S, n, j, i):
-    return through_faces(S, n, j, i)
-
-
-@jit
-def through_faces(S, n, j, i):
+def through_faces(form, S, n, j, i):
     """-div(rho v) times 2 h: what goes through the faces of cell (j, i)."""
     vx, vy, a, b = S[VX], S[VY], j % 2, (j + 1) % 2
     return (n[a, i]*(vx[j, i] + vy[j, i]) - n[a, i + 1]*(vx[j, i + 1] - vy[j, i + 1])
@@ -147,13 +134,10 @@ def work(form, sxx, sxy, syy, P, f, xx, xy, yx, yy):
     """(sigma - P):grad v times (2 h)^2 from sigma - P and differences; f is eta/(2 h)."""
 
 
-def of_stress(form, sxx, sxy, syy, P, f, xx, xy, yx, yy):
-    """As the equations have it."""
+@work.of(FluxForm)
+@work.of(PaperForm)
+def _(form, sxx, sxy, syy, P, f, xx, xy, yx, yy):
     return sxx*xx + sxy*(xy + yx) + syy*yy
-
-
-work.of(FluxForm)(of_stress)
-work.of(PaperForm)(of_stress)
 
 
 @work.of(EdgeHeat)
@@ -246,7 +230,6 @@ def rates(sides, eos, law, form, box, S, rows, out):
 
 @jit
 def blend(a, b, s, out):
-    """out = a + s b"""
     for f in range(a.shape[0]):
         for j in range(a.shape[1]):
             for i in range(a.shape[2]):

@@ -136,10 +136,8 @@ def near(n: int) -> sparse.coo_array:
 
 
 def heat_of_rolls(scene, vy: np.ndarray) -> np.ndarray:
-    """Temperature of slow rolls as wide as high: kappa (2 pi^2/L^2) T' = v_y dT/L.
-
-    Gas carries half of it (adiabatic gradient) and conducts as much less (isobaric heat): the factors cancel.
-    """
+    """Temperature of slow rolls as wide as high: kappa (2 pi^2/L^2) T' = v_y dT/L. Gas carries half of it
+    (adiabatic gradient) and conducts as much less (isobaric heat): the factors cancel."""
     return vy*scene.dT*scene.L/(2*np.pi**2*scene.kappa)
 
 

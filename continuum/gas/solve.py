@@ -56,9 +56,8 @@ class Series(NamedTuple):
 class Solution:
     """What a run ended with.
 
-    `ke` is K at the end with what is left of its decay added, `ke_err` the size of that (not the error of the
-    grid); `nusselt.bottom`, `.top`, `.volume` agree to the error of the grid when steady; `mass_drift` is
-    relative; `compile_s` is small from the second process on.
+    `ke` is K at the end with what is left of its decay added, `ke_err` the size of that, not the error of the
+    grid; the three of `nusselt` agree to that error when steady; `mass_drift` is relative.
     """
     scene: Any
     rows: int
@@ -110,8 +109,7 @@ def limits(scene, S: np.ndarray) -> Limits:
 
 
 def sound_of_grid(eos, rho, e):
-    """Largest omega h/2: omega^2 = (4/h^2) s (P_rho + (1 - s) P P_e/rho^2), 0 < s < 1, e being averaged to
-    cells."""
+    """Largest omega h/2: omega^2 = (4/h^2) s (P_rho + (1 - s) P P_e/rho^2), 0 < s < 1: e is that of cells."""
     a, b = pressure_slopes(eos, rho, e)
     b = b*pressure(eos, rho, e)/rho**2
     inside = np.where(b > a, b, a)  # the maximum over s lies inside if b > a, else at s = 1

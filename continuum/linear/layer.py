@@ -5,10 +5,9 @@ kappa = 1/sqrt(Pr Ra). A disturbance w(z), theta(z) times cos(kx) exp(sigma t), 
 
     sigma Lap w = nu Lap^2 w - k^2 theta,    sigma theta = w + kappa Lap theta.
 
-Multiplied by -w and by k^2 theta and integrated over the height this is a symmetric eigenvalue problem: sigma
-is real. Trial functions are Chebyshev polynomials times the factor that meets the conditions at the plates,
-integrals are exact Gauss sums. What is not imposed on a free plate, w'' = 0, follows from the variation
-itself.
+Multiplied by -w and by k^2 theta and integrated over the height this is a symmetric eigenvalue problem. Trial
+functions are Chebyshev polynomials times the factor that meets the conditions at the plates, integrals exact
+Gauss sums; w'' = 0 on a free plate follows from the variation.
 """
 from enum import Enum
 from functools import lru_cache

@@ -23,10 +23,8 @@ def critical_ra_square(number: int = 0, degree: int = DEGREE) -> float:
 
 
 def forms(degree: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Integrals of (Lap psi)^2, (grad T)^2 and w T, w = d psi/dx, over products of trial functions.
-
-    psi and its slope vanish on the walls: psi_xx psi_yy integrates to psi_xy^2.
-    """
+    """Integrals of (Lap psi)^2, (grad T)^2 and w T, w = d psi/dx, over products of trial functions. psi and
+    its slope vanish on the walls: psi_xx psi_yy integrates to psi_xy^2."""
     dz, *psi = trial(2, 2, degree)
     _, *T = trial(1, 1, degree)
 

@@ -186,12 +186,7 @@ class Gas(PDEBase):
 
     def nusselt(self, data: np.ndarray) -> tuple[float, float, float]:
         """Of the plates from the flux that the scheme sends through them, of the volume from the flux of
-        energy.
-
-        One-sided gradients of higher order would be worse: friction heats the plate's surroundings, and the
-        error h^2 T''/8 that the first cell has from that is an error h T''/4 of such a gradient, but not of
-        the flux.
-        """
+        energy. One-sided gradients of higher order would be worse: friction heats what is near the plate."""
         full, unit = self.padded(data), self.scene.k*self.scene.dT/self.scene.L
         flux = self._energy_flux(full).mean(axis=0)
         return float(flux[0])/unit, float(flux[-1])/unit, float(np.trapezoid(flux))/self.rows/unit

@@ -3,8 +3,7 @@
     solve_gas(RayleighBenard(ra=1e4), rows=32)
     solve_boussinesq(ra=5000, pr=7, rows=32, until=Time(100), start=Rolls(ke=1e-6))
 
-Second order in space, different from the other grids here in unknowns and placing. py-pde brings grids,
-boundary conditions, differences, steps in compiled code and trackers.
+Second order in space, different from the other grids here in unknowns and placing.
 """
 import math
 from dataclasses import dataclass, field
@@ -40,10 +39,8 @@ class PdeNusselt(NamedTuple):
 class PdeSolution:
     """What a run ended with.
 
-    `ke` is K at the end with what is left of its decay added, `ke_err` the size of that (not the error of the
-    grid), both in free-fall units for the Boussinesq layer and in those of the scene for the gas; the three
-    of `nusselt` agree to the error of the grid when steady; `mass_drift` is relative (0 for the Boussinesq
-    layer).
+    `ke`, `ke_err` as of `gas.solve.Solution`, in free-fall units for the Boussinesq layer and in those of the
+    scene for the gas.
     """
     equation: Boussinesq | Gas
     state: np.ndarray = field(repr=False)

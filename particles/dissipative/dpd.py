@@ -88,20 +88,15 @@ class Dpd:
         return Law(self.a, self.gamma, float(np.sqrt(2*self.gamma*self.kT/dt)), 1/self.rc)
 
     def longest_step(self, n: int) -> float:
-        """2/omega of velocity-Verlet and 2/Lambda of forward friction, where all neighbours oppose.
-
-        Per particle rho V springs of a/rc and friction gamma <w^2> each, a d-th of them along a direction,
-        twice that when neighbours move against each other: omega^2 = 2 rho V a/(d rc), Lambda = 2 rho V gamma
-        <w^2>/d.
-        """
+        """2/omega of velocity-Verlet and 2/Lambda of forward friction, where all neighbours oppose:
+        omega^2 = 2 rho V a/(d rc), Lambda = 2 rho V gamma <w^2>/d."""
         rho_V = n/self.volume*{2: np.pi, 3: 4*np.pi/3}[self.d]*self.rc**self.d
         w2 = 2/((self.d + 1)*(self.d + 2))       # mean over the ball: d int (1 - s)^2 s^(d - 1) ds
         omega, friction = np.sqrt(2*rho_V*self.a/self.rc/self.d), 2*rho_V*self.gamma*w2/self.d
         return float(min(2/max(omega, 1e-300), 2/max(friction, 1e-300)))
 
     def random_start(self, rho: float, seed: int = 1) -> np.ndarray:
-        """State (3 d, n) at random, velocities of kT in the shear. Raises ValueError: rho leaves no two
-        particles."""
+        """State (3 d, n) at random, velocities of kT in the shear. ValueError: rho leaves no pair."""
         if not (isfinite(rho) and rho > 0 and round(rho*self.volume) >= 2):
             raise ValueError("rho must be positive and make two particles at least in a volume of "
                              f"{self.volume:g}, got {rho}: rho = 3 is usual")

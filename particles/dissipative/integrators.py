@@ -62,10 +62,8 @@ class VelocityVerlet(GrootWarren):
 
 
 class Shardlow(GrootWarren):
-    """Friction and noise pair by pair, implicitly, then velocity-Verlet without them    [Shardlow 2003, S1]
-
-    Pairs follow the order of the lists: the same for any number of threads and over a restart.
-    """
+    """Friction and noise pair by pair, implicitly, then velocity-Verlet without them [Shardlow 2003, S1].
+    Pairs follow the order of the lists: the same for any number of threads and over a restart."""
     lam = 0.0
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:

@@ -72,9 +72,3 @@ def shear_stress(sums: Any, state: np.ndarray) -> float:
     """Stress_xy, positive with the shear: -[sum v_x v_y + sum over pairs (F - friction)_x y]/V."""
     v = peculiar(sums, state)
     return float(-(np.sum(v[0]*v[1]) + static_sums(sums, state)[:, 5].sum()/2)/sums.method.volume)
-
-
-def momentum(sums: Any, state: np.ndarray) -> float:
-    """Size of the mean velocity."""
-    d = sums.places
-    return float(np.abs(state[d:2*d].mean(axis=1)).max())

@@ -53,10 +53,7 @@ class Law(NamedTuple):
 
 class Near(NamedTuple):
     """Pairs of row i within rc: near, (dx, dy, dz) = r_i - r_j [first[i]:first[i] + taken[i]]; own, other:
-    their numbers.
-
-    f r is the force that does not depend on velocities, g r^2 the friction.
-    """
+    their numbers. f r is the force that does not depend on velocities, g r^2 the friction."""
     first: np.ndarray
     taken: np.ndarray
     near: np.ndarray
@@ -125,11 +122,8 @@ def weigh_near(law, count, zeta, f, g):
 
 @jit
 def room_for(first, last, lists, taken):
-    """Arrays for the pairs of the longest block of rows first..last.
-
-    Each has memory of its own: rows of one array LLVM takes for the same memory, and makes no vector
-    instructions.
-    """
+    """Arrays for the pairs of the longest block of rows first..last. Each has memory of its own: rows of one
+    array LLVM takes for the same memory, and makes no vector instructions."""
     room = 1
     for start in range(first, last, ROWS):
         room = max(room, int(lists.length[start:min(start + ROWS, last)].sum()) + 1)

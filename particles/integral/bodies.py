@@ -4,9 +4,8 @@ A held point exchanges over its edges as all points do; its velocity and tempera
 evolves. What the edges carry to it is the force on the body and its heat. A body of lattice points has a
 staircase for a surface; points placed on the surface give the true one.
 
-The flux of eta lap v through a surface is eta dv/dn, the traction on a body that does not turn. One that
-turns with Omega feels a torque -2 eta Omega area besides, from edges inside of it: take the torque on all
-points of a body.
+The flux of eta lap v through a surface is the traction on a body that does not turn. One that turns with
+Omega feels a torque -2 eta Omega area besides, from edges inside: take the torque on all of its points.
 """
 from typing import NamedTuple
 
@@ -69,9 +68,8 @@ def check_disc(points: Points, radius: float) -> None:
 def with_surface(counts: tuple[int, int], radius: float) -> tuple[Points, np.ndarray]:
     """A lattice of spacing 1 with a disc about its middle, and the disc's points, surface included.
 
-    The lattice keeps off the circle by CLEAR, so that chords between neighbours on it are edges of a Delaunay
-    triangulation. The polygon lacks a fraction (2 pi/n)^2/6 of the area of the disc: second order in the
-    spacing.
+    The lattice keeps off the circle by CLEAR, so that chords between neighbours on it are Delaunay edges. The
+    polygon lacks a fraction (2 pi/n)^2/6 of the area of the disc.
     """
     at = lattice(counts)
     check_disc(at, radius)
@@ -91,10 +89,8 @@ def on_circle(radius: float) -> np.ndarray:
 
 def between_circles(counts: tuple[int, int], inner: float,
                     outer: float) -> tuple[Points, np.ndarray, np.ndarray]:
-    """A lattice of spacing 1 with points on two circles; points up to the inner, and from the outer.
-
-    Raises ValueError: there is no room between the circles, or between one of them and its image.
-    """
+    """A lattice of spacing 1 with points on two circles; points up to the inner, and from the outer. Raises
+    ValueError: there is no room between the circles, or between one of them and its image."""
     at = lattice(counts)
     check_disc(at, inner)
     check_disc(at, outer)
@@ -111,8 +107,7 @@ def between_circles(counts: tuple[int, int], inner: float,
 def with_plates(inner: np.ndarray, columns: int, height: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Points (n, 2) with rows of `columns` points on the plates y = -+height/2, and which these are.
 
-    For triangles that end there, `triangulation.between`. The rows inside are one less than the spacings of
-    the height.
+    For triangles that end there, `triangulation.between`.
     """
     row = np.stack([np.arange(columns) + 0.5 - columns/2, np.full(columns, -height/2)], axis=1)
     return np.concatenate([row, row*mirror(2), inner]), np.arange(columns), np.arange(columns, 2*columns)

@@ -1,19 +1,26 @@
 """A conservative scheme on moving points: volume, mass, momentum and energy exchanged over faces, in 2D.
 
 Faces S_ij = -S_ji close and are exact on linear fields, see `faces`. Points drift with the fluid and a little
-towards even spacing; the volume that they leave to each other carries mass, momentum and energy along. RR98's
-moving points (Eqs 46-48, on volumes that stay) lose all of these. Images beyond plates are those of `layer`.
+towards even spacing; the volume that they leave to each other carries mass, momentum and energy along, which
+RR98's moving points (Eqs 46-48) lose. Images beyond plates are those of `layer`.
 """
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import check_state, conductivity, energy, pressure, sound_speed, temperature, viscosity
-from continuum.jit import jit
+from continuum.fluid import check_state, conductivity, energy, sound_speed, temperature, viscosity
 from particles.fields import Fields, from_densities
 from particles.integral.exchange import At, Exchange, Listing, stages
-from particles.integral.face_terms import FaceDifferences, FaceExchange
+from particles.integral.face_terms import (
+    FaceDifferences,
+    FaceExchange,
+    Point,
+    per_time,
+    pressure_slopes,
+    read,
+    read_images,
+)
 from particles.integral.faces import POTENTIALS, FaceMaker, inner
 from particles.integral.interpolants import check_ordering
 from particles.integral.transposed_stress import MENDED
@@ -25,14 +32,9 @@ from particles.threads import Team
 from particles.walls import confine
 from particles.weights import check_unit
 
-#: rows of a state: places, drift velocity, momentum, mass, volume, total energy, and the last solution for
-#: the faces
+#: of a state: places, drift velocity, momentum, mass, volume, total energy, the last solution for the faces
 ROWS = ("x", "y", "wx", "wy", "px", "py", "m", "V", "E", *POTENTIALS)
 EXCHANGED, SOLVED = slice(4, 9), slice(9, 15)
-#: seen by convection and pressure: vx .. theta; by friction and heat: ux, uy, Td; F mends the heating, (gx,
-#: gy) = grad P'
-Point = np.dtype([(name, "f8") for name in ("vx", "vy", "P", "rho", "e", "per_c", "shift_x", "shift_y",
-                                            "theta", "gx", "gy", "ux", "uy", "Td", "eta", "k", "Fx", "Fy")])
 
 
 class Ingredients(NamedTuple):
@@ -184,12 +186,12 @@ class FaceSums(Listed):
         """Fields of all points and images on the faces as they are."""
         method, chosen, points, n = self.method, self.method.ingredients, self.points, self.n
         g0 = method.rho0*method.g if chosen.static else 0.0
-        self.team(_fields, n, state, method.eos, method.law, g0, self.shift, self.maker.count, points)
+        self.team(read, n, state, method.eos, method.law, g0, self.shift, self.maker.count, points)
         self.P0 = inner(state[7], points["P"][:n])/float(state[7].sum()) if chosen.static else 0.0
         points["P"][:n] -= self.P0
         self._images(g0)
         self.team(sweep, n, FaceDifferences(), points, self.faces, self.slopes)
-        self.team(_pressure_slopes, n, self.slopes, state[7], points)
+        self.team(pressure_slopes, n, self.slopes, state[7], points)
         self.maker.ghosts.fill(points, ("gx",), ("gy",))
         self.exchange.use(self.slopes, self.at(state))
 
@@ -199,7 +201,7 @@ class FaceSums(Listed):
 
     def _images(self, g0: float) -> None:
         around, points, ghosts = self.around, self.points, self.maker.ghosts
-        _image_fields(self.n, *ghosts, points)
+        read_images(self.n, *ghosts, points)
         if g0 != self.method.rho0*self.method.g:    # the pressure goes on hydrostatically
             rise = around.y[ghosts.origin] - around.y[self.n:]
             points["P"][self.n:] += self.method.rho0*self.method.g*rise
@@ -209,7 +211,7 @@ class FaceSums(Listed):
         method, chosen = self.method, self.method.ingredients
         self.look_at(state)
         total, rho0 = self.exchange.sum(self.at(state)), method.rho0 if chosen.static else 0.0
-        self.team(_rates, self.n, total, state, self.points, method.g, rho0, self.P0, out)
+        self.team(per_time, self.n, total, state, self.points, method.g, rho0, self.P0, out)
 
     def set_drift(self, state: np.ndarray) -> None:
         """Points follow the fluid, and shift."""
@@ -239,45 +241,3 @@ class FaceSums(Listed):
         px, py, m, V, E = state[EXCHANGED]
         return self.unphysical(self.method.eos, V, m/V, (E - (px**2 + py**2)/(2*m))/m,
                                ids) or self.outran(state)
-
-
-@jit
-def _fields(first, last, state, eos, law, g0, shift, count, points):
-    for i in range(first, last):
-        a, m, V = points[i], state[6, i], state[7, i]
-        a.vx, a.vy, a.rho = state[4, i]/m, state[5, i]/m, m/V
-        a.e = state[8, i]/m - 0.5*(a.vx**2 + a.vy**2)
-        a.P = pressure(eos, a.rho, a.e) + g0*state[1, i]
-        a.Td, a.per_c = temperature(eos, a.rho, a.e), 1/sound_speed(eos, a.rho, a.e)
-        a.ux, a.uy, a.shift_x, a.shift_y, a.theta = a.vx, a.vy, shift[i, 0], shift[i, 1], V*count[i] - 1
-        a.eta, a.k = viscosity(law, a.rho, a.Td), conductivity(law, a.rho, a.Td)
-
-
-@jit
-def _image_fields(n, origin, turn, plate_T, points):
-    """Shifted images are their origins; mirrored ones have even and odd fields."""
-    for g in range(len(origin)):
-        a, b = points[origin[g]], points[n + g]
-        b.vx, b.P, b.rho, b.e, b.per_c = a.vx, a.P, a.rho, a.e, a.per_c
-        b.shift_x, b.theta, b.eta, b.k = a.shift_x, a.theta, a.eta, a.k
-        b.vy, b.shift_y, b.ux, b.uy = turn[g]*a.vy, turn[g]*a.shift_y, turn[g]*a.ux, turn[g]*a.uy
-        b.Td = a.Td if turn[g] > 0 else 2*plate_T[g] - a.Td
-
-
-@jit
-def _pressure_slopes(first, last, slopes, V, points):
-    """grad P'."""
-    for i in range(first, last):
-        a = points[i]
-        a.gx, a.gy = slopes[i, 4]/V[i], slopes[i, 5]/V[i]
-
-
-@jit
-def _rates(first, last, total, state, points, g, rho0, P0, out):
-    """Gravity bears rho0 already; the pressure left out works on what the volume changes with the fluid."""
-    for i in range(first, last):
-        mass, px, py, through, flow, left = total[i]
-        out[4, i], out[5, i] = px, py - g*(state[6, i] - rho0*state[7, i])
-        out[6, i], out[7, i] = mass, flow + left
-        held = P0 - rho0*g*state[1, i]
-        out[8, i] = through - held*flow - g*(state[6, i] - rho0*state[7, i])*points[i].vy

@@ -22,10 +22,7 @@ STEP = 1e-3
 def jacobian(rates: Callable[[np.ndarray, np.ndarray], None], state: np.ndarray,
              points: Any = slice(None)) -> np.ndarray:
     """d rates/d state of a state (fields, n) by differences of fourth order, at the columns of `points` only:
-    (size, columns).
-
-    rates(state, out) writes the rates to `out`.
-    """
+    (size, columns). rates(state, out) writes the rates to `out`."""
     numbers = np.arange(state.size).reshape(state.shape)[:, points].ravel()
     J, out = np.zeros((state.size, len(numbers))), np.empty(state.shape)
     for column, number in enumerate(numbers):

@@ -4,9 +4,8 @@ The state (2 + d, n) holds densities rho, p^alpha = rho v^alpha, total energy ep
 eps_i are these times the volume V_i (Eq. 26). What leaves point i over an edge is what point j gains:
 
     mass       1/2 S.(rho_i v_j + rho_j v_i)                                                   [Eq. 34]
-    momentum   1/2 S.{(p_i v_j + p_j v_i) + (P_ij + P_ji) 1 - (pi_ij + pi_ji)}                   [Eq. 35]
-    energy     1/2 S.{(eps_i v_j + eps_j v_i) + (P_ij v_i + P_ji v_j) - (pi_ij.v_i + pi_ji.v_j) + (J_ij +
-    J_ji)}    [Eq. 36]
+    momentum   1/2 S.{(p_i v_j + p_j v_i) + (P_ij + P_ji) 1 - (pi_ij + pi_ji)}                 [Eq. 35]
+    energy     1/2 S.{(eps_i v_j + ..) + (P_ij v_i + ..) - (pi_ij.v_i + ..) + (J_ij + J_ji)}   [Eq. 36]
 
 with P_ij = P(rho_i, T_j), and stress and heat current nested (Eqs 37, 38) or pairwise (Eq. 51).
 """
@@ -71,8 +70,7 @@ def carried(eos: Any, S: np.ndarray, a: Flow, b: Flow, weight: Any = 0.0) -> Edg
 class NestedFluxes:
     """Stress and heat current of Eqs 37, 38: pi_ij = eta_i E(grad v_j), J_ij = -kappa_i grad T_j.
 
-    differences : the inner sum takes v_k - v_j, exact on uniform flow, instead of v_k as printed; the same on
-    a lattice.
+    differences : the inner sum takes v_k - v_j, exact on uniform flow, not v_k as printed.
     """
     differences: bool = True
 
@@ -104,11 +102,9 @@ class Pairwise:
     their moments. mended : with the stress tau_ab = B (d_b v_a - delta_ab div v) of the points, and its work
     F_a = tau_ab v_b. In the continuum tau has no divergence where viscosity is constant, and the force is
     left as it is then; where it varies forces along edges lack it. F has one always: without it even a rigid
-    rotation heats. everywhere : tau is in the force always: off a lattice slopes do not commute, and where
-    momentum lacks div tau a uniform stream changes the energy.
+    rotation heats.
     """
     mended: bool = True
-    everywhere: bool = False
 
     def fluxes(self, dih: "Dih", flow: Flow) -> EdgeFluxes:
         """Through all edges. ValueError: a bulk viscosity that makes a friction negative."""
@@ -120,7 +116,7 @@ class Pairwise:
             slope = np.stack([G@flow.v for G in edges.G], axis=1)/edges.V[:, None, None]
             F = lacking(coefficients, flow.v, slope)
             found = found._replace(energy=found.energy - (edges.S*(F[edges.i] + F[edges.j])).sum(axis=1)/2)
-            if self.everywhere or np.ptp(coefficients.eta) > 0 or np.ptp(coefficients.zeta) > 0:
+            if np.ptp(coefficients.eta) > 0 or np.ptp(coefficients.zeta) > 0:
                 tau = transposed(coefficients, slope)
                 push = np.einsum("ea,eab->eb", edges.S, tau[edges.i] + tau[edges.j])/2
                 found = found._replace(momentum=found.momentum - push)

@@ -75,11 +75,8 @@ def _renormalised(points: Points, weight: Any) -> Edges:
 
 
 def closed(points: Points, weight: Any) -> Edges:
-    """A': S_ij + k_ij (l_j - l_i), l from the graph Laplacian so that all edges close.
-
-    Gradients are wrong by a share that the disorder sets. Raises ValueError: points fall into parts without
-    an edge between them.
-    """
+    """A': S_ij + k_ij (l_j - l_i), l from the graph Laplacian so that all edges close. Gradients are wrong by
+    a share that the disorder sets. Raises ValueError: points fall into parts without an edge between them."""
     edges = judged(_renormalised(points, weight), points, weight)
     l = np.stack([_potential(edges, -c) for c in edges.closure.T], axis=1)
     S = edges.S + edges.k[:, None]*(l[edges.j] - l[edges.i])

@@ -21,11 +21,8 @@ class Convection(NamedTuple):
 
 
 class Pressure(NamedTuple):
-    """P_ab = P(rho_a, T_b) and P_ba; images have a hydrostatic part besides.
-
-    Momentum is that of P_ab + P_ba - 2 P_a, where the number P_a of the row is not left at zero: see
-    `fixed.OwnPressure`.
-    """
+    """P_ab = P(rho_a, T_b) and P_ba; images have a hydrostatic part besides. Momentum is that of P_ab + P_ba
+    - 2 P_a, where the number P_a of the row is not left at zero: see `fixed.OwnPressure`."""
     eos: Any
 
 

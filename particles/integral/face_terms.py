@@ -1,8 +1,17 @@
-"""What goes through the faces between moving points: terms of `closed_faces`, in 2D."""
+"""What goes through the faces between moving points, compiled: terms and loops of `closed_faces`, in 2D."""
 from typing import NamedTuple
 
+import numpy as np
+
+from continuum.fluid import conductivity, pressure, sound_speed, temperature, viscosity
+from continuum.jit import jit
 from particles.integral.exchange import Listing
 from particles.pairs import nothing, rate
+
+#: seen by convection and pressure: vx .. theta; by friction and heat: ux, uy, Td; F mends the heating, (gx,
+#: gy) = grad P'
+Point = np.dtype([(name, "f8") for name in ("vx", "vy", "P", "rho", "e", "per_c", "shift_x", "shift_y",
+                                            "theta", "gx", "gy", "ux", "uy", "Td", "eta", "k", "Fx", "Fy")])
 
 
 class FaceDifferences(NamedTuple):
@@ -39,3 +48,45 @@ def _(term, a, b, ab):
     through = heat + 0.5*mass*(a.e + b.e + a.vx*b.vx + a.vy*b.vy) - a.P*to_b - b.P*to_a
     return (mass, fx - sx*P + 0.5*mass*(a.vx + b.vx), fy - sy*P + 0.5*mass*(a.vy + b.vy), through,
             to_a + to_b, left)
+
+
+@jit
+def read(first, last, state, eos, law, g0, shift, count, points):
+    for i in range(first, last):
+        a, m, V = points[i], state[6, i], state[7, i]
+        a.vx, a.vy, a.rho = state[4, i]/m, state[5, i]/m, m/V
+        a.e = state[8, i]/m - 0.5*(a.vx**2 + a.vy**2)
+        a.P = pressure(eos, a.rho, a.e) + g0*state[1, i]
+        a.Td, a.per_c = temperature(eos, a.rho, a.e), 1/sound_speed(eos, a.rho, a.e)
+        a.ux, a.uy, a.shift_x, a.shift_y, a.theta = a.vx, a.vy, shift[i, 0], shift[i, 1], V*count[i] - 1
+        a.eta, a.k = viscosity(law, a.rho, a.Td), conductivity(law, a.rho, a.Td)
+
+
+@jit
+def read_images(n, origin, turn, plate_T, points):
+    """Shifted images are their origins; mirrored ones have even and odd fields."""
+    for g in range(len(origin)):
+        a, b = points[origin[g]], points[n + g]
+        b.vx, b.P, b.rho, b.e, b.per_c = a.vx, a.P, a.rho, a.e, a.per_c
+        b.shift_x, b.theta, b.eta, b.k = a.shift_x, a.theta, a.eta, a.k
+        b.vy, b.shift_y, b.ux, b.uy = turn[g]*a.vy, turn[g]*a.shift_y, turn[g]*a.ux, turn[g]*a.uy
+        b.Td = a.Td if turn[g] > 0 else 2*plate_T[g] - a.Td
+
+
+@jit
+def pressure_slopes(first, last, slopes, V, points):
+    """grad P'."""
+    for i in range(first, last):
+        a = points[i]
+        a.gx, a.gy = slopes[i, 4]/V[i], slopes[i, 5]/V[i]
+
+
+@jit
+def per_time(first, last, total, state, points, g, rho0, P0, out):
+    """Gravity bears rho0 already; the pressure left out works on what the volume changes with the fluid."""
+    for i in range(first, last):
+        mass, px, py, through, flow, left = total[i]
+        out[4, i], out[5, i] = px, py - g*(state[6, i] - rho0*state[7, i])
+        out[6, i], out[7, i] = mass, flow + left
+        held = P0 - rho0*g*state[1, i]
+        out[8, i] = through - held*flow - g*(state[6, i] - rho0*state[7, i])*points[i].vy

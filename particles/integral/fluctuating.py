@@ -9,9 +9,8 @@ dW independent Wiener processes, Gamma and B sparse. In equilibrium <p_i p_j> = 
 the fluctuation-dissipation theorem. Rows are numbered a n + i: component a of point i. k is Boltzmann's
 constant in the units of the fluid, which sets the noise.
 
-RR98's Eqs 42-44 have the increments of a whole step and no volume: with them a stress would need the factor
-1/sqrt(V dt), and a potential pi = Pi dV (Eq. 27) the factor sqrt(V/dt); V is in all of the matrices here, dt
-in dW.
+RR98's Eqs 42-44 have the increments of a whole step and no volume; V is in all of the matrices here, dt in
+dW.
 """
 from typing import Any, NamedTuple
 
@@ -128,10 +127,8 @@ def between(edges: Edges, A: np.ndarray, B: np.ndarray, kT: np.ndarray) -> Partn
 
 
 def conduction(edges: Edges, kappa: Any, kT2: Any) -> Partners:
-    """Heat k kappa (T_j - T_i) along each edge, and its random current; means over its two points.
-
-    Raises ValueError: a conductivity or k T^2 is negative, or an edge conducts a negative amount.
-    """
+    """Heat k kappa (T_j - T_i) along each edge, and its random current; means over its two points. Raises
+    ValueError: a conductivity or k T^2 is negative, or an edge conducts a negative amount."""
     kappa, kT2 = (ends(edges, q) for q in checked(edges.n, kappa=kappa, kT2=kT2))
     f, across = conductances(edges)*kappa, incidence(edges)
     return Partners(sparse.csr_array(across@sparse.diags_array(f)@across.T),

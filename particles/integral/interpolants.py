@@ -118,12 +118,11 @@ class OrderingWarning(UserWarning):
     """Spacing < r0 < wavelength is violated    [RR98 Eq. 45]"""
 
 
-def check_ordering(weight: Any, d: int, a: float, error: float, wavelength: float = np.inf,
+def check_ordering(weight: Any, d: int, a: float, error: float,
                    wrong: str = "gradients of linear fields are") -> None:
-    """Warn where Eq. 45 is violated, with the side and the error to expect.
+    """Warn where the left side of Eq. 45 is violated, with the error to expect.
 
     a : spacing (dV)^(1/d). error : of the discrete first moment on the points, or of what else is `wrong`.
-    wavelength : the shortest that matters; its gradients lose 1 - f^(k), about 1 - exp(-(k r0)^2/2d).
     """
     r0 = rms_width(weight, d)
     told = f"r0 = {r0:.3g} (rms width of {type(weight).__name__})"
@@ -131,11 +130,6 @@ def check_ordering(weight: Any, d: int, a: float, error: float, wavelength: floa
         warnings.warn(f"{told} is below the spacing {a:.3g}, the left side of Eq. 45: {wrong} off by "
                       f"{100*error:.3g} % (rms) on these points; take a wider weight, or exact edges",
                       OrderingWarning, 4)
-    if r0 > wavelength:
-        lost = 1 - np.exp(-(2*pi/wavelength*r0)**2/(2*d))
-        warnings.warn(f"{told} is above the wavelength {wavelength:.3g}, the right side of Eq. 45: its "
-                      f"gradients lose about {100*lost:.3g} %; take a narrower weight", OrderingWarning,
-                      stacklevel=4)
 
 
 def check(weight: Any, d: int) -> None:

@@ -1,9 +1,8 @@
 """Fixed points of a layer, compiled: the terms of `dih` over stored edges, in 2D.
 
 Between plates, which RR98 leaves open, convection and pressure see images without friction, so that the
-divergence stays the adjoint of the gradient: rho, T, eps and the velocity along the plate of their parents,
-the velocity across it reversed, and a pressure that goes on hydrostatically. Friction and heat see images
-with -v and 2 T_w - T. Any other mixture lets sound grow.
+divergence stays the adjoint of the gradient: fields of their parents, velocity across reversed, a pressure
+that goes on hydrostatically. Friction and heat see -v and 2 T_w - T. Any other mixture lets sound grow.
 """
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -123,10 +123,8 @@ def _products(i, a, s, open, f, eta, g, lack, out):
 
 @jit
 def _plates(beyond, parent, given, per_V, lack, out):
-    """What convection and pressure see of images, which slip and go on hydrostatically; F of images.
-
-    F along a plate is even, across it odd.
-    """
+    """What convection and pressure see of images, which slip and go on hydrostatically; F of images. F along
+    a plate is even, across it odd."""
     rows, image, sx, sy, weight = beyond
     for k in range(len(rows)):
         i = rows[k]

@@ -63,10 +63,8 @@ class Nesting(Stage):
         self.slopes, self.gain, self.currents = np.empty((n, 6)), np.empty((n, 3)), np.zeros(0, Current)
 
     def prepare(self, at: At) -> None:
-        """Images have the adjoint of gradients that see -v, 2 T_w - T: odd along the plate, even across.
-
-        Of a shear stress that is another number for each of its two directions.
-        """
+        """Images have the adjoint of gradients that see -v, 2 T_w - T: odd along the plate, even across. Of a
+        shear stress that is another number for each of its two directions."""
         if len(self.currents) != len(at.points):
             self.currents = np.zeros(len(at.points), Current)
         self.team(sweep, self.n, Slopes(), at.points, at.edges, self.slopes)

@@ -132,10 +132,8 @@ def irregularity(points: Points, weight: Any) -> np.ndarray:
 
 
 def relaxed(points: Points, weight: Any, until: float = 2e-3, sweeps: int = 2000) -> Points:
-    """Points moved by 0.12 a^2 c a sweep until a |c| < `until` everywhere, c as in `irregularity`.
-
-    Raises ArithmeticError: they are not that regular after so many sweeps.
-    """
+    """Points moved by 0.12 a^2 c a sweep until a |c| < `until` everywhere, c as in `irregularity`. Raises
+    ArithmeticError: they are not that regular after so many sweeps."""
     for _ in range(sweeps):
         c = irregularity(points, weight)
         worst = points.a*np.sqrt((c**2).sum(axis=1).max())

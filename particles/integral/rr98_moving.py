@@ -75,11 +75,6 @@ class Drift:
         px, py, rho, eps = state[2:6]/self.motion.owned(state[6])
         return from_densities(self.eos, state[:2].T.copy(), state[6].copy(), rho, np.stack([px, py]), eps)
 
-    def temperature(self, state: np.ndarray) -> np.ndarray:
-        """Of all points, (n,)."""
-        rho, e = self.thermal(state)
-        return temperature(self.eos, rho, e)
-
     def thermal(self, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Density and internal energy per mass."""
         px, py, rho, eps = state[2:6]/self.motion.owned(state[6])

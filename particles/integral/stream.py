@@ -1,9 +1,7 @@
 """Fixed points around bodies, compiled: the terms of `layer`, periodic, in 2D.
 
-Held points (`particles.integral.bodies`) keep their velocity and temperature; their density follows. What
-they receive of momentum is the force on them, exactly what the fluid lost. Slow flow around bodies feeds
-patterns of pressure that no gradient sees; a filter of the density, chi of some 0.05 a^2 c^2/nu (c^2 =
-dP/drho at constant T), ends that.
+Held points (`bodies`) keep their velocity and temperature; their density follows. Slow flow around them feeds
+patterns of pressure that no gradient sees; a filter of the density, chi of some 0.05 a^2 c^2/nu, ends that.
 """
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple

@@ -202,10 +202,8 @@ class ThreeStage:
 
 @limit_of.register
 def _(method: Thermal, start: np.ndarray) -> float:
-    """Three stages: 1.73 on the imaginary axis for sound, 2.51 on the real one for diffusion.
-
-    Warns where a point holds so little heat that current amplitudes bias its fluctuations.
-    """
+    """Three stages: 1.73 on the imaginary axis for sound, 2.51 on the real one for diffusion. Warns where a
+    point holds so little heat that current amplitudes bias its fluctuations."""
     flow, (sound, spread) = method.dih.flow(start), method.edges.fastest
     e = energy(method.eos, flow.rho, flow.T)
     C = (energy(method.eos, flow.rho, flow.T*(1 + 1e-6)) - e)/(1e-6*flow.T)

@@ -77,6 +77,7 @@ class Heating(Stage):
         self.team(_work, self.n, slopes, at.V, self.share, at.points)
         at.images.fill_work(at.points, slopes, at.V)
 
+
 class HeatingAndForce(Heating):
     """Makes F, and adds what tau pushes by."""
 

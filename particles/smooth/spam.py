@@ -21,10 +21,8 @@ from particles.weights import check_unit
 class LessStatic(NamedTuple):
     """Subtract `fraction` of the static pressure P0 - rho0 g y from P, and its support from gravity.
 
-    The continuum equations stay the same; of the background pressure that holds the particles on a lattice
-    [KHP95, Sec. IV] less is left. fraction = 0 is the printed scheme. A static part taken from the gradients'
-    div v does not do the work that the pair sums would do: energy is no longer conserved exactly, see
-    tests/test_spam_in_time.py.
+    Less is left of the background pressure that holds particles on a lattice [KHP95, Sec. IV]; fraction = 0
+    is the printed scheme. The part left out works by the gradients' div v: energy is not conserved exactly.
     """
     fraction: float
     P0: float
@@ -35,14 +33,9 @@ class LessStatic(NamedTuple):
 class Spam:
     """A smooth-particle fluid.
 
-    Parameters
-    ----------
-    weight : of `particles.weights`, e.g. ``Lucy.of(h=3)`` (range 3 sigma).
-    eos, law : equation of state and transport law of `continuum.fluid`.
-    walls : tuple of walls; box : (width, height) of the fluid, centred on the origin.
-    g : gravity, downwards; m : mass of every particle.
-    gradients, transport, static : the printed choices unless a variant is given.
-    skin : of the neighbour list, in sigma.
+    weight : of `particles.weights`, as ``Lucy.of(h=3)``. eos, law : of `continuum.fluid`. walls : tuple of
+    walls. box : (width, height), centred on the origin. g : gravity, downwards. m : mass of every particle.
+    gradients, transport, static : printed unless given. skin : of the neighbour list, in sigma.
     """
     weight: Any
     eos: Any

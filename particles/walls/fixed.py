@@ -9,9 +9,7 @@ from particles.walls.mirror import _reflect
 
 class FixedRows(NamedTuple):
     """`rows` rows of particles at rest behind a plate across y, spaced by `spacing` from half a spacing on.
-
-    Their temperature is extrapolated linearly from the plate: T + slope (y - at).
-    """
+    Their temperature is extrapolated linearly from the plate: T + slope (y - at)."""
     at: float
     inner: float
     T: float
@@ -22,9 +20,7 @@ class FixedRows(NamedTuple):
 
 def fixed_plates(height: float, T_hot: float, T_cold: float, rows: int = 6, spacing: float = 1.0) -> tuple:
     """Hot plate below, cold one above; their rows go on with the conduction profile. Two ranges are six rows.
-
-    Raises ValueError: the profile reaches T = 0 within the rows above the cold plate.
-    """
+    Raises ValueError: the profile reaches T = 0 within the rows above the cold plate."""
     slope = (T_cold - T_hot)/height
     last = T_cold + slope*(rows - 0.5)*spacing
     if not last > 0:

@@ -24,10 +24,8 @@ class Own(NamedTuple):
 
 
 class Mirror(NamedTuple):
-    """A plate across `axis` (0: x, 1: y) at coordinate `at`, the fluid on its `inner` side (+1 or -1).
-
-    Its temperature is T + slope * (coordinate along the plate).
-    """
+    """A plate across `axis` (0: x, 1: y) at coordinate `at`, the fluid on its `inner` side (+1 or -1). Its
+    temperature is T + slope * (coordinate along the plate)."""
     axis: int
     at: float
     inner: float

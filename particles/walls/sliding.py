@@ -20,11 +20,8 @@ SYMMETRIC = 1e-12       # of S through the side: round-off of some ten edges
 
 
 class Through(NamedTuple):
-    """Entries of the stored edges that lead through a side: which, up (1) or down (-1), share 1 - theta (0)
-    or theta (1);
-
-    S/2 and k of the whole edge; column and row of the place of the lattice to which it leads.
-    """
+    """Entries of the stored edges through a side: which, up (1) or down (-1), share 1 - theta (0) or theta
+    (1); S/2 and k of the whole edge; column and row of the place of the lattice to which it leads."""
     entry: np.ndarray
     up: np.ndarray
     second: np.ndarray
