@@ -6,7 +6,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.build.axes import ENERGY, ra_axis
+from studies.build.labels import ENERGY, ra_axis
 from studies.kit.drawing import Drawing, Drawings
 from studies.kit.figure import COLOURS, MARKERS, below, errorbar, figure, look
 from studies.onset.tables import means
