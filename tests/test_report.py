@@ -13,8 +13,7 @@ from PIL import Image
 from report_tables import committed, errors, one_study
 
 from studies.kit.csvfile import read, write
-from studies.kit.drawing import Drawing, Drawings
-from studies.kit.figure import COLOURS, figure, save
+from studies.kit.figure import COLOURS, Drawing, Drawings, figure, save
 from studies.kit.store import RESULTS
 from studies.kit.study import Part, Study
 from studies.report import cost, inventory, pictures

@@ -13,7 +13,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescap
 from markupsafe import Markup
 
 from studies.kit.csvfile import write_atomic
-from studies.kit.drawing import caption
+from studies.kit.figure import caption
 from studies.report import cost
 from studies.report.chart import HEIGHT, WIDTH, chart
 from studies.report.findings import Known, answer, claims_of, findings
