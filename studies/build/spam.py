@@ -14,7 +14,6 @@ from particles.observe import PlateHeat, field_kinetic, heat_flow, particle_kine
 from particles.smooth.spam import LessStatic, Spam
 from particles.smooth.sums import Direct, Nested
 from particles.terms import ArithmeticGradients, Gradients
-from particles.threads import Team
 from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import Odd, Own
 from particles.walls.periodic import periodic
@@ -168,11 +167,3 @@ def fluid(weight: Any, box: tuple[float, float], eos: Any = IdealGas(), law: Any
 def at_rest(x: np.ndarray, e: Any) -> np.ndarray:
     """State (5, n) of particles at x (n, 2) that do not move."""
     return np.array([*x.T, *np.zeros((2, len(x))), np.broadcast_to(e, len(x))], float)
-
-
-def densities(method: Spam, x: np.ndarray) -> np.ndarray:
-    """rho (n,) of particles at x (n, 2), in the order of the lists."""
-    sums, state = method.start(len(x), Team(1)), at_rest(x, 1.0)
-    sums.around.relist(state, np.arange(len(x)), 0.0)
-    sums.densities(state)
-    return sums.around.rho[:len(x)].copy()

@@ -1,7 +1,6 @@
 """results/index.html: one file with everything in it, from tables, figures and films; no solver is run."""
 import base64
 import gzip
-import hashlib
 import io
 import math
 import re
@@ -82,18 +81,7 @@ def render(out: Path, known: list[Folder], encode: Callable[[Path], str]) -> str
         parts=known, figures=shown, films=films(out),
         main=next((one for one in shown.get("rb", []) if one.name == "main"), None),
         tables={sheet.name: table(sheet) for folder in known for sheet in folder.sheets},
-        style=file("style.css"), script=file("script.js"), inputs=fingerprint(out))
-
-
-def fingerprint(out: Path) -> str:
-    """Hash of everything that the page is made of."""
-    kinds = ("claims.csv", "*/*.csv", "*/*.png", "films/*.mp4")
-    made_of = [path for kind in kinds for path in out.glob(kind) if path.parent.name not in ("raw", "quick")]
-    sources = Path(__file__).with_name("page").glob("*.*")
-    whole = hashlib.sha256()
-    for path in sorted([*made_of, *sources]):
-        whole.update(path.read_bytes())
-    return whole.hexdigest()[:16]
+        style=file("style.css"), script=file("script.js"))
 
 
 def file(name: str) -> Markup:
