@@ -20,9 +20,8 @@ from bench.lammps_sph import as_doubles, find_mpi
 from bench.spam_speed import COLUMNS, time_row, value_row
 from particles.dissipative.dpd import Dpd
 from particles.run import Plan, run
-from studies.kit.csvfile import write
+from studies.kit.csvfile import commit, cpu, now, versions, write
 from studies.kit.key import ROOT
-from studies.kit.provenance import commit, cpu, now, versions
 
 FILE = ROOT/"results"/"bench"/"dpd_speed.csv"
 SIDE, RHO, DT = 20.0, 3.0, 0.04

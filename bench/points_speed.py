@@ -22,9 +22,8 @@ from particles.limits import limit_of
 from particles.run import Plan, run
 from particles.threads import Team
 from studies.build import ready
-from studies.kit.csvfile import write
+from studies.kit.csvfile import commit, cpu, now, versions, write
 from studies.kit.key import ROOT
-from studies.kit.provenance import commit, cpu, now, versions
 
 FILE = ROOT/"results"/"bench"/"points_speed.csv"
 SCENE = RayleighBenard(ra=1e4, L=100.0)

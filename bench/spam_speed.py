@@ -22,9 +22,8 @@ from bench.convection import BLOCK, DT, EVALUATIONS, block_seconds, lattice, mel
 from bench.lammps_sph import Lammps, fastest, find_mpi
 from bench.stages import stages
 from particles.run import Plan, run
-from studies.kit.csvfile import write
+from studies.kit.csvfile import commit, cpu, now, versions, write
 from studies.kit.key import ROOT
-from studies.kit.provenance import commit, cpu, now, versions
 from studies.kit.timing import compile_and_run_seconds
 
 FILE = ROOT/"results"/"bench"/"spam_speed.csv"

@@ -16,7 +16,7 @@ from particles.integral.stream import Stream, separated
 from particles.integral.triangulation import delaunay
 from particles.threads import Team
 from particles.weights import Lucy
-from studies.build.cylinder import VARIANTS
+from studies.conservation.cylinder import VARIANTS
 from studies.conservation.slow_flows import CylinderDrag, TurningCylinder, TurningWave
 
 LAW = ConstEta(0.3, 0.4)

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from particles.integral.edge_makers import MAKERS, plain, printed, renormalised
-from particles.integral.edges import between_plates
 from particles.integral.interpolants import Exponential, Gaussian, OrderingWarning, W, f, moment, reach
 from particles.integral.points import jittered, lattice, of_positions, pairs, random, relaxed
 from particles.integral.triangulation import between, delaunay

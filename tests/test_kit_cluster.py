@@ -15,7 +15,7 @@ from types import SimpleNamespace
 import pytest
 from toy import Toy, finish, until
 
-from studies.kit import cluster, provenance
+from studies.kit import cluster, csvfile
 from studies.kit.case import Case, Outcome
 from studies.kit.cluster import check_scheduler, check_worker, packed, unpacked
 from studies.kit.processes import THREADS
@@ -242,7 +242,7 @@ def test_a_worker_that_would_compute_otherwise_is_refused(threads, environment, 
         monkeypatch.setenv(name, environment if name.startswith(("OMP", "MKL")) else "1")
     worker = SimpleNamespace(address="tcp://here:1", state=SimpleNamespace(nthreads=threads))
     with pytest.raises(CannotRun, match=words):
-        check_worker(worker, versions or provenance.versions())
+        check_worker(worker, versions or csvfile.versions())
 
 
 def test_a_case_that_means_something_else_is_refused(monkeypatch):

@@ -11,7 +11,7 @@ from particles.limits import lattice_sums
 from particles.smooth.spam import Spam
 from particles.threads import Team
 from particles.weights import Lucy, Monaghan, WendlandC2
-from studies.build.periodic_box import at_rest, fluid
+from studies.build.spam import at_rest, fluid
 from studies.kit.table import Tables
 from studies.lattices.cases import crossing, derive
 from studies.lattices.claims import NO_PRESSURE, SPINODAL

@@ -11,7 +11,6 @@ from particles.integral.interpolants import W
 from particles.integral.points import lattice, of_positions, wrapped
 from particles.weights import WEIGHTS, Lucy
 from studies.build.disorder import DISORDERS
-from studies.build.vortex import decayed
 from studies.kit.table import Tables
 from studies.ordering.cases import PLATES
 from studies.ordering.derive import of_flows, reference
@@ -25,6 +24,7 @@ from studies.ordering.runs import (
     on_lattice,
     wave_errors,
 )
+from studies.ordering.vortex import decayed
 
 
 def row_of(case, folder=None):

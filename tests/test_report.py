@@ -13,16 +13,15 @@ from PIL import Image
 from report_tables import committed, errors, one_study
 
 from studies.kit.csvfile import read, write
-from studies.kit.drawing import Drawing, Drawings
-from studies.kit.figure import COLOURS, figure, save
+from studies.kit.figure import COLOURS, Drawing, Drawings, figure, save
 from studies.kit.store import RESULTS
 from studies.kit.study import Part, Study
-from studies.report import cost, inventory, pictures
+from studies.report import cost, inventory
 from studies.report.chart import chart
 from studies.report.findings import Known, answer, claims_of, falls, findings
 from studies.report.inventory import folders
 from studies.report.numbers import with_error
-from studies.report.page import accepted, figures, paper, render, write_page
+from studies.report.page import NEAR, accepted, figures, paper, render, webp, write_page
 
 
 @pytest.fixture
@@ -40,7 +39,7 @@ def test_the_page_is_one_file_and_the_same_again(small):
     assert "three &lt;b&gt;&amp; more" in text and "<b>& more" not in text
     assert not any(link in text for link in ('src="http', 'href="http', "@import", "url("))
     assert text.count("<tr data-paper=") == 3 and "abc1234567" in text
-    assert 'id="figure-rb-toy"' in text and pictures.webp(small/"rb/toy.png") in text
+    assert 'id="figure-rb-toy"' in text and webp(small/"rb/toy.png") in text
 
 
 def test_what_is_said_comes_from_the_tables(small):
@@ -156,10 +155,10 @@ def test_colours_of_series_stay_apart_in_an_embedded_figure(tmp_path):
     for number, colour in enumerate(COLOURS):
         axes.plot([0, 1], [0.1*number, 0.1*number + 0.05], color=colour, linewidth=1.5)
     save(page, tmp_path/"lines.png")
-    packed = io.BytesIO(base64.b64decode(pictures.webp(tmp_path/"lines.png").split(",")[1]))
+    packed = io.BytesIO(base64.b64decode(webp(tmp_path/"lines.png").split(",")[1]))
     new, old = (np.asarray(Image.open(one).convert("RGB")).astype(int)
                 for one in (packed, tmp_path/"lines.png"))
-    assert np.linalg.norm(new - old, axis=2).max() <= pictures.NEAR
+    assert np.linalg.norm(new - old, axis=2).max() <= NEAR
     # 256 colours are not quite matplotlib's
     moved = [new[np.linalg.norm(old - rgb(name), axis=2) <= 3].mean(axis=0) for name in COLOURS]
     assert min(np.linalg.norm(one - other) for one, other in itertools.combinations(moved, 2)) > 40

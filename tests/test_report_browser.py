@@ -12,8 +12,7 @@ from selenium.webdriver.support.ui import Select, WebDriverWait
 
 from studies.kit.csvfile import read
 from studies.kit.store import RESULTS
-from studies.report.page import render
-from studies.report.pictures import address
+from studies.report.page import address, render
 
 pytestmark = pytest.mark.skipif(not (RESULTS/"claims.csv").exists(),
                                 reason="no results yet: make study-rb writes them")

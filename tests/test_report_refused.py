@@ -9,8 +9,7 @@ from studies.kit.csvfile import write
 from studies.report import films as draw
 from studies.report.__main__ import main
 from studies.report.inventory import NoReport
-from studies.report.page import write_page
-from studies.report.pictures import FILMS
+from studies.report.page import FILMS, write_page
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ from continuum.exact.vortex import DECAYS, Vortex, derivative, incompressible, s
 from particles.integral.edge_makers import renormalised
 from particles.integral.points import lattice
 from particles.weights import Lucy
-from studies.build.vortex import decayed, fluid, start
+from studies.ordering.vortex import decayed, fluid, start
 
 
 def rms(v: np.ndarray) -> float:

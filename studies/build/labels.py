@@ -1,5 +1,14 @@
-"""What people call the methods of `studies.build.METHODS`: in legends, tables and texts."""
+"""What figures of convection share: names of methods, of the axes, K against Ra^-1/2."""
+from matplotlib.axes import Axes
 
+from studies.kit.figure import width
+
+ENERGY = r"kinetic energy per mass $K$  [$\varepsilon/m$]"
+#: room for a number above an axis  [inches]
+LABEL = 0.42
+#: Rayleigh numbers to name, the rounder ones first
+NAMED = (10000, 5000, 2500, 20000, 1500, 3500, 1e5, 2000, 7000, 50000)
+#: name in `studies.build.METHODS` -> words in legends, tables and texts
 LABELS = {
     "grid": "compressible grid, RK4", "grid-paper-form": "grid of KHP95's form", "grid-edge-heat": "grid, heat along edges",
     "grid-two-rolls": "grid, two rolls at the start", "grid-fig10": "grid, temperatures of Fig. 10",
@@ -44,3 +53,19 @@ def label(method: str, variant: str) -> str:
     family, usual = FAMILIES.get(method, (method, ""))
     other = variant.removeprefix(usual).removeprefix("-")
     return LABELS.get("-".join(filter(None, (family, other))), "")
+
+
+def ra_axis(axes: Axes) -> None:
+    """Ra^-1/2 below, Ra above: the rounder ones first, others where there is room."""
+    low, high = axes.get_xlim()
+    scale = width(axes)/(high - low)
+    shown: list[float] = []
+    for ra in NAMED:
+        inches = [scale*abs(ra**-0.5 - other**-0.5) for other in shown]
+        if low < ra**-0.5 < high and all(gap > LABEL for gap in inches):
+            shown.append(ra)
+    top = axes.secondary_xaxis("top")
+    top.set_xticks([ra**-0.5 for ra in shown], labels=[f"{ra:g}" for ra in shown])
+    top.tick_params(labelsize=8)
+    top.set_xlabel("Rayleigh number Ra")
+    axes.set_xlabel(r"$\mathrm{Ra}^{-1/2}$")

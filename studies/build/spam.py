@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import energy, pressure
+from continuum.fluid import ConstEta, IdealGas, energy, pressure
 from continuum.gas.fields import interpolate
 from continuum.gas.solve import steady_on
 from continuum.scene import Torus
@@ -25,6 +25,7 @@ from studies.build.setting import walls as around
 #: time step over its limit: dt = 0.4 for the printed scheme. Particles turn at a plate up to v dt beyond
 #: it, an error of first order: half of the step raises Nu by 4 % at 16 rows, 0.6 % at 25, 0.2 % at 50.
 OF_LIMIT = 0.22
+FRICTIONLESS = ConstEta(0.0, 0.0)
 
 
 def images(scene: Any) -> tuple:
@@ -151,3 +152,18 @@ def scattered(scene: Any, seed: int) -> np.ndarray:
     x, y = np.meshgrid(np.arange(columns) + 0.5 - scene.width/2, np.arange(rows) + 0.5 - scene.L/2)
     shift = np.random.default_rng(seed).uniform(-START_JITTER, START_JITTER, (2, columns*rows))
     return np.stack([x.ravel() + shift[0], y.ravel() + shift[1]]).T
+
+
+# --- periodic boxes -------------------------------------------------------------------------------
+
+
+def fluid(weight: Any, box: tuple[float, float], eos: Any = IdealGas(), law: Any = FRICTIONLESS,  # noqa: B008
+          **more: Any) -> Spam:
+    """As printed, in a box that is periodic along both axes    [KHP95, Sec. II]"""
+    walls = (*periodic(box[0]), *periodic(box[1], axis=1))
+    return Spam(weight=weight, eos=eos, law=law, walls=walls, box=box, **more)
+
+
+def at_rest(x: np.ndarray, e: Any) -> np.ndarray:
+    """State (5, n) of particles at x (n, 2) that do not move."""
+    return np.array([*x.T, *np.zeros((2, len(x))), np.broadcast_to(e, len(x))], float)

@@ -7,8 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from studies.conservation.tables import SUMS
-from studies.kit.drawing import Drawing, Drawings
-from studies.kit.figure import below, errorbar, figure, look
+from studies.kit.figure import Drawing, Drawings, below, errorbar, figure, look
 
 MOTIONS = {"literal": "literal (39-41)", "convective": "convective (46-48)", "carried": "46-48, dV carried",
            "constant-mass": "constant mass (49)"}

@@ -17,7 +17,7 @@ from particles.limits import limit_of
 from particles.run import Plan, Run, run
 from particles.threads import Team
 from particles.weights import Lucy
-from studies.build.cylinder import PRESSURE, Obstacle, drag, force, momentum, radius_of, stream
+from studies.conservation.cylinder import PRESSURE, Obstacle, drag, force, momentum, radius_of, stream
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
 

@@ -9,8 +9,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from studies.cost.derive import LEVELS
 from studies.cost.tables import METHODS
-from studies.kit.drawing import Drawing, Drawings
-from studies.kit.figure import COLOURS, LINES, figure
+from studies.kit.figure import COLOURS, LINES, Drawing, Drawings, figure
 
 #: scene, quantity, title of each panel
 PANELS = (

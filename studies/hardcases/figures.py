@@ -13,8 +13,7 @@ from studies.hardcases.high_ra import OFF
 from studies.hardcases.interface import impulse
 from studies.hardcases.sod import exact
 from studies.hardcases.tubes import ETAS, STEPS
-from studies.kit.drawing import Drawing, Drawings
-from studies.kit.figure import figure, look
+from studies.kit.figure import Drawing, Drawings, figure, look
 from studies.kit.table import groups
 
 THIN_LINE: dict[str, Any] = {"color": "black", "linewidth": 0.7, "linestyle": "-", "marker": ""}

@@ -20,7 +20,7 @@ from particles.smooth.spam import Spam
 from particles.walls.mirror import Copied, Mirror, Odd
 from particles.walls.periodic import periodic
 from particles.weights import Lucy
-from studies.build.periodic_box import FRICTIONLESS, at_rest
+from studies.build.spam import FRICTIONLESS, at_rest
 from studies.hardcases.tubes import jittered, within
 from studies.kit.case import Case, Outcome, Report
 

@@ -28,8 +28,8 @@ from particles.limits import step_limit
 from particles.observe import fields_at
 from particles.run import Divergence, Plan, run
 from particles.smooth.spam import Spam
-from studies.build.periodic_box import at_rest, fluid
 from studies.build.scenes import Scene, Slab, Start
+from studies.build.spam import at_rest, fluid
 from studies.hardcases.sod import DENSE, END, EOS, GAMMA, NAMES, THIN, compared, exact, start, viscous
 from studies.kit.case import Case, Outcome, Report
 

@@ -12,9 +12,8 @@ from typing import NamedTuple
 
 import pandas as pd
 
-from studies.kit import provenance
 from studies.kit.case import Case
-from studies.kit.csvfile import read, write
+from studies.kit.csvfile import commit, cpu, read, versions, write
 from studies.kit.store import results, seconds
 from studies.kit.table import check_size
 
@@ -27,12 +26,12 @@ def put_times(out: Path, study: str, size: str, cases: Sequence[Case]) -> None:
     spent = sum(seconds(case, out/"raw"/study) for case in cases)
     if not cases or math.isnan(spent):
         return
-    values = (study, size, len(cases), estimate(cases), spent, provenance.commit())
+    values = (study, size, len(cases), estimate(cases), spent, commit())
     new = pd.DataFrame([values], columns=list(COLUMNS))
     old = times(out)
     others = old[(old["study"] != study) | (old["size"] != size)]
     frame = pd.concat([others, new]) if len(others) else new
-    head = [provenance.versions(), provenance.cpu()]
+    head = [versions(), cpu()]
     write(out/"times.csv", frame.sort_values(["study", "size"]), head=head)
 
 

@@ -20,8 +20,7 @@ from typing import Any
 
 import pandas as pd
 
-from studies.kit import provenance
-from studies.kit.csvfile import OtherTable, read, write
+from studies.kit.csvfile import OtherTable, commit, read, write
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
 from studies.kit.value import Value
@@ -167,4 +166,4 @@ def put_claims(path: Path, rows: Sequence[dict[str, Any]], study: str) -> None:
     new = pd.DataFrame(rows, columns=list(WRITTEN))
     parts = [part.reindex(columns=list(WRITTEN)) for part in (others, new) if len(part)]
     frame = pd.concat(parts) if parts else new
-    write(path, frame.sort_values(["study", "id"]), head=[f"commit {provenance.commit()}", *MEANING])
+    write(path, frame.sort_values(["study", "id"]), head=[f"commit {commit()}", *MEANING])

@@ -19,7 +19,7 @@ from pathlib import Path
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any
 
-from studies.kit import key, provenance
+from studies.kit import csvfile, key
 from studies.kit.case import Case, Report, file_of, module_of
 from studies.kit.dispatch import LOOK, Bar
 from studies.kit.processes import THREADS
@@ -69,7 +69,7 @@ class Cluster:
         return workers
 
     def submit(self, number: int, case: Case) -> None:
-        sent = packed(case), provenance.versions(), number, self.topic
+        sent = packed(case), csvfile.versions(), number, self.topic
         # a lambda travels as code: the scheduler, which opens it, needs no copy of the repository
         future = self.client.submit(lambda *sent: import_module("studies.kit.cluster").perform(*sent), *sent,
                                     pure=False, key=f"{self.client.id}-{number}")
@@ -156,8 +156,8 @@ def check_worker(worker: "Worker", versions: str) -> None:
     os.environ.setdefault("NUMBA_NUM_THREADS", "1")     # Dask sets the others
     if more := [variable for variable in THREADS if os.environ.get(variable) != "1"]:
         raise CannotRun(f"{name} computes with more threads than one: it needs {'=1 '.join(more)}=1")
-    if versions != provenance.versions():
-        raise CannotRun(f"{name} has {provenance.versions()}, the study {versions}")
+    if versions != csvfile.versions():
+        raise CannotRun(f"{name} has {csvfile.versions()}, the study {versions}")
 
 
 def unpacked(sent: bytes, worker: "Worker") -> Case:

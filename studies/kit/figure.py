@@ -1,9 +1,9 @@
-"""One look for all figures: told apart by colour, marker and line, so that they read in grey too."""
+"""The figures of a study, and their look: told apart by colour, marker and line, in grey too."""
 import io
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import matplotlib
 import numpy as np
@@ -11,6 +11,8 @@ from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
+
+from studies.kit.table import Tables
 
 #: Okabe and Ito's colours, which colour-blind readers can tell apart; a dark red in place of their yellow
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#882255")
@@ -91,3 +93,48 @@ def compact(page: Figure) -> bytes:
     fewer = picture.convert("RGB").quantize(256, kmeans=1, dither=Image.Dither.NONE)
     fewer.save(small, "png", optimize=True, dpi=picture.info["dpi"])
     return small.getvalue()
+
+
+# --- of a study -----------------------------------------------------------------------------------
+
+
+class Drawing(NamedTuple):
+    """A figure that needs rows of all its tables. draw : takes their frames; its docstring is the caption."""
+    name: str
+    tables: tuple[str, ...]
+    draw: Callable[..., Figure | None]
+
+    def page(self, tables: Tables) -> Figure | None:
+        """The figure; none where a table lacks rows, or has none to show."""
+        if not all(len(tables.get(name, ())) for name in self.tables):
+            return None
+        return self.draw(*(tables[name] for name in self.tables))
+
+
+class Overview(NamedTuple):
+    """A figure of what there is of its tables. draw : takes `Tables`; its docstring is the caption."""
+    name: str
+    tables: tuple[str, ...]
+    draw: Callable[[Tables], Figure | None]
+
+    def page(self, tables: Tables) -> Figure | None:
+        """The figure; none where the tables have nothing to show."""
+        return self.draw(Tables({name: tables[name] for name in self.tables if name in tables}))
+
+
+class Drawings:
+    """Drawings and overviews, called with tables as one function that gives figures by name."""
+
+    def __init__(self, *drawings: Drawing | Overview):
+        self.drawings = drawings
+
+    def __call__(self, tables: Tables) -> dict[str, Figure]:
+        """The figures for which there are rows."""
+        pages = {drawing.name: drawing.page(tables) for drawing in self.drawings}
+        return {name: page for name, page in pages.items() if page is not None}
+
+
+def caption(drawing: Drawing | Overview) -> str:
+    """First sentences of what draws it, up to an empty line."""
+    text = (drawing.draw.__doc__ or drawing.name.replace("_", " ")).split("\n\n")[0]
+    return " ".join(text.split())

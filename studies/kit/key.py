@@ -7,27 +7,12 @@ docstring change no key.
 """
 import ast
 import hashlib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from copy import copy
 from pathlib import Path
 
-from studies.kit.syntax import (
-    ACTION,
-    CASE,
-    COMPOUND,
-    EVERYTHING,
-    FUNCTION,
-    Module,
-    Place,
-    Reader,
-    Reading,
-    acts,
-    chain,
-    parameters_of,
-    parse,
-    registers,
-    targets,
-)
+from studies.kit.reader import Reader
+from studies.kit.syntax import ACTION, CASE, EVERYTHING, FUNCTION, Module, Place, Reading, chain, heads, parse
 
 __all__ = ["CODE", "PACKAGES", "ROOT", "Code", "digest", "find", "parse"]
 
@@ -211,43 +196,6 @@ def listed(node: ast.DictComp) -> Iterator[tuple[ast.expr | None, ast.expr]]:
     for item in first.iter.elts if isinstance(first.iter, ast.Tuple | ast.List) else [first.iter]:
         named = plain and isinstance(item, ast.Call) and item.args
         yield item.args[0] if named else None, item     # type: ignore[attr-defined]
-
-
-def heads(node: ast.AST) -> Iterator[Sequence[ast.AST]]:
-    """Of each thing that a statement does besides defining: what it does it to, and for which kinds."""
-    if isinstance(node, FUNCTION | ast.ClassDef):
-        for decorator in node.decorator_list:
-            if registers(decorator):
-                yield [*head(decorator), *kinds(node, decorator)]
-            elif isinstance(decorator, ast.Call):
-                yield list(decorator.args)
-    elif isinstance(node, COMPOUND):
-        for child in ast.iter_child_nodes(node):
-            if isinstance(child, ast.stmt) and acts(child):
-                yield from heads(child)
-    elif isinstance(node, ast.Assign | ast.AugAssign):
-        for target in targets(node):
-            if isinstance(target, ast.Subscript | ast.Attribute):
-                yield [target.value]
-    else:
-        yield head(getattr(node, "value", node))
-
-
-def kinds(node: ast.AST, decorator: ast.expr) -> list[ast.expr]:
-    """Types of the first parameter of a function below ``f.register``."""
-    if isinstance(decorator, ast.Call) or not isinstance(node, FUNCTION):
-        return []
-    return [one.annotation for one in parameters_of(node.args)[:1] if one.annotation]
-
-
-def head(node: ast.AST) -> list[ast.AST]:
-    """[f, K] of ``f.of(K)(formula)``, ``f.of(K)``, ``f.register(K, formula)``; [t] of ``t.update(...)``."""
-    kinds: list[ast.AST] = []
-    if isinstance(node, ast.Call) and isinstance(node.func, ast.Call):
-        node = node.func
-    if isinstance(node, ast.Call):
-        kinds, node = list(node.args[:1] if registers(node) else []), node.func
-    return [node.value if isinstance(node, ast.Attribute) else node, *kinds]
 
 
 def bare(node: ast.stmt) -> ast.stmt:

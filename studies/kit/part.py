@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from studies.kit.case import Case
 from studies.kit.claim import Claim
-from studies.kit.drawing import Drawing, Overview
+from studies.kit.figure import Drawing, Overview
 from studies.kit.table import Rows, Table, Tables
 
 

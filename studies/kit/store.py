@@ -11,9 +11,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from studies.kit import provenance
 from studies.kit.case import Case, Outcome, Report, parameters
-from studies.kit.csvfile import write_atomic
+from studies.kit.csvfile import commit, cpu, now, versions, write_atomic
 from studies.kit.key import ROOT
 
 RESULTS = ROOT / "results"
@@ -91,8 +90,8 @@ def keep(case: Case, result: str | Failure, folder: Path) -> Failure | None:
 
 def as_text(case: Case, outcome: Outcome, cpu_s: float) -> str:
     """An outcome with its commit, versions, machine, date and CPU seconds, compiling among them."""
-    content = {"case": parameters(case), "commit": provenance.commit(), "versions": provenance.versions(),
-               "cpu": provenance.cpu(), "date": provenance.now(), "cpu_s": cpu_s, "rows": outcome.rows}
+    content = {"case": parameters(case), "commit": commit(), "versions": versions(),
+               "cpu": cpu(), "date": now(), "cpu_s": cpu_s, "rows": outcome.rows}
     content = json.loads(json.dumps(content, default=plain))
     return json.dumps({**content, SEAL: seal(content)}, indent=1)
 

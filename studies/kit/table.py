@@ -10,8 +10,7 @@ from typing import Any
 
 import pandas as pd
 
-from studies.kit import provenance
-from studies.kit.csvfile import DIGITS, read, write
+from studies.kit.csvfile import DIGITS, commit, cpu, now, read, versions, write
 
 __all__ = ["SIZES", "Rows", "Table", "Tables", "changed", "check_size", "groups", "merge", "read"]
 
@@ -81,7 +80,7 @@ def merge(path: Path, table: Table, rows: Sequence[dict[str, Any]], *, size: str
         if not path.exists():
             write(path, pd.DataFrame(columns=columns), head=head(command))
         return read(path, columns), 0
-    new = rounded(table, pd.DataFrame([{"commit": provenance.commit(), **row, "size": size} for row in rows]))
+    new = rounded(table, pd.DataFrame([{"commit": commit(), **row, "size": size} for row in rows]))
     check_rows(table, new)
     old = read(path, columns) if path.exists() else pd.DataFrame()
     parts = [part for part in (old, new) if len(part)]
@@ -148,5 +147,5 @@ def as_text(value: Any) -> str:
 
 def head(command: str) -> list[str]:
     """Lines on where a table comes from."""
-    return [f"commit {provenance.commit()}", provenance.versions(), provenance.cpu(),
-            f"{provenance.now()}, {command}"]
+    return [f"commit {commit()}", versions(), cpu(),
+            f"{now()}, {command}"]

@@ -22,7 +22,7 @@ from particles.limits import Symbols, step_limit
 from particles.observe import particle_kinetic
 from particles.run import STUDIES, Divergence, Plan, run
 from particles.weights import value_and_slope
-from studies.build.periodic_box import at_rest, fluid
+from studies.build.spam import at_rest, fluid
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.fits import line
 from studies.kit.stats import Measured

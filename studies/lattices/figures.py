@@ -3,8 +3,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from studies.kit.drawing import Drawing, Drawings
-from studies.kit.figure import below, errorbar, figure, look
+from studies.kit.figure import Drawing, Drawings, below, errorbar, figure, look
 
 WEIGHTS = {"Lucy": "Lucy", "Monaghan": "Monaghan", "WendlandC2": "Wendland C2"}
 CHANCE = 1 - np.exp(-np.pi/4)       # part of particles at random that have another within half a spacing

@@ -21,7 +21,7 @@ from particles.threads import Team
 from particles.walls.periodic import wrap
 from particles.weights import value_and_slope
 from studies.build.names import START_JITTER
-from studies.build.periodic_box import FRICTIONLESS, at_rest, fluid
+from studies.build.spam import FRICTIONLESS, at_rest, fluid
 from studies.kit.case import Case, Outcome, Report
 
 RANGE = 3.0

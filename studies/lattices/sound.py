@@ -28,7 +28,7 @@ from particles.limits import step_limit
 from particles.limits import waves as rates_of
 from particles.run import STUDIES, Divergence, Plan, run
 from particles.smooth.spam import Spam
-from studies.build.periodic_box import at_rest, fluid
+from studies.build.spam import at_rest, fluid
 from studies.kit.case import Case, Outcome, Report
 from studies.lattices.crystals import Lattice, LatticeMotion, matrices, sums
 

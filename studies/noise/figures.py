@@ -5,8 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from studies.kit.drawing import Drawing, Drawings
-from studies.kit.figure import COLOURS, below, errorbar, figure, look
+from studies.kit.figure import COLOURS, Drawing, Drawings, below, errorbar, figure, look
 
 NAMES = {"TwoStep": "RR98 Eqs 40, 41", "GrootWarren": r"Groot-Warren, $\lambda = 1/2$",
          "GrootWarren65": r"Groot-Warren, $\lambda = 0.65$",

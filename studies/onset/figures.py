@@ -6,9 +6,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.build.axes import ENERGY, ra_axis
-from studies.kit.drawing import Drawing, Drawings
-from studies.kit.figure import COLOURS, MARKERS, below, errorbar, figure, look
+from studies.build.labels import ENERGY, ra_axis
+from studies.kit.figure import COLOURS, MARKERS, Drawing, Drawings, below, errorbar, figure, look
 from studies.onset.tables import means
 
 GAS = {"method": "compressible", "eos": "ideal", "transport": "const-eta", "dT": 1.0, "sides": "periodic"}

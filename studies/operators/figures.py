@@ -7,8 +7,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.kit.drawing import Drawing, Drawings
-from studies.kit.figure import errorbar, figure, look
+from studies.kit.figure import Drawing, Drawings, errorbar, figure, look
 
 KINDS = ("lattice", "jittered-0.1", "jittered-0.3", "random", "relaxed")
 MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")

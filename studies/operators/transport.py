@@ -36,7 +36,7 @@ from studies.build.disorder import Disorder
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
 
-NAMES = {NestedFluxes: "nested", Pairwise: "pairwise"}       # in tables
+NAMES: dict[type, str] = {NestedFluxes: "nested", Pairwise: "pairwise"}       # in tables
 AMPLITUDE = 1e-5    # its square is the share of waves that feed back on the first; round-off over it is 1e-11
 STEPS = 10          # at least, in a radian of sound: RK4 is off by 5 (1/10)^4/120 of a rate
 TRUNCATION = 5*STEPS**-4/120

@@ -6,8 +6,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.kit.drawing import Drawing, Drawings
-from studies.kit.figure import below, errorbar, figure, look
+from studies.kit.figure import Drawing, Drawings, below, errorbar, figure, look
 from studies.ordering.cases import IRREGULAR, ROWS
 from studies.ordering.derive import WANTED
 from studies.ordering.tables import WIDTH

@@ -21,8 +21,8 @@ from studies.build.disorder import BREADTH, Disorder
 from studies.build.fixed import Scheme, hard_core, settled
 from studies.build.measure import ended, followed, rolls
 from studies.build.setting import positions
-from studies.build.vortex import decayed
 from studies.kit.case import Case, Outcome, Report
+from studies.ordering.vortex import decayed
 
 ERRORS = ("gradient", "laplacian", "closure", "linear")
 #: how a gradient is taken over the edges

@@ -27,7 +27,7 @@ from studies.build import ready
 from studies.build.names import START_ENERGY
 from studies.kit.figure import COLOURS
 from studies.kit.table import merge
-from studies.report.pictures import FILMS
+from studies.report.page import FILMS
 
 RA, GRID_ROWS, ROWS, SEED = 1e4, 48, 25, 1
 #: free-fall times: the first rolls shoot over at 10 and settle at 30

@@ -9,7 +9,7 @@ from typing import Any
 import pandas as pd
 
 from studies.kit.csvfile import ABOVE, AGAIN, TEXT, read
-from studies.kit.drawing import Drawing, Overview
+from studies.kit.figure import Drawing, Overview
 from studies.kit.key import ROOT
 from studies.kit.study import Study
 from studies.kit.table import STAMP

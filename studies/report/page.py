@@ -1,25 +1,28 @@
 """results/index.html: one file with everything in it, from tables, figures and films; no solver is run."""
 import base64
 import gzip
-import hashlib
+import io
 import math
 import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
 import pandas as pd
+from imageio_ffmpeg import read_frames
 from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescape
 from markupsafe import Markup
+from PIL import Image, UnidentifiedImageError
 
 from studies.kit.csvfile import write_atomic
-from studies.kit.drawing import caption
+from studies.kit.figure import caption
+from studies.kit.table import Table
 from studies.report import cost
 from studies.report.chart import HEIGHT, WIDTH, chart
 from studies.report.findings import Known, answer, claims_of, findings
-from studies.report.inventory import Folder, NoReport, Sheet, check_columns, drawings, folders
+from studies.report.inventory import Folder, NoReport, Sheet, check_columns, drawings, folders, rows_of
 from studies.report.numbers import short, signed, with_error
-from studies.report.pictures import films, opened, webp
 
 QUESTION = ("Do fluid particles converge on the continuum equations, at what error, at what cost, and where "
             "do they break?")
@@ -28,6 +31,14 @@ ROWS, EMBED = 5, 60_000
 #: what the page may weigh [bytes]
 LIMIT = 7_800_000
 VERDICTS = {"holds": "✓", "fails": "✗", "undecidable": "?"}
+#: distance in RGB (441 from black to white) below which two colours are one: those of series are 60 apart and
+#: more, nearer are blends along edges of lines and letters
+NEAR = 24
+#: films.csv says what is seen; films in the order of the page, others follow
+FILMS = Table("films", key=["film"], columns=[
+    "film", "title", "caption", "ra", "rows", "points", "grid_rows", "t_end", "frames", "last_ke",
+    "last_ke_grid"])
+ORDER = ("particles", "closed_faces", "as_printed")
 
 
 def write_page(out: Path) -> Path:
@@ -38,7 +49,7 @@ def write_page(out: Path) -> Path:
     known = folders(out)
     for folder in known:
         check_columns(folder)
-    text = render(out, known)
+    text = render(out, known, webp)
     size = len(text.encode())
     if size > LIMIT:
         raise NoReport(f"the page has {size/1e6:.1f} MB, {LIMIT/1e6:.1f} are allowed: draw smaller, or take "
@@ -54,7 +65,7 @@ def largest(out: Path, known: list[Folder]) -> list[str]:
     return [f"{path.relative_to(out)} ({path.stat().st_size/1000:.0f} kB)" for path in heavy]
 
 
-def render(out: Path, known: list[Folder], encode: Callable[[Path], str] = webp) -> str:
+def render(out: Path, known: list[Folder], encode: Callable[[Path], str]) -> str:
     """The page as text; ``encode`` makes the address of a figure from its PNG."""
     claims, panels = claims_of(out), cost.panels(known)
     knowledge = Known(out, claims, panels)
@@ -70,18 +81,7 @@ def render(out: Path, known: list[Folder], encode: Callable[[Path], str] = webp)
         parts=known, figures=shown, films=films(out),
         main=next((one for one in shown.get("rb", []) if one.name == "main"), None),
         tables={sheet.name: table(sheet) for folder in known for sheet in folder.sheets},
-        style=file("style.css"), script=file("script.js"), inputs=fingerprint(out))
-
-
-def fingerprint(out: Path) -> str:
-    """Hash of everything that the page is made of."""
-    kinds = ("claims.csv", "*/*.csv", "*/*.png", "films/*.mp4")
-    made_of = [path for kind in kinds for path in out.glob(kind) if path.parent.name not in ("raw", "quick")]
-    sources = Path(__file__).with_name("page").glob("*.*")
-    whole = hashlib.sha256()
-    for path in sorted([*made_of, *sources]):
-        whole.update(path.read_bytes())
-    return whole.hexdigest()[:16]
+        style=file("style.css"), script=file("script.js"))
 
 
 def file(name: str) -> Markup:
@@ -159,3 +159,68 @@ def table(sheet: Sheet) -> dict[str, Any]:
     return {"sheet": sheet, "bytes": len(content), "rows": len(sheet.frame), "columns": list(frame.columns),
             "first": [[short(value) for value in row] for row in frame.itertuples(index=False)],
             "packed": base64.b64encode(packed).decode()}
+
+
+# --- pictures -------------------------------------------------------------------------------------
+
+
+def opened(path: Path) -> Image.Image:
+    """A picture; NoReport where the file is none."""
+    try:
+        return Image.open(path)
+    except (UnidentifiedImageError, OSError) as error:
+        again = f"make figures-{path.parent.name} draws it again"
+        raise NoReport(f"{path} is no picture ({error}): {again}") from error
+
+
+def webp(path: Path) -> str:
+    """A PNG as an address, a third smaller by having fewer colours."""
+    packed = io.BytesIO()
+    fewer(opened(path)).convert("RGB").save(packed, "webp", lossless=True, method=4)
+    return address("image/webp", packed.getvalue())
+
+
+def fewer(picture: Image.Image) -> Image.Image:
+    """Each colour becomes the nearest one kept; kept are those that are NEAR no more frequent one."""
+    if picture.mode != "P":     # as kit.figure does
+        picture = picture.convert("RGB").quantize(256, kmeans=1, dither=Image.Dither.NONE)
+    colours = np.reshape(picture.getpalette("RGB") or [], (-1, 3)).astype(float)
+    frequent = np.argsort(-np.array(picture.histogram()[:len(colours)]), kind="stable")
+    kept: list[int] = []
+    for one in frequent:
+        if not kept or np.linalg.norm(colours[kept] - colours[one], axis=1).min() > NEAR:
+            kept.append(int(one))
+    nearest = np.linalg.norm(colours[:, None] - colours[kept], axis=2).argmin(1)
+    picture = picture.copy()
+    picture.putpalette(colours[kept][nearest].astype(np.uint8).tobytes())
+    return picture
+
+
+def address(kind: str, content: bytes) -> str:
+    """An address that holds its content."""
+    return f"data:{kind};base64,{base64.b64encode(content).decode()}"
+
+
+def films(out: Path) -> list[dict[str, Any]]:
+    """Films with their last picture and what films.csv says of them; NoReport where one is missing."""
+    rows = rows_of(out/"films/films.csv", (*FILMS.columns, "seed", "commit")).to_dict("records")
+    made = []
+    for row in sorted(rows, key=lambda row: ORDER.index(row["film"]) if row["film"] in ORDER else len(ORDER)):
+        path = out/"films"/f"{row['film']}.mp4"
+        if not path.exists():
+            raise NoReport(f"{path} is missing: make films makes it again")
+        content = base64.b64encode(path.read_bytes()).decode()
+        made.append({**{str(name): value for name, value in row.items()}, **still(path), "content": content})
+    return made
+
+
+def still(path: Path) -> dict[str, Any]:
+    """The last picture of a film, and its size; NoReport where the file is no film."""
+    try:
+        about, *_, last = read_frames(path)
+    except (OSError, RuntimeError, ValueError) as error:
+        cause = str(error).splitlines()[0]
+        raise NoReport(f"{path} is no film ({cause}): make films makes it again") from error
+    packed = io.BytesIO()
+    Image.frombytes("RGB", about["size"], last).save(packed, "webp", quality=60, method=4)
+    return {"still": address("image/webp", packed.getvalue()), "size": about["size"]}

@@ -1,5 +1,5 @@
 """All figures of the study `rb`, from its tables alone; what the tables lack is left out."""
-from studies.kit.drawing import Drawings, Overview
+from studies.kit.figure import Drawings, Overview
 from studies.rb.figures import changes, energy, errors, flow, main
 
 #: tables that have energies and errors

@@ -6,7 +6,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.build.axes import ENERGY, ra_axis
+from studies.build.labels import ENERGY, ra_axis
 from studies.kit.figure import below, figure
 from studies.kit.table import Tables, groups
 from studies.rb.looks import (

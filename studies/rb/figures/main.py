@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from continuum.published import published
-from studies.build.axes import ENERGY
+from studies.build.labels import ENERGY
 from studies.kit import fits
 from studies.kit.figure import below, plain_ticks
 from studies.kit.table import Tables, groups
