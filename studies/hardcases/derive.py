@@ -45,9 +45,6 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     return {name: new for name, new in rows.items() if new}
 
 
-# --- ripples --------------------------------------------------------------------------------------
-
-
 def ripple_growth(ripples: pd.DataFrame) -> Rows:
     """Growth rates over that of theory: means over the runs that lasted, also of those that ended late.
 
@@ -64,9 +61,6 @@ def ripple_growth(ripples: pd.DataFrame) -> Rows:
         if rates:
             growth, err = combine(rates)
             yield {"scale": scale, "steep": steep, "seeds": len(rates), "growth": growth, "growth_err": err}
-
-
-# --- the highest Ra -------------------------------------------------------------------------------
 
 
 def high_ra_summary(limits: pd.DataFrame, grid: pd.DataFrame) -> Rows:
@@ -86,9 +80,6 @@ def high_ra_summary(limits: pd.DataFrame, grid: pd.DataFrame) -> Rows:
                "ra_low": bad["ra"].min(), "ra_high": bad["ra"].max(),
                "seeds": len(bad), "outcome": bad["outcome"].mode().get(0, "none"),
                "cell_number": cell.value, "cell_number_err": cell.err}
-
-
-# --- the map: runs --------------------------------------------------------------------------------
 
 
 def entry(case: str, method: str, variant: str, outcome: str, number: str, measured: Any, err: Any = 0.0,
@@ -179,9 +170,6 @@ def outcome(run: pd.Series, known: Decisive, ratio: Measured) -> str:
         return "freezes"
     noisy = known.number == "flow/start" and abs(run["k"]/run["k_start"] - 1) > NEAR
     return "right" if abs(ratio.value - known.predicted) <= NEAR + ratio.err and not noisy else "wrong"
-
-
-# --- the map: waves, tubes, the highest Ra --------------------------------------------------------
 
 
 def of_shear(shear: pd.DataFrame) -> Rows:

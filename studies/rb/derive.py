@@ -49,9 +49,6 @@ def records(frame: pd.DataFrame) -> list[dict[str, Any]]:
     return [{str(name): value for name, value in row.items()} for row in frame.to_dict("records")]
 
 
-# --- infinitely fine ------------------------------------------------------------------------------
-
-
 def extrapolated(runs: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """One row `resolution = inf` of each series of grids or points with three settled sizes or more, one
     state in all.
@@ -98,9 +95,6 @@ def line_limit(group: pd.DataFrame, name: str) -> Measured:
     return limit._replace(err=float(np.hypot(limit.err, change)))
 
 
-# --- means over seeds -----------------------------------------------------------------------------
-
-
 def over_seeds(runs: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """Means over the seeds of each point that settled in its commonest number of rolls; grid rows pass as
     they are.
@@ -141,9 +135,6 @@ def step_change(changes: pd.DataFrame, row: dict[str, Any]) -> pd.Series:
         return pd.Series(0.0, ENERGIES)
     finest_first = chosen.sort_values("resolution", ascending=False, kind="stable")
     return finest_first[ENERGIES].iloc[0]
-
-
-# --- errors and costs -----------------------------------------------------------------------------
 
 
 def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> pd.DataFrame:

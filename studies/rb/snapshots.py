@@ -119,9 +119,6 @@ def correlation(a: np.ndarray, b: np.ndarray) -> float:
     return float(np.sum(a*b)/sqrt(np.sum(a*a)*np.sum(b*b)))
 
 
-# --- mean fields ----------------------------------------------------------------------------------
-
-
 #: plate -> how rows of places are counted from it
 PLATES = {"lower": 1, "upper": -1}
 EVERYWHERE = slice(None)
@@ -193,8 +190,8 @@ def difference(one: Fields, other: Fields, names: Sequence[str], at: slice = EVE
     even, odd = 0.0, 0.0
     for name in names:
         here, there = apart[name][at], image[name][at]
-        even += np.mean(((here + there)/2)**2)
-        odd += np.mean(((here - there)/2)**2)
+        even += float(np.mean(((here + there)/2)**2))
+        odd += float(np.mean(((here - there)/2)**2))
     return Measured(sqrt(even), sqrt(odd))
 
 
@@ -230,7 +227,7 @@ def layer_error(tables: Tables, point: Point, cells: Fields) -> Measured:
         layers = rows(tables, "walls", **point)
         apart = []
         for plate, seeds in layers.groupby("plate"):
-            beside = density_beside(cells, PLATES[plate])
+            beside = density_beside(cells, PLATES[str(plate)])
             apart.append(abs(over_seeds(seeds["rho_layer"] - beside)))
         largest = worse(apart)
     except CannotTell:

@@ -46,9 +46,6 @@ PANELS: tuple[Any, ...] = (
 STROKES = ("-", "--", ":")      # of seeds
 
 
-# --- series ---------------------------------------------------------------------------------------
-
-
 def smoothed_grid(axes: Axes, field: pd.DataFrame, limit: pd.DataFrame) -> None:
     """K of the grid's field, smoothed as the particles smooth theirs: what Kg is to be compared with."""
     field = field[(field["ke"] > STILL) & field["ra"].isin(limit["ra"])]
@@ -89,9 +86,6 @@ def finish(axes: Axes, note: str = "") -> None:
     axes.set_ylim(-0.02*top, top)
     ra_axis(axes)
     below(axes, ncols=2, title=f"bars: 95 % intervals{note}", title_fontsize=8)
-
-
-# --- figures --------------------------------------------------------------------------------------
 
 
 def fig5(tables: Tables) -> Figure | None:
