@@ -7,7 +7,7 @@ import pandas as pd
 
 from studies.build.names import VALUES
 from studies.rb import tables
-from studies.rb.figures.main import RA_C
+from studies.rb.figures import RA_C
 
 SCENES = {"layer": ("ideal", "const-eta", "periodic"), "nu": ("ideal", "const-nu", "periodic"),
           "vdw": ("vdw", "const-eta", "periodic"), "box": ("ideal", "const-eta", "walls")}

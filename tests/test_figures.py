@@ -16,7 +16,7 @@ from studies.kit.table import Tables, merge
 from studies.onset import figures as onset_figures
 from studies.onset import tables as onset_tables
 from studies.rb import tables
-from studies.rb.figures import figures, flow, main
+from studies.rb.figures import RA_C, figures, flow, straight_line
 from studies.rb.looks import LAYER, NOT_STEADY, reference
 
 #: name -> tables -> figure
@@ -93,10 +93,10 @@ def test_the_same_rows_give_the_same_bytes(full):
 def test_the_line_is_fitted_between_onset_and_four_times_onset(full):
     """The made-up K is exactly this line there and below it beyond, where no row may enter the fit."""
     limit = reference(full, **LAYER)
-    constant, slope = main.straight_line(limit).coefficients
-    assert slope == pytest.approx(-0.0082*math.sqrt(main.RA_C), rel=1e-7)     # 9 digits in the CSV
+    constant, slope = straight_line(limit).coefficients
+    assert slope == pytest.approx(-0.0082*math.sqrt(RA_C), rel=1e-7)     # 9 digits in the CSV
     assert constant == pytest.approx(0.0082, rel=1e-7)
-    assert main.straight_line(limit[limit["ra"] > 2500]) is None              # one row: no line
+    assert straight_line(limit[limit["ra"] > 2500]) is None              # one row: no line
 
 
 def test_errors_are_those_of_the_table(full):
