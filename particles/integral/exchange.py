@@ -42,8 +42,10 @@ class Conduction(NamedTuple):
 #: friction and heat as Eq. 51 has them; heat first costs 15 % more where pairs divide, see `Listing`
 PRINTED = (Friction(), Conduction())
 
-for kind in (Convection, Pressure, Friction, Conduction):
-    nothing.of(kind)(lambda term: (0.0, 0.0, 0.0, 0.0))
+nothing.of(Convection)(lambda term: (0.0, 0.0, 0.0, 0.0))
+nothing.of(Pressure)(lambda term: (0.0, 0.0, 0.0, 0.0))
+nothing.of(Friction)(lambda term: (0.0, 0.0, 0.0, 0.0))
+nothing.of(Conduction)(lambda term: (0.0, 0.0, 0.0, 0.0))
 
 
 @rate.of(Convection)

@@ -2,6 +2,7 @@
 
 taylor-green   a vortex of Mach 0.05 and Re 100 that decays by e; against the gas of that Mach number
 sound          a wave of small amplitude for two periods
+conduction, couette   between plates, from smooth starts; nothing depends on x
 convection     Rayleigh-Benard at Ra = 10 000, and 5000, from KHP95's rolls
 
 Every method runs at rising resolutions, each at the longest step that is good enough beside the error of its
@@ -12,19 +13,24 @@ from collections.abc import Collection, Iterator, Mapping
 from itertools import product
 from typing import Any, NamedTuple
 
+from continuum.exact.plates import FLOWS
 from studies.build.fixed import SCHEMES
 from studies.build.grid import FORMS
 from studies.build.moving import MOTIONS
+from studies.build.names import START_JITTER
 from studies.build.spam import OF_LIMIT, VARIANTS
 from studies.cost import pypde, rolls
 from studies.cost.contestants import (
+    SlabFlow,
     StandingWave,
     VortexDecay,
+    of_mean_one,
     on_grid,
     on_lattice,
     on_mac,
     particles,
     points,
+    restless,
     trembling,
 )
 from studies.cost.pypde import SolverRace
@@ -64,6 +70,7 @@ LATTICES = {
 }
 STAYING = {**LATTICES, JITTERED: SCHEMES["fixed-jittered-delaunay"]}
 HELD = {**LATTICES, JITTERED: SCHEMES["fixed-jittered-plates"]}
+SHAKEN = {**LATTICES, JITTERED: HELD[JITTERED]._replace(size=START_JITTER)}     # as moving points start
 PARTICLES = {
     LUCY: VARIANTS["printed"],
     MONAGHAN: VARIANTS["printed-monaghan"],
@@ -103,6 +110,15 @@ def wave() -> Entries:
     }
 
 
+def between(flow: SlabFlow, methods: Mapping[str, Any]) -> Entries:
+    """Between plates."""
+    return {
+        **entries(CELLS, flow, of_mean_one, Price(0.5, 7e-5)),
+        **entries(methods, flow, points, Price(0.5, 1.3e-4)),
+        **entries(PARTICLES, flow, restless, Price(1.7), 0.7),
+    }
+
+
 def convection(flow: HeatedLayer = HeatedLayer()) -> Entries:  # noqa: B008 (immutable)
     """In convection."""
     moving, smooth = (flow._replace(late=late) for late in (SETTLED, LATE))
@@ -118,6 +134,8 @@ def convection(flow: HeatedLayer = HeatedLayer()) -> Entries:  # noqa: B008 (imm
 CONTESTS = {
     "taylor-green": vortex(),
     "sound": wave(),
+    "conduction": between(SlabFlow(FLOWS["conduction"]), {**SHAKEN, **POINTS_THAT_MOVE}),
+    "couette": between(SlabFlow(FLOWS["couette"]), SHAKEN),      # plates of moving points do not slide
     "convection": convection(),
     "convection-5000": convection(HeatedLayer(ra=LOWER_RA)),
 }
@@ -158,6 +176,12 @@ LADDERS = (
     Ladder("sound", (GRID,), rungs(16, 256)),
     Ladder("sound", PARTICLES, rungs(16, 64)),
     Ladder("sound", (JITTERED,), rungs(16, 128), THREE),
+    Ladder("conduction", (GRID, *LATTICES), rungs(8, 96)),
+    Ladder("conduction", PARTICLES, (16, *rungs(32, 96))),      # they err alike at any resolution
+    Ladder("conduction", (JITTERED, MOVING), rungs(8, 64), THREE),
+    Ladder("couette", (GRID, *LATTICES), rungs(8, 96)),
+    Ladder("couette", PARTICLES, (16, *rungs(32, 96))),
+    Ladder("couette", (JITTERED,), rungs(8, 64), THREE),
     Ladder("convection", (GRID,), (*rungs(8, 16), 20, 24, 32, 40, 48, 64, 88)),
     Ladder("convection", LATTICES, rungs(12, 48)),
     Ladder("convection", (JITTERED,), (*rungs(12, 32), 40), TWO),
@@ -190,6 +214,8 @@ def quick() -> Iterator[Case]:
     small = convection(HeatedLayer(rows=(8, 10, 12)))
     yield from Ladder("taylor-green", (NEAREST, MAC), (16, 20, 24)).cases(vortex(0.2), short=FAST)
     yield from Ladder("sound", (NEAREST,), rungs(16, 32)).cases(wave(), short=FAST)
+    for scene in ("conduction", "couette"):
+        yield from Ladder(scene, (GRID, LATTICE), (8, 12, 16)).cases(CONTESTS[scene], short=FAST)
     yield from Ladder("convection", (GRID, LATTICE), (8, 10, 12)).cases(small, short=FAST)
     for rows in (16, 22, 32):
         yield StepTime(name=LUCY, kind=Flock, rows=rows, short=FAST)

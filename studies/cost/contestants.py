@@ -3,19 +3,22 @@ from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 from continuum.boussinesq import Box, BoxEdges, Case, End, State
 from continuum.boussinesq.mac import mac
 from continuum.boussinesq.projection import Projection
+from continuum.exact import plates
 from continuum.exact.vortex import DECAYS, RE, solved, velocities
+from continuum.gas.loop import RHO
 from particles.fields import Fields
 from particles.integral.points import lattice
 from particles.observe import fields_at
 from particles.smooth.spam import Spam
 from studies.build.names import START_JITTER
-from studies.build.scenes import Sound, TaylorGreen
+from studies.build.scenes import BetweenPlates, Sound, TaylorGreen
 from studies.build.setting import Ready, shifted
-from studies.cost.problem import Problem, Residuals, Result, of_method, relative
+from studies.cost.problem import Problem, Residuals, Result, of_method, relative, rms
 
 #: uncertainty of the Fourier sums by Mach number, from the study ordering: velocities of 33 against 29 points
 KNOWN = {0.05: 1.4e-6, 0.2: 2.9e-5}
@@ -80,6 +83,37 @@ class StandingWave(NamedTuple):
         return x, fields
 
 
+class SlabFlow(NamedTuple):
+    """Heat that spreads or shear that settles between plates: the `temperature`, or the `velocity`."""
+    flow: plates.PlateFlow
+
+    @property
+    def known(self) -> float:
+        """What fewer Chebyshev points make of the answer."""
+        s = np.linspace(0, 1, 200)
+        row = 2 if self.flow.U else 3
+        fine, coarse = plates.fields(self.flow, s)[row], plates.fields(self.flow, s, plates.COARSER)[row]
+        return rms(fine - coarse)/float(np.std(fine))
+
+    def scene(self, size: int) -> BetweenPlates:
+        return BetweenPlates(flow=self.flow, L=size)
+
+    def residuals(self, scene: BetweenPlates, at: Fields) -> Residuals:
+        """Of fields at the end; of temperatures relative to what differs from the plates'."""
+        _, _, u, T = plates.fields(self.flow, at.x[:, 1]/scene.L + 0.5)
+        if self.flow.U:
+            return {"velocity": relative(at.V, at.v[:, 0] - u, u)}
+        return {"temperature": relative(at.V, at.T - T, T - 1)}
+
+    def places(self, scene: BetweenPlates, seed: int) -> tuple[np.ndarray, tuple]:
+        """A lattice whose rows are as far apart as the density at the start wants them."""
+        x, s = lattice((scene.width, scene.L)).x, np.linspace(0, 1, 2001)
+        mass = cumulative_trapezoid(self.flow.start(s)[0], s, initial=0)
+        below = x[:, 1]/scene.L + 0.5
+        x[:, 1] = scene.L*(np.interp(below*mass[-1], mass, s) - 0.5)
+        return x, scene.fields(x)
+
+
 # --- points and particles -----------------------------------------------------------------------------------
 
 
@@ -116,15 +150,20 @@ def particles(flow: Any, method: Any, size: int, seed: int) -> Problem:
     return of_method(made, start, scene.time, judge, known=flow.known, firm=True)
 
 
+def restless(flow: Any, method: Any, size: int, seed: int) -> Problem:
+    """The same where two steps give two flows."""
+    return particles(flow, method, size, seed)._replace(chaotic=True)
+
+
 def trembling(flow: Any, method: Any, size: int, seed: int) -> Problem:
     """The same where they tremble: the smoothed field counts    [KHP95, Sec. VI]"""
-    problem, scene = particles(flow, method, size, seed), flow.scene(size)
+    problem, scene = restless(flow, method, size, seed), flow.scene(size)
     _, sums, _ = problem.held()
 
     def judge(state: np.ndarray) -> Result:
         at = smoothed(sums.method, state)
         return Result(flow.residuals(scene, at))
-    return problem._replace(judge=judge, chaotic=True)
+    return problem._replace(judge=judge)
 
 
 def smoothed(method: Spam, state: np.ndarray) -> Fields:
@@ -143,7 +182,19 @@ def smoothed(method: Spam, state: np.ndarray) -> Fields:
 def on_grid(flow: Any, form: Any, size: int, seed: int) -> Problem:
     """The compressible grid in time."""
     scene = flow.scene(size)
-    ready = form.ready(scene)
+    return in_cells(flow, scene, form.ready(scene))
+
+
+def of_mean_one(flow: SlabFlow, form: Any, size: int, seed: int) -> Problem:
+    """The same from densities whose mean over cells is 1."""
+    scene = flow.scene(size)
+    first = form.ready(scene).start
+    first[RHO] /= first[RHO, 1:-1, 1:-1].mean()
+    return in_cells(flow, scene, form.ready(scene, first=first))
+
+
+def in_cells(flow: Any, scene: Any, ready: Ready) -> Problem:
+    """Fields at the nodes."""
     method, march = ready.method, ready.method.march(ready.start)
 
     def judge(S: np.ndarray) -> Result:

@@ -11,7 +11,8 @@ from studies.kit.stats import Measured, seed_means
 from studies.kit.table import Tables, groups
 
 #: main quantity of each scene
-FIELD = {"convection": "K", "taylor-green": "velocity", "sound": "velocity"}
+FIELD = {"convection": "K", "taylor-green": "velocity", "sound": "velocity", "conduction": "temperature",
+         "couette": "velocity"}
 LEVELS = (0.1, 0.03, 0.01, 0.001)
 LEAST = 3           # sizes of an exponent
 NO_NUMBER = Measured(np.nan, np.nan)

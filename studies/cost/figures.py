@@ -20,8 +20,10 @@ PANELS = (
     ("convection", "K(t)", "K(t), 30 free-fall times"),
     ("taylor-green", "velocity", "Taylor-Green: velocity"),
     ("sound", "velocity", "sound wave: velocity"),
+    ("conduction", "temperature", "heat conduction: temperature"),
+    ("couette", "velocity", "Couette: velocity"),
 )
-ACROSS = 3
+ACROSS = 4
 WORST = 10.0        # relative error that is drawn: ten times the answer
 #: how the names of a family begin -> its colour, its marker
 FAMILIES = {

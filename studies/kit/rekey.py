@@ -9,7 +9,6 @@ import argparse
 import importlib
 import json
 import os
-import shutil
 import subprocess
 import sys
 import tarfile
@@ -54,7 +53,9 @@ def old_keys(commit: str) -> list[tuple[str, Any, str]]:
         archive = subprocess.run(["git", "archive", commit], cwd=ROOT, check=True, capture_output=True).stdout
         with tarfile.open(fileobj=BytesIO(archive)) as files:
             files.extractall(folder, filter="data")
-        shutil.copy(__file__, Path(folder)/"studies/kit/rekey.py")
+        kit = Path(folder)/"studies/kit"
+        former = "source" if (kit/"source.py").exists() else "key"
+        (kit/"rekey.py").write_text(Path(__file__).read_text().replace("studies.kit.key ", f"studies.kit.{former} "))
         done = subprocess.run([sys.executable, "-c", ASK], cwd=folder, check=True, stdout=subprocess.PIPE,
                               env=os.environ | {"PYTHONPATH": folder})
     return [tuple(json.loads(line)) for line in done.stdout.splitlines()]
