@@ -55,7 +55,7 @@ def pressure_slopes(eos, rho, e):
 
 @generic
 def thermal_pressure(eos, rho, T):
-    """dP/dT at constant rhodT/dy|/rho|: times |dT/dy|/rho, the gravity that keeps rho constant|dT/dy|/rho."""
+    """dP/dT at constant rho; times |dT/dy|/rho the gravity that keeps rho constant in a layer at rest."""
 
 
 @generic

@@ -12,8 +12,7 @@ from particles.pairs import nothing, rate
 
 
 class Gradients(NamedTuple):
-    """sum_b sqrt(1/rho_b) {v_b - v_a, T_b - T_a} grad_a m w: times sqrt(1/rho_a), the printed gradients of v
-    and T
+    """Gradients of v and T: sum_b {v_b - v_a, T_b - T_a} grad_a m w/rho_ab
 
     with the geometric mean density rho_ab = sqrt(rho_a rho_b)    [KHP95, Sec. II].
     """

@@ -1,9 +1,10 @@
 """Flows between plates that depend on the height only: 1D collocation at Chebyshev points.
 
-    rho' = -(rho v)_s        v' = -v v_s + (eta v_s - P)_s/rho        u' = -v u_s + eta u_ss/rho T' = -v T_s +
-    (-P v_s + eta (v_s^2 + u_s^2) + k T_ss)/rho          P = rho T, C_V = 1, 2D without bulk viscosity
+    rho' = -(rho v)_s        v' = -v v_s + (eta v_s - P)_s/rho        u' = -v u_s + eta u_ss/rho
+    T' = -v T_s + (-P v_s + eta (v_s^2 + u_s^2) + k T_ss)/rho
 
-over the height s from 0 to 1, all lengths in heights; v = 0, T = 1, u = 0 and U at the plates.
+with P = rho T, C_V = 1, in 2D without bulk viscosity, over the height s from 0 to 1, all lengths in
+heights; v = 0, T = 1, u = 0 and U at the plates.
 """
 from functools import cache
 from typing import NamedTuple

@@ -1,11 +1,11 @@
 """A Taylor-Green vortex that decays: incompressible in closed form, as a gas by Fourier sums.
 
-    rho' = -div(rho v)        p' = -div(v p) - grad P + eta lap v        P = rho T, C_V = 1, 2D without bulk
-    viscosity e' = -div((e + P) v) + eta [lap |v|^2/2 + div((v.grad) v - v div v)] + k lap T
-    k = eta
+    rho' = -div(rho v)        p' = -div(v p) - grad P + eta lap v
+    e' = -div((e + P) v) + eta [lap |v|^2/2 + div((v.grad) v - v div v)] + k lap T
 
-One wavelength to the periodic box, lengths in spacings of the points that the vortex is put on. Products of
-two fields are differentiated as a grad b + b grad a, which keeps their sums.
+with P = rho T, C_V = 1, k = eta, in 2D without bulk viscosity. One wavelength to the periodic box, lengths in
+spacings of the points that the vortex is put on. Products of two fields are differentiated as
+a grad b + b grad a, which keeps their sums.
 """
 from functools import cache
 from math import ceil

@@ -3,8 +3,8 @@
 An edge (i, j) has an area vector S_ij = -S_ji and a conductance k_ij = k_ji; points have volumes V_i:
 
     V_i (div F)_i = sum_j S_ij.(F_i + F_j)/2          conserves, since S is antisymmetric
-    V_i (grad f)_i = sum_j S_ij (f_j - f_i)/2         exact on constants; the adjoint of -div where edges
-    close V_i (lap f)_i = sum_j k_ij (f_j - f_i)            never grows
+    V_i (grad f)_i = sum_j S_ij (f_j - f_i)/2         exact on constants; adjoint to -div if edges close
+    V_i (lap f)_i = sum_j k_ij (f_j - f_i)            never grows
 
 RR98's bracket sum_j w_ij e_ij.(...) is this form with S_ij = 2 w_ij V_i V_j e_ji, k_ij = 2 w_ij V_i V_j/r_ij
 (Eqs 34-36, 51). Edges close if sum_j S_ij = 0, and are exact on linear fields if 1/2 sum_j S_ij (x_j - x_i) =

@@ -102,7 +102,7 @@ def each(d: int, matrix: Any) -> sparse.csr_array:
 
 
 def friction(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
-    """Friction k (A + B e e) of `dih.along`, and sqrt(2 kT k A) R + sqrt(2 kT k B) e r on each edge.
+    """Friction k (B + A e e) of `dih.along`, and sqrt(2 kT k B) R + sqrt(2 kT k A) e r on each edge.
 
     Raises ValueError: a coefficient is negative, zeta is outside of what forces along edges allow, or an edge
     conducts a negative amount.
@@ -111,19 +111,19 @@ def friction(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
     d = edges.d
     check_bulk(eta, zeta, d)
     eta, zeta, kT = (ends(edges, q) for q in (eta, zeta, kT))
-    A, B = eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
-    return between(edges, A, B, kT) if d > 1 else between(edges, A + B, 0*B, kT)
+    B, A = eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
+    return between(edges, A, B, kT) if d > 1 else between(edges, 0*A, A + B, kT)
 
 
 def between(edges: Edges, A: np.ndarray, B: np.ndarray, kT: np.ndarray) -> Partners:
-    """Friction k (A + B e e) between the points of each edge, A, B, kT (E,), and its noise."""
+    """Friction k (B + A e e) between the points of each edge, A, B, kT (E,), and its noise."""
     k, d, across = conductances(edges), edges.d, incidence(edges)
     A, B = np.maximum(A, 0), np.maximum(B, 0)       # zero to round-off at the ends of the range of zeta
     e = edges.apart/np.sqrt((edges.apart**2).sum(axis=1))[:, None]
     along = sparse.vstack([across@sparse.diags_array(q) for q in e.T])
-    Gamma = each(d, across@sparse.diags_array(k*A)@across.T) + along@sparse.diags_array(k*B)@along.T
-    noise = [each(d, across@sparse.diags_array(np.sqrt(2*kT*k*A))),
-             along@sparse.diags_array(np.sqrt(2*kT*k*B))]
+    Gamma = each(d, across@sparse.diags_array(k*B)@across.T) + along@sparse.diags_array(k*A)@along.T
+    noise = [each(d, across@sparse.diags_array(np.sqrt(2*kT*k*B))),
+             along@sparse.diags_array(np.sqrt(2*kT*k*A))]
     return Partners(sparse.csr_array(Gamma), sparse.csr_array(sparse.hstack(noise)))
 
 

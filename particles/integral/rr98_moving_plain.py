@@ -1,10 +1,11 @@
-"""Points that move, in RR98's three ways; edges are made again at every evaluation    [RR98, Sec. III]
+"""Points that move, in RR98's ways; edges are made again at every evaluation    [RR98, Sec. III]
 
-    literal         dr_i/dt = v_i [Eq. 39], fields as on fixed points [Eqs 34-36], every volume dV: convection
-    counts twice convective      d/dt is the partial derivative and what Eqs 46-48 add to it, with their
-    signs; every volume dV carried         the same, but volumes go with the flow, dV_i/dt = V_i div v
-    constant mass   m_i dv_i/dt = sum_j .. [Eq. 49], pressure crossed [Eq. 13] or of Eq. 50: smoothed particle
-    hydrodynamics
+    literal         dr_i/dt = v_i [Eq. 39], fields as on fixed points [Eqs 34-36], every volume dV:
+                    convection counts twice
+    convective      d/dt is the partial derivative and what Eqs 46-48 add, with their signs; volumes dV
+    carried         the same, but volumes go with the flow, dV_i/dt = V_i div v
+    constant mass   m_i dv_i/dt = sum_j .. [Eq. 49], pressure crossed [Eq. 13] or of Eq. 50: smoothed
+                    particle hydrodynamics
 
 A state (2 d + 2 or more, n) begins with positions, which are not wrapped into the box. Then come rho, p, eps
 per volume, as RR98's m_i, p_i, eps_i are of equal volumes dV; or, at constant mass, m, p, E of the point;

@@ -155,11 +155,11 @@ class Agitated(Summing):
         a, b, all_of = take(flow, edges.i), take(flow, edges.j), self.dih.coefficients(flow)
         check_bulk(all_of.eta, all_of.zeta, d)
         (eta, zeta, kappa), k = means(all_of, edges.i, edges.j), self.method.k*self.k
-        A, B = eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
-        A, B = (A, B) if d > 1 else (A + B, 0*B)
+        B, A = eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
+        B, A = (B, A) if d > 1 else (A + B, 0*A)
         e, T = edges.apart/np.sqrt((edges.apart**2).sum(axis=1))[:, None], (a.T + b.T)/2
-        force = np.sqrt(2*k*T*np.maximum(A, 0))[:, None]*dW[:, :d]
-        force += (np.sqrt(2*k*T*np.maximum(B, 0))*dW[:, d])[:, None]*e
+        force = np.sqrt(2*k*T*np.maximum(B, 0))[:, None]*dW[:, :d]
+        force += (np.sqrt(2*k*T*np.maximum(A, 0))*dW[:, d])[:, None]*e
         heat = np.sqrt(2*k*a.T*b.T*kappa)*dW[:, d + 1]
         return EdgeFluxes(np.zeros(len(heat)), -force, -(force*(a.v + b.v)).sum(axis=1)/2 - heat)
 

@@ -3,8 +3,7 @@
 Forces along edges push by d_b(eta d_b v_a); a fluid's stress by d_b(eta d_a v_b) - d_a(eta div v) besides,
 the divergence of
 
-    tau = eta ((-d_y v, d_y u), (d_x v, -d_x u))      first the direction, then the
-    component    [`dih.transposed`]
+    tau = eta ((-d_y v, d_y u), (d_x v, -d_x u))      (direction, component)    [`dih.transposed`]
 
 It vanishes where eta is constant; its work F = tau.v never does: without it even a rigid rotation heats. What
 feels F feels tau where a law makes eta vary.

@@ -16,7 +16,7 @@ class Odd(NamedTuple):
 
 
 class Copied(NamedTuple):
-    """The image has the pressure of its particle    [KHP95, Sec. IV: fluxes of images match]"""
+    """The image has the pressure of its particle, which KHP95 says of its grid (Sec. IV)."""
 
 
 class Own(NamedTuple):
