@@ -14,7 +14,7 @@ from studies.kit.table import Tables
 from studies.onset import figures as onset_figures
 from studies.onset import tables as onset_tables
 from studies.rb import tables
-from studies.rb.figures import figures, flow, main
+from studies.rb.figures import RA_C, figures, flow, straight_line
 from studies.rb.looks import NOT_STEADY
 
 #: name -> tables -> figure
@@ -80,11 +80,11 @@ def test_the_same_rows_give_the_same_bytes(full):
 def test_the_line_is_fitted_between_onset_and_four_times_onset():
     """K is exactly this line there and below it beyond, where no row may enter the fit."""
     ra = np.array([1500.0, 2000.0, 2500.0, 5000.0, 10000.0])
-    ke = np.where(ra > main.RA_C, 0.0082*(1 - np.sqrt(main.RA_C/ra)), 0.0)*np.where(ra > 4*main.RA_C, 0.9,
+    ke = np.where(ra > RA_C, 0.0082*(1 - np.sqrt(RA_C/ra)), 0.0)*np.where(ra > 4*RA_C, 0.9,
                                                                                     1.0)
     limit = pd.DataFrame({"ra": ra, "ke": ke})
-    assert main.straight_line(limit).coefficients == pytest.approx([0.0082, -0.0082*math.sqrt(main.RA_C)])
-    assert main.straight_line(limit[limit["ra"] > 2500]) is None              # one row: no line
+    assert straight_line(limit).coefficients == pytest.approx([0.0082, -0.0082*math.sqrt(RA_C)])
+    assert straight_line(limit[limit["ra"] > 2500]) is None              # one row: no line
 
 
 def test_slopes_are_told_where_errors_fall_and_ranges_elsewhere(full):

@@ -23,8 +23,6 @@ from studies.hardcases.survival import GRID, SAMPLES, Hard, HardOnGrid, ShearWav
 from studies.hardcases.tubes import ETAS, MethodTube
 from studies.kit.case import Case
 
-# --- methods --------------------------------------------------------------------------------------
-
 RANDOM = ("fixed jittered", "moving")       # whose points lie as a seed says
 RANGES = (0.9, 1.2, 1.5, 2.0)
 LATTICE, JITTERED, MOVING = SCHEMES["fixed-lattice"], SCHEMES["fixed-jittered-delaunay"], MOTIONS["moving"]
@@ -95,8 +93,6 @@ TAKES: dict[str, dict[str, Any]] = {
     "disordered points": DISORDERED, "narrow weight": NARROW, "wall corner": CORNERS}
 
 WITHOUT_PLATES = ("zero viscosity", "vacuum")       # for smooth particles and the grid
-
-# --- cases ----------------------------------------------------------------------------------------
 
 LENGTHS = (24, 36, 48, 72, 96, 144, 192)
 MORE_SEEDS = 16         # of the longest viscous tube of smooth particles, whose ringing is near its limit

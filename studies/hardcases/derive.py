@@ -45,9 +45,6 @@ def derive(tables: Tables) -> dict[str, list[dict[str, Any]]]:
     return {name: new for name, new in rows.items() if new}
 
 
-# --- ripples --------------------------------------------------------------------------------------
-
-
 def ripple_growth(ripples: pd.DataFrame) -> Rows:
     """Growth rates over that of theory: means over the runs that lasted, also of those that ended late.
 
@@ -66,9 +63,6 @@ def ripple_growth(ripples: pd.DataFrame) -> Rows:
             yield {"scale": scale, "steep": steep, "seeds": len(rates), "growth": growth, "growth_err": err}
 
 
-# --- the highest Ra -------------------------------------------------------------------------------
-
-
 def high_ra_summary(limits: pd.DataFrame, grid: pd.DataFrame) -> Rows:
     """Geometric means and extremes over starts that have a limit; what most of these do beyond it.
 
@@ -79,16 +73,17 @@ def high_ra_summary(limits: pd.DataFrame, grid: pd.DataFrame) -> Rows:
     predicted = float(np.exp((np.log(CELL_NUMBER) - constant)/slope))
     for (method, step, kind), rows in groups(limits, ["method", "step", "kind"]):
         bad = rows.dropna(subset=["ra"])
-        cell = over_seeds(np.exp(constant + slope*np.log(rows["ra"].fillna(rows["tried"]))))
-        yield {"method": method, "step": step, "kind": kind,
-               "predicted": predicted if kind == "wrong" else np.nan,
-               "ra": float(np.exp(np.log(bad["ra"]).mean())),
-               "ra_low": bad["ra"].min(), "ra_high": bad["ra"].max(),
-               "seeds": len(bad), "outcome": bad["outcome"].mode().get(0, "none"),
-               "cell_number": cell.value, "cell_number_err": cell.err}
-
-
-# --- the map: runs --------------------------------------------------------------------------------
+        highest = rows["ra"].fillna(rows["tried"])
+        cell = over_seeds(np.exp(constant + slope*np.log(highest)))
+        yield {
+            "method": method, "step": step, "kind": kind, "seeds": len(bad),
+            "predicted": predicted if kind == "wrong" else np.nan,
+            "ra": float(np.exp(np.log(bad["ra"]).mean())),
+            "ra_low": bad["ra"].min(),
+            "ra_high": bad["ra"].max(),
+            "outcome": bad["outcome"].mode().get(0, "none"),
+            "cell_number": cell.value, "cell_number_err": cell.err,
+        }
 
 
 def entry(case: str, method: str, variant: str, outcome: str, number: str, measured: Any, err: Any = 0.0,
@@ -100,15 +95,17 @@ def entry(case: str, method: str, variant: str, outcome: str, number: str, measu
 
 def of_runs(runs: pd.DataFrame) -> Rows:
     """Points and the coarse grid against what is known."""
-    for _, run in runs[(runs["method"] != "grid") | (runs["rows"] <= ROWS)].iterrows():
-        known = DECISIVE.get(run["case"], LIKE_GRID)
+    judged = (runs["method"] != "grid") | (runs["rows"] <= ROWS)
+    for _, run in runs[judged].iterrows():
+        case, method = run["case"], run["method"]
+        known = DECISIVE.get(case, LIKE_GRID)
         ratio = known.ratio(runs, run)
         result = outcome(run, known, ratio)
-        variant = f"L {SITUATIONS[run['case']].scene.L:g}"
+        variant = f"L {SITUATIONS[case].scene.L:g}"
         if result == "diverges":
-            yield entry(run["case"], run["method"], variant, result, PART_OF_TIME, run["reached"])
+            yield entry(case, method, variant, result, PART_OF_TIME, run["reached"])
         else:
-            yield entry(run["case"], run["method"], variant, result, known.number, *ratio, known.predicted)
+            yield entry(case, method, variant, result, known.number, *ratio, known.predicted)
 
 
 def speed(runs: pd.DataFrame, run: pd.Series) -> Measured:
@@ -118,7 +115,8 @@ def speed(runs: pd.DataFrame, run: pd.Series) -> Measured:
 
 def energy_over_exact(runs: pd.DataFrame, run: pd.Series) -> Measured:
     """K of two rarefactions."""
-    return Measured(float(run["k"]/rarefied(MIDDLE*BOXES["vacuum"].time)))
+    exact = rarefied(MIDDLE*BOXES["vacuum"].time)
+    return Measured(float(run["k"]/exact))
 
 
 def flow_over_start(runs: pd.DataFrame, run: pd.Series) -> Measured:
@@ -178,10 +176,8 @@ def outcome(run: pd.Series, known: Decisive, ratio: Measured) -> str:
     if ratio.value < FROZEN:
         return "freezes"
     noisy = known.number == "flow/start" and abs(run["k"]/run["k_start"] - 1) > NEAR
-    return "right" if abs(ratio.value - known.predicted) <= NEAR + ratio.err and not noisy else "wrong"
-
-
-# --- the map: waves, tubes, the highest Ra --------------------------------------------------------
+    near = abs(ratio.value - known.predicted) <= NEAR + ratio.err
+    return "right" if near and not noisy else "wrong"
 
 
 def of_shear(shear: pd.DataFrame) -> Rows:
@@ -203,14 +199,16 @@ def of_tubes(tubes: pd.DataFrame) -> Rows:
     """Shock tubes by viscosity, usual step: how much v rings in the longest, or that one ended."""
     tubes = tubes[tubes["step"] != min(STEPS)]
     for (method, eta), rows in groups(tubes, ["method", "eta"]):
-        longest, reached = rows[rows["L"] == rows["L"].max()], rows["reached"].min()
-        ring, error = longest["wiggles"], longest["v_grid" if eta else "v_exact"].mean()
+        variant, reached = f"eta {eta:g}", rows["reached"].min()
         if reached < 1:
-            yield entry("shock tube", method, f"eta {eta:g}", "diverges", PART_OF_TIME, reached)
+            yield entry("shock tube", method, variant, "diverges", PART_OF_TIME, reached)
             continue
-        result = "right" if max(ring.mean(), error) <= NEAR else "wrong"
-        yield entry("shock tube", method, f"eta {eta:g}", result, "ringing of v", ring.mean(),
-                    np.ptp(ring)/2, 0.0)
+        longest = rows[rows["L"] == rows["L"].max()]
+        error = longest["v_grid" if eta else "v_exact"].mean()
+        ring = longest["wiggles"]
+        mean, err = ring.mean(), np.ptp(ring)/2
+        result = "right" if max(mean, error) <= NEAR else "wrong"
+        yield entry("shock tube", method, variant, result, "ringing of v", mean, err, 0.0)
 
 
 def of_high_ra(summary: pd.DataFrame) -> Rows:
@@ -218,8 +216,9 @@ def of_high_ra(summary: pd.DataFrame) -> Rows:
     results = {"none": "unjudged", "ends": "diverges"}
     for _, row in summary[summary["step"] == 1].iterrows():
         variant = "first bad" if row["kind"] == "wrong" else "ends"
-        yield entry("highest Ra", row["method"], variant, results.get(row["outcome"], "wrong"), "Ra",
-                    row["ra"], (row["ra_high"] - row["ra_low"])/2, row["predicted"])
+        result = results.get(row["outcome"], "wrong")
+        err = (row["ra_high"] - row["ra_low"])/2
+        yield entry("highest Ra", row["method"], variant, result, "Ra", row["ra"], err, row["predicted"])
 
 
 #: table -> rows of the map

@@ -40,10 +40,12 @@ def chart(rows: pd.DataFrame, runs: pd.DataFrame) -> Figure:
     """Cells with the letter of the outcome and the number behind it."""
     rows = rows[rows["variant"] != "ends"]
     tube = rows["case"] == "shock tube"
-    rows = rows.assign(case=rows["case"].where(~tube, rows["case"] + " " + rows["variant"]))
-    cases = [case for name in CASES for case in sorted(set(rows["case"])) if case.startswith(name)]
+    named = rows["case"] + " " + rows["variant"]
+    rows = rows.assign(case=rows["case"].where(~tube, named))
+    there = sorted(set(rows["case"]))
+    cases = [case for name in CASES for case in there if case.startswith(name)]
     number_of = rows.groupby("method")["case"].nunique()
-    methods = sorted(number_of.index, key=lambda method: (-number_of[method], method))
+    methods = [*number_of.sort_values(ascending=False, kind="stable").index]
     page, axes = figure(width=1.5 + 0.95*len(cases), height=1.2 + 0.3*len(methods))
     for _, row in rows.iterrows():
         cell(axes, cases.index(row["case"]), methods.index(row["method"]), row)
@@ -51,8 +53,9 @@ def chart(rows: pd.DataFrame, runs: pd.DataFrame) -> Figure:
     axes.set_yticks(range(len(methods)), labels=methods)
     axes.set_xticks(range(len(cases)), fontsize=8, labels=[heading(case, runs) for case in cases])
     axes.grid(False)
-    there = [name for name in LOOKS if name in set(rows["outcome"])]
-    axes.set_xlabel("  ".join(f"{LOOKS[name][0]}: {WORDS.get(name, name)}" for name in there) + KEY)
+    outcomes = set(rows["outcome"])
+    letters = [f"{LOOKS[name][0]}: {WORDS.get(name, name)}" for name in LOOKS if name in outcomes]
+    axes.set_xlabel("  ".join(letters) + KEY)
     axes.set_title(f"Which method takes which hard case? Layers of {ROWS} rows")
     return page
 
@@ -70,18 +73,21 @@ def cell(axes: Any, x: int, y: int, row: pd.Series) -> None:
 
 def heading(case: str, runs: pd.DataFrame) -> str:
     """A case, and rows of the grid that it is held against."""
+    words = case.replace(" ", "\n", 1)
     grids = finished_grids(runs, case).index if case in LAYERS else ()
-    return case.replace(" ", "\n", 1) + (f"\ngrid of {max(grids)}" if len(grids) else "")
+    return f"{words}\ngrid of {max(grids)}" if len(grids) else words
 
 
 def shocks(ripples: pd.DataFrame) -> Figure:
     """Height and ripple of a shocked interface in time: means and all seeds by size and steepness."""
     page, both = figure(1, 2, width=4.4, height=3.2)
     for number, ((steep, scale), rows) in enumerate(groups(ripples, ["steep", "scale"])):
-        theory, style = impulse(scale, steep), {**look(number), "marker": ""}
+        theory = impulse(scale, steep)
+        style = {**look(number), "marker": ""}
         start = rows.groupby("time")["height"].mean().iloc[0]
         heights = (rows["height"] - start)/(theory.kick*theory.back)
-        for axes, y in zip(both, (heights, rows["amplitude"]/theory.amplitude), strict=True):
+        amplitudes = rows["amplitude"]/theory.amplitude
+        for axes, y in zip(both, (heights, amplitudes), strict=True):
             band = y.groupby(rows["time"]/theory.meets).agg(["mean", "min", "max"])
             axes.plot(band.index, band["mean"], **style, label=rf"$ka$ = {steep:g}, {scale:g} x printed size")
             axes.fill_between(band.index, band["min"], band["max"], color=style["color"], alpha=0.2)
@@ -118,7 +124,8 @@ def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame) -> Figure:
     page, all_axes = figure(1, len(ETAS), width=4.0, height=4.4)
     rows, profiles = (frame[frame["step"] != max(STEPS)] for frame in (rows, profiles))
     for axes, eta in zip(all_axes, ETAS, strict=True):
-        densities(axes, profiles[np.isclose(profiles["eta"], eta)], rows[np.isclose(rows["eta"], eta)])
+        some, runs = (frame[np.isclose(frame["eta"], eta)] for frame in (profiles, rows))
+        densities(axes, some, runs)
         axes.set(title=rf"$\eta = k = {eta:g}$", xlabel="distance from the diaphragm / $L$",
                  xlim=(-0.8, 1.0), ylim=(-0.1, SHIFT*(len(ALL) - 1) + 1.15), yticks=[])
     all_axes[0].set_ylabel("density, methods one above the other")
@@ -130,11 +137,13 @@ def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame) -> Figure:
 def densities(axes: Any, profiles: pd.DataFrame, rows: pd.DataFrame) -> None:
     """Each method's own, or when its longest run ended."""
     for number, method in enumerate(ALL):
-        profile, up = profiles[profiles["method"] == method], SHIFT*number
+        up = SHIFT*number
+        profile = profiles[profiles["method"] == method]
         runs = rows[(rows["method"] == method) & (rows["seed"] == 1)]
         if len(profile):
             x, L = profile["x"].to_numpy(), profile["L"].iloc[0]
-            axes.plot(x, up + exact(L, (x + 1)*L)[0], **THIN_LINE)
+            rho, _, _ = exact(L, (x + 1)*L)
+            axes.plot(x, up + rho, **THIN_LINE)
             axes.plot(x, up + profile["rho"], **dots(number))
             axes.text(0.98, up + 0.02, f"{method}, $L$ = {L:g}", ha="right", fontsize=8)
         elif len(runs):

@@ -29,8 +29,8 @@ def viscous(L: float, eta: float, x: np.ndarray) -> np.ndarray:
     if not eta:
         return np.full((3, len(x)), np.nan)
     cells = (np.arange(round(2*L/FINE)) + 0.5)*FINE
-    rho, v, P = march(start(cells < L), eta, END*L)
-    return np.array([np.interp(x, cells, field) for field in (rho, v, P)])
+    fields = march(start(cells < L), eta, END*L)
+    return np.array([np.interp(x, cells, field) for field in fields])
 
 
 def start(dense: np.ndarray) -> np.ndarray:
@@ -46,14 +46,16 @@ def march(start: np.ndarray, eta: float, time: float) -> np.ndarray:
     def slopes(t: float, U: np.ndarray) -> np.ndarray:
         return rates(U.reshape(3, -1), eta).ravel()
     done = solve_ivp(slopes, (0, time), U.ravel(), rtol=ACCURATE, atol=ACCURATE, t_eval=[time])
-    rho, v, e = primitive(done.y.reshape(3, -1))
+    last = done.y.reshape(3, -1)
+    rho, v, e = primitive(last)
     return np.array([rho, v, e*rho/EOS.cv])
 
 
 def primitive(U: np.ndarray) -> np.ndarray:
     """rho, v, e from densities of mass, momentum and energy."""
     rho, p, energy = U
-    return np.array([rho, p/rho, energy/rho - (p/rho)**2/2])
+    v = p/rho
+    return np.array([rho, v, energy/rho - v**2/2])
 
 
 def rates(U: np.ndarray, eta: float) -> np.ndarray:
@@ -61,20 +63,27 @@ def rates(U: np.ndarray, eta: float) -> np.ndarray:
     rho, v, e = np.pad(primitive(U), ((0, 0), (1, 1)), "edge")
     v[[0, -1]] *= -1
     T = e/EOS.cv
-    friction, heat = eta*np.diff(v)/FINE, eta*np.diff(T)/FINE
+    friction = eta*np.diff(v)/FINE
+    heat = eta*np.diff(T)/FINE
     rho, v, e, P = ((q[1:] + q[:-1])/2 for q in (rho, v, e, rho*T))
-    flux = np.array([rho*v, rho*v**2 + P - friction, (rho*(e + v**2/2) + P - friction)*v - heat])
+    momentum = rho*v**2 + P - friction
+    energy = (rho*(e + v**2/2) + P - friction)*v - heat
+    flux = np.array([rho*v, momentum, energy])
     return -np.diff(flux, axis=1)/FINE
 
 
 def compared(fields: np.ndarray, truth: np.ndarray, twin: np.ndarray) -> dict[str, float]:
     """ERRORS, mean |difference| of fields (3, n) from both others over the exact ones' range; wiggles."""
     size = np.ptp(truth, axis=1)
-    values = [np.abs(fields - other).mean(axis=1)/size for other in (truth, twin)]
-    errors = dict(zip(ERRORS, np.concatenate(values).tolist(), strict=True))
-    return {**errors, "wiggles": wiggles(fields[1], truth[1])}
+    errors = {}
+    for of, other in (("exact", truth), ("grid", twin)):
+        apart = np.abs(fields - other).mean(axis=1)
+        for name, error in zip(NAMES, apart/size, strict=True):
+            errors[f"{name}_{of}"] = float(error)
+    return errors | {"wiggles": wiggles(fields[1], truth[1])}
 
 
 def wiggles(v: np.ndarray, truth: np.ndarray) -> float:
     """Variation of a velocity beyond that of the exact one, over it."""
-    return float(np.abs(np.diff(v)).sum()/np.abs(np.diff(truth)).sum() - 1)
+    variation = np.abs(np.diff(v)).sum()
+    return float(variation/np.abs(np.diff(truth)).sum() - 1)

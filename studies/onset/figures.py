@@ -34,9 +34,6 @@ def rows(frame: pd.DataFrame, **wanted: Any) -> pd.DataFrame:
     return frame
 
 
-# --- growth rates -------------------------------------------------------------------------------
-
-
 def growth(rates: pd.DataFrame) -> Figure | None:
     """sigma against Ra: weak rolls of grids and linear theory; stronger rolls of particles and of the gas."""
     weakest = rows(rates, way="operator")
@@ -87,9 +84,6 @@ def draw_rolls(axes: Axes, runs: pd.DataFrame, first: int) -> None:
         where = "" if method == "spam" else "gas on a grid, "
         style = look(first + number) | {"lw": 0.9, "label": f"{where}{size:.0f} rows"}
         errorbar(axes, *means(group).to_numpy().T.tolist(), **style)
-
-
-# --- straight lines -----------------------------------------------------------------------------
 
 
 def line(energies: pd.DataFrame, lines: pd.DataFrame, critical: pd.DataFrame) -> Figure | None:

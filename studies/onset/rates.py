@@ -27,9 +27,6 @@ STEP = 1e-5     # of the differences of the rates
 Solver = Callable[[RayleighBenard, int], tuple[float, float]]
 
 
-# --- a grid's own rates -------------------------------------------------------------------------
-
-
 class RollGrid(NamedTuple):
     """A solver on a grid: d/dt of a state (fields, columns, rows), the state at rest.
 
@@ -95,9 +92,6 @@ def pypde_rolls(scene: RayleighBenard, rows: int) -> RollGrid:
     return RollGrid(lambda data: rate(data, 0.0), rest, wave, moves)
 
 
-# --- solvers ------------------------------------------------------------------------------------
-
-
 def compressible(scene: RayleighBenard, rows: int) -> tuple[float, float]:
     """Of the gas on KHP95's grid; between walls from its sparse matrix."""
     if isinstance(scene.sides, Walls):
@@ -114,9 +108,6 @@ def boussinesq_mac(scene: RayleighBenard, rows: int) -> tuple[float, float]:
     """Of the Boussinesq fluid on the staggered grid; of the scene only Ra and Pr count."""
     case = boussinesq.Case(ra=scene.ra, pr=scene.pr, box=boussinesq.HALF_LAYER, rows=rows)
     return float(boussinesq.growth_rates(boussinesq.rest(case), count=2)[0].real), 1e-10
-
-
-# --- cases --------------------------------------------------------------------------------------
 
 
 def point(method: str, scene: RayleighBenard, resolution: float, variant: str = "") -> dict[str, Any]:

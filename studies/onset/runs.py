@@ -26,9 +26,6 @@ LINES = {0.5: (0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5), 0.1: (0.0
          0.02: (0.005, 0.01, 0.015, 0.02)}
 
 
-# --- growth of rolls in time --------------------------------------------------------------------
-
-
 class History(NamedTuple):
     """Amplitude of the rolls (of v_y, for the printed rolls) at times in free-fall units."""
 
@@ -140,9 +137,6 @@ class SpamGrowth(RollRun):
                     series={"cos": RollOf(np.cos), "sin": RollOf(np.sin)})
         done = run(method(self.scene, self.variant), state, plan, report)
         return History(np.array(done.times)/unit, np.hypot(done.series["cos"], done.series["sin"]))
-
-
-# --- energies near onset ------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)

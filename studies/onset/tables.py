@@ -55,31 +55,29 @@ def derive(tables: Tables) -> Rows:
         energies = tables["energies"]
         single = energies[np.isfinite(energies["resolution"])]
         limits += extrapolated_energies(single)
-        lines += all_lines(pd.concat([single, pd.DataFrame(limits, columns=single.columns)]))
+        fine = pd.DataFrame(limits, columns=single.columns)
+        lines += all_lines(pd.concat([single, fine]))
         for line in lines:
-            found = {"reach": line["reach"], "lines": line["lines"]}
-            critical.append(critical_row(line, Measured(line["ra_c"], line["err"]), "line", **found))
+            ra_c = Measured(line["ra_c"], line["err"])
+            critical.append(critical_row(line, ra_c, "line", reach=line["reach"], lines=line["lines"]))
     return {"energies": limits, "lines": lines, "critical_ra": critical}
 
 
 def critical_row(at: Any, ra: Measured, way: str, reach: float = 0.0, ke_start: float = 0.0,
                  lines: str = "") -> Row:
     """Row of `critical_ra` at the point of another row."""
-    how = [f"K line{near(reach)}" if reach else "growth rates"]
+    line = "K line" if reach == 4 else f"K line to {reach:g} Ra_c"      # 4 is the paper's
+    how = [line if reach else "growth rates"]
     if way == "run":
         how.append(f"run from K = {ke_start:g}")
-    how.append(lines)
+    if lines:
+        how.append(lines)
     if np.isfinite(at["resolution"]):
         how.append(f"{at['resolution']:.0f} rows")
-    quantity = f"{place(at)} ({', '.join(filter(None, how))})"
     point = {name: at[name] for name in POINT}
-    return {**point, "quantity": quantity, "value": ra.value, "err": ra.err, "way": way, "reach": reach,
-            "ke_start": ke_start}
-
-
-def near(reach: float) -> str:
-    """How far from onset a line goes, but for the paper's four times Ra_c."""
-    return f" to {reach:g} Ra_c" if reach != 4 else ""
+    quantity = f"{place(at)} ({', '.join(how)})"
+    found = {"value": ra.value, "err": ra.err, "way": way, "reach": reach, "ke_start": ke_start}
+    return {**point, "quantity": quantity, **found}
 
 
 def place(at: Any) -> str:
@@ -90,52 +88,57 @@ def place(at: Any) -> str:
     return ", ".join([BOX_NAMES[at["sides"]], *differs])
 
 
-# --- growth rates -------------------------------------------------------------------------------
-
-
 def from_growth(rates: pd.DataFrame) -> Iterator[Row]:
     """Ra where sigma crosses zero: for each grid and start, and extrapolated over three grids or more."""
     rates = rates[rates["method"] != "linear"]
     for _, series in rates.groupby([*SERIES, "way", "ke_start"], dropna=False):
         way, ke_start = series[["way", "ke_start"]].iloc[0]
-        find = smooth_zero if way == "operator" else nearby_zero
+        zero = smooth_zero if way == "operator" else nearby_zero
         rows = []
         for _, runs in series.groupby("resolution"):
             at_ra = means(runs)
             if crosses(at_ra):
-                rows.append(critical_row(runs.iloc[0], find(at_ra), way, ke_start=ke_start))
+                row = critical_row(runs.iloc[0], zero(at_ra), way, ke_start=ke_start)
+                rows.append(row)
         yield from rows
         if way == "operator" and len(rows) >= GRIDS:
-            yield critical_row({**rows[-1], "resolution": np.inf}, limit(rows), way)
+            at = rows[-1] | {"resolution": np.inf}
+            yield critical_row(at, limit(rows), way)
 
 
 def means(runs: pd.DataFrame) -> pd.DataFrame:
     """Mean sigma over seeds at each Ra."""
     rows = []
     for ra, some in runs.groupby("ra"):
-        of_seeds = zip(some["sigma"], some["err"], strict=True)
-        rows.append((ra, *combine(list(of_seeds))))
+        of_seeds = list(zip(some["sigma"], some["err"], strict=True))
+        rows.append((ra, *combine(of_seeds)))
     return pd.DataFrame(rows, columns=["ra", "sigma", "err"])
 
 
 def crosses(rates: pd.DataFrame) -> bool:
     """True if there is growth and decay, at three Ra or more."""
-    return len(rates) >= GRIDS and bool(rates["sigma"].min() < 0 < rates["sigma"].max())
+    sigma = rates["sigma"]
+    return len(sigma) >= GRIDS and bool(sigma.min() < 0 < sigma.max())
 
 
 def smooth_zero(rates: pd.DataFrame) -> Measured:
     """From the polynomial Ra(sigma) through all points; err: what the farthest changes, and that of sigma."""
     rates = rates.iloc[np.argsort(np.abs(rates["sigma"]))]
     sigma, ra = rates["sigma"].to_numpy(), rates["ra"].to_numpy()
-    value, other = interpolated(sigma, ra), interpolated(sigma[:-1], ra[:-1])
+    value = interpolated(sigma, ra)
+    without = interpolated(sigma[:-1], ra[:-1])
     slope = np.diff(ra)[0]/np.diff(sigma)[0]
-    return Measured(value, abs(value - other) + rates["err"].max()*abs(slope))
+    of_sigma = rates["err"].max()*abs(slope)
+    return Measured(value, abs(value - without) + of_sigma)
 
 
 def interpolated(sigma: np.ndarray, ra: np.ndarray) -> float:
     """Lagrange's polynomial at sigma = 0."""
-    return float(sum(r*np.prod([-other/(s - other) for other in sigma if other != s])
-                     for s, r in zip(sigma, ra, strict=True)))
+    total = 0.0
+    for s, r in zip(sigma, ra, strict=True):
+        others = sigma[sigma != s]
+        total += r*np.prod(-others/(s - others))
+    return float(total)
 
 
 def nearby_zero(rates: pd.DataFrame) -> Measured:
@@ -144,14 +147,16 @@ def nearby_zero(rates: pd.DataFrame) -> Measured:
     The error is that of the same on DRAWS samples with noise like the errors, and of the bend: what a
     parabola through the three nearest Ra changes, at most a quarter of the distance of neighbours.
     """
-    ra, sigma = rates["ra"].to_numpy(), rates["sigma"].to_numpy()
-    value, rng = middle_crossing(ra, sigma), np.random.default_rng(1)
-    noise = rates["err"].to_numpy()/2*rng.normal(size=(DRAWS, len(ra)))
-    low, high = np.quantile([middle_crossing(ra, sigma + one) for one in noise], [0.025, 0.975])
+    ra, sigma, err = rates[["ra", "sigma", "err"]].to_numpy().T
+    value = middle_crossing(ra, sigma)
+    draws = np.random.default_rng(1).normal(size=(DRAWS, len(ra)))
+    samples = [middle_crossing(ra, sigma + noise) for noise in err/2*draws]
+    low, high = np.quantile(samples, [0.025, 0.975])
     nearest = np.argsort(np.abs(ra - value))[:3]
     parabola = interpolated(sigma[nearest], ra[nearest])
     bend = min(abs(parabola - value), np.diff(ra).max()/4)
-    return Measured(value, float(np.hypot(max(value - low, high - value), bend)))
+    scatter = max(value - low, high - value)
+    return Measured(value, float(np.hypot(scatter, bend)))
 
 
 def middle_crossing(ra: np.ndarray, sigma: np.ndarray) -> float:
@@ -159,7 +164,8 @@ def middle_crossing(ra: np.ndarray, sigma: np.ndarray) -> float:
     at = np.flatnonzero(sigma[1:]*sigma[:-1] < 0)
     if not len(at):
         return float(ra[0] if sigma.sum() > 0 else ra[-1])
-    zeros = ra[at] - sigma[at]*(ra[at + 1] - ra[at])/(sigma[at + 1] - sigma[at])
+    rise, run = sigma[at + 1] - sigma[at], ra[at + 1] - ra[at]
+    zeros = ra[at] - sigma[at]*run/rise
     return float(np.median(zeros))
 
 
@@ -172,15 +178,14 @@ def limit(rows: list[Row]) -> Measured:
 
 def small_differences(critical: pd.DataFrame) -> Iterator[Row]:
     """Limit dT -> 0 of the gas: even in dT, because turning the box upside down changes its sign alone."""
-    rows = critical[np.isinf(critical["resolution"].astype(float)) & (critical["eos"] != "")]
-    for _, group in rows.sort_values("dT").groupby(["method", "eos", "transport", "sides"]):
+    fine = np.isinf(critical["resolution"].astype(float))
+    rows = critical[fine & (critical["eos"] != "")].sort_values("dT")
+    for _, group in rows.groupby(["method", "eos", "transport", "sides"]):
         if len(group) >= GRIDS:
-            value, err = fits.grid_limit(1/group["dT"].to_numpy(float), group["value"].to_numpy(float))
+            dT, ra = group[["dT", "value"]].to_numpy(float).T
+            value, err = fits.grid_limit(1/dT, ra)
             at = {**group.iloc[0], "dT": 0.0}
             yield critical_row(at, Measured(value, err + group["err"].max()), "operator")
-
-
-# --- lines --------------------------------------------------------------------------------------
 
 
 class Line(NamedTuple):
@@ -198,24 +203,27 @@ def extrapolated_energies(energies: pd.DataFrame) -> Iterator[Row]:
     """Ra and K at each share, over three grids or more with the same rolls."""
     for _, group in energies.groupby([*SERIES, "share"], dropna=False):
         if len(group) >= GRIDS and group["rolls"].nunique() == 1:
-            ra, ke = (fits.grid_limit(group["resolution"], group[name]).value for name in ("ra", "ke"))
-            yield {**group.iloc[-1][[*SERIES, "share", "rolls"]], "resolution": np.inf, "ra": ra, "ke": ke}
+            ra, ke = (fits.grid_limit(group["resolution"], group[name]) for name in ("ra", "ke"))
+            fine = {"resolution": np.inf, "ra": ra.value, "ke": ke.value}
+            yield {**group.iloc[-1][[*SERIES, "share", "rolls"]], **fine}
 
 
 def all_lines(energies: pd.DataFrame) -> Iterator[Row]:
     """K against Ra^-1/2 for each reach: of grids, of extrapolated points, extrapolated as KHP95, Sec. V."""
     for key, series in energies.groupby(SERIES, dropna=False):
         for share, shares in LINES.items():
-            at = {**dict(zip(SERIES, key, strict=True)), "reach": round((1 - share)**-2, 3)}
+            at: Row = dict(zip(SERIES, key, strict=True))
+            at["reach"] = round((1 - share)**-2, 3)
             inside = series[series["share"].round(6).isin(shares)]
-            lines: dict[Any, Line] = {size: straight(some) for size, some in inside.groupby("resolution")
-                                      if len(some) >= GRIDS}
-            for size, line in lines.items():
-                yield {**at, "resolution": size, "lines": "", **line._asdict()}
+            lines: dict[Any, Line] = {}
+            for size, some in inside.groupby("resolution"):
+                if len(some) >= GRIDS:
+                    lines[size] = straight(some)
+                    yield at | {"resolution": size, "lines": ""} | lines[size]._asdict()
             lines.pop(np.inf, None)
             if len(lines) >= GRIDS:
                 fine = without_grid(lines)
-                yield {**at, "resolution": np.inf, "lines": "L^-2 extrapolated", **fine._asdict()}
+                yield at | {"resolution": np.inf, "lines": "L^-2 extrapolated"} | fine._asdict()
 
 
 def straight(points: pd.DataFrame) -> Line:
@@ -230,12 +238,15 @@ def straight(points: pd.DataFrame) -> Line:
 
 def without_grid(lines: dict[float, Line]) -> Line:
     """Linear in L^-2, L in cells; err: that of the lines and what the coarsest grid changes."""
-    x, of_grids = np.array(list(lines))**-2.0, list(lines.values())
-    line, other = extrapolated(x, of_grids), extrapolated(x[1:], of_grids[1:])
-    return line._replace(err=float(np.hypot(line.err, abs(line.ra_c - other.ra_c))))
+    x = np.array(list(lines))**-2.0
+    of_grids = list(lines.values())
+    line = extrapolated(x, of_grids)
+    without = extrapolated(x[1:], of_grids[1:])
+    return line._replace(err=float(np.hypot(line.err, line.ra_c - without.ra_c)))
 
 
 def extrapolated(x: np.ndarray, lines: list[Line]) -> Line:
     """The line at x = 0; what else it has is the finest grid's."""
-    slope, intercept = np.polyfit(x, [(line.slope, line.intercept) for line in lines], 1)[1]
+    pairs = [(line.slope, line.intercept) for line in lines]
+    _, (slope, intercept) = np.polyfit(x, pairs, 1)
     return lines[-1]._replace(slope=slope, intercept=intercept, ra_c=(slope/intercept)**2)

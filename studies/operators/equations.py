@@ -66,7 +66,9 @@ def arriving(edges: Edges, flux: np.ndarray) -> np.ndarray:
     """Rate per volume of what flows from i to j, flux (E,) or (E, m)."""
     if flux.ndim == 2:
         return np.stack([arriving(edges, q) for q in flux.T], axis=1)
-    return (np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n))/edges.V
+    to = np.bincount(edges.j, flux, edges.n)
+    away = np.bincount(edges.i, flux, edges.n)
+    return (to - away)/edges.V
 
 
 def rates(dih: Dih, state: np.ndarray) -> np.ndarray:
@@ -82,14 +84,16 @@ def terms(dih: Dih, flow: Flow, exact: Spectral) -> Terms:
     eta, _, kappa = dih.coefficients(flow)
     stress = stress_tensor(eta, ZETA, exact.grad(v))
     current = kappa[:, None]*exact.grad(T)
-    yield "viscous nested", arriving(dih.edges, PRINTED.fluxes(dih, flow).momentum), exact.div(stress)
+    fluxes = PRINTED.fluxes(dih, flow)
+    yield "viscous nested", arriving(dih.edges, fluxes.momentum), exact.div(stress)
     still = rates(dih, dih.state(rho, 0*v, T))
     yield "pressure", still[1:-1].T, -exact.grad(P)
     yield "heat nested", still[-1], exact.div(current)
     mass, *momentum, energy = rates(dih, dih.state(rho, v, T))
     yield "mass", mass, -exact.div(rho[:, None]*v)                                             # [Eq. 7]
     convected = rho[:, None, None]*v[:, :, None]*v[:, None, :]
-    yield "momentum", np.stack(momentum, axis=1), exact.div(stress - convected) - exact.grad(P)     # [Eq. 8]
+    force = exact.div(stress - convected) - exact.grad(P)
+    yield "momentum", np.stack(momentum, axis=1), force                                        # [Eq. 8]
     work = np.einsum("nab,nb->na", stress, v)
     yield "energy", energy, -exact.div((eps + P)[:, None]*v - work - current)                  # [Eq. 9]
 
@@ -100,9 +104,10 @@ def frictions(dih: Dih, flow: Flow, exact: Spectral) -> Terms:
               "eta(T)": replace(dih, zeta=0.0)}
     slope = exact.grad(flow.v)
     for name, fluid in fluids.items():
-        stress = stress_tensor(fluid.coefficients(flow).eta, fluid.zeta, slope)
-        force = arriving(dih.edges, ALONG.fluxes(fluid, flow).momentum)
-        yield f"friction, {name}", force, exact.div(stress)
+        eta = fluid.coefficients(flow).eta
+        stress = stress_tensor(eta, fluid.zeta, slope)
+        fluxes = ALONG.fluxes(fluid, flow)
+        yield f"friction, {name}", arriving(dih.edges, fluxes.momentum), exact.div(stress)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -132,14 +137,10 @@ class EquationErrors(Case):
         key = {"d": self.d, "weight": self.kind.__name__, "h": self.h, "cells": self.cells}
         rows = []
         for name, discrete, true in pairs:
-            size = np.sum(true**2)
-            error = np.sqrt(np.sum((discrete - true)**2)/size)
-            ratio = np.sum(discrete*true)/size
-            rows.append(key | {"operator": name, "error": float(error), "ratio": float(ratio)})
+            error = np.sqrt(np.sum((discrete - true)**2)/np.sum(true**2))
+            row = {"operator": name, "error": float(error), "ratio": ratio(discrete, true)}
+            rows.append(key | row)
         return Outcome({"equations": rows})
-
-
-# --- sums written out ---------------------------------------------------------------------------------------
 
 
 def brackets(edges: Edges) -> Sums:
@@ -177,26 +178,31 @@ def of_volumes() -> dict[str, float]:
     """Eqs 26, 27, 33-37 read literally, over what they stand for: a wave along x where dV is 1/4, 2D."""
     at = lattice((ROWS, 8), SPACING)
     edges = renormalised(at, Lucy.of(h=3*SPACING))
-    w, dV, k = brackets(edges), edges.V[0], 2*np.pi/(ROWS*SPACING)
+    w, dV = brackets(edges), edges.V[0]
+    k = 2*np.pi/(ROWS*SPACING)
     s, c = np.sin(k*at.x[:, 0]), np.cos(k*at.x[:, 0])
-    v, mass, thinning = np.stack([s, c], axis=1), dV*np.ones(edges.n), -k*c*dV
+    v = np.stack([s, c], axis=1)
+    mass, thinning = dV*np.ones(edges.n), -k*c*dV
     moved = np.stack([mass_rate(w, p, v*dV) for p in (dV*v*dV).T])
     momentum = -k*np.stack([2*s*c, c**2 - s**2])*dV             # -div(v v) dV, rho = 1
     P = np.stack([(1 + 0.1*s)*dV, 0*s], axis=1)                 # at rest, uniform T: P_ij + P_ji = P_i + P_j
     stress = kernel(inner(w, v), 1.0, 0.0, 1.0)                 # eta = 1, zeta = 0 in 2D: div Pi = lap v
-    return {"divergence, Eq. 33 in Eq. 1": ratio(-(w[0]@s), k*c),
-            "mass, v_i = v": ratio(mass_rate(w, mass, v), thinning),
-            "mass, v_i = v dV": ratio(mass_rate(w, mass, v*dV), thinning),
-            "momentum, p_i = m_i v_i, v_i = v dV": ratio(moved, momentum),
-            "pressure, P_ij = P dV": ratio(gathered(w, P), 0.1*thinning),
-            "stress, v_i = v": ratio(-gathered(w, stress), -k**2*v*dV),
-            "linearised mass, Eq. 21": ratio(*linearised(w, s, c))}
+    return {
+        "divergence, Eq. 33 in Eq. 1": ratio(-(w[0]@s), k*c),
+        "mass, v_i = v": ratio(mass_rate(w, mass, v), thinning),
+        "mass, v_i = v dV": ratio(mass_rate(w, mass, v*dV), thinning),
+        "momentum, p_i = m_i v_i, v_i = v dV": ratio(moved, momentum),
+        "pressure, P_ij = P dV": ratio(gathered(w, P), 0.1*thinning),
+        "stress, v_i = v": ratio(-gathered(w, stress), -k**2*v*dV),
+        "linearised mass, Eq. 21": ratio(*linearised(w, s, c)),
+    }
 
 
 def linearised(w: Sums, s: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Right-hand side of Eq. 21 as printed, and the derivative of Eq. 34."""
     rho, d_rho = 1 + 0.2*s, 0.1*c
-    v, dv = np.stack([0.3 + 0.1*c, 0*c], axis=1), 0.1*np.stack([s, c], axis=1)
+    v = np.stack([0.3 + 0.1*c, 0*c], axis=1)
+    dv = 0.1*np.stack([s, c], axis=1)
     printed = -sum((M@rho)*du + (M@d_rho)*u + rho*(M@du) + d_rho*(M@u) for M, u, du in zip(w, v.T, dv.T))
     above = mass_rate(w, rho + STEP*d_rho, v + STEP*dv)
     below = mass_rate(w, rho - STEP*d_rho, v - STEP*dv)
@@ -213,7 +219,8 @@ def added_bulk(d: int, trace: float) -> float:
     at, zeta = lattice((12,)*d), 0.3
     edges = renormalised(at, WendlandC2.of(h=2.5, d=d))
     middle = (np.abs(at.x) < 2).all(axis=1)
-    stress = kernel(inner(brackets(edges), at.x), 1.0, zeta, trace)[middle]
+    slope = inner(brackets(edges), at.x)
+    stress = kernel(slope, 1.0, zeta, trace)[middle]
     normal = np.trace(stress, axis1=1, axis2=2).mean()/d**2         # div v = d
     return float(normal - zeta)
 
@@ -227,7 +234,9 @@ def of_rotation() -> dict[str, float]:
     edges, one = renormalised(at, WendlandC2.of(h=2.2)), np.ones(at.n)
     v = OMEGA*np.stack([-at.x[:, 1], at.x[:, 0]], axis=1)
     dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(1.0, 1.0), transport=ALONG)
-    fluxes = ALONG.fluxes(dih, dih.flow(dih.state(one, v, one)))
-    heating = arriving(edges, fluxes.energy) - (v*arriving(edges, fluxes.momentum)).sum(axis=1)
+    flow = dih.flow(dih.state(one, v, one))
+    fluxes = ALONG.fluxes(dih, flow)
+    work = v*arriving(edges, fluxes.momentum)
+    heating = arriving(edges, fluxes.energy) - work.sum(axis=1)
     middle = np.hypot(*at.x.T) < 2.5        # two ranges from where the rotation ends
     return {"heating of a rotation": float(heating[middle].mean()/OMEGA**2)}

@@ -25,12 +25,14 @@ def snapshots(tables: Tables) -> Iterator[dict[str, Any]]:
     """One row for each point of `particles`, of the first seed that kept any."""
     frame = tables.get("particles", pd.DataFrame(columns=[*POINT, "seed"]))
     for key, runs in frame.groupby(POINT):
-        point, run = dict(zip(POINT, key, strict=True)), first_seed(runs)
-        fluid_first = run.sort_values("kind", key=lambda kind: kind != "fluid", kind="stable")
-        at = snapshot(fluid_first)
+        point: Point = dict(zip(POINT, key, strict=True))
+        run = first_seed(runs)
+        fluid = run["kind"] == "fluid"
+        at = snapshot(pd.concat([run[fluid], run[~fluid]]), fluid.sum())
+        T = run["T"][fluid].to_numpy(float)
         columns = {"neighbours": at.neighbours, "spacing": at.spacing, "pairing": at.pairing,
-                   "newtonian": newtonian(at, point, fluid_first["T"].to_numpy(float)[:at.n])}
-        yield {**point, **with_errors(columns), "occupancy": at.occupancy, "fastest": at.fastest}
+                   "newtonian": newtonian(at, point, T)}
+        yield point | with_errors(columns) | {"occupancy": at.occupancy, "fastest": at.fastest}
 
 
 def first_seed(runs: pd.DataFrame) -> pd.DataFrame:
@@ -40,15 +42,18 @@ def first_seed(runs: pd.DataFrame) -> pd.DataFrame:
 
 def with_errors(columns: dict[str, Measured]) -> dict[str, float]:
     """Each column and its `_err`."""
-    errs = {f"{name}_err": one.err for name, one in columns.items()}
-    return {name: one.value for name, one in columns.items()} | errs
+    row: dict[str, float] = {}
+    for name, (value, err) in columns.items():
+        row |= {name: value, f"{name}_err": err}
+    return row
 
 
-def snapshot(run: pd.DataFrame) -> Snapshot:
-    """Particles, the fluid's first."""
+def snapshot(run: pd.DataFrame, n: int) -> Snapshot:
+    """Particles, the `n` of the fluid first."""
     height = float(run["resolution"].iloc[0])
-    x, v = run[["x", "y"]].to_numpy(float)*height, run[["vx", "vy"]].to_numpy(float)
-    return Snapshot(x, v, int((run["kind"] == "fluid").sum()), height)
+    x = run[["x", "y"]].to_numpy(float)*height
+    v = run[["vx", "vy"]].to_numpy(float)
+    return Snapshot(x, v, int(n), height)
 
 
 def newtonian(at: Snapshot, point: Point, T: np.ndarray) -> Measured:
@@ -61,11 +66,16 @@ def newtonian(at: Snapshot, point: Point, T: np.ndarray) -> Measured:
     inner = at.height/2 - 3*RANGE
     if (point["variant"], point["eos"]) != ("printed", "ideal") or inner < 2*RANGE:
         return Measured(nan, nan)
-    x, v, eta = at.x[:at.n], at.v[:at.n], at.height/sqrt(point["ra"])
+    x, v = at.x[:at.n], at.v[:at.n]
+    eta = at.height/sqrt(point["ra"])
     real, simple = accelerations(x, v, T, eta, 2*at.height)
-    layer = np.digitize(x[:, 1], np.arange(-inner, inner + 1e-9, 2*RANGE))
-    layers = [layer == number for number in range(1, layer.max())]
-    return combine([(correlation(real[inside], simple[inside]), 0.0) for inside in layers])
+    edges = np.arange(-inner, inner + 1e-9, 2*RANGE)
+    layer = np.digitize(x[:, 1], edges)
+    samples = []
+    for number in range(1, layer.max()):
+        inside = layer == number
+        samples.append((correlation(real[inside], simple[inside]), 0.0))
+    return combine(samples)
 
 
 def accelerations(x: np.ndarray, v: np.ndarray, T: np.ndarray, eta: float,
@@ -75,30 +85,38 @@ def accelerations(x: np.ndarray, v: np.ndarray, T: np.ndarray, eta: float,
 
     Periodic in x, nothing beyond the plates: right from three ranges off them.
     """
-    n, low, tall = len(x), x[:, 1].min(), 10*np.ptp(x[:, 1]) + 10*RANGE
-    tree = cKDTree(np.stack([np.mod(x[:, 0], width), x[:, 1] - low], axis=1), boxsize=np.array([width, tall]))
-    near = tree.sparse_distance_matrix(tree, RANGE, output_type="ndarray")
-    i, j = near["i"], near["j"]
-    w, slope = lucy(near["v"])
+    n = len(x)
+    i, j, r = pairs_in_range(x, width)
+    w, slope = lucy(r)
+    rho = np.bincount(i, w, n)
     d = x[i] - x[j]
     d[:, 0] -= width*np.round(d[:, 0]/width)
-    grad = [csr_array((slope*d[:, axis], (i, j)), shape=(n, n)) for axis in (0, 1)]
-    rho = np.bincount(i, w, n)
-    root, whole = np.sqrt(rho)[:, None], np.stack([G@np.ones(n) for G in grad], axis=1)
+    grad = [csr_array((slope*q, (i, j)), shape=(n, n)) for q in d.T]
+    whole = np.stack([G@np.ones(n) for G in grad], axis=1)
+    root = np.sqrt(rho)[:, None]
     grad_v = np.stack([(G@(v/root) - v*(G@(1/root)))/root for G in grad], axis=1)
     stress = stress_tensor(eta, 0.0, grad_v)
     P = ((rho*T)[:, None, None]*np.eye(2) - stress)/rho[:, None, None]**2
-    force = np.einsum("iab,ib->ia", P, whole) + sum(G@P[:, :, axis] for axis, G in enumerate(grad))
+    own = np.einsum("iab,ib->ia", P, whole)
+    force = own + sum(G@P[:, :, axis] for axis, G in enumerate(grad))
     return -force, -2*whole
+
+
+def pairs_in_range(x: np.ndarray, width: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Numbers i, j of both particles and their distance, each pair twice; periodic in x alone."""
+    across, up = x.T
+    height = np.ptp(up)
+    inside = np.stack([np.mod(across, width), up - up.min()], axis=1)
+    box = np.array([width, 10*height + 10*RANGE])
+    tree = cKDTree(inside, boxsize=box)
+    near = tree.sparse_distance_matrix(tree, RANGE, output_type="ndarray")
+    return near["i"], near["j"], near["v"]
 
 
 def correlation(a: np.ndarray, b: np.ndarray) -> float:
     """Of two fields of vectors (n, 2) less their means: the mean upwards bears the weight of the fluid."""
     a, b = a - a.mean(axis=0), b - b.mean(axis=0)
     return float(np.sum(a*b)/sqrt(np.sum(a*a)*np.sum(b*b)))
-
-
-# --- mean fields ----------------------------------------------------------------------------------
 
 
 #: plate -> how rows of places are counted from it
@@ -122,14 +140,17 @@ def field_errors(tables: Tables, means: pd.DataFrame) -> Iterator[dict[str, Any]
         except NoRows:
             continue
         finest = cells[cells["resolution"] == cells["resolution"].max()]
-        if {*ours["rolls"]} == {*theirs["rolls"]} and len(run) == len(finest):
-            yield {**point, **with_errors(errors_of(tables, point, fields(run), fields(finest)))}
+        same_flow = {*ours["rolls"]} == {*theirs["rolls"]}
+        if same_flow and len(run) == len(finest):
+            errors = errors_of(tables, point, fields(run), fields(finest))
+            yield point | with_errors(errors)
 
 
 def fields(run: pd.DataFrame) -> Fields:
     """rho, T, vx, vy (rows, columns) on the places of Fig. 12; warm fluid rises at column 0."""
-    names = ("rho", "T", "vx", "vy")
-    return upright({name: run.pivot(index="y", columns="x", values=name).to_numpy(float) for name in names})
+    names = ["rho", "T", "vx", "vy"]
+    places = run.pivot(index="y", columns="x", values=names)
+    return upright({name: places[name].to_numpy(float) for name in names})
 
 
 def errors_of(tables: Tables, point: Point, ours: Fields, theirs: Fields) -> dict[str, Measured]:
@@ -143,9 +164,13 @@ def errors_of(tables: Tables, point: Point, ours: Fields, theirs: Fields) -> dic
         others = relative/2*from_rest(ours, names)
         return Measured(apart.value/size, hypot(apart.err, others)/size)
     at_plates = [error(["rho"], span["rho"], at) for at in (slice(1), slice(-1, None))]
-    return {"velocity": error(["vx", "vy"], speed), "T": error(["T"], span["T"]),
-            "rho": error(["rho"], span["rho"]), "rho_plates": worse(at_plates),
-            "rho_layer": layer_error(tables, point, theirs)}
+    return {
+        "velocity": error(["vx", "vy"], speed),
+        "T": error(["T"], span["T"]),
+        "rho": error(["rho"], span["rho"]),
+        "rho_plates": worse(at_plates),
+        "rho_layer": layer_error(tables, point, theirs),
+    }
 
 
 def worse(errors: Iterable[Measured]) -> Measured:
@@ -162,9 +187,12 @@ def difference(one: Fields, other: Fields, names: Sequence[str], at: slice = EVE
     """
     apart = {name: one[name] - other[name] for name in one}
     image = mirrored(apart)
-    even = [np.mean(((apart[name] + image[name])[at]/2)**2) for name in names]
-    odd = [np.mean(((apart[name] - image[name])[at]/2)**2) for name in names]
-    return Measured(sqrt(sum(even)), sqrt(sum(odd)))
+    even, odd = 0.0, 0.0
+    for name in names:
+        here, there = apart[name][at], image[name][at]
+        even += float(np.mean(((here + there)/2)**2))
+        odd += float(np.mean(((here - there)/2)**2))
+    return Measured(sqrt(even), sqrt(odd))
 
 
 def from_rest(at: Fields, names: Sequence[str]) -> float:
@@ -197,9 +225,11 @@ def layer_error(tables: Tables, point: Point, cells: Fields) -> Measured:
     """Largest |rho - rho_grid| within one spacing of a plate, horizontal mean, over the grid's range."""
     try:
         layers = rows(tables, "walls", **point)
-        beside = layers["plate"].map({plate: density_beside(cells, side) for plate, side in PLATES.items()})
-        apart = (layers["rho_layer"] - beside).groupby(layers["plate"])
-        largest = worse(abs(over_seeds(seeds)) for _, seeds in apart)
+        apart = []
+        for plate, seeds in layers.groupby("plate"):
+            beside = density_beside(cells, PLATES[str(plate)])
+            apart.append(abs(over_seeds(seeds["rho_layer"] - beside)))
+        largest = worse(apart)
     except CannotTell:
         return Measured(nan, nan)
     span = float(np.ptp(cells["rho"]))

@@ -71,8 +71,6 @@ ARITHMETIC = Table("arithmetic", key=["quantity"], columns=["quantity", "value",
 ALL = (KINETIC, MEANS, HISTORY, FIELDS, PARTICLES, WALLS, COST, SMOOTHED, ERRORS, SNAPSHOTS, FIELD_ERRORS,
        ARITHMETIC)
 
-# --- points ---------------------------------------------------------------------------------------
-
 STILL = 1e-6        # K of a grid whose onset lies a little higher: nothing flows, and rolls are of round-off
 #: Prandtl number nu/kappa, kappa = k/(rho C_V), that KHP95's eta = k means
 PRANDTL = {"ideal": 1.0, "vdw": 1.0, "dense": 1.5}

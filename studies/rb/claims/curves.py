@@ -20,9 +20,6 @@ ONE_STATE = {"periodic": 2, "walls": 1}     # rolls of the states that make a li
 CELLS = (24, 32, 48)                        # rows of the grids that have lines
 
 
-# --- K against time -------------------------------------------------------------------------------
-
-
 def history(question: Any, point: Point, energy: str = "ke_field", such: str = "") -> Value:
     """A question about K(t) of one run."""
     return question("history", energy, "t", such, need=SAMPLES, **point)
@@ -76,9 +73,6 @@ def approach(point: Point, beside: Point, energy: str) -> Value:
         return over_seeds(apart.groupby(runs["seed"]).max()/unit(tables).value)
     words = f"mean over seeds of largest |{energy}(t) - ke(t) of the grid| in history, over {unit}"
     return Value(answer, words, history(scatter, point, energy).asks)
-
-
-# --- K against Ra^-1/2 ----------------------------------------------------------------------------
 
 
 def line(question: Any, low: float = 1.0, height: float = np.inf, sides: str = "periodic", **where) -> Value:

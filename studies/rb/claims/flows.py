@@ -25,9 +25,6 @@ def guarded(value: Value, check: Callable[[Tables], object]) -> Value:
     return replace(value, answer=answer)
 
 
-# --- energies -------------------------------------------------------------------------------------
-
-
 def mean(point: Point, column: str = "ke") -> Value:
     """A column of `means`, refused where runs diverged or seeds ended in different flows."""
     return guarded(one("means", column, **point), lambda tables: one_flow(tables, point))
@@ -71,9 +68,6 @@ def over_runs(point: Point, energy: str = "ke_field") -> Value:
         runs = runs[runs["rolls"] == one_flow(tables, point)["rolls"]]
         return stats.combine(list(zip(runs[energy], runs[f"{energy}_err"], strict=True)))
     return Value(answer, str(asked).replace("one", "mean over runs of one flow", 1), asked.asks)
-
-
-# --- which flow -----------------------------------------------------------------------------------
 
 
 def diverged(tables: Tables, point: Point) -> np.ndarray:

@@ -45,9 +45,6 @@ def beside_first_order(tables: Tables) -> Measured:
     return abs(fit.intercept/limit(RA)(tables) - 1)
 
 
-# --- moving as printed ----------------------------------------------------------------------------
-
-
 def from_grid(variant: str, height: int) -> Value:
     """|K/K_grid - 1| of the mean over the seeds, whatever the flow that they ended in."""
     point = points(RA, variant, height)

@@ -1,4 +1,6 @@
-"""Kinetic energy against Ra^-1/2 and time: KHP95's Figs 5, 6, 8, and what the README's figure shares."""
+"""Kinetic energy: against Ra^-1/2 and time, KHP95's Figs 5, 6, 8; what changes of a scheme do to it."""
+from collections.abc import Iterable
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -6,7 +8,10 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.build.labels import ENERGY, ra_axis
+from studies.build.labels import ENERGY, label, ra_axis
+from studies.build.moving import MOTIONS
+from studies.build.rr98_moving import DRIFT_MOTIONS
+from studies.build.spam import VARIANTS
 from studies.kit.figure import below, figure
 from studies.kit.table import Tables, groups
 from studies.rb.looks import (
@@ -21,6 +26,8 @@ from studies.rb.looks import (
     OPEN,
     SPAM,
     cross_out,
+    diverged,
+    errors,
     finest,
     nearest,
     particles,
@@ -44,9 +51,12 @@ PANELS: tuple[Any, ...] = (
      ((ETA, LAYER, {}), (NU, LAYER | {"transport": "const-nu"}, SECOND))),
     ("van der Waals gas", ((ETA, LAYER | {"eos": "vdw"}, {}),)))
 STROKES = ("-", "--", ":")      # of seeds
-
-
-# --- series ---------------------------------------------------------------------------------------
+RA = 10000      # of what changes of a scheme do
+#: how much lower the next coarser resolution stands
+LOWER = 0.36
+#: errors up to here are drawn linearly, larger ones logarithmically  [%]
+LINEAR = 10
+TICKS = (-1000, -300, -100, -30, -10, -5, 0, 5, 10, 30, 100, 300, 1000)
 
 
 def smoothed_grid(axes: Axes, field: pd.DataFrame, limit: pd.DataFrame) -> None:
@@ -89,9 +99,6 @@ def finish(axes: Axes, note: str = "") -> None:
     axes.set_ylim(-0.02*top, top)
     ra_axis(axes)
     below(axes, ncols=2, title=f"bars: 95 % intervals{note}", title_fontsize=8)
-
-
-# --- figures --------------------------------------------------------------------------------------
 
 
 def fig5(tables: Tables) -> Figure | None:
@@ -167,3 +174,72 @@ def fig8(tables: Tables) -> Figure | None:
              xlabel=r"time  [$L^2/\nu$]; 1 is 5000 in KHP95's units", ylabel=ENERGY, ylim=(0, None))
     axes.legend(loc="upper right")
     return page
+
+
+def variants(tables: Tables) -> Figure | None:
+    """Errors of the kinetic energy of smooth particles, one line for each change of the printed scheme.
+    Filled marks have 50 rows of particles, open ones 25.
+    """
+    energies = {"Kp": ENERGIES["kp"][1], "Kg": ENERGIES["kg"][1]}
+    return changes(tables, "spam", VARIANTS, (50, 25), energies, "Which change of the printed scheme helps?")
+
+
+def moving_points(tables: Tables) -> Figure | None:
+    """Errors of the kinetic energy on points that move: the scheme, without each of its ingredients, and the
+    motions of RR98. Filled marks have 40 rows of points, open ones 25.
+    """
+    question = "Points that move: what do their ingredients do?"
+    return changes(tables, "dih", (*MOTIONS, *DRIFT_MOTIONS), (40, 25), {"Kp": "$K$"}, question)
+
+
+def changes(tables: Tables, method: str, order: Iterable[str], sizes: tuple[int, int],
+            kinds: dict[str, str], title: str) -> Figure | None:
+    """Errors of those variants that were run with as many rows; none if there is nothing to compare."""
+    scene = LAYER | {"method": method, "ra": RA}
+    frame, gone = (frame[frame["resolution"].isin(sizes) & frame["variant"].isin([*order])]
+                   for frame in (errors(tables, **scene), diverged(tables, **scene)))
+    there = {*frame["variant"], *gone["variant"]}
+    names = [name for name in order if name in there]
+    at: dict[Any, int] = {name: number for number, name in enumerate(names)}
+    if len(names) < 2 or frame.empty:
+        return None
+    page, axes = figure(width=8.4, height=1.8 + 0.3*len(names))
+    axes.axvline(0, color="black", marker="", ls="-", lw=1, zorder=0)
+    for (lower, size), energy in product(zip((0, LOWER), sizes), kinds):
+        series = frame[(frame["resolution"] == size) & (frame["energy"] == energy)]
+        y = series["variant"].map(at) + lower
+        dots(axes, series, y, kinds[energy], KIND[energy.lower()])
+    for row in gone.itertuples():
+        say_diverged(axes, row, at[row.variant] + LOWER*sizes.index(row.resolution))
+    axes.set_yticks(range(len(names)), labels=[label(method, name) for name in names], fontsize=8)
+    axes.set(ylabel="variant", ylim=(len(names) - 0.4, -0.6), title=f"{title}  Ra = {RA}",
+             xlabel=f"error of $K$ against the grid  [%], linear to {LINEAR} %, logarithmic beyond")
+    symlog(axes, frame["error"])
+    page.legend(loc="outside lower center", ncols=3, title_fontsize=8,
+                title=f"filled: {sizes[0]} rows, open: {sizes[1]}; bars: 95 % intervals")
+    return page
+
+
+def dots(axes: Axes, series: pd.DataFrame, y: pd.Series, words: str, style: dict) -> None:
+    """The error [%] of each variant on its line; those below a line are open."""
+    if series.empty:
+        return
+    error, lower = 100*series["error"], bool((y % 1).any())
+    axes.errorbar(error, y, xerr=100*series["error_err"], label="" if lower else words,
+                  **style | MARKS | (OPEN if lower else {}))
+    cross_out(axes, error, y, series["steady"])
+
+
+def say_diverged(axes: Axes, row: Any, height: float) -> None:
+    """In place of a point, or beside one that other seeds have left, that runs diverged."""
+    seeds = "" if row.lost == row.seeds else f"{row.lost} of {row.seeds} seeds "
+    words = f"{row.resolution:.0f} rows: {seeds}diverged"
+    axes.annotate(words, (0.99, height), xycoords=("axes fraction", "data"), ha="right", va="center",
+                  fontsize=7)
+
+
+def symlog(axes: Axes, error: pd.Series) -> None:
+    """Ticks of errors with their sign, in the range that there is."""
+    axes.set_xscale("symlog", linthresh=LINEAR)
+    ticks = [tick for tick in TICKS if abs(tick) <= max(LINEAR, 100*np.abs(error).max())]
+    axes.set_xticks(ticks, labels=[f"{tick:g}" for tick in ticks])

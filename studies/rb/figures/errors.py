@@ -131,9 +131,6 @@ def smoothing(axes: Axes, grid: pd.DataFrame) -> None:
                   label=r"$1 - K_\mathrm{smoothed}/K$: the smoothing alone")
 
 
-# --- one panel ------------------------------------------------------------------------------------
-
-
 def over_rows(axes: Axes, chosen: pd.DataFrame, keys: dict[Key, Style],
               gone: pd.DataFrame | None = None) -> None:
     """Errors of each series with its power law; at which rows runs diverged is said in the legend."""

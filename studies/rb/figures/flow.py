@@ -28,9 +28,6 @@ def run_of(tables: Tables, name: str, **wanted: Any) -> pd.DataFrame:
     return run[run["seed"] == run["seed"].min()]
 
 
-# --- particles ------------------------------------------------------------------------------------
-
-
 def fig2_3(tables: Tables) -> Figure | None:
     """Particles in convection, one instant. Arrows are velocities, circles what stands behind the plates."""
     runs = {title: run_of(tables, "particles", **SPAM | LAYER | {"variant": name}) for name, title in BEHIND}
@@ -137,9 +134,6 @@ def smoothed(run: pd.DataFrame) -> pd.DataFrame:
     w.data = (1 + 3*q)*(1 - q)**3
     ones = w.sum(axis=1).A1
     return pd.DataFrame({"x": x, "y": y, **{name: w@run[name].to_numpy(float)/ones for name in ("vx", "vy")}})
-
-
-# --- fields ---------------------------------------------------------------------------------------
 
 
 def fig9(tables: Tables) -> Figure | None:

@@ -53,9 +53,6 @@ def row(name: str, one: Measured) -> dict[str, Any]:
     return {"quantity": name, "value": float(one.value), "err": float(one.err)}
 
 
-# --- printed numbers ------------------------------------------------------------------------------
-
-
 def density_of(figure: int) -> float:
     """Particles per area of a figure's box."""
     return number(f"fig{figure}-particles")/(number(f"fig{figure}-height")*number(f"fig{figure}-width"))
@@ -125,9 +122,6 @@ def printed_numbers() -> Numbers:
         "5000 eta/L^2": number("fig9-time")*0.5/50**2,
         "rows of 1800 points in a box 1 x 2": sqrt(number("fig12-points")/2),
     }
-
-
-# --- equations of state ---------------------------------------------------------------------------
 
 
 def at_reference(eos: Any) -> tuple[float, float]:
@@ -200,9 +194,6 @@ def equations_of_state() -> Numbers:
         "2 P/(rho c^2), vdw over dense": stiffness(VDW)/stiffness(DENSE),
         "P/(rho c^2), dense": stiffness(DENSE)/2,
     }
-
-
-# --- weights and a few particles ------------------------------------------------------------------
 
 
 def weights() -> Numbers:

@@ -32,8 +32,10 @@ def lucy(r: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def start(seed: int = 1, columns: int = 6) -> np.ndarray:
     """A jittered lattice with random velocities, e about 1."""
-    rng, n = np.random.default_rng(seed), columns**2
-    at = (np.indices((columns, columns)).reshape(2, n) + 0.5)*SIDE/columns - SIDE/2
+    rng = np.random.default_rng(seed)
+    n = columns**2
+    sites = np.indices((columns, columns)).reshape(2, n)
+    at = (sites + 0.5)*SIDE/columns - SIDE/2
     x = at + rng.uniform(-0.2, 0.2, (2, n))
     v = 0.3*rng.standard_normal((2, n))
     e = 1 + 0.1*rng.standard_normal((1, n))
@@ -49,7 +51,8 @@ def separations(state: np.ndarray) -> np.ndarray:
 
 def densities(state: np.ndarray) -> np.ndarray:
     """rho_i = sum_j m w_ij"""
-    return lucy(np.linalg.norm(separations(state), axis=2))[0].sum(axis=1)
+    r = np.linalg.norm(separations(state), axis=2)
+    return lucy(r)[0].sum(axis=1)
 
 
 def ideal(rho: np.ndarray, e: np.ndarray) -> np.ndarray:
@@ -64,10 +67,13 @@ def quadratic(rho: np.ndarray, e: np.ndarray) -> np.ndarray:
 
 def rates(state: np.ndarray, pressure: Pressure = ideal, eta: float = 0.0) -> np.ndarray:
     """d/dt of the state: density; gradients of v and T; divergences of P and Q, eta = k, T = e."""
-    d, v, e = separations(state), state[2:4].T, state[4]
+    d = separations(state)
+    v, e = state[2:4].T, state[4]
     w, slope = lucy(np.linalg.norm(d, axis=2))
-    grad, rho = slope[:, :, None]*d, w.sum(axis=1)
-    dv, dT = v[None] - v[:, None], e[None] - e[:, None]
+    rho = w.sum(axis=1)
+    grad = slope[:, :, None]*d
+    dv = v[None] - v[:, None]
+    dT = e[None] - e[:, None]
     mean = np.sqrt(rho[:, None]*rho)
     square = rho[:, None, None]**2
     grad_v = np.einsum("ija,ijb->iab", grad, dv/mean[:, :, None])
@@ -99,9 +105,6 @@ def march_midpoint(state: np.ndarray, dt: float, steps: int, **law) -> np.ndarra
     return state
 
 
-# --- particles as molecules, conservation ---------------------------------------------------------
-
-
 def not_molecular(step: float = 1e-5) -> float:
     """Largest difference of SPAM accelerations, P = rho^2, from -grad of sum 2 w(r), relative."""
     state = start()
@@ -109,15 +112,18 @@ def not_molecular(step: float = 1e-5) -> float:
     slopes = np.zeros_like(force)
     for at in np.ndindex(force.shape):
         there, back = state.copy(), state.copy()
-        there[at], back[at] = there[at] + step, back[at] - step
+        there[at] += step
+        back[at] -= step
         slopes[at] = (densities(there).sum() - densities(back).sum())/(2*step)
-    return float(np.abs(force + slopes).max()/np.abs(force).max())
+    difference = np.abs(force + slopes).max()
+    return float(difference/np.abs(force).max())
 
 
 def momentum_left() -> float:
     """Sum of m dv/dt over the sum of moduli, with viscosity and conduction."""
     terms = rates(start(), eta=0.3)[2:4]
-    return float(np.abs(terms.sum(axis=1)).max()/np.abs(terms).sum())
+    left = np.abs(terms.sum(axis=1)).max()
+    return float(left/np.abs(terms).sum())
 
 
 def energy_left() -> float:
@@ -130,14 +136,15 @@ def energy_left() -> float:
 
 def energy_drift() -> float:
     """Change of kinetic energy and sum of w over kinetic energy, after t = 4.8 with dt = 0.075; P = rho^2."""
-    first = start()
-    last = end(1, 64, pressure=quadratic)
-    kinetic = [float((state[2:4]**2).sum()/2) for state in (first, last)]
-    before, after = (K + densities(state).sum() for K, state in zip(kinetic, (first, last), strict=True))
-    return float(abs(after - before)/kinetic[0])
+    first, last = start(), end(1, 64, pressure=quadratic)
+    before = kinetic(first) + densities(first).sum()
+    after = kinetic(last) + densities(last).sum()
+    return float(abs(after - before)/kinetic(first))
 
 
-# --- orders in time -------------------------------------------------------------------------------
+def kinetic(state: np.ndarray) -> float:
+    """Kinetic energy."""
+    return float((state[2:4]**2).sum()/2)
 
 
 @cache
@@ -150,8 +157,10 @@ def order(error: Errors, steps: tuple[int, ...], **law) -> Measured:
     """Slope of log error against log dt, mean over starts; `error` gets the start and all ends."""
     orders = []
     for seed in SEEDS:
-        errors = error(start(seed), [end(seed, n, **law) for n in steps])
-        slope, _ = np.polyfit(np.log(steps[:len(errors)]), np.log(errors), 1)
+        ends = [end(seed, n, **law) for n in steps]
+        errors = error(start(seed), ends)
+        log_steps = np.log(steps[:len(errors)])
+        slope, _ = np.polyfit(log_steps, np.log(errors), 1)
         orders.append(-slope)
     return stats.over_seeds(orders)
 
@@ -160,7 +169,8 @@ def against_midpoint() -> Measured:
     """Error of Runge-Kutta of order 4, dt = 0.4, over that of order 2 with as many evaluations."""
     ratios = []
     for seed in SEEDS:
-        true, fourth = end(seed, SMALL[-1], eta=0.3), end(seed, AS_RUN, eta=0.3)
+        true = end(seed, SMALL[-1], eta=0.3)
+        fourth = end(seed, AS_RUN, eta=0.3)
         second = march_midpoint(start(seed), TIME/(2*AS_RUN), 2*AS_RUN, eta=0.3)
         ratios.append(distance(fourth, true)/distance(second, true))
     return stats.over_seeds(ratios)
@@ -174,8 +184,12 @@ def distance(one: np.ndarray, other: np.ndarray) -> float:
 def return_errors(first: np.ndarray, ends: Sequence[np.ndarray]) -> list[float]:
     """Distance from the start after as many steps with all velocities turned; P = rho^2."""
     turn = np.array([1, 1, -1, -1, 1])[:, None]
-    back = [march(end*turn, TIME/n, n, pressure=quadratic) for end, n in zip(ends, STEPS, strict=False)]
-    return [float(np.abs(b[:2] - first[:2]).max()) for b in back]
+    distances = []
+    for last, n in zip(ends, STEPS, strict=False):
+        back = march(last*turn, TIME/n, n, pressure=quadratic)
+        apart = np.abs(back[:2] - first[:2])
+        distances.append(float(apart.max()))
+    return distances
 
 
 def step_errors(first: np.ndarray, ends: Sequence[np.ndarray]) -> list[float]:

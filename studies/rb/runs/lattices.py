@@ -51,9 +51,6 @@ MONAGHAN = Printed(((1.5, 40/(63*np.pi)*(1 - 2/3*R**2 + 2/9*R**3)), (3.0, 80/(63
 BOTH = (LUCY, MONAGHAN)
 
 
-# --- sums over lattices ---------------------------------------------------------------------------
-
-
 def lattice(kind: str, per_site: float = 1.0, reach: float = 12.0) -> np.ndarray:
     """(2, sites): a lattice of density 1 with so many particles a site, one site at the origin."""
     axes = AXES[kind]
