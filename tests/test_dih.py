@@ -47,8 +47,8 @@ def test_mass_momentum_and_energy_are_conserved(maker, d, transport):
     assert np.all(np.abs(lost) < 1e-13*size)
 
 
-@pytest.mark.parametrize(("transport", "law"), [("nested", ConstNu(0.2, 0.3)), ("unmended", ConstNu(0.2, 0.3)),
-                                                ("pairwise", ConstNu(0.2, 0.3))])
+@pytest.mark.parametrize(("transport", "law"), [
+    ("nested", ConstNu(0.2, 0.3)), ("unmended", ConstNu(0.2, 0.3)), ("pairwise", ConstNu(0.2, 0.3))])
 @pytest.mark.parametrize("maker", ["closed", "exact", "delaunay"])
 def test_a_uniform_wind_changes_nothing_but_what_it_carries(maker, transport, law):
     """Galilean invariance: in a wind U all rates are those at rest, transformed, and -U.grad of the state."""

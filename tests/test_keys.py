@@ -106,6 +106,21 @@ def test_a_line_in_the_fluxes_changes_the_keys_of_spam_and_not_of_grids(cases, c
     assert {type(case).__name__ for case in cases if reached(case, "particles.terms", "Fluxes")} == names
 
 
+def test_friction_along_edges_is_reached_by_points_and_not_by_smooth_particles(cases):
+    """Each term of the exchange is registered by itself: none is reached with another."""
+    friction = "particles.integral.exchange", "Friction"
+    names = {type(case).__name__ for case in cases if reached(case, *friction)}
+    assert {"VortexDecay", "LayerDrift"} <= names and not names & {"SpamRun", "SpamGrowth", "CompressibleSteady"}
+
+
+def test_a_new_variant_adds_cases_and_leaves_those_there_are(monkeypatch):
+    from studies.build.spam import VARIANTS, Variant
+    from studies.rb import STUDY
+    before = {case.key for case in STUDY.cases("fine")}
+    monkeypatch.setitem(VARIANTS, "new", Variant("new", h=7.0))
+    assert before < {case.key for case in STUDY.cases("fine")}
+
+
 # --- in a small one -------------------------------------------------------------------------------
 
 FILES = {

@@ -40,8 +40,8 @@ def shaken(method, seed=0, speed=0.2):
     rng = np.random.default_rng(seed)
     x = jittered((method.box[0], ROWS), 0.25, seed).x
     x[:, 1] = np.clip(x[:, 1], -ROWS/2 + 0.2, ROWS/2 - 0.2)
-    state = method.state(x, rng.normal(0, speed, x.shape), rng.uniform(0.9, 1.1, len(x)),
-                         rng.uniform(0.9, 1.1, len(x)))
+    v = rng.normal(0, speed, x.shape)
+    state = method.state(x, rng.uniform(0.9, 1.1, len(x)), v, rng.uniform(0.9, 1.1, len(x)))
     state[6:9] *= (stretch := rng.uniform(0.9, 1.1, len(x)))
     state[4:6] *= stretch
     return state
@@ -115,7 +115,7 @@ def test_a_uniform_stream_at_rest_in_itself_goes_on():
     method = fluid("periodic")
     x = shaken(method)[:2].T
     ones = np.ones(len(x))
-    state = method.state(x, ones[:, None]*np.array([0.3, -0.2]), 1.0, ones)
+    state = method.state(x, 1.0, ones[:, None]*np.array([0.3, -0.2]), ones)
     (px, py, m, V, E), _, _ = rates(method, state)
     for rate, value in ((px, 0.3), (py, -0.2), (m, 1.0), (E, 1 + 0.5*0.13)):
         assert np.abs(rate - value*V).max() < 1e-11

@@ -80,8 +80,8 @@ class Moving:
     def __post_init__(self):
         check_unit(self.weight)
 
-    def state(self, x: np.ndarray, v: np.ndarray, rho: Any, T: np.ndarray) -> np.ndarray:
-        """(15, n) of places (n, 2), velocities (n, 2), densities, temperatures (n,); equal volumes."""
+    def state(self, x: np.ndarray, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
+        """(15, n) of places (n, 2), densities, velocities (n, 2), temperatures (n,); equal volumes."""
         V = np.full(len(x), self.box[0]*self.box[1]/len(x))
         m, e = rho*V, energy(self.eos, rho, T)
         exchanged = [*(m[:, None]*v).T, m, V, m*(e + (v**2).sum(axis=1)/2)]

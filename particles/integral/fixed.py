@@ -106,6 +106,9 @@ class Summing:
         """d(state)/dt, written to `out`."""
         raise NotImplementedError
 
+    def look_at(self, state: np.ndarray) -> None:
+        """What series of a run read of a state besides the state itself; nothing by default."""
+
     def resume(self, now: Any) -> None:
         """Fixed points have no lists to make again."""
 

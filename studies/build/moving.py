@@ -24,8 +24,7 @@ class FacesMotion(NamedTuple):
         """The method in a scene; from places x (n, 2) and fields (rho, v, T) there, if given."""
         fluid = method(scene, self)
         x = shaken(scene, seed) if x is None else x
-        rho, v, T = fields or scene.fields(x)
-        return stepped(fluid, fluid.state(x, v, rho, T), self.of_limit)
+        return stepped(fluid, fluid.state(x, *(fields or scene.fields(x))), self.of_limit)
 
     @property
     def series(self) -> dict[str, Any]:

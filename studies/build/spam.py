@@ -154,9 +154,6 @@ def scattered(scene: Any, seed: int) -> np.ndarray:
     return np.stack([x.ravel() + shift[0], y.ravel() + shift[1]]).T
 
 
-# --- periodic boxes -------------------------------------------------------------------------------
-
-
 def fluid(weight: Any, box: tuple[float, float], eos: Any = IdealGas(), law: Any = FRICTIONLESS,  # noqa: B008
           **more: Any) -> Spam:
     """As printed, in a box that is periodic along both axes    [KHP95, Sec. II]"""

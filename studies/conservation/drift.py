@@ -150,8 +150,7 @@ class MovingDrift(WatchedRun):
                       walls=(*inside, *periodic(SIDE)), ingredients=self.ingredients)
 
     def start(self, method: Moving, points: Points) -> np.ndarray:
-        rho, v, T = random_fields(points, PAIRWISE.size, self.seed, self.wall.plates)
-        return method.state(points.x, v, rho, T)
+        return method.state(points.x, *random_fields(points, PAIRWISE.size, self.seed, self.wall.plates))
 
     def totals(self, method: Moving, state: np.ndarray) -> np.ndarray:
         """Mass, momentum (between plates along them only), energy, volume."""

@@ -105,9 +105,6 @@ ERRORS = (
 )
 
 
-# --- terms --------------------------------------------------------------------------------------------------
-
-
 def saved(ratio: str, base: str, left_out: str) -> Value:
     """What is left without a term over the whole; no number where times scatter as much as they last."""
     return one("scenes", ratio, f"{ratio} > 0", scene="taylor-green", base=base, left_out=left_out)

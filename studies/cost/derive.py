@@ -148,9 +148,6 @@ def growth_law(method: str, what: str, group: pd.DataFrame, law: Measured) -> di
             **with_err(value=law)}
 
 
-# --- what leaving out saves ---------------------------------------------------------------------------------
-
-
 def terms(tables: Tables) -> dict[str, Rows]:
     """Ratios to the whole of each base; a base whose whole is not there has none."""
     if "measured" not in tables:

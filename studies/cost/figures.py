@@ -137,9 +137,6 @@ def legend(page: Figure, all_axes: np.ndarray) -> None:
     page.legend(lines, order, loc="outside lower center", ncols=4, handlelength=4)
 
 
-# --- what leaving out saves ---------------------------------------------------------------------------------
-
-
 def scenes(rows: pd.DataFrame) -> Figure:
     """What is left of seconds and bytes without a term, over the whole; the error that this makes."""
     rows = rows.query("left_out != 'nothing'").sort_values(["scene", "base", "left_out"], ascending=False)

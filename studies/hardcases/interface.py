@@ -25,7 +25,7 @@ from studies.hardcases.tubes import jittered, within
 from studies.kit.case import Case, Outcome, Report
 
 GAMMA, MACH = 2.0, 1.5
-LIGHT, HEAVY = GasState(0.4, 0.0, 0.4), GasState(1.6, 0.0, 0.4)       # mean density of about 1, light gas at T = 1
+LIGHT, HEAVY = GasState(0.4, 0.0, 0.4), GasState(1.6, 0.0, 0.4)     # mean density about 1, light gas at T = 1
 WIDTH, HEIGHT, BELOW = 30.0, 100.0, 60.0                    # of them the lowest 60 are light
 JITTER = 0.2        # of rows and columns
 STRIPS = 16         # in which the interface is looked for

@@ -139,9 +139,6 @@ def spread(x: np.ndarray, err: np.ndarray) -> Measured:
     return at(int(np.argmax(x)), x, err)/at(int(np.argmin(x)), x, err)
 
 
-# --- curves -------------------------------------------------------------------------------------
-
-
 def curve(fit: Curve) -> Callable[..., Value]:
     """A question from a fit of y to x, both formulas; rows sorted by x, three at least."""
     def ask(table: str, y: str, x: str, such: str = "", *, err: str = "0", need: int = 3,

@@ -132,9 +132,6 @@ def write_atomic(path: Path, text: str) -> None:
         part.unlink(missing_ok=True)
 
 
-# --- where a number comes from --------------------------------------------------------------------
-
-
 @cache
 def commit() -> str:
     """Commit of the code, with ``-dirty`` when the packages hold changes that it lacks."""

@@ -95,9 +95,6 @@ def compact(page: Figure) -> bytes:
     return small.getvalue()
 
 
-# --- of a study -----------------------------------------------------------------------------------
-
-
 class Drawing(NamedTuple):
     """A figure that needs rows of all its tables. draw : takes their frames; its docstring is the caption."""
     name: str

@@ -55,7 +55,8 @@ def old_keys(commit: str) -> list[tuple[str, Any, str]]:
             files.extractall(folder, filter="data")
         kit = Path(folder)/"studies/kit"
         former = "source" if (kit/"source.py").exists() else "key"
-        (kit/"rekey.py").write_text(Path(__file__).read_text().replace("studies.kit.key ", f"studies.kit.{former} "))
+        mine = Path(__file__).read_text().replace("studies.kit.key ", f"studies.kit.{former} ")
+        (kit/"rekey.py").write_text(mine)
         done = subprocess.run([sys.executable, "-c", ASK], cwd=folder, check=True, stdout=subprocess.PIPE,
                               env=os.environ | {"PYTHONPATH": folder})
     return [tuple(json.loads(line)) for line in done.stdout.splitlines()]

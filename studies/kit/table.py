@@ -39,7 +39,7 @@ class Table:
 
     @classmethod
     def of(cls, name: str, key: str, values: str) -> "Table":
-        """A table from the names of its columns with spaces between them: those of the key, and the others."""
+        """A table from names of columns with spaces between them: those of the key, and the others."""
         return cls(name, key=key.split(), columns=[*key.split(), *values.split()])
 
     def __post_init__(self):

@@ -100,8 +100,6 @@ def of(function: Callable[[Tables], Measured]) -> Value:
     return Value(function, text.strip().splitlines()[0])
 
 
-# --- several questions in one -----------------------------------------------------------------
-
 Choice = Callable[[Sequence[Measured]], Measured]
 
 

@@ -97,8 +97,6 @@ def ringing() -> Iterator[Case]:
     yield from KEPT
 
 
-# --- tables ---------------------------------------------------------------------------------------
-
 CRYSTAL = ["lattice", "weight", "h", "eos", "T", "rho"]
 RATES = ["predicted", "measured", "measured_err"]
 #: rate of the fastest growing motion: by lattice sums, and measured

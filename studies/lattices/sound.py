@@ -59,9 +59,6 @@ class Speed(Case):
         return Outcome({"sound_speeds": [row]})
 
 
-# --- what grows beside it -------------------------------------------------------------------------
-
-
 @dataclass(frozen=True, kw_only=True)
 class Ringing(Case):
     """A wave of a length in spacings, and what grows beside it.

@@ -89,9 +89,6 @@ def layer_noise(fluid: Layer, T: np.ndarray) -> sparse.csr_array:
     return noise(edges.V, momenta.Q + both, energies.Q + heat)
 
 
-# --- sampled ----------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True, kw_only=True)
 class LayerSampled(Case):
     """The same waves, 1 - Ra/Ra_c = `below`: sampled velocities, and the slowest mode."""

@@ -90,9 +90,6 @@ def of_waves(rows: pd.DataFrame, titles: dict[str, list[str]], what: str) -> Fig
     return page
 
 
-# --- dissipative particles --------------------------------------------------------------------
-
-
 def temperature(states: pd.DataFrame) -> Figure:
     """Error of kT of dissipative particles over the step: of velocities (left) and of positions (right).
 

@@ -148,9 +148,6 @@ def check_modes(F: np.ndarray, C: np.ndarray, B: Any, names: list[Name]) -> None
                          "edges")
 
 
-# --- waves in time ----------------------------------------------------------------------------
-
-
 @dataclass(frozen=True, kw_only=True)
 class Brillouin(Case):
     """The peak of the dynamic structure factor on a line: sampled waves against the symbols of the lattice.

@@ -158,9 +158,9 @@ def other_partner() -> float:
     edges = delaunay(random((8, 8), 0.5, 1), None)
     edges = replace(edges, k=np.maximum(edges.k, 1e-3))     # any positive number: A makes it up
     V, S2 = fluctuating.ends(edges, edges.V), (edges.S**2).sum(axis=1)
-    A, kT = 0.3*S2/(2*V)/edges.k, np.ones(len(S2))          # 2D: S S (1 - 2/d) vanishes, B = 0
+    B, kT = 0.3*S2/(2*V)/edges.k, np.ones(len(S2))          # 2D: S S (1 - 2/d) vanishes, A = 0
     pair = fluctuating.printed_stress(edges, 0.3, 0.0, 1.0, doubled=False, trace=1.0)
-    return mismatch(Partners(fluctuating.between(edges, A, 0*A, kT).Gamma, pair.B), 2.0)
+    return mismatch(Partners(fluctuating.between(edges, 0*B, B, kT).Gamma, pair.B), 2.0)
 
 
 def half_spacing() -> float:

@@ -108,9 +108,6 @@ def form(M: Any, wave: np.ndarray) -> float:
     return float((wave.conj()@(M@wave)).real)
 
 
-# --- steps ------------------------------------------------------------------------------------
-
-
 def line_symbols(k: float) -> tuple[float, float]:
     """(slope, Laplacian) that a line of unit spacing makes of k and k^2 with h = 2, pairwise."""
     r, size, w = lattice_weights(2.0, 1)

@@ -105,9 +105,6 @@ class Continuum(Case):
         return Outcome({"continuum": rows})
 
 
-# --- single numbers -----------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True, kw_only=True)
 class Arithmetic(Case):
     """Single numbers without parameters. numbers : makes them, by name."""

@@ -21,7 +21,8 @@ from studies.build.fixed import SCHEMES, fluid
 from studies.kit.case import Case, Outcome, Report
 from studies.operators.equations import rates
 
-TRANSPORT = {"nested": NestedFluxes(), "printed": NestedFluxes(differences=False), "pairwise": Pairwise(mended=False)}
+TRANSPORT = {"nested": NestedFluxes(), "printed": NestedFluxes(differences=False),
+             "pairwise": Pairwise(mended=False)}
 VISCOSITIES = (0.0, 0.1)    # rho c a
 C2 = 2.0                    # gamma P/rho of the ideal gas at rho = T = 1
 NULL = 1e-6                 # rates that small belong to waves that the operators do not see

@@ -76,9 +76,6 @@ def of_brackets(rows: pd.DataFrame) -> dict[str, Rows]:
     return {"bracket_means": means, "bracket_slopes": list(orders)}
 
 
-# --- flows: runs in one form, with flow, resolution, error with its sign, exchanges -------------------------
-
-
 def of_flows(tables: Tables) -> dict[str, Rows]:
     """Of vortices and convection."""
     known = reference()

@@ -10,7 +10,7 @@ from typing import Any
 
 from continuum.fluid import ConstNu, DenseFluid, VanDerWaals
 from continuum.scene import Periodic, RayleighBenard, Walls
-from particles.weights import Lucy
+from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
 from studies.build.fixed import SCHEMES
 from studies.build.grid import FORMS
 from studies.build.measure import Smoothing
@@ -44,6 +44,10 @@ KEPT = {1e4: "all", 5e3: "fields", 2.5e3: "fields"}
 RA = (1500.0, 2500.0, 5000.0, 10000.0, 20000.0)  # of the particles
 LINE = (1500.0, 1750.0, 2000.0, 2500.0, 3000.0, 3500.0, 4200.0, 5000.0, 6000.0, 6830.0, 10000.0, 20000.0,
         50000.0)  # of the grids
+#: weights and ranges through which the grid's flow is seen, too: what Kg of another one is compared with once
+#: it is listed here, which runs these grids again
+SEEN: tuple[tuple[type, float], ...] = (
+    (Lucy, 4.0), (Lucy, 6.0), (Monaghan, 3.0), (WendlandC2, 3.0), (WendlandC4, 3.0), (WendlandC6, 3.0))
 
 
 def spam(ra: float, rows: int, seeds=SEEDS, variant: Variant = PRINTED, keep="", t_end=90.0, mean_from=40.0,
@@ -69,8 +73,7 @@ def seen_by(scene: RayleighBenard) -> tuple[Smoothing, ...]:
     if isinstance(scene.sides, Walls):
         return tuple(Smoothing(Lucy, 3.0, rows) for rows in (20, 28, 40))
     lucy = [Smoothing(Lucy, 3.0, rows) for rows in (16, 25, 35, 50, 70, 100)]
-    kinds = {(variant.weight, variant.h) for variant in VARIANTS.values()} - {(Lucy, 3.0)}
-    others = [Smoothing(*kind, rows) for kind in sorted(kinds, key=str) for rows in (16, 25, 50)]
+    others = [Smoothing(weight, h, rows) for weight, h in SEEN for rows in (16, 25, 50)]
     return (*lucy, *others) if scene.ra in (3e3, 5e3, 1e4) else tuple(lucy)
 
 

@@ -180,7 +180,7 @@ def family(method: str) -> str:
 
 
 def label(about: dict) -> str:
-    """Words for a series: those that all studies use where there are some; only smooth particles have several energies."""
+    """Words for a line: the label where there is one; only smooth particles have several energies."""
     named = labels.label(about["method"], about.get("variant", ""))
     if named and about["method"] != "spam":
         return named
@@ -205,9 +205,6 @@ def point(row: dict) -> Point:
 def finite(value: float) -> float:
     """The number, nothing for none."""
     return value if math.isfinite(value) else 0.0
-
-
-# --- what a level of error costs ---------------------------------------------------------------------
 
 
 def needed_of(folder: Folder) -> Sheet | None:
