@@ -9,8 +9,8 @@ from continuum.boussinesq import (
     HALF_LAYER,
     LAYER,
     SQUARE,
+    BoussinesqCase,
     Box,
-    Case,
     State,
 )
 
@@ -23,7 +23,7 @@ every_box = pytest.mark.parametrize("box", BOXES.values(), ids=BOXES)
 every_closed_box = pytest.mark.parametrize("box", CLOSED.values(), ids=CLOSED)
 
 
-def random_state(case: Case) -> State:
+def random_state(case: BoussinesqCase) -> State:
     """Noise without divergence, of size 1."""
     mac, rng = case.mac, np.random.default_rng(7)
     psi = rng.standard_normal(mac.curl.shape[1])*mac.x.h

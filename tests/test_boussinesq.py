@@ -8,9 +8,9 @@ from continuum.boussinesq import (
     HALF_LAYER,
     LAYER,
     SQUARE,
+    BoussinesqCase,
     Box,
     BoxEdges,
-    Case,
     End,
     NewtonFailed,
     State,
@@ -28,7 +28,7 @@ from continuum.boussinesq.projection import Projection
 
 @every_box
 def test_advection_makes_neither_kinetic_energy_nor_temperature_variance(box):
-    case = Case(ra=1e4, pr=2, box=box, rows=16)
+    case = BoussinesqCase(ra=1e4, pr=2, box=box, rows=16)
     mac, state = case.mac, random_state(case)
     assert np.max(np.abs(mac.div@state.q[:mac.ends[1]])) < 1e-12        # round-off of differences over h
     for change in mac.split(state.q*(mac.D@((mac.A@state.q)*(mac.B@state.q)))):
@@ -39,7 +39,7 @@ def test_advection_makes_neither_kinetic_energy_nor_temperature_variance(box):
 @every_box
 @pytest.mark.parametrize("unknown", range(4), ids=["u", "v", "T", "p"])
 def test_fast_solves_invert_the_assembled_operators(box, unknown):
-    case = Case(ra=1e4, pr=2, box=box, rows=12, columns=20)
+    case = BoussinesqCase(ra=1e4, pr=2, box=box, rows=12, columns=20)
     mac, rng = case.mac, np.random.default_rng(3)
     shape = [*mac.shapes, mac.shapes[2]][unknown]
     if unknown < 3:
@@ -56,7 +56,7 @@ def test_fast_solves_invert_the_assembled_operators(box, unknown):
 @pytest.mark.parametrize("pr", [0.3, 7.0])
 @pytest.mark.parametrize("box", [HALF_LAYER, FREE_HALF, SQUARE], ids=["half layer", "free plates", "square"])
 def test_five_ways_to_the_nusselt_number_agree_exactly(box, pr):
-    seen = steady(Case(ra=8000, pr=pr, box=box, rows=16)).observe()
+    seen = steady(BoussinesqCase(ra=8000, pr=pr, box=box, rows=16)).observe()
     assert seen.nu_bottom > 1.5
     others = [seen.nu_top, seen.nu_convective, seen.nu_thermal, seen.nu_kinetic, seen.wall_power]
     assert others == pytest.approx([seen.nu_bottom]*5, rel=1e-10)       # what Newton's last step leaves
@@ -64,7 +64,7 @@ def test_five_ways_to_the_nusselt_number_agree_exactly(box, pr):
 
 @every_closed_box
 def test_heat_and_work_balance_in_every_box(box):
-    seen = steady(Case(ra=3e4, pr=0.71, box=box, rows=16)).observe()
+    seen = steady(BoussinesqCase(ra=3e4, pr=0.71, box=box, rows=16)).observe()
     assert seen.nu_thermal == pytest.approx(seen.wall_power, rel=1e-10)     # what Newton's last step leaves
     assert seen.nu_kinetic == pytest.approx(seen.nu_convective, rel=1e-10)
 
@@ -73,7 +73,7 @@ def test_rates_of_change_are_those_of_the_equations_to_second_order():
     """psi = sin(pi x) sin(pi y)^2, T = cos(pi x) sin(pi y)^2 + 1/2 - y: every term worked out by hand."""
     errors = []
     for rows in (32, 64):
-        case = Case(ra=500.0, pr=7.0, box=LAYER, rows=rows)
+        case = BoussinesqCase(ra=500.0, pr=7.0, box=LAYER, rows=rows)
         s = [lambda y, m=m: [np.sin(np.pi*y)**2, np.pi*np.sin(2*np.pi*y), 2*np.pi**2*np.cos(2*np.pi*y),
                              -4*np.pi**3*np.sin(2*np.pi*y)][m] for m in range(4)]
         points = [np.meshgrid(np.pi*x, y, indexing="ij") for x, y in case.mac.points]
@@ -97,7 +97,7 @@ def test_rates_of_change_are_those_of_the_equations_to_second_order():
 
 def test_shear_decays_by_nu_and_heat_by_kappa():
     """Both are exact solutions: u(y) alone, and T(y) alone, whose pressure carries its weight."""
-    case = Case(ra=900.0, pr=9.0, box=LAYER, rows=16)
+    case = BoussinesqCase(ra=900.0, pr=9.0, box=LAYER, rows=16)
     mac = case.mac
     u, v, T = rest(case).parts
     start = State(case=case, q=np.concatenate([
@@ -115,7 +115,7 @@ def test_shear_decays_by_nu_and_heat_by_kappa():
 @every_box
 @pytest.mark.parametrize("rolls", [1, 2, 3, 4])
 def test_rolls_are_counted(box, rolls):
-    case = Case(ra=5000, pr=1, box=box, rows=16)
+    case = BoussinesqCase(ra=5000, pr=1, box=box, rows=16)
     if box is LAYER and rolls % 2:
         with pytest.raises(ValueError, match=f"{rolls} rolls do not fit"):
             roll(case, rolls)
@@ -139,7 +139,7 @@ def test_rolls_are_counted(box, rolls):
 ])
 def test_refuses_bad_cases(bad, rule):
     with pytest.raises(ValueError, match=rule):
-        Case(**{"ra": 5000.0, "pr": 1.0, **bad})
+        BoussinesqCase(**{"ra": 5000.0, "pr": 1.0, **bad})
 
 
 def test_refuses_bad_boxes():
@@ -154,31 +154,31 @@ def test_refuses_bad_boxes():
 
 
 def test_refuses_bad_states_and_runs():
-    case = Case(ra=5000, pr=1, rows=16)
+    case = BoussinesqCase(ra=5000, pr=1, rows=16)
     broken = rest(case).q.copy()
     broken[-1] = np.nan
     with pytest.raises(ValueError, match="T is not finite at t = 0"):
         State(case=case, q=broken)
     with pytest.raises(ValueError, match=r"use state.on\(case\)"):
-        State(case=Case(ra=5000, pr=1, rows=32), q=rest(case).q)
+        State(case=BoussinesqCase(ra=5000, pr=1, rows=32), q=rest(case).q)
     with pytest.raises(ValueError, match="resample only within one box"):
-        steady(Case(ra=5000, pr=1, box=SQUARE, rows=16), rest(case))
+        steady(BoussinesqCase(ra=5000, pr=1, box=SQUARE, rows=16), rest(case))
     with pytest.raises(ValueError, match="solve the half"):
-        steady(Case(ra=5000, pr=1, box=LAYER, rows=16))
+        steady(BoussinesqCase(ra=5000, pr=1, box=LAYER, rows=16))
     with pytest.raises(ValueError, match="3 rolls do not fit"):
-        roll(Case(ra=5000, pr=1, box=LAYER, rows=16), 3)
+        roll(BoussinesqCase(ra=5000, pr=1, box=LAYER, rows=16), 3)
 
 
 @pytest.mark.parametrize("bad, rule", [({"until": -1.0}, "until must be positive"),
                                        ({"dt": 0.0}, "dt must be positive")])
 def test_refuses_bad_marching(bad, rule):
-    case = Case(ra=5000, pr=1, rows=16)
+    case = BoussinesqCase(ra=5000, pr=1, rows=16)
     with pytest.raises(ValueError, match=rule):
         transient(case, roll(case), **bad)
 
 
 def test_too_long_a_step_is_refused_with_the_step_that_would_do():
-    case = Case(ra=1e4, pr=1, rows=32)
+    case = BoussinesqCase(ra=1e4, pr=1, rows=32)
     with pytest.raises(Unstable, match=r"CFL number is .* above 0.8: take dt below 0.0"):
         transient(case, roll(case), dt=0.5)
 
@@ -186,4 +186,4 @@ def test_too_long_a_step_is_refused_with_the_step_that_would_do():
 def test_newton_that_fails_says_so():
     """On 8 rows a layer at Ra = 1e8 has no steady state that the steps reach."""
     with pytest.raises(NewtonFailed, match=r"no steady state in \d+ steps at Ra = 100000000.0.*smaller"):
-        steady(Case(ra=1e8, pr=0.01, rows=8))
+        steady(BoussinesqCase(ra=1e8, pr=0.01, rows=8))

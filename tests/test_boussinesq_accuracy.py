@@ -3,18 +3,28 @@ import numpy as np
 import pytest
 from boxes import every_closed_box
 
-from continuum.boussinesq import CAVITY, SQUARE, Case, State, growth_rates, rest, roll, steady, transient
+from continuum.boussinesq import (
+    CAVITY,
+    SQUARE,
+    BoussinesqCase,
+    State,
+    growth_rates,
+    rest,
+    roll,
+    steady,
+    transient,
+)
 from continuum.linear import layer as linear
 from continuum.richardson import richardson
 
 # --- accuracy ---------------------------------------------------------------------------------------------
 
 
-def k_and_nu(case: Case, sizes, rolls: int = 1) -> list:
+def k_and_nu(case: BoussinesqCase, sizes, rolls: int = 1) -> list:
     """Extrapolated K and Nu (at the bottom, or at the left side of a cavity)."""
     rows, start = [], None
     for size in sizes:
-        start = steady(Case(ra=case.ra, pr=case.pr, box=case.box, rows=size), start)
+        start = steady(BoussinesqCase(ra=case.ra, pr=case.pr, box=case.box, rows=size), start)
         seen = start.observe()
         rows.append((seen.K, seen.nu_left if case.box is CAVITY else seen.nu_bottom))
     return [richardson(values, sizes) for values in zip(*rows)]
@@ -23,7 +33,7 @@ def k_and_nu(case: Case, sizes, rolls: int = 1) -> list:
 @pytest.mark.parametrize("ra, pr", [(2000, 7), (50_000, 1)])
 def test_second_order_and_extrapolated_to_1e_4(ra, pr):
     """Against a finer triple; its own uncertainty is 100 times smaller than what is asked."""
-    case = Case(ra=ra, pr=pr)
+    case = BoussinesqCase(ra=ra, pr=pr)
     for coarse, fine in zip(k_and_nu(case, (32, 48, 64)), k_and_nu(case, (48, 64, 96))):
         assert abs(coarse.order - 2) < 0.1 and abs(fine.order - 2) < 0.1
         assert fine.error < 1e-5*fine.limit
@@ -34,14 +44,14 @@ def test_second_order_and_extrapolated_to_1e_4(ra, pr):
 @pytest.mark.parametrize("ra, nusselt, sizes", [(1e3, 1.118, (24, 32, 48)), (1e4, 2.243, (24, 32, 48)),
                                                 (1e5, 4.519, (32, 48, 64))])
 def test_side_heated_cavity_of_de_vahl_davis(ra, nusselt, sizes):
-    nu = k_and_nu(Case(ra=ra, pr=0.71, box=CAVITY), sizes)[1]
+    nu = k_and_nu(BoussinesqCase(ra=ra, pr=0.71, box=CAVITY), sizes)[1]
     assert nu.limit == pytest.approx(nusselt, rel=5e-3)         # the uncertainty of the published numbers
     assert nu.error < 5e-3*nusselt
 
 
 @pytest.mark.parametrize("ra, nusselt", [(1e4, 2.158), (1e5, 3.910)])
 def test_square_heated_from_below(ra, nusselt):
-    nu = k_and_nu(Case(ra=ra, pr=0.71, box=SQUARE), (32, 48, 64))[1]
+    nu = k_and_nu(BoussinesqCase(ra=ra, pr=0.71, box=SQUARE), (32, 48, 64))[1]
     # half a unit of the last figure printed, and ours
     assert nu.limit == pytest.approx(nusselt, abs=6e-4)
 
@@ -51,7 +61,7 @@ def test_growth_at_rest_converges_to_linear_theory(ra, pr):
     """nu and kappa are not exchangeable between rigid plates: this sees either solver have them swapped."""
     exact = linear.growth_rate(ra=ra, pr=pr, k=np.pi)
     assert abs(exact - linear.growth_rate(ra=ra, pr=1/pr, k=np.pi)) > 5e-3
-    grown = [growth_rates(rest(Case(ra=ra, pr=pr, rows=rows)))[0].real for rows in (16, 24, 32)]
+    grown = [growth_rates(rest(BoussinesqCase(ra=ra, pr=pr, rows=rows)))[0].real for rows in (16, 24, 32)]
     seen = richardson(grown, (16, 24, 32))
     assert abs(seen.order - 2) < 0.1
     # h^6 terms of 16 rows; distance at 32 rows is 1e-3
@@ -64,7 +74,7 @@ def test_growth_at_rest_converges_to_linear_theory(ra, pr):
 
 @every_closed_box
 def test_transient_ends_in_the_steady_state_of_newton(box):
-    case = Case(ra=8000, pr=0.71, box=box, rows=16)
+    case = BoussinesqCase(ra=8000, pr=0.71, box=box, rows=16)
     series, state = transient(case, roll(case), until=300.0), steady(case)      # 4 H^2/kappa
     assert series.K[-1] == pytest.approx(state.K, rel=2e-6)
     assert series.state.q == pytest.approx(state.q, abs=1e-6)
@@ -72,15 +82,15 @@ def test_transient_ends_in_the_steady_state_of_newton(box):
 
 
 def test_newton_forgets_a_start_that_is_not_free_of_divergence():
-    case = Case(ra=5000, pr=2, rows=16)
-    coarse = steady(Case(ra=2500, pr=1, rows=12))
+    case = BoussinesqCase(ra=5000, pr=2, rows=16)
+    coarse = steady(BoussinesqCase(ra=2500, pr=1, rows=12))
     start = coarse.on(case)
     assert np.max(np.abs(case.mac.div@start.q[:case.mac.ends[1]])) > 1e-6
     assert steady(case, coarse).q == pytest.approx(steady(case).q, abs=1e-9)        # Newton's tolerance
 
 
 def test_time_step_is_of_second_order():
-    case = Case(ra=2e4, pr=0.5, box=SQUARE, rows=16)
+    case = BoussinesqCase(ra=2e4, pr=0.5, box=SQUARE, rows=16)
     start = transient(case, roll(case), until=1.0, dt=0.01).state
     ends = [transient(case, start, until=2.0, dt=2.0/steps).state.q for steps in (50, 100, 200)]
     ratio = np.linalg.norm(ends[0] - ends[1])/np.linalg.norm(ends[1] - ends[2])
@@ -88,7 +98,7 @@ def test_time_step_is_of_second_order():
 
 
 def test_growth_measured_in_time_is_the_eigenvalue_of_the_same_grid():
-    case = Case(ra=3000, pr=7, rows=16)
+    case = BoussinesqCase(ra=3000, pr=7, rows=16)
     still = rest(case)
     seed = State(case=case, q=still.q + 1e-4*(roll(case).q - still.q))
     series = transient(case, seed, until=60.0, dt=0.02)

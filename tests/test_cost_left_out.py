@@ -83,7 +83,7 @@ def test_what_is_left_out_is_not_stored():
 
 def test_a_base_is_measured_whole_and_in_parts(monkeypatch):
     """Slow vortices without heat are those with it, but for 4e-4 of Mach 0.05; at 0.2 16 times as much."""
-    monkeypatch.setattr(left_out, "FLOW", contestants.VortexDecay(0.2))     # whose answer takes seconds less
+    monkeypatch.setattr(left_out, "FLOW", contestants.DecayingVortex(0.2))     # its answer takes seconds less
     case = left_out.LeavingOut(base=left_out.BASES[2], size=12, short=1e-5)
     whole, cold = case.run(lambda done: None, None).rows["measured"]
     assert [whole["left_out"], cold["left_out"]] == ["nothing", "heat"]

@@ -44,7 +44,7 @@ def onset_of(solver, scene, ras):
 def test_square_agrees_with_the_staggered_grid():
     """Newton's Jacobian on three grids, extrapolated, is within its uncertainty of the Chebyshev value."""
     def sigma(rows, ra):
-        case = boussinesq.Case(ra=ra, pr=1.0, box=boussinesq.CONDUCTING_SQUARE, rows=rows)
+        case = boussinesq.BoussinesqCase(ra=ra, pr=1.0, box=boussinesq.CONDUCTING_SQUARE, rows=rows)
         return boussinesq.growth_rates(boussinesq.rest(case), count=2)[0].real
     ras = np.array([4800.0, 4950.0, 5100.0])
     values = [onset_tables.interpolated(np.array([sigma(rows, ra) for ra in ras]), ras) for rows in SIZES]

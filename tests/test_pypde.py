@@ -237,7 +237,7 @@ def test_the_gas_is_that_of_the_other_grid(gases):
 
 def test_the_layer_is_that_of_the_other_grid(layers):
     box = boussinesq.HALF_LAYER
-    others = [boussinesq.steady(boussinesq.Case(ra=5000, pr=7, box=box, rows=rows)).observe()
+    others = [boussinesq.steady(boussinesq.BoussinesqCase(ra=5000, pr=7, box=box, rows=rows)).observe()
               for rows in SIZES]
     agree(layers, others, lambda s: s.ke, lambda s: s.K)
     agree(layers, others, lambda s: s.nu, lambda s: s.nu_bottom)

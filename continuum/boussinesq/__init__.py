@@ -5,10 +5,10 @@
 in free-fall units (flow.py). `steady` is Newton's method, `transient` marches in time. They share the
 operators: a transient ends in the state that Newton finds on the same grid.
 
-    state = steady(Case(ra=10_000, pr=1, box=HALF_LAYER, rows=64))
+    state = steady(BoussinesqCase(ra=10_000, pr=1, box=HALF_LAYER, rows=64))
     state.K, state.rolls, state.observe()
 """
-from continuum.boussinesq.flow import Case, Observed, State
+from continuum.boussinesq.flow import BoussinesqCase, Observed, State
 from continuum.boussinesq.mac import (
     CAVITY,
     CONDUCTING_SQUARE,
@@ -26,7 +26,24 @@ from continuum.boussinesq.starts import rest, roll
 from continuum.steady import NewtonFailed
 
 __all__ = [
-    "CAVITY", "CONDUCTING_SQUARE", "FREE_PLATES", "HALF_LAYER", "LAYER", "SQUARE", "Box", "BoxEdges", "Case",
-    "End", "NewtonFailed", "Observed", "State", "Transient", "Unstable", "growth_rates", "rest", "roll",
-    "steady", "transient",
+    "CAVITY",
+    "CONDUCTING_SQUARE",
+    "FREE_PLATES",
+    "HALF_LAYER",
+    "LAYER",
+    "SQUARE",
+    "BoussinesqCase",
+    "Box",
+    "BoxEdges",
+    "End",
+    "NewtonFailed",
+    "Observed",
+    "State",
+    "Transient",
+    "Unstable",
+    "growth_rates",
+    "rest",
+    "roll",
+    "steady",
+    "transient",
 ]

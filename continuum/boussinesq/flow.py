@@ -19,7 +19,7 @@ STILL = 1e-12       # K of a fluid at rest: rolls at onset have 1e-2 (1 - sqrt(R
 
 
 @dataclass(frozen=True, kw_only=True)
-class Case:
+class BoussinesqCase:
     """Fluid, box and grid; without columns the cells are as square as even numbers allow."""
     ra: float
     pr: float
@@ -51,7 +51,7 @@ class Case:
 class Equations:
     """The rates of change of one case, without the pressure."""
 
-    def __init__(self, case: Case):
+    def __init__(self, case: BoussinesqCase):
         self.case, self.mac = case, case.mac
         thin = np.where(np.arange(self.mac.ends[-1]) < self.mac.ends[1], case.nu, case.kappa)
         self.diffusion = (sparse.diags_array(thin)@self.mac.lap).tocsr()
@@ -86,7 +86,7 @@ class Observed(NamedTuple):
 @dataclass(frozen=True, kw_only=True)
 class State:
     """Velocities on faces and temperature in cells of a case's grid, in one vector q; see `parts`."""
-    case: Case
+    case: BoussinesqCase
     q: np.ndarray = field(repr=False)
     t: float = 0.0
     residuals: tuple[float, ...] = ()       # of Newton's steps, largest rate of change
@@ -140,7 +140,7 @@ class State:
                         nu_thermal=inner + sum(h.dissipation for h in heat),
                         wall_power=sum(h.power for h in heat))
 
-    def on(self, case: Case) -> "State":
+    def on(self, case: BoussinesqCase) -> "State":
         """The same fields on another grid or at another Ra, Pr, by cubic splines."""
         if case.box != self.case.box:
             raise ValueError(f"state is of {self.case.box}, the case has {case.box}: resample only within "

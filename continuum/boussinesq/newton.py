@@ -5,7 +5,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import eigs, splu
 
-from continuum.boussinesq.flow import Case, Equations, State
+from continuum.boussinesq.flow import BoussinesqCase, Equations, State
 from continuum.boussinesq.starts import roll
 from continuum.steady import NewtonFailed
 
@@ -48,7 +48,7 @@ class Newton(Equations):
         return self.C@lu.solve(residual)
 
 
-def steady(case: Case, start: State | None = None, *, within: float = 1e-9) -> State:
+def steady(case: BoussinesqCase, start: State | None = None, *, within: float = 1e-9) -> State:
     """The steady state that start leads to: a roll, or a state of any grid, Ra and Pr in the same box.
 
     Implicit steps lengthen as the rates of change fall and become Newton's, until no value changes by more

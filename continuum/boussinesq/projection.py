@@ -3,7 +3,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from continuum.boussinesq.flow import BOTTOM, TOP, Case, Equations, State, enters
+from continuum.boussinesq.flow import BOTTOM, TOP, BoussinesqCase, Equations, State, enters
 from continuum.boussinesq.poisson import solvers
 
 CFL = 0.4           # of a step that is not given
@@ -20,7 +20,7 @@ class Projection(Equations):
     """Buoyancy and advection extrapolated, diffusion by the trapezoidal rule, pressure by projection. Second
     order in time. Everything is in increments of q and p: in a steady state nothing is left of splitting."""
 
-    def __init__(self, case: Case, q: np.ndarray):
+    def __init__(self, case: BoussinesqCase, q: np.ndarray):
         super().__init__(case)
         self.solve, self.flow = solvers(self.mac), self.mac.ends[1]
         self.thin = case.nu, case.nu, case.kappa
@@ -65,7 +65,8 @@ class Transient(NamedTuple):
     state: State
 
 
-def transient(case: Case, start: State, *, until: float | None = None, dt: float | None = None) -> Transient:
+def transient(case: BoussinesqCase, start: State, *, until: float | None = None,
+              dt: float | None = None) -> Transient:
     """Follow the flow for `until` free-fall times, 20 H^2/kappa if not given. Without dt steps keep CFL."""
     until = until or 20/case.kappa
     for name, value in (("until", until), ("dt", 1.0 if dt is None else dt)):

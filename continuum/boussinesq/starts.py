@@ -1,12 +1,12 @@
 """States to start from: rest and rolls."""
 import numpy as np
 
-from continuum.boussinesq.flow import Case, State
+from continuum.boussinesq.flow import BoussinesqCase, State
 from continuum.boussinesq.mac import End
 from continuum.linear.layer import critical_ra
 
 
-def rest(case: Case) -> State:
+def rest(case: BoussinesqCase) -> State:
     """No flow, and the temperature that conduction would give: linear between the plates, or the sides."""
     mac, plates = case.mac, case.box.plates
     x, y = np.meshgrid(mac.x.centre/case.box.width, mac.y.centre, indexing="ij")
@@ -14,7 +14,7 @@ def rest(case: Case) -> State:
     return State(case=case, q=np.r_[np.zeros(mac.ends[1]), T.ravel()])
 
 
-def roll(case: Case, rolls: int = 1) -> State:
+def roll(case: BoussinesqCase, rolls: int = 1) -> State:
     """Rolls, rising at the left side, of the Lorenz model (free plates, Ra/Ra_c at least 1.1)."""
     if rolls < 1 or (case.mac.periodic and rolls % 2):
         raise ValueError(f"{rolls} rolls do not fit: a box has at least 1, a periodic one an even number")

@@ -21,9 +21,9 @@ from studies.build.names import START_JITTER
 from studies.build.spam import OF_LIMIT, VARIANTS
 from studies.cost import pypde, rolls
 from studies.cost.contestants import (
+    DecayingVortex,
     SlabFlow,
     StandingWave,
-    VortexDecay,
     of_mean_one,
     on_grid,
     on_lattice,
@@ -88,7 +88,7 @@ def entries(methods: Mapping[str, Any], *rest: Any) -> Entries:
 
 def vortex(mach: float = 0.05) -> Entries:
     """In the vortex."""
-    flow = VortexDecay(mach)
+    flow = DecayingVortex(mach)
     return {
         **entries(STAYING, flow, points, Price(0.5, 1.3e-5, 3)),
         **entries(PARTICLES, flow, trembling, Price(1.3, 1e-4, 3), 0.7),

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
-from continuum.boussinesq import Box, BoxEdges, Case, End, State
+from continuum.boussinesq import BoussinesqCase, Box, BoxEdges, End, State
 from continuum.boussinesq.mac import mac
 from continuum.boussinesq.projection import Projection
 from continuum.exact import plates
@@ -31,7 +31,7 @@ CFL = 0.8           # of two-step advection with some viscosity: `projection.CFL
 # --- flows --------------------------------------------------------------------------------------------------
 
 
-class VortexDecay(NamedTuple):
+class DecayingVortex(NamedTuple):
     """A Taylor-Green vortex of Re 100 that decays by e, as a gas; `velocity` and the `decay` of K."""
     mach: float = 0.05
 
@@ -207,13 +207,13 @@ def in_cells(flow: Any, scene: Any, ready: Ready) -> Problem:
     return Problem(cells, ready.start, ready.limit, scene.time, method.go, judge, held, flow.known)
 
 
-def on_mac(flow: VortexDecay, form: None, size: int, seed: int) -> Problem:
+def on_mac(flow: DecayingVortex, form: None, size: int, seed: int) -> Problem:
     """The Boussinesq MAC grid at one temperature, IMEX: the vortex of an incompressible fluid.
 
     Height 1 is half of a wavelength, the largest velocity 1.
     """
     nu = 2/RE
-    case = Case(ra=1/nu**2, pr=1.0, box=CELL, rows=size//2)
+    case = BoussinesqCase(ra=1/nu**2, pr=1.0, box=CELL, rows=size//2)
     mac.cache_clear()       # what set-up takes is to be seen each time
     start = stirred(case)
     made, fastest = Projection(case, start), np.abs(start).max()
@@ -223,7 +223,7 @@ def on_mac(flow: VortexDecay, form: None, size: int, seed: int) -> Problem:
     return Problem(case.rows*case.columns, start, limit, time, go, judge, lambda: (made,), firm=True)
 
 
-def projected(case: Case, q: np.ndarray, dt: float, steps: int) -> np.ndarray:
+def projected(case: BoussinesqCase, q: np.ndarray, dt: float, steps: int) -> np.ndarray:
     """The state so many steps later."""
     flow = Projection(case, q)
     for _ in range(steps):
@@ -231,7 +231,7 @@ def projected(case: Case, q: np.ndarray, dt: float, steps: int) -> np.ndarray:
     return flow.q
 
 
-def decayed(case: Case, start: np.ndarray, q: np.ndarray) -> Result:
+def decayed(case: BoussinesqCase, start: np.ndarray, q: np.ndarray) -> Result:
     """Against the start, smaller by e."""
     flow = slice(0, case.mac.ends[1])
     exact = start[flow]*np.exp(-DECAYS)
@@ -241,7 +241,7 @@ def decayed(case: Case, start: np.ndarray, q: np.ndarray) -> Result:
     return Result({"velocity": velocity, "decay": np.array([decay - 1])})
 
 
-def stirred(case: Case) -> np.ndarray:
+def stirred(case: BoussinesqCase) -> np.ndarray:
     """The state of the incompressible vortex, streamfunction sin(pi x) sin(pi y)/pi."""
     (xu, yu), (xv, yv) = case.mac.points[:2]
     u = np.outer(np.sin(np.pi*xu), np.cos(np.pi*yu))

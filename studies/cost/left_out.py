@@ -25,7 +25,7 @@ from particles.threads import Team
 from particles.weights import Lucy
 from studies.build.fixed import SCHEMES, Scheme, kinetic
 from studies.build.moving import MOTIONS
-from studies.cost.contestants import VortexDecay, on_mac, points
+from studies.cost.contestants import DecayingVortex, on_mac, points
 from studies.cost.problem import Problem, Result, of_method, rms
 from studies.cost.rolls import HeatedLayer, in_time
 from studies.cost.seconds import SHORT, array_bytes, per_step
@@ -36,7 +36,7 @@ from studies.kit.stats import Measured
 OF_LIMIT = 0.9
 K_BOLTZMANN = 1e-12     # noise of 1e-6: a flow of 0.07 does not see it
 H = 2.0
-FLOW, LAYER = VortexDecay(), HeatedLayer()
+FLOW, LAYER = DecayingVortex(), HeatedLayer()
 NO_TIME = Measured(np.nan, np.nan)      # what diverges may do so while its steps are timed
 LATTICE = SCHEMES["fixed-lattice"]
 

@@ -17,7 +17,7 @@ from continuum.pypde.gas_loop import RHO, VX, VY, E
 from continuum.steady import Time
 from studies.build.grid import started
 from studies.build.scenes import TaylorGreen
-from studies.cost.contestants import VortexDecay
+from studies.cost.contestants import DecayingVortex
 from studies.cost.problem import Result
 from studies.cost.race import Race
 from studies.cost.seconds import Laps, of_calls
@@ -77,7 +77,7 @@ class Stopped(NamedTuple):
     setup: Measured
 
 
-def vortex(flow: VortexDecay, method: None, size: int, seed: int) -> Stopped:
+def vortex(flow: DecayingVortex, method: None, size: int, seed: int) -> Stopped:
     """From the start to the end."""
     scene, laps = flow.scene(size), Laps()
     gas = Slow.of(scene)

@@ -106,7 +106,7 @@ def pypde_compressible(scene: RayleighBenard, rows: int) -> tuple[float, float]:
 
 def boussinesq_mac(scene: RayleighBenard, rows: int) -> tuple[float, float]:
     """Of the Boussinesq fluid on the staggered grid; of the scene only Ra and Pr count."""
-    case = boussinesq.Case(ra=scene.ra, pr=scene.pr, box=boussinesq.HALF_LAYER, rows=rows)
+    case = boussinesq.BoussinesqCase(ra=scene.ra, pr=scene.pr, box=boussinesq.HALF_LAYER, rows=rows)
     return float(boussinesq.growth_rates(boussinesq.rest(case), count=2)[0].real), 1e-10
 
 

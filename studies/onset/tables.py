@@ -188,7 +188,7 @@ def small_differences(critical: pd.DataFrame) -> Iterator[Row]:
             yield critical_row(at, Measured(value, err + group["err"].max()), "operator")
 
 
-class Line(NamedTuple):
+class FittedLine(NamedTuple):
     """K = slope Ra^-1/2 + intercept; `err` of its zero as the scatter of the points would have it."""
 
     points: int
@@ -215,7 +215,7 @@ def all_lines(energies: pd.DataFrame) -> Iterator[Row]:
             at: Row = dict(zip(SERIES, key, strict=True))
             at["reach"] = round((1 - share)**-2, 3)
             inside = series[series["share"].round(6).isin(shares)]
-            lines: dict[Any, Line] = {}
+            lines: dict[Any, FittedLine] = {}
             for size, some in inside.groupby("resolution"):
                 if len(some) >= GRIDS:
                     lines[size] = straight(some)
@@ -226,17 +226,17 @@ def all_lines(energies: pd.DataFrame) -> Iterator[Row]:
                 yield at | {"resolution": np.inf, "lines": "L^-2 extrapolated"} | fine._asdict()
 
 
-def straight(points: pd.DataFrame) -> Line:
+def straight(points: pd.DataFrame) -> FittedLine:
     """Least squares; err is that of (slope/intercept)^2, to first order, at 95 %."""
     fit = fits.line(points["ra"].to_numpy()**-0.5, points["ke"].to_numpy())
     intercept, slope = fit.coefficients
     ra_c = (slope/intercept)**2
     toward = 2*ra_c*np.array([-1/intercept, 1/slope])
     residual = np.abs(fit.residuals).max()/points["ke"].max()
-    return Line(len(points), slope, intercept, ra_c, fit.along(toward).err, residual)
+    return FittedLine(len(points), slope, intercept, ra_c, fit.along(toward).err, residual)
 
 
-def without_grid(lines: dict[float, Line]) -> Line:
+def without_grid(lines: dict[float, FittedLine]) -> FittedLine:
     """Linear in L^-2, L in cells; err: that of the lines and what the coarsest grid changes."""
     x = np.array(list(lines))**-2.0
     of_grids = list(lines.values())
@@ -245,7 +245,7 @@ def without_grid(lines: dict[float, Line]) -> Line:
     return line._replace(err=float(np.hypot(line.err, line.ra_c - without.ra_c)))
 
 
-def extrapolated(x: np.ndarray, lines: list[Line]) -> Line:
+def extrapolated(x: np.ndarray, lines: list[FittedLine]) -> FittedLine:
     """The line at x = 0; what else it has is the finest grid's."""
     pairs = [(line.slope, line.intercept) for line in lines]
     _, (slope, intercept) = np.polyfit(x, pairs, 1)

@@ -156,7 +156,7 @@ class BoussinesqSteady(Refined):
         rows: list[dict] = []
         state: boussinesq.State | None = None
         for size in self.sizes:
-            case = boussinesq.Case(ra=self.ra, pr=self.pr, box=boussinesq.HALF_LAYER, rows=size)
+            case = boussinesq.BoussinesqCase(ra=self.ra, pr=self.pr, box=boussinesq.HALF_LAYER, rows=size)
             steady, compile_s, cpu_s = compile_and_run_seconds(partial(boussinesq.steady, case, state))
             state = steady
             rows.append({**self._row(steady), "resolution": size, "cpu_s": cpu_s, "compile_s": compile_s})
