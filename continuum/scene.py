@@ -25,6 +25,17 @@ from continuum.fluid import (
 ROLL_ENERGY = 9/5000    # kinetic energy per mass of the initial rolls    [KHP95, Fig. 9]
 
 
+def columns_of(aspect: float, rows: int) -> int:
+    """Columns of square cells. ValueError: rows odd or below 8, or no whole number of columns."""
+    if rows < 8 or rows % 2:
+        raise ValueError(f"rows must be even and at least 8, got {rows}: rolls are counted at mid-height")
+    columns = round(aspect*rows)
+    if not np.isclose(columns, aspect*rows) or columns < 4:
+        raise ValueError(f"cells are square: aspect x rows = {aspect} x {rows} must be a whole number, 4 or "
+                         "more; change the rows or the aspect")
+    return columns
+
+
 class Periodic(NamedTuple):
     """Periodic in x with period aspect L; rolls come in pairs."""
 

@@ -1,24 +1,69 @@
-"""When a run of a grid may stop: rules that look at its samples of K; the step that it takes."""
-from dataclasses import dataclass
+"""When a run of a grid may stop: rules that look at its samples of K; its step; what it ends with."""
+from dataclasses import dataclass, field
+from math import ceil
+from typing import Any, NamedTuple
 
 import numpy as np
 
 SAFETY = 0.8  # of the stability limit, which is taken at the start
 SMALL = 1e-9  # remaining change of K that no longer matters, K of convection being 1e-3
+STILL = 1e-12  # K of a fluid at rest; rolls have 1e-5 already 0.3 % above onset
+RK4_SOUND, RK4_DECAY = 2.82, 2.78  # where RK4's stability region ends on the imaginary and on the real axis
 
 
 class NewtonFailed(RuntimeError):
     """No steady state was found; the message has the changes of the last steps."""
 
 
-def choose_step(limit: float, dt: float | None) -> float:
-    """The step that is asked for, or a safe one. Raises ValueError: it is above the stability limit."""
-    if dt is None:
-        return SAFETY*limit
-    if not 0 < dt <= limit:
+class Series(NamedTuple):
+    """Samples in time: K, Nusselt number of the lower plate, mean density."""
+    t: np.ndarray
+    ke: np.ndarray
+    nu: np.ndarray
+    mass: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ended:
+    """What a run in time ended with.
+
+    `ke` is K at the end with what is left of its decay added, `ke_err` the size of that, not the error of the
+    grid; `mass_drift` is relative.
+    """
+    series: Series = field(repr=False)
+    ke: float
+    ke_err: float
+    converged: bool
+    rolls: int
+    dt: float
+    steps: int
+    cpu_s: float
+    compile_s: float
+
+    @property
+    def t(self) -> float:
+        return float(self.series.t[-1])
+
+    @property
+    def mass_drift(self) -> float:
+        return float(self.series.mass[-1]/self.series.mass[0] - 1)
+
+
+def steps_between(interval: float, limit: float, dt: float | None) -> int:
+    """Steps from one sample to the next, of at most dt, or of a safe length. Raises ValueError: dt is above
+    the stability limit."""
+    longest = SAFETY*limit if dt is None else dt
+    if not 0 < longest <= limit:
         raise ValueError(f"dt = {dt:.4g} must be positive and not above the stability limit {limit:.4g}: "
                          "lower or omit it")
-    return dt
+    return ceil(interval/longest*(1 - 1e-12))
+
+
+def ended(until: Any, samples: list) -> dict[str, Any]:
+    """What samples (t, K, Nu, mass) tell of `Ended`."""
+    series = Series(*np.array(samples).T)
+    ke, ke_err = until.estimate(series.ke)
+    return {"series": series, "ke": ke, "ke_err": ke_err, "converged": until.settled(series.ke)}
 
 
 @dataclass(frozen=True)
@@ -34,10 +79,10 @@ class Time:
     def interval(self, scene) -> float:
         return self.t_end/self.samples
 
-    def done(self, scene, ke) -> bool:
+    def done(self, ke) -> bool:
         return len(ke) > self.samples
 
-    def fraction(self, scene, ke) -> float:
+    def fraction(self, ke) -> float:
         return (len(ke) - 1)/self.samples
 
     def settled(self, ke) -> bool:
@@ -81,14 +126,14 @@ class Steady:
         lefts = [abs(left(means[:len(means) - n])) for n in range(3)]
         return max(lefts) < max(self.rtol*means[-1], SMALL)
 
-    def done(self, scene, ke) -> bool:
+    def done(self, ke) -> bool:
         at_block = len(ke) > 1 and (len(ke) - 1) % self.samples == 0
         return at_block and (self.settled(ke) or self._time(ke) >= self.longest)
 
     def _time(self, ke) -> float:
         return (len(ke) - 1)/self.samples*self.block
 
-    def fraction(self, scene, ke) -> float:
+    def fraction(self, ke) -> float:
         """Of the way to `rtol` on a logarithmic scale, or of the longest time."""
         means = self.means(ke)
         near = abs(left(means))/max(means[-1], SMALL) if len(means) else np.inf

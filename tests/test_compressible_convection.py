@@ -32,7 +32,7 @@ def test_nusselt_numbers_agree_to_second_order(grids):
     gaps = [abs((s.nusselt.bottom + s.nusselt.top)/2 - s.nusselt.volume) for s in grids]
     # 12 to 24 rows: a factor of 4, a little more from the one-sided gradients' third order
     assert 3.5 < gaps[0]/gaps[-1] < 8 and gaps[-1] < 0.01*grids[-1].nu
-    losses = [abs(s.energy_drift) for s in grids]
+    losses = [abs(s.nusselt.loss) for s in grids]
     assert losses[0]/losses[-1] > 3 and losses[-1] < 0.01
 
 
@@ -52,7 +52,7 @@ def test_a_box_with_four_walls():
                             (np.s_[0], np.s_[-1], np.s_[:, 0], np.s_[:, -1])])
     assert not edges.any()
     np.testing.assert_allclose(one.fields.at.T[:, 0], scene.T(one.fields.y), atol=1e-14)
-    assert abs(one.energy_drift) < 0.05  # heat through four walls, second order at 16 rows
+    assert abs(one.nusselt.loss) < 0.05  # heat through four walls, second order at 16 rows
 
 
 # --- fields and starts ------------------------------------------------------------------------------------

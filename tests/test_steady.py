@@ -12,7 +12,7 @@ SCENE = SimpleNamespace(viscous_time=100.0)
 def stopped(rule, ke_of_t):
     """Samples until the rule stops, and their last time in units of L^2/nu."""
     ke = [ke_of_t(0.0)]
-    while not rule.done(SCENE, ke):
+    while not rule.done(ke):
         ke.append(ke_of_t(len(ke)*rule.interval(SCENE)/SCENE.viscous_time))
     return np.array(ke), (len(ke) - 1)*rule.interval(SCENE)/SCENE.viscous_time
 
@@ -36,7 +36,7 @@ def test_a_decay_is_followed_to_its_end(slow, sound):
     rule = Steady(rtol=1e-4)
     ke, t = stopped(rule, lambda t: 1 + np.exp(-t/slow) + sound*np.exp(-5*t)*np.sin(2000*t))
     value, error = rule.estimate(ke)
-    assert rule.settled(ke) and rule.fraction(SCENE, ke) == 1
+    assert rule.settled(ke) and rule.fraction(ke) == 1
     assert np.exp(-t/slow) < 2e-4  # the mean of the last block is half a block older than its end
     assert abs(value - 1) < 1e-4 and abs(value - 1) < 2*error + 1e-9
 
@@ -57,7 +57,7 @@ def test_a_flow_that_dies_ends_at_zero():
 def test_a_given_time():
     ke, t = stopped(Time(50.0, samples=10), lambda t: t)
     assert len(ke) == 11 and t == pytest.approx(0.5, rel=1e-12)
-    assert Time(50.0, samples=10).fraction(SCENE, ke) == 1 and not Time(50.0).settled(ke)
+    assert Time(50.0, samples=10).fraction(ke) == 1 and not Time(50.0).settled(ke)
     assert Time(50.0, samples=10).estimate(ke) == (pytest.approx(0.5), pytest.approx(0.05))
 
 

@@ -8,9 +8,8 @@ from scipy.interpolate import RectBivariateSpline
 
 from continuum.fluid import conductivity, energy, pressure, stress, temperature, viscosity
 from continuum.gas.loop import RHO, VX, VY, E
-from continuum.scene import Periodic, Torus, Walls
-
-STILL = 1e-12  # K of a fluid at rest; rolls have 1e-5 already 0.3 % above onset
+from continuum.scene import ROLL_ENERGY, Periodic, Torus, Walls, columns_of
+from continuum.steady import STILL
 
 
 class Values(NamedTuple):
@@ -72,24 +71,14 @@ def shares(nodes: int, periodic: bool) -> np.ndarray:
 
 
 def nodes(scene, rows: int) -> tuple[np.ndarray, np.ndarray]:
-    """Coordinates of columns and rows of nodes. ValueError: rows odd or below 8, cells not square."""
-    if rows < 8 or rows % 2:
-        raise ValueError(f"rows must be even and at least 8, got {rows}: rolls are counted at mid-height")
-    columns = round(scene.aspect*rows)
-    if not np.isclose(columns, scene.aspect*rows) or columns < 4:
-        raise ValueError(f"cells are square: aspect x rows = {scene.aspect} x {rows} must be a whole number, "
-                         "4 or more; change the rows or the aspect")
+    """Coordinates of columns and rows of nodes. ValueError: as of `columns_of`."""
+    columns = columns_of(scene.aspect, rows)
     return scene.width*np.linspace(-0.5, 0.5, columns + 1), scene.L*np.linspace(-0.5, 0.5, rows + 1)
 
 
-def initial(scene, rows: int, ke: float = 0.0018, rolls: int | None = None) -> NodeFields:
-    """Rolls of kinetic energy `ke` per mass, linear temperature    [KHP95, Sec. VI; Fig. 9: 9/5000]"""
-    x, y = nodes(scene, rows)
-    X, Y = np.meshgrid(x, y)
-    vx, vy = scene.flow(X, Y, ke, rolls)
-    T = scene.T(Y)
-    return NodeFields(scene, x, y, Values(vx, vy, energy(scene.eos, 1.0, T), T, np.ones_like(T)),
-                  np.ones((rows, len(x) - 1)))
+def initial(scene, rows: int, ke: float = ROLL_ENERGY, rolls: int | None = None) -> NodeFields:
+    """Rolls of kinetic energy `ke` per mass, linear temperature    [KHP95, Sec. VI]"""
+    return placed(scene, rows, lambda x, y: (1.0, *scene.flow(x, y, ke, rolls), scene.T(y)))
 
 
 def placed(scene, rows: int, start: Callable[[np.ndarray, np.ndarray], tuple]) -> NodeFields:
@@ -116,15 +105,10 @@ def block(fields: NodeFields) -> np.ndarray:
 def unblock(scene, S: np.ndarray) -> NodeFields:
     """Fields of a block whose ghosts are filled."""
     x, y = nodes(scene, S.shape[1] - 2)
-    rho = node_densities(S)
+    rho = mean(S[RHO])
     vx, vy, e = (S[f, 1:, 1:].copy() for f in (VX, VY, E))
     at = Values(vx, vy, e, temperature(scene.eos, rho, e), rho)
     return NodeFields(scene, x, y, at, S[RHO, 1:-1, 1:-1].copy())
-
-
-def node_densities(S: np.ndarray) -> np.ndarray:
-    rho = S[RHO]
-    return (rho[:-1, :-1] + rho[1:, :-1] + rho[:-1, 1:] + rho[1:, 1:])/4
 
 
 def interpolate(fields: NodeFields, x, y) -> Values:
@@ -162,7 +146,7 @@ def onto(scene, rows: int, fields: NodeFields) -> NodeFields:
 
 def kinetic_energy(S: np.ndarray) -> float:
     """K: kinetic energy per mass of a block, sigma^2 per time^2 (free-fall units for the ideal gas)."""
-    rho = node_densities(S)[:, :-1]  # the last column of nodes repeats the first or is at rest
+    rho = mean(S[RHO])[:, :-1]  # the last column of nodes repeats the first or is at rest
     v2 = S[VX, 1:, 1:-1]**2 + S[VY, 1:, 1:-1]**2
     return float(0.5*np.sum(rho*v2)/np.sum(S[RHO, 1:-1, 1:-1]))
 
@@ -211,7 +195,7 @@ def energy_flux(fields: NodeFields) -> np.ndarray:
 
 
 def mean(f: np.ndarray) -> np.ndarray:
-    """Means over the corners of the cells."""
+    """Means over the corners of cells; of densities in cells, over those around a node."""
     return (f[:-1, :-1] + f[1:, :-1] + f[:-1, 1:] + f[1:, 1:])/4
 
 

@@ -40,8 +40,8 @@ class PaperForm(NamedTuple):
     """d rho/dt = -rho div v - v.grad rho, density 1 in the cells outside of the walls    [KHP95, Sec. V]"""
 
 
-class EdgeHeat(NamedTuple):
-    """Flux form with heating eta |grad v|^2, as forces along edges heat, even in rotation [RR98, Eq. 51]"""
+class EdgeHeat(FluxForm):
+    """The same with heating eta |grad v|^2, as forces along edges heat, even in rotation [RR98, Eq. 51]"""
 
 
 @generic
@@ -50,7 +50,6 @@ def outside(form, near, next_):
 
 
 outside.of(FluxForm)(lambda form, near, next_: 2*near - next_)
-outside.of(EdgeHeat)(lambda form, near, next_: 2*near - next_)
 outside.of(PaperForm)(lambda form, near, next_: 1.0)
 
 
@@ -113,8 +112,7 @@ def density_rate(form, S, n, j, i):
 
 
 @density_rate.of(FluxForm)
-@density_rate.of(EdgeHeat)
-def through_faces(form, S, n, j, i):
+def _(form, S, n, j, i):
     """-div(rho v) times 2 h: what goes through the faces of cell (j, i)."""
     vx, vy, a, b = S[VX], S[VY], j % 2, (j + 1) % 2
     return (n[a, i]*(vx[j, i] + vy[j, i]) - n[a, i + 1]*(vx[j, i + 1] - vy[j, i + 1])

@@ -28,63 +28,33 @@ from continuum.gas.fields import (
     count_rolls,
     initial,
     kinetic_energy,
-    node_densities,
+    mean,
     nusselt,
     onto,
     unblock,
     wall_flux,
 )
 from continuum.gas.loop import FIELDS, RHO, VX, VY, E, FluxForm, advance, box_of
-from continuum.steady import Steady, choose_step
-
-RK4_SOUND, RK4_DECAY = 2.82, 2.78  # where RK4's stability region ends on the imaginary and on the real axis
+from continuum.steady import RK4_DECAY, RK4_SOUND, Ended, Steady, ended, steps_between
 
 
 class DivergedError(ArithmeticError):
     """The solution is not finite any more or left the validity of its equation of state."""
 
 
-class Series(NamedTuple):
-    """Samples in time: K, Nusselt number of the lower plate, mean density."""
-    t: np.ndarray
-    ke: np.ndarray
-    nu: np.ndarray
-    mass: np.ndarray
-
-
 @dataclass(frozen=True, kw_only=True)
-class Solution:
-    """What a run ended with.
-
-    `ke` is K at the end with what is left of its decay added, `ke_err` the size of that, not the error of the
-    grid; the three of `nusselt` agree to that error when steady; `mass_drift` is relative.
-    """
+class Solution(Ended):
+    """What a run ended with; the three numbers of `nusselt` agree to the error of the grid when steady."""
     scene: Any
     rows: int
     fields: NodeFields
-    t: float
-    series: Series
-    ke: float
-    ke_err: float
     nusselt: Nusselt
-    rolls: int
-    mass_drift: float
-    converged: bool
-    dt: float
-    steps: int
-    cpu_s: float
-    compile_s: float
 
     @property
     def nu(self) -> float:
         """Nusselt number: of the volume, of second order; between side walls of the plates."""
         plates = (self.nusselt.bottom + self.nusselt.top)/2
         return self.nusselt.volume if self.fields.periodic else plates
-
-    @property
-    def energy_drift(self) -> float:
-        """Heat that enters through the walls and does not leave, per heat through the lower plate."""
-        return self.nusselt.loss
 
 
 class Limits(NamedTuple):
@@ -99,7 +69,7 @@ class Limits(NamedTuple):
 
 def limits(scene, S: np.ndarray) -> Limits:
     """From the fastest wave and the largest diffusivity; compact differences see wave numbers to 2/h."""
-    h, rho, (vx, vy, e) = scene.L/(S.shape[1] - 2), node_densities(S), (S[f, 1:, 1:] for f in (VX, VY, E))
+    h, rho, (vx, vy, e) = scene.L/(S.shape[1] - 2), mean(S[RHO]), (S[f, 1:, 1:] for f in (VX, VY, E))
     T = temperature(scene.eos, rho, e)
     T_e = (temperature(scene.eos, rho, e + 1e-6) - T)/1e-6
     spread = np.maximum(viscosity(scene.law, rho, T), conductivity(scene.law, rho, T)*T_e)/rho
@@ -146,7 +116,7 @@ class March:
 
     def _bad(self) -> np.ndarray:
         """True at nodes whose state cannot be."""
-        rho, e = node_densities(self.S), self.S[E, 1:, 1:]
+        rho, e = mean(self.S[RHO]), self.S[E, 1:, 1:]
         with np.errstate(all="ignore"):
             return ~(np.isfinite(self.S[:, 1:, 1:]).all(axis=0) & valid(self.scene.eos, rho, e))
 
@@ -167,7 +137,7 @@ class March:
 
 
 def sample(scene, S: np.ndarray, t: float) -> tuple[float, float, float, float]:
-    rho, e = node_densities(S[:, :5]), S[E, 1:4, 1:]
+    rho, e = mean(S[RHO, :5]), S[E, 1:4, 1:]
     T = temperature(scene.eos, rho[:3], e)
     k = conductivity(scene.law, rho[:3], T)*np.ones_like(T)
     flux = wall_flux(T, k, scene.L/(S.shape[1] - 2))
@@ -188,25 +158,19 @@ def run(scene, rows: int, *, until: Any = Steady(), start: NodeFields | None = N
     check_state(scene.eos, fields.at.rho, fields.at.e)
     S = block(fields)
     interval = until.interval(scene)
-    count = int(np.ceil(interval/choose_step(limits(scene, S).both, dt)*(1 - 1e-12)))
+    count = steps_between(interval, limits(scene, S).both, dt)
     march = March(scene, S, continuity, interval/count)
     samples = [sample(scene, S, 0.0)]
-    while not until.done(scene, [s[1] for s in samples]):
+    while not until.done([s[1] for s in samples]):
         march.go(count)
         samples.append(sample(scene, S, march.t))
         if progress:
-            progress(until.fraction(scene, [s[1] for s in samples]))
-    return finish(rows, march, until, Series(*np.array(samples).T))
-
-
-def finish(rows: int, march: March, until, series: Series) -> Solution:
-    fields = unblock(march.scene, march.S)
-    ke, ke_err = until.estimate(series.ke)
+            progress(until.fraction([s[1] for s in samples]))
+    fields = unblock(scene, S)
     return Solution(
-        scene=march.scene, rows=rows, fields=fields, t=march.t, series=series, ke=ke, ke_err=ke_err,
-        nusselt=nusselt(fields), rolls=count_rolls(fields), mass_drift=series.mass[-1]/series.mass[0] - 1,
-        converged=until.settled(series.ke), dt=march.dt, steps=march.steps,
-        cpu_s=time.process_time() - march.start, compile_s=march.compile_s)
+        scene=scene, rows=rows, fields=fields, nusselt=nusselt(fields), rolls=count_rolls(fields),
+        dt=march.dt, steps=march.steps, cpu_s=time.process_time() - march.start, compile_s=march.compile_s,
+        **ended(until, samples))
 
 
 def steady_on(scene, sizes: Sequence[int], *, start: NodeFields | None = None, **options) -> list[Solution]:

@@ -7,41 +7,35 @@ on the lower and -1/2 on the upper plate, psi = 0 on both. The rows of py-pde's 
 - h, so that its ghosts lie on the plates. There no slip gives Thom's vorticity -2 psi(h)/h^2, of first order;
 the solution is of second.
 """
-from typing import Any
-
 import numpy as np
 
 from continuum.jit import jit
 from continuum.linear.layer import positive
+from continuum.pypde.march import Equation
+from continuum.scene import ROLL_ENERGY, columns_of
+from continuum.steady import RK4_DECAY, RK4_SOUND
 
 # continuum.jit comes before everything that loads numba
 # isort: split
-from pde import CartesianGrid, FieldCollection, PDEBase, ScalarField, VectorField
+from pde import CartesianGrid
 
-PERIODIC = {"x": "periodic"}
-RK4_DECAY, RK4_WAVE = 2.78, 2.82    # where RK4's stability region ends on the real and on the imaginary axis
 FREE_FALL = 1.0                     # largest |u| + |v|
 
 
-class Boussinesq(PDEBase):
+class Boussinesq(Equation):
     """The layer between rigid plates on `rows` rows of square cells, periodic in x with period `aspect`."""
 
-    explicit_time_dependence = False
+    names, scratch = ("omega", "T"), 3
 
     def __init__(self, *, ra: float, pr: float, rows: int, aspect: float = 2.0):
         super().__init__()
         positive(Ra=ra, Pr=pr)
-        columns = round(aspect*rows)
-        if rows < 8 or rows % 2 or columns < 4 or not np.isclose(columns, aspect*rows):
-            raise ValueError(f"rows must be even, at least 8, and times aspect {aspect} a whole number, got "
-                             f"{rows}: rolls are counted at mid-height, cells are square")
-        self.ra, self.pr, self.rows, self.h = ra, pr, rows, 1/rows
+        self.rows, self.h = rows, 1/rows
         self.nu, self.kappa = float(np.sqrt(pr/ra)), float(1/np.sqrt(pr*ra))
-        self.grid = CartesianGrid([(0, aspect), (self.h/2, 1 - self.h/2)], (columns, rows - 1),
-                                  periodic=(True, False))
+        self.grid = CartesianGrid([(0, aspect), (self.h/2, 1 - self.h/2)],
+                                  (columns_of(aspect, rows), rows - 1), periodic=(True, False))
         self.basis = self._poisson_basis()
-        self.psi_bc = PERIODIC | {"y": {"virtual_point": 0}}
-        self.T_bc = PERIODIC | {"y-": {"virtual_point": 0.5}, "y+": {"virtual_point": -0.5}}
+        self.rates, self.laws = rates, (self.nu, self.kappa, self.h, *self.basis)
 
     @property
     def viscous_time(self) -> float:
@@ -56,7 +50,7 @@ class Boussinesq(PDEBase):
     def step_limit(self) -> float:
         """Largest stable step of RK4, for the largest decay rate and the fastest advection together."""
         decay, wave = 8*max(self.nu, self.kappa)/self.h**2, FREE_FALL/self.h
-        return 1/(decay/RK4_DECAY + wave/RK4_WAVE)
+        return 1/(decay/RK4_DECAY + wave/RK4_SOUND)
 
     def _poisson_basis(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Eigenvectors of the second differences in x and y, and the inverse of -Lap_h in them."""
@@ -71,50 +65,15 @@ class Boussinesq(PDEBase):
         X, Y, inverse = self.basis
         return X@(inverse*(X.T@omega@Y))@Y.T
 
-    def thom(self, data_full, args=None):
-        """Ghosts of the vorticity: -2 psi/h^2 on the plates from psi = `args` beside them, periodic in x."""
-        data_full[1:-1, 0], data_full[1:-1, -1] = -2*args[:, 0]/self.h**2, -2*args[:, -1]/self.h**2
-        data_full[0], data_full[-1] = data_full[-2], data_full[1]
-
-    def evolution_rate(self, state: Any, t: float = 0) -> Any:
-        """The rates with py-pde's operators."""
-        omega, T = state
-        psi = ScalarField(self.grid, self.streamfunction(omega.data))
-        grad_psi = psi.gradient(self.psi_bc)
-        u = VectorField.from_scalars([grad_psi[1], -grad_psi[0]])
-        grad_T = T.gradient(self.T_bc)
-        advected = u.dot(omega.gradient(self.thom, args=psi.data))
-        omega_rate = self.nu*omega.laplace(self.thom, args=psi.data) - advected + grad_T[0]
-        T_rate = self.kappa*T.laplace(self.T_bc) - u.dot(grad_T)
-        return FieldCollection([omega_rate, T_rate])
-
-    def make_evolution_rate(self, state, backend):
-        """The same for py-pde's compiled steppers."""
-        nu, kappa, h, (X, Y, inverse) = self.nu, self.kappa, self.h, self.basis
-        shape = (3, *(n + 2 for n in self.grid.shape))
-
-        def rate(data, t):
-            full, out = np.empty(shape), np.empty_like(data)
-            rates(nu, kappa, h, X, Y, inverse, data, full, out)
-            return out
-
-        return rate
-
     def points(self, field: int) -> tuple[np.ndarray, np.ndarray]:
         """x and y of the points, the ghosts' included."""
         columns, inner = self.grid.shape
         return self.h*(np.arange(columns + 2) - 0.5), self.h*np.arange(inner + 2)
 
-    def state(self, data: np.ndarray) -> FieldCollection:
-        """Fields of py-pde from an array (2, columns, rows - 1)."""
-        return FieldCollection([ScalarField(self.grid, f) for f in data], labels=["omega", "T"])
-
-    def rolls(self, ke: float, number: int | None = None) -> np.ndarray:
+    def rolls(self, ke: float = ROLL_ENERGY) -> np.ndarray:
         """Rolls psi ~ sin(kx) sin^2(pi y) of kinetic energy `ke`, linear temperature."""
         width = self.grid_box[0]
-        number = 2*max(1, round(width/2)) if number is None else number
-        if number < 2 or number % 2:
-            raise ValueError(f"rolls between periodic sides come in pairs, got {number}: give an even number")
+        number = 2*max(1, round(width/2))
         if not ke >= 0:
             raise ValueError(f"the kinetic energy of the initial rolls cannot be negative, got {ke}")
         x, y = np.meshgrid(*(p[1:-1] for p in self.points(0)), indexing="ij")
@@ -126,7 +85,7 @@ class Boussinesq(PDEBase):
 
     def padded(self, data: np.ndarray) -> np.ndarray:
         """(omega, T, psi) with their ghosts, each (columns+2, rows+1)."""
-        full = np.empty((3, *(n + 2 for n in self.grid.shape)))
+        full = self.room()
         pad(self.h, data, self.streamfunction(data[0]), full)
         return full
 
@@ -136,7 +95,7 @@ class Boussinesq(PDEBase):
 
     def trouble(self, data: np.ndarray) -> str:
         """What is wrong with a state, if anything."""
-        names = [name for name, f in zip(("omega", "T"), data) if not np.isfinite(f).all()]
+        names = [name for name, f in zip(self.names, data) if not np.isfinite(f).all()]
         return f"{' and '.join(names)} not finite" if names else ""
 
     def kinetic_energy(self, data: np.ndarray) -> float:
@@ -152,26 +111,12 @@ class Boussinesq(PDEBase):
         psi = self.streamfunction(data[0])[:, self.rows//2 - 1]
         return (np.roll(psi, 1) - np.roll(psi, -1))/(2*self.h)
 
-    def nusselt(self, data: np.ndarray) -> tuple[float, float, float]:
-        """Of the plates, and of the volume 1 + <vT>/kappa.
-
-        The difference of the first two rows is the flux that the scheme itself sends through a plate; it is
-        of second order because T'' is zero there, where nothing moves.
-        """
-        _, T, psi = self.padded(data)
+    def nusselt(self, data: np.ndarray) -> tuple[float, float]:
+        """Of the lower and the upper plate. The difference of the first two rows is the flux that the scheme
+        itself sends through a plate; it is of second order because T'' is zero there, where nothing moves."""
+        T = self.padded(data)[1]
         bottom, top = (float(np.mean((f[:, 0] - f[:, 1])[1:-1]))/self.h for f in (T, -T[:, ::-1]))
-        v = (psi[:-2] - psi[2:])/(2*self.h)
-        return bottom, top, 1 + float(np.mean(v*T[1:-1], axis=0).sum())*self.h/self.kappa
-
-    def fields(self, data: np.ndarray) -> dict[str, np.ndarray]:
-        """x, y, u, v, T, omega, psi at the points of the grid, plates included; each (columns, rows+1)."""
-        omega, T, psi = self.padded(data)
-        x, y = np.meshgrid(*self.points(0), indexing="ij")
-        u, v = np.gradient(psi, self.h, axis=1,
-                           edge_order=2), (np.roll(psi, 1, 0) - np.roll(psi, -1, 0))/(2*self.h)
-        u[:, [0, -1]] = 0
-        named = {"x": x, "y": y, "u": u, "v": v, "T": T, "omega": omega, "psi": psi}
-        return {name: f[1:-1] for name, f in named.items()}
+        return bottom, top
 
 
 @jit

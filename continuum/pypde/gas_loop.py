@@ -7,10 +7,10 @@ side, the shear stress at its upper right corner.
 from typing import NamedTuple
 
 from continuum.fluid import conductivity, pressure, stress, temperature, viscosity
+from continuum.gas.loop import BULK_VISCOSITY
 from continuum.jit import formula, jit
 
 RHO, VX, VY, E, T, ETA, K, SXX, SYY, SXY = range(10)
-BULK_VISCOSITY = 0.0    # [KHP95, Sec. II]
 
 
 class Mesh(NamedTuple):
@@ -19,7 +19,6 @@ class Mesh(NamedTuple):
     g: float
     T_hot: float
     T_cold: float
-    slide: float        # velocity of the cold plate along itself
     torus: bool         # no plates: periodic in y, too
 
 
@@ -37,8 +36,6 @@ def fill(box, data, S):
             else:
                 S[f, i, 0] = a*S[f, i, 1] + b*S[f, i, 2]
                 S[f, i, ny + 1] = a*S[f, i, ny] + b*S[f, i, ny - 1]
-                if f == VX:
-                    S[f, i, ny + 1] += 2*box.slide
         for j in range(ny + 2):
             S[f, 0, j], S[f, nx + 1, j] = S[f, nx, j], S[f, 1, j]
 

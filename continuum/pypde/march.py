@@ -1,18 +1,58 @@
-"""What py-pde calls while it solves: a tracker that records, checks and stops; the Runge-Kutta step."""
+"""What py-pde calls while it solves: compiled rates; a tracker that records, checks and stops; the step."""
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar
+
+import numpy as np
 
 from continuum.gas.solve import DivergedError
 from continuum.jit import jit
 
 # continuum.jit comes before everything that loads numba
 # isort: split
+from pde import FieldCollection, PDEBase, ScalarField
 from pde.solvers import RungeKuttaSolver
 from pde.trackers import ConstantInterrupts, FinishedSimulation
 from pde.trackers.base import TrackerBase
 
 Until = Any             # Steady or Time of continuum.steady
 Progress = Callable[[float], None]
+
+
+class Equation(PDEBase):
+    """An equation of py-pde whose rates are compiled here: rates(*laws, data, full, out).
+
+    names : of the fields of `data` (fields, columns, rows). scratch : fields of `full`, with ghosts.
+    """
+
+    explicit_time_dependence = False
+    names: ClassVar[tuple[str, ...]]
+    scratch: ClassVar[int]
+    grid: Any
+    rates: Callable
+    laws: tuple
+
+    def room(self) -> np.ndarray:
+        """For `full`."""
+        return np.empty((self.scratch, *(n + 2 for n in self.grid.shape)))
+
+    def make_evolution_rate(self, state: Any, backend: Any) -> Callable:
+        """The rates for py-pde's compiled steppers."""
+        rates, laws, shape = self.rates, self.laws, self.room().shape
+
+        def rate(data, t):
+            full, out = np.empty(shape), np.empty_like(data)
+            rates(*laws, data, full, out)
+            return out
+
+        return rate
+
+    def evolution_rate(self, state: Any, t: float = 0) -> Any:
+        """The same for py-pde's fields."""
+        return self.state(self.make_evolution_rate(state, None)(np.ascontiguousarray(state.data), t))
+
+    def state(self, data: np.ndarray) -> FieldCollection:
+        """Fields of py-pde from an array."""
+        return FieldCollection([ScalarField(self.grid, f) for f in data], labels=list(self.names))
 
 
 class Watch(TrackerBase):
@@ -34,8 +74,8 @@ class Watch(TrackerBase):
                                 f"{trouble}; take more rows (thinner cells) or a smaller dt")
         self.samples.append((t, *self.equation.measure(field.data)))
         if self.progress:
-            self.progress(self.until.fraction(self.equation, self.ke))
-        if self.until.done(self.equation, self.ke):
+            self.progress(self.until.fraction(self.ke))
+        if self.until.done(self.ke):
             raise FinishedSimulation("rule to stop is met")
 
 

@@ -12,9 +12,9 @@ import numpy as np
 from continuum.exact.vortex import solved, velocities
 from continuum.fluid import energy, sound_speed
 from continuum.pypde import solve as pypde
-from continuum.pypde.gas import RK4_DECAY, RK4_WAVE, Gas
+from continuum.pypde.gas import Gas
 from continuum.pypde.gas_loop import RHO, VX, VY, E
-from continuum.steady import Time
+from continuum.steady import RK4_DECAY, RK4_SOUND, Time
 from studies.build.grid import started
 from studies.build.scenes import TaylorGreen
 from studies.cost.contestants import DecayingVortex
@@ -42,15 +42,15 @@ class Slow(Gas):
         sound = float(sound_speed(eos, 1.0, energy(eos, 1.0, 1.0)))
         wave = (2*np.sqrt(2)*sound + 2*self.scene.speed)/self.h
         decay = 8*max(law.eta, law.k/eos.cv)/self.h**2
-        return float(1/(decay/RK4_DECAY + wave/RK4_WAVE))
+        return float(1/(decay/RK4_DECAY + wave/RK4_SOUND))
 
     def measure(self, data: np.ndarray) -> tuple[float, float, float]:
         """v^2/2 per volume, as cheap as it gets: samples are there for their times."""
         return float((data[VX]**2 + data[VY]**2).mean()/2), np.nan, 1.0
 
-    def nusselt(self, data: np.ndarray) -> tuple[float, float, float]:
+    def nusselt(self, data: np.ndarray) -> tuple[float, float]:
         """No heat is driven through it."""
-        return np.nan, np.nan, np.nan
+        return np.nan, np.nan
 
     def begun(self) -> np.ndarray:
         """The state (4, columns, rows) at the start, each field where it is."""

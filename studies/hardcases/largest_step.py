@@ -14,8 +14,9 @@ from numpy.polynomial.polynomial import polyval
 
 from continuum.fluid import ConstEta
 from continuum.gas.fields import block, initial
-from continuum.gas.solve import RK4_DECAY, RK4_SOUND, March, limits
+from continuum.gas.solve import March, limits
 from continuum.scene import Periodic, Torus
+from continuum.steady import RK4_DECAY, RK4_SOUND
 from particles.integral.covariance import jacobian
 from particles.integral.layer import Layer
 from particles.integral.points import lattice

@@ -10,6 +10,8 @@ from continuum.gas.fields import block, initial, interpolate
 from continuum.gas.loop import FluxForm
 from continuum.gas.solve import March, Solution, limits, run, steady_on
 from continuum.pypde import solve as pypde
+from continuum.pypde.boussinesq import Boussinesq
+from continuum.pypde.gas import Gas
 from continuum.scene import RayleighBenard
 from continuum.steady import SAFETY, Steady, Time
 from particles.observe import Grid
@@ -194,8 +196,8 @@ class PypdeSteady(Refined):
 
     def _solve(self, rows: int, start: dict) -> pypde.PdeSolution:
         if self.scene is None:
-            return pypde.solve_boussinesq(ra=self.ra, pr=self.pr, rows=rows, **start)
-        return pypde.solve_gas(self.scene, rows, **start)
+            return pypde.solve(Boussinesq(ra=self.ra, pr=self.pr, rows=rows), **start)
+        return pypde.solve(Gas(self.scene, rows), **start)
 
     def _point(self) -> dict:
         if self.scene is None:
