@@ -1,4 +1,5 @@
 """When a run of a grid may stop: rules that look at its samples of K; its step; what it ends with."""
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import ceil
 from typing import Any, NamedTuple
@@ -8,6 +9,7 @@ import numpy as np
 SAFETY = 0.8  # of the stability limit, which is taken at the start
 SMALL = 1e-9  # remaining change of K that no longer matters, K of convection being 1e-3
 STILL = 1e-12  # K of a fluid at rest; rolls have 1e-5 already 0.3 % above onset
+STEPS = 60  # of Newton's method: the slowest case that got through took 46 (cavity at Ra = 1e7 on 64 rows)
 RK4_SOUND, RK4_DECAY = 2.82, 2.78  # where RK4's stability region ends on the imaginary and on the real axis
 
 
@@ -64,6 +66,29 @@ def ended(until: Any, samples: list) -> dict[str, Any]:
     series = Series(*np.array(samples).T)
     ke, ke_err = until.estimate(series.ke)
     return {"series": series, "ke": ke, "ke_err": ke_err, "converged": until.settled(series.ke)}
+
+
+def newton(q: np.ndarray, step: Callable[[np.ndarray], np.ndarray], within: float,
+           what: str) -> tuple[np.ndarray, tuple[float, ...]]:
+    """The q that no step(q) changes by more than `within`, and the largest change of each step.
+
+    Raises NewtonFailed: no convergence, of `what`.
+    """
+    changes: list[float] = []
+    while not changes or changes[-1] > within:
+        change = step(q)
+        q = q + change
+        changes.append(largest(change))
+        if not changes[-1] < 1e3 or len(changes) == STEPS:
+            last = ", ".join(f"{size:.1e}" for size in changes[-4:])
+            raise NewtonFailed(f"no steady state at {what}, last changes {last}: start from one nearby in "
+                               "Ra, refine the grid, or see with a run in time whether there is one")
+    return q, tuple(changes)
+
+
+def largest(a: np.ndarray) -> float:
+    """Largest magnitude."""
+    return float(np.abs(a).max())
 
 
 @dataclass(frozen=True)

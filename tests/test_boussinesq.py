@@ -1,20 +1,17 @@
 """The staggered Boussinesq solver: exact discrete laws, starts, what is refused."""
 import numpy as np
 import pytest
-from boxes import FREE_HALF, every_box, every_closed_box, random_state
+from boxes import FREE_HALF, every_box, marched, random_state
 
 from continuum.boussinesq import (
     CAVITY,
     HALF_LAYER,
-    LAYER,
     SQUARE,
     BoussinesqCase,
     Box,
     BoxEdges,
     End,
-    NewtonFailed,
     State,
-    Unstable,
     rest,
     roll,
     steady,
@@ -22,6 +19,7 @@ from continuum.boussinesq import (
 )
 from continuum.boussinesq.poisson import solvers
 from continuum.boussinesq.projection import Projection
+from continuum.steady import NewtonFailed
 
 # --- exact laws of the discrete equations -----------------------------------------------------------------
 
@@ -62,7 +60,7 @@ def test_five_ways_to_the_nusselt_number_agree_exactly(box, pr):
     assert others == pytest.approx([seen.nu_bottom]*5, rel=1e-10)       # what Newton's last step leaves
 
 
-@every_closed_box
+@every_box
 def test_heat_and_work_balance_in_every_box(box):
     seen = steady(BoussinesqCase(ra=3e4, pr=0.71, box=box, rows=16)).observe()
     assert seen.nu_thermal == pytest.approx(seen.wall_power, rel=1e-10)     # what Newton's last step leaves
@@ -73,7 +71,7 @@ def test_rates_of_change_are_those_of_the_equations_to_second_order():
     """psi = sin(pi x) sin(pi y)^2, T = cos(pi x) sin(pi y)^2 + 1/2 - y: every term worked out by hand."""
     errors = []
     for rows in (32, 64):
-        case = BoussinesqCase(ra=500.0, pr=7.0, box=LAYER, rows=rows)
+        case = BoussinesqCase(ra=500.0, pr=7.0, box=HALF_LAYER, rows=rows)
         s = [lambda y, m=m: [np.sin(np.pi*y)**2, np.pi*np.sin(2*np.pi*y), 2*np.pi**2*np.cos(2*np.pi*y),
                              -4*np.pi**3*np.sin(2*np.pi*y)][m] for m in range(4)]
         points = [np.meshgrid(np.pi*x, y, indexing="ij") for x, y in case.mac.points]
@@ -95,18 +93,28 @@ def test_rates_of_change_are_those_of_the_equations_to_second_order():
     assert np.divide(*errors) == pytest.approx([4, 4, 4], abs=0.3)
 
 
-def test_shear_decays_by_nu_and_heat_by_kappa():
-    """Both are exact solutions: u(y) alone, and T(y) alone, whose pressure carries its weight."""
-    case = BoussinesqCase(ra=900.0, pr=9.0, box=LAYER, rows=16)
+def test_heat_decays_by_kappa():
+    """T(y) alone is an exact solution, whose pressure carries its weight."""
+    case = BoussinesqCase(ra=900.0, pr=9.0, box=HALF_LAYER, rows=16)
+    mac, still = case.mac, rest(case)
+    wave = 0.1*np.sin(2*np.pi*mac.y.centre)*np.ones((mac.x.cells, 1))
+    end = marched(case, still.q + np.r_[np.zeros(mac.ends[1]), wave.ravel()], 1.0, 100)
+    rate = (2*mac.y.cells*np.sin(np.pi/mac.y.cells))**2/90
+    left = (mac.split(end)[2] - still.parts[2])/wave
+    assert left == pytest.approx(np.exp(-rate), rel=(0.01*rate)**2)     # trapezoidal rule: rate^3 dt^2/12
+
+
+def test_shear_decays_by_nu():
+    """Of weak cells between free plates of one temperature; advection is a millionth of what they are."""
+    free = BoxEdges(flow=End.MIRROR, heat=End.WALL)
+    case = BoussinesqCase(ra=900.0, pr=9.0, box=Box(plates=free), rows=16)
     mac = case.mac
-    u, v, T = rest(case).parts
-    start = State(case=case, q=np.concatenate([
-        (u + np.sin(np.pi*mac.y.centre)).ravel(), v.ravel(), (T + 0.1*np.sin(2*np.pi*mac.y.centre)).ravel()]))
-    end = transient(case, start, until=1.0, dt=0.01).state
-    for part, n, diffusivity, first in ((0, 1, 0.1, u), (2, 2, 1/90, T)):
-        rate = diffusivity*(2*mac.y.cells*np.sin(np.pi*n/2/mac.y.cells))**2
-        left = (end.parts[part] - first)/(start.parts[part] - first)
-        assert left == pytest.approx(np.exp(-rate), rel=(0.01*rate)**2)     # trapezoidal rule: rate^3 dt^2/12
+    psi = 1e-6*np.outer(np.sin(np.pi*mac.x.face), np.sin(np.pi*mac.y.face))
+    start = np.r_[mac.curl@psi.ravel(), np.zeros(case.rows*case.columns)]
+    rate = 0.1*2*(2*mac.y.cells*np.sin(np.pi/2/mac.y.cells))**2
+    left = marched(case, start, 1.0, 100)[:mac.ends[1]]
+    expected = np.exp(-rate)*start[:mac.ends[1]]
+    assert left == pytest.approx(expected, rel=(0.01*rate)**2, abs=1e-12)
 
 
 # --- starts and classification ----------------------------------------------------------------------------
@@ -116,14 +124,10 @@ def test_shear_decays_by_nu_and_heat_by_kappa():
 @pytest.mark.parametrize("rolls", [1, 2, 3, 4])
 def test_rolls_are_counted(box, rolls):
     case = BoussinesqCase(ra=5000, pr=1, box=box, rows=16)
-    if box is LAYER and rolls % 2:
-        with pytest.raises(ValueError, match=f"{rolls} rolls do not fit"):
-            roll(case, rolls)
-    else:
-        start = roll(case, rolls)
-        assert start.rolls == rolls
-        # its rolls have flattened the mean profile: more heat at the plates than by conduction
-        assert start.observe().nu_bottom > 1 or box is CAVITY
+    start = roll(case, rolls)
+    assert start.rolls == rolls
+    # its rolls have flattened the mean profile: more heat at the plates than by conduction
+    assert start.observe().nu_bottom > 1 or box is CAVITY
     assert rest(case).rolls == 0
 
 
@@ -147,10 +151,6 @@ def test_refuses_bad_boxes():
         Box(width=0.0)
     with pytest.raises(ValueError, match="no wall has a temperature"):
         Box(plates=BoxEdges(flow=End.WALL, heat=End.MIRROR))
-    with pytest.raises(ValueError, match="periodic in both or in none"):
-        BoxEdges(flow=End.PERIODIC, heat=End.WALL)
-    with pytest.raises(ValueError, match="plates cannot be periodic"):
-        Box(plates=BoxEdges(flow=End.PERIODIC, heat=End.PERIODIC))
 
 
 def test_refuses_bad_states_and_runs():
@@ -163,27 +163,13 @@ def test_refuses_bad_states_and_runs():
         State(case=BoussinesqCase(ra=5000, pr=1, rows=32), q=rest(case).q)
     with pytest.raises(ValueError, match="resample only within one box"):
         steady(BoussinesqCase(ra=5000, pr=1, box=SQUARE, rows=16), rest(case))
-    with pytest.raises(ValueError, match="solve the half"):
-        steady(BoussinesqCase(ra=5000, pr=1, box=LAYER, rows=16))
-    with pytest.raises(ValueError, match="3 rolls do not fit"):
-        roll(BoussinesqCase(ra=5000, pr=1, box=LAYER, rows=16), 3)
-
-
-@pytest.mark.parametrize("bad, rule", [({"until": -1.0}, "until must be positive"),
-                                       ({"dt": 0.0}, "dt must be positive")])
-def test_refuses_bad_marching(bad, rule):
-    case = BoussinesqCase(ra=5000, pr=1, rows=16)
-    with pytest.raises(ValueError, match=rule):
-        transient(case, roll(case), **bad)
-
-
-def test_too_long_a_step_is_refused_with_the_step_that_would_do():
-    case = BoussinesqCase(ra=1e4, pr=1, rows=32)
-    with pytest.raises(Unstable, match=r"CFL number is .* above 0.8: take dt below 0.0"):
-        transient(case, roll(case), dt=0.5)
+    with pytest.raises(ValueError, match="0 rolls do not fit"):
+        roll(case, 0)
+    with pytest.raises(ValueError, match="until must be positive"):
+        transient(case, roll(case), until=-1.0)
 
 
 def test_newton_that_fails_says_so():
     """On 8 rows a layer at Ra = 1e8 has no steady state that the steps reach."""
-    with pytest.raises(NewtonFailed, match=r"no steady state in \d+ steps at Ra = 100000000.0.*smaller"):
+    with pytest.raises(NewtonFailed, match=r"no steady state at Ra = 1e\+08, Pr = 0.01 on 8 rows.*refine"):
         steady(BoussinesqCase(ra=1e8, pr=0.01, rows=8))

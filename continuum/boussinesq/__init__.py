@@ -8,42 +8,8 @@ operators: a transient ends in the state that Newton finds on the same grid.
     state = steady(BoussinesqCase(ra=10_000, pr=1, box=HALF_LAYER, rows=64))
     state.K, state.rolls, state.observe()
 """
-from continuum.boussinesq.flow import BoussinesqCase, Observed, State
-from continuum.boussinesq.mac import (
-    CAVITY,
-    CONDUCTING_SQUARE,
-    FREE_PLATES,
-    HALF_LAYER,
-    LAYER,
-    SQUARE,
-    Box,
-    BoxEdges,
-    End,
-)
+from continuum.boussinesq.flow import BoussinesqCase, State
+from continuum.boussinesq.mac import CAVITY, CONDUCTING_SQUARE, HALF_LAYER, SQUARE, Box, BoxEdges, End
 from continuum.boussinesq.newton import growth_rates, steady
-from continuum.boussinesq.projection import Transient, Unstable, transient
+from continuum.boussinesq.projection import transient
 from continuum.boussinesq.starts import rest, roll
-from continuum.steady import NewtonFailed
-
-__all__ = [
-    "CAVITY",
-    "CONDUCTING_SQUARE",
-    "FREE_PLATES",
-    "HALF_LAYER",
-    "LAYER",
-    "SQUARE",
-    "BoussinesqCase",
-    "Box",
-    "BoxEdges",
-    "End",
-    "NewtonFailed",
-    "Observed",
-    "State",
-    "Transient",
-    "Unstable",
-    "growth_rates",
-    "rest",
-    "roll",
-    "steady",
-    "transient",
-]

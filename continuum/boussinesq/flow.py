@@ -14,8 +14,7 @@ from scipy.ndimage import label
 
 from continuum.boussinesq.mac import HALF_LAYER, Box, End, Mac, check_grid, mac
 from continuum.linear.layer import positive
-
-STILL = 1e-12       # K of a fluid at rest: rolls at onset have 1e-2 (1 - sqrt(Ra_c/Ra))
+from continuum.steady import STILL
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,7 +88,7 @@ class State:
     case: BoussinesqCase
     q: np.ndarray = field(repr=False)
     t: float = 0.0
-    residuals: tuple[float, ...] = ()       # of Newton's steps, largest rate of change
+    changes: tuple[float, ...] = ()         # of Newton's steps, the largest one
 
     def __post_init__(self):
         if self.q.shape != (self.case.mac.ends[-1],):
@@ -120,9 +119,7 @@ class State:
         """How many rolls lie in the box, 0 at rest: regions of one sign of psi, above 10 % of its largest."""
         if self.K < STILL:
             return 0
-        psi = np.pad(self.psi, ((0, 0), (1, 1)))
-        if self.case.mac.periodic:      # cut between two rolls
-            psi = np.roll(psi, -int(np.argmin(np.sum(psi**2, axis=1))), axis=0)
+        psi = self.psi
         least = 0.1*np.max(np.abs(psi))
         return int(label(psi > least)[1] + label(psi < -least)[1])
 
@@ -146,7 +143,7 @@ class State:
             raise ValueError(f"state is of {self.case.box}, the case has {case.box}: resample only within "
                              "one box")
         if (case.rows, case.columns) == (self.case.rows, self.case.columns):
-            return replace(self, case=case, residuals=())
+            return replace(self, case=case, changes=())
         old, new = self.case.mac, case.mac
         parts = [resample(f, a, b, old) for f, a, b in zip(self.parts, old.points, new.points)]
         return State(case=case, q=np.concatenate([f.ravel() for f in parts]), t=self.t)
@@ -175,12 +172,10 @@ def enters(mac: Mac, T: np.ndarray, axis: int, end: int) -> Entering:
 
 
 def resample(f: np.ndarray, old: tuple, new: tuple, mac: Mac) -> np.ndarray:
-    """f from the points old = (x, y) to new; periodic, or zero in walls that its points leave out."""
-    (x, y), width = old, mac.box.width
-    if mac.periodic:
-        x, f = np.r_[x[-3:] - width, x, x[:3] + width], np.concatenate([f[-3:], f, f[:3]])
-    elif len(x) == mac.x.faces:
-        x, f = np.r_[0, x, width], np.pad(f, ((1, 1), (0, 0)))
+    """f from the points old = (x, y) to new; zero in walls that its points leave out."""
+    x, y = old
+    if len(x) == mac.x.faces:
+        x, f = np.r_[0, x, mac.box.width], np.pad(f, ((1, 1), (0, 0)))
     if len(y) == mac.y.faces:
         y, f = np.r_[0, y, 1], np.pad(f, ((0, 0), (1, 1)))
     return RectBivariateSpline(x, y, f)(*new)

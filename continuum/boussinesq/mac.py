@@ -20,7 +20,6 @@ from scipy import sparse
 
 class End(Enum):
     """What happens to a quantity (velocity along the end, or temperature) at both ends of an axis."""
-    PERIODIC = "continues at the other end"
     MIRROR = "is even about the end: free slip, insulated"
     WALL = "is given on the end: no slip, fixed temperature"
 
@@ -34,15 +33,9 @@ class BoxEdges:
     high: float = 0.0
     ramp: float = 0.0
 
-    def __post_init__(self):
-        if (self.flow is End.PERIODIC) != (self.heat is End.PERIODIC):
-            raise ValueError(f"flow is {self.flow}, heat is {self.heat}: an axis is periodic in both or in "
-                             "none")
-
 
 PLATES = BoxEdges(flow=End.WALL, heat=End.WALL, low=0.5, high=-0.5)
 FREE_PLATES = BoxEdges(flow=End.MIRROR, heat=End.WALL, low=0.5, high=-0.5)
-PERIODIC = BoxEdges(flow=End.PERIODIC, heat=End.PERIODIC)
 SYMMETRY = BoxEdges(flow=End.MIRROR, heat=End.MIRROR)
 INSULATED = BoxEdges(flow=End.WALL, heat=End.MIRROR)
 CONDUCTING = BoxEdges(flow=End.WALL, heat=End.WALL, low=0.5, high=0.5, ramp=-1.0)
@@ -58,14 +51,11 @@ class Box:
     def __post_init__(self):
         if not 0 < self.width < np.inf:
             raise ValueError(f"width must be positive and finite, got {self.width}: it counts heights")
-        if self.plates.heat is End.PERIODIC:
-            raise ValueError("plates cannot be periodic: give PLATES, FREE_PLATES or INSULATED")
         if End.WALL not in (self.sides.heat, self.plates.heat):
             raise ValueError("no wall has a temperature: fix it on the plates or on the sides")
 
 
 HALF_LAYER = Box(width=1.0, sides=SYMMETRY)         # half of the aspect-2 periodic box: one roll of its pair
-LAYER = Box(width=2.0, sides=PERIODIC)
 SQUARE = Box(width=1.0, sides=INSULATED)
 CONDUCTING_SQUARE = Box(width=1.0, sides=CONDUCTING)
 CAVITY = Box(width=1.0, plates=INSULATED,           # de Vahl Davis: hot left side, cold right side
@@ -75,15 +65,11 @@ CAVITY = Box(width=1.0, plates=INSULATED,           # de Vahl Davis: hot left si
 class Axis:
     """Differences and means along one axis of n cells; `faces` leaves out those in a wall."""
 
-    def __init__(self, cells: int, length: float, periodic: bool):
-        self.cells, self.h = cells, length/cells
-        self.faces = cells if periodic else cells - 1
+    def __init__(self, cells: int, length: float):
+        self.cells, self.faces, self.h = cells, cells - 1, length/cells
         self.centre = (np.arange(cells) + 0.5)*self.h
         self.face = (np.arange(self.faces) + 1.0)*self.h
-        left = sparse.eye_array(self.faces, cells)
-        right = sparse.eye_array(self.faces, cells, k=1)
-        if periodic:
-            right = right + sparse.eye_array(cells, cells, k=1-cells)
+        left, right = (sparse.eye_array(self.faces, cells, k=k) for k in (0, 1))
         self.grad = ((right - left)/self.h).tocsr()     # faces <- cells
         self.mean = ((right + left)/2).tocsr()
         self.div = (-self.grad.T).tocsr()               # cells <- faces, zero in the walls
@@ -107,16 +93,15 @@ class Mac:
 
     def __init__(self, box: Box, rows: int, columns: int):
         self.box = box
-        x = self.x = Axis(columns, box.width, box.sides.flow is End.PERIODIC)
-        y = self.y = Axis(rows, 1.0, False)
-        self.periodic = x.faces == x.cells
+        x, y = self.x, self.y = Axis(columns, box.width), Axis(rows, 1.0)
         self.points = (x.face, y.centre), (x.centre, y.face), (x.centre, y.centre)
         self.shapes = [(len(a), len(b)) for a, b in self.points]
         self.ends = np.cumsum([a*b for a, b in self.shapes])
         self.cell = x.h*y.h/box.width                   # share of one cell in the box
-        self.lap = self.diffusion()
+        self.lap = sparse.block_diag(self.diffusion()).tocsr()
         self.wall = np.r_[np.zeros(self.ends[1]), self.wall_heat().ravel()]
-        self.lift = self.place((1, 2, cross(columns, y.mean)))
+        around = sparse.csr_array(tuple(self.ends[:2])), sparse.csr_array((rows*columns, 0))
+        self.lift = sparse.block_diag([around[0], cross(columns, y.mean), around[1]]).tocsr()   # of v by T
         self.A, self.B, self.D = self.advection()
         self.div = sparse.hstack([cross(x.div, rows), cross(columns, y.div)]).tocsr()
         self.grad = (-self.div.T).tocsr()               # of the pressure, onto (u, v)
@@ -126,21 +111,13 @@ class Mac:
         """Views (u, v, T) of a state vector, each (x, y)."""
         return [part.reshape(shape) for part, shape in zip(np.split(q, self.ends[:-1]), self.shapes)]
 
-    def place(self, *blocks) -> sparse.csr_array:
-        """The matrix on q with the given (row, column, block) of the three parts, zero elsewhere."""
-        size = [a*b for a, b in self.shapes]
-        table = [[sparse.csr_array((m, n)) for n in size] for m in size]
-        for row, column, block in blocks:
-            table[row][column] = block
-        return stack(table)
-
-    def diffusion(self) -> sparse.csr_array:
+    def diffusion(self) -> tuple[sparse.csr_array, ...]:
         """Lap of u, v, T; the homogeneous part."""
         x, y, sides, plates = self.x, self.y, self.box.sides, self.box.plates
         u = cross(x.bend_faces(), y.cells) + cross(x.faces, y.bend(plates.flow))
         v = cross(x.bend(sides.flow), y.faces) + cross(x.cells, y.bend_faces())
         T = cross(x.bend(sides.heat), y.cells) + cross(x.cells, y.bend(plates.heat))
-        return self.place((0, 0, u), (1, 1, v), (2, 2, T))
+        return u, v, T
 
     def wall_heat(self) -> np.ndarray:
         """What the temperatures of the walls add to Lap T, (columns, rows)."""

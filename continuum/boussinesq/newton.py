@@ -7,13 +7,12 @@ from scipy.sparse.linalg import eigs, splu
 
 from continuum.boussinesq.flow import BoussinesqCase, Equations, State
 from continuum.boussinesq.starts import roll
-from continuum.steady import NewtonFailed
+from continuum.steady import largest, newton
 
 RELAX = 5.0     # the implicit steps that lead to Newton's are RELAX/(largest rate of change) long
-STEPS = 60      # the slowest case that got through took 46 (cavity at Ra = 1e7 on 64 rows)
 
 
-class Newton(Equations):
+class InStreamfunction(Equations):
     """Steps in s = (psi, T), which leave neither pressure nor divergence: q = C s, residual C^T rate."""
 
     @cached_property
@@ -54,26 +53,15 @@ def steady(case: BoussinesqCase, start: State | None = None, *, within: float = 
     Implicit steps lengthen as the rates of change fall and become Newton's, until no value changes by more
     than `within`. The state need not be stable.
     """
-    if case.mac.periodic:
-        raise ValueError(f"the box is periodic ({case.box}): its steady flows may be shifted, which leaves "
-                         "Newton no unique answer; solve the half with SYMMETRY sides, or use transient")
-    newton, first = Newton(case), (start or roll(case)).on(case)
-    q = newton.C@np.r_[first.psi.ravel(), first.parts[2].ravel()]   # steps in s never mend a divergence
-    residual = newton.residual(q)
-    sizes = [largest(residual)]
-    for _ in range(STEPS):
-        change = newton.step(q, residual, RELAX/max(sizes[-1], within*1e-6))
-        q = q + change
-        residual = newton.residual(q)
-        sizes.append(largest(residual))
-        if not np.isfinite(sizes[-1]):
-            break
-        if largest(change) < within:
-            return State(case=case, q=q, residuals=tuple(sizes))
-    last = ", ".join(f"{size:.1e}" for size in sizes[-5:])
-    raise NewtonFailed(f"no steady state in {len(sizes) - 1} steps at Ra = {case.ra}, Pr = {case.pr}, "
-                       f"{case.rows} rows; last rates of change {last}: start from the steady state of a "
-                       "smaller Ra, refine the grid, or see with transient whether there is one")
+    equations, first = InStreamfunction(case), (start or roll(case)).on(case)
+
+    def relaxed(q: np.ndarray) -> np.ndarray:
+        residual = equations.residual(q)
+        return equations.step(q, residual, RELAX/max(largest(residual), within*1e-6))
+    s = np.r_[first.psi.ravel(), first.parts[2].ravel()]    # steps in s never mend a divergence
+    q, changes = newton(equations.C@s, relaxed, within,
+                        f"Ra = {case.ra:g}, Pr = {case.pr} on {case.rows} rows")
+    return State(case=case, q=q, changes=changes)
 
 
 def growth_rates(state: State, count: int = 4, near: float = 0.2) -> np.ndarray:
@@ -82,13 +70,8 @@ def growth_rates(state: State, count: int = 4, near: float = 0.2) -> np.ndarray:
     They are the `count` eigenvalues nearest to `near`, which should be above the fastest: nothing in free
     fall grows faster than 1. Only disturbances with the symmetry of the box count.
     """
-    newton = Newton(state.case)
-    slope, inertia = newton.jacobian(state.q).tocsc(), newton.inertia.tocsc()
+    equations = InStreamfunction(state.case)
+    slope, inertia = equations.jacobian(state.q).tocsc(), equations.inertia.tocsc()
     first = np.sin(1.0 + np.arange(slope.shape[0]))     # any will do, but the same each time
     found = eigs(slope, count, inertia, sigma=near, v0=first, return_eigenvectors=False)
     return found[np.argsort(-found.real)]
-
-
-def largest(a: np.ndarray) -> float:
-    """Largest magnitude."""
-    return float(np.max(np.abs(a)))

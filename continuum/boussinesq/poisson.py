@@ -1,4 +1,4 @@
-"""Fast solves with the five-point Laplacian: sine, cosine and Fourier modes are its exact eigenvectors."""
+"""Fast solves with the five-point Laplacian: sine and cosine modes are its exact eigenvectors."""
 from collections.abc import Callable
 from functools import partial
 from typing import NamedTuple
@@ -19,9 +19,6 @@ class Modes(NamedTuple):
 def modes(axis: Axis, along: int, end: End) -> Modes:
     """For what sits in cells."""
     n = axis.cells
-    if end is End.PERIODIC:
-        return Modes(partial(fft.rfft, axis=along), partial(fft.irfft, n=n, axis=along),
-                     bend(axis.h, 2*np.arange(n//2 + 1)/n))
     if end is End.MIRROR:
         return Modes(partial(fft.dct, axis=along), partial(fft.idct, axis=along),
                      bend(axis.h, np.arange(n)/n))
@@ -30,9 +27,7 @@ def modes(axis: Axis, along: int, end: End) -> Modes:
 
 
 def face_modes(axis: Axis, along: int) -> Modes:
-    """For what sits on faces and vanishes in the walls, or is periodic."""
-    if axis.faces == axis.cells:
-        return modes(axis, along, End.PERIODIC)
+    """For what sits on faces and vanishes in the walls."""
     return Modes(partial(fft.dst, type=1, axis=along), partial(fft.idst, type=1, axis=along),
                  bend(axis.h, np.arange(1, axis.cells)/axis.cells))
 
@@ -52,7 +47,7 @@ class Solver:
     def __call__(self, g: np.ndarray, a: float, b: float) -> np.ndarray:
         """f of the shape of g (x, y); with a = 0 and ends that leave a constant free, its mean is zero."""
         factor = a + b*self.lap
-        amplitude = self.x.forward(self.y.forward(g))   # Fourier last: it makes complex numbers
+        amplitude = self.x.forward(self.y.forward(g))
         amplitude = np.divide(amplitude, factor, out=np.zeros_like(amplitude), where=factor != 0)
         return self.y.backward(self.x.backward(amplitude))
 
@@ -60,8 +55,7 @@ class Solver:
 def solvers(mac: Mac) -> tuple[Solver, Solver, Solver, Solver]:
     """For u, v, T and the pressure."""
     x, y, sides, plates = mac.x, mac.y, mac.box.sides, mac.box.plates
-    even = End.PERIODIC if mac.periodic else End.MIRROR
     return (Solver(face_modes(x, 0), modes(y, 1, plates.flow)),
             Solver(modes(x, 0, sides.flow), face_modes(y, 1)),
             Solver(modes(x, 0, sides.heat), modes(y, 1, plates.heat)),
-            Solver(modes(x, 0, even), modes(y, 1, End.MIRROR)))
+            Solver(modes(x, 0, End.MIRROR), modes(y, 1, End.MIRROR)))

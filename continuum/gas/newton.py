@@ -20,13 +20,12 @@ from continuum.fluid import energy
 from continuum.gas.fields import NodeFields, block, count_rolls, initial, kinetic_energy, onto, unblock
 from continuum.gas.loop import RHO, VX, VY, E, FluxForm, box_of, fill, rates
 from continuum.scene import Periodic
-from continuum.steady import NewtonFailed
+from continuum.steady import largest, newton
 
 REACH = 2       # of a node or cell in rates, in rows and columns
 STEP = 1e-5     # of the differences: their error is about its square, and round-off over it
 # the implicit steps that lead to Newton's are RELAX/(largest rate of change) free-fall times long
 RELAX = 1.0
-STEPS = 60
 # K of rolls to start from, in free-fall units: from KHP95's, cold and stronger, it may end in other states
 WEAK = 5e-4
 STILL = 1e-10   # square of the share of the velocity below which a disturbance is a change of mass only
@@ -156,19 +155,14 @@ def steady(scene, rows: int, start: NodeFields | None = None, *, within: float =
     """
     equations, unit = Discrete(scene, rows), scene.L/scene.free_fall
     start = warm_rolls(scene, rows, WEAK*scene.free_fall**2) if start is None else onto(scene, rows, start)
-    q = equations.unknowns(block(start))
-    changes: list[float] = []
-    while not changes or changes[-1] > within:
+
+    def relaxed(q: np.ndarray) -> np.ndarray:
         rates = equations.rates(q)
-        change = step(equations, q, rates, RELAX*unit/max(largest(rates)*unit, within**2))
-        q = q + change
-        changes.append(largest(change))
-        if not changes[-1] < 1e3 or len(changes) == STEPS:
-            last = ", ".join(f"{size:.1e}" for size in changes[-4:])
-            raise NewtonFailed(f"no steady state at Ra = {scene.ra:g} on {rows} rows, last changes {last}: "
-                               "start from one nearby in Ra, or from a run in time")
+        return step(equations, q, rates, RELAX*unit/max(largest(rates)*unit, within**2))
+    q, changes = newton(equations.unknowns(block(start)), relaxed, within,
+                        f"Ra = {scene.ra:g} on {rows} rows")
     fields, S = equations.fields(q)
-    return SteadyState(fields, kinetic_energy(S), count_rolls(fields), tuple(changes))
+    return SteadyState(fields, kinetic_energy(S), count_rolls(fields), changes)
 
 
 def step(equations: Discrete, q: np.ndarray, rates: np.ndarray, dt: float) -> np.ndarray:
@@ -188,11 +182,6 @@ def step(equations: Discrete, q: np.ndarray, rates: np.ndarray, dt: float) -> np
     lu = splu((sparse.diags_array(np.where(mask, 1/dt, 1.0)) - slopes).tocsc())
     change, free = lu.solve(mask*rates), lu.solve(units)
     return change - free@np.linalg.solve(kept@free, kept@(q + change))
-
-
-def largest(a: np.ndarray) -> float:
-    """Largest magnitude."""
-    return float(np.abs(a).max())
 
 
 def growth_rate(scene, rows: int, near: float = 0.3) -> float:

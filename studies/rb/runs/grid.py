@@ -169,7 +169,7 @@ class BoussinesqSteady(Refined):
         seen = state.observe()
         return {**boussinesq_point("boussinesq", "mac", self.ra, self.pr), **one_energy(seen.K, 0.0),
                 "nu": (seen.nu_bottom + seen.nu_top)/2, "nu_err": abs(seen.nu_bottom - seen.nu_top),
-                "rolls": 2*state.rolls, "steps": len(state.residuals) - 1}
+                "rolls": 2*state.rolls, "steps": len(state.changes)}
 
 
 @dataclass(frozen=True, kw_only=True)
