@@ -33,6 +33,16 @@ class DenseFluid(NamedTuple):
     cv: float = 1.5
 
 
+class Fields(NamedTuple):
+    """What a state is in terms that all methods share: places x (n, d), velocities v (n, d), densities,
+    temperatures and volumes (n,). x is not a number where a method knows edges alone."""
+    x: np.ndarray
+    v: np.ndarray
+    rho: np.ndarray
+    T: np.ndarray
+    V: np.ndarray
+
+
 @generic
 def pressure(eos, rho, e):
     """P(rho, e)."""
@@ -145,10 +155,10 @@ def expansivity(eos, rho: float, T: float) -> float:
 
 def check_state(eos, rho: Any, e: Any) -> None:
     """Raise ValueError with the first state outside of the validity of the equation of state."""
-    bad = np.flatnonzero(~np.atleast_1d(valid(eos, np.asarray(rho), np.asarray(e))).ravel())
+    rho, e = np.broadcast_arrays(rho, e)
+    bad = np.flatnonzero(~valid(eos, rho, e))
     if bad.size:
-        r, u = (np.broadcast_to(q, np.broadcast_shapes(np.shape(rho), np.shape(e))).ravel()[bad[0]]
-                for q in (rho, e))
+        r, u = rho.flat[bad[0]], e.flat[bad[0]]
         rule = f"rho b = {r*eos.b:.4g} must stay below 1 and " if isinstance(eos, VanDerWaals) else ""
         raise ValueError(f"rho = {r:.6g}, e = {u:.6g} (item {bad[0]}) is outside the validity of "
                          f"{type(eos).__name__}: {rule}rho, T and c^2 must be positive; lower the density or "

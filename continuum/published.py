@@ -28,19 +28,13 @@ def names() -> list[str]:
     return sorted(path.stem for path in FOLDER.glob("*.csv"))
 
 
-@cache
-def read(name: str) -> pd.DataFrame:
-    """The file of a paper, read once."""
-    return pd.read_csv(FOLDER/f"{name}.csv", comment="#", keep_default_na=False,
-                       dtype={"value": float, "uncertainty": float, "symbol": str, "units": str, "note": str})
-
-
 def table(name: str) -> pd.DataFrame:
     """All numbers of a paper, with id, symbol, units, source, reading. ValueError: no such file."""
     if name not in names():
         raise ValueError(f"no published numbers of {name!r}: there are {', '.join(names())}; "
                          f"a new paper is a new file in {FOLDER.parent.name}/{FOLDER.name}/")
-    return read(name).copy()
+    return pd.read_csv(FOLDER/f"{name}.csv", comment="#", keep_default_na=False,
+                       dtype={"value": float, "uncertainty": float, "symbol": str, "units": str, "note": str})
 
 
 @cache
@@ -48,7 +42,7 @@ def numbers() -> dict[str, PrintedNumber]:
     """Every number by its id."""
     fields = list(PrintedNumber.__dataclass_fields__)
     return {row["id"]: PrintedNumber(**{name: row[name] for name in fields})
-            for paper in names() for row in read(paper).to_dict("records")}
+            for paper in names() for row in table(paper).to_dict("records")}
 
 
 def published(key: str) -> PrintedNumber:

@@ -123,10 +123,10 @@ class RayleighBenard:
         for T in (self.T_hot, self.T_cold):
             check_state(self.eos, 1.0, energy(self.eos, 1.0, T))
         eta = float(viscosity(self.law, 1.0, self.T_mean))
-        if not np.isclose(eta, self.eta) or not np.isclose(conductivity(self.law, 1.0, self.T_mean), self.k):
+        if not np.isclose(eta, self.nu) or not np.isclose(conductivity(self.law, 1.0, self.T_mean), self.k):
             raise ValueError(
                 f"{self.transport.__name__} gives eta = {eta:.6g} at rho = 1, T = {self.T_mean}, but Ra = "
-                f"{self.ra} needs {self.eta:.6g}: choose temperatures around the one that the law refers to")
+                f"{self.ra} needs {self.nu:.6g}: choose temperatures around the one that the law refers to")
 
     def _check_numbers(self):
         for name in ("ra", "pr", "L", "aspect", "T_hot", "T_cold"):
@@ -178,18 +178,13 @@ class RayleighBenard:
 
     @property
     def nu(self) -> float:
-        """Kinematic viscosity, sigma^2 per unit of time."""
+        """Kinematic viscosity, sigma^2 per unit of time; at density 1 the shear viscosity."""
         return float(np.sqrt(self.pr*self.g*self.alpha*self.dT*self.L**3/self.ra))
 
     @property
     def kappa(self) -> float:
         """Thermal diffusivity k/(rho C_V)."""
         return self.nu/self.pr
-
-    @property
-    def eta(self) -> float:
-        """Shear viscosity at density 1."""
-        return self.nu
 
     @property
     def k(self) -> float:
@@ -199,7 +194,7 @@ class RayleighBenard:
     @property
     def law(self) -> Any:
         """The transport law with its numbers, for `viscosity` and `conductivity`."""
-        known = {"eta": self.eta, "k": self.k, "nu": self.nu, "kappa": self.kappa, "cv": self.eos.cv}
+        known = {"eta": self.nu, "k": self.k, "nu": self.nu, "kappa": self.kappa, "cv": self.eos.cv}
         return self.transport(**{name: known[name] for name in self.transport._fields if name in known})
 
     @property

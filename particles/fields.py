@@ -1,19 +1,9 @@
-"""What a state is in terms that all methods share: places, velocities, densities, temperatures, volumes."""
-from typing import Any, NamedTuple
+"""Fields of a state, in terms that all methods share, and their kinetic energy."""
+from typing import Any
 
 import numpy as np
 
-from continuum.fluid import temperature
-
-
-class Fields(NamedTuple):
-    """Places x (n, d), velocities v (n, d), densities, temperatures and volumes (n,). x is not a number where
-    a method knows edges alone."""
-    x: np.ndarray
-    v: np.ndarray
-    rho: np.ndarray
-    T: np.ndarray
-    V: np.ndarray
+from continuum.fluid import Fields, temperature
 
 
 def from_densities(eos: Any, x: np.ndarray, V: np.ndarray, rho: np.ndarray, p: np.ndarray,

@@ -20,7 +20,7 @@ every_eos = pytest.mark.parametrize("eos", EQUATIONS_OF_STATE.values(), ids=EQUA
 
 def test_the_gas_of_the_paper():
     scene = RayleighBenard(ra=1e4)  # KHP95, Figs 8 and 9: L = 50, eta = 0.5 at Ra = 10 000
-    assert (scene.eta, scene.k, scene.g) == (pytest.approx(0.5, rel=1e-9), pytest.approx(0.5, rel=1e-9), 1/50)
+    assert (scene.nu, scene.k, scene.g) == (pytest.approx(0.5, rel=1e-9), pytest.approx(0.5, rel=1e-9), 1/50)
     assert scene.free_fall == pytest.approx(1, rel=1e-9)  # 1e-9: the expansivity is a difference
 
 

@@ -12,7 +12,7 @@ from scipy import sparse
 from scipy.interpolate import RectBivariateSpline
 from scipy.ndimage import label
 
-from continuum.boussinesq.mac import HALF_LAYER, Box, End, Mac, check_grid, mac
+from continuum.boussinesq.mac import HALF_LAYER, Box, End, Mac, mac
 from continuum.linear.layer import positive
 from continuum.steady import STILL
 
@@ -29,7 +29,10 @@ class BoussinesqCase:
     def __post_init__(self):
         positive(Ra=self.ra, Pr=self.pr)
         object.__setattr__(self, "columns", self.columns or 2*round(self.box.width*self.rows/2))
-        check_grid(self.rows, self.columns)
+        for name in ("rows", "columns"):
+            if (cells := getattr(self, name)) < 8 or cells % 2:
+                raise ValueError(f"{name} must be even and at least 8, got {cells}: the middle of the box is "
+                                 "a face")
 
     @property
     def nu(self) -> float:

@@ -155,14 +155,6 @@ def cross(x, y) -> sparse.csr_array:
     return sparse.kron(x, y).tocsr()
 
 
-def check_grid(rows: int, columns: int) -> None:
-    """Refuse a grid without a middle or with hardly an inside."""
-    for name, cells in (("rows", rows), ("columns", columns)):
-        if cells < 8 or cells % 2:
-            raise ValueError(f"{name} must be even and at least 8, got {cells}: the middle of the box is a "
-                             "face")
-
-
 @lru_cache(maxsize=16)
 def mac(box: Box, rows: int, columns: int) -> Mac:
     """The operators, assembled once for each box and grid."""

@@ -3,22 +3,13 @@
 Drags are forces on a unit length over viscosity and mean velocity, F/(mu U); c is the solid fraction.
 """
 from math import log, pi
-from typing import NamedTuple
 
-from continuum.published import published
-
-
-class Drag(NamedTuple):
-    """F/(mu U) and its uncertainty."""
-
-    value: float
-    uncertainty: float
+from continuum.published import PrintedNumber, published
 
 
-def drag_of(c: float) -> Drag:
+def drag_of(c: float) -> PrintedNumber:
     """The published drag of solid fraction c, one of 0.05, 0.1, 0.2, 0.3."""
-    printed = published(f"cylinders-drag-{c:g}")
-    return Drag(printed.value, printed.uncertainty)
+    return published(f"cylinders-drag-{c:g}")
 
 
 def series(c: float) -> float:

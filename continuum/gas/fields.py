@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.interpolate import RectBivariateSpline
 
-from continuum.fluid import conductivity, energy, pressure, stress, temperature, viscosity
+from continuum.fluid import Fields, conductivity, energy, pressure, stress, temperature, viscosity
 from continuum.gas.loop import RHO, VX, VY, E
 from continuum.scene import ROLL_ENERGY, Periodic, Torus, Walls, columns_of
 from continuum.steady import STILL
@@ -43,24 +43,15 @@ class NodeFields:
         return isinstance(self.scene.sides, Periodic)
 
 
-class Nodes(NamedTuple):
-    """Places x (n, 2), velocities v (n, 2), densities, temperatures, volumes (n,) of the nodes."""
-    x: np.ndarray
-    v: np.ndarray
-    rho: np.ndarray
-    T: np.ndarray
-    V: np.ndarray
-
-
-def at_nodes(fields: NodeFields) -> Nodes:
-    """Rows from the lower one up; nodes in walls have half of a cell, those in corners a quarter."""
+def at_nodes(fields: NodeFields) -> Fields:
+    """Of nodes, rows from the lower one up; in walls they have half of a cell, in corners a quarter."""
     torus = isinstance(fields.scene.sides, Torus)
     columns, rows = shares(len(fields.x), fields.periodic or torus), shares(len(fields.y), torus)
     kept = np.ix_(rows > 0, columns > 0)
     X, Y, V = *np.meshgrid(fields.x, fields.y), fields.h**2*np.outer(rows, columns)
     x, y, vx, vy, rho, T, V = (q[kept].ravel()
                                for q in (X, Y, fields.at.vx, fields.at.vy, fields.at.rho, fields.at.T, V))
-    return Nodes(np.stack([x, y], axis=1), np.stack([vx, vy], axis=1), rho, T, V)
+    return Fields(np.stack([x, y], axis=1), np.stack([vx, vy], axis=1), rho, T, V)
 
 
 def shares(nodes: int, periodic: bool) -> np.ndarray:

@@ -91,9 +91,14 @@ def critical_ra(k: float, plates: PlateKind = PlateKind.RIGID, degree: int = DEG
     """The Rayleigh number at which wavenumber k (1/H) neither grows nor decays; it does not depend on Pr."""
     positive(k=k)
     i = forms(k, plates, degree)
-    none = np.zeros_like(i.lift)
-    work = np.block([[none, i.lift], [i.lift.T, none]])
-    return float(eigh(work, block_diag(i.friction/k**2, i.conduction), eigvals_only=True)[-1]**-2)
+    return onset(i.friction/k**2, i.conduction, i.lift)
+
+
+def onset(friction: np.ndarray, conduction: np.ndarray, lift: np.ndarray, number: int = 0) -> float:
+    """The Ra at which disturbance `number` grows: 1/sqrt(Ra) is the work of buoyancy over dissipation."""
+    none = np.zeros_like(lift)
+    work = np.block([[none, lift], [lift.T, none]])
+    return float(eigh(work, block_diag(friction, conduction), eigvals_only=True)[-1 - number]**-2)
 
 
 @lru_cache

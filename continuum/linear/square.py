@@ -5,9 +5,8 @@ against dissipation; here in two directions: streamfunction psi and temperature 
 functions of a layer.
 """
 import numpy as np
-from scipy.linalg import block_diag, eigh
 
-from continuum.linear.layer import trial
+from continuum.linear.layer import onset, trial
 
 DEGREE = 14     # trial functions in each direction: Ra_c has 8 figures; 8 gives 6
 
@@ -16,10 +15,7 @@ def critical_ra_square(number: int = 0, degree: int = DEGREE) -> float:
     """The Rayleigh number at which disturbance `number` grows: 0 is one roll, 1 two rolls side by side."""
     if not 0 <= number < degree:
         raise ValueError(f"number must be from 0 to {degree - 1}, got {number}: higher ones are not resolved")
-    friction, conduction, lift = forms(degree)
-    none = np.zeros_like(lift)
-    work = np.block([[none, lift], [lift.T, none]])
-    return float(eigh(work, block_diag(friction, conduction), eigvals_only=True)[-1 - number]**-2)
+    return onset(*forms(degree), number)
 
 
 def forms(degree: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

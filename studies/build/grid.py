@@ -4,7 +4,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.gas.fields import NodeFields, Nodes, at_nodes, block, initial, placed, unblock
+from continuum.fluid import Fields
+from continuum.gas.fields import NodeFields, at_nodes, block, initial, placed, unblock
 from continuum.gas.loop import VX, EdgeHeat, FluxForm, PaperForm
 from continuum.gas.solve import March, limits
 from continuum.scene import RayleighBenard
@@ -31,7 +32,7 @@ class Gridded:
         march.go(steps)
         return march.S
 
-    def fields(self, S: np.ndarray) -> Nodes:
+    def fields(self, S: np.ndarray) -> Fields:
         """At the nodes, each place once."""
         return at_nodes(unblock(self.scene, S))
 

@@ -83,7 +83,8 @@ class CylinderDrag(Case):
         pulls = (np.array(done.series[name]) for name in ("momentum", "force"))
         drags = drag(method, float(self.rows**2), *pulls)
         last = Measured(drags[-1], float(np.ptp(drags[-4:])))       # the last tenth of the time
-        published = Measured(*drag_of(self.fraction))
+        printed = drag_of(self.fraction)
+        published = Measured(printed.value, printed.uncertainty)
         error = last/published - 1
         return {"radius": radius, "drag": last.value, "drag_err": last.err, "published": published.value,
                 "published_err": published.err, "error": error.value, "error_err": error.err,

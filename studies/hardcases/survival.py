@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.gas.fields import NodeFields, Nodes, at_nodes, initial
+from continuum.gas.fields import NodeFields, at_nodes, initial
 from continuum.gas.solve import DivergedError, Solution
 from continuum.gas.solve import run as march
 from continuum.steady import Time
@@ -80,7 +80,7 @@ def between_plates(start: NodeFields, time: float, samples: int, report: Report,
         return None, reached[-1]
 
 
-def flow(at: Fields | Nodes, box: tuple[float, float]) -> float:
+def flow(at: Fields, box: tuple[float, float]) -> float:
     """K per mass of mean velocities in cells of SPACINGS, which have no noise between neighbours."""
     size = np.array(box)
     cells = np.maximum(1, np.round(size/SPACINGS)).astype(int)
@@ -100,13 +100,13 @@ def energies(scene: Any) -> Look:
     return look
 
 
-def of_grid(fields: NodeFields) -> Nodes:
+def of_grid(fields: NodeFields) -> Fields:
     """Nodes of one mass each, those in plates too."""
     at = at_nodes(fields)
     return at._replace(V=np.ones_like(at.rho))
 
 
-def amplitude(at: Fields | Nodes) -> float:
+def amplitude(at: Fields) -> float:
     """Size of v exp(-i k_x x), the mean over the mass, of the wave on the shear flow."""
     wave, m = np.exp(-1j*WAVE_NUMBER/2*at.x[:, 0]), at.rho*at.V
     return float(abs(np.sum(m*at.v[:, 1]*wave))/m.sum())
