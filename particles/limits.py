@@ -86,7 +86,7 @@ def _derivatives(weight, r: float) -> tuple[float, float, float]:
 def waves(method: Spam, symbols: Symbols, e: float) -> np.ndarray:
     """Eigenvalues of the linearised method, (k, 5): exp(lambda t)."""
     rho, S, D, nested, direct = symbols
-    k2 = {Nested: nested, Direct: direct}[method.transport or Nested]
+    k2 = {Nested: nested, Direct: direct}[method.transport]
     eos, m, T = method.eos, method.m, temperature(method.eos, symbols.rho, e)
     P, (P_rho, P_e), (T_rho, T_e) = (pressure(eos, rho, e), pressure_slopes(eos, rho, e),
                                      _thermal_slopes(eos, rho, e))

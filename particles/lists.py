@@ -60,11 +60,7 @@ class Surroundings:
     def moved(self, state: np.ndarray) -> float:
         """The farthest that any particle has moved since the lists were made."""
         assert self.anchor is not None, "lists come before steps"
-        return farthest(state[0], state[1], *self.anchor)
-
-    def forget(self) -> None:
-        """Make lists anew before the next step."""
-        self.anchor = None
+        return farthest(state[:2], self.anchor)
 
     def relist(self, state: np.ndarray, ids: np.ndarray, dt: float) -> None:
         """Wrap the particles, sort them by cells (in place), make lists; the skin grows with the speed."""
@@ -102,11 +98,8 @@ class Surroundings:
         cells = sort_into_cells(x, y, self.reach)
         rows, old = slice(self.rows), self.pairs
         start, length, listed = make_lists(self.team, cells, x[rows], y[rows], self.reach, 0, old.listed)
-        if listed is old.listed:
-            self.pairs = old._replace(start=start, length=length)
-        else:
-            self.pairs = empty_pairs(self.rows, len(listed))._replace(
-                start=start, length=length, listed=listed)
+        pairs = old if listed is old.listed else empty_pairs(self.rows, len(listed))
+        self.pairs = pairs._replace(start=start, length=length, listed=listed)
 
     def place(self, state: np.ndarray, m: float) -> None:
         """Positions of all points and, over the pairs in range, density of the rows and of their images."""
@@ -126,10 +119,11 @@ class Surroundings:
 class Listed:
     """What the time loop asks of sums over neighbour lists, whatever is summed."""
     around: Surroundings
+    rates: Any
 
     def evaluate(self, state: np.ndarray) -> None:
         """All sums once."""
-        raise NotImplementedError
+        self.rates(state, np.empty_like(state))
 
     def resume(self, now: Any) -> None:
         """Lists as a restarted run had them."""
@@ -146,7 +140,7 @@ class Listed:
             self.look_over(state, ids)
         self.evaluate(state)
         if fresh:
-            self.around.forget()
+            self.around.anchor = None       # lists are made anew before the first step
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
         """Refuse points that the sums would take without a word, once at the start; here none."""

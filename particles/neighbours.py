@@ -29,18 +29,25 @@ class Cells(NamedTuple):
 
 
 @jit
-def _count_sort(x, y, left, bottom, side, columns, start, cell, order):
-    """Stable counting sort of points by cell, row by row."""
-    for i in range(len(x)):
-        c = int((y[i] - bottom)/side)*columns + int((x[i] - left)/side)
-        cell[i] = c
-        start[c + 1] += 1
+def counting_sort(cell, start, order):
+    """Points by cell, stable: order[start[c]:start[c + 1]] are in cell c; `start` (cells + 1,) zeros."""
+    for i in range(len(cell)):
+        start[cell[i] + 1] += 1
     for c in range(len(start) - 1):
         start[c + 1] += start[c]
     fill = start[:-1].copy()
-    for i in range(len(x)):
+    for i in range(len(cell)):
         order[fill[cell[i]]] = i
         fill[cell[i]] += 1
+
+
+@jit
+def _sort(x, y, left, bottom, side, columns, start, order):
+    """Points by cell, row by row."""
+    cell = np.empty(len(x), np.int64)
+    for i in range(len(x)):
+        cell[i] = int((y[i] - bottom)/side)*columns + int((x[i] - left)/side)
+    counting_sort(cell, start, order)
 
 
 def sort_into_cells(x: np.ndarray, y: np.ndarray, side: float) -> Cells:
@@ -53,7 +60,7 @@ def sort_into_cells(x: np.ndarray, y: np.ndarray, side: float) -> Cells:
             "some have left the box; lower the step or put an elastic wall behind each wall")
     columns, rows = int(across), int(up)
     start, order = np.zeros(columns*rows + 1, np.int64), np.empty(len(x), u32)
-    _count_sort(x, y, left, bottom, side, columns, start, np.empty(len(x), np.int64), order)
+    _sort(x, y, left, bottom, side, columns, start, order)
     return Cells(left, bottom, side, columns, rows, start, order, x[order], y[order])
 
 
@@ -128,10 +135,12 @@ def _density(cells: Cells) -> float:
 
 
 @jit
-def farthest(x, y, anchor_x, anchor_y):
-    """Largest distance of a point from where it was when the list was made."""
+def farthest(x, anchor):
+    """Largest distance of a point from where it was when the lists were made; coordinates (d, n)."""
     far2 = 0.0
-    for i in range(len(anchor_x)):
-        dx, dy = x[i] - anchor_x[i], y[i] - anchor_y[i]
-        far2 = max(far2, dx*dx + dy*dy)
+    for i in range(x.shape[1]):
+        r2 = 0.0
+        for axis in range(x.shape[0]):
+            r2 += (x[axis, i] - anchor[axis, i])**2
+        far2 = max(far2, r2)
     return np.sqrt(far2)

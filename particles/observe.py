@@ -70,7 +70,7 @@ class PlateHeat(NamedTuple):
 
     def __call__(self, sums: Any, state: np.ndarray) -> float:
         """From densities and gradients that are up to date."""
-        term, records = sums.exchange(self.pressure)
+        term, records = sums.exchange(sums.less if self.pressure else np.zeros_like(sums.less))
         pull = np.zeros((sums.around.rows, sums.pull.shape[1]))
         sums.team(sweep, sums.n, term, records, pairs_behind(sums, self.side), pull)
         ax, ay, heat, _, work = pull[:sums.n].T

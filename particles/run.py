@@ -41,9 +41,10 @@ def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], N
     sums, integrator = (method.start(start.shape[1], team),
                         getattr(method, "integrator", RK4)(start.shape, team))
     sums.resume(now)
+    before = process_time()
+    sums.try_out(now)       # loads or compiles the code
     began, saved = process_time(), monotonic()
-    now.compile_s += _first_evaluation(sums, now)
-    began += process_time() - began
+    now.compile_s += began - before
     try:
         while now.step < plan.steps:
             _advance(method, plan, sums, integrator, now)
@@ -59,13 +60,6 @@ def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], N
         raise
     now.cpu_s += process_time() - began
     return now
-
-
-def _first_evaluation(sums, now: Run) -> float:
-    """Seconds of the first evaluation, which loads or compiles the code."""
-    began = process_time()
-    sums.try_out(now)
-    return process_time() - began
 
 
 def _advance(method, plan: Plan, sums, integrator, now: Run) -> None:

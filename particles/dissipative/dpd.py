@@ -107,14 +107,22 @@ class Dpd:
         v[0] += self.rate*x[1]
         return np.concatenate([x, v, np.zeros_like(x)])
 
+    def peculiar(self, state: np.ndarray) -> np.ndarray:
+        """Velocities (d, n) less the shear."""
+        v = state[self.d:2*self.d].copy()
+        v[0] -= self.rate*state[1]
+        return v
+
+    def temperature(self, state: np.ndarray) -> float:
+        """kT of velocities: d (n - 1) of them are free, their sum is conserved."""
+        v = self.peculiar(state)
+        return float((v**2).sum()/(len(v)*(v.shape[1] - 1)))
+
     def fields(self, state: np.ndarray) -> Fields:
         """Of the particles, (n,) each: mean density, and the temperature of all velocities less the shear."""
-        n, d = state.shape[1], self.d
-        v, one = state[d:2*d], np.ones(n)
-        rest = v.copy()
-        rest[0] -= self.rate*state[1]
-        kT = (rest**2).sum()/(d*(n - 1))
-        return Fields(state[:d].T.copy(), v.T.copy(), n/self.volume*one, kT*one, self.volume/n*one)
+        x, v = state[:self.d].T.copy(), state[self.d:2*self.d].T.copy()
+        one, n = np.ones(len(x)), len(x)
+        return Fields(x, v, n/self.volume*one, self.temperature(state)*one, self.volume/n*one)
 
     def start(self, n: int, team: Team) -> "Forces":
         """The pair sums."""

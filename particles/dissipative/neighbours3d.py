@@ -11,7 +11,7 @@ from numba import types
 from numba.extending import intrinsic
 
 from continuum.jit import jit
-from particles.neighbours import ONE, u32, u64
+from particles.neighbours import ONE, counting_sort, u32, u64
 
 
 class Cubes(NamedTuple):
@@ -41,20 +41,14 @@ def _cell(cells, x, k):
 
 
 @jit
-def _count_sort(cells, x):
-    """Stable counting sort of points by cell."""
-    start, cell = cells.start, np.empty(len(x), np.int64)
+def _sort(cells, x):
+    """Points by cell."""
+    cell = np.empty(len(x), np.int64)
     for k in range(len(x)):
         cell[k] = _cell(cells, x, k)
-        start[cell[k] + 1] += 1
-    for c in range(len(start) - 1):
-        start[c + 1] += start[c]
-    fill = start[:-1].copy()
+    counting_sort(cell, cells.start, cells.order)
     for k in range(len(x)):
-        to = fill[cell[k]]
-        cells.order[to] = k
-        cells.x[to] = x[k]
-        fill[cell[k]] += 1
+        cells.x[k] = x[cells.order[k]]
 
 
 def sort_into_cells(x: np.ndarray, side: float) -> Cubes:
@@ -68,7 +62,7 @@ def sort_into_cells(x: np.ndarray, side: float) -> Cubes:
     counts = across.astype(np.int64)
     cells = Cubes(low, side, counts, np.zeros(np.prod(counts) + 1, np.int64), np.empty(len(x), u32),
                   np.empty_like(x))
-    _count_sort(cells, x)
+    _sort(cells, x)
     return cells
 
 

@@ -9,22 +9,10 @@ import numpy as np
 
 from continuum.jit import jit
 from particles.dissipative.neighbours3d import Lists, list_rows, sort_into_cells
-from particles.neighbours import u32, u64
+from particles.neighbours import farthest, u32, u64
 from particles.threads import Team
 
 MOST = 2000     # neighbours of a particle: beyond, they have collapsed
-
-
-@jit
-def farthest(x, anchor):
-    """Largest distance of a point from where it was; rows of coordinates (d, n)."""
-    far2 = 0.0
-    for i in range(x.shape[1]):
-        r2 = 0.0
-        for axis in range(x.shape[0]):
-            r2 += (x[axis, i] - anchor[axis, i])**2
-        far2 = max(far2, r2)
-    return np.sqrt(far2)
 
 
 @jit

@@ -159,10 +159,6 @@ class Drifts(Listed):
         self.team(_rates, self.n, total, method.motion.owned(state[6]), self.points, method.static, method.g,
                   out)
 
-    def evaluate(self, state: np.ndarray) -> None:
-        """All sums once."""
-        self.rates(state, np.empty_like(state))
-
     def confine(self, state: np.ndarray) -> int:
         """Turn points beyond plates back, with their momenta; their number."""
         return sum(confine(wall, state) for wall in self.method.walls)

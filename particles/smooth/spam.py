@@ -45,7 +45,7 @@ class Spam:
     g: float = 0.0
     m: float = 1.0
     gradients: Gradients | ArithmeticGradients = Gradients()  # noqa: RUF009 (immutable)
-    transport: "type[Nested] | type[Direct] | None" = None
+    transport: type[Nested] | type[Direct] = Nested
     static: LessStatic = LessStatic(0.0, 0.0)  # noqa: RUF009
     skin: float = 0.7
     integrator: type = RK4
@@ -56,8 +56,6 @@ class Spam:
         if not self.m > 0:
             raise ValueError(f"the mass of a particle must be positive, got {self.m}: total mass / number of "
                              "particles")
-        if self.transport is None:
-            object.__setattr__(self, "transport", Nested)
         check_unit(self.weight)
         if self.transport is Direct and not constant_viscosity(self.law):
             raise ValueError("Direct takes friction along pairs, which lacks a part of the stress where "
@@ -73,7 +71,7 @@ class Spam:
         rho, T = (q[:sums.n][np.argsort(ids)] for q in (sums.around.rho, sums.around.T))
         return Fields(state[:2].T.copy(), state[2:4].T.copy(), rho, T, self.m/rho)
 
-    def look(self, state: np.ndarray) -> tuple["Nested | Direct", np.ndarray, np.ndarray]:
+    def look(self, state: np.ndarray) -> tuple[Nested | Direct, np.ndarray, np.ndarray]:
         """(sums, state, ids) with new lists, in their order: densities, motion and images are up to date."""
         n = state.shape[1]
         sums, ordered, ids = self.start(n, Team(1)), state.copy(), np.arange(n)
@@ -81,8 +79,8 @@ class Spam:
         sums.densities(ordered)
         return sums, ordered, ids
 
-    def start(self, n: int, team: Team) -> "Nested | Direct":
+    def start(self, n: int, team: Team) -> Nested | Direct:
         """The sums of n particles. ValueError: there are none, or the weight is too wide for the box."""
         if n < 1:
             raise ValueError(f"there are no particles (n = {n}): a run needs at least one")
-        return (self.transport or Nested)(self, n, team)
+        return self.transport(self, n, team)

@@ -45,8 +45,19 @@ class Sums(Listed, ABC):
                              around.rho, around.T, around.P, self.less)
 
     @abstractmethod
+    def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
+        """Term and records of the third sum, from what `prepare` made, with the pressures `less`."""
+
+    def prepare(self, state: np.ndarray) -> None:
+        """What the third sum needs."""
+        self.look_at(state)
+
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt, written to `out`."""
+        """d(x, y, vx, vy, e)/dt of a state (5, n), written to `out`."""
+        self.prepare(state)
+        self.team(sweep, self.n, *self.exchange(self.less), self.around.pairs, self.pull)
+        self.team(_rates, self.n, state, self.pull, self.around.rho, self.slopes, self.method.g,
+                  self.method.static, out)
 
     def velocity(self, state: np.ndarray) -> np.ndarray:
         """Rates of the positions."""
@@ -56,10 +67,6 @@ class Sums(Listed, ABC):
         """Densities and gradients of a state, for whatever is measured on it."""
         self.densities(state)
         self.gradients()
-
-    def evaluate(self, state: np.ndarray) -> None:
-        """All sums once."""
-        self.rates(state, np.empty_like(state))
 
     def confine(self, state: np.ndarray) -> int:
         """Reflect particles beyond walls; their number."""
@@ -90,11 +97,6 @@ class Sums(Listed, ABC):
         """(rows, 6): dvx/dx, dvy/dx, dT/dx, dvx/dy, dvy/dy, dT/dy."""
         return self.slopes.reshape(-1, 2, 4)[:, :, :3].reshape(-1, 6)
 
-    def finish(self, state: np.ndarray, out: np.ndarray) -> None:
-        """Rates of the particles from the third sum, gravity and what the static pressure was left out of."""
-        self.team(_rates, self.n, state, self.pull, self.around.rho, self.slopes, self.method.g,
-                  self.method.static, out)
-
 
 class Nested(Sums):
     """Stress and heat flux from gradients of the second sum, divergence in the third    [KHP95, Sec. II]"""
@@ -103,20 +105,13 @@ class Nested(Sums):
         super().allocate(points)
         self.flux = np.empty(points, Flux)
 
-    def exchange(self, pressure: bool = True) -> tuple[Any, np.ndarray]:
-        """Term and records of the third sum, from up-to-date densities and gradients."""
-        around, method, less = self.around, self.method, self.less if pressure else np.zeros_like(self.less)
-        self.team(_fluxes, around.rows, method.law, around.rho, around.vx, around.vy, around.T, less,
+    def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
+        around = self.around
+        self.team(_fluxes, around.rows, self.method.law, around.rho, around.vx, around.vy, around.T, less,
                   self.slopes, self.flux)
         for _, parent, first, last in around.blocks:
             _image_fluxes(first, last, parent, around.rho, around.vx, around.vy, less, self.flux)
         return Fluxes(), self.flux
-
-    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(x, y, vx, vy, e)/dt of a state (5, n), written to `out`."""
-        self.look_at(state)
-        self.team(sweep, self.n, *self.exchange(), self.around.pairs, self.pull)
-        self.finish(state, out)
 
 
 class Direct(Sums):
@@ -126,20 +121,16 @@ class Direct(Sums):
         super().allocate(points)
         self.records = np.empty(points, DirectState)
 
-    def exchange(self, pressure: bool = True) -> tuple[Any, np.ndarray]:
-        """Term and records of the third sum, from densities that are up to date; without pressure on wish."""
-        around, less = self.around, self.less if pressure else np.zeros_like(self.less)
-        self.team(_direct, len(around.x), self.method.law, around.x, around.y, around.rho, around.vx,
-                  around.vy, around.T, less, self.records)
-        return DirectFluxes(), self.records
-
-    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(x, y, vx, vy, e)/dt of a state (5, n), written to `out`."""
+    def prepare(self, state: np.ndarray) -> None:
         self.densities(state)
         if self.method.static.fraction:
             self.gradients()
-        self.team(sweep, self.n, *self.exchange(), self.around.pairs, self.pull)
-        self.finish(state, out)
+
+    def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
+        around = self.around
+        self.team(_direct, len(around.x), self.method.law, around.x, around.y, around.rho, around.vx,
+                  around.vy, around.T, less, self.records)
+        return DirectFluxes(), self.records
 
 
 @jit
