@@ -77,26 +77,6 @@ class Walls(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Tile:
-    """A box periodic along both axes: all that a grid in time asks of a scene without plates.
-
-    width, L : its sides, in cells of any size. eos, law : the fluid, and its transport with its numbers.
-    """
-    width: float
-    L: float
-    law: Any
-    eos: Any = IdealGas()  # noqa: RUF009  (immutable)
-    g: float = 0.0
-    T_hot: float = 1.0
-    T_cold: float = 1.0
-    sides: Torus = Torus()  # noqa: RUF009
-
-    @property
-    def aspect(self) -> float:
-        return self.width/self.L
-
-
-@dataclass(frozen=True, kw_only=True)
 class RayleighBenard:
     """A layer of fluid heated from below.
 

@@ -21,8 +21,9 @@ from continuum.fluid import (
 from continuum.gas.fields import NodeFields, block, initial
 from continuum.gas.loop import RHO, EdgeHeat, FluxForm, PaperForm
 from continuum.gas.solve import DivergedError, March, limits, run
-from continuum.scene import Periodic, RayleighBenard, Tile, Walls
+from continuum.scene import Periodic, RayleighBenard, Walls
 from continuum.steady import Time
+from studies.build.scenes import Tile
 
 every_eos = pytest.mark.parametrize("eos", EQUATIONS_OF_STATE.values(), ids=EQUATIONS_OF_STATE)
 GAS = RayleighBenard(ra=5000)
@@ -91,7 +92,8 @@ def test_a_torus_is_the_middle_of_a_stack_of_itself():
     nodes, cells = (np.tile(f[:, 1:-1, 1:-1], (1, 3, 1)) for f in (S[:3], S[3:]))
     nodes = np.pad(nodes, ((0, 0), (0, 1), (0, 1)), "wrap")
     vx, vy, e = nodes
-    stack = SimpleNamespace(**{**vars(scene), "L": 36.0, "sides": Periodic(), "T": lambda y: 1 + 0*y})
+    stack = SimpleNamespace(**{**vars(scene), "L": 36.0, "sides": Periodic(), "g": 0.0, "T_hot": 1.0,
+                               "T_cold": 1.0, "T": lambda y: 1 + 0*y})
     end = step(stack, FluxForm(), State(vx, vy, e, cells[0]), 0.1)
     for found, wanted in zip(march.S, end):
         np.testing.assert_allclose(found[1:-1, 1:-1], wanted[12:24, :14], rtol=0, atol=1e-14)

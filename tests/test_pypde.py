@@ -28,8 +28,9 @@ from continuum.pypde.gas import RHO, VX, VY, E, Gas
 from continuum.pypde.march import RungeKuttaSolver, StageLoop
 from continuum.pypde.solve import onto, solve
 from continuum.richardson import richardson
-from continuum.scene import RayleighBenard, Tile, Walls
+from continuum.scene import RayleighBenard, Walls
 from continuum.steady import Steady, Time
+from studies.build.scenes import Tile
 
 GAS = RayleighBenard(ra=5000, L=1.0)
 SIZES = (12, 16, 20)
@@ -68,7 +69,9 @@ def test_the_compiled_rates_of_the_layer_equal_those_of_py_pdes_operators():
 
 def test_the_compiled_rates_without_plates_equal_the_readable_ones():
     """Every pair of fields that rough states have; T_hot and T_cold differ, so that plates would show."""
-    same_rates(Gas(Tile(width=1.5, L=1.0, law=ConstEta(0.02, 0.03), T_hot=1.3, T_cold=0.8), 8))
+    class Uneven(Tile):
+        T_hot, T_cold = 1.3, 0.8
+    same_rates(Gas(Uneven(width=1.5, L=1.0, law=ConstEta(0.02, 0.03)), 8))
 
 
 def same_rates(equation):

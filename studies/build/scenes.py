@@ -41,6 +41,15 @@ class Scene:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Tile(Scene):
+    """A box of any size, its fluid, and its transport law with its numbers."""
+    width: float
+    L: float
+    law: Any
+    eos: Any = IdealGas()  # noqa: RUF009 (immutable)
+
+
+@dataclass(frozen=True, kw_only=True)
 class TaylorGreen(Scene):
     """A vortex of a Mach number that decays by e in a periodic box of L spacings, one wavelength."""
     L: int

@@ -10,10 +10,10 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from continuum.gas.fields import block, placed
-from continuum.scene import RayleighBenard, Tile, Torus, Walls
+from continuum.scene import RayleighBenard, Torus, Walls
 from studies.build.grid import GridForm, started
 from studies.build.names import START_JITTER
-from studies.build.scenes import Slab
+from studies.build.scenes import Slab, Tile
 from studies.build.setting import Ready, positions
 from studies.build.spam import Variant
 
