@@ -7,12 +7,13 @@ on the lower and -1/2 on the upper plate, psi = 0 on both. The rows of py-pde's 
 - h, so that its ghosts lie on the plates. There no slip gives Thom's vorticity -2 psi(h)/h^2, of first order;
 the solution is of second.
 """
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from continuum.jit import jit
 from continuum.linear.layer import positive
+from continuum.pypde.march import rates
 
 # continuum.jit comes before everything that loads numba
 # isort: split
@@ -21,6 +22,16 @@ from pde import CartesianGrid, FieldCollection, PDEBase, ScalarField, VectorFiel
 PERIODIC = {"x": "periodic"}
 RK4_DECAY, RK4_WAVE = 2.78, 2.82    # where RK4's stability region ends on the real and on the imaginary axis
 FREE_FALL = 1.0                     # largest |u| + |v|
+
+
+class LayerLoop(NamedTuple):
+    """What `march.rates` takes; X, Y, inverse of `Boussinesq.streamfunction`."""
+    nu: float
+    kappa: float
+    h: float
+    X: np.ndarray
+    Y: np.ndarray
+    inverse: np.ndarray
 
 
 class Boussinesq(PDEBase):
@@ -40,6 +51,7 @@ class Boussinesq(PDEBase):
         self.grid = CartesianGrid([(0, aspect), (self.h/2, 1 - self.h/2)], (columns, rows - 1),
                                   periodic=(True, False))
         self.basis = self._poisson_basis()
+        self.loop = LayerLoop(self.nu, self.kappa, self.h, *self.basis)
         self.psi_bc = PERIODIC | {"y": {"virtual_point": 0}}
         self.T_bc = PERIODIC | {"y-": {"virtual_point": 0.5}, "y+": {"virtual_point": -0.5}}
 
@@ -87,18 +99,6 @@ class Boussinesq(PDEBase):
         omega_rate = self.nu*omega.laplace(self.thom, args=psi.data) - advected + grad_T[0]
         T_rate = self.kappa*T.laplace(self.T_bc) - u.dot(grad_T)
         return FieldCollection([omega_rate, T_rate])
-
-    def make_evolution_rate(self, state, backend):
-        """The same for py-pde's compiled steppers."""
-        nu, kappa, h, (X, Y, inverse) = self.nu, self.kappa, self.h, self.basis
-        shape = (3, *(n + 2 for n in self.grid.shape))
-
-        def rate(data, t):
-            full, out = np.empty(shape), np.empty_like(data)
-            rates(nu, kappa, h, X, Y, inverse, data, full, out)
-            return out
-
-        return rate
 
     def points(self, field: int) -> tuple[np.ndarray, np.ndarray]:
         """x and y of the points, the ghosts' included."""
@@ -197,14 +197,16 @@ def spread_and_carry(diffusivity, h, u, v, f, i, j):
     return diffusivity*lap - (u*(f[i + 1, j] - f[i - 1, j]) + v*(f[i, j + 1] - f[i, j - 1]))/(2*h)
 
 
-@jit
-def rates(nu, kappa, h, X, Y, inverse, data, S, out):
-    """d/dt of (omega, T); `S` is scratch for three fields with ghosts."""
+@rates.of(LayerLoop)
+def _(loop, data, out):
+    nu, kappa, h, X, Y, inverse = loop
+    nx, ny = data.shape[1:]
+    S = np.empty((3, nx + 2, ny + 2))
     hat = inverse*np.dot(np.dot(X.T, data[0]), Y)
     pad(h, data, np.dot(np.dot(X, hat), Y.T), S)
     omega, T, psi = S[0], S[1], S[2]
-    for i in range(1, S.shape[1] - 1):
-        for j in range(1, S.shape[2] - 1):
+    for i in range(1, nx + 1):
+        for j in range(1, ny + 1):
             u, v = (psi[i, j + 1] - psi[i, j - 1])/(2*h), (psi[i - 1, j] - psi[i + 1, j])/(2*h)
             lift = (T[i + 1, j] - T[i - 1, j])/(2*h)
             out[0, i - 1, j - 1] = spread_and_carry(nu, h, u, v, omega, i, j) + lift

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from continuum.fluid import conductivity, energy, pressure, sound_speed, stress, temperature, valid, viscosity
-from continuum.pypde.gas_loop import BULK_VISCOSITY, RHO, VX, VY, E, Mesh, rates
+from continuum.pypde.gas_loop import BULK_VISCOSITY, RHO, VX, VY, E, GasLoop, Mesh
 from continuum.scene import Periodic, Torus
 
 # continuum.jit comes before everything that loads numba
@@ -47,6 +47,7 @@ class Gas(PDEBase):
         sides = [(-scene.width/2, scene.width/2), (-scene.L/2, scene.L/2)]
         self.grid = CartesianGrid(sides, (columns, rows), periodic=(True, torus))
         self.box = Mesh(self.h, scene.g, scene.T_hot, scene.T_cold, float(slide), torus)
+        self.loop = GasLoop(scene.eos, scene.law, self.box)
         self._pad = [self._padding(*ghosts) for ghosts in (
             ({"curvature": 0},), ({"value": 0}, {"value": slide}), ({"virtual_point": 0},), ({"curvature": 0},
             ), ({"value": scene.T_hot}, {"value": scene.T_cold}))]
@@ -161,18 +162,6 @@ class Gas(PDEBase):
         rate[E] = ((work + minus_div_q)/rho[1:-1, 1:-1]
                    - mx(u[:-1]*dx(e))[:, 1:-1] - my(v[:, :-1]*dy(e))[1:-1])
         return self.state(rate)
-
-    def make_evolution_rate(self, state, backend):
-        """The same for py-pde's compiled steppers."""
-        eos, law, box = self.scene.eos, self.scene.law, self.box
-        columns, rows = self.grid.shape
-
-        def rate(data, t):
-            full, out = np.empty((10, columns + 2, rows + 2)), np.empty_like(data)
-            rates(eos, law, box, data, full, out)
-            return out
-
-        return rate
 
     def measure(self, data: np.ndarray) -> tuple[float, float, float]:
         """K, Nusselt number of the lower plate, mean density."""

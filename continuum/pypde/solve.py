@@ -91,13 +91,13 @@ def solve_gas(scene: RayleighBenard, rows: int, **options) -> PdeSolution:
 
 
 def solve(equation: Any, *, until: Until = Steady(), start: Rolls | PdeSolution | np.ndarray = Rolls(),  # noqa: B008
-          dt: float | None = None, backend: str = "numba", progress: Progress | None = None) -> PdeSolution:
+          dt: float | None = None, progress: Progress | None = None) -> PdeSolution:
     """Solve an equation: Boussinesq or Gas.
 
     until : Steady(rtol=...) or Time(t_end) of `continuum.steady`.
     start : Rolls(ke, number), a solution of the same box on any grid, or a state (fields, columns, rows).
     dt : largest step (by default 0.8 of the stability limit); the one taken divides the time between samples.
-    backend : "numba", which compiles at every call, or "numpy". progress : called with the fraction done.
+    progress : called with the fraction done.
     Raises ValueError: dt above the stability limit; a start from another box. DivergedError: when and where.
     """
     data = start_of(equation, start)
@@ -106,7 +106,7 @@ def solve(equation: Any, *, until: Until = Steady(), start: Rolls | PdeSolution 
     watch = Watch(equation, until, interval, interval/count, progress)
     try:
         state, info = equation.solve(equation.state(data), t_range=math.inf, dt=interval/count,
-                                     tracker=[watch], solver=StageLoop, backend=backend, ret_info=True)
+                                     tracker=[watch], solver=StageLoop, backend="numpy", ret_info=True)
     finally:
         restore_interrupt(equation)
     return finish(equation, watch, state.data, info)

@@ -17,6 +17,7 @@ from continuum.gas.fields import block, initial
 from continuum.gas.loop import FluxForm, box_of, rates
 from continuum.linear.layer import DEGREE, PlateKind, critical, critical_ra, growth_rate
 from continuum.pypde.gas import Gas
+from continuum.pypde.march import rate
 from continuum.scene import RayleighBenard, Walls
 from studies.build.names import scene_columns
 from studies.kit.case import Case, Outcome, Report
@@ -82,14 +83,14 @@ def compressible_rolls(scene: RayleighBenard, rows: int) -> RollGrid:
 def pypde_rolls(scene: RayleighBenard, rows: int) -> RollGrid:
     """py-pde's grid, rho, v and e of the gas."""
     gas = Gas(scene, rows)
-    rate, rest = gas.make_evolution_rate(None, None), gas.rolls(0.0)
+    rest = gas.rolls(0.0)
     k = 2*np.pi/gas.grid_box[0]
     at = np.array([k*gas.points(field)[0][1:-1] for field in range(4)])
     wave = np.cos(at)
     wave[1] = np.sin(at[1])
     moves = np.ones((4, rest.shape[2]), bool)
     moves[2, -1] = False        # v_y on the upper plate
-    return RollGrid(lambda data: rate(data, 0.0), rest, wave, moves)
+    return RollGrid(lambda data: rate(gas.loop, data), rest, wave, moves)
 
 
 def compressible(scene: RayleighBenard, rows: int) -> tuple[float, float]:
