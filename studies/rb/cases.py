@@ -1,7 +1,7 @@
-"""Which cases: spacing, mass, kB are 1, L = particle rows, g = dT/L, eta from Ra: energies do not depend on L.
+"""Which cases: spacing, mass, kB are 1, L = particle rows, g = dT/L, eta from Ra: K does not depend on L.
 
-`paper` (half an hour on two cores) has what the main figure and the verdicts need, `quick` (a minute) the same
-path small, `fine` (hours) all variants, walls, resolutions.
+`paper` (half an hour on two cores) has what the main figure and the verdicts need, `quick` (a minute) the
+same path small, `fine` (hours) all variants, walls, resolutions.
 """
 from collections.abc import Iterator
 from itertools import product
