@@ -1,7 +1,7 @@
 """The figures of a study, and their look: told apart by colour, marker and line, in grey too."""
 import io
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
+from studies.kit.fits import Numbers
 from studies.kit.table import Tables
 
 #: Okabe and Ito's colours, which colour-blind readers can tell apart; a dark red in place of their yellow
@@ -43,8 +44,8 @@ def look(number: int) -> dict[str, Any]:
     return {"color": COLOURS[number], "marker": MARKERS[number], "linestyle": LINES[number]}
 
 
-def errorbar(axes: Axes, x: Sequence[float], y: Sequence[float], err: Sequence[float], *, number: int = 0,
-             label: str = "", **more: Any) -> None:
+def errorbar(axes: Axes, x: Numbers, y: Numbers, err: Numbers, *, number: int = 0, label: str = "",
+             **more: Any) -> None:
     """Points with their 95 % intervals; no line unless ``linestyle`` is given."""
     axes.errorbar(x, y, yerr=err, label=label, **{**look(number), "linestyle": "none", **more})
 

@@ -38,9 +38,9 @@ class Table:
     once: Sequence[str] = ()
 
     @classmethod
-    def of(cls, name: str, key: str, values: str) -> "Table":
+    def of(cls, name: str, key: str, values: str, **more: Any) -> "Table":
         """A table from names of columns with spaces between them: those of the key, and the others."""
-        return cls(name, key=key.split(), columns=[*key.split(), *values.split()])
+        return cls(name, key=key.split(), columns=[*key.split(), *values.split()], **more)
 
     def __post_init__(self):
         if not self.key or not {*self.key} <= {*self.columns}:

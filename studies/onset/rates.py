@@ -33,7 +33,6 @@ class RollGrid(NamedTuple):
 
     wave : cos or sin(kx) of each field at its points (fields, columns). moves : which rows do (fields, rows).
     """
-
     rate: Callable[[np.ndarray], np.ndarray]
     rest: np.ndarray
     wave: np.ndarray
@@ -128,7 +127,6 @@ def weakest(at: dict[str, Any], way: str, sigma: float, err: float) -> dict[str,
 @dataclass(frozen=True, kw_only=True)
 class LinearTheory(Case):
     """Critical Rayleigh numbers, each with what fewer trial functions change, and growth rates."""
-
     ras: tuple[float, ...]
     pr: float
 
@@ -154,7 +152,6 @@ class LinearTheory(Case):
 @dataclass(frozen=True, kw_only=True)
 class GridGrowth(Case):
     """Growth rates of a grid's own rates at some Ra. solver : one of the above, `method` its name."""
-
     method: str
     solver: Solver
     scene: RayleighBenard
