@@ -10,7 +10,7 @@ from particles.integral.covariance import STEPS as INTEGRATORS
 from particles.integral.edge_makers import MAKERS, delaunay, renormalised
 from particles.integral.splitting import KickDriftFrictionDriftKick
 from particles.integrators import TwoStep
-from studies.build.disorder import DISORDERS
+from studies.build.setting import DISORDERS
 from studies.kit.case import Case
 from studies.noise import dissipative, partners
 from studies.noise.below_onset import DECAYS, BelowOnset, LayerSampled

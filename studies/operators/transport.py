@@ -32,7 +32,7 @@ from particles.limits import limit_of
 from particles.run import Plan, run
 from particles.threads import Team
 from particles.weights import Lucy
-from studies.build.disorder import Disorder
+from studies.build.setting import Disorder
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
 
