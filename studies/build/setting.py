@@ -116,7 +116,7 @@ def check_still(scene: Any) -> None:
 
 
 class Disorder(NamedTuple):
-    """A kind of periodic point set, from a lattice to disorder; `size`: jitter, or least distance, in spacings."""
+    """A kind of periodic point set; `size`: jitter, or the least distance of random points, in spacings."""
     name: str
     make: Callable[[tuple[int, ...], float, int], Points]
     size: float = 0.0
