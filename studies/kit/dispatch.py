@@ -30,7 +30,7 @@ class Bar:
         seconds = 0.5 if sys.stderr.isatty() else 60.0
         self.line = tqdm(
             total=sum(case.cost for case in cases), desc=name, disable=not cases, bar_format=FORMAT,
-            smoothing=0.05, dynamic_ncols=True, mininterval=seconds, maxinterval=seconds, miniters=0)
+            smoothing=0, dynamic_ncols=True, mininterval=seconds, maxinterval=seconds, miniters=0)
 
     def tell(self, number: int, fraction: float) -> None:
         """A case is so far; what comes after its outcome is dropped."""
@@ -41,8 +41,9 @@ class Bar:
         """Draw, if it is time to."""
         pairs = list(zip(self.cases, self.fractions))
         labels = [case.label for case, fraction in pairs if 0 < fraction < 1]
+        done = sum(case.cost*fraction for case, fraction in pairs if fraction > BEGUN)
         self.line.set_postfix_str("; ".join(labels), refresh=False)
-        self.line.update(sum(case.cost*fraction for case, fraction in pairs) - self.line.n)
+        self.line.update(done - self.line.n)
 
 
 def between(fraction: float) -> float:
