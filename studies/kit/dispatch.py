@@ -17,6 +17,8 @@ from studies.kit.store import Failure, attempt, keep
 #: fractions done that a running case may have
 BEGUN, ENDING = 1e-9, 1 - 1e-9
 FORMAT = "{desc} {percentage:3.0f}%|{bar}| {elapsed}, left {remaining} {postfix}"
+#: number of a case, and its outcome as text or a failure
+Ended = tuple[int, str | Failure]
 LOOK = 0.1      # seconds for which a transport waits for outcomes
 
 
@@ -56,7 +58,7 @@ class Transport(Protocol):
 
     def places(self) -> int: ...                                    # how many may run at once, now
     def submit(self, number: int, case: Case) -> None: ...          # begin one; there is a place
-    def ready(self) -> Iterable[tuple[int, str | Failure]]: ...     # those that ended; waits a moment for one
+    def ready(self) -> Iterable[Ended]: ...     # those that ended; waits a moment for one
     def close(self) -> None: ...                                    # end what still runs
 
 
@@ -65,7 +67,7 @@ class Here:
 
     def __init__(self, folder: Path, bar: Bar):
         self.folder, self.bar = folder, bar
-        self.results: list[tuple[int, str | Failure]] = []
+        self.results: list[Ended] = []
 
     def places(self) -> int:
         return 1
@@ -76,7 +78,7 @@ class Here:
             self.bar.show()
         self.results.append((number, attempt(case, self.folder/case.key, report)))
 
-    def ready(self) -> Iterator[tuple[int, str | Failure]]:
+    def ready(self) -> Iterator[Ended]:
         while self.results:
             yield self.results.pop()
 
@@ -105,7 +107,7 @@ def dispatch(cases: Sequence[Case], folder: Path, name: str,
 
 
 def drain(transport: Transport, cases: Sequence[Case], todo: deque[int], limit: int,
-          bar: Bar) -> Iterator[tuple[int, str | Failure]]:
+          bar: Bar) -> Iterator[Ended]:
     """Give each place a case, ``limit`` at once, until all have ended; numbers and outcomes as they come."""
     running = 0
     while todo or running:
