@@ -134,8 +134,7 @@ def toy(errors):
 def test_a_figure_is_shown_with_the_tables_that_its_study_lists(small, monkeypatch):
     """Others with all tables of their study, and its question."""
     listed = Part(cases=lambda size: [], tables=[], figures=Drawings(Drawing("toy", ("errors",), toy)))
-    study = Study.of("rb", "Why?",
-                     (listed, Part(cases=lambda size: [], tables=[], figures=lambda tables: {})))
+    study = Study.of("rb", "Why?", (listed, Part(cases=lambda size: [], tables=[])))
     monkeypatch.setattr(inventory, "study_of", lambda part: study)
     write(small/"rb/more.csv", errors(), head=["commit def"])
     Image.new("RGB", (20, 10)).save(small/"rb/old.png")

@@ -1,6 +1,5 @@
 """The figures of a study, and their look: told apart by colour, marker and line, in grey too."""
 import io
-import os
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -12,8 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
+from studies.kit.csvfile import write_atomic
 from studies.kit.fits import Numbers
-from studies.kit.table import Tables
+from studies.kit.table import Tables, check_once
 
 #: Okabe and Ito's colours, which colour-blind readers can tell apart; a dark red in place of their yellow
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#882255")
@@ -78,11 +78,7 @@ def below(axes: Axes, **more: Any) -> None:
 
 def save(page: Figure, path: Path) -> None:
     """Write a PNG, all or nothing; the same figure gives the same bytes."""
-    picture = compact(page)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f".{path.name}.{os.getpid()}")
-    part.write_bytes(picture)
-    os.replace(part, path)
+    write_atomic(path, compact(page))
 
 
 def compact(page: Figure) -> bytes:
@@ -109,21 +105,20 @@ class Drawing(NamedTuple):
         return self.draw(*(tables[name] for name in self.tables))
 
 
-class Overview(NamedTuple):
+class Overview(Drawing):
     """A figure of what there is of its tables. draw : takes `Tables`; its docstring is the caption."""
-    name: str
-    tables: tuple[str, ...]
-    draw: Callable[[Tables], Figure | None]
 
     def page(self, tables: Tables) -> Figure | None:
         """The figure; none where the tables have nothing to show."""
-        return self.draw(Tables({name: tables[name] for name in self.tables if name in tables}))
+        there = {name: tables[name] for name in self.tables if name in tables}
+        return self.draw(Tables(there))
 
 
 class Drawings:
     """Drawings and overviews, called with tables as one function that gives figures by name."""
 
-    def __init__(self, *drawings: Drawing | Overview):
+    def __init__(self, *drawings: Drawing):
+        check_once("figures", (drawing.name for drawing in drawings))
         self.drawings = drawings
 
     def __call__(self, tables: Tables) -> dict[str, Figure]:
@@ -132,7 +127,7 @@ class Drawings:
         return {name: page for name, page in pages.items() if page is not None}
 
 
-def caption(drawing: Drawing | Overview) -> str:
+def caption(drawing: Drawing) -> str:
     """First sentences of what draws it, up to an empty line."""
     text = (drawing.draw.__doc__ or drawing.name.replace("_", " ")).split("\n\n")[0]
     return " ".join(text.split())
