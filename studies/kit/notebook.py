@@ -1,4 +1,5 @@
 """What notebooks share: sentences that cells compute, numbers with intervals, tables, small pictures."""
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,8 @@ from studies.kit.csvfile import read
 from studies.kit.figure import compact
 
 rcParams.update({"savefig.dpi": 70, "legend.fontsize": 8})
+# a warning is a sentence: the path of the file that warns says nothing to a reader
+warnings.formatwarning = lambda message, *_, **__: f"{message}\n"
 ROUND_OFF = 1e-13       # smaller numbers are told as zero
 
 
