@@ -126,10 +126,8 @@ def panels(folders: list[Folder]) -> list[Panel]:
 
 def needed_of(folder: Folder) -> Sheet | None:
     """The study's table of what a level of error costs."""
-    for sheet in folder.sheets:
-        if sheet.path.stem == "needed" and NEEDED.issubset(sheet.frame):
-            return sheet
-    return None
+    told = (sheet for sheet in folder.sheets if sheet.path.stem == "needed")
+    return next((sheet for sheet in told if NEEDED.issubset(sheet.frame)), None)
 
 
 def of_sheet(sheet: Sheet, needed: Sheet | None) -> Iterator[Panel]:
@@ -204,10 +202,7 @@ def usual_ones(lines: list[Line]) -> list[Line]:
 
 def family(method: str) -> str:
     """How the name of a method begins; of one that is not known all of it."""
-    for start in FAMILIES:
-        if method.startswith(start):
-            return start
-    return method
+    return next((start for start in FAMILIES if method.startswith(start)), method)
 
 
 def label(about: dict) -> str:

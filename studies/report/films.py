@@ -41,7 +41,8 @@ ENCODING = ("-f", "mp4", "-preset", "placebo", "-tune", "psnr", "-crf", "33", "-
             "+faststart", "-vf",
             "setparams=color_primaries=bt709:color_trc=bt709,scale=out_color_matrix=bt709",
             "-fflags", "+bitexact", "-flags:v", "+bitexact")
-BOX: dict[str, Any] = {"xlim": (-1, 1), "ylim": (-0.5, 0.5), "xticks": [], "yticks": [], "aspect": "equal"}
+BOX: dict[str, Any] = {
+    "xlim": (-1, 1), "ylim": (-0.5, 0.5), "xticks": [], "yticks": [], "aspect": "equal"}
 HEAT: dict[str, Any] = {"cmap": "inferno", "vmin": 0.4, "vmax": 1.6}
 #: a line that ends in a dot
 TRACE: dict[str, Any] = {"linestyle": "-", "marker": "o", "markersize": 4, "markevery": [-1]}
@@ -119,7 +120,8 @@ def pages(dots: Sequence[Dots], grids: Sequence[Flow], times: np.ndarray,
 def draw_points(axes: Axes, dots: Dots, title: str) -> None:
     """A dot for each, nine tenths of the spacing wide, coloured by temperature."""
     spacing = 72*SIZE[0]*0.482/2*np.sqrt(2/len(dots.x))
-    axes.scatter(dots.x[:, 0], dots.x[:, 1], s=(0.9*spacing)**2, c=dots.T, linewidths=0, marker="o", **HEAT)
+    area = (0.9*spacing)**2
+    axes.scatter(dots.x[:, 0], dots.x[:, 1], s=area, c=dots.T, linewidths=0, marker="o", **HEAT)
     axes.set(title=title, **BOX)
     axes.set_facecolor("#30243a")
 

@@ -63,7 +63,8 @@ def claims_of(out: Path) -> pd.DataFrame:
 
 def listed(rows: pd.DataFrame) -> str:
     """Errors in per cent with their rows over the height."""
-    return f"{each(100*rows['error'], 100*rows['error_err'])} % with {resolutions(rows)} rows"
+    percents = each(100*rows["error"], 100*rows["error_err"])
+    return f"{percents} % with {resolutions(rows)} rows"
 
 
 def each(values: pd.Series, errors: pd.Series) -> str:
