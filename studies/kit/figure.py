@@ -1,19 +1,21 @@
 """The figures of a study, and their look: told apart by colour, marker and line, in grey too."""
 import io
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import matplotlib
 import numpy as np
+import pandas as pd
 from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
 from studies.kit.csvfile import write_atomic
-from studies.kit.fits import Numbers
 from studies.kit.table import Tables, check_once
+
+Numbers = Sequence[float] | np.ndarray | pd.Series
 
 #: Okabe and Ito's colours, which colour-blind readers can tell apart; a dark red in place of their yellow
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#882255")
