@@ -1,4 +1,4 @@
-"""Runs of flows past held points and between sliding sides: drag, torque, a wave, each beside its exact value."""
+"""Flows past held points and between sliding sides: drag, torque, a wave, each beside its exact value."""
 import numpy as np
 import pytest
 

@@ -30,7 +30,7 @@ class WrongQuestion(OtherTable):
 
 
 @dataclass(frozen=True)
-class Rows:
+class Selection:
     """Rows of a table: columns as in ``where``, the condition ``such`` holds; ``need`` of them or more."""
 
     table: str
@@ -72,7 +72,7 @@ def rows(tables: Tables, table: str, such: str = "", need: int = 1, **where: Any
     Raises CannotTell: there are fewer than ``need``: they have not been run. WrongQuestion: The table has
     no such column.
     """
-    return Rows(table, such, need, where)(tables)
+    return Selection(table, such, need, where)(tables)
 
 
 def is_in(value: Any) -> str:
