@@ -18,7 +18,7 @@ import numpy as np
 import pandas as pd
 
 from studies.kit import fits, stats
-from studies.kit.formula import NoRows, Rows, WrongQuestion, error_of, numbers, rows
+from studies.kit.formula import NoRows, Selection, WrongQuestion, error_of, numbers, rows
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
 from studies.kit.value import Asked, Value, check, farthest_of, farthest_per, largest_of, largest_per, log, of
@@ -37,7 +37,7 @@ def question(pick: Pick) -> Callable[..., Value]:
     """A question from how it picks its number out of values (n,) and errors (n,), sorted ``by`` a formula."""
     def ask(table: str, value: str, such: str = "", *, err: str = "", by: str = "", need: int = 1,
             **where: Any) -> Value:
-        chosen = Rows(table, such, need, where)
+        chosen = Selection(table, such, need, where)
 
         def answer(tables: Tables) -> Measured:
             frame = ordered(chosen(tables), by, table) if by else chosen(tables)
@@ -135,7 +135,7 @@ def curve(fit: Curve) -> Callable[..., Value]:
     """A question from a fit of y to x, both formulas; rows sorted by x, three at least."""
     def ask(table: str, y: str, x: str, such: str = "", *, err: str = "0", need: int = 3,
             **where: Any) -> Value:
-        chosen = Rows(table, such, need, where)
+        chosen = Selection(table, such, need, where)
 
         def answer(tables: Tables) -> Measured:
             frame = ordered(chosen(tables), x, table)

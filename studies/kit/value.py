@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from studies.kit import stats
-from studies.kit.formula import NoRows, Rows, WrongQuestion, check_columns, error_of, names, rows
+from studies.kit.formula import NoRows, Selection, WrongQuestion, check_columns, error_of, names, rows
 from studies.kit.stats import Measured
 from studies.kit.table import SPENT, STAMP, Table, Tables
 
@@ -15,7 +15,7 @@ Answer = Callable[[Tables], Measured]
 class Asked(NamedTuple):
     """What a question is about: rows, a formula over them, that of its error, and that which sorts them."""
 
-    rows: Rows
+    rows: Selection
     value: str
     err: str = ""
     by: str = ""
