@@ -14,7 +14,7 @@ from particles.integral.edge_makers import plain
 from particles.integral.edges import between_plates
 from particles.integral.exchange import PRINTED
 from particles.integral.interpolants import OrderingWarning
-from particles.integral.layer import Layer, edge_by_edge
+from particles.integral.layer import Layer, LayerSums
 from particles.integral.points import jittered, lattice
 from particles.integral.rr98_moving import Drift
 from particles.integral.rr98_moving_plain import MOTIONS, ConstantMass, scale_of
@@ -119,7 +119,7 @@ def test_literal_points_between_plates_are_fixed_ones_that_are_moved(law, mended
     edges, beyond = between_plates(plain, x, COLUMNS, ROWS, weight)
     scaled, images = (replace(q, S=SCALE*q.S, k=SCALE*q.k) for q in (edges, beyond))
     fixed = Layer(x=x, edges=scaled, beyond=images, eos=IdealGas(), law=law, T_plates=(1.5, 0.5), g=0.02,
-                  transport=MENDED if mended else PRINTED, form=edge_by_edge)
+                  transport=MENDED if mended else PRINTED, form=LayerSums)
     method = drift(inside=True, law=law, transport=fixed.transport)
     state = method.state(x, *fields())
     expected = np.zeros((4, len(x)))
