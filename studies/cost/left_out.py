@@ -114,7 +114,7 @@ def vortex_without_noise(size: int) -> Reduced:
     """The same sums, in four stages."""
     problem = vortex_with_noise(size).problem
     _, sums, _ = problem.held()
-    silent = sums.method.dih
+    silent = sums.dih
 
     def go(state: np.ndarray, dt: float, steps: int) -> np.ndarray:
         integrator, now = RK4(state.shape, Team(1)), state.copy()
