@@ -16,7 +16,7 @@ import pandas as pd
 
 from bench.spam_speed import COLUMNS, time_row
 from continuum.scene import RayleighBenard
-from particles.integral.layer import edge_by_edge, quickest
+from particles.integral.layer import LayerSums
 from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Plan, run
@@ -33,7 +33,7 @@ REPEATS, EVALUATIONS, STEPS = 21, 10, 12
 def fixed(name: str, fast: bool = True) -> Callable[[], float]:
     """Nanoseconds a point and evaluation of one scheme on fixed points."""
     method, state, _ = ready(SCENE, name)
-    method = replace(method, form=quickest if fast else edge_by_edge)
+    method = replace(method, form=None if fast else LayerSums)
     sums, out, n = method.start(state.shape[1], Team(1)), np.empty_like(state), state.shape[1]
 
     def measure() -> float:

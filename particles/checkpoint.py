@@ -1,6 +1,7 @@
 """Checkpoints of a run as HDF5: written beside and then renamed, so the last good one survives."""
 import hashlib
 import os
+from dataclasses import fields, is_dataclass
 from errno import ENOSPC
 from pathlib import Path
 from typing import Any
@@ -14,9 +15,19 @@ from particles.plan import Plan, Run
 SCALARS = ("step", "samples", "reflections", "skin", "cpu_s", "compile_s")
 
 
+def told(value: Any) -> str:
+    """What tells a method from another: arrays by the sums of their sizes."""
+    if isinstance(value, np.ndarray):
+        return repr(float(np.abs(value).sum()))
+    if isinstance(value, type) or not (is_dataclass(value) or isinstance(value, tuple)):
+        return repr(value)
+    parts = value if isinstance(value, tuple) else (getattr(value, field.name) for field in fields(value))
+    return f"{type(value).__name__}({', '.join(map(told, parts))})"
+
+
 def _identity(method: Any, plan: Plan, start: np.ndarray) -> dict[str, str]:
     """What must be the same for a restart to be the same run."""
-    words = (f"{method!r} dt={plan.dt!r} every={plan.every} mean_from={plan.mean_from!r} "
+    words = (f"{told(method)} dt={plan.dt!r} every={plan.every} mean_from={plan.mean_from!r} "
              f"{[*plan.series]} {[*plan.means]}")
     return {"code": source_hash(), "parameters": words, "start": hashlib.sha256(start.tobytes()).hexdigest()}
 

@@ -142,5 +142,5 @@ def _(transport: NestedFluxes, fluid: PlainPlates, flow: Flow) -> EdgeFluxes:
 @spread.register
 def _(transport: Mixed, fluid: PlainPlates, flow: Flow) -> EdgeFluxes:
     share, both = transport.share, (spread(kind, fluid, flow)
-                                    for kind in (transport.pairwise, transport.nested))
+                                    for kind in (Pairwise(), NestedFluxes()))
     return EdgeFluxes(*(share*one + (1 - share)*other for one, other in zip(*both, strict=True)))

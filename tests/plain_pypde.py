@@ -35,7 +35,7 @@ def volume_nusselt(equation, data: np.ndarray) -> float:
 
 def padded(gas: Gas, data: np.ndarray) -> np.ndarray:
     """(rho, v_x, v_y, e, T), each (columns+2, rows+2), with ghosts of py-pde."""
-    scene, torus = gas.scene, gas.laws[2].torus
+    scene, torus = gas.scene, gas.loop.box.torus
     full = np.empty((5, *(n + 2 for n in gas.grid.shape)))
     extrapolated, rest, still = {"curvature": 0}, {"value": 0}, {"virtual_point": 0}
     plates = ((extrapolated, extrapolated), (rest, rest), (still, still), (extrapolated, extrapolated),
@@ -71,7 +71,7 @@ def of_gas(gas: Gas, data: np.ndarray) -> np.ndarray:
                - mx(mx(u)*dx(u))[:, 1:-1] - my(mx(v)[:, :-1]*strain)[1:])
     out[VY] = ((dy(syy - P)[:-1] + dx(sxy)[:, 1:])/my(rho)[1:-1, 1:]
                - my(my(v)*dy(v))[1:-1] - mx(my(u)[:-1]*slope)[:, 1:] - gas.scene.g)
-    if not gas.laws[2].torus:
+    if not gas.loop.box.torus:
         out[VY, :, -1] = 0
     out[E] = (work + minus_div_q)/rho[1:-1, 1:-1] - mx(u[:-1]*dx(e))[:, 1:-1] - my(v[:, :-1]*dy(e))[1:-1]
     return out

@@ -38,7 +38,7 @@ def claims() -> pd.DataFrame:
             ("toy-three", "RR98 Eq. 42", "three <b>& more", "own", "", math.nan, math.nan, math.nan, math.nan,
              "undecidable",
              "not run", "onset")]
-    return pd.DataFrame(rows, columns=list(COLUMNS))[list(COLUMNS)]
+    return pd.DataFrame(rows, columns=list(COLUMNS[:-1])).assign(formula="one(y) in rows")
 
 
 @cache

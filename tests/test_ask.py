@@ -46,7 +46,6 @@ def almost(value: float, err: float = 0.0):
     (ask.over_seeds("rows", "y", n=(4,)), (16, 0.4)),
     (ask.spread("rows", "y", name="a"), (4, math.hypot(0.3, 4*0.1))),
     (ask.power("rows", "y", "n"), (2, 0)),
-    (ask.nearest_power("rows", "n**2 + 12*(n == 4)", "n"), (2, math.log(7/4)/math.log(2))),
     (ask.largest("rows", "cos(pi*n) + sqrt(n)*0 + log10(exp(0)*10) + abs(-1)"), (3, 0)),
 ])
 def test_a_question_has_its_number_and_its_error(value, answer):
@@ -204,7 +203,6 @@ def test_weights_and_parabolas_are_those_of_polyfit(degree):
 
 
 def test_fits_of_too_few_values_cannot_be_told():
-    for fit in (lambda: fits.line([1, 2], [1, 2]), lambda: fits.nearest_power([1, 2], [1, 2]),
-                lambda: fits.grid_limit([8, 16], [1, 2])):
+    for fit in (lambda: fits.line([1, 2], [1, 2]), lambda: fits.grid_limit([8, 16], [1, 2])):
         with pytest.raises(CannotTell, match="not run yet"):
             fit()

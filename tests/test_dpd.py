@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 
 from particles.dissipative.dpd import Dpd
-from particles.dissipative.integrators import GrootWarren, GrootWarren65, Shardlow, VelocityVerlet
+from particles.dissipative.integrators import (
+    GrootWarren,
+    GrootWarren65,
+    KickDriftFrictionDriftKick,
+    Shardlow,
+    VelocityVerlet,
+)
 from particles.dissipative.observe import (
     configurational_temperature,
     forces_squared,
@@ -16,7 +22,6 @@ from particles.dissipative.observe import (
 )
 from particles.dissipative.pairs3d import Uniform
 from particles.dissipative.stream import DpdStream, force_on_body, speed
-from particles.integral.splitting import KickDriftFrictionDriftKick
 from particles.integrators import TwoStep
 from particles.noise import uniform_of_pair
 from particles.run import Plan, Run, run

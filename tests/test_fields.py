@@ -18,11 +18,10 @@ from particles.integral.bodies import held
 from particles.integral.closed_faces import Moving
 from particles.integral.dih import Dih
 from particles.integral.drifts import DRIFTS
-from particles.integral.driven import Driven
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import between_plates
 from particles.integral.isothermal import Carried, Isothermal
-from particles.integral.layer import Layer
+from particles.integral.layer import Driven, Layer
 from particles.integral.points import jittered, lattice
 from particles.integral.rr98_moving import Drift
 from particles.integral.rr98_moving_plain import MOTIONS

@@ -145,6 +145,6 @@ def test_the_onset_draws_the_interval_of_each_zero():
     zeros = next(axes for axes in onset_figures.FIGURES(known)["line"].axes if axes.get_ylabel() == "Ra$_c$")
     bars = [np.ptp(bar[:, 1]) for drawn in zeros.containers if isinstance(drawn, ErrorbarContainer)
             for bar in drawn[2][0].get_segments()]
-    lines = onset_figures.rows(known["critical_ra"], **onset_figures.GAS, way="line")
+    lines = known["critical_ra"].query(f"{onset_figures.GAS} and way == 'line'")
     limits = np.isinf(lines["resolution"]) & lines["quantity"].str.contains("extrapolated")
     assert max(bars) == pytest.approx(2*lines.loc[limits, "err"].max())

@@ -204,7 +204,7 @@ def test_fields_cost_and_label_of_a_case_are_no_part_of_a_result(tree):
 def test_a_star_import_is_refused(tree):
     edit(tree, "studies/one.py", "import TABLE", "import *")
     with pytest.raises(ValueError,
-                       match=r"from continuum.laws import \* in studies: import names one by one"):
+                       match=r"from continuum.laws import \* in studies.one: import names one by one"):
         hashed(tree)
 
 

@@ -5,23 +5,14 @@ A cluster takes seconds to start: the tests of `toy` share one, each goes on whe
 import json
 import os
 import signal
-import socket
 import subprocess
 import sys
-from dataclasses import dataclass
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 from toy import Toy, finish, until
 
-from studies.kit import cluster, csvfile
-from studies.kit.case import Case, Outcome
-from studies.kit.cluster import check_scheduler, check_worker, packed, unpacked
 from studies.kit.processes import THREADS
-from studies.kit.store import CannotRun
-from studies.kit.study import Study, main
-from studies.kit.table import Table
 
 LAW = "import numpy as np\ndef wave(x):\n    return np.sin(np.arange(1, 9)*x/7).sum()\n"
 TOY = '''
@@ -169,89 +160,3 @@ def test_a_deadly_case_costs_no_more_than_itself(toy):
     assert code == 1 and "1 of 6 cases failed" in text
     assert "Run 3 wave: 2 workers died while they ran it" in text and toy.began() == ["3", "3"]
     assert len(body(toy.folder/"results/toy/waves.csv")) == 7, "the row of an earlier run stays"
-
-
-# --- in this process ------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, kw_only=True)
-class Cube(Case):
-    x: float
-
-    def run(self, report, folder):
-        return Outcome({"cubes": [{"x": self.x, "y": self.x**3}]})
-
-
-CUBES = Table("cubes", key=["x"], columns=["x", "y"])
-STUDY = Study(name="toy", cases=lambda size: [Cube(x=1.0), Cube(x=2.0)], tables=[CUBES])
-WORKER = SimpleNamespace(address="tcp://here:1", state=SimpleNamespace(nthreads=1))
-
-
-def typed(*words):
-    with pytest.raises(SystemExit) as ended:
-        main(STUDY, words)
-    return ended.value.code
-
-
-def test_without_an_answer_nothing_is_lost(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(cluster, "CONNECT", 0.5)
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        nowhere = f"tcp://127.0.0.1:{free.getsockname()[1]}"
-    assert typed("--workers", "1", "--out", str(tmp_path), "--only", "Cube 1") == 0
-    before = (tmp_path/"toy/cubes.csv").read_text()
-    capsys.readouterr()
-    assert typed("--scheduler", nowhere, "--out", str(tmp_path)) == 1
-    text = capsys.readouterr().err
-    assert f"toy: no Dask scheduler answers at {nowhere} within 0.5 s: start one by dask scheduler" in text
-    assert "1 of 2 cases are finished and kept" in text and "Traceback" not in text
-    assert (tmp_path/"toy/cubes.csv").read_text() == before
-    assert list(STUDY.run("paper", workers=1, out=tmp_path)["cubes"].y) == [1, 8]
-    assert typed("--scheduler", nowhere, "--out", str(tmp_path)) == 0, "all is kept: nobody is asked"
-
-
-def test_a_scheduler_that_is_lost_ends_the_study():
-    def lost():
-        raise OSError("Timed out trying to connect")
-    future = SimpleNamespace(result=lost, status="cancelled")
-    with pytest.raises(CannotRun, match="the connection to the scheduler was lost"):
-        cluster.outcome(future, "Cube 1")
-
-
-def test_without_the_package_the_way_out_is_told(tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(CannotRun,
-                       match=r"needs the package distributed .*: make env installs it; without SCH"):
-        STUDY.run("paper", out=tmp_path, scheduler="tcp://here:1")
-
-
-@pytest.mark.parametrize("address", ["here:8786", "tcp://here", "http://here:8786", "8786"])
-def test_what_is_no_address_is_said_before_anything_runs(address, capsys):
-    assert typed("--scheduler", address) == 2
-    text = capsys.readouterr().err
-    assert f"SCHEDULER={address} is no address of a Dask scheduler: give tcp://host:port" in text
-    assert check_scheduler("tls://[::1]:8786") and check_scheduler("") == ""
-
-
-@pytest.mark.parametrize(("threads", "environment", "versions", "words"), [
-    (2, "1", None, "runs 2 cases at once: it needs --nthreads 1"),
-    (1, "4", None, "computes with more threads than one: it needs OMP_NUM_THREADS=1 MKL_NUM_THREADS=1"),
-    (1, "1", "python 2", "has python 3.* the study python 2")])
-def test_a_worker_that_would_compute_otherwise_is_refused(threads, environment, versions, words, monkeypatch):
-    for name in THREADS:
-        monkeypatch.setenv(name, environment if name.startswith(("OMP", "MKL")) else "1")
-    worker = SimpleNamespace(address="tcp://here:1", state=SimpleNamespace(nthreads=threads))
-    with pytest.raises(CannotRun, match=words):
-        check_worker(worker, versions or csvfile.versions())
-
-
-def test_a_case_that_means_something_else_is_refused(monkeypatch):
-    sent = packed(Cube(x=2.0))
-    assert unpacked(sent, WORKER) == Cube(x=2.0)
-    other = Cube(x=2.0)
-    other.__dict__["key"] = "of other code"
-    with pytest.raises(CannotRun, match=r"has other code than the study: Cube 2 has another key there"):
-        unpacked(packed(other), WORKER)
-    monkeypatch.delattr(sys.modules[__name__], "Cube")
-    with pytest.raises(CannotRun, match=r"has other code than the study .*Cube"):
-        unpacked(sent, WORKER)

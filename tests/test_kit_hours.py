@@ -6,6 +6,7 @@ from pathlib import Path
 from studies.kit import budget
 from studies.kit.case import Case, Outcome
 from studies.kit.csvfile import read
+from studies.kit.dispatch import Bar
 from studies.kit.study import Study
 from studies.kit.table import Table
 
@@ -56,6 +57,21 @@ def test_what_is_left_is_told_by_estimates_and_by_what_they_were_worth(tmp_path)
     assert left("quick", tmp_path) == ("toy", 0, 2, 0.0, True)
     assert left("paper", tmp_path) == ("toy", 2, 4, 45.0, True), "five times the estimates"
     assert str(left("paper", tmp_path)) == "toy               2 of 4    cases    0.8 min"
+
+
+def test_the_time_left_is_reckoned_from_what_is_done_since_the_start():
+    """Four cases of equal cost, which tell no fractions; the first takes 1024 s."""
+    bar = Bar([Work(x=1.0)]*4, "toy")
+    bar.line.start_t = bar.line.last_print_t = 0.0
+
+    def left_at(seconds: float) -> str:
+        bar.line._time = lambda: seconds
+        bar.show()
+        return str(bar.line).partition("left ")[2].split()[0]
+    bar.tell(0, 0.0)
+    assert left_at(70) == left_at(1000) == "?", "a case that has begun tells nothing"
+    bar.fractions[0] = 1.0
+    assert left_at(1024) == "51:12", "three times as long"
 
 
 def test_a_size_that_there_is_none_of(monkeypatch, capsys):

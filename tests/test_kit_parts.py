@@ -5,7 +5,7 @@ import pytest
 
 from studies.kit.case import Case, Outcome
 from studies.kit.claim import Claim
-from studies.kit.figure import figure
+from studies.kit.figure import Drawing, Drawings, figure
 from studies.kit.study import Part, Study, main
 from studies.kit.table import Table
 
@@ -32,15 +32,15 @@ def quarters(tables):
     return {"quarters": [{"x": row.x, "y": row.y/2} for row in tables["halves"].itertuples()]}
 
 
-def page(tables):
-    return {"squares": figure()[0]}
+def page(rows):
+    return figure()[0]
 
 
+PAGES = Drawings(Drawing("squares", ("power2",), page))
 LARGE = Claim(id="large", source="KHP95, Sec. V", statement="quarters grow", at_least=1, because="by hand",
               value=lambda tables: (tables["quarters"].y.max(), 0.0))
 SQUARES = Part(cases=lambda size: [Power(x=2.0, exponent=2)], tables=(table("power2"), table("halves")),
-               derive=halves,
-               figures=page)
+               derive=halves, figures=PAGES)
 CUBES = Part(cases=lambda size: [Power(x=3.0, exponent=3)], tables=(table("power3"), table("quarters")),
              derive=quarters,
              claims=(LARGE,))
@@ -60,14 +60,13 @@ def test_a_study_of_parts_has_what_all_of_them_bring(tmp_path, capsys):
 
 @pytest.mark.parametrize(("other", "words"), [
     (replace(CUBES, tables=(table("halves"),)), "two tables of one study are called 'halves'"),
-    (replace(CUBES, claims=(LARGE, LARGE)), "two claims of one study are called 'large'")])
+    (replace(CUBES, claims=(LARGE, LARGE)), "two claims of one study are called 'large'"),
+    (replace(CUBES, figures=PAGES), "two figures of one study are called 'squares'")])
 def test_two_things_of_one_name_are_refused_when_a_study_is_made(other, words):
     with pytest.raises(ValueError, match=words):
         Study.of("toy", "", [SQUARES, other])
 
 
-def test_two_figures_or_derived_tables_of_one_name_are_refused_when_they_are_made(tmp_path):
-    with pytest.raises(ValueError, match="two figures of one study are called 'squares'"):
-        Study.of("toy", "", [SQUARES, replace(CUBES, figures=page)]).draw(tmp_path)
+def test_two_derived_tables_of_one_name_are_refused_when_they_are_made(tmp_path):
     with pytest.raises(ValueError, match="two derived tables of one study are called 'halves'"):
         Study.of("toy", "", [SQUARES, replace(CUBES, derive=halves)]).run("paper", workers=1, out=tmp_path)

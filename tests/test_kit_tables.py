@@ -8,7 +8,8 @@ import pandas as pd
 import pytest
 
 from studies.kit import csvfile
-from studies.kit.claim import CannotTell, Claim, ClaimError, judge, put_claims, verdict
+from studies.kit.claim import CannotTell, Claim, judge, put_claims, verdict
+from studies.kit.formula import WrongQuestion
 from studies.kit.table import Table, Tables, changed, merge, read
 
 SQUARES = Table("squares", key=["x", "note"], columns=["x", "note", "y"])
@@ -196,10 +197,10 @@ def test_claims_of_other_studies_stay(tmp_path):
     def cannot(tables):
         raise CannotTell("run SIZE=paper")
     old = [claim(id="a", **limits), claim(id="b", source="de Vahl Davis (1983)", value=cannot, **limits)]
-    put_claims(path, judge(old, Tables(), "rb"), "rb")
-    put_claims(path, judge([claim(id="z", **limits)], Tables(), "speed"), "speed")
+    put_claims(path, judge(old, Tables(), "rb"))
+    put_claims(path, judge([claim(id="z", **limits)], Tables(), "speed"))
     open_claim = Claim(id="d", source="RR98, Eq. 5", statement="smooth", undecidable="no number is printed")
-    put_claims(path, judge([old[1], open_claim], Tables(), "rb"), "rb")
+    put_claims(path, judge([old[1], open_claim], Tables(), "rb"))
     frame = read(path)
     names = "id source statement whose printed measured err low high verdict reason study formula"
     assert " ".join(frame.columns) == names
@@ -215,8 +216,7 @@ def test_claims_of_other_studies_stay(tmp_path):
     lambda frame: frame[["ra", "ke"]].max().max(), lambda frame: frame.groupby("ke").size().max()])
 def test_a_claim_that_asks_for_a_column_that_is_not_there_says_so(value):
     broken = claim(value=lambda tables: (value(tables["energy"]), 0.0), expect=1.0, within=0.5)
-    with pytest.raises(ClaimError,
-                       match=r"claim c asks for what is not there: .*\bke\b.*: correct the claim") as told:
+    with pytest.raises(WrongQuestion, match=r"study rb, claim c, .*\bke\b.*; correct the claim") as told:
         judge([broken], Tables(energy=pd.DataFrame({"ra": [1.0]})), "rb")
     assert "\n" not in str(told.value)
 
@@ -229,7 +229,5 @@ def test_a_mistake_of_a_claim_keeps_its_traceback_and_says_whose_it_is():
 
 def test_a_claim_whose_table_is_missing_says_so():
     broken = claim(value=lambda tables: tables["energy"], expect=1.0, within=0.5)
-    with pytest.raises(ClaimError, match="claim c asks for what is not there: no table 'energy' among none"):
+    with pytest.raises(WrongQuestion, match=r"study rb, claim c, .*no table 'energy' among none"):
         judge([broken], Tables(), "rb")
-    with pytest.raises(ValueError, match="two claims of study rb are called c"):
-        judge([broken, broken], Tables(), "rb")

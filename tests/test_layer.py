@@ -12,7 +12,7 @@ from particles.integral.dih import Mixed, NestedFluxes, Pairwise
 from particles.integral.edge_makers import exact, renormalised
 from particles.integral.edges import between_plates
 from particles.integral.exchange import PRINTED
-from particles.integral.layer import Layer, LinearSums, edge_by_edge
+from particles.integral.layer import Layer, LayerSums, LinearSums
 from particles.integral.nested import mixed
 from particles.integral.points import jittered, lattice
 from particles.integral.transposed_stress import MENDED
@@ -100,7 +100,7 @@ def test_a_start_that_is_no_fluid_is_refused_by_run_and_by_the_limit(row, value)
 def test_linear_sums_are_those_edge_by_edge(make, size, h):
     fluid, x, _ = layer(make, size, h=h)
     state = shaken(fluid, x)
-    one, other = rates(fluid, state), rates(replace(fluid, form=edge_by_edge), state)
+    one, other = rates(fluid, state), rates(replace(fluid, form=LayerSums), state)
     for a, b in zip(one, other, strict=True):
         assert np.abs(a - b).max() < 1e-13*np.abs(b).max()
     assert type(fluid.start(len(x), Team(1))) is LinearSums
@@ -159,7 +159,7 @@ def test_friction_that_varies_is_symmetric_and_only_damps(make, size, h):
     eigenvalue."""
     fluid, x, where = layer(make, size, h=h, rows=8, transport=PowerLaw)
     n, small, T = len(x), 1e-6, np.random.default_rng(0).uniform(0.7, 1.3, len(x))
-    quiet = replace(fluid, law=ConstEta(0.0, 0.0), form=edge_by_edge)
+    quiet = replace(fluid, law=ConstEta(0.0, 0.0), form=LayerSums)
     K = np.empty((2*n, 2*n))
     for column in range(2*n):
         v = np.zeros((n, 2))

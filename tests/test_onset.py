@@ -16,7 +16,7 @@ from continuum.linear.square import critical_ra_square
 from continuum.richardson import richardson
 from continuum.scene import RayleighBenard, Walls
 from continuum.steady import NewtonFailed, Steady
-from studies.kit.stats import Measured
+from studies.onset import derive as onset_derive
 from studies.onset import tables as onset_tables
 from studies.onset.rates import boussinesq_mac, pypde_compressible
 from studies.onset.rates import compressible as of_gas
@@ -34,7 +34,7 @@ def onset_of(solver, scene, ras):
     values = []
     for rows in SIZES:
         sigma = [solver(replace(scene, ra=ra), rows)[0] for ra in ras]
-        values.append(onset_tables.interpolated(np.array(sigma), np.array(ras)))
+        values.append(onset_derive.interpolated(np.array(sigma), np.array(ras)))
     return richardson(values, SIZES)
 
 
@@ -47,7 +47,7 @@ def test_square_agrees_with_the_staggered_grid():
         case = boussinesq.BoussinesqCase(ra=ra, pr=1.0, box=boussinesq.CONDUCTING_SQUARE, rows=rows)
         return boussinesq.growth_rates(boussinesq.rest(case), count=2)[0].real
     ras = np.array([4800.0, 4950.0, 5100.0])
-    values = [onset_tables.interpolated(np.array([sigma(rows, ra) for ra in ras]), ras) for rows in SIZES]
+    values = [onset_derive.interpolated(np.array([sigma(rows, ra) for ra in ras]), ras) for rows in SIZES]
     found = richardson(values, SIZES)
     # 0.5: the parabola through three Ra is off by 1e-5 of Ra, sigma''' times their distances
     assert abs(found.limit - critical_ra_square()) < found.error + 0.5
@@ -148,12 +148,12 @@ def test_newton_says_where_it_failed():
 
 
 def rates(ra, sigma, err=0.0):
-    return pd.DataFrame({"ra": np.array(ra, float), "sigma": np.array(sigma, float), "err": err})
+    return pd.DataFrame({"ra": np.array(ra, float), "sigma": np.array(sigma, float), "sigma_err": err})
 
 
 def test_smooth_zero_covers_the_true_one():
     ra = np.array([1500, 1600, 1650, 1700, 1750, 1800, 1900.0])
-    found = onset_tables.smooth_zero(rates(ra, [linear.growth_rate(ra=r, pr=2.0, k=np.pi) for r in ra]))
+    found = onset_derive.smooth_zero(rates(ra, [linear.growth_rate(ra=r, pr=2.0, k=np.pi) for r in ra]))
     # 1e-9: round-off in sigma
     assert abs(found.value - linear.critical_ra(np.pi)) <= found.err + 1e-9*found.value
     assert found.err < 1e-3
@@ -168,13 +168,14 @@ def test_zero_of_noisy_rates_covers_the_true_one(noise):
     rng, ra = np.random.default_rng(3), np.array([1400, 1700, 2000, 2300.0])
     truth = 0.1*(1 - np.sqrt(1850/ra))
     sigmas = (truth + noise*rng.normal(size=4) for _ in range(200))
-    zeros = [onset_tables.nearby_zero(rates(ra, sigma, 2*noise)) for sigma in sigmas]
+    zeros = [onset_derive.nearby_zero(rates(ra, sigma, 2*noise)) for sigma in sigmas]
     assert np.mean([abs(zero.value - 1850) <= zero.err for zero in zeros]) > 0.9
 
 
 def test_a_straight_line_has_its_zero():
     ra = np.array([2000, 3000, 5000, 6800.0])
-    line = onset_tables.straight(pd.DataFrame({"ra": ra, "ke": 0.01*(1 - np.sqrt(1708/ra))}))
+    points = pd.DataFrame({"resolution": np.inf, "ra": ra, "ke": 0.01*(1 - np.sqrt(1708/ra))})
+    line = onset_derive.straight(points)
     assert line.ra_c == pytest.approx(1708, rel=1e-12)      # round-off
     assert line.residual < 1e-12
 
@@ -183,9 +184,10 @@ def test_a_straight_line_has_its_zero():
 
 
 def test_quantities_name_what_differs():
-    at = dict.fromkeys(onset_tables.POINT, "") | {"sides": "periodic", "resolution": np.inf, "eos": "ideal"}
-    row = onset_tables.critical_row({**at, "transport": "const-nu", "dT": 0.1}, Measured(1.0), "operator")
+    at = dict.fromkeys(onset_tables.POINT.split(), "") | {"sides": "periodic", "resolution": np.inf}
+    at |= {"eos": "ideal", "transport": "const-nu", "dT": 0.1, "way": "operator"}
+    row = onset_derive.critical_row(at, 1.0, 0.0)
     assert row["quantity"] == "ra_c periodic aspect 2, const-nu, dT 0.1 (growth rates)"
     at |= {"variant": "printed", "transport": "const-eta", "dT": 1.0, "resolution": 25.0}
-    row = onset_tables.critical_row(at, Measured(1.0), "run", ke_start=4e-4)
+    row = onset_derive.critical_row(at | {"way": "run", "ke_start": 4e-4}, 1.0, 0.0)
     assert row["quantity"] == "ra_c periodic aspect 2 (growth rates, run from K = 0.0004, 25 rows)"

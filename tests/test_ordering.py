@@ -10,7 +10,7 @@ from particles.integral.edge_makers import MAKERS, plain, renormalised
 from particles.integral.interpolants import W
 from particles.integral.points import lattice, of_positions, wrapped
 from particles.weights import WEIGHTS, Lucy
-from studies.build.disorder import DISORDERS
+from studies.build.setting import DISORDERS
 from studies.kit.table import Tables
 from studies.ordering.cases import PLATES
 from studies.ordering.derive import of_flows, reference

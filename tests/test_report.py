@@ -3,6 +3,7 @@ import base64
 import io
 import itertools
 import math
+import re
 
 import numpy as np
 import pandas as pd
@@ -17,7 +18,6 @@ from studies.kit.figure import COLOURS, Drawing, Drawings, figure, save
 from studies.kit.store import RESULTS
 from studies.kit.study import Part, Study
 from studies.report import cost, inventory
-from studies.report.chart import chart
 from studies.report.findings import Known, answer, claims_of, falls, findings
 from studies.report.inventory import folders
 from studies.report.numbers import with_error
@@ -82,7 +82,10 @@ def test_each_family_is_shown_by_its_cheapest_grid_first(small):
         "SPAM, Wendland C2",
         "SPAM, Lucy (as printed)", "py-pde, gas"]
     assert [f"{series.needs[0.01]}" for series in panel.lines[:2]] == ["0.161(6)", "0.212(8)"]
-    assert all(mark.wide for curve in chart(panel).curves for mark in curve.marks)
+    text = render(small, folders(small), lambda path: "data:,")
+    points = sum(len(series.points) for series in panel.lines)
+    bars = re.findall(r'class="bar" d="(.*?)"', text)[:points]
+    assert len(bars) == points and all("H" in bar for bar in bars), "of error and of seconds"
     last = findings(known(small))[-1]
     assert last.title == "An error of 1 % costs 0.161(6) CPU seconds at best" and last.source == "cost/needed"
     assert "0.161(6) s, compressible grid, RK4; 0.212(8) s, DIH lattice, h = 1.2 a; 0.87(3) s" in last.text
@@ -131,8 +134,7 @@ def toy(errors):
 def test_a_figure_is_shown_with_the_tables_that_its_study_lists(small, monkeypatch):
     """Others with all tables of their study, and its question."""
     listed = Part(cases=lambda size: [], tables=[], figures=Drawings(Drawing("toy", ("errors",), toy)))
-    study = Study.of("rb", "Why?",
-                     (listed, Part(cases=lambda size: [], tables=[], figures=lambda tables: {})))
+    study = Study.of("rb", "Why?", (listed, Part(cases=lambda size: [], tables=[])))
     monkeypatch.setattr(inventory, "study_of", lambda part: study)
     write(small/"rb/more.csv", errors(), head=["commit def"])
     Image.new("RGB", (20, 10)).save(small/"rb/old.png")

@@ -31,7 +31,7 @@ def gas(share: float = 0.1, k: float = 1e-3, **more) -> Thermal:
 
 def rest(method: Thermal) -> np.ndarray:
     n = method.edges.n
-    return method.dih.state(np.ones(n), np.zeros((n, 2)), np.ones(n))
+    return method.state(np.ones(n), np.zeros((n, 2)), np.ones(n))
 
 
 @pytest.mark.parametrize("share", [0.0, 0.3, 1.0])
@@ -136,7 +136,7 @@ def test_a_random_stress_heats_its_own_point_by_its_work():
     v = np.random.default_rng(2).normal(size=(25, 2))
     sums.of_points[:] = 0
     sums.of_points[11, :5] = (0.3, -0.2, 0.8, 0.4, 0.5)       # R, r
-    sums.kicks(method.dih.state(np.ones(25), v, np.ones(25)), 0.0, 0.01, out)
+    sums.kicks(method.state(np.ones(25), v, np.ones(25)), 0.0, 0.01, out)
     R = sums.of_points[11, :4].reshape(2, 2)
     shear = np.sqrt(2*method.k*0.3/edges.V[11])*((R + R.T)/np.sqrt(2) - np.eye(2)*np.trace(R)/np.sqrt(2))
     s = 0.1*(shear + np.sqrt(2*method.k*0.1/edges.V[11])*0.5*np.eye(2))
@@ -176,7 +176,7 @@ def test_three_stages_in_time_are_those_of_the_lyapunov_solve():
 
 def test_noise_reaches_the_covariance_of_equilibrium_on_irregular_points():
     method = gas(0.4)
-    J = jacobian(method.dih.rates, rest(method))
+    J = jacobian(method.rates, rest(method))
     Q = noise(method.edges.V,
               *(part.Q for part in transport(method.edges, 0.4, 0.3, 0.1, 0.4, 1.0))).toarray()
     exactly = equilibrium(method.edges.V, 2)

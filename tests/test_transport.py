@@ -12,7 +12,7 @@ from particles.integral.edge_makers import delaunay, renormalised
 from particles.integral.points import jittered
 from particles.threads import Team
 from particles.weights import Lucy
-from studies.build.disorder import DISORDERS
+from studies.build.setting import DISORDERS
 from studies.build.symbols import lattice_waves
 from studies.operators.cases import DRIVES
 from studies.operators.derive import endless

@@ -7,11 +7,13 @@ on the lower and -1/2 on the upper plate, psi = 0 on both. The rows of py-pde's 
 - h, so that its ghosts lie on the plates. There no slip gives Thom's vorticity -2 psi(h)/h^2, of first order;
 the solution is of second.
 """
+from typing import NamedTuple
+
 import numpy as np
 
 from continuum.jit import jit
 from continuum.linear.layer import positive
-from continuum.pypde.march import Equation
+from continuum.pypde.march import Equation, rates
 from continuum.scene import ROLL_ENERGY, columns_of
 from continuum.steady import RK4_DECAY, RK4_SOUND
 
@@ -22,10 +24,20 @@ from pde import CartesianGrid
 FREE_FALL = 1.0                     # largest |u| + |v|
 
 
+class LayerLoop(NamedTuple):
+    """What `march.rates` takes; X, Y, inverse of `Boussinesq.streamfunction`."""
+    nu: float
+    kappa: float
+    h: float
+    X: np.ndarray
+    Y: np.ndarray
+    inverse: np.ndarray
+
+
 class Boussinesq(Equation):
     """The layer between rigid plates on `rows` rows of square cells, periodic in x with period `aspect`."""
 
-    names, scratch = ("omega", "T"), 3
+    names = ("omega", "T")
 
     def __init__(self, *, ra: float, pr: float, rows: int, aspect: float = 2.0):
         super().__init__()
@@ -35,7 +47,7 @@ class Boussinesq(Equation):
         self.grid = CartesianGrid([(0, aspect), (self.h/2, 1 - self.h/2)],
                                   (columns_of(aspect, rows), rows - 1), periodic=(True, False))
         self.basis = self._poisson_basis()
-        self.rates, self.laws = rates, (self.nu, self.kappa, self.h, *self.basis)
+        self.loop = LayerLoop(self.nu, self.kappa, self.h, *self.basis)
 
     @property
     def viscous_time(self) -> float:
@@ -85,7 +97,7 @@ class Boussinesq(Equation):
 
     def padded(self, data: np.ndarray) -> np.ndarray:
         """(omega, T, psi) with their ghosts, each (columns+2, rows+1)."""
-        full = self.room()
+        full = np.empty((3, *(n + 2 for n in self.grid.shape)))
         pad(self.h, data, self.streamfunction(data[0]), full)
         return full
 
@@ -142,14 +154,16 @@ def spread_and_carry(diffusivity, h, u, v, f, i, j):
     return diffusivity*lap - (u*(f[i + 1, j] - f[i - 1, j]) + v*(f[i, j + 1] - f[i, j - 1]))/(2*h)
 
 
-@jit
-def rates(nu, kappa, h, X, Y, inverse, data, S, out):
-    """d/dt of (omega, T); `S` is scratch for three fields with ghosts."""
+@rates.of(LayerLoop)
+def _(loop, data, out):
+    nu, kappa, h, X, Y, inverse = loop
+    nx, ny = data.shape[1:]
+    S = np.empty((3, nx + 2, ny + 2))
     hat = inverse*np.dot(np.dot(X.T, data[0]), Y)
     pad(h, data, np.dot(np.dot(X, hat), Y.T), S)
     omega, T, psi = S[0], S[1], S[2]
-    for i in range(1, S.shape[1] - 1):
-        for j in range(1, S.shape[2] - 1):
+    for i in range(1, nx + 1):
+        for j in range(1, ny + 1):
             u, v = (psi[i, j + 1] - psi[i, j - 1])/(2*h), (psi[i - 1, j] - psi[i + 1, j])/(2*h)
             lift = (T[i + 1, j] - T[i - 1, j])/(2*h)
             out[0, i - 1, j - 1] = spread_and_carry(nu, h, u, v, omega, i, j) + lift

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from continuum.fluid import energy, sound_speed, valid
-from continuum.pypde.gas_loop import RHO, VX, VY, E, Mesh, coefficients, fill, rates
+from continuum.pypde.gas_loop import RHO, VX, VY, E, GasLoop, Mesh, coefficients, fill
 from continuum.pypde.march import Equation
 from continuum.scene import ROLL_ENERGY, Periodic, Torus, columns_of
 from continuum.steady import RK4_DECAY, RK4_SOUND
@@ -29,7 +29,7 @@ HALF_UP = np.array([[0, 0], [1, 0], [0, 1], [0, 0]])/2
 class Gas(Equation):
     """A scene of `continuum.scene` between periodic sides, or on a torus, on `rows` rows of square cells."""
 
-    names, scratch = ("rho", "v_x", "v_y", "e"), 10
+    names = ("rho", "v_x", "v_y", "e")
 
     def __init__(self, scene: Any, rows: int):
         super().__init__()
@@ -40,8 +40,8 @@ class Gas(Equation):
         self.scene, self.rows, self.h = scene, rows, scene.L/rows
         sides = [(-scene.width/2, scene.width/2), (-scene.L/2, scene.L/2)]
         self.grid = CartesianGrid(sides, (columns, rows), periodic=(True, torus))
-        self.rates = rates
-        self.laws = scene.eos, scene.law, Mesh(self.h, scene.g, scene.T_hot, scene.T_cold, torus)
+        box = Mesh(self.h, scene.g, scene.T_hot, scene.T_cold, torus)
+        self.loop = GasLoop(scene.eos, scene.law, box)
 
     @property
     def viscous_time(self) -> float:
@@ -82,7 +82,7 @@ class Gas(Equation):
 
     def padded(self, data: np.ndarray) -> np.ndarray:
         """(rho, v_x, v_y, e, T, eta, k) with their ghosts, each (columns+2, rows+2)."""
-        full, (eos, law, box) = self.room(), self.laws
+        (eos, law, box), full = self.loop, np.empty((10, *(n + 2 for n in self.grid.shape)))
         fill(box, data, full)
         coefficients(eos, law, box, full)
         return full[:7]

@@ -4,11 +4,14 @@
 j rows. rho, e, T, coefficients and normal stresses are in cell (i, j), v_x on its right and v_y on its upper
 side, the shear stress at its upper right corner.
 """
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from continuum.fluid import conductivity, pressure, stress, temperature, viscosity
 from continuum.gas.loop import BULK_VISCOSITY
 from continuum.jit import formula, jit
+from continuum.pypde.march import rates
 
 RHO, VX, VY, E, T, ETA, K, SXX, SYY, SXY = range(10)
 
@@ -20,6 +23,13 @@ class Mesh(NamedTuple):
     T_hot: float
     T_cold: float
     torus: bool         # no plates: periodic in y, too
+
+
+class GasLoop(NamedTuple):
+    """What `march.rates` takes: fluid, transport law, box."""
+    eos: Any
+    law: Any
+    box: Mesh
 
 
 @jit
@@ -162,10 +172,10 @@ def conduct(box, S, i, j):
     return 0.5*(along + across)/box.h**2
 
 
-@jit
-def rates(eos, law, box, data, S, out):
-    """d/dt of the state; `S` is scratch for ten fields with ghosts."""
-    nx, ny = data.shape[1:]
+@rates.of(GasLoop)
+def _(loop, data, out):
+    (eos, law, box), (nx, ny) = loop, data.shape[1:]
+    S = np.empty((10, nx + 2, ny + 2))
     fill(box, data, S)
     coefficients(eos, law, box, S)
     stresses(eos, box, S)

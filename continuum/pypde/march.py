@@ -1,16 +1,16 @@
-"""What py-pde calls while it solves: compiled rates; a tracker that records, checks and stops; the step."""
+"""What py-pde calls while it solves: rates; a tracker that records, checks and stops; Runge-Kutta steps."""
 from collections.abc import Callable
 from typing import Any, ClassVar
 
 import numpy as np
 
 from continuum.gas.solve import DivergedError
-from continuum.jit import jit
+from continuum.jit import generic, jit
 
 # continuum.jit comes before everything that loads numba
 # isort: split
 from pde import FieldCollection, PDEBase, ScalarField
-from pde.solvers import RungeKuttaSolver
+from pde.solvers.base import SolverBase
 from pde.trackers import ConstantInterrupts, FinishedSimulation
 from pde.trackers.base import TrackerBase
 
@@ -19,39 +19,19 @@ Progress = Callable[[float], None]
 
 
 class Equation(PDEBase):
-    """An equation of py-pde whose rates are compiled here: rates(*laws, data, full, out).
-
-    names : of the fields of `data` (fields, columns, rows). scratch : fields of `full`, with ghosts.
-    """
+    """An equation of py-pde with compiled rates: `rates` of its `loop`. names : of the fields of a state."""
 
     explicit_time_dependence = False
     names: ClassVar[tuple[str, ...]]
-    scratch: ClassVar[int]
     grid: Any
-    rates: Callable
-    laws: tuple
-
-    def room(self) -> np.ndarray:
-        """For `full`."""
-        return np.empty((self.scratch, *(n + 2 for n in self.grid.shape)))
-
-    def make_evolution_rate(self, state: Any, backend: Any) -> Callable:
-        """The rates for py-pde's compiled steppers."""
-        rates, laws, shape = self.rates, self.laws, self.room().shape
-
-        def rate(data, t):
-            full, out = np.empty(shape), np.empty_like(data)
-            rates(*laws, data, full, out)
-            return out
-
-        return rate
+    loop: Any
 
     def evolution_rate(self, state: Any, t: float = 0) -> Any:
-        """The same for py-pde's fields."""
-        return self.state(self.make_evolution_rate(state, None)(np.ascontiguousarray(state.data), t))
+        """The rates for py-pde's own steppers."""
+        return self.state(rate(self.loop, np.ascontiguousarray(state.data)))
 
     def state(self, data: np.ndarray) -> FieldCollection:
-        """Fields of py-pde from an array."""
+        """Fields of py-pde from an array (fields, columns, rows)."""
         return FieldCollection([ScalarField(self.grid, f) for f in data], labels=list(self.names))
 
 
@@ -79,22 +59,46 @@ class Watch(TrackerBase):
             raise FinishedSimulation("rule to stop is met")
 
 
-class StageLoop(RungeKuttaSolver):
-    """Classical Runge-Kutta with a loop over the stages: py-pde's own takes 15 s to compile instead of 4."""
+class StageLoop(SolverBase):
+    """Classical Runge-Kutta in a loop kept on disk: what py-pde makes compiles at every call."""
 
     name = "runge-kutta stage loop"
+    pde: Equation
 
-    def _make_single_step_fixed_dt(self, state: Any, dt: float) -> Callable:
-        rate = self.backend.make_pde_rhs(self.pde, state)
+    def _make_inner_stepper(self, state: Any) -> Callable:
+        loop, dt = self.pde.loop, self.info["dt"]
+        steps(loop, state.data, dt, 0)      # compiles it: py-pde counts that apart
 
-        def single_step(data, t):
-            total, stage = data.copy(), data.copy()
-            for to_stage, weight in ((0.5, 1/6), (0.5, 1/3), (1.0, 1/3), (0.0, 1/6)):
-                advance(data, rate(stage, t), dt*to_stage, dt*weight, stage, total)
-            data[:] = total
-            return data
+        def stepper(data, t_start, t_end):
+            count = max(1, round((t_end - t_start)/dt))
+            steps(loop, data, dt, count)
+            self.info["steps"] += count
+            return t_start + count*dt
 
-        return single_step
+        return stepper
+
+
+@generic
+def rates(loop, data, out):
+    """Write d/dt of the state `data`; `loop` holds the numbers of an equation, its type says which one."""
+
+
+@jit
+def rate(loop, data):
+    """d/dt of the state, a new array."""
+    out = np.empty_like(data)
+    rates(loop, data, out)
+    return out
+
+
+@jit
+def steps(loop, data, dt, count):
+    """`count` steps of classical Runge-Kutta, in place."""
+    for _ in range(count):
+        total, stage = data.copy(), data.copy()
+        for to_stage, weight in ((0.5, 1/6), (0.5, 1/3), (1.0, 1/3), (0.0, 1/6)):
+            advance(data, rate(loop, stage), dt*to_stage, dt*weight, stage, total)
+        data[:] = total
 
 
 @jit

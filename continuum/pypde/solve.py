@@ -35,13 +35,13 @@ class PdeSolution(Ended):
 
 
 def solve(equation: Any, *, until: Until = Steady(), start: PdeSolution | np.ndarray | None = None,  # noqa: B008
-          dt: float | None = None, backend: str = "numba", progress: Progress | None = None) -> PdeSolution:
+          dt: float | None = None, progress: Progress | None = None) -> PdeSolution:
     """Solve an equation: Boussinesq or Gas.
 
     until : Steady(rtol=...) or Time(t_end) of `continuum.steady`.
     start : a solution of the same box on any grid, or a state (fields, columns, rows); KHP95's rolls if none.
     dt : largest step (by default 0.8 of the stability limit); the one taken divides the time between samples.
-    backend : "numba", which compiles at every call, or "numpy". progress : called with the fraction done.
+    progress : called with the fraction done.
     Raises ValueError: dt above the stability limit; a start from another box. DivergedError: when and where.
     """
     data = onto(equation, start) if isinstance(start, PdeSolution) else (
@@ -51,7 +51,7 @@ def solve(equation: Any, *, until: Until = Steady(), start: PdeSolution | np.nda
     watch = Watch(equation, until, interval, step, progress)
     try:
         state, info = equation.solve(equation.state(data), t_range=inf, dt=step, tracker=[watch],
-                                     solver=StageLoop, backend=backend, ret_info=True)
+                                     solver=StageLoop, backend="numpy", ret_info=True)
     finally:
         restore_interrupt(equation)
     return finish(equation, watch, state.data, info)

@@ -74,3 +74,26 @@ class Shardlow(GrootWarren):
         self._team(_drift, x.size, x.ravel(), v.ravel(), f.ravel(), dt, self.lam, self._guess.ravel())
         sums.soft(x, dt, new)
         self._team(_kick, x.size, v.ravel(), f.ravel(), new.ravel(), dt)
+
+
+class KickDriftFrictionDriftKick(GrootWarren):
+    """Half a kick, half a drift, friction and noise for a whole step, half a drift, half a kick.
+
+    The conserved momentum stays, and kT of velocities and places is off by second order    [Leimkuhler &
+    Matthews 2013, BAOAB]
+    """
+
+    def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
+        """Advance y in place by dt. ValueError: the box is sheared."""
+        if sums.method.rate:
+            raise ValueError(f"a box sheared at the rate {sums.method.rate:g} has images that slide during a "
+                             "step: take Shardlow or GrootWarren")
+        d, new = sums.places, self._new
+        x, v, f = y[:d], y[d:2*d], y[2*d:]
+        v += dt/2*f
+        x += dt/2*v
+        sums.rub(x, v, dt)
+        x += dt/2*v
+        sums.soft(x, dt, new)
+        v += dt/2*new
+        f[:] = new

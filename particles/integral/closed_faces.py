@@ -11,16 +11,8 @@ import numpy as np
 
 from continuum.fluid import check_state, conductivity, energy, sound_speed, temperature, viscosity
 from particles.fields import Fields, from_densities
+from particles.integral import face_terms
 from particles.integral.exchange import At, Exchange, Listing, stages
-from particles.integral.face_terms import (
-    FaceDifferences,
-    FaceExchange,
-    Point,
-    per_time,
-    pressure_slopes,
-    read,
-    read_images,
-)
 from particles.integral.faces import POTENTIALS, FaceMaker, inner
 from particles.integral.interpolants import check_ordering
 from particles.integral.transposed_stress import MENDED
@@ -57,6 +49,116 @@ class Ingredients(NamedTuple):
     transport: tuple = MENDED
 
 
+class DriftKickDrift:
+    """Points drift half a step, exchange over frozen faces in three stages, drift the other half."""
+    evaluations = 3
+
+    def __init__(self, shape: tuple[int, ...], team: Team):
+        self.rates, self.first = np.zeros(shape), np.zeros(shape)
+
+    def step(self, sums: "FaceSums", y: np.ndarray, dt: float) -> None:
+        """Advance y in place by dt    [third-order strong-stability-preserving Runge-Kutta in between]"""
+        sums.drift(y, dt/2)
+        sums.make_faces(y)
+        now, k, first = y[EXCHANGED], self.rates[EXCHANGED], self.first[EXCHANGED]
+        first[:] = now
+        for new in (1.0, 1/4, 2/3):
+            sums.rates(y, self.rates)
+            # (1 - new) first + new now rounds to less than the sum
+            now[:] = first + new*(now - first + dt*k)
+        # points follow the fluid, and shift
+        y[2:4] = y[4:6]/y[6] + sums.shift.T
+        sums.drift(y, dt/2)
+
+
+class FaceSums(Listed):
+    """The compiled sums of moving points, with what the time loop asks for."""
+
+    def __init__(self, method: "Moving", n: int, team: Team):
+        self.method, self.team, self.n = method, team, n
+        self.around = Surroundings(method.weight, method.walls, n, method.box, skin=0.5, team=team)
+        self.maker = FaceMaker(self.around, method.ingredients.iterations, method.ingredients.within)
+        self.slopes, self.P0, chosen = np.zeros((n, 6)), 0.0, method.ingredients
+        term = face_terms.FaceExchange(chosen.follow, chosen.spread, float(chosen.smooth),
+                                       Listing(chosen.transport))
+        self.exchange = Exchange(term, stages(chosen.transport, method.law, n, team), n, team)
+        self.shift, self._lists = np.zeros((n, 2)), -1
+
+    @property
+    def faces(self) -> Faces:
+        return self.maker.faces
+
+    def make_faces(self, state: np.ndarray) -> None:
+        """Pairs, volumes and faces where the points are now; the solution is left in the state."""
+        self.maker.make(state, state[7], state[SOLVED])
+        if self._lists != self.maker.lists_made:
+            self._lists, self.points = self.maker.lists_made, np.zeros(len(self.around.x), face_terms.Point)
+        shift = -self.method.ingredients.shift*self.maker.pull
+        # no point shifts faster than 0.3 of the fastest flow
+        most = 0.3*float(np.sqrt(((state[4]**2 + state[5]**2)/state[6]**2).max()))
+        self.shift = shift*np.minimum(1.0, most/np.maximum(np.hypot(*shift.T), 1e-300))[:, None]
+
+    def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
+        """Refuse points in one place or without neighbours; warn where the weight is too narrow."""
+        V, weight = state[7], self.method.weight
+        a = float(np.sqrt(V.mean()))
+        self.around.place(state, 1.0)
+        check_apart(self.around, ids, a)
+        check_reach(weight, moments(self.around, V), ids)
+        off = V*self.around.rho[:self.n] - 1
+        check_ordering(weight, 2, a, float(np.sqrt((off**2).mean())),
+                       wrong="volumes, which follow the density of points, are")
+
+    def look_at(self, state: np.ndarray) -> At:
+        """Fields of all points and images on the faces as they are: where these exchange."""
+        method, around, ghosts, points, n = self.method, self.around, self.maker.ghosts, self.points, self.n
+        static, g0 = method.ingredients.static, method.rho0*method.g
+        self.team(face_terms.read, n, state, method.eos, method.law, g0 if static else 0.0, self.shift,
+                  self.maker.count, points)
+        self.P0 = inner(state[7], points["P"][:n])/float(state[7].sum()) if static else 0.0
+        points["P"][:n] -= self.P0
+        face_terms.read_images(n, *ghosts, points)
+        if not static:      # the pressure goes on hydrostatically
+            points["P"][n:] += g0*(around.y[ghosts.origin] - around.y[n:])
+        self.team(sweep, n, face_terms.FaceDifferences(), points, self.faces, self.slopes)
+        self.team(face_terms.pressure_slopes, n, self.slopes, state[7], points)
+        ghosts.fill(points, ("gx",), ("gy",))
+        at = At(points, self.faces, ghosts, state[7])
+        for stage in self.exchange.stages:
+            stage.use(self.slopes, at)
+        return at
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d/dt of what faces exchange, written to `out[4:9]`."""
+        method, total = self.method, self.exchange.sum(self.look_at(state))
+        rho0 = method.rho0 if method.ingredients.static else 0.0
+        self.team(face_terms.per_time, self.n, total, state, self.points, method.g, rho0, self.P0, out)
+
+    def drift(self, state: np.ndarray, dt: float) -> None:
+        """Move the points; those beyond a plate turn back, with their momentum."""
+        state[:2] += dt*state[2:4]
+        self.confine(state)
+
+    def evaluate(self, state: np.ndarray) -> None:
+        self.make_faces(state)
+        self.rates(state, np.empty_like(state))
+
+    def confine(self, state: np.ndarray) -> int:
+        """Turn points beyond plates back; their number."""
+        count = 0
+        for wall in self.method.walls:
+            before = state[2:4].copy()
+            count += confine(wall, state)
+            state[4:6] *= np.where(before*state[2:4] < 0, -1.0, 1.0)
+        return count
+
+    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
+        """The first point with a volume, mass or state that no fluid has; empty if there is none."""
+        px, py, m, V, E = state[EXCHANGED]
+        return self.unphysical(self.method.eos, V, m/V, (E - (px**2 + py**2)/(2*m))/m,
+                               ids) or self.outran(state)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Moving:
     """A fluid on moving points, about one a unit area.
@@ -73,9 +175,9 @@ class Moving:
     g: float = 0.0
     rho0: float = 1.0
     ingredients: Ingredients = Ingredients()  # noqa: RUF009 (immutable)
-    skin: float = 0.5
 
     names = ROWS
+    integrator = DriftKickDrift
 
     def __post_init__(self):
         check_unit(self.weight)
@@ -92,13 +194,8 @@ class Moving:
         px, py, m, V, E = state[EXCHANGED]
         return from_densities(self.eos, state[:2].T.copy(), V.copy(), m/V, np.stack([px, py])/V, E/V)
 
-    def start(self, n: int, team: Team) -> "FaceSums":
-        """The sums of n points, with their arrays."""
+    def start(self, n: int, team: Team) -> FaceSums:
         return FaceSums(self, n, team)
-
-    def integrator(self, shape: tuple[int, ...], team: Team) -> "DriftKickDrift":
-        """Half a drift, faces and what goes through them, half a drift."""
-        return DriftKickDrift(shape)
 
 
 @limit_of.register
@@ -117,127 +214,3 @@ def _(method: Moving, start: np.ndarray) -> float:
     chi = np.max(np.maximum(viscosity(method.law, rho, T), conductivity(method.law, rho, T)*slope)/rho)
     fast = np.max(sound_speed(method.eos, rho, e) + np.hypot(px, py)/m)
     return float(1/1.4/max(fast/1.73 + 4*chi/2.5, 2.9*method.ingredients.follow/2.5))
-
-
-class DriftKickDrift:
-    """Points drift half a step, exchange over frozen faces in three stages, drift the other half."""
-    evaluations = 3
-
-    def __init__(self, shape: tuple[int, ...]):
-        self.rates, self.first = np.zeros(shape), np.zeros(shape)
-
-    def step(self, sums: "FaceSums", y: np.ndarray, dt: float) -> None:
-        """Advance y in place by dt    [third-order strong-stability-preserving Runge-Kutta in between]"""
-        sums.drift(y, dt/2)
-        sums.make_faces(y)
-        now, k, first = y[EXCHANGED], self.rates[EXCHANGED], self.first[EXCHANGED]
-        first[:] = now
-        for new in (1.0, 1/4, 2/3):
-            sums.rates(y, self.rates)
-            # (1 - new) first + new now rounds to less than the sum
-            now[:] = first + new*(now - first + dt*k)
-        sums.set_drift(y)
-        sums.drift(y, dt/2)
-
-
-class FaceSums(Listed):
-    """The compiled sums of moving points, with what the time loop asks for."""
-
-    def __init__(self, method: Moving, n: int, team: Team):
-        self.method, self.team, self.n = method, team, n
-        self.around = Surroundings(method.weight, method.walls, n, method.box, skin=method.skin, team=team)
-        self.maker = FaceMaker(self.around, method.ingredients.iterations, method.ingredients.within)
-        self.slopes, self.P0, chosen = np.zeros((n, 6)), 0.0, method.ingredients
-        term = FaceExchange(chosen.follow, chosen.spread, float(chosen.smooth), Listing(chosen.transport))
-        self.exchange = Exchange(term, stages(chosen.transport, method.law, n, team), n, team)
-        self.shift, self._lists = np.zeros((n, 2)), -1
-
-    @property
-    def faces(self) -> Faces:
-        """As they were made last."""
-        return self.maker.faces
-
-    def make_faces(self, state: np.ndarray) -> None:
-        """Pairs, volumes and faces where the points are now; the solution is left in the state."""
-        self.maker.make(state, state[7], state[SOLVED])
-        if self._lists != self.maker.lists_made:
-            self._lists, self.points = self.maker.lists_made, np.zeros(len(self.around.x), Point)
-        self.shift = -self.method.ingredients.shift*self.maker.pull
-        self._limit_shift(state)
-
-    def _limit_shift(self, state: np.ndarray) -> None:
-        """No point shifts faster than 0.3 of the fastest flow."""
-        most = 0.3*float(np.sqrt(((state[4]**2 + state[5]**2)/state[6]**2).max()))
-        size = np.hypot(*self.shift.T)
-        self.shift *= np.minimum(1.0, most/np.maximum(size, 1e-300))[:, None]
-
-    def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
-        """Refuse points in one place or without neighbours; warn where the weight is too narrow."""
-        V, weight = state[7], self.method.weight
-        a = float(np.sqrt(V.mean()))
-        self.around.place(state, 1.0)
-        check_apart(self.around, ids, a)
-        check_reach(weight, moments(self.around, V), ids)
-        off = V*self.around.rho[:self.n] - 1
-        check_ordering(weight, 2, a, float(np.sqrt((off**2).mean())),
-                       wrong="volumes, which follow the density of points, are")
-
-    def look_at(self, state: np.ndarray) -> None:
-        """Fields of all points and images on the faces as they are."""
-        method, chosen, points, n = self.method, self.method.ingredients, self.points, self.n
-        g0 = method.rho0*method.g if chosen.static else 0.0
-        self.team(read, n, state, method.eos, method.law, g0, self.shift, self.maker.count, points)
-        self.P0 = inner(state[7], points["P"][:n])/float(state[7].sum()) if chosen.static else 0.0
-        points["P"][:n] -= self.P0
-        self._images(g0)
-        self.team(sweep, n, FaceDifferences(), points, self.faces, self.slopes)
-        self.team(pressure_slopes, n, self.slopes, state[7], points)
-        self.maker.ghosts.fill(points, ("gx",), ("gy",))
-        self.exchange.use(self.slopes, self.at(state))
-
-    def at(self, state: np.ndarray) -> At:
-        """Where points exchange now."""
-        return At(self.points, self.faces, self.maker.ghosts, state[7])
-
-    def _images(self, g0: float) -> None:
-        around, points, ghosts = self.around, self.points, self.maker.ghosts
-        read_images(self.n, *ghosts, points)
-        if g0 != self.method.rho0*self.method.g:    # the pressure goes on hydrostatically
-            rise = around.y[ghosts.origin] - around.y[self.n:]
-            points["P"][self.n:] += self.method.rho0*self.method.g*rise
-
-    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d/dt of what faces exchange, written to `out[4:9]`."""
-        method, chosen = self.method, self.method.ingredients
-        self.look_at(state)
-        total, rho0 = self.exchange.sum(self.at(state)), method.rho0 if chosen.static else 0.0
-        self.team(per_time, self.n, total, state, self.points, method.g, rho0, self.P0, out)
-
-    def set_drift(self, state: np.ndarray) -> None:
-        """Points follow the fluid, and shift."""
-        state[2:4] = state[4:6]/state[6] + self.shift.T
-
-    def drift(self, state: np.ndarray, dt: float) -> None:
-        """Move the points; those beyond a plate turn back, with their momentum."""
-        state[:2] += dt*state[2:4]
-        self.confine(state)
-
-    def evaluate(self, state: np.ndarray) -> None:
-        """Faces and all sums once."""
-        self.make_faces(state)
-        self.rates(state, np.empty_like(state))
-
-    def confine(self, state: np.ndarray) -> int:
-        """Turn points beyond plates back; their number."""
-        count = 0
-        for wall in self.method.walls:
-            before = state[2:4].copy()
-            count += confine(wall, state)
-            state[4:6] *= np.where(before*state[2:4] < 0, -1.0, 1.0)
-        return count
-
-    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
-        """The first point with a volume, mass or state that no fluid has; empty if there is none."""
-        px, py, m, V, E = state[EXCHANGED]
-        return self.unphysical(self.method.eos, V, m/V, (E - (px**2 + py**2)/(2*m))/m,
-                               ids) or self.outran(state)

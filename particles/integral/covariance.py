@@ -14,8 +14,7 @@ from scipy.linalg import null_space, solve_continuous_lyapunov, solve_discrete_l
 
 #: of the size of J: rates above its negative belong to modes that do not decay; differences leave 1e-12
 UNDAMPED = 1e-10
-#: of the four-point differences, relative to fields of order 1: STEP^4 = 1e-12 of fifth derivatives,
-#: round-off 1e-13
+#: of four-point differences of fields of order 1: STEP^4 = 1e-12 of fifth derivatives, round-off 1e-13
 STEP = 1e-3
 
 
@@ -49,7 +48,8 @@ def waves(columns: np.ndarray, counts: tuple[int, int], k: float) -> np.ndarray:
 
 def steady(J: np.ndarray, Q: np.ndarray, conserved: np.ndarray | None = None) -> np.ndarray:
     """C with J C + C J^* + Q = 0, at fixed rows `conserved` (q, N). ArithmeticError: no decay."""
-    Z = free(len(J), conserved)
+    # columns of all that leaves these alone
+    Z = np.eye(len(J)) if conserved is None else null_space(conserved)
     J, Q = Z.conj().T@J@Z, Z.conj().T@Q@Z
     check_decay(np.linalg.eigvals(J).real, UNDAMPED*np.abs(J).max())
     C = solve_continuous_lyapunov(J, -Q)
@@ -66,17 +66,12 @@ class Step(NamedTuple):
 
 def steady_of_steps(step: Step, conserved: np.ndarray | None = None) -> np.ndarray:
     """C = A C A^* + Q, at fixed rows `conserved`. Raises ArithmeticError: a mode does not decay."""
-    Z = free(len(step.A), conserved)
+    Z = np.eye(len(step.A)) if conserved is None else null_space(conserved)
     A, Q = Z.conj().T@step.A@Z, Z.conj().T@step.Q@Z
     check_decay(np.abs(np.linalg.eigvals(A)) - 1, UNDAMPED)
     C = solve_discrete_lyapunov(A, Q)
     C += solve_discrete_lyapunov(A, Q + A@C@A.conj().T - C)
     return Z@C@Z.conj().T
-
-
-def free(n: int, conserved: np.ndarray | None) -> np.ndarray:
-    """Orthonormal columns (n, n - q) of all that leaves the conserved sums alone."""
-    return np.eye(n) if conserved is None else null_space(conserved)
 
 
 def check_decay(rates: np.ndarray, least: float) -> None:
@@ -103,8 +98,7 @@ def crank_nicolson(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:
 #: of the second half of the noise in stages 1, 2, 3    [Delong, Griffith, Vanden-Eijnden & Donev 2013]
 BETAS = tuple(float(b) for b in ((2*np.sqrt(2) + np.sqrt(3))/5, (-4*np.sqrt(2) + 3*np.sqrt(3))/5,
                                  (np.sqrt(2) - 2*np.sqrt(3))/10))
-#: shares of the state before the step in stages 1, 2, 3; the rest is what comes out of an Euler step of the
-#: last stage
+#: shares of the state before the step in stages 1, 2, 3; the rest is an Euler step of the last stage
 OLD = (0.0, 3/4, 1/3)
 
 

@@ -14,16 +14,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import (
-    bulk_viscosity,
-    conductivity,
-    energy,
-    pressure,
-    stress_tensor,
-    temperature,
-    valid,
-    viscosity,
-)
+from continuum import fluid
+from continuum.fluid import energy, pressure, stress_tensor, temperature, valid
 from particles.fields import Fields, from_densities
 from particles.integral.edges import Edges
 
@@ -51,8 +43,12 @@ class EdgeFluxes(NamedTuple):
     energy: np.ndarray
 
 
+def densities(eos: Any, rho: np.ndarray, v: np.ndarray, T: Any) -> np.ndarray:
+    """(2 + d, n): density, momentum and total energy per volume, of rho (n,), v (n, d), T (n,)."""
+    return np.stack([rho, *(rho[:, None]*v).T, rho*(energy(eos, rho, T) + (v**2).sum(axis=1)/2)])
+
+
 def take(flow: Flow, points: np.ndarray) -> Flow:
-    """The fields of some points."""
     return Flow(*(field[points] for field in flow))
 
 
@@ -75,7 +71,6 @@ class NestedFluxes:
     differences: bool = True
 
     def fluxes(self, dih: "Dih", flow: Flow) -> EdgeFluxes:
-        """Through all edges."""
         edges = dih.edges
         i, j, eta, zeta, kappa = edges.i, edges.j, *dih.coefficients(flow)
         slope = self.gradient(edges, flow.v)
@@ -98,11 +93,10 @@ class NestedFluxes:
 class Pairwise:
     """Forces along edges [Eq. 51]: k [B (v_j - v_i) + A e e.(v_j - v_i)], heat k kappa (T_j - T_i).
 
-    B = eta (1/2 + 1/d) - zeta/2, A = (d + 2)/2 [eta (1 - 2/d) + zeta], letters as printed but for weights and
-    their moments. mended : with the stress tau_ab = B (d_b v_a - delta_ab div v) of the points, and its work
-    F_a = tau_ab v_b. In the continuum tau has no divergence where viscosity is constant, and the force is
-    left as it is then; where it varies forces along edges lack it. F has one always: without it even a rigid
-    rotation heats.
+    B, A of `frictions`, as printed but for weights and their moments. mended : with the stress tau_ab = B
+    (d_b v_a - delta_ab div v) of the points, and its work F_a = tau_ab v_b. In the continuum tau has no
+    divergence where viscosity is constant, and the force is left as it is then; where it varies forces along
+    edges lack it. F has one always: without it even a rigid rotation heats.
     """
     mended: bool = True
 
@@ -112,8 +106,7 @@ class Pairwise:
         check_bulk(coefficients.eta, coefficients.zeta, edges.d)
         found = along(edges, means(coefficients, edges.i, edges.j), take(flow, edges.i), take(flow, edges.j))
         if self.mended:
-            # [n, a, b] = d_a v_b
-            slope = np.stack([G@flow.v for G in edges.G], axis=1)/edges.V[:, None, None]
+            slope = NestedFluxes().gradient(edges, flow.v)
             F = lacking(coefficients, flow.v, slope)
             found = found._replace(energy=found.energy - (edges.S*(F[edges.i] + F[edges.j])).sum(axis=1)/2)
             if np.ptp(coefficients.eta) > 0 or np.ptp(coefficients.zeta) > 0:
@@ -127,25 +120,32 @@ class Pairwise:
 class Mixed:
     """A share of transport along edges [Eq. 51], the rest by stresses and currents [Eqs 37, 38]."""
     share: float
-    pairwise: Pairwise = Pairwise()
-    nested: NestedFluxes = NestedFluxes()
 
     def __post_init__(self):
-        if not 0 <= self.share <= 1:
-            raise ValueError("the share of transport along edges must be between 0 (points) and 1 (edges), "
-                             f"got {self.share}")
+        check_share(self.share)
 
     def fluxes(self, dih: "Dih", flow: Flow) -> EdgeFluxes:
-        """Through all edges."""
-        parts: list[tuple[float, Any]] = [(1 - self.share, self.nested), (self.share, self.pairwise)]
+        parts: list[tuple[float, Any]] = [(1 - self.share, NestedFluxes()), (self.share, Pairwise())]
         found = [[part*q for q in kind.fluxes(dih, flow)] for part, kind in parts if part > 0]
         return EdgeFluxes(*(sum(q) for q in zip(*found, strict=True)))
+
+
+def check_share(share: float) -> None:
+    """Refuse a share that is none."""
+    if not 0 <= share <= 1:
+        raise ValueError("the share of transport along edges must be between 0 (points) and 1 (edges), got "
+                         f"{share}")
+
+
+def frictions(eta: np.ndarray, zeta: np.ndarray, d: int) -> tuple[np.ndarray, np.ndarray]:
+    """B = eta (1/2 + 1/d) - zeta/2, A = (d + 2)/2 [eta (1 - 2/d) + zeta]    [Eq. 51]"""
+    return eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
 
 
 def along(edges: Any, coefficients: Coefficients, a: Flow, b: Flow) -> EdgeFluxes:
     """Friction and heat along edges (with k and apart), from points a to b    [Eq. 51]"""
     d, (eta, zeta, kappa) = edges.apart.shape[1], coefficients
-    B, A = eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
+    B, A = frictions(eta, zeta, d)
     dv, e = b.v - a.v, edges.apart/np.sqrt((edges.apart**2).sum(axis=1))[:, None]
     force = edges.k[:, None]*(B[:, None]*dv + A[:, None]*e*(e*dv).sum(axis=1)[:, None])
     work, heat = (force*(a.v + b.v)).sum(axis=1)/2, edges.k*kappa*(b.T - a.T)
@@ -153,15 +153,15 @@ def along(edges: Any, coefficients: Coefficients, a: Flow, b: Flow) -> EdgeFluxe
 
 
 def lacking(coefficients: Coefficients, v: np.ndarray, slope: np.ndarray) -> np.ndarray:
-    """F = B [(v.grad) v - v div v], B = eta (1/2 + 1/d) - zeta/2, (n, d); slope[n, a, b] = d_a v_b."""
+    """F = B [(v.grad) v - v div v], B of `frictions`, (n, d); slope[n, a, b] = d_a v_b."""
     return np.einsum("nab,nb->na", transposed(coefficients, slope), v)
 
 
 def transposed(coefficients: Coefficients, slope: np.ndarray) -> np.ndarray:
-    """tau[n, a, b] = B (d_b v_a - delta_ab div v), B as in `lacking`, slope[n, a, b] = d_a v_b."""
+    """tau[n, a, b] = B (d_b v_a - delta_ab div v), B of `frictions`, slope[n, a, b] = d_a v_b."""
     d, (eta, zeta, _) = slope.shape[1], coefficients
     div = np.einsum("naa->n", slope)[:, None, None]*np.eye(d)
-    return (eta*(1/2 + 1/d) - zeta/2)[:, None, None]*(np.swapaxes(slope, 1, 2) - div)
+    return frictions(eta, zeta, d)[0][:, None, None]*(np.swapaxes(slope, 1, 2) - div)
 
 
 def check_bulk(eta: np.ndarray, zeta: np.ndarray, d: int) -> None:
@@ -175,13 +175,19 @@ def check_bulk(eta: np.ndarray, zeta: np.ndarray, d: int) -> None:
                          "nested transport (Eqs 37, 38)")
 
 
-def rows(one: EdgeFluxes, other: EdgeFluxes) -> list[np.ndarray]:
-    """The sum of two fluxes, row by row of the state."""
-    return [one.mass + other.mass, *(one.momentum + other.momentum).T, one.energy + other.energy]
+def rows(*fluxes: EdgeFluxes) -> list[np.ndarray]:
+    """The sum of fluxes, row by row of the state."""
+    mass, momentum, energy = (sum(q[1:], q[0]) for q in zip(*fluxes, strict=True))
+    return [mass, *momentum.T, energy]
+
+
+def gained(edges: Edges, *fluxes: EdgeFluxes) -> np.ndarray:
+    """(2 + d, n): what points gain by fluxes over edges."""
+    return np.stack([np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n)
+                     for flux in rows(*fluxes)])
 
 
 def means(q: Coefficients, i: np.ndarray, j: np.ndarray) -> Coefficients:
-    """Means over two points each."""
     return Coefficients(*((c[i] + c[j])/2 for c in q))
 
 
@@ -189,8 +195,8 @@ def means(q: Coefficients, i: np.ndarray, j: np.ndarray) -> Coefficients:
 class Dih:
     """A fluid on fixed points.
 
-    edges : of `particles.integral.edges`. eos, law : of `continuum.fluid`. zeta : bulk viscosity, a number or
-    a law. transport : Nested, Pairwise or Mixed.
+    eos, law : of `continuum.fluid`. zeta : bulk viscosity, a number or a law. transport : NestedFluxes,
+    Pairwise or Mixed.
     """
     edges: Edges
     eos: Any
@@ -200,13 +206,11 @@ class Dih:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the rows of a state."""
         return ("rho", *("px", "py", "pz")[:self.edges.d], "eps")
 
     def state(self, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
         """(2 + d, n) of densities (n,), velocities (n, d), temperatures (n,)."""
-        internal = energy(self.eos, rho, T)*np.ones_like(rho)
-        return np.stack([rho, *(rho[:, None]*v).T, rho*(internal + (v**2).sum(axis=1)/2)])
+        return densities(self.eos, rho, v, T)
 
     def flow(self, state: np.ndarray) -> Flow:
         """Fields of a state. FloatingPointError names a point outside of the equation of state."""
@@ -228,20 +232,16 @@ class Dih:
         return from_densities(self.eos, nowhere, self.edges.V, state[0], state[1:-1], state[-1])
 
     def coefficients(self, flow: Flow) -> Coefficients:
-        """Of all points."""
         one = np.ones_like(flow.rho)
-        return Coefficients(viscosity(self.law, flow.rho, flow.T)*one,
-                            bulk_viscosity(self.zeta, flow.rho, flow.T)*one,
-                            conductivity(self.law, flow.rho, flow.T)*one)
+        return Coefficients(fluid.viscosity(self.law, flow.rho, flow.T)*one,
+                            fluid.bulk_viscosity(self.zeta, flow.rho, flow.T)*one,
+                            fluid.conductivity(self.law, flow.rho, flow.T)*one)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt, written to `out`    [Eqs 34-36]"""
-        flow = self.flow(state)
-        edges = self.edges
+        flow, edges = self.flow(state), self.edges
         moved = carried(self.eos, edges.S, take(flow, edges.i), take(flow, edges.j))
-        spread = self.transport.fluxes(self, flow)
-        for row, flux in zip(out, rows(moved, spread), strict=True):
-            row[:] = (np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n))/edges.V
+        out[:] = gained(edges, moved, self.transport.fluxes(self, flow))/edges.V
 
     def conserved(self, state: np.ndarray) -> np.ndarray:
         """Mass, momentum and energy of all points, (2 + d,)."""

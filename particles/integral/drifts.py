@@ -4,8 +4,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.jit import generic, jit
-from particles.integral.brackets import CROSSED, Crossed, Powers
 from particles.integral.exchange import At, Convection, Listing, Pressure, Stage, pressure_of, stages_of
+from particles.integral.rr98_moving_plain import Crossed, Powers
 from particles.pairs import Edge, nothing, rate
 from particles.threads import Team
 
@@ -42,35 +42,21 @@ class LiteralDrift(NamedTuple):
         """What is exchanged, in the order that is the quickest."""
         return Convection(), *transport, Pressure(eos)
 
-    def owned(self, V: np.ndarray) -> np.ndarray:
-        """The volume (n,) that m, p, E of a state are those of."""
-        return np.ones_like(V)
-
 
 class ConvectiveDrift(NamedTuple):
     """Eqs 34-36, 39, 46-48. follow : 0 for volumes that stay, as printed; 1 for dV/dt = V div v."""
     follow: float = 0.0
 
     def terms(self, eos: Any, transport: tuple) -> tuple:
-        """What is exchanged."""
         return Dilution(self.follow), *transport, Pressure(eos)
-
-    def owned(self, V: np.ndarray) -> np.ndarray:
-        """The volume (n,) that m, p, E of a state are those of."""
-        return np.ones_like(V)
 
 
 class ConstantMassDrift(NamedTuple):
-    """Eq. 49: masses stay, volumes follow the flow. bracket : `brackets.Crossed` or `Powers` [Eq. 50]."""
-    bracket: Any = CROSSED
+    """Eq. 49: masses stay, volumes follow the flow. bracket : `Crossed` or `Powers` [Eq. 50]."""
+    bracket: Any = Crossed()
 
     def terms(self, eos: Any, transport: tuple) -> tuple:
-        """What is exchanged."""
         return *transport, BracketPressure(self.bracket, eos)
-
-    def owned(self, V: np.ndarray) -> np.ndarray:
-        """The volume (n,) that m, p, E of a state are those of."""
-        return V
 
 
 #: by the names of `rr98_moving_plain.MOTIONS`
@@ -95,6 +81,7 @@ nothing.of(Dilution)(lambda term: (0.0, 0.0, 0.0, 0.0))
 rate.of(Dilution)(lambda term, a, b, ab: (0.0, 0.0, 0.0, 0.0))
 growth.of(LiteralDrift)(lambda motion, a, b, ab: 0.0)
 growth.of(ConvectiveDrift)(lambda motion, a, b, ab: ab.sx*b.vx + ab.sy*b.vy)
+growth.of(ConstantMassDrift)(lambda motion, a, b, ab: ab.sx*b.vx + ab.sy*b.vy - (ab.sx*a.vx + ab.sy*a.vy))
 
 
 @rate.of(OverPairs)
@@ -117,12 +104,6 @@ def _(term, a, b, ab):
     P_ab, P_ba = P_ab + b.hydro, P_ba + a.hydro
     P = P_ab + P_ba
     return 0.0, -ab.sx*P, -ab.sy*P, -P_ab*to_a - P_ba*to_b
-
-
-@growth.of(ConstantMassDrift)
-def _(motion, a, b, ab):
-    to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy
-    return to_b - to_a
 
 
 @both.of(Crossed)

@@ -1,6 +1,7 @@
 """Edges of points and a weight: RR98's Eq. 29 as printed, plain quadrature, and repairs."""
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -71,7 +72,7 @@ def _renormalised(points: Points, weight: Any) -> Edges:
     # d times the factor of linear gradients
     first = float(np.einsum("iaa,i->", edges.linear, edges.V)/edges.V.sum())
     c = points.d/first
-    return Edges(i=edges.i, j=edges.j, S=c*edges.S, k=c*edges.k, apart=edges.apart, V=edges.V)
+    return replace(edges, S=c*edges.S, k=c*edges.k)
 
 
 def closed(points: Points, weight: Any) -> Edges:
@@ -79,8 +80,7 @@ def closed(points: Points, weight: Any) -> Edges:
     a share that the disorder sets. Raises ValueError: points fall into parts without an edge between them."""
     edges = judged(_renormalised(points, weight), points, weight)
     l = np.stack([_potential(edges, -c) for c in edges.closure.T], axis=1)
-    S = edges.S + edges.k[:, None]*(l[edges.j] - l[edges.i])
-    return Edges(i=edges.i, j=edges.j, S=S, k=edges.k, apart=edges.apart, V=edges.V)
+    return replace(edges, S=edges.S + edges.k[:, None]*(l[edges.j] - l[edges.i]))
 
 
 def _potential(edges: Edges, source: np.ndarray) -> np.ndarray:
@@ -116,26 +116,21 @@ def exact(points: Points, weight: Any) -> Edges:
     M[0, 0] *= 2       # lam is determined up to a constant
     columns = []
     for alpha in range(points.d):
-        wanted = np.zeros((points.n, 1 + points.d))
-        wanted[:, 1 + alpha] = points.V
-        missing = wanted.ravel(order="F") - B@edges.S[:, alpha]
+        missing = np.outer(np.eye(1 + points.d)[1 + alpha], points.V).ravel() - B@edges.S[:, alpha]
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", MatrixRankWarning)      # told below
             change = edges.k*(B.T@spsolve(M, missing))
             change += edges.k*(B.T@spsolve(M, missing - B@change))     # once more for what the solution left
         columns.append(edges.S[:, alpha] + change)
-    made = Edges(i=edges.i, j=edges.j, S=np.stack(columns, axis=1), k=edges.k, apart=edges.apart, V=edges.V)
+    made = replace(edges, S=np.stack(columns, axis=1))
     worst = np.abs(made.linear - np.eye(points.d)).max()
-    if not np.isfinite(worst):
+    if not worst < 1e-9:
         met = np.bincount(np.concatenate([edges.i, edges.j]), minlength=points.n)
         least = int(np.argmin(met))
+        why = (f"the best miss the unit matrix by {worst:.2g}" if np.isfinite(worst) else "the equations for "
+               f"them are singular, as where a point has too few neighbours (point {least} has {met[least]})")
         raise ArithmeticError(f"no edges of {type(weight).__name__} close and are exact on linear fields: "
-                              "the equations for them are singular, as where a point has too few neighbours "
-                              f"(point {least} has {met[least]}): take a wider weight or less random points")
-    if not worst < 1e-9:
-        raise ArithmeticError(f"no edges of {type(weight).__name__} close and are exact on linear fields: "
-                              f"the best miss the unit matrix by {worst:.2g}; take a wider weight or less "
-                              "random points")
+                              f"{why}: take a wider weight or less random points")
     return made
 
 

@@ -207,10 +207,9 @@ def between_plates(make: Callable[[Points, Any], Edges], x: np.ndarray, width: A
     try:
         edges = symmetric(make(points, weight), points.a)
     except (ValueError, ArithmeticError) as error:
+        flat = "; three points and their images lie on one sphere, so that only a weight makes edges in 3D"
         error.add_note(f"asked for were edges of {n} points between plates and of their mirror images, point "
-                       f"m + {n} that of point m, in a box twice as high"
-                       + ("; three points and their images lie on one sphere, so that only a "
-                                                            "weight makes edges in 3D" if d == 3 else ""))
+                       f"m + {n} that of point m, in a box twice as high{flat if d == 3 else ''}")
         raise
     ours, images = (edges.i < n) & (edges.j < n), (edges.i < n) != (edges.j < n)
     inner = Edges(**{name: getattr(edges, name)[ours] for name in ("i", "j", "S", "k", "apart")},

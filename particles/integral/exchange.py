@@ -4,7 +4,6 @@ A term takes two points and their edge and gives what the first gains of mass, m
 energy    [RR98 Eqs 34-36, 51]. What is not listed is not compiled. A term that needs more than the fields of
 two points, such as gradients, has a stage.
 """
-from collections.abc import Callable
 from functools import singledispatch
 from typing import Any, NamedTuple
 
@@ -54,7 +53,6 @@ def _(term, a, b, ab):
 
 @formula
 def pressure_of(eos, rho, T):
-    """P(rho, T)."""
     return pressure(eos, rho, energy(eos, rho, T))
 
 
@@ -82,21 +80,12 @@ class Listing(NamedTuple):
     terms: tuple
 
 
-def total(terms: tuple, a: Any, b: Any, ab: Any) -> Any:
-    """Sum of the rates of all terms."""
-
-
 def onto(before: tuple, terms: tuple, a: Any, b: Any, ab: Any) -> Any:
-    """The same added to a sum."""
+    """A sum, and the rates of all terms."""
 
 
 def plus(one: tuple, other: tuple) -> Any:
     """Element by element, where zeros cost nothing."""
-
-
-@overload(total)
-def _(terms, a, b, ab):
-    return lambda terms, a, b, ab: onto(rate(terms[0], a, b, ab), terms[1:], a, b, ab)
 
 
 @overload(onto)
@@ -114,11 +103,7 @@ def _(one, other):
 
 
 nothing.of(Listing)(lambda term: nothing(term.terms[0]))
-rate.of(Listing)(lambda term, a, b, ab: total(term.terms, a, b, ab))
-
-
-#: how a term reads edges
-Over = Callable[[Any], Any]
+rate.of(Listing)(lambda term, a, b, ab: onto(rate(term.terms[0], a, b, ab), term.terms[1:], a, b, ab))
 
 
 class At(NamedTuple):
@@ -136,7 +121,7 @@ class Stage:
         """Fields that the sweep reads, from those of points and images."""
 
     def use(self, slopes: np.ndarray, at: At) -> None:
-        """The same from gradients that are known."""
+        """The same from slopes, V times d_x u, d_y u, d_x v, d_y v, that a scheme needs besides."""
 
     def add(self, at: At, total: np.ndarray) -> None:
         """What the sweep leaves out."""
@@ -158,16 +143,6 @@ class Exchange:
     def __init__(self, term: Any, stages: tuple[Stage, ...], n: int, team: Team):
         self.term, self.stages, self.n, self.team = term, stages, n, team
         self.total = np.zeros((n, len(nothing(term))))
-
-    def prepare(self, at: At) -> None:
-        """Fields that the sweep reads, from those of points and images."""
-        for stage in self.stages:
-            stage.prepare(at)
-
-    def use(self, slopes: np.ndarray, at: At) -> None:
-        """The same from slopes, V times d_x u, d_y u, d_x v, d_y v, that a scheme needs besides."""
-        for stage in self.stages:
-            stage.use(slopes, at)
 
     def sum(self, at: At) -> np.ndarray:
         """What each point gains, (n, columns), in an array that the next sum overwrites."""

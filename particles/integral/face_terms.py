@@ -8,8 +8,7 @@ from continuum.jit import jit
 from particles.integral.exchange import Listing
 from particles.pairs import nothing, rate
 
-#: seen by convection and pressure: vx .. theta; by friction and heat: ux, uy, Td; F mends the heating, (gx,
-#: gy) = grad P'
+#: convection and pressure see vx .. theta; friction and heat ux, uy, Td; F mends the heating; g is grad P'
 Point = np.dtype([(name, "f8") for name in ("vx", "vy", "P", "rho", "e", "per_c", "shift_x", "shift_y",
                                             "theta", "gx", "gy", "ux", "uy", "Td", "eta", "k", "Fx", "Fy")])
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from continuum.jit import jit
-from particles.ghosts import Ghosts, ghosts_of
+from particles.ghosts import ghosts_of
 from particles.lists import Surroundings
 from particles.neighbours import u64
 from particles.pairs import Faces, nothing, rate, sweep
@@ -41,71 +41,61 @@ def _(term, a, b, ab):
 class FaceMaker:
     """Makes faces of points, closed by so many `iterations` at most, to the residual `within`.
 
-    faces, count (n,), pull (n, 2), iterations_done : what was made last, the density of points, the sum of
-    V_j F x_ij that pulls points to where they are dense. ghosts : of the lists. lists_made : how often the
-    lists have been made anew.
+    faces, count (n,), pull (n, 2) : what was made last, the density of points, the sum of V_j F x_ij that
+    pulls points to where they are dense. ghosts : of the lists. lists_made : how often the lists have been
+    made anew.
     """
 
     def __init__(self, around: Surroundings, iterations: int, within: float):
         self.around, self.n, self.team = around, around.n, around.team
         self.most, self.within = iterations, within
-        self.pull, self.count, self.iterations_done = np.zeros((self.n, 2)), np.zeros(self.n), 0
-        self.lists_made, self._entries = -1, -1
-        self.ghosts: Ghosts = Ghosts(*np.empty((3, 0)))
+        self.pull, self.count = np.zeros((self.n, 2)), np.zeros(self.n)
+        self.lists_made, self._store = -1, np.empty((5, 0))
 
     def make(self, state: np.ndarray, V: np.ndarray, solution: np.ndarray) -> None:
         """Pairs and faces of points at state[:2] with volumes (n,); solution (6, n) in place."""
-        around, n = self.around, self.n
+        around, n, pairs = self.around, self.n, self.around.pairs
         around.place(state, 1.0)
-        self._allocate()
+        if self.lists_made != around.lists_made:        # as many ghosts as before may be those of others
+            self.lists_made, self.ghosts = around.lists_made, ghosts_of(around)
+            self.metric, self.potential = (np.zeros(len(around.x), kind) for kind in (Metric, Potential))
+        if self._store.shape[1] != len(pairs.near):
+            self._store = np.empty((5, len(pairs.near)))
+        self.faces = Faces(pairs.first, pairs.taken, pairs.near, *self._store)
         self.metric["V"][:n] = V
         self.ghosts.fill(self.metric, ("V",))
         self.count = around.rho[:n].copy()
-        self.team(_metric, n, around.pairs, around.x, around.y, self.metric, self.pull)
+        self.team(_metric, n, pairs, around.x, around.y, self.metric, self.pull)
         self.ghosts.fill(self.metric, ("xx", "yy", "s"), ("xy",))
-        self.team(_open_faces, n, around.pairs, around.x, around.y, self.metric, self.faces)
+        self.team(_open_faces, n, pairs, around.x, around.y, self.metric, self.faces)
         if self.most:
             self._close(solution)
 
-    def _allocate(self) -> None:
-        points, entries, pairs = len(self.around.x), len(self.around.pairs.near), self.around.pairs
-        if self.lists_made != self.around.lists_made:       # as many ghosts as before may be those of others
-            self.lists_made, self.ghosts = self.around.lists_made, ghosts_of(self.around)
-            self.metric, self.potential = np.zeros(points, Metric), np.zeros(points, Potential)
-        if self._entries != entries:
-            self._entries, self._store = entries, np.empty((5, entries))
-        self.faces = Faces(pairs.first, pairs.taken, pairs.near, *self._store)
-
     def _close(self, solution: np.ndarray) -> None:
         """Add to the faces what closes them and makes them exact."""
-        n = self.n
-        wanted, scale = np.empty((n, 6)), np.empty((n, 6))
+        n, (wanted, scale) = self.n, np.empty((2, self.n, 6))
         self.team(_lacking_faces, n, self.faces, self.metric, wanted, scale)
         x = solution.T.copy()
-        self.iterations_done = self._solve(x, wanted, scale)
+        self._solve(x, wanted, scale)
         solution[:] = x.T
-        self._spread_out(x)
+        _to_records(x, *self.ghosts[:2], self.potential)
         self.team(_close_faces, n, self.faces, self.potential)
 
-    def _spread_out(self, x: np.ndarray) -> None:
-        """Potentials of points and ghosts."""
-        _to_records(x, self.ghosts.origin, self.ghosts.turn, self.potential)
-
     def _apply(self, x: np.ndarray, out: np.ndarray) -> None:
-        self._spread_out(x)
+        _to_records(x, *self.ghosts[:2], self.potential)
         self.team(sweep, self.n, Closing(), self.potential, self.faces, out)
 
-    def _solve(self, x: np.ndarray, wanted: np.ndarray, scale: np.ndarray) -> int:
-        """Jacobi-preconditioned conjugate gradients, x in place; the number of iterations."""
+    def _solve(self, x: np.ndarray, wanted: np.ndarray, scale: np.ndarray) -> None:
+        """Jacobi-preconditioned conjugate gradients, x in place."""
         product = np.empty_like(x)
         self._apply(x, product)
         r = wanted - product
         z = r/scale
         p, rz = z.copy(), inner(r, z)
         enough = self.within**2*inner(wanted, wanted/scale)
-        for count in range(self.most):
+        for _ in range(self.most):
             if rz <= enough:
-                return count
+                return
             self._apply(p, product)
             step = rz/inner(p, product)
             x += step*p
@@ -113,7 +103,6 @@ class FaceMaker:
             z = r/scale
             rz, before = inner(r, z), rz
             p = z + rz/before*p
-        return self.most
 
 
 def inner(a: np.ndarray, b: np.ndarray) -> float:

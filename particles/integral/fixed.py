@@ -4,10 +4,12 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from continuum.fluid import conductivity, energy, temperature, valid, viscosity
+from continuum.fluid import check_state, conductivity, sound_speed, temperature, valid, viscosity
 from continuum.jit import formula, jit
 from particles.fields import Fields, from_densities
-from particles.integral.edges import Beyond, Edges
+from particles.ghosts import Ghosts
+from particles.integral.dih import densities
+from particles.integral.edges import NONE_BEYOND, NOWHERE, Beyond, Edges
 from particles.integral.exchange import (
     At,
     Convection,
@@ -18,14 +20,16 @@ from particles.integral.exchange import (
     pressure_of,
     stages,
 )
+from particles.integral.transposed_stress import MENDED
+from particles.limits import limit_of
 from particles.neighbours import u32, u64
 from particles.pairs import Stored
 from particles.threads import Team
 
-#: seen by convection and pressure: vx .. eps, hydro; by friction and heat: ux, uy, Td; F mends the heating; P
-#: is the point's own
+#: convection and pressure see vx .. eps, hydro; friction and heat ux, uy, Td; F mends the heating; P is own
 FIELDS = "rho vx vy T eps ux uy Td eta k Fx Fy hydro P"
 Point = np.dtype([(name, "f8") for name in FIELDS.split()])
+NO_IMAGES = Ghosts(NOWHERE, np.empty(0), np.empty(0))
 
 
 def opened(edges: Stored) -> np.ndarray:
@@ -45,11 +49,9 @@ class OwnPressure(Stage):
         self.eos, self.open, self.n, self.team = eos, open, n, team
 
     def prepare(self, at: At) -> None:
-        """P of the points."""
         self.team(_own_pressure, self.n, self.eos, at.points)
 
     def add(self, at: At, total: np.ndarray) -> None:
-        """What P is at the open area."""
         self.team(_open, self.n, self.open, at.points, total)
 
 
@@ -68,10 +70,13 @@ def _open(first, last, open, points, total):
 
 
 class OnPoints:
-    """What fluids on fixed points x (n, 2) share; `sums` is what their time loop sums."""
+    """What fluids on fixed points x (n, 2) share. sums : the class of what their time loop sums."""
     x: Any
     edges: Any
     eos: Any
+    law: Any
+    transport: Any = MENDED
+    sums: Any
     names: ClassVar[tuple[str, ...]] = ("rho", "px", "py", "eps")
 
     @property
@@ -81,8 +86,7 @@ class OnPoints:
 
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
         """(4, n) of densities, velocities (n, 2), temperatures."""
-        one = np.ones(len(self.x))
-        return states(self.eos, rho*one, v, T*one)
+        return densities(self.eos, rho*np.ones(len(self.x)), v, T)
 
     def fields(self, state: np.ndarray) -> Fields:
         """Of the points, (n,) each."""
@@ -91,20 +95,26 @@ class OnPoints:
     def start(self, n: int, team: Team) -> Any:
         """The sums over stored edges. Raises ValueError: the state has not as many points as there are."""
         check_number(n, len(self.x))
-        return self.sums(team)
+        return self.sums(self, team)
 
-    def sums(self, team: Team) -> Any:
-        """The sums of this fluid."""
-        raise NotImplementedError
+
+@limit_of.register
+def _(method: OnPoints, start: np.ndarray) -> float:
+    """RK4: the fastest sound and diffusion of edges and images together, at the hottest point."""
+    rho = start[0]
+    e = start[3]/rho - (start[1]**2 + start[2]**2)/(2*rho**2)
+    check_state(method.eos, rho, e)
+    T, (sound, spread) = temperature(method.eos, rho, e), method.fastest
+    slope = (temperature(method.eos, rho, e + 1e-6) - T)/1e-6
+    chi = np.maximum(viscosity(method.law, rho, T), conductivity(method.law, rho, T)*slope)/rho
+    fast = sound_speed(method.eos, rho, e) + np.sqrt(start[1]**2 + start[2]**2)/rho
+    return float(1/(np.max(fast)*sound/2.82 + np.max(chi)*spread/2.78))
 
 
 class Summing:
-    """What the time loop asks of sums over edges of points that stay."""
+    """What the time loop asks of sums over edges of points that stay, with rates(state, out)."""
     method: Any
-
-    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt, written to `out`."""
-        raise NotImplementedError
+    rates: Any
 
     def look_at(self, state: np.ndarray) -> None:
         """What series of a run read of a state besides the state itself; nothing by default."""
@@ -135,12 +145,14 @@ class Summing:
 class FixedSums(Summing):
     """Compiled sums over stored edges: fields, stages of the terms, one exchange, rates per volume.
 
-    at : points, edges, images. push (2,) : force per mass.
+    images : a tuple of arrays, one number for each of them. push (2,) : force per mass.
     """
 
-    def __init__(self, method: Any, team: Team, at: At, push: tuple[float, float], *first: Stage):
-        self.method, self.team, self.at, self.n = method, team, at, len(at.V)
-        self.points, self.push = at.points, np.array(push)
+    def __init__(self, method: Any, team: Team, edges: Stored, images: Any, push: tuple[float, float],
+                 *first: Stage):
+        self.method, self.team, self.n, self.push = method, team, len(method.x), np.array(push)
+        self.points = np.zeros(self.n + len(images[0]), Point)
+        self.at = At(self.points, edges, images, method.edges.V)
         needed = stages(method.transport, method.law, self.n, team)
         terms = (*method.transport, Convection(), Pressure(method.eos))
         self.exchange = Exchange(Listing(terms), (*first, *needed), self.n, team)
@@ -149,7 +161,8 @@ class FixedSums(Summing):
         """Fields of all points and images, and what terms need of them."""
         self.team(read, self.n, state, self.method.eos, self.method.law, self.points)
         self.surround(state)
-        self.exchange.prepare(self.at)
+        for stage in self.exchange.stages:
+            stage.prepare(self.at)
 
     def surround(self, state: np.ndarray) -> None:
         """Fields of images, and of points whose fields are given."""
@@ -158,11 +171,6 @@ class FixedSums(Summing):
         """d(state)/dt of a state (4, n), written to `out`    [Eqs 34-36, 51]"""
         self.look_at(state)
         self.team(driven, self.n, self.exchange.sum(self.at), self.at.V, self.points, self.push, out)
-
-
-def states(eos: Any, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-    """(4, n) of densities, velocities (n, 2), temperatures."""
-    return np.stack([rho, *(rho[:, None]*v).T, rho*(energy(eos, rho, T) + (v**2).sum(axis=1)/2)])
 
 
 @formula
@@ -187,7 +195,7 @@ def check_number(n: int, points: int) -> None:
         raise ValueError(f"a state of {n} points for {points} fixed ones: make it with `state`")
 
 
-def stored(edges: Edges, beyond: Beyond, image: np.ndarray) -> Stored:
+def stored(edges: Edges, beyond: Beyond = NONE_BEYOND, image: np.ndarray = NOWHERE) -> Stored:
     """Edges by rows: those to other points, in both directions, and those to images, numbered `image`."""
     rows = np.concatenate([edges.i, edges.j, beyond.i])
     near = np.concatenate([edges.j, edges.i, image])
@@ -202,7 +210,6 @@ def stored(edges: Edges, beyond: Beyond, image: np.ndarray) -> Stored:
 
 @jit
 def read(first, last, state, eos, law, points):
-    """Fields of points first..last."""
     for i in range(first, last):
         a, rho = points[i], state[0, i]
         a.rho, a.vx, a.vy, a.eps = rho, state[1, i]/rho, state[2, i]/rho, state[3, i]

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy import sparse
 
-from particles.integral.dih import check_bulk
+from particles.integral.dih import check_bulk, check_share, frictions
 from particles.integral.edges import Edges
 
 #: of the largest conductance: below it one counts as not negative (right angles of triangles, to round-off)
@@ -51,7 +51,8 @@ def stress(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
     """
     eta, zeta, kT = checked(edges.n, eta=eta, zeta=zeta, kT=kT)
     d, V = edges.d, edges.V
-    div = divergence(edges)
+    # V div of a tensor, component (a, b) of point j in column (a d + b) n + j
+    div = each(d, sparse.hstack(edges.D))
     middle = kron(shear(d), eta/V) + kron(np.outer(one(d), one(d)), zeta/V)
     normals = sparse.hstack([kron(traceless(d), np.sqrt(2*kT*eta/V)),
                              kron(one(d)[:, None], np.sqrt(2*kT*zeta/V))])
@@ -65,11 +66,6 @@ def heat(edges: Edges, kappa: Any, kT2: Any) -> Partners:
     Gamma = div@kron(np.eye(d), kappa/edges.V)@div.T
     return Partners(sparse.csr_array(Gamma),
                     sparse.csr_array(div@kron(np.eye(d), np.sqrt(2*kT2*kappa/edges.V))))
-
-
-def divergence(edges: Edges) -> sparse.csr_array:
-    """V div of a tensor, component (a, b) of point j in column (a d + b) n + j: sum_b D^b tau_ab."""
-    return each(edges.d, sparse.hstack(edges.D))
 
 
 def shear(d: int, trace: float | None = None) -> np.ndarray:
@@ -110,7 +106,7 @@ def friction(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
     d = edges.d
     check_bulk(eta, zeta, d)
     eta, zeta, kT = (ends(edges, q) for q in (eta, zeta, kT))
-    B, A = eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
+    B, A = frictions(eta, zeta, d)
     return between(edges, A, B, kT) if d > 1 else between(edges, 0*A, A + B, kT)
 
 
@@ -137,9 +133,7 @@ def conduction(edges: Edges, kappa: Any, kT2: Any) -> Partners:
 
 def mixed(points: Partners, along: Partners, share: float) -> Partners:
     """A share of friction along edges, the rest of stresses at points, each with its noise."""
-    if not 0 <= share <= 1:
-        raise ValueError("the share of transport along edges must be between 0 (points) and 1 (edges), got "
-                         f"{share}")
+    check_share(share)
     Gamma = (1 - share)*points.Gamma + share*along.Gamma
     return Partners(sparse.csr_array(Gamma),
                     sparse.csr_array(sparse.hstack([np.sqrt(1 - share)*points.B, np.sqrt(share)*along.B])))

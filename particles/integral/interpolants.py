@@ -125,11 +125,10 @@ def check_ordering(weight: Any, d: int, a: float, error: float,
     a : spacing (dV)^(1/d). error : of the discrete first moment on the points, or of what else is `wrong`.
     """
     r0 = rms_width(weight, d)
-    told = f"r0 = {r0:.3g} (rms width of {type(weight).__name__})"
     if r0 < a and error > SEEN:
-        warnings.warn(f"{told} is below the spacing {a:.3g}, the left side of Eq. 45: {wrong} off by "
-                      f"{100*error:.3g} % (rms) on these points; take a wider weight, or exact edges",
-                      OrderingWarning, 4)
+        warnings.warn(f"r0 = {r0:.3g} (rms width of {type(weight).__name__}) is below the spacing {a:.3g}, "
+                      f"the left side of Eq. 45: {wrong} off by {100*error:.3g} % (rms) on these points; "
+                      "take a wider weight, or exact edges", OrderingWarning, 4)
 
 
 def check(weight: Any, d: int) -> None:

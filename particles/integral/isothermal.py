@@ -10,10 +10,9 @@ import numpy as np
 
 from continuum.jit import jit
 from particles.fields import Fields
-from particles.integral.edges import NONE_BEYOND, Edges
+from particles.integral.edges import Edges
 from particles.integral.exchange import At, Exchange, Listing
-from particles.integral.fixed import Summing, check_number, stored
-from particles.integral.stream import NO_IMAGES
+from particles.integral.fixed import NO_IMAGES, OnPoints, Summing, stored
 from particles.limits import limit_of
 from particles.pairs import nothing, rate
 from particles.threads import Team
@@ -48,46 +47,18 @@ def _(term, a, b, ab):
     return 0.0, f*(b.vx - a.vx), f*(b.vy - a.vy)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Isothermal:
-    """Fixed points, periodic, without heat. terms : of Carried and ConstantFriction."""
-    x: np.ndarray
-    edges: Edges
-    terms: tuple
-
-    names = ("rho", "px", "py")
-
-    def state(self, rho: np.ndarray, v: np.ndarray) -> np.ndarray:
-        """(3, n) of densities (n,), velocities (n, 2)."""
-        return np.stack([rho, *(rho[:, None]*v).T])
-
-    def fields(self, state: np.ndarray) -> Fields:
-        """Of the points, (n,) each; without heat there is no temperature."""
-        return Fields(self.x, (state[1:]/state[0]).T, state[0].copy(), np.full(len(self.x), np.nan),
-                      self.edges.V)
-
-    def start(self, n: int, team: Team) -> "Summed":
-        """The sums over stored edges. Raises ValueError: the state has not as many points as there are."""
-        check_number(n, len(self.x))
-        return Summed(self, team)
-
-
 class Summed(Summing):
     """The compiled sums of the listed terms."""
 
-    def __init__(self, method: Isothermal, team: Team):
+    def __init__(self, method: "Isothermal", team: Team):
         self.method, self.team, self.n = method, team, len(method.x)
-        edges = stored(method.edges, NONE_BEYOND, NONE_BEYOND.parent)
-        self.at = At(np.zeros(self.n, Point), edges, NO_IMAGES, method.edges.V)
+        self.at = At(np.zeros(self.n, Point), stored(method.edges), NO_IMAGES, method.edges.V)
         self.exchange = Exchange(Listing(method.terms), (), self.n, team)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (3, n), written to `out`."""
         self.team(_read, self.n, state, self.at.points)
         self.team(_per_volume, self.n, self.exchange.sum(self.at), self.at.V, out)
-
-    def look_at(self, state: np.ndarray) -> None:
-        """Fields are not kept."""
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """The first point without a positive density; empty if there is none."""
@@ -97,10 +68,30 @@ class Summed(Summing):
         return f"point {ids[bad[0]]} has rho = {state[0, bad[0]]:.6g}, which must be positive"
 
 
+@dataclass(frozen=True, kw_only=True)
+class Isothermal(OnPoints):
+    """Fixed points, periodic, without heat. terms : of Carried and ConstantFriction."""
+    x: np.ndarray
+    edges: Edges
+    terms: tuple
+
+    names = ("rho", "px", "py")
+    sums = Summed
+
+    def state(self, rho: np.ndarray, v: np.ndarray) -> np.ndarray:  # type: ignore[override]
+        """(3, n) of densities (n,), velocities (n, 2)."""
+        return np.stack([rho, *(rho[:, None]*v).T])
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """Of the points, (n,) each; without heat there is no temperature."""
+        return Fields(self.x, (state[1:]/state[0]).T, state[0].copy(), np.full(len(self.x), np.nan),
+                      self.edges.V)
+
+
 @limit_of.register
 def _(method: Isothermal, start: np.ndarray) -> float:
     """RK4: the fastest sound and the fastest diffusion that the listed terms make of the edges."""
-    sound, spread = method.edges.fastest
+    sound, spread = method.fastest
     c2, eta = (sum(getattr(term, name, 0.0) for term in method.terms) for name in ("c2", "eta"))
     fast = np.sqrt(c2) + np.sqrt(((start[1]**2 + start[2]**2)/start[0]**2).max())
     return float(1/(fast*sound/2.82 + eta/start[0].min()*spread/2.78))

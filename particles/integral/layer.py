@@ -4,23 +4,20 @@ Between plates, which RR98 leaves open, convection and pressure see images witho
 divergence stays the adjoint of the gradient: fields of their parents, velocity across reversed, a pressure
 that goes on hydrostatically. Friction and heat see -v and 2 T_w - T. Any other mixture lets sound grow.
 """
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from continuum.fluid import ConstEta, IdealGas, check_state, conductivity, sound_speed, temperature, viscosity
+from continuum.fluid import ConstEta, IdealGas, constant_viscosity
 from continuum.jit import jit
 from particles.ghosts import Ghosts
 from particles.integral.edges import Beyond, Edges, fastest
-from particles.integral.exchange import At, Conduction
-from particles.integral.fixed import FixedSums, OnPoints, OwnPressure, Point, opened, stored
+from particles.integral.exchange import PRINTED, Conduction
+from particles.integral.fixed import FixedSums, OnPoints, OwnPressure, opened, stored
 from particles.integral.layer_ideal import IdealSums
 from particles.integral.transposed_stress import MENDED
-from particles.integrators import RK4
-from particles.limits import limit_of
 from particles.threads import Team
 
 
@@ -38,11 +35,10 @@ class LayerSums(FixedSums):
         edges = stored(method.edges, beyond, n + self.image)
         images = Ghosts(self.parent, -np.ones(len(self.parent)), T_plates[self.plate])
         self.open = opened(edges)
-        at = At(np.zeros(n + len(self.parent), Point), edges, images, method.edges.V)
-        super().__init__(method, team, at, (0.0, -method.g), OwnPressure(method.eos, self.open, n, team))
+        super().__init__(method, team, edges, images, (0.0, -method.g),
+                         OwnPressure(method.eos, self.open, n, team))
 
     def surround(self, state: np.ndarray) -> None:
-        """Images between plates."""
         _images(self.parent, self.at.images.plate_T, self.rise, self.method.g, self.points, self.n)
 
     def heat_through(self, plate: int) -> float:
@@ -63,7 +59,6 @@ class LinearSums(LayerSums):
         self.linear = IdealSums(self)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt of a state (4, n), written to `out`."""
         self.linear.rates(state, out)
 
 
@@ -77,17 +72,7 @@ def _images(parent, plate_T, rise, g, points, n):
 
 
 #: sums in another form, for fluids that allow it: equation of state, law, and transport
-FORMS = {(IdealGas, ConstEta, MENDED): LinearSums}
-
-
-def quickest(method: "Layer") -> type[LayerSums]:
-    """Sums in the form that suits a fluid best."""
-    return FORMS.get((type(method.eos), type(method.law), method.transport), LayerSums)
-
-
-def edge_by_edge(method: "Layer") -> type[LayerSums]:
-    """Sums as all fluids have them."""
-    return LayerSums
+FORMS: dict[tuple, type[LayerSums]] = {(IdealGas, ConstEta, MENDED): LinearSums}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,7 +81,7 @@ class Layer(OnPoints):
 
     edges, beyond : of `edges.between_plates`. transport : listed terms of friction and heat: `MENDED`,
     `PRINTED` as Eq. 51 has it, which heats even a rigid rotation, or of `nested.mixed`. form : which sums,
-    `quickest` or `edge_by_edge`.
+    None for those that suit the fluid best, `LayerSums` for those that all fluids have, edge by edge.
     """
     x: np.ndarray
     edges: Edges
@@ -106,34 +91,55 @@ class Layer(OnPoints):
     T_plates: tuple[float, float]
     g: float
     transport: tuple = MENDED
-    form: Callable[[Any], type[LayerSums]] = quickest
-    integrator: type = RK4
-
-    def __repr__(self) -> str:
-        """What tells a checkpoint's method from another: edges by their sums."""
-        sums = ", ".join(f"{float(np.abs(q).sum())!r}"
-                         for q in (self.x, self.edges.S, self.edges.k, self.beyond.S))
-        return (f"Layer({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.T_plates}, {self.g}, "
-                f"{self.transport}, {self.form(self).__name__}, {self.integrator.__name__})")
+    form: type[LayerSums] | None = None
 
     @cached_property
     def fastest(self) -> tuple[float, float]:
-        """Largest frequency of sound over its speed, and largest rate of diffusion over the diffusivity."""
         return fastest(self.edges, self.beyond)
 
-    def sums(self, team: Team) -> "LayerSums":
-        """In the form that is asked for."""
-        return self.form(self)(self, team)
+    @property
+    def sums(self) -> type[LayerSums]:
+        """In the form that is asked for, or suits the fluid best."""
+        known = type(self.eos), type(self.law), self.transport
+        return self.form or FORMS.get(known, LayerSums)
 
 
-@limit_of.register
-def _(method: Layer, start: np.ndarray) -> float:
-    """RK4: the fastest sound and diffusion of edges and images together, at the hottest point."""
-    rho = start[0]
-    e = start[3]/rho - (start[1]**2 + start[2]**2)/(2*rho**2)
-    check_state(method.eos, rho, e)
-    T, (sound, spread) = temperature(method.eos, rho, e), method.fastest
-    slope = (temperature(method.eos, rho, e + 1e-6) - T)/1e-6
-    chi = np.maximum(viscosity(method.law, rho, T), conductivity(method.law, rho, T)*slope)/rho
-    fast = sound_speed(method.eos, rho, e) + np.sqrt(start[1]**2 + start[2]**2)/rho
-    return float(1/(np.max(fast)*sound/2.82 + np.max(chi)*spread/2.78))
+class Driving(LayerSums):
+    """The compiled sums of a layer, and what drives it.
+
+    A sliding plate adds to the friction along an edge to an image: f = eta k makes f (2 U - 2 v) in place of
+    f (-2 v).
+    """
+    method: "Driven"
+
+    def __init__(self, method: "Driven", team: Team):
+        super().__init__(method, team)
+        beyond, V = method.beyond, method.edges.V
+        U = np.array(method.slide)[beyond.plate]
+        self.pull, self.work = (np.bincount(beyond.i, 2*method.law.eta*beyond.k*q, self.n)/V
+                                for q in (U, U**2))
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """What drives it adds f 2 U to momentum, f (2 U - 2 v).U to energy."""
+        super().rates(state, out)
+        force = self.method.force
+        out[1] += self.pull + force*state[0]
+        out[3] += self.work - self.pull*state[1]/state[0] + force*state[1]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Driven(Layer):
+    """A layer whose plates slide at velocities `slide` (lower, upper), under a force per mass along x.
+
+    For constant viscosity and all transport along edges; the mended heating takes plates to be at rest, of no
+    moment where the velocity across the plates is zero.
+    """
+    slide: tuple[float, float] = (0.0, 0.0)
+    force: float = 0.0
+
+    sums = Driving
+
+    def __post_init__(self):
+        if not constant_viscosity(self.law) or self.transport not in (MENDED, PRINTED):
+            raise ValueError("sliding plates pull with a constant viscosity along edges only, got "
+                             f"{self.law} and {self.transport}: take ConstEta and MENDED or PRINTED")

@@ -48,13 +48,12 @@ def _(term, a, b, ab):
 
 
 class IdealSums:
-    """Rates of an `Exchanging` whose fluid this form fits."""
+    """Rates of a layer whose fluid this form fits."""
 
     def __init__(self, layer: Any):
         self.layer, method, edges = layer, layer.method, layer.at.edges
         self.given, self.lack = np.zeros(len(layer.points), Given), np.zeros(len(layer.points), Lack)
         self.edges, self.per_V, beyond, image = tuple(edges), 1/method.edges.V, method.beyond, layer.image
-        self.open = layer.open
         self.gas = (float(method.eos.cv), viscosity(method.law, 1.0, 1.0), conductivity(method.law, 1.0, 1.0))
         self.twice_T = 2*layer.at.images.plate_T
         self.beyond = (beyond.i, layer.n + image, *(beyond.S.T/2).copy(), method.g*layer.rise[image])
@@ -62,12 +61,12 @@ class IdealSums:
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt, written to `out`    [Eqs 34-36, 51]"""
         layer, given, lack = self.layer, self.given, self.lack
-        team, n, g = layer.team, layer.n, layer.method.g
+        team, n, g, open = layer.team, layer.n, layer.method.g, layer.open
         team(_give, len(given), state, layer.parent, self.twice_T, self.gas, given)
-        team(_exchange, n, given, self.edges, self.open, self.per_V, self.gas, g, lack, out)
+        team(_exchange, n, given, self.edges, open, self.per_V, self.gas, g, lack, out)
         if len(given) > n:
             _plates(self.beyond, layer.parent, given, self.per_V, lack, out)
-        team(_heat, n, lack, self.edges, self.open, self.per_V, out)
+        team(_heat, n, lack, self.edges, open, self.per_V, out)
 
 
 @lanes
@@ -142,7 +141,6 @@ def _plates(beyond, parent, given, per_V, lack, out):
 
 @lanes
 def _heat(first, last, lack, edges, open, per_V, out):
-    """The mended heating."""
     pairs, lost = Stored(*edges), np.empty((ROWS, 1))
     for begin in range(u64(first), u64(last), u64(ROWS)):
         end = min(begin + u64(ROWS), u64(last))

@@ -5,6 +5,7 @@ import numpy as np
 
 from continuum.fluid import conductivity, stress, viscosity
 from continuum.jit import jit
+from particles.integral.dih import check_share
 from particles.integral.exchange import At, Conduction, Friction, Stage, stages_of
 from particles.integral.transposed_stress import Mending
 from particles.pairs import nothing, rate, sweep
@@ -48,9 +49,7 @@ def _(term, a, b, ab):
 
 def mixed(share: float, mended: bool = True) -> tuple:
     """A share of transport along edges [Eq. 51], mended or not, the rest nested [Eqs 37, 38]."""
-    if not 0 <= share <= 1:
-        raise ValueError("the share of transport along edges must be between 0 (nested) and 1 (all), got "
-                         f"{share}")
+    check_share(share)
     along = (Conduction(share), *(Mending(share),)*mended, Friction(share))*(share > 0)
     return (*along, *(NestedTransport(1 - share),)*(share < 1))
 
@@ -74,17 +73,14 @@ class Nesting(Stage):
             self.currents[name][self.n:] = at.points[name][self.n:]
 
     def use(self, slopes: np.ndarray, at: At) -> None:
-        """Gradients of the velocity alone do not do."""
         raise TypeError("nested transport needs gradients of T: over closed faces take friction and "
                         "conduction along them")
 
     def heat(self, i: np.ndarray, image: np.ndarray, S: np.ndarray) -> float:
-        """Through areas S between points and images."""
         q = np.stack([self.currents[name][i] + self.currents[name][image] for name in ("qx", "qy")], axis=1)
         return float((S*q).sum()/2)
 
     def add(self, at: At, total: np.ndarray) -> None:
-        """Momentum and energy."""
         self.team(sweep, self.n, Currents(), self.currents, at.edges, self.gain)
         total[:, 1:4] += self.gain
 

@@ -72,13 +72,13 @@ def jittered(counts: tuple[int, ...], size: float, seed: int, a: float = 1.0) ->
     return of_positions(wrapped(x, at.box), at.box)
 
 
-def random(counts: tuple[int, ...], apart: float, seed: int, a: float = 1.0) -> Points:
-    """Points at random, none nearer than `apart` spacings. ValueError: the last find no place."""
-    at = lattice(counts, a)
+def random(counts: tuple[int, ...], apart: float, seed: int) -> Points:
+    """Points at random, about one a unit, none nearer than `apart`. ValueError: the last find no place."""
+    at = lattice(counts)
     rng, x = np.random.default_rng(seed), np.empty((0, at.d))
     for _ in range(400):
         new = rng.uniform(-at.box/2, at.box/2, (at.n - len(x), at.d))
-        x = _thinned(np.concatenate([x, new]), at.box, apart*a)
+        x = _thinned(np.concatenate([x, new]), at.box, apart)
         if len(x) == at.n:
             return of_positions(x, at.box)
     raise ValueError(f"{at.n - len(x)} of {at.n} points found no place {apart} spacings from all others: "
@@ -120,22 +120,15 @@ def pairs(points: Points, distance: float) -> tuple[np.ndarray, np.ndarray, np.n
     return i, j, apart, r
 
 
-def irregularity(points: Points, weight: Any) -> np.ndarray:
-    """c_i = sum_j W(r_ij) dV e_ij, (n, d): zero on a lattice; what a plain gradient makes of a constant."""
-    check(weight, points.d)
-    i, j, apart, r = pairs(points, reach(weight))
-    pull = (W(weight, r)/r)[:, None]*apart
-    c = np.zeros_like(points.x)
-    np.add.at(c, i, -pull*points.V[j, None])
-    np.add.at(c, j, pull*points.V[i, None])
-    return c
-
-
 def relaxed(points: Points, weight: Any, until: float = 2e-3, sweeps: int = 2000) -> Points:
-    """Points moved by 0.12 a^2 c a sweep until a |c| < `until` everywhere, c as in `irregularity`. Raises
-    ArithmeticError: they are not that regular after so many sweeps."""
+    """Points moved by 0.12 a^2 c a sweep until a |c| < `until` everywhere, c_i = sum_j W(r_ij) dV e_ij, which
+    is zero on a lattice. Raises ArithmeticError: they are not that regular after so many sweeps."""
+    check(weight, points.d)
     for _ in range(sweeps):
-        c = irregularity(points, weight)
+        i, j, apart, r = pairs(points, reach(weight))
+        pull, c = (W(weight, r)/r)[:, None]*apart, np.zeros_like(points.x)
+        np.add.at(c, i, -pull*points.V[j, None])
+        np.add.at(c, j, pull*points.V[i, None])
         worst = points.a*np.sqrt((c**2).sum(axis=1).max())
         if worst < until:
             return points

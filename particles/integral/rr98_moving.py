@@ -13,9 +13,10 @@ from continuum.fluid import check_state, conductivity, pressure, sound_speed, te
 from continuum.jit import jit
 from particles.fields import Fields, from_densities
 from particles.ghosts import ghosts_of
-from particles.integral import fixed
+from particles.integral.dih import densities
 from particles.integral.drifts import ConstantMassDrift, Drifting, OverPairs
 from particles.integral.exchange import At, Exchange, Listing, stages
+from particles.integral.fixed import Point
 from particles.integral.interpolants import check_ordering
 from particles.integral.transposed_stress import MENDED
 from particles.limits import lattice_sums, limit_of, zone
@@ -27,7 +28,7 @@ from particles.walls import confine
 from particles.weights import check_unit
 
 #: the fields of fixed points, with places and volumes
-Place = np.dtype([*fixed.Point.descr, ("x", "f8"), ("y", "f8"), ("V", "f8")])
+Place = np.dtype([*Point.descr, ("x", "f8"), ("y", "f8"), ("V", "f8")])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,44 +50,49 @@ class Drift:
     scale: float = 1.0
     transport: tuple = MENDED
     static: LessStatic = LessStatic(0.0, 0.0)  # noqa: RUF009 (immutable)
-    skin: float = 0.5
 
     def __post_init__(self):
         check_unit(self.weight)
-        if self.static.fraction and not isinstance(self.motion, ConstantMassDrift):
+        if self.static.fraction and not self.keeps_mass:
             raise ValueError(f"{type(self.motion).__name__} needs the whole pressure, got {self.static}: its "
                              "volumes do not follow the flow, so that no work of what is left out is "
                              "defined; take ConstantMassDrift")
 
     @property
+    def keeps_mass(self) -> bool:
+        return isinstance(self.motion, ConstantMassDrift)
+
+    @property
     def names(self) -> tuple[str, ...]:
         """Names of rows: places, then m, p, E per volume, or of the point at constant mass, volumes."""
-        mass = isinstance(self.motion, ConstantMassDrift)
-        return ("x", "y", "px", "py", *(("m", "E") if mass else ("rho", "eps")), "V")
+        return ("x", "y", "px", "py", *(("m", "E") if self.keeps_mass else ("rho", "eps")), "V")
+
+    def owned(self, V: np.ndarray) -> np.ndarray:
+        """The volume (n,) that m, p, E of a state are those of."""
+        return V if self.keeps_mass else np.ones_like(V)
 
     def state(self, x: np.ndarray, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
         """(7, n) of places (n, 2), densities, velocities (n, 2), temperatures (n,); all volumes are equal."""
         V = np.full(len(x), self.box[0]*self.box[1]/len(x))
-        fields = fixed.states(self.eos, rho*np.ones(len(x)), v, T)[[1, 2, 0, 3]]
-        return np.concatenate([x.T, self.motion.owned(V)*fields, V[None]])
+        fields = densities(self.eos, rho*np.ones(len(x)), v, T)[[1, 2, 0, 3]]
+        return np.concatenate([x.T, self.owned(V)*fields, V[None]])
 
     def fields(self, state: np.ndarray) -> Fields:
         """Of the points, (n,) each."""
-        px, py, rho, eps = state[2:6]/self.motion.owned(state[6])
+        px, py, rho, eps = state[2:6]/self.owned(state[6])
         return from_densities(self.eos, state[:2].T.copy(), state[6].copy(), rho, np.stack([px, py]), eps)
 
     def thermal(self, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Density and internal energy per mass."""
-        px, py, rho, eps = state[2:6]/self.motion.owned(state[6])
+        px, py, rho, eps = state[2:6]/self.owned(state[6])
         return rho, eps/rho - (px**2 + py**2)/(2*rho**2)
 
     def conserved(self, state: np.ndarray) -> np.ndarray:
         """Mass, momentum and energy of all points, (4,)."""
         V = state[6]
-        return state[[4, 2, 3, 5]]@(V/self.motion.owned(V))
+        return state[[4, 2, 3, 5]]@(V/self.owned(V))
 
     def start(self, n: int, team: Team) -> "Drifts":
-        """The sums of n points, with their arrays."""
         return Drifts(self, n, team)
 
 
@@ -115,7 +121,7 @@ class Drifts(Listed):
 
     def __init__(self, method: Drift, n: int, team: Team):
         self.method, self.team, self.n = method, team, n
-        self.around = Surroundings(method.weight, method.walls, n, method.box, skin=method.skin, team=team)
+        self.around = Surroundings(method.weight, method.walls, n, method.box, skin=0.5, team=team)
         self._lists, terms = -1, method.motion.terms(method.eos, method.transport)
         needed = stages(terms, method.law, n, team, OverPairs, ("x", "y", "V"))
         self.exchange = Exchange(OverPairs(Drifting(method.motion, Listing(terms))), needed, n, team)
@@ -134,30 +140,26 @@ class Drifts(Listed):
         speed = np.sqrt(((now.state[2]**2 + now.state[3]**2)/now.state[4]**2).max())
         super().make_ready(now, dt*float(speed)/momentum if momentum else dt)
 
-    def look_at(self, state: np.ndarray) -> None:
-        """Pairs where the points are now, fields of all points and images, and F."""
+    def look_at(self, state: np.ndarray) -> At:
+        """Pairs where the points are now, fields of all points and images, and F: where these exchange."""
         method, around, n = self.method, self.around, self.n
         around.place(state, method.scale)
         if self._lists != around.lists_made:
             self._lists, self.ghosts = around.lists_made, ghosts_of(around)
             self.points = np.zeros(len(around.x), Place)
         points = self.points
-        self.team(_read, n, state, method.motion.owned(state[6]), method.eos, method.law, method.static,
-                  method.g, points)
+        self.team(_read, n, state, method.owned(state[6]), method.eos, method.law, method.static, method.g,
+                  points)
         _image_fields(n, *self.ghosts, around.x, around.y, method.static, method.g, points)
-        self.exchange.prepare(self.at(state))
-
-    def at(self, state: np.ndarray) -> At:
-        """Where points exchange now."""
-        return At(self.points, self.around.pairs, self.ghosts, state[6])
+        at = At(points, around.pairs, self.ghosts, state[6])
+        for stage in self.exchange.stages:
+            stage.prepare(at)
+        return at
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (7, n), written to `out`    [Eqs 34-36, 39, 46-51]"""
-        method = self.method
-        self.look_at(state)
-        total = self.exchange.sum(self.at(state))
-        self.team(_rates, self.n, total, method.motion.owned(state[6]), self.points, method.static, method.g,
-                  out)
+        method, total = self.method, self.exchange.sum(self.look_at(state))
+        self.team(_rates, self.n, total, method.owned(state[6]), self.points, method.static, method.g, out)
 
     def confine(self, state: np.ndarray) -> int:
         """Turn points beyond plates back, with their momenta; their number."""
@@ -171,7 +173,6 @@ class Drifts(Listed):
 
 @jit
 def _read(first, last, state, owned, eos, law, static, g, points):
-    """Fields of points first..last."""
     for i in range(first, last):
         a, rho = points[i], state[4, i]/owned[i]
         a.x, a.y, a.V, a.rho, a.eps = state[0, i], state[1, i], state[6, i], rho, state[5, i]/owned[i]

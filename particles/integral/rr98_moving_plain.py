@@ -7,23 +7,44 @@
     constant mass   m_i dv_i/dt = sum_j .. [Eq. 49], pressure crossed [Eq. 13] or of Eq. 50: smoothed
                     particle hydrodynamics
 
-A state (2 d + 2 or more, n) begins with positions, which are not wrapped into the box. Then come rho, p, eps
-per volume, as RR98's m_i, p_i, eps_i are of equal volumes dV; or, at constant mass, m, p, E of the point;
-then V where it changes. A scheme that is conservative and consistent is another one: see `moving`.
+A state (2 d + 3, n) begins with positions, which are not wrapped into the box. Then come rho, p, eps per
+volume, as RR98's m_i, p_i, eps_i are of equal volumes dV; or, at constant mass, m, p, E of the point; then V.
+A scheme that is conservative and consistent is another one: see `moving`.
 """
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import energy
+from continuum.fluid import energy, pressure
 from particles.fields import Fields, from_densities
-from particles.integral.brackets import CROSSED
-from particles.integral.dih import Dih, EdgeFluxes, Pairwise, rows, take
+from particles.integral.dih import Dih, EdgeFluxes, Flow, Pairwise, densities, gained, take
 from particles.integral.edge_makers import from_weights, judged, plain, renormalised
 from particles.integral.edges import Edges
 from particles.integral.interpolants import W, check, reach
 from particles.integral.points import Points, of_positions, pairs, wrapped
+
+
+class Crossed(NamedTuple):
+    """P_ij = P(rho_i, T_j)    [RR98 Eq. 13]"""
+
+    def both(self, eos: Any, a: Flow, b: Flow) -> tuple[np.ndarray, np.ndarray]:
+        """(P_ab, P_ba); in the energy P_ab goes with v_a."""
+        return pressure(eos, a.rho, energy(eos, a.rho, b.T)), pressure(eos, b.rho, energy(eos, b.rho, a.T))
+
+
+class Powers(NamedTuple):
+    """P_ij + P_ji = P_i/(m_i^a m_j^b) + P_j/(m_j^a m_i^b), m the density    [RR98 Eq. 50 and note 18]
+
+    Consistent with Eq. 49 for a + b = 0 only: the force is -grad (P/rho^(a+b)). What the points' own pressure
+    does is done with the velocity of the other, so that internal energy changes by -P_i times the growth of
+    the volume.
+    """
+    a: float = 0.0
+    b: float = 0.0
+
+    def both(self, eos: Any, a: Flow, b: Flow) -> tuple[np.ndarray, np.ndarray]:
+        return b.P/(b.rho**self.a*a.rho**self.b), a.P/(a.rho**self.a*b.rho**self.b)
 
 
 def scale_of(points: Points, weight: Any) -> float:
@@ -51,13 +72,12 @@ class Motion:
     """What all have in common: a fluid on points that move in a periodic box (d,) around the origin.
 
     weight : of `weights` or `interpolants`, for d dimensions. scale : of plain quadrature, see `scale_of`.
-    eos, law, zeta, transport : as of `Dih`.
+    eos, law, transport : as of `Dih`.
     """
     box: tuple[float, ...]
     weight: Any
     eos: Any
     law: Any
-    zeta: Any = 0.0
     transport: Any = Pairwise()  # noqa: RUF009  (immutable)
     scale: float = 1.0
 
@@ -71,9 +91,8 @@ class Motion:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the rows of a state."""
         axes = ("x", "y", "z")[:self.places]
-        return (*axes, "rho", *(f"p{axis}" for axis in axes), "eps")
+        return (*axes, "rho", *(f"p{axis}" for axis in axes), "eps", "V")
 
     def fluid(self, x: np.ndarray, V: np.ndarray) -> Dih:
         """The fluid as if points x (n, d) of volumes V (n,) stood still."""
@@ -86,89 +105,32 @@ class Motion:
         points = Points(x=wrapped(x, box), box=box, V=V)
         near = pairs(points, reach(self.weight))
         edges = from_weights(points, self.weight, self.scale*W(self.weight, near[3]), near)
-        return Dih(edges=edges, eos=self.eos, law=self.law, zeta=self.zeta, transport=self.transport)
+        return Dih(edges=edges, eos=self.eos, law=self.law, transport=self.transport)
 
-    def checked(self, x: np.ndarray) -> np.ndarray:
-        """Positions (n, d) to start from; warns where the weight is too narrow for them    [Eq. 45]
+    def owned(self, V: np.ndarray) -> np.ndarray:
+        """The volume (n,) that the rows between positions and volumes are those of."""
+        return np.ones_like(V)
 
-        Raises ValueError: two points overlap, or the box is narrower than two ranges of the weight.
-        FloatingPointError: a position is not finite.
+    def state(self, x: np.ndarray, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
+        """(2 d + 3, n) of positions (n, d) and fields; all volumes are equal.
+
+        Warns where the weight is too narrow for the points [Eq. 45]. Raises ValueError: two points overlap,
+        or the box is narrower than two ranges of the weight. FloatingPointError: a position is not finite.
         """
-        fluid = self.fluid(x, self.equal(len(x)))
-        judged(fluid.edges, of_positions(wrapped(x, np.asarray(self.box, float)), self.box), self.weight)
-        return x
-
-    def equal(self, n: int) -> np.ndarray:
-        """Equal volumes of n points that fill the box."""
-        return np.full(n, np.prod(self.box)/n)
+        V = np.full(len(x), np.prod(self.box)/len(x))
+        judged(self.fluid(x, V).edges, of_positions(wrapped(x, np.asarray(self.box)), self.box), self.weight)
+        return np.concatenate([x.T, self.owned(V)*densities(self.eos, rho, v, T), V[None]])
 
     def velocity(self, state: np.ndarray) -> np.ndarray:
         """(d, n): the rates of the positions    [Eq. 39]"""
         d = self.places
         return state[d + 1:2*d + 1]/state[d]
 
-    def per_volume(self, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """rho, p, eps (2 + d, n) and volumes (n,)."""
-        return state[self.places:], self.equal(state.shape[1])
-
     def fields(self, state: np.ndarray) -> Fields:
         """Of the points, (n,) each."""
-        (rho, *p, eps), V = self.per_volume(state)
-        return from_densities(self.eos, state[:self.places].T.copy(), V.copy(), rho, np.stack(p), eps)
-
-    def densities(self, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-        """(2 + d, n) of densities (n,), velocities (n, d), temperatures (n,)."""
-        internal = energy(self.eos, rho, T)*np.ones_like(rho)
-        return np.stack([rho, *(rho[:, None]*v).T, rho*(internal + (v**2).sum(axis=1)/2)])
-
-
-@dataclass(frozen=True, kw_only=True)
-class Literal(Motion):
-    """Eqs 34-36 and 39 as printed: points move, and what convection brings is exchanged as well."""
-
-    def state(self, x: np.ndarray, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-        """(2 d + 2, n) of positions (n, d) and fields."""
-        return np.concatenate([self.checked(x).T, self.densities(rho, v, T)])
-
-    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt, written to `out`."""
-        d = self.places
-        self.fluid(state[:d].T, self.equal(state.shape[1])).rates(state[d:], out[d:])
-        out[:d] = self.velocity(state)
-
-    def conserved(self, state: np.ndarray) -> np.ndarray:
-        """Mass, momentum and energy of all points, (2 + d,)."""
-        return state[self.places:]@self.equal(state.shape[1])
-
-
-@dataclass(frozen=True, kw_only=True)
-class Convective(Motion):
-    """Eqs 34-36, 39, 46-48 as printed: m_i, p_i, eps_i of volumes dV that stay as they are."""
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Names of the rows of a state."""
-        return (*super().names, "V")
-
-    def state(self, x: np.ndarray, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-        """(2 d + 3, n) of positions (n, d) and fields; all volumes are equal."""
-        return np.concatenate([self.checked(x).T, self.densities(rho, v, T), self.equal(len(x))[None]])
-
-    def per_volume(self, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """rho, p, eps (2 + d, n) and volumes (n,)."""
-        return state[self.places:-1], state[-1]
-
-    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt, written to `out`."""
-        d, v = self.places, self.velocity(state)
-        dih = self.fluid(state[:d].T, state[-1])
-        dih.rates(state[d:-1], out[d:-1])
-        out[d:-1] += convected(dih.edges, v.T, state[d:-1])
-        out[:d], out[-1] = v, self.growth(dih.edges, v.T)
-
-    def growth(self, edges: Edges, v: np.ndarray) -> np.ndarray:
-        """dV/dt, (n,)."""
-        return np.zeros(edges.n)
+        d, V = self.places, state[-1]
+        rho, *p, eps = state[d:-1]/self.owned(V)
+        return from_densities(self.eos, state[:d].T.copy(), V.copy(), rho, np.stack(p), eps)
 
     def conserved(self, state: np.ndarray) -> np.ndarray:
         """Mass, momentum and energy of all points, (2 + d,)."""
@@ -176,54 +138,66 @@ class Convective(Motion):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Literal(Motion):
+    """Eqs 34-36 and 39 as printed: points move, and what convection brings is exchanged as well."""
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        d = self.places
+        self.fluid(state[:d].T, state[-1]).rates(state[d:-1], out[d:-1])
+        out[:d], out[-1] = self.velocity(state), 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Convective(Motion):
+    """Eqs 34-36, 39, 46-48 as printed: m_i, p_i, eps_i of volumes dV that stay as they are.
+
+    follow : volumes grow by so much of V div v, with the divergence that Eqs 34 and 46 leave in dm_i/dt.
+    """
+    follow: float = 0.0
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        d, v, V = self.places, self.velocity(state), state[-1]
+        dih = self.fluid(state[:d].T, V)
+        dih.rates(state[d:-1], out[d:-1])
+        out[d:-1] += convected(dih.edges, v.T, state[d:-1])
+        out[:d], out[-1] = v, self.follow*V*divergence(dih.edges, v.T)
+
+
+@dataclass(frozen=True, kw_only=True)
 class CarriedVolumes(Convective):
     """Eqs 46-48 on volumes that go with the flow: rho_i V_i then stays as it is, as at constant mass."""
-
-    def growth(self, edges: Edges, v: np.ndarray) -> np.ndarray:
-        """dV/dt = V div v, (n,), with the divergence that Eqs 34 and 46 leave in dm_i/dt."""
-        return edges.V*divergence(edges, v)
+    follow: float = 1.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class ConstantMass(Motion):
     """Eq. 49 with masses that stay; volumes follow the flow, dV_i/dt = V_i div v.
 
-    bracket : `brackets.Crossed` or `Powers`. The divergence takes differences v_j - v_i, the adjoint of the
-    sum P_ij + P_ji.
+    bracket : `Crossed` or `Powers`. The divergence takes differences v_j - v_i, the adjoint of the sum P_ij +
+    P_ji.
     """
-    bracket: Any = CROSSED
+    bracket: Any = Crossed()  # noqa: RUF009  (immutable)
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the rows of a state."""
-        d = self.places
-        return (*super().names[:d], "m", *super().names[d + 1:-1], "E", "V")
+        return tuple({"rho": "m", "eps": "E"}.get(name, name) for name in super().names)
 
-    def state(self, x: np.ndarray, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-        """(2 d + 3, n) of positions (n, d) and fields; all volumes are equal."""
-        V = self.equal(len(x))
-        return np.concatenate([self.checked(x).T, V*self.densities(rho, v, T), V[None]])
-
-    def per_volume(self, state: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """rho, p, eps (2 + d, n) and volumes (n,)."""
-        return state[self.places:-1]/state[-1], state[-1]
+    def owned(self, V: np.ndarray) -> np.ndarray:
+        return V
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt, written to `out`."""
-        d, (densities, V) = self.places, self.per_volume(state)
+        d, V = self.places, state[-1]
         dih = self.fluid(state[:d].T, V)
-        flow, edges = dih.flow(densities), dih.edges
+        flow, edges = dih.flow(state[d:-1]/V), dih.edges
         a, b, half = take(flow, edges.i), take(flow, edges.j), edges.S/2
         P_ab, P_ba = self.bracket.both(self.eos, a, b)
         to_a, to_b = (half*a.v).sum(axis=1), (half*b.v).sum(axis=1)
         pushed = EdgeFluxes(np.zeros(len(half)), half*(P_ab + P_ba)[:, None], P_ab*to_a + P_ba*to_b)
-        for row, flux in zip(out[d:-1], rows(pushed, self.transport.fluxes(dih, flow)), strict=True):
-            row[:] = np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n)
+        out[d:-1] = gained(edges, pushed, self.transport.fluxes(dih, flow))
         out[:d] = flow.v.T
         out[-1] = np.bincount(edges.i, to_b - to_a, edges.n) + np.bincount(edges.j, to_b - to_a, edges.n)
 
     def conserved(self, state: np.ndarray) -> np.ndarray:
-        """Mass, momentum and energy of all points, (2 + d,)."""
         return state[self.places:-1].sum(axis=1)
 
 

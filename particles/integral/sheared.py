@@ -11,66 +11,11 @@ import numpy as np
 
 from continuum.jit import jit
 from particles.integral.edges import Edges
-from particles.integral.exchange import At
-from particles.integral.fixed import FixedSums, OnPoints, Point
-from particles.integral.layer import Layer
+from particles.integral.fixed import FixedSums, OnPoints
 from particles.integral.points import Points
-from particles.integral.transposed_stress import MENDED
-from particles.limits import limit_of
-from particles.neighbours import u32
 from particles.pairs import Stored
 from particles.threads import Team
 from particles.walls.sliding import Sides, sides, slide
-
-
-@dataclass(frozen=True, kw_only=True)
-class Sheared(OnPoints):
-    """A fluid on the points of a lattice, periodic in x; images above move faster by rate times height.
-
-    edges : periodic, of a weight. transport : listed terms of friction and heat.
-    """
-    points: Points
-    edges: Edges
-    eos: Any
-    law: Any
-    rate: float
-    transport: tuple = MENDED
-
-    names = (*OnPoints.names, "slid")
-
-    def __post_init__(self):
-        _ = self.sides      # what is wrong with points or edges is told here
-
-    @property
-    def x(self) -> np.ndarray:
-        """Places (n, 2)."""
-        return self.points.x
-
-    @cached_property
-    def sides(self) -> Sides:
-        """Edges among points and to images."""
-        return sides(self.points, self.edges)
-
-    def __repr__(self) -> str:
-        """What tells a checkpoint's method from another: edges by their sums."""
-        sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.points.x, self.edges.S, self.edges.k))
-        return f"Sheared({self.points.n}, {sums}, {self.eos}, {self.law}, {self.rate}, {self.transport})"
-
-    @property
-    def speed(self) -> float:
-        """Of the box above relative to this one."""
-        return self.rate*float(self.points.box[1])
-
-    def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
-        """(5, n) of densities, velocities (n, 2), temperatures, before anything has slid."""
-        return np.concatenate([super().state(rho, v, T), np.zeros((1, self.points.n))])
-
-    def sums(self, team: Team) -> "Shearing":
-        """Of the fluid between its sides."""
-        return Shearing(self, team)
-
-
-limit_of.register(Sheared, limit_of.dispatch(Layer))
 
 
 class Boosted(NamedTuple):
@@ -91,17 +36,15 @@ class Boosted(NamedTuple):
 
 class Shearing(FixedSums):
     """The compiled sums of a sheared fluid."""
-    method: Sheared
+    method: "Sheared"
 
-    def __init__(self, method: Sheared, team: Team):
-        made, n = method.sides, method.points.n
+    def __init__(self, method: "Sheared", team: Team):
+        made = method.sides
         edges = Stored(*(q.copy() for q in made.edges))      # they follow the sliding
-        images = Boosted(made.parent, method.speed*made.up)
-        super().__init__(method, team, At(np.zeros(n + len(made.parent), Point), edges, images,
-                                          method.edges.V), (0.0, 0.0))
+        super().__init__(method, team, edges, Boosted(made.parent, method.speed*made.up), (0.0, 0.0))
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt of a state (5, n), written to `out`    [Eqs 34-36, 51]"""
+        """Of the fields, and the speed at which images slide."""
         super().rates(state, out)
         out[4] = self.method.speed
 
@@ -114,21 +57,52 @@ class Shearing(FixedSums):
     def through(self, state: np.ndarray) -> np.ndarray:
         """Mass, momentum (2) and energy that enter through the upper side per time."""
         self.look_at(state)
-        return self.exchange.sum(self.at._replace(edges=above(self.at.edges, self.method.sides))).sum(axis=0)
+        edges, (entry, up, *_) = self.at.edges, self.method.sides.through
+        upper = np.isin(np.arange(len(edges.k)), entry[up > 0])
+        alone = edges._replace(sx=upper*edges.sx, sy=upper*edges.sy, k=upper*edges.k)
+        return self.exchange.sum(self.at._replace(edges=alone)).sum(axis=0)
 
 
-def above(edges: Stored, made: Sides) -> Stored:
-    """The edges through the upper side alone."""
-    chosen = made.through.entry[made.through.up > 0]
-    rows = np.repeat(np.arange(len(edges.taken)), edges.taken)[chosen]
-    taken = np.bincount(rows, minlength=len(edges.taken))
-    return Stored((np.cumsum(taken) - taken).astype(edges.first.dtype), taken.astype(u32),
-                  *(q[chosen] for q in (edges.near, edges.sx, edges.sy, edges.k)))
+@dataclass(frozen=True, kw_only=True)
+class Sheared(OnPoints):
+    """A fluid on the points of a lattice, periodic in x; images above move faster by rate times height.
+
+    edges : periodic, of a weight.
+    """
+    points: Points
+    edges: Edges
+    eos: Any
+    law: Any
+    rate: float
+
+    names = (*OnPoints.names, "slid")
+    sums = Shearing
+
+    def __post_init__(self):
+        _ = self.sides      # what is wrong with points or edges is told here
+
+    @property
+    def x(self) -> np.ndarray:
+        """Places (n, 2)."""
+        return self.points.x
+
+    @cached_property
+    def sides(self) -> Sides:
+        """Edges among points and to images."""
+        return sides(self.points, self.edges)
+
+    @property
+    def speed(self) -> float:
+        """Of the box above relative to this one."""
+        return self.rate*float(self.points.box[1])
+
+    def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
+        """(5, n) of densities, velocities (n, 2), temperatures, before anything has slid."""
+        return np.concatenate([super().state(rho, v, T), np.zeros((1, self.points.n))])
 
 
 @jit
 def boosted(parent, boost, points, n):
-    """Images: their parents seen from a box that moves by -boost."""
     for m in range(len(parent)):
         a, b, U = points[parent[m]], points[n + m], boost[m]
         b.rho, b.vx, b.vy, b.T = a.rho, a.vx + U, a.vy, a.T
@@ -138,7 +112,6 @@ def boosted(parent, boost, points, n):
 
 @jit
 def boosted_work(parent, boost, slopes, V, points, n):
-    """F of the images, which have the gradients of their parents and another velocity."""
     for m in range(len(parent)):
         i = parent[m]
         a, b, f = points[i], points[n + m], points[i].eta/V[i]*boost[m]

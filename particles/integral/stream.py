@@ -10,14 +10,10 @@ import numpy as np
 
 from continuum.fluid import conductivity, energy, viscosity
 from continuum.jit import jit
-from particles.ghosts import Ghosts
 from particles.integral.bodies import Held
-from particles.integral.edges import NONE_BEYOND, NOWHERE, Edges
+from particles.integral.edges import Edges
 from particles.integral.exchange import At, Stage
-from particles.integral.fixed import FixedSums, OnPoints, OwnPressure, Point, opened, stored
-from particles.integral.layer import Layer
-from particles.integral.transposed_stress import MENDED
-from particles.limits import limit_of
+from particles.integral.fixed import NO_IMAGES, FixedSums, OnPoints, OwnPressure, opened, stored
 from particles.pairs import Stored, nothing, rate, sweep
 from particles.threads import Team
 
@@ -37,50 +33,6 @@ def _(term, a, b, ab):
     return mass, 0.5*mass*(a.vx + b.vx), 0.5*mass*(a.vy + b.vy), 0.5*mass*inner
 
 
-@dataclass(frozen=True, kw_only=True)
-class Stream(OnPoints):
-    """A fluid on fixed points x (n, 2), periodic, driven by a force `push` per mass, around `held` points.
-
-    transport : listed terms of friction and heat. chi : diffusivity of the filter of the density, 0 for none.
-    """
-    x: np.ndarray
-    edges: Edges
-    eos: Any
-    law: Any
-    held: Held
-    push: tuple[float, float] = (0.0, 0.0)
-    chi: float = 0.0
-    transport: tuple = MENDED
-
-    def __post_init__(self):
-        if not self.chi >= 0:
-            raise ValueError(f"the filter's diffusivity chi must not be negative, got {self.chi}: 0.05 a^2 "
-                             "c^2/nu is enough")
-
-    def __repr__(self) -> str:
-        """What tells a checkpoint's method from another: edges by their sums."""
-        sums = ", ".join(f"{float(np.abs(q).sum())!r}"
-                         for q in (self.x, self.edges.S, self.edges.k, *self.held))
-        return (f"Stream({len(self.x)}, {sums}, {self.eos}, {self.law}, {self.push}, {self.chi}, "
-                f"{self.transport})")
-
-    def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
-        """(4, n) of densities, velocities (n, 2), temperatures; held points get their own."""
-        T, v = T*np.ones(len(self.x)), v.copy()
-        v[self.held.which] = self.held.v
-        warm = np.isfinite(self.held.T)
-        T[self.held.which[warm]] = self.held.T[warm]
-        return super().state(rho, v, T)
-
-    def sums(self, team: Team) -> "Streaming":
-        """Of the fluid and what is held."""
-        return Streaming(self, team)
-
-
-limit_of.register(Stream, limit_of.dispatch(Layer))
-NO_IMAGES = Ghosts(NOWHERE, np.empty(0), np.empty(0))
-
-
 class Filtering(Stage):
     """Adds what a filter exchanges, over edges of its own."""
 
@@ -95,25 +47,21 @@ class Filtering(Stage):
 
 class Streaming(FixedSums):
     """The compiled sums of a stream. received (m, 3): momentum and energy of held points, per time."""
-    method: Stream
+    method: "Stream"
 
-    def __init__(self, method: Stream, team: Team):
+    def __init__(self, method: "Stream", team: Team):
         n = len(method.x)
-        edges, around = (stored(cut(method.edges, method.held), NONE_BEYOND, NONE_BEYOND.parent)
-                         for cut in (insulated, separated))
-        first: tuple[Stage, ...] = (OwnPressure(method.eos, opened(edges), n, team),)
-        if method.chi:
-            first += (Filtering(Filter(method.chi), around, n, team),)
-        super().__init__(method, team, At(np.zeros(n, Point), edges, NO_IMAGES, method.edges.V), method.push,
-                         *first)
+        edges, around = (stored(cut(method.edges, method.held)) for cut in (insulated, separated))
+        filters = (Filtering(Filter(method.chi), around, n, team),) if method.chi else ()
+        super().__init__(method, team, edges, NO_IMAGES, method.push,
+                         OwnPressure(method.eos, opened(edges), n, team), *filters)
         self.received = np.zeros((len(method.held.which), 3))
 
     def surround(self, state: np.ndarray) -> None:
-        """Held points have their own velocity and temperature."""
         hold(self.method.eos, self.method.law, *self.method.held[:3], self.points)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt of a state (4, n), written to `out`    [Eqs 34-36, 51]"""
+        """Of free points, then of those that are held."""
         super().rates(state, out)
         keep(self.method.eos, *self.method.held[:3], self.exchange.total, self.at.V, self.points,
              self.received, out)
@@ -122,6 +70,36 @@ class Streaming(FixedSums):
         """(fx, fy, heat and work) that all held points take together from the fluid, per time."""
         self.rates(state, np.empty_like(state))
         return self.received.sum(axis=0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stream(OnPoints):
+    """A fluid on fixed points x (n, 2), periodic, driven by a force `push` per mass, around `held` points.
+
+    chi : diffusivity of the filter of the density, 0 for none.
+    """
+    x: np.ndarray
+    edges: Edges
+    eos: Any
+    law: Any
+    held: Held
+    push: tuple[float, float] = (0.0, 0.0)
+    chi: float = 0.0
+
+    sums = Streaming
+
+    def __post_init__(self):
+        if not self.chi >= 0:
+            raise ValueError(f"the filter's diffusivity chi must not be negative, got {self.chi}: 0.05 a^2 "
+                             "c^2/nu is enough")
+
+    def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
+        """(4, n) of densities, velocities (n, 2), temperatures; held points get their own."""
+        T, v = T*np.ones(len(self.x)), v.copy()
+        v[self.held.which] = self.held.v
+        warm = np.isfinite(self.held.T)
+        T[self.held.which[warm]] = self.held.T[warm]
+        return super().state(rho, v, T)
 
 
 def insulated(edges: Edges, held: Held) -> Edges:
@@ -134,8 +112,7 @@ def insulated(edges: Edges, held: Held) -> Edges:
 
 def separated(edges: Edges, held: Held) -> Edges:
     """Edges that do not conduct between held points, for the filter: no mass seeps through a body."""
-    inside = np.zeros(edges.n, bool)
-    inside[held.which] = True
+    inside = np.isin(np.arange(edges.n), held.which)
     return replace(edges, k=np.where(inside[edges.i] & inside[edges.j], 0.0, edges.k))
 
 

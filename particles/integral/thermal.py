@@ -5,16 +5,15 @@ Amplitudes are those of `fluctuating`, at current temperatures as RR98 says afte
 functions of (seed, step, i, j). What is not listed is not drawn: no share along edges, no numbers of pairs.
 """
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from continuum.fluid import energy, sound_speed
 from continuum.jit import jit
-from particles.fields import Fields
 from particles.integral.covariance import BETAS, OLD
-from particles.integral.dih import Dih, EdgeFluxes, Flow, Mixed, check_bulk, means, rows, take
+from particles.integral.dih import Dih, EdgeFluxes, Flow, Mixed, check_bulk, frictions, gained, means, take
 from particles.integral.fixed import Summing, check_number
 from particles.integral.fluctuating import conductances, traceless
 from particles.limits import limit_of
@@ -23,59 +22,50 @@ from particles.threads import Team
 
 #: heat capacity of a point over k, below which current amplitudes bias energy fluctuations by 1 % and more
 LEAST_CAPACITY = 50
-#: c in <dx> = c B B' dt of three stages, each with the amplitude B of its own state: 0 would be Ito's, 1/2
-#: Stratonovich's
+#: c in <dx> = c B B' dt of three stages, each with B of its own state: 0 would be Ito's, 1/2 Stratonovich's
 STAGED = (1 + BETAS[0]*BETAS[1])/6 + (2 + BETAS[2]*(BETAS[0] + BETAS[1]))/6
 
 
+class ThreeStage:
+    """Three Euler steps, averaged, each with its share of two noises; covariances of third order.
+
+    sums.kicks(y, beta, dt, out) writes what the noise W_A + beta W_B adds    [Delong, Griffith,
+    Vanden-Eijnden & Donev 2013]
+    """
+    evaluations = 3
+
+    def __init__(self, shape: tuple[int, ...], team: Team):
+        self._start, self._k, self._kick = (np.empty(shape) for _ in range(3))
+
+    def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
+        self._start[:] = y
+        for old, beta in zip(OLD, BETAS, strict=True):
+            sums.rates(y, self._k)
+            sums.kicks(y, beta, dt, self._kick)
+            y[:] = old*self._start + (1 - old)*(y + dt*self._k + self._kick)
+
+
 @dataclass(frozen=True, kw_only=True)
-class Thermal:
+class Thermal(Dih):
     """A fluid on fixed points with the fluctuations of its own transport, of which a share goes along edges.
 
     Noise and dissipation are partners along edges, and with constant coefficients; where these vary the
     stress of Eqs 37, 38 at points is no symmetric matrix and has no exact partner.
-    edges, eos, law, zeta : as in `dih.Dih`. k : Boltzmann's constant in the units of the fluid.
+    k : Boltzmann's constant in the units of the fluid. Others as in `dih.Dih`.
     """
-    edges: Any
-    eos: Any
-    law: Any
     k: float
     seed: int
-    zeta: Any = 0.0
     share: float = 0.0
+    transport: Mixed = field(init=False)
+
+    integrator = ThreeStage
 
     def __post_init__(self):
         if not self.k >= 0:
             raise ValueError(f"Boltzmann's constant k must not be negative, got {self.k}: kT is the energy "
                              "of a fluctuation")
         check_seed(self.seed)
-
-    @property
-    def integrator(self) -> type:
-        return ThreeStage
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        return self.dih.names
-
-    @property
-    def dih(self) -> Dih:
-        """What flows without noise."""
-        return Dih(edges=self.edges, eos=self.eos, law=self.law, zeta=self.zeta,
-                   transport=Mixed(share=self.share))
-
-    def state(self, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-        """(2 + d, n) of densities (n,), velocities (n, d), temperatures (n,)."""
-        return self.dih.state(rho, v, T)
-
-    def fields(self, state: np.ndarray) -> Fields:
-        """Of the points, (n,) each; edges know no places."""
-        return self.dih.fields(state)
-
-    def __repr__(self) -> str:
-        """What tells a checkpoint's method from another: edges by their sums."""
-        sums = ", ".join(f"{float(np.abs(q).sum())!r}" for q in (self.edges.S, self.edges.k, self.edges.V))
-        return f"Thermal({sums}, {self.eos}, {self.law}, {self.k}, {self.seed}, {self.zeta}, {self.share})"
+        object.__setattr__(self, "transport", Mixed(share=self.share))
 
     def start(self, n: int, team: Team) -> "Agitated":
         """The sums over edges. ValueError: another number of points, or viscosities without noise."""
@@ -85,10 +75,10 @@ class Thermal:
 
 class Agitated(Summing):
     """Rates without noise, and kicks of one step."""
-    number: int = 0
 
     def __init__(self, method: Thermal, team: Team):
-        self.method, self.team, self.dih, edges = method, team, method.dih, method.edges
+        # the flow without noise
+        self.method, self.team, self.dih, self.rates, edges = method, team, method, method.rates, method.edges
         d, n = edges.d, edges.n
         # R, r, heat; of W_A and W_B
         self.of_points = np.empty((n, 2*(d*d + 1 + d))) if method.share < 1 else None
@@ -100,15 +90,7 @@ class Agitated(Summing):
                 raise ValueError("two edges join the same points by different images: their noise would be "
                                  "one; take more points")
 
-    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """Of the flow without noise."""
-        self.dih.rates(state, out)
-
-    def look_at(self, state: np.ndarray) -> None:
-        """Fields are not kept."""
-
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
-        """The first point outside of the equation of state; empty if there is none."""
         try:
             self.dih.flow(state)
         except FloatingPointError as error:
@@ -117,25 +99,20 @@ class Agitated(Summing):
 
     def make_ready(self, now: Any, dt: float) -> None:
         """Random numbers of the coming step."""
-        step = now.step
+        seed, edges = self.method.seed, self.dih.edges
         if self.of_points is not None:
-            self.team(fill_normals, len(self.of_points), self.method.seed, step, self.of_points)
+            self.team(fill_normals, edges.n, seed, now.step, self.of_points)
         if self.of_edges is not None:
-            self.team(fill_pairs, len(self.of_edges), self.method.seed, step, self.dih.edges.i,
-                      self.dih.edges.j, self.of_edges)
+            self.team(fill_pairs, len(edges.i), seed, now.step, edges.i, edges.j, self.of_edges)
 
     def kicks(self, state: np.ndarray, beta: float, dt: float, out: np.ndarray) -> None:
         """What the noise W_A + beta W_B adds to a state in dt, with the amplitudes of that state."""
-        edges, flow = self.dih.edges, self.dih.flow(state)
-        parts = []
+        flow, share, parts = self.dih.flow(state), self.method.share, []
         if self.of_points is not None:
-            parts.append(self._at_points(flow,
-                                         halves(self.of_points, beta)*np.sqrt((1 - self.method.share)*dt)))
+            parts.append(self._at_points(flow, halves(self.of_points, beta)*np.sqrt((1 - share)*dt)))
         if self.of_edges is not None:
-            parts.append(self._along_edges(flow, halves(self.of_edges, beta)*np.sqrt(self.method.share*dt)))
-        total = rows(*parts) if len(parts) > 1 else [parts[0].mass, *parts[0].momentum.T, parts[0].energy]
-        for row, flux in zip(out, total, strict=True):
-            row[:] = (np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n))/edges.V
+            parts.append(self._along_edges(flow, halves(self.of_edges, beta)*np.sqrt(share*dt)))
+        out[:] = gained(self.dih.edges, *parts)/self.dih.edges.V
 
     def _at_points(self, flow: Flow, dW: np.ndarray) -> EdgeFluxes:
         """By random stresses and currents: -S.(s_i + s_j)/2, -S.(s_j.v_i + s_i.v_j)/2 + S.(q_i + q_j)/2."""
@@ -155,7 +132,7 @@ class Agitated(Summing):
         a, b, all_of = take(flow, edges.i), take(flow, edges.j), self.dih.coefficients(flow)
         check_bulk(all_of.eta, all_of.zeta, d)
         (eta, zeta, kappa), k = means(all_of, edges.i, edges.j), self.method.k*self.k
-        B, A = eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
+        B, A = frictions(eta, zeta, d)
         B, A = (B, A) if d > 1 else (A + B, 0*A)
         e, T = edges.apart/np.sqrt((edges.apart**2).sum(axis=1))[:, None], (a.T + b.T)/2
         force = np.sqrt(2*k*T*np.maximum(B, 0))[:, None]*dW[:, :d]
@@ -180,31 +157,11 @@ def fill_pairs(first, last, seed, step, i, j, out):
                 out[e, c + m] = found[m]
 
 
-class ThreeStage:
-    """Three Euler steps, averaged, each with its share of two noises; covariances of third order.
-
-    sums.kicks(y, beta, dt, out) writes what the noise W_A + beta W_B adds    [Delong, Griffith,
-    Vanden-Eijnden & Donev 2013]
-    """
-    evaluations = 3
-
-    def __init__(self, shape: tuple[int, ...], team: Team):
-        self._start, self._k, self._kick = (np.empty(shape) for _ in range(3))
-
-    def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
-        """Advance y in place by dt."""
-        self._start[:] = y
-        for old, beta in zip(OLD, BETAS, strict=True):
-            sums.rates(y, self._k)
-            sums.kicks(y, beta, dt, self._kick)
-            y[:] = old*self._start + (1 - old)*(y + dt*self._k + self._kick)
-
-
 @limit_of.register
 def _(method: Thermal, start: np.ndarray) -> float:
     """Three stages: 1.73 on the imaginary axis for sound, 2.51 on the real one for diffusion. Warns where a
     point holds so little heat that current amplitudes bias its fluctuations."""
-    flow, (sound, spread) = method.dih.flow(start), method.edges.fastest
+    flow, (sound, spread) = method.flow(start), method.edges.fastest
     e = energy(method.eos, flow.rho, flow.T)
     C = (energy(method.eos, flow.rho, flow.T*(1 + 1e-6)) - e)/(1e-6*flow.T)
     least = float((method.edges.V*flow.rho*C).min())
@@ -213,7 +170,7 @@ def _(method: Thermal, start: np.ndarray) -> float:
                       f"makes its energy fluctuate by a share of up to k/C = {method.k/least:.2g} too much, "
                       f"{1 - STAGED:.2f} k/C where heat goes along edges; take C >= {LEAST_CAPACITY} k, "
                       "larger points or a smaller k", stacklevel=2)
-    eta, zeta, kappa = method.dih.coefficients(flow)
+    eta, zeta, kappa = method.coefficients(flow)
     chi = np.maximum(2*eta + zeta, kappa/C)/flow.rho
     fast = sound_speed(method.eos, flow.rho, e) + np.sqrt((flow.v**2).sum(axis=1))
     return float(1/(np.max(fast)*sound/1.73 + np.max(chi)*spread/2.51))

@@ -8,13 +8,14 @@ the divergence of
 It vanishes where eta is constant; its work F = tau.v never does: without it even a rigid rotation heats. What
 feels F feels tau where a law makes eta vary.
 """
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from continuum.fluid import constant_viscosity
 from continuum.jit import jit
-from particles.integral.exchange import At, Conduction, Friction, Over, Stage, stages_of
+from particles.integral.exchange import At, Conduction, Friction, Stage, stages_of
 from particles.pairs import nothing, rate, sweep
 from particles.threads import Team
 
@@ -61,7 +62,7 @@ class Heating(Stage):
     through. over : how terms read edges; places : what this reads of points.
     """
 
-    def __init__(self, share: float, n: int, team: Team, over: Over = lambda term: term,
+    def __init__(self, share: float, n: int, team: Team, over: Callable[[Any], Any] = lambda term: term,
                  places: tuple[str, ...] = ()):
         self.share, self.n, self.team, self.over, self.places = share, n, team, over, places
         self.slopes = np.zeros((n, 4))
@@ -82,7 +83,6 @@ class HeatingAndForce(Heating):
     """Makes F, and adds what tau pushes by."""
 
     def add(self, at: At, total: np.ndarray) -> None:
-        """S.(tau_a + tau_b)/2 to the momentum."""
         tau = np.empty(len(at.points), [*Tau.descr, *((name, "f8") for name in self.places)])
         force = np.empty((self.n, 2))
         self.team(_tau, self.n, self.slopes, at.V, self.share, at.points, tau)

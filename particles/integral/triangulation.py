@@ -7,8 +7,7 @@ from scipy.spatial import Delaunay, cKDTree
 from particles.integral.edges import Edges, combined
 from particles.integral.points import Points, of_positions
 
-#: spacings by which points are shifted where several triangulations are right, and that they must be apart to
-#: keep their order
+#: spacings: a shift where several triangulations are right, and the least distance that keeps their order
 SHIFT, APART = 1e-7, 1e-6
 
 
@@ -51,7 +50,8 @@ def _simplices(points: Points) -> tuple[np.ndarray, np.ndarray]:
     # of four points on a circle all images must get the same diagonal: a small shift decides
     shift = np.random.default_rng(0).uniform(-SHIFT, SHIFT, points.x.shape)*points.a
     simplices = Delaunay(x + shift[owner]).simplices
-    simplices = simplices[_is_ours(x, simplices, points)]
+    middle = x[simplices].mean(axis=1)/points.box
+    simplices = simplices[((middle >= -0.5) & (middle < 0.5)).all(axis=1)]      # one of each set of images
     return owner[simplices], x[simplices]
 
 
@@ -94,9 +94,3 @@ def _with_images(points: Points) -> tuple[np.ndarray, np.ndarray]:
     owner = np.tile(np.arange(points.n), len(shifts))
     near = (np.abs(x) < points.box).all(axis=1)
     return x[near], owner[near]
-
-
-def _is_ours(x: np.ndarray, simplices: np.ndarray, points: Points) -> np.ndarray:
-    """Simplices whose middle lies in the box: one of each set of images."""
-    middle = x[simplices].mean(axis=1)/points.box
-    return ((middle >= -0.5) & (middle < 0.5)).all(axis=1)

@@ -8,10 +8,9 @@ import numpy as np
 from continuum.scene import Torus
 from particles.fields import kinetic
 from particles.integral.bodies import held, together, with_plates
-from particles.integral.driven import Driven
 from particles.integral.edge_makers import closed, exact, plain, renormalised
 from particles.integral.edges import NONE_BEYOND, between_plates
-from particles.integral.layer import Layer, LayerSums
+from particles.integral.layer import Driven, Layer, LayerSums
 from particles.integral.nested import mixed
 from particles.integral.points import of_positions, random, relaxed
 from particles.integral.stream import Stream, Streaming

@@ -5,12 +5,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from particles.fields import kinetic
-from particles.integral.brackets import Powers
 from particles.integral.drifts import DRIFTS, ConstantMassDrift, OverPairs
 from particles.integral.exchange import PRINTED
 from particles.integral.points import lattice
 from particles.integral.rr98_moving import Drift, Drifts
-from particles.integral.rr98_moving_plain import scale_of
+from particles.integral.rr98_moving_plain import Powers, scale_of
 from particles.integral.transposed_stress import MENDED
 from particles.observe import pairs_behind
 from particles.pairs import nothing, rate, sweep

@@ -3,20 +3,25 @@
 A scene has `width, L` (in spacings), `sides` (`Periodic`, `Walls`, `Torus`), the plates' `T_hot, T_cold`, the
 velocity `slide` of the upper one, gravity `g`, the fluid `eos, law`, and `fields(x) -> rho, v, T`, its start.
 """
+from collections.abc import Callable
+from functools import cache
 from math import isclose
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from continuum.scene import Periodic, Torus, Walls
-from particles.integral.points import lattice, wrapped
+from particles.integral.points import Points, jittered, lattice, random, relaxed, wrapped
 from particles.limits import limit_of
 from particles.walls.mirror import AtWall, Copied, plates, sides
 from particles.walls.periodic import periodic
 from particles.walls.sliding_plate import Sliding
+from particles.weights import WendlandC2
 from studies.build.names import START_JITTER
 
 FROM_EDGE = 0.25        # of a spacing: jittered points come no nearer to a plate with images
+BREADTH = 16        # spacings across a wave
+APART = 0.5         # of random points, in spacings
 
 
 class Ready(NamedTuple):
@@ -108,3 +113,29 @@ def check_still(scene: Any) -> None:
     if scene.slide:
         raise ValueError(f"plates of moving points do not slide, got slide = {scene.slide}: take "
                          "fixed points, smooth particles or the grid")
+
+
+class Disorder(NamedTuple):
+    """A kind of periodic point set; `size`: jitter, or the least distance of random points, in spacings."""
+    name: str
+    make: Callable[[tuple[int, ...], float, int], Points]
+    size: float = 0.0
+
+
+def on_lattice(counts: tuple[int, ...], size: float, seed: int) -> Points:
+    """The square lattice, whatever the seed."""
+    return lattice(counts)
+
+
+@cache
+def relaxed_random(counts: tuple[int, ...], apart: float, seed: int) -> Points:
+    """Random points, relaxed until a|c| < 2e-3."""
+    return relaxed(random(counts, apart, seed), WendlandC2.of(h=3.0), until=2e-3, sweeps=4000)
+
+
+DISORDERS = {d.name: d for d in (
+    Disorder("lattice", on_lattice),
+    Disorder("jittered-0.1", jittered, 0.1),
+    Disorder("jittered-0.3", jittered, 0.3),
+    Disorder("random", random, APART),
+    Disorder("relaxed", relaxed_random, APART))}

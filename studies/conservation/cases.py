@@ -18,7 +18,7 @@ from particles.integral.exchange import PRINTED
 from particles.integral.rr98_moving_plain import MOTIONS
 from particles.integrators import TwoStep
 from particles.weights import WEIGHTS, WendlandC2
-from studies.build.disorder import DISORDERS
+from studies.build.setting import DISORDERS
 from studies.conservation.claims import CLAIMS
 from studies.conservation.cylinder import VARIANTS
 from studies.conservation.drift import (

@@ -14,7 +14,7 @@ from particles.integral.points import Points, of_positions
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2
-from studies.build.disorder import DISORDERS, Disorder
+from studies.build.setting import DISORDERS, Disorder
 from studies.conservation.sums import EVERYTHING, WatchedRun, exact_sums, random_fields, sizes
 
 SIDE = 8                # of the box, in spacings

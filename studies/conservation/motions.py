@@ -7,10 +7,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
-from particles.integral.brackets import Powers
 from particles.integral.dih import Pairwise
 from particles.integral.points import Points, jittered, lattice
-from particles.integral.rr98_moving_plain import ConstantMass, Convective, Motion, convected, scale_of
+from particles.integral.rr98_moving_plain import ConstantMass, Convective, Motion, Powers, convected, scale_of
 from particles.integrators import RK4
 from particles.limits import lattice_sums
 from particles.threads import Team

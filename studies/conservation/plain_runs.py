@@ -14,7 +14,7 @@ from particles.integral.points import Points, lattice
 from particles.integral.rr98_moving_plain import Motion
 from particles.integrators import RK4, Euler, TwoStep
 from particles.weights import Lucy
-from studies.build.disorder import DISORDERS, Disorder
+from studies.build.setting import DISORDERS, Disorder
 from studies.conservation.motions import C, march, moving
 from studies.conservation.sums import (
     EVERYTHING,

@@ -11,8 +11,13 @@ from studies.kit.stats import Measured, seed_means
 from studies.kit.table import Tables, groups
 
 #: main quantity of each scene
-FIELD = {"convection": "K", "taylor-green": "velocity", "sound": "velocity", "conduction": "temperature",
-         "couette": "velocity"}
+FIELD = {
+    "convection": "K",
+    "taylor-green": "velocity",
+    "sound": "velocity",
+    "conduction": "temperature",
+    "couette": "velocity",
+}
 LEVELS = (0.1, 0.03, 0.01, 0.001)
 LEAST = 3           # sizes of an exponent
 NO_NUMBER = Measured(np.nan, np.nan)
@@ -20,17 +25,19 @@ MATTERS = 0.01      # of the answer: the error at which methods are compared
 RUNG = ["scene", "method", "resolution"]
 MEANS = ("error", "cpu_s", "setup_s", "points")
 KEPT = [*TERM, "quantity", "step_s", "step_s_err", "bytes", "error", "changed"]
-Rows = list[dict[str, Any]]
+Row = dict[Any, Any]
+Rows = list[Row]
 NOTHING = pd.DataFrame()
 
 
 def errors(tables: Tables) -> dict[str, Rows]:
     """What errors cost."""
-    rows: dict[str, Any] = {}
+    rows: dict[str, Rows] = {}
     if "growth" in tables:
         rows["growth_laws"] = list(growth_laws(tables["growth"]))
     if "errors" in tables and "runs" in tables:
-        points = over_seeds(tables["errors"], tables["runs"], tables.get("steps", NOTHING))
+        steps = tables.get("steps", NOTHING)
+        points = over_seeds(tables["errors"], tables["runs"], steps)
         rows["points"] = points.to_dict("records")
         rows["needed"] = list(needed(points))
         rows["rivals"] = list(rivals(points))
@@ -61,26 +68,27 @@ def with_steps(errors: pd.DataFrame, steps: pd.DataFrame) -> pd.DataFrame:
     return rows.assign(error_err=err).drop(columns="time_error")
 
 
-def needed(points: pd.DataFrame) -> Iterator[dict[str, Any]]:
+def needed(points: pd.DataFrame) -> Iterator[Row]:
     """Every method at every level."""
     for key, group in points.groupby(SERIES):
-        names = dict(zip(SERIES, key, strict=True))
+        names: Row = dict(zip(SERIES, key))
         rising = group.sort_values("resolution")
         for level in LEVELS:
-            yield {**names, "level": level, **reached(rising, level)}
+            yield names | {"level": level} | reached(rising, level)
 
 
-def reached(group: pd.DataFrame, level: float) -> dict[str, Any]:
+def reached(group: pd.DataFrame, level: float) -> Row:
     """Where the errors of rising resolutions come below a level and stay there, between two by a power law.
 
     An error that is not told from zero counts with its uncertainty: where its sign changes it is no measure.
     """
-    group = group.assign(error=group[["error", "error_err"]].max(axis=1), points_err=0.0)
+    error = group[["error", "error_err"]].max(axis=1)
+    group = group.assign(error=error, points_err=0.0)
     above = np.flatnonzero(~(group.error <= level))
     if len(above) == 0:
         first = group.iloc[0]
         most = first.cpu_s + first.cpu_s_err
-        return {"reached": "at most", **first[["cpu_s", "points", "error"]], "low": 0.0, "high": most}
+        return {"reached": "at most", "low": 0.0, "high": most} | dict(first[["cpu_s", "points", "error"]])
     last = above[-1]
     if last == len(group) - 1:
         return {"reached": "no", "error": group.error.min()}
@@ -97,7 +105,8 @@ def crossing(pair: pd.DataFrame, column: str, level: float) -> tuple[float, floa
     ln cost = (1 - s) ln cost_0 + s ln cost_1, s = ln(error_0/level)/ln(error_0/error_1); all have errors.
     """
     error, cost = np.log(pair[["error", column]].to_numpy(float)).T
-    error_err, cost_err = (pair[f"{name}_err"]/pair[name] for name in ("error", column))
+    error_err = pair.error_err/pair.error
+    cost_err = pair[f"{column}_err"]/pair[column]
     s = (np.log(level) - error[0])/(error[1] - error[0])
     weights = np.array([1 - s, s])
     slope = (cost[1] - cost[0])/(error[1] - error[0])
@@ -105,16 +114,18 @@ def crossing(pair: pd.DataFrame, column: str, level: float) -> tuple[float, floa
     return float(np.exp(weights@cost)), float(half)
 
 
-def rivals(points: pd.DataFrame) -> Iterator[dict[str, Any]]:
+def rivals(points: pd.DataFrame) -> Iterator[Row]:
     """Printed particles over the grid of each scene; none that are better than all grids."""
     for scene, quantity in FIELD.items():
         here = points.query("scene == @scene and quantity == @quantity").sort_values("error")
-        grids, particles = (here[here.method == name] for name in (GRID, LUCY))
+        grids = here[here.method == GRID]
+        particles = here[here.method == LUCY]
         if particles.error.min() >= grids.error.min():      # false where there are none of them
             row = particles.iloc[0]
-            number, seconds = (over_rival(row, grids, column) for column in ("points", "cpu_s"))
-            ratios = with_err(points=number, seconds=seconds)
-            yield {"scene": scene, "quantity": quantity, "rival": GRID, "error": row.error, **ratios}
+            number = over_rival(row, grids, "points")
+            seconds = over_rival(row, grids, "cpu_s")
+            key = {"scene": scene, "quantity": quantity, "rival": GRID, "error": row.error}
+            yield key | with_err(points=number, seconds=seconds)
 
 
 def over_rival(best: pd.Series, grids: pd.DataFrame, column: str) -> Measured:
@@ -123,29 +134,30 @@ def over_rival(best: pd.Series, grids: pd.DataFrame, column: str) -> Measured:
     Where the coarsest grid is better already, over that of the coarsest grid: the ratio is this at least.
     """
     x, y = np.log(grids[["error", column]].to_numpy(float)).T
-    rival = np.exp(np.interp(np.log(best.error), x, y))
+    rival = np.interp(np.log(best.error), x, y)
     slope = np.gradient(y, x).min() if len(x) > 1 else 0.0
-    ratio = float(best[column]/rival)
+    ratio = float(best[column]/np.exp(rival))
     return Measured(ratio, abs(ratio*slope*best.error_err/best.error))
 
 
-def growth_laws(growth: pd.DataFrame) -> Iterator[dict[str, Any]]:
+def growth_laws(growth: pd.DataFrame) -> Iterator[Row]:
     """Exponents over the number of particles, and speed-ups by two threads."""
-    for method, group in groups(growth.query("clock == 'cpu'"), "method"):
+    cpu = growth.query("clock == 'cpu'")
+    for method, group in groups(cpu, "method"):
         if len(group) >= LEAST:
             law = power_law(group.points, group.step_s)
             yield growth_law(method, "exponent", group, law.slope)
-    for (method, _), group in groups(growth.query("clock == 'wall'"), ["method", "points"]):
-        if set(group.threads) == {1, 2}:
-            pairs = group.sort_values("threads")[["step_s", "step_s_err"]]
-            one, two = (Measured(*pair) for pair in pairs.to_numpy(float))
+    wall = growth.query("clock == 'wall'").sort_values("threads")
+    for (method, _), group in groups(wall, ["method", "points"]):
+        if list(group.threads) == [1, 2]:
+            one, two = map(Measured, group.step_s, group.step_s_err)
             yield growth_law(method, "two threads", group, one/two)
 
 
-def growth_law(method: str, what: str, group: pd.DataFrame, law: Measured) -> dict[str, Any]:
+def growth_law(method: str, what: str, group: pd.DataFrame, law: Measured) -> Row:
     """A row."""
-    return {"method": method, "what": what, "least": group.points.min(), "most": group.points.max(),
-            **with_err(value=law)}
+    sizes = {"least": group.points.min(), "most": group.points.max()}
+    return {"method": method, "what": what} | sizes | with_err(value=law)
 
 
 def terms(tables: Tables) -> dict[str, Rows]:
@@ -158,13 +170,10 @@ def terms(tables: Tables) -> dict[str, Rows]:
     return {"scenes": [saved(row) for row in both.to_dict("records")]}
 
 
-def saved(row: dict) -> dict[str, Any]:
+def saved(row: dict) -> Row:
     """Ratios, and whether what is changed matters; a run that diverges does, and has taken no time."""
-    step, time = (ratio(row, column) for column in ("step_s", "time_s"))
-    kept = {name: row[name] for name in KEPT}
-    return {
-        **kept,
-        **with_err(step_ratio=step, time_ratio=time),
+    ratios = with_err(step_ratio=ratio(row, "step_s"), time_ratio=ratio(row, "time_s"))
+    return ratios | {name: row[name] for name in KEPT} | {
         "bytes_ratio": row["bytes"]/row["bytes_whole"],
         "needed": "no" if row["changed"] <= MATTERS else "yes",
     }
@@ -172,6 +181,6 @@ def saved(row: dict) -> dict[str, Any]:
 
 def ratio(row: dict, column: str) -> Measured:
     """Of times; none where they scatter as much as they last, on a busy machine."""
-    part = Measured(row[column], row[f"{column}_err"])
-    whole = Measured(row[f"{column}_whole"], row[f"{column}_err_whole"])
+    part = Measured(row[column], row[column + "_err"])
+    whole = Measured(row[column + "_whole"], row[column + "_err_whole"])
     return part/whole if abs(whole.value) > whole.err else NO_NUMBER

@@ -17,7 +17,7 @@ from continuum.exact.vortex import SOUND, incompressible, solved, velocities
 from continuum.fluid import IdealGas
 from particles.integral.edge_makers import renormalised
 from particles.integral.isothermal import Carried, ConstantFriction, Isothermal
-from particles.integral.layer import edge_by_edge, quickest
+from particles.integral.layer import LayerSums
 from particles.integral.points import lattice
 from particles.integral.thermal import Thermal
 from particles.integrators import RK4
@@ -79,7 +79,7 @@ def vortex(size: int) -> Reduced:
 def vortex_edge_by_edge(size: int) -> Reduced:
     """In the loops that all fluids take, as what leaves a term out does, not in the ideal gas's own."""
     ready = LATTICE.ready(FLOW.scene(size))
-    return on_square(size, replace(ready.method, form=edge_by_edge), ready.start, FLOW.known)
+    return on_square(size, replace(ready.method, form=LayerSums), ready.start, FLOW.known)
 
 
 def vortex_without_heat(size: int) -> Reduced:
@@ -114,7 +114,7 @@ def vortex_without_noise(size: int) -> Reduced:
     """The same sums, in four stages."""
     problem = vortex_with_noise(size).problem
     _, sums, _ = problem.held()
-    silent = sums.method.dih
+    silent = sums.dih
 
     def go(state: np.ndarray, dt: float, steps: int) -> np.ndarray:
         integrator, now = RK4(state.shape, Team(1)), state.copy()
@@ -142,7 +142,7 @@ def vortex_without_sound(size: int) -> Reduced:
 # --- convection ---------------------------------------------------------------------------------------------
 
 
-def layer(rows: int, scheme: Scheme = LATTICE, form: Callable = quickest) -> Reduced:
+def layer(rows: int, scheme: Scheme = LATTICE, form: type[LayerSums] | None = None) -> Reduced:
     """A lattice between plates. form : of its loops."""
     scene = LAYER.scene(rows)
     ready = scheme.ready(scene)
@@ -152,7 +152,7 @@ def layer(rows: int, scheme: Scheme = LATTICE, form: Callable = quickest) -> Red
 
 def layer_edge_by_edge(rows: int) -> Reduced:
     """In the loops that all fluids take."""
-    return layer(rows, form=edge_by_edge)
+    return layer(rows, form=LayerSums)
 
 
 def layer_without_mending(rows: int) -> Reduced:

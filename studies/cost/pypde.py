@@ -1,4 +1,4 @@
-"""py-pde's solver of the gas on a staggered grid, compiled at each call, as a case that is one call.
+"""py-pde's solver of the gas on a staggered grid as a case that is one call.
 
 Steps are at the limit of its own formula, an eighth longer than which ends in the vortex; compiling is not
 counted, nor what py-pde does around the steps.

@@ -25,27 +25,32 @@ from studies.kit.case import Case
 
 RANDOM = ("fixed jittered", "moving")       # whose points lie as a seed says
 RANGES = (0.9, 1.2, 1.5, 2.0)
-LATTICE, JITTERED, MOVING = SCHEMES["fixed-lattice"], SCHEMES["fixed-jittered-delaunay"], MOTIONS["moving"]
+LATTICE = SCHEMES["fixed-lattice"]
+JITTERED = SCHEMES["fixed-jittered-delaunay"]
 NESTED = SCHEMES["fixed-lattice-nested-only"]
-LITERAL, CONSTANT_MASS = (DRIFT_MOTIONS[f"moving-{name}"] for name in ("literal", "constant-mass"))
+MOVING = MOTIONS["moving"]
+LITERAL = DRIFT_MOTIONS["moving-literal"]
+CONSTANT_MASS = DRIFT_MOTIONS["moving-constant-mass"]
 TILED = Tiled(FORMS["flux-form"])
 
-#: tubes: name -> (what runs it, variant)
-IN_TUBES: dict[str, tuple[Any, Any]] = {
+#: name -> (what runs it, variant)
+Runners = dict[str, tuple[Any, Any]]
+#: tubes
+IN_TUBES: Runners = {
     "grid": (tubes.grid, FluxForm()),
     "fixed lattice": (tubes.points, LATTICE),
     "fixed jittered": (tubes.points, JITTERED),
     "moving": (tubes.points, MOVING),
 }
 #: the highest Ra, likewise
-IN_LAYERS: dict[str, tuple[Any, Any]] = {
+IN_LAYERS: Runners = {
     "grid": (high_ra.on_grid, ROWS),
     "fixed lattice": (high_ra.on_points, Rippled(LATTICE)),
     "fixed jittered": (high_ra.on_points, Rippled(JITTERED)),
     "moving": (high_ra.on_points, MOVING),
 }
 #: limits of the step, likewise; at h = 3 the lattice of drifting points itself gives way
-AT_REST: dict[str, tuple[Any, Any]] = {
+AT_REST: Runners = {
     "grid": (largest_step.on_grid, FluxForm()),
     "spam Lucy": (largest_step.spam, PRINTED._replace(h=2.5)),
     "spam Wendland": (largest_step.spam, VARIANTS["wendland-c2"]._replace(h=4.0)),
@@ -62,7 +67,7 @@ AT_REST: dict[str, tuple[Any, Any]] = {
 SPAM = {"spam printed": Smooth(PRINTED), "spam Wendland": Smooth(VARIANTS["wendland-c2"])}
 MOVE = {"drift literal": LITERAL, "drift constant mass": CONSTANT_MASS, "moving": MOVING}
 #: those that are tried on all layers and on the vortex
-USUAL = {**SPAM, "fixed lattice": LATTICE, "fixed nested": NESTED, "fixed jittered": JITTERED, **MOVE}
+USUAL = SPAM | {"fixed lattice": LATTICE, "fixed nested": NESTED, "fixed jittered": JITTERED} | MOVE
 DISORDERED = {
     "fixed lattice": LATTICE,
     "fixed jittered": JITTERED,
@@ -70,10 +75,9 @@ DISORDERED = {
     "fixed jittered plain": SCHEMES["fixed-jittered-plain"],
     "fixed jittered closed": SCHEMES["fixed-jittered-closed"],
 }
-NARROW = {**{f"spam h {h:g}": Smooth(PRINTED._replace(h=h)) for h in RANGES},
-          **{f"fixed h {h:g}": LATTICE._replace(h=h) for h in RANGES}}
-CORNERS = {
-    **SPAM,
+NARROW_SPAM = {f"spam h {h:g}": Smooth(PRINTED._replace(h=h)) for h in RANGES}
+NARROW = NARROW_SPAM | {f"fixed h {h:g}": LATTICE._replace(h=h) for h in RANGES}
+CORNERS = SPAM | {
     "spam without walls": Smooth(PRINTED),
     "spam odd images": Smooth(VARIANTS["walls-odd"]),
     "spam images' own pressure": Smooth(VARIANTS["walls-own-pressure"]),
@@ -86,8 +90,9 @@ def positions_inside(width: float, height: float, size: float, seed: int) -> Any
     return positions(width, height, size, seed)
 
 
-SHEARED = {**SPAM, **{name: Inside(motion) for name, motion in MOVE.items()}, "fixed lattice": LATTICE,
-           "fixed jittered": JITTERED._replace(points=positions_inside)}
+MOVE_INSIDE = {name: Inside(motion) for name, motion in MOVE.items()}
+FIXED_INSIDE = {"fixed lattice": LATTICE, "fixed jittered": JITTERED._replace(points=positions_inside)}
+SHEARED = SPAM | MOVE_INSIDE | FIXED_INSIDE
 #: which methods take which case; all others take the usual ones
 TAKES: dict[str, dict[str, Any]] = {
     "disordered points": DISORDERED, "narrow weight": NARROW, "wall corner": CORNERS}
@@ -137,7 +142,8 @@ def quick() -> Iterator[Case]:
 
 def squares() -> Iterator[Case]:
     """Both weights and fluids with the printed viscosities; what pairs also nearer to onset, at 5012."""
-    for (eos, ra), weight in product(((IdealGas(), 67150.0), (DenseFluid(), 511200.0)), (Monaghan, Lucy)):
+    fluids = (IdealGas(), 67150.0), (DenseFluid(), 511200.0)
+    for (eos, ra), weight in product(fluids, (Monaghan, Lucy)):
         yield Square(eos=eos, weight=weight, ra=ra, t_end=25.0, mean_from=15.0)
     yield Square(weight=Monaghan, ra=1e4, t_end=40.0, mean_from=30.0)
 
@@ -145,7 +151,8 @@ def squares() -> Iterator[Case]:
 def interfaces(ripples: Iterable[tuple[float, float, int]]) -> Iterator[Case]:
     """All seeds of some sizes and steepnesses."""
     for scale, steep, last in ripples:
-        yield from (Interface(scale=scale, steep=steep, seed=seed) for seed in range(1, last + 1))
+        for seed in range(1, last + 1):
+            yield Interface(scale=scale, steep=steep, seed=seed)
 
 
 def smooth_tubes(lengths: Sequence[int], etas: Sequence[float], seeds: Iterable[int]) -> Iterator[Case]:
@@ -175,7 +182,8 @@ def highest() -> Iterator[Case]:
 def limits(methods: Any, scenes: Any) -> Iterator[Case]:
     """Of the time step."""
     for method, scene in product(methods, scenes):
-        (trial, variant), (eta, k) = AT_REST[method], FLUIDS[scene]
+        trial, variant = AT_REST[method]
+        eta, k = FLUIDS[scene]
         if method not in SLOW or scene in ("balanced", "Prandtl 100"):
             yield Limit(method=method, trial=trial, variant=variant, scene=scene, eta=eta, k=k)
 
@@ -183,21 +191,21 @@ def limits(methods: Any, scenes: Any) -> Iterator[Case]:
 def hard() -> Iterator[Case]:
     """Layers and boxes; a flow without plates has none for smooth particles and for the grid, either."""
     for case, (scene, time) in LAYERS.items():
-        yield from (HardOnGrid(case=case, scene=scene, time=time, rows=rows)
-                    for rows in (*GRIDS, *MORE_GRIDS.get(case, ())))
+        for rows in GRIDS + MORE_GRIDS.get(case, ()):
+            yield HardOnGrid(case=case, scene=scene, time=time, rows=rows)
     for case, (scene, time) in SITUATIONS.items():
         for method, variant in TAKES.get(case, USUAL).items():
             without = isinstance(variant, Smooth) and case in WITHOUT_PLATES
             place = Open(scene) if without or method == "spam without walls" else scene
             yield Hard(case=case, method=method, variant=variant, scene=place, time=time)
     for case in WITHOUT_PLATES:
-        scene, time = SITUATIONS[case]
-        yield Hard(case=case, method=GRID, variant=TILED, follow=marched, scene=scene, time=time)
+        yield Hard(case=case, method=GRID, variant=TILED, follow=marched, **SITUATIONS[case]._asdict())
     scene, time = SITUATIONS["wall corner"]     # nothing moves but for round-off
     yield HardOnGrid(case="wall corner", scene=scene, time=time, rows=round(scene.L), energy=0.0)
 
 
 def shear_waves() -> Iterator[Case]:
     """All methods that take a torus."""
-    yield from (ShearWave(method=method, variant=variant) for method, variant in SHEARED.items())
+    for method, variant in SHEARED.items():
+        yield ShearWave(method=method, variant=variant)
     yield ShearWave(method=GRID, variant=TILED, follow=marched, samples=SAMPLES)

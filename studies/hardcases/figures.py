@@ -38,37 +38,36 @@ KEY = ("  empty: not run\nnumber: flow over the start's, or over that of the gri
 
 def chart(rows: pd.DataFrame, runs: pd.DataFrame) -> Figure:
     """Cells with the letter of the outcome and the number behind it."""
-    rows = rows[rows["variant"] != "ends"]
-    tube = rows["case"] == "shock tube"
-    named = rows["case"] + " " + rows["variant"]
-    rows = rows.assign(case=rows["case"].where(~tube, named))
-    there = sorted(set(rows["case"]))
+    rows = rows.query("variant != 'ends'")
+    named = rows.case + " " + rows.variant
+    rows = rows.assign(case=rows.case.where(rows.case != "shock tube", named))
+    there = sorted(set(rows.case))
     cases = [case for name in CASES for case in there if case.startswith(name)]
-    number_of = rows.groupby("method")["case"].nunique()
-    methods = [*number_of.sort_values(ascending=False, kind="stable").index]
+    number_of = rows.groupby("method").case.nunique()
+    methods = list(number_of.sort_values(ascending=False, kind="stable").index)
     page, axes = figure(width=1.5 + 0.95*len(cases), height=1.2 + 0.3*len(methods))
-    for _, row in rows.iterrows():
-        cell(axes, cases.index(row["case"]), methods.index(row["method"]), row)
+    for row in rows.itertuples():
+        cell(axes, cases.index(row.case), methods.index(row.method), row)
     axes.set(xlim=(-0.5, len(cases) - 0.5), ylim=(len(methods) - 0.5, -0.5))
     axes.set_yticks(range(len(methods)), labels=methods)
-    axes.set_xticks(range(len(cases)), fontsize=8, labels=[heading(case, runs) for case in cases])
+    axes.set_xticks(range(len(cases)), labels=[heading(case, runs) for case in cases], fontsize=8)
     axes.grid(False)
-    outcomes = set(rows["outcome"])
-    letters = [f"{LOOKS[name][0]}: {WORDS.get(name, name)}" for name in LOOKS if name in outcomes]
+    outcomes = [name for name in LOOKS if name in set(rows.outcome)]
+    letters = [f"{LOOKS[name][0]}: {WORDS.get(name, name)}" for name in outcomes]
     axes.set_xlabel("  ".join(letters) + KEY)
     axes.set_title(f"Which method takes which hard case? Layers of {ROWS} rows")
     return page
 
 
-def cell(axes: Any, x: int, y: int, row: pd.Series) -> None:
+def cell(axes: Any, x: int, y: int, row: Any) -> None:
     """One method in one case."""
-    letter, shade, hatch = LOOKS[row["outcome"]]
-    square = Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=shade, edgecolor="0.6", hatch=hatch, linewidth=0.5)
-    axes.add_patch(square)
-    shown = pd.notna(row["measured"]) and row["number"] != PART_OF_TIME
-    value = f" {row['measured']:.2g}" if shown else ""
-    axes.text(x, y, f"{letter}{value}", ha="center", va="center", fontsize=8,
-              bbox={"facecolor": shade, "edgecolor": "none", "pad": 0.6})
+    text, shade, hatch = LOOKS[row.outcome]
+    corner = x - 0.5, y - 0.5
+    axes.add_patch(Rectangle(corner, 1, 1, facecolor=shade, edgecolor="0.6", hatch=hatch, linewidth=0.5))
+    if pd.notna(row.measured) and row.number != PART_OF_TIME:
+        text += f" {row.measured:.2g}"
+    box = {"facecolor": shade, "edgecolor": "none", "pad": 0.6}
+    axes.text(x, y, text, ha="center", va="center", fontsize=8, bbox=box)
 
 
 def heading(case: str, runs: pd.DataFrame) -> str:
@@ -80,26 +79,31 @@ def heading(case: str, runs: pd.DataFrame) -> str:
 
 def shocks(ripples: pd.DataFrame) -> Figure:
     """Height and ripple of a shocked interface in time: means and all seeds by size and steepness."""
-    page, both = figure(1, 2, width=4.4, height=3.2)
+    page, (left, right) = figure(1, 2, width=4.4, height=3.2)
     for number, ((steep, scale), rows) in enumerate(groups(ripples, ["steep", "scale"])):
         theory = impulse(scale, steep)
-        style = {**look(number), "marker": ""}
-        start = rows.groupby("time")["height"].mean().iloc[0]
-        heights = (rows["height"] - start)/(theory.kick*theory.back)
-        amplitudes = rows["amplitude"]/theory.amplitude
-        for axes, y in zip(both, (heights, amplitudes), strict=True):
-            band = y.groupby(rows["time"]/theory.meets).agg(["mean", "min", "max"])
-            axes.plot(band.index, band["mean"], **style, label=rf"$ka$ = {steep:g}, {scale:g} x printed size")
-            axes.fill_between(band.index, band["min"], band["max"], color=style["color"], alpha=0.2)
-    expected(both[0], both[1], ripples["scale"].max(), ripples["steep"].max())
-    both[0].set(ylabel="height of the interface / kick x time")
-    both[1].set(ylabel="amplitude / that behind the shock", ylim=(0.4, 2.9))
-    for axes, place in zip(both, ("upper right", "upper left"), strict=True):
+        rows = rows.assign(time=rows.time/theory.meets)
+        start = rows.groupby("time").height.mean().iloc[0]
+        label = rf"$ka$ = {steep:g}, {scale:g} x printed size"
+        band(left, rows, (rows.height - start)/(theory.kick*theory.back), number, label)
+        band(right, rows, rows.amplitude/theory.amplitude, number, label)
+    expected(left, right, ripples.scale.max(), ripples.steep.max())
+    left.set(ylabel="height of the interface / kick x time")
+    right.set(ylabel="amplitude / that behind the shock", ylim=(0.4, 2.9))
+    for axes, place in ((left, "upper right"), (right, "upper left")):
         axes.set_xlabel("time / time of the shock's arrival")
         axes.legend(loc=place)
     page.suptitle("A shock of Mach 1.5 passes an interface of density ratio 4: smooth particles as printed,\n"
                   "without artificial viscosity; bands: all seeds", fontsize=10)
     return page
+
+
+def band(axes: Any, rows: pd.DataFrame, values: pd.Series, number: int, label: str) -> None:
+    """Mean and range over seeds, in time."""
+    of_seeds = values.groupby(rows.time).agg(["mean", "min", "max"])
+    style = look(number) | {"marker": ""}
+    axes.plot(of_seeds["mean"], **style, label=label)
+    axes.fill_between(of_seeds.index, of_seeds["min"], of_seeds["max"], color=style["color"], alpha=0.2)
 
 
 def expected(height: Any, amplitude: Any, scale: float, steep: float) -> None:
@@ -122,10 +126,11 @@ def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame) -> Figure:
     Of the shorter step: what ends with it is not the step's fault.
     """
     page, all_axes = figure(1, len(ETAS), width=4.0, height=4.4)
-    rows, profiles = (frame[frame["step"] != max(STEPS)] for frame in (rows, profiles))
-    for axes, eta in zip(all_axes, ETAS, strict=True):
-        some, runs = (frame[np.isclose(frame["eta"], eta)] for frame in (profiles, rows))
-        densities(axes, some, runs)
+    rows = rows[rows.step != max(STEPS)]
+    profiles = profiles[profiles.step != max(STEPS)]
+    for axes, eta in zip(all_axes, ETAS):
+        some = profiles[np.isclose(profiles.eta, eta)]
+        densities(axes, some, rows[np.isclose(rows.eta, eta)])
         axes.set(title=rf"$\eta = k = {eta:g}$", xlabel="distance from the diaphragm / $L$",
                  xlim=(-0.8, 1.0), ylim=(-0.1, SHIFT*(len(ALL) - 1) + 1.15), yticks=[])
     all_axes[0].set_ylabel("density, methods one above the other")
@@ -136,35 +141,36 @@ def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame) -> Figure:
 
 def densities(axes: Any, profiles: pd.DataFrame, rows: pd.DataFrame) -> None:
     """Each method's own, or when its longest run ended."""
+    rows = rows.query("seed == 1").sort_values("L")
     for number, method in enumerate(ALL):
         up = SHIFT*number
-        profile = profiles[profiles["method"] == method]
-        runs = rows[(rows["method"] == method) & (rows["seed"] == 1)]
+        profile = profiles[profiles.method == method]
+        reached = rows[rows.method == method].reached
         if len(profile):
-            x, L = profile["x"].to_numpy(), profile["L"].iloc[0]
+            x, L = profile.x.to_numpy(), profile.L.iloc[0]
             rho, _, _ = exact(L, (x + 1)*L)
             axes.plot(x, up + rho, **THIN_LINE)
-            axes.plot(x, up + profile["rho"], **dots(number))
+            axes.plot(x, up + profile.rho, **dots(number))
             axes.text(0.98, up + 0.02, f"{method}, $L$ = {L:g}", ha="right", fontsize=8)
-        elif len(runs):
-            reached = runs.sort_values("L")["reached"].iloc[-1]
-            words = f"{method}: ended at {reached:.2g} of the time"
+        elif len(reached):
+            words = f"{method}: ended at {reached.iloc[-1]:.2g} of the time"
             axes.text(0.98, up + 0.2, words, ha="right", fontsize=8)
 
 
 def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
     """K over the fine grid's against Ra, and the part of the time that was reached."""
     page, (above, under) = figure(2, 1, width=6.4, height=2.9, sharex=True)
-    rows = rows[rows["step"] == 1].sort_values("ra")
+    rows = rows.query("step == 1").sort_values("ra")
     for number, method in enumerate(IN_LAYERS):
-        some = rows[rows["method"] == method]
-        ra = 10**(0.01*number)*some["ra"]       # that marks on one another are seen
-        above.plot(ra, some["over"], **dots(number, 4), label=method)
-        under.plot(ra, some["reached"], **dots(number, 4), label=method)
+        some = rows[rows.method == method]
+        ra = 10**(0.01*number)*some.ra      # that marks on one another are seen
+        above.plot(ra, some.over, **dots(number, 4), label=method)
+        under.plot(ra, some.reached, **dots(number, 4), label=method)
     for level in (OFF, 1/OFF):
         above.axhline(level, color="grey", linewidth=0.8)
+    predicted = summary.predicted.dropna().iloc[0]
     for axes in (above, under):
-        axes.axvline(summary["predicted"].dropna().iloc[0], color="black", linestyle=":", linewidth=1)
+        axes.axvline(predicted, color="black", linestyle=":", linewidth=1)
     above.set(xscale="log", ylabel="K / K of 48 rows of the grid")
     under.set(xlabel="Ra", ylabel="part of the time reached")
     under.legend(loc="lower left")

@@ -16,7 +16,6 @@ END = 0.4                       # time over L
 FINE = 0.25                     # cells of the grid, spacings
 ACCURATE = 1e-6                 # relative, of the grid's steps in time: a thousandth of the errors compared
 NAMES = ("rho", "v", "P")
-ERRORS = tuple(f"{name}_{of}" for of in ("exact", "grid") for name in NAMES)
 
 
 def exact(L: float, x: np.ndarray) -> np.ndarray:
@@ -73,7 +72,7 @@ def rates(U: np.ndarray, eta: float) -> np.ndarray:
 
 
 def compared(fields: np.ndarray, truth: np.ndarray, twin: np.ndarray) -> dict[str, float]:
-    """ERRORS, mean |difference| of fields (3, n) from both others over the exact ones' range; wiggles."""
+    """rho_exact to P_grid, mean |difference| of fields (3, n) from both others over their range; wiggles."""
     size = np.ptp(truth, axis=1)
     errors = {}
     for of, other in (("exact", truth), ("grid", twin)):

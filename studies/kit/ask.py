@@ -18,25 +18,15 @@ import numpy as np
 import pandas as pd
 
 from studies.kit import fits, stats
-from studies.kit.formula import NoRows, Rows, WrongQuestion, error_of, numbers, rows
+from studies.kit.formula import NoRows, Selection, WrongQuestion, error_of, numbers, rows
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
-from studies.kit.value import (
-    Asked,
-    Value,
-    check,
-    farthest_of,
-    farthest_per,
-    largest_of,
-    largest_per,
-    log,
-    of,
-)
+from studies.kit.value import Asked, Value, check, farthest_of, farthest_per, largest_of, largest_per, log, of
 
 __all__ = [
     "NoRows", "Value", "WrongQuestion", "check", "curve", "farthest", "farthest_of", "farthest_per", "first",
-    "largest", "largest_of", "largest_per", "last", "least", "log", "mean", "nearest_power", "of", "one",
-    "over_seeds", "power", "question", "rows", "share", "spread", "total",
+    "largest", "largest_of", "largest_per", "last", "least", "log", "mean", "of", "one", "over_seeds",
+    "power", "question", "rows", "share", "spread", "total",
 ]
 
 Pick = Callable[[np.ndarray, np.ndarray], Measured]
@@ -47,14 +37,16 @@ def question(pick: Pick) -> Callable[..., Value]:
     """A question from how it picks its number out of values (n,) and errors (n,), sorted ``by`` a formula."""
     def ask(table: str, value: str, such: str = "", *, err: str = "", by: str = "", need: int = 1,
             **where: Any) -> Value:
-        chosen = Rows(table, such, need, where)
+        chosen = Selection(table, such, need, where)
 
         def answer(tables: Tables) -> Measured:
             frame = ordered(chosen(tables), by, table) if by else chosen(tables)
             error = error_of(value, err, table, frame.columns)
-            return pick(numbers(frame, value, table), numbers(frame, error, table))
-        words = f"{ask.__name__}({value})" + f" by {by}"*bool(by)
-        return Value(answer, f"{words} in {chosen}", (Asked(chosen, value, err, by),))
+            number, half = pick(numbers(frame, value, table), numbers(frame, error, table))
+            return Measured(float(number), float(half))
+        asked = Asked(chosen, value, err, by)
+        order = f" by {by}" if by else ""
+        return Value(answer, f"{ask.__name__}({value}){order} in {chosen}", (asked,))
     ask.__doc__, ask.__name__ = pick.__doc__, pick.__name__
     return ask
 
@@ -66,7 +58,7 @@ def ordered(frame: pd.DataFrame, by: str, table: str) -> pd.DataFrame:
 
 def at(number: int, x: np.ndarray, err: np.ndarray) -> Measured:
     """One of many values, with its own error."""
-    return Measured(float(x[number]), float(err[number]))
+    return Measured(x[number], err[number])
 
 
 @question
@@ -92,13 +84,13 @@ def last(x: np.ndarray, err: np.ndarray) -> Measured:
 @question
 def largest(x: np.ndarray, err: np.ndarray) -> Measured:
     """Of all rows, with the largest error among them."""
-    return Measured(float(x.max()), float(err.max()))
+    return Measured(x.max(), err.max())
 
 
 @question
 def least(x: np.ndarray, err: np.ndarray) -> Measured:
     """Of all rows, with the largest error among them."""
-    return Measured(float(x.min()), float(err.max()))
+    return Measured(x.min(), err.max())
 
 
 def farthest(table: str, value: str, such: str = "", *, centre: float = 1.0, **more: Any) -> Value:
@@ -112,25 +104,25 @@ def farthest(table: str, value: str, such: str = "", *, centre: float = 1.0, **m
 @question
 def mean(x: np.ndarray, err: np.ndarray) -> Measured:
     """Of all rows; errors are independent and add in squares."""
-    return Measured(float(x.mean()), float(np.sqrt((err**2).sum())/len(x)))
+    return Measured(x.mean(), np.sqrt((err**2).sum())/len(x))
 
 
 @question
 def total(x: np.ndarray, err: np.ndarray) -> Measured:
     """Sum over all rows, of a condition how many fulfil it; errors add in squares."""
-    return Measured(float(x.sum()), float(np.sqrt((err**2).sum())))
+    return Measured(x.sum(), np.sqrt((err**2).sum()))
 
 
 @question
 def share(x: np.ndarray, err: np.ndarray) -> Measured:
     """Part of the rows that fulfil a condition."""
-    return Measured(float((x != 0).mean()))
+    return Measured((x != 0).mean())
 
 
 @question
 def over_seeds(x: np.ndarray, err: np.ndarray) -> Measured:
     """Mean over seeds; its error is that of each run or that of the scatter, whichever is larger."""
-    return stats.combine(list(zip(x, err, strict=True))) if err.any() else stats.over_seeds(x)
+    return stats.combine(list(zip(x, err))) if err.any() else stats.over_seeds(x)
 
 
 @question
@@ -143,12 +135,14 @@ def curve(fit: Curve) -> Callable[..., Value]:
     """A question from a fit of y to x, both formulas; rows sorted by x, three at least."""
     def ask(table: str, y: str, x: str, such: str = "", *, err: str = "0", need: int = 3,
             **where: Any) -> Value:
-        chosen = Rows(table, such, need, where)
+        chosen = Selection(table, such, need, where)
 
         def answer(tables: Tables) -> Measured:
             frame = ordered(chosen(tables), x, table)
-            return fit(*(numbers(frame, formula, table) for formula in (x, y, err)))
-        return Value(answer, f"{ask.__name__}({y} over {x}) in {chosen}", (Asked(chosen, y, err, x),))
+            columns = [numbers(frame, formula, table) for formula in (x, y, err)]
+            return fit(*columns)
+        asked = Asked(chosen, y, err, by=x)
+        return Value(answer, f"{ask.__name__}({y} over {x}) in {chosen}", (asked,))
     ask.__doc__, ask.__name__ = fit.__doc__, fit.__name__
     return ask
 
@@ -157,9 +151,3 @@ def curve(fit: Curve) -> Callable[..., Value]:
 def power(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
     """d ln|y|/d ln x by least squares: of an error over a spacing the order of convergence."""
     return fits.power_law(x, y, err=err).slope
-
-
-@curve
-def nearest_power(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
-    """d ln|y|/d ln x from the two smallest x; error: what the next two give another power."""
-    return fits.nearest_power(x, y)

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import pandas as pd
 
 from studies.kit.case import Case
-from studies.kit.csvfile import commit, cpu, read, versions, write
+from studies.kit.csvfile import commit, cpu, put, read, versions
 from studies.kit.store import results, seconds
 from studies.kit.table import check_size
 
@@ -26,24 +26,16 @@ def put_times(out: Path, study: str, size: str, cases: Sequence[Case]) -> None:
     spent = sum(seconds(case, out/"raw"/study) for case in cases)
     if not cases or math.isnan(spent):
         return
-    values = (study, size, len(cases), estimate(cases), spent, commit())
+    estimate = sum(case.cost for case in cases)
+    values = study, size, len(cases), estimate, spent, commit()
     new = pd.DataFrame([values], columns=list(COLUMNS))
-    old = times(out)
-    others = old[(old["study"] != study) | (old["size"] != size)]
-    frame = pd.concat([others, new]) if len(others) else new
-    head = [versions(), cpu()]
-    write(out/"times.csv", frame.sort_values(["study", "size"]), head=head)
+    put(out/"times.csv", new, by=["study", "size"], order=["study", "size"], head=[versions(), cpu()])
 
 
 def times(out: Path) -> pd.DataFrame:
     """What was measured; no rows where nothing was."""
     path = out/"times.csv"
     return read(path, COLUMNS) if path.exists() else pd.DataFrame(columns=list(COLUMNS))
-
-
-def estimate(cases: Iterable[Case]) -> float:
-    """CPU seconds by the cases' own estimates."""
-    return sum(case.cost for case in cases)
 
 
 class Left(NamedTuple):
@@ -66,11 +58,14 @@ def left(study: str, cases: Iterable[Case], size: str, out: Path) -> Left:
     That run is of the same size, or the longest that was measured; without any, estimates stay as they are.
     """
     every = {case.key: case for case in cases}
-    todo = [case for key, case in every.items() if not (out/"raw"/study/f"{key}.json").exists()]
+    raw = out/"raw"/study
+    todo = [case for key, case in every.items() if not (raw/f"{key}.json").exists()]
     runs = times(out).query("study == @study").sort_values("cpu_s")
-    runs = runs[runs["size"] == size] if size in set(runs["size"]) else runs
-    ratio = 1.0 if runs.empty else float(runs["cpu_s"].iloc[-1]/runs["estimate_s"].iloc[-1])
-    return Left(study, len(todo), len(every), ratio*estimate(todo), not runs.empty)
+    of_size = runs[runs["size"] == size]
+    measured = runs if of_size.empty else of_size
+    ratios = (measured["cpu_s"]/measured["estimate_s"]).tolist() or [1.0]
+    cpu_s = ratios[-1]*sum(case.cost for case in todo)
+    return Left(study, len(todo), len(every), cpu_s, not measured.empty)
 
 
 def main(names: Sequence[str]) -> int:

@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 
 from studies.kit.key import CODE, PACKAGES, ROOT, Code, digest, followed, name_of
 from studies.kit.syntax import CASE, WHOLE, Place
+from studies.kit.table import Rows
 
 #: called with the fraction done, in [0, 1]
 Report = Callable[[float], None]
@@ -17,9 +18,9 @@ Report = Callable[[float], None]
 
 @dataclasses.dataclass(frozen=True)
 class Outcome:
-    """What a case found: rows (column -> value) for each table by name."""
+    """What a case found: rows for each table by name."""
 
-    rows: dict[str, list[dict[str, Any]]]
+    rows: Rows
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -46,7 +47,7 @@ class Case:
 
     def run(self, report: Report, folder: Path) -> Outcome:
         """Compute. ``folder`` is for checkpoints: it is kept until the case is finished."""
-        raise NotImplementedError(f"{type(self).__name__} needs run(self, report, folder) -> Outcome")
+        raise NotImplementedError
 
     @cached_property
     def key(self) -> str:
@@ -106,23 +107,26 @@ def parameters(value: Any) -> Any:
 def key_of(case: Case, code: Code) -> str:
     """Key of a case with the definitions of another copy of our packages, or of these."""
     values = json.dumps(parameters(case), sort_keys=True)
-    return digest(values, code.hash(filter(None, starts(case))))
+    return digest(values, code.hash(starts(case)))
 
 
-def starts(case: Case) -> Iterator[Place | None]:
+def starts(case: Case) -> Iterator[Place]:
     """Where the classes of a case are defined, and all that takes part in its parameters."""
     own = file_of(type(case))
-    for kind in type(case).__mro__:
-        yield place_of(kind, own, CASE if issubclass(kind, Case) else WHOLE)
-    for value in vars(case).values():
-        yield from (place_of(kind, own) for kind in kinds(value))
+    classes = [place_of(kind, own, CASE if issubclass(kind, Case) else WHOLE) for kind in type(case).__mro__]
+    values = [place_of(kind, own) for value in vars(case).values() for kind in kinds(value)]
+    yield from filter(None, classes + values)
 
 
 def place_of(kind: Any, own: Path | None, part: str = WHOLE) -> Place | None:
     """Where a class or function is defined, None if neither in our packages nor in the file of the case."""
     path = file_of(kind)
-    name = path and (module_of(path) or (str(path) if path == own else None))
-    return Place(name, kind.__qualname__.split(".")[0], part) if name and followed(name) else None
+    if path is None:
+        return None
+    script = str(path) if path == own else ""
+    module = module_of(path) or script
+    name = kind.__qualname__.split(".")[0]
+    return Place(module, name, part) if module and followed(module) else None
 
 
 def kinds(value: Any) -> Iterator[Any]:

@@ -12,33 +12,26 @@ cases at most, and more computing moves an undecidable claim one way or the othe
 """
 import math
 import re
-from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
-from studies.kit.csvfile import OtherTable, commit, read, write
+from studies.kit.csvfile import OtherTable, commit, put
+from studies.kit.formula import WrongQuestion
 from studies.kit.stats import CannotTell, Measured
-from studies.kit.table import Tables
+from studies.kit.table import Row, Tables
 from studies.kit.value import Value
 
 COLUMNS = ("id", "source", "statement", "whose", "printed", "measured", "err", "low", "high", "verdict",
-           "reason", "study")
-#: the same and how the value is asked for
-WRITTEN = (*COLUMNS, "formula")
+           "reason", "study", "formula")
 #: of columns, in the head of the file
 MEANING = ("whose: a statement that the paper prints, or our own about the same equation",
            "formula: the question that the claim puts to the tables of its study, as in studies/kit/ask.py",
            "err is the half width of the 95 % interval, low to high is accepted; studies/kit/claim.py has "
            "the rule of the verdicts")
 NAMED = re.compile(r"(KHP95|RR98)\b|[A-Z].*\b(1[89]|20)\d\d\b", re.IGNORECASE)
-
-
-class ClaimError(Exception):
-    """A claim asks for a table or a column that is not there."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,22 +99,20 @@ def verdict(claim: Claim, value: float, err: float) -> str:
     """``holds``, ``fails`` or ``undecidable`` by the rule at the head of this file."""
     if err < 0:
         raise ValueError(f"claim {claim.id}: err is {err}, but half the width of an interval is not negative")
-    if claim.low <= value - err and value + err <= claim.high:
+    low, high = value - err, value + err
+    if claim.low <= low and high <= claim.high:
         return "holds"
-    if value - err > claim.high or value + err < claim.low:
+    if low > claim.high or high < claim.low:
         return "fails"
     return "undecidable"
 
 
-def judge(claims: Sequence[Claim], tables: Tables, study: str) -> list[dict[str, Any]]:
+def judge(claims: Sequence[Claim], tables: Tables, study: str) -> list[Row]:
     """One row a claim, with the columns of results/claims.csv."""
-    count = Counter(claim.id for claim in claims)
-    if twice := sorted(name for name, number in count.items() if number > 1):
-        raise ValueError(f"two claims of study {study} are called {', '.join(twice)}: an id names one claim")
     return [{**stated(claim), "study": study, **judged(claim, tables, study)} for claim in claims]
 
 
-def stated(claim: Claim) -> dict[str, Any]:
+def stated(claim: Claim) -> Row:
     """What a claim says: of one that is tested the accepted range, and the formula where it has one."""
     row = {"id": claim.id, "source": claim.source, "statement": claim.statement, "printed": claim.printed,
            "whose": "paper" if claim.printed else "own"}
@@ -131,10 +122,10 @@ def stated(claim: Claim) -> dict[str, Any]:
     return {**row, "low": claim.low, "high": claim.high, "formula": formula}
 
 
-def judged(claim: Claim, tables: Tables, study: str = "") -> dict[str, Any]:
+def judged(claim: Claim, tables: Tables, study: str = "") -> Row:
     """Measured value, error, verdict and reason of one claim.
 
-    Raises OtherTable, ClaimError: a column or a table that the claim asks for is not there.
+    Raises WrongQuestion: a column or a table that the claim asks for is not there.
     """
     unknown = {"measured": math.nan, "err": math.nan, "verdict": "undecidable"}
     if claim.value is None:
@@ -143,13 +134,9 @@ def judged(claim: Claim, tables: Tables, study: str = "") -> dict[str, Any]:
         value, err = map(float, claim.value(tables))
     except CannotTell as why:
         return {**unknown, "reason": str(why)}
-    except OtherTable as error:
-        words = f"study {study}, claim {claim.id}, {claim.value}: {error}; correct the claim"
-        raise OtherTable(words) from error
-    except (KeyError, AttributeError, NameError) as error:      # pandas names a column by any of these
-        what = error.args[0] if isinstance(error, KeyError) and error.args else error
-        raise ClaimError(f"claim {claim.id} asks for what is not there: {what}: correct the claim, or list "
-                         "it in the tables of the study and run the study again") from error
+    except (OtherTable, KeyError, AttributeError, NameError) as error:      # pandas names a column by any
+        words = f"study {study}, claim {claim.id}, {claim.value}: {error.args[0]}; correct the claim"
+        raise WrongQuestion(words) from error
     except Exception as error:
         error.add_note(f"while judging claim {claim.id}")
         raise
@@ -159,11 +146,7 @@ def judged(claim: Claim, tables: Tables, study: str = "") -> dict[str, Any]:
     return {"measured": value, "err": err, "verdict": said, "reason": reason}
 
 
-def put_claims(path: Path, rows: Sequence[dict[str, Any]], study: str) -> None:
+def put_claims(path: Path, rows: Sequence[Row]) -> None:
     """Replace the claims of one study in results/claims.csv; those of others stay."""
-    old = read(path, COLUMNS) if path.exists() else pd.DataFrame(columns=list(COLUMNS))
-    others = old[old["study"] != study]
-    new = pd.DataFrame(rows, columns=list(WRITTEN))
-    parts = [part.reindex(columns=list(WRITTEN)) for part in (others, new) if len(part)]
-    frame = pd.concat(parts) if parts else new
-    write(path, frame.sort_values(["study", "id"]), head=[f"commit {commit()}", *MEANING])
+    new = pd.DataFrame(rows, columns=list(COLUMNS))
+    put(path, new, by=["study"], order=["study", "id"], head=[f"commit {commit()}", *MEANING])

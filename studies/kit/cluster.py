@@ -19,9 +19,9 @@ from pathlib import Path
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any
 
-from studies.kit import csvfile, key
+from studies.kit import csvfile
 from studies.kit.case import Case, Report, file_of, module_of
-from studies.kit.dispatch import LOOK, Bar
+from studies.kit.dispatch import LOOK, Bar, Ended
 from studies.kit.processes import THREADS
 from studies.kit.store import CannotRun, Failure, attempt, same_code
 
@@ -75,7 +75,7 @@ class Cluster:
                                     pure=False, key=f"{self.client.id}-{number}")
         self.running[future] = number, case.label
 
-    def ready(self) -> Iterator[tuple[int, str | Failure]]:
+    def ready(self) -> Iterator[Ended]:
         time.sleep(LOOK)
         for future in [future for future in self.running if future.done()]:
             number, label = self.running.pop(future)
@@ -150,34 +150,27 @@ def perform(sent: bytes, versions: str, number: int, topic: str) -> str | Failur
 
 def check_worker(worker: "Worker", versions: str) -> None:
     """Refuse a worker whose results or times would be others than those of the study's own processes."""
-    name, threads = f"worker {worker.address}", worker.state.nthreads
-    if threads != 1:
-        raise CannotRun(f"{name} runs {threads} cases at once: it needs --nthreads 1")
+    name = f"worker {worker.address}"
+    if worker.state.nthreads != 1:
+        raise CannotRun(f"{name} runs {worker.state.nthreads} cases at once: it needs --nthreads 1")
     os.environ.setdefault("NUMBA_NUM_THREADS", "1")     # Dask sets the others
     if more := [variable for variable in THREADS if os.environ.get(variable) != "1"]:
         raise CannotRun(f"{name} computes with more threads than one: it needs {'=1 '.join(more)}=1")
-    if versions != csvfile.versions():
-        raise CannotRun(f"{name} has {csvfile.versions()}, the study {versions}")
+    own = csvfile.versions()
+    if versions != own:
+        raise CannotRun(f"{name} has {own}, the study {versions}")
 
 
 def unpacked(sent: bytes, worker: "Worker") -> Case:
     """The case that was sent, if it means the same here."""
     other = f"worker {worker.address} has other code than the study"
-    read_code()
     try:
         case = pickle.loads(sent)
     except (ImportError, AttributeError, TypeError) as error:
         raise CannotRun(f"{other} ({error})") from error
-    read_code()
     if not same_code(case):
         raise CannotRun(f"{other}: {case.label} has another key there")
     return case
-
-
-def read_code() -> None:
-    """Remember the code that is loaded: files that change later are not what a worker runs."""
-    for path in filter(None, map(key.find, list(sys.modules))):
-        key.parse(path)
 
 
 def teller(worker: "Worker", number: int, topic: str) -> Report:

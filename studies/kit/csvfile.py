@@ -1,6 +1,7 @@
 """CSV below a head of comments: where numbers come from, which columns are text, where empty is as above."""
 import os
 import platform
+import re
 import subprocess
 from collections.abc import Iterable
 from datetime import UTC, datetime
@@ -33,28 +34,33 @@ def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
         raise FileNotFoundError(f"{path} does not exist: make study-{path.parent.name} writes it")
     try:
         text, above = named(path, TEXT), named(path, ABOVE)
-        names = pd.read_csv(path, comment="#", nrows=0).columns
-        if missing := [column for column in columns if column not in names]:
-            raise OtherTable(f"{path} has no column {', '.join(missing)}: it has an older layout; {AGAIN}")
-        frame = parsed(path, [name for name in names if name not in (*text, *above)], [*text, *above])
+        frame = parsed(path, {*text, *above})
         for name in above:
             full = frame[name].mask(frame[name] == "").ffill()
             frame[name] = full if name in text else pd.to_numeric(full)
-    except OtherTable:
-        raise
     except ValueError as error:     # of pandas, and of letters that are none
         raise OtherTable(f"{path} is no table ({str(error).strip()}): {AGAIN}") from error
-    for name in frame.columns.difference(text) if text else ():
-        if words := [value for value in frame[name] if isinstance(value, str) and not is_number(value)]:
-            raise OtherTable(f"{path} has {words[0]!r} in {name}, a column of numbers: {AGAIN}")
+    if missing := [name for name in columns if name not in frame]:
+        raise OtherTable(f"{path} has no column {', '.join(missing)}: it has an older layout; {AGAIN}")
+    if text:
+        check_numbers(path, frame[frame.columns.difference(text)])
     return frame
 
 
-def parsed(path: Path, numbers: Iterable[str], texts: Iterable[str]) -> pd.DataFrame:
+def parsed(path: Path, texts: Iterable[str]) -> pd.DataFrame:
     """The rows, some columns as texts."""
-    empty = {name: ["", "nan"] for name in numbers}
+    names = pd.read_csv(path, comment="#", nrows=0).columns
+    empty = {name: ["", "nan"] for name in names.difference(list(texts))}
     types = dict.fromkeys(texts, str)
     return pd.read_csv(path, comment="#", dtype=types, keep_default_na=False, na_values=empty)
+
+
+def check_numbers(path: Path, frame: pd.DataFrame) -> None:
+    """Refuse text among numbers."""
+    for name in frame:
+        for value in frame[name]:
+            if isinstance(value, str) and not is_number(value):
+                raise OtherTable(f"{path} has {value!r} in {name}, a column of numbers: {AGAIN}")
 
 
 def is_number(text: str) -> bool:
@@ -83,14 +89,26 @@ def write(path: Path, frame: pd.DataFrame, *, head: Iterable[str], once: Iterabl
     Raises ValueError: A column mixes text and numbers, or a text holds the sign of a comment.
     """
     text = [str(name) for name in frame if is_text(frame[name], path)]
-    frame = frame.assign(**{name: frame[name].fillna("") for name in text})
-    above = without_repeats(frame, once)
-    notes = [f"{TEXT} {', '.join(text)}\n"]
+    filled = frame.fillna(dict.fromkeys(text, ""))
+    above = without_repeats(filled, once)
+    body = f"{TEXT} {', '.join(text)}\n"
     if above:
-        notes.append(f"{ABOVE} {', '.join(above)}\n")
-    body = "".join(notes) + frame.assign(**above).to_csv(index=False, float_format=DIGITS)
-    if not (path.exists() and path.read_text().endswith(body)):
-        write_atomic(path, "".join(f"# {line}\n" for line in head) + body)
+        body += f"{ABOVE} {', '.join(above)}\n"
+    body += filled.assign(**above).to_csv(index=False, float_format=DIGITS)
+    unchanged = path.exists() and path.read_text().endswith(body)
+    if not unchanged:
+        comments = "".join(f"# {line}\n" for line in head)
+        write_atomic(path, comments + body)
+
+
+def put(path: Path, new: pd.DataFrame, *, by: list[str], order: list[str], head: Iterable[str]) -> None:
+    """Rows, all the same in the columns ``by``, in place of those that are the same there in the file."""
+    rows = new
+    if path.exists():
+        old = read(path, new.columns)
+        replaced = (old[by] == new[by].iloc[0]).all(axis=1)
+        rows = new if replaced.all() else pd.concat([old[~replaced], new])
+    write(path, rows.sort_values(order), head=head)
 
 
 def without_repeats(frame: pd.DataFrame, once: Iterable[str]) -> dict[str, pd.Series]:
@@ -110,23 +128,27 @@ def written(value: object) -> str:
 
 def is_text(column: pd.Series, path: Path) -> bool:
     """True for text, False for numbers; anything in between is refused."""
-    there = column.dropna()
-    texts = [value for value in there if isinstance(value, str)]
-    if texts and len(texts) < len(there):
+    values = column.dropna().tolist()
+    texts = [value for value in values if isinstance(value, str)]
+    if texts and len(texts) < len(values):
         raise ValueError(f"column {column.name} of {path.name} mixes numbers with text such as {texts[0]!r}: "
                          "write infinity as math.inf, nothing as None")
-    if comments := [value for value in texts if "#" in value]:
-        raise ValueError(f"column {column.name} of {path.name} holds {comments[0]!r}: # begins a comment in "
-                         "a CSV; use another sign")
+    for text in texts:
+        if "#" in text:
+            raise ValueError(f"column {column.name} of {path.name} holds {text!r}: # begins a comment in "
+                             "a CSV; use another sign")
     return bool(texts)
 
 
-def write_atomic(path: Path, text: str) -> None:
-    """The whole text or nothing: an interrupt or a full disk leaves the old file as it was."""
+def write_atomic(path: Path, content: str | bytes) -> None:
+    """The whole content or nothing: an interrupt or a full disk leaves the old file as it was."""
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f".{path.name}.{os.getpid()}")
     try:
-        part.write_text(text)
+        if isinstance(content, bytes):
+            part.write_bytes(content)
+        else:
+            part.write_text(content)
         os.replace(part, path)
     finally:
         part.unlink(missing_ok=True)
@@ -159,9 +181,9 @@ def versions() -> str:
 def cpu() -> str:
     """Model and number of cores."""
     info = Path("/proc/cpuinfo")
-    lines = info.read_text().splitlines() if info.exists() else []
-    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
-    return f"{models[0] if models else platform.machine()}, {os.cpu_count()} cores"
+    models = re.findall(r"model name\s*:\s*(.*\S)", info.read_text()) if info.exists() else []
+    model = models[0] if models else platform.machine()
+    return f"{model}, {os.cpu_count()} cores"
 
 
 def now() -> str:

@@ -17,6 +17,8 @@ from studies.kit.store import Failure, attempt, keep
 #: fractions done that a running case may have
 BEGUN, ENDING = 1e-9, 1 - 1e-9
 FORMAT = "{desc} {percentage:3.0f}%|{bar}| {elapsed}, left {remaining} {postfix}"
+#: number of a case, and its outcome as text or a failure
+Ended = tuple[int, str | Failure]
 LOOK = 0.1      # seconds for which a transport waits for outcomes
 
 
@@ -30,7 +32,7 @@ class Bar:
         seconds = 0.5 if sys.stderr.isatty() else 60.0
         self.line = tqdm(
             total=sum(case.cost for case in cases), desc=name, disable=not cases, bar_format=FORMAT,
-            smoothing=0.05, dynamic_ncols=True, mininterval=seconds, maxinterval=seconds, miniters=0)
+            smoothing=0, dynamic_ncols=True, mininterval=seconds, maxinterval=seconds, miniters=0)
 
     def tell(self, number: int, fraction: float) -> None:
         """A case is so far; what comes after its outcome is dropped."""
@@ -41,8 +43,9 @@ class Bar:
         """Draw, if it is time to."""
         pairs = list(zip(self.cases, self.fractions))
         labels = [case.label for case, fraction in pairs if 0 < fraction < 1]
+        done = sum(case.cost*fraction for case, fraction in pairs if fraction > BEGUN)
         self.line.set_postfix_str("; ".join(labels), refresh=False)
-        self.line.update(sum(case.cost*fraction for case, fraction in pairs) - self.line.n)
+        self.line.update(done - self.line.n)
 
 
 def between(fraction: float) -> float:
@@ -55,7 +58,7 @@ class Transport(Protocol):
 
     def places(self) -> int: ...                                    # how many may run at once, now
     def submit(self, number: int, case: Case) -> None: ...          # begin one; there is a place
-    def ready(self) -> Iterable[tuple[int, str | Failure]]: ...     # those that ended; waits a moment for one
+    def ready(self) -> Iterable[Ended]: ...     # those that ended; waits a moment for one
     def close(self) -> None: ...                                    # end what still runs
 
 
@@ -64,7 +67,7 @@ class Here:
 
     def __init__(self, folder: Path, bar: Bar):
         self.folder, self.bar = folder, bar
-        self.results: list[tuple[int, str | Failure]] = []
+        self.results: list[Ended] = []
 
     def places(self) -> int:
         return 1
@@ -75,7 +78,7 @@ class Here:
             self.bar.show()
         self.results.append((number, attempt(case, self.folder/case.key, report)))
 
-    def ready(self) -> Iterator[tuple[int, str | Failure]]:
+    def ready(self) -> Iterator[Ended]:
         while self.results:
             yield self.results.pop()
 
@@ -104,7 +107,7 @@ def dispatch(cases: Sequence[Case], folder: Path, name: str,
 
 
 def drain(transport: Transport, cases: Sequence[Case], todo: deque[int], limit: int,
-          bar: Bar) -> Iterator[tuple[int, str | Failure]]:
+          bar: Bar) -> Iterator[Ended]:
     """Give each place a case, ``limit`` at once, until all have ended; numbers and outcomes as they come."""
     running = 0
     while todo or running:

@@ -1,18 +1,21 @@
 """The figures of a study, and their look: told apart by colour, marker and line, in grey too."""
 import io
-import os
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import matplotlib
 import numpy as np
+import pandas as pd
 from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
-from studies.kit.table import Tables
+from studies.kit.csvfile import write_atomic
+from studies.kit.table import Tables, check_once
+
+Numbers = Sequence[float] | np.ndarray | pd.Series
 
 #: Okabe and Ito's colours, which colour-blind readers can tell apart; a dark red in place of their yellow
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#882255")
@@ -43,8 +46,8 @@ def look(number: int) -> dict[str, Any]:
     return {"color": COLOURS[number], "marker": MARKERS[number], "linestyle": LINES[number]}
 
 
-def errorbar(axes: Axes, x: Sequence[float], y: Sequence[float], err: Sequence[float], *, number: int = 0,
-             label: str = "", **more: Any) -> None:
+def errorbar(axes: Axes, x: Numbers, y: Numbers, err: Numbers, *, number: int = 0, label: str = "",
+             **more: Any) -> None:
     """Points with their 95 % intervals; no line unless ``linestyle`` is given."""
     axes.errorbar(x, y, yerr=err, label=label, **{**look(number), "linestyle": "none", **more})
 
@@ -77,11 +80,7 @@ def below(axes: Axes, **more: Any) -> None:
 
 def save(page: Figure, path: Path) -> None:
     """Write a PNG, all or nothing; the same figure gives the same bytes."""
-    picture = compact(page)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f".{path.name}.{os.getpid()}")
-    part.write_bytes(picture)
-    os.replace(part, path)
+    write_atomic(path, compact(page))
 
 
 def compact(page: Figure) -> bytes:
@@ -108,21 +107,20 @@ class Drawing(NamedTuple):
         return self.draw(*(tables[name] for name in self.tables))
 
 
-class Overview(NamedTuple):
+class Overview(Drawing):
     """A figure of what there is of its tables. draw : takes `Tables`; its docstring is the caption."""
-    name: str
-    tables: tuple[str, ...]
-    draw: Callable[[Tables], Figure | None]
 
     def page(self, tables: Tables) -> Figure | None:
         """The figure; none where the tables have nothing to show."""
-        return self.draw(Tables({name: tables[name] for name in self.tables if name in tables}))
+        there = {name: tables[name] for name in self.tables if name in tables}
+        return self.draw(Tables(there))
 
 
 class Drawings:
     """Drawings and overviews, called with tables as one function that gives figures by name."""
 
-    def __init__(self, *drawings: Drawing | Overview):
+    def __init__(self, *drawings: Drawing):
+        check_once("figures", (drawing.name for drawing in drawings))
         self.drawings = drawings
 
     def __call__(self, tables: Tables) -> dict[str, Figure]:
@@ -131,7 +129,7 @@ class Drawings:
         return {name: page for name, page in pages.items() if page is not None}
 
 
-def caption(drawing: Drawing | Overview) -> str:
+def caption(drawing: Drawing) -> str:
     """First sentences of what draws it, up to an empty line."""
     text = (drawing.draw.__doc__ or drawing.name.replace("_", " ")).split("\n\n")[0]
     return " ".join(text.split())

@@ -96,24 +96,8 @@ def line(x: Numbers, y: Numbers, *, weight: Numbers | None = None, err: Numbers 
 def power_law(x: Numbers, y: Numbers, err: Numbers | None = None) -> Fit:
     """ln |y| against ln x: its slope is the power, of errors over spacings the order. err : of y."""
     x, y = np.asarray(x, float), np.abs(np.asarray(y, float))
-    return line(np.log(x), np.log(y), err=None if err is None else np.asarray(err, float)/y)
-
-
-def between(x: Numbers, y: Numbers) -> np.ndarray:
-    """d ln |y|/d ln x between neighbours, (n - 1,)."""
-    x, y = np.asarray(x, float), np.asarray(y, float)
-    return np.diff(np.log(np.abs(y)))/np.diff(np.log(x))
-
-
-def nearest_power(x: Numbers, y: Numbers) -> Measured:
-    """d ln |y|/d ln x from the first two values; error: what the next two give another power.
-
-    Raises CannotTell: there are fewer than three values.
-    """
-    if len(x) < 3:
-        raise CannotTell(f"not run yet: a power and its change take three values, got {len(x)}")
-    nearest, before = between(x, y)[:2]
-    return Measured(float(nearest), float(abs(nearest - before)))
+    relative = None if err is None else np.asarray(err, float)/y
+    return line(np.log(x), np.log(y), err=relative)
 
 
 def grid_limit(sizes: Numbers, values: Numbers) -> Measured:
@@ -121,7 +105,8 @@ def grid_limit(sizes: Numbers, values: Numbers) -> Measured:
 
     Raises CannotTell: there are fewer than three grids.
     """
-    if len(set(sizes)) < 3:
-        raise CannotTell(f"not run yet: a limit takes three grids, got {len(set(sizes))}")
+    grids = len(set(sizes))
+    if grids < 3:
+        raise CannotTell(f"not run yet: a limit takes three grids, got {grids}")
     fine = richardson(list(values), list(sizes))
     return Measured(float(fine.limit), float(fine.error))

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from studies.kit.case import word
 from studies.kit.csvfile import OtherTable
 from studies.kit.stats import CannotTell
 from studies.kit.table import Tables
@@ -29,7 +30,7 @@ class WrongQuestion(OtherTable):
 
 
 @dataclass(frozen=True)
-class Rows:
+class Selection:
     """Rows of a table: columns as in ``where``, the condition ``such`` holds; ``need`` of them or more."""
 
     table: str
@@ -46,7 +47,8 @@ class Rows:
             values = value if isinstance(value, tuple) else (value,)
             frame = frame[frame[column].isin(values)]
         if self.such:
-            frame = frame[evaluated(frame, self.such, self.table).astype(bool)]
+            holds = evaluated(frame, self.such, self.table)
+            frame = frame[holds.astype(bool)]
         if len(frame) < self.need:
             raise NoRows(f"not run yet: {self} has {len(frame)} rows of {self.need} or more; "
                          "a larger SIZE of the study may run them")
@@ -70,19 +72,14 @@ def rows(tables: Tables, table: str, such: str = "", need: int = 1, **where: Any
     Raises CannotTell: there are fewer than ``need``: they have not been run. WrongQuestion: The table has
     no such column.
     """
-    return Rows(table, such, need, where)(tables)
+    return Selection(table, such, need, where)(tables)
 
 
 def is_in(value: Any) -> str:
     """A condition in words."""
     if isinstance(value, tuple):
-        return f"in ({', '.join(map(cell, value))})"
-    return f"= {cell(value)}"
-
-
-def cell(value: Any) -> str:
-    """A cell of a table as people write it."""
-    return f"{value:g}" if isinstance(value, float) else str(value)
+        return f"in ({', '.join(map(word, value))})"
+    return f"= {word(value)}"
 
 
 def names(formula: str) -> set[str]:
@@ -92,16 +89,17 @@ def names(formula: str) -> set[str]:
     except SyntaxError as error:
         words = f"{formula!r} is no formula ({error.msg}): write one as pandas' eval takes it"
         raise WrongQuestion(words) from error
+    used = {node.id for node in nodes if isinstance(node, ast.Name)}
     called = {ast.unparse(node.func) for node in nodes if isinstance(node, ast.Call)}
-    return {node.id for node in nodes if isinstance(node, ast.Name)} - called - set(CONSTANTS)
+    return used - called - {*CONSTANTS}
 
 
 def check_columns(table: str, there: Iterable[str], wanted: Iterable[str]) -> None:
     """Refuse columns that a table does not have."""
     columns = [str(column) for column in there]
-    for column in sorted(set(wanted) - set(columns)):
-        close = get_close_matches(column, columns, n=2, cutoff=0.6)
-        hint = f"did you mean {' or '.join(close)}? " if close else ""
+    for column in sorted({*wanted} - {*columns}):
+        close = get_close_matches(column, columns, n=1)
+        hint = f"did you mean {close[0]}? " if close else ""
         raise WrongQuestion(f"table {table} has no column {column}: {hint}it has {', '.join(columns)}")
 
 
@@ -128,12 +126,12 @@ def error_of(formula: str, err: str, table: str, columns: Iterable[str]) -> str:
 
     Raises WrongQuestion: None is given, but one of the columns in the formula has an error.
     """
-    columns = set(columns)
-    if err or f"{formula}_err" in columns:
-        return err or f"{formula}_err"
-    if known := sorted(column for column in names(formula) if f"{column}_err" in columns):
-        name = known[0]
-        hint = re.sub(rf"\b{name}\b", f"{name}_err", formula)
-        raise WrongQuestion(f"{formula} uses {name}, of which table {table} has {name}_err: say what the "
-                            f"error is, as in err={hint!r}, or err='0' where it does not count")
+    own, known = f"{formula}_err", set(columns)
+    if err or own in known:
+        return err or own
+    for name in sorted(names(formula)):
+        if f"{name}_err" in known:
+            hint = re.sub(rf"\b{name}\b", f"{name}_err", formula)
+            raise WrongQuestion(f"{formula} uses {name}, of which table {table} has {name}_err: say what the "
+                                f"error is, as in err={hint!r}, or err='0' where it does not count")
     return "0"

@@ -12,9 +12,7 @@ from copy import copy
 from pathlib import Path
 
 from studies.kit.reader import Reader
-from studies.kit.syntax import ACTION, CASE, EVERYTHING, FUNCTION, Module, Place, Reading, chain, heads, parse
-
-__all__ = ["CODE", "PACKAGES", "ROOT", "Code", "digest", "find", "parse"]
+from studies.kit.syntax import ACTION, CASE, EVERYTHING, Dotted, Module, Place, Reading, chain, heads, stores
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGES = ("continuum", "particles", "studies")
@@ -22,11 +20,8 @@ PACKAGES = ("continuum", "particles", "studies")
 CARRIERS, NUMBERS = "studies.kit.", ("studies.kit.stats", "studies.kit.timing")
 #: of a case: the order and the names of runs, not what they find
 ASIDE = ("cost", "label")
-
-
-def find(name: str, root: Path = ROOT) -> Path | None:
-    """File of a module of our own packages; None for other names and for what only carries results about."""
-    return file_of(name, root) if followed(name) else None
+#: what must be reached for an action to count, all of it
+Owners = frozenset[Place]
 
 
 def file_of(name: str, root: Path) -> Path | None:
@@ -36,17 +31,19 @@ def file_of(name: str, root: Path) -> Path | None:
     if name.split(".")[0] not in PACKAGES:
         return None
     base = root.joinpath(*name.split("."))
-    return next((path for path in (base.with_suffix(".py"), base/"__init__.py") if path.is_file()), None)
+    files = (base.with_suffix(".py"), base/"__init__.py")
+    return next((path for path in files if path.is_file()), None)
 
 
 def name_of(path: Path, root: Path = ROOT) -> str:
     """Dotted name of the module in a file below a folder."""
-    return ".".join(path.relative_to(root).with_suffix("").parts).removesuffix(".__init__")
+    parts = path.relative_to(root).with_suffix("").parts
+    return ".".join(parts).removesuffix(".__init__")
 
 
 def followed(module: str) -> bool:
     """Does what a module defines make a result another one?"""
-    return not f"{module}.".startswith(CARRIERS) or module in NUMBERS
+    return module in NUMBERS or not f"{module}.".startswith(CARRIERS)
 
 
 def digest(*pieces: str) -> str:
@@ -61,27 +58,27 @@ class Code:
         self.root = root
         self.modules: dict[str, Module | None] = {}
         self.readings: dict[Place, Reading] = {}
-        self.closures: dict[frozenset[Place], str] = {}
-        #: place -> (all that must be reached, action)
-        self.actions: dict[Place, list[tuple[frozenset[Place], Place]]] = {}
+        self.hashes: dict[frozenset[Place], str] = {}
+        self.actions: dict[Place, list[tuple[Owners, Place]]] = {}      # under each of their owners
         self.complete = False
 
     def hash(self, starts: Iterable[Place]) -> str:
         """Hash of all definitions reached from some places."""
         places = frozenset(starts)
-        if places not in self.closures:
-            texts = set(map(self.text, self.reached(places)))
-            self.closures[places] = digest(*sorted(texts))
-        return self.closures[places]
+        if places not in self.hashes:
+            texts = {self.text(place) for place in self.reached(places)}
+            self.hashes[places] = digest(*sorted(texts))
+        return self.hashes[places]
 
     def text(self, place: Place) -> str:
         """A definition, with marks of those that it uses: two of one name are two."""
         reading = self.reading(place)
-        return digest(reading.text, *(self.reading(use).text for use in reading.uses if followed(use.module)))
+        used = [self.reading(use).text for use in reading.uses if followed(use.module)]
+        return digest(reading.text, *used)
 
     def reached(self, starts: Iterable[Place]) -> set[Place]:
         """Places whose change makes the result another one."""
-        self.index()
+        self.read_all()
         places: set[Place] = set()
         todo = list(starts)
         while todo:
@@ -97,7 +94,7 @@ class Code:
 
     # --- where things are --------------------------------------------------------------------------
 
-    def index(self) -> None:
+    def read_all(self) -> None:
         """Know all that statements anywhere in our packages register."""
         if self.complete:
             return
@@ -110,41 +107,46 @@ class Code:
 
     def module(self, name: str) -> Module | None:
         """A module of ours by its name, a script by its path."""
-        if name in self.modules:
-            return self.modules[name]
-        path = file_of(name, self.root)
-        self.modules[name] = module = Module(name, path) if path else None
-        if module and followed(name):
-            for number, node in enumerate(module.actions):
-                for owners in self.owners(module, node):
-                    for owner in owners:
-                        self.actions.setdefault(owner, []).append((owners, Place(name, str(number), ACTION)))
-        return module
+        if name not in self.modules:
+            path = file_of(name, self.root)
+            self.modules[name] = module = Module(name, path) if path else None
+            if module and followed(name):
+                self.note_actions(module)
+        return self.modules[name]
 
-    def owners(self, module: Module, node: ast.stmt) -> Iterator[frozenset[Place]]:
+    def note_actions(self, module: Module) -> None:
+        """Know what the statements of a module do besides defining."""
+        for number, node in enumerate(module.actions):
+            action = Place(module.name, str(number), ACTION)
+            for owners in self.owners(module, node):
+                for owner in owners:
+                    self.actions.setdefault(owner, []).append((owners, action))
+
+    def owners(self, module: Module, node: ast.stmt) -> Iterator[Owners]:
         """All of what must be reached for a statement to count; several where it does several things."""
-        own = {Place(module.name, name) for name, nodes in module.definitions.items() if node in nodes}
+        reader = Reader(self, module)
+        own = {Place(module.name, name) for name in stores(node)}
         for parts in heads(node):
-            places = {self.locate(Reader(self, module).meaning(chain(part)))[0] for part in parts}
-            yield frozenset(filter(None, places - own)) or frozenset([Place(module.name, "")])
+            names = [reader.meaning(chain(part)) for part in parts]
+            places = {place for place, _ in map(self.locate, names) if place}
+            yield frozenset(places - own or {Place(module.name, "")})
 
-    def locate(self, parts: tuple[str, ...]) -> tuple[Place | None, tuple[str, ...]]:
+    def locate(self, parts: Dotted) -> tuple[Place | None, Dotted]:
         """The place that a full name leads to, None if not ours, and what is left of the name."""
         for length in range(len(parts), 0, -1):
-            module = self.module(".".join(parts[:length]))
-            if module and length == len(parts):
+            module, rest = self.module(".".join(parts[:length])), parts[length:]
+            if module and not rest:
                 return Place(module.name, "", EVERYTHING), ()
             if module:
-                return self.member(module, parts[length], parts[length + 1:])
+                return self.member(module, *rest)
         return None, ()
 
-    def member(self, module: Module, name: str,
-               rest: tuple[str, ...]) -> tuple[Place | None, tuple[str, ...]]:
+    def member(self, module: Module, name: str, *rest: str) -> tuple[Place | None, Dotted]:
         """The place of a name in a module."""
         if name in module.definitions:
             return Place(module.name, name), rest
-        origin = module.imports.get(name)
-        return self.locate((*origin.split("."), *rest)) if origin else (None, ())
+        origin = module.meanings.get(name)
+        return self.locate((*origin, *rest)) if origin else (None, ())
 
     # --- what they say -----------------------------------------------------------------------------
 
@@ -167,35 +169,37 @@ class Code:
         nodes = module.definitions[place.name]
         if place.part == CASE:
             return reader.read(*map(bare, nodes))
-        return reader.read(entries(nodes)[place.part]) if place.part else reader.read(*nodes)
+        if place.part:
+            return reader.read(entries(nodes)[place.part])
+        return reader.read(*nodes)
 
     def entry(self, table: Place, key: object) -> Place:
         """The entry of a table, or all of the table where it is made in another way than by listing."""
         module = self.module(table.module)
-        known = entries(module.definitions.get(table.name, [])) if module else {}
-        return table._replace(part=repr(key)) if repr(key) in known else table
+        nodes = module.definitions.get(table.name, []) if module else []
+        return table._replace(part=repr(key)) if repr(key) in entries(nodes) else table
 
 
 def entries(nodes: list[ast.stmt]) -> dict[str, ast.expr]:
     """Those of ``{"name": value, ...}`` and of ``{x.name: x for x in (Kind("name", ...), ...)}``."""
     value = getattr(nodes[0], "value", None) if len(nodes) == 1 else None
-    pairs: list[tuple[ast.expr | None, ast.expr]] = []
     if isinstance(value, ast.Dict):
-        pairs = list(zip(value.keys, value.values, strict=True))
+        keys, items = value.keys, value.values
     elif isinstance(value, ast.DictComp):
-        pairs = list(listed(value))
-    listing = all(isinstance(key, ast.Constant) for key, _ in pairs)
-    return {repr(key.value): item for key, item in pairs if isinstance(key, ast.Constant)} if listing else {}
+        items = listed(value)
+        keys = [item.args[0] for item in items if isinstance(item, ast.Call) and item.args]
+    else:
+        return {}
+    names = [repr(key.value) for key in keys if isinstance(key, ast.Constant)]
+    return dict(zip(names, items)) if len(names) == len(items) else {}
 
 
-def listed(node: ast.DictComp) -> Iterator[tuple[ast.expr | None, ast.expr]]:
-    """Entries of ``{x.name: x for x in (Kind("name", ...), ...)}``, without name where it is another."""
-    first, name = node.generators[0], chain(node.value)
-    by_name = len(name) == 1 and chain(node.key) == (*name, "name")
-    plain = by_name and len(node.generators) == 1 and not first.ifs
-    for item in first.iter.elts if isinstance(first.iter, ast.Tuple | ast.List) else [first.iter]:
-        named = plain and isinstance(item, ast.Call) and item.args
-        yield item.args[0] if named else None, item     # type: ignore[attr-defined]
+def listed(node: ast.DictComp) -> list[ast.expr]:
+    """The values in ``{x.name: x for x in (value, ...)}``; nothing of another comprehension."""
+    values = node.generators[0].iter
+    x, all_values = ast.unparse(node.value), ast.unparse(values)
+    by_name = ast.unparse(node) == f"{{{x}.name: {x} for {x} in {all_values}}}"
+    return values.elts if by_name and isinstance(values, ast.Tuple | ast.List) else []
 
 
 def bare(node: ast.stmt) -> ast.stmt:
@@ -212,7 +216,7 @@ def is_aside(node: ast.stmt) -> bool:
     """A field of a dataclass, whose value is a parameter, or what only orders and names runs."""
     if isinstance(node, ast.AnnAssign):
         return "ClassVar" not in ast.unparse(node.annotation)
-    return isinstance(node, FUNCTION) and node.name in ASIDE
+    return isinstance(node, ast.FunctionDef) and node.name in ASIDE
 
 
 CODE = Code()

@@ -1,4 +1,5 @@
 """What notebooks share: sentences that cells compute, numbers with intervals, tables, small pictures."""
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,8 @@ from studies.kit.csvfile import read
 from studies.kit.figure import compact
 
 rcParams.update({"savefig.dpi": 70, "legend.fontsize": 8})
+# a warning is a sentence: the path of the file that warns says nothing to a reader
+warnings.formatwarning = lambda message, *_, **__: f"{message}\n"
 ROUND_OFF = 1e-13       # smaller numbers are told as zero
 
 
@@ -70,13 +73,13 @@ def percent(value: float, err: float = 0.0) -> str:
 
 def verdicts(results: Path, study: str, *, source: str = "") -> None:
     """Of the claims of a study, or those whose source begins so, counts by verdict and what does not hold."""
-    chosen = claims_of(results, study)
-    chosen = chosen[chosen["source"].str.startswith(source)]
-    counts = chosen.groupby("verdict").size()
-    say(f"Of {len(chosen)} statements {counts.get('holds', 0)} hold, {counts.get('fails', 0)} fail, "
-        f"{counts.get('undecidable', 0)} are undecidable. Those that do not hold:")
-    others = chosen[chosen["verdict"] != "holds"]
-    table(stated(others))
+    claims = claims_of(results, study)
+    chosen = claims[claims["source"].str.startswith(source)]
+    verdict = chosen["verdict"]
+    holds, fails, undecidable = (sum(verdict == word) for word in ("holds", "fails", "undecidable"))
+    say(f"Of {len(chosen)} statements {holds} hold, {fails} fail, {undecidable} are undecidable. "
+        "Those that do not hold:")
+    table(stated(chosen[verdict != "holds"]))
 
 
 def claims_of(results: Path, study: str) -> pd.DataFrame:
@@ -92,8 +95,8 @@ def measured(claims: pd.DataFrame, name: str) -> str:
 
 def stated(claims: pd.DataFrame) -> pd.DataFrame:
     """Claims as people read them."""
-    return columns(claims.assign(measured=list(map(pm, claims["measured"], claims["err"]))),
-                   ["source", "statement", "printed", "measured", "verdict"])
+    told = claims.assign(measured=list(map(pm, claims["measured"], claims["err"])))
+    return columns(told, ["source", "statement", "printed", "measured", "verdict"])
 
 
 def columns(frame: pd.DataFrame, names: Sequence[str]) -> pd.DataFrame:

@@ -11,7 +11,7 @@ from multiprocessing.process import BaseProcess
 from pathlib import Path
 
 from studies.kit.case import Case
-from studies.kit.dispatch import LOOK, Bar, between
+from studies.kit.dispatch import LOOK, Bar, Ended, between
 from studies.kit.store import CannotRun, Failure, attempt, same_code
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
@@ -39,13 +39,13 @@ class Processes:
         """A new worker."""
         here, there = SPAWN.Pipe()
         worker = SPAWN.Process(target=serve, args=(there, self.folder, self.fractions), daemon=True)
-        with one_thread(), no_interrupt():
+        with as_workers_start():
             worker.start()
             self.workers[here] = worker
         there.close()       # when the worker dies, nobody has that end
         return here
 
-    def ready(self) -> Iterator[tuple[int, str | Failure]]:
+    def ready(self) -> Iterator[Ended]:
         pipes = wait(list(self.workers), LOOK)
         for pipe in [pipe for pipe in self.workers if pipe in pipes]:
             try:
@@ -96,24 +96,16 @@ def end_with_parent() -> None:
 
 
 @contextmanager
-def one_thread() -> Iterator[None]:
-    """Processes that start now compute with one thread each: libraries read this when they are loaded."""
+def as_workers_start() -> Iterator[None]:
+    """Processes that start now have one thread each, and leave Ctrl-C to this one, which ends them."""
     before = {name: os.environ[name] for name in THREADS if name in os.environ}
-    os.environ.update(dict.fromkeys(THREADS, "1"))
+    resource_tracker.ensure_running()       # starts with the first process otherwise, and unblocks
+    blocked = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    os.environ.update(dict.fromkeys(THREADS, "1"))      # libraries read this when they are loaded
     try:
         yield
     finally:
         for name in THREADS:
             del os.environ[name]
         os.environ.update(before)
-
-
-@contextmanager
-def no_interrupt() -> Iterator[None]:
-    """Processes that start now leave Ctrl-C to this one, which ends them."""
-    resource_tracker.ensure_running()       # starts with the first process otherwise, and unblocks
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        signal.pthread_sigmask(signal.SIG_SETMASK, blocked)

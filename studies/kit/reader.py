@@ -1,19 +1,12 @@
 """A definition as it reads without layout, names in place of what leads to them, and the places it uses."""
 import ast
+from collections import ChainMap
+from collections.abc import Iterator
+from contextlib import contextmanager
 from copy import deepcopy
 from typing import Any
 
-from studies.kit.syntax import (
-    UNNAMED,
-    Module,
-    Place,
-    Reading,
-    chain,
-    imported,
-    parameters_of,
-    stores,
-    undocumented,
-)
+from studies.kit.syntax import UNNAMED, Dotted, Module, Place, Reading, chain, imported, parameters_of, stores
 
 
 class Reader(ast.NodeTransformer):
@@ -22,7 +15,7 @@ class Reader(ast.NodeTransformer):
     def __init__(self, code: Any, module: Module):
         self.code, self.module = code, module
         self.uses: dict[Place, None] = {}
-        self.scopes: list[dict[str, str]] = []      # name -> origin of an import, nothing of a variable
+        self.meanings: ChainMap[str, Dotted] = ChainMap(module.meanings)    # nothing of variables
         self.fields = False     # is it the body of a class, whose annotations make fields?
 
     def read(self, *nodes: ast.AST) -> Reading:
@@ -30,12 +23,11 @@ class Reader(ast.NodeTransformer):
         texts = sorted(ast.dump(self.visit(deepcopy(node))) for node in nodes)
         return Reading("\n".join(texts), tuple(self.uses))
 
-    def visit_Name(self, node: ast.Name) -> ast.expr:
-        return self.renamed(node) if isinstance(node.ctx, ast.Load) else node
-
-    def visit_Attribute(self, node: ast.Attribute) -> ast.expr:
+    def visit_Name(self, node: Any) -> ast.AST:
         whole = chain(node) and isinstance(node.ctx, ast.Load)
-        return self.renamed(node) if whole else self.generic_visit(node)  # type: ignore[return-value]
+        return self.renamed(node) if whole else self.generic_visit(node)
+
+    visit_Attribute = visit_Name
 
     def renamed(self, node: ast.expr) -> ast.expr:
         """A chain of names with the definition's own name in place of what leads to it."""
@@ -51,81 +43,77 @@ class Reader(ast.NodeTransformer):
             result = ast.Attribute(result, name, ast.Load())
         return result
 
-    def meaning(self, parts: tuple[str, ...]) -> tuple[str, ...]:
+    def meaning(self, parts: Dotted) -> Dotted:
         """Full dotted name, nothing for variables and for names that Python itself knows."""
         if not parts:
             return ()
         first, *rest = parts
-        for scope in reversed(self.scopes):
-            if first in scope:
-                return (*scope[first].split("."), *rest) if scope[first] else ()
-        if first in self.module.definitions:
-            return (self.module.name, *parts)
-        origin = self.module.imports.get(first)
-        return (*origin.split("."), *rest) if origin else ()
+        origin = self.meanings.get(first, ())
+        return (*origin, *rest) if origin else ()
 
-    def visit_Subscript(self, node: ast.Subscript) -> ast.expr:
+    def visit_Subscript(self, node: ast.Subscript) -> ast.AST:
         """``TABLE["name"]`` uses one entry."""
-        place, rest = self.code.locate(self.meaning(chain(node.value)))
-        key = node.slice
-        if not place or rest or not isinstance(key, ast.Constant) or not isinstance(node.ctx, ast.Load):
-            return self.generic_visit(node)  # type: ignore[return-value]
-        self.uses[self.code.entry(place, key.value)] = None
-        return ast.Subscript(ast.Name(place.name, ast.Load()), key, node.ctx)
+        table, rest = self.code.locate(self.meaning(chain(node.value)))
+        key, is_read = node.slice, isinstance(node.ctx, ast.Load)
+        if not table or rest or not is_read or not isinstance(key, ast.Constant):
+            return self.generic_visit(node)
+        self.uses[self.code.entry(table, key.value)] = None
+        return ast.Subscript(ast.Name(table.name, ast.Load()), key, node.ctx)
 
     # --- scopes ------------------------------------------------------------------------------------
 
-    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.FunctionDef:
-        node.decorator_list = [self.visit(decorator) for decorator in node.decorator_list]
+    @contextmanager
+    def inside(self, meanings: dict[str, Dotted], fields: bool = False) -> Iterator[None]:
+        """Read with names of a scope."""
+        before = self.meanings, self.fields
+        self.meanings, self.fields = self.meanings.new_child(meanings), fields
+        yield
+        self.meanings, self.fields = before
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
+        node.decorator_list = list(map(self.visit, node.decorator_list))
         node.returns = None
         self.visit_signature(node.args, types=node.name == UNNAMED)
         node.body = self.inner(undocumented(node.body), node.args) or [ast.Pass()]
         return node
 
     def visit_ClassDef(self, node: ast.ClassDef) -> ast.AST:
-        before, self.fields = self.fields, True
         node.body = undocumented(node.body)
-        result = self.generic_visit(node)
-        self.fields = before
-        return result
+        with self.inside({}, fields=True):
+            return self.generic_visit(node)
 
-    def visit_Lambda(self, node: ast.Lambda) -> ast.Lambda:
+    def visit_Lambda(self, node: ast.Lambda) -> ast.AST:
         self.visit_signature(node.args)
         node.body, = self.inner([node.body], node.args)
         return node
 
     def visit_signature(self, arguments: ast.arguments, types: bool = False) -> None:
         """Defaults belong to the scope around; ``types`` choose the formula that a function registers."""
-        arguments.defaults = [self.visit(value) for value in arguments.defaults]
+        arguments.defaults = list(map(self.visit, arguments.defaults))
         arguments.kw_defaults = [value and self.visit(value) for value in arguments.kw_defaults]
         for one in parameters_of(arguments):
             one.annotation = self.visit(one.annotation) if types and one.annotation else None
 
     def inner(self, body: list[Any], arguments: ast.arguments) -> list[Any]:
         """A function's body, read with its variables."""
-        scope = dict.fromkeys((one.arg for one in parameters_of(arguments)), "")
-        for node in body:
-            scope |= dict.fromkeys(stores(node), "")
-        for node in body:
-            scope |= dict(imported(node, self.module.package))
-        self.scopes.append(scope)
-        before, self.fields = self.fields, False
-        nodes = [self.visit(node) for node in body]
-        self.fields = before
-        self.scopes.pop()
-        return [node for node in nodes if node is not None]
+        parameters = [one.arg for one in parameters_of(arguments)]
+        variables = [name for node in body for name in stores(node)]
+        imports = [pair for node in body for pair in imported(node, self.module.name)]
+        with self.inside(dict.fromkeys([*parameters, *variables], ()) | dict(imports)):
+            nodes = list(map(self.visit, body))
+        return list(filter(None, nodes))
 
-    def visit_comprehension_of(self, node: Any) -> Any:
+    def visit_comprehension_of(self, node: Any) -> ast.AST:
         first, *others = node.generators
         first.iter = self.visit(first.iter)
-        names = (name for one in node.generators for name in stores(one.target))
-        self.scopes.append(dict.fromkeys(names, ""))
-        first.target, first.ifs = self.visit(first.target), [self.visit(test) for test in first.ifs]
-        node.generators = [first, *map(self.visit, others)]
-        for field in ("elt", "key", "value"):
-            if hasattr(node, field):
-                setattr(node, field, self.visit(getattr(node, field)))
-        self.scopes.pop()
+        variables = [name for one in node.generators for name in stores(one.target)]
+        with self.inside(dict.fromkeys(variables, ())):
+            first.target = self.visit(first.target)
+            first.ifs = list(map(self.visit, first.ifs))
+            node.generators = [first, *map(self.visit, others)]
+            for field in ("elt", "key", "value"):
+                if hasattr(node, field):
+                    setattr(node, field, self.visit(getattr(node, field)))
         return node
 
     visit_ListComp = visit_SetComp = visit_DictComp = visit_GeneratorExp = visit_comprehension_of
@@ -137,12 +125,12 @@ class Reader(ast.NodeTransformer):
 
     visit_ImportFrom = visit_Import
 
-    def visit_AnnAssign(self, node: ast.AnnAssign) -> Any:
+    def visit_AnnAssign(self, node: ast.AnnAssign) -> ast.AST | None:
         """A type stays where it makes a field of a class, but what it names is not used."""
         value = node.value and self.visit(node.value)
         if not self.fields:
             return ast.Assign([self.visit(node.target)], value) if value else None
-        uses, self.uses = self.uses, {}
+        uses = dict(self.uses)
         node.annotation, node.value = self.visit(node.annotation), value
         self.uses = uses
         return node
@@ -152,3 +140,11 @@ class Reader(ast.NodeTransformer):
         if getattr(node, "body", None) == []:
             setattr(node, "body", [ast.Pass()])  # noqa: B010  (mypy allows it so)
         return node
+
+
+def undocumented(body: list[ast.stmt]) -> list[ast.stmt]:
+    """Statements without the docstring."""
+    first = body[0]
+    documents = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant)
+    rest = body[1:] if documents else body
+    return rest or [ast.Pass()]

@@ -166,8 +166,11 @@ def seed_means(rows: pd.DataFrame, by: Sequence[str], columns: Sequence[str]) ->
     alone has only this.
     """
     for key, group in rows.groupby(list(by)):
-        row: dict[str, Any] = {**dict(zip(by, key, strict=True)), "seeds": len(group)}
+        row: dict[str, Any] = dict(zip(by, key))
+        row["seeds"] = len(group)
+        no_errors = pd.Series(0.0, index=group.index)
         for column in columns:
-            within = group.get(f"{column}_err", pd.Series(0.0, index=group.index))
-            row[column], row[f"{column}_err"] = combine(list(zip(group[column], within, strict=True)))
+            errors = group.get(f"{column}_err", no_errors)
+            runs = list(zip(group[column], errors))
+            row[column], row[f"{column}_err"] = combine(runs)
         yield row

@@ -14,6 +14,7 @@ from typing import Any
 from studies.kit.case import Case, Outcome, Report, parameters
 from studies.kit.csvfile import commit, cpu, now, versions, write_atomic
 from studies.kit.key import ROOT
+from studies.kit.table import Rows
 
 RESULTS = ROOT / "results"
 SEAL = "sha256"     # of the rows of a kept case and their commit
@@ -92,7 +93,8 @@ def as_text(case: Case, outcome: Outcome, cpu_s: float) -> str:
     """An outcome with its commit, versions, machine, date and CPU seconds, compiling among them."""
     content = {"case": parameters(case), "commit": commit(), "versions": versions(),
                "cpu": cpu(), "date": now(), "cpu_s": cpu_s, "rows": outcome.rows}
-    content = json.loads(json.dumps(content, default=plain))
+    plain = json.dumps(content, default=lambda value: value.tolist())       # numpy's numbers as Python's
+    content = json.loads(plain)
     return json.dumps({**content, SEAL: seal(content)}, indent=1)
 
 
@@ -102,14 +104,7 @@ def seal(content: dict[str, Any]) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def plain(value: Any) -> Any:
-    """numpy's numbers and arrays as Python's."""
-    if hasattr(value, "tolist"):
-        return value.tolist()
-    raise TypeError(f"a row holds {value!r}: rows are made of numbers and texts")
-
-
-def kept(case: Case, folder: Path) -> dict[str, list[dict[str, Any]]] | None:
+def kept(case: Case, folder: Path) -> Rows | None:
     """Rows of a finished case by table, each with the commit that computed it; None when it must be run."""
     path = folder / f"{case.key}.json"
     if not path.exists():
@@ -127,8 +122,6 @@ def kept(case: Case, folder: Path) -> dict[str, list[dict[str, Any]]] | None:
 
 
 def seconds(case: Case, folder: Path) -> float:
-    """CPU seconds that a case took; nan if it is not finished, or was before they were kept."""
-    path = folder / f"{case.key}.json"
-    if not path.exists():
-        return math.nan
-    return float(json.loads(path.read_text()).get("cpu_s", math.nan))
+    """CPU seconds that a finished case took; nan if it was finished before they were kept."""
+    content = json.loads((folder/f"{case.key}.json").read_text())
+    return float(content.get("cpu_s", math.nan))

@@ -6,20 +6,18 @@ import os
 import signal
 import sys
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from studies.kit.claim import ClaimError, judge, put_claims
+from studies.kit.claim import judge, put_claims
 from studies.kit.csvfile import OtherTable
 from studies.kit.figure import save
-from studies.kit.part import Part, joined, nothing
+from studies.kit.part import Part, joined
 from studies.kit.store import RESULTS, CannotRun, results
 from studies.kit.sweep import CasesFailed, NoSuchCase, Sweep, load
-from studies.kit.table import SIZES, Rows, Tables
-
-__all__ = ["Part", "Rows", "Study", "main", "nothing", "results", "say", "verdict_line"]
+from studies.kit.table import SIZES, Row, Tables, check_once
 
 GO_ON = "finished cases are kept, the same command goes on from there"
 FULL = "the disk is full; make room where {out} lies; " + GO_ON
@@ -27,21 +25,26 @@ REFUSED = "{file} cannot be written: give --out another folder"
 #: number of the system's error -> what to do about it
 DISK = {errno.ENOSPC: FULL, errno.EACCES: REFUSED, errno.EPERM: REFUSED, errno.EROFS: REFUSED}
 #: what ends a study with one line
-EXPECTED = (CasesFailed, CannotRun, ClaimError, OtherTable, FileNotFoundError)
-#: words that say where cases run, which of them, and where their rows go
-RUN_WORDS = ("workers", "scheduler", "out", "only")
+EXPECTED = (CasesFailed, CannotRun, OtherTable, FileNotFoundError)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Study(Part):
-    """One question: a name, a sentence that asks it, and what answers it."""
+    """One question: a name, a sentence that asks it, and what answers it.
+
+    Raises ValueError: Two tables, figures or claims have one name.
+    """
 
     name: str
     question: str = ""
 
+    def __post_init__(self):
+        check_once("tables", (table.name for table in self.tables))
+        check_once("claims", (claim.id for claim in self.claims))
+
     @classmethod
     def of(cls, name: str, question: str, parts: Sequence[Part]) -> "Study":
-        """A study made of parts; ValueError if two tables or two claims have one name."""
+        """A study made of parts."""
         return cls(name=name, question=question.split("\n")[0], **vars(joined(parts)))
 
     def sweep(self, size: str, **more: Any) -> Sweep:
@@ -70,11 +73,11 @@ class Study(Part):
             save(page, paths[name])
         return list(paths.values())
 
-    def judge(self, out: Path = RESULTS) -> list[dict[str, Any]]:
+    def judge(self, out: Path = RESULTS) -> list[Row]:
         """Verdicts from the tables on disk, put into claims.csv."""
         rows = judge(self.claims, load(self.tables, self.name, out), self.name)
         if rows:
-            put_claims(out/"claims.csv", rows, self.name)
+            put_claims(out/"claims.csv", rows)
         return rows
 
     def written(self, out: Path) -> list[Path]:
@@ -104,20 +107,22 @@ def main(study: Study, arguments: Sequence[str] | None = None) -> None:
 
 def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
     """Command, size (default: SIZE of the environment, else paper), where it runs, folder, which cases."""
-    name, about = f"python -m studies.{study.name}", study.question or None
-    parser = argparse.ArgumentParser(prog=name, description=about)
-    add, size = parser.add_argument, os.environ.get("SIZE") or "paper"
+    parser = argparse.ArgumentParser(prog=f"python -m studies.{study.name}", description=study.question)
+    add = parser.add_argument
+    size = os.environ.get("SIZE") or "paper"
+    scheduler = os.environ.get("SCHEDULER") or ""
     add("command", nargs="?", default="run", choices=["run", "figures", "claims"])
     add("--size", default=size, help=f"{', '.join(SIZES)} (default: {size})")
     add("--workers", type=int, default=2, help="processes; 1 computes in this one (default: 2)")
-    add("--scheduler", default=os.environ.get("SCHEDULER") or "", metavar="tcp://HOST:PORT",
+    add("--scheduler", default=scheduler, metavar="tcp://HOST:PORT",
         help="of a Dask cluster that runs the cases instead (default: SCHEDULER of the environment)")
     add("--out", type=Path, help="where tables and figures go (default: results, or results/quick)")
     add("--only", default="", metavar="TEXT",
         help="run only cases with this text in their label, such as a variant's name")
     words = parser.parse_args(arguments)
-    words.usual, words.out = words.out is None, words.out or results(words.size)
-    words.cases = {name: getattr(words, name) for name in RUN_WORDS}
+    words.usual = words.out is None
+    words.out = words.out or results(words.size)
+    words.cases = dict(workers=words.workers, scheduler=words.scheduler, out=words.out, only=words.only)
     try:
         check_words(study, words)
     except ValueError as error:
@@ -170,17 +175,19 @@ def first(study: Study, words: argparse.Namespace) -> str:
     """What makes the tables that are wanted."""
     if not words.usual:
         return f"python -m studies.{study.name} --size {words.size} --out {words.out}"
-    return f"make study-{study.name}" if words.out == results("paper") else study.sweep(words.size).command
+    if words.out == results("paper"):
+        return f"make study-{study.name}"
+    return study.sweep(words.size).command
 
 
-def verdict_line(row: Mapping[str, Any]) -> str:
+def verdict_line(row: Row) -> str:
     """A claim and its verdict in two lines."""
     value = row["reason"]
     if math.isfinite(row["measured"]):
         printed = f"printed {row['printed']}, " if row["printed"] else ""
         value = f"{printed}measured {row['measured']:.5g} +- {row['err']:.2g}"
-    text = textwrap.wrap(f"{row['source']}: {row['statement']}", 87)
-    return f"{row['verdict']:<12} {row['id']}: {value}\n" + textwrap.indent("\n".join(text), " "*13)
+    claim = textwrap.fill(f"{row['source']}: {row['statement']}", 87)
+    return f"{row['verdict']:<12} {row['id']}: {value}\n" + textwrap.indent(claim, " "*13)
 
 
 def shown(path: Path) -> Path:

@@ -4,7 +4,6 @@ import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from studies.kit.budget import put_times
 from studies.kit.case import Case
@@ -12,7 +11,7 @@ from studies.kit.cluster import Cluster, check_scheduler
 from studies.kit.dispatch import Bar, Here, Transport, dispatch
 from studies.kit.processes import Processes
 from studies.kit.store import RESULTS, CannotRun, Failure, kept
-from studies.kit.table import Rows, Table, Tables, changed, check_size, merge, read
+from studies.kit.table import Row, Rows, Table, Tables, changed, check_size, merge, read
 
 LABELS = 5      # of those that exist, told to who asked for one that does not
 
@@ -51,6 +50,11 @@ class Sweep:
         """Of finished cases."""
         return self.out/"raw"/self.study
 
+    @property
+    def known(self) -> dict[str, Table]:
+        """The tables by name."""
+        return {table.name: table for table in self.tables}
+
     def run(self, cases: Iterable[Case]) -> tuple[Tables, CasesFailed | None]:
         """Run the cases that are not finished yet, the longest first; merge all rows into the tables.
 
@@ -60,7 +64,7 @@ class Sweep:
         chosen = labelled(list(cases), self.only, self.size)
         wanted = list({case.key: case for case in chosen}.values())
         failures = self.run_missing(wanted)
-        tables = self.put(collected(kept(case, self.folder) for case in wanted))
+        tables = self.put(self.rows(wanted))
         if failures:
             count = f"{len(failures)} of {len(wanted)} cases failed, the tables hold the others:"
             return tables, CasesFailed("\n".join([count, *map(str, failures)]))
@@ -92,14 +96,20 @@ class Sweep:
         done = sum(kept(case, self.folder) is not None for case in cases)
         return f"{done} of {len(cases)} cases are finished and kept, the same command goes on from there"
 
+    def rows(self, cases: Sequence[Case]) -> Rows:
+        """Those of the finished ones among some cases, by table."""
+        rows: dict[str, list[Row]] = {}
+        for case in cases:
+            for name, new in (kept(case, self.folder) or {}).items():
+                rows.setdefault(name, []).extend(new)
+        return rows
+
     def put(self, rows: Rows) -> Tables:
         """Merge rows into the tables and read all of these that exist."""
-        known = {table.name: table for table in self.tables}
-        if unknown := sorted(rows.keys() - known):
-            names = ", ".join(known)
-            raise ValueError(f"no table {', '.join(unknown)} in study {self.study}: it has {names}")
+        if unknown := sorted(rows.keys() - self.known):
+            raise ValueError(f"study {self.study} has no table {', '.join(unknown)}: list it in its tables")
         for name, new in rows.items():
-            _, better = merge(self.path(name), known[name], new, size=self.size, command=self.command)
+            _, better = merge(self.path(name), self.known[name], new, size=self.size, command=self.command)
             if better:
                 print(f"{self.study}/{name}.csv: {better} rows of a better size than {self.size} stay",
                       file=sys.stderr)
@@ -111,13 +121,10 @@ class Sweep:
         When ``only`` some cases ran, rows that came out as they were keep size and commit: what they follow
         from has not run.
         """
-        if not self.only:
-            return self.put(rows)
-        new = dict(rows)
-        for table in self.tables:
-            if table.name in rows:
-                new[table.name] = changed(self.path(table.name), table, rows[table.name])
-        return self.put(new)
+        if self.only:
+            rows = {name: changed(self.path(name), self.known[name], new)
+                    for name, new in rows.items()}
+        return self.put(rows)
 
     def path(self, name: str) -> Path:
         """Of a table."""
@@ -133,15 +140,6 @@ class Sweep:
         return f"make study-{self.study} SIZE={self.size}{there}"
 
 
-def collected(outcomes: Iterable[Rows | None]) -> Rows:
-    """The rows of many cases, by table; None stands for a case that has none."""
-    rows: dict[str, list[dict[str, Any]]] = {}
-    for outcome in filter(None, outcomes):
-        for name, new in outcome.items():
-            rows.setdefault(name, []).extend(new)
-    return rows
-
-
 def labelled(cases: Sequence[Case], only: str, size: str) -> Sequence[Case]:
     """The cases whose label contains a text, in capitals or not."""
     chosen = [case for case in cases if only.casefold() in case.label.casefold()]
@@ -149,7 +147,7 @@ def labelled(cases: Sequence[Case], only: str, size: str) -> Sequence[Case]:
         return chosen
     labels = list(dict.fromkeys(case.label for case in cases))
     step = max(1, len(labels)//LABELS)
-    some = "; ".join(labels[::step][:LABELS]) or "none"
+    some = "; ".join(labels[::step][:LABELS])
     raise NoSuchCase(f"no case of size {size} has {only!r} in its label; "
                      f"some of its {len(labels)} labels are: {some}")
 

@@ -13,6 +13,8 @@ COMPREHENSION = ast.ListComp | ast.SetComp | ast.DictComp | ast.GeneratorExp
 COMPOUND = ast.If | ast.For | ast.While | ast.Try | ast.With
 WHOLE, EVERYTHING, CASE, ACTION = "", "everything", "case", "action"
 UNNAMED = "_"       # what functions are called that are only registered
+#: a name, from the package or variable that it begins with
+Dotted = tuple[str, ...]
 
 
 class Place(NamedTuple):
@@ -31,21 +33,22 @@ class Reading(NamedTuple):
 
 
 class Module:
-    """A file: what its top-level statements define, what they import, and what they do besides."""
+    """A file: what its top-level statements define, what names mean there, and what they do besides."""
 
     def __init__(self, name: str, path: Path):
-        self.name, self.path = name, path
+        self.name = name
         self.definitions: dict[str, list[ast.stmt]] = {}
-        self.imports: dict[str, str] = {}
+        self.meanings: dict[str, Dotted] = {}
         self.actions: list[ast.stmt] = []
-        self.package = name if path.name == "__init__.py" else name.rpartition(".")[0]
         for node in filter(counts, parse(path).body):
             if isinstance(node, ast.Import | ast.ImportFrom | COMPOUND):
-                self.imports |= dict(imported(node, self.package))
-            for bound in defines(node):
-                self.definitions.setdefault(bound, []).append(node)
+                self.meanings |= dict(imported(node, name))
+            for bound in dict.fromkeys(stores(node)):
+                if bound != UNNAMED:
+                    self.definitions.setdefault(bound, []).append(node)
             if acts(node):
                 self.actions.append(node)
+        self.meanings |= {bound: (name, bound) for bound in self.definitions}
 
 
 @cache
@@ -54,47 +57,28 @@ def parse(path: Path) -> ast.Module:
     return ast.parse(path.read_text(), filename=str(path))
 
 
-# --- statements ------------------------------------------------------------------------------------
-
-
 def counts(node: ast.stmt) -> bool:
     """Does a top-level statement run when its module is imported, and change anything?"""
     main = isinstance(node, ast.If) and "__name__" in ast.unparse(node.test)
     return not main and not isinstance(node, ast.Assert | ast.Pass)
 
 
-def imported(tree: ast.AST, package: str) -> Iterator[tuple[str, str]]:
+def imported(tree: ast.AST, module: str) -> Iterator[tuple[str, Dotted]]:
     """(name, what it stands for) of all import statements in a tree.
 
-    Raises ValueError: ``from x import *``, after which nobody could tell what a name means.
+    Raises ValueError: ``from x import *`` or ``from . import x``, which does not say where a name is from.
     """
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             for alias in node.names:
                 top = alias.name.split(".")[0]
-                yield (alias.asname, alias.name) if alias.asname else (top, top)
+                yield (alias.asname, (alias.name,)) if alias.asname else (top, (top,))
         elif isinstance(node, ast.ImportFrom):
-            origin = origin_of(node, package)
             for alias in node.names:
-                if alias.name == "*":
-                    raise ValueError(f"from {origin} import * in {package or 'a script'}: import names one "
-                                     "by one, so that keys can follow them")
-                yield alias.asname or alias.name, f"{origin}.{alias.name}"
-
-
-def origin_of(node: ast.ImportFrom, package: str) -> str:
-    """Full name of the module that an import takes names from."""
-    above = package.split(".")
-    base = above[:len(above) - node.level + 1] if node.level else []
-    return ".".join([*base, *filter(None, [node.module])])
-
-
-def defines(node: ast.stmt) -> Iterator[str]:
-    """Names that a top-level statement binds, other than by an import; ``_`` is no name."""
-    names = dict.fromkeys(stores(node))
-    if isinstance(node, FUNCTION):
-        names.pop(UNNAMED, None)
-    yield from names
+                if alias.name == "*" or not node.module or node.level:
+                    raise ValueError(f"{ast.unparse(node)} in {module}: import names one by one, from the "
+                                     "full name of a module, so that keys can follow them")
+                yield alias.asname or alias.name, (node.module, alias.name)
 
 
 def stores(node: ast.AST) -> Iterator[str]:
@@ -119,27 +103,24 @@ def acts(node: ast.stmt) -> bool:
     if isinstance(node, FUNCTION | ast.ClassDef):
         return node.name == UNNAMED or any(map(registers, node.decorator_list))
     if isinstance(node, COMPOUND):
-        return any(acts(child) for child in ast.iter_child_nodes(node) if isinstance(child, ast.stmt))
-    if isinstance(node, ast.Assign | ast.AugAssign):
-        return not all(isinstance(target, ast.Name | ast.Tuple | ast.List) for target in targets(node))
-    documents = isinstance(getattr(node, "value", None), ast.Constant)
-    return isinstance(node, ast.Expr | ast.Delete) and not documents
+        return any(map(acts, statements(node)))
+    if isinstance(node, ast.Assign):
+        return any(isinstance(target, ast.Subscript | ast.Attribute) for target in node.targets)
+    return isinstance(node, ast.Expr) and not isinstance(node.value, ast.Constant)
 
 
-def targets(node: ast.Assign | ast.AugAssign) -> list[ast.expr]:
-    """What an assignment is made to."""
-    return node.targets if isinstance(node, ast.Assign) else [node.target]
+def statements(node: ast.AST) -> list[ast.stmt]:
+    """Those within a statement."""
+    return [child for child in ast.iter_child_nodes(node) if isinstance(child, ast.stmt)]
 
 
 def registers(node: ast.expr) -> bool:
     """Is it ``f.of(K)``, ``f.register`` or ``f.register(K)``?"""
-    head = node.func if isinstance(node, ast.Call) else node
-    if not (isinstance(head, ast.Attribute) and isinstance(head.value, ast.Name)):
-        return False
-    return head.attr in ("of", "register")
+    names = chain(node.func if isinstance(node, ast.Call) else node)
+    return len(names) == 2 and names[1] in ("of", "register")
 
 
-def chain(node: ast.AST) -> tuple[str, ...]:
+def chain(node: ast.AST) -> Dotted:
     """(a, b, c) of ``a.b.c``, nothing of all else."""
     if isinstance(node, ast.Name):
         return (node.id,)
@@ -153,13 +134,6 @@ def parameters_of(arguments: ast.arguments) -> list[ast.arg]:
     return [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs, *filter(None, some)]
 
 
-def undocumented(body: list[ast.stmt]) -> list[ast.stmt]:
-    """Statements without the docstring."""
-    first = body[0]
-    documents = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant)
-    return body[1:] or [ast.Pass()] if documents else body
-
-
 # --- what they register ----------------------------------------------------------------------------
 
 
@@ -170,17 +144,16 @@ def heads(node: ast.AST) -> Iterator[Sequence[ast.AST]]:
             if registers(decorator):
                 yield [*head(decorator), *kinds(node, decorator)]
             elif isinstance(decorator, ast.Call):
-                yield list(decorator.args)
+                yield decorator.args
     elif isinstance(node, COMPOUND):
-        for child in ast.iter_child_nodes(node):
-            if isinstance(child, ast.stmt) and acts(child):
-                yield from heads(child)
-    elif isinstance(node, ast.Assign | ast.AugAssign):
-        for target in targets(node):
+        for child in filter(acts, statements(node)):
+            yield from heads(child)
+    elif isinstance(node, ast.Assign):
+        for target in node.targets:
             if isinstance(target, ast.Subscript | ast.Attribute):
                 yield [target.value]
-    else:
-        yield head(getattr(node, "value", node))
+    elif isinstance(node, ast.Expr):
+        yield head(node.value)
 
 
 def kinds(node: ast.AST, decorator: ast.expr) -> list[ast.expr]:
@@ -190,11 +163,12 @@ def kinds(node: ast.AST, decorator: ast.expr) -> list[ast.expr]:
     return [one.annotation for one in parameters_of(node.args)[:1] if one.annotation]
 
 
-def head(node: ast.AST) -> list[ast.AST]:
+def head(node: ast.expr) -> list[ast.expr]:
     """[f, K] of ``f.of(K)(formula)``, ``f.of(K)``, ``f.register(K, formula)``; [t] of ``t.update(...)``."""
-    kinds: list[ast.AST] = []
+    kinds: list[ast.expr] = []
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Call):
         node = node.func
     if isinstance(node, ast.Call):
-        kinds, node = list(node.args[:1] if registers(node) else []), node.func
+        kinds = node.args[:1] if registers(node) else []
+        node = node.func
     return [node.value if isinstance(node, ast.Attribute) else node, *kinds]

@@ -1,20 +1,21 @@
 """Values of claims: questions that are added, divided, compared, and their text."""
 import operator
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import Any, NamedTuple
 
 from studies.kit import stats
-from studies.kit.formula import NoRows, Rows, WrongQuestion, check_columns, error_of, names, rows
+from studies.kit.formula import NoRows, Selection, WrongQuestion, check_columns, error_of, names, rows
 from studies.kit.stats import Measured
 from studies.kit.table import SPENT, STAMP, Table, Tables
+
+Answer = Callable[[Tables], Measured]
 
 
 class Asked(NamedTuple):
     """What a question is about: rows, a formula over them, that of its error, and that which sorts them."""
 
-    rows: Rows
+    rows: Selection
     value: str
     err: str = ""
     by: str = ""
@@ -27,7 +28,7 @@ class Value:
     asks : what it is about.
     """
 
-    answer: Callable[[Tables], Measured]
+    answer: Answer
     text: str
     asks: tuple[Asked, ...] = ()
 
@@ -62,13 +63,17 @@ class Value:
         return both(other, self, "/", operator.truediv)
 
     def __pow__(self, power: float) -> "Value":
-        return Value(lambda tables: self(tables)**power, f"({self})^{power:g}", self.asks)
+        return self.then(lambda number: number**power, f"({self})^{power:g}")
 
     def __neg__(self) -> "Value":
-        return Value(lambda tables: -self(tables), f"-({self})", self.asks)
+        return self.then(operator.neg, f"-({self})")
 
     def __abs__(self) -> "Value":
-        return Value(lambda tables: abs(self(tables)), f"|{self}|", self.asks)
+        return self.then(abs, f"|{self}|")
+
+    def then(self, function: Callable[[Measured], Measured], text: str) -> "Value":
+        """A function of the answer."""
+        return Value(lambda tables: function(self(tables)), text, self.asks)
 
 
 def both(a: Value | float, b: Value | float, sign: str,
@@ -91,88 +96,94 @@ def lifted(number: Value | float) -> Value:
 
 def log(value: Value) -> Value:
     """Natural logarithm."""
-    return Value(lambda tables: stats.log(value(tables)), f"ln({value})", value.asks)
+    return value.then(stats.log, f"ln({value})")
 
 
-def of(function: Callable[[Tables], Measured]) -> Value:
+def of(function: Answer) -> Value:
     """A question that no formula puts; the first line of the function's docstring says what it computes."""
     text = function.__doc__ or function.__name__
     return Value(function, text.strip().splitlines()[0])
 
 
+#: which of several numbers counts; its name is part of the formula
 Choice = Callable[[Sequence[Measured]], Measured]
+
+
+def largest(values: Sequence[Measured]) -> Measured:
+    """The largest value with the largest error."""
+    return Measured(max(one.value for one in values), max(one.err for one in values))
+
+
+def farthest_from(centre: float) -> Choice:
+    """The value farthest from a number, with its own error."""
+    def farthest(values: Sequence[Measured]) -> Measured:
+        return max(values, key=lambda one: abs(one.value - centre))
+    farthest.__name__ = f"farthest from {centre:g}"
+    return farthest
 
 
 def largest_of(*values: Value) -> Value:
     """The largest of several, with the largest error among them."""
-    return one_of("largest", largest_measured, values)
+    return one_of(largest, values)
 
 
 def farthest_of(*values: Value, centre: float = 1.0) -> Value:
     """The one of several that is farthest from `centre`, with its own error."""
-    return one_of(f"farthest from {centre:g}", partial(farthest_measured, centre=centre), values)
+    return one_of(farthest_from(centre), values)
 
 
 def largest_per(columns: str | Sequence[str], value: Value) -> Value:
     """The largest of what a question gives for each value of some columns, with the largest error."""
-    return one_per("largest", largest_measured, columns, value)
+    return one_per(largest, columns, value)
 
 
 def farthest_per(columns: str | Sequence[str], value: Value, centre: float = 1.0) -> Value:
     """That farthest from `centre` of what a question gives for each value of some columns, with its error."""
-    return one_per(f"farthest from {centre:g}", partial(farthest_measured, centre=centre), columns, value)
+    return one_per(farthest_from(centre), columns, value)
 
 
-def one_of(words: str, choice: Choice, values: Sequence[Value]) -> Value:
+def one_of(choice: Choice, values: Sequence[Value]) -> Value:
     """The answer to one of several questions."""
     def answer(tables: Tables) -> Measured:
         return choice([value(tables) for value in values])
+    texts = "; ".join(map(str, values))
     asks = tuple(asked for value in values for asked in value.asks)
-    return Value(answer, f"{words} of {'; '.join(map(str, values))}", asks)
+    return Value(answer, f"{choice.__name__} of {texts}", asks)
 
 
-def one_per(words: str, choice: Choice, columns: str | Sequence[str], value: Value) -> Value:
+def one_per(choice: Choice, columns: str | Sequence[str], value: Value) -> Value:
     """The answer to a question put for one value of some columns."""
     def answer(tables: Tables) -> Measured:
-        return choice(list(each(columns, value, tables)))
-    return Value(answer, f"{words}, for each {columns}, of {value}", value.asks)
+        return choice(each(columns, value, tables))
+    return Value(answer, f"{choice.__name__}, for each {columns}, of {value}", value.asks)
 
 
-def each(columns: str | Sequence[str], value: Value, tables: Tables) -> Iterator[Measured]:
+def each(columns: str | Sequence[str], value: Value, tables: Tables) -> list[Measured]:
     """What a question gives for each value of some columns of its first table, but where rows are missing.
 
     Raises CannotTell: None has all of its rows.
     """
     by = [columns] if isinstance(columns, str) else list(columns)
-    if not value.asks:
-        raise WrongQuestion(f"{value} puts no formula to rows: no other is put for each {columns}")
-    first, answered = value.asks[0].rows, False
+    first = value.asks[0].rows
     frame = first(tables)
     check_columns(first.table, frame.columns, by)
+    answers, missing = [], None
     for key, _ in frame.groupby(by):
+        where = dict(zip(by, key))
         try:
-            yield value(narrowed(tables, value, dict(zip(by, key, strict=True))))
-            answered = True
+            answers.append(value(narrowed(tables, value, where)))
         except NoRows as error:
             missing = error
-    if not answered:
+    if missing and not answers:
         raise missing
+    return answers
 
 
 def narrowed(tables: Tables, value: Value, where: dict[str, Any]) -> Tables:
     """Tables in which those of a question have only the rows that are meant."""
-    names = {asked.rows.table for asked in value.asks} & set(tables)
-    return Tables({**tables, **{name: rows(tables, name, need=0, **where) for name in names}})
-
-
-def largest_measured(values: Sequence[Measured]) -> Measured:
-    """The largest value with the largest error."""
-    return Measured(max(one.value for one in values), max(one.err for one in values))
-
-
-def farthest_measured(values: Sequence[Measured], centre: float) -> Measured:
-    """The value farthest from a number, with its own error."""
-    return max(values, key=lambda one: abs(one.value - centre))
+    names = {asked.rows.table for asked in value.asks}
+    chosen = {name: rows(tables, name, need=0, **where) for name in names & set(tables)}
+    return Tables({**tables, **chosen})
 
 
 def check(value: Value, tables: Sequence[Table]) -> None:
@@ -185,6 +196,6 @@ def check(value: Value, tables: Sequence[Table]) -> None:
         table = asked.rows.table
         if table not in columns:
             raise WrongQuestion(f"no table {table}: the study has {', '.join(columns)}")
-        used = asked.rows.columns.union(names(asked.value), names(asked.err), names(asked.by))
-        check_columns(table, columns[table], used)
-        error_of(asked.value, asked.err, table, columns[table])
+        there, formulas = columns[table], (asked.value, asked.err, asked.by)
+        check_columns(table, there, asked.rows.columns.union(*map(names, formulas)))
+        error_of(asked.value, asked.err, table, there)

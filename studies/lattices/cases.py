@@ -9,40 +9,68 @@ import pandas as pd
 from continuum.fluid import IdealGas, VanDerWaals
 from particles.weights import Lucy, Monaghan, Weight, WendlandC2, WendlandC4
 from studies.kit.case import Case
-from studies.kit.stats import CannotTell, over_seeds
+from studies.kit.stats import over_seeds
 from studies.kit.table import Rows, Table, Tables
 from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Onset
 from studies.lattices.frozen_flow import Freezing
 from studies.lattices.molecules import METHODS, Fate, Reversal, Twins
 from studies.lattices.sound import Ringing, Speed
 
+Numbers = tuple[float, ...]
+Seeds = tuple[int, ...]
+
 WEIGHTS: tuple[type[Weight], ...] = (Lucy, Monaghan, WendlandC2)
 HEXAGONAL = Crystal(lattice=LATTICES["hexagonal"], cells=(14, 8), weight=Lucy, h=3.0, eos=IdealGas())
 SQUARE = replace(HEXAGONAL, lattice=LATTICES["square"], cells=(15, 15))
 #: a van der Waals fluid on a hexagonal lattice that an ideal gas would keep
 COLD = replace(HEXAGONAL, h=2.5, eos=VanDerWaals())
+COLD_STATES = ((0.1, 1.0), (0.15, 1.0), (0.2, 1.0), (0.15, 1.2), (0.2, 1.2))     # T, rho
+COLD_WEIGHTS = ((Lucy, 2.5), (WendlandC2, 2.5), (WendlandC4, 3.0))      # and h
 #: (crystal, weight, stable range, unstable range)
-UNSTABLE_RANGES = ((HEXAGONAL, Monaghan, 2.2, 2.6), (HEXAGONAL, Lucy, 2.6, 2.8),
-                   (HEXAGONAL, WendlandC2, 2.8, 3.0), (SQUARE, Monaghan, 2.4, 2.6))
+UNSTABLE_RANGES = (
+    (HEXAGONAL, Monaghan, 2.2, 2.6),
+    (HEXAGONAL, Lucy, 2.6, 2.8),
+    (HEXAGONAL, WendlandC2, 2.8, 3.0),
+    (SQUARE, Monaghan, 2.4, 2.6),
+)
 WAVE = Ringing(lattice=LATTICES["square"], weight=Lucy, length=64)
 #: waves of many lengths on lattices that melt
-LENGTHS = ((WAVE, (48, 56, 64, 72, 80)), (replace(WAVE, weight=Monaghan), (36, 40, 44, 48, 52)),
+LENGTHS = ((WAVE, (48, 56, 64, 72, 80)),
+           (replace(WAVE, weight=Monaghan), (36, 40, 44, 48, 52)),
            (replace(WAVE, lattice=LATTICES["hexagonal"]), (192, 224, 256, 288)))
 #: lattices that keep a wave
-KEPT = (replace(WAVE, h=2.5, length=128), replace(WAVE, weight=WendlandC2, length=128))
+KEPT = (replace(WAVE, h=2.5, length=128),
+        replace(WAVE, weight=WendlandC2, length=128))
+SEEDS = (1, 2, 3)
 
 
 def cases(size: str) -> list[Case]:
     """All of them; `quick` is for trying the path out."""
-    if size == "quick":
-        wave, _ = LENGTHS[1]
-        return [*list(growth())[::5], *list(onsets())[::9], *fates((3.0,), (1,)),
-                *molecules((5.0, 20.0), 5, (1,)), *speeds(),
-                *(replace(wave, length=L) for L in (40, 44, 48))]
-    return [*growth(), *onsets(),
-            *fates((2.0, 2.4, 2.8, 3.0, 3.4, 4.0), (1, 2)), *fates((3.0,), (3, 4, 5, 6)),
-            *freezing(), *molecules((5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 100.0), 15, (1, 2)),
-            *speeds(), *ringing()]
+    chosen = quick if size == "quick" else paper
+    return list(chosen())
+
+
+def quick() -> Iterator[Case]:
+    """A few of each kind."""
+    yield from list(growth())[::5]
+    yield from list(onsets())[::9]
+    yield from fates((3.0,), (1,))
+    yield from molecules((5.0, 20.0), 5, (1,))
+    yield from speeds()
+    wave, _ = LENGTHS[1]
+    yield from (replace(wave, length=L) for L in (40, 44, 48))
+
+
+def paper() -> Iterator[Case]:
+    """All seeds."""
+    yield from growth()
+    yield from onsets()
+    yield from fates((2.0, 2.4, 2.8, 3.0, 3.4, 4.0), (1, 2))
+    yield from fates((3.0,), (3, 4, 5, 6))
+    yield from freezing()
+    yield from molecules((5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 100.0), 15, (1, 2))
+    yield from speeds()
+    yield from ringing()
 
 
 def growth() -> Iterator[Case]:
@@ -51,7 +79,7 @@ def growth() -> Iterator[Case]:
         yield LatticeGrowth(crystal=replace(crystal, weight=weight))
     for h in (2.6, 2.8):
         yield LatticeGrowth(crystal=replace(HEXAGONAL, weight=Monaghan, h=h))
-    for T, rho in ((0.1, 1.0), (0.15, 1.0), (0.2, 1.0), (0.15, 1.2), (0.2, 1.2)):
+    for T, rho in COLD_STATES:
         yield LatticeGrowth(crystal=replace(COLD, T=T, rho=rho))
 
 
@@ -59,12 +87,12 @@ def onsets() -> Iterator[Case]:
     """In the range of the weight, and in the temperature of van der Waals fluids."""
     for crystal, weight, stable, unstable in UNSTABLE_RANGES:
         yield Onset(crystal=replace(crystal, weight=weight), parameter="h", stable=stable, unstable=unstable)
-    for (kind, h), rho in product(((Lucy, 2.5), (WendlandC2, 2.5), (WendlandC4, 3.0)), (1.0, 1.2)):
+    for (kind, h), rho in product(COLD_WEIGHTS, (1.0, 1.2)):
         crystal = replace(COLD, weight=kind, h=h, rho=rho)
         yield Onset(crystal=crystal, parameter="T", stable=0.4, unstable=0.15)
 
 
-def fates(ranges: tuple[float, ...], seeds: tuple[int, ...]) -> Iterator[Case]:
+def fates(ranges: Numbers, seeds: Seeds) -> Iterator[Case]:
     """One a site or two?"""
     for weight, h, seed in product(WEIGHTS, ranges, seeds):
         yield Fate(weight=weight, h=h, seed=seed)
@@ -72,12 +100,12 @@ def fates(ranges: tuple[float, ...], seeds: tuple[int, ...]) -> Iterator[Case]:
 
 def freezing() -> Iterator[Case]:
     """The gas of Fig. 4 with both weights; with shorter steps, too."""
-    for weight, seed in product((Lucy, Monaghan), (1, 2, 3)):
+    for weight, seed in product((Lucy, Monaghan), SEEDS):
         yield Freezing(weight=weight, seed=seed)
     yield Freezing(weight=Lucy, step=0.25)
 
 
-def molecules(times: tuple[float, ...], samples: int, seeds: tuple[int, ...]) -> Iterator[Case]:
+def molecules(times: Numbers, samples: int, seeds: Seeds) -> Iterator[Case]:
     """Paths of molecules, and back."""
     yield Twins(weight=Lucy, samples=samples)
     for (name, integrator), seed in product(METHODS.items(), seeds):
@@ -93,42 +121,37 @@ def speeds() -> Iterator[Case]:
 def ringing() -> Iterator[Case]:
     """Waves of many lengths, each rounded off in three ways."""
     for wave, lengths in LENGTHS:
-        yield from (replace(wave, length=L, seed=seed) for L, seed in product(lengths, (1, 2, 3)))
+        for L, seed in product(lengths, SEEDS):
+            yield replace(wave, length=L, seed=seed)
     yield from KEPT
 
 
-CRYSTAL = ["lattice", "weight", "h", "eos", "T", "rho"]
-RATES = ["predicted", "measured", "measured_err"]
+CRYSTAL = "lattice weight h eos T rho"
+RATES = "predicted measured measured_err"
 #: rate of the fastest growing motion: by lattice sums, and measured
-GROWTH = Table("growth", key=CRYSTAL, columns=[*CRYSTAL, *RATES])
+GROWTH = Table.of("growth", CRYSTAL, RATES)
 #: value of a parameter (h or T, its own column is then 0) at which motions begin to grow
-ONSETS = Table("onsets", key=[*CRYSTAL, "parameter", "seed"], columns=[*CRYSTAL, "parameter", "seed", *RATES])
+ONSETS = Table.of("onsets", f"{CRYSTAL} parameter seed", RATES)
 #: part of the particles that share a site
-FATES = Table("fates", key=["weight", "h", "seed"], columns=["weight", "h", "seed", "shared"])
-#: step: over that of other studies
-LAYER = ["weight", "seed", "step"]
+FATES = Table.of("fates", "weight h seed", "shared")
 #: K of the mean flow over that of the grid's smoothed field, fluctuation of distances of neighbours over
-#: their mean, at pressures P; nothing where a run diverged
-FREEZING = Table("freezing", key=[*LAYER, "P"],
-                 columns=[*LAYER, "P", "flow", "flow_err", "lindemann"])
+#: their mean, at pressures P; nothing where a run diverged; step: over that of other studies
+FREEZING = Table.of("freezing", "weight seed step P", "flow flow_err lindemann")
 #: P at which K of the mean flow falls below a tenth; K of the grid, and P at which 2 K is 2 P w(0), 2 P
 #: [w(0.9) - w(1)]
-FREEZING_LIMITS = Table("freezing_limits", key=LAYER,
-                        columns=[*LAYER, "measured", "measured_err", "K", "barrier", "melting"])
+FREEZING_LIMITS = Table.of("freezing_limits", "weight seed step", "measured measured_err K barrier melting")
 #: rms distance of places of the same path by smooth particles and as molecules
-TWINS = Table("twins", key=["weight", "seed", "time"], columns=["weight", "seed", "time", "apart"])
+TWINS = Table.of("twins", "weight seed time", "apart")
 #: rms distance from the start, and part of the coordinates that are it to the last bit, after so much time
 #: there and back
-REVERSAL = Table("reversal", key=["integrator", "weight", "seed", "time"],
-                 columns=["integrator", "weight", "seed", "time", "apart", "equal"])
+REVERSAL = Table.of("reversal", "integrator weight seed time", "apart equal")
 #: speed of the longest waves along x over the fluid's
-SPEEDS = Table("sound_speeds", key=["lattice", "weight"], columns=["lattice", "weight", "speed"])
-SOUND = ["lattice", "weight", "h", "length", "seed"]
+SPEEDS = Table.of("sound_speeds", "lattice weight", "speed")
 #: rms velocities when the wave has rung: wave: of the exact wave; foretold, across: along y, where the wave
 #: has none, by linear theory from round-off and measured
-RINGING = Table("ringing", key=SOUND, columns=[*SOUND, "wave", "foretold", "across"])
+RINGING = Table.of("ringing", "lattice weight h length seed", "wave foretold across")
 #: length of the wave from which what grows is as fast as the wave when it has rung, over seeds
-LOST = Table("ringing_lost", key=["lattice", "weight"], columns=["lattice", "weight", "seeds", *RATES])
+LOST = Table.of("ringing_lost", "lattice weight", f"seeds {RATES}")
 
 TABLES = (GROWTH, ONSETS, FATES, FREEZING, FREEZING_LIMITS, TWINS, REVERSAL, SPEEDS, RINGING, LOST)
 
@@ -137,27 +160,26 @@ def derive(tables: Tables) -> Rows:
     """Where waves are lost, of the lattices and weights of which many lengths ring."""
     if "ringing" not in tables:
         return {}
-    rows = tables["ringing"].query("h == 3").groupby(["lattice", "weight", "seed"])
-    predicted, measured = rows.apply(crossing, "foretold"), rows.apply(crossing, "across")
-    crossings = pd.DataFrame({"predicted": predicted, "measured": measured})
+    runs = tables["ringing"].query("h == 3").groupby(["lattice", "weight", "seed"])
+    columns = {"predicted": runs.apply(crossing, "foretold"), "measured": runs.apply(crossing, "across")}
+    crossings = pd.DataFrame(columns).dropna()
     lost = []
-    for (lattice, weight), lengths in crossings.dropna().groupby(["lattice", "weight"]):
-        try:
-            length = over_seeds(lengths["measured"])
-        except CannotTell:
-            continue
-        key = {"lattice": lattice, "weight": weight, "seeds": len(lengths)}
-        lost.append({**key, "predicted": lengths["predicted"].mean(), "measured": length.value,
-                     "measured_err": length.err})
+    for (lattice, weight), lengths in crossings.groupby(["lattice", "weight"]):
+        if len(lengths) > 1:        # one seed has no error
+            length, err = over_seeds(lengths.measured)
+            row = {"lattice": lattice, "weight": weight, "seeds": len(lengths)}
+            row |= {"predicted": lengths.predicted.mean(), "measured": length, "measured_err": err}
+            lost.append(row)
     return {"ringing_lost": lost}
 
 
 def crossing(rows: pd.DataFrame, name: str) -> float:
     """Length at which a velocity passes that of the wave, its logarithm interpolated; nan if it does not."""
     rows = rows.sort_values("length")
-    ratio = np.log(rows[name].to_numpy()/rows["wave"].to_numpy())
+    lengths = rows.length.to_numpy(float)
+    ratio = np.log(rows[name].to_numpy()/rows.wave.to_numpy())
     i = int(np.argmax(ratio > 0))
     if not i:
         return np.nan
     beside = slice(i - 1, i + 1)
-    return float(np.interp(0.0, ratio[beside], rows["length"].to_numpy(float)[beside]))
+    return float(np.interp(0.0, ratio[beside], lengths[beside]))

@@ -5,12 +5,17 @@ Units: spacing 1, rho = T = 1, ideal gas, C_V = 1.
 from collections.abc import Iterator
 from itertools import product
 
-from particles.dissipative.integrators import GrootWarren, GrootWarren65, Shardlow, VelocityVerlet
+from particles.dissipative.integrators import (
+    GrootWarren,
+    GrootWarren65,
+    KickDriftFrictionDriftKick,
+    Shardlow,
+    VelocityVerlet,
+)
 from particles.integral.covariance import STEPS as INTEGRATORS
 from particles.integral.edge_makers import MAKERS, delaunay, renormalised
-from particles.integral.splitting import KickDriftFrictionDriftKick
 from particles.integrators import TwoStep
-from studies.build.disorder import DISORDERS
+from studies.build.setting import DISORDERS
 from studies.kit.case import Case
 from studies.noise import dissipative, partners
 from studies.noise.below_onset import DECAYS, BelowOnset, LayerSampled

@@ -10,7 +10,7 @@ from scipy.special import stdtrit
 from particles.integral.edge_makers import delaunay, renormalised
 from particles.integral.points import Points, lattice
 from particles.weights import Lucy
-from studies.build.disorder import DISORDERS, Disorder
+from studies.build.setting import DISORDERS, Disorder
 from studies.kit.case import Case, Outcome, Report
 from studies.noise.partners import (
     ETA,

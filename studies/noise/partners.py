@@ -19,7 +19,7 @@ from particles.integral.edges import Edges
 from particles.integral.fluctuating import Partners, mismatch
 from particles.integral.points import lattice, random
 from particles.weights import Lucy, WendlandC2
-from studies.build.disorder import Disorder
+from studies.build.setting import Disorder
 from studies.kit.case import Case, Outcome, Report
 
 ETA, ZETA, KAPPA = 0.3, 0.1, 0.4

@@ -123,7 +123,7 @@ class Nonlinear(Case):
                          k=self.k, seed=self.seed)
         one, V = np.ones(edges.n), edges.V
         start = method.state(one, np.zeros((edges.n, 2)), one)
-        check_length(jacobian(method.dih.rates, start), self.time)
+        check_length(jacobian(method.rates, start), self.time)
         dt = 0.6*limit_of(method, start)
         steps = int(np.ceil(self.time/dt/5))*5
         means = {"squares": lambda sums, state: V@squares(sums.dih.flow(state))}

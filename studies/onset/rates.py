@@ -17,6 +17,7 @@ from continuum.gas.fields import block, initial
 from continuum.gas.loop import FluxForm, box_of, rates
 from continuum.linear.layer import DEGREE, PlateKind, critical, critical_ra, growth_rate
 from continuum.pypde.gas import Gas
+from continuum.pypde.march import rate
 from continuum.scene import RayleighBenard, Walls
 from studies.build.names import scene_columns
 from studies.kit.case import Case, Outcome, Report
@@ -32,7 +33,6 @@ class RollGrid(NamedTuple):
 
     wave : cos or sin(kx) of each field at its points (fields, columns). moves : which rows do (fields, rows).
     """
-
     rate: Callable[[np.ndarray], np.ndarray]
     rest: np.ndarray
     wave: np.ndarray
@@ -82,14 +82,14 @@ def compressible_rolls(scene: RayleighBenard, rows: int) -> RollGrid:
 def pypde_rolls(scene: RayleighBenard, rows: int) -> RollGrid:
     """py-pde's grid, rho, v and e of the gas."""
     gas = Gas(scene, rows)
-    rate, rest = gas.make_evolution_rate(None, None), gas.rolls(0.0)
+    rest = gas.rolls(0.0)
     k = 2*np.pi/gas.grid_box[0]
     at = np.array([k*gas.points(field)[0][1:-1] for field in range(4)])
     wave = np.cos(at)
     wave[1] = np.sin(at[1])
     moves = np.ones((4, rest.shape[2]), bool)
     moves[2, -1] = False        # v_y on the upper plate
-    return RollGrid(lambda data: rate(data, 0.0), rest, wave, moves)
+    return RollGrid(lambda data: rate(gas.loop, data), rest, wave, moves)
 
 
 def compressible(scene: RayleighBenard, rows: int) -> tuple[float, float]:
@@ -127,7 +127,6 @@ def weakest(at: dict[str, Any], way: str, sigma: float, err: float) -> dict[str,
 @dataclass(frozen=True, kw_only=True)
 class LinearTheory(Case):
     """Critical Rayleigh numbers, each with what fewer trial functions change, and growth rates."""
-
     ras: tuple[float, ...]
     pr: float
 
@@ -153,7 +152,6 @@ class LinearTheory(Case):
 @dataclass(frozen=True, kw_only=True)
 class GridGrowth(Case):
     """Growth rates of a grid's own rates at some Ra. solver : one of the above, `method` its name."""
-
     method: str
     solver: Solver
     scene: RayleighBenard

@@ -22,13 +22,13 @@ from studies.onset.rates import compressible, point
 SAMPLES = 200
 BAND = 2.0      # a growth rate counts while the amplitude is within this factor of its first
 #: lines of K: the largest share 1 - sqrt(Ra_c/Ra) -> shares of the points; 0.5 is KHP95's four times Ra_c
-LINES = {0.5: (0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5), 0.1: (0.02, 0.04, 0.06, 0.08, 0.1),
+LINES = {0.5: (0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5),
+         0.1: (0.02, 0.04, 0.06, 0.08, 0.1),
          0.02: (0.005, 0.01, 0.015, 0.02)}
 
 
 class History(NamedTuple):
     """Amplitude of the rolls (of v_y, for the printed rolls) at times in free-fall units."""
-
     t: np.ndarray
     amplitude: np.ndarray
 
@@ -52,7 +52,6 @@ class History(NamedTuple):
 @dataclass(frozen=True, kw_only=True)
 class RollRun(Case):
     """Growth rate of rolls of kinetic energy `ke` in a run, after `after` free-fall times."""
-
     scene: RayleighBenard
     ke: float
     after: float = 2.0
@@ -76,7 +75,6 @@ class RollRun(Case):
 @dataclass(frozen=True, kw_only=True)
 class GrowthRun(RollRun):
     """On KHP95's grid."""
-
     rows: int
 
     @property
@@ -97,7 +95,6 @@ class GrowthRun(RollRun):
 @dataclass(frozen=True)
 class RollOf:
     """Amplitude of v_y along cos or sin(2 pi x/width) cos(pi y/height), from the particles."""
-
     wave: Callable
 
     def __call__(self, sums: Any, state: np.ndarray) -> float:
@@ -110,7 +107,6 @@ class RollOf:
 @dataclass(frozen=True, kw_only=True)
 class SpamGrowth(RollRun):
     """Among particles; the scene has L = rows of particles."""
-
     variant: Variant = PRINTED
     seed: int = 1
 
@@ -142,7 +138,6 @@ class SpamGrowth(RollRun):
 @dataclass(frozen=True, kw_only=True)
 class OnsetEnergies(Case):
     """Steady K of the gas on one grid where 1 - sqrt(Ra_c/Ra), with the grid's own Ra_c, has some values."""
-
     scene: RayleighBenard
     rows: int
     shares: tuple[float, ...]

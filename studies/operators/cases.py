@@ -16,7 +16,7 @@ from particles.integral.dih import NestedFluxes, Pairwise
 from particles.integral.edge_makers import MAKERS, delaunay, exact, renormalised
 from particles.integral.interpolants import Exponential, Gaussian
 from particles.weights import WEIGHTS, Lucy, WendlandC2
-from studies.build.disorder import DISORDERS
+from studies.build.setting import DISORDERS
 from studies.kit.case import Case
 from studies.operators.equations import EquationErrors, of_dilation, of_rotation, of_volumes
 from studies.operators.integrals import Arithmetic, Continuum, of_weights

@@ -16,8 +16,8 @@ from particles.integral.edges import Edges
 from particles.integral.points import Points, lattice
 from particles.threads import Team
 from particles.weights import WendlandC2
-from studies.build.disorder import Disorder
 from studies.build.fixed import SCHEMES, fluid
+from studies.build.setting import Disorder
 from studies.kit.case import Case, Outcome, Report
 from studies.operators.equations import rates
 

@@ -21,9 +21,9 @@ from continuum.exact.waves import LinearGas, Waves, continuum, quantities
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.bodies import held, together, with_plates
 from particles.integral.dih import Dih, NestedFluxes, Pairwise
-from particles.integral.driven import Driven
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges, between_plates
+from particles.integral.layer import Driven
 from particles.integral.points import Points, jittered, lattice
 from particles.integral.stream import Stream
 from particles.integral.triangulation import between, delaunay
@@ -32,7 +32,7 @@ from particles.limits import limit_of
 from particles.run import Plan, run
 from particles.threads import Team
 from particles.weights import Lucy
-from studies.build.disorder import Disorder
+from studies.build.setting import Disorder
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
 

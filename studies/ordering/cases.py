@@ -9,8 +9,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 
 from particles.integral.edge_makers import MAKERS
-from studies.build.disorder import DISORDERS
 from studies.build.fixed import SCHEMES
+from studies.build.setting import DISORDERS
 from studies.kit.case import Case
 from studies.ordering.runs import (
     GradientForms,

@@ -16,9 +16,9 @@ MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
 RANGES = (1.2, 2, 3, 4, 6)
 SIZES = (16, 24, 32, 48, 64)
 NAMES = {"taylor-green": "Taylor-Green, velocity", "convection": "Rayleigh-Benard, $|K/K_{grid} - 1|$"}
-LENGTHS = {"taylor-green": r"\lambda", "convection": "L"}
-#: on irregular points; a triangulation has no range
-MADE = (("delaunay", 0.0), ("exact", 3.0), ("closed", 3.0), ("renormalised", 3.0))
+LENGTHS = {"taylor-green": r"$\lambda", "convection": "$L"}
+#: makers on irregular points, h = 3 a, but a triangulation has no range
+MADE = ("delaunay", "exact", "closed", "renormalised")
 
 
 def logarithmic(axes: Axes, ticks: Iterable[float]) -> None:
@@ -31,7 +31,8 @@ def logarithmic(axes: Axes, ticks: Iterable[float]) -> None:
 def bars(axes: Axes, group: pd.DataFrame, x: str, y: str, number: int, label: str) -> None:
     """A curve with its errors."""
     group = group.sort_values(x)
-    errorbar(axes, *group[[x, y, f"{y}_err"]].to_numpy().T, number=number, linestyle="-", label=label)
+    err = group[f"{y}_err"]
+    errorbar(axes, group[x], group[y], err, number=number, linestyle="-", label=label)
 
 
 # --- waves --------------------------------------------------------------------------------------------------
@@ -39,28 +40,30 @@ def bars(axes: Axes, group: pd.DataFrame, x: str, y: str, number: int, label: st
 
 def surface(means: pd.DataFrame) -> Figure | None:
     """Errors of gradient and Laplacian of waves over the range of the weight: must a < r0 < lambda hold?"""
-    rows = means[means["maker"] == "renormalised"]
-    kinds = [kind for kind in KINDS if kind in set(rows["points"])]
+    rows = means.query("maker == 'renormalised'")
+    kinds = [kind for kind in KINDS if kind in set(rows.points)]
     if not kinds:
         return None
     page, panels = figure(2, len(kinds), width=2.4, height=3.0, sharex=True, sharey="row", squeeze=False)
-    wavelengths = sorted(set(rows["wavelength"]))
+    upper, lower = panels
+    wavelengths = sorted(set(rows.wavelength))
     curves = {}
-    for line, operator in zip(panels, ("gradient", "laplacian"), strict=True):
-        for axes, kind in zip(line, kinds, strict=True):
-            for wavelength, group in rows[rows["points"] == kind].groupby("wavelength"):
+    for line, operator in ((upper, "gradient"), (lower, "laplacian")):
+        for axes, kind in zip(line, kinds):
+            of_kind = rows[rows.points == kind]
+            for wavelength, group in of_kind.groupby("wavelength"):
                 number = wavelengths.index(wavelength)
                 bars(axes, group, "h", operator, number, rf"$\lambda$ = {wavelength} $a$")
                 curves[number] = axes.containers[-1]
             logarithmic(axes, RANGES)
-    for axes, kind in zip(panels[0], kinds, strict=True):
+    for axes, kind in zip(upper, kinds):
         axes.set_title(kind)
-    for axes in panels[1]:
+    for axes in lower:
         axes.set_xlabel("range $h/a$")
-    panels[0, 0].set_ylabel("relative rms error of grad")
-    panels[1, 0].set_ylabel("relative rms error of Laplacian")
-    page.legend(handles=[curves[number] for number in sorted(curves)], loc="outside lower center",
-                ncols=len(curves))
+    upper[0].set_ylabel("relative rms error of grad")
+    lower[0].set_ylabel("relative rms error of Laplacian")
+    handles = [curve for _, curve in sorted(curves.items())]
+    page.legend(handles=handles, loc="outside lower center", ncols=len(curves))
     page.suptitle("Must $a < r_0 < \\lambda$ hold?  Lucy's weight, renormalised; bars: 95 % over point sets",
                   fontsize=10)
     return page
@@ -69,11 +72,11 @@ def surface(means: pd.DataFrame) -> Figure | None:
 def makers(means: pd.DataFrame) -> Figure:
     """Errors of the gradient with all makers of edges as points get finer: a lattice and jittered points."""
     page, panels = figure(1, 2, width=4.2, height=4.2, sharey=True)
-    for axes, kind in zip(panels, ("lattice", "jittered-0.3"), strict=True):
-        rows = means[(means["points"] == kind) & means["h"].isin([2.0, 3.0])]
+    means = means.query("h in (2, 3)")
+    for axes, kind in zip(panels, ("lattice", "jittered-0.3")):
+        rows = means[means.points == kind]
         for number, maker in enumerate(MAKERS):
-            group = rows[rows["maker"] == maker]
-            group = group[group["h"] == group["h"].max()]       # triangles are the same for all
+            group = rows[rows.maker == maker].query("h == h.max()")     # triangles are the same for all
             if len(group):
                 label = maker + ", $h = 3a$"*(maker != "delaunay")
                 bars(axes, group, "wavelength", "gradient", number, label)
@@ -89,31 +92,38 @@ def makers(means: pd.DataFrame) -> Figure:
 # --- flows --------------------------------------------------------------------------------------------------
 
 
+def curves(axes: Axes, rows: pd.DataFrame, by: str, x: str, label: str) -> None:
+    """One for each value of a column, which completes the label."""
+    for number, (value, group) in enumerate(rows.groupby(by)):
+        curve(axes, group, x, number, label.format(value))
+
+
 def curve(axes: Axes, rows: pd.DataFrame, x: str, number: int, label: str) -> None:
     """Sizes of errors over x, hollow where negative; the label says how many points lost a seed."""
     if rows.empty:
         return
-    known = rows[(rows["lost"] == 0) & rows["error"].notna()]
+    known = rows.query("lost == 0").dropna(subset="error")
     missing = len(rows) - len(known)
     label += f" (lost: {missing} of {len(rows)})" if missing else ""
-    bars(axes, known.assign(error=known["error"].abs()), x, "error", number, label)
-    low = known[known["error"] < 0]
-    style = {**look(number), "linestyle": "none"}
-    axes.plot(low[x], -low["error"], **style, markerfacecolor="white", zorder=5)
+    sizes = known.assign(error=known.error.abs())
+    bars(axes, sizes, x, "error", number, label)
+    low = known.query("error < 0")
+    style = look(number) | {"linestyle": "none", "markerfacecolor": "white"}
+    axes.plot(low[x], -low.error, **style, zorder=5)
 
 
 def over_range(flows: pd.DataFrame) -> Figure:
     """Errors of whole flows over the range of the weight on a lattice: must a < r0 hold?"""
     page, panels = figure(1, 2, width=4.2, height=4.2)
-    for axes, flow in zip(panels, NAMES, strict=True):
-        rows = flows[(flows["flow"] == flow) & (flows["points"] == "lattice")]
-        for number, (size, group) in enumerate(rows.groupby("resolution")):
-            curve(axes, group, "h", number, rf"${LENGTHS[flow]}$ = {size:g} $a$")
-        finish(axes, sorted(set(rows["h"])), "range $h/a$", NAMES[flow])
+    lattices = flows.query("points == 'lattice'")
+    for axes, flow in zip(panels, NAMES):
+        rows = lattices[lattices.flow == flow]
+        curves(axes, rows, "resolution", "h", LENGTHS[flow] + "$ = {:g} $a$")
+        finish(axes, sorted(set(rows.h)), "range $h/a$", NAMES[flow])
         left, _ = axes.get_xlim()
         axes.axvspan(left, 1/WIDTH, color="0.9", zorder=0, label="$r_0 < a$")
         axes.set_xlim(left=left)
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)
+        below(axes, bbox_to_anchor=(0.5, -0.15), ncols=2)
     panels[0].set_ylabel("relative error")
     page.suptitle("Must $a < r_0$ hold?  Lucy's weight, renormalised, on a lattice; dotted: 1 %, "
                   "hollow: K too low", fontsize=10)
@@ -123,22 +133,22 @@ def over_range(flows: pd.DataFrame) -> Figure:
 def over_points(flows: pd.DataFrame) -> Figure:
     """Errors of whole flows over the points of a wavelength or height: lattices and irregular points."""
     page, panels = figure(2, 3, width=3.9, height=4.1)
-    first, jittered, random, relaxed, layer, irregular = panels.ravel()
-    for axes, flow, ticks in ((first, "taylor-green", SIZES), (layer, "convection", ROWS[:4])):
-        rows = flows[(flows["flow"] == flow) & (flows["points"] == "lattice")]
-        for number, (h, group) in enumerate(rows.groupby("h")):
-            curve(axes, group, "resolution", number, f"$h = {h:g} a$")
-        decorate(axes, flow, "lattice", ticks)
-    for axes, kind in zip((jittered, random, relaxed), IRREGULAR, strict=True):
-        rows = flows[(flows["flow"] == "taylor-green") & (flows["points"] == kind)]
-        for number, (maker, h) in enumerate(MADE):
-            group = rows[(rows["maker"] == maker) & (rows["h"] == h)]
-            curve(axes, group, "resolution", number, maker + (f", {h:g} $a$" if h else ""))
+    first, *others, layer, irregular = panels.ravel()
+    vortices = flows.query("flow == 'taylor-green'")
+    layers = flows.query("flow == 'convection'")
+    for axes, rows in ((first, vortices), (layer, layers)):
+        curves(axes, rows.query("points == 'lattice'"), "h", "resolution", "$h = {:g} a$")
+    decorate(first, "taylor-green", "lattice", SIZES)
+    decorate(layer, "convection", "lattice", ROWS[:4])
+    made = vortices.query("h in (0, 3)")
+    for axes, kind in zip(others, IRREGULAR):
+        rows = made[made.points == kind]
+        for number, maker in enumerate(MADE):
+            label = maker + ", 3 $a$"*(maker != "delaunay")
+            curve(axes, rows[rows.maker == maker], "resolution", number, label)
         decorate(axes, "taylor-green", kind, SIZES)
-    rows = flows[(flows["flow"] == "convection") & (flows["maker"] == "delaunay")]
-    for number, kind in enumerate(IRREGULAR):
-        group = rows[rows["points"] == kind]
-        curve(irregular, group, "resolution", number, f"{kind}, delaunay")
+    triangles = layers.query("maker == 'delaunay'")
+    curves(irregular, triangles, "points", "resolution", "{}, delaunay")
     decorate(irregular, "convection", "irregular", ROWS)
     for axes in panels[:, 0]:
         axes.set_ylabel("relative error")
@@ -151,8 +161,8 @@ def decorate(axes: Axes, flow: str, kind: str, ticks: Sequence[float]) -> None:
     """Axes, a line of second order, the legend."""
     x = np.array([ticks[0], ticks[-1]], float)
     axes.plot(x, 0.02*(ticks[0]/x)**2, color="grey", linestyle="--", marker="", label="order 2")
-    finish(axes, ticks, rf"${LENGTHS[flow]}/a$", f"{NAMES[flow]}: {kind}")
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2, fontsize=7)
+    finish(axes, ticks, LENGTHS[flow] + "/a$", f"{NAMES[flow]}: {kind}")
+    below(axes, bbox_to_anchor=(0.5, -0.15), ncols=2, fontsize=7)
 
 
 def finish(axes: Axes, ticks: Iterable[float], label: str, title: str) -> None:
@@ -162,6 +172,8 @@ def finish(axes: Axes, ticks: Iterable[float], label: str, title: str) -> None:
     logarithmic(axes, ticks)
 
 
-FIGURES = Drawings(Drawing("surface", ("means",), surface), Drawing("makers", ("means",), makers),
-                   Drawing("flows_range", ("flows",), over_range),
-                   Drawing("flows_points", ("flows",), over_points))
+FIGURES = Drawings(
+    Drawing("surface", ("means",), surface),
+    Drawing("makers", ("means",), makers),
+    Drawing("flows_range", ("flows",), over_range),
+    Drawing("flows_points", ("flows",), over_points))

@@ -17,10 +17,9 @@ from particles.integral.edges import Edges
 from particles.integral.points import Points
 from particles.integrators import RK4
 from particles.weights import Lucy
-from studies.build.disorder import BREADTH, Disorder
 from studies.build.fixed import Scheme, hard_core, settled
 from studies.build.measure import ended, followed, rolls
-from studies.build.setting import positions
+from studies.build.setting import BREADTH, Disorder, positions
 from studies.kit.case import Case, Outcome, Report
 from studies.ordering.vortex import decayed
 

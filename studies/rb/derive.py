@@ -13,20 +13,21 @@ from studies.kit.table import Rows, Tables
 from studies.rb.snapshots import field_errors, snapshots
 from studies.rb.tables import POINT, SCENE, STEP, STILL
 
+Row = dict[Any, Any]
 GRIDS = ("compressible", "boussinesq", "pypde-boussinesq", "pypde-compressible")
 SERIES = [name for name in POINT if name != "resolution"]
 ENERGIES = ["ke", "ke_field", "ke_mean", "nu"]
 HALF = "printed-half-step"
 #: columns of the finest run that an extrapolated row takes over, and sums of all
-SAME, SPENT = ("rolls", "free_fall", "converged", "threads"), ("cpu_s", "compile_s")
+SAME = ["rolls", "free_fall", "converged", "threads"]
+SPENT = ["cpu_s", "compile_s"]
 
 
 def derive(tables: Tables) -> Rows:
     """All derived rows of the study."""
     if "kinetic_energy" not in tables:
         return {}
-    runs = finite(tables["kinetic_energy"])
-    runs = runs[runs["ke"].notna()]
+    runs = finite(tables["kinetic_energy"]).dropna(subset="ke")
     limits = list(extrapolated(runs))
     all_runs = pd.concat([runs, pd.DataFrame(limits)], ignore_index=True)
     means = pd.DataFrame(over_seeds(all_runs))
@@ -44,30 +45,29 @@ def finite(frame: pd.DataFrame) -> pd.DataFrame:
     return frame[np.isfinite(frame["resolution"].astype(float))]
 
 
-def records(frame: pd.DataFrame) -> list[dict[str, Any]]:
+def records(frame: pd.DataFrame) -> list[Row]:
     """Rows of a table."""
-    return [{str(name): value for name, value in row.items()} for row in frame.to_dict("records")]
+    return frame.to_dict("records")
 
 
-def extrapolated(runs: pd.DataFrame) -> Iterator[dict[str, Any]]:
+def extrapolated(runs: pd.DataFrame) -> Iterator[Row]:
     """One row `resolution = inf` of each series of grids or points with three settled sizes or more, one
     state in all.
 
     Grids and lattices have no chance in them; of sets of points that differ each run counts by itself.
     """
-    settled = runs["converged"].astype(str).eq("True")
-    series = runs[settled & runs["method"].isin([*GRIDS, "dih"])]
-    series = series.sort_values("resolution")
+    settled = runs[runs.converged.astype(str) == "True"]
+    series = settled[settled.method.isin([*GRIDS, "dih"])].sort_values("resolution")
     for point, group in series.groupby(SERIES, dropna=False):
-        if group["resolution"].nunique() < 3 or group["rolls"].nunique() > 1:
+        if group.resolution.nunique() < 3 or group.rolls.nunique() > 1:
             continue
-        limit = grid_limit if group["resolution"].is_unique else line_limit
-        ke, nu = limit(group, "ke"), limit(group, "nu")
-        row: dict[str, Any] = dict(zip(SERIES, point, strict=True))
+        limit = grid_limit if group.resolution.is_unique else line_limit
+        nu = limit(group, "nu")
+        row: Row = dict(zip(SERIES, point))
         row |= {"resolution": np.inf, "seed": 0, "particles": 0}
-        row |= one_energy(*ke)
+        row |= one_energy(*limit(group, "ke"))
         row |= {"nu": nu.value, "nu_err": nu.err}
-        row |= {name: group[name].iloc[-1] for name in SAME}
+        row |= dict(group[SAME].iloc[-1])
         row |= {name: group[name].sum() for name in SPENT}
         yield row
 
@@ -75,8 +75,8 @@ def extrapolated(runs: pd.DataFrame) -> Iterator[dict[str, Any]]:
 def grid_limit(group: pd.DataFrame, name: str) -> Measured:
     """Extrapolated value; its error has a part of the grid and one of the values' own (in time)."""
     own = 2*group[f"{name}_err"].max()
-    limit = fits.grid_limit(group["resolution"], group[name])
-    return limit._replace(err=float(np.hypot(limit.err, own)))
+    limit = fits.grid_limit(group.resolution, group[name])
+    return limit._replace(err=np.hypot(limit.err, own))
 
 
 def line_limit(group: pd.DataFrame, name: str) -> Measured:
@@ -86,16 +86,16 @@ def line_limit(group: pd.DataFrame, name: str) -> Measured:
     K of sets of points scatters as 1/rows^2 or faster, 0.6 % to 0.04 % from 25 to 50 rows: hence weights of
     rows^2. One scatter stands for all that is left over, which three runs of one size tell badly.
     """
-    sizes = group["resolution"].to_numpy(float)
-    x, values, weight = 1/sizes**2, group[name], sizes**2
-    limit = fits.line(x, values, weight=weight).intercept
+    sizes = group.resolution.to_numpy(float)
+    limit = fits.line(1/sizes**2, group[name], weight=sizes**2).intercept
     finer = sizes > sizes.min()
-    _, without = np.polyfit(x[finer], values[finer], 1, w=weight[finer])
+    x, weight = 1/sizes[finer]**2, sizes[finer]**2
+    _, without = np.polyfit(x, group[name][finer], 1, w=weight)
     change = 2*(limit.value - without)
-    return limit._replace(err=float(np.hypot(limit.err, change)))
+    return limit._replace(err=np.hypot(limit.err, change))
 
 
-def over_seeds(runs: pd.DataFrame) -> Iterator[dict[str, Any]]:
+def over_seeds(runs: pd.DataFrame) -> Iterator[Row]:
     """Means over the seeds of each point that settled in its commonest number of rolls; grid rows pass as
     they are.
 
@@ -104,32 +104,32 @@ def over_seeds(runs: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """
     changes = step_changes(runs)
     for point, group in runs.groupby(POINT, dropna=False):
-        row: dict[str, Any] = dict(zip(POINT, point, strict=True))
-        rolls = group["rolls"].mode().iloc[0]
-        same = group[group["rolls"] == rolls]
+        row: Row = dict(zip(POINT, point))
+        rolls = group.rolls.mode().iloc[0]
+        same = group[group.rolls == rolls]
         change = step_change(changes, row)
         for name in ENERGIES:
-            pairs = zip(same[name], same[f"{name}_err"], strict=True)
+            pairs = zip(same[name], same[f"{name}_err"])
             value, err = combine(list(pairs))
-            of_step = 2*value*change[name]
-            row |= {name: value, f"{name}_err": float(np.hypot(err, of_step))}
-        row |= {"particles": same["particles"].iloc[0], "rolls": rolls}
+            row |= {name: value, f"{name}_err": np.hypot(err, 2*value*change[name])}
+        row |= {"particles": same.particles.iloc[0], "rolls": rolls}
         row |= {"seeds": len(same), "mixed": len(group) - len(same)}
-        yield row | {"ke_fluctuation": same["ke_fluctuation"].mean()}
+        yield row | {"ke_fluctuation": same.ke_fluctuation.mean()}
 
 
 def step_changes(runs: pd.DataFrame) -> pd.DataFrame:
     """How much of each energy half of the time step changes, relative, by scene and resolution."""
     by_point = [*SCENE, "resolution"]
-    half, whole = (runs[runs["variant"] == name].groupby(by_point, dropna=False)[ENERGIES].mean()
-                   for name in (HALF, "printed"))
-    return (half/whole - 1).abs().dropna().reset_index()
+    half = runs[runs.variant == HALF].groupby(by_point, dropna=False)
+    whole = runs[runs.variant == "printed"].groupby(by_point, dropna=False)
+    changes = half[ENERGIES].mean()/whole[ENERGIES].mean() - 1
+    return changes.abs().dropna().reset_index()
 
 
-def step_change(changes: pd.DataFrame, row: dict[str, Any]) -> pd.Series:
+def step_change(changes: pd.DataFrame, row: Row) -> pd.Series:
     """That of the next coarser resolution of the same fluid and box, or else of any; of particles alone."""
-    coarser = changes[changes["resolution"] <= row["resolution"]]
-    alike = coarser[(coarser["eos"] == row["eos"]) & (coarser["sides"] == row["sides"])]
+    coarser = changes[changes.resolution <= row["resolution"]]
+    alike = coarser[(coarser.eos == row["eos"]) & (coarser.sides == row["sides"])]
     chosen = coarser if alike.empty else alike
     if row["method"] != "spam" or chosen.empty:
         return pd.Series(0.0, ENERGIES)
@@ -143,13 +143,12 @@ def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> pd.DataFr
     Kp, of all particles, is compared with the grid's K; Kg, of the smoothed field, with K of the grid's field
     smoothed by the same weight: smoothing alone is no error of the flow.
     """
-    grid = means[(means["method"] == "compressible") & (means["variant"] == "flux-form")]
-    limits = grid[np.isinf(grid["resolution"]) & (grid["ke"] > STILL)]
+    grid = means.query("method == 'compressible' and variant == 'flux-form'")
+    limits = grid[np.isinf(grid.resolution) & (grid.ke > STILL)]
     limits = limits[[*SCENE, "ke", "ke_err", "nu", "nu_err", "rolls"]]
-    rows = finite(means[means["eos"] != ""])
+    rows = finite(means.query("eos != ''"))
     rows = rows.merge(limits, on=SCENE, suffixes=("", "_limit"))
-    same_flow = rows["rolls"] == rows["rolls_limit"]
-    rows = rows[(rows["method"] == "spam") | same_flow]
+    rows = rows.query("method == 'spam' or rolls == rolls_limit")
     rows = rows.merge(spent(runs, tables), on=POINT)
     rows = rows.assign(left=1.0)
     field = with_smoothing(rows, tables)
@@ -162,25 +161,26 @@ def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> pd.DataFr
 
 def compared(rows: pd.DataFrame, energy: str, column: str, limit: str) -> pd.DataFrame:
     """Rows of the table `errors`: a column against the grid's limit, of which smoothing has `left` a part."""
-    ke, ke_err = rows[column], rows[f"{column}_err"]
-    reference = rows["left"]*rows[f"{limit}_limit"]
-    reference_err = rows["left"]*rows[f"{limit}_err_limit"]
+    ke, ke_err = rows[column], rows[column + "_err"]
+    reference = rows.left*rows[limit + "_limit"]
+    reference_err = rows.left*rows[limit + "_err_limit"]
     error_err = np.hypot(ke_err, ke/reference*reference_err)/reference
-    columns = {"ke": ke, "ke_err": ke_err, "reference": reference, "reference_err": reference_err,
-               "error": ke/reference - 1, "error_err": error_err}
-    return rows[[*POINT, "particles", "cpu_s"]].assign(energy=energy, **columns)
+    return rows[[*POINT, "particles", "cpu_s"]].assign(
+        energy=energy, ke=ke, ke_err=ke_err, reference=reference, reference_err=reference_err,
+        error=ke/reference - 1, error_err=error_err)
 
 
 def with_smoothing(rows: pd.DataFrame, tables: Tables) -> pd.DataFrame:
     """Rows of particles with what their weight leaves of the K of the grid's field."""
-    spam = rows[rows["method"] == "spam"].drop(columns="left")
+    spam = rows.query("method == 'spam'").drop(columns="left")
     if "smoothed" not in tables:
         return spam[:0].assign(left=1.0)
-    views = [VARIANTS[name] for name in spam["variant"]]
+    views = [VARIANTS[name] for name in spam.variant]
     weights = [view.weight.__name__ for view in views]
-    spam = spam.assign(weight=weights, h=[view.h for view in views])
+    ranges = [view.h for view in views]
+    spam = spam.assign(weight=weights, h=ranges)
     seen = tables["smoothed"]
-    seen = seen.assign(left=seen["ke_smoothed"]/seen["ke"], resolution=seen["rows"])
+    seen = seen.assign(left=seen.ke_smoothed/seen.ke, resolution=seen.rows)
     key = [*SCENE, "weight", "h", "resolution"]
     last = seen.drop_duplicates(key, keep="last")
     return spam.merge(last[[*key, "left"]], on=key)
@@ -193,12 +193,13 @@ def spent(runs: pd.DataFrame, tables: Tables) -> pd.DataFrame:
     Steps times the seconds of one step measured alone where there is such a row, else what the run took
     beside others.
     """
-    alone = tables.get("cost", pd.DataFrame(columns=[*STEP, "step_s"]))
-    alone = alone[[*STEP, "step_s"]].astype({"resolution": float, "step_s": float})
+    columns = [*STEP, "step_s"]
+    alone = tables.get("cost", pd.DataFrame(columns=columns))
+    alone = alone[columns].astype({"resolution": float, "step_s": float})
     runs = runs.merge(alone, how="left", on=STEP)
-    runs["cpu_s"] = (runs["steps"]*runs["step_s"]).fillna(runs["cpu_s"])
-    seconds = runs.groupby(POINT, dropna=False)["cpu_s"].sum().reset_index()
-    grids = seconds["method"].isin(GRIDS)
+    runs["cpu_s"] = (runs.steps*runs.step_s).fillna(runs.cpu_s)
+    seconds = runs.groupby(POINT, dropna=False).cpu_s.sum().reset_index()
+    grids = seconds.method.isin(GRIDS)
     series = seconds[grids].groupby(SERIES, dropna=False)
-    seconds.loc[grids, "cpu_s"] = series["cpu_s"].cumsum()
+    seconds.loc[grids, "cpu_s"] = series.cpu_s.cumsum()
     return seconds

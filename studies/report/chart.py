@@ -2,7 +2,7 @@
 import math
 from typing import NamedTuple
 
-from studies.report.cost import Line, Panel, Point
+from studies.report.cost import Line, Panel
 
 WIDTH, HEIGHT = 760, 440
 LEFT, RIGHT, TOP, BOTTOM = 66, 18, 16, 50
@@ -30,31 +30,20 @@ class Scale(NamedTuple):
     @property
     def ticks(self) -> list[tuple[float, float]]:
         """(value, pixel): 1, 2, 5 of each power of ten, powers alone where these are many."""
-        powers = range(math.floor(math.log10(self.low)), math.ceil(math.log10(self.high)) + 1)
+        first = math.floor(math.log10(self.low))
+        last = math.ceil(math.log10(self.high))
         steps = (1, 2, 5) if self.high < 2000*self.low else (1,)
-        values = [step*10.0**power for power in powers for step in steps]
+        values = [step*10.0**power for power in range(first, last + 1) for step in steps]
         return [(value, self(value)) for value in values if self.low <= value <= self.high]
-
-
-class Mark(NamedTuple):
-    """A point on the page: its place, the ends of its bars and its words."""
-    x: float
-    y: float
-    bar: tuple[float, float]
-    wide: tuple[float, float] | None
-    hollow: bool
-    words: list[str]
 
 
 class Curve(NamedTuple):
     """A series on the page."""
-    label: str
-    usual: bool
+    line: Line
     colour: int
     mark: str
     dash: str
-    line: str
-    marks: list[Mark]
+    path: str
 
 
 class Chart(NamedTuple):
@@ -67,28 +56,25 @@ class Chart(NamedTuple):
 def chart(panel: Panel) -> Chart:
     """Places of everything; axes hold all seconds and the errors of usual lines, others lie on the edge."""
     seconds = [point.cpu_s for line in panel.lines for point in line.points]
-    sizes, usual = sizes_of(panel.lines), sizes_of([line for line in panel.lines if line.usual])
-    low, high = max(0.6*min(sizes), 0.2*min(usual)), min(1.6*max(sizes), 2*max(usual))
+    sizes = sizes_of(panel.lines)
+    usual = sizes_of([line for line in panel.lines if line.usual])
+    low = max(0.6*min(sizes), 0.2*min(usual))
+    high = min(1.6*max(sizes), 2*max(usual))
     x = Scale(0.7*min(seconds), 1.4*max(seconds), LEFT, WIDTH - RIGHT)
     y = Scale(low, high, HEIGHT - BOTTOM, TOP)
-    return Chart(x, y, [curve(number, line, x, y) for number, line in enumerate(panel.lines)])
+    curves = [curve(number, line, x, y) for number, line in enumerate(panel.lines)]
+    return Chart(x, y, curves)
 
 
 def sizes_of(lines: list[Line]) -> list[float]:
     """Errors that a logarithmic axis can show."""
-    return [point.size for line in lines for point in line.points if point.size > 0]
+    sizes = [point.size for line in lines for point in line.points]
+    return [size for size in sizes if size > 0]
 
 
 def curve(number: int, line: Line, x: Scale, y: Scale) -> Curve:
     """A line and its look: after eight the marks shift by one against the colours."""
-    marks = [mark(point, x, y) for point in line.points]
-    path = "M" + "L".join(f"{one.x},{one.y}" for one in marks)
-    look, dash = MARKS[(number + number//8) % len(MARKS)], DASHES[number % len(DASHES)]
-    return Curve(line.label, line.usual, number % 8, look, dash, path, marks)
-
-
-def mark(point: Point, x: Scale, y: Scale) -> Mark:
-    """A point and its bars."""
-    bar = y(point.size - point.err), y(point.size + point.err)
-    wide = (x(point.cpu_s - point.spread), x(point.cpu_s + point.spread)) if point.spread else None
-    return Mark(x(point.cpu_s), y(point.size), bar, wide, not point.above, point.words)
+    look = MARKS[(number + number//8) % len(MARKS)]
+    dash = DASHES[number % len(DASHES)]
+    corners = [f"{x(point.cpu_s)},{y(point.size)}" for point in line.points]
+    return Curve(line, number % 8, look, dash, f"M{'L'.join(corners)}")

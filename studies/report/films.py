@@ -6,7 +6,6 @@ import io
 import os
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -42,8 +41,13 @@ ENCODING = ("-f", "mp4", "-preset", "placebo", "-tune", "psnr", "-crf", "33", "-
             "+faststart", "-vf",
             "setparams=color_primaries=bt709:color_trc=bt709,scale=out_color_matrix=bt709",
             "-fflags", "+bitexact", "-flags:v", "+bitexact")
-BOX: dict[str, Any] = {"xlim": (-1, 1), "ylim": (-0.5, 0.5), "xticks": [], "yticks": [], "aspect": "equal"}
+BOX: dict[str, Any] = {
+    "xlim": (-1, 1), "ylim": (-0.5, 0.5), "xticks": [], "yticks": [], "aspect": "equal"}
 HEAT: dict[str, Any] = {"cmap": "inferno", "vmin": 0.4, "vmax": 1.6}
+#: a line that ends in a dot
+TRACE: dict[str, Any] = {"linestyle": "-", "marker": "o", "markersize": 4, "markevery": [-1]}
+#: fields of the grid and their K
+Flow = tuple[NodeFields, float]
 
 
 class Dots(NamedTuple):
@@ -60,17 +64,17 @@ class Film(NamedTuple):
     method: str
 
 
-# --- what is seen ---------------------------------------------------------------------------------
-
-
 def points(film: Film, scene: RayleighBenard, times: np.ndarray) -> Iterator[Dots]:
     """A run from each of `times` to the next, in free-fall times, with steps that divide the time between."""
     made = ready(scene, film.method, SEED)
-    method, state, between = made.method, made.start, (times[1] - times[0])*scene.L/scene.free_fall
+    method = made.method
+    state = made.start
+    between = (times[1] - times[0])*scene.L/scene.free_fall
     steps = int(np.ceil(between/min(made.dt, OF_FIRST*made.limit)))
+    plan = Plan(dt=between/steps, steps=steps)
     yield seen(method.fields(state), scene)
     for _ in times[1:]:
-        state = run(method, state, Plan(dt=between/steps, steps=steps)).by_id()
+        state = run(method, state, plan).by_id()
         yield seen(method.fields(state), scene)
 
 
@@ -79,9 +83,10 @@ def seen(fields: Fields, scene: RayleighBenard) -> Dots:
     return Dots(fields.x/scene.L, fields.T, kinetic_energy(fields))
 
 
-def grid(scene: RayleighBenard, rows: int, times: np.ndarray) -> Iterator[tuple[NodeFields, float]]:
+def grid(scene: RayleighBenard, rows: int, times: np.ndarray) -> Iterator[Flow]:
     """The compressible grid at `times`, equally far apart from 0 on, in free-fall times, and its K."""
-    fields, between = initial(scene, rows, START_ENERGY), (times[1] - times[0])*scene.L/scene.free_fall
+    fields = initial(scene, rows, START_ENERGY)
+    between = (times[1] - times[0])*scene.L/scene.free_fall
     yield fields, START_ENERGY
     for _ in times[1:]:
         solution = march(scene, rows, until=Time(between, 1), start=fields)
@@ -89,28 +94,25 @@ def grid(scene: RayleighBenard, rows: int, times: np.ndarray) -> Iterator[tuple[
         yield fields, solution.ke
 
 
-# --- pictures -------------------------------------------------------------------------------------
-
-
-def pages(dots: Sequence[Dots], grids: Sequence[tuple[NodeFields, float]], times: np.ndarray,
+def pages(dots: Sequence[Dots], grids: Sequence[Flow], times: np.ndarray,
           titles: tuple[str, str]) -> Iterator[Picture.Image]:
     """One picture a time: points, the grid, and both K until then."""
     page = Figure(figsize=SIZE, dpi=DPI)
-    left, right = page.add_axes((0.012, 0.38, 0.482, 0.54)), page.add_axes((0.506, 0.38, 0.482, 0.54))
+    left = page.add_axes((0.012, 0.38, 0.482, 0.54))
+    right = page.add_axes((0.506, 0.38, 0.482, 0.54))
     below = page.add_axes((0.115, 0.155, 0.873, 0.19))
-    grid_ke, ke = [energy for _, energy in grids], [one.ke for one in dots]
-    frame: dict[str, Any] = {"xlim": (0, times[-1]), "ylim": (0, 1.1*max(*grid_ke, *ke)), "ylabel": "$K$",
-                             "xlabel": "time  [free-fall times]"}
-    line: dict[str, Any] = {"linestyle": "-", "marker": "o", "markersize": 4, "markevery": [-1]}
+    ke = [one.ke for one in dots]
+    grid_ke = [energy for _, energy in grids]
+    top = 1.1*max(*grid_ke, *ke)
     for number in range(len(times)):
         for axes in page.axes:
             axes.clear()
         draw_points(left, dots[number], titles[0])
         draw_grid(right, grids[number][0], titles[1])
         now = slice(number + 1)
-        below.set(**frame)
-        below.plot(times[now], grid_ke[now], color="black", label="of the grid", **line)
-        below.plot(times[now], ke[now], color=COLOURS[1], label="of all points", **line)
+        below.set(xlim=(0, times[-1]), ylim=(0, top), ylabel="$K$", xlabel="time  [free-fall times]")
+        below.plot(times[now], grid_ke[now], color="black", label="of the grid", **TRACE)
+        below.plot(times[now], ke[now], color=COLOURS[1], label="of all points", **TRACE)
         below.legend(loc="upper right", ncols=2)
         yield picture(page)
 
@@ -118,17 +120,21 @@ def pages(dots: Sequence[Dots], grids: Sequence[tuple[NodeFields, float]], times
 def draw_points(axes: Axes, dots: Dots, title: str) -> None:
     """A dot for each, nine tenths of the spacing wide, coloured by temperature."""
     spacing = 72*SIZE[0]*0.482/2*np.sqrt(2/len(dots.x))
-    axes.scatter(dots.x[:, 0], dots.x[:, 1], s=(0.9*spacing)**2, c=dots.T, linewidths=0, marker="o", **HEAT)
+    area = (0.9*spacing)**2
+    axes.scatter(dots.x[:, 0], dots.x[:, 1], s=area, c=dots.T, linewidths=0, marker="o", **HEAT)
     axes.set(title=title, **BOX)
     axes.set_facecolor("#30243a")
 
 
 def draw_grid(axes: Axes, fields: NodeFields, title: str) -> None:
     """Temperature, and arrows along the velocity."""
-    at, L, every = fields.at, fields.scene.L, slice(3, None, 6)
+    at = fields.at
     axes.imshow(at.T, origin="lower", extent=(-1, 1, -0.5, 0.5), interpolation="bilinear", **HEAT)
-    x, y = np.meshgrid(fields.x[every]/L, fields.y[every]/L)
-    axes.quiver(x, y, at.vx[every, every], at.vy[every, every], color="white", scale=5, width=0.004)
+    every = slice(3, None, 6)
+    nodes = every, every
+    x, y = np.meshgrid(fields.x[every], fields.y[every])
+    L = fields.scene.L
+    axes.quiver(x/L, y/L, at.vx[nodes], at.vy[nodes], color="white", scale=5, width=0.004)
     axes.set(title=title, **BOX)
 
 
@@ -137,9 +143,6 @@ def picture(page: Figure) -> Picture.Image:
     full = io.BytesIO()
     page.savefig(full, format="png", dpi=DPI)
     return Picture.open(full).convert("RGB")
-
-
-# --- files ----------------------------------------------------------------------------------------
 
 
 def write(path: Path, frames: Sequence[Picture.Image]) -> None:
@@ -186,30 +189,24 @@ MAKERS = {
 }
 
 
-@cache
-def beside() -> list[tuple[NodeFields, float]]:
-    """The grid at all times."""
-    return list(grid(RayleighBenard(ra=RA), GRID_ROWS, TIMES))
-
-
-def make(name: str, film: Film, folder: Path) -> dict[str, Any]:
+def make(name: str, film: Film, grids: Sequence[Flow], folder: Path) -> dict[str, Any]:
     """Run, draw and write one film; its row of films.csv."""
-    scene, grids = RayleighBenard(ra=RA, L=float(ROWS)), beside()
+    scene = RayleighBenard(ra=RA, L=float(ROWS))
     dots = list(points(film, scene, TIMES))
     count = len(dots[0].x)
     titles = f"{count} {film.title}", f"compressible grid, {GRID_ROWS} rows"
     write(folder/f"{name}.mp4", list(pages(dots, grids, TIMES, titles)))
-    return {"film": name, "title": film.title, "caption": film.caption, "ra": RA, "rows": ROWS, "seed": SEED,
-            "points": count, "grid_rows": GRID_ROWS, "t_end": TIMES[-1], "frames": len(TIMES),
+    return {"film": name, "title": film.title, "caption": film.caption,
+            "ra": RA, "rows": ROWS, "seed": SEED, "points": count, "grid_rows": GRID_ROWS,
+            "t_end": TIMES[-1], "frames": len(TIMES),
             "last_ke": dots[-1].ke, "last_ke_grid": grids[-1][1]}
 
 
-def make_all(out: Path, only: str = "") -> list[Path]:
-    """The films with this text in their name. Raises ValueError: there are none."""
-    chosen = {name: film for name, film in MAKERS.items() if only in name}
-    if not chosen:
-        raise ValueError(f"no film has {only!r} in its name: there are {', '.join(MAKERS)}")
+def make_all(out: Path) -> list[Path]:
+    """The films of `MAKERS`, each put into films.csv as soon as it is there."""
     folder = out/"films"
-    for name, film in chosen.items():
-        merge(folder/"films.csv", FILMS, [make(name, film, folder)], size="fine", command="make films")
-    return [folder/f"{name}.mp4" for name in chosen]
+    grids = list(grid(RayleighBenard(ra=RA), GRID_ROWS, TIMES))
+    for name, film in MAKERS.items():
+        row = make(name, film, grids, folder)
+        merge(folder/"films.csv", FILMS, [row], size="fine", command="make films")
+    return [folder/f"{name}.mp4" for name in MAKERS]

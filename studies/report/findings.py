@@ -1,6 +1,6 @@
 """What was found, in words whose numbers and verdicts follow from tables and claims."""
 import math
-from collections.abc import Callable
+from collections import Counter
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -16,7 +16,9 @@ LAYER = {"eos": "ideal", "transport": "const-eta", "sides": "periodic", "pr": 1,
 MOVING_LIMITS = ("own-rb-moving-limit", "own-rb-moving-limit-plates")
 ERRORS = ("resolution", "error", "error_err", "cpu_s", "particles")
 CRITICAL = ("quantity", "value", "err", "variant", "method", "resolution")
-LEVEL, SHOWN = 0.01, 5
+#: of error, whose cost is told, and of how many methods
+LEVEL = 0.01
+SHOWN = 5
 
 
 class Finding(NamedTuple):
@@ -38,10 +40,17 @@ class Known(NamedTuple):
         rows = rows_of(self.out/"rb/errors.csv", ERRORS, **wanted)
         return rows[rows["resolution"] < math.inf].sort_values("resolution")
 
-    def claim(self, name: str) -> pd.Series | None:
-        """A claim that was measured."""
-        rows = self.claims[(self.claims["id"] == name) & self.claims["measured"].notna()]
-        return rows.iloc[0] if len(rows) else None
+    def onset(self, method: str, variant: str) -> pd.DataFrame:
+        """Ra from which on weak rolls grow, by resolution."""
+        wanted = {"way": "run", "method": method, "variant": variant}
+        rows = rows_of(self.out/"onset/critical_ra.csv", CRITICAL, **wanted)
+        weak = rows["quantity"].str.contains("K = 0.0004,", regex=False)
+        return rows[weak].sort_values("resolution")
+
+    def measured_claims(self, *names: str) -> list:
+        """Rows of those of these claims that were measured, in this order."""
+        rows = self.claims.dropna(subset="measured").set_index("id")
+        return [rows.loc[name] for name in names if name in rows.index]
 
 
 def claims_of(out: Path) -> pd.DataFrame:
@@ -52,23 +61,15 @@ def claims_of(out: Path) -> pd.DataFrame:
     return rows_of(path, COLUMNS)
 
 
-def findings(known: Known) -> list[Finding]:
-    """Those for which there are numbers."""
-    return [one for find in ALL if (one := find(known))]
-
-
-# --- words ----------------------------------------------------------------------------------------
-
-
 def listed(rows: pd.DataFrame) -> str:
     """Errors in per cent with their rows over the height."""
-    return f"{each(rows, 'error', 100)} % with {resolutions(rows)} rows"
+    percents = each(100*rows["error"], 100*rows["error_err"])
+    return f"{percents} % with {resolutions(rows)} rows"
 
 
-def each(rows: pd.DataFrame, value: str, times: float = 1.0) -> str:
-    """The numbers of a column with their errors, those of `error` in `error_err`."""
-    errors = rows["error_err" if value == "error" else "err"]
-    return many([with_error(x, dx, times) for x, dx in zip(rows[value], errors, strict=True)])
+def each(values: pd.Series, errors: pd.Series) -> str:
+    """Numbers with their errors."""
+    return many([with_error(*pair) for pair in zip(values, errors)])
 
 
 def resolutions(rows: pd.DataFrame) -> str:
@@ -77,29 +78,28 @@ def resolutions(rows: pd.DataFrame) -> str:
 
 
 def measured(claim: Any, times: float = 1.0) -> str:
-    """What a claim measured."""
-    return with_error(claim["measured"], claim["err"], times)
+    """What a claim measured, 100 times that for per cent."""
+    return with_error(times*claim.measured, times*claim.err)
 
 
 def falls(rows: pd.DataFrame) -> bool:
     """Whether the finest error with its interval is below all others, or errors fell until they are noise."""
-    if len(rows) < 2:
-        return False
-    size, err = rows["error"].abs().to_numpy(), rows["error_err"].fillna(0.0).to_numpy()
-    below = size[-1] + err[-1] < size[:-1] - err[:-1]
-    fell = size[1:] - err[1:] <= size[:-1] + err[:-1]
-    return bool(below.all() or (size[-1] <= err[-1] and fell.all() and below[0]))
+    size = rows["error"].abs().to_numpy()
+    err = rows["error_err"].fillna(0.0).to_numpy()
+    low, high = size - err, size + err
+    below = high[-1] < low[:-1]
+    fell = low[1:] <= high[:-1]
+    until_noise = size[-1] <= err[-1] and fell.all()
+    return bool(below.all() or (until_noise and below[0]))
 
 
-def ends(rows: pd.DataFrame, limits: list[pd.Series]) -> str:
+def ends(rows: pd.DataFrame, limits: list) -> str:
     """Whether a method converges: by its limits, one for each extrapolation, or by its errors."""
-    sizes = sorted(abs(one["measured"]) for one in limits if abs(one["measured"]) > one["err"])
-    if sizes and len(sizes) == len(limits):
-        return f"end {' to '.join(dict.fromkeys(f'{100*size:.1g}' for size in sizes))} % off"
+    if limits and all(abs(one.measured) > one.err for one in limits):
+        sizes = sorted(abs(one.measured) for one in limits)
+        shares = dict.fromkeys(f"{100*size:.1g}" for size in sizes)
+        return f"end {' to '.join(shares)} % off"
     return "converge" if falls(rows) else "do not converge"
-
-
-# --- one each -------------------------------------------------------------------------------------
 
 
 def smooth_particles(known: Known) -> Finding | None:
@@ -114,40 +114,41 @@ def smooth_particles(known: Known) -> Finding | None:
 
 def onset(known: Known) -> Finding | None:
     """From which Ra on rolls of the same strength grow."""
-    rows = rows_of(known.out/"onset/critical_ra.csv", CRITICAL, way="run").sort_values("resolution")
-    weak = rows["quantity"].str.contains("K = 0.0004,", regex=False)
-    rows = rows[weak & rows["variant"].isin(["", "printed"])]
-    spam, grid = rows[rows["method"] == "spam"], rows[rows["method"] == "compressible"][-1:]
+    spam = known.onset("spam", "printed")
+    grid = known.onset("compressible", "")[-1:]
     if len(spam) < 2 or grid.empty:
         return None
-    last, finest = spam.iloc[-1], grid.iloc[0]
-    later = last["value"] - last["err"] > finest["value"] + finest["err"]
-    title = ("Near onset smooth particles come to rest where the gas convects" if later
-             else "Smooth particles begin to convect as the gas does")
-    text = (f"Rolls of K = 0.0004 grow above Ra {each(spam, 'value')} with {resolutions(spam)} rows, "
-            f"on the grid above {each(grid, 'value')}. [KHP95]")
+    low = spam["value"] - spam["err"]
+    high = grid["value"] + grid["err"]
+    title = "Smooth particles begin to convect as the gas does"
+    if low.iloc[-1] > high.iloc[0]:
+        title = "Near onset smooth particles come to rest where the gas convects"
+    text = (f"Rolls of K = 0.0004 grow above Ra {each(spam['value'], spam['err'])} with {resolutions(spam)} "
+            f"rows, on the grid above {each(grid['value'], grid['err'])}. [KHP95]")
     return Finding(title, text, "onset/critical_ra")
 
 
 def fixed_points(known: Known) -> Finding | None:
     """K on a lattice of points that stay."""
-    rows, limit = known.errors("dih", "fixed-lattice"), known.claim("rr98-rb-lattice-10000")
+    rows = known.errors("dih", "fixed-lattice")
     if len(rows) < 2:
         return None
-    verb = "converge" if falls(rows) else "do not converge"
-    end = "" if limit is None else f", {measured(limit, 100)} % off in the limit ({limit['verdict']})"
+    end = ""
+    for limit in known.measured_claims("rr98-rb-lattice-10000"):
+        end = f", {measured(limit, 100)} % off in the limit ({limit.verdict})"
     text = f"Energy on a lattice at Ra 10 000: {listed(rows)}{end}. [RR98, friction along edges]"
-    return Finding(f"Sums over neighbours {verb} on points that stay", text, "rb/errors")
+    return Finding(f"Sums over neighbours {ends(rows, [])} on points that stay", text, "rb/errors")
 
 
 def moving_points(known: Known) -> Finding | None:
     """Points that move, as printed and over closed faces."""
-    printed, closed = known.errors("dih", "moving-literal")[-1:], known.errors("dih", "moving")
+    printed = known.errors("dih", "moving-literal")[-1:]
+    closed = known.errors("dih", "moving")
     if printed.empty or len(closed) < 2:
         return None
-    last = printed.iloc[0]
-    verb = "fail" if abs(last["error"]) - last["error_err"] > 0.1 else "convect"
-    limits = [one for one in map(known.claim, MOVING_LIMITS) if one is not None]
+    least = printed["error"].abs() - printed["error_err"]
+    verb = "fail" if least.iloc[0] > 0.1 else "convect"
+    limits = known.measured_claims(*MOVING_LIMITS)
     sizes = " or ".join(measured(one, 100) for one in limits)
     end = f"; in the limit {sizes} % off" if limits else ""
     title = f"Points that move as printed {verb}, over closed faces they {ends(closed, limits)}"
@@ -158,11 +159,12 @@ def moving_points(known: Known) -> Finding | None:
 
 def off_lattice(known: Known) -> Finding | None:
     """A fluid at rest on irregular points."""
-    rest, kept = known.claim("rr98-eq35-rest"), known.claim("rr98-conservation-survival-delaunay")
-    if rest is None or kept is None:
+    claims = known.measured_claims("rr98-eq35-rest", "rr98-conservation-survival-delaunay")
+    if len(claims) < 2:
         return None
-    verb = "accelerates" if rest["verdict"] == "fails" else "stays at rest"
-    goes = "goes" if kept["verdict"] == "holds" else "does not go"
+    rest, kept = claims
+    verb = "accelerates" if rest.verdict == "fails" else "stays at rest"
+    goes = "goes" if kept.verdict == "holds" else "does not go"
     text = (f"By {measured(rest)} P/(ρa) at most as printed, points shifted by up to 0.3 spacings; over "
             f"Delaunay edges, which close, a random start {goes} through 10 000 steps. [RR98 Eqs 34-36]")
     return Finding(f"Off a lattice a fluid at rest {verb}", text, "claims")
@@ -170,52 +172,65 @@ def off_lattice(known: Known) -> Finding | None:
 
 def noise(known: Known) -> Finding | None:
     """Which noise heats a fluid right."""
-    printed = known.claims[known.claims["id"].str.match(r"rr98-fluct-eq4[2-4]")]
-    ours, mode = known.claim("own-fluct-partners"), known.claim("rr98-fluct-brillouin-position")
-    if printed.empty or ours is None or mode is None:
+    of_equations = known.claims["id"].str.match(r"rr98-fluct-eq4[2-4]")
+    verdicts = list(known.claims["verdict"][of_equations])
+    claims = known.measured_claims("own-fluct-partners", "rr98-fluct-brillouin-position")
+    if not verdicts or len(claims) < 2:
         return None
-    fails = int(printed["verdict"].eq("fails").sum())
-    title = "Printed noise heats no fluid right, one random stress a point does"
-    text = (f"Eqs 42-44: {fails} of {len(printed)} statements fail. [RR98] With one stress and heat current "
-            f"a point |Q − 2kTΓ| is {signed(format(ours['measured'], '.0e'))}, sampled sound peaks at "
-            f"{measured(mode)} of its place.")
-    return Finding(title if fails else "Printed noise holds", text, "claims")
+    ours, mode = claims
+    fails = verdicts.count("fails")
+    title = "Printed noise holds"
+    if fails:
+        title = "Printed noise heats no fluid right, one random stress a point does"
+    off = signed(f"{ours.measured:.0e}")
+    text = (f"Eqs 42-44: {fails} of {len(verdicts)} statements fail. [RR98] With one stress and heat current "
+            f"a point |Q − 2kTΓ| is {off}, sampled sound peaks at {measured(mode)} of its place.")
+    return Finding(title, text, "claims")
 
 
 def price(known: Known) -> Finding | None:
     """CPU seconds for an error of 1 %, of the panel shown first."""
-    lines = known.panels[0].lines if known.panels else []
-    reach = sorted((line for line in lines if LEVEL in line.needs), key=lambda line: line.needs[LEVEL].cpu_s)
+    if not known.panels:
+        return None
+    panel = known.panels[0]
+    reach = [line for line in panel.lines if LEVEL in line.needs]
     if not reach:
         return None
-    panel, best = known.panels[0], reach[0]
-    shown = [line for line in reach if line.usual or line is best][:SHOWN]
-    costs = "; ".join(f"{line.needs[LEVEL]} s, {line.label}" for line in shown)
-    never = [line.label.split(",")[0] for line in lines if line.usual and LEVEL not in line.needs]
-    rest = f"; not reached by {many(list(dict.fromkeys(never)))}" if never else ""
-    text = f"{panel.title.split(': ', 1)[-1]}: {costs}{rest}."
-    return Finding(f"An error of 1 % costs {best.needs[LEVEL]} CPU seconds at best", text,
-                   (panel.needed or panel.sheet).name)
+    reach.sort(key=lambda line: line.needs[LEVEL].cpu_s)
+    best = reach[0]
+    shown = [line for line in reach if line.usual or line is best]
+    costs = "; ".join(f"{line.needs[LEVEL]} s, {line.label}" for line in shown[:SHOWN])
+    never = [line for line in panel.lines if line.usual and line not in reach]
+    if never:
+        names = dict.fromkeys(line.label.split(",")[0] for line in never)
+        costs += f"; not reached by {many(list(names))}"
+    title = f"An error of 1 % costs {best.needs[LEVEL]} CPU seconds at best"
+    source = panel.needed or panel.sheet
+    return Finding(title, f"{panel.scene}: {costs}.", source.name)
 
 
-#: one screen of them
-ALL: tuple[Callable[[Known], Finding | None], ...] = (
-    smooth_particles, onset, fixed_points, moving_points, off_lattice, noise, price)
+def findings(known: Known) -> list[Finding]:
+    """Those for which there are numbers, one screen of them."""
+    ways = (smooth_particles, onset, fixed_points, moving_points, off_lattice, noise, price)
+    made = [find(known) for find in ways]
+    return [one for one in made if one]
 
 
 def answer(known: Known) -> str:
     """The question's answer in two sentences: the most particles beside the coarsest grid; what holds."""
-    spam, grid = known.errors("spam", "printed", "Kg"), known.errors("compressible", "flux-form")
     sentences = []
+    spam = known.errors("spam", "printed", "Kg")
+    grid = known.errors("compressible", "flux-form")
     if len(spam) and len(grid):
-        most, coarse = spam.iloc[-1], grid.iloc[0]
+        most = spam.iloc[-1]
+        coarse = grid.iloc[0]
         sentences.append(
             f"{grouped(most['particles'])} smooth particles as printed miss the energy of convection by "
             f"{percent(most['error'])}, where a grid of {coarse['resolution']:.0f} rows is off by "
             f"{percent(coarse['error'])} in {seconds(coarse['cpu_s'])} CPU seconds.")
-    verdicts = known.claims.loc[known.claims["whose"] == "paper", "verdict"]
-    if len(verdicts):
-        holds, fails, unknown = ((verdicts == one).sum() for one in ("holds", "fails", "undecidable"))
-        sentences.append(f"Of {len(verdicts)} statements of the papers {holds} hold, {fails} fail, {unknown} "
-                         "are undecidable here.")
+    of_papers = known.claims["whose"] == "paper"
+    count = Counter(known.claims["verdict"][of_papers])
+    if count:
+        sentences.append(f"Of {count.total()} statements of the papers {count['holds']} hold, "
+                         f"{count['fails']} fail, {count['undecidable']} are undecidable here.")
     return " ".join(sentences)

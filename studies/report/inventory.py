@@ -1,10 +1,12 @@
 """What results/ holds: studies with their tables and figures, found by name, and where each comes from."""
-import ast
+import base64
+import gzip
 import importlib
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pandas as pd
 
@@ -14,10 +16,14 @@ from studies.kit.key import ROOT
 from studies.kit.study import Study
 from studies.kit.table import STAMP
 
-#: folders that are no study
-OTHERS = {"raw": "", "quick": "", "films": "", "bench": "Speed beside public codes, in one run"}
+#: folders that are not shown
+HIDDEN = ("raw", "quick", "films")
+#: what a folder asks that no study fills
+QUESTIONS = {"bench": "Speed beside public codes, in one run"}
 #: the order of the page; studies that are not named follow by name
 FIRST = ("rb", "cost", "hardcases", "onset", "operators", "ordering", "conservation", "noise", "lattices")
+#: a table is packed into the page if its file is not larger [bytes]
+EMBED = 60_000
 
 
 class NoReport(Exception):
@@ -44,8 +50,8 @@ class Sheet:
     def head(self) -> list[str]:
         """The comments above the columns, without those that are there for programs."""
         lines = self.path.read_text().splitlines()
-        comments = [line[1:].strip() for line in lines if line.startswith("#")]
-        return [line for line in comments if not line.startswith((TEXT[2:], ABOVE[2:]))]
+        comments = [line for line in lines if line.startswith("#")]
+        return [line[1:].strip() for line in comments if not line.startswith((TEXT, ABOVE))]
 
     @cached_property
     def frame(self) -> pd.DataFrame:
@@ -53,61 +59,69 @@ class Sheet:
         return rows_of(self.path)
 
     @cached_property
+    def packed(self) -> str:
+        """The file as compressed text; nothing of one that is too large."""
+        content = self.path.read_bytes()
+        if len(content) > EMBED:
+            return ""
+        packed = gzip.compress(content, 9, mtime=0)
+        return base64.b64encode(packed).decode()
+
+    @cached_property
     def commits(self) -> list[str]:
         """Commit of the head, or where the head names none, those of the rows."""
         of_head = [line.removeprefix("commit ") for line in self.head if line.startswith("commit ")]
-        return of_head or sorted({str(one) for one in self.frame.get("commit", ())})
+        if of_head:
+            return of_head
+        return sorted(set(self.frame.get("commit", ())))
 
     @property
     def made(self) -> str:
         """Commit, and of how many commits the rows are when they are of several."""
-        number = self.frame["commit"].nunique() if "commit" in self.frame else 1
-        more = f", rows of {number} commits" if number > 1 and len(self.commits) == 1 else ""
-        return " ".join(self.commits) + more
+        number = len(set(self.frame.get("commit", ())))
+        if number > 1 and len(self.commits) == 1:
+            return f"{self.commits[0]}, rows of {number} commits"
+        return " ".join(self.commits)
 
 
-@dataclass(frozen=True)
-class Folder:
-    """A study: what it asks, its tables and figures."""
-
+class Folder(NamedTuple):
+    """What a folder asks, its tables and figures, and the study that makes them, if one does."""
     name: str
     question: str
-    sheets: list[Sheet] = field(default_factory=list)
-    pictures: list[Path] = field(default_factory=list)
+    sheets: list[Sheet]
+    pictures: list[Path]
+    study: Study | None
 
 
 def folders(out: Path) -> list[Folder]:
-    """All studies that have tables or figures; NoReport where there are none."""
-    paths = [path for path in out.glob("*/") if OTHERS.get(path.name, "a study")]
+    """All that have tables or figures; NoReport where there are none."""
+    paths = [path for path in out.glob("*/") if path.name not in HIDDEN]
     known = [folder for folder in map(folder_of, paths) if folder.sheets or folder.pictures]
     if not known:
         raise NoReport(f"no tables in {out}: run a study first, make study-rb writes the main ones")
-    order = {name: number for number, name in enumerate(FIRST)}
-    return sorted(known, key=lambda folder: (order.get(folder.name, len(FIRST)), folder.name))
+    return sorted(known, key=lambda folder: (place(folder.name, FIRST), folder.name))
+
+
+def place(name: str, order: Sequence[str]) -> int:
+    """Which one of an order it is; what the order does not name comes after it."""
+    return order.index(name) if name in order else len(order)
 
 
 def folder_of(path: Path) -> Folder:
-    """The study of a folder."""
+    """A folder, its figure `main` first."""
     sheets = [Sheet(table) for table in sorted(path.glob("*.csv"))]
-    return Folder(path.name, question(path.name), sheets, sorted(path.glob("*.png")))
+    pictures = sorted(path.glob("*.png"), key=lambda png: (png.stem != "main", png.stem))
+    study = study_of(path.name)
+    question = study.question if study else QUESTIONS.get(path.name, path.name)
+    return Folder(path.name, question, sheets, pictures, study)
 
 
-def question(name: str) -> str:
-    """The first sentence of the study's package, which is its question."""
-    file = ROOT/"studies"/name/"__init__.py"
-    if name in OTHERS or not file.exists():
-        return OTHERS.get(name, name)
-    text = ast.get_docstring(ast.parse(file.read_text())) or name
-    return " ".join(text.split("\n\n")[0].split())
-
-
-def study_of(folder: Folder) -> Study | None:
-    """The study with these tables; none of a folder that has other tables.
+def study_of(name: str) -> Study | None:
+    """The study of this name, if there is one.
 
     Raises NoReport: its code cannot be loaded.
     """
-    name = folder.name
-    if not (folder.sheets and (ROOT/"studies"/name/"__init__.py").exists()):
+    if not (ROOT/"studies"/name/"__main__.py").exists():
         return None
     try:
         study: Study = importlib.import_module(f"studies.{name}").STUDY
@@ -119,19 +133,22 @@ def study_of(folder: Folder) -> Study | None:
 
 def check_columns(folder: Folder) -> None:
     """Refuse a table that lacks a column which its study declares: the page would leave things out."""
-    study = study_of(folder)
-    declared = {table.name: (*table.columns, *STAMP) for table in study.tables} if study else {}
+    tables = folder.study.tables if folder.study else []
+    declared = {table.name: [*table.columns, *STAMP] for table in tables}
     for sheet in folder.sheets:
-        columns = declared.get(sheet.path.stem, ())
-        if missing := [name for name in columns if name not in sheet.frame]:
+        columns = declared.get(sheet.path.stem, [])
+        missing = [name for name in columns if name not in sheet.frame]
+        if missing:
             names = ", ".join(missing)
             raise NoReport(f"{sheet.path} has no column {names}: it was written by other code; {AGAIN}")
 
 
 def drawings(folder: Folder) -> dict[str, Drawing | Overview]:
     """Figure -> what draws it, of those that the study lists."""
-    study = study_of(folder)
-    return {drawing.name: drawing for drawing in getattr(study.figures, "drawings", ())} if study else {}
+    if folder.study is None:
+        return {}
+    listed = getattr(folder.study.figures, "drawings", ())
+    return {drawing.name: drawing for drawing in listed}
 
 
 def rows_of(path: Path, columns: tuple[str, ...] = (), **where: Any) -> pd.DataFrame:
@@ -145,6 +162,12 @@ def rows_of(path: Path, columns: tuple[str, ...] = (), **where: Any) -> pd.DataF
         frame = read(path, [*columns, *where])
     except ValueError as error:
         raise NoReport(str(error)) from error
-    for column, value in where.items():
-        frame = frame[frame[column] == value]
+    return having(frame, where)
+
+
+def having(frame: pd.DataFrame, values: dict[str, Any]) -> pd.DataFrame:
+    """Rows that have these values, in those of the columns that there are."""
+    for column, value in values.items():
+        if column in frame:
+            frame = frame[frame[column] == value]
     return frame

@@ -2,15 +2,14 @@
 import math
 
 
-def with_error(value: float, err: float, times: float = 1.0) -> str:
+def with_error(value: float, err: float) -> str:
     """17.5(15) for 17.5 +- 1.5: the error in units of the last digit, two of its digits where the first is 1.
 
-    ``times`` multiplies both, 100 for per cent; without an error four digits.
+    Without an error four digits.
     """
-    value, err = value*times, err*times
     if not math.isfinite(value):
         return "none"
-    if not (math.isfinite(err) and err > 0):
+    if not 0 < err < math.inf:
         return signed(f"{value:.4g}")
     size = math.floor(math.log10(err))
     digits = 2 if err/10**size < 2 else 1
@@ -39,7 +38,9 @@ def seconds(value: float) -> str:
     """CPU seconds with two digits."""
     if value >= 10:
         return f"{value:.0f}"
-    return f"{value:.1f}" if value >= 1 else f"{value:.2g}"
+    if value >= 1:
+        return f"{value:.1f}"
+    return f"{value:.2g}"
 
 
 def percent(value: float) -> str:

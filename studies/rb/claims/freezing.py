@@ -1,9 +1,8 @@
-"""Claims about freezing at high pressure, and about Ra 2500, where particles may stand still    [KHP95]
+"""Claims about freezing at high pressure    [KHP95, Secs III, IV, VII]
 
 The eta of Fig. 4 is not printed: Ra 3000 is taken with kappa = k/(rho C_V) and eta = k, so nu/kappa = 1.5.
 Pressure is added as a negative fraction of the static one that a variant subtracts, with the gravity that
-balances it: the continuum does not feel it. The paper does not say from what its runs at Ra 2500 started:
-judged is the start that leaves them more flow.
+balances it: the continuum does not feel it.
 """
 from contextlib import suppress
 from math import hypot, inf, pi
@@ -13,20 +12,10 @@ import numpy as np
 
 from studies.kit.ask import Value, of, one, rows
 from studies.kit.claim import Claim
-from studies.kit.stats import CannotTell, Measured, over_seeds
+from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
-from studies.rb.claims.flows import (
-    ALIKE,
-    PLAIN,
-    against_alike,
-    alike,
-    diverged,
-    limit,
-    mean,
-    over_runs,
-    rolls,
-)
-from studies.rb.tables import Point, grid, particles
+from studies.rb.claims.flows import ALIKE, PLAIN, alike, diverged, limit, mean, over_runs, rolls
+from studies.rb.tables import grid, particles
 
 DENSE: dict[str, Any] = {"eos": "dense"}
 #: variant -> its pressure, that of the ideal gas at density and temperature 1 being 1
@@ -35,10 +24,6 @@ PRESSURES = {"more-static-400": 5.0, "more-static-100": 2.0, "printed": 1.0, "le
 #: of Lucy's weight 5/(9 pi) (1 + r)(1 - r/3)^3: phi(0) = 2 P n^-2 w(0), and w(0.9) - w(1)
 BARRIER = 5/(9*pi)
 MELTING = BARRIER*((1 + 0.9)*(1 - 0.3)**3 - 2*(1 - 1/3)**3)
-STARTS = ("printed", "printed-from-flow")   # from the weak rolls of Sec. VI, from the grid's steady flow
-
-
-# --- freezing -------------------------------------------------------------------------------------
 
 
 def flows(ra: float, height: int = 16, variant: str = "printed", **where) -> Value:
@@ -109,57 +94,8 @@ def sites(variant: str) -> Value:
     return one("snapshots", "occupancy", **particles(3000, 16, variant, **DENSE))
 
 
-# --- Ra 2500 --------------------------------------------------------------------------------------
-
-
-def most_flow(tables: Tables) -> tuple[Point, Measured]:
-    """5000 particles at Ra 2500, started from weak rolls or from the grid's flow: the larger Kg, over the
-    grid's.
-
-    Both are needed: a flow may go on where it does not begin.
-    """
-    points = [particles(2500, variant=name) for name in STARTS]
-    left = [(point, against_alike(point)(tables)) for point in points]
-    return max(left, key=lambda one: one[1].value)
-
-
-def settled(tables: Tables, point: Point) -> bool:
-    """Whether the halves of K agree in all runs of a point that did not diverge."""
-    runs = rows(tables, "kinetic_energy", "ke == ke", **point)
-    return bool(runs["converged"].astype(str).eq("True").all())
-
-
-def flow_left(tables: Tables) -> Measured:
-    """Kg at Ra 2500 over the grid's smoothed alike, the larger of two starts; 0 to it if it still changes."""
-    point, left = most_flow(tables)
-    most = left.value + left.err
-    return left if settled(tables, point) else Measured(most/2, most/2)
-
-
-def noisier(tables: Tables) -> Measured:
-    """Noise over Kg of 5000 particles at Ra 2500, of the start with the larger Kg, over that at Ra 10 000."""
-    near, far = (relative_noise(tables, point) for point in (most_flow(tables)[0], particles(1e4)))
-    return near/far
-
-
-def relative_noise(tables: Tables, point: Point) -> Measured:
-    """Energy of the fluctuations over that of the field."""
-    noise = rows(tables, "kinetic_energy", **point)["ke_fluctuation"].dropna()
-    return over_seeds(noise)/over_runs(point)(tables)
-
-
-def relative_err(tables: Tables) -> Measured:
-    """Statistical error of Kg at Ra 2500, all seeds, over the grid's K; of the start with the larger Kg."""
-    point, _ = most_flow(tables)
-    if not settled(tables, point):
-        raise CannotTell(f"{point['variant']}: K still drifts at Ra 2500, so that its error is no measure of "
-                         "fluctuations")
-    return Measured(over_runs(point)(tables).err/limit(2500)(tables).value)
-
-
 FROZEN = f'"frozen" is a tenth of the energy that the grid has, {ALIKE}'
 FLOWING = f'"a good description" is half of the energy at least, {ALIKE}'
-BOTH = "of both starts, weak rolls and the grid's flow, the one that leaves more"
 CLAIMS = (
     Claim(id="khp95-freeze-monaghan", source="KHP95 Fig. 4", printed="freezing", at_most=0.1, because=FROZEN,
           statement="512 particles of dense fluid, Monaghan, Ra 3000, freeze: K of their mean flow over the "
@@ -250,19 +186,4 @@ CLAIMS = (
     Claim(id="khp95-dense-no-trouble", source="KHP95 Sec. IV", printed="no apparent trouble", at_most=1,
           statement="the inconsistent dense fluid causes particles no trouble: late K over the largest K "
                     "before, Ra 3000", value=of(no_trouble), because="what diverges exceeds its past"),
-    Claim(id="khp95-ra2500-flows", source="KHP95 Sec. VI", printed="relatively large fluctuations",
-          at_least=0.5,
-          statement="particles convect at Ra 2500, where only fluctuations are said to be in the way: K of "
-                    "the field of 5000 particles over the grid's", value=of(flow_left),
-          because=f"half of the energy, {ALIKE}; {BOTH}"),
-    Claim(id="khp95-ra2500-fluctuations", source="KHP95 Sec. VI", printed="relatively large", at_least=2,
-          value=of(noisier),
-          statement="fluctuations at Ra 2500 are relatively large: their energy over the field's, over the "
-                    "same at Ra 10 000", because=f'"relatively large" has no number: twice; {BOTH}'),
-    Claim(id="khp95-ra2500-usable", source="KHP95 Sec. VI", printed="abandoned", at_least=0.1,
-          value=of(relative_err),
-          statement="fluctuations prevent a comparison at Ra 2500: error of the mean K of the particles' "
-                    "field over the grid's K",
-          because=f"smaller than the 10 % that they find at higher Ra, a comparison is possible; {PLAIN}; "
-                  f"{BOTH}"),
 )

@@ -11,19 +11,7 @@ from studies.kit.ask import Value, curve, largest, largest_of, last, of, rows
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
-from studies.rb.claims.curves import (
-    against_cells,
-    bend,
-    drift,
-    foretelling,
-    history,
-    intercept_alone,
-    line,
-    reading,
-    scatter,
-    slope_alone,
-    straightness,
-)
+from studies.rb.claims import curves
 from studies.rb.claims.flows import guarded, limit, mean, refuse_dead, rolls
 from studies.rb.tables import STILL, besides, grid
 
@@ -97,7 +85,7 @@ def refuse_short(point: dict[str, Any], until: float) -> Callable[[Tables], None
 def scattered(ra: float, height: int) -> Value:
     """Relative standard deviation of K(t) in the last half of a long run."""
     point = grid(ra, height)
-    return guarded(history(scatter, point, "ke"), refuse_short(point, RINGING))
+    return guarded(curves.history(curves.scatter, point, "ke"), refuse_short(point, RINGING))
 
 
 def scatter_refined() -> Value:
@@ -113,7 +101,7 @@ def scatter_refined() -> Value:
 def drift_of_dense() -> Value:
     """Change of K of the dense fluid at Ra 3000 over the last quarter of a long run; none is no proof."""
     point = grid(3000, 24, **DENSE)
-    change = guarded(history(drift, point), refuse_short(point, LONG))
+    change = guarded(curves.history(curves.drift, point), refuse_short(point, LONG))
 
     def check(tables: Tables) -> None:
         if (least := change(tables).value) < DRIFTS:
@@ -163,37 +151,39 @@ CLAIMS = (
           because=LAST),
     Claim(id="khp95-ke-10000-line", source="KHP95 Secs V, VI", printed="0.004 81",
           statement="0.004 81 is what the straight line in Ra^-1/2 through 1.2 to 4 times onset gives at Ra "
-                    "10 000", value=line(foretelling(1e4), low=1.2), **as_printed("ke-10000"), because=LAST),
+                    "10 000", value=curves.line(curves.foretelling(1e4), low=1.2),
+          **as_printed("ke-10000"), because=LAST),
     Claim(id="khp95-ke-line-digits", source="KHP95 Secs V, VI",
           statement="K is linear in Ra^-1/2 from onset to four times onset as far as its digits are "
-                    "printed, ideal gas, constant eta: largest distance", value=line(bend),
+                    "printed, ideal gas, constant eta: largest distance", value=curves.line(curves.bend),
           at_most=LAST_DIGIT, because=f"{LAST} of K: what is linear almost exactly is so in all three"),
     Claim(id="khp95-ke-line", source="KHP95 Sec. V, Fig. 5", printed="almost exactly linearly",
           statement="K is linear in Ra^-1/2 from onset to four times onset, ideal gas, constant eta: "
-                    "largest distance over K(4 Ra_c)", value=straightness(), at_most=0.01, because=ALMOST),
+                    "largest distance over K(4 Ra_c)", value=curves.straightness(), at_most=0.01,
+          because=ALMOST),
     Claim(id="khp95-ke-line-const-nu", source="KHP95 Sec. V, Fig. 5", printed="almost exactly linearly",
           statement="K is linear in Ra^-1/2 from onset to four times onset, ideal gas, constant nu: largest "
-                    "distance over K(4 Ra_c)", value=straightness(transport="const-nu"), at_most=0.01,
+                    "distance over K(4 Ra_c)", value=curves.straightness(transport="const-nu"), at_most=0.01,
           because=ALMOST),
     Claim(id="khp95-vdw-panel", source="KHP95 Sec. V, Fig. 5", printed="almost exactly linearly",
           statement="K is linear in Ra^-1/2 from onset to four times onset, van der Waals: largest distance "
-                    "over K(4 Ra_c)", value=straightness(eos="vdw"), at_most=0.01, because=ALMOST),
+                    "over K(4 Ra_c)", value=curves.straightness(eos="vdw"), at_most=0.01, because=ALMOST),
     Claim(id="khp95-ke-line-square", source="KHP95 Sec. V, Fig. 6", printed="almost exactly linearly",
           statement="K is linear in Ra^-1/2 from onset, 5012, to four times onset in the square, one roll: "
-                    "largest distance over K(4 Ra_c)", value=straightness(sides="walls"), at_most=0.01,
+                    "largest distance over K(4 Ra_c)", value=curves.straightness(sides="walls"), at_most=0.01,
           because=ALMOST),
     Claim(id="khp95-ke-line-beyond", source="KHP95 Secs V, VI", printed="to four times that value",
           statement="the line may be read at Ra 10 000 = 5.9 times onset: K over the line, less 1",
-          value=limit(1e4)/line(reading(1e4), low=1.2) - 1, expect=0, within=LAST_DIGIT/number("ke-10000"),
-          because=f"{LAST} of K at Ra 10 000"),
+          value=limit(1e4)/curves.line(curves.reading(1e4), low=1.2) - 1, expect=0,
+          within=LAST_DIGIT/number("ke-10000"), because=f"{LAST} of K at Ra 10 000"),
     Claim(id="khp95-slopes-l2", source="KHP95 Sec. V", printed="almost exactly linearly with L^-2",
           statement="slopes of the lines are linear in L^-2: largest distance over the whole change",
-          value=against_cells(slope_alone), at_most=0.05,
+          value=curves.against_cells(curves.slope_alone), at_most=0.05,
           because="the next term, L^-4, is 0.1 % of the first at 30 rows, times a factor that may be tens "
                   "at thin layers"),
     Claim(id="khp95-intercepts-l2", source="KHP95 Sec. V", printed="almost exactly linearly with L^-2",
           statement="intercepts of the lines are linear in L^-2: largest distance over the whole change",
-          value=against_cells(intercept_alone), at_most=0.05,
+          value=curves.against_cells(curves.intercept_alone), at_most=0.05,
           because="the next term, L^-4, is 0.1 % of the first at 30 rows, times a factor that may be tens "
                   "at thin layers"),
     Claim(id="khp95-ghost-density-mass", source="KHP95 Sec. V", printed="unity", at_most=1e-3,

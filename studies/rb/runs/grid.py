@@ -182,7 +182,7 @@ class PypdeSteady(Refined):
 
     @property
     def cost(self) -> float:
-        return sum(5 + 6e-5*rows**3 for rows in self.sizes)
+        return 8 + sum(6e-5*rows**3 for rows in self.sizes)
 
     def run(self, report: Report, folder: Path) -> Outcome:
         rows: list[dict] = []
