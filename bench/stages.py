@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from bench.convection import block_seconds, per_evaluation
-from particles.lists import Surroundings
+from particles.lists import PairLists
 from particles.threads import Team
 
 NAMES = {"weigh": "stage weigh", "Gradients": "stage gradient sweep", "Fluxes": "stage flux sweep"}
@@ -52,8 +52,8 @@ def stages(particles: int, blocks: int) -> dict[str, np.ndarray]:
         spent.clear()
 
     with timed(Team, "__call__", stage_of, spent), \
-            timed(Surroundings, "must_relist", lambda *_: "stage list", spent), \
-            timed(Surroundings, "relist", lambda *_: "stage list", spent):
+            timed(PairLists, "must_relist", lambda *_: "stage list", spent), \
+            timed(PairLists, "relist", lambda *_: "stage list", spent):
         total = block_seconds(particles, blocks, between=keep)
     for lap, seconds in zip(laps[1:], total, strict=True):
         lap["stage rest"] = seconds - sum(lap.get(name, 0.0) for name in STAGES[:-1])

@@ -3,7 +3,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from particles.lists import Surroundings
+from particles.lists import PairLists
 from particles.walls.mirror import Mirror
 
 
@@ -25,7 +25,7 @@ class Ghosts(NamedTuple):
         self.fill(points, ("Fx",), ("Fy",))
 
 
-def ghosts_of(around: Surroundings) -> Ghosts:
+def ghosts_of(around: PairLists) -> Ghosts:
     """The ghosts that the lists have now; mirrors are the only walls that turn anything."""
     origin, turn, plate_T = np.arange(len(around.x)), np.ones(len(around.x)), np.zeros(len(around.x))
     for wall, parent, first, last in around.blocks:

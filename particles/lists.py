@@ -31,7 +31,7 @@ def outside(walls: tuple, state: np.ndarray) -> np.ndarray:
     return np.flatnonzero((inside[:2] != state[:2]).any(axis=0))
 
 
-class Surroundings:
+class PairLists:
     """Fixed particles, ghosts, neighbour lists and pairs of N particles between walls.
 
     x, y, vx, vy, T, rho, P : (points,) fields of all points; of the particles written by the method.
@@ -118,7 +118,7 @@ class Surroundings:
 
 class Listed:
     """What the time loop asks of sums over neighbour lists, whatever is summed."""
-    around: Surroundings
+    around: PairLists
     rates: Any
 
     def evaluate(self, state: np.ndarray) -> None:

@@ -5,7 +5,7 @@ import numpy as np
 
 from continuum.jit import jit
 from particles.ghosts import ghosts_of
-from particles.lists import Surroundings
+from particles.lists import PairLists
 from particles.pairs import Pairs
 
 #: spacings; of the largest stretch of the points around: below these no direction leads to or between
@@ -25,8 +25,8 @@ class Overlap(ValueError):
     """Points lie in one place, as pairing may leave them, too."""
 
 
-def check_apart(around: Surroundings, ids: np.ndarray, a: float) -> None:
-    """Refuse points that lie in one place, where they would stay; a : spacing. After `Surroundings.place`."""
+def check_apart(around: PairLists, ids: np.ndarray, a: float) -> None:
+    """Refuse points that lie in one place, where they would stay; a : spacing. After `PairLists.place`."""
     n = around.n
     i, j = _together(n, around.pairs, around.x, around.y, (OVERLAP*a)**2)
     if i == n:
@@ -37,7 +37,7 @@ def check_apart(around: Surroundings, ids: np.ndarray, a: float) -> None:
                   f"to the other; move {'it inside' if i == j else 'one of them'}")
 
 
-def moments(around: Surroundings, V: np.ndarray) -> np.ndarray:
+def moments(around: PairLists, V: np.ndarray) -> np.ndarray:
     """sum_j V_j W e (x_j - x_i) of plain quadrature, (n, 2, 2): 1 where linear gradients are exact."""
     out = np.zeros((around.n, 2, 2))
     _moments(around.n, around.pairs, around.x, around.y, np.concatenate([V, V[ghosts_of(around).origin]]),

@@ -17,7 +17,7 @@ from particles.integral.faces import POTENTIALS, FaceMaker, inner
 from particles.integral.interpolants import check_ordering
 from particles.integral.transposed_stress import MENDED
 from particles.limits import limit_of
-from particles.lists import Listed, Surroundings
+from particles.lists import Listed, PairLists
 from particles.pairs import Faces, sweep
 from particles.starts import check_apart, check_reach, check_volumes, moments
 from particles.threads import Team
@@ -76,7 +76,7 @@ class FaceSums(Listed):
 
     def __init__(self, method: "Moving", n: int, team: Team):
         self.method, self.team, self.n = method, team, n
-        self.around = Surroundings(method.weight, method.walls, n, method.box, skin=0.5, team=team)
+        self.around = PairLists(method.weight, method.walls, n, method.box, skin=0.5, team=team)
         self.maker = FaceMaker(self.around, method.ingredients.iterations, method.ingredients.within)
         self.slopes, self.P0, chosen = np.zeros((n, 6)), 0.0, method.ingredients
         term = face_terms.FaceExchange(chosen.follow, chosen.spread, float(chosen.smooth),

@@ -14,7 +14,7 @@ import numpy as np
 
 from continuum.jit import jit
 from particles.ghosts import ghosts_of
-from particles.lists import Surroundings
+from particles.lists import PairLists
 from particles.neighbours import u64
 from particles.pairs import Faces, nothing, rate, sweep
 
@@ -46,7 +46,7 @@ class FaceMaker:
     made anew.
     """
 
-    def __init__(self, around: Surroundings, iterations: int, within: float):
+    def __init__(self, around: PairLists, iterations: int, within: float):
         self.around, self.n, self.team = around, around.n, around.team
         self.most, self.within = iterations, within
         self.pull, self.count = np.zeros((self.n, 2)), np.zeros(self.n)

@@ -20,7 +20,7 @@ from particles.integral.fixed import Point
 from particles.integral.interpolants import check_ordering
 from particles.integral.transposed_stress import MENDED
 from particles.limits import lattice_sums, limit_of, zone
-from particles.lists import Listed, Surroundings, fastest
+from particles.lists import Listed, PairLists, fastest
 from particles.smooth.spam import LessStatic
 from particles.starts import check_apart, check_volumes, moments
 from particles.threads import Team
@@ -121,7 +121,7 @@ class Drifts(Listed):
 
     def __init__(self, method: Drift, n: int, team: Team):
         self.method, self.team, self.n = method, team, n
-        self.around = Surroundings(method.weight, method.walls, n, method.box, skin=0.5, team=team)
+        self.around = PairLists(method.weight, method.walls, n, method.box, skin=0.5, team=team)
         self._lists, terms = -1, method.motion.terms(method.eos, method.transport)
         needed = stages(terms, method.law, n, team, OverPairs, ("x", "y", "V"))
         self.exchange = Exchange(OverPairs(Drifting(method.motion, Listing(terms))), needed, n, team)

@@ -6,7 +6,7 @@ import numpy as np
 
 from continuum.fluid import conductivity, energy, pressure, stress, temperature, valid, viscosity
 from continuum.jit import formula, jit
-from particles.lists import Listed, Surroundings
+from particles.lists import Listed, PairLists
 from particles.pairs import sweep
 from particles.terms import DirectFluxes, Fluxes, density_factor
 from particles.threads import Team
@@ -27,7 +27,7 @@ class Sums(Listed, ABC):
 
     def __init__(self, method: Any, n: int, team: Team):
         self.method, self.team, self.n = method, team, n
-        self.around = Surroundings(method.weight, method.walls, n, method.box, skin=method.skin, team=team)
+        self.around = PairLists(method.weight, method.walls, n, method.box, skin=method.skin, team=team)
         self.slopes, self.pull = np.zeros((self.around.rows, 8)), np.zeros((self.around.rows, 5))
         self.less, self.moving = np.empty(0), np.empty(0, Moving)
 
