@@ -20,7 +20,7 @@ from particles.integral.layer import LayerSums
 from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Plan, run
-from particles.threads import Team
+from particles.threads import Threads
 from studies.build import ready
 from studies.kit.csvfile import commit, cpu, now, versions, write
 from studies.kit.key import ROOT
@@ -34,7 +34,7 @@ def fixed(name: str, fast: bool = True) -> Callable[[], float]:
     """Nanoseconds a point and evaluation of one scheme on fixed points."""
     method, state, _ = ready(SCENE, name)
     method = replace(method, form=None if fast else LayerSums)
-    sums, out, n = method.start(state.shape[1], Team(1)), np.empty_like(state), state.shape[1]
+    sums, out, n = method.start(state.shape[1], Threads(1)), np.empty_like(state), state.shape[1]
 
     def measure() -> float:
         began = time.process_time()
@@ -71,7 +71,7 @@ def bracket(name: str) -> Callable[[], float]:
     """An evaluation of RR98's own motions: pairs in range, fields, sums."""
     method, state, _ = ready(SCENE, name)
     n = state.shape[1]
-    sums, out = method.start(n, Team(1)), np.empty_like(state)
+    sums, out = method.start(n, Threads(1)), np.empty_like(state)
     sums.around.relist(state, np.arange(n), 0.0)
 
     def measure() -> float:

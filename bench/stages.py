@@ -12,7 +12,7 @@ import numpy as np
 
 from bench.convection import block_seconds, per_evaluation
 from particles.lists import PairLists
-from particles.threads import Team
+from particles.threads import Threads
 
 NAMES = {"weigh": "stage weigh", "Gradients": "stage gradient sweep", "Fluxes": "stage flux sweep"}
 STAGES = ("stage list", *NAMES.values(), "stage rest")
@@ -37,7 +37,7 @@ def timed(owner: type, method: str, name: Callable[..., str], spent: dict[str, f
 
 
 def stage_of(function: Any, rows: int, *arguments: Any) -> str:
-    """The stage that a call of the team belongs to, if it is one of the three sums."""
+    """The stage that a call of threads belongs to, if it is one of the three sums."""
     word = type(arguments[0]).__name__ if function.__name__ == "sweep" else function.__name__
     return NAMES.get(word, "other")
 
@@ -51,7 +51,7 @@ def stages(particles: int, blocks: int) -> dict[str, np.ndarray]:
         laps.append(dict(spent))
         spent.clear()
 
-    with timed(Team, "__call__", stage_of, spent), \
+    with timed(Threads, "__call__", stage_of, spent), \
             timed(PairLists, "must_relist", lambda *_: "stage list", spent), \
             timed(PairLists, "relist", lambda *_: "stage list", spent):
         total = block_seconds(particles, blocks, between=keep)

@@ -5,7 +5,7 @@ import numpy as np
 
 from continuum.jit import jit
 from particles.neighbours import u64
-from particles.threads import Team
+from particles.threads import Threads
 
 #: of whole numbers, spacings: sums in another order differ by 1e-16, but all except 1e-8 are rounded alike
 GRID = 2.0**-24
@@ -22,9 +22,9 @@ class RK4:
     """Classical fourth-order Runge-Kutta    [KHP95, Sec. II]"""
     evaluations = 4
 
-    def __init__(self, shape: tuple[int, ...], team: Team):
+    def __init__(self, shape: tuple[int, ...], threads: Threads):
         self._k, self._total, self._next = (np.empty(shape) for _ in range(3))
-        self._team = team
+        self._threads = threads
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
         """Advance y in place by dt; sums.rates(y, out) writes dy/dt."""
@@ -34,7 +34,7 @@ class RK4:
         flat = [q.ravel() for q in (y, k, total, stage)]
         for weight, forward in ((1/6, dt/2), (1/3, dt/2), (1/3, dt), (1/6, 0.0)):
             sums.rates(stage, k)
-            self._team(_stage, y.size, *flat, weight, forward)
+            self._threads(_stage, y.size, *flat, weight, forward)
         total *= dt
         y += total
 
@@ -43,7 +43,7 @@ class Euler:
     """Forward Euler for everything    [RR98 Eq. 40]"""
     evaluations = 1
 
-    def __init__(self, shape: tuple[int, ...], team: Team):
+    def __init__(self, shape: tuple[int, ...], threads: Threads):
         self._k = np.empty(shape)
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
@@ -77,7 +77,7 @@ class Leapfrog:
     """Half a kick, a drift, half a kick [Verlet 1967]: reversible but for round-off."""
     evaluations = 2
 
-    def __init__(self, shape: tuple[int, ...], team: Team):
+    def __init__(self, shape: tuple[int, ...], threads: Threads):
         self._k = np.empty(shape)
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:

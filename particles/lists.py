@@ -10,7 +10,7 @@ import numpy as np
 from continuum.fluid import valid
 from particles.neighbours import farthest, make_lists, sort_into_cells
 from particles.pairs import empty_pairs, weigh
-from particles.threads import Team
+from particles.threads import Threads
 from particles.walls import confine, fixed_points, move_images, parents, place_images
 from particles.walls.periodic import wrap
 
@@ -39,14 +39,14 @@ class PairLists:
     blocks : (wall, parents, first, last) of the ghosts, in the order in which they are filled.
     """
 
-    def __init__(self, weight, walls, n: int, box: tuple[float, float], *, skin: float, team: Team):
+    def __init__(self, weight, walls, n: int, box: tuple[float, float], *, skin: float, threads: Threads):
         if not skin > 0:
             raise ValueError(f"the skin of the neighbour list must be positive, got {skin}: 0.2 h is a good "
                              "start")
         if 2*weight.h > min(box):
             raise ValueError(f"the weight's diameter 2 h = {2*weight.h:g} is wider than the box {box[0]:g} x "
                              f"{box[1]:g}: take more particles or a shorter range")
-        self.weight, self.walls, self.skin, self.team, self.n = weight, walls, skin, team, n
+        self.weight, self.walls, self.skin, self.threads, self.n = weight, walls, skin, threads, n
         held = [fixed_points(wall, *box) for wall in walls] or [(EMPTY, EMPTY, EMPTY)]
         self._fixed = tuple(np.concatenate(column) for column in zip(*held, strict=True))
         self.rows = n + len(self._fixed[0])
@@ -97,7 +97,7 @@ class PairLists:
     def _fill_lists(self, x, y):
         cells = sort_into_cells(x, y, self.reach)
         rows, old = slice(self.rows), self.pairs
-        start, length, listed = make_lists(self.team, cells, x[rows], y[rows], self.reach, 0, old.listed)
+        start, length, listed = make_lists(self.threads, cells, x[rows], y[rows], self.reach, 0, old.listed)
         pairs = old if listed is old.listed else empty_pairs(self.rows, len(listed))
         self.pairs = pairs._replace(start=start, length=length, listed=listed)
 
@@ -106,7 +106,7 @@ class PairLists:
         self.x[:self.n], self.y[:self.n] = state[0], state[1]
         for wall, parent, first, last in self.blocks:
             place_images(first, last, wall, parent, self.x, self.y)
-        self.team(weigh, self.rows, self.weight, m, self.x, self.y, self.pairs, self.rho)
+        self.threads(weigh, self.rows, self.weight, m, self.x, self.y, self.pairs, self.rho)
         for _, parent, first, last in self.blocks:
             self.rho[first:last] = self.rho[parent]
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from continuum.jit import jit
-from particles.threads import Team
+from particles.threads import Threads
 
 u32, u64 = np.uint32, np.uint64
 ONE = u64(1)
@@ -108,7 +108,7 @@ def list_rows(first, last, cells, x, y, reach, itself, capacity, start, length, 
     return True
 
 
-def make_lists(team: Team, cells: Cells, x: np.ndarray, y: np.ndarray, reach: float, itself: int,
+def make_lists(threads: Threads, cells: Cells, x: np.ndarray, y: np.ndarray, reach: float, itself: int,
                listed: np.ndarray = NOTHING) -> tuple:
     """(start, length, listed) of points within `reach` of (x, y), but for point i + `itself` of row i.
 
@@ -120,7 +120,7 @@ def make_lists(team: Team, cells: Cells, x: np.ndarray, y: np.ndarray, reach: fl
         start, length = np.empty(rows, np.uint64), np.empty(rows, u32)
         if len(listed) < rows*room:
             listed = np.empty(int(1.1*rows*room), u32)
-        if all(team(list_rows, rows, cells, x, y, reach, itself, room, start, length, listed)):
+        if all(threads(list_rows, rows, cells, x, y, reach, itself, room, start, length, listed)):
             return start, length, listed
         room = int(1.3*room) + 1
     raise FloatingPointError(f"more than {int(room/1.3)} neighbours within {reach:g} of each particle: they "

@@ -28,9 +28,9 @@ def fields_at(sums: Any, state: np.ndarray, x: np.ndarray, y: np.ndarray) -> Smo
     values = np.stack([np.ones_like(e), around.vx, around.vy, e], axis=1)
     out = np.empty((np.size(x), 4))
     cells = sort_into_cells(around.x, around.y, method.weight.h/2)
-    places = np.ravel(x).astype(float), np.ravel(y).astype(float)
-    lists = make_lists(sums.team, cells, *places, method.weight.h, 2*len(e))
-    sums.team(interpolate, len(out), method.weight, method.m, *places, lists, around.x, around.y, values, out)
+    at = np.ravel(x).astype(float), np.ravel(y).astype(float)
+    lists = make_lists(sums.threads, cells, *at, method.weight.h, 2*len(e))
+    sums.threads(interpolate, len(out), method.weight, method.m, *at, lists, around.x, around.y, values, out)
     rho, vx, vy, e = (column.reshape(np.shape(x)) for column in out.T)
     return Smoothed(rho, vx/rho, vy/rho, e/rho, temperature(method.eos, rho, e/rho))
 
@@ -72,7 +72,7 @@ class PlateHeat(NamedTuple):
         """From densities and gradients that are up to date."""
         term, records = sums.exchange(sums.less if self.pressure else np.zeros_like(sums.less))
         pull = np.zeros((sums.around.rows, sums.pull.shape[1]))
-        sums.team(sweep, sums.n, term, records, pairs_behind(sums, self.side), pull)
+        sums.threads(sweep, sums.n, term, records, pairs_behind(sums, self.side), pull)
         ax, ay, heat, _, work = pull[:sums.n].T
         return float(sums.method.m*np.sum(state[2]*ax + state[3]*ay + heat + work)/sums.method.box[0])
 

@@ -11,7 +11,7 @@ from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.lists import outside
 from particles.plan import Plan, Run
-from particles.threads import Team
+from particles.threads import Threads
 
 #: of the step limit: what is stable where moving particles lie at random (see `limits`), what the studies
 #: take
@@ -36,10 +36,10 @@ def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], N
     """
     start = _particles(method, start)
     _check_start(method, start, plan)
-    team = Team(plan.threads)
+    threads = Threads(plan.threads)
     now = load(plan.checkpoint, method, plan, start) or Run(state=start.copy(), ids=np.arange(start.shape[1]))
-    sums, integrator = (method.start(start.shape[1], team),
-                        getattr(method, "integrator", RK4)(start.shape, team))
+    sums, integrator = (method.start(start.shape[1], threads),
+                        getattr(method, "integrator", RK4)(start.shape, threads))
     sums.resume(now)
     before = process_time()
     sums.try_out(now)       # loads or compiles the code

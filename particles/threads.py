@@ -5,19 +5,19 @@ from itertools import pairwise
 from typing import Any
 
 
-class Team:
+class Threads:
     """Calls a compiled function(first, last, ...) on equal ranges of rows, one a thread: bitwise the same."""
 
-    def __init__(self, threads: int = 1):
-        if threads < 1:
-            raise ValueError(f"the number of threads must be at least 1, got {threads}")
-        self.threads = threads
-        self._pool = ThreadPoolExecutor(threads - 1) if threads > 1 else None
+    def __init__(self, number: int = 1):
+        if number < 1:
+            raise ValueError(f"the number of threads must be at least 1, got {number}")
+        self.number = number
+        self._pool = ThreadPoolExecutor(number - 1) if number > 1 else None
 
     def __call__(self, function: Callable, rows: int, *arguments: Any) -> list:
         """Results of function(first, last, *arguments) over all ranges."""
-        if self._pool is None or rows < 64*self.threads:
+        if self._pool is None or rows < 64*self.number:
             return [function(0, rows, *arguments)]
-        cuts = [rows*t//self.threads for t in range(self.threads + 1)]
+        cuts = [rows*t//self.number for t in range(self.number + 1)]
         others = [self._pool.submit(function, a, b, *arguments) for a, b in pairwise(cuts[1:])]
         return [function(0, cuts[1], *arguments), *(other.result() for other in others)]

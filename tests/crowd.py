@@ -8,7 +8,7 @@ from continuum.fluid import IdealGas, energy
 from particles.integrators import RK4
 from particles.run import Plan, run
 from particles.smooth.spam import Spam
-from particles.threads import Team
+from particles.threads import Threads
 from particles.walls.periodic import periodic
 
 
@@ -47,7 +47,7 @@ def goes_on_bitwise(method, state: np.ndarray, dt: float, folder: Path) -> None:
 
 def prepare(method: Spam, state: np.ndarray, threads: int = 1):
     """The method's sums with lists, the state in the order of their cells, and which particle is where."""
-    state, ids, sums = state.copy(), np.arange(state.shape[1]), method.start(state.shape[1], Team(threads))
+    state, ids, sums = state.copy(), np.arange(state.shape[1]), method.start(state.shape[1], Threads(threads))
     sums.around.relist(state, ids, 0.0)
     return sums, state, ids
 
@@ -63,7 +63,7 @@ def rates(method: Spam, state: np.ndarray, threads: int = 1) -> np.ndarray:
 def advance(method: Spam, state: np.ndarray, dt: float, steps: int, threads: int = 1) -> np.ndarray:
     """The state after some steps of RK4, without reflections, in the order in which it was given."""
     sums, now, ids = prepare(method, state, threads)
-    integrator = RK4(now.shape, sums.team)
+    integrator = RK4(now.shape, sums.threads)
     for _ in range(steps):
         if sums.around.must_relist(now, dt):
             sums.around.relist(now, ids, dt)

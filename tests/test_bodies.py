@@ -13,7 +13,7 @@ from particles.integral.points import jittered, lattice
 from particles.integral.sheared import Sheared
 from particles.integral.stream import Stream, separated
 from particles.integral.triangulation import delaunay
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import Lucy
 
 LAW = ConstEta(0.3, 0.4)
@@ -38,7 +38,7 @@ def shaken(fluid, n, seed=0):
 
 def rates(fluid, state):
     """Rates of a state, and the sums that made them."""
-    sums, out = fluid.start(state.shape[1], Team(1)), np.empty_like(state)
+    sums, out = fluid.start(state.shape[1], Threads(1)), np.empty_like(state)
     sums.rates(state, out)
     return out, sums
 
@@ -160,7 +160,7 @@ def test_bad_bodies_are_refused():
     with pytest.raises(ValueError, match=r"chi must not be negative, got -0\.1"):
         stream(chi=-0.1)
     with pytest.raises(ValueError, match="a state of 5 points"):
-        stream().start(5, Team(1))
+        stream().start(5, Threads(1))
 
 
 # --- sliding sides ------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.plan import Plan
 from particles.run import Divergence, run
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import Lucy
 from studies.cost import contestants, left_out, tables
 from studies.cost.seconds import array_bytes
@@ -20,7 +20,7 @@ TERMS = (Carried(2.0), ConstantFriction(0.3))
 
 def rates(method, state):
     out = np.empty_like(state)
-    method.start(state.shape[1], Team(1)).rates(state, out)
+    method.start(state.shape[1], Threads(1)).rates(state, out)
     return out
 
 
@@ -57,9 +57,9 @@ def test_the_limit_of_the_step_is_that_of_sound(share, stable):
     """Without friction: noise stays below, and grows above."""
     method = on_lattice(12, TERMS[:1])
     state = np.array([1 + 1e-6*np.random.default_rng(1).normal(size=144), *np.zeros((2, 144))])
-    sums, now = method.start(144, Team(1)), state.copy()
+    sums, now = method.start(144, Threads(1)), state.copy()
     for _ in range(400):
-        RK4(now.shape, Team(1)).step(sums, now, share*limit_of(method, state))
+        RK4(now.shape, Threads(1)).step(sums, now, share*limit_of(method, state))
     grown = np.abs(now[0] - 1).max()/np.abs(state[0] - 1).max()
     assert grown < 2 if stable else not grown < 10
 

@@ -8,7 +8,7 @@ from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import MAKERS
 from particles.integral.points import jittered, lattice
 from particles.integrators import RK4
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import WendlandC2
 
 COUNTS = {1: (16,), 2: (10, 9), 3: (6, 6, 7)}
@@ -165,7 +165,7 @@ def test_taylor_green_vortex_decays_as_it_should(maker):
     x, y = at.x.T
     v = U*np.stack([np.sin(k*x)*np.cos(k*y), -np.cos(k*x)*np.sin(k*y)], axis=1)
     state = dih.state(np.ones(at.n), v, np.ones(at.n))
-    integrator, dt, steps = RK4(state.shape, Team(1)), 0.4, 40
+    integrator, dt, steps = RK4(state.shape, Threads(1)), 0.4, 40
     K = [((state[1:3]**2).sum(axis=0)/state[0]/2)@dih.edges.V]
     before = dih.conserved(state)
     for _ in range(steps):

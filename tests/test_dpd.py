@@ -25,7 +25,7 @@ from particles.dissipative.stream import DpdStream, force_on_body, speed
 from particles.integrators import TwoStep
 from particles.noise import uniform_of_pair
 from particles.run import Plan, Run, run
-from particles.threads import Team
+from particles.threads import Threads
 
 SHEARED = (TwoStep, GrootWarren, GrootWarren65, VelocityVerlet, Shardlow)
 INTEGRATORS = (*SHEARED, KickDriftFrictionDriftKick)
@@ -34,7 +34,7 @@ BOXES = ((5.0, 4.0), (3.5, 3.0, 4.0))
 
 def sums_of(method, state, step=0, dt=0.02, threads=1):
     """The pair sums as a run has them at some step, particles in the order in which they are given."""
-    sums = method.start(state.shape[1], Team(threads))
+    sums = method.start(state.shape[1], Threads(threads))
     sums.resume(Run(state=state, ids=np.arange(state.shape[1]), step=step))
     sums.dt = dt
     return sums

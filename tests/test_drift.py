@@ -22,7 +22,7 @@ from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Plan, run
 from particles.smooth.spam import LessStatic
-from particles.threads import Team
+from particles.threads import Threads
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
@@ -67,7 +67,8 @@ def inner(x):
 def rates(method, state, threads=1):
     """In the order of the points as they are given."""
     n = state.shape[1]
-    sums, now, ids, found = method.start(n, Team(threads)), state.copy(), np.arange(n), np.zeros_like(state)
+    sums, now, ids = method.start(n, Threads(threads)), state.copy(), np.arange(n)
+    found = np.zeros_like(state)
     sums.around.relist(now, ids, 0.0)
     out = np.zeros_like(now)
     sums.rates(now, out)
@@ -121,7 +122,7 @@ def test_literal_points_between_plates_are_fixed_ones_that_are_moved(law, mended
     method = drift(inside=True, law=law, transport=fixed.transport)
     state = method.state(x, *fields())
     expected = np.zeros((4, len(x)))
-    fixed.start(len(x), Team(1)).rates(state[[4, 2, 3, 5]], expected)
+    fixed.start(len(x), Threads(1)).rates(state[[4, 2, 3, 5]], expected)
     found = rates(method, state)
     alike(found[[4, 2, 3, 5]], expected)
     np.testing.assert_allclose(found[:2], state[2:4]/state[4], rtol=1e-15)
@@ -152,7 +153,7 @@ def test_mass_between_plates_stays_in_literal_motion_and_leaks_in_convective():
 
 def test_results_do_not_depend_on_threads():
     wide = jittered((20, ROWS), 0.2, 3)
-    assert wide.n >= 64*2       # a team shares no fewer rows
+    assert wide.n >= 64*2       # threads share no fewer rows
     method = drift(inside=True, walls=(*plates(ROWS, 1.5, 0.5), *periodic(20)), box=(20, ROWS))
     state = shaken(method, inner(wide.x))
     assert np.array_equal(rates(method, state), rates(method, state, 2))
@@ -175,9 +176,9 @@ def test_steps_up_to_the_limit_are_stable_and_those_well_above_it_are_not(kind):
     dt = limit_of(method, state)
     fast = {}
     for of_limit in (0.25, 1.0, 2.5):
-        sums, now = method.start(len(x), Team(1)), state.copy()
+        sums, now = method.start(len(x), Threads(1)), state.copy()
         sums.around.relist(now, np.arange(len(x)), 0.0)
-        stepper = RK4(now.shape, Team(1))
+        stepper = RK4(now.shape, Threads(1))
         for _ in range(round(50/of_limit)):
             stepper.step(sums, now, of_limit*dt)
         fast[of_limit] = np.abs(now[2:4]).max()
@@ -188,7 +189,7 @@ def test_steps_up_to_the_limit_are_stable_and_those_well_above_it_are_not(kind):
 def test_what_is_no_fluid_is_named():
     method = drift("constant-mass")
     state = shaken(method)
-    sums = method.start(AT.n, Team(1))
+    sums = method.start(AT.n, Threads(1))
     state[6, 5] = -1.0
     assert "point 5 has V = -1" in sums.fault(state, np.arange(AT.n))
     with pytest.raises(ValueError, match="LiteralDrift needs the whole pressure"):
@@ -225,7 +226,7 @@ def test_a_weight_that_is_none_is_refused_and_a_narrow_one_told():
 def test_heat_through_plates_is_conduction_where_temperature_is_linear():
     scene = RayleighBenard(ra=1e4, L=12.0)
     fluid, x = DRIFT_MOTIONS["moving-literal"].ready(scene).method, lattice((24, 12)).x
-    sums, now = fluid.start(len(x), Team(1)), fluid.state(x, 1.0, 0*x, scene.T(x[:, 1]))
+    sums, now = fluid.start(len(x), Threads(1)), fluid.state(x, 1.0, 0*x, scene.T(x[:, 1]))
     sums.around.relist(now, np.arange(len(x)), 0.0)
     sums.look_at(now)
     for side in (-1, 1):

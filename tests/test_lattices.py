@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from continuum.fluid import IdealGas, VanDerWaals, pressure
 from particles.limits import lattice_sums
 from particles.smooth.spam import Spam
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.build.spam import at_rest, fluid
 from studies.kit.table import Tables
@@ -55,7 +55,7 @@ def test_least_stable_motion_is_pushed_as_its_eigenvalue_says(weight, eos):
     crystal = Crystal(lattice=HEXAGONAL, cells=(8, 5), weight=weight, h=2.9, eos=eos, T=0.6)
     (k, a, square, _), shift, x = crystal.motion, 1e-5, HEXAGONAL.places((8, 5))
     u = shift*a*np.cos(x@k + 1.0)[:, None]
-    kernel = fluid(weight.of(h=2.9), HEXAGONAL.box((8, 5)), eos).start(len(x), Team(1))
+    kernel = fluid(weight.of(h=2.9), HEXAGONAL.box((8, 5)), eos).start(len(x), Threads(1))
     state, ids, rho = at_rest(x + u, crystal.e), np.arange(len(x)), sums(weight.of(h=2.9), HEXAGONAL,
                                                                          k[None]).rho
     kernel.around.relist(state, ids, 0.0)
@@ -117,7 +117,7 @@ def test_criteria_are_the_printed_inequalities():
 def test_pressure_of_the_square_of_the_density_makes_molecules(weight):
     state = whole_crowd(8, 3)
     method = as_fluid(Spam, weight.of(h=3.0), 8.0)
-    kernel, ids = method.start(64, Team(1)), np.arange(64)
+    kernel, ids = method.start(64, Threads(1)), np.arange(64)
     ordered, out, expected = state.copy(), np.empty_like(state), np.empty_like(state)
     kernel.around.relist(ordered, ids, 0.0)
     kernel.rates(ordered, out)

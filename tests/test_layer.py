@@ -19,7 +19,7 @@ from particles.integral.transposed_stress import MENDED
 from particles.integral.triangulation import delaunay
 from particles.limits import limit_of
 from particles.run import Plan, run
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import Lucy
 
 ROWS = 10
@@ -44,7 +44,7 @@ def at(x, where, make=renormalised, mended=True, h=2.0):
 
 def rates(fluid, state, threads=1):
     out = np.empty_like(state)
-    fluid.start(state.shape[1], Team(threads)).rates(state, out)
+    fluid.start(state.shape[1], Threads(threads)).rates(state, out)
     return out
 
 
@@ -103,7 +103,7 @@ def test_linear_sums_are_those_edge_by_edge(make, size, h):
     one, other = rates(fluid, state), rates(replace(fluid, form=LayerSums), state)
     for a, b in zip(one, other, strict=True):
         assert np.abs(a - b).max() < 1e-13*np.abs(b).max()
-    assert type(fluid.start(len(x), Team(1))) is LinearSums
+    assert type(fluid.start(len(x), Threads(1))) is LinearSums
 
 
 @pytest.mark.parametrize(("make", "size", "h"), MADE)

@@ -15,7 +15,7 @@ from particles.integral.points import jittered
 from particles.integral.transposed_stress import MENDED
 from particles.limits import limit_of
 from particles.run import Plan, run
-from particles.threads import Team
+from particles.threads import Threads
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
@@ -49,7 +49,7 @@ def shaken(method, seed=0, speed=0.2):
 
 def started(method, state, threads=1):
     """Sums with lists and faces, and the state in their order."""
-    sums, now = method.start(state.shape[1], Team(threads)), state.copy()
+    sums, now = method.start(state.shape[1], Threads(threads)), state.copy()
     sums.around.relist(now, np.arange(state.shape[1]), 0.0)
     sums.make_faces(now)
     return sums, now
@@ -124,7 +124,7 @@ def test_a_uniform_stream_at_rest_in_itself_goes_on():
 def test_results_do_not_depend_on_threads():
     method = fluid(chosen=Ingredients(), columns=20)
     state = shaken(method)
-    assert state.shape[1] >= 64*2       # a team shares no fewer rows
+    assert state.shape[1] >= 64*2       # threads share no fewer rows
     one, two = (rates(method, state, threads)[0] for threads in (1, 2))
     assert np.array_equal(one, two)
 

@@ -7,14 +7,14 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 from particles.neighbours import make_lists, sort_into_cells
-from particles.threads import Team
+from particles.threads import Threads
 
 
 def listed(x, y, reach, threads=1, rows=None, side=None):
     """The set of neighbours of each of the first `rows` points."""
     rows = len(x) if rows is None else rows
     cells = sort_into_cells(x, y, reach/2 if side is None else side)
-    start, length, near = make_lists(Team(threads), cells, x[:rows], y[:rows], reach, 0)
+    start, length, near = make_lists(Threads(threads), cells, x[:rows], y[:rows], reach, 0)
     found = [near[int(s):int(s) + n] for s, n in zip(start, length)]
     assert all(len(set(row)) == len(row) for row in found)
     return [set(map(int, row)) for row in found]
@@ -63,7 +63,7 @@ def test_order_of_the_lists_does_not_depend_on_threads(threads):
     cells = sort_into_cells(x, y, 1.0)
 
     def rows(count):
-        start, length, near = make_lists(Team(count), cells, x, y, 2.0, 0)
+        start, length, near = make_lists(Threads(count), cells, x, y, 2.0, 0)
         return [near[int(s):int(s) + n].tolist() for s, n in zip(start, length)]
     assert rows(threads) == rows(1)
 
@@ -72,7 +72,7 @@ def test_places_outside_of_all_points_have_their_neighbours():
     # fields are evaluated on grids that may reach beyond the particles, which may even have left a void
     x, y = scattered(4, 200)
     at = np.array([[-9.0, 9.0, 0.0, 0.0, -400.0, 7.5], [0.0, 0.0, -9.0, 60.0, 400.0, 7.5]])
-    start, length, near = make_lists(Team(), sort_into_cells(x, y, 1.5), at[0], at[1], 3.0, 1000)
+    start, length, near = make_lists(Threads(), sort_into_cells(x, y, 1.5), at[0], at[1], 3.0, 1000)
     for i in range(at.shape[1]):
         d2 = (x - at[0, i])**2 + (y - at[1, i])**2
         assert sorted(near[int(start[i]):int(start[i]) + length[i]]) == np.flatnonzero(d2 < 9).tolist()

@@ -15,7 +15,7 @@ from particles.noise import (
     words_of_pair,
     words_of_point,
 )
-from particles.threads import Team
+from particles.threads import Threads
 
 u64 = np.uint64
 #: counter, key, answer: kat_vectors of the library of Salmon et al. 2011; the third are digits of pi
@@ -108,7 +108,7 @@ def test_neighbouring_counters_are_independent(lag):
 @pytest.mark.parametrize("threads", [2, 3])
 def test_threads_do_not_matter(threads):
     out = np.empty((1000, 3))
-    Team(threads)(fill_normals, 1000, 11, 12, out)
+    Threads(threads)(fill_normals, 1000, 11, 12, out)
     assert np.array_equal(out, normals(11, 12, (1000, 3)))
 
 

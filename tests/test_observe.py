@@ -7,7 +7,7 @@ from particles.observe import (
     PlateHeat,
     fields_at,
 )
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import value_and_slope
 from studies.build.spam import VARIANTS
 from tests.scenes import small
@@ -17,7 +17,7 @@ from tests.scenes import small
 def measured():
     """(sums, state) with densities and gradients of the start."""
     method, state = small()
-    sums = method.start(state.shape[1], Team(1))
+    sums = method.start(state.shape[1], Threads(1))
     sums.around.relist(state, np.arange(state.shape[1]), 0.0)
     sums.densities(state)
     sums.gradients()
@@ -44,7 +44,7 @@ def test_plates_give_all_the_energy_that_the_fluid_gains(name):
     """Between particles the sums conserve energy: kinetic, internal and m g y change by what the plates
     exchange."""
     method, state = small(VARIANTS[name], rows=12)
-    sums, rates = method.start(state.shape[1], Team(1)), np.empty_like(state)
+    sums, rates = method.start(state.shape[1], Threads(1)), np.empty_like(state)
     sums.around.relist(state, np.arange(state.shape[1]), 0.0)
     sums.rates(state, rates)
     gained = state[2]*rates[2] + state[3]*rates[3] + rates[4] + method.g*rates[1]

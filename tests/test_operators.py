@@ -12,7 +12,7 @@ from particles.integral.interpolants import Exponential, Gaussian, W
 from particles.integral.points import jittered, lattice
 from particles.limits import limit_of
 from particles.run import Plan, run
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import Lucy, WendlandC2
 from studies.build.fixed import SCHEMES, fluid
 from studies.operators.claims.scheme import STILL
@@ -208,7 +208,7 @@ def growth(share):
 def test_eigenvalues_and_time_steps_give_one_growth():
     """h = 2 a, nested only: the fastest mode grows e-fold in a growth time, but for its square."""
     method, state = at_rest(share=0.0)
-    values, vectors = np.linalg.eig(jacobian(method.start(state.shape[1], Team(1)), state))
+    values, vectors = np.linalg.eig(jacobian(method.start(state.shape[1], Threads(1)), state))
     worst = np.argmax(values.real)
     rate, mode = values[worst].real, 1e-4*vectors[:, worst].real.reshape(state.shape)
     assert rate == pytest.approx(growth(0.0)*np.sqrt(2*SCENE.T_mean), rel=1e-9)
@@ -223,7 +223,7 @@ def test_transport_along_edges_keeps_a_lattice_at_rest():
 
 def test_the_derivative_is_one():
     method, state = at_rest()
-    sums = method.start(state.shape[1], Team(1))
+    sums = method.start(state.shape[1], Threads(1))
     change = np.random.default_rng(1).normal(size=state.shape)*1e-4
     product = (jacobian(sums, state)@change.ravel()).reshape(state.shape)
     error = np.abs(linear(sums, state, change) - product).max()

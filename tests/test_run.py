@@ -11,7 +11,7 @@ from continuum.scene import Walls
 from particles import checkpoint
 from particles.observe import Grid, field_kinetic, heat_flow, particle_kinetic, wall_layers
 from particles.run import RANDOM, STUDIES, Divergence, Plan, Run, _check, run
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import Lucy
 from studies.build.spam import OF_LIMIT, images, images_odd
 from tests.scenes import small
@@ -119,7 +119,7 @@ def test_divergence_tells_of_the_checkpoint_that_is_kept(tmp_path):
 
 def test_not_finite_field_is_named():
     method, start = small()
-    sums = method.start(start.shape[1], Team(1))
+    sums = method.start(start.shape[1], Threads(1))
     now = Run(state=start.copy(), ids=np.arange(start.shape[1])[::-1], step=3)
     now.state[2, 5] = np.nan
     with pytest.raises(Divergence, match=rf"step 3, time 1.8: vx = nan of particle {start.shape[1] - 6}"):

@@ -16,7 +16,7 @@ from particles.integral.points import jittered, lattice
 from particles.integral.thermal import STAGED, Thermal, ThreeStage
 from particles.limits import limit_of
 from particles.run import Plan, run
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import Lucy
 from studies.noise.below_onset import layer_noise
 from studies.noise.partners import equilibrium, noise, transport
@@ -81,7 +81,7 @@ def test_three_stages_with_amplitudes_of_their_own_drift_nearly_as_stratonovich_
     for A, of_A in zip(points, weights/weights.sum(), strict=True):
         for B, of_B in zip(points, weights/weights.sum(), strict=True):
             sums.A, sums.B, y = A, B, np.ones(1)
-            ThreeStage((1,), Team(1)).step(sums, y, dt)
+            ThreeStage((1,), Threads(1)).step(sums, y, dt)
             mean += of_A*of_B*(y[0] - 1)
     assert mean/dt == pytest.approx(STAGED, abs=10*dt)       # next order
     assert 0.45 < STAGED < 0.5
@@ -193,7 +193,7 @@ def test_plates_have_the_noise_of_their_friction_and_heat():
     fluid = Layer(x=x, edges=edges, beyond=beyond, eos=IdealGas(), law=ConstEta(0.3, 0.4), T_plates=(T, T),
                   g=0.0)
     first, at_T = np.arange(rows), np.full(5*rows, T)
-    J = jacobian(fluid.start(5*rows, Team(1)).rates, fluid.state(1.0, 0*x, at_T), first)
+    J = jacobian(fluid.start(5*rows, Threads(1)).rates, fluid.state(1.0, 0*x, at_T), first)
     Q = layer_noise(fluid, at_T)[:, (5*rows*np.arange(4)[:, None] + first).ravel()].toarray()
     C = steady(*(waves(M, (5, rows), 0.4) for M in (J, Q)))
     # <rho rho> = 1, <p p> = T, eps = T rho + dT, <dT dT> = T^2

@@ -10,7 +10,7 @@ from continuum.fluid import ConstEta, ConstNu, IdealGas
 from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import delaunay, renormalised
 from particles.integral.points import jittered
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import Lucy
 from studies.build.setting import DISORDERS
 from studies.build.symbols import lattice_waves
@@ -87,7 +87,7 @@ def rates(method, u):
     """d(state)/dt of a flow u along the plates."""
     state = method.state(1.0, np.stack([u, 0*u], axis=1), np.ones(len(u)))
     out = np.empty_like(state)
-    method.start(len(u), Team(1)).rates(state, out)
+    method.start(len(u), Threads(1)).rates(state, out)
     return out
 
 

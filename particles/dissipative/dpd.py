@@ -29,7 +29,7 @@ from particles.fields import Fields
 from particles.limits import limit_of
 from particles.neighbours import u32, u64
 from particles.noise import check_seed
-from particles.threads import Team
+from particles.threads import Threads
 
 SORT = 20       # steps after which particles are put in the order of cells again
 
@@ -124,9 +124,9 @@ class Dpd:
         one, n = np.ones(len(x)), len(x)
         return Fields(x, v, n/self.volume*one, self.temperature(state)*one, self.volume/n*one)
 
-    def start(self, n: int, team: Team) -> "Forces":
+    def start(self, n: int, threads: Threads) -> "Forces":
         """The pair sums."""
-        return Forces(self, n, team)
+        return Forces(self, n, threads)
 
 
 @limit_of.register
@@ -137,9 +137,9 @@ def _(method: Dpd, start: np.ndarray) -> float:
 class Forces:
     """The pair sums of n particles, as time loop and integrators want them."""
 
-    def __init__(self, method: Dpd, n: int, team: Team):
-        self.method, self.n, self.team, self.places = method, n, team, method.d
-        self.images = Images(n, method.box, method.rc, method.skin, method.rate, team)
+    def __init__(self, method: Dpd, n: int, threads: Threads):
+        self.method, self.n, self.threads, self.places = method, n, threads, method.d
+        self.images = Images(n, method.box, method.rc, method.skin, method.rate, threads)
         self.total, self.taken = np.empty((n, 3)), (np.empty(n, u64), np.empty(n, u32))
         self.particle, self.dt = np.empty(0, Record), 1.0
         self.now: Any = None                       # the run
@@ -225,15 +225,15 @@ class Forces:
         """Sums (n, columns) of a term over the pairs of a state, without noise."""
         d, out = self.places, np.empty((self.n, columns))
         self._records(state[:d], state[d:2*d], 0.0)
-        self.team(sum_pairs, self.n, term, self.method.law(self.dt), Silent(0), 0, self.particle,
-                  self.images.lists, self.taken, out)
+        self.threads(sum_pairs, self.n, term, self.method.law(self.dt), Silent(0), 0, self.particle,
+                     self.images.lists, self.taken, out)
         return out
 
     def _sum(self, term, law, noise, step, x, v, later, out):
         self._records(x, v, later)
-        self.team(sum_pairs, self.n, term, law, noise, step, self.particle, self.images.lists, self.taken,
-                  self.total)
-        self.team(turn, self.n, self.total, out)
+        self.threads(sum_pairs, self.n, term, law, noise, step, self.particle, self.images.lists, self.taken,
+                     self.total)
+        self.threads(turn, self.n, self.total, out)
 
     def _records(self, x, v, later):
         """Particles and ghosts where they are; new lists if these may miss a pair."""
@@ -244,5 +244,5 @@ class Forces:
         points = len(images.points.parent)
         if len(self.particle) != points:
             self.particle = np.empty(points, Record)
-        self.team(record, points, x, v, self.now.ids, images.points, images.slid(time) - images.anchor_slid,
-                  images.rate*float(images.box[1]), self.particle)
+        slid, boost = images.slid(time) - images.anchor_slid, images.rate*float(images.box[1])
+        self.threads(record, points, x, v, self.now.ids, images.points, slid, boost, self.particle)

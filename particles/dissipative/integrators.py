@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from continuum.jit import jit
-from particles.threads import Team
+from particles.threads import Threads
 
 
 @jit
@@ -33,17 +33,17 @@ class GrootWarren:
     """Velocity-Verlet with friction at v + lam dt f    [Groot & Warren 1997, lam = 1/2]"""
     lam = 0.5
 
-    def __init__(self, shape: tuple[int, ...], team: Team):
+    def __init__(self, shape: tuple[int, ...], threads: Threads):
         self._guess, self._new = np.empty((2, shape[0]//3, shape[1]))
-        self._team = team
+        self._threads = threads
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
         """Advance y in place by dt."""
         d, guess, new = sums.places, self._guess, self._new
         x, v, f = y[:d], y[d:2*d], y[2*d:]
-        self._team(_drift, x.size, x.ravel(), v.ravel(), f.ravel(), dt, self.lam, guess.ravel())
+        self._threads(_drift, x.size, x.ravel(), v.ravel(), f.ravel(), dt, self.lam, guess.ravel())
         sums.forces(x, guess, dt, new)
-        self._team(_kick, x.size, v.ravel(), f.ravel(), new.ravel(), dt)
+        self._threads(_kick, x.size, v.ravel(), f.ravel(), new.ravel(), dt)
 
 
 class GrootWarren65(GrootWarren):
@@ -71,9 +71,9 @@ class Shardlow(GrootWarren):
         d, new = sums.places, self._new
         x, v, f = y[:d], y[d:2*d], y[2*d:]
         sums.rub(x, v, dt)
-        self._team(_drift, x.size, x.ravel(), v.ravel(), f.ravel(), dt, self.lam, self._guess.ravel())
+        self._threads(_drift, x.size, x.ravel(), v.ravel(), f.ravel(), dt, self.lam, self._guess.ravel())
         sums.soft(x, dt, new)
-        self._team(_kick, x.size, v.ravel(), f.ravel(), new.ravel(), dt)
+        self._threads(_kick, x.size, v.ravel(), f.ravel(), new.ravel(), dt)
 
 
 class KickDriftFrictionDriftKick(GrootWarren):

@@ -10,7 +10,7 @@ import numpy as np
 from continuum.jit import jit
 from particles.dissipative.neighbours3d import Lists, list_rows, sort_into_cells
 from particles.neighbours import farthest, u32, u64
-from particles.threads import Team
+from particles.threads import Threads
 
 MOST = 2000     # neighbours of a particle: beyond, they have collapsed
 
@@ -67,8 +67,9 @@ class WithGhosts(NamedTuple):
 class Images:
     """Ghosts and lists of n particles in a periodic box (d,), d = 2 or 3, centred on the origin."""
 
-    def __init__(self, n: int, box: tuple[float, ...], reach: float, skin: float, rate: float, team: Team):
-        self.n, self.box, self.team = n, np.array(box, float), team
+    def __init__(self, n: int, box: tuple[float, ...], reach: float, skin: float, rate: float,
+                 threads: Threads):
+        self.n, self.box, self.threads = n, np.array(box, float), threads
         self.reach, self.skin, self.rate = reach, skin, rate
         self.anchor: np.ndarray | None = None
         self.anchor_slid, self.made = 0.0, 0
@@ -101,7 +102,7 @@ class Images:
         while room < MOST:
             if len(self.lists.listed) < len(places)*room:
                 self.lists = self.lists._replace(listed=np.empty(int(1.1*len(places)*room), u32))
-            if all(self.team(list_rows, len(places), self.n, cells, reach, room, self.lists)):
+            if all(self.threads(list_rows, len(places), self.n, cells, reach, room, self.lists)):
                 return
             room = int(1.3*room) + 1
         raise FloatingPointError(f"more than {int(room/1.3)} neighbours within {reach:g} of each particle: "

@@ -7,7 +7,7 @@ import numpy as np
 from particles.dissipative.dpd import Dpd, Forces
 from particles.dissipative.integrators import Shardlow, VelocityVerlet
 from particles.integrators import TwoStep
-from particles.threads import Team
+from particles.threads import Threads
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,17 +39,17 @@ class DpdStream(Dpd):
         out[d:, self.held] = 0.0
         return out
 
-    def start(self, n: int, team: Team) -> "PairStreaming":
+    def start(self, n: int, threads: Threads) -> "PairStreaming":
         """The pair sums."""
-        return PairStreaming(self, n, team)
+        return PairStreaming(self, n, threads)
 
 
 class PairStreaming(Forces):
     """The pair sums, and the momentum that the body has received since it was last asked for."""
     method: DpdStream
 
-    def __init__(self, method: DpdStream, n: int, team: Team):
-        super().__init__(method, n, team)
+    def __init__(self, method: DpdStream, n: int, threads: Threads):
+        super().__init__(method, n, threads)
         self.is_held = np.zeros(n, bool)
         self.is_held[method.held] = True
         self.begin()

@@ -20,7 +20,7 @@ from particles.limits import limit_of
 from particles.lists import Listed, PairLists
 from particles.pairs import Faces, sweep
 from particles.starts import check_apart, check_reach, check_volumes, moments
-from particles.threads import Team
+from particles.threads import Threads
 from particles.walls import confine
 from particles.weights import check_unit
 
@@ -53,7 +53,7 @@ class DriftKickDrift:
     """Points drift half a step, exchange over frozen faces in three stages, drift the other half."""
     evaluations = 3
 
-    def __init__(self, shape: tuple[int, ...], team: Team):
+    def __init__(self, shape: tuple[int, ...], threads: Threads):
         self.rates, self.first = np.zeros(shape), np.zeros(shape)
 
     def step(self, sums: "FaceSums", y: np.ndarray, dt: float) -> None:
@@ -74,14 +74,14 @@ class DriftKickDrift:
 class FaceSums(Listed):
     """The compiled sums of moving points, with what the time loop asks for."""
 
-    def __init__(self, method: "Moving", n: int, team: Team):
-        self.method, self.team, self.n = method, team, n
-        self.around = PairLists(method.weight, method.walls, n, method.box, skin=0.5, team=team)
+    def __init__(self, method: "Moving", n: int, threads: Threads):
+        self.method, self.threads, self.n = method, threads, n
+        self.around = PairLists(method.weight, method.walls, n, method.box, skin=0.5, threads=threads)
         self.maker = FaceMaker(self.around, method.ingredients.iterations, method.ingredients.within)
         self.slopes, self.P0, chosen = np.zeros((n, 6)), 0.0, method.ingredients
         term = face_terms.FaceExchange(chosen.follow, chosen.spread, float(chosen.smooth),
                                        Listing(chosen.transport))
-        self.exchange = Exchange(term, stages(chosen.transport, method.law, n, team), n, team)
+        self.exchange = Exchange(term, stages(chosen.transport, method.law, n, threads), n, threads)
         self.shift, self._lists = np.zeros((n, 2)), -1
 
     @property
@@ -113,15 +113,15 @@ class FaceSums(Listed):
         """Fields of all points and images on the faces as they are: where these exchange."""
         method, around, ghosts, points, n = self.method, self.around, self.maker.ghosts, self.points, self.n
         static, g0 = method.ingredients.static, method.rho0*method.g
-        self.team(face_terms.read, n, state, method.eos, method.law, g0 if static else 0.0, self.shift,
-                  self.maker.count, points)
+        self.threads(face_terms.read, n, state, method.eos, method.law, g0 if static else 0.0, self.shift,
+                     self.maker.count, points)
         self.P0 = inner(state[7], points["P"][:n])/float(state[7].sum()) if static else 0.0
         points["P"][:n] -= self.P0
         face_terms.read_images(n, *ghosts, points)
         if not static:      # the pressure goes on hydrostatically
             points["P"][n:] += g0*(around.y[ghosts.origin] - around.y[n:])
-        self.team(sweep, n, face_terms.FaceDifferences(), points, self.faces, self.slopes)
-        self.team(face_terms.pressure_slopes, n, self.slopes, state[7], points)
+        self.threads(sweep, n, face_terms.FaceDifferences(), points, self.faces, self.slopes)
+        self.threads(face_terms.pressure_slopes, n, self.slopes, state[7], points)
         ghosts.fill(points, ("gx",), ("gy",))
         at = At(points, self.faces, ghosts, state[7])
         for stage in self.exchange.stages:
@@ -132,7 +132,7 @@ class FaceSums(Listed):
         """d/dt of what faces exchange, written to `out[4:9]`."""
         method, total = self.method, self.exchange.sum(self.look_at(state))
         rho0 = method.rho0 if method.ingredients.static else 0.0
-        self.team(face_terms.per_time, self.n, total, state, self.points, method.g, rho0, self.P0, out)
+        self.threads(face_terms.per_time, self.n, total, state, self.points, method.g, rho0, self.P0, out)
 
     def drift(self, state: np.ndarray, dt: float) -> None:
         """Move the points; those beyond a plate turn back, with their momentum."""
@@ -194,8 +194,8 @@ class Moving:
         px, py, m, V, E = state[EXCHANGED]
         return from_densities(self.eos, state[:2].T.copy(), V.copy(), m/V, np.stack([px, py])/V, E/V)
 
-    def start(self, n: int, team: Team) -> FaceSums:
-        return FaceSums(self, n, team)
+    def start(self, n: int, threads: Threads) -> FaceSums:
+        return FaceSums(self, n, threads)
 
 
 @limit_of.register

@@ -7,7 +7,7 @@ from continuum.jit import generic, jit
 from particles.integral.exchange import At, Convection, Listing, Pressure, Stage, pressure_of, stages_of
 from particles.integral.rr98_moving_plain import Crossed, Powers
 from particles.pairs import Edge, nothing, rate
-from particles.threads import Team
+from particles.threads import Threads
 
 
 class OverPairs(NamedTuple):
@@ -120,17 +120,17 @@ def _(bracket, eos, a, b):
 class Diluting(Stage):
     """Takes q_a div v off, of the volume that the sweep found."""
 
-    def __init__(self, follow: float, n: int, team: Team):
-        self.follow, self.n, self.team = follow, n, team
+    def __init__(self, follow: float, n: int, threads: Threads):
+        self.follow, self.n, self.threads = follow, n, threads
 
     def add(self, at: At, total: np.ndarray) -> None:
         """Mass, momentum, energy, and the share by which volumes follow."""
-        self.team(_dilute, self.n, self.follow, at.points, total)
+        self.threads(_dilute, self.n, self.follow, at.points, total)
 
 
 @stages_of.register
-def _(term: Dilution, law: Any, n: int, team: Team, *more: Any) -> tuple[Stage, ...]:
-    return (Diluting(term.follow, n, team),)
+def _(term: Dilution, law: Any, n: int, threads: Threads, *more: Any) -> tuple[Stage, ...]:
+    return (Diluting(term.follow, n, threads),)
 
 
 @jit

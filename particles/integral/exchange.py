@@ -12,7 +12,7 @@ import numpy as np
 from continuum.fluid import energy, pressure
 from continuum.jit import OPTIONS, formula, overload
 from particles.pairs import nothing, rate, sweep
-from particles.threads import Team
+from particles.threads import Threads
 
 
 class Convection(NamedTuple):
@@ -132,7 +132,7 @@ class Stage:
 
 
 @singledispatch
-def stages_of(term: Any, law: Any, n: int, team: Team, *more: Any) -> tuple[Stage, ...]:
+def stages_of(term: Any, law: Any, n: int, threads: Threads, *more: Any) -> tuple[Stage, ...]:
     """What a term of a fluid with some transport law needs; nothing for most."""
     return ()
 
@@ -140,19 +140,19 @@ def stages_of(term: Any, law: Any, n: int, team: Team, *more: Any) -> tuple[Stag
 class Exchange:
     """All listed terms over edges. term : their `Listing`, or what a scheme makes of it."""
 
-    def __init__(self, term: Any, stages: tuple[Stage, ...], n: int, team: Team):
-        self.term, self.stages, self.n, self.team = term, stages, n, team
+    def __init__(self, term: Any, stages: tuple[Stage, ...], n: int, threads: Threads):
+        self.term, self.stages, self.n, self.threads = term, stages, n, threads
         self.total = np.zeros((n, len(nothing(term))))
 
     def sum(self, at: At) -> np.ndarray:
         """What each point gains, (n, columns), in an array that the next sum overwrites."""
-        self.team(sweep, self.n, self.term, at.points, at.edges, self.total)
+        self.threads(sweep, self.n, self.term, at.points, at.edges, self.total)
         for stage in self.stages:
             stage.add(at, self.total)
         return self.total
 
 
-def stages(terms: tuple, law: Any, n: int, team: Team, *more: Any) -> tuple[Stage, ...]:
+def stages(terms: tuple, law: Any, n: int, threads: Threads, *more: Any) -> tuple[Stage, ...]:
     """Of all terms; `more`: how they read what is no stored edge."""
-    return tuple(stage for term in terms for stage in stages_of(term, law, n, team, *more))
+    return tuple(stage for term in terms for stage in stages_of(term, law, n, threads, *more))
 

@@ -47,7 +47,7 @@ class FaceMaker:
     """
 
     def __init__(self, around: PairLists, iterations: int, within: float):
-        self.around, self.n, self.team = around, around.n, around.team
+        self.around, self.n, self.threads = around, around.n, around.threads
         self.most, self.within = iterations, within
         self.pull, self.count = np.zeros((self.n, 2)), np.zeros(self.n)
         self.lists_made, self._store = -1, np.empty((5, 0))
@@ -65,25 +65,25 @@ class FaceMaker:
         self.metric["V"][:n] = V
         self.ghosts.fill(self.metric, ("V",))
         self.count = around.rho[:n].copy()
-        self.team(_metric, n, pairs, around.x, around.y, self.metric, self.pull)
+        self.threads(_metric, n, pairs, around.x, around.y, self.metric, self.pull)
         self.ghosts.fill(self.metric, ("xx", "yy", "s"), ("xy",))
-        self.team(_open_faces, n, pairs, around.x, around.y, self.metric, self.faces)
+        self.threads(_open_faces, n, pairs, around.x, around.y, self.metric, self.faces)
         if self.most:
             self._close(solution)
 
     def _close(self, solution: np.ndarray) -> None:
         """Add to the faces what closes them and makes them exact."""
         n, (wanted, scale) = self.n, np.empty((2, self.n, 6))
-        self.team(_lacking_faces, n, self.faces, self.metric, wanted, scale)
+        self.threads(_lacking_faces, n, self.faces, self.metric, wanted, scale)
         x = solution.T.copy()
         self._solve(x, wanted, scale)
         solution[:] = x.T
         _to_records(x, *self.ghosts[:2], self.potential)
-        self.team(_close_faces, n, self.faces, self.potential)
+        self.threads(_close_faces, n, self.faces, self.potential)
 
     def _apply(self, x: np.ndarray, out: np.ndarray) -> None:
         _to_records(x, *self.ghosts[:2], self.potential)
-        self.team(sweep, self.n, Closing(), self.potential, self.faces, out)
+        self.threads(sweep, self.n, Closing(), self.potential, self.faces, out)
 
     def _solve(self, x: np.ndarray, wanted: np.ndarray, scale: np.ndarray) -> None:
         """Jacobi-preconditioned conjugate gradients, x in place."""

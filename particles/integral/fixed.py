@@ -24,7 +24,7 @@ from particles.integral.transposed_stress import MENDED
 from particles.limits import limit_of
 from particles.neighbours import u32, u64
 from particles.pairs import Stored
-from particles.threads import Team
+from particles.threads import Threads
 
 #: convection and pressure see vx .. eps, hydro; friction and heat ux, uy, Td; F mends the heating; P is own
 FIELDS = "rho vx vy T eps ux uy Td eta k Fx Fy hydro P"
@@ -45,14 +45,14 @@ class OwnPressure(Stage):
     step. open (n, 2) : what the area vectors of a row add up to, of `opened`.
     """
 
-    def __init__(self, eos: Any, open: np.ndarray, n: int, team: Team):
-        self.eos, self.open, self.n, self.team = eos, open, n, team
+    def __init__(self, eos: Any, open: np.ndarray, n: int, threads: Threads):
+        self.eos, self.open, self.n, self.threads = eos, open, n, threads
 
     def prepare(self, at: At) -> None:
-        self.team(_own_pressure, self.n, self.eos, at.points)
+        self.threads(_own_pressure, self.n, self.eos, at.points)
 
     def add(self, at: At, total: np.ndarray) -> None:
-        self.team(_open, self.n, self.open, at.points, total)
+        self.threads(_open, self.n, self.open, at.points, total)
 
 
 @jit
@@ -92,10 +92,10 @@ class OnPoints:
         """Of the points, (n,) each."""
         return from_densities(self.eos, self.x, self.edges.V, state[0], state[1:3], state[3])
 
-    def start(self, n: int, team: Team) -> Any:
+    def start(self, n: int, threads: Threads) -> Any:
         """The sums over stored edges. Raises ValueError: the state has not as many points as there are."""
         check_number(n, len(self.x))
-        return self.sums(self, team)
+        return self.sums(self, threads)
 
 
 @limit_of.register
@@ -148,18 +148,18 @@ class FixedSums(Summing):
     images : a tuple of arrays, one number for each of them. push (2,) : force per mass.
     """
 
-    def __init__(self, method: Any, team: Team, edges: Stored, images: Any, push: tuple[float, float],
+    def __init__(self, method: Any, threads: Threads, edges: Stored, images: Any, push: tuple[float, float],
                  *first: Stage):
-        self.method, self.team, self.n, self.push = method, team, len(method.x), np.array(push)
+        self.method, self.threads, self.n, self.push = method, threads, len(method.x), np.array(push)
         self.points = np.zeros(self.n + len(images[0]), Point)
         self.at = At(self.points, edges, images, method.edges.V)
-        needed = stages(method.transport, method.law, self.n, team)
+        needed = stages(method.transport, method.law, self.n, threads)
         terms = (*method.transport, Convection(), Pressure(method.eos))
-        self.exchange = Exchange(Listing(terms), (*first, *needed), self.n, team)
+        self.exchange = Exchange(Listing(terms), (*first, *needed), self.n, threads)
 
     def look_at(self, state: np.ndarray) -> None:
         """Fields of all points and images, and what terms need of them."""
-        self.team(read, self.n, state, self.method.eos, self.method.law, self.points)
+        self.threads(read, self.n, state, self.method.eos, self.method.law, self.points)
         self.surround(state)
         for stage in self.exchange.stages:
             stage.prepare(self.at)
@@ -170,7 +170,7 @@ class FixedSums(Summing):
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (4, n), written to `out`    [Eqs 34-36, 51]"""
         self.look_at(state)
-        self.team(driven, self.n, self.exchange.sum(self.at), self.at.V, self.points, self.push, out)
+        self.threads(driven, self.n, self.exchange.sum(self.at), self.at.V, self.points, self.push, out)
 
 
 @formula

@@ -15,7 +15,7 @@ from particles.integral.exchange import At, Exchange, Listing
 from particles.integral.fixed import NO_IMAGES, OnPoints, Summing, stored
 from particles.limits import limit_of
 from particles.pairs import nothing, rate
-from particles.threads import Team
+from particles.threads import Threads
 
 Point = np.dtype([(name, "f8") for name in ("rho", "vx", "vy")])
 
@@ -50,15 +50,15 @@ def _(term, a, b, ab):
 class Summed(Summing):
     """The compiled sums of the listed terms."""
 
-    def __init__(self, method: "Isothermal", team: Team):
-        self.method, self.team, self.n = method, team, len(method.x)
+    def __init__(self, method: "Isothermal", threads: Threads):
+        self.method, self.threads, self.n = method, threads, len(method.x)
         self.at = At(np.zeros(self.n, Point), stored(method.edges), NO_IMAGES, method.edges.V)
-        self.exchange = Exchange(Listing(method.terms), (), self.n, team)
+        self.exchange = Exchange(Listing(method.terms), (), self.n, threads)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (3, n), written to `out`."""
-        self.team(_read, self.n, state, self.at.points)
-        self.team(_per_volume, self.n, self.exchange.sum(self.at), self.at.V, out)
+        self.threads(_read, self.n, state, self.at.points)
+        self.threads(_per_volume, self.n, self.exchange.sum(self.at), self.at.V, out)
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """The first point without a positive density; empty if there is none."""

@@ -18,14 +18,14 @@ from particles.integral.exchange import PRINTED, Conduction
 from particles.integral.fixed import FixedSums, OnPoints, OwnPressure, opened, stored
 from particles.integral.layer_ideal import IdealSums
 from particles.integral.transposed_stress import MENDED
-from particles.threads import Team
+from particles.threads import Threads
 
 
 class LayerSums(FixedSums):
     """The compiled sums of a layer, with what the time loop asks for."""
     method: "Layer"
 
-    def __init__(self, method: "Layer", team: Team):
+    def __init__(self, method: "Layer", threads: Threads):
         n, beyond, T_plates = len(method.x), method.beyond, np.array(method.T_plates)
         ghosts, ghost = np.unique(np.stack([beyond.parent, beyond.plate]), axis=1, return_inverse=True)
         # of images; the image of each edge to one
@@ -35,8 +35,8 @@ class LayerSums(FixedSums):
         edges = stored(method.edges, beyond, n + self.image)
         images = Ghosts(self.parent, -np.ones(len(self.parent)), T_plates[self.plate])
         self.open = opened(edges)
-        super().__init__(method, team, edges, images, (0.0, -method.g),
-                         OwnPressure(method.eos, self.open, n, team))
+        super().__init__(method, threads, edges, images, (0.0, -method.g),
+                         OwnPressure(method.eos, self.open, n, threads))
 
     def surround(self, state: np.ndarray) -> None:
         _images(self.parent, self.at.images.plate_T, self.rise, self.method.g, self.points, self.n)
@@ -54,8 +54,8 @@ class LayerSums(FixedSums):
 class LinearSums(LayerSums):
     """The same where brackets are products of a point's fields and sums over its neighbours."""
 
-    def __init__(self, method: "Layer", team: Team):
-        super().__init__(method, team)
+    def __init__(self, method: "Layer", threads: Threads):
+        super().__init__(method, threads)
         self.linear = IdealSums(self)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
@@ -112,8 +112,8 @@ class Driving(LayerSums):
     """
     method: "Driven"
 
-    def __init__(self, method: "Driven", team: Team):
-        super().__init__(method, team)
+    def __init__(self, method: "Driven", threads: Threads):
+        super().__init__(method, threads)
         beyond, V = method.beyond, method.edges.V
         U = np.array(method.slide)[beyond.plate]
         self.pull, self.work = (np.bincount(beyond.i, 2*method.law.eta*beyond.k*q, self.n)/V

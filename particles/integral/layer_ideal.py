@@ -61,12 +61,12 @@ class IdealSums:
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt, written to `out`    [Eqs 34-36, 51]"""
         layer, given, lack = self.layer, self.given, self.lack
-        team, n, g, open = layer.team, layer.n, layer.method.g, layer.open
-        team(_give, len(given), state, layer.parent, self.twice_T, self.gas, given)
-        team(_exchange, n, given, self.edges, open, self.per_V, self.gas, g, lack, out)
+        threads, n, g, open = layer.threads, layer.n, layer.method.g, layer.open
+        threads(_give, len(given), state, layer.parent, self.twice_T, self.gas, given)
+        threads(_exchange, n, given, self.edges, open, self.per_V, self.gas, g, lack, out)
         if len(given) > n:
             _plates(self.beyond, layer.parent, given, self.per_V, lack, out)
-        team(_heat, n, lack, self.edges, open, self.per_V, out)
+        threads(_heat, n, lack, self.edges, open, self.per_V, out)
 
 
 @lanes

@@ -9,7 +9,7 @@ from particles.integral.dih import check_share
 from particles.integral.exchange import At, Conduction, Friction, Stage, stages_of
 from particles.integral.transposed_stress import Mending
 from particles.pairs import nothing, rate, sweep
-from particles.threads import Team
+from particles.threads import Threads
 
 #: stress, -Q, and the velocity that friction sees
 Current = np.dtype([(name, "f8") for name in ("xx", "xy", "yx", "yy", "qx", "qy", "ux", "uy")])
@@ -57,8 +57,8 @@ def mixed(share: float, mended: bool = True) -> tuple:
 class Nesting(Stage):
     """Makes the currents of points and images, and adds their divergence."""
 
-    def __init__(self, share: float, law: Any, n: int, team: Team):
-        self.share, self.law, self.n, self.team = share, law, n, team
+    def __init__(self, share: float, law: Any, n: int, threads: Threads):
+        self.share, self.law, self.n, self.threads = share, law, n, threads
         self.slopes, self.gain, self.currents = np.empty((n, 6)), np.empty((n, 3)), np.zeros(0, Current)
 
     def prepare(self, at: At) -> None:
@@ -66,8 +66,8 @@ class Nesting(Stage):
         shear stress that is another number for each of its two directions."""
         if len(self.currents) != len(at.points):
             self.currents = np.zeros(len(at.points), Current)
-        self.team(sweep, self.n, Slopes(), at.points, at.edges, self.slopes)
-        self.team(_currents, self.n, self.slopes, at.V, self.law, self.share, at.points, self.currents)
+        self.threads(sweep, self.n, Slopes(), at.points, at.edges, self.slopes)
+        self.threads(_currents, self.n, self.slopes, at.V, self.law, self.share, at.points, self.currents)
         at.images.fill(self.currents, ("yx", "yy", "qy"), ("xx", "xy", "qx"))
         for name in ("ux", "uy"):
             self.currents[name][self.n:] = at.points[name][self.n:]
@@ -81,13 +81,13 @@ class Nesting(Stage):
         return float((S*q).sum()/2)
 
     def add(self, at: At, total: np.ndarray) -> None:
-        self.team(sweep, self.n, Currents(), self.currents, at.edges, self.gain)
+        self.threads(sweep, self.n, Currents(), self.currents, at.edges, self.gain)
         total[:, 1:4] += self.gain
 
 
 @stages_of.register
-def _(term: NestedTransport, law: Any, n: int, team: Team) -> tuple[Stage, ...]:
-    return (Nesting(term.share, law, n, team),)
+def _(term: NestedTransport, law: Any, n: int, threads: Threads) -> tuple[Stage, ...]:
+    return (Nesting(term.share, law, n, threads),)
 
 
 @jit

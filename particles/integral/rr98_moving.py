@@ -23,7 +23,7 @@ from particles.limits import lattice_sums, limit_of, zone
 from particles.lists import Listed, PairLists, fastest
 from particles.smooth.spam import LessStatic
 from particles.starts import check_apart, check_volumes, moments
-from particles.threads import Team
+from particles.threads import Threads
 from particles.walls import confine
 from particles.weights import check_unit
 
@@ -92,8 +92,8 @@ class Drift:
         V = state[6]
         return state[[4, 2, 3, 5]]@(V/self.owned(V))
 
-    def start(self, n: int, team: Team) -> "Drifts":
-        return Drifts(self, n, team)
+    def start(self, n: int, threads: Threads) -> "Drifts":
+        return Drifts(self, n, threads)
 
 
 @limit_of.register
@@ -119,12 +119,12 @@ def _(method: Drift, start: np.ndarray) -> float:
 class Drifts(Listed):
     """The compiled sums of moving points, with what the time loop asks for."""
 
-    def __init__(self, method: Drift, n: int, team: Team):
-        self.method, self.team, self.n = method, team, n
-        self.around = PairLists(method.weight, method.walls, n, method.box, skin=0.5, team=team)
+    def __init__(self, method: Drift, n: int, threads: Threads):
+        self.method, self.threads, self.n = method, threads, n
+        self.around = PairLists(method.weight, method.walls, n, method.box, skin=0.5, threads=threads)
         self._lists, terms = -1, method.motion.terms(method.eos, method.transport)
-        needed = stages(terms, method.law, n, team, OverPairs, ("x", "y", "V"))
-        self.exchange = Exchange(OverPairs(Drifting(method.motion, Listing(terms))), needed, n, team)
+        needed = stages(terms, method.law, n, threads, OverPairs, ("x", "y", "V"))
+        self.exchange = Exchange(OverPairs(Drifting(method.motion, Listing(terms))), needed, n, threads)
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
         """Refuse points in one place: ValueError. Warn where the weight is too narrow    [Eq. 45]"""
@@ -148,8 +148,8 @@ class Drifts(Listed):
             self._lists, self.ghosts = around.lists_made, ghosts_of(around)
             self.points = np.zeros(len(around.x), Place)
         points = self.points
-        self.team(_read, n, state, method.owned(state[6]), method.eos, method.law, method.static, method.g,
-                  points)
+        self.threads(_read, n, state, method.owned(state[6]), method.eos, method.law, method.static, method.g,
+                     points)
         _image_fields(n, *self.ghosts, around.x, around.y, method.static, method.g, points)
         at = At(points, around.pairs, self.ghosts, state[6])
         for stage in self.exchange.stages:
@@ -159,7 +159,7 @@ class Drifts(Listed):
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (7, n), written to `out`    [Eqs 34-36, 39, 46-51]"""
         method, total = self.method, self.exchange.sum(self.look_at(state))
-        self.team(_rates, self.n, total, method.owned(state[6]), self.points, method.static, method.g, out)
+        self.threads(_rates, self.n, total, method.owned(state[6]), self.points, method.static, method.g, out)
 
     def confine(self, state: np.ndarray) -> int:
         """Turn points beyond plates back, with their momenta; their number."""

@@ -14,7 +14,7 @@ from particles.integral.edges import Edges
 from particles.integral.fixed import FixedSums, OnPoints
 from particles.integral.points import Points
 from particles.pairs import Stored
-from particles.threads import Team
+from particles.threads import Threads
 from particles.walls.sliding import Sides, sides, slide
 
 
@@ -38,10 +38,10 @@ class Shearing(FixedSums):
     """The compiled sums of a sheared fluid."""
     method: "Sheared"
 
-    def __init__(self, method: "Sheared", team: Team):
+    def __init__(self, method: "Sheared", threads: Threads):
         made = method.sides
         edges = Stored(*(q.copy() for q in made.edges))      # they follow the sliding
-        super().__init__(method, team, edges, Boosted(made.parent, method.speed*made.up), (0.0, 0.0))
+        super().__init__(method, threads, edges, Boosted(made.parent, method.speed*made.up), (0.0, 0.0))
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """Of the fields, and the speed at which images slide."""

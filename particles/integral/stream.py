@@ -15,7 +15,7 @@ from particles.integral.edges import Edges
 from particles.integral.exchange import At, Stage
 from particles.integral.fixed import NO_IMAGES, FixedSums, OnPoints, OwnPressure, opened, stored
 from particles.pairs import Stored, nothing, rate, sweep
-from particles.threads import Team
+from particles.threads import Threads
 
 
 class Filter(NamedTuple):
@@ -36,12 +36,12 @@ def _(term, a, b, ab):
 class Filtering(Stage):
     """Adds what a filter exchanges, over edges of its own."""
 
-    def __init__(self, term: Filter, edges: Stored, n: int, team: Team):
-        self.term, self.edges, self.n, self.team, self.gain = term, edges, n, team, np.empty((n, 4))
+    def __init__(self, term: Filter, edges: Stored, n: int, threads: Threads):
+        self.term, self.edges, self.n, self.threads, self.gain = term, edges, n, threads, np.empty((n, 4))
 
     def add(self, at: At, total: np.ndarray) -> None:
         """Mass, momentum and energy."""
-        self.team(sweep, self.n, self.term, at.points, self.edges, self.gain)
+        self.threads(sweep, self.n, self.term, at.points, self.edges, self.gain)
         total += self.gain
 
 
@@ -49,12 +49,12 @@ class Streaming(FixedSums):
     """The compiled sums of a stream. received (m, 3): momentum and energy of held points, per time."""
     method: "Stream"
 
-    def __init__(self, method: "Stream", team: Team):
+    def __init__(self, method: "Stream", threads: Threads):
         n = len(method.x)
         edges, around = (stored(cut(method.edges, method.held)) for cut in (insulated, separated))
-        filters = (Filtering(Filter(method.chi), around, n, team),) if method.chi else ()
-        super().__init__(method, team, edges, NO_IMAGES, method.push,
-                         OwnPressure(method.eos, opened(edges), n, team), *filters)
+        filters = (Filtering(Filter(method.chi), around, n, threads),) if method.chi else ()
+        super().__init__(method, threads, edges, NO_IMAGES, method.push,
+                         OwnPressure(method.eos, opened(edges), n, threads), *filters)
         self.received = np.zeros((len(method.held.which), 3))
 
     def surround(self, state: np.ndarray) -> None:

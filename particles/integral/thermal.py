@@ -18,7 +18,7 @@ from particles.integral.fixed import Summing, check_number
 from particles.integral.fluctuating import conductances, traceless
 from particles.limits import limit_of
 from particles.noise import check_seed, fill_normals, normals_of_pair
-from particles.threads import Team
+from particles.threads import Threads
 
 #: heat capacity of a point over k, below which current amplitudes bias energy fluctuations by 1 % and more
 LEAST_CAPACITY = 50
@@ -34,7 +34,7 @@ class ThreeStage:
     """
     evaluations = 3
 
-    def __init__(self, shape: tuple[int, ...], team: Team):
+    def __init__(self, shape: tuple[int, ...], threads: Threads):
         self._start, self._k, self._kick = (np.empty(shape) for _ in range(3))
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
@@ -67,18 +67,19 @@ class Thermal(Dih):
         check_seed(self.seed)
         object.__setattr__(self, "transport", Mixed(share=self.share))
 
-    def start(self, n: int, team: Team) -> "Agitated":
+    def start(self, n: int, threads: Threads) -> "Agitated":
         """The sums over edges. ValueError: another number of points, or viscosities without noise."""
         check_number(n, self.edges.n)
-        return Agitated(self, team)
+        return Agitated(self, threads)
 
 
 class Agitated(Summing):
     """Rates without noise, and kicks of one step."""
 
-    def __init__(self, method: Thermal, team: Team):
+    def __init__(self, method: Thermal, threads: Threads):
         # the flow without noise
-        self.method, self.team, self.dih, self.rates, edges = method, team, method, method.rates, method.edges
+        self.method, self.threads, self.dih, self.rates = method, threads, method, method.rates
+        edges = method.edges
         d, n = edges.d, edges.n
         # R, r, heat; of W_A and W_B
         self.of_points = np.empty((n, 2*(d*d + 1 + d))) if method.share < 1 else None
@@ -101,9 +102,9 @@ class Agitated(Summing):
         """Random numbers of the coming step."""
         seed, edges = self.method.seed, self.dih.edges
         if self.of_points is not None:
-            self.team(fill_normals, edges.n, seed, now.step, self.of_points)
+            self.threads(fill_normals, edges.n, seed, now.step, self.of_points)
         if self.of_edges is not None:
-            self.team(fill_pairs, len(edges.i), seed, now.step, edges.i, edges.j, self.of_edges)
+            self.threads(fill_pairs, len(edges.i), seed, now.step, edges.i, edges.j, self.of_edges)
 
     def kicks(self, state: np.ndarray, beta: float, dt: float, out: np.ndarray) -> None:
         """What the noise W_A + beta W_B adds to a state in dt, with the amplitudes of that state."""

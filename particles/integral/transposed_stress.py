@@ -17,7 +17,7 @@ from continuum.fluid import constant_viscosity
 from continuum.jit import jit
 from particles.integral.exchange import At, Conduction, Friction, Stage, stages_of
 from particles.pairs import nothing, rate, sweep
-from particles.threads import Team
+from particles.threads import Threads
 
 Tau = np.dtype([(name, "f8") for name in ("xx", "xy", "yx", "yy")])
 
@@ -62,20 +62,20 @@ class Heating(Stage):
     through. over : how terms read edges; places : what this reads of points.
     """
 
-    def __init__(self, share: float, n: int, team: Team, over: Callable[[Any], Any] = lambda term: term,
+    def __init__(self, share: float, n: int, threads: Threads, over: Callable[[Any], Any] = lambda term: term,
                  places: tuple[str, ...] = ()):
-        self.share, self.n, self.team, self.over, self.places = share, n, team, over, places
+        self.share, self.n, self.threads, self.over, self.places = share, n, threads, over, places
         self.slopes = np.zeros((n, 4))
 
     def prepare(self, at: At) -> None:
         """F from gradients by differences."""
-        self.team(sweep, self.n, self.over(Differences()), at.points, at.edges, self.slopes)
+        self.threads(sweep, self.n, self.over(Differences()), at.points, at.edges, self.slopes)
         self.use(self.slopes, at)
 
     def use(self, slopes: np.ndarray, at: At) -> None:
         """F from slopes (n, 4 or more), V times d_x u, d_y u, d_x v, d_y v."""
         self.slopes = slopes
-        self.team(_work, self.n, slopes, at.V, self.share, at.points)
+        self.threads(_work, self.n, slopes, at.V, self.share, at.points)
         at.images.fill_work(at.points, slopes, at.V)
 
 
@@ -85,18 +85,18 @@ class HeatingAndForce(Heating):
     def add(self, at: At, total: np.ndarray) -> None:
         tau = np.empty(len(at.points), [*Tau.descr, *((name, "f8") for name in self.places)])
         force = np.empty((self.n, 2))
-        self.team(_tau, self.n, self.slopes, at.V, self.share, at.points, tau)
+        self.threads(_tau, self.n, self.slopes, at.V, self.share, at.points, tau)
         at.images.fill(tau, ("yx", "yy"), ("xx", "xy"))
         for name in self.places:
             tau[name] = at.points[name]
-        self.team(sweep, self.n, self.over(Transposed()), tau, at.edges, force)
+        self.threads(sweep, self.n, self.over(Transposed()), tau, at.edges, force)
         total[:, 1:3] += force
 
 
 @stages_of.register
-def _(term: Mending, law: Any, n: int, team: Team, *more: Any) -> tuple[Stage, ...]:
+def _(term: Mending, law: Any, n: int, threads: Threads, *more: Any) -> tuple[Stage, ...]:
     kind = Heating if constant_viscosity(law) else HeatingAndForce
-    return (kind(term.share, n, team, *more),)
+    return (kind(term.share, n, threads, *more),)
 
 
 @jit

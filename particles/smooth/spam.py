@@ -14,7 +14,7 @@ from particles.fields import Fields
 from particles.integrators import RK4
 from particles.smooth.sums import Direct, Nested
 from particles.terms import ArithmeticGradients, Gradients
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import check_unit
 
 
@@ -74,13 +74,13 @@ class Spam:
     def look(self, state: np.ndarray) -> tuple[Nested | Direct, np.ndarray, np.ndarray]:
         """(sums, state, ids) with new lists, in their order: densities, motion and images are up to date."""
         n = state.shape[1]
-        sums, ordered, ids = self.start(n, Team(1)), state.copy(), np.arange(n)
+        sums, ordered, ids = self.start(n, Threads(1)), state.copy(), np.arange(n)
         sums.around.relist(ordered, ids, 0.0)
         sums.densities(ordered)
         return sums, ordered, ids
 
-    def start(self, n: int, team: Team) -> Nested | Direct:
+    def start(self, n: int, threads: Threads) -> Nested | Direct:
         """The sums of n particles. ValueError: there are none, or the weight is too wide for the box."""
         if n < 1:
             raise ValueError(f"there are no particles (n = {n}): a run needs at least one")
-        return self.transport(self, n, team)
+        return self.transport(self, n, threads)

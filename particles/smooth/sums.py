@@ -9,7 +9,7 @@ from continuum.jit import formula, jit
 from particles.lists import Listed, PairLists
 from particles.pairs import sweep
 from particles.terms import DirectFluxes, Fluxes, density_factor
-from particles.threads import Team
+from particles.threads import Threads
 from particles.walls import confine, image_pressure
 
 Moving = np.dtype([(name, "f8") for name in ("vx", "vy", "T", "s")])
@@ -25,9 +25,9 @@ class Sums(Listed, ABC):
     """
     places = 2
 
-    def __init__(self, method: Any, n: int, team: Team):
-        self.method, self.team, self.n = method, team, n
-        self.around = PairLists(method.weight, method.walls, n, method.box, skin=method.skin, team=team)
+    def __init__(self, method: Any, n: int, threads: Threads):
+        self.method, self.threads, self.n = method, threads, n
+        self.around = PairLists(method.weight, method.walls, n, method.box, skin=method.skin, threads=threads)
         self.slopes, self.pull = np.zeros((self.around.rows, 8)), np.zeros((self.around.rows, 5))
         self.less, self.moving = np.empty(0), np.empty(0, Moving)
 
@@ -37,8 +37,8 @@ class Sums(Listed, ABC):
         around.place(state, method.m)
         if len(self.less) != len(around.x):
             self.allocate(len(around.x))
-        self.team(_thermal, around.rows, self.n, state, method.eos, method.static, method.g, around.y,
-                  around.rho, around.vx, around.vy, around.T, around.P, self.less)
+        self.threads(_thermal, around.rows, self.n, state, method.eos, method.static, method.g, around.y,
+                     around.rho, around.vx, around.vy, around.T, around.P, self.less)
         around.move()
         for wall, parent, first, last in around.blocks:
             _image_pressures(first, last, wall, parent, method.eos, method.static, method.g, around.y,
@@ -55,9 +55,9 @@ class Sums(Listed, ABC):
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(x, y, vx, vy, e)/dt of a state (5, n), written to `out`."""
         self.prepare(state)
-        self.team(sweep, self.n, *self.exchange(self.less), self.around.pairs, self.pull)
-        self.team(_rates, self.n, state, self.pull, self.around.rho, self.slopes, self.method.g,
-                  self.method.static, out)
+        self.threads(sweep, self.n, *self.exchange(self.less), self.around.pairs, self.pull)
+        self.threads(_rates, self.n, state, self.pull, self.around.rho, self.slopes, self.method.g,
+                     self.method.static, out)
 
     def velocity(self, state: np.ndarray) -> np.ndarray:
         """Rates of the positions."""
@@ -89,8 +89,8 @@ class Sums(Listed, ABC):
     def gradients(self) -> None:
         """Second sum: self.slopes (rows, 8)."""
         around, kind = self.around, self.method.gradients
-        self.team(_moving, len(around.x), kind, around.vx, around.vy, around.T, around.rho, self.moving)
-        self.team(sweep, around.rows, kind, self.moving, around.pairs, self.slopes)
+        self.threads(_moving, len(around.x), kind, around.vx, around.vy, around.T, around.rho, self.moving)
+        self.threads(sweep, around.rows, kind, self.moving, around.pairs, self.slopes)
 
     @property
     def gradient(self) -> np.ndarray:
@@ -107,8 +107,8 @@ class Nested(Sums):
 
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
         around = self.around
-        self.team(_fluxes, around.rows, self.method.law, around.rho, around.vx, around.vy, around.T, less,
-                  self.slopes, self.flux)
+        self.threads(_fluxes, around.rows, self.method.law, around.rho, around.vx, around.vy, around.T, less,
+                     self.slopes, self.flux)
         for _, parent, first, last in around.blocks:
             _image_fluxes(first, last, parent, around.rho, around.vx, around.vy, less, self.flux)
         return Fluxes(), self.flux
@@ -128,8 +128,8 @@ class Direct(Sums):
 
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
         around = self.around
-        self.team(_direct, len(around.x), self.method.law, around.x, around.y, around.rho, around.vx,
-                  around.vy, around.T, less, self.records)
+        self.threads(_direct, len(around.x), self.method.law, around.x, around.y, around.rho, around.vx,
+                     around.vy, around.T, less, self.records)
         return DirectFluxes(), self.records
 
 

@@ -12,7 +12,7 @@ from scipy.signal import oaconvolve
 from continuum.gas import fields as gas
 from continuum.scene import Periodic
 from particles.run import Divergence, Plan, Run, run
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import value_and_slope
 from studies.build.setting import Ready
 from studies.kit.stats import Measured
@@ -84,7 +84,7 @@ def turns(scene: Any, vy: np.ndarray) -> int:
 
 def at_end(method: Any, done: Run) -> tuple[Any, np.ndarray]:
     """(sums, state) of smooth particles: the last state in the order of new lists, with densities."""
-    sums, state = method.start(done.state.shape[1], Team(1)), done.state.copy()
+    sums, state = method.start(done.state.shape[1], Threads(1)), done.state.copy()
     sums.around.relist(state, done.ids.copy(), 0.0)
     sums.densities(state)
     return sums, state

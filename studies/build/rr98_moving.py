@@ -80,5 +80,5 @@ rate.of(PairHeat)(lambda term, a, b, ab: (0.5*(a.k + b.k)*ab.k*(b.Td - a.Td),))
 def heat_in(sums: Drifts, state: np.ndarray, side: int) -> float:
     """Heat per time that enters the fluid through a plate (-1: lower, 1: upper), from images behind it."""
     heat = np.zeros((sums.n, 1))
-    sums.team(sweep, sums.n, OverPairs(PairHeat()), sums.points, pairs_behind(sums, side), heat)
+    sums.threads(sweep, sums.n, OverPairs(PairHeat()), sums.points, pairs_behind(sums, side), heat)
     return float(heat.sum())

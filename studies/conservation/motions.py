@@ -12,7 +12,7 @@ from particles.integral.points import Points, jittered, lattice
 from particles.integral.rr98_moving_plain import ConstantMass, Convective, Motion, Powers, convected, scale_of
 from particles.integrators import RK4
 from particles.limits import lattice_sums
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import Lucy
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
@@ -138,7 +138,7 @@ class BracketForce(Case):
 def march(method: Any, state: np.ndarray, dt: float, steps: int, look: Callable[[np.ndarray], Any],
           integrator: Any = RK4) -> np.ndarray:
     """look(state) before the first and after every step."""
-    stepper, looks = integrator(state.shape, Team(1)), [look(state)]
+    stepper, looks = integrator(state.shape, Threads(1)), [look(state)]
     for _ in range(steps):
         stepper.step(method, state, dt)
         looks.append(look(state))

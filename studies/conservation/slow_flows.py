@@ -15,7 +15,7 @@ from particles.integral.stream import Stream
 from particles.integral.triangulation import delaunay
 from particles.limits import limit_of
 from particles.run import Plan, Run, run
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import Lucy
 from studies.conservation.cylinder import PRESSURE, Obstacle, drag, force, momentum, radius_of, stream
 from studies.kit.case import Case, Outcome, Report
@@ -139,7 +139,7 @@ class TurningCylinder(Case):
 
 def torques(method: Stream, state: np.ndarray) -> np.ndarray:
     """On the cylinder that turns and on the fixed one."""
-    sums = method.start(state.shape[1], Team(1))
+    sums = method.start(state.shape[1], Threads(1))
     sums.force(state)
     x, y = method.x[method.held.which].T
     Fx, Fy, _ = sums.received.T
@@ -181,7 +181,7 @@ class SlidingShear(Case):
         first = method.state(1.0, exact, 1.0)
         done, time = slid(method, first, report)
         last = done.state
-        stress = method.start(len(y), Team(1)).through(last)[1]/self.rows
+        stress = method.start(len(y), Threads(1)).through(last)[1]/self.rows
         mass, px, py, energy, _ = (last@V - first@V)/V.sum()
         heat = energy/time
         change = np.abs(method.fields(last).v - exact).max()

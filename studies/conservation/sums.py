@@ -15,7 +15,7 @@ from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, run
 from particles.starts import Overlap
-from particles.threads import Team
+from particles.threads import Threads
 from studies.kit.case import Case, Outcome, Report
 
 ROUND_OFF = 2.2e-16     # of a sum: its terms are rounded twice, adding them up is exact
@@ -186,7 +186,7 @@ def compiled(method: Any, first: np.ndarray) -> Advance:
 
 def in_numpy(method: Any, first: np.ndarray, dt: float, integrator: Any = RK4) -> Advance:
     """Steps of a scheme in numpy, in place, until it diverges."""
-    stepper = integrator(first.shape, Team(1))
+    stepper = integrator(first.shape, Threads(1))
 
     def advance(state: np.ndarray, steps: int) -> tuple[np.ndarray, int]:
         for step in range(steps):

@@ -21,7 +21,7 @@ from particles.integral.layer import LayerSums
 from particles.integral.points import lattice
 from particles.integral.thermal import Thermal
 from particles.integrators import RK4
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import Lucy
 from studies.build.fixed import SCHEMES, Scheme, kinetic
 from studies.build.moving import MOTIONS
@@ -117,13 +117,13 @@ def vortex_without_noise(size: int) -> Reduced:
     silent = sums.dih
 
     def go(state: np.ndarray, dt: float, steps: int) -> np.ndarray:
-        integrator, now = RK4(state.shape, Team(1)), state.copy()
+        integrator, now = RK4(state.shape, Threads(1)), state.copy()
         for _ in range(steps):
             integrator.step(silent, now, dt)
         return now
 
     def held() -> tuple:
-        return problem.start, silent, RK4(problem.start.shape, Team(1))
+        return problem.start, silent, RK4(problem.start.shape, Threads(1))
     return Reduced(problem._replace(go=go, held=held))
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, Run, run
-from particles.threads import Team
+from particles.threads import Threads
 from studies.build.unguarded import Unguarded
 
 HALVINGS = 7        # at most: steps of 1/128 of the first one
@@ -118,12 +118,12 @@ def marching(method: Any) -> Go:
 def holding(method: Any, start: np.ndarray) -> Callable[[], tuple]:
     """`held` of such a method: state, sums with their lists, and what the integrator keeps."""
     def held() -> tuple:
-        team, n = Team(1), start.shape[1]
-        sums = method.start(n, team)
+        threads, n = Threads(1), start.shape[1]
+        sums = method.start(n, threads)
         now = Run(state=start.copy(), ids=np.arange(n))
         sums.try_out(now)
         integrator = getattr(method, "integrator", RK4)
-        return now.state, sums, integrator(start.shape, team)
+        return now.state, sums, integrator(start.shape, threads)
     return held
 
 

@@ -15,7 +15,7 @@ from particles.integral.layer import Layer
 from particles.integral.points import lattice
 from particles.integrators import RK4
 from particles.run import Plan, run
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import Lucy
 from studies.build.spam import PRINTED
 from studies.cost.tables import with_err
@@ -158,11 +158,11 @@ class Web(NamedTuple):
     @classmethod
     def of(cls, rows: int) -> "Web":
         points = lattice((2*rows, rows))
-        edges, team = renormalised(points, Lucy.of(h=2.0)), Team(1)
+        edges, threads = renormalised(points, Lucy.of(h=2.0)), Threads(1)
         method = Layer(x=points.x, edges=edges, beyond=NONE_BEYOND, eos=IdealGas(), law=ConstEta(ETA, ETA),
                        T_plates=(1.0, 1.0), g=0.0)
         state = method.state(1.0, 0.01*np.sin(points.x), np.ones(points.n))
-        return cls(state, method.start(points.n, team), RK4(state.shape, team))
+        return cls(state, method.start(points.n, threads), RK4(state.shape, threads))
 
     def seconds(self, short: float) -> Measured:
         """Of a step."""

@@ -22,7 +22,7 @@ from particles.integral.layer import Layer
 from particles.integral.points import lattice
 from particles.limits import limit_of
 from particles.run import Run
-from particles.threads import Team
+from particles.threads import Threads
 from studies.build.fixed import Scheme
 from studies.build.moving import FacesMotion
 from studies.build.rr98_moving import DriftMotion
@@ -49,7 +49,7 @@ HALVINGS = 20
 def eigenvalues(method: Any, start: np.ndarray) -> np.ndarray:
     """Of the rates of a method about a state (fields, n), those of motions that its sums see."""
     n = start.shape[1]
-    sums, now = method.start(n, Team(1)), Run(state=start.copy(), ids=np.arange(n))
+    sums, now = method.start(n, Threads(1)), Run(state=start.copy(), ids=np.arange(n))
     sums.make_ready(now, 0.0)
     rates = np.linalg.eigvals(jacobian(sums.rates, now.state))
     return rates[np.abs(rates) > NULL*np.abs(rates).max()]

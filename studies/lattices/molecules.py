@@ -17,7 +17,7 @@ from particles.integrators import RK4, Leapfrog, Whole, whole
 from particles.limits import step_limit
 from particles.run import STUDIES, Plan, run
 from particles.smooth.spam import Spam
-from particles.threads import Team
+from particles.threads import Threads
 from particles.walls.periodic import wrap
 from particles.weights import value_and_slope
 from studies.build.names import START_JITTER
@@ -137,7 +137,7 @@ class Twins(Case):
         smooth, rows = whole_crowd(self.side, self.seed), []
         steps = round(self.every/(STUDIES*step_limit(method, ENERGY)))
         plan, twin = Plan(dt=self.every/steps, steps=steps), smooth.copy()
-        integrator = RK4(twin.shape, Team(1))
+        integrator = RK4(twin.shape, Threads(1))
         for number in range(1, self.samples + 1):
             report(number/self.samples)
             smooth = run(method, smooth, plan).by_id()

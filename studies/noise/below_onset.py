@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 from continuum.scene import RayleighBenard
 from particles.integral.covariance import crank_nicolson, jacobian, steady, waves
 from particles.integral.layer import Layer
-from particles.threads import Team
+from particles.threads import Threads
 from studies.build.fixed import Scheme, layer
 from studies.kit.case import Case, Outcome, Report
 from studies.noise.partners import noise, transport
@@ -59,7 +59,7 @@ def matrices(rows: int, ra: float) -> tuple[np.ndarray, np.ndarray]:
     fluid = layer(scene, LATTICE, 1)
     x, n = fluid.x, len(fluid.x)
     T = scene.T(x[:, 1])
-    sums = fluid.start(n, Team(1))
+    sums = fluid.start(n, Threads(1))
     first = np.arange(rows)             # points at the left end
     J = jacobian(sums.rates, fluid.state(1.0, 0*x, T), first)
     fields = np.arange(4)[:, None]

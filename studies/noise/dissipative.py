@@ -24,7 +24,7 @@ from particles.dissipative.pairs3d import Uniform
 from particles.dissipative.stream import DpdStream, force_on_body, speed
 from particles.noise import uniform_of_pair
 from particles.run import Plan, Run, run
-from particles.threads import Team
+from particles.threads import Threads
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured, mean
 
@@ -210,7 +210,7 @@ def special(d: int, dt: float = 0.02) -> float:
     state, w, e = neighbours(method)
     x, v, _ = np.split(state, 3)
     n = x.shape[1]
-    sums, forces = method.start(n, Team(1)), np.empty_like(x)
+    sums, forces = method.start(n, Threads(1)), np.empty_like(x)
     sums.resume(Run(state=state, ids=np.arange(n)))
     sums.dt = dt
     sums.forces(x, v, 0.0, forces)

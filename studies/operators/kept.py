@@ -14,7 +14,7 @@ from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.points import Points, lattice
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import WendlandC2
 from studies.build.fixed import SCHEMES, fluid
 from studies.build.setting import Disorder
@@ -207,7 +207,7 @@ class LayerGrowth(Case):
         method = fluid(scene, SCHEMES["fixed-lattice"]._replace(h=self.h, share=self.share))
         y, c = method.x[:, 1], np.sqrt(2*scene.T_mean)
         state = method.state(1.0, np.zeros_like(method.x), scene.T(y))
-        sums = method.start(len(y), Team(1))
+        sums = method.start(len(y), Threads(1))
         growth = np.linalg.eigvals(jacobian(sums, state)).real.max()
         return Outcome({"nested_growth": [{"h": self.h, "rows": self.rows, "ra": self.ra, "share": self.share,
                                            "growth": growth/c}]})

@@ -30,7 +30,7 @@ from particles.integral.triangulation import between, delaunay
 from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Plan, run
-from particles.threads import Team
+from particles.threads import Threads
 from particles.weights import Lucy
 from studies.build.setting import Disorder
 from studies.kit.case import Case, Outcome, Report
@@ -67,7 +67,7 @@ def propagators(dih: Dih, x: np.ndarray, k: float, time: float, phases: tuple[fl
     for field in range(4):
         for phase in phases:
             state = start(dih, AMPLITUDE*np.cos(place - phase), field)
-            integrator = RK4(state.shape, Team(1))
+            integrator = RK4(state.shape, Threads(1))
             for part in range(len(U)):
                 for _ in range(steps):
                     integrator.step(dih, state, time/steps)
