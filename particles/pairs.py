@@ -124,7 +124,7 @@ def rate(term, a, b, ab):
 
 
 @generic
-def nothing(term):
+def zero(term):
     """The empty sum of a term: a tuple of zeros."""
 
 
@@ -162,7 +162,7 @@ def _(out, i, k, values):
 def sweep(first, last, term, particle, pairs, out):
     """out[i] = sum of rate(term, i, j, ij) over the pairs of rows first..last; `particle`: records."""
     for i in range(u64(first), u64(last)):
-        a, total, begin = particle[i], nothing(term), pairs.first[i]
+        a, total, begin = particle[i], zero(term), pairs.first[i]
         for k in range(begin, begin + pairs.taken[i]):
             total = add(total, rate(term, a, particle[pairs.near[k]], between(pairs, k)))
         store(out, i, u64(0), total)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from continuum.jit import formula, generic
-from particles.pairs import nothing, rate
+from particles.pairs import rate, zero
 
 
 class Gradients(NamedTuple):
@@ -40,9 +40,9 @@ class Fluxes(NamedTuple):
     """
 
 
-nothing.of(Gradients)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-nothing.of(ArithmeticGradients)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-nothing.of(Fluxes)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0))
+zero.of(Gradients)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+zero.of(ArithmeticGradients)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+zero.of(Fluxes)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0))
 
 
 @rate.of(Gradients)
@@ -83,7 +83,7 @@ class DirectFluxes(NamedTuple):
     """
 
 
-nothing.of(DirectFluxes)(lambda term: (0.0, 0.0, 0.0))
+zero.of(DirectFluxes)(lambda term: (0.0, 0.0, 0.0))
 
 
 @rate.of(DirectFluxes)

@@ -3,7 +3,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from particles.pairs import nothing, rate
+from particles.pairs import rate, zero
 
 
 class Static(NamedTuple):
@@ -21,7 +21,7 @@ def _(term, a, b, ab):
             (ab.f - friction)*ab.dx*ab.dy)
 
 
-nothing.of(Static)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+zero.of(Static)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 
 
 def static_sums(sums: Any, state: np.ndarray) -> np.ndarray:

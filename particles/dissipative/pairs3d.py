@@ -6,7 +6,7 @@ import numpy as np
 from continuum.jit import generic, jit
 from particles.neighbours import u32, u64
 from particles.noise import uniform_of_pair
-from particles.pairs import between, nothing, rate, sweep
+from particles.pairs import between, rate, sweep, zero
 
 Record = np.dtype([*((name, "f8") for name in ("x", "y", "z", "vx", "vy", "vz")),
                    ("id", "u8"), ("image", "u8")])
@@ -90,7 +90,7 @@ def _(term, a, b, ab):
     return c*ab.dx, c*ab.dy, c*ab.dz
 
 
-nothing.of(Force)(lambda term: (0.0, 0.0, 0.0))
+zero.of(Force)(lambda term: (0.0, 0.0, 0.0))
 
 
 @jit

@@ -6,7 +6,7 @@ import numpy as np
 from continuum.jit import generic, jit
 from particles.integral.exchange import At, Convection, Listing, Pressure, Stage, pressure_of, stages_of
 from particles.integral.rr98_moving_plain import Crossed, Powers
-from particles.pairs import Edge, nothing, rate
+from particles.pairs import Edge, rate, zero
 from particles.threads import Threads
 
 
@@ -74,10 +74,10 @@ def both(bracket, eos, a, b):
     """(P_ab, P_ba); in the energy P_ab goes with v_a."""
 
 
-nothing.of(OverPairs)(lambda term: nothing(term.term))
-nothing.of(Drifting)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0))
-nothing.of(BracketPressure)(lambda term: (0.0, 0.0, 0.0, 0.0))
-nothing.of(Dilution)(lambda term: (0.0, 0.0, 0.0, 0.0))
+zero.of(OverPairs)(lambda term: zero(term.term))
+zero.of(Drifting)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0))
+zero.of(BracketPressure)(lambda term: (0.0, 0.0, 0.0, 0.0))
+zero.of(Dilution)(lambda term: (0.0, 0.0, 0.0, 0.0))
 rate.of(Dilution)(lambda term, a, b, ab: (0.0, 0.0, 0.0, 0.0))
 growth.of(LiteralDrift)(lambda motion, a, b, ab: 0.0)
 growth.of(ConvectiveDrift)(lambda motion, a, b, ab: ab.sx*b.vx + ab.sy*b.vy)

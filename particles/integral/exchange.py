@@ -11,7 +11,7 @@ import numpy as np
 
 from continuum.fluid import energy, pressure
 from continuum.jit import OPTIONS, formula, overload
-from particles.pairs import nothing, rate, sweep
+from particles.pairs import rate, sweep, zero
 from particles.threads import Threads
 
 
@@ -38,10 +38,10 @@ class Conduction(NamedTuple):
 #: friction and heat as Eq. 51 has them; heat first costs 15 % more where pairs divide, see `Listing`
 PRINTED = (Friction(), Conduction())
 
-nothing.of(Convection)(lambda term: (0.0, 0.0, 0.0, 0.0))
-nothing.of(Pressure)(lambda term: (0.0, 0.0, 0.0, 0.0))
-nothing.of(Friction)(lambda term: (0.0, 0.0, 0.0, 0.0))
-nothing.of(Conduction)(lambda term: (0.0, 0.0, 0.0, 0.0))
+zero.of(Convection)(lambda term: (0.0, 0.0, 0.0, 0.0))
+zero.of(Pressure)(lambda term: (0.0, 0.0, 0.0, 0.0))
+zero.of(Friction)(lambda term: (0.0, 0.0, 0.0, 0.0))
+zero.of(Conduction)(lambda term: (0.0, 0.0, 0.0, 0.0))
 
 
 @rate.of(Convection)
@@ -102,7 +102,7 @@ def _(one, other):
     return lambda one, other: (one[0] + other[0],) + plus(one[1:], other[1:])
 
 
-nothing.of(Listing)(lambda term: nothing(term.terms[0]))
+zero.of(Listing)(lambda term: zero(term.terms[0]))
 rate.of(Listing)(lambda term, a, b, ab: onto(rate(term.terms[0], a, b, ab), term.terms[1:], a, b, ab))
 
 
@@ -142,7 +142,7 @@ class Exchange:
 
     def __init__(self, term: Any, stages: tuple[Stage, ...], n: int, threads: Threads):
         self.term, self.stages, self.n, self.threads = term, stages, n, threads
-        self.total = np.zeros((n, len(nothing(term))))
+        self.total = np.zeros((n, len(zero(term))))
 
     def sum(self, at: At) -> np.ndarray:
         """What each point gains, (n, columns), in an array that the next sum overwrites."""

@@ -6,7 +6,7 @@ import numpy as np
 from continuum.fluid import conductivity, pressure, sound_speed, temperature, viscosity
 from continuum.jit import jit
 from particles.integral.exchange import Listing
-from particles.pairs import nothing, rate
+from particles.pairs import rate, zero
 
 #: convection and pressure see vx .. theta; friction and heat ux, uy, Td; F mends the heating; g is grad P'
 Point = np.dtype([(name, "f8") for name in ("vx", "vy", "P", "rho", "e", "per_c", "shift_x", "shift_y",
@@ -25,8 +25,8 @@ class FaceExchange(NamedTuple):
     transport: Listing
 
 
-nothing.of(FaceDifferences)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-nothing.of(FaceExchange)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+zero.of(FaceDifferences)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+zero.of(FaceExchange)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 
 
 @rate.of(FaceDifferences)

@@ -16,7 +16,7 @@ from continuum.jit import jit
 from particles.ghosts import ghosts_of
 from particles.lists import PairLists
 from particles.neighbours import u64
-from particles.pairs import Faces, nothing, rate, sweep
+from particles.pairs import Faces, rate, sweep, zero
 
 #: the solution of the equations for faces
 POTENTIALS = ("phi_x", "psi_xx", "psi_xy", "phi_y", "psi_yx", "psi_yy")
@@ -28,7 +28,7 @@ class Closing(NamedTuple):
     """Closure and moments of k [phi_j - phi_i + (psi_i + psi_j).x_ij], for S_x and S_y."""
 
 
-nothing.of(Closing)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+zero.of(Closing)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
 
 
 @rate.of(Closing)

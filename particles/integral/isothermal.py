@@ -14,7 +14,7 @@ from particles.integral.edges import Edges
 from particles.integral.exchange import At, Exchange, Listing
 from particles.integral.fixed import NO_IMAGES, OnPoints, Summing, stored
 from particles.limits import limit_of
-from particles.pairs import nothing, rate
+from particles.pairs import rate, zero
 from particles.threads import Threads
 
 Point = np.dtype([(name, "f8") for name in ("rho", "vx", "vy")])
@@ -30,8 +30,8 @@ class ConstantFriction(NamedTuple):
     eta: float
 
 
-nothing.of(Carried)(lambda term: (0.0, 0.0, 0.0))
-nothing.of(ConstantFriction)(lambda term: (0.0, 0.0, 0.0))
+zero.of(Carried)(lambda term: (0.0, 0.0, 0.0))
+zero.of(ConstantFriction)(lambda term: (0.0, 0.0, 0.0))
 
 
 @rate.of(Carried)

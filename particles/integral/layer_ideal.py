@@ -13,7 +13,7 @@ import numpy as np
 from continuum.fluid import IdealGas, conductivity, temperature, viscosity
 from continuum.jit import jit, lanes
 from particles.neighbours import u64
-from particles.pairs import Block, Stored, nothing, rate, sweep
+from particles.pairs import Block, Stored, rate, sweep, zero
 
 #: what a neighbour gives, two vectors of four: for S all but w; for k u, v and w = eta u^2/2 + kappa T
 Given = np.dtype([(name, "f8") for name in ("rho", "mx", "my", "eps", "T", "u", "v", "w")])
@@ -29,8 +29,8 @@ class LackSums(NamedTuple):
     """sum S.F."""
 
 
-nothing.of(ProductSums)(lambda term: (0.0,)*20)
-nothing.of(LackSums)(lambda term: (0.0,))
+zero.of(ProductSums)(lambda term: (0.0,)*20)
+zero.of(LackSums)(lambda term: (0.0,))
 
 
 @rate.of(ProductSums)

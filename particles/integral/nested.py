@@ -8,7 +8,7 @@ from continuum.jit import jit
 from particles.integral.dih import check_share
 from particles.integral.exchange import At, Conduction, Friction, Stage, stages_of
 from particles.integral.transposed_stress import Mending
-from particles.pairs import nothing, rate, sweep
+from particles.pairs import rate, sweep, zero
 from particles.threads import Threads
 
 #: stress, -Q, and the velocity that friction sees
@@ -28,9 +28,9 @@ class Currents(NamedTuple):
     """Stress and heat current of the points, over edges: momentum and energy    [Eqs 37, 38]"""
 
 
-nothing.of(NestedTransport)(lambda term: (0.0, 0.0, 0.0, 0.0))
-nothing.of(Slopes)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-nothing.of(Currents)(lambda term: (0.0, 0.0, 0.0))
+zero.of(NestedTransport)(lambda term: (0.0, 0.0, 0.0, 0.0))
+zero.of(Slopes)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+zero.of(Currents)(lambda term: (0.0, 0.0, 0.0))
 rate.of(NestedTransport)(lambda term, a, b, ab: (0.0, 0.0, 0.0, 0.0))
 
 

@@ -14,7 +14,7 @@ from particles.integral.bodies import Held
 from particles.integral.edges import Edges
 from particles.integral.exchange import At, Stage
 from particles.integral.fixed import NO_IMAGES, FixedSums, OnPoints, OwnPressure, opened, stored
-from particles.pairs import Stored, nothing, rate, sweep
+from particles.pairs import Stored, rate, sweep, zero
 from particles.threads import Threads
 
 
@@ -23,7 +23,7 @@ class Filter(NamedTuple):
     chi: float
 
 
-nothing.of(Filter)(lambda term: (0.0, 0.0, 0.0, 0.0))
+zero.of(Filter)(lambda term: (0.0, 0.0, 0.0, 0.0))
 
 
 @rate.of(Filter)

@@ -16,7 +16,7 @@ import numpy as np
 from continuum.fluid import constant_viscosity
 from continuum.jit import jit
 from particles.integral.exchange import At, Conduction, Friction, Stage, stages_of
-from particles.pairs import nothing, rate, sweep
+from particles.pairs import rate, sweep, zero
 from particles.threads import Threads
 
 Tau = np.dtype([(name, "f8") for name in ("xx", "xy", "yx", "yy")])
@@ -38,9 +38,9 @@ class Transposed(NamedTuple):
 #: friction along edges with the heating, and the force, of a fluid
 MENDED = (Conduction(), Mending(), Friction())
 
-nothing.of(Mending)(lambda term: (0.0, 0.0, 0.0, 0.0))
-nothing.of(Differences)(lambda term: (0.0, 0.0, 0.0, 0.0))
-nothing.of(Transposed)(lambda term: (0.0, 0.0))
+zero.of(Mending)(lambda term: (0.0, 0.0, 0.0, 0.0))
+zero.of(Differences)(lambda term: (0.0, 0.0, 0.0, 0.0))
+zero.of(Transposed)(lambda term: (0.0, 0.0))
 rate.of(Mending)(lambda term, a, b, ab: (0.0, 0.0, 0.0, ab.sx*(a.Fx + b.Fx) + ab.sy*(a.Fy + b.Fy)))
 
 

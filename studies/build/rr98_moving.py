@@ -12,7 +12,7 @@ from particles.integral.rr98_moving import Drift, Drifts
 from particles.integral.rr98_moving_plain import Powers, scale_of
 from particles.integral.transposed_stress import MENDED
 from particles.observe import pairs_behind
-from particles.pairs import nothing, rate, sweep
+from particles.pairs import rate, sweep, zero
 from particles.smooth.spam import LessStatic
 from particles.weights import WendlandC2
 from studies.build.setting import Ready, check_open, check_spacings, check_still, shaken, stepped, walls
@@ -73,7 +73,7 @@ class PairHeat(NamedTuple):
     """Heat that the first of two points gets from the other."""
 
 
-nothing.of(PairHeat)(lambda term: (0.0,))
+zero.of(PairHeat)(lambda term: (0.0,))
 rate.of(PairHeat)(lambda term, a, b, ab: (0.5*(a.k + b.k)*ab.k*(b.Td - a.Td),))
 
 
