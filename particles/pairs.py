@@ -82,13 +82,13 @@ class Face(NamedTuple):
 
 
 @generic
-def between(pairs, k):
+def pair_at(pairs, k):
     """The k-th pair as a term wants it."""
 
 
-between.of(Pairs)(lambda pairs, k: Pair(pairs.wx[k], pairs.wy[k]))
-between.of(Stored)(lambda pairs, k: Edge(pairs.sx[k], pairs.sy[k], pairs.k[k]))
-between.of(Faces)(lambda pairs, k: Face(pairs.sx[k], pairs.sy[k], pairs.k[k], pairs.dx[k], pairs.dy[k]))
+pair_at.of(Pairs)(lambda pairs, k: Pair(pairs.wx[k], pairs.wy[k]))
+pair_at.of(Stored)(lambda pairs, k: Edge(pairs.sx[k], pairs.sy[k], pairs.k[k]))
+pair_at.of(Faces)(lambda pairs, k: Face(pairs.sx[k], pairs.sy[k], pairs.k[k], pairs.dx[k], pairs.dy[k]))
 
 
 @jit
@@ -164,7 +164,7 @@ def sweep(first, last, term, particle, pairs, out):
     for i in range(u64(first), u64(last)):
         a, total, begin = particle[i], zero(term), pairs.first[i]
         for k in range(begin, begin + pairs.taken[i]):
-            total = add(total, rate(term, a, particle[pairs.near[k]], between(pairs, k)))
+            total = add(total, rate(term, a, particle[pairs.near[k]], pair_at(pairs, k)))
         store(out, i, u64(0), total)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from continuum.jit import generic, jit
 from particles.neighbours import u32, u64
 from particles.noise import uniform_of_pair
-from particles.pairs import between, rate, sweep, zero
+from particles.pairs import pair_at, rate, sweep, zero
 
 Record = np.dtype([*((name, "f8") for name in ("x", "y", "z", "vx", "vy", "vz")),
                    ("id", "u8"), ("image", "u8")])
@@ -76,7 +76,7 @@ class Apart(NamedTuple):
     g: float
 
 
-between.of(Near)(lambda pairs, k: Apart(pairs.dx[k], pairs.dy[k], pairs.dz[k], pairs.f[k], pairs.g[k]))
+pair_at.of(Near)(lambda pairs, k: Apart(pairs.dx[k], pairs.dy[k], pairs.dz[k], pairs.f[k], pairs.g[k]))
 
 
 class Force(NamedTuple):
