@@ -47,11 +47,11 @@ OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": FASTMATH}
 
 #: compiled, kept on disk, free of Python's lock so that threads can share the rows of one loop
 jit = numba.njit(cache=True, nogil=True, **OPTIONS)
-#: four float64 a vector: with eight, `lanes` spends more on putting them together than it saves
+#: four float64 a vector: with eight, `jit_records` spends more on putting them together than it saves
 llvmlite.binding.set_option("fluidized-grid", "-slp-max-reg-size=256")
 
 
-def lanes(function: Callable) -> Any:
+def jit_records(function: Callable) -> Any:
     """Compile with sums in the written order and LLVM's SLP vectoriser, as loops over records want it.
 
     SLP puts equal operations on neighbouring fields into one vector instruction. LLVM 14 miscompiled with it:

@@ -3,7 +3,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.jit import generic, jit, lanes, overload
+from continuum.jit import generic, jit, jit_records, overload
 from particles.neighbours import ONE, u32, u64
 from particles.weights import shape, slope
 
@@ -158,7 +158,7 @@ def _(out, i, k, values):
     return impl
 
 
-@lanes
+@jit_records
 def sweep(first, last, term, particle, pairs, out):
     """out[i] = sum of rate(term, i, j, ij) over the pairs of rows first..last; `particle`: records."""
     for i in range(u64(first), u64(last)):

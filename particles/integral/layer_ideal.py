@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import IdealGas, conductivity, temperature, viscosity
-from continuum.jit import jit, lanes
+from continuum.jit import jit, jit_records
 from particles.neighbours import u64
 from particles.pairs import Block, Stored, rate, sweep, zero
 
@@ -69,7 +69,7 @@ class IdealSums:
         threads(_heat, n, lack, self.edges, open, self.per_V, out)
 
 
-@lanes
+@jit_records
 def _give(first, last, state, parent, twice_T, gas, given):
     """Fields of points, then of images: rho, T, eps, momentum along of their parents, -v, 2 T_w - T."""
     n, kappa = u64(state.shape[1]), gas[2]
@@ -93,7 +93,7 @@ def _read(state, i, gas, a):
     a.T, a.u, a.v, a.w = T, u, v, eta*q + kappa*T
 
 
-@lanes
+@jit_records
 def _exchange(first, last, given, edges, open, per_V, gas, g, lack, out):
     """Rates without the mended heating, and F."""
     pairs, sums = Stored(*edges), np.empty((ROWS, 20))
@@ -139,7 +139,7 @@ def _plates(beyond, parent, given, per_V, lack, out):
         lack[n + m].Fx, lack[n + m].Fy = lack[parent[m]].Fx, -lack[parent[m]].Fy
 
 
-@lanes
+@jit_records
 def _heat(first, last, lack, edges, open, per_V, out):
     pairs, lost = Stored(*edges), np.empty((ROWS, 1))
     for begin in range(u64(first), u64(last), u64(ROWS)):
