@@ -34,8 +34,7 @@ class DenseFluid(NamedTuple):
 
 
 class Fields(NamedTuple):
-    """What a state is in terms that all methods share: places x (n, d), velocities v (n, d), densities,
-    temperatures and volumes (n,). x is not a number where a method knows edges alone."""
+    """Places x (n, d), nan if a method has none, velocities v (n, d), density, temperature, volume (n,)."""
     x: np.ndarray
     v: np.ndarray
     rho: np.ndarray
@@ -147,9 +146,8 @@ def sound_speed(eos, rho, e):
 def expansivity(eos, rho: float, T: float) -> float:
     """alpha = -(1/rho) (drho/dT)_P at (rho, T), from (dP/drho)_T = P_rho + P_e (de/drho)_T."""
     step = 1e-6*rho
-    e = energy(eos, rho, T)
     e_rho = (energy(eos, rho + step, T) - energy(eos, rho - step, T))/(2*step)
-    by_rho, by_e = pressure_slopes(eos, rho, e)
+    by_rho, by_e = pressure_slopes(eos, rho, energy(eos, rho, T))
     return thermal_pressure(eos, rho, T)/(rho*(by_rho + by_e*e_rho))
 
 
