@@ -19,9 +19,9 @@ def make(tmp_path):
         (tmp_path / f"studies/{name}/{file}").touch()
 
     def run(*words: str) -> tuple[int, str]:
-        done = subprocess.run(["make", *words, "PYTHON=false"], cwd=tmp_path, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT,
-                              text=True)
+        # below another make it would say which folder it enters
+        done = subprocess.run(["make", "--no-print-directory", *words, "PYTHON=false"], cwd=tmp_path,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         return done.returncode, done.stdout
     return run
 

@@ -11,7 +11,7 @@ Expected: central differences keep order while v a/nu of the fastest flow, that 
 This is no limit of stability: no formula is known that says where a run ends.
 """
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from math import ceil, log
 from pathlib import Path
@@ -92,7 +92,7 @@ def on_grid(rows: int, ra: float, seed: int, step: float) -> Attempt:
     scene = layer(ra)
     start = initial(scene, rows, START_ENERGY)
     dt = step*SAFETY*limits(scene, block(start)).both
-    start.cells[:] *= ripple(seed, *start.cells.shape)
+    start = replace(start, cells=start.cells*ripple(seed, *start.cells.shape))
     done, reached = between_plates(start, falls(scene, TIME), SAMPLES, no_report, dt)
     if done is None:
         return Attempt(np.nan, reached)
