@@ -1,5 +1,4 @@
-"""Slow, readable twin of `closed_faces`: every face as an entry of dense matrices, faces closed to
-round-off."""
+"""Slow, readable twin of `closed_faces`: faces as entries of dense matrices, closed to round-off."""
 from typing import NamedTuple
 
 import numpy as np
@@ -17,8 +16,7 @@ class Scene(NamedTuple):
 
 
 def ghosts(x, y, scene):
-    """Positions of all points and images in some rows of them; origin, turn (-1 behind a plate), T of the
-    plate."""
+    """Positions of points and images in rows of them; origin, turn (-1 behind plates), T of the plate."""
     width, height = scene.box
     found = [(x, y, np.arange(len(x)), np.ones(len(x)), np.zeros(len(x)))]
     for side in (-1, 1):

@@ -112,8 +112,7 @@ def test_the_motionless_state_stays(eos):
 
 
 def thermal(eos) -> float:
-    """Temperature slope per slope of the plates' temperature: the dense fluid's T(rho, e) is 5 % off as
-    printed."""
+    """Temperature slope over that of the plates: the dense fluid's T(rho, e) is 5 % off as printed."""
     return 1.05 if isinstance(eos, DenseFluid) else 1.0
 
 

@@ -1,5 +1,4 @@
-"""Convection on the compressible grid: order, Nusselt numbers, onset, boxes, fields and starts. Coarse
-grids."""
+"""Convection on coarse compressible grids: order, Nusselt numbers, onset, boxes, fields and starts."""
 from dataclasses import replace
 
 import numpy as np

@@ -1,5 +1,4 @@
-"""Discretized integral hydrodynamics on fixed points: conservation, invariance, operators of the equations,
-heating."""
+"""Integral hydrodynamics on fixed points: conservation, invariance, operators, heating."""
 import numpy as np
 import pytest
 
@@ -115,8 +114,7 @@ def exact_drag(x, y, k, zeta):
 
 
 def test_rigid_rotation_heats_only_where_the_heating_is_not_mended():
-    """In the middle of a large patch that rotates: eta |grad v|^2 = 2 eta omega^2 without F, nothing with
-    it."""
+    """In the middle of a patch that rotates: eta |grad v|^2 = 2 eta omega^2 without F, nothing with it."""
     heating = {}
     for transport in ("pairwise", "unmended"):
         dih, at = fluid(size=0, transport=transport, counts=(24, 24), eos=IdealGas())

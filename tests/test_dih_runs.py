@@ -1,5 +1,4 @@
-"""Discretized integral hydrodynamics as cases of the study rb: rows, second order, the wrong limit of
-unmended heating."""
+"""Integral hydrodynamics as cases of the study rb: rows, order, the wrong limit of unmended heating."""
 import numpy as np
 import pytest
 
@@ -24,8 +23,7 @@ def test_a_row_has_the_columns_of_the_table(tmp_path):
 
 
 def test_energy_falls_to_its_limit_as_the_square_of_the_spacing(tmp_path):
-    """8, 12, 16 rows: two pairs give the same limit to 1 %, the rest of the fourth order; 0.4891e-2 is the
-    grid's."""
+    """8, 12, 16 rows: two pairs give one limit to 1 %, the rest of fourth order; 0.4891e-2 is the grid's."""
     K = {rows: one(tmp_path/str(rows), rows=rows)["ke"] for rows in (8, 12, 16)}
     limits = [(K[b]*b**2 - K[a]*a**2)/(b**2 - a**2) for a, b in ((8, 12), (12, 16))]
     assert limits[1] == pytest.approx(limits[0], rel=0.03)
@@ -42,14 +40,12 @@ def test_heating_as_the_pairs_work_lowers_the_energy(tmp_path):
     ("fixed-lattice", 1e-6), ("fixed-lattice-nested", 1e-6),
     ("fixed-random-plates", 1e-3)])     # weak currents where hydrostatic pressure bends between points
 def test_heat_through_plates_is_conduction_at_rest(tmp_path, scheme, within):
-    """Far below onset the layer comes to rest: Nu = 1 on a lattice exactly, whatever the share along
-    edges."""
+    """Far below onset the layer comes to rest: Nu = 1 on a lattice exactly, whatever the share."""
     assert one(tmp_path, scheme, ra=200.0, t_end=200.0)["nu"] == pytest.approx(1, abs=within)
 
 
 def test_points_on_plates_give_them_the_heat_of_the_fluid_and_keep_its_mass(tmp_path):
-    """Nu of both plates agrees as the flow settles; 12 rows of random points are some 10 % from the grid's
-    K."""
+    """Nu of both plates agrees as the flow settles; 12 random rows are some 10 % from the grid's K."""
     row = one(tmp_path, "fixed-random-plates", rows=12, t_end=100.0)
     assert row["converged"] and row["rolls"] == 2 and abs(row["mass_drift"]) < 1e-13
     assert row["nu_err"] < 0.003*row["nu"] and row["particles"] == 24*13

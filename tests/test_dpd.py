@@ -1,5 +1,4 @@
-"""Dissipative particles: against the slow twin, momentum, antisymmetry, threads, restarts, temperatures; a
-body; bad input."""
+"""Dissipative particles: the slow twin, momentum, threads, restarts, temperatures; a body; bad input."""
 import itertools
 
 import numpy as np
@@ -47,8 +46,7 @@ def forces(method, state, step=0, dt=0.02, threads=1):
 
 
 def apart(x: np.ndarray, box: np.ndarray, slid: float = 0.0) -> np.ndarray:
-    """r_i - r_j by the nearest image (d, n, n), images above having slid along x; how many boxes lie between
-    (n, n)."""
+    """r_i - r_j by the nearest image (d, n, n), images above slid along x; boxes that lie between (n, n)."""
     d = x[:, :, None] - x[:, None, :]
     over = np.round(d[1]/box[1])
     d[0] -= over*slid
@@ -144,8 +142,7 @@ def test_numbers_of_particles_decide_the_noise_and_their_order_does_not(box):
 
 @pytest.mark.parametrize("integrator", SHEARED)
 def test_a_shear_is_a_change_of_frame(integrator):
-    """Between sliding sides the flow rate*y stays, and momentum in its frame; no noise, no repulsion:
-    nothing else moves."""
+    """Between sliding sides the flow rate*y stays; without noise and repulsion nothing else moves."""
     method = Dpd(box=(4.0, 4.0, 4.0), a=0.0, gamma=0.0, kT=0.0, rate=0.5, integrator=integrator)
     state = method.random_start(3.0)
     done = run(method, state, Plan(dt=0.02, steps=300)).by_id()
@@ -155,8 +152,7 @@ def test_a_shear_is_a_change_of_frame(integrator):
 
 @pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_noise_balances_friction(integrator):
-    """sigma^2 = 2 gamma kT: without repulsion kT is that of the bath, at a step so short that no integrator
-    errs by 1 %."""
+    """sigma^2 = 2 gamma kT: without repulsion kT is the bath's, at a step where integrators err by < 1 %."""
     method = Dpd(box=(6.0, 6.0, 6.0), a=0.0, kT=1.7, integrator=integrator)
     done = run(method, method.random_start(3.0),
                Plan(dt=0.005, steps=1200, every=100, series={"kT": kinetic_temperature}))
@@ -224,8 +220,7 @@ CELL = (4.0, 4.0, 3.0)
 
 @pytest.mark.parametrize("integrator", [VelocityVerlet, GrootWarren65])
 def test_what_the_fluid_loses_the_body_gets(integrator):
-    """dP/dt = push - force to round-off but for the first and the last half-step, whose forces are in one
-    sum only."""
+    """dP/dt = push - force to round-off, but for the first and last half-step, in one of the sums only."""
     state = Dpd(box=CELL).random_start(3.0)
     held = np.flatnonzero((state[:2]**2).sum(axis=0) < 1)
     method = DpdStream(box=CELL, held=held, push=0.5, integrator=integrator)

@@ -1,5 +1,4 @@
-"""Edges of every maker: antisymmetry by construction, closure, linear exactness, skewness where they are
-claimed."""
+"""Edges of every maker: antisymmetry, closure, linear exactness, skewness where they are claimed."""
 import warnings
 
 import numpy as np
@@ -105,8 +104,7 @@ def test_a_weight_of_another_dimension_is_refused():
 @pytest.mark.parametrize(("maker", "size", "off"),
                          [("plain", 0, "48.8"), ("printed", 0, "222"), ("renormalised", 0.3, "57")])
 def test_a_weight_narrower_than_the_spacing_is_told_with_its_error(maker, size, off):
-    """Lucy's weight of range 1.2 a has the rms width 0.507 a, and 2 W(a) = 0.512; Eq. 29 has 2 pi times as
-    much."""
+    """Lucy of range 1.2 a has the rms width 0.507 a, and 2 W(a) = 0.512; Eq. 29 has 2 pi times as much."""
     at = jittered((12, 12), size, 1) if size else lattice((12, 12))
     with pytest.warns(OrderingWarning,
                       match=rf"r0 = 0\.507 .* below the spacing 1, the left side of Eq\. 45: .* by {off}"):

@@ -29,8 +29,7 @@ def made(d, maker, size, counts=None):
 
 
 def with_images(matrices, beyond, own, image):
-    """Of each direction the matrix among points and S/2 times `own` at the point, `image` (d,) at the
-    parent."""
+    """By direction the matrix among points, S/2 times `own` at the point, `image` (d,) at the parent."""
     n = matrices[0].shape[0]
     return [M + sparse.csr_array((S/2*own, (beyond.i, beyond.i)), shape=(n, n))
             + sparse.csr_array((S/2*s, (beyond.i, beyond.parent)), shape=(n, n))
@@ -49,8 +48,7 @@ def test_edges_close_with_those_to_images(d, maker, size):
 @pytest.mark.parametrize(("d", "maker", "size"),
                          [(d, *kind) for d in COUNTS for kind in (CLOSE[0], CLOSE[2])])
 def test_edges_are_exact_on_linear_fields_that_go_on_beyond_plates(d, maker, size):
-    """A field across a plate is odd about its value there: images at x_i + apart have that of the straight
-    line."""
+    """A field across a plate is odd about its value there: images continue the straight line."""
     x, edges, beyond = made(d, maker, size)
     total = edges.linear*edges.V[:, None, None]
     np.add.at(total, beyond.i, beyond.S[:, :, None]*beyond.apart[:, None, :]/2)
@@ -64,8 +62,7 @@ def test_edges_are_exact_on_linear_fields_that_go_on_beyond_plates(d, maker, siz
 @pytest.mark.parametrize("d", COUNTS)
 @pytest.mark.filterwarnings("ignore::particles.integral.interpolants.OrderingWarning")
 def test_divergence_with_images_is_minus_the_adjoint_of_the_gradient(d, maker, size):
-    """Of what is even: with m for the signs; of what is odd, as friction sees it: with -m. The other way
-    round it is not."""
+    """Of what is even: with m for the signs; of what is odd, as friction sees it: with -m, and not m."""
     _, edges, beyond = made(d, maker, size)
     unit = np.abs(edges.S).max()
     for sign in (1, -1):

@@ -1,5 +1,4 @@
-"""Noise and dissipation on points: partners to round-off, conservation, Galilean invariance, null modes;
-Lyapunov covariances."""
+"""Noise and dissipation on points: partners, conservation, invariance, null modes; covariances."""
 import numpy as np
 import pytest
 
@@ -86,8 +85,7 @@ def test_dissipation_is_the_force_that_runs(name, kind, d):
 
 
 def test_printed_viscosity_that_varies_has_no_partner():
-    """Eq. 37 takes the viscosity of one point and the slope of the other: no symmetric Gamma, though edges
-    close."""
+    """Eq. 37 takes the viscosity of one point, the slope of the other: no symmetric Gamma, closed or not."""
     edges = edges_of("renormalised", "lattice", 2)
     for eta, least, most in ((np.full(edges.n, 0.3), 0.0, 1e-13),
                              (np.linspace(0.2, 0.4, edges.n), 1e-2, 2.0)):

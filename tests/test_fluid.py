@@ -1,5 +1,4 @@
-"""Constitutive relations: each law over every equation of state and transport law found in
-`continuum.fluid`."""
+"""Constitutive relations: each law over every equation of state and transport law of continuum.fluid."""
 import numpy as np
 import pytest
 from scipy.optimize import brentq

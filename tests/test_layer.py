@@ -1,5 +1,4 @@
-"""Discretized integral hydrodynamics between plates: what walls keep, what they let through, what they must
-not feed."""
+"""Integral hydrodynamics between plates: what walls keep, what they let through, must not feed."""
 from dataclasses import replace
 
 import numpy as np
@@ -115,8 +114,7 @@ def test_plates_take_no_mass(make, size, h):
 
 @pytest.mark.parametrize("transport", TRANSPORT)
 def test_the_motionless_state_stays_to_round_off(transport):
-    """Linear T at density 1 is an exact solution of the discrete equations on a lattice, too: images go on
-    with it."""
+    """Linear T at density 1 solves the discrete equations on a lattice, too: images go on with it."""
     fluid, x, scene = layer()
     fluid = replace(fluid, transport=TRANSPORT[transport][0])
     found = rates(fluid, fluid.state(np.ones(len(x)), 0*x, scene.T(x[:, 1])))
@@ -155,8 +153,7 @@ def test_friction_and_conduction_between_plates_are_symmetric_and_only_damp(make
 
 @pytest.mark.parametrize(("make", "size", "h"), MADE)
 def test_friction_that_varies_is_symmetric_and_only_damps(make, size, h):
-    """Forces at rest are -K v with eta(T) of random temperatures: K is symmetric and has no negative
-    eigenvalue."""
+    """Forces at rest are -K v with eta(T) of random temperatures: K symmetric, no eigenvalue negative."""
     fluid, x, where = layer(make, size, h=h, rows=8, transport=PowerLaw)
     n, small, T = len(x), 1e-6, np.random.default_rng(0).uniform(0.7, 1.3, len(x))
     quiet = replace(fluid, law=ConstEta(0.0, 0.0), form=LayerSums)
@@ -196,8 +193,7 @@ def eigenvalues(quiet, rest, step=1e-6):
 
 
 def test_sound_between_adjoint_walls_does_not_grow():
-    """Without friction and gravity the linearised operator has no eigenvalue with a positive real part above
-    round-off."""
+    """Without friction and gravity no eigenvalue of the linearised rates has a positive real part."""
     fluid, x, _ = layer(rows=8)
     grows = eigenvalues(*at_rest(fluid, x, 0.0, 0.0)).real.max()
     # differences over 1e-6: 1e-10; defective zeros of modes at rest spread as its square root
@@ -206,8 +202,7 @@ def test_sound_between_adjoint_walls_does_not_grow():
 
 @pytest.mark.parametrize(("eta", "k"), [(0.0, 0.0), (2.0, 0.02), (0.02, 2.0)])
 def test_a_point_near_its_own_image_limits_the_step(eta, k):
-    """The fastest rate of the linearised layer, sound alone or diffusion alone, is what the limit is made
-    of, to 0.1 %."""
+    """The fastest rate of the linearised layer, sound or diffusion alone, makes the limit, to 0.1 %."""
     _, x, where = layer(rows=8)
     x[0, 1] = -where.L/2 + 0.15                 # 0.3 spacings from its image, 1 from the next point
     quiet, rest = at_rest(at(x, where, delaunay), x, eta, k)

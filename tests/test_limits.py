@@ -1,5 +1,4 @@
-"""The step limit: waves of the linearised scheme against its Jacobian, long waves, and runs on both sides of
-the limit."""
+"""The step limit: waves of the linearised scheme against its Jacobian; runs on both sides of it."""
 import numpy as np
 import pytest
 from crowd import advance, everywhere, lattice, prepare

@@ -51,8 +51,7 @@ def test_nothing_grows_or_decays_at_the_critical_ra_whatever_pr(plates, pr):
 
 
 def test_a_weakly_driven_layer_loses_its_slowest_mode_by_the_right_diffusivity():
-    """With rigid plates only heat decays as pi^2 + k^2; exchanging nu and kappa would give 23.6 instead of
-    19.7."""
+    """With rigid plates only heat decays as pi^2 + k^2; nu for kappa would give 23.6 for 19.7."""
     ra, pr, k = 1e-3, 7.0, np.pi
     decay = growth_rate(ra=ra, pr=pr, k=k)*np.sqrt(ra*pr)       # per H^2/kappa
     # buoyancy changes the rate by about Ra/Ra_c

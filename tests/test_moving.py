@@ -1,5 +1,4 @@
-"""A conservative scheme on moving points: against its slow twin, what it keeps, what its faces are exact on,
-restart."""
+"""Conservative moving points: a slow twin, what is kept, what faces are exact on, restart."""
 from dataclasses import replace
 
 import numpy as np
@@ -99,8 +98,7 @@ def test_faces_close_and_are_exact_on_linear_fields():
 @pytest.mark.parametrize("scene", ["plates", "periodic"])
 @pytest.mark.parametrize("law", [LAW, ConstNu(0.3, 0.2)], ids=["const-eta", "const-nu"])
 def test_nothing_is_lost_by_an_exchange(law, scene):
-    """Open faces, too: what is exchanged does not depend on how well they close; plates take momentum and
-    heat only."""
+    """Open faces, too: exchange does not depend on how well they close; plates take momentum and heat."""
     for iterations in (0, 2, 12):
         method = fluid(scene, chosen=Ingredients(iterations=iterations), law=law)
         (px, py, m, V, E), _, _ = rates(method, shaken(method))
@@ -110,8 +108,7 @@ def test_nothing_is_lost_by_an_exchange(law, scene):
 
 
 def test_a_uniform_stream_at_rest_in_itself_goes_on():
-    """Constant v, rho, T on any points: momentum, mass and energy a volume stay as they are; only volumes
-    follow the points."""
+    """Constant v, rho, T on any points: sums a volume stay as they are; only volumes follow the points."""
     method = fluid("periodic")
     x = shaken(method)[:2].T
     ones = np.ones(len(x))

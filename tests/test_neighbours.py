@@ -1,5 +1,4 @@
-"""Neighbour lists hold exactly the points within reach, whatever the points and the threads; clear errors
-otherwise."""
+"""Neighbour lists hold exactly the points within reach, whatever points and threads; clear errors."""
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings

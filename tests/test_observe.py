@@ -41,8 +41,7 @@ def test_fields_are_the_sums_of_the_paper(measured):
 
 @pytest.mark.parametrize("name", ["printed", "printed-fixed-rows", "walls-odd-own-pressure", "direct"])
 def test_plates_give_all_the_energy_that_the_fluid_gains(name):
-    """Between particles the sums conserve energy: kinetic, internal and m g y change by what the plates
-    exchange."""
+    """Between particles energy is conserved: kinetic, internal, m g y change by what the plates exchange."""
     method, state = small(VARIANTS[name], rows=12)
     sums, rates = method.start(state.shape[1], Threads(1)), np.empty_like(state)
     sums.around.relist(state, np.arange(state.shape[1]), 0.0)

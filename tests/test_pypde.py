@@ -1,5 +1,4 @@
-"""py-pde's solvers: compiled rates against readable ones, exact rates, the other grids, conserved mass,
-errors."""
+"""py-pde's solvers: compiled rates and readable ones, exact rates, the other grids, mass, errors."""
 from itertools import cycle, pairwise
 
 import numpy as np
@@ -112,8 +111,7 @@ def test_the_rates_of_the_gas_are_of_second_order(scene):
 
 
 def manufactured(scene):
-    """(rates, fields) as functions of x, y; fields without curvature at the plates, so that ghosts are exact
-    there."""
+    """(rates, fields) as functions of x, y; no curvature at the plates, so that ghosts are exact there."""
     x, y = sympy.symbols("x y")
     bump = sympy.cos(sympy.pi*x)*sympy.cos(sympy.pi*y)
     rho, T = 1 + bump/10, scene.T_mean - scene.dT*y + bump/5

@@ -1,5 +1,4 @@
-"""The time loop: what is interrupted goes on bitwise, what diverges says where, what cannot work is
-refused."""
+"""The time loop: what is interrupted goes on bitwise, what diverges says where; refusals."""
 import errno
 from dataclasses import replace
 

@@ -1,5 +1,4 @@
-"""The rates of SPAM: equal to the slow twin in every variant, conservative, the same for every observer and
-thread."""
+"""The rates of SPAM: equal to the slow twin in every variant, conservative, invariant, thread by thread."""
 from itertools import cycle
 from typing import Any, NamedTuple
 

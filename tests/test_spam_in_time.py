@@ -1,5 +1,4 @@
-"""SPAM in time: order of the steps, what limits it, the isomorphism with molecular dynamics, threads and
-lists."""
+"""SPAM in time: order and limit of the steps, isomorphism with molecular dynamics, threads, lists."""
 from itertools import pairwise
 from typing import NamedTuple
 

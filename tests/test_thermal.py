@@ -67,8 +67,7 @@ def test_small_heat_capacity_is_warned_of_with_its_bias():
 
 
 def test_three_stages_with_amplitudes_of_their_own_drift_nearly_as_stratonovich_has_it():
-    """dx = sqrt(2 x) dW, B B' = 1: the mean over the normal numbers of a step, by Gauss and Hermite's
-    points."""
+    """dx = sqrt(2 x) dW, B B' = 1: the mean over a step's normal numbers, by Gauss and Hermite's points."""
     class Root:
         def rates(self, y, out):
             out[:] = 0

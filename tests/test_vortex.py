@@ -1,5 +1,4 @@
-"""The decaying Taylor-Green vortex in the continuum: Fourier sums, small Mach numbers, and what fixed points
-make of it."""
+"""The Taylor-Green vortex in the continuum: Fourier sums, small Mach numbers; fixed points beside it."""
 import numpy as np
 import pytest
 

@@ -1,5 +1,4 @@
-"""What walls make of particles: images in the right places with the right motion, statics, reflections,
-fixed rows."""
+"""What walls make of particles: images, their motion, statics, reflections, fixed rows."""
 import numpy as np
 import plain
 import pytest
