@@ -26,7 +26,7 @@ class Series(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Ended:
+class GridRun:
     """What a run in time ended with.
 
     `ke` is K at the end with what is left of its decay added, `ke_err` the size of that, not the error of the
@@ -61,8 +61,8 @@ def steps_between(interval: float, limit: float, dt: float | None) -> int:
     return ceil(interval/longest*(1 - 1e-12))
 
 
-def ended(until: Any, samples: list) -> dict[str, Any]:
-    """What samples (t, K, Nu, mass) tell of `Ended`."""
+def of_samples(until: Any, samples: list) -> dict[str, Any]:
+    """What samples (t, K, Nu, mass) tell of `GridRun`."""
     series = Series(*np.array(samples).T)
     ke, ke_err = until.estimate(series.ke)
     return {"series": series, "ke": ke, "ke_err": ke_err, "converged": until.settled(series.ke)}

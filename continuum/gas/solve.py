@@ -35,7 +35,7 @@ from continuum.gas.fields import (
     wall_flux,
 )
 from continuum.gas.loop import FIELDS, RHO, VX, VY, E, FluxForm, advance, box_of
-from continuum.steady import RK4_DECAY, RK4_SOUND, Ended, Steady, ended, steps_between
+from continuum.steady import RK4_DECAY, RK4_SOUND, GridRun, Steady, of_samples, steps_between
 
 
 class DivergedError(ArithmeticError):
@@ -43,7 +43,7 @@ class DivergedError(ArithmeticError):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Solution(Ended):
+class Solution(GridRun):
     """What a run ended with; the three numbers of `nusselt` agree to the error of the grid when steady."""
     scene: Any
     rows: int
@@ -170,7 +170,7 @@ def run(scene, rows: int, *, until: Any = Steady(), start: NodeFields | None = N
     return Solution(
         scene=scene, rows=rows, fields=fields, nusselt=nusselt(fields), rolls=count_rolls(fields),
         dt=march.dt, steps=march.steps, cpu_s=time.process_time() - march.start, compile_s=march.compile_s,
-        **ended(until, samples))
+        **of_samples(until, samples))
 
 
 def steady_on(scene, sizes: Sequence[int], *, start: NodeFields | None = None, **options) -> list[Solution]:

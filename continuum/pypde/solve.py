@@ -15,11 +15,11 @@ from scipy.interpolate import RectBivariateSpline
 from continuum.pypde.boussinesq import Boussinesq
 from continuum.pypde.gas import Gas
 from continuum.pypde.march import Progress, StageLoop, Until, Watch
-from continuum.steady import STILL, Ended, Steady, ended, steps_between
+from continuum.steady import STILL, GridRun, Steady, of_samples, steps_between
 
 
 @dataclass(frozen=True, kw_only=True)
-class PdeSolution(Ended):
+class PdeSolution(GridRun):
     """What a run ended with, in free-fall units for the Boussinesq layer, in those of the scene for the gas.
 
     nusselt : of the lower and of the upper plate.
@@ -70,7 +70,7 @@ def finish(equation: Any, watch: Watch, data: np.ndarray, info: dict) -> PdeSolu
         equation=equation, state=data.copy(), nusselt=equation.nusselt(data),
         rolls=0 if watch.ke[-1] < STILL else count_rolls(equation.rising(data)), dt=solver["dt"],
         steps=solver["steps"], cpu_s=seconds["solver"] + seconds["tracker"], compile_s=seconds["compilation"],
-        **ended(watch.until, watch.samples))
+        **of_samples(watch.until, watch.samples))
 
 
 def count_rolls(v: np.ndarray) -> int:

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 from studies.kit import csvfile
 from studies.kit.case import Case, Report, file_of, module_of
-from studies.kit.dispatch import LOOK, Bar, Ended
+from studies.kit.dispatch import LOOK, Bar, CaseEnd
 from studies.kit.processes import THREADS
 from studies.kit.store import CannotRun, Failure, attempt, same_code
 
@@ -75,7 +75,7 @@ class Cluster:
                                     pure=False, key=f"{self.client.id}-{number}")
         self.running[future] = number, case.label
 
-    def ready(self) -> Iterator[Ended]:
+    def ready(self) -> Iterator[CaseEnd]:
         time.sleep(LOOK)
         for future in [future for future in self.running if future.done()]:
             number, label = self.running.pop(future)

@@ -18,7 +18,7 @@ from studies.kit.store import Failure, attempt, keep
 BEGUN, ENDING = 1e-9, 1 - 1e-9
 FORMAT = "{desc} {percentage:3.0f}%|{bar}| {elapsed}, left {remaining} {postfix}"
 #: number of a case, and its outcome as text or a failure
-Ended = tuple[int, str | Failure]
+CaseEnd = tuple[int, str | Failure]
 LOOK = 0.1      # seconds for which a transport waits for outcomes
 
 
@@ -58,7 +58,7 @@ class Transport(Protocol):
 
     def places(self) -> int: ...                                    # how many may run at once, now
     def submit(self, number: int, case: Case) -> None: ...          # begin one; there is a place
-    def ready(self) -> Iterable[Ended]: ...     # those that ended; waits a moment for one
+    def ready(self) -> Iterable[CaseEnd]: ...     # those that ended; waits a moment for one
     def close(self) -> None: ...                                    # end what still runs
 
 
@@ -67,7 +67,7 @@ class Here:
 
     def __init__(self, folder: Path, bar: Bar):
         self.folder, self.bar = folder, bar
-        self.results: list[Ended] = []
+        self.results: list[CaseEnd] = []
 
     def places(self) -> int:
         return 1
@@ -78,7 +78,7 @@ class Here:
             self.bar.show()
         self.results.append((number, attempt(case, self.folder/case.key, report)))
 
-    def ready(self) -> Iterator[Ended]:
+    def ready(self) -> Iterator[CaseEnd]:
         while self.results:
             yield self.results.pop()
 
@@ -107,7 +107,7 @@ def dispatch(cases: Sequence[Case], folder: Path, name: str,
 
 
 def drain(transport: Transport, cases: Sequence[Case], todo: deque[int], limit: int,
-          bar: Bar) -> Iterator[Ended]:
+          bar: Bar) -> Iterator[CaseEnd]:
     """Give each place a case, ``limit`` at once, until all have ended; numbers and outcomes as they come."""
     running = 0
     while todo or running:

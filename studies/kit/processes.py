@@ -11,7 +11,7 @@ from multiprocessing.process import BaseProcess
 from pathlib import Path
 
 from studies.kit.case import Case
-from studies.kit.dispatch import LOOK, Bar, Ended, between
+from studies.kit.dispatch import LOOK, Bar, CaseEnd, between
 from studies.kit.store import CannotRun, Failure, attempt, same_code
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
@@ -45,7 +45,7 @@ class Processes:
         there.close()       # when the worker dies, nobody has that end
         return here
 
-    def ready(self) -> Iterator[Ended]:
+    def ready(self) -> Iterator[CaseEnd]:
         pipes = wait(list(self.workers), LOOK)
         for pipe in [pipe for pipe in self.workers if pipe in pipes]:
             try:
