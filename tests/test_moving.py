@@ -61,7 +61,7 @@ def rates(method, state, threads=1):
     return out[EXCHANGED], now, sums
 
 
-@pytest.mark.parametrize("smooth", [False, True])
+@pytest.mark.parametrize("smooth", [0.0, 1.0])
 @pytest.mark.parametrize("mended", [False, True])
 @pytest.mark.parametrize(("scene", "eos", "law"), [
     ("plates", IdealGas(), LAW), ("plates", VanDerWaals(), LAW), ("periodic", IdealGas(), LAW),

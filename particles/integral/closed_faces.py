@@ -35,17 +35,17 @@ class Ingredients(NamedTuple):
     iterations : at most, for the faces, from what a step before found; 0 leaves them open, 12 change K by
     less than 1e-3. within : relative residual at which they are good enough.
     shift : of points towards even spacing, in spacings^2. follow : how fast volumes follow the density of
-    points. spread : of mass against pressure waves at the spacing, over a c/2; smooth : of what a linear
-    pressure leaves only. static : hydrostatic and mean pressure taken from the faces. transport : listed
-    terms of friction and heat along faces.
+    points. spread : of mass against pressure waves at the spacing, over a c/2; smooth : share of a linear
+    pressure that makes none. static : share of the hydrostatic and mean pressure taken from the faces.
+    transport : listed terms of friction and heat along faces.
     """
     iterations: int = 1
     within: float = 1e-3
     shift: float = 1.0
     follow: float = 1.0
     spread: float = 0.1
-    smooth: bool = True
-    static: bool = True
+    smooth: float = 1.0
+    static: float = 1.0
     transport: tuple = MENDED
 
 
@@ -79,7 +79,7 @@ class FaceSums(Listed):
         self.around = PairLists(method.weight, method.walls, n, method.box, skin=0.5, threads=threads)
         self.maker = FaceMaker(self.around, method.ingredients.iterations, method.ingredients.within)
         self.slopes, self.P0, chosen = np.zeros((n, 6)), 0.0, method.ingredients
-        term = face_terms.FaceExchange(chosen.follow, chosen.spread, float(chosen.smooth),
+        term = face_terms.FaceExchange(chosen.follow, chosen.spread, chosen.smooth,
                                        Listing(chosen.transport))
         self.exchange = Exchange(term, stages(chosen.transport, method.law, n, threads), n, threads)
         self.shift, self._lists = np.zeros((n, 2)), -1
@@ -113,13 +113,13 @@ class FaceSums(Listed):
         """Fields of all points and images on the faces as they are: where these exchange."""
         method, around, ghosts, points, n = self.method, self.around, self.maker.ghosts, self.points, self.n
         static, g0 = method.ingredients.static, method.rho0*method.g
-        self.threads(face_terms.read, n, state, method.eos, method.law, g0 if static else 0.0, self.shift,
+        self.threads(face_terms.read, n, state, method.eos, method.law, static*g0, self.shift,
                      self.maker.count, points)
-        self.P0 = inner(state[7], points["P"][:n])/float(state[7].sum()) if static else 0.0
+        self.P0 = static*inner(state[7], points["P"][:n])/float(state[7].sum())
         points["P"][:n] -= self.P0
         face_terms.read_images(n, *ghosts, points)
-        if not static:      # the pressure goes on hydrostatically
-            points["P"][n:] += g0*(around.y[ghosts.origin] - around.y[n:])
+        # what is not taken from the faces goes on hydrostatically behind plates
+        points["P"][n:] += (1 - static)*g0*(around.y[ghosts.origin] - around.y[n:])
         self.threads(sweep, n, face_terms.FaceDifferences(), points, self.faces, self.slopes)
         self.threads(face_terms.pressure_slopes, n, self.slopes, state[7], points)
         ghosts.fill(points, ("gx",), ("gy",))
@@ -131,7 +131,7 @@ class FaceSums(Listed):
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d/dt of what faces exchange, written to `out[4:9]`."""
         method, total = self.method, self.exchange.sum(self.look_at(state))
-        rho0 = method.rho0 if method.ingredients.static else 0.0
+        rho0 = method.ingredients.static*method.rho0
         self.threads(face_terms.per_time, self.n, total, state, self.points, method.g, rho0, self.P0, out)
 
     def drift(self, state: np.ndarray, dt: float) -> None:

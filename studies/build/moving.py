@@ -39,8 +39,8 @@ MOTIONS = {m.name: m for m in (
     FacesMotion("moving-no-shift", Ingredients(shift=0.0)),
     FacesMotion("moving-no-follow", Ingredients(follow=0.0)),
     FacesMotion("moving-no-spread", Ingredients(spread=0.0)),
-    FacesMotion("moving-plain-spread", Ingredients(smooth=False)),
-    FacesMotion("moving-whole-pressure", Ingredients(static=False)),
+    FacesMotion("moving-plain-spread", Ingredients(smooth=0.0)),
+    FacesMotion("moving-whole-pressure", Ingredients(static=0.0)),
     FacesMotion("moving-printed-heat", Ingredients(transport=PRINTED)),
     FacesMotion("moving-half-step", of_limit=0.5),
 )}

@@ -57,7 +57,7 @@ IDEAL = MODES[-1]
 TWO = (("renormalised", "lattice"), ("delaunay", "jittered-0.3"))
 #: what is left out of the scheme of moving points
 LESS = {"heating as printed": Ingredients(transport=PRINTED), "open faces": Ingredients(iterations=0),
-        "whole pressure": Ingredients(static=False), "mass not spread": Ingredients(spread=0.0)}
+        "whole pressure": Ingredients(static=0.0), "mass not spread": Ingredients(spread=0.0)}
 KEEP = ("literal", "constant-mass")
 POWERS = ((0, 0), (1, -1), (2, -2), (0, -1), (1, 0), (2, 0), (1, 1), (3, 0))
 REYNOLDS = (0.1, 10.0, 1000.0, float("inf"))

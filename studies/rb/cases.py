@@ -38,7 +38,7 @@ NU: dict[str, Any] = {"transport": ConstNu}
 VDW: dict[str, Any] = {"eos": VanDerWaals()}
 DENSE: dict[str, Any] = {"eos": DenseFluid(), "pr": 1.5}    # C_V = 1.5: pr = 1.5 is the printed eta = k
 SEEDS = (1, 2, 3)
-MANY = tuple(range(1, 9))       # of 5000 particles at Ra 10 000, which most printed statements are about
+MANY = tuple(range(1, 9))       # in fine: of 5000 particles at Ra 10 000, which most statements are about
 KEPT = {1e4: "all", 5e3: "fields", 2.5e3: "fields"}
 RA = (1500.0, 2500.0, 5000.0, 10000.0, 20000.0)  # of the particles
 LINE = (1500.0, 1750.0, 2000.0, 2500.0, 3000.0, 3500.0, 4200.0, 5000.0, 6000.0, 6830.0, 10000.0, 20000.0,
@@ -126,10 +126,10 @@ def grids() -> Iterator[Case]:
 def layers() -> Iterator[Case]:
     """Particles in the layer, Figs 2, 3, 5, 8, 9, 12: numbers, fluids, walls; half of the time step."""
     for ra in RA:
-        yield from spam(ra, 50, MANY if ra == 1e4 else SEEDS, keep=KEPT.get(ra, ""))
+        yield from spam(ra, 50, keep=KEPT.get(ra, ""))
+    for ra in (5000.0, 10000.0):
         yield from spam(ra, 35)
         yield from spam(ra, 25)
-    for ra in (5000.0, 10000.0):
         yield from spam(ra, 50, **NU)
         yield from spam(ra, 50, keep="fields" if ra == 10000 else "", **VDW)
         yield from spam(ra, 50, variant=VARIANTS["printed-fixed-rows"], keep="all" if ra == 10000 else "")
@@ -181,6 +181,9 @@ def fine() -> Iterator[Case]:
         if variant.fraction:
             yield from spam(5e3, 50, variant=variant)
     yield from checks()
+    yield from spam(1e4, 50, MANY[len(SEEDS):], keep="history")
+    for ra, rows in product((1500.0, 2500.0, 20000.0), (25, 35)):
+        yield from spam(ra, rows)
     for ra in (2500.0, 10000.0):
         yield from spam(ra, 70)
     yield from spam(1e4, 100, seeds=(1, 2))
