@@ -75,9 +75,9 @@ def initial(scene, rows: int, ke: float = ROLL_ENERGY, rolls: int | None = None)
 def placed(scene, rows: int, start: Callable[[np.ndarray, np.ndarray], tuple]) -> NodeFields:
     """Fields of a start(x, y) = (rho, v_x, v_y, T): densities in the middle of cells, all else at nodes."""
     x, y = nodes(scene, rows)
-    rho, vx, vy, T = (np.broadcast_to(f, (len(y), len(x))) for f in start(*np.meshgrid(x, y)))
+    rho, vx, vy, T = (np.broadcast_to(f, (len(y), len(x))).copy() for f in start(*np.meshgrid(x, y)))
     middle = np.meshgrid((x[1:] + x[:-1])/2, (y[1:] + y[:-1])/2)
-    cells = np.broadcast_to(start(*middle)[0], middle[0].shape)
+    cells = np.broadcast_to(start(*middle)[0], middle[0].shape).copy()
     return NodeFields(scene, x, y, Values(vx, vy, energy(scene.eos, rho, T), T, rho), cells)
 
 
