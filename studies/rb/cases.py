@@ -1,7 +1,7 @@
 """Which cases: spacing, mass, kB are 1, L = particle rows, g = dT/L, eta from Ra: K does not depend on L.
 
-`paper` (half an hour on two cores) has what the main figure and the verdicts need, `quick` (a minute) the
-same path small, `fine` (hours) all variants, walls, resolutions.
+`paper` (half an hour on two cores) has the main figure and the printed numbers at Ra 10 000, `quick` (a
+minute) the same path small, `fine` (hours) all variants, walls, resolutions, and more seeds.
 """
 from collections.abc import Iterator
 from itertools import product
@@ -130,11 +130,17 @@ def layers() -> Iterator[Case]:
     for ra in (5000.0, 10000.0):
         yield from spam(ra, 35)
         yield from spam(ra, 25)
-        yield from spam(ra, 50, **NU)
-        yield from spam(ra, 50, keep="fields" if ra == 10000 else "", **VDW)
-        yield from spam(ra, 50, variant=VARIANTS["printed-fixed-rows"], keep="all" if ra == 10000 else "")
+    yield from changed(1e4)
     for rows in (16, 25):
         yield from spam(1e4, rows, variant=VARIANTS["printed-half-step"])
+
+
+def changed(ra: float) -> Iterator[Case]:
+    """5000 particles of other fluids and between other walls; the first seed at Ra 10 000 is looked at."""
+    seen = ra == 1e4
+    yield from spam(ra, 50, **NU)
+    yield from spam(ra, 50, keep="fields" if seen else "", **VDW)
+    yield from spam(ra, 50, variant=VARIANTS["printed-fixed-rows"], keep="all" if seen else "")
 
 
 def checks() -> Iterator[Case]:
@@ -181,6 +187,7 @@ def fine() -> Iterator[Case]:
         if variant.fraction:
             yield from spam(5e3, 50, variant=variant)
     yield from checks()
+    yield from changed(5e3)
     yield from spam(1e4, 50, MANY[len(SEEDS):], keep="history")
     for ra, rows in product((1500.0, 2500.0, 20000.0), (25, 35)):
         yield from spam(ra, rows)
