@@ -14,9 +14,9 @@ from particles.integral.exchange import (
     At,
     Convection,
     Exchange,
-    Listing,
     Pressure,
     Stage,
+    listed,
     pressure_of,
     stages,
 )
@@ -52,7 +52,8 @@ class OwnPressure(Stage):
         self.threads(_own_pressure, self.n, self.eos, at.points)
 
     def add(self, at: At, total: np.ndarray) -> None:
-        self.threads(_open, self.n, self.open, at.points, total)
+        if self.open.any():
+            self.threads(_open, self.n, self.open, at.points, total)
 
 
 @jit
@@ -155,7 +156,7 @@ class FixedSums(Summing):
         self.at = At(self.points, edges, images, method.edges.V)
         needed = stages(method.transport, method.law, self.n, threads)
         terms = (*method.transport, Convection(), Pressure(method.eos))
-        self.exchange = Exchange(Listing(terms), (*first, *needed), self.n, threads)
+        self.exchange = Exchange(listed(terms), (*first, *needed), self.n, threads)
 
     def look_at(self, state: np.ndarray) -> None:
         """Fields of all points and images, and what terms need of them."""

@@ -15,7 +15,7 @@ from particles.fields import Fields, from_densities
 from particles.ghosts import ghosts_of
 from particles.integral.dih import densities
 from particles.integral.drifts import ConstantMassDrift, Drifting, OverPairs
-from particles.integral.exchange import At, Exchange, Listing, stages
+from particles.integral.exchange import At, Exchange, listed, stages
 from particles.integral.fixed import Point
 from particles.integral.interpolants import check_ordering
 from particles.integral.transposed_stress import MENDED
@@ -124,7 +124,7 @@ class Drifts(Listed):
         self.around = PairLists(method.weight, method.walls, n, method.box, skin=0.5, threads=threads)
         self._lists, terms = -1, method.motion.terms(method.eos, method.transport)
         needed = stages(terms, method.law, n, threads, OverPairs, ("x", "y", "V"))
-        self.exchange = Exchange(OverPairs(Drifting(method.motion, Listing(terms))), needed, n, threads)
+        self.exchange = Exchange(OverPairs(Drifting(method.motion, listed(terms))), needed, n, threads)
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
         """Refuse points in one place: ValueError. Warn where the weight is too narrow    [Eq. 45]"""
