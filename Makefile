@@ -7,7 +7,7 @@ SCHEDULER ?=
 
 run     := .venv/bin/python
 # a study is a folder that can be run; kit and build serve them
-studies := $(filter-out report,$(patsubst studies/%/__main__.py,%,$(wildcard studies/*/__main__.py)))
+studies := $(filter-out report front judge,$(patsubst studies/%/__main__.py,%,$(wildcard studies/*/__main__.py)))
 # studies of former versions and the ones that they are part of
 renamed := bodies:conservation motions:conservation transport:operators nested:operators fluctuations:noise dpd:noise speed:cost scenes:cost
 

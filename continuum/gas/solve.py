@@ -95,45 +95,54 @@ class March:
         self.laws = (scene.sides, scene.eos, scene.law, continuity, box_of(scene, rows))
         self.scratch = (np.zeros((3, *S.shape)), np.zeros((2, 8, columns + 2)))
         start = time.process_time()
-        self._advance(0)
+        self.advance(0)
         self.compile_s, self.start = time.process_time() - start, time.process_time()
 
     @property
     def t(self) -> float:
         return self.steps*self.dt
 
-    def _advance(self, steps: int) -> None:
+    def advance(self, steps: int) -> None:
+        """Steps, whatever comes out."""
         advance(*self.laws, self.S, *self.scratch, self.dt, steps)
 
     def go(self, steps: int) -> None:
         """Advance; if that fails, go back and find out where it did."""
         before = self.S.copy()
-        self._advance(steps)
+        self.advance(steps)
         self.steps += steps
-        if self._bad().any():
+        if faults(self.scene, self.S).any():
             self.S[:], self.steps = before, self.steps - steps
             self._find()
 
-    def _bad(self) -> np.ndarray:
-        """True at nodes whose state cannot be."""
-        rho, e = mean(self.S[RHO]), self.S[E, 1:, 1:]
-        with np.errstate(all="ignore"):
-            return ~(np.isfinite(self.S[:, 1:, 1:]).all(axis=0) & valid(self.scene.eos, rho, e))
-
     def _find(self) -> None:
-        while not (bad := self._bad()).any():
-            self._advance(1)
+        while not faults(self.scene, self.S).any():
+            self.advance(1)
             self.steps += 1
-        j, i = np.argwhere(bad)[0]
-        state = self.S[:, 1 + j, 1 + i]
-        finite = np.isfinite(state)
-        field = "rho, e, T or c^2" if finite.all() else FIELDS[int(np.argmin(finite))]
-        h = self.scene.L/(self.S.shape[1] - 2)
-        raise DivergedError(
-            f"diverged in step {self.steps} (t = {self.t:.6g}): {field} is not valid at node ({j}, {i}), "
-            f"x = {i*h - self.scene.width/2:.4g}, y = {j*h - self.scene.L/2:.4g}, where "
-            + ", ".join(f"{name} = {value:.4g}" for name, value in zip(FIELDS, state))
-            + f"; dt is {self.dt:.4g}: take more rows (thinner cells) or a smaller dt")
+        raise DivergedError(f"diverged in step {self.steps} (t = {self.t:.6g}): "
+                            f"{first_fault(self.scene, self.S)}; dt is {self.dt:.4g}: take more "
+                            "rows (thinner cells) or a smaller dt")
+
+
+def faults(scene, S: np.ndarray) -> np.ndarray:
+    """True at nodes whose state cannot be."""
+    rho, e = mean(S[RHO]), S[E, 1:, 1:]
+    with np.errstate(all="ignore"):
+        return ~(np.isfinite(S[:, 1:, 1:]).all(axis=0) & valid(scene.eos, rho, e))
+
+
+def first_fault(scene, S: np.ndarray) -> str:
+    """The first node whose state cannot be, where it is, and what it has; empty if there is none."""
+    bad = faults(scene, S)
+    if not bad.any():
+        return ""
+    j, i = np.argwhere(bad)[0]
+    state, h = S[:, 1 + j, 1 + i], scene.L/(S.shape[1] - 2)
+    finite = np.isfinite(state)
+    field = "rho, e, T or c^2" if finite.all() else FIELDS[int(np.argmin(finite))]
+    values = ", ".join(f"{name} = {value:.4g}" for name, value in zip(FIELDS, state))
+    return (f"{field} is not valid at node ({j}, {i}), x = {i*h - scene.width/2:.4g}, y = "
+            f"{j*h - scene.L/2:.4g}, where {values}")
 
 
 def sample(scene, S: np.ndarray, t: float) -> tuple[float, float, float, float]:

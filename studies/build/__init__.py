@@ -45,7 +45,9 @@ METHODS = named(
 
 
 def ready(scene: Any, method: Any, seed: int = 1, **more: Any) -> Ready:
-    """A method in a scene, by its name, by a variant, or as an object; more : as the family takes.
+    """A method in a scene, by its name, by a variant, as an object, or a class that takes the scene.
+
+    more : as the family takes.
 
     Raises ValueError: No method has this name, or the family cannot take the scene.
     """
@@ -53,13 +55,18 @@ def ready(scene: Any, method: Any, seed: int = 1, **more: Any) -> Ready:
     if hasattr(chosen, "ready"):
         made: Ready = chosen.ready(scene, seed, **more)
         return made
-    return of_method(chosen, scene, seed)
+    return of_method(chosen(scene) if isinstance(chosen, type) else chosen, scene, seed)
 
 
 def variant(name: str) -> Any:
     """The variant of a name. Raises ValueError: there is none."""
     if name not in METHODS:
-        near = get_close_matches(name, METHODS, 4, 0.4) or list(METHODS)
-        raise ValueError(f"no method is called {name!r}; near to it are {', '.join(near)}; "
+        raise ValueError(f"no method is called {name!r}; near to it are {near(name, METHODS)}; "
                          "studies.build.METHODS lists all")
     return METHODS[name]
+
+
+def near(name: str, names: Iterable[str]) -> str:
+    """Names like one, or all of them."""
+    known = list(names)
+    return ", ".join(get_close_matches(name, known, 4, 0.4) or known)

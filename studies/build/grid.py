@@ -1,26 +1,77 @@
 """The compressible grid in time, in any scene."""
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from continuum.fluid import Fields
 from continuum.gas.fields import NodeFields, at_nodes, block, initial, placed, unblock
-from continuum.gas.loop import VX, EdgeHeat, FluxForm, PaperForm
-from continuum.gas.solve import March, limits
+from continuum.gas.loop import FIELDS, VX, EdgeHeat, FluxForm, PaperForm
+from continuum.gas.solve import March, first_fault, limits
 from continuum.scene import RayleighBenard
 from continuum.steady import SAFETY
+from particles.integral.fixed import Summing
 from particles.limits import limit_of
+from particles.threads import Threads
 from studies.build.names import START_ENERGY
 from studies.build.setting import Ready, stepped
 
 
+class InBlocks:
+    """Steps of RK4 as the grid's own loop takes them; a state (4, n) is a block, flat."""
+
+    def __init__(self, shape: tuple[int, ...], threads: Threads):
+        self.march: March | None = None
+
+    def step(self, sums: "GridSums", state: np.ndarray, dt: float) -> None:
+        """Advance a state in place."""
+        if self.march is None:
+            self.march = sums.method.march(sums.method.block(state), dt)
+        self.march.S[:] = sums.method.block(state)
+        self.march.advance(1)
+        state[:] = self.march.S.reshape(4, -1)
+
+
+class GridSums(Summing):
+    """What the time loop asks of the grid besides its steps."""
+    method: "Gridded"
+
+    def __init__(self, method: "Gridded"):
+        self.method = method
+
+    def try_out(self, now: Any) -> None:
+        """No step: loads the code, fills the ghosts of a copy."""
+        self.method.march(self.method.block(now.state))
+
+    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
+        """The first node outside of the equation of state; empty if there is none."""
+        return first_fault(self.method.scene, self.method.block(state))
+
+
 @dataclass(frozen=True, kw_only=True)
 class Gridded:
-    """The gas in square cells, `rows` over the height; states are blocks (4, rows + 2, columns + 2)."""
+    """The gas in square cells, `rows` over the height; states are blocks (4, rows + 2, columns + 2).
+
+    In the time loop of particles a state is such a block in the shape (4, n).
+    """
     scene: Any
     rows: int
     continuity: Any = FluxForm()  # noqa: RUF009 (immutable)
+
+    names: ClassVar[tuple[str, ...]] = FIELDS
+    integrator: ClassVar[type] = InBlocks
+
+    @property
+    def eos(self) -> Any:
+        return self.scene.eos
+
+    def start(self, n: int, threads: Threads) -> GridSums:
+        """What `particles.run` steps; it computes on one core, whatever the threads."""
+        return GridSums(self)
+
+    def block(self, state: np.ndarray) -> np.ndarray:
+        """A state in the shape of a block."""
+        return state.reshape(4, self.rows + 2, -1)
 
     def march(self, S: np.ndarray, dt: float = 1.0) -> March:
         """A copy of a state that can be moved on."""
@@ -34,12 +85,12 @@ class Gridded:
 
     def fields(self, S: np.ndarray) -> Fields:
         """At the nodes, each place once."""
-        return at_nodes(unblock(self.scene, S))
+        return at_nodes(unblock(self.scene, self.block(S)))
 
 
 @limit_of.register
 def _(method: Gridded, start: np.ndarray) -> float:
-    return float(limits(method.scene, start).both)
+    return float(limits(method.scene, method.block(start)).both)
 
 
 class GridForm(NamedTuple):

@@ -3,7 +3,6 @@ from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.integrate import cumulative_trapezoid
 
 from continuum.boussinesq import BoussinesqCase, Box, BoxEdges, End, State
 from continuum.boussinesq.mac import mac
@@ -15,9 +14,9 @@ from particles.fields import Fields
 from particles.integral.points import lattice
 from particles.observe import fields_at
 from particles.smooth.spam import Spam
-from studies.build.names import START_JITTER
+from studies.build.answers import of_one_mass
 from studies.build.scenes import BetweenPlates, Sound, TaylorGreen
-from studies.build.setting import Ready, shifted
+from studies.build.setting import Ready
 from studies.cost.problem import Problem, Residuals, Result, of_method, relative, rms
 
 #: uncertainty of the Fourier sums by Mach number, from the study ordering: velocities of 33 against 29 points
@@ -55,11 +54,6 @@ class DecayingVortex(NamedTuple):
         off = decay/solved(self.mach).decay - 1
         return {"velocity": relative(V, measured - exact, exact), "decay": np.array([off])}
 
-    def places(self, scene: TaylorGreen, seed: int) -> tuple[np.ndarray, tuple]:
-        """A jittered lattice (n, 2), and (rho, v, T) there."""
-        x = shifted(scene.L, scene.L, START_JITTER, seed)
-        return x, scene.fields(x)
-
 
 class StandingWave(NamedTuple):
     """A sound wave of small amplitude for two periods; `velocity` and `temperature`."""
@@ -74,13 +68,6 @@ class StandingWave(NamedTuple):
         velocity = relative(at.V, at.v[:, 0] - u, u)
         temperature = relative(at.V, at.T - 1 - T, T)
         return {"velocity": velocity, "temperature": temperature}
-
-    def places(self, scene: Sound, seed: int) -> tuple[np.ndarray, tuple]:
-        """A lattice, displaced as the density at the start wants it, with the fields of the lattice."""
-        x = lattice((scene.width, scene.L)).x
-        fields = scene.fields(x)
-        x[:, 0] -= scene.amplitude/scene.k*np.sin(scene.k*x[:, 0])
-        return x, fields
 
 
 class SlabFlow(NamedTuple):
@@ -104,14 +91,6 @@ class SlabFlow(NamedTuple):
         if self.flow.U:
             return {"velocity": relative(at.V, at.v[:, 0] - u, u)}
         return {"temperature": relative(at.V, at.T - T, T - 1)}
-
-    def places(self, scene: BetweenPlates, seed: int) -> tuple[np.ndarray, tuple]:
-        """A lattice whose rows are as far apart as the density at the start wants them."""
-        x, s = lattice((scene.width, scene.L)).x, np.linspace(0, 1, 2001)
-        mass = cumulative_trapezoid(self.flow.start(s)[0], s, initial=0)
-        below = x[:, 1]/scene.L + 0.5
-        x[:, 1] = scene.L*(np.interp(below*mass[-1], mass, s) - 0.5)
-        return x, scene.fields(x)
 
 
 # --- points and particles -----------------------------------------------------------------------------------
@@ -141,7 +120,7 @@ def in_flow(flow: Any, scene: Any, ready: Ready) -> Problem:
 def particles(flow: Any, method: Any, size: int, seed: int) -> Problem:
     """Smooth particles at places that suit the flow; limits of lattice sums are firm."""
     scene = flow.scene(size)
-    x, fields = flow.places(scene, seed)
+    x, fields = of_one_mass(scene, seed)
     made, start, _ = method.ready(scene, seed, x=x, fields=fields)
 
     def judge(state: np.ndarray) -> Result:

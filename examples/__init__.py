@@ -1,0 +1,14 @@
+"""Ten short scripts, each ends in a picture in results/own: `python -m examples.convection`.
+
+SIZE=quick makes them small, as the tests run them.
+"""
+import os
+from pathlib import Path
+from typing import Any
+
+OWN = Path("results/own")
+
+
+def sized(usual: Any, quick: Any) -> Any:
+    """The second where SIZE is quick."""
+    return quick if os.environ.get("SIZE") == "quick" else usual

@@ -1,0 +1,50 @@
+"""python -m studies.front SCENE METHOD [METHOD ...] [--rows 16 25]: K, Nu and a picture."""
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from particles.run import Divergence
+from studies.build.named import SCENES
+from studies.front.comparing import compare
+from studies.front.solving import solve
+from studies.kit.store import RESULTS
+
+OWN = RESULTS/"own"         # not committed
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """The command line; 0, or 1 where a run diverged or a name is unknown."""
+    parser = argparse.ArgumentParser(prog="python -m studies.front", description=__doc__)
+    parser.add_argument("scene", help=", ".join(SCENES))
+    parser.add_argument("methods", nargs="+", help="such as grid, fixed-lattice, moving, spam")
+    parser.add_argument("--rows", type=int, nargs="+", default=[24], help="points or cells over the height")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--time", type=float, help="length of the run, for convection in free-fall times")
+    parser.add_argument("--out", type=Path, default=OWN, help="folder of the picture (default: results/own)")
+    words = parser.parse_args(arguments)
+    try:
+        return shown(words)
+    except (ValueError, Divergence) as error:
+        print(error, file=sys.stderr)
+        return 1
+
+
+def shown(words: argparse.Namespace) -> int:
+    """Solve, print, draw."""
+    more = {"seed": words.seed, "time": words.time}
+    path = words.out/f"{words.scene}-{'-'.join(words.methods)}.png"
+    if len(words.methods) == len(words.rows) == 1:
+        kept = path.with_suffix(".run.h5")
+        done: Any = solve(words.scene, words.methods[0], rows=words.rows[0], resume=kept, **more)
+    else:
+        done = compare(words.scene, words.methods, words.rows, **more)
+    print(done)
+    done.plot(path)
+    print(path)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,117 @@
+"""What a run of any method records in a scene, and the numbers that come of it.
+
+K is the kinetic energy per mass, of smooth particles that of the smoothed field; Nu is the heat that passes
+through the fluid over what conduction alone would carry. Where a scene knows its answer, `error` is the root
+of the mean square difference from it, over that of its own departure from rest.
+"""
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from continuum.fluid import Fields, energy, pressure
+from continuum.scene import RayleighBenard
+from particles.fields import kinetic
+from particles.observe import fields_at
+from particles.smooth.spam import Spam
+from studies.build.answers import answer
+from studies.build.measure import heat_at_rest
+from studies.build.scenes import Slab
+from studies.kit.stats import CannotTell, Measured, settled
+
+LATE = 0.6          # of a run: averages are taken after this part of it
+STEADY = 1e-3       # of K: what changes less in the last two fifths is steady, and its last value counts
+AGREE = 0.3         # of the mean: halves that differ by more are no steady state
+
+
+class Heating(NamedTuple):
+    """Heat that is sent along an axis (0: x, 1: y) through `length`, from a difference of temperatures dT."""
+    axis: int
+    dT: float
+    length: float
+
+
+def heating(scene: Any) -> Heating | None:
+    """None where no two plates have different temperatures."""
+    if isinstance(scene, RayleighBenard):
+        return None if isinstance(scene, Slab) else Heating(1, scene.dT, scene.L)
+    return getattr(scene, "heating", None)
+
+
+def nusselt(scene: Any, heat: Heating, at: Fields) -> float:
+    """1 + <rho v (e + P/rho + v^2/2 + g y)>/(k dT/length), along the heat; friction's share is left out.
+
+    Of steady flows and constant conductivity, where what plates conduct is k dT/length on average.
+    """
+    v = at.v[:, heat.axis]
+    e = energy(scene.eos, at.rho, at.T)
+    enthalpy, height = e + pressure(scene.eos, at.rho, e)/at.rho, at.x[:, 1]
+    carried = at.rho*v*(enthalpy + (at.v**2).sum(axis=1)/2 + scene.g*height)
+    return 1 + float(carried@at.V/at.V.sum())*heat.length/(scene.law.k*heat.dT)
+
+
+def recorded(scene: Any, variant: Any) -> dict[str, Callable]:
+    """Quantities of a run by their names in its history: K, Nu where heat passes, and the scene's own."""
+    own, heat = getattr(variant, "series", {}), heating(scene)
+    found: dict[str, Callable] = {"K": kinetic}
+    if "kg" in own:
+        found = {"K": own["kg"], "K_particles": own["kp"]}
+    if isinstance(scene, RayleighBenard) and heat and own:
+        found["Nu"] = of_plates(scene, own)
+    elif heat:
+        found["Nu"] = lambda sums, state: nusselt(scene, heat, sums.method.fields(state))
+    return found
+
+
+def of_plates(scene: RayleighBenard, own: dict[str, Callable]) -> Callable:
+    """Nu of a variant's own series: heat through the plates, or through the volume of smooth particles."""
+    if "heat" in own:
+        unit = scene.k*scene.dT/scene.L
+        return lambda *at: own["heat"](*at)/unit
+    unit = 2*heat_at_rest(scene)
+    return lambda *at: (own["lower"](*at) - own["upper"](*at))/unit
+
+
+def seen(method: Any, state: np.ndarray) -> Fields:
+    """Fields at the end; of smooth particles the smoothed ones, as particles themselves tremble."""
+    if not isinstance(method, Spam):
+        fields: Fields = method.fields(state)
+        return fields
+    sums, ordered, _ = method.look(state)
+    at = fields_at(sums, ordered, *state[:2])
+    return Fields(state[:2].T, np.stack([at.vx, at.vy], axis=1), at.rho, at.T, method.m/at.rho)
+
+
+def numbers(scene: Any, history: pd.DataFrame, at: Fields) -> dict[str, Measured]:
+    """K and Nu of the steady end with their errors; `error` and rates where the scene knows them."""
+    at_last = at_end if heating(scene) else last
+    found = {name: at_last(history[name]) for name in ("K", "K_particles", "Nu") if name in history}
+    if exact := answer(scene, at.x):
+        found["error"] = Measured(departure(at, exact))
+    return found
+
+
+def last(series: pd.Series) -> Measured:
+    """The last value, of what is not steady."""
+    return Measured(float(series.iloc[-1]))
+
+
+def at_end(series: pd.Series) -> Measured:
+    """The last value of what is steady, else the mean over the last two fifths, with its error."""
+    late = series.to_numpy(float)[int(LATE*len(series)):]
+    if np.ptp(late) <= STEADY*abs(late[-1]):
+        return Measured(float(late[-1]), float(np.ptp(late[-max(2, len(late)//4):])))
+    if len(late) < 20:
+        raise CannotTell(f"{len(late)} samples of {series.name} after {LATE:.0%} of the run: too few for an "
+                         "error, take a longer time")
+    return settled(late, AGREE)[0]
+
+
+def departure(at: Fields, exact: dict[str, np.ndarray]) -> float:
+    """Root of the mean square of what differs from the answer, over that of the answer less rest."""
+    have = {"rho": at.rho, "vx": at.v[:, 0], "vy": at.v[:, 1], "T": at.T}
+    at_rest = {"rho": 1.0, "vx": 0.0, "vy": 0.0, "T": 1.0}
+    wrong = sum(at.V@(have[name] - value)**2 for name, value in exact.items())
+    size = sum(at.V@(value - at_rest[name])**2 for name, value in exact.items())
+    return float(np.sqrt(wrong/size))
