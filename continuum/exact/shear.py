@@ -1,6 +1,7 @@
-"""Shear flows between plates that start from rest, as series; heights y/H, times in H^2/nu."""
+"""Shear flows: from rest between plates, as series, heights y/H, times in H^2/nu; waves of a periodic one."""
 import numpy as np
 
+HARMONICS = 20      # on either side: the growth rate is good to 1e-9
 TERMS = 60          # the next one is exp(-60^2 pi^2 0.02) = 1e-308 at t = 0.02
 
 
@@ -16,3 +17,31 @@ def poiseuille(y: np.ndarray, time: float) -> np.ndarray:
     n = np.arange(1, TERMS + 1, 2)
     waves = 32/(n*np.pi)**3*np.exp(-(n*np.pi)**2*time)*np.sin(np.pi*n*y[:, None])
     return 4*y*(1 - y) - waves.sum(axis=1)
+
+
+def growing_wave(U: float, k: float, kx: float) -> tuple[float, np.ndarray]:
+    """Growth rate of the wave exp(i k_x x) on u = U sin ky that grows fastest, and its amplitudes psi_n.
+
+    n = -HARMONICS .. HARMONICS    [Rayleigh 1880; Meshalkin & Sinai 1961]
+
+    Small waves obey q_t = -i k_x u (q + k^2 psi), q = lap psi, so harmonics q_n exp(inky) of each other:
+
+        dq_n/dt = -(k_x U/2) [(1 - k^2/K_(n-1)^2) q_(n-1) - (1 - k^2/K_(n+1)^2) q_(n+1)]
+        K_n^2 = k_x^2 + n^2 k^2
+    """
+    n = np.arange(-HARMONICS, HARMONICS + 1)
+    K2 = kx**2 + (n*k)**2
+    part = kx*U/2*(1 - k**2/K2)
+    rates, modes = np.linalg.eig(np.diag(part[1:], 1) - np.diag(part[:-1], -1))
+    best = int(np.argmax(rates.real))
+    return float(rates[best].real), -modes[:, best]/K2
+
+
+def layer_with_wave(x: np.ndarray, U: float, k: float, size: float) -> np.ndarray:
+    """Velocities (n, 2) at places (n, 2): U sin ky and its fastest wave of k_x = k/2, of size times U."""
+    kx, (_, psi) = k/2, growing_wave(U, k, k/2)
+    psi = psi*size*U/(kx*abs(psi[HARMONICS]))
+    n = np.arange(-HARMONICS, HARMONICS + 1)[:, None]
+    waves = psi[:, None]*np.exp(1j*(kx*x[:, 0] + n*k*x[:, 1]))
+    u = U*np.sin(k*x[:, 1]) + (1j*n*k*waves).sum(axis=0).real
+    return np.stack([u, -(1j*kx*waves).sum(axis=0).real], axis=1)

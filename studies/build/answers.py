@@ -2,6 +2,7 @@
 
 Functions of the kind of scene, so that a scene of one's own needs none of them, or registers its own.
 """
+from collections.abc import Callable
 from functools import singledispatch
 from typing import Any
 
@@ -10,6 +11,7 @@ from scipy.integrate import cumulative_trapezoid
 
 from continuum.exact import plates
 from continuum.exact.vortex import solved, velocities
+from continuum.fluid import Fields
 from continuum.scene import RayleighBenard
 from particles.integral.points import lattice
 from studies.build.names import START_JITTER
@@ -61,6 +63,12 @@ def _(scene: Sound, x: np.ndarray) -> dict[str, np.ndarray]:
 def _(scene: BetweenPlates, x: np.ndarray) -> dict[str, np.ndarray]:
     _, _, u, T = plates.fields(scene.flow, x[:, 1]/scene.L + 0.5)
     return {"vx": u} if scene.flow.U else {"T": T}
+
+
+@singledispatch
+def quantities(scene: Any) -> dict[str, Callable[[Fields], float]]:
+    """What a history of the scene has besides K and Nu: functions of fields; `wave` gives a growth rate."""
+    return {}
 
 
 @singledispatch

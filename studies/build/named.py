@@ -3,6 +3,7 @@ from collections.abc import Callable
 from typing import Any
 
 from continuum.scene import RayleighBenard, Walls
+from studies.build.rapid import ShearLayer, ShockTube
 from studies.build.scenes import Sound, TaylorGreen, between_plates
 
 ROWS = 24
@@ -34,6 +35,8 @@ SCENES: dict[str, Callable[..., Any]] = {
     "rayleigh-benard-box": box,
     "taylor-green": vortex,
     "sound": sound,
+    "shock-tube": lambda rows=54, **more: ShockTube(half=rows, **more),
+    "shear-layer": lambda rows=ROWS, **more: ShearLayer(L=rows, **more),
     "couette": lambda rows=ROWS: between_plates("couette", rows),
     "conduction": lambda rows=ROWS: between_plates("conduction", rows),
 }

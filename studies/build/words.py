@@ -91,6 +91,8 @@ rayleigh-benard | a gas between a hot plate below and a cold one above, periodic
 rayleigh-benard-box | the same in a square box whose side walls have the conduction profile | KHP95 Fig. 6
 taylor-green | a vortex of Reynolds number 100 that decays by a factor e | Taylor & Green 1937
 sound | a standing wave of sound for two periods |
+shock-tube | Sod's tube and its mirror image, rows to half of one; the answer has no viscosity | Sod 1978
+shear-layer | a sinusoidal shear flow without friction, and its fastest wave | Rayleigh 1880
 couette | shear that settles between plates, the upper one sliding |
 conduction | heat that spreads between plates of equal temperature |
 """)

@@ -15,13 +15,15 @@ from continuum.scene import RayleighBenard
 from particles.fields import kinetic
 from particles.observe import fields_at
 from particles.smooth.spam import Spam
-from studies.build.answers import answer
+from studies.build.answers import answer, quantities
 from studies.build.measure import heat_at_rest
 from studies.build.scenes import Slab
-from studies.kit.stats import CannotTell, Measured, settled
+from studies.kit.fits import line
+from studies.kit.stats import Measured, settled
 
 LATE = 0.6          # of a run: averages are taken after this part of it
 STEADY = 1e-3       # of K: what changes less in the last two fifths is steady, and its last value counts
+FEW = 20            # samples, of which each half has an error of its own
 AGREE = 0.3         # of the mean: halves that differ by more are no steady state
 
 
@@ -61,6 +63,8 @@ def recorded(scene: Any, variant: Any) -> dict[str, Callable]:
         found["Nu"] = of_plates(scene, own)
     elif heat:
         found["Nu"] = lambda sums, state: nusselt(scene, heat, sums.method.fields(state))
+    for name, quantity in quantities(scene).items():
+        found[name] = lambda sums, state, of=quantity: of(sums.method.fields(state))
     return found
 
 
@@ -89,6 +93,8 @@ def numbers(scene: Any, history: pd.DataFrame, at: Fields) -> dict[str, Measured
     found = {name: at_last(history[name]) for name in ("K", "K_particles", "Nu") if name in history}
     if exact := answer(scene, at.x):
         found["error"] = Measured(departure(at, exact))
+    if "wave" in history:
+        found["growth"] = Measured(*line(history["t"].to_numpy(), np.log(history["wave"])).slope)
     return found
 
 
@@ -98,14 +104,14 @@ def last(series: pd.Series) -> Measured:
 
 
 def at_end(series: pd.Series) -> Measured:
-    """The last value of what is steady, else the mean over the last two fifths, with its error."""
+    """The last value of what is steady, else the mean over the last two fifths, with its error.
+
+    Few samples, of a short run, have their whole range for an error.
+    """
     late = series.to_numpy(float)[int(LATE*len(series)):]
     if np.ptp(late) <= STEADY*abs(late[-1]):
         return Measured(float(late[-1]), float(np.ptp(late[-max(2, len(late)//4):])))
-    if len(late) < 20:
-        raise CannotTell(f"{len(late)} samples of {series.name} after {LATE:.0%} of the run: too few for an "
-                         "error, take a longer time")
-    return settled(late, AGREE)[0]
+    return settled(late, AGREE)[0] if len(late) >= FEW else Measured(float(late.mean()), float(np.ptp(late)))
 
 
 def departure(at: Fields, exact: dict[str, np.ndarray]) -> float:

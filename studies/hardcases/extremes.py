@@ -9,6 +9,7 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from continuum.exact.shear import growing_wave, layer_with_wave
 from continuum.gas.fields import block, placed
 from continuum.scene import RayleighBenard, Torus, Walls
 from studies.build.grid import GridForm, started
@@ -22,7 +23,6 @@ SOUND = sqrt(2)
 THIN = 1e-3         # density in place of vacuum, for methods whose points fill the box
 SPEED = 0.1         # of the vortex: Mach number 0.07
 U, BEGIN = 0.15, 0.01       # of the shear flow: Mach number 0.1; size of the wave over U at the start
-HARMONICS = 20              # on either side: the rate is good to 1e-9
 Velocities = tuple[np.ndarray, np.ndarray]
 
 
@@ -38,31 +38,9 @@ def vortex(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
 
 
 def sheared(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
-    """u = psi_y, v = -psi_x of the fastest wave, of size BEGIN U, on top of U sin ky."""
-    k = 2*pi/L
-    kx, (_, psi) = k/2, fastest(k, k/2)
-    psi = psi*BEGIN*U/(kx*abs(psi[HARMONICS]))
-    n = np.arange(-HARMONICS, HARMONICS + 1)[:, None]
-    waves = psi[:, None]*np.exp(1j*(kx*x + n*k*y))
-    return U*np.sin(k*y) + (1j*n*k*waves).sum(axis=0).real, -(1j*kx*waves).sum(axis=0).real
-
-
-def fastest(k: float, kx: float) -> tuple[float, np.ndarray]:
-    """Growth rate of the wave exp(i k_x x) on u = U sin ky that grows fastest, and its amplitudes psi_n.
-
-    n = -HARMONICS .. HARMONICS    [Rayleigh 1880; Meshalkin & Sinai 1961]
-
-    Small waves obey q_t = -i k_x u (q + k^2 psi), q = lap psi, so harmonics q_n exp(inky) of each other:
-
-        dq_n/dt = -(k_x U/2) [(1 - k^2/K_(n-1)^2) q_(n-1) - (1 - k^2/K_(n+1)^2) q_(n+1)]
-        K_n^2 = k_x^2 + n^2 k^2
-    """
-    n = np.arange(-HARMONICS, HARMONICS + 1)
-    K2 = kx**2 + (n*k)**2
-    part = kx*U/2*(1 - k**2/K2)
-    rates, modes = np.linalg.eig(np.diag(part[1:], 1) - np.diag(part[:-1], -1))
-    best = int(np.argmax(rates.real))
-    return float(rates[best].real), -modes[:, best]/K2
+    """U sin ky and its fastest wave, of size BEGIN U."""
+    v = layer_with_wave(np.stack([np.ravel(x), np.ravel(y)], axis=1), U, 2*pi/L, BEGIN)
+    return v[:, 0].reshape(x.shape), v[:, 1].reshape(x.shape)
 
 
 def everywhere(x: np.ndarray, L: float) -> np.ndarray:
@@ -100,7 +78,7 @@ CORNER = Chamber(L=12.0, aspect=1.0, viscosity=0.3, heat=0.3, sides=Walls())
 SHEAR_FLOW = Chamber(L=16.0, aspect=2.0, heat=2*pi/16, velocities=sheared)
 #: of the shear flow, and the growth rate of its fastest wave, which is twice as long
 WAVE_NUMBER = 2*pi/SHEAR_FLOW.L
-RATE, _ = fastest(WAVE_NUMBER, WAVE_NUMBER/2)
+RATE, _ = growing_wave(U, WAVE_NUMBER, WAVE_NUMBER/2)
 
 
 def rarefied(t: float) -> float:

@@ -1,0 +1,146 @@
+"""One call solves any scene with any method: numbers, fields, a picture, files, errors that help."""
+from dataclasses import replace
+
+import h5py
+import meshio
+import numpy as np
+import pytest
+
+from continuum.scene import RayleighBenard
+from studies.build.named import SCENES
+from studies.build.spam import PRINTED
+from studies.front import compare, solve
+from studies.front.__main__ import main
+from studies.front.solution import NoSuchQuantity
+from studies.front.solving import ALL
+
+RB = "rayleigh-benard"
+
+
+@pytest.fixture(scope="module")
+def convection():
+    """Lattice points in convection, long enough to be steady."""
+    return solve(RB, "fixed-lattice", rows=12, time=150)
+
+
+def test_numbers_have_errors_and_agree_with_the_history(convection):
+    assert convection.K.value == pytest.approx(convection.history["K"].iloc[-1], rel=1e-3)
+    assert 0 < convection.K.err < 0.01*convection.K.value
+    # 12 rows are 3 % off the grid's limit 0.00489 and Nu 1.84, in the second order
+    assert convection.K.value == pytest.approx(0.00489, rel=0.1)
+    assert convection.Nu.value == pytest.approx(1.84, rel=0.1)
+
+
+@pytest.mark.parametrize("method", ["grid", "py-pde", "boussinesq"])
+def test_references_agree_by_the_same_call(convection, method):
+    done = solve(RB, method, rows=16)
+    assert done.K.value == pytest.approx(convection.K.value, rel=0.1)
+    at = done.fields()
+    m = at.rho*at.V
+    assert (m*(at.vx**2 + at.vy**2)).sum()/2/m.sum() == pytest.approx(done.K.value, rel=0.05)
+
+
+def test_linear_theory_knows_the_onset_and_says_what_it_does_not_know():
+    done = solve(RB, "linear-theory", ra=2000.0)
+    assert done["Ra_c"].value == pytest.approx(1707.9, abs=0.5) and done["growth"].value > 0
+    with pytest.raises(NoSuchQuantity, match="linear-theory has no K in this scene; it has Ra_c, growth"):
+        _ = done.K
+
+
+@pytest.mark.parametrize("scene, least, most", [("taylor-green", 1.7, 2.6), ("sound", 1.5, 2.6),
+                                                ("couette", 1.5, 2.6), ("conduction", 1.4, 2.6)])
+def test_errors_of_lattice_points_fall_with_second_order(scene, least, most):
+    few, many = (solve(scene, "fixed-lattice", rows=rows).error.value for rows in (16, 32))
+    assert least < np.log2(few/many) < most
+
+
+def test_a_shear_wave_grows_as_rayleigh_says():
+    few, many = (abs(solve("shear-layer", "grid", rows=rows)["growth"].value - 1) for rows in (16, 32))
+    assert many < few < 0.05
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_every_scene_runs_on_the_grid_and_draws(scene, tmp_path):
+    done = solve(scene, "grid", rows=8 if scene != "shock-tube" else 18, **short(scene))
+    done.plot(tmp_path/"flow.png")
+    assert (tmp_path/"flow.png").stat().st_size > 5000 and len(done.history) > 1
+
+
+def short(scene):
+    return {"time": 1.0} if scene.startswith(RB) else {}
+
+
+def test_a_variant_an_object_and_a_class_are_methods(convection):
+    mine = PRINTED._replace(name="mine", h=2.5)
+    assert solve(RB, mine, rows=8, time=1).method == "mine"
+    from studies.build import ready
+    scene = RayleighBenard(ra=1e4, L=12.0)
+    method = ready(scene, "fixed-lattice").method
+    same = solve(scene, method, time=150)
+    assert same.K.value == pytest.approx(convection.K.value, rel=1e-4)
+
+    class Mine:
+        def __new__(cls, scene):
+            return ready(scene, "fixed-lattice").method
+    assert solve(scene, Mine, time=150).K == same.K
+
+
+def test_files_hold_what_the_solution_has(convection, tmp_path):
+    with h5py.File(convection.save(tmp_path/"run.h5")) as file:
+        assert file.attrs["K"] == convection.K.value
+        assert np.array_equal(file["fields/T"], convection.places["T"])
+    mesh = meshio.read(convection.save(tmp_path/"run.vtu"))
+    assert np.array_equal(mesh.point_data["velocity"][:, 1], convection.places["vy"])
+    with pytest.raises(ValueError, match=r"run.txt ends in .txt: give a name that ends in .h5 or .vtu"):
+        convection.save(tmp_path/"run.txt")
+
+
+def test_an_interrupted_run_goes_on_bitwise(tmp_path, monkeypatch):
+    whole = solve(RB, "grid", rows=12, time=5)
+    from studies.front import solving
+    ticks = []
+
+    def interrupted(method, start, plan, progress=None):
+        def tick(part):
+            ticks.append(part)
+            if part > 0.5:
+                raise KeyboardInterrupt
+        return run(method, start, plan, tick)
+    run = solving.run
+    monkeypatch.setattr(solving, "run", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        solve(RB, "grid", rows=12, time=5, resume=tmp_path/"run.h5")
+    monkeypatch.setattr(solving, "run", run)
+    again = solve(RB, "grid", rows=12, time=5, resume=tmp_path/"run.h5")
+    assert again.K == whole.K and again.places.equals(whole.places) and max(ticks) > 0.5
+
+
+def test_names_that_do_not_exist_and_scenes_that_a_method_cannot_take():
+    with pytest.raises(ValueError, match="no scene is called 'rayleigh'; near to it are rayleigh-benard"):
+        solve("rayleigh", "grid")
+    with pytest.raises(ValueError, match="no method is called 'fixed-latice'; near to it are fixed-lattice"):
+        solve(RB, "fixed-latice")
+    with pytest.raises(ValueError, match="boussinesq solves Rayleigh-Benard convection, not Sound"):
+        solve("sound", "boussinesq")
+
+
+def test_a_comparison_has_a_row_a_method_and_resolution_and_tells_what_diverged(tmp_path):
+    wild = PRINTED._replace(name="wild", step=0.9, fraction=-60.0)
+    done = compare("taylor-green", ["grid", "fixed-lattice", wild], rows=(8, 12))
+    assert len(done.table) + len(done.diverged) == 6
+    assert list(done.table.columns[:4]) == ["method", "rows", "K", "K_err"]
+    done.plot(tmp_path/"all.png")
+    assert (tmp_path/"all.png").stat().st_size > 10000
+
+
+def test_the_command_prints_and_draws_and_tells_errors_in_a_line(tmp_path, capsys):
+    assert main(["sound", "grid", "--rows", "16", "--out", str(tmp_path)]) == 0
+    assert "error = " in capsys.readouterr().out and (tmp_path/"sound-grid.png").exists()
+    assert main(["sound", "nothing", "--out", str(tmp_path)]) == 1
+    assert "no method is called 'nothing'" in capsys.readouterr().err
+
+
+def test_every_name_has_its_word():
+    from studies.build import words
+    assert {*ALL} <= {*words.METHODS} and {*SCENES} == {*words.SCENES}
+    assert replace(RayleighBenard(ra=1e4), L=8.0).L == 8
