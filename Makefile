@@ -17,7 +17,7 @@ export PYTHONPATH := $(CURDIR)
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help env studies hours report films test lint types notebooks executed bench worker clean $(studies:%=study-%) $(studies:%=figures-%) study- figures-
+.PHONY: help env solve studies hours report films test lint types notebooks executed bench worker clean $(studies:%=study-%) $(studies:%=figures-%) study- figures-
 
 # a line for each name that % stands for
 help:  ## this list
@@ -45,6 +45,13 @@ env: .venv/ready  ## set up .venv and nothing else
 
 # every table and figure of the size; then what is made from tables: of size quick the page alone, in results/quick
 studies: hours $(studies:%=study-%) $(if $(filter quick,$(SIZE)),,films executed) report  ## all studies, notebooks, films, the page: hours
+
+# of one solution: names of studies/build/words.py, several methods or rows in quotes
+SCENE  ?= rayleigh-benard
+METHOD ?= fixed-lattice
+ROWS   ?= 16
+solve: .venv/ready  ## K, Nu and a picture: make solve SCENE=taylor-green METHOD="grid spam" ROWS="16 32"
+	$(run) -m studies.front $(SCENE) $(METHOD) --rows $(ROWS) $(ARGS)
 
 hours: .venv/ready  ## what all studies have still to do, in minutes of CPU
 	$(run) -m studies.kit.budget $(studies)

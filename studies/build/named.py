@@ -6,7 +6,7 @@ from continuum.scene import RayleighBenard, Walls
 from studies.build.rapid import ShearLayer, ShockTube
 from studies.build.scenes import Sound, TaylorGreen, between_plates
 
-ROWS = 24
+ROWS = 16
 
 
 def convection(rows: int = ROWS, ra: float = 1e4, **more: Any) -> RayleighBenard:

@@ -19,7 +19,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m studies.front", description=__doc__)
     parser.add_argument("scene", help=", ".join(SCENES))
     parser.add_argument("methods", nargs="+", help="such as grid, fixed-lattice, moving, spam")
-    parser.add_argument("--rows", type=int, nargs="+", default=[24], help="points or cells over the height")
+    parser.add_argument("--rows", type=int, nargs="+", default=[16], help="points or cells over the height")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--time", type=float, help="length of the run, for convection in free-fall times")
     parser.add_argument("--out", type=Path, default=OWN, help="folder of the picture (default: results/own)")

@@ -9,7 +9,7 @@ from matplotlib.tri import LinearTriInterpolator, Triangulation
 
 from studies.kit.figure import figure, save
 
-ARROWS = 16         # over the height
+ARROWS = 11         # over the height
 
 
 def picture(solution: Any, path: str | Path | None = None) -> Figure:
@@ -35,7 +35,8 @@ def flow(axes: Axes, solution: Any, title: str = "") -> None:
     x, y = (np.arange(-size/L/2 + 0.5/ARROWS, size/L/2, 1/ARROWS) for size in (scene.width, L))
     X, Y = np.meshgrid(x, y)
     vx, vy = (LinearTriInterpolator(mesh, at[name])(X, Y) for name in ("vx", "vy"))
-    axes.quiver(X, Y, vx, vy, color="white", edgecolor="black", linewidth=0.4, pivot="mid")
+    axes.quiver(X, Y, vx, vy, color="white", edgecolor="black", linewidth=0.3, pivot="mid",
+                width=0.006)
     axes.set(aspect="equal", xlabel="x/L", ylabel="y/L", title=title)
     axes.grid(False)
 
