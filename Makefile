@@ -17,7 +17,7 @@ export PYTHONPATH := $(CURDIR)
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help env solve studies hours report films test lint types notebooks executed bench worker clean $(studies:%=study-%) $(studies:%=figures-%) study- figures-
+.PHONY: help env solve words studies hours report films test lint types notebooks executed bench worker clean $(studies:%=study-%) $(studies:%=figures-%) study- figures-
 
 # a line for each name that % stands for
 help:  ## this list
@@ -52,6 +52,9 @@ METHOD ?= fixed-lattice
 ROWS   ?= 16
 solve: .venv/ready  ## K, Nu and a picture: make solve SCENE=taylor-green METHOD="grid spam" ROWS="16 32"
 	$(run) -m studies.front $(SCENE) $(METHOD) --rows $(ROWS) $(ARGS)
+
+words: .venv/ready  ## every name of a method, scene, quantity, explained; TEXT=wendland shows some
+	$(run) -m studies.build.words $(TEXT)
 
 hours: .venv/ready  ## what all studies have still to do, in minutes of CPU
 	$(run) -m studies.kit.budget $(studies)

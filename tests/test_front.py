@@ -1,6 +1,4 @@
 """One call solves any scene with any method: numbers, fields, a picture, files, errors that help."""
-from dataclasses import replace
-
 import h5py
 import meshio
 import numpy as np
@@ -143,4 +141,5 @@ def test_the_command_prints_and_draws_and_tells_errors_in_a_line(tmp_path, capsy
 def test_every_name_has_its_word():
     from studies.build import words
     assert {*ALL} <= {*words.METHODS} and {*SCENES} == {*words.SCENES}
-    assert replace(RayleighBenard(ra=1e4), L=8.0).L == 8
+    assert "spam-wendland-c2" in words.explained("Wendland") and "moving" not in words.explained("Wendland")
+    assert "no name and no sentence has 'xyz'" in words.explained("xyz")

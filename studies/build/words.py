@@ -3,6 +3,7 @@
 KHP95 is Kum, Hoover & Posch 1995 (smooth-particle applied mechanics, SPAM); RR98 is Romero-Rochin & Rubi 1998
 (discretized integral hydrodynamics, DIH: fields on points that exchange over edges).
 """
+import sys
 from typing import NamedTuple
 
 
@@ -120,3 +121,17 @@ def name_of(method: str, variant: str) -> str:
     family, usual = FAMILIES.get(method, (method, ""))
     name = "-".join(filter(None, (family, variant.removeprefix(usual).removeprefix("-"))))
     return name if name in METHODS else ""
+
+
+def explained(text: str = "") -> str:
+    """Lines of all words with a text in their name or sentence, below what they are."""
+    lines = []
+    for title, words in (("methods", METHODS), ("scenes", SCENES), ("quantities", QUANTITIES)):
+        rows = [word for word in words.values() if text.casefold() in " ".join(word).casefold()]
+        lines += [f"{title}:", *(f"  {word.name:34s}{word.about}{f'  [{word.source}]'*bool(word.source)}"
+                                 for word in rows)]*bool(rows)
+    return "\n".join(lines) or f"no name and no sentence has {text!r}: leave it out to see all"
+
+
+if __name__ == "__main__":
+    print(explained(" ".join(sys.argv[1:])))
