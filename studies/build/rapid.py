@@ -18,10 +18,11 @@ class ShockTube(Scene):
     """Sod's tube beside its mirror image: dense at |x| < half, thin beyond; the shock goes 0.7 half far.
 
     Density and pressure have the ratios 1 to 0.125 and 1 to 0.1, the mean density is 1    [Sod 1978]
-    eta : viscosity and conductivity; without any, central differences ring. L : the height, of no moment.
+    eta : viscosity and conductivity; the usual one makes the cell number 2 behind the shock, beyond which
+    central differences ring. L : the height, of no moment.
     """
     half: int
-    eta: float = 0.9
+    eta: float = 0.22
     L: float = 12.0
     eos: IdealGas = IdealGas(cv=2.5)  # noqa: RUF009 (immutable)
 
