@@ -3,7 +3,7 @@ import sys
 from dataclasses import replace
 from math import ceil
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -28,21 +28,39 @@ SAMPLES = 400       # of a history
 ALL: dict[str, Any] = {**METHODS, **REFERENCES}
 
 
+class How(NamedTuple):
+    """How a run in time is made.
+
+    time : its length in the scene's unit, for convection free-fall times. dt : its step, if not the method's
+    own. resume : a file that an interrupted run goes on from. progress : a bar; by default where one looks.
+    """
+    seed: int = 1
+    time: float | None = None
+    dt: float | None = None
+    resume: str | Path | None = None
+    progress: bool | None = None
+
+    @property
+    def silent(self) -> bool:
+        """Whether there is no bar."""
+        return not (sys.stderr.isatty() if self.progress is None else self.progress)
+
+
 def solve(scene: Any, method: Any, *, rows: int | None = None, seed: int = 1, time: float | None = None,
-          resume: str | Path | None = None, progress: bool | None = None, **of_scene: Any) -> Solution:
+          dt: float | None = None, resume: str | Path | None = None, progress: bool | None = None,
+          **of_scene: Any) -> Solution:
     """A scene solved by a method.
 
     scene : a name of `SCENES`, which takes its numbers besides, such as ra=1e4; or an object. method : a name
     of `ALL`, a variant or a method of one's own, or a class that takes the scene. rows : points or cells over
-    the height. time : length of the run in the scene's unit, for convection free-fall times. resume : a file
-    that an interrupted run goes on from. progress : a bar; by default where somebody looks.
+    the height. seed, time, dt, resume, progress : as of `How`.
     Raises ValueError: there is no such scene or method, or the method cannot take the scene. Divergence.
     """
-    where = placed(scene, rows, **of_scene)
-    chosen = named(method)
+    where, chosen = placed(scene, rows, **of_scene), named(method)
     if hasattr(chosen, "solved"):
-        return chosen.solved(where, method, seed)
-    return stepped(where, chosen, called(method), seed, time, resume, progress)
+        solution: Solution = chosen.solved(where, method, seed)
+        return solution
+    return stepped(where, chosen, called(method), How(seed, time, dt, resume, progress))
 
 
 def placed(scene: Any, rows: int | None, **of_scene: Any) -> Any:
@@ -71,24 +89,28 @@ def called(method: Any) -> str:
     return str(getattr(method, "name", "") or getattr(method, "__name__", type(method).__name__))
 
 
-def stepped(scene: Any, chosen: Any, name: str, seed: int, time: float | None, resume: str | Path | None,
-            progress: bool | None) -> Solution:
+def stepped(scene: Any, chosen: Any, name: str, how: How) -> Solution:
     """By steps in time, of any method."""
-    method, start, dt = ready(scene, chosen, seed, **begun(scene, chosen, seed))
-    usual, unit = duration(scene)
-    steps = ceil((time or usual)*unit/dt)
-    plan = Plan(dt=(time or usual)*unit/steps, steps=steps, series=recorded(scene, chosen),
-                every=max(1, steps//SAMPLES), checkpoint=Path(resume) if resume else None)
-    shown = sys.stderr.isatty() if progress is None else progress
-    with tqdm(total=steps, desc=name, unit="step", disable=not shown, leave=False) as bar:
+    made = ready(scene, chosen, how.seed, **begun(scene, chosen, how.seed))
+    plan, unit = planned(scene, chosen, made.dt, how), duration(scene)[1]
+    with tqdm(total=plan.steps, desc=name, unit="step", disable=how.silent, leave=False) as bar:
         def tell(part: float) -> None:
-            bar.update(round(part*steps) - bar.n)
-        done = run(method, start.reshape(start.shape[0], -1), plan, tell)
+            bar.update(round(part*plan.steps) - bar.n)
+        done = run(made.method, made.start.reshape(made.start.shape[0], -1), plan, tell)
     history = pd.DataFrame({"t": np.array(done.times)/unit, **done.series})
-    at = seen(method, done.by_id())
-    return Solution(scene=scene, method=name, rows=rows_of(scene), seed=seed, history=history,
-                    numbers=numbers(scene, history, at), places=frame(at), dt=plan.dt, steps=steps,
+    at = seen(made.method, done.by_id())
+    return Solution(scene=scene, method=name, rows=rows_of(scene), seed=how.seed, history=history,
+                    numbers=numbers(scene, history, at), places=frame(at), dt=plan.dt, steps=plan.steps,
                     cpu_s=done.cpu_s, compile_s=done.compile_s)
+
+
+def planned(scene: Any, chosen: Any, longest: float, how: How) -> Plan:
+    """Steps of the same length, none longer than it may be, and what they record."""
+    usual, unit = duration(scene)
+    length = (how.time or usual)*unit
+    steps = ceil(length/(how.dt or longest))
+    return Plan(dt=length/steps, steps=steps, series=recorded(scene, chosen), every=max(1, steps//SAMPLES),
+                checkpoint=Path(how.resume) if how.resume else None)
 
 
 def begun(scene: Any, chosen: Any, seed: int) -> dict[str, Any]:
