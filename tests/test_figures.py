@@ -14,7 +14,7 @@ from studies.kit.table import Tables
 from studies.onset import figures as onset_figures
 from studies.onset import tables as onset_tables
 from studies.rb import tables
-from studies.rb.figures import RA_C, figures, flow, straight_line
+from studies.rb.figures import figures, flow
 from studies.rb.looks import NOT_STEADY
 
 #: name -> tables -> figure
@@ -77,16 +77,6 @@ def test_the_same_rows_give_the_same_bytes(full):
     assert pixels(drawing.page(full)) == pixels(drawing.page(shuffled))
 
 
-def test_the_line_is_fitted_between_onset_and_four_times_onset():
-    """K is exactly this line there and below it beyond, where no row may enter the fit."""
-    ra = np.array([1500.0, 2000.0, 2500.0, 5000.0, 10000.0])
-    ke = np.where(ra > RA_C, 0.0082*(1 - np.sqrt(RA_C/ra)), 0.0)*np.where(ra > 4*RA_C, 0.9,
-                                                                                    1.0)
-    limit = pd.DataFrame({"ra": ra, "ke": ke})
-    assert straight_line(limit).coefficients == pytest.approx([0.0082, -0.0082*math.sqrt(RA_C)])
-    assert straight_line(limit[limit["ra"] > 2500]) is None              # one row: no line
-
-
 def test_slopes_are_told_where_errors_fall_and_ranges_elsewhere(full):
     """The grid's are made to fall in second order; K_p changes sign: no slope there."""
     grid = full["errors"]["method"].eq("compressible")
@@ -116,8 +106,8 @@ def test_points_that_have_not_settled_are_crossed_and_the_legend_says_so(full):
     settled = Tables({**full, "kinetic_energy": full["kinetic_energy"].assign(converged=True)})
     where = {"variant": "printed", "eos": "ideal", "transport": "const-eta", "sides": "periodic", "ra": 1e4}
     assert seen(settled) == (False, 0)
-    # one in each legend
-    assert seen(changed(settled, "kinetic_energy", "converged", False, **where)) == (True, 2)
+    # one legend for both panels
+    assert seen(changed(settled, "kinetic_energy", "converged", False, **where)) == (True, 1)
 
 
 def test_variants_that_diverged_stand_in_words(full):

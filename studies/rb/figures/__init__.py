@@ -1,172 +1,109 @@
-"""All figures of `rb`; here the README's: K beside the grid, errors over rows, energies near onset."""
-from typing import Any
-
-import numpy as np
+"""All figures of `rb`; here the README's: K of particles and points beside the grid, errors over rows."""
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from continuum.published import published
-from studies.build.labels import ENERGY
-from studies.kit import fits
-from studies.kit.figure import Drawings, Overview, below, plain_ticks
-from studies.kit.table import Tables, groups
+from studies.build.labels import ENERGY, label, ra_axis
+from studies.kit.figure import Drawings, Overview
+from studies.kit.table import Tables
 from studies.rb.figures.energy import (
     ASIDE,
-    SMOOTHED_GRID,
     energies,
     fig5,
     fig6,
     fig8,
-    finish,
     grid,
     moving_points,
     name_frozen,
-    smoothed_grid,
     variants,
 )
-from studies.rb.figures.errors import ROWS, convergence, fixed_points
+from studies.rb.figures.errors import METHODS, SIGNS, convergence, fixed_points, of_methods, signed
+from studies.rb.figures.errors import finish as finish_errors
 from studies.rb.figures.flow import fig2_3, fig7, fig9, fig12
 from studies.rb.looks import (
     ENERGIES,
-    FROM_FLOW,
     KHP95_PARTICLES,
     KIND,
     LAYER,
-    OPEN,
     RA_SHOWN,
-    cross_out,
     errors,
     finest,
     particles,
     reference,
     rows,
-    seen,
 )
-from studies.rb.tables import STILL
 
 RA_C = published("chandrasekhar-ra-rigid").value
-#: an Ra little above onset, where particles come to rest
-NEAR_ONSET = 2500
-#: (what starts so, look, column, line, label) near onset
-STARTS: tuple[Any, ...] = (
-    ({}, "kp", "ke", "--", "$K_p$ from weak rolls"),
-    ({}, "kg", "ke_field", "-", "$K_g$ from weak rolls"),
-    (FROM_FLOW, "from-flow", "ke_field", "-.", "$K_g$, started from the grid's flow"))
+#: points beside the grid and smooth particles, and how far their marks are moved right
+POINTS = {"fixed-lattice": -ASIDE, "fixed-jittered-plates": 0.0, "moving": ASIDE}
+SHOWN = {key: METHODS[key] for key in (
+    ("compressible", "flux-form", "Kp"), ("spam", "printed", "Kp"), ("spam", "printed", "Kg"),
+    ("dih", "fixed-lattice", "Kp"), ("dih", "fixed-jittered-plates", "Kp"), ("dih", "moving", "Kp"))}
 
 
 def main(tables: Tables) -> Figure | None:
-    """Convection of an ideal gas: kinetic energy K of smooth particles beside a converged grid. Below, their
-    errors with more rows of particles, and what is left of the flow near onset.
+    """Convection of an ideal gas: kinetic energy K of smooth particles and of points beside a converged grid.
+    Below, their errors with more rows: those of points vanish, those of smooth particles do not.
     """
     limit, spam = reference(tables, **LAYER), particles(tables, **LAYER)
+    found = errors(tables, **LAYER, ra=max(RA_SHOWN))
     if limit.empty and spam.empty:
         return None
-    page = Figure(figsize=(7.4, 8.8), layout="constrained")
-    parts: Any = page.subfigures(2, 1, height_ratios=(3, 2))
-    upper, lower = parts
-    whole(upper.subplots(), tables, limit, finest(spam[spam["particles"] <= KHP95_PARTICLES]))
-    left, right = lower.subplots(1, 2)
-    over_rows(left, errors(tables, method="spam", variant="printed", **LAYER))
-    near_onset(right, tables)
-    page.suptitle("Convection of an ideal gas: are smooth particles on the grid's line?", fontsize=11)
+    page = Figure(figsize=(7, 8.6), layout="constrained")
+    upper, lower = page.subplots(2, 1, height_ratios=(5, 4))
+    whole(upper, tables, limit, finest(spam[spam["particles"] <= KHP95_PARTICLES]))
+    over_rows(lower, found[of_methods(found, SHOWN)])
+    page.suptitle("Points converge on the grid, smooth particles do not", fontsize=12)
     return page
 
 
 def whole(axes: Axes, tables: Tables, limit: pd.DataFrame, spam: pd.DataFrame) -> None:
-    """K against Ra^-1/2: grid, its line, Boussinesq, particles, and the printed numbers."""
-    grid(axes, limit, "compressible grid, extrapolated")
-    smoothed_grid(axes, seen(tables, **LAYER, rows=spam["resolution"].max()), limit)
-    fitted_line(axes, limit)
-    boussinesq(axes, rows(tables, "means", method="boussinesq", sides="periodic", pr=2, resolution=np.inf))
+    """K against Ra^-1/2: grid, points and particles with as many rows, and the printed numbers."""
+    size = spam["resolution"].max()
+    grid(axes, limit, f"{label('compressible', 'flux-form')}, extrapolated")
     for kind, (column, words) in ENERGIES.items():
         style = KIND[kind] | {"markersize": 6, "zorder": 4}
-        energies(axes, spam, column, f"{words}, {spam['resolution'].max():.0f} rows", style)
+        energies(axes, spam, column, f"{label('spam', 'printed')}: {words}", style)
+    for variant, aside in POINTS.items():
+        same = rows(tables, "means", method="dih", variant=variant, **LAYER, resolution=size)
+        style = METHODS["dih", variant, "Kp"] | {"markersize": 8, "zorder": 5}
+        energies(axes, same.assign(steady=True), "ke", label("dih", variant), style, aside)
     name_frozen(axes, limit, spam)
+    name_onset(axes)
     printed_numbers(axes)
-    axes.set(ylabel=ENERGY)
-    finish(axes)
+    top = axes.get_ylim()[1]
+    axes.set(ylabel=ENERGY, ylim=(-0.02*top, top), title=f"particles and points: {size:.0f} rows")
+    ra_axis(axes)
+    axes.legend(loc="upper right", title="bars: 95 % intervals", title_fontsize=8)
 
 
-def straight_line(limit: pd.DataFrame) -> fits.Fit | None:
-    """K over Ra^-1/2 from Ra_c to 4 Ra_c, None for fewer than three rows    [KHP95, Sec. V]"""
-    inside = limit[(limit["ra"] > RA_C) & (limit["ra"] <= 4*RA_C) & (limit["ke"] > STILL)]
-    return fits.line(inside["ra"].to_numpy()**-0.5, inside["ke"].to_numpy()) if len(inside) > 2 else None
-
-
-def fitted_line(axes: Axes, limit: pd.DataFrame) -> None:
-    """The straight line between Ra_c and 4 Ra_c, dotted beyond."""
-    line = straight_line(limit)
-    if line is None:
-        return
-    onset, last = RA_C**-0.5, (4*RA_C)**-0.5
-    axes.axvline(onset, ymax=0.6, color="0.4", lw=0.8, marker="", ls="--", zorder=0)
-    axes.annotate(f"onset, linear theory: {RA_C:.0f}", (onset, 0.3), xycoords=("data", "axes fraction"),
+def name_onset(axes: Axes) -> None:
+    """Where linear theory has the first motion."""
+    onset = RA_C**-0.5
+    axes.axvline(onset, ymax=0.5, color="0.4", lw=0.8, marker="", ls="--", zorder=0)
+    axes.annotate(f"onset, linear theory: {RA_C:.0f}", (onset, 0.28), xycoords=("data", "axes fraction"),
                   xytext=(3, 0), textcoords="offset points", rotation=90, ha="left", va="center", fontsize=8)
-    zero = -line.coefficients[0]/line.coefficients[1]
-    style: Any = {"color": "0.55", "lw": 5, "alpha": 0.5, "marker": "", "ls": "-", "zorder": 0,
-                  "label": r"line fitted from Ra$_c$ to 4 Ra$_c$, dotted beyond"}
-    axes.plot([last, zero], [line.at(last).value, 0], **style)
-    end = limit["ra"].max()**-0.5
-    beyond = [line.at(end).value, line.at(last).value]
-    axes.plot([end, last], beyond, color="0.4", lw=1.5, marker="", ls=":", zorder=0)
-
-
-def boussinesq(axes: Axes, limit: pd.DataFrame) -> None:
-    """K_ff(Ra, Pr = 2)/2: at gamma = 2 half of the gradient is adiabatic and heat travels isobarically."""
-    if len(limit):
-        style = KIND["boussinesq"] | {"markerfacecolor": "none", "markersize": 8}
-        half, err, words = limit["ke"]/2, limit["ke_err"]/2, "Boussinesq, Pr = 2, halved"
-        axes.errorbar(limit["ra"]**-0.5, half, err, label=words, **style)
 
 
 def printed_numbers(axes: Axes) -> None:
-    """KHP95's four numbers, a little aside of ours."""
-    x = [ra**-0.5 - ASIDE for ra in RA_SHOWN]
-    for end, marker, words in (("", "o", "KHP95, grid"), ("-spam", "D", "KHP95, 5000 particles")):
-        printed = [published(f"khp95-ke-{ra}{end}") for ra in RA_SHOWN]
-        axes.errorbar(x, [one.value for one in printed], [one.uncertainty for one in printed], marker=marker,
-                      label=f"{words}, printed (moved left)", capsize=0, **KIND["khp"])
+    """What KHP95 print of their particles, a little aside of ours."""
+    printed = [published(f"khp95-ke-{ra}-spam") for ra in RA_SHOWN]
+    axes.errorbar([ra**-0.5 - 2*ASIDE for ra in RA_SHOWN], [one.value for one in printed],
+                  [one.uncertainty for one in printed], marker="D", capsize=0,
+                  label=f"KHP95, {KHP95_PARTICLES} particles, printed (moved left)", **KIND["khp"])
 
 
 def over_rows(axes: Axes, chosen: pd.DataFrame) -> None:
-    """Errors of Kp and Kg against rows: at the highest Ra filled and full, open and dashed at the others."""
-    chosen = chosen[chosen["ra"].isin(RA_SHOWN) & (chosen["energy"] != "Nu")]
-    for (ra, energy), group in groups(chosen, ["ra", "energy"]):
-        more = {"linestyle": "-"} if ra == max(RA_SHOWN) else {**OPEN, "linestyle": "--"}
-        axes.errorbar(group["resolution"], 100*group["error"], 100*group["error_err"],
-                      label=f"${energy[0]}_{energy[1]}$, Ra {ra:g}", **KIND[energy.lower()] | more)
-        cross_out(axes, group["resolution"], 100*group["error"], group["steady"])
-    axes.axhline(0, color="black", lw=1, marker="", ls="-", zorder=0)
-    axes.set(ylabel="error  [%]",
-             title="More particles: $K_p$ against $K$,\n$K_g$ against $K$ smoothed likewise")
-    rows_axis(axes, chosen["resolution"], ncols=2)
-
-
-def near_onset(axes: Axes, tables: Tables) -> None:
-    """Energies little above onset, where the grid convects, from both starts."""
-    scene = LAYER | {"ra": NEAR_ONSET}
-    for start, kind, column, line, words in STARTS:
-        chosen = particles(tables, **scene, **start)
-        err = chosen[f"{column}_err"]
-        low = np.minimum(err, 0.9*chosen[column])      # a logarithmic axis has no room for zero
-        style = KIND[kind] | {"linestyle": line} | (OPEN if start else {})
-        if len(chosen):
-            axes.errorbar(chosen["resolution"], chosen[column], [low, err], label=words, **style)
-    field = seen(tables, **scene)
-    if len(field):
-        axes.plot(field["rows"], field["ke_smoothed"], **SMOOTHED_GRID)
-    axes.set(yscale="log", ylabel=r"energy per mass  [$\varepsilon/m$]",
-             title=f"Near onset, Ra = {NEAR_ONSET}:\nwhat is left of convection")
-    rows_axis(axes, [*particles(tables, **scene)["resolution"], *field["rows"]])
-
-
-def rows_axis(axes: Axes, sizes: Any, **legend: Any) -> None:
-    """Rows over the height, logarithmic, and the legend below."""
-    axes.set(xscale="log", xlabel=ROWS)
-    plain_ticks(axes, sorted({*sizes}))
-    if len(sizes):
-        below(axes, bbox_to_anchor=(0.5, -0.22), **legend)
+    """|error| of K against rows, with lines; the look of a series is in the legend above."""
+    for key, style in SHOWN.items():
+        series = chosen[of_methods(chosen, {key: style})].sort_values("resolution")
+        axes.plot(series["resolution"], series["error"].abs(), **style | {"marker": "", "lw": 0.8})
+        signed(axes, series, "", style)
+    if len(chosen):
+        beside = "$K_g$ beside the grid's field, smoothed likewise"
+        finish_errors(axes, f"Ra = {max(RA_SHOWN)}; {beside}\n{SIGNS}", chosen)
+    axes.set_ylabel("relative error of $K$")
 
 
 #: tables that have energies and errors; what the tables lack is left out
@@ -174,7 +111,7 @@ OF_ENERGIES = ("means", "kinetic_energy", "smoothed")
 OF_ERRORS = ("errors", "kinetic_energy")
 
 figures = Drawings(
-    Overview("main", (*OF_ENERGIES, "errors"), main),
+    Overview("main", ("means", *OF_ERRORS), main),
     Overview("fig2_3", ("particles",), fig2_3),
     Overview("fig5", ("means", "kinetic_energy"), fig5),
     Overview("fig6", OF_ENERGIES, fig6),

@@ -51,7 +51,7 @@ EDGES = {
     "on a lattice, weight of Lucy": (
         "fixed-lattice", "fixed-lattice-h3", "fixed-lattice-nested", "fixed-lattice-nested-only",
         "fixed-lattice-printed-heat"),
-    "off a lattice, edges of Delaunay triangles": (
+    "off a lattice, Delaunay edges (images: behind plates)": (
         "relaxed-plates", "relaxed-delaunay", "fixed-jittered-plates", "fixed-jittered-delaunay",
         "fixed-random-plates", "fixed-random-delaunay"),
     "off a lattice, edges of a weight": (
@@ -73,6 +73,7 @@ def convergence(tables: Tables) -> Figure | None:
         smoothing(axes, seen(tables, **LAYER, ra=ra))
         over_rows(axes, chosen[chosen["ra"] == ra], METHODS)
         finish(axes, f"Ra = {ra:g}", chosen)
+        below(axes, title=PALE, title_fontsize=8)
     line[0].set_ylabel("relative error")
     page.suptitle("Does $K$ converge, does the heat transport?\n"
                   r"$|K_p/K - 1|$, $|K_g/K_\mathrm{smoothed} - 1|$, $|\mathrm{Nu}_p/\mathrm{Nu} - 1|$"
@@ -85,20 +86,22 @@ def fixed_points(tables: Tables) -> Figure | None:
     lattice. Each line is one kind of edges. Crossed out is also what ended in another number of rolls.
     """
     chosen = pd.concat([errors(tables, method="dih", energy="Kp", **LAYER), other_flows(tables)])
-    gone = diverged(tables, method="dih", **LAYER)
+    ras = panels(chosen)
+    chosen = chosen[chosen["ra"].isin(ras[-1:])]
+    gone = diverged(tables, method="dih", **LAYER, ra=max(ras, default=0))
     kinds = {kind: {("dih", name, "Kp"): look(number) for number, name in enumerate(names)}
              for kind, names in EDGES.items()}
     kinds = {kind: keys for kind, keys in kinds.items() if of_methods(chosen, keys).any()}
-    ras = panels(chosen)
-    if not kinds or not ras:
+    if not kinds:
         return None
-    page, all_axes = figure(len(kinds), len(ras), height=4.7, **PANEL)
-    for line, (kind, keys) in zip(all_axes, kinds.items()):
-        for axes, ra in zip(line, ras):
-            over_rows(axes, chosen[chosen["ra"] == ra], keys, gone[gone["ra"] == ra])
-            finish(axes, f"Ra = {ra:g}: {kind}", chosen[of_methods(chosen, keys)])
-        line[0].set_ylabel(r"relative error  $|K/K_\mathrm{grid} - 1|$")
-    page.suptitle(f"What do fixed points and their edges make of $K$?\n{SIGNS}", fontsize=10)
+    page, all_axes = figure(len(kinds), 1, width=7.4, height=2.9, squeeze=False)
+    for axes, (kind, keys) in zip(all_axes[:, 0], kinds.items()):
+        over_rows(axes, chosen, keys, gone)
+        finish(axes, kind, chosen[of_methods(chosen, keys)])
+        axes.legend(loc="center left", bbox_to_anchor=(1, 0.5), title=PALE, title_fontsize=8)
+        axes.set_ylabel(r"$|K/K_\mathrm{grid} - 1|$")
+    page.suptitle("Points that stay converge on a lattice and with Delaunay edges,\n"
+                  f"not with edges of a weight off a lattice (Ra = {ras[-1]:g})\n{SIGNS}", fontsize=10)
     return page
 
 
@@ -178,10 +181,7 @@ def signed(axes: Axes, series: pd.DataFrame, words: str, style: Style) -> None:
 
 
 def finish(axes: Axes, title: str, line: pd.DataFrame) -> None:
-    """Logarithmic axes in the range of a line of panels, the legend below; a panel without data goes."""
-    if not axes.has_data():
-        axes.set_visible(False)
-        return
+    """Logarithmic axes in the range of a line of panels, numbers written out."""
     size = line["error"].abs()
     axes.set(xscale="log", yscale="log", title=title, xlabel=ROWS, ylim=(0.4*size.min(), 2*size.max()))
     for axis in (axes.xaxis, axes.yaxis):
@@ -190,4 +190,3 @@ def finish(axes: Axes, title: str, line: pd.DataFrame) -> None:
     axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     plain_ticks(axes, sorted({*line["resolution"]}))
     axes.tick_params(labelbottom=True)
-    below(axes, title=PALE, title_fontsize=8)
