@@ -1,7 +1,9 @@
 """Figures come from tables alone: all of them from full ones, some from few rows, none from empty ones."""
+import functools
 import io
 import math
 import warnings
+from importlib import import_module
 
 import numpy as np
 import pandas as pd
@@ -9,6 +11,9 @@ import pytest
 from matplotlib.container import ErrorbarContainer
 from matplotlib.text import Text
 
+from studies.hardcases import figures as hardcases_figures
+from studies.hardcases import tables as hardcases_tables
+from studies.hardcases.derive import NEAR
 from studies.kit.sweep import load
 from studies.kit.table import Tables
 from studies.onset import figures as onset_figures
@@ -25,6 +30,13 @@ ALL = {drawing.name: drawing.page for drawing in figures.drawings}
 def full() -> Tables:
     """The committed tables."""
     return load(tables.ALL, "rb")
+
+
+@functools.cache
+def pages_of(study: str):
+    """All figures of a study, from committed tables."""
+    made = import_module(f"studies.{study}").STUDY
+    return made.figures(load(made.tables, study))
 
 
 def texts(page) -> str:
@@ -114,6 +126,35 @@ def test_variants_that_diverged_stand_in_words(full):
     lost = changed(full, "kinetic_energy", "ke", math.nan, variant="wendland-c2", ra=1e4, seed=1)
     words = [texts(ALL["variants"](known)).count("seeds diverged") for known in (full, lost)]
     assert words[1] > words[0]
+
+
+def looks(axes) -> dict[str, tuple]:
+    """What tells the series of a panel apart without colour: marker and how it is filled."""
+    handles, names = axes.get_legend_handles_labels()
+    lines = [handle[0] if isinstance(handle, ErrorbarContainer) else handle for handle in handles]
+    faces = [line.get_markerfacecolor() in ("white", "none") for line in lines]
+    return {name: (line.get_marker(), line.get_fillstyle(), face)
+            for name, line, face in zip(names, lines, faces) if name != NOT_STEADY}
+
+
+@pytest.mark.parametrize(("study", "name"), [
+    ("rb", "main"), ("rb", "fixed_points"), ("cost", "work_precision"), ("noise", "printed"),
+    ("conservation", "steps"), ("hardcases", "high_ra")])
+def test_a_panel_has_seven_series_at_most_and_none_looks_like_another(study, name):
+    page = pages_of(study)[name]
+    panels = [looks(axes) for axes in page.axes]
+    assert max(map(len, panels)) > 1 and page.get_figwidth() <= 7.5      # inches: 640 pixels keep it readable
+    for panel in panels:
+        assert len(set(panel.values())) == len(panel) <= 7
+
+
+def test_colours_of_the_map_are_its_outcomes():
+    """The lightest are all right, no others are; every method stands in the figure or below it."""
+    table = load(hardcases_tables.ALL, "hardcases")["map"]
+    rows = hardcases_figures.judged(table)
+    assert (rows["error"] <= NEAR).eq(rows["outcome"] == "right").all()
+    words = " ".join(texts(hardcases_figures.chart(table)).split())
+    assert all(name in words or hardcases_figures.called(name) in words for name in set(rows["method"]))
 
 
 def test_frozen_particles_are_named(full):

@@ -6,12 +6,17 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from studies.build.labels import label
 from studies.conservation.tables import SUMS
 from studies.kit.figure import Drawing, Drawings, below, errorbar, figure, look
 
 MOTIONS = {"literal": "literal (39-41)", "convective": "convective (46-48)", "carried": "46-48, dV carried",
            "constant-mass": "constant mass (49)"}
-INTEGRATORS = {"euler": "forward Euler [40]", "two-step": "two steps [40, 41]"}
+#: of `steps`: those of RR98's motions, by their names; old and new velocities
+STEPPED = {motion: label("dih", f"moving-{motion}") for motion in ("literal", "constant-mass")}
+INTEGRATORS: dict[str, Any] = {
+    "euler": {"label": "old velocities [Eq. 40]", "face": "white"},
+    "two-step": {"label": "new velocities [Eq. 41]", "face": None}}
 BODIES = {"surface": "points on the surface", "surface-unfiltered": "the same without filter",
           "frozen": "frozen lattice points", "frozen-grown": "frozen, half a spacing more"}
 UNIT = r"$a\,(m/k_BT)^{1/2}$"      # of time
@@ -110,17 +115,22 @@ def draw_speeds(axes: Axes, rows: pd.DataFrame) -> None:
 
 
 def steps(rows: pd.DataFrame) -> Figure:
-    """Where points end that move with old velocities (Eq. 40) and with new ones (Eq. 41)."""
-    page, axes = figure(1, 1, width=6.0, height=4.8)
-    groups = rows.sort_values("dt").groupby(["motion", "flow", "integrator"])
-    for number, ((motion, flow, integrator), group) in enumerate(groups):
-        words = f"{MOTIONS[str(motion)]}, {flow},\n{INTEGRATORS[str(integrator)]}"
-        bars(axes, group, "dt", "error", number=number, linestyle=look(number)["linestyle"], label=words)
-    axes.set(xlabel=rf"step $\Delta t$  [{UNIT}]", ylabel="rms error of places over displacement",
-             xscale="log", yscale="log")
-    ticks(axes, (0.03, 0.1, 0.3))
-    below(axes, ncols=2, bbox_to_anchor=(0.5, -0.16))
-    axes.set_title("Are new velocities better? Bars: what finer steps differ by")
+    """Where points end that move with old velocities (Eq. 40) and with new ones (Eq. 41): a panel a flow."""
+    flows = sorted(set(rows["flow"]))
+    page, panels = figure(1, len(flows), width=3.6, height=4.2, squeeze=False, sharey=True)
+    for axes, flow in zip(panels[0], flows, strict=True):
+        for number, (motion, words) in enumerate(STEPPED.items()):
+            some = rows[(rows["flow"] == flow) & (rows["motion"] == motion)].sort_values("dt")
+            for integrator, more in INTEGRATORS.items():
+                group = some[some["integrator"] == integrator]
+                bars(axes, group, "dt", "error", number=number, label=f"{words}, {more['label']}",
+                     linestyle=look(number)["linestyle"], markerfacecolor=more["face"])
+        axes.set(xlabel=rf"step $\Delta t$  [{UNIT}]", xscale="log", yscale="log", title=flow)
+        ticks(axes, (0.03, 0.1, 0.3))
+    panels[0, 0].set_ylabel("rms error of places over displacement")
+    page.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=1)
+    page.suptitle("Steps with new velocities leave points nearer to where they belong\n"
+                  "bars: what finer steps differ by", fontsize=10)
     return page
 
 

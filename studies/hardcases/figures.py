@@ -1,4 +1,5 @@
 """Figures: the map, shocks, the highest Ra."""
+from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -6,8 +7,9 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from studies.build.labels import LABELS
 from studies.hardcases.cases import IN_LAYERS, IN_TUBES
-from studies.hardcases.derive import PART_OF_TIME, finished_grids
+from studies.hardcases.derive import NEAR, SPURIOUS
 from studies.hardcases.extremes import BOXES, LAYERS, ROWS
 from studies.hardcases.high_ra import OFF
 from studies.hardcases.interface import impulse
@@ -25,56 +27,81 @@ def dots(number: int, size: float = 2) -> dict[str, Any]:
     return {**look(number), "linestyle": "none", "markersize": size}
 
 
-CASES = (*LAYERS, "highest Ra", *BOXES, "shear layer", "shock tube")
-#: letter, shade and hatch of an outcome; the darker, the worse
-LOOKS = {"right": ("R", "white", ""), "wrong": ("W", "0.85", "/"), "leaks": ("L", "0.85", "\\"),
-         "freezes": ("F", "0.7", "x"), "diverges": ("D", "0.5", ""), "refused": ("-", "white", ""),
-         "unjudged": ("?", "white", "")}
-WORDS = {"unjudged": "not judged, no two other grids came to their end, or noise"}
-KEY = ("  empty: not run\nnumber: flow over the start's, or over that of the grid of so many rows;\n"
-       "vacuum: K over exact; corner: speed over sound's; shear: growth over linear; tube: ringing; "
-       "highest Ra: the first that is wrong or ends")
+CASES = (*LAYERS, *BOXES, "shear layer", "shock tube")
+#: of `studies.build`, by the name in tables
+NAMES = {"spam printed": "spam", "spam Wendland": "spam-wendland-c2", "fixed lattice": "fixed-lattice",
+         "fixed jittered": "fixed-jittered-delaunay", "fixed nested": "fixed-lattice-nested-only",
+         "drift literal": "moving-literal", "drift constant mass": "moving-constant-mass"}
+MANY = 3                # cases of a method, and methods of a case, from which on it has a line of its own
+FLOWS = 100*SPURIOUS    # speeds of KHP95 over that of sound
+#: largest error, face, letters; the darker, the worse
+SHADES = ((NEAR, "#DEEBF7", "black"), (0.5, "#F5C26B", "black"), (np.inf, "#D55E00", "black"))
+ENDED = "#3B0F4F", "white"
+LETTERS = 112           # in a line of the page
+KEY = ("A cell is an error in %: of the flow against the finest grid, the exact answer or theory; corner: "
+       "speed over that of KHP95's flows; tube: ringing of v. Near 100: the flow froze. Dark: the run ended "
+       "early. ?: nothing to judge by. Empty: not tried.")
 
 
-def chart(rows: pd.DataFrame, runs: pd.DataFrame) -> Figure:
-    """Cells with the letter of the outcome and the number behind it."""
-    rows = rows.query("variant != 'ends'")
-    named = rows.case + " " + rows.variant
-    rows = rows.assign(case=rows.case.where(rows.case != "shock tube", named))
-    there = sorted(set(rows.case))
-    cases = [case for name in CASES for case in there if case.startswith(name)]
-    number_of = rows.groupby("method").case.nunique()
-    methods = list(number_of.sort_values(ascending=False, kind="stable").index)
-    page, axes = figure(width=1.5 + 0.95*len(cases), height=1.2 + 0.3*len(methods))
-    for row in rows.itertuples():
+def called(method: str) -> str:
+    """What people call a method of the tables."""
+    return LABELS.get(NAMES.get(method, method), method)
+
+
+def judged(rows: pd.DataFrame) -> pd.DataFrame:
+    """Rows of cases with `error` (infinite where a run ended early) and a case for each tube."""
+    rows = rows[rows.case.str.startswith(CASES)]
+    scale = np.where(rows.number == "speed/c", FLOWS, 1.0)
+    error: pd.Series = (rows.measured - rows.predicted).abs()/scale
+    tube = rows.case.where(rows.case != "shock tube", rows.case + " " + rows.variant)
+    error[rows.outcome == "unjudged"] = np.nan
+    error[rows.outcome == "diverges"] = np.inf
+    return rows.assign(case=tube, error=error)
+
+
+def chart(rows: pd.DataFrame) -> Figure:
+    """Errors of methods in hard cases; what was tried in one or two of them stands below, in words."""
+    rows = judged(rows)
+    count = rows.groupby("method").case.nunique().sort_values(ascending=False, kind="stable")
+    methods = list(count.index[count >= MANY])
+    shown = rows[rows.method.isin(methods)]
+    shown = shown[shown.groupby("case").method.transform("nunique") >= MANY]
+    cases = [case for name in CASES for case in sorted(set(shown.case)) if case.startswith(name)]
+    page, axes = figure(width=7.4, height=2.9 + 0.29*len(methods))
+    for row in shown.itertuples():
         cell(axes, cases.index(row.case), methods.index(row.method), row)
     axes.set(xlim=(-0.5, len(cases) - 0.5), ylim=(len(methods) - 0.5, -0.5))
-    axes.set_yticks(range(len(methods)), labels=methods)
-    axes.set_xticks(range(len(cases)), labels=[heading(case, runs) for case in cases], fontsize=8)
+    axes.set_yticks(range(len(methods)), labels=map(called, methods), fontsize=8)
+    axes.set_xticks(range(len(cases)), labels=cases, fontsize=8, rotation=40, ha="right")
     axes.grid(False)
-    outcomes = [name for name in LOOKS if name in set(rows.outcome)]
-    letters = [f"{LOOKS[name][0]}: {WORDS.get(name, name)}" for name in outcomes]
-    axes.set_xlabel("  ".join(letters) + KEY)
-    axes.set_title(f"Which method takes which hard case? Layers of {ROWS} rows")
+    page.suptitle(f"No method takes every hard case; layers have {ROWS} rows", fontsize=10)
+    words = fill(KEY, LETTERS), also_tried(rows.drop(shown.index))
+    page.supxlabel("\n".join(words), fontsize=8, x=0.01, ha="left")
     return page
+
+
+def also_tried(rows: pd.DataFrame) -> str:
+    """What has no line of its own, with its errors, by case."""
+    words = [f"{case} (" + ", ".join(f"{row.method}: {said(row)}" for row in some.itertuples()) + ")"
+             for case, some in groups(rows, "case")]
+    return fill("Also tried [%]: " + "; ".join(words) + ".", LETTERS) if words else ""
+
+
+def said(row: Any) -> str:
+    """The error in %, or the outcome where there is none."""
+    percents = 100*row.error
+    digits = ".0f" if percents > 9.95 or percents < 0.01 else ".2g"
+    return f"{percents:{digits}}" if np.isfinite(percents) else row.outcome
 
 
 def cell(axes: Any, x: int, y: int, row: Any) -> None:
     """One method in one case."""
-    text, shade, hatch = LOOKS[row.outcome]
-    corner = x - 0.5, y - 0.5
-    axes.add_patch(Rectangle(corner, 1, 1, facecolor=shade, edgecolor="0.6", hatch=hatch, linewidth=0.5))
-    if pd.notna(row.measured) and row.number != PART_OF_TIME:
-        text += f" {row.measured:.2g}"
-    box = {"facecolor": shade, "edgecolor": "none", "pad": 0.6}
-    axes.text(x, y, text, ha="center", va="center", fontsize=8, bbox=box)
-
-
-def heading(case: str, runs: pd.DataFrame) -> str:
-    """A case, and rows of the grid that it is held against."""
-    words = case.replace(" ", "\n", 1)
-    grids = finished_grids(runs, case).index if case in LAYERS else ()
-    return f"{words}\ngrid of {max(grids)}" if len(grids) else words
+    face, letters = next((shade[1:] for shade in SHADES if row.error <= shade[0]), ("white", "black"))
+    if row.outcome == "diverges":
+        face, letters = ENDED
+    axes.add_patch(Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=face, edgecolor="white"))
+    words = {"diverges": "ends", "unjudged": "?"}.get(row.outcome, said(row))
+    axes.text(x, y, words, ha="center", va="center", fontsize=8, color=letters)
 
 
 def shocks(ripples: pd.DataFrame) -> Figure:
@@ -157,30 +184,56 @@ def densities(axes: Any, profiles: pd.DataFrame, rows: pd.DataFrame) -> None:
             axes.text(0.98, up + 0.2, words, ha="right", fontsize=8)
 
 
+BINS = 4                # of Ra, a decade
+#: kind of limit -> height beside its line, filled, words
+LIMITS = {"wrong": (0.3, False, "open: first"), "ends": (-0.3, True, "filled: first that")}
+
+
 def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
-    """K over the fine grid's against Ra, and the part of the time that was reached."""
-    page, (above, under) = figure(2, 1, width=6.4, height=2.9, sharex=True)
-    rows = rows.query("step == 1").sort_values("ra")
+    """K over the fine grid's against Ra, and from which Ra on runs are wrong or end."""
+    page, (above, under) = figure(2, 1, width=7.0, height=2.9, sharex=True)
+    rows, limits = rows.query("step == 1"), summary.query("step == 1")
     for number, method in enumerate(IN_LAYERS):
-        some = rows[rows.method == method]
-        ra = 10**(0.01*number)*some.ra      # that marks on one another are seen
-        above.plot(ra, some.over, **dots(number, 4), label=method)
-        under.plot(ra, some.reached, **dots(number, 4), label=method)
+        trend(above, rows[rows.method == method], number, called(method))
+        fates(under, rows[rows.method == method], limits[limits.method == method], number)
     for level in (OFF, 1/OFF):
         above.axhline(level, color="grey", linewidth=0.8)
-    predicted = summary.predicted.dropna().iloc[0]
-    for axes in (above, under):
-        axes.axvline(predicted, color="black", linestyle=":", linewidth=1)
-    above.set(xscale="log", ylabel="K / K of 48 rows of the grid")
-    under.set(xlabel="Ra", ylabel="part of the time reached")
-    under.legend(loc="lower left")
-    page.suptitle(f"How high may Ra be on 16 rows? Grey: a factor of {OFF:g};\n"
-                  "dotted: cell number 2 of the fastest flow; all starts and trials", fontsize=10)
+    above.set(xscale="log", ylabel="K / K of 48 rows of the grid",
+              title=f"lines: medians of {BINS:g} bins a decade; grey: a factor of {OFF:g}")
+    above.legend(loc="lower left")
+    under.set(xlabel="Ra", ylim=(len(IN_LAYERS) - 0.4, -0.6), title="bars: " + "; ".join(
+        f"{word} {kind}, all starts" for kind, (_, _, word) in LIMITS.items())
+        + "\nticks: runs that came to their end; crosses: runs that did not")
+    under.set_yticks(range(len(IN_LAYERS)), labels=map(called, IN_LAYERS), fontsize=8)
+    page.suptitle(f"On {ROWS} rows grid and points that stay end near Ra 5e5; moving points go on, but wrong",
+                  fontsize=10)
     return page
 
 
+def trend(axes: Any, rows: pd.DataFrame, number: int, label: str) -> None:
+    """All runs that came to their end, pale, and their medians in bins of Ra."""
+    rows = rows.dropna(subset=["over"])
+    axes.plot(rows.ra, rows.over, **dots(number, 3), alpha=0.4)
+    bins = (BINS*np.log10(rows.ra)).round()
+    middle = rows.groupby(bins)[["ra", "over"]].median()
+    axes.plot(middle.ra, middle.over, **look(number), label=label)
+
+
+def fates(axes: Any, rows: pd.DataFrame, limits: pd.DataFrame, number: int) -> None:
+    """A line of runs and of limits, means over starts and their range."""
+    whole = rows.reached >= 1
+    for some, marker, side in ((rows[whole], "|", 0.12), (rows[~whole], "x", -0.12)):
+        style: dict[str, Any] = {"color": "0.5", "marker": marker, "markersize": 5, "linestyle": ""}
+        axes.plot(some.ra, np.full(len(some), number + side), **style)
+    for kind, (side, filled, _) in LIMITS.items():
+        some = limits[limits.kind == kind]
+        style = dots(number, 8) | ({} if filled else {"markerfacecolor": "white"})
+        spread = [some.ra - some.ra_low, some.ra_high - some.ra]
+        axes.errorbar(some.ra, np.full(len(some), number + side), xerr=spread, **style)
+
+
 figures = Drawings(
-    Drawing("map", ("map", "hard_runs"), chart),
+    Drawing("map", ("map",), chart),
     Drawing("high_ra", ("high_ra_trials", "high_ra_summary"), highest),
     Drawing("shocks", ("ripples",), shocks),
     Drawing("shock_methods", ("method_tubes", "method_tube_profiles"), shock_methods))

@@ -6,33 +6,39 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from studies.kit.figure import COLOURS, Drawing, Drawings, below, errorbar, figure, look
+from studies.kit.table import groups
 
 NAMES = {"TwoStep": "RR98 Eqs 40, 41", "GrootWarren": r"Groot-Warren, $\lambda = 1/2$",
          "GrootWarren65": r"Groot-Warren, $\lambda = 0.65$",
          "VelocityVerlet": "velocity-Verlet, friction twice", "Shardlow": "Shardlow's splitting",
          "KickDriftFrictionDriftKick": "kick, drift, friction, drift, kick"}
+READINGS: dict[str, dict[str, str]] = {"doubled": {}, "single": {"markerfacecolor": "white"}}
 FEW = 100           # particles: a mean of ratios, as the configurational kT is, is off by about 1/n
 
 
 def printed(rows: pd.DataFrame) -> Figure:
     """Variance that printed noise gives waves, over what is due beside the transport of Eqs 37, 38 (T = 0.7).
 
-    Lines are sums over the lattice.
+    Lines are sums over the lattice. Each equation has two readings.
     """
-    page, panels = figure(1, 2, sharey=True)
+    page, panels = figure(1, 2, width=3.7, height=4.4, sharey=True)
     shown = ((1, 1.5, "a line, nearest neighbours"), (2, 3.0, "square lattice, $h = 3a$"))
+    formulas = sorted(set(zip(rows["equation"], rows["term"], strict=True)))
     for axes, (d, h, title) in zip(panels, shown, strict=True):
         some = rows[(rows["d"] == d) & (rows["h"] == h)]
-        for number, (name, group) in enumerate(some.groupby(["equation", "term", "reading"])):
-            style, k = look(number), group["wavenumber"]
-            label = r"Eq. {} $\{}$, {}".format(*name)
-            axes.plot(k, group["ratio"], **{**style, "linestyle": "none"}, label=label)
+        for name, group in groups(some, ["equation", "term", "reading"]):
+            number = formulas.index(name[:2])
+            style, k = look(number) | READINGS[name[2]], group["wavenumber"]
+            words = r"Eq. {} $\{}$".format(*name) if name[2] == "doubled" else ""
+            more = {"linestyle": "none", "markersize": 7.5 - number}      # some lie on each other
+            axes.plot(k, group["ratio"], **style | more, label=words)
             axes.plot(k, group["predicted"], color=style["color"], marker="", lw=0.8)
         axes.axhline(1, color="black", lw=1)
         axes.set(yscale="log", title=title, xlabel="$ka$")
-        axes.legend(ncols=2, fontsize=6)
     panels[0].set_ylabel("variance of the noise / $2kT\\Gamma$")
-    page.suptitle("Printed noise beside the transport of Eqs 37, 38, $T = 0.7$; lines: lattice sums",
+    page.legend(*panels[1].get_legend_handles_labels(), loc="outside lower center", ncols=5)
+    page.suptitle("No printed noise fits the transport of Eqs 37, 38 at all wavelengths ($T = 0.7$)\n"
+                  r"filled: bracket read as $\pi_{ij} + \pi_{ji}$; open: as $\pi_{ij}$; lines: lattice sums",
                   fontsize=10)
     return page
 

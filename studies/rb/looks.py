@@ -23,7 +23,7 @@ KHP95_PARTICLES = 5000
 #: the same kind of row looks the same in every figure
 KIND: dict[str, dict[str, Any]] = {
     "grid": {**look(0), "color": "black"}, "kp": look(1), "kg": {**look(2), "color": "#0072B2"},
-    "boussinesq": {**look(3), "linestyle": "none"}, "nu": {**look(3), "linestyle": "-."},
+    "nu": {**look(3), "linestyle": "-."},
     "from-flow": {**look(4), "color": "#0072B2", "linestyle": "none"},
     "khp": {"color": "black", "linestyle": "none", "markerfacecolor": "none", "markersize": 9,
             "markeredgewidth": 1.4, "zorder": 5}}
