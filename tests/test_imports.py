@@ -10,8 +10,8 @@ ROOT = Path(__file__).parent.parent
 PACKAGES = ("continuum", "particles", "studies")
 #: where particles may look into continuum: what a fluid is, and how code is compiled
 SHARED = ("continuum", "continuum.fluid", "continuum.jit")
-#: rooms of studies that are no study: what every study uses, and the page, which shows all of them
-BELOW, PAGE = ("kit", "build"), "report"
+#: rooms of studies that are no study: what every study uses, one call for all methods, and the page
+BELOW, PAGE = ("kit", "build", "front", "judge"), "report"
 
 
 def named(path: Path) -> str:

@@ -17,7 +17,8 @@ from studies.kit.table import SIZES, Tables
 
 #: class of cases -> fields with which one of them is cheaper than any of size quick
 SMALLER = {"Nonlinear": {"counts": (3, 3), "time": 93.0}}
-NAMES = sorted({path.parent.name for path in (ROOT/"studies").glob("*/__main__.py")} - {"report"})
+NO_STUDY = {"report", "front", "judge"}
+NAMES = sorted({path.parent.name for path in (ROOT/"studies").glob("*/__main__.py")} - NO_STUDY)
 
 
 @pytest.fixture(scope="module", params=NAMES)
