@@ -15,13 +15,14 @@ from report_tables import committed, errors, one_study
 
 from studies.kit.csvfile import read, write
 from studies.kit.figure import COLOURS, Drawing, Drawings, figure, save
+from studies.kit.source import paper_of
 from studies.kit.store import RESULTS
 from studies.kit.study import Part, Study
 from studies.report import cost, inventory
 from studies.report.findings import Known, answer, claims_of, falls, findings
 from studies.report.inventory import folders
 from studies.report.numbers import with_error
-from studies.report.page import NEAR, accepted, figures, paper, render, webp, write_page
+from studies.report.page import NEAR, accepted, figures, render, webp, write_page
 
 
 @pytest.fixture
@@ -175,7 +176,7 @@ def test_colours_of_series_stay_apart_in_an_embedded_figure(tmp_path):
 def test_numbers_with_their_errors(value, err, text):
     assert with_error(value, err) == text
     assert accepted(-math.inf, 2.0) == "≤ 2" and accepted(1.0, math.inf) == "≥ 1"
-    assert paper("Sangani & Acrivos 1982, Table 1") == "Sangani & Acrivos 1982"
+    assert paper_of("Sangani & Acrivos 1982, Table 1") == "Sangani & Acrivos 1982"
 
 
 # --- films ----------------------------------------------------------------------------------------

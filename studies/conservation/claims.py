@@ -72,7 +72,7 @@ FIXED = (
               statement="total energy is conserved: largest relative change in any run of 10 000 steps on "
                         "fixed points, in periodic boxes and between plates without friction and "
                         "conduction"),
-    Claim(id="rr98-conservation-symmetrised", source="RR98 Sec. III B", at_least=0.01,
+    Claim(id="rr98-conservation-symmetrised", source="RR98 Sec. III B", at_least=0.01, headline=True,
           value=over_seeds("losses", "lost"),
           printed="as long as ij-symmetrized forms are provided, the conservation laws are guaranteed",
           because="a per cent: the error to which flows are known",
@@ -97,11 +97,13 @@ FIXED = (
 )
 MOVING = (
     Claim(id="rr98-eq39-pattern", source="RR98 Secs I, III", printed="fully consistent; a bold assumption",
+          headline=True, evidence="conservation/speeds.png",
           expect=1, within=0.02, value=one("patterns", "speed", motion="literal", wavelength=32),
           statement="points that move with v under Eqs 34-36 show the fluid: speed of a density pattern "
                     "over that of the stream that carries it, wavelength 32 a",
           because=f"2 %: what a weight of h = 3 a does to such a wave; {HALVES}"),
     Claim(id="rr98-eq39-sound", source="RR98 Eq. 39", printed="fully consistent", expect=1, within=0.02,
+          headline=True, evidence="conservation/speeds.png",
           value=one("long_sound", "speed", motion="literal", weight="WendlandC2"),
           statement="points that move with v under Eqs 34-36: speed of long sound over c, Wendland C2, h = "
                     "4 a",
@@ -121,7 +123,8 @@ MOVING = (
           statement="mass, momentum and energy stay while points move literally: largest relative drift "
                     "over 1e4 steps, all weights, both integrators"),
     *(Claim(id=f"rr98-eq41-accuracy{name}", source="RR98 Eq. 41", **FINER,
-            value=one("accuracy", "ratio", motion=motion, flow=flow),
+            value=one("accuracy", "ratio", motion=motion, flow=flow), headline=name != "-mass",
+            evidence="conservation/steps.png",
             statement="positions with new velocities are more accurate: their error over that with old "
                       f"ones, {where}")
       for name, motion, flow, where in (
@@ -129,7 +132,7 @@ MOVING = (
           ("-mass", "constant-mass", "sound", "sound at constant mass"),
           ("-vortices", "constant-mass", "vortices", "decaying vortices at constant mass"))),
     *(Claim(id=f"rr98-eq{n}-sign", source=f"RR98 Eq. {n}", printed="-", expect=1, within=0.02,
-            because=SMOOTHED, value=one("signs", "factor", equation=n, wavelength=32),
+            because=SMOOTHED, value=one("signs", "factor", equation=n, wavelength=32), headline=True,
             statement=f"what is added to the change of {name} is v.grad of it: over the exact one, lattice, "
                       "wavelength 32 a")
       for n, name in zip((46, 47, 48), SUMS, strict=True)),
@@ -145,10 +148,12 @@ MOVING = (
           because="RK4 at omega dt = 0.3: (omega dt)^5 times the amplitudes squared, some 100 steps long; "
                   f"{ALONE}"),
     Claim(id="rr98-eq46-sound", source="RR98 Eqs 46-48", printed="fully consistent", expect=1, within=0.02,
+          headline=True, evidence="conservation/speeds.png",
           value=one("long_sound", "speed", motion="convective", weight="WendlandC2"),
           statement="Eqs 39, 46-48 on volumes dV that stay: speed of long sound over c, Wendland C2, h = 4 a",
           because=f"2 %: extrapolated from wavelengths of 24 and 32 a; {EXTRAPOLATED}"),
     Claim(id="rr98-eq49-identity", source="RR98 Eq. 49", printed="can be written", at_most=1e-12,
+          headline=True,
           value=largest("identity", "abs(convective)"),
           statement="Eqs 34, 35, 46, 47 with p = m v are Eq. 49: largest difference of accelerations over "
                     "the largest, random fields on jittered points, all Reynolds numbers",
@@ -165,18 +170,18 @@ MOVING = (
           because=f"1 %: 0.5 % from sums over the lattice, and the next order in h/lambda; {EXTRAPOLATED}"),
     Claim(id="rr98-eq49-conserves", source="RR98 Eq. 49", value=changed("constant-mass, RK4"), **STEPS,
           statement="constant mass: largest relative drift of mass, momentum, energy over 1e4 steps"),
-    Claim(id="rr98-eq50-sum-zero", source="RR98 Eq. 50", expect=1, within=0.02,
+    Claim(id="rr98-eq50-sum-zero", source="RR98 Eq. 50", expect=1, within=0.02, headline=True,
           value=one("brackets", "force", a=1, b=-1),
           statement="a = 1, b = -1, smoothed particles with their own masses: force over -grad P, wave "
                     "without entropy of 32 a",
           because=SMOOTHED),
-    Claim(id="rr98-eq50-any", source="RR98 Eq. 50", at_most=0.02,
+    Claim(id="rr98-eq50-any", source="RR98 Eq. 50", at_most=0.02, headline=True,
           value=largest("brackets", "abs(force - 1)", "a + b != 0"),
           statement="any constants a and b make Eq. 49 the momentum equation where volumes follow the flow: "
                     "largest error of the force over -grad P for a + b other than 0", because=SMOOTHED),
 )
 BODIES = (
-    SLIDE(id="rr98-sliding-exact", at_most=1e-9,
+    SLIDE(id="rr98-sliding-exact", at_most=1e-9, headline=True,
           value=largest_of(*(largest("shear", f"abs({name})") for name in ("stress", "heating", "profile"))),
           statement="Lees-Edwards sides can be used: homogeneous shear between them, largest relative error "
                     "of stress (eta rate), heating (eta rate^2) and profile while the images slide two "
@@ -188,11 +193,13 @@ BODIES = (
           statement="Lees-Edwards sides can be used: drift of mass and momentum in homogeneous shear "
                     "between them"),
     SLIDE(id="rr98-sliding-order", expect=2, within=0.15, value=-power("wave", "error", "rows"),
+          headline=True,
           statement="Lees-Edwards sides can be used: order of the error of a plane wave that the shear "
                     "turns by a right angle",
           because="0.15: at 16 rows, a seventh of a radian to the spacing, the next order is a tenth of the "
                   "error"),
     Claim(id="rr98-frozen-body", source="RR98 Sec. IV", at_most=0.01, value=drag_error("frozen", 0.1),
+          headline=True, evidence="conservation/drag.png",
           because=PERCENT,
           statement="'freezing' a number of points simulates a rigid body: |error| of the drag of a "
                     "cylinder in a square array, solid fraction 0.1, lattice points within the circle "

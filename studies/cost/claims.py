@@ -70,6 +70,7 @@ ERRORS = (
           statement="points that move and exchange over closed faces cost less than ten grids: CPU seconds "
                     "for 1 % in K over those of the compressible grid"),
     Claim(id="own-speed-particles", source="KHP95 Sec. VII", printed="economically desirable", at_most=1,
+          headline=True, evidence="cost/work_precision.png",
           value=one("rivals", "seconds", **K), because="as cheap as the grid that the paper compares with",
           statement="smooth particles are economical: CPU seconds of the printed scheme, at its least "
                     "error in K at Ra 10 000, over those of the compressible grid with that error (the "

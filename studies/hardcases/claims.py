@@ -38,10 +38,12 @@ def pairs(eos: str, key: str, fluid: str, ra: float) -> tuple[Claim, Claim]:
     ratio = "median of second over first neighbour distance"
     return (
         Claim(id=f"khp95-hard-fig10-{key}pairs-monaghan", source=FIG_10, because=SINGLE, at_least=2,
+              headline=not key,
               printed="common to both" if key else "pairs",
               value=one("squares", "ratio", eos=eos, weight="Monaghan", ra=ra),
               statement=f"in the {fluid} of Fig. 10 Monaghan's particles move in pairs: {ratio}"),
         Claim(id=f"khp95-hard-fig10-{key}pairs-lucy", source=FIG_10, because=SINGLE, at_most=1.6,
+              headline=not key,
               printed="no such pairing", value=one("squares", "ratio", eos=eos, weight="Lucy", ra=ra),
               statement=f"in the {fluid} of Fig. 10 Lucy's particles do not pair: {ratio}"))
 
@@ -60,6 +62,7 @@ SQUARES = (
     *pairs("IdealGas", "", "gas", 67150.0),
     *pairs("DenseFluid", "dense-", "dense fluid", 511200.0),
     Claim(id="khp95-hard-fig10-two-rolls", source=FIG_10, printed="two rolls", expect=2, within=0,
+          headline=True,
           value=rolls(67150.0), because="a whole number",
           statement="2500 particles of the gas of Fig. 10 have two rolls, after a start with two"),
     Claim(id="khp95-hard-fig10-one-roll", source=FIG_10, printed="one", expect=1, within=0,
@@ -123,6 +126,7 @@ SHOCKS = (
           statement="gases that fall onto a mirror are taken, however they lie at the start: interfaces "
                     "whose run diverged [asked after one had]"),
     Claim(id="khp95-hard-ripple-growth", source="KHP95 Sec. VI, Fig. 11", printed="2%", expect=1, within=0.02,
+          headline=True, evidence="hardcases/shocks.png",
           value=last("ripple_growth", "growth", by="scale", steep=0.25),
           because="the printed 2 %; impulsive theory is itself an approximation",
           statement="a shocked ripple grows as theory says, density ratio 4, Mach 1.5 from the light side, k "

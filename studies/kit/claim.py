@@ -11,27 +11,30 @@ ignorance, and a better measurement could turn the verdict round. This way eithe
 cases at most, and more computing moves an undecidable claim one way or the other.
 """
 import math
-import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
 from studies.kit.csvfile import OtherTable, commit, put
 from studies.kit.formula import WrongQuestion
+from studies.kit.source import Cited, listed, paper_of, places
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Row, Tables
 from studies.kit.value import Value
 
 COLUMNS = ("id", "source", "statement", "whose", "printed", "measured", "err", "low", "high", "verdict",
-           "reason", "study", "formula")
+           "reason", "study", "formula", "equation", "headline", "evidence")
 #: of columns, in the head of the file
 MEANING = ("whose: a statement that the paper prints, or our own about the same equation",
            "formula: the question that the claim puts to the tables of its study, as in studies/kit/ask.py",
+           "equation: the equations, figures or tables that the source names, else its sections",
+           "headline: those of them whose verdict, in equations.md, this claim decides, alone or with others",
+           "evidence: figures and tables in this folder that show it",
            "err is the half width of the 95 % interval, low to high is accepted; studies/kit/claim.py has "
            "the rule of the verdicts")
-NAMED = re.compile(r"(KHP95|RR98)\b|[A-Z].*\b(1[89]|20)\d\d\b", re.IGNORECASE)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,6 +44,9 @@ class Claim:
     ``value(tables)`` gives (value, err), err the half width of the 95 % interval. Accepted is ``expect`` +-
     ``within``, or ``at_least``, or ``at_most``, or both of these; ``because`` says where these limits come
     from. What cannot be tested has ``undecidable="reason"`` in their place.
+
+    ``headline`` : True if it decides the verdict of all that its source names, or of which: "Eqs 34, 35".
+    ``evidence`` : a figure, or a table that ``value`` does not ask, in results/: "operators/growth.png".
     """
 
     id: str
@@ -54,15 +60,35 @@ class Claim:
     at_most: float = math.inf
     because: str = ""
     undecidable: str = ""
+    headline: bool | str = False
+    evidence: str = ""
 
     def __post_init__(self):
-        if not NAMED.match(self.source):
-            raise ValueError(f"claim {self.id}: source {self.source!r} is not a citation: begin with KHP95, "
-                             "RR98 or an author and a year")
+        try:
+            self.check_decides()
+        except ValueError as error:
+            raise ValueError(f"claim {self.id}: {error}") from error
         if not self.undecidable.strip():
             self.check_testable()
         elif self.value:
             raise ValueError(f"claim {self.id} has a value and is declared undecidable: keep one of them")
+
+    def check_decides(self) -> None:
+        """A headline is among the places of the source."""
+        if other := {*self.decides} - {*self.places}:
+            raise ValueError(f"headline {listed(other)} is not in source {self.source!r}: name it there too")
+
+    @property
+    def places(self) -> tuple[Cited, ...]:
+        """Equations, figures, tables or else sections of the source."""
+        return places(self.source)
+
+    @property
+    def decides(self) -> tuple[Cited, ...]:
+        """Those of them whose verdict it decides."""
+        if isinstance(self.headline, str) and self.headline:
+            return places(f"{paper_of(self.source)} {self.headline}")
+        return self.places if self.headline else ()
 
     def check_testable(self) -> None:
         """A claim that is tested has a value, limits and a reason for these."""
@@ -109,13 +135,38 @@ def verdict(claim: Claim, value: float, err: float) -> str:
 
 def judge(claims: Sequence[Claim], tables: Tables, study: str) -> list[Row]:
     """One row a claim, with the columns of results/claims.csv."""
-    return [{**stated(claim), "study": study, **judged(claim, tables, study)} for claim in claims]
+    return [row(claim, Noting(tables), study) for claim in claims]
+
+
+class Noting(Tables):
+    """Tables that note which of them a value reads: evidence is not listed by hand."""
+
+    def __init__(self, tables: Tables):
+        super().__init__(tables)
+        self.read: dict[str, None] = {}
+
+    def __getitem__(self, name: str) -> pd.DataFrame:
+        self.read[name] = None
+        return super().__getitem__(name)
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """As of a dict."""
+        return self[name] if name in self else default
+
+
+def row(claim: Claim, tables: Noting, study: str) -> Row:
+    """A claim and its verdict. Evidence: its own figure, the tables of its formula, others that it read."""
+    said = judged(claim, tables, study)
+    asked = [one.rows.table for one in getattr(claim.value, "asks", ()) if one.rows.table in tables.read]
+    files = [claim.evidence, *(f"{study}/{name}.csv" for name in dict.fromkeys([*asked, *tables.read]))]
+    return {**stated(claim), "study": study, **said, "evidence": "; ".join(filter(None, files))}
 
 
 def stated(claim: Claim) -> Row:
     """What a claim says: of one that is tested the accepted range, and the formula where it has one."""
     row = {"id": claim.id, "source": claim.source, "statement": claim.statement, "printed": claim.printed,
-           "whose": "paper" if claim.printed else "own"}
+           "whose": "paper" if claim.printed else "own",
+           "equation": listed(claim.places), "headline": listed(claim.decides)}
     if claim.value is None:
         return row
     formula = str(claim.value) if isinstance(claim.value, Value) else ""

@@ -119,7 +119,7 @@ MOLECULES = (
           statement="for P ~ rho^2 compiled smooth particles keep paths of molecules: rms distance at "
                     "t = 10, 64 particles",
           because="round-off of 1e-16 that grows by a factor of e in a time of 1 at the fastest"),
-    Claim(id="khp95-hard-reversal",
+    Claim(id="khp95-hard-reversal", headline=True, evidence="lattices/reversal.png",
           source="KHP95 Sec. III", printed="exact reversibility", expect=1, within=0,
           value=least("reversal", "equal", integrator="whole numbers"), because="exact is all of them",
           statement="paths run back exactly when velocities turn: part of the coordinates that come back to "

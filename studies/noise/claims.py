@@ -61,13 +61,14 @@ def error_of(integrator: str) -> Value:
 
 
 CLAIMS = (
-    Claim(id="rr98-fluct-eq20-small", source="RR98 Eq. 20", printed="small fluctuations",
+    Claim(id="rr98-fluct-eq20-small", source="RR98 Eq. 20", printed="small fluctuations", headline=True,
           expect=1, within=0.03,
           value=one("nonlinear", "ratio", field="rho", k=1e-3),
           because="3 %: what the samples reach; next orders are k/C = 1e-3",
           statement="in the full equations, current amplitudes, densities fluctuate as linearised: variance "
                     "over kT rho/(c_T^2 V), C = 1000 k a point"),
     Claim(id="rr98-fluct-eq22-momentum", source="RR98 Eq. 22", printed="symmetric", at_most=1e-12,
+          headline=True,
           because=ROUND_OFF,
           value=largest("partners", "abs(sums)", noise=MOMENTA),
           statement="random stresses change no total momentum: largest sum over points, all makers and "
@@ -78,11 +79,13 @@ CLAIMS = (
                     "largest |Q - 2 kT Gamma|, all makers, points and dimensions, coefficients that vary by "
                     "factors of five"),
     Claim(id="rr98-fluct-eq23-single", source="RR98 Eq. 23", **RIGHT,
+          headline=True, evidence="noise/printed.png",
           printed="usual fluctuation-dissipation",
           value=longest("23", "zeta", "single"),
           statement="Eq. 23, added once (Eq. 22), with the volume it lacks, gives long waves the right "
                     "temperature: variance over its due, zeta term, a line of nearest neighbours"),
     Claim(id="rr98-fluct-eq23-doubled", source="RR98 Eq. 23", **RIGHT,
+          headline=True, evidence="noise/printed.png",
           printed="usual fluctuation-dissipation",
           value=longest("23", "zeta", "doubled"),
           statement="Eq. 23, added as pi_ij + pi_ji, with the volume it lacks, gives long waves the right "
@@ -93,11 +96,13 @@ CLAIMS = (
           statement="Eq. 23 does so whatever the reach of the weight, added as pi_ij + pi_ji: variance over "
                     "its due, 2D, h = 3 a"),
     Claim(id="rr98-fluct-eq24-energy", source="RR98 Eq. 24", printed="symmetric", at_most=1e-12,
+          headline=True,
           because=ROUND_OFF,
           value=largest("partners", "abs(sums)", noise=ENERGIES),
           statement="random heat currents change no total energy: largest sum over points, all makers and "
                     "point sets"),
     Claim(id="rr98-fluct-eq25-doubled", source="RR98 Eq. 25", **RIGHT,
+          headline=True, evidence="noise/printed.png",
           value=longest("25", "kappa", "doubled"),
           statement="Eq. 25, added as J_ij + J_ji, with the volume it lacks, gives long waves the right "
                     "fluctuation of energy: variance over its due, a line of nearest neighbours"),
@@ -132,10 +137,12 @@ CLAIMS = (
           statement="the Brillouin peak of sampled density waves lies where the lattice symbol has sound: "
                     "ratio, waves of 8 spacings"),
     Claim(id="rr98-fluct-eq40-euler", source="RR98 Eq. 40", expect=1, within=0.01, because="1 %",
+          headline=True, evidence="noise/steps.png",
           value=stepped("forward-euler", "velocity", "isothermal"),
           statement="forward Euler keeps the temperature: kinetic over given, c^2 dt/nu = 0.1, isothermal "
                     "gas, long waves"),
     Claim(id="rr98-fluct-eq41-better", source="RR98 Eq. 41", printed="more accurate", at_most=1,
+          headline=True, evidence="noise/steps.png",
           value=largest_per(("wavenumber", "dt"), error_of("eq40-eq41")/error_of("eq40-eq40")),
           because="more accurate is an error below that of Eq. 40 for both",
           statement="moving positions with Eq. 41 is more accurate than with Eq. 40: error of the kinetic "
@@ -150,6 +157,7 @@ CLAIMS = (
                     "shear waves the right temperature: variance over its due, square lattice of nearest "
                     "neighbours"),
     Claim(id="rr98-fluct-eq42-eta-doubled", source="RR98 Eq. 42", **RIGHT,
+          headline=True, evidence="noise/printed.png",
           value=longest("42", "eta", "doubled", 2, 1.2),
           statement="the eta term of Eq. 42, added as pi_ij + pi_ji, with the volume and time it lacks, "
                     "gives long shear waves the right temperature: variance over its due, square lattice of "
@@ -168,6 +176,7 @@ CLAIMS = (
           statement="Eq. 42 is the exact partner of a friction along edges, as of Eq. 51, not of Eq. 37: |Q "
                     "- 2 kT Gamma|, random points, trace factor 2/d"),
     Claim(id="rr98-fluct-eq42-time", source="RR98 Eqs 42, 44", expect=1, within=0.01, because="1 %",
+          headline=True,
           value=formula("step of Eq. 42"),
           statement="increments of unit variance give a temperature that does not depend on the step: at "
                     "dt/2 over at dt; 1/sqrt(dt) is missing"),
@@ -176,6 +185,7 @@ CLAIMS = (
           statement="Eq. 42 as it stands gives a temperature that does not depend on the spacing: at a/2 "
                     "over at a in 2D; a volume is missing"),
     Claim(id="rr98-fluct-eq42-current", source="RR98 Eqs 42, 43", printed="a minor approximation",
+          headline=True,
           expect=1, within=0.01,
           value=one("capacity", "measured", C=20.0, noise="current")
                 /one("capacity", "predicted", C=20.0, noise="corrected"),
@@ -183,11 +193,13 @@ CLAIMS = (
           statement="amplitudes at current temperatures are a minor approximation: variance of temperature "
                     "of points with C = 20 k over that of the entropy C ln T"),
     Claim(id="rr98-fluct-eq43-doubled", source="RR98 Eq. 43", **RIGHT,
+          headline=True, evidence="noise/printed.png",
           value=longest("43", "kappa", "doubled"),
           statement="Eq. 43, added as J_ij + J_ji, with volume and time, gives long waves the right "
                     "fluctuation of energy at T = 0.7: variance over its due, a line of nearest neighbours; "
                     "a factor T is missing"),
     Claim(id="rr98-fluct-eq44-trace-2d", source="RR98 Eq. 44", expect=0, within=1e-9, because="arithmetic",
+          headline=True,
           value=formula("trace of Eq. 44"),
           statement="X has no trace in 2D: variance of its trace over d^2; 2/3 must be 2/d"),
     Claim(id="rr98-fluct-sec3b-special", source="RR98 Sec. III B, Eqs 42, 49, 51", printed="special cases",

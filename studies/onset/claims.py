@@ -77,6 +77,7 @@ ONSET_CLAIMS = (
                     "the Boussinesq one lies between C_V and C_P", value=linear(LAYER)/of_gas(LAYER + GROWTH),
           because="C_V = 1, C_P = 2; with C_P and the adiabatic gradient subtracted, Ra is as with C_V"),
     Claim(id="khp95-ra-figures", source="KHP95 Sec. V", printed="five significant figures", at_most=0.5e-4,
+          headline=True, evidence="onset/line.png",
           because=FIVE,
           statement="the line of K extrapolated in L^-2 gives five figures of the critical Ra: difference "
                     "from growth rates", value=off_growth_rates(LAYER, LINE_L2)),

@@ -69,12 +69,14 @@ NEXT = "the next order, (h/lambda)^4, takes 0.01 to 0.02"
 SPACING = "the spacing must be smaller than r0: error of"
 WAVES = (
     Claim(id="rr98-eq6-order", source="RR98 Eq. 6", printed="r0^2", expect=2, within=0.05,
+          headline=True, evidence="ordering/surface.png",
           value=slope("lattice", "h/a", 3.0), because=f"{NEXT} of the slope at h/lambda <= 0.2",
           statement="the gradient's error is of second order in r0/lambda on a lattice: slope at h = 3 a, "
                     "renormalised"),
     *(Claim(id=f"{name}-eq45-{short}", source="RR98 Eq. 45", printed="(dV)^(1/3) < r0"*(name == "rr98"),
             at_most=1,
             value=gradient(points, maker, 3.0)/gradient(points, maker, 1.2), because=RATIO,
+            headline=points == "lattice" and maker == "plain", evidence="ordering/makers.png",
             statement=f"{SPACING} the gradient with h = 3 a over that with h = 1.2 a, {words}, wavelength 32 "
                       "a")
       for name, short, points, maker, words in (
@@ -84,11 +86,13 @@ WAVES = (
           ("rr98", "jittered", "jittered-0.3", "plain",
            "points jittered by 0.3 a, plain quadrature of differences f_j - f_i"))),
     Claim(id="rr98-eq45-lambda", source="RR98 Eq. 45", printed="r0 < lambda", expect=2, within=0.1,
+          headline=True, evidence="ordering/surface.png",
           value=slope("lattice", "a", 64.0),
           because="0.1: weights of 2 to 6 spacings, whose sums differ by some per cent from integrals",
           statement="r0 must be smaller than lambda: slope of the gradient's error in r0/lambda at fixed "
                     "spacing, lattice, ranges from 2 to 6 spacings"),
     Claim(id="rr98-continuum-limit-jittered", source="RR98 Sec. III", printed="continuum limit", at_least=0.5,
+          headline=True, evidence="ordering/makers.png",
           value=slope("jittered-0.3", "h/a", 3.0), because=HALF,
           statement="r0 -> 0 with a < r0 gives the continuum limit also off a lattice: slope of the "
                     "gradient's error at h = 3 a, points jittered by 0.3 a, renormalised, differences f_j - "
@@ -132,6 +136,7 @@ VORTICES = (
           statement="r0 must be smaller than lambda: slope of a Taylor-Green vortex's error in r0/lambda at "
                     "fixed spacing, lattice, h = 2 a to 4 a"),
     Claim(id="rr98-eq45-vortex-irregular", source="RR98 Eq. 45", printed="(dV)^(1/3) < r0 < lambda",
+          headline=True, evidence="ordering/flows_points.png",
           at_least=1,
           value=share("vortices", f"velocity < {ROUGH}", f"{WIDTH:.3f}*h > 1",
                       maker=("plain", "renormalised"), points=IRREGULAR),
@@ -173,6 +178,7 @@ CONVECTION = (
           statement="the spacing must be smaller than r0: |error| of K in Rayleigh-Benard, Ra 10 000, with h "
                     "= 3 a over that with h = 1.2 a, lattice, 24 rows"),
     Claim(id="rr98-eq6-convection-order", source="RR98 Eq. 6", printed="r0^2", expect=2, within=0.2,
+          headline=True, evidence="ordering/flows_range.png",
           value=order(LAYER, 2.0, **LATTICE), because="0.2: 12 rows hold boundary layers of three spacings",
           statement="errors are of second order in r0/lambda: slope of that of K in Rayleigh-Benard, "
                     "lattice, h = 2 a"),

@@ -2,7 +2,6 @@
 import base64
 import io
 import math
-import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -14,6 +13,7 @@ from PIL import Image, UnidentifiedImageError
 
 from studies.kit.csvfile import write_atomic
 from studies.kit.figure import caption
+from studies.kit.source import paper_of
 from studies.kit.table import Table
 from studies.report import cost
 from studies.report.chart import HEIGHT, WIDTH, chart
@@ -80,20 +80,14 @@ def render(out: Path, known: list[Folder], encode: Callable[[Path], str]) -> str
         films=films(out),
         claims=claims.to_dict("records"),
         claims_made=Sheet(out/"claims.csv").made,
-        papers=sorted({paper(source) for source in claims["source"]}),
+        papers=sorted({paper_of(source) for source in claims["source"]}),
         counts=claims["verdict"].value_counts(), verdicts=VERDICTS,
-        paper=paper, accepted=accepted, value_of=value_of,
+        paper=paper_of, accepted=accepted, value_of=value_of,
         parts=known,
         figures={folder.name: figures(folder, encode) for folder in known},
         short=short, percent=percent, seconds=seconds,
         style=(PARTS/"style.css").read_text(),
         script=(PARTS/"script.js").read_text())
-
-
-def paper(source: str) -> str:
-    """The paper that a source names."""
-    year = re.match(r"KHP95|RR98|.*?\b(?:1[89]|20)\d\d\b", source)
-    return year.group(0) if year else source
 
 
 def accepted(low: float, high: float) -> str:

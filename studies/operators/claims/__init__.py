@@ -31,29 +31,32 @@ def doubling(tables: Tables) -> Measured:
     return Measured(last, abs(last - before))
 
 
-def literally(name: str, source: str, quantity: str, statement: str, printed: str = "") -> Claim:
+def literally(name: str, source: str, quantity: str, statement: str, **more: Any) -> Claim:
     """A sum read literally is what it stands for."""
-    return Claim(id=f"rr98-{name}", source=f"RR98 {source}", printed=printed, expect=1, within=0.02,
-                 because=LONG, value=number(quantity), statement=statement)
+    return Claim(id=f"rr98-{name}", source=f"RR98 {source}", expect=1, within=0.02, because=LONG,
+                 value=number(quantity), statement=statement, **more)
 
 
 INTERPOLANT = (
     Claim(id="rr98-eq1-symbol", source="RR98 Eq. 1", printed="grad A", at_most=1e-9, because=QUADRATURE,
+          headline=True,
           value=largest("continuum", "abs(value)", err="value_err", quantity="symbol"),
           statement="the interpolant of grad A is the exact gradient of A smoothed with f, symbol i k f^(k): "
                     f"largest difference over k at k r0 = 0.3 to 4, {WEIGHTS}"),
-    Claim(id="rr98-eq2-first-moment", source="RR98 Eq. 2", printed="3", at_most=1e-9,
+    Claim(id="rr98-eq2-first-moment", source="RR98 Eq. 2", printed="3", at_most=1e-9, headline=True,
           because="quadrature to 1e-12",
           value=number("first moment"),
           statement="W = -f' of a normalised f has M_1 = d: all weights, 1 to 3 dimensions, largest relative "
                     "difference"),
     Claim(id="rr98-eq2-moments", source="RR98 Eqs 2, 3", printed="all its moments exist", at_most=1e-9,
+          headline=True,
           because=QUADRATURE,
           value=largest("continuum", "abs(value/predicted - 1)", err="value_err",
                         quantity=("moment 1", "moment 2", "moment 3", "moment 4")),
           statement="moments of W exist and are those of f, M_n = (n + d - 1) <r^(n-1)>/r0^(n-1): largest "
                     f"relative difference for n = 1 to 4, {WEIGHTS}; M_3 = (d + 2) <r^2>/r0^2"),
     Claim(id="rr98-eq4-integral", source="RR98 Eqs 4, 30", printed="delta(r)/(4 pi r^2)", at_most=1e-9,
+          headline=True,
           value=largest_of(largest("continuum", "abs(value - predicted)", err="value_err",
                                    quantity="integral", weight=GIVEN),
                            largest("continuum", "abs(value - predicted)", err="0", quantity="counted")),
@@ -61,17 +64,18 @@ INTERPOLANT = (
           statement="f has the integral 1 in d dimensions: largest difference, exponential weight by "
                     "quadrature, the others counted over the points of lattices with 200 spacings (Gaussian: "
                     "20) to r0; 1 to 3 dimensions"),
-    Claim(id="rr98-eq5-factor", source="RR98 Eq. 5", printed="1/2", expect=1/2, within=1e-3,
+    Claim(id="rr98-eq5-factor", source="RR98 Eq. 5", printed="1/2", expect=1/2, within=1e-3, headline=True,
           value=number("third derivatives"),
           because="the next term is 1e-4; Taylor's factor is 1/6, so that the error is M_3 r0^2/30",
           statement="the factor before the third derivatives in the gradient's expansion: from the transform "
                     "of Lucy's weight in 3D at small k"),
-    Claim(id="rr98-eq6-continuum", source="RR98 Eq. 6", printed="r0^2", at_most=0.05,
+    Claim(id="rr98-eq6-continuum", source="RR98 Eq. 6", printed="r0^2", at_most=0.05, headline=True,
           value=largest("continuum", "abs(value - 2)", err="value_err", quantity="order"),
           because="0.01 is what k r0 = 0.05 leaves of the next order for the exponential weight",
           statement=f"the interpolant's error is of second order in r0: largest |order - 2|, {WEIGHTS}, "
                     "before anything is discretised"),
     Claim(id="rr98-eq13-symmetrised", source="RR98 Eq. 13", printed="we need the symmetrization",
+          headline=True,
           at_least=1e-3,
           value=least("one_kernel", "lost"), because="round-off would be 1e-15",
           statement="the kernel P(rho(r), T(r')) is not symmetric, so that one alone would not conserve: "
@@ -82,14 +86,14 @@ KERNELS = (
     *(second_order(f"eq14-pressure-{d}d", "Eq. 14", "pressure",
                    "the pressure's kernel, van der Waals fluid,", d)
       for d in (1, 2, 3)),
-    Claim(id="rr98-eq15-size", source="RR98 Eq. 15", printed="-grad P", at_most=1e-3,
+    Claim(id="rr98-eq15-size", source="RR98 Eq. 15", printed="-grad P", at_most=1e-3, headline=True,
           value=largest("orders", "abs(ratio - 1)", err="ratio_err", operator="pressure"),
           because="extrapolated in the spacing to 4e-5",
           statement="sign and size of the pressure's kernel: its projection on -(dP/drho) grad rho - (dP/dT) "
                     "grad T, extrapolated to no spacing, less 1"),
     *(Claim(id=f"rr98-eq16-trace-{d}d", source="RR98 Eqs 16, 37", printed="2/3"*(d == 3), expect=0,
             within=1e-9,
-            value=number(f"dilation in {d}D"), because="round-off of sums over a lattice",
+            value=number(f"dilation in {d}D"), headline="Eq. 16", because="round-off of sums over a lattice",
             statement=f"a uniform dilation in {d}D meets the bulk viscosity only: what the trace factor 2/3 "
                       "adds to zeta, over eta")
       for d in (2, 3)),
@@ -98,13 +102,13 @@ KERNELS = (
       for d in (1, 2, 3)),
     *(second_order(f"eq19-heat-{d}d", "Eqs 18, 19", "heat nested", "nested conduction, kappa(T),", d)
       for d in (1, 2, 3)),
-    Claim(id="rr98-eq21-sign", source="RR98 Eq. 21", printed="-", expect=1, within=1e-6,
+    Claim(id="rr98-eq21-sign", source="RR98 Eq. 21", printed="-", expect=1, within=1e-6, headline=True,
           value=number("linearised mass, Eq. 21"), because="a quadratic form, differentiated exactly",
           statement="the linearised continuity equation follows from Eq. 10: projection of the printed "
                     "right-hand side on the derivative of Eq. 34; it is -1, the overall sign is wrong"),
 )
 DISCRETE = (
-    literally("eq26-velocity", "Eq. 26", "mass, v_i = v dV", printed="v dV",
+    literally("eq26-velocity", "Eq. 26", "mass, v_i = v dV", printed="v dV", headline=True,
               statement="v_i stands for v dV: rate of the mass by Eq. 34 over -div(rho v) dV where dV = 1/4; "
                         "it is dV"),
     literally("eq26-field-velocity", "Eq. 26", "mass, v_i = v",
@@ -113,14 +117,15 @@ DISCRETE = (
     literally("eq26-momentum", "Eqs 26, 35", "momentum, p_i = m_i v_i, v_i = v dV", printed="p_i = m_i v_i",
               statement="p_i = m_i v_i, as is used for Eq. 49, with v_i = v dV in both: momentum that Eq. 35 "
                         "convects over -div(rho v v) dV where dV = 1/4; it is dV^2"),
-    literally("eq27-pressure", "Eq. 27", "pressure, P_ij = P dV", printed="P dV",
+    literally("eq27-pressure", "Eq. 27", "pressure, P_ij = P dV", printed="P dV", headline=True,
               statement="with P_ij = P dV the force in Eq. 35 is -grad P dV: their ratio where dV = 1/4"),
-    Claim(id="rr98-eq28-sums", source="RR98 Eq. 28", at_most=0.02,
+    Claim(id="rr98-eq28-sums", source="RR98 Eq. 28", at_most=0.02, headline=True,
           value=largest("lattice", "abs(value/predicted - 1)", how="plain", weight="Lucy", r0=6.0),
           because="steps of a/h = 1/6 in a smooth integrand leave less than (a/h)^2",
           statement="sums over cells times dV stand for integrals: first moment of Lucy's weight on "
                     "lattices, h = 6 a, 1 to 3 dimensions, largest relative error"),
     Claim(id="rr98-eq29-moments-3d", source="RR98 Eq. 29", printed="correct moments", expect=1, within=0.02,
+          headline=True,
           because="2 %: lattice sums with h = 3 a are good to that",
           value=one("lattice", "value/d", how="printed", weight="Lucy", d=3, r0=3.0, n=1),
           statement="the printed discretisation of W gives the right first moment: gradient of a linear "
@@ -141,7 +146,7 @@ DISCRETE = (
           statement="the printed discretisation of the exponential weight multiplies gradients in 3D by (4 "
                     "pi/3) M_3 (r0/a)^2 = 42 (r0/a)^2: over that, r0 = 4 a"),
     *(Claim(id=f"rr98-plain-quadrature-{r0:.0f}", source="RR98 Sec. III, Eq. 31",
-            printed="cannot simply change",
+            printed="cannot simply change", headline=True,
             at_least=0.1, value=one("lattice", "1 - value/3", how="plain", weight="Exponential", d=3, r0=r0,
                                     n=1),
             because="a tenth would be a reason not to",
@@ -149,16 +154,17 @@ DISCRETE = (
                       f"exponential weight loses on a lattice in 3D, r0 = {r0:.0f} a")
       for r0 in (2.0, 4.0)),
     Claim(id="rr98-eq32-zeroth", source="RR98 Eq. 32", printed="but the zeroth", expect=1, within=0.1,
+          headline=True,
           value=doubling,
           because="the first order in a/r0 takes 0.05 at r0 = 8 a",
           statement="the zeroth discrete moment is not well defined: what it grows by along a line when the "
                     "spacing is halved, over 2 ln 2/r0"),
-    Claim(id="rr98-eq32-moments", source="RR98 Eq. 32", printed="well defined", at_most=0.01,
+    Claim(id="rr98-eq32-moments", source="RR98 Eq. 32", printed="well defined", at_most=0.01, headline=True,
           value=largest_per("n", abs(2*on_line(8.0, (1, 2, 3, 4)) - on_line(4.0, (1, 2, 3, 4)) - 1)),
           because="extrapolated in a/r0; (a/r0)^2/12 is left",
           statement="all moments but the zeroth are well defined: largest relative difference of M_1 to M_4 "
                     "along a line and the integrals, r0 = 4 and 8 a extrapolated"),
-    literally("eq33-direction", "Eq. 33", "divergence, Eq. 33 in Eq. 1",
+    literally("eq33-direction", "Eq. 33", "divergence, Eq. 33 in Eq. 1", headline=True,
               statement="with e_ij from j to i, -sum_j W e_ij A_j is grad A, as Eq. 1 has it: projection on "
                         "the exact gradient of a wave"),
 )

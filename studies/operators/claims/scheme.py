@@ -32,7 +32,7 @@ def order(operator: str, d: int) -> Value:
 def second_order(name: str, source: str, operator: str, what: str, d: int) -> Claim:
     """A term on a lattice is right to second order."""
     return Claim(id=f"rr98-{name}", source=f"RR98 {source}", printed="to lowest order", expect=2, within=0.05,
-                 because=NEXT, value=order(operator, d),
+                 because=NEXT, value=order(operator, d), headline=True,
                  statement=f"{what} in {d}D is right to second order in r0/lambda: slope of the error "
                            f"against exact derivatives, lattice, h = {2 if d == 3 else 3} a")
 
@@ -64,11 +64,11 @@ def smallest_share(tables: Tables) -> Measured:
     return Measured(still.min(), still.min() - growing.max() if len(growing) else 0.0)
 
 
-def coefficient(name: str, source: str, printed: str, quantity: str, words: str) -> Claim:
+def coefficient(name: str, source: str, printed: str, quantity: str, words: str, **more: Any) -> Claim:
     """A coefficient of nested transport on a lattice."""
     return Claim(id=f"rr98-transport-{name}", source=f"RR98 {source}", printed=printed, expect=2, within=0.1,
                  because=SECOND, value=one("transport_orders", "order", quantity=quantity, **NESTED),
-                 statement=f"{words}: order on a lattice, h = 3 a")
+                 statement=f"{words}: order on a lattice, h = 3 a", **more)
 
 
 def shear(name: str, points: str, norm: str, words: str, printed: str = "",
@@ -76,7 +76,7 @@ def shear(name: str, points: str, norm: str, words: str, printed: str = "",
     """A flow between plates; its name begins with that of the flow."""
     flow = name.split("-")[0]
     return Claim(id=f"rr98-transport-{name}", source="RR98 Sec. III A", printed=printed, expect=2, within=0.1,
-                 because=because,
+                 because=because, headline=flow == "couette", evidence="operators/shear.png",
                  value=one("shear_orders", "order", flow=flow, points=points, time=0.1, norm=norm),
                  statement=f"{flow.capitalize()} flow from rest between {words}: order of its {norm} error "
                            "in 1/rows at 0.1 H^2/nu")
@@ -84,12 +84,13 @@ def shear(name: str, points: str, norm: str, words: str, printed: str = "",
 
 BRACKETS = (
     *(Claim(id=f"rr98-eq{n}-order-2d", source=f"RR98 Eqs {n - 24}, {n}", expect=2, within=0.05, because=NEXT,
-            value=order(what, 2),
+            value=order(what, 2), headline=True,
             statement=f"the discrete equation for {what}, stress and heat current nested with the trace "
                       "factor 2/d, is right to second order in 2D on a lattice: slope of the error against "
                       "exact derivatives of a smooth flow")
       for n, what in ((34, "mass"), (35, "momentum"), (36, "energy"))),
     Claim(id="rr98-eq34-36-conserved", source="RR98 Eqs 34-36", printed="are conserved", at_most=1e-12,
+          headline=True,
           because=EDGES,
           value=largest("invariance", "lost"),
           statement="mass, momentum and energy are conserved by construction: largest loss over what is "
@@ -100,6 +101,7 @@ BRACKETS = (
           statement="a fluid of uniform pressure stays at rest: largest acceleration over P/(rho a), plain "
                     "edges, points jittered by 0.3 a"),
     Claim(id="rr98-eq34-35-sound", source="RR98 Eqs 34, 35", at_most=1e-12, because=EDGES,
+          headline=True, evidence="operators/growth.png",
           value=one("growth_means", "rate", **PLAIN),
           statement="small sound waves in a fluid at rest without viscosity do not grow off a lattice: "
                     "largest growth rate a/c, the bracket + in both equations, plain edges, points jittered "
@@ -114,7 +116,7 @@ TRANSPORT = (
           value=number("stress, v_i = v"),
           statement="with the field velocity in Eq. 37 the force of Eq. 35 is div Pi dV: their ratio where "
                     "dV = 1/4; a dV is missing"),
-    Claim(id="rr98-eq40-euler", source="RR98 Eq. 40", at_most=1e-3,
+    Claim(id="rr98-eq40-euler", source="RR98 Eq. 40", at_most=1e-3, headline=True,
           value=largest("euler", "abs(limit/predicted - 1)", "mode < 16"),
           because="damping squared over frequency squared: below 1e-4 for these coefficients",
           statement="forward Euler of the 2D gas is stable only for dt < (eta + zeta + kappa/2)/(rho c^2), "
@@ -123,6 +125,7 @@ TRANSPORT = (
 )
 ALONG = (
     Claim(id="rr98-eq51-identify", source="RR98 Eq. 51", printed="one cannot independently identify",
+          headline=True,
           at_least=0.1,
           value=largest_of(apart("eta"), apart("zeta")),
           because="a tenth would leave them unidentified",
@@ -130,7 +133,7 @@ ALONG = (
                     "difference of eta, zeta of long waves on a lattice from M_A/2d(d+2) + M_B/2d, "
                     "M_A/d(d+2) - (1 - 2/d) eta over their size, five forms, 2 and 3 dimensions, h = 6 a"),
     *(Claim(id=f"rr98-eq51-{name}", source="RR98 Eq. 51", expect=2, within=0.05,
-            value=order(f"friction, {operator}", 2),
+            value=order(f"friction, {operator}", 2), headline=name == "order",
             because="the next order, (k h)^4, takes 0.01 of the slope",
             statement=f"forces along edges are right to second order in 2D, {words}: slope of the error at "
                       "h = 3 a, lattice")
@@ -145,6 +148,7 @@ ALONG = (
 )
 LAYER = (
     Claim(id="rr98-eq37-layer-stable", source="RR98 Eqs 37, 38", at_most=STILL,
+          headline=True, evidence="operators/nested_growth.png",
           value=largest("nested_growth", "growth", err="1e-4*abs(growth)", share=0.0),
           because="rates of what stays are 1e-15, of what grows 1e-5 and more; differences over 1e-4 to "
                   "1e-6 give the same four figures",
@@ -159,12 +163,12 @@ COEFFICIENTS = (
     coefficient("eq34-36-sound", "Eqs 34-36", "correct up to second order", "sound speed",
                 "the speed of sound is that of the gas but for an error of second order in 1/wavelength"),
     coefficient("eq37-viscosity", "Eq. 37", "eta", "viscosity",
-                "eta of Eq. 37 is the shear viscosity but for an error of second order"),
+                "eta of Eq. 37 is the shear viscosity but for an error of second order", headline=True),
     coefficient("eq37-bulk", "Eq. 37", "zeta", "bulk viscosity",
                 "zeta of Eq. 37, with 2/d in place of 2/3, is the bulk viscosity but for an error of second "
                 "order"),
     coefficient("eq38-conductivity", "Eq. 38", "kappa", "conductivity",
-                "kappa of Eq. 38 is the conductivity but for an error of second order"),
+                "kappa of Eq. 38 is the conductivity but for an error of second order", headline=True),
     Claim(id="rr98-transport-eq37-38-limit", source="RR98 Eqs 34-38", printed="unambiguously identified",
           at_most=1e-3,
           value=endless((*BOTH, "conductivity", "sound speed"), **NESTED),
@@ -172,6 +176,7 @@ COEFFICIENTS = (
           statement="all coefficients of nested transport are those put in: largest relative difference for "
                     "endless waves on a lattice, h = 3 a"),
     Claim(id="rr98-transport-eq51-identified", source="RR98 Eq. 51", printed="cannot independently identify",
+          headline=True,
           at_least=0.1,
           value=identified("exact"), because="a tenth would be no identification",
           statement="the two viscosities of forces along edges cannot be identified one by one: largest "

@@ -4,6 +4,8 @@
 One module a theme, each with its CLAIMS. Here are the statements that neither print nor runs decide. The
 study `onset` judges claims on critical Rayleigh numbers.
 """
+from typing import Any
+
 from studies.kit.ask import of
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
@@ -20,15 +22,15 @@ def most_particles(tables: Tables) -> Measured:
     return Measured(float(read(path)["particles"].max()), 0.0)
 
 
-def undecided(name: str, place: str, statement: str, reason: str, printed: str = "") -> Claim:
+def undecided(name: str, place: str, statement: str, reason: str, printed: str = "", **more: Any) -> Claim:
     """A statement without a value."""
     return Claim(id=f"khp95-{name}", source=f"KHP95 {place}", statement=statement, printed=printed,
-                 undecidable=reason)
+                 undecidable=reason, **more)
 
 
 OPEN = (
     Claim(id="khp95-million", source="KHP95 Sec. VI", printed="a million", at_least=0.95e6,
-          value=of(most_particles),
+          value=of(most_particles), evidence="bench/spam_speed.csv",
           statement="a million particles could be used: most particles of a run here",
           because="a million to two digits; machines have grown since"),
     undecided("ra-extrapolated", "Sec. V",
@@ -37,11 +39,12 @@ OPEN = (
               "five significant figures"),
     undecided("fig11-growth", "Sec. VI, Fig. 11",
               "a shocked interface grows as linear theory says, within 2 %",
-              "amplitude, wavelength and strength of the shock are not printed; no convection", "2%"),
+              "amplitude, wavelength and strength of the shock are not printed; no convection", "2%",
+              headline=True),
     undecided("fig12-views", "Fig. 12",
               "velocities of particles and averaged velocities are equivalent views of a flow",
               '"equivalent" has no number, and averaging is to take the noise away: how much of it there '
-              "is, is another claim", "two equivalent views"),
+              "is, is another claim", "two equivalent views", headline=True, evidence="rb/fig12.png"),
     undecided("list-cost", "Sec. II", "finding neighbours takes a time proportional to N ln N",
               "from 10 000 to a million particles ln N adds 0.09 to the exponent of N, less than caches do; "
               "linked cells take N for a given density", "N ln N"),

@@ -85,13 +85,15 @@ CLAIMS = (
                     "w(0)", value=calculated("largest jump of w, w', w''"), at_most=1e-12,
           because="round-off"),
     Claim(id="khp95-weights-cutoff", source="KHP95 Sec. II", printed="two vanishing derivatives",
+          headline=True,
           statement="first and second derivative of both weights vanish at 3 sigma",
           value=calculated("w' and w'' at the range"), at_most=1e-12, because="round-off"),
     Claim(id="khp95-images-range", source="KHP95 Fig. 3", printed="3",
+          headline=True, evidence="rb/fig2_3.png",
           statement="particles within 3 sigma of a wall need images, no others: a particle at the wall "
                     "reaches the image of one as far from the wall as the range", value=calculated("range"),
           **as_printed("fig3-image-range"), because="exact numbers"),
-    Claim(id="khp95-lucy-bracket", source="KHP95 Sec. IV", printed="0.01",
+    Claim(id="khp95-lucy-bracket", source="KHP95 Sec. IV", printed="0.01", headline=True,
           statement="w(0.9 sigma) - w(sigma) of Lucy's weight is about 0.01 n",
           value=calculated("w(0.9) - w(1), Lucy"), **as_printed("lucy-bracket"),
           because="one digit is printed"),
@@ -111,6 +113,7 @@ CLAIMS = (
           value=calculated("|G/B|, hexagonal, Lucy"),
           because="a fluid has none; differences over strains of 1e-3 leave 1e-9"),
     Claim(id="khp95-high-pressure-lattice", source="KHP95 Sec. III", printed="0 or h", at_most=1,
+          headline=True,
           statement="as P grows without bound no two particles stay between 0 and h apart: energy of the "
                     "lattice with sites h apart over the least one of those with 1 to 4 particles a site",
           value=calculated("energy of sites h apart over the least"),
@@ -122,12 +125,12 @@ CLAIMS = (
           statement="Monaghan's weight freezes with two particles a site: lattice of least energy, 1 to 4 a "
                     "site", value=calculated("particles a site, Monaghan"), **as_printed("frozen-monaghan"),
           because="a whole number"),
-    Claim(id="khp95-frozen-hexagonal", source="KHP95 Sec. IV", printed="hexagonal", at_least=1,
+    Claim(id="khp95-frozen-hexagonal", source="KHP95 Sec. IV", printed="hexagonal", at_least=1, headline=True,
           statement="frozen states are hexagonal: least energy of the square over that of the hexagonal "
                     "lattice, the lesser of both weights",
           value=calculated("least energy, square over hexagonal"),
           because="the state that is taken has the lesser energy"),
-    Claim(id="khp95-md-isomorphism", source="KHP95 Sec. III", printed="identical",
+    Claim(id="khp95-md-isomorphism", source="KHP95 Sec. III", printed="identical", headline=True,
           statement="with P ~ rho^2 and no viscosity the accelerations are those of molecules with w as "
                     "pair potential", value=calculated("accelerations against -grad of sum 2 w"),
           at_most=1e-8, because="round-off of the potential's differences over 1e-5: 4e-9"),
@@ -139,11 +142,11 @@ CLAIMS = (
           statement="for P ~ rho^2 trajectories run back when velocities turn: order in dt of the distance "
                     "from the start", value=calculated("order of the way back"),
           because="what is left is the integrator's, of fourth order"),
-    Claim(id="khp95-conservation-momentum", source="KHP95 Sec. II", printed="exact",
+    Claim(id="khp95-conservation-momentum", source="KHP95 Sec. II", printed="exact", headline=True,
           statement="the sums conserve momentum exactly: sum of m dv/dt over the sum of moduli, periodic box",
           value=calculated("sum of forces over moduli"), at_most=1e-13,
           because="round-off of some 1000 terms"),
-    Claim(id="khp95-conservation-energy", source="KHP95 Sec. II", printed="exact",
+    Claim(id="khp95-conservation-energy", source="KHP95 Sec. II", printed="exact", headline=True,
           statement="the sums conserve energy exactly, viscosity and conduction included, periodic box",
           value=calculated("sum of energy rates over moduli"), at_most=1e-13,
           because="round-off of some 1000 terms"),
@@ -160,7 +163,7 @@ CLAIMS = (
           statement="smooth weights let fourth-order Runge-Kutta be so as dt vanishes: order in dt of the "
                     "state after t = 4.8, dt 0.075 to 0.019",
           value=calculated("order of RK4, dt 0.075 to 0.019"), because=FOURTH),
-    Claim(id="khp95-vdw-critical-point", source="KHP95 Sec. IV, Eq. 2", printed="2/3, 8/27",
+    Claim(id="khp95-vdw-critical-point", source="KHP95 Sec. IV, Eq. 2", printed="2/3, 8/27", headline="Eq. 2",
           statement="slope and curvature of Eq. 2 along its isotherm vanish there",
           value=calculated("slope and curvature at the critical point, vdw"), at_most=1e-6,
           because="differences over 1e-4: truncation and round-off are 1e-8"),
@@ -183,7 +186,7 @@ CLAIMS = (
           statement="the dense fluid violates the Maxwell relation: (dE/dV)_T over -d(beta P)/d(beta), "
                     "which should be 1", value=calculated("(dE/dV)_T over -d(beta P)/d(beta), dense"),
           expect=1.2, within=1e-12, because="1.5/1.25; 1 would be consistent"),
-    Claim(id="khp95-dense-inverse", source="KHP95 Eq. 3", printed="0.7, 1.5",
+    Claim(id="khp95-dense-inverse", source="KHP95 Eq. 3", printed="0.7, 1.5", headline=True,
           statement="T(n, u) and u(n, T) of the dense fluid belong together: error of temperature between "
                     "the plates", value=calculated("largest |T(u(T)) - T|, dense"), at_most=0.0375,
           because="0.7 is 2/3 rounded, 0.05 of its last digit times du = 0.75; a solver that keeps u has "
@@ -201,9 +204,11 @@ CLAIMS = (
           within=0.5, statement="at high pressure P/n is about m c^2: ratio for the dense fluid, P = 5",
           value=calculated("P/(rho c^2), dense"), because='"approximates", no digit: half'),
     Claim(id="khp95-boxes", source="KHP95 Figs 2, 3, 4, 7, 9, 10, 12", printed="n sigma^2 = 1",
+          headline="Figs 2, 3", evidence="rb/fig2_3.png",
           statement="particles and boxes of the captions have unit density; largest deviation",
           value=calculated("largest |density - 1| of captions"), at_most=1e-12, because="exact numbers"),
     Claim(id="khp95-ra-captions", source="KHP95 Figs 2, 3, 8, 9, 12", printed="10 000",
+          headline="Figs 2, 3", evidence="rb/fig2_3.png",
           statement="eta = 0.5 at L = 50 is Ra 10 000, here by dT^2 L^2/eta^2; largest deviation",
           value=calculated("largest |Ra - 10 000| of captions"), at_most=1e-9,
           because="exact numbers; alpha = 1, kappa = k/(rho C_V)"),

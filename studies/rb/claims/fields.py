@@ -107,7 +107,7 @@ CLAIMS = (
           **as_printed("range-spacing"),
           statement="the range is about three nearest-neighbour distances: over the first peak of g(r), Ra "
                     "10 000", value=RANGE/seen("spacing"), because='"about", one digit'),
-    Claim(id="khp95-velocity-field-10000", source="KHP95 Sec. VI", printed="5%", at_most=0.075,
+    Claim(id="khp95-velocity-field-10000", source="KHP95 Sec. VI", printed="5%", at_most=0.075, headline=True,
           statement="velocity errors of the order of 5 % at Ra 10 000, place by place: rms difference of "
                     "mean fields, rolls aligned, over rms velocity", value=beside_grid("velocity"),
           because=PLACE_BY_PLACE),
@@ -116,15 +116,19 @@ CLAIMS = (
                     "fields, rolls aligned, over rms velocity", value=beside_grid("velocity", 5e3),
           because=PLACE_BY_PLACE),
     Claim(id="khp95-within-percent", source="KHP95 Sec. VII", printed="a few percent", at_most=0.05,
+          headline=True, evidence="rb/convergence.png",
           statement="results are within a few percent of converged solutions: velocities place by place, Ra "
                     "10 000", value=beside_grid("velocity"), because=f"a few are five at most; {FIELD}"),
     Claim(id="khp95-fig9-temperature", source="KHP95 Sec. VI, Fig. 9", printed="good agreement", at_most=0.05,
+          headline=True, evidence="rb/fig9.png",
           statement="temperatures of particles and grid agree at Ra 10 000: rms difference over the whole "
                     "range", value=beside_grid("T"), because="no number is printed: a few percent"),
     Claim(id="khp95-fig9-density", source="KHP95 Sec. VI, Fig. 9", printed="good agreement", at_most=0.1,
+          headline=True, evidence="rb/fig9.png",
           statement="densities of particles and grid agree at Ra 10 000: rms difference over the grid's "
                     "range", value=beside_grid("rho"), because=ONE_CONTOUR),
     Claim(id="khp95-fig9-density-plates", source="KHP95 Sec. VI, Fig. 9", printed="good agreement",
+          headline=True, evidence="rb/fig9.png",
           at_most=0.1,
           statement="densities of particles and grid agree at the plates, too, Ra 10 000: rms difference "
                     "over the places next to a plate, the worse of both, over the grid's range",
@@ -135,6 +139,7 @@ CLAIMS = (
                     "difference within one spacing of a plate, the worse of both, over the grid's range",
           value=beside_grid("rho_layer"), because=f"{ONE_CONTOUR}; counted, not smoothed"),
     Claim(id="khp95-approach", source="KHP95 Sec. VI, Fig. 8", printed=SEMI, at_most=0.05,
+          headline=True, evidence="rb/fig8.png",
           value=approach(STEADY, CELLS, "ke_field"),
           statement="the approach to the steady state is described semiquantitatively, to a few percent: "
                     "largest difference of K(t) over the steady K, energy of the field",
@@ -145,6 +150,7 @@ CLAIMS = (
                     "largest difference of K(t) over the steady K, energy of the particles",
           because=f"a few are five at most; the jitter of the lattice at the start is in K, too; {LAG}"),
     Claim(id="khp95-steady-time", source="KHP95 Fig. 8", printed="same approach", expect=1, within=0.2,
+          headline=True, evidence="rb/fig8.png",
           value=time_of_approach(),
           statement="particles need as long as the grid to be steady at Ra 10 000: ratio of times until K "
                     "is within 5 %",

@@ -98,9 +98,11 @@ FROZEN = f'"frozen" is a tenth of the energy that the grid has, {ALIKE}'
 FLOWING = f'"a good description" is half of the energy at least, {ALIKE}'
 CLAIMS = (
     Claim(id="khp95-freeze-monaghan", source="KHP95 Fig. 4", printed="freezing", at_most=0.1, because=FROZEN,
+          headline=True,
           statement="512 particles of dense fluid, Monaghan, Ra 3000, freeze: K of their mean flow over the "
                     "grid's", value=flows(3000, variant="printed-monaghan", **DENSE)),
     Claim(id="khp95-freeze-lucy", source="KHP95 Fig. 4", printed="similar results", at_most=0.1,
+          headline=True,
           because=FROZEN,
           statement="512 particles of dense fluid, Lucy, Ra 3000, freeze: K of their mean flow over the "
                     "grid's", value=flows(3000, **DENSE)),
@@ -111,6 +113,7 @@ CLAIMS = (
           because=f'"static" is a tenth of the energy that the grid has, {PLAIN}; most of it is an error '
                   "of the step"),
     Claim(id="khp95-freeze-grid", source="KHP95 Fig. 4", printed="two rolls", expect=2, within=0,
+          headline=True,
           because="a whole number", statement="the grid finds two rolls of the dense fluid at Ra 3000",
           value=rolls(grid(3000, **DENSE))),
     Claim(id="khp95-freeze-grid-flows", source="KHP95 Sec. IV, Fig. 4", printed="convecting", at_least=10,
@@ -162,6 +165,7 @@ CLAIMS = (
                     "fluid at Ra 3000, P = 5", value=mean_square(MELTING, 3000, 5.0, **DENSE),
           because="the printed inequality"),
     Claim(id="khp95-melting-threshold", source="KHP95 Sec. IV", printed="mv^2 > 2Pn^-2[w(0.9)-w(1)]",
+          headline=True, evidence="rb/variants.png",
           at_least=0.5, at_most=2,
           statement="the criterion tells where freezing begins: its ratio for the grid's <v^2> where "
                     "particles keep half of K", value=of(threshold),

@@ -136,6 +136,7 @@ ALMOST = ('"almost exactly" has no number: 1 %, what Sec. VI says that the fluct
           "particles which the line is there to be compared with")
 CLAIMS = (
     Claim(id="khp95-ke-5000", source="KHP95 Sec. VI", printed="0.003 40",
+          headline=True, evidence="rb/main.png",
           statement="K of the infinitely fine grid, ideal gas, Ra 5000, constant eta", value=limit(5000),
           **as_printed("ke-5000"), because=LAST),
     Claim(id="khp95-ke-5000-const-nu", source="KHP95 Sec. VI", printed="0.003 40",
@@ -158,6 +159,7 @@ CLAIMS = (
                     "printed, ideal gas, constant eta: largest distance", value=curves.line(curves.bend),
           at_most=LAST_DIGIT, because=f"{LAST} of K: what is linear almost exactly is so in all three"),
     Claim(id="khp95-ke-line", source="KHP95 Sec. V, Fig. 5", printed="almost exactly linearly",
+          headline=True, evidence="rb/fig5.png",
           statement="K is linear in Ra^-1/2 from onset to four times onset, ideal gas, constant eta: "
                     "largest distance over K(4 Ra_c)", value=curves.straightness(), at_most=0.01,
           because=ALMOST),
@@ -169,6 +171,7 @@ CLAIMS = (
           statement="K is linear in Ra^-1/2 from onset to four times onset, van der Waals: largest distance "
                     "over K(4 Ra_c)", value=curves.straightness(eos="vdw"), at_most=0.01, because=ALMOST),
     Claim(id="khp95-ke-line-square", source="KHP95 Sec. V, Fig. 6", printed="almost exactly linearly",
+          headline=True, evidence="rb/fig6.png",
           statement="K is linear in Ra^-1/2 from onset, 5012, to four times onset in the square, one roll: "
                     "largest distance over K(4 Ra_c)", value=curves.straightness(sides="walls"), at_most=0.01,
           because=ALMOST),
@@ -177,11 +180,13 @@ CLAIMS = (
           value=limit(1e4)/curves.line(curves.reading(1e4), low=1.2) - 1, expect=0,
           within=LAST_DIGIT/number("ke-10000"), because=f"{LAST} of K at Ra 10 000"),
     Claim(id="khp95-slopes-l2", source="KHP95 Sec. V", printed="almost exactly linearly with L^-2",
+          headline=True,
           statement="slopes of the lines are linear in L^-2: largest distance over the whole change",
           value=curves.against_cells(curves.slope_alone), at_most=0.05,
           because="the next term, L^-4, is 0.1 % of the first at 30 rows, times a factor that may be tens "
                   "at thin layers"),
     Claim(id="khp95-intercepts-l2", source="KHP95 Sec. V", printed="almost exactly linearly with L^-2",
+          headline=True,
           statement="intercepts of the lines are linear in L^-2: largest distance over the whole change",
           value=curves.against_cells(curves.intercept_alone), at_most=0.05,
           because="the next term, L^-4, is 0.1 % of the first at 30 rows, times a factor that may be tens "

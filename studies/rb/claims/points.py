@@ -127,7 +127,7 @@ CLAIMS = (
           statement="points that move converge on the gas if images leave an error of first order, as they "
                     "do off a lattice: |K_0/K_grid - 1| at Ra 10 000 of K_0 + b/rows + c/rows^2 [asked "
                     "after the line over 1/rows^2 had ended below the grid]"),
-    Claim(id="rr98-eq39-rb-literal", source="RR98 Eq. 39",
+    Claim(id="rr98-eq39-rb-literal", source="RR98 Eq. 39", headline=True, evidence="rb/moving_points.png",
           printed="fully consistent with the hydrodynamic equations", value=from_grid("moving-literal", MANY),
           at_most=0.015, because=PRINTED_GOAL,
           statement="points that move with v under Eqs 34-36 convect as the gas does: |K/K_grid - 1| at Ra "
@@ -152,6 +152,7 @@ CLAIMS = (
           statement="Eqs 46-48 on volumes that stay convect as the gas does: |K/K_grid - 1| at Ra 10 000, "
                     "40 rows"),
     Claim(id="rr98-eq49-rb-constant-mass", source="RR98 Eq. 49",
+          headline=True, evidence="rb/moving_points.png",
           value=from_grid("moving-constant-mass", MANY), at_most=0.015, because=PRINTED_GOAL,
           statement="points of constant mass convect as the gas does: |K/K_grid - 1| at Ra 10 000, 40 rows"),
     Claim(id="rr98-eq49-rb-static", source="RR98 Eq. 49", at_most=0.5,
