@@ -59,7 +59,8 @@ words: .venv/ready  ## every name of a method, scene, quantity, explained; TEXT=
 hours: .venv/ready  ## what all studies have still to do, in minutes of CPU
 	$(run) -m studies.kit.budget $(studies)
 
-report: .venv/ready  ## results/index.html: one page of findings, verdicts, figures, tables, films
+report: .venv/ready  ## results/equations.md and index.html: one page of findings, verdicts, figures, tables, films
+	$(if $(filter quick,$(SIZE)),,$(run) -m studies.report equations)
 	$(run) -m studies.report $(if $(filter quick,$(SIZE)),--out results/quick)
 
 films: .venv/ready  ## the films of the report, some minutes

@@ -1,4 +1,4 @@
-"""python -m studies.report [page|films]: results/index.html from the tables, or the films that it shows."""
+"""python -m studies.report [page|equations|films]: index.html or equations.md from the tables, or films."""
 import argparse
 import sys
 from collections.abc import Sequence
@@ -6,6 +6,7 @@ from pathlib import Path
 
 from studies.kit.study import say
 from studies.kit.sweep import RESULTS
+from studies.report.equations import write_equations
 from studies.report.inventory import NoReport
 from studies.report.page import write_page
 
@@ -13,7 +14,7 @@ from studies.report.page import write_page
 def main(arguments: Sequence[str] | None = None) -> int:
     """The command line; 0, or 1 where the page cannot be made."""
     parser = argparse.ArgumentParser(prog="python -m studies.report")
-    parser.add_argument("command", nargs="?", default="page", choices=["page", "films"])
+    parser.add_argument("command", nargs="?", default="page", choices=["page", "equations", "films"])
     parser.add_argument("--out", type=Path, default=RESULTS, help="folder with the tables (default: results)")
     words = parser.parse_args(arguments)
     try:
@@ -21,7 +22,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             from studies.report.films import make_all  # they alone need the solvers
             paths = make_all(words.out)
         else:
-            paths = [write_page(words.out)]
+            write = {"page": write_page, "equations": write_equations}[words.command]
+            paths = [write(words.out)]
     except (NoReport, ValueError) as error:
         return say(f"report: {error}", 1)
     for path in paths:
