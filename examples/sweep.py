@@ -1,6 +1,7 @@
 """A sweep on a Dask cluster: K of lattice points over Rayleigh numbers, one run a task.
 
 Client() starts workers on this machine; Client("tcp://host:8786") uses those of a cluster.
+`make .venv/ready-cluster` installs Dask.
 """
 from dask.distributed import Client
 

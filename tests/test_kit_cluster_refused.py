@@ -62,7 +62,7 @@ def test_a_scheduler_that_is_lost_ends_the_study():
 def test_without_the_package_the_way_out_is_told(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(CannotRun,
-                       match=r"needs the package distributed .*: make env installs it; without SCH"):
+                       match=r"needs the package distributed .*: make .venv/ready-cluster installs it; wi"):
         STUDY.run("paper", out=tmp_path, scheduler="tcp://here:1")
 
 

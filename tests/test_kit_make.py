@@ -1,4 +1,5 @@
 """make: names that exist before anything is set up, and a list of them."""
+import re
 import shutil
 import subprocess
 
@@ -13,7 +14,8 @@ pytestmark = pytest.mark.skipif(not shutil.which("make"), reason="no make")
 def make(tmp_path):
     """make in a repository of the studies one and two; nothing can be set up in it."""
     shutil.copy(key.ROOT / "Makefile", tmp_path)
-    (tmp_path / "requirements.lock").touch()
+    for lock in key.ROOT.glob("requirements*.lock"):
+        (tmp_path / lock.name).touch()
     for name, file in {"one": "__main__.py", "two": "__main__.py", "kit": "case.py"}.items():
         (tmp_path / f"studies/{name}").mkdir(parents=True)
         (tmp_path / f"studies/{name}/{file}").touch()
@@ -53,8 +55,7 @@ def test_help_lists_every_target_by_the_name_that_is_typed(make):
                           ("quick", ["report --out results/quick"])])
 def test_all_studies_are_told_their_hours_first_and_become_notebooks_films_and_the_page_last(make, size, last,
                                                                                              tmp_path):
-    (tmp_path / ".venv").mkdir()
-    (tmp_path / ".venv/ready").touch()
+    set_up(tmp_path, "ready", "ready-lab", "ready-films")
     code, text = make("-n", "studies", f"SIZE={size}")
     lines = [line.strip() for line in text.splitlines()
              if line.strip().startswith((".venv/bin/python", "for one in"))]
@@ -63,8 +64,24 @@ def test_all_studies_are_told_their_hours_first_and_become_notebooks_films_and_t
     assert all(word in line for word, line in zip(wanted, lines)), lines
 
 
-def test_a_worker_is_told_that_it_needs_the_address_of_a_scheduler(make, tmp_path):
-    (tmp_path / ".venv").mkdir()
-    (tmp_path / ".venv/ready").touch()
+def set_up(folder, *stamps):
+    (folder / ".venv").mkdir()
+    for stamp in stamps:    # in order: each is younger than those before it
+        (folder / ".venv" / stamp).touch()
+
+
+@pytest.mark.parametrize(("words", "added"), [
+    (["study-one"], []), (["figures-one"], []), (["hours"], []), (["report"], ["films"]),
+    (["films"], ["films"]), (["lint"], ["test"]), (["test"], ["test", "cluster", "films"]),
+    (["notebooks"], ["lab"]), (["lab"], ["lab"]), (["bench"], ["bench"]),
+    (["study-one", "SCHEDULER=tcp://h:1"], ["cluster"]), (["worker", "SCHEDULER=tcp://h:1"], ["cluster"])])
+def test_a_target_adds_what_it_needs_and_no_more(make, tmp_path, words, added):
+    set_up(tmp_path, "ready")
+    code, text = make("-n", *words)
+    assert code == 0 and re.findall(r"Adding requirements-(\w+).lock", text) == added
+
+
+def test_a_worker_is_told_that_it_needs_the_address_of_a_scheduler_before_anything_is_set_up(make, tmp_path):
     code, text = make("worker")
+    assert not (tmp_path / ".venv").exists() and "Setting up" not in text
     assert code and "make worker SCHEDULER=tcp://host:port: the address that dask scheduler" in text

@@ -1,4 +1,6 @@
 """Bad input of the report is told with the way out, an older page stays."""
+import sys
+
 import pandas as pd
 import pytest
 from PIL import Image
@@ -9,7 +11,7 @@ from studies.kit.csvfile import write
 from studies.report import films as draw
 from studies.report.__main__ import main
 from studies.report.inventory import NoReport
-from studies.report.page import FILMS, write_page
+from studies.report.page import FILMS, ffmpeg, write_page
 
 
 @pytest.fixture
@@ -81,13 +83,19 @@ def test_a_film_that_is_missing_or_broken(small, capsys):
         assert "gone.mp4 is no film" in refused(small, capsys)
 
 
+def test_without_what_reads_films_the_way_out_is_told(monkeypatch):
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    with pytest.raises(NoReport, match=r"films need the package imageio-ffmpeg .*: make report installs it"):
+        ffmpeg()
+
+
 @pytest.mark.parametrize("fails", [("-f", "mp4", "-preset", "nonsense"), ("-f", "mp4", "-frames:v", "1")])
 def test_a_film_that_cannot_be_written(tmp_path, monkeypatch, fails):
     """At once, or without a word with a part of the pictures: the one that was there stays."""
     path = tmp_path/"film.mp4"
     path.write_bytes(b"older")
     monkeypatch.setattr(draw, "ENCODING", fails)
-    with pytest.raises(ValueError, match=r"film.mp4 could not be written .*make env"):
+    with pytest.raises(ValueError, match=r"film.mp4 could not be written .*rm .venv/ready-films"):
         draw.write(path, [Image.new("RGB", (640, 320))]*2)
     assert path.read_bytes() == b"older" and [*tmp_path.iterdir()] == [path]
 

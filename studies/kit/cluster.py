@@ -90,8 +90,9 @@ def connected(address: str) -> "Client":
     try:
         from distributed import Client
     except ImportError as error:
-        raise CannotRun(f"SCHEDULER={address} needs the package distributed ({error}): make env installs it; "
-                        "without SCHEDULER cases run on this machine") from error
+        raise CannotRun(f"SCHEDULER={address} needs the package distributed ({error}): make "
+                        ".venv/ready-cluster installs it; without SCHEDULER cases run on this machine"
+                        ) from error
     try:
         return Client(address, timeout=CONNECT, set_as_default=False)
     except OSError as error:

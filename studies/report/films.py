@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from imageio_ffmpeg import count_frames_and_secs, write_frames
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image as Picture
@@ -26,8 +25,9 @@ from studies.build import ready
 from studies.build.names import START_ENERGY
 from studies.kit.figure import COLOURS
 from studies.kit.table import merge
-from studies.report.page import FILMS
+from studies.report.page import FILMS, ffmpeg
 
+FFMPEG = ffmpeg()   # it is missed before minutes of computing
 RA, GRID_ROWS, ROWS, SEED = 1e4, 48, 25, 1
 #: free-fall times: the first rolls shoot over at 10 and settle at 30
 TIMES = np.linspace(0, 32, 41)
@@ -158,20 +158,20 @@ def write(path: Path, frames: Sequence[Picture.Image]) -> None:
     except (OSError, RuntimeError) as error:
         cause = str(error).splitlines()[0]
         raise ValueError(f"{path} could not be written ({cause}), ffmpeg says more above: make room on the "
-                         "disk, or set up .venv anew by rm .venv/ready and make env") from error
+                         "disk, or install ffmpeg anew by rm .venv/ready-films and make films") from error
     finally:
         part.unlink(missing_ok=True)
 
 
 def encode(path: Path, frames: Sequence[Picture.Image]) -> None:
     """Pictures through ffmpeg, which does not say that it failed at the end: they are counted."""
-    film = write_frames(path, frames[0].size, fps=RATE, codec="libx264", quality=None,
-                        output_params=list(ENCODING))
+    film = FFMPEG.write_frames(path, frames[0].size, fps=RATE, codec="libx264", quality=None,
+                               output_params=list(ENCODING))
     film.send(None)
     for frame in frames:
         film.send(frame.tobytes())
     film.close()
-    written = count_frames_and_secs(path)[0]
+    written = FFMPEG.count_frames_and_secs(path)[0]
     if written != len(frames):
         raise RuntimeError(f"it has {written} of {len(frames)} pictures")
 

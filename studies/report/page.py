@@ -4,10 +4,10 @@ import io
 import math
 from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 from typing import Any, NamedTuple
 
 import numpy as np
-from imageio_ffmpeg import read_frames
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from PIL import Image, UnidentifiedImageError
 
@@ -182,6 +182,15 @@ def address(kind: str, content: bytes) -> str:
     return f"data:{kind};base64,{text}"
 
 
+def ffmpeg() -> ModuleType:
+    """What reads and writes films. Raises NoReport: It is not installed."""
+    try:
+        import imageio_ffmpeg
+    except ImportError as error:
+        raise NoReport(f"films need the package imageio-ffmpeg ({error}): make report installs it") from error
+    return imageio_ffmpeg
+
+
 def films(out: Path) -> list[dict]:
     """What films.csv says of films, and what is in their files."""
     columns = (*FILMS.columns, "seed", "commit")
@@ -195,7 +204,7 @@ def in_file(path: Path) -> dict[str, Any]:
     if not path.exists():
         raise NoReport(f"{path} is missing: make films makes it again")
     try:
-        about, *_, last = read_frames(path)
+        about, *_, last = ffmpeg().read_frames(path)
     except (OSError, RuntimeError, ValueError) as error:
         cause = str(error).splitlines()[0]
         raise NoReport(f"{path} is no film ({cause}): make films makes it again") from error
