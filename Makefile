@@ -31,6 +31,7 @@ help:  ## this list
 		n = target ~ /%/ ? split(names, name, " ") : 1; \
 		for (i = 1; i <= n; i++) { one = target; sub(/%/, name[i], one); printf "  %-22s%s\n", one, text } }' Makefile
 	@echo '  ARGS="--only TEXT" runs the cases of a study with this text in their label, such as the name of a variant'
+	@echo '  ARGS="--only NAME --rows 16 --seeds 1" tries out a method in results/own (study-rb)'
 	@echo '  SIZE=quick writes to results/quick'
 
 $(studies:%=study-%): study-%: $(study)  ## cases, tables, figures, verdicts of a study; goes on where it stopped

@@ -3,7 +3,7 @@ import errno
 import os
 import signal
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import pytest
 from toy import Toy, finish, until
@@ -143,9 +143,9 @@ def typed(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(store, "RESULTS", tmp_path/"results")
     monkeypatch.chdir(tmp_path)
 
-    def type_(*words):
+    def type_(*words, study=CUBES):
         with pytest.raises(SystemExit) as ended:
-            main(CUBES, [*words, "--workers", "1"])
+            main(study, [*words, "--workers", "1"])
         said = capsys.readouterr()
         return ended.value.code, said.out + said.err
     return type_
@@ -184,6 +184,38 @@ def test_only_that_matches_nothing_names_labels_that_exist(typed, tmp_path):
                     "Cube 1 plain; Cube 0.333333 plain; Cube 7 Quartic\n")
     code, text = typed("figures", "--only", "plain")
     assert code == 2 and "--only chooses what to run, figures reads whole tables" in text
+
+
+OWN = replace(CUBES, own=study.Own(
+    cases=lambda text, rows, seeds: [Cube(x=float(rows + seed), name=text) for seed in range(seeds)],
+    beside=lambda cases, *both: [f"{len(cases)} cases, rows {[len(tables['cubes']) for tables in both]}"]))
+
+
+def test_rows_try_out_a_method_beside_the_tables_which_stay_as_they_are(typed, tmp_path):
+    typed()
+    before = {path: path.read_bytes() for path in (tmp_path/"results").rglob("*") if path.is_file()}
+    code, text = typed("--only", "mine", "--rows", "16", "--seeds", "2", study=OWN)
+    assert code == 0 and "2 cases, rows [2, 3]" in text and "figure" not in text and "holds" not in text
+    assert text.endswith("tried out: all of it is in results/own, what is in results stays as it is\n")
+    assert {path: path.read_bytes() for path in before} == before
+    own = tmp_path/"results/own/toy/cubes.csv"
+    assert list(read(own).x) == [16, 17] and "--only mine --rows 16 --seeds 2\n" in own.read_text()
+    assert typed("--only", "mine", "--rows", "16", "--keep", study=OWN)[0] == 0
+    assert list(read(tmp_path/"results/toy/cubes.csv").x.round(2)) == [0.33, 1, 7, 16]
+
+
+@pytest.mark.parametrize(("words", "rule"), [
+    (["--rows", "7", "--only", "a"], "--rows must be at least 8, got 7"),
+    (["--rows", "16", "--seeds", "0", "--only", "a"], "--seeds must be at least 1, got 0"),
+    (["--rows", "16"], "give --only TEXT, too"), (["--only", "a", "--keep"], "give --rows, too")])
+def test_rows_that_cannot_run_are_one_line(typed, words, rule):
+    code, text = typed(*words, study=OWN)
+    assert code == 2 and rule in text.splitlines()[-1]
+
+
+def test_a_study_without_methods_to_try_out_says_so(typed):
+    code, text = typed("--rows", "16", "--only", "plain")
+    assert code == 2 and text.splitlines()[-1].endswith("leave --rows out, --size chooses among them")
 
 
 def test_quick_leaves_the_tables_of_other_sizes_alone(typed, tmp_path):

@@ -2,14 +2,16 @@
 from functools import partial
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import studies.rb.cases as rb
 from continuum.gas.solve import steady_on
 from continuum.scene import RayleighBenard
 from studies.build import spam
-from studies.kit.sweep import RESULTS
+from studies.kit.sweep import RESULTS, NoSuchCase, load
 from studies.kit.table import read
+from studies.rb import own, tables
 from studies.rb.runs.grid import BoussinesqSteady, CompressibleSteady, PypdeSteady
 from studies.rb.runs.points import DihRun, MovingRun
 from studies.rb.runs.spam import SpamRun
@@ -81,6 +83,32 @@ def test_two_independent_solvers_agree_within_their_uncertainties(kinetic, ra, o
     a, b = limit(kinetic, one, ra, pr), limit(kinetic, other, ra, pr)
     # the sum of both 95 % intervals, and 1e-4: closer than any interval from three grids can tell
     assert abs(a[column] - b[column]) <= a[f"{column}_err"] + b[f"{column}_err"] + 1e-4*a[column]
+
+
+@pytest.mark.parametrize(("text", "kinds"), [
+    ("wendland-c4", ["SpamRun"]), ("moving", ["MovingRun"]), ("moving-literal", ["DriftRun"]),
+    ("fixed-lattice", ["DihRun"]), ("Monaghan", ["DihRun", "SpamRun"])])
+def test_a_text_names_a_method_or_all_that_have_it_in_their_names(text, kinds):
+    cases = own.cases(text, 16, 2)
+    assert sorted(type(case).__name__ for case in cases if case.seed == 1) == kinds
+    assert len(cases) == 2*len(kinds) and {case.scene.L for case in cases} == {16}
+
+
+def test_a_text_in_no_name_is_told_names_near_to_it():
+    with pytest.raises(NoSuchCase, match=r"'wendland-c9' in its name; near to it are .*spam-wendland-c6"):
+        own.cases("wendland-c9", 16, 1)
+
+
+def test_what_is_tried_out_stands_beside_its_kin_with_the_nearest_rows():
+    [case] = own.cases("wendland-c2", 25, 1)
+    row = {**case.point, "ke_field": 1/7, "ke_field_err": 0.01}
+    known = load(tables.ALL, "rb", RESULTS)
+    head, mine, _, *kin = own.beside([case], {"means": pd.DataFrame([row])}, known)
+    assert mine == " 25 rows  0.142857 +- 0.010000  SPAM, Wendland C2" and "Ra 10000" in head
+    assert sum("as printed" in line for line in kin) == 1 and all("DIH" not in line for line in kin)
+    assert any(line.startswith(" 50 rows") and "Wendland C2" in line for line in kin), "25 is its own"
+    assert any(line.startswith("   limit") and "grid" in line for line in kin)
+    assert "diverged" in list(own.beside([case], {}, known))[1]
 
 
 def test_a_run_that_diverges_is_a_row_without_energies(tmp_path):

@@ -21,8 +21,8 @@ SEAL = "sha256"     # of the rows of a kept case and their commit
 
 
 def results(size: str) -> Path:
-    """Where the results of a size go by default; ``quick`` is for trying out and has a folder of its own."""
-    return RESULTS / "quick" if size == "quick" else RESULTS
+    """Where the results of a size go by default; what is tried out, ``quick`` or ``own``, has its folder."""
+    return RESULTS / size if size in ("quick", "own") else RESULTS
 
 
 class CannotRun(Exception):

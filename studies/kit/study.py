@@ -6,26 +6,38 @@ import os
 import signal
 import sys
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
+from studies.kit.case import Case
 from studies.kit.claim import judge, put_claims
 from studies.kit.csvfile import OtherTable
 from studies.kit.figure import save
 from studies.kit.part import Part, joined
 from studies.kit.store import RESULTS, CannotRun, results
-from studies.kit.sweep import CasesFailed, NoSuchCase, Sweep, load
+from studies.kit.sweep import CasesFailed, NoSuchCase, Sweep, labelled, load
 from studies.kit.table import SIZES, Row, Tables, check_once
 
 GO_ON = "finished cases are kept, the same command goes on from there"
 FULL = "the disk is full; make room where {out} lies; " + GO_ON
 REFUSED = "{file} cannot be written: give --out another folder"
+LEAST = 8       # rows of what is tried out
 #: number of the system's error -> what to do about it
 DISK = {errno.ENOSPC: FULL, errno.EACCES: REFUSED, errno.EPERM: REFUSED, errno.EROFS: REFUSED}
 #: what ends a study with one line
 EXPECTED = (CasesFailed, CannotRun, OtherTable, FileNotFoundError)
+
+
+class Own(NamedTuple):
+    """Methods of one's own, tried out with few rows and seeds.
+
+    cases : (text, rows, seeds) -> cases of the methods that the text names; raises NoSuchCase
+    beside : (cases, tables with them, tables of the study) -> lines that compare
+    """
+    cases: Callable[[str, int, int], Sequence[Case]]
+    beside: Callable[[Sequence[Case], Tables, Tables], Iterable[str]]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,28 +49,31 @@ class Study(Part):
 
     name: str
     question: str = ""
+    own: Own | None = None
 
     def __post_init__(self):
         check_once("tables", (table.name for table in self.tables))
         check_once("claims", (claim.id for claim in self.claims))
 
     @classmethod
-    def of(cls, name: str, question: str, parts: Sequence[Part]) -> "Study":
+    def of(cls, name: str, question: str, parts: Sequence[Part], own: Own | None = None) -> "Study":
         """A study made of parts."""
-        return cls(name=name, question=question.split("\n")[0], **vars(joined(parts)))
+        return cls(name=name, question=question.split("\n")[0], own=own, **vars(joined(parts)))
 
     def sweep(self, size: str, **more: Any) -> Sweep:
         """Its cases of a size: where they run, which of them, where their rows go."""
         return Sweep(study=self.name, tables=self.tables, size=size, **more)
 
-    def run(self, size: str, *, out: Path | None = None, **more: Any) -> Tables:
+    def run(self, size: str, *, out: Path | None = None, cases: Sequence[Case] = (), **more: Any) -> Tables:
         """Cases to tables, derived rows among them; more, such as ``workers``, are fields of `Sweep`.
+
+        cases : those of one's own that run in place of the study's.
 
         Raises NoSuchCase: No label contains ``only``. CasesFailed: Some did; what follows from the
         others has been derived and written. CannotRun: The tables are as they were.
         """
         sweep = self.sweep(size, out=out or results(size), **more)
-        tables, failed = sweep.run(self.cases(size))
+        tables, failed = sweep.run(cases or labelled(list(self.cases(size)), sweep.only, size))
         if tables:
             tables = sweep.put_derived(self.derive(tables))
         if failed:
@@ -119,15 +134,38 @@ def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
     add("--out", type=Path, help="where tables and figures go (default: results, or results/quick)")
     add("--only", default="", metavar="TEXT",
         help="run only cases with this text in their label, such as a variant's name")
+    add("--rows", type=int, metavar="N", help="try out the methods that --only names, with N rows")
+    add("--seeds", type=int, metavar="N", help="seeds 1 to N of these (default: 1)")
+    add("--keep", action="store_true", help="put these into tables, figures and verdicts of the study, too")
     words = parser.parse_args(arguments)
+    words.tried = words.rows is not None and not words.keep
     words.usual = words.out is None
-    words.out = words.out or results(words.size)
+    words.out = words.out or results("own" if words.tried else words.size)
     words.cases = dict(workers=words.workers, scheduler=words.scheduler, out=words.out, only=words.only)
     try:
+        check_own(study, words)
         check_words(study, words)
     except ValueError as error:
         parser.error(str(error))
     return words
+
+
+def check_own(study: Study, words: argparse.Namespace) -> None:
+    """Refuse numbers of rows and seeds that nothing can run with; without --rows nothing is one's own."""
+    if words.rows is None:
+        if words.seeds is not None or words.keep:
+            raise ValueError("--seeds and --keep are for methods that are tried out: give --rows, too")
+        return
+    words.seeds = 1 if words.seeds is None else words.seeds
+    if study.own is None:
+        raise ValueError(f"{study.name} has rows of its own: leave --rows out, --size chooses among them")
+    if not words.only:
+        raise ValueError(f"--rows {words.rows} is for the methods that --only names: give --only TEXT, too")
+    if words.rows < LEAST:
+        raise ValueError(f"--rows must be at least {LEAST}, got {words.rows}: fewer do not resolve a roll")
+    if words.seeds < 1:
+        raise ValueError(f"--seeds must be at least 1, got {words.seeds}: leave it out for one run")
+    words.cases["typed"] = f"--rows {words.rows} --seeds {words.seeds}" + " --keep"*words.keep
 
 
 def check_words(study: Study, words: argparse.Namespace) -> None:
@@ -148,24 +186,29 @@ def check_words(study: Study, words: argparse.Namespace) -> None:
 def perform(study: Study, words: argparse.Namespace) -> int:
     """Run what was asked for and say where it is."""
     out, failed = words.out, None
+    own = study.own.cases(words.only, words.rows, words.seeds) if study.own and words.rows else ()
     if words.command == "run":
         try:
-            study.run(words.size, **words.cases)
+            study.run(words.size, cases=own, **words.cases)
         except CasesFailed as error:
             failed = error
     elif not study.written(out):
         raise FileNotFoundError(f"no table in {shown(out/study.name)}: run {first(study, words)} first")
-    if words.command in ("run", "figures"):
+    if study.own and own:
+        both = (load(study.tables, study.name, folder) for folder in (out, results("paper")))
+        print(*study.own.beside(own, *both), sep="\n")
+    if words.command in ("run", "figures") and not words.tried:
         for path in study.draw(out):
             say(f"figure  {shown(path)}")
-    if words.command in ("run", "claims"):
+    if words.command in ("run", "claims") and not words.tried:
         for row in study.judge(out):
             print(verdict_line(row))
     for path in study.written(out):
         say(f"table   {shown(path)}")
     usual = results("paper")
     if words.usual and out != usual:
-        say(f"size {words.size}: all of it is in {shown(out)}, what is in {shown(usual)} stays as it is")
+        what = "tried out" if words.tried else f"size {words.size}"
+        say(f"{what}: all of it is in {shown(out)}, what is in {shown(usual)} stays as it is")
     if failed:
         raise failed
     return 0

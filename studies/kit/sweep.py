@@ -36,8 +36,10 @@ class Sweep:
     workers: int = 2
     #: address of a Dask cluster, which takes the place of the workers
     scheduler: str = ""
-    #: leaves out cases without this text in their label
+    #: some of the study's cases run: those with this text in their label, or of the methods that it names
     only: str = ""
+    #: what was typed besides to make cases of one's own
+    typed: str = ""
 
     def __post_init__(self):
         check_size(self.size)
@@ -58,11 +60,9 @@ class Sweep:
     def run(self, cases: Iterable[Case]) -> tuple[Tables, CasesFailed | None]:
         """Run the cases that are not finished yet, the longest first; merge all rows into the tables.
 
-        Raises NoSuchCase: No label contains ``only``. KeyboardInterrupt, CannotRun: What is finished
-        is kept, the tables are as they were.
+        Raises KeyboardInterrupt, CannotRun: What is finished is kept, the tables are as they were.
         """
-        chosen = labelled(list(cases), self.only, self.size)
-        wanted = list({case.key: case for case in chosen}.values())
+        wanted = list({case.key: case for case in cases}.values())
         failures = self.run_missing(wanted)
         tables = self.put(self.rows(wanted))
         if failures:
@@ -135,7 +135,7 @@ class Sweep:
         """What makes the tables; a cluster has CPUs that the head of a table does not name."""
         there = " SCHEDULER=tcp://..." if self.scheduler else ""
         if self.only:
-            only = shlex.quote(self.only)
+            only = f"{shlex.quote(self.only)} {self.typed}".strip()
             return f"python -m studies.{self.study} --size {self.size} --only {only}{there}"
         return f"make study-{self.study} SIZE={self.size}{there}"
 

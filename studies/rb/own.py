@@ -1,0 +1,82 @@
+"""A method of one's own with few rows, its K beside that of its kin in the tables."""
+from collections.abc import Iterator, Sequence
+from itertools import product
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from continuum.scene import RayleighBenard
+from studies.build import METHODS, near
+from studies.build.fixed import Scheme
+from studies.build.labels import label
+from studies.build.moving import FacesMotion
+from studies.build.rr98_moving import DriftMotion
+from studies.build.spam import Variant
+from studies.kit.case import Case
+from studies.kit.sweep import NoSuchCase
+from studies.kit.table import Tables
+from studies.rb import tables
+from studies.rb.runs.points import DihRun, DriftRun, MovingRun
+from studies.rb.runs.spam import SpamRun
+
+RA = 1e4
+#: family of variants -> its case, and which field of it has the variant
+RUNS: dict[type, tuple[Any, str]] = {
+    Variant: (SpamRun, "variant"), Scheme: (DihRun, "scheme"), FacesMotion: (MovingRun, "motion"),
+    DriftMotion: (DriftRun, "motion")}
+SAME = ["method", "variant"]
+
+
+def cases(text: str, rows: int, seeds: int) -> list[Case]:
+    """Runs in the layer of the methods that a text names. Raises NoSuchCase: It names none."""
+    scene = RayleighBenard(ra=RA, L=float(rows))
+    return [case(variant, scene, seed) for variant, seed in product(chosen(text), range(1, seeds + 1))]
+
+
+def case(variant: Any, scene: RayleighBenard, seed: int) -> Any:
+    """One run of a variant of any family of points."""
+    run, field = RUNS[type(variant)]
+    return run(scene=scene, seed=seed, **{field: variant})
+
+
+def chosen(text: str) -> list:
+    """The variant of this name, within its family or with it; if there is none all with the text in it."""
+    known = {name: variant for name, variant in METHODS.items() if type(variant) in RUNS}
+    exact = [variant for name, variant in known.items() if text in (name, variant.name)]
+    some = exact or [variant for name, variant in known.items() if text.casefold() in name]
+    if not some:
+        raise NoSuchCase(f"no method on points has {text!r} in its name; near to it are {near(text, known)}")
+    return some
+
+
+def beside(own: Sequence[Any], here: Tables, others: Tables) -> Iterator[str]:
+    """K of cases, then of others of their kind with the nearest rows, and the grid's; the largest first."""
+    points = pd.DataFrame([one.point for one in own])[[*SAME, "resolution"]].drop_duplicates()
+    points["resolution"] = points["resolution"].astype(float)
+    yield f"K of the flow at Ra {RA:g}, Pr 1"
+    yield from lines(means(here).merge(points, how="right"))
+    yield "beside, nearest in rows:"
+    known = means(others).merge(points, how="left", indicator="tried").query("tried == 'left_only'")
+    kin = known[known["method"].isin(points["method"]) & np.isfinite(known["resolution"])]
+    apart = (kin["resolution"] - points["resolution"].iloc[0]).abs()
+    nearest = kin.loc[apart.sort_values(kind="stable").index].drop_duplicates(SAME)
+    limit = known.query("method == 'compressible' and variant == 'flux-form' and resolution == inf")
+    yield from lines(pd.concat([nearest, limit]))
+
+
+def means(frames: Tables) -> pd.DataFrame:
+    """Rows of the table in the scene of `cases`; none where there is no table."""
+    columns = [*tables.POINT, "ke_field", "ke_field_err"]
+    frame = frames["means"] if "means" in frames else pd.DataFrame(columns=columns)
+    where = tables.scene(RA)
+    return frame.loc[(frame[list(where)] == pd.Series(where)).all(axis=1), columns]
+
+
+def lines(frame: pd.DataFrame) -> Iterator[str]:
+    """Rows, K with its error, words for the method; the largest K first."""
+    columns = [*SAME, "resolution", "ke_field", "ke_field_err"]
+    for method, variant, rows, ke, err in frame.sort_values("ke_field", ascending=False)[columns].to_numpy():
+        size = "limit" if np.isinf(rows) else f"{rows:g} rows"
+        value = f"{ke:.6f} +- {err:.6f}" if np.isfinite(ke) else "diverged"
+        yield f"{size:>8}  {value:<20}  {label(method, variant) or f'{method} {variant}'}"
