@@ -144,7 +144,7 @@ def test_a_verdict_has_its_formula():
 
 
 def test_questions_are_checked_without_rows():
-    tables = [Table("rows", key=["n"], columns=["n", "y", "y_err"])]
+    tables = [Table("rows", key=["n"], columns=["n", "y", "y_err"], about="a test")]
     ask.check(ask.largest("rows", "y", "size == 'paper'", seed=1)/one("rows", "y/n", err="y_err/n"), tables)
     for wrong, words in ((one("row", "y"), "no table row: the study has rows"),
                          (one("rows", "z"), "no column z"), (ask.power("rows", "y", "m"), "no column m"),

@@ -15,7 +15,7 @@ from studies.kit.study import Study
 from studies.kit.sweep import CasesFailed
 from studies.kit.table import Table, read
 
-SQUARES = Table("squares", key=["x", "note"], columns=["x", "note", "y"])
+SQUARES = Table("squares", key=["x", "note"], columns=["x", "note", "y"], about="a test")
 
 
 class Lens(NamedTuple):

@@ -53,7 +53,7 @@ def cases(size):
 
 if __name__ == "__main__":
     main(Study(name="toy", cases=cases,
-               tables=[Table("waves", key=["x"], columns=["x", "y"])]))
+               tables=[Table("waves", key=["x"], columns=["x", "y"], about="a test")]))
 '''
 
 

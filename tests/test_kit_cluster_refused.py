@@ -23,7 +23,7 @@ class Cube(Case):
         return Outcome({"cubes": [{"x": self.x, "y": self.x**3}]})
 
 
-CUBES = Table("cubes", key=["x"], columns=["x", "y"])
+CUBES = Table("cubes", key=["x"], columns=["x", "y"], about="a test")
 STUDY = Study(name="toy", cases=lambda size: [Cube(x=1.0), Cube(x=2.0)], tables=[CUBES])
 WORKER = SimpleNamespace(address="tcp://here:1", state=SimpleNamespace(nthreads=1))
 

@@ -50,7 +50,8 @@ claim = Claim(id="grows", source="KHP95, Sec. V", statement="cubes grow", at_lea
               value=lambda tables: (tables["cubes"].y.max(), 0.0), because="2 is in the table")
 if __name__ == "__main__":
     main(Study(name="toy", cases=lambda size: [Timed(x=4.0), *(Run(x=x) for x in (0., 1., 2., 3.))],
-               figures=figures, tables=[Table("cubes", key=["x"], columns=["x", "y"])], claims=[claim]))
+               tables=[Table("cubes", key=["x"], columns=["x", "y"], about="a test")],
+               figures=figures, claims=[claim]))
 '''
 
 
@@ -129,9 +130,9 @@ def drawn(tables):
 
 CUBES = Study(name="toy", cases=lambda size: [Cube(x=1.0), Cube(x=1/3), Cube(x=7.0, name="Quartic")],
               derive=derive, figures=drawn,
-              tables=[Table("cubes", key=["x"], columns=["x", "y"]),
-                      Table("halves", key=["x"], columns=["x", "half"]),
-                      Table("never", key=["x"], columns=["x"])],
+              tables=[Table("cubes", key=["x"], columns=["x", "y"], about="a test"),
+                      Table("halves", key=["x"], columns=["x", "half"], about="a test"),
+                      Table("never", key=["x"], columns=["x"], about="a test")],
               claims=[Claim(id="grows", source="KHP95, Sec. V", statement="cubes grow", at_least=1,
                             because="1 is there", value=lambda tables: (tables["cubes"].y.max(), 0.0))])
 

@@ -26,7 +26,7 @@ class Work(Case):
 
 SIZES = {"quick": (1.0, 2.0), "paper": (1.0, 2.0, 3.0, 6.0)}
 TOY = Study(name="toy", cases=lambda size: [Work(x=x) for x in SIZES[size]],
-            tables=[Table("squares", key=["x"], columns=["x", "y"])])
+            tables=[Table("squares", key=["x"], columns=["x", "y"], about="a test")])
 
 
 def claim_seconds(out: Path, factor: float) -> None:

@@ -20,7 +20,7 @@ class Power(Case):
 
 
 def table(name):
-    return Table(name, key=["x"], columns=["x", "y"])
+    return Table(name, key=["x"], columns=["x", "y"], about="a test")
 
 
 def halves(tables):

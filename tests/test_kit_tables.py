@@ -1,5 +1,6 @@
 """Tables keep the better row and read back as written; verdicts mean what they say."""
 import errno
+import gzip
 import math
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from studies.kit.claim import CannotTell, Claim, judge, put_claims, verdict
 from studies.kit.formula import WrongQuestion
 from studies.kit.table import Table, Tables, changed, merge, read
 
-SQUARES = Table("squares", key=["x", "note"], columns=["x", "note", "y"])
+SQUARES = Table("squares", key=["x", "note"], columns=["x", "note", "y"], about="a test")
 
 
 def row(x, y, note="", **more):
@@ -31,18 +32,26 @@ def test_a_row_of_a_better_size_stays_and_equal_sizes_take_the_newer(tmp_path):
 
 def test_empty_text_reads_back_as_text_and_numbers_as_numbers(tmp_path):
     path = tmp_path / "squares.csv"
-    merge(path, SQUARES, [row(math.inf, None, seed=3), row(2, 1e-7), row(2, 5.0, "nan")], size="quick")
+    merge(path, SQUARES, [row(math.inf, None, seed=3), row(2, 1e-7), row(2, 5.0, "a")], size="quick")
     for frame in (read(path), read(path, SQUARES.columns)):
-        assert list(frame.note) == ["", "nan", ""] and list(frame.x) == [2, 2, math.inf]
+        assert list(frame.note) == ["", "a", ""] and list(frame.x) == [2, 2, math.inf]
         assert list(frame.y[:2]) == [1e-7, 5.0] and math.isnan(frame.y[2])
         assert frame.seed[2] == 3
+    assert list(pd.read_csv(path, comment="#").note) == ["(none)", "a", "(none)"]
     head = path.read_text().split("x,note")[0]
     assert all(word in head for word in ("# commit", "numpy", "numba", "py-pde", "cores", "UTC"))
 
 
-RUNS = Table("runs", key=["who", "ra", "t"], columns=["who", "ra", "t", "ke", "kind"],
-             digits={"t": ".3g", "ke": ".4f"},
-             once=["who", "ra", "kind", "size", "commit"])
+def test_a_commit_of_digits_alone_is_written_in_full(monkeypatch):
+    csvfile.commit.cache_clear()
+    answers = {"--short=10": "12345e6789", "HEAD": "12345e6789f"}
+    monkeypatch.setattr(csvfile, "git", lambda *words: answers.get(words[1], ""))
+    assert csvfile.commit() == "12345e6789f"
+    csvfile.commit.cache_clear()
+
+
+RUNS = Table("runs", key=["who", "ra", "t"], columns=["who", "ra", "t", "ke", "kind"], large=True,
+             digits={"t": ".3g", "ke": ".4f"}, about="a test")
 
 
 def long(**more):
@@ -51,27 +60,30 @@ def long(**more):
             for who in ("spam", "dih") for ra in (1e4, 2.5e3, math.inf) for t in (3, 2, 1)]
 
 
-def test_large_tables_keep_the_digits_they_need_and_leave_out_what_is_as_above(tmp_path):
-    path = tmp_path / "runs.csv"
+def test_large_tables_keep_the_digits_they_need_and_are_packed(tmp_path):
+    assert RUNS.file == "runs.csv.gz" and SQUARES.file == "squares.csv"
+    path = tmp_path/RUNS.file
     frame, _ = merge(path, RUNS, long(), size="paper")
-    assert path.read_text().splitlines()[-20:-13] == [
-        "# empty is as above: who, ra, size, commit", "who,ra,t,ke,kind,size,commit",
-        f"dih,2500,0.333,3.1416,a,paper,{frame.commit[0]}", ",,0.667,6.2832,,,", ",,1,0,a,,",       # not -0
-        ",10000,0.333,3.1416,a,,", ",,0.667,6.2832,,,"]
-    assert frame.who.tolist() == ["dih"]*9 + ["spam"]*9
-    assert frame.ra.tolist() == ([2500]*3 + [1e4]*3 + [math.inf]*3)*2
+    end = f"paper,{frame.commit[0]}"
+    lines = gzip.decompress(path.read_bytes()).decode().splitlines()
+    assert lines[-18:-15] == [f"dih,2500,0.333,3.1416,a,{end}", f"dih,2500,0.667,6.2832,(none),{end}",
+                              f"dih,2500,1,0,a,{end}"]            # not -0
     assert frame.kind.tolist() == ["a", "", "a"]*6 and (frame["size"] == "paper").all()
     pd.testing.assert_frame_equal(read(path, RUNS.columns), frame)
+    pd.testing.assert_frame_equal(pd.read_csv(path, comment="#").replace("(none)", ""), frame)
+    head = [line[2:] for line in lines if line[0] == "#" and "text columns" not in line]
+    csvfile.write(tmp_path/"again.csv.gz", frame, head=head)
+    assert (tmp_path/"again.csv.gz").read_bytes() == path.read_bytes(), "no time or name in it"
 
 
 def test_rows_that_differ_in_digits_that_are_not_kept_are_the_same(tmp_path):
-    path = tmp_path / "runs.csv"
+    path = tmp_path/RUNS.file
     merge(path, RUNS, long(), size="paper")
-    text = path.read_text()
+    text = path.read_bytes()
     close = [{**row, "t": row["t"]*(1 + 1e-6), "ke": row["ke"] + 1e-6} for row in long()]
     assert changed(path, RUNS, close) == []
     merge(path, RUNS, close, size="paper", command="something else")
-    assert path.read_text() == text
+    assert path.read_bytes() == text
     frame, _ = merge(path, RUNS, [{**long()[0], "ke": 0.5}], size="fine")
     fine = frame[frame["size"] == "fine"]
     assert len(frame) == 18 and fine[["who", "ra", "t", "ke"]].to_numpy().tolist() == [["spam", 1e4, 1.0,
@@ -81,8 +93,7 @@ def test_rows_that_differ_in_digits_that_are_not_kept_are_the_same(tmp_path):
 @pytest.mark.parametrize(("content", "words"), [
     (b"", "is no table"), (b"a,b\n1,2\n3,4,5,6\n", "is no table"), (b"\xff\xfe\x00", "is no table"),
     (b"# text columns: note\nx,note,y\n1,one,2\nabc,one,2\n", "has 'abc' in x, a column of numbers"),
-    (b"# text columns: note\n# empty is as above: note, x\nnote,x,y\nspam,10,1\n,ten,1\n",
-     "is no table .*ten"),
+    (b"# empty is as above: note\nx,note,y\n1,spam,10\n2,,1\n", "leaves out cells .* an older layout"),
     (b"x,note\n1,one\n", "has no column y: it has an older layout")])
 def test_a_file_that_is_no_table_is_told_with_the_way_out(tmp_path, content, words):
     path = tmp_path / "squares.csv"
@@ -91,6 +102,15 @@ def test_a_file_that_is_no_table_is_told_with_the_way_out(tmp_path, content, wor
         read(path, SQUARES.columns if b"x,note" in content else ())
     with pytest.raises(FileNotFoundError, match=f"make study-{tmp_path.name} writes it"):
         read(tmp_path/"energy.csv")
+
+
+def test_a_packed_table_that_is_broken_is_told_with_the_way_out(tmp_path):
+    path = tmp_path/RUNS.file
+    merge(path, RUNS, long(), size="paper")
+    for content in (b"who,ra\n", path.read_bytes()[:-20]):
+        path.write_bytes(content)
+        with pytest.raises(csvfile.OtherTable, match=r"runs.csv.gz is no table .*run the study again"):
+            read(path)
 
 
 def test_a_table_does_not_depend_on_the_order_of_rows_and_stays_when_nothing_changed(tmp_path):
@@ -128,7 +148,8 @@ def test_no_rows_leave_a_table_as_it_is_or_make_an_empty_one_that_takes_rows_lat
     ([row(1, 1), row(1.0, 2)], "two rows of table squares have the key 1"),
     ([row(1, 1, speed=3)], "has no column speed"),
     ([{"note": "", "y": 1}], "lack x"),
-    ([row("inf", 1), row(2, 1)], "mixes numbers with text such as 'inf'"),
+    ([row("ten", 1), row(2, 1)], "mixes numbers with text such as 'ten'"),
+    *(([row(1, 1, text)], f"the text '{text}', which reads back") for text in ("nan", "1e3", "NA", "True")),
     ([row(1, 1, "no. #2")], "begins a comment")])
 def test_rows_that_do_not_fit_are_refused(tmp_path, rows, words):
     with pytest.raises((ValueError, TypeError), match=words):

@@ -51,7 +51,7 @@ def test_printed_noise_has_the_variance_of_lattice_sums(algebra):
     assert printed["ratio"].to_numpy() == pytest.approx(printed["predicted"].to_numpy(), rel=1e-8)
 
 
-@pytest.mark.parametrize("equation, due", [("42", 1.0), ("43", 1/KT)])
+@pytest.mark.parametrize("equation, due", [(42, 1.0), (43, 1/KT)])
 def test_waves_on_a_line_of_nearest_neighbours_get_one_over_cosine_squared(algebra, equation, due):
     """Doubled; T/cos^2(ka/2), energies 1/(T cos^2(ka/2)); the corner of the zone costs digits."""
     rows = algebra["printed"].query("equation == @equation and reading == 'doubled' and h == 1.5")

@@ -14,54 +14,68 @@ from studies.kit.table import Rows, Table, Tables
 
 RUN = ["scheme", "mode", "d", "maker", "weight", "h", "points", "wall", "zeta", "seed"]
 SUMS = ["mass", "momentum", "energy", "volume"]
-#: largest change of each sum: of mass, energy and volume over what they were, of momentum over the sum of its
-#: sizes; err: round-off of the sums themselves; claimed: those that should stay; reached: steps until it
-#: diverged or heated so much that sound outran its step, or all
-DRIFT = Table("drift", key=RUN, columns=[*RUN, "n", "steps", "reached", "claimed", *SUMS, "err"])
-#: lost: change of momentum over the sum of its sizes in so many steps, or when it was looked at last
-#: (`reached`)
+DRIFT = Table("drift", key=RUN, columns=[*RUN, "n", "steps", "reached", "claimed", *SUMS, "err"],
+              about="A long run of a scheme: the largest change of each sum until its end.",
+              means={"reached": ("steps until it diverged or heated so much that sound outran its step, or "
+                                 "all", ""),
+                     "err": ("round-off of the sums themselves", "")})
 LOSSES = Table("losses", key=["maker", "points", "seed"],
-               columns=["maker", "points", "seed", "steps", "reached", "lost"])
+               columns=["maker", "points", "seed", "steps", "reached", "lost"],
+               about="A long run without the second kernel of Eq. 14.",
+               means={"reached": ("steps when it was looked at last", ""),
+                      "lost": ("change of momentum over the sum of its sizes", "")})
 
-#: speed of a density pattern on a stream, over the stream's; predicted: by sums over the lattice
 PATTERN = ["motion", "h", "wavelength"]
-PATTERNS = Table("patterns", key=PATTERN, columns=[*PATTERN, "speed", "speed_err", "predicted"])
-#: sound over c; predicted: from the wave number seen on the lattice and the stiffness of a lattice moved
+PATTERNS = Table("patterns", key=PATTERN, columns=[*PATTERN, "speed", "speed_err", "predicted"],
+                 about="A density pattern on a stream.",
+                 means={"speed": ("speed of the pattern over that of the stream", "")})
 MOVED = ["motion", "weight", "h", "wavelength"]
-MOVING_SOUND = Table("moving_sound", key=MOVED, columns=[*MOVED, "speed", "speed_err", "predicted"])
-#: the same of long waves, extrapolated
-LONG_SOUND = Table("long_sound", key=["motion", "weight"], columns=["motion", "weight", "speed", "speed_err"])
-#: rms error of positions after a fixed time over the rms displacement
+SOUND = {"speed": ("speed of sound over c", "")}
+MOVING_SOUND = Table("moving_sound", key=MOVED, columns=[*MOVED, "speed", "speed_err", "predicted"],
+                     means=SOUND,
+                     about="A sound wave on moving points; predicted from sums over the lattice and one "
+                           "moved.")
+LONG_SOUND = Table("long_sound", key=["motion", "weight"], columns=["motion", "weight", "speed", "speed_err"],
+                   means=SOUND, about="The same of endless waves, extrapolated.")
 PLACES = ["motion", "flow", "integrator", "steps"]
-STEPS = Table("steps", key=PLACES, columns=[*PLACES, "dt", "error", "error_err"])
-#: error with new velocities [Eq. 41] over that with old ones [Eq. 40], at the shortest step
-ACCURACY = Table("accuracy", key=["motion", "flow"], columns=["motion", "flow", "ratio", "ratio_err"])
-#: largest difference of accelerations of Eqs 46-48 from those of Eq. 49, over the largest, one set of random
-#: fields
-IDENTITY = Table("identity", key=["transport", "reynolds"], columns=["transport", "reynolds", "convective"])
-#: v.grad as Eqs 46-48 add it, over the exact one; sums over a lattice, without chance
-SIGNS = Table("signs", key=["equation", "wavelength"], columns=["equation", "wavelength", "factor"])
-#: force of Eq. 50 in a wave without entropy, over -grad P, without chance
-BRACKETS = Table("brackets", key=["a", "b"], columns=["a", "b", "force"])
+STEPS = Table("steps", key=PLACES, columns=[*PLACES, "dt", "error", "error_err"],
+              about="A run in so many steps over a fixed time.",
+              means={"error": ("rms error of the positions over the rms displacement", "")})
+ACCURACY = Table("accuracy", key=["motion", "flow"], columns=["motion", "flow", "ratio", "ratio_err"],
+                 about="Two integrators at the shortest step.",
+                 means={"ratio": ("error with new velocities [Eq. 41] over that with old ones [Eq. 40]", "")})
+IDENTITY = Table("identity", key=["transport", "reynolds"], columns=["transport", "reynolds", "convective"],
+                 about="Accelerations of two forms of the momentum equation for one set of random fields.")
+SIGNS = Table("signs", key=["equation", "wavelength"], columns=["equation", "wavelength", "factor"],
+              about="What an equation adds to a rate of change, by sums over a lattice.")
+BRACKETS = Table("brackets", key=["a", "b"], columns=["a", "b", "force"],
+                 about="The bracket of Eq. 50 in a wave without entropy.",
+                 means={"force": ("force over -grad P", "")})
 
 DRAGS = ["variant", "fraction", "rows"]
-#: F/(eta U) of a cylinder in a square array; drag_err: what still changed; published, error: against print,
-#: relative
+SIZE = {"rows": ("points along the side of the cell", ""), "variant": ("how the body is made", ""),
+        "error": ("drag/published - 1", "")}
 DRAG = Table("drag", key=[*DRAGS, "reynolds"], columns=[
     *DRAGS, "radius", "drag", "drag_err", "published", "published_err", "error", "error_err", "reynolds",
-    "mach", "dt", "steps"])
-#: extrapolated to infinitely fine points by a line in rows^-2 (points on the surface) or 1/rows (staircases),
-#: error from the scatter about it; error: against print
+    "mach", "dt", "steps"], means=SIZE,
+    about="A slow stream past a cylinder in a square array, on points that stay; the error of the drag is "
+          "what "
+          "still changed.")
 DRAG_LIMITS = Table("drag_limits", key=["variant", "fraction"], columns=[
-    "variant", "fraction", "sizes", "limit", "limit_err", "error", "error_err"])
-#: homogeneous shear between sliding sides, errors: of stress and heating relative to eta rate and eta rate^2,
-#: of the profile relative to the difference of speeds; drifts relative to mass, and to mass times speed
+    "variant", "fraction", "sizes", "limit", "limit_err", "error", "error_err"],
+    means=SIZE | {"limit": ("drag over viscosity and speed", "")},
+    about="The same of infinitely fine points, by a line in rows^-2 (points on the surface) or 1/rows "
+          "(staircases).")
+RINGS = {"rows": ("points along the side of the box", "")}
 SHEAR = Table("shear", key=["rows"], columns=[
-    "rows", "stress", "heating", "profile", "mass_drift", "momentum_drift", "steps"])
-#: a wave that the shear turns: relative rms error of the velocity without divergence
-WAVE = Table("wave", key=["rows"], columns=["rows", "error", "steps"])
-#: a cylinder that turns inside of one at rest: errors of the torques on both, relative to the exact one
-TORQUE = Table("torque", key=["rows"], columns=["rows", "radius", "turned", "fixed", "steps"])
+    "rows", "stress", "heating", "profile", "mass_drift", "momentum_drift", "steps"], means=RINGS,
+    about="Homogeneous shear between sliding sides.")
+WAVE = Table("wave", key=["rows"], columns=["rows", "error", "steps"], about="A wave that the shear turns.",
+             means=RINGS | {"error": ("relative rms error of the velocity without divergence", "")})
+TORQUE = Table("torque", key=["rows"], columns=["rows", "radius", "turned", "fixed", "steps"],
+               about="A cylinder that turns inside of one at rest.",
+               means=RINGS | {"fixed": ("error of the torque on the cylinder at rest over the exact one", ""),
+                              "radius": ("radius of the inner cylinder", "a")})
 
 ALL = (DRIFT, LOSSES, PATTERNS, MOVING_SOUND, LONG_SOUND, STEPS, ACCURACY, IDENTITY, SIGNS, BRACKETS, DRAG,
        DRAG_LIMITS, SHEAR, WAVE, TORQUE)

@@ -3,47 +3,58 @@ from studies.kit.table import Table
 
 TUBE = "method eta step L seed"
 
+MEAN_FLOW = ("K of the flow of the last third: velocities averaged over 4 x 4 spacings", "epsilon/m")
+STEP = {"step": ("step over that at the limit of stability", "")}
+
 ALL = (
-    #: squares of Fig. 10: expansivity at mid-height; rolls; K at the start and of the mean flow; at the end
-    #: the median of second over first neighbour distance, and the part that shares a site
-    Table.of("squares", "eos weight ra seed", "alpha rolls begun flow ratio ratio_err shared"),
-    #: mean |error| over the range of the exact solution, against it and against the viscous grid; variation
-    #: of v beyond that of the exact one; reached: part of the time
-    Table.of("method_tubes", TUBE, "rho_exact v_exact P_exact rho_grid v_grid P_grid wiggles reached"),
-    #: x: from the diaphragm, over L
-    Table.of("method_tube_profiles", f"{TUBE} x", "rho v P", once=TUBE.split(),
-             digits=dict.fromkeys(("x", "rho", "v", "P"), ".5g")),
-    #: mean height and amplitude of the interface, nothing where a run diverged; lengths over the printed
-    #: ones, k a before the shock
-    Table.of("ripples", "scale steep seed time", "height amplitude"),
-    #: growth rate over that of theory
-    Table.of("ripple_growth", "scale steep", "seeds growth growth_err"),
-    #: K of the last third and cell number v a/nu of the fastest flow at the end, a of 16 rows; reached: part
-    #: of the time
-    Table.of("high_ra_grid", "ra rows", "k cell_number reached"),
-    #: every run of a search: K of its last third, over that of the fine grid where this is known
-    Table.of("high_ra_trials", "method step seed ra", "k over reached"),
-    #: Ra from which on runs are wrong (K, or they ended), and end; half of the interval between two trials;
-    #: none is up to `tried` if there is no such Ra; outcome: of the first bad one
-    Table.of("high_ra", "method step seed kind", "ra ra_err tried outcome"),
-    #: means over seeds, of logarithms; predicted: where the cell number of the fastest flow is 2; outcome:
-    #: wrong but stable, or ends; cell_number: of the fastest flow at the limit, or at the highest Ra tried
+    Table.of("squares", "eos weight ra seed", "alpha rolls begun flow ratio ratio_err shared",
+             about="Particles in the square box of KHP95's Fig. 10 at the end.",
+             means={"flow": ("K of the mean flow", "epsilon/m"),
+                    "ratio": ("median of second over first neighbour distance", "")}),
+    Table.of("method_tubes", TUBE, "rho_exact v_exact P_exact rho_grid v_grid P_grid wiggles reached",
+             means=STEP, about="Sod's shock tube by one method, at the end."),
+    Table.of("method_tube_profiles", f"{TUBE} x", "rho v P", large=True,
+             digits=dict.fromkeys(("x", "rho", "v", "P"), ".5g"), about="A place of such a tube.",
+             means=STEP | {"x": ("distance from the diaphragm", "L")}),
+    Table.of("ripples", "scale steep seed time", "height amplitude",
+             about="An instant of an interface that a shock runs over [KHP95, Fig. 11]."),
+    Table.of("ripple_growth", "scale steep", "seeds growth growth_err",
+             about="The growth of such ripples, means over seeds.",
+             means={"growth": ("growth rate over that of theory", "")}),
+    Table.of("high_ra_grid", "ra rows", "k cell_number reached",
+             about="A run of the fine grid at high Ra.",
+             means={"cell_number": ("cell number v a/nu of the fastest flow at the end, a of 16 rows", "")}),
+    Table.of("high_ra_trials", "method step seed ra", "k over reached",
+             about="A run of the search for the highest Ra."),
+    Table.of("high_ra", "method step seed kind", "ra ra_err tried outcome",
+             about="What a search found.",
+             means={"kind": ("wrong: K is, or the run ended; ends: the run ended", ""),
+                    "ra": ("Ra from which on runs are so; none if they are nowhere. Its error is half of the "
+                           "interval between two trials", ""),
+                    "outcome": ("of the first bad run", "")}),
     Table.of("high_ra_summary", "method step kind",
-             "predicted ra ra_low ra_high seeds outcome cell_number cell_number_err"),
-    #: largest stable steps in units of spacing over (P/rho)^(1/2). predicted : by the method's own formula;
-    #: shorter : of the steps that sound alone and diffusion alone allow; exact : by eigenvalues of the rates
-    #: of the same points; measured : by trial. measured_err : half of the last interval of the search, and
-    #: how far beyond the limit growth stays unseen in so many steps
-    Table.of("limits", "method scene", "eta k predicted shorter exact measured measured_err"),
-    #: K and K of the flow (velocities averaged over 4 x 4 spacings), means of the last third; mass at the end
-    #: over that of the start less 1; reached: part of the time; refused: why a method does not take the case;
-    #: rows: over the height
-    Table.of("hard_runs", "case method rows", "k flow mass_drift k_start flow_start reached refused"),
-    #: growth rates of the wave on a shear flow; reached: part of the time
-    Table.of("shear", "method", "predicted measured measured_err reached"),
-    #: the grid at high Ra: largest less smallest K over the mean in the last quarter of the time and in the
-    #: one before; reached: part of the time, where it diverges
-    Table.of("steadiness", "ra rows", "swing before reached"),
-    #: outcome by the rules of `derive`; number: the name of what is predicted and measured
-    Table.of("map", "case method variant", "number predicted measured measured_err outcome"),
+             "predicted ra ra_low ra_high seeds outcome cell_number cell_number_err",
+             about="The same over seeds, means of logarithms.",
+             means={"predicted": ("Ra where the cell number of the fastest flow is 2", ""),
+                    "kind": ("wrong or ends", ""), "ra": ("Ra from which on runs are so", ""),
+                    "outcome": ("what most runs do there", ""),
+                    "cell_number": ("cell number at that Ra, or at the highest Ra tried", "")}),
+    Table.of("limits", "method scene", "eta k predicted shorter exact measured measured_err",
+             about="The largest stable step of a method.",
+             means={"k": ("conductivity", "m kB/(epsilon t0)"), "predicted": ("by the method's own "
+                                                                              "formula", "t0"),
+                    "exact": ("by eigenvalues of the rates of the same points", "t0"),
+                    "measured": ("by trial; its error is half of the last interval and how far beyond the "
+                                 "limit "
+                                 "growth stays unseen", "t0")}),
+    Table.of("hard_runs", "case method rows", "k flow mass_drift k_start flow_start reached refused",
+             about="A hard case by one method.", means={"flow": MEAN_FLOW}),
+    Table.of("shear", "method", "predicted measured measured_err reached",
+             about="A wave on a shear flow by one method.", means={"measured": ("growth rate", "1/t0")}),
+    Table.of("steadiness", "ra rows", "swing before reached",
+             about="A run of the grid at high Ra; no numbers where it diverged."),
+    Table.of("map", "case method variant", "number predicted measured measured_err outcome",
+             about="The verdict on a method in a hard case.",
+             means={"variant": ("which runs of the case", ""),
+                    "outcome": ("by the rules at the head of studies/hardcases/derive.py", "")}),
 )

@@ -1,12 +1,15 @@
-"""CSV below a head of comments: where numbers come from, which columns are text, where empty is as above."""
+"""CSV below a head of comments: where numbers come from, which columns are text. Large files are packed."""
+import gzip
 import os
 import platform
 import re
 import subprocess
+import zlib
 from collections.abc import Iterable
 from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import version
+from io import StringIO
 from pathlib import Path
 
 import pandas as pd
@@ -14,9 +17,14 @@ import pandas as pd
 from studies.kit.key import PACKAGES, ROOT
 
 DIGITS = "%.9g"     # of numbers in tables
-TEXT, ABOVE = "# text columns:", "# empty is as above:"     # what the head tells programs
+TEXT = "# text columns:"                    # what the head tells programs
 LIBRARIES = ("numpy", "scipy", "numba", "py-pde")     # whose versions a head tells
 AGAIN = "remove it and run the study again: finished cases are kept"
+REPEATS = "# empty is as above:"            # in the head of a file of an older layout
+EMPTY = "(none)"                            # an empty text: an empty cell is a number that is missing
+NOT_PACKED = (gzip.BadGzipFile, EOFError, zlib.error)
+#: texts that pandas takes for a missing number
+MISSING = ("", "NA", "N/A", "n/a", "NULL", "null", "None", "<NA>")
 
 
 class OtherTable(ValueError):
@@ -24,22 +32,23 @@ class OtherTable(ValueError):
 
 
 def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
-    """A table from CSV; empty text is "", an empty number NaN.
+    """A table from CSV, packed or not; empty text is "", an empty number NaN.
 
-    Raises FileNotFoundError, OtherTable: there is no such file; it is no table, lacks some of ``columns``, or
-    has text among numbers.
+    Raises FileNotFoundError, OtherTable: there is no such file; it is no table, lacks some of ``columns``,
+    has text among numbers, or leaves out what repeats.
     """
     path = Path(path)
     if not path.exists():
         raise FileNotFoundError(f"{path} does not exist: make study-{path.parent.name} writes it")
     try:
-        text, above = named(path, TEXT), named(path, ABOVE)
-        frame = parsed(path, {*text, *above})
-        for name in above:
-            full = frame[name].mask(frame[name] == "").ffill()
-            frame[name] = full if name in text else pd.to_numeric(full)
-    except ValueError as error:     # of pandas, and of letters that are none
+        body = content(path)
+        text = named(body, TEXT)
+        frame = pd.read_csv(StringIO(body), comment="#", dtype=dict.fromkeys(text, str))
+        frame[text] = frame[text].replace(EMPTY, "").fillna("")
+    except (ValueError, LookupError, *NOT_PACKED) as error:     # of pandas, and of letters that are none
         raise OtherTable(f"{path} is no table ({str(error).strip()}): {AGAIN}") from error
+    if named(body, REPEATS):
+        raise OtherTable(f"{path} leaves out cells that repeat the one above, an older layout: {AGAIN}")
     if missing := [name for name in columns if name not in frame]:
         raise OtherTable(f"{path} has no column {', '.join(missing)}: it has an older layout; {AGAIN}")
     if text:
@@ -47,12 +56,9 @@ def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
     return frame
 
 
-def parsed(path: Path, texts: Iterable[str]) -> pd.DataFrame:
-    """The rows, some columns as texts."""
-    names = pd.read_csv(path, comment="#", nrows=0).columns
-    empty = {name: ["", "nan"] for name in names.difference(list(texts))}
-    types = dict.fromkeys(texts, str)
-    return pd.read_csv(path, comment="#", dtype=types, keep_default_na=False, na_values=empty)
+def content(path: Path) -> str:
+    """The text of a file, packed (.gz) or not."""
+    return gzip.decompress(path.read_bytes()).decode() if path.suffix == ".gz" else path.read_text()
 
 
 def check_numbers(path: Path, frame: pd.DataFrame) -> None:
@@ -72,33 +78,27 @@ def is_number(text: str) -> bool:
     return True
 
 
-def named(path: Path, begin: str) -> list[str]:
-    """The columns that a line of the head names: empty texts, say, do not tell that they are texts."""
-    with path.open() as lines:
-        for line in lines:
-            if line.startswith(begin):
-                return line.removeprefix(begin).strip().split(", ")
+def named(body: str, begin: str) -> list[str]:
+    """The columns that a line of the head names."""
+    for line in body.splitlines():
+        if line.startswith(begin):
+            return list(filter(None, line.removeprefix(begin).strip().split(", ")))
     return []
 
 
-def write(path: Path, frame: pd.DataFrame, *, head: Iterable[str], once: Iterable[str] = ()) -> None:
+def write(path: Path, frame: pd.DataFrame, *, head: Iterable[str]) -> None:
     """CSV below ``head``, one comment a line. A table that did not change keeps the head it was written with.
-
-    Of columns ``once`` what repeats the cell above is left out, unless something is empty there anyway.
 
     Raises ValueError: A column mixes text and numbers, or a text holds the sign of a comment.
     """
     text = [str(name) for name in frame if is_text(frame[name], path)]
-    filled = frame.fillna(dict.fromkeys(text, ""))
-    above = without_repeats(filled, once)
-    body = f"{TEXT} {', '.join(text)}\n"
-    if above:
-        body += f"{ABOVE} {', '.join(above)}\n"
-    body += filled.assign(**above).to_csv(index=False, float_format=DIGITS)
-    unchanged = path.exists() and path.read_text().endswith(body)
+    filled = frame.assign(**{name: frame[name].fillna("").replace("", EMPTY) for name in text})
+    body = f"{TEXT} {', '.join(text)}\n" + filled.to_csv(index=False, float_format=DIGITS)
+    unchanged = path.exists() and content(path).endswith(body)
     if not unchanged:
-        comments = "".join(f"# {line}\n" for line in head)
-        write_atomic(path, comments + body)
+        whole = "".join(f"# {line}\n" for line in head) + body
+        # of no time: the same table has the same bytes
+        write_atomic(path, gzip.compress(whole.encode(), mtime=0) if path.suffix == ".gz" else whole)
 
 
 def put(path: Path, new: pd.DataFrame, *, by: list[str], order: list[str], head: Iterable[str]) -> None:
@@ -109,21 +109,6 @@ def put(path: Path, new: pd.DataFrame, *, by: list[str], order: list[str], head:
         replaced = (old[by] == new[by].iloc[0]).all(axis=1)
         rows = new if replaced.all() else pd.concat([old[~replaced], new])
     write(path, rows.sort_values(order), head=head)
-
-
-def without_repeats(frame: pd.DataFrame, once: Iterable[str]) -> dict[str, pd.Series]:
-    """Those columns ``once`` that have no empty cell, as texts, empty where they repeat the one above."""
-    columns = {}
-    for name in once if len(frame) else ():
-        texts = frame[name].map(written)
-        if not texts.isin(["", "nan"]).any():
-            columns[name] = texts.mask(texts == texts.shift(), "")
-    return columns
-
-
-def written(value: object) -> str:
-    """A cell as it stands in the file."""
-    return DIGITS % value if isinstance(value, float) else str(value)
 
 
 def is_text(column: pd.Series, path: Path) -> bool:
@@ -160,6 +145,8 @@ def commit() -> str:
     short = git("rev-parse", "--short=10", "HEAD")
     if not short:
         return "unknown"
+    if is_number(short):        # 5988628503, 12345e6789: a column of it would read back as numbers
+        short = git("rev-parse", "HEAD")
     return short + ("-dirty" if git("status", "--porcelain", "--", *PACKAGES) else "")
 
 

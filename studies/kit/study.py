@@ -97,7 +97,7 @@ class Study(Part):
 
     def written(self, out: Path) -> list[Path]:
         """The tables that exist."""
-        paths = [out/self.name/f"{table.name}.csv" for table in self.tables]
+        paths = [out/self.name/table.file for table in self.tables]
         return [path for path in paths if path.exists()]
 
 

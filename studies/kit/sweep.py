@@ -109,9 +109,10 @@ class Sweep:
         if unknown := sorted(rows.keys() - self.known):
             raise ValueError(f"study {self.study} has no table {', '.join(unknown)}: list it in its tables")
         for name, new in rows.items():
-            _, better = merge(self.path(name), self.known[name], new, size=self.size, command=self.command)
+            path = self.path(name)
+            _, better = merge(path, self.known[name], new, size=self.size, command=self.command)
             if better:
-                print(f"{self.study}/{name}.csv: {better} rows of a better size than {self.size} stay",
+                print(f"{self.study}/{path.name}: {better} rows of a better size than {self.size} stay",
                       file=sys.stderr)
         return load(self.tables, self.study, self.out)
 
@@ -128,7 +129,7 @@ class Sweep:
 
     def path(self, name: str) -> Path:
         """Of a table."""
-        return self.out/self.study/f"{name}.csv"
+        return self.out/self.study/self.known[name].file
 
     @property
     def command(self) -> str:
@@ -156,7 +157,7 @@ def load(tables: Sequence[Table], study: str, out: Path = RESULTS) -> Tables:
     """The tables of a study that have been written, from CSV."""
     frames = Tables()
     for table in tables:
-        path = out/study/f"{table.name}.csv"
+        path = out/study/table.file
         if path.exists():
             frames[table.name] = read(path, table.columns)
     return frames

@@ -4,14 +4,14 @@ A row of a better size (quick < paper < fine) is never replaced by one of a less
 """
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from numbers import Real
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
-from studies.kit.csvfile import DIGITS, commit, cpu, now, read, versions, write
+from studies.kit.csvfile import DIGITS, EMPTY, MISSING, commit, cpu, is_number, now, read, versions, write
 
 SIZES = ("quick", "paper", "fine")
 #: columns that a row may have besides those of its table
@@ -26,17 +26,25 @@ Rows = Mapping[str, list[Row]]
 
 @dataclass(frozen=True)
 class Table:
-    """A table by name: its columns, and those (``key``) in which no two rows agree.
+    """A table by name: its columns, those (``key``) in which no two rows agree, what a row is (``about``).
 
-    Of large ones: which digits suffice (``digits``: column -> such as ".4f"), and in which columns a cell
-    that repeats the one above is left out (``once``).
+    ``means``: column -> (meaning, unit) where these are not those of `report/columns.csv`. Of large tables,
+    above 300 kB: the file is packed (``large``), ``digits`` says which suffice (column -> such as ".4f").
     """
 
     name: str
     key: Sequence[str]
     columns: Sequence[str]
+    _: KW_ONLY
+    about: str
+    means: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     digits: Mapping[str, str] = field(default_factory=dict)
-    once: Sequence[str] = ()
+    large: bool = False
+
+    @property
+    def file(self) -> str:
+        """Its name in the folder of the study."""
+        return f"{self.name}.csv.gz" if self.large else f"{self.name}.csv"
 
     @classmethod
     def of(cls, name: str, key: str, values: str, **more: Any) -> "Table":
@@ -92,7 +100,7 @@ def merge(path: Path, table: Table, rows: Sequence[Row], *, size: str,
     spent = [column for column in SPENT if column in chosen and column not in table.columns]
     frame = chosen.reindex(columns=[*table.columns, *spent, *STAMP])
     in_order = frame.sort_values(list(table.key), kind="stable")
-    write(path, in_order, head=head(command), once=table.once)
+    write(path, in_order, head=head(command))
     return read(path), len(new) - int(is_new.sum())
 
 
@@ -138,11 +146,22 @@ def check_rows(table: Table, new: pd.DataFrame) -> None:
     missing = keys.columns[keys.isna().any()]
     if len(missing):
         raise ValueError(f"rows of table {table.name} lack {', '.join(missing)}: each needs its whole key")
+    for name in new.columns.intersection(list(table.columns)):
+        check_texts(table, new[name])
     names = identity(new, table.key)
     twice = names[names.duplicated()]
     if len(twice):
         raise ValueError(f"two rows of table {table.name} have the key {twice.iloc[0]}: a longer key tells "
                          "them apart")
+
+
+def check_texts(table: Table, column: pd.Series) -> None:
+    """Refuse texts that a plain read_csv takes for something else."""
+    for text in {value for value in column if isinstance(value, str)} - {""}:
+        if is_number(text) or text in (*MISSING, EMPTY):
+            raise ValueError(f"column {column.name} of table {table.name} holds the text {text!r}, which "
+                             "reads back as a number or nothing: write numbers as such, nothing as None, or "
+                             "another word")
 
 
 def identity(frame: pd.DataFrame, key: Sequence[str]) -> pd.Series:

@@ -128,30 +128,36 @@ def ringing() -> Iterator[Case]:
 
 CRYSTAL = "lattice weight h eos T rho"
 RATES = "predicted measured measured_err"
-#: rate of the fastest growing motion: by lattice sums, and measured
-GROWTH = Table.of("growth", CRYSTAL, RATES)
-#: value of a parameter (h or T, its own column is then 0) at which motions begin to grow
-ONSETS = Table.of("onsets", f"{CRYSTAL} parameter seed", RATES)
-#: part of the particles that share a site
-FATES = Table.of("fates", "weight h seed", "shared")
-#: K of the mean flow over that of the grid's smoothed field, fluctuation of distances of neighbours over
-#: their mean, at pressures P; nothing where a run diverged; step: over that of other studies
-FREEZING = Table.of("freezing", "weight seed step P", "flow flow_err lindemann")
-#: P at which K of the mean flow falls below a tenth; K of the grid, and P at which 2 K is 2 P w(0), 2 P
-#: [w(0.9) - w(1)]
-FREEZING_LIMITS = Table.of("freezing_limits", "weight seed step", "measured measured_err K barrier melting")
-#: rms distance of places of the same path by smooth particles and as molecules
-TWINS = Table.of("twins", "weight seed time", "apart")
-#: rms distance from the start, and part of the coordinates that are it to the last bit, after so much time
-#: there and back
-REVERSAL = Table.of("reversal", "integrator weight seed time", "apart equal")
-#: speed of the longest waves along x over the fluid's
-SPEEDS = Table.of("sound_speeds", "lattice weight", "speed")
-#: rms velocities when the wave has rung: wave: of the exact wave; foretold, across: along y, where the wave
-#: has none, by linear theory from round-off and measured
-RINGING = Table.of("ringing", "lattice weight h length seed", "wave foretold across")
-#: length of the wave from which what grows is as fast as the wave when it has rung, over seeds
-LOST = Table.of("ringing_lost", "lattice weight", f"seeds {RATES}")
+RATE = ("growth rate", "1/t0")
+GROWTH = Table.of("growth", CRYSTAL, RATES, means={"predicted": RATE, "measured": RATE},
+                  about="The fastest growing motion of a lattice: by lattice sums, and in a run.")
+ONSETS = Table.of("onsets", f"{CRYSTAL} parameter seed", RATES,
+                  about="Where motions of a lattice begin to grow as `parameter` is changed.",
+                  means={"measured": ("value of the parameter", "a or epsilon/kB")})
+FATES = Table.of("fates", "weight h seed", "shared",
+                 about="A gas at rest in the end: one particle a site or two?")
+USUAL = {"step": ("step over that of other studies", "")}
+FREEZING = Table.of("freezing", "weight seed step P", "flow flow_err lindemann",
+                    means=USUAL | {"flow": ("K of the mean flow over that of the grid's smoothed field", "")},
+                    about="The gas of Fig. 4 at one pressure; no numbers where the run diverged.")
+FREEZING_LIMITS = Table.of("freezing_limits", "weight seed step", "measured measured_err K barrier melting",
+                           means=USUAL | {"measured": ("P at which K of the mean flow falls below a tenth",
+                                                       "epsilon/a^2")},
+                           about="The pressure at which that gas freezes.")
+TWINS = Table.of("twins", "weight seed time", "apart",
+                 about="An instant of one path, by smooth particles and as molecules.",
+                 means={"apart": ("rms distance of both", "a")})
+REVERSAL = Table.of("reversal", "integrator weight seed time", "apart equal",
+                    about="A run there and back again.",
+                    means={"time": ("time there", "t0"), "apart": ("rms distance from the start", "a")})
+SPEEDS = Table.of("sound_speeds", "lattice weight", "speed", about="The longest waves along x on a lattice.",
+                  means={"speed": ("speed of sound over the fluid's", "")})
+RINGING = Table.of("ringing", "lattice weight h length seed", "wave foretold across",
+                   about="A wave that rings on a lattice, and what grows beside it.")
+LENGTH = ("length of the wave from which on what grows beside it is as fast", "a")
+LOST = Table.of("ringing_lost", "lattice weight", f"seeds {RATES}",
+                means={"predicted": LENGTH, "measured": LENGTH},
+                about="Where waves are lost in what grows beside them, over seeds.")
 
 TABLES = (GROWTH, ONSETS, FATES, FREEZING, FREEZING_LIMITS, TWINS, REVERSAL, SPEEDS, RINGING, LOST)
 

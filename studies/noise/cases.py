@@ -31,7 +31,7 @@ TURNS = ((1, 0), (0, 1), (1, 1), (1, -1), (2, 1), (3, 0), (0, 4), (3, 3), (5, 2)
 TURNS_3D = ((1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, 0, -1), (0, 1, 1), (1, 1, 1), (1, -1, 1),
             (2, 0, 0), (2, 1, 0))
 BELOW = (0.9, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005)
-PRINTED = (("42", "eta"), ("42", "zeta"), ("23", "zeta"), ("43", "kappa"), ("25", "kappa"))
+PRINTED = ((42, "eta"), (42, "zeta"), (23, "zeta"), (43, "kappa"), (25, "kappa"))
 FORMULAS = {
     "partner of Eq. 42": partners.other_partner, "step of Eq. 42": partners.half_step,
     "spacing of Eq. 42": partners.half_spacing, "trace of Eq. 44": partners.trace_2d,

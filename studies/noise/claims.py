@@ -32,7 +32,7 @@ GOOD = {"GrootWarren": "Groot-Warren with lambda = 1/2", "GrootWarren65": "Groot
         "KickDriftFrictionDriftKick": "kick, drift, friction, drift, kick"}
 
 
-def longest(equation: str, term: str, reading: str, d: int = 1, h: float = 1.5) -> Value:
+def longest(equation: int, term: str, reading: str, d: int = 1, h: float = 1.5) -> Value:
     """Variance of printed noise over its due, longest wave."""
     return first("printed", "ratio", by="wavenumber", equation=equation, term=term, reading=reading, d=d, h=h)
 
@@ -81,18 +81,18 @@ CLAIMS = (
     Claim(id="rr98-fluct-eq23-single", source="RR98 Eq. 23", **RIGHT,
           headline=True, evidence="noise/printed.png",
           printed="usual fluctuation-dissipation",
-          value=longest("23", "zeta", "single"),
+          value=longest(23, "zeta", "single"),
           statement="Eq. 23, added once (Eq. 22), with the volume it lacks, gives long waves the right "
                     "temperature: variance over its due, zeta term, a line of nearest neighbours"),
     Claim(id="rr98-fluct-eq23-doubled", source="RR98 Eq. 23", **RIGHT,
           headline=True, evidence="noise/printed.png",
           printed="usual fluctuation-dissipation",
-          value=longest("23", "zeta", "doubled"),
+          value=longest(23, "zeta", "doubled"),
           statement="Eq. 23, added as pi_ij + pi_ji, with the volume it lacks, gives long waves the right "
                     "temperature: variance over its due, zeta term, a line of nearest neighbours"),
     Claim(id="rr98-fluct-eq23-neighbours", source="RR98 Eq. 23", **RIGHT,
           printed="usual fluctuation-dissipation",
-          value=longest("23", "zeta", "doubled", 2, 3.0),
+          value=longest(23, "zeta", "doubled", 2, 3.0),
           statement="Eq. 23 does so whatever the reach of the weight, added as pi_ij + pi_ji: variance over "
                     "its due, 2D, h = 3 a"),
     Claim(id="rr98-fluct-eq24-energy", source="RR98 Eq. 24", printed="symmetric", at_most=1e-12,
@@ -103,7 +103,7 @@ CLAIMS = (
                     "point sets"),
     Claim(id="rr98-fluct-eq25-doubled", source="RR98 Eq. 25", **RIGHT,
           headline=True, evidence="noise/printed.png",
-          value=longest("25", "kappa", "doubled"),
+          value=longest(25, "kappa", "doubled"),
           statement="Eq. 25, added as J_ij + J_ji, with the volume it lacks, gives long waves the right "
                     "fluctuation of energy: variance over its due, a line of nearest neighbours"),
     Claim(id="rr98-fluct-eq25-onset", source="RR98 Eqs 20-25", printed="the flow is stable",
@@ -152,23 +152,23 @@ CLAIMS = (
           statement="Eqs 40, 41 keep the temperature: kinetic over given less 1, c_T^2 dt/nu = 0.1, points "
                     "that move as printed"),
     Claim(id="rr98-fluct-eq42-eta", source="RR98 Eq. 42", **RIGHT,
-          value=longest("42", "eta", "single", 2, 1.2),
+          value=longest(42, "eta", "single", 2, 1.2),
           statement="the eta term of Eq. 42, added once, with the volume and time it lacks, gives long "
                     "shear waves the right temperature: variance over its due, square lattice of nearest "
                     "neighbours"),
     Claim(id="rr98-fluct-eq42-eta-doubled", source="RR98 Eq. 42", **RIGHT,
           headline=True, evidence="noise/printed.png",
-          value=longest("42", "eta", "doubled", 2, 1.2),
+          value=longest(42, "eta", "doubled", 2, 1.2),
           statement="the eta term of Eq. 42, added as pi_ij + pi_ji, with the volume and time it lacks, "
                     "gives long shear waves the right temperature: variance over its due, square lattice of "
                     "nearest neighbours"),
     Claim(id="rr98-fluct-eq42-zeta", source="RR98 Eqs 23, 42", expect=1, within=1e-9, because="algebra",
-          value=longest("42", "zeta", "single")/longest("23", "zeta", "single"),
+          value=longest(42, "zeta", "single")/longest(23, "zeta", "single"),
           statement="the zeta term of Eq. 42 has the variance of Eq. 23: their ratio; a factor sqrt 2 is "
                     "missing"),
     Claim(id="rr98-fluct-eq42-shape", source="RR98 Eq. 42", at_most=1.01,
           because="1 %: of one factor for all waves",
-          value=spread("printed", "ratio", equation="42", term="eta", reading="doubled", d=2, h=1.2),
+          value=spread("printed", "ratio", equation=42, term="eta", reading="doubled", d=2, h=1.2),
           statement="with some factor Eq. 42 is the partner of Eq. 37: largest over smallest ratio of its "
                     "variance to its due, waves along an axis of the square lattice, nearest neighbours"),
     Claim(id="own-fluct-eq42-partner", source="RR98 Eqs 42, 51", at_most=1e-12, because=ROUND_OFF,
@@ -194,7 +194,7 @@ CLAIMS = (
                     "of points with C = 20 k over that of the entropy C ln T"),
     Claim(id="rr98-fluct-eq43-doubled", source="RR98 Eq. 43", **RIGHT,
           headline=True, evidence="noise/printed.png",
-          value=longest("43", "kappa", "doubled"),
+          value=longest(43, "kappa", "doubled"),
           statement="Eq. 43, added as J_ij + J_ji, with volume and time, gives long waves the right "
                     "fluctuation of energy at T = 0.7: variance over its due, a line of nearest neighbours; "
                     "a factor T is missing"),

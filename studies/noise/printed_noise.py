@@ -31,7 +31,7 @@ class PrintedWaves(Case):
 
     term : "eta" across k, "zeta" along k, "kappa". h 1.5 in 1D and 1.2 in 2D: nearest neighbours.
     """
-    equation: str
+    equation: int
     term: str
     doubled: bool
     d: int
@@ -46,7 +46,7 @@ class PrintedWaves(Case):
     @property
     def bulk(self) -> float:
         """The zeta term of Eq. 23 has twice the variance of Eq. 42's."""
-        return 2.0 if self.equation == "23" else 1.0
+        return 2.0 if self.equation == 23 else 1.0
 
     @property
     def label(self) -> str:
@@ -72,7 +72,7 @@ class PrintedWaves(Case):
     def noise(self, edges: Edges) -> tuple[Partners, float]:
         """The printed one, and 2 kT or 2 k T^2."""
         if self.term == "kappa":
-            T, of25 = np.full(edges.n, KT), self.equation == "25"
+            T, of25 = np.full(edges.n, KT), self.equation == 25
             return fluctuating.printed_heat(edges, KAPPA, 1.0, T, doubled=self.doubled, of25=of25), 2*KT**2
         eta, zeta = (ETA, 0.0) if self.term == "eta" else (0.0, ETA)
         return fluctuating.printed_stress(edges, eta, zeta, KT, doubled=self.doubled, bulk=self.bulk), 2*KT
@@ -85,7 +85,7 @@ class PrintedWaves(Case):
         r, size, w = lattice_weights(self.h, self.d)
         along, last = r[:, 0]/size, r[:, -1]/size
         phase = k*r[:, 0]
-        heat = 2.0 if self.equation == "25" else 1/KT
+        heat = 2.0 if self.equation == 25 else 1/KT
         g = {"eta": 2*(1 + last**2/3),
              "zeta": self.bulk*along**2,
              "kappa": heat}[self.term]

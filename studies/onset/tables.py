@@ -8,17 +8,26 @@ from studies.kit.table import Table
 
 SERIES = "method variant eos transport dT sides pr"
 POINT = f"{SERIES} resolution"
-#: `way` is `operator` (from the linearised rates), `run` (a run in time from rolls of energy `ke_start`)
-GROWTH = Table.of("growth_rates", f"{POINT} way ke_start seed ra", "sigma err")
-#: steady K; `share` is 1 - sqrt(Ra_c/Ra) with the grid's own Ra_c; extrapolated rows have both extrapolated
-ENERGIES = Table.of("energies", f"{POINT} share", "ra ke rolls")
-#: K = slope Ra^-1/2 + intercept up to `reach` Ra_c; `residual`: largest distance from it over the largest K
-#: `lines`: where a line without a grid is from, the lines of grids or ("") extrapolated points
-LINE_TABLE = Table.of("lines", f"{POINT} reach lines", "points slope intercept ra_c err residual")
-#: `quantity` tells rows of a method apart: the box, what differs from the ideal gas with constant eta and
-#: dT = 1, and in brackets how it was found, extrapolated where no rows are named. Other columns say the same:
-#: `way` as in growth_rates, or `eigenvalue` or `line`; `reach` is 0 but for lines, `ke_start` but for runs
+GROWTH = Table.of("growth_rates", f"{POINT} way ke_start seed ra", "sigma err",
+                  about="The growth rate of rolls at one Ra.",
+                  means={"err": ("half width of the 95 % interval of sigma; of an extrapolated grid a "
+                                 "bound", "")})
+ENERGIES = Table.of("energies", f"{POINT} share", "ra ke rolls",
+                    about="A steady state of the grid; rows with resolution inf have Ra and K extrapolated.",
+                    means={"share": ("1 - (Ra_c/Ra)^(1/2), Ra_c of the same grid", "")})
+LINE_TABLE = Table.of("lines", f"{POINT} reach lines", "points slope intercept ra_c err residual",
+                      about="A line K = slope Ra^-1/2 + intercept through energies up to `reach` Ra_c.",
+                      means={"points": ("number of points in the fit", ""), "ra_c": ("Ra where the line is "
+                                                                                     "0", ""),
+                             "slope": ("slope of K over Ra^-1/2", "epsilon/m"),
+                             "err": ("half width of the 95 % interval of ra_c", "")})
 CRITICAL = Table.of("critical_ra", "method quantity",
-                    "value err variant eos transport dT sides pr resolution way reach ke_start")
+                    "value err variant eos transport dT sides pr resolution way reach ke_start",
+                    about="A critical Rayleigh number.",
+                    means={"quantity": ("box, what differs from the ideal gas with constant eta and dT = 1, "
+                                        "and in "
+                                        "brackets how Ra_c was found: extrapolated where no rows are "
+                                        "named", ""),
+                           "value": ("critical Rayleigh number", "")})
 
 ALL = (GROWTH, ENERGIES, LINE_TABLE, CRITICAL)

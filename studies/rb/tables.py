@@ -8,7 +8,7 @@ time. Lengths in heights L, times in L^2/eta where not said otherwise. Every `_e
 """
 from math import inf
 
-from studies.kit.table import STAMP, Table
+from studies.kit.table import Table
 
 Point = dict
 SCENE = ["eos", "transport", "sides", "ra", "pr"]
@@ -18,50 +18,59 @@ STEP = ["method", "variant", "eos", "sides", "resolution"]
 #: key of a point as `Table.of` takes it
 AT = " ".join(POINT)
 ENERGIES = "ke ke_err ke_field ke_field_err ke_mean ke_mean_err ke_fluctuation nu nu_err"
-#: columns of long tables that repeat what is above
-SAME = [*RUN, *STAMP]
 
 RUNS = (f"{AT} particles seed {ENERGIES} rolls free_fall mass_drift converged dt steps t_end "
         "cpu_s compile_s threads")
-KINETIC = Table("kinetic_energy", key=RUN, columns=RUNS.split())
-#: means over the `seeds` that settled in the commonest number of rolls: the error is the larger of those
-#: within runs and between seeds, and twice what half of the time step changes; `mixed` counts seeds that
-#: ended in other rolls
-MEANS = Table.of("means", AT, f"particles seeds mixed {ENERGIES} rolls")
-#: approach to the steady state [KHP95, Fig. 8]; t in units of time, not L^2/eta
+KINETIC = Table("kinetic_energy", key=RUN, columns=RUNS.split(),
+                about="A run of one solver: means over its late part. Boussinesq rows are in free-fall "
+                      "units.")
+MEANS = Table.of("means", AT, f"particles seeds mixed {ENERGIES} rolls",
+                 about="Means over the seeds that settled in the commonest number of rolls. An error is the "
+                       "larger of those within runs and between seeds, and twice what half of the step "
+                       "changes.",
+                 means={"seeds": ("number of seeds that settled in that number of rolls", "")})
 HISTORY = Table.of(
-    "history", f"{AT} seed t", "t_viscous ke ke_field", once=SAME,
-    digits={"t_viscous": ".6g", "ke": ".8g", "ke_field": ".8g"})
-#: steady fields on KHP95's 30 x 60 places [Figs 9, 12]; x, y in units of L; particles: means over the second
-#: half
+    "history", f"{AT} seed t", "t_viscous ke ke_field", large=True,
+    digits={"t_viscous": ".6g", "ke": ".8g", "ke_field": ".8g"},
+    about="An instant of a run on its way to the steady state [KHP95, Fig. 8].")
 FIELDS = Table.of(
-    "fields", f"{AT} seed x y", "rho T vx vy", once=SAME,
-    digits={"x": ".4f", "y": ".4f", "rho": ".5f", "T": ".5f", "vx": ".6f", "vy": ".6f"})
-#: particles at the end of a run [Figs 2, 3, 7, 12]; kind: fluid, fixed or image
+    "fields", f"{AT} seed x y", "rho T vx vy", large=True,
+    digits={"x": ".4f", "y": ".4f", "rho": ".5f", "T": ".5f", "vx": ".6f", "vy": ".6f"},
+    about="A place of a steady field, at most KHP95's 30 x 60 places [Figs 9, 12]; of particles means over "
+          "the "
+          "second half.")
 PARTICLES = Table.of(
-    "particles", f"{AT} seed number", "kind x y vx vy T", once=[*RUN, "kind", *STAMP],
-    digits={"x": ".6f", "y": ".6f", "vx": ".5f", "vy": ".5f", "T": ".4f"})
-WALLS = Table.of("walls", f"{AT} seed plate", "T_wall T_layer rho_layer reflections nu_plate nu_plate_err")
-#: seconds of a step, measured alone
-COST = Table.of("cost", "method variant eos sides resolution", "points step_s step_s_err dt threads")
-#: error against cost, derived; energy Kp: of all particles against the grid, Kg: smoothed against the grid
-#: smoothed alike, Nu: the Nusselt number (then ke, reference are Nusselt numbers)
+    "particles", f"{AT} seed number", "kind x y vx vy T", large=True,
+    digits={"x": ".6f", "y": ".6f", "vx": ".5f", "vy": ".5f", "T": ".4f"},
+    about="A particle at the end of a run [KHP95, Figs 2, 3, 7, 12].",
+    means={"number": ("number of the particle", ""), "kind": ("fluid, fixed or image", "")})
+WALLS = Table.of("walls", f"{AT} seed plate", "T_wall T_layer rho_layer reflections nu_plate nu_plate_err",
+                 about="A plate in a run: the layer beside it and the heat through it.")
+COST = Table.of("cost", "method variant eos sides resolution", "points step_s step_s_err dt threads",
+                about="CPU seconds of a step, measured while nothing else runs.",
+                means={"points": ("number of particles or cells", "")})
+NU = "of energy Nu the Nusselt number"
 ERRORS = Table.of("errors", f"{AT} energy",
-                  "particles ke ke_err reference reference_err error error_err cpu_s")
-#: K of the finest grid's field, and smoothed with a weight of range h spacings, `rows` of them a height
-SMOOTHED = Table.of("smoothed", f"{AT} weight h rows", "ke ke_smoothed")
-#: of the particles at the end, first seed: mean number of neighbours in range, first peak of g(r), median of
-#: second over first neighbour distance, particles a site, largest v^2, correlation of accelerations with
-#: those of the potential 2 w
+                  "particles ke ke_err reference reference_err error error_err cpu_s",
+                  about="The relative error of K or Nu of a method against the grid, and what its run cost.",
+                  means={"ke": (f"K; {NU}", "epsilon/m"), "reference": (f"K of the grid; {NU}", "epsilon/m"),
+                         "error": ("ke/reference - 1", "")})
+SMOOTHED = Table.of("smoothed", f"{AT} weight h rows", "ke ke_smoothed",
+                    about="The field of the finest grid, smoothed with a weight as particles are.",
+                    means={"ke": ("K of the field", "epsilon/m"), "rows": ("spacings over the height", "")})
 SNAPSHOTS = Table.of("snapshots", AT, "neighbours neighbours_err spacing spacing_err pairing pairing_err "
-                                      "occupancy fastest newtonian newtonian_err")
-#: mean fields of particles against the finest grid's, rolls aligned: rms difference over places, of velocity
-#: over the rms velocity, of T and rho over the range of the grid's; rho along the plates, seen by the weight
-#: and counted in a layer
+                                      "occupancy fastest newtonian newtonian_err",
+                     about="The particles at the end of a run of the first seed.")
+OF_RANGE = ("rms difference of the mean field from the grid's over the grid's range", "")
 FIELD_ERRORS = Table.of("field_errors", AT, "velocity velocity_err T T_err rho rho_err "
-                                            "rho_plates rho_plates_err rho_layer rho_layer_err")
-#: numbers that need no flow
-ARITHMETIC = Table.of("arithmetic", "quantity", "value err")
+                                            "rho_plates rho_plates_err rho_layer rho_layer_err",
+                        about="Mean fields of particles against those of the finest grid, rolls aligned.",
+                        means={"velocity": ("rms difference of velocities over the grid's rms velocity", ""),
+                               "T": OF_RANGE, "rho": OF_RANGE,
+                               "rho_layer": ("the same of particles counted in the layer", "")})
+ARITHMETIC = Table.of("arithmetic", "quantity", "value err",
+                      about="A number that needs no flow: of the paper, equations of state, weights, 36 "
+                            "particles.")
 
 ALL = (KINETIC, MEANS, HISTORY, FIELDS, PARTICLES, WALLS, COST, SMOOTHED, ERRORS, SNAPSHOTS, FIELD_ERRORS,
        ARITHMETIC)

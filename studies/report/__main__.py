@@ -1,4 +1,4 @@
-"""python -m studies.report [page|equations|films]: index.html or equations.md from the tables, or films."""
+"""python -m studies.report [page|equations|tables|films]: what is made from tables, or films."""
 import argparse
 import sys
 from collections.abc import Sequence
@@ -9,12 +9,14 @@ from studies.kit.sweep import RESULTS
 from studies.report.equations import write_equations
 from studies.report.inventory import NoReport
 from studies.report.page import write_page
+from studies.report.tables import write_tables
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """The command line; 0, or 1 where the page cannot be made."""
     parser = argparse.ArgumentParser(prog="python -m studies.report")
-    parser.add_argument("command", nargs="?", default="page", choices=["page", "equations", "films"])
+    commands = ["page", "equations", "tables", "films"]
+    parser.add_argument("command", nargs="?", default="page", choices=commands)
     parser.add_argument("--out", type=Path, default=RESULTS, help="folder with the tables (default: results)")
     words = parser.parse_args(arguments)
     try:
@@ -22,7 +24,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             from studies.report.films import make_all  # they alone need the solvers
             paths = make_all(words.out)
         else:
-            write = {"page": write_page, "equations": write_equations}[words.command]
+            write = {"page": write_page, "equations": write_equations, "tables": write_tables}[words.command]
             paths = [write(words.out)]
     except (NoReport, ValueError) as error:
         return say(f"report: {error}", 1)

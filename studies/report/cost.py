@@ -126,7 +126,7 @@ def panels(folders: list[Folder]) -> list[Panel]:
 
 def needed_of(folder: Folder) -> Sheet | None:
     """The study's table of what a level of error costs."""
-    told = (sheet for sheet in folder.sheets if sheet.path.stem == "needed")
+    told = (sheet for sheet in folder.sheets if sheet.stem == "needed")
     return next((sheet for sheet in told if NEEDED.issubset(sheet.frame)), None)
 
 

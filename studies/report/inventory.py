@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
-from studies.kit.csvfile import ABOVE, AGAIN, TEXT, read
+from studies.kit.csvfile import AGAIN, TEXT, content, read
 from studies.kit.figure import Drawing, Overview
 from studies.kit.key import ROOT
 from studies.kit.study import Study
@@ -22,7 +22,7 @@ HIDDEN = ("raw", "quick", "films")
 QUESTIONS = {"bench": "Speed beside public codes, in one run"}
 #: the order of the page; studies that are not named follow by name
 FIRST = ("rb", "cost", "hardcases", "onset", "operators", "ordering", "conservation", "noise", "lattices")
-#: a table is packed into the page if its file is not larger [bytes]
+#: a table is packed into the page if its text is not longer [bytes]
 EMBED = 60_000
 
 
@@ -37,21 +37,31 @@ class Sheet:
     path: Path
 
     @property
+    def stem(self) -> str:
+        """Its name in the study."""
+        return self.path.name.partition(".")[0]
+
+    @property
     def name(self) -> str:
         """study/table"""
-        return f"{self.path.parent.name}/{self.path.stem}"
+        return f"{self.path.parent.name}/{self.stem}"
+
+    @property
+    def file(self) -> str:
+        """study/table.csv, packed or not"""
+        return f"{self.path.parent.name}/{self.path.name}"
 
     @property
     def anchor(self) -> str:
         """Its place in the page."""
-        return f"table-{self.path.parent.name}-{self.path.stem}"
+        return f"table-{self.path.parent.name}-{self.stem}"
 
     @cached_property
     def head(self) -> list[str]:
         """The comments above the columns, without those that are there for programs."""
-        lines = self.path.read_text().splitlines()
+        lines = content(self.path).splitlines()
         comments = [line for line in lines if line.startswith("#")]
-        return [line[1:].strip() for line in comments if not line.startswith((TEXT, ABOVE))]
+        return [line[1:].strip() for line in comments if not line.startswith(TEXT)]
 
     @cached_property
     def frame(self) -> pd.DataFrame:
@@ -61,10 +71,10 @@ class Sheet:
     @cached_property
     def packed(self) -> str:
         """The file as compressed text; nothing of one that is too large."""
-        content = self.path.read_bytes()
-        if len(content) > EMBED:
+        text = content(self.path).encode()
+        if len(text) > EMBED:
             return ""
-        packed = gzip.compress(content, 9, mtime=0)
+        packed = gzip.compress(text, 9, mtime=0)
         return base64.b64encode(packed).decode()
 
     @cached_property
@@ -109,7 +119,7 @@ def place(name: str, order: Sequence[str]) -> int:
 
 def folder_of(path: Path) -> Folder:
     """A folder, its figure `main` first."""
-    sheets = [Sheet(table) for table in sorted(path.glob("*.csv"))]
+    sheets = [Sheet(table) for table in sorted([*path.glob("*.csv"), *path.glob("*.csv.gz")])]
     pictures = sorted(path.glob("*.png"), key=lambda png: (png.stem != "main", png.stem))
     study = study_of(path.name)
     question = study.question if study else QUESTIONS.get(path.name, path.name)
@@ -136,7 +146,7 @@ def check_columns(folder: Folder) -> None:
     tables = folder.study.tables if folder.study else []
     declared = {table.name: [*table.columns, *STAMP] for table in tables}
     for sheet in folder.sheets:
-        columns = declared.get(sheet.path.stem, [])
+        columns = declared.get(sheet.stem, [])
         missing = [name for name in columns if name not in sheet.frame]
         if missing:
             names = ", ".join(missing)

@@ -34,7 +34,8 @@ NEAR = 24
 #: films.csv says what is seen; films in the order of the page, others follow
 FILMS = Table("films", key=["film"], columns=[
     "film", "title", "caption", "ra", "rows", "points", "grid_rows", "t_end", "frames", "last_ke",
-    "last_ke_grid"])
+    "last_ke_grid"], about="A film of convection beside the grid.", means={
+        "points": ("number of particles", ""), "t_end": ("free-fall times that it shows", "")})
 ORDER = ("particles", "closed_faces", "as_printed")
 
 
@@ -135,7 +136,7 @@ def figures(folder: Folder, encode: Callable[[Path], str]) -> list[Shown]:
         sheets = folder.sheets
         if name in listed:
             words = caption(listed[name])
-            sheets = [sheet for sheet in sheets if sheet.path.stem in listed[name].tables]
+            sheets = [sheet for sheet in sheets if sheet.stem in listed[name].tables]
         shown.append(Shown(name, encode(png), opened(png).size, words, sheets))
     return shown
 

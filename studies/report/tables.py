@@ -1,0 +1,99 @@
+"""results/tables.md: of each table what a row is, its columns, and their units. No solver runs for it."""
+import csv
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from studies.kit.csvfile import write_atomic
+from studies.kit.table import Table
+from studies.report.inventory import FIRST, NoReport, study_of
+from studies.report.page import FILMS
+
+#: column -> (meaning, unit), the same in all tables that do not say otherwise
+COLUMNS: dict[str, tuple[str, str]] = {}
+with Path(__file__).with_name("columns.csv").open(newline="") as file:
+    for line in csv.DictReader(file):
+        COLUMNS[line["column"]] = line["meaning"], line["unit"]
+
+TIMED = "ns_per_particle_evaluation q25 q75 repeats value unit cpu versions date commit"
+WHAT = {"what": ("what was timed or counted", ""), "value": ("a number that is no such time", "`unit`")}
+
+
+def speed(name: str, about: str) -> Table:
+    """One of those that `bench` writes."""
+    return Table.of(name, "what particles threads", TIMED, means=WHAT,
+                    about=f"A time, or another number. {about}.")
+
+
+#: folder -> tables that no study fills
+OTHERS = {
+    "bench": [speed("spam_speed", "Smooth particles beside LAMMPS"),
+              speed("points_speed", "Points that stay and that move"),
+              speed("dpd_speed", "Dissipative particles beside LAMMPS")],
+    "films": [FILMS],
+    ".": [Table.of("times", "study size", "cases estimate_s cpu_s commit", about="A whole study in one size.",
+                   means={"size": ("SIZE of the study", ""), "cpu_s": ("CPU seconds of all cases", "s")})]}
+HEAD = """# Tables
+
+Written by `python -m studies.report tables` from the tables that the studies declare. Each file is read by
+`pd.read_csv(path, comment="#")`, packed (`.csv.gz`) or not. `(none)` is an empty text, an empty cell a
+number that is missing. The statements in [`claims.csv`](claims.csv) have their columns explained in the
+head of the file.
+
+Columns in **bold** are the key: no two rows agree in them. `x_err` is half the width of the 95 % interval
+of `x`, in the same unit. Each row of a study also has `size` and `commit`, and may have `seed`, `threads`,
+`cpu_s`, `compile_s`.
+
+Units: a is the mean spacing of particles or points (sigma in KHP95), m their mass, epsilon KHP95's energy,
+which is kB times the difference of temperature of the plates; t0 = a (m/epsilon)^(1/2), v0 = a/t0, c the
+speed of sound, L the height of the scene, rc the range of dissipative particles. Without unit: a ratio, a
+count, a name.
+"""
+
+
+def write_tables(out: Path) -> Path:
+    """Write tables.md into a folder; its path."""
+    path = out/"tables.md"
+    write_atomic(path, text())
+    return path
+
+
+def text() -> str:
+    """The whole file."""
+    parts = [HEAD]
+    for folder, tables in folders():
+        parts.append(f"\n## {folder}\n" if folder != "." else "\n## All studies\n")
+        parts += ["\n".join(lines(folder, table)) for table in tables]
+    return "\n".join(parts) + "\n"
+
+
+def folders() -> Iterator[tuple[str, Sequence[Table]]]:
+    """Folders of results with their tables, in the order of the page."""
+    for name in FIRST:
+        study = study_of(name)
+        if study:
+            yield name, study.tables
+    yield from OTHERS.items()
+
+
+def lines(folder: str, table: Table) -> Iterator[str]:
+    """A table: what a row is, then its columns."""
+    path = table.file if folder == "." else f"{folder}/{table.file}"
+    yield f"### [{path}]({path})\n\n{table.about}\n\n| column | meaning | unit |\n|---|---|---|"
+    for column in table.columns:
+        if column.removesuffix("_err") in {*table.columns} - {column}:
+            continue        # told with what it is the error of
+        what, unit = meaning(table, column)
+        name = f"**`{column}`**" if column in table.key else f"`{column}`"
+        error = f", `{column}_err`" if f"{column}_err" in table.columns else ""
+        yield f"| {name}{error} | {what.replace('|', chr(92) + '|')} | {unit} |"
+    yield ""
+
+
+def meaning(table: Table, column: str) -> tuple[str, str]:
+    """What a column is, and its unit. Raises NoReport: nobody said so."""
+    if column in table.means:
+        return table.means[column]
+    if column not in COLUMNS:
+        raise NoReport(f"column {column} of table {table.name} has no meaning: give it one in "
+                       "studies/report/columns.csv, or in means= of the table")
+    return COLUMNS[column]

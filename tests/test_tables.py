@@ -1,0 +1,52 @@
+"""Committed tables read right with pandas alone; tables.md says what their columns are."""
+import pandas as pd
+import pytest
+
+from studies.kit.csvfile import EMPTY, content, read
+from studies.kit.store import RESULTS
+from studies.kit.table import SPENT, STAMP
+from studies.report.inventory import NoReport
+from studies.report.tables import COLUMNS, folders, meaning, text
+
+LONGEST = 300_000       # characters of a table that is not packed
+FILES = sorted(path for path in [*RESULTS.glob("*.csv"), *RESULTS.glob("*/*.csv*")]
+               if path.parent.name not in ("raw", "quick", "own"))
+TABLES = [(folder, table) for folder, tables in folders() for table in tables]
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: f"{path.parent.name}/{path.name}")
+def test_a_table_is_complete_for_pandas_alone(path):
+    plain, ours = pd.read_csv(path, comment="#"), read(path)
+    pd.testing.assert_frame_equal(plain.replace(EMPTY, ""), ours)
+    texts = plain.select_dtypes(exclude=["number", "bool"])
+    assert not texts.isna().any(axis=None), "an empty text has a word, so that it is no missing number"
+    assert path.suffix == ".gz" or len(content(path)) < LONGEST, "large=True packs a table"
+
+
+@pytest.mark.parametrize("folder, table", TABLES, ids=lambda one: getattr(one, "name", one))
+def test_each_column_of_each_table_has_a_meaning(folder, table):
+    assert table.about.endswith((".", "?"))
+    told = {*table.columns, *SPENT, *STAMP}
+    assert not set(read(RESULTS/folder/table.file)) - told
+    for column in table.columns:
+        base = column.removesuffix("_err")
+        assert all(meaning(table, base if base in table.columns else column)[:1])
+    assert not [name for name, words in table.means.items() if COLUMNS.get(name) == words], "said twice"
+
+
+def test_columns_of_the_dictionary_are_those_of_tables():
+    used = {name for _, table in TABLES for name in table.columns if name not in table.means}
+    assert {*COLUMNS} - used <= {*STAMP}, "no table has it"
+    named = {name for _, table in TABLES for name in table.columns}
+    assert not {name for _, table in TABLES for name in table.means} - named
+    with pytest.raises(NoReport, match="column speeed of table kinetic_energy has no meaning: give it"):
+        meaning(TABLES[0][1], "speeed")
+
+
+def test_the_list_of_tables_is_up_to_date():
+    assert (RESULTS/"tables.md").read_text() == text(), "python -m studies.report tables writes it"
+
+
+def test_each_file_is_in_the_list():
+    listed = {(RESULTS/folder/table.file).resolve() for folder, table in TABLES}
+    assert {path.resolve() for path in FILES} - listed == {RESULTS/"claims.csv"}
