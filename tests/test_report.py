@@ -209,6 +209,6 @@ def test_results_as_they_are_make_a_page():
     text = render(RESULTS, committed(), lambda path: "data:,")
     assert text.count("<tr data-paper=") == len(claims_of(RESULTS))
     for part in committed():
-        tables = {sheet.path.stem for sheet in part.sheets}
+        tables = {sheet.stem for sheet in part.sheets}
         for name, drawing in inventory.drawings(part).items():
             assert set(drawing.tables) <= tables, f"{part.name}/{name}"
