@@ -51,7 +51,7 @@ def test_help_lists_every_target_by_the_name_that_is_typed(make):
 
 
 @pytest.mark.parametrize(("size", "last"),
-                         [("paper", ["films", "execute", "report equations", "report"]),
+                         [("paper", ["films", "execute", "report equations", "report tables", "report"]),
                           ("quick", ["report --out results/quick"])])
 def test_all_studies_are_told_their_hours_first_and_become_notebooks_films_and_the_page_last(make, size, last,
                                                                                              tmp_path):
