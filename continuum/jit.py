@@ -135,3 +135,16 @@ def generic(stub: Callable) -> Any:
     call.__doc__, call.__name__ = stub.__doc__, stub.__name__
     call.of, call.kinds = of, table  # type: ignore[attr-defined]
     return call
+
+
+def check_formulas(value: Any, *functions: Any) -> None:
+    """Refuse an object of a class that any of these generic functions has no formula for.
+
+    Raises TypeError: it lacks formulas; names all of them.
+    """
+    kind = type(value)
+    lacking = [one.__name__ for one in functions if not any(base in one.kinds for base in kind.__mro__)]
+    if lacking:
+        lines = ", ".join(f"@{name}.of({kind.__name__})" for name in lacking)
+        raise TypeError(f"{kind.__name__} has no formula for {' and '.join(lacking)}: add {lines}, as for "
+                        "the others of its kind in continuum/fluid.py")

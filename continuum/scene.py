@@ -21,6 +21,7 @@ from continuum.fluid import (
     thermal_pressure,
     viscosity,
 )
+from continuum.jit import check_formulas
 
 ROLL_ENERGY = 9/5000    # kinetic energy per mass of the initial rolls    [KHP95, Fig. 9]
 
@@ -102,6 +103,7 @@ class RayleighBenard:
         self._check_objects()
         for T in (self.T_hot, self.T_cold):
             check_state(self.eos, 1.0, energy(self.eos, 1.0, T))
+        check_formulas(self.law, viscosity, conductivity)
         eta = float(viscosity(self.law, 1.0, self.T_mean))
         if not np.isclose(eta, self.nu) or not np.isclose(conductivity(self.law, 1.0, self.T_mean), self.k):
             raise ValueError(

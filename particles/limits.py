@@ -11,15 +11,21 @@ in direct ones. Sound is in S, the stiffness of pairs in D. Walls and gravity ar
 lattice oscillate faster: by 1 (Wendland C2), 10 (Lucy) or 21 % (B-spline) once they have settled, by up to 40
 % where they lie at random.
 """
+from collections.abc import Callable
 from functools import cache, singledispatch
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from continuum.fluid import check_state, conductivity, pressure, pressure_slopes, temperature, viscosity
+from particles.integrators import RK4
+from particles.plan import Run
 from particles.smooth.spam import Spam
-from particles.smooth.sums import Direct, Nested
+from particles.threads import Threads
 from particles.weights import value_and_slope
+
+TRIALS = 40         # evaluations of rates, of a method without a formula
+TINY = 1e-7         # of a state: what a rate is told from
 
 
 class Symbols(NamedTuple):
@@ -33,14 +39,69 @@ class Symbols(NamedTuple):
 
 @singledispatch
 def limit_of(method: Any, start: np.ndarray) -> float:
-    """The largest stable step of RK4 from a start (fields, n); each kind of method registers its own."""
-    raise TypeError(f"no stability limit is known for {type(method).__name__}: register one with "
-                    "limit_of.register")
+    """The largest stable step from a start (fields, n).
+
+    By a formula registered for this kind of method, else by its own `limit(start)`, else, of RK4, from its
+    rates: a scheme that is being tried out has no formula yet, and a guessed step would be taken for its own.
+    Raises TypeError: it has another integrator than RK4 and no `limit`.
+    """
+    if hasattr(method, "limit"):
+        return float(method.limit(start))
+    if getattr(method, "integrator", RK4) is not RK4:
+        raise TypeError(f"the longest step of {type(method).__name__} is not known, as its integrator is not "
+                        "RK4: write its limit(start)")
+    return largest_step(by_trial(method, start))
 
 
 @limit_of.register
 def _(method: Spam, start: np.ndarray) -> float:
     return step_limit(method, start[4])
+
+
+def by_trial(method: Any, start: np.ndarray, trials: int = TRIALS) -> np.ndarray:
+    """Estimates of the outermost eigenvalues of d(rates)/d(state) at a start: the largest within some 1 %.
+
+    Raises ValueError: rates of one state differ between two calls.
+    """
+    now = Run(state=start.copy(), ids=np.arange(start.shape[1]))
+    sums = method.start(start.shape[1], Threads(1))
+    sums.make_ready(now, TINY)
+    small, rest = TINY*float(np.linalg.norm(start)), rates_of(sums, now.state)
+    if not np.array_equal(rest, rates_of(sums, now.state)):
+        raise ValueError(f"rates of {type(method).__name__} differ between two calls with one state: leave "
+                         "noise out of them, or write its limit(start)")
+    return outermost(lambda wave: (rates_of(sums, now.state + small*wave) - rest)/small, start.shape, trials)
+
+
+def outermost(product: Callable[[np.ndarray], np.ndarray], shape: tuple, trials: int) -> np.ndarray:
+    """Estimates of outer eigenvalues of a matrix from its products with waves    [Arnoldi 1951]"""
+    waves, H = [unit(np.random.default_rng(1).standard_normal(shape))], np.zeros((trials + 1, trials))
+    for k in range(trials):
+        pushed = product(waves[k])
+        for i, wave in enumerate(waves):
+            H[i, k] = np.vdot(wave, pushed)
+            pushed -= H[i, k]*wave
+        H[k + 1, k] = np.linalg.norm(pushed)
+        if H[k + 1, k] <= TINY*np.abs(H).max():
+            return np.linalg.eigvals(H[:k + 1, :k + 1])
+        waves.append(unit(pushed))
+    return np.linalg.eigvals(H[:-1])
+
+
+def rates_of(sums: Any, state: np.ndarray) -> np.ndarray:
+    """d(state)/dt. FloatingPointError: it is not finite."""
+    out = np.full_like(state, np.nan)
+    sums.rates(state, out)
+    if not np.isfinite(out).all():
+        row = int(np.argwhere(~np.isfinite(out))[0, 0])
+        raise FloatingPointError(f"rates leave row {row} of out unwritten, or not finite: write d(state)/dt "
+                                 "into all of out")
+    return out
+
+
+def unit(wave: np.ndarray) -> np.ndarray:
+    """Of length 1."""
+    return wave/np.linalg.norm(wave)
 
 
 def step_limit(method: Spam, e: Any, rho: float = 1.0) -> float:
@@ -85,8 +146,8 @@ def _derivatives(weight, r: float) -> tuple[float, float, float]:
 
 def waves(method: Spam, symbols: Symbols, e: float) -> np.ndarray:
     """Eigenvalues of the linearised method, (k, 5): exp(lambda t)."""
-    rho, S, D, nested, direct = symbols
-    k2 = {Nested: nested, Direct: direct}[method.transport]
+    rho, S, D, *_ = symbols
+    k2 = symbols._asdict()[method.transport.symbol]
     eos, m, T = method.eos, method.m, temperature(method.eos, symbols.rho, e)
     P, (P_rho, P_e), (T_rho, T_e) = (pressure(eos, rho, e), pressure_slopes(eos, rho, e),
                                      _thermal_slopes(eos, rho, e))

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from continuum.fluid import valid
+from particles.method import Summing
 from particles.neighbours import farthest, make_lists, sort_into_cells
 from particles.pairs import empty_pairs, weigh
 from particles.threads import Threads
@@ -116,10 +117,9 @@ class PairLists:
             move_images(first, last, wall, parent, self.x, self.y, self.vx, self.vy, self.T)
 
 
-class Listed:
+class Listed(Summing):
     """What the time loop asks of sums over neighbour lists, whatever is summed."""
     around: PairLists
-    rates: Any
 
     def evaluate(self, state: np.ndarray) -> None:
         """All sums once."""

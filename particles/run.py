@@ -10,6 +10,7 @@ from particles.checkpoint import load, save
 from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.lists import outside
+from particles.method import Leaps
 from particles.plan import Plan, Run
 from particles.threads import Threads
 
@@ -63,17 +64,23 @@ def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], N
 
 
 def _advance(method, plan: Plan, sums, integrator, now: Run) -> None:
+    more = (_until_record(plan, now.step),) if isinstance(integrator, Leaps) else ()
     try:
         sums.make_ready(now, plan.dt)
-        integrator.step(sums, now.state, plan.dt)
+        integrator.step(sums, now.state, plan.dt, *more)
     except FloatingPointError as error:
         message = f"diverged at step {now.step}, time {now.step*plan.dt:g}: {error}; {_way_out(plan)}"
         raise Divergence(now.step, message) from error
     now.reflections += sums.confine(now.state)
-    now.step += 1
+    now.step += sum(more) or 1
     _check(method, plan, sums, now)
     if now.step % plan.every == 0:
         _record(plan, sums, now)
+
+
+def _until_record(plan: Plan, step: int) -> int:
+    """Steps until the next record, or the end."""
+    return min(plan.every - step % plan.every, plan.steps - step)
 
 
 def _record(plan: Plan, sums, now: Run) -> None:

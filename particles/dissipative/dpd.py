@@ -27,6 +27,7 @@ from particles.dissipative.pairs3d import (
 from particles.dissipative.periodic3d import Images
 from particles.fields import Fields
 from particles.limits import limit_of
+from particles.method import Summing
 from particles.neighbours import u32, u64
 from particles.noise import check_seed
 from particles.threads import Threads
@@ -134,7 +135,7 @@ def _(method: Dpd, start: np.ndarray) -> float:
     return np.inf       # it is told in its own words where the step is known: `Forces.make_ready`
 
 
-class Forces:
+class Forces(Summing):
     """The pair sums of n particles, as time loop and integrators want them."""
 
     def __init__(self, method: Dpd, n: int, threads: Threads):
@@ -178,10 +179,6 @@ class Forces:
         if now.step == 0:
             self._sum(Force(), self.method.law(dt), self.method.noise, 0, now.state[:d], now.state[d:2*d],
                       0.0, now.state[2*d:])
-
-    def confine(self, state: np.ndarray) -> int:
-        """No walls, no reflections."""
-        return 0
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """Every finite state is valid."""

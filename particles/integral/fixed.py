@@ -22,6 +22,7 @@ from particles.integral.exchange import (
 )
 from particles.integral.transposed_stress import MENDED
 from particles.limits import limit_of
+from particles.method import Summing
 from particles.neighbours import u32, u64
 from particles.pairs import Stored
 from particles.threads import Threads
@@ -112,37 +113,6 @@ def _(method: OnPoints, start: np.ndarray) -> float:
     return float(1/(np.max(fast)*sound/2.82 + np.max(chi)*spread/2.78))
 
 
-class Summing:
-    """What the time loop asks of sums over edges of points that stay, with rates(state, out)."""
-    method: Any
-    rates: Any
-
-    def look_at(self, state: np.ndarray) -> None:
-        """What series of a run read of a state besides the state itself; nothing by default."""
-
-    def resume(self, now: Any) -> None:
-        """Fixed points have no lists to make again."""
-
-    def try_out(self, now: Any) -> None:
-        """One evaluation that leaves no trace."""
-        self.rates(now.state, np.empty_like(now.state))
-
-    def make_ready(self, now: Any, dt: float) -> None:
-        """Nothing: edges are made once."""
-
-    def confine(self, state: np.ndarray) -> int:
-        """Nothing moves."""
-        return 0
-
-    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
-        """The first point outside of the equation of state; empty if there is none."""
-        i = first_invalid(state, self.method.eos)
-        if i == state.shape[1]:
-            return ""
-        eos, (rho, e) = type(self.method.eos).__name__, inner(*state[:4, i])
-        return f"point {i} has rho = {rho:.6g}, e = {e:.6g}, outside the validity of {eos}"
-
-
 class FixedSums(Summing):
     """Compiled sums over stored edges: fields, stages of the terms, one exchange, rates per volume.
 
@@ -172,6 +142,14 @@ class FixedSums(Summing):
         """d(state)/dt of a state (4, n), written to `out`    [Eqs 34-36, 51]"""
         self.look_at(state)
         self.threads(driven, self.n, self.exchange.sum(self.at), self.at.V, self.points, self.push, out)
+
+    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
+        """The first point outside of the equation of state; empty if there is none."""
+        i = first_invalid(state, self.method.eos)
+        if i == state.shape[1]:
+            return ""
+        eos, (rho, e) = type(self.method.eos).__name__, inner(*state[:4, i])
+        return f"point {i} has rho = {rho:.6g}, e = {e:.6g}, outside the validity of {eos}"
 
 
 @formula

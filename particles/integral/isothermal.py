@@ -12,8 +12,9 @@ from continuum.jit import jit
 from particles.fields import Fields
 from particles.integral.edges import Edges
 from particles.integral.exchange import At, Exchange, Listing
-from particles.integral.fixed import NO_IMAGES, OnPoints, Summing, stored
+from particles.integral.fixed import NO_IMAGES, OnPoints, stored
 from particles.limits import limit_of
+from particles.method import Summing
 from particles.pairs import rate, zero
 from particles.threads import Threads
 

@@ -167,8 +167,8 @@ class Drifts(Listed):
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """The first point with a volume, mass or state that no fluid has; empty if there is none."""
-        return self.unphysical(self.method.eos, state[6], *self.method.thermal(state),
-                               ids) or self.outran(state)
+        rho, e = self.method.thermal(state)
+        return self.unphysical(self.method.eos, state[6], rho, e, ids) or self.outran(state)
 
 
 @jit

@@ -14,9 +14,10 @@ from continuum.fluid import energy, sound_speed
 from continuum.jit import jit
 from particles.integral.covariance import BETAS, OLD
 from particles.integral.dih import Dih, EdgeFluxes, Flow, Mixed, check_bulk, frictions, gained, means, take
-from particles.integral.fixed import Summing, check_number
+from particles.integral.fixed import check_number
 from particles.integral.fluctuating import conductances, traceless
 from particles.limits import limit_of
+from particles.method import Summing
 from particles.noise import check_seed, fill_normals, normals_of_pair
 from particles.threads import Threads
 

@@ -57,6 +57,9 @@ class Spam:
             raise ValueError(f"the mass of a particle must be positive, got {self.m}: total mass / number of "
                              "particles")
         check_unit(self.weight)
+        if not hasattr(self.transport, "symbol"):
+            raise TypeError(f"{self.transport} does not say which waves it damps, as the step limit asks: "
+                            "inherit Nested or Direct of particles.smooth.sums, or set symbol")
         if self.transport is Direct and not constant_viscosity(self.law):
             raise ValueError("Direct takes friction along pairs, which lacks a part of the stress where "
                              f"viscosity varies, as by {self.law}: take Nested, or ConstEta")

@@ -1,6 +1,6 @@
 """The sums of `spam`: densities, gradients, stress and heat flux over pairs, compiled    [KHP95, Sec. II]"""
 from abc import ABC, abstractmethod
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -17,13 +17,15 @@ Flux = np.dtype([(name, "f8") for name in ("xx", "xy", "qx", "vx", "yx", "yy", "
 DirectState = np.dtype([(name, "f8") for name in ("x", "y", "vx", "vy", "T", "P_rho2", "irho", "eta", "k")])
 
 
-class Sums(Listed, ABC):
+class SmoothSums(Listed, ABC):
     """What both kinds of transport share: arrays, density sum, equations of state, for the time loop.
 
     places : rows of a state that are positions; `velocity` : their rates, for integrators that step them
-    apart.
+    apart. symbol : of what stands for the wave number squared in the step limit, nested or direct, which is
+    the transport's own (`particles.limits.Symbols`).
     """
     places = 2
+    symbol: ClassVar[str]
 
     def __init__(self, method: Any, n: int, threads: Threads):
         self.method, self.threads, self.n = method, threads, n
@@ -98,8 +100,9 @@ class Sums(Listed, ABC):
         return self.slopes.reshape(-1, 2, 4)[:, :, :3].reshape(-1, 6)
 
 
-class Nested(Sums):
+class Nested(SmoothSums):
     """Stress and heat flux from gradients of the second sum, divergence in the third    [KHP95, Sec. II]"""
+    symbol = "nested"
 
     def allocate(self, points: int) -> None:
         super().allocate(points)
@@ -114,8 +117,9 @@ class Nested(Sums):
         return Fluxes(), self.flux
 
 
-class Direct(Sums):
+class Direct(SmoothSums):
     """Viscosity and conduction along each pair: no gradients, unless the static part needs div v."""
+    symbol = "direct"
 
     def allocate(self, points: int) -> None:
         super().allocate(points)

@@ -14,6 +14,8 @@ from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from typing import Any
 
+from continuum.fluid import conductivity, viscosity
+from continuum.jit import check_formulas
 from studies.build import fixed, grid, moving, rr98_moving, spam
 from studies.build.setting import Ready, of_method
 
@@ -49,8 +51,10 @@ def ready(scene: Any, method: Any, seed: int = 1, **more: Any) -> Ready:
 
     more : as the family takes.
 
-    Raises ValueError: No method has this name, or the family cannot take the scene.
+    Raises ValueError: No method has this name, or the family cannot take the scene. TypeError: the scene's
+    transport law lacks a formula.
     """
+    check_formulas(scene.law, viscosity, conductivity)
     chosen = variant(method) if isinstance(method, str) else method
     if hasattr(chosen, "ready"):
         made: Ready = chosen.ready(scene, seed, **more)

@@ -10,8 +10,8 @@ from continuum.gas.loop import FIELDS, VX, EdgeHeat, FluxForm, PaperForm
 from continuum.gas.solve import March, first_fault, limits
 from continuum.scene import RayleighBenard
 from continuum.steady import SAFETY
-from particles.integral.fixed import Summing
 from particles.limits import limit_of
+from particles.method import Summing
 from particles.threads import Threads
 from studies.build.names import START_ENERGY
 from studies.build.setting import Ready, stepped

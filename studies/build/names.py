@@ -25,7 +25,7 @@ def one_energy(ke: float, err: float) -> dict[str, float]:
 def scene_columns(scene: Any) -> dict[str, Any]:
     """The columns of a row that name the scene."""
     eos, transport = type(scene.eos).__name__, scene.transport.__name__
-    return {"eos": EOS_NAMES[eos], "transport": TRANSPORT_NAMES[transport],
+    return {"eos": EOS_NAMES.get(eos, eos), "transport": TRANSPORT_NAMES.get(transport, transport),
             "sides": type(scene.sides).__name__.lower(), "ra": float(scene.ra), "pr": float(scene.pr)}
 
 
