@@ -59,7 +59,7 @@ def _(method: Spam, start: np.ndarray) -> float:
 
 
 def by_trial(method: Any, start: np.ndarray, trials: int = TRIALS) -> np.ndarray:
-    """Estimates of the outermost eigenvalues of d(rates)/d(state) at a start: the largest within some 1 %.
+    """Estimates of the outermost eigenvalues of d(rates)/d(state) at a start: the largest within some 2 %.
 
     Raises ValueError: rates of one state differ between two calls.
     """

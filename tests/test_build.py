@@ -8,10 +8,12 @@ import pytest
 from continuum.fluid import ConstEta
 from continuum.scene import Periodic, RayleighBenard, Walls
 from particles.fields import kinetic_energy
+from particles.method import Method
 from particles.run import Plan, run
 from studies.build import METHODS, named, ready
 from studies.build.scenes import Scene, Sound, TaylorGreen, between_plates
 from studies.build.spam import VARIANTS
+from studies.judge.contract import check
 
 # six fixed rows behind a plate go on to T = 0 in a lower one
 LAYER = RayleighBenard(ra=1e4, L=14.0, aspect=1.0)
@@ -37,6 +39,14 @@ def test_every_method_starts_with_the_fields_of_the_layer(name):
     assert np.abs(v - u).max() < 1e-14 and np.abs(T - known).max() < 1e-13
     # points off a lattice sample it
     assert kinetic_energy(method.fields(start)) == pytest.approx(9/5000, rel=0.1)
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_every_method_meets_the_contract(name):
+    """Members and shapes; its own fields are those of the scene."""
+    made = in_layer(name)
+    assert isinstance(made.method, Method)
+    check(LAYER, made._replace(start=made.start.reshape(len(made.start), -1)))
 
 
 @pytest.mark.parametrize("name", METHODS)

@@ -18,6 +18,7 @@ from studies.build.moving import FacesMotion
 from studies.build.named import SCENES
 from studies.build.rr98_moving import DriftMotion
 from studies.build.scenes import Sound
+from studies.build.setting import Ready
 from studies.build.spam import Variant
 from studies.front.observed import numbers, recorded, seen
 from studies.front.references import REFERENCES
@@ -91,12 +92,12 @@ def called(method: Any) -> str:
 
 def stepped(scene: Any, chosen: Any, name: str, how: How) -> Solution:
     """By steps in time, of any method."""
-    made = ready(scene, chosen, how.seed, **begun(scene, chosen, how.seed))
+    made = prepared(scene, chosen, how.seed)
     plan, unit = planned(scene, chosen, made.dt, how), duration(scene)[1]
     with tqdm(total=plan.steps, desc=name, unit="step", disable=how.silent, leave=False) as bar:
         def tell(part: float) -> None:
             bar.update(round(part*plan.steps) - bar.n)
-        done = run(made.method, made.start.reshape(made.start.shape[0], -1), plan, tell)
+        done = run(made.method, made.start, plan, tell)
     history = pd.DataFrame({"t": np.array(done.times)/unit, **done.series})
     at = seen(made.method, done.by_id())
     return Solution(scene=scene, method=name, rows=rows_of(scene), seed=how.seed, history=history,
@@ -111,6 +112,12 @@ def planned(scene: Any, chosen: Any, longest: float, how: How) -> Plan:
     steps = ceil(length/(how.dt or longest))
     return Plan(dt=length/steps, steps=steps, series=recorded(scene, chosen), every=max(1, steps//SAMPLES),
                 checkpoint=Path(how.resume) if how.resume else None)
+
+
+def prepared(scene: Any, chosen: Any, seed: int = 1) -> Ready:
+    """A method at its start in a scene, for `run`: of grids a block is as flat as states of points."""
+    made = ready(scene, chosen, seed, **begun(scene, chosen, seed))
+    return made._replace(start=made.start.reshape(made.start.shape[0], -1))
 
 
 def begun(scene: Any, chosen: Any, seed: int) -> dict[str, Any]:

@@ -1,0 +1,54 @@
+"""python -m studies.judge MODULE:CLASS [--rows 16 24 36]: how good a method of your own is, on one page."""
+import argparse
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from studies.build import variant
+from studies.judge.ladder import Ladder, judged
+from studies.judge.page import write_page
+from studies.judge.rungs import RUNGS
+from studies.kit.store import RESULTS
+
+OWN = RESULTS/"own"         # not committed
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """The command line; 0 if there is a page, 1 if there is no such method."""
+    parser = argparse.ArgumentParser(prog="python -m studies.judge", description=__doc__)
+    parser.add_argument("method", help="module:Class, a class that takes a scene; or a name such as grid")
+    parser.add_argument("--rows", type=int, nargs="+", default=[16, 24, 36],
+                        help="even ones, which all methods take; a small ladder has 8 12")
+    parser.add_argument("--minutes", type=float, default=10.0, help="what would take longer is left out")
+    parser.add_argument("--out", type=Path, default=OWN, help="folder of the page (default: results/own)")
+    words = parser.parse_args(arguments)
+    try:
+        method = found(words.method)
+    except (ValueError, ImportError, AttributeError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    name = words.method.rpartition(":")[2]
+    takes = Ladder(method, words.out/f"judge-{name}", sorted(words.rows), words.minutes).climb()
+    for rung in RUNGS:
+        print(f"{rung.name}: {judged(rung, takes).words}")
+    print(write_page(name, takes, words.out))
+    return 0
+
+
+def found(words: str) -> Any:
+    """A class by module:Class, or a name. Raises ValueError, ImportError, AttributeError: there is none."""
+    module, colon, name = words.partition(":")
+    if not colon:
+        variant(words)
+        return words
+    sys.path.insert(0, str(Path.cwd()))
+    method = getattr(import_module(module), name)
+    if not isinstance(method, type):
+        raise ValueError(f"{words} is a {type(method).__name__}: name a class that takes a scene")
+    return method
+
+
+if __name__ == "__main__":
+    sys.exit(main())

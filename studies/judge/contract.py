@@ -1,0 +1,82 @@
+"""Whether a method has what a run asks of it (`particles.method`), told before anything runs."""
+from typing import Any
+
+import numpy as np
+
+from particles.limits import limit_of, rates_of
+from particles.method import Leaps, Sums
+from particles.plan import Run
+from particles.threads import Threads
+from studies.build.setting import Ready
+from studies.front.solving import named, prepared
+
+#: member -> how it is written
+MEMBERS = {"names": "names, of the rows of a state", "eos": "eos, the scene's",
+           "fields": "fields(state), which gives Fields(x, v, rho, T, V)",
+           "start": "start(n, threads), which gives its sums: inherit OwnRates"}
+AGREE = 1e-6        # fields of a start with what it was made from
+
+
+class Breach(TypeError):
+    """A method that lacks something, or gives something of another shape."""
+
+
+def contract(scene: Any, method: Any) -> dict[str, float]:
+    """Nothing, if all is there. Raises Breach: it is not."""
+    chosen = named(method)
+    if isinstance(chosen, type) and not hasattr(chosen, "ready"):
+        check_members(chosen(scene), "state")
+    check(scene, prepared(scene, chosen))
+    return {}
+
+
+def check(scene: Any, ready: Ready) -> None:
+    """Refuse a method in a scene that lacks something."""
+    check_members(ready.method)
+    check_fields(scene, ready.method, ready.start)
+    check_sums(ready.method, ready.start)
+    limit = limit_of(ready.method, ready.start)
+    if not 0 < limit < np.inf:
+        raise Breach(f"its longest step is {limit}: limit(start) must be positive and finite")
+
+
+def check_members(method: Any, *more: str) -> None:
+    """Refuse a method without one of these."""
+    told = {**MEMBERS, "state": "state(rho, v, T), or state(x, rho, v, T) without places x of its own"}
+    lacking = [told[name] for name in (*MEMBERS, *more) if not hasattr(method, name)]
+    if lacking:
+        raise Breach(f"lacks {'; '.join(lacking)}")
+
+
+def check_fields(scene: Any, method: Any, start: np.ndarray) -> None:
+    """Refuse a start or fields of other shapes, or that are not the scene's."""
+    if start.ndim != 2 or len(start) != len(method.names):
+        raise Breach(f"state gives an array {start.shape}: it has {len(method.names)} rows, one for "
+                     "each of names")
+    at = method.fields(start)
+    n = len(at.rho)
+    wanted = {"x": (n, 2), "v": (n, 2), "rho": (n,), "T": (n,), "V": (n,)}
+    for name, shape in wanted.items():
+        if np.shape(getattr(at, name)) != shape:
+            raise Breach(f"fields gives {name} of shape {np.shape(getattr(at, name))} where rho has {n} "
+                         f"points: it must be {shape}")
+    _, v, T = scene.fields(at.x)
+    for name, has, known in (("v", at.v, v), ("T", at.T, T)):
+        off = float(np.abs(has - known).max())
+        if not off < AGREE:
+            raise Breach(f"fields(state(...)) does not give back {name}: it is {off:.2g} off")
+
+
+def check_sums(method: Any, start: np.ndarray) -> None:
+    """Refuse sums that lack something, or rates that are not written."""
+    sums = method.start(start.shape[1], Threads(1))
+    if not isinstance(sums, Sums):
+        asked = ("method", *(name for name in dir(Sums) if not name.startswith("_")))
+        lacking = ", ".join(name for name in asked if not hasattr(sums, name))
+        raise Breach(f"its sums lack {lacking}: inherit Summing of particles.method")
+    if not hasattr(method, "integrator"):
+        now = Run(state=start.copy(), ids=np.arange(start.shape[1]))
+        sums.make_ready(now, 1e-6)
+        rates_of(sums, now.state)
+    elif method.integrator is Leaps:
+        Leaps(start.shape, Threads(1)).step(sums, start.copy(), 0.1*limit_of(method, start))

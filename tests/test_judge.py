@@ -1,0 +1,111 @@
+"""The judge praises what is good, and has a verdict for what is wrong, on each rung without a traceback."""
+import json
+
+import pandas as pd
+import pytest
+import strangers
+
+from studies.judge.__main__ import main
+from studies.judge.ladder import Ladder, judged
+from studies.judge.rungs import RUNGS
+from studies.judge.verdicts import convergence, energy
+
+QUICK = ["--rows", "8", "12", "--out"]
+
+
+@pytest.fixture
+def verdicts(tmp_path):
+    """Of a class at 8 rows, by rung."""
+    def of(method):
+        takes = Ladder(method, tmp_path, (8,), 5.0).climb()
+        return {rung.name: judged(rung, takes).words for rung in RUNGS}
+    return of
+
+
+def test_the_example_is_judged_and_has_a_page(tmp_path, capsys):
+    assert main(["examples.your_method:Cells", *QUICK, str(tmp_path)]) == 0
+    out, err = capsys.readouterr()
+    for words in ("stays at rest", "keeps mass, momentum and energy", "repeats itself bit by bit",
+                  "is stable up to 1.0", "couette: converges with order 2.0"):
+        assert words in out
+    assert "[16/16] rayleigh-benard, 12 rows:" in err
+    page, table = (tmp_path/f"judge-Cells.{end}" for end in ("html", "csv"))
+    assert "data:image/png;base64,iVBOR" in page.read_text() and "http" not in page.read_text()
+    numbers = pd.read_csv(table, comment="#").query("rung == 'couette' and quantity == 'error'")["value"]
+    assert numbers.iloc[1] == pytest.approx(numbers.iloc[0]*(8/12)**2, rel=0.05)
+
+
+def test_finished_rungs_are_kept_until_the_code_changes(tmp_path):
+    ladder = Ladder(strangers.Transposed, tmp_path, (8,), 5.0)
+    first = ladder.climb()
+    assert ladder.climb() == first      # seconds and all
+    other = tmp_path/"rest-8.json"
+    other.write_text(json.dumps({**json.loads(other.read_text()), "key": "older"}))
+    again = ladder.climb()
+    assert again[0] == first[0] and again[1].seconds != first[1].seconds
+
+
+def test_steps_of_ones_own_climb_the_same_ladder(verdicts):
+    told = verdicts(strangers.Heun)
+    assert told["contract"] == "has all that a run asks for"
+    assert told["repeat"] == "repeats itself bit by bit"
+    assert told["rayleigh-benard"].startswith("K is 1.4 % high")     # as the example's
+
+
+def test_a_class_without_fields_is_told_so(verdicts):
+    told = verdicts(strangers.NoFields)
+    assert told["contract"].startswith("Breach: lacks fields(state), which gives Fields(x, v, rho, T, V)")
+    assert all("NoFields' object has no attribute 'fields'" in words
+               for name, words in told.items() if name != "contract")
+
+
+def test_a_wrong_shape_is_told_with_the_right_one(verdicts):
+    told = verdicts(strangers.Transposed)
+    assert "fields gives v of shape (2, 64) where rho has 64 points: it must be (64, 2)" in told["contract"]
+    assert all("Error" in words for name, words in told.items() if name not in ("contract", "repeat"))
+    assert told["repeat"] == "repeats itself bit by bit"     # asks for states alone
+
+
+def test_what_diverges_is_told_with_step_and_value(verdicts):
+    told = verdicts(strangers.Hasty)
+    assert told["contract"] == "has all that a run asks for"
+    assert "step" in told["conservation"] and "rho = " in told["conservation"]
+    assert told["step"].startswith("claims too long a step: is stable up to 0.07 of")
+
+
+def test_dice_are_found_out(verdicts):
+    told = verdicts(strangers.Dicing)
+    assert told["repeat"].startswith("is not deterministic: two runs of one seed differ by")
+    assert told["rest"].startswith("trembles at rest")
+    assert "does not keep" in told["conservation"]
+
+
+def test_rates_that_are_not_written_are_told(verdicts):
+    assert "rates leave row 0 of out unwritten" in verdicts(strangers.Unwritten)["contract"]
+
+
+def test_what_would_take_too_long_is_left_out(tmp_path):
+    takes = Ladder(strangers.Hasty, tmp_path, (8,), 0.0).climb()
+    assert all(take.fault.startswith("left out") for take in takes) and not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("errors, words", [
+    ((0.4, 0.1), "converges with order 2.0: 10 % off with 16 rows"),
+    ((0.4, 0.3), "does not converge: 30 % off with 16 rows, 40 % with 8")])
+def test_orders_of_known_errors(errors, words):
+    taken = [(rows, {"error": error}) for rows, error in zip((8, 16), errors)]
+    assert convergence(taken).words == words
+
+
+def test_energies_of_both_signs_have_no_order():
+    taken = [(rows, {"error": error, "error_err": 0.0}) for rows, error in ((8, 0.3), (16, -0.1))]
+    told = "has no order, as its errors change sign: K is 10 % low with 16 rows"
+    assert energy(taken).words.startswith(told)
+
+
+@pytest.mark.parametrize("words, why", [("spamm", "no method is called 'spamm'"), ("nowhere:A", "nowhere"),
+                                        ("strangers:np", "name a class that takes a scene"),
+                                        ("strangers:Nobody", "Nobody")])
+def test_what_is_no_method_is_refused_in_one_line(words, why, capsys):
+    assert main([words]) == 1
+    assert why in capsys.readouterr().err
