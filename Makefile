@@ -21,7 +21,7 @@ export PYTHONPATH := $(CURDIR)
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help env solve words studies hours report films test lint types notebooks executed lab bench worker locks clean $(studies:%=study-%) $(studies:%=figures-%) study- figures-
+.PHONY: help env solve judge words studies hours report films test lint types notebooks executed lab bench worker locks clean $(studies:%=study-%) $(studies:%=figures-%) study- figures-
 
 # a line for each name that % stands for
 help:  ## this list
@@ -57,6 +57,10 @@ METHOD ?= fixed-lattice
 ROWS   ?= 16
 solve: .venv/ready  ## K, Nu and a picture: make solve SCENE=taylor-green METHOD="grid spam" ROWS="16 32"
 	$(run) -m studies.front $(SCENE) $(METHOD) --rows $(ROWS) $(ARGS)
+
+# a class of one's own, module:Class, or a name as above; ARGS="--rows 8 12" is a ladder of half a minute
+judge: .venv/ready  ## a page on how good a method of your own is: make judge METHOD=examples.your_method:Cells
+	$(run) -m studies.judge $(METHOD) $(ARGS)
 
 words: .venv/ready  ## every name of a method, scene, quantity, explained; TEXT=wendland shows some
 	$(run) -m studies.build.words $(TEXT)

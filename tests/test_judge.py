@@ -9,6 +9,7 @@ from studies.judge.__main__ import main
 from studies.judge.ladder import Ladder, judged
 from studies.judge.rungs import RUNGS
 from studies.judge.verdicts import convergence, energy
+from studies.kit.key import ROOT
 
 QUICK = ["--rows", "8", "12", "--out"]
 
@@ -109,3 +110,9 @@ def test_energies_of_both_signs_have_no_order():
 def test_what_is_no_method_is_refused_in_one_line(words, why, capsys):
     assert main([words]) == 1
     assert why in capsys.readouterr().err
+
+
+def test_the_page_shows_the_code_that_is_judged():
+    code = (ROOT/"examples"/"your_method.py").read_text()
+    shown = (ROOT/"examples"/"your_method.md").read_text().split("```python\n")[1].split("```")[0]
+    assert shown in code

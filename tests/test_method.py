@@ -53,7 +53,7 @@ def test_own_steps_are_taken_from_record_to_record(monkeypatch):
     (type("OtherSteps", (Cells,), {"integrator": Euler}), r"OtherSteps is not known, .* its limit\(start\)"),
     (type("NoRates", (Cells,), {"rates": OwnRates.rates}), r"NoRates has no rates\(state, out\): write"),
     (Unwritten, "rates leave row 0 of out unwritten"),
-    (type("Dice", (Dicing,), {"limit": property()}), "rates of Dice differ between two calls with one state")])
+    (type("Dice", (Dicing,), {"limit": property()}), "rates of Dice differ between two calls with one")])
 def test_what_a_class_lacks_for_its_step_is_told_in_a_line(lacking, way_out):
     method = lacking(VORTEX)
     with pytest.raises((TypeError, ValueError, FloatingPointError), match=way_out):

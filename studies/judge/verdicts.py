@@ -64,7 +64,8 @@ def repeats(taken: Taken) -> Verdict:
 def holds(taken: Taken) -> Verdict:
     share = taken[0][1]["share"]
     if np.isnan(share):
-        return Verdict("no limit of its step was found within a factor of 60", None)
+        when = "all steps" if taken[0][1]["grows"] else "no step"
+        return Verdict(f"shows no limit: a vortex gains energy at {when} within a factor of 60", None)
     words = f"is stable up to {share:.2f} of the step that it claims"
     if share < LIMIT:
         return Verdict(f"claims too long a step: {words}", False)
@@ -106,5 +107,5 @@ def energy(taken: Taken) -> Verdict:
 
 
 def percent(share: float) -> str:
-    """In two digits."""
-    return f"{100*share:.2g} %" if share < 10 else f"{share:.2g} times"
+    """In two digits or more."""
+    return f"{100*share:.2g} %" if share < 0.1 else f"{100*share:.0f} %"
