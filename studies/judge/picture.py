@@ -26,8 +26,9 @@ def beside(name: str, takes: Sequence[Take]) -> Figure | None:
     known = csvfile.read(RESULTS/"cost"/"points.csv").query("scene == 'convection' and quantity == 'K'")
     page, axes = figure(width=7.0, height=4.6)
     for number, (method, rows) in enumerate(known.groupby("method", sort=False)):
-        errorbar(axes, rows["cpu_s"], rows["error"].abs(), rows["error_err"], number=number,
-                 label=str(method), linestyle=look(number)["linestyle"], alpha=0.6)
+        other = look(number) | {"marker": look(number + number//8)["marker"]}      # there are more than eight
+        errorbar(axes, rows["cpu_s"], rows["error"].abs(), rows["error_err"], label=str(method), **other,
+                 alpha=0.6)
     own = pd.DataFrame(mine)
     axes.errorbar(own["cpu_s"]/pace(), own["error"].abs(), own["error_err"], color="red", marker="*",
                   markersize=13, label=name, zorder=9)

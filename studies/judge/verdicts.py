@@ -24,10 +24,12 @@ Taken = list[tuple[int, Numbers]]
 
 
 def meets(taken: Taken) -> Verdict:
+    """There is no verdict of `contract` but what it raises."""
     return Verdict("has all that a run asks for", True)
 
 
 def stays(taken: Taken) -> Verdict:
+    """Of `rest`."""
     speed, heating = taken[0][1]["speed"], taken[0][1]["heating"]
     if speed < ROUNDING:
         words = "stays at rest"
@@ -41,6 +43,7 @@ def stays(taken: Taken) -> Verdict:
 
 
 def keeps(taken: Taken) -> Verdict:
+    """Of `kept`."""
     lost = [f"{name} (drift {drift:.1g})" for name, drift in taken[0][1].items() if not drift < ROUNDING]
     if not lost:
         return Verdict("keeps mass, momentum and energy to round-off", True)
@@ -48,6 +51,7 @@ def keeps(taken: Taken) -> Verdict:
 
 
 def same_frames(taken: Taken) -> Verdict:
+    """Of `frames`."""
     ratio = taken[0][1]["ratio"]
     if abs(ratio - 1) < ALIKE:
         return Verdict("is as good in a moving frame", True)
@@ -55,6 +59,7 @@ def same_frames(taken: Taken) -> Verdict:
 
 
 def repeats(taken: Taken) -> Verdict:
+    """Of `repeated`."""
     difference = taken[0][1]["difference"]
     if difference == 0:
         return Verdict("repeats itself bit by bit", True)
@@ -62,6 +67,7 @@ def repeats(taken: Taken) -> Verdict:
 
 
 def holds(taken: Taken) -> Verdict:
+    """Of `longest`."""
     share = taken[0][1]["share"]
     if np.isnan(share):
         when = "all steps" if taken[0][1]["grows"] else "no step"
@@ -79,6 +85,7 @@ def order(taken: Taken) -> float:
 
 
 def convergence(taken: Taken) -> Verdict:
+    """Of `error`, from few rows to many."""
     rows, error = taken[-1][0], abs(taken[-1][1]["error"])
     told = f"{percent(error)} off with {rows} rows"
     if len(taken) < 2:
@@ -90,6 +97,7 @@ def convergence(taken: Taken) -> Verdict:
 
 
 def energy(taken: Taken) -> Verdict:
+    """Of `convection`, from few rows to many."""
     rows, last = taken[-1]
     errors = [numbers["error"] for _, numbers in taken]
     told = f"K is {percent(abs(last['error']))} {'high' if last['error'] > 0 else 'low'} with {rows} rows"
