@@ -85,6 +85,17 @@ def test_rates_that_are_not_written_are_told(verdicts):
     assert "rates leave row 0 of out unwritten" in verdicts(strangers.Unwritten)["contract"]
 
 
+def test_a_ladder_that_is_stopped_keeps_what_is_finished(tmp_path, capsys, monkeypatch):
+    def stop(self, state, out):
+        if self.scene.L == 12:
+            raise KeyboardInterrupt
+        out[:] = 0
+    monkeypatch.setattr(strangers.Transposed, "rates", stop)
+    assert main(["strangers:Transposed", *QUICK, str(tmp_path)]) == 130
+    assert "stopped: finished rungs are kept" in capsys.readouterr().err
+    assert (tmp_path/"judge-Transposed"/"conduction-8.json").exists() and not list(tmp_path.glob("*.html"))
+
+
 def test_what_would_take_too_long_is_left_out(tmp_path):
     takes = Ladder(strangers.Hasty, tmp_path, (8,), 0.0).climb()
     assert all(take.fault.startswith("left out") for take in takes) and not list(tmp_path.iterdir())

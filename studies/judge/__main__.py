@@ -16,7 +16,7 @@ OWN = RESULTS/"own"         # not committed
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """The command line; 0 if there is a page, 1 if there is no such method."""
+    """The command line; 0 if there is a page, 1 if there is no such method, 130 if stopped."""
     parser = argparse.ArgumentParser(prog="python -m studies.judge", description=__doc__)
     parser.add_argument("method", help="module:Class, a class that takes a scene; or a name such as grid")
     parser.add_argument("--rows", type=int, nargs="+", default=[16, 24, 36],
@@ -30,7 +30,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(error, file=sys.stderr)
         return 1
     name = words.method.rpartition(":")[2]
-    takes = Ladder(method, words.out/f"judge-{name}", sorted(words.rows), words.minutes).climb()
+    try:
+        takes = Ladder(method, words.out/f"judge-{name}", sorted(words.rows), words.minutes).climb()
+    except KeyboardInterrupt:
+        print("stopped: finished rungs are kept, the same command goes on", file=sys.stderr)
+        return 130
     for rung in RUNGS:
         print(f"{rung.name}: {judged(rung, takes).words}")
     print(write_page(name, takes, words.out))
