@@ -34,7 +34,8 @@ from continuum.gas.fields import (
     unblock,
     wall_flux,
 )
-from continuum.gas.loop import FIELDS, RHO, VX, VY, E, FluxForm, advance, box_of
+from continuum.gas.ghosts import FIELDS, RHO, VX, VY, E, FluxForm, box_of
+from continuum.gas.loop import advance
 from continuum.steady import RK4_DECAY, RK4_SOUND, GridRun, Steady, of_samples, steps_between
 
 

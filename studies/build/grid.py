@@ -6,7 +6,7 @@ import numpy as np
 
 from continuum.fluid import Fields
 from continuum.gas.fields import NodeFields, at_nodes, block, initial, placed, unblock
-from continuum.gas.loop import FIELDS, VX, EdgeHeat, FluxForm, PaperForm
+from continuum.gas.ghosts import FIELDS, VX, EdgeHeat, FluxForm, PaperForm
 from continuum.gas.solve import March, first_fault, limits
 from continuum.scene import RayleighBenard
 from continuum.steady import SAFETY

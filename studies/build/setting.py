@@ -15,7 +15,7 @@ from particles.integral.points import Points, jittered, lattice, random, relaxed
 from particles.limits import limit_of
 from particles.walls.mirror import AtWall, Copied, plates, sides
 from particles.walls.periodic import periodic
-from particles.walls.sliding_plate import Sliding
+from particles.walls.sliding_plate import SlidingPlate
 from particles.weights import WendlandC2
 from studies.build.names import START_JITTER
 
@@ -56,7 +56,7 @@ def walls(scene: Any, rule: Any = AtWall(), pressure: Any = Copied()) -> tuple: 
     if isinstance(scene.sides, Torus):
         return (*periodic(scene.width), *periodic(scene.L, axis=1))
     lower, upper = plates(scene.L, scene.T_hot, scene.T_cold, rule, pressure)
-    return (lower, Sliding(upper, scene.slide) if scene.slide else upper, *beside(scene, rule, pressure))
+    return (lower, SlidingPlate(upper, scene.slide) if scene.slide else upper, *beside(scene, rule, pressure))
 
 
 def beside(scene: Any, rule: Any, pressure: Any) -> tuple:
