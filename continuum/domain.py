@@ -145,7 +145,8 @@ class Domain:
 
 def _in_floats(side: Any) -> Any:
     """A side with such numbers as compiled code has been made for."""
-    return type(side)(*map(float, side)) if isinstance(side, tuple) else side
+    kind: Any = type(side)
+    return kind(*map(float, side)) if isinstance(side, tuple) else side
 
 
 def _from_other(start: Callable, by: float, x: np.ndarray) -> Start:

@@ -10,11 +10,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from continuum.fluid import conductivity
 from continuum.scene import Periodic, Torus, Walls
+from continuum.sides import Sides, Slip, warm
 from particles.integral.points import Points, jittered, lattice, random, relaxed, wrapped
 from particles.limits import limit_of
-from particles.walls.mirror import AtWall, Copied, plates, sides
+from particles.walls.mirror import AtWall, Copied, Mirror, plates, sides
 from particles.walls.periodic import periodic
+from particles.walls.side import Free, Given, OneSide, Passing, Stuck
 from particles.walls.sliding_plate import SlidingPlate
 from particles.weights import WendlandC2
 from studies.build.names import START_JITTER
@@ -53,10 +56,33 @@ def of_method(method: Any, scene: Any, seed: int = 1) -> Ready:
 
 def walls(scene: Any, rule: Any = AtWall(), pressure: Any = Copied()) -> tuple:  # noqa: B008
     """Mirror images behind the plates; periodic sides or images there too; a torus has no plates."""
+    if isinstance(scene.sides, Sides):
+        return of_sides(scene, rule, pressure)
     if isinstance(scene.sides, Torus):
         return (*periodic(scene.width), *periodic(scene.L, axis=1))
     lower, upper = plates(scene.L, scene.T_hot, scene.T_cold, rule, pressure)
     return (lower, SlidingPlate(upper, scene.slide) if scene.slide else upper, *beside(scene, rule, pressure))
+
+
+def of_sides(scene: Any, rule: Any, pressure: Any) -> tuple:
+    """Mirror images behind four sides, each as its kind wants them."""
+    left, right, bottom, top = scene.sides
+    k = float(conductivity(scene.law, 1.0, scene.T_mean))
+    made: list[Any] = []
+    for axis, pair, length in ((1, (bottom, top), scene.L), (0, (left, right), scene.width)):
+        if isinstance(pair[0], Periodic):
+            made += periodic(length, axis)
+            continue
+        for side, inner in zip(pair, (1.0, -1.0)):
+            mirror = Mirror(axis, -inner*length/2, inner, side.T, 0.0, rule, pressure)
+            made.append(one_side(side, mirror, k))
+    return tuple(made)
+
+
+def one_side(side: Any, mirror: Mirror, k: float) -> OneSide:
+    """What images behind a mirror do; where heat passes, k is the conductivity."""
+    return OneSide(mirror, Free() if isinstance(side, Slip) else Stuck(getattr(side, "v", 0.0)),
+                   Given() if warm(side) else Passing(side.q, k))
 
 
 def beside(scene: Any, rule: Any, pressure: Any) -> tuple:
