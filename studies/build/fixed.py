@@ -6,8 +6,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.scene import Torus
+from continuum.sides import Periodic, Plate, Sides, Sliding, warm
 from particles.fields import kinetic
-from particles.integral.bodies import held, together, with_plates
+from particles.integral.bodies import Held, Rows, held, together, with_sides
 from particles.integral.edge_makers import closed, exact, plain, renormalised
 from particles.integral.edges import NONE_BEYOND, between_plates
 from particles.integral.layer import Driven, Layer, LayerSums
@@ -113,12 +114,44 @@ def layer(scene: Any, scheme: Scheme, seed: int) -> Layer:
 
 
 def plates(scene: Any, scheme: Scheme, seed: int) -> Stream:
-    """Plates with rows of points on them: triangles end there. One row of points less between them."""
-    inner = inside(scene.L - 1, scheme.points(scene.width, scene.L - 1, scheme.size, seed))
-    x, lower, upper = with_plates(inner, round(scene.width), scene.L)
-    both = together(held(lower, T=scene.T_hot), held(upper, (scene.slide, 0.0), T=scene.T_cold))
-    edges = between(x, scene.width, scene.L)
-    return Stream(x=x, edges=edges, eos=scene.eos, law=scene.law, held=both, push=(0.0, 0.0 - scene.g))
+    """Sides with rows of points on them: triangles end there. One row of points less between two sides."""
+    sides = four_sides(scene)
+    closed = not sides.axes[0], not sides.axes[1]
+    room = scene.width - closed[0], scene.L - closed[1]
+    inner = scheme.points(*room, scheme.size, seed)
+    for axis in (axis for axis in (0, 1) if closed[axis]):
+        inner = inside(room[axis], inner, axis)
+    x, rows = with_sides(inner, (scene.width, scene.L), closed)
+    return Stream(x=x, edges=between(x, scene.width, scene.L, closed), eos=scene.eos, law=scene.law,
+                  held=together(*rows_of(sides, rows)), push=(0.0, 0.0 - scene.g), solid=False)
+
+
+def four_sides(scene: Any) -> Sides:
+    """Of a layer: its plates, of which the upper one may slide."""
+    if isinstance(scene.sides, Sides):
+        return scene.sides
+    return Sides(Periodic(), Periodic(), Plate(T=scene.T_hot), Sliding(scene.slide, T=scene.T_cold))
+
+
+def rows_of(sides: Sides, rows: Rows) -> list[Held]:
+    """Lower and upper row first, then left and right, then corners; heat is that of a spacing."""
+    made = [held(which, speed(side, axis), side.T, side.q)
+            for side, which, axis in ((sides.bottom, rows.bottom, 0), (sides.top, rows.top, 0),
+                                      (sides.left, rows.left, 1), (sides.right, rows.right, 1)) if len(which)]
+    meet = [(one, other) for other in sides[2:] for one in sides[:2]]
+    return made + [in_corner(one, other, corner) for (one, other), corner in zip(meet, rows.corners)]
+
+
+def speed(side: Any, axis: int) -> tuple[float, float]:
+    """Velocity of a side along an axis."""
+    v = getattr(side, "v", 0.0)
+    return (0.0, v) if axis else (v, 0.0)
+
+
+def in_corner(one: Any, other: Any, corner: int) -> Held:
+    """At rest, with the temperature of the sides that have one, or the heat of half of a spacing of both."""
+    T = [side.T for side in (one, other) if warm(side)]
+    return held(np.array([corner]), T=float(np.mean(T)) if T else np.nan, heat=(one.q + other.q)/2)
 
 
 def heat_in(sums: LayerSums, state: np.ndarray, plate: int) -> float:

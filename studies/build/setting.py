@@ -98,9 +98,11 @@ def shifted(width: float, height: float, size: float, seed: int) -> np.ndarray:
     return wrapped(x + np.random.default_rng(seed).uniform(-size, size, x.shape), np.array([width, height]))
 
 
-def inside(height: float, x: np.ndarray) -> np.ndarray:
-    """Points too near to the edge of their room moved away from it."""
-    return np.stack([x[:, 0], np.clip(x[:, 1], -height/2 + FROM_EDGE, height/2 - FROM_EDGE)], axis=1)
+def inside(height: float, x: np.ndarray, axis: int = 1) -> np.ndarray:
+    """Points too near to the edge of their room, `height` along an axis, moved away from it."""
+    moved = x.copy()
+    moved[:, axis] = np.clip(x[:, axis], -height/2 + FROM_EDGE, height/2 - FROM_EDGE)
+    return moved
 
 
 def positions(width: float, height: float, size: float, seed: int) -> np.ndarray:
