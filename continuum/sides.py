@@ -9,11 +9,21 @@ import numpy as np
 
 
 def of_one_kind(kind: type) -> type:
-    """A class whose objects equal those of their own kind only: as tuples, all empty ones would be equal."""
+    """A class whose objects equal those of their own kind only: as tuples, all empty ones would be equal.
+
+    They are written with what differs from the defaults: `Plate(T=1.05)`.
+    """
     def alike(one: tuple, other: object) -> bool:
         return type(one) is type(other) and tuple.__eq__(one, other)
-    setattr(kind, "__eq__", alike)      # noqa: B010  (mypy allows it so)
-    setattr(kind, "__ne__", lambda one, other: not alike(one, other))       # noqa: B010
+
+    def written(one: Any) -> str:
+        usual = kind._field_defaults  # type: ignore[attr-defined]
+        given = [f"{name}={value}" for name, value in one._asdict().items()
+                 if value == value and value != usual.get(name)]        # nan is no number that was given
+        return f"{kind.__name__}({', '.join(given)})"
+    for name, method in (("__eq__", alike), ("__ne__", lambda *pair: not alike(*pair)),
+                         ("__repr__", written)):
+        setattr(kind, name, method)
     return kind
 
 

@@ -2,12 +2,11 @@
 
 See `continuum.gas.loop` for blocks. A kind of sides is one formula of `fill`.
 """
-from math import nan
 from typing import NamedTuple
 
 from continuum.fluid import conductivity, energy, temperature
 from continuum.jit import generic, jit
-from continuum.sides import Periodic, Plate, Sides, Sliding, Slip, Torus, Walls
+from continuum.sides import Periodic, Sides, Slip, Torus, Walls
 
 VX, VY, E, RHO = range(4)
 FIELDS = ("v_x", "v_y", "e", "rho")
@@ -106,6 +105,36 @@ def _(sides, eos, law, form, box, S):
 # --- sides of several kinds -------------------------------------------------------------------------------
 
 
+class SideRule(NamedTuple):
+    """What the loop asks of a side, in numbers: boxes of all kinds share their compiled code.
+
+    slip : 1 without friction, else 0. v : velocity along itself. T, q : temperature, or nan and the heat.
+    """
+    slip: float
+    v: float
+    T: float
+    q: float
+
+
+class Frame(NamedTuple):
+    """Rules of four sides; those of periodic ones are not read."""
+    left: SideRule
+    right: SideRule
+    bottom: SideRule
+    top: SideRule
+
+
+def in_loop(sides):
+    """What stands for a scene's sides in the loop."""
+    return Frame(*map(rule_of, sides)) if isinstance(sides, Sides) else sides
+
+
+def rule_of(side) -> SideRule:
+    """Of one side."""
+    numbers = (getattr(side, name, 0.0) for name in ("v", "T", "q"))
+    return SideRule(float(isinstance(side, Slip)), *map(float, numbers))
+
+
 class Line(NamedTuple):
     """Nodes on a side: the component of velocity along it, a node before the first, and the way inwards."""
     along: int
@@ -113,27 +142,6 @@ class Line(NamedTuple):
     i: int
     up: int
     right: int
-
-
-@generic
-def speed(side, near, next_):
-    """Velocity along a side from those of the next two nodes inwards; without friction its slope is zero."""
-
-
-speed.of(Plate)(lambda side, near, next_: 0.0)
-speed.of(Slip)(lambda side, near, next_: (4*near - next_)/3)
-speed.of(Sliding)(lambda side, near, next_: side.v)
-speed.of(Periodic)(lambda side, near, next_: 0.0)       # never asked
-
-
-@generic
-def given(side):
-    """(T, q) of a side."""
-
-
-for _kind in (Plate, Slip, Sliding):
-    given.of(_kind)(lambda side: (side.T, side.q))
-given.of(Periodic)(lambda side: (nan, 0.0))
 
 
 @jit
@@ -144,13 +152,12 @@ def node_temperature(eos, S, j, i):
 @jit
 def side_temperature(side, eos, law, box, S, j, i, up, right):
     """T of a node on a side: as given, or with the slope -q/k inwards, of second order."""
-    T, q = given(side)
-    if T == T:      # not nan
-        return T
+    if side.T == side.T:        # not nan
+        return side.T
     near = node_temperature(eos, S, j + up, i + right)
     next_ = node_temperature(eos, S, j + 2*up, i + 2*right)
     T = (4*near - next_)/3
-    return T + 2*box.h*q/(3*conductivity(law, node_density(S[RHO], j, i), T))
+    return T + 2*box.h*side.q/(3*conductivity(law, node_density(S[RHO], j, i), T))
 
 
 @jit
@@ -160,7 +167,7 @@ def fill_side(side, eos, law, box, S, line, first, last):
     for n in range(first, last):
         j, i = line.j + n*abs(right), line.i + n*abs(up)
         v = S[line.along]
-        v[j, i] = speed(side, v[j + up, i + right], v[j + 2*up, i + 2*right])
+        v[j, i] = side.v + side.slip*(4*v[j + up, i + right] - v[j + 2*up, i + 2*right])/3
         T = side_temperature(side, eos, law, box, S, j, i, up, right)
         S[E, j, i] = energy(eos, node_density(S[RHO], j, i), T)
 
@@ -170,10 +177,9 @@ def fill_corner(beside, level, eos, law, box, S, j, i, up, right):
     """At rest, as nothing passes. A given temperature counts before a flux; of two that count, the mean."""
     a = side_temperature(beside, eos, law, box, S, j, i, 0, right)
     b = side_temperature(level, eos, law, box, S, j, i, up, 0)
-    (A, _), (B, _) = given(beside), given(level)
-    T = 0.5*(a + b)
-    if (A == A) != (B == B):
-        T = a if A == A else b
+    T, known = 0.5*(a + b), beside.T == beside.T
+    if known != (level.T == level.T):
+        T = a if known else b
     S[E, j, i] = energy(eos, node_density(S[RHO], j, i), T)
 
 
@@ -196,7 +202,7 @@ def repeat(box, S):
         S[:, 0], S[:, ny + 1] = S[:, ny], S[:, 1]
 
 
-@fill.of(Sides)
+@fill.of(Frame)
 def _(sides, eos, law, form, box, S):
     ny, nx = S.shape[1] - 2, S.shape[2] - 2
     left, right, bottom, top = sides

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.scene import Torus
-from continuum.sides import Periodic, Plate, Sides, Sliding, warm
+from continuum.sides import Periodic, Plate, Sides, Sliding, Slip, warm
 from particles.fields import kinetic
 from particles.integral.bodies import Held, Rows, held, together, with_sides
 from particles.integral.edge_makers import closed, exact, plain, renormalised
@@ -17,7 +17,17 @@ from particles.integral.points import of_positions, random, relaxed
 from particles.integral.stream import Stream, Streaming
 from particles.integral.triangulation import between, delaunay
 from particles.weights import Lucy, Monaghan, WendlandC2
-from studies.build.setting import Ready, check_open, check_spacings, inside, positions, shifted, stepped
+from studies.build.setting import (
+    Ready,
+    check_spacings,
+    check_taken,
+    inside,
+    no_layer,
+    part,
+    positions,
+    shifted,
+    stepped,
+)
 
 OF_LIMIT = 0.8      # of the step to its stability limit: the flow is steady, its errors are of space alone
 
@@ -50,6 +60,13 @@ class Scheme(NamedTuple):
     share: float = 1.0
     points: Callable = positions
     held: bool = False
+
+    def refuses(self, scene: Any) -> str:
+        """Which part of a scene this cannot take; empty for none. Held points stick to the fluid."""
+        if not (self.held and isinstance(scene.sides, Sides)):
+            return no_layer(scene)
+        slips = [name for name, side in scene.sides._asdict().items() if isinstance(side, Slip)]
+        return part(scene, slips[0]) if slips else ""
 
     def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
         """The method in a scene; from fields (rho, v, T) at its points, if given."""
@@ -87,7 +104,7 @@ SCHEMES = {s.name: s for s in (
 
 def fluid(scene: Any, scheme: Scheme, seed: int = 1) -> Layer | Stream:
     """The method of unit spacing: a scene of L = rows spacings."""
-    check_open(scene, "fixed")
+    check_taken(scheme, scene)
     check_spacings(scene)
     if isinstance(scene.sides, Torus):
         return torus(scene, scheme, seed)

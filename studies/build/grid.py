@@ -104,6 +104,10 @@ class GridForm(NamedTuple):
     aside: int = 0
     step: float = SAFETY
 
+    def refuses(self, scene: Any) -> str:
+        """Nothing: the grid knows all sides."""
+        return ""
+
     def ready(self, scene: Any, seed: int = 1, rows: int = 0, first: np.ndarray | None = None) -> Ready:
         """The grid in a scene, cells of one spacing unless `rows` are given; from a block, if given."""
         method = Gridded(scene=scene, rows=rows or round(scene.L), continuity=self.continuity)

@@ -12,7 +12,7 @@ import numpy as np
 
 from continuum.fluid import conductivity
 from continuum.scene import Periodic, Torus, Walls
-from continuum.sides import Sides, Slip, warm
+from continuum.sides import Plate, Sides, Slip, warm
 from particles.integral.points import Points, jittered, lattice, random, relaxed, wrapped
 from particles.limits import limit_of
 from particles.walls.mirror import AtWall, Copied, Mirror, plates, sides
@@ -127,20 +127,36 @@ def check_spacings(scene: Any) -> None:
                              f"{length:.6g}: give L as the number of rows, aspect as columns over rows")
 
 
-def check_open(scene: Any, kind: str) -> None:
-    """Refuse four walls. Raises ValueError: Sides are walls."""
+class CannotTake(ValueError):
+    """A method and the part of a scene that it cannot take; `studies.build.ready` adds who can."""
+
+
+def check_taken(chosen: Any, scene: Any) -> None:
+    """Refuse a scene for a variant. Raises CannotTake: names both."""
+    if part := chosen.refuses(scene):
+        raise CannotTake(f"{chosen.name} cannot take {part}")
+
+
+def no_layer(scene: Any) -> str:
+    """What a method lacks that knows plates of given temperatures above and below only, or none; empty if
+    nothing."""
     if isinstance(scene.sides, Walls):
-        raise ValueError(f"{kind} points have plates above and below only: take a scene with periodic sides")
+        return f"sides = {scene.sides}"
+    if not isinstance(scene.sides, Sides):
+        return ""
+    left, _, bottom, _ = scene.sides
+    odd = {"left": not isinstance(left, Periodic), "bottom": not (isinstance(bottom, Plate) and warm(bottom))}
+    return part(scene, next((name for name, is_odd in odd.items() if is_odd), "top"))
 
 
-def check_still(scene: Any) -> None:
-    """Refuse plates that slide, for methods whose images do not.
+def no_still_layer(scene: Any) -> str:
+    """The same of a method whose plates do not slide, either."""
+    return no_layer(scene) or (f"slide = {scene.slide}" if scene.slide else "")
 
-    Raises ValueError: the upper plate slides.
-    """
-    if scene.slide:
-        raise ValueError(f"plates of moving points do not slide, got slide = {scene.slide}: take "
-                         "fixed points, smooth particles or the grid")
+
+def part(scene: Any, name: str) -> str:
+    """A side as it is written."""
+    return f"{name} = {getattr(scene.sides, name)}"
 
 
 class Disorder(NamedTuple):
