@@ -140,7 +140,7 @@ def plates(scene: Any, scheme: Scheme, seed: int) -> Stream:
         inner = inside(room[axis], inner, axis)
     x, rows = with_sides(inner, (scene.width, scene.L), closed)
     return Stream(x=x, edges=between(x, scene.width, scene.L, closed), eos=scene.eos, law=scene.law,
-                  held=together(*rows_of(sides, rows)), push=(0.0, 0.0 - scene.g), solid=False)
+                  held=together(*bodies_of(sides, rows)), push=(0.0, 0.0 - scene.g), solid=False)
 
 
 def four_sides(scene: Any) -> Sides:
@@ -150,7 +150,7 @@ def four_sides(scene: Any) -> Sides:
     return Sides(Periodic(), Periodic(), Plate(T=scene.T_hot), Sliding(scene.slide, T=scene.T_cold))
 
 
-def rows_of(sides: Sides, rows: Rows) -> list[Held]:
+def bodies_of(sides: Sides, rows: Rows) -> list[Held]:
     """Lower and upper row first, then left and right, then corners; heat is that of a spacing."""
     made = [held(which, speed(side, axis), side.T, side.q)
             for side, which, axis in ((sides.bottom, rows.bottom, 0), (sides.top, rows.top, 0),
