@@ -7,7 +7,7 @@ particles read it.
 from dataclasses import dataclass
 from math import inf
 from numbers import Real
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -22,7 +22,9 @@ from continuum.fluid import (
     viscosity,
 )
 from continuum.jit import check_formulas
+from continuum.sides import Periodic, Torus, Walls
 
+__all__ = ["ROLL_ENERGY", "Periodic", "RayleighBenard", "Torus", "Walls", "columns_of"]
 ROLL_ENERGY = 9/5000    # kinetic energy per mass of the initial rolls    [KHP95, Fig. 9]
 
 
@@ -35,46 +37,6 @@ def columns_of(aspect: float, rows: int) -> int:
         raise ValueError(f"cells are square: aspect x rows = {aspect} x {rows} must be a whole number, 4 or "
                          "more; change the rows or the aspect")
     return columns
-
-
-class Periodic(NamedTuple):
-    """Periodic in x with period aspect L; rolls come in pairs."""
-
-    def __eq__(self, other):
-        return type(self) is type(other)  # as tuples, all empty ones are equal
-
-    def __ne__(self, other):
-        return not self == other
-
-    def rolls(self, x, y, width, L, count):
-        """Velocities of KHP95, Sec. VI (count = 2, aspect 2); as printed they are not free of divergence."""
-        if count < 2 or count % 2:
-            raise ValueError(f"rolls between periodic sides come in pairs, got {count}: give an even number")
-        k = np.pi*count/width
-        return np.sin(k*x)*np.sin(2*np.pi*y/L), np.cos(k*x)*np.cos(np.pi*y/L)
-
-
-class Torus(NamedTuple):
-    """Periodic along both axes: no plates. For flows that are not convection."""
-
-
-class Walls(NamedTuple):
-    """No-slip walls at x = -+ aspect L/2 too, their temperature linear in y    [KHP95, Fig. 6]"""
-
-    def __eq__(self, other):
-        return type(self) is type(other)
-
-    def __ne__(self, other):
-        return not self == other
-
-    def rolls(self, x, y, width, L, count):
-        """v = (psi_y, -psi_x), psi = cos(a) sin(count (a + pi/2)) cos^2(pi y/L), a = pi x/width: no slip."""
-        if count < 1:
-            raise ValueError(f"a box with four walls holds at least one roll, got {count}")
-        a, b = np.pi*x/width, np.pi*y/L
-        s, c = np.sin(count*(a + np.pi/2)), np.cos(count*(a + np.pi/2))
-        slope = np.pi/width*(count*np.cos(a)*c - np.sin(a)*s)
-        return -np.pi/L*np.cos(a)*s*np.sin(2*b), -slope*np.cos(b)**2
 
 
 @dataclass(frozen=True, kw_only=True)

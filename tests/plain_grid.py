@@ -4,7 +4,7 @@ from typing import NamedTuple
 import numpy as np
 
 from continuum.fluid import conductivity, energy, pressure, temperature, viscosity
-from continuum.gas.loop import EdgeHeat, PaperForm
+from continuum.gas.ghosts import EdgeHeat, PaperForm
 from continuum.scene import Periodic
 
 

@@ -19,7 +19,7 @@ from continuum.fluid import (
     sound_speed,
 )
 from continuum.gas.fields import NodeFields, block, initial
-from continuum.gas.loop import RHO, EdgeHeat, FluxForm, PaperForm
+from continuum.gas.ghosts import RHO, EdgeHeat, FluxForm, PaperForm
 from continuum.gas.solve import DivergedError, March, limits, run
 from continuum.scene import Periodic, RayleighBenard, Walls
 from continuum.steady import Time

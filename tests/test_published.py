@@ -39,7 +39,7 @@ class TestFile:
         assert all(f"# {word}:" in head for word in ("paper", "read", "uncertainty", "misprints"))
 
     def test_columns(self, name):
-        assert list(table(name).columns) == COLUMNS
+        assert [column for column in table(name).columns if column in COLUMNS] == COLUMNS
 
     def test_every_row_is_complete(self, name):
         rows = table(name)

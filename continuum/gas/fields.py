@@ -7,8 +7,8 @@ import numpy as np
 from scipy.interpolate import RectBivariateSpline
 
 from continuum.fluid import Fields, conductivity, energy, pressure, stress, temperature, viscosity
-from continuum.gas.loop import RHO, VX, VY, E
-from continuum.scene import ROLL_ENERGY, Periodic, Torus, Walls, columns_of
+from continuum.gas.ghosts import RHO, VX, VY, E
+from continuum.scene import ROLL_ENERGY, columns_of
 from continuum.steady import STILL
 
 
@@ -40,13 +40,12 @@ class NodeFields:
 
     @property
     def periodic(self) -> bool:
-        return isinstance(self.scene.sides, Periodic)
+        return bool(self.scene.sides.axes[0])
 
 
 def at_nodes(fields: NodeFields) -> Fields:
     """Of nodes, rows from the lower one up; in walls they have half of a cell, in corners a quarter."""
-    torus = isinstance(fields.scene.sides, Torus)
-    columns, rows = shares(len(fields.x), fields.periodic or torus), shares(len(fields.y), torus)
+    columns, rows = map(shares, (len(fields.x), len(fields.y)), fields.scene.sides.axes)
     kept = np.ix_(rows > 0, columns > 0)
     X, Y, V = *np.meshgrid(fields.x, fields.y), fields.h**2*np.outer(rows, columns)
     x, y, vx, vy, rho, T, V = (q[kept].ravel()
@@ -86,9 +85,10 @@ def block(fields: NodeFields) -> np.ndarray:
     S = np.ones((4, len(fields.y) + 1, len(fields.x) + 1))
     S[VX, 1:, 1:], S[VY, 1:, 1:], S[E, 1:, 1:] = fields.at[:3]
     S[RHO, 1:-1, 1:-1] = fields.cells
-    if not isinstance(fields.scene.sides, Torus):
+    along_x, along_y = fields.scene.sides.axes
+    if not along_y:
         S[:2, [1, -1]] = 0
-    if isinstance(fields.scene.sides, Walls):
+    if not along_x:
         S[:2, :, [1, -1]] = 0
     return S
 

@@ -2,108 +2,14 @@
 
 A block `S[field, j, i]` holds the state; j counts rows upwards, i columns. Nodes are (1..ny+1, 1..nx+1), the
 outer ones on the walls; where a side is periodic, the last is the first. Cell (j, i) has node (j, i) as its
-lower left corner. Ghosts lie outside: `fill` makes them, the loop knows no walls. Differences are centred.
+lower left corner. Ghosts lie outside: `ghosts.fill` makes them, the loop knows no walls. Differences are
+centred.
 """
-from typing import NamedTuple
-
-from continuum.fluid import conductivity, energy, pressure, stress, temperature, viscosity
+from continuum.fluid import conductivity, pressure, stress, temperature, viscosity
+from continuum.gas.ghosts import RHO, VX, VY, E, EdgeHeat, FluxForm, PaperForm, fill, node_density
 from continuum.jit import generic, jit
-from continuum.scene import Periodic, Torus, Walls
 
-VX, VY, E, RHO = range(4)
-FIELDS = ("v_x", "v_y", "e", "rho")
 BULK_VISCOSITY = 0.0  # [KHP95, Sec. II]
-
-
-class NodeGrid(NamedTuple):
-    """Spacing, gravity, temperatures of the plates, first column and lowest row of nodes that move."""
-    h: float
-    g: float
-    T_hot: float
-    T_cold: float
-    first: int
-    lowest: int = 2
-
-
-def box_of(scene, rows: int) -> NodeGrid:
-    """Of a scene on rows of cells."""
-    first = 2 if isinstance(scene.sides, Walls) else 1
-    return NodeGrid(scene.L/rows, float(scene.g), float(scene.T_hot), float(scene.T_cold), first,
-               1 if isinstance(scene.sides, Torus) else 2)
-
-
-class FluxForm(NamedTuple):
-    """d rho/dt = -div(rho v): mass goes from cell to cell and is conserved to round-off."""
-
-
-class PaperForm(NamedTuple):
-    """d rho/dt = -rho div v - v.grad rho, density 1 in the cells outside of the walls    [KHP95, Sec. V]"""
-
-
-class EdgeHeat(FluxForm):
-    """The same with heating eta |grad v|^2, as forces along edges heat, even in rotation [RR98, Eq. 51]"""
-
-
-@generic
-def outside(form, near, next_):
-    """Density in the cell behind a wall, from those of the two cells before it."""
-
-
-outside.of(FluxForm)(lambda form, near, next_: 2*near - next_)
-outside.of(PaperForm)(lambda form, near, next_: 1.0)
-
-
-@jit
-def fill_plates(eos, form, box, S):
-    """Ghost densities behind the plates, then the energy of the plates' nodes from their temperature."""
-    ny, nx = S.shape[1] - 2, S.shape[2] - 2
-    rho = S[RHO]
-    for i in range(nx + 2):
-        rho[0, i] = outside(form, rho[1, i], rho[2, i])
-        rho[ny + 1, i] = outside(form, rho[ny, i], rho[ny - 1, i])
-    for i in range(1, nx + 2):
-        S[E, 1, i] = energy(eos, node_density(rho, 1, i), box.T_hot)
-        S[E, ny + 1, i] = energy(eos, node_density(rho, ny + 1, i), box.T_cold)
-
-
-@jit
-def node_density(rho, j, i):
-    """Mean of the four cells around a node."""
-    return 0.25*((rho[j - 1, i - 1] + rho[j - 1, i]) + (rho[j, i - 1] + rho[j, i]))
-
-
-@generic
-def fill(sides, eos, form, box, S):
-    """Ghosts and wall values of the state."""
-
-
-@fill.of(Periodic)
-def _(sides, eos, form, box, S):
-    nx = S.shape[2] - 2
-    S[:, :, 0], S[:, :, nx + 1] = S[:, :, nx], S[:, :, 1]
-    fill_plates(eos, form, box, S)
-    S[E, :, 0] = S[E, :, nx]
-
-
-@fill.of(Torus)
-def _(sides, eos, form, box, S):
-    ny, nx = S.shape[1] - 2, S.shape[2] - 2
-    S[:, :, 0], S[:, :, nx + 1] = S[:, :, nx], S[:, :, 1]
-    S[:, 0], S[:, ny + 1] = S[:, ny], S[:, 1]
-
-
-@fill.of(Walls)
-def _(sides, eos, form, box, S):
-    ny, nx = S.shape[1] - 2, S.shape[2] - 2
-    rho = S[RHO]
-    for j in range(1, ny + 1):
-        rho[j, 0] = outside(form, rho[j, 1], rho[j, 2])
-        rho[j, nx + 1] = outside(form, rho[j, nx], rho[j, nx - 1])
-    fill_plates(eos, form, box, S)
-    for j in range(2, ny + 1):
-        T = box.T_hot + (box.T_cold - box.T_hot)*(j - 1)/ny
-        for i in (1, nx + 1):
-            S[E, j, i] = energy(eos, node_density(rho, j, i), T)
 
 
 @generic
@@ -211,7 +117,7 @@ def along(f, vx, vy, j, i):
 @jit
 def rates(sides, eos, law, form, box, S, rows, out):
     """d/dt of the state; three rows of `rows[2, 8, nx + 2]` pass over the grid, nothing else is stored."""
-    fill(sides, eos, form, box, S)
+    fill(sides, eos, law, form, box, S)
     n, T, cell, ny = rows[:, 6], rows[:, 7], rows[:, :6], S.shape[1] - 2
     if box.lowest == 1:     # what is below the first row of cells is the last one; ny is even
         node_row(eos, S, n[0], T[0], ny)
@@ -244,4 +150,4 @@ def advance(sides, eos, law, form, box, S, work, rows, dt, steps):
             blend(start, rate, to_stage*dt, stage)
             rates(sides, eos, law, form, box, stage, rows, rate)
             blend(S, rate, weight*dt, S)
-    fill(sides, eos, form, box, S)
+    fill(sides, eos, law, form, box, S)

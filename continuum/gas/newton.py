@@ -18,7 +18,8 @@ from scipy.sparse.linalg import eigs, splu
 
 from continuum.fluid import energy
 from continuum.gas.fields import NodeFields, block, count_rolls, initial, kinetic_energy, onto, unblock
-from continuum.gas.loop import RHO, VX, VY, E, FluxForm, box_of, fill, rates
+from continuum.gas.ghosts import RHO, VX, VY, E, FluxForm, box_of, fill, in_loop
+from continuum.gas.loop import rates
 from continuum.scene import Periodic
 from continuum.steady import largest, newton
 
@@ -45,7 +46,7 @@ class Discrete:
     def __init__(self, scene, rows: int):
         self.scene, self.rest = scene, block(initial(scene, rows, 0.0))
         columns = self.rest.shape[2] - 2
-        self.laws = (scene.sides, scene.eos, scene.law, FluxForm(), box_of(scene, rows))
+        self.laws = (in_loop(scene.sides), scene.eos, scene.law, FluxForm(), box_of(scene, rows))
         self.scratch = np.zeros((2, 8, columns + 2))
         self.places, self.mirrors, self.signs = self._unknowns(rows, columns)
 
@@ -123,8 +124,8 @@ class Discrete:
     def fields(self, q: np.ndarray) -> tuple[NodeFields, np.ndarray]:
         """Fields, and the block with its ghosts."""
         S = self.state(q)
-        sides, eos, _, form, box = self.laws
-        fill(sides, eos, form, box, S)
+        sides, eos, law, form, box = self.laws
+        fill(sides, eos, law, form, box, S)
         return unblock(self.scene, S), S
 
 

@@ -34,7 +34,8 @@ from continuum.gas.fields import (
     unblock,
     wall_flux,
 )
-from continuum.gas.loop import FIELDS, RHO, VX, VY, E, FluxForm, advance, box_of
+from continuum.gas.ghosts import FIELDS, RHO, VX, VY, E, FluxForm, box_of, in_loop
+from continuum.gas.loop import advance
 from continuum.steady import RK4_DECAY, RK4_SOUND, GridRun, Steady, of_samples, steps_between
 
 
@@ -92,7 +93,7 @@ class March:
     def __init__(self, scene, S: np.ndarray, continuity, dt: float):
         rows, columns = S.shape[1] - 2, S.shape[2] - 2
         self.scene, self.S, self.dt, self.steps = scene, S, dt, 0
-        self.laws = (scene.sides, scene.eos, scene.law, continuity, box_of(scene, rows))
+        self.laws = (in_loop(scene.sides), scene.eos, scene.law, continuity, box_of(scene, rows))
         self.scratch = (np.zeros((3, *S.shape)), np.zeros((2, 8, columns + 2)))
         start = time.process_time()
         self.advance(0)

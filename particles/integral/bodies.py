@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from particles.integral.edges import mirror
 from particles.integral.points import Points, lattice, of_positions
 
 #: spacings between a surface and points off it: nearer ones would cut its edges or take short steps
@@ -19,14 +18,19 @@ CLEAR = 0.6
 
 
 class Held(NamedTuple):
-    """Points `which` (m,) held at v (m, 2) and T (m,); T nan: adiabatic. body: its number."""
+    """Points `which` (m,) held at v (m, 2) and T (m,); T nan: they get `heat` (m,), per time, and no other.
+
+    body: its number.
+    """
     which: np.ndarray
     v: np.ndarray
     T: np.ndarray
     body: np.ndarray
+    heat: np.ndarray
 
 
-def held(which: np.ndarray, v: tuple[float, float] = (0.0, 0.0), T: float = np.nan) -> Held:
+def held(which: np.ndarray, v: tuple[float, float] = (0.0, 0.0), T: float = np.nan,
+         heat: float = 0.0) -> Held:
     """Points of one velocity and temperature. ValueError: there are none, or one twice, or T <= 0."""
     which = np.asarray(which)
     if len(which) < 1 or len(np.unique(which)) < len(which):
@@ -36,7 +40,7 @@ def held(which: np.ndarray, v: tuple[float, float] = (0.0, 0.0), T: float = np.n
         raise ValueError(f"held points have T = {T:g}, which must be positive; leave it out for a body that "
                          "takes no heat")
     return Held(which, np.tile(np.asarray(v, float), (len(which), 1)), np.full(len(which), float(T)),
-                np.zeros(len(which), int))
+                np.zeros(len(which), int), np.full(len(which), float(heat)))
 
 
 def turning(points: Points, which: np.ndarray, rate: float, T: float = np.nan) -> Held:
@@ -47,8 +51,8 @@ def turning(points: Points, which: np.ndarray, rate: float, T: float = np.nan) -
 
 def together(*bodies: Held) -> Held:
     """Several bodies, such as two plates of a channel; they do not rub against each other."""
-    which, v, T, _ = (np.concatenate(column) for column in zip(*bodies, strict=True))
-    return Held(which, v, T, np.repeat(np.arange(len(bodies)), [len(body.which) for body in bodies]))
+    which, v, T, _, heat = (np.concatenate(column) for column in zip(*bodies, strict=True))
+    return Held(which, v, T, np.repeat(np.arange(len(bodies)), [len(body.which) for body in bodies]), heat)
 
 
 def in_disc(points: Points, radius: float) -> np.ndarray:
@@ -104,10 +108,28 @@ def between_circles(counts: tuple[int, int], inner: float,
     return points, np.flatnonzero(r < inner + 1e-9), np.flatnonzero(r > outer - 1e-9)
 
 
-def with_plates(inner: np.ndarray, columns: int, height: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Points (n, 2) with rows of `columns` points on the plates y = -+height/2, and which these are.
+class Rows(NamedTuple):
+    """Numbers of the points on each side, but for those in corners; empty where there is no side."""
+    left: np.ndarray
+    right: np.ndarray
+    bottom: np.ndarray
+    top: np.ndarray
+    corners: np.ndarray
 
-    For triangles that end there, `triangulation.between`.
+
+def with_sides(inner: np.ndarray, size: tuple[float, float],
+               closed: tuple[bool, bool] = (False, True)) -> tuple[np.ndarray, Rows]:
+    """Points (n, 2) with rows a spacing apart on the sides of a box, and which these are.
+
+    closed : is there a side across x, across y? For triangles that end there, `triangulation.between`.
+    Corners are numbered lower left, lower right, upper left, upper right.
     """
-    row = np.stack([np.arange(columns) + 0.5 - columns/2, np.full(columns, -height/2)], axis=1)
-    return np.concatenate([row, row*mirror(2), inner]), np.arange(columns), np.arange(columns, 2*columns)
+    along = [np.arange(1.0, n) - n/2 if shut else np.arange(n) + 0.5 - n/2
+             for n, shut in zip(map(round, size), closed)]
+    half, (across, up) = np.array(size)/2, closed
+    left = np.stack([np.full(len(along[1]), -half[0]), along[1]], axis=1)[:across*len(along[1])]
+    bottom = np.stack([along[0], np.full(len(along[0]), -half[1])], axis=1)[:up*len(along[0])]
+    corners = half*np.array([[-1, -1], [1, -1], [-1, 1], [1, 1]])[:4*(across and up)]
+    rows = [left, left*[-1, 1], bottom, bottom*[1, -1], corners]
+    ends = np.cumsum([0, *map(len, rows)])
+    return np.concatenate([*rows, inner]), Rows(*map(np.arange, ends[:-1], ends[1:]))

@@ -15,7 +15,7 @@ from particles.integral.fixed import FixedSums, OnPoints
 from particles.integral.points import Points
 from particles.pairs import Stored
 from particles.threads import Threads
-from particles.walls.sliding import Sides, sides, slide
+from particles.walls.sliding import SlidSides, sides, slide
 
 
 class Boosted(NamedTuple):
@@ -87,7 +87,7 @@ class Sheared(OnPoints):
         return self.points.x
 
     @cached_property
-    def sides(self) -> Sides:
+    def sides(self) -> SlidSides:
         """Edges among points and to images."""
         return sides(self.points, self.edges)
 

@@ -51,7 +51,8 @@ class Streaming(FixedSums):
 
     def __init__(self, method: "Stream", threads: Threads):
         n = len(method.x)
-        edges, around = (stored(cut(method.edges, method.held)) for cut in (insulated, separated))
+        cuts = (insulated if method.solid else every, separated)
+        edges, around = (stored(cut(method.edges, method.held)) for cut in cuts)
         filters = (Filtering(Filter(method.chi), around, n, threads),) if method.chi else ()
         super().__init__(method, threads, edges, NO_IMAGES, method.push,
                          OwnPressure(method.eos, opened(edges), n, threads), *filters)
@@ -63,8 +64,11 @@ class Streaming(FixedSums):
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """Of free points, then of those that are held."""
         super().rates(state, out)
-        keep(self.method.eos, *self.method.held[:3], self.exchange.total, self.at.V, self.points,
-             self.received, out)
+        held, V = self.method.held, self.at.V
+        keep(self.method.eos, *held[:3], self.exchange.total, V, self.points, self.received, out)
+        if held.heat.any():
+            out[3, held.which] += held.heat/V[held.which]
+            self.received[:, 2] -= held.heat
 
     def force(self, state: np.ndarray) -> np.ndarray:
         """(fx, fy, heat and work) that all held points take together from the fluid, per time."""
@@ -76,7 +80,8 @@ class Streaming(FixedSums):
 class Stream(OnPoints):
     """A fluid on fixed points x (n, 2), periodic, driven by a force `push` per mass, around `held` points.
 
-    chi : diffusivity of the filter of the density, 0 for none.
+    chi : diffusivity of the filter of the density, 0 for none. solid : the edges between held points lie in
+    bodies; if not, these are rows on the edge of the fluid, which rubs and conducts along them, too.
     """
     x: np.ndarray
     edges: Edges
@@ -85,6 +90,7 @@ class Stream(OnPoints):
     held: Held
     push: tuple[float, float] = (0.0, 0.0)
     chi: float = 0.0
+    solid: bool = True
 
     sums = Streaming
 
@@ -100,6 +106,11 @@ class Stream(OnPoints):
         warm = np.isfinite(self.held.T)
         T[self.held.which[warm]] = self.held.T[warm]
         return super().state(rho, v, T)
+
+
+def every(edges: Edges, held: Held) -> Edges:
+    """All edges as they are."""
+    return edges
 
 
 def insulated(edges: Edges, held: Held) -> Edges:

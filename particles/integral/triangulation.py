@@ -23,21 +23,25 @@ def delaunay(points: Points, weight: Any = None) -> Edges:
     return _assembled(points, *_simplices(points))
 
 
-def between(x: np.ndarray, width: float, height: float) -> Edges:
-    """The same on points (n, 2), periodic in x, some of which lie on the plates y = -+height/2.
+def between(x: np.ndarray, width: float, height: float, closed: tuple[bool, bool] = (False, True)) -> Edges:
+    """The same on points (n, 2), some of which lie on plates: y = -+height/2, and if `closed` says so of the
+    first axis, x = -+width/2; along the other axis periodic.
 
     Closed on all points but those on the plates, where what is missing is half of the plate beside the point,
     outwards.
 
     Raises ValueError: there is no point on one of the plates, or one beyond them; or two points overlap.
     """
-    low, high = x[:, 1].min(), x[:, 1].max()
-    if max(abs(low + height/2), abs(high - height/2)) > 1e-12*height:
-        raise ValueError(f"points lie between y = {low:g} and {high:g}, plates at -+{height/2:g}: "
-                         "put a row of points on each plate")
-    points = of_positions(x, (width, 3*height))
+    size, shut = np.array([width, height]), np.array(closed)
+    for axis in np.flatnonzero(shut):
+        low, high, half = x[:, axis].min(), x[:, axis].max(), size[axis]/2
+        if max(abs(low + half), abs(high - half)) > 2e-12*half:
+            raise ValueError(f"points lie between {'xy'[axis]} = {low:g} and {high:g}, plates at -+{half:g}: "
+                             "put a row of points on each plate")
+    points = of_positions(x, np.where(shut, 3*size, size))
     corner, at = _simplices(points)
-    inner = np.abs(at[:, :, 1].mean(axis=1)) < height/2      # not those that span the gap from plate to plate
+    # not those that span the gap from plate to plate
+    inner = (np.abs(at.mean(axis=1)) < size/2)[:, shut].all(axis=1)
     return _assembled(points, corner[inner], at[inner])
 
 

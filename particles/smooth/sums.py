@@ -10,7 +10,7 @@ from particles.lists import Listed, PairLists
 from particles.pairs import sweep
 from particles.terms import DirectFluxes, Fluxes, density_factor
 from particles.threads import Threads
-from particles.walls import confine, image_pressure
+from particles.walls import confine, image_flux, image_pressure
 
 Moving = np.dtype([(name, "f8") for name in ("vx", "vy", "T", "s")])
 Flux = np.dtype([(name, "f8") for name in ("xx", "xy", "qx", "vx", "yx", "yy", "qy", "vy")])  # one cache line
@@ -112,8 +112,10 @@ class Nested(SmoothSums):
         around = self.around
         self.threads(_fluxes, around.rows, self.method.law, around.rho, around.vx, around.vy, around.T, less,
                      self.slopes, self.flux)
-        for _, parent, first, last in around.blocks:
+        for wall, parent, first, last in around.blocks:
             _image_fluxes(first, last, parent, around.rho, around.vx, around.vy, less, self.flux)
+            if type(wall) in image_flux.kinds:
+                _turn_fluxes(first, last, wall, around.rho, self.flux)
         return Fluxes(), self.flux
 
 
@@ -190,6 +192,12 @@ def _image_fluxes(first, last, parent, rho, vx, vy, less, flux):
         a, b, f = flux[i], flux[p], (less[i] - less[p])/rho[i]**2
         a.vx, a.vy = vx[i], vy[i]
         a.xx, a.xy, a.yx, a.yy, a.qx, a.qy = b.xx + f, b.xy, b.yx, b.yy + f, b.qx, b.qy
+
+
+@jit
+def _turn_fluxes(first, last, wall, rho, flux):
+    for i in range(first, last):
+        image_flux(wall, flux[i], rho[i])
 
 
 @jit

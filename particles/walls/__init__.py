@@ -28,6 +28,14 @@ def image_pressure(wall, own, copied):
 
 
 @generic
+def image_flux(wall, a, rho):
+    """Turn what the image `a` has copied of its parent's stress and heat flux, over rho^2.
+
+    Walls that copy both as they are give no formula.
+    """
+
+
+@generic
 def confine(wall, state):
     """Reflect elastically what has crossed the wall, rows (x, y, vx, vy, e); their number."""
 

@@ -32,7 +32,7 @@ class Through(NamedTuple):
     row: np.ndarray
 
 
-class Sides(NamedTuple):
+class SlidSides(NamedTuple):
     """Stored edges among the points and to images n.. of points `parent`, which are `up` (1) or down (-1).
 
     number[0] and number[1]: which image below and above a point has. through: what has to follow the sliding.
@@ -45,7 +45,7 @@ class Sides(NamedTuple):
     counts: tuple[int, int]
 
 
-def sides(points: Points, edges: Edges) -> Sides:
+def sides(points: Points, edges: Edges) -> SlidSides:
     """Edges of a periodic lattice with sliding images in place of the periodic ones above and below.
 
     Raises ValueError: the points are no lattice, or its edges are not alike in all columns and mirror images
@@ -69,7 +69,7 @@ def sides(points: Points, edges: Edges) -> Sides:
     entry = np.flatnonzero(up)
     through = Through(entry, up[entry], second[entry].astype(int), S[entry, 0], S[entry, 1], k[entry],
                       j[entry]//counts[1], j[entry] % counts[1])
-    return Sides(stored, through, *images(through, counts), counts)
+    return SlidSides(stored, through, *images(through, counts), counts)
 
 
 def images(through: Through, counts: tuple[int, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

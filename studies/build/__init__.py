@@ -17,7 +17,7 @@ from typing import Any
 from continuum.fluid import conductivity, viscosity
 from continuum.jit import check_formulas
 from studies.build import fixed, grid, moving, rr98_moving, spam
-from studies.build.setting import Ready, of_method
+from studies.build.setting import CannotTake, Ready, of_method
 
 
 def named(*families: Iterable[tuple[str, Any]]) -> dict[str, Any]:
@@ -46,6 +46,10 @@ METHODS = named(
     rr98_moving.DRIFT_MOTIONS.items())
 
 
+#: the best known of each family
+USUAL = ("grid", "spam", "fixed-lattice", "fixed-jittered-plates", "moving", "moving-literal")
+
+
 def ready(scene: Any, method: Any, seed: int = 1, **more: Any) -> Ready:
     """A method in a scene, by its name, by a variant, as an object, or a class that takes the scene.
 
@@ -57,9 +61,18 @@ def ready(scene: Any, method: Any, seed: int = 1, **more: Any) -> Ready:
     check_formulas(scene.law, viscosity, conductivity)
     chosen = variant(method) if isinstance(method, str) else method
     if hasattr(chosen, "ready"):
-        made: Ready = chosen.ready(scene, seed, **more)
-        return made
+        return of_variant(chosen, scene, seed, **more)
     return of_method(chosen(scene) if isinstance(chosen, type) else chosen, scene, seed)
+
+
+def of_variant(chosen: Any, scene: Any, seed: int, **more: Any) -> Ready:
+    """What `ready` makes of a variant."""
+    try:
+        made: Ready = chosen.ready(scene, seed, **more)
+    except CannotTake as refused:
+        able = [name for name in USUAL if not METHODS[name].refuses(scene)]
+        raise ValueError(f"{refused}: take {', '.join(able)}") from None
+    return made
 
 
 def variant(name: str) -> Any:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
+from continuum.domain import Domain
 from continuum.exact import plates
 from continuum.exact.vortex import solved, velocities
 from continuum.fluid import Fields
@@ -16,7 +17,7 @@ from continuum.scene import RayleighBenard
 from particles.integral.points import lattice
 from studies.build.names import START_JITTER
 from studies.build.scenes import BetweenPlates, Sound, Start, TaylorGreen
-from studies.build.setting import shifted
+from studies.build.setting import shaken, shifted
 
 FALLS = 90.0        # free-fall times: K of rolls at Ra 10 000 then changes by 0.1 % at most
 
@@ -90,6 +91,18 @@ def _(scene: Sound, seed: int) -> tuple[np.ndarray, Start]:
     fields = scene.fields(x)
     x[:, 0] -= scene.amplitude/scene.k*np.sin(scene.k*x[:, 0])
     return x, fields
+
+
+@of_one_mass.register
+def _(scene: Domain, seed: int) -> tuple[Any, Any]:
+    """Rows as far apart as gravity wants them."""
+    if scene.start or not scene.g:
+        return None, None
+    x, s = shaken(scene, seed), np.linspace(-0.5, 0.5, 2001)
+    rho = scene.fields(scene.L*np.stack([0*s, s], axis=1))[0]
+    mass = cumulative_trapezoid(rho, s, initial=0)
+    x[:, 1] = scene.L*np.interp((x[:, 1]/scene.L + 0.5)*mass[-1], mass, s)
+    return x, scene.fields(x)
 
 
 @of_one_mass.register

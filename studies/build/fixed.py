@@ -6,8 +6,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.scene import Torus
+from continuum.sides import Periodic, Plate, Sides, Sliding, Slip, warm
 from particles.fields import kinetic
-from particles.integral.bodies import held, together, with_plates
+from particles.integral.bodies import Held, Rows, held, together, with_sides
 from particles.integral.edge_makers import closed, exact, plain, renormalised
 from particles.integral.edges import NONE_BEYOND, between_plates
 from particles.integral.layer import Driven, Layer, LayerSums
@@ -16,7 +17,17 @@ from particles.integral.points import of_positions, random, relaxed
 from particles.integral.stream import Stream, Streaming
 from particles.integral.triangulation import between, delaunay
 from particles.weights import Lucy, Monaghan, WendlandC2
-from studies.build.setting import Ready, check_open, check_spacings, inside, positions, shifted, stepped
+from studies.build.setting import (
+    Ready,
+    check_spacings,
+    check_taken,
+    inside,
+    no_layer,
+    part,
+    positions,
+    shifted,
+    stepped,
+)
 
 OF_LIMIT = 0.8      # of the step to its stability limit: the flow is steady, its errors are of space alone
 
@@ -49,6 +60,13 @@ class Scheme(NamedTuple):
     share: float = 1.0
     points: Callable = positions
     held: bool = False
+
+    def refuses(self, scene: Any) -> str:
+        """Which part of a scene this cannot take; empty for none. Held points stick to the fluid."""
+        if not (self.held and isinstance(scene.sides, Sides)):
+            return no_layer(scene)
+        slips = [name for name, side in scene.sides._asdict().items() if isinstance(side, Slip)]
+        return part(scene, slips[0]) if slips else ""
 
     def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
         """The method in a scene; from fields (rho, v, T) at its points, if given."""
@@ -86,7 +104,7 @@ SCHEMES = {s.name: s for s in (
 
 def fluid(scene: Any, scheme: Scheme, seed: int = 1) -> Layer | Stream:
     """The method of unit spacing: a scene of L = rows spacings."""
-    check_open(scene, "fixed")
+    check_taken(scheme, scene)
     check_spacings(scene)
     if isinstance(scene.sides, Torus):
         return torus(scene, scheme, seed)
@@ -113,12 +131,44 @@ def layer(scene: Any, scheme: Scheme, seed: int) -> Layer:
 
 
 def plates(scene: Any, scheme: Scheme, seed: int) -> Stream:
-    """Plates with rows of points on them: triangles end there. One row of points less between them."""
-    inner = inside(scene.L - 1, scheme.points(scene.width, scene.L - 1, scheme.size, seed))
-    x, lower, upper = with_plates(inner, round(scene.width), scene.L)
-    both = together(held(lower, T=scene.T_hot), held(upper, (scene.slide, 0.0), T=scene.T_cold))
-    edges = between(x, scene.width, scene.L)
-    return Stream(x=x, edges=edges, eos=scene.eos, law=scene.law, held=both, push=(0.0, 0.0 - scene.g))
+    """Sides with rows of points on them: triangles end there. One row of points less between two sides."""
+    sides = four_sides(scene)
+    closed = not sides.axes[0], not sides.axes[1]
+    room = scene.width - closed[0], scene.L - closed[1]
+    inner = scheme.points(*room, scheme.size, seed)
+    for axis in (axis for axis in (0, 1) if closed[axis]):
+        inner = inside(room[axis], inner, axis)
+    x, rows = with_sides(inner, (scene.width, scene.L), closed)
+    return Stream(x=x, edges=between(x, scene.width, scene.L, closed), eos=scene.eos, law=scene.law,
+                  held=together(*bodies_of(sides, rows)), push=(0.0, 0.0 - scene.g), solid=False)
+
+
+def four_sides(scene: Any) -> Sides:
+    """Of a layer: its plates, of which the upper one may slide."""
+    if isinstance(scene.sides, Sides):
+        return scene.sides
+    return Sides(Periodic(), Periodic(), Plate(T=scene.T_hot), Sliding(scene.slide, T=scene.T_cold))
+
+
+def bodies_of(sides: Sides, rows: Rows) -> list[Held]:
+    """Lower and upper row first, then left and right, then corners; heat is that of a spacing."""
+    made = [held(which, speed(side, axis), side.T, side.q)
+            for side, which, axis in ((sides.bottom, rows.bottom, 0), (sides.top, rows.top, 0),
+                                      (sides.left, rows.left, 1), (sides.right, rows.right, 1)) if len(which)]
+    meet = [(one, other) for other in sides[2:] for one in sides[:2]]
+    return made + [in_corner(one, other, corner) for (one, other), corner in zip(meet, rows.corners)]
+
+
+def speed(side: Any, axis: int) -> tuple[float, float]:
+    """Velocity of a side along an axis."""
+    v = getattr(side, "v", 0.0)
+    return (0.0, v) if axis else (v, 0.0)
+
+
+def in_corner(one: Any, other: Any, corner: int) -> Held:
+    """At rest, with the temperature of the sides that have one, or the heat of half of a spacing of both."""
+    T = [side.T for side in (one, other) if warm(side)]
+    return held(np.array([corner]), T=float(np.mean(T)) if T else np.nan, heat=(one.q + other.q)/2)
 
 
 def heat_in(sums: LayerSums, state: np.ndarray, plate: int) -> float:

@@ -6,7 +6,7 @@ import numpy as np
 
 from continuum.fluid import Fields
 from continuum.gas.fields import NodeFields, at_nodes, block, initial, placed, unblock
-from continuum.gas.loop import FIELDS, VX, EdgeHeat, FluxForm, PaperForm
+from continuum.gas.ghosts import FIELDS, VX, EdgeHeat, FluxForm, PaperForm
 from continuum.gas.solve import March, first_fault, limits
 from continuum.scene import RayleighBenard
 from continuum.steady import SAFETY
@@ -103,6 +103,10 @@ class GridForm(NamedTuple):
     rolls: int | None = None
     aside: int = 0
     step: float = SAFETY
+
+    def refuses(self, scene: Any) -> str:
+        """Nothing: the grid knows all sides."""
+        return ""
 
     def ready(self, scene: Any, seed: int = 1, rows: int = 0, first: np.ndarray | None = None) -> Ready:
         """The grid in a scene, cells of one spacing unless `rows` are given; from a block, if given."""

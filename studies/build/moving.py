@@ -8,7 +8,7 @@ from particles.fields import kinetic
 from particles.integral.closed_faces import FaceSums, Ingredients, Moving
 from particles.integral.exchange import PRINTED
 from particles.weights import WendlandC2
-from studies.build.setting import Ready, check_open, check_spacings, check_still, shaken, stepped, walls
+from studies.build.setting import Ready, check_spacings, check_taken, no_still_layer, shaken, stepped, walls
 
 
 class FacesMotion(NamedTuple):
@@ -18,6 +18,10 @@ class FacesMotion(NamedTuple):
     weight: Any = WendlandC2
     h: float = 3.0
     of_limit: float = 1.0
+
+    def refuses(self, scene: Any) -> str:
+        """Which part of a scene this cannot take; empty for none."""
+        return no_still_layer(scene)
 
     def ready(self, scene: Any, seed: int = 1, x: np.ndarray | None = None,
               fields: tuple | None = None) -> Ready:
@@ -48,8 +52,7 @@ MOTIONS = {m.name: m for m in (
 
 def method(scene: Any, motion: FacesMotion) -> Moving:
     """The method of unit spacing: a scene of L = rows spacings."""
-    check_open(scene, "moving")
-    check_still(scene)
+    check_taken(motion, scene)
     check_spacings(scene)
     return Moving(weight=motion.weight.of(h=motion.h), eos=scene.eos, law=scene.law,
                   box=(scene.width, scene.L), g=scene.g, walls=walls(scene), ingredients=motion.ingredients)

@@ -3,6 +3,7 @@ from collections.abc import Callable
 from typing import Any
 
 from continuum.scene import RayleighBenard, Walls
+from studies.build.cavity import cavity
 from studies.build.rapid import ShearLayer, ShockTube
 from studies.build.scenes import Sound, TaylorGreen, between_plates
 
@@ -33,6 +34,7 @@ def sound(rows: int = ROWS, **more: Any) -> Sound:
 SCENES: dict[str, Callable[..., Any]] = {
     "rayleigh-benard": convection,
     "rayleigh-benard-box": box,
+    "cavity": cavity,
     "taylor-green": vortex,
     "sound": sound,
     "shock-tube": lambda rows=54, **more: ShockTube(half=rows, **more),

@@ -15,7 +15,7 @@ from particles.observe import pairs_behind
 from particles.pairs import rate, sweep, zero
 from particles.smooth.spam import LessStatic
 from particles.weights import WendlandC2
-from studies.build.setting import Ready, check_open, check_spacings, check_still, shaken, stepped, walls
+from studies.build.setting import Ready, check_spacings, check_taken, no_still_layer, shaken, stepped, walls
 
 
 class DriftMotion(NamedTuple):
@@ -26,6 +26,10 @@ class DriftMotion(NamedTuple):
     less: float = 0.0
     weight: Any = WendlandC2
     h: float = 3.0
+
+    def refuses(self, scene: Any) -> str:
+        """Which part of a scene this cannot take; empty for none."""
+        return no_still_layer(scene)
 
     def ready(self, scene: Any, seed: int = 1, x: np.ndarray | None = None,
               fields: tuple | None = None) -> Ready:
@@ -54,8 +58,7 @@ DRIFT_MOTIONS = {m.name: m for m in (
 
 def method(scene: Any, chosen: DriftMotion) -> Drift:
     """The method of unit spacing: a scene of L = rows spacings."""
-    check_open(scene, "moving")
-    check_still(scene)
+    check_taken(chosen, scene)
     check_spacings(scene)
     weight = chosen.weight.of(h=chosen.h)
     return Drift(motion=chosen.motion, weight=weight, scale=scale(weight), eos=scene.eos, law=scene.law,

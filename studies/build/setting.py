@@ -10,12 +10,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from continuum.fluid import conductivity
 from continuum.scene import Periodic, Torus, Walls
+from continuum.sides import Plate, Sides, Slip, warm
 from particles.integral.points import Points, jittered, lattice, random, relaxed, wrapped
 from particles.limits import limit_of
-from particles.walls.mirror import AtWall, Copied, plates, sides
+from particles.walls.mirror import AtWall, Copied, Mirror, plates, sides
 from particles.walls.periodic import periodic
-from particles.walls.sliding_plate import Sliding
+from particles.walls.side import Free, Given, OneSide, Passing, Stuck
+from particles.walls.sliding_plate import SlidingPlate
 from particles.weights import WendlandC2
 from studies.build.names import START_JITTER
 
@@ -53,10 +56,33 @@ def of_method(method: Any, scene: Any, seed: int = 1) -> Ready:
 
 def walls(scene: Any, rule: Any = AtWall(), pressure: Any = Copied()) -> tuple:  # noqa: B008
     """Mirror images behind the plates; periodic sides or images there too; a torus has no plates."""
+    if isinstance(scene.sides, Sides):
+        return of_sides(scene, rule, pressure)
     if isinstance(scene.sides, Torus):
         return (*periodic(scene.width), *periodic(scene.L, axis=1))
     lower, upper = plates(scene.L, scene.T_hot, scene.T_cold, rule, pressure)
-    return (lower, Sliding(upper, scene.slide) if scene.slide else upper, *beside(scene, rule, pressure))
+    return (lower, SlidingPlate(upper, scene.slide) if scene.slide else upper, *beside(scene, rule, pressure))
+
+
+def of_sides(scene: Any, rule: Any, pressure: Any) -> tuple:
+    """Mirror images behind four sides, each as its kind wants them."""
+    left, right, bottom, top = scene.sides
+    k = float(conductivity(scene.law, 1.0, scene.T_mean))
+    made: list[Any] = []
+    for axis, pair, length in ((1, (bottom, top), scene.L), (0, (left, right), scene.width)):
+        if isinstance(pair[0], Periodic):
+            made += periodic(length, axis)
+            continue
+        for side, inner in zip(pair, (1.0, -1.0)):
+            mirror = Mirror(axis, -inner*length/2, inner, side.T, 0.0, rule, pressure)
+            made.append(one_side(side, mirror, k))
+    return tuple(made)
+
+
+def one_side(side: Any, mirror: Mirror, k: float) -> OneSide:
+    """What images behind a mirror do; where heat passes, k is the conductivity."""
+    return OneSide(mirror, Free() if isinstance(side, Slip) else Stuck(getattr(side, "v", 0.0)),
+                   Given() if warm(side) else Passing(side.q, k))
 
 
 def beside(scene: Any, rule: Any, pressure: Any) -> tuple:
@@ -72,9 +98,11 @@ def shifted(width: float, height: float, size: float, seed: int) -> np.ndarray:
     return wrapped(x + np.random.default_rng(seed).uniform(-size, size, x.shape), np.array([width, height]))
 
 
-def inside(height: float, x: np.ndarray) -> np.ndarray:
-    """Points too near to the edge of their room moved away from it."""
-    return np.stack([x[:, 0], np.clip(x[:, 1], -height/2 + FROM_EDGE, height/2 - FROM_EDGE)], axis=1)
+def inside(height: float, x: np.ndarray, axis: int = 1) -> np.ndarray:
+    """Points too near to the edge of their room, `height` along an axis, moved away from it."""
+    moved = x.copy()
+    moved[:, axis] = np.clip(x[:, axis], -height/2 + FROM_EDGE, height/2 - FROM_EDGE)
+    return moved
 
 
 def positions(width: float, height: float, size: float, seed: int) -> np.ndarray:
@@ -99,20 +127,36 @@ def check_spacings(scene: Any) -> None:
                              f"{length:.6g}: give L as the number of rows, aspect as columns over rows")
 
 
-def check_open(scene: Any, kind: str) -> None:
-    """Refuse four walls. Raises ValueError: Sides are walls."""
+class CannotTake(ValueError):
+    """A method and the part of a scene that it cannot take; `studies.build.ready` adds who can."""
+
+
+def check_taken(chosen: Any, scene: Any) -> None:
+    """Refuse a scene for a variant. Raises CannotTake: names both."""
+    if part := chosen.refuses(scene):
+        raise CannotTake(f"{chosen.name} cannot take {part}")
+
+
+def no_layer(scene: Any) -> str:
+    """What a method lacks that knows plates of given temperatures above and below only, or none; empty if
+    nothing."""
     if isinstance(scene.sides, Walls):
-        raise ValueError(f"{kind} points have plates above and below only: take a scene with periodic sides")
+        return f"sides = {scene.sides}"
+    if not isinstance(scene.sides, Sides):
+        return ""
+    left, _, bottom, _ = scene.sides
+    odd = {"left": not isinstance(left, Periodic), "bottom": not (isinstance(bottom, Plate) and warm(bottom))}
+    return part(scene, next((name for name, is_odd in odd.items() if is_odd), "top"))
 
 
-def check_still(scene: Any) -> None:
-    """Refuse plates that slide, for methods whose images do not.
+def no_still_layer(scene: Any) -> str:
+    """The same of a method whose plates do not slide, either."""
+    return no_layer(scene) or (f"slide = {scene.slide}" if scene.slide else "")
 
-    Raises ValueError: the upper plate slides.
-    """
-    if scene.slide:
-        raise ValueError(f"plates of moving points do not slide, got slide = {scene.slide}: take "
-                         "fixed points, smooth particles or the grid")
+
+def part(scene: Any, name: str) -> str:
+    """A side as it is written."""
+    return f"{name} = {getattr(scene.sides, name)}"
 
 
 class Disorder(NamedTuple):

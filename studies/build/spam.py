@@ -8,7 +8,7 @@ import numpy as np
 from continuum.fluid import ConstEta, IdealGas, energy, pressure
 from continuum.gas.fields import interpolate
 from continuum.gas.solve import steady_on
-from continuum.scene import Torus
+from continuum.scene import RayleighBenard, Torus
 from particles.limits import step_limit
 from particles.observe import PlateHeat, field_kinetic, heat_flow, particle_kinetic
 from particles.smooth.spam import LessStatic, Spam
@@ -19,7 +19,7 @@ from particles.walls.mirror import Odd, Own
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
 from studies.build.names import START_JITTER
-from studies.build.setting import Ready, check_spacings
+from studies.build.setting import Ready, check_spacings, check_taken, no_still_layer
 from studies.build.setting import walls as around
 
 #: time step over its limit: dt = 0.4 for the printed scheme. Particles turn at a plate up to v dt beyond
@@ -77,9 +77,16 @@ class Variant(NamedTuple):
     step: float = OF_LIMIT
     begin: Callable | None = None
 
+    def refuses(self, scene: Any) -> str:
+        """Which part of a scene this cannot take; empty for none. Images know all sides."""
+        if self.begin is developed and not isinstance(scene, RayleighBenard):
+            return f"a {type(scene).__name__}, which has no rolls to begin with"
+        return no_still_layer(scene) if self.walls is fixed_rows else ""
+
     def ready(self, scene: Any, seed: int = 1, x: np.ndarray | None = None,
               fields: tuple | None = None) -> Ready:
         """The method in a scene; from places x (n, 2) and fields (rho, v, T) there, if given."""
+        check_taken(self, scene)
         return Ready(method(scene, self), start(scene, seed, self.begin, x, fields), step(scene, self))
 
     @property

@@ -9,7 +9,7 @@ from continuum.boussinesq.mac import mac
 from continuum.boussinesq.projection import Projection
 from continuum.exact import plates
 from continuum.exact.vortex import DECAYS, RE, solved, velocities
-from continuum.gas.loop import RHO
+from continuum.gas.ghosts import RHO
 from particles.fields import Fields
 from particles.integral.points import lattice
 from particles.observe import fields_at

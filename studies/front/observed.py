@@ -5,13 +5,14 @@ through the fluid over what conduction alone would carry. Where a scene knows it
 of the mean square difference from it, over that of its own departure from rest.
 """
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from continuum.fluid import Fields, energy, pressure
 from continuum.scene import RayleighBenard
+from continuum.sides import HeatPath
 from particles.fields import kinetic
 from particles.observe import fields_at
 from particles.smooth.spam import Spam
@@ -27,21 +28,14 @@ FEW = 20            # samples, of which each half has an error of its own
 AGREE = 0.3         # of the mean: halves that differ by more are no steady state
 
 
-class Heating(NamedTuple):
-    """Heat that is sent along an axis (0: x, 1: y) through `length`, from a difference of temperatures dT."""
-    axis: int
-    dT: float
-    length: float
-
-
-def heating(scene: Any) -> Heating | None:
+def heating(scene: Any) -> HeatPath | None:
     """None where no two plates have different temperatures."""
     if isinstance(scene, RayleighBenard):
-        return None if isinstance(scene, Slab) else Heating(1, scene.dT, scene.L)
+        return None if isinstance(scene, Slab) else HeatPath(1, scene.dT, scene.L)
     return getattr(scene, "heating", None)
 
 
-def nusselt(scene: Any, heat: Heating, at: Fields) -> float:
+def nusselt(scene: Any, heat: HeatPath, at: Fields) -> float:
     """1 + <rho v (e + P/rho + v^2/2 + g y)>/(k dT/length), along the heat; friction's share is left out.
 
     Of steady flows and constant conductivity, where what plates conduct is k dT/length on average.

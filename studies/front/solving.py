@@ -71,6 +71,8 @@ def placed(scene: Any, rows: int | None, **of_scene: Any) -> Any:
             raise ValueError(f"no scene is called {scene!r}; near to it are {near(scene, SCENES)}")
         return SCENES[scene](rows=rows, **of_scene) if rows else SCENES[scene](**of_scene)
     fresh = replace(scene, **of_scene) if of_scene else scene
+    if rows and hasattr(fresh, "resized"):
+        return fresh.resized(float(rows))
     return replace(fresh, L=type(scene.L)(rows)) if rows else fresh
 
 

@@ -4,7 +4,7 @@ from itertools import product
 from typing import Any
 
 from continuum.fluid import DenseFluid, IdealGas
-from continuum.gas.loop import FluxForm
+from continuum.gas.ghosts import FluxForm
 from particles.run import STUDIES
 from particles.weights import Lucy, Monaghan
 from studies.build.fixed import SCHEMES

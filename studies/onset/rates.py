@@ -14,7 +14,8 @@ import numpy as np
 from continuum import boussinesq
 from continuum.gas import newton
 from continuum.gas.fields import block, initial
-from continuum.gas.loop import FluxForm, box_of, rates
+from continuum.gas.ghosts import FluxForm, box_of
+from continuum.gas.loop import rates
 from continuum.linear.layer import DEGREE, PlateKind, critical, critical_ra, growth_rate
 from continuum.pypde.gas import Gas
 from continuum.pypde.march import rate

@@ -19,7 +19,7 @@ from scipy.linalg import logm
 
 from continuum.exact.waves import LinearGas, Waves, continuum, quantities
 from continuum.fluid import ConstEta, IdealGas
-from particles.integral.bodies import held, together, with_plates
+from particles.integral.bodies import held, together, with_sides
 from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges, between_plates
@@ -210,8 +210,8 @@ def between_images(drive: Drive, rows: int, x: np.ndarray, make: Callable) -> Dr
 
 def between_rows(drive: Drive, rows: int, seed: int) -> Stream:
     """Jittered points with Delaunay edges that end on rows of points on the plates."""
-    x, lower, upper = with_plates(jittered((COLUMNS, rows - 1), JITTER, seed).x, COLUMNS, rows)
-    plates = together(held(lower, T=1.0), held(upper, (drive.slide*SPEED, 0.0), T=1.0))
+    x, sides = with_sides(jittered((COLUMNS, rows - 1), JITTER, seed).x, (COLUMNS, rows))
+    plates = together(held(sides.bottom, T=1.0), held(sides.top, (drive.slide*SPEED, 0.0), T=1.0))
     return Stream(x=x, edges=between(x, COLUMNS, rows), eos=IdealGas(), law=LAW, held=plates,
                   push=(drive.push(rows), 0.0))
 

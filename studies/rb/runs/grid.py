@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 from continuum import boussinesq
 from continuum.gas.fields import block, initial, interpolate
-from continuum.gas.loop import FluxForm
+from continuum.gas.ghosts import FluxForm
 from continuum.gas.solve import March, Solution, limits, run, steady_on
 from continuum.pypde import solve as pypde
 from continuum.pypde.boussinesq import Boussinesq

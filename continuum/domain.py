@@ -1,0 +1,169 @@
+"""A box of gas between sides of one's own choice: a scene like `continuum.scene.RayleighBenard`."""
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from math import isfinite
+from numbers import Real
+from typing import Any
+
+import numpy as np
+from scipy.integrate import odeint
+
+from continuum.fluid import ConstEta, IdealGas, check_state, energy, pressure
+from continuum.sides import (
+    HeatPath,
+    Periodic,
+    Plate,
+    Sides,
+    Sliding,
+    Torus,
+    adiabatic,
+    check_sides,
+    warm,
+)
+
+HEIGHTS, PASSES = 401, 8    # of the density at rest; the second pass is exact for an ideal gas
+Start = tuple[np.ndarray, np.ndarray, np.ndarray]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Domain:
+    """A box of mean density 1 between four sides, its middle at the origin.
+
+    L : height in spacings, which fixes the unit of length. aspect : width/height. left, right, bottom, top :
+    Periodic(), Plate(T or q), Slip(T or q), Sliding(v, T or q). eta, k : viscosity and conductivity. g :
+    gravity, downwards. start : x (n, 2) -> density (n,), velocity (n, 2), temperature (n,); by default the
+    gas rests at the mean temperature of the sides, as dense as gravity makes it.
+    Raises ValueError: a number is out of its range, or periodic sides are no pairs. TypeError: no such side.
+    """
+    L: float
+    eta: float
+    k: float
+    aspect: float = 1.0
+    left: Any = Plate()     # noqa: RUF009  (immutable)
+    right: Any = Plate()    # noqa: RUF009
+    bottom: Any = Plate()   # noqa: RUF009
+    top: Any = Plate()      # noqa: RUF009
+    g: float = 0.0
+    eos: Any = IdealGas()   # noqa: RUF009
+    start: Callable[[np.ndarray], Start] | None = None
+
+    def __post_init__(self):
+        check_sides(self.four)
+        for name in ("L", "eta", "k", "aspect"):
+            if not (isinstance(value := getattr(self, name), Real) and 0 < value < np.inf):
+                raise ValueError(f"{name} must be a positive and finite number, got {value!r}")
+        if not isfinite(self.g) or (self.g and isinstance(self.sides, Torus)):
+            raise ValueError(f"g must be finite, and 0 where nothing stands below, got {self.g}: give the "
+                             "box a bottom and a top")
+        for T in (self.T_mean, *self.temperatures):
+            check_state(self.eos, 1.0, energy(self.eos, 1.0, T))
+
+    @property
+    def four(self) -> Sides:
+        """All sides as they were given, numbers as floats."""
+        return Sides(*map(_in_floats, (self.left, self.right, self.bottom, self.top)))
+
+    @property
+    def sides(self) -> Any:
+        """`Torus()` or `Periodic()` where these say it all, so that every method knows them."""
+        if self.four.axes == (True, True):
+            return Torus()
+        return Periodic() if self.layer else self.four
+
+    @property
+    def layer(self) -> bool:
+        """Periodic sides; plates of given temperatures, of which the upper one may slide."""
+        kinds = isinstance(self.bottom, Plate) and isinstance(self.top, (Plate, Sliding))
+        return isinstance(self.left, Periodic) and kinds and warm(self.bottom) and warm(self.top)
+
+    @property
+    def slide(self) -> float:
+        """Velocity of the upper plate of a layer."""
+        return float(getattr(self.top, "v", 0.0)) if self.layer else 0.0
+
+    @property
+    def temperatures(self) -> list[float]:
+        """Those that sides have, lowest first."""
+        return sorted(side.T for side in self.four if warm(side))
+
+    @property
+    def T_hot(self) -> float:
+        """Of the lower plate of a layer, else of the hottest side."""
+        return self.four.bottom.T if self.layer else (self.temperatures or [1.0])[-1]
+
+    @property
+    def T_cold(self) -> float:
+        """Of the upper plate of a layer, else of the coldest side."""
+        return self.four.top.T if self.layer else (self.temperatures or [1.0])[0]
+
+    @property
+    def T_mean(self) -> float:
+        """1 where no side has a temperature."""
+        return (self.T_hot + self.T_cold)/2
+
+    @property
+    def dT(self) -> float:
+        return self.T_hot - self.T_cold
+
+    @property
+    def width(self) -> float:
+        return self.aspect*self.L
+
+    @property
+    def law(self) -> ConstEta:
+        return ConstEta(self.eta, self.k)
+
+    @property
+    def time(self) -> float:
+        """L^2/nu at density 1."""
+        return self.L**2/self.eta
+
+    @property
+    def heating(self) -> HeatPath | None:
+        """The way of the heat between two sides of different temperatures, if the others let none through."""
+        pairs = (self.four[:2], self.width), (self.four[2:], self.L)
+        for axis, (ends, length) in enumerate(pairs):
+            beside = pairs[1 - axis][0]
+            if all(map(warm, ends)) and all(map(adiabatic, beside)) and ends[0].T != ends[1].T:
+                return HeatPath(axis, ends[0].T - ends[1].T, length)
+        return None
+
+    def resized(self, L: float) -> "Domain":
+        """The same flow on another number of rows: what counts in spacings goes along."""
+        by = L/self.L
+        start = self.start and partial(_from_other, self.start, by)
+        return replace(self, L=L, eta=by*self.eta, k=by*self.k, g=self.g/by, start=start)
+
+    def fields(self, x: np.ndarray) -> Start:
+        """Density (n,), velocity (n, 2), temperature (n,) at the start, at places (n, 2)."""
+        if self.start is not None:
+            return self.start(x)
+        rho = at_rest(self.eos, self.T_mean, self.g, self.L, x[:, 1]) if self.g else np.ones(len(x))
+        return rho, np.zeros((len(x), 2)), np.full(len(x), self.T_mean)
+
+
+def _in_floats(side: Any) -> Any:
+    """A side with such numbers as compiled code has been made for."""
+    kind: Any = type(side)
+    return kind(*map(float, side)) if isinstance(side, tuple) else side
+
+
+def _from_other(start: Callable, by: float, x: np.ndarray) -> Start:
+    """A start in a box that was 1/by as high."""
+    return start(x/by)
+
+
+def at_rest(eos: Any, T: float, g: float, L: float, y: np.ndarray) -> np.ndarray:
+    """Density at heights y of a gas of one temperature that carries its weight, of mean 1 over -L/2..L/2."""
+    heights, lowest = np.linspace(-L/2, L/2, HEIGHTS), 1.0
+    for _ in range(PASSES):
+        rho = odeint(lambda rho, _: -g*rho/stiffness(eos, rho, T), lowest, heights, rtol=1e-10)[:, 0]
+        lowest /= float(np.trapezoid(rho, heights))/L
+    return np.interp(y, heights, rho)
+
+
+def stiffness(eos: Any, rho: Any, T: float) -> Any:
+    """dP/drho at constant temperature, by central differences."""
+    low, high = (pressure(eos, rho*s, energy(eos, rho*s, T)) for s in (1 - 1e-6, 1 + 1e-6))
+    return (high - low)/(2e-6*rho)

@@ -1,0 +1,225 @@
+"""What a block of the compressible grid has beyond the fluid: densities behind walls, values on walls.
+
+See `continuum.gas.loop` for blocks. A kind of sides is one formula of `fill`.
+"""
+from typing import NamedTuple
+
+from continuum.fluid import conductivity, energy, temperature
+from continuum.jit import generic, jit
+from continuum.sides import Periodic, Sides, Slip, Torus, Walls
+
+VX, VY, E, RHO = range(4)
+FIELDS = ("v_x", "v_y", "e", "rho")
+
+
+class NodeGrid(NamedTuple):
+    """Spacing, gravity, temperatures of the plates, first column and lowest row of nodes that move."""
+    h: float
+    g: float
+    T_hot: float
+    T_cold: float
+    first: int
+    lowest: int = 2
+
+
+def box_of(scene, rows: int) -> NodeGrid:
+    """Of a scene on rows of cells."""
+    first, lowest = (1 if periodic else 2 for periodic in scene.sides.axes)
+    return NodeGrid(scene.L/rows, float(scene.g), float(scene.T_hot), float(scene.T_cold), first, lowest)
+
+
+class FluxForm(NamedTuple):
+    """d rho/dt = -div(rho v): mass goes from cell to cell and is conserved to round-off."""
+
+
+class PaperForm(NamedTuple):
+    """d rho/dt = -rho div v - v.grad rho, density 1 in the cells outside of the walls    [KHP95, Sec. V]"""
+
+
+class EdgeHeat(FluxForm):
+    """The same with heating eta |grad v|^2, as forces along edges heat, even in rotation [RR98, Eq. 51]"""
+
+
+@generic
+def outside(form, near, next_):
+    """Density in the cell behind a wall, from those of the two cells before it."""
+
+
+outside.of(FluxForm)(lambda form, near, next_: 2*near - next_)
+outside.of(PaperForm)(lambda form, near, next_: 1.0)
+
+
+@jit
+def fill_plates(eos, form, box, S):
+    """Ghost densities behind the plates, then the energy of the plates' nodes from their temperature."""
+    ny, nx = S.shape[1] - 2, S.shape[2] - 2
+    rho = S[RHO]
+    for i in range(nx + 2):
+        rho[0, i] = outside(form, rho[1, i], rho[2, i])
+        rho[ny + 1, i] = outside(form, rho[ny, i], rho[ny - 1, i])
+    for i in range(1, nx + 2):
+        S[E, 1, i] = energy(eos, node_density(rho, 1, i), box.T_hot)
+        S[E, ny + 1, i] = energy(eos, node_density(rho, ny + 1, i), box.T_cold)
+
+
+@jit
+def node_density(rho, j, i):
+    """Mean of the four cells around a node."""
+    return 0.25*((rho[j - 1, i - 1] + rho[j - 1, i]) + (rho[j, i - 1] + rho[j, i]))
+
+
+@generic
+def fill(sides, eos, law, form, box, S):
+    """Ghosts and wall values of the state."""
+
+
+@fill.of(Periodic)
+def _(sides, eos, law, form, box, S):
+    nx = S.shape[2] - 2
+    S[:, :, 0], S[:, :, nx + 1] = S[:, :, nx], S[:, :, 1]
+    fill_plates(eos, form, box, S)
+    S[E, :, 0] = S[E, :, nx]
+
+
+@fill.of(Torus)
+def _(sides, eos, law, form, box, S):
+    ny, nx = S.shape[1] - 2, S.shape[2] - 2
+    S[:, :, 0], S[:, :, nx + 1] = S[:, :, nx], S[:, :, 1]
+    S[:, 0], S[:, ny + 1] = S[:, ny], S[:, 1]
+
+
+@fill.of(Walls)
+def _(sides, eos, law, form, box, S):
+    ny, nx = S.shape[1] - 2, S.shape[2] - 2
+    rho = S[RHO]
+    for j in range(1, ny + 1):
+        rho[j, 0] = outside(form, rho[j, 1], rho[j, 2])
+        rho[j, nx + 1] = outside(form, rho[j, nx], rho[j, nx - 1])
+    fill_plates(eos, form, box, S)
+    for j in range(2, ny + 1):
+        T = box.T_hot + (box.T_cold - box.T_hot)*(j - 1)/ny
+        for i in (1, nx + 1):
+            S[E, j, i] = energy(eos, node_density(rho, j, i), T)
+
+
+# --- sides of several kinds -------------------------------------------------------------------------------
+
+
+class SideRule(NamedTuple):
+    """What the loop asks of a side, in numbers: boxes of all kinds share their compiled code.
+
+    slip : 1 without friction, else 0. v : velocity along itself. T, q : temperature, or nan and the heat.
+    """
+    slip: float
+    v: float
+    T: float
+    q: float
+
+
+class Frame(NamedTuple):
+    """Rules of four sides; those of periodic ones are not read."""
+    left: SideRule
+    right: SideRule
+    bottom: SideRule
+    top: SideRule
+
+
+def in_loop(sides):
+    """What stands for a scene's sides in the loop."""
+    return Frame(*map(rule_of, sides)) if isinstance(sides, Sides) else sides
+
+
+def rule_of(side) -> SideRule:
+    """Of one side."""
+    numbers = (getattr(side, name, 0.0) for name in ("v", "T", "q"))
+    return SideRule(float(isinstance(side, Slip)), *map(float, numbers))
+
+
+class Line(NamedTuple):
+    """Nodes on a side: the component of velocity along it, a node before the first, and the way inwards."""
+    along: int
+    j: int
+    i: int
+    up: int
+    right: int
+
+
+@jit
+def node_temperature(eos, S, j, i):
+    return temperature(eos, node_density(S[RHO], j, i), S[E, j, i])
+
+
+@jit
+def side_temperature(side, eos, law, box, S, j, i, up, right):
+    """T of a node on a side: as given, or with the slope -q/k inwards, of second order."""
+    if side.T == side.T:        # not nan
+        return side.T
+    near = node_temperature(eos, S, j + up, i + right)
+    next_ = node_temperature(eos, S, j + 2*up, i + 2*right)
+    T = (4*near - next_)/3
+    return T + 2*box.h*side.q/(3*conductivity(law, node_density(S[RHO], j, i), T))
+
+
+@jit
+def fill_side(side, eos, law, box, S, line, first, last):
+    """Velocity and energy of the nodes first..last - 1 of a side."""
+    up, right = line.up, line.right
+    for n in range(first, last):
+        j, i = line.j + n*abs(right), line.i + n*abs(up)
+        v = S[line.along]
+        v[j, i] = side.v + side.slip*(4*v[j + up, i + right] - v[j + 2*up, i + 2*right])/3
+        T = side_temperature(side, eos, law, box, S, j, i, up, right)
+        S[E, j, i] = energy(eos, node_density(S[RHO], j, i), T)
+
+
+@jit
+def fill_corner(beside, level, eos, law, box, S, j, i, up, right):
+    """At rest, as nothing passes. A given temperature counts before a flux; of two that count, the mean."""
+    a = side_temperature(beside, eos, law, box, S, j, i, 0, right)
+    b = side_temperature(level, eos, law, box, S, j, i, up, 0)
+    T, known = 0.5*(a + b), beside.T == beside.T
+    if known != (level.T == level.T):
+        T = a if known else b
+    S[E, j, i] = energy(eos, node_density(S[RHO], j, i), T)
+
+
+@jit
+def extrapolate(form, rho):
+    """Densities behind the first and the last row."""
+    last = rho.shape[0] - 1
+    for i in range(rho.shape[1]):
+        rho[0, i] = outside(form, rho[1, i], rho[2, i])
+        rho[last, i] = outside(form, rho[last - 1, i], rho[last - 2, i])
+
+
+@jit
+def repeat(box, S):
+    """What lies beyond periodic sides."""
+    ny, nx = S.shape[1] - 2, S.shape[2] - 2
+    if box.first == 1:
+        S[:, :, 0], S[:, :, nx + 1] = S[:, :, nx], S[:, :, 1]
+    if box.lowest == 1:
+        S[:, 0], S[:, ny + 1] = S[:, ny], S[:, 1]
+
+
+@fill.of(Frame)
+def _(sides, eos, law, form, box, S):
+    ny, nx = S.shape[1] - 2, S.shape[2] - 2
+    left, right, bottom, top = sides
+    repeat(box, S)
+    if box.first == 2:
+        extrapolate(form, S[RHO].T)
+    if box.lowest == 2:
+        extrapolate(form, S[RHO])
+    if box.first == 2:
+        fill_side(left, eos, law, box, S, Line(VY, 0, 1, 0, 1), box.lowest, ny + 1)
+        fill_side(right, eos, law, box, S, Line(VY, 0, nx + 1, 0, -1), box.lowest, ny + 1)
+    if box.lowest == 2:
+        fill_side(bottom, eos, law, box, S, Line(VX, 1, 0, 1, 0), box.first, nx + 1)
+        fill_side(top, eos, law, box, S, Line(VX, ny + 1, 0, -1, 0), box.first, nx + 1)
+    if box.first == 2 and box.lowest == 2:
+        fill_corner(left, bottom, eos, law, box, S, 1, 1, 1, 1)
+        fill_corner(right, bottom, eos, law, box, S, 1, nx + 1, 1, -1)
+        fill_corner(left, top, eos, law, box, S, ny + 1, 1, -1, 1)
+        fill_corner(right, top, eos, law, box, S, ny + 1, nx + 1, -1, -1)
+    repeat(box, S)

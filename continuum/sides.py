@@ -1,0 +1,147 @@
+"""What bounds a box: kinds of sides that all four have together, and kinds of one side, listed in `Sides`.
+
+`axes` of what bounds a box says along which axes (x, y) it is periodic.
+"""
+from math import isfinite, nan
+from typing import Any, NamedTuple
+
+import numpy as np
+
+
+def of_one_kind(kind: type) -> type:
+    """A class whose objects equal those of their own kind only: as tuples, all empty ones would be equal.
+
+    They are written with what differs from the defaults: `Plate(T=1.05)`.
+    """
+    def alike(one: tuple, other: object) -> bool:
+        return type(one) is type(other) and tuple.__eq__(one, other)
+
+    def written(one: Any) -> str:
+        usual = kind._field_defaults  # type: ignore[attr-defined]
+        given = [f"{name}={value}" for name, value in one._asdict().items()
+                 if value == value and value != usual.get(name)]        # nan is no number that was given
+        return f"{kind.__name__}({', '.join(given)})"
+    for name, method in (("__eq__", alike), ("__ne__", lambda *pair: not alike(*pair)),
+                         ("__repr__", written)):
+        setattr(kind, name, method)
+    return kind
+
+
+@of_one_kind
+class Periodic(NamedTuple):
+    """Periodic in x with period aspect L; rolls come in pairs. As one of four sides: goes on in the other."""
+
+    @property
+    def axes(self) -> tuple[bool, bool]:
+        return True, False
+
+    def rolls(self, x, y, width, L, count):
+        """Velocities of KHP95, Sec. VI (count = 2, aspect 2); as printed they are not free of divergence."""
+        if count < 2 or count % 2:
+            raise ValueError(f"rolls between periodic sides come in pairs, got {count}: give an even number")
+        k = np.pi*count/width
+        return np.sin(k*x)*np.sin(2*np.pi*y/L), np.cos(k*x)*np.cos(np.pi*y/L)
+
+
+@of_one_kind
+class Torus(NamedTuple):
+    """Periodic along both axes: no plates. For flows that are not convection."""
+
+    @property
+    def axes(self) -> tuple[bool, bool]:
+        return True, True
+
+
+@of_one_kind
+class Walls(NamedTuple):
+    """No-slip walls at x = -+ aspect L/2 too, their temperature linear in y    [KHP95, Fig. 6]"""
+
+    @property
+    def axes(self) -> tuple[bool, bool]:
+        return False, False
+
+    def rolls(self, x, y, width, L, count):
+        """v = (psi_y, -psi_x), psi = cos(a) sin(count (a + pi/2)) cos^2(pi y/L), a = pi x/width: no slip."""
+        if count < 1:
+            raise ValueError(f"a box with four walls holds at least one roll, got {count}")
+        a, b = np.pi*x/width, np.pi*y/L
+        s, c = np.sin(count*(a + np.pi/2)), np.cos(count*(a + np.pi/2))
+        slope = np.pi/width*(count*np.cos(a)*c - np.sin(a)*s)
+        return -np.pi/L*np.cos(a)*s*np.sin(2*b), -slope*np.cos(b)**2
+
+
+@of_one_kind
+class Plate(NamedTuple):
+    """No slip. Its temperature is T, or heat q enters the fluid per area and time; adiabatic by default."""
+    T: float = nan
+    q: float = 0.0
+
+
+@of_one_kind
+class Slip(NamedTuple):
+    """No friction and no passage, as a plane of symmetry; T and q as of a plate."""
+    T: float = nan
+    q: float = 0.0
+
+
+@of_one_kind
+class Sliding(NamedTuple):
+    """A plate that slides along itself: v is its velocity along x, or of a left or right side along y."""
+    v: float
+    T: float = nan
+    q: float = 0.0
+
+
+class Sides(NamedTuple):
+    """Four sides of any kinds; periodic ones come in pairs."""
+    left: Any
+    right: Any
+    bottom: Any
+    top: Any
+
+    @property
+    def axes(self) -> tuple[bool, bool]:
+        return isinstance(self.left, Periodic), isinstance(self.bottom, Periodic)
+
+
+class HeatPath(NamedTuple):
+    """Heat runs along an axis (0: x, 1: y), from a side dT hotter than the other, `length` away."""
+    axis: int
+    dT: float
+    length: float
+
+
+SOLID = (Plate, Slip, Sliding)
+
+
+def warm(side: Any) -> bool:
+    """Has the side a temperature of its own?"""
+    return isinstance(side, SOLID) and not np.isnan(side.T)
+
+
+def adiabatic(side: Any) -> bool:
+    """Does no heat pass? None does, on average, where the box goes on periodically."""
+    return isinstance(side, Periodic) or (np.isnan(side.T) and side.q == 0)
+
+
+def check_sides(sides: Sides) -> None:
+    """Refuse what is no side, a periodic one without its partner, and numbers that no side can have."""
+    for name, side in sides._asdict().items():
+        if not isinstance(side, (Periodic, *SOLID)):
+            raise TypeError(f"{name} must be Periodic(), Plate(...), Slip(...) or Sliding(v, ...), "
+                            f"got {side!r}")
+        check_numbers(f"{name} = {side}", side)
+    for one, other in (("left", "right"), ("bottom", "top")):
+        pair = getattr(sides, one), getattr(sides, other)
+        if sum(isinstance(side, Periodic) for side in pair) == 1:
+            raise ValueError(f"{one} = {pair[0]}, {other} = {pair[1]}: periodic sides come in pairs, make "
+                             "both or none Periodic()")
+
+
+def check_numbers(what: str, side: Any) -> None:
+    """Refuse a temperature and a heat together, T <= 0, and what is not finite."""
+    if warm(side) and not (0 < side.T < np.inf and side.q == 0):
+        raise ValueError(f"{what}: T must be positive and finite, and a side of given T takes what heat the "
+                         "fluid brings: leave out q, or T")
+    if not all(isfinite(getattr(side, name, 0.0)) for name in ("q", "v")):
+        raise ValueError(f"{what}: heat and velocity must be finite numbers")
