@@ -34,8 +34,8 @@ def cavity(rows: int = 32, ra: float = 1e4, pr: float = 0.71, mach: float = 0.03
         0.05    +0.7   -0.5       +7.0   -7.0       +60    -47
 
     which is some 28 (mach/dT)^2 per cent while that is small; dT itself does not show up to 0.3. So take mach
-    = dT/10 for 0.3 %; the time for a run goes as 1/mach. Held points err by some (dT/mach)^2/rows^2 besides, as
-    they exchange P(rho_a, T_b): by 13 % of Nu at mach = dT/3 with 16 rows, by 45 % at dT/10.
+    = dT/10 for 0.3 %; the time for a run goes as 1/mach. Held points err by some (dT/mach)^2/rows^2 besides,
+    as they exchange P(rho_a, T_b): by 13 % of Nu at mach = dT/3 with 16 rows, by 45 % at dT/10.
 
     Raises ValueError: a number is not positive, or dT is not below 2.
     """

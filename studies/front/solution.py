@@ -3,8 +3,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
+from continuum.fluid import Fields
 from studies.front.picture import picture
 from studies.front.saving import save
 from studies.kit.stats import Measured
@@ -59,6 +61,12 @@ class Solution:
     def fields(self) -> pd.DataFrame:
         """x, y, vx, vy, rho, T and the volume V, a row for each point or node."""
         return self.places.copy()
+
+    @property
+    def at(self) -> Fields:
+        """The same as arrays, places and velocities (n, 2): what functions of a flow take."""
+        x, y, vx, vy, *others = self.places.to_numpy().T
+        return Fields(np.stack([x, y], axis=1), np.stack([vx, vy], axis=1), *others)
 
     def plot(self, path: str | Path | None = None) -> Any:
         """The figure of temperature, velocities and the history; written to `path`, if given."""
