@@ -19,7 +19,7 @@ def test_every_name_has_its_word():
     assert "no name and no sentence has 'xyz'" in words.explained("xyz")
 
 
-@pytest.mark.parametrize("study", ["cost"])
+@pytest.mark.parametrize("study", ["cost", "hardcases"])
 def test_every_name_in_tables_is_a_word(study):
     for table in (ROOT/"results"/study).glob("*.csv*"):
         frame = read(table)

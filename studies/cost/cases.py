@@ -14,7 +14,7 @@ from itertools import product
 from typing import Any, NamedTuple
 
 from continuum.exact.plates import FLOWS
-from studies.build import METHODS
+from studies.build import variant, variants
 from studies.build.names import START_JITTER
 from studies.build.spam import OF_LIMIT
 from studies.cost import pypde, rolls
@@ -63,19 +63,14 @@ Entries = dict[str, Entry]
 
 # --- who takes part -----------------------------------------------------------------------------------------
 
-def built(*names: str) -> dict[str, Any]:
-    """Methods by their names in code."""
-    return {name: METHODS[name] for name in names}
-
-
-LATTICES = built(NEAREST, LATTICE, WIDE)
-STAYING = {**LATTICES, **built(ON_TORUS)}
-HELD = {**LATTICES, **built(JITTERED)}
-SHAKEN = {**LATTICES, AS_MOVING: METHODS[JITTERED]._replace(size=START_JITTER)}
-PARTICLES = built(LUCY, MONAGHAN, WENDLAND)
-MORE_PARTICLES = {**PARTICLES, **built(LESS_STATIC)}
-POINTS_THAT_MOVE = built(MOVING)
-CELLS = built(GRID)
+LATTICES = variants(NEAREST, LATTICE, WIDE)
+STAYING = {**LATTICES, **variants(ON_TORUS)}
+HELD = {**LATTICES, **variants(JITTERED)}
+SHAKEN = {**LATTICES, AS_MOVING: variant(JITTERED)._replace(size=START_JITTER)}
+PARTICLES = variants(LUCY, MONAGHAN, WENDLAND)
+MORE_PARTICLES = {**PARTICLES, **variants(LESS_STATIC)}
+POINTS_THAT_MOVE = variants(MOVING)
+CELLS = variants(GRID)
 
 
 def entries(methods: Mapping[str, Any], *rest: Any) -> Entries:
