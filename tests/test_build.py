@@ -10,7 +10,7 @@ from continuum.scene import Periodic, RayleighBenard, Walls
 from particles.fields import kinetic_energy
 from particles.method import Method
 from particles.run import Plan, run
-from studies.build import METHODS, named, ready
+from studies.build import METHODS, joined, ready
 from studies.build.scenes import Scene, Sound, TaylorGreen, between_plates
 from studies.build.spam import VARIANTS
 from studies.judge.contract import check
@@ -97,7 +97,7 @@ def test_an_unknown_name_gets_a_line_with_names_that_are_near(wrong, near):
 
 def test_two_definitions_of_a_name_are_refused_with_both():
     with pytest.raises(ValueError, match=r"two methods are called 'moving': FacesMotion.* and Scheme"):
-        named([("moving", METHODS["moving"])], [("moving", METHODS["fixed-lattice"])])
+        joined([("moving", METHODS["moving"])], [("moving", METHODS["fixed-lattice"])])
 
 
 def test_a_variant_of_ones_own_stands_in_place_of_a_name():

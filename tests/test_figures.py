@@ -154,7 +154,7 @@ def test_colours_of_the_map_are_its_outcomes():
     rows = hardcases_figures.judged(table)
     assert (rows["error"] <= NEAR).eq(rows["outcome"] == "right").all()
     words = " ".join(texts(hardcases_figures.chart(table)).split())
-    assert all(name in words or hardcases_figures.called(name) in words for name in set(rows["method"]))
+    assert all(name in words for name in set(rows["method"]))
 
 
 def test_frozen_particles_are_named(full):

@@ -10,7 +10,6 @@ from studies.build.spam import PRINTED
 from studies.front import compare, solve
 from studies.front.__main__ import main
 from studies.front.solution import NoSuchQuantity
-from studies.front.solving import ALL
 
 RB = "rayleigh-benard"
 
@@ -136,10 +135,3 @@ def test_the_command_prints_and_draws_and_tells_errors_in_a_line(tmp_path, capsy
     assert "error = " in capsys.readouterr().out and (tmp_path/"sound-grid.png").exists()
     assert main(["sound", "nothing", "--out", str(tmp_path)]) == 1
     assert "no method is called 'nothing'" in capsys.readouterr().err
-
-
-def test_every_name_has_its_word():
-    from studies.build import words
-    assert {*ALL} <= {*words.METHODS} and {*SCENES} == {*words.SCENES}
-    assert "spam-wendland-c2" in words.explained("Wendland") and "moving" not in words.explained("Wendland")
-    assert "no name and no sentence has 'xyz'" in words.explained("xyz")

@@ -21,7 +21,7 @@ def test_bisection_finds_a_limit_from_either_side_and_says_so_when_there_is_none
     assert all(np.isnan(bisected(lambda dt, bad=bad: bad, first).value) for bad in (True, False))
 
 
-@pytest.mark.parametrize("method, eta", [("spam Lucy", 0.3), ("fixed lattice", 0.0)])
+@pytest.mark.parametrize("method, eta", [("spam-range-2.5", 0.3), ("fixed-lattice", 0.0)])
 def test_trial_eigenvalues_and_formula_agree(method, eta):
     trial, variant = AT_REST[method]
     case = Limit(method=method, trial=trial, variant=variant, scene="any", eta=eta, k=eta)

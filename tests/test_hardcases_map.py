@@ -65,7 +65,7 @@ def test_methods_start_with_the_flow_and_mass_of_the_scene(case):
 
 def run(**values):
     """A row of `hard_runs`."""
-    usual = {"case": "Ra 1e5", "method": "fixed lattice", "rows": 16, "k": 0.01, "flow": 0.01,
+    usual = {"case": "Ra 1e5", "method": "fixed-lattice", "rows": 16, "k": 0.01, "flow": 0.01,
              "mass_drift": 0.0, "k_start": 0.01, "flow_start": 0.01, "reached": 1.0, "refused": ""}
     return {**usual, **values}
 

@@ -104,9 +104,9 @@ def test_what_is_tried_out_stands_beside_its_kin_with_the_nearest_rows():
     row = {**case.point, "ke_field": 1/7, "ke_field_err": 0.01}
     known = load(tables.ALL, "rb", RESULTS)
     head, mine, _, *kin = own.beside([case], {"means": pd.DataFrame([row])}, known)
-    assert mine == " 25 rows  0.142857 +- 0.010000  SPAM, Wendland C2" and "Ra 10000" in head
-    assert sum("as printed" in line for line in kin) == 1 and all("DIH" not in line for line in kin)
-    assert any(line.startswith(" 50 rows") and "Wendland C2" in line for line in kin), "25 is its own"
+    assert mine == " 25 rows  0.142857 +- 0.010000  spam-wendland-c2" and "Ra 10000" in head
+    assert sum(line.endswith(" spam") for line in kin) == 1 and all("fixed" not in line for line in kin)
+    assert any(line.startswith(" 50 rows") and "spam-wendland-c2" in line for line in kin), "25 is its own"
     assert any(line.startswith("   limit") and "grid" in line for line in kin)
     assert "diverged" in list(own.beside([case], {}, known))[1]
 

@@ -55,7 +55,7 @@ def test_no_table_of_a_study_may_lack_a_column_that_it_declares(small, capsys):
     """Not even one that findings do not read: diagrams would be left out."""
     write_page(small)
     columns = [*cost_tables.POINTS.columns, "size", "commit"]
-    texts = {"scene": "sound", "quantity": "velocity", "method": "moving points", "size": "fine",
+    texts = {"scene": "sound", "quantity": "velocity", "method": "moving", "size": "fine",
              "commit": "abc"}
     for column in ("error_err", "setup_s", "commit"):
         row = {name: texts.get(name, 1.0) for name in columns if name != column}

@@ -20,7 +20,7 @@ from studies.build import fixed, grid, moving, rr98_moving, spam
 from studies.build.setting import CannotTake, Ready, of_method
 
 
-def named(*families: Iterable[tuple[str, Any]]) -> dict[str, Any]:
+def joined(*families: Iterable[tuple[str, Any]]) -> dict[str, Any]:
     """One table of names. Raises ValueError: A name stands for two variants."""
     table: dict[str, Any] = {}
     for name, variant in (pair for family in families for pair in family):
@@ -38,7 +38,7 @@ def prefixed(family: str, variants: Mapping[str, Any], usual: str) -> Iterable[t
 
 
 #: name -> variant; tables have the family in another column
-METHODS = named(
+METHODS = joined(
     prefixed("grid", grid.FORMS, "flux-form"),
     prefixed("spam", spam.VARIANTS, "printed"),
     fixed.SCHEMES.items(),
@@ -81,6 +81,11 @@ def variant(name: str) -> Any:
         raise ValueError(f"no method is called {name!r}; near to it are {near(name, METHODS)}; "
                          "studies.build.METHODS lists all")
     return METHODS[name]
+
+
+def variants(*names: str) -> dict[str, Any]:
+    """Variants by their names."""
+    return {name: variant(name) for name in names}
 
 
 def near(name: str, names: Iterable[str]) -> str:

@@ -24,21 +24,27 @@ def of(kind: str) -> dict[str, Word]:
 
 
 METHODS, SCENES, QUANTITIES = of("method"), of("scene"), of("quantity")
-#: of tables: the family of a method, and the variant that has the family's own name
-FAMILIES = {"compressible": ("grid", "flux-form"), "spam": ("spam", "printed"), "dih": ("", "")}
+#: methods that tables and figures name besides: with another number, or of one study
+VARIATIONS = of("variation")
+#: method in tables that have a variant besides -> the family, and the variant that has the family's own name
+FAMILIES = {"compressible": ("grid", "flux-form"), "spam": ("spam", "printed"), "dih": ("", ""),
+            "boussinesq": ("boussinesq", "mac"), "linear": ("linear-theory", ""),
+            "pypde-compressible": ("py-pde", "staggered"),
+            "pypde-boussinesq": ("py-pde-boussinesq", "vorticity")}
 
 
-def name_of(method: str, variant: str) -> str:
-    """The name of what tables call by a family and a variant; nothing where it has none."""
+def name_of(method: str, variant: str = "") -> str:
+    """The name of what tables call by a method and a variant; nothing where it has none."""
     family, usual = FAMILIES.get(method, (method, ""))
     name = "-".join(filter(None, (family, variant.removeprefix(usual).removeprefix("-"))))
-    return name if name in METHODS else ""
+    return name if name in METHODS or name in VARIATIONS else ""
 
 
 def explained(text: str = "") -> str:
     """Lines of all words with a text in their name or sentence, below what they are."""
     lines = []
-    for title, words in (("methods", METHODS), ("scenes", SCENES), ("quantities", QUANTITIES)):
+    for title, words in (("methods", METHODS), ("methods of single studies", VARIATIONS), ("scenes", SCENES),
+                         ("quantities", QUANTITIES)):
         rows = [word for word in words.values() if text.casefold() in " ".join(word).casefold()]
         lines += [f"{title}:", *(f"  {word.name:34s}{word.about}{f'  [{word.source}]'*bool(word.source)}"
                                  for word in rows)]*bool(rows)

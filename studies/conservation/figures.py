@@ -6,14 +6,14 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.build.labels import label
 from studies.conservation.tables import SUMS
 from studies.kit.figure import Drawing, Drawings, below, errorbar, figure, look
 
-MOTIONS = {"literal": "literal (39-41)", "convective": "convective (46-48)", "carried": "46-48, dV carried",
-           "constant-mass": "constant mass (49)"}
-#: of `steps`: those of RR98's motions, by their names; old and new velocities
-STEPPED = {motion: label("dih", f"moving-{motion}") for motion in ("literal", "constant-mass")}
+#: RR98's motions, by their names, with their equations
+MOTIONS = {"literal": "moving-literal (39-41)", "convective": "moving-convective (46-48)",
+           "carried": "moving-carried (46-48)", "constant-mass": "moving-constant-mass (49)"}
+#: those of `steps`, with old and new velocities
+STEPPED = {motion: MOTIONS[motion] for motion in ("literal", "constant-mass")}
 INTEGRATORS: dict[str, Any] = {
     "euler": {"label": "old velocities [Eq. 40]", "face": "white"},
     "two-step": {"label": "new velocities [Eq. 41]", "face": None}}

@@ -14,11 +14,9 @@ from itertools import product
 from typing import Any, NamedTuple
 
 from continuum.exact.plates import FLOWS
-from studies.build.fixed import SCHEMES
-from studies.build.grid import FORMS
-from studies.build.moving import MOTIONS
+from studies.build import variant, variants
 from studies.build.names import START_JITTER
-from studies.build.spam import OF_LIMIT, VARIANTS
+from studies.build.spam import OF_LIMIT
 from studies.cost import pypde, rolls
 from studies.cost.contestants import (
     DecayingVortex,
@@ -38,6 +36,7 @@ from studies.cost.race import Entry, Price, Race
 from studies.cost.rolls import LATE, LOWER_RA, SETTLED, HeatedLayer
 from studies.cost.seconds import Flock, StepTime, TwoThreads, Web
 from studies.cost.tables import (
+    AS_MOVING,
     GRID,
     JITTERED,
     LATTICE,
@@ -47,6 +46,7 @@ from studies.cost.tables import (
     MONAGHAN,
     MOVING,
     NEAREST,
+    ON_TORUS,
     PYPDE,
     WENDLAND,
     WIDE,
@@ -63,22 +63,14 @@ Entries = dict[str, Entry]
 
 # --- who takes part -----------------------------------------------------------------------------------------
 
-LATTICES = {
-    NEAREST: SCHEMES["fixed-lattice-h1.2"],
-    LATTICE: SCHEMES["fixed-lattice"],
-    WIDE: SCHEMES["fixed-lattice-h3"],
-}
-STAYING = {**LATTICES, JITTERED: SCHEMES["fixed-jittered-delaunay"]}
-HELD = {**LATTICES, JITTERED: SCHEMES["fixed-jittered-plates"]}
-SHAKEN = {**LATTICES, JITTERED: HELD[JITTERED]._replace(size=START_JITTER)}     # as moving points start
-PARTICLES = {
-    LUCY: VARIANTS["printed"],
-    MONAGHAN: VARIANTS["printed-monaghan"],
-    WENDLAND: VARIANTS["wendland-c2"],
-}
-MORE_PARTICLES = {**PARTICLES, LESS_STATIC: VARIANTS["less-static-50"]}
-POINTS_THAT_MOVE = {MOVING: MOTIONS["moving"]}
-CELLS = {GRID: FORMS["flux-form"]}
+LATTICES = variants(NEAREST, LATTICE, WIDE)
+STAYING = {**LATTICES, **variants(ON_TORUS)}
+HELD = {**LATTICES, **variants(JITTERED)}
+SHAKEN = {**LATTICES, AS_MOVING: variant(JITTERED)._replace(size=START_JITTER)}
+PARTICLES = variants(LUCY, MONAGHAN, WENDLAND)
+MORE_PARTICLES = {**PARTICLES, **variants(LESS_STATIC)}
+POINTS_THAT_MOVE = variants(MOVING)
+CELLS = variants(GRID)
 
 
 def entries(methods: Mapping[str, Any], *rest: Any) -> Entries:
@@ -168,20 +160,20 @@ LADDERS = (
     Ladder("taylor-green", (LATTICE,), rungs(16, 192)),
     Ladder("taylor-green", (GRID,), rungs(16, 128)),
     Ladder("taylor-green", (PYPDE,), rungs(16, 64), kind=SolverRace),
-    Ladder("taylor-green", (JITTERED,), rungs(16, 64), THREE),
+    Ladder("taylor-green", (ON_TORUS,), rungs(16, 64), THREE),
     Ladder("taylor-green", PARTICLES, rungs(12, 32)),       # they are far off at any resolution
     Ladder("taylor-green", (MOVING,), rungs(12, 48), TWO),
     Ladder("sound", LATTICES, rungs(16, 128)),
     Ladder("sound", (MOVING,), rungs(16, 192)),
     Ladder("sound", (GRID,), rungs(16, 256)),
     Ladder("sound", PARTICLES, rungs(16, 64)),
-    Ladder("sound", (JITTERED,), rungs(16, 128), THREE),
+    Ladder("sound", (ON_TORUS,), rungs(16, 128), THREE),
     Ladder("conduction", (GRID, *LATTICES), rungs(8, 96)),
     Ladder("conduction", PARTICLES, (16, *rungs(32, 96))),      # they err alike at any resolution
-    Ladder("conduction", (JITTERED, MOVING), rungs(8, 64), THREE),
+    Ladder("conduction", (AS_MOVING, MOVING), rungs(8, 64), THREE),
     Ladder("couette", (GRID, *LATTICES), rungs(8, 96)),
     Ladder("couette", PARTICLES, (16, *rungs(32, 96))),
-    Ladder("couette", (JITTERED,), rungs(8, 64), THREE),
+    Ladder("couette", (AS_MOVING,), rungs(8, 64), THREE),
     Ladder("convection", (GRID,), (*rungs(8, 16), 20, 24, 32, 40, 48, 64, 88)),
     Ladder("convection", LATTICES, rungs(12, 48)),
     Ladder("convection", (JITTERED,), (*rungs(12, 32), 40), TWO),

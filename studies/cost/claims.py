@@ -32,10 +32,10 @@ def growth(method: str) -> Value:
 
 
 ASKED = "the factor asked for in convection"
-OVER_GRID = "CPU seconds of a lattice with h = 1.2 a for 1 % in velocity over the compressible grid's"
+OVER_GRID = "CPU seconds of fixed-lattice-h1.2 for 1 % in velocity over the compressible grid's"
 LOWER_ASKED = "the factor asked for at Ra 10 000"
-HALF = ("at half the Rayleigh number, 5000, fixed points are no dearer than a grid, either: CPU seconds of a "
-        "lattice with h = 1.2 a")
+HALF = ("at half the Rayleigh number, 5000, fixed points are no dearer than a grid, either: CPU seconds of "
+        "fixed-lattice-h1.2")
 CHEAPEST = first("needed", "cpu_s", REACHED, by="cpu_s", err="high - cpu_s", method=FIXED, level=0.01, **K)
 ERRORS = (
     Claim(id="own-speed-fixed-points", source="RR98 Sec. III", at_most=2,
@@ -62,7 +62,7 @@ ERRORS = (
     Claim(id="own-speed-fixed-points-staggered", source="RR98 Sec. III", at_most=2, because=ASKED,
           value=seconds(NEAREST, VORTEX)/seconds(PYPDE, VORTEX),
           statement="in a Taylor-Green vortex fixed points are no dearer than a staggered grid, whose "
-                    "friction is between nearest neighbours, too: CPU seconds of a lattice with h = 1.2 a "
+                    "friction is between nearest neighbours, too: CPU seconds of fixed-lattice-h1.2 "
                     "for 1 % in velocity over py-pde's, at the limit of its formula [asked after both had "
                     "been seen]"),
     Claim(id="own-speed-moving-points", source="RR98 Sec. III", at_most=10, because="an order of magnitude",
@@ -113,14 +113,14 @@ def saved(ratio: str, base: str, left_out: str) -> Value:
 
 def wrong(scene: str, left_out: str) -> Value:
     """What leaving out changes of the answer; no number where the run diverges."""
-    return one("measured", "changed", "changed >= 0", err="error_err", scene=scene, base="fixed points",
+    return one("measured", "changed", "changed >= 0", err="error_err", scene=scene, base=LATTICE,
                left_out=left_out)
 
 
 MATTERS = "1 % of the answer is the error at which methods are compared"
 TERMS = (
     Claim(id="own-scenes-heat-alike", source="RR98 Sec. III", at_most=0.8,
-          value=saved("step_ratio", "fixed points, loops of all fluids", "heat"),
+          value=saved("step_ratio", "fixed-lattice-edge-by-edge", "heat"),
           statement="a scene without heat pays for none, loop for like loop: CPU seconds of a point and "
                     "step of a Taylor-Green vortex without its energy equation over those with it, both in "
                     "the loops that all fluids take [asked after the ideal gas's own loops had been as "
@@ -131,13 +131,13 @@ TERMS = (
           statement="slow vortices need no heat: what the missing energy equation changes of the velocity, "
                     "Mach 0.05"),
     Claim(id="own-scenes-motion", source="RR98 Sec. III", at_most=0.1, because="an order of magnitude",
-          value=saved("time_ratio", "moving points", "motion"),
+          value=saved("time_ratio", MOVING, "motion"),
           statement="points that stay are ten times cheaper: CPU seconds of a point and unit of time of a "
                     "Taylor-Green vortex on a lattice over those on moving points"),
     Claim(id="own-scenes-compressibility", source="RR98 Sec. III", at_most=0.1,
-          value=saved("time_ratio", "fixed points", "compressibility"),
+          value=saved("time_ratio", LATTICE, "compressibility"),
           statement="a slow flow without sound is ten times cheaper: CPU seconds of a cell and unit of "
-                    "time of a Taylor-Green vortex on the MAC grid over those of a point of the gas, Mach "
+                    "time of a Taylor-Green vortex with mac over those of a point of the gas, Mach "
                     "0.05",
           because="steps are longer by one over the Mach number, and cost more"),
     Claim(id="own-scenes-mending", source="RR98 Eq. 51", at_most=0.01, because=MATTERS,

@@ -24,12 +24,12 @@ WORST = 10.0        # relative error that is drawn: ten times the answer
 DECIDE = (0.01, 0.03, 0.1)
 #: how the names of a family begin -> its colour, its marker
 FAMILIES = {
-    "compressible": ("#000000", "X"),
-    "MAC": ("#882255", "P"),
+    "grid": ("#000000", "X"),
+    "mac": ("#882255", "P"),
     "py-pde": ("#E69F00", "*"),
-    "DIH lattice": ("#0072B2", "o"),
-    "DIH Delaunay": ("#56B4E9", "^"),
-    "SPAM": ("#D55E00", "s"),
+    "fixed-lattice": ("#0072B2", "o"),
+    "fixed-jittered": ("#56B4E9", "^"),
+    "spam": ("#D55E00", "s"),
     "moving": ("#009E73", "D"),
 }
 #: how the markers of a family's members are filled

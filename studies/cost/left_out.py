@@ -166,7 +166,7 @@ Make = Callable[[int], Reduced]
 
 
 class Base(NamedTuple):
-    """A flow with everything, and what is left without each of what may be left out."""
+    """A method and flow with everything, and what is left without each of what may be left out."""
     scene: str
     name: str
     quantity: str
@@ -176,16 +176,16 @@ class Base(NamedTuple):
 
 
 BASES = (
-    Base("taylor-green", "moving points", "velocity", 24, vortex_moving, (
+    Base("taylor-green", "moving", "velocity", 24, vortex_moving, (
         ("motion", vortex_without_motion),)),
-    Base("taylor-green", "fixed points", "velocity", 24, vortex, (
+    Base("taylor-green", "fixed-lattice", "velocity", 24, vortex, (
         ("heat", vortex_without_heat), ("compressibility", vortex_without_sound))),
-    Base("taylor-green", "fixed points, loops of all fluids", "velocity", 24, vortex_edge_by_edge, (
+    Base("taylor-green", "fixed-lattice-edge-by-edge", "velocity", 24, vortex_edge_by_edge, (
         ("heat", vortex_without_heat),)),
-    Base("taylor-green", "fixed points with noise", "velocity", 24, vortex_with_noise, (
+    Base("taylor-green", "fixed-lattice-noise", "velocity", 24, vortex_with_noise, (
         ("noise", vortex_without_noise),)),
-    Base("convection", "fixed points", "K", 16, layer, (("mended heating", layer_without_mending),)),
-    Base("convection", "fixed points, loops of all fluids", "K", 16, layer_edge_by_edge, (
+    Base("convection", "fixed-lattice", "K", 16, layer, (("mended heating", layer_without_mending),)),
+    Base("convection", "fixed-lattice-edge-by-edge", "K", 16, layer_edge_by_edge, (
         ("mended heating", layer_without_mending),)),
 )
 

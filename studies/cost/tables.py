@@ -1,25 +1,27 @@
-"""Tables of cost, and the names of methods in them.
+"""Tables of cost, and the names of methods in them, which `studies.build.words` explains.
 
 CPU seconds of one thread; errors relative; `_err`: half width of a 95 % interval. resolution: points to the
 wavelength (taylor-green, sound) or rows to the height.
 """
-from studies.build.labels import LABELS
 from studies.kit.stats import Measured
 from studies.kit.table import Table
 
-GRID = LABELS["grid"]
-MAC = "MAC grid, IMEX"
-PYPDE = "py-pde, gas"
-NEAREST = LABELS["fixed-lattice-h1.2"]
-LATTICE = LABELS["fixed-lattice"]
-WIDE = LABELS["fixed-lattice-h3"]
-JITTERED = LABELS["fixed-jittered-plates"]
-LUCY = LABELS["spam"]
-MONAGHAN = LABELS["spam-monaghan"]
-WENDLAND = LABELS["spam-wendland-c2"]
-LESS_STATIC = LABELS["spam-less-static-50"]
-MOVING = LABELS["moving"]
-METHODS = (GRID, MAC, PYPDE, NEAREST, LATTICE, WIDE, JITTERED, LUCY, MONAGHAN, WENDLAND, LESS_STATIC, MOVING)
+GRID = "grid"
+MAC = "mac"
+PYPDE = "py-pde"
+NEAREST = "fixed-lattice-h1.2"
+LATTICE = "fixed-lattice"
+WIDE = "fixed-lattice-h3"
+JITTERED = "fixed-jittered-plates"
+ON_TORUS = "fixed-jittered-delaunay"        # the same without plates
+AS_MOVING = "fixed-jittered-0.2-plates"     # the same, disordered as moving points start
+LUCY = "spam"
+MONAGHAN = "spam-monaghan"
+WENDLAND = "spam-wendland-c2"
+LESS_STATIC = "spam-less-static-50"
+MOVING = "moving"
+METHODS = (GRID, MAC, PYPDE, NEAREST, LATTICE, WIDE, JITTERED, ON_TORUS, AS_MOVING, LUCY, MONAGHAN, WENDLAND,
+           LESS_STATIC, MOVING)
 
 RUN = ["scene", "method", "resolution", "seed"]
 COUNT = {"points": ("number of points or cells", ""),

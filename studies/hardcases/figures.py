@@ -7,7 +7,6 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from studies.build.labels import LABELS
 from studies.hardcases.cases import IN_LAYERS, IN_TUBES
 from studies.hardcases.derive import NEAR, SPURIOUS
 from studies.hardcases.extremes import BOXES, LAYERS, ROWS
@@ -28,10 +27,6 @@ def dots(number: int, size: float = 2) -> dict[str, Any]:
 
 
 CASES = (*LAYERS, *BOXES, "shear layer", "shock tube")
-#: of `studies.build`, by the name in tables
-NAMES = {"spam printed": "spam", "spam Wendland": "spam-wendland-c2", "fixed lattice": "fixed-lattice",
-         "fixed jittered": "fixed-jittered-delaunay", "fixed nested": "fixed-lattice-nested-only",
-         "drift literal": "moving-literal", "drift constant mass": "moving-constant-mass"}
 MANY = 3                # cases of a method, and methods of a case, from which on it has a line of its own
 FLOWS = 100*SPURIOUS    # speeds of KHP95 over that of sound
 #: largest error, face, letters; the darker, the worse
@@ -41,11 +36,6 @@ LETTERS = 112           # in a line of the page
 KEY = ("A cell is an error in %: of the flow against the finest grid, the exact answer or theory; corner: "
        "speed over that of KHP95's flows; tube: ringing of v. Near 100: the flow froze. Dark: the run ended "
        "early. ?: nothing to judge by. Empty: not tried.")
-
-
-def called(method: str) -> str:
-    """What people call a method of the tables."""
-    return LABELS.get(NAMES.get(method, method), method)
 
 
 def judged(rows: pd.DataFrame) -> pd.DataFrame:
@@ -71,7 +61,7 @@ def chart(rows: pd.DataFrame) -> Figure:
     for row in shown.itertuples():
         cell(axes, cases.index(row.case), methods.index(row.method), row)
     axes.set(xlim=(-0.5, len(cases) - 0.5), ylim=(len(methods) - 0.5, -0.5))
-    axes.set_yticks(range(len(methods)), labels=map(called, methods), fontsize=8)
+    axes.set_yticks(range(len(methods)), labels=methods, fontsize=8)
     axes.set_xticks(range(len(cases)), labels=cases, fontsize=8, rotation=40, ha="right")
     axes.grid(False)
     page.suptitle(f"No method takes every hard case; layers have {ROWS} rows", fontsize=10)
@@ -84,7 +74,8 @@ def also_tried(rows: pd.DataFrame) -> str:
     """What has no line of its own, with its errors, by case."""
     words = [f"{case} (" + ", ".join(f"{row.method}: {said(row)}" for row in some.itertuples()) + ")"
              for case, some in groups(rows, "case")]
-    return fill("Also tried [%]: " + "; ".join(words) + ".", LETTERS) if words else ""
+    text = "Also tried [%]: " + "; ".join(words) + "."
+    return fill(text, LETTERS, break_on_hyphens=False) if words else ""
 
 
 def said(row: Any) -> str:
@@ -143,7 +134,7 @@ def expected(height: Any, amplitude: Any, scale: float, steep: float) -> None:
     amplitude.plot(times[1:]/theory.meets, growth, **DASHED, label="impulsive theory")
 
 
-ALL = (*IN_TUBES, "spam printed")
+ALL = (*IN_TUBES, "spam")
 SHIFT = 0.5             # between methods' densities, upwards
 
 
@@ -180,7 +171,7 @@ def densities(axes: Any, profiles: pd.DataFrame, rows: pd.DataFrame) -> None:
             axes.plot(x, up + profile.rho, **dots(number))
             axes.text(0.98, up + 0.02, f"{method}, $L$ = {L:g}", ha="right", fontsize=8)
         elif len(reached):
-            words = f"{method}: ended at {reached.iloc[-1]:.2g} of the time"
+            words = f"{method}:\nended at {reached.iloc[-1]:.2g} of the time"
             axes.text(0.98, up + 0.2, words, ha="right", fontsize=8)
 
 
@@ -194,7 +185,7 @@ def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
     page, (above, under) = figure(2, 1, width=7.0, height=2.9, sharex=True)
     rows, limits = rows.query("step == 1"), summary.query("step == 1")
     for number, method in enumerate(IN_LAYERS):
-        trend(above, rows[rows.method == method], number, called(method))
+        trend(above, rows[rows.method == method], number, method)
         fates(under, rows[rows.method == method], limits[limits.method == method], number)
     for level in (OFF, 1/OFF):
         above.axhline(level, color="grey", linewidth=0.8)
@@ -204,7 +195,7 @@ def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
     under.set(xlabel="Ra", ylim=(len(IN_LAYERS) - 0.4, -0.6), title="bars: " + "; ".join(
         f"{word} {kind}, all starts" for kind, (_, _, word) in LIMITS.items())
         + "\nticks: runs that came to their end; crosses: runs that did not")
-    under.set_yticks(range(len(IN_LAYERS)), labels=map(called, IN_LAYERS), fontsize=8)
+    under.set_yticks(range(len(IN_LAYERS)), labels=list(IN_LAYERS), fontsize=8)
     page.suptitle(f"On {ROWS} rows grid and points that stay end near Ra 5e5; moving points go on, but wrong",
                   fontsize=10)
     return page

@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.build.labels import ENERGY, ra_axis
+from studies.build.axes import ENERGY, ra_axis
 from studies.kit.figure import Drawing, Drawings, below, errorbar, figure, look
 from studies.onset.derive import means
 

@@ -9,10 +9,10 @@ import pandas as pd
 from continuum.scene import RayleighBenard
 from studies.build import METHODS, near
 from studies.build.fixed import Scheme
-from studies.build.labels import label
 from studies.build.moving import FacesMotion
 from studies.build.rr98_moving import DriftMotion
 from studies.build.spam import Variant
+from studies.build.words import name_of
 from studies.kit.case import Case
 from studies.kit.sweep import NoSuchCase
 from studies.kit.table import Tables
@@ -79,4 +79,4 @@ def lines(frame: pd.DataFrame) -> Iterator[str]:
     for method, variant, rows, ke, err in frame.sort_values("ke_field", ascending=False)[columns].to_numpy():
         size = "limit" if np.isinf(rows) else f"{rows:g} rows"
         value = f"{ke:.6f} +- {err:.6f}" if np.isfinite(ke) else "diverged"
-        yield f"{size:>8}  {value:<20}  {label(method, variant) or f'{method} {variant}'}"
+        yield f"{size:>8}  {value:<20}  {name_of(method, variant) or f'{method} {variant}'}"

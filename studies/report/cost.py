@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from studies.build import labels
+from studies.build.words import name_of
 from studies.report.inventory import Folder, Sheet, having, place
 from studies.report.numbers import seconds, with_error
 
@@ -26,7 +26,10 @@ LEAST = 3
 #: series of a panel shown at first
 MOST = 8
 #: kinds of methods by how their names begin, in the order of the page
-FAMILIES = ("compressible", "MAC", "DIH lattice", "DIH Delaunay", "moving", "SPAM", "py-pde")
+FAMILIES = ("grid", "mac", "fixed-lattice", "fixed-jittered", "fixed-random", "relaxed", "moving", "spam",
+            "py-pde")
+#: the schemes of both papers as printed
+PRINTED = ("spam", "moving-literal")
 #: levels at which members of a family are compared: the first that one of them reaches
 DECIDE = (0.01, 0.03, 0.1)
 #: of error, whose cost is told; columns of the table that tells it
@@ -185,7 +188,8 @@ def lines_of(group: pd.DataFrame, needed: pd.DataFrame | None) -> Iterator[Line]
         else:
             needs = by_table(having(needed, about))
         points = [point(row) for row in rows.to_dict("records")]
-        yield Line(label(about), family(str(about["method"])), points, needs)
+        words = label(about)
+        yield Line(words, family(words), points, needs)
 
 
 def usual_ones(lines: list[Line]) -> list[Line]:
@@ -195,7 +199,7 @@ def usual_ones(lines: list[Line]) -> list[Line]:
     for line in sorted(long, key=lambda line: line.rank):
         cheapest.setdefault(line.family, line)
     usual = list(cheapest.values())
-    printed = [line for line in lines if "as printed" in line.label]
+    printed = [line for line in lines if line.label.split(",")[0] in PRINTED]
     usual += [line for line in printed if line not in usual]
     return sorted(usual[:MOST], key=lambda line: line.order)
 
@@ -206,13 +210,13 @@ def family(method: str) -> str:
 
 
 def label(about: dict) -> str:
-    """Words for a line: the label where there is one; only smooth particles have several energies."""
+    """The name of a line's method where it has one; only smooth particles have several energies."""
     method = about["method"]
-    named = labels.label(method, about.get("variant", ""))
-    if named and method != "spam":
-        return named
-    if named:
-        about = {**about, "method": named, "variant": ""}
+    name = name_of(method, about.get("variant", ""))
+    if name and method != "spam":
+        return name
+    if name:
+        about = {**about, "method": name, "variant": ""}
     return ", ".join(str(value) for value in about.values() if value)
 
 

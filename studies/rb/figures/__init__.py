@@ -4,7 +4,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from continuum.published import published
-from studies.build.labels import ENERGY, label, ra_axis
+from studies.build.axes import ENERGY, ra_axis
+from studies.build.words import name_of
 from studies.kit.figure import Drawings, Overview
 from studies.kit.table import Tables
 from studies.rb.figures.energy import (
@@ -61,14 +62,14 @@ def main(tables: Tables) -> Figure | None:
 def whole(axes: Axes, tables: Tables, limit: pd.DataFrame, spam: pd.DataFrame) -> None:
     """K against Ra^-1/2: grid, points and particles with as many rows, and the printed numbers."""
     size = spam["resolution"].max()
-    grid(axes, limit, f"{label('compressible', 'flux-form')}, extrapolated")
+    grid(axes, limit, "grid, extrapolated")
     for kind, (column, words) in ENERGIES.items():
         style = KIND[kind] | {"markersize": 6, "zorder": 4}
-        energies(axes, spam, column, f"{label('spam', 'printed')}: {words}", style)
+        energies(axes, spam, column, f"spam: {words}", style)
     for variant, aside in POINTS.items():
         same = rows(tables, "means", method="dih", variant=variant, **LAYER, resolution=size)
         style = METHODS["dih", variant, "Kp"] | {"markersize": 8, "zorder": 5}
-        energies(axes, same.assign(steady=True), "ke", label("dih", variant), style, aside)
+        energies(axes, same.assign(steady=True), "ke", name_of("dih", variant), style, aside)
     name_frozen(axes, limit, spam)
     name_onset(axes)
     printed_numbers(axes)

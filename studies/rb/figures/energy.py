@@ -8,10 +8,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.build.labels import ENERGY, label, ra_axis
+from studies.build.axes import ENERGY, ra_axis
 from studies.build.moving import MOTIONS
 from studies.build.rr98_moving import DRIFT_MOTIONS
 from studies.build.spam import VARIANTS
+from studies.build.words import name_of
 from studies.kit.figure import below, figure
 from studies.kit.table import Tables, groups
 from studies.rb.looks import (
@@ -137,7 +138,7 @@ def fig6(tables: Tables) -> Figure | None:
         return None
     page, both = figure(1, 2, width=5, height=5, sharex=True, sharey=True)
     for axes, (kind, (column, words)) in zip(both, ENERGIES.items()):
-        grid(axes, limit, "compressible grid, extrapolated")
+        grid(axes, limit, "grid, extrapolated")
         for number, (_, group) in enumerate(reversed(groups(spam, "resolution"))):
             smaller = {"markersize": 7 - 1.2*number, "zorder": 4 - number, **(OPEN if number else {})}
             many = f"{words}, {group['particles'].iloc[0]:.0f} particles"
@@ -169,7 +170,7 @@ def fig8(tables: Tables) -> Figure | None:
             first = "" if number else f"{words}, one line a seed"
             axes.plot(run["t_viscous"], run[column], label=first, **style)
     style = KIND["grid"] | {"marker": "", "lw": 2.2}
-    axes.plot(cells["t_viscous"], cells["ke"], label="compressible grid", **style)
+    axes.plot(cells["t_viscous"], cells["ke"], label="grid", **style)
     axes.set(title=f"Approach to steady rolls at Ra = {spam['ra'].max():g}    [KHP95, Fig. 8]",
              xlabel=r"time  [$L^2/\nu$]; 1 is 5000 in KHP95's units", ylabel=ENERGY, ylim=(0, None))
     axes.legend(loc="upper right")
@@ -211,7 +212,7 @@ def changes(tables: Tables, method: str, order: Iterable[str], sizes: tuple[int,
         dots(axes, series, y, kinds[energy], KIND[energy.lower()])
     for row in gone.itertuples():
         say_diverged(axes, row, at[row.variant] + LOWER*sizes.index(row.resolution))
-    axes.set_yticks(range(len(names)), labels=[label(method, name) for name in names], fontsize=8)
+    axes.set_yticks(range(len(names)), labels=[name_of(method, name) for name in names], fontsize=8)
     axes.set(ylabel="variant", ylim=(len(names) - 0.4, -0.6), title=f"{title}  Ra = {RA}",
              xlabel=f"error of $K$ against the grid  [%], linear to {LINEAR} %, logarithmic beyond")
     symlog(axes, frame["error"])

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from studies.build.labels import label
+from studies.build.words import name_of
 from studies.kit import fits
 from studies.kit.figure import LINES, below, figure, look, plain_ticks
 from studies.kit.table import Tables
@@ -32,10 +32,8 @@ ROWS = "rows over the height $L$"
 SIGNS = "filled marks: too large, open: too small; bars: 95 % intervals"
 PALE = "pale lines: no power law, but a range"
 PANEL: Style = {"width": 5.2, "sharex": "row", "sharey": "row", "squeeze": False}
-#: of particles and of a grid that is not of this repository
-WORDS = {("spam", "printed", "Kp"): ENERGIES["kp"][1], ("spam", "printed", "Kg"): ENERGIES["kg"][1],
-         ("spam", "printed", "Nu"): "Nusselt number, particles",
-         ("pypde-compressible", "staggered", "Kp"): "grid in py-pde"}
+#: of particles, by energy
+WORDS = {"Kp": f"spam: {ENERGIES['kp'][1]}", "Kg": f"spam: {ENERGIES['kg'][1]}", "Nu": "spam: Nusselt number"}
 METHODS: dict[Key, Style] = {
     ("compressible", "flux-form", "Kp"): KIND["grid"],
     ("compressible", "paper-form", "Kp"): {"color": "0.45", "marker": "X", "linestyle": ":"},
@@ -139,7 +137,7 @@ def over_rows(axes: Axes, chosen: pd.DataFrame, keys: dict[Key, Style],
     """Errors of each series with its power law; at which rows runs diverged is said in the legend."""
     for key, style in keys.items():
         series = chosen[of_methods(chosen, {key: style})].sort_values("resolution")
-        words = WORDS.get(key) or label(*key[:2])
+        words = WORDS[key[2]] if key[0] == "spam" else name_of(*key[:2])
         if gone is not None and (lost := gone.loc[gone["variant"] == key[1], "resolution"]).any():
             words += f" [{', '.join(f'{size:.0f}' for size in lost)} rows: diverged]"
         if len(series):
