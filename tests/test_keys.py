@@ -96,7 +96,7 @@ def test_cost_depends_on_no_method_besides_its_own(copy):
     for file, first, new in METHODS:
         edit(copy, file, f"{new}, {first}", first)
     edit(copy, "particles/terms.py", "q = (a.qx + b.qx)*ab.wx", "q = (a.qx - b.qx)*ab.wx")
-    assert changed(cases, copy) == [case for case in cases if "SPAM" in case.label]
+    assert changed(cases, copy) == [case for case in cases if "spam" in case.label]
 
 
 def test_a_line_in_the_fluxes_changes_the_keys_of_spam_and_not_of_grids(cases, copy):
