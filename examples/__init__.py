@@ -1,6 +1,7 @@
 """Ten short scripts, each ends in a picture in results/own: `python -m examples.convection`.
 
-SIZE=quick makes them small, as the tests run them.
+SIZE=quick makes them small, as the tests run them. `python -m studies.report gallery` puts those of the usual
+size into the gallery of the page.
 """
 import os
 from pathlib import Path

@@ -37,7 +37,7 @@ def claims() -> pd.DataFrame:
             ("toy-two", "RR98 Eq. 42", "two is one", "paper", "1", 2.0, 0.0, 0.9, 1.1, "fails", "why", "rb"),
             ("toy-three", "RR98 Eq. 42", "three <b>& more", "own", "", math.nan, math.nan, math.nan, math.nan,
              "undecidable",
-             "not run", "onset")]
+             "not run", "rb")]
     return pd.DataFrame(rows, columns=list(COLUMNS[:-4])).assign(
         formula="one(y) in rows", equation="", headline="", evidence="")
 

@@ -8,8 +8,7 @@ from studies.kit.sweep import RESULTS
 from studies.kit.table import Tables
 from studies.report.__main__ import main
 from studies.report.equations import Account, cells, lines, number, text
-from studies.report.findings import claims_of
-from studies.report.inventory import NoReport
+from studies.report.inventory import NoReport, claims_of
 
 CLAIMS, LINES = claims_of(RESULTS), lines()
 NAMED = [str(place) for line in LINES for place in line.places]

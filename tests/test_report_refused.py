@@ -41,6 +41,11 @@ def test_claims_that_are_missing_or_lack_columns(small, capsys):
     assert "claims.csv does not exist" in refused(small, capsys)
 
 
+def test_claims_of_a_study_without_tables(small, capsys):
+    write(small/"claims.csv", claims().assign(study="onset"), head=["x"])
+    assert "claims.csv has claims of onset without tables" in refused(small, capsys)
+
+
 def test_a_table_that_lacks_columns_or_is_none(small, capsys):
     write_page(small)
     write(small/"rb/errors.csv", errors().drop(columns="error_err"), head=["x"])

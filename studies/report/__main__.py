@@ -1,4 +1,4 @@
-"""python -m studies.report [page|equations|tables|films]: what is made from tables, or films."""
+"""python -m studies.report [page|equations|tables|gallery|films]: what is made of results, or films."""
 import argparse
 import sys
 from collections.abc import Sequence
@@ -7,6 +7,7 @@ from pathlib import Path
 from studies.kit.study import say
 from studies.kit.sweep import RESULTS
 from studies.report.equations import write_equations
+from studies.report.gallery import write_gallery
 from studies.report.inventory import NoReport
 from studies.report.page import write_page
 from studies.report.tables import write_tables
@@ -15,7 +16,7 @@ from studies.report.tables import write_tables
 def main(arguments: Sequence[str] | None = None) -> int:
     """The command line; 0, or 1 where the page cannot be made."""
     parser = argparse.ArgumentParser(prog="python -m studies.report")
-    commands = ["page", "equations", "tables", "films"]
+    commands = ["page", "equations", "tables", "gallery", "films"]
     parser.add_argument("command", nargs="?", default="page", choices=commands)
     parser.add_argument("--out", type=Path, default=RESULTS, help="folder with the tables (default: results)")
     words = parser.parse_args(arguments)
@@ -23,6 +24,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if words.command == "films":
             from studies.report.films import make_all  # they alone need the solvers
             paths = make_all(words.out)
+        elif words.command == "gallery":
+            paths = write_gallery(words.out)
         else:
             write = {"page": write_page, "equations": write_equations, "tables": write_tables}[words.command]
             paths = [write(words.out)]

@@ -18,8 +18,7 @@ import pandas as pd
 
 from studies.kit.csvfile import write_atomic
 from studies.kit.source import Cited, places
-from studies.report.findings import claims_of
-from studies.report.inventory import NoReport
+from studies.report.inventory import NoReport, claims_of
 from studies.report.numbers import signed, with_error
 
 SENTENCES = Path(__file__).with_name("sentences")

@@ -1,6 +1,4 @@
 """What results/ holds: studies with their tables and figures, found by name, and where each comes from."""
-import base64
-import gzip
 import importlib
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,6 +8,7 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
+from studies.kit.claim import COLUMNS
 from studies.kit.csvfile import AGAIN, TEXT, content, read
 from studies.kit.figure import Drawing, Overview
 from studies.kit.key import ROOT
@@ -17,13 +16,11 @@ from studies.kit.study import Study
 from studies.kit.table import STAMP
 
 #: folders that are not shown
-HIDDEN = ("raw", "quick", "films")
+HIDDEN = ("raw", "quick", "films", "gallery", "own")
 #: what a folder asks that no study fills
 QUESTIONS = {"bench": "Speed beside public codes, in one run"}
 #: the order of the page; studies that are not named follow by name
 FIRST = ("rb", "cost", "hardcases", "onset", "operators", "ordering", "conservation", "noise", "lattices")
-#: a table is packed into the page if its text is not longer [bytes]
-EMBED = 60_000
 
 
 class NoReport(Exception):
@@ -67,15 +64,6 @@ class Sheet:
     def frame(self) -> pd.DataFrame:
         """The rows; NoReport where the file is no table."""
         return rows_of(self.path)
-
-    @cached_property
-    def packed(self) -> str:
-        """The file as compressed text; nothing of one that is too large."""
-        text = content(self.path).encode()
-        if len(text) > EMBED:
-            return ""
-        packed = gzip.compress(text, 9, mtime=0)
-        return base64.b64encode(packed).decode()
 
     @cached_property
     def commits(self) -> list[str]:
@@ -159,6 +147,14 @@ def drawings(folder: Folder) -> dict[str, Drawing | Overview]:
         return {}
     listed = getattr(folder.study.figures, "drawings", ())
     return {drawing.name: drawing for drawing in listed}
+
+
+def claims_of(out: Path) -> pd.DataFrame:
+    """All claims; NoReport where there are none, or the table lacks columns."""
+    path = out/"claims.csv"
+    if not path.exists():
+        raise NoReport(f"{path} does not exist: studies write their verdicts there: make study-rb")
+    return rows_of(path, COLUMNS)
 
 
 def rows_of(path: Path, columns: tuple[str, ...] = (), **where: Any) -> pd.DataFrame:

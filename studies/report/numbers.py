@@ -32,29 +32,3 @@ def short(value: object) -> str:
     if math.isnan(value):
         return ""
     return signed(f"{value:.5g}").replace("inf", "∞")
-
-
-def seconds(value: float) -> str:
-    """CPU seconds with two digits."""
-    if value >= 10:
-        return f"{value:.0f}"
-    if value >= 1:
-        return f"{value:.1f}"
-    return f"{value:.2g}"
-
-
-def percent(value: float) -> str:
-    """A share in per cent, with sign."""
-    return signed(f"{100*value:+.3g} %")
-
-
-def grouped(value: float) -> str:
-    """A whole number, thousands apart by a space that does not break."""
-    return f"{value:,.0f}".replace(",", "\N{NO-BREAK SPACE}")
-
-
-def many(words: list[str]) -> str:
-    """a, b and c"""
-    if len(words) < 2:
-        return "".join(words)
-    return f"{', '.join(words[:-1])} and {words[-1]}"

@@ -1,36 +1,49 @@
-"""results/index.html: one file with everything in it, from tables, figures and films; no solver is run."""
+"""results/index.html: one file with all in it, from texts, tables, figures and films; no solver is run."""
 import base64
+import csv
+import inspect
 import io
 import math
-from collections.abc import Callable
+import os
+import tomllib
+from collections import Counter
+from itertools import groupby
 from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
 
-import numpy as np
+import pandas as pd
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from PIL import Image, UnidentifiedImageError
 
+from studies.build import words
 from studies.kit.csvfile import write_atomic
 from studies.kit.figure import caption
-from studies.kit.source import paper_of
+from studies.kit.source import paper_of, places
 from studies.kit.table import Table
-from studies.report import cost
-from studies.report.chart import HEIGHT, WIDTH, chart
-from studies.report.findings import Known, answer, claims_of, findings
-from studies.report.inventory import Folder, NoReport, Sheet, check_columns, drawings, folders, place, rows_of
-from studies.report.numbers import percent, seconds, short, signed, with_error
+from studies.report.equations import filled
+from studies.report.gallery import examples
+from studies.report.inventory import (
+    Folder,
+    NoReport,
+    Sheet,
+    check_columns,
+    claims_of,
+    drawings,
+    folders,
+    place,
+    rows_of,
+)
+from studies.report.numbers import short, signed, with_error
+from studies.report.text import document, opening, target
 
-QUESTION = ("Do fluid particles converge on the continuum equations, at what error, at what cost, and where "
-            "do they break?")
-#: template, style and script of the page
+#: template, style, script, and what to see in each figure
 PARTS = Path(__file__).with_name("page")
 #: what the page may weigh [bytes]
 LIMIT = 7_800_000
 VERDICTS = {"holds": "✓", "fails": "✗", "undecidable": "?"}
-#: distance in RGB (441 from black to white) below which two colours are one: those of series are 60 apart and
-#: more, nearer are blends along edges of lines and letters
-NEAR = 24
+#: papers whose equations can be chosen
+PAPERS = ("KHP95", "RR98")
 #: films.csv says what is seen; films in the order of the page, others follow
 FILMS = Table("films", key=["film"], columns=[
     "film", "title", "caption", "ra", "rows", "points", "grid_rows", "t_end", "frames", "last_ke",
@@ -47,7 +60,7 @@ def write_page(out: Path) -> Path:
     known = folders(out)
     for folder in known:
         check_columns(folder)
-    text = render(out, known, webp)
+    text = render(out, known)
     size = len(text.encode())
     if size > LIMIT:
         raise NoReport(f"the page has {size/1e6:.1f} MB, {LIMIT/1e6:.1f} are allowed: draw smaller, or take "
@@ -65,41 +78,54 @@ def largest(out: Path) -> list[str]:
     return [f"{path.relative_to(out)} ({sizes[path]/1000:.0f} kB)" for path in heavy[:5]]
 
 
-def render(out: Path, known: list[Folder], encode: Callable[[Path], str]) -> str:
-    """The page as text; ``encode`` makes the address of a figure from its PNG."""
+def render(out: Path, known: list[Folder]) -> str:
+    """The page as text."""
     claims = claims_of(out)
-    panels = cost.panels(known)
-    knowledge = Known(out, claims, panels)
+    check_studies(claims, known)
     environment = Environment(
         loader=FileSystemLoader(PARTS), autoescape=True, undefined=StrictUndefined,
         trim_blocks=True, lstrip_blocks=True)
     return environment.get_template("page.html").render(
-        question=QUESTION,
-        answer=answer(knowledge),
-        findings=findings(knowledge),
-        panels=panels, chart=chart, size=(WIDTH, HEIGHT), levels=cost.LEVELS,
-        films=films(out),
-        claims=claims.to_dict("records"),
-        claims_made=Sheet(out/"claims.csv").made,
-        papers=sorted({paper_of(source) for source in claims["source"]}),
-        counts=claims["verdict"].value_counts(), verdicts=VERDICTS,
-        paper=paper_of, accepted=accepted, value_of=value_of,
+        opening=opening(out),
+        films=films(out), examples=examples(out),
         parts=known,
-        figures={folder.name: figures(folder, encode) for folder in known},
-        short=short, percent=percent, seconds=seconds,
+        figures={folder.name: figures(folder, claims) for folder in known},
+        claims={study: rows.to_dict("records") for study, rows in in_order(claims).groupby("study")},
+        places=cited(claims), papers=Counter(map(paper_of, claims["source"])),
+        counts=Counter(claims["verdict"]), verdicts=VERDICTS, claims_made=Sheet(out/"claims.csv").made,
+        texts={name: document(out/f"{name}.md", out) for name in ("findings", "equations")},
+        words=glossary(),
+        paper=paper_of, value_of=value_of, short=short, embedded=embedded,
+        leads=lambda name: target(name, out, out),
         style=(PARTS/"style.css").read_text(),
         script=(PARTS/"script.js").read_text())
 
 
-def accepted(low: float, high: float) -> str:
-    """A range in words."""
-    if math.isnan(low) and math.isnan(high):
-        return ""
-    if math.isinf(high):
-        return f"≥ {short(low)}"
-    if math.isinf(low):
-        return f"≤ {short(high)}"
-    return f"{short(low)} to {short(high)}"
+def check_studies(claims: pd.DataFrame, known: list[Folder]) -> None:
+    """Refuse claims without a place in the page, which stand below the tables of their study."""
+    lost = {*claims["study"]} - {folder.name for folder in known}
+    if lost:
+        names = ", ".join(sorted(lost))
+        raise NoReport(f"claims.csv has claims of {names} without tables: run make study-NAME for each")
+
+
+def in_order(claims: pd.DataFrame) -> pd.DataFrame:
+    """Claims by the places that they judge: paper, equation, figure, section."""
+    order = claims["source"].map(lambda source: places(source)[0].order)
+    return claims.loc[order.sort_values(kind="stable").index]
+
+
+def cited(claims: pd.DataFrame) -> dict[str, int]:
+    """Equation, figure or section of both papers -> how many claims judge it."""
+    names = [name for cell in claims["equation"] for name in cell.split("; ") if name.startswith(PAPERS)]
+    return dict(sorted(Counter(names).items(), key=lambda pair: places(pair[0])[0].order))
+
+
+def glossary() -> dict[str, list[dict[str, str]]]:
+    """Kind -> its words, as words.csv has them."""
+    with Path(words.__file__).with_suffix(".csv").open(newline="") as lines:
+        rows = list(csv.DictReader(lines))
+    return {kind: list(group) for kind, group in groupby(rows, key=lambda row: row["kind"])}
 
 
 def value_of(value: float, err: float) -> str:
@@ -112,69 +138,61 @@ def value_of(value: float, err: float) -> str:
 
 
 class Shown(NamedTuple):
-    """A figure: its address, size in pixels, words, and the tables that it is drawn from."""
-    name: str
-    src: str
+    """A figure: size in pixels, what to see, what is drawn, its tables, file and function that draw it."""
+    path: Path
     size: tuple[int, int]
+    see: str
     caption: str
     sheets: list[Sheet]
+    code: tuple[str, str] | None
+
+    @property
+    def name(self) -> str:
+        """study/figure"""
+        return f"{self.path.parent.name}/{self.path.stem}"
 
     @property
     def made(self) -> str:
-        """Commits of these tables."""
+        """Commits of the tables."""
         commits = [commit for sheet in self.sheets for commit in sheet.commits]
         return ", ".join(dict.fromkeys(commits))
 
 
-def figures(folder: Folder, encode: Callable[[Path], str]) -> list[Shown]:
+def figures(folder: Folder, claims: pd.DataFrame) -> list[Shown]:
     """Figures of a study; of one that its study does not list the tables are all there are."""
     listed = drawings(folder)
+    see = tomllib.loads((PARTS/"figures.toml").read_text()).get(folder.name, {})
     shown = []
     for png in folder.pictures:
-        name = png.stem
-        words = f"{name.replace('_', ' ')}: {folder.question}"
-        sheets = folder.sheets
-        if name in listed:
-            words = caption(listed[name])
-            sheets = [sheet for sheet in sheets if sheet.stem in listed[name].tables]
-        shown.append(Shown(name, encode(png), opened(png).size, words, sheets))
+        caption_, sheets, code = f"{png.stem}: {folder.question}", folder.sheets, None
+        if png.stem in listed:
+            drawing = listed[png.stem]
+            caption_, code = caption(drawing), (source(drawing.draw, png), drawing.draw.__name__)
+            sheets = [sheet for sheet in sheets if sheet.stem in drawing.tables]
+        sentence = filled(see.get(png.stem, caption_), claims)
+        shown.append(Shown(png, size_of(png), sentence, caption_, sheets, code))
     return shown
 
 
-def opened(path: Path) -> Image.Image:
-    """A picture; NoReport where the file is none."""
+def source(draw: Any, png: Path) -> str:
+    """The file with a function, from the page in the folder above a figure's."""
+    return os.path.relpath(inspect.getsourcefile(draw) or "", png.parent.parent.resolve())
+
+
+def size_of(path: Path) -> tuple[int, int]:
+    """Width and height of a picture [pixels]; NoReport where the file is none."""
     try:
-        return Image.open(path)
+        with Image.open(path) as picture:
+            picture.load()
+            return picture.size
     except (UnidentifiedImageError, OSError) as error:
         again = f"make figures-{path.parent.name} draws it again"
         raise NoReport(f"{path} is no picture ({error}): {again}") from error
 
 
-def webp(path: Path) -> str:
-    """A PNG as an address, a third smaller by having fewer colours."""
-    picture = fewer(opened(path)).convert("RGB")
-    packed = io.BytesIO()
-    picture.save(packed, "webp", lossless=True, method=4)
-    return address("image/webp", packed.getvalue())
-
-
-def fewer(picture: Image.Image) -> Image.Image:
-    """Each colour becomes the nearest one kept; kept are those that are NEAR no more frequent one."""
-    if picture.mode != "P":     # as kit.figure does
-        picture = picture.convert("RGB").quantize(256, kmeans=1, dither=Image.Dither.NONE)
-    palette = picture.getpalette("RGB") or []
-    colours = np.reshape(palette, (-1, 3)).astype(float)
-    apart = np.linalg.norm(colours[:, None] - colours, axis=2)
-    counts = np.array(picture.histogram()[:len(colours)])
-    kept: list[int] = []
-    for one in np.argsort(-counts, kind="stable"):
-        if (apart[one, kept] > NEAR).all():
-            kept.append(int(one))
-    nearest = apart[:, kept].argmin(axis=1)
-    left = colours[kept][nearest].astype(np.uint8)
-    picture = picture.copy()
-    picture.putpalette(left.tobytes())
-    return picture
+def embedded(path: Path) -> str:
+    """The address of a picture that holds its content."""
+    return address("image/png", path.read_bytes())
 
 
 def address(kind: str, content: bytes) -> str:
@@ -209,9 +227,7 @@ def in_file(path: Path) -> dict[str, Any]:
     except (OSError, RuntimeError, ValueError) as error:
         cause = str(error).splitlines()[0]
         raise NoReport(f"{path} is no film ({cause}): make films makes it again") from error
-    size = about["size"]
     still = io.BytesIO()
-    Image.frombytes("RGB", size, last).save(still, "webp", quality=60, method=4)
-    content = base64.b64encode(path.read_bytes()).decode()
-    return {"content": content, "size": size,
+    Image.frombytes("RGB", about["size"], last).save(still, "webp", quality=60, method=4)
+    return {"src": address("video/mp4", path.read_bytes()), "size": about["size"],
             "still": address("image/webp", still.getvalue())}

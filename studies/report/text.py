@@ -1,0 +1,75 @@
+"""Texts of the repository as parts of the page: links lead to figures, tables and words in it."""
+import os
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+from markdown_it import MarkdownIt
+from markupsafe import Markup
+
+from studies.build import words
+from studies.kit.key import ROOT
+from studies.kit.sweep import RESULTS
+from studies.report.inventory import NoReport
+
+MARKDOWN = MarkdownIt("commonmark").enable("table")
+#: suffix of a file in a folder of results -> what it is in the page
+KINDS = {".png": "figure", ".csv": "table"}
+#: question, words with the answer, picture, table with its note, as README.md begins
+OPENING = re.compile(r"\*\*(.+?)\*\*\n\n(.+?)\n<img .+?>\n(.+?)\n## ", re.DOTALL)
+SCROLL = '<div class="scroll" tabindex="0" role="region" aria-label="Table"><table>'
+
+
+class Opening(NamedTuple):
+    """The first screen."""
+    question: str
+    words: Markup
+    choice: Markup
+
+
+def opening(out: Path) -> Opening:
+    """How README.md begins. Raises NoReport: it begins otherwise."""
+    found = OPENING.search((ROOT/"README.md").read_text())
+    if not found:
+        raise NoReport("README.md does not begin with a bold question, words, an <img> and a table above its "
+                       "first heading ##, of which the page makes its first screen: let it begin so")
+    question, words_, choice = found.groups()
+    return Opening(question, html(words_, ROOT, out), html(choice, ROOT, out))
+
+
+def document(path: Path, out: Path) -> Markup:
+    """A file without its title; nothing where there is none."""
+    if not path.exists():
+        return Markup()
+    return html(path.read_text().partition("\n")[2], path.parent, out)
+
+
+def html(text: str, home: Path, out: Path) -> Markup:
+    """Markdown of a file in the folder ``home``; headings two levels deeper, tables in boxes that scroll."""
+    tokens = MARKDOWN.parse(text)
+    for token in tokens:
+        if token.type.startswith("heading"):
+            token.tag = f"h{int(token.tag[1]) + 2}"
+        for one in token.children or ():
+            if one.type == "link_open":
+                one.attrs["href"] = target(str(one.attrs["href"]), home, out)
+    made = MARKDOWN.renderer.render(tokens, MARKDOWN.options, {})
+    made = made.replace("<table>", SCROLL).replace("</table>", "</table></div>")
+    return Markup(re.sub("<code>([^<]+)</code>", explained, made))
+
+
+def explained(code: re.Match[str]) -> str:
+    """A name of a method, linked to what it stands for."""
+    name = code[1]
+    return f'<a class="word" href="#word-{name}">{code[0]}</a>' if name in words.METHODS else code[0]
+
+
+def target(href: str, home: Path, out: Path) -> str:
+    """Where a link leads that stands in the folder ``home``: into the page, or from it to the file."""
+    if "://" in href or href.startswith("#"):
+        return href
+    path = (home/href).resolve()
+    within = Path(os.path.relpath(path, RESULTS if path.is_relative_to(RESULTS) else out.resolve()))
+    if len(within.parts) == 2 and within.suffix in KINDS and (out/within).exists():
+        return f"#{KINDS[within.suffix]}-{within.parent}-{within.stem}"
+    return os.path.relpath(path, out.resolve())
