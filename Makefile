@@ -68,7 +68,7 @@ words: .venv/ready  ## every name of a method, scene, quantity, explained; TEXT=
 hours: .venv/ready  ## what all studies have still to do, in minutes of CPU
 	$(run) -m studies.kit.budget $(studies)
 
-report: .venv/ready-films  ## results/equations.md, tables.md, index.html: one page of findings, verdicts, figures, tables, films
+report: .venv/ready-films  ## results/equations.md, tables.md, index.html: one page of answers, pictures, verdicts, tables
 	$(if $(filter quick,$(SIZE)),,$(run) -m studies.report equations)
 	$(if $(filter quick,$(SIZE)),,$(run) -m studies.report tables)
 	$(run) -m studies.report $(if $(filter quick,$(SIZE)),--out results/quick)

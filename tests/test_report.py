@@ -53,6 +53,7 @@ def test_links_of_texts_lead_into_the_page_or_to_files(small):
     assert text.target("results/rb/errors.csv", ROOT, small) == "#table-rb-errors"
     assert text.target("../bench/README.md", RESULTS, RESULTS) == "../bench/README.md"
     assert text.target("claims.csv", RESULTS, RESULTS) == "claims.csv"
+    assert text.target("results/findings.md", ROOT, RESULTS) == "#text-findings"
     assert text.target("https://example.org", ROOT, small) == "https://example.org"
 
 

@@ -35,7 +35,7 @@ from studies.report.inventory import (
     rows_of,
 )
 from studies.report.numbers import short, signed, with_error
-from studies.report.text import document, opening, target
+from studies.report.text import TEXTS, document, opening, target
 
 #: template, style, script, and what to see in each figure
 PARTS = Path(__file__).with_name("page")
@@ -93,7 +93,7 @@ def render(out: Path, known: list[Folder]) -> str:
         claims={study: rows.to_dict("records") for study, rows in in_order(claims).groupby("study")},
         places=cited(claims), papers=Counter(map(paper_of, claims["source"])),
         counts=Counter(claims["verdict"]), verdicts=VERDICTS, claims_made=Sheet(out/"claims.csv").made,
-        texts={name: document(out/f"{name}.md", out) for name in ("findings", "equations")},
+        texts={name: document(out/f"{name}.md", out) for name in TEXTS},
         words=glossary(),
         paper=paper_of, value_of=value_of, short=short, embedded=embedded,
         leads=lambda name: target(name, out, out),

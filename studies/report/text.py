@@ -17,6 +17,10 @@ MARKDOWN = MarkdownIt("commonmark").enable("table")
 KINDS = {".png": "figure", ".csv": "table"}
 #: question, words with the answer, picture, table with its note, as README.md begins
 OPENING = re.compile(r"\*\*(.+?)\*\*\n\n(.+?)\n<img .+?>\n(.+?)\n## ", re.DOTALL)
+#: files that the page has as a whole
+TEXTS = ("equations", "findings", "tables")
+#: how ids of claims begin that texts name
+CLAIM = ("rr98-", "khp95-", "own-")
 SCROLL = '<div class="scroll" tabindex="0" role="region" aria-label="Table"><table>'
 
 
@@ -59,9 +63,10 @@ def html(text: str, home: Path, out: Path) -> Markup:
 
 
 def explained(code: re.Match[str]) -> str:
-    """A name of a method, linked to what it stands for."""
+    """The name of a method or the id of a claim, linked to what it stands for."""
     name = code[1]
-    return f'<a class="word" href="#word-{name}">{code[0]}</a>' if name in words.METHODS else code[0]
+    kind = "word" if name in {**words.METHODS, **words.VARIATIONS} else "claim" if name.startswith(CLAIM) else ""
+    return f'<a class="word" href="#{kind}-{name}">{code[0]}</a>' if kind else code[0]
 
 
 def target(href: str, home: Path, out: Path) -> str:
@@ -70,6 +75,9 @@ def target(href: str, home: Path, out: Path) -> str:
         return href
     path = (home/href).resolve()
     within = Path(os.path.relpath(path, RESULTS if path.is_relative_to(RESULTS) else out.resolve()))
-    if len(within.parts) == 2 and within.suffix in KINDS and (out/within).exists():
-        return f"#{KINDS[within.suffix]}-{within.parent}-{within.stem}"
+    kind = KINDS.get("".join(within.suffixes[:1]))
+    if kind and len(within.parts) == 2 and any(out.glob(f"{within}*")):     # packed or not
+        return f"#{kind}-{within.parent}-{within.name.partition('.')[0]}"
+    if within.suffix == ".md" and str(within.with_suffix("")) in TEXTS and (out/within).exists():
+        return f"#text-{within.stem}"
     return os.path.relpath(path, out.resolve())

@@ -39,7 +39,7 @@ for (const link of all(".zoom")) link.addEventListener("click", event => {
   const large = link.closest("figure").classList.toggle("large");
   link.setAttribute("aria-expanded", large);
   one("details", link.closest("figure")).open = large;
-  link.scrollIntoView({block: "nearest", inline: "center"});
+  link.scrollIntoView({block: "nearest", inline: "start"});
 });
 
 // --- links: what they lead to is unfolded, and shown even if a search has hidden it
