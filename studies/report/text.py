@@ -10,7 +10,7 @@ from markupsafe import Markup
 from studies.build import words
 from studies.kit.key import ROOT
 from studies.kit.sweep import RESULTS
-from studies.report.inventory import NoReport
+from studies.report.inventory import HIDDEN, NoReport
 
 MARKDOWN = MarkdownIt("commonmark").enable("table")
 #: suffix of a file in a folder of results -> what it is in the page
@@ -65,8 +65,9 @@ def html(text: str, home: Path, out: Path) -> Markup:
 def explained(code: re.Match[str]) -> str:
     """The name of a method or the id of a claim, linked to what it stands for."""
     name = code[1]
-    kind = "word" if name in {**words.METHODS, **words.VARIATIONS} else "claim" if name.startswith(CLAIM) else ""
-    return f'<a class="word" href="#{kind}-{name}">{code[0]}</a>' if kind else code[0]
+    if name in words.METHODS or name in words.VARIATIONS:
+        return f'<a class="word" href="#word-{name}">{code[0]}</a>'
+    return f'<a class="word" href="#claim-{name}">{code[0]}</a>' if name.startswith(CLAIM) else code[0]
 
 
 def target(href: str, home: Path, out: Path) -> str:
@@ -75,7 +76,7 @@ def target(href: str, home: Path, out: Path) -> str:
         return href
     path = (home/href).resolve()
     within = Path(os.path.relpath(path, RESULTS if path.is_relative_to(RESULTS) else out.resolve()))
-    kind = KINDS.get("".join(within.suffixes[:1]))
+    kind = KINDS.get("".join(within.suffixes[:1])) if within.parts[0] not in HIDDEN else None
     if kind and len(within.parts) == 2 and any(out.glob(f"{within}*")):     # packed or not
         return f"#{kind}-{within.parent}-{within.name.partition('.')[0]}"
     if within.suffix == ".md" and str(within.with_suffix("")) in TEXTS and (out/within).exists():
