@@ -104,7 +104,7 @@ def test_every_figure_says_in_a_sentence_what_to_see():
     assert {study: {*sentences} for study, sentences in told.items()} == there
     for part in committed():
         for one in figures(part, claims_of(RESULTS)):
-            assert one.see.endswith(".") and "{" not in one.see and len(one.see) < 200, one.name
+            assert one.see.endswith(".") and "% %" not in one.see and len(one.see) < 200, one.name
 
 
 # --- numbers --------------------------------------------------------------------------------------
