@@ -1,6 +1,7 @@
 """Headless Chromium for the tests of the page: Debian's chromium and chromedriver, nothing is fetched."""
 import os
 import shutil
+from contextlib import contextmanager
 
 import pytest
 from selenium import webdriver
@@ -35,3 +36,32 @@ def start(width: int, height: int, *more: str) -> webdriver.Chrome:
                            {"width": width, "height": height, "deviceScaleFactor": 1,
                                                                  "mobile": width < 500})
     return chrome
+
+
+@contextmanager
+def closing(chrome):
+    """Ends with the test."""
+    try:
+        yield chrome
+    finally:
+        chrome.quit()
+
+
+#: text and ground of what there are many of; WCAG AA: 4.5
+CONTRAST = """
+const of = (what, name) => getComputedStyle(document.querySelector(what))[name];
+const page = of('body', 'backgroundColor'), marks = ['.holds', '.fails', '.undecidable'];
+return [[of('body', 'color'), page, 7], ...['.answer p', 'nav a'].map(one => [of(one, 'color'), page, 4.5]),
+        [of('.made', 'color'), of('figure', 'backgroundColor'), 4.5],
+        ...marks.map(one => [of(one, 'color'), of(one, 'backgroundColor'), 4.5])];
+"""
+
+
+def contrast(one: str, other: str) -> float:
+    """Ratio of luminances of two CSS colours    [WCAG 2.2, 1.4.3]"""
+    def luminance(colour: str) -> float:
+        parts = [float(part)/255 for part in colour[colour.index("(") + 1:-1].split(",")[:3]]
+        linear = [part/12.92 if part <= 0.04045 else ((part + 0.055)/1.055)**2.4 for part in parts]
+        return 0.2126*linear[0] + 0.7152*linear[1] + 0.0722*linear[2]
+    bright, dark = sorted((luminance(one), luminance(other)), reverse=True)
+    return (bright + 0.05)/(dark + 0.05)

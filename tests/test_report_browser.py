@@ -1,10 +1,9 @@
 """The page in a browser, from file://: short, quiet, by keyboard, on a phone, without network."""
 import json
 import re
-from contextlib import contextmanager
 
 import pytest
-from browser import start
+from browser import CONTRAST, closing, contrast, start
 from report_tables import committed
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
@@ -37,15 +36,6 @@ def desk(page):
     chrome.get(page)
     yield chrome
     chrome.quit()
-
-
-@contextmanager
-def closing(chrome):
-    """Ends with the test."""
-    try:
-        yield chrome
-    finally:
-        chrome.quit()
 
 
 @pytest.fixture(scope="module")
@@ -251,23 +241,3 @@ def test_the_page_can_be_read_without_scripts_on_a_phone_and_on_paper(page):
         assert len(chrome.find_elements(By.CSS_SELECTOR,
                                         ".claims tbody tr")) == len(read(RESULTS/"claims.csv"))
         assert not chrome.find_element(By.ID, "search").is_displayed()
-
-
-#: text and ground of what there are many of; WCAG AA: 4.5
-CONTRAST = """
-const of = (what, name) => getComputedStyle(document.querySelector(what))[name];
-const page = of('body', 'backgroundColor'), marks = ['.holds', '.fails', '.undecidable'];
-return [[of('body', 'color'), page, 7], ...['.answer p', 'nav a'].map(one => [of(one, 'color'), page, 4.5]),
-        [of('.made', 'color'), of('figure', 'backgroundColor'), 4.5],
-        ...marks.map(one => [of(one, 'color'), of(one, 'backgroundColor'), 4.5])];
-"""
-
-
-def contrast(one: str, other: str) -> float:
-    """Ratio of luminances of two CSS colours    [WCAG 2.2, 1.4.3]"""
-    def luminance(colour: str) -> float:
-        parts = [float(part)/255 for part in colour[colour.index("(") + 1:-1].split(",")[:3]]
-        linear = [part/12.92 if part <= 0.04045 else ((part + 0.055)/1.055)**2.4 for part in parts]
-        return 0.2126*linear[0] + 0.7152*linear[1] + 0.0722*linear[2]
-    bright, dark = sorted((luminance(one), luminance(other)), reverse=True)
-    return (bright + 0.05)/(dark + 0.05)
