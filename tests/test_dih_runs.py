@@ -53,7 +53,7 @@ def test_points_on_plates_give_them_the_heat_of_the_fluid_and_keep_its_mass(tmp_
 
 
 def test_side_walls_are_refused(tmp_path):
-    with pytest.raises(ValueError, match="periodic sides"):
+    with pytest.raises(ValueError, match="fixed-lattice cannot take sides"):
         fluid(RayleighBenard(ra=1e4, L=12.0, aspect=1.0, sides=Walls()), SCHEMES["fixed-lattice"], 1)
 
 

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from continuum.scene import RayleighBenard
+from studies.build import ready
 from studies.build.named import SCENES
 from studies.build.spam import PRINTED
 from studies.front import compare, solve
@@ -70,7 +71,6 @@ def short(scene):
 def test_a_variant_an_object_and_a_class_are_methods(convection):
     mine = PRINTED._replace(name="mine", h=2.5)
     assert solve(RB, mine, rows=8, time=1).method == "mine"
-    from studies.build import ready
     scene = RayleighBenard(ra=1e4, L=12.0)
     method = ready(scene, "fixed-lattice").method
     same = solve(scene, method, time=150)
@@ -117,6 +117,12 @@ def test_names_that_do_not_exist_and_scenes_that_a_method_cannot_take():
         solve("rayleigh", "grid")
     with pytest.raises(ValueError, match="no method is called 'fixed-latice'; near to it are fixed-lattice"):
         solve(RB, "fixed-latice")
+    with pytest.raises(ValueError, match="rows must be a whole number of 4 or more, got 0"):
+        solve(RB, "grid", rows=0)
+    with pytest.raises(ValueError, match="points of the method reach 15 x 7, the scene is 16 x 12"):
+        other = ready(RayleighBenard(ra=1e4, L=8.0), "fixed-lattice").method
+        solve(RayleighBenard(ra=1e4, L=12.0, aspect=4/3), other)
+    assert solve(SCENES["shock-tube"](rows=18), "grid", rows=27).rows == 27
     with pytest.raises(ValueError, match="boussinesq solves Rayleigh-Benard convection, not Sound"):
         solve("sound", "boussinesq")
 

@@ -3,6 +3,7 @@
 Functions of the kind of scene, so that a scene of one's own needs none of them, or registers its own.
 """
 from collections.abc import Callable
+from dataclasses import replace
 from functools import singledispatch
 from typing import Any
 
@@ -40,6 +41,15 @@ def rows_of(scene: Any) -> int:
 
 
 rows_of.register(Sound, lambda scene: scene.width)
+
+
+@singledispatch
+def with_rows(scene: Any, rows: int) -> Any:
+    """The same scene of so many points or cells."""
+    return scene.resized(float(rows)) if hasattr(scene, "resized") else replace(scene, L=type(scene.L)(rows))
+
+
+with_rows.register(Sound, lambda scene, rows: replace(scene, width=rows))
 
 
 @singledispatch

@@ -1,12 +1,12 @@
 """Two periodic scenes that try a method: a shock tube, and a shear layer that rolls up."""
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from continuum.exact.riemann import GasState, solution
 from continuum.exact.shear import growing_wave, layer_with_wave
 from continuum.fluid import ConstEta, Fields, IdealGas
-from studies.build.answers import answer, duration, of_one_mass, quantities, rows_of
+from studies.build.answers import answer, duration, of_one_mass, quantities, rows_of, with_rows
 from studies.build.scenes import SOUND, Scene, Start
 
 GAMMA = 1.4
@@ -48,6 +48,7 @@ class ShockTube(Scene):
 
 
 rows_of.register(ShockTube, lambda scene: scene.half)
+with_rows.register(ShockTube, lambda scene, rows: replace(scene, half=rows))
 
 
 @answer.register

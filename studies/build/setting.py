@@ -47,11 +47,20 @@ def stepped(method: Any, start: np.ndarray, of_limit: float) -> Ready:
 def of_method(method: Any, scene: Any, seed: int = 1) -> Ready:
     """Any method with places `x` and `state(rho, v, T)`, or `state(x, rho, v, T)` from a jittered lattice."""
     if hasattr(method, "x"):
+        check_places(method.x, scene)
         start = method.state(*scene.fields(method.x))
     else:
         x = shaken(scene, seed)
         start = method.state(x, *scene.fields(x))
     return stepped(method, start, 0.8)
+
+
+def check_places(x: np.ndarray, scene: Any) -> None:
+    """Refuse points that were made for another box. Raises ValueError."""
+    box, reach = np.array([scene.width, scene.L]), 2*np.abs(x).max(axis=0)
+    if (reach > box*(1 + 1e-9)).any() or (reach < box - 3).any():
+        raise ValueError(f"points of the method reach {reach[0]:g} x {reach[1]:g}, the scene is {box[0]:g} x "
+                         f"{box[1]:g}: make the method for this scene, or give a class that takes the scene")
 
 
 def walls(scene: Any, rule: Any = AtWall(), pressure: Any = Copied()) -> tuple:  # noqa: B008

@@ -52,14 +52,15 @@ def against_cost(axes: Any, table: pd.DataFrame, name: str) -> None:
     axes.legend(fontsize=7)
 
 
-def compare(scene: Any, methods: Sequence[Any], rows: Sequence[int] = (16, 25), **more: Any) -> Comparison:
+def compare(scene: Any, methods: Sequence[Any], rows: Sequence[int] | int = (16, 25),
+            **more: Any) -> Comparison:
     """Solve a scene by several methods at several resolutions; what diverges is told beside the table.
 
     scene, methods, more : as of `solve`. Raises ValueError: as `solve`, before anything runs.
     """
     solutions, diverged = [], {}
     for method in methods:
-        for count in rows:
+        for count in [rows] if isinstance(rows, int) else rows:
             try:
                 solutions.append(solve(scene, method, rows=count, **more))
             except Divergence as error:

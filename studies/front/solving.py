@@ -13,7 +13,7 @@ from continuum.fluid import Fields
 from particles.integral.points import lattice
 from particles.run import Plan, run
 from studies.build import METHODS, near, ready
-from studies.build.answers import duration, of_one_mass, rows_of
+from studies.build.answers import duration, of_one_mass, rows_of, with_rows
 from studies.build.moving import FacesMotion
 from studies.build.named import SCENES
 from studies.build.rr98_moving import DriftMotion
@@ -32,8 +32,9 @@ ALL: dict[str, Any] = {**METHODS, **REFERENCES}
 class How(NamedTuple):
     """How a run in time is made.
 
-    time : its length in the scene's unit, for convection free-fall times. dt : its step, if not the method's
-    own. resume : a file that an interrupted run goes on from. progress : a bar; by default where one looks.
+    time : its length in the scene's unit: free-fall times of convection, viscous times of a box. dt : its
+    step, if not the method's own. resume : a file that an interrupted run goes on from. progress : a bar; by
+    default where one looks.
     """
     seed: int = 1
     time: float | None = None
@@ -57,6 +58,7 @@ def solve(scene: Any, method: Any, *, rows: int | None = None, seed: int = 1, ti
     the height. seed, time, dt, resume, progress : as of `How`.
     Raises ValueError: there is no such scene or method, or the method cannot take the scene. Divergence.
     """
+    check_rows(rows)
     where, chosen = placed(scene, rows, **of_scene), named(method)
     if hasattr(chosen, "solved"):
         solution: Solution = chosen.solved(where, method, seed)
@@ -69,11 +71,15 @@ def placed(scene: Any, rows: int | None, **of_scene: Any) -> Any:
     if isinstance(scene, str):
         if scene not in SCENES:
             raise ValueError(f"no scene is called {scene!r}; near to it are {near(scene, SCENES)}")
-        return SCENES[scene](rows=rows, **of_scene) if rows else SCENES[scene](**of_scene)
+        return SCENES[scene](**of_scene) if rows is None else SCENES[scene](rows=rows, **of_scene)
     fresh = replace(scene, **of_scene) if of_scene else scene
-    if rows and hasattr(fresh, "resized"):
-        return fresh.resized(float(rows))
-    return replace(fresh, L=type(scene.L)(rows)) if rows else fresh
+    return fresh if rows is None else with_rows(fresh, rows)
+
+
+def check_rows(rows: int | None) -> None:
+    """Refuse what is no number of rows. Raises ValueError."""
+    if rows is not None and (rows < 4 or rows != round(rows)):
+        raise ValueError(f"rows must be a whole number of 4 or more, got {rows}: 16 or 24 are usual")
 
 
 def named(method: Any) -> Any:
