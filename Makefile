@@ -17,6 +17,8 @@ study := .venv/ready $(if $(SCHEDULER),.venv/ready-cluster)
 
 export SIZE SCHEDULER
 export PYTHONPATH := $(CURDIR)
+# packages come without Python's caches, which the first run writes
+export PYTHONDONTWRITEBYTECODE :=
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
