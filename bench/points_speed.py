@@ -44,13 +44,13 @@ def fixed(name: str, fast: bool = True) -> Callable[[], float]:
     return measure
 
 
-def step(method: Any, first: np.ndarray, evaluations: int = 1) -> Callable[[], float]:
+def step(method: Any, first: np.ndarray, evaluations: int = 1, ahead: int = 30) -> Callable[[], float]:
     """Nanoseconds a point and step, or evaluation of which a step has so many, lists and faces included.
 
-    The difference of two lengths of a run.
+    The difference of two lengths of a run, from a state some steps ahead of the start.
     """
     dt = 0.8*limit_of(method, first)
-    warm = run(method, first, Plan(dt=dt, steps=30)).state
+    warm = run(method, first, Plan(dt=dt, steps=ahead)).state
 
     def seconds(steps: int) -> float:
         began = time.process_time()
@@ -95,6 +95,7 @@ def main() -> None:
              "fixed points, Delaunay": fixed("fixed-jittered-delaunay"),
              "moving points, a step": closed("moving"),
              "moving points, a step, open faces": closed("moving-open-faces"),
+             "moving delaunay, a step": step(*ready(SCENE, "moving-delaunay")[:2], ahead=0),
              "moving, plain bracket": bracket("moving-literal-printed-heat"),
              "moving, plain bracket, mended": bracket("moving-literal"),
              "moving, plain bracket, constant mass": bracket("moving-constant-mass-printed-heat"),

@@ -1,31 +1,38 @@
 """A box of gas between sides of one's own choice: a scene like `continuum.scene.RayleighBenard`."""
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import dataclass, fields, replace
+from difflib import get_close_matches
+from functools import partial, wraps
 from math import isfinite
-from numbers import Real
 from typing import Any
 
 import numpy as np
 from scipy.integrate import odeint
 
 from continuum.fluid import ConstEta, IdealGas, check_state, energy, pressure
-from continuum.sides import (
-    HeatPath,
-    Periodic,
-    Plate,
-    Sides,
-    Sliding,
-    Torus,
-    adiabatic,
-    check_sides,
-    warm,
-)
+from continuum.scene import positive
+from continuum.sides import HeatPath, Periodic, Plate, Sides, Sliding, Torus, adiabatic, check_sides, warm
 
 HEIGHTS, PASSES = 401, 8    # of the density at rest; the second pass is exact for an ideal gas
 Start = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
+def spelled(kind: Any) -> Any:
+    """A dataclass that answers an unknown keyword with the names that are like it."""
+    names, plain = [field.name for field in fields(kind)], kind.__init__
+
+    @wraps(plain)
+    def start(self: Any, **given: Any) -> None:
+        for name in given:
+            if name not in names:
+                near = ", ".join(get_close_matches(name, names, 2, 0.4) or names)
+                raise TypeError(f"{kind.__name__} has no {name!r}; near to it are {near}")
+        plain(self, **given)
+    kind.__init__ = start
+    return kind
+
+
+@spelled
 @dataclass(frozen=True, kw_only=True)
 class Domain:
     """A box of mean density 1 between four sides, its middle at the origin.
@@ -34,7 +41,6 @@ class Domain:
     Periodic(), Plate(T or q), Slip(T or q), Sliding(v, T or q). eta, k : viscosity and conductivity. g :
     gravity, downwards. start : x (n, 2) -> density (n,), velocity (n, 2), temperature (n,); by default the
     gas rests at the mean temperature of the sides, as dense as gravity makes it.
-    Raises ValueError: a number is out of its range, or periodic sides are no pairs. TypeError: no such side.
     """
     L: float
     eta: float
@@ -50,9 +56,7 @@ class Domain:
 
     def __post_init__(self):
         check_sides(self.four)
-        for name in ("L", "eta", "k", "aspect"):
-            if not (isinstance(value := getattr(self, name), Real) and 0 < value < np.inf):
-                raise ValueError(f"{name} must be a positive and finite number, got {value!r}")
+        positive(L=self.L, eta=self.eta, k=self.k, aspect=self.aspect)
         if not isfinite(self.g) or (self.g and isinstance(self.sides, Torus)):
             raise ValueError(f"g must be finite, and 0 where nothing stands below, got {self.g}: give the "
                              "box a bottom and a top")
@@ -62,7 +66,8 @@ class Domain:
     @property
     def four(self) -> Sides:
         """All sides as they were given, numbers as floats."""
-        return Sides(*map(_in_floats, (self.left, self.right, self.bottom, self.top)))
+        return Sides(*(side._make(map(float, side)) if hasattr(side, "_make") else side
+                       for side in (self.left, self.right, self.bottom, self.top)))
 
     @property
     def sides(self) -> Any:
@@ -141,12 +146,6 @@ class Domain:
             return self.start(x)
         rho = at_rest(self.eos, self.T_mean, self.g, self.L, x[:, 1]) if self.g else np.ones(len(x))
         return rho, np.zeros((len(x), 2)), np.full(len(x), self.T_mean)
-
-
-def _in_floats(side: Any) -> Any:
-    """A side with such numbers as compiled code has been made for."""
-    kind: Any = type(side)
-    return kind(*map(float, side)) if isinstance(side, tuple) else side
 
 
 def _from_other(start: Callable, by: float, x: np.ndarray) -> Start:

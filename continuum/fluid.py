@@ -4,7 +4,6 @@ Units of KHP95: m = kB = sigma = epsilon = 1. `rho` is mass per area, `e` intern
 temperature. Every relation is plain arithmetic: it takes numbers or arrays, in Python and in compiled code.
 An equation of state or a transport law is a NamedTuple; a new one is a class and its formulas in this file.
 """
-from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -159,36 +158,32 @@ def check_state(eos, rho: Any, e: Any) -> None:
         r, u = rho.flat[bad[0]], e.flat[bad[0]]
         rule = f"rho b = {r*eos.b:.4g} must stay below 1 and " if isinstance(eos, VanDerWaals) else ""
         raise ValueError(f"rho = {r:.6g}, e = {u:.6g} (item {bad[0]}) is outside the validity of "
-                         f"{type(eos).__name__}: {rule}rho, T and c^2 must be positive; lower the density or "
-                         "the step")
+                         f"{type(eos).__name__}: {rule}rho, T and c^2 must be positive")
 
 
-def _spreading(*names: str) -> Callable[[type], type]:
-    """A law whose coefficients of these names are refused where they are negative or no numbers."""
-    def decorate(kind: type) -> type:
-        plain: Any = kind.__new__
+def _spreading(kind: type) -> type:
+    """A law whose first two numbers are refused where they are negative or no numbers."""
+    plain: Any = kind.__new__
 
-        def checked(cls: type, *args: Any, **named: Any) -> Any:
-            law = plain(cls, *args, **named)
-            for name in names:
-                value = getattr(law, name)
-                if not np.all(np.asarray(value) >= 0):
-                    raise ValueError(f"{name} of {kind.__name__} must not be negative, got {value}: momentum "
-                                     "or heat would gather in place of spreading; 0 switches it off")
-            return law
-        setattr(kind, "__new__", checked)  # noqa: B010  (mypy allows it so)
-        return kind
-    return decorate
+    def checked(cls: type, *args: Any, **named: Any) -> Any:
+        law = plain(cls, *args, **named)
+        for name, value in zip(law._fields[:2], law):
+            if not np.all(np.asarray(value) >= 0):
+                raise ValueError(f"{name} of {kind.__name__} must not be negative, got {value}: momentum or "
+                                 "heat would gather in place of spreading; 0 switches it off")
+        return law
+    setattr(kind, "__new__", checked)  # noqa: B010  (mypy allows it so)
+    return kind
 
 
-@_spreading("eta", "k")
+@_spreading
 class ConstEta(NamedTuple):
     """Constant shear viscosity eta and conductivity k, bulk viscosity 0    [KHP95, Sec. IV, first choice]"""
     eta: float
     k: float
 
 
-@_spreading("nu", "kappa")
+@_spreading
 class ConstNu(NamedTuple):
     """Constant nu = eta/rho and diffusivity kappa = k/(rho C_V)    [KHP95, Sec. IV, second]"""
     nu: float
@@ -196,7 +191,7 @@ class ConstNu(NamedTuple):
     cv: float = 1.0
 
 
-@_spreading("eta", "k")
+@_spreading
 class PowerLaw(NamedTuple):
     """eta and k proportional to rho^m T^n: an example of transport as a function of the state."""
     eta: float
@@ -228,6 +223,13 @@ viscosity.of(PowerLaw)(lambda transport, rho, T: transport.eta*rho**transport.m*
 conductivity.of(PowerLaw)(lambda transport, rho, T: transport.k*rho**transport.m*T**transport.n)
 for _number in (int, float, np.float64):
     bulk_viscosity.of(_number)(lambda law, rho, T: law)
+
+
+def diffusivity(eos, law, rho, e):
+    """The larger one of nu and of k/(rho de/dT), that of heat, at (rho, e)."""
+    T = temperature(eos, rho, e)
+    slope = (temperature(eos, rho, e + 1e-6) - T)/1e-6
+    return np.maximum(viscosity(law, rho, T), conductivity(law, rho, T)*slope)/rho
 
 
 def constant_viscosity(law: Any) -> bool:

@@ -79,15 +79,6 @@ def jit_records(function: Callable) -> Any:
 formula = register_jitable(**OPTIONS)
 
 
-def made(kind: type) -> str:
-    """How an object of a class is written: `VanDerWaals()`, `ConstEta(eta=..., k=...)`, `Lucy.of(...)`."""
-    if hasattr(kind, "of"):
-        return f"{kind.__name__}.of(...)"
-    needed = [name for name in getattr(kind, "_fields", ())
-              if name not in getattr(kind, "_field_defaults", {})]
-    return f"{kind.__name__}({', '.join(f'{name}=...' for name in needed)})"
-
-
 def place(frame: Any) -> str:
     """File and line of a statement of a module; nothing in a function or a notebook."""
     code = frame.f_code
@@ -113,7 +104,7 @@ def generic(stub: Callable) -> Any:
             known = ", ".join(kind.__name__ for kind in table)
             if isinstance(first, type):
                 raise TypeError(f"{stub.__name__} needs an object, got the class {first.__name__} itself: "
-                                f"give {made(first)}")
+                                f"give {first.__name__}(...) or {first.__name__}.of(...)")
             raise TypeError(f"{stub.__name__}({type(first).__name__}, ...) is not defined: it knows {known}; "
                             f"add a formula with @{stub.__name__}.of({type(first).__name__})")
         return chosen(first, *rest)
@@ -138,13 +129,9 @@ def generic(stub: Callable) -> Any:
 
 
 def check_formulas(value: Any, *functions: Any) -> None:
-    """Refuse an object of a class that any of these generic functions has no formula for.
-
-    Raises TypeError: it lacks formulas; names all of them.
-    """
+    """Refuse an object of a class that any of these generic functions has no formula for: TypeError."""
     kind = type(value)
-    lacking = [one.__name__ for one in functions if not any(base in one.kinds for base in kind.__mro__)]
-    if lacking:
+    if lacking := [one.__name__ for one in functions if not any(base in one.kinds for base in kind.__mro__)]:
         lines = ", ".join(f"@{name}.of({kind.__name__})" for name in lacking)
         raise TypeError(f"{kind.__name__} has no formula for {' and '.join(lacking)}: add {lines}, as for "
                         "the others of its kind in continuum/fluid.py")

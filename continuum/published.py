@@ -31,8 +31,7 @@ def names() -> list[str]:
 def table(name: str) -> pd.DataFrame:
     """All numbers of a paper, with id, symbol, units, source, reading. ValueError: no such file."""
     if name not in names():
-        raise ValueError(f"no published numbers of {name!r}: there are {', '.join(names())}; "
-                         f"a new paper is a new file in {FOLDER.parent.name}/{FOLDER.name}/")
+        raise ValueError(f"no published numbers of {name!r}: there are {', '.join(names())}")
     return pd.read_csv(FOLDER/f"{name}.csv", comment="#", keep_default_na=False,
                        dtype={"value": float, "uncertainty": float, "symbol": str, "units": str, "note": str})
 
@@ -48,8 +47,6 @@ def numbers() -> dict[str, PrintedNumber]:
 def published(key: str) -> PrintedNumber:
     """The number with this id. Raises ValueError: unknown; names ids that are close."""
     if key not in numbers():
-        close = get_close_matches(key, numbers(), n=5)
-        raise ValueError(f"no published number {key!r}: " + (
-            f"did you mean {', '.join(close)}?" if close else
-            f"ids begin with {', '.join(names())}; table({names()[0]!r}) lists those of one paper"))
+        close = get_close_matches(key, numbers(), n=5) or names()
+        raise ValueError(f"no published number {key!r}: did you mean {', '.join(close)}?")
     return numbers()[key]

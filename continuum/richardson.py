@@ -16,14 +16,12 @@ class Extrapolated(NamedTuple):
     error: float
 
 
-def richardson(values: Sequence[float], sizes: Sequence[float], *, order: float = 2.0,
-               step: float = 2.0) -> Extrapolated:
+def richardson(values: Sequence[float], sizes: Sequence[float]) -> Extrapolated:
     """Limit of values for h = 1/size -> 0, sizes being cells per length in any order and ratio.
 
-    The three finest grids give f + a h^order + b h^(order + step); centred differences have step = 2, most
-    other schemes 1. The error is the larger of the distances to two other limits: that of the two finest
-    grids with a alone, and that of the two with the order they show. Where that order is more than NEAR off,
-    its own limit is given, with the whole distance to the finest grid for its error; where there is none, the
+    The three finest grids give f + a h^2 + b h^4. The error is the larger of the distances to two limits of
+    the two finest grids: with a alone, and with the order that is seen. Where that is more than NEAR off, its
+    own limit is given, with the whole distance to the finest grid for its error; where there is none, the
     finest value with twice the spread of all three.
     """
     f, h = finest(values, sizes)
@@ -31,10 +29,10 @@ def richardson(values: Sequence[float], sizes: Sequence[float], *, order: float 
     if np.isnan(seen):
         return Extrapolated(order=seen, limit=float(f[-1]), error=2*float(np.ptp(f)))
     own = eliminate(f[1:], h[1:], seen)
-    if abs(seen - order) > NEAR:
+    if abs(seen - 2) > NEAR:
         return Extrapolated(order=seen, limit=own, error=abs(own - float(f[-1])))
-    limit = eliminate(f, h, order, order + step)
-    others = own, eliminate(f[1:], h[1:], order)
+    limit = eliminate(f, h, 2.0, 4.0)
+    others = own, eliminate(f[1:], h[1:], 2.0)
     return Extrapolated(order=seen, limit=limit, error=max(abs(limit - other) for other in others))
 
 
@@ -45,8 +43,7 @@ def finest(values: Sequence[float], sizes: Sequence[float]) -> tuple[np.ndarray,
         raise ValueError(f"{f.size} values on sizes {n.tolist()}: give one value for each of three or more "
                          "different sizes")
     if not (np.isfinite(f).all() and (n > 0).all()):
-        raise ValueError(f"values {f.tolist()} on sizes {n.tolist()}: values must be finite, sizes positive; "
-                         "leave out the grid that failed")
+        raise ValueError(f"values {f.tolist()} on sizes {n.tolist()}: values must be finite, sizes positive")
     last = np.argsort(n)[-3:]
     return f[last], 1/n[last]
 

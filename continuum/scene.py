@@ -1,8 +1,7 @@
 """The scene that every solver meets: a fluid between two plates, heated from below [KHP95, Secs IV-VI].
 
 Lengths in units of sigma, y in (-L/2, L/2) upwards, x in (-aspect L/2, aspect L/2); mean density 1; gravity
-is chosen so that the motionless state has exactly constant density. Nothing here solves anything: grids and
-particles read it.
+is chosen so that the motionless state has exactly constant density.
 """
 from dataclasses import dataclass
 from math import inf
@@ -11,21 +10,21 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from continuum.fluid import (
-    ConstEta,
-    IdealGas,
-    check_state,
-    conductivity,
-    energy,
-    expansivity,
-    thermal_pressure,
-    viscosity,
-)
+from continuum import fluid
 from continuum.jit import check_formulas
 from continuum.sides import Periodic, Torus, Walls
 
 __all__ = ["ROLL_ENERGY", "Periodic", "RayleighBenard", "Torus", "Walls", "columns_of"]
 ROLL_ENERGY = 9/5000    # kinetic energy per mass of the initial rolls    [KHP95, Fig. 9]
+
+
+def positive(**numbers: Any) -> None:
+    """Refuse what is not positive and finite: ValueError; and what is no number: TypeError."""
+    for name, value in numbers.items():
+        if not isinstance(value, Real):
+            raise TypeError(f"{name} must be a number, got {value!r}: give it without quotes or brackets")
+        if not 0 < float(value) < inf:
+            raise ValueError(f"{name} must be positive and finite, got {value}")
 
 
 def columns_of(aspect: float, rows: int) -> int:
@@ -50,8 +49,8 @@ class RayleighBenard:
     pr : nu/kappa; 1 is KHP95's eta = k where C_V = 1.
     """
     ra: float
-    eos: Any = IdealGas()  # noqa: RUF009  (immutable)
-    transport: Any = ConstEta
+    eos: Any = fluid.IdealGas()  # noqa: RUF009  (immutable)
+    transport: Any = fluid.ConstEta
     L: float = 50.0
     aspect: float = 2.0
     T_hot: float = 1.5
@@ -61,42 +60,23 @@ class RayleighBenard:
     slide: ClassVar[float] = 0.0        # velocity of the upper plate along itself
 
     def __post_init__(self):
-        self._check_numbers()
-        self._check_objects()
-        for T in (self.T_hot, self.T_cold):
-            check_state(self.eos, 1.0, energy(self.eos, 1.0, T))
-        check_formulas(self.law, viscosity, conductivity)
-        eta = float(viscosity(self.law, 1.0, self.T_mean))
-        if not np.isclose(eta, self.nu) or not np.isclose(conductivity(self.law, 1.0, self.T_mean), self.k):
-            raise ValueError(
-                f"{self.transport.__name__} gives eta = {eta:.6g} at rho = 1, T = {self.T_mean}, but Ra = "
-                f"{self.ra} needs {self.nu:.6g}: choose temperatures around the one that the law refers to")
-
-    def _check_numbers(self):
-        for name in ("ra", "pr", "L", "aspect", "T_hot", "T_cold"):
-            if not isinstance(value := getattr(self, name), Real):
-                raise TypeError(f"{name} must be a number, got {value!r}: give it without quotes or "
-                                "brackets, as in ra=1e4")
-        if not 0 < self.ra < inf:
-            raise ValueError(f"Ra must be positive and finite, got {self.ra}: the lower plate is the hot one")
-        if not 0 < self.pr < inf:
-            raise ValueError(f"Pr = nu/kappa must be positive and finite, got {self.pr}")
-        if not (0 < self.L < inf and 0 < self.aspect < inf):
-            raise ValueError(f"L and aspect must be positive and finite, got L = {self.L}, aspect = "
-                             f"{self.aspect}: KHP95 use a height of 50 sigma and twice that width")
-        if not inf > self.T_hot > self.T_cold > 0:
-            raise ValueError(f"temperatures must be finite and obey T_hot > T_cold > 0, got {self.T_hot} and "
-                             f"{self.T_cold}")
-
-    def _check_objects(self):
+        positive(ra=self.ra, pr=self.pr, L=self.L, aspect=self.aspect, T_hot=self.T_hot, T_cold=self.T_cold)
+        if not self.T_hot > self.T_cold:
+            raise ValueError(f"temperatures must obey T_hot > T_cold, got {self.T_hot} and {self.T_cold}")
         if not isinstance(self.sides, (Periodic, Walls)):
             raise ValueError(f"sides must be Periodic() or Walls(), got {self.sides!r}")
-        kind = self.transport if isinstance(self.transport, type) else type(self.transport)
-        if kind is not self.transport or not hasattr(kind, "_fields"):
-            laws = (kind.__name__ if kind in viscosity.kinds
-                    else " or ".join(law.__name__ for law in viscosity.kinds))
+        if not isinstance(self.transport, type) or not hasattr(self.transport, "_fields"):
+            laws = " or ".join(law.__name__ for law in fluid.viscosity.kinds)
             raise TypeError(f"transport must be a class of transport laws, got {self.transport!r}: give "
                             f"{laws}, without quotes or numbers, which follow from ra and pr")
+        for T in (self.T_hot, self.T_cold):
+            fluid.check_state(self.eos, 1.0, fluid.energy(self.eos, 1.0, T))
+        check_formulas(self.law, fluid.viscosity, fluid.conductivity)
+        given = [float(q(self.law, 1.0, self.T_mean)) for q in (fluid.viscosity, fluid.conductivity)]
+        if not np.allclose(given, [self.nu, self.k]):
+            raise ValueError(
+                f"{self.transport.__name__} gives eta, k = {given} at rho = 1, T = {self.T_mean}, but Ra = "
+                f"{self.ra} needs {self.nu, self.k}: choose temperatures around that of the law")
 
     @property
     def width(self) -> float:
@@ -113,12 +93,12 @@ class RayleighBenard:
     @property
     def g(self) -> float:
         """Gravity that balances (dP/dT)_rho dT/dy at density 1    [KHP95, Sec. IV]"""
-        return float(thermal_pressure(self.eos, 1.0, self.T_mean))*self.dT/self.L
+        return float(fluid.thermal_pressure(self.eos, 1.0, self.T_mean))*self.dT/self.L
 
     @property
     def alpha(self) -> float:
         """Thermal expansion -(1/rho)(drho/dT)_P at density 1 and mean temperature."""
-        return float(expansivity(self.eos, 1.0, self.T_mean))
+        return float(fluid.expansivity(self.eos, 1.0, self.T_mean))
 
     @property
     def nu(self) -> float:
@@ -157,7 +137,7 @@ class RayleighBenard:
 
     def e(self, y):
         """Energy per mass of the motionless state."""
-        return energy(self.eos, 1.0, self.T(y))
+        return fluid.energy(self.eos, 1.0, self.T(y))
 
     def flow(self, x, y, ke: float, rolls: int | None = None):
         """Velocities (v_x, v_y) of the initial rolls with kinetic energy `ke` per mass (density 1). `rolls`

@@ -1,7 +1,4 @@
-"""What bounds a box: kinds of sides that all four have together, and kinds of one side, listed in `Sides`.
-
-`axes` of what bounds a box says along which axes (x, y) it is periodic.
-"""
+"""What bounds a box: kinds of all four sides, kinds of one side; `axes`: is it periodic along x, along y?"""
 from math import isfinite, nan
 from typing import Any, NamedTuple
 
@@ -9,20 +6,10 @@ import numpy as np
 
 
 def of_one_kind(kind: type) -> type:
-    """A class whose objects equal those of their own kind only: as tuples, all empty ones would be equal.
-
-    They are written with what differs from the defaults: `Plate(T=1.05)`.
-    """
+    """A class whose objects equal those of their own kind only: as tuples, all empty ones would be equal."""
     def alike(one: tuple, other: object) -> bool:
         return type(one) is type(other) and tuple.__eq__(one, other)
-
-    def written(one: Any) -> str:
-        usual = kind._field_defaults  # type: ignore[attr-defined]
-        given = [f"{name}={value}" for name, value in one._asdict().items()
-                 if value == value and value != usual.get(name)]        # nan is no number that was given
-        return f"{kind.__name__}({', '.join(given)})"
-    for name, method in (("__eq__", alike), ("__ne__", lambda *pair: not alike(*pair)),
-                         ("__repr__", written)):
+    for name, method in (("__eq__", alike), ("__ne__", lambda *pair: not alike(*pair))):
         setattr(kind, name, method)
     return kind
 
@@ -127,21 +114,16 @@ def adiabatic(side: Any) -> bool:
 def check_sides(sides: Sides) -> None:
     """Refuse what is no side, a periodic one without its partner, and numbers that no side can have."""
     for name, side in sides._asdict().items():
-        if not isinstance(side, (Periodic, *SOLID)):
+        if type(side) not in (Periodic, *SOLID):
             raise TypeError(f"{name} must be Periodic(), Plate(...), Slip(...) or Sliding(v, ...), "
                             f"got {side!r}")
-        check_numbers(f"{name} = {side}", side)
+        if warm(side) and not (0 < side.T < np.inf and side.q == 0):
+            raise ValueError(f"{name} = {side}: T must be positive and finite, and a side of given T takes "
+                             "what heat the fluid brings: leave out q, or T")
+        if not all(isfinite(getattr(side, number, 0.0)) for number in ("q", "v")):
+            raise ValueError(f"{name} = {side}: heat and velocity must be finite numbers")
     for one, other in (("left", "right"), ("bottom", "top")):
         pair = getattr(sides, one), getattr(sides, other)
         if sum(isinstance(side, Periodic) for side in pair) == 1:
             raise ValueError(f"{one} = {pair[0]}, {other} = {pair[1]}: periodic sides come in pairs, make "
                              "both or none Periodic()")
-
-
-def check_numbers(what: str, side: Any) -> None:
-    """Refuse a temperature and a heat together, T <= 0, and what is not finite."""
-    if warm(side) and not (0 < side.T < np.inf and side.q == 0):
-        raise ValueError(f"{what}: T must be positive and finite, and a side of given T takes what heat the "
-                         "fluid brings: leave out q, or T")
-    if not all(isfinite(getattr(side, name, 0.0)) for name in ("q", "v")):
-        raise ValueError(f"{what}: heat and velocity must be finite numbers")

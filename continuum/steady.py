@@ -9,6 +9,7 @@ import numpy as np
 SAFETY = 0.8  # of the stability limit, which is taken at the start
 SMALL = 1e-9  # remaining change of K that no longer matters, K of convection being 1e-3
 STILL = 1e-12  # K of a fluid at rest; rolls have 1e-5 already 0.3 % above onset
+WITHIN = 1e-9  # largest change in the last step of Newton's method: the error is then about its square
 STEPS = 60  # of Newton's method: the slowest case that got through took 46 (cavity at Ra = 1e7 on 64 rows)
 RK4_SOUND, RK4_DECAY = 2.82, 2.78  # where RK4's stability region ends on the imaginary and on the real axis
 
@@ -29,8 +30,7 @@ class Series(NamedTuple):
 class GridRun:
     """What a run in time ended with.
 
-    `ke` is K at the end with what is left of its decay added, `ke_err` the size of that, not the error of the
-    grid; `mass_drift` is relative.
+    `ke` is K at the end with what is left of its decay added, `ke_err` the size of that.
     """
     series: Series = field(repr=False)
     ke: float
@@ -52,8 +52,7 @@ class GridRun:
 
 
 def steps_between(interval: float, limit: float, dt: float | None) -> int:
-    """Steps from one sample to the next, of at most dt, or of a safe length. Raises ValueError: dt is above
-    the stability limit."""
+    """Steps from one sample to the next, of at most dt, or safe ones. ValueError: dt is above the limit."""
     longest = SAFETY*limit if dt is None else dt
     if not 0 < longest <= limit:
         raise ValueError(f"dt = {dt:.4g} must be positive and not above the stability limit {limit:.4g}: "
@@ -68,21 +67,19 @@ def of_samples(until: Any, samples: list) -> dict[str, Any]:
     return {"series": series, "ke": ke, "ke_err": ke_err, "converged": until.settled(series.ke)}
 
 
-def newton(q: np.ndarray, step: Callable[[np.ndarray], np.ndarray], within: float,
+def newton(q: np.ndarray, step: Callable[[np.ndarray], np.ndarray],
            what: str) -> tuple[np.ndarray, tuple[float, ...]]:
-    """The q that no step(q) changes by more than `within`, and the largest change of each step.
-
-    Raises NewtonFailed: no convergence, of `what`.
-    """
+    """The q that no step(q) changes by more than WITHIN, and the largest change of each step. Raises
+    NewtonFailed: no convergence, of `what`."""
     changes: list[float] = []
-    while not changes or changes[-1] > within:
+    while not changes or changes[-1] > WITHIN:
         change = step(q)
         q = q + change
         changes.append(largest(change))
         if not changes[-1] < 1e3 or len(changes) == STEPS:
             last = ", ".join(f"{size:.1e}" for size in changes[-4:])
             raise NewtonFailed(f"no steady state at {what}, last changes {last}: start from one nearby in "
-                               "Ra, refine the grid, or see with a run in time whether there is one")
+                               "Ra, refine the grid, or run in time")
     return q, tuple(changes)
 
 
@@ -99,7 +96,7 @@ class Time:
 
     def __post_init__(self):
         if not (self.t_end > 0 and self.samples >= 1):
-            raise ValueError(f"t_end and samples must be positive, got {self.t_end} and {self.samples}")
+            raise ValueError(f"t_end and samples must be positive, got {self}")
 
     def interval(self, scene) -> float:
         return self.t_end/self.samples
@@ -111,7 +108,6 @@ class Time:
         return (len(ke) - 1)/self.samples
 
     def settled(self, ke) -> bool:
-        """A given time says nothing about steadiness."""
         return False
 
     def estimate(self, ke) -> tuple[float, float]:

@@ -7,7 +7,12 @@ import os
 from pathlib import Path
 from typing import Any
 
-OWN = Path("results/own")
+
+def picture(name: str) -> Path:
+    """Where the picture of an example goes, which is printed."""
+    path = Path("results/own")/f"{name}.png"
+    print("picture:", path)
+    return path
 
 
 def sized(usual: Any, quick: Any) -> Any:

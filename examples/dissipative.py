@@ -1,5 +1,5 @@
 """Dissipative particles: which step keeps the temperature? Velocity-Verlet's error grows with the step."""
-from examples import OWN, sized
+from examples import picture, sized
 from particles.dissipative.dpd import Dpd
 from particles.dissipative.integrators import GrootWarren65, Shardlow, VelocityVerlet
 from particles.dissipative.observe import kinetic_temperature
@@ -21,4 +21,4 @@ for number, integrator in enumerate((VelocityVerlet, GrootWarren65, Shardlow)):
 axes.axhline(1, color="grey")
 axes.set(xlabel="time step", ylabel="kT of velocities", title="Which step keeps the temperature?")
 axes.legend()
-save(page, OWN/"dissipative.png")
+save(page, picture("dissipative"))

@@ -3,7 +3,7 @@
 Points that start at rest come to the temperature of their noise."""
 import numpy as np
 
-from examples import OWN, sized
+from examples import picture, sized
 from particles.integral.edge_makers import exact
 from particles.integral.fluctuating import mismatch, stress
 from particles.integral.points import jittered
@@ -25,4 +25,4 @@ page, axes = figure(width=5.5)
 axes.plot(dt*np.arange(len(seen)), seen, marker="")
 axes.axhline(1, color="black")
 axes.set(xlabel="time", ylabel="kT of velocities / kT", title="Friction and its noise agree on a temperature")
-save(page, OWN/"noise.png")
+save(page, picture("noise"))

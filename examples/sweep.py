@@ -5,7 +5,7 @@ Client() starts workers on this machine; Client("tcp://host:8786") uses those of
 """
 from dask.distributed import Client
 
-from examples import OWN, sized
+from examples import picture, sized
 from studies.front import solve
 from studies.kit.figure import figure, save
 
@@ -23,4 +23,4 @@ if __name__ == "__main__":
     page, axes = figure()
     axes.plot([ra**-0.5 for ra in numbers], K)
     axes.set(xlabel="Ra^-1/2", ylabel="K", title="K falls in a straight line to the onset")
-    save(page, OWN/"sweep.png")
+    save(page, picture("sweep"))

@@ -3,29 +3,14 @@ import numpy as np
 
 from continuum.fluid import energy, pressure
 from continuum.scene import Torus
-from examples import OWN, sized
-from particles.fields import from_densities
-from particles.integral.dih import densities
-from particles.integral.points import lattice
-from particles.method import OwnRates
+from examples import picture, sized
+from particles.method import LatticeRates
 from studies.front import solve
 
 ENDS = [0, -1]      # rows of images behind the lower and the upper plate
 
 
-class Cells(OwnRates):
-    names = ("rho", "px", "py", "eps")
-
-    def __init__(self, scene):
-        super().__init__(scene)
-        self.x = lattice((round(scene.width), round(scene.L))).x
-
-    def state(self, rho, v, T):
-        return densities(self.eos, rho, v, T)
-
-    def fields(self, state):
-        return from_densities(self.eos, self.x, np.ones(len(self.x)), state[0], state[1:3], state[3])
-
+class Cells(LatticeRates):
     def rates(self, state, out):
         scene, at, plates = self.scene, self.fields(state), not isinstance(self.scene.sides, Torus)
         f = np.array([at.rho, *at.v.T, at.T]).reshape(4, round(scene.width), round(scene.L))
@@ -49,4 +34,4 @@ class Cells(OwnRates):
 
 
 if __name__ == "__main__":
-    solve("rayleigh-benard", Cells, rows=sized(24, 8), time=sized(90, 5)).plot(OWN/"your_method.png")
+    solve("rayleigh-benard", Cells, rows=sized(24, 8), time=sized(90, 5)).plot(picture("your_method"))

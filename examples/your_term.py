@@ -2,13 +2,10 @@
 from dataclasses import replace
 from typing import NamedTuple
 
-from examples import OWN, sized
+from examples import picture, sized
 from particles.pairs import rate, zero
 from studies.build import ready
-from studies.build.answers import answer
-from studies.build.named import SCENES
-from studies.front import solve
-from studies.kit.figure import figure, save
+from studies.front import compare
 
 
 class Rusanov(NamedTuple):
@@ -25,14 +22,12 @@ def _(term, a, b, ab):          # ab.sx, ab.sy: half of S
     return f*(b.rho - a.rho), f*(b.rho*b.vx - a.rho*a.vx), f*(b.rho*b.vy - a.rho*a.vy), f*(b.eps - a.eps)
 
 
-scene = SCENES["shock-tube"](rows=sized(60, 24), eta=0.05)
-plain = ready(scene, "fixed-lattice-h1.2").method
-mine = replace(plain, transport=(*plain.transport, Rusanov(c=1.2)))
-page, axes = figure(width=6.5)
-for name, method in (("as it is", plain), ("with Rusanov's term", mine)):
-    row = solve(scene, method).fields().query("0 < x and 0 < y < 1").sort_values("x")
-    axes.plot(row.x, row.rho, markersize=3, label=name)
-axes.plot(row.x, answer(scene, row[["x", "y"]].to_numpy())["rho"], color="black", marker="", label="exact")
-axes.set(xlabel="x", ylabel="density")
-axes.legend()
-save(page, OWN/"your_term.png")
+def rusanov(scene):
+    """Lattice points with the term, in any scene: `solve` and `compare` take such a function for a method."""
+    plain = ready(scene, "fixed-lattice-h1.2").method
+    return replace(plain, transport=(*plain.transport, Rusanov(c=1.2)))
+
+
+done = compare("shock-tube", ["fixed-lattice-h1.2", rusanov], rows=sized((60, 120), (18, 24)), eta=0.05)
+print(done)
+done.plot(picture("your_term"))

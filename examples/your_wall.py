@@ -1,7 +1,7 @@
 """Your own wall: a rule of what images do behind a plate; here, half of the velocity, reversed."""
 from typing import NamedTuple
 
-from examples import OWN, sized
+from examples import picture, sized
 from particles.walls.mirror import velocity_and_temperature
 from studies.build.setting import walls
 from studies.build.spam import PRINTED
@@ -17,4 +17,4 @@ velocity_and_temperature.of(Halved)(lambda rule, wall_T, vx, vy, T: (-vx/2, -vy/
 mine = PRINTED._replace(name="halved", walls=lambda scene: walls(scene, Halved()))
 done = compare("couette", ["grid", "spam", "spam-walls-odd", mine], rows=sized((16, 32), (8,)))
 print(done)             # images at rest brake too little, images of reversed velocity brake right
-done.plot(OWN/"your_wall.png")
+done.plot(picture("your_wall"))

@@ -1,5 +1,5 @@
 """Your own weight, a class and two formulas: smooth particles with it beside those with Lucy's."""
-from examples import OWN, sized
+from examples import picture, sized
 from particles.weights import Weight, shape, slope
 from studies.build.spam import PRINTED
 from studies.front import compare
@@ -15,4 +15,4 @@ slope.of(Quartic)(lambda weight, q: -8*(1 - q**2)**3)       # phi'(q)/q
 mine = PRINTED._replace(name="quartic", weight=Quartic)
 done = compare("rayleigh-benard", ["grid", "spam", mine], rows=sized((16, 24), (8,)), time=sized(60, 5))
 print(done)
-done.plot(OWN/"your_weight.png")
+done.plot(picture("your_weight"))

@@ -51,7 +51,7 @@ def save(path: Path, method: Any, plan: Plan, start: np.ndarray, now: Run) -> No
         beside.unlink(missing_ok=True)
         why = "the disk is full" if error.errno == ENOSPC or "No space" in str(error) else str(error)
         raise OSError(f"cannot write checkpoint {path.name} at step {now.step}: {why}; the former one is "
-                      "kept, make room and start again to go on from it") from error
+                      "kept") from error
 
 
 def load(path: Path | None, method: Any, plan: Plan, start: np.ndarray) -> Run | None:
@@ -68,18 +68,15 @@ def load(path: Path | None, method: Any, plan: Plan, start: np.ndarray) -> Run |
                       for g in ("series", "sums")}
             times = list(file["times"][()])
     except (OSError, KeyError) as error:
-        raise ValueError(f"checkpoint {path.name} cannot be read ({error}): delete it to start the run "
-                         "anew") from error
+        raise ValueError(f"checkpoint {path.name} cannot be read ({error}): delete it") from error
     series = {name: list(values) for name, values in groups["series"].items()}
     return Run(**arrays, **numbers, times=times, series=series, sums=groups["sums"])
 
 
 def _same(path: Path, stored: dict, wanted: dict[str, str]) -> None:
     for what, value in wanted.items():
-        had = str(stored.get(what))
-        if had != value:
+        if (had := str(stored.get(what))) != value:
             same = next((k for k, (a, b) in enumerate(zip(had, value, strict=False)) if a != b), 0)
-            at = max(0, same - 20)
-            raise ValueError(f"checkpoint {path.name} is of other {what}: it has ...{had[at:at + 60]}..., "
-                             f"this run ...{value[at:at + 60]}...; delete it to start anew, or run what it "
-                             "was made with")
+            cut = slice(max(0, same - 20), same + 40)
+            raise ValueError(f"checkpoint {path.name} is of other {what}: it has ...{had[cut]}..., this run "
+                             f"...{value[cut]}...; delete it to start anew, or run what it was made with")

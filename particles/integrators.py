@@ -47,7 +47,6 @@ class Euler:
         self._k = np.empty(shape)
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
-        """Advance y in place by dt; sums.rates(y, out) writes dy/dt."""
         sums.rates(y, self._k)
         y += dt*self._k
 
@@ -60,7 +59,6 @@ class TwoStep(Euler):
     """
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
-        """Advance y in place by dt; sums.rates(y, out) writes dy/dt."""
         places = getattr(sums, "places", 0)
         sums.rates(y, self._k)
         y[places:] += dt*self._k[places:]
@@ -74,8 +72,9 @@ def whole(q: np.ndarray) -> np.ndarray:
 
 
 class Leapfrog:
-    """Half a kick, a drift, half a kick [Verlet 1967]: reversible but for round-off."""
+    """Half a kick, a drift, half a kick [Verlet 1967]: reversible but for round-off; `rounded` is added."""
     evaluations = 2
+    rounded: Any = staticmethod(np.asarray)
 
     def __init__(self, shape: tuple[int, ...], threads: Threads):
         self._k = np.empty(shape)
@@ -87,13 +86,8 @@ class Leapfrog:
             y[2:4] += self.rounded(self._k[2:4]*dt/2)
             y[:2] += self.rounded(y[2:4]*drift)
 
-    def rounded(self, change: np.ndarray) -> np.ndarray:
-        """What is added."""
-        return change
-
 
 class Whole(Leapfrog):
     """The same in whole numbers, reversible bit by bit    [Levesque & Verlet 1993]"""
 
-    def rounded(self, change: np.ndarray) -> np.ndarray:
-        return whole(change)
+    rounded = staticmethod(whole)

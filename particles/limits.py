@@ -8,8 +8,7 @@ grad w) (1 - cos k.r), waves exp(ik.r) of displacement u, velocity v and energy 
 
 where k2 stands for the wave number squared: |m S/rho|^2 in nested sums, (2 m/rho) sum_r (-w'/r)(1 - cos k.r)
 in direct ones. Sound is in S, the stiffness of pairs in D. Walls and gravity are left out. Particles off the
-lattice oscillate faster: by 1 (Wendland C2), 10 (Lucy) or 21 % (B-spline) once they have settled, by up to 40
-% where they lie at random.
+lattice oscillate faster: by 1 (Wendland C2) to 21 % (B-spline) once settled, by up to 40 % at random.
 """
 from collections.abc import Callable
 from functools import cache, singledispatch
@@ -42,8 +41,7 @@ def limit_of(method: Any, start: np.ndarray) -> float:
     """The largest stable step from a start (fields, n).
 
     By a formula registered for this kind of method, else by its own `limit(start)`, else, of RK4, from its
-    rates: a scheme that is being tried out has no formula yet, and a guessed step would be taken for its own.
-    Raises TypeError: it has another integrator than RK4 and no `limit`.
+    rates. Raises TypeError: it has another integrator than RK4 and no `limit`.
     """
     if hasattr(method, "limit"):
         return float(method.limit(start))
@@ -58,7 +56,7 @@ def _(method: Spam, start: np.ndarray) -> float:
     return step_limit(method, start[4])
 
 
-def by_trial(method: Any, start: np.ndarray, trials: int = TRIALS) -> np.ndarray:
+def by_trial(method: Any, start: np.ndarray) -> np.ndarray:
     """Estimates of the outermost eigenvalues of d(rates)/d(state) at a start: the largest within some 2 %.
 
     Raises ValueError: rates of one state differ between two calls.
@@ -70,13 +68,14 @@ def by_trial(method: Any, start: np.ndarray, trials: int = TRIALS) -> np.ndarray
     if not np.array_equal(rest, rates_of(sums, now.state)):
         raise ValueError(f"rates of {type(method).__name__} differ between two calls with one state: leave "
                          "noise out of them, or write its limit(start)")
-    return outermost(lambda wave: (rates_of(sums, now.state + small*wave) - rest)/small, start.shape, trials)
+    return outermost(lambda wave: (rates_of(sums, now.state + small*wave) - rest)/small, start.shape)
 
 
-def outermost(product: Callable[[np.ndarray], np.ndarray], shape: tuple, trials: int) -> np.ndarray:
+def outermost(product: Callable[[np.ndarray], np.ndarray], shape: tuple, trials: int = TRIALS) -> np.ndarray:
     """Estimates of outer eigenvalues of a matrix from its products with waves    [Arnoldi 1951]"""
-    waves, H = [unit(np.random.default_rng(1).standard_normal(shape))], np.zeros((trials + 1, trials))
+    pushed, waves, H = np.random.default_rng(1).standard_normal(shape), [], np.zeros((trials + 1, trials))
     for k in range(trials):
+        waves.append(pushed/np.linalg.norm(pushed))
         pushed = product(waves[k])
         for i, wave in enumerate(waves):
             H[i, k] = np.vdot(wave, pushed)
@@ -84,7 +83,6 @@ def outermost(product: Callable[[np.ndarray], np.ndarray], shape: tuple, trials:
         H[k + 1, k] = np.linalg.norm(pushed)
         if H[k + 1, k] <= TINY*np.abs(H).max():
             return np.linalg.eigvals(H[:k + 1, :k + 1])
-        waves.append(unit(pushed))
     return np.linalg.eigvals(H[:-1])
 
 
@@ -99,14 +97,8 @@ def rates_of(sums: Any, state: np.ndarray) -> np.ndarray:
     return out
 
 
-def unit(wave: np.ndarray) -> np.ndarray:
-    """Of length 1."""
-    return wave/np.linalg.norm(wave)
-
-
 def step_limit(method: Spam, e: Any, rho: float = 1.0) -> float:
-    """The largest dt at which RK4 does not make lattice waves grow; ValueError where (rho, e) is outside of
-    the eos."""
+    """The largest dt at which RK4 makes no lattice wave grow. ValueError: (rho, e) is outside of the eos."""
     check_state(method.eos, rho, e)
     symbols = lattice_sums(method.weight, method.m, rho, zone(np.sqrt(method.m/rho)))
     return min(largest_step(waves(method, symbols, float(extreme))) for extreme in {np.min(e), np.max(e)})
@@ -125,9 +117,8 @@ def lattice_sums(weight: Any, m: float, rho: float, k: np.ndarray) -> Symbols:
     r = np.hypot(x, y)
     x, y, r = (q[(0 < r) & (r < weight.h)] for q in (x, y, r))
     if not len(r):
-        raise ValueError(f"particles {a:.4g} apart do not see each other: the weight's range h = "
-                         f"{weight.h:.4g} must be larger (Eq. 45 asks for several spacings): take a larger h "
-                         "or more particles")
+        raise ValueError(f"particles {a:.4g} apart do not see each other within the weight's range h = "
+                         f"{weight.h:.4g}: take a larger h or more particles (Eq. 45: several spacings)")
     w, f, curvature = (np.array(q) for q in zip(*(_derivatives(weight, s) for s in r)))
     phase, n = k@np.stack([x, y]), np.stack([x, y], axis=1)/r[:, None]
     S, slow = np.sin(phase)@(n*(r*f)[:, None]), 1 - np.cos(phase)
@@ -149,9 +140,12 @@ def waves(method: Spam, symbols: Symbols, e: float) -> np.ndarray:
     rho, S, D, *_ = symbols
     k2 = symbols._asdict()[method.transport.symbol]
     eos, m, T = method.eos, method.m, temperature(method.eos, symbols.rho, e)
-    P, (P_rho, P_e), (T_rho, T_e) = (pressure(eos, rho, e), pressure_slopes(eos, rho, e),
-                                     _thermal_slopes(eos, rho, e))
-    less = P - static_part(method, P)
+    P, (P_rho, P_e), d = pressure(eos, rho, e), pressure_slopes(eos, rho, e), 1e-6
+    T_rho = (temperature(eos, rho + d, e) - temperature(eos, rho - d, e))/(2*d)
+    T_e = (temperature(eos, rho, e + d) - temperature(eos, rho, e - d))/(2*d)
+    # `LessStatic` leaves out what is there at the height whose static pressure is nearest to P
+    static, half = method.static, method.static.rho0*method.g*method.box[1]/2
+    less = P - static.fraction*float(np.clip(P, static.P0 - abs(half), static.P0 + abs(half)))
     nu, chi = viscosity(method.law, rho, T)/rho, conductivity(method.law, rho, T)/rho
     A = np.zeros((len(S), 5, 5), complex)
     A[:, :2, 2:4] = np.eye(2)
@@ -163,19 +157,6 @@ def waves(method: Spam, symbols: Symbols, e: float) -> np.ndarray:
     return np.linalg.eigvals(A)
 
 
-def static_part(method: Spam, P: float) -> float:
-    """What `LessStatic` leaves out of P: at the height whose static pressure is nearest to P."""
-    static, half = method.static, method.static.rho0*method.g*method.box[1]/2
-    return static.fraction*float(np.clip(P, static.P0 - abs(half), static.P0 + abs(half)))
-
-
-def _thermal_slopes(eos, rho: float, e: float) -> tuple[float, float]:
-    """dT/drho at constant e and dT/de at constant rho, by central differences."""
-    d = 1e-6
-    return ((temperature(eos, rho + d, e) - temperature(eos, rho - d, e))/(2*d),
-            (temperature(eos, rho, e + d) - temperature(eos, rho, e - d))/(2*d))
-
-
 def largest_step(eigenvalues: np.ndarray) -> float:
     """The step that brings the first eigenvalue to the edge of RK4's region; growth counts as neutral."""
     decay, omega = np.maximum(-eigenvalues.real, 0), np.abs(eigenvalues.imag)
@@ -185,8 +166,7 @@ def largest_step(eigenvalues: np.ndarray) -> float:
 
 @cache
 def _edge() -> tuple[np.ndarray, np.ndarray]:
-    """RK4's stability region: (angle from the imaginary to the negative real axis, |lambda dt| at its edge,
-    to 0.001)."""
+    """RK4's stability region: angles from the imaginary to the negative real axis, |lambda dt| there."""
     angle, r = np.linspace(0, np.pi/2, 181), np.arange(1, 3200)*0.001
     z = 1j*r*np.exp(1j*angle[:, None])
     growth = abs(1 + z + z**2/2 + z**3/6 + z**4/24)

@@ -1,18 +1,18 @@
 """What the pair loops need besides particles: fixed ones, ghosts of the walls, lists, pairs.
 
-Points are numbered particles first, then fixed particles, then ghosts wall by wall; only the first two have
-rows.
+Points are numbered particles first, then fixed particles, then ghosts wall by wall, which have no rows.
 """
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from continuum.fluid import valid
-from particles.method import Summing
+from particles.method import Sums
 from particles.neighbours import farthest, make_lists, sort_into_cells
 from particles.pairs import empty_pairs, weigh
 from particles.threads import Threads
 from particles.walls import confine, fixed_points, move_images, parents, place_images
+from particles.walls.mirror import Mirror
 from particles.walls.periodic import wrap
 
 EMPTY = np.empty(0)
@@ -42,13 +42,13 @@ class PairLists:
 
     def __init__(self, weight, walls, n: int, box: tuple[float, float], *, skin: float, threads: Threads):
         if not skin > 0:
-            raise ValueError(f"the skin of the neighbour list must be positive, got {skin}: 0.2 h is a good "
-                             "start")
+            raise ValueError(f"the skin of the neighbour list must be positive, got {skin}: take 0.2 h")
         if 2*weight.h > min(box):
             raise ValueError(f"the weight's diameter 2 h = {2*weight.h:g} is wider than the box {box[0]:g} x "
                              f"{box[1]:g}: take more particles or a shorter range")
         self.weight, self.walls, self.skin, self.threads, self.n = weight, walls, skin, threads, n
-        held = [fixed_points(wall, *box) for wall in walls] or [(EMPTY, EMPTY, EMPTY)]
+        holding = [wall for wall in walls if type(wall) in fixed_points.kinds]
+        held = [fixed_points(wall, *box) for wall in holding] or [(EMPTY, EMPTY, EMPTY)]
         self._fixed = tuple(np.concatenate(column) for column in zip(*held, strict=True))
         self.rows = n + len(self._fixed[0])
         self.anchor: np.ndarray | None = None
@@ -85,7 +85,7 @@ class PairLists:
         self.anchor, self.lists_made = anchor.copy(), self.lists_made + 1
         x, y = (np.concatenate([a, f]) for a, f in zip(anchor, self._fixed, strict=False))
         self.blocks = []
-        for wall in self.walls:
+        for wall in (wall for wall in self.walls if type(wall) in parents.kinds):
             parent, first = parents(wall, x, y, self.reach), len(x)
             x, y = np.append(x, np.empty(len(parent))), np.append(y, np.empty(len(parent)))
             place_images(first, len(x), wall, parent, x, y)
@@ -93,9 +93,6 @@ class PairLists:
         self.x, self.y = x, y
         self.vx, self.vy, self.T, self.rho, self.P = (np.zeros(len(x)) for _ in range(5))
         self.T[self.n:self.rows] = self._fixed[2]
-        self._fill_lists(x, y)
-
-    def _fill_lists(self, x, y):
         cells = sort_into_cells(x, y, self.reach)
         rows, old = slice(self.rows), self.pairs
         start, length, listed = make_lists(self.threads, cells, x[rows], y[rows], self.reach, 0, old.listed)
@@ -117,16 +114,54 @@ class PairLists:
             move_images(first, last, wall, parent, self.x, self.y, self.vx, self.vy, self.T)
 
 
-class Listed(Summing):
+class Ghosts(NamedTuple):
+    """Of each ghost: its origin, -1 behind an odd number of plates (else 1), the last plate's T."""
+    origin: np.ndarray
+    turn: np.ndarray
+    plate_T: np.ndarray
+
+    def fill(self, records: np.ndarray, even: tuple[str, ...], odd: tuple[str, ...] = ()) -> None:
+        """Fields of ghosts, which come last, from their origins; odd ones change sign in a mirror."""
+        first = len(records) - len(self.origin)
+        for name in (*even, *odd):
+            found = records[name][self.origin]
+            records[name][first:] = found*self.turn if name in odd else found
+
+    def fill_work(self, points: np.ndarray, slopes: np.ndarray, V: np.ndarray) -> None:
+        """The work F of ghosts: along a plate even, across it odd."""
+        self.fill(points, ("Fx",), ("Fy",))
+
+
+def ghosts_of(around: PairLists) -> Ghosts:
+    """The ghosts that the lists have now; mirrors are the only walls that turn anything."""
+    origin, turn, plate_T = np.arange(len(around.x)), np.ones(len(around.x)), np.zeros(len(around.x))
+    for wall, parent, first, last in around.blocks:
+        for q in (origin, turn, plate_T):
+            q[first:last] = q[parent]
+        if isinstance(wall, Mirror):
+            turn[first:last] *= -1
+            plate_T[first:last] = wall.T
+    return Ghosts(origin[around.n:], turn[around.n:], plate_T[around.n:])
+
+
+def unphysical(eos: Any, V: np.ndarray, rho: np.ndarray, e: np.ndarray, ids: np.ndarray) -> str:
+    """The first point with a volume, density or energy that no fluid has; empty if there is none."""
+    good = (V > 0) & (rho > 0) & valid(eos, rho, e)
+    if good.all():
+        return ""
+    i = int(np.argmin(good))
+    return (f"point {ids[i]} has V = {V[i]:.4g}, rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the "
+            f"validity of {type(eos).__name__}")
+
+
+class Listed(Sums):
     """What the time loop asks of sums over neighbour lists, whatever is summed."""
     around: PairLists
 
     def evaluate(self, state: np.ndarray) -> None:
-        """All sums once."""
         self.rates(state, np.empty_like(state))
 
     def resume(self, now: Any) -> None:
-        """Lists as a restarted run had them."""
         if now.anchor is not None:
             self.around.skin = now.skin
             self.around.make_lists(now.anchor)
@@ -146,20 +181,13 @@ class Listed(Summing):
         """Refuse points that the sums would take without a word, once at the start; here none."""
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """New lists if particles may leave the old ones within the step; particles are then sorted. Raises
-        FloatingPointError: a particle is too fast for any list."""
+        """New lists if particles may leave the old ones within the step; particles are then sorted."""
         if self.around.must_relist(now.state, dt):
             self.around.relist(now.state, now.ids, dt)
             now.anchor, now.skin = self.around.anchor, self.around.skin
 
-    def unphysical(self, eos: Any, V: np.ndarray, rho: np.ndarray, e: np.ndarray, ids: np.ndarray) -> str:
-        """The first point with a volume, density or energy that no fluid has; empty if there is none."""
-        good = (V > 0) & (rho > 0) & valid(eos, rho, e)
-        if good.all():
-            return ""
-        i = int(np.argmin(good))
-        return (f"point {ids[i]} has V = {V[i]:.4g}, rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the "
-                f"validity of {type(eos).__name__}")
+    def confine(self, state: np.ndarray) -> int:
+        return sum(confine(wall, state) for wall in self.method.walls)
 
     def outran(self, state: np.ndarray) -> str:
         """What is wrong if a particle has left the skin of the lists; empty if none has."""

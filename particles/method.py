@@ -1,15 +1,19 @@
 """The contract of a method, and the parts of it that a method of one's own inherits.
 
 A method is made for a scene and does not change; `start` gives its sums, which a run steps. The smallest one
-inherits `OwnRates`, takes a scene, and has `names`, `state`, `fields`, `rates`; a code with steps of its own
-inherits `Stepping` and has `advance` and `limit` in place of `rates`. Units are the scene's: lengths in
-spacings, mean density 1.
+inherits `LatticeRates` and has `rates`. One with other states or places inherits `OwnRates`, takes a scene,
+and has `names`, `state`, `fields`, `rates`; a code with steps of its own inherits `Stepping` and has
+`advance` and `limit` in place of `rates`. Units are the scene's: lengths in spacings, mean density 1.
 """
+from functools import cached_property
 from typing import Any, ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 
 from continuum.fluid import Fields
+from particles.fields import from_densities
+from particles.integral.dih import densities
+from particles.integral.points import lattice
 from particles.threads import Threads
 
 
@@ -19,7 +23,9 @@ class Method(Protocol):
 
     eos : equation of state. names : of the rows of a state. Optional: integrator(shape, threads) with
     `step(sums, state, dt)`, RK4 by default; box and walls of points that move; limit(start), the longest
-    stable step, which is found by trial where neither it nor a formula is there (`particles.limits`).
+    stable step, which is found by trial where neither it nor a formula is there (`particles.limits`);
+    state(rho, v, T), (rows, n) of density (n,), velocity (n, 2), temperature (n,) at the method's own places
+    `x` (n, 2), or state(x, rho, v, T) of a method without `x`, for `studies.build.ready`.
     """
     eos: Any
     names: Any
@@ -32,71 +38,38 @@ class Method(Protocol):
 
 
 @runtime_checkable
-class Starting(Method, Protocol):
-    """A method that starts from fields, as `studies.build.ready` wants it of a method of one's own."""
-
-    def state(self, *fields: Any) -> np.ndarray:
-        """(rows, n) of density (n,), velocity (n, 2), temperature (n,) at the method's own places `x` (n, 2);
-        of a method that has no `x` places come first. Raises ValueError: no fluid has these."""
-
-
-@runtime_checkable
 class Sums(Protocol):
-    """What a run and its integrator ask of the sums of a method."""
+    """What a run and its integrator ask of the sums of a method; points that stay write `rates` alone."""
     method: Any
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (rows, n), all of it written to `out`."""
+        raise TypeError(f"{type(self).__name__} has no rates(state, out): write one that puts d(state)/dt "
+                        "into out, or inherit Stepping")
 
     def look_at(self, state: np.ndarray) -> Any:
         """Called before series of a run read a state."""
+        return None
 
     def resume(self, now: Any) -> None:
         """Be as an interrupted run `now` (`particles.plan.Run`) was; called once, before all else."""
+        return None
 
     def try_out(self, now: Any) -> None:
         """Load or compile all code, and leave no trace in the run. ValueError: it starts wrongly."""
-
-    def make_ready(self, now: Any, dt: float) -> None:
-        """Called before a step; may sort `now.state` and `now.ids`. FloatingPointError: it cannot go on."""
-
-    def confine(self, state: np.ndarray) -> int:
-        """Bring back what has left through walls, after a step; the number of reflections."""
-
-    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
-        """What is wrong with a finite state after a step; empty if nothing is."""
-
-
-def no_rates(sums: Any, state: np.ndarray, out: np.ndarray) -> None:
-    """In place of rates where there are none."""
-    raise TypeError(f"{type(sums).__name__} has no rates(state, out): write one that puts d(state)/dt into "
-                    "out, or inherit Stepping and write advance")
-
-
-class Summing:
-    """Sums of points that stay: all but `rates`."""
-    method: Any
-    rates: Any = no_rates
-
-    def look_at(self, state: np.ndarray) -> Any:
-        """Nothing."""
-
-    def resume(self, now: Any) -> None:
-        """Nothing: there are no lists to make again."""
-
-    def try_out(self, now: Any) -> None:
-        """One evaluation."""
         self.rates(now.state, np.empty_like(now.state))
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """Nothing."""
+        """Called before a step; may sort `now.state` and `now.ids`. FloatingPointError: it cannot go on."""
+        return None
 
     def confine(self, state: np.ndarray) -> int:
-        """Nothing moves."""
+        """Bring back what has left through walls, after a step; the number of reflections."""
         return 0
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
-        """The first point whose density or temperature is not positive; nan is none at all."""
+        """What is wrong with a finite state after a step; here a density or temperature that is not positive,
+        nan being none at all. Empty if nothing is."""
         at = self.method.fields(state)
         bad = np.flatnonzero((at.rho <= 0) | (at.T <= 0))
         if not len(bad):
@@ -105,7 +78,7 @@ class Summing:
         return f"point {ids[i]} has rho = {at.rho[i]:.6g}, T = {at.T[i]:.6g}, which must be positive"
 
 
-class OwnRates(Summing):
+class OwnRates(Sums):
     """A method of one's own that is its own sums: inherit it, write `names`, `state`, `fields`, `rates`."""
     names: Any
 
@@ -113,7 +86,6 @@ class OwnRates(Summing):
         self.scene, self.eos, self.method = scene, scene.eos, self
 
     def start(self, n: int, threads: Threads) -> Any:
-        """Itself: it keeps nothing from step to step."""
         return self
 
     def __repr__(self) -> str:
@@ -121,8 +93,27 @@ class OwnRates(Summing):
         return f"{type(self).__name__}({self.scene!r})"
 
 
+class LatticeRates(OwnRates):
+    """Mass, momentum and energy per volume on a lattice of unit spacing: inherit it, write `rates`."""
+    names = ("rho", "px", "py", "eps")
+
+    @cached_property
+    def x(self) -> np.ndarray:
+        """Places (n, 2), row by row along y, x by x."""
+        return lattice((round(self.scene.width), round(self.scene.L))).x
+
+    def state(self, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
+        """(4, n) of fields at `x`."""
+        return densities(self.eos, rho, v, T)
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """The fields of a state; all volumes are 1."""
+        return from_densities(self.eos, self.x, np.ones(len(self.x)), state[0], state[1:3], state[3])
+
+
 class Leaps:
-    """The steps of a code that has its own, as many at once as there are between two records."""
+    """The steps of a code that has its own, as many at once as there are between two records, or `most`."""
+    most = 10**9
 
     def __init__(self, shape: tuple[int, ...], threads: Threads):
         self.shape = shape
@@ -142,13 +133,10 @@ class Stepping(OwnRates):
 
     def advance(self, state: np.ndarray, dt: float, steps: int) -> np.ndarray:
         """The state (rows, n) so many steps of dt later; it may be changed in place."""
-        raise TypeError(f"{type(self).__name__} has no advance(state, dt, steps): write one that returns the "
-                        "state so many steps later")
+        raise TypeError(f"{type(self).__name__} has no advance(state, dt, steps)")
 
     def limit(self, start: np.ndarray) -> float:
-        """The longest stable step from a start."""
-        raise TypeError(f"{type(self).__name__} has no limit(start): write one that returns the longest "
-                        "stable step, which only its author knows")
+        raise TypeError(f"{type(self).__name__} has no limit(start)")
 
     def try_out(self, now: Any) -> None:
-        """Nothing: how its steps begin is its own business."""
+        """Nothing."""

@@ -57,7 +57,7 @@ def sort_into_cells(x: np.ndarray, y: np.ndarray, side: float) -> Cells:
     if not across*up <= 64*len(x) + 4096:
         raise FloatingPointError(
             f"the points spread over {across:.4g} x {up:.4g} cells, far more than their number {len(x)}: "
-            "some have left the box; lower the step or put an elastic wall behind each wall")
+            "some have left the box; lower the step")
     columns, rows = int(across), int(up)
     start, order = np.zeros(columns*rows + 1, np.int64), np.empty(len(x), u32)
     _sort(x, y, left, bottom, side, columns, start, order)
@@ -112,10 +112,11 @@ def make_lists(threads: Threads, cells: Cells, x: np.ndarray, y: np.ndarray, rea
                listed: np.ndarray = NOTHING) -> tuple:
     """(start, length, listed) of points within `reach` of (x, y), but for point i + `itself` of row i.
 
-    `listed` of earlier lists is used again where it has room.
-    Raises FloatingPointError: there are more than 2000 neighbours of each: the particles have collapsed.
+    `listed` of earlier lists is used again where it has room. FloatingPointError: more than 2000 of each.
     """
-    rows, room = len(x), 4 + int(1.1*np.pi*reach**2*_density(cells))
+    occupied = max(int(np.count_nonzero(np.diff(cells.start))), 1)
+    density = len(cells.x)/occupied/cells.side**2
+    rows, room = len(x), 4 + int(1.1*np.pi*reach**2*density)
     while room < 2000:
         start, length = np.empty(rows, np.uint64), np.empty(rows, u32)
         if len(listed) < rows*room:
@@ -124,14 +125,7 @@ def make_lists(threads: Threads, cells: Cells, x: np.ndarray, y: np.ndarray, rea
             return start, length, listed
         room = int(1.3*room) + 1
     raise FloatingPointError(f"more than {int(room/1.3)} neighbours within {reach:g} of each particle: they "
-                             "have collapsed onto each other; lower the step or the attraction in the "
-                             "pressure")
-
-
-def _density(cells: Cells) -> float:
-    """Points per area of the cells that hold any."""
-    occupied = int(np.count_nonzero(np.diff(cells.start)))
-    return len(cells.x)/max(occupied, 1)/cells.side**2
+                             "have collapsed onto each other; lower the step or the attraction")
 
 
 @jit

@@ -2,8 +2,7 @@
 
 Philox4x32-10 [Salmon, Moraes, Dror & Shaw 2011]: ten rounds turn a counter of four 32-bit words under a key
 of two into four random words. The counter is (i, j, step, which), the key the seed, so that a number does not
-depend on lists, on their order, on threads or on restarts. Pairs (i < j) and points use counters that differ
-in the last bit of `which`.
+depend on lists, threads or restarts. Pairs and points differ in the last bit of `which`.
 """
 from numbers import Integral
 
@@ -19,16 +18,14 @@ M0, M1, W0, W1 = u64(0xD2511F53), u64(0xCD9E8D57), u64(0x9E3779B9), u64(0xBB67AE
 UNIT = 2.0**-32
 PAIR, POINT = u64(0), u64(1)
 TWO = u64(2)
-#: inlined before loops are made of vector instructions: four numbers at a time instead of one, nine times as
-#: fast
+#: inlined before loops are made of vector instructions: nine times as fast
 inlined = numba.njit(cache=True, nogil=True, forceinline=True, **OPTIONS)
 
 
 def check_seed(seed: int) -> int:
     """The seed itself. Raises ValueError: it is no whole number of 64 bits."""
     if not isinstance(seed, Integral) or isinstance(seed, bool) or not 0 <= int(seed) < 2**64:
-        raise ValueError(f"the seed must be a whole number from 0 to 2^64 - 1, got {seed!r}: any such number "
-                         "serves, 1 for one")
+        raise ValueError(f"the seed must be a whole number from 0 to 2^64 - 1, got {seed!r}")
     return int(seed)
 
 

@@ -61,9 +61,8 @@ def heat_flow(sums: Any, state: np.ndarray) -> float:
 class PlateHeat(NamedTuple):
     """Energy per area and time that particles get from behind a plate: side -1 lower, +1 upper.
 
-    The part of the third sum that comes from there: heat, viscous work, and the work of pressure if wanted.
-    Pressure does no work on resting plates; but particles are only seen after their turn, and the mean is off
-    in the first order of dt.
+    The part of the third sum that comes from there: heat, viscous work, and the work of pressure if wanted,
+    which is none on resting plates, but for an error of order dt: particles are seen after their turn.
     """
     side: int
     pressure: bool = False

@@ -11,8 +11,7 @@ from particles.weights import shape, slope
 class Pairs(NamedTuple):
     """Verlet lists, listed[start[i]:start[i] + length[i]] of row i, and of them the pairs in range.
 
-    The pairs of row i are near, wx, wy [first[i]:first[i] + taken[i]]; (wx, wy) is the gradient of m w(r_ij)
-    with respect to r_i.
+    The pairs of row i are near, wx, wy [first[i]:first[i] + taken[i]]; (wx, wy) = grad_i m w(r_ij).
     """
     start: np.ndarray
     length: np.ndarray
@@ -170,8 +169,7 @@ def sweep(first, last, term, particle, pairs, out):
 
 @jit
 def interpolate(first, last, weight, m, at_x, at_y, lists, x, y, values, out):
-    """out[i] = sum_j m values[j] w(|r_i - r_j|) over the listed points j of place i; `values` (points,
-    columns)."""
+    """out[i] = sum_j m values[j] w(|r_i - r_j|) over the listed points j of place i."""
     start, length, listed = lists
     for i in range(u64(first), u64(last)):
         out[i] = 0.0

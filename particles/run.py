@@ -14,8 +14,7 @@ from particles.method import Leaps
 from particles.plan import Plan, Run
 from particles.threads import Threads
 
-#: of the step limit: what is stable where moving particles lie at random (see `limits`), what the studies
-#: take
+#: of the step limit: what is stable where moving particles lie at random, what the studies take
 RANDOM, STUDIES = 1/1.4, 0.22
 
 
@@ -31,9 +30,8 @@ class Divergence(FloatingPointError):
 def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], None] | None = None) -> Run:
     """Advance `start`, array-like (fields, n), by the plan; `progress` gets the fraction done.
 
-    Raises ValueError: the step is above the stability limit, a state is invalid or a particle beyond a wall
-    at the start, or the checkpoint is of other code or other parameters. Divergence: a field is not finite or
-    outside of the equation of state's validity; names step, time, field and particle.
+    Raises ValueError: the step is above the stability limit, the start is invalid, or the checkpoint is of
+    another run. Divergence: a field is not finite or no fluid has it; names step, time, field and particle.
     """
     start = _particles(method, start)
     _check_start(method, start, plan)
@@ -49,7 +47,7 @@ def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], N
     try:
         while now.step < plan.steps:
             _advance(method, plan, sums, integrator, now)
-            if progress is not None and now.step % 16 == 0:
+            if progress is not None and (now.step % 16 == 0 or isinstance(integrator, Leaps)):
                 progress(now.step/plan.steps)
             if plan.checkpoint is not None and monotonic() - saved > plan.checkpoint_seconds:
                 now.cpu_s, began = now.cpu_s + process_time() - began, process_time()
@@ -64,7 +62,8 @@ def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], N
 
 
 def _advance(method, plan: Plan, sums, integrator, now: Run) -> None:
-    more = (_until_record(plan, now.step),) if isinstance(integrator, Leaps) else ()
+    to_record = min(plan.every - now.step % plan.every, plan.steps - now.step)
+    more = (min(to_record, integrator.most),) if isinstance(integrator, Leaps) else ()
     try:
         sums.make_ready(now, plan.dt)
         integrator.step(sums, now.state, plan.dt, *more)
@@ -76,11 +75,6 @@ def _advance(method, plan: Plan, sums, integrator, now: Run) -> None:
     _check(method, plan, sums, now)
     if now.step % plan.every == 0:
         _record(plan, sums, now)
-
-
-def _until_record(plan: Plan, step: int) -> int:
-    """Steps until the next record, or the end."""
-    return min(plan.every - step % plan.every, plan.steps - step)
 
 
 def _record(plan: Plan, sums, now: Run) -> None:
@@ -96,13 +90,10 @@ def _record(plan: Plan, sums, now: Run) -> None:
 
 def _particles(method, start: ArrayLike) -> np.ndarray:
     """The start as an array (fields, n) of float64."""
-    wanted = f"particles are an array ({len(method.names)}, n) of {', '.join(method.names)} with n >= 1"
-    try:
-        state = np.asarray(start, float)
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"{wanted}, got a {type(start).__name__} that is none: {error}") from error
+    state = np.asarray(start, float)
     if state.ndim != 2 or state.shape[0] != len(method.names) or state.shape[1] < 1:
-        raise ValueError(f"{wanted}, got {state.shape}")
+        raise ValueError(f"particles are an array ({len(method.names)}, n) of {', '.join(method.names)} with "
+                         f"n >= 1, got {state.shape}")
     return state
 
 
@@ -118,9 +109,8 @@ def _check_start(method, start: np.ndarray, plan: Plan) -> None:
     limit = _limit(method, start)
     if plan.dt > limit:
         raise ValueError(f"dt = {plan.dt:g} is above the stability limit {limit:.3g} of RK4 for these "
-                         f"particles: what is below is stable, below {RANDOM*limit:.2g} also where they lie "
-                         f"at random; the studies take {STUDIES} of the limit, {STUDIES*limit:.2g}, because "
-                         "errors at plates grow with dt")
+                         f"particles, {RANDOM*limit:.2g} where they lie at random; the studies take "
+                         f"{STUDIES*limit:.2g}, because errors at plates grow with dt")
 
 
 def _limit(method, start: np.ndarray) -> float:
@@ -131,8 +121,7 @@ def _limit(method, start: np.ndarray) -> float:
         raise ValueError(f"the particles at the start are no fluid: {error}") from error
     if not limit > 0:
         raise ValueError(f"the particles at the start have no stable step: the limit of RK4 is {limit}; look "
-                         "for densities or temperatures that are not positive, and for viscosities that are "
-                         "not finite")
+                         "for densities, temperatures or viscosities that are not positive and finite")
     return limit
 
 

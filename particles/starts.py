@@ -4,12 +4,10 @@ from typing import Any
 import numpy as np
 
 from continuum.jit import jit
-from particles.ghosts import ghosts_of
-from particles.lists import PairLists
+from particles.lists import PairLists, ghosts_of
 from particles.pairs import Pairs
 
-#: spacings; of the largest stretch of the points around: below these no direction leads to or between
-#: neighbours
+#: spacings; of the largest stretch of the points around
 OVERLAP, FLAT = 1e-9, 1e-6
 
 
@@ -17,8 +15,7 @@ def check_volumes(V: np.ndarray) -> None:
     """Refuse volumes that are none."""
     bad = np.flatnonzero(~((V > 0) & (V < np.inf)))
     if len(bad):
-        raise ValueError(f"point {bad[0]} has volume {V[bad[0]]:g}: they must be positive and finite; "
-                         "`state` makes equal ones")
+        raise ValueError(f"point {bad[0]} has volume {V[bad[0]]:g}: they must be positive and finite")
 
 
 class Overlap(ValueError):
@@ -33,15 +30,15 @@ def check_apart(around: PairLists, ids: np.ndarray, a: float) -> None:
         return
     j = j if j < n else ghosts_of(around).origin[j - n]
     told = "lies on a plate, where it meets its own image" if i == j else f"and point {ids[j]} overlap"
-    raise Overlap(f"point {ids[i]} {told} at ({around.x[i]:g}, {around.y[i]:g}): no direction leads from one "
-                  f"to the other; move {'it inside' if i == j else 'one of them'}")
+    raise Overlap(f"point {ids[i]} {told} at ({around.x[i]:g}, {around.y[i]:g}): move "
+                  f"{'it inside' if i == j else 'one of them'}")
 
 
 def moments(around: PairLists, V: np.ndarray) -> np.ndarray:
     """sum_j V_j W e (x_j - x_i) of plain quadrature, (n, 2, 2): 1 where linear gradients are exact."""
     out = np.zeros((around.n, 2, 2))
-    _moments(around.n, around.pairs, around.x, around.y, np.concatenate([V, V[ghosts_of(around).origin]]),
-             out)
+    everywhere = np.concatenate([V, V[ghosts_of(around).origin]])
+    _moments(around.n, around.pairs, around.x, around.y, everywhere, out)
     return out
 
 
@@ -50,9 +47,8 @@ def check_reach(weight: Any, moment: np.ndarray, ids: np.ndarray) -> None:
     least, most = np.linalg.eigvalsh(moment).T
     bad = np.flatnonzero(~(least > FLAT*most))
     if len(bad):
-        raise ValueError(f"point {ids[bad[0]]} has no neighbours in two directions within the weight's range "
-                         f"h = {weight.h:g} ({len(bad)} of {len(ids)} have not; Eq. 45 asks for several "
-                         "spacings): take a larger h or more points")
+        raise ValueError(f"point {ids[bad[0]]} has no neighbours in two directions within h = "
+                         f"{weight.h:g} ({len(bad)} of {len(ids)} have not): take a larger h or more points")
 
 
 @jit

@@ -1,7 +1,6 @@
 """Pair terms: two particles and their geometry in, what the pair adds to the sum of the first one out.
 
-The papers' symbols: a, b are the two particles, (ab.wx, ab.wy) = grad_a m w(r_ab). A new term is one
-NamedTuple here.
+The papers' symbols: a, b are the two particles, (ab.wx, ab.wy) = grad_a m w(r_ab).
 """
 from typing import NamedTuple
 
@@ -40,9 +39,9 @@ class Fluxes(NamedTuple):
     """
 
 
-zero.of(Gradients)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-zero.of(ArithmeticGradients)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-zero.of(Fluxes)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0))
+zero.of(Gradients)(lambda term: (0.0,)*8)
+zero.of(ArithmeticGradients)(lambda term: (0.0,)*8)
+zero.of(Fluxes)(lambda term: (0.0,)*5)
 
 
 @rate.of(Gradients)
@@ -74,16 +73,14 @@ def _(term, a, b, ab):
 
 
 class DirectFluxes(NamedTuple):
-    """Pressure as in `Fluxes`; viscosity and conduction directly from differences along the pair, without
-    gradients:
+    """Pressure as in `Fluxes`; viscosity and conduction from differences along the pair:
 
     a_a = sum_b [(eta_a + eta_b)/(rho_a rho_b)] (v_a - v_b) F m, de_a = the work of that force shared equally
-    + sum_b [(k_a + k_b)/(rho_a rho_b)] (T_a - T_b) F m, F = w'/r (the forms known by Morris and by
-    Brookshaw).
+    + sum_b [(k_a + k_b)/(rho_a rho_b)] (T_a - T_b) F m, F = w'/r [Morris, Brookshaw].
     """
 
 
-zero.of(DirectFluxes)(lambda term: (0.0, 0.0, 0.0))
+zero.of(DirectFluxes)(lambda term: (0.0,)*3)
 
 
 @rate.of(DirectFluxes)

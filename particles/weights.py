@@ -1,15 +1,15 @@
 """The weight family: w(r) = scale phi(r/h) in d dimensions, zero from the range h on, with unit integral.
 
 A weight is a NamedTuple made by ``Lucy.of(h=3.0)`` and two formulas of q = r/h, both zero at q = 1 so that
-the pair loop needs no branch: `shape` phi(q) and `slope` phi'(q)/q, which is finite at q = 0. A new weight is
-one class here.
+the pair loop needs no branch: `shape` phi(q) and `slope` phi'(q)/q, which is finite at q = 0.
 """
 from collections.abc import Callable
 from functools import cache
-from math import gamma, inf, isfinite, pi
+from math import gamma, inf, isfinite, nan, pi
 from numbers import Real
 from typing import NamedTuple
 
+import numpy as np
 from scipy.integrate import quad
 
 from continuum.jit import formula, generic
@@ -43,28 +43,25 @@ def unit_integral(phi: Formula, d: int) -> float:
 
 def formulas(kind: type) -> tuple[Formula, Formula]:
     """(phi(q), phi'(q)/q) of a kind of weight. Raises TypeError: one of them is missing."""
-    wanted = (("shape", shape.kinds, "phi(q), q = r/h"), ("slope", slope.kinds, "phi'(q)/q"))
-    if lacking := [(name, text) for name, known, text in wanted if kind not in known]:
-        add = " and ".join(f"{name}.of({kind.__name__})(lambda weight, q: ...) with {text}"
-                           for name, text in lacking)
-        raise TypeError(f"{kind.__name__} has no {' and no '.join(name for name, _ in lacking)}: add {add}, "
-                        "as in particles/weights.py")
+    for name, known, text in (("shape", shape.kinds, "phi(q), q = r/h"), ("slope", slope.kinds, "phi'(q)/q")):
+        if kind not in known:
+            raise TypeError(f"{kind.__name__} has no {name}: add {name}.of({kind.__name__})(lambda weight, "
+                            f"q: ...) with {text}, as in particles/weights.py")
     return shape.kinds[kind], slope.kinds[kind]
 
 
 @cache
 def check_formulas(name: str, phi: Formula, over_q: Formula) -> None:
-    """Refuse formulas that the pair loops, which have no branch for the range, would take without a word.
-
-    Raises ValueError: phi or phi' is not zero at q = 1, phi'/q not finite at q = 0, or not the derivative of
-    phi over q.
-    """
+    """Refuse formulas that the pair loops, which have no branch for the range, would take without a word:
+    phi or phi' is not zero at q = 1, phi'/q not finite at q = 0, or not the derivative of phi over q."""
     largest, steepest = (max(abs(f(None, q)) for q in PLACES) for f in (phi, over_q))
     for what, edge, size in (("phi", phi(None, 1.0), largest), ("phi'/q", over_q(None, 1.0), steepest)):
         if not abs(edge) <= ROUND_OFF*size:
             raise ValueError(f"{what} of {name} is {edge:.6g} at q = 1, where it must be zero: pairs beyond "
                              "the range would feel it; let phi end in (1 - q)^2 or a higher power")
-    if not isfinite(centre := _or_nan(over_q, 0.0)):
+    with np.errstate(all="ignore"):
+        centre = over_q(None, np.float64(0))
+    if not isfinite(centre):
         raise ValueError(f"phi'/q of {name} is {centre} at q = 0, where a particle meets itself: let phi "
                          "begin as 1 - c q^2, and write its slope without a division by q")
     found = [(q, q*over_q(None, q), (phi(None, q + STEP) - phi(None, q - STEP))/(2*STEP)) for q in PLACES]
@@ -72,14 +69,6 @@ def check_formulas(name: str, phi: Formula, over_q: Formula) -> None:
         if not abs(given - difference) <= DIFFERENCE*max(abs(d) for _, _, d in found):
             raise ValueError(f"slope of {name} is {given/q:.6g} at q = {q}, but phi'(q)/q there is "
                              f"{difference/q:.6g}: give the derivative of phi, divided by q")
-
-
-def _or_nan(f: Formula, q: float) -> float:
-    """f(q), not a number where it divides by zero, as Python raises there."""
-    try:
-        return float(f(None, q))
-    except ZeroDivisionError:
-        return float("nan")
 
 
 class _Fields(NamedTuple):
@@ -99,8 +88,7 @@ class Weight(_Fields):
         if not isinstance(h, Real):
             raise TypeError(f"the range h of a weight must be a number, got {h!r}: KHP95 use h = 3 sigma")
         if not 0 < h < inf:
-            raise ValueError(f"the range h of a weight must be positive and finite, got {h}: KHP95 use h = 3 "
-                             "sigma")
+            raise ValueError(f"the range h of a weight must be positive and finite, got {h}: take 3 sigma")
         if d not in (1, 2, 3):
             raise ValueError(f"weights exist in d = 1, 2, 3 dimensions, got d = {d}")
         phi, over_q = formulas(cls)
@@ -108,15 +96,13 @@ class Weight(_Fields):
         return cls(h, 1/(unit_integral(phi, d)*h**d))
 
 
-def check_unit(weight: Weight, d: int = 2) -> None:
-    """Refuse a weight whose integral in d dimensions is not 1: every density would be multiplied by it.
-    Raises ValueError: it is not, or the range is not positive and finite."""
-    kind = type(weight).__name__
-    whole = weight.scale*unit_integral(formulas(type(weight))[0],
-                                       d)*weight.h**d if 0 < weight.h < inf else float("nan")
+def check_unit(weight: Weight) -> None:
+    """Refuse a weight whose integral in 2D is not 1: every density would be multiplied by it."""
+    kind, h = type(weight), weight.h
+    whole = weight.scale*unit_integral(formulas(kind)[0], 2)*h**2 if 0 < h < inf else nan
     if not abs(whole - 1) <= 1e-9:
-        raise ValueError(f"{kind} of range h = {weight.h:g} has the integral {whole:.6g} in {d} dimensions, "
-                         f"which must be 1: make it with {kind}.of(h=..., d={d})")
+        raise ValueError(f"{kind.__name__} of range h = {h:g} has the integral {whole:.6g} in 2 dimensions, "
+                         f"which must be 1: make it with {kind.__name__}.of(h=..., d=2)")
 
 
 class Lucy(Weight):

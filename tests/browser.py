@@ -1,7 +1,6 @@
 """Headless Chromium for the tests of the page: Debian's chromium and chromedriver, nothing is fetched."""
 import os
 import shutil
-from contextlib import contextmanager
 
 import pytest
 from selenium import webdriver
@@ -21,30 +20,24 @@ def programs() -> tuple[str, str]:
     return found[0], found[1]
 
 
-def start(width: int, height: int, *more: str) -> webdriver.Chrome:
+def start(width: int, height: int) -> webdriver.Chrome:
     """A window of this size; its console and requests are kept."""
     browser, driver = programs()
     options = Options()
     options.binary_location = browser
     for word in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-                 "--disable-background-networking",
-                 "--no-first-run", f"--window-size={width},{height}", *more):
+                 "--disable-background-networking", "--no-first-run", f"--window-size={width},{height}"):
         options.add_argument(word)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     chrome = webdriver.Chrome(options=options, service=Service(driver))
-    chrome.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                           {"width": width, "height": height, "deviceScaleFactor": 1,
-                                                                 "mobile": width < 500})
+    resize(chrome, width, height)
     return chrome
 
 
-@contextmanager
-def closing(chrome):
-    """Ends with the test."""
-    try:
-        yield chrome
-    finally:
-        chrome.quit()
+def resize(chrome: webdriver.Chrome, width: int, height: int) -> None:
+    """Narrow windows are those of a phone."""
+    chrome.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
+        "width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 500})
 
 
 #: text and ground of what there are many of; WCAG AA: 4.5

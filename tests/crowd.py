@@ -1,4 +1,5 @@
-"""Small crowds of particles for the tests: made, evaluated and advanced without the time loop of runs."""
+"""Small crowds of particles and points: made, evaluated and advanced without the time loop of runs."""
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -31,7 +32,7 @@ def everywhere(box) -> tuple:
 
 
 def goes_on_bitwise(method, state: np.ndarray, dt: float, folder: Path) -> None:
-    """A run of 60 steps that is interrupted at its second report ends as one that is not."""
+    """60 steps that are interrupted at the second report go on, with two threads, as those that are not."""
     whole, seen = run(method, state, Plan(dt=dt, steps=60)), []
 
     def stop(done):
@@ -41,18 +42,45 @@ def goes_on_bitwise(method, state: np.ndarray, dt: float, folder: Path) -> None:
     plan = Plan(dt=dt, steps=60, checkpoint=folder/"run.h5")
     with pytest.raises(KeyboardInterrupt):
         run(method, state, plan, stop)
-    again = run(method, state, plan)
+    again = run(method, state, replace(plan, threads=2))
     assert again.step == 60 and np.array_equal(whole.by_id(), again.by_id())
 
 
-def prepare(method: Spam, state: np.ndarray, threads: int = 1):
+def random_fields(n: int, d: int = 2, seed: int = 0) -> tuple:
+    """Densities and temperatures of 0.9 to 1.1, velocities (n, d) of 0.2."""
+    rng = np.random.default_rng(seed)
+    return rng.uniform(0.9, 1.1, n), rng.normal(0, 0.2, (n, d)), rng.uniform(0.9, 1.1, n)
+
+
+def refuses_bad_starts(method, make, wrong) -> None:
+    """A number of point 17, and points in one place; wrong: (row, value, words) of each."""
+    plan = Plan(dt=0.01, steps=1)
+    for row, value, words in wrong:
+        state = make()
+        state[row, 17] = value
+        with pytest.raises(ValueError, match=words):
+            run(method, state, plan)
+    state = make()
+    state[:2, 17] = state[:2, 18]
+    with pytest.raises(ValueError, match=r"point 1[78] and point 1[78] overlap at .* move one of them"):
+        run(method, state, plan)
+
+
+def prepare(method, state: np.ndarray, threads: int = 1):
     """The method's sums with lists, the state in the order of their cells, and which particle is where."""
     state, ids, sums = state.copy(), np.arange(state.shape[1]), method.start(state.shape[1], Threads(threads))
-    sums.around.relist(state, ids, 0.0)
+    if hasattr(sums, "around"):
+        sums.around.relist(state, ids, 0.0)
     return sums, state, ids
 
 
-def rates(method: Spam, state: np.ndarray, threads: int = 1) -> np.ndarray:
+def jacobian(f, x: np.ndarray, step: float) -> np.ndarray:
+    """df/dx by central differences."""
+    kicks = step*np.eye(x.size).reshape(-1, *x.shape)
+    return np.array([(f(x + kick) - f(x - kick)).ravel()/(2*step) for kick in kicks]).T
+
+
+def rates(method, state: np.ndarray, threads: int = 1) -> np.ndarray:
     """d(state)/dt in the order of the state."""
     sums, ordered, ids = prepare(method, state, threads)
     out = np.empty_like(ordered)

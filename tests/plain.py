@@ -1,10 +1,8 @@
-"""The slow readable twin of `particles`: KHP95's sums as numpy double sums, without lists, cells or compiled
-code.
+"""The slow readable twin of `particles`: KHP95's sums as numpy double sums, without lists or cells.
 
 It shares only the NamedTuples that describe a scene with particles/; every formula here is written a second
-time,
-weights as they are printed (r in units of sigma, range 3 sigma), walls as images of all particles, one by
-one.
+time, weights as they are printed (r in units of sigma, range 3 sigma), walls as images of all particles, one
+by one.
 """
 from typing import Any, NamedTuple
 
@@ -157,8 +155,7 @@ def pairs(method: Spam, x: np.ndarray, rows: int):
 
 
 class Rates(NamedTuple):
-    """rho (rows,), grad_v[i, a, b] = d_a v_b and grad_T[i, a] (rows, ...), and d(x, y, vx, vy, e)/dt (5,
-    n)."""
+    """rho (rows,), grad_v[i, a, b] = d_a v_b, grad_T[i, a] (rows, ...), d(x, y, vx, vy, e)/dt (5, n)."""
     rho: np.ndarray
     grad_v: np.ndarray
     grad_T: np.ndarray
@@ -206,8 +203,7 @@ def nested(method: Spam, p: Points, grad_w, grad_v, grad_T):
 
 
 def direct(method: Spam, p: Points, grad_w, grad_v, grad_T):
-    """Pressure from both partners; viscosity and conduction from differences along the pair (Morris,
-    Brookshaw)."""
+    """Pressure of both; viscosity and conduction from differences along the pair (Morris, Brookshaw)."""
     n, P = len(grad_w), p.P/p.rho**2
     eta, k = (np.array([f(method.law, rho, T) for rho, T in zip(p.rho, p.T)])
               for f in (viscosity, conductivity))

@@ -43,8 +43,8 @@ def around(scene, form, rho):
 
 def walls(scene, form, s):
     """The state with the energy of its wall nodes set from their temperature."""
-    rho, e, T = mean(around(scene, form, s.rho)), s.e.copy(), scene.T(np.linspace(-0.5, 0.5,
-                                                                                  len(s.e))*scene.L)
+    rho, e = mean(around(scene, form, s.rho)), s.e.copy()
+    T = scene.T(np.linspace(-0.5, 0.5, len(e))*scene.L)
     edges = [np.s_[0, :], np.s_[-1, :]]
     if not isinstance(scene.sides, Periodic):
         edges += [np.s_[1:-1, 0], np.s_[1:-1, -1]]
@@ -70,8 +70,8 @@ def rates(scene, form, s):
     if isinstance(form, EdgeHeat):
         work = eta*(vx_x**2 + vx_y**2 + vy_x**2 + vy_y**2) - P*(vx_x + vy_y)
     if isinstance(form, PaperForm):
-        rho_x, rho_y = (rho_near[1:-1, 2:]
-                        - rho_near[1:-1, :-2])/(2*h), (rho_near[2:, 1:-1] - rho_near[:-2, 1:-1])/(2*h)
+        rho_x = (rho_near[1:-1, 2:] - rho_near[1:-1, :-2])/(2*h)
+        rho_y = (rho_near[2:, 1:-1] - rho_near[:-2, 1:-1])/(2*h)
         rho_t = -s.rho*(vx_x + vy_y) - mean(s.vx)*rho_x - mean(s.vy)*rho_y
     else:
         rho_t = -d_dx(rho_nodes*s.vx, h) - d_dy(rho_nodes*s.vy, h)

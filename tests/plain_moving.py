@@ -30,8 +30,7 @@ def ghosts(x, y, scene):
 
 
 def faces(method, scene, state):
-    """S (n, all, 2), k (n, all), x_ij (n, all, 2), the pull to even spacing (n, 2), the density of points
-    (n,), images."""
+    """S, k, x_ij (n, all, ...), the pull to even spacing (n, 2), the density of points (n,), images."""
     n, V = state.shape[1], state[7]
     gx, gy, origin, turn, T = ghosts(state[0], state[1], scene)
     apart = np.stack([gx[None] - state[0][:, None], gy[None] - state[1][:, None]], axis=2)
@@ -85,43 +84,45 @@ def rates(method, scene, state, S, k, apart, shift, count, images):
     px, py, m, V, E = state[EXCHANGED]
     v, rho = np.stack([px, py], axis=1)/m[:, None], m/V
     e = E/m - (v**2).sum(axis=1)/2
-    T, P_all, c = temperature(method.eos, rho, e), pressure(method.eos, rho, e), sound_speed(method.eos, rho,
-                                                                                             e)
-    held = -method.rho0*method.g*state[1]
-    P0 = (V*(P_all - held)).sum()/V.sum()
-    P = P_all - held - P0
-    eta, kappa = viscosity(method.law, rho, T)*np.ones_like(T), conductivity(method.law, rho,
-                                                                             T)*np.ones_like(T)
+    T, P, c = (of(method.eos, rho, e) for of in (temperature, pressure, sound_speed))
+    held = -method.g*state[1]
+    P0 = (V*(P - held)).sum()/V.sum()
+    P = P - held - P0
+    eta, kappa = (of(method.law, rho, T)*np.ones_like(T) for of in (viscosity, conductivity))
+
+    def both(q):
+        """The sum of both ends."""
+        return q[:, None] + q[origin][None]
+
+    def mirrored(q):
+        """That of vectors."""
+        return q[:, None] + (q[origin]*R)[None]
+
+    def step(q):
+        return q[origin][None] - q[:, None]
     slip, friction = v[origin]*R, v[origin]*turn[:, None]
     Td = np.where(turn < 0, 2*T_plate - T[origin], T[origin])
-    half = S/2
-    grad_v = np.einsum("ija,ijb->iab", half, friction[None] - v[:, None])/V[:, None, None]
-    grad_P = np.einsum("ija,ij->ia", half, P[origin][None] - P[:, None])/V[:, None]
-    F = eta[:, None]*np.stack([v[:, 1]*grad_v[:, 1, 0] - v[:, 0]*grad_v[:, 1, 1],
-                               v[:, 0]*grad_v[:, 0, 1] - v[:, 1]*grad_v[:, 0, 0]],
-                               axis=1)*(chosen.transport == MENDED)
-    varies = not constant_viscosity(method.law) and chosen.transport == MENDED
+    half, du = S/2, friction[None] - v[:, None]
+    grad_v = np.einsum("ija,ijb->iab", half, du)/V[:, None, None]
+    grad_P = np.einsum("ija,ij->ia", half, step(P))/V[:, None]
+    mended = chosen.transport == MENDED
+    F = mended*eta[:, None]*np.stack([v[:, 1]*grad_v[:, 1, 0] - v[:, 0]*grad_v[:, 1, 1],
+                                      v[:, 0]*grad_v[:, 0, 1] - v[:, 1]*grad_v[:, 0, 0]], axis=1)
+    varies = mended and not constant_viscosity(method.law)
     tau = varies*eta[:, None, None]*np.stack(
         [[-grad_v[:, 1, 1], grad_v[:, 1, 0]], [grad_v[:, 0, 1], -grad_v[:, 0, 0]]]).transpose(2, 0, 1)
     adjoint = np.stack([turn, np.ones_like(turn)], axis=1)[:, :, None]
-    both = {name: q[:, None] + q[origin][None] for name,
-            q in {"rho": rho, "per_c": 1/c, "eta": eta, "k": kappa, "e": e}.items()}
-    theta = V*count - 1
-    left = (half*(shift[:, None]
-                  + (shift[origin]*R)[None])).sum(axis=2)
-    left += chosen.follow*k*(theta[origin][None] - theta[:, None])
-    linear = 0.5*chosen.smooth*(apart*(grad_P[:, None] + (grad_P[origin]*R)[None])).sum(axis=2)
-    mass = left*both["rho"]/2 + chosen.spread/4*both["per_c"]*k*(P[origin][None] - P[:, None] - linear)
+    left = (half*mirrored(shift)).sum(axis=2) + chosen.follow*k*step(V*count)
+    linear = 0.5*chosen.smooth*(apart*mirrored(grad_P)).sum(axis=2)
+    mass = left*both(rho)/2 + chosen.spread/4*both(1/c)*k*(step(P) - linear)
     to_i, to_j = np.einsum("ija,ia->ij", half, v), np.einsum("ija,ja->ij", half, slip)
-    du = friction[None] - v[:, None]
-    force = 0.5*(both["eta"]*k)[:, :, None]*du - half*(P[origin][None] + P[:, None])[:, :, None]
+    force = 0.5*(both(eta)*k)[:, :, None]*du - half*both(P)[:, :, None]
     force += 0.5*mass[:, :, None]*(v[:, None] + slip[None])
     force += np.einsum("ija,ijab->ijb", half, tau[:, None] + (adjoint*tau[origin])[None])
-    work = 0.25*both["eta"]*k*(du*(friction[None] + v[:, None])).sum(axis=2) + 0.5*both["k"]*k*(Td[None]
-                                                                                                - T[:, None])
-    work += (half*(F[:, None] + (F[origin]*R)[None])).sum(axis=2)
-    work += 0.5*mass*(both["e"] + np.einsum("ia,ja->ij", v, slip)) - P[:, None]*to_j - P[origin][None]*to_i
-    flow, weight = (to_i + to_j).sum(axis=1), method.g*(m - method.rho0*V)
+    work = 0.25*both(eta)*k*(du*(friction[None] + v[:, None])).sum(axis=2)
+    work += 0.5*both(kappa)*k*(Td[None] - T[:, None]) + (half*mirrored(F)).sum(axis=2)
+    work += 0.5*mass*(both(e) + np.einsum("ia,ja->ij", v, slip)) - P[:, None]*to_j - P[origin][None]*to_i
+    flow, weight = (to_i + to_j).sum(axis=1), method.g*(m - V)
     p = force.sum(axis=1)
     return np.stack([p[:, 0], p[:, 1] - weight, mass.sum(axis=1), flow + left.sum(axis=1),
                      work.sum(axis=1) - (P0 + held)*flow - weight*v[:, 1]])

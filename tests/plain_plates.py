@@ -1,24 +1,17 @@
-"""Discretized integral hydrodynamics between plates, edge by edge in numpy, d = 1, 2, 3: the readable twin
-of `layer`.
+"""Integral hydrodynamics between plates, edge by edge in numpy, d = 1, 2, 3: the readable twin of `layer`.
 
 Plates are across the last axis; m = (1, .., 1, -1) is what a mirror makes of a vector. Convection and
-pressure see images with
-rho, T, eps, P even and m v, P going on hydrostatically; friction and heat see -v and 2 T_w - T. An edge from
-i to the image of p
-has a twin from p to the image of i, of area -m S. Hence the adjoint of slopes d_a that see odd images sees
--m_a, and sums that
-are to stay go through images with m_a:
+pressure see images with rho, T, eps, P even and m v, P going on hydrostatically; friction and heat see -v and
+2 T_w - T. An edge from i to the image of p has a twin from p to the image of i, of area -m S. Hence the
+adjoint of slopes d_a that see odd images sees -m_a, and sums that are to stay go through images with m_a:
 
-    v       m       the divergence is minus the adjoint of the gradient, which sees P even: sound keeps its
-    energy
-    tau_ab  -m_a    first the direction, as of the heat current, made of slopes: friction and conduction only
-    damp
+    v       m       the divergence is minus the adjoint of the gradient, which sees P even: sound stays
+    tau_ab  -m_a    first the direction, as of the heat current, made of slopes: both only damp
     F_a     m_a     tau_ab v_b, the work that mends the heating: -m_a times -1
 
-A force along an edge, A e e.(v_j - v_i) in Eq. 51, would not be symmetric: the twin has another direction,
--m e. Edges to images
-take the mean of both, so that plates at rest do no work. In 2D A is 0 without bulk viscosity; on a line both
-are the same.
+A force along an edge, A e e.(v_j - v_i) in Eq. 51, would not be symmetric: the twin lies along -m e. Edges
+to images take the mean of both, so that plates at rest do no work. In 2D A is 0 without bulk viscosity; on a
+line both are the same.
 """
 from dataclasses import dataclass
 from functools import cached_property, singledispatch
@@ -77,9 +70,12 @@ class PlainPlates(Dih):
         """d(state)/dt, written to `out`    [Eqs 34-36]"""
         flow, edges, ends = self.flow(state), self.edges, self.ends
         far = take(flow, ends.to)
-        moved = dih.carried(self.eos, ends.S, take(flow, ends.i), far._replace(v=far.v*ends.mirror),
-                            far.rho*self.g*ends.rise)
-        for row, flux in zip(out, dih.rows(moved, spread(self.transport, self, flow)), strict=True):
+        near, half, weight = take(flow, ends.i), ends.S/2, far.rho*self.g*ends.rise
+        moved = dih.carried(self.eos, ends.S, near, far._replace(v=far.v*ends.mirror))
+        moved = moved._replace(momentum=moved.momentum + half*weight[:, None],
+                               energy=moved.energy + weight*(half*near.v).sum(axis=1))
+        mass, momentum, energy = map(sum, zip(moved, spread(self.transport, self, flow), strict=True))
+        for row, flux in zip(out, (mass, *momentum.T, energy), strict=True):
             row[:] = (np.bincount(edges.j, flux[:len(edges.j)], edges.n)
                       - np.bincount(ends.i, flux, edges.n))/edges.V
         out[-2] -= self.g*flow.rho
@@ -141,6 +137,5 @@ def _(transport: NestedFluxes, fluid: PlainPlates, flow: Flow) -> EdgeFluxes:
 
 @spread.register
 def _(transport: Mixed, fluid: PlainPlates, flow: Flow) -> EdgeFluxes:
-    share, both = transport.share, (spread(kind, fluid, flow)
-                                    for kind in (Pairwise(), NestedFluxes()))
+    share, both = transport.share, (spread(kind, fluid, flow) for kind in (Pairwise(), NestedFluxes()))
     return EdgeFluxes(*(share*one + (1 - share)*other for one, other in zip(*both, strict=True)))

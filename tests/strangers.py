@@ -2,10 +2,8 @@
 import numpy as np
 
 from examples.your_method import Cells
-from particles.integral.dih import densities
-from particles.integral.points import lattice
 from particles.limits import limit_of
-from particles.method import OwnRates, Stepping
+from particles.method import LatticeRates, OwnRates, Stepping
 
 
 class Heun(Stepping):
@@ -31,14 +29,7 @@ class Heun(Stepping):
 
 class NoFields(OwnRates):
     """Nobody can see what it does."""
-    names = ("rho", "px", "py", "eps")
-
-    def __init__(self, scene):
-        super().__init__(scene)
-        self.x = lattice((round(scene.width), round(scene.L))).x
-
-    def state(self, rho, v, T):
-        return densities(self.eos, rho, v, T)
+    names, x, state = LatticeRates.names, LatticeRates.x, LatticeRates.state
 
     def rates(self, state, out):
         out[:] = 0

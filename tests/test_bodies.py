@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from crowd import prepare, random_fields
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
 from particles.integral.bodies import between_circles, held, in_disc, together, turning, with_surface
@@ -31,14 +32,9 @@ def stream(kind="surface", T=1.1, v=(0.0, 0.0), **more):
     return Stream(**{"x": points.x, "edges": edges, **usual, **more})
 
 
-def shaken(fluid, n, seed=0):
-    rng = np.random.default_rng(seed)
-    return fluid.state(rng.uniform(0.9, 1.1, n), rng.normal(0, 0.2, (n, 2)), rng.uniform(0.9, 1.1, n))
-
-
 def rates(fluid, state):
     """Rates of a state, and the sums that made them."""
-    sums, out = fluid.start(state.shape[1], Threads(1)), np.empty_like(state)
+    (sums, *_), out = prepare(fluid, state), np.empty_like(state)
     sums.rates(state, out)
     return out, sums
 
@@ -65,7 +61,7 @@ def with_filter(dih, state, chi):
 @pytest.mark.parametrize("kind", ["surface", "lattice"])
 def test_free_points_exchange_as_the_slow_twin_says(kind, eos, law):
     fluid = stream(kind, push=(0.02, -0.01), chi=0.05, eos=eos, law=law)
-    state = shaken(fluid, len(fluid.x))
+    state = fluid.state(*random_fields(len(fluid.x)))
     twin = Dih(edges=separated(fluid.edges, fluid.held), eos=eos, law=law, transport=Pairwise())
     slow, (fast, _) = with_filter(twin, state, 0.05), rates(fluid, state)
     slow[1:3] += np.array([[0.02], [-0.01]])*state[0]
@@ -84,7 +80,7 @@ def test_free_points_exchange_as_the_slow_twin_says(kind, eos, law):
 def test_the_body_takes_what_the_fluid_loses(law, kind, v, T):
     """Mass stays, momentum goes into the force alone, energy into heat and work, but for the push."""
     fluid = stream(kind, T, v, push=(0.02, 0.0), chi=0.03, law=law)
-    state = shaken(fluid, len(fluid.x))
+    state = fluid.state(*random_fields(len(fluid.x)))
     found, sums = rates(fluid, state)
     V, free = fluid.edges.V, np.ones(len(fluid.x), bool)
     free[fluid.held.which] = False
@@ -143,24 +139,21 @@ def test_bodies_that_touch_do_not_rub():
     assert np.abs(sums.received[~outer, 0]).min() > 0.01
 
 
-def test_bad_bodies_are_refused():
-    at = lattice((10, 12))
-    with pytest.raises(ValueError, match="0 points are to be held"):
-        held(np.empty(0, int))
-    with pytest.raises(ValueError, match="3 points are to be held, 2 of them different"):
-        held(np.array([4, 4, 5]))
-    with pytest.raises(ValueError, match=r"T = -1, which must be positive"):
-        held(np.array([1]), T=-1.0)
-    with pytest.raises(ValueError, match=r"radius 4\.5 in a box"):
-        in_disc(at, 4.5)
-    with pytest.raises(ValueError, match=r"radius 0\.3"):
-        with_surface((10, 12), 0.3)
-    with pytest.raises(ValueError, match=r"radius 2 and 3\.5 leave no point"):
-        between_circles((10, 12), 2.0, 3.5)
-    with pytest.raises(ValueError, match=r"chi must not be negative, got -0\.1"):
-        stream(chi=-0.1)
-    with pytest.raises(ValueError, match="a state of 5 points"):
-        stream().start(5, Threads(1))
+AT = lattice((10, 12))
+
+
+@pytest.mark.parametrize(("make", "words"), [
+    (lambda: held(np.empty(0, int)), "0 points are to be held"),
+    (lambda: held(np.array([4, 4, 5])), "3 points are to be held, 2 of them different"),
+    (lambda: held(np.array([1]), T=-1.0), "T = -1, which must be positive"),
+    (lambda: in_disc(AT, 4.5), r"radius 4\.5 in a box"),
+    (lambda: with_surface((10, 12), 0.3), r"radius 0\.3"),
+    (lambda: between_circles((10, 12), 2.0, 3.5), r"radius 2 and 3\.5 are too near"),
+    (lambda: stream(chi=-0.1), r"chi must not be negative, got -0\.1"),
+    (lambda: stream().start(5, Threads(1)), "a state of 5 points")])
+def test_bad_bodies_are_refused(make, words):
+    with pytest.raises(ValueError, match=words):
+        make()
 
 
 # --- sliding sides ------------------------------------------------------------------------------
@@ -181,7 +174,7 @@ OFFSETS = (0.0, 0.37, 5.81, -31.25, 12.0)
 def test_what_leaves_through_one_sliding_side_enters_through_the_other(law, offset, h):
     """dE/dt = U Fp - U^2/2 Fm, dp/dt = U Fm: boxes differ in speed by U, Fm and Fp pass through the side."""
     fluid = sheared(h=h, law=law)
-    state = shaken(fluid, fluid.points.n)
+    state = fluid.state(*random_fields(fluid.points.n))
     state[4] = offset
     found, sums = rates(fluid, state)
     mass, px, _, _ = sums.through(state)
@@ -198,7 +191,7 @@ def test_a_box_exchanges_as_between_two_true_ones(law, h, slid):
     """Three boxes on one lattice, others faster and slower by U, shifted by whole spacings."""
     counts = (9, 8)
     fluid = sheared(counts, h=h, law=law)
-    state = shaken(fluid, fluid.points.n)
+    state = fluid.state(*random_fields(fluid.points.n))
     state[4] = slid
     rho, v = state[0], (state[1:3]/state[0]).T
     boxes = []

@@ -1,23 +1,18 @@
 """The staggered Boussinesq solver: order, published cavities, agreement of its two drivers."""
 import numpy as np
 import pytest
-from boxes import every_box, marched
+from boxes import CAVITY, SQUARE, every_box, growth_rates, marched
 
+from continuum import linear
 from continuum.boussinesq import (
-    CAVITY,
-    SQUARE,
     BoussinesqCase,
     State,
-    growth_rates,
     rest,
     roll,
     steady,
     transient,
 )
-from continuum.linear import layer as linear
 from continuum.richardson import richardson
-
-# --- accuracy ---------------------------------------------------------------------------------------------
 
 
 def k_and_nu(case: BoussinesqCase, sizes, rolls: int = 1) -> list:
@@ -67,9 +62,6 @@ def test_growth_at_rest_converges_to_linear_theory(ra, pr):
     # h^6 terms of 16 rows; distance at 32 rows is 1e-3
     assert seen.limit == pytest.approx(exact, abs=2e-5)
     assert seen.limit == pytest.approx(exact, abs=seen.error)
-
-
-# --- the two drivers --------------------------------------------------------------------------------------
 
 
 @every_box

@@ -1,123 +1,159 @@
-"""Values of claims from tables of known content: lines, energies, fields, snapshots, histories."""
+"""Values of claims from tables of known content: flows that differ, fields, snapshots, runs that diverged."""
 import math
 
 import numpy as np
 import pandas as pd
 import pytest
 
+from studies.kit.claim import judge
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
 from studies.rb import snapshots
-from studies.rb.claims.grid import PYPDE
-from studies.rb.claims.points import LATTICES
-from studies.rb.tables import grid, particles, points
-from tests.claim_tables import crystal, flow, grids, judged, kept, means, seeds, straight, verdict
+from studies.rb.claims import RB_CLAIMS
+from studies.rb.runs.few_particles import lattice
+from studies.rb.tables import SCENE, grid, particles
 
-# --- lines ----------------------------------------------------------------------------------------
-
-def test_a_straight_line_holds_and_gives_the_number_that_was_read_from_it():
-    tables = means([*grids(), {**PYPDE, "ke": straight(1e4), "ke_err": 1e-7}])
-    for name in ("ke-5000", "ke-line", "ke-line-digits", "ke-line-beyond", "slopes-l2", "intercepts-l2",
-                 "grid-cells"):
-        assert verdict(f"khp95-{name}", tables) == "holds", name
-    assert verdict("khp95-ke-10000", tables) == "fails"         # 0.004800 on this line, 0.00481 printed
-    finest = judged("khp95-grid-converged", tables)
-    assert finest["measured"] == pytest.approx(0.03*(1 + math.sqrt(0.5))/48**2/straight(1e4), rel=1e-6)
-    assert finest["verdict"] == "fails"     # 0.5 %, printed to 0.1 %
+BY_ID = {claim.id: claim for claim in RB_CLAIMS}
+K = 0.0048          # of the grid at Ra 10 000
+GRID = {**grid(1e4, math.inf), "ke": K, "ke_err": 1e-8}
 
 
-def test_a_bent_line_fails():
-    tables = means(grids(bend=0.01))
-    assert verdict("khp95-ke-5000", tables) == "holds"
-    for name in ("ke-line", "ke-line-digits", "ke-line-beyond"):
-        assert verdict(f"khp95-{name}", tables) == "fails", name
-    assert verdict("khp95-slopes-l2", means(grids(order=0.5))) == "fails"
+def judged(name: str, tables: Tables) -> dict:
+    """The whole row of a claim."""
+    return judge([BY_ID[name]], tables, "rb")[0]
 
 
-# --- particles against grid -----------------------------------------------------------------------
+def means(*rows: dict) -> Tables:
+    """Tables `means` and `errors` from points and K; smoothing takes nothing."""
+    usual = {"particles": 0, "seeds": 3, "mixed": 0, "rolls": 2, "ke_fluctuation": 1e-4, "nu": 1.5,
+             "nu_err": 0.0}
+    full = pd.DataFrame([{**usual, **energies(row["ke"], row["ke_err"]), **row} for row in rows])
+    limits = full[np.isinf(full["resolution"])].rename(columns={"ke": "reference"})
+    spam = full[full["method"] == "spam"].merge(limits[[*SCENE, "reference"]], on=SCENE)
+    return Tables({"means": full, "errors": spam.assign(energy="Kg", reference_err=0.0)})
 
 
-@pytest.mark.parametrize(("share", "err", "said"),
-                         [(0.95, 0.01, "holds"), (0.8, 0.01, "fails"), (0.9, 0.02, "undecidable")])
-def test_energy_errors_follow_the_energies(share, err, said):
-    mine = {"ke": 2.0, "ke_err": 0.0, "ke_field": share*0.0034, "ke_field_err": err*0.0034}
-    rows = grids() + [{**particles(5000), **mine}]
-    assert verdict("khp95-energy-error-5000", means(rows)) == said
-    # K of the particles is 2 here
-    assert verdict("khp95-energy-error-5000-particles", means(rows)) == "fails"
+def energies(ke: float, err: float) -> dict:
+    """The same K of particles, field and mean flow."""
+    return {name: value for of in ("ke", "ke_field", "ke_mean")
+            for name, value in ((of, ke), (f"{of}_err", err))}
 
 
 def test_flows_with_other_rolls_are_not_compared():
     def said(rolls: int) -> dict:
-        rows = grids() + [{**particles(1e4), "ke": 0.3*0.0048, "ke_field": 0.2*0.0048, "ke_err": 1e-7,
-                           "rolls": rolls}]
-        return judged("khp95-energy-error-10000", means(rows))
+        row = {**particles(1e4), "ke": 0.3*K, "ke_field": 0.2*K, "ke_err": 1e-7, "rolls": rolls}
+        return judged("khp95-energy-error-10000", means(GRID, row))
     assert said(2)["verdict"] == "fails"
     assert said(4)["verdict"] == "undecidable" and "4 rolls against 2" in said(4)["reason"]
     assert said(0)["verdict"] == "fails"        # at rest: not another flow but none
 
 
 def test_seeds_in_different_flows_decide_nothing():
-    row = {**particles(1e4), "ke": 0.9*straight(1e4), "ke_err": 0.0, "seeds": 2, "mixed": 1}
-    for name in ("khp95-energy-error-10000", "own-smoothed-10000", "khp95-walls-both"):
-        tables = means([*grids(), row, {**row, "variant": "printed-fixed-rows", "mixed": 0}])
+    row = {**particles(1e4), "ke": 0.9*K, "ke_err": 0.0, "seeds": 2, "mixed": 1}
+    tables = means(GRID, row, {**row, "variant": "printed-fixed-rows", "mixed": 0})
+    for name in ("khp95-energy-error-10000", "khp95-walls-both"):
         assert "1 of 3 seeds of printed" in judged(name, tables)["reason"], name
 
 
-def field_errors(*both: pd.DataFrame, ke: tuple[float, ...] = (0.005, 0.005)) -> dict:
-    """The row of the table `field_errors` of 5000 particles at Ra 10 000."""
-    cells = {**grid(1e4), "ke": 0.005, "ke_err": 0.0}
-    points = one_point(particles(1e4), ke)
-    tables = Tables({"fields": pd.concat(both), **points,
-                     "means": pd.concat([points["means"], means([cells])["means"]])})
-    [row] = snapshots.field_errors(tables, tables["means"])
-    return row
+def test_fluctuations_are_those_of_the_start_that_flows():
+    """The same noise, 1e-4, over 0.2 of K at Ra 2500 and over 0.8 of it at Ra 10 000."""
+    points = [{**particles(2500), "ke": 1e-4*K}, {**particles(1e4), "ke": 0.8*K},
+              {**particles(2500, variant="printed-from-flow"), "ke": 0.2*K}]
+    runs = [{**point, "seed": seed, **energies(point["ke"], 1e-6), "ke_fluctuation": 1e-4, "rolls": 2}
+            for point in points for seed in (1, 2)]
+    tables = means(GRID, {**GRID, "ra": 2500.0}, *({**point, "ke_err": 1e-6} for point in points))
+    found = judged("khp95-ra2500-fluctuations", Tables({**tables, "kinetic_energy": pd.DataFrame(runs)}))
+    assert found["measured"] == pytest.approx(4, rel=1e-6) and found["verdict"] == "holds"
+
+
+def flow(shift: float, share: float = 1.0, noise: float = 0.0) -> dict[str, np.ndarray]:
+    """Two rolls on 30 x 60 places, moved along x (in L), their velocity times `share`."""
+    x, y = (np.arange(60) + 0.5)/30 - 1 - shift, ((np.arange(30) + 0.5)/30 - 0.5)[:, None]
+    wave = np.cos(np.pi*x)
+    random = np.random.default_rng(1).standard_normal((2, 30, 60))*noise
+    return {"rho": 1 + 0.1*y - 0.1*wave*np.cos(np.pi*y), "T": 1 - y + 0.2*wave*np.cos(np.pi*y),
+            "vx": share*0.1*np.sin(np.pi*x)*np.sin(2*np.pi*y) + random[0],
+            "vy": share*0.1*wave*np.cos(np.pi*y) + random[1]}
+
+
+def kept(point: dict, at: dict[str, np.ndarray], rows: float) -> pd.DataFrame:
+    """Rows of the table `fields`."""
+    x, y = np.meshgrid((np.arange(60) + 0.5)/30 - 1, (np.arange(30) + 0.5)/30 - 0.5)
+    fields = {name: f.ravel() for name, f in {"x": x, "y": y, **at}.items()}
+    return pd.DataFrame({**point, "resolution": rows, "seed": 1, **fields})
+
+
+def error(ke: tuple[float, ...] = (0.005, 0.005), **changes) -> Measured:
+    """Of the velocities of 5000 particles with these K, one a seed, against the grid's."""
+    point, cells = particles(1e4), grid(1e4)
+    mean = {**point, "ke": np.mean(ke), "ke_err": 0.02*np.mean(ke)*(np.ptp(ke) > 0)}
+    seeds = pd.DataFrame([{**point, "seed": seed, **energies(k, 1e-3*k), "rolls": 2, "converged": True}
+                          for seed, k in enumerate(ke, 1)])
+    fields = pd.concat([kept(cells, flow(0.0), 48.0), kept(point, flow(**changes), 50.0)])
+    tables = means(mean, {**cells, "ke": 0.005, "ke_err": 0.0})
+    tables |= {"fields": fields, "kinetic_energy": seeds}
+    [row] = snapshots.field_errors(Tables(tables), tables["means"])
+    return Measured(row["velocity"], row["velocity_err"])
 
 
 def test_fields_are_compared_wherever_their_rolls_lie():
-    def error(ke: tuple[float, ...] = (0.005, 0.005), **changes) -> Measured:
-        row = field_errors(kept(grid(1e4), flow(0.0), 48.0), kept(particles(1e4), flow(**changes), 50.0),
-                           ke=ke)
-        return Measured(row["velocity"], row["velocity_err"])
     # few harmonics: exact but for round-off
     assert error(shift=0.123) == pytest.approx((0.0, 0.0), abs=1e-12)
     assert error(shift=0.123, share=0.8) == pytest.approx((0.2, 0.0), abs=1e-12)
-    value, err = error(shift=0.3, noise=0.01)
     size = math.sqrt(np.mean(flow(0)["vx"]**2 + flow(0)["vy"]**2))
-    for part in (value, err):       # noise of two components is half even, half odd; 3600 samples: 2 % each
-        assert part == pytest.approx(0.01/size, rel=0.08)
+    for part in error(shift=0.3, noise=0.01):       # noise of two components is half even, half odd
+        assert part == pytest.approx(0.01/size, rel=0.08)       # 3600 samples: 2 % each
     # three seeds, 10 % apart: t(2) = 4.303 times 10 % of K, half of that in velocity; K's own error is 2 %
-    assert error(ke=(0.0045, 0.005, 0.0055), shift=0.1).err == pytest.approx(math.hypot(4.3027*0.1, 0.02)/2,
-                                                                             rel=1e-4)
+    wide = math.hypot(4.3027*0.1, 0.02)/2
+    assert error(ke=(0.0045, 0.005, 0.0055), shift=0.1).err == pytest.approx(wide, rel=1e-4)
     assert math.isnan(error(ke=(0.005,), shift=0.1).err), "one seed has no error"
 
 
-def one_point(point: dict, ke: tuple[float, ...]) -> Tables:
-    """Seeds of a point and their mean, its error 2 % where seeds differ."""
-    row = {**point, "ke": np.mean(ke), "ke_err": 0.02*np.mean(ke)*(np.ptp(ke) > 0)}
-    return Tables({**means([row]), "kinetic_energy": seeds(point, ke)})
-
-
-def test_points_are_judged_by_their_limit_and_their_order():
-    """K = K_grid (1.002 + 12/rows^2): 0.2 % off; exactly of second order without the constant."""
-    def tables(constant, err=1e-7):
-        def ke(n):
-            return straight(1e4)*(1 + constant + (12/n**2 if n < math.inf else 0))
-        rows = [{**points(1e4, "fixed-lattice", n), "ke": ke(n), "ke_err": err}
-                for n in (*LATTICES, math.inf)]
-        return means([*grids(), *rows])
-    assert judged("rr98-rb-lattice-10000", tables(0.002))["measured"] == pytest.approx(0.002, rel=1e-3)
-    exact = judged("rr98-rb-lattice-order-10000", tables(0.0))
-    assert exact["measured"] == pytest.approx(2, rel=1e-3) and exact["verdict"] == "holds"
-    assert judged("rr98-rb-lattice-order-10000", tables(0.004))["measured"] < 1.8
-    assert verdict("rr98-rb-lattice-order-10000", tables(0.0, 1e-5)) == "undecidable"
+def crystal(per_site: int, height: float = 30.0) -> pd.DataFrame:
+    """Rows of `particles`: hexagonal sites of density 1, particles of a site 0.05 apart, images."""
+    x, y = lattice("hexagonal", per_site, reach=3*height)
+    inside = (np.abs(x) < height + 3) & (np.abs(y) < height/2 + 3)
+    x, y = (np.concatenate([q[inside] + 0.05*n*(q is x) for n in range(per_site)]) for q in (x, y))
+    fluid = (np.abs(x) < height) & (np.abs(y) < height/2)
+    return pd.DataFrame({**particles(1e4), "seed": 1, "number": np.arange(len(x)), "x": x/50, "y": y/50,
+                         "vx": 0.1, "vy": 0.0, "T": 1.0, "kind": np.where(fluid, "fluid", "image")})
 
 
 @pytest.mark.parametrize(("per_site", "said"), [(1, "holds"), (2, "fails")])
 def test_particles_are_counted_and_pairs_are_seen(per_site, said):
-    [row] = snapshots.snapshots(Tables({"particles": crystal(per_site).assign(T=1.0)}))
-    assert verdict("khp95-lucy-no-pairs", Tables(snapshots=pd.DataFrame([row]))) == said
+    [row] = snapshots.snapshots(Tables({"particles": crystal(per_site)}))
+    assert judged("khp95-lucy-no-pairs", Tables(snapshots=pd.DataFrame([row])))["verdict"] == said
     assert row["occupancy"] == per_site
     if per_site == 1:
         assert row["neighbours"] == 30
         assert row["spacing"] == pytest.approx(math.sqrt(2/math.sqrt(3)), abs=0.05)   # half a bin
+
+
+def test_what_bears_the_weight_is_no_correlation():
+    a, b = np.random.default_rng(1).standard_normal((2, 4000, 2))
+    weight = np.array([0.0, 5.0])
+    assert snapshots.correlation(a + weight, a - weight) == pytest.approx(1.0)
+    assert abs(snapshots.correlation(a + weight, b + weight)) < 4/math.sqrt(8000)
+    assert snapshots.correlation(a + b, a) == pytest.approx(math.sqrt(0.5), abs=4/math.sqrt(8000))
+
+
+def test_a_run_that_diverged_has_no_energy():
+    """Its row is in kinetic_energy, without numbers; means leaves it out."""
+    lost = pd.DataFrame([{**particles(ra), "seed": 1, "ke": math.nan, "t_end": 12.0, "rolls": 0}
+                         for ra in (1e4, 1e5)])
+    tables = Tables({**means(GRID, {**particles(1e4), "ke": K, "ke_err": 1e-7}), "kinetic_energy": lost})
+    assert "diverged" in judged("khp95-energy-error-10000", tables)["reason"]
+    assert judged("khp95-robust", tables)["verdict"] == "fails"
+    assert "not run yet" in judged("khp95-robust", Tables({**tables, "kinetic_energy": lost[:0]}))["reason"]
+    paper = lost.assign(**grid(1e4, 48, "paper-form"), mass_drift=math.nan)
+    assert "grid diverged" in judged("khp95-ghost-density-mass", Tables({"kinetic_energy": paper}))["reason"]
+
+
+@pytest.mark.parametrize(("rolls", "steady", "ke", "said"), [
+    (1, False, 1e-3, "holds"), (2, True, 1e-3, "fails"), (2, False, 1e-3, "undecidable"),
+    (2, True, 1e-13, "undecidable"), (1, True, 1e-13, "undecidable")])
+def test_two_rolls_that_still_change_or_have_died_are_no_answer(rolls, steady, ke, said):
+    row = {**grid(7e3, 32, "two-rolls", sides="walls"), "ke": ke, "rolls": rolls, "converged": steady,
+           "t_end": 9000.0}
+    found = judged("khp95-one-roll-square", Tables({"kinetic_energy": pd.DataFrame([row])}))
+    assert found["verdict"] == said and ("died" in found["reason"]) == (ke < 1e-6)

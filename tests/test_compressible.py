@@ -42,9 +42,6 @@ def moving(scene, rows, vx=0.0, vy=0.0) -> NodeFields:
     return replace(still, at=still.at._replace(vx=zero + vx, vy=zero + vy))
 
 
-# --- the loop ---------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(("scene", "form"), [
     (GAS, PaperForm()),
     (RayleighBenard(ra=5000, eos=VanDerWaals(), transport=ConstEta), FluxForm()),
@@ -152,9 +149,6 @@ def test_sound_swings_at_the_frequency_of_the_grid(eos):
     assert omega == pytest.approx(c*k, rel=half**2)
 
 
-# --- mass -------------------------------------------------------------------------------------------------
-
-
 def test_mass_is_conserved_to_round_off():
     scene = RayleighBenard(ra=1e4)
     assert abs(run(scene, 12, until=Time(scene.viscous_time)).mass_drift) < 1e-13  # 1e4 roundings at random
@@ -173,9 +167,6 @@ def test_the_continuity_equation_of_the_paper_leaks():
     # the flow changes little while it leaks: the trapezoid of the two rates is good to their difference
     # squared
     assert end.mass_drift*settled.cells.mean() == pytest.approx(np.mean(predicted), rel=1e-2)
-
-
-# --- errors -----------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("rows", "aspect", "words"), [

@@ -3,7 +3,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from crowd import goes_on_bitwise
+from crowd import random_fields, rates, refuses_bad_starts
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
 from continuum.scene import RayleighBenard
@@ -26,7 +26,7 @@ from particles.threads import Threads
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
-from studies.build.rr98_moving import DRIFT_MOTIONS, heat_in
+from studies.build.moving import DRIFT_MOTIONS, heat_of_pairs
 
 COUNTS = COLUMNS, ROWS = 10, 8
 WEIGHT = WendlandC2.of(h=2.9)
@@ -35,6 +35,11 @@ AT = jittered(COUNTS, 0.2, 3)
 SCALE = scale_of(AT, WEIGHT)
 #: row of the slow twin that each row of a state is
 TWIN = [0, 1, 3, 4, 2, 5, 6]
+
+
+def conserved(method, state):
+    """Mass, momentum and energy of all points."""
+    return state[[4, 2, 3, 5]]@(state[6]/method.owned(state[6]))
 
 
 def drift(kind="literal", inside=False, **more):
@@ -46,14 +51,9 @@ def drift(kind="literal", inside=False, **more):
     return Drift(**{"motion": motion, "walls": walls, "box": COUNTS, **usual, **more})
 
 
-def fields(seed=0, n=AT.n):
-    rng = np.random.default_rng(seed)
-    return rng.uniform(0.9, 1.1, n), rng.normal(0, 0.2, (n, 2)), rng.uniform(0.9, 1.1, n)
-
-
 def shaken(method, x=AT.x):
     """A state; volumes differ where they can change."""
-    state = method.state(x, *fields(n=len(x)))
+    state = method.state(x, *random_fields(len(x)))
     if method.motion != DRIFTS["literal"]:
         state[6] *= np.random.default_rng(1).uniform(0.9, 1.1, len(x))
     return state
@@ -62,18 +62,6 @@ def shaken(method, x=AT.x):
 def inner(x):
     """Points that are between plates."""
     return np.stack([x[:, 0], np.clip(x[:, 1], -ROWS/2 + 0.2, ROWS/2 - 0.2)], axis=1)
-
-
-def rates(method, state, threads=1):
-    """In the order of the points as they are given."""
-    n = state.shape[1]
-    sums, now, ids = method.start(n, Threads(threads)), state.copy(), np.arange(n)
-    found = np.zeros_like(state)
-    sums.around.relist(now, ids, 0.0)
-    out = np.zeros_like(now)
-    sums.rates(now, out)
-    found[:, ids] = out
-    return found
 
 
 def alike(found, expected):
@@ -91,20 +79,20 @@ def test_compiled_sums_are_those_of_the_slow_twin(kind, eos, law, mended):
     slow = MOTIONS[kind](box=COUNTS, weight=WEIGHT, eos=eos, law=law, scale=SCALE,
                          transport=Pairwise(mended=mended))
     state = shaken(fast)
-    given = slow.state(AT.x, *fields())
+    given = slow.state(AT.x, *random_fields(AT.n))
     given[TWIN] = state
     found, expected = rates(fast, state), np.zeros_like(given)
     slow.rates(given, expected)
     alike(found, expected[TWIN])
     assert fast.names == tuple(slow.names[row] for row in TWIN)
-    np.testing.assert_allclose(fast.conserved(state)[[0, 3]], slow.conserved(given)[[0, 3]], rtol=1e-13)
+    np.testing.assert_allclose(conserved(fast, state)[[0, 3]], slow.conserved(given)[[0, 3]], rtol=1e-13)
 
 
 @pytest.mark.parametrize("bracket", [Powers(), Powers(1.0, -1.0), Powers(0.5, 1.0)])
 def test_equation_50_is_that_of_the_slow_twin(bracket):
     fast = drift(ConstantMassDrift(bracket))
     slow = ConstantMass(box=COUNTS, weight=WEIGHT, eos=IdealGas(), law=LAW, scale=SCALE, bracket=bracket)
-    given, state = slow.state(AT.x, *fields()), fast.state(AT.x, *fields())
+    given, state = slow.state(AT.x, *random_fields(AT.n)), fast.state(AT.x, *random_fields(AT.n))
     expected = np.zeros_like(given)
     slow.rates(given, expected)
     alike(rates(fast, state), expected[TWIN])
@@ -120,7 +108,7 @@ def test_literal_points_between_plates_are_fixed_ones_that_are_moved(law, mended
     fixed = Layer(x=x, edges=scaled, beyond=images, eos=IdealGas(), law=law, T_plates=(1.5, 0.5), g=0.02,
                   transport=MENDED if mended else PRINTED, form=LayerSums)
     method = drift(inside=True, law=law, transport=fixed.transport)
-    state = method.state(x, *fields())
+    state = method.state(x, *random_fields(AT.n))
     expected = np.zeros((4, len(x)))
     fixed.start(len(x), Threads(1)).rates(state[[4, 2, 3, 5]], expected)
     found = rates(method, state)
@@ -147,24 +135,8 @@ def test_mass_between_plates_stays_in_literal_motion_and_leaks_in_convective():
         method = drift(kind, inside=True)
         state = shaken(method, inner(AT.x))
         done = run(method, state, Plan(dt=0.5*limit_of(method, state), steps=200))
-        lost[kind] = abs(method.conserved(done.state)[0]/method.conserved(state)[0] - 1)
+        lost[kind] = abs(conserved(method, done.state)[0]/conserved(method, state)[0] - 1)
     assert max(lost["literal"], lost["constant-mass"]) < 1e-14 < 1e-5 < lost["convective"]
-
-
-def test_results_do_not_depend_on_threads():
-    wide = jittered((20, ROWS), 0.2, 3)
-    assert wide.n >= 64*2       # threads share no fewer rows
-    method = drift(inside=True, walls=(*plates(ROWS, 1.5, 0.5), *periodic(20)), box=(20, ROWS))
-    state = shaken(method, inner(wide.x))
-    assert np.array_equal(rates(method, state), rates(method, state, 2))
-
-
-@pytest.mark.parametrize("kind", ["literal", "constant-mass"])
-def test_a_run_goes_on_bitwise_where_it_was_interrupted(kind, tmp_path):
-    method = drift(kind, inside=True)
-    state = shaken(method, inner(AT.x))
-    dt = 0.5*limit_of(method, state)
-    goes_on_bitwise(method, state, dt, tmp_path)
 
 
 @pytest.mark.parametrize("kind", DRIFTS)
@@ -198,18 +170,10 @@ def test_what_is_no_fluid_is_named():
 
 @pytest.mark.parametrize("kind", ["literal", "constant-mass"])
 def test_what_is_no_start_is_refused(kind):
-    method, plan = drift(kind), Plan(dt=0.01, steps=1)
-    for row, value, words in ((4, -0.5, r"rho = -0\.5.*\(item 17\) is outside the validity"),
-                              (5, -0.5, r"\(item 17\)"), (6, -1.0, "point 17 has volume -1"),
-                              (3, np.nan, "not finite: py = nan of particle 17")):
-        state = method.state(AT.x, *fields())
-        state[row, 17] = value
-        with pytest.raises(ValueError, match=words):
-            run(method, state, plan)
-    state = method.state(AT.x, *fields())
-    state[:2, 17] = state[:2, 18]
-    with pytest.raises(ValueError, match=r"point 1[78] and point 1[78] overlap at .* move one of them"):
-        run(method, state, plan)
+    method = drift(kind)
+    refuses_bad_starts(method, lambda: method.state(AT.x, *random_fields(AT.n)), (
+        (4, -0.5, r"rho = -0\.5.*\(item 17\) is outside the validity"), (5, -0.5, r"\(item 17\)"),
+        (6, -1.0, "point 17 has volume -1"), (3, np.nan, "not finite: py = nan of particle 17")))
 
 
 def test_a_weight_that_is_none_is_refused_and_a_narrow_one_told():
@@ -217,10 +181,7 @@ def test_a_weight_that_is_none_is_refused_and_a_narrow_one_told():
         drift(weight=WEIGHT._replace(scale=2*WEIGHT.scale))
     method = drift(weight=WendlandC2.of(h=1.05), scale=1.0)
     with pytest.warns(OrderingWarning, match=r"below the spacing 1, the left side of Eq\. 45: gradients"):
-        run(method, method.state(AT.x, *fields()), Plan(dt=0.01, steps=1))
-
-
-# --- between the plates of Rayleigh and Benard --------------------------------------------------
+        run(method, method.state(AT.x, *random_fields(AT.n)), Plan(dt=0.01, steps=1))
 
 
 def test_heat_through_plates_is_conduction_where_temperature_is_linear():
@@ -231,4 +192,4 @@ def test_heat_through_plates_is_conduction_where_temperature_is_linear():
     sums.look_at(now)
     for side in (-1, 1):
         conducted = -side*scene.k*scene.dT/scene.L*scene.width
-        assert heat_in(sums, now, side) == pytest.approx(conducted, rel=1e-12)
+        assert heat_of_pairs(sums, now, side) == pytest.approx(conducted, rel=1e-12)

@@ -25,9 +25,6 @@ def made(d, maker, size, counts=None):
     return x, *between_plates(MAKERS[maker], x, counts[:-1], float(counts[-1]), Lucy.of(h=RANGE[d], d=d))
 
 
-# --- edges ----------------------------------------------------------------------------------------------
-
-
 def with_images(matrices, beyond, own, image):
     """By direction the matrix among points, S/2 times `own` at the point, `image` (d,) at the parent."""
     n = matrices[0].shape[0]

@@ -22,11 +22,11 @@ def small(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
-def test_an_example_is_short_and_ends_in_a_picture(name, small):
-    assert len((ROOT/"examples"/f"{name}.py").read_text().splitlines()) < 55
+def test_an_example_is_short_and_ends_in_a_picture_that_it_names(name, small, capfd):
+    assert len((ROOT/"examples"/f"{name}.py").read_text().splitlines()) < 40
     if name == "sweep":     # its workers import it anew
         subprocess.run([sys.executable, "-m", f"examples.{name}"], check=True, env=os.environ)
     else:
         runpy.run_path(str(ROOT/"examples"/f"{name}.py"), run_name="__main__")
     picture: Path = small/f"{name}.png"
-    assert picture.stat().st_size > 3000
+    assert picture.stat().st_size > 3000 and f"picture: results/own/{name}.png" in capfd.readouterr().out

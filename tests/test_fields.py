@@ -1,10 +1,11 @@
-"""Every method gives back the fields that its state was made of; grids likewise at their nodes."""
+"""Every method gives back the fields that its state was made of, and goes on where it was interrupted."""
 import importlib
 import inspect
 import pkgutil
 
 import numpy as np
 import pytest
+from crowd import goes_on_bitwise, random_fields
 
 import particles
 from continuum.fluid import ConstEta, VanDerWaals
@@ -12,7 +13,6 @@ from continuum.gas.fields import at_nodes, initial, kinetic_energy, placed
 from continuum.gas.fields import block as as_block
 from continuum.scene import RayleighBenard, Torus, Walls
 from particles.dissipative.dpd import Dpd
-from particles.dissipative.stream import DpdStream
 from particles.fields import kinetic_energy as of_fields
 from particles.integral.bodies import held
 from particles.integral.closed_faces import Moving
@@ -22,17 +22,20 @@ from particles.integral.edge_makers import renormalised
 from particles.integral.edges import between_plates
 from particles.integral.isothermal import Carried, Isothermal
 from particles.integral.layer import Driven, Layer
+from particles.integral.moving_delaunay import MovingDelaunay
 from particles.integral.points import jittered, lattice
+from particles.integral.rings import rings
 from particles.integral.rr98_moving import Drift
 from particles.integral.rr98_moving_plain import MOTIONS
 from particles.integral.sheared import Sheared
 from particles.integral.stream import Stream
 from particles.integral.thermal import Thermal
+from particles.limits import limit_of
 from particles.smooth.spam import Spam
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2
 
-BOX = COLUMNS, ROWS = 10, 8
+BOX = COLUMNS, ROWS = 16, 8        # two threads share no fewer points
 AT, SQUARE = jittered(BOX, 0.1, 1), lattice(BOX)
 FLUID = {"eos": VanDerWaals(), "law": ConstEta(0.3, 0.4)}
 EVERYWHERE = {"weight": WendlandC2.of(h=2.9), "walls": (*periodic(COLUMNS), *periodic(ROWS, 1)), "box": BOX,
@@ -46,23 +49,23 @@ INSIDE = dict(zip(("edges", "beyond"), between_plates(renormalised, SQUARE.x, CO
 FIXED = {"dih": Dih(edges=EDGES, **FLUID), "layer": Layer(**INSIDE),
          "thermal": Thermal(edges=EDGES, k=1e-3, seed=1, **FLUID),
          "stream": Stream(x=SQUARE.x, edges=EDGES, held=held(np.array([0])), **FLUID),
-         "sheared": Sheared(points=SQUARE, edges=EDGES, rate=0.1, **FLUID), "driven": Driven(**INSIDE)}
+         "sheared": Sheared(points=SQUARE, edges=EDGES, rate=0.1, **FLUID), "driven": Driven(**INSIDE),
+         "moving-delaunay": MovingDelaunay(x=SQUARE.x, rings=rings(SQUARE.x, BOX, (False, False)),
+                                           held=held(np.array([0])), **FLUID)}
 COLD = Isothermal(x=SQUARE.x, edges=EDGES, terms=(Carried(2.0),))
 MOVING = {**{f"rr98-{name}": Drift(motion=motion, **EVERYWHERE) for name, motion in DRIFTS.items()},
           **{f"plain-{name}": kind(box=BOX, weight=WendlandC2.of(h=2.9), **FLUID) for name,
              kind in MOTIONS.items()},
           "closed-faces": Moving(**EVERYWHERE)}
-DPD = {"dpd": Dpd(box=(5.0, 4.0), rate=0.2), "dpd-3d": Dpd(box=(3.5, 3.0, 4.0)),
-       "dpd-stream": DpdStream(box=(5.0, 4.0), held=np.array([0]))}
+DPD = {"dpd": Dpd(box=(5.0, 4.0)), "dpd-3d": Dpd(box=(3.5, 3.0, 4.0))}
 SPAM = Spam(**EVERYWHERE)
 
 
 def given(n):
     """Densities, velocities, temperatures; the first point rests, since the stream holds it."""
-    rng = np.random.default_rng(1)
-    v = rng.normal(0, 0.2, (n, 2))
+    rho, v, T = random_fields(n)
     v[0] = 0
-    return rng.uniform(0.9, 1.1, n), v, rng.uniform(0.9, 1.1, n)
+    return rho, v, T
 
 
 def same(fields, rho, v, T):
@@ -120,22 +123,14 @@ def test_dissipative_particles_have_the_temperature_of_their_velocities(method):
     assert fields.T[0] == pytest.approx(method.kT, rel=4*np.sqrt(2/(d*len(fields.T))))
 
 
-@pytest.mark.parametrize("method", (*FIXED.values(), *MOVING.values()), ids=(*FIXED, *MOVING))
-def test_one_kinetic_energy_serves_all(method):
-    rho, v, T = given(SQUARE.n)
-    places = () if method in FIXED.values() else (SQUARE.x,)
-    state = method.state(*places, rho=rho, v=v, T=T)
-    assert of_fields(method.fields(state)) == pytest.approx(0.5*rho@(v**2).sum(axis=1)/rho.sum(), rel=1e-13)
-
-
 def kinds():
-    """Every class of the package whose states have names."""
+    """Every class of the package whose states have names, but for what methods inherit."""
     found = {getattr(importlib.import_module(module.name), name)
              for module in pkgutil.walk_packages(particles.__path__, "particles.")
              for name, kind in inspect.getmembers(importlib.import_module(module.name), inspect.isclass)
              if "names" in dir(kind) and {"rates", "start"} & {*dir(kind)}}
-    return {kind for kind in found
-            if not any(kind is not other and issubclass(other, kind) for other in found)}
+    return {kind for kind in found if kind.__module__ != "particles.method"
+            and not any(kind is not other and issubclass(other, kind) for other in found)}
 
 
 def test_no_method_is_left_out():
@@ -143,7 +138,15 @@ def test_no_method_is_left_out():
     assert kinds() <= tried, f"{kinds() - tried} have states, add them to the methods of this test"
 
 
-# --- grids ----------------------------------------------------------------------------------------------
+RUN = [name for name, method in {**FIXED, **MOVING}.items() if hasattr(method, "start")]
+
+
+@pytest.mark.parametrize("name", RUN)
+def test_an_interrupted_run_goes_on_bitwise_with_any_number_of_threads(name, tmp_path):
+    method = {**FIXED, **MOVING}[name]
+    places = () if name in FIXED else (AT.x*[1, 0.9],)      # between plates
+    state = method.state(*places, *given(SQUARE.n))
+    goes_on_bitwise(method, state, 0.5*limit_of(method, state), tmp_path)
 
 
 class Box:

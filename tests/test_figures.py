@@ -1,23 +1,18 @@
-"""Figures come from tables alone: all of them from full ones, some from few rows, none from empty ones."""
+"""Figures come from tables alone: all of them from full ones, some from few rows; what they say."""
 import functools
 import io
-import math
 import warnings
 from importlib import import_module
 
 import numpy as np
-import pandas as pd
 import pytest
 from matplotlib.container import ErrorbarContainer
 from matplotlib.text import Text
 
 from studies.hardcases import figures as hardcases_figures
-from studies.hardcases import tables as hardcases_tables
-from studies.hardcases.derive import NEAR
+from studies.hardcases.derive import NEAR, TABLES
 from studies.kit.sweep import load
 from studies.kit.table import Tables
-from studies.onset import figures as onset_figures
-from studies.onset import tables as onset_tables
 from studies.rb import tables
 from studies.rb.figures import figures, flow
 from studies.rb.looks import NOT_STEADY
@@ -65,10 +60,6 @@ def test_full_tables_give_every_figure_with_labelled_axes(full):
         for side in ("x", "y"):
             assert any(getattr(axes, f"get_{side}label")()
                        for axes in page.axes), f"{name} has no {side} label"
-
-
-def test_empty_tables_give_no_figures():
-    assert figures(Tables({t.name: pd.DataFrame(columns=t.columns) for t in tables.ALL})) == {}
 
 
 @pytest.mark.parametrize("only", [{"ra": 5000.0}, {"method": "spam"}, {"variant": "printed-fixed-rows"}],
@@ -122,12 +113,6 @@ def test_points_that_have_not_settled_are_crossed_and_the_legend_says_so(full):
     assert seen(changed(settled, "kinetic_energy", "converged", False, **where)) == (True, 1)
 
 
-def test_variants_that_diverged_stand_in_words(full):
-    lost = changed(full, "kinetic_energy", "ke", math.nan, variant="wendland-c2", ra=1e4, seed=1)
-    words = [texts(ALL["variants"](known)).count("seeds diverged") for known in (full, lost)]
-    assert words[1] > words[0]
-
-
 def looks(axes) -> dict[str, tuple]:
     """What tells the series of a panel apart without colour: marker and how it is filled."""
     handles, names = axes.get_legend_handles_labels()
@@ -149,12 +134,13 @@ def test_a_panel_has_seven_series_at_most_and_none_looks_like_another(study, nam
 
 
 def test_colours_of_the_map_are_its_outcomes():
-    """The lightest are all right, no others are; every method stands in the figure or below it."""
-    table = load(hardcases_tables.ALL, "hardcases")["map"]
+    """The lightest are all right, no others are; every method that meets three cases or more has its line."""
+    table = load(TABLES, "hardcases")["map"]
     rows = hardcases_figures.judged(table)
     assert (rows["error"] <= NEAR).eq(rows["outcome"] == "right").all()
     words = " ".join(texts(hardcases_figures.chart(table)).split())
-    assert all(name in words for name in set(rows["method"]))
+    cases = rows.groupby("method")["case"].nunique()
+    assert all(name in words for name in cases.index[cases >= 3])
 
 
 def test_frozen_particles_are_named(full):
@@ -162,20 +148,3 @@ def test_frozen_particles_are_named(full):
     thawed, more = (changed(full, "means", "ke_field", ke, method="spam", ra=ra)
                     for ke, ra in ((1.0, 2500.0), (1e-7, 5000.0)))
     assert [texts(ALL["main"](known)).count("frozen") for known in (thawed, full, more)] == [0, 1, 2]
-
-
-def test_circles_are_what_is_behind_the_plates(full):
-    for axes in ALL["fig2_3"](full).axes:
-        x, y = next(line for line in axes.lines if len(line.get_xdata()) > 2).get_data()
-        # 3 rows of 100, two plates
-        assert len(x) >= 2*3*100 and (np.abs(y) > 0.5).all() and (np.abs(x) <= 1).all()
-
-
-def test_the_onset_draws_the_interval_of_each_zero():
-    known = load(onset_tables.ALL, "onset")
-    zeros = next(axes for axes in onset_figures.FIGURES(known)["line"].axes if axes.get_ylabel() == "Ra$_c$")
-    bars = [np.ptp(bar[:, 1]) for drawn in zeros.containers if isinstance(drawn, ErrorbarContainer)
-            for bar in drawn[2][0].get_segments()]
-    lines = known["critical_ra"].query(f"{onset_figures.GAS} and way == 'line'")
-    limits = np.isinf(lines["resolution"]) & lines["quantity"].str.contains("extrapolated")
-    assert max(bars) == pytest.approx(2*lines.loc[limits, "err"].max())

@@ -22,7 +22,6 @@ from continuum.fluid import (
     stress_tensor,
     temperature,
     thermal_pressure,
-    valid,
     viscosity,
 )
 from continuum.jit import jit
@@ -110,15 +109,6 @@ def test_expansivity_is_the_shrinking_of_density_at_constant_pressure(eos, state
     assert expansivity(eos, rho, theta) == pytest.approx(-(hot - cold)/(2*step*rho), rel=1e-5)
 
 
-# --- validity ---------------------------------------------------------------------------------------------
-
-
-@every_eos
-def test_the_states_of_the_paper_are_valid(eos):
-    check_state(eos, RHO, energy(eos, RHO, T))
-    assert valid(eos, RHO, energy(eos, RHO, T)).all()
-
-
 @pytest.mark.parametrize(("eos", "rho", "e", "words"), [
     (VanDerWaals(), 2.0, 1.0, "rho b = 1 must stay below 1"),
     (VanDerWaals(), 1.0, -0.6, "VanDerWaals"),
@@ -130,14 +120,6 @@ def test_the_states_of_the_paper_are_valid(eos):
 def test_a_state_outside_is_refused(eos, rho, e, words):
     with pytest.raises(ValueError, match=words):
         check_state(eos, rho, e)
-
-
-def test_the_first_bad_state_is_named():
-    with pytest.raises(ValueError, match=r"e = -3 \(item 3\)"):
-        check_state(IdealGas(), np.ones((2, 3)), np.array([[1.0, 2, 3], [-3, 1, -1]]))
-
-
-# --- transport and stress ---------------------------------------------------------------------------------
 
 
 def test_transport_laws():
@@ -179,9 +161,6 @@ def test_rotation_makes_no_stress_and_expansion_only_bulk_stress(d):
     spin = np.random.default_rng(3).normal(size=(d, d))
     np.testing.assert_allclose(stress_tensor(0.3, 0.2, spin - spin.T), 0, atol=ROUND_OFF)
     np.testing.assert_allclose(stress_tensor(0.3, 0.2, np.eye(d)), 0.2*d*np.eye(d), atol=ROUND_OFF)
-
-
-# --- formulas chosen by type ------------------------------------------------------------------------------
 
 
 @jit

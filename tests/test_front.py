@@ -1,16 +1,21 @@
 """One call solves any scene with any method: numbers, fields, a picture, files, errors that help."""
+import warnings
+from dataclasses import replace
+
 import h5py
 import meshio
 import numpy as np
 import pytest
 
+from continuum.domain import Domain
 from continuum.scene import RayleighBenard
-from studies.build import ready
-from studies.build.named import SCENES
+from continuum.sides import Periodic, Plate
+from studies.build import SCENES, ready
 from studies.build.spam import PRINTED
 from studies.front import compare, solve
 from studies.front.__main__ import main
 from studies.front.solution import NoSuchQuantity
+from studies.kit.stats import Measured
 
 RB = "rayleigh-benard"
 
@@ -36,6 +41,19 @@ def test_references_agree_by_the_same_call(convection, method):
     at = done.fields()
     m = at.rho*at.V
     assert (m*(at.vx**2 + at.vy**2)).sum()/2/m.sum() == pytest.approx(done.K.value, rel=0.05)
+
+
+def test_references_take_a_layer_made_of_sides_and_say_what_they_cannot():
+    """The gas of the scene by name, side by side."""
+    layer = RayleighBenard(ra=1e4, L=12.0)
+    sides = {"left": Periodic(), "right": Periodic(), "bottom": Plate(T=1.5), "top": Plate(T=0.5)}
+    by_hand = Domain(L=12.0, aspect=2.0, eta=layer.nu, k=layer.k, g=layer.g, **sides)
+    assert solve(by_hand, "boussinesq").K.value == pytest.approx(solve(layer, "boussinesq").K.value, rel=1e-9)
+    assert solve(by_hand, "linear-theory").numbers == solve(layer, "linear-theory").numbers
+    with pytest.raises(ValueError, match=r"boussinesq takes a layer .*, not left = Plate\(.*\): take grid"):
+        solve(replace(by_hand, left=Plate(), right=Plate()), "boussinesq")
+    with pytest.raises(ValueError, match=r"not T_hot = 0\.5, T_cold = 1\.5"):
+        solve(replace(by_hand, bottom=Plate(T=0.5), top=Plate(T=1.5)), "boussinesq")
 
 
 def test_linear_theory_knows_the_onset_and_says_what_it_does_not_know():
@@ -85,9 +103,9 @@ def test_a_variant_an_object_and_a_class_are_methods(convection):
 def test_files_hold_what_the_solution_has(convection, tmp_path):
     with h5py.File(convection.save(tmp_path/"run.h5")) as file:
         assert file.attrs["K"] == convection.K.value
-        assert np.array_equal(file["fields/T"], convection.places["T"])
+        assert np.array_equal(file["fields/T"], convection.fields()["T"])
     mesh = meshio.read(convection.save(tmp_path/"run.vtu"))
-    assert np.array_equal(mesh.point_data["velocity"][:, 1], convection.places["vy"])
+    assert np.array_equal(mesh.point_data["velocity"][:, 1], convection.fields()["vy"])
     with pytest.raises(ValueError, match=r"run.txt ends in .txt: give a name that ends in .h5 or .vtu"):
         convection.save(tmp_path/"run.txt")
 
@@ -109,7 +127,7 @@ def test_an_interrupted_run_goes_on_bitwise(tmp_path, monkeypatch):
         solve(RB, "grid", rows=12, time=5, resume=tmp_path/"run.h5")
     monkeypatch.setattr(solving, "run", run)
     again = solve(RB, "grid", rows=12, time=5, resume=tmp_path/"run.h5")
-    assert again.K == whole.K and again.places.equals(whole.places) and max(ticks) > 0.5
+    assert again.K == whole.K and again.fields().equals(whole.fields()) and max(ticks) > 0.5
 
 
 def test_names_that_do_not_exist_and_scenes_that_a_method_cannot_take():
@@ -134,6 +152,45 @@ def test_a_comparison_has_a_row_a_method_and_resolution_and_tells_what_diverged(
     assert list(done.table.columns[:4]) == ["method", "rows", "K", "K_err"]
     done.plot(tmp_path/"all.png")
     assert (tmp_path/"all.png").stat().st_size > 10000
+
+
+@pytest.mark.parametrize("value, err, words", [(0.0049912, 0.0000123, "0.00499(1)"), (1.8, 0.0, "1.8"),
+                                               (1.236, 0.096, "1.2(1)"), (1234.5, 20.0, "1234(20)"),
+                                               (1.23e-8, 4e-10, "1.23(4)e-8")])
+def test_numbers_are_written_with_their_error_in_the_last_digit(value, err, words):
+    assert str(Measured(value, err)) == words
+
+
+def test_misspelt_numbers_get_the_nearest_name():
+    with pytest.raises(ValueError, match=r"called 'Ra'; near to it are ra\b"):
+        solve(RB, "grid", Ra=1e4)
+    with pytest.raises(ValueError, match="called 'row'; near to it are rows"):
+        compare("couette", ["grid"], row=8)
+    with pytest.raises(ValueError, match="called 'prr'; near to it are pr"):
+        solve(RayleighBenard(ra=1e4, L=8.0), "grid", prr=2.0)
+    with pytest.raises(TypeError, match="Domain has no 'bottum'; near to it are bottom"):
+        Domain(L=8, eta=0.1, k=0.1, bottum=Plate())
+
+
+def test_a_function_of_the_scene_is_a_method_at_several_resolutions():
+    def mine(scene):
+        return ready(scene, "fixed-lattice").method
+    done = compare("taylor-green", [mine, "fixed-lattice"], rows=(8, 12))
+    assert [one.method for one in done.solutions[:2]] == ["mine", "mine"]
+    assert [one.K for one in done.solutions[:2]] == [one.K for one in done.solutions[2:]]
+
+
+@pytest.mark.parametrize("top, told", [(Plate(), True), (Plate(q=-0.01), False), (Plate(T=1.0), False)])
+def test_heat_that_finds_no_way_out_is_told_before_the_run(top, told):
+    scene = Domain(L=8, eta=0.1, k=0.1, bottom=Plate(q=0.01), top=top)
+    with warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter("always")
+        at = solve(scene, "grid", rows=16, time=0.1).at
+    words = [str(one.message) for one in seen if "T will change by" in str(one.message)]
+    assert bool(words) == told
+    if told:        # an error of second order, 2.6 % with 16 rows
+        rise = float(words[0].split("change by ")[1].split()[0])
+        assert (at.rho*at.V)@at.T/(at.rho@at.V) - 1 == pytest.approx(rise, rel=0.03)
 
 
 def test_the_command_prints_and_draws_and_tells_errors_in_a_line(tmp_path, capsys):

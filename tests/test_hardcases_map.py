@@ -11,7 +11,7 @@ from studies.hardcases.cases import TILED, cases
 from studies.hardcases.claims import SQUARES
 from studies.hardcases.derive import derive
 from studies.hardcases.extremes import BOXES, LAYERS, SHEAR_FLOW, SITUATIONS, SOUND, VORTEX, rarefied
-from studies.hardcases.survival import SAMPLES, Hard, energies, flow, marched
+from studies.hardcases.survival import SAMPLES, Hard, energies, flow, followed
 from studies.kit.claim import judged
 from studies.kit.table import Tables
 
@@ -63,80 +63,36 @@ def test_methods_start_with_the_flow_and_mass_of_the_scene(case):
         assert kinetic_energy(at) == pytest.approx(9/5000, rel=0.02)
 
 
-def run(**values):
-    """A row of `hard_runs`."""
-    usual = {"case": "Ra 1e5", "method": "fixed-lattice", "rows": 16, "k": 0.01, "flow": 0.01,
-             "mass_drift": 0.0, "k_start": 0.01, "flow_start": 0.01, "reached": 1.0, "refused": ""}
-    return {**usual, **values}
-
-
-def mapped(**rows) -> list[dict]:
-    """Rows of the map, from rows of tables."""
-    return derive(Tables({name: pd.DataFrame(some) for name, some in rows.items()}))["map"]
-
-
-def outcome(**values) -> str:
-    """Of one run beside a fine grid."""
-    one = run(**values)
-    grids = [run(case=one["case"], method="grid", rows=rows) for rows in (32, 48)]
-    [row] = [row for row in mapped(hard_runs=[one, *grids]) if row["method"] != "grid"]
-    return row["outcome"]
+RUN = {"case": "Ra 1e5", "method": "fixed-lattice", "rows": 16, "k": 0.01, "k_start": 0.01, "reached": 1.0,
+       "flow": 0.0115, "flow_start": 0.0115, "refused": "", "mass_drift": 0.0}
 
 
 @pytest.mark.parametrize("values, wanted", [
-    ({}, "right"), ({"flow": 0.0105}, "right"), ({"flow": 0.008}, "wrong"), ({"flow": 1e-4}, "freezes"),
-    ({"reached": 0.7, "flow": np.nan}, "diverges"), ({"reached": 0.0, "refused": "no"}, "refused"),
-    ({"mass_drift": 0.02}, "leaks"),
-    ({"case": "zero viscosity", "k": 0.02}, "wrong"), ({"case": "zero viscosity"}, "right"),
-    ({"case": "wall corner", "k": 1e-3}, "wrong"), ({"case": "wall corner", "k": 1e-8}, "right")])
-def test_outcomes_follow_their_rules(values, wanted):
-    assert outcome(**values) == wanted
+    ({"mass_drift": 0.02}, "leaks"), ({}, "right"), ({"flow": 0.013}, "wrong"),     # grids differ by 10 %
+    ({"case": "zero viscosity"}, "right"), ({"case": "zero viscosity", "k": 0.02}, "wrong")])
+def test_outcomes_that_no_case_tells_apart(values, wanted):
+    grids = [{**RUN, "method": "grid", **more}
+             for more in ({"rows": 32, "flow": 0.011}, {"rows": 48, "flow": 0.01})]
+    [row] = derive(Tables(hard_runs=pd.DataFrame([{**RUN, **values}, *grids])))["map"]
+    assert row["outcome"] == wanted
 
 
-def of_tube(L: int, **values) -> dict:
-    """A row of `method_tubes` without viscosity."""
-    usual = {"method": "grid", "eta": 0.0, "step": 0.5, "seed": 1, "v_grid": np.nan, "v_exact": 0.02}
-    return {**usual, "wiggles": 0.01, "reached": 1.0, "L": L, **values}
-
-
-@pytest.mark.parametrize("rows, wanted, number", [
-    ([of_tube(24, wiggles=0.9), of_tube(96)], "right", "ringing of v"),
-    ([of_tube(24), of_tube(96, wiggles=0.3)], "wrong", "ringing of v"),
-    ([of_tube(96, v_exact=0.2)], "wrong", "ringing of v"),
-    ([of_tube(24, reached=0.4), of_tube(96)], "diverges", "part of the time"),
-    ([of_tube(24), of_tube(24, reached=0.1, step=0.125)], "right", "ringing of v")])
-def test_tubes_on_the_map_ring_are_off_or_end(rows, wanted, number):
-    [row] = mapped(method_tubes=rows)
-    assert row["outcome"] == wanted and row["number"] == number
-
-
-@pytest.mark.parametrize("measured, err, wanted", [
-    (0.97, 0.01, "right"), (1.02, 0.11, "unjudged"), (0.81, 0.05, "wrong")])
-def test_a_rate_that_is_not_known_well_is_not_judged(measured, err, wanted):
-    row = {"method": "grid", "predicted": 1.0, "measured": measured, "measured_err": err, "reached": 1.0}
-    assert mapped(shear=[row])[0]["outcome"] == wanted
+@pytest.mark.parametrize("v_exact, wanted", [(0.02, "right"), (0.2, "wrong")])
+def test_a_tube_that_does_not_ring_may_still_be_off(v_exact, wanted):
+    tube = {"method": "grid", "eta": 0.0, "step": 0.5, "wiggles": 0.01, "reached": 1.0, "L": 96}
+    [row] = derive(Tables(method_tubes=pd.DataFrame([{**tube, "v_exact": v_exact}])))["map"]
+    assert row["outcome"] == wanted
 
 
 def test_the_grid_goes_round_a_box_without_plates():
     """A piece of a turn keeps mass and energy; a vacuum, even of a thousandth, ends the run."""
     ready, (vacuum, time) = TILED.ready(VORTEX), BOXES["vacuum"]
-    seen, reached = marched(ready, 8.0, 2, energies(VORTEX), lambda done: None)
+    seen, reached = followed(ready, 8.0, 2, energies(VORTEX))
     k, _, mass = seen.T
     assert reached == 1 and mass == pytest.approx(256, rel=1e-14)
     # the start has no pressure of its vortex: sound takes the square of the Mach number 0.07
     assert k[-1] == pytest.approx(k[0], rel=0.005)
-    assert marched(TILED.ready(vacuum), time, SAMPLES, energies(vacuum), lambda done: None).reached < 1
-
-
-@pytest.mark.parametrize("coarse, fine, wanted, err", [
-    (0.01, np.nan, "unjudged", np.nan), (0.2, np.nan, "unjudged", np.nan),
-    (0.0105, 0.01, "right", 1.05*0.01), (0.02, 0.01, "wrong", 2*0.01)])
-def test_a_grid_is_not_held_against_itself(coarse, fine, wanted, err):
-    """With two grids the coarser one would be off by its own error, and right whatever its flow."""
-    flows = {16: coarse, 32: 0.0099, 48: fine}
-    [row] = mapped(hard_runs=[run(method="grid", rows=rows, flow=flow_, reached=float(flow_ > 0))
-                              for rows, flow_ in flows.items()])
-    assert row["outcome"] == wanted and row["measured_err"] == pytest.approx(err, nan_ok=True)
+    assert followed(TILED.ready(vacuum), time, SAMPLES, energies(vacuum)).reached < 1
 
 
 def test_the_growth_of_a_wave_on_a_shear_flow_follows_from_its_own_equation():

@@ -1,24 +1,23 @@
 """The judge praises what is good, and has a verdict for what is wrong, on each rung without a traceback."""
-import json
-
 import pandas as pd
 import pytest
 import strangers
 
+from studies.judge import ladder
 from studies.judge.__main__ import main
-from studies.judge.ladder import Ladder, judged
+from studies.judge.ladder import Take, climb, judged
+from studies.judge.measures import convergence, right
 from studies.judge.rungs import RUNGS
-from studies.judge.verdicts import convergence, energy
 from studies.kit.key import ROOT
 
 QUICK = ["--rows", "8", "12", "--out"]
 
 
 @pytest.fixture
-def verdicts(tmp_path):
+def verdicts():
     """Of a class at 8 rows, by rung."""
     def of(method):
-        takes = Ladder(method, tmp_path, (8,), 5.0).climb()
+        takes = climb(method, (8,), 5.0)
         return {rung.name: judged(rung, takes).words for rung in RUNGS}
     return of
 
@@ -34,16 +33,6 @@ def test_the_example_is_judged_and_has_a_page(tmp_path, capsys):
     assert "data:image/png;base64,iVBOR" in page.read_text() and "http" not in page.read_text()
     numbers = pd.read_csv(table, comment="#").query("rung == 'couette' and quantity == 'error'")["value"]
     assert numbers.iloc[1] == pytest.approx(numbers.iloc[0]*(8/12)**2, rel=0.05)
-
-
-def test_finished_rungs_are_kept_until_the_code_changes(tmp_path):
-    ladder = Ladder(strangers.Transposed, tmp_path, (8,), 5.0)
-    first = ladder.climb()
-    assert ladder.climb() == first      # seconds and all
-    other = tmp_path/"rest-8.json"
-    other.write_text(json.dumps({**json.loads(other.read_text()), "key": "older"}))
-    again = ladder.climb()
-    assert again[0] == first[0] and again[1].seconds != first[1].seconds
 
 
 def test_steps_of_ones_own_climb_the_same_ladder(verdicts):
@@ -85,20 +74,17 @@ def test_rates_that_are_not_written_are_told(verdicts):
     assert "rates leave row 0 of out unwritten" in verdicts(strangers.Unwritten)["contract"]
 
 
-def test_a_ladder_that_is_stopped_keeps_what_is_finished(tmp_path, capsys, monkeypatch):
+def test_a_ladder_that_is_stopped_says_so(tmp_path, capsys, monkeypatch):
     def stop(self, state, out):
-        if self.scene.L == 12:
-            raise KeyboardInterrupt
-        out[:] = 0
+        raise KeyboardInterrupt
     monkeypatch.setattr(strangers.Transposed, "rates", stop)
     assert main(["strangers:Transposed", *QUICK, str(tmp_path)]) == 130
-    assert "stopped: finished rungs are kept" in capsys.readouterr().err
-    assert (tmp_path/"judge-Transposed"/"conduction-8.json").exists() and not list(tmp_path.glob("*.html"))
+    assert "stopped" in capsys.readouterr().err and not list(tmp_path.iterdir())
 
 
-def test_what_would_take_too_long_is_left_out(tmp_path):
-    takes = Ladder(strangers.Hasty, tmp_path, (8,), 0.0).climb()
-    assert all(take.fault.startswith("left out") for take in takes) and not list(tmp_path.iterdir())
+def test_what_would_take_too_long_is_left_out():
+    takes = climb(strangers.Hasty, (8,), 0.0)
+    assert all(take.fault.startswith("left out") for take in takes)
 
 
 @pytest.mark.parametrize("errors, words", [
@@ -109,10 +95,18 @@ def test_orders_of_known_errors(errors, words):
     assert convergence(taken).words == words
 
 
+def test_what_is_unstable_comes_first_and_nothing_is_told_twice():
+    takes = [Take(rung.name, 8, {}, 1.0, "rho = -1") for rung in RUNGS if rung.name != "step"]
+    takes.append(Take("step", 8, {"claimed": 1.0, "share": float("nan"), "grows": 1.0}, 1.0))
+    (first, verdict), second, *others = ladder.verdicts(takes)
+    assert first.name == "step" and verdict.words.startswith("is unstable at any step") and not verdict.good
+    assert second[1].words == "rho = -1" and "the same as contract" in {one.words for _, one in others}
+
+
 def test_energies_of_both_signs_have_no_order():
     taken = [(rows, {"error": error, "error_err": 0.0}) for rows, error in ((8, 0.3), (16, -0.1))]
     told = "has no order, as its errors change sign: K is 10 % low with 16 rows"
-    assert energy(taken).words.startswith(told)
+    assert right(taken).words.startswith(told)
 
 
 @pytest.mark.parametrize("words, why", [("spamm", "no method is called 'spamm'"), ("nowhere:A", "nowhere"),

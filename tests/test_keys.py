@@ -9,7 +9,6 @@ import pytest
 
 from continuum.jit import generic
 from studies.cost import STUDY as cost
-from studies.kit import rekey
 from studies.kit.case import Case, key_of, starts
 from studies.kit.key import CODE, PACKAGES, ROOT, Code
 from studies.kit.syntax import Place, parse
@@ -206,6 +205,7 @@ def test_a_star_import_is_refused(tree):
     with pytest.raises(ValueError,
                        match=r"from continuum.laws import \* in studies.one: import names one by one"):
         hashed(tree)
+        hashed(tree)
 
 
 # --- registries -----------------------------------------------------------------------------------
@@ -226,20 +226,3 @@ def test_a_second_formula_for_one_type_is_refused_with_both_places(tmp_path):
     with pytest.raises(ValueError, match=words):
         run_path(str(files[1]), {"rule": rule, "Kind": Kind})
     assert rule(Kind()) == 0
-
-
-# --- old keys -------------------------------------------------------------------------------------
-
-
-def test_what_has_a_name_is_the_same_as_its_name_in_an_older_case(monkeypatch):
-    """But two records of one name are told apart where both cases hold them."""
-    monkeypatch.setattr(rekey, "RENAMED", {"Old": "New"})
-    older = {"": "Run", "scheme": "lattice", "make": "exact", "box": [1, 2]}
-    old, new = ({"": "Run", "scheme": {"": name, "name": "lattice", "h": 2.0}, "make": {"": "exact"},
-                 "box": [1, 2]}
-                for name in ("Old", "New"))
-    assert rekey.same(old) == rekey.same(new) != rekey.same(older)
-    assert rekey.same(older, plainly=True) == rekey.same(new, plainly=True)
-    other = {**new, "scheme": {"": "New", "name": "lattice", "h": 3.0}}
-    cases = [("toy", new, "a"), ("toy", other, "b")]
-    assert len(rekey.by_text(cases, plainly=False)) == 2 and not rekey.by_text(cases, plainly=True)

@@ -1,5 +1,4 @@
 """Nothing finished is lost, nothing stale is taken for finished."""
-import errno
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -8,9 +7,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from studies.kit.case import Case, Outcome, starts, word
-from studies.kit.key import CODE
-from studies.kit.store import CannotRun
+from studies.kit.case import Case, Outcome, word
 from studies.kit.study import Study
 from studies.kit.sweep import CasesFailed
 from studies.kit.table import Table, read
@@ -29,10 +26,6 @@ class Mixed(NamedTuple):
     of: object = math.sqrt
     lens: Lens = EYE
     kind: type = Path
-
-
-def squared(x):
-    return x*x
 
 
 def unrelated(x):
@@ -57,11 +50,9 @@ class Square(Case):
         if self.trouble == "interrupt" and not (folder / "checkpoint").exists():
             (folder / "checkpoint").write_text("half")
             raise KeyboardInterrupt
-        if self.trouble == "full":
-            raise OSError(errno.ENOSPC, "No space left on device")
         if self.trouble == "bug":
             raise ZeroDivisionError("x is off")
-        return Outcome({"squares": [{"x": self.x, "note": "", "y": np.float64(squared(self.x))}]})
+        return Outcome({"squares": [{"x": self.x, "note": "", "y": np.float64(self.x**2)}]})
 
 
 class Bench:
@@ -88,8 +79,6 @@ def bench(tmp_path):
     return Bench(tmp_path)
 
 
-# --- finished work is kept, and only that ---------------------------------------------------------
-
 def test_a_finished_case_is_not_run_again_and_the_longest_starts_first(bench):
     first = bench.sweep(bench.cases(1, 3, 2, 3))
     assert bench.ran() == ["3", "2", "1"]
@@ -108,22 +97,17 @@ def test_an_interrupted_study_goes_on_where_it_stopped(bench):
     assert not [path for path in (bench.folder / "raw/toy").iterdir() if path.is_dir()], "scratch folders go"
 
 
-@pytest.mark.parametrize(("damage", "words"), [
-    (lambda text: "", "cannot be read"), (lambda text: text[:40], "cannot be read"),
-    (lambda text: "[]", "cannot be read"),
-    (lambda text: text.replace('"y": 4.0', '"y": 5.0'), "not as they were written: their hash is another"),
-    (lambda text: text.replace('"y": 4.0', '"z": 4.0'), "not as they were written: their hash is another")])
-def test_a_kept_outcome_that_is_damaged_is_reported_and_run_again(bench, damage, words, capsys):
-    """No table could tell that a column is lost: some rows have fewer columns by right."""
+@pytest.mark.parametrize("damaged", ["", '{"case": 1', "[]"])
+def test_a_kept_outcome_that_is_damaged_is_reported_and_run_again(bench, damaged, capsys):
     case, = bench.cases(2)
     bench.sweep([case])
     path = bench.folder/f"raw/toy/{case.key}.json"
-    path.write_text(damage(path.read_text()))
+    path.write_text(damaged)
     bench.ran()
     assert list(bench.sweep([case])["squares"].y) == [4]
     assert bench.ran() == ["2"]
     text = capsys.readouterr().err
-    assert words in text and text.count("Square 2") == text.count("is run again") == 1
+    assert "cannot be read" in text and text.count("Square 2") == text.count("is run again") == 1
 
 
 def test_a_case_that_raises_leaves_the_others_and_tells_where_the_story_is(bench):
@@ -136,12 +120,6 @@ def test_a_case_that_raises_leaves_the_others_and_tells_where_the_story_is(bench
     assert list(read(bench.folder / "toy/squares.csv").y) == [1, 9]
 
 
-def test_a_full_disk_stops_the_study_and_keeps_what_is_finished(bench):
-    with pytest.raises(CannotRun, match=r"the disk is full: make room .* 1 of 3 cases are finished"):
-        bench.sweep(bench.cases(3) + bench.cases(2, trouble="full") + bench.cases(1))
-    assert bench.ran() == ["3", "2"]
-
-
 def test_a_label_has_the_parameters_as_people_write_them():
     assert Square(x=0.1, log="b").label == "Square 0.1 b Lens(power=2) "
     assert word(Mixed()) == "Mixed()"
@@ -149,8 +127,6 @@ def test_a_label_has_the_parameters_as_people_write_them():
     assert word(other) == "Mixed(of=unrelated, lens=Lens(power=3), kind=Lens)"
     assert word((1, 2)) == "(1, 2)" and word(1e5) == "100000"
 
-
-# --- what a result depends on ---------------------------------------------------------------------
 
 def test_the_key_of_a_case_is_that_of_its_parameters():
     base = Square(x=0.1)
@@ -160,9 +136,3 @@ def test_the_key_of_a_case_is_that_of_its_parameters():
     assert Square(x=0.1).key == base.key
     with pytest.raises(TypeError, match="a case cannot hold"):
         _ = replace(base, lens=lambda: 0).key
-
-
-def test_the_key_covers_what_the_class_uses_from_its_own_file_and_nothing_else():
-    names = {place.name for place in CODE.reached(filter(None, starts(Square(x=0.1))))}
-    assert {"Square", "squared", "Lens"} <= names
-    assert not {"unrelated", "Bench"} & names

@@ -12,56 +12,16 @@ from pathlib import Path
 import pytest
 from toy import Toy, finish, until
 
-from studies.kit.processes import THREADS
+from studies.kit.dispatch import THREADS
 
 LAW = "import numpy as np\ndef wave(x):\n    return np.sin(np.arange(1, 9)*x/7).sum()\n"
-TOY = '''
-import os, time
-from dataclasses import dataclass
-from typing import ClassVar
-from continuum import law
-from studies.kit.case import Case, Outcome
-from studies.kit.study import Study, main
-from studies.kit.table import Table
-
-def note(word, case):
-    with open("log", "a") as log:
-        log.write(f"{word} {case.x:g} {os.getpid()} {os.environ['OMP_NUM_THREADS']}\\n")
-
-@dataclass(frozen=True, kw_only=True)
-class Run(Case):
-    x: float
-    law: object = law.wave
-    def run(self, report, folder):
-        note("begin", self)
-        try:
-            while self.x == 2 and not os.path.exists("go"):
-                report(0.5)
-                time.sleep(0.05)
-            if self.x == 3 and os.path.exists("die"):
-                os._exit(9)
-            return Outcome({"waves": [{"x": self.x, "y": self.law(self.x)}]})
-        finally:
-            note("end", self)
-
-class Timed(Run):
-    alone: ClassVar[bool] = True
-    cost = 99.0
-
-def cases(size):
-    return [Timed(x=4.0), Timed(x=5.0), *(Run(x=x) for x in (0.1, 1., 2., 3.))]
-
-if __name__ == "__main__":
-    main(Study(name="toy", cases=cases,
-               tables=[Table("waves", key=["x"], columns=["x", "y"], about="a test")]))
-'''
 
 
 class Clustered(Toy):
-    """Case 2 waits until told to go, 3 dies if told to, 4 and 5 run alone."""
+    """With the processes of a cluster."""
 
     def __init__(self, folder: Path):
-        super().__init__(folder, TOY, law=LAW)
+        super().__init__(folder, LAW)
         self.processes: list[subprocess.Popen] = []
         self.elsewhere = folder/"elsewhere"     # the scheduler knows nothing of the repository
         self.elsewhere.mkdir()
@@ -92,14 +52,10 @@ class Clustered(Toy):
             os.killpg(process.pid, signal.SIGKILL)
             process.wait()
 
-    def began(self):
-        """Cases that began, in order."""
-        return [x for word, x, *_ in self.log() if word == "begin"]
-
     def waits(self, running, times=1):
         """The process in which case 2 waits, as soon as it has begun so many times."""
         until(lambda: self.began().count("2") == times, running)
-        return [int(pid) for word, x, pid, _ in self.log() if (word, x) == ("begin", "2")][-1]
+        return [int(pid) for word, x, pid, *_ in self.log() if (word, x) == ("begin", "2")][-1]
 
 
 def body(path):
@@ -141,7 +97,7 @@ def test_the_same_command_goes_on_and_the_rows_are_those_of_one_process(toy):
     assert words[:2] == [("begin", "2"), ("end", "2")], "three were kept"
     four, five = ([("begin", x), ("end", x)] for x in ("4", "5"))
     assert words[2:] in (four + five, five + four), "one by one, after all others"
-    assert {threads for *_, threads in toy.log()} == {"1"} and toy.kept() == 6
+    assert {line[3] for line in toy.log()} == {"1"} and toy.kept() == 6
     table = toy.folder/"results/toy/waves.csv"
     assert "make study-toy SIZE=paper SCHEDULER=tcp://...\n" in table.read_text()
     assert toy.run("--workers", "1", "--out", "here", OMP_NUM_THREADS="1", SCHEDULER="")[0] == 0

@@ -9,7 +9,7 @@ import pytest
 from studies.kit import cluster, csvfile
 from studies.kit.case import Case, Outcome
 from studies.kit.cluster import check_scheduler, check_worker, packed, unpacked
-from studies.kit.processes import THREADS
+from studies.kit.dispatch import THREADS
 from studies.kit.store import CannotRun
 from studies.kit.study import Study, main
 from studies.kit.table import Table

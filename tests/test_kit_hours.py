@@ -3,7 +3,7 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-from studies.kit import budget
+from studies.kit import timing
 from studies.kit.case import Case, Outcome
 from studies.kit.csvfile import read
 from studies.kit.dispatch import Bar
@@ -36,13 +36,13 @@ def claim_seconds(out: Path, factor: float) -> None:
         path.write_text(json.dumps({**content, "cpu_s": factor*content["case"]["x"]}))
 
 
-def left(size: str, out: Path) -> budget.Left:
-    return budget.left(TOY.name, TOY.cases(size), size, out)
+def left(size: str, out: Path) -> tuple[int, float]:
+    return timing.left(TOY.name, TOY.cases(size), size, out)
 
 
 def test_a_whole_run_leaves_its_cpu_seconds(tmp_path):
     TOY.run("paper", workers=1, out=tmp_path)
-    [row] = read(tmp_path/"times.csv", budget.COLUMNS).to_dict("records")
+    [row] = read(tmp_path/"times.csv", timing.COLUMNS).to_dict("records")
     assert (row["study"], row["size"], row["cases"], row["estimate_s"]) == ("toy", "paper", 4, 12.0)
     assert 0 < row["cpu_s"] < 10
     TOY.run("quick", workers=1, out=tmp_path)
@@ -50,13 +50,12 @@ def test_a_whole_run_leaves_its_cpu_seconds(tmp_path):
 
 
 def test_what_is_left_is_told_by_estimates_and_by_what_they_were_worth(tmp_path):
-    assert left("paper", tmp_path) == ("toy", 4, 4, 12.0, False)
+    assert left("paper", tmp_path) == (4, 12.0)
     TOY.run("quick", workers=1, out=tmp_path)
     claim_seconds(tmp_path, 5.0)
     TOY.run("quick", workers=1, out=tmp_path)       # nothing runs, the seconds are read anew
-    assert left("quick", tmp_path) == ("toy", 0, 2, 0.0, True)
-    assert left("paper", tmp_path) == ("toy", 2, 4, 45.0, True), "five times the estimates"
-    assert str(left("paper", tmp_path)) == "toy               2 of 4    cases    0.8 min"
+    assert left("quick", tmp_path) == (0, 0.0)
+    assert left("paper", tmp_path) == (2, 45.0), "five times the estimates"
 
 
 def test_the_time_left_is_reckoned_from_what_is_done_since_the_start():
@@ -76,5 +75,5 @@ def test_the_time_left_is_reckoned_from_what_is_done_since_the_start():
 
 def test_a_size_that_there_is_none_of(monkeypatch, capsys):
     monkeypatch.setenv("SIZE", "foo")
-    assert budget.main(["rb"]) == 2
+    assert timing.main(["rb"]) == 2
     assert "'foo': choose one of quick, paper, fine" in capsys.readouterr().err

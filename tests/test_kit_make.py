@@ -59,7 +59,7 @@ def test_all_studies_are_told_their_hours_first_and_become_notebooks_films_and_t
     code, text = make("-n", "studies", f"SIZE={size}")
     lines = [line.strip() for line in text.splitlines()
              if line.strip().startswith((".venv/bin/python", "for one in"))]
-    wanted = ["kit.budget one two", "studies.one", "studies.two", *last]
+    wanted = ["kit.timing one two", "studies.one", "studies.two", *last]
     assert code == 0 and len(lines) == len(wanted), text
     assert all(word in line for word, line in zip(wanted, lines)), lines
 

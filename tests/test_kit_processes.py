@@ -11,8 +11,7 @@ from toy import until
 
 from studies.kit import key
 from studies.kit.case import Case, Outcome
-from studies.kit.dispatch import dispatch
-from studies.kit.processes import Processes
+from studies.kit.dispatch import Processes, dispatch
 from studies.kit.store import CannotRun, kept
 
 

@@ -10,8 +10,8 @@ import pytest
 
 from studies.kit import csvfile
 from studies.kit.claim import CannotTell, Claim, judge, put_claims, verdict
-from studies.kit.formula import WrongQuestion
 from studies.kit.table import Table, Tables, changed, merge, read
+from studies.kit.value import WrongQuestion
 
 SQUARES = Table("squares", key=["x", "note"], columns=["x", "note", "y"], about="a test")
 
@@ -92,8 +92,7 @@ def test_rows_that_differ_in_digits_that_are_not_kept_are_the_same(tmp_path):
 
 @pytest.mark.parametrize(("content", "words"), [
     (b"", "is no table"), (b"a,b\n1,2\n3,4,5,6\n", "is no table"), (b"\xff\xfe\x00", "is no table"),
-    (b"# text columns: note\nx,note,y\n1,one,2\nabc,one,2\n", "has 'abc' in x, a column of numbers"),
-    (b"# empty is as above: note\nx,note,y\n1,spam,10\n2,,1\n", "leaves out cells .* an older layout"),
+    (b"# text columns: note\nx,note,y\n1,one,2\nabc,one,2\n", "is no table .*abc"),
     (b"x,note\n1,one\n", "has no column y: it has an older layout")])
 def test_a_file_that_is_no_table_is_told_with_the_way_out(tmp_path, content, words):
     path = tmp_path / "squares.csv"
@@ -125,7 +124,7 @@ def test_a_table_does_not_depend_on_the_order_of_rows_and_stays_when_nothing_cha
 
 def test_rows_that_stand_in_a_table_are_told_from_those_that_changed(tmp_path):
     path = tmp_path / "squares.csv"
-    rows = [row(1/3, 1e-7/3), row(2, np.float64(4)), row(math.inf, math.nan), row(4, True, "a, b"),
+    rows = [row(1/3, 1e-7/3), row(2, np.float64(4)), row(math.inf, math.nan), row(4, 1.0, "a, b"),
             row(5, None)]
     assert changed(path, SQUARES, rows) == rows
     merge(path, SQUARES, [{**one, "seed": 3} for one in rows], size="quick")
@@ -161,10 +160,10 @@ def test_a_table_that_cannot_be_written_stays_as_it_was(tmp_path, monkeypatch):
     merge(path, SQUARES, [row(1, 1)], size="quick")
     text = path.read_text()
 
-    def full(self, text):
-        self.write_bytes(text[:100].encode())
+    def full(self, content):
+        self.write_text(content[:100].decode())
         raise OSError(errno.ENOSPC, "No space left on device")
-    monkeypatch.setattr(Path, "write_text", full)
+    monkeypatch.setattr(Path, "write_bytes", full)
     with pytest.raises(OSError, match="No space"):
         merge(path, SQUARES, [row(1, 2)], size="quick")
     assert path.read_text() == text and [p.name for p in tmp_path.iterdir()] == ["squares.csv"]
@@ -191,15 +190,6 @@ def claim(**more):
     ({"expect": 1.0, "within": 0.5}, 9.0, math.nan, "undecidable")])
 def test_a_verdict_needs_the_whole_interval(limits, value, err, expected):
     assert verdict(claim(**limits), value, err) == expected
-
-
-def test_wrong_verdicts_are_rarer_than_one_in_twenty():
-    """A true value exactly at the limit: 'fails' and 'holds' each by chance in 2.5 % of trials."""
-    rng, at_limit = np.random.default_rng(7), claim(expect=0.0, within=1.0)
-    said = [verdict(at_limit, 1.0 + 0.1*z, 1.96*0.1) for z in rng.standard_normal(4000)]
-    # binomial: sqrt(0.025 0.975/4000) = 0.0025; 4 of these
-    for word in ("holds", "fails"):
-        assert abs(said.count(word)/4000 - 0.025) < 0.01
 
 
 @pytest.mark.parametrize(("wrong", "words"), [

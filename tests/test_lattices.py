@@ -4,7 +4,6 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
-from scipy.integrate import solve_ivp
 
 from continuum.fluid import IdealGas, VanDerWaals, pressure
 from particles.limits import lattice_sums
@@ -12,13 +11,10 @@ from particles.smooth.spam import Spam
 from particles.threads import Threads
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.build.spam import at_rest, fluid
-from studies.kit.table import Tables
-from studies.lattices.cases import crossing, derive
 from studies.lattices.claims import NO_PRESSURE, SPINODAL
-from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, LatticeMotion, growth, sums
+from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Speed, growth, sums
 from studies.lattices.frozen_flow import criteria, neighbours
 from studies.lattices.molecules import METHODS, RHO_SQUARED, Molecules, Reversal, as_fluid, whole_crowd
-from studies.lattices.sound import Ringing, Speed, grown, motions
 
 HEXAGONAL, SQUARE = LATTICES["hexagonal"], LATTICES["square"]
 WEIGHTS = (Lucy, Monaghan, WendlandC2)
@@ -32,11 +28,10 @@ def rows(case, table):
 def test_sums_over_the_square_lattice_are_those_of_the_step_limit(weight):
     k = SQUARE.vectors((8, 8))
     found, known = sums(weight.of(h=3.0), SQUARE, k), lattice_sums(weight.of(h=3.0), 1.0, 1.0, k)
-    assert found.rho == pytest.approx(known.rho, rel=1e-14)
-    np.testing.assert_allclose(found.S, known.S, atol=1e-14)
-    np.testing.assert_allclose(found.D, known.D, atol=1e-8)       # second derivatives by differences
-    np.testing.assert_allclose(found.nested, known.nested, atol=1e-13)
-    np.testing.assert_allclose(found.direct, known.direct, atol=1e-13)
+    rho, S, D = found
+    assert rho == pytest.approx(known.rho, rel=1e-14)
+    np.testing.assert_allclose(S, known.S, atol=1e-14)
+    np.testing.assert_allclose(D, known.D, atol=1e-8)       # second derivatives by differences
 
 
 @pytest.mark.parametrize(("lattice", "nearest", "far"), [(SQUARE, 4, 1.0), (HEXAGONAL, 6, 1.0745699)])
@@ -56,8 +51,8 @@ def test_least_stable_motion_is_pushed_as_its_eigenvalue_says(weight, eos):
     (k, a, square, _), shift, x = crystal.motion, 1e-5, HEXAGONAL.places((8, 5))
     u = shift*a*np.cos(x@k + 1.0)[:, None]
     kernel = fluid(weight.of(h=2.9), HEXAGONAL.box((8, 5)), eos).start(len(x), Threads(1))
-    state, ids, rho = at_rest(x + u, crystal.e), np.arange(len(x)), sums(weight.of(h=2.9), HEXAGONAL,
-                                                                         k[None]).rho
+    state, ids = at_rest(x + u, crystal.e), np.arange(len(x))
+    rho, *_ = sums(weight.of(h=2.9), HEXAGONAL, k[None])
     kernel.around.relist(state, ids, 0.0)
     kernel.densities(state)
     state[4] += pressure(eos, rho, crystal.e)/rho**2*(kernel.around.rho[:len(x)] - rho)
@@ -136,40 +131,6 @@ def test_paths_come_back_as_their_steps_let_them():
 
 
 # --- sound ------------------------------------------------------------------------------------------
-
-SHORT = Ringing(lattice=SQUARE, weight=Monaghan, length=40)
-
-
-@pytest.mark.parametrize("friction", [0.0, 2.0])
-def test_what_is_let_go_grows_as_the_sum_says(friction):
-    """One motion, rounded off once: u'' + friction u' = w u."""
-    w, time, dt = 0.12, 60.0, 1e9
-    s = -friction/2 + np.hypot(friction/2, np.sqrt(w))
-    known = solve_ivp(lambda t, y: (y[1], w*y[0] - friction*y[1]), (0, time), (1.0, 0.0), rtol=1e-10,
-                      atol=1e-12).y[1, -1]
-    found = grown([LatticeMotion(np.zeros(2), np.array([0.0, 1.0]), -w, s)], time, dt, np.array([7.0, 1.0]))
-    assert found == pytest.approx(known, rel=1e-3)
-
-
-def test_stable_lattices_have_nothing_that_grows():
-    for h, grows in ((2.5, False), (3.0, True)):
-        case = replace(SHORT, weight=Lucy, h=h)
-        rates = [one.rate for one in motions(case)]
-        assert max(rates) > 0.1 if grows else max(rates) < 1e-10
-
-
-def test_a_wave_is_lost_to_round_off_as_lattice_sums_say():
-    row = rows(SHORT, "ringing")[0]
-    assert 0.1 < row["foretold"]/row["across"] < 10 and 1e-3 < row["across"]/row["wave"] < 1
-
-
-def test_lengths_are_interpolated():
-    rows = pd.DataFrame([{**replace(SHORT, length=length, seed=seed).columns, "wave": 1.0,
-                          "foretold": np.exp(length - 45.0), "across": np.exp(length - 46.0)}
-                         for length in (40, 44, 48) for seed in (1, 2)])
-    row, = derive(Tables(ringing=rows))["ringing_lost"]
-    assert (row["predicted"], row["measured"]) == pytest.approx((45.0, 46.0))
-    assert np.isnan(crossing(rows[rows["length"] < 45], "across"))
 
 
 @pytest.mark.parametrize("weight", [Lucy, Monaghan])

@@ -3,6 +3,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from crowd import jacobian, random_fields, rates
 from plain_plates import PlainPlates
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals, constant_viscosity
@@ -41,21 +42,7 @@ def at(x, where, make=renormalised, mended=True, h=2.0):
                  transport=MENDED if mended else PRINTED)
 
 
-def rates(fluid, state, threads=1):
-    out = np.empty_like(state)
-    fluid.start(state.shape[1], Threads(threads)).rates(state, out)
-    return out
-
-
-def shaken(fluid, x, seed=0):
-    rng = np.random.default_rng(seed)
-    return fluid.state(rng.uniform(0.9, 1.1, len(x)), rng.normal(0, 0.2, x.shape),
-                       rng.uniform(0.9, 1.1, len(x)))
-
-
 MADE = [(renormalised, 0.0, 2.0), (exact, 0.2, 2.8), (delaunay, 0.2, 2.0)]
-
-
 TRANSPORT = {"pairwise": (MENDED, Pairwise()), "unmended": (PRINTED, Pairwise(mended=False)),
              "nested": (mixed(0.0), NestedFluxes()), "mixed": (mixed(0.3), Mixed(share=0.3))}
 
@@ -75,7 +62,7 @@ def test_compiled_sums_are_those_of_the_slow_twin(make, size, h, transport, law,
     twin = PlainPlates(x=x, edges=fluid.edges, beyond=fluid.beyond, eos=eos, law=fluid.law,
                        T_plates=fluid.T_plates,
                        g=fluid.g, transport=slow)
-    state = shaken(fluid, x)
+    state = fluid.state(*random_fields(len(x)))
     expected = np.empty_like(state)
     twin.rates(state, expected)
     assert where.g > 0 and fluid.T_plates[0] > fluid.T_plates[1]
@@ -88,7 +75,7 @@ def test_compiled_sums_are_those_of_the_slow_twin(make, size, h, transport, law,
 @pytest.mark.parametrize(("row", "value"), [(0, -0.5), (3, -0.5), (3, 0.0)])
 def test_a_start_that_is_no_fluid_is_refused_by_run_and_by_the_limit(row, value):
     fluid, x, _ = layer()
-    state = shaken(fluid, x)
+    state = fluid.state(*random_fields(len(x)))
     state[row, 17] = value
     for refuse in (lambda: run(fluid, state, Plan(dt=0.1, steps=1)), lambda: limit_of(fluid, state)):
         with pytest.raises(ValueError, match=r"\(item 17\) is outside the validity of IdealGas"):
@@ -96,20 +83,11 @@ def test_a_start_that_is_no_fluid_is_refused_by_run_and_by_the_limit(row, value)
 
 
 @pytest.mark.parametrize(("make", "size", "h"), MADE)
-def test_linear_sums_are_those_edge_by_edge(make, size, h):
-    fluid, x, _ = layer(make, size, h=h)
-    state = shaken(fluid, x)
-    one, other = rates(fluid, state), rates(replace(fluid, form=LayerSums), state)
-    for a, b in zip(one, other, strict=True):
-        assert np.abs(a - b).max() < 1e-13*np.abs(b).max()
-    assert type(fluid.start(len(x), Threads(1))) is LinearSums
-
-
-@pytest.mark.parametrize(("make", "size", "h"), MADE)
 def test_plates_take_no_mass(make, size, h):
     fluid, x, _ = layer(make, size, h=h)
-    found = rates(fluid, shaken(fluid, x))[0]
+    found = rates(fluid, fluid.state(*random_fields(len(x))))[0]
     assert abs(found@fluid.edges.V) < 1e-14*(np.abs(found)@fluid.edges.V)
+    assert type(fluid.start(len(x), Threads(1))) is LinearSums      # of constant viscosity
 
 
 @pytest.mark.parametrize("transport", TRANSPORT)
@@ -131,44 +109,29 @@ def test_friction_and_conduction_between_plates_are_symmetric_and_only_damp(make
     fluid, x, _ = layer(make, size, h=h, rows=8)
     fluid = replace(fluid, law=type(fluid.law)(0.3, 0.2), T_plates=(1.0, 1.0), g=0.0,
                     transport=mixed(share, mended=False))
-    n, rest, small = len(x), np.zeros((len(x), 2)), 1e-6
+    ones, still = np.ones(len(x)), np.zeros((2, len(x)))
+    only_damps(lambda v: friction(fluid, v, ones)[:2], still)
+    only_damps(lambda T: friction(fluid, still, T)[2], ones)
 
-    def forces(v, T):
-        """Momentum and energy gained, less what they are without friction."""
-        state = fluid.state(1.0, v, T)
-        quiet = rates(replace(fluid, law=type(fluid.law)(0.0, 0.0)), state)
-        return ((rates(fluid, state) - quiet)*fluid.edges.V)[1:]
-    K, C = np.empty((2*n, 2*n)), np.empty((n, n))
-    for column in range(2*n):
-        v = rest.copy()
-        v[column % n, column // n] = small
-        K[:, column] = forces(v, np.ones(n))[:2].ravel()/small
-    for column in range(n):
-        T = np.ones(n)
-        T[column] += small
-        C[:, column] = forces(rest, T)[2]/small
-    only_damps(K)
-    only_damps(C)
+
+def friction(fluid, v, T):
+    """Momentum and energy gained, less what they are without friction."""
+    state, quiet = fluid.state(1.0, v.T, T), replace(fluid, law=type(fluid.law)(0.0, 0.0), form=LayerSums)
+    return ((rates(fluid, state) - rates(quiet, state))*fluid.edges.V)[1:]
 
 
 @pytest.mark.parametrize(("make", "size", "h"), MADE)
 def test_friction_that_varies_is_symmetric_and_only_damps(make, size, h):
     """Forces at rest are -K v with eta(T) of random temperatures: K symmetric, no eigenvalue negative."""
     fluid, x, where = layer(make, size, h=h, rows=8, transport=PowerLaw)
-    n, small, T = len(x), 1e-6, np.random.default_rng(0).uniform(0.7, 1.3, len(x))
-    quiet = replace(fluid, law=ConstEta(0.0, 0.0), form=LayerSums)
-    K = np.empty((2*n, 2*n))
-    for column in range(2*n):
-        v = np.zeros((n, 2))
-        v[column % n, column // n] = small
-        state = fluid.state(1.0, v, T)
-        K[:, column] = ((rates(fluid, state) - rates(quiet, state))*fluid.edges.V)[1:3].ravel()/small
+    T = np.random.default_rng(0).uniform(0.7, 1.3, len(x))
     assert not constant_viscosity(where.law)
-    only_damps(K)
+    only_damps(lambda v: friction(fluid, v, T)[:2], np.zeros((2, len(x))))
 
 
-def only_damps(K: np.ndarray) -> None:
-    """Differences over 1e-6 of symmetric K without a positive eigenvalue."""
+def only_damps(f, x: np.ndarray) -> None:
+    """Differences over 1e-6 are a symmetric K without a positive eigenvalue."""
+    K = jacobian(f, x, 1e-6)
     size = np.abs(K).max()
     assert np.abs(K - K.T).max() < 1e-8*size
     assert np.linalg.eigvalsh(K + K.T).max() < 1e-8*size
@@ -180,16 +143,9 @@ def at_rest(fluid, x, eta, k):
     return quiet, quiet.state(np.ones(len(x)), 0*x, np.ones(len(x)))
 
 
-def eigenvalues(quiet, rest, step=1e-6):
+def eigenvalues(quiet, rest):
     """Of the operator linearised about rest."""
-    n = rest.size
-    J = np.empty((n, n))
-    for column in range(n):
-        shift = np.zeros(n)
-        shift[column] = step
-        up, down = (rates(quiet, rest + sign*shift.reshape(rest.shape)).ravel() for sign in (1, -1))
-        J[:, column] = (up - down)/(2*step)
-    return np.linalg.eigvals(J)
+    return np.linalg.eigvals(jacobian(lambda state: rates(quiet, state), rest, 1e-6))
 
 
 def test_sound_between_adjoint_walls_does_not_grow():
@@ -211,10 +167,3 @@ def test_a_point_near_its_own_image_limits_the_step(eta, k):
     foretold = max(np.sqrt(2)*sound, max(eta, k)*spread)
     # damped sound is slower by 1e-3
     assert foretold == pytest.approx(np.abs(eigenvalues(quiet, rest)).max(), rel=1e-3)
-
-
-def test_a_step_above_the_limit_is_refused():
-    fluid, x, scene = layer(rows=12)
-    start = fluid.state(1.0, np.stack(scene.flow(*x.T, 9/5000), axis=1), scene.T(x[:, 1]))
-    with pytest.raises(ValueError, match="above the stability limit"):
-        run(fluid, start, Plan(dt=1.1*limit_of(fluid, start), steps=1))

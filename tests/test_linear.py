@@ -2,7 +2,7 @@
 import numpy as np
 import pytest
 
-from continuum.linear.layer import PlateKind, critical, critical_ra, growth_rate
+from continuum.linear import PlateKind, critical, critical_ra, growth_rate
 
 ROUND_OFF = 1e-11       # eigenvalues of forms whose condition is about 1e4
 
@@ -56,13 +56,6 @@ def test_a_weakly_driven_layer_loses_its_slowest_mode_by_the_right_diffusivity()
     decay = growth_rate(ra=ra, pr=pr, k=k)*np.sqrt(ra*pr)       # per H^2/kappa
     # buoyancy changes the rate by about Ra/Ra_c
     assert decay == pytest.approx(-2*np.pi**2, rel=1e-5)
-
-
-def test_one_rigid_and_one_free_plate_are_half_of_the_odd_mode_between_rigid_plates():
-    """Chandrasekhar's odd mode has Ra = 17610.39 at k = 5.365; half the height makes 2^4 and 2 of these."""
-    onset = critical(PlateKind.RIGID_FREE)
-    assert round(16*onset.ra, 2) == 17610.39
-    assert round(2*onset.k, 3) == 5.365
 
 
 @pytest.mark.parametrize("bad", [{"ra": 0.0}, {"ra": -5.0}, {"pr": 0.0}, {"k": 0.0}, {"k": float("nan")}])

@@ -1,4 +1,4 @@
-"""The study noise: its algebra at any size, dissipative particles, samples of complex waves."""
+"""The study noise: printed noise, dissipative particles, samples of complex waves."""
 from dataclasses import replace
 
 import numpy as np
@@ -8,58 +8,36 @@ import pytest
 from particles.dissipative.dpd import Dpd
 from particles.integral import fluctuating
 from particles.integral.covariance import steady
-from particles.integral.edge_makers import delaunay, renormalised
-from particles.integral.points import jittered, lattice
-from particles.weights import Lucy
-from studies.kit.claim import judge
+from particles.integral.edge_makers import delaunay
+from particles.integral.points import jittered
 from studies.kit.sweep import RESULTS
-from studies.kit.table import Tables
-from studies.noise import STUDY, cases
-from studies.noise.below_onset import apart, root, sampled, slowest_amplitude
+from studies.noise import cases
+from studies.noise.below_onset import root, sampled, slowest_amplitude
 from studies.noise.dissipative import blocks, neighbours
-from studies.noise.modes import along_and_across, check_modes, plane_waves
-from studies.noise.partners import KT, equilibrium, factor, transport, viscosity
-from studies.noise.sampling import dirichlet, heat_kicks, heat_rates
+from studies.noise.partners import KT, viscosity
+from studies.noise.printed_noise import dirichlet, heat_kicks, heat_rates
+from studies.noise.sampling import along_and_across
 
 
 @pytest.fixture(scope="module")
-def algebra():
-    """Tables of small cases that sample nothing."""
+def printed():
+    """The table of this name, of cases that take little."""
     waves = [case for case in cases.printed() if case.d == 1 or case.h in (1.2, 3.0)]
-    some = [*cases.formulas(), *cases.algebra(("lattice",), {2: (6, 6)}), *waves, *cases.steps()]
-    rows: dict[str, list[dict]] = {}
-    for case in some:
-        for name, new in case.run(lambda done: None, RESULTS).rows.items():
-            rows.setdefault(name, []).extend(new)
-    return Tables({name: pd.DataFrame(new).drop_duplicates() for name, new in rows.items()})
+    rows = [row for case in waves for row in case.run(lambda done: None, RESULTS).rows["printed"]]
+    return pd.DataFrame(rows).drop_duplicates()
 
 
-@pytest.mark.parametrize("verdict, names", [
-    ("holds", ("own-fluct-partners", "own-fluct-eq42-partner", "rr98-fluct-eq22-momentum",
-               "rr98-fluct-sec3b-special")),
-    ("fails", ("rr98-fluct-eq42-shape", "rr98-fluct-eq43-doubled", "rr98-fluct-eq40-euler",
-               "rr98-fluct-sec3b-unmodified"))])
-def test_what_is_algebra_holds_at_any_size(algebra, verdict, names):
-    claims = [claim for claim in STUDY.claims if claim.id in names]
-    rows = judge(claims, algebra, "noise")
-    assert [row["verdict"] for row in rows] == [verdict]*len(names), rows
-
-
-def test_printed_noise_has_the_variance_of_lattice_sums(algebra):
+def test_printed_noise_has_the_variance_of_lattice_sums(printed):
     """To nine digits: solves with condition 1e3."""
-    printed = algebra["printed"]
     assert printed["ratio"].to_numpy() == pytest.approx(printed["predicted"].to_numpy(), rel=1e-8)
 
 
 @pytest.mark.parametrize("equation, due", [(42, 1.0), (43, 1/KT)])
-def test_waves_on_a_line_of_nearest_neighbours_get_one_over_cosine_squared(algebra, equation, due):
+def test_waves_on_a_line_of_nearest_neighbours_get_one_over_cosine_squared(printed, equation, due):
     """Doubled; T/cos^2(ka/2), energies 1/(T cos^2(ka/2)); the corner of the zone costs digits."""
-    rows = algebra["printed"].query("equation == @equation and reading == 'doubled' and h == 1.5")
+    rows = printed.query("equation == @equation and reading == 'doubled' and h == 1.5")
     assert len(rows) == 15
     assert (rows["ratio"]*np.cos(rows["wavenumber"]/2)**2).to_numpy() == pytest.approx(due, rel=1e-10)
-
-
-# --- dissipative particles --------------------------------------------------------------------
 
 
 def test_blocks_are_friction_between_pairs():
@@ -82,9 +60,6 @@ def test_viscosity_of_the_noise_goes_with_the_density():
     assert viscosity(rho=6.0)/viscosity(rho=3.0) == pytest.approx(2)
 
 
-# --- samples ------------------------------------------------------------------------------------
-
-
 def wave_of(n: int = 6) -> tuple[np.ndarray, np.ndarray]:
     """A complex J, all of whose modes decay, and a complex Q."""
     rng = np.random.default_rng(1)
@@ -92,12 +67,9 @@ def wave_of(n: int = 6) -> tuple[np.ndarray, np.ndarray]:
     return 0.01*(J - 6*np.eye(n)), B@B.conj().T
 
 
-def test_real_and_imaginary_parts_have_the_covariance_of_complex_waves():
-    """Of real parts it is Re C/2, of real with imaginary ones -Im C/2."""
-    J, Q = wave_of()
-    B = apart(root(Q))/np.sqrt(2)
+def test_the_root_of_a_covariance_is_the_noise_that_has_it():
+    _, Q = wave_of()
     assert root(Q)@root(Q).conj().T == pytest.approx(Q, abs=1e-12)
-    assert steady(apart(J), B@B.T) == pytest.approx(apart(steady(J, Q))/2, abs=1e-8)
     with pytest.raises(ArithmeticError, match="no noise has a negative variance"):
         root(Q - 1.01*np.linalg.eigvalsh(Q)[0]*np.eye(len(Q)))
 
@@ -124,22 +96,6 @@ def test_velocities_along_and_across_a_wave_in_space(k):
     frame = along_and_across(np.array(k))
     assert frame@frame.T == pytest.approx(np.eye(3), abs=1e-14)
     assert np.abs(frame[1:]@np.array(k)).max() < 1e-14
-
-
-@pytest.mark.parametrize(("counts", "h", "null", "other"), [
-    ((6, 6), 2.0, ((0, 0),), (1, 0)), ((6, 6), 2.0, ((3, 3), (3, 0)), (1, 0)),
-    ((6, 6, 6), 1.2, ((3, 0, 3), (3, 3, 3)), (1, 0, 3))])
-def test_a_list_of_null_modes_is_refused(counts, h, null, other):
-    points = lattice(counts)
-    edges = renormalised(points, Lucy.of(h=h, d=points.d))
-    C, B = equilibrium(edges.V, points.d), factor(edges, *transport(edges, 0.0, 0.3, 0.0, 0.4, 1.0))
-
-    def check(turns):
-        names, F = plane_waves(points, edges.V, turns)
-        check_modes(F, C, B, names)
-    with pytest.raises(ValueError, match=r"all \d+ modes in the list are null modes"):
-        check(null)
-    check((*null, other))
 
 
 @pytest.mark.parametrize("corrected", [True, False])

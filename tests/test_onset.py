@@ -4,21 +4,21 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
+from boxes import CONDUCTING_SQUARE, growth_rates
 
-from continuum import boussinesq
+from continuum import boussinesq, linear
 from continuum.fluid import ConstNu, VanDerWaals
 from continuum.gas import newton as compressible_newton
 from continuum.gas import solve as compressible
 from continuum.gas.fields import block, initial
 from continuum.gas.newton import Discrete
-from continuum.linear import layer as linear
-from continuum.linear.square import critical_ra_square
+from continuum.linear import critical_ra_square
 from continuum.richardson import richardson
 from continuum.scene import RayleighBenard, Walls
 from continuum.steady import NewtonFailed, Steady
-from studies.onset import derive as onset_derive
+from studies.kit.table import Tables
+from studies.onset import STUDY
 from studies.onset import tables as onset_tables
-from studies.onset.rates import boussinesq_mac, pypde_compressible
 from studies.onset.rates import compressible as of_gas
 from studies.onset.runs import GrowthRun, History
 
@@ -29,46 +29,21 @@ SCENES = [LAYER, replace(LAYER, transport=ConstNu), replace(LAYER, eos=VanDerWaa
 SCENE_IDS = ["eta", "nu", "vdw", "square"]
 
 
-def onset_of(solver, scene, ras):
-    """Where the growth rate of a solver is zero, extrapolated from three grids."""
+def staggered(box, pr, ras):
+    """Where a Boussinesq fluid on the staggered grid neither grows nor dies, from three grids."""
     values = []
     for rows in SIZES:
-        sigma = [solver(replace(scene, ra=ra), rows)[0] for ra in ras]
-        values.append(onset_derive.interpolated(np.array(sigma), np.array(ras)))
+        cases = [boussinesq.BoussinesqCase(ra=ra, pr=pr, box=box, rows=rows) for ra in ras]
+        sigma = [growth_rates(boussinesq.rest(case), count=2)[0].real for case in cases]
+        values.append(onset_tables.interpolated(np.array(sigma), np.array(ras)))
     return richardson(values, SIZES)
-
-
-# --- eigenvalue problem in the square -----------------------------------------------------------
 
 
 def test_square_agrees_with_the_staggered_grid():
     """Newton's Jacobian on three grids, extrapolated, is within its uncertainty of the Chebyshev value."""
-    def sigma(rows, ra):
-        case = boussinesq.BoussinesqCase(ra=ra, pr=1.0, box=boussinesq.CONDUCTING_SQUARE, rows=rows)
-        return boussinesq.growth_rates(boussinesq.rest(case), count=2)[0].real
-    ras = np.array([4800.0, 4950.0, 5100.0])
-    values = [onset_derive.interpolated(np.array([sigma(rows, ra) for ra in ras]), ras) for rows in SIZES]
-    found = richardson(values, SIZES)
+    found = staggered(CONDUCTING_SQUARE, 1.0, (4800.0, 4950.0, 5100.0))
     # 0.5: the parabola through three Ra is off by 1e-5 of Ra, sigma''' times their distances
     assert abs(found.limit - critical_ra_square()) < found.error + 0.5
-
-
-# --- growth rates -------------------------------------------------------------------------------
-
-
-def test_the_staggered_grid_approaches_linear_theory():
-    scene = RayleighBenard(ra=1.0, pr=7.0)
-    found = onset_of(boussinesq_mac, scene, (1600.0, 1660.0, 1700.0, 1750.0))
-    # 0.05: of the cubic through four Ra
-    assert abs(found.limit - linear.critical_ra(np.pi)) < found.error + 0.05
-    assert abs(found.order - 2) < 0.15      # the next power, h^4, at these sizes
-
-
-def test_gases_of_both_grids_have_one_onset():
-    """Extrapolated from three grids, within the sum of their uncertainties and those of the cubics."""
-    ras = (1650.0, 1700.0, 1750.0, 1800.0)
-    one, other = (onset_of(solver, LAYER, ras) for solver in (of_gas, pypde_compressible))
-    assert abs(one.limit - other.limit) < one.error + other.error + 0.1
 
 
 def test_gas_of_small_differences_is_boussinesq_fluid_of_half_the_gradient():
@@ -103,9 +78,6 @@ def test_runs_measure_a_known_growth():
 def test_too_few_samples_are_refused():
     with pytest.raises(ValueError, match="4 samples after t = 0"):
         History(np.arange(10.0), np.array([1, 1, 1, 1, 9, 9, 9, 9, 9, 9.0])).growth(0.0)
-
-
-# --- Newton's method on the compressible grid ---------------------------------------------------
 
 
 @pytest.mark.parametrize("scene", SCENES, ids=SCENE_IDS)
@@ -144,16 +116,13 @@ def test_newton_says_where_it_failed():
         compressible_newton.steady(replace(LAYER, ra=5e4), 8, wild)
 
 
-# --- zeros and lines ----------------------------------------------------------------------------
-
-
 def rates(ra, sigma, err=0.0):
     return pd.DataFrame({"ra": np.array(ra, float), "sigma": np.array(sigma, float), "sigma_err": err})
 
 
 def test_smooth_zero_covers_the_true_one():
     ra = np.array([1500, 1600, 1650, 1700, 1750, 1800, 1900.0])
-    found = onset_derive.smooth_zero(rates(ra, [linear.growth_rate(ra=r, pr=2.0, k=np.pi) for r in ra]))
+    found = onset_tables.smooth_zero(rates(ra, [linear.growth_rate(ra=r, pr=2.0, k=np.pi) for r in ra]))
     # 1e-9: round-off in sigma
     assert abs(found.value - linear.critical_ra(np.pi)) <= found.err + 1e-9*found.value
     assert found.err < 1e-3
@@ -168,26 +137,13 @@ def test_zero_of_noisy_rates_covers_the_true_one(noise):
     rng, ra = np.random.default_rng(3), np.array([1400, 1700, 2000, 2300.0])
     truth = 0.1*(1 - np.sqrt(1850/ra))
     sigmas = (truth + noise*rng.normal(size=4) for _ in range(200))
-    zeros = [onset_derive.nearby_zero(rates(ra, sigma, 2*noise)) for sigma in sigmas]
+    zeros = [onset_tables.nearby_zero(rates(ra, sigma, 2*noise)) for sigma in sigmas]
     assert np.mean([abs(zero.value - 1850) <= zero.err for zero in zeros]) > 0.9
 
 
-def test_a_straight_line_has_its_zero():
-    ra = np.array([2000, 3000, 5000, 6800.0])
-    points = pd.DataFrame({"resolution": np.inf, "ra": ra, "ke": 0.01*(1 - np.sqrt(1708/ra))})
-    line = onset_derive.straight(points)
-    assert line.ra_c == pytest.approx(1708, rel=1e-12)      # round-off
-    assert line.residual < 1e-12
-
-
-# --- the study ----------------------------------------------------------------------------------
-
-
-def test_quantities_name_what_differs():
-    at = dict.fromkeys(onset_tables.POINT.split(), "") | {"sides": "periodic", "resolution": np.inf}
-    at |= {"eos": "ideal", "transport": "const-nu", "dT": 0.1, "way": "operator"}
-    row = onset_derive.critical_row(at, 1.0, 0.0)
-    assert row["quantity"] == "ra_c periodic aspect 2, const-nu, dT 0.1 (growth rates)"
-    at |= {"variant": "printed", "transport": "const-eta", "dT": 1.0, "resolution": 25.0}
-    row = onset_derive.critical_row(at | {"way": "run", "ke_start": 4e-4}, 1.0, 0.0)
-    assert row["quantity"] == "ra_c periodic aspect 2 (growth rates, run from K = 0.0004, 25 rows)"
+def test_no_critical_number_follows_from_one_growth_rate():
+    columns = next(table for table in STUDY.tables if table.name == "growth_rates").columns
+    texts = {"method": "linear", "variant": "", "eos": "", "transport": "", "sides": "periodic"}
+    one = pd.DataFrame([{**dict.fromkeys(columns, 0.0), **texts, "way": "eigenvalue", "resolution": np.inf}])
+    assert not any(STUDY.derive(Tables({"growth_rates": one})).values())        # linear theory is no run
+    assert not any(STUDY.derive(Tables()).values())

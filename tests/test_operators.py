@@ -6,8 +6,8 @@ import pytest
 
 from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import RayleighBenard
-from particles.integral.dih import Dih, NestedFluxes, Pairwise
-from particles.integral.edge_makers import MAKERS, delaunay, plain, printed, renormalised
+from particles.integral.dih import Dih, NestedFluxes
+from particles.integral.edge_makers import MAKERS, plain, printed, renormalised
 from particles.integral.interpolants import Exponential, Gaussian, W
 from particles.integral.points import jittered, lattice
 from particles.limits import limit_of
@@ -15,23 +15,27 @@ from particles.run import Plan, run
 from particles.threads import Threads
 from particles.weights import Lucy, WendlandC2
 from studies.build.fixed import SCHEMES, fluid
-from studies.operators.claims.scheme import STILL
-from studies.operators.derive import extrapolated
 from studies.operators.equations import (
     PRINTED,
     Spectral,
     added_bulk,
-    arriving,
     brackets,
     gathered,
     inner,
     kernel,
     mass_rate,
     rates,
+    transported,
 )
-from studies.operators.integrals import interpolated, smoothed
-from studies.operators.kept import WAVE, LayerGrowth, OneKernel, euler_limit, jacobian, linear, sound
-from studies.operators.lattice import around, gradient_symbol, line_weight, spread_symbol, viscosities
+from studies.operators.scheme import LayerGrowth, euler_limit, jacobian, linear, sound, viscosities
+from studies.operators.weights import (
+    around,
+    gradient_symbol,
+    interpolated,
+    line_weight,
+    smoothed,
+    spread_symbol,
+)
 
 # --- weights --------------------------------------------------------------------------------------
 
@@ -91,7 +95,7 @@ def test_literal_sums_are_those_of_the_code():
     dih, w = gas(edges, zeta=0.1), brackets(edges)
     state, still = dih.state(rho, v, T), dih.state(rho, 0*v, T)
     np.testing.assert_allclose(mass_rate(w, rho, v), rates(dih, state)[0], rtol=0, atol=1e-12)
-    friction = arriving(edges, PRINTED.fluxes(dih, dih.flow(state)).momentum)
+    friction = transported(dih, dih.flow(state))[1:-1].T
     np.testing.assert_allclose(-gathered(w, kernel(inner(w, v), 0.3, 0.1, 1.0)), friction, rtol=0, atol=1e-12)
     conduction = rates(dih, still)[-1]
     np.testing.assert_allclose(gathered(w, 0.4*inner(w, T)), conduction, rtol=0, atol=1e-12)
@@ -133,7 +137,8 @@ def test_the_matrix_of_sound_is_that_of_the_rates(maker):
     dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(0.0, 0.0))
     rest, c, root = dih.state(np.ones(at.n), np.zeros((at.n, 2)), np.ones(at.n)), np.sqrt(2), np.sqrt(edges.V)
     P, u, v = np.random.default_rng(0).normal(size=(3, at.n))
-    _, du, dv, dP = linear(dih, rest, WAVE*np.stack([0*P, u, v, P]))/WAVE
+    step = 1e-4         # rates are cubic: errors are 1e-8 of them
+    _, du, dv, dP = linear(dih, rest, step*np.stack([0*P, u, v, P]))/step
     expected = c*sound(edges)@np.concatenate([root*P/c, root*u, root*v])
     np.testing.assert_allclose(np.concatenate([root*dP/c, root*du, root*dv]), expected, rtol=0, atol=1e-7)
 
@@ -147,29 +152,15 @@ def test_euler_limit_is_where_a_wave_begins_to_grow():
     assert euler_limit(np.array([0.1 + 1j])) == 0
 
 
-def wind(edges, transport):
-    """Largest rate of a uniform stream."""
-    dih, one = gas(edges, transport), np.ones(edges.n)
-    return np.abs(rates(dih, dih.state(one, one[:, None]*np.array([0.6, 0.8]), one))).max()
-
-
-def test_uniform_streams_stay_on_edges_that_close_alone():
-    at, weight = jittered((8, 9), 0.3, 1), WendlandC2.of(h=2.7)
-    assert max(wind(delaunay(at, weight), way) for way in (NestedFluxes(), PRINTED, Pairwise())) < 1e-13
-    assert wind(plain(at, weight), NestedFluxes()) > 0.1
-    one_kernel = OneKernel(make=plain, disorder=None, counts=(), h=2.7)
-    assert next(one_kernel.rows(plain(at, weight)))["lost"] > 1e-4
-
-
 @pytest.mark.parametrize(("transport", "right"), [(NestedFluxes(), True), (PRINTED, False)])
 def test_differences_in_the_inner_sum_mend_nested_transport_on_any_points(transport, right):
     """[Eqs 37, 38]: no friction in a uniform stream, no heat at uniform temperature."""
     edges = renormalised(jittered((10, 10), 0.3, 1), WendlandC2.of(h=3.0))
     dih, one = gas(edges, transport), np.ones(edges.n)
-    stream = transport.fluxes(dih, dih.flow(dih.state(one, one[:, None]*np.array([0.6, 0.8]), one)))
-    still = transport.fluxes(dih, dih.flow(dih.state(one, np.zeros((edges.n, 2)), one)))
-    for flux in (stream.momentum, still.energy):
-        size = np.sqrt((arriving(edges, flux)**2).mean())
+    friction = transported(dih, dih.flow(dih.state(one, one[:, None]*np.array([0.6, 0.8]), one)))[1:-1]
+    heat = transported(dih, dih.flow(dih.state(one, np.zeros((edges.n, 2)), one)))[-1]
+    for rate in (friction, heat):
+        size = np.sqrt((rate**2).mean())
         assert size < 1e-13 if right else size > 0.01
 
 
@@ -179,14 +170,6 @@ def test_viscosities_of_central_forces_are_cauchys(d):
     for moments, ratio in (((1.0, 0.0), 3), ((0.0, 1.0), 1)):
         eta, bulk = viscosities(d, *moments)
         assert 2*eta*(1 - 1/d) + bulk == pytest.approx(ratio*eta, rel=1e-14)
-
-
-def test_limits_are_extrapolated_in_the_square_of_the_spacing():
-    a = np.array([1/16, 1/32, 1/64])
-    limit = extrapolated(a, 2 + 3*a**2)
-    assert limit.value == pytest.approx(2, rel=1e-13) and limit.err < 1e-12
-    bent = extrapolated(a, 2 + 3*a**2 + 50*a**4)
-    assert abs(bent.value - 2) < bent.err
 
 
 # --- the layer between plates ---------------------------------------------------------------------
@@ -215,10 +198,6 @@ def test_eigenvalues_and_time_steps_give_one_growth():
     steps = ceil(1/rate/(0.5*limit_of(method, state)))
     last = run(method, state + mode, Plan(dt=1/rate/steps, steps=steps)).state
     np.testing.assert_allclose(last - state, np.e*mode, rtol=0, atol=1e-3*np.abs(mode).max())
-
-
-def test_transport_along_edges_keeps_a_lattice_at_rest():
-    assert growth(1.0) < STILL
 
 
 def test_the_derivative_is_one():

@@ -83,9 +83,6 @@ def test_mass_is_conserved_to_round_off(gases):
         assert abs(s.mass_drift) < 1e-15*np.sqrt(s.steps)
 
 
-# --- starts and measures ----------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("kind", ["gases", "layers"])
 def test_a_solution_on_another_grid_keeps_its_energy(kind, request):
     fine = request.getfixturevalue(kind)[-1]
@@ -97,12 +94,9 @@ def test_a_solution_on_another_grid_keeps_its_energy(kind, request):
     assert wide.measure(onto(wide, fine))[0] == pytest.approx(fine.series.ke[-1], rel=0.01)
 
 
-# --- what cannot be ---------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(("make", "message"), [
-    (lambda: layer(ra=-1), "Ra must be positive.*-1"),
-    (lambda: layer(pr=0), "Pr must be positive.*0"),
+    (lambda: layer(ra=-1), "ra must be positive.*-1"),
+    (lambda: layer(pr=0), "pr must be positive.*0"),
     (lambda: layer(9), "rows must be even and at least 8, got 9"),
     (lambda: layer(6), "rows must be even and at least 8, got 6"),
     (lambda: Gas(GAS, 9), "rows must be even and at least 8, got 9"),

@@ -9,18 +9,18 @@ from imageio_ffmpeg import read_frames
 from PIL import Image
 from report_tables import committed, errors, one_study
 
+from studies.kit.claim import paper_of
 from studies.kit.csvfile import write
 from studies.kit.figure import Drawing, Drawings
 from studies.kit.key import ROOT
-from studies.kit.source import paper_of
 from studies.kit.store import RESULTS
 from studies.kit.study import Part, Study
 from studies.report import inventory, text
 from studies.report.__main__ import main
-from studies.report.gallery import examples, scripts
+from studies.report.equations import with_error
 from studies.report.inventory import claims_of, folders
-from studies.report.numbers import with_error
 from studies.report.page import PARTS, embedded, figures, render, write_page
+from studies.report.text import examples, scripts
 
 
 @pytest.fixture
@@ -40,7 +40,7 @@ def test_the_page_is_one_file_and_the_same_again(small):
 def test_the_page_begins_as_the_readme_does(small, monkeypatch):
     begins = text.opening(small)
     assert begins.question.startswith("Do fluid particles converge") and begins.words.count("<li>") == 5
-    assert '<a class="word" href="#word-moving"><code>moving</code></a>' in begins.choice
+    assert '<a class="word" href="#word-moving-delaunay"><code>moving-delaunay</code></a>' in begins.choice
     monkeypatch.setattr(text, "ROOT", small)
     (small/"README.md").write_text("# Title\n\nNo question.\n\n## More\n")
     with pytest.raises(inventory.NoReport, match=r"does not begin with a bold question.*: let it begin so"):
@@ -72,9 +72,6 @@ def test_every_example_is_in_the_gallery():
     assert [one.name for one in examples(RESULTS)] == [path.stem for path in scripts()]
 
 
-# --- figures and their tables ---------------------------------------------------------------------
-
-
 def toy(errors):
     """K over the height.
 
@@ -92,7 +89,7 @@ def test_a_figure_is_shown_with_the_tables_and_the_code_that_its_study_lists(sma
     part, = folders(small)
     old, one = figures(part, claims_of(small))
     assert (one.caption, one.see, one.made) == ("K over the height.", "K over the height.", "abc1234567")
-    assert [sheet.name for sheet in one.sheets] == ["rb/errors"]
+    assert [sheet.stem for sheet in one.sheets] == ["errors"]
     assert one.code[1] == "toy" and (small/one.code[0]).samefile(__file__)
     assert len(old.sheets) == 2 and old.caption == f"old: {part.question}" and old.code is None
 
@@ -107,18 +104,12 @@ def test_every_figure_says_in_a_sentence_what_to_see():
             assert one.see.endswith(".") and "% %" not in one.see and len(one.see) < 200, one.name
 
 
-# --- numbers --------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(("value", "err", "said"), [
     (17.5, 1.5, "17.5(15)"), (-0.42, 0.096, "−0.42(10)"), (2369.2, 80.8, "2369(81)"), (1.0, 0.0, "1"),
     (0.0349, 0.0445, "0.03(4)"), (math.nan, 0.1, "none")])
 def test_numbers_with_their_errors(value, err, said):
     assert with_error(value, err) == said
     assert paper_of("Sangani & Acrivos 1982, Table 1") == "Sangani & Acrivos 1982"
-
-
-# --- films ----------------------------------------------------------------------------------------
 
 
 def test_a_film_shows_points_and_the_grid_and_is_the_same_again(tmp_path):
@@ -128,8 +119,8 @@ def test_a_film_shows_points_and_the_grid_and_is_the_same_again(tmp_path):
     from studies.report import films
     times, scene = np.array([0.0, 0.1]), RayleighBenard(ra=1e4, L=16.0)
     grids = list(films.grid(scene, 16, times))
-    for film in films.MAKERS.values():
-        dots = list(films.points(film, scene, times))
+    for name in films.CAPTIONS:
+        dots = list(films.points(name, scene, times))
         # particles lie at random: their sum of squares is not the integral, by 2/sqrt(512)
         assert dots[0].ke == pytest.approx(START_ENERGY, rel=0.09) and dots[1].ke != dots[0].ke
         assert np.abs(dots[0].T - 1).max() <= 0.5 + 1e-12 and np.abs(dots[1].x[:, 1]).max() <= 0.5
@@ -138,9 +129,6 @@ def test_a_film_shows_points_and_the_grid_and_is_the_same_again(tmp_path):
     about, *shown = read_frames(tmp_path/"one.mp4")
     assert (about["codec"], about["size"], len(shown)) == ("h264", (640, 320), 2 + films.HOLD)
     assert (tmp_path/"one.mp4").read_bytes() == (tmp_path/"two.mp4").read_bytes()
-
-
-# --- what is committed ----------------------------------------------------------------------------
 
 
 def test_results_as_they_are_make_a_page():

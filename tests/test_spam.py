@@ -29,8 +29,6 @@ def closed(rule, pressure):
     return sides(BOX[0], 1.0, -0.05, rule, pressure) + plates(BOX[1], HOT, COLD, rule, pressure)
 
 
-
-
 class Setup(NamedTuple):
     weight: type
     eos: Any
@@ -80,8 +78,7 @@ def close(fast, slow):
 @pytest.mark.parametrize("name", SETUPS)
 def test_equals_the_slow_twin(name):
     # both add about 30 terms a pair sum in double precision: round-off is 1e-15 of the largest term, and the
-    # sums
-    # cancel to a few per cent of their terms
+    # sums cancel to a few per cent of their terms
     spam = method(SETUPS[name])
     sums, state, _ = prepare(spam, crowd(BOX, COLUMNS, ROWS, spam.eos))
     out = np.empty_like(state)
@@ -93,9 +90,6 @@ def test_equals_the_slow_twin(name):
     assert close(gradient[:, :, 2], slow.grad_T) < 1e-12
     for fast, exact in zip(out, slow.out):
         assert close(fast, exact) < 1e-12
-
-
-# --- laws of a box without walls ---------------------------------------------------------------------------
 
 
 def free(weight=Lucy, eos=IdealGas(), law=ETA, **other) -> Spam:  # noqa: B008
@@ -114,8 +108,7 @@ each = pytest.mark.parametrize("spam", COMPANY, ids=lambda s: " ".join(
 @each
 def test_momentum_and_energy_are_exchanged_only(spam):
     # what one particle gains its partner loses: the sum over 99 particles of 30 terms each is round-off,
-    # 1e-16 of
-    # the terms, which are ten times larger than the rates
+    # 1e-16 of the terms, which are ten times larger than the rates
     state = crowd(BOX, COLUMNS, ROWS, spam.eos)
     _, _, ax, ay, heat = rates(spam, state)
     power = state[2]*ax + state[3]*ay + heat
@@ -132,24 +125,6 @@ def test_galilean_invariance(spam):
     moving[3] -= 3.0
     # velocities of 7 lose a digit in their differences
     assert close(rates(spam, moving)[2:], rates(spam, state)[2:]) < 1e-13
-
-
-@each
-def test_same_for_whoever_counts_the_particles(spam):
-    state = crowd(BOX, COLUMNS, ROWS, spam.eos)
-    order = np.random.default_rng(1).permutation(state.shape[1])
-    assert close(rates(spam, state[:, order]), rates(spam, state)[:, order]) < 1e-13
-
-
-@each
-def test_same_for_whoever_turns_the_box(spam):
-    square = Spam(**{**vars(spam), "box": (8.0, 8.0), "walls": everywhere((8.0, 8.0))})
-    state = crowd((8.0, 8.0), 9, 9, spam.eos)
-
-    def turn(rows):
-        x, y, u, v, e = rows
-        return np.array([-y, x, -v, u, e])
-    assert close(rates(square, turn(state)), turn(rates(square, state))) < 1e-13
 
 
 @pytest.mark.parametrize("side", [-4.5, 4.5, np.nextafter(-4.5, -5), np.nextafter(4.5, 5)])
@@ -178,9 +153,6 @@ def test_threads_do_not_change_a_bit(columns, rows, name):
     one = rates(spam, state)
     for threads in (2, 3):
         assert (rates(spam, state, threads) == one).all()
-
-
-# --- errors ------------------------------------------------------------------------------------------------
 
 
 def test_errors_name_value_rule_and_way_out():

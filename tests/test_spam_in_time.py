@@ -1,15 +1,14 @@
-"""SPAM in time: order and limit of the steps, isomorphism with molecular dynamics, threads, lists."""
+"""SPAM in time: order of the steps, isomorphism with molecular dynamics."""
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 import plain
 import pytest
-from crowd import advance, crowd, everywhere, lattice, prepare, rates, total_energy
+from crowd import advance, crowd, everywhere, lattice, rates, total_energy
 
 from continuum.fluid import ConstEta, IdealGas, energy, pressure, temperature
 from particles.smooth.spam import Spam
-from particles.smooth.sums import Direct, Nested
 from particles.weights import Lucy, Monaghan, WendlandC2
 
 BOX = (10.0, 10.0)
@@ -27,8 +26,6 @@ def vortices() -> np.ndarray:
     return np.array([*r, 0.5*np.sin(k*x)*np.cos(k*y), -0.5*np.cos(k*x)*np.sin(k*y), 1 + 0.1*np.cos(k*x)])
 
 
-# --- order of the steps ------------------------------------------------------------------------------------
-
 TIME, STEPS = 3.2, (64, 128, 256, 512)
 
 
@@ -43,9 +40,8 @@ def test_energy_drifts_with_the_fourth_power_of_the_step(halved):
     method, start, ends = halved
     drift = np.abs([total_energy(method, end) - total_energy(method, start) for end in ends])
     # RK4 damps each oscillation by (omega dt)^6/144 a step, a fifth power of dt in all, which the longest
-    # steps still
-    # show beside the fourth. Smallest drift 4e-12, round-off of a sum of 100 energies 1e-13: 0.05 of the
-    # last order
+    # steps still show beside the fourth. Smallest drift 4e-12, round-off of a sum of 100 energies 1e-13: 0.05
+    # of the last order
     orders = np.log2(drift[:-1]/drift[1:])
     assert ((3.9 < orders) & (orders < 4.4)).all()
     assert abs(orders[-1] - 4) < 0.15
@@ -56,23 +52,10 @@ def test_paths_converge_as_the_weight_is_smooth(halved):
     errors = [np.sqrt(np.mean((a[2:] - b[2:])**2)) for a, b in pairwise(ends)]
     order = np.log2(errors[0]/errors[-1])/(len(errors) - 1)
     # KHP95's weights have w''' that jumps at h (the B-spline's at h/2 too): each pair that crosses such a
-    # distance
-    # costs dt^3 of a force with a kink in its slope, at a random place within the step. Hundreds of
-    # crossings: 0.3.
-    # Wendland's w''' does not jump.
+    # distance costs dt^3 of a force with a kink in its slope, at a random place within the step. Hundreds of
+    # crossings: 0.3. Wendland's w''' does not jump.
     expected, within = (4.0, 0.1) if isinstance(method.weight, WendlandC2) else (3.0, 0.3)
     assert abs(order - expected) < within
-
-
-@pytest.mark.parametrize("transport", [Nested, Direct])
-def test_momentum_stays(transport):
-    start = vortices()
-    end = advance(free(transport=transport), start, 0.2, 50)
-    # 50 steps, each adds the round-off of a sum of 100 terms
-    assert end[2:4].sum(axis=1) == pytest.approx(start[2:4].sum(axis=1), abs=1e-12)
-
-
-# --- molecular dynamics [KHP95, Sec. III] ------------------------------------------------------------------
 
 
 class Quadratic(NamedTuple):
@@ -114,39 +97,7 @@ def test_forces_are_those_of_a_pair_potential():
 
 def test_internal_energy_is_the_potential():
     end = advance(NEWTON, atoms(), 0.02, 200)
-    # RK4's error of the path at this step, 2e-8, is eight times smaller at half of it; the sum of e and
-    # v^2/2 is the
-    # conserved energy of the atoms
+    # RK4's error of the path at this step, 2e-8, is eight times smaller at half of it; the sum of e and v^2/2
+    # is the conserved energy of the atoms
     assert end[4] == pytest.approx(potential(end), abs=1e-7)
     assert total_energy(NEWTON, end) == pytest.approx(total_energy(NEWTON, atoms()), abs=1e-7)
-
-
-def test_motion_is_reversible_without_viscosity_only():
-    def leapfrog(method, state, dt, steps):
-        sums, now, ids = prepare(method, state)
-        out = np.empty_like(now)
-        sums.rates(now, out)
-        for _ in range(steps):
-            now[2:4] += dt/2*out[2:4]
-            now[:2] += dt*now[2:4]
-            if sums.around.must_relist(now, dt):
-                sums.around.relist(now, ids, dt)
-            sums.rates(now, out)
-            now[2:4] += dt/2*out[2:4]
-        return now[:, np.argsort(ids)]
-
-    def there_and_back(method):
-        start = atoms()
-        there = leapfrog(method, start, 0.1, 60)
-        there[2:4] *= -1
-        back = leapfrog(method, there, 0.1, 60)
-        wander = (back[:2] - start[:2] + 5) % 10 - 5
-        return abs(wander).max(), abs((there[:2] - start[:2] + 5) % 10 - 5).max()
-    error, way = there_and_back(NEWTON)
-    # leapfrog is reversible but for round-off, which chaos multiplies: 1e-16 by e^(0.6 12)
-    assert way > 1
-    assert error < 1e-11
-    assert there_and_back(free(eos=Quadratic(), law=ConstEta(0.05, 0.0)))[0] > 0.1
-
-
-# --- lists and threads -------------------------------------------------------------------------------------

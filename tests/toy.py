@@ -11,21 +11,71 @@ import pytest
 from studies.kit import key
 
 LIMIT = 180     # seconds after which something hangs: a run takes five on an idle machine
+#: case 2 waits until told to go, 3 dies if told to, 4 and 5 run alone
+STUDY = '''
+import os, signal, time
+from dataclasses import dataclass
+from typing import ClassVar
+from continuum import law
+from studies.kit.case import Case, Outcome
+from studies.kit.claim import Claim
+from studies.kit.figure import figure
+from studies.kit.study import Study, main
+from studies.kit.table import Table
+
+def note(word, case):
+    deaf = signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, [])
+    with open("log", "a") as log:
+        log.write(f"{word} {case.x:g} {os.getpid()} {os.environ['OMP_NUM_THREADS']} {'deaf'*deaf}\\n")
+
+@dataclass(frozen=True, kw_only=True)
+class Run(Case):
+    x: float
+    law: object = law.wave
+    def run(self, report, folder):
+        note("begin", self)
+        try:
+            while self.x == 2 and not os.path.exists("go"):
+                report(0.5)
+                time.sleep(0.05)
+            if self.x == 3 and os.path.exists("die"):
+                os._exit(9)
+            return Outcome({"waves": [{"x": self.x, "y": self.law(self.x)}]})
+        finally:
+            note("end", self)
+
+class Timed(Run):
+    alone: ClassVar[bool] = True
+    cost = 99.0
+
+def cases(size):
+    return [Timed(x=4.0), Timed(x=5.0), *(Run(x=x) for x in (0.1, 1., 2., 3.))]
+
+def figures(tables):
+    page, axes = figure()
+    axes.plot(tables["waves"].x, tables["waves"].y)
+    return {"waves": page}
+
+claim = Claim(id="grows", source="KHP95, Sec. V", statement="waves grow", at_least=-9,
+              value=lambda tables: (tables["waves"].y.max(), 0.0), because="a test")
+if __name__ == "__main__":
+    main(Study(name="toy", cases=cases, figures=figures, claims=[claim],
+               tables=[Table("waves", key=["x"], columns=["x", "y"], about="a test")]))
+'''
 
 
 class Toy:
-    """A copy of the kit, the study `toy` and a package of formulas in a folder."""
+    """A copy of the kit, the study `toy` and its formula in a folder."""
 
-    def __init__(self, folder: Path, study: str, **formulas: str):
+    def __init__(self, folder: Path, law: str):
         self.folder = folder
         ignored = shutil.ignore_patterns("__pycache__")
         shutil.copytree(key.ROOT/"studies/kit", folder/"studies/kit", ignore=ignored)
         (folder/"continuum").mkdir()
-        (folder/"studies/toy.py").write_text(study)
+        (folder/"studies/toy.py").write_text(STUDY)
+        (folder/"continuum/law.py").write_text(law)
         for name in ("studies/__init__", "continuum/__init__"):
             (folder/f"{name}.py").touch()
-        for name, text in formulas.items():
-            (folder/f"continuum/{name}.py").write_text(text)
 
     def start(self, *words: str, **environment: str) -> subprocess.Popen:
         """The study, in a group of its own, as Ctrl-C wants it."""
@@ -38,10 +88,14 @@ class Toy:
         return finish(self.start(*words, **environment))
 
     def log(self) -> list[list[str]]:
-        """What cases wrote, a line each, since last asked."""
+        """What cases wrote, a line each."""
         path = self.folder/"log"
         lines = path.read_text().splitlines() if path.exists() else []
         return [line.split() for line in lines]
+
+    def began(self) -> list[str]:
+        """Cases that began, in order."""
+        return [x for word, x, *_ in self.log() if word == "begin"]
 
     def kept(self) -> int:
         """How many cases are finished."""

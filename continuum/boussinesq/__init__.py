@@ -8,8 +8,7 @@ operators: a transient ends in the state that Newton finds on the same grid.
     state = steady(BoussinesqCase(ra=10_000, pr=1, box=HALF_LAYER, rows=64))
     state.K, state.rolls, state.observe()
 """
-from continuum.boussinesq.flow import BoussinesqCase, State
-from continuum.boussinesq.mac import CAVITY, CONDUCTING_SQUARE, HALF_LAYER, SQUARE, Box, BoxEdges, End
-from continuum.boussinesq.newton import growth_rates, steady
+from continuum.boussinesq.flow import BoussinesqCase, State, rest, roll
+from continuum.boussinesq.mac import HALF_LAYER, Box, BoxEdges, End
+from continuum.boussinesq.newton import steady
 from continuum.boussinesq.projection import transient
-from continuum.boussinesq.starts import rest, roll

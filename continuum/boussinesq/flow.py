@@ -1,4 +1,4 @@
-"""A case of Boussinesq convection, its equations, its states, and what is measured on them.
+"""A case of Boussinesq convection, its equations, its states, where they start, what is measured on them.
 
 Free-fall units: height H, temperature difference dT and velocity sqrt(g alpha dT H) are 1, so that
 nu = sqrt(Pr/Ra), kappa = 1/sqrt(Pr Ra); T is in (-1/2, 1/2); K is kinetic energy per mass.
@@ -13,7 +13,8 @@ from scipy.interpolate import RectBivariateSpline
 from scipy.ndimage import label
 
 from continuum.boussinesq.mac import HALF_LAYER, Box, End, Mac, mac
-from continuum.linear.layer import positive
+from continuum.linear import critical_ra
+from continuum.scene import positive
 from continuum.steady import STILL
 
 
@@ -27,7 +28,7 @@ class BoussinesqCase:
     columns: int = 0
 
     def __post_init__(self):
-        positive(Ra=self.ra, Pr=self.pr)
+        positive(ra=self.ra, pr=self.pr)
         object.__setattr__(self, "columns", self.columns or 2*round(self.box.width*self.rows/2))
         for name in ("rows", "columns"):
             if (cells := getattr(self, name)) < 8 or cells % 2:
@@ -70,19 +71,11 @@ class Equations:
 
 
 class Observed(NamedTuple):
-    """K, Nusselt numbers by five ways, and the dissipations; the Nusselt numbers of a steady layer are equal.
-
-    In other boxes only two balances remain: nu_thermal is the heat that enters times its wall's temperature
-    (`wall_power`), and kinetic dissipation is the work of buoyancy, nu_convective = nu_kinetic.
-    """
+    """K, and Nusselt numbers: mean heat in at the bottom, out at the top, in at the left side."""
     K: float
     nu_bottom: float
     nu_top: float
-    nu_convective: float        # 1 + <vT>/kappa
-    nu_thermal: float           # <grad T^2>
-    nu_kinetic: float           # 1 + kinetic dissipation/kappa
-    nu_left: float              # heat that enters through the left side, over the height
-    wall_power: float           # sum over walls of T_wall times heat that enters, over kappa
+    nu_left: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -127,18 +120,10 @@ class State:
         return int(label(psi > least)[1] + label(psi < -least)[1])
 
     def observe(self) -> Observed:
-        """All that is measured on a state, see Observed."""
-        mac, kappa = self.case.mac, self.case.kappa
-        T = self.parts[2]
-        flow = np.r_[self.q[:mac.ends[1]], 0*T.ravel()]
-        friction = -self.case.nu*mac.cell*float(flow@(mac.lap@flow))
-        work = mac.cell*float(flow@(mac.lift@self.q))
-        bottom, top, left, _ = heat = [enters(mac, T, *wall) for wall in (BOTTOM, TOP, LEFT, RIGHT)]
-        inner = mac.cell*float(np.sum((mac.x.grad@T)**2) + np.sum((mac.y.grad@T.T)**2))
-        return Observed(K=self.K, nu_bottom=bottom.gradient, nu_top=-top.gradient, nu_left=left.gradient,
-                        nu_convective=1 + work/kappa, nu_kinetic=1 + friction/kappa,
-                        nu_thermal=inner + sum(h.dissipation for h in heat),
-                        wall_power=sum(h.power for h in heat))
+        """What is measured on a state."""
+        walls = (1, 0), (1, -1), (0, 0)     # axis, end
+        bottom, top, left = (enters(self.case.mac, self.parts[2], *wall) for wall in walls)
+        return Observed(self.K, bottom, -top, left)
 
     def on(self, case: BoussinesqCase) -> "State":
         """The same fields on another grid or at another Ra, Pr, by cubic splines."""
@@ -152,26 +137,13 @@ class State:
         return State(case=case, q=np.concatenate([f.ravel() for f in parts]), t=self.t)
 
 
-BOTTOM, TOP, LEFT, RIGHT = (1, 0), (1, -1), (0, 0), (0, -1)     # (axis, end)
-
-
-class Entering(NamedTuple):
-    """At a wall: mean gradient of T out of the box, dissipation in its half cells, power T_wall*flux."""
-    gradient: float
-    dissipation: float
-    power: float
-
-
-def enters(mac: Mac, T: np.ndarray, axis: int, end: int) -> Entering:
-    """Heat that comes through one wall; (T_wall - T_cell)/(h/2) is its gradient."""
+def enters(mac: Mac, T: np.ndarray, axis: int, end: int) -> float:
+    """Mean gradient of T out of the box at one wall, (T_wall - T_cell)/(h/2)."""
     edges, across, along = ((mac.box.sides, mac.x, mac.y), (mac.box.plates, mac.y, mac.x))[axis]
     if edges.heat is not End.WALL:
-        return Entering(0.0, 0.0, 0.0)
+        return 0.0
     wall = (edges.low if end == 0 else edges.high) + edges.ramp*along.centre
-    gradient = (wall - np.take(T, end, axis=axis))*2/across.h
-    share = mac.cell/across.h       # length of a cell's side over the area of the box
-    return Entering(gradient=float(np.mean(gradient)), dissipation=share*across.h/2*float(gradient@gradient),
-                    power=share*float(wall@gradient))
+    return float(np.mean((wall - np.take(T, end, axis=axis))*2/across.h))
 
 
 def resample(f: np.ndarray, old: tuple, new: tuple, mac: Mac) -> np.ndarray:
@@ -182,3 +154,26 @@ def resample(f: np.ndarray, old: tuple, new: tuple, mac: Mac) -> np.ndarray:
     if len(y) == mac.y.faces:
         y, f = np.r_[0, y, 1], np.pad(f, ((0, 0), (1, 1)))
     return RectBivariateSpline(x, y, f)(*new)
+
+
+def rest(case: BoussinesqCase) -> State:
+    """No flow, and the temperature that conduction would give: linear between the plates, or the sides."""
+    mac, plates = case.mac, case.box.plates
+    x, y = np.meshgrid(mac.x.centre/case.box.width, mac.y.centre, indexing="ij")
+    T = 0.5 - (y if plates.heat is End.WALL else x)
+    return State(case=case, q=np.r_[np.zeros(mac.ends[1]), T.ravel()])
+
+
+def roll(case: BoussinesqCase, rolls: int = 1) -> State:
+    """Rolls, rising at the left side, of the Lorenz model (free plates, Ra/Ra_c at least 1.1)."""
+    if rolls < 1:
+        raise ValueError(f"{rolls} rolls do not fit: a box has at least 1")
+    mac, a = case.mac, rolls/case.box.width
+    r = max(case.ra/critical_ra(np.pi*a), 1.1)
+    swing = np.sqrt(8*(r - 1)/(1 + a**2))
+    x, y = np.pi*a*mac.x.face[:, None], np.pi*mac.y.face
+    psi = -case.kappa*(1 + a**2)/a*swing*np.sin(x)*np.sin(y)**2
+    x, y = np.pi*a*mac.x.centre[:, None], np.pi*mac.y.centre
+    warm = (swing*np.cos(x)*np.sin(y) - (r - 1)*np.sin(2*y))/(np.pi*r)
+    T = rest(case).parts[2] + warm*(case.box.plates.heat is End.WALL)
+    return State(case=case, q=np.r_[mac.curl@psi.ravel(), T.ravel()])

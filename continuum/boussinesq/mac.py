@@ -2,20 +2,21 @@
 
 x runs along the plates over `columns` cells, y across over `rows` cells; the height is 1. T sits in cells, u
 on faces between neighbours in x, v on those between neighbours in y, the streamfunction psi on corners. Faces
-in a wall carry no unknown: their normal velocity is zero. A state is a vector q = (u, v, T), each in C order
-(x, y).
+in a wall carry no unknown: their normal velocity is zero. A state is a vector q = (u, v, T).
 
 Diffusion is the five-point sum with mirrored values beyond a wall; advection is the centred flux form, a sum
 of products D[(A q)(B q)]. With div v = 0 in each cell advection makes neither v^2 nor T^2: the discrete flow
-keeps the energy balances of the exact one, and Nu from the plates, from <vT> and from both dissipations are
-equal.
+keeps the energy balances of the exact one: Nu from the plates, <vT> and both dissipations are equal.
 """
 from dataclasses import dataclass
 from enum import Enum
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from scipy import sparse
+
+from continuum.scene import positive
 
 
 class End(Enum):
@@ -35,10 +36,7 @@ class BoxEdges:
 
 
 PLATES = BoxEdges(flow=End.WALL, heat=End.WALL, low=0.5, high=-0.5)
-FREE_PLATES = BoxEdges(flow=End.MIRROR, heat=End.WALL, low=0.5, high=-0.5)
 SYMMETRY = BoxEdges(flow=End.MIRROR, heat=End.MIRROR)
-INSULATED = BoxEdges(flow=End.WALL, heat=End.MIRROR)
-CONDUCTING = BoxEdges(flow=End.WALL, heat=End.WALL, low=0.5, high=0.5, ramp=-1.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,17 +47,12 @@ class Box:
     plates: BoxEdges = PLATES
 
     def __post_init__(self):
-        if not 0 < self.width < np.inf:
-            raise ValueError(f"width must be positive and finite, got {self.width}: it counts heights")
+        positive(width=self.width)
         if End.WALL not in (self.sides.heat, self.plates.heat):
             raise ValueError("no wall has a temperature: fix it on the plates or on the sides")
 
 
 HALF_LAYER = Box(width=1.0, sides=SYMMETRY)         # half of the aspect-2 periodic box: one roll of its pair
-SQUARE = Box(width=1.0, sides=INSULATED)
-CONDUCTING_SQUARE = Box(width=1.0, sides=CONDUCTING)
-CAVITY = Box(width=1.0, plates=INSULATED,           # de Vahl Davis: hot left side, cold right side
-             sides=BoxEdges(flow=End.WALL, heat=End.WALL, low=0.5, high=-0.5))
 
 
 class Axis:
@@ -78,10 +71,6 @@ class Axis:
     def bend(self, end: End) -> sparse.csr_array:
         """Second difference in cells; 2 T_wall - T lies beyond a WALL, T_wall counts elsewhere."""
         return self.div@self.grad - 2*sparse.diags_array(self.wall(1.0, 1.0)*(end is End.WALL))/self.h
-
-    def bend_faces(self) -> sparse.csr_array:
-        """Second difference of what sits on faces and vanishes in the walls."""
-        return self.grad@self.div
 
     def wall(self, low: float, high: float) -> np.ndarray:
         """low/h in the first cell, high/h in the last: the divergence of a flux that enters there."""
@@ -114,8 +103,8 @@ class Mac:
     def diffusion(self) -> tuple[sparse.csr_array, ...]:
         """Lap of u, v, T; the homogeneous part."""
         x, y, sides, plates = self.x, self.y, self.box.sides, self.box.plates
-        u = cross(x.bend_faces(), y.cells) + cross(x.faces, y.bend(plates.flow))
-        v = cross(x.bend(sides.flow), y.faces) + cross(x.cells, y.bend_faces())
+        u = cross(x.grad@x.div, y.cells) + cross(x.faces, y.bend(plates.flow))
+        v = cross(x.bend(sides.flow), y.faces) + cross(x.cells, y.grad@y.div)
         T = cross(x.bend(sides.heat), y.cells) + cross(x.cells, y.bend(plates.heat))
         return u, v, T
 
@@ -128,7 +117,7 @@ class Mac:
         x, y = self.x, self.y
         return part(self.box.sides, x, y.centre) + part(self.box.plates, y, x.centre).T
 
-    def advection(self) -> tuple[sparse.csr_array, sparse.csr_array, sparse.csr_array]:
+    def advection(self) -> tuple[sparse.csr_array, ...]:
         """A, B, D of -D[(A q)(B q)]; the fluxes are uu, vv (in cells), uv (on corners), uT, vT (on faces)."""
         x, y = self.x, self.y
         u_x, v_y = cross(x.back, y.cells), cross(x.cells, y.back)
@@ -141,12 +130,8 @@ class Mac:
         D = [[cross(x.grad, y.cells), None, cross(x.faces, y.div), None, None],
              [None, cross(x.cells, y.grad), cross(x.div, y.faces), None, None],
              [None, None, None, cross(x.div, y.cells), cross(x.cells, y.div)]]
-        return stack(A), stack(B), stack(D)
-
-
-def stack(blocks: list) -> sparse.csr_array:
-    """One matrix from rows of blocks, None for zero."""
-    return sparse.block_array(blocks).tocsr()
+        blocks: list[Any] = [A, B, D]       # None is zero
+        return tuple(sparse.block_array(parts).tocsr() for parts in blocks)
 
 
 def cross(x, y) -> sparse.csr_array:

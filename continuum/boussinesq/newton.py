@@ -3,11 +3,10 @@ from functools import cached_property
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse.linalg import eigs, splu
+from scipy.sparse.linalg import splu
 
-from continuum.boussinesq.flow import BoussinesqCase, Equations, State
-from continuum.boussinesq.starts import roll
-from continuum.steady import largest, newton
+from continuum.boussinesq.flow import BoussinesqCase, Equations, State, roll
+from continuum.steady import WITHIN, largest, newton
 
 RELAX = 5.0     # the implicit steps that lead to Newton's are RELAX/(largest rate of change) long
 
@@ -47,31 +46,16 @@ class InStreamfunction(Equations):
         return self.C@lu.solve(residual)
 
 
-def steady(case: BoussinesqCase, start: State | None = None, *, within: float = 1e-9) -> State:
+def steady(case: BoussinesqCase, start: State | None = None) -> State:
     """The steady state that start leads to: a roll, or a state of any grid, Ra and Pr in the same box.
 
-    Implicit steps lengthen as the rates of change fall and become Newton's, until no value changes by more
-    than `within`. The state need not be stable.
+    Implicit steps lengthen as the rates of change fall and become Newton's. The state need not be stable.
     """
     equations, first = InStreamfunction(case), (start or roll(case)).on(case)
 
     def relaxed(q: np.ndarray) -> np.ndarray:
         residual = equations.residual(q)
-        return equations.step(q, residual, RELAX/max(largest(residual), within*1e-6))
+        return equations.step(q, residual, RELAX/max(largest(residual), WITHIN*1e-6))
     s = np.r_[first.psi.ravel(), first.parts[2].ravel()]    # steps in s never mend a divergence
-    q, changes = newton(equations.C@s, relaxed, within,
-                        f"Ra = {case.ra:g}, Pr = {case.pr} on {case.rows} rows")
+    q, changes = newton(equations.C@s, relaxed, f"Ra = {case.ra:g}, Pr = {case.pr} on {case.rows} rows")
     return State(case=case, q=q, changes=changes)
-
-
-def growth_rates(state: State, count: int = 4, near: float = 0.2) -> np.ndarray:
-    """The growth rates (complex, fastest first) of disturbances of a steady state; below zero it is stable.
-
-    They are the `count` eigenvalues nearest to `near`, which should be above the fastest: nothing in free
-    fall grows faster than 1. Only disturbances with the symmetry of the box count.
-    """
-    equations = InStreamfunction(state.case)
-    slope, inertia = equations.jacobian(state.q).tocsc(), equations.inertia.tocsc()
-    first = np.sin(1.0 + np.arange(slope.shape[0]))     # any will do, but the same each time
-    found = eigs(slope, count, inertia, sigma=near, v0=first, return_eigenvectors=False)
-    return found[np.argsort(-found.real)]

@@ -25,12 +25,7 @@ class PlateFlow(NamedTuple):
     name: str
     heat: float = 0.0
     U: float = 0.0
-    until: float = 0.01
-
-    @property
-    def time(self) -> float:
-        """In heights over the unit of velocity."""
-        return self.until/MU
+    time: float = 0.01/MU       # in heights over the unit of velocity
 
     def start(self, s: np.ndarray) -> np.ndarray:
         """(rho, v, u, T), each (n,), of mean density 1."""

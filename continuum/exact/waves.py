@@ -4,8 +4,7 @@ About rho = T = 1 of an ideal gas, P = rho T, C_V = 1, waves exp(ik.r) of (rho, 
 
     rho' = -i s u        u' = -i s (rho + T) - l u        T' = -i s u - q T        and across k: v' = -t v
 
-with s = k, l = (2 eta (1 - 1/d) + zeta) k^2, q = kappa k^2, t = eta k^2. A scheme on a lattice has numbers of
-its own.
+with s = k, l = (2 eta (1 - 1/d) + zeta) k^2, q = kappa k^2, t = eta k^2. A scheme has its own.
 """
 from typing import NamedTuple
 
@@ -39,11 +38,10 @@ def continuum(gas: LinearGas, k: float, d: int = 2) -> Waves:
     return waves(k, (2*gas.eta*(1 - 1/d) + gas.zeta)*k**2, gas.kappa*k**2, gas.eta*k**2)
 
 
-def quantities(rates: Waves, k: float, d: int = 2) -> dict[str, float]:
-    """Viscosities, conductivity, speed and damping of sound, decay of the heat mode."""
+def quantities(rates: Waves, k: float) -> dict[str, float]:
+    """In 2D viscosities, conductivity, speed and damping of sound, decay of the heat mode."""
     eigen = np.linalg.eigvals(rates.matrix)
     sound, heat = eigen[np.argmax(eigen.imag)], eigen[np.argmin(np.abs(eigen.imag))]
     eta, along = rates.shear/k**2, -rates.matrix[1, 1].real/k**2
-    values = (eta, along - 2*(1 - 1/d)*eta, -rates.matrix[2, 2].real/k**2, sound.imag/k, -sound.real,
-              -heat.real)
+    values = eta, along - eta, -rates.matrix[2, 2].real/k**2, sound.imag/k, -sound.real, -heat.real
     return dict(zip(QUANTITIES, map(float, values), strict=True))

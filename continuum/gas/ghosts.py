@@ -50,13 +50,30 @@ outside.of(PaperForm)(lambda form, near, next_: 1.0)
 
 
 @jit
+def extrapolate(form, rho):
+    """Densities behind the first and the last row."""
+    last = rho.shape[0] - 1
+    for i in range(rho.shape[1]):
+        rho[0, i] = outside(form, rho[1, i], rho[2, i])
+        rho[last, i] = outside(form, rho[last - 1, i], rho[last - 2, i])
+
+
+@jit
+def repeat(box, S):
+    """What lies beyond periodic sides."""
+    ny, nx = S.shape[1] - 2, S.shape[2] - 2
+    if box.first == 1:
+        S[:, :, 0], S[:, :, nx + 1] = S[:, :, nx], S[:, :, 1]
+    if box.lowest == 1:
+        S[:, 0], S[:, ny + 1] = S[:, ny], S[:, 1]
+
+
+@jit
 def fill_plates(eos, form, box, S):
     """Ghost densities behind the plates, then the energy of the plates' nodes from their temperature."""
     ny, nx = S.shape[1] - 2, S.shape[2] - 2
     rho = S[RHO]
-    for i in range(nx + 2):
-        rho[0, i] = outside(form, rho[1, i], rho[2, i])
-        rho[ny + 1, i] = outside(form, rho[ny, i], rho[ny - 1, i])
+    extrapolate(form, rho)
     for i in range(1, nx + 2):
         S[E, 1, i] = energy(eos, node_density(rho, 1, i), box.T_hot)
         S[E, ny + 1, i] = energy(eos, node_density(rho, ny + 1, i), box.T_cold)
@@ -75,26 +92,21 @@ def fill(sides, eos, law, form, box, S):
 
 @fill.of(Periodic)
 def _(sides, eos, law, form, box, S):
-    nx = S.shape[2] - 2
-    S[:, :, 0], S[:, :, nx + 1] = S[:, :, nx], S[:, :, 1]
+    repeat(box, S)
     fill_plates(eos, form, box, S)
-    S[E, :, 0] = S[E, :, nx]
+    S[E, :, 0] = S[E, :, S.shape[2] - 2]
 
 
 @fill.of(Torus)
 def _(sides, eos, law, form, box, S):
-    ny, nx = S.shape[1] - 2, S.shape[2] - 2
-    S[:, :, 0], S[:, :, nx + 1] = S[:, :, nx], S[:, :, 1]
-    S[:, 0], S[:, ny + 1] = S[:, ny], S[:, 1]
+    repeat(box, S)
 
 
 @fill.of(Walls)
 def _(sides, eos, law, form, box, S):
     ny, nx = S.shape[1] - 2, S.shape[2] - 2
     rho = S[RHO]
-    for j in range(1, ny + 1):
-        rho[j, 0] = outside(form, rho[j, 1], rho[j, 2])
-        rho[j, nx + 1] = outside(form, rho[j, nx], rho[j, nx - 1])
+    extrapolate(form, rho.T)
     fill_plates(eos, form, box, S)
     for j in range(2, ny + 1):
         T = box.T_hot + (box.T_cold - box.T_hot)*(j - 1)/ny
@@ -102,37 +114,23 @@ def _(sides, eos, law, form, box, S):
             S[E, j, i] = energy(eos, node_density(rho, j, i), T)
 
 
-# --- sides of several kinds -------------------------------------------------------------------------------
-
-
 class SideRule(NamedTuple):
     """What the loop asks of a side, in numbers: boxes of all kinds share their compiled code.
 
-    slip : 1 without friction, else 0. v : velocity along itself. T, q : temperature, or nan and the heat.
+    slip : without friction? v : velocity along itself. T, q : temperature, or nan and the heat.
     """
-    slip: float
+    slip: bool
     v: float
     T: float
     q: float
 
 
-class Frame(NamedTuple):
-    """Rules of four sides; those of periodic ones are not read."""
-    left: SideRule
-    right: SideRule
-    bottom: SideRule
-    top: SideRule
-
-
 def in_loop(sides):
-    """What stands for a scene's sides in the loop."""
-    return Frame(*map(rule_of, sides)) if isinstance(sides, Sides) else sides
-
-
-def rule_of(side) -> SideRule:
-    """Of one side."""
-    numbers = (getattr(side, name, 0.0) for name in ("v", "T", "q"))
-    return SideRule(float(isinstance(side, Slip)), *map(float, numbers))
+    """What stands for a scene's sides in the loop; rules of periodic ones are not read."""
+    if not isinstance(sides, Sides):
+        return sides
+    return Sides(*(SideRule(isinstance(side, Slip), *(getattr(side, name, 0.0) for name in "vTq"))
+                   for side in sides))
 
 
 class Line(NamedTuple):
@@ -184,30 +182,9 @@ def fill_corner(beside, level, eos, law, box, S, j, i, up, right):
 
 
 @jit
-def extrapolate(form, rho):
-    """Densities behind the first and the last row."""
-    last = rho.shape[0] - 1
-    for i in range(rho.shape[1]):
-        rho[0, i] = outside(form, rho[1, i], rho[2, i])
-        rho[last, i] = outside(form, rho[last - 1, i], rho[last - 2, i])
-
-
-@jit
-def repeat(box, S):
-    """What lies beyond periodic sides."""
-    ny, nx = S.shape[1] - 2, S.shape[2] - 2
-    if box.first == 1:
-        S[:, :, 0], S[:, :, nx + 1] = S[:, :, nx], S[:, :, 1]
-    if box.lowest == 1:
-        S[:, 0], S[:, ny + 1] = S[:, ny], S[:, 1]
-
-
-@jit
 def even_out(rho):
-    """Takes the squares of a chessboard off the densities of a closed box, which no node sees.
-
-    What moves along sides that end in corners would feed them for ever. Mass stays.
-    """
+    """Takes the squares of a chessboard off the densities of a closed box, which no node sees: what moves
+    along sides that end in corners would feed them for ever. Mass stays."""
     ny, nx, squares = rho.shape[0] - 2, rho.shape[1] - 2, 0.0
     for j in range(1, ny + 1):
         for i in range(1, nx + 1):
@@ -218,7 +195,7 @@ def even_out(rho):
             rho[j, i] -= (1 - 2*((i + j) % 2))*squares
 
 
-@fill.of(Frame)
+@fill.of(Sides)
 def _(sides, eos, law, form, box, S):
     ny, nx = S.shape[1] - 2, S.shape[2] - 2
     left, right, bottom, top = sides

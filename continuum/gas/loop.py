@@ -2,8 +2,7 @@
 
 A block `S[field, j, i]` holds the state; j counts rows upwards, i columns. Nodes are (1..ny+1, 1..nx+1), the
 outer ones on the walls; where a side is periodic, the last is the first. Cell (j, i) has node (j, i) as its
-lower left corner. Ghosts lie outside: `ghosts.fill` makes them, the loop knows no walls. Differences are
-centred.
+lower left corner. Ghosts lie outside: `ghosts.fill` makes them, the loop knows no walls.
 """
 from continuum.fluid import conductivity, pressure, stress, temperature, viscosity
 from continuum.gas.ghosts import RHO, VX, VY, E, EdgeHeat, FluxForm, PaperForm, fill, node_density

@@ -2,8 +2,7 @@
 
 Between periodic sides the flow is taken as its own mirror image about the middle of a rising and of a falling
 stream, which leaves one half of the box and fixes the rolls. Slopes of the rates come from their differences:
-unknowns five nodes apart meet in no rate, so that a hundred pairs of evaluations give the whole sparse
-matrix.
+unknowns five nodes apart meet in no rate, so that a hundred pairs of evaluations give the sparse matrix.
 
 The grid keeps two sums of densities: the mass, and the sum with signs that alternate like the squares of a
 chessboard, which no node sees. Both are constraints of Newton's method.
@@ -21,7 +20,7 @@ from continuum.gas.fields import NodeFields, block, count_rolls, initial, kineti
 from continuum.gas.ghosts import RHO, VX, VY, E, FluxForm, box_of, fill, in_loop
 from continuum.gas.loop import rates
 from continuum.scene import Periodic
-from continuum.steady import largest, newton
+from continuum.steady import WITHIN, largest, newton
 
 REACH = 2       # of a node or cell in rates, in rows and columns
 STEP = 1e-5     # of the differences: their error is about its square, and round-off over it
@@ -29,6 +28,7 @@ STEP = 1e-5     # of the differences: their error is about its square, and round
 RELAX = 1.0
 # K of rolls to start from, in free-fall units: from KHP95's, cold and stronger, it may end in other states
 WEAK = 5e-4
+NEAR = 0.3
 STILL = 1e-10   # square of the share of the velocity below which a disturbance is a change of mass only
 
 
@@ -54,11 +54,9 @@ class Discrete:
         """Places (3, n) = field, row, column of the unknowns, of their mirror images, and signs."""
         half = isinstance(self.scene.sides, Periodic)
         last = columns//2 + 1 if half else columns
-        inner, all_ = range(2, rows + 1), range(1, rows + 1)
-        nodes = range(1, last + 1) if half else range(2, last + 1)
-        cells = range(1, last) if half else range(1, last + 1)
+        inner, nodes = range(2, rows + 1), range(1 if half else 2, last + 1)
         layout = ((VX, inner, range(2, last) if half else nodes), (VY, inner, nodes), (E, inner, nodes),
-                  (RHO, all_, cells))
+                  (RHO, range(1, rows + 1), range(1, last if half else last + 1)))
         places = np.array([(f, j, i) for f, js, is_ in layout for j in js for i in is_]).T
         mirrors, signs = places.copy(), np.where(places[0] == VX, -1.0, 1.0)
         if half:
@@ -78,7 +76,6 @@ class Discrete:
         return (S - self.rest)[tuple(self.places)]
 
     def rates(self, q: np.ndarray) -> np.ndarray:
-        """dq/dt."""
         out = np.zeros_like(self.rest)
         rates(*self.laws, self.state(q), self.scratch, out)
         return out[tuple(self.places)]
@@ -124,8 +121,7 @@ class Discrete:
     def fields(self, q: np.ndarray) -> tuple[NodeFields, np.ndarray]:
         """Fields, and the block with its ghosts."""
         S = self.state(q)
-        sides, eos, law, form, box = self.laws
-        fill(sides, eos, law, form, box, S)
+        fill(*self.laws, S)
         return unblock(self.scene, S), S
 
 
@@ -148,20 +144,18 @@ def warm_rolls(scene, rows: int, ke: float) -> NodeFields:
     return replace(fields, at=fields.at._replace(T=T, e=energy(scene.eos, fields.at.rho, T)))
 
 
-def steady(scene, rows: int, start: NodeFields | None = None, *, within: float = 1e-9) -> SteadyState:
+def steady(scene, rows: int, start: NodeFields | None = None) -> SteadyState:
     """The steady state by Newton's method from a start, of any grid or Ra; by default from weak rolls.
 
-    It ends when no unknown changes by more than `within`; the error is then about its square. At rest below
-    onset. Raises NewtonFailed: no convergence.
+    At rest below onset. Raises NewtonFailed: no convergence.
     """
     equations, unit = Discrete(scene, rows), scene.L/scene.free_fall
     start = warm_rolls(scene, rows, WEAK*scene.free_fall**2) if start is None else onto(scene, rows, start)
 
     def relaxed(q: np.ndarray) -> np.ndarray:
         rates = equations.rates(q)
-        return step(equations, q, rates, RELAX*unit/max(largest(rates)*unit, within**2))
-    q, changes = newton(equations.unknowns(block(start)), relaxed, within,
-                        f"Ra = {scene.ra:g} on {rows} rows")
+        return step(equations, q, rates, RELAX*unit/max(largest(rates)*unit, WITHIN**2))
+    q, changes = newton(equations.unknowns(block(start)), relaxed, f"Ra = {scene.ra:g} on {rows} rows")
     fields, S = equations.fields(q)
     return SteadyState(fields, kinetic_energy(S), count_rolls(fields), changes)
 
@@ -170,8 +164,7 @@ def step(equations: Discrete, q: np.ndarray, rates: np.ndarray, dt: float) -> np
     """The change of q in an implicit step; dt = inf makes it Newton's.
 
     Of the rates of densities one follows from the others for each kept sum. It gives way to "no change of
-    this density", and what such a change alone would do, `free`, is added so that the sums are kept; their
-    own rows would fill the factors.
+    this density", and what such a change alone would do, `free`, is added so that the sums are kept.
     """
     kept = np.array(equations.kept)
     spare = np.flatnonzero(equations.places[0] == RHO)[:len(kept)]
@@ -185,16 +178,15 @@ def step(equations: Discrete, q: np.ndarray, rates: np.ndarray, dt: float) -> np
     return change - free@np.linalg.solve(kept@free, kept@(q + change))
 
 
-def growth_rate(scene, rows: int, near: float = 0.3) -> float:
+def growth_rate(scene, rows: int) -> float:
     """Growth rate of the fastest disturbance of the fluid at rest that moves it, per unit of time.
 
-    Looked for around `near` per free-fall time, which should be above it. Between periodic sides disturbances
-    of all widths count that have the mirror planes of the box's pair of rolls. A change of mass, which lasts
-    for ever, does not count.
+    Looked for around NEAR per free-fall time, which is above it. Between periodic sides disturbances of all
+    widths count that have the mirror planes of the box's pair of rolls. A change of mass does not count.
     """
     equations = Discrete(scene, rows)
     q = np.zeros(equations.places.shape[1])
     first = np.sin(1.0 + np.arange(len(q)))     # any will do, but the same each time
-    rates, modes = eigs(equations.jacobian(q), 8, sigma=near*scene.free_fall/scene.L, v0=first)
+    rates, modes = eigs(equations.jacobian(q), 8, sigma=NEAR*scene.free_fall/scene.L, v0=first)
     moves = (np.abs(modes[equations.places[0] <= VY])**2).sum(axis=0) > STILL*(np.abs(modes)**2).sum(axis=0)
     return float(rates.real[moves].max())

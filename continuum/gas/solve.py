@@ -12,15 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import (
-    check_state,
-    conductivity,
-    pressure,
-    pressure_slopes,
-    temperature,
-    valid,
-    viscosity,
-)
+from continuum import fluid
 from continuum.gas.fields import (
     NodeFields,
     Nusselt,
@@ -71,9 +63,7 @@ class Limits(NamedTuple):
 def limits(scene, S: np.ndarray) -> Limits:
     """From the fastest wave and the largest diffusivity; compact differences see wave numbers to 2/h."""
     h, rho, (vx, vy, e) = scene.L/(S.shape[1] - 2), mean(S[RHO]), (S[f, 1:, 1:] for f in (VX, VY, E))
-    T = temperature(scene.eos, rho, e)
-    T_e = (temperature(scene.eos, rho, e + 1e-6) - T)/1e-6
-    spread = np.maximum(viscosity(scene.law, rho, T), conductivity(scene.law, rho, T)*T_e)/rho
+    spread = fluid.diffusivity(scene.eos, scene.law, rho, e)
     fast = 2*sound_of_grid(scene.eos, rho, e) + np.abs(vx) + np.abs(vy)
     with np.errstate(divide="ignore"):      # no diffusion, no limit
         return Limits(RK4_SOUND*h/float(np.max(fast)), float(RK4_DECAY*h**2/(4*np.max(spread))))
@@ -81,8 +71,8 @@ def limits(scene, S: np.ndarray) -> Limits:
 
 def sound_of_grid(eos, rho, e):
     """Largest omega h/2: omega^2 = (4/h^2) s (P_rho + (1 - s) P P_e/rho^2), 0 < s < 1: e is that of cells."""
-    a, b = pressure_slopes(eos, rho, e)
-    b = b*pressure(eos, rho, e)/rho**2
+    a, b = fluid.pressure_slopes(eos, rho, e)
+    b = b*fluid.pressure(eos, rho, e)/rho**2
     inside = np.where(b > a, b, a)  # the maximum over s lies inside if b > a, else at s = 1
     return (a + inside)/(2*np.sqrt(inside))
 
@@ -121,15 +111,14 @@ class March:
             self.advance(1)
             self.steps += 1
         raise DivergedError(f"diverged in step {self.steps} (t = {self.t:.6g}): "
-                            f"{first_fault(self.scene, self.S)}; dt is {self.dt:.4g}: take more "
-                            "rows (thinner cells) or a smaller dt")
+                            f"{first_fault(self.scene, self.S)}; take more rows or dt below {self.dt:.4g}")
 
 
 def faults(scene, S: np.ndarray) -> np.ndarray:
     """True at nodes whose state cannot be."""
     rho, e = mean(S[RHO]), S[E, 1:, 1:]
     with np.errstate(all="ignore"):
-        return ~(np.isfinite(S[:, 1:, 1:]).all(axis=0) & valid(scene.eos, rho, e))
+        return ~(np.isfinite(S[:, 1:, 1:]).all(axis=0) & fluid.valid(scene.eos, rho, e))
 
 
 def first_fault(scene, S: np.ndarray) -> str:
@@ -148,8 +137,8 @@ def first_fault(scene, S: np.ndarray) -> str:
 
 def sample(scene, S: np.ndarray, t: float) -> tuple[float, float, float, float]:
     rho, e = mean(S[RHO, :5]), S[E, 1:4, 1:]
-    T = temperature(scene.eos, rho[:3], e)
-    k = conductivity(scene.law, rho[:3], T)*np.ones_like(T)
+    T = fluid.temperature(scene.eos, rho[:3], e)
+    k = fluid.conductivity(scene.law, rho[:3], T)*np.ones_like(T)
     flux = wall_flux(T, k, scene.L/(S.shape[1] - 2))
     return t, kinetic_energy(S), flux/(scene.k*scene.dT*scene.aspect), float(np.mean(S[RHO, 1:-1, 1:-1]))
 
@@ -161,11 +150,10 @@ def run(scene, rows: int, *, until: Any = Steady(), start: NodeFields | None = N
     until : Steady(rtol=...) or Time(t_end). start : fields of any grid; KHP95's two rolls by default.
     dt : largest step (by default 0.8 of the stability limit); the one taken divides the time between samples.
     continuity : FluxForm() or PaperForm(). progress : called with the fraction done.
-    Raises ValueError: rows odd or below 8, dt above the stability limit, start outside of the equation of
-    state's validity. DivergedError: names step, time, field and node.
+    Raises ValueError: rows odd or below 8, dt above the limit, an invalid start. DivergedError: where.
     """
     fields = initial(scene, rows) if start is None else onto(scene, rows, start)
-    check_state(scene.eos, fields.at.rho, fields.at.e)
+    fluid.check_state(scene.eos, fields.at.rho, fields.at.e)
     S = block(fields)
     interval = until.interval(scene)
     count = steps_between(interval, limits(scene, S).both, dt)
@@ -184,10 +172,7 @@ def run(scene, rows: int, *, until: Any = Steady(), start: NodeFields | None = N
 
 
 def steady_on(scene, sizes: Sequence[int], *, start: NodeFields | None = None, **options) -> list[Solution]:
-    """Steady solutions on ever finer grids, each from the one before. ValueError: no sizes."""
-    if not len(sizes):
-        raise ValueError(f"there are no grids (sizes = {sizes}): give their rows, coarsest first, as in (16, "
-                         "24, 32)")
+    """Steady solutions on ever finer grids, each from the one before."""
     solutions: list[Solution] = []
     for rows in sizes:
         solutions.append(run(scene, rows, start=start, **options))

@@ -4,28 +4,23 @@
 
 with u = (dpsi/dy, -dpsi/dx), in free-fall units: nu = sqrt(Pr/Ra), kappa = 1/sqrt(Pr Ra), height 1, T = 1/2
 on the lower and -1/2 on the upper plate, psi = 0 on both. The rows of py-pde's grid lie at y = h, 2 h, ..., 1
-- h, so that its ghosts lie on the plates. There no slip gives Thom's vorticity -2 psi(h)/h^2, of first order;
-the solution is of second.
+- h, so that its ghosts lie on the plates. There no slip gives Thom's vorticity -2 psi(h)/h^2.
 """
 from typing import NamedTuple
 
 import numpy as np
+from pde import CartesianGrid
 
 from continuum.jit import jit
-from continuum.linear.layer import positive
-from continuum.pypde.march import Equation, rates
-from continuum.scene import ROLL_ENERGY, columns_of
+from continuum.pypde.solve import Equation, rates
+from continuum.scene import ROLL_ENERGY, columns_of, positive
 from continuum.steady import RK4_DECAY, RK4_SOUND
-
-# continuum.jit comes before everything that loads numba
-# isort: split
-from pde import CartesianGrid
 
 FREE_FALL = 1.0                     # largest |u| + |v|
 
 
 class LayerLoop(NamedTuple):
-    """What `march.rates` takes; X, Y, inverse of `Boussinesq.streamfunction`."""
+    """What `solve.rates` takes; X, Y, inverse of `Boussinesq.streamfunction`."""
     nu: float
     kappa: float
     h: float
@@ -41,7 +36,7 @@ class Boussinesq(Equation):
 
     def __init__(self, *, ra: float, pr: float, rows: int, aspect: float = 2.0):
         super().__init__()
-        positive(Ra=ra, Pr=pr)
+        positive(ra=ra, pr=pr)
         self.rows, self.h = rows, 1/rows
         self.nu, self.kappa = float(np.sqrt(pr/ra)), float(1/np.sqrt(pr*ra))
         self.grid = CartesianGrid([(0, aspect), (self.h/2, 1 - self.h/2)],
@@ -51,12 +46,10 @@ class Boussinesq(Equation):
 
     @property
     def viscous_time(self) -> float:
-        """1/nu, in free-fall times."""
         return 1/self.nu
 
     @property
     def grid_box(self) -> tuple[float, float]:
-        """Width and height."""
         return float(self.grid.axes_bounds[0][1]), 1.0
 
     def step_limit(self) -> float:
@@ -78,7 +71,6 @@ class Boussinesq(Equation):
         return X@(inverse*(X.T@omega@Y))@Y.T
 
     def points(self, field: int) -> tuple[np.ndarray, np.ndarray]:
-        """x and y of the points, the ghosts' included."""
         columns, inner = self.grid.shape
         return self.h*(np.arange(columns + 2) - 0.5), self.h*np.arange(inner + 2)
 
@@ -101,12 +93,7 @@ class Boussinesq(Equation):
         pad(self.h, data, self.streamfunction(data[0]), full)
         return full
 
-    def repaired(self, data: np.ndarray) -> np.ndarray:
-        """What interpolation gave already is a state."""
-        return data
-
     def trouble(self, data: np.ndarray) -> str:
-        """What is wrong with a state, if anything."""
         names = [name for name, f in zip(self.names, data) if not np.isfinite(f).all()]
         return f"{' and '.join(names)} not finite" if names else ""
 
@@ -115,11 +102,9 @@ class Boussinesq(Equation):
         return float(0.5*np.sum(self.streamfunction(data[0])*data[0])*self.h**2/self.grid_box[0])
 
     def measure(self, data: np.ndarray) -> tuple[float, float, float]:
-        """K, Nusselt number of the lower plate, mass."""
         return self.kinetic_energy(data), self.nusselt(data)[0], 1.0
 
     def rising(self, data: np.ndarray) -> np.ndarray:
-        """v at mid-height."""
         psi = self.streamfunction(data[0])[:, self.rows//2 - 1]
         return (np.roll(psi, 1) - np.roll(psi, -1))/(2*self.h)
 

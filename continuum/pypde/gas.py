@@ -11,16 +11,13 @@ upper row of v_y lies on the cold plate and stays zero; on a torus, which has no
 from typing import Any
 
 import numpy as np
+from pde import CartesianGrid
 
 from continuum.fluid import energy, sound_speed, valid
 from continuum.pypde.gas_loop import RHO, VX, VY, E, GasLoop, Mesh, coefficients, fill
-from continuum.pypde.march import Equation
+from continuum.pypde.solve import Equation
 from continuum.scene import ROLL_ENERGY, Periodic, Torus, columns_of
 from continuum.steady import RK4_DECAY, RK4_SOUND
-
-# continuum.jit comes before everything that loads numba
-# isort: split
-from pde import CartesianGrid
 
 # where a field sits, in cells from the centre: x, y
 HALF_UP = np.array([[0, 0], [1, 0], [0, 1], [0, 0]])/2

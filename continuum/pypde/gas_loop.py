@@ -11,7 +11,7 @@ import numpy as np
 from continuum.fluid import conductivity, pressure, stress, temperature, viscosity
 from continuum.gas.loop import BULK_VISCOSITY
 from continuum.jit import formula, jit
-from continuum.pypde.march import rates
+from continuum.pypde.solve import rates
 
 RHO, VX, VY, E, T, ETA, K, SXX, SYY, SXY = range(10)
 
@@ -26,7 +26,7 @@ class Mesh(NamedTuple):
 
 
 class GasLoop(NamedTuple):
-    """What `march.rates` takes: fluid, transport law, box."""
+    """What `solve.rates` takes: fluid, transport law, box."""
     eos: Any
     law: Any
     box: Mesh

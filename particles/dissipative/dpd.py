@@ -1,33 +1,23 @@
 """Dissipative particle dynamics in two and three dimensions    [Groot & Warren 1997]
 
-    F_ij = [a w - gamma w^2 (e.v_ij) + sqrt(2 gamma kT/dt) w zeta_ij] e,    w = 1 - r/rc,    e = r_ij/r
+    F_ij = [a w - gamma w^2 (e.v_ij) + sqrt(2 gamma kT/dt) w zeta_ij] e,    w = 1 - r,    e = r_ij/r
 
-zeta_ij = zeta_ji of mean 0 and variance 1, new in every step. Units: masses are 1. The state (3 d, n) is x, v
-and the force of the end of the last step, so that integrators and restarts know it.
+zeta_ij = zeta_ji of mean 0 and variance 1, new in every step. Units: masses and the range rc are 1. The state
+(3 d, n) is x, v and the force of the end of the last step, so that integrators and restarts know it.
 """
 from dataclasses import dataclass
-from math import isfinite
+from math import inf
 from typing import Any
 
 import numpy as np
 
+from particles.dissipative import pairs3d
 from particles.dissipative.integrators import GrootWarren65
-from particles.dissipative.pairs3d import (
-    Force,
-    Law,
-    Record,
-    Silent,
-    Uniform,
-    record,
-    rub_pairs,
-    sum_pairs,
-    turn,
-    velocities,
-)
+from particles.dissipative.pairs3d import Force, Law, Silent, Uniform
 from particles.dissipative.periodic3d import Images
 from particles.fields import Fields
 from particles.limits import limit_of
-from particles.method import Summing
+from particles.method import Sums
 from particles.neighbours import u32, u64
 from particles.noise import check_seed
 from particles.threads import Threads
@@ -39,36 +29,26 @@ SORT = 20       # steps after which particles are put in the order of cells agai
 class Dpd:
     """A fluid of dissipative particles in a periodic box (width, height[, depth]) centred on the origin.
 
-    a, gamma, kT, rc : repulsion, friction, temperature, range. noise : `Uniform(seed)`. skin : of the lists,
-    a length. integrator : of `integrators`, or `TwoStep` for RR98 Eqs 40, 41. rate : of a shear v_x = rate y
-    between sliding sides. Raises ValueError: a parameter that makes no fluid.
+    a, gamma, kT : repulsion, friction, temperature. noise : `Uniform(seed)`. skin : of the lists.
+    integrator : of `integrators`, or `TwoStep` for RR98 Eqs 40, 41. Raises ValueError: a parameter that makes
+    no fluid.
     """
     box: tuple[float, ...]
     a: float = 25.0
     gamma: float = 4.5
     kT: float = 1.0
-    rc: float = 1.0
     noise: Any = Uniform(1)  # noqa: RUF009 (immutable)
     integrator: type = GrootWarren65
-    rate: float = 0.0
     skin: float = 0.3
 
     def __post_init__(self):
         check_seed(self.noise.seed)
-        for name, why in (("a", "negative repulsion collapses the fluid"),
-                          ("gamma", "negative friction feeds motions"),
-                          ("kT", "a temperature is not negative")):
-            if not (isfinite(getattr(self, name)) and getattr(self, name) >= 0):
-                raise ValueError(f"{name} must be zero or positive, got {getattr(self, name)}: {why}")
-        for name in ("rc", "skin"):
-            if not (isfinite(getattr(self, name)) and getattr(self, name) > 0):
-                raise ValueError(f"{name} must be positive, got {getattr(self, name)}: rc = 1, skin = 0.3 "
-                                 "are usual")
-        if not isfinite(self.rate):
-            raise ValueError(f"the shear rate must be finite, got {self.rate}")
-        if len(self.box) not in (2, 3) or not min(self.box) >= 3*self.rc:
-            raise ValueError(f"the box {self.box} needs two or three sides of at least 3 rc = {3*self.rc:g}, "
-                             "or a particle would meet the same one twice: take a larger box")
+        for name in ("a", "gamma", "kT", "skin"):
+            if not 0 <= getattr(self, name) < inf:
+                raise ValueError(f"{name} must be zero or positive, got {getattr(self, name)}")
+        if len(self.box) not in (2, 3) or not min(self.box) >= 3:
+            raise ValueError(f"the box {self.box} needs two or three sides of at least 3, or a particle "
+                             "meets the same one twice: take a larger box")
 
     @property
     def d(self) -> int:
@@ -77,7 +57,6 @@ class Dpd:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Rows of the state."""
         return tuple(kind + axis for kind in ("", "v", "f") for axis in "xyz"[:self.d])
 
     @property
@@ -86,47 +65,38 @@ class Dpd:
 
     def law(self, dt: float) -> Law:
         """Amplitudes for a step: sigma^2 dt = 2 gamma kT    [Español & Warren 1995]"""
-        return Law(self.a, self.gamma, float(np.sqrt(2*self.gamma*self.kT/dt)), 1/self.rc)
+        return Law(self.a, self.gamma, float(np.sqrt(2*self.gamma*self.kT/dt)))
 
     def longest_step(self, n: int) -> float:
         """2/omega of velocity-Verlet and 2/Lambda of forward friction, where all neighbours oppose:
-        omega^2 = 2 rho V a/(d rc), Lambda = 2 rho V gamma <w^2>/d."""
-        rho_V = n/self.volume*{2: np.pi, 3: 4*np.pi/3}[self.d]*self.rc**self.d
+        omega^2 = 2 rho V a/d, Lambda = 2 rho V gamma <w^2>/d."""
+        rho_V = n/self.volume*{2: np.pi, 3: 4*np.pi/3}[self.d]
         w2 = 2/((self.d + 1)*(self.d + 2))       # mean over the ball: d int (1 - s)^2 s^(d - 1) ds
-        omega, friction = np.sqrt(2*rho_V*self.a/self.rc/self.d), 2*rho_V*self.gamma*w2/self.d
+        omega, friction = np.sqrt(2*rho_V*self.a/self.d), 2*rho_V*self.gamma*w2/self.d
         return float(min(2/max(omega, 1e-300), 2/max(friction, 1e-300)))
 
     def random_start(self, rho: float, seed: int = 1) -> np.ndarray:
-        """State (3 d, n) at random, velocities of kT in the shear. ValueError: rho leaves no pair."""
-        if not (isfinite(rho) and rho > 0 and round(rho*self.volume) >= 2):
-            raise ValueError("rho must be positive and make two particles at least in a volume of "
-                             f"{self.volume:g}, got {rho}: rho = 3 is usual")
+        """State (3 d, n) at random, velocities of kT. ValueError: rho leaves no pair."""
+        if not 2/self.volume <= rho < inf:
+            raise ValueError(f"rho = {rho} makes no two particles in a volume of {self.volume:g}: take 3")
         rng, n = np.random.default_rng(seed), round(rho*self.volume)
         x = rng.uniform(-0.5, 0.5, (self.d, n))*np.array(self.box)[:, None]
         v = np.sqrt(self.kT)*rng.standard_normal((self.d, n))
         v -= v.mean(axis=1, keepdims=True)
-        v[0] += self.rate*x[1]
         return np.concatenate([x, v, np.zeros_like(x)])
-
-    def peculiar(self, state: np.ndarray) -> np.ndarray:
-        """Velocities (d, n) less the shear."""
-        v = state[self.d:2*self.d].copy()
-        v[0] -= self.rate*state[1]
-        return v
 
     def temperature(self, state: np.ndarray) -> float:
         """kT of velocities: d (n - 1) of them are free, their sum is conserved."""
-        v = self.peculiar(state)
+        v = state[self.d:2*self.d]
         return float((v**2).sum()/(len(v)*(v.shape[1] - 1)))
 
     def fields(self, state: np.ndarray) -> Fields:
-        """Of the particles, (n,) each: mean density, and the temperature of all velocities less the shear."""
+        """Of the particles, (n,) each: mean density, and the temperature of all velocities."""
         x, v = state[:self.d].T.copy(), state[self.d:2*self.d].T.copy()
         one, n = np.ones(len(x)), len(x)
         return Fields(x, v, n/self.volume*one, self.temperature(state)*one, self.volume/n*one)
 
     def start(self, n: int, threads: Threads) -> "Forces":
-        """The pair sums."""
         return Forces(self, n, threads)
 
 
@@ -135,32 +105,24 @@ def _(method: Dpd, start: np.ndarray) -> float:
     return np.inf       # it is told in its own words where the step is known: `Forces.make_ready`
 
 
-class Forces(Summing):
+class Forces(Sums):
     """The pair sums of n particles, as time loop and integrators want them."""
 
     def __init__(self, method: Dpd, n: int, threads: Threads):
         self.method, self.n, self.threads, self.places = method, n, threads, method.d
-        self.images = Images(n, method.box, method.rc, method.skin, method.rate, threads)
+        self.images = Images(n, method.box, 1.0, method.skin, threads)
         self.total, self.taken = np.empty((n, 3)), (np.empty(n, u64), np.empty(n, u32))
-        self.particle, self.dt = np.empty(0, Record), 1.0
+        self.particle, self.dt = np.empty(0, pairs3d.Record), 1.0
         self.now: Any = None                       # the run
         self.seen: np.ndarray | None = None        # sums that quantities share
 
-    @property
-    def time(self) -> float:
-        """At the start of the step."""
-        return self.now.step*self.dt
-
-    # what the time loop asks
-
     def resume(self, now: Any) -> None:
-        """Lists as a restarted run had them; its anchor has a last row that says when they were made."""
+        """Lists as a restarted run had them."""
         self.now = now
         if now.anchor is not None:
-            self.images.relist(now.anchor[:-1], now.anchor[-1, 0])
+            self.images.relist(now.anchor)
 
     def try_out(self, now: Any) -> None:
-        """One evaluation on a copy of the particles, which leaves no trace."""
         anchor, out, fresh = now.anchor, np.empty_like(now.state), now.anchor is None
         if fresh:
             self.rates(now.state.copy(), out)
@@ -171,14 +133,14 @@ class Forces(Summing):
         d, self.now, self.dt = self.places, now, dt
         if now.step == 0 and not dt <= self.method.longest_step(self.n):
             limit = self.method.longest_step(self.n)
-            raise ValueError(f"dt = {dt:g} is above the stability limit {limit:.3g} of these particles: take "
-                             "a shorter step, 0.02 to 0.04 is usual at a = 25, rho = 3")
+            raise ValueError(f"dt = {dt:g} is above the stability limit {limit:.3g} of these particles: 0.02 "
+                             "to 0.04 is usual at a = 25, rho = 3")
         if now.step % SORT == 0:
             order = self.images.order(now.state[:d])
             now.state[:], now.ids[:], self.images.anchor = now.state[:, order], now.ids[order], None
         if now.step == 0:
             self._sum(Force(), self.method.law(dt), self.method.noise, 0, now.state[:d], now.state[d:2*d],
-                      0.0, now.state[2*d:])
+                      now.state[2*d:])
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """Every finite state is valid."""
@@ -188,58 +150,53 @@ class Forces(Summing):
         """Quantities make their sums when the first of them asks."""
         self.seen = None
 
-    # what integrators ask
-
     def velocity(self, state: np.ndarray) -> np.ndarray:
-        """Rates of the first rows."""
         return state[self.places:2*self.places]
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt with the noise of this step, for `TwoStep`    [RR98 Eqs 39, 40, 49, 51]"""
         d = self.places
         out[:d], out[2*d:] = state[d:2*d], 0.0
-        self.forces(state[:d], state[d:2*d], 0.0, out[d:2*d])
+        self.forces(state[:d], state[d:2*d], out[d:2*d])
 
-    def forces(self, x: np.ndarray, v: np.ndarray, later: float, out: np.ndarray) -> None:
+    def forces(self, x: np.ndarray, v: np.ndarray, out: np.ndarray) -> None:
         """Forces (d, n) at x, v with the noise of this step."""
-        self._sum(Force(), self.method.law(self.dt), self.method.noise, self.now.step + 1, x, v, later, out)
+        self._sum(Force(), self.method.law(self.dt), self.method.noise, self.now.step + 1, x, v, out)
 
-    def soft(self, x: np.ndarray, later: float, out: np.ndarray) -> None:
+    def soft(self, x: np.ndarray, out: np.ndarray) -> None:
         """Repulsion only."""
         law = self.method.law(self.dt)._replace(gamma=0.0)
-        self._sum(Force(), law, Silent(0), 0, x, x, later, out)
+        self._sum(Force(), law, Silent(0), 0, x, x, out)
 
     def rub(self, x: np.ndarray, v: np.ndarray, dt: float) -> None:
         """Friction and noise act on v for dt."""
-        images, method = self.images, self.method
-        self._records(x, v, 0.0)
-        boost = images.rate*float(images.box[1])
-        rub_pairs(self.n, method.law(dt), method.noise, self.now.step + 1, dt, self.particle, images.lists,
-                  self.taken, images.points.up, boost)
-        velocities(self.particle, images.points.up, boost, v)
+        method = self.method
+        self._records(x, v)
+        pairs3d.rub_pairs(self.n, method.law(dt), method.noise, self.now.step + 1, dt, self.particle,
+                          self.images.lists, self.taken)
+        pairs3d.velocities(self.particle, v)
 
     def over_pairs(self, term: Any, state: np.ndarray, columns: int) -> np.ndarray:
         """Sums (n, columns) of a term over the pairs of a state, without noise."""
         d, out = self.places, np.empty((self.n, columns))
-        self._records(state[:d], state[d:2*d], 0.0)
-        self.threads(sum_pairs, self.n, term, self.method.law(self.dt), Silent(0), 0, self.particle,
+        self._records(state[:d], state[d:2*d])
+        self.threads(pairs3d.sum_pairs, self.n, term, self.method.law(self.dt), Silent(0), 0, self.particle,
                      self.images.lists, self.taken, out)
         return out
 
-    def _sum(self, term, law, noise, step, x, v, later, out):
-        self._records(x, v, later)
-        self.threads(sum_pairs, self.n, term, law, noise, step, self.particle, self.images.lists, self.taken,
-                     self.total)
-        self.threads(turn, self.n, self.total, out)
+    def _sum(self, term, law, noise, step, x, v, out):
+        self._records(x, v)
+        self.threads(pairs3d.sum_pairs, self.n, term, law, noise, step, self.particle, self.images.lists,
+                     self.taken, self.total)
+        self.threads(pairs3d.turn, self.n, self.total, out)
 
-    def _records(self, x, v, later):
+    def _records(self, x, v):
         """Particles and ghosts where they are; new lists if these may miss a pair."""
-        images, time = self.images, self.time + later
-        if images.stale(x, time):
-            images.relist(x, time)
-            self.now.anchor = np.concatenate([images.anchor, np.full((1, self.n), time)])
+        images = self.images
+        if images.stale(x):
+            images.relist(x)
+            self.now.anchor = images.anchor
         points = len(images.points.parent)
         if len(self.particle) != points:
-            self.particle = np.empty(points, Record)
-        slid, boost = images.slid(time) - images.anchor_slid, images.rate*float(images.box[1])
-        self.threads(record, points, x, v, self.now.ids, images.points, slid, boost, self.particle)
+            self.particle = np.empty(points, pairs3d.Record)
+        self.threads(pairs3d.record, points, x, v, self.now.ids, images.points, self.particle)

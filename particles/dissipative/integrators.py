@@ -1,9 +1,8 @@
 """Time steps of particles with friction and noise; a state is x, v and the last force.
 
-sums.places : d. sums.forces(x, v, later, out) writes the forces at x, v, `later` than the start of the step,
-with the noise of this step; sums.soft(x, later, out) those that depend neither on velocities nor on noise;
-sums.rub(x, v, dt) lets friction and noise act on v, pair by pair. Masses are 1. RR98's own step is
-`integrators.TwoStep`.
+sums.places : d. sums.forces(x, v, out) writes the forces at x, v with the noise of this step;
+sums.soft(x, out) those that depend neither on velocities nor on noise; sums.rub(x, v, dt) lets friction and
+noise act on v, pair by pair.
 """
 from typing import Any
 
@@ -42,7 +41,7 @@ class GrootWarren:
         d, guess, new = sums.places, self._guess, self._new
         x, v, f = y[:d], y[d:2*d], y[2*d:]
         self._threads(_drift, x.size, x.ravel(), v.ravel(), f.ravel(), dt, self.lam, guess.ravel())
-        sums.forces(x, guess, dt, new)
+        sums.forces(x, guess, new)
         self._threads(_kick, x.size, v.ravel(), f.ravel(), new.ravel(), dt)
 
 
@@ -55,10 +54,9 @@ class VelocityVerlet(GrootWarren):
     """Velocity-Verlet with friction once more at the final velocities    [Besold et al. 2000, DPD-VV]"""
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
-        """Advance y in place by dt."""
         super().step(sums, y, dt)
         d = sums.places
-        sums.forces(y[:d], y[d:2*d], dt, y[2*d:])
+        sums.forces(y[:d], y[d:2*d], y[2*d:])
 
 
 class Shardlow(GrootWarren):
@@ -67,33 +65,27 @@ class Shardlow(GrootWarren):
     lam = 0.0
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
-        """Advance y in place by dt."""
         d, new = sums.places, self._new
         x, v, f = y[:d], y[d:2*d], y[2*d:]
         sums.rub(x, v, dt)
         self._threads(_drift, x.size, x.ravel(), v.ravel(), f.ravel(), dt, self.lam, self._guess.ravel())
-        sums.soft(x, dt, new)
+        sums.soft(x, new)
         self._threads(_kick, x.size, v.ravel(), f.ravel(), new.ravel(), dt)
 
 
 class KickDriftFrictionDriftKick(GrootWarren):
     """Half a kick, half a drift, friction and noise for a whole step, half a drift, half a kick.
 
-    The conserved momentum stays, and kT of velocities and places is off by second order    [Leimkuhler &
-    Matthews 2013, BAOAB]
+    The conserved momentum stays, kT is off by second order    [Leimkuhler & Matthews 2013, BAOAB]
     """
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
-        """Advance y in place by dt. ValueError: the box is sheared."""
-        if sums.method.rate:
-            raise ValueError(f"a box sheared at the rate {sums.method.rate:g} has images that slide during a "
-                             "step: take Shardlow or GrootWarren")
         d, new = sums.places, self._new
         x, v, f = y[:d], y[d:2*d], y[2*d:]
         v += dt/2*f
         x += dt/2*v
         sums.rub(x, v, dt)
         x += dt/2*v
-        sums.soft(x, dt, new)
+        sums.soft(x, new)
         v += dt/2*new
         f[:] = new

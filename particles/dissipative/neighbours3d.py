@@ -56,9 +56,8 @@ def sort_into_cells(x: np.ndarray, side: float) -> Cubes:
     low = x.min(axis=0) - side
     across = (x.max(axis=0) - low)/side + 2
     if not np.prod(across) <= 64*len(x) + 4096:
-        raise FloatingPointError(f"the particles spread over {across[0]:.4g} x {across[1]:.4g} x "
-                                 f"{across[2]:.4g} cells, far more than their number {len(x)}: some are no "
-                                 "longer in the box; lower the step")
+        raise FloatingPointError(f"the particles spread over {across.round()} cells, far more than their "
+                                 f"number {len(x)}: some are no longer in the box; lower the step")
     counts = across.astype(np.int64)
     cells = Cubes(low, side, counts, np.zeros(np.prod(counts) + 1, np.int64), np.empty(len(x), u32),
                   np.empty_like(x))
@@ -100,11 +99,9 @@ def _within(x, y, z, far2, near, first):
 
 @jit
 def list_rows(first, last, n, cells, reach, capacity, lists):
-    """Write the lists of those of n particles that are first..last in the cells, from first*capacity on;
-    False without room.
+    """Write the lists of those of n particles that are first..last in the cells; False without room.
 
-    What is around a cell is compared 64 at a time, in vector instructions, and only what is within reach is
-    looked at again.
+    What is around a cell is compared 64 at a time, in vector instructions.
     """
     most = 27*np.diff(cells.start).max() + 64
     near, number = np.empty((3, most)), np.empty(most, u32)

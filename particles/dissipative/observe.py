@@ -9,25 +9,25 @@ from particles.pairs import rate, zero
 class Static(NamedTuple):
     """Sums of the repulsion F: components, Laplacian of its potential, F.r, (F less friction)_x y."""
     d: int
-    stiffness: float        # a/rc
+    a: float
 
 
 @rate.of(Static)
 def _(term, a, b, ab):
-    """U'' + (d - 1) U'/r = a/rc - (d - 1) f"""
+    """U'' + (d - 1) U'/r = a - (d - 1) f"""
     fx, fy, fz = ab.f*ab.dx, ab.f*ab.dy, ab.f*ab.dz
     friction = ab.g*(ab.dx*(a.vx - b.vx) + ab.dy*(a.vy - b.vy) + ab.dz*(a.vz - b.vz))
-    return (fx, fy, fz, term.stiffness - (term.d - 1)*ab.f, fx*ab.dx + fy*ab.dy + fz*ab.dz,
+    return (fx, fy, fz, term.a - (term.d - 1)*ab.f, fx*ab.dx + fy*ab.dy + fz*ab.dz,
             (ab.f - friction)*ab.dx*ab.dy)
 
 
-zero.of(Static)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+zero.of(Static)(lambda term: (0.0,)*6)
 
 
 def static_sums(sums: Any, state: np.ndarray) -> np.ndarray:
     """(n, 6) of `Static`, once for all quantities of a record."""
     if sums.seen is None:
-        sums.seen = sums.over_pairs(Static(sums.method.d, sums.method.a/sums.method.rc), state, 6)
+        sums.seen = sums.over_pairs(Static(sums.method.d, sums.method.a), state, 6)
     return sums.seen
 
 
@@ -57,9 +57,3 @@ def pressure(sums: Any, state: np.ndarray) -> float:
     n, d = sums.n, sums.places
     virial = static_sums(sums, state)[:, 4].sum()/2
     return float((n*kinetic_temperature(sums, state) + virial/d)/sums.method.volume)
-
-
-def shear_stress(sums: Any, state: np.ndarray) -> float:
-    """Stress_xy, positive with the shear: -[sum v_x v_y + sum over pairs (F - friction)_x y]/V."""
-    v = sums.method.peculiar(state)
-    return float(-(np.sum(v[0]*v[1]) + static_sums(sums, state)[:, 5].sum()/2)/sums.method.volume)

@@ -28,27 +28,22 @@ def draw(noise, step, i, j, count, zeta):
     """zeta[k] of the first `count` pairs of particles with numbers i[k], j[k] in a step."""
 
 
-@jit
-def _uniform(noise, step, i, j, count, zeta):
+@draw.of(Uniform)
+def _(noise, step, i, j, count, zeta):
     for k in range(count):
         zeta[k] = uniform_of_pair(noise.seed, step, i[k], j[k])
 
 
-@jit
-def _silent(noise, step, i, j, count, zeta):
+@draw.of(Silent)
+def _(noise, step, i, j, count, zeta):
     zeta[:count] = 0.0
 
 
-draw.of(Uniform)(lambda noise, step, i, j, count, zeta: _uniform(noise, step, i, j, count, zeta))
-draw.of(Silent)(lambda noise, step, i, j, count, zeta: _silent(noise, step, i, j, count, zeta))
-
-
 class Law(NamedTuple):
-    """a, gamma, the amplitude of the noise, and 1/rc."""
+    """a, gamma, and the amplitude of the noise."""
     a: float
     gamma: float
     sigma: float
-    per_rc: float
 
 
 class Near(NamedTuple):
@@ -90,11 +85,11 @@ def _(term, a, b, ab):
     return c*ab.dx, c*ab.dy, c*ab.dz
 
 
-zero.of(Force)(lambda term: (0.0, 0.0, 0.0))
+zero.of(Force)(lambda term: (0.0,)*3)
 
 
 @jit
-def find_near(first, last, rc2, particle, lists, pairs):
+def find_near(first, last, particle, lists, pairs):
     """The pairs in range of rows first..last, r^2 as f; their number. Without a branch."""
     end = u64(0)
     for i in range(u64(first), u64(last)):
@@ -105,7 +100,7 @@ def find_near(first, last, rc2, particle, lists, pairs):
             r2 = dx*dx + dy*dy + dz*dz
             pairs.near[end], pairs.own[end], pairs.other[end] = lists.listed[k], a.id, b.id
             pairs.dx[end], pairs.dy[end], pairs.dz[end], pairs.f[end] = dx, dy, dz, r2
-            end += u64(r2 < rc2)
+            end += u64(r2 < 1)
         pairs.first[i], pairs.taken[i] = begin, end - begin
     return end
 
@@ -115,7 +110,7 @@ def weigh_near(law, count, zeta, f, g):
     """f and g of the first `count` pairs from r^2 = f, in a loop for vector instructions."""
     for k in range(count):
         per_r = 1/np.sqrt(f[k])
-        w_r = per_r - law.per_rc        # w/r
+        w_r = per_r - 1        # w/r
         f[k] = w_r*(law.a + law.sigma*zeta[k])
         g[k] = law.gamma*w_r*w_r
 
@@ -138,19 +133,19 @@ def sum_pairs(first, last, term, law, noise, step, particle, lists, taken, out):
     pairs = room_for(first, last, lists, taken)
     for start in range(first, last, ROWS):
         end = min(start + ROWS, last)
-        count = find_near(start, end, 1/law.per_rc**2, particle, lists, pairs)
+        count = find_near(start, end, particle, lists, pairs)
         draw(noise, step, pairs.own, pairs.other, count, pairs.zeta)
         weigh_near(law, count, pairs.zeta, pairs.f, pairs.g)
         sweep(start, end, term, particle, pairs, out)
 
 
 @jit
-def record(first, last, x, v, ids, images, slid, boost, particle):
+def record(first, last, x, v, ids, images, particle):
     """Records of points first..last."""
     for k in range(first, last):
         p, i = particle[k], images.parent[k]
-        p.x, p.y = x[0, i] + (images.shift[k, 0] + images.up[k]*slid), x[1, i] + images.shift[k, 1]
-        p.vx, p.vy, p.id, p.image = v[0, i] + images.up[k]*boost, v[1, i], ids[i], i
+        p.x, p.y = x[0, i] + images.shift[k, 0], x[1, i] + images.shift[k, 1]
+        p.vx, p.vy, p.id, p.image = v[0, i], v[1, i], ids[i], i
         p.z, p.vz = (x[2, i] + images.shift[k, 2], v[2, i]) if len(x) == 3 else (0.0, 0.0)
 
 
@@ -163,27 +158,26 @@ def turn(first, last, total, out):
 
 
 @jit
-def rub_pairs(n, law, noise, step, dt, particle, lists, taken, up, boost):
+def rub_pairs(n, law, noise, step, dt, particle, lists, taken):
     """Friction and noise pair by pair, implicit midpoint: keeps kT at any step    [Shardlow 2003]
 
-    u' = u - K (u + u') + 2 s zeta along the pair, K = gamma w^2 dt, s^2 = 2 K kT: half of the change for each
-    of the two.
+    u' = u - K (u + u') + 2 s zeta along the pair, K = gamma w^2 dt, s^2 = 2 K kT; each of the two has half.
     """
     pairs = room_for(0, n, lists, taken)
     for start in range(0, n, ROWS):
         end = min(start + ROWS, n)
-        count = find_near(start, end, 1/law.per_rc**2, particle, lists, pairs)
+        count = find_near(start, end, particle, lists, pairs)
         draw(noise, step, pairs.own, pairs.other, count, pairs.zeta)
         for i in range(start, end):
             a = particle[i]
             for k in range(pairs.first[i], pairs.first[i] + pairs.taken[i]):
-                j = pairs.near[k]
-                image = particle[j].image
+                image = particle[pairs.near[k]].image
                 if image <= i:        # a pair of rows is that of the first
                     continue
                 b, r = particle[image], np.sqrt(pairs.f[k])
-                ex, ey, ez, w = pairs.dx[k]/r, pairs.dy[k]/r, pairs.dz[k]/r, 1 - r*law.per_rc
-                u = ex*(a.vx - b.vx - (up[j] - up[image])*boost) + ey*(a.vy - b.vy) + ez*(a.vz - b.vz)
+                ex, ey, ez, w = pairs.dx[k]/r, pairs.dy[k]/r, pairs.dz[k]/r, 1 - r
+                # y first, as LLVM has summed in committed runs
+                u = ey*(a.vy - b.vy) + ex*(a.vx - b.vx) + ez*(a.vz - b.vz)
                 K = law.gamma*w*w*dt
                 q = (law.sigma*dt*w*pairs.zeta[k] - K*u)/(1 + K)
                 a.vx, a.vy, a.vz = a.vx + q*ex, a.vy + q*ey, a.vz + q*ez
@@ -191,9 +185,9 @@ def rub_pairs(n, law, noise, step, dt, particle, lists, taken, up, boost):
 
 
 @jit
-def velocities(particle, up, boost, v):
+def velocities(particle, v):
     """v (d, n) from records."""
     for i in range(v.shape[1]):
-        v[0, i], v[1, i] = particle[i].vx - up[i]*boost, particle[i].vy
+        v[0, i], v[1, i] = particle[i].vx, particle[i].vy
         if v.shape[0] == 3:
             v[2, i] = particle[i].vz

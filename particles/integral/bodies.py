@@ -35,10 +35,9 @@ def held(which: np.ndarray, v: tuple[float, float] = (0.0, 0.0), T: float = np.n
     which = np.asarray(which)
     if len(which) < 1 or len(np.unique(which)) < len(which):
         raise ValueError(f"{len(which)} points are to be held, {len(np.unique(which))} of them different: "
-                         "name at least one, and each once; a body narrower than a spacing may hold none")
+                         "name at least one, and each once")
     if T <= 0:
-        raise ValueError(f"held points have T = {T:g}, which must be positive; leave it out for a body that "
-                         "takes no heat")
+        raise ValueError(f"held points have T = {T:g}, which must be positive; leave it out: no heat passes")
     return Held(which, np.tile(np.asarray(v, float), (len(which), 1)), np.full(len(which), float(T)),
                 np.zeros(len(which), int), np.full(len(which), float(heat)))
 
@@ -64,9 +63,8 @@ def in_disc(points: Points, radius: float) -> np.ndarray:
 def check_disc(points: Points, radius: float) -> None:
     """Refuse a disc without a point, and one that touches its own image."""
     if not points.a <= radius <= points.box.min()/2 - points.a:
-        raise ValueError(f"a disc of radius {radius:g} in a box {points.box} with spacing {points.a:.3g}: it "
-                         "must be at least a spacing wide and as far from its image beyond the side; take "
-                         "more points")
+        raise ValueError(f"a disc of radius {radius:g} in a box {points.box} must be at least a spacing, "
+                         f"{points.a:.3g}, and as far from its image beyond the side; take more points")
 
 
 def with_surface(counts: tuple[int, int], radius: float) -> tuple[Points, np.ndarray]:
@@ -80,8 +78,8 @@ def with_surface(counts: tuple[int, int], radius: float) -> tuple[Points, np.nda
     r = np.hypot(*at.x.T)
     circle = on_circle(radius)
     inside, outside = at.x[r < radius - CLEAR], at.x[r > radius + CLEAR]
-    return of_positions(np.concatenate([circle, inside, outside]),
-                        at.box), np.arange(len(circle) + len(inside))
+    points = of_positions(np.concatenate([circle, inside, outside]), at.box)
+    return points, np.arange(len(circle) + len(inside))
 
 
 def on_circle(radius: float) -> np.ndarray:
@@ -99,8 +97,7 @@ def between_circles(counts: tuple[int, int], inner: float,
     check_disc(at, inner)
     check_disc(at, outer)
     if outer - inner < 2:
-        raise ValueError(f"circles of radius {inner:g} and {outer:g} leave no point of the fluid between "
-                         "them: take more points")
+        raise ValueError(f"circles of radius {inner:g} and {outer:g} are too near: take more points")
     r = np.hypot(*at.x.T)
     off = (np.abs(r - inner) > CLEAR) & (np.abs(r - outer) > CLEAR)
     points = of_positions(np.concatenate([on_circle(inner), on_circle(outer), at.x[off]]), at.box)

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import check_state, conductivity, energy, sound_speed, temperature, viscosity
+from continuum.fluid import check_state, diffusivity, energy, sound_speed
 from particles.fields import Fields, from_densities
 from particles.integral import face_terms
 from particles.integral.exchange import At, Exchange, Listing, stages
@@ -17,8 +17,8 @@ from particles.integral.faces import POTENTIALS, FaceMaker, inner
 from particles.integral.interpolants import check_ordering
 from particles.integral.transposed_stress import MENDED
 from particles.limits import limit_of
-from particles.lists import Listed, PairLists
-from particles.pairs import Faces, sweep
+from particles.lists import Listed, PairLists, unphysical
+from particles.pairs import sweep
 from particles.starts import check_apart, check_reach, check_volumes, moments
 from particles.threads import Threads
 from particles.walls import confine
@@ -84,10 +84,6 @@ class FaceSums(Listed):
         self.exchange = Exchange(term, stages(chosen.transport, method.law, n, threads), n, threads)
         self.shift, self._lists = np.zeros((n, 2)), -1
 
-    @property
-    def faces(self) -> Faces:
-        return self.maker.faces
-
     def make_faces(self, state: np.ndarray) -> None:
         """Pairs, volumes and faces where the points are now; the solution is left in the state."""
         self.maker.make(state, state[7], state[SOLVED])
@@ -112,18 +108,18 @@ class FaceSums(Listed):
     def look_at(self, state: np.ndarray) -> At:
         """Fields of all points and images on the faces as they are: where these exchange."""
         method, around, ghosts, points, n = self.method, self.around, self.maker.ghosts, self.points, self.n
-        static, g0 = method.ingredients.static, method.rho0*method.g
-        self.threads(face_terms.read, n, state, method.eos, method.law, static*g0, self.shift,
+        static, g = method.ingredients.static, method.g
+        self.threads(face_terms.read, n, state, method.eos, method.law, static*g, self.shift,
                      self.maker.count, points)
         self.P0 = static*inner(state[7], points["P"][:n])/float(state[7].sum())
         points["P"][:n] -= self.P0
         face_terms.read_images(n, *ghosts, points)
         # what is not taken from the faces goes on hydrostatically behind plates
-        points["P"][n:] += (1 - static)*g0*(around.y[ghosts.origin] - around.y[n:])
-        self.threads(sweep, n, face_terms.FaceDifferences(), points, self.faces, self.slopes)
+        points["P"][n:] += (1 - static)*g*(around.y[ghosts.origin] - around.y[n:])
+        self.threads(sweep, n, face_terms.FaceDifferences(), points, self.maker.faces, self.slopes)
         self.threads(face_terms.pressure_slopes, n, self.slopes, state[7], points)
         ghosts.fill(points, ("gx",), ("gy",))
-        at = At(points, self.faces, ghosts, state[7])
+        at = At(points, self.maker.faces, ghosts, state[7])
         for stage in self.exchange.stages:
             stage.use(self.slopes, at)
         return at
@@ -131,8 +127,8 @@ class FaceSums(Listed):
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d/dt of what faces exchange, written to `out[4:9]`."""
         method, total = self.method, self.exchange.sum(self.look_at(state))
-        rho0 = method.ingredients.static*method.rho0
-        self.threads(face_terms.per_time, self.n, total, state, self.points, method.g, rho0, self.P0, out)
+        self.threads(face_terms.per_time, self.n, total, state, self.points, method.g,
+                     method.ingredients.static, self.P0, out)
 
     def drift(self, state: np.ndarray, dt: float) -> None:
         """Move the points; those beyond a plate turn back, with their momentum."""
@@ -144,7 +140,6 @@ class FaceSums(Listed):
         self.rates(state, np.empty_like(state))
 
     def confine(self, state: np.ndarray) -> int:
-        """Turn points beyond plates back; their number."""
         count = 0
         for wall in self.method.walls:
             before = state[2:4].copy()
@@ -153,10 +148,9 @@ class FaceSums(Listed):
         return count
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
-        """The first point with a volume, mass or state that no fluid has; empty if there is none."""
         px, py, m, V, E = state[EXCHANGED]
-        return self.unphysical(self.method.eos, V, m/V, (E - (px**2 + py**2)/(2*m))/m,
-                               ids) or self.outran(state)
+        return unphysical(self.method.eos, V, m/V, (E - (px**2 + py**2)/(2*m))/m,
+                          ids) or self.outran(state)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -164,8 +158,7 @@ class Moving:
     """A fluid on moving points, about one a unit area.
 
     weight : of `particles.weights`. walls : tuple of mirror plates and periodic sides. box : (width, height).
-    g : gravity, downwards. rho0 : mean density, of the hydrostatic pressure -rho0 g y that is left out of the
-    faces.
+    g : gravity, downwards; the hydrostatic pressure -g y of mean density 1 is left out of the faces.
     """
     weight: Any
     eos: Any
@@ -173,7 +166,6 @@ class Moving:
     walls: tuple
     box: tuple[float, float]
     g: float = 0.0
-    rho0: float = 1.0
     ingredients: Ingredients = Ingredients()  # noqa: RUF009 (immutable)
 
     names = ROWS
@@ -190,7 +182,6 @@ class Moving:
         return np.stack([*x.T, *v.T, *exchanged, *np.zeros((6, len(x)))])
 
     def fields(self, state: np.ndarray) -> Fields:
-        """Of the points, (n,) each."""
         px, py, m, V, E = state[EXCHANGED]
         return from_densities(self.eos, state[:2].T.copy(), V.copy(), m/V, np.stack([px, py])/V, E/V)
 
@@ -202,15 +193,12 @@ class Moving:
 def _(method: Moving, start: np.ndarray) -> float:
     """Three-stage Runge-Kutta, 1.73 and 2.5 on its axes; points off a lattice are 1.4 times faster.
 
-    On a lattice of spacing 1 sound is slower than c, diffusion than 4 chi, and volumes follow at 2.9 `follow`
-    (Wendland C2, h = 3).
+    On a lattice sound is slower than c, diffusion than 4 chi, volumes follow at 2.9 `follow` (Wendland C2).
     """
     px, py, m, V, E = start[EXCHANGED]
     check_volumes(V)
     rho, e = m/V, E/m - (px**2 + py**2)/(2*m**2)
     check_state(method.eos, rho, e)
-    T = temperature(method.eos, rho, e)
-    slope = (temperature(method.eos, rho, e + 1e-6) - T)/1e-6
-    chi = np.max(np.maximum(viscosity(method.law, rho, T), conductivity(method.law, rho, T)*slope)/rho)
+    chi = np.max(diffusivity(method.eos, method.law, rho, e))
     fast = np.max(sound_speed(method.eos, rho, e) + np.hypot(px, py)/m)
     return float(1/1.4/max(fast/1.73 + 4*chi/2.5, 2.9*method.ingredients.follow/2.5))

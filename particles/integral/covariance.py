@@ -3,8 +3,7 @@
     dx = J x dt + B dW, Q = B B^T            J C + C J^* + Q = 0                 [RR98 Eqs 20-25]
     x(t + dt) = A x(t) + noise of variance Q_dt       C = A C A^* + Q_dt                 [RR98 Eq. 40]
 
-What is conserved (rows L with L J = 0, L Q = 0) keeps its value: covariances are those at fixed conserved
-sums.
+What is conserved (rows L with L J = 0, L Q = 0) keeps its value: covariances are those at fixed sums.
 """
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -78,9 +77,8 @@ def check_decay(rates: np.ndarray, least: float) -> None:
     """Refuse modes that grow or stay."""
     if not (worst := rates.max()) < -least:
         raise ArithmeticError(f"{np.count_nonzero(rates >= -least)} modes do not decay, the fastest grows at "
-                              f"{worst:.3g}: there is no steady covariance; for null modes take a share of "
-                              "transport along edges or an odd number of points, for modes that grow edges "
-                              "that close and a smaller step")
+                              f"{worst:.3g}: take a share of transport along edges or an odd number of "
+                              "points, edges that close, a smaller step")
 
 
 def forward_euler(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:

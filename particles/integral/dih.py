@@ -52,14 +52,13 @@ def take(flow: Flow, points: np.ndarray) -> Flow:
     return Flow(*(field[points] for field in flow))
 
 
-def carried(eos: Any, S: np.ndarray, a: Flow, b: Flow, weight: Any = 0.0) -> EdgeFluxes:
-    """Brackets of Eqs 34-36 without stress and heat, from a to b; `weight` adds to the pressure in b."""
+def carried(eos: Any, S: np.ndarray, a: Flow, b: Flow) -> EdgeFluxes:
+    """Brackets of Eqs 34-36 without stress and heat, from a to b."""
     half = S/2
     to_b, to_a = (half*b.v).sum(axis=1), (half*a.v).sum(axis=1)      # S.v_b/2, S.v_a/2
     P_ab, P_ba = pressure(eos, a.rho, energy(eos, a.rho, b.T)), pressure(eos, b.rho, energy(eos, b.rho, a.T))
-    momentum = (a.rho*to_b)[:, None]*a.v + (b.rho*to_a)[:, None]*b.v + half*(P_ab + P_ba + weight)[:, None]
-    return EdgeFluxes(a.rho*to_b + b.rho*to_a, momentum,
-                  a.eps*to_b + b.eps*to_a + (P_ab + weight)*to_a + P_ba*to_b)
+    momentum = (a.rho*to_b)[:, None]*a.v + (b.rho*to_a)[:, None]*b.v + half*(P_ab + P_ba)[:, None]
+    return EdgeFluxes(a.rho*to_b + b.rho*to_a, momentum, a.eps*to_b + b.eps*to_a + P_ab*to_a + P_ba*to_b)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,8 +132,7 @@ class Mixed:
 def check_share(share: float) -> None:
     """Refuse a share that is none."""
     if not 0 <= share <= 1:
-        raise ValueError("the share of transport along edges must be between 0 (points) and 1 (edges), got "
-                         f"{share}")
+        raise ValueError(f"the share of transport along edges must be between 0 and 1, got {share}")
 
 
 def frictions(eta: np.ndarray, zeta: np.ndarray, d: int) -> tuple[np.ndarray, np.ndarray]:
@@ -171,20 +169,14 @@ def check_bulk(eta: np.ndarray, zeta: np.ndarray, d: int) -> None:
     if len(bad):
         k = bad[0]
         raise ValueError(f"bulk viscosity {zeta[k]:.4g} with shear viscosity {eta[k]:.4g} is outside of what "
-                         f"forces along edges allow in {d} dimensions, {low[k]:.4g} to {high[k]:.4g}: take "
-                         "nested transport (Eqs 37, 38)")
-
-
-def rows(*fluxes: EdgeFluxes) -> list[np.ndarray]:
-    """The sum of fluxes, row by row of the state."""
-    mass, momentum, energy = (sum(q[1:], q[0]) for q in zip(*fluxes, strict=True))
-    return [mass, *momentum.T, energy]
+                         f"forces along edges allow, {low[k]:.4g} to {high[k]:.4g}: take nested transport")
 
 
 def gained(edges: Edges, *fluxes: EdgeFluxes) -> np.ndarray:
     """(2 + d, n): what points gain by fluxes over edges."""
+    mass, momentum, energy = (sum(q[1:], q[0]) for q in zip(*fluxes, strict=True))
     return np.stack([np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n)
-                     for flux in rows(*fluxes)])
+                     for flux in (mass, *momentum.T, energy)])
 
 
 def means(q: Coefficients, i: np.ndarray, j: np.ndarray) -> Coefficients:
@@ -195,8 +187,7 @@ def means(q: Coefficients, i: np.ndarray, j: np.ndarray) -> Coefficients:
 class Dih:
     """A fluid on fixed points.
 
-    eos, law : of `continuum.fluid`. zeta : bulk viscosity, a number or a law. transport : NestedFluxes,
-    Pairwise or Mixed.
+    zeta : bulk viscosity, a number or a law. transport : NestedFluxes, Pairwise or Mixed.
     """
     edges: Edges
     eos: Any
@@ -222,8 +213,7 @@ class Dih:
         if not good.all():
             i = int(np.argmin(good))
             raise FloatingPointError(f"point {i} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the "
-                                     f"validity of {type(self.eos).__name__}: take a shorter step, more "
-                                     "viscosity or a smoother start")
+                                     f"validity of {type(self.eos).__name__}: take a shorter step")
         return Flow(rho, v, temperature(self.eos, rho, e), eps, pressure(self.eos, rho, e))
 
     def fields(self, state: np.ndarray) -> Fields:

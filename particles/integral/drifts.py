@@ -39,7 +39,6 @@ class LiteralDrift(NamedTuple):
     """Eqs 34-36 and 39 as printed: points move, and what convection brings is exchanged as well."""
 
     def terms(self, eos: Any, transport: tuple) -> tuple:
-        """What is exchanged, in the order that is the quickest."""
         return Convection(), *transport, Pressure(eos)
 
 
@@ -75,9 +74,9 @@ def both(bracket, eos, a, b):
 
 
 zero.of(OverPairs)(lambda term: zero(term.term))
-zero.of(Drifting)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0))
-zero.of(BracketPressure)(lambda term: (0.0, 0.0, 0.0, 0.0))
-zero.of(Dilution)(lambda term: (0.0, 0.0, 0.0, 0.0))
+zero.of(Drifting)(lambda term: (0.0,)*5)
+zero.of(BracketPressure)(lambda term: (0.0,)*4)
+zero.of(Dilution)(lambda term: (0.0,)*4)
 rate.of(Dilution)(lambda term, a, b, ab: (0.0, 0.0, 0.0, 0.0))
 growth.of(LiteralDrift)(lambda motion, a, b, ab: 0.0)
 growth.of(ConvectiveDrift)(lambda motion, a, b, ab: ab.sx*b.vx + ab.sy*b.vy)
@@ -124,7 +123,6 @@ class Diluting(Stage):
         self.follow, self.n, self.threads = follow, n, threads
 
     def add(self, at: At, total: np.ndarray) -> None:
-        """Mass, momentum, energy, and the share by which volumes follow."""
         self.threads(_dilute, self.n, self.follow, at.points, total)
 
 

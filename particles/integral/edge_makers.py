@@ -41,8 +41,7 @@ def _plain(points: Points, weight: Any) -> Edges:
 
 
 def printed(points: Points, weight: Any) -> Edges:
-    """RR98 Eq. 29 as printed, in 3D W(r) dV -> 4 pi r^2 dV^(1/3) W(r); |S_d| r^(d-1) dV^(1/d) W in d
-    dimensions.
+    """RR98 Eq. 29 as printed, in 3D W(r) dV -> 4 pi r^2 dV^(1/3) W(r); |S_d| r^(d-1) dV^(1/d) W in d.
 
     Right along one line from a point only: summed over all points around, it multiplies gradients of linear
     fields by (|S_d|/d) M_d (r0/a)^(d-1).
@@ -56,10 +55,7 @@ def printed(points: Points, weight: Any) -> Edges:
 
 def renormalised(points: Points, weight: Any) -> Edges:
     """Plain quadrature times the number that makes the mean discrete first moment sum_j W r_ij dV equal to d.
-
-    Warns where Eq. 45 does not hold and points are irregular. Raises ValueError: no two points are within the
-    weight's range.
-    """
+    Warns where Eq. 45 does not hold. ValueError: no two points are within the weight's range."""
     return judged(_renormalised(points, weight), points, weight)
 
 
@@ -67,8 +63,7 @@ def _renormalised(points: Points, weight: Any) -> Edges:
     edges = _plain(points, weight)
     if not edges.k.any():
         raise ValueError(f"no two of the {points.n} points, on average {points.a:.4g} apart, are within the "
-                         f"weight's range {reach(weight):.4g} (Eq. 45 asks for r0 above the spacing): take a "
-                         "larger h or more points")
+                         f"weight's range {reach(weight):.4g}: take a larger h or more points (Eq. 45)")
     # d times the factor of linear gradients
     first = float(np.einsum("iaa,i->", edges.linear, edges.V)/edges.V.sum())
     c = points.d/first
@@ -99,8 +94,8 @@ def check_connected(edges: Edges) -> None:
     parts, label = connected_components(edges.laplacian, directed=False)
     if parts > 1:
         lonely = int(np.argmax(label == np.argmin(np.bincount(label))))
-        raise ValueError(f"the points fall into {parts} parts without an edge between them (point {lonely} "
-                         "is in the smallest): take a wider weight or more points")
+        raise ValueError(f"the points fall into {parts} parts without an edge between them, point {lonely} "
+                         "into the smallest: take a wider weight or more points")
 
 
 def exact(points: Points, weight: Any) -> Edges:
@@ -125,12 +120,8 @@ def exact(points: Points, weight: Any) -> Edges:
     made = replace(edges, S=np.stack(columns, axis=1))
     worst = np.abs(made.linear - np.eye(points.d)).max()
     if not worst < 1e-9:
-        met = np.bincount(np.concatenate([edges.i, edges.j]), minlength=points.n)
-        least = int(np.argmin(met))
-        why = (f"the best miss the unit matrix by {worst:.2g}" if np.isfinite(worst) else "the equations for "
-               f"them are singular, as where a point has too few neighbours (point {least} has {met[least]})")
         raise ArithmeticError(f"no edges of {type(weight).__name__} close and are exact on linear fields: "
-                              f"{why}: take a wider weight or less random points")
+                              f"the best miss by {worst:.2g}: take a wider weight or less random points")
     return made
 
 

@@ -25,8 +25,8 @@ class FaceExchange(NamedTuple):
     transport: Listing
 
 
-zero.of(FaceDifferences)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-zero.of(FaceExchange)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+zero.of(FaceDifferences)(lambda term: (0.0,)*6)
+zero.of(FaceExchange)(lambda term: (0.0,)*6)
 
 
 @rate.of(FaceDifferences)

@@ -13,8 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from continuum.jit import jit
-from particles.ghosts import ghosts_of
-from particles.lists import PairLists
+from particles.lists import PairLists, ghosts_of
 from particles.neighbours import u64
 from particles.pairs import Faces, rate, sweep, zero
 
@@ -28,7 +27,7 @@ class Closing(NamedTuple):
     """Closure and moments of k [phi_j - phi_i + (psi_i + psi_j).x_ij], for S_x and S_y."""
 
 
-zero.of(Closing)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+zero.of(Closing)(lambda term: (0.0,)*6)
 
 
 @rate.of(Closing)
@@ -42,8 +41,7 @@ class FaceMaker:
     """Makes faces of points, closed by so many `iterations` at most, to the residual `within`.
 
     faces, count (n,), pull (n, 2) : what was made last, the density of points, the sum of V_j F x_ij that
-    pulls points to where they are dense. ghosts : of the lists. lists_made : how often the lists have been
-    made anew.
+    pulls points to where they are dense. ghosts : of the lists.
     """
 
     def __init__(self, around: PairLists, iterations: int, within: float):
@@ -106,7 +104,7 @@ class FaceMaker:
 
 
 def inner(a: np.ndarray, b: np.ndarray) -> float:
-    """Sum of products, not by BLAS, whose threads wait on all cores and sum in another order."""
+    """Sum of products, not by BLAS, whose threads sum in another order."""
     return float((a*b).sum())
 
 

@@ -4,25 +4,16 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from continuum.fluid import check_state, conductivity, sound_speed, temperature, valid, viscosity
+from continuum.fluid import check_state, conductivity, diffusivity, sound_speed, temperature, valid, viscosity
 from continuum.jit import formula, jit
 from particles.fields import Fields, from_densities
-from particles.ghosts import Ghosts
 from particles.integral.dih import densities
 from particles.integral.edges import NONE_BEYOND, NOWHERE, Beyond, Edges
-from particles.integral.exchange import (
-    At,
-    Convection,
-    Exchange,
-    Pressure,
-    Stage,
-    listed,
-    pressure_of,
-    stages,
-)
+from particles.integral.exchange import At, Convection, Exchange, Pressure, Stage, listed, pressure_of, stages
 from particles.integral.transposed_stress import MENDED
 from particles.limits import limit_of
-from particles.method import Summing
+from particles.lists import Ghosts
+from particles.method import Sums
 from particles.neighbours import u32, u64
 from particles.pairs import Stored
 from particles.threads import Threads
@@ -40,11 +31,8 @@ def opened(edges: Stored) -> np.ndarray:
 
 
 class OwnPressure(Stage):
-    """Sets P of a row's own point, which `Pressure` takes off twice, and takes it off the open area.
-
-    Whole pressures, many times what they differ by, would leave a rounding in every row, one way at every
-    step. open (n, 2) : what the area vectors of a row add up to, of `opened`.
-    """
+    """Sets P of a row's own point, which `Pressure` takes off twice, and takes it off the open area: whole
+    pressures would leave a rounding in every row, one way at every step. open (n, 2) : of `opened`."""
 
     def __init__(self, eos: Any, open: np.ndarray, n: int, threads: Threads):
         self.eos, self.open, self.n, self.threads = eos, open, n, threads
@@ -91,7 +79,6 @@ class OnPoints:
         return densities(self.eos, rho*np.ones(len(self.x)), v, T)
 
     def fields(self, state: np.ndarray) -> Fields:
-        """Of the points, (n,) each."""
         return from_densities(self.eos, self.x, self.edges.V, state[0], state[1:3], state[3])
 
     def start(self, n: int, threads: Threads) -> Any:
@@ -106,18 +93,14 @@ def _(method: OnPoints, start: np.ndarray) -> float:
     rho = start[0]
     e = start[3]/rho - (start[1]**2 + start[2]**2)/(2*rho**2)
     check_state(method.eos, rho, e)
-    T, (sound, spread) = temperature(method.eos, rho, e), method.fastest
-    slope = (temperature(method.eos, rho, e + 1e-6) - T)/1e-6
-    chi = np.maximum(viscosity(method.law, rho, T), conductivity(method.law, rho, T)*slope)/rho
+    (sound, spread), chi = method.fastest, diffusivity(method.eos, method.law, rho, e)
     fast = sound_speed(method.eos, rho, e) + np.sqrt(start[1]**2 + start[2]**2)/rho
     return float(1/(np.max(fast)*sound/2.82 + np.max(chi)*spread/2.78))
 
 
-class FixedSums(Summing):
-    """Compiled sums over stored edges: fields, stages of the terms, one exchange, rates per volume.
-
-    images : a tuple of arrays, one number for each of them. push (2,) : force per mass.
-    """
+class FixedSums(Sums):
+    """Compiled sums over stored edges. images : a tuple of arrays, one number for each of them. push (2,) :
+    force per mass."""
 
     def __init__(self, method: Any, threads: Threads, edges: Stored, images: Any, push: tuple[float, float],
                  *first: Stage):
@@ -144,7 +127,6 @@ class FixedSums(Summing):
         self.threads(driven, self.n, self.exchange.sum(self.at), self.at.V, self.points, self.push, out)
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
-        """The first point outside of the equation of state; empty if there is none."""
         i = first_invalid(state, self.method.eos)
         if i == state.shape[1]:
             return ""

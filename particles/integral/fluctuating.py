@@ -9,8 +9,7 @@ dW independent Wiener processes, Gamma and B sparse. In equilibrium <p_i p_j> = 
 the fluctuation-dissipation theorem. Rows are numbered a n + i: component a of point i. k is Boltzmann's
 constant in the units of the fluid, which sets the noise.
 
-RR98's Eqs 42-44 have the increments of a whole step and no volume; V is in all of the matrices here, dt in
-dW.
+RR98's Eqs 42-44 have the increments of a whole step and no volume.
 """
 from typing import Any, NamedTuple
 
@@ -45,9 +44,7 @@ def stress(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
     """Viscous forces D (eta Delta + zeta 11)/V D^T, and one random stress a point:
 
     s_i = sqrt(2 kT_i eta_i/V_i) [(R + R^T)/sqrt 2 - 1 tr R sqrt 2/d] + sqrt(2 kT_i zeta_i/V_i) 1 r, R (d, d)
-    and r of dW. eta, zeta, kT are (n,) or numbers, here and below.
-
-    Raises ValueError: one of them is negative.
+    and r of dW. eta, zeta, kT are (n,) or numbers, here and below. ValueError: one of them is negative.
     """
     eta, zeta, kT = checked(edges.n, eta=eta, zeta=zeta, kT=kT)
     d, V = edges.d, edges.V
@@ -97,11 +94,8 @@ def each(d: int, matrix: Any) -> sparse.csr_array:
 
 
 def friction(edges: Edges, eta: Any, zeta: Any, kT: Any) -> Partners:
-    """Friction k (B + A e e) of `dih.along`, and sqrt(2 kT k B) R + sqrt(2 kT k A) e r on each edge.
-
-    Raises ValueError: a coefficient is negative, zeta is outside of what forces along edges allow, or an edge
-    conducts a negative amount.
-    """
+    """Friction k (B + A e e) of `dih.along`, and sqrt(2 kT k B) R + sqrt(2 kT k A) e r on each edge. Raises
+    ValueError: a coefficient or k of an edge is negative, or forces along edges do not allow zeta."""
     eta, zeta, kT = checked(edges.n, eta=eta, zeta=zeta, kT=kT)
     d = edges.d
     check_bulk(eta, zeta, d)
@@ -123,8 +117,7 @@ def between(edges: Edges, A: np.ndarray, B: np.ndarray, kT: np.ndarray) -> Partn
 
 
 def conduction(edges: Edges, kappa: Any, kT2: Any) -> Partners:
-    """Heat k kappa (T_j - T_i) along each edge, and its random current; means over its two points. Raises
-    ValueError: a conductivity or k T^2 is negative, or an edge conducts a negative amount."""
+    """Heat k kappa (T_j - T_i) along each edge, and its random current; means over its two points."""
     kappa, kT2 = (ends(edges, q) for q in checked(edges.n, kappa=kappa, kT2=kT2))
     f, across = conductances(edges)*kappa, incidence(edges)
     return Partners(sparse.csr_array(across@sparse.diags_array(f)@across.T),
@@ -156,8 +149,7 @@ def conductances(edges: Edges) -> np.ndarray:
     if not (edges.k >= -ROUND_OFF*edges.k.max()).all():
         worst = int(np.argmin(edges.k))
         raise ValueError(f"the edge between points {edges.i[worst]} and {edges.j[worst]} conducts k = "
-                         f"{edges.k[worst]:.4g} < 0, and no noise has a negative variance: take stresses at "
-                         "points, or edges of a weight")
+                         f"{edges.k[worst]:.4g} < 0: take stresses at points, or edges of a weight")
     return np.maximum(edges.k, 0)
 
 
@@ -216,8 +208,7 @@ def checked(n: int, **fields: Any) -> list[np.ndarray]:
     for name, field in fields.items():
         q = np.broadcast_to(np.asarray(field, float), (n,))
         if not (q >= 0).all():
-            i = int(np.flatnonzero(~(q >= 0))[0])
-            raise ValueError(f"{name} of point {i} is {q[i]:.6g}: viscosities, conductivities and "
-                             "temperatures are not negative, or noise would have a negative variance")
+            i = int(np.argmin(q >= 0))
+            raise ValueError(f"{name} of point {i} is {q[i]:.6g}, which must not be negative")
         found.append(q)
     return found

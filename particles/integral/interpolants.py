@@ -109,22 +109,14 @@ def moment(weight: Any, n: int, d: int) -> float:
     return sphere(d)*integral*r0**(2 - n)
 
 
-def rms_width(weight: Any, d: int) -> float:
-    """sqrt(int r^2 f dV), from M_3: the r0 of Eq. 45 for any weight (sqrt 2 times Eq. 30's)."""
-    return width(weight)*float(np.sqrt(moment(weight, 3, d)/(d + 2)))
-
-
 class OrderingWarning(UserWarning):
     """Spacing < r0 < wavelength is violated    [RR98 Eq. 45]"""
 
 
 def check_ordering(weight: Any, d: int, a: float, error: float,
                    wrong: str = "gradients of linear fields are") -> None:
-    """Warn where the left side of Eq. 45 is violated, with the error to expect.
-
-    a : spacing (dV)^(1/d). error : of the discrete first moment on the points, or of what else is `wrong`.
-    """
-    r0 = rms_width(weight, d)
+    """Warn where r0 is below the spacing a = (dV)^(1/d) and the error of what is `wrong` is seen."""
+    r0 = width(weight)*float(np.sqrt(moment(weight, 3, d)/(d + 2)))        # sqrt(int r^2 f dV)
     if r0 < a and error > SEEN:
         warnings.warn(f"r0 = {r0:.3g} (rms width of {type(weight).__name__}) is below the spacing {a:.3g}, "
                       f"the left side of Eq. 45: {wrong} off by {100*error:.3g} % (rms) on these points; "
@@ -140,5 +132,4 @@ def check(weight: Any, d: int) -> None:
     first = moment(weight, 1, d)
     if not abs(first - d) <= 1e-6*d:
         raise ValueError(f"{type(weight).__name__} has M_1 = {first:.6g} in {d} dimensions, which must be "
-                         f"{d} (RR98 Eq. 2): every gradient would be multiplied by {first/d:.4g}; normalise "
-                         f"it, or make it for d = {d}")
+                         f"{d} (RR98 Eq. 2): normalise it, or make it for d = {d}")

@@ -14,7 +14,7 @@ from particles.integral.edges import Edges
 from particles.integral.exchange import At, Exchange, Listing
 from particles.integral.fixed import NO_IMAGES, OnPoints, stored
 from particles.limits import limit_of
-from particles.method import Summing
+from particles.method import Sums
 from particles.pairs import rate, zero
 from particles.threads import Threads
 
@@ -31,8 +31,8 @@ class ConstantFriction(NamedTuple):
     eta: float
 
 
-zero.of(Carried)(lambda term: (0.0, 0.0, 0.0))
-zero.of(ConstantFriction)(lambda term: (0.0, 0.0, 0.0))
+zero.of(Carried)(lambda term: (0.0,)*3)
+zero.of(ConstantFriction)(lambda term: (0.0,)*3)
 
 
 @rate.of(Carried)
@@ -48,7 +48,7 @@ def _(term, a, b, ab):
     return 0.0, f*(b.vx - a.vx), f*(b.vy - a.vy)
 
 
-class Summed(Summing):
+class Summed(Sums):
     """The compiled sums of the listed terms."""
 
     def __init__(self, method: "Isothermal", threads: Threads):
@@ -57,16 +57,8 @@ class Summed(Summing):
         self.exchange = Exchange(Listing(method.terms), (), self.n, threads)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt of a state (3, n), written to `out`."""
         self.threads(_read, self.n, state, self.at.points)
         self.threads(_per_volume, self.n, self.exchange.sum(self.at), self.at.V, out)
-
-    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
-        """The first point without a positive density; empty if there is none."""
-        bad = np.flatnonzero(~(state[0] > 0))
-        if not len(bad):
-            return ""
-        return f"point {ids[bad[0]]} has rho = {state[0, bad[0]]:.6g}, which must be positive"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,7 +76,6 @@ class Isothermal(OnPoints):
         return np.stack([rho, *(rho[:, None]*v).T])
 
     def fields(self, state: np.ndarray) -> Fields:
-        """Of the points, (n,) each; without heat there is no temperature."""
         return Fields(self.x, (state[1:]/state[0]).T, state[0].copy(), np.full(len(self.x), np.nan),
                       self.edges.V)
 

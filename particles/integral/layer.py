@@ -12,12 +12,12 @@ import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas, constant_viscosity
 from continuum.jit import jit
-from particles.ghosts import Ghosts
 from particles.integral.edges import Beyond, Edges, fastest
 from particles.integral.exchange import PRINTED, Conduction
 from particles.integral.fixed import FixedSums, OnPoints, OwnPressure, opened, stored
 from particles.integral.layer_ideal import IdealSums
 from particles.integral.transposed_stress import MENDED
+from particles.lists import Ghosts
 from particles.threads import Threads
 
 
@@ -80,8 +80,8 @@ class Layer(OnPoints):
     """A fluid on fixed points x (n, 2), periodic in x, between plates at T_plates (lower, upper).
 
     edges, beyond : of `edges.between_plates`. transport : listed terms of friction and heat: `MENDED`,
-    `PRINTED` as Eq. 51 has it, which heats even a rigid rotation, or of `nested.mixed`. form : which sums,
-    None for those that suit the fluid best, `LayerSums` for those that all fluids have, edge by edge.
+    `PRINTED` as Eq. 51 has it, or of `nested.mixed`. form : which sums, None for those that suit the fluid
+    best, `LayerSums` for those that all fluids have, edge by edge.
     """
     x: np.ndarray
     edges: Edges
@@ -99,17 +99,13 @@ class Layer(OnPoints):
 
     @property
     def sums(self) -> type[LayerSums]:
-        """In the form that is asked for, or suits the fluid best."""
         known = type(self.eos), type(self.law), self.transport
         return self.form or FORMS.get(known, LayerSums)
 
 
 class Driving(LayerSums):
-    """The compiled sums of a layer, and what drives it.
-
-    A sliding plate adds to the friction along an edge to an image: f = eta k makes f (2 U - 2 v) in place of
-    f (-2 v).
-    """
+    """The compiled sums of a layer, and what drives it. A sliding plate adds to the friction along an edge to
+    an image: f = eta k makes f (2 U - 2 v) in place of f (-2 v)."""
     method: "Driven"
 
     def __init__(self, method: "Driven", threads: Threads):
@@ -129,11 +125,8 @@ class Driving(LayerSums):
 
 @dataclass(frozen=True, kw_only=True)
 class Driven(Layer):
-    """A layer whose plates slide at velocities `slide` (lower, upper), under a force per mass along x.
-
-    For constant viscosity and all transport along edges; the mended heating takes plates to be at rest, of no
-    moment where the velocity across the plates is zero.
-    """
+    """A layer whose plates slide at velocities `slide` (lower, upper), under a force per mass along x. For
+    constant viscosity, transport along edges, and flows along the plates: mended heating sees them rest."""
     slide: tuple[float, float] = (0.0, 0.0)
     force: float = 0.0
 

@@ -59,7 +59,6 @@ class IdealSums:
         self.beyond = (beyond.i, layer.n + image, *(beyond.S.T/2).copy(), method.g*layer.rise[image])
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt, written to `out`    [Eqs 34-36, 51]"""
         layer, given, lack = self.layer, self.given, self.lack
         threads, n, g, open = layer.threads, layer.n, layer.method.g, layer.open
         threads(_give, len(given), state, layer.parent, self.twice_T, self.gas, given)
@@ -122,8 +121,7 @@ def _products(i, a, s, open, f, eta, g, lack, out):
 
 @jit
 def _plates(beyond, parent, given, per_V, lack, out):
-    """What convection and pressure see of images, which slip and go on hydrostatically; F of images. F along
-    a plate is even, across it odd."""
+    """What convection and pressure see of images, and their F: along a plate even, across it odd."""
     rows, image, sx, sy, weight = beyond
     for k in range(len(rows)):
         i = rows[k]

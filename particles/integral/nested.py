@@ -28,9 +28,9 @@ class Currents(NamedTuple):
     """Stress and heat current of the points, over edges: momentum and energy    [Eqs 37, 38]"""
 
 
-zero.of(NestedTransport)(lambda term: (0.0, 0.0, 0.0, 0.0))
-zero.of(Slopes)(lambda term: (0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-zero.of(Currents)(lambda term: (0.0, 0.0, 0.0))
+zero.of(NestedTransport)(lambda term: (0.0,)*4)
+zero.of(Slopes)(lambda term: (0.0,)*6)
+zero.of(Currents)(lambda term: (0.0,)*3)
 rate.of(NestedTransport)(lambda term, a, b, ab: (0.0, 0.0, 0.0, 0.0))
 
 

@@ -20,18 +20,12 @@ class Points:
         if n < 2 or d not in (1, 2, 3) or self.box.shape != (d,) or self.V.shape != (n,):
             raise ValueError(f"need points (n >= 2, d = 1, 2, 3), box (d,) and V (n,); got {self.x.shape}, "
                              f"{self.box.shape}, {self.V.shape}")
-        lost = np.flatnonzero(~np.isfinite(self.x).all(axis=1))
-        if len(lost):
-            raise ValueError(f"point {lost[0]} is at {self.x[lost[0]]}: positions must be finite numbers; "
-                             f"{len(lost)} of {n} are not: mend what made them")
-        outside = np.flatnonzero((np.abs(self.x) > self.box/2*(1 + 1e-12)).any(axis=1))
-        if len(outside):
-            i = outside[0]
-            raise ValueError(f"point {i} at {self.x[i]} is outside of the box {self.box}, centred on the "
-                             "origin: wrap it or widen the box")
-        if not (self.V > 0).all():
-            i = int(np.argmin(self.V))
-            raise ValueError(f"point {i} has volume {self.V[i]}: volumes must be positive")
+        inside = (np.abs(self.x) <= self.box/2*(1 + 1e-12)).all(axis=1)
+        bad = np.flatnonzero(~(inside & (self.V > 0)))
+        if len(bad):
+            i = bad[0]
+            raise ValueError(f"point {i} at {self.x[i]}, of volume {self.V[i]}, is outside of the box "
+                             f"{self.box}, centred on the origin, or has no volume: wrap it or widen the box")
 
     @property
     def n(self) -> int:
@@ -82,7 +76,7 @@ def random(counts: tuple[int, ...], apart: float, seed: int) -> Points:
         if len(x) == at.n:
             return of_positions(x, at.box)
     raise ValueError(f"{at.n - len(x)} of {at.n} points found no place {apart} spacings from all others: "
-                     "random points fill half of a plane at most at 0.75; take a smaller distance")
+                     "take a smaller distance, up to 0.75 in a plane")
 
 
 def _thinned(x: np.ndarray, box: np.ndarray, apart: float) -> np.ndarray:
@@ -115,8 +109,7 @@ def pairs(points: Points, distance: float) -> tuple[np.ndarray, np.ndarray, np.n
     r = np.sqrt((apart**2).sum(axis=1))
     if len(r) and r.min() < 1e-9*points.a:
         k = int(np.argmin(r))
-        raise ValueError(f"points {i[k]} and {j[k]} overlap at {points.x[i[k]]}: no direction leads from one "
-                         "to the other; move one of them")
+        raise ValueError(f"points {i[k]} and {j[k]} overlap at {points.x[i[k]]}: move one of them")
     return i, j, apart, r
 
 
@@ -133,5 +126,5 @@ def relaxed(points: Points, weight: Any, until: float = 2e-3, sweeps: int = 2000
         if worst < until:
             return points
         points = of_positions(wrapped(points.x + 0.12*points.a**2*c, points.box), points.box)
-    raise ArithmeticError(f"a |c| is still {worst:.3g} after {sweeps} sweeps, not below {until:g}: take more "
-                          "sweeps, a wider weight, or start from less disorder")
+    raise ArithmeticError(f"a |c| is still {worst:.3g} after {sweeps} sweeps, not below {until:g}: take "
+                          "more, a wider weight, or less disorder")

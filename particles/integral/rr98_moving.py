@@ -1,8 +1,7 @@
 """RR98's moving points, compiled, in 2D: `rr98_moving_plain` over neighbour lists    [Sec. III]
 
 The bracket is plain quadrature W dV times `scale_of`; friction goes along pairs [Eq. 51] without bulk
-viscosity. Every motion is one sum over pairs, see `drifts`. Images are those of `layer`; points that come to
-a plate turn back.
+viscosity. Every motion is one sum over pairs, see `drifts`. Images are those of `layer`.
 """
 from dataclasses import dataclass
 from typing import Any
@@ -12,7 +11,6 @@ import numpy as np
 from continuum.fluid import check_state, conductivity, pressure, sound_speed, temperature, viscosity
 from continuum.jit import jit
 from particles.fields import Fields, from_densities
-from particles.ghosts import ghosts_of
 from particles.integral.dih import densities
 from particles.integral.drifts import ConstantMassDrift, Drifting, OverPairs
 from particles.integral.exchange import At, Exchange, listed, stages
@@ -20,11 +18,10 @@ from particles.integral.fixed import Point
 from particles.integral.interpolants import check_ordering
 from particles.integral.transposed_stress import MENDED
 from particles.limits import lattice_sums, limit_of, zone
-from particles.lists import Listed, PairLists, fastest
+from particles.lists import Listed, PairLists, fastest, ghosts_of, unphysical
 from particles.smooth.spam import LessStatic
 from particles.starts import check_apart, check_volumes, moments
 from particles.threads import Threads
-from particles.walls import confine
 from particles.weights import check_unit
 
 #: the fields of fixed points, with places and volumes
@@ -37,8 +34,7 @@ class Drift:
 
     motion : one of DRIFTS. weight : of `particles.weights`; scale : of its plain quadrature. walls : tuple of
     mirror plates and periodic sides. g : gravity, downwards. transport : listed terms of friction and heat.
-    static : a share of the static pressure that pairs leave out, at constant mass; what it bears and its work
-    stay.
+    static : a share of the static pressure that pairs leave out, at constant mass.
     """
     motion: Any
     weight: Any
@@ -54,9 +50,8 @@ class Drift:
     def __post_init__(self):
         check_unit(self.weight)
         if self.static.fraction and not self.keeps_mass:
-            raise ValueError(f"{type(self.motion).__name__} needs the whole pressure, got {self.static}: its "
-                             "volumes do not follow the flow, so that no work of what is left out is "
-                             "defined; take ConstantMassDrift")
+            raise ValueError(f"{type(self.motion).__name__} needs the whole pressure, as its volumes do not "
+                             f"follow the flow, got {self.static}: take ConstantMassDrift")
 
     @property
     def keeps_mass(self) -> bool:
@@ -64,7 +59,7 @@ class Drift:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of rows: places, then m, p, E per volume, or of the point at constant mass, volumes."""
+        """Places, then m, p, E per volume, or of the point at constant mass, volumes."""
         return ("x", "y", "px", "py", *(("m", "E") if self.keeps_mass else ("rho", "eps")), "V")
 
     def owned(self, V: np.ndarray) -> np.ndarray:
@@ -78,7 +73,6 @@ class Drift:
         return np.concatenate([x.T, self.owned(V)*fields, V[None]])
 
     def fields(self, state: np.ndarray) -> Fields:
-        """Of the points, (n,) each."""
         px, py, rho, eps = state[2:6]/self.owned(state[6])
         return from_densities(self.eos, state[:2].T.copy(), state[6].copy(), rho, np.stack([px, py]), eps)
 
@@ -86,11 +80,6 @@ class Drift:
         """Density and internal energy per mass."""
         px, py, rho, eps = state[2:6]/self.owned(state[6])
         return rho, eps/rho - (px**2 + py**2)/(2*rho**2)
-
-    def conserved(self, state: np.ndarray) -> np.ndarray:
-        """Mass, momentum and energy of all points, (4,)."""
-        V = state[6]
-        return state[[4, 2, 3, 5]]@(V/self.owned(V))
 
     def start(self, n: int, threads: Threads) -> "Drifts":
         return Drifts(self, n, threads)
@@ -101,7 +90,6 @@ def _(method: Drift, start: np.ndarray) -> float:
     """RK4: waves on a lattice of the mean spacing; points lie off it, where they may be 1.4 times as fast.
 
     Volumes that stay add 2 P grad(n dV) to the force: omega^2 = S^2 c^2 + 2 D P/rho, S and D as in `limits`.
-    Where volumes follow the flow waves are slower.
     """
     check_volumes(start[6])
     rho, e = method.thermal(start)
@@ -161,14 +149,9 @@ class Drifts(Listed):
         method, total = self.method, self.exchange.sum(self.look_at(state))
         self.threads(_rates, self.n, total, method.owned(state[6]), self.points, method.static, method.g, out)
 
-    def confine(self, state: np.ndarray) -> int:
-        """Turn points beyond plates back, with their momenta; their number."""
-        return sum(confine(wall, state) for wall in self.method.walls)
-
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
-        """The first point with a volume, mass or state that no fluid has; empty if there is none."""
         rho, e = self.method.thermal(state)
-        return self.unphysical(self.method.eos, state[6], rho, e, ids) or self.outran(state)
+        return unphysical(self.method.eos, state[6], rho, e, ids) or self.outran(state)
 
 
 @jit

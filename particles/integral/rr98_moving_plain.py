@@ -37,8 +37,7 @@ class Powers(NamedTuple):
     """P_ij + P_ji = P_i/(m_i^a m_j^b) + P_j/(m_j^a m_i^b), m the density    [RR98 Eq. 50 and note 18]
 
     Consistent with Eq. 49 for a + b = 0 only: the force is -grad (P/rho^(a+b)). What the points' own pressure
-    does is done with the velocity of the other, so that internal energy changes by -P_i times the growth of
-    the volume.
+    does is done with the velocity of the other: internal energy falls by P_i times the growth of volume.
     """
     a: float = 0.0
     b: float = 0.0
@@ -72,7 +71,6 @@ class Motion:
     """What all have in common: a fluid on points that move in a periodic box (d,) around the origin.
 
     weight : of `weights` or `interpolants`, for d dimensions. scale : of plain quadrature, see `scale_of`.
-    eos, law, transport : as of `Dih`.
     """
     box: tuple[float, ...]
     weight: Any
@@ -99,8 +97,7 @@ class Motion:
         bad = np.flatnonzero(~(np.isfinite(x).all(axis=1) & (V > 0)))
         if len(bad):
             raise FloatingPointError(f"point {bad[0]} is at {x[bad[0]]} with volume {V[bad[0]]:.6g}: "
-                                     "positions must be finite and volumes positive; take a shorter step or "
-                                     "more viscosity")
+                                     "both must be finite and volumes positive; take a shorter step")
         box = np.asarray(self.box, float)
         points = Points(x=wrapped(x, box), box=box, V=V)
         near = pairs(points, reach(self.weight))
@@ -112,11 +109,8 @@ class Motion:
         return np.ones_like(V)
 
     def state(self, x: np.ndarray, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-        """(2 d + 3, n) of positions (n, d) and fields; all volumes are equal.
-
-        Warns where the weight is too narrow for the points [Eq. 45]. Raises ValueError: two points overlap,
-        or the box is narrower than two ranges of the weight. FloatingPointError: a position is not finite.
-        """
+        """(2 d + 3, n) of positions (n, d) and fields; all volumes are equal. Warns where the weight is too
+        narrow [Eq. 45]. Raises ValueError: two points overlap, or the box is narrower than two ranges."""
         V = np.full(len(x), np.prod(self.box)/len(x))
         judged(self.fluid(x, V).edges, of_positions(wrapped(x, np.asarray(self.box)), self.box), self.weight)
         return np.concatenate([x.T, self.owned(V)*densities(self.eos, rho, v, T), V[None]])
@@ -127,7 +121,6 @@ class Motion:
         return state[d + 1:2*d + 1]/state[d]
 
     def fields(self, state: np.ndarray) -> Fields:
-        """Of the points, (n,) each."""
         d, V = self.places, state[-1]
         rho, *p, eps = state[d:-1]/self.owned(V)
         return from_densities(self.eos, state[:d].T.copy(), V.copy(), rho, np.stack(p), eps)
@@ -173,8 +166,7 @@ class CarriedVolumes(Convective):
 class ConstantMass(Motion):
     """Eq. 49 with masses that stay; volumes follow the flow, dV_i/dt = V_i div v.
 
-    bracket : `Crossed` or `Powers`. The divergence takes differences v_j - v_i, the adjoint of the sum P_ij +
-    P_ji.
+    bracket : `Crossed` or `Powers`. The divergence takes differences, the adjoint of P_ij + P_ji.
     """
     bracket: Any = Crossed()  # noqa: RUF009  (immutable)
 

@@ -44,12 +44,10 @@ class Shearing(FixedSums):
         super().__init__(method, threads, edges, Boosted(made.parent, method.speed*made.up), (0.0, 0.0))
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """Of the fields, and the speed at which images slide."""
         super().rates(state, out)
         out[4] = self.method.speed
 
     def surround(self, state: np.ndarray) -> None:
-        """Images, and edges to them, where they are now."""
         made, images = self.method.sides, self.at.images
         slide(state[4, 0]/self.method.points.a, made.through, made.number, *made.counts, self.at.edges)
         boosted(images.parent, images.boost, self.points, self.n)
@@ -65,10 +63,7 @@ class Shearing(FixedSums):
 
 @dataclass(frozen=True, kw_only=True)
 class Sheared(OnPoints):
-    """A fluid on the points of a lattice, periodic in x; images above move faster by rate times height.
-
-    edges : periodic, of a weight.
-    """
+    """A fluid on the points of a lattice, periodic in x; images above move faster by rate times height."""
     points: Points
     edges: Edges
     eos: Any
@@ -83,17 +78,14 @@ class Sheared(OnPoints):
 
     @property
     def x(self) -> np.ndarray:
-        """Places (n, 2)."""
         return self.points.x
 
     @cached_property
     def sides(self) -> SlidSides:
-        """Edges among points and to images."""
         return sides(self.points, self.edges)
 
     @property
     def speed(self) -> float:
-        """Of the box above relative to this one."""
         return self.rate*float(self.points.box[1])
 
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:

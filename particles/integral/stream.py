@@ -23,7 +23,7 @@ class Filter(NamedTuple):
     chi: float
 
 
-zero.of(Filter)(lambda term: (0.0, 0.0, 0.0, 0.0))
+zero.of(Filter)(lambda term: (0.0,)*4)
 
 
 @rate.of(Filter)
@@ -40,7 +40,6 @@ class Filtering(Stage):
         self.term, self.edges, self.n, self.threads, self.gain = term, edges, n, threads, np.empty((n, 4))
 
     def add(self, at: At, total: np.ndarray) -> None:
-        """Mass, momentum and energy."""
         self.threads(sweep, self.n, self.term, at.points, self.edges, self.gain)
         total += self.gain
 
@@ -51,8 +50,8 @@ class Streaming(FixedSums):
 
     def __init__(self, method: "Stream", threads: Threads):
         n = len(method.x)
-        cuts = (insulated if method.solid else every, separated)
-        edges, around = (stored(cut(method.edges, method.held)) for cut in cuts)
+        edges = stored(insulated(method.edges, method.held) if method.solid else method.edges)
+        around = stored(separated(method.edges, method.held))
         filters = (Filtering(Filter(method.chi), around, n, threads),) if method.chi else ()
         super().__init__(method, threads, edges, NO_IMAGES, method.push,
                          OwnPressure(method.eos, opened(edges), n, threads), *filters)
@@ -62,7 +61,6 @@ class Streaming(FixedSums):
         hold(self.method.eos, self.method.law, *self.method.held[:3], self.points)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """Of free points, then of those that are held."""
         super().rates(state, out)
         held, V = self.method.held, self.at.V
         keep(self.method.eos, *held[:3], self.exchange.total, V, self.points, self.received, out)
@@ -96,8 +94,7 @@ class Stream(OnPoints):
 
     def __post_init__(self):
         if not self.chi >= 0:
-            raise ValueError(f"the filter's diffusivity chi must not be negative, got {self.chi}: 0.05 a^2 "
-                             "c^2/nu is enough")
+            raise ValueError(f"the filter's chi must not be negative, got {self.chi}: take 0.05 a^2 c^2/nu")
 
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
         """(4, n) of densities, velocities (n, 2), temperatures; held points get their own."""
@@ -106,11 +103,6 @@ class Stream(OnPoints):
         warm = np.isfinite(self.held.T)
         T[self.held.which[warm]] = self.held.T[warm]
         return super().state(rho, v, T)
-
-
-def every(edges: Edges, held: Held) -> Edges:
-    """All edges as they are."""
-    return edges
 
 
 def insulated(edges: Edges, held: Held) -> Edges:

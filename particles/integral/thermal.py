@@ -1,5 +1,4 @@
-"""Fluctuating hydrodynamics on fixed points in time: `dih` with a random stress and heat current    [RR98
-Secs II D, III A]
+"""Fluctuating hydrodynamics in time: `dih` with random stress and heat current    [RR98 Secs II D, III A]
 
 Amplitudes are those of `fluctuating`, at current temperatures as RR98 says after Eq. 44; random numbers are
 functions of (seed, step, i, j). What is not listed is not drawn: no share along edges, no numbers of pairs.
@@ -17,7 +16,7 @@ from particles.integral.dih import Dih, EdgeFluxes, Flow, Mixed, check_bulk, fri
 from particles.integral.fixed import check_number
 from particles.integral.fluctuating import conductances, traceless
 from particles.limits import limit_of
-from particles.method import Summing
+from particles.method import Sums
 from particles.noise import check_seed, fill_normals, normals_of_pair
 from particles.threads import Threads
 
@@ -30,8 +29,7 @@ STAGED = (1 + BETAS[0]*BETAS[1])/6 + (2 + BETAS[2]*(BETAS[0] + BETAS[1]))/6
 class ThreeStage:
     """Three Euler steps, averaged, each with its share of two noises; covariances of third order.
 
-    sums.kicks(y, beta, dt, out) writes what the noise W_A + beta W_B adds    [Delong, Griffith,
-    Vanden-Eijnden & Donev 2013]
+    sums.kicks(y, beta, dt, out) writes what the noise W_A + beta W_B adds    [Delong et al. 2013]
     """
     evaluations = 3
 
@@ -63,8 +61,7 @@ class Thermal(Dih):
 
     def __post_init__(self):
         if not self.k >= 0:
-            raise ValueError(f"Boltzmann's constant k must not be negative, got {self.k}: kT is the energy "
-                             "of a fluctuation")
+            raise ValueError(f"Boltzmann's constant k must not be negative, got {self.k}")
         check_seed(self.seed)
         object.__setattr__(self, "transport", Mixed(share=self.share))
 
@@ -74,12 +71,12 @@ class Thermal(Dih):
         return Agitated(self, threads)
 
 
-class Agitated(Summing):
+class Agitated(Sums):
     """Rates without noise, and kicks of one step."""
 
     def __init__(self, method: Thermal, threads: Threads):
-        # the flow without noise
-        self.method, self.threads, self.dih, self.rates = method, threads, method, method.rates
+        # the flow without noise, which a run holds
+        self.method, self.threads, self.dih = method, threads, method
         edges = method.edges
         d, n = edges.d, edges.n
         # R, r, heat; of W_A and W_B
@@ -87,20 +84,13 @@ class Agitated(Summing):
         self.of_edges = np.empty((len(edges.i), 2*(d + 2))) if method.share > 0 else None   # R, r, heat
         if method.share > 0:
             self.k = conductances(edges)
-            pairs = np.stack([edges.i, edges.j])
-            if len(np.unique(pairs, axis=1).T) < len(edges.i):
-                raise ValueError("two edges join the same points by different images: their noise would be "
-                                 "one; take more points")
+            if len(np.unique(np.stack([edges.i, edges.j]), axis=1).T) < len(edges.i):
+                raise ValueError("two edges join the same points by different images: take more points")
 
-    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
-        try:
-            self.dih.flow(state)
-        except FloatingPointError as error:
-            return str(error)
-        return ""
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        self.dih.rates(state, out)
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """Random numbers of the coming step."""
         seed, edges = self.method.seed, self.dih.edges
         if self.of_points is not None:
             self.threads(fill_normals, edges.n, seed, now.step, self.of_points)
@@ -168,10 +158,9 @@ def _(method: Thermal, start: np.ndarray) -> float:
     C = (energy(method.eos, flow.rho, flow.T*(1 + 1e-6)) - e)/(1e-6*flow.T)
     least = float((method.edges.V*flow.rho*C).min())
     if method.k*LEAST_CAPACITY > least:
-        warnings.warn(f"a point has the heat capacity {least/method.k:.3g} k: noise with current amplitudes "
-                      f"makes its energy fluctuate by a share of up to k/C = {method.k/least:.2g} too much, "
-                      f"{1 - STAGED:.2f} k/C where heat goes along edges; take C >= {LEAST_CAPACITY} k, "
-                      "larger points or a smaller k", stacklevel=2)
+        warnings.warn(f"a point has the heat capacity {least/method.k:.3g} k: its energy fluctuates by up to "
+                      f"k/C = {method.k/least:.2g} too much, {1 - STAGED:.2f} k/C where heat goes "
+                      f"along edges; take C >= {LEAST_CAPACITY} k", stacklevel=2)
     eta, zeta, kappa = method.coefficients(flow)
     chi = np.maximum(2*eta + zeta, kappa/C)/flow.rho
     fast = sound_speed(method.eos, flow.rho, e) + np.sqrt((flow.v**2).sum(axis=1))

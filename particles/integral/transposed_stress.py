@@ -38,9 +38,9 @@ class Transposed(NamedTuple):
 #: friction along edges with the heating, and the force, of a fluid
 MENDED = (Conduction(), Mending(), Friction())
 
-zero.of(Mending)(lambda term: (0.0, 0.0, 0.0, 0.0))
-zero.of(Differences)(lambda term: (0.0, 0.0, 0.0, 0.0))
-zero.of(Transposed)(lambda term: (0.0, 0.0))
+zero.of(Mending)(lambda term: (0.0,)*4)
+zero.of(Differences)(lambda term: (0.0,)*4)
+zero.of(Transposed)(lambda term: (0.0,)*2)
 rate.of(Mending)(lambda term, a, b, ab: (0.0, 0.0, 0.0, ab.sx*(a.Fx + b.Fx) + ab.sy*(a.Fy + b.Fy)))
 
 
@@ -68,12 +68,10 @@ class Heating(Stage):
         self.slopes = np.zeros((n, 4))
 
     def prepare(self, at: At) -> None:
-        """F from gradients by differences."""
         self.threads(sweep, self.n, self.over(Differences()), at.points, at.edges, self.slopes)
         self.use(self.slopes, at)
 
     def use(self, slopes: np.ndarray, at: At) -> None:
-        """F from slopes (n, 4 or more), V times d_x u, d_y u, d_x v, d_y v."""
         self.slopes = slopes
         self.threads(_work, self.n, slopes, at.V, self.share, at.points)
         at.images.fill_work(at.points, slopes, at.V)

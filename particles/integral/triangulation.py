@@ -14,11 +14,8 @@ SHIFT, APART = 1e-7, 1e-6
 def delaunay(points: Points, weight: Any = None) -> Edges:
     """P1 elements on the triangulation: S_ij = A_ij - A_ji, A_ij = int phi_i grad phi_j, V_i = int phi_i.
 
-    Closed and exact on linear fields on any points; the conductances are those of P1, (cot + cot)/2 in 2D. d
-    = 2, 3.
-
-    Raises ValueError: d = 1, two points overlap, or points of a flat simplex lie on one sphere (a lattice in
-    3D).
+    Closed and exact on linear fields on any points; the conductances are those of P1, (cot + cot)/2 in 2D.
+    Raises ValueError: d = 1, two points overlap, or points lie on one sphere (a lattice in 3D).
     """
     return _assembled(points, *_simplices(points))
 
@@ -27,22 +24,26 @@ def between(x: np.ndarray, width: float, height: float, closed: tuple[bool, bool
     """The same on points (n, 2), some of which lie on plates: y = -+height/2, and if `closed` says so of the
     first axis, x = -+width/2; along the other axis periodic.
 
-    Closed on all points but those on the plates, where what is missing is half of the plate beside the point,
-    outwards.
-
-    Raises ValueError: there is no point on one of the plates, or one beyond them; or two points overlap.
+    Closed on all points but those on plates, which lack half of the plate beside the point, outwards. Raises
+    ValueError: there is no point on one of the plates, or one beyond them; or two points overlap.
     """
-    size, shut = np.array([width, height]), np.array(closed)
+    points = of_positions(x, np.where(closed, 3*np.array([width, height]), (width, height)))
+    return _assembled(points, *triangles(x, (width, height), closed))
+
+
+def triangles(x: np.ndarray, size: tuple[float, float],
+              closed: tuple[bool, bool]) -> tuple[np.ndarray, np.ndarray]:
+    """Corners of all triangles of `between`: points (T, 3), and where these are, (T, 3, 2)."""
+    box, shut = np.array(size), np.array(closed)
     for axis in np.flatnonzero(shut):
-        low, high, half = x[:, axis].min(), x[:, axis].max(), size[axis]/2
+        low, high, half = x[:, axis].min(), x[:, axis].max(), box[axis]/2
         if max(abs(low + half), abs(high - half)) > 2e-12*half:
             raise ValueError(f"points lie between {'xy'[axis]} = {low:g} and {high:g}, plates at -+{half:g}: "
                              "put a row of points on each plate")
-    points = of_positions(x, np.where(shut, 3*size, size))
-    corner, at = _simplices(points)
+    corner, at = _simplices(of_positions(x, np.where(shut, 3*box, box)))
     # not those that span the gap from plate to plate
-    inner = (np.abs(at.mean(axis=1)) < size/2)[:, shut].all(axis=1)
-    return _assembled(points, corner[inner], at[inner])
+    inner = (np.abs(at.mean(axis=1)) < box/2)[:, shut].all(axis=1)
+    return corner[inner], at[inner]
 
 
 def _simplices(points: Points) -> tuple[np.ndarray, np.ndarray]:
@@ -65,10 +66,8 @@ def _check_apart(points: Points) -> None:
     met = tree.query_pairs(APART*points.a, output_type="ndarray")
     if len(met):
         i, j = sorted(met[0])
-        r = float(np.sqrt((points.separation(i, j)**2).sum()))
-        raise ValueError(f"points {i} and {j} overlap, or nearly so: {r/points.a:.2g} spacings from each "
-                         f"other at {points.x[i]}, where triangles need {APART:g} at least (and 0.4 not to "
-                         "shorten the step): move one of them")
+        raise ValueError(f"points {i} and {j} overlap at {points.x[i]}, or nearly so, where triangles need "
+                         f"{APART:g} spacings: move one of them")
 
 
 def _assembled(points: Points, corner: np.ndarray, x: np.ndarray) -> Edges:
@@ -77,9 +76,8 @@ def _assembled(points: Points, corner: np.ndarray, x: np.ndarray) -> Edges:
     jacobian = x[:, 1:] - x[:, :1]
     volume = np.abs(np.linalg.det(jacobian))/(2 if d == 2 else 6)
     if volume.min() < 1e-9*points.a**d:
-        raise ValueError(f"points {corner[np.argmin(volume)]} span a flat simplex: points that lie on one "
-                         "sphere, as on a lattice or with their mirror images in 3D, have no unique "
-                         "triangulation; shift them, or let a weight make the edges")
+        raise ValueError(f"points {corner[np.argmin(volume)]} span a flat simplex, as on one sphere or on a "
+                         "lattice in 3D: shift them, or let a weight make the edges")
     slopes = np.linalg.inv(jacobian).transpose(0, 2, 1)                 # grad phi_1..d
     slopes = np.concatenate([-slopes.sum(axis=1, keepdims=True), slopes], axis=1)
     V = np.bincount(corner.ravel(), np.repeat(volume/(d + 1), d + 1), n)

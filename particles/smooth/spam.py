@@ -54,15 +54,14 @@ class Spam:
 
     def __post_init__(self):
         if not self.m > 0:
-            raise ValueError(f"the mass of a particle must be positive, got {self.m}: total mass / number of "
-                             "particles")
+            raise ValueError(f"the mass of a particle must be positive, got {self.m}")
         check_unit(self.weight)
         if not hasattr(self.transport, "symbol"):
-            raise TypeError(f"{self.transport} does not say which waves it damps, as the step limit asks: "
-                            "inherit Nested or Direct of particles.smooth.sums, or set symbol")
+            raise TypeError(f"{self.transport} does not say which waves it damps: inherit Nested or Direct, "
+                            "or set symbol")
         if self.transport is Direct and not constant_viscosity(self.law):
-            raise ValueError("Direct takes friction along pairs, which lacks a part of the stress where "
-                             f"viscosity varies, as by {self.law}: take Nested, or ConstEta")
+            raise ValueError("friction along pairs lacks a part of the stress where viscosity varies, as by "
+                             f"{self.law}: take Nested, or ConstEta")
 
     def state(self, x: np.ndarray, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
         """(5, n) of places (n, 2), velocities (n, 2), temperatures (n,) at densities rho."""

@@ -4,13 +4,13 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from continuum.fluid import conductivity, energy, pressure, stress, temperature, valid, viscosity
+from continuum.fluid import conductivity, energy, pressure, stress, temperature, viscosity
 from continuum.jit import formula, jit
-from particles.lists import Listed, PairLists
+from particles.lists import Listed, PairLists, unphysical
 from particles.pairs import sweep
 from particles.terms import DirectFluxes, Fluxes, density_factor
 from particles.threads import Threads
-from particles.walls import confine, image_flux, image_pressure
+from particles.walls import image_flux, image_pressure
 
 Moving = np.dtype([(name, "f8") for name in ("vx", "vy", "T", "s")])
 Flux = np.dtype([(name, "f8") for name in ("xx", "xy", "qx", "vx", "yx", "yy", "qy", "vy")])  # one cache line
@@ -21,8 +21,7 @@ class SmoothSums(Listed, ABC):
     """What both kinds of transport share: arrays, density sum, equations of state, for the time loop.
 
     places : rows of a state that are positions; `velocity` : their rates, for integrators that step them
-    apart. symbol : of what stands for the wave number squared in the step limit, nested or direct, which is
-    the transport's own (`particles.limits.Symbols`).
+    apart. symbol : of what stands for the wave number squared in `particles.limits.Symbols`.
     """
     places = 2
     symbol: ClassVar[str]
@@ -62,7 +61,6 @@ class SmoothSums(Listed, ABC):
                      self.method.static, out)
 
     def velocity(self, state: np.ndarray) -> np.ndarray:
-        """Rates of the positions."""
         return state[2:4]
 
     def look_at(self, state: np.ndarray) -> None:
@@ -70,19 +68,9 @@ class SmoothSums(Listed, ABC):
         self.densities(state)
         self.gradients()
 
-    def confine(self, state: np.ndarray) -> int:
-        """Reflect particles beyond walls; their number."""
-        return sum(confine(wall, state) for wall in self.method.walls)
-
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
-        """What is wrong with a finite state after a step; empty if nothing is."""
-        rho, e, eos = self.around.rho[:self.n], state[4], self.method.eos
-        good = valid(eos, rho, e)
-        if not good.all():
-            i = int(np.argmin(good))
-            return (f"particle {ids[i]} has rho = {rho[i]:.6g}, e = {e[i]:.6g}, outside the validity of "
-                    f"{type(eos).__name__}")
-        return self.outran(state)
+        rho, method = self.around.rho[:self.n], self.method
+        return unphysical(method.eos, method.m/rho, rho, state[4], ids) or self.outran(state)
 
     def allocate(self, points: int) -> None:
         """Arrays over all points, whose number changes with the lists."""

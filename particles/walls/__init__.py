@@ -1,15 +1,14 @@
 """Walls: what is beyond the fluid, as particles. The pair loops know nothing of them.
 
 A wall is a NamedTuple. It makes ghosts, each the image of a parent (a fluid particle, a fixed one or a ghost
-of an earlier wall), and keeps the particles inside. One kind of wall a file; each gives formulas for the
-generics below.
+of an earlier wall), and keeps the particles inside. One kind of wall a file.
 """
 from continuum.jit import generic, jit
 
 
 @generic
 def parents(wall, x, y, reach):
-    """Indices of the points within `reach` of the wall, which need an image; once per neighbour list."""
+    """Indices of the points within `reach` of the wall, which need an image. Walls of none: no formula."""
 
 
 @generic
@@ -29,10 +28,7 @@ def image_pressure(wall, own, copied):
 
 @generic
 def image_flux(wall, a, rho):
-    """Turn what the image `a` has copied of its parent's stress and heat flux, over rho^2.
-
-    Walls that copy both as they are give no formula.
-    """
+    """Turn the stress and heat flux over rho^2 that the image `a` has copied. Where both stay: no formula."""
 
 
 @generic
@@ -42,7 +38,7 @@ def confine(wall, state):
 
 @generic
 def fixed_points(wall, width, height):
-    """(x, y, T), each (F,), of the particles that the wall holds in place; none for walls of images."""
+    """(x, y, T), each (F,), of the particles that the wall holds; walls of images give no formula."""
 
 
 @jit

@@ -3,7 +3,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from particles.walls import confine, fixed_points, image_motion, image_point, image_pressure, parents
+from particles.walls import confine, fixed_points
 from particles.walls.mirror import _reflect
 
 
@@ -40,8 +40,4 @@ def _(wall, width, height):
     return x, y, wall.T + wall.slope*(y - wall.at)
 
 
-parents.of(FixedRows)(lambda wall, x, y, reach: np.empty(0, np.int64))
-image_point.of(FixedRows)(lambda wall, x, y: (x, y))
-image_motion.of(FixedRows)(lambda wall, x, y, vx, vy, T: (vx, vy, T))
-image_pressure.of(FixedRows)(lambda wall, own, copied: copied)
 confine.of(FixedRows)(lambda wall, state: _reflect(state[1], state[3], wall.at, wall.inner))

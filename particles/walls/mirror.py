@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.jit import generic, jit
-from particles.walls import confine, fixed_points, image_motion, image_point, image_pressure, parents
+from particles.walls import confine, image_motion, image_point, image_pressure, parents
 
 
 class AtWall(NamedTuple):
@@ -81,7 +81,6 @@ def _(wall, x, y, vx, vy, T):
 
 
 image_pressure.of(Mirror)(lambda wall, own, copied: choose(wall.pressure, own, copied))
-fixed_points.of(Mirror)(lambda wall, width, height: (np.empty(0), np.empty(0), np.empty(0)))
 
 
 @confine.of(Mirror)

@@ -3,12 +3,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from particles.walls import confine, fixed_points, image_motion, image_point, image_pressure, parents
+from particles.walls import confine, image_motion, image_point, image_pressure, parents
 
 
 class Shift(NamedTuple):
-    """One side of a box that is periodic along `axis` (0: x, 1: y): points near `near` have images shifted by
-    `by`."""
+    """One side of a box periodic along `axis` (0: x, 1: y): images of points at `near`, shifted by `by`."""
     axis: int
     near: float
     by: float
@@ -34,7 +33,6 @@ def _(wall, x, y):
 image_motion.of(Shift)(lambda wall, x, y, vx, vy, T: (vx, vy, T))
 image_pressure.of(Shift)(lambda wall, own, copied: copied)
 confine.of(Shift)(lambda wall, state: 0)
-fixed_points.of(Shift)(lambda wall, width, height: (np.empty(0), np.empty(0), np.empty(0)))
 
 
 def wrap(walls: tuple, state: np.ndarray) -> None:

@@ -46,11 +46,8 @@ class SlidSides(NamedTuple):
 
 
 def sides(points: Points, edges: Edges) -> SlidSides:
-    """Edges of a periodic lattice with sliding images in place of the periodic ones above and below.
-
-    Raises ValueError: the points are no lattice, or its edges are not alike in all columns and mirror images
-    of each other in x.
-    """
+    """Edges of a periodic lattice with sliding images in place of the periodic ones above and below. Raises
+    ValueError: no lattice, or edges that are not alike in all columns, or no mirror images in x."""
     counts = check_lattice(points)
     check_alike(points, edges, counts)
     i, j = np.concatenate([edges.i, edges.j]), np.concatenate([edges.j, edges.i])
@@ -88,8 +85,8 @@ def check_lattice(points: Points) -> tuple[int, int]:
     columns, rows = (len(np.unique(np.round(q/points.a, 6))) for q in points.x.T)
     place = np.stack([np.repeat(np.arange(columns), rows), np.tile(np.arange(rows), columns)], axis=1)
     if columns*rows != points.n or np.abs(points.x - points.x[0] - place*points.a).max() > 1e-9*points.a:
-        raise ValueError(f"{points.n} points in {columns} different columns and {rows} rows are no square "
-                         "lattice: sliding sides need one, made by `points.lattice`")
+        raise ValueError(f"{points.n} points in {columns} columns and {rows} rows are no square lattice: "
+                         "take one of `points.lattice`")
     return columns, rows
 
 
@@ -110,14 +107,12 @@ def check_alike(points: Points, edges: Edges, counts: tuple[int, int]) -> None:
     mean = np.stack([np.bincount(kind.ravel(), s)/number for s in S.T], axis=1)
     size = np.abs(edges.S).sum(axis=1).max()
     if (number != counts[0]).any() or np.abs(S - mean[kind.ravel()]).max() > SYMMETRIC*size:
-        raise ValueError("edges through the side differ from column to column, so that a point would not see "
-                         "another as that sees it when images slide: take edges of a weight, not of a "
-                         "triangulation, which chooses diagonals")
+        raise ValueError("edges through the side differ from column to column: take edges of a weight, not "
+                         "of a triangulation, which chooses diagonals")
     worst = np.abs(np.bincount(below, S[:, 0], points.n)).max()
     if worst > SYMMETRIC*size:
         raise ValueError(f"edges through the side have a sum of S_x of {worst:.3g} at a point, which must be "
-                         "zero or momentum is lost: take edges that are their own mirror images in x, such "
-                         "as those of a weight")
+                         "zero: take edges that are their own mirror images in x, as those of a weight")
 
 
 @jit

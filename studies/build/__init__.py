@@ -1,57 +1,74 @@
 """A method in a scene, ready to run: the one place where both meet.
 
-    from continuum.scene import RayleighBenard
     from particles.run import Plan, run
-    from studies.build import ready
+    from studies.build import SCENES, ready
 
-    method, start, dt = ready(RayleighBenard(ra=1e4, L=16.0), "fixed-lattice", seed=1)
+    method, start, dt = ready(SCENES["rayleigh-benard"](rows=16), "fixed-lattice", seed=1)
     done = run(method, start, Plan(dt=dt, steps=100))
 
 A record of a family (`Variant`, `Scheme`, `FacesMotion`, `DriftMotion`, `GridForm`) or a method of one's own,
-with `state(x, rho, v, T)`, may stand in its place. Flows with exact answers are in `studies.build.scenes`.
+with `state(x, rho, v, T)`, may stand in its place. Of a record `refuses(scene)` is the part of a scene that
+it cannot take, or empty, `ready` the method in a scene, from places x (n, 2) and fields (rho, v, T) there, if
+given; `series` are quantities of a run: K, and heat through both plates.
 """
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
+from types import FunctionType
 from typing import Any
 
 from continuum.fluid import conductivity, viscosity
 from continuum.jit import check_formulas
-from studies.build import fixed, grid, moving, rr98_moving, spam
+from continuum.scene import RayleighBenard, Walls
+from studies.build import fixed, grid, moving, moving_delaunay, spam
+from studies.build.cavity import cavity
+from studies.build.rapid import ShearLayer, ShockTube
+from studies.build.scenes import Sound, TaylorGreen, between_plates
 from studies.build.setting import CannotTake, Ready, of_method
 
-
-def joined(*families: Iterable[tuple[str, Any]]) -> dict[str, Any]:
-    """One table of names. Raises ValueError: A name stands for two variants."""
-    table: dict[str, Any] = {}
-    for name, variant in (pair for family in families for pair in family):
-        if name in table:
-            raise ValueError(f"two methods are called {name!r}: {table[name]} and {variant}; "
-                             "give one of them another name")
-        table[name] = variant
-    return table
+ROWS = 16
 
 
-def prefixed(family: str, variants: Mapping[str, Any], usual: str) -> Iterable[tuple[str, Any]]:
+def convection(rows: int = ROWS, ra: float = 1e4, **more: Any) -> RayleighBenard:
+    """A gas between a hot plate below and a cold one above, periodic sides, aspect 2    [KHP95, Fig. 5]"""
+    return RayleighBenard(ra=ra, L=float(rows), **more)
+
+
+def box(rows: int = ROWS, **more: Any) -> RayleighBenard:
+    """The same in a square box, side walls with the conduction profile    [KHP95, Fig. 6]"""
+    return convection(rows, **{"aspect": 1.0, "sides": Walls(), **more})
+
+
+#: name -> maker of a scene of so many rows of points or cells, which takes its numbers besides
+SCENES: dict[str, Callable[..., Any]] = {
+    "rayleigh-benard": convection,
+    "rayleigh-benard-box": box,
+    "cavity": cavity,
+    "taylor-green": lambda rows=ROWS, **more: TaylorGreen(L=rows, **more),
+    "sound": lambda rows=ROWS, **more: Sound(width=rows, **more),
+    "shock-tube": lambda rows=54, **more: ShockTube(half=rows, **more),
+    "shear-layer": lambda rows=ROWS, **more: ShearLayer(L=rows, **more),
+    "couette": lambda rows=ROWS: between_plates("couette", rows),
+    "conduction": lambda rows=ROWS: between_plates("conduction", rows),
+}
+
+
+def prefixed(family: str, variants: Mapping[str, Any], usual: str) -> dict[str, Any]:
     """Names with the family before them; the usual variant has the family's own."""
-    for name, variant in variants.items():
-        yield family if name == usual else f"{family}-{name.removeprefix(f'{usual}-')}", variant
+    return {family if name == usual else f"{family}-{name.removeprefix(f'{usual}-')}": variant
+            for name, variant in variants.items()}
 
 
+FAMILIES = (prefixed("grid", grid.FORMS, "flux-form"), prefixed("spam", spam.VARIANTS, "printed"),
+            fixed.SCHEMES, moving_delaunay.CARRIAGES, moving.MOTIONS, moving.DRIFT_MOTIONS)
 #: name -> variant; tables have the family in another column
-METHODS = joined(
-    prefixed("grid", grid.FORMS, "flux-form"),
-    prefixed("spam", spam.VARIANTS, "printed"),
-    fixed.SCHEMES.items(),
-    moving.MOTIONS.items(),
-    rr98_moving.DRIFT_MOTIONS.items())
-
-
+METHODS = {name: variant for family in FAMILIES for name, variant in family.items()}
 #: the best known of each family
-USUAL = ("grid", "spam", "fixed-lattice", "fixed-jittered-plates", "moving", "moving-literal")
+USUAL = ("grid", "spam", "fixed-lattice", "fixed-jittered-plates", "moving-delaunay", "moving",
+         "moving-literal")
 
 
 def ready(scene: Any, method: Any, seed: int = 1, **more: Any) -> Ready:
-    """A method in a scene, by its name, by a variant, as an object, or a class that takes the scene.
+    """A method in a scene, by its name, by a variant, as an object, or a class or function of the scene.
 
     more : as the family takes.
 
@@ -59,14 +76,10 @@ def ready(scene: Any, method: Any, seed: int = 1, **more: Any) -> Ready:
     transport law lacks a formula.
     """
     check_formulas(scene.law, viscosity, conductivity)
-    chosen = variant(method) if isinstance(method, str) else method
-    if hasattr(chosen, "ready"):
-        return of_variant(chosen, scene, seed, **more)
-    return of_method(chosen(scene) if isinstance(chosen, type) else chosen, scene, seed)
-
-
-def of_variant(chosen: Any, scene: Any, seed: int, **more: Any) -> Ready:
-    """What `ready` makes of a variant."""
+    chosen = variant(method)
+    if not hasattr(chosen, "ready"):
+        made_here = isinstance(chosen, (type, FunctionType))
+        return of_method(chosen(scene) if made_here else chosen, scene, seed)
     try:
         made: Ready = chosen.ready(scene, seed, **more)
     except CannotTake as refused:
@@ -75,17 +88,22 @@ def of_variant(chosen: Any, scene: Any, seed: int, **more: Any) -> Ready:
     return made
 
 
-def variant(name: str) -> Any:
-    """The variant of a name. Raises ValueError: there is none."""
-    if name not in METHODS:
-        raise ValueError(f"no method is called {name!r}; near to it are {near(name, METHODS)}; "
-                         "studies.build.METHODS lists all")
-    return METHODS[name]
+def variant(method: Any) -> Any:
+    """The variant of a name; what is no name is one. Raises ValueError: there is none."""
+    return of_name("method", method, METHODS) if isinstance(method, str) else method
 
 
 def variants(*names: str) -> dict[str, Any]:
     """Variants by their names."""
     return {name: variant(name) for name in names}
+
+
+def of_name(kind: str, name: str, table: Mapping[str, Any]) -> Any:
+    """What has a name in a table. Raises ValueError: nothing has it."""
+    if name not in table:
+        raise ValueError(f"no {kind} is called {name!r}; near to it are {near(name, table)}; make words "
+                         "explains all")
+    return table[name]
 
 
 def near(name: str, names: Iterable[str]) -> str:

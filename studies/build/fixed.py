@@ -17,17 +17,7 @@ from particles.integral.points import of_positions, random, relaxed
 from particles.integral.stream import Stream, Streaming
 from particles.integral.triangulation import between, delaunay
 from particles.weights import Lucy, Monaghan, WendlandC2
-from studies.build.setting import (
-    Ready,
-    check_spacings,
-    check_taken,
-    inside,
-    no_layer,
-    part,
-    positions,
-    shifted,
-    stepped,
-)
+from studies.build.setting import Ready, check_points, inside, no_layer, part, positions, shifted, stepped
 
 OF_LIMIT = 0.8      # of the step to its stability limit: the flow is steady, its errors are of space alone
 
@@ -69,13 +59,11 @@ class Scheme(NamedTuple):
         return part(scene, slips[0]) if slips else ""
 
     def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
-        """The method in a scene; from fields (rho, v, T) at its points, if given."""
         method = fluid(scene, self, seed)
         return stepped(method, method.state(*(fields or scene.fields(method.x))), OF_LIMIT)
 
     @property
     def series(self) -> dict[str, Any]:
-        """Quantities of a run: K, and heat through both plates."""
         heat = heat_of_rows if self.held else heat_in
         return {"ke": kinetic, "lower": partial(heat, plate=0), "upper": partial(heat, plate=1)}
 
@@ -103,28 +91,21 @@ SCHEMES = {s.name: s for s in (
 
 
 def fluid(scene: Any, scheme: Scheme, seed: int = 1) -> Layer | Stream:
-    """The method of unit spacing: a scene of L = rows spacings."""
-    check_taken(scheme, scene)
-    check_spacings(scene)
-    if isinstance(scene.sides, Torus):
-        return torus(scene, scheme, seed)
-    return (plates if scheme.held else layer)(scene, scheme, seed)
-
-
-def torus(scene: Any, scheme: Scheme, seed: int) -> Layer:
-    """No plates, on which points could be held."""
-    box = scene.width, scene.L
-    place = shifted if scheme.points is positions else scheme.points    # there is no plate to stay away from
-    points = of_positions(place(*box, scheme.size, seed), box)
-    edges = scheme.make(points, scheme.weight.of(h=scheme.h))
-    return Layer(x=points.x, edges=edges, beyond=NONE_BEYOND, eos=scene.eos, law=scene.law,
-                 T_plates=(1.0, 1.0), g=0.0, transport=mixed(scheme.share, scheme.mended))
+    """The method of unit spacing: a scene of L = rows spacings; a torus has no plates to hold points on."""
+    check_points(scheme, scene)
+    held = scheme.held and not isinstance(scene.sides, Torus)
+    return (plates if held else layer)(scene, scheme, seed)
 
 
 def layer(scene: Any, scheme: Scheme, seed: int) -> Layer:
-    """Plates with mirror images behind."""
-    x = inside(scene.L, scheme.points(scene.width, scene.L, scheme.size, seed))
-    edges, beyond = between_plates(scheme.make, x, scene.width, scene.L, scheme.weight.of(h=scheme.h))
+    """Plates with mirror images behind, or none."""
+    box, weight, place = (scene.width, scene.L), scheme.weight.of(h=scheme.h), scheme.points
+    if isinstance(scene.sides, Torus):
+        points = of_positions((shifted if place is positions else place)(*box, scheme.size, seed), box)
+        x, edges, beyond = points.x, scheme.make(points, weight), NONE_BEYOND
+    else:
+        x = inside(scene.L, place(*box, scheme.size, seed))
+        edges, beyond = between_plates(scheme.make, x, *box, weight)
     kind: Any = partial(Driven, slide=(0.0, scene.slide)) if scene.slide else Layer
     return kind(x=x, edges=edges, beyond=beyond, eos=scene.eos, law=scene.law, g=scene.g,
                 T_plates=(scene.T_hot, scene.T_cold), transport=mixed(scheme.share, scheme.mended))
@@ -132,37 +113,38 @@ def layer(scene: Any, scheme: Scheme, seed: int) -> Layer:
 
 def plates(scene: Any, scheme: Scheme, seed: int) -> Stream:
     """Sides with rows of points on them: triangles end there. One row of points less between two sides."""
-    sides = four_sides(scene)
+    box, sides = (scene.width, scene.L), four_sides(scene)
     closed = not sides.axes[0], not sides.axes[1]
-    room = scene.width - closed[0], scene.L - closed[1]
-    inner = scheme.points(*room, scheme.size, seed)
-    for axis in (axis for axis in (0, 1) if closed[axis]):
-        inner = inside(room[axis], inner, axis)
-    x, rows = with_sides(inner, (scene.width, scene.L), closed)
-    return Stream(x=x, edges=between(x, scene.width, scene.L, closed), eos=scene.eos, law=scene.law,
+    x, rows = between_sides(box, closed, scheme.points, scheme.size, seed)
+    return Stream(x=x, edges=between(x, *box, closed), eos=scene.eos, law=scene.law,
                   held=together(*bodies_of(sides, rows)), push=(0.0, 0.0 - scene.g), solid=False)
 
 
 def four_sides(scene: Any) -> Sides:
     """Of a layer: its plates, of which the upper one may slide."""
-    if isinstance(scene.sides, Sides):
-        return scene.sides
-    return Sides(Periodic(), Periodic(), Plate(T=scene.T_hot), Sliding(scene.slide, T=scene.T_cold))
+    layer = Sides(Periodic(), Periodic(), Plate(T=scene.T_hot), Sliding(scene.slide, T=scene.T_cold))
+    return scene.sides if isinstance(scene.sides, Sides) else layer
+
+
+def between_sides(box: tuple[float, float], closed: tuple[bool, bool], place: Callable, size: float,
+                  seed: int) -> tuple[np.ndarray, Rows]:
+    """Points (n, 2) in disorder between rows of points on closed sides, and which these are."""
+    room = box[0] - closed[0], box[1] - closed[1]
+    x = place(*room, size, seed)
+    for axis in (axis for axis in (0, 1) if closed[axis]):
+        x = inside(room[axis], x, axis)
+    return with_sides(x, box, closed)
 
 
 def bodies_of(sides: Sides, rows: Rows) -> list[Held]:
     """Lower and upper row first, then left and right, then corners; heat is that of a spacing."""
-    made = [held(which, speed(side, axis), side.T, side.q)
-            for side, which, axis in ((sides.bottom, rows.bottom, 0), (sides.top, rows.top, 0),
-                                      (sides.left, rows.left, 1), (sides.right, rows.right, 1)) if len(which)]
+    level, upright = np.eye(2)
+    made = [held(which, tuple(getattr(side, "v", 0.0)*along), side.T, side.q)
+            for side, which, along in ((sides.bottom, rows.bottom, level), (sides.top, rows.top, level),
+                                       (sides.left, rows.left, upright), (sides.right, rows.right, upright))
+            if len(which)]
     meet = [(one, other) for other in sides[2:] for one in sides[:2]]
     return made + [in_corner(one, other, corner) for (one, other), corner in zip(meet, rows.corners)]
-
-
-def speed(side: Any, axis: int) -> tuple[float, float]:
-    """Velocity of a side along an axis."""
-    v = getattr(side, "v", 0.0)
-    return (0.0, v) if axis else (v, 0.0)
 
 
 def in_corner(one: Any, other: Any, corner: int) -> Held:

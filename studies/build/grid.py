@@ -11,7 +11,7 @@ from continuum.gas.solve import March, first_fault, limits
 from continuum.scene import RayleighBenard
 from continuum.steady import SAFETY
 from particles.limits import limit_of
-from particles.method import Summing
+from particles.method import Sums
 from particles.threads import Threads
 from studies.build.names import START_ENERGY
 from studies.build.setting import Ready, stepped
@@ -32,7 +32,7 @@ class InBlocks:
         state[:] = self.march.S.reshape(4, -1)
 
 
-class GridSums(Summing):
+class GridSums(Sums):
     """What the time loop asks of the grid besides its steps."""
     method: "Gridded"
 

@@ -2,12 +2,16 @@
 
 The symmetric part of a flow is told from noise, the grid's field is seen through a weight.
 """
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from math import sqrt
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.signal import oaconvolve
+from scipy.spatial import cKDTree
 
 from continuum.gas import fields as gas
 from continuum.scene import Periodic
@@ -18,14 +22,8 @@ from studies.build.setting import Ready
 from studies.kit.stats import Measured
 
 FINE = 240     # places over the height that a weight is seen with: the range of 100 rows covers 7
+RANGE = 3.0     # of the printed weights, in spacings
 Fields = dict[str, np.ndarray]
-
-
-class LayerRun(NamedTuple):
-    """A run of a variant, its steps, and its end, None if it diverged."""
-    ready: Ready
-    steps: int
-    done: Run | None
 
 
 class Ended(NamedTuple):
@@ -38,15 +36,18 @@ class Ended(NamedTuple):
 
 
 def followed(scene: Any, variant: Any, seed: int, t_end: float, often: int,
-             report: Callable[[float], None] | None = None, checkpoint: Path | None = None) -> LayerRun:
-    """Run until t_end in free-fall times; `variant.series` is read `often` times in one."""
+             report: Any = None, checkpoint: Path | None = None) -> tuple[Ready, int, Run | None]:
+    """(start, steps, end) of a run until t_end in free-fall times; no end if it diverged.
+
+    `variant.series` is read `often` times in one.
+    """
     ready, unit = variant.ready(scene, seed), scene.L/scene.free_fall
     plan = Plan(dt=ready.dt, steps=round(t_end*unit/ready.dt), series=variant.series,
                 every=max(1, round(unit/often/ready.dt)), checkpoint=checkpoint)
     try:
-        return LayerRun(ready, plan.steps, run(ready.method, ready.start, plan, report))
+        return ready, plan.steps, run(ready.method, ready.start, plan, report)
     except Divergence as error:
-        return LayerRun(ready, error.step, None)
+        return ready, error.step, None
 
 
 def heat_at_rest(scene: Any) -> float:
@@ -90,9 +91,6 @@ def at_end(method: Any, done: Run) -> tuple[Any, np.ndarray]:
     return sums, state
 
 
-# --- symmetric flows ------------------------------------------------------------------------------
-
-
 def upright(at: Fields) -> Fields:
     """The same periodic flow with the crest of the first harmonic of vy at column 0."""
     columns = at["vy"].shape[1]
@@ -117,7 +115,8 @@ def flowing(at: Fields, periodic: bool) -> Measured:
     All that is not symmetric is in the error: noise, of which the symmetric part holds as much, and in a box
     what compressibility does. If rolls wander while velocities are averaged, it is a lower bound.
     """
-    at = upright(at) if periodic else at
+    if periodic:
+        at = upright(at)
     other = mirrored(at) if periodic else turned(at)
     return Measured(kinetic(at, other, 1), kinetic(at, other, -1))
 
@@ -126,9 +125,6 @@ def kinetic(at: Fields, other: Fields, sign: int) -> float:
     """Of half the sum, or difference, of two flows of the first one's density, per mass."""
     v2 = sum(((at[name] + sign*other[name])/2)**2 for name in ("vx", "vy"))
     return 0.5*float(np.mean(at["rho"]*v2))/float(np.mean(at["rho"]))
-
-
-# --- fields seen through a weight -----------------------------------------------------------------
 
 
 class Smoothing(NamedTuple):
@@ -150,11 +146,10 @@ def smoothed_energy(fields: gas.NodeFields, smoothing: Smoothing) -> tuple[float
     mirror, rest = ("wrap", "wrap") if fields.periodic else ("symmetric", "constant")
     margin = len(w)//2
     rho = oaconvolve(padded(at.rho, margin, mirror, "symmetric"), w, mode="valid")
-    px = oaconvolve(padded(at.rho*at.vx, margin, rest, "constant"), w, mode="valid")
-    py = oaconvolve(padded(at.rho*at.vy, margin, rest, "constant"), w, mode="valid")
-    mass = np.sum(at.rho)
-    plain = 0.5*np.sum(at.rho*(at.vx**2 + at.vy**2))/mass
-    return float(plain), float(0.5*np.sum(at.rho*((px**2 + py**2)/rho**2))/mass)
+    px, py = (oaconvolve(padded(at.rho*v, margin, rest, "constant"), w, mode="valid") for v in (at.vx, at.vy))
+    plain, smooth = (0.5*np.sum(at.rho*v2)/np.sum(at.rho)
+                     for v2 in (at.vx**2 + at.vy**2, (px**2 + py**2)/rho**2))
+    return float(plain), float(smooth)
 
 
 def kernel(smoothing: Smoothing) -> np.ndarray:
@@ -176,3 +171,62 @@ def smoothed_rows(point: dict, fields: gas.NodeFields, smoothings: tuple[Smoothi
         plain, smooth = smoothed_energy(fields, smoothing)
         yield {**point, "weight": smoothing.weight.__name__, "h": smoothing.h, "rows": smoothing.rows,
                "ke": plain, "ke_smoothed": smooth}
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """Positions and velocities (points, 2) in spacings: `n` fluid particles, then fixed ones and images."""
+    x: np.ndarray
+    v: np.ndarray
+    n: int
+    height: float
+
+    @cached_property
+    def tree(self) -> cKDTree:
+        """Of all points."""
+        return cKDTree(self.x)
+
+    @cached_property
+    def bulk(self) -> np.ndarray:
+        """Fluid particles farther than the range of the weight from the plates."""
+        return np.flatnonzero(np.abs(self.x[:self.n, 1]) < self.height/2 - RANGE)
+
+    def near(self, distance: float) -> np.ndarray:
+        """How many others are that close to each particle of the bulk."""
+        return self.tree.query_ball_point(self.x[self.bulk], distance, return_length=True) - 1
+
+    @property
+    def neighbours(self) -> Measured:
+        """Mean number within the range; counts of particles that share neighbours are one sample."""
+        counts = self.near(RANGE)
+        samples = max(1.0, len(counts)/counts.mean())
+        return Measured(float(counts.mean()), float(1.96*counts.std()/sqrt(samples)))
+
+    @property
+    def spacing(self) -> Measured:
+        """Distance where the first peak of the pair distribution is, by bins of 0.1."""
+        edges = np.arange(0.3, 2.01, 0.1)
+        bulk = cKDTree(self.x[self.bulk])
+        pairs = bulk.sparse_distance_matrix(self.tree, 2.0, output_type="ndarray")
+        counts, _ = np.histogram(pairs["v"], edges)
+        peak = np.argmax(counts/np.diff(edges**2))
+        return Measured(float(edges[peak] + 0.05), 0.05)
+
+    @property
+    def pairing(self) -> Measured:
+        """Median of second over first neighbour distance; partners of a pair are one sample."""
+        distances, _ = self.tree.query(self.x[self.bulk], 3)
+        _, first, second = np.transpose(distances)
+        around = 0.98/sqrt(len(first)/2)*np.array([-1, 0, 1])
+        low, middle, high = np.quantile(second/first, 0.5 + around)
+        return Measured(float(middle), float(high - low)/2)
+
+    @property
+    def occupancy(self) -> float:
+        """Particles a site: bulk particles joined with those closer than half a spacing."""
+        return 1 + float(np.median(self.near(0.5)))
+
+    @property
+    def fastest(self) -> float:
+        """The largest v^2 of the fluid."""
+        return float((self.v[:self.n]**2).sum(axis=1).max())

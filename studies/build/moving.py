@@ -1,18 +1,26 @@
-"""Moving points that exchange over closed faces: the scheme and what it is made of, in any scene."""
-from functools import partial
+"""Points that move, in any scene: over closed faces, and in RR98's own ways    [RR98 Eqs 39, 46-51]"""
+from functools import cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from particles.fields import kinetic
 from particles.integral.closed_faces import FaceSums, Ingredients, Moving
+from particles.integral.drifts import DRIFTS, ConstantMassDrift, OverPairs
 from particles.integral.exchange import PRINTED
+from particles.integral.points import lattice
+from particles.integral.rr98_moving import Drift, Drifts
+from particles.integral.rr98_moving_plain import Powers, scale_of
+from particles.integral.transposed_stress import MENDED
+from particles.observe import pairs_behind
+from particles.pairs import rate, sweep, zero
+from particles.smooth.spam import LessStatic
 from particles.weights import WendlandC2
-from studies.build.setting import Ready, check_spacings, check_taken, no_still_layer, shaken, stepped, walls
+from studies.build.setting import Ready, check_points, no_still_layer, placed, walls
 
 
 class FacesMotion(NamedTuple):
-    """The scheme with its ingredients."""
+    """The scheme of closed faces with its ingredients."""
     name: str
     ingredients: Ingredients = Ingredients()
     weight: Any = WendlandC2
@@ -20,20 +28,17 @@ class FacesMotion(NamedTuple):
     of_limit: float = 1.0
 
     def refuses(self, scene: Any) -> str:
-        """Which part of a scene this cannot take; empty for none."""
         return no_still_layer(scene)
 
-    def ready(self, scene: Any, seed: int = 1, x: np.ndarray | None = None,
-              fields: tuple | None = None) -> Ready:
-        """The method in a scene; from places x (n, 2) and fields (rho, v, T) there, if given."""
-        fluid = method(scene, self)
-        x = shaken(scene, seed) if x is None else x
-        return stepped(fluid, fluid.state(x, *(fields or scene.fields(x))), self.of_limit)
+    def ready(self, scene: Any, seed: int = 1, x: Any = None, fields: Any = None) -> Ready:
+        check_points(self, scene)
+        method = Moving(weight=self.weight.of(h=self.h), eos=scene.eos, law=scene.law, g=scene.g,
+                        box=(scene.width, scene.L), walls=walls(scene), ingredients=self.ingredients)
+        return placed(method, scene, seed, self.of_limit, x, fields)
 
     @property
     def series(self) -> dict[str, Any]:
-        """Quantities of a run: K, and heat through both plates."""
-        return {"ke": kinetic, "lower": partial(heat_in, side=-1), "upper": partial(heat_in, side=1)}
+        return of_heat(heat_over_faces)
 
 
 MOTIONS = {m.name: m for m in (
@@ -50,17 +55,58 @@ MOTIONS = {m.name: m for m in (
 )}
 
 
-def method(scene: Any, motion: FacesMotion) -> Moving:
-    """The method of unit spacing: a scene of L = rows spacings."""
-    check_taken(motion, scene)
-    check_spacings(scene)
-    return Moving(weight=motion.weight.of(h=motion.h), eos=scene.eos, law=scene.law,
-                  box=(scene.width, scene.L), g=scene.g, walls=walls(scene), ingredients=motion.ingredients)
+class DriftMotion(NamedTuple):
+    """A motion of RR98, as printed but for what is named; `less` : share of the static pressure left out."""
+    name: str
+    motion: Any
+    mended: bool = True
+    less: float = 0.0
+    weight: Any = WendlandC2
+    h: float = 3.0
+
+    def refuses(self, scene: Any) -> str:
+        return no_still_layer(scene)
+
+    def ready(self, scene: Any, seed: int = 1, x: Any = None, fields: Any = None) -> Ready:
+        check_points(self, scene)
+        weight = self.weight.of(h=self.h)
+        method = Drift(motion=self.motion, weight=weight, scale=scale(weight), eos=scene.eos, law=scene.law,
+                       box=(scene.width, scene.L), g=scene.g, walls=walls(scene),
+                       transport=MENDED if self.mended else PRINTED,
+                       static=LessStatic(self.less, scene.T_mean))
+        return placed(method, scene, seed, 1.0, x, fields)
+
+    @property
+    def series(self) -> dict[str, Any]:
+        return of_heat(heat_of_pairs)
 
 
-def heat_in(sums: FaceSums, state: np.ndarray, side: int) -> float:
-    """Heat per time that enters the fluid through a plate (-1: lower, 1: upper), over faces to images."""
-    faces, half = sums.faces, sums.method.box[1]/2
+DRIFT_MOTIONS = {m.name: m for m in (
+    DriftMotion("moving-literal", DRIFTS["literal"]),
+    DriftMotion("moving-literal-printed-heat", DRIFTS["literal"], mended=False),
+    DriftMotion("moving-convective", DRIFTS["convective"]),
+    DriftMotion("moving-carried", DRIFTS["carried"]),
+    DriftMotion("moving-constant-mass", DRIFTS["constant-mass"]),
+    DriftMotion("moving-constant-mass-printed-heat", DRIFTS["constant-mass"], mended=False),
+    DriftMotion("moving-sph", ConstantMassDrift(Powers(1.0, -1.0))),
+    DriftMotion("moving-less-static", DRIFTS["constant-mass"], less=1.0),
+)}
+
+
+@cache
+def scale(weight: Any) -> float:
+    """Of plain quadrature, so that gradients are right on a lattice of the mean density."""
+    return scale_of(lattice((12, 12)), weight)
+
+
+def of_heat(heat: Any) -> dict[str, Any]:
+    """K, and heat per time that enters the fluid through a plate (-1: lower, 1: upper)."""
+    return {"ke": kinetic, "lower": partial(heat, side=-1), "upper": partial(heat, side=1)}
+
+
+def heat_over_faces(sums: FaceSums, state: np.ndarray, side: int) -> float:
+    """Heat over faces to images behind a plate."""
+    faces, half = sums.maker.faces, sums.method.box[1]/2
     near = np.flatnonzero(side*state[1] > half - sums.method.weight.h)
     spans = zip(faces.first[near].astype(int), faces.taken[near], strict=True)
     entry = np.concatenate([np.arange(first, first + count) for first, count in spans])
@@ -69,3 +115,18 @@ def heat_in(sums: FaceSums, state: np.ndarray, side: int) -> float:
     a = sums.points[np.repeat(near, faces.taken[near])[behind]]
     b, k = sums.points[image[behind]], faces.k[entry[behind]]
     return float(np.sum(k*(a["k"] + b["k"])/2*(b["Td"] - a["Td"])))
+
+
+class PairHeat(NamedTuple):
+    """Heat that the first of two points gets from the other."""
+
+
+zero.of(PairHeat)(lambda term: (0.0,))
+rate.of(PairHeat)(lambda term, a, b, ab: (0.5*(a.k + b.k)*ab.k*(b.Td - a.Td),))
+
+
+def heat_of_pairs(sums: Drifts, state: np.ndarray, side: int) -> float:
+    """Heat from images behind a plate."""
+    heat = np.zeros((sums.n, 1))
+    sums.threads(sweep, sums.n, OverPairs(PairHeat()), sums.points, pairs_behind(sums, side), heat)
+    return float(heat.sum())

@@ -1,8 +1,9 @@
-"""Words and numbers that studies of convection share, those that KHP95 prints among them."""
+"""Words, numbers and axes that studies of convection share, numbers that KHP95 prints among them."""
 from typing import Any
 
 from continuum.published import published
 from continuum.scene import ROLL_ENERGY
+from studies.kit.figure import width
 
 START_ENERGY = ROLL_ENERGY
 START_JITTER = 0.2     # of points at the start, in spacings: a perfect lattice stays frozen in places
@@ -12,6 +13,11 @@ TRANSPORT_NAMES = {"ConstEta": "const-eta", "ConstNu": "const-nu"}
 #: what a row of `kinetic_energy` is there for; not finite where a run diverged
 VALUES = ("ke", "ke_err", "ke_field", "ke_field_err", "ke_mean", "ke_mean_err", "ke_fluctuation",
           "nu", "nu_err")
+ENERGY = r"kinetic energy per mass $K$  [$\varepsilon/m$]"
+#: room for a number above an axis  [inches]
+LABEL = 0.42
+#: Rayleigh numbers to name, the rounder ones first
+NAMED = (10000, 5000, 2500, 20000, 1500, 3500, 1e5, 2000, 7000, 50000)
 
 
 def one_energy(ke: float, err: float) -> dict[str, float]:
@@ -38,3 +44,19 @@ def as_printed(key: str) -> dict[str, Any]:
     """Accepted range of a printed number: its value and what its last digit, or its words, leave open."""
     value = published(f"khp95-{key}")
     return {"expect": value.value, "within": value.uncertainty}
+
+
+def ra_axis(axes: Any) -> None:
+    """Ra^-1/2 below, Ra above: the rounder ones first, others where there is room."""
+    low, high = axes.get_xlim()
+    scale = width(axes)/(high - low)
+    shown: list[float] = []
+    for ra in NAMED:
+        inches = [scale*abs(ra**-0.5 - other**-0.5) for other in shown]
+        if low < ra**-0.5 < high and all(gap > LABEL for gap in inches):
+            shown.append(ra)
+    top = axes.secondary_xaxis("top")
+    top.set_xticks([ra**-0.5 for ra in shown], labels=[f"{ra:g}" for ra in shown])
+    top.tick_params(labelsize=8)
+    top.set_xlabel("Rayleigh number Ra")
+    axes.set_xlabel(r"$\mathrm{Ra}^{-1/2}$")

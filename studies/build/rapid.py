@@ -1,13 +1,14 @@
 """Two periodic scenes that try a method: a shock tube, and a shear layer that rolls up."""
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
 from continuum.exact.riemann import GasState, solution
 from continuum.exact.shear import growing_wave, layer_with_wave
 from continuum.fluid import ConstEta, Fields, IdealGas
-from studies.build.answers import answer, duration, of_one_mass, quantities, rows_of, with_rows
-from studies.build.scenes import SOUND, Scene, Start
+from particles.integral.points import wrapped
+from studies.build.scenes import SOUND, Answer, Scene, Start
 
 GAMMA = 1.4
 JITTER = 0.05       # of particles at the start, in their own spacings: rows of a perfect lattice never mix
@@ -26,6 +27,7 @@ class ShockTube(Scene):
     L: float = 12.0
     eos: IdealGas = IdealGas(cv=2.5)  # noqa: RUF009 (immutable)
 
+    counted = "half"
     dense = GasState(16/9, 0.0, 16/9)
     thin = GasState(2/9, 0.0, 1.6/9)
 
@@ -46,31 +48,22 @@ class ShockTube(Scene):
         rho, _, P = np.where(np.abs(x[:, 0]) < self.half, dense, thin)
         return rho, np.zeros((len(x), 2)), P/rho
 
+    def answer(self, x: np.ndarray) -> Answer:
+        """Without viscosity."""
+        across = np.abs(x[:, 0])
+        rho, v, P = solution(self.dense, self.thin, GAMMA, (across - self.half)/self.time)
+        return {"rho": rho, "vx": np.sign(x[:, 0])*v, "T": P/rho}
 
-rows_of.register(ShockTube, lambda scene: scene.half)
-with_rows.register(ShockTube, lambda scene, rows: replace(scene, half=rows))
-
-
-@answer.register
-def _(scene: ShockTube, x: np.ndarray) -> dict[str, np.ndarray]:
-    """Without viscosity."""
-    across = np.abs(x[:, 0])
-    rho, v, P = solution(scene.dense, scene.thin, GAMMA, (across - scene.half)/scene.time)
-    return {"rho": rho, "vx": np.sign(x[:, 0])*v, "T": P/rho}
-
-
-@of_one_mass.register
-def _(scene: ShockTube, seed: int) -> tuple[np.ndarray, Start]:
-    """Rows 3/4 of a spacing apart in the dense gas, 2 in the thin one."""
-    rng, parts = np.random.default_rng(seed), []
-    for gas, rows, left in ((scene.dense, 16, -scene.half), (scene.thin, 6, scene.half)):
-        columns = round(2*scene.half*scene.L*gas.rho/rows)
-        cell = np.array([2*scene.half/columns, scene.L/rows])
-        numbers = np.stack(np.meshgrid(np.arange(columns), np.arange(rows)), axis=-1).reshape(-1, 2)
-        parts.append(cell*(numbers + 0.5 + rng.uniform(-JITTER, JITTER, numbers.shape)) + (left, -scene.L/2))
-    x = np.concatenate(parts)
-    x[:, 0] = (x[:, 0] + scene.width/2) % scene.width - scene.width/2
-    return x, scene.fields(x)
+    def of_one_mass(self, seed: int) -> tuple[np.ndarray, Start]:
+        """Rows 3/4 of a spacing apart in the dense gas, 2 in the thin one."""
+        rng, parts = np.random.default_rng(seed), []
+        for gas, rows, left in ((self.dense, 16, -self.half), (self.thin, 6, self.half)):
+            columns = round(2*self.half*self.L*gas.rho/rows)
+            cell = np.array([2*self.half/columns, self.L/rows])
+            at = np.stack(np.meshgrid(np.arange(columns), np.arange(rows)), axis=-1).reshape(-1, 2)
+            parts.append(cell*(at + 0.5 + rng.uniform(-JITTER, JITTER, at.shape)) + (left, -self.L/2))
+        x = wrapped(np.concatenate(parts), np.array([self.width, self.L]))
+        return x, self.fields(x)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,14 +105,15 @@ class ShearLayer(Scene):
         v = layer_with_wave(x, self.speed, 2*np.pi/self.L, self.size)
         return np.ones(len(x)), v, np.ones(len(x))
 
+    @property
+    def duration(self) -> tuple[float, float]:
+        return self.growths, 1/self.rate
 
-duration.register(ShearLayer, lambda scene: (scene.growths, 1/scene.rate))
+    @property
+    def quantities(self) -> dict[str, Callable]:
+        return {"wave": self.wave}
 
-
-@quantities.register
-def _(scene: ShearLayer) -> dict:
-    def wave(at: Fields) -> float:
+    def wave(self, at: Fields) -> float:
         """Size of the part of v_y that goes as exp(i k_x x)."""
         m = at.rho*at.V
-        return float(abs(np.sum(m*at.v[:, 1]*np.exp(-1j*np.pi/scene.L*at.x[:, 0])))/m.sum())
-    return {"wave": wave}
+        return float(abs(np.sum(m*at.v[:, 1]*np.exp(-1j*np.pi/self.L*at.x[:, 0])))/m.sum())

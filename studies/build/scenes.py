@@ -1,23 +1,31 @@
 """Flows with exact answers, as scenes; convection is `continuum.scene.RayleighBenard`.
 
 Lengths in spacings; the gas is ideal with C_V = 1, density and temperature about 1, conductivity = viscosity.
+What they are asked for besides their start is in `studies.build.answers`.
 """
 from dataclasses import dataclass
 from math import sqrt
 from typing import Any
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 from scipy.linalg import expm
 
+from continuum.exact import plates
 from continuum.exact.plates import FLOWS, MU, PlateFlow
-from continuum.exact.vortex import Vortex
+from continuum.exact.vortex import Vortex, solved, velocities
 from continuum.exact.waves import LinearGas, continuum
 from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import Periodic, RayleighBenard, Torus
+from particles.integral.points import lattice
+from studies.build.names import START_JITTER
+from studies.build.setting import shifted
 
 SOUND = sqrt(2)         # of the gas at T = 1, in 2D
 TINY = 1e-12            # in place of zero: the grid divides by coefficients
+HEIGHTS = np.linspace(0, 1, 2001)
 Start = tuple[np.ndarray, np.ndarray, np.ndarray]
+Answer = dict[str, np.ndarray]
 
 
 class Scene:
@@ -68,10 +76,6 @@ class TaylorGreen(Scene):
         return self.vortex.speed
 
     @property
-    def k(self) -> float:
-        return self.vortex.k
-
-    @property
     def eta(self) -> float:
         return self.vortex.eta
 
@@ -84,13 +88,17 @@ class TaylorGreen(Scene):
         """When velocities of an incompressible fluid are a factor e smaller."""
         return self.vortex.time
 
-    def velocity(self, x: np.ndarray) -> np.ndarray:
-        """(n, 2) at places (n, 2) at the start."""
-        return self.vortex.velocity(x)
-
     def fields(self, x: np.ndarray) -> Start:
         rho = self.vortex.density(x)
-        return rho, self.velocity(x), rho
+        return rho, self.vortex.velocity(x), rho
+
+    def answer(self, x: np.ndarray) -> Answer:
+        v = self.speed*velocities(solved(self.mach), x/self.L)
+        return {"vx": v[:, 0], "vy": v[:, 1]}
+
+    def of_one_mass(self, seed: int) -> tuple[np.ndarray, Start]:
+        x = shifted(self.L, self.L, START_JITTER, seed)
+        return x, self.fields(x)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,6 +109,8 @@ class Sound(Scene):
     amplitude: float = 1e-5      # steepening, some 12 times this, is 1e-4 of the wave
     damping: float = 0.01       # eta = kappa, in wavelengths: a third of the wave is left at the end
     periods: float = 2.125      # and an eighth: density and velocity are both there
+
+    counted = "width"
 
     @property
     def k(self) -> float:
@@ -122,6 +132,17 @@ class Sound(Scene):
     def fields(self, x: np.ndarray) -> Start:
         rho, u, T = self.exactly(0.0, x[:, 0])
         return 1 + rho, np.stack([u, 0*u], axis=1), 1 + T
+
+    def answer(self, x: np.ndarray) -> Answer:
+        _, u, T = self.exactly(self.time, x[:, 0])
+        return {"vx": u, "T": 1 + T}
+
+    def of_one_mass(self, seed: int) -> tuple[np.ndarray, Start]:
+        """A lattice, displaced as the density wants it, with the fields of the lattice."""
+        x = lattice((self.width, self.L)).x
+        fields = self.fields(x)
+        x[:, 0] -= self.amplitude/self.k*np.sin(self.k*x[:, 0])
+        return x, fields
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -148,6 +169,20 @@ class BetweenPlates(Scene):
     def fields(self, x: np.ndarray) -> Start:
         rho, v, u, T = self.flow.start(x[:, 1]/self.L + 0.5)
         return rho, np.stack([u, v], axis=1), T
+
+    def answer(self, x: np.ndarray) -> Answer:
+        _, _, u, T = plates.fields(self.flow, x[:, 1]/self.L + 0.5)
+        return {"vx": u} if self.flow.U else {"T": T}
+
+    def of_one_mass(self, seed: int) -> tuple[np.ndarray, Start]:
+        x = as_dense(lattice((self.width, self.L)).x, self.L, self.flow.start(HEIGHTS)[0])
+        return x, self.fields(x)
+
+
+def as_dense(x: np.ndarray, L: float, rho: np.ndarray) -> np.ndarray:
+    """Places (n, 2) moved up or down, so that rows are as far apart as a density at HEIGHTS wants them."""
+    mass, below = cumulative_trapezoid(rho, HEIGHTS, initial=0), x[:, 1]/L + 0.5
+    return np.stack([x[:, 0], L*(np.interp(below*mass[-1], mass, HEIGHTS) - 0.5)], axis=1)
 
 
 @dataclass(frozen=True, kw_only=True)

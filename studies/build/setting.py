@@ -17,8 +17,7 @@ from particles.integral.points import Points, jittered, lattice, random, relaxed
 from particles.limits import limit_of
 from particles.walls.mirror import AtWall, Copied, Mirror, plates, sides
 from particles.walls.periodic import periodic
-from particles.walls.side import Free, Given, OneSide, Passing, Stuck
-from particles.walls.sliding_plate import SlidingPlate
+from particles.walls.side import OneSide
 from particles.weights import WendlandC2
 from studies.build.names import START_JITTER
 
@@ -46,13 +45,16 @@ def stepped(method: Any, start: np.ndarray, of_limit: float) -> Ready:
 
 def of_method(method: Any, scene: Any, seed: int = 1) -> Ready:
     """Any method with places `x` and `state(rho, v, T)`, or `state(x, rho, v, T)` from a jittered lattice."""
-    if hasattr(method, "x"):
-        check_places(method.x, scene)
-        start = method.state(*scene.fields(method.x))
-    else:
-        x = shaken(scene, seed)
-        start = method.state(x, *scene.fields(x))
-    return stepped(method, start, 0.8)
+    if not hasattr(method, "x"):
+        return placed(method, scene, seed, 0.8)
+    check_places(method.x, scene)
+    return stepped(method, method.state(*scene.fields(method.x)), 0.8)
+
+
+def placed(method: Any, scene: Any, seed: int, of_limit: float, x: Any = None, fields: Any = None) -> Ready:
+    """Points that move, from places x (n, 2) and fields (rho, v, T) there; by default a jittered lattice."""
+    x = shaken(scene, seed) if x is None else x
+    return stepped(method, method.state(x, *(fields or scene.fields(x))), of_limit)
 
 
 def check_places(x: np.ndarray, scene: Any) -> None:
@@ -60,7 +62,8 @@ def check_places(x: np.ndarray, scene: Any) -> None:
     box, reach = np.array([scene.width, scene.L]), 2*np.abs(x).max(axis=0)
     if (reach > box*(1 + 1e-9)).any() or (reach < box - 3).any():
         raise ValueError(f"points of the method reach {reach[0]:g} x {reach[1]:g}, the scene is {box[0]:g} x "
-                         f"{box[1]:g}: make the method for this scene, or give a class that takes the scene")
+                         f"{box[1]:g}: make the method for this scene, or give a class or function of the "
+                         "scene, which compare calls for each number of rows")
 
 
 def walls(scene: Any, rule: Any = AtWall(), pressure: Any = Copied()) -> tuple:  # noqa: B008
@@ -70,7 +73,10 @@ def walls(scene: Any, rule: Any = AtWall(), pressure: Any = Copied()) -> tuple: 
     if isinstance(scene.sides, Torus):
         return (*periodic(scene.width), *periodic(scene.L, axis=1))
     lower, upper = plates(scene.L, scene.T_hot, scene.T_cold, rule, pressure)
-    return (lower, SlidingPlate(upper, scene.slide) if scene.slide else upper, *beside(scene, rule, pressure))
+    upper = OneSide(upper, scene.slide) if scene.slide else upper
+    if isinstance(scene.sides, Periodic):
+        return lower, upper, *periodic(scene.width)
+    return lower, upper, *sides(scene.width, scene.T_mean, -scene.dT/scene.L, rule, pressure)
 
 
 def of_sides(scene: Any, rule: Any, pressure: Any) -> tuple:
@@ -84,21 +90,8 @@ def of_sides(scene: Any, rule: Any, pressure: Any) -> tuple:
             continue
         for side, inner in zip(pair, (1.0, -1.0)):
             mirror = Mirror(axis, -inner*length/2, inner, side.T, 0.0, rule, pressure)
-            made.append(one_side(side, mirror, k))
+            made.append(OneSide(mirror, getattr(side, "v", 0.0), isinstance(side, Slip), side.q, k))
     return tuple(made)
-
-
-def one_side(side: Any, mirror: Mirror, k: float) -> OneSide:
-    """What images behind a mirror do; where heat passes, k is the conductivity."""
-    return OneSide(mirror, Free() if isinstance(side, Slip) else Stuck(getattr(side, "v", 0.0)),
-                   Given() if warm(side) else Passing(side.q, k))
-
-
-def beside(scene: Any, rule: Any, pressure: Any) -> tuple:
-    """Left and right sides."""
-    if isinstance(scene.sides, Periodic):
-        return periodic(scene.width)
-    return sides(scene.width, scene.T_mean, -scene.dT/scene.L, rule, pressure)
 
 
 def shifted(width: float, height: float, size: float, seed: int) -> np.ndarray:
@@ -144,6 +137,12 @@ def check_taken(chosen: Any, scene: Any) -> None:
     """Refuse a scene for a variant. Raises CannotTake: names both."""
     if part := chosen.refuses(scene):
         raise CannotTake(f"{chosen.name} cannot take {part}")
+
+
+def check_points(chosen: Any, scene: Any) -> None:
+    """The same for points of unit spacing, which must fill it."""
+    check_taken(chosen, scene)
+    check_spacings(scene)
 
 
 def no_layer(scene: Any) -> str:

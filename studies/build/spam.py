@@ -83,15 +83,12 @@ class Variant(NamedTuple):
             return f"a {type(scene).__name__}, which has no rolls to begin with"
         return no_still_layer(scene) if self.walls is fixed_rows else ""
 
-    def ready(self, scene: Any, seed: int = 1, x: np.ndarray | None = None,
-              fields: tuple | None = None) -> Ready:
-        """The method in a scene; from places x (n, 2) and fields (rho, v, T) there, if given."""
+    def ready(self, scene: Any, seed: int = 1, x: Any = None, fields: Any = None) -> Ready:
         check_taken(self, scene)
         return Ready(method(scene, self), start(scene, seed, self.begin, x, fields), step(scene, self))
 
     @property
     def series(self) -> dict[str, Any]:
-        """Quantities of a run: K of particles and of the smoothed field, heat upwards and through plates."""
         return {"kp": particle_kinetic, "kg": field_kinetic, "heat": heat_flow,
                 "lower": PlateHeat(-1), "upper": PlateHeat(1)}
 
@@ -144,8 +141,7 @@ def step(scene: Any, variant: Variant) -> float:
     return variant.step*step_limit(method(scene, variant), energy(scene.eos, 1.0, plates))
 
 
-def start(scene: Any, seed: int = 1, begin: Callable | None = None, x: np.ndarray | None = None,
-          fields: tuple | None = None) -> np.ndarray:
+def start(scene: Any, seed: int = 1, begin: Any = None, x: Any = None, fields: Any = None) -> np.ndarray:
     """State (5, n); `begin` as a variant has it."""
     x = scattered(scene, seed) if x is None else x
     _, v, T = fields or (begin(scene, x) if begin else scene.fields(x))

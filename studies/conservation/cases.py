@@ -8,7 +8,6 @@ closed and exact edges are the plain ones times a number. Paper size takes a qua
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
-from typing import Any
 
 from continuum.fluid import ConstEta
 from particles.integral.closed_faces import Ingredients
@@ -19,8 +18,6 @@ from particles.integral.rr98_moving_plain import MOTIONS
 from particles.integrators import TwoStep
 from particles.weights import WEIGHTS, WendlandC2
 from studies.build.setting import DISORDERS
-from studies.conservation.claims import CLAIMS
-from studies.conservation.cylinder import VARIANTS
 from studies.conservation.drift import (
     MODES,
     OPEN,
@@ -28,27 +25,17 @@ from studies.conservation.drift import (
     PLATES,
     UNDER_GRAVITY,
     LayerDrift,
-    MovingDrift,
-    Wall,
-)
-from studies.conservation.figures import FIGURES
-from studies.conservation.motions import ALONG, STILL, BracketForce, Identity, MovingSound, Pattern, Signs
-from studies.conservation.plain_runs import (
-    CUBE,
-    LINE,
-    SQUARE,
-    DihDrift,
     MotionDrift,
+    MovingDrift,
     Places,
-    Unsymmetric,
+    Wall,
     sound_flow,
     vortex_flow,
 )
-from studies.conservation.slow_flows import CylinderDrag, SlidingShear, TurningCylinder, TurningWave
-from studies.conservation.sums import EVERYTHING
-from studies.conservation.tables import ALL, derive
+from studies.conservation.motions import ALONG, STILL, BracketForce, Identity, MovingSound, Pattern, Signs
+from studies.conservation.slow_flows import VARIANTS, CylinderDrag, SlidingShear, TurningCylinder, TurningWave
+from studies.conservation.sums import CUBE, EVERYTHING, LINE, SQUARE, DihDrift, Unsymmetric
 from studies.kit.case import Case
-from studies.kit.part import Part
 
 WEIGHT_KINDS = tuple(WEIGHTS.values())
 KINDS = ("lattice", "jittered-0.3", "random", "relaxed")
@@ -65,13 +52,9 @@ SMOOTH = (24, 28, 32, 36, 40, 44, 48, 52, 56)      # rows where errors are smoot
 SCATTERED = tuple(range(24, 50, 2))
 
 
-# --- long runs ----------------------------------------------------------------------------------
-
-
 def pairs(kinds: tuple[str, ...]) -> list[tuple[str, str]]:
     """Makers and sets of points that go together."""
-    without = product(("closed", "exact"), ("lattice",))
-    return sorted(set(product(MAKERS, kinds)) - set(without))
+    return sorted({*product(MAKERS, kinds)} - {("closed", "lattice"), ("exact", "lattice")})
 
 
 def layer(maker: str, points: str, mode=PAIRWISE, wall: Wall = OPEN, **more) -> LayerDrift:
@@ -119,11 +102,10 @@ def motions(steps: int, weights: tuple[type, ...]) -> Iterator[Case]:
     for name, kind in MOTIONS.items():
         claimed = EVERYTHING if name in KEEP else "nothing"
         yield MotionDrift(motion=name, kind=kind, steps=steps, claimed=claimed)
-    two: dict[str, Any] = {
-        "integrator": TwoStep, "disorder": DISORDERS["lattice"], "dt": 0.05, "steps": steps}
-    for weight in weights:
-        yield MotionDrift(motion="literal", kind=MOTIONS["literal"], weight=weight, **two)
-    yield MotionDrift(motion="convective", kind=MOTIONS["convective"], claimed="nothing", **two)
+    two = MotionDrift(motion="literal", kind=MOTIONS["literal"], integrator=TwoStep, dt=0.05, steps=steps,
+                      disorder=DISORDERS["lattice"])
+    yield from (replace(two, weight=weight) for weight in weights)
+    yield replace(two, motion="convective", kind=MOTIONS["convective"], claimed="nothing")
 
 
 def moving() -> Iterator[MovingDrift]:
@@ -132,9 +114,6 @@ def moving() -> Iterator[MovingDrift]:
         yield MovingDrift(disorder=DISORDERS[kind], wall=wall)
     yield from (MovingDrift(weight=weight) for weight in WEIGHT_KINDS if weight is not WendlandC2)
     yield from (MovingDrift(name=name, ingredients=ingredients) for name, ingredients in LESS.items())
-
-
-# --- moving points ------------------------------------------------------------------------------
 
 
 def once() -> Iterator[Case]:
@@ -154,20 +133,13 @@ def speeds(wavelengths: tuple[int, ...]) -> Iterator[Case]:
             yield MovingSound(motion=name, kind=kind, wavelength=wavelength, weight=WendlandC2, h=4.0)
 
 
-def place(motion: str, flow: str, start: Any, **more: Any) -> Places:
-    """Where points end."""
-    return Places(motion=motion, kind=MOTIONS[motion], flow=flow, start=start, **more)
-
-
 #: sound for one and a half periods: after whole ones the errors of some integrators are small by chance
 PLACES = (
-    place("literal", "sound", sound_flow, counts=(16, 7), law=STILL, time=13.0, steps=60),
-    place("constant-mass", "sound", sound_flow, counts=(16, 7), law=STILL, time=18.9, steps=80),
-    place("constant-mass", "vortices", vortex_flow, counts=(12, 12), law=ConstEta(0.2, 0.2), time=10.0,
-          steps=80))
-
-
-# --- slow flows ---------------------------------------------------------------------------------
+    Places(motion="literal", flow="sound", start=sound_flow, counts=(16, 7), law=STILL, time=13.0, steps=60),
+    Places(motion="constant-mass", flow="sound", start=sound_flow, counts=(16, 7), law=STILL, time=18.9,
+           steps=80),
+    Places(motion="constant-mass", flow="vortices", start=vortex_flow, counts=(12, 12),
+           law=ConstEta(0.2, 0.2), time=10.0, steps=80))
 
 
 def drags(fraction: float, sizes: dict[str, tuple[int, ...]]) -> Iterator[Case]:
@@ -207,6 +179,3 @@ def paper() -> Iterator[Case]:
 def cases(size: str) -> list[Case]:
     """All cases of a size."""
     return list(quick() if size == "quick" else paper())
-
-
-PART = Part(cases=cases, tables=ALL, derive=derive, figures=FIGURES, claims=CLAIMS)

@@ -1,25 +1,42 @@
-"""Long runs of the compiled schemes: on fixed points [RR98 Eqs 34-38], on moving points with closed faces."""
+"""Long runs on fixed points [RR98 Eqs 34-38] and on moving ones; where these end after a time [Eqs 39-49]."""
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.linalg import norm
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.closed_faces import EXCHANGED, Ingredients, Moving
+from particles.integral.dih import Pairwise
 from particles.integral.edges import NONE_BEYOND, Edges, between_plates
 from particles.integral.layer import Layer
 from particles.integral.nested import mixed
-from particles.integral.points import Points, of_positions
+from particles.integral.points import Points, lattice, of_positions
+from particles.integral.rr98_moving_plain import MOTIONS, Motion
+from particles.integrators import RK4, Euler, TwoStep
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2
 from studies.build.setting import DISORDERS, Disorder
-from studies.conservation.sums import EVERYTHING, WatchedRun, exact_sums, random_fields, sizes
+from studies.conservation.motions import C, march, moving
+from studies.conservation.sums import (
+    EVERYTHING,
+    WatchedRun,
+    compiled,
+    exact_sums,
+    in_numpy,
+    random_fields,
+    sizes,
+)
+from studies.kit.case import Case, Outcome, Report
 
 SIDE = 8                # of the box, in spacings
 H = 3.0                 # range of the weights
 FROM_PLATE = 0.25       # of a spacing: irregular points come no nearer to a plate
+FEW, NARROW = 6, 2.7    # the same of boxes and weights of RR98's moving points
 
 
 class Mode(NamedTuple):
@@ -28,7 +45,6 @@ class Mode(NamedTuple):
     size : rms of the random start. Without friction it feeds short waves at rates of the order of itself,
     which 10 000 steps are to leave small.
     """
-
     name: str
     eta: float = 0.1
     share: float = 1.0
@@ -37,17 +53,12 @@ class Mode(NamedTuple):
 
 
 PAIRWISE = Mode("pairwise")
-MODES = (
-    PAIRWISE,
-    Mode("unmended", mended=False),
-    Mode("nested", share=0.0),
-    Mode("mixed", share=0.1),
-    Mode("ideal", eta=0.0, size=1e-4))
+MODES = (PAIRWISE, Mode("unmended", mended=False), Mode("nested", share=0.0), Mode("mixed", share=0.1),
+         Mode("ideal", eta=0.0, size=1e-4))
 
 
 class Wall(NamedTuple):
     """What is above and below: the box again, or plates at T = 1 under gravity."""
-
     name: str
     plates: bool = False
     g: float = 0.0
@@ -75,7 +86,6 @@ class LayerDrift(WatchedRun):
 
     make : of `edge_makers.MAKERS`, `maker` its name there. weight : class.
     """
-
     mode: Mode
     maker: str
     make: Callable[[Points, Any], Edges]
@@ -88,18 +98,29 @@ class LayerDrift(WatchedRun):
     def cost(self) -> float:
         return self.steps*(1.9e-4 if self.mode.share < 1 else 0.7e-4)
 
-    def columns(self) -> dict[str, Any]:
-        """Plates with friction take momentum and heat. Gravity works on no discrete mass flux."""
-        taken = self.wall.g or (self.wall.plates and self.mode.eta)
-        return {"mode": self.mode.name, "maker": self.maker, "weight": self.weight.__name__, "h": H,
-                "points": self.disorder.name, "wall": self.wall.name,
-                "claimed": "mass" if taken else EVERYTHING}
+    def run(self, report: Report, folder: Path) -> Outcome:
+        wall, between, g = self.wall
+        points = around(self.disorder, self.seed, between)
+        try:
+            method = self.method(points)
+        except ArithmeticError:         # these points have no such edges
+            return Outcome({})
+        state = method.state(*random_fields(points, self.mode.size, self.seed, between))
 
-    def points(self) -> Points:
-        return around(self.disorder, self.seed, self.wall.plates)
+        def totals(now: np.ndarray) -> np.ndarray:
+            """With the energy of height; between plates momentum along them only."""
+            rho, px, py, energy = now
+            whole = np.stack([rho, px, py*(not between), energy + g*method.x[:, 1]*rho])
+            return exact_sums(method.edges.V, whole)
+        # plates with friction take momentum and heat; gravity works on no discrete mass flux
+        taken = g or (between and self.mode.eta)
+        return self.watched(
+            compiled(method, state), state, totals, sizes(method.eos, method.fields(state)), report,
+            mode=self.mode.name, maker=self.maker, weight=self.weight.__name__, h=H, n=points.n,
+            points=self.disorder.name, wall=wall, claimed="mass" if taken else EVERYTHING)
 
     def method(self, points: Points) -> Layer:
-        """The scheme; without plates there are no images."""
+        """The scheme; without plates there are no images. Raises ArithmeticError: there are no such edges."""
         weight, eta = self.weight.of(h=H), self.mode.eta
         if self.wall.plates:
             edges, beyond = between_plates(self.make, points.x, SIDE, SIDE, weight)
@@ -108,22 +129,10 @@ class LayerDrift(WatchedRun):
         return Layer(x=points.x, edges=edges, beyond=beyond, eos=IdealGas(), law=ConstEta(eta, eta),
                      T_plates=(1.0, 1.0), g=self.wall.g, transport=mixed(self.mode.share, self.mode.mended))
 
-    def start(self, method: Layer, points: Points) -> np.ndarray:
-        return method.state(*random_fields(points, self.mode.size, self.seed, self.wall.plates))
-
-    def totals(self, method: Layer, state: np.ndarray) -> np.ndarray:
-        """With the energy of height; between plates momentum along them only."""
-        whole = state.copy()
-        whole[3] += self.wall.g*method.x[:, 1]*state[0]
-        sums = super().totals(method, whole)
-        sums[2] *= not self.wall.plates
-        return sums
-
 
 @dataclass(frozen=True, kw_only=True)
 class MovingDrift(WatchedRun):
     """SIDE^2 points that move and exchange over closed faces; `name`: what is left out of the scheme."""
-
     name: str = "pairwise"
     ingredients: Ingredients = Ingredients()  # noqa: RUF009 (immutable)
     weight: Any = WendlandC2
@@ -135,30 +144,107 @@ class MovingDrift(WatchedRun):
     def cost(self) -> float:
         return 4e-4*self.steps
 
-    def columns(self) -> dict[str, Any]:
-        return {"mode": self.name, "maker": "faces", "weight": self.weight.__name__, "h": H,
-                "points": self.disorder.name, "wall": self.wall.name,
-                "claimed": "mass volume" if self.wall.plates else f"{EVERYTHING} volume"}
+    def run(self, report: Report, folder: Path) -> Outcome:
+        between, eta = self.wall.plates, PAIRWISE.eta
+        points = around(self.disorder, self.seed, between)
+        inside = plates(SIDE, 1.0, 1.0) if between else periodic(SIDE, 1)
+        method = Moving(weight=self.weight.of(h=H), eos=IdealGas(), law=ConstEta(eta, eta), box=(SIDE, SIDE),
+                        walls=(*inside, *periodic(SIDE)), ingredients=self.ingredients)
+        state = method.state(points.x, *random_fields(points, PAIRWISE.size, self.seed, between))
 
-    def points(self) -> Points:
-        return around(self.disorder, self.seed, self.wall.plates)
+        def totals(now: np.ndarray) -> np.ndarray:
+            """Mass, momentum (between plates along them only), energy, volume."""
+            px, py, m, V, E = exact_sums(np.ones(1), now[EXCHANGED])
+            return np.array([m, px, py*(not between), E, V])
+        return self.watched(
+            compiled(method, state), state, totals,
+            np.append(sizes(method.eos, method.fields(state)), SIDE**2), report,
+            mode=self.name, maker="faces", weight=self.weight.__name__, h=H, n=points.n,
+            points=self.disorder.name, wall=self.wall.name,
+            claimed="mass volume" if between else f"{EVERYTHING} volume")
 
-    def method(self, points: Points) -> Moving:
-        inside = plates(SIDE, 1.0, 1.0) if self.wall.plates else periodic(SIDE, 1)
-        law = ConstEta(PAIRWISE.eta, PAIRWISE.eta)
-        return Moving(weight=self.weight.of(h=H), eos=IdealGas(), law=law, box=(SIDE, SIDE),
-                      walls=(*inside, *periodic(SIDE)), ingredients=self.ingredients)
 
-    def start(self, method: Moving, points: Points) -> np.ndarray:
-        return method.state(points.x, *random_fields(points, PAIRWISE.size, self.seed, self.wall.plates))
+# --- points that move as RR98 prints it -------------------------------------------------------------
 
-    def totals(self, method: Moving, state: np.ndarray) -> np.ndarray:
-        """Mass, momentum (between plates along them only), energy, volume."""
-        px, py, m, V, E = exact_sums(np.ones(1), state[EXCHANGED])
-        return np.array([m, px, 0.0 if self.wall.plates else py, E, V])
 
-    def sizes(self, method: Moving, state: np.ndarray) -> np.ndarray:
-        return np.append(sizes(method.eos, method.fields(state)), SIDE**2)
+@dataclass(frozen=True, kw_only=True)
+class MotionDrift(WatchedRun):
+    """Vortices and sound on a stream, points that move, a viscous gas; watched at every step.
 
-    def changes(self, worst: np.ndarray) -> dict[str, float]:
-        return {**super().changes(worst[:-1]), "volume": worst[-1]}
+    kind : of `rr98_moving_plain.MOTIONS`, `motion` its name. integrator, weight : classes.
+    """
+    motion: str
+    kind: type[Motion]
+    integrator: Any = RK4
+    weight: Any = Lucy
+    disorder: Disorder = DISORDERS["jittered-0.1"]
+    dt: float = 0.2
+    claimed: str = EVERYTHING
+    scheme = "motions"
+
+    @property
+    def cost(self) -> float:
+        return 5e-4*self.steps*self.integrator.evaluations
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        points = self.disorder.make((FEW, FEW), self.disorder.size, self.seed)
+        method = moving(self.kind, points, self.weight.of(h=NARROW), ConstEta(0.2, 0.2))
+        X, Y = (2*np.pi*points.x/points.box).T
+        v = 0.1*np.stack([0.5 + np.sin(X)*np.cos(Y), 0.3 - np.cos(X)*np.sin(Y)], axis=1)
+        state = method.state(points.x, 1 + 0.05*np.cos(X + Y), v, 1 + 0.05*np.sin(Y))
+        mass, *_, total = method.conserved(state)
+        fields = method.fields(state)
+        momenta = fields.rho*fields.V@np.abs(fields.v)
+        return self.watched(
+            in_numpy(method, state, self.dt, self.integrator), state, method.conserved,
+            np.array([mass, *momenta, total]), report, records=self.steps,
+            mode=f"{self.motion}, {self.integrator.__name__}", maker="renormalised", h=NARROW, n=points.n,
+            weight=self.weight.__name__, points=self.disorder.name, claimed=self.claimed)
+
+
+def sound_flow(x: np.ndarray, box: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Sound that travels, so that no phase of it is special: rho, v, T."""
+    wave = 0.02*np.sin(2*np.pi*x[:, 0]/box[0])
+    return 1 + wave/C, np.stack([wave, 0*wave], axis=1), 1 + wave/C
+
+
+def vortex_flow(x: np.ndarray, box: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Taylor-Green vortices, the pressure in balance: rho, v, T."""
+    (X, Y), u = (2*np.pi*x/box).T, 0.1
+    v = u*np.stack([np.sin(X)*np.cos(Y), -np.cos(X)*np.sin(Y)], axis=1)
+    return np.ones(len(x)), v, 1 + u*u/4*(np.cos(2*X) + np.cos(2*Y))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Places(Case):
+    """Rms error of positions over the rms displacement, for so many steps, twice and four times as many.
+
+    Against RK4 with the most steps; the error of that reference is its difference from RK4 with half as many.
+    start : rho, v, T of positions and box, `flow` its name.
+    """
+    motion: str
+    flow: str
+    start: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, ...]]
+    counts: tuple[int, int]
+    law: ConstEta
+    time: float
+    steps: int
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        counts = [self.steps*m for m in (1, 2, 4)]
+        exact, coarse = self.places(RK4, counts[2]), self.places(RK4, counts[1])
+        moved = norm(exact - lattice(self.counts).x)
+        known = {"motion": self.motion, "flow": self.flow, "error_err": norm(exact - coarse)/moved}
+        rows = []
+        for (name, integrator), n in product((("euler", Euler), ("two-step", TwoStep)), counts):
+            error = norm(self.places(integrator, n) - exact)/moved
+            rows.append({**known, "integrator": name, "steps": n, "dt": self.time/n, "error": error})
+        return Outcome({"steps": rows})
+
+    def places(self, integrator: Any, steps: int) -> np.ndarray:
+        """Positions (n, 2) at the end."""
+        points = lattice(self.counts)
+        method = moving(MOTIONS[self.motion], points, Lucy.of(h=3.0), self.law, transport=Pairwise())
+        state = method.state(points.x, *self.start(points.x, points.box))
+        march(method, state, self.time/steps, steps, lambda state: None, integrator)
+        return method.fields(state).x

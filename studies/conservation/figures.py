@@ -6,7 +6,6 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.conservation.tables import SUMS
 from studies.kit.figure import Drawing, Drawings, below, errorbar, figure, look
 
 #: RR98's motions, by their names, with their equations
@@ -20,6 +19,7 @@ INTEGRATORS: dict[str, Any] = {
 BODIES = {"surface": "points on the surface", "surface-unfiltered": "the same without filter",
           "frozen": "frozen lattice points", "frozen-grown": "frozen, half a spacing more"}
 UNIT = r"$a\,(m/k_BT)^{1/2}$"      # of time
+SUMS = ("mass", "momentum", "energy", "volume")
 LEAST = 1e-17       # what is drawn for a change of nothing
 #: scheme, mode, wall as texts begin -> words, in the order in which they are drawn
 COLUMNS = {
@@ -79,7 +79,7 @@ def drift(rows: pd.DataFrame) -> Figure:
 def bars(axes: Axes, rows: pd.DataFrame, x: str, y: str, **more: Any) -> None:
     """A column with its errors over another."""
     if len(rows):
-        errorbar(axes, rows[x].tolist(), rows[y].tolist(), rows[f"{y}_err"].tolist(), **more)
+        errorbar(axes, rows[x], rows[y], rows[f"{y}_err"], **more)
 
 
 def ticks(axes: Axes, values: Any) -> None:

@@ -2,7 +2,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from particles.limits import lattice_sums
 from particles.threads import Threads
 from particles.weights import Lucy
 from studies.kit.case import Case, Outcome, Report
-from studies.kit.stats import Measured
+from studies.kit.stats import Measured, with_errors
 
 ALONG = Pairwise(mended=False)
 STILL, C = ConstEta(0.0, 0.0), np.sqrt(2.0)     # c^2 = gamma P/rho = 2 at rho = T = 1
@@ -38,22 +38,13 @@ def moving(kind: Any, points: Points, weight: Any, law: Any = STILL, **more: Any
     return kind(box=tuple(points.box), weight=weight, eos=IdealGas(), law=law, **settings)
 
 
-class SeenWave(NamedTuple):
-    """What sums over the lattice see of a wave, 1 in the continuum, with the scale of `renormalised`.
+def seen(weight: Any, points: Points, k: float) -> tuple[float, float]:
+    """What sums over the lattice see of a wave along x, 1 in the continuum, with the scale of `renormalised`.
 
-    slope : of gradients, wave number over k. stiffness : of a moved lattice, (1/k^2) sum_r w_xx (1 - cos kx).
+    Of gradients, wave number over k; stiffness of a moved lattice, (1/k^2) sum_r w_xx (1 - cos kx).
     """
-
-    slope: float
-    stiffness: float
-
-
-def seen(weight: Any, points: Points, k: float) -> SeenWave:
-    """Of a wave along x."""
     sums, scale = lattice_sums(weight, 1.0, 1.0, np.array([[k, 0.0]])), scale_of(points, weight)
-    slope = np.abs(sums.S[0, 0])/k
-    stiffness = sums.D[0, 0, 0]/k**2
-    return SeenWave(float(scale*slope), float(scale*stiffness))
+    return float(scale*np.abs(sums.S[0, 0])/k), float(scale*sums.D[0, 0, 0]/k**2)
 
 
 # --- equations evaluated once -------------------------------------------------------------------
@@ -73,27 +64,23 @@ class Identity(Case):
 
     Reynolds number: U a/nu with U = 0.1; infinite without viscosity.
     """
-
     name: str
     transport: Any
     reynolds: float
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        exact, other = (self.acceleration(kind) for kind in (ConstantMass, Convective))
-        difference = float(np.abs(other - exact).max()/np.abs(exact).max())
-        known = {"transport": self.name, "reynolds": self.reynolds}
-        return Outcome({"identity": [{**known, "convective": difference}]})
-
-    def acceleration(self, kind: type[Motion]) -> np.ndarray:
-        """Of random fields."""
-        points = jittered((10, 10), 0.2, 2)
-        rng = np.random.default_rng(0)
+        points, rng, eta = jittered((10, 10), 0.2, 2), np.random.default_rng(0), 0.1/self.reynolds
         rho = rng.uniform(0.9, 1.1, points.n)
         v = rng.normal(0, 0.1, (points.n, 2))
         T = rng.uniform(0.9, 1.1, points.n)
-        eta = 0.1/self.reynolds
-        method = moving(kind, points, Lucy.of(h=3.0), ConstEta(eta, eta), transport=self.transport)
-        return acceleration(method, method.state(points.x, rho, v, T))
+
+        def accelerated(kind: type[Motion]) -> np.ndarray:
+            method = moving(kind, points, Lucy.of(h=3.0), ConstEta(eta, eta), transport=self.transport)
+            return acceleration(method, method.state(points.x, rho, v, T))
+        exact, other = accelerated(ConstantMass), accelerated(Convective)
+        difference = float(np.abs(other - exact).max()/np.abs(exact).max())
+        return Outcome({"identity": [
+            {"transport": self.name, "reynolds": self.reynolds, "convective": difference}]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -117,7 +104,6 @@ class Signs(Case):
 @dataclass(frozen=True, kw_only=True)
 class BracketForce(Case):
     """Acceleration by Eq. 50, powers a and b, in a wave without entropy (P = rho^2), over -grad P/rho."""
-
     a: float
     b: float
 
@@ -170,7 +156,6 @@ class Pattern(Case):
 
     kind : of `rr98_moving_plain.MOTIONS`, `motion` its name. Its error: what the halves of the run differ by.
     """
-
     motion: str
     kind: type[Motion]
     wavelength: int
@@ -185,22 +170,16 @@ class Pattern(Case):
         first = method.state(points.x, rho, v, 1/rho)
         waves = march(method, first, DT, round(self.time/DT), lambda state: amplitude(state[2], state[0], k))
         phases = np.unwrap(np.angle(waves))
-        speed = by_halves(-phases/(k*STREAM*DT), slope)
-        twice = seen(weight, points, k).slope if self.motion == "literal" else 0.0
-        known = {"motion": self.motion, "h": 3.0, "wavelength": self.wavelength}
-        found = {"speed": speed.value, "speed_err": speed.err, "predicted": 1 + twice}
-        return Outcome({"patterns": [{**known, **found}]})
-
-
-def slope(series: np.ndarray) -> float:
-    """Of a straight line through a series, per sample."""
-    return float(np.polyfit(np.arange(len(series)), series, 1)[0])
+        speed = by_halves(-phases/(k*STREAM*DT), lambda part: np.polyfit(np.arange(len(part)), part, 1)[0])
+        twice, _ = seen(weight, points, k) if self.motion == "literal" else (0.0, 0.0)
+        return Outcome({"patterns": [
+            {"motion": self.motion, "h": 3.0, "wavelength": self.wavelength, "predicted": 1 + twice,
+             **with_errors(speed=speed)}]})
 
 
 @dataclass(frozen=True, kw_only=True)
 class MovingSound(Case):
     """Speed of standing sound without viscosity over c, for two periods. weight : class."""
-
     motion: str
     kind: type[Motion]
     wavelength: int
@@ -220,13 +199,10 @@ class MovingSound(Case):
         steps = round(2*self.wavelength/C/DT)
         waves = march(method, method.state(points.x, one, v, one), DT, steps, lambda state: state[3]@wave)
         speed = by_halves(waves, lambda part: frequency(part, DT)/(k*C))
-        known = {"motion": self.motion, "weight": self.weight.__name__, "h": self.h,
-                 "wavelength": self.wavelength}
-        found = {"speed": speed.value, "speed_err": speed.err,
-                 "predicted": self.predicted(*seen(weight, points, k))}
-        return Outcome({"moving_sound": [{**known, **found}]})
-
-    def predicted(self, slope: float, stiffness: float) -> float:
-        """Where volumes stay pressure is not balanced by volumes that give way."""
-        squared = stiffness + slope**2 if self.motion in ("literal", "convective") else stiffness
-        return float(np.sqrt(squared))
+        slope, stiffness = seen(weight, points, k)
+        # where volumes stay pressure is not balanced by volumes that give way
+        more = slope**2 if self.motion in ("literal", "convective") else 0.0
+        return Outcome({"moving_sound": [
+            {"motion": self.motion, "weight": self.weight.__name__, "h": self.h,
+             "wavelength": self.wavelength, "predicted": float(np.sqrt(stiffness + more)),
+             **with_errors(speed=speed)}]})

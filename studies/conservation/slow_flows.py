@@ -1,27 +1,29 @@
 """Slow flows around held points and between sliding sides: drag, torque, shear    [RR98 Secs III, IV]"""
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 
-from continuum.exact.cylinder import drag_of
 from continuum.fluid import ConstEta, IdealGas
-from particles.integral.bodies import between_circles, together, turning
+from continuum.published import published
+from particles.integral.bodies import between_circles, held, in_disc, together, turning, with_surface
 from particles.integral.edge_makers import renormalised
-from particles.integral.points import lattice
+from particles.integral.edges import Edges
+from particles.integral.points import Points, lattice
 from particles.integral.sheared import Sheared
-from particles.integral.stream import Stream
+from particles.integral.stream import Stream, Streaming
 from particles.integral.triangulation import delaunay
 from particles.limits import limit_of
 from particles.run import Plan, Run, run
 from particles.threads import Threads
 from particles.weights import Lucy
-from studies.conservation.cylinder import PRESSURE, Obstacle, drag, force, momentum, radius_of, stream
 from studies.kit.case import Case, Outcome, Report
-from studies.kit.stats import Measured
+from studies.kit.stats import Measured, with_errors
 
 ETA, SPEED = 2.0, 1e-3      # sound and friction limit the step alike; Re and Mach below 0.01
+PRESSURE = 0.05             # chi nu/(a^2 c^2) of the filter of the density
 TIMES = 15.0                # until the end, in those of the slowest motion
 OF_LIMIT = 0.9              # of the step to its stability limit: a steady flow knows no error of the step
 INNER, OUTER = 0.18, 0.42   # radii over the size of the box
@@ -29,66 +31,92 @@ BOXES = 2.0                 # lengths of the box that images slide
 DIFFERENCE = 0.1            # of the speeds of neighbouring boxes
 SOUND = np.sqrt(2.0)        # its speed at rho = T = 1
 
+#: points, numbers of those that are the body, edges
+Cell = tuple[Points, np.ndarray, Edges]
+
 
 def spent(done: Run) -> dict[str, float]:
     """How long a run was."""
     return {"steps": done.step, "cpu_s": done.cpu_s, "compile_s": done.compile_s}
 
 
-# --- bodies -------------------------------------------------------------------------------------
+class Obstacle(NamedTuple):
+    """How a body is made from rows and radius. grown : spacings by which the frozen disc exceeds the body."""
+    name: str
+    make: Callable[[int, float], Cell]
+    grown: float = 0.0
+    filtered: float = PRESSURE
+
+
+def frozen(rows: int, radius: float) -> Cell:
+    """Lattice points within the disc."""
+    points = lattice((rows, rows))
+    return points, in_disc(points, radius), renormalised(points, Lucy.of(h=2.0))
+
+
+def triangulated(rows: int, radius: float) -> Cell:
+    """Points on the circle, edges of a triangulation."""
+    points, body = with_surface((rows, rows), radius)
+    return points, body, delaunay(points)
+
+
+VARIANTS = {variant.name: variant for variant in (
+    Obstacle("surface", triangulated),
+    Obstacle("surface-unfiltered", triangulated, filtered=0.0),
+    Obstacle("frozen", frozen),
+    Obstacle("frozen-grown", frozen, grown=0.5))}
+
+
+def drag(sums: Streaming, state: np.ndarray) -> float:
+    """F/(eta U): force over the edges of the body, in the last stage of a step, and push on its volume."""
+    method, V = sums.method, sums.method.edges.V
+    inside = V[method.held.which].sum()
+    force = sums.received[:, 0].sum() + method.push[0]*inside
+    return float(force/(ETA*(V@state[1])/V.sum()))
 
 
 @dataclass(frozen=True, kw_only=True)
 class CylinderDrag(Case):
     """A stream through a square array of cylinders, `rows` spacings from one to the next, until it is steady.
 
-    speed : about that which the mean velocity gets, by the published drag.
+    It is pushed so that the published drag holds it at about the mean velocity SPEED.
     """
-
     variant: Obstacle
     fraction: float
     rows: int
-    speed: float = SPEED
 
     @property
     def cost(self) -> float:
-        edges = 2 if self.variant.name.startswith("surface") else 1
-        return 4e-5*self.rows**4/self.slowest*edges + 1
-
-    @property
-    def label(self) -> str:
-        return f"drag {self.variant.name}, solid fraction {self.fraction:g}, {self.rows} rows"
+        return 6e-5*self.rows**4/self.slowest + 1
 
     @property
     def slowest(self) -> float:
         """Rate of the slowest motion in nu/L^2: of the mean velocity, or of sound that friction damps."""
-        return min(drag_of(self.fraction).value, 4*np.pi**2)
+        return min(published(f"cylinders-drag-{self.fraction:g}").value, 4*np.pi**2)
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        method = stream(self.variant, self.fraction, self.rows, self.speed, ETA)
-        v = np.full(method.x.shape, [self.speed, 0.0])
-        first = method.state(1.0, v, 1.0)
+        radius = self.rows*float(np.sqrt(self.fraction/np.pi))
+        method = self.method(radius + self.variant.grown)
+        first = method.state(1.0, np.full(method.x.shape, [SPEED, 0.0]), 1.0)
         dt = OF_LIMIT*limit_of(method, first)
-        time = TIMES*self.rows**2/(self.slowest*ETA)
-        steps = round(time/dt)
-        series = {"momentum": momentum, "force": force}
-        plan = Plan(dt=dt, steps=steps, every=max(1, steps//40), series=series)
+        steps = round(TIMES*self.rows**2/(self.slowest*ETA)/dt)
+        plan = Plan(dt=dt, steps=steps, every=max(1, steps//40), series={"drag": drag})
         done = run(method, first, plan, report)
-        known = {"variant": self.variant.name, "fraction": self.fraction, "rows": self.rows, "dt": dt}
-        return Outcome({"drag": [{**known, **self.columns(method, done), **spent(done)}]})
+        last = done.series["drag"][-4:]         # the last tenth of the time
+        measured = Measured(last[-1], float(np.ptp(last)))
+        known = published(f"cylinders-drag-{self.fraction:g}")
+        printed = Measured(known.value, known.uncertainty)
+        return Outcome({"drag": [{
+            "variant": self.variant.name, "fraction": self.fraction, "rows": self.rows, "dt": dt,
+            "radius": radius, "reynolds": 2*SPEED*radius/ETA, "mach": SPEED/SOUND, **spent(done),
+            **with_errors(drag=measured, published=printed, error=measured/printed - 1)}]})
 
-    def columns(self, method: Stream, done: Run) -> dict[str, Any]:
-        """Drag, its error against print, what the fluid and the body are."""
-        radius = radius_of(self.rows, self.fraction)
-        pulls = (np.array(done.series[name]) for name in ("momentum", "force"))
-        drags = drag(method, float(self.rows**2), *pulls)
-        last = Measured(drags[-1], float(np.ptp(drags[-4:])))       # the last tenth of the time
-        printed = drag_of(self.fraction)
-        published = Measured(printed.value, printed.uncertainty)
-        error = last/published - 1
-        return {"radius": radius, "drag": last.value, "drag_err": last.err, "published": published.value,
-                "published_err": published.err, "error": error.value, "error_err": error.err,
-                "reynolds": 2*self.speed*radius/ETA, "mach": self.speed/SOUND}
+    def method(self, radius: float) -> Stream:
+        """A gas on the points of the variant."""
+        points, body, edges = self.variant.make(self.rows, radius)
+        push = published(f"cylinders-drag-{self.fraction:g}").value*ETA*SPEED/self.rows**2
+        return Stream(x=points.x, edges=edges, eos=IdealGas(), law=ConstEta(ETA, ETA),
+                      held=held(body, T=1.0), push=(push, 0.0), chi=self.variant.filtered/ETA)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,12 +125,7 @@ class TurningCylinder(Case):
 
     Between them velocity over radius is A + B/r^2, the torque is 4 pi eta B    [Taylor-Couette flow, exact]
     """
-
     rows: int
-
-    @property
-    def label(self) -> str:
-        return f"turning cylinder, {self.rows} rows"
 
     @property
     def cost(self) -> float:
@@ -118,32 +141,22 @@ class TurningCylinder(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         inner, outer = INNER*self.rows, OUTER*self.rows
-        method = self.method(inner, outer)
+        points, turned, fixed = between_circles((self.rows, self.rows), inner, outer)
+        bodies = together(turning(points, turned, SPEED/inner, 1.0), turning(points, fixed, 0.0, 1.0))
+        method = Stream(x=points.x, edges=delaunay(points), eos=IdealGas(), law=ConstEta(ETA, ETA),
+                        held=bodies, chi=PRESSURE/ETA)
         first = method.state(1.0, self.exact(method.x), 1.0)
         dt = OF_LIMIT*limit_of(method, first)
         time = TIMES*(outer - inner)**2/(np.pi**2*ETA)
         done = run(method, first, Plan(dt=dt, steps=round(time/dt)), report)
         whole = 4*np.pi*ETA*SPEED*inner/(1 - (inner/outer)**2)
-        on_turned, on_fixed = torques(method, done.state)/whole
-        errors = {"turned": -on_turned - 1, "fixed": on_fixed - 1}
-        return Outcome({"torque": [{"rows": self.rows, "radius": inner, **errors, **spent(done)}]})
-
-    def method(self, inner: float, outer: float) -> Stream:
-        """The gas between the cylinders, and their points."""
-        points, turned, fixed = between_circles((self.rows, self.rows), inner, outer)
-        in_motion = turning(points, turned, SPEED/inner, 1.0)
-        at_rest = turning(points, fixed, 0.0, 1.0)
-        return Stream(x=points.x, edges=delaunay(points), eos=IdealGas(), law=ConstEta(ETA, ETA),
-                      held=together(in_motion, at_rest), chi=PRESSURE/ETA)
-
-
-def torques(method: Stream, state: np.ndarray) -> np.ndarray:
-    """On the cylinder that turns and on the fixed one."""
-    sums = method.start(state.shape[1], Threads(1))
-    sums.force(state)
-    x, y = method.x[method.held.which].T
-    Fx, Fy, _ = sums.received.T
-    return np.bincount(method.held.body, x*Fy - y*Fx)
+        sums = method.start(len(method.x), Threads(1))
+        sums.force(done.state)
+        x, y = method.x[method.held.which].T
+        Fx, Fy, _ = sums.received.T
+        on_turned, on_fixed = np.bincount(method.held.body, x*Fy - y*Fx)/whole
+        return Outcome({"torque": [{"rows": self.rows, "radius": inner, "turned": -on_turned - 1,
+                                    "fixed": on_fixed - 1, **spent(done)}]})
 
 
 # --- sliding sides ------------------------------------------------------------------------------
@@ -170,25 +183,24 @@ def slid(method: Sheared, first: np.ndarray, report: Report) -> tuple[Run, float
 @dataclass(frozen=True, kw_only=True)
 class SlidingShear(Case):
     """Homogeneous shear between sliding sides, from the exact profile on, with heating by friction."""
-
     rows: int
     eta: float = 0.3
 
     def run(self, report: Report, folder: Path) -> Outcome:
         method = sliding(self.rows, self.eta)
-        rate, V, y = method.rate, method.edges.V, method.points.x[:, 1]
-        exact = np.stack([rate*y, 0*y], axis=1)
+        rate, V = method.rate, method.edges.V
+        exact = method.points.x[:, ::-1]*(rate, 0)
         first = method.state(1.0, exact, 1.0)
         done, time = slid(method, first, report)
         last = done.state
-        stress = method.start(len(y), Threads(1)).through(last)[1]/self.rows
+        stress = method.start(len(V), Threads(1)).through(last)[1]/self.rows
         mass, px, py, energy, _ = (last@V - first@V)/V.sum()
-        heat = energy/time
         change = np.abs(method.fields(last).v - exact).max()
-        errors = {"stress": abs(stress/(self.eta*rate) - 1), "heating": abs(heat/(self.eta*rate**2) - 1),
-                  "profile": float(change/DIFFERENCE)}
-        drifts = {"mass_drift": abs(mass), "momentum_drift": float(max(abs(px), abs(py))/DIFFERENCE)}
-        return Outcome({"shear": [{"rows": self.rows, **errors, **drifts, **spent(done)}]})
+        return Outcome({"shear": [{
+            "rows": self.rows, "stress": abs(stress/(self.eta*rate) - 1),
+            "heating": abs(energy/time/(self.eta*rate**2) - 1), "profile": float(change/DIFFERENCE),
+            "mass_drift": abs(mass), "momentum_drift": float(max(abs(px), abs(py))/DIFFERENCE),
+            **spent(done)}]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -197,7 +209,6 @@ class TurningWave(Case):
 
     Vorticity decays as exp(-nu int k^2 dt), its wave vector is k_y = k_x (1 - rate t)    [Kelvin 1887]
     """
-
     rows: int
     eta: float = 0.02/32        # per row: the same Reynolds number at all sizes
     size: float = 1e-3          # of the wave, so small that its square does not count
@@ -208,8 +219,7 @@ class TurningWave(Case):
         first = method.state(1 + p/2, v, 1 + p/2)          # isentropic: gamma = 2, P = 1
         done, time = slid(method, first, report)
         exact, _ = self.wave(method, time)
-        y = method.points.x[:, 1]
-        of_wave = exact - np.stack([method.rate*y, 0*y], axis=1)
+        of_wave = exact - method.points.x[:, ::-1]*(method.rate, 0)
         scale = float(np.sqrt((of_wave**2).sum(axis=1).mean()))
         error = without_divergence(method.fields(done.state).v - exact, self.rows)
         return Outcome({"wave": [{"rows": self.rows, "error": error/scale, **spent(done)}]})
@@ -230,10 +240,7 @@ class TurningWave(Case):
 def without_divergence(v: np.ndarray, rows: int) -> float:
     """Rms of the part of a velocity (n, 2) that has none; the mean belongs to it."""
     waves = np.fft.fft2(v.reshape(rows, rows, 2), axes=(0, 1))/rows**2
-    x, y = waves[:, :, 0], waves[:, :, 1]
-    k = np.fft.fftfreq(rows)
-    kx, ky = np.meshgrid(k, k, indexing="ij")
-    k2 = np.maximum(kx**2 + ky**2, 1e-300)
-    along = np.abs(kx*x + ky*y)**2/k2
-    whole = np.abs(x)**2 + np.abs(y)**2
-    return float(np.sqrt((whole - along).sum()))
+    k = np.stack(np.meshgrid(*[np.fft.fftfreq(rows)]*2, indexing="ij"), axis=2)
+    k /= np.maximum(np.hypot(*k.T).T, 1e-150)[..., None]
+    across = waves - k*(k*waves).sum(axis=2)[..., None]
+    return float(np.linalg.norm(across))

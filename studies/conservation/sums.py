@@ -1,21 +1,24 @@
-"""Long runs from random starts, and sums that should stay as they are."""
-from collections.abc import Callable, Iterator
+"""Long runs from random starts, sums that should stay as they are; runs in numpy in 1D to 3D."""
+from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 from math import fsum
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import energy
+from continuum.fluid import ConstEta, IdealGas, energy, pressure
 from particles.fields import Fields
+from particles.integral.dih import Dih, Pairwise
+from particles.integral.edge_makers import exact
 from particles.integral.points import Points
 from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, run
 from particles.starts import Overlap
 from particles.threads import Threads
+from particles.weights import Lucy
+from studies.build.setting import DISORDERS
 from studies.kit.case import Case, Outcome, Report
 
 ROUND_OFF = 2.2e-16     # of a sum: its terms are rounded twice, adding them up is exact
@@ -24,12 +27,11 @@ RECORDS = 20            # of a run
 WIND = 0.1, -0.05, 0.02
 OF_LIMIT = 0.5          # of the step to its limit
 EVERYTHING = "mass momentum energy"
+ETA, ZETA, SIZE = 0.1, 0.05, 0.1
+LOOKS = 100             # at runs that lose momentum
 
 #: (state, steps) -> the state after these steps, and how many were done
 Advance = Callable[[np.ndarray, int], tuple[np.ndarray, int]]
-
-
-# --- random starts ------------------------------------------------------------------------------
 
 
 def smooth(points: Points, size: float, rng: np.random.Generator) -> np.ndarray:
@@ -55,9 +57,6 @@ def random_fields(points: Points, size: float, seed: int,
     return 1 + rho, np.stack(v, axis=1) + wind, 1 + T
 
 
-# --- sums ---------------------------------------------------------------------------------------
-
-
 def exact_sums(V: np.ndarray, state: np.ndarray) -> np.ndarray:
     """Sums of V times each row, without rounding."""
     return np.array([fsum(V*row) for row in state])
@@ -72,99 +71,46 @@ def sizes(eos: Any, fields: Fields) -> np.ndarray:
     return np.array([m.sum(), *[momentum]*fields.v.shape[1], total])
 
 
-class Changes:
-    """Largest changes of sums (k,) from those of the first state, over sizes (k,)."""
-
-    def __init__(self, totals: Callable[[np.ndarray], np.ndarray], sizes: np.ndarray, state: np.ndarray):
-        self.totals, self.sizes, self.first = totals, sizes, totals(state)
-        self.worst = np.zeros(len(sizes))
-
-    def __call__(self, state: np.ndarray) -> None:
-        """Compare with the first."""
-        change = np.abs(self.totals(state) - self.first)/self.sizes
-        self.worst = np.maximum(self.worst, change)
-
-
-# --- runs ---------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True, kw_only=True)
 class WatchedRun(Case):
     """A run from a random start, a row of the table `drift`. scheme : the first word of the row."""
-
     steps: int = 10_000
     seed: int = 1
     scheme: ClassVar[str]
 
-    def points(self) -> Points:
-        """Where the points are."""
-        raise NotImplementedError
+    def watched(self, advance: Advance, state: np.ndarray, totals: Callable[[np.ndarray], np.ndarray],
+                sizes: np.ndarray, report: Report, *, records: int = RECORDS, **columns: Any) -> Outcome:
+        """The largest changes of mass, momentum along each axis, energy, and volume if it is among the sums.
 
-    def method(self, points: Points) -> Any:
-        """The scheme on them; ArithmeticError where no such edges exist."""
-        raise NotImplementedError
+        sizes : what these are divided by. columns : that say which run it is, and which sums should stay.
+        """
+        first, worst = totals(state), np.zeros(len(sizes))
 
-    def start(self, method: Any, points: Points) -> np.ndarray:
-        """A random state."""
-        raise NotImplementedError
-
-    def totals(self, method: Any, state: np.ndarray) -> np.ndarray:
-        """Mass, momentum along each axis, energy."""
-        return exact_sums(method.edges.V, state)
-
-    def sizes(self, method: Any, state: np.ndarray) -> np.ndarray:
-        """What changes of these are divided by."""
-        return sizes(method.eos, method.fields(state))
-
-    def advance(self, method: Any, state: np.ndarray) -> Advance:
-        """Steps of the scheme."""
-        return compiled(method, state)
-
-    @property
-    def records(self) -> int:
-        """How often sums are looked at."""
-        return RECORDS
-
-    def changes(self, worst: np.ndarray) -> dict[str, float]:
-        """Columns of the largest changes."""
-        mass, *momentum, total = worst
-        return {"mass": mass, "momentum": max(momentum), "energy": total}
-
-    def columns(self) -> dict[str, Any]:
-        """Columns that say which run it is, and which sums should stay."""
-        raise NotImplementedError
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        points = self.points()
-        try:
-            method = self.method(points)
-        except ArithmeticError:
-            return Outcome({})
-        state = self.start(method, points)
-        watch = Changes(lambda now: self.totals(method, now), self.sizes(method, state), state)
-        advance = self.advance(method, state)
-        reached = in_parts(advance, state, self.steps, watch, report, self.records)
-        usual = {"d": 2, "wall": "periodic", "zeta": 0.0, "volume": np.nan, "err": ROUND_OFF}
-        length = {"seed": self.seed, "n": points.n, "steps": self.steps, "reached": reached}
-        known = {"scheme": self.scheme, **usual, **length, **self.columns()}
-        return Outcome({"drift": [{**known, **self.changes(watch.worst)}]})
-
-
-def parts(steps: int, records: int) -> Iterator[tuple[int, int]]:
-    """A run in equal parts: (steps before, steps of it)."""
-    ends = [steps*part//records for part in range(records + 1)]
-    return ((a, b - a) for a, b in pairwise(ends) if b > a)
+        def look(now: np.ndarray) -> None:
+            np.maximum(worst, np.abs(totals(now) - first)/sizes, out=worst)
+        reached = in_parts(advance, state, self.steps, look, report, records)
+        d = columns.get("d", 2)
+        mass, *momentum, total = worst[:d + 2]
+        volume = worst[-1] if len(worst) > d + 2 else np.nan
+        return Outcome({"drift": [{
+            "scheme": self.scheme, "d": d, "wall": "periodic", "zeta": 0.0, "seed": self.seed,
+            "steps": self.steps, "reached": reached, "mass": mass, "momentum": max(momentum),
+            "energy": total, "volume": volume, "err": ROUND_OFF, **columns}]})
 
 
 def in_parts(advance: Advance, state: np.ndarray, steps: int, look: Callable[[np.ndarray], None],
              report: Report, records: int) -> int:
-    """Steps done of a run that is looked at after each part."""
-    for before, number in parts(steps, records):
-        state, done = advance(state, number)
-        if done < number:
-            return before + done
-        look(state)
-        report((before + number)/steps)
+    """Steps done of a run that is looked at after each of so many equal parts."""
+    before = 0
+    for part in range(1, records + 1):
+        number = steps*part//records - before
+        if number:
+            state, done = advance(state, number)
+            if done < number:
+                return before + done
+            look(state)
+            before += number
+            report(before/steps)
     return steps
 
 
@@ -196,3 +142,94 @@ def in_numpy(method: Any, first: np.ndarray, dt: float, integrator: Any = RK4) -
                 return state, step
         return state, steps
     return advance
+
+
+# --- one to three dimensions [RR98 Eqs 34-38] -------------------------------------------------------
+
+
+class SmallBox(NamedTuple):
+    """How many points along each axis, range of the weight, seconds a step."""
+    counts: tuple[int, ...]
+    h: float
+    cost: float
+
+
+LINE, SQUARE = SmallBox((32,), 3.0, 5e-4), SmallBox((6, 6), 2.8, 1.5e-3)
+CUBE = SmallBox((4, 4, 4), 1.9, 1.5e-3)
+SHIFTED = DISORDERS["jittered-0.1"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class DihDrift(WatchedRun):
+    """Shifted points with exact edges. transport : of `dih`, `mode` its name."""
+    mode: str
+    transport: Any
+    box: SmallBox
+    scheme = "dih"
+    kind: ClassVar[type[Dih]] = Dih
+
+    @property
+    def cost(self) -> float:
+        return self.steps*self.box.cost
+
+    def begun(self) -> tuple[Dih, np.ndarray, Advance]:
+        """The fluid, its random start, steps of RK4."""
+        points = SHIFTED.make(self.box.counts, SHIFTED.size, self.seed)
+        fluid = self.kind(edges=exact(points, Lucy.of(h=self.box.h, d=points.d)), eos=IdealGas(),
+                          law=ConstEta(ETA, ETA), zeta=ZETA, transport=self.transport)
+        state = fluid.state(*random_fields(points, SIZE, self.seed))
+        return fluid, state, in_numpy(fluid, state, OF_LIMIT*step_limit(fluid, state))
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        fluid, state, advance = self.begun()
+        V = fluid.edges.V
+        return self.watched(
+            advance, state, lambda now: exact_sums(V, now), sizes(fluid.eos, fluid.fields(state)), report,
+            mode=self.mode, d=len(self.box.counts), maker="exact", weight="Lucy", h=self.box.h, n=len(V),
+            points=SHIFTED.name, zeta=ZETA, claimed=EVERYTHING)
+
+
+def step_limit(fluid: Dih, state: np.ndarray) -> float:
+    """RK4: the fastest sound and the fastest diffusion that the edges know, at the hottest point."""
+    flow = fluid.flow(state)
+    sound, spread = fluid.edges.fastest
+    fast = np.sqrt(2*flow.T.max()) + np.sqrt((flow.v**2).sum(axis=1)).max()
+    nu = (2*ETA + fluid.zeta)/flow.rho.min()
+    return float(1/(fast*sound/2.82 + nu*spread/2.78))
+
+
+@dataclass(frozen=True, kw_only=True)
+class OneSided(Dih):
+    """The first point of an edge feels the pressure 2 P_ij, the second 2 P_ji: not symmetric in ij."""
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        """d(state)/dt, written to `out`: both points get P_ij - P_ji more, instead of one its negative."""
+        super().rates(state, out)
+        flow, edges = self.flow(state), self.edges
+        rho, T, i, j = flow.rho, flow.T, edges.i, edges.j
+        P_ij = pressure(self.eos, rho[i], energy(self.eos, rho[i], T[j]))
+        P_ji = pressure(self.eos, rho[j], energy(self.eos, rho[j], T[i]))
+        more = (P_ij - P_ji)[:, None]*(edges.S/2)
+        for row, flux in zip(out[1:-1], more.T, strict=True):
+            row -= (np.bincount(i, flux, edges.n) + np.bincount(j, flux, edges.n))/edges.V
+
+
+@dataclass(frozen=True, kw_only=True)
+class Unsymmetric(DihDrift):
+    """Momentum that an unsymmetric pressure loses on a line, until the last look before a run diverged."""
+    mode: str = "one-sided"
+    transport: Any = Pairwise()  # noqa: RUF009 (immutable)
+    box: SmallBox = LINE
+    kind = OneSided
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        fluid, state, advance = self.begun()
+        _, size, _ = sizes(fluid.eos, fluid.fields(state))
+        momenta = [fsum(fluid.edges.V*state[1])]
+        looks = min(LOOKS, self.steps)
+        in_parts(advance, state, self.steps, lambda now: momenta.append(fsum(fluid.edges.V*now[1])), report,
+                 looks)
+        reached = self.steps*(len(momenta) - 1)//looks
+        return Outcome({"losses": [{
+            "maker": "exact", "points": SHIFTED.name, "seed": self.seed, "steps": self.steps,
+            "reached": reached, "lost": abs(momenta[-1] - momenta[0])/size}]})

@@ -9,76 +9,60 @@ from typing import Any
 import pandas as pd
 
 from studies.kit import fits
-from studies.kit.stats import Measured
+from studies.kit.stats import Measured, with_errors
 from studies.kit.table import Rows, Table, Tables
 
-RUN = ["scheme", "mode", "d", "maker", "weight", "h", "points", "wall", "zeta", "seed"]
-SUMS = ["mass", "momentum", "energy", "volume"]
-DRIFT = Table("drift", key=RUN, columns=[*RUN, "n", "steps", "reached", "claimed", *SUMS, "err"],
-              about="A long run of a scheme: the largest change of each sum until its end.",
-              means={"reached": ("steps until it diverged or heated so much that sound outran its step, or "
-                                 "all", ""),
-                     "err": ("round-off of the sums themselves", "")})
-LOSSES = Table("losses", key=["maker", "points", "seed"],
-               columns=["maker", "points", "seed", "steps", "reached", "lost"],
-               about="A long run without the second kernel of Eq. 14.",
-               means={"reached": ("steps when it was looked at last", ""),
-                      "lost": ("change of momentum over the sum of its sizes", "")})
-
-PATTERN = ["motion", "h", "wavelength"]
-PATTERNS = Table("patterns", key=PATTERN, columns=[*PATTERN, "speed", "speed_err", "predicted"],
-                 about="A density pattern on a stream.",
-                 means={"speed": ("speed of the pattern over that of the stream", "")})
-MOVED = ["motion", "weight", "h", "wavelength"]
 SOUND = {"speed": ("speed of sound over c", "")}
-MOVING_SOUND = Table("moving_sound", key=MOVED, columns=[*MOVED, "speed", "speed_err", "predicted"],
-                     means=SOUND,
-                     about="A sound wave on moving points; predicted from sums over the lattice and one "
-                           "moved.")
-LONG_SOUND = Table("long_sound", key=["motion", "weight"], columns=["motion", "weight", "speed", "speed_err"],
-                   means=SOUND, about="The same of endless waves, extrapolated.")
-PLACES = ["motion", "flow", "integrator", "steps"]
-STEPS = Table("steps", key=PLACES, columns=[*PLACES, "dt", "error", "error_err"],
-              about="A run in so many steps over a fixed time.",
-              means={"error": ("rms error of the positions over the rms displacement", "")})
-ACCURACY = Table("accuracy", key=["motion", "flow"], columns=["motion", "flow", "ratio", "ratio_err"],
-                 about="Two integrators at the shortest step.",
-                 means={"ratio": ("error with new velocities [Eq. 41] over that with old ones [Eq. 40]", "")})
-IDENTITY = Table("identity", key=["transport", "reynolds"], columns=["transport", "reynolds", "convective"],
-                 about="Accelerations of two forms of the momentum equation for one set of random fields.")
-SIGNS = Table("signs", key=["equation", "wavelength"], columns=["equation", "wavelength", "factor"],
-              about="What an equation adds to a rate of change, by sums over a lattice.")
-BRACKETS = Table("brackets", key=["a", "b"], columns=["a", "b", "force"],
-                 about="The bracket of Eq. 50 in a wave without entropy.",
-                 means={"force": ("force over -grad P", "")})
-
-DRAGS = ["variant", "fraction", "rows"]
 SIZE = {"rows": ("points along the side of the cell", ""), "variant": ("how the body is made", ""),
         "error": ("drag/published - 1", "")}
-DRAG = Table("drag", key=[*DRAGS, "reynolds"], columns=[
-    *DRAGS, "radius", "drag", "drag_err", "published", "published_err", "error", "error_err", "reynolds",
-    "mach", "dt", "steps"], means=SIZE,
-    about="A slow stream past a cylinder in a square array, on points that stay; the error of the drag is "
-          "what "
-          "still changed.")
-DRAG_LIMITS = Table("drag_limits", key=["variant", "fraction"], columns=[
-    "variant", "fraction", "sizes", "limit", "limit_err", "error", "error_err"],
-    means=SIZE | {"limit": ("drag over viscosity and speed", "")},
-    about="The same of infinitely fine points, by a line in rows^-2 (points on the surface) or 1/rows "
-          "(staircases).")
 RINGS = {"rows": ("points along the side of the box", "")}
-SHEAR = Table("shear", key=["rows"], columns=[
-    "rows", "stress", "heating", "profile", "mass_drift", "momentum_drift", "steps"], means=RINGS,
-    about="Homogeneous shear between sliding sides.")
-WAVE = Table("wave", key=["rows"], columns=["rows", "error", "steps"], about="A wave that the shear turns.",
-             means=RINGS | {"error": ("relative rms error of the velocity without divergence", "")})
-TORQUE = Table("torque", key=["rows"], columns=["rows", "radius", "turned", "fixed", "steps"],
-               about="A cylinder that turns inside of one at rest.",
-               means=RINGS | {"fixed": ("error of the torque on the cylinder at rest over the exact one", ""),
-                              "radius": ("radius of the inner cylinder", "a")})
 
-ALL = (DRIFT, LOSSES, PATTERNS, MOVING_SOUND, LONG_SOUND, STEPS, ACCURACY, IDENTITY, SIGNS, BRACKETS, DRAG,
-       DRAG_LIMITS, SHEAR, WAVE, TORQUE)
+ALL = (
+    Table.of("drift", "scheme mode d maker weight h points wall zeta seed",
+             "n steps reached claimed mass momentum energy volume err",
+             about="A long run of a scheme: the largest change of each sum until its end.",
+             means={"reached": ("steps until it diverged or heated so much that sound outran its step, or "
+                                "all", ""),
+                    "err": ("round-off of the sums themselves", "")}),
+    Table.of("losses", "maker points seed", "steps reached lost",
+             about="A long run without the second kernel of Eq. 14.",
+             means={"reached": ("steps when it was looked at last", ""),
+                    "lost": ("change of momentum over the sum of its sizes", "")}),
+    Table.of("patterns", "motion h wavelength", "speed speed_err predicted",
+             about="A density pattern on a stream.",
+             means={"speed": ("speed of the pattern over that of the stream", "")}),
+    Table.of("moving_sound", "motion weight h wavelength", "speed speed_err predicted", means=SOUND,
+             about="A sound wave on moving points; predicted from sums over the lattice and one moved."),
+    Table.of("long_sound", "motion weight", "speed speed_err", means=SOUND,
+             about="The same of endless waves, extrapolated."),
+    Table.of("steps", "motion flow integrator steps", "dt error error_err",
+             about="A run in so many steps over a fixed time.",
+             means={"error": ("rms error of the positions over the rms displacement", "")}),
+    Table.of("accuracy", "motion flow", "ratio ratio_err", about="Two integrators at the shortest step.",
+             means={"ratio": ("error with new velocities [Eq. 41] over that with old ones [Eq. 40]", "")}),
+    Table.of("identity", "transport reynolds", "convective",
+             about="Accelerations of two forms of the momentum equation for one set of random fields."),
+    Table.of("signs", "equation wavelength", "factor",
+             about="What an equation adds to a rate of change, by sums over a lattice."),
+    Table.of("brackets", "a b", "force", about="The bracket of Eq. 50 in a wave without entropy.",
+             means={"force": ("force over -grad P", "")}),
+    Table("drag", key=["variant", "fraction", "rows", "reynolds"], columns=[
+        "variant", "fraction", "rows", "radius", "drag", "drag_err", "published", "published_err", "error",
+        "error_err", "reynolds", "mach", "dt", "steps"], means=SIZE,
+        about="A slow stream past a cylinder in a square array, on points that stay; the error of the drag "
+              "is what still changed."),
+    Table.of("drag_limits", "variant fraction", "sizes limit limit_err error error_err",
+             means=SIZE | {"limit": ("drag over viscosity and speed", "")},
+             about="The same of infinitely fine points, by a line in rows^-2 (points on the surface) or "
+                   "1/rows (staircases)."),
+    Table.of("shear", "rows", "stress heating profile mass_drift momentum_drift steps", means=RINGS,
+             about="Homogeneous shear between sliding sides."),
+    Table.of("wave", "rows", "error steps", about="A wave that the shear turns.",
+             means=RINGS | {"error": ("relative rms error of the velocity without divergence", "")}),
+    Table.of("torque", "rows", "radius turned fixed steps",
+             about="A cylinder that turns inside of one at rest.",
+             means=RINGS | {"fixed": ("error of the torque on the cylinder at rest over the exact one", ""),
+                            "radius": ("radius of the inner cylinder", "a")}))
 
 LONG = (16, 24, 32)     # wavelengths from which sound is extrapolated
 LEAST = 3               # sizes of a limit
@@ -137,6 +121,5 @@ def drag_limits(drags: pd.DataFrame) -> DERIVED:
             unsteady = Measured(0.0, group["drag_err"].max())
             limit = fits.line(spacing, group["drag"].to_numpy()).intercept + unsteady
             published = Measured(*group[["published", "published_err"]].iloc[0])
-            error = limit/published - 1
-            yield {"variant": variant, "fraction": fraction, "sizes": len(group), "limit": limit.value,
-                   "limit_err": limit.err, "error": error.value, "error_err": error.err}
+            yield {"variant": variant, "fraction": fraction, "sizes": len(group),
+                   **with_errors(limit=limit, error=limit/published - 1)}

@@ -31,40 +31,31 @@ def growth(method: str) -> Value:
     return one("growth_laws", "value", "most >= 0.95e6", method=method, what="exponent")
 
 
-ASKED = "the factor asked for in convection"
-OVER_GRID = "CPU seconds of fixed-lattice-h1.2 for 1 % in velocity over the compressible grid's"
-LOWER_ASKED = "the factor asked for at Ra 10 000"
-HALF = ("at half the Rayleigh number, 5000, fixed points are no dearer than a grid, either: CPU seconds of "
-        "fixed-lattice-h1.2")
-CHEAPEST = first("needed", "cpu_s", REACHED, by="cpu_s", err="high - cpu_s", method=FIXED, level=0.01, **K)
+COST = {"by": "cpu_s", "err": "high - cpu_s", "level": 0.01}
+CHEAPEST = first("needed", "cpu_s", REACHED, method=FIXED, **COST, **K)
+
+
+def no_dearer(name: str, where: dict[str, str], words: str, rival: str = GRID) -> Claim:
+    """Of points with edges to nearest neighbours, in another flow than that which was asked about first."""
+    return Claim(id=f"own-speed-fixed-points-{name}", source="RR98 Sec. III", at_most=2,
+                 value=seconds(NEAREST, where)/seconds(rival, where),
+                 because="the factor asked for in convection at Ra 10 000",
+                 statement=f"fixed points are no dearer than a grid {words}: CPU seconds of {NEAREST} for "
+                           f"1 % in {where['quantity']} over those of {rival}")
+
+
 ERRORS = (
     Claim(id="own-speed-fixed-points", source="RR98 Sec. III", at_most=2,
           value=CHEAPEST/seconds(GRID, K), because="a factor of 2 was asked for before anything was measured",
           statement="fixed points are no dearer than a grid: CPU seconds, setting up included, to the "
                     "steady state of Rayleigh-Benard at Ra 10 000 with 1 % in K, the cheapest fixed "
                     "points' over the compressible grid's"),
-    Claim(id="own-speed-fixed-points-5000", source="RR98 Sec. III", at_most=2, because=LOWER_ASKED,
-          value=seconds(NEAREST, LOWER_K)/seconds(GRID, LOWER_K),
-          statement=f"{HALF} for 1 % in K, where their errors of second order happen to cancel, over the "
-                    "compressible grid's"),
-    Claim(id="own-speed-fixed-points-5000-velocity", source="RR98 Sec. III", at_most=2,
-          value=seconds(NEAREST, LOWER)/seconds(GRID, LOWER), because=LOWER_ASKED,
-          statement=f"{HALF} for 1 % in velocity over the compressible grid's [asked after errors of K had "
-                    "been seen to cancel]"),
-    Claim(id="own-speed-fixed-points-vortex", source="RR98 Sec. III", at_most=2, because=ASKED,
-          value=seconds(NEAREST, VORTEX)/seconds(GRID, VORTEX),
-          statement=f"in a Taylor-Green vortex fixed points are no dearer than a grid: {OVER_GRID} [asked "
-                    "after the grid's times had been seen]"),
-    Claim(id="own-speed-fixed-points-sound", source="RR98 Sec. III", at_most=2, because=ASKED,
-          value=seconds(NEAREST, SOUND)/seconds(GRID, SOUND),
-          statement=f"in a sound wave fixed points are no dearer than a grid: {OVER_GRID} [asked after the "
-                    "grid's times had been seen]"),
-    Claim(id="own-speed-fixed-points-staggered", source="RR98 Sec. III", at_most=2, because=ASKED,
-          value=seconds(NEAREST, VORTEX)/seconds(PYPDE, VORTEX),
-          statement="in a Taylor-Green vortex fixed points are no dearer than a staggered grid, whose "
-                    "friction is between nearest neighbours, too: CPU seconds of fixed-lattice-h1.2 "
-                    "for 1 % in velocity over py-pde's, at the limit of its formula [asked after both had "
-                    "been seen]"),
+    no_dearer("5000", LOWER_K, "at Ra 5000, where their errors of K happen to cancel"),
+    no_dearer("5000-velocity", LOWER, "at Ra 5000 [asked after errors of K had been seen to cancel]"),
+    no_dearer("vortex", VORTEX, "in a Taylor-Green vortex [asked after the grid's times had been seen]"),
+    no_dearer("sound", SOUND, "in a sound wave [asked after the grid's times had been seen]"),
+    no_dearer("staggered", VORTEX, "in a Taylor-Green vortex, a staggered one, whose friction is between "
+              "nearest neighbours, too [asked after both had been seen]", PYPDE),
     Claim(id="own-speed-moving-points", source="RR98 Sec. III", at_most=10, because="an order of magnitude",
           value=seconds(MOVING, K)/seconds(GRID, K),
           statement="points that move and exchange over closed faces cost less than ten grids: CPU seconds "
@@ -87,13 +78,13 @@ ERRORS = (
           because="N ln N over three decades has the exponent 1 + log10(2)/3 = 1.100"),
     Claim(id="own-speed-growth-fixed", source="RR98 Sec. III", at_most=N_LN_N, value=growth(LATTICE),
           statement="a step over stored edges takes a time no worse than N ln N: exponent of its CPU "
-                    "seconds over a thousand "
-                    "to a million fixed points", because="the same limit as for smooth particles"),
+                    "seconds over a thousand to a million fixed points",
+          because="the same limit as for smooth particles"),
     Claim(id="own-speed-threads-spam", source="KHP95 Sec. I", printed="straightforward", at_least=1.7,
           value=last("growth_laws", "value", "most >= 1e5", by="most", method=LUCY, what="two threads"),
           statement="smooth particles are easily computed in parallel: time that passes with one thread "
-                    "over that with two, at "
-                    "the largest number of particles", because="85 % of what two cores can give"),
+                    "over that with two, at the largest number of particles",
+          because="85 % of what two cores can give"),
     #: RR98's r0, the rms width of Lucy's weight, is 1.27, 0.85, 0.51 spacings for h = 3, 2, 1.2
     *(Claim(id=f"rr98-speed-points-{name}", source="RR98 Sec. IV", printed=printed, at_least=1,
             value=points(method)/points(GRID), because="as many",

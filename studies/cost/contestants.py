@@ -1,5 +1,6 @@
 """Flows with exact answers, and methods in them: points, smooth particles, a compressible and a MAC grid."""
-from functools import partial
+from collections.abc import Callable
+from functools import partial, singledispatch
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -8,16 +9,16 @@ from continuum.boussinesq import BoussinesqCase, Box, BoxEdges, End, State
 from continuum.boussinesq.mac import mac
 from continuum.boussinesq.projection import Projection
 from continuum.exact import plates
-from continuum.exact.vortex import DECAYS, RE, solved, velocities
+from continuum.exact.vortex import DECAYS, RE, solved
 from continuum.gas.ghosts import RHO
 from particles.fields import Fields
 from particles.integral.points import lattice
 from particles.observe import fields_at
 from particles.smooth.spam import Spam
-from studies.build.answers import of_one_mass
-from studies.build.scenes import BetweenPlates, Sound, TaylorGreen
+from studies.build.answers import answer, of_one_mass, with_rows
+from studies.build.scenes import BetweenPlates, TaylorGreen
 from studies.build.setting import Ready
-from studies.cost.problem import Problem, Residuals, Result, of_method, relative, rms
+from studies.cost.problem import Judge, Problem, Residuals, Result, of_grid, of_method, relative, rms
 
 #: uncertainty of the Fourier sums by Mach number, from the study ordering: velocities of 33 against 29 points
 KNOWN = {0.05: 1.4e-6, 0.2: 2.9e-5}
@@ -30,119 +31,109 @@ CFL = 0.8           # of two-step advection with some viscosity: `projection.CFL
 # --- flows --------------------------------------------------------------------------------------------------
 
 
-class DecayingVortex(NamedTuple):
-    """A Taylor-Green vortex of Re 100 that decays by e, as a gas; `velocity` and the `decay` of K."""
-    mach: float = 0.05
+class ExactFlow(NamedTuple):
+    """A scene of `studies.build` that has an exact answer; `example` is one of its resolutions."""
+    example: Any
 
     @property
     def known(self) -> float:
-        return KNOWN[self.mach]
+        return uncertainty(self.example)
 
-    def scene(self, size: int) -> TaylorGreen:
-        return TaylorGreen(L=size, mach=self.mach)
+    def scene(self, size: int) -> Any:
+        return with_rows(self.example, size)
 
-    def residuals(self, scene: TaylorGreen, at: Fields) -> Residuals:
-        """Of fields at the end."""
-        exact = velocities(solved(self.mach), at.x/scene.L)
-        return self.against(scene, exact, at.V, at.v)
+    def judge(self, scene: Any, see: Callable[[np.ndarray], Fields]) -> Judge:
+        """Of the state at the end, whose fields `see` gives."""
+        return lambda state: Result(self.residuals(scene, see(state)))
 
-    def against(self, scene: TaylorGreen, exact: np.ndarray, V: np.ndarray, v: np.ndarray) -> Residuals:
-        """Of velocities (n, 2) of volumes V; exact ones are in units of the speed."""
-        measured = v/scene.speed
-        squares = (measured**2).sum(axis=1)
-        decay = np.log(V.sum()/2/(V@squares))/(2*DECAYS)
-        off = decay/solved(self.mach).decay - 1
-        return {"velocity": relative(V, measured - exact, exact), "decay": np.array([off])}
-
-
-class StandingWave(NamedTuple):
-    """A sound wave of small amplitude for two periods; `velocity` and `temperature`."""
-    known: float = 1e-4
-
-    def scene(self, size: int) -> Sound:
-        return Sound(width=size)
-
-    def residuals(self, scene: Sound, at: Fields) -> Residuals:
-        """Of fields at the end."""
-        _, u, T = scene.exactly(scene.time, at.x[:, 0])
-        velocity = relative(at.V, at.v[:, 0] - u, u)
-        temperature = relative(at.V, at.T - 1 - T, T)
-        return {"velocity": velocity, "temperature": temperature}
+    def residuals(self, scene: Any, at: Fields) -> Residuals:
+        """Of fields at the end; of temperatures relative to what differs from 1."""
+        exact, errors = answer(scene, at.x), {}
+        if "vx" in exact:
+            v = np.stack([exact[name] for name in ("vx", "vy") if name in exact], axis=1)
+            errors["velocity"] = relative(at.V, at.v[:, :v.shape[1]] - v, v)
+        if "T" in exact:
+            errors["temperature"] = relative(at.V, at.T - exact["T"], exact["T"] - 1)
+        if isinstance(scene, TaylorGreen):
+            errors["decay"] = decay(scene, at.V, at.v)
+        return errors
 
 
-class SlabFlow(NamedTuple):
-    """Heat that spreads or shear that settles between plates: the `temperature`, or the `velocity`."""
-    flow: plates.PlateFlow
+def decay(scene: TaylorGreen, V: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """The error of the decay of a vortex, from velocities (n, 2) of volumes V at the end."""
+    squares = (v**2).sum(axis=1)/scene.speed**2
+    measured = np.log(V.sum()/2/(V@squares))/(2*DECAYS)
+    return np.array([measured/solved(scene.mach).decay - 1])
 
-    @property
-    def known(self) -> float:
-        """What fewer Chebyshev points make of the answer."""
-        s = np.linspace(0, 1, 200)
-        row = 2 if self.flow.U else 3
-        fine, coarse = plates.fields(self.flow, s)[row], plates.fields(self.flow, s, plates.COARSER)[row]
-        return rms(fine - coarse)/float(np.std(fine))
 
-    def scene(self, size: int) -> BetweenPlates:
-        return BetweenPlates(flow=self.flow, L=size)
+@singledispatch
+def uncertainty(scene: Any) -> float:
+    """Of the exact answer, relative: what a wave of a small amplitude steepens."""
+    return 1e-4
 
-    def residuals(self, scene: BetweenPlates, at: Fields) -> Residuals:
-        """Of fields at the end; of temperatures relative to what differs from the plates'."""
-        _, _, u, T = plates.fields(self.flow, at.x[:, 1]/scene.L + 0.5)
-        if self.flow.U:
-            return {"velocity": relative(at.V, at.v[:, 0] - u, u)}
-        return {"temperature": relative(at.V, at.T - T, T - 1)}
+
+@uncertainty.register
+def _(scene: TaylorGreen) -> float:
+    return KNOWN[scene.mach]
+
+
+@uncertainty.register
+def _(scene: BetweenPlates) -> float:
+    """What fewer Chebyshev points make of the answer."""
+    s = np.linspace(0, 1, 200)
+    row = 2 if scene.flow.U else 3
+    fine, coarse = plates.fields(scene.flow, s)[row], plates.fields(scene.flow, s, plates.COARSER)[row]
+    return rms(fine - coarse)/float(np.std(fine))
 
 
 # --- points and particles -----------------------------------------------------------------------------------
 
-
-def points(flow: Any, method: Any, size: int, seed: int) -> Problem:
+def points(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
     """Points that stay or move, as they are built."""
     scene = flow.scene(size)
     return in_flow(flow, scene, method.ready(scene, seed))
 
 
-def on_lattice(flow: Any, method: Any, size: int, seed: int) -> Problem:
+def on_lattice(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
     """Moving points from a lattice: in sound jitter would be louder than the wave."""
     scene = flow.scene(size)
     x = lattice((scene.width, scene.L)).x
     return in_flow(flow, scene, method.ready(scene, seed, x=x))
 
 
-def in_flow(flow: Any, scene: Any, ready: Ready) -> Problem:
+def in_flow(flow: ExactFlow, scene: Any, ready: Ready) -> Problem:
     """Fields as the method has them."""
-    def judge(state: np.ndarray) -> Result:
-        at = ready.method.fields(state)
-        return Result(flow.residuals(scene, at))
+    judge = flow.judge(scene, ready.method.fields)
     return of_method(ready.method, ready.start, scene.time, judge, known=flow.known)
 
 
-def particles(flow: Any, method: Any, size: int, seed: int) -> Problem:
+def particles(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
     """Smooth particles at places that suit the flow; limits of lattice sums are firm."""
     scene = flow.scene(size)
+    ready = of_mass(scene, method, seed)
+
+    def see(state: np.ndarray) -> Fields:
+        return ready.method.fields(state)._replace(V=np.ones(len(state.T)))
+    return in_flow(flow, scene, ready)._replace(judge=flow.judge(scene, see), firm=True)
+
+
+def of_mass(scene: Any, method: Any, seed: int) -> Ready:
+    """Particles of one mass."""
     x, fields = of_one_mass(scene, seed)
-    made, start, _ = method.ready(scene, seed, x=x, fields=fields)
-
-    def judge(state: np.ndarray) -> Result:
-        at = made.fields(state)._replace(V=np.ones(len(x)))
-        return Result(flow.residuals(scene, at))
-    return of_method(made, start, scene.time, judge, known=flow.known, firm=True)
+    return method.ready(scene, seed, x=x, fields=fields)  # type: ignore[no-any-return]
 
 
-def restless(flow: Any, method: Any, size: int, seed: int) -> Problem:
+def restless(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
     """The same where two steps give two flows."""
     return particles(flow, method, size, seed)._replace(chaotic=True)
 
 
-def trembling(flow: Any, method: Any, size: int, seed: int) -> Problem:
+def trembling(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
     """The same where they tremble: the smoothed field counts    [KHP95, Sec. VI]"""
-    problem, scene = restless(flow, method, size, seed), flow.scene(size)
-    _, sums, _ = problem.held()
-
-    def judge(state: np.ndarray) -> Result:
-        at = smoothed(sums.method, state)
-        return Result(flow.residuals(scene, at))
-    return problem._replace(judge=judge)
+    scene = flow.scene(size)
+    ready = of_mass(scene, method, seed)
+    judge = flow.judge(scene, partial(smoothed, ready.method))
+    return in_flow(flow, scene, ready)._replace(judge=judge, firm=True, chaotic=True)
 
 
 def smoothed(method: Spam, state: np.ndarray) -> Fields:
@@ -158,35 +149,21 @@ def smoothed(method: Spam, state: np.ndarray) -> Fields:
 # --- grids --------------------------------------------------------------------------------------------------
 
 
-def on_grid(flow: Any, form: Any, size: int, seed: int) -> Problem:
+def on_grid(flow: ExactFlow, form: Any, size: int, seed: int, first: np.ndarray | None = None) -> Problem:
     """The compressible grid in time."""
     scene = flow.scene(size)
-    return in_cells(flow, scene, form.ready(scene))
+    ready = form.ready(scene, first=first)
+    return of_grid(ready, scene.time, flow.judge(scene, ready.method.fields), known=flow.known)
 
 
-def of_mean_one(flow: SlabFlow, form: Any, size: int, seed: int) -> Problem:
+def of_mean_one(flow: ExactFlow, form: Any, size: int, seed: int) -> Problem:
     """The same from densities whose mean over cells is 1."""
-    scene = flow.scene(size)
-    first = form.ready(scene).start
+    first = form.ready(flow.scene(size)).start
     first[RHO] /= first[RHO, 1:-1, 1:-1].mean()
-    return in_cells(flow, scene, form.ready(scene, first=first))
+    return on_grid(flow, form, size, seed, first)
 
 
-def in_cells(flow: Any, scene: Any, ready: Ready) -> Problem:
-    """Fields at the nodes."""
-    method, march = ready.method, ready.method.march(ready.start)
-
-    def judge(S: np.ndarray) -> Result:
-        at = method.fields(S)
-        return Result(flow.residuals(scene, at))
-
-    def held() -> tuple:
-        return march.S, march.scratch
-    cells = round(scene.L*scene.width)
-    return Problem(cells, ready.start, ready.limit, scene.time, method.go, judge, held, flow.known)
-
-
-def on_mac(flow: DecayingVortex, form: None, size: int, seed: int) -> Problem:
+def on_mac(flow: ExactFlow, form: None, size: int, seed: int) -> Problem:
     """The Boussinesq MAC grid at one temperature, IMEX: the vortex of an incompressible fluid.
 
     Height 1 is half of a wavelength, the largest velocity 1.

@@ -1,5 +1,6 @@
 """What follows from the runs: error against cost, what a level of error costs, what leaving out saves."""
 from collections.abc import Iterator
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -22,9 +23,10 @@ LEVELS = (0.1, 0.03, 0.01, 0.001)
 LEAST = 3           # sizes of an exponent
 NO_NUMBER = Measured(np.nan, np.nan)
 MATTERS = 0.01      # of the answer: the error at which methods are compared
+A_RUN, A_SERIES = RUN.split(), SERIES.split()
 RUNG = ["scene", "method", "resolution"]
 MEANS = ("error", "cpu_s", "setup_s", "points")
-KEPT = [*TERM, "quantity", "step_s", "step_s_err", "bytes", "error", "changed"]
+KEPT = [*TERM.split(), "quantity", "step_s", "step_s_err", "bytes", "error", "changed"]
 Row = dict[Any, Any]
 Rows = list[Row]
 NOTHING = pd.DataFrame()
@@ -46,13 +48,12 @@ def errors(tables: Tables) -> dict[str, Rows]:
 
 def over_seeds(errors: pd.DataFrame, runs: pd.DataFrame, steps: pd.DataFrame) -> pd.DataFrame:
     """Means, of resolutions at which no seed diverged. Their intervals hold the error of time."""
-    diverged = errors.query("quantity == 'diverged'").set_index(RUNG).index
-    rows = with_steps(errors, steps).merge(runs, on=RUN)
-    rows = rows[~rows.set_index(RUNG).index.isin(diverged)]
+    diverged = errors.quantity.eq("diverged").groupby([errors[name] for name in RUNG]).transform("any")
+    rows = with_steps(errors[~diverged], steps).merge(runs, on=A_RUN)
     seconds = rows.share*rows.run_s + rows.setup_s
     err = np.hypot(rows.share*rows.run_s_err, rows.setup_s_err)
     rows = rows.assign(error=rows.error.abs(), cpu_s=seconds, cpu_s_err=err)
-    means = list(seed_means(rows, [*SERIES, "resolution"], MEANS))
+    means = seed_means(rows, [*A_SERIES, "resolution"], MEANS)
     return pd.DataFrame(means, columns=list(POINTS.columns))
 
 
@@ -60,7 +61,7 @@ def with_steps(errors: pd.DataFrame, steps: pd.DataFrame) -> pd.DataFrame:
     """Errors whose intervals hold what halving the chosen step changes."""
     if steps.empty:
         return errors
-    key = [*RUN, "quantity"]
+    key = [*A_RUN, "quantity"]
     good = steps.query("accepted == 1").sort_values("of_limit")
     chosen = good.drop_duplicates(key, keep="last")
     rows = errors.merge(chosen[[*key, "time_error"]], on=key, how="left")
@@ -70,11 +71,9 @@ def with_steps(errors: pd.DataFrame, steps: pd.DataFrame) -> pd.DataFrame:
 
 def needed(points: pd.DataFrame) -> Iterator[Row]:
     """Every method at every level."""
-    for key, group in points.groupby(SERIES):
-        names: Row = dict(zip(SERIES, key))
-        rising = group.sort_values("resolution")
-        for level in LEVELS:
-            yield names | {"level": level} | reached(rising, level)
+    for (key, group), level in product(groups(points, A_SERIES), LEVELS):
+        names = dict(zip(A_SERIES, key))
+        yield names | {"level": level} | reached(group.sort_values("resolution"), level)
 
 
 def reached(group: pd.DataFrame, level: float) -> Row:
@@ -82,17 +81,15 @@ def reached(group: pd.DataFrame, level: float) -> Row:
 
     An error that is not told from zero counts with its uncertainty: where its sign changes it is no measure.
     """
-    error = group[["error", "error_err"]].max(axis=1)
-    group = group.assign(error=error, points_err=0.0)
-    above = np.flatnonzero(~(group.error <= level))
-    if len(above) == 0:
+    group = group.assign(error=group[["error", "error_err"]].max(axis=1), points_err=0.0)
+    below = (group.error <= level)[::-1].cummin().sum()
+    if below == 0:
+        return {"reached": "no", "error": group.error.min()}
+    if below == len(group):
         first = group.iloc[0]
         most = first.cpu_s + first.cpu_s_err
         return {"reached": "at most", "low": 0.0, "high": most} | dict(first[["cpu_s", "points", "error"]])
-    last = above[-1]
-    if last == len(group) - 1:
-        return {"reached": "no", "error": group.error.min()}
-    pair = group.iloc[last:last + 2]
+    pair = group.iloc[-below - 1:].head(2)
     seconds, half = crossing(pair, "cpu_s", level)
     points, _ = crossing(pair, "points", level)
     low, high = seconds*np.exp([-half, half])
@@ -104,14 +101,12 @@ def crossing(pair: pd.DataFrame, column: str, level: float) -> tuple[float, floa
 
     ln cost = (1 - s) ln cost_0 + s ln cost_1, s = ln(error_0/level)/ln(error_0/error_1); all have errors.
     """
-    error, cost = np.log(pair[["error", column]].to_numpy(float)).T
-    error_err = pair.error_err/pair.error
-    cost_err = pair[f"{column}_err"]/pair[column]
-    s = (np.log(level) - error[0])/(error[1] - error[0])
-    weights = np.array([1 - s, s])
-    slope = (cost[1] - cost[0])/(error[1] - error[0])
-    half = np.linalg.norm(weights*np.hypot(cost_err, slope*error_err))
-    return float(np.exp(weights@cost)), float(half)
+    (first, last), (low, high) = np.log(pair.error), np.log(pair[column])
+    s = (first - np.log(level))/(first - last)
+    slope = (high - low)/(first - last)
+    err = np.hypot(pair[f"{column}_err"]/pair[column], slope*pair.error_err/pair.error)
+    half = np.linalg.norm([1 - s, s]*err)
+    return float(np.exp(low + s*(high - low))), float(half)
 
 
 def rivals(points: pd.DataFrame) -> Iterator[Row]:

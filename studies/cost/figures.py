@@ -1,5 +1,4 @@
 """Error against CPU seconds, and what leaving a term out saves."""
-from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -55,13 +54,10 @@ def work_precision(points: pd.DataFrame, needed: pd.DataFrame) -> Figure:
 
     Best is what needs the least seconds for 1 %, else for 3 %, else for 10 %, else has the least error.
     """
-    rows, costs = (table.set_index(["scene", "quantity"]) for table in (points.query("error > 0"), needed))
-    shown = [panel for panel in PANELS if panel[:2] in rows.index]
-    page, all_axes = figure(-(-len(shown)//2), 2, width=3.7, height=3.1, squeeze=False)
-    for axes, (scene, quantity, title) in zip(all_axes.flat, shown, strict=False):
-        panel(axes, rows.loc[[(scene, quantity)]], costs.loc[[(scene, quantity)]], title)
-    for axes in all_axes.flat[len(shown):]:
-        axes.set_visible(False)
+    page, all_axes = figure(2, 2, width=3.7, height=3.1)
+    for axes, (scene, quantity, title) in zip(all_axes.flat, PANELS):
+        here = f"scene == '{scene}' and quantity == '{quantity}'"
+        panel(axes, points.query(f"{here} and error > 0"), needed.query(here), title)
     for axes in all_axes[:, 0]:
         axes.set_ylabel("relative error")
     legend(page, all_axes)
@@ -81,13 +77,17 @@ def panel(axes: Axes, rows: pd.DataFrame, needed: pd.DataFrame, title: str) -> N
 
 def best(rows: pd.DataFrame, needed: pd.DataFrame) -> list[str]:
     """The best member of each family."""
-    seconds = needed[needed.reached != "no"].set_index(["method", "level"]).cpu_s.to_dict()
+    reached = needed[needed.reached != "no"]
+    seconds = reached.pivot(index="method", columns="level", values="cpu_s")
+    marks = seconds.reindex(present(rows), columns=DECIDE)
+    marks["error"] = rows.groupby("method").error.min()
+    return list(marks.groupby(family, sort=False).apply(foremost))
 
-    def rank(name: str) -> tuple[int, float]:
-        levels = [(number, seconds[name, level]) for number, level in enumerate(DECIDE)
-                  if (name, level) in seconds]
-        return min(levels, default=(len(DECIDE), rows.error[rows.method == name].min()))
-    return [min(members, key=rank) for _, members in groupby(present(rows), key=family)]
+
+def foremost(marks: pd.DataFrame) -> str:
+    """The least in the first column in which there is a number."""
+    first = marks.notna().any().idxmax()
+    return str(marks[first].idxmin())
 
 
 def draw(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:

@@ -5,7 +5,7 @@ that is made of the velocity of a vortex at Mach 0.05 or K of convection at Ra 1
 code that runs and no arrays. The ideal gas with everything has faster loops of its own: what leaving out
 alone saves is seen in the loops that all fluids take.
 """
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -25,10 +25,11 @@ from particles.threads import Threads
 from particles.weights import Lucy
 from studies.build.fixed import SCHEMES, Scheme, kinetic
 from studies.build.moving import MOTIONS
-from studies.cost.contestants import DecayingVortex, on_mac, points
-from studies.cost.problem import Problem, Result, of_method, rms
+from studies.build.scenes import TaylorGreen
+from studies.cost.contestants import ExactFlow, on_mac, points
+from studies.cost.problem import Problem, of_method, rms
 from studies.cost.rolls import HeatedLayer, in_time
-from studies.cost.seconds import SHORT, array_bytes, per_step
+from studies.cost.seconds import SHORT, array_bytes, per_step, stepped
 from studies.cost.tables import with_err
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
@@ -36,7 +37,7 @@ from studies.kit.stats import Measured
 OF_LIMIT = 0.9
 K_BOLTZMANN = 1e-12     # noise of 1e-6: a flow of 0.07 does not see it
 H = 2.0
-FLOW, LAYER = DecayingVortex(), HeatedLayer()
+FLOW, LAYER = ExactFlow(TaylorGreen(L=16)), HeatedLayer()
 NO_TIME = Measured(np.nan, np.nan)      # what diverges may do so while its steps are timed
 LATTICE = SCHEMES["fixed-lattice"]
 
@@ -79,7 +80,8 @@ def vortex(size: int) -> Reduced:
 def vortex_edge_by_edge(size: int) -> Reduced:
     """In the loops that all fluids take, as what leaves a term out does, not in the ideal gas's own."""
     ready = LATTICE.ready(FLOW.scene(size))
-    return on_square(size, replace(ready.method, form=LayerSums), ready.start, FLOW.known)
+    reduced = on_square(size, replace(ready.method, form=LayerSums), ready.start)
+    return reduced._replace(problem=reduced.problem._replace(known=FLOW.known))
 
 
 def vortex_without_heat(size: int) -> Reduced:
@@ -100,31 +102,21 @@ def vortex_with_noise(size: int) -> Reduced:
     return on_square(size, method, start)
 
 
-def on_square(size: int, method: Any, start: np.ndarray, known: float = 0.0) -> Reduced:
+def on_square(size: int, method: Any, start: np.ndarray) -> Reduced:
     """A method on a lattice; edges alone know no places."""
     scene, x = FLOW.scene(size), lattice((size, size)).x
 
-    def judge(state: np.ndarray) -> Result:
-        at = method.fields(state)
-        return Result(FLOW.residuals(scene, at._replace(x=x)))
-    return Reduced(of_method(method, start, scene.time, judge, known=known))
+    judge = FLOW.judge(scene, lambda state: method.fields(state)._replace(x=x))
+    return Reduced(of_method(method, start, scene.time, judge))
 
 
 def vortex_without_noise(size: int) -> Reduced:
     """The same sums, in four stages."""
     problem = vortex_with_noise(size).problem
     _, sums, _ = problem.held()
-    silent = sums.dih
-
-    def go(state: np.ndarray, dt: float, steps: int) -> np.ndarray:
-        integrator, now = RK4(state.shape, Threads(1)), state.copy()
-        for _ in range(steps):
-            integrator.step(silent, now, dt)
-        return now
-
-    def held() -> tuple:
-        return problem.start, silent, RK4(problem.start.shape, Threads(1))
-    return Reduced(problem._replace(go=go, held=held))
+    silent, integrator = sums.dih, RK4(problem.start.shape, Threads(1))
+    held = problem.start, silent, integrator
+    return Reduced(problem._replace(go=partial(stepped, silent), held=lambda: held))
 
 
 def vortex_without_sound(size: int) -> Reduced:
@@ -134,8 +126,7 @@ def vortex_without_sound(size: int) -> Reduced:
     """
     scene, place = FLOW.scene(size), lattice((size, size)).x/size
     flow = incompressible(place)
-    gas = velocities(solved(FLOW.mach), place)
-    known = rms(gas - flow)/rms(flow)
+    known = rms(velocities(solved(scene.mach), place) - flow)/rms(flow)
     return Reduced(on_mac(FLOW, None, size, 1), lambda part, whole: known, size/2/scene.speed)
 
 
@@ -172,21 +163,20 @@ class Base(NamedTuple):
     quantity: str
     size: int
     whole: Make
-    without: tuple[tuple[str, Make], ...]
+    without: dict[str, Make]
 
 
 BASES = (
-    Base("taylor-green", "moving", "velocity", 24, vortex_moving, (
-        ("motion", vortex_without_motion),)),
-    Base("taylor-green", "fixed-lattice", "velocity", 24, vortex, (
-        ("heat", vortex_without_heat), ("compressibility", vortex_without_sound))),
-    Base("taylor-green", "fixed-lattice-edge-by-edge", "velocity", 24, vortex_edge_by_edge, (
-        ("heat", vortex_without_heat),)),
-    Base("taylor-green", "fixed-lattice-noise", "velocity", 24, vortex_with_noise, (
-        ("noise", vortex_without_noise),)),
-    Base("convection", "fixed-lattice", "K", 16, layer, (("mended heating", layer_without_mending),)),
-    Base("convection", "fixed-lattice-edge-by-edge", "K", 16, layer_edge_by_edge, (
-        ("mended heating", layer_without_mending),)),
+    Base("taylor-green", "moving", "velocity", 24, vortex_moving, {"motion": vortex_without_motion}),
+    Base("taylor-green", "fixed-lattice", "velocity", 24, vortex,
+         {"heat": vortex_without_heat, "compressibility": vortex_without_sound}),
+    Base("taylor-green", "fixed-lattice-edge-by-edge", "velocity", 24, vortex_edge_by_edge,
+         {"heat": vortex_without_heat}),
+    Base("taylor-green", "fixed-lattice-noise", "velocity", 24, vortex_with_noise,
+         {"noise": vortex_without_noise}),
+    Base("convection", "fixed-lattice", "K", 16, layer, {"mended heating": layer_without_mending}),
+    Base("convection", "fixed-lattice-edge-by-edge", "K", 16, layer_edge_by_edge,
+         {"mended heating": layer_without_mending}),
 )
 
 
@@ -206,40 +196,31 @@ class LeavingOut(Case):
     def label(self) -> str:
         return f"{self.base.scene}, {self.base.name}, {self.size} spacings"
 
-    @property
-    def columns(self) -> dict[str, str]:
-        """That every row has."""
-        return {"scene": self.base.scene, "base": self.base.name, "quantity": self.base.quantity}
-
     def run(self, report: Report, folder: Path) -> Outcome:
-        return Outcome({"measured": list(self.rows(report))})
-
-    def rows(self, report: Report) -> Iterator[dict[str, Any]]:
-        """Of the table; the whole first."""
-        whole = self.base.whole(self.size)
-        residual = self.residual(whole)
-        yield self.row("nothing", whole, residual, residual)
-        for number, (name, make) in enumerate(self.base.without):
-            report((number + 1)/(len(self.base.without) + 1))
+        first = self.base.whole(self.size)
+        whole = self.residual(first.problem)
+        rows = [self.row("nothing", first, whole, whole)]
+        for name, make in self.base.without.items():
             part = make(self.size)
-            yield self.row(name, part, self.residual(part), residual)
+            rows.append(self.row(name, part, self.residual(part.problem), whole))
+            report(len(rows)/(len(self.base.without) + 1))
+        return Outcome({"measured": rows})
 
-    def residual(self, made: Reduced) -> np.ndarray:
+    def residual(self, problem: Problem) -> np.ndarray:
         """Of the main quantity; not a number where the run diverged."""
-        result = made.problem.result(OF_LIMIT)
+        result = problem.result(OF_LIMIT)
         return result.residuals[self.base.quantity] if result else np.array([np.nan])
 
     def row(self, left_out: str, made: Reduced, residual: np.ndarray, whole: np.ndarray) -> dict[str, Any]:
         """Of the table."""
         problem, n = made.problem, made.problem.points
-        dt = problem.dt(OF_LIMIT)
-        diverged = np.isnan(residual).any()
-        advance = partial(problem.advance, problem.start, dt)
-        step = NO_TIME if diverged else per_step(advance, self.short)*(1/n)
-        time = step*(1/(dt*made.unit))
-        size, change = array_bytes(problem.held())/n, made.change(residual, whole)
-        return {**self.columns, "left_out": left_out, "points": n, **with_err(step_s=step, time_s=time),
-                "bytes": size, "error": rms(residual), "error_err": problem.known, "changed": change}
+        dt, step = problem.dt(OF_LIMIT), NO_TIME
+        if np.isfinite(residual).all():
+            step = per_step(partial(problem.advance, problem.start, dt), self.short)*(1/n)
+        return {"scene": self.base.scene, "base": self.base.name, "quantity": self.base.quantity,
+                "left_out": left_out, "points": n, "bytes": array_bytes(problem.held())/n,
+                **with_err(step_s=step, time_s=step*(1/(dt*made.unit))), "error": rms(residual),
+                "error_err": problem.known, "changed": made.change(residual, whole)}
 
 
 def cases(size: str) -> list[Case]:

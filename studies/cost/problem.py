@@ -103,28 +103,25 @@ class Problem(NamedTuple):
 
 
 def of_method(method: Any, start: np.ndarray, time: float, judge: Judge, **more: Any) -> Problem:
-    """The problem of such a method."""
-    return Problem(start.shape[1], start, limit_of(method, start), time, marching(method), judge,
-                   holding(method, start), **more)
-
-
-def marching(method: Any) -> Go:
-    """`go` of such a method; the state comes back in the order of its points."""
+    """The problem of such a method. In memory are state, sums with their lists, what the integrator keeps."""
     def go(state: np.ndarray, dt: float, steps: int) -> np.ndarray:
         return run(Unguarded(method), state, Plan(dt=dt, steps=steps)).by_id()
-    return go
 
-
-def holding(method: Any, start: np.ndarray) -> Callable[[], tuple]:
-    """`held` of such a method: state, sums with their lists, and what the integrator keeps."""
     def held() -> tuple:
         threads, n = Threads(1), start.shape[1]
-        sums = method.start(n, threads)
-        now = Run(state=start.copy(), ids=np.arange(n))
+        sums, now = method.start(n, threads), Run(state=start.copy(), ids=np.arange(n))
         sums.try_out(now)
         integrator = getattr(method, "integrator", RK4)
         return now.state, sums, integrator(start.shape, threads)
-    return held
+    return Problem(start.shape[1], start, limit_of(method, start), time, go, judge, held, **more)
+
+
+def of_grid(ready: Any, time: float, judge: Judge, **more: Any) -> Problem:
+    """The problem of the compressible grid, in a loop of its own; its cells have one spacing."""
+    method, march = ready.method, ready.method.march(ready.start)
+    cells = round(method.scene.L*method.scene.width)
+    return Problem(cells, ready.start, ready.limit, time, method.go, judge,
+                   lambda: (march.S, march.scratch), **more)
 
 
 def relative(V: np.ndarray, difference: np.ndarray, scale: np.ndarray) -> np.ndarray:
@@ -168,20 +165,16 @@ def best(rungs: list[Rung]) -> Rung:
 def halved(problem: Problem, first: float) -> tuple[list[Rung], Result | None, float]:
     """Steps down to the first that is good enough, the result of half of it, what longer steps stay below."""
     rungs: list[Rung] = []
-    most = first*STRETCH**(STRETCHES + 0.5)
-    if problem.firm:
-        most = max(first, 1.0)
-    began = process_time()
-    coarse, fine = problem.result(first), None
-    for number in range(HALVINGS):
-        fraction, before = first/2**number, process_time()
+    most = max(first, 1.0) if problem.firm else first*STRETCH**(STRETCHES + 0.5)
+    began, fine, too_long = process_time(), problem.result(first), False
+    while len(rungs) < HALVINGS and not too_long:
+        before, fraction, coarse = process_time(), first/2**len(rungs), fine
         fine = problem.result(fraction/2)
         rungs.append(rung_of(problem, fraction, coarse, fine, 1.0))
-        now = process_time()
-        too_long = now - began + 2*(now - before) > LONGEST
-        if rungs[-1].accepted or number == HALVINGS - 1 or too_long:
+        if rungs[-1].accepted:
             break
-        most, coarse = fraction, fine
+        most, now = fraction, process_time()
+        too_long = now - began + 2*(now - before) > LONGEST
     return rungs, fine, most
 
 

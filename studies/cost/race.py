@@ -1,4 +1,4 @@
-"""A method in a flow at a resolution, as a case: its longest step, its errors, its seconds."""
+"""A method in a flow at a resolution, as a case: its longest step, its errors, its seconds; also py-pde's."""
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -6,40 +6,38 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from continuum.fluid import energy, sound_speed
+from continuum.pypde import solve as pypde
+from continuum.pypde.gas import Gas
+from continuum.pypde.gas_loop import RHO, VX, VY, E
+from continuum.steady import RK4_DECAY, RK4_SOUND, Time
 from particles.run import Divergence
-from studies.cost.problem import Problem, Result, Rung, best, climb, rms
-from studies.cost.seconds import SHORT, of_calls, per_step
+from studies.build.answers import answer
+from studies.build.grid import started
+from studies.cost.contestants import ExactFlow, decay
+from studies.cost.problem import Problem, Result, Rung, best, climb, relative, rms
+from studies.cost.seconds import SHORT, Laps, of_calls, per_step
 from studies.cost.tables import with_err
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
 
+SAMPLES = 5         # of the seconds of py-pde, those of as many equal parts of the run
 TRIES = 1.4         # of what an entry says that a case takes: what trying longer steps does to it
 LONGER = 10         # are the runs that time particles: they have to hold some lists
 DIVERGED = Result({"diverged": np.array([np.nan])}, {"diverged": np.nan}, {"diverged": np.nan})
 
 
-class Price(NamedTuple):
-    """CPU seconds that a case takes, about: fixed + factor resolution^power."""
-    fixed: float
-    factor: float = 0.0
-    power: int = 2
-
-    def seconds(self, resolution: int) -> float:
-        """At a resolution."""
-        return self.fixed + self.factor*resolution**self.power
-
-
 class Entry(NamedTuple):
     """A method in a flow, by the name that tables have.
 
-    method : a record of `studies.build`. make(flow, method, resolution, seed) : its `Problem`. first :
-    fraction of the limit that is tried first.
+    method : a record of `studies.build`. make(flow, method, resolution, seed) : its `Problem`. price : CPU
+    seconds for a point and a step of its spacing. first : fraction of the limit that is tried first.
     """
     name: str
     flow: Any
     method: Any
     make: Callable[[Any, Any, int, int], Any]
-    price: Price
+    price: float
     first: float = 0.9
 
 
@@ -55,7 +53,8 @@ class Race(Case):
 
     @property
     def cost(self) -> float:
-        return TRIES*self.entry.price.seconds(self.resolution)
+        scene = self.entry.flow.scene(self.resolution)
+        return TRIES*(1 + self.entry.price*scene.width*scene.L*self.resolution)
 
     @property
     def label(self) -> str:
@@ -72,8 +71,8 @@ class Race(Case):
         rungs = climb(problem, self.entry.first)
         report(0.7)
         rung = best(rungs)
-        steps, errors = self.steps(rungs), self.errors(rung.result or DIVERGED, problem.known)
-        rows = {"steps": list(steps), "errors": list(errors)}
+        errors = self.errors(rung.result or DIVERGED, problem.known)
+        rows = {"steps": list(self.steps(rungs)), "errors": list(errors)}
         if rung.result:
             rows["runs"] = [self.timing(problem, rung.fraction, rung.result)]
         return Outcome(rows)
@@ -118,3 +117,65 @@ class Race(Case):
             return seconds(dt if problem.chaotic else safe)
         except Divergence:
             return seconds(safe)
+
+
+# --- py-pde, in one call ------------------------------------------------------------------------------------
+
+
+class Slow(Gas):
+    """The gas of a slow vortex at a temperature and density about 1."""
+
+    def step_limit(self) -> float:
+        """As that of convection; of velocities twice the largest one."""
+        eos, law = self.scene.eos, self.scene.law
+        sound = float(sound_speed(eos, 1.0, energy(eos, 1.0, 1.0)))
+        wave = (2*np.sqrt(2)*sound + 2*self.scene.speed)/self.h
+        decay = 8*max(law.eta, law.k/eos.cv)/self.h**2
+        return float(1/(decay/RK4_DECAY + wave/RK4_SOUND))
+
+    def measure(self, data: np.ndarray) -> tuple[float, float, float]:
+        """v^2/2 per volume, as cheap as it gets: samples are there for their times."""
+        return float((data[VX]**2 + data[VY]**2).mean()/2), np.nan, 1.0
+
+    def nusselt(self, data: np.ndarray) -> tuple[float, float]:
+        """No heat is driven through it."""
+        return np.nan, np.nan
+
+    def begun(self) -> np.ndarray:
+        """The state (4, columns, rows) at the start, each field where it is."""
+        rho, u, v, T = (started(self.scene, *self.mesh(field))[field] for field in (RHO, VX, VY, E))
+        return np.array([rho, u, v, energy(self.scene.eos, 1.0, T)])
+
+    def exact(self) -> np.ndarray:
+        """Velocities (n, 2) at the end, each component where it is."""
+        components = []
+        for field, name in ((VX, "vx"), (VY, "vy")):
+            x = np.stack(self.mesh(field), axis=-1).reshape(-1, 2)
+            components.append(answer(self.scene, x)[name])
+        return np.stack(components, axis=1)
+
+
+def by_pypde(flow: ExactFlow, method: None, size: int, seed: int) -> Slow:
+    """Cells of one spacing."""
+    return Slow(flow.scene(size), size)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolverRace(Race):
+    """The solver, called once; what the entry makes is its gas.
+
+    Steps are at the limit of its own formula, an eighth longer than which ends in the vortex; compiling is
+    not counted, nor what py-pde does around the steps.
+    """
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        gas, laps = self.made(), Laps()
+        until = Time(gas.scene.time, SAMPLES)
+        end = pypde.solve(gas, until=until, start=gas.begun(), dt=gas.step_limit(), progress=laps)
+        v, exact = end.state[[VX, VY]].reshape(2, -1).T, gas.exact()
+        one = np.ones(len(v))
+        result = Result({"velocity": relative(one, v - exact, exact), "decay": decay(gas.scene, one, v)})
+        seconds = with_err(run_s=laps.total(SAMPLES), setup_s=of_calls(lambda: self.made().begun()))
+        row = {**self.columns, "points": len(v), "of_limit": 1.0, "dt": np.nan, "steps": end.steps, **seconds}
+        errors = self.errors(result, self.entry.flow.known)
+        return Outcome({"errors": list(errors), "runs": [row]})

@@ -27,7 +27,7 @@ from studies.build.names import START_ENERGY
 from studies.build.setting import Ready
 from studies.build.unguarded import Unguarded
 from studies.cost.contestants import smoothed
-from studies.cost.problem import Go, Problem, Residuals, Result, holding, marching, relative, rms
+from studies.cost.problem import Judge, Problem, Residuals, Result, of_grid, of_method, relative, rms
 from studies.kit.stats import Measured, settled
 
 RA, LOWER_RA = 1e4, 5000.0
@@ -53,22 +53,16 @@ class Reference(NamedTuple):
 
 @cache
 def reference(rows: tuple[int, int, int], ra: float) -> Reference:
-    """Limits of three grids; what the coarsest one changes of them is their uncertainty."""
+    """Limits of the two finer of three grids; that of the coarser two tells their uncertainty."""
     scene = RayleighBenard(ra=ra)
     until = Time(EARLY*unit(scene), round(EARLY*OFTEN))
     states = [newton(scene, n) for n in rows]
     runs = [run_grid(scene, n, until=until, start=initial(scene, n, START_ENERGY)) for n in rows]
-    coarser, ke = limits([state.ke for state in states], rows)
-    early, curve = limits([one.series.ke for one in runs], rows)
-    fields = tuple(state.fields for state in states[1:])
-    known, history_known = abs(ke - coarser)/ke, rms(curve - early)/rms(curve)
-    return Reference(ke, known, fields, curve[1:-1], history_known)
-
-
-def limits(values: Sequence[Any], rows: Sequence[int]) -> tuple[Any, Any]:
-    """By the two coarser and by the two finer of three grids."""
-    coarser = extrapolated(values[:2], rows[:2])
-    return coarser, extrapolated(values[1:], rows[1:])
+    K, curves = [state.ke for state in states], [one.series.ke for one in runs]
+    coarser, ke = extrapolated(K[:2], rows[:2]), extrapolated(K[1:], rows[1:])
+    early, curve = extrapolated(curves[:2], rows[:2]), extrapolated(curves[1:], rows[1:])
+    return Reference(ke, abs(ke - coarser)/ke, tuple(state.fields for state in states[1:]), curve[1:-1],
+                     rms(curve - early)/rms(curve))
 
 
 def extrapolated(values: Sequence[Any], rows: Sequence[int]) -> Any:
@@ -101,8 +95,15 @@ class HeatedLayer(NamedTuple):
         """Unit spacing."""
         return RayleighBenard(ra=self.ra, L=float(rows))
 
-    def result(self, done: Followed, at: Fields, factor: float = 1.0) -> Result:
-        """All quantities, of fields `at` the end in heights. factor : smoothing's own on K."""
+    def judge(self, scene: RayleighBenard, see: See, factor: float = 1.0) -> Judge:
+        """All quantities, of fields as they are seen at the end. factor : smoothing's own on K."""
+        def judge(done: Followed) -> Result:
+            at = see(done.state)
+            return self.result(done, at._replace(x=at.x/scene.L), factor)
+        return judge
+
+    def result(self, done: Followed, at: Fields, factor: float) -> Result:
+        """The same of fields with places in heights."""
         answer = self.answer
         last = self.last(done)*(1/factor/answer.ke)
         early = CubicSpline(done.t, done.ke/factor)(TIMES)
@@ -121,12 +122,9 @@ class HeatedLayer(NamedTuple):
 
     def share(self, done: Followed, residuals: Residuals) -> dict[str, float]:
         """Of the run, by quantity: rule at the head of this file."""
-        share = dict[str, float]()
-        for name, residual in residuals.items():
-            error = max(self.answer.known, rms(residual))
-            time = EARLY if name == "K(t)" else self.needed(done, error)
-            share[name] = min(1.0, float(time/done.t[-1]))
-        return share
+        errors = {name: max(self.answer.known, rms(residual)) for name, residual in residuals.items()}
+        times = {name: self.needed(done, error) for name, error in errors.items()} | {"K(t)": EARLY}
+        return {name: float(min(1.0, time/done.t[-1])) for name, time in times.items()}
 
     def needed(self, done: Followed, error: float) -> float:
         """Free-fall times until a quantity of the steady state is as good as its error."""
@@ -165,10 +163,15 @@ def aligned(at: Fields) -> np.ndarray:
 
 
 def on_points(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
-    """Points that stay or move."""
+    """Points that stay."""
     scene = flow.scene(rows)
     ready = method.ready(scene, seed)
     return in_time(flow, scene, ready, method.series["ke"], ready.method.fields)
+
+
+def on_moving(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
+    """Points that move."""
+    return on_points(flow._replace(late=SETTLED), method, rows, seed)
 
 
 def of_particles(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
@@ -177,58 +180,38 @@ def of_particles(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Proble
     ready = method.ready(scene, seed)
     plain, smooth = smoothed_energy(flow.answer.fields[1], Smoothing(method.weight, method.h, rows))
     see = partial(smoothed, ready.method)
-    problem = in_time(flow, scene, ready, method.series["kg"], see, smooth/plain)
+    problem = in_time(flow._replace(late=LATE), scene, ready, method.series["kg"], see, smooth/plain)
     return problem._replace(firm=True)
 
 
 def in_time(flow: HeatedLayer, scene: RayleighBenard, ready: Ready, energy: Callable, see: See,
             factor: float = 1.0) -> Problem:
     """A method of the particles' time loop, with K on the way."""
-    method = Unguarded(ready.method)
-
     def go(state: np.ndarray, dt: float, steps: int) -> Followed:
         plan = Plan(dt=dt, steps=steps, series={"ke": energy}, every=every(scene, dt))
-        done = run(method, state, plan)
+        done = run(Unguarded(ready.method), state, plan)
         return from_rolls(scene, done.times, done.series["ke"], done.by_id())
-    points = ready.start.shape[1]
-    problem = problem_of(flow, scene, ready, points, go, see, factor)
-    return problem._replace(held=holding(ready.method, ready.start), timed=marching(ready.method))
+    problem = of_method(ready.method, ready.start, END*unit(scene), flow.judge(scene, see, factor),
+                        known=flow.answer.known, chaotic=bool(flow.late))
+    return problem._replace(go=go, timed=problem.go)
 
 
 def on_grid(flow: HeatedLayer, form: Any, rows: int, seed: int) -> Problem:
-    """The compressible grid in time."""
+    """The compressible grid in time, with K on the way."""
     scene = flow.scene(rows)
     ready = form.ready(scene)
-    method, march = ready.method, ready.method.march(ready.start)
-    cells = rows*round(scene.width)
 
-    def held() -> tuple:
-        return march.S, march.scratch
-    problem = problem_of(flow, scene, ready, cells, sampled(method), method.fields)
-    return problem._replace(held=held, timed=method.go)
-
-
-def problem_of(flow: HeatedLayer, scene: RayleighBenard, ready: Ready, points: int, go: Go, see: See,
-               factor: float = 1.0) -> Problem:
-    """What all have in common."""
-    def judge(done: Followed) -> Result:
-        at = see(done.state)
-        return flow.result(done, at._replace(x=at.x/scene.L), factor)
-    return Problem(points, ready.start, ready.limit, END*unit(scene), go, judge, tuple, flow.answer.known,
-                   bool(flow.late))
-
-
-def sampled(method: Any) -> Go:
-    """`go` of a grid with K on the way."""
     def go(S: np.ndarray, dt: float, steps: int) -> Followed:
-        march, often = method.march(S, dt), every(method.scene, dt)
+        march, often = ready.method.march(S, dt), every(scene, dt)
         t, ke = list[float](), list[float]()
         while march.steps < steps:
             march.go(min(often, steps - march.steps))
             t.append(march.t)
             ke.append(kinetic_energy(march.S))
-        return from_rolls(method.scene, t, ke, march.S)
-    return go
+        return from_rolls(scene, t, ke, march.S)
+    judge = flow.judge(scene, ready.method.fields)
+    problem = of_grid(ready, END*unit(scene), judge, known=flow.answer.known)
+    return problem._replace(go=go, timed=problem.go)
 
 
 def unit(scene: RayleighBenard) -> float:

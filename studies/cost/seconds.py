@@ -7,16 +7,14 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import ConstEta, IdealGas
+from continuum.fluid import ConstEta
 from continuum.scene import RayleighBenard
-from particles.integral.edge_makers import renormalised
-from particles.integral.edges import NONE_BEYOND
-from particles.integral.layer import Layer
 from particles.integral.points import lattice
 from particles.integrators import RK4
 from particles.run import Plan, run
 from particles.threads import Threads
-from particles.weights import Lucy
+from studies.build.fixed import SCHEMES
+from studies.build.scenes import Tile
 from studies.build.spam import PRINTED
 from studies.cost.tables import with_err
 from studies.kit.case import Case, Outcome, Report
@@ -50,9 +48,9 @@ def took(f: Callable[[], Any], clock: Clock = process_time) -> float:
     return clock() - began
 
 
-def of_calls(f: Callable[[], Any], clock: Clock = process_time) -> Measured:
+def of_calls(f: Callable[[], Any]) -> Measured:
     """Seconds of a call that was made before, so that all is compiled."""
-    return median([took(f, clock) for _ in range(REPEATS)])
+    return median([took(f) for _ in range(REPEATS)])
 
 
 def per_step(advance: Callable[[int], Any], short: float = SHORT, clock: Clock = process_time) -> Measured:
@@ -108,19 +106,10 @@ def arrays(thing: Any, seen: set[int]) -> Iterator[np.ndarray]:
             thing = thing.base
         yield thing
         return
-    for part in parts(thing):
+    parts = list(thing) if isinstance(thing, tuple | list) else []
+    held = thing if isinstance(thing, dict) else getattr(thing, "__dict__", {})
+    for part in parts + [value for name, value in held.items() if name != "method"]:
         yield from arrays(part, seen)
-
-
-def parts(thing: Any) -> Iterator[Any]:
-    """What a container or an object holds."""
-    if isinstance(thing, tuple | list):
-        yield from thing
-    if isinstance(thing, dict):
-        yield from thing.values()
-    for name, value in getattr(thing, "__dict__", {}).items():
-        if name != "method":
-            yield value
 
 
 # --- many points --------------------------------------------------------------------------------------------
@@ -151,28 +140,27 @@ class Flock(NamedTuple):
 
 class Web(NamedTuple):
     """RK4 over stored edges of a periodic lattice, twice as many columns as rows."""
-    state: np.ndarray
     sums: Any
-    integrator: RK4
+    state: np.ndarray
 
     @classmethod
     def of(cls, rows: int) -> "Web":
-        points = lattice((2*rows, rows))
-        edges, threads = renormalised(points, Lucy.of(h=2.0)), Threads(1)
-        method = Layer(x=points.x, edges=edges, beyond=NONE_BEYOND, eos=IdealGas(), law=ConstEta(ETA, ETA),
-                       T_plates=(1.0, 1.0), g=0.0)
-        state = method.state(1.0, 0.01*np.sin(points.x), np.ones(points.n))
-        return cls(state, method.start(points.n, threads), RK4(state.shape, threads))
+        x = lattice((2*rows, rows)).x
+        method, start, _ = SCHEMES["fixed-lattice"].ready(
+            Tile(width=2*rows, L=rows, law=ConstEta(ETA, ETA)), fields=(1.0, 0.01*np.sin(x), np.ones(len(x))))
+        return cls(method.start(len(x), Threads(1)), start)
 
     def seconds(self, short: float) -> Measured:
-        """Of a step."""
-        return per_step(self.advance, short)
+        """Of a step that is stable there for sure."""
+        return per_step(lambda steps: stepped(self.sums, self.state, 0.1, steps), short)
 
-    def advance(self, steps: int) -> None:
-        """From the start, with a step that is stable there for sure."""
-        now = self.state.copy()
-        for _ in range(steps):
-            self.integrator.step(self.sums, now, 0.1)
+
+def stepped(sums: Any, state: np.ndarray, dt: float, steps: int) -> np.ndarray:
+    """A state after so many steps of RK4, which nothing watches."""
+    integrator, now = RK4(state.shape, Threads(1)), state.copy()
+    for _ in range(steps):
+        integrator.step(sums, now, dt)
+    return now
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -198,9 +186,8 @@ class StepTime(Case):
         return 2*self.rows**2
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        made = self.kind.of(self.rows)
-        row = self.row(made.seconds(self.short), 1, "cpu")
-        return Outcome({"growth": [row]})
+        seconds = self.kind.of(self.rows).seconds(self.short)
+        return Outcome({"growth": [self.row(seconds, 1, "cpu")]})
 
     def row(self, seconds: Measured, threads: int, clock: str) -> dict[str, Any]:
         """Of the table."""

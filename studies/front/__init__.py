@@ -5,10 +5,9 @@
     done = solve("rayleigh-benard", "fixed-lattice", rows=24)
     print(done.K, done.Nu)
 
-Names of scenes are in `studies.build.named.SCENES`, those of methods in `studies.front.solving.ALL`.
+`make words` explains the names of scenes and methods.
 """
-from studies.front.comparing import Comparison, compare
 from studies.front.solution import Solution
-from studies.front.solving import solve
+from studies.front.solving import Comparison, compare, solve
 
 __all__ = ["Comparison", "Solution", "compare", "solve"]

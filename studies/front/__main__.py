@@ -6,9 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from particles.run import Divergence
-from studies.build.named import SCENES
-from studies.front.comparing import compare
-from studies.front.solving import solve
+from studies.build import SCENES
+from studies.front.solving import compare, solve
 from studies.kit.store import RESULTS
 
 OWN = RESULTS/"own"         # not committed
@@ -24,26 +23,24 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--time", type=float, help="length of the run, for convection in free-fall times")
     parser.add_argument("--out", type=Path, default=OWN, help="folder of the picture (default: results/own)")
     words = parser.parse_args(arguments)
+    path = words.out/f"{words.scene}-{'-'.join(words.methods)}.png"
     try:
-        return shown(words)
+        done = solution(words, path.with_suffix(".run.h5"))
     except (ValueError, Divergence) as error:
         print(error, file=sys.stderr)
         return 1
-
-
-def shown(words: argparse.Namespace) -> int:
-    """Solve, print, draw."""
-    more = {"seed": words.seed, "time": words.time}
-    path = words.out/f"{words.scene}-{'-'.join(words.methods)}.png"
-    if len(words.methods) == len(words.rows) == 1:
-        kept = path.with_suffix(".run.h5")
-        done: Any = solve(words.scene, words.methods[0], rows=words.rows[0], resume=kept, **more)
-    else:
-        done = compare(words.scene, words.methods, words.rows, **more)
     print(done)
     done.plot(path)
     print(path)
     return 0
+
+
+def solution(words: argparse.Namespace, resume: Path) -> Any:
+    """Of one method with one number of rows, which can be resumed; else a comparison."""
+    more = {"seed": words.seed, "time": words.time}
+    if len(words.methods) == len(words.rows) == 1:
+        return solve(words.scene, words.methods[0], rows=words.rows[0], resume=resume, **more)
+    return compare(words.scene, words.methods, words.rows, **more)
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ through the fluid over what conduction alone would carry. Where a scene knows it
 of the mean square difference from it, over that of its own departure from rest.
 """
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -35,40 +36,36 @@ def heating(scene: Any) -> HeatPath | None:
     return getattr(scene, "heating", None)
 
 
-def nusselt(scene: Any, heat: HeatPath, at: Fields) -> float:
+def nusselt(at: Fields, scene: Any, heat: HeatPath) -> float:
     """1 + <rho v (e + P/rho + v^2/2 + g y)>/(k dT/length), along the heat; friction's share is left out.
 
     Of steady flows and constant conductivity, where what plates conduct is k dT/length on average.
     """
-    v = at.v[:, heat.axis]
     e = energy(scene.eos, at.rho, at.T)
-    enthalpy, height = e + pressure(scene.eos, at.rho, e)/at.rho, at.x[:, 1]
-    carried = at.rho*v*(enthalpy + (at.v**2).sum(axis=1)/2 + scene.g*height)
-    return 1 + float(carried@at.V/at.V.sum())*heat.length/(scene.law.k*heat.dT)
+    head = e + pressure(scene.eos, at.rho, e)/at.rho + (at.v**2).sum(axis=1)/2 + scene.g*at.x[:, 1]
+    carried = at.V@(at.rho*at.v[:, heat.axis]*head)/at.V.sum()
+    return 1 + float(carried)*heat.length/(scene.law.k*heat.dT)
 
 
 def recorded(scene: Any, variant: Any) -> dict[str, Callable]:
-    """Quantities of a run by their names in its history: K, Nu where heat passes, and the scene's own."""
-    own, heat = getattr(variant, "series", {}), heating(scene)
-    found: dict[str, Callable] = {"K": kinetic}
+    """Quantities of a run by their names in its history: K, Nu where heat passes, and the scene's own.
+
+    Nu of convection is that of the variant's own series: of heat through the volume of smooth particles, or
+    through the plates.
+    """
+    own, heat, of_fields = getattr(variant, "series", {}), heating(scene), dict(quantities(scene))
+    record: dict[str, Callable] = {"K": kinetic}
     if "kg" in own:
-        found = {"K": own["kg"], "K_particles": own["kp"]}
-    if isinstance(scene, RayleighBenard) and heat and own:
-        found["Nu"] = of_plates(scene, own)
+        record = {"K": own["kg"], "K_particles": own["kp"]}
+    if heat and own and isinstance(scene, RayleighBenard):
+        unit = heat_at_rest(scene)
+        record["Nu"] = ((lambda *at: own["heat"](*at)*scene.width/unit) if "heat" in own else
+                        lambda *at: (own["lower"](*at) - own["upper"](*at))/2/unit)
     elif heat:
-        found["Nu"] = lambda sums, state: nusselt(scene, heat, sums.method.fields(state))
-    for name, quantity in quantities(scene).items():
-        found[name] = lambda sums, state, of=quantity: of(sums.method.fields(state))
-    return found
-
-
-def of_plates(scene: RayleighBenard, own: dict[str, Callable]) -> Callable:
-    """Nu of a variant's own series: heat through the plates, or through the volume of smooth particles."""
-    if "heat" in own:
-        unit = scene.k*scene.dT/scene.L
-        return lambda *at: own["heat"](*at)/unit
-    unit = 2*heat_at_rest(scene)
-    return lambda *at: (own["lower"](*at) - own["upper"](*at))/unit
+        of_fields["Nu"] = partial(nusselt, scene=scene, heat=heat)
+    for name, quantity in of_fields.items():
+        record[name] = lambda sums, state, of=quantity: of(sums.method.fields(state))
+    return record
 
 
 def seen(method: Any, state: np.ndarray) -> Fields:
@@ -84,34 +81,34 @@ def seen(method: Any, state: np.ndarray) -> Fields:
 def numbers(scene: Any, history: pd.DataFrame, at: Fields) -> dict[str, Measured]:
     """K and Nu of the steady end with their errors; `error` and rates where the scene knows them."""
     at_last = at_end if heating(scene) else last
-    found = {name: at_last(history[name]) for name in ("K", "K_particles", "Nu") if name in history}
+    found = {name: at_last(history[name].to_numpy(float)) for name in ("K", "K_particles", "Nu")
+             if name in history}
     if exact := answer(scene, at.x):
-        found["error"] = Measured(departure(at, exact))
+        at_rest = Fields(at.x, 0*at.v, 0*at.rho + 1, 0*at.T + 1, at.V)
+        found["error"] = Measured(apart(at, exact)/apart(at_rest, exact))
     if "wave" in history:
         found["growth"] = Measured(*line(history["t"].to_numpy(), np.log(history["wave"])).slope)
     return found
 
 
-def last(series: pd.Series) -> Measured:
+def last(series: np.ndarray) -> Measured:
     """The last value, of what is not steady."""
-    return Measured(float(series.iloc[-1]))
+    return Measured(float(series[-1]))
 
 
-def at_end(series: pd.Series) -> Measured:
+def at_end(series: np.ndarray) -> Measured:
     """The last value of what is steady, else the mean over the last two fifths, with its error.
 
     Few samples, of a short run, have their whole range for an error.
     """
-    late = series.to_numpy(float)[int(LATE*len(series)):]
+    late = series[int(LATE*len(series)):]
     if np.ptp(late) <= STEADY*abs(late[-1]):
         return Measured(float(late[-1]), float(np.ptp(late[-max(2, len(late)//4):])))
     return settled(late, AGREE)[0] if len(late) >= FEW else Measured(float(late.mean()), float(np.ptp(late)))
 
 
-def departure(at: Fields, exact: dict[str, np.ndarray]) -> float:
-    """Root of the mean square of what differs from the answer, over that of the answer less rest."""
+def apart(at: Fields, exact: dict[str, np.ndarray]) -> float:
+    """Root of the mean square over the volume of what differs from the answer."""
     have = {"rho": at.rho, "vx": at.v[:, 0], "vy": at.v[:, 1], "T": at.T}
-    at_rest = {"rho": 1.0, "vx": 0.0, "vy": 0.0, "T": 1.0}
     wrong = sum(at.V@(have[name] - value)**2 for name, value in exact.items())
-    size = sum(at.V@(value - at_rest[name])**2 for name, value in exact.items())
-    return float(np.sqrt(wrong/size))
+    return float(np.sqrt(wrong/at.V.sum()))

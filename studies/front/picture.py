@@ -1,51 +1,71 @@
-"""A solution in two pictures: its fields at the end, and its history."""
+"""Solutions in pictures: fields at the end and the history of one; flows and costs of several."""
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 
 from studies.build.answers import answer
-from studies.kit.figure import figure, look, save
+from studies.kit.figure import errorbar, figure, look, save
 
 ARROWS = 11         # over the height
-LONG = 3.0          # times as long as wide, or more: fields along the axis tell more than a map
+LONG = 3.0          # times as long as wide, or half as wide as high: fields along a line say more than maps
 NAMES = {"rho": "density", "vx": "velocity $v_x$", "T": "temperature"}
 
 
 def picture(solution: Any, path: str | Path | None = None) -> Figure:
     """The figure, and its PNG if a path is given."""
     many = len(solution.history) > 1
-    page, axes = figure(1, 1 + many, width=5.2, height=3.4, squeeze=False)
+    page, axes = figure(1, 1 + many, width=5.2, squeeze=False)
     flow(axes[0, 0], solution)
     if many:
-        past(axes[0, 1], solution)
+        past(axes[0, 1], solution.history)
     page.suptitle(str(solution), fontsize=9)
+    return written(page, path)
+
+
+def pictures(comparison: Any, path: str | Path | None = None) -> Figure:
+    """Flows of the finest resolution above; each number against the cost below."""
+    by_rows = sorted(comparison.solutions, key=lambda one: one.rows)
+    finest = {one.method: one for one in by_rows}.values()
+    names = [name for name in ("K", "Nu", "error") if name in comparison.table]
+    page = Figure(figsize=(3.4*max(len(finest), len(names)), 5.6), layout="constrained")
+    halves: Any = page.subfigures(2, 1)
+    above, below = halves
+    for axes, one in zip(above.subplots(1, len(finest), squeeze=False)[0], finest):
+        flow(axes, one)
+        axes.set_title(one.method)
+    for axes, name in zip(below.subplots(1, len(names), squeeze=False)[0], names):
+        against_cost(axes, comparison.table.dropna(subset=[name]), name)
+    return written(page, path)
+
+
+def written(page: Figure, path: str | Path | None) -> Figure:
+    """The figure, as PNG too if a path is given."""
     if path is not None:
         save(page, Path(path))
     return page
 
 
-def flow(axes: Axes, solution: Any, title: str = "") -> None:
+def flow(axes: Axes, solution: Any) -> None:
     """A map of the fields, or what they are along a strip."""
     aspect = solution.scene.width/solution.scene.L
-    if aspect >= LONG or aspect*2 <= 1:
-        along(axes, solution, "x" if aspect > 1 else "y")
+    if 1/2 < aspect < LONG:
+        mapped(axes, solution.scene, solution.fields())
     else:
-        mapped(axes, solution)
-    axes.set_title(title)
+        along(axes, solution, "x" if aspect > 1 else "y")
 
 
-def mapped(axes: Axes, solution: Any) -> None:
+def mapped(axes: Axes, scene: Any, at: pd.DataFrame) -> None:
     """Colours: temperature, or density where that changes more; arrows: velocity."""
-    at, scene = solution.places, solution.scene
     L, shown = scene.L, "T" if np.ptp(at["T"]) > np.ptp(at["rho"]) else "rho"
     mesh = Triangulation(at["x"]/L, at["y"]/L)
     colours = axes.tripcolor(mesh, at[shown], shading="gouraud", cmap="cividis")
     axes.figure.colorbar(colours, ax=axes, label=NAMES[shown], shrink=0.8)
-    x, y = (np.arange(-size/L/2 + 0.5/ARROWS, size/L/2, 1/ARROWS) for size in (scene.width, L))
+    x, y = (np.arange(-size/2 + 0.5/ARROWS, size/2, 1/ARROWS) for size in (scene.width/L, 1))
     X, Y = np.meshgrid(x, y)
     vx, vy = (LinearTriInterpolator(mesh, at[name])(X, Y) for name in ("vx", "vy"))
     axes.quiver(X, Y, vx, vy, color="white", edgecolor="black", linewidth=0.3, pivot="mid", width=0.006)
@@ -55,7 +75,7 @@ def mapped(axes: Axes, solution: Any) -> None:
 
 def along(axes: Axes, solution: Any, axis: str) -> None:
     """Every point's fields against one coordinate, and the exact answer, where it is known, in black."""
-    at = solution.places.sort_values(axis)
+    at = solution.fields().sort_values(axis)
     exact = answer(solution.scene, at[["x", "y"]].to_numpy())
     for number, name in enumerate(exact or ("rho", "vx", "T")):
         dots = look(number) | {"linestyle": "none", "markersize": 2}
@@ -66,9 +86,8 @@ def along(axes: Axes, solution: Any, axis: str) -> None:
     axes.legend()
 
 
-def past(axes: Axes, solution: Any) -> None:
+def past(axes: Axes, history: pd.DataFrame) -> None:
     """K against time, and Nu where heat passes."""
-    history = solution.history
     axes.plot(history["t"], history["K"], marker="", label="K")
     axes.set(xlabel="time, in units of the scene", ylabel="K", ylim=(0, None))
     if "Nu" in history:
@@ -76,3 +95,14 @@ def past(axes: Axes, solution: Any) -> None:
         right.plot(history["t"], history["Nu"], marker="", color="#D55E00", linestyle="--")
         right.set_ylabel("Nu (dashed)")
         right.grid(False)
+
+
+def against_cost(axes: Axes, table: pd.DataFrame, name: str) -> None:
+    """One number of all methods, with its errors, against seconds of CPU; points carry their rows."""
+    for number, (method, rows) in enumerate(table.groupby("method", sort=False)):
+        errorbar(axes, rows["cpu_s"], rows[name], rows[f"{name}_err"], number=number, label=str(method),
+                 linestyle=look(number)["linestyle"])
+    for rows, *place in table[["rows", "cpu_s", name]].itertuples(index=False):
+        axes.annotate(f"{rows}", (place[0], place[1]), textcoords="offset points", xytext=(4, 4), fontsize=7)
+    axes.set(xscale="log", xlabel="CPU  [s]", ylabel=name, yscale="log" if name == "error" else "linear")
+    axes.legend(fontsize=7)

@@ -3,12 +3,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import h5py
 import numpy as np
 import pandas as pd
 
 from continuum.fluid import Fields
 from studies.front.picture import picture
-from studies.front.saving import save
 from studies.kit.stats import Measured
 
 
@@ -21,8 +21,8 @@ class Solution:
     """A method's solution of a scene.
 
     numbers : by name, each with the half width of its 95 % interval. history : columns t, K, ... ; t in the
-    unit of time of the scene, for convection the free-fall time. places : columns x, y, vx, vy, rho, T, V, at
-    the points or nodes of the method. cpu_s : without compiling.
+    unit of time of the scene, for convection the free-fall time. at : fields as arrays, at the points or
+    nodes of the method. cpu_s : without compiling.
     """
     scene: Any
     method: str
@@ -30,7 +30,7 @@ class Solution:
     seed: int
     numbers: dict[str, Measured]
     history: pd.DataFrame = field(repr=False)
-    places: pd.DataFrame = field(repr=False)
+    at: Fields = field(repr=False)
     dt: float = 0.0
     steps: int = 0
     cpu_s: float = 0.0
@@ -60,28 +60,55 @@ class Solution:
 
     def fields(self) -> pd.DataFrame:
         """x, y, vx, vy, rho, T and the volume V, a row for each point or node."""
-        return self.places.copy()
-
-    @property
-    def at(self) -> Fields:
-        """The same as arrays, places and velocities (n, 2): what functions of a flow take."""
-        x, y, vx, vy, *others = self.places.to_numpy().T
-        return Fields(np.stack([x, y], axis=1), np.stack([vx, vy], axis=1), *others)
+        x, v, *others = self.at
+        columns = ("x", "y", "vx", "vy", "rho", "T", "V")
+        return pd.DataFrame(dict(zip(columns, (*x.T, *v.T, *others))))
 
     def plot(self, path: str | Path | None = None) -> Any:
         """The figure of temperature, velocities and the history; written to `path`, if given."""
         return picture(self, path)
 
     def save(self, path: str | Path) -> Path:
-        """Write all of it: ".h5" with history and numbers, ".vtu" the fields for ParaView."""
-        return save(self, Path(path))
+        """Write all of it or nothing: ".h5" with history and numbers, ".vtu" the fields for ParaView.
+
+        Raises ValueError: the name ends otherwise.
+        """
+        place, kinds = Path(path), {".h5": as_hdf5, ".vtu": as_vtu}
+        if place.suffix not in kinds:
+            raise ValueError(f"{place.name} ends in {place.suffix or 'nothing'}: give a name that ends in "
+                             f"{' or '.join(kinds)}")
+        place.parent.mkdir(parents=True, exist_ok=True)
+        beside = place.with_name(f"{place.stem}.part{place.suffix}")
+        try:
+            kinds[place.suffix](self, beside)
+            beside.replace(place)
+        finally:
+            beside.unlink(missing_ok=True)
+        return place
 
     def __str__(self) -> str:
         """One line."""
-        told = ", ".join(f"{name} = {written(value)}" for name, value in self.numbers.items())
-        return f"{self.method}, {self.rows} rows: {told}  ({self.cpu_s:.1f} s of CPU, {self.steps} steps)"
+        numbers = ", ".join(f"{name} = {value}" for name, value in self.numbers.items())
+        return f"{self.method}, {self.rows} rows: {numbers}  ({self.cpu_s:.1f} s of CPU, {self.steps} steps)"
 
 
-def written(value: Measured) -> str:
-    """A value and its error, in as many digits as these deserve."""
-    return f"{value.value:.5g}" + (f" +- {value.err:.1g}" if value.err else "")
+def as_hdf5(solution: Solution, path: Path) -> None:
+    """Groups fields and history, a dataset a column; numbers and what was solved as attributes."""
+    with h5py.File(path, "w") as file:
+        file.attrs["scene"] = repr(solution.scene)
+        for name in ("method", "rows", "seed", "dt", "steps"):
+            file.attrs[name] = getattr(solution, name)
+        for name, value in solution.numbers.items():
+            file.attrs[name], file.attrs[f"{name}_err"] = value
+        for group, frame in (("fields", solution.fields()), ("history", solution.history)):
+            for column in frame:
+                file[f"{group}/{column}"] = frame[column].to_numpy()
+
+
+def as_vtu(solution: Solution, path: Path) -> None:
+    """Points, each a cell of its own, with their fields; places and velocities as vectors in space."""
+    import meshio  # takes half a second, for which few ask
+    at, third = solution.at, ((0, 0), (0, 1))
+    data = {"velocity": np.pad(at.v, third), "rho": at.rho, "T": at.T, "V": at.V}
+    cells = [("vertex", np.arange(len(at.x))[:, None])]
+    meshio.write(path, meshio.Mesh(np.pad(at.x, third), cells, point_data=data))

@@ -1,51 +1,36 @@
 """One call for every method: particles, points, grids, py-pde, Boussinesq, linear theory."""
 import sys
-from dataclasses import replace
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, fields, replace
+from functools import partial
+from inspect import signature
 from math import ceil
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pandas as pd
+from matplotlib.figure import Figure
 from tqdm import tqdm
 
-from continuum.fluid import Fields
+from continuum.domain import Domain
 from particles.integral.points import lattice
-from particles.run import Plan, run
-from studies.build import METHODS, near, ready
+from particles.run import Divergence, Plan, run
+from studies.build import METHODS, SCENES, of_name, ready
 from studies.build.answers import duration, of_one_mass, rows_of, with_rows
-from studies.build.moving import FacesMotion
-from studies.build.named import SCENES
-from studies.build.rr98_moving import DriftMotion
+from studies.build.moving import DriftMotion, FacesMotion
 from studies.build.scenes import Sound
 from studies.build.setting import Ready
 from studies.build.spam import Variant
 from studies.front.observed import numbers, recorded, seen
-from studies.front.references import REFERENCES
+from studies.front.picture import pictures
+from studies.front.references import REFERENCES, solved
 from studies.front.solution import Solution
 
 SAMPLES = 400       # of a history
 #: name -> what solves a scene
 ALL: dict[str, Any] = {**METHODS, **REFERENCES}
-
-
-class How(NamedTuple):
-    """How a run in time is made.
-
-    time : its length in the scene's unit: free-fall times of convection, viscous times of a box. dt : its
-    step, if not the method's own. resume : a file that an interrupted run goes on from. progress : a bar; by
-    default where one looks.
-    """
-    seed: int = 1
-    time: float | None = None
-    dt: float | None = None
-    resume: str | Path | None = None
-    progress: bool | None = None
-
-    @property
-    def silent(self) -> bool:
-        """Whether there is no bar."""
-        return not (sys.stderr.isatty() if self.progress is None else self.progress)
 
 
 def solve(scene: Any, method: Any, *, rows: int | None = None, seed: int = 1, time: float | None = None,
@@ -54,41 +39,59 @@ def solve(scene: Any, method: Any, *, rows: int | None = None, seed: int = 1, ti
     """A scene solved by a method.
 
     scene : a name of `SCENES`, which takes its numbers besides, such as ra=1e4; or an object. method : a name
-    of `ALL`, a variant or a method of one's own, or a class that takes the scene. rows : points or cells over
-    the height. seed, time, dt, resume, progress : as of `How`.
+    of `ALL`, a variant or a method of one's own, or a class or function of the scene. rows : points or cells
+    over the height. seed : of places at random. time : length of the run in the scene's unit: free-fall times
+    of convection, viscous times of a box. dt : the step, if not the method's own. resume : a file that an
+    interrupted run goes on from. progress : a bar; by default where one looks.
     Raises ValueError: there is no such scene or method, or the method cannot take the scene. Divergence.
     """
-    check_rows(rows)
     where, chosen = placed(scene, rows, **of_scene), named(method)
-    if hasattr(chosen, "solved"):
-        solution: Solution = chosen.solved(where, method, seed)
-        return solution
-    return stepped(where, chosen, called(method), How(seed, time, dt, resume, progress))
+    if isinstance(method, str) and method in REFERENCES:
+        parts = solved(method, where)
+    else:
+        made = prepared(where, chosen, seed)
+        plan = planned(where, chosen, dt or made.dt, time, resume)
+        warn_of_heat(where, plan.dt*plan.steps)
+        parts = followed(where, made, plan, called(method), progress)
+    return Solution(scene=where, method=called(method), rows=rows_of(where), seed=seed, **parts)
 
 
 def placed(scene: Any, rows: int | None, **of_scene: Any) -> Any:
-    """The scene with so many rows. Raises ValueError: there is no such scene."""
+    """The scene with so many rows. Raises ValueError: no such scene, number of rows, number of the scene."""
+    if rows is not None and (rows < 4 or rows != round(rows)):
+        raise ValueError(f"rows must be a whole number of 4 or more, got {rows}: 16 or 24 are usual")
+    make = of_name("scene", scene, SCENES) if isinstance(scene, str) else partial(replace, scene)
+    for name in of_scene:
+        of_name("number of this scene or keyword of solve", name, dict.fromkeys(numbers_of(make)))
     if isinstance(scene, str):
-        if scene not in SCENES:
-            raise ValueError(f"no scene is called {scene!r}; near to it are {near(scene, SCENES)}")
-        return SCENES[scene](**of_scene) if rows is None else SCENES[scene](rows=rows, **of_scene)
-    fresh = replace(scene, **of_scene) if of_scene else scene
+        return make(**of_scene) if rows is None else make(rows=rows, **of_scene)
+    fresh = make(**of_scene) if of_scene else scene
     return fresh if rows is None else with_rows(fresh, rows)
 
 
-def check_rows(rows: int | None) -> None:
-    """Refuse what is no number of rows. Raises ValueError."""
-    if rows is not None and (rows < 4 or rows != round(rows)):
-        raise ValueError(f"rows must be a whole number of 4 or more, got {rows}: 16 or 24 are usual")
+def numbers_of(make: Callable) -> list[str]:
+    """Keywords of `solve` for a scene: its own, and the numbers that the maker of the scene takes."""
+    taken = signature(make).parameters
+    any_more = any(one.kind is one.VAR_KEYWORD for one in taken.values())
+    return [*taken, *(one.name for one in fields(make()) if any_more), *signature(solve).parameters]
+
+
+def warn_of_heat(scene: Any, time: float) -> None:
+    """Warn of a box that heat enters and never leaves, or the reverse: it will be no steady state."""
+    if not isinstance(scene, Domain) or scene.temperatures:
+        return
+    left, right, bottom, top = (getattr(side, "q", 0.0) for side in scene.four)
+    heat = (left + right)*scene.L + (bottom + top)*scene.width
+    if heat:
+        rise = heat*time/(scene.width*scene.L*float(scene.eos.cv))
+        warnings.warn(f"heat {heat:.3g} enters the box per time and no side has a temperature to let it out: "
+                      f"T will change by {rise:.3g} in this run; give a side T, or sides a total q of 0",
+                      stacklevel=3)
 
 
 def named(method: Any) -> Any:
     """What stands for a method. Raises ValueError: no method has this name."""
-    if not isinstance(method, str):
-        return method
-    if method not in ALL:
-        raise ValueError(f"no method is called {method!r}; near to it are {near(method, ALL)}")
-    return ALL[method]
+    return of_name("method", method, ALL) if isinstance(method, str) else method
 
 
 def called(method: Any) -> str:
@@ -98,48 +101,89 @@ def called(method: Any) -> str:
     return str(getattr(method, "name", "") or getattr(method, "__name__", type(method).__name__))
 
 
-def stepped(scene: Any, chosen: Any, name: str, how: How) -> Solution:
-    """By steps in time, of any method."""
-    made = prepared(scene, chosen, how.seed)
-    plan, unit = planned(scene, chosen, made.dt, how), duration(scene)[1]
-    with tqdm(total=plan.steps, desc=name, unit="step", disable=how.silent, leave=False) as bar:
+def prepared(scene: Any, chosen: Any, seed: int = 1) -> Ready:
+    """A method at its start in a scene, for `run`: of grids a block is as flat as states of points.
+
+    Particles of one mass start as dense as the scene has it, and in sound, which jitter would drown, moving
+    points on a lattice.
+    """
+    begun: dict[str, Any] = {}
+    if isinstance(chosen, Variant):
+        begun["x"], begun["fields"] = of_one_mass(scene, seed)
+    elif isinstance(scene, Sound) and isinstance(chosen, (FacesMotion, DriftMotion)):
+        begun["x"] = lattice((scene.width, scene.L)).x
+    made = ready(scene, chosen, seed, **begun)
+    return made._replace(start=made.start.reshape(len(made.start), -1))
+
+
+def planned(scene: Any, chosen: Any, longest: float, time: float | None = None,
+            resume: str | Path | None = None) -> Plan:
+    """Steps of the same length, none longer than it may be, and what they record."""
+    usual, unit = duration(scene)
+    length = (time or usual)*unit
+    steps = ceil(length/longest)
+    return Plan(dt=length/steps, steps=steps, series=recorded(scene, chosen), every=max(1, steps//SAMPLES),
+                checkpoint=Path(resume) if resume else None)
+
+
+def followed(scene: Any, made: Ready, plan: Plan, name: str, progress: bool | None) -> dict[str, Any]:
+    """Parts of a solution by steps in time."""
+    shown = sys.stderr.isatty() if progress is None else progress
+    with tqdm(total=plan.steps, desc=name, unit="step", disable=not shown, leave=False) as bar:
         def tell(part: float) -> None:
             bar.update(round(part*plan.steps) - bar.n)
         done = run(made.method, made.start, plan, tell)
-    history = pd.DataFrame({"t": np.array(done.times)/unit, **done.series})
+    history = pd.DataFrame({"t": np.array(done.times)/duration(scene)[1], **done.series})
     at = seen(made.method, done.by_id())
-    return Solution(scene=scene, method=name, rows=rows_of(scene), seed=how.seed, history=history,
-                    numbers=numbers(scene, history, at), places=frame(at), dt=plan.dt, steps=plan.steps,
-                    cpu_s=done.cpu_s, compile_s=done.compile_s)
+    return {"history": history, "at": at, "numbers": numbers(scene, history, at), "dt": plan.dt,
+            "steps": plan.steps, "cpu_s": done.cpu_s, "compile_s": done.compile_s}
 
 
-def planned(scene: Any, chosen: Any, longest: float, how: How) -> Plan:
-    """Steps of the same length, none longer than it may be, and what they record."""
-    usual, unit = duration(scene)
-    length = (how.time or usual)*unit
-    steps = ceil(length/(how.dt or longest))
-    return Plan(dt=length/steps, steps=steps, series=recorded(scene, chosen), every=max(1, steps//SAMPLES),
-                checkpoint=Path(how.resume) if how.resume else None)
+@dataclass(frozen=True)
+class Comparison:
+    """Solutions; diverged : why some have none, by their method and rows."""
+    solutions: list[Solution]
+    diverged: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def table(self) -> pd.DataFrame:
+        """A row a method and resolution: numbers, each with its error, and what they cost."""
+        return pd.DataFrame([row(one, with_errors(one)) for one in self.solutions])
+
+    def plot(self, path: str | Path | None = None) -> Figure:
+        """Flows of the finest resolution above; each number against the cost below."""
+        return pictures(self, path)
+
+    def __str__(self) -> str:
+        """The table, errors in units of the last digit, then what diverged."""
+        rows = pd.DataFrame([row(one, {name: str(q) for name, q in one.numbers.items()})
+                             for one in self.solutions])
+        diverged = [f"{name}: {why}" for name, why in self.diverged.items()]
+        return "\n".join([rows.to_string(index=False, na_rep="", float_format="{:.2g}".format), *diverged])
 
 
-def prepared(scene: Any, chosen: Any, seed: int = 1) -> Ready:
-    """A method at its start in a scene, for `run`: of grids a block is as flat as states of points."""
-    made = ready(scene, chosen, seed, **begun(scene, chosen, seed))
-    return made._replace(start=made.start.reshape(made.start.shape[0], -1))
+def row(one: Solution, numbers: dict[str, Any]) -> dict[str, Any]:
+    """A line of the table."""
+    return {"method": one.method, "rows": one.rows, **numbers, "cpu_s": one.cpu_s, "steps": one.steps}
 
 
-def begun(scene: Any, chosen: Any, seed: int) -> dict[str, Any]:
-    """Where particles start, if not as all points do: those of one mass as dense as the scene has it, and in
-    sound, which jitter would drown, moving points on a lattice."""
-    if isinstance(chosen, Variant):
-        x, fields = of_one_mass(scene, seed)
-        return {"x": x, "fields": fields}
-    if isinstance(scene, Sound) and isinstance(chosen, (FacesMotion, DriftMotion)):
-        return {"x": lattice((scene.width, scene.L)).x}
-    return {}
+def with_errors(one: Solution) -> dict[str, float]:
+    """K, K_err, and so on."""
+    return {name + end: number for name, value in one.numbers.items()
+            for end, number in zip(("", "_err"), value)}
 
 
-def frame(at: Fields) -> pd.DataFrame:
-    """Fields as columns."""
-    return pd.DataFrame({"x": at.x[:, 0], "y": at.x[:, 1], "vx": at.v[:, 0], "vy": at.v[:, 1], "rho": at.rho,
-                         "T": at.T, "V": at.V})
+def compare(scene: Any, methods: Sequence[Any], rows: Sequence[int] | int = (16, 25),
+            **more: Any) -> Comparison:
+    """Solve a scene by several methods at several resolutions; what diverges is told beside the table.
+
+    scene, methods, more : as of `solve`. Raises ValueError: as `solve`, before anything runs.
+    """
+    solutions, diverged = [], {}
+    for method in methods:
+        for count in [rows] if isinstance(rows, int) else rows:
+            try:
+                solutions.append(solve(scene, method, rows=count, **more))
+            except Divergence as error:
+                diverged[f"{called(method)}, {count} rows"] = str(error)
+    return Comparison(solutions, diverged)

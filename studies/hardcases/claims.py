@@ -80,8 +80,6 @@ SQUARES = (
 METHODS = {"grid": "compressible grid", "fixed-lattice": "fixed points on a lattice",
            "fixed-jittered-delaunay": "fixed points, jittered", "moving": "moving points with closed faces"}
 VISCOUS, LONG, SHORT = 0.5, *STEPS
-NO_RINGING = "a tenth is no ringing, as for smooth particles"
-SHORTER = "[asked after runs had ended at four times this step]"
 
 
 def longest(method: str, value: str, eta: float) -> Value:
@@ -95,20 +93,21 @@ def of_method(method: str, words: str) -> tuple[Claim, ...]:
     fields = [longest(method, f"{name}_grid", VISCOUS) for name in ("rho", "v", "P")]
     return (
         Claim(id=f"sod-{method}-grid", source="Sod 1978", at_most=0.01,
-              value=farthest_of(*fields, centre=0.0),
+              value=farthest_of(*fields, centre=0.0), because="1 %, as is asked of smooth particles",
               statement=f"{words}, eta = k = {VISCOUS:g}: density, velocity and pressure are those of a fine "
-                        "grid as viscous: largest mean difference over its range, longest tube",
-              because="1 %, as is asked of smooth particles"),
+                        "grid as viscous: largest mean difference over its range, longest tube"),
         Claim(id=f"sod-{method}-rings", source="Sod 1978", at_most=0.1,
               value=longest(method, "wiggles", BARELY),
               statement=f"{words}: nothing rings if v a/nu of the contact's velocity behind the shock is "
                         f"{CELL_NUMBER:g}: variation of v beyond that of the exact solution, over it, "
                         "longest tube",
-              because=f"central differences keep order below a cell number of 2; {NO_RINGING}"),
+              because="central differences keep order below a cell number of 2; a tenth is no ringing, as "
+                      "for smooth particles"),
         Claim(id=f"sod-{method}-robust-short", source="Sod 1978", at_most=0, because="none",
               value=total("method_tubes", "reached < 1", method=method, eta=0.0, step=SHORT),
               statement=f"{words}: Sod's shock is taken without any viscosity in steps of an eighth of the "
-                        f"limit at the start: tubes that ended before their time {SHORTER}"))
+                        "limit at the start: tubes that ended before their time [asked after runs had ended "
+                        "at four times this step]"))
 
 
 SHOCKS = (

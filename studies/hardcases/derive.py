@@ -1,25 +1,24 @@
-"""Rows that follow from whole tables: growth of ripples, the highest Ra, and the map.
+"""The tables, and rows that follow from whole ones: growth of ripples, the highest Ra, and the map.
 
 Rules of the map, written before the runs. diverges: the run did not reach its end. leaks: mass changed by
 more than LEAK. freezes: less than FROZEN of the flow is left. right: the number is within NEAR, and what the
 reference is uncertain by, of what it should be. wrong: stable, and none of these. A shock tube is right if v
-neither rings nor is off by more than NEAR, and diverges if a tube of any length did. The highest Ra is the
-first one that is bad: it ends, or its K is wrong but stable. refused: the method says itself that it does not
-take the case. unjudged: there is nothing to hold it against, since no two grids besides itself came to their
-end, a search found no limit, or a rate is known to worse than NEAR.
+neither rings nor is off by more than NEAR, and diverges if a tube of any length did. refused: the method says
+itself that it does not take the case. unjudged: there is nothing to hold it against, since no two grids
+besides itself came to their end, or a rate is known to worse than NEAR.
 """
 from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from studies.hardcases.extremes import BOXES, ROWS, SITUATIONS, SOUND, rarefied
-from studies.hardcases.interface import impulse
-from studies.hardcases.tubes import CELL_NUMBER, STEPS
+from studies.hardcases.printed import impulse
+from studies.hardcases.tubes import STEPS
 from studies.kit.fits import line
 from studies.kit.stats import Measured, combine, over_seeds
-from studies.kit.table import Rows, Tables, groups
+from studies.kit.table import Rows, Table, Tables, groups
 
 Row = dict[str, Any]
 SETTLED = 0.3           # part of the time from the shock to its return that the ripple takes to grow steadily
@@ -37,10 +36,9 @@ def derive(tables: Tables) -> Rows:
         rows["ripple_growth"] = list(ripple_growth(tables["ripples"]))
     if "high_ra" in tables and "high_ra_grid" in tables:
         rows["high_ra_summary"] = list(high_ra_summary(tables["high_ra"], tables["high_ra_grid"]))
-    frames = tables | {name: pd.DataFrame(new) for name, new in rows.items()}
     for name, make in OF_MAP.items():
-        if len(frames.get(name, ())):
-            rows["map"] += make(frames[name])
+        if name in tables:
+            rows["map"] += make(tables[name])
     return {name: new for name, new in rows.items() if new}
 
 
@@ -51,15 +49,12 @@ def ripple_growth(ripples: pd.DataFrame) -> Iterator[Row]:
     """
     for (scale, steep), group in groups(ripples.dropna(subset=["height"]), ["scale", "steep"]):
         theory = impulse(scale, steep)
-        returns = theory.back - theory.meets
-        rates = []
-        for _, run in groups(group, "seed"):
-            late = run[run.time > theory.meets + SETTLED*returns]
-            if run.time.max() > theory.meets + ENOUGH*returns:
-                rates.append(line(late.time, late.amplitude).slope/theory.growth)
-        if rates:
-            growth, err = combine(rates)
-            yield {"scale": scale, "steep": steep, "seeds": len(rates), "growth": growth, "growth_err": err}
+        group = group.assign(part=(group.time - theory.meets)/(theory.back - theory.meets))
+        lasted = group[group.groupby("seed").part.transform("max") > ENOUGH]
+        lines = [line(run.time, run.amplitude) for _, run in groups(lasted[lasted.part > SETTLED], "seed")]
+        if lines:
+            growth, err = combine([one.slope/theory.growth for one in lines])
+            yield {"scale": scale, "steep": steep, "seeds": len(lines), "growth": growth, "growth_err": err}
 
 
 def high_ra_summary(limits: pd.DataFrame, grid: pd.DataFrame) -> Iterator[Row]:
@@ -69,17 +64,13 @@ def high_ra_summary(limits: pd.DataFrame, grid: pd.DataFrame) -> Iterator[Row]:
     """
     fine = grid.dropna(subset=["cell_number"])
     slope, constant = np.polyfit(np.log(fine.ra), np.log(fine.cell_number), 1)
-    predicted = float(np.exp((np.log(CELL_NUMBER) - constant)/slope))
     for (method, step, kind), rows in groups(limits, ["method", "step", "kind"]):
         bad = rows.dropna(subset=["ra"])
-        highest = rows.ra.fillna(rows.tried)
-        cell = over_seeds(np.exp(constant + slope*np.log(highest)))
+        highest = np.log(rows.ra.fillna(rows.tried))
+        cell = over_seeds(np.exp(constant + slope*highest))
         yield {
             "method": method, "step": step, "kind": kind, "seeds": len(bad),
-            "predicted": predicted if kind == "wrong" else np.nan,
-            "ra": np.exp(np.log(bad.ra).mean()),
-            "ra_low": bad.ra.min(),
-            "ra_high": bad.ra.max(),
+            "ra": np.exp(np.log(bad.ra).mean()), "ra_low": bad.ra.min(), "ra_high": bad.ra.max(),
             "outcome": bad.outcome.mode().get(0, "none"),
             "cell_number": cell.value, "cell_number_err": cell.err,
         }
@@ -96,30 +87,24 @@ def of_runs(runs: pd.DataFrame) -> Iterator[Row]:
     """Points and the coarse grid against what is known."""
     judged = runs[(runs.method != "grid") | (runs.rows <= ROWS)]
     for _, run in judged.iterrows():
-        known = DECISIVE.get(run.case, LIKE_GRID)
-        ratio = known.ratio(runs, run)
-        result = outcome(run, known, ratio)
-        variant = f"L {SITUATIONS[run.case].scene.L:g}"
+        number, ratio = decisive(runs, run)
+        expected = 0.0 if number == "speed/c" else 1.0
+        result = outcome(run, number, ratio)
         if result == "diverges":
-            yield entry(run.case, run.method, variant, result, PART_OF_TIME, run.reached)
-        else:
-            yield entry(run.case, run.method, variant, result, known.number, *ratio, known.predicted)
+            number, ratio, expected = PART_OF_TIME, Measured(run.reached), 1.0
+        variant = f"L {SITUATIONS[run.case].scene.L:g}"
+        yield entry(run.case, run.method, variant, result, number, *ratio, expected)
 
 
-def speed(runs: pd.DataFrame, run: pd.Series) -> Measured:
-    """Of what should be at rest, over that of sound."""
-    return Measured(float(np.sqrt(2*run.k)/SOUND))
-
-
-def energy_over_exact(runs: pd.DataFrame, run: pd.Series) -> Measured:
-    """K of two rarefactions."""
-    exact = rarefied(MIDDLE*BOXES["vacuum"].time)
-    return Measured(float(run.k/exact))
-
-
-def flow_over_start(runs: pd.DataFrame, run: pd.Series) -> Measured:
-    """What is left of a flow that nothing slows down."""
-    return Measured(float(run.flow/run.flow_start))
+def decisive(runs: pd.DataFrame, run: pd.Series) -> tuple[str, Measured]:
+    """The number that decides a case, by its name: all but three cases are held against the grid."""
+    if run.case == "wall corner":       # of what should be at rest
+        return "speed/c", Measured(np.sqrt(2*run.k)/SOUND)
+    if run.case == "vacuum":            # of two rarefactions
+        return "K/exact", Measured(run.k/rarefied(MIDDLE*BOXES["vacuum"].time))
+    if run.case == "zero viscosity":    # nothing slows the flow down
+        return "flow/start", Measured(run.flow/run.flow_start)
+    return "flow/grid", flow_over_grid(runs, run)
 
 
 def flow_over_grid(runs: pd.DataFrame, run: pd.Series) -> Measured:
@@ -127,39 +112,17 @@ def flow_over_grid(runs: pd.DataFrame, run: pd.Series) -> Measured:
 
     A grid is no judge of itself: neither the reference nor its error come from the rows that are judged.
     """
-    grid = finished_grids(runs, run.case)
+    grids = runs[(runs.case == run.case) & (runs.method == "grid")].dropna(subset=["flow"])
     if run.method == "grid":
-        grid = grid.drop(run.rows, errors="ignore")
-    if len(grid) < 2:
+        grids = grids[grids.rows != run.rows]
+    if len(grids) < 2:
         return Measured(np.nan, np.nan)
-    coarse, fine = grid.iloc[-2:]
-    ratio = float(run.flow/fine)
-    return Measured(ratio, float(abs(ratio*(coarse/fine - 1))))
+    coarse, fine = grids.sort_values("rows").flow.iloc[-2:]
+    ratio = run.flow/fine
+    return Measured(ratio, abs(ratio*(coarse/fine - 1)))
 
 
-def finished_grids(runs: pd.DataFrame, case: str) -> pd.Series:
-    """Flow by rows, from coarse to fine, of grids that came to their end."""
-    grid = runs[(runs.case == case) & (runs.method == "grid")].dropna(subset=["flow"])
-    return grid.set_index("rows").flow.sort_index()
-
-
-class Decisive(NamedTuple):
-    """What decides a case: the name of the number, how it follows from a run, what it should be."""
-    number: str
-    ratio: Callable[[pd.DataFrame, pd.Series], Measured]
-    predicted: float = 1.0
-
-
-LIKE_GRID = Decisive("flow/grid", flow_over_grid)
-#: all other cases are like the grid
-DECISIVE = {
-    "wall corner": Decisive("speed/c", speed, 0.0),
-    "vacuum": Decisive("K/exact", energy_over_exact),
-    "zero viscosity": Decisive("flow/start", flow_over_start),
-}
-
-
-def outcome(run: pd.Series, known: Decisive, ratio: Measured) -> str:
+def outcome(run: pd.Series, number: str, ratio: Measured) -> str:
     """By the rules at the head of this file."""
     if isinstance(run.refused, str) and run.refused:
         return "refused"
@@ -169,13 +132,12 @@ def outcome(run: pd.Series, known: Decisive, ratio: Measured) -> str:
         return "leaks"
     if not np.isfinite(ratio.value):
         return "unjudged"
-    if known.number == "speed/c":
+    if number == "speed/c":
         return "right" if ratio.value < SPURIOUS else "wrong"
     if ratio.value < FROZEN:
         return "freezes"
-    noisy = known.number == "flow/start" and abs(run.k/run.k_start - 1) > NEAR
-    near = abs(ratio.value - known.predicted) <= NEAR + ratio.err
-    return "right" if near and not noisy else "wrong"
+    noisy = number == "flow/start" and abs(run.k/run.k_start - 1) > NEAR
+    return "right" if abs(ratio.value - 1) <= NEAR + ratio.err and not noisy else "wrong"
 
 
 def of_shear(shear: pd.DataFrame) -> Iterator[Row]:
@@ -195,32 +157,77 @@ def of_shear(shear: pd.DataFrame) -> Iterator[Row]:
 
 def of_tubes(tubes: pd.DataFrame) -> Iterator[Row]:
     """Shock tubes by viscosity, usual step: how much v rings in the longest, or that one ended."""
-    tubes = tubes[tubes.step != min(STEPS)]
-    for (method, eta), rows in groups(tubes, ["method", "eta"]):
-        variant = f"eta {eta:g}"
-        reached = rows.reached.min()
+    usual = tubes[tubes.step != min(STEPS)]
+    for (method, eta), rows in groups(usual, ["method", "eta"]):
+        place, reached = ("shock tube", method, f"eta {eta:g}"), rows.reached.min()
         if reached < 1:
-            yield entry("shock tube", method, variant, "diverges", PART_OF_TIME, reached)
+            yield entry(*place, "diverges", PART_OF_TIME, reached)
             continue
         longest = rows.query("L == L.max()")
-        error = longest["v_grid" if eta else "v_exact"].mean()
-        ring = longest.wiggles
-        mean = ring.mean()
-        result = "right" if max(mean, error) <= NEAR else "wrong"
-        yield entry("shock tube", method, variant, result, "ringing of v", mean, np.ptp(ring)/2, 0.0)
-
-
-def of_high_ra(summary: pd.DataFrame) -> Iterator[Row]:
-    """From which Ra on a layer is bad, and ends; predicted from the cell number."""
-    results = {"none": "unjudged", "ends": "diverges"}
-    for _, row in summary.query("step == 1").iterrows():
-        variant = "first bad" if row.kind == "wrong" else "ends"
-        result = results.get(row.outcome, "wrong")
-        err = (row.ra_high - row.ra_low)/2
-        yield entry("highest Ra", row.method, variant, result, "Ra", row.ra, err, row.predicted)
+        error, ring = longest["v_grid" if eta else "v_exact"].mean(), longest.wiggles
+        result = "right" if max(ring.mean(), error) <= NEAR else "wrong"
+        yield entry(*place, result, "ringing of v", ring.mean(), np.ptp(ring)/2, 0.0)
 
 
 #: table -> rows of the map
 OF_MAP: dict[str, Callable[[pd.DataFrame], Iterator[Row]]] = {
-    "hard_runs": of_runs, "shear": of_shear, "method_tubes": of_tubes,
-    "high_ra_summary": of_high_ra}
+    "hard_runs": of_runs, "shear": of_shear, "method_tubes": of_tubes}
+
+
+# --- tables: lengths in spacings, masses of particles or points; `_err` 95 % half widths --------------------
+
+TUBE = "method eta step L seed"
+
+MEAN_FLOW = ("K of the flow of the last third: velocities averaged over 4 x 4 spacings", "epsilon/m")
+STEP = {"step": ("step over that at the limit of stability", "")}
+
+TABLES = (
+    Table.of("squares", "eos weight ra seed", "alpha rolls begun flow ratio ratio_err shared",
+             about="Particles in the square box of KHP95's Fig. 10 at the end.",
+             means={"flow": ("K of the mean flow", "epsilon/m"),
+                    "ratio": ("median of second over first neighbour distance", "")}),
+    Table.of("method_tubes", TUBE, "rho_exact v_exact P_exact rho_grid v_grid P_grid wiggles reached",
+             means=STEP, about="Sod's shock tube by one method, at the end."),
+    Table.of("method_tube_profiles", f"{TUBE} x", "rho v P", large=True,
+             digits=dict.fromkeys(("x", "rho", "v", "P"), ".5g"), about="A place of such a tube.",
+             means=STEP | {"x": ("distance from the diaphragm", "L")}),
+    Table.of("ripples", "scale steep seed time", "height amplitude",
+             about="An instant of an interface that a shock runs over [KHP95, Fig. 11]."),
+    Table.of("ripple_growth", "scale steep", "seeds growth growth_err",
+             about="The growth of such ripples, means over seeds.",
+             means={"growth": ("growth rate over that of theory", "")}),
+    Table.of("high_ra_grid", "ra rows", "k cell_number reached",
+             about="A run of the fine grid at high Ra.",
+             means={"cell_number": ("cell number v a/nu of the fastest flow at the end, a of 16 rows", "")}),
+    Table.of("high_ra_trials", "method step seed ra", "k over reached",
+             about="A run of the search for the highest Ra."),
+    Table.of("high_ra", "method step seed kind", "ra ra_err tried outcome",
+             about="What a search found.",
+             means={"kind": ("wrong: K is, or the run ended; ends: the run ended", ""),
+                    "ra": ("Ra from which on runs are so; none if they are nowhere. Its error is half of the "
+                           "interval between two trials", ""),
+                    "outcome": ("of the first bad run", "")}),
+    Table.of("high_ra_summary", "method step kind",
+             "ra ra_low ra_high seeds outcome cell_number cell_number_err",
+             about="The same over seeds, means of logarithms.",
+             means={"kind": ("wrong or ends", ""), "ra": ("Ra from which on runs are so", ""),
+                    "outcome": ("what most runs do there", ""),
+                    "cell_number": ("cell number at that Ra, or at the highest Ra tried", "")}),
+    Table.of("limits", "method scene", "eta k predicted shorter exact measured measured_err",
+             about="The largest stable step of a method.",
+             means={"k": ("conductivity", "m kB/(epsilon t0)"),
+                    "predicted": ("by the method's own formula", "t0"),
+                    "exact": ("by eigenvalues of the rates of the same points", "t0"),
+                    "measured": ("by trial; its error is half of the last interval and how far beyond the "
+                                 "limit growth stays unseen", "t0")}),
+    Table.of("hard_runs", "case method rows", "k flow mass_drift k_start flow_start reached refused",
+             about="A hard case by one method.", means={"flow": MEAN_FLOW}),
+    Table.of("shear", "method", "predicted measured measured_err reached",
+             about="A wave on a shear flow by one method.", means={"measured": ("growth rate", "1/t0")}),
+    Table.of("steadiness", "ra rows", "swing before reached",
+             about="A run of the grid at high Ra; no numbers where it diverged."),
+    Table.of("map", "case method variant", "number predicted measured measured_err outcome",
+             about="The verdict on a method in a hard case.",
+             means={"variant": ("which runs of the case", ""),
+                    "outcome": ("by the rules at the head of studies/hardcases/derive.py", "")}),
+)

@@ -26,11 +26,6 @@ U, BEGIN = 0.15, 0.01       # of the shear flow: Mach number 0.1; size of the wa
 Velocities = tuple[np.ndarray, np.ndarray]
 
 
-def still(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
-    """Rest."""
-    return np.zeros_like(x), np.zeros_like(y)
-
-
 def vortex(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
     """A steady Taylor-Green vortex, which passes through no plate."""
     k = 2*np.pi/L
@@ -39,40 +34,32 @@ def vortex(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
 
 def sheared(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
     """U sin ky and its fastest wave, of size BEGIN U."""
-    v = layer_with_wave(np.stack([np.ravel(x), np.ravel(y)], axis=1), U, 2*pi/L, BEGIN)
-    return v[:, 0].reshape(x.shape), v[:, 1].reshape(x.shape)
-
-
-def everywhere(x: np.ndarray, L: float) -> np.ndarray:
-    """Density 1."""
-    return np.ones_like(x)
-
-
-def in_strip(x: np.ndarray, L: float) -> np.ndarray:
-    """Density 1 at |x| < L, next to nothing beside."""
-    return np.where(np.abs(x) < L, 1.0, THIN)
+    places = np.stack([x, y], axis=-1)
+    v = layer_with_wave(places.reshape(-1, 2), U, 2*pi/L, BEGIN).reshape(places.shape)
+    return v[..., 0], v[..., 1]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Chamber(Slab):
-    """A gas between plates, with velocities(x, y, L) and density(x, L) at the start."""
+    """A gas between plates, with velocities(x, y, L) at the start; of a strip only |x| < L is dense."""
     viscosity: float = 0.0
     heat: float = 0.0
-    velocities: Callable = still
-    density: Callable = everywhere
+    velocities: Callable | None = None
+    strip: bool = False
 
     def flow(self, x, y, ke: float = 0.0, rolls: int | None = None) -> Velocities:
         """Velocities; `ke` and `rolls` say nothing here."""
-        return self.velocities(x, y, self.L)
+        return self.velocities(x, y, self.L) if self.velocities else (0*x, 0*y)
 
     def fields(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Density, velocity, temperature at places (n, 2)."""
         v = np.stack(self.flow(*x.T), axis=1)
-        return self.density(x[:, 0], self.L), v, self.T(x[:, 1])
+        outside = self.strip and np.abs(x[:, 0]) >= self.L
+        return np.where(outside, THIN, 1.0)*np.ones(len(x)), v, self.T(x[:, 1])
 
 
 VORTEX = Chamber(L=ROWS, aspect=1.0, velocities=vortex)
-STRIP = Chamber(L=8.0, aspect=12.0, density=in_strip)
+STRIP = Chamber(L=8.0, aspect=12.0, strip=True)
 CORNER = Chamber(L=12.0, aspect=1.0, viscosity=0.3, heat=0.3, sides=Walls())
 #: without viscosity; that it conducts heat keeps drifting points from ending at once
 SHEAR_FLOW = Chamber(L=16.0, aspect=2.0, heat=2*pi/16, velocities=sheared)
@@ -164,15 +151,25 @@ class Inside(NamedTuple):
 
     def ready(self, scene: Any) -> Ready:
         """In a scene."""
-        return self.motion.ready(scene, x=places(scene))
+        return self.motion.ready(scene, x=places(scene))  # type: ignore[no-any-return]
+
+
+class WithoutPlates(NamedTuple):
+    """A method that takes a scene without its plates."""
+    variant: Any
+
+    def ready(self, scene: Any) -> Ready:
+        """In a scene."""
+        return self.variant.ready(Open(scene))  # type: ignore[no-any-return]
 
 
 class Tiled(NamedTuple):
-    """The compressible grid without plates, and so without gravity."""
+    """The compressible grid without plates, and so without gravity, for the time loop of particles."""
     form: GridForm
 
     def ready(self, scene: Any) -> Ready:
         """In a scene, whose plates are left out."""
         box = Tile(width=scene.width, L=scene.L, eos=scene.eos, law=scene.law)
         start = placed(box, round(scene.L), lambda x, y: started(scene, x, y))
-        return self.form.ready(box, first=block(start))
+        method, S, dt = self.form.ready(box, first=block(start))
+        return Ready(method, S.reshape(4, -1), dt)

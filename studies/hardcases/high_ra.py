@@ -13,7 +13,7 @@ This is no limit of stability: no formula is known that says where a run ends.
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
-from math import ceil, log
+from math import log
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -22,13 +22,13 @@ import numpy as np
 from continuum.gas.fields import block, initial
 from continuum.gas.solve import limits
 from continuum.steady import SAFETY
-from particles.run import Divergence, Plan, run
+from particles.fields import kinetic_energy
 from studies.build.fixed import OF_LIMIT, Scheme
 from studies.build.names import START_ENERGY
 from studies.build.setting import Ready, stepped
 from studies.build.unguarded import bisected
 from studies.hardcases.extremes import ROWS, falls, layer
-from studies.hardcases.survival import between_plates
+from studies.hardcases.survival import between_plates, followed
 from studies.kit.case import Case, Outcome, Report
 
 OFF = 1.25              # factor in K
@@ -38,7 +38,7 @@ RUNGS = tuple(float(f"{10.0**(n/2):.9g}") for n in range(8, 17))        # 1e4 ..
 KNOWN = 1e6             # Ra up to which K is held against the fine grid
 TIME = 50.0             # free-fall times, as in the map
 SETTLED = 150.0         # free-fall times after which a steady flow has long settled
-SAMPLES, LATE = 60, 40  # of a run; from where on K is averaged
+SAMPLES, LATE = 60, 41  # of a run; from where on K is averaged, the start being the first
 NOISE = 1e-6            # of the density at the start, by which seeds differ where points do not
 
 
@@ -66,25 +66,13 @@ class Rippled(NamedTuple):
         method, start, _ = self.scheme.ready(scene, seed)
         return stepped(method, start*ripple(seed, len(method.x)), OF_LIMIT)
 
-    @property
-    def series(self) -> dict[str, Any]:
-        """Quantities of a run."""
-        return self.scheme.series
-
 
 def on_points(variant: Any, ra: float, seed: int, step: float) -> Attempt:
-    """Fixed or moving points. variant : has ready(scene, seed) and series."""
+    """Fixed or moving points. variant : has ready(scene, seed)."""
     scene = layer(ra)
     method, start, dt = variant.ready(scene, seed)
-    time = falls(scene, TIME)
-    every = ceil(time/(step*dt)/SAMPLES)
-    steps = every*SAMPLES
-    plan = Plan(dt=time/steps, steps=steps, series={"k": variant.series["ke"]}, every=every)
-    try:
-        done = run(method, start, plan)
-    except Divergence as error:
-        return Attempt(np.nan, error.step/steps)
-    return Attempt(float(np.mean(done.series["k"][LATE:])), 1.0)
+    course = followed(Ready(method, start, step*dt), falls(scene, TIME), SAMPLES, kinetic_energy)
+    return Attempt(course.seen[LATE:].mean() if course.reached == 1 else np.nan, course.reached)
 
 
 def on_grid(rows: int, ra: float, seed: int, step: float) -> Attempt:
@@ -96,8 +84,8 @@ def on_grid(rows: int, ra: float, seed: int, step: float) -> Attempt:
     done, reached = between_plates(start, falls(scene, TIME), SAMPLES, no_report, dt)
     if done is None:
         return Attempt(np.nan, reached)
-    fastest = float(np.hypot(done.fields.at.vx, done.fields.at.vy).max())
-    return Attempt(float(done.series.ke[LATE + 1:].mean()), 1.0, fastest*scene.L/ROWS/scene.nu)
+    fastest = np.hypot(done.fields.at.vx, done.fields.at.vy).max()
+    return Attempt(done.series.ke[LATE:].mean(), 1.0, fastest*scene.L/ROWS/scene.nu)
 
 
 def no_report(done: float) -> None:
@@ -112,8 +100,10 @@ def reference() -> dict[float, Attempt]:
 
 def should_be(ra: float) -> float:
     """K of the fine grid, linear between rungs in Ra^(-1/2)    [KHP95, Sec. VI]; nothing beyond KNOWN."""
-    x, k = np.array([(rung**-0.5, run.k) for rung, run in reference().items()])[::-1].T
-    return float(np.interp(ra**-0.5, x, k)) if ra <= KNOWN*(1 + 1e-9) else np.nan
+    if ra > KNOWN*(1 + 1e-9):
+        return np.nan
+    x, k = np.array([(rung**-0.5, run.k) for rung, run in reference().items()]).T
+    return float(np.interp(ra**-0.5, x[::-1], k[::-1]))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -156,10 +146,9 @@ class Search:
     def limit(self, bad: Callable[[float], bool], most: float) -> dict[str, Any]:
         """The first bad trial up to `most`, and the last before it: a search may pass over an island."""
         tried = sorted(ra for ra in self.trials if ra <= most)
-        judged = [bad(ra) for ra in tried]
-        if not any(judged):
+        first = next((n for n, ra in enumerate(tried) if bad(ra)), None)
+        if first is None:
             return {"ra": np.nan, "ra_err": np.nan, "tried": tried[-1], "outcome": "none"}
-        first = judged.index(True)
         low, high = tried[max(first - 1, 0)], tried[first]
         return {"ra": (low*high)**0.5, "ra_err": (high - low)/2, "tried": tried[-1],
                 "outcome": "ends" if self.ends(high) else "wrong but stable"}
@@ -209,11 +198,7 @@ class Steadiness(Case):
         done, reached = between_plates(start, falls(scene, SETTLED), 4*SAMPLES, report)
         row = {"ra": self.ra, "rows": self.rows, "reached": reached}
         if done is not None:
-            before, late = np.split(done.series.ke[-2*SAMPLES:], 2)
-            row |= {"swing": swing(late), "before": swing(before)}
+            quarters = done.series.ke[1:].reshape(4, SAMPLES)
+            *_, before, swing = np.ptp(quarters, axis=1)/quarters.mean(axis=1)
+            row |= {"swing": swing, "before": before}
         return Outcome({"steadiness": [row]})
-
-
-def swing(k: np.ndarray) -> float:
-    """Largest less smallest over the mean."""
-    return float(np.ptp(k)/k.mean())

@@ -1,5 +1,9 @@
 """Sod's shock tube by the grid, by points, and by smooth particles as printed; none has artificial viscosity.
 
+Density 1 and pressure 1 against 0.125 and 0.1, gamma = 1.4 [Sod 1978]. At the time 0.4 L, L being half of the
+tube, the shock is at 0.70 L from the diaphragm. A viscous gas is followed on a fine grid besides:
+one-dimensional Navier-Stokes-Fourier in flux form, between mirrors.
+
 A periodic strip holds the tube and its mirror image: dense at |x| < L, thin at L < |x| < 2 L, without walls;
 the grid has one tube between plates, which its waves do not reach. Points and cells have one spacing in both
 gases: thin ones have less mass. Smooth particles have one mass, so the thin gas has eight times fewer, and
@@ -15,29 +19,28 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
+import pandas as pd
+from scipy.integrate import solve_ivp
 
-from continuum.exact.riemann import middle
-from continuum.fluid import ConstEta
+from continuum.exact.riemann import GasState, middle, solution
+from continuum.fluid import ConstEta, IdealGas
 from continuum.gas.fields import block, placed, unblock
-from continuum.gas.solve import DivergedError, March, limits
 from particles.fields import Fields
-from particles.limits import step_limit
-from particles.observe import fields_at
 from particles.run import Divergence, Plan, run
-from particles.smooth.spam import Spam
+from studies.build.grid import GridForm
 from studies.build.scenes import Scene, Slab, Start
-from studies.build.spam import at_rest, fluid
-from studies.hardcases.sod import DENSE, END, EOS, GAMMA, NAMES, THIN, compared, exact, start, viscous
 from studies.kit.case import Case, Outcome, Report
 
+EOS, GAMMA = IdealGas(cv=2.5), 1.4
+DENSE, THIN = GasState(1.0, 0.0, 1.0), GasState(0.125, 0.0, 0.1)
+END = 0.4                       # time over L
+FINE = 0.25                     # cells of the fine grid, spacings
+ACCURATE = 1e-6                 # relative, of its steps in time: a thousandth of the errors compared
+NAMES = ("rho", "v", "P")
 HEIGHT = 9.0
-MASS = 9/16                     # of smooth particles: the mean density is one a unit of area
-ROWS = {DENSE: 12, THIN: 4}     # then columns are 0.75 and 2 apart, and fit if L is a multiple of 3
-JITTER = 0.05                   # of the columns and rows: a perfect lattice keeps its rows in such a flow
-SKIN = 1.5                      # of neighbour lists: at the diaphragm particles reach full speed in a step
 PARTS = 16              # of a point, over which it is spread when it is put into cells
 BETWEEN = middle(DENSE, THIN, GAMMA)
 CELL_NUMBER = 2.0
@@ -47,10 +50,69 @@ STEPS = (0.5, 0.125)                        # over the limit at the start
 assert END*BETWEEN.v < 1        # the contact stays in its half of the tube
 
 
-class Seen(NamedTuple):
-    """rho, v, P (3, n) in cells of one spacing, None if the run ended before; part of the time reached."""
-    fields: np.ndarray | None
-    reached: float = 1.0
+# --- what should be -----------------------------------------------------------------------------------------
+
+
+def exact(L: float, x: np.ndarray) -> np.ndarray:
+    """(3, n): rho, v, P of the frictionless gas at the end, 0 < x < 2 L."""
+    return solution(DENSE, THIN, GAMMA, (x - L)/(END*L))
+
+
+def start(dense: np.ndarray) -> np.ndarray:
+    """rho, v, P (3, n), dense gas in some cells."""
+    return np.where(dense, np.array(DENSE)[:, None], np.array(THIN)[:, None])
+
+
+@cache
+def viscous(L: int, eta: float) -> np.ndarray:
+    """(3, 2 L): the same of a viscous gas in cells of one spacing, by the fine grid; none at eta = 0."""
+    if not eta:
+        return np.full((3, 2*L), np.nan)
+    cells = (np.arange(round(2*L/FINE)) + 0.5)*FINE
+    fields = march(start(cells < L), eta, END*L)
+    return np.array([np.interp(centres(L), cells, field) for field in fields])
+
+
+def march(start: np.ndarray, eta: float, time: float) -> np.ndarray:
+    """rho, v, P (3, n) of fine cells after a time."""
+    rho, v, P = start
+    U = np.array([rho, rho*v, EOS.cv*P + rho*v**2/2])
+    done = solve_ivp(lambda t, U: rates(U.reshape(3, -1), eta).ravel(), (0, time), U.ravel(),
+                     rtol=ACCURATE, atol=ACCURATE, t_eval=[time])
+    rho, v, e = primitive(done.y.reshape(3, -1))
+    return np.array([rho, v, e*rho/EOS.cv])
+
+
+def primitive(U: np.ndarray) -> np.ndarray:
+    """rho, v, e from densities of mass, momentum and energy."""
+    rho, p, energy = U
+    v = p/rho
+    return np.array([rho, v, energy/rho - v**2/2])
+
+
+def rates(U: np.ndarray, eta: float) -> np.ndarray:
+    """dU/dt from fluxes on faces; behind both ends is a mirror image. In 2D friction is eta dv/dx."""
+    rho, v, e = np.pad(primitive(U), ((0, 0), (1, 1)), "edge")
+    v[[0, -1]] *= -1
+    T = e/EOS.cv
+    friction, heat = eta*np.diff([v, T])/FINE
+    rho, v, e, P = ((q[1:] + q[:-1])/2 for q in (rho, v, e, rho*T))
+    momentum = rho*v**2 + P - friction
+    energy = (rho*(e + v**2/2) + P - friction)*v - heat
+    return -np.diff([rho*v, momentum, energy])/FINE
+
+
+def wiggles(v: np.ndarray, truth: np.ndarray) -> float:
+    """Variation of a velocity beyond that of the exact one, over it."""
+    variation, expected = np.abs(np.diff([v, truth])).sum(axis=1)
+    return float(variation/expected - 1)
+
+
+# --- methods ------------------------------------------------------------------------------------------------
+
+
+#: rho, v, P (3, n) in cells of one spacing, None if the run ended before; part of the time reached
+Seen = tuple[np.ndarray | None, float]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,8 +147,8 @@ def ran(method: Any, begin: np.ndarray, L: int, steps: int, look: Callable, repo
     try:
         done = run(method, begin, Plan(dt=END*L/steps, steps=steps), report)
     except Divergence as error:
-        return Seen(None, error.step/steps)
-    return Seen(look(done.by_id()))
+        return None, error.step/steps
+    return look(done.by_id()), 1.0
 
 
 def binned(L: int, at: Fields) -> np.ndarray:
@@ -95,59 +157,14 @@ def binned(L: int, at: Fields) -> np.ndarray:
     A point is as wide as its volume and one spacing high: where the gas is thin rows of points lie farther
     apart than cells.
     """
-    m, offsets = at.rho*at.V, (np.arange(PARTS) + 0.5)/PARTS - 0.5
-    places = (at.x[:, 0] + at.V*offsets[:, None]).ravel()
-    cell = np.minimum(np.abs(places).astype(int), 2*L - 1)
-
-    def total(q: np.ndarray, sign: Any = 1.0) -> np.ndarray:
-        return np.bincount(cell, sign*np.tile(q, PARTS), 2*L)
-    volume, mass, heat = total(at.V), total(m), total(m*at.T)
-    p = total(m*at.v[:, 0], np.sign(places))
-    with np.errstate(all="ignore"):
-        return np.array([mass/volume, p/mass, heat/volume])
-
-
-def smooth(weight: Any, L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
-    """Smooth particles."""
-    method, begin = fluid(weight.of(h=3.0), (4.0*L, HEIGHT), EOS, law, m=MASS, skin=SKIN), tube(L, seed)
-    steps = round(END*L/(step*step_limit(method, begin[4]))) + 1
-    return ran(method, begin, L, steps, lambda state: smoothed(method, state, centres(L)), report)
-
-
-def jittered(counts: tuple[int, int], cell: tuple[float, float], corner: tuple[float, float], jitter: float,
-             rng: np.random.Generator) -> np.ndarray:
-    """x, y (2, n) in the middle of columns and rows of cells, shifted by up to `jitter` of a cell."""
-    numbers = np.stack(np.meshgrid(*map(np.arange, counts)), axis=-1).reshape(-1, 2)
-    shift = rng.uniform(-1, 1, (2, len(numbers))).T
-    return ((numbers + 0.5)*cell + corner + jitter*np.array(cell)*shift).T
-
-
-def within(x: np.ndarray, size: float) -> np.ndarray:
-    """Places in a periodic interval about 0."""
-    return (x + size/2) % size - size/2
-
-
-def tube(L: float, seed: int) -> np.ndarray:
-    """State (5, n) at the start."""
-    rng, gases = np.random.default_rng(seed), []
-    for gas, left in ((DENSE, -L), (THIN, L)):
-        counts = round(2*L*HEIGHT*gas.rho/MASS/ROWS[gas]), ROWS[gas]
-        cell = 2*L/counts[0], HEIGHT/counts[1]
-        x, y = jittered(counts, cell, (left, -HEIGHT/2), JITTER, rng)
-        at = np.stack([within(x, 4*L), within(y, HEIGHT)], axis=1)
-        gases.append(at_rest(at, EOS.cv*gas.P/gas.rho))
-    return np.concatenate(gases, axis=1)
-
-
-def smoothed(method: Spam, state: np.ndarray, x: np.ndarray) -> np.ndarray:
-    """(3, n): smoothed rho, v, P of a tube and its image, means over the height and over both."""
-    sums, state, _ = method.look(state)
-    y = np.arange(HEIGHT) + 0.5 - HEIGHT/2
-    both = []
-    for sign in (1, -1):
-        at = fields_at(sums, state, *np.meshgrid(sign*x, y))
-        both.append([at.rho.mean(axis=0), sign*at.vx.mean(axis=0), (at.rho*at.e).mean(axis=0)/EOS.cv])
-    return np.mean(both, axis=0)
+    offsets = (np.arange(PARTS) + 0.5)/PARTS - 0.5
+    x = (at.x[:, 0] + at.V*offsets[:, None]).ravel()
+    cell = np.minimum(np.abs(x).astype(int), 2*L - 1)
+    points = pd.DataFrame({"V": at.V, "m": at.rho*at.V, "v": at.v[:, 0], "T": at.T})
+    parts = pd.concat([points]*PARTS, ignore_index=True)
+    weighed = parts.assign(p=parts.m*parts.v*np.sign(x), heat=parts.m*parts["T"])
+    sums = weighed.groupby(cell).sum().reindex(range(2*L))
+    return np.array([sums.m/sums.V, sums.p/sums.m, sums.heat/sums.V])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -167,31 +184,23 @@ class Upright(Slab):
         return np.where(y < 0, DENSE.rho, THIN.rho), 0*T, 0*T, T
 
 
-def grid(continuity: Any, L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
+def grid(form: GridForm, L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
     """The compressible grid, cells of one spacing; it has no disorder, so that `seed` says nothing."""
     scene = Upright(L=float(2*L), aspect=2/L, viscosity=law.eta, heat=law.k)
-    S = block(placed(scene, 2*L, scene.begin))
-    steps = int(END*L/(step*limits(scene, S).both)) + 1
-    march = March(scene, S, continuity, END*L/steps)
-    try:
-        march.go(steps)
-    except DivergedError:
-        return Seen(None, march.steps/steps)
-    done = unblock(scene, march.S)
-    v, T = ((q[1:] + q[:-1])[:, :-1].mean(axis=1)/2 for q in (done.at.vy, done.at.T))
-    rho = done.cells.mean(axis=1)
-    return Seen(np.array([rho, v, rho*T]))
+    ready = form.ready(scene, first=block(placed(scene, 2*L, scene.begin)))
+    steps = int(END*L/(step*ready.limit)) + 1
+
+    def look(state: np.ndarray) -> np.ndarray:
+        done = unblock(scene, ready.method.block(state))
+        v, T = ((q[1:] + q[:-1])[:, :-1].mean(axis=1)/2 for q in (done.at.vy, done.at.T))
+        rho = done.cells.mean(axis=1)
+        return np.array([rho, v, rho*T])
+    return ran(ready.method, ready.start.reshape(4, -1), L, steps, look, report)
 
 
 def centres(L: int) -> np.ndarray:
     """(2 L,) of cells of one spacing."""
     return np.arange(2*L) + 0.5
-
-
-@cache
-def twin(L: int, eta: float) -> np.ndarray:
-    """(3, 2 L): the fine grid's fields."""
-    return viscous(L, eta, centres(L))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -222,10 +231,14 @@ class MethodTube(Case):
         law, x = ConstEta(self.eta, self.eta), centres(self.L)
         fields, reached = self.tube(self.variant, self.L, law, self.seed, self.step, report)
         point = {"method": self.method, "eta": self.eta, "step": self.step, "L": self.L, "seed": self.seed}
+        row: dict[str, Any] = {**point, "reached": reached}
         if fields is None:
-            return Outcome({"method_tubes": [{**point, "reached": reached}]})
-        errors = compared(fields, exact(self.L, x), twin(self.L, self.eta))
-        row = {**point, **errors, "reached": reached}
+            return Outcome({"method_tubes": [row]})
+        truth = exact(self.L, x)
+        for kind, other in (("exact", truth), ("grid", viscous(self.L, self.eta))):
+            errors = np.abs(fields - other).mean(axis=1)/np.ptp(truth, axis=1)
+            row |= {f"{name}_{kind}": error for name, error in zip(NAMES, errors)}
+        row["wiggles"] = wiggles(fields[1], truth[1])
         lines = np.vstack([x/self.L - 1, fields]).T.tolist() if self.keep else []
-        profile = [{**point, **dict(zip(("x", *NAMES), line, strict=True))} for line in lines]
+        profile = [{**point, **dict(zip(("x", *NAMES), line))} for line in lines]
         return Outcome({"method_tubes": [row], "method_tube_profiles": profile})

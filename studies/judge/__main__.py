@@ -7,9 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from studies.build import variant
-from studies.judge.ladder import Ladder, judged
+from studies.judge.ladder import climb, verdicts
 from studies.judge.page import write_page
-from studies.judge.rungs import RUNGS
 from studies.kit.store import RESULTS
 
 OWN = RESULTS/"own"         # not committed
@@ -31,12 +30,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
     name = words.method.rpartition(":")[2]
     try:
-        takes = Ladder(method, words.out/f"judge-{name}", sorted(words.rows), words.minutes).climb()
+        takes = climb(method, sorted(words.rows), words.minutes)
     except KeyboardInterrupt:
-        print("stopped: finished rungs are kept, the same command goes on", file=sys.stderr)
+        print("stopped: there is no page", file=sys.stderr)
         return 130
-    for rung in RUNGS:
-        print(f"{rung.name}: {judged(rung, takes).words}")
+    for rung, verdict in verdicts(takes):
+        print(f"{rung.name}: {verdict.words}")
     print(write_page(name, takes, words.out))
     return 0
 

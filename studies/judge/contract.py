@@ -73,7 +73,7 @@ def check_sums(method: Any, start: np.ndarray) -> None:
     if not isinstance(sums, Sums):
         asked = ("method", *(name for name in dir(Sums) if not name.startswith("_")))
         lacking = ", ".join(name for name in asked if not hasattr(sums, name))
-        raise Breach(f"its sums lack {lacking}: inherit Summing of particles.method")
+        raise Breach(f"its sums lack {lacking}: inherit Sums of particles.method")
     if not hasattr(method, "integrator"):
         now = Run(state=start.copy(), ids=np.arange(start.shape[1]))
         sums.make_ready(now, 1e-6)

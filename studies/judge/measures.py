@@ -1,87 +1,77 @@
-"""What a rung of the ladder measures: (scene, method) -> numbers by name. Errors of the method go up."""
-from typing import Any
+"""What rungs of the ladder measure, (scene, method) -> numbers by name, and what they say of these numbers.
+
+Errors of the method go up. A verdict on all numbers of rows takes (rows, numbers) from few to many.
+"""
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from continuum.fluid import Fields, energy
 from particles.fields import kinetic, kinetic_energy
 from particles.run import Divergence, Plan, run
-from studies.build.answers import answer, duration
+from studies.build.answers import answer
 from studies.build.scenes import SOUND, TaylorGreen
 from studies.build.unguarded import Unguarded, bisected
-from studies.front.solution import Solution
-from studies.front.solving import named, prepared, solve
-from studies.judge.scenes import Carried
+from studies.front.observed import apart
+from studies.front.solving import named, planned, prepared, solve
 from studies.kit import csvfile
 from studies.kit.store import RESULTS
 
 Numbers = dict[str, float]
+Taken = list[tuple[int, Numbers]]
 FEW = 50            # steps that two runs of one seed are compared after
 TRIED = 300         # steps of a run at a step that may be too long
 FED = 1.1           # of the first kinetic energy of a vortex, which can only decay: it is fed by the method
-SAMPLES = 20        # of what is conserved, in a run
+LIMIT = 0.98        # of the claimed step: growth just above the limit takes more than 300 steps to be seen
+LEAST = 0.5         # order below which errors do not fall with rows
+ROUNDING = 1e-10    # a sum over thousands of steps and points
+NOISE = 1e-3        # of sound: of a fluid that is at rest on average
+WARM = 1e-6         # of T
+ALIKE = 0.1
+RIGHT = 0.002       # of K: what it still changes by after 90 free-fall times
 
 
-def error(scene: Any, method: Any) -> Numbers:
-    """Difference from the exact answer, relative."""
-    done = solve(scene, method)
-    return {"error": done.error.value, "cpu_s": done.cpu_s}
+class Verdict(NamedTuple):
+    """good : None where there is nothing to praise or blame."""
+    words: str
+    good: bool | None
+
+
+def meets(numbers: Numbers) -> Verdict:
+    """There is no verdict of `contract` but what it raises."""
+    return Verdict("has all that a run asks for", True)
 
 
 def rest(scene: Any, method: Any) -> Numbers:
     """Of a fluid that was at rest at T = 1: rms speed over that of sound, and how much hotter it is."""
-    at = solve(scene, method).places
-    m = at.rho*at.V
-    v2, T = (float((m*q).sum()/m.sum()) for q in (at.vx**2 + at.vy**2, at["T"]))
-    return {"speed": v2**0.5/SOUND, "heating": T - 1}
+    at = solve(scene, method).at
+    m = at.rho*at.V/(at.rho@at.V)
+    return {"speed": float(m@(at.v**2).sum(axis=1))**0.5/SOUND, "heating": float(m@at.T) - 1}
 
 
-def convection(scene: Any, method: Any) -> Numbers:
-    """K and Nu with their errors; the error of K, relative to the grid's limit."""
-    done = solve(scene, method)
-    K = known_energy()
-    return {"K": done.K.value, "K_err": done.K.err, "Nu": done.Nu.value, "error": done.K.value/K - 1,
-            "error_err": done.K.err/K, "cpu_s": done.cpu_s}
-
-
-def known_energy() -> float:
-    """K at Ra 10 000, Pr 1, by the compressible grid in the limit of many cells."""
-    rows = csvfile.read(RESULTS/"rb"/"kinetic_energy.csv")
-    return float(rows.query("method == 'compressible' and variant == 'flux-form' and eos == 'ideal' and "
-                            "transport == 'const-eta' and sides == 'periodic' and ra == 1e4 and pr == 1 and "
-                            "resolution == inf")["ke"].iloc[0])
-
-
-def frames(scene: Carried, method: Any) -> Numbers:
-    """Errors of velocities over the vortex's speed, of the vortex at rest and carried by a wind."""
-    still, carried = (velocity_error(solve(one, method)) for one in
-                      (TaylorGreen(L=scene.L, mach=scene.mach), scene))
-    return {"at_rest": still, "carried": carried, "ratio": carried/still}
-
-
-def velocity_error(done: Solution) -> float:
-    """Root of the mean square over the volume."""
-    at = done.places
-    exact = answer(done.scene, at[["x", "y"]].to_numpy())
-    wrong = sum((at[name] - value)**2 for name, value in exact.items())
-    return float(np.sqrt((at.V*wrong).sum()/at.V.sum())/done.scene.speed)
+def stays(numbers: Numbers) -> Verdict:
+    speed, heating = numbers["speed"], numbers["heating"]
+    of_sound = f", by {speed:.1g} of the speed of sound"
+    words = ("stays at rest" if speed < ROUNDING else f"trembles at rest{of_sound}" if speed < NOISE else
+             f"sets a fluid at rest in motion{of_sound}")
+    if abs(heating) > WARM:
+        words += f"; {'heats' if heating > 0 else 'cools'} it by {abs(heating):.1g}"
+    return Verdict(words, speed < NOISE and abs(heating) < WARM)
 
 
 def kept(scene: TaylorGreen, method: Any) -> Numbers:
     """The largest drift of mass, momentum and energy, over the first mass, that times speed, the energy."""
-    ready = prepared(scene, named(method))
-    steps = int(np.ceil(duration(scene)[0]*duration(scene)[1]/ready.dt))
-    totals: list[np.ndarray] = [total(scene, ready.method.fields(ready.start))]
+    chosen = named(method)
+    ready = prepared(scene, chosen)
+    first, drift = total(scene, ready.method.fields(ready.start)), np.zeros(4)
 
     def look(sums: Any, state: np.ndarray) -> float:
-        totals.append(total(scene, sums.method.fields(state)))
+        drift[:] = np.maximum(drift, np.abs(total(scene, sums.method.fields(state)) - first))
         return 0.0
-    run(ready.method, ready.start, Plan(dt=ready.dt, steps=steps, every=max(1, steps//SAMPLES),
-                                        series={"total": look}))
-    mass, *_, heat = totals[0]
-    drift = np.abs(np.array(totals) - totals[0]).max(axis=0)
-    mass, px, py, heat = drift/[mass, mass*scene.speed, mass*scene.speed, heat]
-    return {"mass": float(mass), "momentum": float(max(px, py)), "energy": float(heat)}
+    run(ready.method, ready.start, replace(planned(scene, chosen, ready.dt), series={"total": look}))
+    mass, px, py, heat = drift/first[[0, 0, 0, 3]]
+    return {"mass": float(mass), "momentum": float(max(px, py))/scene.speed, "energy": float(heat)}
 
 
 def total(scene: Any, at: Fields) -> np.ndarray:
@@ -91,19 +81,46 @@ def total(scene: Any, at: Fields) -> np.ndarray:
     return np.array([m.sum(), *(m@at.v), m@e])
 
 
+def keeps(numbers: Numbers) -> Verdict:
+    lost = [f"{name} (drift {drift:.1g})" for name, drift in numbers.items() if not drift < ROUNDING]
+    if not lost:
+        return Verdict("keeps mass, momentum and energy to round-off", True)
+    return Verdict(f"does not keep {', '.join(lost)}", False)
+
+
+def frames(scene: Any, method: Any) -> Numbers:
+    """Errors of velocities over the vortex's speed, of the vortex at rest and carried by a wind."""
+    both = (solve(one, method) for one in (TaylorGreen(L=scene.L, mach=scene.mach), scene))
+    still, carried = (apart(done.at, answer(done.scene, done.at.x))/scene.speed for done in both)
+    return {"at_rest": still, "carried": carried, "ratio": carried/still}
+
+
+def same_frames(numbers: Numbers) -> Verdict:
+    ratio = numbers["ratio"]
+    if abs(ratio - 1) < ALIKE:
+        return Verdict("is as good in a moving frame", True)
+    return Verdict(f"its error is {ratio:.2g} times as large in a moving frame", ratio < 1)
+
+
 def repeated(scene: Any, method: Any) -> Numbers:
     """The largest difference between two runs of one seed."""
-    ends = []
-    for _ in range(2):
-        ready = prepared(scene, named(method))
-        ends.append(run(ready.method, ready.start, Plan(dt=ready.dt, steps=FEW)).by_id())
-    return {"difference": float(np.abs(ends[0] - ends[1]).max())}
+    first, second = (prepared(scene, named(method)) for _ in range(2))
+    plan = Plan(dt=first.dt, steps=FEW)
+    one, other = (run(ready.method, ready.start, plan).by_id() for ready in (first, second))
+    return {"difference": float(np.abs(one - other).max())}
+
+
+def repeats(numbers: Numbers) -> Verdict:
+    if numbers["difference"] == 0:
+        return Verdict("repeats itself bit by bit", True)
+    return Verdict("is not deterministic: two runs of one seed differ by "
+                   f"{numbers['difference']:.1g}", False)
 
 
 def longest(scene: TaylorGreen, method: Any) -> Numbers:
     """The longest step at which a vortex does not gain energy, over the one that is claimed; nan: none is."""
     ready = prepared(scene, named(method))
-    free = Unguarded(ready.method)
+    free, first = Unguarded(ready.method), kinetic_energy(ready.method.fields(ready.start))
 
     def grows(dt: float) -> bool:
         plan = Plan(dt=dt, steps=TRIED, every=TRIED//10, series={"K": kinetic})
@@ -111,6 +128,77 @@ def longest(scene: TaylorGreen, method: Any) -> Numbers:
             K = run(free, ready.start, plan).series["K"]
         except (Divergence, ArithmeticError):
             return True
-        return not max(K) < FED*kinetic_energy(ready.method.fields(ready.start))
+        return not max(K) < FED*first
     share = bisected(grows, ready.limit).value/ready.limit
     return {"claimed": ready.limit, "share": share, "grows": float(grows(ready.limit))}
+
+
+def holds(numbers: Numbers) -> Verdict:
+    share = numbers["share"]
+    if np.isnan(share) and numbers["grows"]:
+        return Verdict("is unstable at any step: a vortex gains energy at 1/64 of the claimed one", False)
+    if np.isnan(share):
+        return Verdict("shows no limit: no step up to 64 times the claimed one feeds a vortex", None)
+    words = f"is stable up to {share:.2f} of the step that it claims"
+    if share < LIMIT:
+        return Verdict(f"claims too long a step: {words}", False)
+    return Verdict(words if share < 2 else f"claims less than it could: {words}", True)
+
+
+def error(scene: Any, method: Any) -> Numbers:
+    """Difference from the exact answer, relative."""
+    done = solve(scene, method)
+    return {"error": done.error.value, "cpu_s": done.cpu_s}
+
+
+def order(taken: Taken) -> float:
+    """Of errors against rows; it falls where they grow."""
+    logs = np.log([(rows, abs(numbers["error"])) for rows, numbers in taken])
+    rows, errors = logs.T
+    return -float(np.polyfit(rows, errors, 1)[0])
+
+
+def convergence(taken: Taken) -> Verdict:
+    rows, error = taken[-1][0], abs(taken[-1][1]["error"])
+    told = f"{percent(error)} off with {rows} rows"
+    if len(taken) < 2:
+        return Verdict(told, None)
+    if order(taken) < LEAST:
+        fewer, first = taken[0]
+        return Verdict(f"does not converge: {told}, {percent(first['error'])} with {fewer}", False)
+    return Verdict(f"converges with order {order(taken):.1f}: {told}", True)
+
+
+def convection(scene: Any, method: Any) -> Numbers:
+    """K and Nu with their errors; the error of K, relative to the grid's limit at Ra 10 000, Pr 1."""
+    rows = csvfile.read(RESULTS/"rb"/"kinetic_energy.csv")
+    limit = rows.query("method == 'compressible' and variant == 'flux-form' and eos == 'ideal' and "
+                       "transport == 'const-eta' and sides == 'periodic' and ra == 1e4 and pr == 1 and "
+                       "resolution == inf")["ke"].iloc[0]
+    done = solve(scene, method)
+    off = done.K/limit - 1
+    return {"K": done.K.value, "K_err": done.K.err, "Nu": done.Nu.value, "Nu_err": done.Nu.err,
+            "error": off.value, "error_err": off.err, "cpu_s": done.cpu_s}
+
+
+def right(taken: Taken) -> Verdict:
+    rows, last = taken[-1]
+    errors = [numbers["error"] for _, numbers in taken]
+    told = f"K is {percent(last['error'])} {'high' if last['error'] > 0 else 'low'} with {rows} rows"
+    if all(abs(numbers["error"]) < max(numbers["error_err"], RIGHT) for _, numbers in taken[-2:]):
+        return Verdict(f"is right: {told}", True)
+    if len(taken) < 2:
+        return Verdict(told, None)
+    if min(errors) < 0 < max(errors):
+        most = percent(max(errors, key=abs))
+        return Verdict(f"has no order, as its errors change sign: {told}, {most} off at most",
+                       abs(errors[-1]) < abs(errors[0]))
+    if order(taken) < LEAST:
+        return Verdict(f"does not converge: {told}", False)
+    return Verdict(f"converges with order {order(taken):.1f}: {told}", True)
+
+
+def percent(share: float) -> str:
+    """Of its size, in two digits or more."""
+    size = 100*abs(share)
+    return f"{size:.2g} %" if size < 10 else f"{size:.0f} %"

@@ -1,17 +1,27 @@
-"""One page of a judged method: verdicts, numbers, rules, the picture; and the numbers as CSV."""
+"""One page of a judged method: verdicts, numbers, rules, error of K against cost; and the numbers as CSV."""
 import base64
 import io
 from collections.abc import Sequence
 from pathlib import Path
+from time import process_time
 
 import pandas as pd
 from jinja2 import Environment
+from matplotlib.figure import Figure
 
-from studies.judge.ladder import Take, judged
-from studies.judge.picture import beside
-from studies.judge.rungs import RUNGS, Rung
-from studies.kit.csvfile import commit, cpu, now, versions, write, write_atomic
+from particles.run import Plan, run
+from studies.build import SCENES, ready
+from studies.judge.ladder import Take, verdicts
+from studies.judge.measures import Numbers, Verdict
+from studies.judge.rungs import Rung
+from studies.kit.csvfile import commit, cpu, now, read, versions, write, write_atomic
+from studies.kit.figure import errorbar, figure, look
+from studies.kit.stats import Measured
+from studies.kit.store import RESULTS
 
+SCENE = "rayleigh-benard"
+#: a method that both this machine and that of the tables have run, its rows there and its steps here
+SHARED, LABEL, ROWS, STEPS = "fixed-lattice-h1.2", "DIH lattice, h = 1.2 a", 16, 400
 PAGE = Environment(autoescape=True).from_string("""<!doctype html>
 <html lang="en"><meta charset="utf-8"><title>{{ name }}, judged</title>
 <style>
@@ -22,7 +32,7 @@ th, td { text-align: left; vertical-align: top; padding: .4rem .8rem .4rem 0; bo
 img { max-width: 100% }
 </style>
 <h1>{{ name }}</h1>
-<p>{{ good }} of {{ rungs|length }} rungs are good. {{ when }}.</p>
+<p>{{ good }} of {{ rungs|length }} rungs are good.</p>
 <table><tr><th>Rung<th>Verdict<th>Numbers<th>Seconds
 {% for one in rungs %}<tr><td>{{ one.name }}<br><small>{{ one.asks }}</small>
 <td class="{{ one.mark }}">{{ one.words }}<br><small>Rule: {{ one.rule }}.</small>
@@ -40,27 +50,31 @@ by a lattice that both have run.</p>
 def write_page(name: str, takes: Sequence[Take], out: Path) -> Path:
     """judge-NAME.html and judge-NAME.csv in a folder; the page."""
     picture, path = beside(name, takes), out/f"judge-{name}.html"
-    image = io.BytesIO()
+    image, head = io.BytesIO(), [f"commit {commit()}", versions(), cpu(), now()]
     if picture is not None:
         picture.savefig(image, format="png")
-    rungs = [row(rung, takes) for rung in RUNGS]
-    text = PAGE.render(name=name, rungs=rungs, good=sum(one["mark"] == "good" for one in rungs), when=now(),
-                       image=base64.b64encode(image.getvalue()).decode(),
-                       made=f"commit {commit()}, {versions()}, {cpu()}")
+    rungs = [row(rung, verdict, takes) for rung, verdict in verdicts(takes)]
+    text = PAGE.render(name=name, rungs=rungs, good=sum(one["mark"] == "good" for one in rungs),
+                       image=base64.b64encode(image.getvalue()).decode(), made=", ".join(head))
     write_atomic(path, text)
-    write(path.with_suffix(".csv"), table(takes), head=[f"commit {commit()}", versions(), cpu(), now()])
+    write(path.with_suffix(".csv"), table(takes), head=head)
     return path
 
 
-def row(rung: Rung, takes: Sequence[Take]) -> dict:
+def row(rung: Rung, verdict: Verdict, takes: Sequence[Take]) -> dict:
     """A row of the page."""
-    verdict, mine = judged(rung, takes), [take for take in takes if take.rung == rung.name]
-    numbers = [(take.rows, {key: f"{value:.3g}" for key, value in take.numbers.items()}) for take in mine]
-    lines = [f"{rows} rows: " + ", ".join(f"{key} {value}" for key, value in part.items())
-             for rows, part in numbers if part]
+    mine = [take for take in takes if take.rung == rung.name]
+    lines = [f"{take.rows} rows: {in_words(take.numbers)}" for take in mine if take.numbers]
     mark = {True: "good", False: "bad", None: ""}[verdict.good]
-    return {"name": rung.name, "asks": rung.asks, "rule": rung.rule, "words": verdict.words, "mark": mark,
-            "lines": lines, "seconds": f"{sum(take.seconds for take in mine):.1f}"}
+    return {**rung._asdict(), "words": verdict.words, "mark": mark, "lines": lines,
+            "seconds": f"{sum(take.seconds for take in mine):.1f}"}
+
+
+def in_words(numbers: Numbers) -> str:
+    """Names and numbers, errors in units of the last digit."""
+    errors = {name: numbers.get(f"{name}_err", 0.0) for name in numbers if not name.endswith("_err")}
+    return ", ".join(f"{name} {Measured(numbers[name], err) if err else f'{numbers[name]:.3g}'}"
+                     for name, err in errors.items())
 
 
 def table(takes: Sequence[Take]) -> pd.DataFrame:
@@ -68,3 +82,33 @@ def table(takes: Sequence[Take]) -> pd.DataFrame:
     return pd.DataFrame([{"rung": take.rung, "rows": take.rows, "quantity": key, "value": value,
                           "seconds": take.seconds, "fault": take.fault.replace("#", "")}
                          for take in takes for key, value in (take.numbers or {"": float("nan")}).items()])
+
+
+def beside(name: str, takes: Sequence[Take]) -> Figure | None:
+    """Error of K against cost among methods of the study of cost; None where no run of convection has a K."""
+    own = pd.DataFrame([take.numbers for take in takes if take.rung == SCENE and take.numbers])
+    if own.empty:
+        return None
+    known = read(RESULTS/"cost"/"points.csv").query("scene == 'convection' and quantity == 'K'")
+    page, axes = figure(width=7.0, height=4.6)
+    for number, (method, rows) in enumerate(known.groupby("method", sort=False)):
+        other = look(number) | {"marker": look(number + number//8)["marker"]}      # there are more than eight
+        errorbar(axes, rows["cpu_s"], rows["error"].abs(), rows["error_err"], label=str(method), **other,
+                 alpha=0.6)
+    axes.errorbar(own["cpu_s"]/pace(), own["error"].abs(), own["error_err"], color="red", marker="*",
+                  markersize=13, label=name, zorder=9)
+    axes.set(xscale="log", yscale="log", xlabel="CPU on the machine of the tables  [s]",
+             ylabel="error of K, relative")
+    axes.legend(fontsize=7, loc="lower left")
+    return page
+
+
+def pace() -> float:
+    """Seconds that this machine takes for one of the machine of the tables, by some steps of points."""
+    runs = read(RESULTS/"cost"/"runs.csv")
+    runs = runs.query("scene == 'convection' and method == @LABEL and resolution == @ROWS")
+    method, start, dt = ready(SCENES[SCENE](rows=ROWS), SHARED)
+    run(method, start, Plan(dt=dt, steps=1))        # compiles
+    began = process_time()
+    run(method, start, Plan(dt=dt, steps=STEPS))
+    return (process_time() - began)/STEPS/float((runs["run_s"]/runs["steps"]).median())

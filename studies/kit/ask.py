@@ -2,7 +2,7 @@
 
     one("nonlinear", "ratio", field="rho", k=1e-3)                  with ratio_err, where the table has it
     largest("printed", "abs(ratio/predicted - 1)", d=2)             over all rows where d is 2
-    last("peaks", "measured/symbol", by="turns", err="measured_err/symbol", peak="position")
+    last("sampled", "ratio*exact", by="exact", err="ratio_err*exact", field="w")
     power("steps", "error", "dt", "0.09 < dt < 0.41", fluid="gas")  d ln(error)/d ln(dt)
     one("means", "ke", resolution=50)/one("means", "ke", resolution=inf)
 
@@ -11,26 +11,37 @@ are those of pandas' `eval`, with cos, sqrt, log10, exp, abs ... and pi. The err
 Of a formula it is another formula, `err`: "0" where it does not count. Questions are added, subtracted,
 multiplied and divided as `Measured` are. `str` of a question is its formula.
 """
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from studies.kit import fits, stats
-from studies.kit.formula import NoRows, Selection, WrongQuestion, error_of, numbers, rows
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
-from studies.kit.value import Asked, Value, check, farthest_of, farthest_per, largest_of, largest_per, log, of
+from studies.kit.value import (
+    NoRows,
+    Selection,
+    Value,
+    WrongQuestion,
+    check_columns,
+    error_of,
+    log,
+    numbers,
+    of,
+    rows,
+)
 
 __all__ = [
-    "NoRows", "Value", "WrongQuestion", "check", "curve", "farthest", "farthest_of", "farthest_per", "first",
-    "largest", "largest_of", "largest_per", "last", "least", "log", "mean", "of", "one", "over_seeds",
-    "power", "question", "rows", "share", "spread", "total",
+    "NoRows", "Value", "WrongQuestion", "curve", "each", "farthest", "farthest_of", "farthest_per", "first",
+    "largest", "largest_of", "largest_per", "last", "least", "log", "of", "one", "over_seeds", "power",
+    "question", "rows", "share", "spread", "total",
 ]
 
-Pick = Callable[[np.ndarray, np.ndarray], Measured]
-Curve = Callable[[np.ndarray, np.ndarray, np.ndarray], Measured]
+Array = np.ndarray
+#: one number of values (n,) and errors (n,)
+Pick = Callable[[Array, Array], Measured]
 
 
 def question(pick: Pick) -> Callable[..., Value]:
@@ -40,98 +51,99 @@ def question(pick: Pick) -> Callable[..., Value]:
         chosen = Selection(table, such, need, where)
 
         def answer(tables: Tables) -> Measured:
-            frame = ordered(chosen(tables), by, table) if by else chosen(tables)
-            error = error_of(value, err, table, frame.columns)
+            frame = ordered(chosen(tables), by, table)
+            error = error_of(value, err, table, frame)
             number, half = pick(numbers(frame, value, table), numbers(frame, error, table))
             return Measured(float(number), float(half))
-        asked = Asked(chosen, value, err, by)
         order = f" by {by}" if by else ""
-        return Value(answer, f"{ask.__name__}({value}){order} in {chosen}", (asked,))
+        return Value(answer, f"{ask.__name__}({value}){order} in {chosen}", (chosen,))
     ask.__doc__, ask.__name__ = pick.__doc__, pick.__name__
     return ask
 
 
 def ordered(frame: pd.DataFrame, by: str, table: str) -> pd.DataFrame:
-    """Rows sorted by a formula."""
-    return frame.iloc[np.argsort(numbers(frame, by, table), kind="stable")]
+    """Rows sorted by a formula, if there is one."""
+    return frame.iloc[np.argsort(numbers(frame, by, table), kind="stable")] if by else frame
 
 
-def at(number: int, x: np.ndarray, err: np.ndarray) -> Measured:
+def at(number: int | np.integer, x: Array, err: Array) -> Measured:
     """One of many values, with its own error."""
     return Measured(x[number], err[number])
 
 
 @question
-def one(x: np.ndarray, err: np.ndarray) -> Measured:
+def one(x: Array, err: Array) -> Measured:
     """That of the only row there is."""
     if len(x) > 1:
-        raise WrongQuestion(f"there are {len(x)} such rows: say which, or ask for first, last, mean ...")
+        raise WrongQuestion(f"there are {len(x)} such rows: say which, or ask for first, last, largest ...")
     return at(0, x, err)
 
 
 @question
-def first(x: np.ndarray, err: np.ndarray) -> Measured:
+def first(x: Array, err: Array) -> Measured:
     """That of the first row, by a formula."""
     return at(0, x, err)
 
 
 @question
-def last(x: np.ndarray, err: np.ndarray) -> Measured:
+def last(x: Array, err: Array) -> Measured:
     """That of the last row, by a formula: by the value itself the largest, with its own error."""
     return at(-1, x, err)
 
 
-@question
-def largest(x: np.ndarray, err: np.ndarray) -> Measured:
-    """Of all rows, with the largest error among them."""
+def top(x: Array, err: Array) -> Measured:
+    """The largest of all, with the largest error among them."""
     return Measured(x.max(), err.max())
 
 
+top.__name__ = "largest"        # which stands in formulas
+largest = question(top)
+
+
 @question
-def least(x: np.ndarray, err: np.ndarray) -> Measured:
+def least(x: Array, err: Array) -> Measured:
     """Of all rows, with the largest error among them."""
     return Measured(x.min(), err.max())
 
 
+def farthest_from(centre: float, end: str = "") -> Pick:
+    """The one farthest from `centre`, with its own error."""
+    def pick(x: Array, err: Array) -> Measured:
+        return at(np.argmax(np.abs(x - centre)), x, err)
+    pick.__name__ = f"farthest from {centre:g}{end}"
+    return pick
+
+
 def farthest(table: str, value: str, such: str = "", *, centre: float = 1.0, **more: Any) -> Value:
     """The one farthest from `centre`, with its own error."""
-    def pick(x: np.ndarray, err: np.ndarray) -> Measured:
-        return at(int(np.argmax(np.abs(x - centre))), x, err)
-    pick.__name__ = f"farthest from {centre:g} "
-    return question(pick)(table, value, such, **more)
+    return question(farthest_from(centre, " "))(table, value, such, **more)
 
 
 @question
-def mean(x: np.ndarray, err: np.ndarray) -> Measured:
-    """Of all rows; errors are independent and add in squares."""
-    return Measured(x.mean(), np.sqrt((err**2).sum())/len(x))
-
-
-@question
-def total(x: np.ndarray, err: np.ndarray) -> Measured:
+def total(x: Array, err: Array) -> Measured:
     """Sum over all rows, of a condition how many fulfil it; errors add in squares."""
     return Measured(x.sum(), np.sqrt((err**2).sum()))
 
 
 @question
-def share(x: np.ndarray, err: np.ndarray) -> Measured:
+def share(x: Array, err: Array) -> Measured:
     """Part of the rows that fulfil a condition."""
     return Measured((x != 0).mean())
 
 
 @question
-def over_seeds(x: np.ndarray, err: np.ndarray) -> Measured:
+def over_seeds(x: Array, err: Array) -> Measured:
     """Mean over seeds; its error is that of each run or that of the scatter, whichever is larger."""
     return stats.combine(list(zip(x, err))) if err.any() else stats.over_seeds(x)
 
 
 @question
-def spread(x: np.ndarray, err: np.ndarray) -> Measured:
+def spread(x: Array, err: Array) -> Measured:
     """Largest over smallest."""
-    return at(int(np.argmax(x)), x, err)/at(int(np.argmin(x)), x, err)
+    return at(np.argmax(x), x, err)/at(np.argmin(x), x, err)
 
 
-def curve(fit: Curve) -> Callable[..., Value]:
+def curve(fit: Callable[[Array, Array, Array], Measured]) -> Callable[..., Value]:
     """A question from a fit of y to x, both formulas; rows sorted by x, three at least."""
     def ask(table: str, y: str, x: str, such: str = "", *, err: str = "0", need: int = 3,
             **where: Any) -> Value:
@@ -139,15 +151,81 @@ def curve(fit: Curve) -> Callable[..., Value]:
 
         def answer(tables: Tables) -> Measured:
             frame = ordered(chosen(tables), x, table)
-            columns = [numbers(frame, formula, table) for formula in (x, y, err)]
-            return fit(*columns)
-        asked = Asked(chosen, y, err, by=x)
-        return Value(answer, f"{ask.__name__}({y} over {x}) in {chosen}", (asked,))
+            return fit(*(numbers(frame, formula, table) for formula in (x, y, err)))
+        return Value(answer, f"{ask.__name__}({y} over {x}) in {chosen}", (chosen,))
     ask.__doc__, ask.__name__ = fit.__doc__, fit.__name__
     return ask
 
 
 @curve
-def power(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
+def power(x: Array, y: Array, err: Array) -> Measured:
     """d ln|y|/d ln x by least squares: of an error over a spacing the order of convergence."""
     return fits.power_law(x, y, err=err).slope
+
+
+# --- of several questions --------------------------------------------------------------------------
+
+
+def largest_of(*values: Value) -> Value:
+    """The largest of several, with the largest error among them."""
+    return one_of(top, values)
+
+
+def farthest_of(*values: Value, centre: float = 1.0) -> Value:
+    """The one of several that is farthest from `centre`, with its own error."""
+    return one_of(farthest_from(centre), values)
+
+
+def largest_per(columns: str | Sequence[str], value: Value) -> Value:
+    """The largest of what a question gives for each value of some columns, with the largest error."""
+    return one_per(top, columns, value)
+
+
+def farthest_per(columns: str | Sequence[str], value: Value, centre: float = 1.0) -> Value:
+    """That farthest from `centre` of what a question gives for each value of some columns, with its error."""
+    return one_per(farthest_from(centre), columns, value)
+
+
+def one_of(pick: Pick, values: Sequence[Value]) -> Value:
+    """The answer to one of several questions."""
+    asks = tuple(chosen for value in values for chosen in value.asks)
+    return Value(lambda tables: picked(pick, [value(tables) for value in values]),
+                 f"{pick.__name__} of {'; '.join(map(str, values))}", asks)
+
+
+def one_per(pick: Pick, columns: str | Sequence[str], value: Value) -> Value:
+    """The answer to a question put for one value of some columns."""
+    return Value(lambda tables: picked(pick, each(columns, value, tables)),
+                 f"{pick.__name__}, for each {columns}, of {value}", value.asks)
+
+
+def picked(pick: Pick, answers: Sequence[Measured]) -> Measured:
+    """One of several numbers."""
+    return Measured(*map(float, pick(*np.array(answers).T)))
+
+
+def each(columns: str | Sequence[str], value: Value, tables: Tables) -> list[Measured]:
+    """What a question gives for each value of some columns of its first table, but where rows are missing.
+
+    Raises CannotTell: None has all of its rows.
+    """
+    by = [columns] if isinstance(columns, str) else list(columns)
+    chosen = value.asks[0]
+    frame = chosen(tables)
+    check_columns(chosen.table, frame, by)
+    answers, missing = [], None
+    for key, _ in frame.groupby(by):
+        where = dict(zip(by, key))
+        try:
+            answers.append(value(narrowed(tables, value, where)))
+        except NoRows as error:
+            missing = error
+    if missing and not answers:
+        raise missing
+    return answers
+
+
+def narrowed(tables: Tables, value: Value, where: dict[str, Any]) -> Tables:
+    """Tables in which those of a question have only the rows that are meant."""
+    names = {chosen.table for chosen in value.asks} & {*tables}
+    return Tables({**tables, **{name: rows(tables, name, need=0, **where) for name in names}})

@@ -79,7 +79,9 @@ def defaults(kind: Any) -> dict[str, Any] | None:
 
 
 def fields_of(value: Any) -> dict[str, Any] | None:
-    """Field -> value of a record, None of another object."""
+    """Field -> value of a record or a dict, None of another object."""
+    if isinstance(value, dict):
+        return value
     names = None if isinstance(value, type) else defaults(type(value))
     return None if names is None else {name: getattr(value, name) for name in names}
 
@@ -91,7 +93,7 @@ def parameters(value: Any) -> Any:
     kind = {"": type(value).__qualname__}
     if isinstance(value, Enum):
         return {**kind, "name": value.name}
-    fields = value if isinstance(value, dict) else fields_of(value)
+    fields = fields_of(value)
     if fields is not None:
         return kind | {str(name): parameters(item) for name, item in fields.items()}
     if isinstance(value, tuple | list):
@@ -112,7 +114,7 @@ def key_of(case: Case, code: Code) -> str:
 
 def starts(case: Case) -> Iterator[Place]:
     """Where the classes of a case are defined, and all that takes part in its parameters."""
-    own = file_of(type(case))
+    own = file_of(type(case).__module__)
     classes = [place_of(kind, own, CASE if issubclass(kind, Case) else WHOLE) for kind in type(case).__mro__]
     values = [place_of(kind, own) for value in vars(case).values() for kind in kinds(value)]
     yield from filter(None, classes + values)
@@ -120,7 +122,7 @@ def starts(case: Case) -> Iterator[Place]:
 
 def place_of(kind: Any, own: Path | None, part: str = WHOLE) -> Place | None:
     """Where a class or function is defined, None if neither in our packages nor in the file of the case."""
-    path = file_of(kind)
+    path = file_of(kind.__module__)
     if path is None:
         return None
     script = str(path) if path == own else ""
@@ -132,24 +134,18 @@ def place_of(kind: Any, own: Path | None, part: str = WHOLE) -> Place | None:
 def kinds(value: Any) -> Iterator[Any]:
     """Types of all parameters, nested ones too, and parameters that are functions or classes themselves."""
     yield value if hasattr(value, "__qualname__") else type(value)
-    fields = value if isinstance(value, dict) else fields_of(value)
-    if fields is not None:
-        value = list(fields.values())
-    if isinstance(value, tuple | list):
-        for item in value:
+    fields = fields_of(value)
+    items = value if fields is None else list(fields.values())
+    if isinstance(items, tuple | list):
+        for item in items:
             yield from kinds(item)
 
 
-def file_of(thing: Any) -> Path | None:
-    """File that a class or function is written in, None for built-in ones."""
-    file = getattr(sys.modules.get(thing.__module__ or ""), "__file__", None)
-    return resolved(file) if file else None
-
-
 @cache
-def resolved(file: str) -> Path:
-    """Full path of a file."""
-    return Path(file).resolve()
+def file_of(module: str | None) -> Path | None:
+    """File of a module by its name, None for those that are built in."""
+    file = getattr(sys.modules.get(module or ""), "__file__", None)
+    return Path(file).resolve() if file else None
 
 
 @cache

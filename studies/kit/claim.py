@@ -1,4 +1,4 @@
-"""Claims: what a paper says, what was measured, and the verdict.
+"""Claims: what a paper says and where, what was measured, and the verdict.
 
 With measured value m, its 95 % interval [m - err, m + err] and the accepted range [low, high]:
 
@@ -7,23 +7,21 @@ With measured value m, its 95 % interval [m - err, m + err] and the accepted ran
 - ``undecidable``  a limit of the range lies in the interval, or nothing could be measured.
 
 A point estimate inside the range is not enough for ``holds``: with a large error bar it would hold by
-ignorance, and a better measurement could turn the verdict round. This way either verdict is wrong in 2.5 % of
-cases at most, and more computing moves an undecidable claim one way or the other.
+ignorance. This way either verdict is wrong in 2.5 % of cases at most, and more computing decides.
 """
 import math
-from collections.abc import Callable, Sequence
+import re
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import NamedTuple
 
 import pandas as pd
 
 from studies.kit.csvfile import OtherTable, commit, put
-from studies.kit.formula import WrongQuestion
-from studies.kit.source import Cited, listed, paper_of, places
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Row, Tables
-from studies.kit.value import Value
+from studies.kit.value import Value, WrongQuestion
 
 COLUMNS = ("id", "source", "statement", "whose", "printed", "measured", "err", "low", "high", "verdict",
            "reason", "study", "formula", "equation", "headline", "evidence")
@@ -35,6 +33,72 @@ MEANING = ("whose: a statement that the paper prints, or our own about the same 
            "evidence: figures and tables in this folder that show it",
            "err is the half width of the 95 % interval, low to high is accepted; studies/kit/claim.py has "
            "the rule of the verdicts")
+
+#: how a source begins: with a paper, or an author and a year
+PAPER = re.compile(r"(KHP95|RR98)\b|[A-Z].*?\b(1[89]|20)\d\d\b\)?", re.IGNORECASE)
+ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X")
+COUNTED = r"\d+(-\d+)?"
+#: kind of place -> what follows it, in the order in which places are listed
+KINDS = {"Eq.": COUNTED, "Fig.": COUNTED, "Table": COUNTED, "abstract": "",
+         "Sec.": rf"({'|'.join(ROMAN)})( [A-Z])?", "example": r"\w+"}
+PART = re.compile(r"(?:after )?(?:(Eq|Fig|Table|Sec|abstract|example)s?\.?(?: |$))?(.*)")
+
+
+class Cited(NamedTuple):
+    """An equation, a figure, a table or a section of a paper; without a kind the whole paper."""
+
+    paper: str
+    kind: str = ""
+    number: str = ""
+
+    def __str__(self) -> str:
+        return " ".join(filter(None, self))
+
+    @property
+    def order(self) -> tuple:
+        """By paper, kind and number: Eq. 9 before Eq. 10, Sec. III before Sec. III B."""
+        first, _, rest = self.number.partition(" ")
+        number = int(first) if first.isdecimal() else [*ROMAN, first].index(first)
+        return self.paper, [*KINDS, ""].index(self.kind), number, rest
+
+
+def places(source: str) -> tuple[Cited, ...]:
+    """What a source names, each equation of a range; of one with equations, figures or tables these alone.
+
+    Raises ValueError: it does not begin with a paper, or something after it is no place.
+    """
+    paper, kind = paper_of(source), ""
+    named: list[Cited] = []
+    for part in re.split(r",\s*", source.removeprefix(paper).lstrip(", ")):
+        word, number = PART.fullmatch(part).groups()    # type: ignore[union-attr]  # it takes any text
+        kind = next((known for known in KINDS if word and known.startswith(word)), kind)
+        numbers = each(number) if re.fullmatch(KINDS.get(kind, "-"), number) else []
+        if part and not numbers:
+            raise ValueError(f"source {source!r}: {part!r} is no place: write Eq. 45, Eqs 34-36, 39, Fig. 9, "
+                             "Table 1, Sec. III B, Secs I, IV or abstract")
+        named += [Cited(paper, kind, one) for one in numbers]
+    counted = [one for one in named if KINDS[one.kind] == COUNTED]
+    return tuple(counted or named or [Cited(paper)])
+
+
+def each(number: str) -> list[str]:
+    """A number, or those of a range."""
+    first, _, last = number.partition("-")
+    return [str(one) for one in range(int(first), int(last) + 1)] if last else [number]
+
+
+def paper_of(source: str) -> str:
+    """The paper that a source begins with. Raises ValueError: it begins with none."""
+    known = PAPER.match(source)
+    if not known:
+        raise ValueError(f"source {source!r} is not a citation: begin with KHP95, RR98 or an author and a "
+                         "year")
+    return known.group(0)
+
+
+def listed(several: Iterable[Cited]) -> str:
+    """Places as a column has them, sorted: "RR98 Eq. 34; RR98 Eq. 35"."""
+    return "; ".join(str(one) for one in sorted(set(several), key=lambda one: one.order))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,18 +129,25 @@ class Claim:
 
     def __post_init__(self):
         try:
-            self.check_decides()
+            self.check()
         except ValueError as error:
             raise ValueError(f"claim {self.id}: {error}") from error
-        if not self.undecidable.strip():
-            self.check_testable()
-        elif self.value:
-            raise ValueError(f"claim {self.id} has a value and is declared undecidable: keep one of them")
 
-    def check_decides(self) -> None:
-        """A headline is among the places of the source."""
+    def check(self) -> None:
+        """Refuse a headline that is no place of the source, a test without value, reason or limits."""
         if other := {*self.decides} - {*self.places}:
             raise ValueError(f"headline {listed(other)} is not in source {self.source!r}: name it there too")
+        if bool(self.undecidable.strip()) == bool(self.value):
+            raise ValueError("it has no value, or one though it is declared undecidable: keep one of them")
+        if not self.value:
+            return
+        if not self.because.strip():
+            raise ValueError("it has no reason for its tolerance: because= says why this wide")
+        pair = (self.expect is not None) + (self.within is not None)
+        sided = self.at_least > -math.inf or self.at_most < math.inf
+        if pair == 1 or (pair == 2) == sided or not self.low <= self.high:
+            raise ValueError(f"it accepts [{self.low}, {self.high}]: give expect= with within= >= 0, or "
+                             "at_least=, or at_most=, or both of these")
 
     @property
     def places(self) -> tuple[Cited, ...]:
@@ -89,18 +160,6 @@ class Claim:
         if isinstance(self.headline, str) and self.headline:
             return places(f"{paper_of(self.source)} {self.headline}")
         return self.places if self.headline else ()
-
-    def check_testable(self) -> None:
-        """A claim that is tested has a value, limits and a reason for these."""
-        if not self.because.strip():
-            raise ValueError(f"claim {self.id} has no reason for its tolerance: because= says why this wide")
-        if self.value is None:
-            raise ValueError(f"claim {self.id} has no value: give value=, or undecidable= with the reason")
-        pair = (self.expect is not None) + (self.within is not None)
-        sided = self.at_least > -math.inf or self.at_most < math.inf
-        if pair == 1 or (pair == 2) == sided or not self.low <= self.high:
-            raise ValueError(f"claim {self.id} accepts [{self.low}, {self.high}]: give expect= with within= "
-                             ">= 0, or at_least=, or at_most=, or both of these")
 
     @property
     def low(self) -> float:
@@ -125,12 +184,10 @@ def verdict(claim: Claim, value: float, err: float) -> str:
     """``holds``, ``fails`` or ``undecidable`` by the rule at the head of this file."""
     if err < 0:
         raise ValueError(f"claim {claim.id}: err is {err}, but half the width of an interval is not negative")
-    low, high = value - err, value + err
-    if claim.low <= low and high <= claim.high:
+    if claim.low <= value - err and value + err <= claim.high:
         return "holds"
-    if low > claim.high or high < claim.low:
-        return "fails"
-    return "undecidable"
+    outside = value - err > claim.high or value + err < claim.low
+    return "fails" if outside else "undecidable"
 
 
 def judge(claims: Sequence[Claim], tables: Tables, study: str) -> list[Row]:
@@ -143,34 +200,24 @@ class Noting(Tables):
 
     def __init__(self, tables: Tables):
         super().__init__(tables)
-        self.read: dict[str, None] = {}
+        self.read: list[str] = []
 
     def __getitem__(self, name: str) -> pd.DataFrame:
-        self.read[name] = None
+        self.read.append(name)
         return super().__getitem__(name)
-
-    def get(self, name: str, default: Any = None) -> Any:
-        """As of a dict."""
-        return self[name] if name in self else default
 
 
 def row(claim: Claim, tables: Noting, study: str) -> Row:
     """A claim and its verdict. Evidence: its own figure, the tables of its formula, others that it read."""
     said = judged(claim, tables, study)
-    asked = [one.rows.table for one in getattr(claim.value, "asks", ()) if one.rows.table in tables.read]
+    asked = [one.table for one in getattr(claim.value, "asks", ()) if one.table in tables.read]
     files = [claim.evidence, *(f"{study}/{name}.csv" for name in dict.fromkeys([*asked, *tables.read]))]
-    return {**stated(claim), "study": study, **said, "evidence": "; ".join(filter(None, files))}
-
-
-def stated(claim: Claim) -> Row:
-    """What a claim says: of one that is tested the accepted range, and the formula where it has one."""
-    row = {"id": claim.id, "source": claim.source, "statement": claim.statement, "printed": claim.printed,
-           "whose": "paper" if claim.printed else "own",
-           "equation": listed(claim.places), "headline": listed(claim.decides)}
-    if claim.value is None:
-        return row
     formula = str(claim.value) if isinstance(claim.value, Value) else ""
-    return {**row, "low": claim.low, "high": claim.high, "formula": formula}
+    tested = {"low": claim.low, "high": claim.high, "formula": formula} if claim.value else {}
+    return {"id": claim.id, "source": claim.source, "statement": claim.statement, "printed": claim.printed,
+            "whose": "paper" if claim.printed else "own", "study": study, **tested, **said,
+            "equation": listed(claim.places), "headline": listed(claim.decides),
+            "evidence": "; ".join(filter(None, files))}
 
 
 def judged(claim: Claim, tables: Tables, study: str = "") -> Row:
@@ -192,9 +239,9 @@ def judged(claim: Claim, tables: Tables, study: str = "") -> Row:
         error.add_note(f"while judging claim {claim.id}")
         raise
     said = verdict(claim, value, err)
-    limit = "a limit lies within the error: " if said == "undecidable" else ""
-    reason = f"{limit}{claim.accepted}: {claim.because}"
-    return {"measured": value, "err": err, "verdict": said, "reason": reason}
+    limit = "a limit lies within the error: "*(said == "undecidable")
+    return {"measured": value, "err": err, "verdict": said,
+            "reason": f"{limit}{claim.accepted}: {claim.because}"}
 
 
 def put_claims(path: Path, rows: Sequence[Row]) -> None:

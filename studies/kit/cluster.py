@@ -5,7 +5,6 @@ outcome comes back as text. Dask gives a case whose worker is lost to another on
 allows (``allowed-failures``). ``make worker SCHEDULER=tcp://...`` starts a worker, for one case at a time.
 """
 import io
-import math
 import os
 import pickle
 import re
@@ -21,15 +20,13 @@ from typing import TYPE_CHECKING, Any
 
 from studies.kit import csvfile
 from studies.kit.case import Case, Report, file_of, module_of
-from studies.kit.dispatch import LOOK, Bar, CaseEnd
-from studies.kit.processes import THREADS
+from studies.kit.dispatch import LOOK, THREADS, Bar, CaseEnd
 from studies.kit.store import CannotRun, Failure, attempt, same_code
 
 if TYPE_CHECKING:
     from distributed import Client, Future, Worker
 
 CONNECT = 10.0      # seconds: a scheduler that is there and not overloaded answers in less than one
-TELL = 1.0          # seconds between fractions that a worker tells
 ADDRESS = re.compile(r"(tcp|tls|ws|wss)://\S+:\d+")
 NO_ANSWER = "the connection to the scheduler was lost"
 WAY_OUT = "make worker SCHEDULER=tcp://..., in an up-to-date copy of this repository, starts one that fits"
@@ -51,12 +48,9 @@ class Cluster:
     """A place for each worker that there is now. Closed, the cluster gives up what was not finished."""
 
     def __init__(self, address: str, bar: Bar):
-        self.client = connected(address)
+        self.client, self.bar = connected(address), bar
         self.running: dict[Future, tuple[int, str]] = {}
         self.complete = True        # no need to say that workers are missing
-        # under the name of a client Dask itself tells things
-        self.topic = f"{self.client.id}-cases"
-        self.client.subscribe_topic(self.topic, lambda event: bar.tell(*event[1]))
 
     def places(self) -> int:
         try:
@@ -69,11 +63,11 @@ class Cluster:
         return workers
 
     def submit(self, number: int, case: Case) -> None:
-        sent = packed(case), csvfile.versions(), number, self.topic
         # a lambda travels as code: the scheduler, which opens it, needs no copy of the repository
-        future = self.client.submit(lambda *sent: import_module("studies.kit.cluster").perform(*sent), *sent,
-                                    pure=False, key=f"{self.client.id}-{number}")
+        future = self.client.submit(lambda *sent: import_module("studies.kit.cluster").perform(*sent),
+                                    packed(case), csvfile.versions(), pure=False)
         self.running[future] = number, case.label
+        self.bar.tell(number, 0.0)
 
     def ready(self) -> Iterator[CaseEnd]:
         time.sleep(LOOK)
@@ -119,7 +113,7 @@ class Pack(pickle.Pickler):
 
     def reducer_override(self, thing: Any) -> Any:
         if getattr(thing, "__module__", "") == "__main__" and hasattr(thing, "__qualname__"):
-            return resolve_name, (f"{module_of(file_of(thing))}:{thing.__qualname__}",)
+            return resolve_name, (f"{module_of(file_of('__main__'))}:{thing.__qualname__}",)
         return NotImplemented
 
 
@@ -130,7 +124,7 @@ def packed(case: Case) -> bytes:
     return file.getvalue()
 
 
-def perform(sent: bytes, versions: str, number: int, topic: str) -> str | Failure:
+def perform(sent: bytes, versions: str) -> str | Failure:
     """In a worker: run a case with the code and the libraries of the study; its outcome as text.
 
     Checkpoints lie in a folder of the worker, as long as it lives.
@@ -142,9 +136,9 @@ def perform(sent: bytes, versions: str, number: int, topic: str) -> str | Failur
     check_worker(worker, versions)
     case = unpacked(sent, worker)
     scratch = Path(worker.local_directory)/"cases"/case.key
-    result = attempt(case, scratch, teller(worker, number, topic))
-    if isinstance(result, Failure):     # a full disk is this worker's: it does not end the study
-        return replace(result, message=f"{result.message} (on {worker.address})", disk_full=False)
+    result = attempt(case, scratch, ending(worker))
+    if isinstance(result, Failure):
+        return replace(result, message=f"{result.message} (on {worker.address})")
     shutil.rmtree(scratch)
     return result
 
@@ -174,16 +168,12 @@ def unpacked(sent: bytes, worker: "Worker") -> Case:
     return case
 
 
-def teller(worker: "Worker", number: int, topic: str) -> Report:
-    """Tells the study the fraction done, once a second; ends the case when nobody waits for it."""
-    task, last = worker.get_current_task(), -math.inf
+def ending(worker: "Worker") -> Report:
+    """What a case reports to: it ends the case when nobody waits for it."""
+    task = worker.get_current_task()
 
     def report(fraction: float) -> None:
-        nonlocal last
         known = worker.state.tasks.get(task)
         if known is None or known.state != "executing":
             raise Cancelled
-        if time.monotonic() - last > TELL:
-            last = time.monotonic()
-            worker.log_event(topic, (number, float(fraction)))
     return report

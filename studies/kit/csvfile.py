@@ -20,7 +20,6 @@ DIGITS = "%.9g"     # of numbers in tables
 TEXT = "# text columns:"                    # what the head tells programs
 LIBRARIES = ("numpy", "scipy", "numba", "py-pde")     # whose versions a head tells
 AGAIN = "remove it and run the study again: finished cases are kept"
-REPEATS = "# empty is as above:"            # in the head of a file of an older layout
 EMPTY = "(none)"                            # an empty text: an empty cell is a number that is missing
 NOT_PACKED = (gzip.BadGzipFile, EOFError, zlib.error)
 #: texts that pandas takes for a missing number
@@ -34,39 +33,30 @@ class OtherTable(ValueError):
 def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
     """A table from CSV, packed or not; empty text is "", an empty number NaN.
 
-    Raises FileNotFoundError, OtherTable: there is no such file; it is no table, lacks some of ``columns``,
-    has text among numbers, or leaves out what repeats.
+    Raises FileNotFoundError, OtherTable: there is no such file; it is no table, has text among numbers, or
+    lacks some of ``columns``.
     """
     path = Path(path)
     if not path.exists():
         raise FileNotFoundError(f"{path} does not exist: make study-{path.parent.name} writes it")
     try:
         body = content(path)
-        text = named(body, TEXT)
+        known = re.search(f"^{TEXT} (.+)$", body, re.MULTILINE)
+        text = known[1].split(", ") if known else []
         frame = pd.read_csv(StringIO(body), comment="#", dtype=dict.fromkeys(text, str))
         frame[text] = frame[text].replace(EMPTY, "").fillna("")
+        for name in frame.columns.difference(text) if text else ():
+            pd.to_numeric(frame[name])
     except (ValueError, LookupError, *NOT_PACKED) as error:     # of pandas, and of letters that are none
         raise OtherTable(f"{path} is no table ({str(error).strip()}): {AGAIN}") from error
-    if named(body, REPEATS):
-        raise OtherTable(f"{path} leaves out cells that repeat the one above, an older layout: {AGAIN}")
     if missing := [name for name in columns if name not in frame]:
         raise OtherTable(f"{path} has no column {', '.join(missing)}: it has an older layout; {AGAIN}")
-    if text:
-        check_numbers(path, frame[frame.columns.difference(text)])
     return frame
 
 
 def content(path: Path) -> str:
     """The text of a file, packed (.gz) or not."""
     return gzip.decompress(path.read_bytes()).decode() if path.suffix == ".gz" else path.read_text()
-
-
-def check_numbers(path: Path, frame: pd.DataFrame) -> None:
-    """Refuse text among numbers."""
-    for name in frame:
-        for value in frame[name]:
-            if isinstance(value, str) and not is_number(value):
-                raise OtherTable(f"{path} has {value!r} in {name}, a column of numbers: {AGAIN}")
 
 
 def is_number(text: str) -> bool:
@@ -76,14 +66,6 @@ def is_number(text: str) -> bool:
     except ValueError:
         return text in ("True", "False")
     return True
-
-
-def named(body: str, begin: str) -> list[str]:
-    """The columns that a line of the head names."""
-    for line in body.splitlines():
-        if line.startswith(begin):
-            return list(filter(None, line.removeprefix(begin).strip().split(", ")))
-    return []
 
 
 def write(path: Path, frame: pd.DataFrame, *, head: Iterable[str]) -> None:
@@ -113,15 +95,12 @@ def put(path: Path, new: pd.DataFrame, *, by: list[str], order: list[str], head:
 
 def is_text(column: pd.Series, path: Path) -> bool:
     """True for text, False for numbers; anything in between is refused."""
-    values = column.dropna().tolist()
-    texts = [value for value in values if isinstance(value, str)]
-    if texts and len(texts) < len(values):
+    texts = [value for value in column if isinstance(value, str)]
+    if texts and len(texts) < column.count():
         raise ValueError(f"column {column.name} of {path.name} mixes numbers with text such as {texts[0]!r}: "
                          "write infinity as math.inf, nothing as None")
-    for text in texts:
-        if "#" in text:
-            raise ValueError(f"column {column.name} of {path.name} holds {text!r}: # begins a comment in "
-                             "a CSV; use another sign")
+    if "#" in "".join(texts):
+        raise ValueError(f"column {column.name} of {path.name} has a #, which begins a comment in a CSV")
     return bool(texts)
 
 
@@ -130,10 +109,7 @@ def write_atomic(path: Path, content: str | bytes) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f".{path.name}.{os.getpid()}")
     try:
-        if isinstance(content, bytes):
-            part.write_bytes(content)
-        else:
-            part.write_text(content)
+        part.write_bytes(content.encode() if isinstance(content, str) else content)
         os.replace(part, path)
     finally:
         part.unlink(missing_ok=True)

@@ -1,18 +1,25 @@
-"""One loop that hands out cases and keeps their outcomes; a transport says where the cases run."""
+"""One loop that hands out cases and keeps their outcomes; a transport says where the cases run.
+
+Two transports are here: this process, and workers of this machine with one thread each.
+"""
 import multiprocessing
+import os
 import signal
 import sys
 import threading
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import closing, contextmanager
+from collections.abc import Callable, Iterable, Iterator, MutableSequence, Sequence
+from contextlib import closing, suppress
+from multiprocessing import resource_tracker
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
 from pathlib import Path
 from typing import Protocol
 
 from tqdm import tqdm
 
 from studies.kit.case import Case
-from studies.kit.store import Failure, attempt, keep
+from studies.kit.store import CannotRun, Failure, attempt, keep, same_code
 
 #: fractions done that a running case may have
 BEGUN, ENDING = 1e-9, 1 - 1e-9
@@ -20,6 +27,11 @@ FORMAT = "{desc} {percentage:3.0f}%|{bar}| {elapsed}, left {remaining} {postfix}
 #: number of a case, and its outcome as text or a failure
 CaseEnd = tuple[int, str | Failure]
 LOOK = 0.1      # seconds for which a transport waits for outcomes
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+SPAWN = multiprocessing.get_context("spawn")
+CHANGED = "the code was changed before this worker loaded it: start the study again"
+NO_WORKER = "worker processes end before they run a case: --workers 1 shows why"
+DIED = "its worker process died, perhaps for want of memory: fewer workers need less (--workers 1)"
 
 
 class Bar:
@@ -27,8 +39,7 @@ class Bar:
 
     def __init__(self, cases: Sequence[Case], name: str):
         self.cases = cases
-        #: worker processes write into it
-        self.fractions = multiprocessing.get_context("spawn").RawArray("d", len(cases))
+        self.fractions = SPAWN.RawArray("d", len(cases))        # worker processes write into it
         seconds = 0.5 if sys.stderr.isatty() else 60.0
         self.line = tqdm(
             total=sum(case.cost for case in cases), desc=name, disable=not cases, bar_format=FORMAT,
@@ -51,6 +62,43 @@ class Bar:
 def between(fraction: float) -> float:
     """The fraction of a case that has begun and not ended."""
     return min(max(fraction, BEGUN), ENDING)
+
+
+def dispatch(cases: Sequence[Case], folder: Path, name: str,
+             connect: Callable[[Bar], "Transport"]) -> list[Failure]:
+    """Run cases in their order and keep their outcomes; those that time themselves come last, one by one.
+
+    Each of the two groups has a transport of its own: times are taken in fresh processes.
+    Raises KeyboardInterrupt, CannotRun: what ran is ended, what is finished is kept.
+    """
+    bar, failures = Bar(cases, name), []
+    numbers = range(len(cases))
+    together = deque(number for number in numbers if not cases[number].alone)
+    alone = deque(number for number in numbers if cases[number].alone)
+    with bar.line:
+        for todo, limit in ((together, len(cases)), (alone, 1)):
+            if todo:
+                with closing(connect(bar)) as transport:
+                    for number, result in drain(transport, cases, todo, limit, bar):
+                        failures.append(keep(cases[number], result, folder))
+    return [failure for failure in failures if failure]
+
+
+def drain(transport: "Transport", cases: Sequence[Case], todo: deque[int], limit: int,
+          bar: Bar) -> Iterator[CaseEnd]:
+    """Give each place a case, ``limit`` at once, until all have ended; numbers and outcomes as they come."""
+    running = 0
+    while todo or running:
+        places = min(transport.places(), limit)
+        while todo and running < places:
+            number = todo.popleft()
+            transport.submit(number, cases[number])
+            running += 1
+        for number, result in transport.ready():
+            running -= 1
+            bar.fractions[number] = 1.0
+            yield number, result
+        bar.show()
 
 
 class Transport(Protocol):
@@ -86,63 +134,82 @@ class Here:
         pass
 
 
-def dispatch(cases: Sequence[Case], folder: Path, name: str,
-             connect: Callable[[Bar], Transport]) -> list[Failure]:
-    """Run cases in their order and keep their outcomes; those that time themselves come last, one by one.
+class Processes:
+    """So many workers at most; one that dies takes its case along and no other."""
 
-    Each of the two groups has a transport of its own: times are taken in fresh processes.
-    Raises KeyboardInterrupt, CannotRun: what ran is ended, what is finished is kept.
-    """
-    bar, failures = Bar(cases, name), []
-    numbers = range(len(cases))
-    together = deque(number for number in numbers if not cases[number].alone)
-    alone = deque(number for number in numbers if cases[number].alone)
-    with remember_interrupt(), bar.line:
-        for todo, limit in ((together, len(cases)), (alone, 1)):
-            if todo:
-                with closing(connect(bar)) as transport:
-                    for number, result in drain(transport, cases, todo, limit, bar):
-                        failures.append(keep(cases[number], result, folder))
-    return [failure for failure in failures if failure]
+    def __init__(self, count: int, folder: Path, bar: Bar):
+        self.count, self.folder, self.fractions = count, folder, bar.fractions
+        self.workers: dict[Connection, BaseProcess] = {}
+        self.busy: dict[Connection, tuple[int, Case]] = {}
+
+    def places(self) -> int:
+        return self.count
+
+    def submit(self, number: int, case: Case) -> None:
+        idle = [pipe for pipe in self.workers if pipe not in self.busy]
+        pipe = idle[0] if idle else self.start()
+        self.busy[pipe] = number, case
+        pipe.send((number, case))
+
+    def start(self) -> Connection:
+        """A new worker, with one thread; Ctrl-C is left to this process, which ends it."""
+        here, there = SPAWN.Pipe()
+        worker = SPAWN.Process(target=serve, args=(there, self.folder, self.fractions), daemon=True)
+        os.environ.update(dict.fromkeys(THREADS, "1"))      # read when libraries are loaded, here they are
+        resource_tracker.ensure_running()       # starts with the first process otherwise, and unblocks
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
+            worker.start()
+            self.workers[here] = worker
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        there.close()       # when the worker dies, nobody has that end
+        return here
+
+    def ready(self) -> Iterator[CaseEnd]:
+        for pipe in wait(list(self.workers), LOOK):
+            assert isinstance(pipe, Connection)
+            try:
+                result: str | Failure | None = pipe.recv()
+            except (EOFError, OSError):     # it died, perhaps without a case
+                result = None
+                self.workers.pop(pipe).join()
+            if pipe in self.busy:
+                number, case = self.busy.pop(pipe)
+                yield number, result or self.died(case)
+
+    def died(self, case: Case) -> Failure:
+        """The failure of a case whose worker died. Raises CannotRun: No worker has begun a case."""
+        if not any(self.fractions):
+            raise CannotRun(NO_WORKER)
+        return Failure(case.label, DIED)
+
+    def close(self) -> None:
+        for worker in self.workers.values():
+            worker.terminate()
+            worker.join()
 
 
-def drain(transport: Transport, cases: Sequence[Case], todo: deque[int], limit: int,
-          bar: Bar) -> Iterator[CaseEnd]:
-    """Give each place a case, ``limit`` at once, until all have ended; numbers and outcomes as they come."""
-    running = 0
-    while todo or running:
-        if pressed:
-            raise KeyboardInterrupt
-        places = min(transport.places(), limit)
-        while todo and running < places:
-            number = todo.popleft()
-            transport.submit(number, cases[number])
-            running += 1
-        for number, result in transport.ready():
-            running -= 1
-            bar.fractions[number] = 1.0
-            yield number, result
-        bar.show()
+def serve(pipe: Connection, folder: Path, fractions: MutableSequence[float]) -> None:
+    """In a worker: run the cases that come."""
+    threading.Thread(target=end_with_parent, daemon=True).start()
+    with suppress(EOFError, BrokenPipeError):       # the study is no more
+        while True:
+            number, case = pipe.recv()
+            pipe.send(result_of(number, case, folder, fractions))
 
 
-#: signals to stop that came: Python drops the exception of one that comes within a destructor or a callback
-pressed: list[int] = []
+def result_of(number: int, case: Case, folder: Path, fractions: MutableSequence[float]) -> str | Failure:
+    """In a worker: run case ``number`` with the code that the study began with."""
+    def report(fraction: float) -> None:
+        fractions[number] = between(fraction)
+    report(0.0)
+    return attempt(case, folder / case.key, report) if same_code(case) else Failure(case.label, CHANGED)
 
 
-@contextmanager
-def remember_interrupt() -> Iterator[None]:
-    """Keep Ctrl-C and SIGTERM in `pressed`, besides raising KeyboardInterrupt."""
-    def stop(number: int, frame: object) -> None:
-        pressed.append(number)
-        raise KeyboardInterrupt
-    if threading.current_thread() is not threading.main_thread():      # only the main thread has handlers
-        yield
-        return
-    before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)
-              if signal.getsignal(number) is signal.default_int_handler}
-    try:
-        yield
-    finally:
-        pressed.clear()
-        for number, handler in before.items():
-            signal.signal(number, handler)
+def end_with_parent() -> None:
+    """In a worker: a study that was killed leaves no workers behind."""
+    parent = multiprocessing.parent_process()
+    if parent:
+        parent.join()
+        os._exit(1)

@@ -67,6 +67,13 @@ def plain_ticks(axes: Axes, values: Iterable[float], others: Iterable[float] = (
     axes.tick_params(axis="x", which="minor", labelbottom=False)
 
 
+def logarithmic(axes: Axes, ticks: Sequence[float]) -> None:
+    """Both scales, with numbers at some places along x."""
+    axes.set(xscale="log", yscale="log")
+    axes.set_xticks(ticks, labels=[f"{tick:g}" for tick in ticks])
+    axes.minorticks_off()
+
+
 def width(axes: Axes) -> float:
     """About how many inches the axes will be wide when the page is laid out."""
     inches = axes.get_window_extent().transformed(axes.figure.dpi_scale_trans.inverted()).width

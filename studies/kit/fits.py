@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
+from numpy.polynomial.polynomial import polyvander as vander
 from scipy.special import stdtrit
 
 from continuum.richardson import richardson
@@ -56,7 +57,7 @@ def polynomial(x: Numbers, y: Numbers, degree: int = 1, *, weight: Numbers | Non
 
     Raises CannotTell: there are no more values than coefficients.
     """
-    X, y = powers(x, degree), np.asarray(y, float)
+    X, y = vander(np.asarray(x, float), degree), np.asarray(y, float)
     w = np.ones(len(y)) if weight is None else np.asarray(weight, float)
     freedom = len(y) - degree - 1
     if freedom < 1:
@@ -74,18 +75,14 @@ def polynomial(x: Numbers, y: Numbers, degree: int = 1, *, weight: Numbers | Non
     return Fit(A@y, spread, residuals)
 
 
-def powers(x: Numbers, degree: int) -> np.ndarray:
-    """x_n^j, (n, degree + 1)."""
-    return np.vander(np.asarray(x, float), degree + 1, increasing=True)
-
-
 def weighted(x: Numbers, y: Numbers, err: Numbers, degree: int = 1) -> Fit:
     """Least squares of (y - c_0 - c_1 x ...)/err; the error is what those of the values leave."""
     y, err = np.asarray(y, float), np.asarray(err, float)
-    X = powers(x, degree)/err[:, None]
-    spread = np.linalg.inv(X.T@X)
-    c = spread@X.T@(y/err)
-    return Fit(c, spread, y - powers(x, degree)@c)
+    X = vander(np.asarray(x, float), degree)
+    wX = X/err[:, None]
+    spread = np.linalg.inv(wX.T@wX)
+    c = spread@wX.T@(y/err)
+    return Fit(c, spread, y - X@c)
 
 
 def line(x: Numbers, y: Numbers, *, weight: Numbers | None = None, err: Numbers | None = None) -> Fit:

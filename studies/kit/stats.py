@@ -3,7 +3,7 @@
 Every error here is the half width of a 95 % interval, as are all ``_err`` columns of the tables.
 """
 from collections.abc import Iterator, Sequence
-from math import hypot
+from math import floor, hypot, inf, log10
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -56,6 +56,17 @@ class Measured(NamedTuple):
             raise CannotTell(f"a ratio to {b.value:.3g} +- {b.err:.2g}, which is not told from zero")
         ratio = self.value/b.value
         return Measured(ratio, hypot(self.err, ratio*b.err)/abs(b.value))
+
+    def __str__(self) -> str:
+        """The error in units of the last digit, 0.00499(1); five digits where there is none."""
+        if not 0 < self.err < inf:
+            return f"{self.value:.5g}"
+        power = floor(log10(max(abs(self.value), self.err)))
+        if not -5 < power < 7:
+            return f"{self*10.0**-power}e{power}"
+        err = float(f"{self.err:.0e}")
+        places = max(0, -floor(log10(err)))
+        return f"{self.value:.{places}f}({err*10**places:.0f})"
 
     def __rtruediv__(self, other: float) -> "Measured":
         return measured(other)/self
@@ -137,8 +148,7 @@ def combine(runs: Sequence[tuple[float, float]]) -> Measured:
     """Mean over seeds from (value, err) of each run; the error is the larger of two.
 
     One is what the errors within the runs leave after averaging, the other the scatter between runs with its
-    t factor. The scatter knows what a single run cannot (runs that settle in different states), but with two
-    or three seeds it is small by chance too often.
+    t factor: it knows of runs that settle in different states, but of two or three it is small by chance.
     """
     values, errs = np.array(runs, dtype=float).reshape(-1, 2).T
     n = len(values)
@@ -174,3 +184,11 @@ def seed_means(rows: pd.DataFrame, by: Sequence[str], columns: Sequence[str]) ->
             runs = list(zip(group[column], errors))
             row[column], row[f"{column}_err"] = combine(runs)
         yield row
+
+
+def with_errors(**numbers: Measured) -> dict[str, float]:
+    """Columns of numbers and of their errors: `K` and `K_err` of K."""
+    columns = dict[str, float]()
+    for name, (value, err) in numbers.items():
+        columns |= {name: value, f"{name}_err": err}
+    return columns

@@ -1,15 +1,11 @@
 """Finished cases on disk: results/raw/<study>/<key>.json, written by the process of the study."""
-import errno
-import hashlib
 import json
-import math
 import shutil
 import sys
 import time
 import traceback
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from studies.kit.case import Case, Outcome, Report, parameters
 from studies.kit.csvfile import commit, cpu, now, versions, write_atomic
@@ -17,7 +13,6 @@ from studies.kit.key import ROOT
 from studies.kit.table import Rows
 
 RESULTS = ROOT / "results"
-SEAL = "sha256"     # of the rows of a kept case and their commit
 
 
 def results(size: str) -> Path:
@@ -36,7 +31,6 @@ class Failure:
     label: str
     message: str
     story: str = ""
-    disk_full: bool = False
     path: Path | None = None
 
     def __str__(self) -> str:
@@ -53,14 +47,8 @@ def attempt(case: Case, scratch: Path, report: Report) -> str | Failure:
         outcome = case.run(report, scratch)
         return as_text(case, outcome, time.process_time() - begin)
     except Exception as error:
-        return failed(case, error)
-
-
-def failed(case: Case, error: Exception) -> Failure:
-    """The failure of a case that raised this error."""
-    disk_full = isinstance(error, OSError) and error.errno == errno.ENOSPC
-    story = f"{case!r}\n\n{traceback.format_exc()}"
-    return Failure(case.label, f"{type(error).__name__}: {error}", story, disk_full)
+        story = f"{case!r}\n\n{traceback.format_exc()}"
+        return Failure(case.label, f"{type(error).__name__}: {error}", story)
 
 
 def same_code(case: Case) -> bool:
@@ -69,21 +57,14 @@ def same_code(case: Case) -> bool:
 
 
 def keep(case: Case, result: str | Failure, folder: Path) -> Failure | None:
-    """Write the outcome of a case and clear its scratch folder; of a failure write the traceback.
-
-    Raises CannotRun: the disk is full.
-    """
+    """Write the outcome of a case and clear its scratch folder; of a failure write the traceback."""
     story = folder / f"{case.key}.error.txt"
     if isinstance(result, Failure):
-        if result.disk_full:
-            raise CannotRun(f"the disk is full: make room where {folder} lies")
-        if result.story:
-            write_atomic(story, result.story)
-        return replace(result, path=story) if result.story else result
-    try:
-        write_atomic(folder / f"{case.key}.json", result)
-    except OSError as error:
-        return keep(case, failed(case, error), folder)
+        if not result.story:
+            return result
+        write_atomic(story, result.story)
+        return replace(result, path=story)
+    write_atomic(folder / f"{case.key}.json", result)
     story.unlink(missing_ok=True)
     shutil.rmtree(folder / case.key, ignore_errors=True)    # a case of a cluster has none here
     return None
@@ -93,15 +74,7 @@ def as_text(case: Case, outcome: Outcome, cpu_s: float) -> str:
     """An outcome with its commit, versions, machine, date and CPU seconds, compiling among them."""
     content = {"case": parameters(case), "commit": commit(), "versions": versions(),
                "cpu": cpu(), "date": now(), "cpu_s": cpu_s, "rows": outcome.rows}
-    plain = json.dumps(content, default=lambda value: value.tolist())       # numpy's numbers as Python's
-    content = json.loads(plain)
-    return json.dumps({**content, SEAL: seal(content)}, indent=1)
-
-
-def seal(content: dict[str, Any]) -> str:
-    """Hash of what tables get of a kept case: which columns its rows have is known to the case alone."""
-    text = json.dumps([content["commit"], content["rows"]], sort_keys=True)
-    return hashlib.sha256(text.encode()).hexdigest()
+    return json.dumps(content, default=lambda value: value.tolist(), indent=1)      # numpy's as Python's
 
 
 def kept(case: Case, folder: Path) -> Rows | None:
@@ -111,17 +84,14 @@ def kept(case: Case, folder: Path) -> Rows | None:
         return None
     try:
         content = json.loads(path.read_text())
-        if content.pop(SEAL, None) not in (None, seal(content)):        # none: kept before there were seals
-            raise ValueError("its rows are not as they were written: their hash is another one")
-        stamp = {"commit": content["commit"]}
-        return {table: [{**row, **stamp} for row in rows] for table, rows in content["rows"].items()}
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        return {table: [{**row, "commit": content["commit"]} for row in rows]
+                for table, rows in content["rows"].items()}
+    except (ValueError, KeyError, TypeError) as error:
         print(f"{path} cannot be read ({error}): {case.label} is run again", file=sys.stderr)
         path.unlink()
         return None
 
 
 def seconds(case: Case, folder: Path) -> float:
-    """CPU seconds that a finished case took; nan if it was finished before they were kept."""
-    content = json.loads((folder/f"{case.key}.json").read_text())
-    return float(content.get("cpu_s", math.nan))
+    """CPU seconds that a finished case took."""
+    return float(json.loads((folder/f"{case.key}.json").read_text())["cpu_s"])

@@ -1,6 +1,5 @@
-"""A study and its command line: python -m studies.NAME [run|figures|claims]."""
+"""A study, made of parts, and its command line: python -m studies.NAME [run|figures|claims]."""
 import argparse
-import errno
 import math
 import os
 import signal
@@ -11,23 +10,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from studies.kit.case import Case
-from studies.kit.claim import judge, put_claims
-from studies.kit.csvfile import OtherTable
-from studies.kit.figure import save
-from studies.kit.part import Part, joined
-from studies.kit.store import RESULTS, CannotRun, results
-from studies.kit.sweep import CasesFailed, NoSuchCase, Sweep, labelled, load
-from studies.kit.table import SIZES, Row, Tables, check_once
+import pandas as pd
 
-GO_ON = "finished cases are kept, the same command goes on from there"
-FULL = "the disk is full; make room where {out} lies; " + GO_ON
-REFUSED = "{file} cannot be written: give --out another folder"
+from studies.kit.case import Case
+from studies.kit.claim import Claim, judge, put_claims
+from studies.kit.csvfile import OtherTable
+from studies.kit.figure import Drawings, save
+from studies.kit.store import RESULTS, CannotRun, results
+from studies.kit.sweep import GO_ON, CasesFailed, NoSuchCase, Sweep, labelled, load
+from studies.kit.table import SIZES, Row, Rows, Table, Tables, check_once
+
+NO_FIGURES = Drawings()
 LEAST = 8       # rows of what is tried out
-#: number of the system's error -> what to do about it
-DISK = {errno.ENOSPC: FULL, errno.EACCES: REFUSED, errno.EPERM: REFUSED, errno.EROFS: REFUSED}
-#: what ends a study with one line
-EXPECTED = (CasesFailed, CannotRun, OtherTable, FileNotFoundError)
+#: what ends a study with one line; of the system's errors a full disk, a folder that may not be written
+EXPECTED = (CasesFailed, CannotRun, OtherTable, OSError)
 
 
 class Own(NamedTuple):
@@ -38,6 +34,18 @@ class Own(NamedTuple):
     """
     cases: Callable[[str, int, int], Sequence[Case]]
     beside: Callable[[Sequence[Case], Tables, Tables], Iterable[str]]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Part:
+    """Cases by size, the tables these fill, and what reads the tables."""
+
+    cases: Callable[[str], Iterable[Case]]
+    tables: Sequence[Table]
+    #: rows that follow from the tables (extrapolations, means over seeds), merged into them
+    derive: Callable[[Tables], Rows] = lambda tables: {}
+    figures: Drawings = NO_FIGURES
+    claims: Sequence[Claim] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,12 +65,14 @@ class Study(Part):
 
     @classmethod
     def of(cls, name: str, question: str, parts: Sequence[Part], own: Own | None = None) -> "Study":
-        """A study made of parts."""
-        return cls(name=name, question=question.split("\n")[0], own=own, **vars(joined(parts)))
-
-    def sweep(self, size: str, **more: Any) -> Sweep:
-        """Its cases of a size: where they run, which of them, where their rows go."""
-        return Sweep(study=self.name, tables=self.tables, size=size, **more)
+        """A study of many parts. Rows are derived in order: each part finds what those before it derived."""
+        drawings = [drawing for part in parts for drawing in part.figures.drawings]
+        return cls(name=name, question=question.split("\n")[0], own=own,
+                   cases=lambda size: [case for part in parts for case in part.cases(size)],
+                   tables=[table for part in parts for table in part.tables],
+                   derive=lambda tables: derived(parts, tables),
+                   figures=Drawings(*drawings),
+                   claims=[claim for part in parts for claim in part.claims])
 
     def run(self, size: str, *, out: Path | None = None, cases: Sequence[Case] = (), **more: Any) -> Tables:
         """Cases to tables, derived rows among them; more, such as ``workers``, are fields of `Sweep`.
@@ -72,10 +82,10 @@ class Study(Part):
         Raises NoSuchCase: No label contains ``only``. CasesFailed: Some did; what follows from the
         others has been derived and written. CannotRun: The tables are as they were.
         """
-        sweep = self.sweep(size, out=out or results(size), **more)
+        sweep = Sweep(study=self.name, tables=self.tables, size=size, out=out or results(size), **more)
         tables, failed = sweep.run(cases or labelled(list(self.cases(size)), sweep.only, size))
         if tables:
-            tables = sweep.put_derived(self.derive(tables))
+            tables = sweep.put(self.derive(tables), derived=True)
         if failed:
             raise failed
         return tables
@@ -101,23 +111,30 @@ class Study(Part):
         return [path for path in paths if path.exists()]
 
 
+def derived(parts: Iterable[Part], tables: Tables) -> Rows:
+    """Rows of all parts, each of which finds the rows of those before it in place of the tables on disk."""
+    rows: dict[str, list[Row]] = {}
+    for part in parts:
+        frames = {name: pd.DataFrame(new) for name, new in rows.items() if new}
+        new = part.derive(Tables({**tables, **frames}))
+        check_once("derived tables", [*rows, *new])
+        rows.update(new)
+    return rows
+
+
 def main(study: Study, arguments: Sequence[str] | None = None) -> None:
     """The command line of a study; ends with 0, or 1 (failed), 2 (not understood), 130 (interrupted)."""
     words = parse(study, arguments)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        sys.exit(perform(study, words))
+        perform(study, words)
     except KeyboardInterrupt as stop:
         sys.exit(say(f"\n{str(stop) or f'interrupted: {GO_ON}'}", 130))
     except NoSuchCase as error:
         sys.exit(say(f"{study.name}: {error}", 2))
     except EXPECTED as error:
         sys.exit(say(f"{study.name}: {error}", 1))
-    except OSError as error:
-        if error.errno not in DISK:
-            raise
-        text = DISK[error.errno].format(out=words.out, file=error.filename)
-        sys.exit(say(f"{study.name}: {text}", 1))
+    sys.exit(0)
 
 
 def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
@@ -135,92 +152,63 @@ def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
     add("--only", default="", metavar="TEXT",
         help="run only cases with this text in their label, such as a variant's name")
     add("--rows", type=int, metavar="N", help="try out the methods that --only names, with N rows")
-    add("--seeds", type=int, metavar="N", help="seeds 1 to N of these (default: 1)")
-    add("--keep", action="store_true", help="put these into tables, figures and verdicts of the study, too")
+    add("--seeds", type=int, default=1, metavar="N", help="seeds 1 to N of these (default: 1)")
     words = parser.parse_args(arguments)
-    words.tried = words.rows is not None and not words.keep
+    words.tried = words.rows is not None
     words.usual = words.out is None
     words.out = words.out or results("own" if words.tried else words.size)
     words.cases = dict(workers=words.workers, scheduler=words.scheduler, out=words.out, only=words.only)
     try:
-        check_own(study, words)
-        check_words(study, words)
-    except ValueError as error:
+        check(study, words)
+    except (ValueError, OSError) as error:
         parser.error(str(error))
     return words
 
 
-def check_own(study: Study, words: argparse.Namespace) -> None:
-    """Refuse numbers of rows and seeds that nothing can run with; without --rows nothing is one's own."""
-    if words.rows is None:
-        if words.seeds is not None or words.keep:
-            raise ValueError("--seeds and --keep are for methods that are tried out: give --rows, too")
-        return
-    words.seeds = 1 if words.seeds is None else words.seeds
-    if study.own is None:
-        raise ValueError(f"{study.name} has rows of its own: leave --rows out, --size chooses among them")
-    if not words.only:
-        raise ValueError(f"--rows {words.rows} is for the methods that --only names: give --only TEXT, too")
-    if words.rows < LEAST:
-        raise ValueError(f"--rows must be at least {LEAST}, got {words.rows}: fewer do not resolve a roll")
-    if words.seeds < 1:
-        raise ValueError(f"--seeds must be at least 1, got {words.seeds}: leave it out for one run")
-    words.cases["typed"] = f"--rows {words.rows} --seeds {words.seeds}" + " --keep"*words.keep
-
-
-def check_words(study: Study, words: argparse.Namespace) -> None:
+def check(study: Study, words: argparse.Namespace) -> None:
     """Refuse what cannot be done, before anything is; make the folder that is written to."""
-    study.sweep(words.size, **words.cases)
-    out, runs = words.out, words.command == "run"
-    if words.only and not runs:
-        raise ValueError(f"--only chooses what to run, {words.command} reads whole tables: leave it out")
-    if out.exists() and not out.is_dir():
-        raise ValueError(f"--out {out} is a file: give a folder")
-    try:
-        if runs:
-            out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ValueError(f"--out {out} cannot be made ({error.strerror}): give another folder") from error
-
-
-def perform(study: Study, words: argparse.Namespace) -> int:
-    """Run what was asked for and say where it is."""
-    out, failed = words.out, None
-    own = study.own.cases(words.only, words.rows, words.seeds) if study.own and words.rows else ()
+    Sweep(study=study.name, tables=study.tables, size=words.size, **words.cases)
+    if words.tried and study.own is None:
+        raise ValueError(f"{study.name} has rows of its own: leave --rows out, --size chooses among them")
+    if words.tried and not words.only:
+        raise ValueError("--rows is for the methods that --only names: give --only TEXT, too")
+    if words.tried and words.rows < LEAST:
+        raise ValueError(f"--rows must be at least {LEAST}, got {words.rows}: fewer do not resolve a roll")
+    if words.seeds < 1 or (words.seeds > 1 and not words.tried):
+        raise ValueError(f"--seeds {words.seeds}: give 1 or more, and --rows, too")
     if words.command == "run":
+        words.out.mkdir(parents=True, exist_ok=True)
+    elif words.only:
+        raise ValueError(f"--only chooses what to run, {words.command} reads whole tables: leave it out")
+
+
+def perform(study: Study, words: argparse.Namespace) -> None:
+    """Run what was asked for and say where it is. Raises CasesFailed: some did, the others are shown."""
+    out, failed, run = words.out, None, words.command == "run"
+    own = study.own.cases(words.only, words.rows, words.seeds) if study.own and words.tried else ()
+    if run:
         try:
             study.run(words.size, cases=own, **words.cases)
         except CasesFailed as error:
             failed = error
     elif not study.written(out):
-        raise FileNotFoundError(f"no table in {shown(out/study.name)}: run {first(study, words)} first")
+        raise FileNotFoundError(f"no table in {shown(out/study.name)}: run the study first")
     if study.own and own:
         both = (load(study.tables, study.name, folder) for folder in (out, results("paper")))
         print(*study.own.beside(own, *both), sep="\n")
-    if words.command in ("run", "figures") and not words.tried:
+    elif run or words.command == "figures":
         for path in study.draw(out):
             say(f"figure  {shown(path)}")
-    if words.command in ("run", "claims") and not words.tried:
+    if not own and words.command != "figures":
         for row in study.judge(out):
             print(verdict_line(row))
     for path in study.written(out):
         say(f"table   {shown(path)}")
     usual = results("paper")
     if words.usual and out != usual:
-        what = "tried out" if words.tried else f"size {words.size}"
-        say(f"{what}: all of it is in {shown(out)}, what is in {shown(usual)} stays as it is")
+        say(f"all of it is in {shown(out)}, what is in {shown(usual)} stays as it is")
     if failed:
         raise failed
-    return 0
-
-
-def first(study: Study, words: argparse.Namespace) -> str:
-    """What makes the tables that are wanted."""
-    if not words.usual:
-        return f"python -m studies.{study.name} --size {words.size} --out {words.out}"
-    if words.out == results("paper"):
-        return f"make study-{study.name}"
-    return study.sweep(words.size).command
 
 
 def verdict_line(row: Row) -> str:

@@ -5,15 +5,15 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from studies.kit.budget import put_times
 from studies.kit.case import Case
 from studies.kit.cluster import Cluster, check_scheduler
-from studies.kit.dispatch import Bar, Here, Transport, dispatch
-from studies.kit.processes import Processes
+from studies.kit.dispatch import Bar, Here, Processes, Transport, dispatch
 from studies.kit.store import RESULTS, CannotRun, Failure, kept
 from studies.kit.table import Row, Rows, Table, Tables, changed, check_size, merge, read
+from studies.kit.timing import put_times
 
-LABELS = 5      # of those that exist, told to who asked for one that does not
+LABELS = 3      # of those that exist, told to who asked for one that does not
+GO_ON = "the same command goes on from there"
 
 
 class CasesFailed(Exception):
@@ -26,20 +26,19 @@ class NoSuchCase(Exception):
 
 @dataclass(frozen=True, kw_only=True)
 class Sweep:
-    """Where the cases of a study run, which of them, and where their rows go."""
+    """Where the cases of a study run, which of them, and where their rows go.
+
+    workers : processes; 1 is this one. scheduler : address of a Dask cluster, which takes their place.
+    only : some of the cases run: those with this text in their label, or of the methods that it names.
+    """
 
     study: str
     tables: Sequence[Table]
     size: str
     out: Path = RESULTS
-    #: processes; 1 is this one
     workers: int = 2
-    #: address of a Dask cluster, which takes the place of the workers
     scheduler: str = ""
-    #: some of the study's cases run: those with this text in their label, or of the methods that it names
     only: str = ""
-    #: what was typed besides to make cases of one's own
-    typed: str = ""
 
     def __post_init__(self):
         check_size(self.size)
@@ -51,11 +50,6 @@ class Sweep:
     def folder(self) -> Path:
         """Of finished cases."""
         return self.out/"raw"/self.study
-
-    @property
-    def known(self) -> dict[str, Table]:
-        """The tables by name."""
-        return {table.name: table for table in self.tables}
 
     def run(self, cases: Iterable[Case]) -> tuple[Tables, CasesFailed | None]:
         """Run the cases that are not finished yet, the longest first; merge all rows into the tables.
@@ -94,7 +88,7 @@ class Sweep:
     def count(self, cases: Sequence[Case]) -> str:
         """What is kept, and how to go on."""
         done = sum(kept(case, self.folder) is not None for case in cases)
-        return f"{done} of {len(cases)} cases are finished and kept, the same command goes on from there"
+        return f"{done} of {len(cases)} cases are finished and kept, {GO_ON}"
 
     def rows(self, cases: Sequence[Case]) -> Rows:
         """Those of the finished ones among some cases, by table."""
@@ -104,53 +98,42 @@ class Sweep:
                 rows.setdefault(name, []).extend(new)
         return rows
 
-    def put(self, rows: Rows) -> Tables:
-        """Merge rows into the tables and read all of these that exist."""
-        if unknown := sorted(rows.keys() - self.known):
+    def put(self, rows: Rows, derived: bool = False) -> Tables:
+        """Merge rows into the tables and read all of these that exist.
+
+        When ``only`` some cases ran, derived rows that came out as they were keep size and commit: what they
+        follow from has not run.
+        """
+        tables = {table.name: table for table in self.tables}
+        if unknown := sorted(rows.keys() - tables):
             raise ValueError(f"study {self.study} has no table {', '.join(unknown)}: list it in its tables")
         for name, new in rows.items():
-            path = self.path(name)
-            _, better = merge(path, self.known[name], new, size=self.size, command=self.command)
+            table = tables[name]
+            path = self.out/self.study/table.file
+            if derived and self.only:
+                new = changed(path, table, new)
+            _, better = merge(path, table, new, size=self.size, command=self.command)
             if better:
                 print(f"{self.study}/{path.name}: {better} rows of a better size than {self.size} stay",
                       file=sys.stderr)
         return load(self.tables, self.study, self.out)
 
-    def put_derived(self, rows: Rows) -> Tables:
-        """The same for rows that follow from whole tables.
-
-        When ``only`` some cases ran, rows that came out as they were keep size and commit: what they follow
-        from has not run.
-        """
-        if self.only:
-            rows = {name: changed(self.path(name), self.known[name], new)
-                    for name, new in rows.items()}
-        return self.put(rows)
-
-    def path(self, name: str) -> Path:
-        """Of a table."""
-        return self.out/self.study/self.known[name].file
-
     @property
     def command(self) -> str:
         """What makes the tables; a cluster has CPUs that the head of a table does not name."""
-        there = " SCHEDULER=tcp://..." if self.scheduler else ""
+        there = " SCHEDULER=tcp://..."*bool(self.scheduler)
         if self.only:
-            only = f"{shlex.quote(self.only)} {self.typed}".strip()
-            return f"python -m studies.{self.study} --size {self.size} --only {only}{there}"
+            return f"python -m studies.{self.study} --size {self.size} --only {shlex.quote(self.only)}{there}"
         return f"make study-{self.study} SIZE={self.size}{there}"
 
 
 def labelled(cases: Sequence[Case], only: str, size: str) -> Sequence[Case]:
     """The cases whose label contains a text, in capitals or not."""
     chosen = [case for case in cases if only.casefold() in case.label.casefold()]
-    if chosen or not only:
-        return chosen
-    labels = list(dict.fromkeys(case.label for case in cases))
-    step = max(1, len(labels)//LABELS)
-    some = "; ".join(labels[::step][:LABELS])
-    raise NoSuchCase(f"no case of size {size} has {only!r} in its label; "
-                     f"some of its {len(labels)} labels are: {some}")
+    if only and not chosen:
+        labels = "; ".join(case.label for case in cases[:LABELS])
+        raise NoSuchCase(f"no case of size {size} has {only!r} in its label; the first labels are: {labels}")
+    return chosen
 
 
 def load(tables: Sequence[Table], study: str, out: Path = RESULTS) -> Tables:

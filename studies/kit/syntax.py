@@ -46,7 +46,7 @@ class Module:
             for bound in dict.fromkeys(stores(node)):
                 if bound != UNNAMED:
                     self.definitions.setdefault(bound, []).append(node)
-            if acts(node):
+            if any(heads(node)):
                 self.actions.append(node)
         self.meanings |= {bound: (name, bound) for bound in self.definitions}
 
@@ -87,31 +87,11 @@ def stores(node: ast.AST) -> Iterator[str]:
         yield node.name
     elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store | ast.Del):
         yield node.id
-    elif isinstance(node, COMPREHENSION | ast.Lambda):
-        for inner in ast.walk(node):
-            if isinstance(inner, ast.NamedExpr):
-                yield from stores(inner.target)
-    else:
+    elif not isinstance(node, COMPREHENSION | ast.Lambda):
         if isinstance(node, ast.ExceptHandler) and node.name:
             yield node.name
         for child in ast.iter_child_nodes(node):
             yield from stores(child)
-
-
-def acts(node: ast.stmt) -> bool:
-    """Does a top-level statement do more than to define: register a formula, fill a table, set something?"""
-    if isinstance(node, FUNCTION | ast.ClassDef):
-        return node.name == UNNAMED or any(map(registers, node.decorator_list))
-    if isinstance(node, COMPOUND):
-        return any(map(acts, statements(node)))
-    if isinstance(node, ast.Assign):
-        return any(isinstance(target, ast.Subscript | ast.Attribute) for target in node.targets)
-    return isinstance(node, ast.Expr) and not isinstance(node.value, ast.Constant)
-
-
-def statements(node: ast.AST) -> list[ast.stmt]:
-    """Those within a statement."""
-    return [child for child in ast.iter_child_nodes(node) if isinstance(child, ast.stmt)]
 
 
 def registers(node: ast.expr) -> bool:
@@ -138,21 +118,24 @@ def parameters_of(arguments: ast.arguments) -> list[ast.arg]:
 
 
 def heads(node: ast.AST) -> Iterator[Sequence[ast.AST]]:
-    """Of each thing that a statement does besides defining: what it does it to, and for which kinds."""
+    """Of each thing that a statement does besides defining: what it does it to, and for which kinds.
+
+    It registers a formula, fills a table, or sets something.
+    """
     if isinstance(node, FUNCTION | ast.ClassDef):
         for decorator in node.decorator_list:
             if registers(decorator):
                 yield [*head(decorator), *kinds(node, decorator)]
-            elif isinstance(decorator, ast.Call):
+            elif isinstance(decorator, ast.Call) and node.name == UNNAMED:
                 yield decorator.args
     elif isinstance(node, COMPOUND):
-        for child in filter(acts, statements(node)):
+        for child in ast.iter_child_nodes(node):
             yield from heads(child)
     elif isinstance(node, ast.Assign):
         for target in node.targets:
             if isinstance(target, ast.Subscript | ast.Attribute):
                 yield [target.value]
-    elif isinstance(node, ast.Expr):
+    elif isinstance(node, ast.Expr) and not isinstance(node.value, ast.Constant):
         yield head(node.value)
 
 

@@ -96,12 +96,11 @@ def merge(path: Path, table: Table, rows: Sequence[Row], *, size: str,
     check_rows(table, new)
     parts = [part for part in (old, new) if len(part)]
     chosen = best(pd.concat(parts, ignore_index=True), table.key)
-    is_new = chosen.index >= len(old)
+    are_new = int((chosen.index >= len(old)).sum())
     spent = [column for column in SPENT if column in chosen and column not in table.columns]
     frame = chosen.reindex(columns=[*table.columns, *spent, *STAMP])
-    in_order = frame.sort_values(list(table.key), kind="stable")
-    write(path, in_order, head=head(command))
-    return read(path), len(new) - int(is_new.sum())
+    write(path, frame.sort_values(list(table.key), kind="stable"), head=head(command))
+    return read(path), len(new) - are_new
 
 
 def changed(path: Path, table: Table, rows: Sequence[Row]) -> list[Row]:
@@ -146,8 +145,7 @@ def check_rows(table: Table, new: pd.DataFrame) -> None:
     missing = keys.columns[keys.isna().any()]
     if len(missing):
         raise ValueError(f"rows of table {table.name} lack {', '.join(missing)}: each needs its whole key")
-    for name in new.columns.intersection(list(table.columns)):
-        check_texts(table, new[name])
+    check_texts(table, new[new.columns.intersection(list(table.columns))])
     names = identity(new, table.key)
     twice = names[names.duplicated()]
     if len(twice):
@@ -155,13 +153,12 @@ def check_rows(table: Table, new: pd.DataFrame) -> None:
                          "them apart")
 
 
-def check_texts(table: Table, column: pd.Series) -> None:
+def check_texts(table: Table, frame: pd.DataFrame) -> None:
     """Refuse texts that a plain read_csv takes for something else."""
-    for text in {value for value in column if isinstance(value, str)} - {""}:
+    for text in {value for value in frame.to_numpy().flat if isinstance(value, str)} - {""}:
         if is_number(text) or text in (*MISSING, EMPTY):
-            raise ValueError(f"column {column.name} of table {table.name} holds the text {text!r}, which "
-                             "reads back as a number or nothing: write numbers as such, nothing as None, or "
-                             "another word")
+            raise ValueError(f"table {table.name} would hold the text {text!r}, which reads back as a number "
+                             "or nothing: write numbers as such, nothing as None, or another word")
 
 
 def identity(frame: pd.DataFrame, key: Sequence[str]) -> pd.Series:

@@ -1,36 +1,148 @@
-"""Values of claims: questions that are added, divided, compared, and their text."""
+"""Rows of tables, formulas over their columns, and values: questions that are added, divided, compared.
+
+Formulas and conditions are those of pandas' `eval`, with cos, sqrt, log, log10, exp, abs ... and pi.
+"""
+import ast
 import operator
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any, NamedTuple
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import pandas as pd
 
 from studies.kit import stats
-from studies.kit.formula import NoRows, Selection, WrongQuestion, check_columns, error_of, names, rows
-from studies.kit.stats import Measured
-from studies.kit.table import SPENT, STAMP, Table, Tables
+from studies.kit.case import word
+from studies.kit.csvfile import OtherTable
+from studies.kit.stats import CannotTell, Measured
+from studies.kit.table import Tables
 
+#: names that a formula may use besides columns
+CONSTANTS = {"pi": np.pi, "inf": np.inf}
 Answer = Callable[[Tables], Measured]
 
 
-class Asked(NamedTuple):
-    """What a question is about: rows, a formula over them, that of its error, and that which sorts them."""
+class NoRows(CannotTell):
+    """The rows that a question is about have not been run yet."""
 
-    rows: Selection
-    value: str
-    err: str = ""
-    by: str = ""
+
+class WrongQuestion(OtherTable):
+    """A question that no run can answer: about a column that its table does not have, say."""
+
+
+# --- rows and formulas -----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Selection:
+    """Rows of a table: columns as in ``where``, the condition ``such`` holds; ``need`` of them or more."""
+
+    table: str
+    such: str = ""
+    need: int = 1
+    where: dict[str, Any] = field(default_factory=dict)
+
+    def __call__(self, tables: Tables) -> pd.DataFrame:
+        if self.table not in tables:
+            raise NoRows(f"not run yet: table {self.table} is not there; make its study, which fills it")
+        frame = tables[self.table]
+        check_columns(self.table, frame, self.where)
+        for column, value in self.where.items():
+            values = value if isinstance(value, tuple) else (value,)
+            frame = frame[frame[column].isin(values)]
+        if self.such:
+            frame = frame[evaluated(frame, self.such, self.table).astype(bool)]
+        if len(frame) < self.need:
+            raise NoRows(f"not run yet: {self} has {len(frame)} rows of {self.need} or more; "
+                         "a larger SIZE of the study may run them")
+        return frame
+
+    def __str__(self) -> str:
+        words = [f"{column} {is_in(value)}" for column, value in self.where.items()]
+        conditions = " and ".join(filter(None, [*words, self.such]))
+        return f"{self.table} where {conditions}" if conditions else self.table
+
+
+def rows(tables: Tables, table: str, such: str = "", need: int = 1, **where: Any) -> pd.DataFrame:
+    """The rows in which columns are as said (a tuple lists several values) and the condition ``such`` holds.
+
+    Raises CannotTell: there are fewer than ``need``: they have not been run. WrongQuestion: The table has
+    no such column.
+    """
+    return Selection(table, such, need, where)(tables)
+
+
+def is_in(value: Any) -> str:
+    """A condition in words."""
+    return f"in ({', '.join(map(word, value))})" if isinstance(value, tuple) else f"= {word(value)}"
+
+
+def names(formula: str) -> set[str]:
+    """The columns that a formula uses. Raises WrongQuestion: it is no formula."""
+    try:
+        nodes = list(ast.walk(ast.parse(formula, mode="eval")))
+    except SyntaxError as error:
+        words = f"{formula!r} is no formula ({error.msg}): write one as pandas' eval takes it"
+        raise WrongQuestion(words) from error
+    used = {node.id for node in nodes if isinstance(node, ast.Name)}
+    called = {ast.unparse(node.func) for node in nodes if isinstance(node, ast.Call)}
+    return used - called - {*CONSTANTS}
+
+
+def check_columns(table: str, frame: pd.DataFrame, wanted: Iterable[str]) -> None:
+    """Refuse columns that a table does not have."""
+    for column in sorted({*wanted} - {*frame}):
+        raise WrongQuestion(f"table {table} has no column {column}: it has {', '.join(map(str, frame))}")
+
+
+def evaluated(frame: pd.DataFrame, formula: str, table: str) -> np.ndarray:
+    """A formula over rows, (n,)."""
+    check_columns(table, frame, names(formula))
+    try:
+        values = frame.eval(formula, engine="python", resolvers=[CONSTANTS])
+    except (ValueError, NotImplementedError) as error:
+        raise WrongQuestion(f"formula {formula!r} over table {table} cannot be computed: {error}") from error
+    return np.broadcast_to(np.asarray(values, float), len(frame))
+
+
+def numbers(frame: pd.DataFrame, formula: str, table: str) -> np.ndarray:
+    """The same where each row has to have a number. Raises CannotTell: One has none."""
+    values = evaluated(frame, formula, table)
+    if missing := np.isnan(values).sum():
+        raise CannotTell(f"{formula} is not a number in {missing} of {len(values)} rows of table {table}")
+    return values
+
+
+def error_of(formula: str, err: str, table: str, frame: pd.DataFrame) -> str:
+    """The formula of an error: as given, else the `_err` of a column, else 0 if no column in it has one.
+
+    Raises WrongQuestion: None is given, but one of the columns in the formula has an error.
+    """
+    own = f"{formula}_err"
+    if err or own in frame:
+        return err or own
+    for name in sorted(names(formula)):
+        if f"{name}_err" in frame:
+            hint = re.sub(rf"\b{name}\b", f"{name}_err", formula)
+            raise WrongQuestion(f"{formula} uses {name}, of which table {table} has {name}_err: say what the "
+                                f"error is, as in err={hint!r}, or err='0' where it does not count")
+    return "0"
+
+
+# --- values ----------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Value:
     """A question: called with tables it gives a number with its error, `str` gives its formula.
 
-    asks : what it is about.
+    asks : the rows that it is about.
     """
 
     answer: Answer
     text: str
-    asks: tuple[Asked, ...] = ()
+    asks: tuple[Selection, ...] = ()
 
     def __call__(self, tables: Tables) -> Measured:
         return self.answer(tables)
@@ -81,10 +193,8 @@ def both(a: Value | float, b: Value | float, sign: str,
     """Two questions, or a question and a number, in one."""
     one, other = lifted(a), lifted(b)
     texts = [f"({value})" if value.asks else str(value) for value in (one, other)]
-
-    def answer(tables: Tables) -> Measured:
-        return combined(one(tables), other(tables))
-    return Value(answer, f" {sign} ".join(texts), one.asks + other.asks)
+    return Value(lambda tables: combined(one(tables), other(tables)),
+                 f" {sign} ".join(texts), one.asks + other.asks)
 
 
 def lifted(number: Value | float) -> Value:
@@ -103,99 +213,3 @@ def of(function: Answer) -> Value:
     """A question that no formula puts; the first line of the function's docstring says what it computes."""
     text = function.__doc__ or function.__name__
     return Value(function, text.strip().splitlines()[0])
-
-
-#: which of several numbers counts; its name is part of the formula
-Choice = Callable[[Sequence[Measured]], Measured]
-
-
-def largest(values: Sequence[Measured]) -> Measured:
-    """The largest value with the largest error."""
-    return Measured(max(one.value for one in values), max(one.err for one in values))
-
-
-def farthest_from(centre: float) -> Choice:
-    """The value farthest from a number, with its own error."""
-    def farthest(values: Sequence[Measured]) -> Measured:
-        return max(values, key=lambda one: abs(one.value - centre))
-    farthest.__name__ = f"farthest from {centre:g}"
-    return farthest
-
-
-def largest_of(*values: Value) -> Value:
-    """The largest of several, with the largest error among them."""
-    return one_of(largest, values)
-
-
-def farthest_of(*values: Value, centre: float = 1.0) -> Value:
-    """The one of several that is farthest from `centre`, with its own error."""
-    return one_of(farthest_from(centre), values)
-
-
-def largest_per(columns: str | Sequence[str], value: Value) -> Value:
-    """The largest of what a question gives for each value of some columns, with the largest error."""
-    return one_per(largest, columns, value)
-
-
-def farthest_per(columns: str | Sequence[str], value: Value, centre: float = 1.0) -> Value:
-    """That farthest from `centre` of what a question gives for each value of some columns, with its error."""
-    return one_per(farthest_from(centre), columns, value)
-
-
-def one_of(choice: Choice, values: Sequence[Value]) -> Value:
-    """The answer to one of several questions."""
-    def answer(tables: Tables) -> Measured:
-        return choice([value(tables) for value in values])
-    texts = "; ".join(map(str, values))
-    asks = tuple(asked for value in values for asked in value.asks)
-    return Value(answer, f"{choice.__name__} of {texts}", asks)
-
-
-def one_per(choice: Choice, columns: str | Sequence[str], value: Value) -> Value:
-    """The answer to a question put for one value of some columns."""
-    def answer(tables: Tables) -> Measured:
-        return choice(each(columns, value, tables))
-    return Value(answer, f"{choice.__name__}, for each {columns}, of {value}", value.asks)
-
-
-def each(columns: str | Sequence[str], value: Value, tables: Tables) -> list[Measured]:
-    """What a question gives for each value of some columns of its first table, but where rows are missing.
-
-    Raises CannotTell: None has all of its rows.
-    """
-    by = [columns] if isinstance(columns, str) else list(columns)
-    first = value.asks[0].rows
-    frame = first(tables)
-    check_columns(first.table, frame.columns, by)
-    answers, missing = [], None
-    for key, _ in frame.groupby(by):
-        where = dict(zip(by, key))
-        try:
-            answers.append(value(narrowed(tables, value, where)))
-        except NoRows as error:
-            missing = error
-    if missing and not answers:
-        raise missing
-    return answers
-
-
-def narrowed(tables: Tables, value: Value, where: dict[str, Any]) -> Tables:
-    """Tables in which those of a question have only the rows that are meant."""
-    names = {asked.rows.table for asked in value.asks}
-    chosen = {name: rows(tables, name, need=0, **where) for name in names & set(tables)}
-    return Tables({**tables, **chosen})
-
-
-def check(value: Value, tables: Sequence[Table]) -> None:
-    """Refuse a question about a table that a study does not have, or columns that its tables do not have.
-
-    Raises WrongQuestion: In one line: what is not there, and what is.
-    """
-    columns = {table.name: [*table.columns, *SPENT, *STAMP] for table in tables}
-    for asked in value.asks:
-        table = asked.rows.table
-        if table not in columns:
-            raise WrongQuestion(f"no table {table}: the study has {', '.join(columns)}")
-        there, formulas = columns[table], (asked.value, asked.err, asked.by)
-        check_columns(table, there, asked.rows.columns.union(*map(names, formulas)))
-        error_of(asked.value, asked.err, table, there)

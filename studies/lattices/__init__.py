@@ -1,11 +1,11 @@
 """Is a fluid of smooth particles a lattice, or one of molecules?
 
-KHP95, Secs II-IV: when lattices pair, clump or melt, what that does to sound, by lattice sums and by runs; at
-which pressure convection freezes, against the printed criteria; whether paths are those of molecules and run
-back. Particles have unit mass at mean density 1, so lengths are in spacings.
+KHP95, Secs II-IV: when lattices pair, clump or melt, and how fast sound is on them; at which pressure
+convection freezes, against the printed criteria; whether paths are those of molecules and run back. Lengths
+are in spacings: particles have unit mass at mean density 1.
 """
 from studies.kit.study import Study
 from studies.lattices import cases, claims, figures
 
 STUDY = Study(name="lattices", question=__doc__.split("\n")[0], cases=cases.cases, tables=cases.TABLES,
-              derive=cases.derive, figures=figures.FIGURES, claims=claims.CLAIMS)
+              figures=figures.FIGURES, claims=claims.CLAIMS)

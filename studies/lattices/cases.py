@@ -3,18 +3,13 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
 
-import numpy as np
-import pandas as pd
-
 from continuum.fluid import IdealGas, VanDerWaals
 from particles.weights import Lucy, Monaghan, Weight, WendlandC2, WendlandC4
 from studies.kit.case import Case
-from studies.kit.stats import over_seeds
-from studies.kit.table import Rows, Table, Tables
-from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Onset
+from studies.kit.table import Table
+from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Onset, Speed
 from studies.lattices.frozen_flow import Freezing
 from studies.lattices.molecules import METHODS, Fate, Reversal, Twins
-from studies.lattices.sound import Ringing, Speed
 
 Numbers = tuple[float, ...]
 Seeds = tuple[int, ...]
@@ -33,14 +28,6 @@ UNSTABLE_RANGES = (
     (HEXAGONAL, WendlandC2, 2.8, 3.0),
     (SQUARE, Monaghan, 2.4, 2.6),
 )
-WAVE = Ringing(lattice=LATTICES["square"], weight=Lucy, length=64)
-#: waves of many lengths on lattices that melt
-LENGTHS = ((WAVE, (48, 56, 64, 72, 80)),
-           (replace(WAVE, weight=Monaghan), (36, 40, 44, 48, 52)),
-           (replace(WAVE, lattice=LATTICES["hexagonal"]), (192, 224, 256, 288)))
-#: lattices that keep a wave
-KEPT = (replace(WAVE, h=2.5, length=128),
-        replace(WAVE, weight=WendlandC2, length=128))
 SEEDS = (1, 2, 3)
 
 
@@ -57,8 +44,6 @@ def quick() -> Iterator[Case]:
     yield from fates((3.0,), (1,))
     yield from molecules((5.0, 20.0), 5, (1,))
     yield from speeds()
-    wave, _ = LENGTHS[1]
-    yield from (replace(wave, length=L) for L in (40, 44, 48))
 
 
 def paper() -> Iterator[Case]:
@@ -70,7 +55,6 @@ def paper() -> Iterator[Case]:
     yield from freezing()
     yield from molecules((5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 100.0), 15, (1, 2))
     yield from speeds()
-    yield from ringing()
 
 
 def growth() -> Iterator[Case]:
@@ -118,14 +102,6 @@ def speeds() -> Iterator[Case]:
         yield Speed(lattice=lattice, weight=weight)
 
 
-def ringing() -> Iterator[Case]:
-    """Waves of many lengths, each rounded off in three ways."""
-    for wave, lengths in LENGTHS:
-        for L, seed in product(lengths, SEEDS):
-            yield replace(wave, length=L, seed=seed)
-    yield from KEPT
-
-
 CRYSTAL = "lattice weight h eos T rho"
 RATES = "predicted measured measured_err"
 RATE = ("growth rate", "1/t0")
@@ -152,40 +128,4 @@ REVERSAL = Table.of("reversal", "integrator weight seed time", "apart equal",
                     means={"time": ("time there", "t0"), "apart": ("rms distance from the start", "a")})
 SPEEDS = Table.of("sound_speeds", "lattice weight", "speed", about="The longest waves along x on a lattice.",
                   means={"speed": ("speed of sound over the fluid's", "")})
-RINGING = Table.of("ringing", "lattice weight h length seed", "wave foretold across",
-                   about="A wave that rings on a lattice, and what grows beside it.")
-LENGTH = ("length of the wave from which on what grows beside it is as fast", "a")
-LOST = Table.of("ringing_lost", "lattice weight", f"seeds {RATES}",
-                means={"predicted": LENGTH, "measured": LENGTH},
-                about="Where waves are lost in what grows beside them, over seeds.")
-
-TABLES = (GROWTH, ONSETS, FATES, FREEZING, FREEZING_LIMITS, TWINS, REVERSAL, SPEEDS, RINGING, LOST)
-
-
-def derive(tables: Tables) -> Rows:
-    """Where waves are lost, of the lattices and weights of which many lengths ring."""
-    if "ringing" not in tables:
-        return {}
-    runs = tables["ringing"].query("h == 3").groupby(["lattice", "weight", "seed"])
-    columns = {"predicted": runs.apply(crossing, "foretold"), "measured": runs.apply(crossing, "across")}
-    crossings = pd.DataFrame(columns).dropna()
-    lost = []
-    for (lattice, weight), lengths in crossings.groupby(["lattice", "weight"]):
-        if len(lengths) > 1:        # one seed has no error
-            length, err = over_seeds(lengths.measured)
-            row = {"lattice": lattice, "weight": weight, "seeds": len(lengths)}
-            row |= {"predicted": lengths.predicted.mean(), "measured": length, "measured_err": err}
-            lost.append(row)
-    return {"ringing_lost": lost}
-
-
-def crossing(rows: pd.DataFrame, name: str) -> float:
-    """Length at which a velocity passes that of the wave, its logarithm interpolated; nan if it does not."""
-    rows = rows.sort_values("length")
-    lengths = rows.length.to_numpy(float)
-    ratio = np.log(rows[name].to_numpy()/rows.wave.to_numpy())
-    i = int(np.argmax(ratio > 0))
-    if not i:
-        return np.nan
-    beside = slice(i - 1, i + 1)
-    return float(np.interp(0.0, ratio[beside], lengths[beside]))
+TABLES = (GROWTH, ONSETS, FATES, FREEZING, FREEZING_LIMITS, TWINS, REVERSAL, SPEEDS)

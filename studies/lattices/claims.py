@@ -133,18 +133,5 @@ SOUND = (
                     "fluid's, the farthest off of three weights [asked after errors of order 1 had been "
                     "seen]",
           because="1 %, what KHP95 have for the spurious shear modulus over the bulk modulus"),
-    Claim(id="khp95-hard-sound-length", source="KHP95 Sec. II", at_most=0.1,
-          value=largest("ringing_lost", DIFFERENCE, err="measured_err/predicted", need=3),
-          statement="sound on a lattice is lost to round-off that grew, from the length that lattice sums "
-                    "and the last digit of places foretell: largest relative difference, two periods, Lucy "
-                    "and Monaghan, square and hexagonal",
-          because=f"{TENTH}; three e-foldings of some thirty for how much of the round-off is alike"),
-    Claim(id="khp95-hard-sound-kept", source="KHP95 Sec. II", at_most=1e-6,
-          value=largest("ringing", "across/wave", length=128),
-          statement="on a square lattice that is stable, Lucy's with h = 2.5 a, or all but stable, "
-                    "Wendland's with h = 3 a, sound of 128 spacings rings for two periods: velocity across "
-                    "the wave over the wave's",
-          because="round-off of places, 1e-15 in hundreds of steps, is 1e-8 of the wave; a hundred times "
-                  "that is none of its"),
 )
 CLAIMS = (*LATTICES, *PAIRS, *FREEZING, *MOLECULES, *SOUND)

@@ -10,6 +10,7 @@ The sums are over the neighbours r of a particle; c is the isentropic speed of s
 M is a motion that grows: weights with pairs melt into pairs, fluids under negative pressure clump.
 """
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -17,17 +18,15 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from continuum.fluid import energy, pressure, pressure_slopes
-from particles.limits import Symbols, step_limit
+from continuum.fluid import IdealGas, energy, pressure, pressure_slopes
+from particles.limits import step_limit
 from particles.observe import particle_kinetic
 from particles.run import STUDIES, Divergence, Plan, run
 from particles.weights import value_and_slope
 from studies.build.spam import at_rest, fluid
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.fits import line
-from studies.kit.stats import Measured
-
-# --- lattices -------------------------------------------------------------------------------------
+from studies.kit.stats import Measured, with_errors
 
 
 class Lattice(NamedTuple):
@@ -73,8 +72,6 @@ LATTICES = {lattice.name: lattice for lattice in (
     Lattice("square", (1.0, 1.0), ((0.25, 0.25),)),
     Lattice("hexagonal", (WIDTH, float(np.sqrt(3))*WIDTH), ((0.25, 0.25), (0.75, 0.75))))}
 
-# --- lattice sums ---------------------------------------------------------------------------------
-
 
 class LatticeMotion(NamedTuple):
     """Displacements a cos k.r, |a| = 1, omega^2, rate of growth, minus the frequency if nothing grows."""
@@ -84,8 +81,12 @@ class LatticeMotion(NamedTuple):
     rate: float
 
 
-def sums(weight: Any, lattice: Lattice, k: np.ndarray) -> Symbols:
-    """Of unit masses at wave vectors k (n, 2), as `particles.limits` has them for the square lattice."""
+#: of unit masses: density, S (n, 2) and D (n, 2, 2) at n wave vectors
+Sums = tuple[float, np.ndarray, np.ndarray]
+
+
+def sums(weight: Any, lattice: Lattice, k: np.ndarray) -> Sums:
+    """At wave vectors k (n, 2), as `particles.limits` has them for the square lattice."""
     x = lattice.neighbours(weight.h)
     r = np.hypot(*x.T)
     w, slope, curvature = np.array([derivatives(weight, one) for one in r]).T
@@ -94,10 +95,8 @@ def sums(weight: Any, lattice: Lattice, k: np.ndarray) -> Symbols:
     hessian = slope*(np.eye(2)[..., None] - along) + curvature*along
     phase = k@x.T
     S = np.sin(phase)@(slope[:, None]*x)
-    slow = 1 - np.cos(phase)
-    D = np.einsum("kr,abr->kab", slow, hessian)
-    rho = float(w.sum() + value_and_slope(weight, 0.0)[0])
-    return Symbols(rho, S, D, nested=(S**2).sum(axis=1)/rho**2, direct=2/rho*slow@-slope)
+    D = np.einsum("kr,abr->kab", 1 - np.cos(phase), hessian)
+    return float(w.sum() + value_and_slope(weight, 0.0)[0]), S, D
 
 
 def derivatives(weight: Any, r: float, step: float = 1e-5) -> tuple[float, float, float]:
@@ -108,14 +107,32 @@ def derivatives(weight: Any, r: float, step: float = 1e-5) -> tuple[float, float
     return w, slope, change/(2*step)
 
 
-def matrices(symbols: Symbols, eos: Any, e: float, m: float = 1.0) -> np.ndarray:
-    """M (n, 2, 2) of the wave vectors of the symbols."""
-    rho, S = m*symbols.rho, symbols.S
+def matrices(of_unit: Sums, eos: Any, e: float, m: float = 1.0) -> np.ndarray:
+    """M (n, 2, 2) of the wave vectors of the sums."""
+    rho, S, D = of_unit
+    rho *= m
     P = pressure(eos, rho, e)
     by_rho, by_e = pressure_slopes(eos, rho, e)
     c2 = float(by_rho + P/rho**2*by_e)      # negative where the fluid itself is unstable
     SS = np.einsum("ka,kb->kab", S, S)
-    return (m/rho)**2*(c2 - 2*P/rho)*SS + 2*m*P/rho**2*symbols.D
+    return (m/rho)**2*(c2 - 2*P/rho)*SS + 2*m*P/rho**2*D
+
+
+LONG = 1000.0       # spacings: sound that long has the speed of the longest to 1e-5
+
+
+@dataclass(frozen=True, kw_only=True)
+class Speed(Case):
+    """Speed of the longest waves along x over the fluid's, ideal gas at T = 1, h = 3 spacings."""
+    lattice: Lattice
+    weight: Any
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        k = 2*np.pi/LONG
+        M = matrices(sums(self.weight.of(h=3.0), self.lattice, np.array([[k, 0.0]])), IdealGas(), 1.0)
+        speed = np.sqrt(M[0, 0, 0]/2)/k         # c^2 = 2
+        return Outcome({"sound_speeds": [
+            {"lattice": self.lattice.name, "weight": self.weight.__name__, "speed": speed}]})
 
 
 # --- motions that grow ----------------------------------------------------------------------------
@@ -147,12 +164,11 @@ class Crystal:
     def motion(self) -> LatticeMotion:
         """What grows fastest by lattice sums, or is slowest if nothing grows."""
         k = self.lattice.vectors(self.cells)
-        symbols = sums(self.weight.of(h=self.h), self.lattice, k)
-        squares, a = np.linalg.eigh(matrices(symbols, self.eos, self.e, self.rho))
+        M = matrices(sums(self.weight.of(h=self.h), self.lattice, k), self.eos, self.e, self.rho)
+        squares, a = np.linalg.eigh(M)
         i = int(np.argmin(squares[:, 0]))
         square = float(squares[i, 0])
-        rate = -np.sign(square)*np.sqrt(abs(square))
-        return LatticeMotion(k[i], a[i, :, 0], square, float(rate))
+        return LatticeMotion(k[i], a[i, :, 0], square, float(-np.sign(square)*np.sqrt(abs(square))))
 
     @property
     def columns(self) -> dict[str, Any]:
@@ -162,18 +178,16 @@ class Crystal:
 
     def energies(self, time: float, shifts: Callable) -> tuple[np.ndarray, np.ndarray]:
         """Times and kinetic energies per mass until the run diverges. shifts : of places x (n, 2)."""
-        x, box, energies = self.lattice.places(self.cells), self.lattice.box(self.cells), list[float]()
+        x, energies = self.lattice.places(self.cells), list[float]()
 
         def kinetic(sums: Any, state: np.ndarray) -> float:
             energies.append(particle_kinetic(sums, state))      # kept also when the run diverges
             return energies[-1]
-        method = fluid(self.weight.of(h=self.h), box, self.eos, m=self.rho)
+        method = fluid(self.weight.of(h=self.h), self.lattice.box(self.cells), self.eos, m=self.rho)
         dt = STUDIES*step_limit(method, self.e, self.rho)
         plan = Plan(dt=dt, steps=round(time/dt), series={"k": kinetic}, every=2)
-        try:
+        with suppress(Divergence):
             run(method, at_rest(x + SHIFT*shifts(x), self.e), plan)
-        except Divergence:
-            pass
         times = 2*dt*(1 + np.arange(len(energies)))
         return times, np.array(energies)
 
@@ -192,19 +206,12 @@ class LatticeGrowth(Case):
     """The rate at which the fastest growing motion of a lattice grows, started alone."""
     crystal: Crystal
 
-    @property
-    def label(self) -> str:
-        return f"growth {self.crystal.columns}"
-
     def run(self, report: Report, folder: Path) -> Outcome:
         k, a, _, predicted = self.crystal.motion
-
-        def shifts(x: np.ndarray) -> np.ndarray:
-            return np.outer(np.cos(x@k + PHASE), a)
         time = 20/predicted         # e^20: from 1e-8 to beyond what is linear
-        rate, err = growth(*self.crystal.energies(time, shifts))
+        rate = growth(*self.crystal.energies(time, lambda x: np.outer(np.cos(x@k + PHASE), a)))
         return Outcome({"growth": [
-            {**self.crystal.columns, "predicted": predicted, "measured": rate, "measured_err": err}]})
+            {**self.crystal.columns, "predicted": predicted, **with_errors(measured=rate)}]})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -216,23 +223,17 @@ class Onset(Case):
     unstable: float
     seed: int = 1
 
-    @property
-    def label(self) -> str:
-        return f"onset in {self.parameter} {self.crystal.columns} seed {self.seed}"
-
     def run(self, report: Report, folder: Path) -> Outcome:
         stable, unstable = self.stable, self.unstable
         predicted = brentq(lambda value: self.at(value).motion.rate, stable, unstable, xtol=1e-6)
+        middle = (stable + unstable)/2
         for number in range(HALVINGS):
             report(number/HALVINGS)
+            stable, unstable = (stable, middle) if self.grows(middle) else (middle, unstable)
             middle = (stable + unstable)/2
-            if self.grows(middle):
-                unstable = middle
-            else:
-                stable = middle
-        columns = {**self.crystal.columns, self.parameter: 0.0, "parameter": self.parameter}
-        measured = {"measured": (stable + unstable)/2, "measured_err": abs(stable - unstable)/2}
-        return Outcome({"onsets": [{**columns, "seed": self.seed, "predicted": predicted, **measured}]})
+        return Outcome({"onsets": [
+            {**self.crystal.columns, self.parameter: 0.0, "parameter": self.parameter, "seed": self.seed,
+             "predicted": predicted, "measured": middle, "measured_err": abs(stable - unstable)/2}]})
 
     def at(self, value: float) -> Crystal:
         """The crystal with this value of the parameter."""

@@ -3,7 +3,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from studies.kit.figure import Drawing, Drawings, below, errorbar, figure, look
+from studies.kit.figure import Drawing, Drawings, errorbar, figure, look
 
 WEIGHTS = {"Lucy": "Lucy", "Monaghan": "Monaghan", "WendlandC2": "Wendland C2"}
 CHANCE = 1 - np.exp(-np.pi/4)       # part of particles at random that have another within half a spacing
@@ -19,7 +19,7 @@ def pairs(rows: pd.DataFrame) -> Figure:
     for number, (weight, label) in enumerate(WEIGHTS.items()):
         shared = rows[rows["weight"] == weight].groupby("h")["shared"]
         spread = (shared.max() - shared.min())/2
-        errorbar(axes, list(spread.index), list(shared.mean()), list(spread), number=number, label=label,
+        errorbar(axes, list(spread.index), shared.mean(), spread, number=number, label=label,
                  linestyle=look(number)["linestyle"])
     axes.axhline(CHANCE, color="grey", linestyle=":", label="particles at random")
     axes.set(xlabel="range $h$ / spacings", ylabel="part with another within half a spacing")
@@ -36,8 +36,7 @@ def freezing(rows: pd.DataFrame, limits: pd.DataFrame) -> Figure:
     rows, limits = rows.sort_values("P").set_index(keys), limits.groupby(keys).mean(numeric_only=True)
     for number, (layer, label) in enumerate(LAYERS.items()):
         some, style = rows.loc[[layer]], look(number)
-        P, flow, err = (list(some[name]) for name in ("P", "flow", "flow_err"))
-        errorbar(left, P, flow, err, number=number, label=label)
+        errorbar(left, some["P"], some["flow"], some["flow_err"], number=number, label=label)
         right.plot(some["P"], some["lindemann"], **{**style, "linestyle": "none"})
         for name, dashes in (("melting", "--"), ("barrier", ":")):
             left.axvline(limits.loc[layer, name], color=style["color"], linestyle=dashes, linewidth=0.9)
@@ -72,26 +71,6 @@ def reversal(rows: pd.DataFrame, twins: pd.DataFrame) -> Figure:
     return page
 
 
-def ringing(rows: pd.DataFrame) -> Figure:
-    """Over the length of a wave: velocities across it when it has rung for two periods."""
-    page, axes = figure(width=5.8, height=4.6)
-    rows = rows.assign(across=rows["across"]/rows["wave"], foretold=rows["foretold"]/rows["wave"])
-    for number, ((kind, weight, h), some) in enumerate(rows.groupby(["lattice", "weight", "h"])):
-        style, label = look(number), f"{kind}, {WEIGHTS[str(weight)]}, $h$ = {h:g}"
-        axes.plot(some["length"], some["across"], **{**style, "linestyle": "none"}, label=label)
-        line = some.groupby("length")["foretold"].mean()
-        axes.plot(line, color=style["color"], linestyle="-", marker="")
-    axes.axhline(1.0, color="grey", linewidth=0.8)
-    axes.set(yscale="log", xscale="log", ylim=(1e-11, 1e6), xlabel="length of the wave / spacings",
-             ylabel="velocity across the wave / the wave's")
-    axes.set_xticks([40, 60, 100, 200, 300], labels=["40", "60", "100", "200", "300"])
-    axes.minorticks_off()
-    below(axes, ncols=2)
-    page.suptitle("When does a lattice melt into a sound wave?\npoints: runs, two periods on; lines: "
-                  "round-off that grew, by lattice sums", fontsize=10)
-    return page
-
-
 FIGURES = Drawings(
     Drawing("pairs", ("fates",), pairs), Drawing("freezing", ("freezing", "freezing_limits"), freezing),
-    Drawing("reversal", ("reversal", "twins"), reversal), Drawing("ringing", ("ringing",), ringing))
+    Drawing("reversal", ("reversal", "twins"), reversal))

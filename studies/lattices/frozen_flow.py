@@ -21,6 +21,7 @@ from particles.weights import value_and_slope
 from studies.build.measure import Smoothing, flowing, smoothed_energy
 from studies.build.spam import OF_LIMIT, Variant
 from studies.kit.case import Case, Outcome, Report
+from studies.kit.stats import with_errors
 
 ROWS = 16
 SCENE = RayleighBenard(ra=3000.0, L=float(ROWS))
@@ -103,7 +104,7 @@ class Freezing(Case):
             return {**key, **dict.fromkeys(("flow", "flow_err", "lindemann"), np.nan)}
         means = Smoothed(*done.means["grid"])
         flow = flowing({"rho": means.rho, "vx": means.vx, "vy": means.vy}, periodic=True)
-        return {**key, "flow": flow.value/K, "flow_err": flow.err/K, "lindemann": fluctuation}
+        return {**key, "lindemann": fluctuation, **with_errors(flow=flow/K)}
 
 
 def places(method: Spam, done: Run, dt: float) -> np.ndarray:

@@ -129,29 +129,16 @@ def sampled(J: np.ndarray, Q: np.ndarray, modes: np.ndarray, seed: int, report: 
     factors = np.linalg.eigvals(crank_nicolson(J, Q, DT).A)
     slow = -np.log(np.abs(factors).max())
     steps = int(np.ceil(decays/slow))
-    B = apart(root(Q))/np.sqrt(2)       # of unit variance each part has a half
-    kicks, parts = of_matrix(sparse.csr_array(B), DT), apart(modes)
-    sampler = Sampler(J=apart(J), kicks=kicks, look=lambda x: (parts@x)**2, dt=DT, steps=steps, seed=seed)
-    start = np.zeros(2*len(J))
-    batches = sampler.batches(start, report, BATCHES + 1)[1:]       # the first one forgets the start
-    of_parts = batches.mean(axis=1).reshape(BATCHES, 2, -1)
-    ratios = of_parts.sum(axis=1)/exact
+    B = root(Q)/np.sqrt(2)      # of unit variance the real and the imaginary part have a half each
+    sampler = Sampler(J=J, kicks=of_matrix(np.hstack([B, 1j*B]), DT), look=lambda x: np.abs(modes@x)**2,
+                      dt=DT, steps=steps, seed=seed)
+    batches = sampler.batches(np.zeros(len(J), complex), report, BATCHES + 1)
+    ratios = batches[1:].mean(axis=1)/exact         # the first one forgets the start
     return [{"exact": float(due), **ratio(values)} for due, values in zip(exact, ratios.T, strict=True)]
 
 
-def apart(M: np.ndarray) -> np.ndarray:
-    """Real (2 m, 2 n) of a complex (m, n) matrix: what it does to real and imaginary parts."""
-    return np.block([[M.real, -M.imag], [M.imag, M.real]])
-
-
 def root(Q: np.ndarray) -> np.ndarray:
-    """B (N, N) with B B^* = Q of a Hermitian Q.
-
-    Raises
-    ------
-    ArithmeticError
-        Q has a negative eigenvalue: it is the covariance of no noise.
-    """
+    """B (N, N) with B B^* = Q of a Hermitian Q. Raises ArithmeticError: it has a negative eigenvalue."""
     values, vectors = np.linalg.eigh(Q)
     if values[0] < -1e-12*values[-1]:       # round-off of sums over some ten edges
         raise ArithmeticError(f"Q has the eigenvalue {values[0]:.3g}, the largest being {values[-1]:.3g}: no "

@@ -1,4 +1,4 @@
-"""Which cases are run: noise on points [RR98 Eqs 20-25, 42-44], dissipative particles [Sec. III B]
+"""Cases and their tables: noise on points [RR98 Eqs 20-25, 42-44], dissipative particles [Sec. III B]
 
 Units: spacing 1, rho = T = 1, ideal gas, C_V = 1.
 """
@@ -17,13 +17,13 @@ from particles.integral.edge_makers import MAKERS, delaunay, renormalised
 from particles.integrators import TwoStep
 from studies.build.setting import DISORDERS
 from studies.kit.case import Case
+from studies.kit.table import Table
 from studies.noise import dissipative, partners
 from studies.noise.below_onset import DECAYS, BelowOnset, LayerSampled
-from studies.noise.dissipative import AtRest, Cylinder, Fluid, LongRun, Shear
-from studies.noise.modes import Brillouin, Equipartition
+from studies.noise.dissipative import AtRest, Fluid, LongRun
 from studies.noise.partners import Formula, Partnership
-from studies.noise.printed_noise import MovingSteps, PrintedWaves, Steps
-from studies.noise.sampling import Capacity, Nonlinear
+from studies.noise.printed_noise import Capacity, MovingSteps, PrintedWaves, Steps
+from studies.noise.sampling import Equipartition, Nonlinear
 
 KINDS = ("lattice", "jittered-0.1", "jittered-0.3", "random")
 DT = (0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8)
@@ -58,12 +58,11 @@ def quick() -> list[Case]:
         *formulas(), *algebra(("lattice", "jittered-0.3"), {2: (8, 8)}), *printed(), *steps(),
         BelowOnset(rows=6, below=BELOW),
         Equipartition(counts=(6, 6), turns=TURNS[:6], share=0.1, steps=200),
-        Brillouin(points=13, turns=(1, 2), steps=1000),
         Nonlinear(counts=(5, 5), share=0.1, k=1e-3, time=115.0),
         *about(4, (0.5, 0.1), 10.0),
         *(Capacity(C=20.0, corrected=one, steps=400) for one in (True, False)),
         *temperatures((0.02, 0.04, 0.06), side=5.0, steps=1000),
-        LongRun(integrator=Shardlow, side=4.0, time=20.0), *cylinder(time=30.0, side=5.0)]
+        LongRun(integrator=Shardlow, side=4.0, time=20.0)]
 
 
 def paper() -> list[Case]:
@@ -72,7 +71,7 @@ def paper() -> list[Case]:
         *formulas(), *algebra(KINDS, {1: (20,), 2: (10, 12), 3: (5, 5, 6)}), *printed(), *steps(),
         *(BelowOnset(rows=rows, below=BELOW) for rows in (8, 12, 16)),
         Equipartition(counts=(12, 12), turns=TURNS, share=0.1, steps=1500),
-        Brillouin(points=33, turns=(2, 3, 4), steps=30000), *cubes(750),
+        *cubes(750),
         *about(8, (0.5, 0.1, 0.05, 0.02), DECAYS),
         Nonlinear(counts=(8, 8), share=0.1, k=1e-3, time=200.0),
         *(Capacity(C=C, corrected=one, steps=10000) for one in (True, False) for C in (20.0, 50.0)),
@@ -80,7 +79,7 @@ def paper() -> list[Case]:
         AtRest(integrator=Shardlow, dt=0.01, side=10.0, time=120.0),
         AtRest(integrator=TwoStep, dt=0.01, side=10.0, time=300.0),
         AtRest(integrator=Shardlow, side=HUNDRED, time=4000.0),
-        *long_runs(), *cylinder(time=1500.0, side=8.0)]
+        *long_runs()]
 
 
 def formulas() -> Iterator[Case]:
@@ -137,7 +136,51 @@ def long_runs() -> Iterator[Fluid]:
         yield LongRun(integrator=integrator, time=time)
 
 
-def cylinder(*, time: float, side: float) -> Iterator[Fluid]:
-    """A stream past a cylinder, the viscosity at its step."""
-    yield Cylinder(time=time)
-    yield Shear(integrator=VelocityVerlet, dt=0.04, side=side, time=max(time/3, 30.0), rate=0.3)
+# --- tables -------------------------------------------------------------------------------------
+
+VARIANCE = {"ratio": ("variance over its exact value", ""),
+            "wavenumber": ("wave number; none of all waves", "1/a")}
+#: dissipative particles have units of their own, mass, rc and kT of one
+HOT = {"dt": ("time step", "rc (m/kT)^(1/2)"), "time": ("time of the run", "rc (m/kT)^(1/2)"),
+       "n": ("number of particles", ""), "P": ("pressure", "kT/rc^3"),
+       "kinetic": ("kT from velocities over that asked for", ""),
+       "configurational": ("kT from forces over that asked for", "")}
+MEANS = "n time kinetic kinetic_err configurational configurational_err P P_err"
+
+TABLES = (
+    Table.of("partners", "maker points d noise", "mismatch sums",
+             about="A noise beside its dissipation on one set of points, coefficients random by factors of "
+                   "five."),
+    Table.of("printed", "equation term reading d h wavenumber", "ratio predicted",
+             about="A wave of noise as a paper's equation prints it.",
+             means={"ratio": ("variance over its due, 2 kT Gamma of Eq. 37 or 38", "")}),
+    Table.of("onset", "rows below", "ra_c velocity",
+             about="A motionless layer on the way to onset, linearised.",
+             means={"velocity": ("variance of vertical velocities, 1 in equilibrium", "")}),
+    Table.of("steps", "integrator fluid wavenumber dt", "velocity error",
+             about="What an integrator makes of a wave with noise at one step.",
+             means={"dt": ("time step", "eta/(rho c^2)"),
+                    "velocity": ("variance of the velocity, 1 in equilibrium", ""),
+                    "error": ("largest error of a covariance of the wave", "")}),
+    Table.of("modes", "points share field turns_x turns_y phase", "wavenumber ratio ratio_err",
+             means=VARIANCE, about="A plane wave of a gas at rest in 2D, sampled."),
+    Table.of("cubes", "points share field turns_x turns_y turns_z phase", "wavenumber ratio ratio_err",
+             means=VARIANCE, about="The same in 3D."),
+    Table.of("nonlinear", "share k field", "ratio ratio_err drift",
+             about="A field of the full equations with current amplitudes, sampled.",
+             means={"k": ("Boltzmann's constant", ""), "ratio": ("variance over that of equilibrium", "")}),
+    Table.of("capacity", "C noise", "measured measured_err predicted",
+             about="The variance of temperatures with current amplitudes.",
+             means={"noise": ("corrected: with Ito's correction; current: without", ""),
+                    "measured": ("variance of T over T^2", "")}),
+    Table.of("sampled", "flow strength rows wavenumber field", "exact ratio ratio_err",
+             about="A quantity of linear fluctuations about a layer below onset.",
+             means={"field": ("amplitude of the slowest mode, or velocity u along, w across the plates", ""),
+                    "exact": ("variance by Lyapunov's equation, 1 of a field at rest", ""),
+                    "ratio": ("variance of samples over the exact one", "")}),
+    Table.of("formulas", "name", "value", about="What a printed formula gives by arithmetic."),
+    Table.of("states", "integrator side dt", MEANS, means=HOT,
+             about="A steady state of dissipative particles at one step."),
+    Table.of("long", "integrator side dt", MEANS,
+             means=HOT | {"P": ("pressure, with rho kT as it is asked for", "kT/rc^3")},
+             about="A long run of dissipative particles at the usual step."))

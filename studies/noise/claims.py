@@ -131,11 +131,6 @@ CLAIMS = (
           value=farthest("cubes", "ratio", field="all"), because=HALF_PER_CENT,
           statement="sampled in 3D, all degrees of freedom of a gas at rest together have their variance: "
                     "mean ratio, farther from 1 of a lattice and jittered points"),
-    Claim(id="rr98-fluct-brillouin-position", source="RR98 Eqs 20-25", expect=1, within=0.005,
-          value=last("peaks", "measured/symbol", by="turns", err="measured_err/symbol"),
-          because=HALF_PER_CENT,
-          statement="the Brillouin peak of sampled density waves lies where the lattice symbol has sound: "
-                    "ratio, waves of 8 spacings"),
     Claim(id="rr98-fluct-eq40-euler", source="RR98 Eq. 40", expect=1, within=0.01, because="1 %",
           headline=True, evidence="noise/steps.png",
           value=stepped("forward-euler", "velocity", "isothermal"),

@@ -1,11 +1,9 @@
 """Figures of the study, from its tables."""
-import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle
 
-from studies.kit.figure import COLOURS, Drawing, Drawings, below, errorbar, figure, look
+from studies.kit.figure import Drawing, Drawings, below, errorbar, figure, look
 from studies.kit.table import groups
 
 NAMES = {"TwoStep": "RR98 Eqs 40, 41", "GrootWarren": r"Groot-Warren, $\lambda = 1/2$",
@@ -85,8 +83,7 @@ def of_waves(rows: pd.DataFrame, titles: dict[str, list[str]], what: str) -> Fig
         some = rows[rows["field"].isin(fields)]
         for number, (points, group) in enumerate(some.groupby("points")):
             k = group["wavenumber"] + 0.03*number
-            errorbar(axes, list(k), list(group["ratio"]), list(group["ratio_err"]), number=number,
-                     label=str(points))
+            errorbar(axes, k, group["ratio"], group["ratio_err"], number=number, label=str(points))
         axes.axhline(1, color="black", lw=1)
         axes.set(title=title, xlabel="$ka$")
     panels[0].set_ylabel("variance / exact")
@@ -117,33 +114,13 @@ def temperatures(axes: Axes, states: pd.DataFrame, name: str) -> None:
     for number, (integrator, label) in enumerate(NAMES.items()):
         rows = states[states["integrator"] == integrator]
         error, err = 100*(rows[name] - 1), 100*rows[f"{name}_err"]
-        errorbar(axes, list(rows["dt"]), list(error), list(err), number=number, label=label, linestyle="-")
+        errorbar(axes, rows["dt"], error, err, number=number, label=label, linestyle="-")
     axes.axhspan(-1, 1, color="0.9")
     axes.set(title=f"{name} temperature", xlabel=r"$\Delta t$")
     axes.set_yscale("symlog", linthresh=2)
 
 
-def cylinder(flow: pd.DataFrame, drag: pd.DataFrame) -> Figure:
-    """Mean stream of dissipative particles past a cylinder of frozen ones, one of a square array.
-
-    The published drag of a smooth cylinder is that of slow flow; inertia adds about 2 % to it here.
-    """
-    page, axes = figure(width=5.4, height=4.4)
-    u, v = (flow.pivot(index="y", columns="x", values=name) for name in ("u", "v"))
-    shown = axes.pcolormesh(u.columns, u.index, np.hypot(u, v), shading="nearest", vmin=0)
-    axes.quiver(u.columns, u.index, u, v, color="white", edgecolor="black", linewidth=0.4, width=0.007)
-    axes.add_patch(Circle((0, 0), 1.0, fill=False, color=COLOURS[1], linewidth=1.5))
-    row = drag.iloc[0]
-    axes.set(aspect="equal", xlabel="$x/R$", ylabel="$y/R$",
-             title=f"drag {row['ratio']:.2f}({100*row['ratio_err']:.0f}) of that of a smooth cylinder, "
-                   f"Re = {row['reynolds']:.1f}")
-    axes.grid(visible=False)
-    page.colorbar(shown, ax=axes, label="mean speed over that of the stream")
-    return page
-
-
 FIGURES = Drawings(
     Drawing("printed", ("printed",), printed), Drawing("onset", ("onset",), onset),
     Drawing("steps", ("steps",), steps), Drawing("modes", ("modes",), modes),
-    Drawing("cubes", ("cubes",), cubes), Drawing("temperature", ("states",), temperature),
-    Drawing("cylinder", ("flow", "drag"), cylinder))
+    Drawing("cubes", ("cubes",), cubes), Drawing("temperature", ("states",), temperature))

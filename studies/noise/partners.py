@@ -97,10 +97,6 @@ class Partnership(Case):
     h: float = 2.7
     seed: int = 1
 
-    @property
-    def label(self) -> str:
-        return f"partners {self.maker.__name__}, {self.disorder.name}, {self.counts}"
-
     def run(self, report: Report, folder: Path) -> Outcome:
         points = self.disorder.make(self.counts, self.disorder.size, self.seed)
         try:

@@ -1,4 +1,4 @@
-"""What printed noise and printed steps do to waves on a lattice    [RR98 Eqs 23, 25, 40-43]
+"""What printed noise and steps do to waves, and current amplitudes to heat    [RR98 Eqs 23, 25, 40-43]
 
 One wave of the gas on a line has density, velocity, temperature, with the symbols of the lattice; each has
 the variance 1 in equilibrium. Steps are in units of nu/c^2, c the adiabatic speed: that limits forward Euler,
@@ -19,10 +19,15 @@ from particles.integral.edges import Edges
 from particles.integral.fluctuating import Partners
 from particles.integral.interpolants import W
 from particles.integral.points import lattice
+from particles.integral.thermal import fill_pairs
 from particles.weights import Lucy
 from studies.build.symbols import neighbours
 from studies.kit.case import Case, Outcome, Report
+from studies.kit.stats import over_seeds, with_errors
 from studies.noise.partners import ETA, KAPPA, KT
+from studies.noise.sampling import BATCHES, Kick, Sampler, check_length
+
+WAVES = 32          # spacings of the longest wave
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,7 +41,6 @@ class PrintedWaves(Case):
     doubled: bool
     d: int
     h: float
-    waves: int = 32
 
     @property
     def reading(self) -> str:
@@ -54,18 +58,16 @@ class PrintedWaves(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         breadth = 2*int(np.ceil(self.h)) + 1
-        points = lattice((self.waves, *[breadth]*(self.d - 1)))
+        points = lattice((WAVES, *[breadth]*(self.d - 1)))
         edges = renormalised(points, Lucy.of(h=self.h, d=self.d))
         pair, twice = self.noise(edges)
         components = pair.Gamma.shape[0]//edges.n
         direction = np.eye(components)[1 if self.term == "eta" else 0]
         key = {name: getattr(self, name) for name in ("equation", "term", "reading", "d", "h")}
         rows = []
-        for turns in range(1, self.waves//2):
-            k = 2*np.pi*turns/self.waves
-            wave = np.exp(1j*k*points.x[:, 0])
-            of_all = np.kron(direction, wave)
-            ratio = form(pair.Q, of_all)/(twice*form(pair.Gamma, of_all))
+        for k in 2*np.pi/WAVES*np.arange(1, WAVES//2):
+            wave = np.kron(direction, np.exp(1j*k*points.x[:, 0]))
+            ratio = form(pair.Q, wave)/(twice*form(pair.Gamma, wave))
             rows.append({**key, "wavenumber": k, "ratio": ratio, "predicted": self.predicted(k)})
         return Outcome({"printed": rows})
 
@@ -125,7 +127,7 @@ def gas(k: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 def stable(step: Callable[[float], tuple], times: Iterable[float]) -> Iterator[tuple[float, np.ndarray]]:
-    """Steps dt that have a steady covariance, and this one."""
+    """Those of some steps dt that have a steady covariance, with it."""
     for dt in times:
         try:
             yield dt, steady_of_steps(*step(dt)).real
@@ -140,11 +142,6 @@ class Steps(Case):
     k: float
     dt: tuple[float, ...]
 
-    @property
-    def name(self) -> str:
-        """Of the integrator in the table."""
-        return self.integrator.__name__.replace("_", "-")
-
     def run(self, report: Report, folder: Path) -> Outcome:
         J, Q = gas(self.k)
         isothermal = self.rows("isothermal", J[:2, :2], Q[:2, :2], 1)
@@ -152,12 +149,11 @@ class Steps(Case):
 
     def rows(self, fluid: str, J: np.ndarray, Q: np.ndarray, c2: float) -> Iterator[dict[str, Any]]:
         """One a stable step."""
-        def step(dt: float) -> tuple[Step]:
-            return (self.integrator(J, Q, dt*ETA/c2),)
-        key = {"integrator": self.name, "fluid": fluid, "wavenumber": self.k}
-        for dt, C in stable(step, self.dt):
+        name = self.integrator.__name__.replace("_", "-")
+        for dt, C in stable(lambda dt: (self.integrator(J, Q, dt*ETA/c2),), self.dt):
             error = float(np.abs(C - np.eye(len(C))).max())
-            yield {**key, "dt": dt, "velocity": C[1, 1], "error": error}
+            yield {"integrator": name, "fluid": fluid, "wavenumber": self.k, "dt": dt, "velocity": C[1, 1],
+                   "error": error}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -172,17 +168,10 @@ class MovingSteps(Case):
     dt: tuple[float, ...]
     both: bool
 
-    @property
-    def integrator(self) -> str:
-        """Equations of velocities and of positions."""
-        return "eq40-eq40" if self.both else "eq40-eq41"
-
     def run(self, report: Report, folder: Path) -> Outcome:
-        key = {"integrator": self.integrator, "fluid": "moving", "wavenumber": self.k}
-        rows = []
-        for dt, C in stable(self.step, self.dt):
-            velocity = C[1, 1]
-            rows.append({**key, "dt": dt, "velocity": velocity, "error": abs(velocity - 1)})
+        name = "eq40-eq40" if self.both else "eq40-eq41"
+        rows = [{"integrator": name, "fluid": "moving", "wavenumber": self.k, "dt": dt, "velocity": C[1, 1],
+                 "error": abs(C[1, 1] - 1)} for dt, C in stable(self.step, self.dt)]
         return Outcome({"steps": rows})
 
     def step(self, of_limit: float) -> tuple[Step, np.ndarray]:
@@ -200,3 +189,61 @@ class MovingSteps(Case):
         noise = np.array([0, 1, dt])
         Q = np.outer(noise, noise)*2*l*dt
         return Step(A, Q), np.array([[1, -1j*s*dt, 1j*s]])
+
+
+# --- heat with current amplitudes ------------------------------------------------------------
+
+
+def heat_kicks(edges: Edges, C: float, dt: float) -> Callable[[int], Kick]:
+    """Heat with the amplitude of the current T_i T_j between points of heat capacity C (in k), kappa = C."""
+    across, normals, i, j = fluctuating.incidence(edges), np.empty((len(edges.i), 1)), edges.i, edges.j
+
+    def kicks(seed: int) -> Kick:
+        def kick(T: np.ndarray, step: int) -> np.ndarray:
+            fill_pairs(0, len(normals), seed, step, i, j, normals)
+            squared = np.maximum(T[i]*T[j], 0)      # below zero once in very many
+            amplitude = np.sqrt(2*edges.k*squared/C*dt)
+            return across@(amplitude*normals[:, 0])/edges.V
+        return kick
+    return kicks
+
+
+def heat_rates(edges: Edges, C: float, corrected: bool) -> np.ndarray:
+    """J of their temperatures; corrected : with 1 + k/C, what current amplitudes need of Ito's rule."""
+    return (1 + corrected/C)*edges.laplacian.toarray()/edges.V[:, None]
+
+
+def dirichlet(n: int, C: float, corrected: bool) -> float:
+    """Var T/T^2 of n points with entropies C ln T at fixed total.
+
+    Energies are Dirichlet(C/k + 1), without correction Dirichlet(C/k).
+    """
+    return (n - 1)/(n*(C + corrected) + 1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Capacity(Case):
+    """Variance of temperature with current amplitudes, with and without Ito's correction."""
+    C: float
+    corrected: bool
+    steps: int
+    counts: tuple[int, int] = (6, 6)
+    dt: float = 0.05
+    seed: int = 1
+
+    @property
+    def cost(self) -> float:
+        return BATCHES*self.steps*5e-5
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        edges = renormalised(lattice(self.counts), Lucy.of(h=1.5))
+        J = heat_rates(edges, self.C, self.corrected)
+        check_length(J, self.steps*self.dt)
+        sampler = Sampler(J=J, kicks=heat_kicks(edges, self.C, self.dt), look=np.var, dt=self.dt,
+                          steps=self.steps, seed=self.seed)
+        batches = sampler.batches(np.ones(edges.n), report, BATCHES + 1)[1:, 1::2]
+        # `var` divides by n: (n - 1)/n of the variance of one point about the fixed mean is in it already
+        variance = over_seeds(batches.mean(axis=1))
+        return Outcome({"capacity": [{
+            "C": self.C, "noise": "corrected" if self.corrected else "current",
+            "predicted": dirichlet(edges.n, self.C, self.corrected), **with_errors(measured=variance)}]})

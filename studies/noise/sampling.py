@@ -1,4 +1,4 @@
-"""Samples of linear systems, of the full equations, of heat between points    [RR98 Eqs 20-25, 42, 43]
+"""Samples of linear systems, of waves of a gas at rest, of the full equations    [RR98 Eqs 20-25]
 
 Each mean is made of 20 batches, each ten decay times of the slowest mode or longer, started where the one
 before ended: their scatter, with its t factor, is the error.
@@ -11,26 +11,24 @@ from typing import Any
 import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
-from particles.integral import fluctuating
 from particles.integral.covariance import jacobian
-from particles.integral.edge_makers import delaunay, renormalised
-from particles.integral.edges import Edges
-from particles.integral.points import jittered, lattice
-from particles.integral.thermal import Thermal, fill_pairs
+from particles.integral.edge_makers import delaunay
+from particles.integral.points import Points, jittered
+from particles.integral.thermal import Thermal
 from particles.limits import limit_of
 from particles.noise import fill_normals
 from particles.run import Plan, run
 from particles.weights import Lucy
+from studies.build.setting import DISORDERS, Disorder
 from studies.kit.case import Case, Outcome, Report
-from studies.kit.stats import over_seeds
-from studies.noise.partners import ETA, KAPPA, ZETA
+from studies.kit.stats import over_seeds, with_errors
+from studies.noise.partners import ETA, KAPPA, ZETA, equilibrium, factor, rates_at_rest, transport
 
 BATCHES = 20
 DECAYS = 10         # of the slowest mode, at least, in a batch
 
 #: from a state (N,) and the number of the step
 Kick = Callable[[np.ndarray, int], np.ndarray]
-Look = Callable[[np.ndarray], Any]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,7 +39,7 @@ class Sampler:
     """
     J: np.ndarray
     kicks: Callable[[int], Kick]
-    look: Look
+    look: Callable[[np.ndarray], Any]
     dt: float
     steps: int
     seed: int
@@ -81,13 +79,7 @@ def of_matrix(B: Any, dt: float) -> Callable[[int], Kick]:
 
 
 def check_length(J: np.ndarray, time: float) -> None:
-    """Refuse batches shorter than DECAYS decay times of the slowest mode that is not conserved.
-
-    Raises
-    ------
-    ValueError
-        They are.
-    """
+    """Raise ValueError: batches are shorter than DECAYS decay times of the slowest mode not conserved."""
     rates = -np.linalg.eigvals(J).real
     slow = float(rates[rates > 1e-9*rates.max()].min())
     if time*slow < DECAYS:
@@ -97,8 +89,106 @@ def check_length(J: np.ndarray, time: float) -> None:
 
 def ratio(batches: np.ndarray) -> dict[str, float]:
     """Columns of a mean over batches."""
-    value, err = over_seeds(batches)
-    return {"ratio": value, "ratio_err": err}
+    return with_errors(ratio=over_seeds(batches))
+
+
+# --- plane waves of a gas at rest -----------------------------------------------------------------
+
+Turns = tuple[int, ...]
+#: field, whole waves along each axis, phase
+Name = tuple[str, Turns, str]
+#: of the tables, by dimension
+TABLE, AXES = {2: "modes", 3: "cubes"}, ("turns_x", "turns_y", "turns_z")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Equipartition(Case):
+    """Variances of plane waves of rho, v and T in a gas at rest in 2D or 3D, over their exact values.
+
+    turns : wave vectors, whole waves along each axis; each has a cosine and a sine.
+    """
+    counts: tuple[int, ...]
+    turns: tuple[Turns, ...]
+    share: float
+    steps: int
+    dt: float = 1.0
+    maker: Callable = delaunay
+    disorder: Disorder = DISORDERS["jittered-0.3"]
+    seed: int = 1
+
+    @property
+    def cost(self) -> float:
+        numbers = (2 + len(self.counts))*np.prod(self.counts)
+        return BATCHES*self.steps*1.5e-9*numbers**2 + 10
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        points = self.disorder.make(self.counts, self.disorder.size, self.seed)
+        edges = self.maker(points, Lucy.of(h=2.0, d=points.d))
+        V, J = edges.V, rates_at_rest(edges, self.share)
+        B = factor(edges, *transport(edges, self.share, ETA, ZETA, KAPPA, 1.0))
+        names, F = plane_waves(points, V, self.turns)
+        variances = np.einsum("mi,ij,mj->m", F, equilibrium(V, points.d), F)
+        F /= np.sqrt(variances)[:, None]
+        check_length(J, self.steps*self.dt)
+        sampler = Sampler(J=J, kicks=of_matrix(B, self.dt), dt=self.dt, steps=self.steps, seed=self.seed,
+                          look=lambda x: np.append((F@x)**2, whole(V, x)))
+        powers = sampler.batches(start(V, points.d, self.seed), report).mean(axis=1)
+        names.append(("all", (0,)*points.d, "-"))
+        rows = [self.row(*name) | ratio(power) for name, power in zip(names, powers.T, strict=True)]
+        return Outcome({TABLE[points.d]: rows})
+
+    def row(self, field: str, turns: Turns, phase: str) -> dict[str, Any]:
+        """Of one mode, or of all degrees of freedom together, which have no wave number."""
+        k = 2*np.pi*np.linalg.norm(np.divide(turns, self.counts))
+        return {"points": self.disorder.name, "share": self.share, "field": field, "phase": phase,
+                "wavenumber": k or np.nan, **dict(zip(AXES, turns))}
+
+
+def start(V: np.ndarray, d: int, seed: int) -> np.ndarray:
+    """Densities ((2 + d) n,) from rho, v and T of equilibrium, with sums of zero."""
+    rng = np.random.default_rng(seed)
+    state = rng.normal(size=(2 + d, len(V)))/np.sqrt(V)
+    state[-1] += state[0]
+    mean = np.average(state, axis=1, weights=V)
+    return (state - mean[:, None]).ravel()
+
+
+def whole(V: np.ndarray, state: np.ndarray) -> float:
+    """Mean over all degrees of freedom but the conserved sums of what is 1 in equilibrium."""
+    fields = state.reshape(-1, len(V)).copy()
+    fields[-1] -= fields[0]
+    square = (fields**2).sum(axis=0)
+    return float(V@square/len(fields)/(len(V) - 1))
+
+
+def plane_waves(points: Points, V: np.ndarray, turns: tuple[Turns, ...]) -> tuple[list[Name], np.ndarray]:
+    """(field, turns, phase) and rows (m, (2 + d) n) of cosines and sines of v, rho and T = eps - rho."""
+    names, rows = list[Name](), []
+    for m in turns:
+        k = 2*np.pi*np.array(m)/points.box
+        for phase, wave in (("cos", np.cos), ("sin", np.sin)):
+            for field, direction in directions(k).items():
+                names.append((field, m, phase))
+                rows.append(np.kron(direction, V*wave(points.x@k)))
+    return names, np.array(rows)
+
+
+def directions(k: np.ndarray) -> dict[str, np.ndarray]:
+    """What (rho, p, eps) have of each field; velocities along the axes, in 3D along and across k."""
+    frame, names = np.eye(2), ["u", "v"]
+    if len(k) == 3:
+        frame, names = along_and_across(k), ["along", "across", "across 2"]
+    rho, *_, eps = np.eye(2 + len(k))
+    vectors = [*np.pad(frame, ((0, 0), (1, 1))), rho, eps - rho]
+    return dict(zip([*names, "rho", "T"], vectors, strict=True))
+
+
+def along_and_across(k: np.ndarray) -> np.ndarray:
+    """Rows: three unit vectors, the first along k (3,)."""
+    axes = np.eye(3)
+    along = k if k.any() else axes[0]
+    others = axes[np.argsort(np.abs(k))[:2]]
+    return np.linalg.qr(np.stack([along, *others], axis=1))[0].T
 
 
 # --- the full equations -----------------------------------------------------------------------
@@ -135,72 +225,13 @@ class Nonlinear(Case):
             report((number + 1)/(BATCHES + 1))
         before = start@V
         drift = np.abs(state@V - before).max()/before[-1]
-        key = {"share": self.share, "k": self.k, "drift": drift}
         ratios = np.array(powers[1:])/(edges.n - 1)/self.k      # the first batch forgets the start
-        fields = zip(("rho", "v", "T"), ratios.T, strict=True)
-        return Outcome({"nonlinear": [{**key, "field": name, **ratio(values)} for name, values in fields]})
+        rows = [{"share": self.share, "k": self.k, "drift": drift, "field": name, **ratio(values)}
+                for name, values in zip(("rho", "v", "T"), ratios.T, strict=True)]
+        return Outcome({"nonlinear": rows})
 
 
 def squares(flow: Any) -> np.ndarray:
     """(n, 3): squares of what rho, v and T fluctuate by, each k/V in equilibrium."""
     kinetic = flow.rho*(flow.v**2).sum(axis=1)/2
     return np.stack([(flow.rho - 1)**2, kinetic, (flow.T - 1)**2], axis=1)
-
-
-# --- heat with current amplitudes ------------------------------------------------------------
-
-
-def heat_kicks(edges: Edges, C: float, dt: float) -> Callable[[int], Kick]:
-    """Heat with the amplitude of the current T_i T_j between points of heat capacity C (in k), kappa = C."""
-    across, normals = fluctuating.incidence(edges), np.empty((len(edges.i), 1))
-
-    def kicks(seed: int) -> Kick:
-        def kick(T: np.ndarray, step: int) -> np.ndarray:
-            fill_pairs(0, len(normals), seed, step, edges.i, edges.j, normals)
-            squared = np.maximum(T[edges.i]*T[edges.j], 0)      # below zero once in very many
-            amplitude = np.sqrt(2*edges.k*squared/C*dt)
-            return across@(amplitude*normals[:, 0])/edges.V
-        return kick
-    return kicks
-
-
-def heat_rates(edges: Edges, C: float, corrected: bool) -> np.ndarray:
-    """J of their temperatures; corrected : with 1 + k/C, what current amplitudes need of Ito's rule."""
-    return (1 + corrected/C)*edges.laplacian.toarray()/edges.V[:, None]
-
-
-def dirichlet(n: int, C: float, corrected: bool) -> float:
-    """Var T/T^2 of n points with entropies C ln T at fixed total.
-
-    Energies are Dirichlet(C/k + 1), without correction Dirichlet(C/k).
-    """
-    return (n - 1)/(n*(C + corrected) + 1)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Capacity(Case):
-    """Variance of temperature with current amplitudes, with and without Ito's correction."""
-    C: float
-    corrected: bool
-    steps: int
-    counts: tuple[int, int] = (6, 6)
-    dt: float = 0.05
-    seed: int = 1
-
-    @property
-    def cost(self) -> float:
-        return BATCHES*self.steps*5e-5
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        edges = renormalised(lattice(self.counts), Lucy.of(h=1.5))
-        J = heat_rates(edges, self.C, self.corrected)
-        check_length(J, self.steps*self.dt)
-        sampler = Sampler(J=J, kicks=heat_kicks(edges, self.C, self.dt), look=np.var, dt=self.dt,
-                          steps=self.steps, seed=self.seed)
-        batches = sampler.batches(np.ones(edges.n), report, BATCHES + 1)[1:, 1::2]
-        # `var` divides by n: (n - 1)/n of the variance of one point about the fixed mean is in it already
-        variance = over_seeds(batches.mean(axis=1))
-        predicted = dirichlet(edges.n, self.C, self.corrected)
-        return Outcome({"capacity": [{
-            "C": self.C, "noise": "corrected" if self.corrected else "current", "measured": variance.value,
-            "measured_err": variance.err, "predicted": predicted}]})

@@ -7,19 +7,17 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.build.axes import ENERGY, ra_axis
+from studies.build.names import ENERGY, ra_axis
 from studies.kit.figure import Drawing, Drawings, below, errorbar, figure, look
-from studies.onset.derive import means
+from studies.onset.tables import means
 
 #: rows of the gas in KHP95's layer
 GAS = ("method == 'compressible' and eos == 'ideal' and transport == 'const-eta' and dT == 1 "
        "and sides == 'periodic'")
 #: series of growth rates: label -> rows
 GRIDS = {
-    "Boussinesq, staggered": "method == 'boussinesq'",
     r"gas, $\eta$ constant": GAS,
     r"gas, $\nu$ constant": GAS.replace("const-eta", "const-nu"),
-    r"gas, $\eta$ constant, py-pde": GAS.replace("compressible", "pypde-compressible"),
     "van der Waals": GAS.replace("ideal", "vdw"),
 }
 #: schemes of particles that have a panel: variant -> title
@@ -28,26 +26,23 @@ GAS_TIME = r"the same for the gas: over $\sqrt{2}$, half of" "\nits gradient is 
 NARROW = (1550.0, 1860.0)
 BLACK: dict[str, Any] = {"color": "black", "marker": ""}
 ZERO = BLACK | {"linewidth": 0.6, "linestyle": "-"}
+HOLLOW = {"linestyle": "none", "markerfacecolor": "none"}
 
 
-def growth(rates: pd.DataFrame) -> Figure | None:
+def growth(rates: pd.DataFrame) -> Figure:
     """sigma against Ra: weak rolls of grids and linear theory; stronger rolls of particles and of the gas."""
-    weakest = rates.query("way == 'operator'")
-    if weakest.empty:
-        return None
     known = rates.query("method == 'linear'").sort_values("ra")
     finite = rates.query("way == 'run'")
-    schemes = [name for name in SCHEMES if name in set(finite.variant)]
-    page, panels = figure(1, 1 + len(schemes), width=4.6, height=5.6, squeeze=False)
-    weak, *strong = panels[0]
-    draw_weakest(weak, weakest, known)
-    for axes, name in zip(strong, schemes):
+    page, panels = figure(1, 1 + len(SCHEMES), width=4.6, height=5.6)
+    weak, *strong = panels
+    draw_weakest(weak, rates.query("way == 'operator'"), known)
+    for axes, (name, title) in zip(strong, SCHEMES.items()):
         theory(axes, known)
         draw_rolls(axes, finite.query("method != 'spam'"), first=0)
-        draw_rolls(axes, finite.query("variant == @name"), first=1)
-        axes.set_title(SCHEMES[name])
+        draw_rolls(axes, finite[finite.variant == name], first=1)
+        axes.set_title(title)
         axes.sharey(strong[0])
-    for axes in panels[0]:
+    for axes in panels:
         axes.axhline(0, **ZERO)
         axes.set(xlabel="Rayleigh number Ra", ylabel=r"growth rate $\sigma$  [1/free-fall time]")
         below(axes)
@@ -68,8 +63,7 @@ def draw_weakest(axes: Axes, rates: pd.DataFrame, known: pd.DataFrame) -> None:
     rates = rates[rates.ra.between(*NARROW)].sort_values("ra")
     for number, (label, wanted) in enumerate(GRIDS.items()):
         finest = rates.query(wanted).query("resolution == resolution.max()")
-        style = look(number) | {"linestyle": "none", "markerfacecolor": "none"}
-        axes.plot(finest.ra, finest.sigma, **style, label=label)
+        axes.plot(finest.ra, finest.sigma, **look(number) | HOLLOW, label=label)
     axes.set(title="weakest disturbances, finest grids", xlim=NARROW, ylim=(-0.02, 0.03))
 
 
@@ -83,11 +77,9 @@ def draw_rolls(axes: Axes, runs: pd.DataFrame, first: int) -> None:
         errorbar(axes, at_ra.ra, at_ra.sigma, at_ra.sigma_err, **style)
 
 
-def line(energies: pd.DataFrame, lines: pd.DataFrame, critical: pd.DataFrame) -> Figure | None:
+def line(energies: pd.DataFrame, lines: pd.DataFrame, critical: pd.DataFrame) -> Figure:
     """K against Ra^-1/2 on KHP95's grids, its lines, what is left; where they and growth rates put Ra_c."""
     energies = energies.query(GAS)
-    if energies.empty:
-        return None
     page = Figure(figsize=(11.2, 5.2), layout="constrained")
     panels = page.subplot_mosaic([["K", "zeros"], ["rest", "zeros"]], height_ratios=(3, 1))
     upper, lower = panels["K"], panels["rest"]
@@ -108,11 +100,9 @@ def line(energies: pd.DataFrame, lines: pd.DataFrame, critical: pd.DataFrame) ->
 
 def one_line(upper: Axes, lower: Axes, points: pd.DataFrame, at: Any, number: int) -> None:
     """K of one grid with its line; below, what is left, in per cent of the largest K."""
-    name = f"L = {at.resolution:.0f} cells"
-    style = look(number) | {"linestyle": "none"}
+    name, style = f"L = {at.resolution:.0f} cells", look(number) | {"linestyle": "none"}
     if at.resolution == inf:
-        name = r"$L \to \infty$"
-        style["color"] = "black"
+        name, style = r"$L \to \infty$", style | {"color": "black"}
     x = points.ra**-0.5
     upper.plot(x, points.ke, **style, label=f"{name}: zero at {at.ra_c:.1f}")
     ends = np.array([x.min(), at.ra_c**-0.5])

@@ -1,128 +1,75 @@
-"""Growth rates of the weakest rolls: of linear theory, and of grids from their own rates, linearised.
+"""Growth rates of the weakest rolls: of linear theory, and of the gas's grid from its rates, linearised.
 
 Over a fluid at rest between periodic sides a disturbance that varies as cos(kx) and sin(kx) keeps doing so:
 the rates are then a matrix of a few numbers a row of the grid, and sigma is its largest eigenvalue. A step in
 time turns it into another growth rate, but where sigma = 0, at onset, it stays 0.
 """
-from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import product
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from continuum import boussinesq
 from continuum.gas import newton
 from continuum.gas.fields import block, initial
 from continuum.gas.ghosts import FluxForm, box_of
 from continuum.gas.loop import rates
-from continuum.linear.layer import DEGREE, PlateKind, critical, critical_ra, growth_rate
-from continuum.pypde.gas import Gas
-from continuum.pypde.march import rate
+from continuum.linear import DEGREE, PlateKind, critical, critical_ra, growth_rate
 from continuum.scene import RayleighBenard, Walls
 from studies.build.names import scene_columns
 from studies.kit.case import Case, Outcome, Report
 
 STEP = 1e-5     # of the differences of the rates
-
-#: (scene, rows) -> growth rate per free-fall time, and its uncertainty
-Solver = Callable[[RayleighBenard, int], tuple[float, float]]
+WEAKEST = {"ke_start": 0.0, "seed": 0}      # columns of rolls without energy
 
 
-class RollGrid(NamedTuple):
-    """A solver on a grid: d/dt of a state (fields, columns, rows), the state at rest.
+def matrix(scene: RayleighBenard, rows: int, step: float) -> np.ndarray:
+    """Slopes of the gas's rates between amplitudes of rolls, by differences of the rates.
 
-    wave : cos or sin(kx) of each field at its points (fields, columns). moves : which rows do (fields, rows).
+    On KHP95's grid: rho in cells, v and e at nodes, those of the plates at rest.
     """
-    rate: Callable[[np.ndarray], np.ndarray]
-    rest: np.ndarray
-    wave: np.ndarray
-    moves: np.ndarray
-
-
-def matrix(grid: RollGrid, step: float) -> np.ndarray:
-    """Slopes of the rates between amplitudes of the rolls, by central differences."""
-    fields, rows = np.nonzero(grid.moves)
-    slopes = np.empty((len(fields), len(fields)))
-    for column, (field, row) in enumerate(zip(fields, rows, strict=True)):
-        change = np.zeros_like(grid.rest)
-        change[field, :, row] = step*grid.wave[field]
-        slope = (grid.rate(grid.rest + change) - grid.rate(grid.rest - change))/(2*step)
-        amplitudes = 2*np.einsum("fij,fi->fj", slope, grid.wave)/grid.wave.shape[1]
-        slopes[:, column] = amplitudes[fields, rows]
-    return slopes
-
-
-def fastest(scene: RayleighBenard, grid: RollGrid) -> tuple[float, float]:
-    """Growth rate of rolls per free-fall time, and what another step of the differences makes of it."""
-    unit = scene.L/scene.free_fall
-    sigma, other = (np.linalg.eigvals(matrix(grid, step)).real.max() for step in (STEP, 4*STEP))
-    return float(unit*sigma), float(unit*abs(sigma - other))
-
-
-def compressible_rolls(scene: RayleighBenard, rows: int) -> RollGrid:
-    """KHP95's grid: rho in cells, v and e at nodes, those of the plates at rest."""
     S, box = block(initial(scene, rows, 0.0)), box_of(scene, rows)
     columns = S.shape[2] - 2
     scratch = np.zeros((2, 8, columns + 2))
     inside = (slice(None), slice(1, -1), slice(1, -1))
 
-    def rate(data: np.ndarray) -> np.ndarray:
+    def rate(change: np.ndarray) -> np.ndarray:
         full, out = S.copy(), np.zeros_like(S)
-        full[inside] = data.swapaxes(1, 2)
+        full[inside] += change
         rates(scene.sides, scene.eos, scene.law, FluxForm(), box, full, scratch, out)
-        return out[inside].swapaxes(1, 2)
+        return out[inside]
     at = 2*np.pi/columns*np.arange(columns)
     cos = np.cos(at)
-    wave = np.array([np.sin(at), cos, cos, np.cos(at + np.pi/columns)])
+    waves = np.array([np.sin(at), cos, cos, np.cos(at + np.pi/columns)])
     moves = np.ones((4, rows), bool)
     moves[:3, 0] = False
-    return RollGrid(rate, S[inside].swapaxes(1, 2).copy(), wave, moves)
-
-
-def pypde_rolls(scene: RayleighBenard, rows: int) -> RollGrid:
-    """py-pde's grid, rho, v and e of the gas."""
-    gas = Gas(scene, rows)
-    rest = gas.rolls(0.0)
-    k = 2*np.pi/gas.grid_box[0]
-    at = np.array([k*gas.points(field)[0][1:-1] for field in range(4)])
-    wave = np.cos(at)
-    wave[1] = np.sin(at[1])
-    moves = np.ones((4, rest.shape[2]), bool)
-    moves[2, -1] = False        # v_y on the upper plate
-    return RollGrid(lambda data: rate(gas.loop, data), rest, wave, moves)
+    slopes = []
+    for field, row in np.argwhere(moves):
+        change = np.zeros((4, rows, columns))
+        change[field, row] = step*waves[field]
+        slope = (rate(change) - rate(-change))/(2*step)
+        amplitudes = 2*np.einsum("fji,fi->fj", slope, waves)/columns
+        slopes.append(amplitudes[moves])
+    return np.array(slopes).T
 
 
 def compressible(scene: RayleighBenard, rows: int) -> tuple[float, float]:
-    """Of the gas on KHP95's grid; between walls from its sparse matrix."""
+    """Of the gas on KHP95's grid, and what another step makes of it; between walls from its sparse matrix."""
+    unit = scene.L/scene.free_fall
     if isinstance(scene.sides, Walls):
-        return newton.growth_rate(scene, rows)*scene.L/scene.free_fall, 1e-8
-    return fastest(scene, compressible_rolls(scene, rows))
-
-
-def pypde_compressible(scene: RayleighBenard, rows: int) -> tuple[float, float]:
-    """Of the gas on py-pde's grid."""
-    return fastest(scene, pypde_rolls(scene, rows))
-
-
-def boussinesq_mac(scene: RayleighBenard, rows: int) -> tuple[float, float]:
-    """Of the Boussinesq fluid on the staggered grid; of the scene only Ra and Pr count."""
-    case = boussinesq.BoussinesqCase(ra=scene.ra, pr=scene.pr, box=boussinesq.HALF_LAYER, rows=rows)
-    return float(boussinesq.growth_rates(boussinesq.rest(case), count=2)[0].real), 1e-10
+        return unit*newton.growth_rate(scene, rows), 1e-8
+    sigma, other = (np.linalg.eigvals(matrix(scene, rows, step)).real.max() for step in (STEP, 4*STEP))
+    return float(unit*sigma), float(unit*abs(sigma - other))
 
 
 def point(method: str, scene: RayleighBenard, resolution: float, variant: str = "") -> dict[str, Any]:
     """Columns that all rows share; a Boussinesq fluid has no equation of state."""
     known = {**scene_columns(scene), "dT": scene.dT/scene.T_mean}
     known |= {"method": method, "variant": variant, "resolution": float(resolution)}
-    if method in ("boussinesq", "linear"):
+    if method == "linear":
         known |= {"eos": "", "transport": "", "dT": 0.0}
     return known
-
-
-def weakest(at: dict[str, Any], way: str, sigma: float, err: float) -> dict[str, Any]:
-    """Row of `growth_rates` of rolls without energy."""
-    return {**at, "way": way, "ke_start": 0.0, "seed": 0, "sigma": sigma, "err": err}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -134,9 +81,9 @@ class LinearTheory(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         rows = []
         for ra in self.ras:
-            at = point("linear", RayleighBenard(ra=ra, pr=self.pr), np.inf)
+            at = point("linear", RayleighBenard(ra=ra, pr=self.pr), np.inf) | WEAKEST
             sigma = growth_rate(ra=ra, pr=self.pr, k=np.pi)
-            rows.append(weakest(at, "eigenvalue", sigma, 0.0))
+            rows.append(at | {"way": "eigenvalue", "sigma": sigma, "err": 0.0})
         onsets = [self.onset("ra_c infinite layer rigid", critical(PlateKind.RIGID).k, "infinite"),
                   self.onset("ra_c periodic aspect 2", np.pi, "periodic")]
         return Outcome({"growth_rates": rows, "critical_ra": onsets})
@@ -152,9 +99,7 @@ class LinearTheory(Case):
 
 @dataclass(frozen=True, kw_only=True)
 class GridGrowth(Case):
-    """Growth rates of a grid's own rates at some Ra. solver : one of the above, `method` its name."""
-    method: str
-    solver: Solver
+    """Growth rates of the gas's grid, from its own rates at some Ra."""
     scene: RayleighBenard
     sizes: tuple[int, ...]
     ras: tuple[float, ...]
@@ -165,10 +110,9 @@ class GridGrowth(Case):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         rows = []
-        for number, ra in enumerate(self.ras):
+        for ra, size in product(self.ras, self.sizes):
             scene = replace(self.scene, ra=ra)
-            for size in self.sizes:
-                at = point(self.method, scene, size)
-                rows.append(weakest(at, "operator", *self.solver(scene, size)))
-            report((number + 1)/len(self.ras))
+            at = point("compressible", scene, size) | WEAKEST
+            sigma, err = compressible(scene, size)
+            rows.append(at | {"way": "operator", "sigma": sigma, "err": err})
         return Outcome({"growth_rates": rows})

@@ -1,6 +1,7 @@
 """Runs from rolls of finite energy, among particles and on the gas's grid; steady energies near onset."""
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -9,8 +10,7 @@ from scipy.optimize import brentq
 
 from continuum.gas import newton, solve
 from continuum.gas.fields import NodeFields, Values, initial
-from continuum.linear.layer import critical_ra
-from continuum.linear.square import critical_ra_square
+from continuum.linear import critical_ra, critical_ra_square
 from continuum.scene import Periodic, RayleighBenard
 from continuum.steady import Time
 from particles.run import Plan, run
@@ -38,14 +38,14 @@ class History(NamedTuple):
         Raises ValueError: fewer than 8 samples are left.
         """
         t, a = self.t[self.t >= after], self.amplitude[self.t >= after]
-        inside = (a > a[0]/BAND) & (a < a[0]*BAND)
-        stop = len(a) if inside.all() else int(np.argmin(inside))
+        inside = np.append((a > a[0]/BAND) & (a < a[0]*BAND), False)
+        stop = int(np.argmin(inside))
         if stop < 8:
             raise ValueError(f"{stop} samples after t = {after} within a factor {BAND} of the amplitude "
                              f"{a[0]:.3g}: a growth rate needs 8; sample more often or start from more")
-        t, log, half = t[:stop], np.log(a[:stop]), stop//2
+        half, log = stop//2, np.log(a)
         whole, first, last = (float(np.polyfit(t[part], log[part], 1)[0])
-                              for part in (slice(None), slice(half), slice(half, None)))
+                              for part in (slice(stop), slice(half), slice(half, stop)))
         return whole, abs(first - last)/2
 
 
@@ -77,31 +77,23 @@ class GrowthRun(RollRun):
     """On KHP95's grid."""
     rows: int
 
-    @property
-    def cost(self) -> float:
-        return 1.5e-6*self.rows**3*self.until
-
     def at(self) -> dict[str, Any]:
         return point("compressible", self.scene, self.rows)
 
     def history(self, report: Report, folder: Path) -> History:
         """v_x and v_y of printed rolls have the same energy, A^2/4 = K."""
-        unit, rolls = self.scene.L/self.scene.free_fall, newton.warm_rolls(self.scene, self.rows, self.ke)
-        until = Time(self.until*unit, SAMPLES)
-        series = solve.run(self.scene, self.rows, until=until, start=rolls, progress=report).series
+        unit = self.scene.L/self.scene.free_fall
+        rolls = newton.warm_rolls(self.scene, self.rows, self.ke)
+        series = solve.run(self.scene, self.rows, until=Time(self.until*unit, SAMPLES), start=rolls,
+                           progress=report).series
         return History(series.t/unit, 2*np.sqrt(series.ke))
 
 
-@dataclass(frozen=True)
-class RollOf:
+def roll(sums: Any, state: np.ndarray, wave: Callable) -> float:
     """Amplitude of v_y along cos or sin(2 pi x/width) cos(pi y/height), from the particles."""
-    wave: Callable
-
-    def __call__(self, sums: Any, state: np.ndarray) -> float:
-        x, y, _, vy, _ = state
-        width, height = sums.method.box
-        shape = self.wave(2*np.pi*x/width)*np.cos(np.pi*y/height)
-        return 4*float(np.mean(vy*shape))
+    x, y, _, vy, _ = state
+    width, height = sums.method.box
+    return 4*float(np.mean(vy*wave(2*np.pi*x/width)*np.cos(np.pi*y/height)))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,13 +103,8 @@ class SpamGrowth(RollRun):
     seed: int = 1
 
     @property
-    def dt(self) -> float:
-        """Step of the study rb."""
-        return step(self.scene, self.variant)
-
-    @property
     def cost(self) -> float:
-        steps = self.until*self.scene.L/self.scene.free_fall/self.dt
+        steps = self.until*self.scene.L/self.scene.free_fall/step(self.scene, self.variant)
         return steps*4*self.scene.width*self.scene.L*230e-9*(self.variant.h/3)**2 + 2
 
     def at(self) -> dict[str, Any]:
@@ -128,9 +115,9 @@ class SpamGrowth(RollRun):
         state = start(self.scene, self.seed)
         state[2:4] *= np.sqrt(self.ke/START_ENERGY)
         state[4] += self.scene.eos.cv*newton.heat_of_rolls(self.scene, state[3])
-        unit, dt = self.scene.L/self.scene.free_fall, self.dt
+        unit, dt = self.scene.L/self.scene.free_fall, step(self.scene, self.variant)
         plan = Plan(dt=dt, steps=round(self.until*unit/dt), every=5, checkpoint=folder/"run.h5",
-                    series={"cos": RollOf(np.cos), "sin": RollOf(np.sin)})
+                    series={"cos": partial(roll, wave=np.cos), "sin": partial(roll, wave=np.sin)})
         done = run(method(self.scene, self.variant), state, plan, report)
         return History(np.array(done.times)/unit, np.hypot(done.series["cos"], done.series["sin"]))
 
@@ -160,10 +147,8 @@ class OnsetEnergies(Case):
     def own_onset(self) -> float:
         """The grid's Ra_c; a tenth on either side of Boussinesq fluid's is enough for all scenes."""
         near = boussinesq_onset(self.scene)
-
-        def sigma(ra: float) -> float:
-            return compressible(replace(self.scene, ra=ra), self.rows)[0]
-        return float(brentq(sigma, 0.9*near, 1.1*near, xtol=1e-6*near))
+        return float(brentq(lambda ra: compressible(replace(self.scene, ra=ra), self.rows)[0],
+                            0.9*near, 1.1*near, xtol=1e-6*near))
 
 
 def boussinesq_onset(scene: RayleighBenard) -> float:

@@ -1,33 +1,227 @@
-"""Tables of the study onset.
+"""Tables of the study onset, and what follows from them: critical Rayleigh numbers from rates and from lines.
 
 Growth rates are of the velocity, per free-fall time; K in units of the scene. Every `err` is the half width
 of a 95 % interval or, of a grid, the bound that its extrapolation gives. `dT` is over the mean temperature, 0
 for Boussinesq and for limits; `resolution` is rows per height, `inf` where extrapolated.
 """
-from studies.kit.table import Table
+from collections.abc import Iterator
+from math import inf
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from studies.kit import fits
+from studies.kit.stats import Measured, seed_means
+from studies.kit.table import Row, Rows, Table, Tables
+from studies.onset.runs import LINES
 
 SERIES = "method variant eos transport dT sides pr"
 POINT = f"{SERIES} resolution"
 GROWTH = Table.of("growth_rates", f"{POINT} way ke_start seed ra", "sigma err",
                   about="The growth rate of rolls at one Ra.",
-                  means={"err": ("half width of the 95 % interval of sigma; of an extrapolated grid a "
-                                 "bound", "")})
+                  means={"err": ("half width of the 95 % interval of sigma; of a limit a bound", "")})
 ENERGIES = Table.of("energies", f"{POINT} share", "ra ke rolls",
                     about="A steady state of the grid; rows with resolution inf have Ra and K extrapolated.",
                     means={"share": ("1 - (Ra_c/Ra)^(1/2), Ra_c of the same grid", "")})
 LINE_TABLE = Table.of("lines", f"{POINT} reach lines", "points slope intercept ra_c err residual",
                       about="A line K = slope Ra^-1/2 + intercept through energies up to `reach` Ra_c.",
-                      means={"points": ("number of points in the fit", ""), "ra_c": ("Ra where the line is "
-                                                                                     "0", ""),
+                      means={"points": ("number of points in the fit", ""),
+                             "ra_c": ("Ra where the line is 0", ""),
                              "slope": ("slope of K over Ra^-1/2", "epsilon/m"),
                              "err": ("half width of the 95 % interval of ra_c", "")})
 CRITICAL = Table.of("critical_ra", "method quantity",
                     "value err variant eos transport dT sides pr resolution way reach ke_start",
                     about="A critical Rayleigh number.",
                     means={"quantity": ("box, what differs from the ideal gas with constant eta and dT = 1, "
-                                        "and in "
-                                        "brackets how Ra_c was found: extrapolated where no rows are "
-                                        "named", ""),
+                                        "in brackets how it was found: a limit where no rows are named", ""),
                            "value": ("critical Rayleigh number", "")})
 
 ALL = (GROWTH, ENERGIES, LINE_TABLE, CRITICAL)
+
+# --- what follows from them ---------------------------------------------------------------------------------
+
+BOX_NAMES = {"periodic": "ra_c periodic aspect 2", "walls": "ra_c square conducting"}
+#: what goes without saying in the name of a quantity
+USUAL = ("", "printed", "ideal", "const-eta")
+BY = SERIES.split()
+FOUND = f"{POINT} way reach ke_start".split()
+GRIDS = 3       # of an extrapolation, at least; also points of a line, Ra of a zero
+DRAWS = 400
+
+
+def derive(tables: Tables) -> Rows:
+    """All derived rows of the study."""
+    critical: list[Row] = []
+    limits: list[Row] = []
+    lines: list[Row] = []
+    if "growth_rates" in tables:
+        critical += from_growth(tables["growth_rates"])
+        critical += fine_grids(critical)
+        critical += small_differences(critical)
+    if "energies" in tables:
+        grids = tables["energies"].query("resolution < @inf")
+        limits += extrapolated_energies(grids)
+        lines += all_lines(pd.concat([grids, pd.DataFrame(limits, columns=grids.columns)]))
+        critical += [critical_row(line, line["ra_c"], line["err"]) for line in lines]
+    return {"energies": limits, "lines": lines, "critical_ra": critical}
+
+
+def chosen(rows: list[Row], such: str) -> pd.DataFrame:
+    """Rows of `critical_ra`, also where there are none."""
+    return pd.DataFrame(rows, columns=list(CRITICAL.columns)).query(such)
+
+
+def critical_row(at: Any, value: float, err: float) -> Row:
+    """Row of `critical_ra` at the point of a row of `growth_rates` or `lines`."""
+    at = pd.Series({"way": "line", "reach": 0.0, "ke_start": 0.0, "lines": "", **at})
+    return {**at[FOUND], "quantity": quantity(at), "value": value, "err": err}
+
+
+def quantity(at: pd.Series) -> str:
+    """The box, what differs from the usual gas, in brackets what Ra_c was found from; a grid by its rows."""
+    words = [BOX_NAMES[at.sides], *(name for name in (at.variant, at.eos, at.transport) if name not in USUAL)]
+    if at.eos and at.dT != 1:
+        words.append(f"dT {at.dT:g}")
+    ways = ["growth rates"]
+    if at.way == "line":
+        ways = ["K line" if at.reach == 4 else f"K line to {at.reach:g} Ra_c"]      # 4 is the paper's
+    if at.way == "run":
+        ways.append(f"run from K = {at.ke_start:g}")
+    if at.lines:
+        ways.append(at.lines)
+    if at.resolution < inf:
+        ways.append(f"{at.resolution:.0f} rows")
+    return f"{', '.join(words)} ({', '.join(ways)})"
+
+
+def several(frame: pd.DataFrame, by: str | list[str]) -> list[pd.DataFrame]:
+    """Groups with as many rows as an extrapolation takes."""
+    return [group for _, group in frame.groupby(by, dropna=False) if len(group) >= GRIDS]
+
+
+def from_growth(rates: pd.DataFrame) -> Iterator[Row]:
+    """Ra where sigma crosses zero, for each grid and start."""
+    rates = rates.query("method != 'linear'")
+    for _, runs in rates.groupby([*BY, "way", "ke_start", "resolution"], dropna=False):
+        at, at_ra = runs.iloc[0], means(runs)
+        if len(at_ra) >= GRIDS and at_ra.sigma.min() < 0 < at_ra.sigma.max():
+            zero = smooth_zero if at.way == "operator" else nearby_zero
+            yield critical_row(at, *zero(at_ra))
+
+
+def means(runs: pd.DataFrame) -> pd.DataFrame:
+    """Mean sigma over seeds at each Ra, and its error."""
+    runs = runs.rename(columns={"err": "sigma_err"})
+    return pd.DataFrame(seed_means(runs, ["ra"], ["sigma"]))
+
+
+def smooth_zero(rates: pd.DataFrame) -> Measured:
+    """From the polynomial Ra(sigma) through all points; err: what the farthest changes, and that of sigma."""
+    rates = rates.sort_values("sigma", key=abs)
+    ra, sigma = rates[["ra", "sigma"]].to_numpy().T
+    value = interpolated(sigma, ra)
+    without = interpolated(sigma[:-1], ra[:-1])
+    slope = np.diff(ra)[0]/np.diff(sigma)[0]
+    return Measured(value, abs(value - without) + rates.sigma_err.max()*abs(slope))
+
+
+def interpolated(sigma: np.ndarray, ra: np.ndarray) -> float:
+    """Lagrange's polynomial at sigma = 0."""
+    total = 0.0
+    for s, r in zip(sigma, ra):
+        others = sigma[sigma != s]
+        total += r*np.prod(-others/(s - others))
+    return float(total)
+
+
+def nearby_zero(rates: pd.DataFrame) -> Measured:
+    """From straight lines between neighbours; of several crossings, which noise makes, the middle one.
+
+    The error is that of the same on DRAWS samples with noise like the errors, and of the bend: what a
+    parabola through the three nearest Ra changes, at most a quarter of the distance of neighbours.
+    """
+    ra, sigma, err = rates[["ra", "sigma", "sigma_err"]].to_numpy().T
+    value = middle_crossing(ra, sigma)
+    draws = np.random.default_rng(1).normal(size=(DRAWS, len(ra)))
+    samples = [middle_crossing(ra, sigma + noise) for noise in err/2*draws]
+    low, high = np.quantile(samples, [0.025, 0.975])
+    nearest = np.argsort(np.abs(ra - value))[:3]
+    parabola = interpolated(sigma[nearest], ra[nearest])
+    bend = min(abs(parabola - value), np.diff(ra).max()/4)
+    scatter = max(value - low, high - value)
+    return Measured(value, np.hypot(scatter, bend))
+
+
+def middle_crossing(ra: np.ndarray, sigma: np.ndarray) -> float:
+    """Median of the zeros of lines between neighbours; where there is none, the end towards which it lies."""
+    at = np.flatnonzero(sigma[1:]*sigma[:-1] < 0)
+    if not len(at):
+        return float(ra[0] if sigma.sum() > 0 else ra[-1])
+    zeros = ra[at] - sigma[at]*(np.diff(ra)/np.diff(sigma))[at]
+    return float(np.median(zeros))
+
+
+def fine_grids(critical: list[Row]) -> Iterator[Row]:
+    """Limit of fine grids; errors of each grid's own are added."""
+    for grids in several(chosen(critical, "way == 'operator'"), BY):
+        value, err = fits.grid_limit(grids.resolution, grids.value)
+        at = dict(grids.iloc[-1]) | {"resolution": inf}
+        yield critical_row(at, value, err + 3*grids.err.max())
+
+
+def small_differences(critical: list[Row]) -> Iterator[Row]:
+    """Limit dT -> 0 of the gas: even in dT, because turning the box upside down changes its sign alone."""
+    gas = chosen(critical, "resolution == inf and eos != ''").sort_values("dT")
+    for group in several(gas, ["method", "eos", "transport", "sides"]):
+        value, err = fits.grid_limit(1/group.dT, group.value)
+        at = dict(group.iloc[0]) | {"dT": 0.0}
+        yield critical_row(at, value, err + group.err.max())
+
+
+def extrapolated_energies(energies: pd.DataFrame) -> Iterator[Row]:
+    """Ra and K at each share, over three grids or more with the same rolls."""
+    for grids in several(energies, [*BY, "share"]):
+        if grids.rolls.nunique() == 1:
+            ra, _ = fits.grid_limit(grids.resolution, grids.ra)
+            ke, _ = fits.grid_limit(grids.resolution, grids.ke)
+            finest = grids.iloc[-1][list(ENERGIES.columns)]
+            yield {**finest, "resolution": inf, "ra": ra, "ke": ke}
+
+
+def all_lines(energies: pd.DataFrame) -> Iterator[Row]:
+    """K against Ra^-1/2 for each reach: of grids, of extrapolated points, extrapolated as KHP95, Sec. V."""
+    for share, shares in LINES.items():
+        wanted = energies.share.round(6).isin(shares)
+        for key, series in energies[wanted].groupby(BY, dropna=False):
+            at = dict(zip(BY, key)) | {"reach": round((1 - share)**-2, 3)}
+            lines = [straight(points) for points in several(series, "resolution")]
+            grids = [line for line in lines if line["resolution"] < inf]
+            if len(grids) >= GRIDS:
+                lines.append(without_grid(grids))
+            yield from (at | line for line in lines)
+
+
+def straight(points: pd.DataFrame) -> Row:
+    """Least squares; err is that of (slope/intercept)^2, to first order, at 95 %."""
+    fit = fits.line(points.ra.to_numpy()**-0.5, points.ke.to_numpy())
+    intercept, slope = fit.coefficients
+    ra_c = (slope/intercept)**2
+    err = fit.along(2*ra_c*np.array([-1/intercept, 1/slope])).err
+    residual = np.abs(fit.residuals).max()/points.ke.max()
+    return {"resolution": points.resolution.iloc[0], "lines": "", "points": len(points), "slope": slope,
+            "intercept": intercept, "ra_c": ra_c, "err": err, "residual": residual}
+
+
+def without_grid(lines: list[Row]) -> Row:
+    """Linear in L^-2, L in cells; err: that of the lines and what the coarsest grid changes."""
+    line, without = extrapolated(lines), extrapolated(lines[1:])
+    return line | {"err": np.hypot(line["err"], line["ra_c"] - without["ra_c"])}
+
+
+def extrapolated(lines: list[Row]) -> Row:
+    """The line at L^-2 = 0; what else it has is the finest grid's."""
+    grids = pd.DataFrame(lines)
+    _, (slope, intercept) = np.polyfit(grids.resolution**-2.0, grids[["slope", "intercept"]], 1)
+    return lines[-1] | {"resolution": inf, "lines": "L^-2 extrapolated", "slope": slope,
+                        "intercept": intercept, "ra_c": (slope/intercept)**2}

@@ -1,5 +1,5 @@
 """Terms on lattices against exact derivatives, and sums read literally    [RR98 Eqs 10-19, 21, 26-38, 51]"""
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -8,22 +8,21 @@ import numpy as np
 from scipy import sparse
 
 from continuum.fluid import ConstEta, IdealGas, PowerLaw, VanDerWaals, stress_tensor
-from particles.integral.dih import Dih, Flow, NestedFluxes, Pairwise
+from particles.integral.dih import Dih, Flow, NestedFluxes, Pairwise, gained
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.points import lattice
 from particles.weights import Lucy, WendlandC2
 from studies.kit.case import Case, Outcome, Report
-from studies.operators.integrals import weight_of
+from studies.operators.weights import weight_of
 
 ETA, ZETA, KAPPA = 0.02, 0.01, 0.03
 PRINTED, ALONG = NestedFluxes(differences=False), Pairwise(mended=False)
 CHANGING = PowerLaw(ETA, KAPPA, n=1.0)      # eta and kappa proportional to T
-CONSTANT = ConstEta(ETA, KAPPA)
 
 ROWS, SPACING = 64, 0.5     # of the lattice on which dV is 1/4
-STEP = 1e-4         # of a central difference of Eq. 34, which is quadratic: it is exact
-OMEGA = 0.05        # of a rigid rotation
+STEP = 1e-4                 # of a central difference of Eq. 34, which is quadratic: it is exact
+OMEGA = 0.05                # of a rigid rotation
 
 Sums = list[sparse.csr_array]
 #: (operator, discrete, exact)
@@ -62,13 +61,9 @@ def smooth_flow(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return rho, v, T
 
 
-def arriving(edges: Edges, flux: np.ndarray) -> np.ndarray:
-    """Rate per volume of what flows from i to j, flux (E,) or (E, m)."""
-    if flux.ndim == 2:
-        return np.stack([arriving(edges, q) for q in flux.T], axis=1)
-    to = np.bincount(edges.j, flux, edges.n)
-    away = np.bincount(edges.i, flux, edges.n)
-    return (to - away)/edges.V
+def transported(dih: Dih, flow: Flow) -> np.ndarray:
+    """What stress and heat current alone bring to each point, per time and volume, (2 + d, n)."""
+    return gained(dih.edges, dih.transport.fluxes(dih, flow))/dih.edges.V
 
 
 def rates(dih: Dih, state: np.ndarray) -> np.ndarray:
@@ -84,8 +79,7 @@ def terms(dih: Dih, flow: Flow, exact: Spectral) -> Terms:
     eta, _, kappa = dih.coefficients(flow)
     stress = stress_tensor(eta, ZETA, exact.grad(v))
     current = kappa[:, None]*exact.grad(T)
-    fluxes = PRINTED.fluxes(dih, flow)
-    yield "viscous nested", arriving(dih.edges, fluxes.momentum), exact.div(stress)
+    yield "viscous nested", transported(dih, flow)[1:-1].T, exact.div(stress)
     still = rates(dih, dih.state(rho, 0*v, T))
     yield "pressure", still[1:-1].T, -exact.grad(P)
     yield "heat nested", still[-1], exact.div(current)
@@ -100,14 +94,13 @@ def terms(dih: Dih, flow: Flow, exact: Spectral) -> Terms:
 
 def frictions(dih: Dih, flow: Flow, exact: Spectral) -> Terms:
     """Forces along edges with constant viscosities, and with eta proportional to T    [RR98 Eq. 51]"""
-    fluids = {"zeta 0.01": replace(dih, law=CONSTANT), "zeta 0": replace(dih, law=CONSTANT, zeta=0.0),
-              "eta(T)": replace(dih, zeta=0.0)}
     slope = exact.grad(flow.v)
-    for name, fluid in fluids.items():
-        eta = fluid.coefficients(flow).eta
-        stress = stress_tensor(eta, fluid.zeta, slope)
-        fluxes = ALONG.fluxes(fluid, flow)
-        yield f"friction, {name}", arriving(dih.edges, fluxes.momentum), exact.div(stress)
+    constant = ConstEta(ETA, KAPPA)
+    fluids = (("zeta 0.01", constant, ZETA), ("zeta 0", constant, 0.0), ("eta(T)", CHANGING, 0.0))
+    for name, law, zeta in fluids:
+        fluid = replace(dih, law=law, zeta=zeta, transport=ALONG)
+        stress = stress_tensor(fluid.coefficients(flow).eta, zeta, slope)
+        yield f"friction, {name}", transported(fluid, flow)[1:-1].T, exact.div(stress)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,26 +114,39 @@ class EquationErrors(Case):
     h: float
     cells: int
 
-    @property
-    def cost(self) -> float:
-        return 2e-5*self.cells**self.d*self.h**self.d
-
     def run(self, report: Report, folder: Path) -> Outcome:
-        at = lattice((self.cells,)*self.d, 1/self.cells)
+        shape = (self.cells,)*self.d
+        at, exact = lattice(shape, 1/self.cells), Spectral(shape)
         edges = renormalised(at, weight_of(self.kind, self.h/self.cells, self.d))
         dih = Dih(edges=edges, eos=VanDerWaals(), law=CHANGING, zeta=ZETA, transport=PRINTED)
         flow = dih.flow(dih.state(*smooth_flow(at.x)))
-        exact = Spectral((self.cells,)*self.d)
         pairs = [*terms(dih, flow, exact)]
         if self.d == 2:
             pairs += frictions(dih, flow, exact)
         key = {"d": self.d, "weight": self.kind.__name__, "h": self.h, "cells": self.cells}
         rows = []
         for name, discrete, true in pairs:
-            error = np.sqrt(np.sum((discrete - true)**2)/np.sum(true**2))
-            row = {"operator": name, "error": float(error), "ratio": ratio(discrete, true)}
-            rows.append(key | row)
+            error = np.linalg.norm(discrete - true)/np.linalg.norm(true)
+            rows.append(key | {"operator": name, "error": error, "ratio": ratio(discrete, true)})
         return Outcome({"equations": rows})
+
+
+def ratio(literal: np.ndarray, true: np.ndarray) -> float:
+    """Projection of one field on another."""
+    return float(np.vdot(literal, true)/np.vdot(true, true))
+
+
+# --- sums read literally ------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class Arithmetic(Case):
+    """Single numbers without parameters. numbers : makes them, by name."""
+    numbers: Callable[[], dict[str, float]]
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        rows = [{"quantity": name, "value": value} for name, value in self.numbers().items()]
+        return Outcome({"numbers": rows})
 
 
 def brackets(edges: Edges) -> Sums:
@@ -167,11 +173,6 @@ def gathered(w: Sums, F: np.ndarray) -> np.ndarray:
 def mass_rate(w: Sums, m: np.ndarray, v: np.ndarray) -> np.ndarray:
     """dm_i/dt    [RR98 Eq. 34]; of a component of p_i what convection brings to it    [Eq. 35]"""
     return sum(m*(M@u) + u*(M@m) for M, u in zip(w, v.T, strict=True))
-
-
-def ratio(literal: np.ndarray, true: np.ndarray) -> float:
-    """Projection of one field on another."""
-    return float(np.sum(literal*true)/np.sum(true**2))
 
 
 def of_volumes() -> dict[str, float]:
@@ -203,7 +204,7 @@ def linearised(w: Sums, s: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, np.nd
     rho, d_rho = 1 + 0.2*s, 0.1*c
     v = np.stack([0.3 + 0.1*c, 0*c], axis=1)
     dv = 0.1*np.stack([s, c], axis=1)
-    printed = -sum((M@rho)*du + (M@d_rho)*u + rho*(M@du) + d_rho*(M@u) for M, u, du in zip(w, v.T, dv.T))
+    printed = -mass_rate(w, rho, dv) - mass_rate(w, d_rho, v)
     above = mass_rate(w, rho + STEP*d_rho, v + STEP*dv)
     below = mass_rate(w, rho - STEP*d_rho, v - STEP*dv)
     return printed, (above - below)/(2*STEP)
@@ -219,10 +220,8 @@ def added_bulk(d: int, trace: float) -> float:
     at, zeta = lattice((12,)*d), 0.3
     edges = renormalised(at, WendlandC2.of(h=2.5, d=d))
     middle = (np.abs(at.x) < 2).all(axis=1)
-    slope = inner(brackets(edges), at.x)
-    stress = kernel(slope, 1.0, zeta, trace)[middle]
-    normal = np.trace(stress, axis1=1, axis2=2).mean()/d**2         # div v = d
-    return float(normal - zeta)
+    stress = kernel(inner(brackets(edges), at.x), 1.0, zeta, trace)[middle]
+    return float(np.trace(stress, axis1=1, axis2=2).mean()/d**2 - zeta)         # div v = d
 
 
 def of_rotation() -> dict[str, float]:
@@ -234,9 +233,7 @@ def of_rotation() -> dict[str, float]:
     edges, one = renormalised(at, WendlandC2.of(h=2.2)), np.ones(at.n)
     v = OMEGA*np.stack([-at.x[:, 1], at.x[:, 0]], axis=1)
     dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(1.0, 1.0), transport=ALONG)
-    flow = dih.flow(dih.state(one, v, one))
-    fluxes = ALONG.fluxes(dih, flow)
-    work = v*arriving(edges, fluxes.momentum)
-    heating = arriving(edges, fluxes.energy) - work.sum(axis=1)
+    _, *force, power = transported(dih, dih.flow(dih.state(one, v, one)))
+    heating = power - (v.T*force).sum(axis=0)
     middle = np.hypot(*at.x.T) < 2.5        # two ranges from where the rotation ends
     return {"heating of a rotation": float(heating[middle].mean()/OMEGA**2)}

@@ -1,5 +1,4 @@
 """Figures of the study operators, from its tables."""
-from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -7,7 +6,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.kit.figure import Drawing, Drawings, errorbar, figure, look
+from studies.kit.figure import Drawing, Drawings, errorbar, figure, logarithmic, look
 
 KINDS = ("lattice", "jittered-0.1", "jittered-0.3", "random", "relaxed")
 MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
@@ -20,13 +19,6 @@ WALLED = {"lattice": "lattice, images behind the plates", "jittered-0.2": "shift
 #: flow -> what U is
 FLOWS = {"couette": "Couette flow, $U$: of the upper plate",
          "poiseuille": "Poiseuille flow, $U$: at last, in the middle"}
-
-
-def logarithmic(axes: Axes, ticks: Iterable[float]) -> None:
-    """Both scales."""
-    axes.set(xscale="log", yscale="log")
-    axes.set_xticks(list(ticks), labels=[f"{tick:g}" for tick in ticks])
-    axes.minorticks_off()
 
 
 def legend(page: Figure, axes: Axes, columns: int, **more: Any) -> None:
@@ -53,12 +45,9 @@ def symbols(rows: pd.DataFrame) -> Figure:
     return page
 
 
-def growth(means: pd.DataFrame) -> Figure | None:
+def growth(means: pd.DataFrame) -> Figure:
     """Growth rates of sound at rest by maker of edges and kind of points."""
-    means = means[means["d"] == 2]
-    if means.empty:
-        return None
-    groups = means.groupby("viscosity")
+    groups = means.query("d == 2").groupby("viscosity")
     page, (panels,) = figure(1, len(groups), width=4.2, height=4.0, sharey=True, squeeze=False)
     for axes, (eta, rows) in zip(panels, groups, strict=True):
         for number, maker in enumerate(MAKERS):
@@ -66,7 +55,7 @@ def growth(means: pd.DataFrame) -> Figure | None:
             rates = group["rate"].clip(lower=FLOOR)
             places = group["points"].map(KINDS.index) + 0.1*(number - 2.5)
             errors = np.minimum(group["rate_err"], 0.9*rates)
-            errorbar(axes, places.tolist(), rates.tolist(), errors.tolist(), number=number, label=maker)
+            errorbar(axes, places, rates, errors, number=number, label=maker)
         axes.axhspan(FLOOR/3, 1e-13, color="grey", alpha=0.15)
         axes.set(yscale="log", ylim=(FLOOR/3, 20), title=rf"$\eta$ = {eta:g} $\rho c a$")
         axes.set_xticks(range(len(KINDS)), labels=KINDS, rotation=30)
@@ -78,13 +67,12 @@ def growth(means: pd.DataFrame) -> Figure | None:
 
 def shear(rows: pd.DataFrame) -> Figure:
     """Rms errors of shear flows over the rows between the plates, by flow and by kind of points."""
-    groups = {key: group.sort_values("rows") for key, group in rows.groupby(["flow", "points"])}
-    kinds = [name for name in WALLED if name in set(rows["points"])]
-    page, panels = figure(len(FLOWS), len(kinds), width=3.9, height=3.4, sharex=True, sharey=True,
-                          squeeze=False)
+    rows = rows.sort_values("rows")
+    page, panels = figure(len(FLOWS), len(WALLED), width=3.9, height=3.4, sharex=True, sharey=True)
     for line, flow in zip(panels, FLOWS, strict=True):
-        for axes, points in zip(line, kinds, strict=True):
-            for number, (time, group) in enumerate(groups[flow, points].groupby("time")):
+        for axes, points in zip(line, WALLED, strict=True):
+            series = rows.query("flow == @flow and points == @points").groupby("time")
+            for number, (time, group) in enumerate(series):
                 errorbar(axes, *group[["rows", "rms", "rms_err"]].to_numpy().T, number=number,
                          linestyle=look(number)["linestyle"], label=rf"$t = {time:g}\,H^2/\nu$")
             axes.plot([8, 64], [4e-3, 4e-3/64], color="grey", linestyle=":", marker="", label=r"rows$^{-2}$")

@@ -1,13 +1,20 @@
-"""Tables of the study operators. Lengths in spacings (`continuum`: in r0); `_err`: half of the 95 % interval.
+"""Tables of the study operators, and what follows from them: orders, limits, means over seeds.
 
-`predicted` is what theory gives for the number beside it.
+Lengths in spacings (`continuum`: in r0); `_err`: half of the 95 % interval. `predicted` is of
+theory, for the number beside it.
 """
-from studies.kit.table import Table
+from collections.abc import Iterator
+
+import numpy as np
+import pandas as pd
+
+from studies.kit.fits import power_law
+from studies.kit.stats import Measured, seed_means
+from studies.kit.table import Row, Rows, Table, Tables
 
 CONTINUUM = Table.of("continuum", "weight d quantity", "value value_err predicted",
                      about="An integral of a weight of width r0 = 1 before it is discretised.",
-                     means={"value": ("the integral; its error is the quadrature's or that of halving k",
-                                      "")})
+                     means={"value": ("the integral; its error: the quadrature's or of halving k", "")})
 SYMBOLS = Table.of("symbols", "weight d r0 k", "smoothed gradient nested pairwise",
                    about="What operators on the square lattice make of a wave along an axis.",
                    means={"k": ("wave number", "1/a"), "gradient": ("gradient of a plane wave over k", "")})
@@ -17,22 +24,17 @@ LATTICE = Table.of("lattice", "how weight d r0 n", "value predicted",
 EXPONENTIAL = Table.of("exponential", "d wavelength r0", "plain renormalised",
                        about="The gradient of a plane wave with the exponential weight [RR98 Eq. 31].")
 NUMBERS = Table.of("numbers", "quantity", "value",
-                   about="A number without parameters: of weights, and of Eqs 21, 26, 27, 33-37 read "
-                         "literally, "
-                         "over what they stand for.")
+                   about="A number without parameters: of weights, and of Eqs 21, 26, 27, 33-37 as printed.")
 
 TERM = "d weight h operator"
 EQUATIONS = Table.of("equations", f"{TERM} cells", "error ratio",
                      about="A term on a lattice against the exact derivative.",
-                     means={"error": ("relative rms error", ""), "ratio": ("projection on the exact term",
-                                                                           "")})
+                     means={"ratio": ("projection on the exact term", "")})
 ORDERS = Table.of("orders", TERM, "order order_err ratio ratio_err",
                   about="The order of such a term in the spacing at fixed h/a.",
-                  means={"order": ("d ln error/d ln spacing", ""),
-                         "ratio": ("projection on the exact term, extrapolated to no spacing", "")})
+                  means={"ratio": ("projection on the exact term, extrapolated to no spacing", "")})
 FRICTION = Table.of("friction", "d form h", "eta zeta eta_predicted zeta_predicted",
-                    about="Viscosities that forces A(r) e (e.v_ij) + B(r) v_ij of Eq. 51 give, by lattice "
-                          "sums.",
+                    about="Viscosities of forces A(r) e (e.v_ij) + B(r) v_ij [Eq. 51], by lattice sums.",
                     means={"form": ("A and B as functions of r", ""), "eta": ("viscosity", "")})
 
 POINTS = "maker points d"
@@ -42,48 +44,139 @@ INVARIANCE = Table.of("invariance", f"{POINTS} transport", "seed lost",
 ONE_KERNEL = Table.of("one_kernel", f"{POINTS} seed", "lost",
                       about="A random state without the second kernel of Eq. 14.",
                       means={"lost": ("momentum lost over the sum of its sizes", "")})
-VISCOSITY, RATE = ("viscosity over rho c a", ""), ("largest growth rate of the linearised fluid at rest",
-                                                   "c/a")
 GROWTH = Table.of("growth", f"{POINTS} viscosity seed", "rate closure",
-                  about="Sound in a fluid at rest on one set of points.",
-                  means={"viscosity": VISCOSITY, "rate": RATE})
+                  about="Sound in a fluid at rest on one set of points.")
 GROWTH_MEANS = Table.of("growth_means", f"{POINTS} viscosity",
                         "seeds rate rate_err largest closure closure_err",
                         about="The same, means over seeds.",
-                        means={"viscosity": VISCOSITY, "rate": RATE, "largest": ("largest rate of a seed",
-                                                                                 "c/a")})
+                        means={"largest": ("largest rate of a seed", "c/a")})
 EULER = Table.of("euler", "eta zeta kappa mode", "k limit predicted",
-                 about="The largest stable step of forward Euler [Eq. 40] for waves along an axis of a "
-                       "lattice.",
+                 about="The largest stable step of forward Euler [Eq. 40] for waves on a lattice.",
                  means={"mode": ("whole waves along 32 points", ""), "k": ("wave number", "1/a"),
                         "eta": ("viscosity", ""), "limit": ("largest stable step", "t0"),
-                        "predicted": ("(eta + zeta + kappa/2)/rho c^2", "t0"), "kappa": ("conductivity", "")})
+                        "predicted": ("(eta + zeta + kappa/2)/rho c^2", "t0")})
 NESTED_GROWTH = Table.of("nested_growth", "h rows ra share", "growth",
                          about="The fastest growing disturbance of a motionless layer between plates.",
-                         means={"share": ("share of transport along edges; the rest is nested", ""),
-                                "growth": ("growth rate", "c/a")})
+                         means={"share": ("share of transport along edges; the rest is nested", "")})
 
 SERIES = "transport maker h points zeta quantity"
 WAVES = Table.of("waves", f"{SERIES} wavelength seed", "measured measured_err continuum",
                  about="A wave of the linearised gas on points, Lucy's weight.")
 COEFFICIENTS = Table.of("coefficients", f"{SERIES} wavelength",
                         "continuum seeds measured measured_err error error_err",
-                        about="The same, means over seeds.",
-                        means={"error": ("measured/continuum - 1", "")})
+                        about="The same, means over seeds.", means={"error": ("measured/continuum - 1", "")})
 TRANSPORT_ORDERS = Table.of("transport_orders", SERIES, "order order_err long long_err",
-                            about="How these errors fall with the wavelength, from 16 spacings on.",
-                            means={"order": ("-d ln |error|/d ln wavelength", "")})
-PROFILE = "velocity less the exact series, over the plate's speed or the final speed in the middle"
-NORMS = {"time": ("time", "height^2/nu"), "rms": (f"rms over points of the {PROFILE}", ""),
-         "largest": (f"largest of the same: {PROFILE}", "")}
-SHEAR = Table.of("shear", "flow points rows seed time", "rms largest", means=NORMS,
+                            about="How these errors fall with the wavelength, from 16 spacings on.")
+TIME = {"time": ("time", "height^2/nu")}
+SHEAR = Table.of("shear", "flow points rows seed time", "rms largest", means=TIME,
                  about="A profile of Couette or Poiseuille flow at one time.")
 SHEAR_MEANS = Table.of("shear_means", "flow points rows time", "seeds rms rms_err largest largest_err",
-                       means=NORMS, about="The same, means over seeds.")
-SHEAR_ORDERS = Table.of("shear_orders", "flow points time norm", "order order_err",
-                        about="How these errors fall with the rows, all runs in one fit.",
-                        means={"time": NORMS["time"], "order": ("-d ln error/d ln rows", "")})
+                       means=TIME, about="The same, means over seeds.")
+SHEAR_ORDERS = Table.of("shear_orders", "flow points time norm", "order order_err", means=TIME,
+                        about="How these errors fall with the rows, all runs in one fit.")
 
 ALL = (CONTINUUM, SYMBOLS, LATTICE, EXPONENTIAL, NUMBERS, EQUATIONS, ORDERS, FRICTION, INVARIANCE, ONE_KERNEL,
        GROWTH, GROWTH_MEANS, EULER, NESTED_GROWTH, WAVES, COEFFICIENTS, TRANSPORT_ORDERS, SHEAR, SHEAR_MEANS,
        SHEAR_ORDERS)
+
+# --- what follows from them ---------------------------------------------------------------------------------
+
+LEAST = 3           # sizes of an order
+SHORTEST = 16       # spacings of the waves that make an order: (h/lambda)^4 takes 2 % of the error there
+NORMS = ["rms", "largest"]
+NOTHING = Measured(np.nan, np.nan)
+
+
+def derive(tables: Tables) -> Rows:
+    """Derived rows of the study."""
+    return {name: list(follows(tables[source])) for name, (source, follows) in DERIVED.items()
+            if source in tables}
+
+
+def groups(rows: pd.DataFrame, table: Table, by: str) -> Iterator[tuple[Row, pd.DataFrame]]:
+    """The key of each row of a table, and the rows that it comes from, sorted."""
+    key = list(table.key)
+    for values, group in rows.sort_values(by, kind="stable").groupby(key):
+        yield dict(zip(key, values, strict=True)), group
+
+
+def columns(name: str, number: Measured) -> dict[str, float]:
+    """A number and its error as columns."""
+    return {name: number.value, f"{name}_err": number.err}
+
+
+def orders(rows: pd.DataFrame) -> Iterator[Row]:
+    """One row a term: the slope of its error, and its projection in the limit of no spacing."""
+    for key, group in groups(rows, ORDERS, "cells"):
+        if len(group) >= LEAST:
+            a = 1/group["cells"].to_numpy()
+            order = power_law(a, group["error"]).slope
+            yield key | columns("order", order) | columns("ratio", extrapolated(a, group["ratio"].to_numpy()))
+
+
+def extrapolated(a: np.ndarray, values: np.ndarray) -> Measured:
+    """Limit of values = limit + C a^2 from the two finest; error: the distance to that of the two before."""
+    coarse = at_zero(a[-3:-1]**2)@values[-3:-1]
+    fine = at_zero(a[-2:]**2)@values[-2:]
+    return Measured(fine, abs(fine - coarse))
+
+
+def at_zero(x: np.ndarray) -> np.ndarray:
+    """Weights of the values at x in the value at 0 of the polynomial through them."""
+    return np.linalg.inv(np.vander(x))[-1]
+
+
+def growth_means(rows: pd.DataFrame) -> Iterator[Row]:
+    """Over sets of points, and the largest of them."""
+    largest = rows.groupby(list(GROWTH_MEANS.key))["rate"].max()
+    for mean, rate in zip(seed_means(rows, GROWTH_MEANS.key, ("rate", "closure")), largest, strict=True):
+        yield mean | {"largest": rate}
+
+
+def coefficients(waves: pd.DataFrame) -> Iterator[Row]:
+    """One row a wave; errors from within the runs or from the scatter between point sets: the larger."""
+    for mean in seed_means(waves, [*COEFFICIENTS.key, "continuum"], ["measured"]):
+        error = Measured(mean["measured"], mean["measured_err"])/mean["continuum"] - 1
+        yield mean | columns("error", error)
+
+
+def transport_orders(waves: pd.DataFrame) -> Iterator[Row]:
+    """Over the wavelengths where the error is told from zero."""
+    rows = pd.DataFrame(coefficients(waves)).query("wavelength >= @SHORTEST")
+    for key, group in groups(rows, TRANSPORT_ORDERS, "wavelength"):
+        sure = group[group["error"].abs() > group["error_err"]]
+        order = power_law(1/sure["wavelength"], sure["error"]).slope if len(sure) >= LEAST else NOTHING
+        limit = endless(*group[["wavelength", "error", "error_err"]].to_numpy(float).T)
+        yield key | columns("order", order) | columns("long", limit)
+
+
+def endless(length: np.ndarray, error: np.ndarray, err: np.ndarray) -> Measured:
+    """The error for endless waves, from error = long + c/length^2 + e/length^4 through the three longest.
+
+    Its error: the distance to what the two longest give without the last term, and the errors of all three.
+    """
+    if len(length) < LEAST:
+        return NOTHING
+    three, two = at_zero(length[-3:]**-2), at_zero(length[-2:]**-2)
+    value = three@error[-3:]
+    change = abs(value - two@error[-2:])
+    return Measured(value, change + np.linalg.norm(three*err[-3:]))
+
+
+def shear_means(rows: pd.DataFrame) -> Iterator[Row]:
+    """Over sets of points."""
+    return seed_means(rows, SHEAR_MEANS.key, NORMS)
+
+
+def shear_orders(rows: pd.DataFrame) -> Iterator[Row]:
+    """Over the numbers of rows, all runs in one fit: three runs of a size show their scatter badly."""
+    errors = rows.melt(["flow", "points", "time", "rows"], NORMS, "norm", "error")
+    for key, group in groups(errors, SHEAR_ORDERS, "rows"):
+        if group["rows"].nunique() >= LEAST:
+            yield key | columns("order", power_law(1/group["rows"], group["error"]).slope)
+
+
+#: table that is derived -> the table that it follows from, and how
+DERIVED = {"orders": ("equations", orders), "growth_means": ("growth", growth_means),
+           "coefficients": ("waves", coefficients), "transport_orders": ("waves", transport_orders),
+           "shear_means": ("shear", shear_means), "shear_orders": ("shear", shear_orders)}

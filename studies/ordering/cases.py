@@ -1,9 +1,7 @@
-"""Which waves, vortices and layers the study ordering runs, by size.
+"""Which waves, vortices and layers the study ordering runs, by size: error over a/h and h/lambda.
 
-Gradients and Laplacians of plane waves, a decaying Taylor-Green vortex and Rayleigh-Benard convection on
-lattices, jittered, random and relaxed points: error over a/h and h/lambda. a is the spacing, h the range of
-Lucy's weight (RR98's r0 is its rms width, 0.42 h), lambda the wavelength or the height. Gradients as printed
-stand beside those by differences. Paper size takes 40 minutes of one core.
+a is the spacing, h the range of Lucy's weight (RR98's r0 is its rms width, 0.42 h), lambda the wavelength or
+the height. Paper size takes 40 minutes of one core.
 """
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
@@ -12,21 +10,14 @@ from particles.integral.edge_makers import MAKERS
 from studies.build.fixed import SCHEMES
 from studies.build.setting import DISORDERS
 from studies.kit.case import Case
-from studies.ordering.runs import (
-    GradientForms,
-    OperatorErrors,
-    VortexDecay,
-    between_images,
-    convection,
-    on_lattice,
-)
+from studies.ordering import runs
+from studies.ordering.runs import between_images, convection, on_lattice
 
 H = (1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0)
 #: on a lattice, where each has a factor of its own: between these, to have a range every half spacing
 BETWEEN = (3.5, 4.5, 5.0, 5.5)
 SEEDS = (1, 2, 3)
-#: of the flows
-RANGES = (1.2, 1.5, 2.0, 2.5, 3.0, 4.0)
+RANGES = H[:-1]     # of the flows
 IRREGULAR = ("jittered-0.3", "random", "relaxed")
 #: irregular points with triangles that end on rows of points on the plates
 PLATES = {"jittered-0.3": SCHEMES["fixed-jittered-plates"], "random": SCHEMES["fixed-random-plates"],
@@ -48,57 +39,46 @@ def cases(size: str) -> list[Case]:
     return [*surface(WAVES), *forms(H, ("lattice", *IRREGULAR)), *vortices(), *layers()]
 
 
-def seeds(disorder: str) -> tuple[int, ...]:
-    """Points with disorder have several."""
-    return SEEDS if disorder != "lattice" else SEEDS[:1]
-
-
 def surface(waves: Mapping[str, Sequence[int]]) -> Iterator[Case]:
     """Renormalised edges of all ranges, and all makers of edges at two."""
     others = (*product(("plain", "printed", "closed"), (2.0, 3.0)), ("exact", 3.0), ("delaunay", 2.0))
     for disorder, wavelengths in waves.items():
         ranges = (*H, *BETWEEN) if disorder == "lattice" else H
         edges = [*(("renormalised", h) for h in ranges), *others]
-        for wavelength, (maker, h) in product(wavelengths, edges):
-            yield from wave(maker, h, disorder, wavelength)
+        places = [*product(edges, wavelengths)]
         if WAVE in wavelengths:
-            yield from wave("plain", 1.2, disorder, WAVE)     # where Eq. 45 does not hold
+            places.append((("plain", 1.2), WAVE))           # where Eq. 45 does not hold
+        for edge, wavelength in places:
+            yield from on_points(runs.OperatorErrors, *edge, disorder, [wavelength])
 
 
-def wave(maker: str, h: float, disorder: str, wavelength: int) -> Iterator[OperatorErrors]:
-    """One point of the error surface."""
-    for seed in seeds(disorder):
-        yield OperatorErrors(make=MAKERS[maker], h=h, disorder=DISORDERS[disorder], wavelength=wavelength,
-                             seed=seed)
+def on_points(case: type[runs.OnPoints], maker: str, h: float, disorder: str,
+              wavelengths: Sequence[int]) -> Iterator[runs.OnPoints]:
+    """All seeds: points with disorder have several. Without a weight h = 0."""
+    for wavelength, seed in product(wavelengths, SEEDS if disorder != "lattice" else SEEDS[:1]):
+        yield case(make=MAKERS[maker], h=h, disorder=DISORDERS[disorder], wavelength=wavelength, seed=seed)
 
 
 def forms(ranges: Sequence[float], kinds: Sequence[str]) -> Iterator[Case]:
     """Gradients as printed: all ranges at one wavelength, h = 3 a at all wavelengths."""
     for kind in kinds:
         places = {*product(ranges, [WAVE]), *product([3.0], WAVES[kind])}
-        for (h, wavelength), seed in product(sorted(places), seeds(kind)):
-            yield GradientForms(disorder=DISORDERS[kind], h=h, wavelength=wavelength, seed=seed)
-
-
-def vortex(maker: str, h: float, disorder: str, wavelengths: Sequence[int]) -> Iterator[VortexDecay]:
-    """Vortices of one kind; without a weight where h = 0."""
-    for wavelength, seed in product(wavelengths, seeds(disorder)):
-        yield VortexDecay(make=MAKERS[maker], h=h, disorder=DISORDERS[disorder], wavelength=wavelength,
-                          seed=seed)
+        for (h, wavelength), seed in product(sorted(places), SEEDS if kind != "lattice" else SEEDS[:1]):
+            yield runs.GradientForms(disorder=DISORDERS[kind], h=h, wavelength=wavelength, seed=seed)
 
 
 def vortices() -> Iterator[Case]:
     """On a lattice renormalised, closed and exact edges are one. Exact ones take long to find."""
     for h in (*RANGES, 6.0):
-        yield from vortex("renormalised", h, "lattice", (16, 24, 32, 48, 64))
+        yield from on_points(runs.VortexDecay, "renormalised", h, "lattice", (16, 24, 32, 48, 64))
     three, four = (16, 24, 32), (16, 24, 32, 48)
     for disorder in IRREGULAR:
-        some = three if disorder == "relaxed" else four
-        yield from vortex("delaunay", 0.0, disorder, four if disorder == "relaxed" else (*four, 64))
-        for maker, h in (*product(("renormalised", "closed"), (2.0, 3.0, 4.0)), ("plain", 3.0)):
-            yield from vortex(maker, h, disorder, some)
-        yield from vortex("exact", 3.0, disorder, four if disorder == "jittered-0.3" else three)
-        yield from vortex("exact", 4.0, disorder, three)
+        some, more = (three, four) if disorder == "relaxed" else (four, (*four, 64))
+        edges = {("delaunay", 0.0): more, ("plain", 3.0): some, ("exact", 4.0): three,
+                 ("exact", 3.0): four if disorder == "jittered-0.3" else three}
+        edges |= dict.fromkeys(product(("renormalised", "closed"), (2.0, 3.0, 4.0)), some)
+        for edge, wavelengths in edges.items():
+            yield from on_points(runs.VortexDecay, *edge, disorder, wavelengths)
 
 
 def layers() -> Iterator[Case]:
@@ -115,9 +95,9 @@ def layers() -> Iterator[Case]:
 def quick_flows() -> Iterator[Case]:
     """A few small ones of each."""
     for h in (1.2, 2.0, 3.0):
-        yield from vortex("renormalised", h, "lattice", (8, 12, 16))
+        yield from on_points(runs.VortexDecay, "renormalised", h, "lattice", (8, 12, 16))
     for maker, h in (("delaunay", 0.0), ("closed", 2.0), ("renormalised", 2.0)):
-        yield from vortex(maker, h, "jittered-0.3", (8, 12, 16))
+        yield from on_points(runs.VortexDecay, maker, h, "jittered-0.3", (8, 12, 16))
     yield from (convection("lattice", on_lattice(2.0), rows) for rows in (8, 12))
     for maker, h in (("closed", 2.0), ("exact", 3.0)):
         scheme = between_images("jittered-0.3", maker, h)

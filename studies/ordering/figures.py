@@ -1,15 +1,14 @@
 """Figures of the study ordering, from its tables."""
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.kit.figure import Drawing, Drawings, below, errorbar, figure, look
+from studies.kit.figure import Drawing, Drawings, below, errorbar, figure, logarithmic, look
 from studies.ordering.cases import IRREGULAR, ROWS
-from studies.ordering.derive import WANTED
-from studies.ordering.tables import WIDTH
+from studies.ordering.tables import WANTED, WIDTH
 
 KINDS = ("lattice", "jittered-0.1", "jittered-0.3", "random", "relaxed")
 MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
@@ -21,13 +20,6 @@ LENGTHS = {"taylor-green": r"$\lambda", "convection": "$L"}
 MADE = ("delaunay", "exact", "closed", "renormalised")
 
 
-def logarithmic(axes: Axes, ticks: Iterable[float]) -> None:
-    """Both scales."""
-    axes.set(xscale="log", yscale="log")
-    axes.set_xticks(list(ticks), labels=[f"{tick:g}" for tick in ticks])
-    axes.minorticks_off()
-
-
 def bars(axes: Axes, group: pd.DataFrame, x: str, y: str, number: int, label: str) -> None:
     """A curve with its errors."""
     group = group.sort_values(x)
@@ -35,33 +27,24 @@ def bars(axes: Axes, group: pd.DataFrame, x: str, y: str, number: int, label: st
     errorbar(axes, group[x], group[y], err, number=number, linestyle="-", label=label)
 
 
-# --- waves --------------------------------------------------------------------------------------------------
-
-
-def surface(means: pd.DataFrame) -> Figure | None:
+def surface(means: pd.DataFrame) -> Figure:
     """Errors of gradient and Laplacian of waves over the range of the weight: must a < r0 < lambda hold?"""
     rows = means.query("maker == 'renormalised'")
     kinds = [kind for kind in KINDS if kind in set(rows.points)]
-    if not kinds:
-        return None
     page, panels = figure(2, len(kinds), width=2.4, height=3.0, sharex=True, sharey="row", squeeze=False)
-    upper, lower = panels
     wavelengths = sorted(set(rows.wavelength))
     curves = {}
-    for line, operator in ((upper, "gradient"), (lower, "laplacian")):
+    for line, operator, name in zip(panels, ("gradient", "laplacian"), ("grad", "Laplacian")):
         for axes, kind in zip(line, kinds):
-            of_kind = rows[rows.points == kind]
-            for wavelength, group in of_kind.groupby("wavelength"):
+            for wavelength, group in rows[rows.points == kind].groupby("wavelength"):
                 number = wavelengths.index(wavelength)
                 bars(axes, group, "h", operator, number, rf"$\lambda$ = {wavelength} $a$")
                 curves[number] = axes.containers[-1]
             logarithmic(axes, RANGES)
-    for axes, kind in zip(upper, kinds):
-        axes.set_title(kind)
-    for axes in lower:
-        axes.set_xlabel("range $h/a$")
-    upper[0].set_ylabel("relative rms error of grad")
-    lower[0].set_ylabel("relative rms error of Laplacian")
+        line[0].set_ylabel(f"relative rms error of {name}")
+    for (upper, lower), kind in zip(panels.T, kinds):
+        upper.set_title(kind)
+        lower.set_xlabel("range $h/a$")
     handles = [curve for _, curve in sorted(curves.items())]
     page.legend(handles=handles, loc="outside lower center", ncols=len(curves))
     page.suptitle("Must $a < r_0 < \\lambda$ hold?  Lucy's weight, renormalised; bars: 95 % over point sets",
@@ -87,9 +70,6 @@ def makers(means: pd.DataFrame) -> Figure:
         below(axes, ncols=2, bbox_to_anchor=(0.5, -0.18))
     panels[0].set_ylabel("relative rms error of grad")
     return page
-
-
-# --- flows --------------------------------------------------------------------------------------------------
 
 
 def curves(axes: Axes, rows: pd.DataFrame, by: str, x: str, label: str) -> None:
@@ -165,7 +145,7 @@ def decorate(axes: Axes, flow: str, kind: str, ticks: Sequence[float]) -> None:
     below(axes, bbox_to_anchor=(0.5, -0.15), ncols=2, fontsize=7)
 
 
-def finish(axes: Axes, ticks: Iterable[float], label: str, title: str) -> None:
+def finish(axes: Axes, ticks: Sequence[float], label: str, title: str) -> None:
     """Scales, and where 1 % is."""
     axes.axhline(WANTED, color="black", linestyle=":", linewidth=0.8)
     axes.set(title=title, xlabel=label)

@@ -4,28 +4,32 @@ Weights are Lucy's, their range h in spacings. make : of `particles.integral.edg
 """
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache
+from math import ceil
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from continuum.exact.vortex import Vortex, solved, velocities
+from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import RayleighBenard
-from particles.integral.edge_makers import MAKERS, exact, plain
-from particles.integral.edges import Edges
+from particles.integral.edge_makers import MAKERS, plain
+from particles.integral.edges import NONE_BEYOND, Edges
+from particles.integral.layer import Layer
 from particles.integral.points import Points
 from particles.integrators import RK4
+from particles.limits import limit_of
+from particles.run import Divergence, Plan, run
 from particles.weights import Lucy
 from studies.build.fixed import Scheme, hard_core, settled
 from studies.build.measure import ended, followed, rolls
 from studies.build.setting import BREADTH, Disorder, positions
 from studies.kit.case import Case, Outcome, Report
-from studies.ordering.vortex import decayed
 
-ERRORS = ("gradient", "laplacian", "closure", "linear")
 #: how a gradient is taken over the edges
 FORMS = ("single", "sum", "difference")
+PHASES = np.array([[0.0], [np.pi/2]])       # of waves
+OF_LIMIT = 0.5      # of a vortex's step to its limit: half of it changes the errors by 2e-4 of themselves
 RA = 1e4
 RECORDS = 4         # a free-fall time
 #: columns of a layer without an end
@@ -33,74 +37,67 @@ NOTHING = {**dict.fromkeys(("ke", "ke_err", "nu", "nu_err", "exchanges"), np.nan
            "converged": False}
 
 
-# --- waves --------------------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True, kw_only=True)
-class OperatorErrors(Case):
-    """Relative rms errors of gradient and Laplacian of a plane wave along x, in 2D.
-
-    Without errors where there are no such edges on the points.
-    """
+class OnPoints(Case):
+    """What edges make of a flow on one set of points; without numbers where there are no such edges."""
     make: Callable[[Points, Any], Edges]
     h: float
     disorder: Disorder
     wavelength: int
     seed: int = 1
 
-    @property
-    def cost(self) -> float:
-        settling = 3.0*(self.disorder.name == "relaxed")
-        return 2e-5*self.wavelength*BREADTH*self.h**2 + settling
+    table: ClassVar[str]
+    numbers: ClassVar[tuple[str, ...]]
+    breadth: ClassVar[int] = 0          # of the points, in spacings; 0: a wavelength
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        points = self.disorder.make((self.wavelength, BREADTH), self.disorder.size, self.seed)
+        counts = self.wavelength, self.breadth or self.wavelength
+        points = self.disorder.make(counts, self.disorder.size, self.seed)
         key = {"maker": self.make.__name__, "h": self.h, "points": self.disorder.name,
                "wavelength": self.wavelength, "seed": self.seed}
         try:
-            edges = self.make(points, Lucy.of(h=self.h))
+            edges = self.make(points, Lucy.of(h=self.h) if self.h else None)
         except ArithmeticError:     # no such edges exist on these points: that is a result
-            return Outcome({"operators": [key | dict.fromkeys(ERRORS, np.nan)]})
+            return Outcome({self.table: [key | dict.fromkeys(self.numbers, np.nan)]})
+        values = dict(zip(self.numbers, self.measured(points, edges, report), strict=True))
+        return Outcome({self.table: [key | values]})
+
+    def measured(self, points: Points, edges: Edges, report: Report) -> Sequence[float]:
+        """The numbers."""
+        raise NotImplementedError
+
+
+# --- waves --------------------------------------------------------------------------------------------------
+
+
+class OperatorErrors(OnPoints):
+    """Relative rms errors of gradient and Laplacian of a plane wave along x, in 2D."""
+    table = "operators"
+    numbers = ("gradient", "laplacian", "closure", "linear")
+    breadth = BREADTH
+
+    def measured(self, points: Points, edges: Edges, report: Report) -> Sequence[float]:
         gradient, laplacian = wave_errors(edges, points.x[:, 0], 2*np.pi/self.wavelength)
-        closure = float(np.abs(edges.closure).max())
-        linear = float(np.abs(edges.linear - np.eye(2)).max())
-        return Outcome({"operators": [key | {"gradient": gradient, "laplacian": laplacian,
-                                             "closure": closure, "linear": linear}]})
+        return gradient, laplacian, np.abs(edges.closure).max(), np.abs(edges.linear - np.eye(2)).max()
 
 
 def wave_errors(edges: Edges, x: np.ndarray, k: float) -> tuple[float, float]:
     """Rms errors of grad and lap of a wave over the rms of the true ones; both phases."""
-    grad, lap = [], []
-    for phase in (0.0, np.pi/2):
-        f = np.sin(k*x + phase)
-        slope = k*np.cos(k*x + phase)
-        along, across = edges.grad(f).T
-        grad.append((along - slope)**2 + across**2)
-        lap.append((edges.lap(f) + k**2*f)**2)
-    V, size = edges.V/edges.V.sum(), np.sqrt(1/2)
-    gradient = np.sqrt(V@np.mean(grad, axis=0))/(k*size)
-    laplacian = np.sqrt(V@np.mean(lap, axis=0))/(k**2*size)
-    return float(gradient), float(laplacian)
+    waves = np.sin(k*x + PHASES)
+    squares = [(edges.lap(f) + k**2*f)**2 for f in waves]
+    return form_error(edges, edges.G, x, k), relative(edges.V, squares)/k**2
 
 
-@dataclass(frozen=True, kw_only=True)
-class GradientForms(Case):
-    """Errors of the gradient of a wave along x in three forms, by plain quadrature."""
-    disorder: Disorder
-    h: float
-    wavelength: int
-    seed: int = 1
+def relative(V: np.ndarray, squares: Sequence[np.ndarray]) -> float:
+    """Rms over points, from squares at both phases of a wave, over the rms of the wave."""
+    return float(np.sqrt(V@np.sum(squares, axis=0)/V.sum()))
 
-    @property
-    def cost(self) -> float:
-        return 0.05 + 3.0*(self.disorder.name == "relaxed")
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        points = self.disorder.make((self.wavelength, BREADTH), self.disorder.size, self.seed)
-        key = {"h": self.h, "points": self.disorder.name, "wavelength": self.wavelength, "seed": self.seed}
-        edges = plain(points, Lucy.of(h=self.h))
-        errors = form_errors(edges, points.x[:, 0], 2*np.pi/self.wavelength)
-        return Outcome({"brackets": [key | errors]})
+def form_error(edges: Edges, matrices: Sequence[Any], x: np.ndarray, k: float) -> float:
+    """Rms error of a wave's gradient; V times the gradient is by these matrices, one a direction."""
+    waves, slopes = np.sin(k*x + PHASES), k*np.cos(k*x + PHASES)
+    along, *across = ((M@waves.T).T/edges.V for M in matrices)
+    return relative(edges.V, (along - slopes)**2 + sum(g**2 for g in across))/k
 
 
 def form_errors(edges: Edges, x: np.ndarray, k: float) -> dict[str, float]:
@@ -114,32 +111,32 @@ def form_errors(edges: Edges, x: np.ndarray, k: float) -> dict[str, float]:
     return dict(zip(FORMS, errors, strict=True))
 
 
-def form_error(edges: Edges, matrices: Sequence[Any], x: np.ndarray, k: float) -> float:
-    """That of V times the gradient by these matrices, one a direction."""
-    squares = np.zeros(edges.n)
-    for phase in (0.0, np.pi/2):
-        f = np.sin(k*x + phase)
-        slope = k*np.cos(k*x + phase)
-        along, *across = (M@f/edges.V for M in matrices)
-        squares += ((along - slope)**2 + sum(g**2 for g in across))/2
-    return float(np.sqrt(2*(edges.V@squares)/edges.V.sum()))/k
+@dataclass(frozen=True, kw_only=True)
+class GradientForms(Case):
+    """Errors of the gradient of a wave along x in three forms, by plain quadrature."""
+    disorder: Disorder
+    h: float
+    wavelength: int
+    seed: int = 1
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        points = self.disorder.make((self.wavelength, BREADTH), self.disorder.size, self.seed)
+        key = {"h": self.h, "points": self.disorder.name, "wavelength": self.wavelength, "seed": self.seed}
+        edges = plain(points, Lucy.of(h=self.h))
+        errors = form_errors(edges, points.x[:, 0], 2*np.pi/self.wavelength)
+        return Outcome({"brackets": [key | errors]})
 
 
 # --- vortices -----------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
-class VortexDecay(Case):
-    """A decaying Taylor-Green vortex against the gas of its Mach number; h = 0: the maker takes no weight.
-
-    Without an error where the run diverges or there are no such edges.
-    """
-    make: Callable[[Points, Any], Edges]
-    h: float
-    disorder: Disorder
-    wavelength: int
+class VortexDecay(OnPoints):
+    """A decaying Taylor-Green vortex against the gas of its Mach number; h = 0: the maker takes no weight."""
     mach: float = 0.05
-    seed: int = 1
+
+    table = "vortices"
+    numbers = ("velocity", "exchanges")
 
     @property
     def cost(self) -> float:
@@ -147,40 +144,38 @@ class VortexDecay(Case):
         once = 1.0*(self.make.__name__ == "exact") + 6.0*(self.disorder.name == "relaxed")
         return size**3*(0.06*self.h + 0.15)*0.05/self.mach + size**4*once + 0.1
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        points = self.disorder.make((self.wavelength, self.wavelength), self.disorder.size, self.seed)
-        key = {"maker": self.make.__name__, "h": self.h, "points": self.disorder.name,
-               "wavelength": self.wavelength, "seed": self.seed}
-        try:
-            edges = self.make(points, Lucy.of(h=self.h) if self.h else None)
-        except ArithmeticError:     # no such edges exist on these points: that is a result
-            return Outcome({"vortices": [key | {"velocity": np.nan, "exchanges": np.nan}]})
-        end = decayed(Vortex(self.mach, self.wavelength), points, edges, report)
-        error = difference(edges.V, end.v, velocities(solved(self.mach), points.x/self.wavelength))
-        exchanges = RK4.evaluations*end.steps*len(edges.i) if end.reached == 1 else np.nan
-        return Outcome({"vortices": [key | {"velocity": error, "exchanges": exchanges}]})
+    def measured(self, points: Points, edges: Edges, report: Report) -> Sequence[float]:
+        v, steps = decayed(Vortex(self.mach, self.wavelength), points, edges, report)
+        known = velocities(solved(self.mach), points.x/self.wavelength)
+        squares, of_known = (edges.V@(u**2).sum(axis=1) for u in (v - known, known))
+        return np.sqrt(squares/of_known), RK4.evaluations*steps*len(edges.i)
 
 
-def difference(V: np.ndarray, v: np.ndarray, known: np.ndarray) -> float:
-    """Relative rms difference of velocities (n, 2)."""
-    squares = ((v - known)**2).sum(axis=1)
-    return float(np.sqrt(V@squares/(V@(known**2).sum(axis=1))))
+def begun(vortex: Vortex, points: Points, edges: Edges) -> tuple[Layer, np.ndarray]:
+    """The gas on points, kappa = eta, and its state (4, n) at the start."""
+    gas = Layer(x=points.x, edges=edges, beyond=NONE_BEYOND, eos=IdealGas(),
+                law=ConstEta(vortex.eta, vortex.eta), T_plates=(1.0, 1.0), g=0.0)
+    rho = vortex.density(points.x)
+    return gas, gas.state(rho, vortex.velocity(points.x), rho)
+
+
+def decayed(vortex: Vortex, points: Points, edges: Edges,
+            report: Report | None = None) -> tuple[np.ndarray, float]:
+    """Velocities (n, 2) at the end over the initial speed, and steps of the run; nan where it diverged."""
+    method, first = begun(vortex, points, edges)
+    steps = ceil(vortex.time/(OF_LIMIT*limit_of(method, first)))
+    try:
+        last = run(method, first, Plan(dt=vortex.time/steps, steps=steps), report).state
+    except Divergence:
+        return np.full((points.n, 2), np.nan), np.nan
+    return method.fields(last).v/vortex.speed, steps
 
 
 # --- layers -------------------------------------------------------------------------------------------------
 
-
-@cache
-def moved_apart(width: float, height: float, size: float, seed: int) -> np.ndarray:
-    """`settled`, once for all makers of edges."""
-    return settled(width, height, size, seed)
-
-
 #: kinds of irregular points: makers and size of their disorder, in spacings
 POINTS: dict[str, tuple[Callable, float]] = {
-    "jittered-0.3": (positions, 0.3),
-    "random": (hard_core, 0.5),
-    "relaxed": (moved_apart, 0.5)}
+    "jittered-0.3": (positions, 0.3), "random": (hard_core, 0.5), "relaxed": (settled, 0.5)}
 
 
 def on_lattice(h: float) -> Scheme:
@@ -208,40 +203,29 @@ class FixedConvection(Case):
         """Points that move apart take the longer the more there are."""
         L, h = self.scene.L, self.scheme.h
         steps = self.t_end*L/self.scene.free_fall/max(0.2, 1.1 - L/100)
-        points = self.scene.width*(L + self.scheme.held)
         apart = 0.04*L**2 if self.kind == "relaxed" else 0.0
-        return steps*points*1e-7*h**2 + 5 + apart
-
-    @property
-    def label(self) -> str:
-        points = round(self.scene.width)*(round(self.scene.L) + self.scheme.held)
-        return f"dih {self.scheme.name} Ra {self.scene.ra:g}, {points} points, seed {self.seed}"
+        return steps*self.scene.width*(L + self.scheme.held)*1e-7*h**2 + 5 + apart
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        """A row of `convection`; without exchanges where the points have no such edges."""
-        try:
-            values = self.measured(report, folder)
-        except ArithmeticError:
-            if self.scheme.make is not exact:       # others exist on all points
-                raise
-            values = NOTHING | {"exchanges": 0.0}
         h = 0.0 if self.scheme.held else self.scheme.h      # triangles between rows of points have no weight
         key = {"maker": self.scheme.make.__name__, "h": h, "points": self.kind, "rows": round(self.scene.L),
                "seed": self.seed}
-        return Outcome({"convection": [key | values]})
+        return Outcome({"convection": [key | self.measured(report, folder)]})
 
     def measured(self, report: Report, folder: Path) -> dict[str, Any]:
         """K, Nu, rolls at the end, and exchanges over edges, to images among them."""
-        ready, _, done = followed(self.scene, self.scheme, self.seed, self.t_end, RECORDS, report,
-                                  folder/"run.h5")
+        try:
+            ready, _, done = followed(self.scene, self.scheme, self.seed, self.t_end, RECORDS, report,
+                                      folder/"run.h5")
+        except ArithmeticError:     # no such edges exist on these points: that is a result
+            return NOTHING
         if done is None:
             return NOTHING
         method, flow = ready.method, ready.method.fields(done.state)
-        beyond = getattr(method, "beyond", None)
-        number = len(method.edges.i) + (len(beyond.i) if beyond else 0)
+        number = len(method.edges.i) + len(getattr(method, "beyond", NONE_BEYOND).i)
         end = ended(self.scene, done)._asdict()
-        number_of_rolls = rolls(self.scene, flow.x, flow.v[:, 1])
-        return end | {"rolls": number_of_rolls, "exchanges": RK4.evaluations*done.step*number}
+        return end | {"rolls": rolls(self.scene, flow.x, flow.v[:, 1]),
+                      "exchanges": RK4.evaluations*done.step*number}
 
 
 def convection(kind: str, scheme: Scheme, rows: int, seed: int = 1) -> FixedConvection:

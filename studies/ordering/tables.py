@@ -1,9 +1,23 @@
-"""Tables of the study ordering. Lengths in spacings; errors relative; `_err`: half of the 95 % interval."""
+"""Tables of the study ordering, and what follows from them: means over seeds, slopes, what 1 % costs.
+
+Lengths in spacings; errors relative; `_err`: half of the 95 % interval.
+"""
+from collections.abc import Iterator, Sequence
+from math import inf
+from typing import Any
+
 import numpy as np
+import pandas as pd
 
 from particles.integral.interpolants import moment
 from particles.weights import Lucy
-from studies.kit.table import Table
+from studies.kit.ask import one
+from studies.kit.csvfile import read
+from studies.kit.fits import power_law
+from studies.kit.stats import seed_means
+from studies.kit.sweep import RESULTS
+from studies.kit.table import Row, Rows, Table, Tables
+from studies.ordering.runs import FORMS, RA
 
 #: rms width of Lucy's weight in 2D, RR98's r0, over its range
 WIDTH = float(np.sqrt(moment(Lucy.of(h=1.0, d=2), 3, 2)/4))
@@ -15,43 +29,175 @@ MEANS = Table.of("means", POINT, "seeds gradient gradient_err laplacian laplacia
                  about="The same, means over seeds.")
 SLOPES = Table.of("slopes", "maker points operator fixed at", "slope slope_err floor",
                   about="How these errors change with h over the wavelength.",
-                  means={"operator": ("gradient or laplacian", ""), "slope": ("d ln error/d "
-                                                                              "ln(h/wavelength)", "")})
-
-FORM = {"form": ("which gradient: single, sum or difference", "")}
+                  means={"operator": ("gradient or laplacian", "")})
 BRACKETS = Table.of("brackets", "h points wavelength seed", "single sum difference",
                     about="The gradient of a plane wave by plain quadrature in three forms.")
 BRACKET_MEANS = Table.of("bracket_means", "h points wavelength form", "seeds error error_err",
-                         about="The same, means over seeds.",
-                         means=FORM | {"error": ("relative rms error of the gradient", "")})
+                         about="The same, means over seeds.")
 BRACKET_SLOPES = Table.of("bracket_slopes", "points form", "slope slope_err",
-                          about="How these errors change with h over the wavelength at h = 3 a.",
-                          means=FORM | {"slope": ("d ln error/d ln(h/wavelength)", "")})
-
+                          about="How these errors change with h over the wavelength at h = 3 a.")
 VORTICES = Table.of("vortices", f"{POINT} seed", "velocity exchanges",
-                    about="A Taylor-Green vortex that has decayed by e, against the gas of its Mach number; "
-                          "no "
-                          "numbers where the run diverged.")
+                    about="A Taylor-Green vortex that has decayed by e; no numbers where the run diverged.")
 CONVECTION = Table.of("convection", "maker h points rows seed",
                       "ke ke_err nu nu_err rolls converged exchanges",
                       about="Rayleigh-Benard convection at Ra 10 000: its end; no numbers where it diverged.")
-REFERENCE = Table.of("reference", "flow", "ke ke_err",
-                     about="K of the grid of the study rb, extrapolated.")
+REFERENCE = Table.of("reference", "flow", "ke ke_err", about="K of the grid of the study rb, extrapolated.")
 SERIES = "flow maker h points"
-SPACINGS = ("spacings to the wavelength (taylor-green) or to the height (convection)", "")
+SPACINGS = "spacings to the wavelength (taylor-green) or to the height (convection)"
 FLOWS = Table.of("flows", f"{SERIES} resolution", "seeds lost error error_err exchanges",
                  about="Means over seeds: a point of the error surface.",
-                 means={"resolution": SPACINGS, "lost": ("seeds without a number", ""),
+                 means={"resolution": (SPACINGS, ""), "lost": ("seeds without a number", ""),
                         "error": ("error of the velocity of vortices, of K of convection with sign", "")})
 FLOW_SLOPES = Table.of("flow_slopes", "flow maker points fixed at", "slope slope_err",
                        about="How these errors change with the spacing or the range, all runs in one fit.",
-                       means={"slope": ("d ln |error|/d ln a at fixed h/a, d ln |error|/d ln h at fixed a",
-                                        "")})
+                       means={"slope": ("d ln |error|/d ln of a at fixed h/a, of h at fixed a", "")})
 CHEAPEST = Table.of("cheapest", SERIES, "needed needed_err exchanges bound finest",
                     about="What an error of 1 % costs; no numbers where no run is that good.",
-                    means={"needed": (f"least number of {SPACINGS[0]} from which on the error stays below 1 "
-                                      f"%", ""),
+                    means={"needed": (f"least number of {SPACINGS} from which on the error is below 1 %", ""),
                            "exchanges": ("exchanges over edges at that resolution", "")})
 
 ALL = (OPERATORS, MEANS, SLOPES, BRACKETS, BRACKET_MEANS, BRACKET_SLOPES, VORTICES, CONVECTION, REFERENCE,
        FLOWS, FLOW_SLOPES, CHEAPEST)
+
+# --- what follows from them ---------------------------------------------------------------------------------
+
+WIDE = 2.0          # spacings: ranges from which on errors are a power of the range
+WAVES = 4           # of a slope, at least
+RESOLUTIONS = 3     # of a slope over flows, and over forms of the gradient
+WANTED = 0.01       # the error at which costs are compared
+#: the grid of the study rb, extrapolated
+GRID = {"method": "compressible", "variant": "flux-form", "eos": "ideal", "transport": "const-eta",
+        "sides": "periodic", "ra": RA, "pr": 1.0, "resolution": inf}
+FLOW_POINT = list(FLOWS.key)
+
+
+def derive(tables: Tables) -> Rows:
+    """Derived rows of the study."""
+    rows = of_flows(tables)
+    if "operators" in tables:
+        rows |= of_operators(tables["operators"])
+    if "brackets" in tables:
+        rows |= of_brackets(tables["brackets"])
+    return rows
+
+
+def slopes(rows: pd.DataFrame, key: Sequence[str], x: str, least: int) -> Iterator[Row]:
+    """d ln error/d ln x of each group with so many x."""
+    for values, group in rows.groupby(list(key)):
+        if group[x].nunique() >= least:
+            slope = power_law(group[x], group["error"]).slope
+            common = dict(zip(key, values, strict=True))
+            yield common | {"slope": slope.value, "slope_err": slope.err}
+
+
+def of_operators(rows: pd.DataFrame) -> dict[str, Any]:
+    """Of gradients and Laplacians of waves: slopes over wavelengths, and over ranges from 2 spacings on."""
+    operators = ["gradient", "laplacian"]
+    means = list(seed_means(rows.dropna(subset="gradient"), MEANS.key, operators))
+    errors = pd.DataFrame(means).melt(MEANS.key, operators, "operator", "error")
+    errors = errors.assign(ratio=errors["h"]/errors["wavelength"])
+    wide = errors.query("h >= @WIDE")
+    finer = wave_slopes(errors.assign(fixed="h/a", at=errors["h"]))
+    wider = wave_slopes(wide.assign(fixed="a", at=wide["wavelength"]))
+    return {"means": means, "slopes": [*finer, *wider]}
+
+
+def wave_slopes(errors: pd.DataFrame) -> Iterator[Row]:
+    """Slopes in h/lambda with the least error of each."""
+    floors = errors.groupby(list(SLOPES.key))["error"].min()
+    for row in slopes(errors, SLOPES.key, "ratio", WAVES):
+        yield row | {"floor": floors[tuple(row[name] for name in SLOPES.key)]}
+
+
+def of_brackets(rows: pd.DataFrame) -> dict[str, Any]:
+    """Of gradients in three forms; slopes at h = 3 a."""
+    errors = rows.melt(BRACKETS.key, FORMS, "form", "error")
+    means = list(seed_means(errors, BRACKET_MEANS.key, ["error"]))
+    series = pd.DataFrame(means).query("h == 3")
+    series = series.assign(ratio=1/series["wavelength"])
+    return {"bracket_means": means,
+            "bracket_slopes": list(slopes(series, BRACKET_SLOPES.key, "ratio", RESOLUTIONS))}
+
+
+def of_flows(tables: Tables) -> dict[str, Any]:
+    """Of vortices (errors of the velocity) and of convection."""
+    known, parts = reference(), []
+    if "vortices" in tables:
+        vortices = tables["vortices"].rename(columns={"wavelength": "resolution", "velocity": "error"})
+        parts.append(vortices.assign(flow="taylor-green", error_err=0.0))
+    if "convection" in tables:
+        parts.append(convection(tables["convection"], known["ke"]))
+    if not parts:
+        return {}
+    runs = pd.concat(parts, ignore_index=True)
+    means = flow_means(runs)
+    return {"reference": [known], "flows": means.to_dict("records"),
+            "flow_slopes": list(flow_slopes(runs, means)), "cheapest": list(cheapest(means))}
+
+
+def reference() -> Row:
+    """K of the grid of the study rb, extrapolated."""
+    ke = one("means", "ke", **GRID)(Tables({"means": read(RESULTS/"rb"/"means.csv")}))
+    return {"flow": "convection", "ke": ke.value, "ke_err": ke.err}
+
+
+def convection(rows: pd.DataFrame, ke: float) -> pd.DataFrame:
+    """Errors of K, with what the last tenth of a run changed; none of a run that ends in other rolls."""
+    error = (rows["ke"]/ke - 1).where(rows["rolls"] == 2)
+    rows = rows.assign(flow="convection", error=error, error_err=rows["ke_err"]/ke)
+    return rows.rename(columns={"rows": "resolution"})
+
+
+def flow_means(runs: pd.DataFrame) -> pd.DataFrame:
+    """One row a point of the error surface."""
+    there = seed_means(runs.dropna(subset="error"), FLOW_POINT, ["error"])
+    errors = pd.DataFrame(there, columns=[*FLOW_POINT, "error", "error_err"])
+    points = runs.groupby(FLOW_POINT, as_index=False)
+    means = points.agg(seeds=("seed", "size"), known=("error", "count"), exchanges=("exchanges", "mean"))
+    means["lost"] = means["seeds"] - means.pop("known")
+    return means.merge(errors, on=FLOW_POINT, how="left")
+
+
+def flow_slopes(runs: pd.DataFrame, means: pd.DataFrame) -> Iterator[Row]:
+    """Over resolutions and over ranges; of points where no seed is lost and the error differs from zero."""
+    sure = means.query("lost == 0 and abs(error) > error_err")
+    runs = runs.merge(sure[FLOW_POINT], on=FLOW_POINT)
+    runs = runs.assign(spacing=1/runs["resolution"])
+    wide = runs.query("h >= @WIDE")
+    key = FLOW_SLOPES.key
+    yield from slopes(runs.assign(fixed="h/a", at=runs["h"]), key, "spacing", RESOLUTIONS)
+    yield from slopes(wide.assign(fixed="a", at=wide["resolution"]), key, "h", RESOLUTIONS)
+
+
+def cheapest(means: pd.DataFrame) -> Iterator[Row]:
+    """Where the error comes below 1 % and stays there."""
+    means = means.assign(error=means["error"].abs()).sort_values("resolution")
+    for values, group in means.groupby(list(CHEAPEST.key)):
+        key = dict(zip(CHEAPEST.key, values, strict=True))
+        yield key | needed(group) | {"finest": group["error"].iloc[-1]}
+
+
+def needed(group: pd.DataFrame) -> dict[str, float]:
+    """Resolution and exchanges for 1 % in one series, errors without sign; none where 1 % was not reached."""
+    above = np.flatnonzero(~(group["error"] <= WANTED) | (group["lost"] > 0))
+    if not len(above):
+        first = group.iloc[0]
+        return {"needed": first["resolution"], "needed_err": np.nan, "exchanges": first["exchanges"],
+                "bound": 1}
+    pair = group.iloc[above[-1]:above[-1] + 2]
+    if len(pair) < 2 or not np.isfinite(pair["error"].iloc[0]):
+        return {"needed": np.nan, "needed_err": np.nan, "exchanges": np.nan, "bound": 0}
+    return crossing(pair) | {"bound": 0}
+
+
+def crossing(pair: pd.DataFrame) -> dict[str, float]:
+    """Between two resolutions with errors above and below 1 %, by a power law."""
+    coarse, fine = pair["error"]
+    size = np.log(pair["resolution"].astype(float))
+    share = np.log(coarse/WANTED)/np.log(coarse/fine)
+    weights = np.array([1 - share, share])
+    order = np.log(coarse/fine)/np.diff(size)[0]
+    unsure = np.linalg.norm(weights*pair["error_err"]/pair["error"])/order
+    resolution = np.exp(weights@size)
+    return {"needed": resolution, "needed_err": resolution*unsure,
+            "exchanges": np.exp(weights@np.log(pair["exchanges"]))}

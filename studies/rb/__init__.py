@@ -1,7 +1,88 @@
-"""Rayleigh-Benard convection: do particles converge on the gas, and what does KHP95 print that holds?"""
+"""Rayleigh-Benard convection: do particles converge on the gas, and what does KHP95 print that holds?
+
+Besides the study: a method of one's own with few rows, its K beside that of its kin in the tables.
+"""
+from collections.abc import Iterator, Sequence
+from itertools import product
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from continuum.scene import RayleighBenard
+from studies.build import METHODS, near
+from studies.build.fixed import Scheme
+from studies.build.moving import DriftMotion, FacesMotion
+from studies.build.spam import Variant
+from studies.build.words import name_of
+from studies.kit.case import Case
 from studies.kit.study import Own, Part, Study
-from studies.rb import cases, own
+from studies.kit.sweep import NoSuchCase
+from studies.kit.table import Tables
+from studies.rb import cases, tables
 from studies.rb.runs.arithmetic import SUBJECTS, WithoutFlow
+from studies.rb.runs.points import DihRun, DriftRun, MovingRun
+from studies.rb.runs.spam import SpamRun
+
+RA = 1e4
+#: family of variants -> its case
+RUNS: dict[type, Any] = {Variant: SpamRun, Scheme: DihRun, FacesMotion: MovingRun, DriftMotion: DriftRun}
+SAME = ["method", "variant"]
+
+
+def own(text: str, rows: int, seeds: int) -> list[Case]:
+    """Runs in the layer of the methods that a text names. Raises NoSuchCase: It names none."""
+    scene = RayleighBenard(ra=RA, L=float(rows))
+    return [RUNS[type(variant)](scene=scene, variant=variant, seed=seed)
+            for variant, seed in product(chosen(text), range(1, seeds + 1))]
+
+
+def chosen(text: str) -> list:
+    """The variant of this name, within its family or with it; if there is none all with the text in it."""
+    known = {name: variant for name, variant in METHODS.items() if type(variant) in RUNS}
+    exact = [variant for name, variant in known.items() if text in (name, variant.name)]
+    some = exact or [variant for name, variant in known.items() if text.casefold() in name]
+    if not some:
+        raise NoSuchCase(f"no method on points has {text!r} in its name; near to it are {near(text, known)}")
+    return some
+
+
+def beside(tried: Sequence[Any], here: Tables, others: Tables) -> Iterator[str]:
+    """K of cases, then of others of their kind with the nearest rows, and the grid's; the largest first.
+
+    The lines say how they are ordered, and that others have been run with other rows, over more seeds.
+    """
+    points = pd.DataFrame([one.point for one in tried])[[*SAME, "resolution"]].drop_duplicates()
+    points["resolution"] = points["resolution"].astype(float)
+    yield f"K of the flow at Ra {RA:g}, Pr 1, as it was run now; +- : half of the 95 % interval"
+    yield from lines(means(here).merge(points, how="right"))
+    yield ("beside it, from the tables, the largest K first: every method of its kind with the rows that are "
+           "nearest, a mean over its seeds;")
+    yield "limit: the grid's K at infinitely many rows, which is the right one"
+    known = means(others).merge(points, how="left", indicator="own").query("own == 'left_only'")
+    kin = known[known["method"].isin(points["method"]) & np.isfinite(known["resolution"])]
+    apart = (kin["resolution"] - points["resolution"].iloc[0]).abs()
+    nearest = kin.loc[apart.sort_values(kind="stable").index].drop_duplicates(SAME)
+    limit = known.query("method == 'compressible' and variant == 'flux-form' and resolution == inf")
+    yield from lines(pd.concat([nearest, limit]))
+
+
+def means(frames: Tables) -> pd.DataFrame:
+    """Rows of the table in the scene of `own`; none where there is no table."""
+    columns = [*tables.POINT, "ke_field", "ke_field_err"]
+    frame = frames["means"] if "means" in frames else pd.DataFrame(columns=columns)
+    where = tables.scene(RA)
+    return frame.loc[(frame[list(where)] == pd.Series(where)).all(axis=1), columns]
+
+
+def lines(frame: pd.DataFrame) -> Iterator[str]:
+    """Rows, K with its error, words for the method; the largest K first."""
+    columns = [*SAME, "resolution", "ke_field", "ke_field_err"]
+    for method, variant, rows, ke, err in frame.sort_values("ke_field", ascending=False)[columns].to_numpy():
+        size = "limit" if np.isinf(rows) else f"{rows:g} rows"
+        value = f"{ke:.6f} +- {err:.6f}" if np.isfinite(ke) else "diverged"
+        yield f"{size:>8}  {value:<20}  {name_of(method, variant) or f'{method} {variant}'}"
+
 
 NUMBERS = Part(cases=lambda size: [WithoutFlow(numbers=subject) for subject in SUBJECTS], tables=())
-STUDY = Study.of("rb", __doc__, (cases.PART, NUMBERS), Own(own.cases, own.beside))
+STUDY = Study.of("rb", __doc__, (cases.PART, NUMBERS), Own(own, beside))

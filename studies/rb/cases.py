@@ -11,11 +11,8 @@ from typing import Any
 from continuum.fluid import ConstNu, DenseFluid, VanDerWaals
 from continuum.scene import Periodic, RayleighBenard, Walls
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
-from studies.build.fixed import SCHEMES
 from studies.build.grid import FORMS
 from studies.build.measure import Smoothing
-from studies.build.moving import MOTIONS
-from studies.build.rr98_moving import DRIFT_MOTIONS
 from studies.build.spam import PRINTED, VARIANTS, Variant
 from studies.kit.case import Case
 from studies.kit.study import Part
@@ -23,6 +20,7 @@ from studies.rb import tables
 from studies.rb.claims import RB_CLAIMS
 from studies.rb.derive import derive
 from studies.rb.figures import figures
+from studies.rb.points import points
 from studies.rb.runs.grid import (
     BoussinesqSteady,
     CompressibleApproach,
@@ -30,7 +28,6 @@ from studies.rb.runs.grid import (
     CompressibleStep,
     PypdeSteady,
 )
-from studies.rb.runs.points import DihRun, DriftRun, MovingRun
 from studies.rb.runs.spam import SpamRun, SpamStep
 
 LAYER: dict[str, Any] = {"aspect": 2.0, "sides": Periodic()}     # Fig. 5
@@ -39,7 +36,7 @@ NU: dict[str, Any] = {"transport": ConstNu}
 VDW: dict[str, Any] = {"eos": VanDerWaals()}
 DENSE: dict[str, Any] = {"eos": DenseFluid(), "pr": 1.5}    # C_V = 1.5: pr = 1.5 is the printed eta = k
 SEEDS = (1, 2, 3)
-MANY = tuple(range(1, 9))       # in fine: of 5000 particles at Ra 10 000, which most statements are about
+MANY = (*SEEDS, 4, 5, 6, 7, 8)      # in fine: of 5000 particles at Ra 10 000, which most statements are about
 KEPT = {1e4: "all", 5e3: "fields", 2.5e3: "fields"}
 RA = (1500.0, 2500.0, 5000.0, 10000.0, 20000.0)  # of the particles
 LINE = (1500.0, 1750.0, 2000.0, 2500.0, 3000.0, 3500.0, 4200.0, 5000.0, 6000.0, 6830.0, 10000.0, 20000.0,
@@ -47,6 +44,7 @@ LINE = (1500.0, 1750.0, 2000.0, 2500.0, 3000.0, 3500.0, 4200.0, 5000.0, 6000.0, 
 #: weights and ranges through which the grid's flow is seen, too; one more runs these grids again
 SEEN: tuple[tuple[type, float], ...] = (
     (Lucy, 4.0), (Lucy, 6.0), (Monaghan, 3.0), (WendlandC2, 3.0), (WendlandC4, 3.0), (WendlandC6, 3.0))
+GRIDS, COARSE = (24, 32, 48), (12, 16, 24)
 
 
 def spam(ra: float, rows: int, seeds=SEEDS, variant: Variant = PRINTED, keep="", t_end=90.0, mean_from=40.0,
@@ -62,36 +60,36 @@ def gas(ra: float, sizes: tuple[int, ...], keep="", form="flux-form", longest=60
         **scene) -> CompressibleSteady:
     """Steady states on grids, seen through the weights of the particles that are compared with them."""
     where = RayleighBenard(ra=ra, **(LAYER | scene))
-    smooth = seen_by(where) if form == "flux-form" else ()
+    smooth = tuple(seen_by(where)) if form == "flux-form" else ()
     return CompressibleSteady(scene=where, sizes=sizes, keep=keep, form=FORMS[form], longest=longest,
                               smooth=smooth)
 
 
-def seen_by(scene: RayleighBenard) -> tuple[Smoothing, ...]:
+def seen_by(scene: RayleighBenard) -> Iterator[Smoothing]:
     """The printed weight at all numbers of particles, those of the variants where these are run."""
-    if isinstance(scene.sides, Walls):
-        return tuple(Smoothing(Lucy, 3.0, rows) for rows in (20, 28, 40))
-    lucy = [Smoothing(Lucy, 3.0, rows) for rows in (16, 25, 35, 50, 70, 100)]
-    others = [Smoothing(weight, h, rows) for weight, h in SEEN for rows in (16, 25, 50)]
-    return (*lucy, *others) if scene.ra in (3e3, 5e3, 1e4) else tuple(lucy)
+    in_box = isinstance(scene.sides, Walls)
+    for rows in (20, 28, 40) if in_box else (16, 25, 35, 50, 70, 100):
+        yield Smoothing(Lucy, 3.0, rows)
+    if scene.ra in (3e3, 5e3, 1e4) and not in_box:
+        for (weight, h), rows in product(SEEN, (16, 25, 50)):
+            yield Smoothing(weight, h, rows)
 
 
 def cases(size: str) -> list[Case]:
     """All cases of a size; `fine` has those of `paper` besides its own."""
-    if size == "quick":
-        return list(quick())
-    return [*paper(), *((*fine(), *points()) if size == "fine" else ())]
+    parts = {"quick": (quick,), "paper": (paper,), "fine": (paper, fine, points)}[size]
+    return [case for part in parts for case in part()]
 
 
 def quick() -> Iterator[Case]:
     for ra in (1500.0, 5000.0, 10000.0):
-        yield replace(gas(ra, (12, 16, 24)), smooth=(Smoothing(Lucy, 3.0, 16),))
-        yield BoussinesqSteady(ra=ra, pr=2.0, sizes=(12, 16, 24))
+        yield replace(gas(ra, COARSE), smooth=(Smoothing(Lucy, 3.0, 16),))
+        yield BoussinesqSteady(ra=ra, pr=2.0, sizes=COARSE)
         yield from spam(ra, 16, SEEDS[:2], t_end=60.0, mean_from=25.0, keep="all" if ra == 10000 else "")
     yield CompressibleApproach(scene=RayleighBenard(ra=1e4), rows=16)
-    yield PypdeSteady(ra=5000.0, scene=RayleighBenard(ra=5000.0), sizes=(12, 16, 24))
+    yield PypdeSteady(ra=5000.0, scene=RayleighBenard(ra=5000.0), sizes=COARSE)
     yield SpamStep(scene=RayleighBenard(ra=1e4, L=16.0))
-    for rows in (12, 16, 24):
+    for rows in COARSE:
         yield CompressibleStep(scene=RayleighBenard(ra=1e4), rows=rows)
 
 
@@ -110,11 +108,11 @@ def paper() -> Iterator[Case]:
 def grids() -> Iterator[Case]:
     """References of the layer: the lines of Fig. 5, Boussinesq, py-pde, the approach of Fig. 8."""
     for ra in LINE:
-        yield gas(ra, (24, 32, 48), keep="fields" if ra in (3e3, 5e3, 1e4) else "")
+        yield gas(ra, GRIDS, keep="fields" if ra in (3e3, 5e3, 1e4) else "")
         for pr in (0.71, 1.0, 2.0, 7.0):
             yield BoussinesqSteady(ra=ra, pr=pr)
     for ra, fluid in product((2000.0, 2500.0, 3000.0, 3500.0, 5000.0, 6830.0, 10000.0), (NU, VDW)):
-        yield gas(ra, (24, 32, 48), **fluid)
+        yield gas(ra, GRIDS, **fluid)
     for ra in (5000.0, 10000.0):
         yield PypdeSteady(ra=ra, scene=RayleighBenard(ra=ra), sizes=(16, 24, 32, 48))
         for pr in (1.0, 7.0):
@@ -159,7 +157,7 @@ def checks() -> Iterator[Case]:
 def squares() -> Iterator[Case]:
     """The square box of Fig. 6. Onset is at 5012; far above it the flow takes longer to settle."""
     for ra in (3500.0, 6000.0, 7000.0, 8000.0, 10000.0, 14000.0, 20000.0):
-        yield gas(ra, (24, 32, 48), **BOX)
+        yield gas(ra, GRIDS, **BOX)
     for ra in (3500.0, 7000.0, 10000.0, 20000.0):
         start = 80.0 if ra == 20000 else 40.0
         for rows in (40, 28, 20):
@@ -199,52 +197,13 @@ def fine() -> Iterator[Case]:
         yield from spam(ra, 50, t_end=180.0, mean_from=90.0)
     yield gas(1e5, (32, 48, 64), longest=4.0)        # the flow itself oscillates: means over its last half
     hot: dict[str, Any] = {"form": "fig10", "longest": 6.0, "T_hot": 10.0, "T_cold": 0.5} | BOX
+    for ra in (5e3, 1e4):
+        yield gas(ra, GRIDS, form="edge-heat")
     yield gas(67150.0, (32, 48), **hot)
     yield gas(67150.0, (32, 48), **hot, **DENSE)
     for ra, rows in product((5e4, 2e5), (50, 100)):
         yield CompressibleApproach(scene=RayleighBenard(ra=ra), rows=rows, t_end=2.1*ra**0.5)    # 2.1 L^2/eta
     yield CompressibleApproach(scene=RayleighBenard(ra=3e3, **DENSE), rows=24, t_end=22*(3000/1.5)**0.5)
-
-
-#: rows of the schemes on points that converge; 40 of the others
-MOST = {"fixed-lattice": 80, "fixed-lattice-printed-heat": 80, "fixed-lattice-h3": 80,
-        "fixed-lattice-nested": 80, "fixed-jittered-plates": 64, "fixed-random-plates": 50,
-        "relaxed-plates": 50, "fixed-jittered-delaunay": 50, "fixed-random-delaunay": 50,
-        "relaxed-delaunay": 50}
-#: schemes that only other studies run
-ELSEWHERE = {"fixed-lattice-h1.2", "fixed-lattice-monaghan", "fixed-lattice-wendland-c2"}
-#: of RR98's own motions, those with 40 rows besides 25
-FINER = ("moving-literal", "moving-convective", "moving-constant-mass", "moving-less-static")
-
-
-def points() -> Iterator[Case]:
-    """Discretized integral hydrodynamics: points on a lattice, irregular points, moving points."""
-    for ra in (5e3, 1e4):
-        yield gas(ra, (24, 32, 48), form="edge-heat")
-        for height in (25.0, 40.0, 50.0, 64.0, 80.0):
-            yield from on_points(RayleighBenard(ra=ra, L=height))
-    for height in (25.0, 40.0, 50.0):
-        yield DihRun(scene=RayleighBenard(ra=1e4, L=height, **NU))
-    few, many = RayleighBenard(ra=1e4, L=25.0), RayleighBenard(ra=1e4, L=40.0)
-    # seeds differ by 0.03 %, ingredients by more
-    for name, where, seed in product(sorted({*MOTIONS} - {"moving"}), (few, many), SEEDS[:2]):
-        yield MovingRun(scene=where, motion=MOTIONS[name], seed=seed)
-    for motion, seed in product(DRIFT_MOTIONS.values(), SEEDS):
-        yield DriftRun(scene=few, motion=motion, seed=seed)
-    for name, seed in product(FINER, SEEDS[:2]):
-        yield DriftRun(scene=many, motion=DRIFT_MOTIONS[name], seed=seed)
-
-
-def on_points(where: RayleighBenard) -> Iterator[Case]:
-    """All schemes on points that stay, as fine as each is run, and the one on points that move."""
-    for name in sorted(SCHEMES.keys() - ELSEWHERE):
-        seeds = SEEDS[:1] if "lattice" in name else SEEDS
-        if where.L <= MOST.get(name, 40):
-            yield from (DihRun(scene=where, scheme=SCHEMES[name], seed=seed) for seed in seeds)
-    if where.L <= 64:
-        yield from (MovingRun(scene=where, seed=seed) for seed in SEEDS)
-    elif where.ra == 1e4:     # an error of first order, from the plates, shows in the finest
-        yield from (MovingRun(scene=where, seed=seed) for seed in SEEDS[:2])
 
 
 PART = Part(cases=cases, tables=tables.ALL, derive=derive, figures=figures, claims=RB_CLAIMS)

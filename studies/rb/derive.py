@@ -33,8 +33,8 @@ def derive(tables: Tables) -> Rows:
     means = pd.DataFrame(over_seeds(all_runs))
     return {
         "kinetic_energy": limits,
-        "means": records(means),
-        "errors": records(errors(runs, means, tables)),
+        "means": means.to_dict("records"),
+        "errors": errors(runs, means, tables).to_dict("records"),
         "snapshots": list(snapshots(tables)),
         "field_errors": list(field_errors(tables, means)),
     }
@@ -43,11 +43,6 @@ def derive(tables: Tables) -> Rows:
 def finite(frame: pd.DataFrame) -> pd.DataFrame:
     """Rows that are not extrapolated."""
     return frame[np.isfinite(frame["resolution"].astype(float))]
-
-
-def records(frame: pd.DataFrame) -> list[Row]:
-    """Rows of a table."""
-    return frame.to_dict("records")
 
 
 def extrapolated(runs: pd.DataFrame) -> Iterator[Row]:
@@ -74,9 +69,8 @@ def extrapolated(runs: pd.DataFrame) -> Iterator[Row]:
 
 def grid_limit(group: pd.DataFrame, name: str) -> Measured:
     """Extrapolated value; its error has a part of the grid and one of the values' own (in time)."""
-    own = 2*group[f"{name}_err"].max()
     limit = fits.grid_limit(group.resolution, group[name])
-    return limit._replace(err=np.hypot(limit.err, own))
+    return limit + Measured(0.0, 2*group[f"{name}_err"].max())
 
 
 def line_limit(group: pd.DataFrame, name: str) -> Measured:
@@ -86,13 +80,11 @@ def line_limit(group: pd.DataFrame, name: str) -> Measured:
     K of sets of points scatters as 1/rows^2 or faster, 0.6 % to 0.04 % from 25 to 50 rows: hence weights of
     rows^2. One scatter stands for all that is left over, which three runs of one size tell badly.
     """
-    sizes = group.resolution.to_numpy(float)
-    limit = fits.line(1/sizes**2, group[name], weight=sizes**2).intercept
-    finer = sizes > sizes.min()
-    x, weight = 1/sizes[finer]**2, sizes[finer]**2
-    _, without = np.polyfit(x, group[name][finer], 1, w=weight)
-    change = 2*(limit.value - without)
-    return limit._replace(err=np.hypot(limit.err, change))
+    sizes, y = group.resolution.to_numpy(float), group[name].to_numpy(float)
+    x, weight, finer = 1/sizes**2, sizes**2, sizes > sizes.min()
+    limit = fits.line(x, y, weight=weight).intercept
+    _, without = np.polyfit(x[finer], y[finer], 1, w=weight[finer])
+    return limit + Measured(0.0, 2*(limit.value - without))
 
 
 def over_seeds(runs: pd.DataFrame) -> Iterator[Row]:
@@ -109,8 +101,7 @@ def over_seeds(runs: pd.DataFrame) -> Iterator[Row]:
         same = group[group.rolls == rolls]
         change = step_change(changes, row)
         for name in ENERGIES:
-            pairs = zip(same[name], same[f"{name}_err"])
-            value, err = combine(list(pairs))
+            value, err = combine(list(zip(same[name], same[f"{name}_err"])))
             row |= {name: value, f"{name}_err": np.hypot(err, 2*value*change[name])}
         row |= {"particles": same.particles.iloc[0], "rolls": rolls}
         row |= {"seeds": len(same), "mixed": len(group) - len(same)}
@@ -118,12 +109,13 @@ def over_seeds(runs: pd.DataFrame) -> Iterator[Row]:
 
 
 def step_changes(runs: pd.DataFrame) -> pd.DataFrame:
-    """How much of each energy half of the time step changes, relative, by scene and resolution."""
-    by_point = [*SCENE, "resolution"]
-    half = runs[runs.variant == HALF].groupby(by_point, dropna=False)
-    whole = runs[runs.variant == "printed"].groupby(by_point, dropna=False)
-    changes = half[ENERGIES].mean()/whole[ENERGIES].mean() - 1
-    return changes.abs().dropna().reset_index()
+    """How much of each energy half of the time step changes, relative, by scene and resolution; the finest
+    first.
+    """
+    half, whole = (runs[runs.variant == name].groupby([*SCENE, "resolution"], dropna=False)[ENERGIES].mean()
+                   for name in (HALF, "printed"))
+    changes = (half/whole - 1).abs().dropna().reset_index()
+    return changes.sort_values("resolution", ascending=False, kind="stable")
 
 
 def step_change(changes: pd.DataFrame, row: Row) -> pd.Series:
@@ -133,8 +125,7 @@ def step_change(changes: pd.DataFrame, row: Row) -> pd.Series:
     chosen = coarser if alike.empty else alike
     if row["method"] != "spam" or chosen.empty:
         return pd.Series(0.0, ENERGIES)
-    finest_first = chosen.sort_values("resolution", ascending=False, kind="stable")
-    return finest_first[ENERGIES].iloc[0]
+    return chosen[ENERGIES].iloc[0]
 
 
 def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> pd.DataFrame:
@@ -175,15 +166,12 @@ def with_smoothing(rows: pd.DataFrame, tables: Tables) -> pd.DataFrame:
     spam = rows.query("method == 'spam'").drop(columns="left")
     if "smoothed" not in tables:
         return spam[:0].assign(left=1.0)
-    views = [VARIANTS[name] for name in spam.variant]
-    weights = [view.weight.__name__ for view in views]
-    ranges = [view.h for view in views]
-    spam = spam.assign(weight=weights, h=ranges)
     seen = tables["smoothed"]
     seen = seen.assign(left=seen.ke_smoothed/seen.ke, resolution=seen.rows)
+    views = [VARIANTS[name] for name in spam.variant]
+    spam = spam.assign(weight=[view.weight.__name__ for view in views], h=[view.h for view in views])
     key = [*SCENE, "weight", "h", "resolution"]
-    last = seen.drop_duplicates(key, keep="last")
-    return spam.merge(last[[*key, "left"]], on=key)
+    return spam.merge(seen.drop_duplicates(key, keep="last")[[*key, "left"]], on=key)
 
 
 def spent(runs: pd.DataFrame, tables: Tables) -> pd.DataFrame:

@@ -70,18 +70,16 @@ def errors(tables: Tables, **scene: Any) -> pd.DataFrame:
 
 def steady(tables: Tables, points: pd.DataFrame) -> pd.Series:
     """For each point whether all its runs have settled; a point without runs counts as settled."""
-    runs = rows(tables, "kinetic_energy")
-    settled = runs["converged"].astype(str).eq("True")      # read from CSV, or made
-    restless = pd.MultiIndex.from_frame(runs.loc[~settled & runs["ke"].notna(), POINT])
-    return pd.Series(~pd.MultiIndex.from_frame(points[POINT]).isin(restless), index=points.index)
+    runs = rows(tables, "kinetic_energy").dropna(subset="ke")
+    restless = runs[runs["converged"].astype(str) != "True"].set_index(POINT).index   # from CSV, or made
+    return pd.Series(~points.set_index(POINT).index.isin(restless), index=points.index)
 
 
 def diverged(tables: Tables, **scene: Any) -> pd.DataFrame:
     """Points of a method, particles if none is named, at which runs diverged: `lost` of `seeds`."""
     runs = rows(tables, "kinetic_energy", **{"method": SPAM["method"]} | scene)
-    by_point = runs["ke"].isna().groupby([runs[name] for name in POINT])
-    lost = by_point.agg(lost="sum", seeds="size").reset_index()
-    return lost[lost["lost"] > 0]
+    by_point = runs.assign(lost=runs["ke"].isna()).groupby(POINT)["lost"]
+    return by_point.agg(lost="sum", seeds="size").reset_index().query("lost > 0")
 
 
 def finest(frame: pd.DataFrame) -> pd.DataFrame:

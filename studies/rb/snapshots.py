@@ -1,116 +1,66 @@
 """What particles and mean fields at the end of runs tell: rows of `snapshots` and `field_errors`."""
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from math import hypot, inf, nan, sqrt
 from typing import Any
 
 import numpy as np
 import pandas as pd
-from scipy.sparse import csr_array
-from scipy.spatial import cKDTree
 from scipy.special import stdtrit
 
-from continuum.fluid import stress_tensor
-from studies.build.measure import Fields, mirrored, upright
-from studies.build.snapshot import RANGE, Snapshot
+from continuum.fluid import ConstEta, IdealGas
+from particles.smooth.spam import Spam
+from particles.walls.periodic import periodic
+from particles.weights import Lucy
+from studies.build.measure import RANGE, Fields, Snapshot, mirrored, upright
 from studies.kit.ask import NoRows, rows
-from studies.kit.stats import CannotTell, Measured, combine, over_seeds
+from studies.kit.stats import CannotTell, Measured, combine, over_seeds, with_errors
 from studies.kit.table import Tables
-from studies.rb.runs.few_particles import lucy
+from studies.rb.runs.few_particles import RHO_SQUARED, rates
 from studies.rb.tables import POINT, SCENE
 
 Point = dict[str, Any]
 
 
 def snapshots(tables: Tables) -> Iterator[dict[str, Any]]:
-    """One row for each point of `particles`, of the first seed that kept any."""
-    frame = tables.get("particles", pd.DataFrame(columns=[*POINT, "seed"]))
-    for key, runs in frame.groupby(POINT):
-        point: Point = dict(zip(POINT, key, strict=True))
-        run = first_seed(runs)
+    """One row for each point of `particles`."""
+    for point, run in kept(tables, "particles"):
         fluid = run["kind"] == "fluid"
-        at = snapshot(pd.concat([run[fluid], run[~fluid]]), fluid.sum())
+        ordered, height = pd.concat([run[fluid], run[~fluid]]), float(run["resolution"].iloc[0])
+        x, v = ordered[["x", "y"]].to_numpy(float)*height, ordered[["vx", "vy"]].to_numpy(float)
+        at = Snapshot(x, v, int(fluid.sum()), height)
         T = run["T"][fluid].to_numpy(float)
-        columns = {"neighbours": at.neighbours, "spacing": at.spacing, "pairing": at.pairing,
-                   "newtonian": newtonian(at, point, T)}
-        yield point | with_errors(columns) | {"occupancy": at.occupancy, "fastest": at.fastest}
+        columns = with_errors(neighbours=at.neighbours, spacing=at.spacing, pairing=at.pairing,
+                              newtonian=newtonian(at, point, T))
+        yield point | columns | {"occupancy": at.occupancy, "fastest": at.fastest}
 
 
-def first_seed(runs: pd.DataFrame) -> pd.DataFrame:
-    """Rows of the first seed that kept any."""
-    return runs[runs["seed"] == runs["seed"].min()]
-
-
-def with_errors(columns: dict[str, Measured]) -> dict[str, float]:
-    """Each column and its `_err`."""
-    row: dict[str, float] = {}
-    for name, (value, err) in columns.items():
-        row |= {name: value, f"{name}_err": err}
-    return row
-
-
-def snapshot(run: pd.DataFrame, n: int) -> Snapshot:
-    """Particles, the `n` of the fluid first."""
-    height = float(run["resolution"].iloc[0])
-    x = run[["x", "y"]].to_numpy(float)*height
-    v = run[["vx", "vy"]].to_numpy(float)
-    return Snapshot(x, v, int(n), height)
+def kept(tables: Tables, name: str) -> Iterator[tuple[Point, pd.DataFrame]]:
+    """Points of a table, and the rows of the first seed that kept any."""
+    frame = tables.get(name, pd.DataFrame(columns=[*POINT, "seed"]))
+    for key, runs in frame.groupby(POINT):
+        yield dict(zip(POINT, key, strict=True)), runs[runs["seed"] == runs["seed"].min()]
 
 
 def newtonian(at: Snapshot, point: Point, T: np.ndarray) -> Measured:
     """Correlation of the accelerations with those of the potential 2 P n^-2 w    [KHP95, Sec. VII]
 
-    Within layers of twice the range of the weight. Particles in range of each other are not independent, so
-    each layer is one sample. For the ideal gas with Lucy's weight; not a number elsewhere, and where no two
-    layers fit.
+    Within layers of twice the range of the weight, three ranges off the plates, beyond which nothing is.
+    Particles in range of each other are not independent, so each layer is one sample. For the ideal gas with
+    Lucy's weight; not a number elsewhere, and where no two layers fit.
     """
     inner = at.height/2 - 3*RANGE
     if (point["variant"], point["eos"]) != ("printed", "ideal") or inner < 2*RANGE:
         return Measured(nan, nan)
-    x, v = at.x[:at.n], at.v[:at.n]
-    eta = at.height/sqrt(point["ra"])
-    real, simple = accelerations(x, v, T, eta, 2*at.height)
-    edges = np.arange(-inner, inner + 1e-9, 2*RANGE)
-    layer = np.digitize(x[:, 1], edges)
-    samples = []
-    for number in range(1, layer.max()):
-        inside = layer == number
-        samples.append((correlation(real[inside], simple[inside]), 0.0))
-    return combine(samples)
-
-
-def accelerations(x: np.ndarray, v: np.ndarray, T: np.ndarray, eta: float,
-                  width: float) -> tuple[np.ndarray, np.ndarray]:
-    """(n, 2) each: -sum [(P/rho^2)_i + (P/rho^2)_j].grad w of the viscous ideal gas, and -sum 2 grad w (P = n
-    = 1).
-
-    Periodic in x, nothing beyond the plates: right from three ranges off them.
-    """
-    n = len(x)
-    i, j, r = pairs_in_range(x, width)
-    w, slope = lucy(r)
-    rho = np.bincount(i, w, n)
-    d = x[i] - x[j]
-    d[:, 0] -= width*np.round(d[:, 0]/width)
-    grad = [csr_array((slope*q, (i, j)), shape=(n, n)) for q in d.T]
-    whole = np.stack([G@np.ones(n) for G in grad], axis=1)
-    root = np.sqrt(rho)[:, None]
-    grad_v = np.stack([(G@(v/root) - v*(G@(1/root)))/root for G in grad], axis=1)
-    stress = stress_tensor(eta, 0.0, grad_v)
-    P = ((rho*T)[:, None, None]*np.eye(2) - stress)/rho[:, None, None]**2
-    own = np.einsum("iab,ib->ia", P, whole)
-    force = own + sum(G@P[:, :, axis] for axis, G in enumerate(grad))
-    return -force, -2*whole
-
-
-def pairs_in_range(x: np.ndarray, width: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Numbers i, j of both particles and their distance, each pair twice; periodic in x alone."""
-    across, up = x.T
-    height = np.ptp(up)
-    inside = np.stack([np.mod(across, width), up - up.min()], axis=1)
-    box = np.array([width, 10*height + 10*RANGE])
-    tree = cKDTree(inside, boxsize=box)
-    near = tree.sparse_distance_matrix(tree, RANGE, output_type="ndarray")
-    return near["i"], near["j"], near["v"]
+    eta, box = at.height/sqrt(point["ra"]), (2*at.height, at.height)
+    gas = Spam(weight=Lucy.of(RANGE), eos=IdealGas(), law=ConstEta(eta, eta), walls=periodic(box[0]), box=box)
+    molecules = replace(gas, eos=RHO_SQUARED, law=ConstEta(0.0, 0.0))
+    x, v = at.x[:at.n].T, at.v[:at.n].T
+    real, simple = (rates(gas, np.array([*x, *v, T]))[2:4].T,
+                    rates(molecules, np.array([*x, *v, 1e3*T]))[2:4].T)
+    layer = np.digitize(x[1], np.arange(-inner, inner + 1e-9, 2*RANGE))
+    inside = [layer == number for number in range(1, layer.max())]
+    return combine([(correlation(real[some], simple[some]), 0.0) for some in inside])
 
 
 def correlation(a: np.ndarray, b: np.ndarray) -> float:
@@ -127,12 +77,11 @@ GRID = {"method": "compressible", "variant": "flux-form"}
 
 def field_errors(tables: Tables, means: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """One row for each point of particles in `fields` of which the finest grid has the same flow."""
-    frame = tables.get("fields", pd.DataFrame(columns=[*POINT, "seed"]))
     tables = Tables({**tables, "means": means})
-    for key, runs in frame[frame["method"] == "spam"].groupby(POINT):
-        point: Point = dict(zip(POINT, key, strict=True))
-        run = first_seed(runs)
+    for point, run in kept(tables, "fields"):
         grid: Point = {name: point[name] for name in SCENE} | GRID
+        if point["method"] != "spam":
+            continue
         try:
             cells = rows(tables, "fields", **grid)
             ours = rows(tables, "kinetic_energy", **point, seed=run["seed"].iloc[0])
@@ -140,10 +89,8 @@ def field_errors(tables: Tables, means: pd.DataFrame) -> Iterator[dict[str, Any]
         except NoRows:
             continue
         finest = cells[cells["resolution"] == cells["resolution"].max()]
-        same_flow = {*ours["rolls"]} == {*theirs["rolls"]}
-        if same_flow and len(run) == len(finest):
-            errors = errors_of(tables, point, fields(run), fields(finest))
-            yield point | with_errors(errors)
+        if {*ours["rolls"]} == {*theirs["rolls"]} and len(run) == len(finest):
+            yield point | with_errors(**errors_of(tables, point, fields(run), fields(finest)))
 
 
 def fields(run: pd.DataFrame) -> Fields:
@@ -160,26 +107,18 @@ def errors_of(tables: Tables, point: Point, ours: Fields, theirs: Fields) -> dic
     speed = sqrt(np.mean(theirs["vx"]**2 + theirs["vy"]**2))
 
     def error(names: Sequence[str], size: float, at: slice = EVERYWHERE) -> Measured:
-        apart = difference(ours, theirs, names, at)
-        others = relative/2*from_rest(ours, names)
-        return Measured(apart.value/size, hypot(apart.err, others)/size)
-    at_plates = [error(["rho"], span["rho"], at) for at in (slice(1), slice(-1, None))]
+        of_seeds = Measured(0.0, relative/2*from_rest(ours, names))
+        return (difference(ours, theirs, names, at) + of_seeds)/size
     return {
         "velocity": error(["vx", "vy"], speed),
         "T": error(["T"], span["T"]),
         "rho": error(["rho"], span["rho"]),
-        "rho_plates": worse(at_plates),
+        "rho_plates": worse([error(["rho"], span["rho"], at) for at in (slice(1), slice(-1, None))]),
         "rho_layer": layer_error(tables, point, theirs),
     }
 
 
-def worse(errors: Iterable[Measured]) -> Measured:
-    """The largest value with the largest error."""
-    values, errs = zip(*errors, strict=True)
-    return Measured(max(values), max(errs))
-
-
-def difference(one: Fields, other: Fields, names: Sequence[str], at: slice = EVERYWHERE) -> Measured:
+def difference(one: Fields, other: Fields, names: Sequence[str], at: slice) -> Measured:
     """Root mean square of one - other over places, in some rows of them, summed over the named fields.
 
     Both flows are symmetric in the mirror; what is not symmetric in the difference is noise, and as much of
@@ -187,20 +126,15 @@ def difference(one: Fields, other: Fields, names: Sequence[str], at: slice = EVE
     """
     apart = {name: one[name] - other[name] for name in one}
     image = mirrored(apart)
-    even, odd = 0.0, 0.0
-    for name in names:
-        here, there = apart[name][at], image[name][at]
-        even += float(np.mean(((here + there)/2)**2))
-        odd += float(np.mean(((here - there)/2)**2))
-    return Measured(sqrt(even), sqrt(odd))
+    both = np.array([[apart[name][at], image[name][at]] for name in names])
+    even, odd = both.sum(axis=1)/2, np.diff(both, axis=1)/2
+    return Measured(sqrt(len(names)*np.mean(even**2)), sqrt(len(names)*np.mean(odd**2)))
 
 
 def from_rest(at: Fields, names: Sequence[str]) -> float:
-    """Rms distance of fields from the motionless state, rho = 1, T = 1 - y/L, over places, summed over the
-    fields.
+    """Rms distance of fields from the motionless state, rho = 1, T = 1 - y/L, over places, summed over them.
 
-    A relative error d of K moves velocities by d/2; what they carry is taken to move in proportion to this
-    distance.
+    A relative error d of K moves velocities by d/2; what they carry is taken to move in this proportion.
     """
     y = (np.arange(len(at["T"])) + 0.5)[:, None]/len(at["T"]) - 0.5
     rest = {"rho": 1.0, "T": 1 - y, "vx": 0.0, "vy": 0.0}
@@ -224,16 +158,12 @@ def one_seed(tables: Tables, point: Point) -> float:
 def layer_error(tables: Tables, point: Point, cells: Fields) -> Measured:
     """Largest |rho - rho_grid| within one spacing of a plate, horizontal mean, over the grid's range."""
     try:
-        layers = rows(tables, "walls", **point)
-        apart = []
-        for plate, seeds in layers.groupby("plate"):
-            beside = density_beside(cells, PLATES[str(plate)])
-            apart.append(abs(over_seeds(seeds["rho_layer"] - beside)))
-        largest = worse(apart)
+        layers = rows(tables, "walls", **point).groupby("plate")["rho_layer"]
+        apart = [abs(over_seeds(seeds - density_beside(cells, PLATES[str(plate)])))
+                 for plate, seeds in layers]
     except CannotTell:
         return Measured(nan, nan)
-    span = float(np.ptp(cells["rho"]))
-    return Measured(largest.value/span, largest.err/span)
+    return worse(apart)/float(np.ptp(cells["rho"]))
 
 
 def density_beside(at: Fields, side: int) -> float:
@@ -241,3 +171,8 @@ def density_beside(at: Fields, side: int) -> float:
     mean = at["rho"].mean(axis=1)[::side]
     places = len(mean)*0.5/50 - 0.5       # from the first place, in distances of places
     return float(mean[0] + places*(mean[1] - mean[0]))
+
+
+def worse(errors: list[Measured]) -> Measured:
+    """The largest value with the largest error."""
+    return Measured(max(one.value for one in errors), max(one.err for one in errors))

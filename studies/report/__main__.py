@@ -7,10 +7,9 @@ from pathlib import Path
 from studies.kit.study import say
 from studies.kit.sweep import RESULTS
 from studies.report.equations import write_equations
-from studies.report.gallery import write_gallery
-from studies.report.inventory import NoReport
 from studies.report.page import write_page
 from studies.report.tables import write_tables
+from studies.report.text import write_gallery
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -29,7 +28,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         else:
             write = {"page": write_page, "equations": write_equations, "tables": write_tables}[words.command]
             paths = [write(words.out)]
-    except (NoReport, ValueError) as error:
+    except ValueError as error:
         return say(f"report: {error}", 1)
     for path in paths:
         say(f"{path}  {path.stat().st_size/1e6:.2f} MB")

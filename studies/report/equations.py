@@ -16,10 +16,9 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
+from studies.kit.claim import Cited, places
 from studies.kit.csvfile import write_atomic
-from studies.kit.source import Cited, places
 from studies.report.inventory import NoReport, claims_of
-from studies.report.numbers import signed, with_error
 
 SENTENCES = Path(__file__).with_name("sentences")
 COLUMNS = ("", "what is printed", "verdict", "why", "what repairs it", "evidence")
@@ -99,9 +98,8 @@ def verdict(line: Account, judging: pd.DataFrame) -> str:
         raise NoReport(f"{line.at} has {len(judging)} claims that decide: give one headline=, or the line "
                        "untested=, and not both")
     if bool(line.condition) != mixed:
-        words = ", ".join(f"{name} {said}" for name, said in zip(judging["id"], judging["verdict"]))
-        raise NoReport(f"{line.at}: condition {line.condition!r} does not fit {words}: it is for what holds "
-                       "in one statement and fails in another; write the line anew")
+        raise NoReport(f"{line.at}: condition {line.condition!r} does not fit {', '.join(sorted(verdicts))}: "
+                       "it is for what holds in one statement and fails in another; write the line anew")
     if line.untested:
         return f"not testable: {line.untested}"
     if mixed:
@@ -156,3 +154,38 @@ def link(name: str, out: Path) -> str:
     if not there:
         raise NoReport(f"{out/name} is not there, which claims.csv has as evidence: run its study again")
     return f"[{name}]({there[0].relative_to(out)})"
+
+
+# --- numbers as people read them ---------------------------------------------------------------------
+
+
+def with_error(value: float, err: float) -> str:
+    """17.5(15) for 17.5 +- 1.5: the error in units of the last digit, two of its digits where the first is 1.
+
+    Without an error four digits.
+    """
+    if not math.isfinite(value):
+        return "none"
+    if not 0 < err < math.inf:
+        return signed(f"{value:.4g}")
+    size = math.floor(math.log10(err))
+    digits = 2 if err/10**size < 2 else 1
+    places = max(0, digits - 1 - size)
+    if places >= 8:
+        return signed(f"{value:.3g} ± {err:.1g}")
+    last = round(err*10**places)
+    return signed(f"{value:.{places}f}({last})")
+
+
+def signed(text: str) -> str:
+    """With the sign that type has for minus."""
+    return text.replace("-", "−")
+
+
+def short(value: object) -> str:
+    """A cell of a table."""
+    if isinstance(value, bool) or not isinstance(value, float | int):
+        return str(value)
+    if math.isnan(value):
+        return ""
+    return signed(f"{value:.5g}").replace("inf", "∞")

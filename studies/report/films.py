@@ -57,16 +57,9 @@ class Dots(NamedTuple):
     ke: float
 
 
-class Film(NamedTuple):
-    """Points on the left: title, caption, method of `studies.build`."""
-    title: str
-    caption: str
-    method: str
-
-
-def points(film: Film, scene: RayleighBenard, times: np.ndarray) -> Iterator[Dots]:
-    """A run from each of `times` to the next, in free-fall times, with steps that divide the time between."""
-    made = ready(scene, film.method, SEED)
+def points(name: str, scene: RayleighBenard, times: np.ndarray) -> Iterator[Dots]:
+    """A run of a method from each of `times` to the next, in free-fall times, in steps that divide these."""
+    made = ready(scene, name, SEED)
     method = made.method
     state = made.start
     between = (times[1] - times[0])*scene.L/scene.free_fall
@@ -176,37 +169,33 @@ def encode(path: Path, frames: Sequence[Picture.Image]) -> None:
         raise RuntimeError(f"it has {written} of {len(frames)} pictures")
 
 
-MAKERS = {
-    "particles": Film(
-        "smooth particles [KHP95]", "Smooth particles as Kum, Hoover & Posch print them, mirror images "
-        "behind the plates. All of them tremble: their K holds that besides the flow.", "spam"),
-    "closed_faces": Film(
-        "moving points, closed faces", "Points that move and exchange mass, momentum and energy over closed "
-        "faces, our own repair of Romero-Rochin & Rubi's moving points.", "moving"),
-    "as_printed": Film(
-        "moving points as printed [RR98]", "Points that move with the flow under Romero-Rochin & Rubi's "
-        "balances as printed (Eqs 34-36, 39-41), which convect it twice.", "moving-literal"),
+#: method -> what is seen
+CAPTIONS = {
+    "spam": "Smooth particles as Kum, Hoover & Posch print them, mirror images behind the plates. All of "
+            "them tremble: their K holds that besides the flow.",
+    "moving": "Points that move and exchange mass, momentum and energy over closed faces, our own repair of "
+              "Romero-Rochin & Rubi's moving points.",
+    "moving-literal": "Points that move with the flow under Romero-Rochin & Rubi's balances as printed "
+                      "(Eqs 34-36, 39-41), which convect it twice.",
 }
 
 
-def make(name: str, film: Film, grids: Sequence[Flow], folder: Path) -> dict[str, Any]:
+def make(name: str, grids: Sequence[Flow], path: Path) -> dict[str, Any]:
     """Run, draw and write one film; its row of films.csv."""
     scene = RayleighBenard(ra=RA, L=float(ROWS))
-    dots = list(points(film, scene, TIMES))
-    count = len(dots[0].x)
-    titles = f"{count} {film.title}", f"compressible grid, {GRID_ROWS} rows"
-    write(folder/f"{name}.mp4", list(pages(dots, grids, TIMES, titles)))
-    return {"film": name, "title": film.title, "caption": film.caption,
-            "ra": RA, "rows": ROWS, "seed": SEED, "points": count, "grid_rows": GRID_ROWS,
-            "t_end": TIMES[-1], "frames": len(TIMES),
-            "last_ke": dots[-1].ke, "last_ke_grid": grids[-1][1]}
+    dots = list(points(name, scene, TIMES))
+    titles = f"{name}, {ROWS} rows", f"grid, {GRID_ROWS} rows"
+    write(path, list(pages(dots, grids, TIMES, titles)))
+    return {"method": name, "caption": CAPTIONS[name], "ra": RA, "rows": ROWS, "seed": SEED,
+            "grid_rows": GRID_ROWS, "t_end": TIMES[-1], "last_ke": dots[-1].ke, "last_ke_grid": grids[-1][1]}
 
 
 def make_all(out: Path) -> list[Path]:
-    """The films of `MAKERS`, each put into films.csv as soon as it is there."""
+    """All films, each put into films.csv as soon as it is there."""
     folder = out/"films"
     grids = list(grid(RayleighBenard(ra=RA), GRID_ROWS, TIMES))
-    for name, film in MAKERS.items():
-        row = make(name, film, grids, folder)
+    paths = {name: folder/f"{name}.mp4" for name in CAPTIONS}
+    for name, path in paths.items():
+        row = make(name, grids, path)
         merge(folder/"films.csv", FILMS, [row], size="fine", command="make films")
-    return [folder/f"{name}.mp4" for name in MAKERS]
+    return list(paths.values())

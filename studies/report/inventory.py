@@ -4,44 +4,40 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pandas as pd
 
 from studies.kit.claim import COLUMNS
-from studies.kit.csvfile import AGAIN, TEXT, content, read
-from studies.kit.figure import Drawing, Overview
+from studies.kit.csvfile import TEXT, content, read
+from studies.kit.figure import Drawing
 from studies.kit.key import ROOT
 from studies.kit.study import Study
 from studies.kit.table import STAMP
 
 #: folders that are not shown
 HIDDEN = ("raw", "quick", "films", "gallery", "own")
-#: what a folder asks that no study fills
-QUESTIONS = {"bench": "Speed beside public codes, in one run"}
+#: what the folder asks that no study fills
+OF_BENCH = "Speed beside public codes, in one run"
 #: the order of the page; studies that are not named follow by name
 FIRST = ("rb", "cost", "hardcases", "onset", "operators", "ordering", "conservation", "noise", "lattices")
 
 
-class NoReport(Exception):
+class NoReport(ValueError):
     """What the page is made of is missing or is not what it should be; the message says the way out."""
 
 
 @dataclass(frozen=True)
 class Sheet:
-    """A table on disk."""
+    """A table on disk, and the columns that its study declares."""
 
     path: Path
+    columns: Sequence[str] = ()
 
     @property
     def stem(self) -> str:
         """Its name in the study."""
         return self.path.name.partition(".")[0]
-
-    @property
-    def name(self) -> str:
-        """study/table"""
-        return f"{self.path.parent.name}/{self.stem}"
 
     @property
     def file(self) -> str:
@@ -62,16 +58,14 @@ class Sheet:
 
     @cached_property
     def frame(self) -> pd.DataFrame:
-        """The rows; NoReport where the file is no table."""
-        return rows_of(self.path)
+        """The rows."""
+        return read(self.path, self.columns)
 
     @cached_property
     def commits(self) -> list[str]:
         """Commit of the head, or where the head names none, those of the rows."""
         of_head = [line.removeprefix("commit ") for line in self.head if line.startswith("commit ")]
-        if of_head:
-            return of_head
-        return sorted(set(self.frame.get("commit", ())))
+        return of_head or sorted(set(self.frame.get("commit", ())))
 
     @property
     def made(self) -> str:
@@ -107,73 +101,29 @@ def place(name: str, order: Sequence[str]) -> int:
 
 def folder_of(path: Path) -> Folder:
     """A folder, its figure `main` first."""
-    sheets = [Sheet(table) for table in sorted([*path.glob("*.csv"), *path.glob("*.csv.gz")])]
-    pictures = sorted(path.glob("*.png"), key=lambda png: (png.stem != "main", png.stem))
     study = study_of(path.name)
-    question = study.question if study else QUESTIONS.get(path.name, path.name)
-    return Folder(path.name, question, sheets, pictures, study)
+    declared = {table.file: [*table.columns, *STAMP] for table in (study.tables if study else ())}
+    files = sorted([*path.glob("*.csv"), *path.glob("*.csv.gz")])
+    sheets = [Sheet(file, declared.get(file.name, ())) for file in files]
+    pictures = sorted(path.glob("*.png"), key=lambda png: (png.stem != "main", png.stem))
+    return Folder(path.name, study.question if study else OF_BENCH, sheets, pictures, study)
 
 
 def study_of(name: str) -> Study | None:
-    """The study of this name, if there is one.
-
-    Raises NoReport: its code cannot be loaded.
-    """
-    if not (ROOT/"studies"/name/"__main__.py").exists():
-        return None
-    try:
-        study: Study = importlib.import_module(f"studies.{name}").STUDY
-    except Exception as error:      # whatever its modules raise
-        raise NoReport(f"studies/{name} cannot be loaded ({type(error).__name__}: {error}): mend it, "
-                       f"python -m studies.{name} --help has the whole story") from error
-    return study
+    """The study of this name, if there is one."""
+    there = (ROOT/"studies"/name/"__main__.py").exists()
+    return importlib.import_module(f"studies.{name}").STUDY if there else None
 
 
-def check_columns(folder: Folder) -> None:
-    """Refuse a table that lacks a column which its study declares: the page would leave things out."""
-    tables = folder.study.tables if folder.study else []
-    declared = {table.name: [*table.columns, *STAMP] for table in tables}
-    for sheet in folder.sheets:
-        columns = declared.get(sheet.stem, [])
-        missing = [name for name in columns if name not in sheet.frame]
-        if missing:
-            names = ", ".join(missing)
-            raise NoReport(f"{sheet.path} has no column {names}: it was written by other code; {AGAIN}")
-
-
-def drawings(folder: Folder) -> dict[str, Drawing | Overview]:
+def drawings(folder: Folder) -> dict[str, Drawing]:
     """Figure -> what draws it, of those that the study lists."""
-    if folder.study is None:
-        return {}
-    listed = getattr(folder.study.figures, "drawings", ())
+    listed = folder.study.figures.drawings if folder.study else ()
     return {drawing.name: drawing for drawing in listed}
 
 
 def claims_of(out: Path) -> pd.DataFrame:
-    """All claims; NoReport where there are none, or the table lacks columns."""
+    """All claims. Raises NoReport: there are none."""
     path = out/"claims.csv"
     if not path.exists():
         raise NoReport(f"{path} does not exist: studies write their verdicts there: make study-rb")
-    return rows_of(path, COLUMNS)
-
-
-def rows_of(path: Path, columns: tuple[str, ...] = (), **where: Any) -> pd.DataFrame:
-    """Rows of a table with these values; of a file that is missing none.
-
-    Raises NoReport: the file is no table, or lacks some of ``columns``.
-    """
-    if not path.exists():
-        return pd.DataFrame(columns=[*columns, *where])
-    try:
-        frame = read(path, [*columns, *where])
-    except ValueError as error:
-        raise NoReport(str(error)) from error
-    return having(frame, where)
-
-
-def having(frame: pd.DataFrame, values: dict[str, Any]) -> pd.DataFrame:
-    """Rows that have these values, in those of the columns that there are."""
-    for column, value in values.items():
-        if column in frame:
-            frame = frame[frame[column] == value]
-    return frame
+    return read(path, COLUMNS)

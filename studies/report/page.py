@@ -1,41 +1,34 @@
 """results/index.html: one file with all in it, from texts, tables, figures and films; no solver is run."""
 import base64
-import csv
 import inspect
 import io
 import math
 import os
 import tomllib
 from collections import Counter
-from itertools import groupby
 from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
 
 import pandas as pd
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
-from PIL import Image, UnidentifiedImageError
+from PIL import Image
 
 from studies.build import words
-from studies.kit.csvfile import write_atomic
+from studies.kit.claim import paper_of, places
+from studies.kit.csvfile import read, write_atomic
 from studies.kit.figure import caption
-from studies.kit.source import paper_of, places
 from studies.kit.table import Table
-from studies.report.equations import filled
-from studies.report.gallery import examples
+from studies.report.equations import filled, short, signed, with_error
 from studies.report.inventory import (
     Folder,
     NoReport,
     Sheet,
-    check_columns,
     claims_of,
     drawings,
     folders,
-    place,
-    rows_of,
 )
-from studies.report.numbers import short, signed, with_error
-from studies.report.text import TEXTS, document, opening, target
+from studies.report.text import TEXTS, document, examples, opening, target
 
 #: template, style, script, and what to see in each figure
 PARTS = Path(__file__).with_name("page")
@@ -45,11 +38,9 @@ VERDICTS = {"holds": "✓", "fails": "✗", "undecidable": "?"}
 #: papers whose equations can be chosen
 PAPERS = ("KHP95", "RR98")
 #: films.csv says what is seen; films in the order of the page, others follow
-FILMS = Table("films", key=["film"], columns=[
-    "film", "title", "caption", "ra", "rows", "points", "grid_rows", "t_end", "frames", "last_ke",
-    "last_ke_grid"], about="A film of convection beside the grid.", means={
-        "points": ("number of particles", ""), "t_end": ("free-fall times that it shows", "")})
-ORDER = ("particles", "closed_faces", "as_printed")
+FILMS = Table.of("films", "method", "caption ra rows grid_rows t_end last_ke last_ke_grid",
+                 about="A film of convection beside the grid.",
+                 means={"t_end": ("free-fall times that it shows", "")})
 
 
 def write_page(out: Path) -> Path:
@@ -57,25 +48,13 @@ def write_page(out: Path) -> Path:
 
     Raises NoReport: Something is missing or broken, or too large; an older page stays as it is.
     """
-    known = folders(out)
-    for folder in known:
-        check_columns(folder)
-    text = render(out, known)
+    text = render(out, folders(out))
     size = len(text.encode())
     if size > LIMIT:
-        raise NoReport(f"the page has {size/1e6:.1f} MB, {LIMIT/1e6:.1f} are allowed: draw smaller, or take "
-                       f"out of {out}, what is large, {', '.join(largest(out))}")
+        raise NoReport(f"the page has {size/1e6:.1f} MB, {LIMIT/1e6:.1f} are allowed: draw smaller figures")
     path = out/"index.html"
     write_atomic(path, text)
     return path
-
-
-def largest(out: Path) -> list[str]:
-    """Figures and films that weigh most."""
-    paths = [*out.glob("*/*.png"), *out.glob("*/*.mp4")]
-    sizes = {path: path.stat().st_size for path in paths}
-    heavy = sorted(paths, key=lambda path: -sizes[path])
-    return [f"{path.relative_to(out)} ({sizes[path]/1000:.0f} kB)" for path in heavy[:5]]
 
 
 def render(out: Path, known: list[Folder]) -> str:
@@ -94,7 +73,7 @@ def render(out: Path, known: list[Folder]) -> str:
         places=cited(claims), papers=Counter(map(paper_of, claims["source"])),
         counts=Counter(claims["verdict"]), verdicts=VERDICTS, claims_made=Sheet(out/"claims.csv").made,
         texts={name: document(out/f"{name}.md", out) for name in TEXTS},
-        words=glossary(),
+        words={kind: words.of(kind).values() for kind in ("method", "variation", "scene", "quantity")},
         paper=paper_of, value_of=value_of, short=short, embedded=embedded,
         leads=lambda name: target(name, out, out),
         style=(PARTS/"style.css").read_text(),
@@ -121,13 +100,6 @@ def cited(claims: pd.DataFrame) -> dict[str, int]:
     return dict(sorted(Counter(names).items(), key=lambda pair: places(pair[0])[0].order))
 
 
-def glossary() -> dict[str, list[dict[str, str]]]:
-    """Kind -> its words, as words.csv has them."""
-    with Path(words.__file__).with_suffix(".csv").open(newline="") as lines:
-        rows = list(csv.DictReader(lines))
-    return {kind: list(group) for kind, group in groupby(rows, key=lambda row: row["kind"])}
-
-
 def value_of(value: float, err: float) -> str:
     """A measured value with its interval; none."""
     if math.isnan(value):
@@ -150,6 +122,11 @@ class Shown(NamedTuple):
     def name(self) -> str:
         """study/figure"""
         return f"{self.path.parent.name}/{self.path.stem}"
+
+    @property
+    def wide(self) -> int:
+        """Width [CSS pixels] at which its text is as large as that of the page: it has 150 pixels an inch."""
+        return self.size[0]*96//150
 
     @property
     def made(self) -> str:
@@ -185,9 +162,8 @@ def size_of(path: Path) -> tuple[int, int]:
         with Image.open(path) as picture:
             picture.load()
             return picture.size
-    except (UnidentifiedImageError, OSError) as error:
-        again = f"make figures-{path.parent.name} draws it again"
-        raise NoReport(f"{path} is no picture ({error}): {again}") from error
+    except OSError as error:
+        raise NoReport(f"{path} is no picture ({error}): make figures-{path.parent.name} draws it") from error
 
 
 def embedded(path: Path) -> str:
@@ -212,18 +188,18 @@ def ffmpeg() -> ModuleType:
 
 def films(out: Path) -> list[dict]:
     """What films.csv says of films, and what is in their files."""
-    columns = (*FILMS.columns, "seed", "commit")
-    rows = rows_of(out/"films/films.csv", columns).to_dict("records")
-    rows.sort(key=lambda row: place(row["film"], ORDER))
-    return [row | in_file(out/"films"/f"{row['film']}.mp4") for row in rows]
+    path = out/"films/films.csv"
+    rows = read(path, [*FILMS.columns, "seed", "commit"]).to_dict("records") if path.exists() else []
+    return [row | in_file(path.with_name(f"{row['method']}.mp4")) for row in rows]
 
 
 def in_file(path: Path) -> dict[str, Any]:
     """A film's content, size and last picture; NoReport where the file is missing or is no film."""
     if not path.exists():
         raise NoReport(f"{path} is missing: make films makes it again")
+    reader = ffmpeg()
     try:
-        about, *_, last = ffmpeg().read_frames(path)
+        about, *_, last = reader.read_frames(path)
     except (OSError, RuntimeError, ValueError) as error:
         cause = str(error).splitlines()[0]
         raise NoReport(f"{path} is no film ({cause}): make films makes it again") from error

@@ -1,11 +1,14 @@
-"""Texts of the repository as parts of the page: links lead to figures, tables and words in it."""
+"""Texts and examples of the repository in the page: links lead to figures, tables and words in it."""
+import ast
 import os
 import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
 from markdown_it import MarkdownIt
 from markupsafe import Markup
+from PIL import Image
 
 from studies.build import words
 from studies.kit.key import ROOT
@@ -21,6 +24,8 @@ OPENING = re.compile(r"\*\*(.+?)\*\*\n\n(.+?)\n<img .+?>\n(.+?)\n## ", re.DOTALL
 TEXTS = ("equations", "findings", "tables")
 #: how ids of claims begin that texts name
 CLAIM = ("rr98-", "khp95-", "own-")
+#: of a picture of an example [pixels], and how many colours it keeps
+WIDTH, COLOURS = 960, 64
 SCROLL = '<div class="scroll" tabindex="0" role="region" aria-label="Table"><table>'
 
 
@@ -82,3 +87,46 @@ def target(href: str, home: Path, out: Path) -> str:
     if within.suffix == ".md" and str(within.with_suffix("")) in TEXTS and (out/within).exists():
         return f"#text-{within.stem}"
     return os.path.relpath(path, out.resolve())
+
+
+# --- examples ----------------------------------------------------------------------------------------
+
+
+class Example(NamedTuple):
+    """A script, what it says of itself, and its picture."""
+    name: str
+    about: str
+    script: str
+    picture: Path
+
+
+def examples(out: Path) -> Iterator[Example]:
+    """All scripts that have a picture; the first paragraph of the docstring says what one is about."""
+    for path in scripts():
+        script, picture = path.read_text(), out/"gallery"/f"{path.stem}.png"
+        about = (ast.get_docstring(ast.parse(script)) or path.stem).split("\n\n")[0].split("\n`")[0]
+        if picture.exists():
+            yield Example(path.stem, " ".join(about.split()), script, picture)
+
+
+def write_gallery(out: Path) -> list[Path]:
+    """Pictures of examples in out/own made small; their paths. Raises NoReport: none is there."""
+    drawn = [out/"own"/f"{path.stem}.png" for path in scripts()]
+    there = [path for path in drawn if path.exists()]
+    if not there:
+        raise NoReport(f"no example has a picture in {out/'own'}: run one, python -m examples.convection")
+    return [smaller(path, out/"gallery") for path in there]
+
+
+def scripts() -> list[Path]:
+    """Of all examples."""
+    return sorted((ROOT/"examples").glob("[!_]*.py"))
+
+
+def smaller(path: Path, folder: Path) -> Path:
+    """A copy of a picture in another folder."""
+    folder.mkdir(exist_ok=True)
+    picture = Image.open(path).convert("RGB")
+    picture.thumbnail((WIDTH, WIDTH))
+    picture.quantize(COLOURS, dither=Image.Dither.NONE).save(folder/path.name, optimize=True)
+    return folder/path.name

@@ -39,18 +39,15 @@ def literally(name: str, source: str, quantity: str, statement: str, **more: Any
 
 INTERPOLANT = (
     Claim(id="rr98-eq1-symbol", source="RR98 Eq. 1", printed="grad A", at_most=1e-9, because=QUADRATURE,
-          headline=True,
-          value=largest("continuum", "abs(value)", err="value_err", quantity="symbol"),
+          headline=True, value=largest("continuum", "abs(value)", err="value_err", quantity="symbol"),
           statement="the interpolant of grad A is the exact gradient of A smoothed with f, symbol i k f^(k): "
                     f"largest difference over k at k r0 = 0.3 to 4, {WEIGHTS}"),
     Claim(id="rr98-eq2-first-moment", source="RR98 Eq. 2", printed="3", at_most=1e-9, headline=True,
-          because="quadrature to 1e-12",
-          value=number("first moment"),
+          because="quadrature to 1e-12", value=number("first moment"),
           statement="W = -f' of a normalised f has M_1 = d: all weights, 1 to 3 dimensions, largest relative "
                     "difference"),
     Claim(id="rr98-eq2-moments", source="RR98 Eqs 2, 3", printed="all its moments exist", at_most=1e-9,
-          headline=True,
-          because=QUADRATURE,
+          headline=True, because=QUADRATURE,
           value=largest("continuum", "abs(value/predicted - 1)", err="value_err",
                         quantity=("moment 1", "moment 2", "moment 3", "moment 4")),
           statement="moments of W exist and are those of f, M_n = (n + d - 1) <r^(n-1)>/r0^(n-1): largest "
@@ -75,9 +72,7 @@ INTERPOLANT = (
           statement=f"the interpolant's error is of second order in r0: largest |order - 2|, {WEIGHTS}, "
                     "before anything is discretised"),
     Claim(id="rr98-eq13-symmetrised", source="RR98 Eq. 13", printed="we need the symmetrization",
-          headline=True,
-          at_least=1e-3,
-          value=least("one_kernel", "lost"), because="round-off would be 1e-15",
+          headline=True, at_least=1e-3, value=least("one_kernel", "lost"), because="round-off would be 1e-15",
           statement="the kernel P(rho(r), T(r')) is not symmetric, so that one alone would not conserve: "
                     "least momentum lost over what is exchanged, random rho and T, jittered and random "
                     "points, 1 to 3 dimensions"),
@@ -92,8 +87,8 @@ KERNELS = (
           statement="sign and size of the pressure's kernel: its projection on -(dP/drho) grad rho - (dP/dT) "
                     "grad T, extrapolated to no spacing, less 1"),
     *(Claim(id=f"rr98-eq16-trace-{d}d", source="RR98 Eqs 16, 37", printed="2/3"*(d == 3), expect=0,
-            within=1e-9,
-            value=number(f"dilation in {d}D"), headline="Eq. 16", because="round-off of sums over a lattice",
+            within=1e-9, value=number(f"dilation in {d}D"), headline="Eq. 16",
+            because="round-off of sums over a lattice",
             statement=f"a uniform dilation in {d}D meets the bulk viscosity only: what the trace factor 2/3 "
                       "adds to zeta, over eta")
       for d in (2, 3)),
@@ -125,14 +120,12 @@ DISCRETE = (
           statement="sums over cells times dV stand for integrals: first moment of Lucy's weight on "
                     "lattices, h = 6 a, 1 to 3 dimensions, largest relative error"),
     Claim(id="rr98-eq29-moments-3d", source="RR98 Eq. 29", printed="correct moments", expect=1, within=0.02,
-          headline=True,
-          because="2 %: lattice sums with h = 3 a are good to that",
+          headline=True, because="2 %: lattice sums with h = 3 a are good to that",
           value=one("lattice", "value/d", how="printed", weight="Lucy", d=3, r0=3.0, n=1),
           statement="the printed discretisation of W gives the right first moment: gradient of a linear "
                     "field, 3D lattice"),
     Claim(id="rr98-eq31-wave", source="RR98 Eqs 31, 45", printed="a good representation of the gradients",
-          at_most=0.01,
-          value=least("exponential", "plain", d=2, wavelength=128.0),
+          at_most=0.01, value=least("exponential", "plain", d=2, wavelength=128.0),
           because="one per cent is what a < r0 < lambda by such margins would promise",
           statement="a < r0 < lambda gives good gradients with the exponential weight: least error over r0 = "
                     "2 to 8 a of a wave of 128 a, 2D, plain sums"),
@@ -146,17 +139,15 @@ DISCRETE = (
           statement="the printed discretisation of the exponential weight multiplies gradients in 3D by (4 "
                     "pi/3) M_3 (r0/a)^2 = 42 (r0/a)^2: over that, r0 = 4 a"),
     *(Claim(id=f"rr98-plain-quadrature-{r0:.0f}", source="RR98 Sec. III, Eq. 31",
-            printed="cannot simply change", headline=True,
-            at_least=0.1, value=one("lattice", "1 - value/3", how="plain", weight="Exponential", d=3, r0=r0,
-                                    n=1),
+            printed="cannot simply change", headline=True, at_least=0.1,
+            value=one("lattice", "1 - value/3", how="plain", weight="Exponential", d=3, r0=r0,
+                      n=1),
             because="a tenth would be a reason not to",
             statement="one cannot put W(r_ij) dV for W dr, the moments would be wrong: first moment that the "
                       f"exponential weight loses on a lattice in 3D, r0 = {r0:.0f} a")
       for r0 in (2.0, 4.0)),
     Claim(id="rr98-eq32-zeroth", source="RR98 Eq. 32", printed="but the zeroth", expect=1, within=0.1,
-          headline=True,
-          value=doubling,
-          because="the first order in a/r0 takes 0.05 at r0 = 8 a",
+          headline=True, value=doubling, because="the first order in a/r0 takes 0.05 at r0 = 8 a",
           statement="the zeroth discrete moment is not well defined: what it grows by along a line when the "
                     "spacing is halved, over 2 ln 2/r0"),
     Claim(id="rr98-eq32-moments", source="RR98 Eq. 32", printed="well defined", at_most=0.01, headline=True,

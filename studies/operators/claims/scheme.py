@@ -90,9 +90,7 @@ BRACKETS = (
                       "exact derivatives of a smooth flow")
       for n, what in ((34, "mass"), (35, "momentum"), (36, "energy"))),
     Claim(id="rr98-eq34-36-conserved", source="RR98 Eqs 34-36", printed="are conserved", at_most=1e-12,
-          headline=True,
-          because=EDGES,
-          value=largest("invariance", "lost"),
+          headline=True, because=EDGES, value=largest("invariance", "lost"),
           statement="mass, momentum and energy are conserved by construction: largest loss over what is "
                     "exchanged, six makers of edges, nested, printed and pairwise transport, lattice, "
                     "jittered and random points, 1 to 3 dimensions"),
@@ -100,9 +98,8 @@ BRACKETS = (
           value=one("growth_means", "closure", **PLAIN),
           statement="a fluid of uniform pressure stays at rest: largest acceleration over P/(rho a), plain "
                     "edges, points jittered by 0.3 a"),
-    Claim(id="rr98-eq34-35-sound", source="RR98 Eqs 34, 35", at_most=1e-12, because=EDGES,
-          headline=True, evidence="operators/growth.png",
-          value=one("growth_means", "rate", **PLAIN),
+    Claim(id="rr98-eq34-35-sound", source="RR98 Eqs 34, 35", at_most=1e-12, because=EDGES, headline=True,
+          evidence="operators/growth.png", value=one("growth_means", "rate", **PLAIN),
           statement="small sound waves in a fluid at rest without viscosity do not grow off a lattice: "
                     "largest growth rate a/c, the bracket + in both equations, plain edges, points jittered "
                     "by 0.3 a in 2D"),
@@ -125,9 +122,7 @@ TRANSPORT = (
 )
 ALONG = (
     Claim(id="rr98-eq51-identify", source="RR98 Eq. 51", printed="one cannot independently identify",
-          headline=True,
-          at_least=0.1,
-          value=largest_of(apart("eta"), apart("zeta")),
+          headline=True, at_least=0.1, value=largest_of(apart("eta"), apart("zeta")),
           because="a tenth would leave them unidentified",
           statement="the two viscosities cannot be told from A and B (A alone enters both): largest "
                     "difference of eta, zeta of long waves on a lattice from M_A/2d(d+2) + M_B/2d, "
@@ -135,23 +130,22 @@ ALONG = (
     *(Claim(id=f"rr98-eq51-{name}", source="RR98 Eq. 51", expect=2, within=0.05,
             value=order(f"friction, {operator}", 2), headline=name == "order",
             because="the next order, (k h)^4, takes 0.01 of the slope",
-            statement=f"forces along edges are right to second order in 2D, {words}: slope of the error at "
-                      "h = 3 a, lattice")
+            statement=f"forces along edges are right to second order in 2D, {words}: slope of the error at h "
+                      "= 3 a, lattice")
       for name, operator, words in (("order", "zeta 0", "constant eta and zeta = 0"),
                                     ("order-bulk", "zeta 0.01", "constant eta and zeta = eta/2"),
                                     ("order-varying", "eta(T)", "eta(T) and zeta = 0"))),
     Claim(id="rr98-eq51-rotation", source="RR98 Eq. 51", expect=0, within=1e-9,
-          because="round-off over omega^2",
-          value=number("heating of a rotation"),
+          because="round-off over omega^2", value=number("heating of a rotation"),
           statement="the work of forces along edges, zeta = 0, does not heat a rigid rotation: heating over "
                     "eta omega^2, 2D; central ones, zeta = (1 + 2/d) eta, do not"),
 )
 LAYER = (
-    Claim(id="rr98-eq37-layer-stable", source="RR98 Eqs 37, 38", at_most=STILL,
-          headline=True, evidence="operators/nested_growth.png",
+    Claim(id="rr98-eq37-layer-stable", source="RR98 Eqs 37, 38", at_most=STILL, headline=True,
+          evidence="operators/nested_growth.png",
           value=largest("nested_growth", "growth", err="1e-4*abs(growth)", share=0.0),
-          because="rates of what stays are 1e-15, of what grows 1e-5 and more; differences over 1e-4 to "
-                  "1e-6 give the same four figures",
+          because="rates of what stays are 1e-15, of what grows 1e-5 and more; differences over 1e-4 to 1e-6 "
+                  "give the same four figures",
           statement="with nested stress and heat current a motionless layer between adjoint plates stays at "
                     "rest: largest growth rate in c/a, Ra 200 and 1500, 8 to 16 rows, h = 2 a and 3 a"),
     Claim(id="own-nested-share", source="RR98 Eqs 37, 38, 51", value=smallest_share, at_most=0.1,
@@ -170,15 +164,13 @@ COEFFICIENTS = (
     coefficient("eq38-conductivity", "Eq. 38", "kappa", "conductivity",
                 "kappa of Eq. 38 is the conductivity but for an error of second order", headline=True),
     Claim(id="rr98-transport-eq37-38-limit", source="RR98 Eqs 34-38", printed="unambiguously identified",
-          at_most=1e-3,
-          value=endless((*BOTH, "conductivity", "sound speed"), **NESTED),
+          at_most=1e-3, value=endless((*BOTH, "conductivity", "sound speed"), **NESTED),
           because="what waves of 48 and 64 spacings extrapolate to",
           statement="all coefficients of nested transport are those put in: largest relative difference for "
                     "endless waves on a lattice, h = 3 a"),
     Claim(id="rr98-transport-eq51-identified", source="RR98 Eq. 51", printed="cannot independently identify",
-          headline=True,
-          at_least=0.1,
-          value=identified("exact"), because="a tenth would be no identification",
+          headline=True, at_least=0.1, value=identified("exact"),
+          because="a tenth would be no identification",
           statement="the two viscosities of forces along edges cannot be identified one by one: largest "
                     "relative difference between those put in by A, B of eta, zeta and those measured, edges "
                     "of a weight, h = 3 a, on points jittered by 0.3 a, waves of 32 a"),

@@ -11,7 +11,7 @@ from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.sweep import RESULTS
 from studies.kit.table import Tables, read
-from studies.rb.claims import arithmetic, energies, fields, freezing, grid, points, ra2500
+from studies.rb.claims import arithmetic, energies, fields, freezing, grid, points
 
 
 def most_particles(tables: Tables) -> Measured:
@@ -49,5 +49,5 @@ OPEN = (
               "from 10 000 to a million particles ln N adds 0.09 to the exponent of N, less than caches do; "
               "linked cells take N for a given density", "N ln N"),
 )
-THEMES = (arithmetic, grid, energies, fields, freezing, ra2500, points)
+THEMES = (arithmetic, grid, energies, fields, freezing, points)
 RB_CLAIMS = (*(claim for theme in THEMES for claim in theme.CLAIMS), *OPEN)

@@ -44,13 +44,46 @@ EXACT = (     # name, place, printed, the number, its value, statement
     ("fig12-grid", "Fig. 12", "1800", 30, calculated("rows of 1800 points in a box 1 x 2"),
      "1800 points of a square grid over 50 x 100 are whole rows: 30 of 60"),
 )
+PRINTED = (     # name, place, printed, the published number, the quantity, statement, reason of its width
+    ("frozen-occupancy-lucy", "Sec. IV", "one", "frozen-lucy", "particles a site, Lucy",
+     "Lucy's weight freezes with one particle a site: lattice of least energy, 1 to 4 a site",
+     "a whole number"),
+    ("frozen-occupancy-monaghan", "Sec. IV", "two", "frozen-monaghan", "particles a site, Monaghan",
+     "Monaghan's weight freezes with two particles a site: lattice of least energy, 1 to 4 a site",
+     "a whole number"),
+    ("dense-stiffness", "Sec. IV", "2P/n = m c^2", "dense-pressure-ratio", "2 P/(rho c^2), dense",
+     "the dense fluid has 2 P/n about equal to m c^2: ratio at n = T = 1",
+     '"about equal", no digit: half; the ideal gas has exactly 1'),
+    ("ra-fig10", "Fig. 10", "350 000", "fig10-ra", "Ra of Fig. 10, dT^2 L^2/eta^2",
+     "temperatures 10 and 0.5, eta = 0.8, L = 50 are Ra 350 000 by dT^2 L^2/eta^2",
+     "two digits are printed; this takes alpha = 1"),
+    ("ra-fig10-expansivity", "Sec. I, Fig. 10", "350 000", "fig10-ra", "Ra of Fig. 10, alpha = 1/<T>",
+     "temperatures 10 and 0.5, eta = 0.8, L = 50 are Ra 350 000 by the definition of Sec. I, with the gas's "
+     "own alpha = 1/<T>", "two digits are printed"),
+    ("ra-fig4", "Fig. 4", "about twice", "fig4-supercritical", "Ra of Fig. 4 over onset",
+     "Ra 3000 is about twice the critical value (of the box, wavenumber pi)", '"about" and one digit'),
+    ("line-pair", "Secs V, VI", "0.003 40, 0.004 81", "ra-critical",
+     "zero of the line through both printed K",
+     "both printed grid energies lie on one line in Ra^-1/2 that begins at the critical Ra",
+     "the last printed digit of 1708; the error is what rounding of the pair leaves open"),
+    ("line-read", "Secs V, VI", "0.004 81", "ke-10000",
+     "K at Ra 10 000 on the line from onset through K at Ra 5000",
+     "the printed K at Ra 10 000 is the line through the critical Ra and the printed K at Ra 5000",
+     f"{RULE}, of both energies"),
+    ("initial-energy", "Figs 8, 9", "9, one half", "fig8-initial", "initial over final kinetic energy",
+     "9 epsilon of initial kinetic energy in 5000 particles are about half of the printed final value",
+     '"about one half": 10 %; "about 9" is 8.5 to 9.5; if Figs 8 and 9 show the same run, which is not said'),
+)
 
 
 def exact() -> Iterator[Claim]:
-    """Numbers that follow from the printed formulas and digits without rounding."""
+    """Numbers that follow from the printed formulas and digits: without rounding, or as near as printed."""
     for name, place, printed, number, value, statement in EXACT:
         yield Claim(id=f"khp95-{name}", source=f"KHP95 {place}", printed=printed, statement=statement,
                     value=value, expect=number, within=1e-12, because="round-off")
+    for name, place, printed, key, quantity, statement, reason in PRINTED:
+        yield Claim(id=f"khp95-{name}", source=f"KHP95 {place}", printed=printed, statement=statement,
+                    value=calculated(quantity), **as_printed(key), because=reason)
 
 
 def decays() -> Iterator[Claim]:
@@ -77,6 +110,10 @@ def printed_errors() -> Iterator[Claim]:
 
 
 CLAIMS = (
+    Claim(id="khp95-lucy-bracket", source="KHP95 Sec. IV", printed="0.01", headline=True,
+          statement="w(0.9 sigma) - w(sigma) of Lucy's weight is about 0.01 n",
+          value=calculated("w(0.9) - w(1), Lucy"), **as_printed("lucy-bracket"),
+          because="one digit is printed"),
     *exact(),
     *decays(),
     *printed_errors(),
@@ -93,10 +130,6 @@ CLAIMS = (
           statement="particles within 3 sigma of a wall need images, no others: a particle at the wall "
                     "reaches the image of one as far from the wall as the range", value=calculated("range"),
           **as_printed("fig3-image-range"), because="exact numbers"),
-    Claim(id="khp95-lucy-bracket", source="KHP95 Sec. IV", printed="0.01", headline=True,
-          statement="w(0.9 sigma) - w(sigma) of Lucy's weight is about 0.01 n",
-          value=calculated("w(0.9) - w(1), Lucy"), **as_printed("lucy-bracket"),
-          because="one digit is printed"),
     Claim(id="khp95-spurious-shear", source="KHP95 Sec. II", printed="1%", at_most=0.02,
           statement="spurious shear modulus over bulk modulus, hexagonal lattice, ideal gas, the stiffer of "
                     "both weights", value=calculated("|G/B|, hexagonal"),
@@ -118,13 +151,6 @@ CLAIMS = (
                     "lattice with sites h apart over the least one of those with 1 to 4 particles a site",
           value=calculated("energy of sites h apart over the least"),
           because="the state that is taken has the least energy; for P ~ rho^2 it does not depend on P"),
-    Claim(id="khp95-frozen-occupancy-lucy", source="KHP95 Sec. IV", printed="one",
-          statement="Lucy's weight freezes with one particle a site: lattice of least energy, 1 to 4 a site",
-          value=calculated("particles a site, Lucy"), **as_printed("frozen-lucy"), because="a whole number"),
-    Claim(id="khp95-frozen-occupancy-monaghan", source="KHP95 Sec. IV", printed="two",
-          statement="Monaghan's weight freezes with two particles a site: lattice of least energy, 1 to 4 a "
-                    "site", value=calculated("particles a site, Monaghan"), **as_printed("frozen-monaghan"),
-          because="a whole number"),
     Claim(id="khp95-frozen-hexagonal", source="KHP95 Sec. IV", printed="hexagonal", at_least=1, headline=True,
           statement="frozen states are hexagonal: least energy of the square over that of the hexagonal "
                     "lattice, the lesser of both weights",
@@ -191,10 +217,6 @@ CLAIMS = (
                     "the plates", value=calculated("largest |T(u(T)) - T|, dense"), at_most=0.0375,
           because="0.7 is 2/3 rounded, 0.05 of its last digit times du = 0.75; a solver that keeps u has "
                   "walls at 0.475 and 1.525 for 0.5 and 1.5"),
-    Claim(id="khp95-dense-stiffness", source="KHP95 Sec. IV", printed="2P/n = m c^2",
-          statement="the dense fluid has 2 P/n about equal to m c^2: ratio at n = T = 1",
-          value=calculated("2 P/(rho c^2), dense"), **as_printed("dense-pressure-ratio"),
-          because='"about equal", no digit: half; the ideal gas has exactly 1'),
     Claim(id="khp95-vdw-stiffness", source="KHP95 Sec. IV", printed="considerably lower", at_most=0.8,
           statement="van der Waals has a considerably lower pressure relative to its sound speed than the "
                     "dense fluid: ratio of both 2P/(n m c^2)",
@@ -212,30 +234,4 @@ CLAIMS = (
           statement="eta = 0.5 at L = 50 is Ra 10 000, here by dT^2 L^2/eta^2; largest deviation",
           value=calculated("largest |Ra - 10 000| of captions"), at_most=1e-9,
           because="exact numbers; alpha = 1, kappa = k/(rho C_V)"),
-    Claim(id="khp95-ra-fig10", source="KHP95 Fig. 10", printed="350 000",
-          statement="temperatures 10 and 0.5, eta = 0.8, L = 50 are Ra 350 000 by dT^2 L^2/eta^2",
-          value=calculated("Ra of Fig. 10, dT^2 L^2/eta^2"), **as_printed("fig10-ra"),
-          because="two digits are printed; this takes alpha = 1"),
-    Claim(id="khp95-ra-fig10-expansivity", source="KHP95 Sec. I, Fig. 10", printed="350 000",
-          statement="temperatures 10 and 0.5, eta = 0.8, L = 50 are Ra 350 000 by the definition of Sec. I, "
-                    "with the gas's own alpha = 1/<T>", value=calculated("Ra of Fig. 10, alpha = 1/<T>"),
-          **as_printed("fig10-ra"), because="two digits are printed"),
-    Claim(id="khp95-ra-fig4", source="KHP95 Fig. 4", printed="about twice",
-          statement="Ra 3000 is about twice the critical value (of the box, wavenumber pi)",
-          value=calculated("Ra of Fig. 4 over onset"), **as_printed("fig4-supercritical"),
-          because='"about" and one digit'),
-    Claim(id="khp95-line-pair", source="KHP95 Secs V, VI", printed="0.003 40, 0.004 81",
-          statement="both printed grid energies lie on one line in Ra^-1/2 that begins at the critical Ra",
-          value=calculated("zero of the line through both printed K"), **as_printed("ra-critical"),
-          because="the last printed digit of 1708; the error is what rounding of the pair leaves open"),
-    Claim(id="khp95-line-read", source="KHP95 Secs V, VI", printed="0.004 81",
-          statement="the printed K at Ra 10 000 is the line through the critical Ra and the printed K at Ra "
-                    "5000", value=calculated("K at Ra 10 000 on the line from onset through K at Ra 5000"),
-          **as_printed("ke-10000"), because=f"{RULE}, of both energies"),
-    Claim(id="khp95-initial-energy", source="KHP95 Figs 8, 9", printed="9, one half",
-          statement="9 epsilon of initial kinetic energy in 5000 particles are about half of the printed "
-                    "final value", value=calculated("initial over final kinetic energy"),
-          **as_printed("fig8-initial"),
-          because='"about one half": 10 %; "about 9" is 8.5 to 9.5; if Figs 8 and 9 show the same run, '
-                  "which is not said"),
 )

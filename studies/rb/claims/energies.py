@@ -6,6 +6,7 @@ row. Claims on printed numbers compare with the grid's K as it is, as the paper 
 flow is right compare with the grid smoothed alike.
 """
 from collections.abc import Iterator
+from functools import partial
 from itertools import product
 
 from studies.build.names import as_printed
@@ -14,7 +15,7 @@ from studies.kit.ask import Value, largest_of, of, rows
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
-from studies.rb.claims.flows import (
+from studies.rb.claims.questions import (
     ALIKE,
     PLAIN,
     against_alike,
@@ -48,9 +49,6 @@ def between(one: str, other: str = "printed") -> Value:
     return same_flow(abs(mean(a, "ke_field")/mean(b, "ke_field") - 1), a, b)
 
 
-# --- step, smoothing, plates ----------------------------------------------------------------------
-
-
 def half_step(height: int) -> Value:
     """Error of K, of particles and of their field, by the step: twice the larger change if it is halved."""
     halved, whole = particles(1e4, height, "printed-half-step"), particles(1e4, height)
@@ -77,22 +75,18 @@ def plates(tables: Tables) -> Measured:
     return max(abs(stats.over_seeds(group) - 1) for _, group in by_point)
 
 
-# --- claims of many points ------------------------------------------------------------------------
-
-
 def figure_points() -> Iterator[Claim]:
     """Velocity errors of the particles in Figs 5 and 6, whose Ra are not printed."""
-    said = {"vdw": ("van der Waals", {"eos": "vdw"}), "nu": ("constant nu", {"transport": "const-nu"})}
-    for ra, (name, (words, where)) in product((5000, 10000), said.items()):
-        yield Claim(id=f"khp95-fig5-{name}-{ra}", source="KHP95 Sec. VI, Fig. 5", printed="about 5%",
-                    at_most=0.075, because=SOME, headline=ra == 10000, evidence="rb/fig5.png",
-                    statement=f"velocities of 5000 particles, {words}, are good to about 5 % at Ra {ra}, "
-                              "from energies", value=velocity(ra, 50, **where))
-    for ra in (10000, 20000):
-        yield Claim(id=f"khp95-fig6-{ra}", source="KHP95 Sec. VI, Fig. 6", printed="about 5%", at_most=0.075,
-                    statement="velocities of 1600 particles in the square are good to about 5 % at "
-                              f"Ra {ra}, from energies", headline=True, evidence="rb/fig6.png",
-                    because=SOME, value=velocity(ra, 40, sides="walls"))
+    fluids = {"vdw": ("van der Waals", {"eos": "vdw"}), "nu": ("constant nu", {"transport": "const-nu"})}
+    points = [("fig5", f"{name}-{ra}", 50, ra, f"5000 particles, {words}, are good to about 5 % at", where)
+              for name, (words, where) in fluids.items() for ra in (5000, 10000)]
+    square = "1600 particles in the square are good to about 5 % at"
+    points += [("fig6", f"{ra}", 40, ra, square, {"sides": "walls"}) for ra in (10000, 20000)]
+    for figure, end, height, ra, words, where in points:
+        yield Claim(id=f"khp95-{figure}-{end}", source=f"KHP95 Sec. VI, Fig. {figure[3]}", printed="about 5%",
+                    at_most=0.075, because=SOME, headline=ra >= 10000, evidence=f"rb/{figure}.png",
+                    statement=f"velocities of {words} Ra {ra}, from energies",
+                    value=velocity(ra, height, **where))
 
 
 def energies() -> Iterator[Claim]:
@@ -118,15 +112,15 @@ MOST = "more than half of what is lacking"
 TEN = "the paper's 10 %, two digits"
 DISGUISED = ("1 %, what Sec. VI says that fluctuations disguise: a larger difference is energy made or lost; "
              "the largest is at 16 rows, the fewest")
+VELOCITY = partial(Claim, source="KHP95 Sec. VI", printed="5%", at_most=0.075, because=FIVE)
+CONVINCES = partial(Claim, printed="five hundred", at_least=0.5)
 CLAIMS = (
     *energies(),
-    Claim(id="khp95-velocity-error-5000", source="KHP95 Sec. VI", printed="5%", at_most=0.075, because=FIVE,
-          statement="velocity errors of the order of 5 % at Ra 5000, from energies as in the paper",
-          value=velocity(5000)),
-    Claim(id="khp95-velocity-error-10000", source="KHP95 Sec. VI", printed="5%", at_most=0.075, because=FIVE,
-          headline=True, evidence="rb/convergence.png",
-          statement="velocity errors of the order of 5 % at Ra 10 000, from energies as in the paper",
-          value=velocity(10000)),
+    VELOCITY(id="khp95-velocity-error-5000", value=velocity(5000),
+             statement="velocity errors of the order of 5 % at Ra 5000, from energies as in the paper"),
+    VELOCITY(id="khp95-velocity-error-10000", value=velocity(10000),
+             headline=True, evidence="rb/convergence.png",
+             statement="velocity errors of the order of 5 % at Ra 10 000, from energies as in the paper"),
     Claim(id="khp95-velocity-abstract", source="KHP95 abstract, Secs I, VII", printed="a few percent",
           headline="abstract, Sec. I", at_most=0.05,
           statement="velocity errors of a few percent: the larger of those at Ra 5000 and 10 000, from "
@@ -149,13 +143,13 @@ CLAIMS = (
     Claim(id="khp95-weight-same", source="KHP95 Sec. IV", at_most=0.1,
           statement="Lucy's and Monaghan's weights both simulate convection: K between them at Ra 10 000",
           value=between("printed-monaghan"), because="10 % is the paper's error of K"),
-    Claim(id="khp95-500-particles", source="KHP95 Sec. VI", printed="five hundred", at_least=0.5,
-          statement="some 500 particles make convincing currents: K of 512, ideal gas, Ra 10 000, over the "
-                    "grid's", value=against_alike(particles(1e4, 16)), because=CONVINCING),
-    Claim(id="khp95-500-particles-vdw", source="KHP95 Sec. VI, Fig. 7", printed="five hundred", at_least=0.5,
-          statement="some 500 particles make convincing currents: K of 512, van der Waals, Ra 10 000, over "
-                    "the grid's", because=f"{CONVINCING}; Ra of Fig. 7 is not printed",
-          value=against_alike(particles(1e4, 16, eos="vdw"))),
+    CONVINCES(id="khp95-500-particles", source="KHP95 Sec. VI", because=CONVINCING,
+              statement="some 500 particles make convincing currents: K of 512, ideal gas, Ra 10 000, over "
+                        "the grid's", value=against_alike(particles(1e4, 16))),
+    CONVINCES(id="khp95-500-particles-vdw", source="KHP95 Sec. VI, Fig. 7",
+              because=f"{CONVINCING}; Ra of Fig. 7 is not printed",
+              statement="some 500 particles make convincing currents: K of 512, van der Waals, Ra 10 000, "
+                        "over the grid's", value=against_alike(particles(1e4, 16, eos="vdw"))),
     Claim(id="khp95-fig7-runs", source="KHP95 Fig. 7", printed="two rolls", expect=2, within=0,
           headline=True, evidence="rb/fig7.png",
           statement="512 van der Waals particles convect with two rolls, Ra 10 000",

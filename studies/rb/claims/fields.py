@@ -1,15 +1,17 @@
 """Claims about the flow of smooth particles: fields, approach to the steady state, neighbours, walls"""
+from functools import partial
 from math import hypot, inf, sqrt
+from typing import Any
 
+from studies.build.measure import RANGE
 from studies.build.names import as_printed
-from studies.build.snapshot import RANGE
 from studies.kit import stats
 from studies.kit.ask import Value, of, one, rows
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
-from studies.rb.claims.curves import approach, drift, history, scatter, settling
-from studies.rb.claims.flows import ALIKE, diverged, mean, over_seeds, rolls_in, same_flow
+from studies.rb.claims import questions
+from studies.rb.claims.questions import ALIKE, diverged, history, mean, over_seeds, rolls_in, same_flow
 from studies.rb.tables import Point, besides, grid, particles
 
 STEADY, ROWS = particles(1e4), particles(1e4, variant="printed-fixed-rows")
@@ -30,11 +32,8 @@ def seen(column: str, point: Point = STEADY) -> Value:
 
 def time_of_approach() -> Value:
     """When K is near its late mean for good, particles over grid, Ra 10 000."""
-    ratio = over_seeds(history(settling, STEADY))/history(settling, CELLS, "ke")
+    ratio = over_seeds(history(questions.settling, STEADY))/history(questions.settling, CELLS, "ke")
     return same_flow(ratio, STEADY, grid(1e4))
-
-
-# --- high Rayleigh numbers ------------------------------------------------------------------------
 
 
 def robust(tables: Tables) -> Measured:
@@ -42,7 +41,7 @@ def robust(tables: Tables) -> Measured:
     point = particles(HIGHEST)
     if diverged(tables, point).any():
         return Measured(inf, 0.0)
-    return over_seeds(history(drift, point))(tables)
+    return over_seeds(history(questions.drift, point))(tables)
 
 
 def right_at_high(tables: Tables) -> Measured:
@@ -60,9 +59,6 @@ def right_at_high(tables: Tables) -> Measured:
     left = one("smoothed", "ke_smoothed/ke", err="0", **seen)(tables)
     reference = left*Measured(fine["ke"], hypot(fine["ke"] - coarse["ke"], fine["ke_err"]))
     return abs(mean(particles(HIGHEST), "ke_field")(tables)/reference - 1)
-
-
-# --- walls ----------------------------------------------------------------------------------------
 
 
 def losses(variant: str) -> Value:
@@ -98,7 +94,12 @@ PLACE_BY_PLACE = f'"of the order of", one digit: half as much again; {FIELD}'
 ONE_CONTOUR = "no number is printed: one contour of ten"
 SEMI = "semiquantitatively, errors of a few percent"
 LAG = '"semiquantitatively" alone has no number; particles come later'
-NO_SINGLE = "Lucy's single particles have 1.3, pairs 2 or more"
+AT_FIG9: dict[str, Any] = {"headline": True, "evidence": "rb/fig9.png"}
+AT_FIG8: dict[str, Any] = {"headline": True, "evidence": "rb/fig8.png"}
+VELOCITY = partial(Claim, source="KHP95 Sec. VI", printed="5%", at_most=0.075, because=PLACE_BY_PLACE)
+DENSITY = partial(Claim, source="KHP95 Sec. VI, Fig. 9", printed="good agreement", at_most=0.1)
+APPROACH = partial(Claim, source="KHP95 Sec. VI, Fig. 8", printed=SEMI, at_most=0.05)
+PAIRS = partial(Claim, because="Lucy's single particles have 1.3, pairs 2 or more")
 CLAIMS = (
     Claim(id="khp95-neighbours-range", source="KHP95 Sec. II", printed="20 to 30", at_least=20, at_most=30,
           statement="bulk particles have 20 to 30 neighbours within 3 sigma: mean in a run at Ra 10 000",
@@ -107,56 +108,45 @@ CLAIMS = (
           **as_printed("range-spacing"),
           statement="the range is about three nearest-neighbour distances: over the first peak of g(r), Ra "
                     "10 000", value=RANGE/seen("spacing"), because='"about", one digit'),
-    Claim(id="khp95-velocity-field-10000", source="KHP95 Sec. VI", printed="5%", at_most=0.075, headline=True,
-          statement="velocity errors of the order of 5 % at Ra 10 000, place by place: rms difference of "
-                    "mean fields, rolls aligned, over rms velocity", value=beside_grid("velocity"),
-          because=PLACE_BY_PLACE),
-    Claim(id="khp95-velocity-field-5000", source="KHP95 Sec. VI", printed="5%", at_most=0.075,
-          statement="velocity errors of the order of 5 % at Ra 5000, place by place: rms difference of mean "
-                    "fields, rolls aligned, over rms velocity", value=beside_grid("velocity", 5e3),
-          because=PLACE_BY_PLACE),
+    VELOCITY(id="khp95-velocity-field-10000", headline=True, value=beside_grid("velocity"),
+             statement="velocity errors of the order of 5 % at Ra 10 000, place by place: rms difference of "
+                       "mean fields, rolls aligned, over rms velocity"),
+    VELOCITY(id="khp95-velocity-field-5000", value=beside_grid("velocity", 5e3),
+             statement="velocity errors of the order of 5 % at Ra 5000, place by place: rms difference of "
+                       "mean fields, rolls aligned, over rms velocity"),
     Claim(id="khp95-within-percent", source="KHP95 Sec. VII", printed="a few percent", at_most=0.05,
           headline=True, evidence="rb/convergence.png",
           statement="results are within a few percent of converged solutions: velocities place by place, Ra "
                     "10 000", value=beside_grid("velocity"), because=f"a few are five at most; {FIELD}"),
     Claim(id="khp95-fig9-temperature", source="KHP95 Sec. VI, Fig. 9", printed="good agreement", at_most=0.05,
-          headline=True, evidence="rb/fig9.png",
+          value=beside_grid("T"), because="no number is printed: a few percent", **AT_FIG9,
           statement="temperatures of particles and grid agree at Ra 10 000: rms difference over the whole "
-                    "range", value=beside_grid("T"), because="no number is printed: a few percent"),
-    Claim(id="khp95-fig9-density", source="KHP95 Sec. VI, Fig. 9", printed="good agreement", at_most=0.1,
-          headline=True, evidence="rb/fig9.png",
-          statement="densities of particles and grid agree at Ra 10 000: rms difference over the grid's "
-                    "range", value=beside_grid("rho"), because=ONE_CONTOUR),
-    Claim(id="khp95-fig9-density-plates", source="KHP95 Sec. VI, Fig. 9", printed="good agreement",
-          headline=True, evidence="rb/fig9.png",
-          at_most=0.1,
-          statement="densities of particles and grid agree at the plates, too, Ra 10 000: rms difference "
-                    "over the places next to a plate, the worse of both, over the grid's range",
-          value=beside_grid("rho_plates"), because=ONE_CONTOUR),
-    Claim(id="khp95-wall-layer-density", source="KHP95 Sec. VI, Fig. 9", printed="good agreement",
-          at_most=0.1,
-          statement="as many particles lie along the plates as the grid's density asks for, Ra 10 000: "
-                    "difference within one spacing of a plate, the worse of both, over the grid's range",
-          value=beside_grid("rho_layer"), because=f"{ONE_CONTOUR}; counted, not smoothed"),
-    Claim(id="khp95-approach", source="KHP95 Sec. VI, Fig. 8", printed=SEMI, at_most=0.05,
-          headline=True, evidence="rb/fig8.png",
-          value=approach(STEADY, CELLS, "ke_field"),
-          statement="the approach to the steady state is described semiquantitatively, to a few percent: "
-                    "largest difference of K(t) over the steady K, energy of the field",
-          because=f"a few are five at most; smoothing lowers K at the start; {LAG}"),
-    Claim(id="khp95-approach-particles", source="KHP95 Sec. VI, Fig. 8", printed=SEMI, at_most=0.05,
-          value=approach(STEADY, CELLS, "ke"),
-          statement="the approach to the steady state is described semiquantitatively, to a few percent: "
-                    "largest difference of K(t) over the steady K, energy of the particles",
-          because=f"a few are five at most; the jitter of the lattice at the start is in K, too; {LAG}"),
+                    "range"),
+    DENSITY(id="khp95-fig9-density", value=beside_grid("rho"), because=ONE_CONTOUR, **AT_FIG9,
+            statement="densities of particles and grid agree at Ra 10 000: rms difference over the grid's "
+                      "range"),
+    DENSITY(id="khp95-fig9-density-plates", value=beside_grid("rho_plates"), because=ONE_CONTOUR, **AT_FIG9,
+            statement="densities of particles and grid agree at the plates, too, Ra 10 000: rms difference "
+                      "over the places next to a plate, the worse of both, over the grid's range"),
+    DENSITY(id="khp95-wall-layer-density", value=beside_grid("rho_layer"),
+            because=f"{ONE_CONTOUR}; counted, not smoothed",
+            statement="as many particles lie along the plates as the grid's density asks for, Ra 10 000: "
+                      "difference within one spacing of a plate, the worse of both, over the grid's range"),
+    APPROACH(id="khp95-approach", value=questions.approach(STEADY, CELLS, "ke_field"), **AT_FIG8,
+             because=f"a few are five at most; smoothing lowers K at the start; {LAG}",
+             statement="the approach to the steady state is described semiquantitatively, to a few percent: "
+                       "largest difference of K(t) over the steady K, energy of the field"),
+    APPROACH(id="khp95-approach-particles", value=questions.approach(STEADY, CELLS, "ke"),
+             because=f"a few are five at most; the jitter of the lattice at the start is in K, too; {LAG}",
+             statement="the approach to the steady state is described semiquantitatively, to a few percent: "
+                       "largest difference of K(t) over the steady K, energy of the particles"),
     Claim(id="khp95-steady-time", source="KHP95 Fig. 8", printed="same approach", expect=1, within=0.2,
-          headline=True, evidence="rb/fig8.png",
-          value=time_of_approach(),
+          value=time_of_approach(), **AT_FIG8,
           statement="particles need as long as the grid to be steady at Ra 10 000: ratio of times until K "
                     "is within 5 %",
           because="no number is printed: a fifth; a narrower band would time the noise"),
     Claim(id="khp95-fluctuation-level", source="KHP95 Sec. VI", printed="about 1%", expect=0.01, within=0.01,
-          value=over_seeds(history(scatter, STEADY)),
+          value=over_seeds(history(questions.scatter, STEADY)),
           statement="fluctuations disguise errors of less than 1 %: standard deviation of K(t) over K, 5000 "
                     "particles, Ra 10 000", because='"about", one digit, as an upper bound: twice'),
     Claim(id="khp95-walls-leakproof", source="KHP95 Sec. II", printed="as well as a leak-proof wall",
@@ -173,14 +163,14 @@ CLAIMS = (
                     "pressure on the plates that they carry and not the elastic wall",
           because='"capable" has no number: more than half; the share is a lower bound, all impacts are '
                   "taken to be as fast as the fastest particle"),
-    Claim(id="khp95-monaghan-pairs", source="KHP95 Sec. VI, Fig. 10", printed="pairs", at_least=2,
-          because=NO_SINGLE,
+    PAIRS(id="khp95-monaghan-pairs", source="KHP95 Sec. VI, Fig. 10", printed="pairs", at_least=2,
+          value=seen("pairing", particles(1e4, variant="printed-monaghan")),
           statement="with Monaghan's weight particles move in pairs: median of second over first neighbour "
-                    "distance, Ra 10 000", value=seen("pairing", particles(1e4, variant="printed-monaghan"))),
-    Claim(id="khp95-lucy-no-pairs", source="KHP95 Sec. VI", printed="no such pairing", at_most=1.6,
-          because=NO_SINGLE,
+                    "distance, Ra 10 000"),
+    PAIRS(id="khp95-lucy-no-pairs", source="KHP95 Sec. VI", printed="no such pairing", at_most=1.6,
+          value=seen("pairing"),
           statement="with Lucy's weight particles do not pair: median of second over first neighbour "
-                    "distance, Ra 10 000", value=seen("pairing")),
+                    "distance, Ra 10 000"),
     Claim(id="khp95-robust", source="KHP95 Secs VI, VII", printed="continues to provide solutions",
           at_most=0.05, value=of(robust),
           statement="particles give steady solutions at high Ra: change of K in the second half of the run "

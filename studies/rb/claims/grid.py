@@ -1,5 +1,6 @@
 """Claims about the grid's solutions    [KHP95, Sec. V; Sec. VI, Fig. 10]"""
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -11,8 +12,8 @@ from studies.kit.ask import Value, curve, largest, largest_of, last, of, rows
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
-from studies.rb.claims import curves
-from studies.rb.claims.flows import guarded, limit, mean, refuse_dead, rolls
+from studies.rb.claims import questions
+from studies.rb.claims.questions import guarded, limit, mean, refuse_dead, rolls
 from studies.rb.tables import STILL, besides, grid
 
 DENSE: dict[str, Any] = {"eos": "dense"}
@@ -27,9 +28,6 @@ GRIDS = besides(grid(1e4), "resolution")        # of all resolutions, Ra 10 000
 PAPER_FORM = GRIDS | {"variant": "paper-form"}
 SEVERAL = "1800 <= 2*resolution**2 <= 5000"     # cells
 FINISHED = "ke == ke and resolution < inf"      # runs that did not diverge
-
-
-# --- convergence ----------------------------------------------------------------------------------
 
 
 def two_solvers(tables: Tables) -> Measured:
@@ -62,9 +60,6 @@ def mass_lost() -> Value:
     return guarded(drift, refuse_diverged_grids(**PAPER_FORM))
 
 
-# --- time -----------------------------------------------------------------------------------------
-
-
 @curve
 def change_after_4000(t: np.ndarray, ke: np.ndarray, err: np.ndarray) -> Measured:
     """|K(0.8)/K(end) - 1|, t in L^2/eta, where the end is at 0.9 or later."""
@@ -85,7 +80,7 @@ def refuse_short(point: dict[str, Any], until: float) -> Callable[[Tables], None
 def scattered(ra: float, height: int) -> Value:
     """Relative standard deviation of K(t) in the last half of a long run."""
     point = grid(ra, height)
-    return guarded(curves.history(curves.scatter, point, "ke"), refuse_short(point, RINGING))
+    return guarded(questions.history(questions.scatter, point, "ke"), refuse_short(point, RINGING))
 
 
 def scatter_refined() -> Value:
@@ -101,16 +96,13 @@ def scatter_refined() -> Value:
 def drift_of_dense() -> Value:
     """Change of K of the dense fluid at Ra 3000 over the last quarter of a long run; none is no proof."""
     point = grid(3000, 24, **DENSE)
-    change = guarded(curves.history(curves.drift, point), refuse_short(point, LONG))
+    change = guarded(questions.history(questions.drift, point), refuse_short(point, LONG))
 
     def check(tables: Tables) -> None:
         if (least := change(tables).value) < DRIFTS:
             raise CannotTell('"some of our attempts" diverged: that one run does not (change of K '
                              f"{least:.2g}) is no proof")
     return guarded(change, check)
-
-
-# --- the square -----------------------------------------------------------------------------------
 
 
 def in_square(column: str, check: Callable[[pd.Series], None], **where: Any) -> Value:
@@ -134,63 +126,58 @@ def refuse_changing(row: pd.Series) -> None:
 LAST = "half of the last printed digit"
 ALMOST = ('"almost exactly" has no number: 1 %, what Sec. VI says that the fluctuations disguise of the '
           "particles which the line is there to be compared with")
+NEXT = ("the next term, L^-4, is 0.1 % of the first at 30 rows, times a factor that may be tens at thin "
+        "layers")
+#: end of a name: figure, sides and fluid, what is said of them
+LINES: dict[str, tuple[str, dict[str, str], str]] = {
+    "ke-line": ("Fig. 5", {}, "onset to four times onset, ideal gas, constant eta"),
+    "ke-line-const-nu": ("Fig. 5", {"transport": "const-nu"},
+                         "onset to four times onset, ideal gas, constant nu"),
+    "vdw-panel": ("Fig. 5", {"eos": "vdw"}, "onset to four times onset, van der Waals"),
+    "ke-line-square": ("Fig. 6", {"sides": "walls"},
+                       "onset, 5012, to four times onset in the square, one roll")}
+SHOWN = {"ke-line": "rb/fig5.png", "ke-line-square": "rb/fig6.png"}
+
+
+def energies() -> Iterator[Claim]:
+    """The printed K, of either transport law."""
+    laws = {"": ("const-eta", "constant eta"),
+            "-const-nu": ("const-nu", "read as constant nu (which one is not said)")}
+    for (ra, printed), (end, (law, words)) in product((("5000", "0.003 40"), ("10 000", "0.004 81")),
+                                                      laws.items()):
+        name = f"ke-{ra}".replace(" ", "")
+        main = name + end == "ke-5000"
+        yield Claim(id=f"khp95-{name}{end}", source="KHP95 Sec. VI", printed=printed, because=LAST,
+                    headline=main, evidence="rb/main.png" if main else "", **as_printed(name),
+                    value=limit(float(name[3:]), transport=law),
+                    statement=f"K of the infinitely fine grid, ideal gas, Ra {ra}, {words}")
+
+
+def lines() -> Iterator[Claim]:
+    """K against Ra^-1/2, and what belongs to its lines against L^-2."""
+    for name, (figure, where, words) in LINES.items():
+        yield Claim(id=f"khp95-{name}", source=f"KHP95 Sec. V, {figure}", printed="almost exactly linearly",
+                    value=questions.straightness(**where), at_most=0.01, because=ALMOST,
+                    headline=name in SHOWN, evidence=SHOWN.get(name, ""),
+                    statement=f"K is linear in Ra^-1/2 from {words}: largest distance over K(4 Ra_c)")
+    for name, of_line in (("slopes", questions.slope_alone), ("intercepts", questions.intercept_alone)):
+        yield Claim(id=f"khp95-{name}-l2", source="KHP95 Sec. V", headline=True, at_most=0.05, because=NEXT,
+                    printed="almost exactly linearly with L^-2", value=questions.against_cells(of_line),
+                    statement=f"{name} of the lines are linear in L^-2: largest distance over the whole "
+                              "change")
+
+
 CLAIMS = (
-    Claim(id="khp95-ke-5000", source="KHP95 Sec. VI", printed="0.003 40",
-          headline=True, evidence="rb/main.png",
-          statement="K of the infinitely fine grid, ideal gas, Ra 5000, constant eta", value=limit(5000),
-          **as_printed("ke-5000"), because=LAST),
-    Claim(id="khp95-ke-5000-const-nu", source="KHP95 Sec. VI", printed="0.003 40",
-          statement="K of the infinitely fine grid, ideal gas, Ra 5000, read as constant nu (which one is "
-                    "not said)", value=limit(5000, transport="const-nu"), **as_printed("ke-5000"),
-          because=LAST),
-    Claim(id="khp95-ke-10000", source="KHP95 Sec. VI", printed="0.004 81",
-          statement="K of the infinitely fine grid, ideal gas, Ra 10 000, constant eta", value=limit(10000),
-          **as_printed("ke-10000"), because=LAST),
-    Claim(id="khp95-ke-10000-const-nu", source="KHP95 Sec. VI", printed="0.004 81",
-          statement="K of the infinitely fine grid, ideal gas, Ra 10 000, read as constant nu (which one is "
-                    "not said)", value=limit(10000, transport="const-nu"), **as_printed("ke-10000"),
-          because=LAST),
+    *energies(),
+    *lines(),
     Claim(id="khp95-ke-10000-line", source="KHP95 Secs V, VI", printed="0.004 81",
           statement="0.004 81 is what the straight line in Ra^-1/2 through 1.2 to 4 times onset gives at Ra "
-                    "10 000", value=curves.line(curves.foretelling(1e4), low=1.2),
+                    "10 000", value=questions.line(questions.reading(1e4, anew=True), low=1.2),
           **as_printed("ke-10000"), because=LAST),
-    Claim(id="khp95-ke-line-digits", source="KHP95 Secs V, VI",
-          statement="K is linear in Ra^-1/2 from onset to four times onset as far as its digits are "
-                    "printed, ideal gas, constant eta: largest distance", value=curves.line(curves.bend),
-          at_most=LAST_DIGIT, because=f"{LAST} of K: what is linear almost exactly is so in all three"),
-    Claim(id="khp95-ke-line", source="KHP95 Sec. V, Fig. 5", printed="almost exactly linearly",
-          headline=True, evidence="rb/fig5.png",
-          statement="K is linear in Ra^-1/2 from onset to four times onset, ideal gas, constant eta: "
-                    "largest distance over K(4 Ra_c)", value=curves.straightness(), at_most=0.01,
-          because=ALMOST),
-    Claim(id="khp95-ke-line-const-nu", source="KHP95 Sec. V, Fig. 5", printed="almost exactly linearly",
-          statement="K is linear in Ra^-1/2 from onset to four times onset, ideal gas, constant nu: largest "
-                    "distance over K(4 Ra_c)", value=curves.straightness(transport="const-nu"), at_most=0.01,
-          because=ALMOST),
-    Claim(id="khp95-vdw-panel", source="KHP95 Sec. V, Fig. 5", printed="almost exactly linearly",
-          statement="K is linear in Ra^-1/2 from onset to four times onset, van der Waals: largest distance "
-                    "over K(4 Ra_c)", value=curves.straightness(eos="vdw"), at_most=0.01, because=ALMOST),
-    Claim(id="khp95-ke-line-square", source="KHP95 Sec. V, Fig. 6", printed="almost exactly linearly",
-          headline=True, evidence="rb/fig6.png",
-          statement="K is linear in Ra^-1/2 from onset, 5012, to four times onset in the square, one roll: "
-                    "largest distance over K(4 Ra_c)", value=curves.straightness(sides="walls"), at_most=0.01,
-          because=ALMOST),
     Claim(id="khp95-ke-line-beyond", source="KHP95 Secs V, VI", printed="to four times that value",
           statement="the line may be read at Ra 10 000 = 5.9 times onset: K over the line, less 1",
-          value=limit(1e4)/curves.line(curves.reading(1e4), low=1.2) - 1, expect=0,
+          value=limit(1e4)/questions.line(questions.reading(1e4), low=1.2) - 1, expect=0,
           within=LAST_DIGIT/number("ke-10000"), because=f"{LAST} of K at Ra 10 000"),
-    Claim(id="khp95-slopes-l2", source="KHP95 Sec. V", printed="almost exactly linearly with L^-2",
-          headline=True,
-          statement="slopes of the lines are linear in L^-2: largest distance over the whole change",
-          value=curves.against_cells(curves.slope_alone), at_most=0.05,
-          because="the next term, L^-4, is 0.1 % of the first at 30 rows, times a factor that may be tens "
-                  "at thin layers"),
-    Claim(id="khp95-intercepts-l2", source="KHP95 Sec. V", printed="almost exactly linearly with L^-2",
-          headline=True,
-          statement="intercepts of the lines are linear in L^-2: largest distance over the whole change",
-          value=curves.against_cells(curves.intercept_alone), at_most=0.05,
-          because="the next term, L^-4, is 0.1 % of the first at 30 rows, times a factor that may be tens "
-                  "at thin layers"),
     Claim(id="khp95-ghost-density-mass", source="KHP95 Sec. V", printed="unity", at_most=1e-3,
           statement="density 1 outside of the system is no trouble: mass lost per L^2/eta", value=mass_lost(),
           because="no trouble is less than the last printed digit of K, near onset after some time of 10 "

@@ -8,34 +8,14 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.build.axes import ENERGY, ra_axis
-from studies.build.moving import MOTIONS
-from studies.build.rr98_moving import DRIFT_MOTIONS
+from studies.build.moving import DRIFT_MOTIONS, MOTIONS
+from studies.build.names import ENERGY, ra_axis
 from studies.build.spam import VARIANTS
 from studies.build.words import name_of
 from studies.kit.figure import below, figure
 from studies.kit.table import Tables, groups
-from studies.rb.looks import (
-    BOX,
-    ENERGIES,
-    FROM_FLOW,
-    GRID,
-    KHP95_PARTICLES,
-    KIND,
-    LAYER,
-    MARKS,
-    OPEN,
-    SPAM,
-    cross_out,
-    diverged,
-    errors,
-    finest,
-    nearest,
-    particles,
-    reference,
-    rows,
-    seen,
-)
+from studies.rb import looks
+from studies.rb.looks import BOX, ENERGIES, FROM_FLOW, GRID, KHP95_PARTICLES, KIND, LAYER, MARKS, OPEN, SPAM
 from studies.rb.tables import STILL
 
 Style = dict[str, Any]
@@ -46,11 +26,6 @@ SMOOTHED_GRID: Style = {"color": KIND["kg"]["color"], "marker": "", "linestyle":
 #: a second series of the same kind in one panel
 SECOND = {"linestyle": "--", **OPEN}
 ETA, NU = "constant $\\eta$", "constant $\\nu$"
-#: title, (name, scene, more style) of each fluid
-PANELS: tuple[Any, ...] = (
-    ("ideal gas; particles at constant $\\nu$ moved right",
-     ((ETA, LAYER, {}), (NU, LAYER | {"transport": "const-nu"}, SECOND))),
-    ("van der Waals gas", ((ETA, LAYER | {"eos": "vdw"}, {}),)))
 STROKES = ("-", "--", ":")      # of seeds
 RA = 10000      # of what changes of a scheme do
 #: how much lower the next coarser resolution stands
@@ -81,12 +56,12 @@ def energies(axes: Axes, spam: pd.DataFrame, column: str, words: str, style: Sty
         return
     x, ke, err = spam["ra"]**-0.5 + aside, spam[column], spam[f"{column}_err"]
     axes.errorbar(x, ke, [np.minimum(err, ke), err], label=words, **style | MARKS)
-    cross_out(axes, x, ke, spam["steady"])
+    looks.cross_out(axes, x, ke, spam["steady"])
 
 
 def name_frozen(axes: Axes, limit: pd.DataFrame, spam: pd.DataFrame, aside=(-14, 16)) -> None:
     """A word where the grid convects and the finest particles, from weak rolls, stand still on a lattice."""
-    both = finest(spam).merge(limit[["ra", "ke"]], on="ra", suffixes=("", "_grid"))
+    both = looks.finest(spam).merge(limit[["ra", "ke"]], on="ra", suffixes=("", "_grid"))
     frozen = both[(both["ke_grid"] > STILL) & (both["ke_field"] < 0.01*both["ke_grid"])]
     line = {"arrowstyle": "-", "lw": 0.6, "shrinkB": 4}
     for ra in frozen["ra"]:
@@ -94,11 +69,16 @@ def name_frozen(axes: Axes, limit: pd.DataFrame, spam: pd.DataFrame, aside=(-14,
                       fontsize=8, ha="right" if aside[0] < 0 else "left", arrowprops=line)
 
 
-def finish(axes: Axes, note: str = "") -> None:
-    """Both axes and the legend below; a little room below zero, where motion has died out."""
+def above_zero(axes: Axes) -> None:
+    """Ra along x; a little room below zero, where motion has died out."""
     top = axes.get_ylim()[1]
     axes.set_ylim(-0.02*top, top)
     ra_axis(axes)
+
+
+def finish(axes: Axes, note: str = "") -> None:
+    """Both axes and the legend below."""
+    above_zero(axes)
     below(axes, ncols=2, title=f"bars: 95 % intervals{note}", title_fontsize=8)
 
 
@@ -106,24 +86,25 @@ def fig5(tables: Tables) -> Figure | None:
     """Kinetic energy K of convection against the Rayleigh number: grid and 5000 particles. Two gases, two
     transport laws.
     """
-    page, all_axes = figure(1, len(PANELS), width=5, height=4.6, sharex=True, sharey=True)
-    for axes, (title, fluids) in zip(all_axes, PANELS):
-        for number, (name, scene, more) in enumerate(fluids):
-            pair(axes, tables, scene, name, ASIDE*number, more)
-        axes.set_title(title)
-    if not any(axes.has_data() for axes in all_axes):
+    page, (left, right) = figure(1, 2, width=5, height=4.6, sharex=True, sharey=True)
+    pair(left, tables, LAYER, ETA)
+    pair(left, tables, LAYER | {"transport": "const-nu"}, NU, ASIDE, **SECOND)
+    pair(right, tables, LAYER | {"eos": "vdw"}, ETA)
+    if not (left.has_data() or right.has_data()):
         return None
-    for axes in all_axes:
-        finish(axes)
-    all_axes[0].set_ylabel(ENERGY)
+    finish(left)
+    finish(right)
+    left.set(ylabel=ENERGY, title="ideal gas; particles at constant $\\nu$ moved right")
+    right.set_title("van der Waals gas")
     page.suptitle("Layer of aspect 2: grid and particles    [KHP95, Fig. 5]", fontsize=10)
     return page
 
 
-def pair(axes: Axes, tables: Tables, scene: dict[str, Any], name: str, aside: float, more: Style) -> None:
+def pair(axes: Axes, tables: Tables, scene: dict[str, Any], name: str, aside: float = 0.0,
+         **more: Any) -> None:
     """Grid of a scene and Kp, Kg of its finest particles, as many as KHP95 had or fewer."""
-    spam, limit = particles(tables, **scene), reference(tables, **scene)
-    spam = finest(spam[spam["particles"] <= KHP95_PARTICLES])
+    spam, limit = looks.particles(tables, **scene), looks.reference(tables, **scene)
+    spam = looks.finest(spam[spam["particles"] <= KHP95_PARTICLES])
     grid(axes, limit, f"grid, {name}", **more)
     if not more:
         name_frozen(axes, limit, spam)
@@ -133,7 +114,7 @@ def pair(axes: Axes, tables: Tables, scene: dict[str, Any], name: str, aside: fl
 
 def fig6(tables: Tables) -> Figure | None:
     """Kinetic energy in a box with four walls. Left all particles beside the grid, right their field."""
-    limit, spam = reference(tables, **BOX), particles(tables, **BOX)
+    limit, spam = looks.reference(tables, **BOX), looks.particles(tables, **BOX)
     if limit.empty or spam.empty:
         return None
     page, both = figure(1, 2, width=5, height=5, sharex=True, sharey=True)
@@ -143,10 +124,10 @@ def fig6(tables: Tables) -> Figure | None:
             smaller = {"markersize": 7 - 1.2*number, "zorder": 4 - number, **(OPEN if number else {})}
             many = f"{words}, {group['particles'].iloc[0]:.0f} particles"
             energies(axes, group, column, many, KIND[kind] | smaller, ASIDE*number)
-    smoothed_grid(both[1], seen(tables, **BOX, rows=spam["resolution"].max()), limit)
+    smoothed_grid(both[1], looks.seen(tables, **BOX, rows=spam["resolution"].max()), limit)
     name_frozen(both[1], limit, spam, aside=(36, 44))
     from_flow = KIND["from-flow"] | {"markersize": 10, "markerfacecolor": "none", "zorder": 6}
-    started = finest(particles(tables, **BOX, **FROM_FLOW))
+    started = looks.finest(looks.particles(tables, **BOX, **FROM_FLOW))
     energies(both[1], started, "ke_field", "$K_g$, started from the grid's flow", from_flow)
     both[0].set(ylabel=ENERGY, ylim=(0, 1.1*max([*limit["ke"], *spam["ke"]])))
     for axes in both:
@@ -158,9 +139,10 @@ def fig6(tables: Tables) -> Figure | None:
 
 def fig8(tables: Tables) -> Figure | None:
     """Kinetic energy against time while weak rolls grow: particles, one line a seed, and the grid."""
-    spam = nearest(rows(tables, "history", **SPAM, **LAYER))
-    spam = finest(spam[spam["resolution"] <= 50])     # KHP95's 5000 particles; finer runs keep few samples
-    cells = finest(nearest(rows(tables, "history", **GRID, **LAYER)))
+    spam = looks.nearest(looks.rows(tables, "history", **SPAM, **LAYER))
+    # KHP95's 5000 particles; finer runs keep few samples
+    spam = looks.finest(spam[spam["resolution"] <= 50])
+    cells = looks.finest(looks.nearest(looks.rows(tables, "history", **GRID, **LAYER)))
     if spam.empty or cells.empty:
         return None
     page, axes = figure(width=7, height=4.2)
@@ -198,7 +180,7 @@ def changes(tables: Tables, method: str, order: Iterable[str], sizes: tuple[int,
     """Errors of those variants that were run with as many rows; none if there is nothing to compare."""
     scene = LAYER | {"method": method, "ra": RA}
     frame, gone = (frame[frame["resolution"].isin(sizes) & frame["variant"].isin([*order])]
-                   for frame in (errors(tables, **scene), diverged(tables, **scene)))
+                   for frame in (looks.errors(tables, **scene), looks.diverged(tables, **scene)))
     there = {*frame["variant"], *gone["variant"]}
     names = [name for name in order if name in there]
     at: dict[Any, int] = {name: number for number, name in enumerate(names)}
@@ -228,7 +210,7 @@ def dots(axes: Axes, series: pd.DataFrame, y: pd.Series, words: str, style: dict
     error, lower = 100*series["error"], bool((y % 1).any())
     axes.errorbar(error, y, xerr=100*series["error_err"], label="" if lower else words,
                   **style | MARKS | (OPEN if lower else {}))
-    cross_out(axes, error, y, series["steady"])
+    looks.cross_out(axes, error, y, series["steady"])
 
 
 def say_diverged(axes: Axes, row: Any, height: float) -> None:
@@ -242,5 +224,5 @@ def say_diverged(axes: Axes, row: Any, height: float) -> None:
 def symlog(axes: Axes, error: pd.Series) -> None:
     """Ticks of errors with their sign, in the range that there is."""
     axes.set_xscale("symlog", linthresh=LINEAR)
-    ticks = [tick for tick in TICKS if abs(tick) <= max(LINEAR, 100*np.abs(error).max())]
-    axes.set_xticks(ticks, labels=[f"{tick:g}" for tick in ticks])
+    ticks = [tick for tick in TICKS if abs(tick) <= max(LINEAR, 100*error.abs().max())]
+    axes.set_xticks(ticks, labels=map(str, ticks))

@@ -1,4 +1,5 @@
 """Errors of K and of heat transport against rows over the height: of methods, of edges of fixed points."""
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -11,39 +12,27 @@ from studies.build.words import name_of
 from studies.kit import fits
 from studies.kit.figure import LINES, below, figure, look, plain_ticks
 from studies.kit.table import Tables
-from studies.rb.looks import (
-    ENERGIES,
-    KIND,
-    LAYER,
-    MARKS,
-    OPEN,
-    RA_SHOWN,
-    cross_out,
-    diverged,
-    errors,
-    reference,
-    rows,
-    seen,
-)
+from studies.rb import looks
+from studies.rb.looks import ENERGIES, KIND, LAYER, MARKS, OPEN, RA_SHOWN
 
 Style = dict[str, Any]
-Key = tuple[str, str, str]      # method, variant, energy
 ROWS = "rows over the height $L$"
 SIGNS = "filled marks: too large, open: too small; bars: 95 % intervals"
 PALE = "pale lines: no power law, but a range"
 PANEL: Style = {"width": 5.2, "sharex": "row", "sharey": "row", "squeeze": False}
 #: of particles, by energy
 WORDS = {"Kp": f"spam: {ENERGIES['kp'][1]}", "Kg": f"spam: {ENERGIES['kg'][1]}", "Nu": "spam: Nusselt number"}
-METHODS: dict[Key, Style] = {
-    ("compressible", "flux-form", "Kp"): KIND["grid"],
-    ("compressible", "paper-form", "Kp"): {"color": "0.45", "marker": "X", "linestyle": ":"},
-    ("pypde-compressible", "staggered", "Kp"): look(5),
-    ("dih", "fixed-lattice", "Kp"): {**look(2), "marker": "v", "linestyle": LINES[4]},
-    ("dih", "fixed-jittered-plates", "Kp"): {**look(4), "marker": "<"},
-    ("dih", "moving", "Kp"): {**look(7), "marker": "*", "markersize": 8},
-    ("spam", "printed", "Kp"): KIND["kp"],
-    ("spam", "printed", "Kg"): KIND["kg"],
-    ("spam", "printed", "Nu"): KIND["nu"],
+#: "method variant energy" -> look
+METHODS: dict[str, Style] = {
+    "compressible flux-form Kp": KIND["grid"],
+    "compressible paper-form Kp": {"color": "0.45", "marker": "X", "linestyle": ":"},
+    "pypde-compressible staggered Kp": look(5),
+    "dih fixed-lattice Kp": {**look(2), "marker": "v", "linestyle": LINES[4]},
+    "dih fixed-jittered-plates Kp": {**look(4), "marker": "<"},
+    "dih moving Kp": {**look(7), "marker": "*", "markersize": 8},
+    "spam printed Kp": KIND["kp"],
+    "spam printed Kg": KIND["kg"],
+    "spam printed Nu": KIND["nu"],
 }
 EDGES = {
     "on a lattice, weight of Lucy": (
@@ -61,14 +50,13 @@ def convergence(tables: Tables) -> Figure | None:
     """Relative errors of kinetic energy and heat transport against rows over the height, for each method. A
     dotted line is what smoothing alone takes from the grid.
     """
-    chosen = errors(tables, **LAYER)
-    chosen = chosen[of_methods(chosen, METHODS)]
-    ras = panels(chosen)
+    chosen = of_series(looks.errors(tables, **LAYER), METHODS)
+    ras = [ra for ra in RA_SHOWN if (chosen["ra"] == ra).any()]
     if not ras:
         return None
     page, [line] = figure(1, len(ras), height=5.8, **PANEL)
     for axes, ra in zip(line, ras):
-        smoothing(axes, seen(tables, **LAYER, ra=ra))
+        smoothing(axes, looks.seen(tables, **LAYER, ra=ra))
         over_rows(axes, chosen[chosen["ra"] == ra], METHODS)
         finish(axes, f"Ra = {ra:g}", chosen)
         below(axes, title=PALE, title_fontsize=8)
@@ -83,45 +71,38 @@ def fixed_points(tables: Tables) -> Figure | None:
     """Errors of K on points that stay, against rows over the height: lattices above, then points off a
     lattice. Each line is one kind of edges. Crossed out is also what ended in another number of rolls.
     """
-    chosen = pd.concat([errors(tables, method="dih", energy="Kp", **LAYER), other_flows(tables)])
-    ras = panels(chosen)
-    chosen = chosen[chosen["ra"].isin(ras[-1:])]
-    gone = diverged(tables, method="dih", **LAYER, ra=max(ras, default=0))
-    kinds = {kind: {("dih", name, "Kp"): look(number) for number, name in enumerate(names)}
+    scene = {**LAYER, "method": "dih", "ra": max(RA_SHOWN)}
+    chosen = pd.concat([looks.errors(tables, energy="Kp", **scene), other_flows(tables, scene)])
+    gone = looks.diverged(tables, **scene)
+    kinds = {kind: {f"dih {name} Kp": look(number) for number, name in enumerate(names)}
              for kind, names in EDGES.items()}
-    kinds = {kind: keys for kind, keys in kinds.items() if of_methods(chosen, keys).any()}
+    kinds = {kind: keys for kind, keys in kinds.items() if len(of_series(chosen, keys))}
     if not kinds:
         return None
     page, all_axes = figure(len(kinds), 1, width=7.4, height=2.9, squeeze=False)
     for axes, (kind, keys) in zip(all_axes[:, 0], kinds.items()):
         over_rows(axes, chosen, keys, gone)
-        finish(axes, kind, chosen[of_methods(chosen, keys)])
+        finish(axes, kind, of_series(chosen, keys))
         axes.legend(loc="center left", bbox_to_anchor=(1, 0.5), title=PALE, title_fontsize=8)
         axes.set_ylabel(r"$|K/K_\mathrm{grid} - 1|$")
     page.suptitle("Points that stay converge on a lattice and with Delaunay edges,\n"
-                  f"not with edges of a weight off a lattice (Ra = {ras[-1]:g})\n{SIGNS}", fontsize=10)
+                  f"not with edges of a weight off a lattice (Ra = {max(RA_SHOWN)})\n{SIGNS}", fontsize=10)
     return page
 
 
-def panels(chosen: pd.DataFrame) -> list[float]:
-    """Rayleigh numbers that have a panel and rows."""
-    return [ra for ra in RA_SHOWN if (chosen["ra"] == ra).any()]
+def of_series(chosen: pd.DataFrame, keys: Iterable[str]) -> pd.DataFrame:
+    """Rows of `errors` of these series, coarse ones first."""
+    names = chosen["method"] + " " + chosen["variant"] + " " + chosen["energy"]
+    return chosen[names.isin(keys)].sort_values("resolution")
 
 
-def of_methods(chosen: pd.DataFrame, keys: dict[Key, Style]) -> pd.Series:
-    """Which rows of `errors` are of these series."""
-    found = pd.MultiIndex.from_frame(chosen[["method", "variant", "energy"]]).isin(keys)
-    return pd.Series(found, index=chosen.index, dtype=bool)
-
-
-def other_flows(tables: Tables) -> pd.DataFrame:
+def other_flows(tables: Tables, scene: dict[str, Any]) -> pd.DataFrame:
     """Points that ended in another number of rolls than the grid: no rows of `errors`, and never `steady`."""
-    grid = reference(tables, **LAYER)[["ra", "ke", "rolls"]]
-    means = rows(tables, "means", method="dih", **LAYER)
-    both = means.merge(grid[grid["ke"] > 0], on="ra", suffixes=("", "_grid"))
-    other = np.isfinite(both["resolution"].astype(float)) & (both["rolls"] != both["rolls_grid"])
-    both = both.assign(error=both["ke"]/both["ke_grid"] - 1, error_err=both["ke_err"]/both["ke_grid"])
-    return both.assign(energy="Kp", steady=False)[other]
+    limit = looks.reference(tables, **LAYER)[["ra", "ke", "rolls"]]
+    both = looks.rows(tables, "means", **scene).merge(limit, on="ra", suffixes=("", "_grid"))
+    other = both[(both["resolution"].astype(float) < np.inf) & (both["rolls"] != both["rolls_grid"])]
+    return other.assign(error=other["ke"]/other["ke_grid"] - 1, error_err=other["ke_err"]/other["ke_grid"],
+                        energy="Kp", steady=False)
 
 
 def smoothing(axes: Axes, grid: pd.DataFrame) -> None:
@@ -132,13 +113,13 @@ def smoothing(axes: Axes, grid: pd.DataFrame) -> None:
                   label=r"$1 - K_\mathrm{smoothed}/K$: the smoothing alone")
 
 
-def over_rows(axes: Axes, chosen: pd.DataFrame, keys: dict[Key, Style],
+def over_rows(axes: Axes, chosen: pd.DataFrame, keys: dict[str, Style],
               gone: pd.DataFrame | None = None) -> None:
     """Errors of each series with its power law; at which rows runs diverged is said in the legend."""
     for key, style in keys.items():
-        series = chosen[of_methods(chosen, {key: style})].sort_values("resolution")
-        words = WORDS[key[2]] if key[0] == "spam" else name_of(*key[:2])
-        if gone is not None and (lost := gone.loc[gone["variant"] == key[1], "resolution"]).any():
+        series, (method, variant, energy) = of_series(chosen, [key]), key.split()
+        words = WORDS[energy] if method == "spam" else name_of(method, variant)
+        if gone is not None and (lost := gone.loc[gone["variant"] == variant, "resolution"]).any():
             words += f" [{', '.join(f'{size:.0f}' for size in lost)} rows: diverged]"
         if len(series):
             powers(axes, series, words, style)
@@ -175,7 +156,7 @@ def signed(axes: Axes, series: pd.DataFrame, words: str, style: Style) -> None:
     positive = series["error"] >= 0
     for sign, face in ((positive, {}), (~positive, OPEN)):
         axes.errorbar(x[sign], size[sign], [down[sign], err[sign]], **style | face | MARKS)
-    cross_out(axes, x, size, series["steady"])
+    looks.cross_out(axes, x, size, series["steady"])
 
 
 def finish(axes: Axes, title: str, line: pd.DataFrame) -> None:

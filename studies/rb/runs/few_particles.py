@@ -1,167 +1,224 @@
-"""The sums of KHP95, Sec. II, by plain numpy for 36 particles in a periodic square, Lucy's weight, m = 1.
+"""Sums over few particles: lattices of the two printed weights, and 36 particles in a periodic square.
 
-State (5, n) = x, y, vx, vy, e. Readable and slow; not the code that runs flows.
+Mass 1 a particle, lengths in sigma, density 1 but in the square. `particles.weights` normalises its weights
+by quadrature. Here the printed factors stand, so that they can be judged    [KHP95, Sec. II]
 """
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import cache
 from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.polynomial import Polynomial
 
-from continuum.fluid import stress_tensor
-from studies.kit import stats
+from continuum.fluid import ConstEta, VanDerWaals
+from particles.integrators import RK4
+from particles.plan import Plan
+from particles.run import run
+from particles.smooth.spam import Spam
+from particles.threads import Threads
+from particles.weights import Lucy
+from studies.build.spam import fluid
+from studies.kit import fits, stats
 from studies.kit.stats import Measured
 
 RANGE = 3.0
+
+# --- lattices -------------------------------------------------------------------------------------
+
+R = Polynomial([0, 1])
+#: primitive vectors, as columns
+AXES = {"square": np.eye(2), "hexagonal": np.array([[1.0, 0.5], [0.0, np.sqrt(3)/2]])}
+SITES = (1, 2, 3, 4)        # particles on a site of a lattice
+
+
+class Printed(NamedTuple):
+    """A weight of range 3 in pieces (upper end, polynomial in r)."""
+    pieces: tuple[tuple[float, Polynomial], ...]
+
+    def __call__(self, r, h: float = RANGE):
+        """w(r) of range h; the printed one stretched, its integral kept."""
+        s = np.asarray(r)*RANGE/h
+        inside = [s < end for end, _ in self.pieces]
+        values = [piece(s) for _, piece in self.pieces]
+        return (RANGE/h)**2*np.select(inside, values, 0.0)
+
+    @property
+    def integral(self) -> float:
+        """Over the plane."""
+        total, begin = 0.0, 0.0
+        for end, piece in self.pieces:
+            disc = (2*np.pi*R*piece).integ()
+            total += disc(end) - disc(begin)
+            begin = end
+        return float(total)
+
+    def jumps(self, order: int) -> list[float]:
+        """Jumps of the derivative of that order at the ends of the pieces, over w(0); at r = 0 the slope."""
+        slopes = [piece.deriv(order) if order else piece for _, piece in self.pieces]
+        slopes.append(Polynomial([0.0]))
+        ends = [end for end, _ in self.pieces]
+        jumps = [slopes[i + 1](end) - slopes[i](end) for i, end in enumerate(ends)]
+        at_zero = [slopes[0](0.0)] if order == 1 else []
+        return [jump/float(self(0.0)) for jump in jumps + at_zero]
+
+
+LUCY = Printed(((3.0, 5/(9*np.pi)*(1 + R)*(1 - R/3)**3),))
+MONAGHAN = Printed(((1.5, 40/(63*np.pi)*(1 - 2/3*R**2 + 2/9*R**3)), (3.0, 80/(63*np.pi)*(1 - R/3)**3)))
+BOTH = (LUCY, MONAGHAN)
+
+
+def lattice(kind: str, per_site: float = 1.0, reach: float = 12.0) -> np.ndarray:
+    """(2, sites): a lattice of density 1 with so many particles a site, one site at the origin."""
+    axes = AXES[kind]
+    n = np.arange(-int(2*reach), int(2*reach) + 1)
+    sites = axes@np.stack(np.meshgrid(n, n)).reshape(2, -1)
+    return sites*np.sqrt(per_site/np.linalg.det(axes))
+
+
+def density(weight: Printed, kind: str, per_site: float = 1.0) -> float:
+    """The density sum at a particle of a lattice of density 1."""
+    r = np.hypot(*lattice(kind, per_site))
+    return float(per_site*weight(r).sum())
+
+
+def shear_modulus(weight: Printed, kind: str, h: float, angle: float, step: float = 1e-3) -> float:
+    """Shear over bulk modulus of the ideal gas on a lattice turned by an angle, by differences of three sums.
+
+    At constant area only the sum of the density changes: G = P d2(rho)/d(gamma)^2, B = rho c^2 = 2 P, gamma =
+    2 step.
+    """
+    cos, sin = np.cos(angle), np.sin(angle)
+    turn = np.array([[cos, sin], [-sin, cos]])
+    sums = []
+    for s in (-step, 0.0, step):
+        stretch = np.diag([np.exp(s), np.exp(-s)])
+        sums.append(weight(np.hypot(*(stretch@turn@lattice(kind))), h).sum())
+    return float(np.diff(sums, 2)[0]/step**2/4/2)
+
+
+def largest_modulus(weight: Printed, kind: str, h: float = RANGE) -> float:
+    """Largest |G/B| of shears along an axis and at 45 degrees."""
+    return max(abs(shear_modulus(weight, kind, h, angle)) for angle in (0.0, np.pi/4))
+
+
+def least(weight: Printed, kind: str) -> tuple[float, int]:
+    """Least density sum, and so least energy at any pressure, and how many particles a site have it."""
+    return min((density(weight, kind, sites), sites) for sites in SITES)
+
+
+# --- 36 particles ---------------------------------------------------------------------------------
+
 SIDE = 6.5                      # more than twice the range: no pair is counted twice
 TIME = 4.8
 STEPS = (8, 16, 32, 64)         # of that time: dt from 0.6, the largest stable one, down
 SMALL = (64, 128, 256, 512)     # dt from 0.075 down
 AS_RUN = 12                     # dt = 0.4, as in the runs of the study
 SEEDS = (1, 2, 3, 4, 5, 6)
-Pressure = Callable[[np.ndarray, np.ndarray], np.ndarray]
-Errors = Callable[[np.ndarray, Sequence[np.ndarray]], list[float]]
+GAS = fluid(Lucy.of(RANGE), (SIDE, SIDE), law=ConstEta(0.3, 0.3))
+#: P = rho^2: van der Waals without excluded volume, of a heat capacity so large that energy adds nothing
+RHO_SQUARED = VanDerWaals(a=-1.0, b=0.0, cv=1e300)
+MOLECULES = fluid(Lucy.of(RANGE), (SIDE, SIDE), RHO_SQUARED)
+Errors = Callable[[Spam, int, Sequence[int]], list[float]]
 
 
-def lucy(r: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """w(r) and w'(r)/r."""
-    s = np.minimum(r/RANGE, 1.0)
-    scale = 5/(np.pi*RANGE**2)
-    return scale*(1 + 3*s)*(1 - s)**3, -12*scale/RANGE**2*(1 - s)**2
+class Midpoint:
+    """Runge-Kutta of second order: two evaluations a step."""
+    evaluations = 2
+
+    def __init__(self, shape: tuple[int, ...], threads: Threads):
+        self._k = np.empty(shape)
+
+    def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
+        """Advance y in place by dt."""
+        sums.rates(y, self._k)
+        sums.rates(y + dt/2*self._k, self._k)
+        y += dt*self._k
 
 
-def start(seed: int = 1, columns: int = 6) -> np.ndarray:
-    """A jittered lattice with random velocities, e about 1."""
+def start(method: Spam = GAS, seed: int = 1) -> np.ndarray:
+    """A jittered lattice with random velocities; e about 1, or so large that any density is valid."""
     rng = np.random.default_rng(seed)
-    n = columns**2
-    sites = np.indices((columns, columns)).reshape(2, n)
-    at = (sites + 0.5)*SIDE/columns - SIDE/2
-    x = at + rng.uniform(-0.2, 0.2, (2, n))
-    v = 0.3*rng.standard_normal((2, n))
-    e = 1 + 0.1*rng.standard_normal((1, n))
-    return np.concatenate([x, v, e])
+    sites = np.indices((6, 6)).reshape(2, 36)
+    x = (sites + 0.5)*SIDE/6 - SIDE/2 + rng.uniform(-0.2, 0.2, (2, 36))
+    v = 0.3*rng.standard_normal((2, 36))
+    e = 1 + 0.1*rng.standard_normal((1, 36))
+    return np.concatenate([x, v, e if method is GAS else 1e3*e])
 
 
-def separations(state: np.ndarray) -> np.ndarray:
-    """(n, n, 2): r_i - r_j to the nearest image."""
-    x = state[:2].T
-    d = x[:, None] - x[None]
-    return d - SIDE*np.round(d/SIDE)
+def rates(method: Spam, state: np.ndarray) -> np.ndarray:
+    """d/dt of a state (5, n) by the sums that run."""
+    sums, ordered, ids = method.look(state)
+    out = np.empty_like(ordered)
+    sums.rates(ordered, out)
+    return out[:, np.argsort(ids)]
 
 
-def densities(state: np.ndarray) -> np.ndarray:
-    """rho_i = sum_j m w_ij"""
-    r = np.linalg.norm(separations(state), axis=2)
-    return lucy(r)[0].sum(axis=1)
+@cache
+def end(method: Spam, seed: int, steps: int, integrator: type = RK4) -> np.ndarray:
+    """State at the end of TIME, by so many steps; kept, because several numbers need the same."""
+    return march(replace(method, integrator=integrator), start(method, seed), steps)
 
 
-def ideal(rho: np.ndarray, e: np.ndarray) -> np.ndarray:
-    """P = rho e    [Eq. 1]"""
-    return rho*e
+def march(method: Spam, state: np.ndarray, steps: int) -> np.ndarray:
+    """State after TIME."""
+    return run(method, state, Plan(dt=TIME/steps, steps=steps)).by_id()
 
 
-def quadratic(rho: np.ndarray, e: np.ndarray) -> np.ndarray:
-    """P = rho^2    [Sec. III]"""
-    return rho**2
+def apart(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Difference of two states, places to the nearest image."""
+    change = one - other
+    change[:2] -= SIDE*np.round(change[:2]/SIDE)
+    return change
 
 
-def rates(state: np.ndarray, pressure: Pressure = ideal, eta: float = 0.0) -> np.ndarray:
-    """d/dt of the state: density; gradients of v and T; divergences of P and Q, eta = k, T = e."""
-    d = separations(state)
-    v, e = state[2:4].T, state[4]
-    w, slope = lucy(np.linalg.norm(d, axis=2))
-    rho = w.sum(axis=1)
-    grad = slope[:, :, None]*d
-    dv = v[None] - v[:, None]
-    dT = e[None] - e[:, None]
-    mean = np.sqrt(rho[:, None]*rho)
-    square = rho[:, None, None]**2
-    grad_v = np.einsum("ija,ijb->iab", grad, dv/mean[:, :, None])
-    stress = stress_tensor(eta, 0.0, grad_v)
-    P = (pressure(rho, e)[:, None, None]*np.eye(2) - stress)/square
-    Q = -eta*np.einsum("ija,ij->ia", grad, dT/mean)/square[:, 0]
-    force = np.einsum("ijab,ijb->ija", P[:, None] + P[None], grad)
-    heat = np.einsum("ija,ija->i", Q[:, None] + Q[None], grad)
-    work = np.einsum("ija,ija->i", force, dv)
-    return np.array([*v.T, *-force.sum(axis=1).T, -0.5*work - heat])
+def distance(one: np.ndarray, other: np.ndarray) -> float:
+    """Root mean square of the difference of two states."""
+    return float(np.sqrt(np.mean(apart(one, other)**2)))
 
 
-def march(state: np.ndarray, dt: float, steps: int, **law) -> np.ndarray:
-    """Classical fourth-order Runge-Kutta steps."""
-    for _ in range(steps):
-        a = rates(state, **law)
-        b = rates(state + dt/2*a, **law)
-        c = rates(state + dt/2*b, **law)
-        d = rates(state + dt*c, **law)
-        state = state + dt/6*(a + 2*b + 2*c + d)
-    return state
-
-
-def march_midpoint(state: np.ndarray, dt: float, steps: int, **law) -> np.ndarray:
-    """Midpoint steps, Runge-Kutta of second order: two evaluations each."""
-    for _ in range(steps):
-        middle = state + dt/2*rates(state, **law)
-        state = state + dt*rates(middle, **law)
-    return state
+def potential(state: np.ndarray) -> float:
+    """Sum of 2 w over all pairs, and of each particle's own w."""
+    return float(MOLECULES.fields(state).rho.sum())
 
 
 def not_molecular(step: float = 1e-5) -> float:
     """Largest difference of SPAM accelerations, P = rho^2, from -grad of sum 2 w(r), relative."""
-    state = start()
-    force = rates(state, quadratic)[2:4]
+    state = start(MOLECULES)
+    force = rates(MOLECULES, state)[2:4]
     slopes = np.zeros_like(force)
     for at in np.ndindex(force.shape):
         there, back = state.copy(), state.copy()
         there[at] += step
         back[at] -= step
-        slopes[at] = (densities(there).sum() - densities(back).sum())/(2*step)
-    difference = np.abs(force + slopes).max()
-    return float(difference/np.abs(force).max())
+        slopes[at] = (potential(there) - potential(back))/(2*step)
+    return float(np.abs(force + slopes).max()/np.abs(force).max())
 
 
-def momentum_left() -> float:
-    """Sum of m dv/dt over the sum of moduli, with viscosity and conduction."""
-    terms = rates(start(), eta=0.3)[2:4]
-    left = np.abs(terms.sum(axis=1)).max()
-    return float(left/np.abs(terms).sum())
-
-
-def energy_left() -> float:
-    """Sum of m(de/dt + v.dv/dt) over the sum of moduli, with viscosity and conduction."""
+def left_over() -> tuple[float, float]:
+    """Sums of m dv/dt and of m(de/dt + v.dv/dt) over the sums of moduli, with viscosity and conduction."""
     state = start()
-    rate = rates(state, eta=0.3)
-    terms = np.array([rate[4], state[2]*rate[2], state[3]*rate[3]])
-    return float(np.abs(terms.sum())/np.abs(terms).sum())
+    rate = rates(GAS, state)
+    forces, energies = rate[2:4], np.array([rate[4], *(state[2:4]*rate[2:4])])
+    momentum = np.abs(forces.sum(axis=1)).max()/np.abs(forces).sum()
+    return float(momentum), float(np.abs(energies.sum())/np.abs(energies).sum())
 
 
 def energy_drift() -> float:
     """Change of kinetic energy and sum of w over kinetic energy, after t = 4.8 with dt = 0.075; P = rho^2."""
-    first, last = start(), end(1, 64, pressure=quadratic)
-    before = kinetic(first) + densities(first).sum()
-    after = kinetic(last) + densities(last).sum()
-    return float(abs(after - before)/kinetic(first))
+    states = start(MOLECULES), end(MOLECULES, 1, 64)
+    kinetic = [(state[2:4]**2).sum()/2 for state in states]
+    before, after = (K + potential(state) for K, state in zip(kinetic, states))
+    return float(abs(after - before)/kinetic[0])
 
 
-def kinetic(state: np.ndarray) -> float:
-    """Kinetic energy."""
-    return float((state[2:4]**2).sum()/2)
-
-
-@cache
-def end(seed: int, steps: int, **law) -> np.ndarray:
-    """State at the end of TIME, by so many steps; kept, because several numbers need the same."""
-    return march(start(seed), TIME/steps, steps, **law)
-
-
-def order(error: Errors, steps: tuple[int, ...], **law) -> Measured:
-    """Slope of log error against log dt, mean over starts; `error` gets the start and all ends."""
+def order(error: Errors, method: Spam, steps: Sequence[int]) -> Measured:
+    """-d ln error/d ln steps, mean over starts; of as many numbers of steps as there are errors."""
     orders = []
     for seed in SEEDS:
-        ends = [end(seed, n, **law) for n in steps]
-        errors = error(start(seed), ends)
-        log_steps = np.log(steps[:len(errors)])
-        slope, _ = np.polyfit(log_steps, np.log(errors), 1)
-        orders.append(-slope)
+        errors = error(method, seed, steps)
+        orders.append(-fits.power_law(steps[:len(errors)], errors).slope.value)
     return stats.over_seeds(orders)
 
 
@@ -169,29 +226,19 @@ def against_midpoint() -> Measured:
     """Error of Runge-Kutta of order 4, dt = 0.4, over that of order 2 with as many evaluations."""
     ratios = []
     for seed in SEEDS:
-        true = end(seed, SMALL[-1], eta=0.3)
-        fourth = end(seed, AS_RUN, eta=0.3)
-        second = march_midpoint(start(seed), TIME/(2*AS_RUN), 2*AS_RUN, eta=0.3)
+        true = end(GAS, seed, SMALL[-1])
+        fourth, second = end(GAS, seed, AS_RUN), end(GAS, seed, 2*AS_RUN, Midpoint)
         ratios.append(distance(fourth, true)/distance(second, true))
     return stats.over_seeds(ratios)
 
 
-def distance(one: np.ndarray, other: np.ndarray) -> float:
-    """Root mean square of the difference of two states."""
-    return float(np.sqrt(np.mean((one - other)**2)))
-
-
-def return_errors(first: np.ndarray, ends: Sequence[np.ndarray]) -> list[float]:
-    """Distance from the start after as many steps with all velocities turned; P = rho^2."""
+def return_errors(method: Spam, seed: int, steps: Sequence[int]) -> list[float]:
+    """Largest distance from the start after as many steps with all velocities turned."""
     turn = np.array([1, 1, -1, -1, 1])[:, None]
-    distances = []
-    for last, n in zip(ends, STEPS, strict=False):
-        back = march(last*turn, TIME/n, n, pressure=quadratic)
-        apart = np.abs(back[:2] - first[:2])
-        distances.append(float(apart.max()))
-    return distances
+    back = [march(method, turn*end(method, seed, n), n) for n in steps]
+    return [float(np.abs(apart(one, start(method, seed))[:2]).max()) for one in back]
 
 
-def step_errors(first: np.ndarray, ends: Sequence[np.ndarray]) -> list[float]:
+def step_errors(method: Spam, seed: int, steps: Sequence[int]) -> list[float]:
     """Distance between the ends of one step size and of half of it."""
-    return [distance(a, b) for a, b in pairwise(ends)]
+    return [distance(a, b) for a, b in pairwise(end(method, seed, n) for n in steps)]

@@ -61,25 +61,12 @@ def field_rows(key: dict, scene: RayleighBenard, grid: Grid, at: Any) -> list[di
 
 
 @dataclass(frozen=True, kw_only=True)
-class Refined(Case):
-    """Steady states on ever finer grids, `sizes` rows, each started from the one before.
+class CompressibleSteady(Case):
+    """Steady states of the gas on ever finer grids, each started from the one before, with `sizes` rows.
 
-    Raises
-    ------
-    ValueError
-        Sizes are empty, or no tuple: nothing would follow from no grids.
+    keep : whether the finest grid's fields are kept, if not empty. form : of the equations on the grid.
     """
     sizes: tuple[int, ...]
-
-    def __post_init__(self):
-        if not (isinstance(self.sizes, tuple) and self.sizes):
-            raise ValueError(f"sizes must be the rows of one grid or more, got {self.sizes!r}: "
-                             "give them coarsest first, as in (16, 24, 32)")
-
-
-@dataclass(frozen=True, kw_only=True)
-class CompressibleSteady(Refined):
-    """The gas; the finest grid's fields on request."""
     scene: RayleighBenard
     rtol: float = 1e-5
     keep: str = ""
@@ -141,7 +128,7 @@ class CompressibleApproach(Case):
 
 
 @dataclass(frozen=True, kw_only=True)
-class BoussinesqSteady(Refined):
+class BoussinesqSteady(Case):
     """The periodic pair of rolls (as one roll between planes of symmetry) in the Boussinesq fluid.
 
     Below onset Newton's method ends at rest, and one grid tells as much as three.
@@ -173,7 +160,7 @@ class BoussinesqSteady(Refined):
 
 
 @dataclass(frozen=True, kw_only=True)
-class PypdeSteady(Refined):
+class PypdeSteady(Case):
     """py-pde's Boussinesq layer (`scene` None) or compressible gas."""
     ra: float
     pr: float = 1.0
@@ -186,18 +173,15 @@ class PypdeSteady(Refined):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         rows: list[dict] = []
-        start: dict = {}
+        solution: pypde.PdeSolution | None = None
         for size in self.sizes:
-            solution = self._solve(size, start)
-            start = {"start": solution}
+            solution = pypde.solve(self._fluid(size), start=solution)
             rows.append({**self._point(), "resolution": size, **spent(solution), "rolls": solution.rolls})
             report(len(rows)/len(self.sizes))
         return Outcome({"kinetic_energy": rows})
 
-    def _solve(self, rows: int, start: dict) -> pypde.PdeSolution:
-        if self.scene is None:
-            return pypde.solve(Boussinesq(ra=self.ra, pr=self.pr, rows=rows), **start)
-        return pypde.solve(Gas(self.scene, rows), **start)
+    def _fluid(self, rows: int) -> Boussinesq | Gas:
+        return Gas(self.scene, rows) if self.scene else Boussinesq(ra=self.ra, pr=self.pr, rows=rows)
 
     def _point(self) -> dict:
         if self.scene is None:

@@ -1,1 +1,0 @@
-"""Linear stability of layers and squares heated from below."""

@@ -1,0 +1,178 @@
+"""What points that move with their triangulation exchange, compiled; `march` steps it.
+
+The volume of a point changes by sum_j S_ij.(w_i + w_j)/2, exactly, if S is that of the middle of the step.
+What passes an edge passes it at r = w - v.
+"""
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import conductivity, energy, pressure, temperature, viscosity
+from continuum.jit import formula, jit, jit_records
+from particles.integral.exchange import Listing
+from particles.neighbours import u64
+from particles.pairs import Block, rate, sweep, zero
+
+#: of a state: places, velocity of points, then what edges exchange: momentum, mass, volume, total energy
+ROWS = ("x", "y", "wx", "wy", "px", "py", "m", "V", "E")
+EXCHANGED = slice(4, 9)
+BLOCK = 32
+
+#: ux, uy are vx, vy, for nothing lies beyond a side: what most loops read fills a line of the cache
+FIELDS = "vx vy rx ry rho P e Td eta k ux uy".split()
+OFFSETS = [*range(0, 80, 8), 0, 8]
+Point = np.dtype({"names": FIELDS, "formats": ["f8"]*len(FIELDS), "offsets": OFFSETS, "itemsize": 80})
+
+
+class Crossing(NamedTuple):
+    """What passes an edge at r = w - v: mass, momentum, energy; and pressure with its work.
+
+    m' = S.(r_a + r_b)/2 (rho_a + rho_b)/2, with it the mean velocity and (e_a + e_b + v_a.v_b)/2: kinetic
+    energy is neither made nor lost on the way. A row's own pressure is left out of the force: edges close.
+    """
+
+
+class Fluid(NamedTuple):
+    """What is the same at all steps. shift : towards the middle of the triangles, over the fastest strain."""
+    eos: Any
+    law: Any
+    terms: Listing
+    g: float
+    shift: float
+
+
+class Bench(NamedTuple):
+    """Room for a step: fields of points; places, V and pull in its middle; what was, and what edges bring."""
+    points: np.ndarray
+    middle: np.ndarray
+    V: np.ndarray
+    pull: np.ndarray
+    before: np.ndarray
+    strain: np.ndarray
+    flow: np.ndarray
+    once: np.ndarray
+    crossed: np.ndarray
+    changed: np.ndarray
+    stack: np.ndarray
+    free: np.ndarray
+    flipped: np.ndarray
+
+
+zero.of(Crossing)(lambda term: (0.0, 0.0, 0.0, 0.0))
+
+
+@rate.of(Crossing)
+def _(term, a, b, ab):
+    sx, sy = ab.sx, ab.sy
+    mass = 0.5*(sx*(a.rx + b.rx) + sy*(a.ry + b.ry))*(a.rho + b.rho)
+    P, half = b.P - a.P, 0.5*mass
+    work = a.P*(sx*b.vx + sy*b.vy) + b.P*(sx*a.vx + sy*a.vy)
+    return (mass, half*(a.vx + b.vx) - sx*P, half*(a.vy + b.vy) - sy*P,
+            half*(a.e + b.e + a.vx*b.vx + a.vy*b.vy) - work)
+
+
+@jit
+def read(first, last, y, eos, law, points):
+    """Fields of points."""
+    for i in range(u64(first), u64(last)):
+        a, m = points[i], y[6, i]
+        per_m = 1/m
+        a.rho, a.vx, a.vy = m/y[7, i], per_m*y[4, i], per_m*y[5, i]
+        a.rx, a.ry = y[2, i] - a.vx, y[3, i] - a.vy
+        a.e = per_m*y[8, i] - 0.5*(a.vx**2 + a.vy**2)
+        a.P, a.Td = pressure(eos, a.rho, a.e), temperature(eos, a.rho, a.e)
+        a.eta, a.k = viscosity(law, a.rho, a.Td), conductivity(law, a.rho, a.Td)
+
+
+@jit
+def differ(first, last, rings, bench):
+    """dV/dt, |grad v|, and what forces along edges lack of a fluid's stress, with its heating.
+
+    The rest pushes a corner i of a triangle (i, j, k) by eta R(v_j - v_k)/2, R(x, y) = (y, -x), with its mean
+    eta; what that does on all three corners, eta (v_j - v_i) x (v_k - v_i), it takes from their heat in equal
+    shares: nothing is lost in any triangle, a stream that is the same everywhere makes no difference, and a
+    rigid rotation does not heat.
+    """
+    points, edges = bench.points, rings.edges
+    for i in range(u64(first), u64(last)):
+        a, begin, count = points[i], edges.first[i], u64(edges.taken[i])
+        end = begin + count - u64(1)
+        c = points[edges.near[end]]
+        u, v, eta = c.ux - a.ux, c.uy - a.uy, c.eta
+        flow, xx, xy, yx, yy, px, py, heat = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        for e in range(begin, begin + count):
+            b, sx, sy = points[edges.near[e]], edges.sx[e], edges.sy[e]
+            du, dv = b.ux - a.ux, b.uy - a.uy
+            flow += sx*(a.rx + a.vx + b.rx + b.vx) + sy*(a.ry + a.vy + b.ry + b.vy)
+            xx, xy, yx, yy = xx + sx*du, xy + sy*du, yx + sx*dv, yy + sy*dv
+            mean = (a.eta + eta + b.eta)/3
+            if not (rings.rim[i] and e == begin):
+                px -= 0.5*mean*(dv - v)
+                py += 0.5*mean*(du - u)
+                heat -= mean*(u*dv - v*du)/3
+            u, v, eta = du, dv, b.eta
+        bench.flow[i], bench.strain[i] = flow, (xx*xx + xy*xy + yx*yx + yy*yy)/bench.V[i]**2
+        bench.once[i, 0], bench.once[i, 1], bench.once[i, 2] = px, py, heat + px*a.ux + py*a.uy
+
+
+@jit_records
+def stage(first, last, dt, new, fluid, edges, bench, y):
+    """(1 - new) before + new (now + dt d/dt), which rounds to less than the sum."""
+    sums, before, once, g = np.empty((BLOCK, 4)), bench.before, bench.once, fluid.g
+    for begin in range(u64(first), u64(last), u64(BLOCK)):
+        end = min(begin + u64(BLOCK), u64(last))
+        sweep(begin, end, fluid.terms, bench.points, edges, Block(begin, sums))
+        for i in range(begin, end):
+            s, m, py = sums[i - begin], y[6, i], y[5, i]
+            y[4, i] = later(before[0, i], y[4, i], new, dt*(s[1] + once[i, 0]))
+            y[5, i] = later(before[1, i], py, new, dt*(s[2] + once[i, 1] - g*m))
+            y[6, i] = later(before[2, i], m, new, dt*s[0])
+            y[7, i] = later(before[3, i], y[7, i], new, dt*bench.flow[i])
+            y[8, i] = later(before[4, i], y[8, i], new, dt*(s[3] + once[i, 2] - g*py))
+
+
+@formula
+def later(before, now, new, change):
+    return before + new*(now - before + change)
+
+
+@jit
+def heat(held, bench):
+    """What held points without a temperature are given."""
+    which, _, _, _, given = held
+    for s in range(len(which)):
+        bench.once[which[s], 2] += given[s]
+
+
+@jit
+def hold(eos, held, y):
+    """Momentum of held points; energy of those with a temperature, the side's work on others."""
+    which, v, T, _, _ = held
+    for s in range(len(which)):
+        i = which[s]
+        m = y[6, i]
+        y[8, i] += v[s, 0]*(m*v[s, 0] - y[4, i]) + v[s, 1]*(m*v[s, 1] - y[5, i])
+        y[4, i], y[5, i] = m*v[s, 0], m*v[s, 1]
+        if T[s] == T[s]:        # not nan
+            y[8, i] = m*(energy(eos, m/y[7, i], T[s]) + 0.5*(v[s, 0]**2 + v[s, 1]**2))
+
+
+@jit
+def receive(fluid, rings, held, y, bench, received):
+    """Momentum and energy that held points take, per time, of a state on its own triangulation."""
+    (which, v, T, _, given), n, eos = held, y.shape[1], fluid.eos
+    read(0, n, y, eos, fluid.law, bench.points)
+    differ(0, n, rings, bench)
+    sums = np.empty((1, 4))
+    for s in range(len(which)):
+        i, once = which[s], bench.once[which[s]]
+        sweep(i, i + 1, fluid.terms, bench.points, rings.edges, Block(i, sums))
+        mass, m, V, e = sums[0, 0], y[6, i], y[7, i], bench.points[i].e
+        fx, fy = sums[0, 1] + once[0] - v[s, 0]*mass, sums[0, 2] + once[1] - v[s, 1]*mass
+        taken = fx*v[s, 0] + fy*v[s, 1] - given[s]
+        if T[s] == T[s]:
+            rho, d = m/V, 1e-6*m/V
+            slope = (energy(eos, rho + d, T[s]) - energy(eos, rho - d, T[s]))/(2*d)
+            change = mass*e + slope*(mass - rho*bench.flow[i])*rho
+            taken = sums[0, 3] + once[2] - change - 0.5*(v[s, 0]**2 + v[s, 1]**2)*mass
+        received[s, 0], received[s, 1], received[s, 2] = fx, fy, taken

@@ -1,0 +1,140 @@
+"""Flips of a triangulation that is held as rings, compiled, and what a flip hands over."""
+import numpy as np
+
+from continuum.jit import formula, jit
+from particles.integral.rings import FLAT, apart
+from particles.neighbours import u32, u64
+
+
+@jit
+def slot(rings, i, j):
+    """Where j stands in the ring of i, counted in all entries; the end of the ring if it does not."""
+    e = rings.edges.first[i]
+    end = e + u64(rings.edges.taken[i])
+    while e < end and rings.edges.near[e] != j:
+        e += u64(1)
+    return e
+
+
+@formula
+def beside(rings, i, e):
+    """Neighbours of i after and before entry e."""
+    begin, near = rings.edges.first[i], rings.edges.near
+    end = begin + u64(rings.edges.taken[i]) - u64(1)
+    after, before = near[e + u64(1) if e < end else begin], near[e - u64(1) if e > begin else end]
+    return np.int64(after), np.int64(before)
+
+
+@jit
+def drop(rings, i, e):
+    """Take entry e out of the ring of i."""
+    near, end = rings.edges.near, rings.edges.first[i] + u64(rings.edges.taken[i]) - u64(1)
+    for s in range(e, end):
+        near[s] = near[s + u64(1)]
+    rings.edges.taken[i] -= u32(1)
+
+
+@jit
+def put(rings, i, e, j):
+    """Put j behind entry e of the ring of i."""
+    near, s = rings.edges.near, rings.edges.first[i] + u64(rings.edges.taken[i])
+    while s > e + u64(1):
+        near[s] = near[s - u64(1)]
+        s -= u64(1)
+    near[s] = u32(j)
+    rings.edges.taken[i] += u32(1)
+
+
+@formula
+def doubled(x, y, size, per, i, j, k):
+    """Twice the area of a triangle, positive counterclockwise."""
+    jx, jy = apart(x, y, size, per, i, j)
+    kx, ky = apart(x, y, size, per, i, k)
+    return jx*ky - jy*kx
+
+
+@formula
+def cotangents(x, y, size, per, i, j, k, l):
+    """cot_k + cot_l of the triangles (i, j, k), (i, l, j) at an edge (i, j)."""
+    jx, jy = apart(x, y, size, per, i, j)
+    kx, ky = apart(x, y, size, per, i, k)
+    lx, ly = apart(x, y, size, per, i, l)
+    return ((kx*(kx - jx) + ky*(ky - jy))/(jx*ky - jy*kx) + (lx*(lx - jx) + ly*(ly - jy))/(lx*jy - ly*jx))
+
+
+@jit
+def flips(at, state, rings, crossed, changed, stack):
+    """Flip until no edge is to be: (number of flips, -1) or (flips so far, a point without room in its ring).
+
+    at (2, n) : places that decide; volumes belong to those in the state, of `carried`. A flip takes (i, j),
+    with k left and l right of it, for (l, k), and moves as much of what the four points have as the volume
+    that changes hands carries: conservative, exact on linear fields. changed : points whose rings have
+    changed. stack (m, 2) : room for edges to be looked at.
+    """
+    x, y = at
+    size, per, near, count = rings.size, rings.per, rings.edges.near, 0
+    x0, y0, exchanged = state[0], state[1], state[4:9]
+    stride = u64(len(near)//len(rings.rim))
+    for row in range(len(crossed)):
+        if not crossed[row]:
+            continue
+        top = 0
+        for e in range(rings.edges.first[row], rings.edges.first[row] + u64(rings.edges.taken[row])):
+            stack[top, 0], stack[top, 1] = row, near[e]
+            top += 1
+        while top > 0:
+            top -= 1
+            i, j = stack[top]
+            entry, back = slot(rings, i, j), slot(rings, j, i)
+            if entry == rings.edges.first[i] + u64(rings.edges.taken[i]) or on_side(rings, i, entry):
+                continue        # it went in another flip, or has a triangle on one side only
+            k, l = beside(rings, i, entry)
+            if 0.5*cotangents(x, y, size, per, i, j, k, l) >= FLAT:
+                continue
+            if not (doubled(x, y, size, per, i, l, k) > 0 and doubled(x, y, size, per, j, k, l) > 0):
+                continue        # not convex: another flip comes first
+            for full in (k, l):
+                if u64(rings.edges.taken[full]) == stride:
+                    return count, full
+            remap(x0, y0, size, per, exchanged, i, j, k, l)
+            drop(rings, i, entry)
+            drop(rings, j, back)
+            put(rings, k, slot(rings, k, i), l)
+            put(rings, l, slot(rings, l, j), k)
+            for m in (i, j, k, l):
+                changed[m] = True
+            for one, other in ((j, k), (k, i), (i, l), (l, j)):
+                if top < len(stack):
+                    stack[top, 0], stack[top, 1] = one, other
+                    top += 1
+            count += 1
+    return count, -1
+
+
+@formula
+def on_side(rings, i, e):
+    """Is entry e of the ring of i an edge along a side?"""
+    begin = rings.edges.first[i]
+    return rings.rim[i] and (e == begin or e + u64(1) == begin + u64(rings.edges.taken[i]))
+
+
+@jit
+def remap(x, y, size, per, exchanged, i, j, k, l):
+    """What a flip moves between four points, places of the volumes: dV is a third of the areas' changes."""
+    V = exchanged[3]
+    left, right = doubled(x, y, size, per, i, j, k)/2, doubled(x, y, size, per, i, l, j)/2
+    at_i, at_j, both = doubled(x, y, size, per, i, l, k)/2, doubled(x, y, size, per, j, k, l)/2, left + right
+    di, dj, dk, dl = (at_i - both)/3, (at_j - both)/3, (both - left)/3, (both - right)/3
+    whole = V[i] + V[j] + V[k] + V[l]
+    for row in (0, 1, 2, 4):
+        q = exchanged[row]
+        qi, qj, qk, ql = q[i]/V[i], q[j]/V[j], q[k]/V[k], q[l]/V[l]
+        D = -(qi*di + qj*dj + qk*dk + ql*dl)/whole
+        q[i] += qi*di + D*(V[i] + di)
+        q[j] += qj*dj + D*(V[j] + dj)
+        q[k] += qk*dk + D*(V[k] + dk)
+        q[l] += ql*dl + D*(V[l] + dl)
+    V[i] += di
+    V[j] += dj
+    V[k] += dk
+    V[l] += dl

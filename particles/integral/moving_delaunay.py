@@ -1,0 +1,199 @@
+"""A conservative scheme on points that move with the fluid and their Delaunay triangulation, in 2D.
+
+Mass, momentum and energy are exchanged over the edges of `rings`, as on fixed points, at the velocity r = w -
+v at which points move against the fluid; flips hand over what they cut off. Volumes are those of the
+triangulation to round-off at all times: nothing has to follow, no static pressure is left out. Held points,
+on sides and bodies, stay where they are. Second order in space.
+"""
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from continuum.fluid import check_state, diffusivity, energy, sound_speed
+from particles.fields import Fields, from_densities
+from particles.integral.bodies import Held
+from particles.integral.carried import EXCHANGED, ROWS, Bench, Crossing, Fluid, Point, hold, receive
+from particles.integral.exchange import Conduction, Friction, Listing
+from particles.integral.fixed import check_number
+from particles.integral.march import FULL, TURNED, march
+from particles.integral.rings import Rings, geometry, in_order, rows_of, table_of, wider
+from particles.limits import limit_of
+from particles.lists import unphysical
+from particles.method import Leaps, Sums
+from particles.threads import Threads
+
+#: times the speed of sound over the spacing, and the diffusivity over its square, on irregular triangles: a
+#: close pair of points reaches 17, Gershgorin's bound 31; 16 let one in 30 long runs end
+SOUND, SPREAD = 1.6, 24.0
+#: of the shift towards the middle of a point's triangles, over the fastest strain: 1 lets triangles turn over
+#: at Ra 1e7 on 16 rows, from 1.5 on they stay (set after this look)
+SHIFT = 2.0
+#: steps times points between two looks at the clock and the keyboard: a quarter of a second
+AT_ONCE = 1_000_000
+#: places in memory between neighbours, by the median, from which points are sorted again
+AFAR = 32
+
+
+class Carry(Leaps):
+    """Half a step of places, triangulation and edges there, three stages of exchange, the other half."""
+    evaluations = 3
+
+    def __init__(self, shape: tuple[int, ...], threads: Threads):
+        super().__init__(shape, threads)
+        self.most = max(1, AT_ONCE//shape[1])
+
+    def step(self, sums: "RingSums", state: np.ndarray, dt: float, steps: int = 1) -> None:
+        """Advance a state in place    [third-order strong-stability-preserving Runge-Kutta]"""
+        sums.march(state, dt, steps)
+
+
+class RingSums(Sums):
+    """The compiled sums on a triangulation that moves, with what the time loop asks for.
+
+    received (m, 3) : momentum and energy of held points, per time, at the state last looked at.
+    """
+    method: "MovingDelaunay"
+
+    def __init__(self, method: "MovingDelaunay"):
+        n = len(method.x)
+        self.method, self.n, self.flips = method, n, 0
+        self.rings, self.held = rows_of(table_of(method.rings), *method.rings[1:]), method.held
+        self.fluid = Fluid(method.eos, method.law, Listing((Crossing(), *method.transport)), float(method.g),
+                           float(method.shift))
+        self.now: Any = None
+        self.received = np.zeros((len(method.held.which), 3))
+        self.make_bench()
+
+    def make_bench(self) -> None:
+        """Room for steps; nothing in it outlives one."""
+        n, free = self.n, np.ones(self.n)
+        free[self.held.which] = 0.0
+        self.bench = Bench(
+            points=np.zeros(n, Point), middle=np.zeros((2, n)), V=np.zeros(n), pull=np.zeros((n, 2)),
+            before=np.zeros((5, n)), strain=np.zeros(n), flow=np.zeros(n), once=np.zeros((n, 3)),
+            crossed=np.zeros(n, bool), changed=np.zeros(n, bool), stack=np.zeros((max(n, 64), 2), np.int64),
+            free=free, flipped=np.zeros(1, np.int64))
+
+    def go(self, steps: int, dt: float, state: np.ndarray) -> tuple[int, int, int]:
+        """`march`, by one thread whatever their number: steps are the same."""
+        return march(steps, dt, self.fluid, self.rings, self.held, state, self.bench)
+
+    def march(self, state: np.ndarray, dt: float, steps: int) -> None:
+        """So many steps. Raises FloatingPointError: a triangle has turned over."""
+        done = 0
+        while done < steps:
+            how, more, point = self.go(steps - done, dt, state)
+            done += more
+            if how == TURNED:
+                x, y = state[:2, point]
+                raise FloatingPointError(f"{done} steps later a triangle of the point at ({x:.4g}, {y:.4g}) "
+                                         "has turned over: it is stretched faster than points shift; take "
+                                         f"more rows, or a shift above {self.fluid.shift:g}")
+            if how == FULL:
+                self.rings = wider(self.rings)
+        self.flips += int(self.bench.flipped[0])
+        self.bench.flipped[0] = 0
+        if self.now is not None:        # the triangulation goes along with the run, for a restart
+            self.now.anchor = table_of(self.rings)
+
+    def resume(self, now: Any) -> None:
+        """Take the triangulation of an interrupted run, and its order of points."""
+        if now.anchor is None and not np.array_equal(now.state[:2].T, self.method.x):
+            raise ValueError("the state is not where the triangulation of the method is: start from the "
+                             "method's own `state`, or make a method on these points")
+        if now.anchor is not None:
+            self.rings = rows_of(now.anchor, *self.rings[1:])
+            self.reorder(now.ids)
+        self.now = now
+
+    def reorder(self, order: np.ndarray) -> None:
+        """Number held points and sides as points `order` come."""
+        place = np.argsort(order)
+        self.held = self.method.held._replace(which=place[self.method.held.which])
+        self.rings = self.rings._replace(rim=self.method.rings.rim[order])
+        self.make_bench()
+
+    def make_ready(self, now: Any, dt: float) -> None:
+        """Sort points in memory once neighbours are far apart there, which costs half as much again."""
+        near, first = self.rings.edges.near, self.rings.edges.first
+        if np.median(np.abs(near[first].astype(int) - np.arange(self.n))) > AFAR:
+            order = in_order(now.state[:2], self.rings.size)
+            self.rings = rows_of(table_of(self.rings, order), *self.rings[1:])
+            now.state[:], now.ids[:] = now.state[:, order], now.ids[order]
+            self.reorder(now.ids)
+
+    def try_out(self, now: Any) -> None:
+        """No step: loads the code."""
+        self.go(0, 1.0, now.state)
+        self.look_at(now.state)
+
+    def look_at(self, state: np.ndarray) -> None:
+        """What held points receive now, on the triangulation where points are."""
+        bench = self.bench
+        geometry(0, self.n, state[:2], self.rings, bench.V, bench.pull, bench.crossed)
+        receive(self.fluid, self.rings, self.held, state, bench, self.received)
+
+    def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
+        px, py, m, V, E = state[EXCHANGED]
+        return unphysical(self.method.eos, V, m/V, (E - (px**2 + py**2)/(2*m))/m, ids)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MovingDelaunay:
+    """A fluid on points x (n, 2) and their triangulation, of `rings`.
+
+    held : points that stay, on all sides and in bodies. g : gravity, downwards. shift : of points towards the
+    middle of their triangles, over the fastest strain. transport : listed terms, besides the heating's.
+    Raises ValueError: a point on a side is not held.
+    """
+    x: np.ndarray
+    rings: Rings
+    held: Held
+    eos: Any
+    law: Any
+    g: float = 0.0
+    shift: float = SHIFT
+    transport: tuple = (Friction(), Conduction())
+
+    names = ROWS
+    integrator = Carry
+
+    def __post_init__(self):
+        loose = np.setdiff1d(np.flatnonzero(self.rings.rim), self.held.which)
+        if len(loose):
+            raise ValueError(f"point {loose[0]} at {self.x[loose[0]]} is on a side and not held "
+                             f"({len(loose)} are not): hold what is on sides, or move it inside")
+
+    def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
+        """(9, n) of densities (n,), velocities (n, 2), temperatures (n,); held points get their own."""
+        n, which = len(self.x), self.held.which
+        V, v, T = np.zeros(n), np.array(v, float), T*np.ones(n)
+        geometry(0, n, self.x.T.copy(), self.rings, V, np.zeros((n, 2)), np.zeros(n, bool))
+        w = v.copy()
+        v[which], w[which] = self.held.v, 0.0
+        m, e = rho*V, energy(self.eos, rho, T)
+        state = np.stack([*self.x.T, *w.T, *(m[:, None]*v).T, m, V, m*(e + (v**2).sum(axis=1)/2)])
+        hold(self.eos, self.held, state)
+        return state
+
+    def fields(self, state: np.ndarray) -> Fields:
+        """Of the points, (n,) each, at their places in the box."""
+        px, py, m, V, E = state[EXCHANGED]
+        x = state[:2].T - self.rings.size*np.rint(state[:2].T*self.rings.per)
+        return from_densities(self.eos, x, V.copy(), m/V, np.stack([px, py])/V, E/V)
+
+    def start(self, n: int, threads: Threads) -> RingSums:
+        """The sums over the triangulation. Raises ValueError: a state of another number of points."""
+        check_number(n, len(self.x))
+        return RingSums(self)
+
+
+@limit_of.register
+def _(method: MovingDelaunay, start: np.ndarray) -> float:
+    """Three-stage Runge-Kutta, 1.73 and 2.5 on its axes; a stream that carries all points does not count."""
+    px, py, m, V, E = start[EXCHANGED]
+    rho, e = m/V, E/m - (px**2 + py**2)/(2*m**2)
+    check_state(method.eos, rho, e)
+    a, chi = np.sqrt(V.mean()), np.max(diffusivity(method.eos, method.law, rho, e))
+    return float(1/max(SOUND*np.max(sound_speed(method.eos, rho, e))/a/1.73, SPREAD*chi/a**2/2.5))

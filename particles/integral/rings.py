@@ -1,0 +1,144 @@
+"""A triangulation as rings, compiled: of each point its neighbours, counterclockwise; in 2D.
+
+Rings change by flips alone. With the neighbours k and l after and before j, a ring has what an edge (i, j)
+needs: S_ij = R(x_k - x_l)/3, R(x, y) = (y, -x), and k_ij = (cot_k + cot_l)/2, the edges of linear finite
+elements; V_i is a third of the triangles around i. An edge with k_ij < 0 is not Delaunay's. Points on sides
+have chains, from one neighbour on the side to the other; there the middle of the edge stands for the missing
+corner.
+"""
+from typing import NamedTuple
+
+import numpy as np
+
+from continuum.jit import formula, jit
+from particles.integral.triangulation import triangles
+from particles.neighbours import u32, u64
+from particles.pairs import Stored
+
+#: below this a conductance is negative, not round-off of points on one circle
+FLAT = -1e-9
+SPARE = 3           # free places in the longest ring
+STRIP = 4.0         # spacings
+LEAST = 8.0         # spacings along a periodic axis: in a narrower box a point is a neighbour twice
+
+
+class Rings(NamedTuple):
+    """edges : rows of S/2 and k, neighbours in order. rim (n,) : is the ring a chain? size (2,) : of the
+    box; per (2,) : 1/size along periodic axes, 0 along others."""
+    edges: Stored
+    rim: np.ndarray
+    size: np.ndarray
+    per: np.ndarray
+
+
+def rings(x: np.ndarray, size: tuple[float, float], closed: tuple[bool, bool]) -> Rings:
+    """Delaunay's triangulation of points (n, 2) in a box; `closed` says along which axes it ends at sides.
+
+    Raises ValueError: a periodic box less than LEAST spacings wide; what `triangulation` refuses.
+    """
+    spacing = float(np.sqrt(size[0]*size[1]/len(x)))
+    for name, length, shut in zip("xy", size, closed):
+        if not shut and length < LEAST*spacing*(1 - 1e-9):
+            raise ValueError(f"the box is {length/spacing:.3g} spacings wide along {name}, where it is "
+                             f"periodic: a moving triangulation needs {LEAST:g}, or a point meets its image")
+    corner, at = triangles(x, size, closed)
+    one, two = at[:, 1] - at[:, 0], at[:, 2] - at[:, 0]
+    turned = one[:, 0]*two[:, 1] < one[:, 1]*two[:, 0]
+    corner[turned] = corner[turned][:, ::-1]
+    spokes = np.concatenate([corner, np.roll(corner, -1, axis=1), np.roll(corner, -2, axis=1)])
+    spokes = spokes[np.lexsort((spokes[:, 1], spokes[:, 0]))]
+    count = np.bincount(spokes[:, 0], minlength=len(x))
+    table, rim = np.full((len(x), int(count.max()) + 1 + SPARE), -1), np.zeros(len(x), bool)
+    for i, rows in enumerate(np.split(spokes[:, 1:], np.cumsum(count)[:-1])):
+        ring, rim[i] = _follow(rows)
+        if len(set(ring)) < max(2, len(rows) + rim[i]):
+            raise ValueError(f"the triangles around point {i} at {x[i]} are no ring: look for points in one "
+                             "place, or a side without a row of points")
+        table[i, :len(ring)] = ring
+    return rows_of(table, rim, np.array(size, float), np.where(closed, 0.0, 1/np.array(size)))
+
+
+def table_of(rings: Rings, order: np.ndarray | None = None) -> np.ndarray:
+    """Neighbours (n, stride), -1 where there is none; of points in another order, renumbered."""
+    near = rings.edges.near.reshape(len(rings.rim), -1).astype(np.int64)
+    table = np.where(np.arange(near.shape[1]) < rings.edges.taken[:, None], near, -1)
+    if order is None:
+        return table
+    return np.where(table < 0, -1, np.argsort(order)[table])[order]
+
+
+def rows_of(table: np.ndarray, rim: np.ndarray, size: np.ndarray, per: np.ndarray) -> Rings:
+    """Rings from such a table; their edges are not known yet."""
+    n, stride = table.shape
+    edges = Stored((stride*np.arange(n)).astype(u64), (table >= 0).sum(axis=1).astype(u32),
+                   np.maximum(table, 0).astype(u32).ravel(), *np.zeros((3, n*stride)))
+    return Rings(edges, rim, size, per)
+
+
+def wider(rings: Rings) -> Rings:
+    """The same with room for more neighbours."""
+    table = table_of(rings)
+    return rows_of(np.concatenate([table, np.full((len(table), SPARE), -1)], axis=1), *rings[1:])
+
+
+def in_order(x: np.ndarray, size: np.ndarray) -> np.ndarray:
+    """Points (2, n) along strips of STRIP spacings: an order with neighbours near each other in memory."""
+    strip = np.floor(x[0]/(STRIP*np.sqrt(size.prod()/x.shape[1])))
+    return np.lexsort((x[1], strip))
+
+
+def _follow(rows: np.ndarray) -> tuple[list[int], bool]:
+    """The ring of rows (b, c) of b's successor c; is it a chain, whose first neighbour follows none?"""
+    after = dict(rows.tolist())
+    first = [b for b in after if b not in after.values()]
+    ring = [*first[-1:], *after][:1]
+    while ring and ring[-1] in after:
+        ring.append(after.pop(ring[-1]))
+    return (ring, True) if first else (ring[:-1], False)
+
+
+@formula
+def apart(x, y, size, per, i, j):
+    """x_j - x_i by the nearest image."""
+    dx, dy = x[j] - x[i], y[j] - y[i]
+    return dx - size[0]*np.rint(dx*per[0]), dy - size[1]*np.rint(dy*per[1])
+
+
+@jit
+def geometry(first, last, at, rings, V, pull, crossed):
+    """S/2 and k of rows first..last, V, and pull: from each point to the centre of its triangles.
+
+    crossed[i] : an edge to a point j > i is to be flipped. A triangle that has turned over gives V = nan.
+    """
+    (x, y), size, per, near = at, rings.size, rings.per, rings.edges.near
+    for i in range(u64(first), u64(last)):
+        begin, count, rim = rings.edges.first[i], u64(rings.edges.taken[i]), rings.rim[i]
+        end = begin + count - u64(1)
+        lx, ly = apart(x, y, size, per, i, near[end])
+        jx, jy = apart(x, y, size, per, i, near[begin])
+        low = lx*jy - ly*jx                                   # twice the area before edge e
+        cot = 0.0 if rim else (lx*(lx - jx) + ly*(ly - jy))/low
+        if rim:
+            lx, ly, low = 0.5*jx, 0.5*jy, 0.0
+        total, px, py, least, crossed[i] = 0.0, 0.0, 0.0, 1.0, False
+        for e in range(begin, begin + count):
+            following = e + u64(1) if e < end else begin
+            kx, ky = apart(x, y, size, per, i, near[following])
+            if rim and e == end:
+                rings.edges.sx[e], rings.edges.sy[e] = (0.5*jy - ly)/6, (lx - 0.5*jx)/6
+                rings.edges.k[e] = 0.5*cot
+                break
+            area = jx*ky - jy*kx
+            k = (kx*(kx - jx) + ky*(ky - jy))/area
+            rings.edges.sx[e], rings.edges.sy[e] = (ky - ly)/6, (lx - kx)/6
+            rings.edges.k[e] = 0.5*(cot + k)
+            if rings.edges.k[e] < FLAT and near[e] > i and not (rim and e == begin):
+                crossed[i] = True
+            total += area
+            px += area*(jx + kx)
+            py += area*(jy + ky)
+            least = min(least, area)
+            cot = (jx*(jx - kx) + jy*(jy - ky))/area
+            lx, ly, jx, jy = jx, jy, kx, ky
+        V[i] = total/6 if least > 0 else np.nan
+        pull[i, 0], pull[i, 1] = px/(3*total), py/(3*total)

@@ -1,0 +1,245 @@
+"""Smooth particles in the squares of KHP95's Fig. 10, in the shocked interface of Fig. 11, in Sod's tube.
+
+Squares: rolls and pairs of 2500 particles, temperatures 10 and 0.5. Printed is Ra 350 000 for eta = k = 0.8
+(ideal gas) and 0.4 (dense fluid). The gas has that if alpha is taken as 1, and 67 150 with its own alpha =
+1/<T>; the dense fluid has 340 800 with its own, and 511 200 as scenes reckon, whose kappa is k/(rho C_V).
+
+Interface: does its ripple grow as theory says? Printed are the width, 30, the height, 100, and a density
+ratio of 4 of two ideal gases; not printed are strength of the shock, amplitude and direction, nor the walls:
+here a shock of Mach 1.5 comes through the light gas, the ripple has one wavelength and k a = 0.25 or 0.75,
+1.2 or 3.6 spacings. Both gases fall with the speed of the piston onto a resting mirror, which is where the
+shock begins; above is vacuum.
+"""
+from dataclasses import dataclass
+from functools import partial
+from math import pi, sqrt
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.exact.riemann import GasState, middle, shock_speed
+from continuum.fluid import ConstEta, IdealGas
+from continuum.scene import RayleighBenard, Walls
+from particles.limits import step_limit
+from particles.observe import Grid, Smoothed, fields_at
+from particles.run import STUDIES, Divergence, Plan, run
+from particles.smooth.spam import Spam
+from particles.walls.mirror import Copied, Mirror, Odd
+from particles.walls.periodic import periodic
+from particles.weights import Lucy
+from studies.build.measure import Snapshot, at_end, turns
+from studies.build.names import START_ENERGY
+from studies.build.spam import FRICTIONLESS, Variant, at_rest, fluid
+from studies.hardcases.extremes import falls
+from studies.hardcases.tubes import DENSE, END, EOS, HEIGHT, THIN, Seen, centres, ran
+from studies.kit.case import Case, Outcome, Report
+
+
+def jittered(counts: tuple[int, int], cell: tuple[float, float], corner: tuple[float, float], jitter: float,
+             rng: np.random.Generator) -> np.ndarray:
+    """x, y (2, n) in the middle of columns and rows of cells, shifted by up to `jitter` of a cell."""
+    row, column = np.divmod(np.arange(counts[0]*counts[1]), counts[0])
+    shift = rng.uniform(-1, 1, (2, len(row)))
+    size, low = np.array(cell)[:, None], np.array(corner)[:, None]
+    return (np.array([column, row]) + 0.5)*size + low + jitter*size*shift
+
+
+# --- squares ------------------------------------------------------------------------------------------------
+
+SIDE = 50.0
+SHARED = 0.5            # spacings within which a neighbour is a partner
+
+
+def two_rolls(scene: RayleighBenard, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(rho, v, T) of conduction and two rolls, as energetic over free fall squared as in Sec. VI."""
+    y = np.clip(x[:, 1], -scene.L/2, scene.L/2)
+    v = scene.flow(x[:, 0], y, START_ENERGY*scene.free_fall**2, rolls=2)
+    return np.ones(len(x)), np.stack(v, axis=1), scene.T(y)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Square(Case):
+    """One run. t_end, mean_from : in free-fall times."""
+    weight: Any
+    ra: float
+    t_end: float
+    mean_from: float
+    seed: int = 1
+    eos: Any = IdealGas()  # noqa: RUF009 (immutable)
+
+    @property
+    def cost(self) -> float:
+        return 0.5*self.t_end
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        scene = RayleighBenard(ra=self.ra, pr=self.eos.cv, eos=self.eos, L=SIDE, aspect=1.0,     # eta = k
+                               T_hot=10.0, T_cold=0.5, sides=Walls())
+        variant = Variant("square", weight=self.weight, begin=two_rolls)
+        method, start, dt = variant.ready(scene, self.seed)
+        unit = falls(scene, 1.0)
+        plan = Plan(dt=dt, steps=round(self.t_end*unit/dt), every=max(1, round(unit/4/dt)),
+                    mean_from=self.mean_from*unit, means={"grid": Grid.over(method.box, 30)},
+                    checkpoint=folder/"run.h5")
+        done = run(method, start, plan, report)
+        mean, (sums, _) = Smoothed(*done.means["grid"]), at_end(method, done)
+        x = np.stack([sums.around.x, sums.around.y], axis=1)
+        near = Snapshot(x, np.zeros_like(x), sums.n, SIDE)
+        flow = mean.rho*(mean.vx**2 + mean.vy**2)/2
+        return Outcome({"squares": [{
+            "eos": type(self.eos).__name__, "weight": self.weight.__name__, "ra": self.ra, "seed": self.seed,
+            "alpha": scene.alpha, "rolls": turns(scene, mean.vy),
+            "begun": START_ENERGY*scene.free_fall**2, "flow": flow.mean()/mean.rho.mean(),
+            "ratio": near.pairing.value, "ratio_err": near.pairing.err,
+            "shared": np.mean(near.near(SHARED) > 0)}]})
+
+
+# --- interface ----------------------------------------------------------------------------------------------
+
+GAMMA, MACH = 2.0, 1.5
+LIGHT, HEAVY = GasState(0.4, 0.0, 0.4), GasState(1.6, 0.0, 0.4)     # mean density about 1, light gas at T = 1
+WIDTH, TALL, BELOW = 30.0, 100.0, 60.0                    # of them the lowest 60 are light
+JITTER = 0.2        # of rows and columns
+STRIPS = 16         # in which the interface is looked for
+SAMPLES = 60
+
+
+class Impulse(NamedTuple):
+    """What theory says: speed of the falling gas, time at which the shock meets the interface, velocity that
+    this gives to it, time at which the reflected shock comes to the mirror, amplitude behind the shock and
+    its growth rate.
+    """
+    fall: float
+    meets: float
+    kick: float
+    back: float
+    amplitude: float
+    growth: float
+
+
+def impulse(scale: float, steep: float) -> Impulse:
+    """da/dt = k a+ A+ dv with a+ = a (1 - dv/W), k a = steep    [Richtmyer 1960]
+
+    + is behind the shock of speed W, dv the velocity of the interface.
+    """
+    c = sqrt(GAMMA*LIGHT.P/LIGHT.rho)
+    fall, W = 2*c/(GAMMA + 1)*(MACH - 1/MACH), MACH*c
+    behind = middle(LIGHT._replace(v=fall), LIGHT._replace(v=-fall), GAMMA)     # a gas against its image
+    shocked = GasState(behind.right, 0.0, behind.P)
+    after = middle(shocked, HEAVY._replace(v=-fall), GAMMA)
+    kick, meets = after.v + fall, BELOW*scale/W
+    height = BELOW*scale - fall*meets
+    back = meets + height/shock_speed(shocked, after.P, GAMMA)
+    k = 2*pi/(WIDTH*scale)
+    a = steep/k*(1 - kick/W)
+    atwood = (after.right - after.left)/(after.right + after.left)
+    return Impulse(fall, meets, kick, back, a, k*a*atwood*kick)
+
+
+def gases(scale: float, steep: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """State (5, n) at the start, and which particles are light: rows cut at the rippled interface."""
+    rng, width, bottom = np.random.default_rng(seed), WIDTH*scale, -TALL*scale/2
+    k, states, light = 2*pi/width, [], []
+    for gas in (LIGHT, HEAVY):
+        columns = round(width*sqrt(gas.rho))
+        dx = width/columns
+        dy = 1/(gas.rho*dx)
+        counts = columns, round(TALL*scale/dy)
+        x, y = places = jittered(counts, (dx, dy), (-width/2, bottom), JITTER, rng)
+        below = y < bottom + BELOW*scale + steep/k*np.cos(k*x)
+        own = below == (gas is LIGHT)
+        x[:] = (x + width/2) % width - width/2
+        states.append(at_rest(places[:, own].T, gas.P/gas.rho))
+        light.append(np.full(own.sum(), gas is LIGHT))
+    state = np.concatenate(states, axis=1)
+    state[3] = -impulse(scale, steep).fall
+    return state, np.concatenate(light)
+
+
+def ripple(x: np.ndarray, y: np.ndarray, light: np.ndarray, width: float) -> tuple[float, float]:
+    """Mean height and amplitude of the interface, from the best division of each strip."""
+    strip = np.floor((x/width + 0.5)*STRIPS).astype(int) % STRIPS
+    at = np.array([divide(y[strip == i], light[strip == i]) for i in range(STRIPS)])
+    middles = (np.arange(STRIPS) + 0.5)/STRIPS - 0.5
+    return float(at.mean()), float(2*np.mean(at*np.cos(2*pi*middles)))
+
+
+def divide(y: np.ndarray, light: np.ndarray) -> float:
+    """The height with the fewest particles on the wrong side; of several their mean."""
+    order = np.argsort(y)
+    heights, below = y[order], light[order]
+    wrong = (np.cumsum(~below) + light.sum() - np.cumsum(below))[:-1]
+    best = np.flatnonzero(wrong == wrong.min())
+    return float(np.mean((heights[best] + heights[best + 1])/2))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Interface(Case):
+    """One run of both gases. scale : all lengths over the printed ones. steep : k a before the shock."""
+    scale: float
+    steep: float = 0.25
+    seed: int = 1
+
+    @property
+    def cost(self) -> float:
+        return 2*self.scale**3
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        """Until the reflected shock is at the mirror, when nothing can be back at the interface."""
+        width, height = box = WIDTH*self.scale, TALL*self.scale
+        floor = Mirror(1, -height/2, 1.0, 1.0, 0.0, Odd(), Copied())      # above is vacuum
+        method = Spam(weight=Lucy.of(h=3.0), eos=IdealGas(), law=FRICTIONLESS, box=box,
+                      walls=(*periodic(width), floor))
+        state, light = gases(self.scale, self.steep, self.seed)
+        time = impulse(self.scale, self.steep).back/SAMPLES
+        steps = round(time/(STUDIES*step_limit(method, state[4], 4.0))) + 1
+        plan = Plan(dt=time/steps, steps=steps)
+        rows: list[dict[str, Any]] = []
+        for number in range(1, SAMPLES + 1):
+            report(number/SAMPLES)
+            rows.append({"scale": self.scale, "steep": self.steep, "seed": self.seed,
+                         "time": number*plan.steps*plan.dt})
+            try:
+                state = run(method, state, plan).by_id()
+            except Divergence:
+                break
+            rows[-1] |= zip(("height", "amplitude"), ripple(state[0], state[1], light, width))
+        return Outcome({"ripples": rows})
+
+
+# --- Sod's tube ---------------------------------------------------------------------------------------------
+
+MASS = 9/16                     # the mean density is one a unit of area
+ROWS = {DENSE: 12, THIN: 4}     # then columns are 0.75 and 2 apart, and fit if L is a multiple of 3
+SHIFT = 0.05                    # of the columns and rows: a perfect lattice keeps its rows in such a flow
+SKIN = 1.5                      # of neighbour lists: at the diaphragm particles reach full speed in a step
+
+
+def smooth(weight: Any, L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
+    """Smooth particles."""
+    method, begin = fluid(weight.of(h=3.0), (4.0*L, HEIGHT), EOS, law, m=MASS, skin=SKIN), tube(L, seed)
+    steps = round(END*L/(step*step_limit(method, begin[4]))) + 1
+    return ran(method, begin, L, steps, partial(smoothed, method, centres(L)), report)
+
+
+def tube(L: float, seed: int) -> np.ndarray:
+    """State (5, n) at the start."""
+    rng, gases = np.random.default_rng(seed), []
+    for gas, left in ((DENSE, -L), (THIN, L)):
+        counts = round(2*L*HEIGHT*gas.rho/MASS/ROWS[gas]), ROWS[gas]
+        cell = 2*L/counts[0], HEIGHT/counts[1]
+        x = jittered(counts, cell, (left, -HEIGHT/2), SHIFT, rng).T
+        box = np.array([4*L, HEIGHT])
+        gases.append(at_rest((x + box/2) % box - box/2, EOS.cv*gas.P/gas.rho))
+    return np.concatenate(gases, axis=1)
+
+
+def smoothed(method: Spam, x: np.ndarray, state: np.ndarray) -> np.ndarray:
+    """(3, n): smoothed rho, v, P of a tube and its image, means over the height and over both."""
+    sums, state, _ = method.look(state)
+    y, both = np.arange(HEIGHT) + 0.5 - HEIGHT/2, []
+    for sign in (1, -1):
+        at = fields_at(sums, state, *np.meshgrid(sign*x, y))
+        fields = np.array([at.rho, sign*at.vx, at.rho*at.e/EOS.cv])
+        both.append(fields.mean(axis=1))
+    return np.mean(both, axis=0)

@@ -1,0 +1,237 @@
+"""What brackets conserve and let grow, the step of Euler, forces along edges    [RR98 Eqs 13, 34-40, 51]"""
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from math import prod
+from pathlib import Path
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from continuum.exact.waves import LinearGas
+from continuum.fluid import ConstEta, IdealGas
+from continuum.scene import RayleighBenard
+from particles.integral.dih import Dih, NestedFluxes, Pairwise
+from particles.integral.edges import Edges
+from particles.integral.interpolants import W
+from particles.integral.points import Points
+from particles.threads import Threads
+from particles.weights import WendlandC2
+from studies.build.fixed import SCHEMES, fluid
+from studies.build.setting import Disorder
+from studies.build.symbols import lattice_waves
+from studies.kit.case import Case, Outcome, Report
+from studies.operators.equations import rates
+from studies.operators.weights import around, integral
+
+TRANSPORT = {"nested": NestedFluxes(), "printed": NestedFluxes(differences=False),
+             "pairwise": Pairwise(mended=False)}
+VISCOSITIES = (0.0, 0.1)    # rho c a
+C2 = 2.0                    # gamma P/rho of the ideal gas at rho = T = 1
+NULL = 1e-6                 # rates that small belong to waves that the operators do not see
+SINGLE = 1e-6               # of a central difference: a change of one field of one point
+
+
+@dataclass(frozen=True, kw_only=True)
+class PointSet(Case):
+    """What edges do on one set of points; no rows where the maker has none there.
+
+    make : of `particles.integral.edge_makers.MAKERS`. h : range of the weight, in spacings.
+    """
+    make: Callable[[Points, Any], Edges]
+    disorder: Disorder
+    counts: tuple[int, ...]
+    h: float
+    seed: int = 1
+
+    table: ClassVar[str]
+    weight: ClassVar[Any] = WendlandC2
+
+    @property
+    def columns(self) -> dict[str, Any]:
+        """What all rows have in common."""
+        return {"maker": self.make.__name__, "points": self.disorder.name, "d": len(self.counts),
+                "seed": self.seed}
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        points = self.disorder.make(self.counts, self.disorder.size, self.seed)
+        try:
+            edges = self.make(points, self.weight.of(h=self.h, d=len(self.counts)))
+        except ArithmeticError:     # no such edges exist on these points: that is a result
+            return Outcome({})
+        return Outcome({self.table: [self.columns | row for row in self.rows(points, edges)]})
+
+    def rows(self, points: Points, edges: Edges) -> Iterator[dict[str, Any]]:
+        """What is measured."""
+        raise NotImplementedError
+
+
+class Invariance(PointSet):
+    """What a random state loses of mass, momentum and energy, over what is exchanged    [RR98 Eqs 34-36]"""
+    table = "invariance"
+
+    def rows(self, points: Points, edges: Edges) -> Iterator[dict[str, Any]]:
+        rng = np.random.default_rng(0)
+        rho = rng.uniform(0.9, 1.1, edges.n)
+        v = rng.normal(0, 0.2, (edges.n, edges.d))
+        T = rng.uniform(0.9, 1.1, edges.n)
+        for name, transport in TRANSPORT.items():
+            dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(0.3, 0.4), zeta=0.1, transport=transport)
+            change = rates(dih, dih.state(rho, v, T))
+            lost = np.abs(dih.conserved(change))/(np.abs(change)@edges.V)
+            yield {"transport": name, "lost": lost.max()}
+
+
+class OneKernel(PointSet):
+    """Momentum that the pressure's kernel P(rho(r), T(r')) alone would not keep    [RR98 Eqs 13, 14]
+
+    P = rho T, rho and T random: i gets S.P_ij/2, j gets S.P_ji/2. lost : over the sum of sizes.
+    """
+    table = "one_kernel"
+
+    def rows(self, points: Points, edges: Edges) -> Iterator[dict[str, Any]]:
+        rho, T = np.random.default_rng(self.seed).uniform(0.5, 1.5, (2, edges.n))
+        i, j = edges.i, edges.j
+        there = edges.S.T*rho[i]*T[j]
+        back = edges.S.T*rho[j]*T[i]
+        lost = np.abs((back - there).sum(axis=1))
+        size = (np.abs(there) + np.abs(back)).sum(axis=1)
+        yield {"lost": lost.max()/size.max()}
+
+
+class SoundGrowth(PointSet):
+    """Largest growth rate of sound at rest."""
+    table = "growth"
+
+    @property
+    def cost(self) -> float:
+        size = prod(self.counts)*(len(self.counts) + 1)
+        return 0.05 + 1e-8*size**3
+
+    def rows(self, points: Points, edges: Edges) -> Iterator[dict[str, Any]]:
+        closure = np.abs(edges.closure/edges.V[:, None]).max()
+        for eta in VISCOSITIES:
+            rate = np.linalg.eigvals(sound(edges, eta)).real.max()
+            yield {"viscosity": eta, "rate": rate, "closure": closure}
+
+
+def sound(edges: Edges, eta: float = 0.0) -> np.ndarray:
+    """Matrix of d/dt (P'/c, p) in a fluid at rest, times sqrt(V); rho = c = 1, friction eta lap v.
+
+    V P'_t = -c^2 D.p and V p_t = -D P': antisymmetric if D = -D^T, so where edges close.
+    """
+    n, d, root = edges.n, edges.d, 1/np.sqrt(edges.V)
+    A = np.zeros(((d + 1)*n,)*2)
+    friction = eta*root[:, None]*edges.laplacian.toarray()*root
+    for a, D in enumerate(edges.D, start=1):
+        p = slice(a*n, (a + 1)*n)
+        scaled = root[:, None]*D.toarray()*root
+        A[:n, p] = A[p, :n] = -scaled
+        A[p, p] = friction
+    return A
+
+
+def euler_limit(eigenvalues: np.ndarray) -> float:
+    """The largest dt with |1 + lambda dt| <= 1 for all that are no null modes; 0 if one grows by itself."""
+    seen = eigenvalues[np.abs(eigenvalues) > NULL]
+    return np.min(np.maximum(-2*seen.real/np.abs(seen)**2, 0), initial=np.inf)
+
+
+@dataclass(frozen=True, kw_only=True)
+class EulerLimit(Case):
+    """Largest stable step of Eq. 40 in the 2D gas, nested transport, for waves along an axis of a lattice."""
+    gas: LinearGas
+    rows: int = 32
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        eta, zeta, kappa = self.gas
+        key = {**self.gas._asdict(), "predicted": (eta + zeta + kappa/2)/C2}
+        rows = []
+        for mode in range(1, self.rows//2 + 1):
+            k = 2*np.pi*mode/self.rows
+            waves = lattice_waves(self.gas, WendlandC2.of(h=3.0), np.array([k, 0.0]), nested=True)
+            rates = np.append(np.linalg.eigvals(waves.matrix), -waves.shear)
+            rows.append(key | {"mode": mode, "k": k, "limit": euler_limit(rates)})
+        return Outcome({"euler": rows})
+
+
+def linear(sums: Any, state: np.ndarray, change: np.ndarray) -> np.ndarray:
+    """What a small change of the state makes of its rates, by a central difference."""
+    up, down = np.empty_like(state), np.empty_like(state)
+    sums.rates(state + change, up)
+    sums.rates(state - change, down)
+    return (up - down)/2
+
+
+def jacobian(sums: Any, state: np.ndarray) -> np.ndarray:
+    """d rates/d state of a compiled scheme, (size, size); fields are of order 1."""
+    changes = SINGLE*np.eye(state.size)
+    columns = [linear(sums, state, change.reshape(state.shape)).ravel() for change in changes]
+    return np.stack(columns, axis=1)/SINGLE
+
+
+@dataclass(frozen=True, kw_only=True)
+class LayerGrowth(Case):
+    """The fastest growing disturbance of a motionless layer between plates; `h` in spacings, rate in c/a.
+
+    share : of transport along edges [Eq. 51], the rest is nested [Eqs 37, 38].
+    """
+    h: float
+    rows: int
+    ra: float
+    share: float
+
+    @property
+    def cost(self) -> float:
+        return 1e-9*(8*self.rows**2)**3 + 1
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        scene = RayleighBenard(ra=self.ra, L=float(self.rows), aspect=1.0)
+        method = fluid(scene, SCHEMES["fixed-lattice"]._replace(h=self.h, share=self.share))
+        y, c = method.x[:, 1], np.sqrt(2*scene.T_mean)
+        state = method.state(1.0, np.zeros_like(method.x), scene.T(y))
+        sums = method.start(len(y), Threads(1))
+        growth = np.linalg.eigvals(jacobian(sums, state)).real.max()
+        key = {"h": self.h, "rows": self.rows, "ra": self.ra, "share": self.share}
+        return Outcome({"nested_growth": [key | {"growth": growth/c}]})
+
+
+class EdgeForces(NamedTuple):
+    """A(r) and B(r) of Eq. 51, each c and p of c q^p, q = r/h."""
+    name: str
+    A: tuple[float, int]
+    B: tuple[float, int]
+
+
+def viscosities(d: int, M_A: float, M_B: float) -> tuple[float, float]:
+    """eta = M_A/2d(d+2) + M_B/2d, zeta = M_A/d(d+2) - (1 - 2/d) eta, with M_X = int W X r^2 dV."""
+    eta = M_A/(2*d*(d + 2)) + M_B/(2*d)
+    return eta, M_A/(d*(d + 2)) - (1 - 2/d)*eta
+
+
+@dataclass(frozen=True, kw_only=True)
+class EdgeViscosities(Case):
+    """Of forces A(r) e (e.v_ij) + B(r) v_ij [RR98 Eq. 51]: long waves on a lattice, and M_A and M_B."""
+    d: int
+    forces: EdgeForces
+    h: float
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        weight = WendlandC2.of(h=self.h, d=self.d)
+        eta, zeta = self.of_waves(weight)
+        moments = (self.second_moment(weight, *X) for X in (self.forces.A, self.forces.B))
+        eta_predicted, zeta_predicted = viscosities(self.d, *moments)
+        return Outcome({"friction": [{
+            "d": self.d, "form": self.forces.name, "h": self.h, "eta": eta, "zeta": zeta,
+            "eta_predicted": eta_predicted, "zeta_predicted": zeta_predicted}]})
+
+    def of_waves(self, weight: Any) -> tuple[float, float]:
+        """eta and zeta of long waves along an axis of a lattice."""
+        d, at = self.d, around(self.h, self.d)
+        half, ex2 = at.number*W(weight, at.r)*at.r**2/2, (at.x/at.r)**2
+        A, B = (half*c*(at.r/self.h)**p for c, p in (self.forces.A, self.forces.B))
+        eta = A@(ex2*(1 - ex2))/(d - 1) + B@ex2
+        return eta, A@ex2**2 + B@ex2 - 2*(1 - 1/d)*eta
+
+    def second_moment(self, weight: Any, c: float, p: int) -> float:
+        """M_X = int W X r^2 dV."""
+        return integral(weight, self.d, lambda r: W(weight, r)*c*(r/self.h)**p*r**2).value

@@ -1,0 +1,247 @@
+"""Questions of this study: energies of flows, refused where two differ; curves over time and Ra^-1/2."""
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from studies.kit import fits, stats
+from studies.kit.ask import NoRows, Value, curve, each, one, rows
+from studies.kit.stats import CannotTell, Measured
+from studies.kit.table import Tables
+from studies.rb.tables import SCENE, STILL, Point, besides, grid
+
+#: which K of the grid a claim takes, for its reason: two yardsticks are in use
+PLAIN = "against the grid's K as it is, as the paper compares"
+ALIKE = "against K of the grid's field smoothed by the same weight"
+NEAR = 0.05     # of the steady value: K of particles fluctuates by 1 % or 2 %, and noise is not to be timed
+SAMPLES = 20    # of K(t) at least
+LEAST = 5       # points of a line: three are left to tell how straight it is
+#: critical Ra of the Boussinesq fluid, by linear theory: a pair of rolls in the layer, one in the square,
+#: whose sides conduct; the study onset measures both again
+ONSET = {"periodic": 1707.9222997145034, "walls": 5011.71}
+ONE_STATE = {"periodic": 2, "walls": 1}     # rolls of the states that make a line
+CELLS = (24, 32, 48)                        # rows of the grids that have lines
+
+
+def guarded(value: Value, check: Callable[[Tables], object]) -> Value:
+    """A question that is put only to tables that a check does not refuse."""
+    def answer(tables: Tables) -> Measured:
+        check(tables)
+        return value(tables)
+    return replace(value, answer=answer)
+
+
+def mean(point: Point, column: str = "ke") -> Value:
+    """A column of `means`, refused where runs diverged or seeds ended in different flows."""
+    return guarded(one("means", column, **point), lambda tables: one_flow(tables, point))
+
+
+def limit(ra: float, column: str = "ke", **where) -> Value:
+    """The same of the compressible grid, extrapolated."""
+    return mean(grid(ra, **where), column)
+
+
+def alike(point: Point) -> Value:
+    """K of the grid's field smoothed as the particles smooth theirs: that of Kg if the flow is right."""
+    return one("errors", "reference", energy="Kg", **point)
+
+
+def against_grid(point: Point, column: str = "ke_field") -> Value:
+    """K of particles over that of the grid, extrapolated, in the same flow."""
+    beside = grid(1.0) | {name: point[name] for name in SCENE}
+    return same_flow(mean(point, column)/mean(beside), point, beside)
+
+
+def against_alike(point: Point) -> Value:
+    """Kg over K of the grid's field smoothed alike, in the same flow: 1 if it is right."""
+    beside = grid(1.0) | {name: point[name] for name in SCENE}
+    return same_flow(mean(point, "ke_field")/alike(point), point, beside)
+
+
+def over_seeds(value: Value) -> Value:
+    """Mean of what a question gives for each seed; its error is that of their scatter."""
+    def answer(tables: Tables) -> Measured:
+        return stats.over_seeds([seed.value for seed in each("seed", value, tables)])
+    return Value(answer, f"mean over seeds of {value}", value.asks)
+
+
+def over_runs(point: Point, energy: str = "ke_field") -> Value:
+    """Mean of the runs of a point that have its rolls; its error is statistics alone, not of the step."""
+    asked = one("kinetic_energy", energy, **point)
+
+    def answer(tables: Tables) -> Measured:
+        runs = rows(tables, "kinetic_energy", "ke == ke", **point)
+        runs = runs[runs["rolls"] == one_flow(tables, point)["rolls"]]
+        return stats.combine(list(zip(runs[energy], runs[f"{energy}_err"], strict=True)))
+    return Value(answer, str(asked).replace("one", "mean over runs of one flow", 1), asked.asks)
+
+
+def diverged(tables: Tables, point: Point) -> np.ndarray:
+    """Which runs of a point diverged, (n,): their rows have no energy."""
+    try:
+        return rows(tables, "kinetic_energy", **point)["ke"].isna().to_numpy()
+    except NoRows:
+        return np.zeros(1, bool)
+
+
+def refuse_diverged(point: Point) -> Callable[[Tables], None]:
+    """A check that refuses a point of which any run diverged."""
+    def check(tables: Tables) -> None:
+        if diverged(tables, point).any():
+            raise CannotTell(f"runs of {point['variant']} with {point['resolution']:g} rows diverged: no K")
+    return check
+
+
+def one_flow(tables: Tables, point: Point) -> pd.Series:
+    """The row of `means` of one point.
+
+    Raises
+    ------
+    CannotTell
+        All runs diverged, or seeds ended in different flows: which one the point has is a matter of chance.
+    """
+    if diverged(tables, point).all():
+        raise CannotTell(f"all runs of {point['method']}, {point['variant']} at Ra {point['ra']:g} diverged")
+    row = rows(tables, "means", **point).iloc[0]
+    if row["mixed"] > 0:
+        seeds = row["mixed"] + row["seeds"]
+        raise CannotTell(f"{row['mixed']:.0f} of {seeds:.0f} seeds of {point['variant']}, "
+                         f"{point['resolution']:g} rows, ended with another number of rolls than the "
+                         f"{row['rolls']:.0f} of the others at Ra {point['ra']:g}: the flow is not decided")
+    return row
+
+
+def same_flow(value: Value, point: Point, other: Point) -> Value:
+    """A question that is refused where two points have different numbers of rolls.
+
+    No rolls are no other flow: where motion has died, the energies tell.
+    """
+    def check(tables: Tables) -> None:
+        a, b = rolls_in(tables, point), rolls_in(tables, other)
+        if a != b and min(a, b) > 0:
+            raise CannotTell(f"{a} rolls against {b} at Ra {point['ra']:g}: another flow, whose energy and "
+                             "velocities say nothing on errors")
+    return guarded(value, check)
+
+
+def rolls_in(tables: Tables, point: Point) -> int:
+    """Rolls of the seeds of which the mean is made; none where motion has died."""
+    row = one_flow(tables, point)
+    return int(row["rolls"]) if row["ke"] > STILL else 0
+
+
+def rolls(point: Point) -> Value:
+    """The same as a question that refuses what has died."""
+    return guarded(mean(point, "rolls"), lambda tables: refuse_dead(one_flow(tables, point)))
+
+
+def refuse_dead(row: pd.Series) -> None:
+    """Refuse a row of `means` or `kinetic_energy` where nothing moves."""
+    if not row["ke"] > STILL:
+        raise CannotTell(f"K is {row['ke']:.1g} at the end: the flow has died, its rolls are of round-off")
+
+
+# --- curves ---------------------------------------------------------------------------------------
+
+
+def history(question: Any, point: Point, energy: str = "ke_field", such: str = "") -> Value:
+    """A question about K(t) of one run."""
+    return question("history", energy, "t", such, need=SAMPLES, **point)
+
+
+def late(t: np.ndarray, ke: np.ndarray) -> np.ndarray:
+    """The second half of a run."""
+    return ke[t > t[-1]/2]
+
+
+@curve
+def scatter(t: np.ndarray, ke: np.ndarray, err: np.ndarray) -> Measured:
+    """Standard deviation over mean of the second half of a run."""
+    half = late(t, ke)
+    return Measured(float(half.std()/half.mean()))
+
+
+@curve
+def drift(t: np.ndarray, ke: np.ndarray, err: np.ndarray) -> Measured:
+    """Difference of the means of the last quarter and of the third, relative."""
+    third, last = np.array_split(late(t, ke), 2)
+    return Measured(float(abs(last.mean()/third.mean() - 1)))
+
+
+@curve
+def settling(t: np.ndarray, ke: np.ndarray, err: np.ndarray) -> Measured:
+    """When K, averaged over a fortieth of the run, is near its late mean for good."""
+    n = max(1, len(ke)//40)
+    smooth = np.convolve(ke, np.full(n, 1/n), "same")[:len(ke) - n//2]
+    far = np.flatnonzero(np.abs(smooth/late(t, ke).mean() - 1) > NEAR)
+    return Measured(float(t[far[-1]]) if len(far) else 0.0)
+
+
+def approach(point: Point, beside: Point, energy: str) -> Value:
+    """Largest |K(t) - K_grid(t)|, mean over seeds, over the steady K of the grid's limit."""
+    unit = limit(point["ra"])
+
+    def answer(tables: Tables) -> Measured:
+        cells = rows(tables, "history", **beside).sort_values("t")
+        runs = rows(tables, "history", need=SAMPLES, **point)
+        apart = np.abs(runs[energy] - np.interp(runs["t"], cells["t"], cells["ke"]))
+        return stats.over_seeds(apart.groupby(runs["seed"]).max()/unit(tables).value)
+    words = f"mean over seeds of largest |{energy}(t) - ke(t) of the grid| in history, over {unit}"
+    return Value(answer, words, history(scatter, point, energy).asks)
+
+
+def line(question: Any, low: float = 1.0, height: float = np.inf, sides: str = "periodic", **where) -> Value:
+    """A question about K over Ra^-1/2 from `low` to 4 times onset, of states with two rolls (square: one)."""
+    point = besides(grid(1.0, height, sides=sides, **where), "ra")
+    inside = f"{low*ONSET[sides]:.1f} < ra <= {4*ONSET[sides]:.1f} and ke > {STILL:g}"
+    states = {"rolls": ONE_STATE[sides], **point}
+    return question("means", "ke", "ra**-0.5", inside, err="ke_err", need=LEAST, **states)
+
+
+@curve
+def bend(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
+    """Largest distance from a straight line by least squares, with the largest error."""
+    return Measured(float(np.abs(fits.line(x, y).residuals).max()), float(err.max()))
+
+
+@curve
+def slope_alone(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
+    """Of the same line; its error is that of the points at both ends."""
+    return Measured(fits.line(x, y).slope.value, float(err.max()/np.ptp(x)))
+
+
+@curve
+def intercept_alone(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
+    """Of the same line, at 0, with the error of the points."""
+    return Measured(fits.line(x, y).intercept.value, float(err.max()))
+
+
+def reading(ra: float, anew: bool = False) -> Any:
+    """The line read at a Rayleigh number, with the error of the points alone, or as if drawn `anew` through
+    other points with the same scatter.
+    """
+    def read(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
+        at = fits.line(x, y).at(ra**-0.5)
+        far = (ra**-0.5 - x.mean())**2/np.sum((x - x.mean())**2)
+        return at if anew else at._replace(err=float(err.max()*np.sqrt(1/len(x) + far)))
+    read.__name__ = f"line at Ra {ra:g} through "
+    return curve(read)
+
+
+def straightness(sides: str = "periodic", **where) -> Value:
+    """Largest distance of K from its straight line, over K of the line at 4 times onset."""
+    return line(bend, sides=sides, **where)/line(reading(4*ONSET[sides]), sides=sides, **where)
+
+
+def against_cells(question: Any) -> Value:
+    """Slopes or intercepts of the lines of grids against L^-2: largest residual over their whole change."""
+    lines = [line(question, height=height) for height in CELLS]
+
+    def answer(tables: Tables) -> Measured:
+        values, errs = zip(*(one(tables) for one in lines), strict=True)
+        residuals = fits.line(np.array(CELLS)**-2.0, values).residuals
+        return Measured(float(np.abs(residuals).max()), max(errs))/Measured(float(np.ptp(values)), max(errs))
+    words = f"distance from a line over resolution**-2, over the whole change, of {line(question)}"
+    return Value(answer, words, lines[0].asks)

@@ -1,0 +1,61 @@
+"""Which cases on points: on a lattice, irregular ones, points that move; all of size `fine`."""
+from collections.abc import Iterator
+from itertools import product
+
+from continuum.fluid import ConstNu
+from continuum.scene import RayleighBenard
+from studies.build.fixed import SCHEMES
+from studies.build.moving import DRIFT_MOTIONS, MOTIONS
+from studies.build.moving_delaunay import CARRIAGES
+from studies.kit.case import Case
+from studies.rb.runs.points import CarriedRun, DihRun, DriftRun, MovingRun
+
+SEEDS = (1, 2, 3)
+#: rows of the schemes on points that converge; 40 of the others
+MOST = {"fixed-lattice": 80, "fixed-lattice-printed-heat": 80, "fixed-lattice-h3": 80,
+        "fixed-lattice-nested": 80, "fixed-jittered-plates": 64, "fixed-random-plates": 50,
+        "relaxed-plates": 50, "fixed-jittered-delaunay": 50, "fixed-random-delaunay": 50,
+        "relaxed-delaunay": 50}
+#: schemes that only other studies run
+ELSEWHERE = {"fixed-lattice-h1.2", "fixed-lattice-monaghan", "fixed-lattice-wendland-c2"}
+#: of RR98's own motions, those with 40 rows besides 25
+FINER = ("moving-literal", "moving-convective", "moving-constant-mass", "moving-less-static")
+
+
+def points() -> Iterator[Case]:
+    """Discretized integral hydrodynamics: points on a lattice, irregular points, moving points."""
+    for ra in (5e3, 1e4):
+        for height in (25.0, 40.0, 50.0, 64.0, 80.0):
+            yield from on_points(RayleighBenard(ra=ra, L=height))
+    for height in (25.0, 40.0, 50.0):
+        yield DihRun(scene=RayleighBenard(ra=1e4, L=height, transport=ConstNu))
+    yield from carried()
+    few, many = RayleighBenard(ra=1e4, L=25.0), RayleighBenard(ra=1e4, L=40.0)
+    # seeds differ by 0.03 %, ingredients by more
+    for name, where, seed in product(sorted({*MOTIONS} - {"moving"}), (few, many), SEEDS[:2]):
+        yield MovingRun(scene=where, variant=MOTIONS[name], seed=seed)
+    for motion, seed in product(DRIFT_MOTIONS.values(), SEEDS):
+        yield DriftRun(scene=few, variant=motion, seed=seed)
+    for name, seed in product(FINER, SEEDS[:2]):
+        yield DriftRun(scene=many, variant=DRIFT_MOTIONS[name], seed=seed)
+
+
+def carried() -> Iterator[Case]:
+    """Points that move with their triangulation: to the limit, below and above, with shorter steps."""
+    for ra, rows, seed in product((5e3, 1e4), (12, 16, 20, 25, 32, 40), SEEDS):
+        yield CarriedRun(scene=RayleighBenard(ra=ra, L=float(rows)), seed=seed)
+    for ra, rows, seed in product((2000.0, 2500.0, 2e4, 5e4), (16, 25), SEEDS):
+        yield CarriedRun(scene=RayleighBenard(ra=ra, L=float(rows)), seed=seed, t_end=400.0, mean_from=300.0)
+    for name, rows in product(sorted(CARRIAGES.keys() - {"moving-delaunay"}), (16, 25)):
+        yield CarriedRun(scene=RayleighBenard(ra=1e4, L=float(rows)), variant=CARRIAGES[name])
+
+
+def on_points(where: RayleighBenard) -> Iterator[Case]:
+    """All schemes on points that stay, as fine as each is run, and the one on points that move."""
+    for name in sorted(SCHEMES.keys() - ELSEWHERE):
+        seeds = SEEDS[:1] if "lattice" in name else SEEDS
+        if where.L <= MOST.get(name, 40):
+            yield from (DihRun(scene=where, variant=SCHEMES[name], seed=seed) for seed in seeds)
+    # an error of first order, from the plates, shows in the finest
+    finest = SEEDS[:2] if where.ra == 1e4 else ()
+    yield from (MovingRun(scene=where, seed=seed) for seed in (SEEDS if where.L <= 64 else finest))

@@ -1,0 +1,240 @@
+"""Points that move with their triangulation: its geometry, flips, laws of conservation, and its slow twin."""
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plain_moving_delaunay import Plain
+
+from continuum.domain import Domain
+from continuum.exact.vortex import solved, velocities
+from continuum.fluid import ConstEta, ConstNu, IdealGas
+from continuum.scene import RayleighBenard
+from continuum.sides import Periodic, Plate, Sliding
+from particles.integral import moving_delaunay
+from particles.integral import rings as rings_module
+from particles.integral.flips import flips
+from particles.integral.moving_delaunay import MovingDelaunay
+from particles.integral.rings import geometry, rings, table_of
+from particles.integral.triangulation import triangles
+from particles.run import Divergence, Plan, run
+from particles.threads import Threads
+from studies.build import SCENES, ready
+from studies.build.fixed import between_sides
+from studies.build.measure import heat_at_rest
+from studies.build.moving_delaunay import CARRIAGES, NONE_HELD, Carriage
+from studies.build.setting import shifted
+
+TORUS, PLATES, BOX = (False, False), (False, True), (True, True)
+SIZE = (12.0, 10.0)
+
+
+def corners(x, size, closed):
+    """Triangles (T, 3) of SciPy, counterclockwise."""
+    corner, at = triangles(x, size, closed)
+    one, two = at[:, 1] - at[:, 0], at[:, 2] - at[:, 0]
+    turned = one[:, 0]*two[:, 1] < one[:, 1]*two[:, 0]
+    corner[turned] = corner[turned][:, ::-1]
+    return corner
+
+
+def of_points(size, closed, jitter, seed):
+    """Points (n, 2) between rows on sides."""
+    return between_sides(size, closed, shifted, jitter, seed)
+
+
+def neighbours(made):
+    """Of each point."""
+    return [set(row[row >= 0]) for row in table_of(made)]
+
+
+def edges_of(made, x):
+    """(V, crossed), with S and k in the rings."""
+    n = len(x)
+    V, crossed = np.zeros(n), np.zeros(n, bool)
+    geometry(0, n, x.T.copy(), made, V, np.zeros((n, 2)), crossed)
+    return V, crossed
+
+
+@pytest.mark.parametrize("closed", [TORUS, PLATES, BOX])
+def test_flips_end_at_delaunays_triangulation_and_keep_linear_fields(closed):
+    """What points have of a linear field, per volume, they have after flips, on the same places."""
+    x, _ = of_points(SIZE, closed, 0.1, seed=3)
+    made, n = rings(x, SIZE, closed), len(x)
+    x = x + 0.35*np.random.default_rng(0).uniform(-1, 1, x.shape)*~made.rim[:, None]
+    V, crossed = edges_of(made, x)
+    slope = np.multiply([0.1, 0.2], closed)       # where a field may be linear
+    fields = np.stack([np.full(n, 2.0), np.zeros(n), 3 + x@slope, np.ones(n), np.full(n, 5.0)])
+    state = np.concatenate([x.T, 0*x.T, fields*V])
+    before = state[4:].sum(axis=1)
+    count, full = flips(x.T.copy(), state, made, crossed, np.zeros(n, bool), np.zeros((4000, 2), np.int64))
+    assert count > 10 and full == -1
+    assert neighbours(made) == neighbours(rings(x, SIZE, closed))
+    V, crossed = edges_of(made, x)
+    assert not crossed.any()
+    assert np.allclose(state[7], V, rtol=0, atol=1e-13)
+    assert np.allclose(state[4:]/V, fields, rtol=1e-12)
+    assert np.allclose(state[4:].sum(axis=1), before, rtol=1e-13)
+
+
+HEATED = Domain(L=8.0, eta=0.1, k=0.1, g=1e-3, left=Periodic(), right=Periodic(), bottom=Plate(q=1e-3),
+                top=Sliding(0.1, T=1.0))
+SCENES_OF_ALL_KINDS = {
+    "torus": SCENES["taylor-green"](rows=8), "plates": RayleighBenard(ra=1e4, L=8.0, transport=ConstNu),
+    "four sides": SCENES["cavity"](rows=10), "heat that is given, a plate that slides": HEATED}
+
+
+@pytest.mark.parametrize("scene", SCENES_OF_ALL_KINDS.values(), ids=SCENES_OF_ALL_KINDS)
+def test_its_plain_twin_takes_the_same_steps(scene):
+    """To the third flip; later on flips of neighbouring edges come in another order, with other remains.
+    Points start in disorder, since four on a circle flip at once, in any order."""
+    method, state, dt = Carriage("disordered", size=0.25).ready(scene)
+    plain, twin = Plain(method, corners(method.x, method.rings.size, method.rings.per == 0)), state.copy()
+    sums = method.start(state.shape[1], Threads(1))
+    while plain.flips < 3:
+        plain.step(twin, dt)
+        sums.march(state, dt, 1)
+    assert plain.flips == sums.flips
+    assert np.allclose(state, twin, rtol=0, atol=1e-13)
+
+
+def test_mass_momentum_energy_and_volume_are_kept_to_round_off():
+    method, start, dt = ready(SCENES["taylor-green"](rows=10), "moving-delaunay")
+    sums, end = method.start(start.shape[1], Threads(1)), start.copy()
+    sums.march(end, dt, 2000)
+    assert sums.flips > 400
+    assert np.allclose(end[4:].sum(axis=1), start[4:].sum(axis=1), rtol=1e-12, atol=1e-12)
+    V, _ = edges_of(sums.rings, end[:2].T)
+    assert np.allclose(end[7], V, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("speed", [0.7, 7.0])
+def test_a_uniform_stream_changes_nothing(speed):
+    scene = SCENES["taylor-green"](rows=8)
+    method, rest, dt = ready(scene, "moving-delaunay")
+    boost = speed*np.array([0.8, 0.6])
+    rho, v, T = scene.fields(method.x)
+    carried = method.state(rho, v + boost, T)
+    for state in (rest, carried):
+        method.start(state.shape[1], Threads(1)).march(state, dt, 100)
+    at_rest, in_stream = method.fields(rest), method.fields(carried)
+    assert np.allclose(in_stream.v - boost, at_rest.v, rtol=0, atol=1e-12)
+    assert np.allclose(in_stream.T, at_rest.T, rtol=1e-11)      # T is told from an energy that v^2 adds to
+
+
+@pytest.mark.parametrize("gradient, heating", [([[0, -1], [1, 0]], 0.0), ([[0, 1], [0, 0]], 1.0),
+                                               ([[1, 0], [0, -1]], 4.0)], ids=["rotation", "shear", "strain"])
+def test_a_linear_flow_heats_as_a_fluid_does(gradient, heating):
+    """2 eta s:s a volume, in all; a rigid rotation does not heat. Points go along: nothing is carried."""
+    scene = Domain(L=10.0, aspect=1.2, eta=0.3, k=0.1)
+    method, _, _ = ready(scene, "moving-delaunay")
+    v, plain = method.x@np.array(gradient, float).T, Plain(method, corners(method.x, SIZE, BOX))
+    y = method.state(1.0, v, np.ones(len(v)))
+    y[2:4], y[4:6] = v.T, y[6]*v.T
+    y[8] = y[6]*(1 + (v**2).sum(axis=1)/2)
+    t, i, j, S, k = plain.edges(y[:2])
+    rates = plain.exchange(y, i, j, S, k) + plain.rest_of_stress(y, t)
+    assert rates[4].sum() == pytest.approx(0, abs=1e-10)
+    assert -(rates[:2]*v.T).sum() == pytest.approx(heating*0.3*120, abs=1e-10)
+
+
+def error_of_vortex(rows):
+    """Of the velocity after a decay, over its size then; exact to 1e-8."""
+    scene = SCENES["taylor-green"](rows=rows)
+    method, state, dt = ready(scene, "moving-delaunay")
+    steps = int(np.ceil(scene.time/dt))
+    method.start(state.shape[1], Threads(1)).march(state, scene.time/steps, steps)
+    at = method.fields(state)
+    exact = scene.vortex.speed*velocities(solved(scene.mach), at.x/rows)
+    return np.sqrt(((at.v - exact)**2).mean()/(exact**2).mean())
+
+
+def test_a_vortex_is_of_second_order():
+    coarse, fine = error_of_vortex(12), error_of_vortex(24)
+    assert fine < 0.02
+    assert np.log2(coarse/fine) == pytest.approx(2, abs=0.4)        # of two sizes
+
+
+def test_two_threads_and_another_order_in_memory_change_no_bit(monkeypatch):
+    method, start, dt = ready(RayleighBenard(ra=1e4, L=16.0), "moving-delaunay")
+    plan = Plan(dt=dt, steps=40)
+    one, two = run(method, start, plan), run(method, start, replace(plan, threads=2))
+    assert np.array_equal(one.state, two.state)
+    monkeypatch.setattr(moving_delaunay, "AFAR", 0)
+    sorted_often = run(method, start, plan)
+    assert not np.array_equal(sorted_often.ids, one.ids)
+    assert np.allclose(sorted_often.by_id(), one.by_id(), rtol=0, atol=1e-12)      # sums in another order
+
+
+def test_a_ring_gets_room_when_it_is_full(monkeypatch):
+    scene = SCENES["taylor-green"](rows=8)
+    roomy, start, dt = ready(scene, "moving-delaunay")
+    monkeypatch.setattr(rings_module, "SPARE", 1)
+    tight = replace(roomy, rings=rings(roomy.x, (8.0, 8.0), TORUS))
+    ends = [run(method, start, Plan(dt=dt, steps=100)).state for method in (roomy, tight)]
+    assert np.array_equal(*ends)
+
+
+def test_heat_goes_in_below_and_out_above_at_rest():
+    """A layer that conducts: Nu is 1, to the density's change over the layer."""
+    scene = RayleighBenard(ra=100.0, L=8.0)
+    method, start, dt = ready(scene, "moving-delaunay")
+    variant = CARRIAGES["moving-delaunay"]
+    done = run(method, start, Plan(dt=dt, steps=3000, series=variant.series, every=100))
+    unit = heat_at_rest(scene)
+    assert done.series["lower"][-1]/unit == pytest.approx(1, abs=1e-4)
+    assert done.series["upper"][-1]/unit == pytest.approx(-1, abs=1e-4)
+
+
+def test_what_is_no_triangulation_is_refused():
+    x, _ = of_points(SIZE, PLATES, 0.1, seed=1)
+    with pytest.raises(ValueError, match=r"6.29 spacings wide along x, where it is periodic.* needs 8"):
+        rings(of_points((6.0, 10.0), PLATES, 0.1, 1)[0], (6.0, 10.0), PLATES)
+    twice = x.copy()
+    twice[-1] = twice[-2]
+    with pytest.raises(ValueError, match=r"overlap at .*, or nearly so"):
+        rings(twice, SIZE, PLATES)
+    with pytest.raises(ValueError, match=r"plates at -\+5: put a row of points"):
+        rings(x*[1, 1.1], SIZE, PLATES)
+    with pytest.raises(ValueError, match="on a side and not held"):
+        MovingDelaunay(x=x, rings=rings(x, SIZE, PLATES), held=NONE_HELD, eos=IdealGas(), law=ConstEta(1, 1))
+
+
+def test_a_state_on_another_triangulation_is_refused():
+    method, start, dt = ready(SCENES["taylor-green"](rows=8), "moving-delaunay")
+    end = run(method, start, Plan(dt=dt, steps=10)).state
+    with pytest.raises(ValueError, match="not where the triangulation of the method is: start from"):
+        run(method, end, Plan(dt=dt, steps=10))
+
+
+def test_a_triangle_that_turns_over_ends_a_run_with_the_place_and_the_way_out():
+    method, start, dt = ready(RayleighBenard(ra=1e6, L=8.0), "moving-delaunay")
+    with pytest.raises(Divergence, match=r"a triangle of the point at .* has turned over.*shift above 0"):
+        run(replace(method, shift=0.0), start, Plan(dt=dt, steps=5000))
+
+
+def test_a_checkpoint_of_another_triangulation_is_refused(tmp_path):
+    path = tmp_path/"run.h5"
+    one, start, dt = ready(SCENES["taylor-green"](rows=8), "moving-delaunay", seed=1)
+    other, _, _ = ready(SCENES["taylor-green"](rows=8), "moving-delaunay", seed=2)
+    plan = Plan(dt=dt, steps=40, checkpoint=path, checkpoint_seconds=0.0)
+    run(one, start, plan)
+    with pytest.raises(ValueError, match="is of other parameters"):
+        run(other, start, plan)
+
+
+def test_an_insulated_side_that_slides_does_its_work_and_no_energy_is_lost():
+    scene = Domain(L=8.0, aspect=2.0, eta=0.1, k=0.1, left=Periodic(), right=Periodic(), top=Sliding(0.1))
+    method, state, dt = ready(scene, "moving-delaunay")
+    sums, before, work = method.start(state.shape[1], Threads(1)), state[8].sum(), []
+    for _ in range(200):
+        sums.march(state, dt/8, 1)
+        sums.look_at(state)
+        work.append(-sums.received[:, 2].sum()*dt/8)
+    # the sum over steps is of first order in the step, the plate starts with a jump
+    assert state[8].sum() - before == pytest.approx(sum(work), rel=0.02)
+    assert sum(work) > 0
+
+
+def test_a_lid_is_refused_that_slides_into_a_corner():
+    with pytest.raises(ValueError, match=r"cannot take top = Sliding\(v=0\.1.*take grid"):
+        ready(Domain(L=8.0, eta=0.1, k=0.1, top=Sliding(0.1)), "moving-delaunay")
