@@ -4,6 +4,8 @@ from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 from typing import Any
 
+from continuum.jit import overload
+
 
 class Threads:
     """Calls a compiled function(first, last, ...) on equal ranges of rows, one a thread: bitwise the same."""
@@ -21,3 +23,16 @@ class Threads:
         cuts = [rows*t//self.number for t in range(self.number + 1)]
         others = [self._pool.submit(function, a, b, *arguments) for a, b in pairwise(cuts[1:])]
         return [function(0, cuts[1], *arguments), *(other.result() for other in others)]
+
+
+def shared(function: Callable) -> Any:
+    """call(threads, rows, ...) of a compiled function(first, last, ...): `Threads` share its rows; in compiled
+    code, whatever `threads` is, one takes them all."""
+    def call(threads, rows, *arguments):
+        return threads(function, rows, *arguments)
+
+    @overload(call)
+    def _(threads, rows, *arguments):
+        return lambda threads, rows, *arguments: function(0, rows, *arguments)
+
+    return call

@@ -10,6 +10,7 @@ import numpy as np
 
 from continuum.fluid import conductivity, pressure, temperature, viscosity
 from particles.integral.carried import hold
+from particles.integral.march import LATER
 from particles.integral.rings import FLAT
 
 Left = dict[tuple[int, int], int]
@@ -56,6 +57,10 @@ class Plain:
         once, first = self.rest_of_stress(y, t), y[4:].copy()
         once[4, method.held.which] += method.held.heat
         for new in (1.0, 1/4, 2/3):
+            if new == 1/4:
+                again = self.rest_of_stress(y, t)
+                again[4, method.held.which] += method.held.heat
+                once = once + LATER*(again - once)
             rates = self.exchange(y, i, j, S, k) + once
             rates[3] = flow
             rates[1] -= method.g*y[6]

@@ -66,7 +66,7 @@ def test_flips_end_at_delaunays_triangulation_and_keep_linear_fields(closed):
     fields = np.stack([np.full(n, 2.0), np.zeros(n), 3 + x@slope, np.ones(n), np.full(n, 5.0)])
     state = np.concatenate([x.T, 0*x.T, fields*V])
     before = state[4:].sum(axis=1)
-    count, full = flips(x.T.copy(), state, made, crossed, np.zeros(n, bool), np.zeros((4000, 2), np.int64))
+    count, full = flips(x.T.copy(), state, IdealGas(), made, crossed, np.zeros(n, bool), np.zeros((4000, 2), np.int64))
     assert count > 10 and full == -1
     assert neighbours(made) == neighbours(rings(x, SIZE, closed))
     V, crossed = edges_of(made, x)

@@ -12,6 +12,7 @@ from continuum.jit import formula, jit, jit_records
 from particles.integral.exchange import Listing
 from particles.neighbours import u64
 from particles.pairs import Block, rate, sweep, zero
+from particles.threads import shared
 
 #: of a state: places, velocity of points, then what edges exchange: momentum, mass, volume, total energy
 ROWS = ("x", "y", "wx", "wy", "px", "py", "m", "V", "E")
@@ -71,6 +72,7 @@ def _(term, a, b, ab):
             half*(a.e + b.e + a.vx*b.vx + a.vy*b.vy) - work)
 
 
+@shared
 @jit
 def read(first, last, y, eos, law, points):
     """Fields of points."""
@@ -84,37 +86,52 @@ def read(first, last, y, eos, law, points):
         a.eta, a.k = viscosity(law, a.rho, a.Td), conductivity(law, a.rho, a.Td)
 
 
+@shared
 @jit
-def differ(first, last, rings, bench):
-    """dV/dt, |grad v|, and what forces along edges lack of a fluid's stress, with its heating.
+def follow(first, last, rings, bench):
+    """dV/dt, and |grad v|."""
+    points, edges = bench.points, rings.edges
+    for i in range(u64(first), u64(last)):
+        a, begin = points[i], edges.first[i]
+        flow, xx, xy, yx, yy = 0.0, 0.0, 0.0, 0.0, 0.0
+        for e in range(begin, begin + edges.taken[i]):
+            b, sx, sy = points[edges.near[e]], edges.sx[e], edges.sy[e]
+            du, dv = b.vx - a.vx, b.vy - a.vy
+            flow += sx*(a.rx + a.vx + b.rx + b.vx) + sy*(a.ry + a.vy + b.ry + b.vy)
+            xx, xy, yx, yy = xx + sx*du, xy + sy*du, yx + sx*dv, yy + sy*dv
+        bench.flow[i], bench.strain[i] = flow, np.sqrt(xx*xx + xy*xy + yx*yx + yy*yy)/bench.V[i]
+
+
+@shared
+@jit
+def complete(first, last, part, rings, bench):
+    """What forces along edges lack of a fluid's stress, with its heating: `part` of it as now, the rest as before.
 
     The rest pushes a corner i of a triangle (i, j, k) by eta R(v_j - v_k)/2, R(x, y) = (y, -x), with its mean
     eta; what that does on all three corners, eta (v_j - v_i) x (v_k - v_i), it takes from their heat in equal
     shares: nothing is lost in any triangle, a stream that is the same everywhere makes no difference, and a
     rigid rotation does not heat.
     """
-    points, edges = bench.points, rings.edges
+    points, edges, once = bench.points, rings.edges, bench.once
     for i in range(u64(first), u64(last)):
-        a, begin, count = points[i], edges.first[i], u64(edges.taken[i])
-        end = begin + count - u64(1)
-        c = points[edges.near[end]]
-        u, v, eta = c.ux - a.ux, c.uy - a.uy, c.eta
-        flow, xx, xy, yx, yy, px, py, heat = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        for e in range(begin, begin + count):
-            b, sx, sy = points[edges.near[e]], edges.sx[e], edges.sy[e]
-            du, dv = b.ux - a.ux, b.uy - a.uy
-            flow += sx*(a.rx + a.vx + b.rx + b.vx) + sy*(a.ry + a.vy + b.ry + b.vy)
-            xx, xy, yx, yy = xx + sx*du, xy + sy*du, yx + sx*dv, yy + sy*dv
-            mean = (a.eta + eta + b.eta)/3
-            if not (rings.rim[i] and e == begin):
-                px -= 0.5*mean*(dv - v)
-                py += 0.5*mean*(du - u)
-                heat -= mean*(u*dv - v*du)/3
-            u, v, eta = du, dv, b.eta
-        bench.flow[i], bench.strain[i] = flow, (xx*xx + xy*xy + yx*yx + yy*yy)/bench.V[i]**2
-        bench.once[i, 0], bench.once[i, 1], bench.once[i, 2] = px, py, heat + px*a.ux + py*a.uy
+        a, begin, rim = points[i], edges.first[i], u64(rings.rim[i])
+        end = begin + u64(edges.taken[i])
+        c = points[edges.near[begin if rim else end - u64(1)]]
+        u, v, eta = c.vx - a.vx, c.vy - a.vy, a.eta + c.eta
+        px, py, heat = 0.0, 0.0, 0.0
+        for e in range(begin + rim, end):
+            b = points[edges.near[e]]
+            du, dv, mean = b.vx - a.vx, b.vy - a.vy, (eta + b.eta)/3
+            px -= 0.5*mean*(dv - v)
+            py += 0.5*mean*(du - u)
+            heat -= mean*(u*dv - v*du)/3
+            u, v, eta = du, dv, a.eta + b.eta
+        once[i, 0] += part*(px - once[i, 0])
+        once[i, 1] += part*(py - once[i, 1])
+        once[i, 2] += part*(heat + px*a.vx + py*a.vy - once[i, 2])
 
 
+@shared
 @jit_records
 def stage(first, last, dt, new, fluid, edges, bench, y):
     """(1 - new) before + new (now + dt d/dt), which rounds to less than the sum."""
@@ -137,11 +154,11 @@ def later(before, now, new, change):
 
 
 @jit
-def heat(held, bench):
+def heat(held, part, once):
     """What held points without a temperature are given."""
     which, _, _, _, given = held
     for s in range(len(which)):
-        bench.once[which[s], 2] += given[s]
+        once[which[s], 2] += part*given[s]
 
 
 @jit
@@ -161,8 +178,9 @@ def hold(eos, held, y):
 def receive(fluid, rings, held, y, bench, received):
     """Momentum and energy that held points take, per time, of a state on its own triangulation."""
     (which, v, T, _, given), n, eos = held, y.shape[1], fluid.eos
-    read(0, n, y, eos, fluid.law, bench.points)
-    differ(0, n, rings, bench)
+    read(None, n, y, eos, fluid.law, bench.points)
+    follow(None, n, rings, bench)
+    complete(None, n, 1.0, rings, bench)
     sums = np.empty((1, 4))
     for s in range(len(which)):
         i, once = which[s], bench.once[which[s]]

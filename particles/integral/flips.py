@@ -1,9 +1,13 @@
 """Flips of a triangulation that is held as rings, compiled, and what a flip hands over."""
 import numpy as np
 
+from continuum.fluid import temperature
 from continuum.jit import formula, jit
 from particles.integral.rings import FLAT, apart
 from particles.neighbours import u32, u64
+
+#: rows of what is exchanged: volumes, and what goes with them
+VOLUME, CARRIED = 3, (0, 1, 2, 4)
 
 
 @jit
@@ -63,12 +67,12 @@ def cotangents(x, y, size, per, i, j, k, l):
 
 
 @jit
-def flips(at, state, rings, crossed, changed, stack):
+def flips(at, state, eos, rings, crossed, changed, stack):
     """Flip until no edge is to be: (number of flips, -1) or (flips so far, a point without room in its ring).
 
     at (2, n) : places that decide; volumes belong to those in the state, of `carried`. A flip takes (i, j),
     with k left and l right of it, for (l, k), and moves as much of what the four points have as the volume
-    that changes hands carries: conservative, exact on linear fields. changed : points whose rings have
+    that changes hands carries: conservative, exact on linear fields, save where densities jump. changed : points whose rings have
     changed. stack (m, 2) : room for edges to be looked at.
     """
     x, y = at
@@ -96,7 +100,7 @@ def flips(at, state, rings, crossed, changed, stack):
             for full in (k, l):
                 if u64(rings.edges.taken[full]) == stride:
                     return count, full
-            remap(x0, y0, size, per, exchanged, i, j, k, l)
+            remap(x0, y0, size, per, eos, exchanged, i, j, k, l)
             drop(rings, i, entry)
             drop(rings, j, back)
             put(rings, k, slot(rings, k, i), l)
@@ -119,22 +123,59 @@ def on_side(rings, i, e):
 
 
 @jit
-def remap(x, y, size, per, exchanged, i, j, k, l):
+def remap(x, y, size, per, eos, exchanged, i, j, k, l):
     """What a flip moves between four points, places of the volumes: dV is a third of the areas' changes."""
-    V = exchanged[3]
     left, right = doubled(x, y, size, per, i, j, k)/2, doubled(x, y, size, per, i, l, j)/2
     at_i, at_j, both = doubled(x, y, size, per, i, l, k)/2, doubled(x, y, size, per, j, k, l)/2, left + right
-    di, dj, dk, dl = (at_i - both)/3, (at_j - both)/3, (both - left)/3, (both - right)/3
-    whole = V[i] + V[j] + V[k] + V[l]
-    for row in (0, 1, 2, 4):
-        q = exchanged[row]
-        qi, qj, qk, ql = q[i]/V[i], q[j]/V[j], q[k]/V[k], q[l]/V[l]
-        D = -(qi*di + qj*dj + qk*dk + ql*dl)/whole
-        q[i] += qi*di + D*(V[i] + di)
-        q[j] += qj*dj + D*(V[j] + dj)
-        q[k] += qk*dk + D*(V[k] + dk)
-        q[l] += ql*dl + D*(V[l] + dl)
-    V[i] += di
-    V[j] += dj
-    V[k] += dk
-    V[l] += dl
+    four, dV = (i, j, k, l), ((at_i - both)/3, (at_j - both)/3, (both - left)/3, (both - right)/3)
+    old, new = np.empty((5, 4)), np.empty((5, 4))
+    for c in range(4):
+        for row in range(5):
+            old[row, c] = exchanged[row, four[c]]
+        new[VOLUME, c] = old[VOLUME, c] + dV[c]
+    along_slopes(old, dV, new)
+    if not sound(eos, old, new):
+        from_givers(old, dV, new)
+    for c in range(4):
+        for row in range(5):
+            exchanged[row, four[c]] = new[row, c]
+
+
+@formula
+def along_slopes(old, dV, new):
+    """Volume with what its point has, and from all, by volume, what that is too much: exact on linear fields."""
+    for row in CARRIED:
+        excess = 0.0
+        for c in range(4):
+            excess += dV[c]*old[row, c]/old[VOLUME, c]
+        for c in range(4):
+            new[row, c] = (old[row, c] + dV[c]*old[row, c]/old[VOLUME, c]
+                           - excess*new[VOLUME, c]/old[VOLUME].sum())
+
+
+@formula
+def from_givers(old, dV, new):
+    """Volume from those that lose some, with what they have: what comes is a mean, of first order."""
+    for row in CARRIED:
+        given, volume = 0.0, 0.0
+        for c in range(4):
+            given += max(-dV[c], 0.0)*old[row, c]/old[VOLUME, c]
+            volume += max(-dV[c], 0.0)
+        for c in range(4):
+            new[row, c] = old[row, c] + (dV[c]*old[row, c]/old[VOLUME, c] if dV[c] < 0 else dV[c]*given/volume)
+
+
+@formula
+def sound(eos, old, new):
+    """Has none of four points less than half of the smallest density or temperature that there was?"""
+    rho, T, low_rho, low_T = np.inf, np.inf, np.inf, np.inf
+    for c in range(4):
+        one, other = density_and_temperature(eos, old, c), density_and_temperature(eos, new, c)
+        rho, T, low_rho, low_T = min(rho, one[0]), min(T, one[1]), min(low_rho, other[0]), min(low_T, other[1])
+    return low_rho > 0.5*rho and low_T > 0.5*T
+
+
+@formula
+def density_and_temperature(eos, exchanged, c):
+    px, py, m, V, E = exchanged[0, c], exchanged[1, c], exchanged[2, c], exchanged[3, c], exchanged[4, c]
+    return m/V, temperature(eos, m/V, (E - 0.5*(px*px + py*py)/m)/m)

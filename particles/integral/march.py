@@ -2,45 +2,56 @@
 import numpy as np
 
 from continuum.jit import jit
-from particles.integral.carried import differ, heat, hold, read, stage
+from particles.integral.carried import complete, follow, heat, hold, read, stage
 from particles.integral.flips import flips
 from particles.integral.rings import geometry
 from particles.neighbours import u64
+from particles.threads import shared
 
 #: how a march ends: all steps done; a triangle has turned over; a ring is full
 DONE, TURNED, FULL = 0, 1, 2
 
 
+edges_of = shared(geometry)
+#: of the stress that triangles have, what the later two of three stages take from the first of them: with
+#: this it is of second order in the step
+LATER = 0.6
+
+
 @jit
-def march(steps, dt, fluid, rings, held, y, bench):
+def march(threads, steps, dt, fluid, rings, held, y, bench):
     """Advance a state (9, n) in place: (how it ended, steps done, a point).
 
-    held : `Held` points.
+    threads : `Threads` where this is called uncompiled, as `march.py_func`. held : `Held` points.
     """
     n = y.shape[1]
+    halfway(threads, n, dt, y, bench.middle)
     for step in range(steps):
-        halfway(0, n, dt, y, bench.middle)
-        geometry(0, n, bench.middle, rings, bench.V, bench.pull, bench.crossed)
-        full, turned = mend(y, rings, bench)
+        edges_of(threads, n, bench.middle, rings, bench.V, bench.pull, bench.crossed)
+        full, turned = mend(fluid.eos, y, rings, bench)
         if full >= 0:
             return FULL, step, full
         if turned >= 0:
             return TURNED, step, turned
         hold(fluid.eos, held, y)
-        read(0, n, y, fluid.eos, fluid.law, bench.points)
-        differ(0, n, rings, bench)
-        bench.before[:] = y[4:]
-        heat(held, bench)
+        keep(threads, n, y, bench.before)
+        read(threads, n, y, fluid.eos, fluid.law, bench.points)
+        follow(threads, n, rings, bench)
+        complete(threads, n, 1.0, rings, bench)
+        heat(held, 1.0, bench.once)
         for new in (1.0, 1/4, 2/3):
-            stage(0, n, dt, new, fluid, rings.edges, bench, y)
+            stage(threads, n, dt, new, fluid, rings.edges, bench, y)
             hold(fluid.eos, held, y)
             if new != 2/3:
-                read(0, n, y, fluid.eos, fluid.law, bench.points)
-        rate_of_strain = fastest(bench)
-        move(0, n, dt, fluid.shift*rate_of_strain, bench, y)
+                read(threads, n, y, fluid.eos, fluid.law, bench.points)
+            if new == 1.0:
+                complete(threads, n, LATER, rings, bench)
+                heat(held, LATER, bench.once)
+        move(threads, n, dt, fluid.shift*fastest(bench.strain, bench.free), bench, y)
     return DONE, steps, -1
 
 
+@shared
 @jit
 def halfway(first, last, dt, y, middle):
     for i in range(u64(first), u64(last)):
@@ -48,10 +59,10 @@ def halfway(first, last, dt, y, middle):
 
 
 @jit
-def mend(y, rings, bench):
+def mend(eos, y, rings, bench):
     """Flip what is not Delaunay's: (a point without room for a neighbour, one whose triangle has turned)."""
     if bench.crossed.any():
-        count, full = flips(bench.middle, y, rings, bench.crossed, bench.changed, bench.stack)
+        count, full = flips(bench.middle, y, eos, rings, bench.crossed, bench.changed, bench.stack)
         bench.flipped[0] += count
         if full >= 0:
             return full, -1
@@ -65,20 +76,29 @@ def mend(y, rings, bench):
     return -1, -1
 
 
+@shared
 @jit
-def fastest(bench):
+def keep(first, last, y, before):
+    for row in range(len(before)):
+        for i in range(u64(first), u64(last)):
+            before[row, i] = y[row + 4, i]
+
+
+@jit
+def fastest(strain, free):
     """The largest |grad v| of free points."""
     largest = 0.0
-    for i in range(len(bench.V)):
-        largest = max(largest, bench.strain[i]*bench.free[i])
-    return np.sqrt(largest)
+    for i in range(len(free)):
+        largest = max(largest, strain[i]*free[i])
+    return largest
 
 
+@shared
 @jit
 def move(first, last, dt, shift, bench, y):
     """Points go on; then they follow the fluid, and shift to the middle of their triangles."""
     for i in range(u64(first), u64(last)):
-        y[0, i] += dt*y[2, i]
-        y[1, i] += dt*y[3, i]
-        y[2, i] = bench.free[i]*(y[4, i]/y[6, i] + shift*bench.pull[i, 0])
-        y[3, i] = bench.free[i]*(y[5, i]/y[6, i] + shift*bench.pull[i, 1])
+        for c in range(2):
+            y[c, i] += dt*y[c + 2, i]
+            y[c + 2, i] = bench.free[i]*(y[c + 4, i]/y[6, i] + shift*bench.pull[i, c])
+            bench.middle[c, i] = y[c, i] + 0.5*dt*y[c + 2, i]

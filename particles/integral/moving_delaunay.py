@@ -31,6 +31,8 @@ SOUND, SPREAD = 1.6, 24.0
 SHIFT = 2.0
 #: steps times points between two looks at the clock and the keyboard: a quarter of a second
 AT_ONCE = 1_000_000
+#: points from which a step is worth Python's calls, which threads need
+MANY = 20_000
 #: places in memory between neighbours, by the median, from which points are sorted again
 AFAR = 32
 
@@ -55,9 +57,9 @@ class RingSums(Sums):
     """
     method: "MovingDelaunay"
 
-    def __init__(self, method: "MovingDelaunay"):
+    def __init__(self, method: "MovingDelaunay", threads: Threads):
         n = len(method.x)
-        self.method, self.n, self.flips = method, n, 0
+        self.method, self.threads, self.n, self.flips = method, threads, n, 0
         self.rings, self.held = rows_of(table_of(method.rings), *method.rings[1:]), method.held
         self.fluid = Fluid(method.eos, method.law, Listing((Crossing(), *method.transport)), float(method.g),
                            float(method.shift))
@@ -76,8 +78,10 @@ class RingSums(Sums):
             free=free, flipped=np.zeros(1, np.int64))
 
     def go(self, steps: int, dt: float, state: np.ndarray) -> tuple[int, int, int]:
-        """`march`, by one thread whatever their number: steps are the same."""
-        return march(steps, dt, self.fluid, self.rings, self.held, state, self.bench)
+        """`march`; of many points step by step in Python, so that threads can share its loops."""
+        on = march.py_func if self.n >= MANY else march
+        return on(self.threads if self.n >= MANY else None, steps, dt, self.fluid, self.rings, self.held, state,
+                  self.bench)
 
     def march(self, state: np.ndarray, dt: float, steps: int) -> None:
         """So many steps. Raises FloatingPointError: a triangle has turned over."""
@@ -186,7 +190,7 @@ class MovingDelaunay:
     def start(self, n: int, threads: Threads) -> RingSums:
         """The sums over the triangulation. Raises ValueError: a state of another number of points."""
         check_number(n, len(self.x))
-        return RingSums(self)
+        return RingSums(self, threads)
 
 
 @limit_of.register
