@@ -26,8 +26,10 @@ class Threads:
 
 
 def shared(function: Callable) -> Any:
-    """call(threads, rows, ...) of a compiled function(first, last, ...): `Threads` share its rows; in compiled
-    code, whatever `threads` is, one takes them all."""
+    """call(threads, rows, ...) of a compiled function(first, last, ...), whose rows `Threads` share.
+
+    In compiled code one thread takes all rows, whatever `threads` is.
+    """
     def call(threads, rows, *arguments):
         return threads(function, rows, *arguments)
 

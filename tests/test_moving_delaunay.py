@@ -55,6 +55,11 @@ def edges_of(made, x):
     return V, crossed
 
 
+def room(n):
+    """For points whose rings change, and edges to look at."""
+    return np.zeros(n, bool), np.zeros((4000, 2), np.int64)
+
+
 @pytest.mark.parametrize("closed", [TORUS, PLATES, BOX])
 def test_flips_end_at_delaunays_triangulation_and_keep_linear_fields(closed):
     """What points have of a linear field, per volume, they have after flips, on the same places."""
@@ -66,13 +71,27 @@ def test_flips_end_at_delaunays_triangulation_and_keep_linear_fields(closed):
     fields = np.stack([np.full(n, 2.0), np.zeros(n), 3 + x@slope, np.ones(n), np.full(n, 5.0)])
     state = np.concatenate([x.T, 0*x.T, fields*V])
     before = state[4:].sum(axis=1)
-    count, full = flips(x.T.copy(), state, IdealGas(), made, crossed, np.zeros(n, bool), np.zeros((4000, 2), np.int64))
+    count, full = flips(x.T.copy(), state, IdealGas(), made, crossed, *room(n))
     assert count > 10 and full == -1
     assert neighbours(made) == neighbours(rings(x, SIZE, closed))
     V, crossed = edges_of(made, x)
     assert not crossed.any()
     assert np.allclose(state[7], V, rtol=0, atol=1e-13)
     assert np.allclose(state[4:]/V, fields, rtol=1e-12)
+    assert np.allclose(state[4:].sum(axis=1), before, rtol=1e-13)
+
+
+def test_flips_leave_what_is_positive_positive_where_densities_jump():
+    x, _ = of_points(SIZE, TORUS, 0.1, seed=3)
+    made, n, draw = rings(x, SIZE, TORUS), len(x), np.random.default_rng(0)
+    x = x + 0.35*draw.uniform(-1, 1, x.shape)
+    V, crossed = edges_of(made, x)
+    rho, T = 10**draw.uniform(-2, 2, (2, n))
+    state = np.concatenate([x.T, 0*x.T, np.stack([0*rho, 0*rho, rho, np.ones(n), rho*T])*V])
+    before = state[4:].sum(axis=1)
+    flips(x.T.copy(), state, IdealGas(), made, crossed, *room(n))
+    least = rho.min(), T.min()
+    assert (state[6]/state[7]).min() > least[0]/4 and (state[8]/state[6]).min() > least[1]/4
     assert np.allclose(state[4:].sum(axis=1), before, rtol=1e-13)
 
 
@@ -159,6 +178,11 @@ def test_two_threads_and_another_order_in_memory_change_no_bit(monkeypatch):
     plan = Plan(dt=dt, steps=40)
     one, two = run(method, start, plan), run(method, start, replace(plan, threads=2))
     assert np.array_equal(one.state, two.state)
+    monkeypatch.setattr(moving_delaunay, "MANY", 0)
+    shared, alone = run(method, start, replace(plan, threads=2)), run(method, start, plan)
+    assert np.array_equal(shared.state, alone.state)
+    assert np.allclose(shared.state, one.state, rtol=0, atol=1e-13)
+    monkeypatch.undo()
     monkeypatch.setattr(moving_delaunay, "AFAR", 0)
     sorted_often = run(method, start, plan)
     assert not np.array_equal(sorted_often.ids, one.ids)
@@ -174,13 +198,17 @@ def test_a_ring_gets_room_when_it_is_full(monkeypatch):
     assert np.array_equal(*ends)
 
 
-def test_heat_goes_in_below_and_out_above_at_rest():
-    """A layer that conducts: Nu is 1, to the density's change over the layer."""
-    scene = RayleighBenard(ra=100.0, L=8.0)
+LAYER = RayleighBenard(ra=100.0, L=8.0)
+BOX_OF_PLATES = Domain(L=8.0, eta=0.5, k=0.5, bottom=Plate(T=1.2), top=Plate(T=1.0))
+
+
+@pytest.mark.parametrize("scene, unit", [
+    (LAYER, heat_at_rest(LAYER)), (BOX_OF_PLATES, 0.1)], ids=["layer", "box"])
+def test_heat_goes_in_below_and_out_above_at_rest(scene, unit):
+    """A fluid that conducts, nearly at rest: Nu is 1, and corners of a box are their plates'."""
     method, start, dt = ready(scene, "moving-delaunay")
     variant = CARRIAGES["moving-delaunay"]
     done = run(method, start, Plan(dt=dt, steps=3000, series=variant.series, every=100))
-    unit = heat_at_rest(scene)
     assert done.series["lower"][-1]/unit == pytest.approx(1, abs=1e-4)
     assert done.series["upper"][-1]/unit == pytest.approx(-1, abs=1e-4)
 

@@ -105,12 +105,12 @@ def follow(first, last, rings, bench):
 @shared
 @jit
 def complete(first, last, part, rings, bench):
-    """What forces along edges lack of a fluid's stress, with its heating: `part` of it as now, the rest as before.
+    """What forces along edges lack of a fluid's stress, with its heating; (1 - part) of it as it was before.
 
-    The rest pushes a corner i of a triangle (i, j, k) by eta R(v_j - v_k)/2, R(x, y) = (y, -x), with its mean
-    eta; what that does on all three corners, eta (v_j - v_i) x (v_k - v_i), it takes from their heat in equal
-    shares: nothing is lost in any triangle, a stream that is the same everywhere makes no difference, and a
-    rigid rotation does not heat.
+    What they lack pushes a corner i of a triangle (i, j, k) by eta R(v_j - v_k)/2, R(x, y) = (y, -x), with
+    its mean eta; what that does on all three corners, eta (v_j - v_i) x (v_k - v_i), it takes from their heat
+    in equal shares: nothing is lost in any triangle, a stream that is the same everywhere makes no
+    difference, and a rigid rotation does not heat.
     """
     points, edges, once = bench.points, rings.edges, bench.once
     for i in range(u64(first), u64(last)):

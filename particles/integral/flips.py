@@ -72,8 +72,8 @@ def flips(at, state, eos, rings, crossed, changed, stack):
 
     at (2, n) : places that decide; volumes belong to those in the state, of `carried`. A flip takes (i, j),
     with k left and l right of it, for (l, k), and moves as much of what the four points have as the volume
-    that changes hands carries: conservative, exact on linear fields, save where densities jump. changed : points whose rings have
-    changed. stack (m, 2) : room for edges to be looked at.
+    that changes hands carries: conservative, and exact on linear fields save where densities or temperatures
+    would fall by half. changed : points whose rings have changed. stack (m, 2) : room for edges to look at.
     """
     x, y = at
     size, per, near, count = rings.size, rings.per, rings.edges.near, 0
@@ -143,7 +143,7 @@ def remap(x, y, size, per, eos, exchanged, i, j, k, l):
 
 @formula
 def along_slopes(old, dV, new):
-    """Volume with what its point has, and from all, by volume, what that is too much: exact on linear fields."""
+    """Volume with what its point has; what is too much then goes from all: exact on linear fields."""
     for row in CARRIED:
         excess = 0.0
         for c in range(4):
@@ -162,7 +162,8 @@ def from_givers(old, dV, new):
             given += max(-dV[c], 0.0)*old[row, c]/old[VOLUME, c]
             volume += max(-dV[c], 0.0)
         for c in range(4):
-            new[row, c] = old[row, c] + (dV[c]*old[row, c]/old[VOLUME, c] if dV[c] < 0 else dV[c]*given/volume)
+            mean = old[row, c]/old[VOLUME, c] if dV[c] < 0 else given/volume
+            new[row, c] = old[row, c] + dV[c]*mean
 
 
 @formula
@@ -171,7 +172,8 @@ def sound(eos, old, new):
     rho, T, low_rho, low_T = np.inf, np.inf, np.inf, np.inf
     for c in range(4):
         one, other = density_and_temperature(eos, old, c), density_and_temperature(eos, new, c)
-        rho, T, low_rho, low_T = min(rho, one[0]), min(T, one[1]), min(low_rho, other[0]), min(low_T, other[1])
+        rho, T = min(rho, one[0]), min(T, one[1])
+        low_rho, low_T = min(low_rho, other[0]), min(low_T, other[1])
     return low_rho > 0.5*rho and low_T > 0.5*T
 
 

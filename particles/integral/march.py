@@ -1,6 +1,4 @@
 """Steps of points that move with their triangulation: one compiled loop over what `carried` has."""
-import numpy as np
-
 from continuum.jit import jit
 from particles.integral.carried import complete, follow, heat, hold, read, stage
 from particles.integral.flips import flips

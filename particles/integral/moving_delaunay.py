@@ -79,9 +79,8 @@ class RingSums(Sums):
 
     def go(self, steps: int, dt: float, state: np.ndarray) -> tuple[int, int, int]:
         """`march`; of many points step by step in Python, so that threads can share its loops."""
-        on = march.py_func if self.n >= MANY else march
-        return on(self.threads if self.n >= MANY else None, steps, dt, self.fluid, self.rings, self.held, state,
-                  self.bench)
+        on, threads = (march.py_func, self.threads) if self.n >= MANY else (march, None)
+        return on(threads, steps, dt, self.fluid, self.rings, self.held, state, self.bench)
 
     def march(self, state: np.ndarray, dt: float, steps: int) -> None:
         """So many steps. Raises FloatingPointError: a triangle has turned over."""

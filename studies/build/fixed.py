@@ -161,5 +161,11 @@ def heat_in(sums: LayerSums, state: np.ndarray, plate: int) -> float:
 def heat_of_rows(sums: Streaming, state: np.ndarray, plate: int) -> float:
     """The same where rows of points are the plate."""
     sums.rates(state, np.empty_like(state))
-    points = sums.method.held.body == plate
-    return -float(sums.received[points, 2].sum())
+    return -float(sums.received[on_plate(sums.method.held, plate), 2].sum())
+
+
+def on_plate(held: Held, plate: int) -> np.ndarray:
+    """Points of lower or upper plate (0, 1) as `bodies_of` numbers them, and corners that it alone heats."""
+    ends = (held.body >= 4 + 2*plate) & (held.body < 6 + 2*plate)
+    at = held.body == plate
+    return at | ends & np.isin(held.T, held.T[at])

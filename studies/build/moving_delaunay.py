@@ -10,7 +10,7 @@ from particles.fields import kinetic
 from particles.integral.bodies import Held, Rows, held, together
 from particles.integral.moving_delaunay import SHIFT, MovingDelaunay, RingSums
 from particles.integral.rings import rings
-from studies.build.fixed import between_sides, bodies_of, four_sides
+from studies.build.fixed import between_sides, bodies_of, four_sides, on_plate
 from studies.build.names import START_JITTER
 from studies.build.setting import Ready, check_points, part, shifted, stepped
 
@@ -70,4 +70,4 @@ def held_of(scene: Any, x: np.ndarray, rows: Rows) -> Held:
 
 def heat_in(sums: RingSums, state: np.ndarray, plate: int) -> float:
     """Heat that enters the fluid through a plate (0: lower, 1: upper), per time."""
-    return -float(sums.received[sums.held.body == plate, 2].sum())
+    return -float(sums.received[on_plate(sums.held, plate), 2].sum())
