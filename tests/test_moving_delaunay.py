@@ -12,10 +12,12 @@ from continuum.scene import RayleighBenard
 from continuum.sides import Periodic, Plate, Sliding
 from particles.integral import moving_delaunay
 from particles.integral import rings as rings_module
+from particles.integral.bodies import between_circles, together, turning
 from particles.integral.flips import flips
 from particles.integral.moving_delaunay import MovingDelaunay
 from particles.integral.rings import geometry, rings, table_of
 from particles.integral.triangulation import triangles
+from particles.limits import limit_of
 from particles.run import Divergence, Plan, run
 from particles.threads import Threads
 from studies.build import SCENES, ready
@@ -124,6 +126,28 @@ def test_mass_momentum_energy_and_volume_are_kept_to_round_off():
     assert np.allclose(end[4:].sum(axis=1), start[4:].sum(axis=1), rtol=1e-12, atol=1e-12)
     V, _ = edges_of(sums.rings, end[:2].T)
     assert np.allclose(end[7], V, rtol=0, atol=1e-12)
+
+
+def test_the_torque_between_circles_is_of_second_order():
+    """Points stay held on both, and what one gets the other gives; exact: A r + B/r, 4 pi eta B."""
+    eta, speed, errors = 0.5, 0.05, []
+    for rows in (24, 48):
+        inner, outer = 0.18*rows, 0.42*rows
+        points, turned, fixed = between_circles((rows, rows), inner, outer)
+        both = together(turning(points, turned, speed/inner, 1.0), turning(points, fixed, 0.0, 1.0))
+        method = MovingDelaunay(x=points.x, rings=rings(points.x, (rows, rows), TORUS), held=both,
+                                eos=IdealGas(), law=ConstEta(eta, eta))
+        state = method.state(1.0, np.zeros_like(points.x), 1.0)
+        dt, time = 0.8*limit_of(method, state), 9*(outer - inner)**2/(np.pi**2*eta)
+        sums = method.start(len(points.x), Threads(1))
+        sums.march(state, dt, round(time/dt))
+        sums.look_at(state)
+        (x, y), (Fx, Fy, _) = points.x[both.which].T, sums.received.T
+        torque = np.bincount(both.body, x*Fy - y*Fx)*(1 - (inner/outer)**2)/(4*np.pi*eta*speed*inner)
+        assert sums.flips > 0
+        assert -torque[0] == pytest.approx(torque[1], abs=0.002)     # e^-9 of the start is left
+        errors.append(abs(torque[0] + 1))
+    assert errors[1] < 0.005 and np.log2(errors[0]/errors[1]) > 1.5
 
 
 @pytest.mark.parametrize("speed", [0.7, 7.0])
