@@ -67,6 +67,15 @@ def table_of(rings: Rings, order: np.ndarray | None = None) -> np.ndarray:
     return np.where(table < 0, -1, np.argsort(order)[table])[order]
 
 
+def spokes(rings: Rings) -> tuple[np.ndarray, ...]:
+    """Of each point neighbours, k, S_x/2, S_y/2 (n, stride), zero where there is no neighbour."""
+    n = len(rings.rim)
+    near, k, sx, sy = (part.reshape(n, -1) for part in (rings.edges.near, rings.edges.k, rings.edges.sx,
+                                                       rings.edges.sy))
+    live = np.arange(near.shape[1]) < rings.edges.taken[:, None]
+    return near, live*k, live*sx, live*sy
+
+
 def rows_of(table: np.ndarray, rim: np.ndarray, size: np.ndarray, per: np.ndarray) -> Rings:
     """Rings from such a table; their edges are not known yet."""
     n, stride = table.shape

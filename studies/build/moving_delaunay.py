@@ -4,12 +4,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from continuum.fluid import energy, pressure, viscosity
 from continuum.scene import Torus, Walls
 from continuum.sides import Sides, Sliding, Slip
 from particles.fields import kinetic
 from particles.integral.bodies import Held, Rows, held, together
 from particles.integral.moving_delaunay import SHIFT, MovingDelaunay, RingSums
-from particles.integral.rings import rings
+from particles.integral.rings import rings, spokes
 from studies.build.fixed import between_sides, bodies_of, four_sides, on_plate
 from studies.build.names import START_JITTER
 from studies.build.setting import Ready, check_points, part, shifted, stepped
@@ -43,8 +44,9 @@ class Carriage(NamedTuple):
 
     @property
     def series(self) -> dict[str, Any]:
-        """Quantities of a run: K, and heat through both plates."""
-        return {"ke": kinetic, "lower": partial(heat_in, plate=0), "upper": partial(heat_in, plate=1)}
+        """Quantities of a run: K, heat through both plates, heat that the flow carries."""
+        return {"ke": kinetic, "lower": partial(heat_in, plate=0), "upper": partial(heat_in, plate=1),
+                "carried": heat_carried}
 
 
 CARRIAGES = {one.name: one for one in (
@@ -71,3 +73,14 @@ def held_of(scene: Any, x: np.ndarray, rows: Rows) -> Held:
 def heat_in(sums: RingSums, state: np.ndarray, plate: int) -> float:
     """Heat that enters the fluid through a plate (0: lower, 1: upper), per time."""
     return -float(sums.received[on_plate(sums.held, plate), 2].sum())
+
+
+def heat_carried(sums: RingSums, state: np.ndarray) -> float:
+    """What the flow brings upwards, (E/V + P) v_y - (tau v)_y over the height; conduction is the rest."""
+    at, (near, _, sx, sy) = sums.method.fields(state), spokes(sums.rings)
+    step = at.v[near] - at.v[:, None]
+    (xx, xy), (yx, yy) = ((S[:, :, None]*step).sum(axis=1).T for S in (sx, sy))        # V d_x v, V d_y v
+    eta, (vx, vy) = viscosity(sums.method.law, at.rho, at.T), at.v.T
+    P = pressure(sums.method.eos, at.rho, energy(sums.method.eos, at.rho, at.T))
+    flux = (state[8] + P*at.V)*vy - eta*(vx*(xy + yx) + vy*(yy - xx))
+    return float(flux.sum()/sums.rings.size[1])

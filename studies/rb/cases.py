@@ -195,7 +195,8 @@ def fine() -> Iterator[Case]:
     yield from spam(3000.0, 16, variant=VARIANTS["range-6"], keep="all", **DENSE)
     for ra in (5e4, 1e5):
         yield from spam(ra, 50, t_end=180.0, mean_from=90.0)
-    yield gas(1e5, (32, 48, 64), longest=4.0)        # the flow itself oscillates: means over its last half
+    for ra, sizes in ((1e5, (32, 48, 64)), (1e6, (48, 64, 96))):
+        yield gas(ra, sizes, longest=4.0)        # the flow itself oscillates: means over its last half
     hot: dict[str, Any] = {"form": "fig10", "longest": 6.0, "T_hot": 10.0, "T_cold": 0.5} | BOX
     for ra in (5e3, 1e4):
         yield gas(ra, GRIDS, form="edge-heat")

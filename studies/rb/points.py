@@ -3,7 +3,7 @@ from collections.abc import Iterator
 from itertools import product
 
 from continuum.fluid import ConstNu
-from continuum.scene import RayleighBenard
+from continuum.scene import RayleighBenard, Walls
 from studies.build.fixed import SCHEMES
 from studies.build.moving import DRIFT_MOTIONS, MOTIONS
 from studies.build.moving_delaunay import CARRIAGES
@@ -42,10 +42,17 @@ def points() -> Iterator[Case]:
 
 def carried() -> Iterator[Case]:
     """Points that move with their triangulation: to the limit, below and above, with shorter steps."""
-    for ra, rows, seed in product((5e3, 1e4), (12, 16, 20, 25, 32, 40), SEEDS):
-        yield CarriedRun(scene=RayleighBenard(ra=ra, L=float(rows)), seed=seed)
-    for ra, rows, seed in product((2000.0, 2500.0, 2e4, 5e4), (16, 25), SEEDS):
+    for ra, rows, seed in product((5e3, 1e4), (12, 16, 20, 25, 32, 40, 50, 64, 80), SEEDS):
+        yield CarriedRun(scene=RayleighBenard(ra=ra, L=float(rows)), seed=seed,
+                         keep=seed == 1 and rows in (25, 40))
+    for ra, rows, seed in product((2000.0, 2500.0, 3000.0), (16, 25, 40), SEEDS):
         yield CarriedRun(scene=RayleighBenard(ra=ra, L=float(rows)), seed=seed, t_end=400.0, mean_from=300.0)
+    for ra, rows, seed in product((2e4, 5e4), (16, 25, 40), SEEDS):
+        yield CarriedRun(scene=RayleighBenard(ra=ra, L=float(rows)), seed=seed)
+    for ra, rows, seed in product((1e5, 1e6), (25, 40, 64), SEEDS):     # the flow itself oscillates
+        yield CarriedRun(scene=RayleighBenard(ra=ra, L=float(rows)), seed=seed, mean_from=100.0)
+    for ra, rows, seed in product((7e3, 1e4, 2e4), (20, 28, 40), SEEDS):
+        yield CarriedRun(scene=RayleighBenard(ra=ra, L=float(rows), aspect=1.0, sides=Walls()), seed=seed)
     for name, rows in product(sorted(CARRIAGES.keys() - {"moving-delaunay"}), (16, 25)):
         yield CarriedRun(scene=RayleighBenard(ra=1e4, L=float(rows)), variant=CARRIAGES[name])
 

@@ -80,7 +80,7 @@ def field_errors(tables: Tables, means: pd.DataFrame) -> Iterator[dict[str, Any]
     tables = Tables({**tables, "means": means})
     for point, run in kept(tables, "fields"):
         grid: Point = {name: point[name] for name in SCENE} | GRID
-        if point["method"] != "spam":
+        if point["method"] not in ("spam", "dih"):
             continue
         try:
             cells = rows(tables, "fields", **grid)
@@ -158,10 +158,12 @@ def one_seed(tables: Tables, point: Point) -> float:
 def layer_error(tables: Tables, point: Point, cells: Fields) -> Measured:
     """Largest |rho - rho_grid| within one spacing of a plate, horizontal mean, over the grid's range."""
     try:
-        layers = rows(tables, "walls", **point).groupby("plate")["rho_layer"]
+        layers = rows(tables, "walls", **point).dropna(subset="rho_layer").groupby("plate")["rho_layer"]
         apart = [abs(over_seeds(seeds - density_beside(cells, PLATES[str(plate)])))
                  for plate, seeds in layers]
     except CannotTell:
+        return Measured(nan, nan)
+    if not apart:           # points on a triangulation have a row on the plate
         return Measured(nan, nan)
     return worse(apart)/float(np.ptp(cells["rho"]))
 

@@ -5,8 +5,11 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
+from scipy.interpolate import CloughTocher2DInterpolator
 
+from continuum.fluid import Fields
 from continuum.scene import RayleighBenard
+from particles.observe import Grid, Smoothed
 from particles.run import Run
 from studies.build.fixed import SCHEMES, Scheme
 from studies.build.measure import ended, followed, heat_at_rest, rolls
@@ -16,6 +19,9 @@ from studies.build.names import HALVES, VALUES, one_energy, scene_columns
 from studies.build.setting import Ready, check_spacings
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import settled
+from studies.kit.table import Rows
+from studies.rb.runs import table_rows
+from studies.rb.runs.grid import field_rows
 
 OFTEN = 8           # records of points that move in a free-fall time
 RECORDS = 4         # the same of fixed points
@@ -63,7 +69,11 @@ class PointsRun(Case):
         if done is None:
             return Outcome({"kinetic_energy": [row | DIVERGED]})
         values = {**self.energies(done), "cpu_s": done.cpu_s, "compile_s": done.compile_s}
-        return Outcome({"kinetic_energy": [row | values | self.flow(ready, done)]})
+        return Outcome({"kinetic_energy": [row | values | self.flow(ready, done)], **self.more(ready, done)})
+
+    def more(self, ready: Ready, done: Run) -> Rows:
+        """Rows of other tables."""
+        return {}
 
     def flow(self, ready: Ready, done: Run) -> dict:
         """Rolls at the end, and the relative change of mass."""
@@ -124,10 +134,11 @@ class MovingRun(AveragedRun):
 
 @dataclass(frozen=True, kw_only=True)
 class CarriedRun(AveragedRun):
-    """One run of points that move with their triangulation."""
+    """One run of points that move with their triangulation. keep : K(t) and the last fields besides?"""
     variant: Carriage = CARRIAGES["moving-delaunay"]
     t_end: float = 200.0        # two viscous times at Ra 10 000: K is 0.1 % low after 90 free-fall times
     mean_from: float = 150.0
+    keep: bool = False
 
     @property
     def points(self) -> int:
@@ -137,6 +148,30 @@ class CarriedRun(AveragedRun):
     @property
     def cost(self) -> float:
         return self.t_end*self.unit/(0.6*self.variant.of_limit)*self.points*0.3e-6 + 5
+
+    def more(self, ready: Ready, done: Run) -> Rows:
+        """Nu at both plates and of the whole layer; what is kept."""
+        unit, late = heat_at_rest(self.scene), np.array(done.times) > self.mean_from*self.unit
+        through = {"lower": np.array(done.series["lower"]), "upper": -np.array(done.series["upper"]),
+                   "layer": unit + np.array(done.series["carried"])}
+        nu = [settled(heat[late]/unit)[0] for heat in through.values()]
+        rows = {"walls": table_rows(self.point, plate=list(through), nu_plate=[one.value for one in nu],
+                                    nu_plate_err=[one.err for one in nu])}
+        if self.keep:
+            every = slice(None, None, len(done.times)//240)
+            t, ke = np.array(done.times)[every], np.array(done.series["ke"])[every]
+            rows["history"] = table_rows(self.point, t=t, t_viscous=t/self.scene.viscous_time, ke=ke,
+                                         ke_field=ke)
+            at, grid = ready.method.fields(done.state), Grid.over((self.scene.width, self.scene.L), 30)
+            rows["fields"] = field_rows(self.point, self.scene, grid, between(at, self.scene.width, grid))
+        return rows
+
+
+def between(at: Fields, width: float, grid: Grid) -> Smoothed:
+    """Fields of points at the places of a grid, by smooth interpolation between points, periodic along x."""
+    x = np.concatenate([at.x - [width, 0], at.x, at.x + [width, 0]])
+    values = np.tile(np.stack([at.rho, *at.v.T, np.full(len(at.x), np.nan), at.T], axis=1), (3, 1))
+    return Smoothed(*CloughTocher2DInterpolator(x, values)(grid.x, grid.y).transpose(2, 0, 1))
 
 
 @dataclass(frozen=True, kw_only=True)
