@@ -53,7 +53,8 @@ class Carry(Leaps):
 class RingSums(Sums):
     """The compiled sums on a triangulation that moves, with what the time loop asks for.
 
-    received (m, 3) : momentum and energy of held points, per time, at the state last looked at.
+    received (m, 3) : momentum and energy of held points, per time, at the state last looked at. ids (n,) :
+    the numbers of points as they come in memory.
     """
     method: "MovingDelaunay"
 
@@ -64,6 +65,7 @@ class RingSums(Sums):
         self.fluid = Fluid(method.eos, method.law, Listing((Crossing(), *method.transport)), float(method.g),
                            float(method.shift))
         self.now: Any = None
+        self.ids = np.arange(n)
         self.received = np.zeros((len(method.held.which), 3))
         self.make_bench()
 
@@ -112,7 +114,7 @@ class RingSums(Sums):
 
     def reorder(self, order: np.ndarray) -> None:
         """Number held points and sides as points `order` come."""
-        place = np.argsort(order)
+        self.ids, place = order.copy(), np.argsort(order)
         self.held = self.method.held._replace(which=place[self.method.held.which])
         self.rings = self.rings._replace(rim=self.method.rings.rim[order])
         self.make_bench()

@@ -12,15 +12,18 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.tri import Triangulation
 from PIL import Image as Picture
 
-from continuum.gas.fields import NodeFields, initial
+from continuum.gas.fields import NodeFields, initial, interpolate
 from continuum.gas.solve import run as march
 from continuum.scene import RayleighBenard
 from continuum.steady import Time
-from particles.fields import Fields, kinetic_energy
+from particles.fields import kinetic_energy
+from particles.integral.points import lattice
 from particles.plan import Plan
 from particles.run import run
+from particles.threads import Threads
 from studies.build import ready
 from studies.build.names import START_ENERGY
 from studies.kit.figure import COLOURS
@@ -46,45 +49,73 @@ BOX: dict[str, Any] = {
 HEAT: dict[str, Any] = {"cmap": "inferno", "vmin": 0.4, "vmax": 1.6}
 #: a line that ends in a dot
 TRACE: dict[str, Any] = {"linestyle": "-", "marker": "o", "markersize": 4, "markevery": [-1]}
-#: fields of the grid and their K
-Flow = tuple[NodeFields, float]
+NONE = np.empty(0, int)
+BLOB = -0.25, 0.2, 0.15     # place and radius of what is marked at the start, over L
+MARK: dict[str, Any] = {"s": 6, "color": "#40e0ff", "edgecolors": "black", "linewidths": 0.4}
+
+
+class Flow(NamedTuple):
+    """Fields of the grid, their K, marks (m, 2) over L that go along."""
+    fields: NodeFields
+    ke: float
+    blob: np.ndarray
 
 
 class Dots(NamedTuple):
-    """Points at one time: places over L (n, 2), temperatures (n,), K per mass."""
+    """Points at one time: places over L (n, 2), temperatures (n,), K per mass, numbers (n,) or none."""
     x: np.ndarray
     T: np.ndarray
     ke: float
+    ids: np.ndarray
 
 
-def points(name: str, scene: RayleighBenard, times: np.ndarray) -> Iterator[Dots]:
-    """A run of a method from each of `times` to the next, in free-fall times, in steps that divide these."""
+def points(name: str, scene: RayleighBenard, times: np.ndarray) -> list[Dots]:
+    """A run of a method seen at `times`, in free-fall times, in steps that divide what is between them."""
     made = ready(scene, name, SEED)
-    method = made.method
-    state = made.start
+    method, start, _ = made
     between = (times[1] - times[0])*scene.L/scene.free_fall
     steps = int(np.ceil(between/min(made.dt, OF_FIRST*made.limit)))
-    plan = Plan(dt=between/steps, steps=steps)
-    yield seen(method.fields(state), scene)
-    for _ in times[1:]:
-        state = run(method, state, plan).by_id()
-        yield seen(method.fields(state), scene)
+    frames = []
 
+    def look(sums: Any, state: np.ndarray) -> float:
+        at = method.fields(state)
+        frames.append(Dots(at.x/scene.L, at.T, kinetic_energy(at), getattr(sums, "ids", NONE)))
+        return frames[-1].ke
 
-def seen(fields: Fields, scene: RayleighBenard) -> Dots:
-    """What is drawn of the fields of points."""
-    return Dots(fields.x/scene.L, fields.T, kinetic_energy(fields))
+    sums = method.start(start.shape[1], Threads(1))
+    look(sums, start)
+    run(method, start, Plan(dt=between/steps, steps=steps*(len(times) - 1), every=steps, series={"ke": look}))
+    return frames
 
 
 def grid(scene: RayleighBenard, rows: int, times: np.ndarray) -> Iterator[Flow]:
-    """The compressible grid at `times`, equally far apart from 0 on, in free-fall times, and its K."""
-    fields = initial(scene, rows, START_ENERGY)
+    """The compressible grid at `times`, equally far apart from 0 on, in free-fall times; its K; a blob."""
+    fields, marks = initial(scene, rows, START_ENERGY), lattice((2*ROWS, ROWS)).x/ROWS
+    blob = marks[in_disc(marks)]
     between = (times[1] - times[0])*scene.L/scene.free_fall
-    yield fields, START_ENERGY
+    yield Flow(fields, START_ENERGY, blob)
     for _ in times[1:]:
         solution = march(scene, rows, until=Time(between, 1), start=fields)
+        blob = taken_along(blob, fields, solution.fields, between)
         fields = solution.fields
-        yield fields, solution.ke
+        yield Flow(fields, solution.ke, blob)
+
+
+def in_disc(x: np.ndarray) -> np.ndarray:
+    """Are places over L (n, 2) in the blob at the start?"""
+    return np.hypot(x[:, 0] - BLOB[0], x[:, 1] - BLOB[1]) < BLOB[2]
+
+
+def taken_along(blob: np.ndarray, one: NodeFields, other: NodeFields, time: float, parts=16) -> np.ndarray:
+    """Marks after a time, by the midpoint rule, in a flow that changes linearly from one to the other."""
+    def velocity(x: np.ndarray, part: float) -> np.ndarray:
+        both = [interpolate(at, *(x*at.scene.L).T) for at in (one, other)]
+        first, last = (np.stack([at.vx, at.vy], axis=1)/one.scene.L for at in both)
+        return (1 - part)*first + part*last
+    for step in range(parts):
+        middle = blob + time/parts/2*velocity(blob, step/parts)
+        blob = blob + time/parts*velocity(middle, (step + 0.5)/parts)
+    return blob - [2, 0]*np.rint(blob/[2, 1])
 
 
 def pages(dots: Sequence[Dots], grids: Sequence[Flow], times: np.ndarray,
@@ -95,13 +126,18 @@ def pages(dots: Sequence[Dots], grids: Sequence[Flow], times: np.ndarray,
     right = page.add_axes((0.506, 0.38, 0.482, 0.54))
     below = page.add_axes((0.115, 0.155, 0.873, 0.19))
     ke = [one.ke for one in dots]
-    grid_ke = [energy for _, energy in grids]
+    grid_ke = [flow.ke for flow in grids]
     top = 1.1*max(*grid_ke, *ke)
     for number in range(len(times)):
         for axes in page.axes:
             axes.clear()
-        draw_points(left, dots[number], titles[0])
-        draw_grid(right, grids[number][0], titles[1])
+        marked = len(dots[0].ids) > 0
+        (draw_triangles if marked else draw_points)(left, dots[number], titles[0])
+        draw_grid(right, grids[number].fields, titles[1])
+        if marked:
+            tagged = np.isin(dots[number].ids, dots[0].ids[in_disc(dots[0].x)])
+            left.scatter(*dots[number].x[tagged].T, **MARK)
+            right.scatter(*grids[number].blob.T, **MARK)
         now = slice(number + 1)
         below.set(xlim=(0, times[-1]), ylim=(0, top), ylabel="$K$", xlabel="time  [free-fall times]")
         below.plot(times[now], grid_ke[now], color="black", label="of the grid", **TRACE)
@@ -117,6 +153,14 @@ def draw_points(axes: Axes, dots: Dots, title: str) -> None:
     axes.scatter(dots.x[:, 0], dots.x[:, 1], s=area, c=dots.T, linewidths=0, marker="o", **HEAT)
     axes.set(title=title, **BOX)
     axes.set_facecolor("#30243a")
+
+
+def draw_triangles(axes: Axes, dots: Dots, title: str) -> None:
+    """Temperature on the triangles, periodic ones cut off."""
+    triangles = Triangulation(*dots.x.T)
+    axes.tripcolor(triangles, dots.T, shading="gouraud", **HEAT)
+    axes.triplot(triangles, color="white", linewidth=0.25, alpha=0.5)
+    axes.set(title=title, **BOX)
 
 
 def draw_grid(axes: Axes, fields: NodeFields, title: str) -> None:
@@ -171,6 +215,8 @@ def encode(path: Path, frames: Sequence[Picture.Image]) -> None:
 
 #: method -> what is seen
 CAPTIONS = {
+    "moving-delaunay": "Points that move with their Delaunay triangulation. What was a disc at the start is "
+                       "marked: the same points on the left, marks in the flow of the grid on the right.",
     "spam": "Smooth particles as Kum, Hoover & Posch print them, mirror images behind the plates. All of "
             "them tremble: their K holds that besides the flow.",
     "moving": "Points that move and exchange mass, momentum and energy over closed faces, our own repair of "
@@ -183,11 +229,11 @@ CAPTIONS = {
 def make(name: str, grids: Sequence[Flow], path: Path) -> dict[str, Any]:
     """Run, draw and write one film; its row of films.csv."""
     scene = RayleighBenard(ra=RA, L=float(ROWS))
-    dots = list(points(name, scene, TIMES))
+    dots = points(name, scene, TIMES)
     titles = f"{name}, {ROWS} rows", f"grid, {GRID_ROWS} rows"
     write(path, list(pages(dots, grids, TIMES, titles)))
     return {"method": name, "caption": CAPTIONS[name], "ra": RA, "rows": ROWS, "seed": SEED,
-            "grid_rows": GRID_ROWS, "t_end": TIMES[-1], "last_ke": dots[-1].ke, "last_ke_grid": grids[-1][1]}
+            "grid_rows": GRID_ROWS, "t_end": TIMES[-1], "last_ke": dots[-1].ke, "last_ke_grid": grids[-1].ke}
 
 
 def make_all(out: Path) -> list[Path]:
