@@ -147,7 +147,8 @@ class CarriedRun(AveragedRun):
 
     @property
     def cost(self) -> float:
-        return self.t_end*self.unit/(0.6*self.variant.of_limit)*self.points*0.3e-6 + 5
+        dt = min(0.75, 0.1/self.scene.kappa)*self.variant.of_limit
+        return self.t_end*self.unit/dt*self.points*0.25e-6 + 5
 
     def more(self, ready: Ready, done: Run) -> Rows:
         """Nu at both plates and of the whole layer; what is kept."""
