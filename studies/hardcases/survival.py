@@ -1,6 +1,6 @@
 """Does a method come through a hard case, and with which K, flow and mass? Points, and grids beside them."""
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -16,14 +16,16 @@ from particles.fields import Fields, kinetic_energy
 from particles.run import Divergence, Plan, run
 from studies.build.names import START_ENERGY
 from studies.build.setting import Ready
-from studies.hardcases.extremes import RATE, SHEAR_FLOW, WAVE_NUMBER, Open
+from studies.hardcases import extremes
+from studies.hardcases.extremes import RATE, SHEAR_FLOW, STREAM, WAVE_NUMBER, Open
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.fits import line
 
 SAMPLES = 60            # of a run; means are over the last third
 LATE = 2/3
 SPACINGS = 4            # of a cell over which velocities are averaged: what is left is flow, the rest noise
-GROWN = 2.5             # growth times that a shear flow is watched: its wave ends with a tenth of U
+GROWN, INSTANTS = 2.5, 50       # growth times of a wave on a shear flow, which ends with a tenth of U
+ROUNDS = 4              # of a stream: points that stay are then where they were in it
 GRID = "grid"
 Look = Callable[[Any], Any]
 
@@ -165,22 +167,94 @@ class HardOnGrid(Case):
                    mass_drift=done.mass_drift, k_start=k_start, flow_start=flow_start)
 
 
+# --- numbers that are known ---------------------------------------------------------------------------------
+
+Row = dict[str, float]
+
+
+def growth(scene: Any, variant: Any, report: Report) -> Row:
+    """The rate of the wave on the shear flow."""
+    time = GROWN/RATE
+    course = followed(variant.ready(Open(scene)), time, INSTANTS, amplitude, report)
+    row = {"predicted": RATE, "reached": course.reached}
+    if course.reached < 1:
+        return row
+    rate, err = line(np.linspace(0, time, len(course.seen)), np.log(course.seen)).slope
+    return row | {"measured": rate, "measured_err": err}
+
+
+def spin_left(scene: Any, variant: Any, report: Report) -> Row:
+    """Of a round vortex without viscosity, after three turns and a half."""
+    return {"predicted": 1.0, **left(followed(variant.ready(Open(scene)), 800.0, SAMPLES, spin, report))}
+
+
+def ripple_left(scene: Any, variant: Any, report: Report) -> Row:
+    """Of densities that alternate, when sound has gone to and fro for 35 times."""
+    course = followed(variant.ready(Open(scene)), 300.0, SAMPLES, unevenness, report)
+    return {"predicted": 0.0, **left(course)}
+
+
+def left(course: Course) -> Row:
+    """The mean over the last third, over the start."""
+    seen, reached = course
+    late = seen[round(LATE*len(seen)):].mean()/seen[0] if reached == 1 else np.nan
+    return {"measured": late, "measured_err": 0.0, "reached": reached}
+
+
+def spin(at: Fields) -> float:
+    """Angular momentum about the middle."""
+    (x, y), (u, v) = at.x.T, at.v.T
+    return float(np.sum(at.rho*at.V*(x*v - y*u)))
+
+
+def unevenness(at: Fields) -> float:
+    """Rms deviation of densities from their mean."""
+    return float(np.sqrt(at.V@(at.rho - 1)**2/at.V.sum()))
+
+
+def in_stream(scene: Any, variant: Any, report: Report) -> Row:
+    """What a stream that goes round the box changes of velocities, over their size."""
+    row, ends = {"predicted": 0.0, "reached": 1.0}, []
+    for one in (scene, replace(scene, velocities=extremes.carried)):
+        method, start, dt = variant.ready(Open(one))
+        steps = ceil(ROUNDS*scene.L/STREAM/dt)
+        try:
+            done = run(method, start, Plan(dt=ROUNDS*scene.L/STREAM/steps, steps=steps), report)
+        except Divergence as error:
+            return row | {"reached": error.step/steps}
+        ends.append(method.fields(done.by_id()).v)
+    rest, moved = ends
+    changed = moved - rest - np.array([STREAM, 0.0])
+    return row | {"measured": float(np.sqrt((changed**2).sum()/(rest**2).sum())), "measured_err": 0.0}
+
+
+class Question(NamedTuple):
+    """A scene without its plates, what is asked there of a method, and the name of the number."""
+    scene: Any
+    ask: Callable[[Any, Any, Report], Row]
+    number: str
+
+
+PROBES = {
+    "shear layer": Question(SHEAR_FLOW, growth, "growth/linear"),
+    "angular momentum": Question(extremes.SPIN, spin_left, "L/start"),
+    "alternating densities": Question(extremes.CHESSBOARD, ripple_left, "left/start"),
+    "uniform stream": Question(extremes.SLOW, in_stream, "change/flow"),
+}
+
+
 @dataclass(frozen=True, kw_only=True)
-class ShearWave(Case):
-    """The growth rate of the wave on the shear flow; fields as of `Hard`."""
+class Probe(Case):
+    """One number that is known, by one method; fields as of `Hard`."""
+    case: str
     method: str
     variant: Any
-    samples: int = 50
+    question: Question
 
     @property
     def label(self) -> str:
-        return f"map shear layer, {self.method}"
+        return f"map {self.case}, {self.method}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        ready, time = self.variant.ready(Open(SHEAR_FLOW)), GROWN/RATE
-        seen, reached = followed(ready, time, self.samples, amplitude, report)
-        row = {"method": self.method, "predicted": RATE, "reached": reached}
-        if reached == 1:
-            rate, err = line(np.linspace(0, time, len(seen)), np.log(seen)).slope
-            row |= {"measured": rate, "measured_err": err}
-        return Outcome({"shear": [row]})
+        row = self.question.ask(self.question.scene, self.variant, report)
+        return Outcome({"probes": [{"case": self.case, "method": self.method, **row}]})
