@@ -129,7 +129,8 @@ class Flock(NamedTuple):
 
     @classmethod
     def of(cls, variant: Any, rows: int, threads: int = 1) -> "Flock":
-        return cls(*variant.ready(RayleighBenard(ra=1e4, L=float(rows))), threads)
+        method, start, dt = variant.ready(RayleighBenard(ra=1e4, L=float(rows)))
+        return cls(method, start, dt, threads)
 
     def seconds(self, short: float) -> Measured:
         """Of a step."""

@@ -165,7 +165,7 @@ def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
         above.axhline(level, color="grey", linewidth=0.8)
     above.set(xscale="log", ylabel="K / K of 48 rows of the grid",
               title=f"lines: medians of {BINS:g} bins a decade; grey: a factor of {OFF:g}")
-    above.legend(loc="lower left")
+    above.legend(loc="upper left")
     under.set(xlabel="Ra", ylim=(len(IN_LAYERS) - 0.4, -0.6),
               title="bars: open: first wrong, all starts; filled: first that ends, all starts\n"
                     "ticks: runs that came to their end; crosses: runs that did not")
