@@ -123,10 +123,6 @@ class Flock(NamedTuple):
     dt: float
     threads: int
 
-    @property
-    def points(self) -> int:
-        return self.start.shape[1]
-
     @classmethod
     def of(cls, variant: Any, rows: int, threads: int = 1) -> "Flock":
         method, start, dt = variant.ready(RayleighBenard(ra=1e4, L=float(rows)))
@@ -152,11 +148,7 @@ class Flock(NamedTuple):
 class Web(NamedTuple):
     """RK4 over stored edges of a periodic lattice, twice as many columns as rows."""
     sums: Any
-    state: np.ndarray
-
-    @property
-    def points(self) -> int:
-        return self.state.shape[1]
+    start: np.ndarray
 
     @classmethod
     def of(cls, variant: Any, rows: int) -> "Web":
@@ -167,7 +159,7 @@ class Web(NamedTuple):
 
     def seconds(self, short: float) -> Measured:
         """Of a step that is stable there for sure."""
-        return per_step(lambda steps: stepped(self.sums, self.state, 0.1, steps), short)
+        return per_step(lambda steps: stepped(self.sums, self.start, 0.1, steps), short)
 
 
 def stepped(sums: Any, state: np.ndarray, dt: float, steps: int) -> np.ndarray:
@@ -188,6 +180,7 @@ class StepTime(Case):
     a_point: float = 7.6e-5     # seconds that the case takes
     short: float = SHORT
     alone: ClassVar[bool] = True
+    what: ClassVar[str] = "growth"
 
     @property
     def cost(self) -> float:
@@ -195,15 +188,15 @@ class StepTime(Case):
 
     @property
     def label(self) -> str:
-        return f"growth, {self.name}, {self.rows} rows"
+        return f"{self.what}, {self.name}, {self.rows} rows"
 
     def run(self, report: Report, folder: Path) -> Outcome:
         many = self.kind.of(self.variant, self.rows)
-        return Outcome({"growth": [self.row(many.points, many.seconds(self.short), 1, "cpu")]})
+        return Outcome({"growth": [self.row(many, many.seconds(self.short), 1, "cpu")]})
 
-    def row(self, points: int, seconds: Measured, threads: int, clock: str) -> dict[str, Any]:
+    def row(self, many: Flock | Web, seconds: Measured, threads: int, clock: str) -> dict[str, Any]:
         """Of the table."""
-        return {"method": self.name, "points": points, "threads": threads, "clock": clock,
+        return {"method": self.name, "points": many.start.shape[1], "threads": threads, "clock": clock,
                 **with_err(step_s=seconds)}
 
 
@@ -212,14 +205,11 @@ class TwoThreads(StepTime):
     """The time that passes in steps of one thread and of two, in turns: what slows the machine slows both."""
     kind: type[Flock] = Flock
     turns: int = TURNS
+    what: ClassVar[str] = "threads"
 
     @property
     def cost(self) -> float:
         return self.turns*super().cost
-
-    @property
-    def label(self) -> str:
-        return f"threads, {self.name}, {self.rows} rows, one and two in turns"
 
     def run(self, report: Report, folder: Path) -> Outcome:
         one, two = (Flock.of(self.variant, self.rows, threads) for threads in (1, 2))
@@ -230,7 +220,7 @@ class TwoThreads(StepTime):
                 alone.extend(first)
                 together.extend(second)
             report(turn/self.turns)
-        rows = [self.row(one.points, median(laps), threads, "wall")
+        rows = [self.row(one, median(laps), threads, "wall")
                 for threads, laps in ((1, alone), (2, together))]
         return Outcome({"growth": rows})
 
@@ -242,7 +232,7 @@ def resident(variant: Any, rows: int) -> dict[str, int]:
     before = now()
     flock = Flock.of(variant, rows)
     done = run(flock.method, flock.start, Plan(dt=flock.dt, steps=1, every=1, series={"resident": now}))
-    return {"points": flock.points, "before": before, "resident": round(done.series["resident"][-1]),
+    return {"points": flock.start.shape[1], "before": before, "resident": round(done.series["resident"][-1]),
             "peak": 1024*getrusage(RUSAGE_SELF).ru_maxrss}
 
 
@@ -250,10 +240,7 @@ def resident(variant: Any, rows: int) -> dict[str, int]:
 class Resident(StepTime):
     """Memory of a process that does nothing else."""
     kind: type[Flock] = Flock
-
-    @property
-    def label(self) -> str:
-        return f"memory, {self.name}, {self.rows} rows"
+    what: ClassVar[str] = "memory"
 
     def run(self, report: Report, folder: Path) -> Outcome:
         with ProcessPoolExecutor(1, get_context("spawn")) as fresh:

@@ -7,10 +7,9 @@ from continuum.fluid import DenseFluid, IdealGas
 from particles.run import STUDIES
 from particles.weights import Lucy, Monaghan
 from studies.build import variant, variants
-from studies.build.setting import positions
 from studies.build.spam import PRINTED
 from studies.hardcases import high_ra, largest_step, printed, tubes
-from studies.hardcases.extremes import LAYERS, ROWS, SITUATIONS, Inside, Smooth, Tiled, WithoutPlates
+from studies.hardcases.extremes import LAYERS, ROWS, SITUATIONS, Smooth, Tiled, WithoutPlates
 from studies.hardcases.high_ra import FineGrid, HighRa, Rippled, Steadiness
 from studies.hardcases.largest_step import Limit
 from studies.hardcases.printed import Interface, Square
@@ -80,18 +79,9 @@ TAKES: dict[str, dict[str, Any]] = {
 }
 
 
-def positions_inside(width: float, height: float, size: float, seed: int) -> Any:
-    """Points that keep away from where plates would be, on a torus too."""
-    return positions(width, height, size, seed)
-
-
-#: the wave on a shear flow
-SHEARED = SPAM | {name: Inside(motion) for name, motion in MOVE.items()} | {
-    LATTICE: variant(LATTICE), JITTERED: variant(JITTERED)._replace(points=positions_inside),
-    CARRIED: variant(CARRIED), GRID: TILED}
 #: case -> who is asked for a number in it: densities that alternate no smooth particle has, and no node of
 #: the grid sees
-PROBED = {case: SHEARED if case == "shear layer" else USUAL | {GRID: TILED} for case in PROBES}
+PROBED = dict.fromkeys(PROBES, USUAL | {GRID: TILED})
 PROBED["alternating densities"] = variants(LATTICE, JITTERED, CARRIED, MOVING)
 
 LENGTHS = (24, 36, 48, 72, 96, 144, 192)

@@ -172,15 +172,6 @@ class Smooth(NamedTuple):
         return ready._replace(dt=self.variant.step*ready.limit)
 
 
-class Inside(NamedTuple):
-    """Moving points that start away from where plates would be."""
-    motion: Any
-
-    def ready(self, scene: Any) -> Ready:
-        """In a scene."""
-        return self.motion.ready(scene, x=places(scene))  # type: ignore[no-any-return]
-
-
 class WithoutPlates(NamedTuple):
     """A method that takes a scene without its plates."""
     variant: Any

@@ -28,6 +28,7 @@ GROWN, INSTANTS = 2.5, 50       # growth times of a wave on a shear flow, which 
 ROUNDS = 4              # of a stream: points that stay are then where they were in it
 GRID = "grid"
 Look = Callable[[Any], Any]
+Row = dict[str, float]
 
 
 class Course(NamedTuple):
@@ -131,7 +132,7 @@ class Hard(Case):
         return row(self.case, self.method, rows, **late(course))
 
 
-def late(course: Course) -> dict[str, float]:
+def late(course: Course) -> Row:
     """Means over the last third, if it was reached; the mass, and what there was at the start."""
     k, moves, mass = course.seen.T
     last = min(round(LATE*len(k)), len(k) - 1)
@@ -169,36 +170,27 @@ class HardOnGrid(Case):
 
 # --- numbers that are known ---------------------------------------------------------------------------------
 
-Row = dict[str, float]
-
-
 def growth(scene: Any, variant: Any, report: Report) -> Row:
     """The rate of the wave on the shear flow."""
     time = GROWN/RATE
-    course = followed(variant.ready(Open(scene)), time, INSTANTS, amplitude, report)
-    row = {"predicted": RATE, "reached": course.reached}
-    if course.reached < 1:
+    seen, reached = followed(variant.ready(Open(scene)), time, INSTANTS, amplitude, report)
+    row = {"predicted": RATE, "reached": reached}
+    if reached < 1:
         return row
-    rate, err = line(np.linspace(0, time, len(course.seen)), np.log(course.seen)).slope
+    rate, err = line(np.linspace(0, time, len(seen)), np.log(seen)).slope
     return row | {"measured": rate, "measured_err": err}
 
 
-def spin_left(scene: Any, variant: Any, report: Report) -> Row:
-    """Of a round vortex without viscosity, after three turns and a half."""
-    return {"predicted": 1.0, **left(followed(variant.ready(Open(scene)), 800.0, SAMPLES, spin, report))}
+class Kept(NamedTuple):
+    """What is left of what `look` sees in the last third, over that of the start."""
+    look: Look
+    predicted: float
+    time: float
 
-
-def ripple_left(scene: Any, variant: Any, report: Report) -> Row:
-    """Of densities that alternate, when sound has gone to and fro for 35 times."""
-    course = followed(variant.ready(Open(scene)), 300.0, SAMPLES, unevenness, report)
-    return {"predicted": 0.0, **left(course)}
-
-
-def left(course: Course) -> Row:
-    """The mean over the last third, over the start."""
-    seen, reached = course
-    late = seen[round(LATE*len(seen)):].mean()/seen[0] if reached == 1 else np.nan
-    return {"measured": late, "measured_err": 0.0, "reached": reached}
+    def __call__(self, scene: Any, variant: Any, report: Report) -> Row:
+        seen, reached = followed(variant.ready(Open(scene)), self.time, SAMPLES, self.look, report)
+        left = seen[round(LATE*len(seen)):].mean()/seen[0] if reached == 1 else np.nan
+        return {"predicted": self.predicted, "measured": left, "measured_err": 0.0, "reached": reached}
 
 
 def spin(at: Fields) -> float:
@@ -214,31 +206,30 @@ def unevenness(at: Fields) -> float:
 
 def in_stream(scene: Any, variant: Any, report: Report) -> Row:
     """What a stream that goes round the box changes of velocities, over their size."""
-    row, ends = {"predicted": 0.0, "reached": 1.0}, []
+    row, ends, time = {"predicted": 0.0, "reached": 1.0}, [], ROUNDS*scene.L/STREAM
     for one in (scene, replace(scene, velocities=extremes.carried)):
         method, start, dt = variant.ready(Open(one))
-        steps = ceil(ROUNDS*scene.L/STREAM/dt)
+        plan = Plan(dt=time/ceil(time/dt), steps=ceil(time/dt))
         try:
-            done = run(method, start, Plan(dt=ROUNDS*scene.L/STREAM/steps, steps=steps), report)
+            done = run(method, start, plan, report)
         except Divergence as error:
-            return row | {"reached": error.step/steps}
+            return row | {"reached": error.step/plan.steps}
         ends.append(method.fields(done.by_id()).v)
-    rest, moved = ends
-    changed = moved - rest - np.array([STREAM, 0.0])
-    return row | {"measured": float(np.sqrt((changed**2).sum()/(rest**2).sum())), "measured_err": 0.0}
+    changed = ends[1] - ends[0] - np.array([STREAM, 0.0])
+    return row | {"measured": float(np.sqrt((changed**2).sum()/(ends[0]**2).sum())), "measured_err": 0.0}
 
 
 class Question(NamedTuple):
-    """A scene without its plates, what is asked there of a method, and the name of the number."""
+    """A scene without its plates, ask(scene, variant, report), and the number's name."""
     scene: Any
-    ask: Callable[[Any, Any, Report], Row]
+    ask: Any
     number: str
 
 
 PROBES = {
     "shear layer": Question(SHEAR_FLOW, growth, "growth/linear"),
-    "angular momentum": Question(extremes.SPIN, spin_left, "L/start"),
-    "alternating densities": Question(extremes.CHESSBOARD, ripple_left, "left/start"),
+    "angular momentum": Question(extremes.SPIN, Kept(spin, 1.0, 800.0), "L/start"),
+    "alternating densities": Question(extremes.CHESSBOARD, Kept(unevenness, 0.0, 300.0), "left/start"),
     "uniform stream": Question(extremes.SLOW, in_stream, "change/flow"),
 }
 
