@@ -21,8 +21,7 @@ from studies.hardcases.extremes import RATE, SHEAR_FLOW, STREAM, WAVE_NUMBER, Op
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.fits import line
 
-SAMPLES = 60            # of a run; means are over the last third
-LATE = 2/3
+SAMPLES, LATE = 60, 2/3  # of a run; means are over the last third
 SPACINGS = 4            # of a cell over which velocities are averaged: what is left is flow, the rest noise
 GROWN, INSTANTS = 2.5, 50       # growth times of a wave on a shear flow, which ends with a tenth of U
 ROUNDS = 4              # of a stream: points that stay are then where they were in it
