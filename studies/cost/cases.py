@@ -85,7 +85,7 @@ def between(name: str, *more: Team) -> Contest:
         Team(variants("grid"), of.of_mean_one, 8.7e-6, rungs(8, 96)),
         Team(LATTICES, of.points, 1.6e-5, rungs(8, 96)),
         Team(SHAKEN, of.points, 1.6e-5, rungs(8, 64), THREE),
-        Team(TRIANGLES, of.points, 1.6e-5, rungs(8, 64), TWO),
+        Team(TRIANGLES, of.points, 1.6e-5, rungs(8, 64), THREE),
         Team(PARTICLES, of.restless, 0.0, FAR_OFF, first=0.7), *more))
 
 
@@ -96,7 +96,7 @@ CONTESTS = {
         Team(variants("fixed-lattice-h1.2", "fixed-lattice-h3"), of.points, 1.3e-5, rungs(16, 64)),
         Team(variants("fixed-lattice"), of.points, 1.3e-5, rungs(16, 192)),
         Team(variants("fixed-jittered-delaunay"), of.points, 1.3e-5, rungs(16, 64), THREE),
-        Team(TRIANGLES, of.carried, 2e-5, rungs(12, 64), TWO),
+        Team(TRIANGLES, of.carried, 1.3e-5, rungs(12, 64), THREE),
         Team(variants("moving"), of.points, 1.8e-4, rungs(12, 48), TWO),
         Team(PARTICLES, of.trembling, 1e-4, rungs(12, 32), first=0.7),     # far off at any
         Team(variants("grid"), of.on_grid, 8e-6, rungs(16, 128)),
@@ -105,7 +105,7 @@ CONTESTS = {
     "sound": Contest(ExactFlow(Sound(width=16)), (
         Team(LATTICES, of.points, 8.7e-6, rungs(16, 128)),
         Team(variants("fixed-jittered-delaunay"), of.points, 8.7e-6, rungs(16, 128), THREE),
-        Team(TRIANGLES, of.points, 8.7e-6, rungs(16, 128), TWO),
+        Team(TRIANGLES, of.points, 8.7e-6, rungs(16, 128), THREE),
         Team(variants("moving"), of.on_lattice, 3.4e-5, rungs(16, 192)),
         Team(PARTICLES, of.particles, 8.7e-5, rungs(16, 64)),
         Team(variants("grid"), of.on_grid, 3.8e-6, rungs(16, 256)))),
@@ -117,14 +117,14 @@ CONTESTS = {
         Team(variants("grid"), rolls.on_grid, 3.5e-5, (8, 12, 16, 20, 24, 32, 40, 48, 64, 88)),
         Team(LATTICES, rolls.on_points, 2.6e-4, rungs(12, 48)),
         Team(variants("fixed-jittered-plates"), rolls.on_points, 2.6e-4, (*rungs(12, 32), 40), TWO),
-        Team(TRIANGLES, rolls.on_triangles, 2.6e-4, (8, 10, *rungs(12, 48)), TWO),
+        Team(TRIANGLES, rolls.on_triangles, 1.7e-4, (8, 10, *rungs(12, 48)), THREE),
         Team(variants("moving"), rolls.on_moving, 1e-3, (10, *rungs(12, 32), 44), first=1.0),
         Team(variants("spam"), rolls.of_particles, 3.4e-4, (16, 20, 25, 30), first=2*OF_LIMIT),
         Team(variants("spam-monaghan", "spam-wendland-c2", "spam-less-static-50"), rolls.of_particles, 3.4e-4,
              (12, 16, 20, 25), first=2*OF_LIMIT))),
     "convection-5000": Contest(HeatedLayer(ra=LOWER_RA), (
         Team(variants("grid"), rolls.on_grid, 3.5e-5, rungs(8, 48)),
-        Team(TRIANGLES, rolls.on_triangles, 2.6e-4, (8, 10, *rungs(12, 32)), TWO),
+        Team(TRIANGLES, rolls.on_triangles, 1.7e-4, (8, 10, *rungs(12, 32)), THREE),
         Team(variants("fixed-lattice-h1.2"), rolls.on_points, 2.6e-4, (8, 10, *rungs(12, 48))))),
 }
 #: of size quick: scene -> flow with a coarser reference, methods, resolutions
