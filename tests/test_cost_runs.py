@@ -4,6 +4,7 @@ import pandas as pd
 import pytest
 
 from particles.run import Divergence
+from studies.build import variant
 from studies.cost import tables
 from studies.cost.cases import CONTESTS
 from studies.cost.derive import growth_laws
@@ -135,7 +136,8 @@ def test_one_and_two_threads_take_turns_and_give_what_the_speed_up_reads(monkeyp
         order.append(flock.threads)
         return np.full(count, 3.0 - flock.threads + 10*(len(order) < 3))
     monkeypatch.setattr(Flock, "laps", laps)
-    rows = TwoThreads(name="a", rows=12, turns=3).run(lambda done: None, None).rows["growth"]
+    case = TwoThreads(name="a", variant=variant("spam"), rows=12, turns=3)
+    rows = case.run(lambda done: None, None).rows["growth"]
     assert order == [1, 2]*4          # the first turns, which take longer, do not count
     assert set(rows[0]) == set(COLUMNS["growth"]) and {row["clock"] for row in rows} == {"wall"}
     law, = growth_laws(pd.DataFrame(rows))

@@ -7,11 +7,11 @@ from scipy.integrate import quad
 from continuum.exact.shear import growing_wave
 from particles.fields import Fields, kinetic_energy
 from studies.hardcases import extremes
-from studies.hardcases.cases import TILED, cases
+from studies.hardcases.cases import PROBED, TILED, cases
 from studies.hardcases.claims import SQUARES
 from studies.hardcases.derive import derive
 from studies.hardcases.extremes import BOXES, LAYERS, SHEAR_FLOW, SITUATIONS, SOUND, VORTEX, rarefied
-from studies.hardcases.survival import SAMPLES, Hard, energies, flow, followed
+from studies.hardcases.survival import PROBES, SAMPLES, Hard, Probe, energies, flow, followed
 from studies.kit.claim import judged
 from studies.kit.table import Tables
 
@@ -93,6 +93,17 @@ def test_the_grid_goes_round_a_box_without_plates():
     # the start has no pressure of its vortex: sound takes the square of the Mach number 0.07
     assert k[-1] == pytest.approx(k[0], rel=0.005)
     assert followed(TILED.ready(vacuum), time, SAMPLES, energies(vacuum)).reached < 1
+
+
+@pytest.mark.parametrize("case, method, expected, within", [
+    ("uniform stream", "moving-delaunay", 0.0, 1e-10),      # round-off
+    ("alternating densities", "fixed-lattice", 1.0, 1e-6),  # no gradient sees the chessboard
+    ("alternating densities", "moving-delaunay", 0.0, 0.1),
+    ("angular momentum", "fixed-lattice", 1.0, 0.01)])
+def test_numbers_that_are_known_are_what_is_asked(case, method, expected, within):
+    row, = Probe(case=case, method=method, variant=PROBED[case][method], question=PROBES[case]).run(
+        lambda done: None, None).rows["probes"]
+    assert row["measured"] == pytest.approx(expected, abs=within) and row["reached"] == 1
 
 
 def test_the_growth_of_a_wave_on_a_shear_flow_follows_from_its_own_equation():

@@ -23,10 +23,11 @@ from studies.cost import rolls
 from studies.cost.contestants import ExactFlow
 from studies.cost.race import Entry, Race, SolverRace, by_pypde
 from studies.cost.rolls import LOWER_RA, HeatedLayer
-from studies.cost.seconds import Flock, StepTime, TwoThreads, Web
+from studies.cost.seconds import Flock, Resident, StepTime, TwoThreads, Web
+from studies.cost.tables import CARRIED
 from studies.kit.case import Case
 
-DEAREST, TOGETHER = 300.0, 55*60.0   # seconds
+DEAREST, TOGETHER = 300.0, 60*60.0   # seconds
 FAST = 0.001        # seconds of timings of size quick
 TWO, THREE = (1, 2), (1, 2, 3)          # seeds
 ROWS = (22, 30, 40, 53, 71, 95, 126, 168, 224, 299, 398, 531, 707)      # a thousand points to a million
@@ -69,9 +70,12 @@ class Contest(NamedTuple):
 
 
 LATTICES = variants("fixed-lattice-h1.2", "fixed-lattice", "fixed-lattice-h3")
+TRIANGLES = variants(CARRIED)
 PARTICLES = variants("spam", "spam-monaghan", "spam-wendland-c2")
 #: as disordered as moving points start
 SHAKEN = {"fixed-jittered-0.2-plates": variant("fixed-jittered-plates")._replace(size=START_JITTER)}
+#: in growth and memory
+MOVERS, STAYERS = variants("spam", CARRIED), variants("fixed-lattice")
 FAR_OFF = 16, *rungs(32, 96)        # where particles err alike at any resolution
 
 
@@ -81,16 +85,18 @@ def between(name: str, *more: Team) -> Contest:
         Team(variants("grid"), of.of_mean_one, 8.7e-6, rungs(8, 96)),
         Team(LATTICES, of.points, 1.6e-5, rungs(8, 96)),
         Team(SHAKEN, of.points, 1.6e-5, rungs(8, 64), THREE),
+        Team(TRIANGLES, of.points, 1.6e-5, rungs(8, 64), THREE),
         Team(PARTICLES, of.restless, 0.0, FAR_OFF, first=0.7), *more))
 
 
 #: scene -> who takes part: a new method is a line, a new scene an entry; at half the Rayleigh number those
-#: two that decide what fixed points cost
+#: that decide what points cost
 CONTESTS = {
     "taylor-green": Contest(ExactFlow(TaylorGreen(L=16)), (
         Team(variants("fixed-lattice-h1.2", "fixed-lattice-h3"), of.points, 1.3e-5, rungs(16, 64)),
         Team(variants("fixed-lattice"), of.points, 1.3e-5, rungs(16, 192)),
         Team(variants("fixed-jittered-delaunay"), of.points, 1.3e-5, rungs(16, 64), THREE),
+        Team(TRIANGLES, of.carried, 1.3e-5, rungs(12, 64), THREE),
         Team(variants("moving"), of.points, 1.8e-4, rungs(12, 48), TWO),
         Team(PARTICLES, of.trembling, 1e-4, rungs(12, 32), first=0.7),     # far off at any
         Team(variants("grid"), of.on_grid, 8e-6, rungs(16, 128)),
@@ -99,6 +105,7 @@ CONTESTS = {
     "sound": Contest(ExactFlow(Sound(width=16)), (
         Team(LATTICES, of.points, 8.7e-6, rungs(16, 128)),
         Team(variants("fixed-jittered-delaunay"), of.points, 8.7e-6, rungs(16, 128), THREE),
+        Team(TRIANGLES, of.points, 8.7e-6, rungs(16, 128), THREE),
         Team(variants("moving"), of.on_lattice, 3.4e-5, rungs(16, 192)),
         Team(PARTICLES, of.particles, 8.7e-5, rungs(16, 64)),
         Team(variants("grid"), of.on_grid, 3.8e-6, rungs(16, 256)))),
@@ -110,12 +117,14 @@ CONTESTS = {
         Team(variants("grid"), rolls.on_grid, 3.5e-5, (8, 12, 16, 20, 24, 32, 40, 48, 64, 88)),
         Team(LATTICES, rolls.on_points, 2.6e-4, rungs(12, 48)),
         Team(variants("fixed-jittered-plates"), rolls.on_points, 2.6e-4, (*rungs(12, 32), 40), TWO),
+        Team(TRIANGLES, rolls.on_triangles, 1.7e-4, (8, 10, *rungs(12, 48)), THREE),
         Team(variants("moving"), rolls.on_moving, 1e-3, (10, *rungs(12, 32), 44), first=1.0),
         Team(variants("spam"), rolls.of_particles, 3.4e-4, (16, 20, 25, 30), first=2*OF_LIMIT),
         Team(variants("spam-monaghan", "spam-wendland-c2", "spam-less-static-50"), rolls.of_particles, 3.4e-4,
              (12, 16, 20, 25), first=2*OF_LIMIT))),
     "convection-5000": Contest(HeatedLayer(ra=LOWER_RA), (
         Team(variants("grid"), rolls.on_grid, 3.5e-5, rungs(8, 48)),
+        Team(TRIANGLES, rolls.on_triangles, 1.7e-4, (8, 10, *rungs(12, 32)), THREE),
         Team(variants("fixed-lattice-h1.2"), rolls.on_points, 2.6e-4, (8, 10, *rungs(12, 48))))),
 }
 #: of size quick: scene -> flow with a coarser reference, methods, resolutions
@@ -134,12 +143,14 @@ def cases(size: str) -> list[Case]:
 
 
 def paper() -> Iterator[Case]:
-    """All; two threads from 20 000 points on."""
+    """All; two threads from 20 000 points on, memory of a million."""
     for scene, contest in CONTESTS.items():
         yield from contest.cases(scene)
     yield from growth(ROWS)
-    for rows in (100, 224):
-        yield TwoThreads(name="spam", rows=rows)
+    for (name, chosen), rows in product(MOVERS.items(), (100, 224)):
+        yield TwoThreads(name=name, variant=chosen, rows=rows)
+    for name, chosen in (TRIANGLES | STAYERS).items():
+        yield Resident(name=name, variant=chosen, rows=ROWS[-1], a_point=3e-5)
 
 
 def quick() -> Iterator[Case]:
@@ -147,10 +158,13 @@ def quick() -> Iterator[Case]:
     for scene, (flow, names, resolutions) in QUICK.items():
         yield from CONTESTS[scene]._replace(flow=flow).cases(scene, names, resolutions, short=FAST)
     yield from growth((16, 22, 32), short=FAST)
+    yield Resident(name=CARRIED, variant=TRIANGLES[CARRIED], rows=16)
 
 
 def growth(sizes: tuple[int, ...], **more: Any) -> Iterator[StepTime]:
     """Steps of many points."""
     for rows in sizes:
-        yield StepTime(name="spam", kind=Flock, rows=rows, **more)
-        yield StepTime(name="fixed-lattice", kind=Web, rows=rows, a_point=2.5e-5, **more)
+        for name, chosen in MOVERS.items():
+            yield StepTime(name=name, variant=chosen, kind=Flock, rows=rows, **more)
+        for name, chosen in STAYERS.items():
+            yield StepTime(name=name, variant=chosen, kind=Web, rows=rows, a_point=2.5e-5, **more)

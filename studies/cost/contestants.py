@@ -101,6 +101,19 @@ def on_lattice(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
     return in_flow(flow, scene, method.ready(scene, seed, x=x))
 
 
+def carried(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
+    """Points that move with their triangulation."""
+    return with_triangles(points(flow, method, size, seed))
+
+
+def with_triangles(problem: Problem) -> Problem:
+    """Steps are timed from the start, whose triangulation the method has; two steps give two sets of points,
+    which lie as evenly."""
+    def timed(state: np.ndarray, dt: float, steps: int) -> Any:
+        return problem.advance(problem.start, dt, steps)
+    return problem._replace(chaotic=True, timed=timed)
+
+
 def in_flow(flow: ExactFlow, scene: Any, ready: Ready) -> Problem:
     """Fields as the method has them."""
     judge = flow.judge(scene, ready.method.fields)

@@ -25,8 +25,9 @@ from particles.threads import Threads
 from particles.weights import Lucy
 from studies.build.fixed import SCHEMES, Scheme, kinetic
 from studies.build.moving import MOTIONS
+from studies.build.moving_delaunay import CARRIAGES
 from studies.build.scenes import TaylorGreen
-from studies.cost.contestants import ExactFlow, on_mac, points
+from studies.cost.contestants import ExactFlow, carried, on_mac, points
 from studies.cost.problem import Problem, of_method, rms
 from studies.cost.rolls import HeatedLayer, in_time
 from studies.cost.seconds import SHORT, array_bytes, per_step, stepped
@@ -65,6 +66,11 @@ class Reduced(NamedTuple):
 def vortex_moving(size: int) -> Reduced:
     """Points that move."""
     return Reduced(points(FLOW, MOTIONS["moving"], size, 1))
+
+
+def vortex_carried(size: int) -> Reduced:
+    """Points that move with their triangulation."""
+    return Reduced(carried(FLOW, CARRIAGES["moving-delaunay"], size, 1))
 
 
 def vortex_without_motion(size: int) -> Reduced:
@@ -177,6 +183,8 @@ BASES = (
     Base("convection", "fixed-lattice", "K", 16, layer, {"mended heating": layer_without_mending}),
     Base("convection", "fixed-lattice-edge-by-edge", "K", 16, layer_edge_by_edge,
          {"mended heating": layer_without_mending}),
+    Base("taylor-green", "moving-delaunay", "velocity", 24, vortex_carried,
+         {"motion": vortex_without_motion}),
 )
 
 

@@ -105,7 +105,7 @@ class Problem(NamedTuple):
 def of_method(method: Any, start: np.ndarray, time: float, judge: Judge, **more: Any) -> Problem:
     """The problem of such a method. In memory are state, sums with their lists, what the integrator keeps."""
     def go(state: np.ndarray, dt: float, steps: int) -> np.ndarray:
-        return run(Unguarded(method), state, Plan(dt=dt, steps=steps)).by_id()
+        return run(Unguarded(method), state, Plan(dt=dt, steps=steps, every=steps)).by_id()
 
     def held() -> tuple:
         threads, n = Threads(1), start.shape[1]

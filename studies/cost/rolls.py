@@ -26,7 +26,7 @@ from studies.build.measure import Smoothing, smoothed_energy
 from studies.build.names import START_ENERGY
 from studies.build.setting import Ready
 from studies.build.unguarded import Unguarded
-from studies.cost.contestants import smoothed
+from studies.cost.contestants import smoothed, with_triangles
 from studies.cost.problem import Judge, Problem, Residuals, Result, of_grid, of_method, relative, rms
 from studies.kit.stats import Measured, settled
 
@@ -172,6 +172,11 @@ def on_points(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
 def on_moving(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
     """Points that move."""
     return on_points(flow._replace(late=SETTLED), method, rows, seed)
+
+
+def on_triangles(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
+    """Points that move with their triangulation."""
+    return with_triangles(on_moving(flow, method, rows, seed))
 
 
 def of_particles(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:

@@ -1,7 +1,10 @@
 """Seconds of a step, bytes of arrays: how they are measured; how seconds grow with the number of points."""
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
+from multiprocessing import get_context
 from pathlib import Path
+from resource import RUSAGE_SELF, getpagesize, getrusage
 from time import perf_counter, process_time
 from typing import Any, ClassVar, NamedTuple
 
@@ -13,9 +16,7 @@ from particles.integral.points import lattice
 from particles.integrators import RK4
 from particles.run import Plan, run
 from particles.threads import Threads
-from studies.build.fixed import SCHEMES
 from studies.build.scenes import Tile
-from studies.build.spam import PRINTED
 from studies.cost.tables import with_err
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
@@ -116,15 +117,16 @@ def arrays(thing: Any, seen: set[int]) -> Iterator[np.ndarray]:
 
 
 class Flock(NamedTuple):
-    """The printed scheme at Ra = 10 000, lists and walls included; twice as many columns as rows."""
+    """Points that move at Ra = 10 000, lists or flips and walls included; twice as many columns as rows."""
     method: Any
     start: np.ndarray
     dt: float
     threads: int
 
     @classmethod
-    def of(cls, rows: int, threads: int = 1) -> "Flock":
-        return cls(*PRINTED.ready(RayleighBenard(ra=1e4, L=float(rows))), threads)
+    def of(cls, variant: Any, rows: int, threads: int = 1) -> "Flock":
+        method, start, dt = variant.ready(RayleighBenard(ra=1e4, L=float(rows)))
+        return cls(method, start, dt, threads)
 
     def seconds(self, short: float) -> Measured:
         """Of a step."""
@@ -134,25 +136,30 @@ class Flock(NamedTuple):
     def laps(self, count: int, clock: Clock) -> np.ndarray:
         """Seconds of a step in each of so many laps; the one before the first is left out."""
         laps, steps = Laps(clock), WARM*(count + 1)
-        run(self.method, self.start, Plan(dt=self.dt, steps=steps, threads=self.threads), laps)
+        plan = Plan(dt=self.dt, steps=steps, threads=self.threads, every=WARM)
+
+        def progress(done: float) -> None:
+            if round(done*steps) % WARM == 0:       # some report after fewer steps
+                laps(done)
+        run(self.method, self.start, plan, progress)
         return np.diff(laps.at)/WARM
 
 
 class Web(NamedTuple):
     """RK4 over stored edges of a periodic lattice, twice as many columns as rows."""
     sums: Any
-    state: np.ndarray
+    start: np.ndarray
 
     @classmethod
-    def of(cls, rows: int) -> "Web":
+    def of(cls, variant: Any, rows: int) -> "Web":
         x = lattice((2*rows, rows)).x
-        method, start, _ = SCHEMES["fixed-lattice"].ready(
+        method, start, _ = variant.ready(
             Tile(width=2*rows, L=rows, law=ConstEta(ETA, ETA)), fields=(1.0, 0.01*np.sin(x), np.ones(len(x))))
         return cls(method.start(len(x), Threads(1)), start)
 
     def seconds(self, short: float) -> Measured:
         """Of a step that is stable there for sure."""
-        return per_step(lambda steps: stepped(self.sums, self.state, 0.1, steps), short)
+        return per_step(lambda steps: stepped(self.sums, self.start, 0.1, steps), short)
 
 
 def stepped(sums: Any, state: np.ndarray, dt: float, steps: int) -> np.ndarray:
@@ -167,31 +174,29 @@ def stepped(sums: Any, state: np.ndarray, dt: float, steps: int) -> np.ndarray:
 class StepTime(Case):
     """CPU seconds of a step of so many rows of points."""
     name: str
+    variant: Any
     kind: type[Flock] | type[Web]
     rows: int
     a_point: float = 7.6e-5     # seconds that the case takes
     short: float = SHORT
     alone: ClassVar[bool] = True
+    what: ClassVar[str] = "growth"
 
     @property
     def cost(self) -> float:
-        return 0.5 + self.a_point*self.points
+        return 0.5 + self.a_point*2*self.rows**2
 
     @property
     def label(self) -> str:
-        return f"growth, {self.name}, {self.points} points"
-
-    @property
-    def points(self) -> int:
-        return 2*self.rows**2
+        return f"{self.what}, {self.name}, {self.rows} rows"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        seconds = self.kind.of(self.rows).seconds(self.short)
-        return Outcome({"growth": [self.row(seconds, 1, "cpu")]})
+        many = self.kind.of(self.variant, self.rows)
+        return Outcome({"growth": [self.row(many, many.seconds(self.short), 1, "cpu")]})
 
-    def row(self, seconds: Measured, threads: int, clock: str) -> dict[str, Any]:
+    def row(self, many: Flock | Web, seconds: Measured, threads: int, clock: str) -> dict[str, Any]:
         """Of the table."""
-        return {"method": self.name, "points": self.points, "threads": threads, "clock": clock,
+        return {"method": self.name, "points": many.start.shape[1], "threads": threads, "clock": clock,
                 **with_err(step_s=seconds)}
 
 
@@ -200,17 +205,14 @@ class TwoThreads(StepTime):
     """The time that passes in steps of one thread and of two, in turns: what slows the machine slows both."""
     kind: type[Flock] = Flock
     turns: int = TURNS
+    what: ClassVar[str] = "threads"
 
     @property
     def cost(self) -> float:
-        return 0.5 + self.a_point*self.points*self.turns
-
-    @property
-    def label(self) -> str:
-        return f"threads, {self.name}, {self.points} points, one and two in turns"
+        return self.turns*super().cost
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        one, two = (Flock.of(self.rows, threads) for threads in (1, 2))
+        one, two = (Flock.of(self.variant, self.rows, threads) for threads in (1, 2))
         alone, together = list[float](), list[float]()
         for turn in range(self.turns + 1):
             first, second = (flock.laps(A_TURN, perf_counter) for flock in (one, two))
@@ -218,5 +220,29 @@ class TwoThreads(StepTime):
                 alone.extend(first)
                 together.extend(second)
             report(turn/self.turns)
-        rows = self.row(median(alone), 1, "wall"), self.row(median(together), 2, "wall")
-        return Outcome({"growth": list(rows)})
+        rows = [self.row(one, median(laps), threads, "wall")
+                for threads, laps in ((1, alone), (2, together))]
+        return Outcome({"growth": rows})
+
+
+def resident(variant: Any, rows: int) -> dict[str, int]:
+    """Bytes of this process in memory, before, in a step, and at most, of so many points (Linux)."""
+    def now(*_: Any) -> int:
+        return getpagesize()*int(Path("/proc/self/statm").read_text().split()[1])
+    before = now()
+    flock = Flock.of(variant, rows)
+    done = run(flock.method, flock.start, Plan(dt=flock.dt, steps=1, every=1, series={"resident": now}))
+    return {"points": flock.start.shape[1], "before": before, "resident": round(done.series["resident"][-1]),
+            "peak": 1024*getrusage(RUSAGE_SELF).ru_maxrss}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Resident(StepTime):
+    """Memory of a process that does nothing else."""
+    kind: type[Flock] = Flock
+    what: ClassVar[str] = "memory"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        with ProcessPoolExecutor(1, get_context("spawn")) as fresh:
+            sizes = fresh.submit(resident, self.variant, self.rows).result()
+        return Outcome({"memory": [{"method": self.name, **sizes}]})

@@ -15,9 +15,10 @@ WIDE = "fixed-lattice-h3"
 JITTERED = "fixed-jittered-plates"
 LUCY = "spam"
 MOVING = "moving"
+CARRIED = "moving-delaunay"
 METHODS = (GRID, MAC, PYPDE, NEAREST, LATTICE, WIDE, JITTERED, "fixed-jittered-delaunay",
            "fixed-jittered-0.2-plates", LUCY, "spam-monaghan", "spam-wendland-c2", "spam-less-static-50",
-           MOVING)
+           CARRIED, MOVING)
 
 RUN = "scene method resolution seed"
 SERIES = "scene quantity method"
@@ -47,6 +48,10 @@ ERRORS_OF = (
              means={"points": ("number of points over that of the rival with the same error", "")}),
     Table.of("growth", "method points threads clock", "step_s step_s_err", means=COUNT,
              about="Seconds of a step by number of particles."),
+    Table.of("memory", "method points", "before resident peak", means=COUNT | {
+        "before": ("bytes of the process before any point is made", "B"),
+        "resident": ("the same in its steps", "B"), "peak": ("at most, setting up included", "B")},
+             about="Resident memory of a process by number of particles."),
     Table.of("growth_laws", "method what least", "most value value_err", about="How these seconds grow.",
              means={"what": ("exponent: d ln(seconds of a step)/d ln(particles); two threads: how much "
                              "faster than one", "")}),

@@ -7,33 +7,33 @@ from continuum.fluid import DenseFluid, IdealGas
 from particles.run import STUDIES
 from particles.weights import Lucy, Monaghan
 from studies.build import variant, variants
-from studies.build.setting import positions
 from studies.build.spam import PRINTED
 from studies.hardcases import high_ra, largest_step, printed, tubes
-from studies.hardcases.extremes import LAYERS, ROWS, SITUATIONS, Inside, Smooth, Tiled, WithoutPlates
+from studies.hardcases.extremes import LAYERS, ROWS, SITUATIONS, Smooth, Tiled, WithoutPlates
 from studies.hardcases.high_ra import FineGrid, HighRa, Rippled, Steadiness
 from studies.hardcases.largest_step import Limit
 from studies.hardcases.printed import Interface, Square
-from studies.hardcases.survival import GRID, SAMPLES, Hard, HardOnGrid, ShearWave
+from studies.hardcases.survival import GRID, PROBES, Hard, HardOnGrid, Probe
 from studies.hardcases.tubes import ETAS, MethodTube
 from studies.kit.case import Case
 
-LATTICE, JITTERED, MOVING = "fixed-lattice", "fixed-jittered-delaunay", "moving"
+LATTICE, JITTERED = "fixed-lattice", "fixed-jittered-delaunay"
+CARRIED, MOVING = "moving-delaunay", "moving"
 NESTED = "fixed-lattice-nested-only"
-RANDOM = (JITTERED, MOVING)     # whose points lie as a seed says
+RANDOM = (JITTERED, CARRIED, MOVING)    # whose points lie as a seed says
 TILED = Tiled(variant(GRID))
 
 #: name -> (what runs it, variant)
 Runners = dict[str, tuple[Any, Any]]
 #: tubes
 IN_TUBES: Runners = {GRID: (tubes.grid, variant(GRID))} | {
-    name: (tubes.points, variant(name)) for name in (LATTICE, JITTERED, MOVING)}
+    name: (tubes.points, variant(name)) for name in (LATTICE, JITTERED, CARRIED, MOVING)}
 #: the highest Ra, likewise
 IN_LAYERS: Runners = {
     GRID: (high_ra.on_grid, ROWS),
     LATTICE: (high_ra.on_points, Rippled(variant(LATTICE))),
     JITTERED: (high_ra.on_points, Rippled(variant(JITTERED))),
-    MOVING: (high_ra.on_points, variant(MOVING)),
+    **{name: (high_ra.on_points, variant(name)) for name in (CARRIED, MOVING)},
 }
 #: limits of the step, likewise; at h = 3 the lattice of drifting points itself gives way
 AT_REST: Runners = {
@@ -44,6 +44,7 @@ AT_REST: Runners = {
     **{name: (largest_step.fixed, variant(name)) for name in (LATTICE, NESTED, JITTERED)},
     "moving-literal-h4": (largest_step.drifting, variant("moving-literal")._replace(h=4.0)),
     "moving-constant-mass-h4": (largest_step.drifting, variant("moving-constant-mass")._replace(h=4.0)),
+    CARRIED: (largest_step.carried, variant(CARRIED)),
     MOVING: (largest_step.moving, variant(MOVING)),
 }
 
@@ -57,31 +58,31 @@ def smooth(*names: str) -> dict[str, Any]:
 SPAM = smooth("spam", "spam-wendland-c2")
 POINTS = variants(LATTICE, NESTED, JITTERED)
 MOVE = variants("moving-literal", "moving-constant-mass", MOVING)
+TRIANGLES = variants(CARRIED)
 #: of the vortex and the strip smooth particles and the grid have no plates
-NO_PLATES = {name: WithoutPlates(chosen) for name, chosen in SPAM.items()} | POINTS | MOVE | {GRID: TILED}
-USUAL = SPAM | POINTS | MOVE
+NO_PLATES = {name: WithoutPlates(chosen) for name, chosen in SPAM.items()} | POINTS | MOVE | TRIANGLES
+NO_PLATES[GRID] = TILED
+USUAL = SPAM | POINTS | MOVE | TRIANGLES
 #: case -> who takes part in place of the usual ones
 TAKES: dict[str, dict[str, Any]] = {
     "disordered points": variants(LATTICE, JITTERED, "fixed-random-delaunay", "fixed-jittered-plain",
-                                  "fixed-jittered-closed"),
+                                  "fixed-jittered-closed", CARRIED),
     "narrow weight": variants(LATTICE)
     | {f"spam-range-{h:g}": Smooth(PRINTED._replace(h=h)) for h in (0.9, 1.2, 1.5, 2.0)}
     | {f"fixed-lattice-h{h:g}": variant(LATTICE)._replace(h=h) for h in (0.9, 1.2, 1.5)},
     "zero viscosity": NO_PLATES,
     "vacuum": NO_PLATES,
-    "wall corner": SPAM | smooth("spam-walls-odd", "spam-walls-own-pressure", "spam-direct")
+    "wall corner": SPAM | TRIANGLES | smooth("spam-walls-odd", "spam-walls-own-pressure", "spam-direct")
     | {"spam-no-walls": WithoutPlates(Smooth(PRINTED))},
+    "long rest": variants(LATTICE, JITTERED, CARRIED),
+    "a million points": {name: NO_PLATES[name] for name in (GRID, "spam", CARRIED)},
 }
 
 
-def positions_inside(width: float, height: float, size: float, seed: int) -> Any:
-    """Points that keep away from where plates would be, on a torus too."""
-    return positions(width, height, size, seed)
-
-
-#: the wave on a shear flow
-SHEARED = SPAM | {name: Inside(motion) for name, motion in MOVE.items()} | {
-    LATTICE: variant(LATTICE), JITTERED: variant(JITTERED)._replace(points=positions_inside)}
+#: case -> who is asked for a number in it: densities that alternate no smooth particle has, and no node of
+#: the grid sees
+PROBED = dict.fromkeys(PROBES, USUAL | {GRID: TILED})
+PROBED["alternating densities"] = variants(LATTICE, JITTERED, CARRIED, MOVING)
 
 LENGTHS = (24, 36, 48, 72, 96, 144, 192)
 MORE_SEEDS = 16         # of the longest viscous tube of smooth particles, whose ringing is near its limit
@@ -93,7 +94,7 @@ FLUIDS = {"zero viscosity": (0.0, 0.0), "balanced": (0.3, 0.3), "Prandtl 0.01": 
 SLOW = (MOVING, "spam-direct-range-2.5")         # methods in two of them only
 #: case -> rows of grids between plates; more where three left undecided what is a tenth off
 ON_GRIDS = {**dict.fromkeys(LAYERS, (16, 32, 48)), "Ra 1e5": (16, 32, 48, 64, 96),
-            "high pressure": (16, 32, 48, 64, 96, 128), "wall corner": (12,)}
+            "high pressure": (16, 32, 48, 64, 96, 128), "wall corner": (12,), "long rest": (ROWS,)}
 
 
 def cases(size: str) -> Iterator[Case]:
@@ -162,12 +163,12 @@ def limits(methods: Iterable[str], scenes: Iterable[str]) -> Iterator[Case]:
 
 
 def hard() -> Iterator[Case]:
-    """Layers and boxes, in a corner nothing moves but for round-off; a wave on a shear flow."""
+    """Layers and boxes, in a corner nothing moves but for round-off; numbers that are known."""
     for case, (scene, time) in SITUATIONS.items():
         for rows in ON_GRIDS.get(case, ()):
             yield HardOnGrid(case=case, scene=scene, time=time, rows=rows)
         for method, chosen in TAKES.get(case, USUAL).items():
             yield Hard(case=case, method=method, variant=chosen, scene=scene, time=time)
-    for method, chosen in SHEARED.items():
-        yield ShearWave(method=method, variant=chosen)
-    yield ShearWave(method=GRID, variant=TILED, samples=SAMPLES)
+    for case, takes in PROBED.items():
+        for method, chosen in takes.items():
+            yield Probe(case=case, method=method, variant=chosen, question=PROBES[case])

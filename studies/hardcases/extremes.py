@@ -3,7 +3,7 @@
 All have 16 rows or so: the question is who gives way first. Units: spacing, mean density, P/rho at T = 1.
 """
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import pi, sqrt
 from typing import Any, ClassVar, NamedTuple
 
@@ -22,6 +22,7 @@ ROWS = 16
 SOUND = sqrt(2)
 THIN = 1e-3         # density in place of vacuum, for methods whose points fill the box
 SPEED = 0.1         # of the vortex: Mach number 0.07
+STREAM = 10*SPEED
 U, BEGIN = 0.15, 0.01       # of the shear flow: Mach number 0.1; size of the wave over U at the start
 Velocities = tuple[np.ndarray, np.ndarray]
 
@@ -30,6 +31,19 @@ def vortex(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
     """A steady Taylor-Green vortex, which passes through no plate."""
     k = 2*np.pi/L
     return SPEED*np.sin(k*x)*np.cos(k*y), -SPEED*np.cos(k*x)*np.sin(k*y)
+
+
+def carried(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
+    """The same in a stream."""
+    u, v = vortex(x, y, L)
+    return u + STREAM, v
+
+
+def round_vortex(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
+    """SPEED at most, s (1 - s^2)^2 of the distance s = 2 r/L: nothing moves beyond L/2."""
+    s2 = 4*(x**2 + y**2)/L**2
+    turn = 25*sqrt(5)/16*SPEED*np.maximum(1 - s2, 0)**2*2/L
+    return -turn*y, turn*x
 
 
 def sheared(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
@@ -41,11 +55,15 @@ def sheared(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
 
 @dataclass(frozen=True, kw_only=True)
 class Chamber(Slab):
-    """A gas between plates, with velocities(x, y, L) at the start; of a strip only |x| < L is dense."""
+    """A gas between plates, with velocities(x, y, L) at the start; of a strip only |x| < L is dense.
+
+    ripple : of densities, up and down from one spacing to the next.
+    """
     viscosity: float = 0.0
     heat: float = 0.0
     velocities: Callable | None = None
     strip: bool = False
+    ripple: float = 0.0
 
     def flow(self, x, y, ke: float = 0.0, rolls: int | None = None) -> Velocities:
         """Velocities; `ke` and `rolls` say nothing here."""
@@ -55,12 +73,18 @@ class Chamber(Slab):
         """Density, velocity, temperature at places (n, 2)."""
         v = np.stack(self.flow(*x.T), axis=1)
         outside = self.strip and np.abs(x[:, 0]) >= self.L
-        return np.where(outside, THIN, 1.0)*np.ones(len(x)), v, self.T(x[:, 1])
+        sign = 1 - 2*(np.floor(x).sum(axis=1) % 2)
+        return np.where(outside, THIN, 1 + self.ripple*sign), v, self.T(x[:, 1])
 
 
 VORTEX = Chamber(L=ROWS, aspect=1.0, velocities=vortex)
 STRIP = Chamber(L=8.0, aspect=12.0, strip=True)
 CORNER = Chamber(L=12.0, aspect=1.0, viscosity=0.3, heat=0.3, sides=Walls())
+CROWD = Chamber(L=1000.0, aspect=1.0, velocities=vortex)
+CHESSBOARD = Chamber(L=12.0, aspect=1.0, viscosity=0.3, heat=0.3, ripple=0.1)
+SPIN = replace(VORTEX, velocities=round_vortex)
+#: k^2 nu t = 1/2 while the stream goes round the box four times
+SLOW = replace(VORTEX, viscosity=0.05, heat=0.05)
 #: without viscosity; that it conducts heat keeps drifting points from ending at once
 SHEAR_FLOW = Chamber(L=16.0, aspect=2.0, heat=2*pi/16, velocities=sheared)
 #: of the shear flow, and the growth rate of its fastest wave, which is twice as long
@@ -120,11 +144,14 @@ LAYERS = {
     "disordered points": convection(30.0, 1e4),
     "narrow weight": convection(30.0, 1e4),
 }
-#: the vortex turns SPEED t/L = 5 times, rarefactions come within 0.7 of the middle, sound crosses 35 times
+#: the vortex turns SPEED t/L = 5 times, rarefactions come within 0.7 of the middle, sound crosses 35 times;
+#: a layer below onset rests, a million points take a hundred steps or so
 BOXES = {
     "zero viscosity": Situation(VORTEX, 800.0),
     "vacuum": Situation(STRIP, 0.7*8/SOUND),
     "wall corner": Situation(CORNER, 300.0),
+    "long rest": convection(1e4, 1e3),
+    "a million points": Situation(CROWD, 60.0),
 }
 SITUATIONS = {**LAYERS, **BOXES}
 
@@ -143,15 +170,6 @@ class Smooth(NamedTuple):
         x = places(scene)
         ready = self.variant.ready(scene, x=x[scene.fields(x)[0] > THIN])
         return ready._replace(dt=self.variant.step*ready.limit)
-
-
-class Inside(NamedTuple):
-    """Moving points that start away from where plates would be."""
-    motion: Any
-
-    def ready(self, scene: Any) -> Ready:
-        """In a scene."""
-        return self.motion.ready(scene, x=places(scene))  # type: ignore[no-any-return]
 
 
 class WithoutPlates(NamedTuple):

@@ -12,6 +12,7 @@ from studies.hardcases.derive import NEAR, SPURIOUS
 from studies.hardcases.extremes import BOXES, LAYERS, ROWS
 from studies.hardcases.high_ra import OFF
 from studies.hardcases.printed import impulse
+from studies.hardcases.survival import PROBES
 from studies.hardcases.tubes import ETAS, STEPS, exact
 from studies.kit.figure import Drawing, Drawings, figure, look
 from studies.kit.table import groups
@@ -25,7 +26,7 @@ def dots(number: int, size: float = 2) -> dict[str, Any]:
     return {**look(number), "linestyle": "none", "markersize": size}
 
 
-CASES = (*LAYERS, *BOXES, "shear layer", "shock tube")
+CASES = (*LAYERS, *BOXES, *PROBES, "shock tube")
 MANY = 3                # cases of a method, and methods of a case, from which on the map has a line for it
 FLOWS = 100*SPURIOUS    # speeds of KHP95 over that of sound
 #: largest errors of the shades, of which the last are for runs that ended
@@ -164,7 +165,7 @@ def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
         above.axhline(level, color="grey", linewidth=0.8)
     above.set(xscale="log", ylabel="K / K of 48 rows of the grid",
               title=f"lines: medians of {BINS:g} bins a decade; grey: a factor of {OFF:g}")
-    above.legend(loc="lower left")
+    above.legend(loc="upper left")
     under.set(xlabel="Ra", ylim=(len(IN_LAYERS) - 0.4, -0.6),
               title="bars: open: first wrong, all starts; filled: first that ends, all starts\n"
                     "ticks: runs that came to their end; crosses: runs that did not")

@@ -26,6 +26,7 @@ from particles.threads import Threads
 from studies.build.fixed import Scheme
 from studies.build.grid import GridForm
 from studies.build.moving import DriftMotion, FacesMotion
+from studies.build.moving_delaunay import Carriage
 from studies.build.scenes import SOUND, TINY, Scene, Slab
 from studies.build.spam import Variant
 from studies.build.unguarded import GROWN, NOISE, Unguarded, bisected, noise_grows
@@ -182,6 +183,14 @@ def drifting(motion: DriftMotion, law: ConstEta) -> Trial:
 def moving(motion: FacesMotion, law: ConstEta) -> Trial:
     """Moving points that exchange over closed faces, between plates."""
     return unknown(*on_lattice(motion, Quiet(law=law), noise(SIDE**2, 2)), (4, 5, 6, 7, 8), margin=DISORDER)
+
+
+def carried(carriage: Carriage, law: ConstEta) -> Trial:
+    """Points that move with their triangulation, in the disorder of their start; masses differ by volumes."""
+    n = SIDE**2
+    scene, fields = Quiet(law=law, sides=Torus()), (1 + noise(n), noise(n, 2), 1 + noise(n))
+    method, start, _ = carriage.ready(scene, fields=fields)
+    return unknown(method, start, (4, 5))
 
 
 def on_grid(form: GridForm, law: ConstEta) -> Trial:

@@ -1,6 +1,6 @@
 """Does a method come through a hard case, and with which K, flow and mass? Points, and grids beside them."""
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -16,16 +16,18 @@ from particles.fields import Fields, kinetic_energy
 from particles.run import Divergence, Plan, run
 from studies.build.names import START_ENERGY
 from studies.build.setting import Ready
-from studies.hardcases.extremes import RATE, SHEAR_FLOW, WAVE_NUMBER, Open
+from studies.hardcases import extremes
+from studies.hardcases.extremes import RATE, SHEAR_FLOW, STREAM, WAVE_NUMBER, Open
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.fits import line
 
-SAMPLES = 60            # of a run; means are over the last third
-LATE = 2/3
+SAMPLES, LATE = 60, 2/3  # of a run; means are over the last third
 SPACINGS = 4            # of a cell over which velocities are averaged: what is left is flow, the rest noise
-GROWN = 2.5             # growth times that a shear flow is watched: its wave ends with a tenth of U
+GROWN, INSTANTS = 2.5, 50       # growth times of a wave on a shear flow, which ends with a tenth of U
+ROUNDS = 4              # of a stream: points that stay are then where they were in it
 GRID = "grid"
 Look = Callable[[Any], Any]
+Row = dict[str, float]
 
 
 class Course(NamedTuple):
@@ -129,7 +131,7 @@ class Hard(Case):
         return row(self.case, self.method, rows, **late(course))
 
 
-def late(course: Course) -> dict[str, float]:
+def late(course: Course) -> Row:
     """Means over the last third, if it was reached; the mass, and what there was at the start."""
     k, moves, mass = course.seen.T
     last = min(round(LATE*len(k)), len(k) - 1)
@@ -165,22 +167,84 @@ class HardOnGrid(Case):
                    mass_drift=done.mass_drift, k_start=k_start, flow_start=flow_start)
 
 
+# --- numbers that are known ---------------------------------------------------------------------------------
+
+def growth(scene: Any, variant: Any, report: Report) -> Row:
+    """The rate of the wave on the shear flow."""
+    time = GROWN/RATE
+    seen, reached = followed(variant.ready(Open(scene)), time, INSTANTS, amplitude, report)
+    row = {"predicted": RATE, "reached": reached}
+    if reached < 1:
+        return row
+    rate, err = line(np.linspace(0, time, len(seen)), np.log(seen)).slope
+    return row | {"measured": rate, "measured_err": err}
+
+
+class Kept(NamedTuple):
+    """What is left of what `look` sees in the last third, over that of the start."""
+    look: Look
+    predicted: float
+    time: float
+
+    def __call__(self, scene: Any, variant: Any, report: Report) -> Row:
+        seen, reached = followed(variant.ready(Open(scene)), self.time, SAMPLES, self.look, report)
+        left = seen[round(LATE*len(seen)):].mean()/seen[0] if reached == 1 else np.nan
+        return {"predicted": self.predicted, "measured": left, "measured_err": 0.0, "reached": reached}
+
+
+def spin(at: Fields) -> float:
+    """Angular momentum about the middle."""
+    (x, y), (u, v) = at.x.T, at.v.T
+    return float(np.sum(at.rho*at.V*(x*v - y*u)))
+
+
+def unevenness(at: Fields) -> float:
+    """Rms deviation of densities from their mean."""
+    return float(np.sqrt(at.V@(at.rho - 1)**2/at.V.sum()))
+
+
+def in_stream(scene: Any, variant: Any, report: Report) -> Row:
+    """What a stream that goes round the box changes of velocities, over their size."""
+    row, ends, time = {"predicted": 0.0, "reached": 1.0}, [], ROUNDS*scene.L/STREAM
+    for one in (scene, replace(scene, velocities=extremes.carried)):
+        method, start, dt = variant.ready(Open(one))
+        plan = Plan(dt=time/ceil(time/dt), steps=ceil(time/dt))
+        try:
+            done = run(method, start, plan, report)
+        except Divergence as error:
+            return row | {"reached": error.step/plan.steps}
+        ends.append(method.fields(done.by_id()).v)
+    changed = ends[1] - ends[0] - np.array([STREAM, 0.0])
+    return row | {"measured": float(np.sqrt((changed**2).sum()/(ends[0]**2).sum())), "measured_err": 0.0}
+
+
+class Question(NamedTuple):
+    """A scene without its plates, ask(scene, variant, report), and the number's name."""
+    scene: Any
+    ask: Any
+    number: str
+
+
+PROBES = {
+    "shear layer": Question(SHEAR_FLOW, growth, "growth/linear"),
+    "angular momentum": Question(extremes.SPIN, Kept(spin, 1.0, 800.0), "L/start"),
+    "alternating densities": Question(extremes.CHESSBOARD, Kept(unevenness, 0.0, 300.0), "left/start"),
+    "uniform stream": Question(extremes.SLOW, in_stream, "change/flow"),
+}
+
+
 @dataclass(frozen=True, kw_only=True)
-class ShearWave(Case):
-    """The growth rate of the wave on the shear flow; fields as of `Hard`."""
+class Probe(Case):
+    """One number that is known, by one method; fields as of `Hard`."""
+    case: str
     method: str
     variant: Any
-    samples: int = 50
+    question: Question
 
     @property
     def label(self) -> str:
-        return f"map shear layer, {self.method}"
+        return f"map {self.case}, {self.method}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        ready, time = self.variant.ready(Open(SHEAR_FLOW)), GROWN/RATE
-        seen, reached = followed(ready, time, self.samples, amplitude, report)
-        row = {"method": self.method, "predicted": RATE, "reached": reached}
-        if reached == 1:
-            rate, err = line(np.linspace(0, time, len(seen)), np.log(seen)).slope
-            row |= {"measured": rate, "measured_err": err}
-        return Outcome({"shear": [row]})
+        row = self.question.ask(self.question.scene, self.variant, report)
+        return Outcome({"probes": [{"case": self.case, "method": self.method, **row}]})
