@@ -117,15 +117,15 @@ def of_name(kind: str, name: str, table: Mapping[str, Any]) -> Any:
     """What has a name in a table. Raises ValueError: nothing has it."""
     if name in table:
         return table[name]
+    why = f"no {kind} is called {name!r}"
     if kind == "method" and name in words.VARIATIONS:
-        raise ValueError(f"{name} is used by a single study only ({words.VARIATIONS[name].about}): "
-                         f"solve takes methods such as {near(name, table, USUAL)}")
-    raise ValueError(f"no {kind} is called {name!r}; near to it are {near(name, table)}; make words "
-                     "explains all")
+        why = f"{name} is used by a single study only, {words.VARIATIONS[name].about}"
+    raise ValueError(f"{why}; near to it are {near(name, table)}; make words explains all")
 
 
-def near(name: str, names: Iterable[str], usual: Iterable[str] = ()) -> str:
-    """Names like one; if there is none the usual ones, or all where they are few."""
+def near(name: str, names: Iterable[str]) -> str:
+    """Names like one; if there are none all where these are few, else the usual ones."""
     known = list(names)
-    alike = get_close_matches(name, known, 4, 0.4) or usual or known*(len(known) <= FEW)
-    return ", ".join(alike) or f"none of the {len(known)} that make words lists"
+    if alike := get_close_matches(name, known, 4, 0.4) or known*(len(known) <= FEW):
+        return ", ".join(alike)
+    return f"none of {len(known)} such as {', '.join(one for one in USUAL if one in known)}"

@@ -54,7 +54,7 @@ class Scheme(NamedTuple):
 
     def refuses(self, scene: Any) -> str:
         """Which part of a scene this cannot take; empty for none."""
-        return sticking(scene) if self.held else no_layer(scene)
+        return sticking(scene) if self.held and isinstance(scene.sides, Sides) else no_layer(scene)
 
     def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
         method = fluid(scene, self, seed)

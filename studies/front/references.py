@@ -1,10 +1,10 @@
 """Solvers that need no steps in time of ours: Newton on the Boussinesq equations, py-pde, linear theory.
 
 Each takes the layer heated from below, by name or as a `Domain`, and gives parts of a `Solution`. All but
-py-pde solve the Boussinesq fluid that a gas is nearest to. A layer of gas has the adiabatic gradient g/c_P: of
-dT the share s = 1 - g L/(c_P dT) is left to convection. Heat spreads at constant pressure, gamma times slower
-than k/(rho C_V). So Ra is s gamma Ra, Pr is gamma Pr, K = s K' and Nu - 1 = s (Nu' - 1) of its K', Nu', good
-to 5 % at dT = 1.
+py-pde solve the Boussinesq fluid that a gas is nearest to. In a layer of gas the adiabatic gradient g/c_P
+takes part of dT: the share s = 1 - g L/(c_P dT) is left to convection. Heat spreads at constant pressure,
+gamma times slower than k/(rho C_V). So Ra is s gamma Ra, Pr is gamma Pr, K = s K' and Nu - 1 = s (Nu' - 1) of
+its K', Nu', good to 5 % at dT = 1.
 """
 from collections.abc import Callable
 from dataclasses import dataclass

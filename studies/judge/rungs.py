@@ -91,7 +91,7 @@ RUNGS = (
     Rung("repeat", "Does a seed give the same run twice?", vortex, measures.repeated, measures.repeats,
          "all bits of the state after 50 steps"),
     Rung("step", "Is the longest step what it claims?", vortex, measures.longest, measures.holds,
-         f"a vortex gains less than {measures.FED - 1:.0%} of its energy in {measures.TRIED} steps; the step is "
+         f"a vortex gains less than {measures.FED - 1:.0%} of energy in {measures.TRIED} steps; the step is "
          "halved and doubled until it gains more"),
     flow("conduction", "Does heat spread right between plates?"),
     flow("couette", "Does shear settle right below a sliding plate?"),

@@ -133,8 +133,8 @@ def labelled(cases: Sequence[Case], only: str, size: str) -> Sequence[Case]:
     chosen = [case for case in cases if only.casefold() in case.label.casefold()]
     if only and not chosen:
         labels = "; ".join(case.label for case in cases[:LABELS])
-        words = {word for case in cases for word in case.label.split()}
-        near = ", ".join(sorted(get_close_matches(only, words, LABELS))) or "none"
+        words = {word.casefold(): word for case in cases for word in case.label.split()}
+        near = ", ".join(words[word] for word in get_close_matches(only.casefold(), words, LABELS)) or "none"
         raise NoSuchCase(f"no case of size {size} has {only!r} in its label; near to it are {near}; the "
                          f"first labels are: {labels}")
     return chosen
