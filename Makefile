@@ -127,9 +127,11 @@ install = $(run) -m pip install --disable-pip-version-check --only-binary :all: 
 .venv/ready: requirements.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and \
 		"Python %d.%d is too old, 3.11 is needed: make PYTHON=python3.11 ..." % sys.version_info[:2])'
+	@test ! -L .venv || { echo '.venv is a link, and what it leads to would be emptied: make env there, then touch .venv/ready' >&2; exit 2; }
 	@echo 'Setting up .venv, once: 0.6 GB, about a minute'
 	@$(PYTHON) -m venv --clear .venv
 	@$(install) -r requirements.lock
+	@$(run) -m pip uninstall --quiet --yes setuptools	# of Python 3.11, 9 MB that nothing here needs
 	@touch $@
 
 .venv/ready-%: requirements-%.lock .venv/ready

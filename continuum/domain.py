@@ -1,6 +1,6 @@
 """A box of gas between sides of one's own choice: a scene like `continuum.scene.RayleighBenard`."""
 from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import MISSING, dataclass, fields, replace
 from difflib import get_close_matches
 from functools import partial, wraps
 from math import isfinite
@@ -18,15 +18,19 @@ Start = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 def spelled(kind: Any) -> Any:
-    """A dataclass that answers an unknown keyword with the names that are like it."""
+    """A dataclass that answers an unknown keyword with names like it, and a missing one with all needed."""
     names, plain = [field.name for field in fields(kind)], kind.__init__
+    needed = [field.name for field in fields(kind) if field.default is MISSING]
 
     @wraps(plain)
-    def start(self: Any, **given: Any) -> None:
+    def start(self: Any, *placed: Any, **given: Any) -> None:
         for name in given:
             if name not in names:
                 near = ", ".join(get_close_matches(name, names, 2, 0.4) or names)
                 raise TypeError(f"{kind.__name__} has no {name!r}; near to it are {near}")
+        if placed or not {*needed} <= {*given}:
+            raise TypeError(f"{kind.__name__} takes its numbers by name and needs {', '.join(needed)}: write "
+                            f"{kind.__name__}({', '.join(f'{name}=...' for name in needed)})")
         plain(self, **given)
     kind.__init__ = start
     return kind

@@ -28,9 +28,9 @@ def positive(**numbers: Any) -> None:
 
 
 def columns_of(aspect: float, rows: int) -> int:
-    """Columns of square cells. ValueError: rows odd or below 8, or no whole number of columns."""
-    if rows < 8 or rows % 2:
-        raise ValueError(f"rows must be even and at least 8, got {rows}: rolls are counted at mid-height")
+    """Columns of square cells. ValueError: rows below 8, or no whole number of columns."""
+    if rows < 8:
+        raise ValueError(f"rows must be at least 8, got {rows}: fewer do not resolve a roll")
     columns = round(aspect*rows)
     if not np.isclose(columns, aspect*rows) or columns < 4:
         raise ValueError(f"cells are square: aspect x rows = {aspect} x {rows} must be a whole number, 4 or "

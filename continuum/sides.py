@@ -1,15 +1,29 @@
 """What bounds a box: kinds of all four sides, kinds of one side; `axes`: is it periodic along x, along y?"""
+from contextlib import suppress
 from math import isfinite, nan
+from numbers import Real
 from typing import Any, NamedTuple
 
 import numpy as np
 
 
 def of_one_kind(kind: type) -> type:
-    """A class whose objects equal those of their own kind only: as tuples, all empty ones would be equal."""
+    """A class of numbers whose objects equal those of their own kind only: as tuples, all empty ones would be
+    equal. Raises TypeError: they are no numbers or others than its own, or one that it needs is missing."""
+    plain, names = kind.__new__, kind._fields      # type: ignore[attr-defined]
+
     def alike(one: tuple, other: object) -> bool:
         return type(one) is type(other) and tuple.__eq__(one, other)
-    for name, method in (("__eq__", alike), ("__ne__", lambda *pair: not alike(*pair))):
+
+    def new(cls: type, *given: Any, **named: Any) -> Any:
+        with suppress(TypeError):
+            made: tuple = plain(cls, *given, **named)
+            if all(isinstance(number, Real) for number in made):
+                return made
+        values = ", ".join([*map(repr, given), *(f"{name}={value!r}" for name, value in named.items())])
+        raise TypeError(f"{kind.__name__}({values}): its numbers are {', '.join(names) or 'none'}; write "
+                        f"{kind.__name__}({', '.join(f'{name}=1.0' for name in names[:1])})")
+    for name, method in (("__new__", new), ("__eq__", alike), ("__ne__", lambda *pair: not alike(*pair))):
         setattr(kind, name, method)
     return kind
 

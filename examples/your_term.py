@@ -1,10 +1,10 @@
 """Your own pair term: Rusanov's dissipation along edges calms a shock tube on lattice points."""
-from dataclasses import replace
 from typing import NamedTuple
 
 from examples import picture, sized
 from particles.pairs import rate, zero
 from studies.build import ready
+from studies.build.fixed import with_term
 from studies.front import compare
 
 
@@ -24,8 +24,7 @@ def _(term, a, b, ab):          # ab.sx, ab.sy: half of S
 
 def rusanov(scene):
     """Lattice points with the term, in any scene: `solve` and `compare` take such a function for a method."""
-    plain = ready(scene, "fixed-lattice-h1.2").method
-    return replace(plain, transport=(*plain.transport, Rusanov(c=1.2)))
+    return with_term(ready(scene, "fixed-lattice-h1.2").method, Rusanov(c=1.2))
 
 
 done = compare("shock-tube", ["fixed-lattice-h1.2", rusanov], rows=sized((60, 120), (18, 24)), eta=0.05)

@@ -38,7 +38,8 @@ def test_an_interrupted_study_goes_on_with_the_same_command(tmp_path):
 
 @pytest.mark.parametrize(("words", "rule"), [
     (["--size", "huge"], "choose one of quick, paper, fine"), (["--workers", "0"], "at least 1, got 0"),
-    (["bake"], "invalid choice: 'bake'")])
+    (["bake"], "no command is called 'bake': there are run, figures, claims"),
+    (["--onyl", "x"], "no option is called --onyl; near to it are --only")])
 def test_what_is_not_understood_is_said_before_anything_runs(words, rule, capsys):
     with pytest.raises(SystemExit, match="2"):
         main(Study(name="toy", cases=lambda size: pytest.fail("ran"), tables=[]), words)
@@ -120,7 +121,8 @@ def test_only_runs_what_has_the_text_in_its_label_and_leaves_other_rows_as_they_
 def test_only_that_matches_nothing_names_labels_that_exist(typed, tmp_path):
     code, text = typed("--only", "quintic")
     assert code == 2 and not (tmp_path/"results/toy").exists()
-    assert text == ("toy: no case of size paper has 'quintic' in its label; the first labels are: "
+    assert text == ("toy: no case of size paper has 'quintic' in its label; near to it are Quartic; "
+                    "the first labels are: "
                     "Cube 1 plain; Cube 0.333333 plain; Cube 7 Quartic\n")
     code, text = typed("figures", "--only", "plain")
     assert code == 2 and "--only chooses what to run, figures reads whole tables" in text

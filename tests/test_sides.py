@@ -202,8 +202,19 @@ def test_what_heats_and_what_a_resized_box_keeps():
 def test_boxes_that_cannot_be_are_refused(sides, words):
     with pytest.raises(ValueError, match=words):
         Domain(**{**BOX, **sides})
-    with pytest.raises(TypeError, match="left must be Periodic"):
-        Domain(**BOX, left="hot")
+
+
+@pytest.mark.parametrize(("make", "words"), [
+    (lambda: Domain(**BOX, left="hot"), "left must be Periodic"),
+    (lambda: Plate(temp=1), r"Plate\(temp=1\): its numbers are T, q; write Plate\(T=1.0\)"),
+    (lambda: Plate(T="hot"), r"Plate\(T='hot'\): its numbers are T, q"),
+    (lambda: Sliding(T=1.0), r"Sliding\(T=1.0\): its numbers are v, T, q; write Sliding\(v=1.0\)"),
+    (lambda: Domain(12.0, 0.1), r"takes its numbers by name and needs L, eta, k: write Domain\(L=..., eta"),
+    (lambda: Domain(L=12.0, bottum=Plate()), "Domain has no 'bottum'; near to it are bottom"),
+])
+def test_sides_and_boxes_say_which_numbers_they_take(make, words):
+    with pytest.raises(TypeError, match=words):
+        make()
 
 
 def test_kinds_with_the_same_numbers_differ():
@@ -215,11 +226,12 @@ def test_kinds_with_the_same_numbers_differ():
     ("fixed-lattice", {},
      r"lattice cannot take left = Plate\(.*\): take grid, spam, fixed-jittered-plates, moving-delaunay$"),
     ("fixed-jittered-plates", {"top": Slip()}, r"cannot take top = Slip\(.*\): take grid, spam$"),
+    ("fixed-jittered-plates", {"top": Sliding(0.1)}, r"cannot take top = Sliding\(v=0.1.*: take grid, spam$"),
     ("moving", {"left": ROUND, "right": ROUND, "bottom": Plate(T=1.0), "top": Slip(T=1.0)},
      r"moving cannot take top = Slip\(T=1.0, q=0.0\): take grid, spam$"),
     ("moving-literal", {"left": ROUND, "right": ROUND, "bottom": Plate(T=1.0), "top": Sliding(0.1, T=1.0)},
      r"slide = 0.1: take grid, spam, fixed-lattice, fixed-jittered-plates, moving-delaunay$"),
-    ("spam-fixed-rows", {}, r"left = Plate\(.*\): take grid"),
+    ("spam-fixed-rows", {}, r"^spam-fixed-rows cannot take left = Plate\(.*\): take grid"),
     ("spam-from-flow", {}, "a Domain, which has no rolls"),
 ])
 def test_refusals_name_the_part_and_who_can_take_it(name, sides, words):

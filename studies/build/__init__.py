@@ -19,13 +19,14 @@ from typing import Any
 from continuum.fluid import conductivity, viscosity
 from continuum.jit import check_formulas
 from continuum.scene import RayleighBenard, Walls
-from studies.build import fixed, grid, moving, moving_delaunay, spam
+from studies.build import fixed, grid, moving, moving_delaunay, spam, words
 from studies.build.cavity import cavity
 from studies.build.rapid import ShearLayer, ShockTube
 from studies.build.scenes import Sound, TaylorGreen, between_plates
 from studies.build.setting import CannotTake, Ready, of_method
 
 ROWS = 16
+FEW = 12        # names, which are all told
 
 
 def convection(rows: int = ROWS, ra: float = 1e4, **more: Any) -> RayleighBenard:
@@ -72,25 +73,39 @@ def ready(scene: Any, method: Any, seed: int = 1, **more: Any) -> Ready:
 
     more : as the family takes.
 
-    Raises ValueError: No method has this name, or the family cannot take the scene. TypeError: the scene's
-    transport law lacks a formula.
+    Raises ValueError: No method has this name, or the family cannot take the scene. TypeError: this is no
+    method, or the scene's transport law lacks a formula.
     """
-    check_formulas(scene.law, viscosity, conductivity)
     chosen = variant(method)
+    check_formulas(scene.law, viscosity, conductivity)
     if not hasattr(chosen, "ready"):
         made_here = isinstance(chosen, (type, FunctionType))
         return of_method(chosen(scene) if made_here else chosen, scene, seed)
     try:
         made: Ready = chosen.ready(scene, seed, **more)
-    except CannotTake as refused:
+    except CannotTake as part:
         able = [name for name in USUAL if not METHODS[name].refuses(scene)]
-        raise ValueError(f"{refused}: take {', '.join(able)}") from None
+        raise ValueError(f"{called(method)} cannot take {part}: take {', '.join(able)}") from None
     return made
 
 
 def variant(method: Any) -> Any:
-    """The variant of a name; what is no name is one. Raises ValueError: there is none."""
-    return of_name("method", method, METHODS) if isinstance(method, str) else method
+    """The variant of a name; what is no name is one, or a method. Raises ValueError: nothing has the name.
+    TypeError: it is neither."""
+    if isinstance(method, str):
+        return of_name("method", method, METHODS)
+    if not (callable(method) or hasattr(method, "ready") or hasattr(method, "state")):
+        raise TypeError(f"a method is a name, a variant, an object with `state`, or a class or function of "
+                        f"the scene, got {method!r}: make words lists the names")
+    return method
+
+
+def called(method: Any) -> str:
+    """The name of a method in messages, titles and tables: of a variant the one that `METHODS` has."""
+    if isinstance(method, str):
+        return method
+    same = [name for name, known in METHODS.items() if known is method]
+    return str([*same, getattr(method, "name", "") or getattr(method, "__name__", type(method).__name__)][0])
 
 
 def variants(*names: str) -> dict[str, Any]:
@@ -100,13 +115,17 @@ def variants(*names: str) -> dict[str, Any]:
 
 def of_name(kind: str, name: str, table: Mapping[str, Any]) -> Any:
     """What has a name in a table. Raises ValueError: nothing has it."""
-    if name not in table:
-        raise ValueError(f"no {kind} is called {name!r}; near to it are {near(name, table)}; make words "
-                         "explains all")
-    return table[name]
+    if name in table:
+        return table[name]
+    why = f"no {kind} is called {name!r}"
+    if kind == "method" and name in words.VARIATIONS:
+        why = f"{name} is used by a single study only, {words.VARIATIONS[name].about}"
+    raise ValueError(f"{why}; near to it are {near(name, table)}; make words explains all")
 
 
 def near(name: str, names: Iterable[str]) -> str:
-    """Names like one, or all of them."""
+    """Names like one; if there are none all where these are few, else the usual ones."""
     known = list(names)
-    return ", ".join(get_close_matches(name, known, 4, 0.4) or known)
+    if alike := get_close_matches(name, known, 4, 0.4) or known*(len(known) <= FEW):
+        return ", ".join(alike)
+    return f"none of {len(known)} such as {', '.join(one for one in USUAL if one in known)}"

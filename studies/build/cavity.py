@@ -21,12 +21,12 @@ KNOWN = ("1e3", "1e4", "1e5", "1e6")        # Ra, at Pr 0.71
 def cavity(rows: int = 32, ra: float = 1e4, pr: float = 0.71, mach: float = 0.03, dT: float = 0.3) -> Domain:
     """A square of gas of mean temperature 1, hot on the left, cold on the right, adiabatic below and above.
 
-    ra, pr : with kappa = k/(rho c_P), as pressure is all but even. mach : free-fall velocity over sound's.
-    A gas that rises cools: by (mach/dT)^2 of dT over the height. That, not the compression of the flow, is
-    what differs from a liquid. On 64 rows at Ra 1e4, Nu of the middle and v_max differ from the Boussinesq
-    ones by some 28 (mach/dT)^2 per cent while that is small; dT itself does not show up to 0.3. So take mach
-    = dT/10 for 0.3 %; the time for a run goes as 1/mach. Held points err by some (dT/mach)^2/rows^2 besides,
-    as they exchange P(rho_a, T_b): by 13 % of Nu at mach = dT/3 with 16 rows, by 45 % at dT/10.
+    ra, pr : with kappa = k/(rho c_P), as pressure is all but even. mach : free-fall velocity over sound's. A
+    gas that rises cools: by (mach/dT)^2 of dT over the height. That, not the compression of the flow, is what
+    differs from a liquid. On 64 rows at Ra 1e4, Nu of the middle and v_max differ from the Boussinesq ones by
+    some 28 (mach/dT)^2 per cent while that is small, u_max by 38; dT itself does not show up to 0.3. So take
+    mach = dT/10 for 0.3 %; the time for a run goes as 1/mach. Held points err by some (dT/mach)^2/rows^2
+    besides, as they exchange P(rho_a, T_b): by 13 % of Nu at mach = dT/3 with 16 rows, by 45 % at dT/10.
 
     Raises ValueError: a number is not positive, or dT is not below 2.
     """

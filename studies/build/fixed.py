@@ -1,12 +1,13 @@
 """Discretized integral hydrodynamics on fixed points, in any scene    [RR98, Sec. III]"""
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from continuum.scene import Torus
-from continuum.sides import Periodic, Plate, Sides, Sliding, Slip, warm
+from continuum.sides import Periodic, Plate, Sides, Sliding, warm
 from particles.fields import kinetic
 from particles.integral.bodies import Held, Rows, held, together, with_sides
 from particles.integral.edge_makers import closed, exact, plain, renormalised
@@ -17,7 +18,7 @@ from particles.integral.points import of_positions, random, relaxed
 from particles.integral.stream import Stream, Streaming
 from particles.integral.triangulation import between, delaunay
 from particles.weights import Lucy, Monaghan, WendlandC2
-from studies.build.setting import Ready, check_points, inside, no_layer, part, positions, shifted, stepped
+from studies.build.setting import Ready, check_points, inside, no_layer, positions, shifted, stepped, sticking
 
 OF_LIMIT = 0.8      # of the step to its stability limit: the flow is steady, its errors are of space alone
 
@@ -52,11 +53,8 @@ class Scheme(NamedTuple):
     held: bool = False
 
     def refuses(self, scene: Any) -> str:
-        """Which part of a scene this cannot take; empty for none. Held points stick to the fluid."""
-        if not (self.held and isinstance(scene.sides, Sides)):
-            return no_layer(scene)
-        slips = [name for name, side in scene.sides._asdict().items() if isinstance(side, Slip)]
-        return part(scene, slips[0]) if slips else ""
+        """Which part of a scene this cannot take; empty for none."""
+        return sticking(scene) if self.held and isinstance(scene.sides, Sides) else no_layer(scene)
 
     def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
         method = fluid(scene, self, seed)
@@ -109,6 +107,18 @@ def layer(scene: Any, scheme: Scheme, seed: int) -> Layer:
     kind: Any = partial(Driven, slide=(0.0, scene.slide)) if scene.slide else Layer
     return kind(x=x, edges=edges, beyond=beyond, eos=scene.eos, law=scene.law, g=scene.g,
                 T_plates=(scene.T_hot, scene.T_cold), transport=mixed(scheme.share, scheme.mended))
+
+
+def with_term(method: Any, term: Any) -> Layer:
+    """Points that exchange by a pair term of one's own besides, over the same edges.
+
+    Raises TypeError: The method has no such edges.
+    """
+    if not isinstance(method, Layer):
+        able = [name for name, scheme in SCHEMES.items() if not scheme.held]
+        raise TypeError(f"{type(method).__name__} takes no {type(term).__name__}: pair terms are for methods "
+                        f"with edges and images, which are {', '.join(able)}")
+    return replace(method, transport=(*method.transport, term))
 
 
 def plates(scene: Any, scheme: Scheme, seed: int) -> Stream:

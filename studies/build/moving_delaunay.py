@@ -6,14 +6,13 @@ import numpy as np
 
 from continuum.fluid import energy, pressure, viscosity
 from continuum.scene import Torus, Walls
-from continuum.sides import Sides, Sliding, Slip
 from particles.fields import kinetic
 from particles.integral.bodies import Held, Rows, held, together
 from particles.integral.moving_delaunay import SHIFT, MovingDelaunay, RingSums
 from particles.integral.rings import rings, spokes
 from studies.build.fixed import between_sides, bodies_of, four_sides, on_plate
 from studies.build.names import START_JITTER
-from studies.build.setting import Ready, check_points, part, shifted, stepped
+from studies.build.setting import Ready, check_points, shifted, stepped, sticking
 
 
 class Carriage(NamedTuple):
@@ -25,12 +24,7 @@ class Carriage(NamedTuple):
 
     def refuses(self, scene: Any) -> str:
         """Which part of a scene this cannot take; empty for none."""
-        if not isinstance(scene.sides, Sides):
-            return ""
-        # what a side slides into the corner with another one has no way out of it
-        odd = Slip if any(scene.sides.axes) else (Slip, Sliding)
-        names = [name for name, side in scene.sides._asdict().items() if isinstance(side, odd)]
-        return part(scene, names[0]) if names else ""
+        return sticking(scene)
 
     def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
         """The method in a scene; from fields (rho, v, T) at its points, if given."""

@@ -12,7 +12,7 @@ import numpy as np
 
 from continuum.fluid import conductivity
 from continuum.scene import Periodic, Torus, Walls
-from continuum.sides import Plate, Sides, Slip, warm
+from continuum.sides import Plate, Sides, Sliding, Slip, warm
 from particles.integral.points import Points, jittered, lattice, random, relaxed, wrapped
 from particles.limits import limit_of
 from particles.walls.mirror import AtWall, Copied, Mirror, plates, sides
@@ -130,13 +130,13 @@ def check_spacings(scene: Any) -> None:
 
 
 class CannotTake(ValueError):
-    """A method and the part of a scene that it cannot take; `studies.build.ready` adds who can."""
+    """The part of a scene that a method cannot take; `studies.build.ready` adds its name and who can."""
 
 
 def check_taken(chosen: Any, scene: Any) -> None:
-    """Refuse a scene for a variant. Raises CannotTake: names both."""
+    """Refuse a scene for a variant. Raises CannotTake: names the part."""
     if part := chosen.refuses(scene):
-        raise CannotTake(f"{chosen.name} cannot take {part}")
+        raise CannotTake(part)
 
 
 def check_points(chosen: Any, scene: Any) -> None:
@@ -160,6 +160,19 @@ def no_layer(scene: Any) -> str:
 def no_still_layer(scene: Any) -> str:
     """The same of a method whose plates do not slide, either."""
     return no_layer(scene) or (f"slide = {scene.slide}" if scene.slide else "")
+
+
+def sticking(scene: Any) -> str:
+    """What rows of points on sides cannot take: slip, and in a closed box a side that slides into corners.
+
+    The point in a corner may have held neighbours only, and nothing takes away what one of them brings: its
+    density grows by e for each spacing that the side slides. Without it chessboards still grow from there.
+    """
+    if not isinstance(scene.sides, Sides):
+        return ""
+    odd = Slip if any(scene.sides.axes) else (Slip, Sliding)
+    names = [name for name, side in scene.sides._asdict().items() if isinstance(side, odd)]
+    return part(scene, names[0]) if names else ""
 
 
 def part(scene: Any, name: str) -> str:

@@ -9,6 +9,7 @@ from particles.run import Divergence
 from studies.build import SCENES
 from studies.front.solving import compare, solve
 from studies.kit.store import RESULTS
+from studies.kit.study import parsed
 
 OWN = RESULTS/"own"         # not committed
 
@@ -22,7 +23,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--time", type=float, help="length of the run, for convection in free-fall times")
     parser.add_argument("--out", type=Path, default=OWN, help="folder of the picture (default: results/own)")
-    words = parser.parse_args(arguments)
+    words = parsed(parser, arguments)
     path = words.out/f"{words.scene}-{'-'.join(words.methods)}.png"
     try:
         done = solution(words, path.with_suffix(".run.h5"))

@@ -1,11 +1,13 @@
 """Solvers that need no steps in time of ours: Newton on the Boussinesq equations, py-pde, linear theory.
 
-Each takes the layer heated from below and gives parts of a `Solution`. All but py-pde solve the Boussinesq
-fluid that a gas is nearest to. A layer of gas has the adiabatic gradient g/c_P: of dT the share s = 1 - g L/
-(c_P dT) is left to convection. Heat spreads at constant pressure, gamma times slower than k/(rho C_V). So Ra
-is s gamma Ra, Pr is gamma Pr, K = s K' and Nu - 1 = s (Nu' - 1) of its K', Nu', good to 5 % at dT = 1.
+Each takes the layer heated from below, by name or as a `Domain`, and gives parts of a `Solution`. All but
+py-pde solve the Boussinesq fluid that a gas is nearest to. In a layer of gas the adiabatic gradient g/c_P
+takes part of dT: the share s = 1 - g L/(c_P dT) is left to convection. Heat spreads at constant pressure,
+gamma times slower than k/(rho C_V). So Ra is s gamma Ra, Pr is gamma Pr, K = s K' and Nu - 1 = s (Nu' - 1) of
+its K', Nu', good to 5 % at dT = 1.
 """
 from collections.abc import Callable
+from dataclasses import dataclass
 from time import process_time
 from typing import Any, NamedTuple
 
@@ -14,7 +16,7 @@ import pandas as pd
 
 from continuum.boussinesq import BoussinesqCase, Box, State, steady
 from continuum.domain import Domain
-from continuum.fluid import Fields, IdealGas, conductivity, temperature, viscosity
+from continuum.fluid import Fields, IdealGas, conductivity, expansivity, temperature, viscosity
 from continuum.linear import critical_ra, growth_rate
 from continuum.pypde.gas import Gas
 from continuum.pypde.solve import PdeSolution
@@ -31,12 +33,11 @@ NO_HISTORY = pd.DataFrame({"t": [0.0]})
 
 def solved(name: str, scene: Any) -> Parts:
     """By the reference of this name. Raises ValueError: it solves no such scene."""
-    kinds = (RayleighBenard,) if name == "py-pde" else (RayleighBenard, Domain)
-    if not isinstance(scene, kinds) or isinstance(scene, Slab):
+    if not isinstance(scene, (RayleighBenard, Domain)) or isinstance(scene, Slab):
         raise ValueError(f"{name} solves Rayleigh-Benard convection, not {type(scene).__name__}: take grid")
     odd = no_still_layer(scene)
-    if scene.dT <= 0:
-        odd = f"T_hot = {scene.T_hot}, T_cold = {scene.T_cold}"
+    if scene.dT <= 0 or not scene.g > 0:
+        odd = odd or f"T_hot = {scene.T_hot}, T_cold = {scene.T_cold}, g = {scene.g}"
     if odd:
         raise ValueError(f"{name} takes a layer heated from below, periodic sides, not {odd}: take grid")
     if name != "py-pde" and not isinstance(scene.eos, IdealGas):
@@ -46,8 +47,27 @@ def solved(name: str, scene: Any) -> Parts:
     return {"cpu_s": process_time() - began, **parts}
 
 
-def py_pde(scene: RayleighBenard) -> Parts:
-    """The compressible gas, until it is steady."""
+@dataclass(frozen=True, kw_only=True)
+class Weighted(RayleighBenard):
+    """The layer with a gravity of its own, which need not balance the heating."""
+    weight: float
+
+    @property
+    def g(self) -> float:
+        return self.weight
+
+
+def weighted(box: Domain) -> Weighted:
+    """A box that is a layer heated from below: its free-fall velocity and viscous time are known then."""
+    kappa, alpha = box.k/float(box.eos.cv), float(expansivity(box.eos, 1.0, box.T_mean))
+    ra = box.g*alpha*box.dT*box.L**3/(box.eta*kappa)
+    return Weighted(ra=ra, pr=box.eta/kappa, eos=box.eos, L=box.L, aspect=box.aspect, T_hot=box.T_hot,
+                    T_cold=box.T_cold, weight=box.g)
+
+
+def py_pde(layer: Any) -> Parts:
+    """The compressible gas, from rolls until it is steady."""
+    scene = weighted(layer) if isinstance(layer, Domain) else layer
     done = solve_pde(Gas(scene, round(scene.L)))
     numbers = {"K": Measured(done.ke, done.ke_err), "Nu": Measured(done.nu, abs(np.diff(done.nusselt)[0]))}
     times = done.series.t*scene.free_fall/scene.L

@@ -1,11 +1,13 @@
 """One call for every method: particles, points, grids, py-pde, Boussinesq, linear theory."""
 import sys
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, fields, replace
+from difflib import get_close_matches
 from functools import partial
 from inspect import signature
 from math import ceil
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -15,10 +17,11 @@ from matplotlib.figure import Figure
 from tqdm import tqdm
 
 from continuum.domain import Domain
+from continuum.scene import positive
 from particles.integral.points import lattice
 from particles.run import Divergence, Plan, run
-from studies.build import METHODS, SCENES, of_name, ready
-from studies.build.answers import duration, of_one_mass, rows_of, with_rows
+from studies.build import METHODS, SCENES, called, of_name, ready, variant
+from studies.build.answers import counted, duration, of_one_mass, rows_of, with_rows
 from studies.build.moving import DriftMotion, FacesMotion
 from studies.build.scenes import Sound
 from studies.build.setting import Ready
@@ -43,8 +46,10 @@ def solve(scene: Any, method: Any, *, rows: int | None = None, seed: int = 1, ti
     over the height. seed : of places at random. time : length of the run in the scene's unit: free-fall times
     of convection, viscous times of a box. dt : the step, if not the method's own. resume : a file that an
     interrupted run goes on from. progress : a bar; by default where one looks.
-    Raises ValueError: there is no such scene or method, or the method cannot take the scene. Divergence.
+    Raises ValueError: there is no such scene or method, or the method cannot take the scene. TypeError: one
+    of them is neither. Divergence.
     """
+    positive(**{name: given for name, given in (("time", time), ("dt", dt)) if given is not None})
     where, chosen = placed(scene, rows, **of_scene), named(method)
     if isinstance(method, str) and method in REFERENCES:
         parts = solved(method, where)
@@ -57,23 +62,39 @@ def solve(scene: Any, method: Any, *, rows: int | None = None, seed: int = 1, ti
 
 
 def placed(scene: Any, rows: int | None, **of_scene: Any) -> Any:
-    """The scene with so many rows. Raises ValueError: no such scene, number of rows, number of the scene."""
-    if rows is not None and (rows < 4 or rows != round(rows)):
-        raise ValueError(f"rows must be a whole number of 4 or more, got {rows}: 16 or 24 are usual")
+    """The scene with so many rows. Raises ValueError: no such scene, number of rows, number of the scene.
+    TypeError: this is no scene."""
+    if rows is not None and (not isinstance(rows, Real) or rows < 4 or rows != round(rows)):
+        raise ValueError(f"rows must be a whole number of 4 or more, got {rows!r}: 16 or 24 are usual")
+    if isinstance(scene, type) or not (isinstance(scene, str) or hasattr(scene, "fields")):
+        raise TypeError(f"a scene is a name or an object such as Domain(...), got {scene!r}: make words "
+                        "lists the names")
     make = of_name("scene", scene, SCENES) if isinstance(scene, str) else partial(replace, scene)
-    for name in of_scene:
-        of_name("number of this scene or keyword of solve", name, dict.fromkeys(numbers_of(make)))
+    check_keywords(of_scene, make)
     if isinstance(scene, str):
         return make(**of_scene) if rows is None else make(rows=rows, **of_scene)
     fresh = make(**of_scene) if of_scene else scene
     return fresh if rows is None else with_rows(fresh, rows)
 
 
+def check_keywords(given: Iterable[str], make: Callable) -> None:
+    """Refuse what is no number of a scene and no keyword of `solve`. Raises ValueError: names the nearest."""
+    for name in given:
+        if name not in (known := numbers_of(make)):
+            alike = get_close_matches(name, known, 2, 0.5)
+            told = f"near to it are {', '.join(alike)}" if alike else f"there are {', '.join(known)}"
+            raise ValueError(f"in this scene nothing is called {name!r}; {told}")
+
+
 def numbers_of(make: Callable) -> list[str]:
-    """Keywords of `solve` for a scene: its own, and the numbers that the maker of the scene takes."""
-    taken = signature(make).parameters
-    any_more = any(one.kind is one.VAR_KEYWORD for one in taken.values())
-    return [*taken, *(one.name for one in fields(make()) if any_more), *signature(solve).parameters]
+    """Keywords of `solve` for a scene: those of its maker, then its numbers, but for the length that rows
+    give, then its own."""
+    taken, scene = signature(make).parameters.values(), make()
+    own = [one.name for one in taken if one.kind is not one.VAR_KEYWORD]
+    length = counted(scene) if "rows" in own else ""
+    more = [one.name for one in fields(scene) if one.name != length and len(own) < len(taken)]
+    call = [name for name, one in signature(solve).parameters.items() if one.kind is one.KEYWORD_ONLY]
+    return [*dict.fromkeys([*own, *more, *call])]
 
 
 def warn_of_heat(scene: Any, time: float) -> None:
@@ -90,15 +111,8 @@ def warn_of_heat(scene: Any, time: float) -> None:
 
 
 def named(method: Any) -> Any:
-    """What stands for a method. Raises ValueError: no method has this name."""
-    return of_name("method", method, ALL) if isinstance(method, str) else method
-
-
-def called(method: Any) -> str:
-    """The name of a method in titles and tables."""
-    if isinstance(method, str):
-        return method
-    return str(getattr(method, "name", "") or getattr(method, "__name__", type(method).__name__))
+    """What stands for a method. Raises ValueError: no method has this name. TypeError: it is none."""
+    return of_name("method", method, ALL) if isinstance(method, str) else variant(method)
 
 
 def prepared(scene: Any, chosen: Any, seed: int = 1) -> Ready:
@@ -180,7 +194,7 @@ def compare(scene: Any, methods: Sequence[Any], rows: Sequence[int] | int = (16,
     scene, methods, more : as of `solve`. Raises ValueError: as `solve`, before anything runs.
     """
     solutions, diverged = [], {}
-    for method in methods:
+    for method in [methods] if isinstance(methods, str) else methods:
         for count in [rows] if isinstance(rows, int) else rows:
             try:
                 solutions.append(solve(scene, method, rows=count, **more))

@@ -1,4 +1,4 @@
-"""python -m studies.judge MODULE:CLASS [--rows 16 24 36]: how good a method of your own is, on one page."""
+"""python -m studies.judge MODULE:CLASS [--rows 16 25 35]: how good a method of your own is, on one page."""
 import argparse
 import sys
 from collections.abc import Sequence
@@ -10,6 +10,7 @@ from studies.build import variant
 from studies.judge.ladder import climb, verdicts
 from studies.judge.page import write_page
 from studies.kit.store import RESULTS
+from studies.kit.study import parsed
 
 OWN = RESULTS/"own"         # not committed
 
@@ -18,11 +19,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """The command line; 0 if there is a page, 1 if there is no such method, 130 if stopped."""
     parser = argparse.ArgumentParser(prog="python -m studies.judge", description=__doc__)
     parser.add_argument("method", help="module:Class, a class that takes a scene; or a name such as grid")
-    parser.add_argument("--rows", type=int, nargs="+", default=[16, 24, 36],
-                        help="even ones, which all methods take; a small ladder has 8 12")
+    parser.add_argument("--rows", type=int, nargs="+", default=[16, 25, 35],
+                        help="points or cells over the height; a small ladder has 8 12")
     parser.add_argument("--minutes", type=float, default=10.0, help="what would take longer is left out")
     parser.add_argument("--out", type=Path, default=OWN, help="folder of the page (default: results/own)")
-    words = parser.parse_args(arguments)
+    words = parsed(parser, arguments)
     try:
         method = found(words.method)
     except (ValueError, ImportError, AttributeError) as error:

@@ -30,6 +30,7 @@ NOISE = 1e-3        # of sound: of a fluid that is at rest on average
 WARM = 1e-6         # of T
 ALIKE = 0.1
 RIGHT = 0.002       # of K: what it still changes by after 90 free-fall times
+LOOSE = 0.05        # error of K that tells nothing: methods of the README's table differ by less
 
 
 class Verdict(NamedTuple):
@@ -185,6 +186,8 @@ def right(taken: Taken) -> Verdict:
     rows, last = taken[-1]
     errors = [numbers["error"] for _, numbers in taken]
     told = f"K is {percent(last['error'])} {'high' if last['error'] > 0 else 'low'} with {rows} rows"
+    if not last["error_err"] < LOOSE:
+        return Verdict(f"cannot be told, as K is uncertain by {percent(last['error_err'])}: {told}", None)
     if all(abs(numbers["error"]) < max(numbers["error_err"], RIGHT) for _, numbers in taken[-2:]):
         return Verdict(f"is right: {told}", True)
     if len(taken) < 2:

@@ -21,7 +21,7 @@ from studies.kit.store import RESULTS
 
 SCENE = "rayleigh-benard"
 #: a method that both this machine and that of the tables have run, its rows there and its steps here
-SHARED, LABEL, ROWS, STEPS = "fixed-lattice-h1.2", "DIH lattice, h = 1.2 a", 16, 400
+SHARED, ROWS, STEPS = "fixed-lattice-h1.2", 16, 400
 PAGE = Environment(autoescape=True).from_string("""<!doctype html>
 <html lang="en"><meta charset="utf-8"><title>{{ name }}, judged</title>
 <style>
@@ -106,7 +106,7 @@ def beside(name: str, takes: Sequence[Take]) -> Figure | None:
 def pace() -> float:
     """Seconds that this machine takes for one of the machine of the tables, by some steps of points."""
     runs = read(RESULTS/"cost"/"runs.csv")
-    runs = runs.query("scene == 'convection' and method == @LABEL and resolution == @ROWS")
+    runs = runs.query("scene == 'convection' and method == @SHARED and resolution == @ROWS")
     method, start, dt = ready(SCENES[SCENE](rows=ROWS), SHARED)
     run(method, start, Plan(dt=dt, steps=1))        # compiles
     began = process_time()

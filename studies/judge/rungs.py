@@ -91,12 +91,14 @@ RUNGS = (
     Rung("repeat", "Does a seed give the same run twice?", vortex, measures.repeated, measures.repeats,
          "all bits of the state after 50 steps"),
     Rung("step", "Is the longest step what it claims?", vortex, measures.longest, measures.holds,
-         "a vortex gains no energy in 300 steps; the step is halved and doubled until it does"),
+         f"a vortex gains less than {measures.FED - 1:.0%} of energy in {measures.TRIED} steps; the step is "
+         "halved and doubled until it gains more"),
     flow("conduction", "Does heat spread right between plates?"),
     flow("couette", "Does shear settle right below a sliding plate?"),
     flow("taylor-green", "Does a vortex decay right?"),
     flow("sound", "Does sound travel right?"),
     Rung("rayleigh-benard", "Is K of convection right, at Ra 10 000?", SCENES["rayleigh-benard"],
          measures.convection, measures.right, "error of K against the grid's limit; right if below its own "
-         f"error or {measures.RIGHT:.1%} with the two largest numbers of rows", every=True),
+         f"error or {measures.RIGHT:.1%} with the two largest numbers of rows; not told if its own is above "
+         f"{measures.LOOSE:.0%}", every=True),
 )

@@ -2,11 +2,13 @@
 import argparse
 import math
 import os
+import re
 import signal
 import sys
 import textwrap
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -22,6 +24,7 @@ from studies.kit.table import SIZES, Row, Rows, Table, Tables, check_once
 
 NO_FIGURES = Drawings()
 LEAST = 8       # rows of what is tried out
+COMMANDS = "run", "figures", "claims"
 #: what ends a study with one line; of the system's errors a full disk, a folder that may not be written
 EXPECTED = (CasesFailed, CannotRun, OtherTable, OSError)
 
@@ -143,7 +146,7 @@ def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
     add = parser.add_argument
     size = os.environ.get("SIZE") or "paper"
     scheduler = os.environ.get("SCHEDULER") or ""
-    add("command", nargs="?", default="run", choices=["run", "figures", "claims"])
+    add("command", nargs="?", default="run", metavar="{run,figures,claims}")
     add("--size", default=size, help=f"{', '.join(SIZES)} (default: {size})")
     add("--workers", type=int, default=2, help="processes; 1 computes in this one (default: 2)")
     add("--scheduler", default=scheduler, metavar="tcp://HOST:PORT",
@@ -153,7 +156,7 @@ def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
         help="run only cases with this text in their label, such as a variant's name")
     add("--rows", type=int, metavar="N", help="try out the methods that --only names, with N rows")
     add("--seeds", type=int, default=1, metavar="N", help="seeds 1 to N of these (default: 1)")
-    words = parser.parse_args(arguments)
+    words = parsed(parser, arguments)
     words.tried = words.rows is not None
     words.usual = words.out is None
     words.out = words.out or results("own" if words.tried else words.size)
@@ -165,8 +168,20 @@ def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
     return words
 
 
+def parsed(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> argparse.Namespace:
+    """What was typed; ends with 2 where an option is unknown, before its value is taken for another word."""
+    words, rest = parser.parse_known_args(arguments)
+    if rest:
+        known = re.findall("--[a-z]+", parser.format_usage())
+        near = ", ".join(get_close_matches(rest[0], known, 2, 0.5) or known)
+        parser.error(f"no option is called {rest[0]}; near to it are {near}")
+    return words
+
+
 def check(study: Study, words: argparse.Namespace) -> None:
     """Refuse what cannot be done, before anything is; make the folder that is written to."""
+    if words.command not in COMMANDS:
+        raise ValueError(f"no command is called {words.command!r}: there are {', '.join(COMMANDS)}")
     Sweep(study=study.name, tables=study.tables, size=words.size, **words.cases)
     if words.tried and study.own is None:
         raise ValueError(f"{study.name} has rows of its own: leave --rows out, --size chooses among them")

@@ -3,6 +3,7 @@ import shlex
 import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 from pathlib import Path
 
 from studies.kit.case import Case
@@ -132,7 +133,10 @@ def labelled(cases: Sequence[Case], only: str, size: str) -> Sequence[Case]:
     chosen = [case for case in cases if only.casefold() in case.label.casefold()]
     if only and not chosen:
         labels = "; ".join(case.label for case in cases[:LABELS])
-        raise NoSuchCase(f"no case of size {size} has {only!r} in its label; the first labels are: {labels}")
+        words = {word.casefold(): word for case in cases for word in case.label.split()}
+        near = ", ".join(words[word] for word in get_close_matches(only.casefold(), words, LABELS)) or "none"
+        raise NoSuchCase(f"no case of size {size} has {only!r} in its label; near to it are {near}; the "
+                         f"first labels are: {labels}")
     return chosen
 
 
