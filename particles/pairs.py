@@ -1,4 +1,5 @@
 """The only pair loops: `weigh` finds pairs in range and their weights, `sweep` sums terms over them."""
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -125,6 +126,13 @@ def rate(term, a, b, ab):
 @generic
 def zero(term):
     """The empty sum of a term: a tuple of zeros."""
+
+
+def pair_term(kind: type, columns: int) -> Callable:
+    """Makes a formula the `rate` of a kind of term, whose sums have so many columns."""
+    empty = (0.0,)*columns
+    zero.of(kind)(lambda term: empty)
+    return rate.of(kind)
 
 
 def add(one: tuple, other: tuple) -> Any:

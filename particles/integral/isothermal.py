@@ -15,7 +15,7 @@ from particles.integral.exchange import At, Exchange, Listing
 from particles.integral.fixed import NO_IMAGES, OnPoints, stored
 from particles.limits import limit_of
 from particles.method import Sums
-from particles.pairs import rate, zero
+from particles.pairs import pair_term
 from particles.threads import Threads
 
 Point = np.dtype([(name, "f8") for name in ("rho", "vx", "vy")])
@@ -31,18 +31,14 @@ class ConstantFriction(NamedTuple):
     eta: float
 
 
-zero.of(Carried)(lambda term: (0.0,)*3)
-zero.of(ConstantFriction)(lambda term: (0.0,)*3)
-
-
-@rate.of(Carried)
+@pair_term(Carried, 3)
 def _(term, a, b, ab):
     from_a, from_b = a.rho*(ab.sx*b.vx + ab.sy*b.vy), b.rho*(ab.sx*a.vx + ab.sy*a.vy)
     P = term.c2*(a.rho + b.rho)
     return -from_a - from_b, -from_a*a.vx - from_b*b.vx - ab.sx*P, -from_a*a.vy - from_b*b.vy - ab.sy*P
 
 
-@rate.of(ConstantFriction)
+@pair_term(ConstantFriction, 3)
 def _(term, a, b, ab):
     f = term.eta*ab.k
     return 0.0, f*(b.vx - a.vx), f*(b.vy - a.vy)

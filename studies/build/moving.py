@@ -13,7 +13,7 @@ from particles.integral.rr98_moving import Drift, Drifts
 from particles.integral.rr98_moving_plain import Powers, scale_of
 from particles.integral.transposed_stress import MENDED
 from particles.observe import pairs_behind
-from particles.pairs import rate, sweep, zero
+from particles.pairs import pair_term, sweep
 from particles.smooth.spam import LessStatic
 from particles.weights import WendlandC2
 from studies.build.setting import Ready, check_points, no_still_layer, placed, walls
@@ -121,8 +121,9 @@ class PairHeat(NamedTuple):
     """Heat that the first of two points gets from the other."""
 
 
-zero.of(PairHeat)(lambda term: (0.0,))
-rate.of(PairHeat)(lambda term, a, b, ab: (0.5*(a.k + b.k)*ab.k*(b.Td - a.Td),))
+@pair_term(PairHeat, 1)
+def _(term, a, b, ab):
+    return (0.5*(a.k + b.k)*ab.k*(b.Td - a.Td),)
 
 
 def heat_of_pairs(sums: Drifts, state: np.ndarray, side: int) -> float:
