@@ -99,7 +99,7 @@ def _(term: Mending, law: Any, n: int, threads: Threads, *more: Any) -> tuple[St
 
 @jit
 def _work(first, last, slopes, V, share, points):
-    """F = eta (v u_y - u v_y, u v_x - v u_x), in 2D without bulk viscosity: `dih.lacking`."""
+    """F = eta (v u_y - u v_y, u v_x - v u_x), in 2D without bulk viscosity: `dih.Pairwise`."""
     for i in range(first, last):
         a, f = points[i], share*points[i].eta/V[i]
         ux, uy, vx, vy = slopes[i, 0], slopes[i, 1], slopes[i, 2], slopes[i, 3]
