@@ -53,6 +53,13 @@ def empty_pairs(rows: int, entries: int) -> Pairs:
     return Pairs(start, length, listed, first, taken, near, *np.empty((2, entries)))
 
 
+def entries(pairs: Any, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Row and entry of all pairs of some rows, in their order."""
+    first, taken = (q[rows].astype(np.int64) for q in (pairs.first, pairs.taken))
+    before = np.cumsum(taken) - taken
+    return np.repeat(rows, taken), np.repeat(first - before, taken) + np.arange(taken.sum())
+
+
 class Block(NamedTuple):
     """Sums (rows, columns) of the rows from `begin` on, in place of an array of all rows."""
     begin: int
