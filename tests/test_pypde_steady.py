@@ -8,9 +8,9 @@ from plain_pypde import volume_nusselt
 from continuum.gas import solve as compressible
 from continuum.pypde.gas import Gas
 from continuum.pypde.solve import onto, solve
-from continuum.richardson import richardson
 from continuum.scene import RayleighBenard, Walls
 from continuum.steady import Steady, Time
+from studies.kit.fits import richardson
 
 GAS = RayleighBenard(ra=5000, L=1.0)
 SIZES = (12, 16, 20)
