@@ -4,7 +4,6 @@ import pytest
 from crowd import rates
 
 from particles.integral.edge_makers import renormalised
-from particles.integral.isothermal import Isothermal
 from particles.integral.points import jittered, lattice
 from particles.integral.triangulation import delaunay
 from particles.integrators import RK4
@@ -15,6 +14,7 @@ from particles.threads import Threads
 from particles.weights import Lucy
 from studies.build.scenes import TaylorGreen
 from studies.cost import contestants, left_out, tables
+from studies.cost.isothermal import Isothermal
 from studies.cost.seconds import array_bytes
 
 

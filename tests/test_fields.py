@@ -20,7 +20,6 @@ from particles.integral.dih import Dih
 from particles.integral.drifts import DRIFTS
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import between_plates
-from particles.integral.isothermal import Isothermal
 from particles.integral.layer import Driven, Layer
 from particles.integral.moving_delaunay import MovingDelaunay
 from particles.integral.points import jittered, lattice
@@ -34,6 +33,7 @@ from particles.limits import limit_of
 from particles.smooth.spam import Spam
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2
+from studies.cost.isothermal import Isothermal
 
 BOX = COLUMNS, ROWS = 16, 8        # two threads share no fewer points
 AT, SQUARE = jittered(BOX, 0.1, 1), lattice(BOX)

@@ -16,7 +16,6 @@ import numpy as np
 from continuum.exact.vortex import SOUND, incompressible, solved, velocities
 from continuum.fluid import IdealGas
 from particles.integral.edge_makers import renormalised
-from particles.integral.isothermal import Isothermal
 from particles.integral.layer import LayerSums
 from particles.integral.points import lattice
 from particles.integral.thermal import Thermal
@@ -28,6 +27,7 @@ from studies.build.moving import MOTIONS
 from studies.build.moving_delaunay import CARRIAGES
 from studies.build.scenes import TaylorGreen
 from studies.cost.contestants import ExactFlow, carried, on_mac, points
+from studies.cost.isothermal import Isothermal
 from studies.cost.problem import Problem, of_method, rms
 from studies.cost.rolls import HeatedLayer, in_time
 from studies.cost.seconds import SHORT, array_bytes, per_step, stepped
